@@ -1,0 +1,117 @@
+//! Axes, index ↔ coordinates, order. The first axis varies slowest.
+
+use crate::model::Param;
+
+/// One coordinate of an instance.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// A numeric parameter's value.
+    Number(f64),
+    /// A name: of a friction law, or a material file as written in the sweep file.
+    Text(String),
+}
+
+/// What an axis (or a column of a tuple file) varies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AxisKey {
+    /// A numeric parameter.
+    Param(Param),
+    /// The friction law.
+    Law,
+    /// The material file.
+    Material,
+}
+
+impl AxisKey {
+    /// The flat name, the same in TOML and CSV.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            AxisKey::Param(param) => param.info().name,
+            AxisKey::Law => "law",
+            AxisKey::Material => "material",
+        }
+    }
+}
+
+/// One axis: what it varies and its values in order.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axis {
+    /// What varies.
+    pub key: AxisKey,
+    /// The values, at least one.
+    pub values: Vec<Value>,
+    /// Whether figures should draw the axis logarithmically.
+    pub log: bool,
+}
+
+/// The instances of a sweep.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Grid {
+    /// The product of the axes; the first varies slowest. No axes: one instance.
+    Axes(Vec<Axis>),
+    /// Explicit tuples: the keys of the columns and one row of values per instance.
+    Tuples {
+        /// The column keys.
+        keys: Vec<AxisKey>,
+        /// One row per instance, as long as `keys`.
+        rows: Vec<Vec<Value>>,
+    },
+}
+
+impl Grid {
+    /// The number of instances; `None` when the product overflows `usize`.
+    #[must_use]
+    pub fn checked_len(&self) -> Option<usize> {
+        match self {
+            Grid::Axes(axes) => axes.iter().try_fold(1_usize, |n, axis| n.checked_mul(axis.values.len())),
+            Grid::Tuples { rows, .. } => Some(rows.len()),
+        }
+    }
+
+    /// The number of instances.
+    ///
+    /// # Panics
+    /// When the product overflows, which validation excludes.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.checked_len().expect("the product of the axes was validated to fit")
+    }
+
+    /// Whether there is nothing to compute.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// What varies, in column order.
+    #[must_use]
+    pub fn keys(&self) -> Vec<AxisKey> {
+        match self {
+            Grid::Axes(axes) => axes.iter().map(|axis| axis.key).collect(),
+            Grid::Tuples { keys, .. } => keys.clone(),
+        }
+    }
+
+    /// The swept values of instance `index`, in the order of [`Grid::keys`].
+    #[must_use]
+    pub fn coordinates(&self, index: usize) -> Vec<&Value> {
+        match self {
+            Grid::Axes(axes) => {
+                let mut rest = index;
+                let mut values: Vec<&Value> = axes
+                    .iter()
+                    .rev()
+                    .map(|axis| {
+                        let value = &axis.values[rest % axis.values.len()];
+                        rest /= axis.values.len();
+                        value
+                    })
+                    .collect();
+                values.reverse();
+                values
+            }
+            Grid::Tuples { rows, .. } => rows[index].iter().collect(),
+        }
+    }
+}

@@ -1,0 +1,204 @@
+//! What the equations are: the parameters of the two-mass belt model, one table for all uses.
+//!
+//! The table [`PARAMS`] drives the TOML keys, the axes, the CSV columns, the range checks and the
+//! axis labels of figures. SI units throughout, temperature in °C.
+
+pub mod contact;
+pub mod friction;
+pub mod material;
+
+/// A numeric parameter of an instance; its row in [`PARAMS`] gives name, unit, default and range.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[repr(usize)]
+#[expect(missing_docs, reason = "each variant is documented by its row in PARAMS")]
+pub enum Param {
+    M1,
+    M2,
+    K1,
+    K2,
+    C1,
+    C2,
+    FExt,
+    Theta,
+    Restitution,
+    MuS,
+    MuD,
+    KneeVelocity,
+    StribeckVelocity,
+    Decay,
+    Temperature,
+    BeltVelocity,
+    BeltVelocityEnd,
+    RampDuration,
+    StartVelocity,
+    StartDisplacement,
+    StartFraction,
+}
+
+/// The sweep-file section a parameter belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the variants are the section names")]
+pub enum Section {
+    Model,
+    Friction,
+    Belt,
+    Start,
+}
+
+impl Section {
+    /// The TOML table name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Section::Model => "model",
+            Section::Friction => "friction",
+            Section::Belt => "belt",
+            Section::Start => "start",
+        }
+    }
+}
+
+/// The closed or open interval of legal values, with both ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[expect(missing_docs, reason = "the variants are inequalities")]
+pub enum Range {
+    Positive,
+    NonNegative,
+    Finite,
+    /// Strictly between the two bounds.
+    Open(f64, f64),
+    /// Between the two bounds, ends included.
+    Closed(f64, f64),
+}
+
+impl Range {
+    /// Whether `value` is finite and inside the interval.
+    #[must_use]
+    pub fn contains(self, value: f64) -> bool {
+        value.is_finite()
+            && match self {
+                Range::Positive => value > 0.0,
+                Range::NonNegative => value >= 0.0,
+                Range::Finite => true,
+                Range::Open(low, high) => low < value && value < high,
+                Range::Closed(low, high) => (low..=high).contains(&value),
+            }
+    }
+}
+
+impl std::fmt::Display for Range {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Range::Positive => write!(f, "a finite number greater than 0"),
+            Range::NonNegative => write!(f, "a finite number not below 0"),
+            Range::Finite => write!(f, "a finite number"),
+            Range::Open(low, high) => write!(f, "strictly between {low} and {high}"),
+            Range::Closed(low, high) => write!(f, "between {low} and {high}"),
+        }
+    }
+}
+
+/// One row of the parameter table.
+#[derive(Clone, Copy, Debug)]
+pub struct ParamInfo {
+    /// The parameter itself; row `i` describes the parameter with discriminant `i`.
+    pub param: Param,
+    /// The flat name, the same in TOML, axes and CSV.
+    pub name: &'static str,
+    /// The symbol as figures print it; `_` begins a subscript, e.g. `μ_s`.
+    pub symbol: &'static str,
+    /// The SI unit; empty when dimensionless.
+    pub unit: &'static str,
+    /// Where it stands in a sweep file.
+    pub section: Section,
+    /// The value of an omitted key; `None`: required where used, or absent.
+    pub default: Option<f64>,
+    /// Legal values.
+    pub range: Range,
+    /// One line of explanation.
+    pub meaning: &'static str,
+}
+
+macro_rules! params {
+    ($($param:ident $name:literal $symbol:literal $unit:literal $section:ident $default:expr, $range:expr, $meaning:literal;)*) => {
+        /// Every numeric parameter, in the order of [`Param`]'s variants. Defaults: Table 1 of the paper.
+        pub const PARAMS: &[ParamInfo] = &[$(ParamInfo {
+            param: Param::$param, name: $name, symbol: $symbol, unit: $unit, section: Section::$section,
+            default: $default, range: $range, meaning: $meaning,
+        }),*];
+    };
+}
+
+params! {
+    M1 "m1" "m_1" "kg" Model Some(2.12), Range::Positive, "mass above the normal spring";
+    M2 "m2" "m_2" "kg" Model Some(0.18), Range::Positive, "mass in contact with the belt";
+    K1 "k1" "k_1" "N/m" Model Some(100_000.0), Range::Positive, "tangential stiffness";
+    K2 "k2" "k_2" "N/m" Model Some(101_000.0), Range::Positive, "normal stiffness";
+    C1 "c1" "c_1" "N s/m" Model Some(0.1), Range::NonNegative, "tangential damping";
+    C2 "c2" "c_2" "N s/m" Model Some(0.1), Range::NonNegative, "normal damping";
+    FExt "f_ext" "F_ext" "N" Model Some(1000.0), Range::Positive, "external normal force";
+    Theta "theta" "θ" "rad" Model Some(0.01), Range::Open(-std::f64::consts::FRAC_PI_2, std::f64::consts::FRAC_PI_2), "inclination of the contact";
+    Restitution "restitution" "e" "" Model Some(0.0), Range::Closed(0.0, 1.0), "Newton restitution of the impact after a detachment";
+    MuS "mu_s" "μ_s" "" Friction None, Range::NonNegative, "static friction coefficient";
+    MuD "mu_d" "μ_d" "" Friction None, Range::NonNegative, "dynamic friction coefficient";
+    KneeVelocity "knee_velocity" "v_k" "m/s" Friction Some(5.0), Range::Positive, "relative velocity from which the bilinear law is constant";
+    StribeckVelocity "stribeck_velocity" "v_0" "m/s" Friction None, Range::Positive, "decay velocity of the exponential law";
+    Decay "decay" "δ" "s/m" Friction None, Range::NonNegative, "decay constant of the rational law";
+    Temperature "temperature" "ϑ" "°C" Friction None, Range::Finite, "temperature at which a material is read";
+    BeltVelocity "belt_velocity" "V" "m/s" Belt None, Range::NonNegative, "belt velocity (at the start of a ramp)";
+    BeltVelocityEnd "belt_velocity_end" "V_end" "m/s" Belt None, Range::NonNegative, "belt velocity at the end of a ramp";
+    RampDuration "ramp_duration" "t_ramp" "s" Belt None, Range::Positive, "duration of the belt velocity ramp";
+    StartVelocity "start_velocity" "ẋ_2,0" "m/s" Start Some(0.01), Range::Finite, "kick: velocity added to x2' at the sliding equilibrium";
+    StartDisplacement "start_displacement" "x_2,0" "m" Start Some(0.0), Range::Finite, "kick: displacement added to x2 at the sliding equilibrium";
+    StartFraction "start_fraction" "a_0" "" Start Some(0.01), Range::Positive, "mode start: amplitude of x2' as a fraction of the belt velocity";
+}
+
+impl Param {
+    /// The number of parameters.
+    pub const COUNT: usize = PARAMS.len();
+
+    /// The parameter's row in [`PARAMS`].
+    #[must_use]
+    pub fn info(self) -> &'static ParamInfo {
+        &PARAMS[self as usize]
+    }
+
+    /// The parameter with this flat name.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Param> {
+        PARAMS.iter().find(|row| row.name == name).map(|row| row.param)
+    }
+}
+
+/// A value (or nothing) for every numeric parameter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Params([Option<f64>; Param::COUNT]);
+
+impl Default for Params {
+    /// Table 1 of the paper where it gives a value, nothing elsewhere.
+    fn default() -> Self {
+        Params(std::array::from_fn(|i| PARAMS[i].default))
+    }
+}
+
+impl Params {
+    /// The value of `param`, if it has one.
+    #[must_use]
+    pub fn get(&self, param: Param) -> Option<f64> {
+        self.0[param as usize]
+    }
+
+    /// Sets the value of `param`.
+    pub fn set(&mut self, param: Param, value: f64) {
+        self.0[param as usize] = Some(value);
+    }
+
+    /// The value of a parameter that validation has made sure of.
+    ///
+    /// # Panics
+    /// When the parameter has no value: a defect of the validation, not of the input.
+    #[must_use]
+    pub fn require(&self, param: Param) -> f64 {
+        self.get(param).unwrap_or_else(|| panic!("{} was validated to be present", param.info().name))
+    }
+}

@@ -1,0 +1,115 @@
+//! The record of one integrated instance and its status codes.
+
+use serde::Serialize;
+
+/// How one instance ended. Code 0 means *unwritten*: a map that holds one is an error.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize)]
+#[serde(rename_all = "snake_case")]
+#[repr(u32)]
+pub enum Status {
+    /// Never computed; not legal in a finished map.
+    #[default]
+    Unwritten = 0,
+    /// Computed to the end.
+    Ok = 1,
+    /// The friction law is ill-posed: `constant` with `mu_s < mu_d`.
+    InvalidLaw = 2,
+    /// No sliding equilibrium exists (`c + μ0 s ≤ 0`, divergence).
+    NoEquilibrium = 3,
+    /// `M11 ≤ 0`: the forward dynamics is not unique (Painlevé).
+    Painleve = 4,
+    /// Events piled up (chatter, Zeno) beyond the limit; `simulated_time` says how far it came.
+    EventLimit = 5,
+    /// The step needed for this instance is smaller than the integrator allows.
+    StepTooLarge = 6,
+    /// The state left the range of finite numbers.
+    NonFinite = 7,
+}
+
+impl Status {
+    /// Every status that may stand in a finished map.
+    pub const ALL: [Status; 7] = [
+        Status::Ok,
+        Status::InvalidLaw,
+        Status::NoEquilibrium,
+        Status::Painleve,
+        Status::EventLimit,
+        Status::StepTooLarge,
+        Status::NonFinite,
+    ];
+
+    /// The name in `map.csv`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Status::Unwritten => "unwritten",
+            Status::Ok => "ok",
+            Status::InvalidLaw => "invalid_law",
+            Status::NoEquilibrium => "no_equilibrium",
+            Status::Painleve => "painleve",
+            Status::EventLimit => "event_limit",
+            Status::StepTooLarge => "step_too_large",
+            Status::NonFinite => "non_finite",
+        }
+    }
+}
+
+/// What the transient of one instance did, SI units; `None` is an undefined value.
+///
+/// Means, deviations and fractions are over the measuring window, time-weighted.
+/// When `status` is not [`Status::Ok`] every observable is `None`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Outcome {
+    /// How the instance ended.
+    pub status: Status,
+    /// Mean of `x2`, m.
+    pub x2_mean: Option<f64>,
+    /// Standard deviation of `x2`, m.
+    pub x2_std: Option<f64>,
+    /// Mean of `y1`, m.
+    pub y1_mean: Option<f64>,
+    /// Standard deviation of `y1`, m.
+    pub y1_std: Option<f64>,
+    /// Root mean square of `ẍ2`, m/s².
+    pub ax_rms: Option<f64>,
+    /// Root mean square of `ÿ1`, m/s².
+    pub ay_rms: Option<f64>,
+    /// Largest `|ẍ2|` at step ends and events, m/s².
+    pub ax_peak: Option<f64>,
+    /// Largest `|ÿ1|` at step ends and events, m/s².
+    pub ay_peak: Option<f64>,
+    /// `∫T dt / ∫N dt`.
+    pub friction_mean: Option<f64>,
+    /// Largest normal force at step ends and events, N.
+    pub n_peak: Option<f64>,
+    /// Upward zero crossings of `ẋ2` over the time from the first to the last, Hz.
+    pub response_frequency: Option<f64>,
+    /// Phase of `ÿ1` against `ẍ2` at the response frequency, degrees.
+    pub phase_cycle: Option<f64>,
+    /// Growth rate measured before the first event, 1/s.
+    pub growth_rate_measured: Option<f64>,
+    /// Frequency measured before the first event, Hz.
+    pub frequency_measured: Option<f64>,
+    /// Phase of `ÿ1` against `ẍ2` measured before the first event, degrees.
+    pub phase_measured: Option<f64>,
+    /// Fraction of time in stick.
+    pub stick: Option<f64>,
+    /// Fraction of time in free flight.
+    pub free: Option<f64>,
+    /// Fraction of time in reversed slip (`ẋ2 > V`).
+    pub reverse: Option<f64>,
+    /// Impacts per second.
+    pub impacts_per_second: Option<f64>,
+    /// Impacts that gained energy (Newton restitution with Coulomb friction), over the whole run.
+    pub energy_gaining_impacts: u64,
+    /// Rms of `sqrt(ẋ2² + ẏ1²)` in the first and the second half of the window, m/s.
+    pub speed_rms_halves: [f64; 2],
+    /// Standard deviation of `x2` in the two halves, m.
+    pub x2_std_halves: [f64; 2],
+    /// Rms of `ÿ1` in the two halves, m/s².
+    pub ay_rms_halves: [f64; 2],
+    /// Simulated time, s.
+    pub simulated_time: f64,
+    /// Steps taken, those ended by an event included.
+    pub steps: u64,
+}

@@ -1,0 +1,79 @@
+//! TOML → validated spec; the only file that reads TOML.
+
+use std::sync::Arc;
+
+use crate::grid::Grid;
+use crate::model::Params;
+use crate::model::friction::{FrictionLaw, LawKind, MuTable};
+use crate::model::material::Material;
+
+/// What a sweep computes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Analysis {
+    /// Complex eigenvalue analysis.
+    pub linear: bool,
+    /// Time integration.
+    pub response: bool,
+}
+
+/// How the transient starts; amplitudes are instance parameters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StartKind {
+    /// At the sliding equilibrium plus `start_velocity` and `start_displacement`.
+    Kick,
+    /// On the most unstable eigenmode with `start_fraction`.
+    Mode,
+}
+
+/// A length of time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Duration {
+    /// Seconds.
+    Seconds(f64),
+    /// Periods `2π/ω0` of the instance.
+    Periods(f64),
+    /// The instance's `ramp_duration`.
+    Ramp,
+}
+
+/// A validated sweep.
+#[derive(Clone, Debug)]
+pub struct Spec {
+    /// Title of figures and manifest; empty when not given.
+    pub title: String,
+    /// What is computed.
+    pub analysis: Analysis,
+    /// Parameters that do not vary; what varies overrides them.
+    pub base: Params,
+    /// Whether impacts carry a Coulomb impulse.
+    pub impact_friction: bool,
+    /// The law of instances whose law does not vary.
+    pub law: LawKind,
+    /// The material of instances whose material does not vary.
+    pub material: Option<Arc<Material>>,
+    /// The materials of an axis or column `material`, by the name written there.
+    pub materials: Vec<Arc<Material>>,
+    /// The table of the law `table`.
+    pub table: Option<Arc<MuTable>>,
+    /// The instances.
+    pub grid: Grid,
+    /// How transients start.
+    pub start: StartKind,
+    /// Time before the measuring window.
+    pub settle: Duration,
+    /// Length of the measuring window.
+    pub measure: Duration,
+    /// Largest step: this many per period `2π/ω0`.
+    pub steps_per_period: u32,
+}
+
+/// Everything that defines one instance.
+#[derive(Clone, Debug)]
+pub struct Instance {
+    /// Its numeric parameters.
+    pub params: Params,
+    /// Its friction law, materials resolved.
+    pub law: FrictionLaw,
+    /// Whether impacts carry a Coulomb impulse.
+    pub impact_friction: bool,
+}
