@@ -77,3 +77,9 @@ pub struct Instance {
     /// Whether impacts carry a Coulomb impulse.
     pub impact_friction: bool,
 }
+impl Spec {
+    /// tmp
+    pub fn instance(&self, _index: usize) -> Instance {
+        unimplemented!()
+    }
+}

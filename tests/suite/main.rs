@@ -1,1 +1,5 @@
 //! One integration binary, one module per topic.
+
+mod common;
+mod linear;
+mod response;
