@@ -4,7 +4,9 @@
 //! time are counted; too many end the instance with [`Status::EventLimit`].
 
 use crate::method::roots::{Crossing, first_crossing};
-use crate::method::taylor::{BeltMotion, Expansion, MAX_ORDER, Series, State};
+use crate::method::taylor::{
+    BeltMotion, Expansion, MAX_ORDER, Motion, NORMAL, RELATIVE, Series, State, TANGENTIAL,
+};
 use crate::model::contact::Contact;
 use crate::model::equilibrium::Scaled;
 use crate::outcome::Status;
@@ -45,6 +47,8 @@ pub struct Step<'a> {
     pub duration: f64,
     /// The belt at the start of the step.
     pub belt: BeltMotion,
+    /// The motion at the end of the step, before the event that ended it.
+    pub end: Motion,
 }
 
 /// What ended a step early.
@@ -200,7 +204,7 @@ impl<'a> Integrator<'a> {
     ) -> Result<(f64, Option<Watched>), Status> {
         let expansion = Expansion::new(self.model, self.resolution.order, &self.state, self.contact, belt);
         if let Contact::Slip { sigma, piece } = self.contact {
-            let q = sigma * self.model.law.pieces[piece].mu(sigma * expansion.relative[0]);
+            let q = sigma * self.model.law.pieces[piece].mu(sigma * expansion.relative_velocity());
             if self.model.slip_inertia(q) <= 0.0 {
                 return Err(Status::Painleve);
             }
@@ -211,13 +215,13 @@ impl<'a> Integrator<'a> {
             .ok_or(if self.state.is_finite() { Status::StepTooLarge } else { Status::NonFinite })?;
         let (taken, crossing) = self.first_event(&expansion, step);
         self.steps += 1;
-        let next = expansion.state(taken);
-        if !next.is_finite() {
+        let end = expansion.motion(taken);
+        if !end.state.is_finite() {
             return Err(Status::NonFinite);
         }
         if taken > 0.0 {
-            observer.step(&Step { expansion: &expansion, start: self.time, duration: taken, belt });
-            self.state = next;
+            observer.step(&Step { expansion: &expansion, start: self.time, duration: taken, belt, end });
+            self.state = end.state;
             self.disarmed = Disarmed::Nothing;
         }
         Ok((taken, crossing))
@@ -245,10 +249,10 @@ impl<'a> Integrator<'a> {
         match self.contact {
             Contact::Slip { sigma, piece } => {
                 let law = &self.model.law;
-                if !visit(Watched::LiftOff, &expansion.normal[..forces], false) {
+                if !visit(Watched::LiftOff, &expansion.contact(NORMAL)[..forces], false) {
                     return;
                 }
-                let mut speed: Series = expansion.relative.map(|v| sigma * v);
+                let mut speed: Series = expansion.contact(RELATIVE).map(|v| sigma * v);
                 let at_start = speed[0];
                 let (lower, watched, disarmed) = if piece == 0 {
                     (0.0, Watched::Rest, Disarmed::Rest)
@@ -267,17 +271,17 @@ impl<'a> Integrator<'a> {
             }
             Contact::Stick => {
                 let mu = self.model.law.mu_stick;
+                let (normal, tangential) = (expansion.contact(NORMAL), expansion.contact(TANGENTIAL));
                 for sigma in [1.0, -1.0] {
-                    let margin: Series =
-                        std::array::from_fn(|k| mu * expansion.normal[k] - sigma * expansion.tangential[k]);
+                    let margin: Series = std::array::from_fn(|k| mu * normal[k] - sigma * tangential[k]);
                     if !visit(Watched::StickLimit { sigma }, &margin[..forces], false) {
                         return;
                     }
                 }
-                visit(Watched::LiftOff, &expansion.normal[..forces], false);
+                visit(Watched::LiftOff, &normal[..forces], false);
             }
             Contact::Free => {
-                visit(Watched::Gap, &expansion.position[1][..=order], self.disarmed == Disarmed::Gap);
+                visit(Watched::Gap, &expansion.gap()[..=order], self.disarmed == Disarmed::Gap);
             }
         }
     }

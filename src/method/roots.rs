@@ -4,7 +4,7 @@
 //! exactly one zero. Subdivision isolates the first downward crossing, so that no event is missed
 //! however short it is (variation-diminishing property; R. T. Farouki, Comput. Aided Geom. Des. 29, 379 (2012)).
 
-use super::taylor::{MAX_ORDER, Series, horner, horner_derivative};
+use super::taylor::{MAX_ORDER, Series, horner_with_derivative};
 
 /// An event function that is armed counts as beginning at zero when it is no further below, relative to
 /// its own size over the step: rounding of the state that a transition has just set.
@@ -42,22 +42,25 @@ pub enum Crossing {
 pub fn first_crossing(series: &[f64], step: f64, from_zero: bool) -> Crossing {
     let mut scaled: Series = [0.0; MAX_ORDER + 1];
     let mut power = 1.0;
-    let mut size = 0.0_f64;
-    for (target, g) in scaled.iter_mut().zip(series) {
+    let mut lowest = 0.0;
+    for (k, (target, g)) in scaled.iter_mut().zip(series).enumerate() {
         *target = g * power;
         power *= step;
-        size = size.max(target.abs());
+        lowest += if k == 0 { *target } else { target.min(0.0) };
+    }
+    if lowest > 0.0 && !from_zero {
+        return Crossing::Never;
     }
     let mut coefficients = &scaled[..series.len()];
-    if from_zero || (coefficients[0] <= 0.0 && coefficients[0] >= -ROUNDING * size) {
-        let opening = &series_size(&coefficients[1..]);
+    if from_zero || (coefficients[0] <= 0.0 && coefficients[0] >= -ROUNDING * series_size(coefficients)) {
+        let opening = series_size(&coefficients[1..]);
         for _ in 0..HIGHEST_ORDER_AT_START {
             coefficients = &coefficients[1..];
             if coefficients[0] > 0.0 || coefficients[0] < -LEADING_ROUNDING * opening {
                 break;
             }
         }
-        if *opening == 0.0 {
+        if opening == 0.0 {
             return Crossing::Never;
         }
     }
@@ -76,14 +79,29 @@ fn series_size(coefficients: &[f64]) -> f64 {
     coefficients.iter().fold(0.0, |size, c| size.max(c.abs()))
 }
 
+/// `1/C(n, k)` by degree `n` and `k`.
+const INVERSE_BINOMIAL: [[f64; MAX_ORDER + 1]; MAX_ORDER + 1] = {
+    let mut table = [[0.0; MAX_ORDER + 1]; MAX_ORDER + 1];
+    let mut n = 0;
+    while n <= MAX_ORDER {
+        let mut binomial = 1;
+        let mut k = 0;
+        while k <= n {
+            table[n][k] = 1.0 / binomial as f64;
+            binomial = binomial * (n - k) / (k + 1);
+            k += 1;
+        }
+        n += 1;
+    }
+    table
+};
+
 /// Bernstein coefficients on `[0, 1]` of a polynomial given by its powers.
 fn bernstein(coefficients: &[f64]) -> Series {
     let degree = coefficients.len() - 1;
     let mut beta: Series = [0.0; MAX_ORDER + 1];
-    let mut binomial = 1.0;
-    for (k, (target, c)) in beta.iter_mut().zip(coefficients).enumerate() {
-        *target = c / binomial;
-        binomial *= (degree - k) as f64 / (k + 1) as f64;
+    for (k, c) in coefficients.iter().enumerate() {
+        beta[k] = c * INVERSE_BINOMIAL[degree][k];
     }
     for pass in 1..=degree {
         for i in (pass..=degree).rev() {
@@ -108,7 +126,11 @@ fn split(beta: &Series, degree: usize) -> (Series, Series) {
 /// The first interval in `[0, 1]` that holds exactly one crossing, from positive to not positive.
 fn isolate(coefficients: &[f64]) -> Option<(f64, f64)> {
     let degree = coefficients.len() - 1;
-    let mut waiting = vec![(0.0, 1.0, bernstein(coefficients))];
+    let whole = bernstein(coefficients);
+    if whole[..=degree].iter().all(|beta| *beta > 0.0) {
+        return None;
+    }
+    let mut waiting = vec![(0.0, 1.0, whole)];
     while let Some((low, width, beta)) = waiting.pop() {
         let active = &beta[..=degree];
         let changes = active.windows(2).filter(|pair| (pair[0] > 0.0) != (pair[1] > 0.0)).count();
@@ -135,18 +157,18 @@ fn isolate(coefficients: &[f64]) -> Option<(f64, f64)> {
 
 /// The zero between `low` (positive) and `high` (not positive): Newton, bisecting where it leaves the bracket.
 fn solve(coefficients: &[f64], mut low: f64, mut high: f64) -> f64 {
-    if horner(coefficients, low) <= 0.0 {
+    if horner_with_derivative(coefficients, low).0 <= 0.0 {
         return low;
     }
     let mut tau = 0.5 * (low + high);
     for _ in 0..SOLVER_ITERATIONS {
-        let value = horner(coefficients, tau);
+        let (value, slope) = horner_with_derivative(coefficients, tau);
         if value > 0.0 {
             low = tau;
         } else {
             high = tau;
         }
-        let newton = tau - value / horner_derivative(coefficients, tau);
+        let newton = tau - value / slope;
         let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
         if (next - tau).abs() <= f64::EPSILON * tau || high - low <= f64::EPSILON * high {
             return next;
