@@ -1,5 +1,7 @@
 //! One integration binary, one module per topic.
 
 mod common;
+mod events;
 mod linear;
+mod properties;
 mod response;
