@@ -2,6 +2,7 @@
 
 mod common;
 mod events;
+mod extremes;
 mod linear;
 mod properties;
 mod response;
