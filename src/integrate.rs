@@ -18,8 +18,15 @@ pub const MAX_EVENTS_AT_ONCE: u32 = 64;
 /// only chatter without end is stopped.
 pub const MAX_EVENTS_PER_PERIOD: u32 = 20_000;
 
-/// Most halvings of the nominal step: 2⁻¹⁶ of it; stiffer instances end with [`Status::StepTooLarge`].
-pub const MAX_HALVINGS: u32 = 16;
+/// Most halvings of the nominal step, enough for the boundary layers of extreme starts.
+pub const MAX_HALVINGS: i32 = 24;
+
+/// Most steps within one period `2π/ω0`; stiffer instances end with [`Status::StepTooLarge`].
+pub const MAX_STEPS_PER_PERIOD: u32 = 500_000;
+
+/// Where `M11` vanishes the acceleration of slip diverges like the inverse root of the time left, and no
+/// step is short enough to get there: an end within this many of the finest steps before it is Painlevé's.
+pub const PAINLEVE_APPROACHED: f64 = 50.0;
 
 /// Bound on the last two terms of the series relative to its leading terms; the error of a step is the
 /// first term left out, one to two orders smaller.
@@ -110,6 +117,7 @@ pub struct Integrator<'a> {
     steps: u64,
     events_at_once: u32,
     events_in_period: u32,
+    steps_in_period: u32,
     period_end: f64,
 }
 
@@ -135,6 +143,7 @@ impl<'a> Integrator<'a> {
             steps: 0,
             events_at_once: 0,
             events_in_period: 0,
+            steps_in_period: 0,
             period_end: std::f64::consts::TAU,
         };
         integrator.enter_contact(belt)?;
@@ -203,16 +212,21 @@ impl<'a> Integrator<'a> {
         observer: &mut impl Observer,
     ) -> Result<(f64, Option<Watched>), Status> {
         let expansion = Expansion::new(self.model, self.resolution.order, &self.state, self.contact, belt);
-        if let Contact::Slip { sigma, piece } = self.contact {
-            let q = sigma * self.model.law.pieces[piece].mu(sigma * expansion.relative_velocity());
-            if self.model.slip_inertia(q) <= 0.0 {
-                return Err(Status::Painleve);
-            }
+        let (inertia, inertia_rate) = self.slip_inertia(&expansion);
+        if inertia <= 0.0 {
+            return Err(Status::Painleve);
         }
         let full = self.resolution.nominal_step.min(longest);
-        let step = expansion
-            .step(full, self.resolution.tolerance, MAX_HALVINGS)
-            .ok_or(if self.state.is_finite() { Status::StepTooLarge } else { Status::NonFinite })?;
+        let step = expansion.step(full, self.resolution.tolerance, MAX_HALVINGS).ok_or_else(|| {
+            let finest = self.resolution.nominal_step * 0.5_f64.powi(MAX_HALVINGS);
+            if !self.state.is_finite() {
+                Status::NonFinite
+            } else if inertia < -inertia_rate * finest * PAINLEVE_APPROACHED {
+                Status::Painleve
+            } else {
+                Status::StepTooLarge
+            }
+        })?;
         let (taken, crossing) = self.first_event(&expansion, step);
         self.steps += 1;
         let end = expansion.motion(taken);
@@ -225,6 +239,19 @@ impl<'a> Integrator<'a> {
             self.disarmed = Disarmed::Nothing;
         }
         Ok((taken, crossing))
+    }
+
+    /// `M11` at the start of a step in slip and its rate of change; 1 and 0 in the other contact states.
+    fn slip_inertia(&self, expansion: &Expansion) -> (f64, f64) {
+        match self.contact {
+            Contact::Slip { sigma, piece } => {
+                let law = self.model.law.pieces[piece];
+                let [v, acceleration] = expansion.relative_motion();
+                let q = sigma * law.mu(sigma * v);
+                (self.model.slip_inertia(q), self.model.kappa * law.slope(sigma * v) * acceleration)
+            }
+            _ => (1.0, 0.0),
+        }
     }
 
     /// The first event within `step`, or the whole step.
@@ -286,11 +313,16 @@ impl<'a> Integrator<'a> {
         }
     }
 
-    /// Counts an event and stops an instance whose events pile up.
+    /// Counts steps and events and stops an instance where either piles up.
     fn count(&mut self, taken: f64, event: bool) -> Result<(), Status> {
         if self.time >= self.period_end {
             self.period_end = self.time + std::f64::consts::TAU;
             self.events_in_period = 0;
+            self.steps_in_period = 0;
+        }
+        self.steps_in_period += 1;
+        if self.steps_in_period > MAX_STEPS_PER_PERIOD {
+            return Err(Status::StepTooLarge);
         }
         if event {
             self.events_at_once = if taken > 0.0 { 0 } else { self.events_at_once + 1 };

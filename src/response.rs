@@ -141,6 +141,17 @@ impl Scene {
         Ok(())
     }
 
+    /// The SI value of the simulated time `time`: in full when it is exactly the time the plan asks for.
+    fn seconds(&self, time: f64, plan: &Plan) -> f64 {
+        let si = |duration| match duration {
+            Duration::Seconds(seconds) => seconds,
+            other => self.scaled(other) * self.units.time,
+        };
+        let half = 0.5 * self.scaled(plan.measure);
+        let asked = self.scaled(plan.settle) + half + half;
+        (si(plan.settle) + si(plan.measure)) * (time / asked)
+    }
+
     /// A length of time of the plan in units of `1/ω0`.
     #[must_use]
     pub fn scaled(&self, duration: Duration) -> f64 {
@@ -189,7 +200,7 @@ pub fn respond(instance: &Instance, plan: &Plan) -> Outcome {
         Ok(outcome) => outcome,
         Err(status) => Outcome {
             status,
-            simulated_time: integrator.time() * scene.units.time,
+            simulated_time: scene.seconds(integrator.time(), plan),
             steps: integrator.steps(),
             ..Outcome::default()
         },
@@ -211,7 +222,7 @@ fn measure(scene: &Scene, integrator: &mut Integrator, plan: &Plan) -> Result<Ou
     let mut outcome = Outcome {
         status: Status::Ok,
         energy_gaining_impacts: gains.0,
-        simulated_time: integrator.time() * scene.units.time,
+        simulated_time: scene.seconds(integrator.time(), plan),
         steps: integrator.steps(),
         ..Outcome::default()
     };

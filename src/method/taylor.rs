@@ -238,16 +238,16 @@ impl Expansion {
         std::array::from_fn(|k| self.contact_series[k][component])
     }
 
-    /// The relative velocity at the start.
+    /// The relative velocity and acceleration at the start.
     #[must_use]
-    pub fn relative_velocity(&self) -> f64 {
-        self.contact_series[0][RELATIVE]
+    pub fn relative_motion(&self) -> [f64; 2] {
+        [self.contact_series[0][RELATIVE], self.contact_series[1][RELATIVE]]
     }
 
     /// The largest step, `nominal` halved as often as needed (at most `halvings` times), whose two last
     /// retained terms stay below `tolerance` relative to the terms of degree 0 to 2; `None` when none does.
     #[must_use]
-    pub fn step(&self, nominal: f64, tolerance: f64, halvings: u32) -> Option<f64> {
+    pub fn step(&self, nominal: f64, tolerance: f64, halvings: i32) -> Option<f64> {
         let largest = |degree: usize| self.position[degree].iter().fold(0.0_f64, |m, c| m.max(c.abs()));
         let leading = [largest(0), largest(1), largest(2)];
         let last = [largest(self.order - 1), largest(self.order)];
