@@ -7,6 +7,7 @@ pub mod linear;
 pub mod map;
 pub mod model;
 pub mod outcome;
+mod place;
 pub mod spec;
 pub mod trace;
 
