@@ -2,6 +2,7 @@
 
 pub mod classify;
 pub mod error;
+pub mod export;
 pub mod grid;
 pub mod linear;
 pub mod map;

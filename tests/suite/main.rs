@@ -1,1 +1,4 @@
 //! One integration binary, one module per topic.
+
+mod export;
+mod synthetic;
