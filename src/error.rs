@@ -217,18 +217,42 @@ pub enum Error {
         /// What the system says.
         why: String,
     },
-    /// A map with an instance that was never computed: a defect of the backend.
-    #[error("instance {index} of the map was never computed; this is a defect, please report it")]
+    /// A map holds fewer or more records than its grid has instances.
+    #[error("the map holds {records} records for {instances} instances; nothing was exported")]
+    Incomplete {
+        /// Records in the map.
+        records: usize,
+        /// Instances of the grid.
+        instances: usize,
+    },
+    /// A map holds an instance that was never computed.
+    #[error("instance {instance} was never computed; nothing was exported")]
     Unwritten {
-        /// The instance.
-        index: usize,
+        /// The first such instance.
+        instance: usize,
     },
-    /// A figure that cannot be drawn or turned into pixels.
-    #[error("cannot draw the figure: {why}")]
-    Figure {
-        /// Why.
-        why: String,
+    /// A table could not be written.
+    #[error("the table could not be written")]
+    WriteTable(#[source] csv::Error),
+    /// The manifest could not be written.
+    #[error("the manifest could not be written")]
+    WriteManifest(#[source] serde_json::Error),
+    /// A figure is not a picture that can be drawn.
+    #[error("the figure could not be read as SVG")]
+    ReadSvg(#[source] resvg::usvg::Error),
+    /// A figure is too large for an image, or its encoding failed.
+    #[error("a picture of {width} × {height} pixels could not be made; plot fewer panels or points")]
+    Rasterize {
+        /// Width in pixels.
+        width: u32,
+        /// Height in pixels.
+        height: u32,
     },
+    /// `modes` needs a numeric axis with at least two values.
+    #[error(
+        "modes needs an axis of numbers with at least 2 values, and [axes] has none; add one, e.g. mu_d = {{ from = 0.0, to = 0.6, points = 601 }}"
+    )]
+    NoModesAxis,
     /// The worker threads cannot be started.
     #[error("cannot start {threads} worker threads: {why}; choose another number with --threads")]
     Threads {
@@ -263,8 +287,13 @@ impl Error {
             Error::ReadSweep { .. }
             | Error::OutputDirectory { .. }
             | Error::Write { .. }
+            | Error::Incomplete { .. }
             | Error::Unwritten { .. }
-            | Error::Figure { .. }
+            | Error::WriteTable(_)
+            | Error::WriteManifest(_)
+            | Error::ReadSvg(_)
+            | Error::Rasterize { .. }
+            | Error::NoModesAxis
             | Error::Threads { .. } => None,
         }
     }
@@ -272,7 +301,20 @@ impl Error {
     /// Whether the input (file, arguments, output directory) is at fault, as opposed to the run.
     #[must_use]
     pub fn is_bad_input(&self) -> bool {
-        !matches!(self, Error::Write { .. } | Error::Unwritten { .. } | Error::Figure { .. })
+        match self {
+            Error::Write { .. }
+            | Error::Incomplete { .. }
+            | Error::Unwritten { .. }
+            | Error::WriteTable(_)
+            | Error::WriteManifest(_)
+            | Error::ReadSvg(_)
+            | Error::Rasterize { .. } => false,
+            Error::ReadSweep { .. }
+            | Error::OutputDirectory { .. }
+            | Error::NoModesAxis
+            | Error::Threads { .. } => true,
+            _ => self.place().is_some(),
+        }
     }
 }
 

@@ -2,6 +2,8 @@
 
 mod bad_input;
 mod common;
+mod export;
 mod linear;
 mod response;
 mod spec;
+mod synthetic;
