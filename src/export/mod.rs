@@ -6,7 +6,11 @@
 
 pub mod columns;
 pub mod csv;
+pub mod figure;
 pub mod manifest;
+pub mod modes;
+pub mod png;
+pub mod trace;
 
 use crate::error::{Error, Result};
 use crate::map::Map;
