@@ -3,6 +3,7 @@
 pub mod backend;
 pub mod classify;
 pub mod error;
+pub mod estimate;
 pub mod export;
 pub mod grid;
 pub mod integrate;

@@ -66,7 +66,7 @@ impl At<'_> {
             at: place(at),
             what,
             name: name.to_owned(),
-            within: format!("in {ARGUMENT}"),
+            within: "in the pairs".to_owned(),
             advice: advice(name, candidates),
         };
         let Some(key) = AxisKey::from_name(name) else {

@@ -297,7 +297,7 @@ fn at_is_checked() {
         at("mu_s=0.4"),
         "--at: no value for `mu_d` and `belt_velocity`, which the sweep varies; add mu_d=0,belt_velocity=0.5"
     );
-    assert_eq!(at("mus=0.4"), "--at: unknown parameter `mus` in --at; did you mean `mu_s`?");
+    assert_eq!(at("mus=0.4"), "--at: unknown parameter `mus` in the pairs; did you mean `mu_s`?");
     assert_eq!(at("mu_s=-1"), "--at: `mu_s` is -1 but must be a finite number not below 0");
     assert_eq!(at("mu_s=a"), "--at: `mu_s` must be a number, found `a`");
     assert_eq!(
