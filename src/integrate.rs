@@ -23,7 +23,7 @@ pub const MAX_HALVINGS: u32 = 16;
 
 /// Bound on the last two terms of the series relative to its leading terms; the error of a step is the
 /// first term left out, one to two orders smaller.
-pub const STEP_TOLERANCE: f64 = 1e-9;
+pub const STEP_TOLERANCE: f64 = 1e-11;
 
 /// How finely to integrate.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -5,7 +5,7 @@
 
 use crate::integrate::{Event, Observer, Step};
 use crate::method::roots::{Crossing, first_crossing};
-use crate::method::taylor::Motion;
+use crate::method::taylor::{Motion, X2, Y1};
 use crate::model::contact::ContactState;
 use num_complex::Complex64;
 
@@ -82,7 +82,7 @@ impl Sums {
         deviation(self.y / self.time, self.yy / self.time)
     }
 
-    fn add(&mut self, step: &Step) {
+    fn add(&mut self, step: &Step, nodes: &[Sample; 4]) {
         let duration = step.duration;
         self.time += duration;
         match step.expansion.contact.state() {
@@ -91,12 +91,11 @@ impl Sums {
             ContactState::Stick => self.stick += duration,
             ContactState::Free => self.free += duration,
         }
-        for (node, weight) in GAUSS {
-            let (tau, weight) = (node * duration, weight * duration);
-            let Motion { state, acceleration: [ax, _, ay] } = step.expansion.motion(tau);
+        for ((_, weight), sample) in GAUSS.iter().zip(nodes) {
+            let weight = weight * duration;
+            let Motion { state, acceleration: [ax, _, ay] } = sample.motion;
             let [x, _, y] = state.position;
             let [vx, _, vy] = state.velocity;
-            let (tangential, normal) = step.expansion.forces(tau);
             self.x += weight * x;
             self.xx += weight * x * x;
             self.y += weight * y;
@@ -104,10 +103,48 @@ impl Sums {
             self.ax += weight * ax * ax;
             self.ay += weight * ay * ay;
             self.speed += weight * (vx * vx + vy * vy);
-            self.tangential += weight * tangential;
-            self.normal += weight * normal;
+            self.tangential += weight * sample.forces.0;
+            self.normal += weight * sample.forces.1;
         }
     }
+}
+
+/// The motion and the contact forces `(T, N)` at one time of a step.
+#[derive(Clone, Copy, Debug)]
+struct Sample {
+    motion: Motion,
+    forces: (f64, f64),
+}
+
+impl Sample {
+    fn at(step: &Step, fraction: f64) -> Sample {
+        let tau = fraction * step.duration;
+        Sample { motion: step.expansion.motion(tau), forces: step.expansion.forces(tau) }
+    }
+}
+
+/// The times of the samples of a step as fractions of it: its start, the Gauss nodes, its end.
+const SAMPLE_TIMES: [f64; 6] = [0.0, GAUSS[0].0, GAUSS[1].0, GAUSS[2].0, GAUSS[3].0, 1.0];
+
+/// The maximum of a smooth function from its samples: the vertex of the parabola through the largest
+/// one and its neighbours, which does not depend on where the steps end.
+fn maximum(values: [f64; 6]) -> f64 {
+    let mut top = 0;
+    for i in 1..6 {
+        if values[i] > values[top] {
+            top = i;
+        }
+    }
+    if top == 0 || top == 5 {
+        return values[top];
+    }
+    let slope = |i: usize| (values[i + 1] - values[i]) / (SAMPLE_TIMES[i + 1] - SAMPLE_TIMES[i]);
+    let (left, right) = (slope(top - 1), slope(top));
+    let [before, at, after] = [SAMPLE_TIMES[top - 1], SAMPLE_TIMES[top], SAMPLE_TIMES[top + 1]];
+    let curvature = (right - left) / (after - before);
+    // Newton's form f(t) = f_top + (t − t_top)(slope at top + curvature (t − t_top)).
+    let tangent = left + curvature * (at - before);
+    if curvature < 0.0 { values[top] - tangent * tangent / (4.0 * curvature) } else { values[top] }
 }
 
 fn deviation(mean: f64, mean_square: f64) -> f64 {
@@ -121,11 +158,11 @@ pub struct Window {
     pub halves: [Sums; 2],
     /// Which half is running.
     pub half: usize,
-    /// Largest `|ẍ2|` at step ends and events.
+    /// Largest `|ẍ2|`.
     pub ax_peak: f64,
-    /// Largest `|ÿ1|` at step ends and events.
+    /// Largest `|ÿ1|`.
     pub ay_peak: f64,
-    /// Largest `N` at step ends and events.
+    /// Largest `N`.
     pub n_peak: f64,
     /// Impacts.
     pub impacts: u64,
@@ -174,17 +211,14 @@ impl Window {
 
 impl Observer for Window {
     fn step(&mut self, step: &Step) {
-        self.halves[self.half].add(step);
+        let samples = SAMPLE_TIMES.map(|fraction| Sample::at(step, fraction));
+        let [_, ref nodes @ .., _] = samples;
+        self.halves[self.half].add(step, nodes);
         self.count_crossings(step);
-        let (_, normal_at_end) = step.expansion.forces(step.duration);
-        let (_, normal_at_start) = step.expansion.forces(0.0);
-        let start = step.expansion.motion(0.0);
-        for (motion, normal) in [(start, normal_at_start), (step.end, normal_at_end)] {
-            let [ax, _, ay] = motion.acceleration;
-            self.ax_peak = self.ax_peak.max(ax.abs());
-            self.ay_peak = self.ay_peak.max(ay.abs());
-            self.n_peak = self.n_peak.max(normal);
-        }
+        let largest = |axis: usize| maximum(samples.map(|sample| sample.motion.acceleration[axis].abs()));
+        self.ax_peak = self.ax_peak.max(largest(X2));
+        self.ay_peak = self.ay_peak.max(largest(Y1));
+        self.n_peak = self.n_peak.max(maximum(samples.map(|sample| sample.forces.1)));
     }
 
     fn event(&mut self, event: Event) {

@@ -42,13 +42,11 @@ pub enum Crossing {
 pub fn first_crossing(series: &[f64], step: f64, from_zero: bool) -> Crossing {
     let mut scaled: Series = [0.0; MAX_ORDER + 1];
     let mut power = 1.0;
-    let mut lowest = 0.0;
-    for (k, (target, g)) in scaled.iter_mut().zip(series).enumerate() {
+    for (target, g) in scaled.iter_mut().zip(series) {
         *target = g * power;
         power *= step;
-        lowest += if k == 0 { *target } else { target.min(0.0) };
     }
-    if lowest > 0.0 && !from_zero {
+    if !from_zero && lower_bound(&scaled[..series.len()]) > 0.0 {
         return Crossing::Never;
     }
     let mut coefficients = &scaled[..series.len()];
@@ -66,10 +64,6 @@ pub fn first_crossing(series: &[f64], step: f64, from_zero: bool) -> Crossing {
     }
     if coefficients[0] <= 0.0 {
         return Crossing::Immediate;
-    }
-    let lowest = coefficients[0] + coefficients[1..].iter().map(|c| c.min(0.0)).sum::<f64>();
-    if lowest > 0.0 {
-        return Crossing::Never;
     }
     isolate(coefficients)
         .map_or(Crossing::Never, |(low, high)| Crossing::At(step * solve(coefficients, low, high)))
@@ -96,7 +90,18 @@ const INVERSE_BINOMIAL: [[f64; MAX_ORDER + 1]; MAX_ORDER + 1] = {
     table
 };
 
+/// Degree up to which the cheap bound keeps the polynomial; the rest counts with its absolute value.
+const BOUND_DEGREE: usize = 4;
+
+/// A lower bound on `[0, 1]`: the smallest Bernstein coefficient of the leading part less the rest.
+fn lower_bound(coefficients: &[f64]) -> f64 {
+    let (leading, rest) = coefficients.split_at((BOUND_DEGREE + 1).min(coefficients.len()));
+    let lowest = bernstein(leading)[..leading.len()].iter().fold(f64::INFINITY, |low, beta| low.min(*beta));
+    lowest - rest.iter().map(|c| c.abs()).sum::<f64>()
+}
+
 /// Bernstein coefficients on `[0, 1]` of a polynomial given by its powers.
+#[inline]
 fn bernstein(coefficients: &[f64]) -> Series {
     let degree = coefficients.len() - 1;
     let mut beta: Series = [0.0; MAX_ORDER + 1];

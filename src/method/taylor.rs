@@ -21,7 +21,7 @@ pub const MAX_ORDER: usize = 16;
 
 /// Order of the position series of the reference: with 12 steps per `2π/ω0` its truncation is below
 /// 1e-13 in contact and 1e-10 in flight with the paper's parameters.
-pub const REFERENCE_ORDER: usize = 14;
+pub const REFERENCE_ORDER: usize = 16;
 
 /// Coefficients of one polynomial in local time, by degree.
 pub type Series = [f64; MAX_ORDER + 1];

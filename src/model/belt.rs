@@ -25,6 +25,7 @@ pub struct Springs {
 impl Scaled {
     /// The spring forces at the positions and velocities `(x2, y2, y1)`, deviations from the equilibrium.
     #[must_use]
+    #[inline]
     pub fn springs(&self, position: [f64; 3], velocity: [f64; 3]) -> Springs {
         let (s, c) = (self.s, self.c);
         let elongation = |[x2, y2, y1]: [f64; 3]| x2 * s + y2 * c - y1;

@@ -110,32 +110,47 @@ impl Scaled {
     /// Newton's impact at `y2 = 0` with the velocities `vx`, `vy < 0` and the belt velocity `belt`:
     ///
     /// ```text
-    /// [1, −κ; −κ, m2 + m1 s²] (Δẋ2, Δẏ2) = (P_t, P_n)     ẏ2⁺ = −e ẏ2⁻     P_t = σ μ(|v⁻|) P_n
+    /// [1, −κ; −κ, m2 + m1 s²] (Δẋ2, Δẏ2) = (P_t, P_n)     ẏ2⁺ = −e ẏ2⁻     |P_t| ≤ μ(|v⁻|) P_n
     /// ```
     ///
-    /// capped so that `v` does not change sign.
+    /// `P_t = σ μ P_n` unless that would reverse `v`; then the impulse that stops `v`, and where the inertia
+    /// coupling `κ` reverses `v` against all friction, `P_t = −σ μ P_n`: friction never exceeds its cone.
     ///
     /// # Errors
     /// [`Status::Painleve`] when no positive normal impulse stops the approach.
     pub fn impact(&self, vx: f64, vy: f64, belt: f64) -> Result<Impact, Status> {
         let rebound = -self.restitution * vy;
         let rebound = if rebound < SLOWEST_REBOUND { 0.0 } else { rebound };
-        let relative = belt - vx;
-        let q = if self.impact_friction && relative != 0.0 {
-            relative.signum() * self.law.mu(relative.abs())
+        let (relative, change) = (belt - vx, rebound - vy);
+        let vx_after = if self.impact_friction {
+            let limit = self.law.mu(relative.abs());
+            let sliding_on = self.tangential_jump(relative.signum() * limit, change)?;
+            // The impulses that stop the relative velocity.
+            let (tangential, normal) =
+                (relative - self.kappa * change, self.normal_mass * change - self.kappa * relative);
+            if (relative - sliding_on) * relative > 0.0 {
+                vx + sliding_on
+            } else if tangential.abs() <= limit * normal {
+                belt
+            } else {
+                vx + self.tangential_jump(-relative.signum() * limit, change)?
+            }
         } else {
-            0.0
+            vx + self.tangential_jump(0.0, change)?
         };
-        if self.slip_inertia(q) <= 0.0 {
-            return Err(Status::Painleve);
-        }
-        // The inverse of the mass matrix is [m2 + m1 s², κ; κ, 1]/det.
-        let normal_impulse = (rebound - vy) * self.det / self.slip_inertia(q);
-        let jump = (self.normal_mass * q + self.kappa) / self.det * normal_impulse;
-        let reversed = relative == 0.0 || (relative - jump) * relative < 0.0;
-        let vx_after = if self.impact_friction && reversed { belt } else { vx + jump };
         let before = self.tangential_energy(vx - belt, vy);
         let after = self.tangential_energy(vx_after - belt, rebound);
         Ok(Impact { vx: vx_after, vy: rebound, gained_energy: after > before * (1.0 + ENERGY_GAIN_COUNTED) })
+    }
+
+    /// `Δẋ2` of an impact that changes `ẏ2` by `change` with `P_t = q P_n`.
+    fn tangential_jump(&self, q: f64, change: f64) -> Result<f64, Status> {
+        let inertia = self.slip_inertia(q);
+        // The inverse of the mass matrix is [m2 + m1 s², κ; κ, 1]/det.
+        if inertia > 0.0 {
+            Ok((self.normal_mass * q + self.kappa) / inertia * change)
+        } else {
+            Err(Status::Painleve)
+        }
     }
 }

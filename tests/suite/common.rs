@@ -8,7 +8,7 @@ use squealmap::response::Plan;
 use squealmap::spec::{Duration, Instance, StartKind};
 
 /// Table 1 with the given values and law.
-pub fn instance(law: FrictionLaw, values: &[(Param, f64)]) -> Instance {
+pub(crate) fn instance(law: FrictionLaw, values: &[(Param, f64)]) -> Instance {
     let mut params = Params::default();
     for &(param, value) in values {
         params.set(param, value);
@@ -17,20 +17,20 @@ pub fn instance(law: FrictionLaw, values: &[(Param, f64)]) -> Instance {
 }
 
 /// Table 1 with the paper's bilinear law.
-pub fn paper(mu_s: f64, mu_d: f64, belt_velocity: f64) -> Instance {
+pub(crate) fn paper(mu_s: f64, mu_d: f64, belt_velocity: f64) -> Instance {
     instance(bilinear(mu_s, mu_d), &[(Param::BeltVelocity, belt_velocity)])
 }
 
-pub fn bilinear(mu_s: f64, mu_d: f64) -> FrictionLaw {
+pub(crate) fn bilinear(mu_s: f64, mu_d: f64) -> FrictionLaw {
     FrictionLaw::Bilinear { mu_s, mu_d, knee_velocity: 5.0 }
 }
 
-pub fn constant(mu: f64) -> FrictionLaw {
+pub(crate) fn constant(mu: f64) -> FrictionLaw {
     FrictionLaw::Constant { mu_s: mu, mu_d: mu }
 }
 
 /// A kick start with the reference's resolution.
-pub fn plan(settle: f64, measure: f64, steps_per_period: u32) -> Plan {
+pub(crate) fn plan(settle: f64, measure: f64, steps_per_period: u32) -> Plan {
     Plan {
         start: StartKind::Kick,
         settle: Duration::Seconds(settle),
@@ -43,7 +43,7 @@ pub fn plan(settle: f64, measure: f64, steps_per_period: u32) -> Plan {
 
 /// `|a − b| ≤ tolerance |b|`, with both printed.
 #[track_caller]
-pub fn close(what: &str, actual: f64, expected: f64, relative: f64) {
+pub(crate) fn close(what: &str, actual: f64, expected: f64, relative: f64) {
     assert!(
         (actual - expected).abs() <= relative * expected.abs(),
         "{what}: {actual:.12e} instead of {expected:.12e}, relative difference {:.2e} above {relative:.0e}",
@@ -53,7 +53,7 @@ pub fn close(what: &str, actual: f64, expected: f64, relative: f64) {
 
 /// `|a − b| ≤ tolerance`, with both printed.
 #[track_caller]
-pub fn near(what: &str, actual: f64, expected: f64, absolute: f64) {
+pub(crate) fn near(what: &str, actual: f64, expected: f64, absolute: f64) {
     assert!(
         (actual - expected).abs() <= absolute,
         "{what}: {actual:.15e} instead of {expected:.15e}, difference {:.2e} above {absolute:.0e}",

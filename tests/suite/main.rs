@@ -3,8 +3,11 @@
 mod bad_input;
 mod cli;
 mod common;
+mod events;
 mod export;
+mod extremes;
 mod linear;
+mod properties;
 mod response;
 mod spec;
 mod sweeps;
