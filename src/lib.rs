@@ -3,6 +3,8 @@
 pub mod backend;
 pub mod classify;
 pub mod error;
+pub mod estimate;
+pub mod export;
 pub mod grid;
 pub mod integrate;
 pub mod linear;
@@ -11,6 +13,7 @@ pub mod method;
 pub mod model;
 pub mod observe;
 pub mod outcome;
+mod place;
 pub mod response;
 pub mod spec;
 pub mod sweep;

@@ -1,8 +1,14 @@
 //! One integration binary, one module per topic.
 
+mod bad_input;
+mod cli;
 mod common;
 mod events;
+mod export;
 mod extremes;
 mod linear;
 mod properties;
 mod response;
+mod spec;
+mod sweeps;
+mod synthetic;

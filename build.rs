@@ -1,0 +1,34 @@
+//! Hands the git commit of the checkout to the crate as `SQUEALMAP_COMMIT`; unset outside a checkout.
+
+use std::path::Path;
+use std::process::Command;
+
+fn main() {
+    println!("cargo::rerun-if-changed=build.rs");
+    let root = std::env::var("CARGO_MANIFEST_DIR").unwrap_or_default();
+    // A crate unpacked inside somebody else's repository must not report that repository's commit.
+    let Some(top) = git(&root, &["rev-parse", "--show-toplevel"]) else { return };
+    let same = match (Path::new(&top).canonicalize(), Path::new(&root).canonicalize()) {
+        (Ok(top), Ok(root)) => top == root,
+        _ => false,
+    };
+    if !same {
+        return;
+    }
+    for file in ["HEAD", "index"] {
+        if let Some(path) = git(&root, &["rev-parse", "--git-path", file]) {
+            println!("cargo::rerun-if-changed={path}");
+        }
+    }
+    println!("cargo::rerun-if-changed=src");
+    let Some(commit) = git(&root, &["rev-parse", "HEAD"]) else { return };
+    let changes = git(&root, &["status", "--porcelain", "--untracked-files=no"]).unwrap_or_default();
+    let mark = if changes.is_empty() { "" } else { "-dirty" };
+    println!("cargo::rustc-env=SQUEALMAP_COMMIT={commit}{mark}");
+}
+
+/// The trimmed output of a git command, `None` when it fails or git is missing.
+fn git(root: &str, arguments: &[&str]) -> Option<String> {
+    let output = Command::new("git").current_dir(root).args(arguments).output().ok()?;
+    output.status.success().then(|| String::from_utf8_lossy(&output.stdout).trim().to_owned())
+}

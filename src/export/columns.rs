@@ -1,0 +1,182 @@
+//! The one table of output columns: order, names, units, meanings and values.
+
+use crate::classify::{InstabilityType, Regime};
+use crate::grid::{AxisKey, Value};
+use crate::map::{Map, Record};
+use crate::spec::{Analysis, Spec};
+
+/// The content of one cell.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Cell {
+    /// An undefined value.
+    Empty,
+    /// A number in base units.
+    Number(f64),
+    /// A count.
+    Count(u64),
+    /// A name.
+    Text(String),
+}
+
+impl Cell {
+    /// An undefined or non-finite number is an empty cell.
+    fn number(value: Option<f64>) -> Cell {
+        value.filter(|x| x.is_finite()).map_or(Cell::Empty, Cell::Number)
+    }
+
+    fn text(value: Option<&str>) -> Cell {
+        value.map_or(Cell::Empty, |name| Cell::Text(name.to_owned()))
+    }
+}
+
+impl std::fmt::Display for Cell {
+    /// Numbers in the shortest form that reads back to the same bits.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        /// Outside these magnitudes an exponent is shorter than the zeros it replaces.
+        const PLAIN: std::ops::Range<f64> = 1e-5..1e16;
+        match self {
+            Cell::Empty => Ok(()),
+            Cell::Number(x) if *x == 0.0 || PLAIN.contains(&x.abs()) => write!(f, "{x}"),
+            Cell::Number(x) => write!(f, "{x:e}"),
+            Cell::Count(n) => write!(f, "{n}"),
+            Cell::Text(text) => f.write_str(text),
+        }
+    }
+}
+
+/// The analysis a column belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Group {
+    /// In every table.
+    Always,
+    /// Complex eigenvalue analysis.
+    Linear,
+    /// Time integration.
+    Response,
+}
+
+impl Group {
+    fn asked(self, analysis: Analysis) -> bool {
+        match self {
+            Group::Always => true,
+            Group::Linear => analysis.linear,
+            Group::Response => analysis.response,
+        }
+    }
+}
+
+/// Where the values of a column come from.
+#[derive(Clone, Copy, Debug)]
+enum Source {
+    Instance,
+    /// The swept value with this position in [`crate::grid::Grid::keys`].
+    Swept(usize),
+    Record(fn(&Record) -> Cell),
+}
+
+/// One output column.
+#[derive(Clone, Copy, Debug)]
+pub struct Column {
+    /// The header.
+    pub name: &'static str,
+    /// The SI unit; empty when dimensionless or a name.
+    pub unit: &'static str,
+    /// One line of explanation.
+    pub meaning: &'static str,
+    /// The analysis it belongs to.
+    pub group: Group,
+    source: Source,
+}
+
+impl Column {
+    /// The cell of instance `index`.
+    #[must_use]
+    pub fn cell(&self, map: &Map, index: usize) -> Cell {
+        match self.source {
+            Source::Instance => Cell::Count(index as u64),
+            Source::Swept(position) => match map.spec.grid.coordinates(index)[position] {
+                Value::Number(x) => Cell::number(Some(*x)),
+                Value::Text(text) => Cell::Text(text.clone()),
+            },
+            Source::Record(get) => get(&map.records[index]),
+        }
+    }
+}
+
+/// The columns of a sweep's table in order; those of an analysis that was not asked for are left out.
+#[must_use]
+pub fn columns(spec: &Spec) -> Vec<Column> {
+    let instance = Column {
+        name: "instance",
+        unit: "",
+        meaning: "index of the instance; the first axis varies slowest",
+        group: Group::Always,
+        source: Source::Instance,
+    };
+    let swept = spec.grid.keys().into_iter().enumerate().map(|(position, key)| {
+        let (unit, meaning) = match key {
+            AxisKey::Param(param) => (param.info().unit, param.info().meaning),
+            AxisKey::Law => ("", "friction law"),
+            AxisKey::Material => ("", "material file"),
+        };
+        Column { name: key.name(), unit, meaning, group: Group::Always, source: Source::Swept(position) }
+    });
+    let computed = COMPUTED.iter().copied().filter(|column| column.group.asked(spec.analysis));
+    std::iter::once(instance).chain(swept).chain(computed).collect()
+}
+
+macro_rules! computed {
+    ($($group:ident $name:literal $unit:literal $get:expr, $meaning:literal;)*) => {
+        /// What is computed of an instance, in the order of `map.csv`.
+        const COMPUTED: &[Column] = &[$(Column {
+            name: $name, unit: $unit, meaning: $meaning, group: Group::$group, source: Source::Record($get),
+        }),*];
+    };
+}
+
+/// A number of the eigenvalue analysis.
+macro_rules! linear {
+    ($field:ident) => {
+        |record| Cell::number(record.linear.map(|linear| linear.$field))
+    };
+}
+
+/// A number of the response.
+macro_rules! response {
+    ($field:ident) => {
+        |record| Cell::number(record.outcome.and_then(|outcome| outcome.$field))
+    };
+}
+
+computed! {
+    Linear "type" "" |r| Cell::text(r.kind.map(InstabilityType::name)), "type of instability by complex eigenvalues and attribution";
+    Linear "growth_rate" "1/s" linear!(growth_rate), "largest real part of the eigenvalues, both mechanisms present";
+    Linear "frequency" "Hz" linear!(frequency), "imaginary part of that eigenvalue over 2 pi";
+    Linear "phase" "deg" |r| Cell::number(r.linear.and_then(|linear| linear.phase)), "phase of y1'' against x2'' in that mode; negative when y1'' lags";
+    Linear "growth_rate_flat" "1/s" linear!(growth_rate_flat), "growth rate with the friction slope set to 0 (mode coupling alone)";
+    Linear "growth_rate_frozen" "1/s" linear!(growth_rate_frozen), "growth rate with the normal force frozen (negative slope alone)";
+    Response "regime" "" |r| Cell::text(r.regime.map(Regime::name)), "what the system does in the measuring window";
+    Response "x2_mean" "m" response!(x2_mean), "mean of x2";
+    Response "x2_std" "m" response!(x2_std), "standard deviation of x2";
+    Response "y1_mean" "m" response!(y1_mean), "mean of y1";
+    Response "y1_std" "m" response!(y1_std), "standard deviation of y1";
+    Response "ax_rms" "m/s^2" response!(ax_rms), "root mean square of x2''";
+    Response "ay_rms" "m/s^2" response!(ay_rms), "root mean square of y1''";
+    Response "ax_peak" "m/s^2" response!(ax_peak), "largest |x2''|";
+    Response "ay_peak" "m/s^2" response!(ay_peak), "largest |y1''|";
+    Response "friction_mean" "" response!(friction_mean), "time integral of T over time integral of N";
+    Response "n_peak" "N" response!(n_peak), "largest normal force";
+    Response "response_frequency" "Hz" response!(response_frequency), "upward zero crossings of x2' over the time from the first to the last";
+    Response "phase_cycle" "deg" response!(phase_cycle), "phase of y1'' against x2'' at the response frequency";
+    Response "growth_rate_measured" "1/s" response!(growth_rate_measured), "growth rate before the first contact event";
+    Response "frequency_measured" "Hz" response!(frequency_measured), "frequency before the first contact event";
+    Response "phase_measured" "deg" response!(phase_measured), "phase of y1'' against x2'' before the first contact event";
+    Response "stick" "" response!(stick), "fraction of the window in stick";
+    Response "free" "" response!(free), "fraction of the window in free flight";
+    Response "reverse" "" response!(reverse), "fraction of the window in reversed slip";
+    Response "impacts_per_second" "1/s" response!(impacts_per_second), "impacts per second";
+    Response "settled" "" |r| r.settled.map_or(Cell::Empty, |flag| Cell::Count(u64::from(flag))), "1 when the two halves of the window agree, else 0";
+    Response "simulated_time" "s" |r| Cell::number(r.outcome.map(|outcome| outcome.simulated_time)), "simulated time";
+    Response "steps" "" |r| r.outcome.map_or(Cell::Empty, |outcome| Cell::Count(outcome.steps)), "steps taken, those ended by an event included";
+    Always "status" "" |r| Cell::text(Some(r.status.name())), "how the instance ended";
+}

@@ -1,0 +1,89 @@
+//! `manifest.json`: what was computed, by what, with which result, and what the columns mean.
+
+use serde_json::{Map as Object, Value, json};
+
+use super::columns::columns;
+use super::complete;
+use crate::classify::{InstabilityType, Regime};
+use crate::error::{Error, Result};
+use crate::map::{Map, Record};
+use crate::outcome::Status;
+use crate::spec::Spec;
+
+/// The crate's version.
+pub const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+/// The git commit the crate was built from, with `-dirty` when the checkout had changes; `None` outside a checkout.
+pub const COMMIT: Option<&str> = option_env!("SQUEALMAP_COMMIT");
+
+/// The manifest of a map: UTF-8 JSON, indented.
+///
+/// # Errors
+/// When an instance was never computed.
+pub fn manifest_json(map: &Map) -> Result<Vec<u8>> {
+    complete(map)?;
+    let provenance = &map.provenance;
+    let seconds = provenance.elapsed.as_secs_f64();
+    let instances = map.records.len();
+    let gaining = map.records.iter().filter_map(|record| record.outcome);
+    let columns: Vec<Value> = columns(&map.spec)
+        .iter()
+        .map(|column| json!({ "name": column.name, "unit": column.unit, "meaning": column.meaning }))
+        .collect();
+    let manifest = json!({
+        "title": map.spec.title,
+        "program": { "name": env!("CARGO_PKG_NAME"), "version": VERSION, "git_commit": COMMIT },
+        "computation": {
+            "backend": provenance.backend,
+            "precision": provenance.precision,
+            "method": provenance.method,
+            "threads": provenance.threads,
+            "instances": instances,
+            "elapsed_seconds": seconds,
+            "instances_per_second": (seconds > 0.0).then(|| instances as f64 / seconds),
+        },
+        "counts": counts(map),
+        "energy_gaining_impacts": map.spec.analysis.response.then(|| {
+            gaining.map(|outcome| outcome.energy_gaining_impacts).sum::<u64>()
+        }),
+        "spec": resolved(&map.spec),
+        "columns": columns,
+    });
+    let mut bytes = serde_json::to_vec_pretty(&manifest).map_err(Error::WriteManifest)?;
+    bytes.push(b'\n');
+    Ok(bytes)
+}
+
+/// How many instances have each type, regime and status; names that do not occur are left out.
+fn counts(map: &Map) -> Value {
+    let mut result = Object::new();
+    if map.spec.analysis.linear {
+        let kinds = InstabilityType::ALL.map(|kind| (kind.name(), count(map, |r| r.kind == Some(kind))));
+        result.insert("type".to_owned(), occurring(&kinds));
+    }
+    if map.spec.analysis.response {
+        let regimes = Regime::ALL.map(|regime| (regime.name(), count(map, |r| r.regime == Some(regime))));
+        result.insert("regime".to_owned(), occurring(&regimes));
+        result.insert("unsettled".to_owned(), json!(count(map, |r| r.settled == Some(false))));
+    }
+    let statuses = Status::ALL.map(|status| (status.name(), count(map, |r| r.status == status)));
+    result.insert("status".to_owned(), occurring(&statuses));
+    Value::Object(result)
+}
+
+fn count(map: &Map, selects: impl Fn(&Record) -> bool) -> usize {
+    map.records.iter().filter(|record| selects(record)).count()
+}
+
+fn occurring(counts: &[(&str, usize)]) -> Value {
+    counts.iter().filter(|(_, n)| *n > 0).map(|(name, n)| ((*name).to_owned(), json!(n))).collect()
+}
+
+/// The sweep with every default filled in.
+fn resolved(spec: &Spec) -> Value {
+    let parameters: Object<String, Value> = crate::model::PARAMS
+        .iter()
+        .filter_map(|row| spec.base.get(row.param).map(|x| (row.name.to_owned(), json!(x))))
+        .collect();
+    json!({ "law": spec.law.name(), "parameters": parameters, "steps_per_period": spec.steps_per_period })
+}

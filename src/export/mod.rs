@@ -1,0 +1,29 @@
+//! Map → bytes. Every exporter returns bytes (or text) in full precision and base units; none opens a file.
+//!
+//! [`columns`] is the one table of output columns; [`csv`], [`manifest`] and [`figure`] write `map.csv`,
+//! `manifest.json` and `map.svg`; [`png`] draws any of the figures. [`modes`] and [`trace`] serve the
+//! commands of the same names.
+
+pub mod columns;
+pub mod csv;
+pub mod figure;
+pub mod manifest;
+pub mod modes;
+pub mod png;
+pub mod trace;
+
+use crate::error::{Error, Result};
+use crate::map::Map;
+use crate::outcome::Status;
+
+/// A map with a missing or an unwritten record is an error, never a row or a picture.
+fn complete(map: &Map) -> Result<()> {
+    let expected = map.spec.grid.len();
+    if map.records.len() != expected {
+        return Err(Error::Incomplete { records: map.records.len(), instances: expected });
+    }
+    match map.records.iter().position(|record| record.status == Status::Unwritten) {
+        Some(instance) => Err(Error::Unwritten { instance }),
+        None => Ok(()),
+    }
+}
