@@ -17,7 +17,7 @@ pub fn run(spec: Spec, progress: &(dyn Fn(usize) + Sync)) -> Result<Map> {
     let provenance = Provenance {
         backend: cpu::NAME.to_owned(),
         precision: "f64".to_owned(),
-        method: cpu::METHOD.to_owned(),
+        method: cpu::method(),
         threads: rayon::current_num_threads(),
         elapsed: began.elapsed(),
     };

@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use crate::classify;
 use crate::linear;
 use crate::map::Record;
+use crate::method::taylor::REFERENCE_ORDER;
 use crate::model::Param;
 use crate::model::equilibrium::Equilibrium;
 use crate::outcome::Status;
@@ -15,7 +16,10 @@ use crate::spec::Spec;
 pub const NAME: &str = "cpu";
 
 /// The method in a manifest.
-pub const METHOD: &str = "Taylor series of order 14 with events located in the step";
+#[must_use]
+pub fn method() -> String {
+    format!("Taylor series of order {REFERENCE_ORDER}, events located in the step")
+}
 
 /// Computes every instance of a sweep in the order of its grid; `progress` gets the number newly finished.
 pub fn records(spec: &Spec, progress: &(dyn Fn(usize) + Sync)) -> Vec<Record> {

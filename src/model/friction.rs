@@ -122,6 +122,18 @@ impl Piece {
         }
     }
 
+    /// The same piece as a function of `|v|/velocity_unit`.
+    #[must_use]
+    pub fn scaled(self, velocity_unit: f64) -> Piece {
+        match self {
+            Piece::Linear { at_zero, slope } => Piece::Linear { at_zero, slope: slope * velocity_unit },
+            Piece::Exponential { floor, height, rate } => {
+                Piece::Exponential { floor, height, rate: rate * velocity_unit }
+            }
+            Piece::Rational { at_zero, decay } => Piece::Rational { at_zero, decay: decay * velocity_unit },
+        }
+    }
+
     /// `dμ/d|v|` at the speed `speed ≥ 0`.
     #[must_use]
     pub fn slope(self, speed: f64) -> f64 {
@@ -183,68 +195,81 @@ impl FrictionLaw {
         !matches!(self, FrictionLaw::Constant { mu_s, mu_d } if mu_s < mu_d)
     }
 
-    /// The law as pieces in `|v|/velocity_unit` (1 for m/s).
+    /// The piece of the law at the speed `speed ≥ 0` (m/s); at a kink that of the larger speed.
     #[must_use]
-    pub fn pieces(&self, velocity_unit: f64) -> PieceChain {
-        let line = |at_zero, slope| Piece::Linear { at_zero, slope: slope * velocity_unit };
+    pub fn piece(&self, speed: f64) -> Piece {
         match self {
-            FrictionLaw::Constant { mu_s, mu_d } => {
-                PieceChain { pieces: vec![line(*mu_d, 0.0)], kinks: vec![], mu_stick: *mu_s }
+            FrictionLaw::Constant { mu_d, .. } => Piece::Linear { at_zero: *mu_d, slope: 0.0 },
+            FrictionLaw::Bilinear { mu_s, mu_d, knee_velocity } if speed < *knee_velocity => {
+                Piece::Linear { at_zero: *mu_s, slope: (mu_d - mu_s) / knee_velocity }
             }
-            FrictionLaw::Bilinear { mu_s, mu_d, .. } if mu_s.to_bits() == mu_d.to_bits() => {
-                PieceChain { pieces: vec![line(*mu_d, 0.0)], kinks: vec![], mu_stick: *mu_s }
+            FrictionLaw::Bilinear { mu_d, .. } => Piece::Linear { at_zero: *mu_d, slope: 0.0 },
+            FrictionLaw::Exponential { mu_s, mu_d, stribeck_velocity } => {
+                Piece::Exponential { floor: *mu_d, height: mu_s - mu_d, rate: 1.0 / stribeck_velocity }
             }
-            FrictionLaw::Bilinear { mu_s, mu_d, knee_velocity } => PieceChain {
-                pieces: vec![line(*mu_s, (mu_d - mu_s) / knee_velocity), line(*mu_d, 0.0)],
-                kinks: vec![knee_velocity / velocity_unit],
-                mu_stick: *mu_s,
-            },
-            FrictionLaw::Exponential { mu_s, mu_d, stribeck_velocity } => PieceChain {
-                pieces: vec![Piece::Exponential {
-                    floor: *mu_d,
-                    height: mu_s - mu_d,
-                    rate: velocity_unit / stribeck_velocity,
-                }],
-                kinks: vec![],
-                mu_stick: *mu_s,
-            },
-            FrictionLaw::Rational { mu_s, decay } => PieceChain {
-                pieces: vec![Piece::Rational { at_zero: *mu_s, decay: decay * velocity_unit }],
-                kinks: vec![],
-                mu_stick: *mu_s,
-            },
-            FrictionLaw::Table(table) => table_pieces(table, velocity_unit),
+            FrictionLaw::Rational { mu_s, decay } => Piece::Rational { at_zero: *mu_s, decay: *decay },
+            FrictionLaw::Table(table) => table.piece(table.velocity.partition_point(|&v| v <= speed)),
         }
     }
 
     /// μ in slip at the relative velocity `v`, m/s.
     #[must_use]
     pub fn mu(&self, v: f64) -> f64 {
-        self.pieces(1.0).mu(v.abs())
+        self.piece(v.abs()).mu(v.abs())
     }
 
     /// `dμ/d|v|` at the relative velocity `v` (m/s), s/m.
     #[must_use]
     pub fn slope(&self, v: f64) -> f64 {
-        self.pieces(1.0).slope(v.abs())
+        self.piece(v.abs()).slope(v.abs())
+    }
+
+    /// Where the pieces meet, m/s, rising.
+    fn kinks(&self) -> &[f64] {
+        match self {
+            FrictionLaw::Bilinear { mu_s, mu_d, knee_velocity } if mu_s.to_bits() != mu_d.to_bits() => {
+                std::slice::from_ref(knee_velocity)
+            }
+            FrictionLaw::Table(table) => &table.velocity[1..],
+            _ => &[],
+        }
+    }
+
+    /// The limit of stick, `|T| ≤ μ_s N`.
+    fn mu_stick(&self) -> f64 {
+        match self {
+            FrictionLaw::Constant { mu_s, .. }
+            | FrictionLaw::Bilinear { mu_s, .. }
+            | FrictionLaw::Exponential { mu_s, .. }
+            | FrictionLaw::Rational { mu_s, .. } => *mu_s,
+            FrictionLaw::Table(table) => table.mu[0],
+        }
+    }
+
+    /// The law as pieces in `|v|/velocity_unit` (1 for m/s).
+    #[must_use]
+    pub fn pieces(&self, velocity_unit: f64) -> PieceChain {
+        let kinks = self.kinks();
+        // Every piece holds at its lower end.
+        let starts = std::iter::once(&0.0).chain(kinks);
+        PieceChain {
+            pieces: starts.map(|&speed| self.piece(speed).scaled(velocity_unit)).collect(),
+            kinks: kinks.iter().map(|kink| kink / velocity_unit).collect(),
+            mu_stick: self.mu_stick(),
+        }
     }
 }
 
-fn table_pieces(table: &MuTable, velocity_unit: f64) -> PieceChain {
-    let rows: Vec<(f64, f64)> = table.velocity.iter().copied().zip(table.mu.iter().copied()).collect();
-    let mut pieces: Vec<Piece> = rows
-        .windows(2)
-        .map(|pair| {
-            let [(v0, mu0), (v1, mu1)] = [pair[0], pair[1]];
-            let slope = (mu1 - mu0) / (v1 - v0);
-            Piece::Linear { at_zero: mu0 - slope * v0, slope: slope * velocity_unit }
-        })
-        .collect();
-    let &(_, last) = rows.last().expect("a table has at least one row");
-    pieces.push(Piece::Linear { at_zero: last, slope: 0.0 });
-    PieceChain {
-        pieces,
-        kinks: rows[1..].iter().map(|(v, _)| v / velocity_unit).collect(),
-        mu_stick: table.mu[0],
+impl MuTable {
+    /// Piece `index`: before row `index`, constant beyond the last row.
+    fn piece(&self, index: usize) -> Piece {
+        match (self.velocity.get(index), self.mu.get(index)) {
+            (Some(v1), Some(mu1)) => {
+                let (v0, mu0) = (self.velocity[index - 1], self.mu[index - 1]);
+                let slope = (mu1 - mu0) / (v1 - v0);
+                Piece::Linear { at_zero: mu0 - slope * v0, slope }
+            }
+            _ => Piece::Linear { at_zero: self.mu[self.mu.len() - 1], slope: 0.0 },
+        }
     }
 }

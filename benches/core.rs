@@ -1,0 +1,65 @@
+//! Points per second of the eigenvalue analysis and instances per second of the transient reference, on
+//! one core. `cargo bench` prints both; `docs/performance.md` says what was measured.
+
+use std::hint::black_box;
+
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use squealmap::integrate::STEP_TOLERANCE;
+use squealmap::linear::analyse;
+use squealmap::method::taylor::REFERENCE_ORDER;
+use squealmap::model::friction::FrictionLaw;
+use squealmap::model::{Param, Params};
+use squealmap::response::{Plan, respond};
+use squealmap::spec::{Duration, Instance, StartKind};
+
+/// The paper's model over a grid of `side`² friction coefficients at 3 m/s.
+fn plane(side: usize) -> Vec<Instance> {
+    let coefficient = |k: usize| 0.6 * k as f64 / (side - 1) as f64;
+    let instance = |mu_s, mu_d| {
+        let mut params = Params::default();
+        params.set(Param::BeltVelocity, 3.0);
+        let law = FrictionLaw::Bilinear { mu_s, mu_d, knee_velocity: 5.0 };
+        Instance { params, law, impact_friction: true }
+    };
+    (0..side * side).map(|k| instance(coefficient(k / side), coefficient(k % side))).collect()
+}
+
+fn linear(criterion: &mut Criterion) {
+    let instances = plane(100);
+    let mut group = criterion.benchmark_group("linear");
+    group.throughput(Throughput::Elements(instances.len() as u64));
+    group.bench_function("analyse", |bencher| {
+        bencher.iter(|| {
+            for instance in &instances {
+                black_box(analyse(black_box(instance)));
+            }
+        });
+    });
+    group.finish();
+}
+
+fn response(criterion: &mut Criterion) {
+    let instances = plane(12);
+    let plan = Plan {
+        start: StartKind::Kick,
+        settle: Duration::Periods(100.0),
+        measure: Duration::Periods(40.0),
+        steps_per_period: 12,
+        order: REFERENCE_ORDER,
+        tolerance: STEP_TOLERANCE,
+    };
+    let mut group = criterion.benchmark_group("response");
+    group.throughput(Throughput::Elements(instances.len() as u64));
+    group.sample_size(10);
+    group.bench_function("140 periods", |bencher| {
+        bencher.iter(|| {
+            for instance in &instances {
+                black_box(respond(black_box(instance), &plan));
+            }
+        });
+    });
+    group.finish();
+}
+
+criterion_group!(benches, linear, response);
+criterion_main!(benches);
