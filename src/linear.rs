@@ -99,7 +99,7 @@ fn rightmost(eigenvalues: &[Complex64; 4]) -> Complex64 {
 }
 
 fn is_unstable(lambda: Complex64) -> bool {
-    lambda.re > UNSTABLE_ABOVE * lambda.norm()
+    lambda.re > 0.0 && lambda.re * lambda.re > UNSTABLE_ABOVE * UNSTABLE_ABOVE * lambda.norm_sqr()
 }
 
 /// The four eigenvalues of the sliding equilibrium, 1/s; `None` where there is no belt motion or no equilibrium.

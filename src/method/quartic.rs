@@ -9,8 +9,11 @@ use num_complex::Complex64;
 /// Newton steps on each root; every one is kept only if it lowers the residual.
 const POLISH: usize = 2;
 
+/// A step of this relative size is rounding.
+const NEGLIGIBLE_STEP: f64 = 4.0 * f64::EPSILON;
+
 /// Newton steps on the resolvent's root.
-const RESOLVENT_POLISH: usize = 3;
+const RESOLVENT_POLISH: usize = 2;
 
 /// The four roots of `c4 z⁴ + c3 z³ + c2 z² + c1 z + c0`; `c4` must not be 0.
 ///
@@ -18,12 +21,22 @@ const RESOLVENT_POLISH: usize = 3;
 #[must_use]
 pub fn roots([c0, c1, c2, c3, c4]: [f64; 5]) -> [Complex64; 4] {
     // z = scale ζ brings the roots to magnitude about 1.
-    let scale = (c0 / c4).abs().powf(0.25);
+    let scale = (c0 / c4).abs().sqrt().sqrt();
     let scale = if scale > 0.0 && scale.is_finite() { scale } else { 1.0 };
-    let (a, b) = (c3 / c4 / scale, c2 / c4 / scale.powi(2));
-    let (c, d) = (c1 / c4 / scale.powi(3), c0 / c4 / scale.powi(4));
-    let unpolished = factor(a, b, c, d);
-    unpolished.map(|root| scale * polish([d, c, b, a], root))
+    let (per_c4, per_scale) = (1.0 / c4, 1.0 / scale);
+    let square = per_scale * per_scale;
+    let (a, b) = (c3 * per_c4 * per_scale, c2 * per_c4 * square);
+    let (c, d) = (c1 * per_c4 * per_scale * square, c0 * per_c4 * square * square);
+    let [p, q, r, s] = factor(a, b, c, d);
+    // Of a conjugate pair one member is polished.
+    let pair = |p: Complex64, q: Complex64| {
+        let first = scale * polish([d, c, b, a], p);
+        let second =
+            if p.im != 0.0 && q == p.conj() { first.conj() } else { scale * polish([d, c, b, a], q) };
+        [first, second]
+    };
+    let ([p, q], [r, s]) = (pair(p, q), pair(r, s));
+    [p, q, r, s]
 }
 
 /// Roots of `ζ⁴ + a ζ³ + b ζ² + c ζ + d`.
@@ -39,11 +52,11 @@ fn factor(a: f64, b: f64, c: f64, d: f64) -> [Complex64; 4] {
         (delta2 / (2.0 * l2_ratio), l2_ratio),
         (d2_direct, l2_ratio),
     ];
-    let relative = |error: f64, size: f64| if size == 0.0 { error.abs() } else { (error / size).abs() };
+    let [per_b, per_c, per_d] = [b, c, d].map(|size| if size == 0.0 { 1.0 } else { 1.0 / size });
     let residual = |&(d2, l2): &(f64, f64)| {
-        let sum = relative(d2 + l1 * l1 + 2.0 * l3 - b, b)
-            + relative(2.0 * (d2 * l2 + l1 * l3) - c, c)
-            + relative(d2 * l2 * l2 + l3 * l3 - d, d);
+        let sum = ((d2 + l1 * l1 + 2.0 * l3 - b) * per_b).abs()
+            + ((2.0 * (d2 * l2 + l1 * l3) - c) * per_c).abs()
+            + ((d2 * l2 * l2 + l3 * l3 - d) * per_d).abs();
         if sum.is_nan() { f64::INFINITY } else { sum }
     };
     let best = candidates.iter().min_by(|p, q| residual(p).total_cmp(&residual(q)));
@@ -125,7 +138,12 @@ fn polish([d, c, b, a]: [f64; 4], start: Complex64) -> Complex64 {
     let mut residual = value(root);
     for _ in 0..POLISH {
         let slope = ((4.0 * root + 3.0 * a) * root + 2.0 * b) * root + c;
-        let next = root - residual / slope;
+        // residual / slope, which is not finite for a multiple root: then no step is taken.
+        let step = residual * slope.conj() * (1.0 / slope.norm_sqr());
+        if step.norm_sqr() <= NEGLIGIBLE_STEP * NEGLIGIBLE_STEP * root.norm_sqr() {
+            break;
+        }
+        let next = root - step;
         let next_residual = value(next);
         if next_residual.norm_sqr() < residual.norm_sqr() {
             root = next;
