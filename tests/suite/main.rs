@@ -1,4 +1,6 @@
 //! One integration binary, one module per topic.
 
+mod colour;
 mod export;
+mod figure;
 mod synthetic;
