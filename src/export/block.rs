@@ -24,6 +24,12 @@ const MOST_COLUMNS: usize = 6;
 const COLUMNS: usize = 5;
 /// A picture is no taller than this, points (75 mm).
 const TALLEST: f64 = 213.0;
+/// Panels become flatter when the rows of all blocks would not fit this height, points (230 mm) ...
+const PAGE: f64 = 652.0;
+/// ... but never flatter than this.
+const FLATTEST: f64 = 0.6;
+/// Heading, axis and legend of a block take about this much, points.
+const AROUND: f64 = 72.0;
 /// Height of a picture without a vertical axis, points.
 const STRIP: f64 = 24.0;
 /// Height of a row of named cells, points.
@@ -34,6 +40,8 @@ pub(super) struct Block<'a> {
     pub(super) map: &'a Map,
     pub(super) panels: &'a Panels,
     pub(super) colouring: Colouring,
+    /// How many blocks the figure stacks.
+    pub(super) blocks: usize,
     /// `(a)` before the heading, when there are several blocks.
     pub(super) letter: Option<char>,
 }
@@ -56,7 +64,7 @@ impl Block<'_> {
         let count = panels.all.len();
         let columns = self.columns();
         let rows = count.div_ceil(columns);
-        let lines = panels.all.iter().map(|panel| panel.title.len()).max().unwrap_or(0) as f64;
+        let lines = self.title_lines() as f64;
         // The labels of the vertical axis need its height, which needs the width they leave: start from a guess.
         let mut left = 34.0;
         let mut size = [0.0; 2];
@@ -105,7 +113,14 @@ impl Block<'_> {
         }
         bottom += 9.0;
         let legend = Legend::new(self.map, self.colouring, panels.scatter.is_none());
-        bottom + legend.draw(Some(svg), x + left, bottom, width - left) - y
+        // Under the panels, or from the outer edge where that saves a line.
+        let wide = legend.draw(None, x, bottom, width) < legend.draw(None, x + left, bottom, width - left);
+        let indent = if wide { 0.0 } else { left };
+        bottom + legend.draw(Some(svg), x + indent, bottom, width - indent) - y
+    }
+
+    fn title_lines(&self) -> usize {
+        self.panels.all.iter().map(|panel| panel.title.len()).max().unwrap_or(0)
     }
 
     fn columns(&self) -> usize {
@@ -123,7 +138,13 @@ impl Block<'_> {
         let height = match &self.panels.y {
             None => STRIP,
             Some(axis) if axis.is_named() => (NAMED_ROW * axis.len() as f64).clamp(2.0 * NAMED_ROW, TALLEST),
-            Some(_) => panel.min(TALLEST),
+            Some(_) => {
+                let count = self.panels.all.len();
+                let titles = self.title_lines() as f64 * LINE + GAP_DOWN;
+                let rows = count.div_ceil(columns).max(1) as f64;
+                let room = (PAGE / self.blocks as f64 - AROUND) / rows - titles;
+                room.clamp(FLATTEST * panel, panel).min(TALLEST)
+            }
         };
         [panel, height]
     }

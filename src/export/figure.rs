@@ -49,7 +49,8 @@ pub fn map_svg(map: &Map) -> Result<String> {
     let mut tallest: f64 = 0.0;
     for (number, colouring) in colourings.iter().enumerate() {
         let letter = (colourings.len() > 1).then_some(['a', 'b'][number]);
-        let block = Block { map, panels: &panels, colouring: *colouring, letter };
+        let blocks = if beside { 1 } else { colourings.len() };
+        let block = Block { map, panels: &panels, colouring: *colouring, blocks, letter };
         if beside {
             let x = MARGIN + number as f64 * (across + BLOCK_GAP);
             tallest = tallest.max(block.draw(&mut svg, x, y, across));

@@ -54,10 +54,10 @@ impl Legend {
             let of = |status: Status| {
                 map.records.iter().zip(&classes).filter(|(r, c)| r.status == status && c.is_none()).count()
             };
-            let reasons: Vec<String> = Status::ALL
+            let reasons: Vec<&str> = Status::ALL
                 .into_iter()
                 .filter(|status| *status != Status::Ok && of(*status) > 0)
-                .map(|status| status.name().replace('_', " "))
+                .map(reason)
                 .collect();
             let reasons =
                 if reasons.is_empty() { String::new() } else { format!(": {}", reasons.join(", ")) };
@@ -108,6 +108,20 @@ fn draw_swatch(svg: &mut Svg, swatch: &Swatch, x: f64, y: f64) {
         }
     }
     svg.rect(area, border);
+}
+
+/// A status in words.
+fn reason(status: Status) -> &'static str {
+    match status {
+        Status::Unwritten => "not computed",
+        Status::Ok => "ok",
+        Status::InvalidLaw => "invalid law",
+        Status::NoEquilibrium => "no equilibrium",
+        Status::Painleve => "Painlevé",
+        Status::EventLimit => "event limit",
+        Status::StepTooLarge => "step too large",
+        Status::NonFinite => "not finite",
+    }
 }
 
 /// `(n = 3)` of few instances, `12.3 %` of many.

@@ -13,13 +13,18 @@ pub mod figure;
 mod frame;
 mod legend;
 pub mod manifest;
+pub mod modes;
+mod modes_figure;
 pub mod palette;
 mod panels;
 mod picture_axis;
+mod plot;
 pub mod png;
 pub mod scale;
 pub mod svg;
 pub mod text;
+pub mod trace;
+mod trace_figure;
 
 use crate::error::{Error, Result};
 use crate::map::Map;

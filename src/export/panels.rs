@@ -77,21 +77,21 @@ fn from_axes(axes: &[Axis]) -> Panels {
     let stride = |axis: Option<usize>| axis.map_or(0, |i| strides[i]);
     let rows: &[usize] = y.as_ref().map_or(&[0], |y| &y.order);
     let further: Vec<usize> = (0..axes.len()).filter(|i| Some(*i) != x_axis && Some(*i) != y_axis).collect();
-    let varying: Vec<usize> = further.iter().copied().filter(|i| axes[*i].values.len() > 1).collect();
+    // The longest of them runs along the rows of panels.
+    let mut varying: Vec<usize> = further.iter().copied().filter(|i| axes[*i].values.len() > 1).collect();
+    varying.sort_by_key(|i| axes[*i].values.len());
     let total: usize = varying.iter().map(|i| axes[*i].values.len()).product();
     let panels = selection(total)
         .map(|number| {
             let mut rest = number;
-            let mut offset = 0;
-            let mut title = Vec::new();
-            // An axis of one value has its place in the title too.
-            for i in further.iter().rev() {
-                let n = axes[*i].values.len();
-                offset += (rest % n) * strides[*i];
-                title.push(setting(axes[*i].key, &axes[*i].values[rest % n]));
-                rest /= n;
+            let mut at = vec![0; axes.len()];
+            for i in varying.iter().rev() {
+                at[*i] = rest % axes[*i].values.len();
+                rest /= axes[*i].values.len();
             }
-            title.reverse();
+            let offset: usize = varying.iter().map(|i| at[*i] * strides[*i]).sum();
+            // An axis of one value has its place in the title too.
+            let title = further.iter().map(|i| setting(axes[*i].key, &axes[*i].values[at[*i]])).collect();
             let row = |j: &usize| offset + j * stride(y_axis);
             let instances = rows
                 .iter()
@@ -115,7 +115,7 @@ fn selection(total: usize) -> impl Iterator<Item = usize> {
 }
 
 /// `V = 3 m/s`, or the name of a law or material.
-fn setting(key: AxisKey, value: &Value) -> Text {
+pub(super) fn setting(key: AxisKey, value: &Value) -> Text {
     match (key, value) {
         (AxisKey::Param(param), Value::Number(x)) => {
             let row = param.info();

@@ -12,6 +12,8 @@ const TICK_WIDTH: f64 = 26.0;
 const TICK_HEIGHT: f64 = 20.0;
 /// An axis of no more values than this has its ticks at the values themselves.
 const FEW_VALUES: usize = 7;
+/// A log axis is wide from this ratio of its ends on.
+const WIDE: f64 = 1e3;
 /// Margin around scattered points, as a fraction of the axis.
 const SCATTER_MARGIN: f64 = 0.08;
 
@@ -97,6 +99,11 @@ impl PictureAxis {
         PictureAxis { key: Some(key), scale, edges: Vec::new(), order: Vec::new(), values }
     }
 
+    /// The same quantity for curves, which end at their first and last value, not half a cell beyond.
+    pub(super) fn edge_to_edge(self, scale: &Scale) -> PictureAxis {
+        PictureAxis { scale: scale.clone(), ..self }
+    }
+
     /// The position of a value on a scatter axis.
     pub(super) fn position(&self, value: &Value) -> f64 {
         match (&self.scale, value) {
@@ -130,7 +137,15 @@ impl PictureAxis {
                 (pair[1].at - pair[0].at) * length >= 0.5 * (extent(&pair[0].label) + extent(&pair[1].label))
             })
         };
-        if (1..=FEW_VALUES).contains(&self.values.len()) && self.scale.exponent() == 0 {
+        if self.key.is_none() {
+            return Vec::new();
+        }
+        let short = match self.scale {
+            // Values over many decades are labelled as powers.
+            Scale::Log { low, high } => high / low < WIDE,
+            _ => self.scale.exponent() == 0,
+        };
+        if short && (1..=FEW_VALUES).contains(&self.values.len()) {
             let at_values: Vec<Tick> = self
                 .values
                 .iter()

@@ -107,6 +107,8 @@ impl Scale {
     fn log_ticks(&self, low: f64, high: f64, most: usize) -> Vec<Tick> {
         /// Mantissas of ticks, from few to many.
         const MANTISSAS: [&[f64]; 3] = [&[1.0], &[1.0, 3.0], &[1.0, 2.0, 5.0]];
+        /// Powers of ten written out as plain numbers.
+        const PLAIN_POWERS: std::ops::RangeInclusive<i32> = -3..=4;
         /// Fewer ticks do not show a scale.
         const FEWEST: usize = 3;
         let decades = decade(low)..=decade(high);
@@ -130,9 +132,11 @@ impl Scale {
                 .collect();
         }
         let stride = ticks.len().div_ceil(most.max(2));
+        let plain = ticks.iter().all(|(_, exponent)| PLAIN_POWERS.contains(exponent));
         let tick = |(mantissa, exponent): (f64, i32)| {
             let value = mantissa * 10_f64.powi(exponent);
-            Tick { at: self.position(value), label: power_label(mantissa, exponent) }
+            let label = if plain { value_label(value) } else { power_label(mantissa, exponent) };
+            Tick { at: self.position(value), label }
         };
         ticks.into_iter().step_by(stride).map(tick).collect()
     }
@@ -157,14 +161,8 @@ pub fn value_label(value: f64) -> Text {
 }
 
 fn power_label(mantissa: f64, exponent: i32) -> Text {
-    /// Powers written out as plain numbers.
-    const PLAIN: std::ops::RangeInclusive<i32> = -2..=3;
     /// Mantissas this close to 1 are 1: rounding of a division.
     const ONE: f64 = 1e-6;
-    if PLAIN.contains(&exponent) {
-        let decimals = usize::try_from(-exponent).unwrap_or(0);
-        return Text::from(format!("{:.decimals$}", mantissa * 10_f64.powi(exponent)));
-    }
     let power = minus(&exponent.to_string());
     let text = if (mantissa - 1.0).abs() < ONE {
         Text::default()

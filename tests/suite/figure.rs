@@ -273,8 +273,8 @@ fn failed_instances_are_crossed_and_named() {
         assert!((0.1..0.8).contains(&red) && white > 0.05, "{red} {white}");
     }
     assert_eq!(colour(&picture, frames[0], (0.125, 0.16)), rgb(TYPES[0].fill));
-    assert!(svg.contains(">no result: painleve (n = 1)<"));
-    assert!(svg.contains(">no result: painleve, event limit (n = 2)<"));
+    assert!(svg.contains(">no result: Painlevé (n = 1)<"));
+    assert!(svg.contains(">no result: Painlevé, event limit (n = 2)<"));
 }
 
 #[test]

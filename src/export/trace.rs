@@ -1,0 +1,30 @@
+//! `trace`: one instance in full, as a table; its figure is in `trace_figure.rs`.
+
+use super::csv::Table;
+use crate::error::Result;
+use crate::trace::{Trace, TraceRow};
+
+pub use super::trace_figure::trace_svg;
+
+/// The columns of a trace, SI units.
+pub const COLUMNS: [&str; 13] =
+    ["t", "x2", "y2", "y1", "vx2", "vy2", "vy1", "ax2", "ay2", "ay1", "N", "T", "state"];
+
+/// The table of a trajectory, one row per sample.
+///
+/// # Errors
+/// When the table cannot be written.
+pub fn trace_csv(trace: &Trace) -> Result<Vec<u8>> {
+    let mut table = Table::new(COLUMNS.into_iter())?;
+    for row in &trace.rows {
+        let cells = numbers(row).map(|x| super::columns::Cell::from(x).to_string());
+        table.row(cells.into_iter().chain(std::iter::once(row.state.name().to_owned())))?;
+    }
+    table.finish()
+}
+
+/// The numbers of a sample in the order of [`COLUMNS`].
+fn numbers(row: &TraceRow) -> [f64; 12] {
+    let ([x2, y2, y1], [vx2, vy2, vy1], [ax2, ay2, ay1]) = (row.position, row.velocity, row.acceleration);
+    [row.t, x2, y2, y1, vx2, vy2, vy1, ax2, ay2, ay1, row.normal_force, row.tangential_force]
+}
