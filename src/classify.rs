@@ -95,3 +95,56 @@ impl Regime {
         }
     }
 }
+
+use crate::outcome::Outcome;
+
+/// Unstable: `Re λ` above this fraction of `|λ|`; below it rounding decides.
+pub const UNSTABLE_ABOVE: f64 = 1e-9;
+
+/// Every threshold of the regimes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Thresholds {
+    /// A contact state counts when it fills at least this fraction of the window.
+    pub state_counts: f64,
+    /// Decay: the speed of the second half below this multiple of that of the first.
+    pub decay: f64,
+    /// Rest: the speed below this fraction of the belt velocity …
+    pub small_speed: f64,
+    /// … while the second half is at most this multiple of the first.
+    pub small_growth: f64,
+    /// Settled: standard deviation of `x2` and rms of `ÿ1` of the two halves agree within this fraction.
+    pub settled: f64,
+}
+
+/// The thresholds in use.
+pub const THRESHOLDS: Thresholds =
+    Thresholds { state_counts: 1e-3, decay: 0.99, small_speed: 0.01, small_growth: 1.01, settled: 0.01 };
+
+/// The regime of a completed outcome at the belt velocity `belt_velocity` (m/s), and whether it is settled.
+#[must_use]
+pub fn regime(outcome: &Outcome, belt_velocity: f64) -> (Regime, bool) {
+    let limits = THRESHOLDS;
+    let fraction = |value: Option<f64>| value.unwrap_or(0.0);
+    let (stick, free) = (fraction(outcome.stick), fraction(outcome.free));
+    let counts = |value: f64| value >= limits.state_counts;
+    let [first, second] = outcome.speed_rms_halves;
+    let regime = if stick >= 1.0 {
+        Regime::Stuck
+    } else if counts(free) {
+        if counts(stick) { Regime::DetachingStickSlip } else { Regime::Detaching }
+    } else if counts(stick) {
+        Regime::StickSlip
+    } else if counts(fraction(outcome.reverse)) {
+        Regime::SlipReversal
+    } else if second < limits.decay * first
+        || (first < limits.small_speed * belt_velocity && second <= limits.small_growth * first)
+    {
+        Regime::Equilibrium
+    } else {
+        Regime::Slip
+    };
+    let agree = |[a, b]: [f64; 2]| (a - b).abs() <= limits.settled * a.max(b);
+    let settled =
+        regime == Regime::Equilibrium || (agree(outcome.x2_std_halves) && agree(outcome.ay_rms_halves));
+    (regime, settled)
+}

@@ -1,9 +1,222 @@
-//! The one error type.
+//! The one error type. Every message is one sentence: where, the key, the value, the limit, what to do.
 
-/// Why a run failed.
+use std::path::PathBuf;
+
+pub use crate::place::Place;
+
+/// Why a run failed. Instances that fail are data (see [`crate::outcome::Status`]), not errors.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
+    /// The sweep file cannot be read.
+    #[error("cannot read the sweep file `{}`: {why}", path.display())]
+    ReadSweep {
+        /// The sweep file.
+        path: PathBuf,
+        /// What the system says.
+        why: String,
+    },
+    /// A file that the sweep file names cannot be read.
+    #[error("{at}: cannot read the {role} file `{}`: {why}", path.display())]
+    ReadNamed {
+        /// Where it is named.
+        at: Place,
+        /// What it is for: `material`, `table` or `points`.
+        role: &'static str,
+        /// The path that was tried.
+        path: PathBuf,
+        /// What the system says.
+        why: String,
+    },
+    /// A text is not what its format wants (TOML, or rows of fields).
+    #[error("{at}: {why}")]
+    Syntax {
+        /// Where.
+        at: Place,
+        /// What the parser says.
+        why: String,
+    },
+    /// A key, column or name that does not exist here.
+    #[error("{at}: unknown {what} `{name}` {within}; {advice}")]
+    Unknown {
+        /// Where.
+        at: Place,
+        /// What kind of name it is: key, column, law, …
+        what: &'static str,
+        /// The name as written.
+        name: String,
+        /// In which section, header or argument.
+        within: String,
+        /// The nearest name, or all of them.
+        advice: String,
+    },
+    /// A value of the wrong type.
+    #[error("{at}: {key} must be {expected}, found {found}")]
+    WrongType {
+        /// Where.
+        at: Place,
+        /// The key and its section, axis or column.
+        key: String,
+        /// What is wanted.
+        expected: String,
+        /// What stands there.
+        found: String,
+    },
+    /// A value outside its limits.
+    #[error("{at}: {key} is {value} but must be {limit}")]
+    OutOfRange {
+        /// Where.
+        at: Place,
+        /// The key and its section, axis or column.
+        key: String,
+        /// The value as written.
+        value: String,
+        /// The legal values.
+        limit: String,
+    },
+    /// A value that something needs is not given.
+    #[error("{at}: `{key}` is missing: {needed_by}, so {remedy}")]
+    Missing {
+        /// Where it could stand, or what asks for it.
+        at: Place,
+        /// The key.
+        key: &'static str,
+        /// What needs it.
+        needed_by: String,
+        /// What to write.
+        remedy: String,
+    },
+    /// Two keys that exclude each other.
+    #[error("{at}: {key} stands beside {other}; remove one of them")]
+    Conflict {
+        /// Where the first stands.
+        at: Place,
+        /// The key and where it stands.
+        key: String,
+        /// The other one and where it stands.
+        other: String,
+    },
+    /// A key that nothing chosen in the sweep uses.
+    #[error("{at}: {key} would have no effect: it is used only by {used_by}; remove it or choose that")]
+    Unused {
+        /// Where.
+        at: Place,
+        /// The key and where it stands.
+        key: String,
+        /// What would use it.
+        used_by: String,
+    },
+    /// An axis, list or file without a single value.
+    #[error("{at}: {what} is empty; give at least {least}")]
+    Empty {
+        /// Where.
+        at: Place,
+        /// The axis, list or file.
+        what: String,
+        /// The least that is wanted.
+        least: &'static str,
+    },
+    /// Ends and number of points of an axis that do not go together.
+    #[error("{at}: axis `{axis}` has {points} point(s) from {from} to {to}; {remedy}")]
+    AxisEnds {
+        /// Where.
+        at: Place,
+        /// The axis.
+        axis: &'static str,
+        /// The number of points.
+        points: usize,
+        /// The first value.
+        from: f64,
+        /// The last value.
+        to: f64,
+        /// What to write.
+        remedy: &'static str,
+    },
+    /// More instances than a sweep may hold.
+    #[error("{at}: the sweep has {count} instances but at most {limit} are allowed; take fewer points")]
+    TooMany {
+        /// Where.
+        at: Place,
+        /// The product of the axes, as far as it can be computed.
+        count: String,
+        /// The limit.
+        limit: usize,
+    },
+    /// A row with another number of fields than the header.
+    #[error("{at}: the row has {fields} field(s) but the header has {columns}; give one field per column")]
+    RaggedRow {
+        /// Where.
+        at: Place,
+        /// Fields of the row.
+        fields: usize,
+        /// Columns of the header.
+        columns: usize,
+    },
+    /// A column that has to rise strictly does not.
+    #[error("{at}: `{column}` is {value} after {previous} but must rise from row to row; sort the rows")]
+    NotRising {
+        /// Where.
+        at: Place,
+        /// The column.
+        column: &'static str,
+        /// The value.
+        value: f64,
+        /// The value of the row before.
+        previous: f64,
+    },
+    /// A temperature outside the rows of a material that is not clamped.
+    #[error(
+        "{at}: `temperature` is {value} but material `{material}` covers {low} to {high} °C; \
+         stay inside or set outside = \"clamp\" in [friction]"
+    )]
+    OutsideMaterial {
+        /// Where the temperature is given.
+        at: Place,
+        /// The temperature, °C.
+        value: f64,
+        /// The material file as written.
+        material: String,
+        /// Its lowest temperature, °C.
+        low: f64,
+        /// Its highest temperature, °C.
+        high: f64,
+    },
+    /// A part of an `--at` argument that is not `name=value`, or names something twice.
+    #[error("{at}: `{part}` {problem}; write name=value pairs such as mu_s=0.4,belt_velocity=3")]
+    AtSyntax {
+        /// The argument.
+        at: Place,
+        /// The part.
+        part: String,
+        /// What is wrong with it.
+        problem: &'static str,
+    },
+    /// Swept parameters that an `--at` argument leaves open.
+    #[error("{at}: no value for {names}, which the sweep varies; add {example}")]
+    AtMissing {
+        /// The argument.
+        at: Place,
+        /// The parameters without a value.
+        names: String,
+        /// What could be added.
+        example: String,
+    },
+    /// An output directory that cannot be created or written.
+    #[error("cannot write to the output directory `{}`: {why}; choose another with -o", path.display())]
+    OutputDirectory {
+        /// The directory.
+        path: PathBuf,
+        /// What the system says.
+        why: String,
+    },
+    /// An output file that cannot be written.
+    #[error("cannot write `{}`: {why}", path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        why: String,
+    },
     /// A map holds fewer or more records than its grid has instances.
     #[error("the map holds {records} records for {instances} instances; nothing was exported")]
     Incomplete {
@@ -40,6 +253,69 @@ pub enum Error {
         "modes needs an axis of numbers with at least 2 values, and [axes] has none; add one, e.g. mu_d = {{ from = 0.0, to = 0.6, points = 601 }}"
     )]
     NoModesAxis,
+    /// The worker threads cannot be started.
+    #[error("cannot start {threads} worker threads: {why}; choose another number with --threads")]
+    Threads {
+        /// How many were asked for.
+        threads: usize,
+        /// What the system says.
+        why: String,
+    },
+}
+
+impl Error {
+    /// The place in the input that the error is about, for underlining it.
+    #[must_use]
+    pub fn place(&self) -> Option<&Place> {
+        match self {
+            Error::ReadNamed { at, .. }
+            | Error::Syntax { at, .. }
+            | Error::Unknown { at, .. }
+            | Error::WrongType { at, .. }
+            | Error::OutOfRange { at, .. }
+            | Error::Missing { at, .. }
+            | Error::Conflict { at, .. }
+            | Error::Unused { at, .. }
+            | Error::Empty { at, .. }
+            | Error::AxisEnds { at, .. }
+            | Error::TooMany { at, .. }
+            | Error::RaggedRow { at, .. }
+            | Error::NotRising { at, .. }
+            | Error::OutsideMaterial { at, .. }
+            | Error::AtSyntax { at, .. }
+            | Error::AtMissing { at, .. } => Some(at),
+            Error::ReadSweep { .. }
+            | Error::OutputDirectory { .. }
+            | Error::Write { .. }
+            | Error::Incomplete { .. }
+            | Error::Unwritten { .. }
+            | Error::WriteTable(_)
+            | Error::WriteManifest(_)
+            | Error::ReadSvg(_)
+            | Error::Rasterize { .. }
+            | Error::NoModesAxis
+            | Error::Threads { .. } => None,
+        }
+    }
+
+    /// Whether the input (file, arguments, output directory) is at fault, as opposed to the run.
+    #[must_use]
+    pub fn is_bad_input(&self) -> bool {
+        match self {
+            Error::Write { .. }
+            | Error::Incomplete { .. }
+            | Error::Unwritten { .. }
+            | Error::WriteTable(_)
+            | Error::WriteManifest(_)
+            | Error::ReadSvg(_)
+            | Error::Rasterize { .. } => false,
+            Error::ReadSweep { .. }
+            | Error::OutputDirectory { .. }
+            | Error::NoModesAxis
+            | Error::Threads { .. } => true,
+            _ => self.place().is_some(),
+        }
+    }
 }
 
 /// The crate's result.

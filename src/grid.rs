@@ -1,6 +1,6 @@
 //! Axes, index ↔ coordinates, order. The first axis varies slowest.
 
-use crate::model::Param;
+use crate::model::{PARAMS, Param};
 
 /// One coordinate of an instance.
 #[derive(Clone, Debug, PartialEq)]
@@ -9,6 +9,15 @@ pub enum Value {
     Number(f64),
     /// A name: of a friction law, or a material file as written in the sweep file.
     Text(String),
+}
+
+impl std::fmt::Display for Value {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Value::Number(number) => write!(f, "{number}"),
+            Value::Text(text) => f.write_str(text),
+        }
+    }
 }
 
 /// What an axis (or a column of a tuple file) varies.
@@ -31,6 +40,21 @@ impl AxisKey {
             AxisKey::Law => "law",
             AxisKey::Material => "material",
         }
+    }
+
+    /// The key with this flat name.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<AxisKey> {
+        match name {
+            "law" => Some(AxisKey::Law),
+            "material" => Some(AxisKey::Material),
+            _ => Param::from_name(name).map(AxisKey::Param),
+        }
+    }
+
+    /// The names of everything that can vary.
+    pub fn names() -> impl Iterator<Item = &'static str> {
+        PARAMS.iter().map(|row| row.name).chain(["law", "material"])
     }
 }
 

@@ -1,4 +1,26 @@
 //! Complex eigenvalue analysis and attribution: independent of method, observe and classify.
+//!
+//! With `μ0 = μ(V)` the characteristic polynomial of the sliding equilibrium is
+//!
+//! ```text
+//! A(λ) B(λ) + s (μ0 c − s) (c2 λ + k2)²
+//! A = (m2 + m1 c² + μ0 m1 c s) λ² + [C11 + μ'(V) N0] λ + K11     B = m1 λ² + c2 λ + k2
+//! C11, K11 = (c1, k1) c (c + μ0 s) + (c2, k2) s (s − μ0 c)
+//! ```
+//!
+//! (the paper's matrices (4), its normal degree of freedom eliminated). Attribution removes one mechanism
+//! at a time at the same equilibrium: the slope (`μ' = 0`), or the feedback of the normal force (`μ0 = 0`
+//! in the matrices, the slope kept at the frozen `N0`).
+
+use std::f64::consts::TAU;
+
+use num_complex::Complex64;
+
+use crate::classify::{InstabilityType, UNSTABLE_ABOVE};
+use crate::method::quartic;
+use crate::model::Param;
+use crate::model::equilibrium::Equilibrium;
+use crate::spec::Instance;
 
 /// Eigenvalue analysis of one sliding equilibrium.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,4 +35,137 @@ pub struct Linear {
     pub growth_rate_flat: f64,
     /// Growth rate with the normal force frozen (negative slope alone), 1/s.
     pub growth_rate_frozen: f64,
+}
+
+/// The coefficients of the characteristic polynomial; SI units.
+struct Sliding {
+    m1: f64,
+    m2: f64,
+    k1: f64,
+    k2: f64,
+    c1: f64,
+    c2: f64,
+    s: f64,
+    c: f64,
+}
+
+impl Sliding {
+    fn new(instance: &Instance) -> Sliding {
+        let value = |param| instance.params.require(param);
+        let (s, c) = value(Param::Theta).sin_cos();
+        Sliding {
+            m1: value(Param::M1),
+            m2: value(Param::M2),
+            k1: value(Param::K1),
+            k2: value(Param::K2),
+            c1: value(Param::C1),
+            c2: value(Param::C2),
+            s,
+            c,
+        }
+    }
+
+    /// Powers 0 to 4 for the friction coefficient `mu` in the matrices and the damping `slope_damping = μ' N0`.
+    fn polynomial(&self, mu: f64, slope_damping: f64) -> [f64; 5] {
+        let Sliding { m1, m2, k1, k2, c1, c2, s, c } = *self;
+        let (along, across) = (c * (c + mu * s), s * (s - mu * c));
+        let a = [
+            k1 * along + k2 * across,
+            c1 * along + c2 * across + slope_damping,
+            m2 + m1 * c * c + mu * m1 * c * s,
+        ];
+        let b = [k2, c2, m1];
+        [
+            a[0] * b[0] - across * k2 * k2,
+            a[0] * b[1] + a[1] * b[0] - across * 2.0 * c2 * k2,
+            a[0] * b[2] + a[1] * b[1] + a[2] * b[0] - across * c2 * c2,
+            a[1] * b[2] + a[2] * b[1],
+            a[2] * b[2],
+        ]
+    }
+
+    /// `y1/x2` of the mode with the eigenvalue `lambda`: it depends on λ alone.
+    fn mode_ratio(&self, lambda: Complex64) -> Complex64 {
+        let spring = self.c2 * lambda + self.k2;
+        spring * self.s / (self.m1 * lambda * lambda + spring)
+    }
+}
+
+/// The eigenvalue of largest real part; of a pair the one with positive imaginary part.
+fn rightmost(eigenvalues: &[Complex64; 4]) -> Complex64 {
+    let key = |z: &Complex64| (z.re, z.im);
+    let first = eigenvalues[0];
+    eigenvalues[1..].iter().fold(first, |best, z| if key(z) > key(&best) { *z } else { best })
+}
+
+fn is_unstable(lambda: Complex64) -> bool {
+    lambda.re > UNSTABLE_ABOVE * lambda.norm()
+}
+
+/// The four eigenvalues of the sliding equilibrium, 1/s; `None` where there is no belt motion or no equilibrium.
+#[must_use]
+pub fn eigenvalues(instance: &Instance) -> Option<[Complex64; 4]> {
+    let equilibrium = sliding(instance)?;
+    let slope_damping = equilibrium.slope * equilibrium.normal_force;
+    Some(quartic::roots(Sliding::new(instance).polynomial(equilibrium.mu, slope_damping)))
+}
+
+/// The equilibrium of a belt that moves.
+fn sliding(instance: &Instance) -> Option<Equilibrium> {
+    (instance.params.require(Param::BeltVelocity) > 0.0).then(|| Equilibrium::new(instance).ok()).flatten()
+}
+
+/// The most unstable mode with a tangential part: its eigenvalue (1/s) and `y1/x2`.
+///
+/// At θ = 0 the normal mode is decoupled and cannot be excited by the belt.
+#[must_use]
+pub fn leading_mode(instance: &Instance) -> Option<(Complex64, Complex64)> {
+    let system = Sliding::new(instance);
+    let equilibrium = sliding(instance)?;
+    let slope_damping = equilibrium.slope * equilibrium.normal_force;
+    if system.s == 0.0 {
+        let (mass, damping) = (system.m1 + system.m2, system.c1 + slope_damping);
+        let half = Complex64::new(-0.5 * damping / mass, 0.0);
+        let lambda = half + (half * half - system.k1 / mass).sqrt();
+        return Some((lambda, Complex64::ZERO));
+    }
+    let lambda = rightmost(&quartic::roots(system.polynomial(equilibrium.mu, slope_damping)));
+    Some((lambda, system.mode_ratio(lambda)))
+}
+
+/// Type of instability and the eigenvalue analysis behind it (`None` at rest and under divergence); both
+/// `None` for an ill-posed friction law.
+#[must_use]
+pub fn analyse(instance: &Instance) -> (Option<InstabilityType>, Option<Linear>) {
+    if !instance.law.is_valid() {
+        return (None, None);
+    }
+    if instance.params.require(Param::BeltVelocity) == 0.0 {
+        return (Some(InstabilityType::Sticking), None);
+    }
+    let Some(equilibrium) = sliding(instance) else {
+        return (Some(InstabilityType::Divergence), None);
+    };
+    let system = Sliding::new(instance);
+    let slope_damping = equilibrium.slope * equilibrium.normal_force;
+    let leading = |mu, damping| rightmost(&quartic::roots(system.polynomial(mu, damping)));
+    let full = leading(equilibrium.mu, slope_damping);
+    let flat = if slope_damping == 0.0 { full } else { leading(equilibrium.mu, 0.0) };
+    let frozen = leading(0.0, slope_damping);
+    let kind = match (is_unstable(full), is_unstable(flat), is_unstable(frozen)) {
+        (false, _, _) => InstabilityType::Stable,
+        (true, false, true) => InstabilityType::NegativeSlope,
+        (true, true, false) => InstabilityType::ModeCoupling,
+        (true, true, true) => InstabilityType::Coexistence,
+        (true, false, false) => InstabilityType::Interaction,
+    };
+    let phase = (full.im != 0.0 && system.s != 0.0).then(|| system.mode_ratio(full).arg().to_degrees());
+    let linear = Linear {
+        growth_rate: full.re,
+        frequency: full.im / TAU,
+        phase,
+        growth_rate_flat: flat.re,
+        growth_rate_frozen: frozen.re,
+    };
+    (Some(kind), Some(linear))
 }

@@ -74,13 +74,13 @@ pub struct Outcome {
     pub ax_rms: Option<f64>,
     /// Root mean square of `ÿ1`, m/s².
     pub ay_rms: Option<f64>,
-    /// Largest `|ẍ2|` at step ends and events, m/s².
+    /// Largest `|ẍ2|`, m/s².
     pub ax_peak: Option<f64>,
-    /// Largest `|ÿ1|` at step ends and events, m/s².
+    /// Largest `|ÿ1|`, m/s².
     pub ay_peak: Option<f64>,
     /// `∫T dt / ∫N dt`.
     pub friction_mean: Option<f64>,
-    /// Largest normal force at step ends and events, N.
+    /// Largest normal force, N.
     pub n_peak: Option<f64>,
     /// Upward zero crossings of `ẋ2` over the time from the first to the last, Hz.
     pub response_frequency: Option<f64>,

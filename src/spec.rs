@@ -1,11 +1,38 @@
 //! TOML → validated spec; the only file that reads TOML.
 
+mod at;
+mod axis;
+mod check;
+mod document;
+mod duration;
+mod files;
+mod instance;
+mod law;
+mod names;
+mod read;
+mod resolved;
+mod rows;
+mod sections;
+mod varied;
+
 use std::sync::Arc;
 
 use crate::grid::Grid;
 use crate::model::Params;
 use crate::model::friction::{FrictionLaw, LawKind, MuTable};
 use crate::model::material::Material;
+
+/// Most instances of one sweep; the records of more would not fit the memory of a usual machine.
+pub const MAX_INSTANCES: usize = 100_000_000;
+
+/// Steps per period `2π/ω0` when a sweep does not say: enough for a Taylor method of high order.
+pub const STEPS_PER_PERIOD: u32 = 12;
+
+/// Time before the measuring window when a sweep does not say (0 with a ramp).
+pub const SETTLE: Duration = Duration::Periods(200.0);
+
+/// The measuring window when a sweep does not say (the ramp with a ramp).
+pub const MEASURE: Duration = Duration::Periods(100.0);
 
 /// What a sweep computes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -181,7 +181,6 @@ pub fn table(spec: &Spec, modes: &Modes) -> Result<Vec<u8>> {
 }
 
 /// The eigenvalues of an instance, 1/s.
-pub(super) fn eigenvalues(_spec: &Spec, _index: usize) -> Option<[Complex64; 4]> {
-    // crate::linear::eigenvalues(&spec.instance(index))
-    None
+pub(super) fn eigenvalues(spec: &Spec, index: usize) -> Option<[Complex64; 4]> {
+    crate::linear::eigenvalues(&spec.instance(index))
 }

@@ -82,3 +82,169 @@ pub enum FrictionLaw {
     /// Piecewise linear in `|v|`; constant beyond the last row.
     Table(Arc<MuTable>),
 }
+
+/// One smooth piece of a law, a function of the speed `|v|`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Piece {
+    /// `μ = at_zero + slope |v|`.
+    Linear {
+        /// The piece continued to `|v| = 0`.
+        at_zero: f64,
+        /// `dμ/d|v|`.
+        slope: f64,
+    },
+    /// `μ = floor + height exp(−rate |v|)`.
+    Exponential {
+        /// μ at infinity.
+        floor: f64,
+        /// μ(0) − μ(∞).
+        height: f64,
+        /// `1/v0`.
+        rate: f64,
+    },
+    /// `μ = at_zero/(1 + decay |v|)`.
+    Rational {
+        /// μ at rest.
+        at_zero: f64,
+        /// δ.
+        decay: f64,
+    },
+}
+
+impl Piece {
+    /// μ at the speed `speed ≥ 0`.
+    #[must_use]
+    pub fn mu(self, speed: f64) -> f64 {
+        match self {
+            Piece::Linear { at_zero, slope } => at_zero + slope * speed,
+            Piece::Exponential { floor, height, rate } => floor + height * (-rate * speed).exp(),
+            Piece::Rational { at_zero, decay } => at_zero / (1.0 + decay * speed),
+        }
+    }
+
+    /// `dμ/d|v|` at the speed `speed ≥ 0`.
+    #[must_use]
+    pub fn slope(self, speed: f64) -> f64 {
+        match self {
+            Piece::Linear { slope, .. } => slope,
+            Piece::Exponential { height, rate, .. } => -rate * height * (-rate * speed).exp(),
+            Piece::Rational { at_zero, decay } => -decay * at_zero / (1.0 + decay * speed).powi(2),
+        }
+    }
+}
+
+/// A law as a chain of pieces: piece `i` holds for speeds from `kinks[i - 1]` to `kinks[i]`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PieceChain {
+    /// The pieces, from `|v| = 0` on; at least one.
+    pub pieces: Vec<Piece>,
+    /// The speeds between the pieces, rising; one fewer than pieces.
+    pub kinks: Vec<f64>,
+    /// Limit of stick: `|T| ≤ mu_stick N`.
+    pub mu_stick: f64,
+}
+
+impl PieceChain {
+    /// The index of the piece at `speed`; at a kink that of the larger speed.
+    #[must_use]
+    pub fn index(&self, speed: f64) -> usize {
+        self.kinks.partition_point(|&kink| kink <= speed)
+    }
+
+    /// μ in slip at the speed `speed ≥ 0`.
+    #[must_use]
+    pub fn mu(&self, speed: f64) -> f64 {
+        self.pieces[self.index(speed)].mu(speed)
+    }
+
+    /// `dμ/d|v|` at the speed `speed ≥ 0`.
+    #[must_use]
+    pub fn slope(&self, speed: f64) -> f64 {
+        self.pieces[self.index(speed)].slope(speed)
+    }
+}
+
+impl FrictionLaw {
+    /// Which law this is.
+    #[must_use]
+    pub fn kind(&self) -> LawKind {
+        match self {
+            FrictionLaw::Constant { .. } => LawKind::Constant,
+            FrictionLaw::Bilinear { .. } => LawKind::Bilinear,
+            FrictionLaw::Exponential { .. } => LawKind::Exponential,
+            FrictionLaw::Rational { .. } => LawKind::Rational,
+            FrictionLaw::Table(_) => LawKind::Table,
+        }
+    }
+
+    /// Whether the law is well-posed. `constant` with `μ_s < μ_d` leaves stick and re-sticks at once.
+    #[must_use]
+    pub fn is_valid(&self) -> bool {
+        !matches!(self, FrictionLaw::Constant { mu_s, mu_d } if mu_s < mu_d)
+    }
+
+    /// The law as pieces in `|v|/velocity_unit` (1 for m/s).
+    #[must_use]
+    pub fn pieces(&self, velocity_unit: f64) -> PieceChain {
+        let line = |at_zero, slope| Piece::Linear { at_zero, slope: slope * velocity_unit };
+        match self {
+            FrictionLaw::Constant { mu_s, mu_d } => {
+                PieceChain { pieces: vec![line(*mu_d, 0.0)], kinks: vec![], mu_stick: *mu_s }
+            }
+            FrictionLaw::Bilinear { mu_s, mu_d, .. } if mu_s.to_bits() == mu_d.to_bits() => {
+                PieceChain { pieces: vec![line(*mu_d, 0.0)], kinks: vec![], mu_stick: *mu_s }
+            }
+            FrictionLaw::Bilinear { mu_s, mu_d, knee_velocity } => PieceChain {
+                pieces: vec![line(*mu_s, (mu_d - mu_s) / knee_velocity), line(*mu_d, 0.0)],
+                kinks: vec![knee_velocity / velocity_unit],
+                mu_stick: *mu_s,
+            },
+            FrictionLaw::Exponential { mu_s, mu_d, stribeck_velocity } => PieceChain {
+                pieces: vec![Piece::Exponential {
+                    floor: *mu_d,
+                    height: mu_s - mu_d,
+                    rate: velocity_unit / stribeck_velocity,
+                }],
+                kinks: vec![],
+                mu_stick: *mu_s,
+            },
+            FrictionLaw::Rational { mu_s, decay } => PieceChain {
+                pieces: vec![Piece::Rational { at_zero: *mu_s, decay: decay * velocity_unit }],
+                kinks: vec![],
+                mu_stick: *mu_s,
+            },
+            FrictionLaw::Table(table) => table_pieces(table, velocity_unit),
+        }
+    }
+
+    /// μ in slip at the relative velocity `v`, m/s.
+    #[must_use]
+    pub fn mu(&self, v: f64) -> f64 {
+        self.pieces(1.0).mu(v.abs())
+    }
+
+    /// `dμ/d|v|` at the relative velocity `v` (m/s), s/m.
+    #[must_use]
+    pub fn slope(&self, v: f64) -> f64 {
+        self.pieces(1.0).slope(v.abs())
+    }
+}
+
+fn table_pieces(table: &MuTable, velocity_unit: f64) -> PieceChain {
+    let rows: Vec<(f64, f64)> = table.velocity.iter().copied().zip(table.mu.iter().copied()).collect();
+    let mut pieces: Vec<Piece> = rows
+        .windows(2)
+        .map(|pair| {
+            let [(v0, mu0), (v1, mu1)] = [pair[0], pair[1]];
+            let slope = (mu1 - mu0) / (v1 - v0);
+            Piece::Linear { at_zero: mu0 - slope * v0, slope: slope * velocity_unit }
+        })
+        .collect();
+    let &(_, last) = rows.last().expect("a table has at least one row");
+    pieces.push(Piece::Linear { at_zero: last, slope: 0.0 });
+    PieceChain {
+        pieces,
+        kinks: rows[1..].iter().map(|(v, _)| v / velocity_unit).collect(),
+        mu_stick: table.mu[0],
+    }
+}

@@ -3,7 +3,9 @@
 //! The table [`PARAMS`] drives the TOML keys, the axes, the CSV columns, the range checks and the
 //! axis labels of figures. SI units throughout, temperature in °C.
 
+pub mod belt;
 pub mod contact;
+pub mod equilibrium;
 pub mod friction;
 pub mod material;
 

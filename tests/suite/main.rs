@@ -1,6 +1,16 @@
 //! One integration binary, one module per topic.
 
+mod bad_input;
+mod cli;
 mod colour;
+mod common;
+mod events;
 mod export;
+mod extremes;
 mod figure;
+mod linear;
+mod properties;
+mod response;
+mod spec;
+mod sweeps;
 mod synthetic;

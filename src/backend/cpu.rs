@@ -1,0 +1,54 @@
+//! The f64 reference on all cores: one rayon task per instance, results independent of their number.
+
+use rayon::prelude::*;
+
+use crate::classify;
+use crate::linear;
+use crate::map::Record;
+use crate::model::Param;
+use crate::model::equilibrium::Equilibrium;
+use crate::outcome::Status;
+use crate::response::{Plan, respond};
+use crate::spec::Spec;
+
+/// The name of the backend in a manifest.
+pub const NAME: &str = "cpu";
+
+/// The method in a manifest.
+pub const METHOD: &str = "Taylor series of order 14 with events located in the step";
+
+/// Computes every instance of a sweep in the order of its grid; `progress` gets the number newly finished.
+pub fn records(spec: &Spec, progress: &(dyn Fn(usize) + Sync)) -> Vec<Record> {
+    (0..spec.grid.len())
+        .into_par_iter()
+        .map(|index| {
+            let record = record(spec, index);
+            progress(1);
+            record
+        })
+        .collect()
+}
+
+/// Computes instance `index` of a sweep.
+#[must_use]
+pub fn record(spec: &Spec, index: usize) -> Record {
+    let instance = spec.instance(index);
+    let mut record = Record { status: Status::Ok, ..Record::default() };
+    if let Err(status) = Equilibrium::new(&instance) {
+        record.status = status;
+    }
+    if spec.analysis.linear {
+        (record.kind, record.linear) = linear::analyse(&instance);
+    }
+    if spec.analysis.response {
+        let outcome = respond(&instance, &Plan::new(spec));
+        record.status = outcome.status;
+        if outcome.status == Status::Ok {
+            let (regime, settled) = classify::regime(&outcome, instance.params.require(Param::BeltVelocity));
+            record.regime = Some(regime);
+            record.settled = Some(settled);
+        }
+        record.outcome = Some(outcome);
+    }
+    record
+}

@@ -1,0 +1,105 @@
+//! `squealmap check`: validate, describe, estimate.
+
+use std::fmt::Write;
+use std::path::PathBuf;
+
+use clap::Args;
+use squealmap::Result;
+use squealmap::estimate::estimate;
+use squealmap::grid::{Axis, AxisKey, Grid, Value};
+use squealmap::spec::{Spec, StartKind};
+
+use crate::cli::print;
+use crate::cli::progress::seconds;
+
+/// Arguments of `check`.
+#[derive(Debug, Args)]
+pub(crate) struct Check {
+    /// Sweep file (TOML)
+    sweep: PathBuf,
+}
+
+impl Check {
+    pub(crate) fn execute(self) -> Result<()> {
+        let spec = Spec::read(&self.sweep)?;
+        let text = format!(
+            "{} is valid: {} instance(s)\n{}",
+            self.sweep.display(),
+            spec.grid.len(),
+            describe(&spec)
+        );
+        print(&text);
+        print(&cost(&spec));
+        Ok(())
+    }
+}
+
+/// Title, analyses and what varies.
+fn describe(spec: &Spec) -> String {
+    let mut text = String::new();
+    if !spec.title.is_empty() {
+        let _ = writeln!(text, "title     {}", spec.title);
+    }
+    if spec.analysis.linear {
+        let _ = writeln!(text, "computes  complex eigenvalues, growth rates and the type of instability");
+    }
+    if spec.analysis.response {
+        let start = match spec.start {
+            StartKind::Kick => "a kick at the sliding equilibrium",
+            StartKind::Mode => "the most unstable mode",
+        };
+        let _ = writeln!(
+            text,
+            "computes  the response from {start}: settle {}, measure {}, at least {} steps per period",
+            spec.settle, spec.measure, spec.steps_per_period
+        );
+    }
+    match &spec.grid {
+        Grid::Axes(axes) => {
+            for axis in axes {
+                let _ = writeln!(text, "axis      {}", describe_axis(axis));
+            }
+        }
+        Grid::Tuples { keys, rows } => {
+            let names: Vec<&str> = keys.iter().map(|key| key.name()).collect();
+            let _ = writeln!(text, "points    {} row(s) of {}", rows.len(), names.join(", "));
+        }
+    }
+    text
+}
+
+/// `mu_s: 41 values from 0 to 0.6`.
+fn describe_axis(axis: &Axis) -> String {
+    let (name, count) = (axis.key.name(), axis.values.len());
+    let unit = match axis.key {
+        AxisKey::Param(param) => param.info().unit,
+        AxisKey::Law | AxisKey::Material => "",
+    };
+    let scale = if axis.log { ", logarithmic" } else { "" };
+    let listed = |values: &[Value]| values.iter().map(Value::to_string).collect::<Vec<_>>().join(", ");
+    match axis.values.as_slice() {
+        [one] => format!("{name} = {one} {unit}").trim_end().to_owned(),
+        values if values.iter().any(|value| matches!(value, Value::Text(_))) => {
+            format!("{name}: {}", listed(values))
+        }
+        [first, .., last] => {
+            format!("{name}: {count} values from {first} to {last} {unit}").trim_end().to_owned() + scale
+        }
+        [] => name.to_owned(),
+    }
+}
+
+/// What the sweep would cost, measured on a few of its instances.
+fn cost(spec: &Spec) -> String {
+    let estimate = estimate(spec);
+    let threads = rayon::current_num_threads();
+    let total = estimate.cpu_time.as_secs_f64();
+    let steps =
+        if spec.analysis.response { format!("{:.1e} steps, ", estimate.steps) } else { String::new() };
+    format!(
+        "cost      about {steps}{} on {threads} thread(s), {} on one (measured on {} of the instances)\n",
+        seconds(total / threads as f64),
+        seconds(total),
+        estimate.sampled
+    )
+}

@@ -1,0 +1,73 @@
+//! The commands: one file each, and the only code that prints or opens files for writing.
+
+mod check;
+mod modes;
+mod output;
+mod progress;
+pub(crate) mod report;
+mod run;
+mod summary;
+mod trace;
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand};
+use squealmap::Result;
+
+/// Stability maps of friction-induced vibration: for which friction, temperature and belt velocity does a
+/// brake contact become unstable, by which mechanism, and what does it then do?
+#[derive(Debug, Parser)]
+#[command(version, arg_required_else_help = true)]
+pub(crate) struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Compute every instance of a sweep: map.csv, map.svg, map.png, manifest.json
+    Run(run::Run),
+    /// Validate a sweep, say what it would compute and measure what it would cost; writes nothing
+    Check(check::Check),
+    /// Eigenvalues against the first numeric axis of a sweep: modes.csv, modes.svg, modes.png
+    Modes(modes::Modes),
+    /// One instance in full, as a time series: trace.csv, trace.svg, trace.png
+    Trace(trace::TraceCommand),
+}
+
+/// The sweep file and where its results go.
+#[derive(Debug, Args)]
+struct Files {
+    /// Sweep file (TOML)
+    sweep: PathBuf,
+    /// Output directory [default: out/<name of the sweep file>]
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+}
+
+impl Files {
+    /// The output directory, by default `out/<file stem>`.
+    fn directory(&self) -> PathBuf {
+        let stem = self.sweep.file_stem().unwrap_or(self.sweep.as_os_str());
+        self.output.clone().unwrap_or_else(|| PathBuf::from("out").join(stem))
+    }
+}
+
+impl Cli {
+    /// Runs the command.
+    pub(crate) fn execute(self) -> Result<()> {
+        match self.command {
+            Command::Run(command) => command.execute(),
+            Command::Check(command) => command.execute(),
+            Command::Modes(command) => command.execute(),
+            Command::Trace(command) => command.execute(),
+        }
+    }
+}
+
+/// Prints a result; a reader that has gone away is no error.
+fn print(text: &str) {
+    let mut out = std::io::stdout().lock();
+    let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+}

@@ -1,0 +1,75 @@
+//! The output directory: proven writable before the run, filled at once after it.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use squealmap::{Error, Result};
+use tempfile::NamedTempFile;
+
+/// An output directory that exists and can be written.
+#[derive(Debug)]
+pub(crate) struct Output {
+    directory: PathBuf,
+    /// Directories made for it, deepest first; removed again when nothing comes of the run.
+    made: Vec<PathBuf>,
+}
+
+impl Output {
+    /// Makes the directory where it does not exist and writes a file in it, which it removes.
+    pub(crate) fn prepare(directory: PathBuf) -> Result<Output> {
+        let made = directory
+            .ancestors()
+            .filter(|path| !path.as_os_str().is_empty())
+            .take_while(|path| !path.exists())
+            .map(Path::to_owned)
+            .collect();
+        let output = Output { directory, made };
+        std::fs::create_dir_all(&output.directory)
+            .and_then(|()| temporary(&output.directory)?.close())
+            .map_err(|why| Error::OutputDirectory { path: output.directory.clone(), why: why.to_string() })?;
+        Ok(output)
+    }
+
+    /// Writes all files or none: first under temporary names, then renamed. Returns their paths.
+    pub(crate) fn write(mut self, files: &[(&str, Vec<u8>)]) -> Result<Vec<PathBuf>> {
+        let mut written = Vec::with_capacity(files.len());
+        for (name, bytes) in files {
+            let path = self.directory.join(name);
+            let file = temporary(&self.directory)
+                .and_then(|mut file| file.write_all(bytes).map(|()| file))
+                .map_err(|why| Error::Write { path: path.clone(), why: why.to_string() })?;
+            written.push((path, file));
+        }
+        let mut paths = Vec::with_capacity(files.len());
+        for (path, file) in written {
+            file.persist(&path)
+                .map_err(|why| Error::Write { path: path.clone(), why: why.error.to_string() })?;
+            paths.push(path);
+        }
+        self.made.clear();
+        Ok(paths)
+    }
+}
+
+impl Drop for Output {
+    fn drop(&mut self) {
+        for directory in &self.made {
+            // Fails, as it should, when there is something in it.
+            let _ = std::fs::remove_dir(directory);
+        }
+    }
+}
+
+/// A file under a temporary name that has the permissions of any other new file once it is renamed.
+fn temporary(directory: &Path) -> std::io::Result<NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".squealmap-").suffix(".tmp");
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    builder.tempfile_in(directory)
+}
+
+/// The list of written files for the end of a command.
+pub(crate) fn list(paths: &[PathBuf]) -> String {
+    paths.iter().fold(String::new(), |text, path| text + "wrote " + &path.display().to_string() + "\n")
+}

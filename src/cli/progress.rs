@@ -1,0 +1,88 @@
+//! Progress on standard error: a bar on a terminal, plain lines otherwise.
+
+use std::io::{IsTerminal, Write};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
+
+use indicatif::{ProgressBar, ProgressStyle};
+
+/// Plain lines are printed each time another of this many parts is done …
+const LINES: usize = 10;
+
+/// … but not in this first time, s: a short sweep needs no news.
+const QUIET: f64 = 1.0;
+
+/// Counts finished instances.
+#[derive(Debug)]
+pub(crate) struct Progress {
+    total: usize,
+    done: AtomicUsize,
+    began: Instant,
+    bar: Option<ProgressBar>,
+}
+
+impl Progress {
+    /// Starts counting to `total` instances.
+    pub(crate) fn new(total: usize) -> Progress {
+        let bar = std::io::stderr().is_terminal().then(|| {
+            let style = ProgressStyle::with_template(
+                "{bar:32} {pos} of {len} instances, {per_sec:.0} instances/s, {eta} left",
+            );
+            ProgressBar::new(total as u64).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+        });
+        Progress { total, done: AtomicUsize::new(0), began: Instant::now(), bar }
+    }
+
+    /// Adds newly finished instances; called from every worker.
+    pub(crate) fn add(&self, count: usize) {
+        let before = self.done.fetch_add(count, Ordering::Relaxed);
+        let done = before + count;
+        match &self.bar {
+            Some(bar) => bar.inc(count as u64),
+            None if self.part(before) < self.part(done) && done < self.total => self.line(done),
+            None => {}
+        }
+    }
+
+    /// Removes the bar.
+    pub(crate) fn finish(&self) {
+        if let Some(bar) = &self.bar {
+            bar.finish_and_clear();
+        }
+    }
+
+    /// How many of the parts `done` instances fill.
+    fn part(&self, done: usize) -> usize {
+        done.saturating_mul(LINES) / self.total.max(1)
+    }
+
+    fn line(&self, done: usize) {
+        let elapsed = self.began.elapsed().as_secs_f64();
+        if elapsed < QUIET {
+            return;
+        }
+        let rate = done as f64 / elapsed;
+        let left = (self.total - done) as f64 / rate;
+        let _ = writeln!(
+            std::io::stderr().lock(),
+            "{done} of {} instances, {rate:.0} instances/s, {} left",
+            self.total,
+            seconds(left)
+        );
+    }
+}
+
+/// A time for people: `3.5 ms`, `0.35 s`, `42 s`, `3 min 20 s`, `2 h 5 min`.
+pub(crate) fn seconds(seconds: f64) -> String {
+    if seconds < 0.1 {
+        format!("{:.2} ms", seconds * 1e3)
+    } else if seconds < 10.0 {
+        format!("{seconds:.2} s")
+    } else if seconds < 90.0 {
+        format!("{seconds:.0} s")
+    } else if seconds < 5400.0 {
+        format!("{:.0} min {:.0} s", (seconds / 60.0).floor(), seconds % 60.0)
+    } else {
+        format!("{:.0} h {:.0} min", (seconds / 3600.0).floor(), (seconds % 3600.0) / 60.0)
+    }
+}

@@ -1,0 +1,59 @@
+//! `squealmap trace`: one instance in full.
+
+use clap::Args;
+use squealmap::export::{png, trace as export};
+use squealmap::outcome::Status;
+use squealmap::spec::Spec;
+use squealmap::trace::trace;
+use squealmap::{Result, classify};
+
+use crate::cli::output::{Output, list};
+use crate::cli::{Files, print};
+
+/// Arguments of `trace`.
+#[derive(Debug, Args)]
+pub(crate) struct TraceCommand {
+    #[command(flatten)]
+    files: Files,
+    /// The instance: every parameter that the sweep varies, and any other; values may lie off the grid
+    #[arg(long, value_name = "NAME=VALUE,...", default_value = "", hide_default_value = true)]
+    at: String,
+    /// Rows per period 2π/ω0, 1 to 10000, besides the events
+    #[arg(long, value_name = "N", default_value_t = 50, value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    samples_per_period: u32,
+}
+
+impl TraceCommand {
+    pub(crate) fn execute(self) -> Result<()> {
+        let spec = Spec::read(&self.files.sweep)?;
+        let instance = spec.instance_at(&self.at)?;
+        let output = Output::prepare(self.files.directory())?;
+        let trace = trace(&spec, &instance, self.samples_per_period);
+        let title = match (spec.title.as_str(), self.at.as_str()) {
+            (title, "") => title.to_owned(),
+            ("", at) => at.replace(',', ", "),
+            (title, at) => format!("{title}: {}", at.replace(',', ", ")),
+        };
+        let svg = export::trace_svg(&trace, &title)?;
+        let files = [
+            ("trace.csv", export::trace_csv(&trace)?),
+            ("trace.png", png::render(&svg)?),
+            ("trace.svg", svg.into_bytes()),
+        ];
+        let paths = output.write(&files)?;
+        let velocity = instance.params.require(squealmap::model::Param::BeltVelocity);
+        let end = match trace.outcome.status {
+            Status::Ok => classify::regime(&trace.outcome, velocity).0.name(),
+            failed => failed.name(),
+        };
+        let outcome = &trace.outcome;
+        print(&format!(
+            "{end}: {} s in {} steps, {} rows\n{}",
+            outcome.simulated_time,
+            outcome.steps,
+            trace.rows.len(),
+            list(&paths)
+        ));
+        Ok(())
+    }
+}

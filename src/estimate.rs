@@ -1,0 +1,57 @@
+//! What a sweep would cost, measured on a few of its instances.
+
+use std::time::{Duration, Instant};
+
+use crate::backend::cpu;
+use crate::spec::Spec;
+
+/// Most instances that are measured.
+const SAMPLES: usize = 24;
+
+/// No further instance is begun after this time.
+const BUDGET: Duration = Duration::from_secs(3);
+
+/// The cost of a sweep.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Estimate {
+    /// Instances that were measured.
+    pub sampled: usize,
+    /// Steps of the whole sweep.
+    pub steps: f64,
+    /// Time of one thread for the whole sweep.
+    pub cpu_time: Duration,
+}
+
+/// Integrates a handful of instances spread over the grid and scales their cost up.
+#[must_use]
+pub fn estimate(spec: &Spec) -> Estimate {
+    let instances = spec.grid.len();
+    let samples = SAMPLES.min(instances);
+    let began = Instant::now();
+    let mut sampled = 0;
+    let mut steps = 0;
+    while sampled < samples && (sampled == 0 || began.elapsed() < BUDGET) {
+        let record = cpu::record(spec, sample(spread(sampled, samples), samples, instances));
+        steps += record.outcome.map_or(0, |outcome| outcome.steps);
+        sampled += 1;
+    }
+    let scale = instances as f64 / sampled.max(1) as f64;
+    Estimate { sampled, steps: steps as f64 * scale, cpu_time: began.elapsed().mul_f64(scale) }
+}
+
+/// An instance of part `part` of `parts` equal parts of the grid; where in the part follows the golden
+/// ratio, so that no axis is always met at the same value.
+fn sample(part: usize, parts: usize, instances: usize) -> usize {
+    const GOLDEN: f64 = 0.618_033_988_749_894_9;
+    let position = (part as f64 + (part as f64 * GOLDEN).fract()) / parts as f64;
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a fraction of a usize")]
+    let index = (position * instances as f64) as usize;
+    index.min(instances - 1)
+}
+
+/// Visits the parts in an order that covers the grid evenly wherever it stops.
+fn spread(visit: usize, parts: usize) -> usize {
+    // A stride prime to 24 and near its golden section; other numbers of parts are small sweeps.
+    const STRIDE: usize = 7;
+    if parts.is_multiple_of(STRIDE) { visit } else { visit * STRIDE % parts }
+}

@@ -1,0 +1,99 @@
+//! Where in a text an error stands.
+
+use std::fmt;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// A text that errors can point into: the sweep file, or a file that it names.
+#[derive(Clone, Debug)]
+pub(crate) struct Source {
+    /// The path as the user wrote it.
+    pub(crate) name: String,
+    /// The whole text, without a byte order mark.
+    pub(crate) text: Arc<str>,
+}
+
+impl Source {
+    pub(crate) fn new(name: impl Into<String>, text: &str) -> Source {
+        Source { name: name.into(), text: Arc::from(text.strip_prefix('\u{feff}').unwrap_or(text)) }
+    }
+
+    /// The place of a byte range of the text.
+    pub(crate) fn place(&self, span: Range<usize>) -> Place {
+        let end = self.text.len();
+        let mut start = span.start.min(end);
+        while !self.text.is_char_boundary(start) {
+            start -= 1;
+        }
+        let before = &self.text[..start];
+        let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+        Place(Box::new(Spot {
+            source: self.name.clone(),
+            text: Arc::clone(&self.text),
+            span: start..span.end.clamp(start, end),
+            position: Some((
+                before.bytes().filter(|&byte| byte == b'\n').count() + 1,
+                before[line_start..].chars().count() + 1,
+            )),
+        }))
+    }
+
+    /// What stands in a byte range, as written.
+    pub(crate) fn written(&self, span: Range<usize>) -> &str {
+        self.text.get(span).unwrap_or_default()
+    }
+}
+
+/// A place in a file (or in an argument): what an error message begins with and what is underlined.
+///
+/// Displays as `path:line:column`, both counted from 1, the column in characters.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Place(Box<Spot>);
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Spot {
+    source: String,
+    text: Arc<str>,
+    span: Range<usize>,
+    position: Option<(usize, usize)>,
+}
+
+impl Place {
+    /// A place in a command-line argument.
+    pub(crate) fn argument(name: &str, text: &str, span: Range<usize>) -> Place {
+        Place(Box::new(Spot { source: name.to_owned(), text: Arc::from(text), span, position: None }))
+    }
+
+    /// The path as the user wrote it, or the name of the argument.
+    #[must_use]
+    pub fn source(&self) -> &str {
+        &self.0.source
+    }
+
+    /// The whole text.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        &self.0.text
+    }
+
+    /// The byte range to underline.
+    #[must_use]
+    pub fn span(&self) -> Range<usize> {
+        self.0.span.clone()
+    }
+
+    /// Line and column of the start, from 1; `None` in an argument.
+    #[must_use]
+    pub fn position(&self) -> Option<(usize, usize)> {
+        self.0.position
+    }
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0.position {
+            Some((line, column)) => write!(f, "{}:{line}:{column}", self.0.source),
+            None => f.write_str(&self.0.source),
+        }
+    }
+}

@@ -1,0 +1,294 @@
+//! The transient of one instance: start, settle, measure, outcome in SI units.
+
+use std::f64::consts::TAU;
+
+use num_complex::Complex64;
+
+use crate::integrate::{Integrator, Observer, Resolution, STEP_TOLERANCE};
+use crate::linear;
+use crate::method::taylor::{BeltMotion, REFERENCE_ORDER, State};
+use crate::model::equilibrium::{Equilibrium, Scaled, Units};
+use crate::model::{Param, Params};
+use crate::observe::{CyclePhase, EnergyGains, Growth, Sums, Window};
+use crate::outcome::{Outcome, Status};
+use crate::spec::{Duration, Instance, Spec, StartKind};
+
+/// How to integrate: what of the sweep is common to all instances.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plan {
+    /// How transients start.
+    pub start: StartKind,
+    /// Time before the measuring window.
+    pub settle: Duration,
+    /// Length of the measuring window.
+    pub measure: Duration,
+    /// Largest step: this many per period `2π/ω0`.
+    pub steps_per_period: u32,
+    /// Order of the Taylor series.
+    pub order: usize,
+    /// Bound on the truncation of a step; infinite for steps of fixed length.
+    pub tolerance: f64,
+}
+
+impl Plan {
+    /// The plan of a sweep for the reference method.
+    #[must_use]
+    pub fn new(spec: &Spec) -> Plan {
+        Plan {
+            start: spec.start,
+            settle: spec.settle,
+            measure: spec.measure,
+            steps_per_period: spec.steps_per_period,
+            order: REFERENCE_ORDER,
+            tolerance: STEP_TOLERANCE,
+        }
+    }
+}
+
+/// The belt velocity over time, scaled: linear from the first value to the last, then constant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ramp {
+    start: f64,
+    end: f64,
+    duration: f64,
+}
+
+impl Ramp {
+    fn new(params: &Params, units: &Units) -> Ramp {
+        let start = params.require(Param::BeltVelocity);
+        let end = params.get(Param::BeltVelocityEnd).unwrap_or(start);
+        let duration = params.get(Param::RampDuration).unwrap_or(0.0);
+        Ramp { start: start / units.velocity, end: end / units.velocity, duration: duration / units.time }
+    }
+
+    /// The belt at the time `t`, and how long it goes on like that.
+    fn at(&self, t: f64) -> (BeltMotion, f64) {
+        if t < self.duration {
+            let acceleration = (self.end - self.start) / self.duration;
+            (BeltMotion { velocity: self.start + acceleration * t, acceleration }, self.duration - t)
+        } else {
+            (BeltMotion { velocity: self.end, acceleration: 0.0 }, f64::INFINITY)
+        }
+    }
+}
+
+/// An instance ready to be integrated.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// SI values of the scaled units.
+    pub units: Units,
+    /// The sliding equilibrium.
+    pub equilibrium: Equilibrium,
+    /// The dimensionless model around it.
+    pub model: Scaled,
+    ramp: Ramp,
+    start: State,
+}
+
+impl Scene {
+    /// Prepares an instance.
+    ///
+    /// # Errors
+    /// The status of an instance that cannot start: ill-posed law, no equilibrium.
+    pub fn new(instance: &Instance, start: StartKind) -> Result<Scene, Status> {
+        let equilibrium = Equilibrium::new(instance)?;
+        let units = Units::new(&instance.params);
+        let model = Scaled::new(instance, &units, &equilibrium);
+        let ramp = Ramp::new(&instance.params, &units);
+        let start = match start {
+            StartKind::Kick => kick(&instance.params, &units),
+            StartKind::Mode => mode(instance, &units),
+        };
+        Ok(Scene { units, equilibrium, model, ramp, start })
+    }
+
+    /// The belt at the time `t` (scaled).
+    #[must_use]
+    pub fn belt(&self, t: f64) -> BeltMotion {
+        self.ramp.at(t).0
+    }
+
+    /// Starts the integration.
+    ///
+    /// # Errors
+    /// [`Status::Painleve`] when the first slip has no unique dynamics.
+    pub fn integrator(&self, plan: &Plan) -> Result<Integrator<'_>, Status> {
+        let resolution = Resolution {
+            order: plan.order,
+            nominal_step: TAU / f64::from(plan.steps_per_period),
+            tolerance: plan.tolerance,
+        };
+        Integrator::new(&self.model, resolution, self.start, self.belt(0.0))
+    }
+
+    /// Integrates for exactly `duration` (scaled), the belt as the ramp says.
+    ///
+    /// # Errors
+    /// The status that ends the instance before its time.
+    pub fn advance(
+        &self,
+        integrator: &mut Integrator,
+        duration: f64,
+        observer: &mut impl Observer,
+    ) -> Result<(), Status> {
+        let mut rest = duration;
+        while rest > 0.0 {
+            let (belt, holds) = self.ramp.at(integrator.time());
+            let part = rest.min(holds);
+            integrator.advance(part, belt, observer)?;
+            rest -= part;
+        }
+        Ok(())
+    }
+
+    /// The SI value of the simulated time `time`: in full when it is exactly the time the plan asks for.
+    fn seconds(&self, time: f64, plan: &Plan) -> f64 {
+        let si = |duration| match duration {
+            Duration::Seconds(seconds) => seconds,
+            other => self.scaled(other) * self.units.time,
+        };
+        let half = 0.5 * self.scaled(plan.measure);
+        let asked = self.scaled(plan.settle) + half + half;
+        (si(plan.settle) + si(plan.measure)) * (time / asked)
+    }
+
+    /// A length of time of the plan in units of `1/ω0`.
+    #[must_use]
+    pub fn scaled(&self, duration: Duration) -> f64 {
+        match duration {
+            Duration::Seconds(seconds) => seconds / self.units.time,
+            Duration::Periods(periods) => periods * TAU,
+            Duration::Ramp => self.ramp.duration,
+        }
+    }
+}
+
+/// At the equilibrium, plus the kick.
+fn kick(params: &Params, units: &Units) -> State {
+    let mut state = State::default();
+    state.position[0] = params.require(Param::StartDisplacement) / units.length;
+    state.velocity[0] = params.require(Param::StartVelocity) / units.velocity;
+    state
+}
+
+/// On the most unstable mode, `ẋ2` at its largest; at the equilibrium where there is no mode.
+fn mode(instance: &Instance, units: &Units) -> State {
+    let params = &instance.params;
+    let amplitude = params.require(Param::StartFraction) * params.require(Param::BeltVelocity);
+    let mut state = State::default();
+    if let Some((lambda, ratio)) = linear::leading_mode(instance) {
+        let velocity = amplitude / units.velocity;
+        let position = velocity / (lambda * units.time);
+        state.position = [position.re, 0.0, (position * ratio).re];
+        state.velocity = [velocity, 0.0, (velocity * ratio).re];
+    }
+    state
+}
+
+/// Integrates one instance.
+#[must_use]
+pub fn respond(instance: &Instance, plan: &Plan) -> Outcome {
+    let scene = match Scene::new(instance, plan.start) {
+        Ok(scene) => scene,
+        Err(status) => return Outcome { status, ..Outcome::default() },
+    };
+    let mut integrator = match scene.integrator(plan) {
+        Ok(integrator) => integrator,
+        Err(status) => return Outcome { status, ..Outcome::default() },
+    };
+    match measure(&scene, &mut integrator, plan) {
+        Ok(outcome) => outcome,
+        Err(status) => Outcome {
+            status,
+            simulated_time: scene.seconds(integrator.time(), plan),
+            steps: integrator.steps(),
+            ..Outcome::default()
+        },
+    }
+}
+
+fn measure(scene: &Scene, integrator: &mut Integrator, plan: &Plan) -> Result<Outcome, Status> {
+    let mut growth = Growth::default();
+    let mut gains = EnergyGains::default();
+    let mut window = Window::default();
+    let length = scene.scaled(plan.measure);
+    scene.advance(integrator, scene.scaled(plan.settle), &mut (&mut growth, &mut gains))?;
+    let window_start = integrator.clone();
+    for half in 0..2 {
+        window.half = half;
+        let mut all = (&mut window, &mut (&mut growth, &mut gains));
+        scene.advance(integrator, 0.5 * length, &mut all)?;
+    }
+    let mut outcome = Outcome {
+        status: Status::Ok,
+        energy_gaining_impacts: gains.0,
+        simulated_time: scene.seconds(integrator.time(), plan),
+        steps: integrator.steps(),
+        ..Outcome::default()
+    };
+    report_window(&mut outcome, scene, &window);
+    report_growth(&mut outcome, scene, &growth);
+    outcome.phase_cycle = cycle_phase(scene, window_start, &window, length)?;
+    if outcome_is_finite(&outcome) { Ok(outcome) } else { Err(Status::NonFinite) }
+}
+
+fn report_window(outcome: &mut Outcome, scene: &Scene, window: &Window) {
+    let units = &scene.units;
+    let all: Sums = window.halves[0].plus(window.halves[1]);
+    let rms = |sum: f64, time: f64| (sum / time).sqrt();
+    outcome.x2_mean = Some(scene.equilibrium.x2 + all.x / all.time * units.length);
+    outcome.x2_std = Some(all.x_std() * units.length);
+    outcome.y1_mean = Some(scene.equilibrium.y1 + all.y / all.time * units.length);
+    outcome.y1_std = Some(all.y_std() * units.length);
+    outcome.ax_rms = Some(rms(all.ax, all.time) * units.acceleration);
+    outcome.ay_rms = Some(rms(all.ay, all.time) * units.acceleration);
+    outcome.ax_peak = Some(window.ax_peak * units.acceleration);
+    outcome.ay_peak = Some(window.ay_peak * units.acceleration);
+    outcome.friction_mean = (all.normal > 0.0).then(|| all.tangential / all.normal);
+    outcome.n_peak = Some(window.n_peak * units.force);
+    outcome.response_frequency = window.response_frequency().map(|f| f / units.time);
+    outcome.stick = Some(all.stick / all.time);
+    outcome.free = Some(all.free / all.time);
+    outcome.reverse = Some(all.reverse / all.time);
+    outcome.impacts_per_second = Some(window.impacts as f64 / (all.time * units.time));
+    outcome.speed_rms_halves = window.halves.map(|half| rms(half.speed, half.time) * units.velocity);
+    outcome.x2_std_halves = window.halves.map(|half| half.x_std() * units.length);
+    outcome.ay_rms_halves = window.halves.map(|half| rms(half.ay, half.time) * units.acceleration);
+}
+
+fn report_growth(outcome: &mut Outcome, scene: &Scene, growth: &Growth) {
+    if let Some(fit) = growth.result() {
+        outcome.growth_rate_measured = Some(fit.growth_rate / scene.units.time);
+        outcome.frequency_measured = Some(fit.angular_frequency / TAU / scene.units.time);
+        outcome.phase_measured = fit.phase.map(f64::to_degrees);
+    }
+}
+
+/// The phase at the response frequency, which is known only after the window: a second pass over it.
+fn cycle_phase(
+    scene: &Scene,
+    mut integrator: Integrator,
+    window: &Window,
+    length: f64,
+) -> Result<Option<f64>, Status> {
+    let Some(frequency) = window.response_frequency() else { return Ok(None) };
+    let mut cycle = CyclePhase {
+        angular_frequency: TAU * frequency,
+        from: window.first_crossing,
+        to: window.last_crossing,
+        x: Complex64::ZERO,
+        y: Complex64::ZERO,
+    };
+    for _ in 0..2 {
+        scene.advance(&mut integrator, 0.5 * length, &mut cycle)?;
+    }
+    let ratio = cycle.y / cycle.x;
+    Ok((ratio.is_finite() && ratio != Complex64::ZERO).then(|| ratio.arg().to_degrees()))
+}
+
+fn outcome_is_finite(outcome: &Outcome) -> bool {
+    [outcome.x2_std, outcome.y1_std, outcome.ax_rms, outcome.ay_rms, outcome.ax_peak, outcome.ay_peak]
+        .iter()
+        .flatten()
+        .all(|value| value.is_finite())
+}

@@ -1,0 +1,90 @@
+//! From the text of a sweep file to a [`Spec`].
+
+use std::path::Path;
+
+use toml::de::DeTable;
+
+use crate::error::{Error, Result};
+use crate::grid::AxisKey;
+use crate::model::Param;
+use crate::place::Source;
+use crate::spec::check::Check;
+use crate::spec::document::{entries, string};
+use crate::spec::files::Files;
+use crate::spec::sections::{Sections, TOP_LEVEL, section_of, unknown_key};
+use crate::spec::varied::Varied;
+use crate::spec::{Duration, MEASURE, SETTLE, Spec};
+
+impl Spec {
+    /// Reads and validates a sweep file; files that it names are relative to its directory.
+    ///
+    /// # Errors
+    /// When the file or one that it names cannot be read, or anything in them is not valid.
+    pub fn read(path: &Path) -> Result<Spec> {
+        let text = std::fs::read_to_string(path)
+            .map_err(|why| Error::ReadSweep { path: path.to_owned(), why: why.to_string() })?;
+        Spec::parse(&text, &path.display().to_string(), path.parent().unwrap_or(Path::new("")))
+    }
+
+    /// Validates the text of a sweep file; `source_name` begins its error messages and files that it
+    /// names are relative to `base_dir`.
+    ///
+    /// # Errors
+    /// As [`Spec::read`].
+    pub fn parse(text: &str, source_name: &str, base_dir: &Path) -> Result<Spec> {
+        let source = Source::new(source_name, text);
+        let document = DeTable::parse(&source.text).map_err(|error| Error::Syntax {
+            at: source.place(error.span().unwrap_or(0..0)),
+            why: format!("not valid TOML: {}", error.message().trim().replace('\n', ", ")),
+        })?;
+        let mut sections = Sections::default();
+        let mut axes = None;
+        let mut points = None;
+        for entry in entries(document.get_ref()) {
+            match (entry.key, section_of(entry.key)) {
+                (_, Some(section)) => sections.section(&source, section, entry)?,
+                ("title" | "analysis", _) => sections.top_level(&source, entry)?,
+                ("response", _) => sections.response(&source, entry)?,
+                ("axes", _) => axes = Some(entry),
+                ("points", _) => points = Some(entry),
+                _ => return Err(unknown_key(&source, entry, "", &TOP_LEVEL)),
+            }
+        }
+        let varied = match (axes, points) {
+            (Some(_), Some(points)) => {
+                let at = source.place(points.key_span());
+                return Err(Error::Conflict { at, key: "`points`".to_owned(), other: "[axes]".to_owned() });
+            }
+            (Some(axes), None) => Varied::axes(&source, axes)?,
+            (None, Some(points)) => {
+                let name = string(&source, points.node, "`points`", "the path of a file, as a string")?;
+                Varied::tuples(&source, points.node.span(), name, base_dir)?
+            }
+            (None, None) => Varied::nothing(&source),
+        };
+        let files = Files::read(&source, base_dir, &sections, &varied)?;
+        Check { sweep: &source, sections: &sections, varied: &varied, files: &files }.all()?;
+        Ok(assemble(sections, varied, files))
+    }
+}
+
+fn assemble(sections: Sections, varied: Varied, files: Files) -> Spec {
+    let ramp = sections.base.get(Param::RampDuration).is_some()
+        || varied.find(AxisKey::Param(Param::RampDuration)).is_some();
+    let (settle, measure) = if ramp { (Duration::Seconds(0.0), Duration::Ramp) } else { (SETTLE, MEASURE) };
+    Spec {
+        title: sections.title,
+        analysis: sections.analysis,
+        base: sections.base,
+        impact_friction: sections.impact_friction,
+        law: sections.law,
+        material: files.material,
+        materials: files.materials,
+        table: files.table,
+        grid: varied.grid,
+        start: sections.start,
+        settle: sections.settle.unwrap_or(settle),
+        measure: sections.measure.unwrap_or(measure),
+        steps_per_period: sections.steps_per_period,
+    }
+}

@@ -1,0 +1,245 @@
+//! The sections of a sweep file, key by key; what concerns several keys is in `check`.
+
+use std::ops::Range;
+
+use crate::error::{Error, Result};
+use crate::model::friction::LawKind;
+use crate::model::material::Outside;
+use crate::model::{PARAMS, Param, Params, Section};
+use crate::place::Source;
+use crate::spec::document::{Entry, array, boolean, choice, entries, integer, number, string, table};
+use crate::spec::duration::duration;
+use crate::spec::law;
+use crate::spec::names::unknown;
+use crate::spec::{Analysis, Duration, STEPS_PER_PERIOD, StartKind};
+
+/// Fewest and most steps per period that may be asked for.
+const STEPS_RANGE: (usize, usize) = (4, 1_000_000);
+
+/// A key that stands in a section.
+#[derive(Clone, Debug)]
+pub(super) struct Given {
+    pub(super) name: &'static str,
+    pub(super) section: Section,
+    pub(super) span: Range<usize>,
+}
+
+impl Given {
+    pub(super) fn label(&self) -> String {
+        format!("`{}` in [{}]", self.name, self.section.name())
+    }
+}
+
+/// A file name and where it stands.
+pub(super) type FileName = (String, Range<usize>);
+
+/// Everything outside `[axes]` and `points`, defaults filled in where they do not depend on other keys.
+#[derive(Debug)]
+pub(super) struct Sections {
+    pub(super) title: String,
+    pub(super) analysis: Analysis,
+    pub(super) base: Params,
+    pub(super) impact_friction: bool,
+    pub(super) law: LawKind,
+    pub(super) table: Option<FileName>,
+    pub(super) material: Option<FileName>,
+    pub(super) outside: Outside,
+    pub(super) start: StartKind,
+    pub(super) settle: Option<Duration>,
+    pub(super) measure: Option<Duration>,
+    pub(super) steps_per_period: u32,
+    pub(super) given: Vec<Given>,
+    headers: Vec<(&'static str, Range<usize>)>,
+}
+
+impl Default for Sections {
+    fn default() -> Self {
+        Sections {
+            title: String::new(),
+            analysis: Analysis { linear: true, response: true },
+            base: Params::default(),
+            impact_friction: true,
+            law: LawKind::Bilinear,
+            table: None,
+            material: None,
+            outside: Outside::Error,
+            start: StartKind::Kick,
+            settle: None,
+            measure: None,
+            steps_per_period: STEPS_PER_PERIOD,
+            given: Vec::new(),
+            headers: Vec::new(),
+        }
+    }
+}
+
+impl Sections {
+    /// Where a key of a section stands, if it does.
+    pub(super) fn find(&self, name: &str) -> Option<&Given> {
+        self.given.iter().find(|given| given.name == name)
+    }
+
+    /// Where a section begins, or the start of the file.
+    pub(super) fn header(&self, section: Section) -> Range<usize> {
+        self.headers.iter().find(|(name, _)| *name == section.name()).map_or(0..0, |(_, span)| span.clone())
+    }
+
+    /// `title` and `analysis`.
+    pub(super) fn top_level(&mut self, source: &Source, entry: Entry) -> Result<()> {
+        if entry.key == "title" {
+            string(source, entry.node, "`title`", "a string")?.clone_into(&mut self.title);
+            return Ok(());
+        }
+        let names = array(source, entry.node, "`analysis`", "an array of \"linear\" and \"response\"")?;
+        self.analysis = Analysis { linear: false, response: false };
+        for name in names {
+            let choices = [("linear", false), ("response", true)];
+            let response = choice(source, name, "an element of `analysis`", "analysis", &choices)?;
+            self.analysis.linear |= !response;
+            self.analysis.response |= response;
+        }
+        if names.is_empty() {
+            let at = source.place(entry.node.span());
+            return Err(Error::Empty {
+                at,
+                what: "`analysis`".to_owned(),
+                least: "\"linear\" or \"response\"",
+            });
+        }
+        Ok(())
+    }
+
+    /// One of `[model]`, `[friction]`, `[belt]`, `[start]`.
+    pub(super) fn section(&mut self, source: &Source, section: Section, entry: Entry) -> Result<()> {
+        let expected = format!("a table, written as a line [{}] above its keys", section.name());
+        self.headers.push((section.name(), entry.key_span()));
+        for entry in entries(table(source, entry.node, &format!("`{}`", entry.key), &expected)?) {
+            self.key(source, section, entry)?;
+        }
+        Ok(())
+    }
+
+    fn key(&mut self, source: &Source, section: Section, entry: Entry) -> Result<()> {
+        let label = format!("`{}` in [{}]", entry.key, section.name());
+        let node = entry.node;
+        let span = node.span();
+        let file = || {
+            let name = string(source, node, &label, "the path of a file, as a string")?;
+            Ok((name.to_owned(), node.span()))
+        };
+        let mut special = None;
+        match (section, entry.key) {
+            (Section::Model, "impact_friction") => {
+                self.impact_friction = boolean(source, node, &label)?;
+                special = Some("impact_friction");
+            }
+            (Section::Friction, "law") => {
+                let laws = LawKind::ALL.map(|kind| (kind.name(), kind));
+                self.law = choice(source, node, &label, "law", &laws)?;
+                special = Some("law");
+            }
+            (Section::Friction, "table") => {
+                self.table = Some(file()?);
+                special = Some("table");
+            }
+            (Section::Friction, "material") => {
+                self.material = Some(file()?);
+                special = Some("material");
+            }
+            (Section::Friction, "outside") => {
+                let choices = [("error", Outside::Error), ("clamp", Outside::Clamp)];
+                self.outside = choice(source, node, &label, "choice", &choices)?;
+                special = Some("outside");
+            }
+            (Section::Start, "kind") => {
+                let choices = [("kick", StartKind::Kick), ("mode", StartKind::Mode)];
+                self.start = choice(source, node, &label, "start", &choices)?;
+                special = Some("kind");
+            }
+            _ => {}
+        }
+        let name = match (special, Param::from_name(entry.key)) {
+            (Some(name), _) => name,
+            (None, Some(param)) if param.info().section == section => {
+                self.base.set(param, number(source, node, &label, param.info().range)?);
+                param.info().name
+            }
+            _ => return Err(unknown_key(source, entry, section.name(), &keys(section))),
+        };
+        self.given.push(Given { name, section, span });
+        Ok(())
+    }
+
+    /// `[response]`.
+    pub(super) fn response(&mut self, source: &Source, entry: Entry) -> Result<()> {
+        const KEYS: [&str; 3] = ["settle", "measure", "steps_per_period"];
+        let expected = "a table, written as a line [response] above its keys";
+        for entry in entries(table(source, entry.node, "`response`", expected)?) {
+            let label = format!("`{}` in [response]", entry.key);
+            match entry.key {
+                "settle" => self.settle = Some(duration(source, entry.node, &label, true)?),
+                "measure" => self.measure = Some(duration(source, entry.node, &label, false)?),
+                "steps_per_period" => {
+                    let steps = integer(source, entry.node, &label, STEPS_RANGE.0, STEPS_RANGE.1)?;
+                    self.steps_per_period = u32::try_from(steps).expect("the range of steps fits u32");
+                }
+                _ => return Err(unknown_key(source, entry, "response", &KEYS)),
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The keys of a section.
+fn keys(section: Section) -> Vec<&'static str> {
+    let special: &[&str] = match section {
+        Section::Model => &["impact_friction"],
+        Section::Friction => &["law", "table", "material", "outside"],
+        Section::Belt => &[],
+        Section::Start => &["kind"],
+    };
+    let numeric = PARAMS.iter().filter(|row| row.section == section).map(|row| row.name);
+    special.iter().copied().chain(numeric).collect()
+}
+
+/// The section that does have the key, if there is one.
+fn home(key: &str) -> Option<&'static str> {
+    match key {
+        "settle" | "measure" | "steps_per_period" => Some("response"),
+        _ => [Section::Model, Section::Friction, Section::Belt, Section::Start]
+            .into_iter()
+            .find(|&section| keys(section).contains(&key))
+            .map(Section::name),
+    }
+}
+
+/// The error of an unknown key of a section or of the top level (an empty section name).
+pub(super) fn unknown_key(source: &Source, entry: Entry, section: &str, known: &[&str]) -> Error {
+    let within = if section.is_empty() { "at the top level".to_owned() } else { format!("in [{section}]") };
+    match home(entry.key) {
+        Some(home) => Error::Unknown {
+            at: source.place(entry.key_span()),
+            what: "key",
+            name: entry.key.to_owned(),
+            within,
+            advice: format!("it belongs to [{home}]"),
+        },
+        None => unknown(source, entry.key_span(), "key", entry.key, &within, known),
+    }
+}
+
+/// A law's name as a value of an axis or a column.
+pub(super) fn law_value(source: &Source, span: Range<usize>, name: &str, within: &str) -> Result<LawKind> {
+    law::from_name(name).ok_or_else(|| unknown(source, span, "law", name, within, &law::names()))
+}
+
+/// The keys of the top level.
+pub(super) const TOP_LEVEL: [&str; 9] =
+    ["title", "analysis", "points", "model", "friction", "belt", "axes", "start", "response"];
+
+/// The section of a top-level key.
+pub(super) fn section_of(key: &str) -> Option<Section> {
+    [Section::Model, Section::Friction, Section::Belt, Section::Start]
+        .into_iter()
+        .find(|section| section.name() == key)
+}

@@ -1,0 +1,175 @@
+//! What a sweep varies: the `[axes]` table or the tuples of `points`, with the place of every value.
+
+use std::ops::Range;
+use std::path::Path;
+
+use crate::error::{Error, Result};
+use crate::grid::{Axis, AxisKey, Grid, Value};
+use crate::place::{Place, Source};
+use crate::spec::MAX_INSTANCES;
+use crate::spec::axis::axis;
+use crate::spec::document::{Entry, entries, table};
+use crate::spec::names::advice;
+use crate::spec::rows::Rows;
+use crate::spec::sections::law_value;
+
+/// Keys of a sweep file that cannot vary.
+const FIXED: [&str; 9] = [
+    "impact_friction",
+    "table",
+    "outside",
+    "kind",
+    "settle",
+    "measure",
+    "steps_per_period",
+    "title",
+    "analysis",
+];
+
+/// The grid and where everything of it stands.
+#[derive(Debug)]
+pub(super) struct Varied {
+    pub(super) grid: Grid,
+    /// The file that the spans belong to: the sweep file, or the one of the tuples.
+    pub(super) source: Source,
+    /// Where each key of the grid stands.
+    pub(super) keys: Vec<(AxisKey, Range<usize>)>,
+    /// Where each value stands: `[axis][value]` (a single place when the values are from `from` to `to`)
+    /// or `[row][column]`.
+    spans: Vec<Vec<Range<usize>>>,
+}
+
+impl Varied {
+    /// A single instance.
+    pub(super) fn nothing(source: &Source) -> Varied {
+        Varied { grid: Grid::Axes(Vec::new()), source: source.clone(), keys: Vec::new(), spans: Vec::new() }
+    }
+
+    /// Reads `[axes]`.
+    pub(super) fn axes(source: &Source, entry: Entry) -> Result<Varied> {
+        let mut varied = Varied::nothing(source);
+        let mut axes: Vec<Axis> = Vec::new();
+        let expected = "a table, written as a line [axes] above its axes";
+        let mut count: u128 = 1;
+        for entry in entries(table(source, entry.node, "`axes`", expected)?) {
+            let Some(key) = AxisKey::from_name(entry.key) else {
+                return Err(unknown_axis(source, entry));
+            };
+            // Checked before the values are made: a product that is too large costs no memory.
+            let (axis, spans) = axis(source, key, entry.node, &mut |points| {
+                count = count.saturating_mul(points as u128);
+                if count > MAX_INSTANCES as u128 { Err(too_many(source, entry, count)) } else { Ok(()) }
+            })?;
+            axes.push(axis);
+            varied.keys.push((key, entry.key_span()));
+            varied.spans.push(spans);
+        }
+        varied.grid = Grid::Axes(axes);
+        Ok(varied)
+    }
+
+    /// Reads the file of tuples named `name`.
+    pub(super) fn tuples(sweep: &Source, span: Range<usize>, name: &str, base_dir: &Path) -> Result<Varied> {
+        let file = Rows::read(sweep, span.clone(), "points", name, base_dir)?;
+        let names: Vec<&str> = AxisKey::names().collect();
+        let keys = file.columns(&names, AxisKey::from_name)?;
+        if file.body.len() > MAX_INSTANCES {
+            let at = sweep.place(span);
+            return Err(Error::TooMany { at, count: file.body.len().to_string(), limit: MAX_INSTANCES });
+        }
+        let mut rows = Vec::with_capacity(file.body.len());
+        for fields in &file.body {
+            let mut row = Vec::with_capacity(keys.len());
+            for (&key, field) in keys.iter().zip(fields) {
+                row.push(match key {
+                    AxisKey::Param(param) => {
+                        Value::Number(file.number(field, key.name(), param.info().range)?)
+                    }
+                    AxisKey::Law => {
+                        law_value(&file.source, field.span.clone(), &field.text, "in column `law`")?;
+                        Value::Text(field.text.clone())
+                    }
+                    AxisKey::Material => Value::Text(field.text.clone()),
+                });
+            }
+            rows.push(row);
+        }
+        Ok(Varied {
+            keys: keys.iter().copied().zip(file.header.iter().map(|field| field.span.clone())).collect(),
+            grid: Grid::Tuples { keys, rows },
+            spans: file.body.iter().map(|row| row.iter().map(|field| field.span.clone()).collect()).collect(),
+            source: file.source,
+        })
+    }
+
+    /// How messages name a key of the grid.
+    pub(super) fn label(&self, key: AxisKey) -> String {
+        match self.grid {
+            Grid::Axes(_) => format!("axis `{}`", key.name()),
+            Grid::Tuples { .. } => format!("column `{}`", key.name()),
+        }
+    }
+
+    /// Where a key stands, if it varies.
+    pub(super) fn find(&self, key: AxisKey) -> Option<Range<usize>> {
+        self.keys.iter().find(|(varied, _)| *varied == key).map(|(_, span)| span.clone())
+    }
+
+    /// The place of a value, see [`Varied::value_span`].
+    pub(super) fn value_place(&self, key: usize, value: usize) -> Place {
+        self.source.place(self.value_span(key, value))
+    }
+
+    /// Where a value of axis or column `key` (by position) stands; `value` counts values or rows.
+    fn value_span(&self, key: usize, value: usize) -> Range<usize> {
+        let span = match self.grid {
+            Grid::Axes(_) => self.spans[key].get(value).or_else(|| self.spans[key].last()),
+            Grid::Tuples { .. } => self.spans[value].get(key),
+        };
+        span.cloned().unwrap_or(0..0)
+    }
+
+    /// The position of a key among the axes or columns.
+    pub(super) fn position(&self, key: AxisKey) -> Option<usize> {
+        self.keys.iter().position(|(varied, _)| *varied == key)
+    }
+
+    /// The distinct names of the key `law` or `material` with the place of their first use.
+    pub(super) fn names(&self, key: AxisKey) -> Vec<(&str, Range<usize>)> {
+        let Some(at) = self.position(key) else { return Vec::new() };
+        let values: Vec<&Value> = match &self.grid {
+            Grid::Axes(axes) => axes[at].values.iter().collect(),
+            Grid::Tuples { rows, .. } => rows.iter().map(|row| &row[at]).collect(),
+        };
+        let mut names: Vec<(&str, Range<usize>)> = Vec::new();
+        for (index, value) in values.into_iter().enumerate() {
+            if let Value::Text(name) = value
+                && !names.iter().any(|(known, _)| known == name)
+            {
+                names.push((name, self.value_span(at, index)));
+            }
+        }
+        names
+    }
+}
+
+fn too_many(source: &Source, entry: Entry, count: u128) -> Error {
+    let more = if count == u128::MAX { "more than 10^38".to_owned() } else { format!("at least {count}") };
+    Error::TooMany { at: source.place(entry.node.span()), count: more, limit: MAX_INSTANCES }
+}
+
+fn unknown_axis(source: &Source, entry: Entry) -> Error {
+    let names: Vec<&str> = AxisKey::names().collect();
+    let advice = if FIXED.contains(&entry.key) {
+        "this key holds for the whole sweep and cannot vary".to_owned()
+    } else {
+        advice(entry.key, &names)
+    };
+    Error::Unknown {
+        at: source.place(entry.key_span()),
+        what: "axis",
+        name: entry.key.to_owned(),
+        within: "in [axes]".to_owned(),
+        advice,
+    }
+}

@@ -1,0 +1,218 @@
+//! The program itself: exit codes, messages, and what it leaves on the disk.
+
+#![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use tempfile::TempDir;
+
+/// What a run of the program said and left behind.
+struct Ended {
+    code: Option<i32>,
+    out: String,
+    err: String,
+}
+
+/// Runs the program in `directory`.
+fn squealmap(directory: &Path, arguments: &[&str]) -> Ended {
+    let output = Command::new(env!("CARGO_BIN_EXE_squealmap"))
+        .args(arguments)
+        .current_dir(directory)
+        .env("NO_COLOR", "1")
+        .output()
+        .unwrap();
+    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+    Ended { code: output.status.code(), out: text(output.stdout), err: text(output.stderr) }
+}
+
+/// A directory with a small sweep `small.toml` (with `extra` in `[model]`) in it.
+fn with_sweep(extra: &str) -> TempDir {
+    let directory = tempfile::tempdir().unwrap();
+    let sweep = format!(
+        "title = \"Small\"\n[model]\n{extra}\n[friction]\nmu_s = 0.4\n[axes]\nmu_d = {{ values = [0.3, 0.4] }}\n\
+         belt_velocity = {{ from = 1, to = 3, points = 3 }}\n[response]\nsettle = \"2 periods\"\nmeasure = \"2 periods\"\n"
+    );
+    std::fs::write(directory.path().join("small.toml"), sweep).unwrap();
+    directory
+}
+
+/// Everything in a directory tree, relative to it.
+fn tree(directory: &Path) -> Vec<PathBuf> {
+    let mut paths = Vec::new();
+    let mut open = vec![directory.to_owned()];
+    while let Some(next) = open.pop() {
+        for entry in std::fs::read_dir(next).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                open.push(path.clone());
+            }
+            paths.push(path.strip_prefix(directory).unwrap().to_owned());
+        }
+    }
+    paths.sort();
+    paths
+}
+
+fn only_the_sweep(directory: &TempDir) {
+    assert_eq!(tree(directory.path()), [PathBuf::from("small.toml")]);
+}
+
+#[test]
+fn run_writes_all_files_and_counts() {
+    let directory = with_sweep("");
+    let ended = squealmap(directory.path(), &["run", "small.toml", "--threads", "2"]);
+    assert_eq!(ended.code, Some(0), "{}", ended.err);
+    let paths = ["out", "out/small", "out/small/manifest.json", "out/small/map.csv", "out/small/map.png"];
+    let expected: Vec<PathBuf> =
+        paths.iter().chain(&["out/small/map.svg", "small.toml"]).map(PathBuf::from).collect();
+    assert_eq!(tree(directory.path()), expected);
+    assert!(ended.out.starts_with("6 instances in "), "{}", ended.out);
+    assert!(ended.out.contains("wrote out/small/map.csv\n"), "{}", ended.out);
+    let csv = std::fs::read_to_string(directory.path().join("out/small/map.csv")).unwrap();
+    assert_eq!(csv.lines().count(), 7);
+    assert!(csv.starts_with("instance,mu_d,belt_velocity,type,"), "{csv}");
+    // Not a terminal: lines, no bar.
+    assert!(!ended.err.contains('\r'), "{}", ended.err);
+}
+
+#[test]
+fn output_may_be_placed_anywhere() {
+    let directory = with_sweep("");
+    let ended = squealmap(directory.path(), &["run", "small.toml", "-o", "a/b"]);
+    assert_eq!(ended.code, Some(0), "{}", ended.err);
+    assert!(directory.path().join("a/b/map.svg").is_file());
+    assert!(!directory.path().join("out").exists());
+}
+
+#[test]
+fn the_number_of_threads_changes_nothing() {
+    let directory = with_sweep("");
+    for (threads, output) in [("1", "one"), ("3", "three")] {
+        squealmap(directory.path(), &["run", "small.toml", "--threads", threads, "-o", output]);
+    }
+    let read = |output: &str| std::fs::read(directory.path().join(output).join("map.csv")).unwrap();
+    assert_eq!(read("one"), read("three"));
+}
+
+#[test]
+fn bad_input_ends_with_2_and_writes_nothing() {
+    let directory = with_sweep("m1 = -1");
+    for command in ["run", "check", "modes", "trace"] {
+        let ended = squealmap(directory.path(), &[command, "small.toml"]);
+        assert_eq!(ended.code, Some(2), "{command}: {}", ended.err);
+        let first = ended.err.lines().next().unwrap();
+        assert_eq!(
+            first,
+            "error: small.toml:3:6: `m1` in [model] is -1 but must be a finite number greater than 0"
+        );
+        // The place is shown and underlined.
+        assert!(ended.err.contains("m1 = -1\n") && ended.err.contains("─"), "{}", ended.err);
+        assert!(ended.out.is_empty(), "{}", ended.out);
+        only_the_sweep(&directory);
+    }
+}
+
+#[test]
+fn a_missing_sweep_file_ends_with_2() {
+    let directory = tempfile::tempdir().unwrap();
+    let ended = squealmap(directory.path(), &["run", "none.toml"]);
+    assert_eq!(ended.code, Some(2));
+    assert_eq!(
+        ended.err,
+        "error: cannot read the sweep file `none.toml`: No such file or directory (os error 2)\n"
+    );
+    assert!(tree(directory.path()).is_empty());
+}
+
+#[test]
+fn an_unwritable_output_directory_is_refused_before_the_run() {
+    let directory = with_sweep("");
+    // A path below a regular file cannot be made by anyone, not even by an administrator.
+    for command in [&["run"][..], &["modes"], &["trace", "--at", "mu_d=0.3,belt_velocity=1"]] {
+        let arguments = [command, &["small.toml", "-o", "small.toml/out"]].concat();
+        let ended = squealmap(directory.path(), &arguments);
+        assert_eq!(ended.code, Some(2), "{}", ended.err);
+        assert!(
+            ended.err.starts_with("error: cannot write to the output directory `small.toml/out`: "),
+            "{}",
+            ended.err
+        );
+        assert_eq!(ended.err.lines().count(), 1, "{}", ended.err);
+        only_the_sweep(&directory);
+    }
+}
+
+#[test]
+fn a_file_that_cannot_be_replaced_leaves_nothing_half_written() {
+    let directory = with_sweep("");
+    std::fs::create_dir_all(directory.path().join("full/map.csv/in the way")).unwrap();
+    let ended = squealmap(directory.path(), &["run", "small.toml", "-o", "full"]);
+    assert_eq!(ended.code, Some(1), "{}", ended.err);
+    assert!(ended.err.contains("error: cannot write `full/map.csv`: "), "{}", ended.err);
+    let left = tree(&directory.path().join("full"));
+    assert_eq!(left, [PathBuf::from("map.csv"), PathBuf::from("map.csv/in the way")]);
+}
+
+#[test]
+fn check_describes_and_writes_nothing() {
+    let directory = with_sweep("");
+    let ended = squealmap(directory.path(), &["check", "small.toml"]);
+    assert_eq!(ended.code, Some(0), "{}", ended.err);
+    for part in [
+        "small.toml is valid: 6 instance(s)\n",
+        "title     Small\n",
+        "settle 2 periods, measure 2 periods, at least 12 steps per period\n",
+        "axis      mu_d: 2 values from 0.3 to 0.4\n",
+        "axis      belt_velocity: 3 values from 1 to 3 m/s\n",
+        "cost      about ",
+        "measured on 6 of the instances",
+    ] {
+        assert!(ended.out.contains(part), "`{part}` is not in\n{}", ended.out);
+    }
+    only_the_sweep(&directory);
+}
+
+#[test]
+fn modes_and_trace_write_their_files() {
+    let directory = with_sweep("");
+    let ended = squealmap(directory.path(), &["modes", "small.toml"]);
+    assert_eq!(ended.code, Some(0), "{}", ended.err);
+    let at = "mu_d=0.35,belt_velocity=2.5";
+    let ended = squealmap(directory.path(), &["trace", "small.toml", "--at", at]);
+    assert_eq!(ended.code, Some(0), "{}", ended.err);
+    for file in ["modes.csv", "modes.svg", "modes.png", "trace.csv", "trace.svg", "trace.png"] {
+        assert!(directory.path().join("out/small").join(file).is_file(), "{file}");
+    }
+}
+
+#[test]
+fn trace_lists_what_is_missing() {
+    let directory = with_sweep("");
+    let ended = squealmap(directory.path(), &["trace", "small.toml", "--at", "mu_d=0.3"]);
+    assert_eq!(ended.code, Some(2));
+    assert!(
+        ended.err.starts_with(
+            "error: --at: no value for `belt_velocity`, which the sweep varies; add belt_velocity=1\n"
+        ),
+        "{}",
+        ended.err
+    );
+    only_the_sweep(&directory);
+}
+
+#[test]
+fn help_names_every_command_and_argument() {
+    let directory = tempfile::tempdir().unwrap();
+    let ended = squealmap(directory.path(), &["--help"]);
+    assert_eq!(ended.code, Some(0));
+    for command in ["run", "check", "modes", "trace"] {
+        assert!(ended.out.contains(&format!("\n  {command} ")), "{}", ended.out);
+        let help = squealmap(directory.path(), &[command, "--help"]);
+        assert_eq!(help.code, Some(0));
+        assert!(help.out.contains("Sweep file (TOML)"), "{}", help.out);
+    }
+    let ended = squealmap(directory.path(), &["run", "x.toml", "--threads", "0"]);
+    assert_eq!(ended.code, Some(2));
+    assert!(ended.err.contains("0 is not in 1..=1024"), "{}", ended.err);
+}
