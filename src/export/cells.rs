@@ -16,8 +16,8 @@ pub(super) const FAILED_FILL: &str = "#FFFFFF";
 const BORDER: &str = r##"fill="none" stroke="#000000" stroke-width="0.5" stroke-linejoin="round""##;
 /// The light casing and the dashes of the linear stability limit.
 pub(super) const LIMIT: [&str; 2] = [
-    r##"fill="none" stroke="#FFFFFF" stroke-width="1.6" stroke-linejoin="round""##,
-    r##"fill="none" stroke="#000000" stroke-width="0.9" stroke-dasharray="2.6 1.5" stroke-linejoin="round""##,
+    r##"fill="none" stroke="#FFFFFF" stroke-width="1.2" stroke-linejoin="round""##,
+    r##"fill="none" stroke="#000000" stroke-width="0.75" stroke-dasharray="2.2 1.2" stroke-linejoin="round""##,
 ];
 /// Radius of scattered points.
 pub(super) const POINT_RADIUS: f64 = 3.2;
@@ -93,15 +93,14 @@ fn draw_cells(svg: &mut Svg, map: &Map, panels: &Panels, panel: &Panel, colourin
     let lines = |differ: &dyn Fn(Vertex, Vertex) -> bool| {
         borders(columns, rows, differ).iter().map(|path| steps(path, &at, false)).collect::<String>()
     };
-    svg.path(&lines(&|a, b| class(a.0, a.1) != class(b.0, b.1)), BORDER);
-    if colouring == Colouring::Regime {
-        let limit = lines(&|a, b| {
-            let sides = [record(a.0, a.1).kind, record(b.0, b.1).kind].map(|kind| kind.map(is_stable));
-            matches!(sides, [Some(one), Some(other)] if one != other)
-        });
-        for stroke in LIMIT {
-            svg.path(&limit, stroke);
-        }
+    let limit = |a: Vertex, b: Vertex| {
+        let sides = [record(a.0, a.1).kind, record(b.0, b.1).kind].map(|kind| kind.map(is_stable));
+        colouring == Colouring::Regime && matches!(sides, [Some(one), Some(other)] if one != other)
+    };
+    svg.path(&lines(&|a, b| class(a.0, a.1) != class(b.0, b.1) && !limit(a, b)), BORDER);
+    let limit = lines(&limit);
+    for stroke in LIMIT {
+        svg.path(&limit, stroke);
     }
 }
 

@@ -44,23 +44,8 @@ pub struct Branch {
     pub values: Vec<f64>,
     /// The two modes of each; `None` where no equilibrium or no analysis is defined.
     pub modes: Vec<Option<[Mode; 2]>>,
-}
-
-impl Branch {
-    /// Axis values at which the largest growth rate changes sign, by linear interpolation.
-    #[must_use]
-    pub fn critical_values(&self) -> Vec<f64> {
-        let growth = |i: usize| self.modes[i].map(|modes| modes[0].growth_rate().max(modes[1].growth_rate()));
-        (1..self.values.len())
-            .filter_map(|i| {
-                let (before, after) = (growth(i - 1)?, growth(i)?);
-                ((before > 0.0) != (after > 0.0)).then(|| {
-                    let share = before / (before - after);
-                    self.values[i - 1] + share * (self.values[i] - self.values[i - 1])
-                })
-            })
-            .collect()
-    }
+    /// Axis values at which the largest growth rate changes sign, in rising order.
+    pub critical: Vec<f64>,
 }
 
 /// The eigenvalues of a sweep along its first numeric axis of at least two values.
@@ -72,11 +57,14 @@ pub struct Modes {
     pub branches: Vec<Branch>,
 }
 
-/// Follows the modes of a sweep; `eigenvalues` gives those of an instance, 1/s.
+/// Gives the eigenvalues of an instance of a sweep, 1/s.
+pub type Eigenvalues<'a> = &'a dyn Fn(&Spec, usize) -> Option<[Complex64; 4]>;
+
+/// Follows the modes of a sweep.
 ///
 /// # Errors
 /// When the sweep has no axis of numbers with at least two values.
-pub fn follow(spec: &Spec, eigenvalues: impl Fn(usize) -> Option<[Complex64; 4]>) -> Result<Modes> {
+pub fn follow(spec: &Spec, eigenvalues: Eigenvalues<'_>) -> Result<Modes> {
     let Grid::Axes(axes) = &spec.grid else { return Err(Error::NoModesAxis) };
     let axis = axes
         .iter()
@@ -89,12 +77,52 @@ pub fn follow(spec: &Spec, eigenvalues: impl Fn(usize) -> Option<[Complex64; 4]>
         .filter(|index| (index / stride).is_multiple_of(length))
         .map(|first| {
             let instances: Vec<usize> = order.iter().map(|(i, _)| first + i * stride).collect();
-            let raw: Vec<_> = instances.iter().map(|index| eigenvalues(*index).map(pairs)).collect();
-            let values = order.iter().map(|(_, x)| *x).collect();
-            Branch { first, instances, values, modes: connect(&raw) }
+            let raw: Vec<_> = instances.iter().map(|index| eigenvalues(spec, *index).map(pairs)).collect();
+            let values: Vec<f64> = order.iter().map(|(_, x)| *x).collect();
+            let growth: Vec<_> = raw.iter().map(|pair| pair.map(largest)).collect();
+            let between = |x: f64| {
+                eigenvalues(&single(spec, axes, axis, first, x), 0).map(|values| largest(pairs(values)))
+            };
+            let critical = critical_values(&values, &growth, &between);
+            Branch { first, instances, values, modes: connect(&raw), critical }
         })
         .collect();
     Ok(Modes { axis, branches })
+}
+
+/// The growth rate of the less stable mode.
+fn largest(modes: [Mode; 2]) -> f64 {
+    modes[0].growth_rate().max(modes[1].growth_rate())
+}
+
+/// A sweep of one instance: that with index `first`, but with the value `x` on `axis`.
+fn single(spec: &Spec, axes: &[Axis], axis: usize, first: usize, x: f64) -> Spec {
+    let mut axes = axes.to_vec();
+    for (axis, value) in axes.iter_mut().zip(spec.grid.coordinates(first)) {
+        axis.values = vec![value.clone()];
+    }
+    axes[axis].values = vec![Value::Number(x)];
+    Spec { grid: Grid::Axes(axes), ..spec.clone() }
+}
+
+/// Where the growth rate changes sign, by bisection between neighbouring values.
+fn critical_values(values: &[f64], growth: &[Option<f64>], at: &dyn Fn(f64) -> Option<f64>) -> Vec<f64> {
+    /// Halvings: enough to leave only rounding.
+    const HALVINGS: usize = 52;
+    let changes = (1..values.len()).filter(|i| match (growth[i - 1], growth[*i]) {
+        (Some(before), Some(after)) => (before > 0.0) != (after > 0.0),
+        _ => false,
+    });
+    let bisect = |i: usize| {
+        let rising = growth[i].is_some_and(|g| g > 0.0);
+        let (mut low, mut high) = (values[i - 1], values[i]);
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            if at(middle).is_some_and(|g| g > 0.0) == rising { high = middle } else { low = middle }
+        }
+        0.5 * (low + high)
+    };
+    changes.map(bisect).collect()
 }
 
 /// Index and value of an axis' numbers in rising order.
@@ -144,7 +172,7 @@ fn connect(raw: &[Option<[Mode; 2]>]) -> Vec<Option<[Mode; 2]>> {
 /// # Errors
 /// When the sweep has no axis of numbers with at least two values.
 pub fn modes_csv(spec: &Spec) -> Result<Vec<u8>> {
-    table(spec, &follow(spec, |index| eigenvalues(spec, index))?)
+    table(spec, &follow(spec, &eigenvalues)?)
 }
 
 /// The table of modes that were followed.

@@ -35,7 +35,7 @@ const CRITICAL: &str = r##"fill="none" stroke="#000000" stroke-width="0.6" strok
 /// # Errors
 /// When the sweep has no axis of numbers with at least two values.
 pub fn modes_svg(spec: &Spec) -> Result<String> {
-    Ok(draw(spec, &follow(spec, |index| eigenvalues(spec, index))?))
+    Ok(draw(spec, &follow(spec, &eigenvalues)?))
 }
 
 /// The figure of modes that were followed.
@@ -64,7 +64,7 @@ pub fn draw(spec: &Spec, modes: &Modes) -> String {
     let titles: Vec<Vec<Text>> = shown.iter().map(|branch| settings(spec, modes, branch)).collect();
     let lines = titles.iter().map(Vec::len).max().unwrap_or(0) as f64;
     y += lines * LINE;
-    let mark_room = if shown.iter().any(|branch| !branch.critical_values().is_empty()) { LINE } else { 0.0 };
+    let mark_room = if shown.iter().any(|branch| !branch.critical.is_empty()) { LINE } else { 0.0 };
     y += mark_room;
     let axis = axis.edge_to_edge(&x);
     let x_ticks = axis.ticks(across, Direction::Horizontal, TICK_SIZE);
@@ -134,7 +134,7 @@ fn critical(svg: &mut Svg, spec: &Spec, modes: &Modes, branch: &Branch, x: &Scal
     const DIGITS: usize = 3;
     let Some(AxisKey::Param(param)) = spec.grid.keys().get(modes.axis).copied() else { return };
     let mut free = f64::MIN;
-    for value in branch.critical_values() {
+    for value in branch.critical.iter().copied() {
         let at = frame.across(x.position(value));
         svg.path(&polyline([(at, frame.y), (at, frame.bottom())]), CRITICAL);
         let rounded: f64 = format!("{value:.DIGITS$e}").parse().unwrap_or(value);

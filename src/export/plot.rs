@@ -12,10 +12,6 @@ pub(super) const FIRST: &str = r##"fill="none" stroke="#1F3F8F" stroke-width="0.
 /// Stroke of the second curve: lighter and dashed, so that it survives a grey print.
 pub(super) const SECOND: &str =
     r##"fill="none" stroke="#D55E00" stroke-width="0.9" stroke-dasharray="3.2 1.6" stroke-linejoin="round""##;
-/// The second curve of dense oscillations, where dashes would only break it up.
-pub(super) const SECOND_SOLID: &str =
-    r##"fill="none" stroke="#E08A3C" stroke-width="0.7" stroke-linejoin="round""##;
-
 /// A frame with what its sides mean.
 pub(super) struct Plot<'a> {
     pub(super) frame: Frame,

@@ -42,7 +42,7 @@ fn three_axes(points: usize, velocities: &[f64]) -> Map {
 }
 
 /// The plot rectangles of a figure, `[x, y, width, height]` in points, in the order of drawing.
-fn frames(svg: &str) -> Vec<[f64; 4]> {
+pub(crate) fn frames(svg: &str) -> Vec<[f64; 4]> {
     let mark = r##"fill="none" stroke="#000000" stroke-width="0.6""##;
     svg.lines()
         .filter(|line| line.starts_with("<rect") && line.contains(mark))
@@ -56,7 +56,7 @@ fn frames(svg: &str) -> Vec<[f64; 4]> {
 }
 
 /// The colour at a position of a frame, `(0, 0)` at its lower left corner.
-fn colour(picture: &Pixmap, [x, y, width, height]: [f64; 4], (right, up): (f64, f64)) -> [u8; 3] {
+pub(crate) fn colour(picture: &Pixmap, [x, y, width, height]: [f64; 4], (right, up): (f64, f64)) -> [u8; 3] {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "inside the picture")]
     let pixel = |points: f64| (points * 300.0 / 72.0) as u32;
     let pixel = picture.pixel(pixel(x + right * width), pixel(y + (1.0 - up) * height)).expect("inside");
