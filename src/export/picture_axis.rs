@@ -12,6 +12,8 @@ const TICK_WIDTH: f64 = 26.0;
 const TICK_HEIGHT: f64 = 20.0;
 /// An axis of no more values than this has its ticks at the values themselves.
 const FEW_VALUES: usize = 7;
+/// Values whose labels are longer than this (in ems: about five digits) are no ticks.
+const SHORT_LABEL: f64 = 2.6;
 /// A log axis is wide from this ratio of its ends on.
 const WIDE: f64 = 1e3;
 /// Margin around scattered points, as a fraction of the axis.
@@ -140,18 +142,19 @@ impl PictureAxis {
         if self.key.is_none() {
             return Vec::new();
         }
-        let short = match self.scale {
+        let readable = match self.scale {
             // Values over many decades are labelled as powers.
             Scale::Log { low, high } => high / low < WIDE,
             _ => self.scale.exponent() == 0,
         };
-        if short && (1..=FEW_VALUES).contains(&self.values.len()) {
+        if readable && (1..=FEW_VALUES).contains(&self.values.len()) {
             let at_values: Vec<Tick> = self
                 .values
                 .iter()
                 .map(|x| Tick { at: self.scale.position(*x), label: value_label(*x) })
                 .collect();
-            if fits(&at_values) {
+            let short = at_values.iter().all(|tick| tick.label.width(size, false) <= SHORT_LABEL * size);
+            if short && fits(&at_values) {
                 return at_values;
             }
         }

@@ -156,6 +156,15 @@ fn log_and_uneven_axes_have_their_cells_around_the_values() {
 }
 
 #[test]
+fn ticks_are_round_where_values_are_not() {
+    let axes = vec![span(Param::MuS, 0.0, 1.0, 7), axis(Param::MuD, &[0.1, 0.25, 0.6])];
+    let svg = map_svg(&map(Grid::Axes(axes), |_, _| paper_like(0.4, 0.3, 3.0))).expect("a complete map");
+    assert!(
+        !svg.contains(">0.1666") && svg.contains(">0.2<") && svg.contains(">0.25<") && !svg.contains(">0.3<")
+    );
+}
+
+#[test]
 fn unsorted_values_are_drawn_in_rising_order() {
     let axes = vec![axis(Param::MuS, &[0.4, 0.0, 0.2]), span(Param::MuD, 0.0, 0.6, 2)];
     let sweep = map(Grid::Axes(axes), |i, _| record(Kind::ALL[i / 2], Regime::Slip, true));
