@@ -18,12 +18,29 @@ pub enum Cell {
     Text(String),
 }
 
-impl Cell {
+impl From<Option<f64>> for Cell {
     /// An undefined or non-finite number is an empty cell.
-    fn number(value: Option<f64>) -> Cell {
+    fn from(value: Option<f64>) -> Cell {
         value.filter(|x| x.is_finite()).map_or(Cell::Empty, Cell::Number)
     }
+}
 
+impl From<f64> for Cell {
+    fn from(value: f64) -> Cell {
+        Cell::from(Some(value))
+    }
+}
+
+impl From<&Value> for Cell {
+    fn from(value: &Value) -> Cell {
+        match value {
+            Value::Number(x) => Cell::from(*x),
+            Value::Text(text) => Cell::Text(text.clone()),
+        }
+    }
+}
+
+impl Cell {
     fn text(value: Option<&str>) -> Cell {
         value.map_or(Cell::Empty, |name| Cell::Text(name.to_owned()))
     }
@@ -94,10 +111,7 @@ impl Column {
     pub fn cell(&self, map: &Map, index: usize) -> Cell {
         match self.source {
             Source::Instance => Cell::Count(index as u64),
-            Source::Swept(position) => match map.spec.grid.coordinates(index)[position] {
-                Value::Number(x) => Cell::number(Some(*x)),
-                Value::Text(text) => Cell::Text(text.clone()),
-            },
+            Source::Swept(position) => Cell::from(map.spec.grid.coordinates(index)[position]),
             Source::Record(get) => get(&map.records[index]),
         }
     }
@@ -137,14 +151,14 @@ macro_rules! computed {
 /// A number of the eigenvalue analysis.
 macro_rules! linear {
     ($field:ident) => {
-        |record| Cell::number(record.linear.map(|linear| linear.$field))
+        |record| Cell::from(record.linear.map(|linear| linear.$field))
     };
 }
 
 /// A number of the response.
 macro_rules! response {
     ($field:ident) => {
-        |record| Cell::number(record.outcome.and_then(|outcome| outcome.$field))
+        |record| Cell::from(record.outcome.and_then(|outcome| outcome.$field))
     };
 }
 
@@ -152,7 +166,7 @@ computed! {
     Linear "type" "" |r| Cell::text(r.kind.map(InstabilityType::name)), "type of instability by complex eigenvalues and attribution";
     Linear "growth_rate" "1/s" linear!(growth_rate), "largest real part of the eigenvalues, both mechanisms present";
     Linear "frequency" "Hz" linear!(frequency), "imaginary part of that eigenvalue over 2 pi";
-    Linear "phase" "deg" |r| Cell::number(r.linear.and_then(|linear| linear.phase)), "phase of y1'' against x2'' in that mode; negative when y1'' lags";
+    Linear "phase" "deg" |r| Cell::from(r.linear.and_then(|linear| linear.phase)), "phase of y1'' against x2'' in that mode; negative when y1'' lags";
     Linear "growth_rate_flat" "1/s" linear!(growth_rate_flat), "growth rate with the friction slope set to 0 (mode coupling alone)";
     Linear "growth_rate_frozen" "1/s" linear!(growth_rate_frozen), "growth rate with the normal force frozen (negative slope alone)";
     Response "regime" "" |r| Cell::text(r.regime.map(Regime::name)), "what the system does in the measuring window";
@@ -176,7 +190,7 @@ computed! {
     Response "reverse" "" response!(reverse), "fraction of the window in reversed slip";
     Response "impacts_per_second" "1/s" response!(impacts_per_second), "impacts per second";
     Response "settled" "" |r| r.settled.map_or(Cell::Empty, |flag| Cell::Count(u64::from(flag))), "1 when the two halves of the window agree, else 0";
-    Response "simulated_time" "s" |r| Cell::number(r.outcome.map(|outcome| outcome.simulated_time)), "simulated time";
+    Response "simulated_time" "s" |r| Cell::from(r.outcome.map(|outcome| outcome.simulated_time)), "simulated time";
     Response "steps" "" |r| r.outcome.map_or(Cell::Empty, |outcome| Cell::Count(outcome.steps)), "steps taken, those ended by an event included";
     Always "status" "" |r| Cell::text(Some(r.status.name())), "how the instance ended";
 }

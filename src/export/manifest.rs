@@ -8,7 +8,6 @@ use crate::classify::{InstabilityType, Regime};
 use crate::error::{Error, Result};
 use crate::map::{Map, Record};
 use crate::outcome::Status;
-use crate::spec::Spec;
 
 /// The crate's version.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
@@ -46,7 +45,7 @@ pub fn manifest_json(map: &Map) -> Result<Vec<u8>> {
         "energy_gaining_impacts": map.spec.analysis.response.then(|| {
             gaining.map(|outcome| outcome.energy_gaining_impacts).sum::<u64>()
         }),
-        "spec": resolved(&map.spec),
+        "spec": map.spec.resolved(),
         "columns": columns,
     });
     let mut bytes = serde_json::to_vec_pretty(&manifest).map_err(Error::WriteManifest)?;
@@ -77,13 +76,4 @@ fn count(map: &Map, selects: impl Fn(&Record) -> bool) -> usize {
 
 fn occurring(counts: &[(&str, usize)]) -> Value {
     counts.iter().filter(|(_, n)| *n > 0).map(|(name, n)| ((*name).to_owned(), json!(n))).collect()
-}
-
-/// The sweep with every default filled in.
-fn resolved(spec: &Spec) -> Value {
-    let parameters: Object<String, Value> = crate::model::PARAMS
-        .iter()
-        .filter_map(|row| spec.base.get(row.param).map(|x| (row.name.to_owned(), json!(x))))
-        .collect();
-    json!({ "law": spec.law.name(), "parameters": parameters, "steps_per_period": spec.steps_per_period })
 }

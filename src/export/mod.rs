@@ -4,13 +4,27 @@
 //! `manifest.json` and `map.svg`; [`png`] draws any of the figures. [`modes`] and [`trace`] serve the
 //! commands of the same names.
 
+mod block;
+pub mod boundaries;
+mod cells;
 pub mod columns;
 pub mod csv;
 pub mod figure;
+mod frame;
+mod legend;
 pub mod manifest;
 pub mod modes;
+mod modes_figure;
+pub mod palette;
+mod panels;
+mod picture_axis;
+mod plot;
 pub mod png;
+pub mod scale;
+pub mod svg;
+pub mod text;
 pub mod trace;
+mod trace_figure;
 
 use crate::error::{Error, Result};
 use crate::map::Map;

@@ -1,20 +1,30 @@
-//! STUB: stands in until the real file is merged.
+//! `trace`: one instance in full, as a table; its figure is in `trace_figure.rs`.
 
+use super::csv::Table;
 use crate::error::Result;
-use crate::trace::Trace;
+use crate::trace::{Trace, TraceRow};
 
-/// Stub.
+pub use super::trace_figure::trace_svg;
+
+/// The columns of a trace, SI units.
+pub const COLUMNS: [&str; 13] =
+    ["t", "x2", "y2", "y1", "vx2", "vy2", "vy1", "ax2", "ay2", "ay1", "N", "T", "state"];
+
+/// The table of a trajectory, one row per sample.
 ///
 /// # Errors
-/// Never.
-pub fn trace_csv(_trace: &Trace) -> Result<Vec<u8>> {
-    Ok(Vec::new())
+/// When the table cannot be written.
+pub fn trace_csv(trace: &Trace) -> Result<Vec<u8>> {
+    let mut table = Table::new(COLUMNS.into_iter())?;
+    for row in &trace.rows {
+        let cells = numbers(row).map(|x| super::columns::Cell::from(x).to_string());
+        table.row(cells.into_iter().chain(std::iter::once(row.state.name().to_owned())))?;
+    }
+    table.finish()
 }
 
-/// Stub.
-///
-/// # Errors
-/// Never.
-pub fn trace_svg(_trace: &Trace, _title: &str) -> Result<String> {
-    Ok(String::new())
+/// The numbers of a sample in the order of [`COLUMNS`].
+fn numbers(row: &TraceRow) -> [f64; 12] {
+    let ([x2, y2, y1], [vx2, vy2, vy1], [ax2, ay2, ay1]) = (row.position, row.velocity, row.acceleration);
+    [row.t, x2, y2, y1, vx2, vy2, vy1, ax2, ay2, ay1, row.normal_force, row.tangential_force]
 }

@@ -5,6 +5,7 @@ use squealmap::classify::{InstabilityType, Regime};
 use squealmap::export::csv::map_csv;
 use squealmap::export::manifest::manifest_json;
 use squealmap::grid::{AxisKey, Grid, Value};
+use squealmap::linear::Linear;
 use squealmap::map::{Map, Record};
 use squealmap::model::Param;
 use squealmap::outcome::{Outcome, Status};
@@ -158,4 +159,55 @@ fn the_manifest_counts_and_explains() {
     assert_eq!(names.join(","), HEADER);
     assert!(columns.iter().all(|column| column["meaning"].as_str().is_some_and(|text| text.len() > 3)));
     assert_eq!(columns[4]["unit"], "1/s");
+}
+
+#[test]
+fn every_column_holds_its_own_value() {
+    let names: Vec<&str> = HEADER.split(',').collect();
+    // The value of a column is its position in the header.
+    let at = |name: &str| names.iter().position(|other| *other == name).expect("a column") as f64;
+    let some = |name: &str| Some(at(name));
+    let sweep = small(|_| Record {
+        linear: Some(Linear {
+            growth_rate: at("growth_rate"),
+            frequency: at("frequency"),
+            phase: some("phase"),
+            growth_rate_flat: at("growth_rate_flat"),
+            growth_rate_frozen: at("growth_rate_frozen"),
+        }),
+        outcome: Some(Outcome {
+            status: Status::Ok,
+            x2_mean: some("x2_mean"),
+            x2_std: some("x2_std"),
+            y1_mean: some("y1_mean"),
+            y1_std: some("y1_std"),
+            ax_rms: some("ax_rms"),
+            ay_rms: some("ay_rms"),
+            ax_peak: some("ax_peak"),
+            ay_peak: some("ay_peak"),
+            friction_mean: some("friction_mean"),
+            n_peak: some("n_peak"),
+            response_frequency: some("response_frequency"),
+            phase_cycle: some("phase_cycle"),
+            growth_rate_measured: some("growth_rate_measured"),
+            frequency_measured: some("frequency_measured"),
+            phase_measured: some("phase_measured"),
+            stick: some("stick"),
+            free: some("free"),
+            reverse: some("reverse"),
+            impacts_per_second: some("impacts_per_second"),
+            simulated_time: at("simulated_time"),
+            steps: 31,
+            ..Outcome::default()
+        }),
+        ..record(InstabilityType::Interaction, Regime::Detaching, true)
+    });
+    let table = parse(&map_csv(&sweep).expect("a complete map"));
+    let words = ["interaction", "detaching", "1", "ok"];
+    let special = ["type", "regime", "settled", "status"];
+    for (column, name) in names.iter().enumerate().skip(3) {
+        let expected = special.iter().position(|other| other == name);
+        let expected = expected.map_or_else(|| column.to_string(), |k| words[k].to_owned());
+        assert_eq!(cell(&table, 0, name), expected, "{name}");
+    }
 }

@@ -2,13 +2,17 @@
 
 mod bad_input;
 mod cli;
+mod colour;
 mod common;
 mod events;
 mod export;
 mod extremes;
+mod figure;
 mod linear;
+mod modes_figure;
 mod properties;
 mod response;
 mod spec;
 mod sweeps;
 mod synthetic;
+mod trace_figure;

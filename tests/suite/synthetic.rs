@@ -112,7 +112,7 @@ pub(crate) fn paper_like(mu_s: f64, mu_d: f64, v: f64) -> Record {
         I::ModeCoupling | I::Coexistence | I::Interaction => R::DetachingStickSlip,
         _ => R::Equilibrium,
     };
-    let settled = !(coupled && (mu - 0.24).abs() < 0.02) && !(falling && slope < 0.004);
+    let settled = (!coupled || (mu - 0.24).abs() >= 0.02) && (!falling || slope >= 0.004);
     let mut record = record(kind, regime, settled);
     if v > 5.5 && (mu_s - 0.5).hypot(mu_d - 0.1) < 0.07 {
         record = Record { regime: None, settled: None, ..record };

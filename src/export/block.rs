@@ -1,0 +1,158 @@
+//! One block of a figure: heading, a grid of panels with shared axes, legend.
+
+use super::cells;
+use super::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room};
+use super::legend::Legend;
+use super::palette::Colouring;
+use super::panels::Panels;
+use super::picture_axis::Direction;
+use super::svg::{Anchor, Style, Svg};
+use super::text::Text;
+use crate::map::Map;
+
+/// Between panels of a row, points.
+const GAP_ACROSS: f64 = 7.0;
+/// Between rows of panels, points.
+const GAP_DOWN: f64 = 7.0;
+/// Height of a line of text, points.
+const LINE: f64 = 10.0;
+/// Half a tick label may stand out to the right, points.
+const RIGHT: f64 = 6.0;
+/// A row of panels holds no more than this many.
+const MOST_COLUMNS: usize = 6;
+/// Preferred number of panels in a row when there are more than one row of them.
+const COLUMNS: usize = 5;
+/// A picture is no taller than this, points (75 mm).
+const TALLEST: f64 = 213.0;
+/// Panels become flatter when the rows of all blocks would not fit this height, points (230 mm) ...
+const PAGE: f64 = 652.0;
+/// ... but never flatter than this.
+const FLATTEST: f64 = 0.6;
+/// Heading, axis and legend of a block take about this much, points.
+const AROUND: f64 = 72.0;
+/// Height of a picture without a vertical axis, points.
+const STRIP: f64 = 24.0;
+/// Height of a row of named cells, points.
+const NAMED_ROW: f64 = 18.0;
+
+/// One block to draw.
+pub(super) struct Block<'a> {
+    pub(super) map: &'a Map,
+    pub(super) panels: &'a Panels,
+    pub(super) colouring: Colouring,
+    /// How many blocks the figure stacks.
+    pub(super) blocks: usize,
+    /// `(a)` before the heading, when there are several blocks.
+    pub(super) letter: Option<char>,
+}
+
+impl Block<'_> {
+    /// Draws it with the upper left corner at `(x, y)` and returns its height.
+    pub(super) fn draw(&self, svg: &mut Svg, x: f64, y: f64, width: f64) -> f64 {
+        let panels = self.panels;
+        let mut heading = Style::new(LABEL_SIZE, Anchor::Start).bold();
+        let mut words = x;
+        if let Some(letter) = self.letter {
+            let label = Text::from(format!("({letter})"));
+            svg.text(x, y + LABEL_SIZE, &label, heading);
+            words += label.width(LABEL_SIZE, true) + 4.0;
+        }
+        heading.bold = false;
+        svg.text(words, y + LABEL_SIZE, &Text::from(self.colouring.heading()), heading);
+        let top = y + LABEL_SIZE + 6.0;
+
+        let count = panels.all.len();
+        let columns = self.columns();
+        let rows = count.div_ceil(columns);
+        let lines = self.title_lines() as f64;
+        // The labels of the vertical axis need its height, which needs the width they leave: start from a guess.
+        let mut left = 34.0;
+        let mut size = [0.0; 2];
+        for _ in 0..2 {
+            size = self.panel_size(width - left - RIGHT, columns);
+            left = self.left_room(size[1]);
+        }
+        let [panel_width, panel_height] = size;
+        let ragged = rows > 1 && !count.is_multiple_of(columns);
+        let below = if ragged { x_tick_room() } else { 0.0 };
+        let pitch = lines * LINE + panel_height + GAP_DOWN + below;
+        let x_ticks = panels.x.ticks(panel_width, Direction::Horizontal, TICK_SIZE);
+        let y_ticks = panels.y.as_ref().map(|axis| axis.ticks(panel_height, Direction::Vertical, TICK_SIZE));
+        for (number, panel) in panels.all.iter().enumerate() {
+            let (row, column) = (number / columns, number % columns);
+            let frame = Frame {
+                x: x + left + column as f64 * (panel_width + GAP_ACROSS),
+                y: top + row as f64 * pitch + lines * LINE,
+                width: panel_width,
+                height: panel_height,
+            };
+            for (line, title) in panel.title.iter().rev().enumerate() {
+                let base = frame.y - 3.5 - line as f64 * LINE;
+                svg.text(frame.across(0.5), base, title, Style::new(LABEL_SIZE, Anchor::Middle));
+            }
+            cells::draw(svg, self.map, panels, panel, self.colouring, &frame);
+            frame.border(svg);
+            frame.x_ticks(svg, &x_ticks, ragged || row + 1 == rows);
+            if let Some(ticks) = &y_ticks {
+                frame.y_ticks(svg, ticks, column == 0);
+            }
+        }
+        let plots = rows as f64 * pitch - GAP_DOWN - below;
+        let across = columns as f64 * (panel_width + GAP_ACROSS) - GAP_ACROSS;
+        if let Some(axis) = &panels.y {
+            let room = plots - lines * LINE;
+            let label = axis.label(room + lines * LINE, LABEL_SIZE);
+            let middle = top + lines * LINE + 0.5 * room;
+            svg.text(x + LABEL_SIZE, middle, &label, Style::new(LABEL_SIZE, Anchor::Middle).upwards());
+        }
+        let mut bottom = top + plots + x_tick_room();
+        let label = panels.x.label(across, LABEL_SIZE);
+        if label != Text::default() {
+            bottom += LABEL_SIZE + 1.0;
+            svg.text(x + left + 0.5 * across, bottom, &label, Style::new(LABEL_SIZE, Anchor::Middle));
+        }
+        bottom += 9.0;
+        let legend = Legend::new(self.map, self.colouring, panels.scatter.is_none());
+        // Under the panels, or from the outer edge where that saves a line.
+        let wide = legend.draw(None, x, bottom, width) < legend.draw(None, x + left, bottom, width - left);
+        let indent = if wide { 0.0 } else { left };
+        bottom + legend.draw(Some(svg), x + indent, bottom, width - indent) - y
+    }
+
+    fn title_lines(&self) -> usize {
+        self.panels.all.iter().map(|panel| panel.title.len()).max().unwrap_or(0)
+    }
+
+    fn columns(&self) -> usize {
+        let count = self.panels.all.len().max(1);
+        match self.panels.columns {
+            Some(columns) if (2..=MOST_COLUMNS).contains(&columns) => columns,
+            _ if count <= MOST_COLUMNS => count,
+            _ => count.div_ceil(count.div_ceil(COLUMNS)),
+        }
+    }
+
+    fn panel_size(&self, width: f64, columns: usize) -> [f64; 2] {
+        let n = columns as f64;
+        let panel = (width - (n - 1.0) * GAP_ACROSS) / n;
+        let height = match &self.panels.y {
+            None => STRIP,
+            Some(axis) if axis.is_named() => (NAMED_ROW * axis.len() as f64).clamp(2.0 * NAMED_ROW, TALLEST),
+            Some(_) => {
+                let count = self.panels.all.len();
+                let titles = self.title_lines() as f64 * LINE + GAP_DOWN;
+                let rows = count.div_ceil(columns).max(1) as f64;
+                let room = (PAGE / self.blocks as f64 - AROUND) / rows - titles;
+                room.clamp(FLATTEST * panel, panel).min(TALLEST)
+            }
+        };
+        [panel, height]
+    }
+
+    fn left_room(&self, height: f64) -> f64 {
+        match &self.panels.y {
+            None => RIGHT,
+            Some(axis) => LABEL_SIZE + 6.0 + y_tick_room(&axis.ticks(height, Direction::Vertical, TICK_SIZE)),
+        }
+    }
+}

@@ -1,0 +1,178 @@
+//! The content of a panel: cells or points in the colour of their class, with hatching and border lines.
+
+use std::fmt::Write as _;
+
+use super::boundaries::{Vertex, borders, outlines};
+use super::frame::Frame;
+use super::palette::Colouring;
+use super::panels::{Panel, Panels};
+use super::svg::{Svg, number};
+use crate::classify::InstabilityType;
+use crate::map::{Map, Record};
+
+/// Fill of cells without a result.
+pub(super) const FAILED_FILL: &str = "#FFFFFF";
+/// Border lines between classes.
+const BORDER: &str = r##"fill="none" stroke="#000000" stroke-width="0.5" stroke-linejoin="round""##;
+/// The light casing and the dashes of the linear stability limit.
+pub(super) const LIMIT: [&str; 2] = [
+    r##"fill="none" stroke="#FFFFFF" stroke-width="1.2" stroke-linejoin="round""##,
+    r##"fill="none" stroke="#000000" stroke-width="0.75" stroke-dasharray="2.2 1.2" stroke-linejoin="round""##,
+];
+/// Radius of scattered points.
+pub(super) const POINT_RADIUS: f64 = 3.2;
+
+/// Hatchings, defined once per figure.
+pub(super) fn define_patterns(svg: &mut Svg) {
+    for (id, colour) in [("unsettled-on-light", "#000000"), ("unsettled-on-dark", "#FFFFFF")] {
+        svg.define(&format!(
+            r#"<pattern id="{id}" patternUnits="userSpaceOnUse" width="2.4" height="2.4"><path d="M-0.6 0.6L0.6 -0.6M0 2.4L2.4 0M1.8 3L3 1.8" stroke="{colour}" stroke-width="0.45"/></pattern>"#
+        ));
+    }
+    svg.define(
+        r##"<pattern id="failed" patternUnits="userSpaceOnUse" width="3" height="3"><path d="M0 0L3 3M3 0L0 3" stroke="#C00000" stroke-width="0.5"/></pattern>"##,
+    );
+}
+
+/// The pattern that marks an unsettled instance of a class.
+pub(super) fn unsettled_fill(dark: bool) -> &'static str {
+    if dark { r#"fill="url(#unsettled-on-dark)""# } else { r#"fill="url(#unsettled-on-light)""# }
+}
+
+/// Whether hatching applies: only the response settles.
+fn unsettled(record: &Record, colouring: Colouring) -> bool {
+    colouring == Colouring::Regime && record.settled == Some(false)
+}
+
+/// Draws the content of a panel into its frame.
+pub(super) fn draw(
+    svg: &mut Svg,
+    map: &Map,
+    panels: &Panels,
+    panel: &Panel,
+    colouring: Colouring,
+    frame: &Frame,
+) {
+    if panels.scatter.is_some() {
+        draw_points(svg, map, panels, panel, colouring, frame);
+    } else {
+        draw_cells(svg, map, panels, panel, colouring, frame);
+    }
+}
+
+fn draw_cells(svg: &mut Svg, map: &Map, panels: &Panels, panel: &Panel, colouring: Colouring, frame: &Frame) {
+    let columns = panels.x.len();
+    let rows = panels.y.as_ref().map_or(1, super::picture_axis::PictureAxis::len);
+    if columns * rows != panel.instances.len() || panel.instances.is_empty() {
+        return;
+    }
+    let unit = [0.0, 1.0];
+    let y_edges = panels.y.as_ref().map_or(unit.as_slice(), |y| &y.edges);
+    let at = |(i, j): Vertex| (frame.across(panels.x.edges[i]), frame.up(y_edges[j]));
+    let record = |i: usize, j: usize| &map.records[panel.instances[j * columns + i]];
+    let class = |i: usize, j: usize| colouring.class(record(i, j));
+    let region = |inside: &dyn Fn(usize, usize) -> bool| {
+        outlines(columns, rows, inside).iter().map(|path| steps(path, &at, true)).collect::<String>()
+    };
+    svg.open(r#"shape-rendering="crispEdges" fill-rule="evenodd""#);
+    for (k, look) in colouring.classes().iter().enumerate() {
+        let data = region(&|i, j| class(i, j) == Some(k));
+        svg.path(&data, &format!(r#"class="{}" fill="{}""#, look.name, look.fill));
+    }
+    let failed = region(&|i, j| class(i, j).is_none());
+    svg.path(&failed, &format!(r#"class="failed" fill="{FAILED_FILL}""#));
+    svg.close();
+    svg.path(&failed, r#"fill="url(#failed)" fill-rule="evenodd""#);
+    for dark in [false, true] {
+        let hatched = region(&|i, j| {
+            unsettled(record(i, j), colouring)
+                && class(i, j).is_some_and(|k| colouring.classes()[k].dark == dark)
+        });
+        svg.path(&hatched, &format!(r#"class="unsettled" {} fill-rule="evenodd""#, unsettled_fill(dark)));
+    }
+    let lines = |differ: &dyn Fn(Vertex, Vertex) -> bool| {
+        borders(columns, rows, differ).iter().map(|path| steps(path, &at, false)).collect::<String>()
+    };
+    let limit = |a: Vertex, b: Vertex| {
+        let sides = [record(a.0, a.1).kind, record(b.0, b.1).kind].map(|kind| kind.map(is_stable));
+        colouring == Colouring::Regime && matches!(sides, [Some(one), Some(other)] if one != other)
+    };
+    svg.path(&lines(&|a, b| class(a.0, a.1) != class(b.0, b.1) && !limit(a, b)), BORDER);
+    let limit = lines(&limit);
+    for stroke in LIMIT {
+        svg.path(&limit, stroke);
+    }
+}
+
+/// Whether the sliding equilibrium is stable.
+pub(super) fn is_stable(kind: InstabilityType) -> bool {
+    kind == InstabilityType::Stable
+}
+
+fn draw_points(
+    svg: &mut Svg,
+    map: &Map,
+    panels: &Panels,
+    panel: &Panel,
+    colouring: Colouring,
+    frame: &Frame,
+) {
+    let Some((x_column, y_column)) = panels.scatter else { return };
+    for instance in &panel.instances {
+        let coordinates = map.spec.grid.coordinates(*instance);
+        let x = frame.across(coordinates.get(x_column).map_or(0.5, |value| panels.x.position(value)));
+        let up = match (&panels.y, y_column) {
+            (Some(axis), Some(column)) => axis.position(coordinates[column]),
+            _ => 0.5,
+        };
+        let record = &map.records[*instance];
+        point(svg, x, frame.up(up), colouring.class(record).map(|k| &colouring.classes()[k]));
+        if unsettled(record, colouring) {
+            let dark = colouring.class(record).is_some_and(|k| colouring.classes()[k].dark);
+            svg.circle(
+                x,
+                frame.up(up),
+                POINT_RADIUS,
+                &format!(r#"class="unsettled" {}"#, unsettled_fill(dark)),
+            );
+        }
+    }
+}
+
+/// One point; without a class a white one with a cross.
+fn point(svg: &mut Svg, x: f64, y: f64, class: Option<&super::palette::Class>) {
+    /// Edge of a cross inside the circle.
+    const ARM: f64 = 0.7 * POINT_RADIUS;
+    let (name, fill) = class.map_or(("failed", FAILED_FILL), |look| (look.name, look.fill));
+    svg.circle(
+        x,
+        y,
+        POINT_RADIUS,
+        &format!(r##"class="{name}" fill="{fill}" stroke="#000000" stroke-width="0.5""##),
+    );
+    if class.is_none() {
+        let cross = [(-ARM, -ARM, ARM, ARM), (ARM, -ARM, -ARM, ARM)]
+            .map(|(a, b, c, d)| super::svg::polyline([(x + a, y + b), (x + c, y + d)]));
+        svg.path(&cross.concat(), r##"fill="none" stroke="#C00000" stroke-width="0.9""##);
+    }
+}
+
+/// Path data along cell edges: horizontal and vertical steps only.
+fn steps(path: &[Vertex], at: &impl Fn(Vertex) -> (f64, f64), closed: bool) -> String {
+    let mut data = String::new();
+    let mut before: Option<Vertex> = None;
+    let points = if closed { &path[..path.len().saturating_sub(1)] } else { path };
+    for vertex in points {
+        let (x, y) = at(*vertex);
+        let _ = match before {
+            None => write!(data, "M{} {}", number(x), number(y)),
+            Some(last) if last.1 == vertex.1 => write!(data, "H{}", number(x)),
+            Some(_) => write!(data, "V{}", number(y)),
+        };
+        before = Some(*vertex);
+    }
+    if closed {
+        data.push('Z');
+    }
+    data
+}

@@ -1,0 +1,91 @@
+//! The frame of a panel: border, ticks outside and their labels.
+
+use std::fmt::Write as _;
+
+use super::scale::Tick;
+use super::svg::{Anchor, Style, Svg, number};
+
+/// Size of tick labels, points.
+pub(super) const TICK_SIZE: f64 = 7.0;
+/// Size of axis labels, panel titles and legends, points.
+pub(super) const LABEL_SIZE: f64 = 8.0;
+/// Size of headings and titles, points.
+pub(super) const TITLE_SIZE: f64 = 9.0;
+/// Length of a tick, points.
+pub(super) const TICK_LENGTH: f64 = 2.5;
+/// Between a tick and its label, points.
+const TICK_SPACE: f64 = 1.5;
+/// Height of a digit relative to the size of the text.
+const DIGIT_HEIGHT: f64 = 0.716;
+/// Stroke of frames and ticks.
+const STROKE: &str = r##"fill="none" stroke="#000000" stroke-width="0.6""##;
+
+/// A plot rectangle in points; `y` is its upper end.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Frame {
+    pub(super) x: f64,
+    pub(super) y: f64,
+    pub(super) width: f64,
+    pub(super) height: f64,
+}
+
+impl Frame {
+    /// Position 0..1 from the left, in points.
+    pub(super) fn across(&self, at: f64) -> f64 {
+        self.x + at * self.width
+    }
+
+    /// Position 0..1 from the bottom, in points.
+    pub(super) fn up(&self, at: f64) -> f64 {
+        self.y + (1.0 - at) * self.height
+    }
+
+    /// The lower end.
+    pub(super) fn bottom(&self) -> f64 {
+        self.y + self.height
+    }
+
+    /// Draws the border.
+    pub(super) fn border(&self, svg: &mut Svg) {
+        svg.rect([self.x, self.y, self.width, self.height], STROKE);
+    }
+
+    /// Ticks below the frame.
+    pub(super) fn x_ticks(&self, svg: &mut Svg, ticks: &[Tick], labels: bool) {
+        let mut marks = String::new();
+        for tick in ticks.iter().filter(|tick| (0.0..=1.0).contains(&tick.at)) {
+            let x = self.across(tick.at);
+            let _ = write!(marks, "M{} {}v{}", number(x), number(self.bottom()), number(TICK_LENGTH));
+            if labels {
+                let y = self.bottom() + TICK_LENGTH + TICK_SPACE + DIGIT_HEIGHT * TICK_SIZE;
+                svg.text(x, y, &tick.label, Style::new(TICK_SIZE, Anchor::Middle));
+            }
+        }
+        svg.path(&marks, STROKE);
+    }
+
+    /// Ticks left of the frame.
+    pub(super) fn y_ticks(&self, svg: &mut Svg, ticks: &[Tick], labels: bool) {
+        let mut marks = String::new();
+        for tick in ticks.iter().filter(|tick| (0.0..=1.0).contains(&tick.at)) {
+            let y = self.up(tick.at);
+            let _ = write!(marks, "M{} {}h{}", number(self.x), number(y), number(-TICK_LENGTH));
+            if labels {
+                let x = self.x - TICK_LENGTH - TICK_SPACE;
+                let base = y + 0.5 * DIGIT_HEIGHT * TICK_SIZE;
+                svg.text(x, base, &tick.label, Style::new(TICK_SIZE, Anchor::End));
+            }
+        }
+        svg.path(&marks, STROKE);
+    }
+}
+
+/// Room below a frame for ticks and their labels.
+pub(super) fn x_tick_room() -> f64 {
+    TICK_LENGTH + TICK_SPACE + TICK_SIZE
+}
+
+/// Room left of a frame for ticks and the widest of their labels.
+pub(super) fn y_tick_room(ticks: &[Tick]) -> f64 {
+    TICK_LENGTH + TICK_SPACE + ticks.iter().map(|tick| tick.label.width(TICK_SIZE, false)).fold(0.0, f64::max)
+}

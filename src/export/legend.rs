@@ -1,0 +1,133 @@
+//! The legend of a block: only what occurs, with shares or counts.
+
+use super::cells::{FAILED_FILL, LIMIT, is_stable, unsettled_fill};
+use super::frame::LABEL_SIZE;
+use super::palette::Colouring;
+use super::svg::{Anchor, Style, Svg, number};
+use super::text::Text;
+use crate::map::Map;
+use crate::outcome::Status;
+
+/// Width and height of a swatch, points.
+const SWATCH: [f64; 2] = [12.0, 7.5];
+/// Between a swatch and its words, points.
+const WORD_GAP: f64 = 3.5;
+/// Between entries, points.
+const ENTRY_GAP: f64 = 13.0;
+/// Between base lines, points.
+const LINE: f64 = 12.0;
+/// Up to this many instances the legend counts; above it gives percentages.
+const COUNTED: usize = 200;
+
+/// What stands beside the words.
+enum Swatch {
+    Fill(&'static str),
+    Unsettled,
+    Failed,
+    Limit,
+}
+
+/// The entries of a legend in order.
+pub(super) struct Legend(Vec<(Swatch, Text)>);
+
+impl Legend {
+    /// The legend of a map under a colouring.
+    pub(super) fn new(map: &Map, colouring: Colouring, cells: bool) -> Legend {
+        let total = map.records.len();
+        let share = |n: usize| share(n, total);
+        let classes: Vec<Option<usize>> = map.records.iter().map(|record| colouring.class(record)).collect();
+        let mut entries = Vec::new();
+        for (k, look) in colouring.classes().iter().enumerate() {
+            let n = classes.iter().filter(|class| **class == Some(k)).count();
+            if n > 0 {
+                entries.push((Swatch::Fill(look.fill), Text::from(format!("{} {}", look.label, share(n)))));
+            }
+        }
+        if colouring == Colouring::Regime {
+            let n = map.records.iter().filter(|record| record.settled == Some(false)).count();
+            if n > 0 {
+                entries.push((Swatch::Unsettled, Text::from(format!("unsettled {}", share(n)))));
+            }
+        }
+        let failed = classes.iter().filter(|class| class.is_none()).count();
+        if failed > 0 {
+            let of = |status: Status| {
+                map.records.iter().zip(&classes).filter(|(r, c)| r.status == status && c.is_none()).count()
+            };
+            let reasons: Vec<&str> = Status::ALL
+                .into_iter()
+                .filter(|status| *status != Status::Ok && of(*status) > 0)
+                .map(reason)
+                .collect();
+            let reasons =
+                if reasons.is_empty() { String::new() } else { format!(": {}", reasons.join(", ")) };
+            entries.push((Swatch::Failed, Text::from(format!("no result{reasons} {}", share(failed)))));
+        }
+        let stable = |wanted| map.records.iter().any(|record| record.kind.map(is_stable) == Some(wanted));
+        if colouring == Colouring::Regime && cells && stable(true) && stable(false) {
+            entries.push((Swatch::Limit, Text::from("limit of linear stability")));
+        }
+        Legend(entries)
+    }
+
+    /// Draws it from `(x, y)` downwards into a width and returns its height; `svg` is `None` to measure only.
+    pub(super) fn draw(&self, mut svg: Option<&mut Svg>, x: f64, y: f64, width: f64) -> f64 {
+        let (mut left, mut line) = (x, 0.0);
+        for (swatch, text) in &self.0 {
+            let entry = SWATCH[0] + WORD_GAP + text.width(LABEL_SIZE, false);
+            if left > x && left + entry > x + width {
+                left = x;
+                line += 1.0;
+            }
+            if let Some(svg) = svg.as_deref_mut() {
+                let top = y + line * LINE;
+                draw_swatch(svg, swatch, left, top);
+                let base = top + SWATCH[1] - 1.0;
+                svg.text(left + SWATCH[0] + WORD_GAP, base, text, Style::new(LABEL_SIZE, Anchor::Start));
+            }
+            left += entry + ENTRY_GAP;
+        }
+        if self.0.is_empty() { 0.0 } else { line * LINE + SWATCH[1] + 2.0 }
+    }
+}
+
+fn draw_swatch(svg: &mut Svg, swatch: &Swatch, x: f64, y: f64) {
+    let area = [x, y, SWATCH[0], SWATCH[1]];
+    let border = r##"fill="none" stroke="#000000" stroke-width="0.5""##;
+    match swatch {
+        Swatch::Fill(fill) => svg.rect(area, &format!(r#"fill="{fill}""#)),
+        Swatch::Unsettled => svg.rect(area, unsettled_fill(false)),
+        Swatch::Failed => {
+            svg.rect(area, &format!(r#"fill="{FAILED_FILL}""#));
+            svg.rect(area, r#"fill="url(#failed)""#);
+        }
+        Swatch::Limit => {
+            let line = format!("M{} {}h{}", number(x), number(y + 0.5 * SWATCH[1]), number(SWATCH[0]));
+            svg.path(&line, LIMIT[1]);
+            return;
+        }
+    }
+    svg.rect(area, border);
+}
+
+/// A status in words.
+fn reason(status: Status) -> &'static str {
+    match status {
+        Status::Unwritten => "not computed",
+        Status::Ok => "ok",
+        Status::InvalidLaw => "invalid law",
+        Status::NoEquilibrium => "no equilibrium",
+        Status::Painleve => "Painlevé",
+        Status::EventLimit => "event limit",
+        Status::StepTooLarge => "step too large",
+        Status::NonFinite => "not finite",
+    }
+}
+
+/// `(n = 3)` of few instances, `12.3 %` of many.
+fn share(n: usize, total: usize) -> String {
+    /// Smaller shares would print as 0.0 %.
+    const LEAST: f64 = 0.05;
+    let percent = 100.0 * n as f64 / total.max(1) as f64;
+    if total <= COUNTED || percent < LEAST { format!("(n = {n})") } else { format!("{percent:.1} %") }
+}

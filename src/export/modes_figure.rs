@@ -1,0 +1,163 @@
+//! The two-panel figure of the modes: frequency above, growth rate below, as Figure 2 of the paper.
+
+use super::figure::{DOUBLE_COLUMN, MARGIN, SINGLE_COLUMN, program, title};
+use super::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room};
+use super::modes::{Branch, Mode, Modes, eigenvalues, follow};
+use super::panels::setting;
+use super::picture_axis::{Direction, PictureAxis};
+use super::plot::{FIRST, Plot, SECOND};
+use super::scale::{Scale, value_label};
+use super::svg::{Anchor, Style, Svg, polyline};
+use super::text::Text;
+use crate::error::Result;
+use crate::grid::{AxisKey, Grid};
+use crate::spec::Spec;
+
+/// Side by side no more branches than this; the table holds all.
+const MOST_BRANCHES: usize = 4;
+/// Height of a panel, points.
+const HEIGHT: f64 = 120.0;
+/// Between the two panels, and between columns, points.
+const GAP: f64 = 9.0;
+/// Right of the panels, points.
+const RIGHT: f64 = 8.0;
+/// Margin above and below curves, as a fraction of the panel.
+const HEADROOM: f64 = 0.08;
+/// Height of a line of text, points.
+const LINE: f64 = 10.0;
+/// The line of zero growth.
+const ZERO: &str = r##"fill="none" stroke="#777777" stroke-width="0.5""##;
+/// The mark at a critical value.
+const CRITICAL: &str = r##"fill="none" stroke="#000000" stroke-width="0.6" stroke-dasharray="1.2 1.4""##;
+
+/// The figure of a sweep's eigenvalues as an SVG document: single column width for one branch.
+///
+/// # Errors
+/// When the sweep has no axis of numbers with at least two values.
+pub fn modes_svg(spec: &Spec) -> Result<String> {
+    Ok(draw(spec, &follow(spec, &eigenvalues)?))
+}
+
+/// The figure of modes that were followed.
+#[must_use]
+pub fn draw(spec: &Spec, modes: &Modes) -> String {
+    let shown = &modes.branches[..modes.branches.len().min(MOST_BRANCHES)];
+    let width = if shown.len() > 1 { DOUBLE_COLUMN } else { SINGLE_COLUMN };
+    let mut svg = Svg::new();
+    let mut y = MARGIN + title(&mut svg, &spec.title, width - 2.0 * MARGIN);
+    let axis = match &spec.grid {
+        Grid::Axes(axes) => PictureAxis::cells(&axes[modes.axis]),
+        Grid::Tuples { .. } => PictureAxis::single(),
+    };
+    let x = Scale::spanning(shown.iter().flat_map(|branch| branch.values.iter().copied()));
+    let all = || shown.iter().flat_map(|branch| branch.modes.iter().flatten().flatten());
+    let frequency = Scale::spanning(all().map(Mode::frequency)).widened(HEADROOM);
+    let growth = Scale::spanning(all().map(Mode::growth_rate).chain([0.0])).widened(HEADROOM);
+    let scales = [frequency, growth];
+    let ticks = scales.each_ref().map(|scale| scale.ticks(6));
+    let room = ticks.iter().map(|ticks| y_tick_room(ticks)).fold(0.0, f64::max);
+    let left = MARGIN + LABEL_SIZE + 6.0 + room;
+    let columns = shown.len().max(1) as f64;
+    let across = (width - left - RIGHT - (columns - 1.0) * GAP) / columns;
+    key(&mut svg, left, y);
+    y += LABEL_SIZE + 5.0;
+    let titles: Vec<Vec<Text>> = shown.iter().map(|branch| settings(spec, modes, branch)).collect();
+    let lines = titles.iter().map(Vec::len).max().unwrap_or(0) as f64;
+    y += lines * LINE;
+    let mark_room = if shown.iter().any(|branch| !branch.critical.is_empty()) { LINE } else { 0.0 };
+    y += mark_room;
+    let axis = axis.edge_to_edge(&x);
+    let x_ticks = axis.ticks(across, Direction::Horizontal, TICK_SIZE);
+    for (number, branch) in shown.iter().enumerate() {
+        let from = left + number as f64 * (across + GAP);
+        for (line, text) in titles[number].iter().rev().enumerate() {
+            let base = y - mark_room - 3.5 - line as f64 * LINE;
+            svg.text(from + 0.5 * across, base, text, Style::new(LABEL_SIZE, Anchor::Middle));
+        }
+        for (row, scale) in scales.iter().enumerate() {
+            let frame = Frame { x: from, y: y + row as f64 * (HEIGHT + GAP), width: across, height: HEIGHT };
+            let plot = Plot { frame, x: &x, y: scale };
+            curves(&mut svg, &plot, branch, row == 1);
+            frame.border(&mut svg);
+            frame.x_ticks(&mut svg, &x_ticks, row == 1);
+            frame.y_ticks(&mut svg, &ticks[row], number == 0);
+        }
+        let frame = Frame { x: from, y, width: across, height: 2.0 * HEIGHT + GAP };
+        critical(&mut svg, spec, modes, branch, &x, &frame);
+    }
+    for (row, words) in ["Frequency (Hz)", "Growth rate (1/s)"].into_iter().enumerate() {
+        let middle = y + row as f64 * (HEIGHT + GAP) + 0.5 * HEIGHT;
+        let style = Style::new(LABEL_SIZE, Anchor::Middle).upwards();
+        svg.text(MARGIN + LABEL_SIZE, middle, &Text::from(words), style);
+    }
+    y += 2.0 * HEIGHT + GAP + x_tick_room() + LABEL_SIZE + 1.0;
+    let whole = columns * (across + GAP) - GAP;
+    svg.text(left + 0.5 * whole, y, &axis.label(whole, LABEL_SIZE), Style::new(LABEL_SIZE, Anchor::Middle));
+    if shown.len() < modes.branches.len() {
+        y += LABEL_SIZE + 6.0;
+        let note = format!("{} of {} shown; the table holds all.", shown.len(), modes.branches.len());
+        svg.text(MARGIN, y, &Text::from(note), Style::new(LABEL_SIZE, Anchor::Start));
+    }
+    let name = if spec.title.is_empty() { "Modes" } else { &spec.title };
+    svg.finish(width, y + MARGIN + 2.0, name, &program())
+}
+
+/// The values of the further axes of a branch.
+fn settings(spec: &Spec, modes: &Modes, branch: &Branch) -> Vec<Text> {
+    let keys = spec.grid.keys();
+    let values = spec.grid.coordinates(branch.first);
+    let further = (0..keys.len()).filter(|i| *i != modes.axis);
+    further.map(|i| setting(keys[i], values[i])).collect()
+}
+
+fn curves(svg: &mut Svg, plot: &Plot<'_>, branch: &Branch, growth: bool) {
+    let nothing = f64::NAN;
+    if growth {
+        plot.curve(svg, [branch.values[0], branch.values[branch.values.len() - 1]].map(|x| (x, 0.0)), ZERO);
+    }
+    for (k, stroke) in [FIRST, SECOND].into_iter().enumerate() {
+        let along = |value: fn(&Mode) -> f64| {
+            let points = branch.values.iter().zip(&branch.modes);
+            points.map(move |(x, pair)| (*x, pair.as_ref().map_or(nothing, |pair| value(&pair[k]))))
+        };
+        if growth {
+            plot.curve(svg, along(Mode::growth_rate), stroke);
+        } else {
+            plot.curve(svg, along(Mode::frequency), stroke);
+        }
+    }
+}
+
+/// A line through both panels at each critical value, with its value above.
+fn critical(svg: &mut Svg, spec: &Spec, modes: &Modes, branch: &Branch, x: &Scale, frame: &Frame) {
+    /// Digits of a critical value: more than a plot resolves, enough to compare.
+    const DIGITS: usize = 3;
+    let Some(AxisKey::Param(param)) = spec.grid.keys().get(modes.axis).copied() else { return };
+    let mut free = f64::MIN;
+    for value in branch.critical.iter().copied() {
+        let at = frame.across(x.position(value));
+        svg.path(&polyline([(at, frame.y), (at, frame.bottom())]), CRITICAL);
+        let rounded: f64 = format!("{value:.DIGITS$e}").parse().unwrap_or(value);
+        let text = Text::default().symbol(param.info().symbol).plain(" = ").then(value_label(rounded));
+        let half = 0.5 * text.width(TICK_SIZE, false);
+        let middle = at.clamp(frame.x + half, (frame.x + frame.width - half).max(frame.x + half));
+        // Labels that would overlap are left out: the table has the values.
+        if middle - half > free {
+            svg.text(middle, frame.y - 3.0, &text, Style::new(TICK_SIZE, Anchor::Middle));
+            free = middle + half + 2.0;
+        }
+    }
+}
+
+fn key(svg: &mut Svg, left: f64, y: f64) {
+    /// Length of a sample line, points.
+    const SAMPLE: f64 = 18.0;
+    let mut x = left;
+    for (words, stroke) in [("mode 1", FIRST), ("mode 2", SECOND)] {
+        svg.path(&polyline([(x, y + 0.5 * LABEL_SIZE), (x + SAMPLE, y + 0.5 * LABEL_SIZE)]), stroke);
+        let text = Text::from(words);
+        let base = y + LABEL_SIZE - 1.2;
+        svg.text(x + SAMPLE + 4.0, base, &text, Style::new(LABEL_SIZE, Anchor::Start));
+        x += SAMPLE + 4.0 + text.width(LABEL_SIZE, false) + 14.0;
+    }
+}
