@@ -110,7 +110,8 @@ pub struct Thresholds {
     pub decay: f64,
     /// Rest: the speed below this fraction of the belt velocity …
     pub small_speed: f64,
-    /// … while the second half is at most this multiple of the first.
+    /// … while the second half is at most this multiple of the first. Motions this small are linear:
+    /// where the eigenvalues say stable, a beat of two decaying modes counts as decay too.
     pub small_growth: f64,
     /// Settled: standard deviation of `x2` and rms of `ÿ1` of the two halves agree within this fraction.
     pub settled: f64,
@@ -121,13 +122,17 @@ pub const THRESHOLDS: Thresholds =
     Thresholds { state_counts: 1e-3, decay: 0.99, small_speed: 0.01, small_growth: 1.01, settled: 0.01 };
 
 /// The regime of a completed outcome at the belt velocity `belt_velocity` (m/s), and whether it is settled.
+///
+/// `stable` says whether the sliding equilibrium is linearly stable: it decides for motions too small for
+/// anything else, which may beat for longer than the window.
 #[must_use]
-pub fn regime(outcome: &Outcome, belt_velocity: f64) -> (Regime, bool) {
+pub fn regime(outcome: &Outcome, belt_velocity: f64, stable: bool) -> (Regime, bool) {
     let limits = THRESHOLDS;
     let fraction = |value: Option<f64>| value.unwrap_or(0.0);
     let (stick, free) = (fraction(outcome.stick), fraction(outcome.free));
     let counts = |value: f64| value >= limits.state_counts;
     let [first, second] = outcome.speed_rms_halves;
+    let small = first < limits.small_speed * belt_velocity;
     let regime = if stick >= 1.0 {
         Regime::Stuck
     } else if counts(free) {
@@ -137,7 +142,9 @@ pub fn regime(outcome: &Outcome, belt_velocity: f64) -> (Regime, bool) {
     } else if counts(fraction(outcome.reverse)) {
         Regime::SlipReversal
     } else if second < limits.decay * first
-        || (first < limits.small_speed * belt_velocity && second <= limits.small_growth * first)
+        || (small
+            && (second <= limits.small_growth * first
+                || (stable && second < limits.small_speed * belt_velocity)))
     {
         Regime::Equilibrium
     } else {

@@ -2,15 +2,15 @@
 
 use rayon::prelude::*;
 
-use crate::classify;
+use crate::classify::{self, InstabilityType, Regime};
 use crate::linear;
 use crate::map::Record;
 use crate::method::taylor::REFERENCE_ORDER;
 use crate::model::Param;
 use crate::model::equilibrium::Equilibrium;
-use crate::outcome::Status;
+use crate::outcome::{Outcome, Status};
 use crate::response::{Plan, respond};
-use crate::spec::Spec;
+use crate::spec::{Instance, Spec};
 
 /// The name of the backend in a manifest.
 pub const NAME: &str = "cpu";
@@ -41,18 +41,26 @@ pub fn record(spec: &Spec, index: usize) -> Record {
     if let Err(status) = Equilibrium::new(&instance) {
         record.status = status;
     }
+    let (kind, linear) = linear::analyse(&instance);
     if spec.analysis.linear {
-        (record.kind, record.linear) = linear::analyse(&instance);
+        (record.kind, record.linear) = (kind, linear);
     }
     if spec.analysis.response {
         let outcome = respond(&instance, &Plan::new(spec));
         record.status = outcome.status;
         if outcome.status == Status::Ok {
-            let (regime, settled) = classify::regime(&outcome, instance.params.require(Param::BeltVelocity));
+            let (regime, settled) = regime(&instance, kind, &outcome);
             record.regime = Some(regime);
             record.settled = Some(settled);
         }
         record.outcome = Some(outcome);
     }
     record
+}
+
+/// The regime of a completed outcome, and whether it is settled; `kind` is the type of its equilibrium.
+#[must_use]
+pub fn regime(instance: &Instance, kind: Option<InstabilityType>, outcome: &Outcome) -> (Regime, bool) {
+    let velocity = instance.params.require(Param::BeltVelocity);
+    classify::regime(outcome, velocity, kind == Some(InstabilityType::Stable))
 }

@@ -1,11 +1,12 @@
 //! `squealmap trace`: one instance in full.
 
 use clap::Args;
+use squealmap::backend::cpu;
 use squealmap::export::{png, trace as export};
 use squealmap::outcome::Status;
 use squealmap::spec::Spec;
 use squealmap::trace::trace;
-use squealmap::{Result, classify};
+use squealmap::{Result, linear};
 
 use crate::cli::output::{Output, list};
 use crate::cli::{Files, print};
@@ -41,9 +42,9 @@ impl TraceCommand {
             ("trace.svg", svg.into_bytes()),
         ];
         let paths = output.write(&files)?;
-        let velocity = instance.params.require(squealmap::model::Param::BeltVelocity);
+        let (kind, _) = linear::analyse(&instance);
         let end = match trace.outcome.status {
-            Status::Ok => classify::regime(&trace.outcome, velocity).0.name(),
+            Status::Ok => cpu::regime(&instance, kind, &trace.outcome).0.name(),
             failed => failed.name(),
         };
         let outcome = &trace.outcome;

@@ -40,17 +40,6 @@ pub const NORMAL: usize = 1;
 /// The relative velocity `v = V − ẋ2`.
 pub const RELATIVE: usize = 2;
 
-/// `1/((k + 1)(k + 2))` and `1/(k + 1)` by degree `k`.
-const INTEGRATION: [(f64, f64); MAX_ORDER] = {
-    let mut table = [(0.0, 0.0); MAX_ORDER];
-    let mut k = 0;
-    while k < MAX_ORDER {
-        table[k] = (1.0 / ((k + 1) * (k + 2)) as f64, 1.0 / (k + 1) as f64);
-        k += 1;
-    }
-    table
-};
-
 /// Position, velocity: `(x2, y2, y1)` as deviations from the equilibrium.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct State {
@@ -132,7 +121,7 @@ impl Expansion {
 
     /// Sets the positions of degree `k + 2` from accelerations of degree `k`.
     fn push(&mut self, k: usize, [x2, y2, y1]: [f64; 3]) {
-        let (twice, _) = INTEGRATION[k];
+        let twice = 1.0 / ((k + 1) * (k + 2)) as f64;
         self.position[k + 2] = [x2 * twice, y2 * twice, y1 * twice, 0.0];
     }
 
@@ -159,7 +148,7 @@ impl Expansion {
             self.contact_series[k][TANGENTIAL] = tangential + a;
             self.push(k, [a, 0.0, springs.h * reciprocal_m1]);
             let belt_acceleration = if k == 0 { belt.acceleration } else { 0.0 };
-            self.contact_series[k + 1][RELATIVE] = (belt_acceleration - a) * INTEGRATION[k].1;
+            self.contact_series[k + 1][RELATIVE] = (belt_acceleration - a) / (k + 1) as f64;
             friction.extend(&self.contact_series, k + 1);
         }
     }
@@ -188,7 +177,7 @@ impl Expansion {
             let ay = -(model.kappa * r + w) * reciprocal_det;
             self.push(k, [ax, ay, springs.h * reciprocal_m1]);
             let belt_acceleration = if k == 0 { belt.acceleration } else { 0.0 };
-            self.contact_series[k + 1][RELATIVE] = (belt_acceleration - ax) * INTEGRATION[k].1;
+            self.contact_series[k + 1][RELATIVE] = (belt_acceleration - ax) / (k + 1) as f64;
         }
     }
 
@@ -288,7 +277,7 @@ impl FrictionSeries {
         };
         series.q[0] = sigma * piece.mu(speed);
         match piece {
-            Piece::Linear { slope, .. } if slope == 0.0 => series.degree = 0,
+            Piece::Linear { slope: 0.0, .. } => series.degree = 0,
             Piece::Exponential { rate, .. } => series.decay[0] = (-rate * speed).exp(),
             _ => {}
         }

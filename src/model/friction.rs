@@ -199,11 +199,12 @@ impl FrictionLaw {
     #[must_use]
     pub fn piece(&self, speed: f64) -> Piece {
         match self {
-            FrictionLaw::Constant { mu_d, .. } => Piece::Linear { at_zero: *mu_d, slope: 0.0 },
             FrictionLaw::Bilinear { mu_s, mu_d, knee_velocity } if speed < *knee_velocity => {
                 Piece::Linear { at_zero: *mu_s, slope: (mu_d - mu_s) / knee_velocity }
             }
-            FrictionLaw::Bilinear { mu_d, .. } => Piece::Linear { at_zero: *mu_d, slope: 0.0 },
+            FrictionLaw::Constant { mu_d, .. } | FrictionLaw::Bilinear { mu_d, .. } => {
+                Piece::Linear { at_zero: *mu_d, slope: 0.0 }
+            }
             FrictionLaw::Exponential { mu_s, mu_d, stribeck_velocity } => {
                 Piece::Exponential { floor: *mu_d, height: mu_s - mu_d, rate: 1.0 / stribeck_velocity }
             }

@@ -265,6 +265,12 @@ proptest! {
     }
 }
 
+struct Nothing;
+
+impl Observer for Nothing {
+    fn step(&mut self, _step: &Step) {}
+}
+
 /// With steps of fixed length the error falls with the order of the velocity series, `order − 1`.
 #[test]
 fn order_of_the_method() {
@@ -274,10 +280,6 @@ fn order_of_the_method() {
             let scene = Scene::new(&instance, StartKind::Kick).expect("an equilibrium");
             let plan = Plan { order, tolerance: f64::INFINITY, ..plan(0.0, 1.0, steps_per_period) };
             let mut integrator = scene.integrator(&plan).expect("a start");
-            struct Nothing;
-            impl Observer for Nothing {
-                fn step(&mut self, _step: &Step) {}
-            }
             // 0.3 s: ten periods of the growing oscillation.
             scene.advance(&mut integrator, 0.3 / scene.units.time, &mut Nothing).expect("a run");
             integrator.state()

@@ -54,12 +54,12 @@ fn steady_observables_to_0_3_percent() {
 fn bistable_below_the_critical_friction() {
     let small = kicked(0.2, 0.2, 3.0, 0.01, 0.0);
     let decay = complete(&small, &plan(6.0, 3.0, 12));
-    assert_eq!(regime(&decay, 3.0), (Regime::Equilibrium, true));
+    assert_eq!(regime(&decay, 3.0, true), (Regime::Equilibrium, true));
     // One mode decays at −0.0226 1/s, the other slower: the fit sees the leading one within their spread.
     let (_, linear) = analyse(&small);
     near("linear growth", linear.expect("one").growth_rate, -0.0226, 1e-3);
     let cycle = complete(&kicked(0.2, 0.2, 3.0, -4.5, 0.0), &plan(6.0, 3.0, 12));
-    assert_eq!(regime(&cycle, 3.0).0, Regime::DetachingStickSlip);
+    assert_eq!(regime(&cycle, 3.0, true).0, Regime::DetachingStickSlip);
     close("peak", cycle.ax_peak.expect("a peak"), 800.0, 0.02);
     close("frequency", cycle.response_frequency.expect("one"), 34.09, 1e-3);
 }
