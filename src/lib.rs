@@ -1,4 +1,44 @@
-//! squealmap: stability maps of friction-induced vibration.
+//! Stability maps of friction-induced vibration: for which friction, temperature and belt velocity does a
+//! brake contact become unstable, by which mechanism, and what does it then do?
+//!
+//! The pipeline, in order:
+//!
+//! | stage | module |
+//! |---|---|
+//! | sweep file (TOML) → validated sweep | [`spec`], [`error`], [`place`] |
+//! | axes, index ↔ coordinates | [`grid`] |
+//! | parameters, friction, equations, contact | [`model`] |
+//! | eigenvalues and attribution | [`linear`] |
+//! | one step, events inside it | [`method`] |
+//! | one instance from start to outcome | [`integrate`], [`observe`], [`response`], [`outcome`] |
+//! | many instances | [`backend`], [`sweep`], [`estimate`] |
+//! | outcome → regime | [`classify`] |
+//! | map → bytes | [`map`], [`trace`], [`export`] |
+//!
+//! ```
+//! use squealmap::classify::InstabilityType;
+//! use squealmap::{export, spec::Spec, sweep};
+//!
+//! let text = r#"
+//!     title = "Three belt velocities"
+//!     [friction]
+//!     law = "bilinear"                 # mu_s at rest, mu_d from 5 m/s on
+//!     mu_s = 0.15
+//!     mu_d = 0.05
+//!     [axes]
+//!     belt_velocity = { values = [1.0, 3.0, 6.0] }
+//!     [response]
+//!     settle = "50 periods"
+//!     measure = "20 periods"
+//! "#;
+//! let spec = Spec::parse(text, "example.toml", ".".as_ref())?;
+//! let map = sweep::run(spec, &|_finished| {})?;
+//! assert_eq!(map.records[1].kind, Some(InstabilityType::NegativeSlope));
+//! assert_eq!(map.records[2].kind, Some(InstabilityType::Stable));
+//! let table = export::csv::map_csv(&map)?;
+//! assert_eq!(table.iter().filter(|byte| **byte == b'\n').count(), 4);
+//! # Ok::<(), squealmap::Error>(())
+//! ```
 
 pub mod backend;
 pub mod classify;
@@ -13,10 +53,15 @@ pub mod method;
 pub mod model;
 pub mod observe;
 pub mod outcome;
-mod place;
+pub mod place;
 pub mod response;
 pub mod spec;
 pub mod sweep;
 pub mod trace;
 
 pub use error::{Error, Result};
+
+/// The README's library example is compiled and run.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
