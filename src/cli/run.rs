@@ -10,6 +10,9 @@ use crate::cli::progress::{Progress, seconds};
 use crate::cli::summary::summary;
 use crate::cli::{Files, print};
 
+/// What is written.
+const FILES: [&str; 4] = ["map.csv", "manifest.json", "map.png", "map.svg"];
+
 /// Arguments of `run`.
 #[derive(Debug, Args)]
 pub(crate) struct Run {
@@ -23,7 +26,7 @@ pub(crate) struct Run {
 impl Run {
     pub(crate) fn execute(self) -> Result<()> {
         let spec = Spec::read(&self.files.sweep)?;
-        let output = Output::prepare(self.files.directory())?;
+        let output = Output::prepare(self.files.directory(), &FILES)?;
         let threads = self.threads.map_or(0, usize::from);
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
@@ -37,10 +40,10 @@ impl Run {
 
         let svg = figure::map_svg(&map)?;
         let files = [
-            ("map.csv", csv::map_csv(&map)?),
-            ("manifest.json", manifest::manifest_json(&map)?),
-            ("map.png", png::render(&svg)?),
-            ("map.svg", svg.into_bytes()),
+            (FILES[0], csv::map_csv(&map)?),
+            (FILES[1], manifest::manifest_json(&map)?),
+            (FILES[2], png::render(&svg)?),
+            (FILES[3], svg.into_bytes()),
         ];
         let paths = output.write(&files)?;
 
