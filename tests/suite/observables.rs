@@ -240,7 +240,7 @@ fn a_harmonic_in_closed_form() {
 }
 
 /// Steps per period from which on the peak of a harmonic is good to 1e-6.
-const PEAK_STEPS: u32 = 60;
+const PEAK_STEPS: u32 = 12;
 
 /// On a belt at rest friction opposes the motion: over one period its mean is 0, over half of one μ.
 #[test]
