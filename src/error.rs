@@ -116,6 +116,12 @@ pub enum Error {
         /// The least that is wanted.
         least: &'static str,
     },
+    /// A file with a header and nothing below it.
+    #[error("{at}: the file has a header but no rows; give at least one row")]
+    NoRows {
+        /// The header.
+        at: Place,
+    },
     /// Ends and number of points of an axis that do not go together.
     #[error("{at}: axis `{axis}` has {points} point(s) from {from} to {to}; {remedy}")]
     AxisEnds {
@@ -253,6 +259,16 @@ pub enum Error {
         "modes needs an axis of numbers with at least 2 values, and [axes] has none; add one, e.g. mu_d = {{ from = 0.0, to = 0.6, points = 601 }}"
     )]
     NoModesAxis,
+    /// `modes` needs axes, not tuples.
+    #[error(
+        "modes needs an axis of numbers with at least 2 values, and this sweep lists its instances in a file of `points`; give [axes] in its place, e.g. mu_d = {{ from = 0.0, to = 0.6, points = 601 }}"
+    )]
+    NoModesOfTuples,
+    /// `modes` finds nothing to show.
+    #[error(
+        "no instance of the sweep has modes: none has a sliding equilibrium on a moving belt; give at least one a `belt_velocity` above 0 (and, where theta < 0, less friction)"
+    )]
+    NoModes,
     /// The worker threads cannot be started.
     #[error("cannot start {threads} worker threads: {why}; choose another number with --threads")]
     Threads {
@@ -394,6 +410,7 @@ impl Error {
             | Error::Conflict { at, .. }
             | Error::Unused { at, .. }
             | Error::Empty { at, .. }
+            | Error::NoRows { at }
             | Error::AxisEnds { at, .. }
             | Error::TooMany { at, .. }
             | Error::RaggedRow { at, .. }
@@ -411,6 +428,8 @@ impl Error {
             | Error::ReadSvg(_)
             | Error::Rasterize { .. }
             | Error::NoModesAxis
+            | Error::NoModesOfTuples
+            | Error::NoModes
             | Error::Threads { .. }
             | Error::NoAdapter { .. }
             | Error::NoSuchAdapter { .. }
@@ -444,6 +463,8 @@ impl Error {
             Error::ReadSweep { .. }
             | Error::OutputDirectory { .. }
             | Error::NoModesAxis
+            | Error::NoModesOfTuples
+            | Error::NoModes
             | Error::Threads { .. }
             | Error::NoAdapter { .. }
             | Error::NoSuchAdapter { .. }

@@ -61,6 +61,12 @@ pub fn records(spec: &Spec, cancel: &AtomicBool, progress: &(dyn Fn(usize) + Syn
 /// Computes instance `index` of a sweep.
 #[must_use]
 pub fn record(spec: &Spec, index: usize) -> Record {
+    record_with(spec, index, &Plan::new(spec))
+}
+
+/// Computes instance `index` of a sweep by another plan than the sweep's own.
+#[must_use]
+pub fn record_with(spec: &Spec, index: usize, plan: &Plan) -> Record {
     let instance = spec.instance(index);
     let mut record = Record { status: Status::Ok, ..Record::default() };
     if let Err(status) = Equilibrium::new(&instance) {
@@ -71,7 +77,7 @@ pub fn record(spec: &Spec, index: usize) -> Record {
         (record.kind, record.linear) = (kind, linear);
     }
     if spec.analysis.response {
-        let outcome = respond(&instance, &Plan::new(spec));
+        let outcome = respond(&instance, plan);
         record.status = outcome.status;
         if outcome.status == Status::Ok {
             let (regime, settled) = regime(&instance, kind, &outcome);

@@ -15,6 +15,9 @@ use crate::cli::progress::{Progress, seconds};
 use crate::cli::summary::summary;
 use crate::cli::{Files, note, print};
 
+/// What is written.
+const FILES: [&str; 4] = ["map.csv", "manifest.json", "map.png", "map.svg"];
+
 /// Arguments of `run`.
 #[derive(Debug, Args)]
 pub(crate) struct Run {
@@ -56,7 +59,7 @@ enum PrecisionName {
 impl Run {
     pub(crate) fn execute(self) -> Result<()> {
         let spec = Spec::read(&self.files.sweep)?;
-        let output = Output::prepare(self.files.directory())?;
+        let output = Output::prepare(self.files.directory(), &FILES)?;
         let threads = self.threads.map_or(0, usize::from);
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
@@ -88,10 +91,10 @@ impl Run {
 
         let svg = figure::map_svg(&map)?;
         let files = [
-            ("map.csv", csv::map_csv(&map)?),
-            ("manifest.json", manifest::manifest_json(&map)?),
-            ("map.png", png::render(&svg)?),
-            ("map.svg", svg.into_bytes()),
+            (FILES[0], csv::map_csv(&map)?),
+            (FILES[1], manifest::manifest_json(&map)?),
+            (FILES[2], png::render(&svg)?),
+            (FILES[3], svg.into_bytes()),
         ];
         let paths = output.write(&files)?;
 
