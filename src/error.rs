@@ -277,6 +277,123 @@ pub enum Error {
         /// What the system says.
         why: String,
     },
+    /// No adapter at all.
+    #[error(
+        "no GPU was found: no adapter answers through Vulkan, Metal or DX12; {remedy}, or use --backend cpu"
+    )]
+    NoAdapter {
+        /// What to install.
+        remedy: &'static str,
+    },
+    /// No adapter of the name that was asked for.
+    #[error("no adapter has `{name}` in its name; there are: {names}; choose one with --adapter")]
+    NoSuchAdapter {
+        /// The part of a name.
+        name: String,
+        /// What there is.
+        names: String,
+    },
+    /// An adapter without 64-bit arithmetic.
+    #[error("{adapter} does not compute in f64 (SHADER_F64); use --precision f32 or --backend cpu")]
+    NoF64 {
+        /// The best adapter.
+        adapter: String,
+    },
+    /// A hardware GPU is required but something else would compute.
+    #[error("--require-gpu: {instead} would compute; remove the flag or install a GPU driver")]
+    NoHardware {
+        /// What would compute.
+        instead: String,
+    },
+    /// The response asked of a GPU.
+    #[error("the response has no GPU kernel; use --backend cpu or auto, or analysis = [\"linear\"]")]
+    NoGpuResponse,
+    /// The CPU engine asked to compute in f32.
+    #[error("the CPU engine computes in f64 only; remove --precision f32 or use --backend gpu")]
+    CpuPrecision,
+    /// An adapter that cannot be opened.
+    #[error("cannot open {adapter}: {why}; use --backend cpu")]
+    OpenDevice {
+        /// The adapter.
+        adapter: String,
+        /// What it says.
+        why: String,
+    },
+    /// A device that rejects what it is given.
+    #[error("the GPU failed while {what}: {why}; use --backend cpu")]
+    Device {
+        /// During what.
+        what: String,
+        /// What it says.
+        why: String,
+    },
+    /// A device that is gone.
+    #[error("the GPU was lost: {why}")]
+    DeviceLost {
+        /// What it says.
+        why: String,
+    },
+    /// A device that was opened again and lost again.
+    #[error(
+        "the GPU was lost twice: {why}; {done} of {total} instances were done and nothing was written; \
+         use --backend cpu or fewer instances"
+    )]
+    DeviceLostAgain {
+        /// What it says.
+        why: String,
+        /// Finished instances.
+        done: usize,
+        /// All instances.
+        total: usize,
+    },
+    /// A buffer with too few or too many words.
+    #[error("the buffer `{name}` has {found} words instead of {wanted}; nothing was exported")]
+    ShortBuffer {
+        /// The buffer.
+        name: &'static str,
+        /// Its words.
+        found: usize,
+        /// What it should have.
+        wanted: usize,
+    },
+    /// A kernel whose counters are not what they should be.
+    #[error("the {kernel} kernel counted {found} instead of {wanted}; nothing was exported")]
+    Miscounted {
+        /// The kernel.
+        kernel: &'static str,
+        /// Its count.
+        found: usize,
+        /// What it should be.
+        wanted: usize,
+    },
+    /// A kernel that does not come to an end.
+    #[error(
+        "the {kernel} kernel finished {finished} of {count} instances in {dispatches} dispatches; nothing was exported"
+    )]
+    Endless {
+        /// The kernel.
+        kernel: &'static str,
+        /// Finished instances.
+        finished: usize,
+        /// Instances of the chunk.
+        count: usize,
+        /// Dispatches.
+        dispatches: u64,
+    },
+    /// A run that was stopped from outside.
+    #[error("stopped after {done} of {total} instances; nothing was written")]
+    Cancelled {
+        /// Finished instances.
+        done: usize,
+        /// All instances.
+        total: usize,
+    },
+    /// The handler of Ctrl-C cannot be set.
+    #[error("cannot listen to Ctrl-C: {why}")]
+    Signal {
+        /// What the system says.
+        why: String,
+    },
 }
 
 impl Error {
@@ -313,7 +430,22 @@ impl Error {
             | Error::NoModesAxis
             | Error::NoModesOfTuples
             | Error::NoModes
-            | Error::Threads { .. } => None,
+            | Error::Threads { .. }
+            | Error::NoAdapter { .. }
+            | Error::NoSuchAdapter { .. }
+            | Error::NoF64 { .. }
+            | Error::NoHardware { .. }
+            | Error::NoGpuResponse
+            | Error::CpuPrecision
+            | Error::OpenDevice { .. }
+            | Error::Device { .. }
+            | Error::DeviceLost { .. }
+            | Error::DeviceLostAgain { .. }
+            | Error::ShortBuffer { .. }
+            | Error::Miscounted { .. }
+            | Error::Endless { .. }
+            | Error::Cancelled { .. }
+            | Error::Signal { .. } => None,
         }
     }
 
@@ -333,7 +465,13 @@ impl Error {
             | Error::NoModesAxis
             | Error::NoModesOfTuples
             | Error::NoModes
-            | Error::Threads { .. } => true,
+            | Error::Threads { .. }
+            | Error::NoAdapter { .. }
+            | Error::NoSuchAdapter { .. }
+            | Error::NoF64 { .. }
+            | Error::NoHardware { .. }
+            | Error::NoGpuResponse
+            | Error::CpuPrecision => true,
             _ => self.place().is_some(),
         }
     }

@@ -1,0 +1,15 @@
+//! What runs once per instance in a compute kernel: the twins of the files in `shaders/`.
+//!
+//! A kernel is a generated header followed by a listed concatenation of plain WGSL files. Each function of
+//! a WGSL file has a twin here, generic over the scalar: same names, same order, same arithmetic, so that
+//! f32 on the CPU and f32 on a GPU can be compared function by function.
+//!
+//! - [`source`]: the contract between host and kernels: bindings, words, settings, constants.
+//! - [`scalar`]: f32 and f64 under one trait.
+//! - [`linear`]: eigenvalues and attribution of one instance.
+//! - [`words`]: an instance as words of the linear kernel, and back (f64, host only).
+
+pub mod linear;
+pub mod scalar;
+pub mod source;
+pub mod words;
