@@ -47,6 +47,7 @@ pub mod estimate;
 pub mod export;
 pub mod grid;
 pub mod integrate;
+pub mod kernel;
 pub mod linear;
 pub mod map;
 pub mod method;
