@@ -12,11 +12,8 @@ pub const SAMPLES: usize = 8;
 /// Iterations of the bracketed Newton solver.
 pub const SOLVER_ITERATIONS: usize = 12;
 
-/// See [`crate::method::roots`]; wider, for f32.
-pub const ROUNDING: f64 = 1e-5;
-
-/// See [`crate::method::roots`]; wider, for f32.
-pub const LEADING_ROUNDING: f64 = 1e-3;
+/// Zeros of an event function at its start are at most of this order (the gap opens with t³).
+pub const HIGHEST_ORDER: usize = 3;
 
 /// A time that means no crossing.
 pub const NEVER: f64 = -1.0;
@@ -51,9 +48,13 @@ fn deflated<S: Real>(b: &Series<S>, degree: usize, from: usize, t: S) -> [S; 2] 
 }
 
 /// The time of the first downward crossing of `Σ g_k τ^k` in `(0, step]`, 0 when it is negative from the
-/// start, [`NEVER`] when it stays positive. With `from_zero` it begins at zero by construction.
+/// start, [`NEVER`] when it stays positive.
+///
+/// With `from_zero` it begins at zero by construction, and its first coefficients, which physics makes
+/// non-negative, count as zero when they are negative by no more than `rounding`, an absolute bound. A
+/// function within `rounding` of zero begins there too, and falls at once if its slope is negative.
 #[must_use]
-pub fn first_crossing<S: Real>(g: &Series<S>, degree: usize, step: S, from_zero: bool) -> S {
+pub fn first_crossing<S: Real>(g: &Series<S>, degree: usize, step: S, from_zero: bool, rounding: S) -> S {
     let never = S::from_f64(NEVER);
     let mut b = [S::ZERO; ORDER + 1];
     let mut power = S::ONE;
@@ -64,22 +65,17 @@ pub fn first_crossing<S: Real>(g: &Series<S>, degree: usize, step: S, from_zero:
     if !from_zero && lower_bound(&b, degree) > S::ZERO {
         return never;
     }
-    let mut size = S::ZERO;
-    for k in 1..=degree {
-        size = size.max(b[k].abs());
-    }
     let mut from = 0;
-    if from_zero || (b[0] <= S::ZERO && b[0] >= -S::from_f64(ROUNDING) * size) {
-        if size <= S::ZERO {
+    if from_zero {
+        from = 1;
+        while from <= HIGHEST_ORDER && g[from] <= S::ZERO && g[from] >= -rounding {
+            from += 1;
+        }
+        if from > HIGHEST_ORDER {
             return never;
         }
-        let mut done = false;
-        for m in 1..=3 {
-            if !done {
-                from = m;
-                done = b[m] > S::ZERO || b[m] < -S::from_f64(LEADING_ROUNDING) * size;
-            }
-        }
+    } else if g[0].abs() <= rounding {
+        from = 1;
     }
     if b[from] <= S::ZERO {
         return S::ZERO;
@@ -111,7 +107,7 @@ pub fn first_crossing<S: Real>(g: &Series<S>, degree: usize, step: S, from_zero:
         let mut next = middle;
         if slope < S::ZERO {
             let newton = t - value / slope;
-            if newton > low && newton < high {
+            if newton >= low && newton <= high {
                 next = newton;
             }
         }

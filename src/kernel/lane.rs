@@ -164,7 +164,7 @@ impl<S: Real> Lane<S> {
             self.status = if self.is_finite() { Status::StepTooLarge } else { Status::NonFinite };
             return;
         }
-        let (tau, event) = self.first_event(scene, &e, longest);
+        let (tau, event) = self.first_event(scene, &e, longest, tolerance);
         if tau > S::ZERO {
             self.observe(scene, &e, &segment, tau);
             let (x, y, w) = (evaluate(&e.x, tau), evaluate(&e.y, tau), evaluate(&e.w, tau));
@@ -267,12 +267,17 @@ impl<S: Real> Lane<S> {
     }
 
     /// The first event within `longest` and its time, or the whole.
-    fn first_event(&self, scene: &Scene<S>, e: &Expansion<S>, longest: S) -> (S, u32) {
+    fn first_event(&self, scene: &Scene<S>, e: &Expansion<S>, longest: S, tolerance: S) -> (S, u32) {
         let mut tau = longest;
         let mut event = NOTHING;
+        // Forces of the state differ from those of the truncated series by about this much.
+        let size = scene.n0 * (S::ONE + scene.mu_stick) + e.n[0].abs() + e.t[0].abs();
+        let rounding = tolerance * size;
         let mut watch = |g: &Series<S>, degree: usize, from_zero: bool, which: u32| {
+            // The gap opens with ÿ2 = −N/det.
+            let rounding = if which == GAP { rounding * scene.inv_det } else { rounding };
             if tau > S::ZERO {
-                let at = first_crossing(g, degree, tau, from_zero);
+                let at = first_crossing(g, degree, tau, from_zero, rounding);
                 if at > S::from_f64(NEVER) {
                     tau = at;
                     event = which;
