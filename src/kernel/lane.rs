@@ -225,8 +225,8 @@ impl<S: Real> Lane<S> {
         let before = part(&scene.segments[self.segment as usize]);
         self.segment += 1;
         self.index = 0;
-        let done = self.segment as usize >= SEGMENTS
-            || scene.segments[self.segment as usize].steps <= S::ZERO;
+        let done =
+            self.segment as usize >= SEGMENTS || scene.segments[self.segment as usize].steps <= S::ZERO;
         if done {
             if self.second_pass || !self.phase.prepare(scene, &self.sums) {
                 self.status = Status::Ok;

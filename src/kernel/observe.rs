@@ -102,7 +102,16 @@ impl<S: Real> Sums<S> {
     }
 
     /// Adds a step of the window that begins at `at`.
-    pub fn window(&mut self, e: &Expansion<S>, t0: S, contact: u32, part: u32, at: Moment<S>, step: S, tau: S) {
+    pub fn window(
+        &mut self,
+        e: &Expansion<S>,
+        t0: S,
+        contact: u32,
+        part: u32,
+        at: Moment<S>,
+        step: S,
+        tau: S,
+    ) {
         self.half = if part == FIRST_HALF { 0 } else { 1 };
         self.block[0] += tau;
         if contact == STICK {
@@ -257,8 +266,7 @@ impl<S: Real> Phase<S> {
         if span <= S::ZERO {
             return false;
         }
-        self.omega =
-            S::from_f64(std::f64::consts::TAU) * S::from_f64(f64::from(sums.crossings - 1)) / span;
+        self.omega = S::from_f64(std::f64::consts::TAU) * S::from_f64(f64::from(sums.crossings - 1)) / span;
         true
     }
 

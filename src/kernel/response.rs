@@ -36,8 +36,7 @@ fn segments(scene: &Scene, plan: &Plan) -> [[f64; SEGMENT_WORDS]; SEGMENTS] {
             let (belt, holds) = scene.belt_from(time);
             let duration = rest.min(holds);
             let steps = (duration / nominal).ceil().max(1.0);
-            segments[used] =
-                [steps, duration / steps, belt.velocity, belt.acceleration, f64::from(part)];
+            segments[used] = [steps, duration / steps, belt.velocity, belt.acceleration, f64::from(part)];
             used += 1;
             time += duration;
             rest -= duration;
@@ -84,7 +83,8 @@ pub fn outcome<S: Real>(
         before + (f64::from(index) + fraction) * step
     };
     let units = &scene.units;
-    let mut outcome = Outcome { status: lane.status, steps: u64::from(lane.iterations), ..Outcome::default() };
+    let mut outcome =
+        Outcome { status: lane.status, steps: u64::from(lane.iterations), ..Outcome::default() };
     if lane.status != Status::Ok {
         outcome.simulated_time = time(lane.segment, lane.index, 0.0) * units.time;
         return outcome;
@@ -117,10 +117,10 @@ pub fn outcome<S: Real>(
     let span = moment(&lane.sums.last) - moment(&lane.sums.first);
     if lane.sums.crossings >= 2 && span > 0.0 {
         outcome.response_frequency = Some(f64::from(lane.sums.crossings - 1) / span / units.time);
-        let [x, y] = [lane.phase.x, lane.phase.y].map(|z| num_complex::Complex64::new(z[0].to_f64(), z[1].to_f64()));
+        let [x, y] =
+            [lane.phase.x, lane.phase.y].map(|z| num_complex::Complex64::new(z[0].to_f64(), z[1].to_f64()));
         let ratio = y / x;
-        outcome.phase_cycle =
-            (ratio.is_finite() && ratio.norm_sqr() > 0.0).then(|| ratio.arg().to_degrees());
+        outcome.phase_cycle = (ratio.is_finite() && ratio.norm_sqr() > 0.0).then(|| ratio.arg().to_degrees());
     }
     if let Some(fit) = growth_fit(&lane.sums.growth.map(Real::to_f64)) {
         outcome.growth_rate_measured = Some(fit.growth_rate / units.time);

@@ -48,7 +48,11 @@ pub trait Real:
 
 macro_rules! real {
     ($type:ty) => {
-        #[expect(clippy::cast_possible_truncation, clippy::cast_lossless, reason = "narrowing is the purpose")]
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_lossless,
+            reason = "narrowing is the purpose"
+        )]
         impl Real for $type {
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
