@@ -32,7 +32,7 @@ fn deflated(degree: u32, start: u32, t: real) -> vec2<real> {
     return vec2<real>(value, slope);
 }
 
-fn first_crossing(degree: u32, step: real, from_zero: bool, rounding: real) -> real {
+fn first_crossing(degree: u32, step: real, from_zero: bool, near: real, rounding: real) -> real {
     var power = real(1.0);
     for (var k = 0u; k <= degree; k++) {
         sb[k] = sg[k] * power;
@@ -50,7 +50,7 @@ fn first_crossing(degree: u32, step: real, from_zero: bool, rounding: real) -> r
         if start > HIGHEST_ORDER {
             return NEVER;
         }
-    } else if abs(sg[0]) <= rounding {
+    } else if abs(sg[0]) <= near {
         start = 1u;
     }
     if sb[start] <= real(0.0) {

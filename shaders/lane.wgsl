@@ -201,7 +201,9 @@ fn observe(segment: Segment, tau: real) {
 
 fn watch(degree: u32, from_zero: bool, event: u32, rounding: real) {
     if located.tau > real(0.0) {
-        let at = first_crossing(degree, located.tau, from_zero, rounding);
+        let of_state = event == GAP || event <= UPPER_KINK;
+        let near = select(rounding, real(0.0), of_state);
+        let at = first_crossing(degree, located.tau, from_zero, near, rounding);
         if at > NEVER {
             located.tau = at;
             located.event = event;

@@ -52,9 +52,16 @@ fn deflated<S: Real>(b: &Series<S>, degree: usize, from: usize, t: S) -> [S; 2] 
 ///
 /// With `from_zero` it begins at zero by construction, and its first coefficients, which physics makes
 /// non-negative, count as zero when they are negative by no more than `rounding`, an absolute bound. A
-/// function within `rounding` of zero begins there too, and falls at once if its slope is negative.
+/// function within `near` of zero begins there too, and falls at once if its slope is negative.
 #[must_use]
-pub fn first_crossing<S: Real>(g: &Series<S>, degree: usize, step: S, from_zero: bool, rounding: S) -> S {
+pub fn first_crossing<S: Real>(
+    g: &Series<S>,
+    degree: usize,
+    step: S,
+    from_zero: bool,
+    near: S,
+    rounding: S,
+) -> S {
     let never = S::from_f64(NEVER);
     let mut b = [S::ZERO; ORDER + 1];
     let mut power = S::ONE;
@@ -74,7 +81,7 @@ pub fn first_crossing<S: Real>(g: &Series<S>, degree: usize, step: S, from_zero:
         if from > HIGHEST_ORDER {
             return never;
         }
-    } else if g[0].abs() <= rounding {
+    } else if g[0].abs() <= near {
         from = 1;
     }
     if b[from] <= S::ZERO {

@@ -276,8 +276,11 @@ impl<S: Real> Lane<S> {
         let mut watch = |g: &Series<S>, degree: usize, from_zero: bool, which: u32| {
             // The gap opens with ÿ2 = −N/det.
             let rounding = if which == GAP { rounding * scene.inv_det } else { rounding };
+            // Positions and velocities are those of the state; forces follow from the series.
+            let of_state = which == GAP || which <= UPPER_KINK;
+            let near = if of_state { S::ZERO } else { rounding };
             if tau > S::ZERO {
-                let at = first_crossing(g, degree, tau, from_zero, rounding);
+                let at = first_crossing(g, degree, tau, from_zero, near, rounding);
                 if at > S::from_f64(NEVER) {
                     tau = at;
                     event = which;
