@@ -96,7 +96,7 @@ fn iterate(tolerance: real) {
         lane.status = STATUS_NON_FINITE;
         return;
     }
-    advance_time(segment, tau, tau >= remaining * (real(1.0) - LEAST_REST));
+    advance_time(segment, tau, tau >= remaining * (real(1.0) - LEAST_REST * EPSILON));
     if event != NOTHING {
         count_event(tau);
         transition(event, Belt(belt.velocity + belt.acceleration * tau, belt.acceleration));

@@ -116,6 +116,12 @@ pub enum Error {
         /// The least that is wanted.
         least: &'static str,
     },
+    /// A file with a header and nothing below it.
+    #[error("{at}: the file has a header but no rows; give at least one row")]
+    NoRows {
+        /// The header.
+        at: Place,
+    },
     /// Ends and number of points of an axis that do not go together.
     #[error("{at}: axis `{axis}` has {points} point(s) from {from} to {to}; {remedy}")]
     AxisEnds {
@@ -253,11 +259,138 @@ pub enum Error {
         "modes needs an axis of numbers with at least 2 values, and [axes] has none; add one, e.g. mu_d = {{ from = 0.0, to = 0.6, points = 601 }}"
     )]
     NoModesAxis,
+    /// `modes` needs axes, not tuples.
+    #[error(
+        "modes needs an axis of numbers with at least 2 values, and this sweep lists its instances in a file of `points`; give [axes] in its place, e.g. mu_d = {{ from = 0.0, to = 0.6, points = 601 }}"
+    )]
+    NoModesOfTuples,
+    /// `modes` finds nothing to show.
+    #[error(
+        "no instance of the sweep has modes: none has a sliding equilibrium on a moving belt; give at least one a `belt_velocity` above 0 (and, where theta < 0, less friction)"
+    )]
+    NoModes,
     /// The worker threads cannot be started.
     #[error("cannot start {threads} worker threads: {why}; choose another number with --threads")]
     Threads {
         /// How many were asked for.
         threads: usize,
+        /// What the system says.
+        why: String,
+    },
+    /// No adapter at all.
+    #[error(
+        "no GPU was found: no adapter answers through Vulkan, Metal or DX12; {remedy}, or use --backend cpu"
+    )]
+    NoAdapter {
+        /// What to install.
+        remedy: &'static str,
+    },
+    /// No adapter of the name that was asked for.
+    #[error("no adapter has `{name}` in its name; there are: {names}; choose one with --adapter")]
+    NoSuchAdapter {
+        /// The part of a name.
+        name: String,
+        /// What there is.
+        names: String,
+    },
+    /// An adapter without 64-bit arithmetic.
+    #[error("{adapter} does not compute in f64 (SHADER_F64); use --precision f32 or --backend cpu")]
+    NoF64 {
+        /// The best adapter.
+        adapter: String,
+    },
+    /// A hardware GPU is required but something else would compute.
+    #[error("--require-gpu: {instead} would compute; remove the flag or install a GPU driver")]
+    NoHardware {
+        /// What would compute.
+        instead: String,
+    },
+    /// The response asked of a GPU.
+    #[error("the response has no GPU kernel; use --backend cpu or auto, or analysis = [\"linear\"]")]
+    NoGpuResponse,
+    /// The CPU engine asked to compute in f32.
+    #[error("the CPU engine computes in f64 only; remove --precision f32 or use --backend gpu")]
+    CpuPrecision,
+    /// An adapter that cannot be opened.
+    #[error("cannot open {adapter}: {why}; use --backend cpu")]
+    OpenDevice {
+        /// The adapter.
+        adapter: String,
+        /// What it says.
+        why: String,
+    },
+    /// A device that rejects what it is given.
+    #[error("the GPU failed while {what}: {why}; use --backend cpu")]
+    Device {
+        /// During what.
+        what: String,
+        /// What it says.
+        why: String,
+    },
+    /// A device that is gone.
+    #[error("the GPU was lost: {why}")]
+    DeviceLost {
+        /// What it says.
+        why: String,
+    },
+    /// A device that was opened again and lost again.
+    #[error(
+        "the GPU was lost twice: {why}; {done} of {total} instances were done and nothing was written; \
+         use --backend cpu or fewer instances"
+    )]
+    DeviceLostAgain {
+        /// What it says.
+        why: String,
+        /// Finished instances.
+        done: usize,
+        /// All instances.
+        total: usize,
+    },
+    /// A buffer with too few or too many words.
+    #[error("the buffer `{name}` has {found} words instead of {wanted}; nothing was exported")]
+    ShortBuffer {
+        /// The buffer.
+        name: &'static str,
+        /// Its words.
+        found: usize,
+        /// What it should have.
+        wanted: usize,
+    },
+    /// A kernel whose counters are not what they should be.
+    #[error("the {kernel} kernel counted {found} instead of {wanted}; nothing was exported")]
+    Miscounted {
+        /// The kernel.
+        kernel: &'static str,
+        /// Its count.
+        found: usize,
+        /// What it should be.
+        wanted: usize,
+    },
+    /// A kernel that does not come to an end.
+    #[error(
+        "the {kernel} kernel finished {finished} of {count} instances in {dispatches} dispatches; nothing was exported"
+    )]
+    Endless {
+        /// The kernel.
+        kernel: &'static str,
+        /// Finished instances.
+        finished: usize,
+        /// Instances of the chunk.
+        count: usize,
+        /// Dispatches.
+        dispatches: u64,
+    },
+    /// A run that was stopped from outside.
+    #[error("stopped after {done} of {total} instances; nothing was written")]
+    Cancelled {
+        /// Finished instances.
+        done: usize,
+        /// All instances.
+        total: usize,
+    },
+    /// The handler of Ctrl-C cannot be set.
+    #[error("cannot listen to Ctrl-C: {why}")]
+    Signal {
         /// What the system says.
         why: String,
     },
@@ -277,6 +410,7 @@ impl Error {
             | Error::Conflict { at, .. }
             | Error::Unused { at, .. }
             | Error::Empty { at, .. }
+            | Error::NoRows { at }
             | Error::AxisEnds { at, .. }
             | Error::TooMany { at, .. }
             | Error::RaggedRow { at, .. }
@@ -294,7 +428,24 @@ impl Error {
             | Error::ReadSvg(_)
             | Error::Rasterize { .. }
             | Error::NoModesAxis
-            | Error::Threads { .. } => None,
+            | Error::NoModesOfTuples
+            | Error::NoModes
+            | Error::Threads { .. }
+            | Error::NoAdapter { .. }
+            | Error::NoSuchAdapter { .. }
+            | Error::NoF64 { .. }
+            | Error::NoHardware { .. }
+            | Error::NoGpuResponse
+            | Error::CpuPrecision
+            | Error::OpenDevice { .. }
+            | Error::Device { .. }
+            | Error::DeviceLost { .. }
+            | Error::DeviceLostAgain { .. }
+            | Error::ShortBuffer { .. }
+            | Error::Miscounted { .. }
+            | Error::Endless { .. }
+            | Error::Cancelled { .. }
+            | Error::Signal { .. } => None,
         }
     }
 
@@ -312,7 +463,15 @@ impl Error {
             Error::ReadSweep { .. }
             | Error::OutputDirectory { .. }
             | Error::NoModesAxis
-            | Error::Threads { .. } => true,
+            | Error::NoModesOfTuples
+            | Error::NoModes
+            | Error::Threads { .. }
+            | Error::NoAdapter { .. }
+            | Error::NoSuchAdapter { .. }
+            | Error::NoF64 { .. }
+            | Error::NoHardware { .. }
+            | Error::NoGpuResponse
+            | Error::CpuPrecision => true,
             _ => self.place().is_some(),
         }
     }

@@ -3,6 +3,7 @@
 use std::time::{Duration, Instant};
 
 use crate::backend::cpu;
+use crate::response::Plan;
 use crate::spec::Spec;
 
 /// Most instances that are measured.
@@ -10,6 +11,9 @@ const SAMPLES: usize = 24;
 
 /// No further instance is begun after this time.
 const BUDGET: Duration = Duration::from_secs(3);
+
+/// Longer transients are measured over their first periods and scaled up.
+const MOST_PERIODS: f64 = 200.0;
 
 /// The cost of a sweep.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,14 +33,18 @@ pub fn estimate(spec: &Spec) -> Estimate {
     let samples = SAMPLES.min(instances);
     let began = Instant::now();
     let mut sampled = 0;
-    let mut steps = 0;
+    let (mut steps, mut time) = (0.0, Duration::ZERO);
     while sampled < samples && (sampled == 0 || began.elapsed() < BUDGET) {
-        let record = cpu::record(spec, sample(spread(sampled, samples), samples, instances));
-        steps += record.outcome.map_or(0, |outcome| outcome.steps);
+        let index = sample(spread(sampled, samples), samples, instances);
+        let (plan, share) = Plan::new(spec).shortened(&spec.instance(index), MOST_PERIODS);
+        let start = Instant::now();
+        let record = cpu::record_with(spec, index, &plan);
+        time += start.elapsed().mul_f64(1.0 / share);
+        steps += record.outcome.map_or(0.0, |outcome| outcome.steps as f64 / share);
         sampled += 1;
     }
     let scale = instances as f64 / sampled.max(1) as f64;
-    Estimate { sampled, steps: steps as f64 * scale, cpu_time: began.elapsed().mul_f64(scale) }
+    Estimate { sampled, steps: steps * scale, cpu_time: time.mul_f64(scale) }
 }
 
 /// An instance of part `part` of `parts` equal parts of the grid; where in the part follows the golden

@@ -22,6 +22,7 @@ pub const MAX_EVENTS_PER_PERIOD: u32 = 20_000;
 pub const MAX_HALVINGS: i32 = 24;
 
 /// Most steps within one period `2π/ω0`; stiffer instances end with [`Status::StepTooLarge`].
+/// Five times the finest setting of a sweep.
 pub const MAX_STEPS_PER_PERIOD: u32 = 500_000;
 
 /// Where `M11` vanishes the acceleration of slip diverges like the inverse root of the time left, and no

@@ -11,11 +11,13 @@
 //! | eigenvalues and attribution | [`linear`] |
 //! | one step, events inside it | [`method`] |
 //! | one instance from start to outcome | [`integrate`], [`observe`], [`response`], [`outcome`] |
+//! | the twins of the compute kernels | [`kernel`] |
 //! | many instances | [`backend`], [`sweep`], [`estimate`] |
 //! | outcome → regime | [`classify`] |
 //! | map → bytes | [`map`], [`trace`], [`export`] |
 //!
 //! ```
+//! use squealmap::backend::choice::Options;
 //! use squealmap::classify::InstabilityType;
 //! use squealmap::{export, spec::Spec, sweep};
 //!
@@ -32,7 +34,7 @@
 //!     measure = "20 periods"
 //! "#;
 //! let spec = Spec::parse(text, "example.toml", ".".as_ref())?;
-//! let map = sweep::run(spec, &|_finished| {})?;
+//! let map = sweep::run(spec, &Options::default(), &|_finished| {})?;
 //! assert_eq!(map.records[1].kind, Some(InstabilityType::NegativeSlope));
 //! assert_eq!(map.records[2].kind, Some(InstabilityType::Stable));
 //! let table = export::csv::map_csv(&map)?;

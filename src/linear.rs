@@ -133,25 +133,57 @@ pub fn leading_mode(instance: &Instance) -> Option<(Complex64, Complex64)> {
     Some((lambda, system.mode_ratio(lambda)))
 }
 
+/// The three characteristic polynomials of one sliding equilibrium (powers 0 to 4) and what the mode ratio needs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Prepared {
+    /// Both mechanisms.
+    pub full: [f64; 5],
+    /// The slope set to 0.
+    pub flat: [f64; 5],
+    /// The normal force frozen.
+    pub frozen: [f64; 5],
+    /// `k2, c2, m1`: the polynomial of the normal mode, powers 0 to 2.
+    pub normal: [f64; 3],
+    /// `sin θ`.
+    pub s: f64,
+}
+
+/// The polynomials to solve, or the type of an instance without any (`None` for an ill-posed friction law).
+///
+/// # Errors
+/// The type: at rest, under divergence, or none.
+pub fn prepare(instance: &Instance) -> Result<Prepared, Option<InstabilityType>> {
+    if !instance.law.is_valid() {
+        return Err(None);
+    }
+    if instance.params.require(Param::BeltVelocity) == 0.0 {
+        return Err(Some(InstabilityType::Sticking));
+    }
+    let equilibrium = sliding(instance).ok_or(Some(InstabilityType::Divergence))?;
+    let system = Sliding::new(instance);
+    let slope_damping = equilibrium.slope * equilibrium.normal_force;
+    Ok(Prepared {
+        full: system.polynomial(equilibrium.mu, slope_damping),
+        flat: system.polynomial(equilibrium.mu, 0.0),
+        frozen: system.polynomial(0.0, slope_damping),
+        normal: [system.k2, system.c2, system.m1],
+        s: system.s,
+    })
+}
+
 /// Type of instability and the eigenvalue analysis behind it (`None` at rest and under divergence); both
 /// `None` for an ill-posed friction law.
 #[must_use]
 pub fn analyse(instance: &Instance) -> (Option<InstabilityType>, Option<Linear>) {
-    if !instance.law.is_valid() {
-        return (None, None);
-    }
-    if instance.params.require(Param::BeltVelocity) == 0.0 {
-        return (Some(InstabilityType::Sticking), None);
-    }
-    let Some(equilibrium) = sliding(instance) else {
-        return (Some(InstabilityType::Divergence), None);
+    let prepared = match prepare(instance) {
+        Ok(prepared) => prepared,
+        Err(kind) => return (kind, None),
     };
-    let system = Sliding::new(instance);
-    let slope_damping = equilibrium.slope * equilibrium.normal_force;
-    let leading = |mu, damping| rightmost(&quartic::roots(system.polynomial(mu, damping)));
-    let full = leading(equilibrium.mu, slope_damping);
-    let flat = if slope_damping == 0.0 { full } else { leading(equilibrium.mu, 0.0) };
-    let frozen = leading(0.0, slope_damping);
+    let leading = |polynomial| rightmost(&quartic::roots(polynomial));
+    let full = leading(prepared.full);
+    #[expect(clippy::float_cmp, reason = "the same polynomial, bit by bit")]
+    let flat = if prepared.flat == prepared.full { full } else { leading(prepared.flat) };
+    let frozen = leading(prepared.frozen);
     let kind = match (is_unstable(full), is_unstable(flat), is_unstable(frozen)) {
         (false, _, _) => InstabilityType::Stable,
         (true, false, true) => InstabilityType::NegativeSlope,
@@ -159,7 +191,8 @@ pub fn analyse(instance: &Instance) -> (Option<InstabilityType>, Option<Linear>)
         (true, true, true) => InstabilityType::Coexistence,
         (true, false, false) => InstabilityType::Interaction,
     };
-    let phase = (full.im != 0.0 && system.s != 0.0).then(|| system.mode_ratio(full).arg().to_degrees());
+    let phase = (full.im != 0.0 && prepared.s != 0.0)
+        .then(|| Sliding::new(instance).mode_ratio(full).arg().to_degrees());
     let linear = Linear {
         growth_rate: full.re,
         frequency: full.im / TAU,

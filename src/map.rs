@@ -1,6 +1,9 @@
 //! The map: grid, types, regimes, values, counts and provenance.
 
+use std::fmt;
 use std::time::Duration;
+
+use serde::Serialize;
 
 use crate::classify::{InstabilityType, Regime};
 use crate::linear::Linear;
@@ -24,15 +27,32 @@ pub struct Record {
     pub outcome: Option<Outcome>,
 }
 
-/// Where and how a map was computed.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Provenance {
-    /// Name of the backend, e.g. `cpu`.
+/// Where and how one analysis was computed.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Computation {
+    /// `cpu` or `gpu`.
     pub backend: String,
     /// `f64` or `f32`.
     pub precision: String,
-    /// The integration method.
+    /// The method.
     pub method: String,
+    /// The adapter of a GPU backend.
+    pub adapter: Option<String>,
+}
+
+impl fmt::Display for Computation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} {}, {}", self.backend, self.precision, self.method)
+    }
+}
+
+/// Where and how a map was computed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Provenance {
+    /// The eigenvalue analysis, when asked for.
+    pub linear: Option<Computation>,
+    /// The response, when asked for.
+    pub response: Option<Computation>,
     /// Worker threads.
     pub threads: usize,
     /// Wall time of the computation.

@@ -5,7 +5,7 @@
 
 use crate::integrate::{Event, Observer, Step};
 use crate::method::roots::{Crossing, first_crossing};
-use crate::method::taylor::{Motion, X2, Y1};
+use crate::method::taylor::{Motion, NORMAL, X2, Y1, horner_with_derivatives};
 use crate::model::contact::ContactState;
 use num_complex::Complex64;
 
@@ -23,11 +23,11 @@ const GAUSS: [(f64, f64); 4] = [
 pub struct Sums {
     /// Time.
     pub time: f64,
-    /// `∫x2`, deviation from the equilibrium.
+    /// `∫x2`, from the window's origin.
     pub x: f64,
     /// `∫x2²`.
     pub xx: f64,
-    /// `∫y1`.
+    /// `∫y1`, from the window's origin.
     pub y: f64,
     /// `∫y1²`.
     pub yy: f64,
@@ -82,7 +82,7 @@ impl Sums {
         deviation(self.y / self.time, self.yy / self.time)
     }
 
-    fn add(&mut self, step: &Step, nodes: &[Sample; 4]) {
+    fn add(&mut self, step: &Step, nodes: &[Sample; 4], origin: [f64; 2]) {
         let duration = step.duration;
         self.time += duration;
         match step.expansion.contact.state() {
@@ -94,7 +94,7 @@ impl Sums {
         for ((_, weight), sample) in GAUSS.iter().zip(nodes) {
             let weight = weight * duration;
             let Motion { state, acceleration: [ax, _, ay] } = sample.motion;
-            let [x, _, y] = state.position;
+            let (x, y) = (state.position[X2] - origin[0], state.position[Y1] - origin[1]);
             let [vx, _, vy] = state.velocity;
             self.x += weight * x;
             self.xx += weight * x * x;
@@ -126,25 +126,43 @@ impl Sample {
 /// The times of the samples of a step as fractions of it: its start, the Gauss nodes, its end.
 const SAMPLE_TIMES: [f64; 6] = [0.0, GAUSS[0].0, GAUSS[1].0, GAUSS[2].0, GAUSS[3].0, 1.0];
 
-/// The maximum of a smooth function from its samples: the vertex of the parabola through the largest
-/// one and its neighbours, which does not depend on where the steps end.
-fn maximum(values: [f64; 6]) -> f64 {
+/// Newton steps from the vertex of the parabola to the maximum of the series itself.
+const PEAK_ITERATIONS: usize = 4;
+
+/// Raises `peak` to the maximum of a polynomial (times `sign`) within a step, wherever the step ends.
+///
+/// The samples find the highest cell; only where the parabola through them promises a new peak is the
+/// maximum of the series itself looked for.
+fn raise(peak: &mut f64, series: &[f64], sign: f64, samples: [f64; 6], duration: f64) {
+    let values = samples.map(|value| sign * value);
     let mut top = 0;
     for i in 1..6 {
         if values[i] > values[top] {
             top = i;
         }
     }
+    *peak = peak.max(values[top]);
     if top == 0 || top == 5 {
-        return values[top];
+        return;
     }
     let slope = |i: usize| (values[i + 1] - values[i]) / (SAMPLE_TIMES[i + 1] - SAMPLE_TIMES[i]);
-    let (left, right) = (slope(top - 1), slope(top));
     let [before, at, after] = [SAMPLE_TIMES[top - 1], SAMPLE_TIMES[top], SAMPLE_TIMES[top + 1]];
-    let curvature = (right - left) / (after - before);
-    // Newton's form f(t) = f_top + (t − t_top)(slope at top + curvature (t − t_top)).
-    let tangent = left + curvature * (at - before);
-    if curvature < 0.0 { values[top] - tangent * tangent / (4.0 * curvature) } else { values[top] }
+    // Newton's form f(t) = f_top + (t − t_top)(tangent + curvature (t − t_top)).
+    let curvature = (slope(top) - slope(top - 1)) / (after - before);
+    let tangent = slope(top - 1) + curvature * (at - before);
+    if curvature >= 0.0 || values[top] - tangent * tangent / (2.0 * curvature) <= *peak {
+        return;
+    }
+    let mut tau = (at - tangent / (2.0 * curvature)) * duration;
+    for _ in 0..PEAK_ITERATIONS {
+        let [_, first, second] = horner_with_derivatives(series, tau);
+        let next = tau - first / second;
+        if !(before * duration..=after * duration).contains(&next) {
+            break;
+        }
+        tau = next;
+    }
+    *peak = peak.max(sign * horner_with_derivatives(series, tau)[0]);
 }
 
 fn deviation(mean: f64, mean_square: f64) -> f64 {
@@ -172,6 +190,9 @@ pub struct Window {
     pub first_crossing: f64,
     /// Time of the last crossing.
     pub last_crossing: f64,
+    /// `x2` and `y1` at the start of the window: deviations are summed from there, so that a window at
+    /// rest far from the equilibrium has no spread at all.
+    pub origin: Option<[f64; 2]>,
     previous_velocity: Option<f64>,
 }
 
@@ -213,12 +234,19 @@ impl Observer for Window {
     fn step(&mut self, step: &Step) {
         let samples = SAMPLE_TIMES.map(|fraction| Sample::at(step, fraction));
         let [_, ref nodes @ .., _] = samples;
-        self.halves[self.half].add(step, nodes);
+        let start = samples[0].motion.state.position;
+        let origin = *self.origin.get_or_insert([start[X2], start[Y1]]);
+        self.halves[self.half].add(step, nodes, origin);
         self.count_crossings(step);
-        let largest = |axis: usize| maximum(samples.map(|sample| sample.motion.acceleration[axis].abs()));
-        self.ax_peak = self.ax_peak.max(largest(X2));
-        self.ay_peak = self.ay_peak.max(largest(Y1));
-        self.n_peak = self.n_peak.max(maximum(samples.map(|sample| sample.forces.1)));
+        let (order, duration) = (step.expansion.order, step.duration);
+        for (axis, peak) in [(X2, &mut self.ax_peak), (Y1, &mut self.ay_peak)] {
+            let series = step.expansion.acceleration(axis);
+            let values = samples.map(|sample| sample.motion.acceleration[axis]);
+            raise(peak, &series[..order - 1], 1.0, values, duration);
+            raise(peak, &series[..order - 1], -1.0, values, duration);
+        }
+        let normal = step.expansion.contact(NORMAL);
+        raise(&mut self.n_peak, &normal[..order - 1], 1.0, samples.map(|sample| sample.forces.1), duration);
     }
 
     fn event(&mut self, event: Event) {

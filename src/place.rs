@@ -9,13 +9,13 @@ use std::sync::Arc;
 pub(crate) struct Source {
     /// The path as the user wrote it.
     pub(crate) name: String,
-    /// The whole text, without a byte order mark.
+    /// The whole text, without a byte order mark, lone carriage returns as line feeds.
     pub(crate) text: Arc<str>,
 }
 
 impl Source {
     pub(crate) fn new(name: impl Into<String>, text: &str) -> Source {
-        Source { name: name.into(), text: Arc::from(text.strip_prefix('\u{feff}').unwrap_or(text)) }
+        Source { name: name.into(), text: line_ends(text.strip_prefix('\u{feff}').unwrap_or(text)) }
     }
 
     /// The place of a byte range of the text.
@@ -42,6 +42,20 @@ impl Source {
     pub(crate) fn written(&self, span: Range<usize>) -> &str {
         self.text.get(span).unwrap_or_default()
     }
+}
+
+/// The text with every lone carriage return as a line feed: byte for byte, so that places stay what they are.
+fn line_ends(text: &str) -> Arc<str> {
+    if !text.contains('\r') {
+        return Arc::from(text);
+    }
+    let mut rest = text.chars().peekable();
+    let mut ended = String::with_capacity(text.len());
+    while let Some(c) = rest.next() {
+        let lone = c == '\r' && rest.peek() != Some(&'\n');
+        ended.push(if lone { '\n' } else { c });
+    }
+    Arc::from(ended)
 }
 
 /// A place in a file (or in an argument): what an error message begins with and what is underlined.

@@ -45,6 +45,21 @@ impl Plan {
     }
 }
 
+impl Plan {
+    /// The plan cut to at most `periods` of the instance, and the share of its time that is left.
+    #[must_use]
+    pub fn shortened(&self, instance: &Instance, periods: f64) -> (Plan, f64) {
+        let Ok(scene) = Scene::new(instance, self.start) else { return (*self, 1.0) };
+        let [settle, measure] = [self.settle, self.measure].map(|part| scene.scaled(part) / TAU);
+        let share = (periods / (settle + measure)).min(1.0);
+        if share >= 1.0 {
+            return (*self, 1.0);
+        }
+        let cut = |part: f64| Duration::Periods(part * share);
+        (Plan { settle: cut(settle), measure: cut(measure), ..*self }, share)
+    }
+}
+
 /// The belt velocity over time, scaled: linear from the first value to the last, then constant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ramp {
@@ -249,9 +264,10 @@ fn report_window(outcome: &mut Outcome, scene: &Scene, window: &Window) {
     let units = &scene.units;
     let all: Sums = window.halves[0].plus(window.halves[1]);
     let rms = |sum: f64, time: f64| (sum / time).sqrt();
-    outcome.x2_mean = Some(scene.equilibrium.x2 + all.x / all.time * units.length);
+    let [x0, y0] = window.origin.unwrap_or_default();
+    outcome.x2_mean = Some(scene.equilibrium.x2 + (x0 + all.x / all.time) * units.length);
     outcome.x2_std = Some(all.x_std() * units.length);
-    outcome.y1_mean = Some(scene.equilibrium.y1 + all.y / all.time * units.length);
+    outcome.y1_mean = Some(scene.equilibrium.y1 + (y0 + all.y / all.time) * units.length);
     outcome.y1_std = Some(all.y_std() * units.length);
     outcome.ax_rms = Some(rms(all.ax, all.time) * units.acceleration);
     outcome.ay_rms = Some(rms(all.ay, all.time) * units.acceleration);

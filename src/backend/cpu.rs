@@ -1,10 +1,14 @@
 //! The f64 reference on all cores: one rayon task per instance, results independent of their number.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use rayon::prelude::*;
 
 use crate::classify::{self, InstabilityType, Regime};
+use crate::error::{Error, Result};
+use crate::kernel::source::Precision;
 use crate::linear;
-use crate::map::Record;
+use crate::map::{Computation, Record};
 use crate::method::taylor::REFERENCE_ORDER;
 use crate::model::Param;
 use crate::model::equilibrium::Equilibrium;
@@ -15,27 +19,54 @@ use crate::spec::{Instance, Spec};
 /// The name of the backend in a manifest.
 pub const NAME: &str = "cpu";
 
-/// The method in a manifest.
+/// How an analysis is computed here.
+#[must_use]
+pub fn computation(method: String) -> Computation {
+    Computation { backend: NAME.to_owned(), precision: Precision::F64.to_string(), method, adapter: None }
+}
+
+/// The method of the eigenvalue analysis in a manifest.
+#[must_use]
+pub fn linear_method() -> String {
+    "closed form of the quartic, polished".to_owned()
+}
+
+/// The method of the response in a manifest.
 #[must_use]
 pub fn method() -> String {
     format!("Taylor series of order {REFERENCE_ORDER}, events located in the step")
 }
 
 /// Computes every instance of a sweep in the order of its grid; `progress` gets the number newly finished.
-pub fn records(spec: &Spec, progress: &(dyn Fn(usize) + Sync)) -> Vec<Record> {
-    (0..spec.grid.len())
+///
+/// # Errors
+/// When `cancel` was set before every instance was begun.
+pub fn records(spec: &Spec, cancel: &AtomicBool, progress: &(dyn Fn(usize) + Sync)) -> Result<Vec<Record>> {
+    let total = spec.grid.len();
+    let records: Vec<Record> = (0..total)
         .into_par_iter()
         .map(|index| {
+            if cancel.load(Ordering::Relaxed) {
+                return Record::default();
+            }
             let record = record(spec, index);
             progress(1);
             record
         })
-        .collect()
+        .collect();
+    let unwritten = records.iter().filter(|record| record.status == Status::Unwritten).count();
+    if unwritten > 0 { Err(Error::Cancelled { done: total - unwritten, total }) } else { Ok(records) }
 }
 
 /// Computes instance `index` of a sweep.
 #[must_use]
 pub fn record(spec: &Spec, index: usize) -> Record {
+    record_with(spec, index, &Plan::new(spec))
+}
+
+/// Computes instance `index` of a sweep by another plan than the sweep's own.
+#[must_use]
+pub fn record_with(spec: &Spec, index: usize, plan: &Plan) -> Record {
     let instance = spec.instance(index);
     let mut record = Record { status: Status::Ok, ..Record::default() };
     if let Err(status) = Equilibrium::new(&instance) {
@@ -46,7 +77,7 @@ pub fn record(spec: &Spec, index: usize) -> Record {
         (record.kind, record.linear) = (kind, linear);
     }
     if spec.analysis.response {
-        let outcome = respond(&instance, &Plan::new(spec));
+        let outcome = respond(&instance, plan);
         record.status = outcome.status;
         if outcome.status == Status::Ok {
             let (regime, settled) = regime(&instance, kind, &outcome);

@@ -1,5 +1,6 @@
 //! The commands: one file each, and the only code that prints or opens files for writing.
 
+mod adapters;
 mod check;
 mod modes;
 mod output;
@@ -28,6 +29,8 @@ pub(crate) struct Cli {
 enum Command {
     /// Compute every instance of a sweep: map.csv, map.svg, map.png, manifest.json
     Run(run::Run),
+    /// List the GPUs of this machine: names, drivers, limits and features
+    Adapters,
     /// Validate a sweep, say what it would compute and measure what it would cost; writes nothing
     Check(check::Check),
     /// Eigenvalues against the first numeric axis of a sweep: modes.csv, modes.svg, modes.png
@@ -59,6 +62,10 @@ impl Cli {
     pub(crate) fn execute(self) -> Result<()> {
         match self.command {
             Command::Run(command) => command.execute(),
+            Command::Adapters => {
+                adapters::execute();
+                Ok(())
+            }
             Command::Check(command) => command.execute(),
             Command::Modes(command) => command.execute(),
             Command::Trace(command) => command.execute(),
@@ -70,4 +77,9 @@ impl Cli {
 fn print(text: &str) {
     let mut out = std::io::stdout().lock();
     let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+}
+
+/// A remark beside the result, on standard error.
+fn note(text: &str) {
+    let _ = writeln!(std::io::stderr().lock(), "{text}");
 }

@@ -8,6 +8,9 @@ use squealmap::spec::Spec;
 use crate::cli::output::{Output, list};
 use crate::cli::{Files, print};
 
+/// What is written.
+const FILES: [&str; 3] = ["modes.csv", "modes.png", "modes.svg"];
+
 /// Arguments of `modes`.
 #[derive(Debug, Args)]
 pub(crate) struct Modes {
@@ -18,12 +21,12 @@ pub(crate) struct Modes {
 impl Modes {
     pub(crate) fn execute(self) -> Result<()> {
         let spec = Spec::read(&self.files.sweep)?;
-        let output = Output::prepare(self.files.directory())?;
+        let output = Output::prepare(self.files.directory(), &FILES)?;
         let svg = modes::modes_svg(&spec)?;
         let files = [
-            ("modes.csv", modes::modes_csv(&spec)?),
-            ("modes.png", png::render(&svg)?),
-            ("modes.svg", svg.into_bytes()),
+            (FILES[0], modes::modes_csv(&spec)?),
+            (FILES[1], png::render(&svg)?),
+            (FILES[2], svg.into_bytes()),
         ];
         print(&list(&output.write(&files)?));
         Ok(())

@@ -15,8 +15,9 @@ pub(crate) struct Output {
 }
 
 impl Output {
-    /// Makes the directory where it does not exist and writes a file in it, which it removes.
-    pub(crate) fn prepare(directory: PathBuf) -> Result<Output> {
+    /// Makes the directory where it does not exist and writes a file in it, which it removes; refuses one
+    /// where a directory stands in place of one of the `files` to come.
+    pub(crate) fn prepare(directory: PathBuf, files: &[&str]) -> Result<Output> {
         let made = directory
             .ancestors()
             .filter(|path| !path.as_os_str().is_empty())
@@ -27,7 +28,13 @@ impl Output {
         std::fs::create_dir_all(&output.directory)
             .and_then(|()| temporary(&output.directory)?.close())
             .map_err(|why| Error::OutputDirectory { path: output.directory.clone(), why: why.to_string() })?;
-        Ok(output)
+        match files.iter().find(|name| output.directory.join(name).is_dir()) {
+            None => Ok(output),
+            Some(name) => {
+                let why = format!("`{name}`, a file to be written there, is a directory");
+                Err(Error::OutputDirectory { path: output.directory.clone(), why })
+            }
+        }
     }
 
     /// Writes all files or none: first under temporary names, then renamed. Returns their paths.

@@ -1,14 +1,22 @@
 //! `squealmap run`: a whole sweep.
 
-use clap::Args;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use clap::{Args, ValueEnum};
+use squealmap::backend::choice::{Backend, Options};
 use squealmap::export::{csv, figure, manifest, png};
+use squealmap::kernel::source::Precision;
 use squealmap::spec::Spec;
 use squealmap::{Error, Result, sweep};
 
 use crate::cli::output::{Output, list};
 use crate::cli::progress::{Progress, seconds};
 use crate::cli::summary::summary;
-use crate::cli::{Files, print};
+use crate::cli::{Files, note, print};
+
+/// What is written.
+const FILES: [&str; 4] = ["map.csv", "manifest.json", "map.png", "map.svg"];
 
 /// Arguments of `run`.
 #[derive(Debug, Args)]
@@ -18,12 +26,40 @@ pub(crate) struct Run {
     /// Worker threads, 1 to 1024 [default: one per core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
+    /// What computes: `auto` takes a hardware GPU where there is one, else the CPU
+    #[arg(long, value_enum, default_value_t)]
+    backend: BackendName,
+    /// Arithmetic [default: f64 on the CPU, f32 on a GPU]
+    #[arg(long, value_enum)]
+    precision: Option<PrecisionName>,
+    /// Only a GPU with this in its name; see `squealmap adapters`
+    #[arg(long, value_name = "NAME")]
+    adapter: Option<String>,
+    /// Fail unless a hardware GPU computes
+    #[arg(long)]
+    require_gpu: bool,
+}
+
+/// The values of `--backend`.
+#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+enum BackendName {
+    #[default]
+    Auto,
+    Gpu,
+    Cpu,
+}
+
+/// The values of `--precision`.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum PrecisionName {
+    F32,
+    F64,
 }
 
 impl Run {
     pub(crate) fn execute(self) -> Result<()> {
         let spec = Spec::read(&self.files.sweep)?;
-        let output = Output::prepare(self.files.directory())?;
+        let output = Output::prepare(self.files.directory(), &FILES)?;
         let threads = self.threads.map_or(0, usize::from);
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
@@ -31,16 +67,34 @@ impl Run {
             .map_err(|why| Error::Threads { threads, why: why.to_string() })?;
 
         let progress = Progress::new(spec.grid.len());
-        let map = pool.install(|| sweep::run(spec, &|count| progress.add(count)));
+        let cancel = stop_at_ctrl_c()?;
+        let note = |text: &str| note(text);
+        let options = Options {
+            backend: match self.backend {
+                BackendName::Auto => Backend::Auto,
+                BackendName::Gpu => Backend::Gpu,
+                BackendName::Cpu => Backend::Cpu,
+            },
+            precision: self.precision.map(|name| match name {
+                PrecisionName::F32 => Precision::F32,
+                PrecisionName::F64 => Precision::F64,
+            }),
+            require_gpu: self.require_gpu,
+            adapter: self.adapter.as_deref(),
+            chunk: None,
+            cancel: Some(&cancel),
+            note: Some(&note),
+        };
+        let map = pool.install(|| sweep::run(spec, &options, &|count| progress.add(count)));
         progress.finish();
         let map = map?;
 
         let svg = figure::map_svg(&map)?;
         let files = [
-            ("map.csv", csv::map_csv(&map)?),
-            ("manifest.json", manifest::manifest_json(&map)?),
-            ("map.png", png::render(&svg)?),
-            ("map.svg", svg.into_bytes()),
+            (FILES[0], csv::map_csv(&map)?),
+            (FILES[1], manifest::manifest_json(&map)?),
+            (FILES[2], png::render(&svg)?),
+            (FILES[3], svg.into_bytes()),
         ];
         let paths = output.write(&files)?;
 
@@ -56,4 +110,13 @@ impl Run {
         ));
         Ok(())
     }
+}
+
+/// A flag that Ctrl-C sets; the run then ends between two instances or dispatches.
+fn stop_at_ctrl_c() -> Result<Arc<AtomicBool>> {
+    let cancel = Arc::new(AtomicBool::new(false));
+    let flag = Arc::clone(&cancel);
+    ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed))
+        .map_err(|why| Error::Signal { why: why.to_string() })?;
+    Ok(cancel)
 }

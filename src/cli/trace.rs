@@ -11,6 +11,9 @@ use squealmap::{Result, linear};
 use crate::cli::output::{Output, list};
 use crate::cli::{Files, print};
 
+/// What is written.
+const FILES: [&str; 3] = ["trace.csv", "trace.png", "trace.svg"];
+
 /// Arguments of `trace`.
 #[derive(Debug, Args)]
 pub(crate) struct TraceCommand {
@@ -28,7 +31,7 @@ impl TraceCommand {
     pub(crate) fn execute(self) -> Result<()> {
         let spec = Spec::read(&self.files.sweep)?;
         let instance = spec.instance_at(&self.at)?;
-        let output = Output::prepare(self.files.directory())?;
+        let output = Output::prepare(self.files.directory(), &FILES)?;
         let trace = trace(&spec, &instance, self.samples_per_period);
         let title = match (spec.title.as_str(), self.at.as_str()) {
             (title, "") => title.to_owned(),
@@ -37,9 +40,9 @@ impl TraceCommand {
         };
         let svg = export::trace_svg(&trace, &title)?;
         let files = [
-            ("trace.csv", export::trace_csv(&trace)?),
-            ("trace.png", png::render(&svg)?),
-            ("trace.svg", svg.into_bytes()),
+            (FILES[0], export::trace_csv(&trace)?),
+            (FILES[1], png::render(&svg)?),
+            (FILES[2], svg.into_bytes()),
         ];
         let paths = output.write(&files)?;
         let (kind, _) = linear::analyse(&instance);

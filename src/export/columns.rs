@@ -188,7 +188,7 @@ computed! {
     Response "stick" "" response!(stick), "fraction of the window in stick";
     Response "free" "" response!(free), "fraction of the window in free flight";
     Response "reverse" "" response!(reverse), "fraction of the window in reversed slip";
-    Response "impacts_per_second" "1/s" response!(impacts_per_second), "impacts per second";
+    Response "impacts_per_second" "1/s" response!(impacts_per_second), "impacts per second, counting every bounce down to a rebound of 1e-6 ω0 F_ext/k2";
     Response "settled" "" |r| r.settled.map_or(Cell::Empty, |flag| Cell::Count(u64::from(flag))), "1 when the two halves of the window agree, else 0";
     Response "simulated_time" "s" |r| Cell::from(r.outcome.map(|outcome| outcome.simulated_time)), "simulated time";
     Response "steps" "" |r| r.outcome.map_or(Cell::Empty, |outcome| Cell::Count(outcome.steps)), "steps taken, those ended by an event included";

@@ -13,7 +13,7 @@ use super::panels::Panels;
 use super::svg::{Anchor, MM, Style, Svg};
 use super::text::{Text, wrap};
 use crate::error::Result;
-use crate::map::Map;
+use crate::map::{Computation, Map};
 
 /// Width of a figure of two columns of a journal, points.
 pub const DOUBLE_COLUMN: f64 = 180.0 * MM;
@@ -84,12 +84,14 @@ pub(super) fn title(svg: &mut Svg, text: &str, width: f64) -> f64 {
 /// What made the picture; nothing that differs between two runs of the same sweep.
 fn provenance(map: &Map) -> String {
     let made = &map.provenance;
+    let part = |name: &str, computation: &Option<Computation>| {
+        computation.as_ref().map(|computation| format!("; {name} {computation}")).unwrap_or_default()
+    };
     format!(
-        "{}; backend {}, precision {}, method {}; {} instances",
+        "{}{}{}; {} instances",
         program(),
-        made.backend,
-        made.precision,
-        made.method,
+        part("linear", &made.linear),
+        part("response", &made.response),
         map.records.len()
     )
 }

@@ -33,9 +33,8 @@ pub fn manifest_json(map: &Map) -> Result<Vec<u8>> {
         "title": map.spec.title,
         "program": { "name": env!("CARGO_PKG_NAME"), "version": VERSION, "git_commit": COMMIT },
         "computation": {
-            "backend": provenance.backend,
-            "precision": provenance.precision,
-            "method": provenance.method,
+            "linear": provenance.linear,
+            "response": provenance.response,
             "threads": provenance.threads,
             "instances": instances,
             "elapsed_seconds": seconds,

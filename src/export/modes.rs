@@ -63,9 +63,9 @@ pub type Eigenvalues<'a> = &'a dyn Fn(&Spec, usize) -> Option<[Complex64; 4]>;
 /// Follows the modes of a sweep.
 ///
 /// # Errors
-/// When the sweep has no axis of numbers with at least two values.
+/// When the sweep has no axis of numbers with at least two values, or no instance with modes.
 pub fn follow(spec: &Spec, eigenvalues: Eigenvalues<'_>) -> Result<Modes> {
-    let Grid::Axes(axes) = &spec.grid else { return Err(Error::NoModesAxis) };
+    let Grid::Axes(axes) = &spec.grid else { return Err(Error::NoModesOfTuples) };
     let axis = axes
         .iter()
         .position(|axis| matches!(axis.key, AxisKey::Param(_)) && axis.values.len() > 1)
@@ -73,7 +73,7 @@ pub fn follow(spec: &Spec, eigenvalues: Eigenvalues<'_>) -> Result<Modes> {
     let stride: usize = axes[axis + 1..].iter().map(|axis| axis.values.len()).product();
     let length = axes[axis].values.len();
     let order = rising(&axes[axis]);
-    let branches = (0..spec.grid.len())
+    let branches: Vec<Branch> = (0..spec.grid.len())
         .filter(|index| (index / stride).is_multiple_of(length))
         .map(|first| {
             let instances: Vec<usize> = order.iter().map(|(i, _)| first + i * stride).collect();
@@ -87,6 +87,9 @@ pub fn follow(spec: &Spec, eigenvalues: Eigenvalues<'_>) -> Result<Modes> {
             Branch { first, instances, values, modes: connect(&raw), critical }
         })
         .collect();
+    if branches.iter().all(|branch| branch.modes.iter().all(Option::is_none)) {
+        return Err(Error::NoModes);
+    }
     Ok(Modes { axis, branches })
 }
 
@@ -170,7 +173,7 @@ fn connect(raw: &[Option<[Mode; 2]>]) -> Vec<Option<[Mode; 2]>> {
 /// the frequency (Hz), the growth rate (1/s) and, where a mode is overdamped, its faster decay (1/s).
 ///
 /// # Errors
-/// When the sweep has no axis of numbers with at least two values.
+/// When the sweep has no axis of numbers with at least two values, or no instance with modes.
 pub fn modes_csv(spec: &Spec) -> Result<Vec<u8>> {
     table(spec, &follow(spec, &eigenvalues)?)
 }

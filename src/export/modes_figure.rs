@@ -33,7 +33,7 @@ const CRITICAL: &str = r##"fill="none" stroke="#000000" stroke-width="0.6" strok
 /// The figure of a sweep's eigenvalues as an SVG document: single column width for one branch.
 ///
 /// # Errors
-/// When the sweep has no axis of numbers with at least two values.
+/// When the sweep has no axis of numbers with at least two values, or no instance with modes.
 pub fn modes_svg(spec: &Spec) -> Result<String> {
     Ok(draw(spec, &follow(spec, &eigenvalues)?))
 }

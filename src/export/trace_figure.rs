@@ -14,6 +14,8 @@ use crate::trace::{Trace, TraceRow};
 const HEIGHT: f64 = 88.0;
 /// Between panels, points.
 const GAP: f64 = 8.0;
+/// Above a panel of several curves, where their names stand, points.
+const KEY_GAP: f64 = TICK_SIZE + 8.0;
 /// Right of the panels, points.
 const RIGHT: f64 = 8.0;
 /// Margin above and below curves, as a fraction of the panel.
@@ -87,7 +89,8 @@ pub fn trace_svg(trace: &Trace, heading: &str) -> Result<String> {
     let room = ticks.iter().map(|ticks| y_tick_room(ticks)).fold(0.0, f64::max);
     let left = MARGIN + LABEL_SIZE + 6.0 + room;
     y = legend(&mut svg, trace, left, y);
-    let bottom = y + PANELS.len() as f64 * (HEIGHT + GAP) - GAP;
+    let tops = tops(y);
+    let bottom = tops[PANELS.len() - 1] + HEIGHT;
     let mut from = left;
     let columns = columns(trace, DOUBLE_COLUMN - left - RIGHT);
     let last = columns.len() - 1;
@@ -96,8 +99,7 @@ pub fn trace_svg(trace: &Trace, heading: &str) -> Result<String> {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive count")]
         let x_ticks = time.ticks((width / TICK_WIDTH) as usize);
         for (number, (curves, _)) in PANELS.iter().enumerate() {
-            let top = y + number as f64 * (HEIGHT + GAP);
-            let frame = Frame { x: from, y: top, width, height: HEIGHT };
+            let frame = Frame { x: from, y: tops[number], width, height: HEIGHT };
             let plot = Plot { frame, x: &time, y: &scales[number] };
             // Over many periods the states alternate faster than a printer resolves.
             if column == last {
@@ -120,7 +122,7 @@ pub fn trace_svg(trace: &Trace, heading: &str) -> Result<String> {
     }
     for (number, (curves, unit)) in PANELS.iter().enumerate() {
         let label = axis_label(curves, unit, scales[number].exponent());
-        let middle = y + number as f64 * (HEIGHT + GAP) + 0.5 * HEIGHT;
+        let middle = tops[number] + 0.5 * HEIGHT;
         svg.text(MARGIN + LABEL_SIZE, middle, &label, Style::new(LABEL_SIZE, Anchor::Middle).upwards());
     }
     let name = if heading.is_empty() { "Trajectory" } else { heading };
@@ -159,20 +161,29 @@ fn axis_label(curves: &[Curve], unit: &str, exponent: i32) -> Text {
     label.unit(unit).plain(")")
 }
 
-/// Which line is which, in the upper left corner of a panel on a white ground: runs mostly start small.
+/// The upper edges of the panels below `y`.
+fn tops(mut y: f64) -> [f64; PANELS.len()] {
+    std::array::from_fn(|number| {
+        if PANELS[number].0.len() > 1 {
+            y += if number == 0 { KEY_GAP } else { KEY_GAP - GAP };
+        }
+        let top = y;
+        y += HEIGHT + GAP;
+        top
+    })
+}
+
+/// Which line is which, in the gap above a panel.
 fn key(svg: &mut Svg, curves: &[Curve], frame: &Frame) {
     /// Length of a sample line, points.
     const SAMPLE: f64 = 12.0;
-    let words: Vec<Text> = curves.iter().map(|curve| Text::default().symbol(curve.symbol)).collect();
-    let width: f64 = words.iter().map(|text| SAMPLE + 11.0 + text.width(TICK_SIZE, false)).sum();
-    let ground = [frame.x + 2.0, frame.y + 2.0, width, TICK_SIZE + 4.5];
-    svg.rect(ground, r##"fill="#FFFFFF" fill-opacity="0.85""##);
-    let base = frame.y + 2.5 + TICK_SIZE;
-    let mut x = frame.x + 5.0;
-    for (text, stroke) in words.iter().zip(STROKES) {
+    let base = frame.y - 4.0;
+    let mut x = frame.x;
+    for (curve, stroke) in curves.iter().zip(STROKES) {
+        let text = Text::default().symbol(curve.symbol);
         let y = base - 0.35 * TICK_SIZE;
         svg.path(&super::svg::polyline([(x, y), (x + SAMPLE, y)]), stroke);
-        svg.text(x + SAMPLE + 3.0, base, text, Style::new(TICK_SIZE, Anchor::Start));
+        svg.text(x + SAMPLE + 3.0, base, &text, Style::new(TICK_SIZE, Anchor::Start));
         x += SAMPLE + 11.0 + text.width(TICK_SIZE, false);
     }
 }

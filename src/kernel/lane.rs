@@ -38,11 +38,11 @@ pub const STEPS_PER_COUNT: u32 = 16;
 /// Most parts of one step.
 pub const MAX_PARTS: u32 = 100_000;
 
-/// Words of the float record.
-pub const STATE_WORDS: usize = 7 + Sums::<f32>::WORDS + Phase::<f32>::WORDS + 7;
+/// What may be left of a step before it counts as done: this many roundings of what was left.
+pub const LEAST_REST: f64 = 8.0;
 
-/// Words of the integer record.
-pub const FLAG_WORDS: usize = 18;
+/// The bits of an f32 exponent, all set where a number is not finite.
+const EXPONENT: u32 = 0x7f80_0000;
 
 /// The running integration of one instance.
 #[derive(Clone, Debug)]
@@ -175,7 +175,7 @@ impl<S: Real> Lane<S> {
             self.status = Status::NonFinite;
             return;
         }
-        self.advance_time(&segment, tau, tau >= remaining * (S::ONE - S::LEAST_REST));
+        self.advance_time(&segment, tau, tau >= remaining * (S::ONE - S::from_f64(LEAST_REST) * S::EPSILON));
         if event != NOTHING {
             self.count_event(tau);
             let then = Belt { velocity: belt.velocity + belt.acceleration * tau, ..belt };
@@ -184,7 +184,7 @@ impl<S: Real> Lane<S> {
     }
 
     fn is_finite(&self) -> bool {
-        self.body.p.iter().chain(&self.body.v).all(|value| value.is_finite())
+        self.body.p.iter().chain(&self.body.v).all(|value| (value.bits32() & EXPONENT) != EXPONENT)
     }
 
     /// `σ` of the present slip.

@@ -1,12 +1,23 @@
-//! Kernel twins: what runs on a GPU, in Rust, generic over the scalar.
+//! What runs once per instance in a compute kernel: the twins of the files in `shaders/`.
 //!
-//! Every file has its WGSL twin of the same name under `shaders/`: same functions, same order, same
-//! arithmetic. The f64 reference judges the f32 twin; the f32 twin judges the GPU.
+//! A kernel is a generated header followed by a listed concatenation of plain WGSL files. Each function of
+//! a WGSL file has a twin here, generic over the scalar: same names, same order, same arithmetic, so that
+//! f32 on the CPU and f32 on a GPU can be compared function by function.
+//!
+//! - [`source`]: the contract between host and kernels: bindings, words, settings, constants.
+//! - [`scalar`]: f32 and f64 under one trait.
+//! - [`linear`]: eigenvalues and attribution of one instance.
+//! - [`scene`], [`series`], [`crossing`], [`observe`], [`lane`]: the transient of one instance.
+//! - [`response`]: an instance as words of the response kernel, and its outcome (f64, host only).
+//! - [`words`]: an instance as words of the linear kernel, and back (f64, host only).
 
 pub mod crossing;
 pub mod lane;
+pub mod linear;
 pub mod observe;
 pub mod response;
 pub mod scalar;
 pub mod scene;
 pub mod series;
+pub mod source;
+pub mod words;

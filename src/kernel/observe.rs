@@ -61,9 +61,6 @@ pub struct Sums<S> {
 }
 
 impl<S: Real> Sums<S> {
-    /// Words of the float record.
-    pub const WORDS: usize = 3 * SUMS + 3 + 1 + 2 + 15;
-
     /// Nothing yet.
     #[must_use]
     pub fn new() -> Self {
@@ -247,9 +244,6 @@ pub struct Phase<S> {
 }
 
 impl<S: Real> Phase<S> {
-    /// Words of the float record.
-    pub const WORDS: usize = 7;
-
     /// Nothing yet.
     #[must_use]
     pub fn new() -> Self {

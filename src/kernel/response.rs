@@ -2,15 +2,147 @@
 
 use std::f64::consts::TAU;
 
-use super::lane::Lane;
-use super::observe::SUMS;
+use super::lane::{self, Lane};
+use super::observe::{self, SUMS};
 use super::scalar::Real;
-use super::scene::{FIRST_HALF, Law, SECOND_HALF, SEGMENT_WORDS, SEGMENTS, SETTLE, Scene as Words, words};
+use super::scene::{
+    FIRST_HALF, Law, PIECE_WORDS, SECOND_HALF, SEGMENT_WORDS, SEGMENTS, SETTLE, Scene as Words, words,
+};
+use super::source::{Constant, Field, Kernel};
+use super::{crossing, series};
 use crate::model::friction::LawKind;
 use crate::observe::GrowthFit;
 use crate::outcome::{Outcome, Status};
 use crate::response::{Plan, Scene};
 use crate::spec::Instance;
+
+/// The response kernel for laws of two pieces: `constant`, `bilinear`, `exponential`, `rational`.
+pub const KERNEL: Kernel = Kernel {
+    name: "response",
+    files: &[
+        ("shaders/scene.wgsl", include_str!("../../shaders/scene.wgsl")),
+        ("shaders/series.wgsl", include_str!("../../shaders/series.wgsl")),
+        ("shaders/crossing.wgsl", include_str!("../../shaders/crossing.wgsl")),
+        ("shaders/observe.wgsl", include_str!("../../shaders/observe.wgsl")),
+        ("shaders/lane.wgsl", include_str!("../../shaders/lane.wgsl")),
+        ("shaders/response_main.wgsl", include_str!("../../shaders/response_main.wgsl")),
+    ],
+    inputs: &[
+        Field::one("sin"),
+        Field::one("cos"),
+        Field::one("inv_m1"),
+        Field::one("k1"),
+        Field::one("k2"),
+        Field::one("c1"),
+        Field::one("c2"),
+        Field::one("kappa"),
+        Field::one("inv_det"),
+        Field::one("normal_mass"),
+        Field::one("n0"),
+        Field::one("t0"),
+        Field::one("mu0"),
+        Field::one("v0"),
+        Field::one("mu_stick"),
+        Field::many("cone", 2),
+        Field::one("restitution"),
+        Field::one("impact_friction"),
+        Field::many("start", 4),
+        Field::one("slowest_rebound"),
+        Field::many("pieces", PIECES * PIECE_WORDS),
+        Field::many("segments", SEGMENTS * SEGMENT_WORDS),
+    ],
+    state: &[
+        Field::many("body", 6),
+        Field::one("rest"),
+        Field::many("block", SUMS),
+        Field::many("total", 2 * SUMS),
+        Field::many("peaks", 3),
+        Field::one("previous"),
+        Field::one("first"),
+        Field::one("last"),
+        Field::many("growth", 15),
+        Field::many("phase", 7),
+        Field::many("snapshot", 6),
+    ],
+    flags: &[
+        Field::one("status"),
+        Field::one("steps"),
+        Field::one("started"),
+        Field::one("segment"),
+        Field::one("index"),
+        Field::one("contact"),
+        Field::one("piece"),
+        Field::one("disarmed"),
+        Field::one("at_once"),
+        Field::one("counted"),
+        Field::one("parts"),
+        Field::one("second_pass"),
+        Field::one("half"),
+        Field::one("has_previous"),
+        Field::one("impacts"),
+        Field::one("crossings"),
+        Field::one("growth_closed"),
+        Field::many("first", 2),
+        Field::many("last", 2),
+        Field::many("snapshot", 3),
+    ],
+    settings: &[Field::one("tolerance")],
+    constants: &[
+        ("LAW_PIECES", Constant::U32(Law::Pieces as u32)),
+        ("LAW_EXPONENTIAL", Constant::U32(Law::Exponential as u32)),
+        ("LAW_RATIONAL", Constant::U32(Law::Rational as u32)),
+        ("PIECES", Constant::U32(PIECES as u32)),
+        ("PIECE_WORDS", Constant::U32(PIECE_WORDS as u32)),
+        ("SEGMENTS", Constant::U32(SEGMENTS as u32)),
+        ("SEGMENT_WORDS", Constant::U32(SEGMENT_WORDS as u32)),
+        ("SETTLE", Constant::U32(SETTLE)),
+        ("FIRST_HALF", Constant::U32(FIRST_HALF)),
+        ("SECOND_HALF", Constant::U32(SECOND_HALF)),
+        ("EXP_DEGREE", Constant::U32(super::scene::EXP_DEGREE as u32)),
+        ("ORDER", Constant::U32(series::ORDER as u32)),
+        ("SERIES", Constant::U32(series::ORDER as u32 + 1)),
+        ("MAX_HALVINGS", Constant::U32(series::MAX_HALVINGS as u32)),
+        ("SLIP", Constant::U32(series::SLIP)),
+        ("REVERSE", Constant::U32(series::REVERSE)),
+        ("STICK", Constant::U32(series::STICK)),
+        ("FREE", Constant::U32(series::FREE)),
+        ("SAMPLES", Constant::U32(crossing::SAMPLES as u32)),
+        ("SOLVER_ITERATIONS", Constant::U32(crossing::SOLVER_ITERATIONS as u32)),
+        ("HIGHEST_ORDER", Constant::U32(crossing::HIGHEST_ORDER as u32)),
+        ("NEVER", Constant::Real(crossing::NEVER)),
+        ("SUMS", Constant::U32(SUMS as u32)),
+        ("NODE_0", Constant::Real(observe::NODES[0])),
+        ("NODE_2", Constant::Real(observe::NODES[2])),
+        ("BISECTIONS", Constant::U32(observe::BISECTIONS as u32)),
+        ("TAU", Constant::Real(TAU)),
+        ("LEAST_REST", Constant::Real(lane::LEAST_REST)),
+        ("STEPS_PER_COUNT", Constant::U32(lane::STEPS_PER_COUNT)),
+        ("MAX_PARTS", Constant::U32(lane::MAX_PARTS)),
+        ("MAX_EVENTS_PER_COUNT", Constant::U32(lane::MAX_EVENTS_PER_COUNT)),
+        ("EVENTS_AT_ONCE", Constant::U32(super::scene::EVENTS_AT_ONCE)),
+        ("NOTHING", Constant::U32(lane::NOTHING)),
+        ("REST", Constant::U32(lane::REST)),
+        ("LOWER_KINK", Constant::U32(lane::LOWER_KINK)),
+        ("UPPER_KINK", Constant::U32(lane::UPPER_KINK)),
+        ("LIFT_OFF", Constant::U32(lane::LIFT_OFF)),
+        ("CONE_FORWARD", Constant::U32(lane::CONE_FORWARD)),
+        ("CONE_BACKWARD", Constant::U32(lane::CONE_BACKWARD)),
+        ("GAP", Constant::U32(lane::GAP)),
+    ],
+    loops_per_step: LOOPS_PER_STEP,
+};
+
+/// Pieces of the friction law that the kernel holds.
+pub const PIECES: usize = 2;
+
+/// Most loop iterations of one step, every loop at its longest.
+const LOOPS_PER_STEP: u32 = 1500;
+
+/// The choice of a law for [`KERNEL`].
+#[must_use]
+pub fn choice(law: Law) -> [(&'static str, Constant); 1] {
+    [("LAW", Constant::U32(law as u32))]
+}
 
 /// The form of the law of an instance.
 #[must_use]

@@ -1,13 +1,20 @@
-//! The scalar of a kernel twin: f32 or f64, with only the operations that every GPU computes exactly or
-//! nearly so (`+ − * / sqrt abs min max`).
+//! f32 and f64 under one trait: the arithmetic a kernel may use.
+//!
+//! Only what every GPU rounds well: `+ − * / sqrt abs min max select`. No `exp`, no angles: on a GPU those
+//! may be off by 4096 ulp, and differ from driver to driver.
 
+use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
-/// The scalar of a kernel twin.
+use super::source::Precision;
+
+/// A scalar of the kernels, `real` in WGSL.
 pub trait Real:
-    Copy
-    + std::fmt::Debug
+    bytemuck::Pod
+    + Debug
     + PartialOrd
+    + Send
+    + Sync
     + Add<Output = Self>
     + Sub<Output = Self>
     + Mul<Output = Self>
@@ -16,71 +23,99 @@ pub trait Real:
     + AddAssign
     + SubAssign
     + MulAssign
-    + Send
-    + Sync
-    + 'static
 {
+    /// Which of the two it is.
+    const PRECISION: Precision;
     /// 0.
     const ZERO: Self;
     /// 1.
     const ONE: Self;
-    /// What may be left of a step before it counts as done, as a fraction of what was left.
-    const LEAST_REST: Self;
-    /// The nearest value.
+    /// Distance of 1 to the next larger number.
+    const EPSILON: Self;
+
+    /// The nearest number: the only narrowing there is.
     fn from_f64(value: f64) -> Self;
-    /// The value itself.
+    /// The same number.
     fn to_f64(self) -> f64;
-    /// Magnitude.
-    #[must_use]
-    fn abs(self) -> Self;
-    /// The larger of two.
-    #[must_use]
-    fn max(self, other: Self) -> Self;
-    /// The smaller of two.
-    #[must_use]
-    fn min(self, other: Self) -> Self;
-    /// Square root.
+    /// The square root.
     #[must_use]
     fn sqrt(self) -> Self;
-    /// Whether it is a finite number in f32 (what a kernel can test by bits).
-    fn is_finite(self) -> bool;
+    /// The magnitude.
+    #[must_use]
+    fn abs(self) -> Self;
+    /// The bits of the number as f32, for tests that a compiler may not fold away.
+    fn bits32(self) -> u32;
+
+    /// The smaller of two numbers; `self` when they are unordered.
+    #[must_use]
+    fn min(self, other: Self) -> Self {
+        if other < self { other } else { self }
+    }
+
+    /// The larger of two numbers; `self` when they are unordered.
+    #[must_use]
+    fn max(self, other: Self) -> Self {
+        if self < other { other } else { self }
+    }
+
+    /// WGSL's `select`: `yes` when the condition holds.
+    #[must_use]
+    fn select(no: Self, yes: Self, condition: bool) -> Self {
+        if condition { yes } else { no }
+    }
 }
 
-macro_rules! real {
-    ($type:ty) => {
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_lossless,
-            reason = "narrowing is the purpose"
-        )]
-        impl Real for $type {
-            const ZERO: Self = 0.0;
-            const ONE: Self = 1.0;
-            const LEAST_REST: Self = 8.0 * <$type>::EPSILON;
-            fn from_f64(value: f64) -> Self {
-                value as $type
-            }
-            fn to_f64(self) -> f64 {
-                self as f64
-            }
-            fn abs(self) -> Self {
-                <$type>::abs(self)
-            }
-            fn max(self, other: Self) -> Self {
-                <$type>::max(self, other)
-            }
-            fn min(self, other: Self) -> Self {
-                <$type>::min(self, other)
-            }
-            fn sqrt(self) -> Self {
-                <$type>::sqrt(self)
-            }
-            fn is_finite(self) -> bool {
-                (self as f32).is_finite()
-            }
-        }
-    };
+impl Real for f32 {
+    const PRECISION: Precision = Precision::F32;
+    const ZERO: f32 = 0.0;
+    const ONE: f32 = 1.0;
+    const EPSILON: f32 = f32::EPSILON;
+
+    #[expect(clippy::cast_possible_truncation, reason = "the narrowing")]
+    fn from_f64(value: f64) -> f32 {
+        value as f32
+    }
+
+    fn to_f64(self) -> f64 {
+        f64::from(self)
+    }
+
+    fn sqrt(self) -> f32 {
+        self.sqrt()
+    }
+
+    fn abs(self) -> f32 {
+        self.abs()
+    }
+
+    fn bits32(self) -> u32 {
+        self.to_bits()
+    }
 }
 
-real!(f32);
-real!(f64);
+impl Real for f64 {
+    const PRECISION: Precision = Precision::F64;
+    const ZERO: f64 = 0.0;
+    const ONE: f64 = 1.0;
+    const EPSILON: f64 = f64::EPSILON;
+
+    fn from_f64(value: f64) -> f64 {
+        value
+    }
+
+    fn to_f64(self) -> f64 {
+        self
+    }
+
+    fn sqrt(self) -> f64 {
+        self.sqrt()
+    }
+
+    fn abs(self) -> f64 {
+        self.abs()
+    }
+
+    fn bits32(self) -> u32 {
+        f32::from_f64(self).to_bits()
+    }
+}

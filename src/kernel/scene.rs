@@ -10,6 +10,7 @@ use crate::model::friction::Piece as LawPiece;
 
 /// The form of the friction law a kernel is built for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[repr(u32)]
 pub enum Law {
     /// Straight pieces: `constant`, `bilinear`, `table`.
     Pieces,
@@ -284,4 +285,4 @@ pub fn exp_m1<S: Real>(x: S) -> S {
 }
 
 /// Degree of the exponential's series: below 1e-17 at 1/2.
-const EXP_DEGREE: u8 = 14;
+pub const EXP_DEGREE: u8 = 14;

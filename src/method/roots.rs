@@ -174,7 +174,7 @@ fn solve(coefficients: &[f64], mut low: f64, mut high: f64) -> f64 {
             high = tau;
         }
         let newton = tau - value / slope;
-        let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+        let next = if newton >= low && newton <= high { newton } else { 0.5 * (low + high) };
         if (next - tau).abs() <= f64::EPSILON * tau || high - low <= f64::EPSILON * high {
             return next;
         }

@@ -221,6 +221,13 @@ impl Expansion {
         std::array::from_fn(|k| if k < MAX_ORDER { (k + 1) as f64 * self.position[k + 1][X2] } else { 0.0 })
     }
 
+    /// The coefficients of one acceleration, e.g. of [`X2`], degrees `0..=order − 2`.
+    #[must_use]
+    pub fn acceleration(&self, axis: usize) -> Series {
+        let degree = |k: usize| ((k + 1) * (k + 2)) as f64;
+        std::array::from_fn(|k| if k + 2 <= MAX_ORDER { degree(k) * self.position[k + 2][axis] } else { 0.0 })
+    }
+
     /// The coefficients of one contact polynomial, e.g. [`NORMAL`].
     #[must_use]
     pub fn contact(&self, component: usize) -> Series {
@@ -315,4 +322,14 @@ pub fn horner(coefficients: &[f64], tau: f64) -> f64 {
 #[must_use]
 pub fn horner_with_derivative(coefficients: &[f64], tau: f64) -> (f64, f64) {
     coefficients.iter().rev().fold((0.0, 0.0), |(value, slope), c| (value * tau + c, slope * tau + value))
+}
+
+/// Value, first and second derivative of `Σ c_k τ^k`.
+#[must_use]
+pub fn horner_with_derivatives(coefficients: &[f64], tau: f64) -> [f64; 3] {
+    let [value, slope, half] = coefficients
+        .iter()
+        .rev()
+        .fold([0.0; 3], |[value, slope, half], c| [value * tau + c, slope * tau + value, half * tau + slope]);
+    [value, slope, 2.0 * half]
 }

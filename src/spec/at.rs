@@ -4,8 +4,9 @@ use crate::error::{Error, Place, Result};
 use crate::grid::{AxisKey, Grid, Value};
 use crate::model::friction::LawKind;
 use crate::model::{Param, Params};
-use crate::spec::check::covered;
+use crate::spec::check::{MATERIAL_LAWS, covered, idle_start, unused, used_by_laws};
 use crate::spec::names::{advice, list};
+use crate::spec::varied::FIXED;
 use crate::spec::{Instance, Spec, law};
 
 /// The name of the argument in messages.
@@ -42,7 +43,8 @@ struct At<'a> {
     params: Params,
     law: LawKind,
     material: Option<std::sync::Arc<crate::model::material::Material>>,
-    named: Vec<AxisKey>,
+    /// What was named, and where.
+    named: Vec<(AxisKey, Place)>,
 }
 
 impl At<'_> {
@@ -67,16 +69,21 @@ impl At<'_> {
             what,
             name: name.to_owned(),
             within: "in the pairs".to_owned(),
-            advice: advice(name, candidates),
+            advice: if FIXED.contains(&name) && what == "parameter" {
+                "this key holds for the whole sweep and is set in the sweep file".to_owned()
+            } else {
+                advice(name, candidates)
+            },
         };
         let Some(key) = AxisKey::from_name(name) else {
             let names: Vec<&str> = AxisKey::names().collect();
             return Err(unknown(self, "parameter", name, &names));
         };
-        if self.named.contains(&key) {
+        if self.names(key) {
             return syntax(self, "names a parameter for the second time");
         }
-        self.named.push(key);
+        let place_of_pair = place(self);
+        self.named.push((key, place_of_pair));
         match key {
             AxisKey::Param(param) => {
                 let range = param.info().range;
@@ -111,8 +118,7 @@ impl At<'_> {
 
     /// Everything that varies is named, and law, material and temperature fit together.
     fn finish(self, spec: &Spec) -> Result<Instance> {
-        let open: Vec<AxisKey> =
-            spec.grid.keys().into_iter().filter(|key| !self.named.contains(key)).collect();
+        let open: Vec<AxisKey> = spec.grid.keys().into_iter().filter(|key| !self.names(*key)).collect();
         if !open.is_empty() {
             let names: Vec<String> = open.iter().map(|key| format!("`{}`", key.name())).collect();
             let names: Vec<&str> = names.iter().map(String::as_str).collect();
@@ -121,6 +127,7 @@ impl At<'_> {
             let (names, example) = (list(&names), example.join(","));
             return Err(Error::AtMissing { at: self.everything(), names, example });
         }
+        self.everything_has_effect(spec)?;
         let ramp = [Param::BeltVelocityEnd, Param::RampDuration];
         for (given, other) in [(ramp[0], ramp[1]), (ramp[1], ramp[0])] {
             if self.params.get(given).is_some() && self.params.get(other).is_none() {
@@ -131,7 +138,7 @@ impl At<'_> {
         if let Some(material) = &self.material {
             let given = law::LAW_PARAMS
                 .into_iter()
-                .find(|&param| material.gives(param) && self.named.contains(&AxisKey::Param(param)));
+                .find(|&param| material.gives(param) && self.names(AxisKey::Param(param)));
             if let Some(param) = given {
                 let key = format!("`{}`", param.info().name);
                 let other = format!("material `{}`, which is to give it", material.name);
@@ -159,6 +166,33 @@ impl At<'_> {
             });
         }
         Ok(spec.assemble(self.params, self.law, self.material.as_ref()))
+    }
+
+    /// Refuses what the instance does not read; a parameter that the sweep varies has to be named anyway.
+    fn everything_has_effect(&self, spec: &Spec) -> Result<()> {
+        let varied = spec.grid.keys();
+        let (idle, starts) = idle_start(spec.start);
+        for (key, at) in self.named.iter().filter(|(key, _)| !varied.contains(key)) {
+            let used_by = match key {
+                AxisKey::Param(param) if law::LAW_PARAMS.contains(param) => {
+                    (!law::uses(self.law).contains(param)).then(|| used_by_laws(&law::users(*param)))
+                }
+                AxisKey::Param(Param::Temperature) => {
+                    self.material.is_none().then(|| "a `material`".to_owned())
+                }
+                AxisKey::Param(param) => idle.contains(param).then(|| starts.to_owned()),
+                AxisKey::Material => (self.law == LawKind::Table).then(|| used_by_laws(&MATERIAL_LAWS)),
+                AxisKey::Law => None,
+            };
+            if let Some(used_by) = used_by {
+                return Err(unused(at.clone(), format!("`{}`", key.name()), used_by));
+            }
+        }
+        Ok(())
+    }
+
+    fn names(&self, key: AxisKey) -> bool {
+        self.named.iter().any(|(named, _)| *named == key)
     }
 
     fn missing(&self, key: &'static str, needed_by: String) -> Error {

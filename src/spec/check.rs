@@ -15,6 +15,9 @@ use crate::spec::names::list;
 use crate::spec::sections::Sections;
 use crate::spec::varied::Varied;
 
+/// The laws that a material serves.
+pub(super) const MATERIAL_LAWS: [&str; 4] = ["constant", "bilinear", "exponential", "rational"];
+
 /// Everything read, before it is known to fit together.
 pub(super) struct Check<'a> {
     pub(super) sweep: &'a Source,
@@ -101,7 +104,7 @@ impl Check<'_> {
         } else if laws.iter().all(|&kind| kind == LawKind::Table)
             && let Some((at, key)) = self.stands(AxisKey::Material)
         {
-            return Err(unused(at, key, used_by_laws(&["constant", "bilinear", "exponential", "rational"])));
+            return Err(unused(at, key, used_by_laws(&MATERIAL_LAWS)));
         }
         Ok(())
     }
@@ -121,12 +124,9 @@ impl Check<'_> {
     }
 
     fn start_has_effect(&self) -> Result<()> {
-        let (idle, user): (&[Param], _) = match self.sections.start {
-            StartKind::Kick => (&[Param::StartFraction], "mode"),
-            StartKind::Mode => (&[Param::StartVelocity, Param::StartDisplacement], "kick"),
-        };
+        let (idle, user) = idle_start(self.sections.start);
         match idle.iter().find_map(|&param| self.param(param)) {
-            Some((at, key)) => Err(unused(at, key, format!("kind = \"{user}\" in [start]"))),
+            Some((at, key)) => Err(unused(at, key, user.to_owned())),
             None => Ok(()),
         }
     }
@@ -253,6 +253,14 @@ impl Check<'_> {
     }
 }
 
+/// The amplitudes that a start does not read, and what reads them.
+pub(super) fn idle_start(start: StartKind) -> (&'static [Param], &'static str) {
+    match start {
+        StartKind::Kick => (&[Param::StartFraction], "kind = \"mode\" in [start]"),
+        StartKind::Mode => (&[Param::StartVelocity, Param::StartDisplacement], "kind = \"kick\" in [start]"),
+    }
+}
+
 /// Refuses a temperature outside a material that is not clamped.
 pub(super) fn covered(
     material: Option<&Arc<Material>>,
@@ -267,11 +275,11 @@ pub(super) fn covered(
     Err(Error::OutsideMaterial { at: at(), value, material: material.name.clone(), low, high })
 }
 
-fn unused(at: Place, key: String, used_by: String) -> Error {
+pub(super) fn unused(at: Place, key: String, used_by: String) -> Error {
     Error::Unused { at, key, used_by }
 }
 
-fn used_by_laws(laws: &[&str]) -> String {
+pub(super) fn used_by_laws(laws: &[&str]) -> String {
     let noun = if laws.len() == 1 { "law" } else { "laws" };
     format!("the {noun} {}", list(laws))
 }

@@ -65,7 +65,12 @@ impl Rows {
         }
         match header {
             Some(header) if !body.is_empty() => Ok(Rows { source, header, body }),
-            _ => {
+            Some(header) => {
+                let span = header.first().map_or(0, |field| field.span.start)
+                    ..header.last().map_or(0, |field| field.span.end);
+                Err(Error::NoRows { at: source.place(span) })
+            }
+            None => {
                 let at = source.place(0..0);
                 Err(Error::Empty { at, what: "the file".to_owned(), least: "a header and one row" })
             }

@@ -14,7 +14,7 @@ use crate::spec::names::unknown;
 use crate::spec::{Analysis, Duration, STEPS_PER_PERIOD, StartKind};
 
 /// Fewest and most steps per period that may be asked for.
-const STEPS_RANGE: (usize, usize) = (4, 1_000_000);
+const STEPS_RANGE: (usize, usize) = (4, 100_000);
 
 /// A key that stands in a section.
 #[derive(Clone, Debug)]

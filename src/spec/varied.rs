@@ -14,7 +14,7 @@ use crate::spec::rows::Rows;
 use crate::spec::sections::law_value;
 
 /// Keys of a sweep file that cannot vary.
-const FIXED: [&str; 9] = [
+pub(super) const FIXED: [&str; 9] = [
     "impact_friction",
     "table",
     "outside",

@@ -143,7 +143,7 @@ refuses! {
         => "s.toml:2:11: `measure` in [response] is \"inf s\" but must be a string such as \"6 s\" or \"200 periods\", \
             greater than 0 and at most 1e9";
     too_few_steps: "[response]\nsteps_per_period = 3\n"
-        => "s.toml:2:20: `steps_per_period` in [response] is 3 but must be an integer between 4 and 1000000";
+        => "s.toml:2:20: `steps_per_period` in [response] is 3 but must be an integer between 4 and 100000";
     no_analysis: "analysis = []\n"
         => "s.toml:1:12: `analysis` is empty; give at least \"linear\" or \"response\"";
     unknown_analysis: "analysis = [\"linaer\"]\n"
@@ -196,7 +196,8 @@ fn rows_are_checked_with_line_and_column() {
         rows("mu_s,mu_s\n0.4,0.4\n"),
         "t.csv:1:6: column `mu_s` stands beside a column of the same name; remove one of them"
     );
-    assert_eq!(rows("mu_s\n"), "t.csv:1:1: the file is empty; give at least a header and one row");
+    assert_eq!(rows("mu_s\n"), "t.csv:1:1: the file has a header but no rows; give at least one row");
+    assert_eq!(rows("mu_s\r0.4\rhigh\r"), "t.csv:3:1: column `mu_s` must be a number, found `high`");
     assert_eq!(rows(""), "t.csv:1:1: the file is empty; give at least a header and one row");
     assert_eq!(
         rows("mu_s,mu_d\n0.4,0.3\n"),
@@ -313,4 +314,34 @@ fn at_is_checked() {
         at("mu_s=1,mu_d=1,belt_velocity=1,law=exponential"),
         "--at: `stribeck_velocity` is missing: law `exponential` needs it, so add stribeck_velocity=…"
     );
+    assert_eq!(
+        at("settle=1"),
+        "--at: unknown parameter `settle` in the pairs; \
+         this key holds for the whole sweep and is set in the sweep file"
+    );
+    let idle = |pair: &str| at(&format!("mu_s=0.4,mu_d=0.3,belt_velocity=3,{pair}"));
+    assert_eq!(
+        idle("stribeck_velocity=1"),
+        "--at: `stribeck_velocity` would have no effect: it is used only by the law exponential; \
+         remove it or choose that"
+    );
+    assert_eq!(
+        idle("law=constant,knee_velocity=4"),
+        "--at: `knee_velocity` would have no effect: it is used only by the law bilinear; \
+         remove it or choose that"
+    );
+    assert_eq!(
+        idle("temperature=100"),
+        "--at: `temperature` would have no effect: it is used only by a `material`; remove it or choose that"
+    );
+    assert_eq!(
+        idle("start_fraction=0.1"),
+        "--at: `start_fraction` would have no effect: it is used only by kind = \"mode\" in [start]; \
+         remove it or choose that"
+    );
+    // What the sweep varies has to be named, also where the law of this instance does not read it.
+    for pair in ["law=rational,decay=0.1", "law=constant", "knee_velocity=4", "start_displacement=1e-3"] {
+        let pairs = format!("mu_s=0.4,mu_d=0.3,belt_velocity=3,{pair}");
+        assert!(spec.instance_at(&pairs).is_ok(), "{pair}");
+    }
 }

@@ -144,14 +144,24 @@ fn an_unwritable_output_directory_is_refused_before_the_run() {
 }
 
 #[test]
-fn a_file_that_cannot_be_replaced_leaves_nothing_half_written() {
-    let directory = with_sweep("");
-    std::fs::create_dir_all(directory.path().join("full/map.csv/in the way")).unwrap();
-    let ended = squealmap(directory.path(), &["run", "small.toml", "-o", "full"]);
-    assert_eq!(ended.code, Some(1), "{}", ended.err);
-    assert!(ended.err.contains("error: cannot write `full/map.csv`: "), "{}", ended.err);
-    let left = tree(&directory.path().join("full"));
-    assert_eq!(left, [PathBuf::from("map.csv"), PathBuf::from("map.csv/in the way")]);
+fn a_directory_in_the_place_of_a_file_is_refused_before_the_run() {
+    for (command, file) in [
+        (&["run"][..], "map.csv"),
+        (&["run"], "manifest.json"),
+        (&["modes"], "modes.svg"),
+        (&["trace", "--at", "mu_d=0.3,belt_velocity=1"], "trace.png"),
+    ] {
+        let directory = with_sweep("");
+        std::fs::create_dir_all(directory.path().join("full").join(file)).unwrap();
+        let ended = squealmap(directory.path(), &[command, &["small.toml", "-o", "full"]].concat());
+        assert_eq!(ended.code, Some(2), "{}", ended.err);
+        let expected = format!(
+            "error: cannot write to the output directory `full`: `{file}`, a file to be written there, \
+             is a directory; choose another with -o\n"
+        );
+        assert_eq!(ended.err, expected);
+        assert_eq!(tree(&directory.path().join("full")), [PathBuf::from(file)]);
+    }
 }
 
 #[test]

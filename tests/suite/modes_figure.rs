@@ -95,7 +95,13 @@ fn sweeps_without_an_equilibrium_or_an_axis() {
         "[friction]\nlaw = \"constant\"\n[belt]\nbelt_velocity = 0.0",
         "mu_d = { values = [0.1, 0.2] }",
     );
+    assert!(matches!(modes_svg(&spec), Err(Error::NoModes)));
+    // One belt that moves is enough.
+    let spec = sweep("[friction]\nlaw = \"constant\"\nmu_d = 0.3", "belt_velocity = { values = [0.0, 1.0] }");
     render(&modes_svg(&spec).expect("an axis of numbers"), "modes_sticking");
     let spec = sweep(CONSTANT, "mu_d = { values = [0.1] }");
     assert!(matches!(modes_csv(&spec), Err(Error::NoModesAxis)));
+    let tuples = concat!(env!("CARGO_MANIFEST_DIR"), "/sweeps/tuples.toml");
+    let error = modes_csv(&Spec::read(tuples.as_ref()).expect("a sweep")).expect_err("no axes");
+    assert!(error.is_bad_input() && error.to_string().contains("lists its instances in a file of `points`"));
 }

@@ -4,6 +4,7 @@
 
 use std::path::Path;
 
+use squealmap::backend::choice::Options;
 use squealmap::classify::InstabilityType;
 use squealmap::grid::{Axis, Grid};
 use squealmap::map::Map;
@@ -32,7 +33,7 @@ fn thin(mut spec: Spec) -> Spec {
 
 /// Runs a sweep; every record is computed, complete and `ok`.
 fn run(spec: Spec) -> Map {
-    let map = sweep::run(spec, &|_| {}).unwrap();
+    let map = sweep::run(spec, &Options::default(), &|_| {}).unwrap();
     assert_eq!(map.records.len(), map.spec.grid.len());
     for (index, record) in map.records.iter().enumerate() {
         assert_eq!(record.status, Status::Ok, "instance {index}");

@@ -2,6 +2,7 @@
 
 use std::time::Duration;
 
+use squealmap::backend::cpu;
 use squealmap::classify::{InstabilityType, Regime};
 use squealmap::grid::{Axis, AxisKey, Grid, Value};
 use squealmap::linear::Linear;
@@ -46,9 +47,8 @@ pub(crate) fn spec(grid: Grid) -> Spec {
 pub(crate) fn map(grid: Grid, record: impl Fn(usize, &[&Value]) -> Record) -> Map {
     let records = (0..grid.len()).map(|i| record(i, &grid.coordinates(i))).collect();
     let provenance = Provenance {
-        backend: "cpu".to_owned(),
-        precision: "f64".to_owned(),
-        method: "rk4".to_owned(),
+        linear: Some(cpu::computation("closed form".to_owned())),
+        response: Some(cpu::computation("rk4".to_owned())),
         threads: 2,
         elapsed: Duration::from_millis(2500),
     };

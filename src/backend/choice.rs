@@ -1,0 +1,133 @@
+//! What computes a sweep: the CPU engine or a GPU, in which precision, and why.
+
+use std::sync::atomic::AtomicBool;
+
+use super::gpu::adapter::Adapter;
+use super::gpu::device::Device;
+use crate::error::{Error, Result};
+use crate::kernel::source::Precision;
+use crate::spec::Analysis;
+
+/// The backend that is asked for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Backend {
+    /// A hardware GPU where there is one, else the CPU engine.
+    #[default]
+    Auto,
+    /// A GPU, or a software adapter.
+    Gpu,
+    /// The CPU engine.
+    Cpu,
+}
+
+/// How a sweep is to be computed.
+#[derive(Clone, Copy, Default)]
+pub struct Options<'a> {
+    /// The backend.
+    pub backend: Backend,
+    /// The scalar; `None`: f64 on the CPU, f32 on a GPU.
+    pub precision: Option<Precision>,
+    /// An error unless a hardware GPU computes.
+    pub require_gpu: bool,
+    /// Only adapters whose name contains this, in any case.
+    pub adapter: Option<&'a str>,
+    /// Most instances of one chunk on a GPU; results do not depend on it.
+    pub chunk: Option<usize>,
+    /// Set to stop early.
+    pub cancel: Option<&'a AtomicBool>,
+    /// Gets one line: what computes, and why.
+    pub note: Option<&'a (dyn Fn(&str) + Sync)>,
+}
+
+/// The flag of a run that nobody cancels.
+static NEVER: AtomicBool = AtomicBool::new(false);
+
+impl<'a> Options<'a> {
+    /// Set when the run is to stop.
+    #[must_use]
+    pub fn cancel(&self) -> &'a AtomicBool {
+        self.cancel.unwrap_or(&NEVER)
+    }
+}
+
+/// What computes.
+#[derive(Debug)]
+pub enum Engine {
+    /// The f64 reference on all cores.
+    Cpu,
+    /// An open adapter.
+    Gpu(Device),
+}
+
+/// Chooses the engine of a sweep and says why to `options.note`.
+///
+/// # Errors
+/// When the backend that is asked for is not there, lacks the precision or cannot compute the analysis.
+pub fn choose(options: &Options, analysis: Analysis) -> Result<Engine> {
+    let (engine, why) = match options.backend {
+        Backend::Cpu => (cpu(options)?, "as asked for".to_owned()),
+        Backend::Gpu => gpu(options, analysis)?,
+        Backend::Auto => auto(options, analysis)?,
+    };
+    if let Some(note) = options.note {
+        note(&match &engine {
+            Engine::Cpu => format!("computing on the CPU in f64: {why}"),
+            Engine::Gpu(device) => {
+                format!("computing on {} in {}: {why}", device.describe(), device.precision())
+            }
+        });
+    }
+    Ok(engine)
+}
+
+fn cpu(options: &Options) -> Result<Engine> {
+    if options.precision == Some(Precision::F32) {
+        return Err(Error::CpuPrecision);
+    }
+    if options.require_gpu {
+        return Err(Error::NoHardware { instead: "the CPU engine".to_owned() });
+    }
+    Ok(Engine::Cpu)
+}
+
+fn gpu(options: &Options, analysis: Analysis) -> Result<(Engine, String)> {
+    if analysis.response && !super::gpu::HAS_RESPONSE {
+        return Err(Error::NoGpuResponse);
+    }
+    let precision = options.precision.unwrap_or(Precision::F32);
+    let adapter = Adapter::best(precision, options.adapter)?;
+    if options.require_gpu && adapter.is_software() {
+        return Err(Error::NoHardware { instead: adapter.describe().to_string() });
+    }
+    let why = if adapter.is_software() {
+        "the best adapter there is, but it is software on the CPU and slower than --backend cpu"
+    } else {
+        "as asked for"
+    };
+    Ok((Engine::Gpu(Device::open(&adapter, precision)?), why.to_owned()))
+}
+
+fn auto(options: &Options, analysis: Analysis) -> Result<(Engine, String)> {
+    let fallback = |why: String| {
+        if options.require_gpu {
+            return Err(Error::NoHardware { instead: format!("the CPU engine ({why})") });
+        }
+        Ok((cpu(options)?, why))
+    };
+    if analysis.response && !super::gpu::HAS_RESPONSE {
+        return fallback("the response has no GPU kernel".to_owned());
+    }
+    let precision = options.precision.unwrap_or(Precision::F32);
+    let adapter = match Adapter::best(precision, options.adapter) {
+        Ok(adapter) => adapter,
+        Err(why @ (Error::NoAdapter { .. } | Error::NoF64 { .. })) => return fallback(why.to_string()),
+        Err(other) => return Err(other),
+    };
+    if adapter.is_software() {
+        return fallback(format!("the only adapter, {}, is software", adapter.describe()));
+    }
+    match Device::open(&adapter, precision) {
+        Ok(device) => Ok((Engine::Gpu(device), "the best GPU of this machine".to_owned())),
+        Err(why) => fallback(why.to_string()),
+    }
+}

@@ -1,0 +1,143 @@
+//! The eigenvalue analysis of a sweep on a GPU: words on the host in f64, narrowed once, results in SI.
+
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+use super::chunks::Session;
+use super::device::Device;
+use super::run::{ChunkResult, Drive};
+use crate::backend::choice::Options;
+use crate::classify::InstabilityType;
+use crate::error::{Error, Result};
+use crate::kernel::linear::KERNEL;
+use crate::kernel::scalar::Real;
+use crate::kernel::source::{FLAG_STATUS, FLAG_STEPS, Precision, SETTING_WORDS};
+use crate::kernel::words::{INPUT_WORDS, STATE_WORDS, Words};
+use crate::linear::prepare;
+use crate::map::Record;
+use crate::model::equilibrium::Equilibrium;
+use crate::outcome::Status;
+use crate::spec::Spec;
+
+/// The flag word of the type.
+const FLAG_TYPE: usize = 2;
+
+/// One dispatch finishes every instance.
+const MOST_DISPATCHES: u64 = 4;
+
+/// The method in a manifest.
+#[must_use]
+pub fn method() -> String {
+    "two quadratic factors by a bracketed Newton search".to_owned()
+}
+
+/// The records of a sweep with their linear part, in the order of its grid.
+///
+/// # Errors
+/// When the device fails, or the run is cancelled.
+pub fn records(
+    spec: &Spec,
+    device: Device,
+    options: &Options,
+    progress: &(dyn Fn(usize) + Sync),
+) -> Result<Vec<Record>> {
+    match device.precision() {
+        Precision::F32 => records_in::<f32>(spec, device, options, progress),
+        Precision::F64 => records_in::<f64>(spec, device, options, progress),
+    }
+}
+
+/// What is known of an instance before the kernel: a record, and its words where it needs the kernel.
+type Known = (Record, Option<Words>);
+
+fn records_in<R: Real>(
+    spec: &Spec,
+    device: Device,
+    options: &Options,
+    progress: &(dyn Fn(usize) + Sync),
+) -> Result<Vec<Record>> {
+    let total = spec.grid.len();
+    let mut records = Vec::with_capacity(total);
+    let mut session = Session::new(device, &KERNEL, &[])?;
+    let drive = Drive {
+        offset: 0,
+        settings: [0; SETTING_WORDS],
+        steps: None,
+        most_dispatches: MOST_DISPATCHES,
+        cancel: options.cancel(),
+        progress,
+    };
+    let prepare = |range: Range<usize>| {
+        let known: Vec<Known> = range.into_par_iter().map(|index| known(spec, index)).collect();
+        (inputs(&known), known)
+    };
+    let accept = |_: Range<usize>, known: Vec<Known>, result: Option<ChunkResult<R>>| {
+        append(&mut records, known, result.as_ref())
+    };
+    session.each(total, options.chunk.unwrap_or(usize::MAX), &drive, prepare, accept)?;
+    Ok(records)
+}
+
+/// Instance `index` before the kernel.
+fn known(spec: &Spec, index: usize) -> Known {
+    let instance = spec.instance(index);
+    let mut record = Record { status: Status::Ok, ..Record::default() };
+    if let Err(status) = Equilibrium::new(&instance) {
+        record.status = status;
+    }
+    match prepare(&instance) {
+        Ok(prepared) => (record, Some(Words::new(&prepared))),
+        Err(kind) => {
+            record.kind = kind;
+            (record, None)
+        }
+    }
+}
+
+/// The word-major inputs of those instances that need the kernel.
+fn inputs<R: Real>(known: &[Known]) -> Vec<R> {
+    let live: Vec<&Words> = known.iter().filter_map(|(_, words)| words.as_ref()).collect();
+    let word = |word: usize| live.iter().map(move |one| R::from_f64(one.inputs[word]));
+    let mut inputs = Vec::with_capacity(INPUT_WORDS * live.len());
+    for k in 0..INPUT_WORDS {
+        inputs.extend(word(k));
+    }
+    inputs
+}
+
+/// Completes the records of a chunk and appends them.
+fn append<R: Real>(
+    records: &mut Vec<Record>,
+    known: Vec<Known>,
+    result: Option<&ChunkResult<R>>,
+) -> Result<()> {
+    let count = known.iter().filter(|(_, words)| words.is_some()).count();
+    let mut next = 0;
+    for (mut record, words) in known {
+        if let (Some(words), Some(result)) = (words, result) {
+            let flag = |word: usize| result.flags[word * count + next];
+            let done = flag(FLAG_STEPS);
+            if done != crate::kernel::linear::POLYNOMIALS {
+                let wanted = crate::kernel::linear::POLYNOMIALS as usize;
+                return Err(Error::Miscounted { kernel: KERNEL.name, found: done as usize, wanted });
+            }
+            let state: [f64; STATE_WORDS] = std::array::from_fn(|k| result.state[k * count + next].to_f64());
+            complete(&mut record, &words, state, flag(FLAG_STATUS), flag(FLAG_TYPE));
+            next += 1;
+        }
+        records.push(record);
+    }
+    Ok(())
+}
+
+/// Puts the kernel's results into a record.
+fn complete(record: &mut Record, words: &Words, state: [f64; STATE_WORDS], status: u32, kind: u32) {
+    let results: Option<(InstabilityType, _)> =
+        (status == Status::Ok as u32).then(|| words.results(state, kind)).flatten();
+    match results {
+        Some((kind, linear)) => (record.kind, record.linear) = (Some(kind), Some(linear)),
+        // Finite on the host but beyond the kernel's scalar.
+        None => record.status = Status::NonFinite,
+    }
+}

@@ -1,0 +1,21 @@
+//! Many instances on a GPU through wgpu: Vulkan, Metal or DX12, never GL.
+//!
+//! - [`adapter`]: which adapters there are, what they can do, which one is taken.
+//! - [`device`]: an open device: error scopes, waiting with a limit, device lost.
+//! - [`kernel`]: a kernel compiled for a device and a scalar.
+//! - [`run`]: one chunk of instances through a kernel, dispatch by dispatch.
+//! - [`chunks`]: a whole sweep chunk by chunk; a lost device is opened again once.
+//! - [`linear`]: the eigenvalue analysis of a sweep.
+
+pub mod adapter;
+pub mod chunks;
+pub mod device;
+pub mod kernel;
+pub mod linear;
+pub mod run;
+
+/// The name of the backend in a manifest.
+pub const NAME: &str = "gpu";
+
+/// Whether the response has a kernel.
+pub const HAS_RESPONSE: bool = false;

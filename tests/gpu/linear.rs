@@ -1,0 +1,132 @@
+//! The linear kernel: GPU against its twin, any chunk size, two runs.
+
+use libtest_mimic::Failed;
+use squealmap::backend::choice::{Backend, Options};
+use squealmap::backend::gpu::chunks::Session;
+use squealmap::kernel::linear::KERNEL;
+use squealmap::kernel::scalar::Real;
+use squealmap::kernel::source::Precision;
+use squealmap::map::Map;
+use squealmap::spec::Spec;
+use squealmap::sweep;
+
+use crate::Case;
+use crate::words::{compare, device, differing, drive, inputs, on_cpu, on_gpu};
+
+/// Instances of a comparison.
+const COUNT: usize = 65_536;
+
+pub(crate) const CASES: &[Case] = &[
+    ("linear::f32_equals_its_twin", f32_equals_its_twin),
+    ("linear::f64_equals_its_twin", f64_equals_its_twin),
+    ("linear::two_runs_give_the_same_bits", two_runs),
+    ("linear::any_chunk_size_gives_the_same_bits", any_chunk),
+    ("linear::paper_map_has_the_types_of_the_reference", paper_map),
+    ("linear::a_lost_device_is_opened_again", lost),
+];
+
+fn twin<R: Real>(tolerance: f64) -> Result<(), Failed> {
+    let inputs = inputs::<R>(COUNT);
+    let (cpu, gpu) = (on_cpu(&inputs), on_gpu(&inputs)?);
+    let worst = compare(&gpu, &cpu, tolerance, COUNT / 10_000)?;
+    println!(
+        "{}: worst {worst:.1e}, {} of {} words differ",
+        R::PRECISION,
+        differing(&gpu, &cpu),
+        cpu.state.len()
+    );
+    Ok(())
+}
+
+fn f32_equals_its_twin() -> Result<(), Failed> {
+    twin::<f32>(2e-4)
+}
+
+fn f64_equals_its_twin() -> Result<(), Failed> {
+    match device(Precision::F64) {
+        Ok(_) => twin::<f64>(1e-12),
+        Err(why) => {
+            println!("not compared: {:?}", why.message());
+            Ok(())
+        }
+    }
+}
+
+fn two_runs() -> Result<(), Failed> {
+    let inputs = inputs::<f32>(10_000);
+    let (first, second) = (on_gpu(&inputs)?, on_gpu(&inputs)?);
+    if first == second { Ok(()) } else { Err("two runs differ".into()) }
+}
+
+/// A linear sweep of the paper's map on the GPU.
+fn sweep_of(chunk: Option<usize>) -> Result<Map, Failed> {
+    let mut spec = Spec::read("sweeps/paper_map.toml".as_ref())?;
+    spec.analysis.response = false;
+    let options = Options { backend: Backend::Gpu, chunk, ..Options::default() };
+    Ok(sweep::run(spec, &options, &|_| {})?)
+}
+
+fn any_chunk() -> Result<(), Failed> {
+    let whole = sweep_of(None)?;
+    for chunk in [1000, 4096, 8404] {
+        if sweep_of(Some(chunk))?.records != whole.records {
+            return Err(format!("chunks of {chunk} differ").into());
+        }
+    }
+    Ok(())
+}
+
+fn paper_map() -> Result<(), Failed> {
+    let map = sweep_of(None)?;
+    let linear = map.provenance.linear.ok_or("no provenance")?;
+    assert_eq!((linear.backend.as_str(), linear.precision.as_str()), ("gpu", "f32"));
+    assert!(linear.adapter.is_some());
+    let mut worst = 0.0_f64;
+    for (index, record) in map.records.iter().enumerate() {
+        let (kind, expected) = squealmap::linear::analyse(&map.spec.instance(index));
+        assert_eq!(record.kind, kind, "instance {index}");
+        if let (Some(actual), Some(expected)) = (record.linear, expected) {
+            let size = expected.growth_rate.hypot(std::f64::consts::TAU * expected.frequency);
+            worst = worst.max((actual.growth_rate - expected.growth_rate).abs() / size);
+        }
+    }
+    println!("growth rates are off by {worst:.1e} |λ| at most");
+    assert!(worst < 1e-6, "{worst:e}");
+    Ok(())
+}
+
+fn lost() -> Result<(), Failed> {
+    let inputs = inputs::<f32>(1000);
+    let expected = on_gpu(&inputs)?;
+    let mut session = Session::new(device(Precision::F32)?, &KERNEL, &[])?;
+    session.device().destroy();
+    let mut sizes = Vec::new();
+    let mut flags = 0;
+    let result = session.each(
+        1000,
+        1000,
+        &drive(),
+        |range| {
+            sizes.push(range.len());
+            (slice(&inputs, range), ())
+        },
+        |_, (), result| {
+            flags += result.map_or(0, |result| result.flags.len());
+            Ok(())
+        },
+    );
+    result?;
+    assert_eq!(sizes, [1000, 500, 500], "the chunk is halved");
+    assert_eq!(flags, expected.flags.len());
+    session.device().destroy();
+    let again = session.each(1000, 1000, &drive(), |range| (slice(&inputs, range), ()), |_, (), _| Ok(()));
+    let message = again.err().map(|why| why.to_string()).unwrap_or_default();
+    assert!(message.starts_with("the GPU was lost twice: "), "{message}");
+    assert!(message.contains("0 of 1000 instances were done and nothing was written"), "{message}");
+    Ok(())
+}
+
+/// Some instances of word-major inputs.
+fn slice(inputs: &[f32], range: std::ops::Range<usize>) -> Vec<f32> {
+    inputs.chunks(1000).flat_map(|word| word[range.clone()].iter().copied()).collect()
+}

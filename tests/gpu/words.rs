@@ -1,0 +1,101 @@
+//! Inputs of the linear kernel, its results on CPU and GPU, and the comparers.
+
+use std::sync::atomic::AtomicBool;
+
+use libtest_mimic::Failed;
+use squealmap::backend::gpu::adapter::Adapter;
+use squealmap::backend::gpu::device::Device;
+use squealmap::backend::gpu::kernel::Compiled;
+use squealmap::backend::gpu::run::{ChunkResult, Drive, check, run};
+use squealmap::kernel::linear::{FLAGS, KERNEL, STATE, analyse};
+use squealmap::kernel::scalar::Real;
+use squealmap::kernel::source::{Precision, SETTING_WORDS, words};
+use squealmap::kernel::words::{INPUT_WORDS, Words};
+use squealmap::linear::prepare;
+
+use crate::instances::random;
+
+static NEVER: AtomicBool = AtomicBool::new(false);
+
+/// How the tests drive a kernel.
+pub(crate) fn drive() -> Drive<'static> {
+    Drive {
+        offset: 0,
+        settings: [0; SETTING_WORDS],
+        steps: None,
+        most_dispatches: 4,
+        cancel: &NEVER,
+        progress: &|_| {},
+    }
+}
+
+/// The best adapter's device.
+pub(crate) fn device(precision: Precision) -> Result<Device, Failed> {
+    Ok(Device::open(&Adapter::best(precision, None)?, precision)?)
+}
+
+/// Word-major inputs of random instances that need the kernel.
+pub(crate) fn inputs<R: Real>(count: usize) -> Vec<R> {
+    let live: Vec<Words> = random(2 * count)
+        .iter()
+        .filter_map(|one| prepare(one).ok())
+        .take(count)
+        .map(|one| Words::new(&one))
+        .collect();
+    assert_eq!(live.len(), count);
+    (0..INPUT_WORDS).flat_map(|word| live.iter().map(move |one| R::from_f64(one.inputs[word]))).collect()
+}
+
+/// The twin over word-major inputs.
+pub(crate) fn on_cpu<R: Real>(inputs: &[R]) -> ChunkResult<R> {
+    let count = inputs.len() / INPUT_WORDS;
+    let results: Vec<_> =
+        (0..count).map(|instance| analyse(&|word| inputs[word * count + instance])).collect();
+    ChunkResult {
+        state: (0..words(&STATE)).flat_map(|word| results.iter().map(move |one| one.state[word])).collect(),
+        flags: (0..words(&FLAGS)).flat_map(|word| results.iter().map(move |one| one.flags[word])).collect(),
+    }
+}
+
+/// The kernel over word-major inputs.
+pub(crate) fn on_gpu<R: Real>(inputs: &[R]) -> Result<ChunkResult<R>, Failed> {
+    let device = device(R::PRECISION)?;
+    let compiled = Compiled::new(&device, &KERNEL, &[])?;
+    Ok(run(&device, &compiled, inputs, &drive())?)
+}
+
+/// Compares two results of the linear kernel word by word.
+///
+/// A number may differ by `tolerance` times its own size or 1, the size of what it was made from; flags may
+/// differ in at most `flags` instances. A NaN, a short buffer or an unwritten instance is always an error.
+pub(crate) fn compare<R: Real>(
+    actual: &ChunkResult<R>,
+    expected: &ChunkResult<R>,
+    tolerance: f64,
+    most_flags: usize,
+) -> Result<f64, Failed> {
+    let sizes = [INPUT_WORDS, words(&STATE), words(&FLAGS)];
+    let count = expected.flags.len() / sizes[2];
+    check(expected, count, sizes)?;
+    check(actual, count, sizes)?;
+    let mut worst = 0.0_f64;
+    for (index, (a, b)) in actual.state.iter().zip(&expected.state).enumerate() {
+        let (a, b) = (a.to_f64(), b.to_f64());
+        let difference = (a - b).abs() / b.abs().max(1.0);
+        if difference.is_nan() || difference > tolerance {
+            return Err(format!("word {index}: {a:e} instead of {b:e}, off by {difference:.1e}").into());
+        }
+        worst = worst.max(difference);
+    }
+    let differing = actual.flags.iter().zip(&expected.flags).filter(|(a, b)| a != b).count();
+    if differing > most_flags {
+        return Err(format!("{differing} flags differ, at most {most_flags} may").into());
+    }
+    Ok(worst)
+}
+
+/// Numbers whose bits differ.
+pub(crate) fn differing<R: Real>(actual: &ChunkResult<R>, expected: &ChunkResult<R>) -> usize {
+    let bits = |one: &R| one.to_f64().to_bits();
+    actual.state.iter().zip(&expected.state).filter(|(a, b)| bits(a) != bits(b)).count()
+}

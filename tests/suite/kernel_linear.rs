@@ -1,0 +1,106 @@
+//! The linear kernel's twin against the reference: how good are f32 and f64 in its formulation?
+
+use squealmap::classify::InstabilityType;
+use squealmap::kernel::linear::analyse as twin;
+use squealmap::kernel::scalar::Real;
+use squealmap::kernel::words::Words;
+use squealmap::linear::{Linear, analyse, prepare};
+use squealmap::spec::{Instance, Spec};
+
+use crate::instances::random;
+
+/// Random instances, over wide ranges of every parameter.
+const RANDOM: usize = 100_000;
+
+/// Types may differ where a growth rate is within this fraction of `|λ|` of zero.
+const UNDECIDED: f64 = 2e-5;
+
+/// A relative difference in frequency that is another mode, not rounding.
+const OTHER_MODE: f64 = 1e-3;
+
+fn paper_map() -> Vec<Instance> {
+    let spec = Spec::read("sweeps/paper_map.toml".as_ref()).expect("a valid sweep");
+    (0..spec.grid.len()).map(|index| spec.instance(index)).collect()
+}
+
+/// What the twin says in one precision, and the units of its growth rates.
+fn computed<R: Real>(instance: &Instance) -> (InstabilityType, Linear, [f64; 3]) {
+    let words = Words::new(&prepare(instance).expect("polynomials"));
+    let result = twin(&|word| R::from_f64(words.inputs[word]));
+    assert_eq!(result.flags[0], 1, "a finite result of {instance:?}");
+    let (kind, linear) = words.results(result.state.map(Real::to_f64), result.flags[2]).expect("a type");
+    (kind, linear, words.scales)
+}
+
+/// How far the twin is from the reference.
+#[derive(Debug, Default)]
+struct Worst {
+    compared: u32,
+    /// Types that differ, and those of them that may not.
+    types: u32,
+    types_beyond: u32,
+    /// Rates relative to `|λ|`, or to the geometric mean of all `|λ|` where that is larger.
+    growth: f64,
+    frequency: f64,
+    /// Instances where another mode leads.
+    other_modes: u32,
+    /// Degrees, and how many are off by more than 0.1.
+    phase: f64,
+    phases_off: u32,
+}
+
+fn worst<R: Real>(instances: &[Instance]) -> Worst {
+    let mut worst = Worst::default();
+    for instance in instances {
+        let (Some(kind), Some(expected)) = analyse(instance) else { continue };
+        let (actual_kind, actual, scales) = computed::<R>(instance);
+        let size = expected.growth_rate.hypot(std::f64::consts::TAU * expected.frequency);
+        let rates = |one: &Linear| [one.growth_rate, one.growth_rate_flat, one.growth_rate_frozen];
+        worst.compared += 1;
+        if actual_kind != kind {
+            worst.types += 1;
+            worst.types_beyond +=
+                u32::from(rates(&expected).iter().all(|rate| rate.abs() > UNDECIDED * size));
+        }
+        for ((a, b), scale) in rates(&actual).into_iter().zip(rates(&expected)).zip(scales) {
+            worst.growth = worst.growth.max((a - b).abs() / scale.max(b.abs()));
+        }
+        let frequency = std::f64::consts::TAU * (actual.frequency - expected.frequency).abs();
+        let frequency = frequency / scales[0].max(size);
+        if frequency > OTHER_MODE {
+            // The other of two modes whose growth rates are equal as far as the scalar can tell.
+            worst.other_modes += 1;
+            continue;
+        }
+        worst.frequency = worst.frequency.max(frequency);
+        if let (Some(a), Some(b)) = (actual.phase, expected.phase) {
+            let turn = (a - b).abs().min(360.0 - (a - b).abs());
+            worst.phase = worst.phase.max(turn);
+            worst.phases_off += u32::from(turn > 0.1);
+        }
+    }
+    println!("{worst:?}");
+    worst
+}
+
+#[test]
+fn paper_map_in_f32_and_f64() {
+    let instances = paper_map();
+    let (narrow, wide) = (worst::<f32>(&instances), worst::<f64>(&instances));
+    assert_eq!((narrow.types, wide.types, narrow.other_modes, wide.other_modes), (0, 0, 0, 0));
+    assert!(narrow.growth < 5e-8 && narrow.frequency < 5e-7 && narrow.phase < 2e-3, "{narrow:?}");
+    assert!(wide.growth < 5e-13 && wide.frequency < 5e-13 && wide.phase < 1e-9, "{wide:?}");
+}
+
+#[test]
+fn random_instances_in_f32_and_f64() {
+    let instances = random(RANDOM);
+    let (narrow, wide) = (worst::<f32>(&instances), worst::<f64>(&instances));
+    assert_eq!((narrow.types_beyond, wide.types, wide.other_modes), (0, 0, 0));
+    // The extremes of f32 are strongly damped: there the two quadratics differ by orders of magnitude.
+    assert!(
+        narrow.growth < 1e-4 && narrow.frequency < 1e-5 && narrow.phases_off < 300 && narrow.other_modes < 5,
+        "{narrow:?}"
+    );
+    assert!(wide.growth < 1e-12 && wide.frequency < 1e-12 && wide.phase < 1e-5, "{wide:?}");
+}

@@ -1,0 +1,177 @@
+//! Every kernel, without a GPU: naga validates it, writes it for every API, and agrees with Rust's tables.
+
+use naga::back::{hlsl, msl, spv};
+use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
+use naga::{AddressSpace, Module, Scalar, ScalarKind, StorageAccess, TypeInner};
+use squealmap::kernel::scene::Law;
+use squealmap::kernel::source::{BINDINGS, Constant, Kernel, Precision, Settings, WORKGROUP_SIZE, words};
+use squealmap::kernel::{linear, response, source};
+
+/// Text of the Rust files and paths of the WGSL files that are twins.
+const TWINS: &[(&str, &str)] = &[(include_str!("../../src/kernel/linear.rs"), "shaders/linear.wgsl")];
+
+/// Every kernel there is, in every form.
+const KERNELS: [(&Kernel, &[(&str, Constant)]); 4] = [
+    (&linear::KERNEL, &[]),
+    (&response::KERNEL, &[("LAW", Constant::U32(Law::Pieces as u32))]),
+    (&response::KERNEL, &[("LAW", Constant::U32(Law::Exponential as u32))]),
+    (&response::KERNEL, &[("LAW", Constant::U32(Law::Rational as u32))]),
+];
+
+fn parsed(kernel: &Kernel, choices: &[(&str, Constant)], precision: Precision) -> (Module, ModuleInfo) {
+    let text = kernel.source(precision, choices);
+    let module = naga::front::wgsl::parse_str(&text)
+        .unwrap_or_else(|why| panic!("{}: {}", kernel.name, why.emit_to_string(&text)));
+    let capabilities = match precision {
+        Precision::F32 => Capabilities::empty(),
+        Precision::F64 => Capabilities::FLOAT64,
+    };
+    let info = Validator::new(ValidationFlags::all(), capabilities)
+        .validate(&module)
+        .unwrap_or_else(|why| panic!("{}: {}", kernel.name, why.emit_to_string(&text)));
+    (module, info)
+}
+
+#[test]
+fn every_kernel_is_valid_in_both_scalars() {
+    for (kernel, choices) in KERNELS {
+        for precision in [Precision::F32, Precision::F64] {
+            let (module, info) = parsed(kernel, choices, precision);
+            let options = spv::Options::default();
+            let words = spv::write_vec(&module, &info, &options, None).expect("SPIR-V");
+            assert_eq!(words[0], 0x0723_0203, "{}: the magic number of SPIR-V", kernel.name);
+        }
+    }
+}
+
+#[test]
+fn every_kernel_can_be_written_for_metal_and_dx12() {
+    for (kernel, choices) in KERNELS {
+        let (module, info) = parsed(kernel, choices, Precision::F32);
+        let mut options = msl::Options { fake_missing_bindings: true, ..msl::Options::default() };
+        options.lang_version = (2, 0);
+        let (text, _) = msl::write_string(&module, &info, &options, &msl::PipelineOptions::default())
+            .unwrap_or_else(|why| panic!("{}: {why}", kernel.name));
+        assert!(text.contains("kernel void"), "{text}");
+
+        let options = hlsl::Options { fake_missing_bindings: true, ..hlsl::Options::default() };
+        let pipeline = hlsl::PipelineOptions::default();
+        let mut text = String::new();
+        hlsl::Writer::new(&mut text, &options, &pipeline)
+            .write(&module, &info, None)
+            .unwrap_or_else(|why| panic!("{}: {why}", kernel.name));
+        assert!(text.contains("[numthreads(64, 1, 1)]"), "{text}");
+    }
+}
+
+#[test]
+fn bindings_strides_and_sizes_are_those_of_rust() {
+    for (kernel, choices) in KERNELS {
+        for precision in [Precision::F32, Precision::F64] {
+            let (module, _) = parsed(kernel, choices, precision);
+            for (number, name) in (0..).zip(BINDINGS) {
+                let (_, variable) = module
+                    .global_variables
+                    .iter()
+                    .find(|(_, variable)| variable.name.as_deref() == Some(name))
+                    .unwrap_or_else(|| panic!("{}: no {name}", kernel.name));
+                let binding = variable.binding.expect("a binding");
+                assert_eq!((binding.group, binding.binding), (0, number), "{name}");
+                let read_only = AddressSpace::Storage { access: StorageAccess::LOAD };
+                match (number, variable.space) {
+                    (0, AddressSpace::Uniform) => {}
+                    (1, space) => assert_eq!(space, read_only, "{name}"),
+                    (_, AddressSpace::Storage { access }) => {
+                        assert!(access.contains(StorageAccess::LOAD | StorageAccess::STORE), "{name}");
+                    }
+                    (_, space) => panic!("{name} is in {space:?}"),
+                }
+                let stride = match &module.types[variable.ty].inner {
+                    TypeInner::Array { stride, .. } => *stride as usize,
+                    TypeInner::Struct { span, .. } => *span as usize,
+                    other => panic!("{name} is {other:?}"),
+                };
+                let wanted = [size_of::<Settings>(), precision.bytes(), precision.bytes(), 4, 4];
+                assert_eq!(stride, wanted[number as usize], "{name}");
+            }
+            let entry = &module.entry_points[0];
+            assert_eq!((module.entry_points.len(), entry.name.as_str()), (1, "main"));
+            assert_eq!(entry.workgroup_size, [WORKGROUP_SIZE, 1, 1]);
+        }
+    }
+}
+
+#[test]
+fn the_settings_have_the_same_members_at_the_same_places() {
+    let (module, _) = parsed(&linear::KERNEL, &[], Precision::F32);
+    let members = module
+        .types
+        .iter()
+        .find_map(|(_, ty)| match &ty.inner {
+            TypeInner::Struct { members, .. } if ty.name.as_deref() == Some("Settings") => Some(members),
+            _ => None,
+        })
+        .expect("Settings");
+    let wanted = [
+        ("count", std::mem::offset_of!(Settings, count)),
+        ("iterations", std::mem::offset_of!(Settings, iterations)),
+        ("offset", std::mem::offset_of!(Settings, offset)),
+        ("zero", std::mem::offset_of!(Settings, zero)),
+        ("zero_real", std::mem::offset_of!(Settings, zero_real)),
+        ("one_real", std::mem::offset_of!(Settings, one_real)),
+        ("spare", std::mem::offset_of!(Settings, spare)),
+        ("words", std::mem::offset_of!(Settings, words)),
+    ];
+    let found: Vec<(&str, usize)> =
+        members.iter().map(|one| (one.name.as_deref().unwrap_or(""), one.offset as usize)).collect();
+    assert_eq!(found, wanted);
+}
+
+#[test]
+fn the_scalar_is_the_only_float_of_the_buffers() {
+    for (kernel, choices) in KERNELS {
+        let (module, _) = parsed(kernel, choices, Precision::F64);
+        let wide = Scalar { kind: ScalarKind::Float, width: 8 };
+        let buffers = ["inputs", "state"];
+        for (_, variable) in module.global_variables.iter() {
+            if buffers.contains(&variable.name.as_deref().unwrap_or("")) {
+                let TypeInner::Array { base, .. } = module.types[variable.ty].inner else {
+                    panic!("an array");
+                };
+                assert_eq!(module.types[base].inner, TypeInner::Scalar(wide));
+            }
+        }
+    }
+}
+
+#[test]
+fn flags_begin_with_status_and_steps() {
+    for (kernel, _) in KERNELS {
+        assert_eq!(kernel.flags[source::FLAG_STATUS].name, "status");
+        assert_eq!(kernel.flags[source::FLAG_STEPS].name, "steps");
+        assert!(words(kernel.settings) <= source::SETTING_WORDS);
+    }
+}
+
+/// The names of functions in a text, in order: those behind `keyword`, up to the bracket.
+fn functions(text: &str, keyword: &str) -> Vec<String> {
+    let name = |line: &str| {
+        let rest = line.strip_prefix(keyword)?;
+        Some(rest.split(['(', '<']).next()?.to_owned())
+    };
+    text.lines().filter_map(name).collect()
+}
+
+#[test]
+fn twins_have_the_same_functions_in_the_same_order() {
+    for (rust, wgsl) in TWINS {
+        let text = std::fs::read_to_string(wgsl).expect(wgsl);
+        let ours: Vec<String> = functions(rust, "pub fn ");
+        let theirs = functions(&text, "fn ");
+        // is_finite belongs to the host's file there.
+        let ours: Vec<&String> = ours.iter().filter(|name| *name != "all_finite").collect();
+        assert_eq!(ours, theirs.iter().collect::<Vec<_>>(), "{wgsl}");
+        assert!(rust.starts_with(&format!("//! Twin: {wgsl}\n")), "{wgsl}");
+        assert!(text.starts_with("// Twin: src/"), "{wgsl}");
+    }
+}
