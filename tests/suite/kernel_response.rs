@@ -79,10 +79,10 @@ fn smooth_laws_agree_with_the_reference() {
 
 #[test]
 fn the_comparer_sees_a_wrong_scene() {
-    // Planted fault: the twin integrates another inclination.
+    // Planted fault: the twin integrates another normal stiffness.
     let wrong = |instance: &Instance, plan: &Plan, tolerance: f64| {
         let mut instance = instance.clone();
-        instance.params.set(Param::Theta, 0.0105);
+        instance.params.set(Param::K2, 1.02e5);
         twin::<f32>(&instance, plan, tolerance)
     };
     let (errors, _) = compare(bilinear, wrong);
