@@ -296,6 +296,12 @@ pub struct GrowthFit {
 }
 
 impl Growth {
+    /// A window summed elsewhere: its length, the sums of `1, x, v, a, b` and of their products.
+    #[must_use]
+    pub fn from_sums(time: f64, sum: [f64; 5], product: [[f64; 5]; 5]) -> Growth {
+        Growth { closed: true, time, sum, product }
+    }
+
     /// Covariance of two samples.
     fn covariance(&self, i: usize, j: usize) -> f64 {
         self.product[i][j] / self.time - self.sum[i] / self.time * (self.sum[j] / self.time)

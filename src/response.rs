@@ -123,6 +123,18 @@ impl Scene {
         self.ramp.at(t).0
     }
 
+    /// The belt from the time `t` (scaled) on, and how long it goes on like that.
+    #[must_use]
+    pub fn belt_from(&self, t: f64) -> (BeltMotion, f64) {
+        self.ramp.at(t)
+    }
+
+    /// The state at the start.
+    #[must_use]
+    pub fn start(&self) -> State {
+        self.start
+    }
+
     /// Starts the integration.
     ///
     /// # Errors
@@ -157,7 +169,8 @@ impl Scene {
     }
 
     /// The SI value of the simulated time `time`: in full when it is exactly the time the plan asks for.
-    fn seconds(&self, time: f64, plan: &Plan) -> f64 {
+    #[must_use]
+    pub fn seconds(&self, time: f64, plan: &Plan) -> f64 {
         let si = |duration| match duration {
             Duration::Seconds(seconds) => seconds,
             other => self.scaled(other) * self.units.time,

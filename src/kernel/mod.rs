@@ -7,9 +7,17 @@
 //! - [`source`]: the contract between host and kernels: bindings, words, settings, constants.
 //! - [`scalar`]: f32 and f64 under one trait.
 //! - [`linear`]: eigenvalues and attribution of one instance.
+//! - [`scene`], [`series`], [`crossing`], [`observe`], [`lane`]: the transient of one instance.
+//! - [`response`]: an instance as words of the response kernel, and its outcome (f64, host only).
 //! - [`words`]: an instance as words of the linear kernel, and back (f64, host only).
 
+pub mod crossing;
+pub mod lane;
 pub mod linear;
+pub mod observe;
+pub mod response;
 pub mod scalar;
+pub mod scene;
+pub mod series;
 pub mod source;
 pub mod words;

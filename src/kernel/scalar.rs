@@ -4,7 +4,7 @@
 //! may be off by 4096 ulp, and differ from driver to driver.
 
 use std::fmt::Debug;
-use std::ops::{Add, Div, Mul, Neg, Sub};
+use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
 use super::source::Precision;
 
@@ -20,6 +20,9 @@ pub trait Real:
     + Mul<Output = Self>
     + Div<Output = Self>
     + Neg<Output = Self>
+    + AddAssign
+    + SubAssign
+    + MulAssign
 {
     /// Which of the two it is.
     const PRECISION: Precision;

@@ -3,17 +3,23 @@
 use naga::back::{hlsl, msl, spv};
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{AddressSpace, Module, Scalar, ScalarKind, StorageAccess, TypeInner};
-use squealmap::kernel::source::{BINDINGS, Kernel, Precision, Settings, WORKGROUP_SIZE, words};
-use squealmap::kernel::{linear, source};
+use squealmap::kernel::scene::Law;
+use squealmap::kernel::source::{BINDINGS, Constant, Kernel, Precision, Settings, WORKGROUP_SIZE, words};
+use squealmap::kernel::{linear, response, source};
 
 /// Text of the Rust files and paths of the WGSL files that are twins.
 const TWINS: &[(&str, &str)] = &[(include_str!("../../src/kernel/linear.rs"), "shaders/linear.wgsl")];
 
-/// Every kernel there is.
-const KERNELS: [&Kernel; 1] = [&linear::KERNEL];
+/// Every kernel there is, in every form.
+const KERNELS: [(&Kernel, &[(&str, Constant)]); 4] = [
+    (&linear::KERNEL, &[]),
+    (&response::KERNEL, &[("LAW", Constant::U32(Law::Pieces as u32))]),
+    (&response::KERNEL, &[("LAW", Constant::U32(Law::Exponential as u32))]),
+    (&response::KERNEL, &[("LAW", Constant::U32(Law::Rational as u32))]),
+];
 
-fn parsed(kernel: &Kernel, precision: Precision) -> (Module, ModuleInfo) {
-    let text = kernel.source(precision, &[]);
+fn parsed(kernel: &Kernel, choices: &[(&str, Constant)], precision: Precision) -> (Module, ModuleInfo) {
+    let text = kernel.source(precision, choices);
     let module = naga::front::wgsl::parse_str(&text)
         .unwrap_or_else(|why| panic!("{}: {}", kernel.name, why.emit_to_string(&text)));
     let capabilities = match precision {
@@ -28,9 +34,9 @@ fn parsed(kernel: &Kernel, precision: Precision) -> (Module, ModuleInfo) {
 
 #[test]
 fn every_kernel_is_valid_in_both_scalars() {
-    for kernel in KERNELS {
+    for (kernel, choices) in KERNELS {
         for precision in [Precision::F32, Precision::F64] {
-            let (module, info) = parsed(kernel, precision);
+            let (module, info) = parsed(kernel, choices, precision);
             let options = spv::Options::default();
             let words = spv::write_vec(&module, &info, &options, None).expect("SPIR-V");
             assert_eq!(words[0], 0x0723_0203, "{}: the magic number of SPIR-V", kernel.name);
@@ -40,8 +46,8 @@ fn every_kernel_is_valid_in_both_scalars() {
 
 #[test]
 fn every_kernel_can_be_written_for_metal_and_dx12() {
-    for kernel in KERNELS {
-        let (module, info) = parsed(kernel, Precision::F32);
+    for (kernel, choices) in KERNELS {
+        let (module, info) = parsed(kernel, choices, Precision::F32);
         let mut options = msl::Options { fake_missing_bindings: true, ..msl::Options::default() };
         options.lang_version = (2, 0);
         let (text, _) = msl::write_string(&module, &info, &options, &msl::PipelineOptions::default())
@@ -60,9 +66,9 @@ fn every_kernel_can_be_written_for_metal_and_dx12() {
 
 #[test]
 fn bindings_strides_and_sizes_are_those_of_rust() {
-    for kernel in KERNELS {
+    for (kernel, choices) in KERNELS {
         for precision in [Precision::F32, Precision::F64] {
-            let (module, _) = parsed(kernel, precision);
+            let (module, _) = parsed(kernel, choices, precision);
             for (number, name) in (0..).zip(BINDINGS) {
                 let (_, variable) = module
                     .global_variables
@@ -97,7 +103,7 @@ fn bindings_strides_and_sizes_are_those_of_rust() {
 
 #[test]
 fn the_settings_have_the_same_members_at_the_same_places() {
-    let (module, _) = parsed(&linear::KERNEL, Precision::F32);
+    let (module, _) = parsed(&linear::KERNEL, &[], Precision::F32);
     let members = module
         .types
         .iter()
@@ -123,8 +129,8 @@ fn the_settings_have_the_same_members_at_the_same_places() {
 
 #[test]
 fn the_scalar_is_the_only_float_of_the_buffers() {
-    for kernel in KERNELS {
-        let (module, _) = parsed(kernel, Precision::F64);
+    for (kernel, choices) in KERNELS {
+        let (module, _) = parsed(kernel, choices, Precision::F64);
         let wide = Scalar { kind: ScalarKind::Float, width: 8 };
         let buffers = ["inputs", "state"];
         for (_, variable) in module.global_variables.iter() {
@@ -140,7 +146,7 @@ fn the_scalar_is_the_only_float_of_the_buffers() {
 
 #[test]
 fn flags_begin_with_status_and_steps() {
-    for kernel in KERNELS {
+    for (kernel, _) in KERNELS {
         assert_eq!(kernel.flags[source::FLAG_STATUS].name, "status");
         assert_eq!(kernel.flags[source::FLAG_STEPS].name, "steps");
         assert!(words(kernel.settings) <= source::SETTING_WORDS);

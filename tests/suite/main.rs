@@ -10,6 +10,7 @@ mod extremes;
 mod figure;
 mod instances;
 mod kernel_linear;
+mod kernel_response;
 mod kernels;
 mod linear;
 mod modes_figure;

@@ -1,0 +1,408 @@
+// Twin: src/kernel/lane.rs
+// One instance advanced by iterations, one step or part of a step each.
+
+struct Belt {
+    velocity: real,
+    acceleration: real,
+}
+
+struct Located {
+    tau: real,
+    event: u32,
+}
+
+struct Lane {
+    body: Body,
+    rest: real,
+    status: u32,
+    iterations: u32,
+    segment: u32,
+    index: u32,
+    contact: u32,
+    piece: u32,
+    disarmed: u32,
+    at_once: u32,
+    counted: u32,
+    parts: u32,
+    second_pass: u32,
+}
+
+var<private> lane: Lane;
+// The present search of the first event.
+var<private> located: Located;
+
+fn start_lane() {
+    lane.body.p[0] = input(INPUT_START, instance);
+    lane.body.p[1] = real(0.0);
+    lane.body.p[2] = input(INPUT_START + 1u, instance);
+    lane.body.v[0] = input(INPUT_START + 2u, instance);
+    lane.body.v[1] = real(0.0);
+    lane.body.v[2] = input(INPUT_START + 3u, instance);
+    lane.rest = real(1.0);
+    lane.status = STATUS_UNWRITTEN;
+    phase.carrier = vec2<real>(real(1.0), real(0.0));
+    let first = segment_of(0u);
+    enter_contact(Belt(first.velocity, first.acceleration));
+    take_snapshot();
+}
+
+fn iterate(tolerance: real) {
+    let segment = segment_of(lane.segment);
+    if real(lane.index) >= segment.steps {
+        next_segment();
+        return;
+    }
+    lane.iterations += 1u;
+    let elapsed = real(lane.index) + (real(1.0) - lane.rest);
+    let belt = Belt(
+        segment.velocity + segment.acceleration * (elapsed * segment.step),
+        segment.acceleration,
+    );
+    if lane.contact == STICK {
+        lane.body.v[0] = belt.velocity;
+    }
+    let piece = piece_of(lane.piece);
+    expand(lane.body, lane.contact, piece, belt.velocity, belt.acceleration);
+    if lane.contact <= REVERSE {
+        let q = friction(piece, sigma(), sv[0], scene.v0 - sv[0]).q;
+        if real(1.0) + scene.kappa * q <= real(0.0) {
+            lane.status = STATUS_PAINLEVE;
+            return;
+        }
+    }
+    let remaining = lane.rest * segment.step;
+    let longest = step_length(remaining, tolerance);
+    if longest <= real(0.0) {
+        lane.status = select(STATUS_NON_FINITE, STATUS_STEP_TOO_LARGE, body_is_finite());
+        return;
+    }
+    first_event(longest, tolerance);
+    let tau = located.tau;
+    let event = located.event;
+    if tau > real(0.0) {
+        observe(segment, tau);
+        let x = evaluate(&sx, tau);
+        let y = evaluate(&sy, tau);
+        let w = evaluate(&sw, tau);
+        lane.body.p[0] = x.p;
+        lane.body.p[1] = y.p;
+        lane.body.p[2] = w.p;
+        lane.body.v[0] = x.v;
+        lane.body.v[1] = y.v;
+        lane.body.v[2] = w.v;
+        lane.disarmed = NOTHING;
+    }
+    if !body_is_finite() {
+        lane.status = STATUS_NON_FINITE;
+        return;
+    }
+    advance_time(segment, tau, tau >= remaining * (real(1.0) - LEAST_REST * EPSILON));
+    if event != NOTHING {
+        count_event(tau);
+        transition(event, Belt(belt.velocity + belt.acceleration * tau, belt.acceleration));
+    }
+}
+
+fn body_is_finite() -> bool {
+    return is_finite(lane.body.p[0]) && is_finite(lane.body.p[1]) && is_finite(lane.body.p[2])
+        && is_finite(lane.body.v[0]) && is_finite(lane.body.v[1]) && is_finite(lane.body.v[2]);
+}
+
+fn sigma() -> real {
+    return select(real(-1.0), real(1.0), lane.contact == SLIP);
+}
+
+fn advance_time(segment: Segment, tau: real, whole: bool) {
+    lane.parts += 1u;
+    if whole {
+        lane.rest = real(1.0);
+        lane.index += 1u;
+        lane.parts = 0u;
+        if lane.index % STEPS_PER_COUNT == 0u {
+            lane.counted = 0u;
+            flush();
+        }
+    } else {
+        lane.rest = lane.rest - tau / segment.step;
+    }
+    if lane.parts > MAX_PARTS {
+        lane.status = STATUS_STEP_TOO_LARGE;
+    }
+}
+
+fn count_event(tau: real) {
+    lane.at_once = select(lane.at_once + 1u, 0u, tau > real(0.0));
+    lane.counted += 1u;
+    if lane.at_once > EVENTS_AT_ONCE || lane.counted > MAX_EVENTS_PER_COUNT {
+        lane.status = STATUS_EVENT_LIMIT;
+    }
+}
+
+fn next_segment() {
+    flush();
+    let before = part_of(segment_of(lane.segment));
+    lane.segment += 1u;
+    lane.index = 0u;
+    var done = lane.segment >= SEGMENTS;
+    if !done {
+        done = segment_of(lane.segment).steps <= real(0.0);
+    }
+    if done {
+        if lane.second_pass == 1u || !prepare_phase() {
+            lane.status = STATUS_OK;
+            return;
+        }
+        lane.second_pass = 1u;
+        restore_snapshot();
+        lane.segment = 0u;
+        while part_of(segment_of(lane.segment)) == SETTLE {
+            lane.segment += 1u;
+        }
+        return;
+    }
+    let after = part_of(segment_of(lane.segment));
+    if before == SETTLE && after == FIRST_HALF && lane.second_pass == 0u {
+        take_snapshot();
+    }
+}
+
+fn take_snapshot() {
+    for (var i = 0u; i < 3u; i++) {
+        store(STATE_SNAPSHOT + i, instance, lane.body.p[i]);
+        store(STATE_SNAPSHOT + 3u + i, instance, lane.body.v[i]);
+    }
+    set_flag(FLAG_SNAPSHOT, instance, lane.contact);
+    set_flag(FLAG_SNAPSHOT + 1u, instance, lane.piece);
+    set_flag(FLAG_SNAPSHOT + 2u, instance, lane.disarmed);
+}
+
+fn restore_snapshot() {
+    for (var i = 0u; i < 3u; i++) {
+        lane.body.p[i] = load(STATE_SNAPSHOT + i, instance);
+        lane.body.v[i] = load(STATE_SNAPSHOT + 3u + i, instance);
+    }
+    lane.contact = flag(FLAG_SNAPSHOT, instance);
+    lane.piece = flag(FLAG_SNAPSHOT + 1u, instance);
+    lane.disarmed = flag(FLAG_SNAPSHOT + 2u, instance);
+}
+
+fn observe(segment: Segment, tau: real) {
+    let part = part_of(segment);
+    let at = Moment(lane.segment, lane.index, real(1.0) - lane.rest);
+    if lane.second_pass == 1u {
+        observe_phase(at, segment.step, tau);
+        return;
+    }
+    if part != SETTLE {
+        observe_window(scene.t0, lane.contact, part, at, segment.step, tau);
+    }
+    observe_growth(tau);
+}
+
+fn watch(degree: u32, from_zero: bool, event: u32, rounding: real) {
+    if located.tau > real(0.0) {
+        let of_state = event == GAP || event <= UPPER_KINK;
+        let near = select(rounding, real(0.0), of_state);
+        let at = first_crossing(degree, located.tau, from_zero, near, rounding);
+        if at > NEVER {
+            located.tau = at;
+            located.event = event;
+        }
+    }
+}
+
+fn first_event(longest: real, tolerance: real) {
+    located = Located(longest, NOTHING);
+    let size = scene.n0 * (real(1.0) + scene.mu_stick) + abs(sn[0]) + abs(st[0]);
+    let rounding = tolerance * size;
+    if lane.contact == FREE {
+        sg = sy;
+        watch(ORDER, lane.disarmed == GAP, GAP, rounding * scene.inv_det);
+    } else if lane.contact == STICK {
+        for (var k = 0u; k <= ORDER - 2u; k++) {
+            let normal = select(sn[k], sn[k] - scene.n0, k == 0u);
+            sg[k] = scene.mu_stick * normal - st[k];
+        }
+        sg[0] = sg[0] + scene.cone_forward;
+        watch(ORDER - 2u, false, CONE_FORWARD, rounding);
+        for (var k = 0u; k <= ORDER - 2u; k++) {
+            let normal = select(sn[k], sn[k] - scene.n0, k == 0u);
+            sg[k] = scene.mu_stick * normal + st[k];
+        }
+        sg[0] = sg[0] + scene.cone_backward;
+        watch(ORDER - 2u, false, CONE_BACKWARD, rounding);
+        sg = sn;
+        watch(ORDER - 2u, false, LIFT_OFF, rounding);
+    } else {
+        sg = sn;
+        watch(ORDER - 2u, false, LIFT_OFF, rounding);
+        let direction = sigma();
+        for (var k = 0u; k < ORDER; k++) {
+            sg[k] = direction * sv[k];
+        }
+        let start = sg[0];
+        if lane.piece == 0u {
+            watch(ORDER - 1u, lane.disarmed == REST, REST, rounding);
+        } else {
+            sg[0] = start - piece_of(lane.piece - 1u).kink;
+            watch(ORDER - 1u, lane.disarmed == LOWER_KINK, LOWER_KINK, rounding);
+        }
+        if lane.piece + 1u < PIECES {
+            for (var k = 0u; k < ORDER; k++) {
+                sg[k] = -(direction * sv[k]);
+            }
+            sg[0] = piece_of(lane.piece).kink - start;
+            watch(ORDER - 1u, lane.disarmed == UPPER_KINK, UPPER_KINK, rounding);
+        }
+    }
+}
+
+fn transition(event: u32, belt: Belt) {
+    sums.growth_closed = 1u;
+    switch event {
+        case LOWER_KINK: {
+            lane.piece -= 1u;
+            lane.disarmed = UPPER_KINK;
+        }
+        case UPPER_KINK: {
+            lane.piece += 1u;
+            lane.disarmed = LOWER_KINK;
+        }
+        case REST: {
+            at_rest(belt);
+        }
+        case CONE_FORWARD: {
+            slip_or_free(real(1.0), real(0.0), true);
+        }
+        case CONE_BACKWARD: {
+            slip_or_free(real(-1.0), real(0.0), true);
+        }
+        case LIFT_OFF: {
+            enter(FREE, false);
+        }
+        default: {
+            impact(belt);
+        }
+    }
+}
+
+fn loads() -> vec2<real> {
+    let x = lane.body.p[0];
+    let y = lane.body.p[1];
+    let w = lane.body.p[2];
+    let vx = lane.body.v[0];
+    let vy = lane.body.v[1];
+    let vw = lane.body.v[2];
+    let h = scene.k2 * (x * scene.s + y * scene.c - w) + scene.c2 * (vx * scene.s + vy * scene.c - vw);
+    let g = scene.k1 * (x * scene.c - y * scene.s) + scene.c1 * (vx * scene.c - vy * scene.s);
+    return vec2<real>(scene.c * g + scene.s * h, scene.c * h - scene.s * g);
+}
+
+fn slip_or_free(direction: real, speed: real, rests: bool) {
+    let piece = piece_at(speed);
+    let v = direction * speed;
+    let q = friction(piece_of(piece), direction, v, scene.v0 - v).q;
+    if real(1.0) + scene.kappa * q <= real(0.0) {
+        lane.status = STATUS_PAINLEVE;
+        return;
+    }
+    let rw = loads();
+    if (rw.y + scene.n0) + scene.kappa * (rw.x + scene.t0) > real(0.0) {
+        lane.piece = piece;
+        enter(select(REVERSE, SLIP, direction > real(0.0)), rests);
+    } else {
+        enter(FREE, false);
+    }
+}
+
+fn enter(contact: u32, rests: bool) {
+    lane.contact = contact;
+    lane.disarmed = NOTHING;
+    if contact == FREE {
+        lane.disarmed = GAP;
+    } else if contact <= REVERSE && rests {
+        lane.disarmed = REST;
+    }
+}
+
+fn at_rest(belt: Belt) {
+    lane.body.v[0] = belt.velocity;
+    let rw = loads();
+    let tangential = rw.x + belt.acceleration;
+    let normal = rw.y - scene.kappa * belt.acceleration;
+    let forward = scene.mu_stick * normal - tangential + scene.cone_forward;
+    let backward = scene.mu_stick * normal + tangential + scene.cone_backward;
+    if forward >= real(0.0) && backward >= real(0.0) {
+        enter(STICK, true);
+    } else {
+        slip_or_free(select(real(-1.0), real(1.0), tangential + scene.t0 >= real(0.0)), real(0.0), true);
+    }
+}
+
+fn enter_contact(belt: Belt) {
+    let v = belt.velocity - lane.body.v[0];
+    if v > real(0.0) {
+        slip_or_free(real(1.0), v, false);
+    } else if v < real(0.0) {
+        slip_or_free(real(-1.0), -v, false);
+    } else {
+        at_rest(belt);
+    }
+}
+
+fn tangential_jump(q: real, change: real) -> real {
+    let inertia = real(1.0) + scene.kappa * q;
+    if inertia <= real(0.0) {
+        lane.status = STATUS_PAINLEVE;
+        return real(0.0);
+    }
+    return (scene.normal_mass * q + scene.kappa) / inertia * change;
+}
+
+fn impact(belt: Belt) {
+    let in_window = part_of(segment_of(lane.segment)) != SETTLE;
+    if in_window && lane.second_pass == 0u {
+        sums.impacts += 1u;
+    }
+    let vx = lane.body.v[0];
+    let vy = min(lane.body.v[1], real(0.0));
+    var rebound = -(scene.restitution * vy);
+    if rebound < scene.slowest_rebound {
+        rebound = real(0.0);
+    }
+    let change = rebound - vy;
+    let relative = belt.velocity - vx;
+    var after = belt.velocity;
+    if scene.impact_friction > real(0.0) {
+        let limit = mu(abs(relative));
+        let q = select(limit, -limit, relative < real(0.0));
+        let jump = tangential_jump(q, change);
+        let tangential = relative - scene.kappa * change;
+        let normal = scene.normal_mass * change - scene.kappa * relative;
+        if (relative - jump) * relative > real(0.0) {
+            after = vx + jump;
+        } else if abs(tangential) > limit * normal {
+            after = vx + tangential_jump(-q, change);
+        }
+    } else {
+        after = vx + tangential_jump(real(0.0), change);
+    }
+    lane.body.p[1] = real(0.0);
+    lane.body.v[0] = after;
+    lane.body.v[1] = rebound;
+    if rebound > real(0.0) {
+        enter(FREE, false);
+    } else {
+        enter_contact(belt);
+    }
+}
+
+fn part_of(segment: Segment) -> u32 {
+    if segment.part < real(0.5) {
+        return SETTLE;
+    }
+    if segment.part < real(1.5) {
+        return FIRST_HALF;
+    }
+    return SECOND_HALF;
+}

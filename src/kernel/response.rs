@@ -1,0 +1,278 @@
+//! An instance into a kernel's words, and a lane's records into an outcome (host only).
+
+use std::f64::consts::TAU;
+
+use super::lane::{self, Lane};
+use super::observe::{self, SUMS};
+use super::scalar::Real;
+use super::scene::{
+    FIRST_HALF, Law, PIECE_WORDS, SECOND_HALF, SEGMENT_WORDS, SEGMENTS, SETTLE, Scene as Words, words,
+};
+use super::source::{Constant, Field, Kernel};
+use super::{crossing, series};
+use crate::model::friction::LawKind;
+use crate::observe::GrowthFit;
+use crate::outcome::{Outcome, Status};
+use crate::response::{Plan, Scene};
+use crate::spec::Instance;
+
+/// The response kernel for laws of two pieces: `constant`, `bilinear`, `exponential`, `rational`.
+pub const KERNEL: Kernel = Kernel {
+    name: "response",
+    files: &[
+        ("shaders/scene.wgsl", include_str!("../../shaders/scene.wgsl")),
+        ("shaders/series.wgsl", include_str!("../../shaders/series.wgsl")),
+        ("shaders/crossing.wgsl", include_str!("../../shaders/crossing.wgsl")),
+        ("shaders/observe.wgsl", include_str!("../../shaders/observe.wgsl")),
+        ("shaders/lane.wgsl", include_str!("../../shaders/lane.wgsl")),
+        ("shaders/response_main.wgsl", include_str!("../../shaders/response_main.wgsl")),
+    ],
+    inputs: &[
+        Field::one("sin"),
+        Field::one("cos"),
+        Field::one("inv_m1"),
+        Field::one("k1"),
+        Field::one("k2"),
+        Field::one("c1"),
+        Field::one("c2"),
+        Field::one("kappa"),
+        Field::one("inv_det"),
+        Field::one("normal_mass"),
+        Field::one("n0"),
+        Field::one("t0"),
+        Field::one("mu0"),
+        Field::one("v0"),
+        Field::one("mu_stick"),
+        Field::many("cone", 2),
+        Field::one("restitution"),
+        Field::one("impact_friction"),
+        Field::many("start", 4),
+        Field::one("slowest_rebound"),
+        Field::many("pieces", PIECES * PIECE_WORDS),
+        Field::many("segments", SEGMENTS * SEGMENT_WORDS),
+    ],
+    state: &[
+        Field::many("body", 6),
+        Field::one("rest"),
+        Field::many("block", SUMS),
+        Field::many("total", 2 * SUMS),
+        Field::many("peaks", 3),
+        Field::one("previous"),
+        Field::one("first"),
+        Field::one("last"),
+        Field::many("growth", 15),
+        Field::many("phase", 7),
+        Field::many("snapshot", 6),
+    ],
+    flags: &[
+        Field::one("status"),
+        Field::one("steps"),
+        Field::one("started"),
+        Field::one("segment"),
+        Field::one("index"),
+        Field::one("contact"),
+        Field::one("piece"),
+        Field::one("disarmed"),
+        Field::one("at_once"),
+        Field::one("counted"),
+        Field::one("parts"),
+        Field::one("second_pass"),
+        Field::one("half"),
+        Field::one("has_previous"),
+        Field::one("impacts"),
+        Field::one("crossings"),
+        Field::one("growth_closed"),
+        Field::many("first", 2),
+        Field::many("last", 2),
+        Field::many("snapshot", 3),
+    ],
+    settings: &[Field::one("tolerance")],
+    constants: &[
+        ("LAW_PIECES", Constant::U32(Law::Pieces as u32)),
+        ("LAW_EXPONENTIAL", Constant::U32(Law::Exponential as u32)),
+        ("LAW_RATIONAL", Constant::U32(Law::Rational as u32)),
+        ("PIECES", Constant::U32(PIECES as u32)),
+        ("PIECE_WORDS", Constant::U32(PIECE_WORDS as u32)),
+        ("SEGMENTS", Constant::U32(SEGMENTS as u32)),
+        ("SEGMENT_WORDS", Constant::U32(SEGMENT_WORDS as u32)),
+        ("SETTLE", Constant::U32(SETTLE)),
+        ("FIRST_HALF", Constant::U32(FIRST_HALF)),
+        ("SECOND_HALF", Constant::U32(SECOND_HALF)),
+        ("EXP_DEGREE", Constant::U32(super::scene::EXP_DEGREE as u32)),
+        ("ORDER", Constant::U32(series::ORDER as u32)),
+        ("SERIES", Constant::U32(series::ORDER as u32 + 1)),
+        ("MAX_HALVINGS", Constant::U32(series::MAX_HALVINGS as u32)),
+        ("SLIP", Constant::U32(series::SLIP)),
+        ("REVERSE", Constant::U32(series::REVERSE)),
+        ("STICK", Constant::U32(series::STICK)),
+        ("FREE", Constant::U32(series::FREE)),
+        ("SAMPLES", Constant::U32(crossing::SAMPLES as u32)),
+        ("SOLVER_ITERATIONS", Constant::U32(crossing::SOLVER_ITERATIONS as u32)),
+        ("HIGHEST_ORDER", Constant::U32(crossing::HIGHEST_ORDER as u32)),
+        ("NEVER", Constant::Real(crossing::NEVER)),
+        ("SUMS", Constant::U32(SUMS as u32)),
+        ("NODE_0", Constant::Real(observe::NODES[0])),
+        ("NODE_2", Constant::Real(observe::NODES[2])),
+        ("BISECTIONS", Constant::U32(observe::BISECTIONS as u32)),
+        ("TAU", Constant::Real(TAU)),
+        ("LEAST_REST", Constant::Real(lane::LEAST_REST)),
+        ("STEPS_PER_COUNT", Constant::U32(lane::STEPS_PER_COUNT)),
+        ("MAX_PARTS", Constant::U32(lane::MAX_PARTS)),
+        ("MAX_EVENTS_PER_COUNT", Constant::U32(lane::MAX_EVENTS_PER_COUNT)),
+        ("EVENTS_AT_ONCE", Constant::U32(super::scene::EVENTS_AT_ONCE)),
+        ("NOTHING", Constant::U32(lane::NOTHING)),
+        ("REST", Constant::U32(lane::REST)),
+        ("LOWER_KINK", Constant::U32(lane::LOWER_KINK)),
+        ("UPPER_KINK", Constant::U32(lane::UPPER_KINK)),
+        ("LIFT_OFF", Constant::U32(lane::LIFT_OFF)),
+        ("CONE_FORWARD", Constant::U32(lane::CONE_FORWARD)),
+        ("CONE_BACKWARD", Constant::U32(lane::CONE_BACKWARD)),
+        ("GAP", Constant::U32(lane::GAP)),
+    ],
+    loops_per_step: LOOPS_PER_STEP,
+};
+
+/// Pieces of the friction law that the kernel holds.
+pub const PIECES: usize = 2;
+
+/// Most loop iterations of one step, every loop at its longest.
+const LOOPS_PER_STEP: u32 = 1500;
+
+/// The choice of a law for [`KERNEL`].
+#[must_use]
+pub fn choice(law: Law) -> [(&'static str, Constant); 1] {
+    [("LAW", Constant::U32(law as u32))]
+}
+
+/// The form of the law of an instance.
+#[must_use]
+pub fn law_of(kind: LawKind) -> Law {
+    match kind {
+        LawKind::Constant | LawKind::Bilinear | LawKind::Table => Law::Pieces,
+        LawKind::Exponential => Law::Exponential,
+        LawKind::Rational => Law::Rational,
+    }
+}
+
+/// The segments of a run: settle and both halves of the window, cut where a ramp ends.
+fn segments(scene: &Scene, plan: &Plan) -> [[f64; SEGMENT_WORDS]; SEGMENTS] {
+    let half = 0.5 * scene.scaled(plan.measure);
+    let parts = [(SETTLE, scene.scaled(plan.settle)), (FIRST_HALF, half), (SECOND_HALF, half)];
+    let nominal = TAU / f64::from(plan.steps_per_period);
+    let mut segments = [[0.0; SEGMENT_WORDS]; SEGMENTS];
+    let mut used = 0;
+    let mut time = 0.0;
+    for (part, length) in parts {
+        let mut rest = length;
+        while rest > 0.0 && used < SEGMENTS {
+            let (belt, holds) = scene.belt_from(time);
+            let duration = rest.min(holds);
+            let steps = (duration / nominal).ceil().max(1.0);
+            segments[used] = [steps, duration / steps, belt.velocity, belt.acceleration, f64::from(part)];
+            used += 1;
+            time += duration;
+            rest -= duration;
+        }
+    }
+    segments
+}
+
+/// The words of an instance for kernels built for `pieces` pieces.
+#[must_use]
+pub fn instance_words(scene: &Scene, plan: &Plan, pieces: usize) -> Vec<f64> {
+    let start = scene.start();
+    let start = [start.position[0], start.position[2], start.velocity[0], start.velocity[2]];
+    let v0 = scene.belt(0.0).velocity;
+    words(&scene.model, &scene.equilibrium, v0, start, &segments(scene, plan), pieces)
+}
+
+/// Integrates one instance with the twin of the kernel.
+#[must_use]
+pub fn respond<S: Real>(instance: &Instance, plan: &Plan, tolerance: f64) -> Outcome {
+    let scene = match Scene::new(instance, plan.start) {
+        Ok(scene) => scene,
+        Err(status) => return Outcome { status, ..Outcome::default() },
+    };
+    let pieces = scene.model.law.pieces.len();
+    let packed = instance_words(&scene, plan, pieces);
+    let words: Words<S> = Words::read(law_of(instance.law.kind()), pieces, &packed);
+    let mut lane = Lane::new(&words);
+    lane.run(&words, S::from_f64(tolerance));
+    outcome(&scene, plan, &segments(&scene, plan), &lane)
+}
+
+/// The outcome of a finished lane.
+#[must_use]
+pub fn outcome<S: Real>(
+    scene: &Scene,
+    plan: &Plan,
+    segments: &[[f64; SEGMENT_WORDS]; SEGMENTS],
+    lane: &Lane<S>,
+) -> Outcome {
+    let time = |segment: u32, index: u32, fraction: f64| -> f64 {
+        let before: f64 = segments[..(segment as usize).min(SEGMENTS)].iter().map(|s| s[0] * s[1]).sum();
+        let step = segments.get(segment as usize).map_or(0.0, |s| s[1]);
+        before + (f64::from(index) + fraction) * step
+    };
+    let units = &scene.units;
+    let mut outcome =
+        Outcome { status: lane.status, steps: u64::from(lane.iterations), ..Outcome::default() };
+    if lane.status != Status::Ok {
+        outcome.simulated_time = time(lane.segment, lane.index, 0.0) * units.time;
+        return outcome;
+    }
+    outcome.simulated_time = scene.seconds(time(lane.segment, lane.index, 0.0), plan);
+    let half = |k: usize| -> [f64; SUMS] { lane.sums.total[k].map(Real::to_f64) };
+    let halves = [half(0), half(1)];
+    let all: [f64; SUMS] = std::array::from_fn(|i| halves[0][i] + halves[1][i]);
+    let std = |s: &[f64; SUMS], i: usize| (s[i + 1] / s[0] - (s[i] / s[0]).powi(2)).max(0.0).sqrt();
+    let rms = |s: &[f64; SUMS], i: usize| (s[i] / s[0]).sqrt();
+    let peaks = lane.sums.peaks.map(Real::to_f64);
+    outcome.x2_mean = Some(scene.equilibrium.x2 + all[1] / all[0] * units.length);
+    outcome.x2_std = Some(std(&all, 1) * units.length);
+    outcome.y1_mean = Some(scene.equilibrium.y1 + all[3] / all[0] * units.length);
+    outcome.y1_std = Some(std(&all, 3) * units.length);
+    outcome.ax_rms = Some(rms(&all, 5) * units.acceleration);
+    outcome.ay_rms = Some(rms(&all, 6) * units.acceleration);
+    outcome.ax_peak = Some(peaks[0] * units.acceleration);
+    outcome.ay_peak = Some(peaks[1] * units.acceleration);
+    outcome.friction_mean = (all[9] > 0.0).then(|| all[8] / all[9]);
+    outcome.n_peak = Some(peaks[2] * units.force);
+    outcome.stick = Some(all[10] / all[0]);
+    outcome.free = Some(all[11] / all[0]);
+    outcome.reverse = Some(all[12] / all[0]);
+    outcome.impacts_per_second = Some(f64::from(lane.sums.impacts) / (all[0] * units.time));
+    outcome.speed_rms_halves = halves.map(|s| rms(&s, 7) * units.velocity);
+    outcome.x2_std_halves = halves.map(|s| std(&s, 1) * units.length);
+    outcome.ay_rms_halves = halves.map(|s| rms(&s, 6) * units.acceleration);
+    let moment = |m: &super::observe::Moment<S>| time(m.segment, m.index, m.fraction.to_f64());
+    let span = moment(&lane.sums.last) - moment(&lane.sums.first);
+    if lane.sums.crossings >= 2 && span > 0.0 {
+        outcome.response_frequency = Some(f64::from(lane.sums.crossings - 1) / span / units.time);
+        let [x, y] =
+            [lane.phase.x, lane.phase.y].map(|z| num_complex::Complex64::new(z[0].to_f64(), z[1].to_f64()));
+        let ratio = y / x;
+        outcome.phase_cycle = (ratio.is_finite() && ratio.norm_sqr() > 0.0).then(|| ratio.arg().to_degrees());
+    }
+    if let Some(fit) = growth_fit(&lane.sums.growth.map(Real::to_f64)) {
+        outcome.growth_rate_measured = Some(fit.growth_rate / units.time);
+        outcome.frequency_measured = Some(fit.angular_frequency / TAU / units.time);
+        outcome.phase_measured = fit.phase.map(f64::to_degrees);
+    }
+    outcome
+}
+
+/// The fit of the growth window from its sums.
+fn growth_fit(words: &[f64; 15]) -> Option<GrowthFit> {
+    let mut product = [[0.0; 5]; 5];
+    let mut word = 5;
+    for i in 1..5 {
+        for j in i..5 {
+            product[i][j] = words[word];
+            product[j][i] = words[word];
+            word += 1;
+        }
+    }
+    let sum = [words[0], words[1], words[2], words[3], words[4]];
+    crate::observe::Growth::from_sums(words[0], sum, product).result()
+}

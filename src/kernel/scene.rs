@@ -1,0 +1,288 @@
+//! Twin of `shaders/scene.wgsl`: what one instance hands to a kernel, word by word.
+//!
+//! The host computes every word in f64 and narrows it once. Differences of nearly equal numbers (friction
+//! against that of the equilibrium, the stick cone at the equilibrium) are formed there.
+
+use super::scalar::Real;
+use crate::integrate::MAX_EVENTS_AT_ONCE;
+use crate::model::equilibrium::{Equilibrium, Scaled};
+use crate::model::friction::Piece as LawPiece;
+
+/// The form of the friction law a kernel is built for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[repr(u32)]
+pub enum Law {
+    /// Straight pieces: `constant`, `bilinear`, `table`.
+    Pieces,
+    /// `exponential`.
+    Exponential,
+    /// `rational`.
+    Rational,
+}
+
+/// One piece of the friction law.
+#[derive(Clone, Copy, Debug)]
+pub struct Piece<S> {
+    /// μ continued to `|v| = 0`; μ at infinity for `exponential`.
+    pub at_zero: S,
+    /// `dμ/d|v|`.
+    pub slope: S,
+    /// Decay rate of `exponential` and `rational`.
+    pub rate: S,
+    /// μ of this piece at the initial belt velocity less μ of the equilibrium; of `exponential`: its
+    /// height there.
+    pub offset: S,
+    /// Upper end in `|v|`; [`NO_KINK`] for the last piece.
+    pub kink: S,
+}
+
+/// A stretch of constant belt acceleration and step inside one part of the run.
+#[derive(Clone, Copy, Debug)]
+pub struct Segment<S> {
+    /// Steps; 0 for an unused segment.
+    pub steps: S,
+    /// Length of a step.
+    pub step: S,
+    /// Belt velocity at its start.
+    pub velocity: S,
+    /// Belt acceleration.
+    pub acceleration: S,
+    /// [`SETTLE`], [`FIRST_HALF`] or [`SECOND_HALF`].
+    pub part: S,
+}
+
+/// Before the measuring window.
+pub const SETTLE: u32 = 0;
+/// First half of the window.
+pub const FIRST_HALF: u32 = 1;
+/// Second half of the window.
+pub const SECOND_HALF: u32 = 2;
+
+/// Segments per instance: a ramp may end inside any part.
+pub const SEGMENTS: usize = 4;
+
+/// A kink no speed reaches.
+pub const NO_KINK: f64 = 1e30;
+
+/// Words before the pieces.
+pub const SCENE_WORDS: usize = 24;
+/// Words of a piece.
+pub const PIECE_WORDS: usize = 5;
+/// Words of a segment.
+pub const SEGMENT_WORDS: usize = 5;
+
+/// One instance as a kernel sees it.
+#[derive(Clone, Debug)]
+pub struct Scene<S> {
+    /// Form of the friction law.
+    pub law: Law,
+    /// `sin θ`.
+    pub s: S,
+    /// `cos θ`.
+    pub c: S,
+    /// `1/m1`.
+    pub inv_m1: S,
+    /// Stiffness and damping.
+    pub k1: S,
+    /// Normal stiffness.
+    pub k2: S,
+    /// Tangential damping.
+    pub c1: S,
+    /// Normal damping.
+    pub c2: S,
+    /// `κ = m1 s c`.
+    pub kappa: S,
+    /// `1/det` of the mass matrix of `(x2, y2)`.
+    pub inv_det: S,
+    /// `m2 + m1 s²`.
+    pub normal_mass: S,
+    /// Normal force of the equilibrium.
+    pub n0: S,
+    /// Tangential force of the equilibrium.
+    pub t0: S,
+    /// μ of the equilibrium.
+    pub mu0: S,
+    /// Belt velocity of the equilibrium.
+    pub v0: S,
+    /// Limit of stick.
+    pub mu_stick: S,
+    /// `(μ_s − μ0) N0` and `(μ_s + μ0) N0`: the margins of the stick cone at the equilibrium.
+    pub cone: [S; 2],
+    /// Newton restitution.
+    pub restitution: S,
+    /// 1 with a Coulomb impulse, else 0.
+    pub impact_friction: S,
+    /// Start: `x2`, `y1`, `ẋ2`, `ẏ1`.
+    pub start: [S; 4],
+    /// Smallest rebound.
+    pub slowest_rebound: S,
+    /// The pieces of the law.
+    pub pieces: Vec<Piece<S>>,
+    /// The segments.
+    pub segments: [Segment<S>; SEGMENTS],
+}
+
+/// Events at one instant before an instance is given up; the same as in the reference.
+pub const EVENTS_AT_ONCE: u32 = MAX_EVENTS_AT_ONCE;
+
+/// The words of an instance in f64, in the order of the kernel's input buffer.
+#[must_use]
+pub fn words(
+    model: &Scaled,
+    equilibrium: &Equilibrium,
+    v0: f64,
+    start: [f64; 4],
+    segments: &[[f64; SEGMENT_WORDS]; SEGMENTS],
+    pieces: usize,
+) -> Vec<f64> {
+    let (mu0, n0) = (model.mu0, model.n0);
+    let mu_s = model.law.mu_stick;
+    let mut words = vec![
+        model.s,
+        model.c,
+        1.0 / model.m1,
+        model.k1,
+        model.k2,
+        model.c1,
+        model.c2,
+        model.kappa,
+        1.0 / model.det,
+        model.normal_mass,
+        n0,
+        mu0 * n0,
+        mu0,
+        v0,
+        mu_s,
+        (mu_s - mu0) * n0,
+        (mu_s + mu0) * n0,
+        model.restitution,
+        f64::from(u8::from(model.impact_friction)),
+    ];
+    words.extend(start);
+    words.push(crate::model::contact::SLOWEST_REBOUND);
+    debug_assert_eq!(words.len(), SCENE_WORDS);
+    debug_assert_eq!(equilibrium.mu.to_bits(), mu0.to_bits());
+    for index in 0..pieces {
+        let index = index.min(model.law.pieces.len() - 1);
+        let kink = model.law.kinks.get(index).copied().unwrap_or(NO_KINK);
+        words.extend(match model.law.pieces[index] {
+            LawPiece::Linear { at_zero, slope } => [at_zero, slope, 0.0, at_zero + slope * v0 - mu0, kink],
+            LawPiece::Exponential { floor, height, rate } => {
+                [floor, height, rate, height * (-rate * v0).exp(), kink]
+            }
+            LawPiece::Rational { at_zero, decay } => [at_zero, 0.0, decay, 1.0 / (1.0 + decay * v0), kink],
+        });
+    }
+    for segment in segments {
+        words.extend(segment);
+    }
+    words
+}
+
+impl<S: Real> Scene<S> {
+    /// Reads the words of an instance.
+    #[must_use]
+    pub fn read(law: Law, pieces: usize, words: &[f64]) -> Scene<S> {
+        let narrow: Vec<S> = words.iter().map(|word| S::from_f64(*word)).collect();
+        let piece = |i: usize| {
+            let w = &narrow[SCENE_WORDS + i * PIECE_WORDS..];
+            Piece { at_zero: w[0], slope: w[1], rate: w[2], offset: w[3], kink: w[4] }
+        };
+        let segment = |i: usize| {
+            let w = &narrow[SCENE_WORDS + pieces * PIECE_WORDS + i * SEGMENT_WORDS..];
+            Segment { steps: w[0], step: w[1], velocity: w[2], acceleration: w[3], part: w[4] }
+        };
+        let w = &narrow;
+        Scene {
+            law,
+            s: w[0],
+            c: w[1],
+            inv_m1: w[2],
+            k1: w[3],
+            k2: w[4],
+            c1: w[5],
+            c2: w[6],
+            kappa: w[7],
+            inv_det: w[8],
+            normal_mass: w[9],
+            n0: w[10],
+            t0: w[11],
+            mu0: w[12],
+            v0: w[13],
+            mu_stick: w[14],
+            cone: [w[15], w[16]],
+            restitution: w[17],
+            impact_friction: w[18],
+            start: [w[19], w[20], w[21], w[22]],
+            slowest_rebound: w[23],
+            pieces: (0..pieces).map(piece).collect(),
+            segments: std::array::from_fn(segment),
+        }
+    }
+
+    /// `q = σ μ` and `q − μ0` at the relative velocity `v`; `lag = V0 − v`, known without cancellation.
+    #[must_use]
+    pub fn friction(&self, piece: &Piece<S>, sigma: S, v: S, lag: S) -> (S, S) {
+        let forward = sigma > S::ZERO;
+        match self.law {
+            Law::Pieces => {
+                let q = sigma * piece.at_zero + piece.slope * v;
+                (q, if forward { piece.offset - piece.slope * lag } else { q - self.mu0 })
+            }
+            Law::Exponential => {
+                let change = exp_m1(if forward { piece.rate * lag } else { piece.rate * v });
+                if forward {
+                    (piece.at_zero + piece.offset + piece.offset * change, piece.offset * change)
+                } else {
+                    let q = -(piece.at_zero + piece.slope + piece.slope * change);
+                    (q, q - self.mu0)
+                }
+            }
+            Law::Rational => {
+                let reciprocal = S::ONE / (S::ONE + piece.rate * sigma * v);
+                let q = sigma * piece.at_zero * reciprocal;
+                let less = piece.at_zero * piece.rate * lag * reciprocal * piece.offset;
+                (q, if forward { less } else { q - self.mu0 })
+            }
+        }
+    }
+
+    /// μ at the speed `|v|`, whatever its piece.
+    #[must_use]
+    pub fn mu(&self, speed: S) -> S {
+        self.friction(&self.pieces[self.piece_at(speed)], S::ONE, speed, self.v0 - speed).0
+    }
+
+    /// The piece at a speed.
+    #[must_use]
+    pub fn piece_at(&self, speed: S) -> usize {
+        let mut index = 0;
+        while index + 1 < self.pieces.len() && speed >= self.pieces[index].kink {
+            index += 1;
+        }
+        index
+    }
+}
+
+/// `exp(x) − 1` for `x` in [−80, 80]: a series for `|x| ≤ 1/2`, doubled by `(1 + e)² − 1 = e (2 + e)`.
+#[must_use]
+pub fn exp_m1<S: Real>(x: S) -> S {
+    let mut y = x.max(S::from_f64(-80.0)).min(S::from_f64(80.0));
+    let mut doublings = 0;
+    while y.abs() > S::from_f64(0.5) {
+        y *= S::from_f64(0.5);
+        doublings += 1;
+    }
+    let mut sum = S::ONE;
+    for k in (2..=EXP_DEGREE).rev() {
+        sum = S::ONE + y * sum / S::from_f64(f64::from(k));
+    }
+    let mut e = y * sum;
+    for _ in 0..doublings {
+        e *= S::from_f64(2.0) + e;
+    }
+    e
+}
+
+/// Degree of the exponential's series: below 1e-17 at 1/2.
+pub const EXP_DEGREE: u8 = 14;

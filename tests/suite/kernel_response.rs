@@ -1,0 +1,90 @@
+//! The twin of the response kernel against the reference: is the method right, and is f32 enough?
+
+use crate::common::{bilinear, paper, plan};
+use squealmap::classify::regime;
+use squealmap::kernel::response::respond as twin;
+use squealmap::model::Param;
+use squealmap::model::friction::FrictionLaw;
+use squealmap::outcome::{Outcome, Status};
+use squealmap::response::{Plan, respond};
+use squealmap::spec::{Duration, Instance};
+
+/// Bound on the truncation of the kernel's steps, in use for f32.
+const TOLERANCE: f64 = 2e-4;
+
+/// 5 × 5 friction coefficients at four velocities, or the same numbers in another law.
+fn scenes(law: fn(f64, f64) -> FrictionLaw) -> Vec<Instance> {
+    let mut scenes = Vec::new();
+    for velocity in [0.5, 1.0, 3.0, 6.0] {
+        for i in 0..25 {
+            let (mu_s, mu_d) = (0.15 * f64::from(i / 5), 0.15 * f64::from(i % 5));
+            let mut instance = Instance { law: law(mu_s, mu_d), ..paper(0.1, 0.1, velocity) };
+            instance.params.set(Param::StartVelocity, 0.3 * velocity);
+            scenes.push(instance);
+        }
+    }
+    scenes
+}
+
+fn periods() -> Plan {
+    Plan { settle: Duration::Periods(60.0), measure: Duration::Periods(40.0), ..plan(1.0, 1.0, 12) }
+}
+
+/// Relative differences of the amplitudes, and how many regimes differ.
+fn compare(law: fn(f64, f64) -> FrictionLaw, run: fn(&Instance, &Plan, f64) -> Outcome) -> (Vec<f64>, usize) {
+    let (mut errors, mut regimes) = (Vec::new(), 0);
+    for instance in scenes(law) {
+        let (reference, other) = (respond(&instance, &periods()), run(&instance, &periods(), TOLERANCE));
+        assert_eq!(other.status, reference.status, "{instance:?}");
+        if reference.status != Status::Ok {
+            continue;
+        }
+        assert!((other.simulated_time / reference.simulated_time - 1.0).abs() < 1e-12);
+        let velocity = instance.params.require(Param::BeltVelocity);
+        regimes += usize::from(regime(&other, velocity, false).0 != regime(&reference, velocity, false).0);
+        for (a, b) in [
+            (other.x2_std, reference.x2_std),
+            (other.ax_rms, reference.ax_rms),
+            (other.ay_rms, reference.ay_rms),
+            (other.n_peak, reference.n_peak),
+            (other.friction_mean, reference.friction_mean),
+        ] {
+            let (a, b) = (a.expect("a value"), b.expect("a value"));
+            // A NaN must not pass for a small difference.
+            errors.push(if a.is_finite() { (a - b).abs() / b.abs().max(1e-12) } else { f64::INFINITY });
+        }
+    }
+    errors.sort_by(f64::total_cmp);
+    (errors, regimes)
+}
+
+fn agree(law: fn(f64, f64) -> FrictionLaw, run: fn(&Instance, &Plan, f64) -> Outcome) {
+    let (errors, regimes) = compare(law, run);
+    let quantile = |share: usize| errors[(errors.len() - 1) * share / 100];
+    assert!(errors.len() > 400 && regimes <= 1, "{} numbers, {regimes} regimes differ", errors.len());
+    assert!(quantile(50) < 1e-4 && quantile(99) < 2e-3, "{:e} {:e}", quantile(50), quantile(99));
+}
+
+#[test]
+fn f32_and_f64_agree_with_the_reference() {
+    agree(bilinear, twin::<f64>);
+    agree(bilinear, twin::<f32>);
+}
+
+#[test]
+fn smooth_laws_agree_with_the_reference() {
+    agree(|mu_s, mu_d| FrictionLaw::Exponential { mu_s, mu_d, stribeck_velocity: 2.0 }, twin::<f32>);
+    agree(|mu_s, decay| FrictionLaw::Rational { mu_s, decay }, twin::<f32>);
+}
+
+#[test]
+fn the_comparer_sees_a_wrong_scene() {
+    // Planted fault: the twin integrates another normal stiffness.
+    let wrong = |instance: &Instance, plan: &Plan, tolerance: f64| {
+        let mut instance = instance.clone();
+        instance.params.set(Param::K2, 1.02e5);
+        twin::<f32>(&instance, plan, tolerance)
+    };
+    let (errors, _) = compare(bilinear, wrong);
+    assert!(errors[(errors.len() - 1) * 99 / 100] > 2e-3);
+}
