@@ -2,6 +2,8 @@
 //!
 //! A lower bound by Bernstein coefficients settles most steps; the rest is sampled and solved.
 
+#![expect(clippy::needless_range_loop, reason = "the loops are those of the WGSL twin")]
+
 use super::scalar::Real;
 use super::series::{ORDER, Series};
 

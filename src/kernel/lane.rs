@@ -3,6 +3,8 @@
 //! Time is counted in whole steps; an event splits a step, and what is left of it follows, so that every
 //! lane is back on its grid of steps. The state lives in two flat records, as in the kernel's buffers.
 
+#![expect(clippy::needless_range_loop, reason = "the loops are those of the WGSL twin")]
+
 use super::crossing::{NEVER, first_crossing};
 use super::observe::{Moment, Phase, Sums};
 use super::scalar::Real;
@@ -199,7 +201,7 @@ impl<S: Real> Lane<S> {
             self.rest = S::ONE;
             self.index += 1;
             self.parts = 0;
-            if self.index % STEPS_PER_COUNT == 0 {
+            if self.index.is_multiple_of(STEPS_PER_COUNT) {
                 self.counted = 0;
                 self.sums.flush();
             }

@@ -15,6 +15,7 @@ pub mod crossing;
 pub mod lane;
 pub mod linear;
 pub mod observe;
+pub mod record;
 pub mod response;
 pub mod scalar;
 pub mod scene;

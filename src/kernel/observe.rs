@@ -1,5 +1,7 @@
 //! Twin of `shaders/observe.wgsl`: running reductions of one lane, as [`crate::observe`] makes them.
 
+#![expect(clippy::too_many_arguments, reason = "the arguments are those of the WGSL twin")]
+
 use super::scalar::Real;
 use super::scene::{FIRST_HALF, SEGMENTS, Scene, Segment};
 use super::series::{Expansion, FREE, REVERSE, STICK, evaluate, value};
@@ -109,7 +111,7 @@ impl<S: Real> Sums<S> {
         step: S,
         tau: S,
     ) {
-        self.half = if part == FIRST_HALF { 0 } else { 1 };
+        self.half = u32::from(part != FIRST_HALF);
         self.block[0] += tau;
         if contact == STICK {
             self.block[10] += tau;

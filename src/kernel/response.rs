@@ -1,5 +1,11 @@
 //! An instance into a kernel's words, and a lane's records into an outcome (host only).
 
+#![expect(
+    clippy::cast_possible_truncation,
+    clippy::needless_range_loop,
+    reason = "small constants become words of a kernel; sums are read in the order of the kernel's loops"
+)]
+
 use std::f64::consts::TAU;
 
 use super::lane::{self, Lane};
@@ -155,7 +161,8 @@ pub fn law_of(kind: LawKind) -> Law {
 }
 
 /// The segments of a run: settle and both halves of the window, cut where a ramp ends.
-fn segments(scene: &Scene, plan: &Plan) -> [[f64; SEGMENT_WORDS]; SEGMENTS] {
+#[must_use]
+pub fn segments(scene: &Scene, plan: &Plan) -> [[f64; SEGMENT_WORDS]; SEGMENTS] {
     let half = 0.5 * scene.scaled(plan.measure);
     let parts = [(SETTLE, scene.scaled(plan.settle)), (FIRST_HALF, half), (SECOND_HALF, half)];
     let nominal = TAU / f64::from(plan.steps_per_period);

@@ -3,6 +3,8 @@
 //! The recurrence of [`crate::method::taylor`] at a fixed order, written so that a lane of a GPU runs it:
 //! deviations from the equilibrium with every constant that cancels formed on the host in f64.
 
+#![expect(clippy::needless_range_loop, reason = "the loops are those of the WGSL twin")]
+
 use super::scalar::Real;
 use super::scene::{Law, Piece, Scene};
 

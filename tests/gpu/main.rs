@@ -6,6 +6,7 @@ mod faults;
 mod instances;
 mod linear;
 mod probes;
+mod response;
 mod runs;
 mod words;
 
@@ -23,7 +24,7 @@ fn main() {
     let adapters = Adapter::all();
     let reason = if adapters.is_empty() { Some("no adapter") } else { None };
     let required = std::env::var_os(REQUIRE).is_some_and(|value| value == "1");
-    let all = [probes::CASES, linear::CASES, runs::CASES, faults::CASES];
+    let all = [probes::CASES, linear::CASES, response::CASES, runs::CASES, faults::CASES];
     let trials = all.into_iter().flatten().map(|&(name, run)| match reason {
         None => Trial::test(name, run),
         Some(reason) if required => {

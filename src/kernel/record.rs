@@ -1,0 +1,94 @@
+//! Twin of `shaders/response_main.wgsl`: a lane as the words of the kernel's buffers, and back.
+
+use super::lane::Lane;
+use super::observe::{Moment, SUMS};
+use super::scalar::Real;
+use super::scene::Scene;
+use super::source::{Field, words};
+use crate::outcome::Status;
+
+/// The words of a lane in the order of the fields of the response kernel.
+#[must_use]
+pub fn write<S: Real>(lane: &Lane<S>) -> (Vec<S>, Vec<u32>) {
+    let sums = &lane.sums;
+    let mut state = Vec::new();
+    state.extend(lane.body.p);
+    state.extend(lane.body.v);
+    state.push(lane.rest);
+    state.extend(sums.block);
+    state.extend(sums.total.concat());
+    state.extend(sums.peaks);
+    state.extend([sums.previous, sums.first.fraction, sums.last.fraction]);
+    state.extend(sums.growth);
+    state.push(lane.phase.omega);
+    state.extend([lane.phase.carrier, lane.phase.x, lane.phase.y].concat());
+    state.extend(lane.snapshot.p);
+    state.extend(lane.snapshot.v);
+    let mut flags = vec![
+        lane.status as u32,
+        lane.iterations,
+        1,
+        lane.segment,
+        lane.index,
+        lane.contact,
+        lane.piece,
+        lane.disarmed,
+        lane.at_once,
+        lane.counted,
+        lane.parts,
+        u32::from(lane.second_pass),
+        sums.half,
+        u32::from(sums.has_previous),
+        sums.impacts,
+        sums.crossings,
+        u32::from(sums.growth_closed),
+    ];
+    flags.extend([sums.first.segment, sums.first.index, sums.last.segment, sums.last.index]);
+    flags.extend(lane.snapshot_flags);
+    (state, flags)
+}
+
+/// The lane of a scene from its words; `None` when they are too few or the status is unknown.
+#[must_use]
+pub fn read<S: Real>(scene: &Scene<S>, state: &[S], flags: &[u32]) -> Option<Lane<S>> {
+    let kernel = &super::response::KERNEL;
+    if state.len() != words(kernel.state) || flags.len() != words(kernel.flags) {
+        return None;
+    }
+    let from = |fields: &[Field], name: &str| -> usize {
+        fields.iter().take_while(|field| field.name != name).map(|field| field.words).sum()
+    };
+    let real = |name: &str, word: usize| state[from(kernel.state, name) + word];
+    let flag = |name: &str, word: usize| flags[from(kernel.flags, name) + word];
+    let three = |name: &str, word: usize| std::array::from_fn(|i| real(name, word + i));
+    let moment =
+        |name: &str| Moment { segment: flag(name, 0), index: flag(name, 1), fraction: real(name, 0) };
+    let mut lane = Lane::new(scene);
+    lane.status = Status::ALL.into_iter().find(|status| *status as u32 == flag("status", 0))?;
+    lane.iterations = flag("steps", 0);
+    lane.segment = flag("segment", 0);
+    lane.index = flag("index", 0);
+    lane.contact = flag("contact", 0);
+    lane.piece = flag("piece", 0);
+    lane.disarmed = flag("disarmed", 0);
+    lane.second_pass = flag("second_pass", 0) == 1;
+    lane.body.p = three("body", 0);
+    lane.body.v = three("body", 3);
+    lane.rest = real("rest", 0);
+    let sums = &mut lane.sums;
+    for i in 0..SUMS {
+        sums.block[i] = real("block", i);
+        sums.total[0][i] = real("total", i);
+        sums.total[1][i] = real("total", SUMS + i);
+    }
+    sums.peaks = three("peaks", 0);
+    sums.growth = std::array::from_fn(|i| real("growth", i));
+    sums.impacts = flag("impacts", 0);
+    sums.crossings = flag("crossings", 0);
+    sums.first = moment("first");
+    sums.last = moment("last");
+    lane.phase.omega = real("phase", 0);
+    lane.phase.x = [real("phase", 3), real("phase", 4)];
+    lane.phase.y = [real("phase", 5), real("phase", 6)];
+    Some(lane)
+}
