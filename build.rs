@@ -15,8 +15,11 @@ fn main() {
     if !same {
         return;
     }
-    for file in ["HEAD", "index"] {
-        if let Some(path) = git(&root, &["rev-parse", "--git-path", file]) {
+    // A commit writes the log of HEAD; HEAD itself only names the branch. A missing file would always rerun.
+    for file in ["HEAD", "index", "logs/HEAD"] {
+        if let Some(path) =
+            git(&root, &["rev-parse", "--git-path", file]).filter(|path| Path::new(path).exists())
+        {
             println!("cargo::rerun-if-changed={path}");
         }
     }
