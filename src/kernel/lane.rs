@@ -43,9 +43,6 @@ pub const MAX_PARTS: u32 = 100_000;
 /// What may be left of a step before it counts as done: this many roundings of what was left.
 pub const LEAST_REST: f64 = 8.0;
 
-/// The bits of an f32 exponent, all set where a number is not finite.
-const EXPONENT: u32 = 0x7f80_0000;
-
 /// The running integration of one instance.
 #[derive(Clone, Debug)]
 pub struct Lane<S> {
@@ -186,7 +183,7 @@ impl<S: Real> Lane<S> {
     }
 
     fn is_finite(&self) -> bool {
-        self.body.p.iter().chain(&self.body.v).all(|value| (value.bits32() & EXPONENT) != EXPONENT)
+        self.body.p.iter().chain(&self.body.v).all(|value| value.is_finite())
     }
 
     /// `σ` of the present slip.

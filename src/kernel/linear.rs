@@ -297,6 +297,5 @@ pub fn analyse<R: Real>(word: &impl Fn(usize) -> R) -> Analysed<R> {
 /// Whether every result is finite as f32.
 #[must_use]
 pub fn all_finite<R: Real>(state: [R; 6]) -> bool {
-    const EXPONENT: u32 = 0x7f80_0000;
-    state.iter().all(|value| value.bits32() & EXPONENT != EXPONENT)
+    state.iter().all(|value| value.is_finite())
 }

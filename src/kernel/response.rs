@@ -190,7 +190,7 @@ pub fn instance_words(scene: &Scene, plan: &Plan, pieces: usize) -> Vec<f64> {
     let start = scene.start();
     let start = [start.position[0], start.position[2], start.velocity[0], start.velocity[2]];
     let v0 = scene.belt(0.0).velocity;
-    words(&scene.model, &scene.equilibrium, v0, start, &segments(scene, plan), pieces)
+    words(&scene.model, v0, start, &segments(scene, plan), pieces)
 }
 
 /// Integrates one instance with the twin of the kernel.

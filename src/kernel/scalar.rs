@@ -46,6 +46,12 @@ pub trait Real:
     /// The bits of the number as f32, for tests that a compiler may not fold away.
     fn bits32(self) -> u32;
 
+    /// Whether it is finite as f32, by its bits: twin of `is_finite` in `shaders/host.wgsl`.
+    fn is_finite(self) -> bool {
+        const EXPONENT: u32 = 0x7f80_0000;
+        self.bits32() & EXPONENT != EXPONENT
+    }
+
     /// The smaller of two numbers; `self` when they are unordered.
     #[must_use]
     fn min(self, other: Self) -> Self {

@@ -5,7 +5,7 @@
 
 use super::scalar::Real;
 use crate::integrate::MAX_EVENTS_AT_ONCE;
-use crate::model::equilibrium::{Equilibrium, Scaled};
+use crate::model::equilibrium::Scaled;
 use crate::model::friction::Piece as LawPiece;
 
 /// The form of the friction law a kernel is built for.
@@ -129,7 +129,6 @@ pub const EVENTS_AT_ONCE: u32 = MAX_EVENTS_AT_ONCE;
 #[must_use]
 pub fn words(
     model: &Scaled,
-    equilibrium: &Equilibrium,
     v0: f64,
     start: [f64; 4],
     segments: &[[f64; SEGMENT_WORDS]; SEGMENTS],
@@ -161,7 +160,6 @@ pub fn words(
     words.extend(start);
     words.push(crate::model::contact::SLOWEST_REBOUND);
     debug_assert_eq!(words.len(), SCENE_WORDS);
-    debug_assert_eq!(equilibrium.mu.to_bits(), mu0.to_bits());
     for index in 0..pieces {
         let index = index.min(model.law.pieces.len() - 1);
         let kink = model.law.kinks.get(index).copied().unwrap_or(NO_KINK);
