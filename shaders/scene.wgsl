@@ -86,11 +86,15 @@ fn piece_of(index: u32) -> Piece {
 
 fn segment_of(index: u32) -> Segment {
     let word = INPUT_SEGMENTS + index * SEGMENT_WORDS;
+    var acceleration = real(0.0);
+    if RAMP {
+        acceleration = input(word + 3u, instance);
+    }
     return Segment(
         input(word, instance),
         input(word + 1u, instance),
         input(word + 2u, instance),
-        input(word + 3u, instance),
+        acceleration,
         input(word + 4u, instance),
     );
 }

@@ -305,9 +305,16 @@ pub enum Error {
         /// What would compute.
         instead: String,
     },
-    /// The response asked of a GPU.
-    #[error("the response has no GPU kernel; use --backend cpu or auto, or analysis = [\"linear\"]")]
-    NoGpuResponse,
+    /// A friction table that no kernel holds.
+    #[error(
+        "a friction table of {rows} rows is too long for a GPU, which takes {limit}; thin it out, or use --backend cpu"
+    )]
+    LongTable {
+        /// Rows of the table.
+        rows: usize,
+        /// The most there may be.
+        limit: usize,
+    },
     /// The CPU engine asked to compute in f32.
     #[error("the CPU engine computes in f64 only; remove --precision f32 or use --backend gpu")]
     CpuPrecision,
@@ -435,7 +442,7 @@ impl Error {
             | Error::NoSuchAdapter { .. }
             | Error::NoF64 { .. }
             | Error::NoHardware { .. }
-            | Error::NoGpuResponse
+            | Error::LongTable { .. }
             | Error::CpuPrecision
             | Error::OpenDevice { .. }
             | Error::Device { .. }
@@ -470,7 +477,7 @@ impl Error {
             | Error::NoSuchAdapter { .. }
             | Error::NoF64 { .. }
             | Error::NoHardware { .. }
-            | Error::NoGpuResponse
+            | Error::LongTable { .. }
             | Error::CpuPrecision => true,
             _ => self.place().is_some(),
         }

@@ -100,8 +100,9 @@ pub struct Outcome {
     pub reverse: Option<f64>,
     /// Impacts per second.
     pub impacts_per_second: Option<f64>,
-    /// Impacts that gained energy (Newton restitution with Coulomb friction), over the whole run.
-    pub energy_gaining_impacts: u64,
+    /// Impacts that gained energy (Newton restitution with Coulomb friction), over the whole run; only the
+    /// reference counts them.
+    pub energy_gaining_impacts: Option<u64>,
     /// Rms of `sqrt(ẋ2² + ẏ1²)` in the first and the second half of the window, m/s.
     pub speed_rms_halves: [f64; 2],
     /// Standard deviation of `x2` in the two halves, m.

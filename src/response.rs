@@ -249,7 +249,7 @@ fn measure(scene: &Scene, integrator: &mut Integrator, plan: &Plan) -> Result<Ou
     }
     let mut outcome = Outcome {
         status: Status::Ok,
-        energy_gaining_impacts: gains.0,
+        energy_gaining_impacts: Some(gains.0),
         simulated_time: scene.seconds(integrator.time(), plan),
         steps: integrator.steps(),
         ..Outcome::default()

@@ -4,9 +4,10 @@ use std::sync::atomic::AtomicBool;
 
 use super::gpu::adapter::Adapter;
 use super::gpu::device::Device;
+use super::gpu::response;
 use crate::error::{Error, Result};
 use crate::kernel::source::Precision;
-use crate::spec::Analysis;
+use crate::spec::Spec;
 
 /// The backend that is asked for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -63,11 +64,11 @@ pub enum Engine {
 ///
 /// # Errors
 /// When the backend that is asked for is not there, lacks the precision or cannot compute the analysis.
-pub fn choose(options: &Options, analysis: Analysis) -> Result<Engine> {
+pub fn choose(options: &Options, spec: &Spec) -> Result<Engine> {
     let (engine, why) = match options.backend {
         Backend::Cpu => (cpu(options)?, "as asked for".to_owned()),
-        Backend::Gpu => gpu(options, analysis)?,
-        Backend::Auto => auto(options, analysis)?,
+        Backend::Gpu => gpu(options, spec)?,
+        Backend::Auto => auto(options, spec)?,
     };
     if let Some(note) = options.note {
         note(&match &engine {
@@ -90,10 +91,8 @@ fn cpu(options: &Options) -> Result<Engine> {
     Ok(Engine::Cpu)
 }
 
-fn gpu(options: &Options, analysis: Analysis) -> Result<(Engine, String)> {
-    if analysis.response && !super::gpu::HAS_RESPONSE {
-        return Err(Error::NoGpuResponse);
-    }
+fn gpu(options: &Options, spec: &Spec) -> Result<(Engine, String)> {
+    response::check(spec)?;
     let precision = options.precision.unwrap_or(Precision::F32);
     let adapter = Adapter::best(precision, options.adapter)?;
     if options.require_gpu && adapter.is_software() {
@@ -107,15 +106,15 @@ fn gpu(options: &Options, analysis: Analysis) -> Result<(Engine, String)> {
     Ok((Engine::Gpu(Device::open(&adapter, precision)?), why.to_owned()))
 }
 
-fn auto(options: &Options, analysis: Analysis) -> Result<(Engine, String)> {
+fn auto(options: &Options, spec: &Spec) -> Result<(Engine, String)> {
     let fallback = |why: String| {
         if options.require_gpu {
             return Err(Error::NoHardware { instead: format!("the CPU engine ({why})") });
         }
         Ok((cpu(options)?, why))
     };
-    if analysis.response && !super::gpu::HAS_RESPONSE {
-        return fallback("the response has no GPU kernel".to_owned());
+    if let Err(why) = response::check(spec) {
+        return fallback(why.to_string());
     }
     let precision = options.precision.unwrap_or(Precision::F32);
     let adapter = match Adapter::best(precision, options.adapter) {

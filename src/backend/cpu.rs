@@ -4,17 +4,16 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use rayon::prelude::*;
 
-use crate::classify::{self, InstabilityType, Regime};
+use crate::backend::take_response;
 use crate::error::{Error, Result};
 use crate::kernel::source::Precision;
 use crate::linear;
 use crate::map::{Computation, Record};
 use crate::method::taylor::REFERENCE_ORDER;
-use crate::model::Param;
 use crate::model::equilibrium::Equilibrium;
-use crate::outcome::{Outcome, Status};
+use crate::outcome::Status;
 use crate::response::{Plan, respond};
-use crate::spec::{Instance, Spec};
+use crate::spec::Spec;
 
 /// The name of the backend in a manifest.
 pub const NAME: &str = "cpu";
@@ -77,21 +76,7 @@ pub fn record_with(spec: &Spec, index: usize, plan: &Plan) -> Record {
         (record.kind, record.linear) = (kind, linear);
     }
     if spec.analysis.response {
-        let outcome = respond(&instance, plan);
-        record.status = outcome.status;
-        if outcome.status == Status::Ok {
-            let (regime, settled) = regime(&instance, kind, &outcome);
-            record.regime = Some(regime);
-            record.settled = Some(settled);
-        }
-        record.outcome = Some(outcome);
+        take_response(&mut record, &instance, kind, &respond(&instance, plan));
     }
     record
-}
-
-/// The regime of a completed outcome, and whether it is settled; `kind` is the type of its equilibrium.
-#[must_use]
-pub fn regime(instance: &Instance, kind: Option<InstabilityType>, outcome: &Outcome) -> (Regime, bool) {
-    let velocity = instance.params.require(Param::BeltVelocity);
-    classify::regime(outcome, velocity, kind == Some(InstabilityType::Stable))
 }

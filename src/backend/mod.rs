@@ -7,3 +7,27 @@
 pub mod choice;
 pub mod cpu;
 pub mod gpu;
+
+use crate::classify::{self, InstabilityType, Regime};
+use crate::map::Record;
+use crate::model::Param;
+use crate::outcome::{Outcome, Status};
+use crate::spec::Instance;
+
+/// The regime of a completed outcome, and whether it is settled; `kind` is the type of its equilibrium.
+#[must_use]
+pub fn regime(instance: &Instance, kind: Option<InstabilityType>, outcome: &Outcome) -> (Regime, bool) {
+    let velocity = instance.params.require(Param::BeltVelocity);
+    classify::regime(outcome, velocity, kind == Some(InstabilityType::Stable))
+}
+
+/// Puts a response into the record of its instance.
+fn take_response(record: &mut Record, instance: &Instance, kind: Option<InstabilityType>, outcome: &Outcome) {
+    record.status = outcome.status;
+    if outcome.status == Status::Ok {
+        let (regime, settled) = regime(instance, kind, outcome);
+        record.regime = Some(regime);
+        record.settled = Some(settled);
+    }
+    record.outcome = Some(*outcome);
+}

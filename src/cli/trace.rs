@@ -1,7 +1,7 @@
 //! `squealmap trace`: one instance in full.
 
 use clap::Args;
-use squealmap::backend::cpu;
+use squealmap::backend;
 use squealmap::export::{png, trace as export};
 use squealmap::outcome::Status;
 use squealmap::spec::Spec;
@@ -47,7 +47,7 @@ impl TraceCommand {
         let paths = output.write(&files)?;
         let (kind, _) = linear::analyse(&instance);
         let end = match trace.outcome.status {
-            Status::Ok => cpu::regime(&instance, kind, &trace.outcome).0.name(),
+            Status::Ok => backend::regime(&instance, kind, &trace.outcome).0.name(),
             failed => failed.name(),
         };
         let outcome = &trace.outcome;

@@ -24,7 +24,7 @@ pub fn manifest_json(map: &Map) -> Result<Vec<u8>> {
     let provenance = &map.provenance;
     let seconds = provenance.elapsed.as_secs_f64();
     let instances = map.records.len();
-    let gaining = map.records.iter().filter_map(|record| record.outcome);
+    let gaining = map.records.iter().filter_map(|record| record.outcome?.energy_gaining_impacts);
     let columns: Vec<Value> = columns(&map.spec)
         .iter()
         .map(|column| json!({ "name": column.name, "unit": column.unit, "meaning": column.meaning }))
@@ -41,9 +41,7 @@ pub fn manifest_json(map: &Map) -> Result<Vec<u8>> {
             "instances_per_second": (seconds > 0.0).then(|| instances as f64 / seconds),
         },
         "counts": counts(map),
-        "energy_gaining_impacts": map.spec.analysis.response.then(|| {
-            gaining.map(|outcome| outcome.energy_gaining_impacts).sum::<u64>()
-        }),
+        "energy_gaining_impacts": gaining.reduce(|a, b| a + b),
         "spec": map.spec.resolved(),
         "columns": columns,
     });

@@ -8,7 +8,7 @@
 use super::crossing::{NEVER, first_crossing};
 use super::observe::{Moment, Phase, Sums};
 use super::scalar::Real;
-use super::scene::{EVENTS_AT_ONCE, FIRST_HALF, SEGMENTS, SETTLE, Scene, Segment};
+use super::scene::{EVENTS_AT_ONCE, FIRST_HALF, SEGMENTS, SETTLE, Scene, Segment, Segments};
 use super::series::{
     Body, Expansion, FREE, ORDER, REVERSE, SLIP, STICK, Series, evaluate, expand, step_length,
 };
@@ -74,8 +74,6 @@ pub struct Lane<S> {
     pub counted: u32,
     /// Parts of the present step.
     pub parts: u32,
-    /// Impacts that gained energy.
-    pub gains: u32,
     /// Whether the window is passed the second time.
     pub second_pass: bool,
     /// State at the start of the window.
@@ -94,12 +92,11 @@ pub struct Belt<S> {
 }
 
 impl<S: Real> Lane<S> {
-    /// The start of an instance.
+    /// Nothing yet.
     #[must_use]
-    pub fn new(scene: &Scene<S>) -> Self {
-        let [x, w, vx, vw] = scene.start;
-        let body = Body { p: [x, S::ZERO, w], v: [vx, S::ZERO, vw] };
-        let mut lane = Lane {
+    pub fn blank() -> Self {
+        let body = Body { p: [S::ZERO; 3], v: [S::ZERO; 3] };
+        Lane {
             body,
             rest: S::ONE,
             sums: Sums::new(),
@@ -114,15 +111,28 @@ impl<S: Real> Lane<S> {
             at_once: 0,
             counted: 0,
             parts: 0,
-            gains: 0,
             second_pass: false,
             snapshot: body,
             snapshot_flags: [FREE, 0, NOTHING],
-        };
+        }
+    }
+
+    /// The start of an instance.
+    #[must_use]
+    pub fn new(scene: &Scene<S>) -> Self {
+        let [x, w, vx, vw] = scene.start;
+        let mut lane = Lane::blank();
+        lane.body = Body { p: [x, S::ZERO, w], v: [vx, S::ZERO, vw] };
         let first = scene.segments[0];
         lane.enter_contact(scene, Belt { velocity: first.velocity, acceleration: first.acceleration });
         lane.take_snapshot();
         lane
+    }
+
+    /// Whether every segment is done.
+    #[must_use]
+    pub fn is_at_end(&self, segments: &Segments) -> bool {
+        segments.get(self.segment as usize).is_none_or(|segment| segment[0] <= 0.0)
     }
 
     /// Runs to the end.

@@ -3,7 +3,6 @@
 use super::lane::Lane;
 use super::observe::{Moment, SUMS};
 use super::scalar::Real;
-use super::scene::Scene;
 use super::source::{Field, words};
 use crate::outcome::Status;
 
@@ -48,9 +47,9 @@ pub fn write<S: Real>(lane: &Lane<S>) -> (Vec<S>, Vec<u32>) {
     (state, flags)
 }
 
-/// The lane of a scene from its words; `None` when they are too few or the status is unknown.
+/// A finished lane from its words; `None` when they are too few or the status is unknown.
 #[must_use]
-pub fn read<S: Real>(scene: &Scene<S>, state: &[S], flags: &[u32]) -> Option<Lane<S>> {
+pub fn read<S: Real>(state: &[S], flags: &[u32]) -> Option<Lane<S>> {
     let kernel = &super::response::KERNEL;
     if state.len() != words(kernel.state) || flags.len() != words(kernel.flags) {
         return None;
@@ -63,7 +62,7 @@ pub fn read<S: Real>(scene: &Scene<S>, state: &[S], flags: &[u32]) -> Option<Lan
     let three = |name: &str, word: usize| std::array::from_fn(|i| real(name, word + i));
     let moment =
         |name: &str| Moment { segment: flag(name, 0), index: flag(name, 1), fraction: real(name, 0) };
-    let mut lane = Lane::new(scene);
+    let mut lane = Lane::blank();
     lane.status = Status::ALL.into_iter().find(|status| *status as u32 == flag("status", 0))?;
     lane.iterations = flag("steps", 0);
     lane.segment = flag("segment", 0);

@@ -12,7 +12,8 @@ use super::lane::{self, Lane};
 use super::observe::{self, SUMS};
 use super::scalar::Real;
 use super::scene::{
-    FIRST_HALF, Law, PIECE_WORDS, SECOND_HALF, SEGMENT_WORDS, SEGMENTS, SETTLE, Scene as Words, words,
+    self, FIRST_HALF, Law, PIECE_WORDS, SECOND_HALF, SEGMENT_WORDS, SEGMENTS, SETTLE, Scene as Words,
+    Segments,
 };
 use super::source::{Constant, Field, Kernel};
 use super::{crossing, series};
@@ -22,132 +23,171 @@ use crate::outcome::{Outcome, Status};
 use crate::response::{Plan, Scene};
 use crate::spec::Instance;
 
-/// The response kernel for laws of two pieces: `constant`, `bilinear`, `exponential`, `rational`.
-pub const KERNEL: Kernel = Kernel {
-    name: "response",
-    files: &[
-        ("shaders/scene.wgsl", include_str!("../../shaders/scene.wgsl")),
-        ("shaders/series.wgsl", include_str!("../../shaders/series.wgsl")),
-        ("shaders/crossing.wgsl", include_str!("../../shaders/crossing.wgsl")),
-        ("shaders/observe.wgsl", include_str!("../../shaders/observe.wgsl")),
-        ("shaders/lane.wgsl", include_str!("../../shaders/lane.wgsl")),
-        ("shaders/response_main.wgsl", include_str!("../../shaders/response_main.wgsl")),
-    ],
-    inputs: &[
-        Field::one("sin"),
-        Field::one("cos"),
-        Field::one("inv_m1"),
-        Field::one("k1"),
-        Field::one("k2"),
-        Field::one("c1"),
-        Field::one("c2"),
-        Field::one("kappa"),
-        Field::one("inv_det"),
-        Field::one("normal_mass"),
-        Field::one("n0"),
-        Field::one("t0"),
-        Field::one("mu0"),
-        Field::one("v0"),
-        Field::one("mu_stick"),
-        Field::many("cone", 2),
-        Field::one("restitution"),
-        Field::one("impact_friction"),
-        Field::many("start", 4),
-        Field::one("slowest_rebound"),
-        Field::many("pieces", PIECES * PIECE_WORDS),
-        Field::many("segments", SEGMENTS * SEGMENT_WORDS),
-    ],
-    state: &[
-        Field::many("body", 6),
-        Field::one("rest"),
-        Field::many("block", SUMS),
-        Field::many("total", 2 * SUMS),
-        Field::many("peaks", 3),
-        Field::one("previous"),
-        Field::one("first"),
-        Field::one("last"),
-        Field::many("growth", 15),
-        Field::many("phase", 7),
-        Field::many("snapshot", 6),
-    ],
-    flags: &[
-        Field::one("status"),
-        Field::one("steps"),
-        Field::one("started"),
-        Field::one("segment"),
-        Field::one("index"),
-        Field::one("contact"),
-        Field::one("piece"),
-        Field::one("disarmed"),
-        Field::one("at_once"),
-        Field::one("counted"),
-        Field::one("parts"),
-        Field::one("second_pass"),
-        Field::one("half"),
-        Field::one("has_previous"),
-        Field::one("impacts"),
-        Field::one("crossings"),
-        Field::one("growth_closed"),
-        Field::many("first", 2),
-        Field::many("last", 2),
-        Field::many("snapshot", 3),
-    ],
-    settings: &[Field::one("tolerance")],
-    constants: &[
-        ("LAW_PIECES", Constant::U32(Law::Pieces as u32)),
-        ("LAW_EXPONENTIAL", Constant::U32(Law::Exponential as u32)),
-        ("LAW_RATIONAL", Constant::U32(Law::Rational as u32)),
-        ("PIECES", Constant::U32(PIECES as u32)),
-        ("PIECE_WORDS", Constant::U32(PIECE_WORDS as u32)),
-        ("SEGMENTS", Constant::U32(SEGMENTS as u32)),
-        ("SEGMENT_WORDS", Constant::U32(SEGMENT_WORDS as u32)),
-        ("SETTLE", Constant::U32(SETTLE)),
-        ("FIRST_HALF", Constant::U32(FIRST_HALF)),
-        ("SECOND_HALF", Constant::U32(SECOND_HALF)),
-        ("EXP_DEGREE", Constant::U32(super::scene::EXP_DEGREE as u32)),
-        ("ORDER", Constant::U32(series::ORDER as u32)),
-        ("SERIES", Constant::U32(series::ORDER as u32 + 1)),
-        ("MAX_HALVINGS", Constant::U32(series::MAX_HALVINGS as u32)),
-        ("SLIP", Constant::U32(series::SLIP)),
-        ("REVERSE", Constant::U32(series::REVERSE)),
-        ("STICK", Constant::U32(series::STICK)),
-        ("FREE", Constant::U32(series::FREE)),
-        ("SAMPLES", Constant::U32(crossing::SAMPLES as u32)),
-        ("SOLVER_ITERATIONS", Constant::U32(crossing::SOLVER_ITERATIONS as u32)),
-        ("HIGHEST_ORDER", Constant::U32(crossing::HIGHEST_ORDER as u32)),
-        ("NEVER", Constant::Real(crossing::NEVER)),
-        ("SUMS", Constant::U32(SUMS as u32)),
-        ("NODE_0", Constant::Real(observe::NODES[0])),
-        ("NODE_2", Constant::Real(observe::NODES[2])),
-        ("BISECTIONS", Constant::U32(observe::BISECTIONS as u32)),
-        ("TAU", Constant::Real(TAU)),
-        ("LEAST_REST", Constant::Real(lane::LEAST_REST)),
-        ("STEPS_PER_COUNT", Constant::U32(lane::STEPS_PER_COUNT)),
-        ("MAX_PARTS", Constant::U32(lane::MAX_PARTS)),
-        ("MAX_EVENTS_PER_COUNT", Constant::U32(lane::MAX_EVENTS_PER_COUNT)),
-        ("EVENTS_AT_ONCE", Constant::U32(super::scene::EVENTS_AT_ONCE)),
-        ("NOTHING", Constant::U32(lane::NOTHING)),
-        ("REST", Constant::U32(lane::REST)),
-        ("LOWER_KINK", Constant::U32(lane::LOWER_KINK)),
-        ("UPPER_KINK", Constant::U32(lane::UPPER_KINK)),
-        ("LIFT_OFF", Constant::U32(lane::LIFT_OFF)),
-        ("CONE_FORWARD", Constant::U32(lane::CONE_FORWARD)),
-        ("CONE_BACKWARD", Constant::U32(lane::CONE_BACKWARD)),
-        ("GAP", Constant::U32(lane::GAP)),
-    ],
-    loops_per_step: LOOPS_PER_STEP,
-};
+/// Most pieces of a friction law in a kernel: the rows of the longest table.
+pub const MOST_PIECES: usize = 1024;
 
-/// Pieces of the friction law that the kernel holds.
-pub const PIECES: usize = 2;
+/// The smallest kernel that holds laws of `pieces` pieces, and how many it holds; `None` above
+/// [`MOST_PIECES`].
+#[must_use]
+pub fn kernel_for(pieces: usize) -> Option<(Kernel, usize)> {
+    let kernels = [
+        (KERNEL, 1),
+        (kernel::<2>(), 2),
+        (kernel::<4>(), 4),
+        (kernel::<16>(), 16),
+        (kernel::<64>(), 64),
+        (kernel::<256>(), 256),
+        (kernel::<MOST_PIECES>(), MOST_PIECES),
+    ];
+    kernels.into_iter().find(|(_, holds)| pieces <= *holds)
+}
+
+/// What is carried of a lane between dispatches.
+const STATE: &[Field] = &[
+    Field::many("body", 6),
+    Field::one("rest"),
+    Field::many("block", SUMS),
+    Field::many("total", 2 * SUMS),
+    Field::many("peaks", 3),
+    Field::one("previous"),
+    Field::one("first"),
+    Field::one("last"),
+    Field::many("growth", 15),
+    Field::many("phase", 7),
+    Field::many("snapshot", 6),
+];
+
+/// Its counters and switches.
+const FLAGS: &[Field] = &[
+    Field::one("status"),
+    Field::one("steps"),
+    Field::one("started"),
+    Field::one("segment"),
+    Field::one("index"),
+    Field::one("contact"),
+    Field::one("piece"),
+    Field::one("disarmed"),
+    Field::one("at_once"),
+    Field::one("counted"),
+    Field::one("parts"),
+    Field::one("second_pass"),
+    Field::one("half"),
+    Field::one("has_previous"),
+    Field::one("impacts"),
+    Field::one("crossings"),
+    Field::one("growth_closed"),
+    Field::many("first", 2),
+    Field::many("last", 2),
+    Field::many("snapshot", 3),
+];
+
+/// What is the same for all instances.
+const SETTINGS: &[Field] = &[Field::one("tolerance")];
+
+/// The response kernel for laws of one piece.
+pub const KERNEL: Kernel = kernel::<1>();
+
+/// The response kernel for laws of up to `PIECES` pieces.
+#[must_use]
+pub const fn kernel<const PIECES: usize>() -> Kernel {
+    Kernel {
+        name: "response",
+        files: &[
+            ("shaders/scene.wgsl", include_str!("../../shaders/scene.wgsl")),
+            ("shaders/series.wgsl", include_str!("../../shaders/series.wgsl")),
+            ("shaders/crossing.wgsl", include_str!("../../shaders/crossing.wgsl")),
+            ("shaders/observe.wgsl", include_str!("../../shaders/observe.wgsl")),
+            ("shaders/lane.wgsl", include_str!("../../shaders/lane.wgsl")),
+            ("shaders/response_main.wgsl", include_str!("../../shaders/response_main.wgsl")),
+        ],
+        inputs: const {
+            &[
+                Field::one("sin"),
+                Field::one("cos"),
+                Field::one("inv_m1"),
+                Field::one("k1"),
+                Field::one("k2"),
+                Field::one("c1"),
+                Field::one("c2"),
+                Field::one("kappa"),
+                Field::one("inv_det"),
+                Field::one("normal_mass"),
+                Field::one("n0"),
+                Field::one("t0"),
+                Field::one("mu0"),
+                Field::one("v0"),
+                Field::one("mu_stick"),
+                Field::many("cone", 2),
+                Field::one("restitution"),
+                Field::one("impact_friction"),
+                Field::many("start", 4),
+                Field::one("slowest_rebound"),
+                Field::many("segments", SEGMENTS * SEGMENT_WORDS),
+                Field::many("pieces", PIECES * PIECE_WORDS),
+            ]
+        },
+        state: STATE,
+        flags: FLAGS,
+        settings: SETTINGS,
+        constants: const {
+            &[
+                ("LAW_PIECES", Constant::U32(Law::Pieces as u32)),
+                ("LAW_EXPONENTIAL", Constant::U32(Law::Exponential as u32)),
+                ("LAW_RATIONAL", Constant::U32(Law::Rational as u32)),
+                ("PIECES", Constant::U32(PIECES as u32)),
+                ("PIECE_WORDS", Constant::U32(PIECE_WORDS as u32)),
+                ("SEGMENTS", Constant::U32(SEGMENTS as u32)),
+                ("SEGMENT_WORDS", Constant::U32(SEGMENT_WORDS as u32)),
+                ("SETTLE", Constant::U32(SETTLE)),
+                ("FIRST_HALF", Constant::U32(FIRST_HALF)),
+                ("SECOND_HALF", Constant::U32(SECOND_HALF)),
+                ("EXP_DEGREE", Constant::U32(scene::EXP_DEGREE as u32)),
+                ("ORDER", Constant::U32(series::ORDER as u32)),
+                ("SERIES", Constant::U32(series::ORDER as u32 + 1)),
+                ("MAX_HALVINGS", Constant::U32(series::MAX_HALVINGS as u32)),
+                ("SLIP", Constant::U32(series::SLIP)),
+                ("REVERSE", Constant::U32(series::REVERSE)),
+                ("STICK", Constant::U32(series::STICK)),
+                ("FREE", Constant::U32(series::FREE)),
+                ("SAMPLES", Constant::U32(crossing::SAMPLES as u32)),
+                ("SOLVER_ITERATIONS", Constant::U32(crossing::SOLVER_ITERATIONS as u32)),
+                ("HIGHEST_ORDER", Constant::U32(crossing::HIGHEST_ORDER as u32)),
+                ("NEVER", Constant::Real(crossing::NEVER)),
+                ("SUMS", Constant::U32(SUMS as u32)),
+                ("NODE_0", Constant::Real(observe::NODES[0])),
+                ("NODE_2", Constant::Real(observe::NODES[2])),
+                ("BISECTIONS", Constant::U32(observe::BISECTIONS as u32)),
+                ("TAU", Constant::Real(TAU)),
+                ("LEAST_REST", Constant::Real(lane::LEAST_REST)),
+                ("STEPS_PER_COUNT", Constant::U32(lane::STEPS_PER_COUNT)),
+                ("MAX_PARTS", Constant::U32(lane::MAX_PARTS)),
+                ("MAX_EVENTS_PER_COUNT", Constant::U32(lane::MAX_EVENTS_PER_COUNT)),
+                ("EVENTS_AT_ONCE", Constant::U32(scene::EVENTS_AT_ONCE)),
+                ("NOTHING", Constant::U32(lane::NOTHING)),
+                ("REST", Constant::U32(lane::REST)),
+                ("LOWER_KINK", Constant::U32(lane::LOWER_KINK)),
+                ("UPPER_KINK", Constant::U32(lane::UPPER_KINK)),
+                ("LIFT_OFF", Constant::U32(lane::LIFT_OFF)),
+                ("CONE_FORWARD", Constant::U32(lane::CONE_FORWARD)),
+                ("CONE_BACKWARD", Constant::U32(lane::CONE_BACKWARD)),
+                ("GAP", Constant::U32(lane::GAP)),
+            ]
+        },
+        loops_per_step: LOOPS_PER_STEP,
+    }
+}
+
+/// Bound on the truncation of a step, relative to the motion: with 12 steps per period the amplitudes are
+/// those of the reference to 1.5e-4 at the 99th percentile.
+pub const TOLERANCE: f32 = 2e-4;
 
 /// Most loop iterations of one step, every loop at its longest.
 const LOOPS_PER_STEP: u32 = 1500;
 
-/// The choice of a law for [`KERNEL`].
+/// What a scene selects: the form of its law, and whether its belt has a ramp.
 #[must_use]
-pub fn choice(law: Law) -> [(&'static str, Constant); 1] {
-    [("LAW", Constant::U32(law as u32))]
+pub const fn choices(law: Law, ramp: bool) -> [(&'static str, Constant); 2] {
+    [("LAW", Constant::U32(law as u32)), ("RAMP", Constant::Bool(ramp))]
 }
 
 /// The form of the law of an instance.
@@ -162,7 +202,7 @@ pub fn law_of(kind: LawKind) -> Law {
 
 /// The segments of a run: settle and both halves of the window, cut where a ramp ends.
 #[must_use]
-pub fn segments(scene: &Scene, plan: &Plan) -> [[f64; SEGMENT_WORDS]; SEGMENTS] {
+pub fn segments(scene: &Scene, plan: &Plan) -> Segments {
     let half = 0.5 * scene.scaled(plan.measure);
     let parts = [(SETTLE, scene.scaled(plan.settle)), (FIRST_HALF, half), (SECOND_HALF, half)];
     let nominal = TAU / f64::from(plan.steps_per_period);
@@ -186,11 +226,10 @@ pub fn segments(scene: &Scene, plan: &Plan) -> [[f64; SEGMENT_WORDS]; SEGMENTS] 
 
 /// The words of an instance for kernels built for `pieces` pieces.
 #[must_use]
-pub fn instance_words(scene: &Scene, plan: &Plan, pieces: usize) -> Vec<f64> {
+pub fn words(scene: &Scene, segments: &Segments, pieces: usize) -> Vec<f64> {
     let start = scene.start();
     let start = [start.position[0], start.position[2], start.velocity[0], start.velocity[2]];
-    let v0 = scene.belt(0.0).velocity;
-    words(&scene.model, v0, start, &segments(scene, plan), pieces)
+    scene::words(&scene.model, scene.belt(0.0).velocity, start, segments, pieces)
 }
 
 /// Integrates one instance with the twin of the kernel.
@@ -201,21 +240,17 @@ pub fn respond<S: Real>(instance: &Instance, plan: &Plan, tolerance: f64) -> Out
         Err(status) => return Outcome { status, ..Outcome::default() },
     };
     let pieces = scene.model.law.pieces.len();
-    let packed = instance_words(&scene, plan, pieces);
+    let segments = segments(&scene, plan);
+    let packed = words(&scene, &segments, pieces);
     let words: Words<S> = Words::read(law_of(instance.law.kind()), pieces, &packed);
     let mut lane = Lane::new(&words);
     lane.run(&words, S::from_f64(tolerance));
-    outcome(&scene, plan, &segments(&scene, plan), &lane)
+    outcome(&scene, plan, &segments, &lane)
 }
 
 /// The outcome of a finished lane.
 #[must_use]
-pub fn outcome<S: Real>(
-    scene: &Scene,
-    plan: &Plan,
-    segments: &[[f64; SEGMENT_WORDS]; SEGMENTS],
-    lane: &Lane<S>,
-) -> Outcome {
+pub fn outcome<S: Real>(scene: &Scene, plan: &Plan, segments: &Segments, lane: &Lane<S>) -> Outcome {
     let time = |segment: u32, index: u32, fraction: f64| -> f64 {
         let before: f64 = segments[..(segment as usize).min(SEGMENTS)].iter().map(|s| s[0] * s[1]).sum();
         let step = segments.get(segment as usize).map_or(0.0, |s| s[1]);

@@ -9,7 +9,7 @@ use crate::model::equilibrium::Scaled;
 use crate::model::friction::Piece as LawPiece;
 
 /// The form of the friction law a kernel is built for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[repr(u32)]
 pub enum Law {
     /// Straight pieces: `constant`, `bilinear`, `table`.
@@ -61,10 +61,13 @@ pub const SECOND_HALF: u32 = 2;
 /// Segments per instance: a ramp may end inside any part.
 pub const SEGMENTS: usize = 4;
 
+/// The words of the segments of an instance, in the order of [`Segment`].
+pub type Segments = [[f64; SEGMENT_WORDS]; SEGMENTS];
+
 /// A kink no speed reaches.
 pub const NO_KINK: f64 = 1e30;
 
-/// Words before the pieces.
+/// Words before the segments; the pieces come last.
 pub const SCENE_WORDS: usize = 24;
 /// Words of a piece.
 pub const PIECE_WORDS: usize = 5;
@@ -127,13 +130,7 @@ pub const EVENTS_AT_ONCE: u32 = MAX_EVENTS_AT_ONCE;
 
 /// The words of an instance in f64, in the order of the kernel's input buffer.
 #[must_use]
-pub fn words(
-    model: &Scaled,
-    v0: f64,
-    start: [f64; 4],
-    segments: &[[f64; SEGMENT_WORDS]; SEGMENTS],
-    pieces: usize,
-) -> Vec<f64> {
+pub fn words(model: &Scaled, v0: f64, start: [f64; 4], segments: &Segments, pieces: usize) -> Vec<f64> {
     let (mu0, n0) = (model.mu0, model.n0);
     let mu_s = model.law.mu_stick;
     let mut words = vec![
@@ -160,6 +157,9 @@ pub fn words(
     words.extend(start);
     words.push(crate::model::contact::SLOWEST_REBOUND);
     debug_assert_eq!(words.len(), SCENE_WORDS);
+    for segment in segments {
+        words.extend(segment);
+    }
     for index in 0..pieces {
         let index = index.min(model.law.pieces.len() - 1);
         let kink = model.law.kinks.get(index).copied().unwrap_or(NO_KINK);
@@ -171,9 +171,6 @@ pub fn words(
             LawPiece::Rational { at_zero, decay } => [at_zero, 0.0, decay, 1.0 / (1.0 + decay * v0), kink],
         });
     }
-    for segment in segments {
-        words.extend(segment);
-    }
     words
 }
 
@@ -183,11 +180,11 @@ impl<S: Real> Scene<S> {
     pub fn read(law: Law, pieces: usize, words: &[f64]) -> Scene<S> {
         let narrow: Vec<S> = words.iter().map(|word| S::from_f64(*word)).collect();
         let piece = |i: usize| {
-            let w = &narrow[SCENE_WORDS + i * PIECE_WORDS..];
+            let w = &narrow[SCENE_WORDS + SEGMENTS * SEGMENT_WORDS + i * PIECE_WORDS..];
             Piece { at_zero: w[0], slope: w[1], rate: w[2], offset: w[3], kink: w[4] }
         };
         let segment = |i: usize| {
-            let w = &narrow[SCENE_WORDS + pieces * PIECE_WORDS + i * SEGMENT_WORDS..];
+            let w = &narrow[SCENE_WORDS + i * SEGMENT_WORDS..];
             Segment { steps: w[0], step: w[1], velocity: w[2], acceleration: w[3], part: w[4] }
         };
         let w = &narrow;

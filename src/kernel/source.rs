@@ -156,7 +156,7 @@ pub enum Constant {
 }
 
 /// A compute kernel: its WGSL files and its words.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Kernel {
     /// Its name in errors and logs.
     pub name: &'static str,

@@ -8,6 +8,7 @@ mod linear;
 mod probes;
 mod response;
 mod runs;
+mod sweeps;
 mod words;
 
 use libtest_mimic::{Arguments, Failed, Trial};
@@ -19,18 +20,53 @@ const REQUIRE: &str = "SQUEALMAP_REQUIRE_GPU";
 /// A test's name and what it does.
 type Case = (&'static str, fn() -> Result<(), Failed>);
 
+/// Why a test is not run.
+#[derive(Clone, Copy)]
+enum Lack {
+    /// A defect where an adapter is required.
+    Adapter,
+    /// A property of the adapter.
+    F64,
+    /// Minutes on a software adapter; `--include-ignored` runs it.
+    Time,
+}
+
+impl Lack {
+    fn reason(self) -> &'static str {
+        match self {
+            Lack::Adapter => "no adapter",
+            Lack::F64 => "no adapter with f64",
+            Lack::Time => "slow",
+        }
+    }
+}
+
 fn main() {
     let arguments = Arguments::from_args();
     let adapters = Adapter::all();
-    let reason = if adapters.is_empty() { Some("no adapter") } else { None };
     let required = std::env::var_os(REQUIRE).is_some_and(|value| value == "1");
-    let all = [probes::CASES, linear::CASES, response::CASES, runs::CASES, faults::CASES];
-    let trials = all.into_iter().flatten().map(|&(name, run)| match reason {
-        None => Trial::test(name, run),
-        Some(reason) if required => {
-            Trial::test(name, move || Err(format!("{REQUIRE}=1 but there is {reason}").into()))
-        }
-        Some(reason) => Trial::test(format!("{name} ({reason})"), run).with_ignored_flag(true),
+    let all = adapters.is_empty().then_some(Lack::Adapter);
+    let f64 = all.or_else(|| (!adapters.iter().any(|one| one.describe().f64)).then_some(Lack::F64));
+    let slow = all.or(Some(Lack::Time));
+    let groups = [
+        (all, probes::CASES),
+        (all, linear::CASES),
+        (f64, linear::F64),
+        (all, response::CASES),
+        (all, sweeps::CASES),
+        (f64, sweeps::F64),
+        (slow, sweeps::SLOW),
+        (all, runs::CASES),
+        (all, faults::CASES),
+    ];
+    let trials = groups.into_iter().flat_map(|(lack, cases)| {
+        cases.iter().map(move |&(name, run)| match lack {
+            None => Trial::test(name, run),
+            Some(Lack::Adapter) if required => {
+                Trial::test(name, || Err(format!("{REQUIRE}=1 but there is no adapter").into()))
+            }
+            Some(lack) => Trial::test(format!("{name} ({})", lack.reason()), run).with_ignored_flag(true),
+        })
     });
     libtest_mimic::run(&arguments, trials.collect()).exit();
 }

@@ -6,9 +6,9 @@ use squealmap::backend::gpu::run::{Drive, run};
 use squealmap::integrate::STEP_TOLERANCE;
 use squealmap::kernel::lane::Lane;
 use squealmap::kernel::record::{read, write};
-use squealmap::kernel::response::{KERNEL, PIECES, choice, instance_words, outcome, segments};
+use squealmap::kernel::response::{TOLERANCE, choices, kernel, outcome, segments, words as packed_words};
 use squealmap::kernel::scene::{Law, Scene as Words};
-use squealmap::kernel::source::{Precision, SETTING_WORDS, words};
+use squealmap::kernel::source::{Kernel, Precision, SETTING_WORDS, words};
 use squealmap::method::taylor::REFERENCE_ORDER;
 use squealmap::model::friction::FrictionLaw;
 use squealmap::model::{Param, Params};
@@ -25,8 +25,11 @@ pub(crate) const CASES: &[Case] = &[
     ("response::any_number_of_steps_per_dispatch_gives_the_same_bits", any_dispatch),
 ];
 
-/// Bound on the truncation of the kernel's steps.
-const TOLERANCE: f32 = 2e-4;
+/// Pieces of the law of the instances.
+const PIECES: usize = 2;
+
+/// The kernel for them.
+const KERNEL: Kernel = kernel::<PIECES>();
 
 /// Friction coefficients 0 to 0.6 at four velocities.
 fn instances() -> Vec<Instance> {
@@ -58,13 +61,14 @@ fn plan(settle: f64, measure: f64) -> Plan {
 fn on_gpu(plan: &Plan, steps: Option<u32>) -> Result<Vec<(Scene, Words<f32>, Vec<f32>, Vec<u32>)>, Failed> {
     let scenes: Vec<Scene> =
         instances().iter().filter_map(|instance| Scene::new(instance, plan.start).ok()).collect();
-    let packed: Vec<Vec<f64>> = scenes.iter().map(|scene| instance_words(scene, plan, PIECES)).collect();
+    let packed: Vec<Vec<f64>> =
+        scenes.iter().map(|scene| packed_words(scene, &segments(scene, plan), PIECES)).collect();
     let count = scenes.len();
     #[expect(clippy::cast_possible_truncation, reason = "the narrowing of the host")]
     let inputs: Vec<f32> =
         (0..words(KERNEL.inputs)).flat_map(|word| packed.iter().map(move |one| one[word] as f32)).collect();
     let device = device(Precision::F32)?;
-    let compiled = Compiled::new(&device, &KERNEL, &choice(Law::Pieces))?;
+    let compiled = Compiled::new(&device, &KERNEL, &choices(Law::Pieces, false))?;
     let mut settings = [0; SETTING_WORDS];
     settings[0] = TOLERANCE.to_bits();
     let result =
@@ -107,8 +111,8 @@ fn short_runs() -> Result<(), Failed> {
 fn long_runs() -> Result<(), Failed> {
     let plan = plan(60.0, 40.0);
     let mut errors = Vec::new();
-    for ((scene, words, state, flags), instance) in on_gpu(&plan, None)?.into_iter().zip(instances()) {
-        let lane = read(&words, &state, &flags).ok_or("words that are no lane")?;
+    for ((scene, _, state, flags), instance) in on_gpu(&plan, None)?.into_iter().zip(instances()) {
+        let lane = read(&state, &flags).ok_or("words that are no lane")?;
         let found = outcome(&scene, &plan, &segments(&scene, &plan), &lane);
         let expected = respond(&instance, &plan);
         if found.status != Status::Ok || (found.simulated_time / expected.simulated_time - 1.0).abs() > 1e-12

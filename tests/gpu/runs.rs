@@ -10,14 +10,18 @@ pub(crate) const CASES: &[Case] = &[
     ("runs::adapters_are_listed", adapters),
     ("runs::a_linear_sweep_on_the_best_adapter", linear),
     ("runs::an_adapter_that_is_not_there", no_such_adapter),
-    ("runs::a_response_has_no_kernel", response),
+    ("runs::a_sweep_with_response_on_the_best_adapter", response),
 ];
+
+/// A sweep with response of four instances.
+const BELT: &str = "[friction]\nmu_d = 0.3\nknee_velocity = 5.0\n[axes]\nmu_s = { values = [0.2, 0.5] }\nbelt_velocity = { values = [1.0, 3.0] }\n\
+                    [response]\nsettle = \"5 periods\"\nmeasure = \"5 periods\"\n";
 
 /// Runs the program in a directory with the sweep `modes.toml`.
 pub(crate) fn squealmap(arguments: &[&str]) -> Result<(Output, tempfile::TempDir), Failed> {
     let directory = tempfile::tempdir()?;
     std::fs::copy("sweeps/paper_modes.toml", directory.path().join("modes.toml"))?;
-    std::fs::copy("sweeps/mass_on_belt.toml", directory.path().join("belt.toml"))?;
+    std::fs::write(directory.path().join("belt.toml"), BELT)?;
     let output = Command::new(env!("CARGO_BIN_EXE_squealmap"))
         .args(arguments)
         .current_dir(directory.path())
@@ -63,9 +67,16 @@ fn no_such_adapter() -> Result<(), Failed> {
 }
 
 fn response() -> Result<(), Failed> {
-    let (output, _directory) = squealmap(&["run", "belt.toml", "--backend", "gpu"])?;
+    let (output, directory) = squealmap(&["run", "belt.toml", "--backend", "gpu"])?;
     let err = text(&output.stderr);
-    assert_eq!(output.status.code(), Some(2), "{err}");
-    assert!(err.starts_with("error: the response has no GPU kernel"), "{err}");
+    assert_eq!(output.status.code(), Some(0), "{err}");
+    let manifest = std::fs::read(directory.path().join("out/belt/manifest.json"))?;
+    let manifest: serde_json::Value = serde_json::from_slice(&manifest)?;
+    for part in ["linear", "response"] {
+        let computed = &manifest["computation"][part];
+        assert_eq!((&computed["backend"], &computed["precision"]), (&"gpu".into(), &"f32".into()), "{part}");
+        assert!(computed["method"].as_str().is_some_and(|method| !method.is_empty()), "{part}");
+    }
+    assert_eq!(manifest["computation"]["instances"], 4);
     Ok(())
 }

@@ -139,7 +139,7 @@ fn the_manifest_counts_and_explains() {
         1 => record(InstabilityType::Stable, Regime::Equilibrium, true),
         _ => {
             let mut record = good(i);
-            record.outcome = record.outcome.map(|o| Outcome { energy_gaining_impacts: 3, ..o });
+            record.outcome = record.outcome.map(|o| Outcome { energy_gaining_impacts: Some(3), ..o });
             record
         }
     });

@@ -11,11 +11,13 @@ use squealmap::kernel::{linear, response, source};
 const TWINS: &[(&str, &str)] = &[(include_str!("../../src/kernel/linear.rs"), "shaders/linear.wgsl")];
 
 /// Every kernel there is, in every form.
-const KERNELS: [(&Kernel, &[(&str, Constant)]); 4] = [
-    (&linear::KERNEL, &[]),
-    (&response::KERNEL, &[("LAW", Constant::U32(Law::Pieces as u32))]),
-    (&response::KERNEL, &[("LAW", Constant::U32(Law::Exponential as u32))]),
-    (&response::KERNEL, &[("LAW", Constant::U32(Law::Rational as u32))]),
+const KERNELS: [(Kernel, &[(&str, Constant)]); 6] = [
+    (linear::KERNEL, &[]),
+    (response::kernel::<1>(), &response::choices(Law::Pieces, false)),
+    (response::kernel::<2>(), &response::choices(Law::Pieces, true)),
+    (response::kernel::<64>(), &response::choices(Law::Pieces, false)),
+    (response::kernel::<1>(), &response::choices(Law::Exponential, true)),
+    (response::kernel::<1>(), &response::choices(Law::Rational, false)),
 ];
 
 fn parsed(kernel: &Kernel, choices: &[(&str, Constant)], precision: Precision) -> (Module, ModuleInfo) {
@@ -36,7 +38,7 @@ fn parsed(kernel: &Kernel, choices: &[(&str, Constant)], precision: Precision) -
 fn every_kernel_is_valid_in_both_scalars() {
     for (kernel, choices) in KERNELS {
         for precision in [Precision::F32, Precision::F64] {
-            let (module, info) = parsed(kernel, choices, precision);
+            let (module, info) = parsed(&kernel, choices, precision);
             let options = spv::Options::default();
             let words = spv::write_vec(&module, &info, &options, None).expect("SPIR-V");
             assert_eq!(words[0], 0x0723_0203, "{}: the magic number of SPIR-V", kernel.name);
@@ -47,7 +49,7 @@ fn every_kernel_is_valid_in_both_scalars() {
 #[test]
 fn every_kernel_can_be_written_for_metal_and_dx12() {
     for (kernel, choices) in KERNELS {
-        let (module, info) = parsed(kernel, choices, Precision::F32);
+        let (module, info) = parsed(&kernel, choices, Precision::F32);
         let mut options = msl::Options { fake_missing_bindings: true, ..msl::Options::default() };
         options.lang_version = (2, 0);
         let (text, _) = msl::write_string(&module, &info, &options, &msl::PipelineOptions::default())
@@ -68,7 +70,7 @@ fn every_kernel_can_be_written_for_metal_and_dx12() {
 fn bindings_strides_and_sizes_are_those_of_rust() {
     for (kernel, choices) in KERNELS {
         for precision in [Precision::F32, Precision::F64] {
-            let (module, _) = parsed(kernel, choices, precision);
+            let (module, _) = parsed(&kernel, choices, precision);
             for (number, name) in (0..).zip(BINDINGS) {
                 let (_, variable) = module
                     .global_variables
@@ -130,7 +132,7 @@ fn the_settings_have_the_same_members_at_the_same_places() {
 #[test]
 fn the_scalar_is_the_only_float_of_the_buffers() {
     for (kernel, choices) in KERNELS {
-        let (module, _) = parsed(kernel, choices, Precision::F64);
+        let (module, _) = parsed(&kernel, choices, Precision::F64);
         let wide = Scalar { kind: ScalarKind::Float, width: 8 };
         let buffers = ["inputs", "state"];
         for (_, variable) in module.global_variables.iter() {

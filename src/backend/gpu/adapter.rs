@@ -94,6 +94,12 @@ impl Adapter {
         self.raw.get_info().device_type == wgpu::DeviceType::Cpu
     }
 
+    /// Whether it is a program on the CPU, or does not say what it is.
+    #[must_use]
+    pub fn may_be_software(&self) -> bool {
+        matches!(self.raw.get_info().device_type, wgpu::DeviceType::Cpu | wgpu::DeviceType::Other)
+    }
+
     fn rank(&self) -> u32 {
         match self.raw.get_info().device_type {
             wgpu::DeviceType::DiscreteGpu => 0,

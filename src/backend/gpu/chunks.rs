@@ -8,33 +8,41 @@ use super::kernel::Compiled;
 use super::run::{ChunkResult, Drive, run};
 use crate::error::{Error, Result};
 use crate::kernel::scalar::Real;
-use crate::kernel::source::{Constant, Kernel, WORKGROUP_SIZE};
+use crate::kernel::source::{Constant, Kernel, WORKGROUP_SIZE, words};
 
-/// Most instances of a chunk, however large an adapter's buffers: it bounds the memory of the host.
-pub const MOST_INSTANCES: usize = 1 << 20;
+/// Most bytes of a chunk's inputs and results, however large an adapter's buffers: with what is made from
+/// them, some 1 GiB on the host.
+pub const MOST_BYTES: usize = 256 << 20;
 
-/// A device with a kernel compiled for it.
+/// Constants that a scene selects.
+pub type Choices = Vec<(&'static str, Constant)>;
+
+/// Instances of one chunk that share a kernel.
 #[derive(Debug)]
-pub struct Session<'a> {
+pub struct Batch<R, T> {
+    /// The kernel.
+    pub kernel: Kernel,
+    /// What the scene selects in it.
+    pub choices: Choices,
+    /// Word-major inputs; without any instance there is nothing to run, and nothing comes of it.
+    pub inputs: Vec<R>,
+    /// What belongs to them.
+    pub memory: T,
+}
+
+/// A device with the kernels compiled for it.
+#[derive(Debug)]
+pub struct Session {
     device: Device,
-    compiled: Compiled,
-    kernel: &'a Kernel,
-    choices: &'a [(&'a str, Constant)],
+    compiled: Vec<(Choices, Compiled)>,
     lost_once: bool,
 }
 
-impl<'a> Session<'a> {
-    /// Compiles `kernel` for an open device; `choices` are constants that the scene selects.
-    ///
-    /// # Errors
-    /// When the device rejects the kernel.
-    pub fn new(
-        device: Device,
-        kernel: &'a Kernel,
-        choices: &'a [(&'a str, Constant)],
-    ) -> Result<Session<'a>> {
-        let compiled = Compiled::new(&device, kernel, choices)?;
-        Ok(Session { device, compiled, kernel, choices, lost_once: false })
+impl Session {
+    /// An open device, no kernel yet.
+    #[must_use]
+    pub fn new(device: Device) -> Session {
+        Session { device, compiled: Vec::new(), lost_once: false }
     }
 
     /// The device in use.
@@ -43,30 +51,29 @@ impl<'a> Session<'a> {
         &self.device
     }
 
-    /// Instances of a chunk that fit the adapter's buffers and dispatches.
+    /// Instances of a chunk that fit the adapter's buffers and dispatches and the memory of the host;
+    /// `kernel` is the one with the most words.
     #[must_use]
-    pub fn chunk_size<R: Real>(&self) -> usize {
+    pub fn chunk_size<R: Real>(&self, kernel: &Kernel) -> usize {
         let limits = self.device.limits();
-        let [inputs, state, flags] = self.compiled.words();
-        let bytes =
-            [inputs * size_of::<R>(), state * size_of::<R>(), flags * 4].into_iter().max().unwrap_or(1);
+        let [inputs, state, flags] = [kernel.inputs, kernel.state, kernel.flags].map(words);
+        let bytes = [inputs * size_of::<R>(), state * size_of::<R>(), flags * 4];
         let largest = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
+        let largest = usize::try_from(largest).unwrap_or(usize::MAX);
         // Word-major indices are u32.
         let words = inputs.max(state).max(flags).max(1);
         let rows = limits.max_compute_workgroups_per_dimension as usize;
-        usize::try_from(largest)
-            .unwrap_or(usize::MAX)
-            .checked_div(bytes)
-            .unwrap_or(1)
+        (largest / bytes.into_iter().max().unwrap_or(1).max(1))
+            .min(MOST_BYTES / bytes.into_iter().sum::<usize>().max(1))
             .min(u32::MAX as usize / words)
             .min(rows.saturating_mul(rows).saturating_mul(WORKGROUP_SIZE as usize))
-            .clamp(1, MOST_INSTANCES)
+            .max(1)
     }
 
     /// Runs `total` instances in chunks of at most `chunk`.
     ///
-    /// `prepare` makes the word-major inputs of a range, of as many instances as it likes, and something to
-    /// remember; `accept` gets the range, what is remembered, and the result (`None` without any inputs).
+    /// `prepare` makes the batches of a range, of as many instances as it likes; `accept` gets the range and
+    /// each batch's memory and result.
     ///
     /// # Errors
     /// Those of [`run`]; a device lost for the second time.
@@ -75,15 +82,14 @@ impl<'a> Session<'a> {
         total: usize,
         chunk: usize,
         drive: &Drive,
-        mut prepare: impl FnMut(Range<usize>) -> (Vec<R>, T),
-        mut accept: impl FnMut(Range<usize>, T, Option<ChunkResult<R>>) -> Result<()>,
+        mut prepare: impl FnMut(Range<usize>) -> Vec<Batch<R, T>>,
+        mut accept: impl FnMut(Range<usize>, Vec<(T, ChunkResult<R>)>) -> Result<()>,
     ) -> Result<()> {
-        let mut chunk = chunk.min(self.chunk_size::<R>()).max(1);
+        let mut chunk = chunk.max(1);
         let mut start = 0;
         let reported = AtomicUsize::new(0);
         while start < total {
             let range = start..(start + chunk).min(total);
-            let (inputs, memory) = prepare(range.clone());
             let done = AtomicUsize::new(0);
             // What a lost device had already reported is not reported again.
             let progress = |count: usize| {
@@ -93,15 +99,10 @@ impl<'a> Session<'a> {
                     (drive.progress)(now - before);
                 }
             };
-            let result = if inputs.is_empty() {
-                Ok(None)
-            } else {
-                let drive = Drive { offset: start, progress: &progress, ..*drive };
-                run(&self.device, &self.compiled, &inputs, &drive).map(Some)
-            };
-            match result {
-                Ok(result) => {
-                    accept(range.clone(), memory, result)?;
+            let drive_chunk = Drive { offset: start, progress: &progress, ..*drive };
+            match self.run(prepare(range.clone()), &drive_chunk) {
+                Ok(results) => {
+                    accept(range.clone(), results)?;
                     let rest = range.len().saturating_sub(reported.swap(0, Ordering::Relaxed));
                     (drive.progress)(rest);
                     start = range.end;
@@ -111,7 +112,7 @@ impl<'a> Session<'a> {
                 }
                 Err(Error::DeviceLost { .. }) => {
                     self.device = self.device.reopen()?;
-                    self.compiled = Compiled::new(&self.device, self.kernel, self.choices)?;
+                    self.compiled.clear();
                     self.lost_once = true;
                     chunk = (chunk / 2).max(1);
                 }
@@ -123,5 +124,35 @@ impl<'a> Session<'a> {
             }
         }
         Ok(())
+    }
+
+    /// Runs the batches of one chunk.
+    fn run<R: Real, T>(
+        &mut self,
+        batches: Vec<Batch<R, T>>,
+        drive: &Drive,
+    ) -> Result<Vec<(T, ChunkResult<R>)>> {
+        let mut results = Vec::with_capacity(batches.len());
+        for batch in batches {
+            if batch.inputs.is_empty() {
+                results.push((batch.memory, ChunkResult { state: Vec::new(), flags: Vec::new() }));
+                continue;
+            }
+            let compiled = self.compiled(&batch.kernel, &batch.choices)?;
+            results
+                .push((batch.memory, run(&self.device, &self.compiled[compiled].1, &batch.inputs, drive)?));
+        }
+        Ok(results)
+    }
+
+    /// The place of a kernel, compiled at its first use.
+    fn compiled(&mut self, kernel: &Kernel, choices: &Choices) -> Result<usize> {
+        let same = |(made, compiled): &(Choices, Compiled)| made == choices && compiled.kernel == *kernel;
+        if let Some(place) = self.compiled.iter().position(same) {
+            return Ok(place);
+        }
+        let compiled = Compiled::new(&self.device, kernel, choices)?;
+        self.compiled.push((choices.clone(), compiled));
+        Ok(self.compiled.len() - 1)
     }
 }

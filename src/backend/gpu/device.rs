@@ -11,8 +11,8 @@ use crate::kernel::source::Precision;
 /// A submission that takes longer has hung: dispatches are cut to a tenth of a second.
 const PATIENCE: Duration = Duration::from_mins(1);
 
-/// An open device and its queue.
-#[derive(Debug)]
+/// An open device and its queue; clones are the same device.
+#[derive(Clone, Debug)]
 pub struct Device {
     pub(super) raw: wgpu::Device,
     pub(super) queue: wgpu::Queue,
@@ -81,6 +81,12 @@ impl Device {
     #[must_use]
     pub fn precision(&self) -> Precision {
         self.precision
+    }
+
+    /// Whether it is a program on the CPU, or may be one.
+    #[must_use]
+    pub fn is_software(&self) -> bool {
+        self.adapter.may_be_software()
     }
 
     /// What it runs on.

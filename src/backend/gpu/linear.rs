@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::chunks::Session;
+use super::chunks::{Batch, Session};
 use super::device::Device;
 use super::run::{ChunkResult, Drive};
 use crate::backend::choice::Options;
@@ -38,7 +38,7 @@ pub fn method() -> String {
 /// When the device fails, or the run is cancelled.
 pub fn records(
     spec: &Spec,
-    device: Device,
+    device: &Device,
     options: &Options,
     progress: &(dyn Fn(usize) + Sync),
 ) -> Result<Vec<Record>> {
@@ -53,13 +53,14 @@ type Known = (Record, Option<Words>);
 
 fn records_in<R: Real>(
     spec: &Spec,
-    device: Device,
+    device: &Device,
     options: &Options,
     progress: &(dyn Fn(usize) + Sync),
 ) -> Result<Vec<Record>> {
     let total = spec.grid.len();
     let mut records = Vec::with_capacity(total);
-    let mut session = Session::new(device, &KERNEL, &[])?;
+    let mut session = Session::new(device.clone());
+    let chunk = options.chunk.unwrap_or(usize::MAX).min(session.chunk_size::<R>(&KERNEL));
     let drive = Drive {
         offset: 0,
         settings: [0; SETTING_WORDS],
@@ -70,12 +71,12 @@ fn records_in<R: Real>(
     };
     let prepare = |range: Range<usize>| {
         let known: Vec<Known> = range.into_par_iter().map(|index| known(spec, index)).collect();
-        (inputs(&known), known)
+        vec![Batch { kernel: KERNEL, choices: Vec::new(), inputs: inputs(&known), memory: known }]
     };
-    let accept = |_: Range<usize>, known: Vec<Known>, result: Option<ChunkResult<R>>| {
-        append(&mut records, known, result.as_ref())
+    let accept = |_: Range<usize>, results: Vec<(Vec<Known>, ChunkResult<R>)>| {
+        results.into_iter().try_for_each(|(known, result)| append(&mut records, known, &result))
     };
-    session.each(total, options.chunk.unwrap_or(usize::MAX), &drive, prepare, accept)?;
+    session.each(total, chunk, &drive, prepare, accept)?;
     Ok(records)
 }
 
@@ -107,15 +108,11 @@ fn inputs<R: Real>(known: &[Known]) -> Vec<R> {
 }
 
 /// Completes the records of a chunk and appends them.
-fn append<R: Real>(
-    records: &mut Vec<Record>,
-    known: Vec<Known>,
-    result: Option<&ChunkResult<R>>,
-) -> Result<()> {
+fn append<R: Real>(records: &mut Vec<Record>, known: Vec<Known>, result: &ChunkResult<R>) -> Result<()> {
     let count = known.iter().filter(|(_, words)| words.is_some()).count();
     let mut next = 0;
     for (mut record, words) in known {
-        if let (Some(words), Some(result)) = (words, result) {
+        if let Some(words) = words {
             let flag = |word: usize| result.flags[word * count + next];
             let done = flag(FLAG_STEPS);
             if done != crate::kernel::linear::POLYNOMIALS {

@@ -6,16 +6,15 @@
 //! - [`run`]: one chunk of instances through a kernel, dispatch by dispatch.
 //! - [`chunks`]: a whole sweep chunk by chunk; a lost device is opened again once.
 //! - [`linear`]: the eigenvalue analysis of a sweep.
+//! - [`response`]: the time integration of a sweep.
 
 pub mod adapter;
 pub mod chunks;
 pub mod device;
 pub mod kernel;
 pub mod linear;
+pub mod response;
 pub mod run;
 
 /// The name of the backend in a manifest.
 pub const NAME: &str = "gpu";
-
-/// Whether the response has a kernel.
-pub const HAS_RESPONSE: bool = false;

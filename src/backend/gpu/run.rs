@@ -10,7 +10,8 @@ use crate::kernel::scalar::Real;
 use crate::kernel::source::{FLAG_STATUS, PROGRESS_WORDS, SETTING_WORDS, Settings, WORKGROUP_SIZE};
 use crate::outcome::Status;
 
-/// Most loop iterations of an invocation in one dispatch: a software driver silently stops loops at 65 535.
+/// Most loop iterations of an invocation in one dispatch: a software driver silently stops at 65 535, the
+/// iterations of all loops together; on hardware only the loop over the steps counts.
 pub const MAX_LOOPS: u32 = 60_000;
 
 /// A dispatch aims at this time: long enough to cost nothing, short enough for every watchdog and for Ctrl-C.
@@ -151,7 +152,8 @@ fn dispatch(
     drive: &Drive,
 ) -> Result<()> {
     let name = compiled.kernel.name;
-    let most = (MAX_LOOPS / compiled.kernel.loops_per_step.max(1)).max(1);
+    let per_step = if device.is_software() { compiled.kernel.loops_per_step.max(1) } else { 1 };
+    let most = (MAX_LOOPS / per_step).max(1);
     let mut steps = drive.steps.unwrap_or(FIRST).min(most);
     let mut finished = 0;
     for _ in 0..drive.most_dispatches {

@@ -1,0 +1,189 @@
+//! The response of a sweep on a GPU: scenes on the host in f64, narrowed once, outcomes in SI.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+use super::chunks::{Batch, Session};
+use super::device::Device;
+use super::run::{ChunkResult, Drive};
+use crate::backend::choice::Options;
+use crate::backend::take_response;
+use crate::error::{Error, Result};
+use crate::kernel::record;
+use crate::kernel::response::{
+    KERNEL, MOST_PIECES, TOLERANCE, choices, kernel_for, law_of, outcome, segments, words,
+};
+use crate::kernel::scalar::Real;
+use crate::kernel::scene::Law;
+use crate::kernel::series::ORDER;
+use crate::kernel::source::{self, Precision, SETTING_WORDS};
+use crate::linear;
+use crate::map::Record;
+use crate::outcome::{Outcome, Status};
+use crate::response::{Plan, Scene};
+use crate::spec::{Instance, Spec};
+
+/// The method in a manifest.
+#[must_use]
+pub fn method() -> String {
+    format!("Taylor series of order {ORDER}, truncation below {TOLERANCE:e}, events located in the step")
+}
+
+/// Whether a GPU computes the response of a sweep, where it is asked for.
+///
+/// # Errors
+/// When no kernel holds its friction table.
+pub fn check(spec: &Spec) -> Result<()> {
+    let rows = pieces_of(spec);
+    if spec.analysis.response && rows > MOST_PIECES {
+        return Err(Error::LongTable { rows, limit: MOST_PIECES });
+    }
+    Ok(())
+}
+
+/// The pieces of the longest law of a sweep.
+fn pieces_of(spec: &Spec) -> usize {
+    spec.table.as_ref().map_or(0, |table| table.velocity.len()).max(2)
+}
+
+/// Completes the records of a sweep with their response.
+///
+/// # Errors
+/// When the device fails, or the run is cancelled.
+pub fn complete(
+    spec: &Spec,
+    device: &Device,
+    options: &Options,
+    progress: &(dyn Fn(usize) + Sync),
+    records: &mut [Record],
+) -> Result<()> {
+    match device.precision() {
+        Precision::F32 => complete_in::<f32>(spec, device, options, progress, records),
+        Precision::F64 => complete_in::<f64>(spec, device, options, progress, records),
+    }
+}
+
+/// What selects a kernel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Form {
+    law: Law,
+    pieces: usize,
+    ramp: bool,
+}
+
+fn complete_in<R: Real>(
+    spec: &Spec,
+    device: &Device,
+    options: &Options,
+    progress: &(dyn Fn(usize) + Sync),
+    records: &mut [Record],
+) -> Result<()> {
+    let plan = Plan::new(spec);
+    let mut session = Session::new(device.clone());
+    let largest = kernel_for(pieces_of(spec)).map_or(KERNEL, |(kernel, _)| kernel);
+    let chunk = options.chunk.unwrap_or(usize::MAX).min(session.chunk_size::<R>(&largest));
+    let mut settings = [0; SETTING_WORDS];
+    settings[0] = TOLERANCE.to_bits();
+    let drive = Drive {
+        offset: 0,
+        settings,
+        steps: None,
+        // Every lane ends by itself: its steps, their parts and its events are counted.
+        most_dispatches: u64::MAX,
+        cancel: options.cancel(),
+        progress,
+    };
+    let prepare = |range: Range<usize>| {
+        let words = |index: usize| words_of(&spec.instance(index), &plan);
+        let prepared: Vec<Option<(Form, Vec<R>)>> = range.clone().into_par_iter().map(words).collect();
+        let mut batches: BTreeMap<Form, (Vec<usize>, Vec<Vec<R>>)> = BTreeMap::new();
+        for (index, one) in range.zip(prepared) {
+            if let Some((form, words)) = one {
+                let (indices, rows) = batches.entry(form).or_default();
+                indices.push(index);
+                rows.push(words);
+            }
+        }
+        batches.into_iter().map(|(form, (indices, rows))| batch(form, indices, &rows)).collect()
+    };
+    let accept = |range: Range<usize>, results: Vec<(Vec<usize>, ChunkResult<R>)>| {
+        let mut live = vec![false; range.len()];
+        for (indices, result) in results {
+            let outcomes: Vec<Outcome> = (0..indices.len())
+                .into_par_iter()
+                .map(|lane| outcome_of(spec, &plan, indices[lane], &result, lane, indices.len()))
+                .collect::<Result<_>>()?;
+            for (index, outcome) in indices.into_iter().zip(outcomes) {
+                live[index - range.start] = true;
+                take(spec, index, &mut records[index], &outcome);
+            }
+        }
+        for index in range.clone().filter(|index| !live[index - range.start]) {
+            let status = Scene::new(&spec.instance(index), plan.start).err().unwrap_or(Status::Unwritten);
+            take(spec, index, &mut records[index], &Outcome { status, ..Outcome::default() });
+        }
+        Ok(())
+    };
+    session.each(spec.grid.len(), chunk, &drive, prepare, accept)
+}
+
+/// Puts an outcome into its record; the type of the equilibrium is that of the linear analysis, where there
+/// is one.
+fn take(spec: &Spec, index: usize, record: &mut Record, outcome: &Outcome) {
+    let instance = spec.instance(index);
+    let kind = if spec.analysis.linear { record.kind } else { linear::analyse(&instance).0 };
+    take_response(record, &instance, kind, outcome);
+}
+
+/// The kernel and the words of an instance; `None` when it cannot start.
+fn words_of<R: Real>(instance: &Instance, plan: &Plan) -> Option<(Form, Vec<R>)> {
+    let scene = Scene::new(instance, plan.start).ok()?;
+    let (_, pieces) = kernel_for(scene.model.law.pieces.len())?;
+    let segments = segments(&scene, plan);
+    let ramp = segments.iter().any(|segment| segment[3] != 0.0);
+    let packed = words(&scene, &segments, pieces);
+    let narrow = packed.into_iter().map(R::from_f64).collect();
+    Some((Form { law: law_of(instance.law.kind()), pieces, ramp }, narrow))
+}
+
+/// The instances of a chunk that share a kernel.
+fn batch<R: Real>(form: Form, indices: Vec<usize>, rows: &[Vec<R>]) -> Batch<R, Vec<usize>> {
+    let (kernel, _) = kernel_for(form.pieces).unwrap_or((KERNEL, 1));
+    let mut inputs = vec![R::ZERO; rows.len() * source::words(kernel.inputs)];
+    inputs.par_chunks_mut(rows.len()).enumerate().for_each(|(word, column)| {
+        for (value, row) in column.iter_mut().zip(rows) {
+            *value = row[word];
+        }
+    });
+    Batch { kernel, choices: choices(form.law, form.ramp).to_vec(), inputs, memory: indices }
+}
+
+/// The outcome of lane `lane` of `count`.
+///
+/// # Errors
+/// When a lane that says it came to its end did not.
+fn outcome_of<R: Real>(
+    spec: &Spec,
+    plan: &Plan,
+    index: usize,
+    result: &ChunkResult<R>,
+    lane: usize,
+    count: usize,
+) -> Result<Outcome> {
+    let word = |word: usize| word * count + lane;
+    let state: Vec<R> = (0..source::words(KERNEL.state)).map(|w| result.state[word(w)]).collect();
+    let flags: Vec<u32> = (0..source::words(KERNEL.flags)).map(|w| result.flags[word(w)]).collect();
+    let unwritten = Error::Unwritten { instance: index };
+    let Ok(scene) = Scene::new(&spec.instance(index), plan.start) else { return Err(unwritten) };
+    let lane = record::read(&state, &flags).ok_or(unwritten)?;
+    let segments = segments(&scene, plan);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whole numbers of steps")]
+    let wanted: usize = segments.iter().map(|segment| segment[0] as usize).sum();
+    let found = lane.iterations as usize;
+    if lane.status == Status::Ok && (found < wanted || !lane.is_at_end(&segments)) {
+        return Err(Error::Miscounted { kernel: KERNEL.name, found, wanted });
+    }
+    Ok(outcome(&scene, plan, &segments, &lane))
+}

@@ -1,0 +1,274 @@
+//! Whole sweeps with response on the GPU: against the reference, any chunk size, two runs, every kernel.
+
+use libtest_mimic::Failed;
+use squealmap::backend::choice::{Backend, Options};
+use squealmap::grid::Value;
+use squealmap::kernel::response::{TOLERANCE, respond};
+use squealmap::kernel::source::Precision;
+use squealmap::map::Map;
+use squealmap::model::Param;
+use squealmap::outcome::{Outcome, Status};
+use squealmap::response::Plan;
+use squealmap::spec::Spec;
+use squealmap::sweep;
+
+use crate::Case;
+
+pub(crate) const CASES: &[Case] = &[
+    ("sweeps::a_coarse_paper_map_is_that_of_the_reference", coarse_paper_map),
+    ("sweeps::every_law_and_a_ramp_are_those_of_the_reference", laws_and_ramp),
+    ("sweeps::a_table_of_forty_rows_is_that_of_the_reference", table),
+    ("sweeps::any_chunk_size_and_two_runs_give_the_same_records", any_chunk),
+    ("sweeps::instances_that_cannot_start_keep_their_status", dead),
+    ("sweeps::the_comparer_sees_another_scene", planted),
+];
+
+pub(crate) const SLOW: &[Case] = &[
+    ("sweeps::paper_map_is_that_of_the_reference", paper_map),
+    ("sweeps::two_million_steps_per_instance", two_million_steps),
+];
+
+pub(crate) const F64: &[Case] = &[("sweeps::f64_is_that_of_its_twin", in_f64)];
+
+fn on_gpu(spec: &Spec, precision: Precision, chunk: Option<usize>) -> Result<Map, Failed> {
+    let options = Options { backend: Backend::Gpu, precision: Some(precision), chunk, ..Options::default() };
+    Ok(sweep::run(spec.clone(), &options, &|_| {})?)
+}
+
+fn on_cpu(spec: &Spec) -> Result<Map, Failed> {
+    Ok(sweep::run(spec.clone(), &Options { backend: Backend::Cpu, ..Options::default() }, &|_| {})?)
+}
+
+/// How a map differs from that of the reference.
+struct Differences {
+    /// One line for each instance whose status, type or regime differs.
+    labels: Vec<String>,
+    /// Relative differences of the amplitudes, of settled instances unless the belt has a ramp, rising.
+    amplitudes: Vec<f64>,
+    instances: usize,
+}
+
+impl Differences {
+    fn new(map: &Map, reference: &Map) -> Differences {
+        let mut labels = Vec::new();
+        let mut amplitudes = Vec::new();
+        assert_eq!(map.records.len(), reference.records.len());
+        for (index, (a, b)) in map.records.iter().zip(&reference.records).enumerate() {
+            if (a.status, a.kind, a.regime) != (b.status, b.kind, b.regime) {
+                let at: Vec<String> =
+                    map.spec.grid.coordinates(index).into_iter().map(Value::to_string).collect();
+                labels.push(format!(
+                    "{}: {:?} {:?} {:?} instead of {:?} {:?} {:?}",
+                    at.join(" "),
+                    a.status,
+                    a.kind,
+                    a.regime,
+                    b.status,
+                    b.kind,
+                    b.regime
+                ));
+            }
+            let (Some(a), Some(b)) = (a.outcome, b.outcome) else { continue };
+            if (a.simulated_time - b.simulated_time).abs() > 1e-12 * b.simulated_time
+                && b.status == Status::Ok
+            {
+                labels.push(format!("{index}: {} s instead of {} s", a.simulated_time, b.simulated_time));
+            }
+            let ramp = map.spec.base.get(Param::RampDuration).is_some();
+            if ramp || reference.records[index].settled == Some(true) {
+                amplitudes.extend(relative(&a, &b));
+            }
+        }
+        amplitudes.sort_by(f64::total_cmp);
+        Differences { labels, amplitudes, instances: map.records.len() }
+    }
+
+    fn quantile(&self, share: usize) -> f64 {
+        self.amplitudes[(self.amplitudes.len() - 1) * share / 100]
+    }
+
+    /// At least 99.5 % of the labels equal, amplitudes within the median and the 99th percentile.
+    fn check(&self, median: f64, p99: f64) -> Result<(), Failed> {
+        println!(
+            "{} of {} labels differ; {} amplitudes: median {:.1e}, p99 {:.1e}, worst {:.1e}",
+            self.labels.len(),
+            self.instances,
+            self.amplitudes.len(),
+            self.quantile(50),
+            self.quantile(99),
+            self.quantile(100)
+        );
+        for line in &self.labels {
+            println!("  {line}");
+        }
+        self.verdict(median, p99)
+    }
+
+    /// As [`Differences::check`], silent.
+    fn verdict(&self, median: f64, p99: f64) -> Result<(), Failed> {
+        if self.labels.len() * 200 > self.instances {
+            return Err(format!("{} of {} labels differ", self.labels.len(), self.instances).into());
+        }
+        if self.amplitudes.len() < self.instances || self.quantile(50) > median || self.quantile(99) > p99 {
+            return Err(format!("amplitudes: {:e} {:e}", self.quantile(50), self.quantile(99)).into());
+        }
+        Ok(())
+    }
+}
+
+/// Relative differences of the amplitudes; a NaN or a missing value is infinitely far.
+fn relative(a: &Outcome, b: &Outcome) -> impl Iterator<Item = f64> {
+    let pairs = [(a.x2_std, b.x2_std), (a.y1_std, b.y1_std), (a.ax_rms, b.ax_rms), (a.ay_rms, b.ay_rms)];
+    pairs.into_iter().map(|(a, b)| match (a, b) {
+        (Some(a), Some(b)) if a.is_finite() => (a - b).abs() / b.abs().max(1e-12),
+        _ => f64::INFINITY,
+    })
+}
+
+/// A sweep from the text of its file.
+fn spec(text: &str) -> Result<Spec, Failed> {
+    Ok(Spec::parse(text, "the test", "".as_ref())?)
+}
+
+/// The shipped map with `points` friction coefficients on each axis.
+fn paper_map_of(points: usize) -> Result<Spec, Failed> {
+    let text = std::fs::read_to_string("sweeps/paper_map.toml")?;
+    spec(&text.replace("points = 41", &format!("points = {points}")))
+}
+
+fn coarse_paper_map() -> Result<(), Failed> {
+    let spec = paper_map_of(7)?;
+    Differences::new(&on_gpu(&spec, Precision::F32, None)?, &on_cpu(&spec)?).check(1e-5, 2e-3)
+}
+
+fn paper_map() -> Result<(), Failed> {
+    let spec = paper_map_of(41)?;
+    Differences::new(&on_gpu(&spec, Precision::F32, None)?, &on_cpu(&spec)?).check(5e-3, 2e-2)
+}
+
+fn in_f64() -> Result<(), Failed> {
+    let spec = paper_map_of(5)?;
+    let mut twin = on_gpu(&spec, Precision::F64, None)?;
+    let map = twin.clone();
+    let plan = Plan::new(&spec);
+    for (index, record) in twin.records.iter_mut().enumerate() {
+        record.outcome = Some(respond::<f64>(&spec.instance(index), &plan, f64::from(TOLERANCE)));
+    }
+    Differences::new(&map, &twin).check(1e-12, 1e-6)
+}
+
+/// The shipped map at another normal stiffness must not pass for itself.
+fn planted() -> Result<(), Failed> {
+    let spec = paper_map_of(5)?;
+    let mut wrong = spec.clone();
+    wrong.base.set(Param::K2, 1.02 * spec.base.require(Param::K2));
+    let map = on_gpu(&wrong, Precision::F32, None)?;
+    match Differences::new(&map, &on_cpu(&spec)?).verdict(5e-3, 2e-2) {
+        Ok(()) => Err("the fault was not noticed".into()),
+        Err(_) => Ok(()),
+    }
+}
+
+/// Turns the belt of [`LAWS`] to a ramp that ends inside the measuring window.
+const RAMP: &str = "[belt]\nbelt_velocity_end = 0.3\nramp_duration = 2.5\n";
+
+/// Every law at 32 points.
+const LAWS: &str = r#"
+[friction]
+stribeck_velocity = 2.0
+decay = 0.2
+knee_velocity = 4.0
+[axes]
+law = { values = ["constant", "bilinear", "exponential", "rational"] }
+mu_s = { values = [0.3, 0.5] }
+mu_d = { values = [0.1, 0.3] }
+belt_velocity = { values = [0.8, 3.0] }
+restitution = { values = [0.0, 0.4] }
+[start]
+start_velocity = 0.3
+[response]
+settle = "2 s"
+measure = "2 s"
+"#;
+
+fn laws_and_ramp() -> Result<(), Failed> {
+    for text in [LAWS.to_owned(), LAWS.to_owned() + RAMP] {
+        let spec = spec(&text)?;
+        Differences::new(&on_gpu(&spec, Precision::F32, None)?, &on_cpu(&spec)?).check(1e-4, 5e-3)?;
+    }
+    Ok(())
+}
+
+fn table() -> Result<(), Failed> {
+    let directory = tempfile::tempdir()?;
+    // The exponential law of 40 rows, so that a run passes many kinks.
+    let row = |i: i32| {
+        let v = 0.15 * f64::from(i);
+        format!("{v},{}\n", 0.2 + 0.3 * (-v / 2.0).exp())
+    };
+    let text = "velocity,mu\n".to_owned() + &(0..40).map(row).collect::<String>();
+    std::fs::write(directory.path().join("mu.csv"), text)?;
+    std::fs::write(
+        directory.path().join("sweep.toml"),
+        "[friction]\nlaw = \"table\"\ntable = \"mu.csv\"\n\
+         [axes]\nbelt_velocity = { from = 0.2, to = 5.5, points = 24 }\n\
+         [response]\nsettle = \"3 s\"\nmeasure = \"2 s\"\n",
+    )?;
+    let spec = Spec::read(&directory.path().join("sweep.toml"))?;
+    Differences::new(&on_gpu(&spec, Precision::F32, None)?, &on_cpu(&spec)?).check(1e-4, 2e-3)
+}
+
+fn any_chunk() -> Result<(), Failed> {
+    let spec = spec(&LAWS.replace("2 s", "0.2 s"))?;
+    let whole = on_gpu(&spec, Precision::F32, None)?;
+    for chunk in [None, Some(1), Some(37)] {
+        if on_gpu(&spec, Precision::F32, chunk)?.records != whole.records {
+            return Err(format!("chunks of {chunk:?} differ").into());
+        }
+    }
+    Ok(())
+}
+
+fn dead() -> Result<(), Failed> {
+    let spec = spec(
+        "[friction]\nlaw = \"constant\"\n[belt]\nbelt_velocity = 1.0\n[model]\ntheta = -0.9\n\
+         [axes]\nmu_s = { values = [0.1, 0.3, 0.9, 3.0] }\nmu_d = { values = [0.1, 0.5, 0.9, 3.0] }\n\
+         [response]\nsettle = \"5 periods\"\nmeasure = \"5 periods\"\n",
+    )?;
+    let (gpu, cpu) = (on_gpu(&spec, Precision::F32, Some(5))?, on_cpu(&spec)?);
+    let statuses = |map: &Map| map.records.iter().map(|record| record.status).collect::<Vec<_>>();
+    let found = statuses(&gpu);
+    println!("{found:?}");
+    assert_eq!(found, statuses(&cpu));
+    for status in [Status::Ok, Status::InvalidLaw, Status::NoEquilibrium] {
+        assert!(found.contains(&status), "{status:?} does not occur");
+    }
+    Ok(())
+}
+
+fn two_million_steps() -> Result<(), Failed> {
+    // At 12 steps per period.
+    let spec = spec(
+        "[friction]\nmu_d = 0.3\nknee_velocity = 5.0\n[belt]\nbelt_velocity = 3.0\n[axes]\nmu_s = { values = [0.2, 0.5] }\n\
+         [response]\nsettle = \"166600 periods\"\nmeasure = \"100 periods\"\n",
+    )?;
+    let map = on_gpu(&spec, Precision::F32, None)?;
+    for (index, record) in map.records.iter().enumerate() {
+        let outcome = record.outcome.ok_or("no outcome")?;
+        let scene =
+            squealmap::response::Scene::new(&spec.instance(index), spec.start).map_err(Status::name)?;
+        let asked = scene.scaled(spec.settle) + scene.scaled(spec.measure);
+        let asked = asked * scene.units.time;
+        println!(
+            "{} s of {asked} s in {} steps: {:?}",
+            outcome.simulated_time, outcome.steps, outcome.status
+        );
+        if outcome.status != Status::Ok || outcome.steps < 2_000_000 {
+            return Err("not to the end".into());
+        }
+        if (outcome.simulated_time - asked).abs() > 1e-9 * asked {
+            return Err(format!("{} s instead of {asked} s", outcome.simulated_time).into());
+        }
+    }
+    Ok(())
+}
