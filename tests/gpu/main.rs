@@ -27,6 +27,8 @@ enum Lack {
     Adapter,
     /// A property of the adapter.
     F64,
+    /// A property of the system.
+    SoftwareDriver,
     /// Minutes on a software adapter; `--include-ignored` runs it.
     Time,
 }
@@ -36,6 +38,7 @@ impl Lack {
         match self {
             Lack::Adapter => "no adapter",
             Lack::F64 => "no adapter with f64",
+            Lack::SoftwareDriver => "no lavapipe",
             Lack::Time => "slow",
         }
     }
@@ -47,6 +50,7 @@ fn main() {
     let required = std::env::var_os(REQUIRE).is_some_and(|value| value == "1");
     let all = adapters.is_empty().then_some(Lack::Adapter);
     let f64 = all.or_else(|| (!adapters.iter().any(|one| one.describe().f64)).then_some(Lack::F64));
+    let software = runs::software_driver().is_none().then_some(Lack::SoftwareDriver);
     let slow = all.or(Some(Lack::Time));
     let groups = [
         (all, probes::CASES),
@@ -57,6 +61,7 @@ fn main() {
         (f64, sweeps::F64),
         (slow, sweeps::SLOW),
         (all, runs::CASES),
+        (software, runs::TWO),
         (all, faults::CASES),
     ];
     let trials = groups.into_iter().flat_map(|(lack, cases)| {

@@ -1,5 +1,6 @@
 //! The program with a GPU backend: exit codes, messages, manifest. Drivers print lines of their own.
 
+use std::path::PathBuf;
 use std::process::{Command, Output};
 
 use libtest_mimic::Failed;
@@ -12,6 +13,17 @@ pub(crate) const CASES: &[Case] = &[
     ("runs::an_adapter_that_is_not_there", no_such_adapter),
     ("runs::a_sweep_with_response_on_the_best_adapter", response),
 ];
+
+/// Cases that need the software driver's manifest.
+pub(crate) const TWO: &[Case] = &[("runs::two_adapters", two_adapters)];
+
+/// The manifests of the software Vulkan driver.
+pub(crate) fn software_driver() -> Option<PathBuf> {
+    let found = std::fs::read_dir("/usr/share/vulkan/icd.d").ok()?.flatten().map(|entry| entry.path());
+    found
+        .into_iter()
+        .find(|path| path.file_name().is_some_and(|name| name.as_encoded_bytes().starts_with(b"lvp")))
+}
 
 /// A sweep with response of four instances.
 const BELT: &str = "[friction]\nmu_d = 0.3\nknee_velocity = 5.0\n[axes]\nmu_s = { values = [0.2, 0.5] }\nbelt_velocity = { values = [1.0, 3.0] }\n\
@@ -28,6 +40,37 @@ pub(crate) fn squealmap(arguments: &[&str]) -> Result<(Output, tempfile::TempDir
         .env("NO_COLOR", "1")
         .output()?;
     Ok((output, directory))
+}
+
+fn two_adapters() -> Result<(), Failed> {
+    let driver = software_driver().ok_or("no driver")?;
+    let directory = tempfile::tempdir()?;
+    // The loader takes one driver once per path.
+    let twice = ["one.json", "two.json"].map(|name| directory.path().join(name));
+    for path in &twice {
+        std::fs::copy(&driver, path)?;
+    }
+    std::fs::write(directory.path().join("belt.toml"), BELT)?;
+    let squealmap = |arguments: &[&str]| -> std::io::Result<(Option<i32>, String, String)> {
+        let output = Command::new(env!("CARGO_BIN_EXE_squealmap"))
+            .args(arguments)
+            .current_dir(directory.path())
+            .env("VK_ICD_FILENAMES", std::env::join_paths(&twice).unwrap_or_default())
+            .env("VK_DRIVER_FILES", std::env::join_paths(&twice).unwrap_or_default())
+            .output()?;
+        Ok((output.status.code(), text(&output.stdout), text(&output.stderr)))
+    };
+    let (_, listed, _) = squealmap(&["adapters"])?;
+    assert_eq!(listed.matches("  kind      software").count(), 2, "{listed}");
+    let name = listed.lines().next().ok_or("no name")?;
+    let (code, _, err) = squealmap(&["run", "belt.toml", "--backend", "gpu", "--adapter", name])?;
+    assert_eq!(code, Some(0), "{err}");
+    let (code, _, err) = squealmap(&["run", "belt.toml", "--backend", "gpu", "--adapter", "abacus"])?;
+    assert_eq!(code, Some(2), "{err}");
+    assert!(err.contains(&format!("there are: {name}, {name}")), "{err}");
+    let (code, _, err) = squealmap(&["run", "belt.toml", "--require-gpu"])?;
+    assert_eq!(code, Some(2), "two software adapters are no GPU: {err}");
+    Ok(())
 }
 
 fn text(bytes: &[u8]) -> String {
