@@ -299,6 +299,14 @@ pub enum Error {
         /// The best adapter.
         adapter: String,
     },
+    /// An adapter that cannot round every operation by itself.
+    #[error(
+        "{adapter} does not compute strictly, which needs Vulkan; remove --strict or use --backend cpu without it"
+    )]
+    NoStrict {
+        /// The best adapter.
+        adapter: String,
+    },
     /// A hardware GPU is required but something else would compute.
     #[error("--require-gpu: {instead} would compute; remove the flag or install a GPU driver")]
     NoHardware {
@@ -311,6 +319,9 @@ pub enum Error {
     /// The CPU engine asked to compute in f32.
     #[error("the CPU engine computes in f64 only; remove --precision f32 or use --backend gpu")]
     CpuPrecision,
+    /// The CPU engine asked to be strict.
+    #[error("--strict is for a GPU, and every operation of the CPU engine is rounded by itself; remove it")]
+    CpuStrict,
     /// An adapter that cannot be opened.
     #[error("cannot open {adapter}: {why}; use --backend cpu")]
     OpenDevice {
@@ -434,9 +445,11 @@ impl Error {
             | Error::NoAdapter { .. }
             | Error::NoSuchAdapter { .. }
             | Error::NoF64 { .. }
+            | Error::NoStrict { .. }
             | Error::NoHardware { .. }
             | Error::NoGpuResponse
             | Error::CpuPrecision
+            | Error::CpuStrict
             | Error::OpenDevice { .. }
             | Error::Device { .. }
             | Error::DeviceLost { .. }
@@ -469,9 +482,11 @@ impl Error {
             | Error::NoAdapter { .. }
             | Error::NoSuchAdapter { .. }
             | Error::NoF64 { .. }
+            | Error::NoStrict { .. }
             | Error::NoHardware { .. }
             | Error::NoGpuResponse
-            | Error::CpuPrecision => true,
+            | Error::CpuPrecision
+            | Error::CpuStrict => true,
             _ => self.place().is_some(),
         }
     }

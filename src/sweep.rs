@@ -26,6 +26,7 @@ pub fn run(spec: Spec, options: &Options, progress: &(dyn Fn(usize) + Sync)) -> 
                 precision: device.precision().to_string(),
                 method,
                 adapter: Some(device.describe().to_string()),
+                strict: Some(device.strict()),
             };
             // The response kernel takes its place here; until then `choose` sends no response to a GPU.
             let (linear, response) = (on_device(gpu::linear::method()), on_device(String::new()));

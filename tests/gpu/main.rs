@@ -8,6 +8,7 @@ mod linear;
 mod probes;
 mod response;
 mod runs;
+mod strict;
 mod words;
 
 use libtest_mimic::{Arguments, Failed, Trial};
@@ -24,7 +25,7 @@ fn main() {
     let adapters = Adapter::all();
     let reason = if adapters.is_empty() { Some("no adapter") } else { None };
     let required = std::env::var_os(REQUIRE).is_some_and(|value| value == "1");
-    let all = [probes::CASES, linear::CASES, response::CASES, runs::CASES, faults::CASES];
+    let all = [probes::CASES, linear::CASES, response::CASES, runs::CASES, faults::CASES, strict::CASES];
     let trials = all.into_iter().flatten().map(|&(name, run)| match reason {
         None => Trial::test(name, run),
         Some(reason) if required => {
