@@ -301,7 +301,7 @@ pub enum Error {
     },
     /// An adapter that cannot round every operation by itself.
     #[error(
-        "{adapter} does not compute strictly, which needs Vulkan; remove --strict or use --backend cpu without it"
+        "{adapter} cannot compute strictly, which needs Vulkan; choose another with --adapter or remove --strict"
     )]
     NoStrict {
         /// The best adapter.
@@ -320,7 +320,7 @@ pub enum Error {
     #[error("the CPU engine computes in f64 only; remove --precision f32 or use --backend gpu")]
     CpuPrecision,
     /// The CPU engine asked to be strict.
-    #[error("--strict is for a GPU, and every operation of the CPU engine is rounded by itself; remove it")]
+    #[error("the CPU engine rounds every operation by itself; remove --strict or use --backend gpu")]
     CpuStrict,
     /// An adapter that cannot be opened.
     #[error("cannot open {adapter}: {why}; use --backend cpu")]

@@ -27,7 +27,8 @@ pub struct Options<'a> {
     pub backend: Backend,
     /// The scalar; `None`: f64 on the CPU, f32 on a GPU.
     pub precision: Option<Precision>,
-    /// Whether a GPU rounds every operation by itself: results are then those of the kernel's twin in every bit.
+    /// Whether a GPU rounds every operation by itself: where it also divides exactly and keeps denormals, results
+    /// are those of the kernel's twin in every bit.
     pub strict: bool,
     /// An error unless a hardware GPU computes.
     pub require_gpu: bool,

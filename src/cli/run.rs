@@ -32,7 +32,7 @@ pub(crate) struct Run {
     /// Arithmetic [default: f64 on the CPU, f32 on a GPU]
     #[arg(long, value_enum)]
     precision: Option<PrecisionName>,
-    /// GPU results equal to the bit to the same arithmetic on the CPU; needs a Vulkan adapter
+    /// A GPU rounds every operation by itself, like the twin of its kernel on the CPU; needs Vulkan
     #[arg(long)]
     strict: bool,
     /// Only a GPU with this in its name; see `squealmap adapters`

@@ -11,7 +11,7 @@ use squealmap::kernel::{linear, response, source};
 const TWINS: &[(&str, &str)] = &[(include_str!("../../src/kernel/linear.rs"), "shaders/linear.wgsl")];
 
 /// Every kernel there is, in every form.
-const KERNELS: [(&Kernel, &[(&str, Constant)]); 4] = [
+pub(crate) const KERNELS: [(&Kernel, &[(&str, Constant)]); 4] = [
     (&linear::KERNEL, &[]),
     (&response::KERNEL, &[("LAW", Constant::U32(Law::Pieces as u32))]),
     (&response::KERNEL, &[("LAW", Constant::U32(Law::Exponential as u32))]),
