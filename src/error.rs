@@ -299,6 +299,14 @@ pub enum Error {
         /// The best adapter.
         adapter: String,
     },
+    /// An adapter that cannot round every operation by itself.
+    #[error(
+        "{adapter} cannot compute strictly, which needs Vulkan; choose another with --adapter or remove --strict"
+    )]
+    NoStrict {
+        /// The best adapter.
+        adapter: String,
+    },
     /// A hardware GPU is required but something else would compute.
     #[error("--require-gpu: {instead} would compute; remove the flag or install a GPU driver")]
     NoHardware {
@@ -318,6 +326,9 @@ pub enum Error {
     /// The CPU engine asked to compute in f32.
     #[error("the CPU engine computes in f64 only; remove --precision f32 or use --backend gpu")]
     CpuPrecision,
+    /// The CPU engine asked to be strict.
+    #[error("the CPU engine rounds every operation by itself; remove --strict or use --backend gpu")]
+    CpuStrict,
     /// An adapter that cannot be opened.
     #[error("cannot open {adapter}: {why}; use --backend cpu")]
     OpenDevice {
@@ -441,9 +452,11 @@ impl Error {
             | Error::NoAdapter { .. }
             | Error::NoSuchAdapter { .. }
             | Error::NoF64 { .. }
+            | Error::NoStrict { .. }
             | Error::NoHardware { .. }
             | Error::LongTable { .. }
             | Error::CpuPrecision
+            | Error::CpuStrict
             | Error::OpenDevice { .. }
             | Error::Device { .. }
             | Error::DeviceLost { .. }
@@ -476,9 +489,11 @@ impl Error {
             | Error::NoAdapter { .. }
             | Error::NoSuchAdapter { .. }
             | Error::NoF64 { .. }
+            | Error::NoStrict { .. }
             | Error::NoHardware { .. }
             | Error::LongTable { .. }
-            | Error::CpuPrecision => true,
+            | Error::CpuPrecision
+            | Error::CpuStrict => true,
             _ => self.place().is_some(),
         }
     }

@@ -38,6 +38,8 @@ pub struct Computation {
     pub method: String,
     /// The adapter of a GPU backend.
     pub adapter: Option<String>,
+    /// Whether a GPU backend rounded every operation by itself.
+    pub strict: Option<bool>,
 }
 
 impl fmt::Display for Computation {

@@ -27,6 +27,7 @@ pub fn run(spec: Spec, options: &Options, progress: &(dyn Fn(usize) + Sync)) -> 
                 precision: device.precision().to_string(),
                 method,
                 adapter: Some(device.describe().to_string()),
+                strict: Some(device.strict()),
             };
             let (linear, response) = (on_device(gpu::linear::method()), on_device(gpu::response::method()));
             (on_gpu(&spec, &device, options, progress)?, linear, response)

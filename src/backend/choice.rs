@@ -3,7 +3,7 @@
 use std::sync::atomic::AtomicBool;
 
 use super::gpu::adapter::Adapter;
-use super::gpu::device::Device;
+use super::gpu::device::{Arithmetic, Device};
 use super::gpu::response;
 use crate::error::{Error, Result};
 use crate::kernel::source::Precision;
@@ -28,6 +28,9 @@ pub struct Options<'a> {
     pub backend: Backend,
     /// The scalar; `None`: f64 on the CPU, f32 on a GPU.
     pub precision: Option<Precision>,
+    /// Whether a GPU rounds every operation by itself: where it also divides exactly and keeps denormals, results
+    /// are those of the kernel's twin in every bit.
+    pub strict: bool,
     /// An error unless a hardware GPU computes.
     pub require_gpu: bool,
     /// Only adapters whose name contains this, in any case.
@@ -49,6 +52,11 @@ impl<'a> Options<'a> {
     pub fn cancel(&self) -> &'a AtomicBool {
         self.cancel.unwrap_or(&NEVER)
     }
+
+    /// What a GPU computes in.
+    fn arithmetic(&self) -> Arithmetic {
+        Arithmetic { precision: self.precision.unwrap_or(Precision::F32), strict: self.strict }
+    }
 }
 
 /// What computes.
@@ -66,6 +74,7 @@ pub enum Engine {
 /// When the backend that is asked for is not there, lacks the precision or cannot compute the analysis.
 pub fn choose(options: &Options, spec: &Spec) -> Result<Engine> {
     let (engine, why) = match options.backend {
+        Backend::Cpu if options.strict => return Err(Error::CpuStrict),
         Backend::Cpu => (cpu(options)?, "as asked for".to_owned()),
         Backend::Gpu => gpu(options, spec)?,
         Backend::Auto => auto(options, spec)?,
@@ -74,7 +83,8 @@ pub fn choose(options: &Options, spec: &Spec) -> Result<Engine> {
         note(&match &engine {
             Engine::Cpu => format!("computing on the CPU in f64: {why}"),
             Engine::Gpu(device) => {
-                format!("computing on {} in {}: {why}", device.describe(), device.precision())
+                let strict = if device.strict() { "strict " } else { "" };
+                format!("computing on {} in {strict}{}: {why}", device.describe(), device.precision())
             }
         });
     }
@@ -93,8 +103,8 @@ fn cpu(options: &Options) -> Result<Engine> {
 
 fn gpu(options: &Options, spec: &Spec) -> Result<(Engine, String)> {
     response::check(spec)?;
-    let precision = options.precision.unwrap_or(Precision::F32);
-    let adapter = Adapter::best(precision, options.adapter)?;
+    let arithmetic = options.arithmetic();
+    let adapter = Adapter::best(arithmetic, options.adapter)?;
     if options.require_gpu && adapter.is_software() {
         return Err(Error::NoHardware { instead: adapter.describe().to_string() });
     }
@@ -103,7 +113,7 @@ fn gpu(options: &Options, spec: &Spec) -> Result<(Engine, String)> {
     } else {
         "as asked for"
     };
-    Ok((Engine::Gpu(Device::open(&adapter, precision)?), why.to_owned()))
+    Ok((Engine::Gpu(Device::open(&adapter, arithmetic)?), why.to_owned()))
 }
 
 fn auto(options: &Options, spec: &Spec) -> Result<(Engine, String)> {
@@ -116,16 +126,18 @@ fn auto(options: &Options, spec: &Spec) -> Result<(Engine, String)> {
     if let Err(why) = response::check(spec) {
         return fallback(why.to_string());
     }
-    let precision = options.precision.unwrap_or(Precision::F32);
-    let adapter = match Adapter::best(precision, options.adapter) {
+    let arithmetic = options.arithmetic();
+    let adapter = match Adapter::best(arithmetic, options.adapter) {
         Ok(adapter) => adapter,
-        Err(why @ (Error::NoAdapter { .. } | Error::NoF64 { .. })) => return fallback(why.to_string()),
+        Err(why @ (Error::NoAdapter { .. } | Error::NoF64 { .. } | Error::NoStrict { .. })) => {
+            return fallback(why.to_string());
+        }
         Err(other) => return Err(other),
     };
     if adapter.is_software() {
         return fallback(format!("the only adapter, {}, is software", adapter.describe()));
     }
-    match Device::open(&adapter, precision) {
+    match Device::open(&adapter, arithmetic) {
         Ok(device) => Ok((Engine::Gpu(device), "the best GPU of this machine".to_owned())),
         Err(why) => fallback(why.to_string()),
     }

@@ -21,7 +21,8 @@ pub const NAME: &str = "cpu";
 /// How an analysis is computed here.
 #[must_use]
 pub fn computation(method: String) -> Computation {
-    Computation { backend: NAME.to_owned(), precision: Precision::F64.to_string(), method, adapter: None }
+    let (backend, precision) = (NAME.to_owned(), Precision::F64.to_string());
+    Computation { backend, precision, method, adapter: None, strict: None }
 }
 
 /// The method of the eigenvalue analysis in a manifest.

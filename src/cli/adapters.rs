@@ -24,12 +24,7 @@ fn describe(adapter: &Description) -> String {
     let mut text = format!("{}\n", adapter.name);
     let _ = writeln!(text, "  kind      {}, {}", adapter.device_type, adapter.api);
     let _ = writeln!(text, "  driver    {}", adapter.driver);
-    let _ = writeln!(
-        text,
-        "  features  f64 {}, SPIR-V passthrough {}",
-        yes(adapter.f64),
-        yes(adapter.passthrough)
-    );
+    let _ = writeln!(text, "  features  f64 {}, strict {}", yes(adapter.f64), yes(adapter.strict));
     let _ = writeln!(
         text,
         "  limits    {} MiB per storage binding, {} MiB per buffer, {} workgroups per dimension",

@@ -32,6 +32,9 @@ pub(crate) struct Run {
     /// Arithmetic [default: f64 on the CPU, f32 on a GPU]
     #[arg(long, value_enum)]
     precision: Option<PrecisionName>,
+    /// A GPU rounds every operation by itself, like the twin of its kernel on the CPU; needs Vulkan
+    #[arg(long)]
+    strict: bool,
     /// Only a GPU with this in its name; see `squealmap adapters`
     #[arg(long, value_name = "NAME")]
     adapter: Option<String>,
@@ -79,6 +82,7 @@ impl Run {
                 PrecisionName::F32 => Precision::F32,
                 PrecisionName::F64 => Precision::F64,
             }),
+            strict: self.strict,
             require_gpu: self.require_gpu,
             adapter: self.adapter.as_deref(),
             chunk: None,

@@ -9,6 +9,7 @@
 //! - [`linear`]: eigenvalues and attribution of one instance.
 //! - [`scene`], [`series`], [`crossing`], [`observe`], [`lane`]: the transient of one instance.
 //! - [`response`]: an instance as words of the response kernel, and its outcome (f64, host only).
+//! - [`spirv`]: a kernel as SPIR-V in which every operation on floats is rounded by itself.
 //! - [`words`]: an instance as words of the linear kernel, and back (f64, host only).
 
 pub mod crossing;
@@ -21,4 +22,5 @@ pub mod scalar;
 pub mod scene;
 pub mod series;
 pub mod source;
+pub mod spirv;
 pub mod words;

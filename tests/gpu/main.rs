@@ -8,6 +8,7 @@ mod linear;
 mod probes;
 mod response;
 mod runs;
+mod strict;
 mod sweeps;
 mod words;
 
@@ -27,6 +28,8 @@ enum Lack {
     Adapter,
     /// A property of the adapter.
     F64,
+    /// A property of the adapter.
+    Strict,
     /// A property of the system.
     SoftwareDriver,
     /// Minutes on a software adapter; `--include-ignored` runs it.
@@ -38,6 +41,7 @@ impl Lack {
         match self {
             Lack::Adapter => "no adapter",
             Lack::F64 => "no adapter with f64",
+            Lack::Strict => "no adapter that is strict",
             Lack::SoftwareDriver => "no lavapipe",
             Lack::Time => "slow",
         }
@@ -50,6 +54,7 @@ fn main() {
     let required = std::env::var_os(REQUIRE).is_some_and(|value| value == "1");
     let all = adapters.is_empty().then_some(Lack::Adapter);
     let f64 = all.or_else(|| (!adapters.iter().any(|one| one.describe().f64)).then_some(Lack::F64));
+    let strict = all.or_else(|| (!adapters.iter().any(|one| one.describe().strict)).then_some(Lack::Strict));
     let software = runs::software_driver().is_none().then_some(Lack::SoftwareDriver);
     let slow = all.or(Some(Lack::Time));
     let groups = [
@@ -63,6 +68,8 @@ fn main() {
         (all, runs::CASES),
         (software, runs::TWO),
         (all, faults::CASES),
+        (strict, strict::CASES),
+        (strict.or(f64), strict::F64),
     ];
     let trials = groups.into_iter().flat_map(|(lack, cases)| {
         cases.iter().map(move |&(name, run)| match lack {

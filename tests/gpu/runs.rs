@@ -10,6 +10,7 @@ use crate::Case;
 pub(crate) const CASES: &[Case] = &[
     ("runs::adapters_are_listed", adapters),
     ("runs::a_linear_sweep_on_the_best_adapter", linear),
+    ("runs::a_strict_linear_sweep", strict),
     ("runs::an_adapter_that_is_not_there", no_such_adapter),
     ("runs::a_sweep_with_response_on_the_best_adapter", response),
 ];
@@ -96,8 +97,25 @@ fn linear() -> Result<(), Failed> {
     let linear = &manifest["computation"]["linear"];
     assert_eq!(linear["backend"], "gpu");
     assert_eq!(linear["precision"], "f32");
+    assert_eq!(linear["strict"], false);
     assert!(linear["adapter"].as_str().is_some_and(|name| err.contains(name)), "{manifest}");
     assert!(manifest["computation"]["response"].is_null());
+    Ok(())
+}
+
+fn strict() -> Result<(), Failed> {
+    let (output, directory) = squealmap(&["run", "modes.toml", "--backend", "gpu", "--strict"])?;
+    let err = text(&output.stderr);
+    if err.contains(" cannot compute strictly, which needs Vulkan; ") {
+        assert_eq!(output.status.code(), Some(2), "{err}");
+        println!("not run: {err}");
+        return Ok(());
+    }
+    assert_eq!(output.status.code(), Some(0), "{err}");
+    assert!(err.contains(" in strict f32: "), "{err}");
+    let manifest = std::fs::read(directory.path().join("out/modes/manifest.json"))?;
+    let manifest: serde_json::Value = serde_json::from_slice(&manifest)?;
+    assert_eq!(manifest["computation"]["linear"]["strict"], true);
     Ok(())
 }
 

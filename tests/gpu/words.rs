@@ -4,12 +4,12 @@ use std::sync::atomic::AtomicBool;
 
 use libtest_mimic::Failed;
 use squealmap::backend::gpu::adapter::Adapter;
-use squealmap::backend::gpu::device::Device;
+use squealmap::backend::gpu::device::{Arithmetic, Device};
 use squealmap::backend::gpu::kernel::Compiled;
 use squealmap::backend::gpu::run::{ChunkResult, Drive, check, run};
 use squealmap::kernel::linear::{FLAGS, KERNEL, STATE, analyse};
 use squealmap::kernel::scalar::Real;
-use squealmap::kernel::source::{Precision, SETTING_WORDS, words};
+use squealmap::kernel::source::{SETTING_WORDS, words};
 use squealmap::kernel::words::{INPUT_WORDS, Words};
 use squealmap::linear::prepare;
 
@@ -30,8 +30,9 @@ pub(crate) fn drive() -> Drive<'static> {
 }
 
 /// The best adapter's device.
-pub(crate) fn device(precision: Precision) -> Result<Device, Failed> {
-    Ok(Device::open(&Adapter::best(precision, None)?, precision)?)
+pub(crate) fn device(arithmetic: impl Into<Arithmetic>) -> Result<Device, Failed> {
+    let arithmetic = arithmetic.into();
+    Ok(Device::open(&Adapter::best(arithmetic, None)?, arithmetic)?)
 }
 
 /// Word-major inputs of random instances that need the kernel.

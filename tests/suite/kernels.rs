@@ -11,7 +11,7 @@ use squealmap::kernel::{linear, response, source};
 const TWINS: &[(&str, &str)] = &[(include_str!("../../src/kernel/linear.rs"), "shaders/linear.wgsl")];
 
 /// Every kernel there is, in every form.
-const KERNELS: [(Kernel, &[(&str, Constant)]); 6] = [
+pub(crate) const KERNELS: [(Kernel, &[(&str, Constant)]); 6] = [
     (linear::KERNEL, &[]),
     (response::kernel::<1>(), &response::choices(Law::Pieces, false)),
     (response::kernel::<2>(), &response::choices(Law::Pieces, true)),

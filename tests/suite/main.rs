@@ -20,6 +20,7 @@ mod properties;
 mod regimes;
 mod response;
 mod spec;
+mod strict;
 mod sweeps;
 mod synthetic;
 mod trace_figure;

@@ -37,6 +37,10 @@ fn nothing_answers(driver: &Path) {
     assert_eq!(code, Some(2), "{err}");
     assert!(err.starts_with("error: --require-gpu: the CPU engine "), "{err}");
 
+    let (code, _, err) = with_driver(driver, &["run", "modes.toml", "--strict"]);
+    assert_eq!(code, Some(0), "{err}");
+    assert!(err.starts_with("computing on the CPU in f64: no GPU was found: "), "{err}");
+
     let (code, out, _) = with_driver(driver, &["adapters"]);
     assert_eq!(code, Some(0));
     assert!(out.starts_with("no GPU was found "), "{out}");
@@ -64,4 +68,15 @@ fn the_cpu_engine_has_no_f32() {
     );
     assert_eq!(code, Some(2), "{err}");
     assert!(err.starts_with("error: the CPU engine computes in f64 only; remove --precision f32"), "{err}");
+}
+
+#[test]
+fn the_cpu_engine_is_not_asked_to_be_strict() {
+    let (code, _, err) =
+        with_driver(Path::new("/nonexistent"), &["run", "modes.toml", "--backend", "cpu", "--strict"]);
+    assert_eq!(code, Some(2), "{err}");
+    assert!(
+        err.starts_with("error: the CPU engine rounds every operation by itself; remove --strict"),
+        "{err}"
+    );
 }

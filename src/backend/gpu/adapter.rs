@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use super::device::Arithmetic;
 use crate::error::{Error, Result};
 use crate::kernel::source::Precision;
 
@@ -37,8 +38,8 @@ pub struct Description {
     pub driver: String,
     /// Whether it computes in f64.
     pub f64: bool,
-    /// Whether it takes SPIR-V as it is, which `strict` needs.
-    pub passthrough: bool,
+    /// Whether it can round every operation by itself: through Vulkan, which takes SPIR-V as it is.
+    pub strict: bool,
     /// Most bytes of one storage binding.
     pub max_binding: u64,
     /// Most bytes of one buffer.
@@ -69,8 +70,9 @@ impl Adapter {
     /// With `name` only adapters whose name contains it, in any case.
     ///
     /// # Errors
-    /// When there is none, or none that computes in `precision`.
-    pub fn best(precision: Precision, name: Option<&str>) -> Result<Adapter> {
+    /// When there is none, or none that has the arithmetic.
+    pub fn best(arithmetic: impl Into<Arithmetic>, name: Option<&str>) -> Result<Adapter> {
+        let Arithmetic { precision, strict } = arithmetic.into();
         let mut all = Adapter::all();
         if all.is_empty() {
             return Err(Error::NoAdapter { remedy: MISSING_DRIVER });
@@ -84,8 +86,14 @@ impl Adapter {
         }
         all.sort_by_key(Adapter::rank);
         let without = all[0].describe().to_string();
-        let fits = |adapter: &Adapter| precision == Precision::F32 || adapter.describe().f64;
-        all.into_iter().find(fits).ok_or(Error::NoF64 { adapter: without })
+        all.retain(|adapter| precision == Precision::F32 || adapter.describe().f64);
+        if all.is_empty() {
+            return Err(Error::NoF64 { adapter: without });
+        }
+        let without = all[0].describe().to_string();
+        all.into_iter()
+            .find(|adapter| !strict || adapter.describe().strict)
+            .ok_or(Error::NoStrict { adapter: without })
     }
 
     /// Whether it is a program on the CPU.
@@ -126,7 +134,8 @@ impl Adapter {
             },
             driver: format!("{} {}", info.driver, info.driver_info).trim().to_owned(),
             f64: features.contains(wgpu::Features::SHADER_F64),
-            passthrough: features.contains(wgpu::Features::PASSTHROUGH_SHADERS),
+            strict: info.backend == wgpu::Backend::Vulkan
+                && features.contains(wgpu::Features::PASSTHROUGH_SHADERS),
             max_binding: limits.max_storage_buffer_binding_size,
             max_buffer: limits.max_buffer_size,
             max_workgroups: limits.max_compute_workgroups_per_dimension,

@@ -11,13 +11,29 @@ use crate::kernel::source::Precision;
 /// A submission that takes longer has hung: dispatches are cut to a tenth of a second.
 const PATIENCE: Duration = Duration::from_mins(1);
 
+/// What a device computes in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Arithmetic {
+    /// The scalar.
+    pub precision: Precision,
+    /// Whether every operation is rounded by itself, as on the CPU, at the price of some speed.
+    pub strict: bool,
+}
+
+impl From<Precision> for Arithmetic {
+    /// Not strict.
+    fn from(precision: Precision) -> Arithmetic {
+        Arithmetic { precision, strict: false }
+    }
+}
+
 /// An open device and its queue; clones are the same device.
 #[derive(Clone, Debug)]
 pub struct Device {
     pub(super) raw: wgpu::Device,
     pub(super) queue: wgpu::Queue,
     adapter: Adapter,
-    precision: Precision,
+    arithmetic: Arithmetic,
     lost: Arc<Lost>,
 }
 
@@ -40,18 +56,25 @@ impl Lost {
 }
 
 impl Device {
-    /// Opens an adapter with its own limits, and with f64 where that is asked for.
+    /// Opens an adapter with its own limits, and with f64 or strict where that is asked for.
     ///
     /// # Errors
-    /// When it lacks f64, or cannot be opened.
-    pub fn open(adapter: &Adapter, precision: Precision) -> Result<Device> {
+    /// When it lacks one of them, or cannot be opened.
+    pub fn open(adapter: &Adapter, arithmetic: impl Into<Arithmetic>) -> Result<Device> {
+        let arithmetic = arithmetic.into();
         let description = adapter.describe();
         let mut features = wgpu::Features::empty();
-        if precision == Precision::F64 {
+        if arithmetic.precision == Precision::F64 {
             if !description.f64 {
                 return Err(Error::NoF64 { adapter: description.to_string() });
             }
             features |= wgpu::Features::SHADER_F64;
+        }
+        if arithmetic.strict {
+            if !description.strict {
+                return Err(Error::NoStrict { adapter: description.to_string() });
+            }
+            features |= wgpu::Features::PASSTHROUGH_SHADERS;
         }
         let descriptor = wgpu::DeviceDescriptor {
             label: Some("squealmap"),
@@ -66,7 +89,7 @@ impl Device {
         raw.set_device_lost_callback(move |reason, message| on_lost.set(format!("{reason:?} {message}")));
         let on_error = Arc::clone(&lost);
         raw.on_uncaptured_error(Arc::new(move |error: wgpu::Error| on_error.set(error.to_string())));
-        Ok(Device { raw, queue, adapter: adapter.clone(), precision, lost })
+        Ok(Device { raw, queue, adapter: adapter.clone(), arithmetic, lost })
     }
 
     /// Opens the same adapter again, after a loss.
@@ -74,13 +97,19 @@ impl Device {
     /// # Errors
     /// As [`Device::open`].
     pub fn reopen(&self) -> Result<Device> {
-        Device::open(&self.adapter, self.precision)
+        Device::open(&self.adapter, self.arithmetic)
     }
 
     /// The scalar it was opened for.
     #[must_use]
     pub fn precision(&self) -> Precision {
-        self.precision
+        self.arithmetic.precision
+    }
+
+    /// Whether every operation is rounded by itself.
+    #[must_use]
+    pub fn strict(&self) -> bool {
+        self.arithmetic.strict
     }
 
     /// Whether it is a program on the CPU, or may be one.

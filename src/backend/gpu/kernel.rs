@@ -1,8 +1,12 @@
 //! A kernel compiled for a device and a scalar, and the buffers of one chunk bound to it.
 
+use std::num::NonZeroU64;
+
 use super::device::Device;
-use crate::error::Result;
-use crate::kernel::source::{BINDINGS, Constant, Kernel, words};
+use super::strict;
+use crate::error::{Error, Result};
+use crate::kernel::source::{BINDINGS, Constant, Kernel, Settings, words};
+use crate::kernel::spirv::Strict;
 
 /// A kernel ready to be dispatched.
 #[derive(Debug)]
@@ -28,11 +32,20 @@ impl Compiled {
     /// When the device rejects it.
     pub fn from_source(device: &Device, kernel: &Kernel, source: &str) -> Result<Compiled> {
         let what = format!("compiling the {} kernel", kernel.name);
+        let strict = if device.strict() {
+            let module = Strict::new(source, device.precision());
+            Some(module.map_err(|why| Error::Device { what: what.clone(), why })?)
+        } else {
+            None
+        };
         let (pipeline, layout) = device.checked(&what, || {
-            let module = device.raw.create_shader_module(wgpu::ShaderModuleDescriptor {
-                label: Some(kernel.name),
-                source: wgpu::ShaderSource::Wgsl(source.into()),
-            });
+            let module = match &strict {
+                Some(module) => strict::module(device, kernel.name, module),
+                None => device.raw.create_shader_module(wgpu::ShaderModuleDescriptor {
+                    label: Some(kernel.name),
+                    source: wgpu::ShaderSource::Wgsl(source.into()),
+                }),
+            };
             pipeline(device, kernel, &module)
         })?;
         Ok(Compiled { kernel: *kernel, pipeline, layout })
@@ -51,7 +64,11 @@ fn pipeline(
     kernel: &Kernel,
     module: &wgpu::ShaderModule,
 ) -> (wgpu::ComputePipeline, wgpu::BindGroupLayout) {
-    let entries: Vec<wgpu::BindGroupLayoutEntry> = (0..).take(BINDINGS.len()).map(entry).collect();
+    let scalar = device.precision().bytes();
+    let least: [usize; BINDINGS.len()] =
+        [size_of::<Settings>(), scalar, scalar, size_of::<u32>(), size_of::<u32>()];
+    let entries: Vec<wgpu::BindGroupLayoutEntry> =
+        (0..).zip(least).map(|(binding, least)| entry(binding, least)).collect();
     let layout = device.raw.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
         label: Some(kernel.name),
         entries: &entries,
@@ -72,8 +89,8 @@ fn pipeline(
     (pipeline, layout)
 }
 
-/// One binding of the contract.
-fn entry(binding: u32) -> wgpu::BindGroupLayoutEntry {
+/// One binding of the contract, of at least so many bytes.
+fn entry(binding: u32, least: usize) -> wgpu::BindGroupLayoutEntry {
     let ty = match binding {
         0 => wgpu::BufferBindingType::Uniform,
         1 => wgpu::BufferBindingType::Storage { read_only: true },
@@ -82,7 +99,11 @@ fn entry(binding: u32) -> wgpu::BindGroupLayoutEntry {
     wgpu::BindGroupLayoutEntry {
         binding,
         visibility: wgpu::ShaderStages::COMPUTE,
-        ty: wgpu::BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None },
+        ty: wgpu::BindingType::Buffer {
+            ty,
+            has_dynamic_offset: false,
+            min_binding_size: NonZeroU64::new(least as u64),
+        },
         count: None,
     }
 }

@@ -3,6 +3,7 @@
 //! - [`adapter`]: which adapters there are, what they can do, which one is taken.
 //! - [`device`]: an open device: error scopes, waiting with a limit, device lost.
 //! - [`kernel`]: a kernel compiled for a device and a scalar.
+//! - [`strict`]: a kernel in which every operation is rounded by itself.
 //! - [`run`]: one chunk of instances through a kernel, dispatch by dispatch.
 //! - [`chunks`]: a whole sweep chunk by chunk; a lost device is opened again once.
 //! - [`linear`]: the eigenvalue analysis of a sweep.
@@ -15,6 +16,7 @@ pub mod kernel;
 pub mod linear;
 pub mod response;
 pub mod run;
+pub mod strict;
 
 /// The name of the backend in a manifest.
 pub const NAME: &str = "gpu";

@@ -1,0 +1,279 @@
+//! Strict kernels against their twins: on a software driver every bit of every word is the same; on hardware,
+//! where a division may be off by 2.5 ulp and denormals may be 0, the differing instances are counted.
+
+use std::time::Instant;
+
+use libtest_mimic::Failed;
+use rayon::prelude::*;
+use squealmap::backend::gpu::device::{Arithmetic, Device};
+use squealmap::backend::gpu::kernel::Compiled;
+use squealmap::backend::gpu::run::{ChunkResult, Drive, run};
+use squealmap::integrate::STEP_TOLERANCE;
+use squealmap::kernel::lane::Lane;
+use squealmap::kernel::record::write;
+use squealmap::kernel::response::{TOLERANCE, choices, kernel, segments, words};
+use squealmap::kernel::scalar::Real;
+use squealmap::kernel::scene::{Law, Scene as Words};
+use squealmap::kernel::source::{Constant, FLAG_STEPS, Kernel, Precision, SETTING_WORDS};
+use squealmap::kernel::{linear, source};
+use squealmap::method::taylor::REFERENCE_ORDER;
+use squealmap::model::friction::FrictionLaw;
+use squealmap::model::{Param, Params};
+use squealmap::outcome::Status;
+use squealmap::response::{Plan, Scene};
+use squealmap::spec::{Duration, Instance, StartKind};
+
+use crate::Case;
+use crate::instances::Uniform;
+use crate::words::{device, drive, inputs, on_cpu};
+
+/// Instances of a comparison.
+const COUNT: usize = 65_536;
+
+/// Instances of a planted fault.
+const FEW: usize = 2000;
+
+/// Steps of an instance that chatters.
+const LONG: u32 = 150;
+
+/// Pieces of the longest law.
+const PIECES: usize = 2;
+
+/// The response kernel.
+const RESPONSE: Kernel = kernel::<PIECES>();
+
+pub(crate) const CASES: &[Case] = &[
+    ("strict::linear_equals_its_twin_in_every_bit", linear_equals::<f32>),
+    ("strict::pieces_equal_their_twin_in_every_bit", || response_equals(Law::Pieces, &[false, true])),
+    ("strict::exponential_equals_its_twin_in_every_bit", || response_equals(Law::Exponential, &[true])),
+    ("strict::rational_equals_its_twin_in_every_bit", || response_equals(Law::Rational, &[true])),
+    ("strict::one_changed_operation_is_noticed", changed_operation),
+    ("strict::one_ulp_in_one_scene_is_noticed", changed_scene),
+];
+
+pub(crate) const F64: &[Case] =
+    &[("strict::linear_in_f64_equals_its_twin_in_every_bit", linear_equals::<f64>)];
+
+/// The instances whose words are not the same to the bit, and what the first of them differs in.
+fn differing<R: Real>(
+    kernel: &Kernel,
+    actual: &ChunkResult<R>,
+    expected: &ChunkResult<R>,
+) -> Result<(usize, String), Failed> {
+    let count = expected.flags.len() / source::words(kernel.flags);
+    if (actual.state.len(), actual.flags.len()) != (expected.state.len(), expected.flags.len()) {
+        return Err("results of different sizes".into());
+    }
+    let mut differs = vec![false; count];
+    let mut first = String::new();
+    let mut note = |index: usize, a: String, b: String| {
+        if first.is_empty() {
+            first = format!("word {} of instance {}: {a} instead of {b}", index / count, index % count);
+        }
+        differs[index % count] = true;
+    };
+    for (index, (a, b)) in actual.flags.iter().zip(&expected.flags).enumerate() {
+        if a != b {
+            note(index, format!("flag {a}"), format!("{b}"));
+        }
+    }
+    for (index, (a, b)) in actual.state.iter().zip(&expected.state).enumerate() {
+        let (a, b) = (a.to_f64(), b.to_f64());
+        if a.to_bits() != b.to_bits() {
+            note(index, format!("{a:e}"), format!("{b:e}"));
+        }
+    }
+    Ok((differs.into_iter().filter(|one| *one).count(), first))
+}
+
+/// A kernel over word-major inputs on an open device.
+fn on_gpu<R: Real>(
+    device: &Device,
+    kernel: &Kernel,
+    source: &str,
+    inputs: &[R],
+) -> Result<ChunkResult<R>, Failed> {
+    let compiled = Compiled::from_source(device, kernel, source)?;
+    let mut settings = [0; SETTING_WORDS];
+    settings[0] = TOLERANCE.to_bits();
+    Ok(run(device, &compiled, inputs, &Drive { settings, most_dispatches: 100_000, ..drive() })?)
+}
+
+/// Instances in a chunk of their own, and what the twin makes of them.
+struct Group<R> {
+    inputs: Vec<R>,
+    twin: ChunkResult<R>,
+}
+
+/// Compares a kernel with its twin, strict or not as `modes` say, and prints how many instances differ.
+fn compared<R: Real>(
+    kernel: &Kernel,
+    choices: &[(&str, Constant)],
+    groups: &[Group<R>],
+    modes: &[bool],
+) -> Result<(), Failed> {
+    let text = kernel.source(R::PRECISION, choices);
+    for strict in modes {
+        let device = device(Arithmetic { precision: R::PRECISION, strict: *strict })?;
+        let (mut instances, mut different, mut first) = (0, 0, String::new());
+        let began = Instant::now();
+        for group in groups {
+            let actual = on_gpu(&device, kernel, &text, &group.inputs)?;
+            let (count, what) = differing(kernel, &actual, &group.twin)?;
+            instances += group.twin.flags.len() / source::words(kernel.flags);
+            different += count;
+            first += &what;
+        }
+        let mode = if *strict { "strict" } else { "not strict" };
+        println!(
+            "{mode}: {different} of {instances} instances differ, {:.1} s on {}",
+            began.elapsed().as_secs_f64(),
+            device.describe()
+        );
+        let software = device.describe().device_type == "software";
+        if instances != COUNT || *strict && software && different > 0 {
+            return Err(format!("{different} of {instances} instances differ: {first}").into());
+        }
+    }
+    Ok(())
+}
+
+fn linear_equals<R: Real>() -> Result<(), Failed> {
+    let inputs = inputs::<R>(COUNT);
+    let twin = on_cpu(&inputs);
+    compared(&linear::KERNEL, &[], &[Group { inputs, twin }], &[false, true])
+}
+
+/// A random instance of a law.
+fn instance(u: &mut Uniform, law: Law) -> Instance {
+    let mut params = Params::default();
+    let velocity = u.log(0.05, 10.0);
+    params.set(Param::BeltVelocity, velocity);
+    if u.next() < 0.25 {
+        params.set(Param::BeltVelocityEnd, 2.0 * velocity * u.next());
+        params.set(Param::RampDuration, u.log(1e-3, 1.0));
+    }
+    params.set(Param::Theta, 0.9 * u.next() - 0.3);
+    params.set(Param::StartVelocity, 2.0 * velocity * u.next());
+    params.set(Param::StartDisplacement, 1e-3 * (u.next() - 0.5));
+    params.set(Param::Restitution, (1.5 * u.next() - 0.5).max(0.0));
+    let (mu_s, mu_d, scale) = (0.9 * u.next(), 0.9 * u.next(), u.log(0.1, 10.0));
+    let law = match law {
+        Law::Pieces => FrictionLaw::Bilinear { mu_s, mu_d, knee_velocity: scale },
+        Law::Exponential => FrictionLaw::Exponential { mu_s, mu_d, stribeck_velocity: scale },
+        Law::Rational => FrictionLaw::Rational { mu_s, decay: scale },
+    };
+    Instance { params, law, impact_friction: u.next() < 0.5 }
+}
+
+/// One instance and its twin at the end.
+struct Run {
+    words: Vec<f64>,
+    state: Vec<f32>,
+    flags: Vec<u32>,
+}
+
+/// Random instances that can be integrated, run by the twin.
+fn runs(law: Law, count: usize) -> Vec<Run> {
+    let plan = Plan {
+        start: StartKind::Kick,
+        settle: Duration::Periods(0.5),
+        measure: Duration::Periods(1.5),
+        steps_per_period: 12,
+        order: REFERENCE_ORDER,
+        tolerance: STEP_TOLERANCE,
+    };
+    let mut u = Uniform(11);
+    let words: Vec<Vec<f64>> = std::iter::repeat_with(|| instance(&mut u, law))
+        .filter_map(|one| Scene::new(&one, plan.start).ok())
+        .map(|scene| words(&scene, &segments(&scene, &plan), PIECES))
+        .take(count)
+        .collect();
+    words
+        .into_par_iter()
+        .map(|words| {
+            let scene = Words::read(law, PIECES, &words);
+            let mut lane = Lane::new(&scene);
+            lane.run(&scene, TOLERANCE);
+            let (state, flags) = write(&lane);
+            Run { words, state, flags }
+        })
+        .collect()
+}
+
+/// Runs as word-major inputs and results.
+#[expect(clippy::cast_possible_truncation, reason = "the narrowing of the host")]
+fn group(runs: &[Run]) -> Group<f32> {
+    let [inputs, state, flags] = [RESPONSE.inputs, RESPONSE.state, RESPONSE.flags].map(source::words);
+    Group {
+        inputs: (0..inputs).flat_map(|word| runs.iter().map(move |one| one.words[word] as f32)).collect(),
+        twin: ChunkResult {
+            state: (0..state).flat_map(|word| runs.iter().map(move |one| one.state[word])).collect(),
+            flags: (0..flags).flat_map(|word| runs.iter().map(move |one| one.flags[word])).collect(),
+        },
+    }
+}
+
+fn response_equals(law: Law, modes: &[bool]) -> Result<(), Failed> {
+    let runs = runs(law, COUNT);
+    println!("{law:?}: {}", variety(&runs));
+    // Those that chatter take many times the steps: all others would wait for them.
+    let (long, short): (Vec<Run>, Vec<Run>) = runs.into_iter().partition(|one| one.flags[FLAG_STEPS] > LONG);
+    let groups: Vec<Group<f32>> =
+        [short, long].iter().filter(|some| !some.is_empty()).map(|some| group(some)).collect();
+    compared(&RESPONSE, &choices(law, true), &groups, modes)
+}
+
+/// How the twins end, and how many saw what: the comparison is worth what the instances do.
+fn variety(runs: &[Run]) -> String {
+    let many = |name: &str, holds: fn(u32) -> bool| {
+        let fields = RESPONSE.flags.iter().take_while(|field| field.name != name);
+        let word: usize = fields.map(|field| field.words).sum();
+        runs.iter().filter(|one| holds(one.flags[word])).count()
+    };
+    format!(
+        "{} ok, {} at the limit of events, {} take more than {LONG} steps; {} end out of slip, {} impact, \
+         {} pass the window twice, {} have events",
+        many("status", |status| status == Status::Ok as u32),
+        many("status", |status| status == Status::EventLimit as u32),
+        many("steps", |steps| steps > LONG),
+        many("contact", |contact| contact > 0),
+        many("impacts", |impacts| impacts > 0),
+        many("second_pass", |pass| pass > 0),
+        many("growth_closed", |closed| closed > 0),
+    )
+}
+
+/// The strict kernel of a changed text, or of changed inputs, against the right twin.
+fn noticed(text: &str, group: &Group<f32>) -> Result<(), Failed> {
+    let strict = Arithmetic { precision: Precision::F32, strict: true };
+    let actual = on_gpu(&device(strict)?, &RESPONSE, text, &group.inputs)?;
+    match differing(&RESPONSE, &actual, &group.twin)? {
+        (0, _) => Err("the fault was not noticed".into()),
+        (count, first) => {
+            println!("{count} instances differ, {first}");
+            Ok(())
+        }
+    }
+}
+
+fn text() -> String {
+    RESPONSE.source(Precision::F32, &choices(Law::Pieces, true))
+}
+
+fn changed_operation() -> Result<(), Failed> {
+    let (from, to) = ("weight * (x.v * x.v + w.v * w.v)", "weight * (w.v * w.v) + weight * (x.v * x.v)");
+    let changed = text().replace(from, to);
+    if changed == text() {
+        return Err("nothing was changed".into());
+    }
+    noticed(&changed, &group(&runs(Law::Pieces, FEW)))
+}
+
+fn changed_scene() -> Result<(), Failed> {
+    let mut group = group(&runs(Law::Pieces, FEW));
+    // k2 of instance 77.
+    let word = &mut group.inputs[4 * FEW + 77];
+    *word = word.next_up();
+    noticed(&text(), &group)
+}
