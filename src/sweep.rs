@@ -3,22 +3,24 @@
 use std::time::Instant;
 
 use crate::backend::choice::{Engine, Options, choose};
+use crate::backend::computed::Computed;
 use crate::backend::{cpu, gpu};
 use crate::error::Result;
 use crate::map::{Computation, Map, Provenance};
 use crate::spec::Spec;
 
 /// Computes a sweep; the CPU's part runs on the rayon pool it is called in. `progress` gets the number of
-/// newly finished instances.
+/// newly finished instances. A run that is cancelled or fails on its way gives what is done, see
+/// [`Map::stopped`].
 ///
 /// # Errors
-/// When the backend cannot compute the sweep, fails, or the run is cancelled.
+/// When the backend cannot compute the sweep, or the run is cancelled or fails before any instance is done.
 pub fn run(spec: Spec, options: &Options, progress: &(dyn Fn(usize) + Sync)) -> Result<Map> {
     let began = Instant::now();
-    let (records, linear, response) = match choose(options, spec.analysis)? {
+    let (computed, linear, response) = match choose(options, spec.analysis)? {
         Engine::Cpu => {
-            let records = cpu::records(&spec, options.cancel(), progress)?;
-            (records, cpu::computation(cpu::linear_method()), cpu::computation(cpu::method()))
+            let computed = cpu::records(&spec, options.cancel(), progress)?;
+            (computed, cpu::computation(cpu::linear_method()), cpu::computation(cpu::method()))
         }
         Engine::Gpu(device) => {
             let on_device = |method| Computation {
@@ -38,5 +40,6 @@ pub fn run(spec: Spec, options: &Options, progress: &(dyn Fn(usize) + Sync)) -> 
         threads: rayon::current_num_threads(),
         elapsed: began.elapsed(),
     };
-    Ok(Map { spec, records, provenance })
+    let Computed { records, stopped } = computed;
+    Ok(Map { spec, records, stopped, provenance })
 }

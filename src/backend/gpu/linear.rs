@@ -8,6 +8,7 @@ use super::chunks::Session;
 use super::device::Device;
 use super::run::{ChunkResult, Drive};
 use crate::backend::choice::Options;
+use crate::backend::computed::Computed;
 use crate::classify::InstabilityType;
 use crate::error::{Error, Result};
 use crate::kernel::linear::KERNEL;
@@ -35,13 +36,13 @@ pub fn method() -> String {
 /// The records of a sweep with their linear part, in the order of its grid.
 ///
 /// # Errors
-/// When the device fails, or the run is cancelled.
+/// When the device fails or the run is cancelled before the first chunk is done, or a result is in doubt.
 pub fn records(
     spec: &Spec,
     device: Device,
     options: &Options,
     progress: &(dyn Fn(usize) + Sync),
-) -> Result<Vec<Record>> {
+) -> Result<Computed> {
     match device.precision() {
         Precision::F32 => records_in::<f32>(spec, device, options, progress),
         Precision::F64 => records_in::<f64>(spec, device, options, progress),
@@ -56,7 +57,7 @@ fn records_in<R: Real>(
     device: Device,
     options: &Options,
     progress: &(dyn Fn(usize) + Sync),
-) -> Result<Vec<Record>> {
+) -> Result<Computed> {
     let total = spec.grid.len();
     let mut records = Vec::with_capacity(total);
     let mut session = Session::new(device, &KERNEL, &[])?;
@@ -75,8 +76,8 @@ fn records_in<R: Real>(
     let accept = |_: Range<usize>, known: Vec<Known>, result: Option<ChunkResult<R>>| {
         append(&mut records, known, result.as_ref())
     };
-    session.each(total, options.chunk.unwrap_or(usize::MAX), &drive, prepare, accept)?;
-    Ok(records)
+    let ended = session.each(total, options.chunk.unwrap_or(usize::MAX), &drive, prepare, accept);
+    Computed::new(records, total, ended)
 }
 
 /// Instance `index` before the kernel.
