@@ -134,7 +134,10 @@ fn draw_points(
     frame: &Frame,
 ) {
     let Some((x_column, y_column)) = panels.scatter else { return };
-    for instance in &panel.instances {
+    // Nothing that was computed is covered by a point that was not.
+    let mut instances = panel.instances.clone();
+    instances.sort_by_key(|instance| !not_computed(&map.records[*instance], colouring));
+    for instance in &instances {
         let coordinates = map.spec.grid.coordinates(*instance);
         let x = frame.across(coordinates.get(x_column).map_or(0.5, |value| panels.x.position(value)));
         let up = match (&panels.y, y_column) {
