@@ -231,7 +231,7 @@ pub enum Error {
         /// Instances of the grid.
         instances: usize,
     },
-    /// A map holds an instance that was never computed.
+    /// A map holds an instance that was never computed, without a reason.
     #[error("instance {instance} was never computed; nothing was exported")]
     Unwritten {
         /// The first such instance.
@@ -353,7 +353,7 @@ pub enum Error {
     },
     /// A device that was opened again and lost again.
     #[error(
-        "the GPU was lost twice: {why}; {done} of {total} instances were done and nothing was written; \
+        "the GPU was lost twice: {why}; {done} of {total} instances were done; \
          use --backend cpu or fewer instances"
     )]
     DeviceLostAgain {
@@ -398,7 +398,7 @@ pub enum Error {
         /// Dispatches.
         dispatches: u64,
     },
-    /// A run that was stopped from outside.
+    /// A run that was stopped from outside before anything was done, or a chunk of one.
     #[error("stopped after {done} of {total} instances; nothing was written")]
     Cancelled {
         /// Finished instances.

@@ -8,10 +8,14 @@ mod cli;
 
 fn main() -> ExitCode {
     match cli::Cli::parse().execute() {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(code) => code,
         Err(error) => {
             cli::report::report(&error);
-            ExitCode::from(if error.is_bad_input() { 2 } else { 1 })
+            ExitCode::from(match error {
+                squealmap::Error::Cancelled { .. } => cli::INTERRUPTED,
+                error if error.is_bad_input() => 2,
+                _ => 1,
+            })
         }
     }
 }

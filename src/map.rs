@@ -6,6 +6,7 @@ use std::time::Duration;
 use serde::Serialize;
 
 use crate::classify::{InstabilityType, Regime};
+use crate::error::{Error, Result};
 use crate::linear::Linear;
 use crate::outcome::{Outcome, Status};
 use crate::spec::Spec;
@@ -25,6 +26,53 @@ pub struct Record {
     pub settled: Option<bool>,
     /// The response, when asked for.
     pub outcome: Option<Outcome>,
+}
+
+impl Record {
+    /// An instance that a stopped run did not come to.
+    pub const NOT_COMPUTED: Record = Record {
+        status: Status::NotComputed,
+        kind: None,
+        linear: None,
+        regime: None,
+        settled: None,
+        outcome: None,
+    };
+}
+
+/// Why a run stopped before its end.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Stopped {
+    /// From outside, by Ctrl-C.
+    Cancelled,
+    /// By a failure that says nothing against what was done before: what the device said.
+    Failed(String),
+}
+
+impl TryFrom<Error> for Stopped {
+    type Error = Error;
+
+    /// # Errors
+    /// The error itself when it puts what was done in doubt, as a kernel that miscounts does.
+    fn try_from(error: Error) -> Result<Stopped> {
+        match error {
+            Error::Cancelled { .. } => Ok(Stopped::Cancelled),
+            Error::OpenDevice { .. }
+            | Error::Device { .. }
+            | Error::DeviceLost { .. }
+            | Error::DeviceLostAgain { .. } => Ok(Stopped::Failed(error.to_string())),
+            doubtful => Err(doubtful),
+        }
+    }
+}
+
+impl fmt::Display for Stopped {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Stopped::Cancelled => "cancelled",
+            Stopped::Failed(why) => why,
+        })
+    }
 }
 
 /// Where and how one analysis was computed.
@@ -61,13 +109,23 @@ pub struct Provenance {
     pub elapsed: Duration,
 }
 
-/// A computed sweep. `records[i]` belongs to instance `i` of `spec.grid`.
+/// A computed sweep, all of it or as far as it came. `records[i]` belongs to instance `i` of `spec.grid`.
 #[derive(Clone, Debug)]
 pub struct Map {
     /// The sweep.
     pub spec: Spec,
     /// One record per instance.
     pub records: Vec<Record>,
+    /// Why some records are [`Status::NotComputed`]; `None` when none is.
+    pub stopped: Option<Stopped>,
     /// Where and how.
     pub provenance: Provenance,
+}
+
+impl Map {
+    /// How many instances were computed.
+    #[must_use]
+    pub fn computed(&self) -> usize {
+        self.records.iter().filter(|record| record.status != Status::NotComputed).count()
+    }
 }

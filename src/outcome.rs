@@ -7,7 +7,7 @@ use serde::Serialize;
 #[serde(rename_all = "snake_case")]
 #[repr(u32)]
 pub enum Status {
-    /// Never computed; not legal in a finished map.
+    /// Left out by what should have computed it; legal nowhere.
     #[default]
     Unwritten = 0,
     /// Computed to the end.
@@ -24,10 +24,12 @@ pub enum Status {
     StepTooLarge = 6,
     /// The state left the range of finite numbers.
     NonFinite = 7,
+    /// The run was stopped before it came to this instance.
+    NotComputed = 8,
 }
 
 impl Status {
-    /// Every status that may stand in a finished map.
+    /// Every way in which a computed instance ends: all that an engine or a kernel may return.
     pub const ALL: [Status; 7] = [
         Status::Ok,
         Status::InvalidLaw,
@@ -36,6 +38,18 @@ impl Status {
         Status::EventLimit,
         Status::StepTooLarge,
         Status::NonFinite,
+    ];
+
+    /// Every status that may stand in a map: those of [`Status::ALL`], and what a stopped run leaves.
+    pub const IN_MAP: [Status; 8] = [
+        Status::Ok,
+        Status::InvalidLaw,
+        Status::NoEquilibrium,
+        Status::Painleve,
+        Status::EventLimit,
+        Status::StepTooLarge,
+        Status::NonFinite,
+        Status::NotComputed,
     ];
 
     /// The name in `map.csv`.
@@ -50,6 +64,7 @@ impl Status {
             Status::EventLimit => "event_limit",
             Status::StepTooLarge => "step_too_large",
             Status::NonFinite => "non_finite",
+            Status::NotComputed => "not_computed",
         }
     }
 }

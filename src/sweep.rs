@@ -3,6 +3,7 @@
 use std::time::Instant;
 
 use crate::backend::choice::{Engine, Options, choose};
+use crate::backend::computed::Computed;
 use crate::backend::gpu::device::Device;
 use crate::backend::{cpu, gpu};
 use crate::error::Result;
@@ -10,16 +11,17 @@ use crate::map::{Computation, Map, Provenance, Record};
 use crate::spec::{Analysis, Spec};
 
 /// Computes a sweep; the CPU's part runs on the rayon pool it is called in. `progress` gets the number of
-/// newly finished instances.
+/// newly finished instances. A run that is cancelled or fails on its way gives what is done, see
+/// [`Map::stopped`].
 ///
 /// # Errors
-/// When the backend cannot compute the sweep, fails, or the run is cancelled.
+/// When the backend cannot compute the sweep, or the run is cancelled or fails before any instance is done.
 pub fn run(spec: Spec, options: &Options, progress: &(dyn Fn(usize) + Sync)) -> Result<Map> {
     let began = Instant::now();
-    let (records, linear, response) = match choose(options, &spec)? {
+    let (computed, linear, response) = match choose(options, &spec)? {
         Engine::Cpu => {
-            let records = cpu::records(&spec, options.cancel(), progress)?;
-            (records, cpu::computation(cpu::linear_method()), cpu::computation(cpu::method()))
+            let computed = cpu::records(&spec, options.cancel(), progress)?;
+            (computed, cpu::computation(cpu::linear_method()), cpu::computation(cpu::method()))
         }
         Engine::Gpu(device) => {
             let on_device = |method| Computation {
@@ -39,25 +41,30 @@ pub fn run(spec: Spec, options: &Options, progress: &(dyn Fn(usize) + Sync)) -> 
         threads: rayon::current_num_threads(),
         elapsed: began.elapsed(),
     };
-    Ok(Map { spec, records, provenance })
+    let Computed { records, stopped } = computed;
+    Ok(Map { spec, records, stopped, provenance })
 }
 
-/// The records of a sweep from a GPU; only the last analysis counts as progress.
+/// The records of a sweep from a GPU; only the last analysis counts as progress, and only what has all of
+/// them is done.
 fn on_gpu(
     spec: &Spec,
     device: &Device,
     options: &Options,
     progress: &(dyn Fn(usize) + Sync),
-) -> Result<Vec<Record>> {
+) -> Result<Computed> {
     let Analysis { linear, response } = spec.analysis;
-    let quiet = |_: usize| {};
-    let mut records = if linear {
-        gpu::linear::records(spec, device, options, if response { &quiet } else { progress })?
-    } else {
-        vec![Record::default(); spec.grid.len()]
-    };
-    if response {
-        gpu::response::complete(spec, device, options, progress, &mut records)?;
+    let total = spec.grid.len();
+    let mut records = Vec::with_capacity(total);
+    let mut ended = Ok(());
+    if linear {
+        let progress = if response { &|_: usize| {} } else { progress };
+        ended = gpu::linear::append(spec, device, options, progress, &mut records);
     }
-    Ok(records)
+    if response {
+        ended?;
+        records.resize(total, Record::default());
+        ended = gpu::response::complete(spec, device, options, progress, &mut records);
+    }
+    Computed::new(records, total, ended)
 }

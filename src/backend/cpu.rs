@@ -4,6 +4,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use rayon::prelude::*;
 
+use crate::backend::computed::Computed;
 use crate::backend::take_response;
 use crate::error::{Error, Result};
 use crate::kernel::source::Precision;
@@ -37,25 +38,27 @@ pub fn method() -> String {
     format!("Taylor series of order {REFERENCE_ORDER}, events located in the step")
 }
 
-/// Computes every instance of a sweep in the order of its grid; `progress` gets the number newly finished.
+/// Computes a sweep; `progress` gets the number newly finished. Once `cancel` is set no instance is begun;
+/// those under way are finished.
 ///
 /// # Errors
-/// When `cancel` was set before every instance was begun.
-pub fn records(spec: &Spec, cancel: &AtomicBool, progress: &(dyn Fn(usize) + Sync)) -> Result<Vec<Record>> {
+/// When `cancel` was set before any instance was begun.
+pub fn records(spec: &Spec, cancel: &AtomicBool, progress: &(dyn Fn(usize) + Sync)) -> Result<Computed> {
     let total = spec.grid.len();
     let records: Vec<Record> = (0..total)
         .into_par_iter()
         .map(|index| {
             if cancel.load(Ordering::Relaxed) {
-                return Record::default();
+                return Record::NOT_COMPUTED;
             }
             let record = record(spec, index);
             progress(1);
             record
         })
         .collect();
-    let unwritten = records.iter().filter(|record| record.status == Status::Unwritten).count();
-    if unwritten > 0 { Err(Error::Cancelled { done: total - unwritten, total }) } else { Ok(records) }
+    let done = records.iter().filter(|record| record.status != Status::NotComputed).count();
+    let ended = if done < total { Err(Error::Cancelled { done, total }) } else { Ok(()) };
+    Computed::new(records, total, ended)
 }
 
 /// Computes instance `index` of a sweep.

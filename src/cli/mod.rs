@@ -12,6 +12,7 @@ mod trace;
 
 use std::io::Write;
 use std::path::PathBuf;
+use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
 use squealmap::Result;
@@ -39,6 +40,9 @@ enum Command {
     Trace(trace::TraceCommand),
 }
 
+/// The exit code after Ctrl-C: 128 and the number of the signal, as shells have it.
+pub(crate) const INTERRUPTED: u8 = 130;
+
 /// The sweep file and where its results go.
 #[derive(Debug, Args)]
 struct Files {
@@ -58,18 +62,16 @@ impl Files {
 }
 
 impl Cli {
-    /// Runs the command.
-    pub(crate) fn execute(self) -> Result<()> {
+    /// Runs the command and gives the exit code.
+    pub(crate) fn execute(self) -> Result<ExitCode> {
         match self.command {
-            Command::Run(command) => command.execute(),
-            Command::Adapters => {
-                adapters::execute();
-                Ok(())
-            }
-            Command::Check(command) => command.execute(),
-            Command::Modes(command) => command.execute(),
-            Command::Trace(command) => command.execute(),
+            Command::Run(command) => return command.execute(),
+            Command::Adapters => adapters::execute(),
+            Command::Check(command) => command.execute()?,
+            Command::Modes(command) => command.execute()?,
+            Command::Trace(command) => command.execute()?,
         }
+        Ok(ExitCode::SUCCESS)
     }
 }
 

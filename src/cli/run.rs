@@ -1,5 +1,6 @@
 //! `squealmap run`: a whole sweep.
 
+use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -7,13 +8,14 @@ use clap::{Args, ValueEnum};
 use squealmap::backend::choice::{Backend, Options};
 use squealmap::export::{csv, figure, manifest, png};
 use squealmap::kernel::source::Precision;
+use squealmap::map::Stopped;
 use squealmap::spec::Spec;
 use squealmap::{Error, Result, sweep};
 
 use crate::cli::output::{Output, list};
 use crate::cli::progress::{Progress, seconds};
 use crate::cli::summary::summary;
-use crate::cli::{Files, note, print};
+use crate::cli::{Files, INTERRUPTED, note, print};
 
 /// What is written.
 const FILES: [&str; 4] = ["map.csv", "manifest.json", "map.png", "map.svg"];
@@ -60,7 +62,8 @@ enum PrecisionName {
 }
 
 impl Run {
-    pub(crate) fn execute(self) -> Result<()> {
+    pub(crate) fn execute(self) -> Result<ExitCode> {
+        let cancel = stop_at_ctrl_c()?;
         let spec = Spec::read(&self.files.sweep)?;
         let output = Output::prepare(self.files.directory(), &FILES)?;
         let threads = self.threads.map_or(0, usize::from);
@@ -70,7 +73,6 @@ impl Run {
             .map_err(|why| Error::Threads { threads, why: why.to_string() })?;
 
         let progress = Progress::new(spec.grid.len());
-        let cancel = stop_at_ctrl_c()?;
         let note = |text: &str| note(text);
         let options = Options {
             backend: match self.backend {
@@ -103,20 +105,38 @@ impl Run {
         let paths = output.write(&files)?;
 
         let elapsed = map.provenance.elapsed.as_secs_f64();
-        let rate = map.records.len() as f64 / elapsed.max(f64::MIN_POSITIVE);
+        let computed = map.computed();
+        let rate = computed as f64 / elapsed.max(f64::MIN_POSITIVE);
+        let of = if map.stopped.is_some() { format!(" of {}", map.records.len()) } else { String::new() };
         print(&format!(
-            "{} instances in {} on {} thread(s), {rate:.0} instances/s\n\n{}\n{}",
-            map.records.len(),
+            "{computed}{of} instances in {} on {} thread(s), {rate:.0} instances/s\n\n{}\n{}",
             seconds(elapsed),
             map.provenance.threads,
             summary(&map),
             list(&paths)
         ));
-        Ok(())
+        Ok(map.stopped.as_ref().map_or(ExitCode::SUCCESS, |why| ended(why, computed, map.records.len())))
     }
 }
 
-/// A flag that Ctrl-C sets; the run then ends between two instances or dispatches.
+/// Says that a sweep is not complete, and gives the exit code.
+fn ended(stopped: &Stopped, done: usize, total: usize) -> ExitCode {
+    let code = match stopped {
+        Stopped::Cancelled => INTERRUPTED,
+        Stopped::Failed(why) => {
+            note(&format!("error: {why}"));
+            1
+        }
+    };
+    note(&format!(
+        "stopped after {done} of {total} instances; wrote what is done, the others are `not_computed`; \
+         run the same command again to compute all"
+    ));
+    ExitCode::from(code)
+}
+
+/// A flag that Ctrl-C sets; the run then ends between two instances or dispatches. Set before anything is
+/// made on the disk; a second Ctrl-C changes nothing, so that no file is left half written.
 fn stop_at_ctrl_c() -> Result<Arc<AtomicBool>> {
     let cancel = Arc::new(AtomicBool::new(false));
     let flag = Arc::clone(&cancel);

@@ -9,8 +9,9 @@ use super::panels::{Panel, Panels};
 use super::svg::{Svg, number};
 use crate::classify::InstabilityType;
 use crate::map::{Map, Record};
+use crate::outcome::Status;
 
-/// Fill of cells without a result.
+/// Fill of cells without a result, or not computed.
 pub(super) const FAILED_FILL: &str = "#FFFFFF";
 /// Border lines between classes.
 const BORDER: &str = r##"fill="none" stroke="#000000" stroke-width="0.5" stroke-linejoin="round""##;
@@ -30,6 +31,9 @@ pub(super) fn define_patterns(svg: &mut Svg) {
         ));
     }
     svg.define(
+        r##"<pattern id="not-computed" patternUnits="userSpaceOnUse" width="4" height="4"><path d="M-1 3L1 5M0 0L4 4M3 -1L5 1" stroke="#B4B4B4" stroke-width="0.4"/></pattern>"##,
+    );
+    svg.define(
         r##"<pattern id="failed" patternUnits="userSpaceOnUse" width="3" height="3"><path d="M0 0L3 3M3 0L0 3" stroke="#C00000" stroke-width="0.5"/></pattern>"##,
     );
 }
@@ -42,6 +46,11 @@ pub(super) fn unsettled_fill(dark: bool) -> &'static str {
 /// Whether hatching applies: only the response settles.
 fn unsettled(record: &Record, colouring: Colouring) -> bool {
     colouring == Colouring::Regime && record.settled == Some(false)
+}
+
+/// Whether a stopped run did not come to what a colouring shows of an instance.
+pub(super) fn not_computed(record: &Record, colouring: Colouring) -> bool {
+    record.status == Status::NotComputed && colouring.class(record).is_none()
 }
 
 /// Draws the content of a panel into its frame.
@@ -79,9 +88,14 @@ fn draw_cells(svg: &mut Svg, map: &Map, panels: &Panels, panel: &Panel, colourin
         let data = region(&|i, j| class(i, j) == Some(k));
         svg.path(&data, &format!(r#"class="{}" fill="{}""#, look.name, look.fill));
     }
-    let failed = region(&|i, j| class(i, j).is_none());
-    svg.path(&failed, &format!(r#"class="failed" fill="{FAILED_FILL}""#));
+    let blank = |i: usize, j: usize| not_computed(record(i, j), colouring);
+    let failed = region(&|i, j| class(i, j).is_none() && !blank(i, j));
+    let missing = region(&blank);
+    for (name, data) in [("failed", &failed), ("not_computed", &missing)] {
+        svg.path(data, &format!(r#"class="{name}" fill="{FAILED_FILL}""#));
+    }
     svg.close();
+    svg.path(&missing, r#"fill="url(#not-computed)" fill-rule="evenodd""#);
     svg.path(&failed, r#"fill="url(#failed)" fill-rule="evenodd""#);
     for dark in [false, true] {
         let hatched = region(&|i, j| {
@@ -97,7 +111,9 @@ fn draw_cells(svg: &mut Svg, map: &Map, panels: &Panels, panel: &Panel, colourin
         let sides = [record(a.0, a.1).kind, record(b.0, b.1).kind].map(|kind| kind.map(is_stable));
         colouring == Colouring::Regime && matches!(sides, [Some(one), Some(other)] if one != other)
     };
-    svg.path(&lines(&|a, b| class(a.0, a.1) != class(b.0, b.1) && !limit(a, b)), BORDER);
+    // Where a run stopped is no border between classes.
+    let known = |a: Vertex, b: Vertex| !blank(a.0, a.1) && !blank(b.0, b.1);
+    svg.path(&lines(&|a, b| class(a.0, a.1) != class(b.0, b.1) && known(a, b) && !limit(a, b)), BORDER);
     let limit = lines(&limit);
     for stroke in LIMIT {
         svg.path(&limit, stroke);
@@ -118,7 +134,10 @@ fn draw_points(
     frame: &Frame,
 ) {
     let Some((x_column, y_column)) = panels.scatter else { return };
-    for instance in &panel.instances {
+    // Nothing that was computed is covered by a point that was not.
+    let mut instances = panel.instances.clone();
+    instances.sort_by_key(|instance| !not_computed(&map.records[*instance], colouring));
+    for instance in &instances {
         let coordinates = map.spec.grid.coordinates(*instance);
         let x = frame.across(coordinates.get(x_column).map_or(0.5, |value| panels.x.position(value)));
         let up = match (&panels.y, y_column) {
@@ -126,6 +145,10 @@ fn draw_points(
             _ => 0.5,
         };
         let record = &map.records[*instance];
+        if not_computed(record, colouring) {
+            missing_point(svg, x, frame.up(up));
+            continue;
+        }
         point(svg, x, frame.up(up), colouring.class(record).map(|k| &colouring.classes()[k]));
         if unsettled(record, colouring) {
             let dark = colouring.class(record).is_some_and(|k| colouring.classes()[k].dark);
@@ -155,6 +178,13 @@ fn point(svg: &mut Svg, x: f64, y: f64, class: Option<&super::palette::Class>) {
             .map(|(a, b, c, d)| super::svg::polyline([(x + a, y + b), (x + c, y + d)]));
         svg.path(&cross.concat(), r##"fill="none" stroke="#C00000" stroke-width="0.9""##);
     }
+}
+
+/// A point that was not computed: hatched, in a thin grey line.
+fn missing_point(svg: &mut Svg, x: f64, y: f64) {
+    svg.circle(x, y, POINT_RADIUS, &format!(r#"class="not_computed" fill="{FAILED_FILL}""#));
+    let hatch = r##"fill="url(#not-computed)" stroke="#B4B4B4" stroke-width="0.5""##;
+    svg.circle(x, y, POINT_RADIUS, hatch);
 }
 
 /// Path data along cell edges: horizontal and vertical steps only.

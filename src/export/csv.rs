@@ -1,16 +1,16 @@
 //! `map.csv`: one row per instance, in the order of the grid.
 
+use super::accounted;
 use super::columns::columns;
-use super::complete;
 use crate::error::{Error, Result};
 use crate::map::Map;
 
 /// The table of a map: UTF-8, comma separated, one header row, `\n` line ends.
 ///
 /// # Errors
-/// When an instance was never computed.
+/// When an instance was never computed, and not because the run was stopped.
 pub fn map_csv(map: &Map) -> Result<Vec<u8>> {
-    complete(map)?;
+    accounted(map)?;
     let columns = columns(&map.spec);
     let mut table = Table::new(columns.iter().map(|column| column.name))?;
     for index in 0..map.records.len() {

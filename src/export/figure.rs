@@ -3,9 +3,9 @@
 //! The first two numeric axes are the picture, further axes small multiples. Colour is the type of
 //! instability and, in a second block, the regime of the response. Explicit tuples are points.
 
+use super::accounted;
 use super::block::Block;
 use super::cells::define_patterns;
-use super::complete;
 use super::frame::{LABEL_SIZE, TITLE_SIZE};
 use super::manifest::{COMMIT, VERSION};
 use super::palette::Colouring;
@@ -27,9 +27,9 @@ const BLOCK_GAP: f64 = 16.0;
 /// The stability map as an SVG document: double column width, single column when it is one picture only.
 ///
 /// # Errors
-/// When an instance was never computed.
+/// When an instance was never computed, and not because the run was stopped.
 pub fn map_svg(map: &Map) -> Result<String> {
-    complete(map)?;
+    accounted(map)?;
     let panels = Panels::new(&map.spec.grid);
     let analysis = map.spec.analysis;
     let colourings: Vec<Colouring> =
@@ -88,11 +88,12 @@ fn provenance(map: &Map) -> String {
         computation.as_ref().map(|computation| format!("; {name} {computation}")).unwrap_or_default()
     };
     format!(
-        "{}{}{}; {} instances",
+        "{}{}{}; {} instances{}",
         program(),
         part("linear", &made.linear),
         part("response", &made.response),
-        map.records.len()
+        map.records.len(),
+        map.stopped.as_ref().map(|_| format!(", {} of them computed", map.computed())).unwrap_or_default()
     )
 }
 

@@ -1,6 +1,6 @@
 //! The legend of a block: only what occurs, with shares or counts.
 
-use super::cells::{FAILED_FILL, LIMIT, is_stable, unsettled_fill};
+use super::cells::{FAILED_FILL, LIMIT, is_stable, not_computed, unsettled_fill};
 use super::frame::LABEL_SIZE;
 use super::palette::Colouring;
 use super::svg::{Anchor, Style, Svg, number};
@@ -24,6 +24,7 @@ enum Swatch {
     Fill(&'static str),
     Unsettled,
     Failed,
+    NotComputed,
     Limit,
 }
 
@@ -49,7 +50,8 @@ impl Legend {
                 entries.push((Swatch::Unsettled, Text::from(format!("unsettled {}", share(n)))));
             }
         }
-        let failed = classes.iter().filter(|class| class.is_none()).count();
+        let missing = map.records.iter().filter(|record| not_computed(record, colouring)).count();
+        let failed = classes.iter().filter(|class| class.is_none()).count() - missing;
         if failed > 0 {
             let of = |status: Status| {
                 map.records.iter().zip(&classes).filter(|(r, c)| r.status == status && c.is_none()).count()
@@ -62,6 +64,9 @@ impl Legend {
             let reasons =
                 if reasons.is_empty() { String::new() } else { format!(": {}", reasons.join(", ")) };
             entries.push((Swatch::Failed, Text::from(format!("no result{reasons} {}", share(failed)))));
+        }
+        if missing > 0 {
+            entries.push((Swatch::NotComputed, Text::from(format!("not computed {}", share(missing)))));
         }
         let stable = |wanted| map.records.iter().any(|record| record.kind.map(is_stable) == Some(wanted));
         if colouring == Colouring::Regime && cells && stable(true) && stable(false) {
@@ -101,6 +106,10 @@ fn draw_swatch(svg: &mut Svg, swatch: &Swatch, x: f64, y: f64) {
             svg.rect(area, &format!(r#"fill="{FAILED_FILL}""#));
             svg.rect(area, r#"fill="url(#failed)""#);
         }
+        Swatch::NotComputed => {
+            svg.rect(area, &format!(r#"fill="{FAILED_FILL}""#));
+            svg.rect(area, r#"fill="url(#not-computed)""#);
+        }
         Swatch::Limit => {
             let line = format!("M{} {}h{}", number(x), number(y + 0.5 * SWATCH[1]), number(SWATCH[0]));
             svg.path(&line, LIMIT[1]);
@@ -113,7 +122,7 @@ fn draw_swatch(svg: &mut Svg, swatch: &Swatch, x: f64, y: f64) {
 /// A status in words.
 fn reason(status: Status) -> &'static str {
     match status {
-        Status::Unwritten => "not computed",
+        Status::Unwritten | Status::NotComputed => "not computed",
         Status::Ok => "ok",
         Status::InvalidLaw => "invalid law",
         Status::NoEquilibrium => "no equilibrium",

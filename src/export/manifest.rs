@@ -2,8 +2,8 @@
 
 use serde_json::{Map as Object, Value, json};
 
+use super::accounted;
 use super::columns::columns;
-use super::complete;
 use crate::classify::{InstabilityType, Regime};
 use crate::error::{Error, Result};
 use crate::map::{Map, Record};
@@ -18,12 +18,12 @@ pub const COMMIT: Option<&str> = option_env!("SQUEALMAP_COMMIT");
 /// The manifest of a map: UTF-8 JSON, indented.
 ///
 /// # Errors
-/// When an instance was never computed.
+/// When an instance was never computed, and not because the run was stopped.
 pub fn manifest_json(map: &Map) -> Result<Vec<u8>> {
-    complete(map)?;
+    accounted(map)?;
     let provenance = &map.provenance;
     let seconds = provenance.elapsed.as_secs_f64();
-    let instances = map.records.len();
+    let computed = map.computed();
     let gaining = map.records.iter().filter_map(|record| record.outcome?.energy_gaining_impacts);
     let columns: Vec<Value> = columns(&map.spec)
         .iter()
@@ -32,13 +32,16 @@ pub fn manifest_json(map: &Map) -> Result<Vec<u8>> {
     let manifest = json!({
         "title": map.spec.title,
         "program": { "name": env!("CARGO_PKG_NAME"), "version": VERSION, "git_commit": COMMIT },
+        "complete": map.stopped.is_none(),
         "computation": {
             "linear": provenance.linear,
             "response": provenance.response,
             "threads": provenance.threads,
-            "instances": instances,
+            "instances": map.records.len(),
+            "computed": computed,
+            "stopped": map.stopped.as_ref().map(ToString::to_string),
             "elapsed_seconds": seconds,
-            "instances_per_second": (seconds > 0.0).then(|| instances as f64 / seconds),
+            "instances_per_second": (seconds > 0.0).then(|| computed as f64 / seconds),
         },
         "counts": counts(map),
         "energy_gaining_impacts": gaining.reduce(|a, b| a + b),
@@ -62,7 +65,7 @@ fn counts(map: &Map) -> Value {
         result.insert("regime".to_owned(), occurring(&regimes));
         result.insert("unsettled".to_owned(), json!(count(map, |r| r.settled == Some(false))));
     }
-    let statuses = Status::ALL.map(|status| (status.name(), count(map, |r| r.status == status)));
+    let statuses = Status::IN_MAP.map(|status| (status.name(), count(map, |r| r.status == status)));
     result.insert("status".to_owned(), occurring(&statuses));
     Value::Object(result)
 }

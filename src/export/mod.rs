@@ -27,16 +27,22 @@ pub mod trace;
 mod trace_figure;
 
 use crate::error::{Error, Result};
-use crate::map::Map;
+use crate::map::{Map, Record};
 use crate::outcome::Status;
 
-/// A map with a missing or an unwritten record is an error, never a row or a picture.
-fn complete(map: &Map) -> Result<()> {
+/// A map with a missing or an unwritten record is an error, never a row or a picture; so is one that lacks
+/// instances without having been stopped.
+fn accounted(map: &Map) -> Result<()> {
     let expected = map.spec.grid.len();
     if map.records.len() != expected {
         return Err(Error::Incomplete { records: map.records.len(), instances: expected });
     }
-    match map.records.iter().position(|record| record.status == Status::Unwritten) {
+    let unaccounted = |record: &Record| match record.status {
+        Status::Unwritten => true,
+        Status::NotComputed => map.stopped.is_none(),
+        _ => false,
+    };
+    match map.records.iter().position(unaccounted) {
         Some(instance) => Err(Error::Unwritten { instance }),
         None => Ok(()),
     }

@@ -2,8 +2,13 @@
 
 use std::path::PathBuf;
 use std::process::{Command, Output};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use libtest_mimic::Failed;
+use squealmap::backend::choice::{Backend, Options};
+use squealmap::map::{Record, Stopped};
+use squealmap::spec::Spec;
+use squealmap::{Error, export, sweep};
 
 use crate::Case;
 
@@ -11,6 +16,7 @@ pub(crate) const CASES: &[Case] = &[
     ("runs::adapters_are_listed", adapters),
     ("runs::a_linear_sweep_on_the_best_adapter", linear),
     ("runs::a_strict_linear_sweep", strict),
+    ("runs::a_cancelled_sweep_keeps_its_chunks", cancelled),
     ("runs::an_adapter_that_is_not_there", no_such_adapter),
     ("runs::a_sweep_with_response_on_the_best_adapter", response),
 ];
@@ -117,6 +123,38 @@ fn strict() -> Result<(), Failed> {
     let manifest: serde_json::Value = serde_json::from_slice(&manifest)?;
     assert_eq!(manifest["computation"]["linear"]["strict"], true);
     Ok(())
+}
+
+fn cancelled() -> Result<(), Failed> {
+    const CHUNK: usize = 1000;
+    let mut spec = Spec::read("sweeps/paper_map.toml".as_ref())?;
+    spec.analysis.response = false;
+    let total = spec.grid.len();
+    let (cancel, done) = (AtomicBool::new(false), AtomicUsize::new(0));
+    let options =
+        Options { backend: Backend::Gpu, chunk: Some(CHUNK), cancel: Some(&cancel), ..Options::default() };
+    let whole = sweep::run(spec.clone(), &options, &|_| {})?;
+    assert_eq!((whole.computed(), &whole.stopped), (total, &None));
+    // In the third chunk; what it had finished by then is done to its end.
+    let map = sweep::run(spec.clone(), &options, &|count| {
+        if done.fetch_add(count, Ordering::Relaxed) + count > 2 * CHUNK {
+            cancel.store(true, Ordering::Relaxed);
+        }
+    })?;
+    assert_eq!((map.computed(), &map.stopped), (3 * CHUNK, &Some(Stopped::Cancelled)));
+    assert_eq!(map.records[..3 * CHUNK], whole.records[..3 * CHUNK]);
+    assert!(map.records[3 * CHUNK..].iter().all(|record| *record == Record::NOT_COMPUTED));
+    let csv = String::from_utf8(export::csv::map_csv(&map)?)?;
+    assert_eq!(csv.lines().count(), 1 + total);
+    assert_eq!(csv.lines().filter(|line| line.ends_with(",not_computed")).count(), total - 3 * CHUNK);
+    let manifest: serde_json::Value = serde_json::from_slice(&export::manifest::manifest_json(&map)?)?;
+    assert_eq!((&manifest["complete"], &manifest["computation"]["computed"]), (&false.into(), &3000.into()));
+    export::figure::map_svg(&map)?;
+    // Before the first chunk there is nothing.
+    match sweep::run(spec, &options, &|_| {}) {
+        Err(Error::Cancelled { done: 0, total: of }) if of == total => Ok(()),
+        other => Err(format!("{:?}", other.map(|map| map.computed())).into()),
+    }
 }
 
 fn no_such_adapter() -> Result<(), Failed> {

@@ -209,6 +209,7 @@ fn group(runs: &[Run]) -> Group<f32> {
         inputs: (0..inputs).flat_map(|word| runs.iter().map(move |one| one.words[word] as f32)).collect(),
         twin: ChunkResult {
             state: (0..state).flat_map(|word| runs.iter().map(move |one| one.state[word])).collect(),
+            cancelled: false,
             flags: (0..flags).flat_map(|word| runs.iter().map(move |one| one.flags[word])).collect(),
         },
     }

@@ -1,15 +1,17 @@
 //! Whole sweeps with response on the GPU: against the reference, any chunk size, two runs, every kernel.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use libtest_mimic::Failed;
 use squealmap::backend::choice::{Backend, Options};
 use squealmap::grid::Value;
 use squealmap::kernel::response::{TOLERANCE, respond};
 use squealmap::kernel::source::Precision;
-use squealmap::map::Map;
+use squealmap::map::{Map, Record, Stopped};
 use squealmap::model::Param;
 use squealmap::outcome::{Outcome, Status};
 use squealmap::response::Plan;
-use squealmap::spec::Spec;
+use squealmap::spec::{Duration, Spec};
 use squealmap::sweep;
 
 use crate::Case;
@@ -20,6 +22,7 @@ pub(crate) const CASES: &[Case] = &[
     ("sweeps::a_table_of_forty_rows_is_that_of_the_reference", table),
     ("sweeps::any_chunk_size_and_two_runs_give_the_same_records", any_chunk),
     ("sweeps::instances_that_cannot_start_keep_their_status", dead),
+    ("sweeps::a_cancelled_sweep_keeps_what_is_finished", cancelled),
     ("sweeps::the_comparer_sees_another_scene", planted),
 ];
 
@@ -225,6 +228,24 @@ fn any_chunk() -> Result<(), Failed> {
         if on_gpu(&spec, Precision::F32, chunk)?.records != whole.records {
             return Err(format!("chunks of {chunk:?} differ").into());
         }
+    }
+    Ok(())
+}
+
+fn cancelled() -> Result<(), Failed> {
+    let mut spec = paper_map_of(4)?;
+    (spec.settle, spec.measure) = (Duration::Periods(10.0), Duration::Periods(10.0));
+    let whole = on_gpu(&spec, Precision::F32, None)?;
+    let cancel = AtomicBool::new(false);
+    let options = Options { backend: Backend::Gpu, cancel: Some(&cancel), ..Options::default() };
+    // Instances with fewer events end in earlier dispatches of the one chunk.
+    let map = sweep::run(spec, &options, &|_| cancel.store(true, Ordering::Relaxed))?;
+    let computed = map.computed();
+    println!("{computed} of {} instances were finished", map.records.len());
+    assert_eq!(map.stopped, Some(Stopped::Cancelled));
+    assert!(0 < computed && computed < map.records.len());
+    for (found, expected) in map.records.iter().zip(&whole.records) {
+        assert!(*found == Record::NOT_COMPUTED || found == expected);
     }
     Ok(())
 }

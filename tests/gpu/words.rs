@@ -54,6 +54,7 @@ pub(crate) fn on_cpu<R: Real>(inputs: &[R]) -> ChunkResult<R> {
         (0..count).map(|instance| analyse(&|word| inputs[word * count + instance])).collect();
     ChunkResult {
         state: (0..words(&STATE)).flat_map(|word| results.iter().map(move |one| one.state[word])).collect(),
+        cancelled: false,
         flags: (0..words(&FLAGS)).flat_map(|word| results.iter().map(move |one| one.flags[word])).collect(),
     }
 }

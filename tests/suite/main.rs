@@ -9,6 +9,8 @@ mod export;
 mod extremes;
 mod figure;
 mod instances;
+#[cfg(unix)]
+mod interrupt;
 mod kernel_linear;
 mod kernel_response;
 mod kernels;
@@ -20,6 +22,7 @@ mod properties;
 mod regimes;
 mod response;
 mod spec;
+mod stopped;
 mod strict;
 mod sweeps;
 mod synthetic;

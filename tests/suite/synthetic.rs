@@ -52,7 +52,7 @@ pub(crate) fn map(grid: Grid, record: impl Fn(usize, &[&Value]) -> Record) -> Ma
         threads: 2,
         elapsed: Duration::from_millis(2500),
     };
-    Map { spec: spec(grid), records, provenance }
+    Map { spec: spec(grid), records, stopped: None, provenance }
 }
 
 /// A finished record of this type and regime.

@@ -73,7 +73,7 @@ impl Session {
     /// Runs `total` instances in chunks of at most `chunk`.
     ///
     /// `prepare` makes the batches of a range, of as many instances as it likes; `accept` gets the range and
-    /// each batch's memory and result.
+    /// each batch's memory and result, also of a chunk that was cancelled on its way.
     ///
     /// # Errors
     /// Those of [`run`]; a device lost for the second time.
@@ -102,7 +102,11 @@ impl Session {
             let drive_chunk = Drive { offset: start, progress: &progress, ..*drive };
             match self.run(prepare(range.clone()), &drive_chunk) {
                 Ok(results) => {
+                    let cancelled = results.iter().any(|(_, result)| result.cancelled);
                     accept(range.clone(), results)?;
+                    if cancelled {
+                        return Err(Error::Cancelled { done: start, total });
+                    }
                     let rest = range.len().saturating_sub(reported.swap(0, Ordering::Relaxed));
                     (drive.progress)(rest);
                     start = range.end;
@@ -119,7 +123,6 @@ impl Session {
                 Err(Error::Unwritten { instance }) => {
                     return Err(Error::Unwritten { instance: start + instance });
                 }
-                Err(Error::Cancelled { .. }) => return Err(Error::Cancelled { done: start, total }),
                 Err(other) => return Err(other),
             }
         }
@@ -135,12 +138,15 @@ impl Session {
         let mut results = Vec::with_capacity(batches.len());
         for batch in batches {
             if batch.inputs.is_empty() {
-                results.push((batch.memory, ChunkResult { state: Vec::new(), flags: Vec::new() }));
+                results.push((batch.memory, ChunkResult::nothing(&batch.kernel, 0)));
                 continue;
             }
-            let compiled = self.compiled(&batch.kernel, &batch.choices)?;
-            results
-                .push((batch.memory, run(&self.device, &self.compiled[compiled].1, &batch.inputs, drive)?));
+            let place = self.compiled(&batch.kernel, &batch.choices)?;
+            let result = match run(&self.device, &self.compiled[place].1, &batch.inputs, drive) {
+                Err(Error::Cancelled { total, .. }) => ChunkResult::nothing(&batch.kernel, total),
+                other => other?,
+            };
+            results.push((batch.memory, result));
         }
         Ok(results)
     }

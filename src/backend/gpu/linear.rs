@@ -32,33 +32,34 @@ pub fn method() -> String {
     "two quadratic factors by a bracketed Newton search".to_owned()
 }
 
-/// The records of a sweep with their linear part, in the order of its grid.
+/// Appends the records of a sweep with their linear part, in the order of its grid; when it ends early, those
+/// behind them are not computed.
 ///
 /// # Errors
-/// When the device fails, or the run is cancelled.
-pub fn records(
+/// When the device fails, the run is cancelled, or a result is in doubt.
+pub fn append(
     spec: &Spec,
     device: &Device,
     options: &Options,
     progress: &(dyn Fn(usize) + Sync),
-) -> Result<Vec<Record>> {
+    records: &mut Vec<Record>,
+) -> Result<()> {
     match device.precision() {
-        Precision::F32 => records_in::<f32>(spec, device, options, progress),
-        Precision::F64 => records_in::<f64>(spec, device, options, progress),
+        Precision::F32 => append_in::<f32>(spec, device, options, progress, records),
+        Precision::F64 => append_in::<f64>(spec, device, options, progress, records),
     }
 }
 
 /// What is known of an instance before the kernel: a record, and its words where it needs the kernel.
 type Known = (Record, Option<Words>);
 
-fn records_in<R: Real>(
+fn append_in<R: Real>(
     spec: &Spec,
     device: &Device,
     options: &Options,
     progress: &(dyn Fn(usize) + Sync),
-) -> Result<Vec<Record>> {
-    let total = spec.grid.len();
-    let mut records = Vec::with_capacity(total);
+    records: &mut Vec<Record>,
+) -> Result<()> {
     let mut session = Session::new(device.clone());
     let chunk = options.chunk.unwrap_or(usize::MAX).min(session.chunk_size::<R>(&KERNEL));
     let drive = Drive {
@@ -74,10 +75,9 @@ fn records_in<R: Real>(
         vec![Batch { kernel: KERNEL, choices: Vec::new(), inputs: inputs(&known), memory: known }]
     };
     let accept = |_: Range<usize>, results: Vec<(Vec<Known>, ChunkResult<R>)>| {
-        results.into_iter().try_for_each(|(known, result)| append(&mut records, known, &result))
+        results.into_iter().try_for_each(|(known, result)| take(records, known, &result))
     };
-    session.each(total, chunk, &drive, prepare, accept)?;
-    Ok(records)
+    session.each(spec.grid.len(), chunk, &drive, prepare, accept)
 }
 
 /// Instance `index` before the kernel.
@@ -108,13 +108,18 @@ fn inputs<R: Real>(known: &[Known]) -> Vec<R> {
 }
 
 /// Completes the records of a chunk and appends them.
-fn append<R: Real>(records: &mut Vec<Record>, known: Vec<Known>, result: &ChunkResult<R>) -> Result<()> {
+fn take<R: Real>(records: &mut Vec<Record>, known: Vec<Known>, result: &ChunkResult<R>) -> Result<()> {
     let count = known.iter().filter(|(_, words)| words.is_some()).count();
     let mut next = 0;
     for (mut record, words) in known {
         if let Some(words) = words {
             let flag = |word: usize| result.flags[word * count + next];
             let done = flag(FLAG_STEPS);
+            if result.cancelled && flag(FLAG_STATUS) == Status::Unwritten as u32 {
+                records.push(Record::NOT_COMPUTED);
+                next += 1;
+                continue;
+            }
             if done != crate::kernel::linear::POLYNOMIALS {
                 let wanted = crate::kernel::linear::POLYNOMIALS as usize;
                 return Err(Error::Miscounted { kernel: KERNEL.name, found: done as usize, wanted });

@@ -18,7 +18,7 @@ use crate::kernel::response::{
 use crate::kernel::scalar::Real;
 use crate::kernel::scene::Law;
 use crate::kernel::series::ORDER;
-use crate::kernel::source::{self, Precision, SETTING_WORDS};
+use crate::kernel::source::{self, FLAG_STATUS, Precision, SETTING_WORDS};
 use crate::linear;
 use crate::map::Record;
 use crate::outcome::{Outcome, Status};
@@ -48,7 +48,7 @@ fn pieces_of(spec: &Spec) -> usize {
     spec.table.as_ref().map_or(0, |table| table.velocity.len()).max(2)
 }
 
-/// Completes the records of a sweep with their response.
+/// Completes the records of a sweep with their response; when it ends early, those without are not computed.
 ///
 /// # Errors
 /// When the device fails, or the run is cancelled.
@@ -111,13 +111,16 @@ fn complete_in<R: Real>(
     let accept = |range: Range<usize>, results: Vec<(Vec<usize>, ChunkResult<R>)>| {
         let mut live = vec![false; range.len()];
         for (indices, result) in results {
-            let outcomes: Vec<Outcome> = (0..indices.len())
+            let outcomes: Vec<Option<Outcome>> = (0..indices.len())
                 .into_par_iter()
                 .map(|lane| outcome_of(spec, &plan, indices[lane], &result, lane, indices.len()))
                 .collect::<Result<_>>()?;
             for (index, outcome) in indices.into_iter().zip(outcomes) {
                 live[index - range.start] = true;
-                take(spec, index, &mut records[index], &outcome);
+                match outcome {
+                    Some(outcome) => take(spec, index, &mut records[index], &outcome),
+                    None => records[index] = Record::NOT_COMPUTED,
+                }
             }
         }
         for index in range.clone().filter(|index| !live[index - range.start]) {
@@ -126,7 +129,12 @@ fn complete_in<R: Real>(
         }
         Ok(())
     };
-    session.each(spec.grid.len(), chunk, &drive, prepare, accept)
+    let ended = session.each(spec.grid.len(), chunk, &drive, prepare, accept);
+    // What a chunk that never came to its end would have filled.
+    for record in records.iter_mut().filter(|record| record.outcome.is_none()) {
+        *record = Record::NOT_COMPUTED;
+    }
+    ended
 }
 
 /// Puts an outcome into its record; the type of the equilibrium is that of the linear analysis, where there
@@ -160,7 +168,7 @@ fn batch<R: Real>(form: Form, indices: Vec<usize>, rows: &[Vec<R>]) -> Batch<R, 
     Batch { kernel, choices: choices(form.law, form.ramp).to_vec(), inputs, memory: indices }
 }
 
-/// The outcome of lane `lane` of `count`.
+/// The outcome of lane `lane` of `count`; `None` when it was cancelled before its end.
 ///
 /// # Errors
 /// When a lane that says it came to its end did not.
@@ -171,10 +179,13 @@ fn outcome_of<R: Real>(
     result: &ChunkResult<R>,
     lane: usize,
     count: usize,
-) -> Result<Outcome> {
+) -> Result<Option<Outcome>> {
     let word = |word: usize| word * count + lane;
     let state: Vec<R> = (0..source::words(KERNEL.state)).map(|w| result.state[word(w)]).collect();
     let flags: Vec<u32> = (0..source::words(KERNEL.flags)).map(|w| result.flags[word(w)]).collect();
+    if result.cancelled && flags[FLAG_STATUS] == Status::Unwritten as u32 {
+        return Ok(None);
+    }
     let unwritten = Error::Unwritten { instance: index };
     let Ok(scene) = Scene::new(&spec.instance(index), plan.start) else { return Err(unwritten) };
     let lane = record::read(&state, &flags).ok_or(unwritten)?;
@@ -185,5 +196,5 @@ fn outcome_of<R: Real>(
     if lane.status == Status::Ok && (found < wanted || !lane.is_at_end(&segments)) {
         return Err(Error::Miscounted { kernel: KERNEL.name, found, wanted });
     }
-    Ok(outcome(&scene, plan, &segments, &lane))
+    Ok(Some(outcome(&scene, plan, &segments, &lane)))
 }

@@ -7,7 +7,9 @@ use super::device::Device;
 use super::kernel::Compiled;
 use crate::error::{Error, Result};
 use crate::kernel::scalar::Real;
-use crate::kernel::source::{FLAG_STATUS, PROGRESS_WORDS, SETTING_WORDS, Settings, WORKGROUP_SIZE};
+use crate::kernel::source::{
+    FLAG_STATUS, Kernel, PROGRESS_WORDS, SETTING_WORDS, Settings, WORKGROUP_SIZE, words,
+};
 use crate::outcome::Status;
 
 /// Most loop iterations of an invocation in one dispatch: a software driver silently stops at 65 535, the
@@ -47,13 +49,27 @@ pub struct ChunkResult<R> {
     pub state: Vec<R>,
     /// The words of `flags`.
     pub flags: Vec<u32>,
+    /// Whether it was cancelled: instances that were not finished by then are unwritten.
+    pub cancelled: bool,
+}
+
+impl<R: Real> ChunkResult<R> {
+    /// The result of `count` instances that were cancelled before they began.
+    #[must_use]
+    pub fn nothing(kernel: &Kernel, count: usize) -> ChunkResult<R> {
+        ChunkResult {
+            state: vec![R::ZERO; count * words(kernel.state)],
+            flags: vec![Status::Unwritten as u32; count * words(kernel.flags)],
+            cancelled: count > 0,
+        }
+    }
 }
 
 /// Runs a chunk; `inputs` are word-major, `count` instances of all of the kernel's input words.
 ///
 /// # Errors
-/// When the device fails or is lost, the run is cancelled, the kernel does not end, or leaves an instance
-/// unwritten.
+/// When the device fails or is lost, the run is cancelled before an instance is finished, the kernel does not
+/// end, or leaves an instance unwritten.
 pub fn run<R: Real>(
     device: &Device,
     compiled: &Compiled,
@@ -71,14 +87,18 @@ pub fn run<R: Real>(
     }
     let sizes = [state_words * count * size_of::<R>(), flag_words * count * 4];
     let buffers = device.checked("allocating buffers", || Buffers::new(device, compiled, inputs, sizes))?;
-    dispatch(device, compiled, &buffers, count, drive)?;
+    let finished = dispatch(device, compiled, &buffers, count, drive)?;
+    let cancelled = finished < count;
+    if cancelled && finished == 0 {
+        return Err(Error::Cancelled { done: 0, total: count });
+    }
     let [state, flags] = read(device, [&buffers.state, &buffers.flags], sizes)?;
-    let result = ChunkResult { state: cast(&state), flags: cast(&flags) };
+    let result = ChunkResult { state: cast(&state), flags: cast(&flags), cancelled };
     check(&result, count, compiled.words())?;
     Ok(result)
 }
 
-/// The lengths of a result, and that no instance of it is unwritten.
+/// The lengths of a result, and that no instance of it is unwritten unless it was cancelled.
 ///
 /// # Errors
 /// A short buffer, or the first unwritten instance of the chunk.
@@ -91,7 +111,10 @@ pub fn check<R>(result: &ChunkResult<R>, count: usize, [_, state, flags]: [usize
         }
     }
     let statuses = &result.flags[FLAG_STATUS * count..(FLAG_STATUS + 1) * count];
-    let known = |code: &u32| Status::ALL.iter().any(|status| *status as u32 == *code);
+    let known = |code: &u32| {
+        Status::ALL.iter().any(|status| *status as u32 == *code)
+            || result.cancelled && *code == Status::Unwritten as u32
+    };
     match statuses.iter().position(|code| !known(code)) {
         Some(instance) => Err(Error::Unwritten { instance }),
         None => Ok(()),
@@ -143,14 +166,14 @@ impl Buffers {
     }
 }
 
-/// Dispatches until every instance is finished.
+/// Dispatches until every instance is finished or the run is cancelled; the number of the finished.
 fn dispatch(
     device: &Device,
     compiled: &Compiled,
     buffers: &Buffers,
     count: usize,
     drive: &Drive,
-) -> Result<()> {
+) -> Result<usize> {
     let name = compiled.kernel.name;
     let per_step = if device.is_software() { compiled.kernel.loops_per_step.max(1) } else { 1 };
     let most = (MAX_LOOPS / per_step).max(1);
@@ -158,7 +181,7 @@ fn dispatch(
     let mut finished = 0;
     for _ in 0..drive.most_dispatches {
         if drive.cancel.load(Ordering::Relaxed) {
-            return Err(Error::Cancelled { done: finished, total: count });
+            return Ok(finished);
         }
         #[expect(
             clippy::cast_possible_truncation,
@@ -180,7 +203,7 @@ fn dispatch(
         (drive.progress)(done - finished);
         finished = done;
         if finished == count {
-            return Ok(());
+            return Ok(count);
         }
         if drive.steps.is_none() {
             steps = adapted(steps, elapsed).clamp(1, most);
