@@ -1,4 +1,6 @@
-//! Twin of `shaders/crossing.wgsl`: the first downward crossing of an event function inside a step.
+//! Twin: shaders/crossing.wgsl
+//!
+//! The first downward crossing of an event function inside a step.
 //!
 //! A lower bound by Bernstein coefficients settles most steps; the rest is sampled and solved.
 
@@ -21,7 +23,7 @@ pub const HIGHEST_ORDER: usize = 3;
 pub const NEVER: f64 = -1.0;
 
 /// A lower bound of `Σ b_k t^k` on [0, 1]: Bernstein coefficients of the part up to degree 4 less the rest.
-fn lower_bound<S: Real>(b: &Series<S>, degree: usize) -> S {
+pub fn lower_bound<S: Real>(b: &Series<S>, degree: usize) -> S {
     let c1 = b[1] * S::from_f64(0.25);
     let c2 = b[2] * S::from_f64(1.0 / 6.0);
     let c3 = b[3] * S::from_f64(0.25);
@@ -39,7 +41,7 @@ fn lower_bound<S: Real>(b: &Series<S>, degree: usize) -> S {
 }
 
 /// `Σ_{k ≥ from} b_k t^(k − from)` and its derivative.
-fn deflated<S: Real>(b: &Series<S>, degree: usize, from: usize, t: S) -> [S; 2] {
+pub fn deflated<S: Real>(b: &Series<S>, degree: usize, from: usize, t: S) -> [S; 2] {
     let mut value = S::ZERO;
     let mut slope = S::ZERO;
     for k in (from..=degree).rev() {

@@ -1,4 +1,6 @@
-//! Twin of `shaders/lane.wgsl`: one instance advanced by iterations, one step or part of a step each.
+//! Twin: shaders/lane.wgsl
+//!
+//! One instance advanced by iterations, one step or part of a step each.
 //!
 //! Time is counted in whole steps; an event splits a step, and what is left of it follows, so that every
 //! lane is back on its grid of steps. The state lives in two flat records, as in the kernel's buffers.
@@ -170,7 +172,7 @@ impl<S: Real> Lane<S> {
         let remaining = self.rest * segment.step;
         let longest = step_length(&e, remaining, tolerance);
         if longest <= S::ZERO {
-            self.status = if self.is_finite() { Status::StepTooLarge } else { Status::NonFinite };
+            self.status = if self.body_is_finite() { Status::StepTooLarge } else { Status::NonFinite };
             return;
         }
         let (tau, event) = self.first_event(scene, &e, longest, tolerance);
@@ -180,7 +182,7 @@ impl<S: Real> Lane<S> {
             self.body = Body { p: [x[0], y[0], w[0]], v: [x[1], y[1], w[1]] };
             self.disarmed = NOTHING;
         }
-        if !self.is_finite() {
+        if !self.body_is_finite() {
             self.status = Status::NonFinite;
             return;
         }
@@ -192,7 +194,7 @@ impl<S: Real> Lane<S> {
         }
     }
 
-    fn is_finite(&self) -> bool {
+    fn body_is_finite(&self) -> bool {
         self.body.p.iter().chain(&self.body.v).all(|value| value.is_finite())
     }
 
@@ -231,13 +233,13 @@ impl<S: Real> Lane<S> {
     /// Goes on to the next segment, the second pass, or the end.
     fn next_segment(&mut self, scene: &Scene<S>) {
         self.sums.flush();
-        let before = part(&scene.segments[self.segment as usize]);
+        let before = part_of(&scene.segments[self.segment as usize]);
         self.segment += 1;
         self.index = 0;
         let done =
             self.segment as usize >= SEGMENTS || scene.segments[self.segment as usize].steps <= S::ZERO;
         if done {
-            if self.second_pass || !self.phase.prepare(scene, &self.sums) {
+            if self.second_pass || !self.phase.prepare_phase(scene, &self.sums) {
                 self.status = Status::Ok;
                 return;
             }
@@ -245,12 +247,12 @@ impl<S: Real> Lane<S> {
             self.body = self.snapshot;
             [self.contact, self.piece, self.disarmed] = self.snapshot_flags;
             self.segment = 0;
-            while part(&scene.segments[self.segment as usize]) == SETTLE {
+            while part_of(&scene.segments[self.segment as usize]) == SETTLE {
                 self.segment += 1;
             }
             return;
         }
-        let after = part(&scene.segments[self.segment as usize]);
+        let after = part_of(&scene.segments[self.segment as usize]);
         if before == SETTLE && after == FIRST_HALF && !self.second_pass {
             self.take_snapshot();
         }
@@ -263,16 +265,16 @@ impl<S: Real> Lane<S> {
     }
 
     fn observe(&mut self, scene: &Scene<S>, e: &Expansion<S>, segment: &Segment<S>, tau: S) {
-        let part = part(segment);
+        let part = part_of(segment);
         let at = Moment { segment: self.segment, index: self.index, fraction: S::ONE - self.rest };
         if self.second_pass {
-            self.phase.step(e, &self.sums, at, segment.step, tau);
+            self.phase.observe_phase(e, &self.sums, at, segment.step, tau);
             return;
         }
         if part != SETTLE {
-            self.sums.window(e, scene.t0, self.contact, part, at, segment.step, tau);
+            self.sums.observe_window(e, scene.t0, self.contact, part, at, segment.step, tau);
         }
-        self.sums.growth(e, tau);
+        self.sums.observe_growth(e, tau);
     }
 
     /// The first event within `longest` and its time, or the whole.
@@ -435,7 +437,7 @@ impl<S: Real> Lane<S> {
 
     /// Newton's impact with friction inside its cone, see [`crate::model::contact`].
     fn impact(&mut self, scene: &Scene<S>, belt: Belt<S>) {
-        let in_window = part(&scene.segments[self.segment as usize]) != SETTLE;
+        let in_window = part_of(&scene.segments[self.segment as usize]) != SETTLE;
         if in_window && !self.second_pass {
             self.sums.count_impact();
         }
@@ -474,7 +476,7 @@ impl<S: Real> Lane<S> {
 }
 
 /// The part of the run a segment belongs to.
-fn part<S: Real>(segment: &Segment<S>) -> u32 {
+fn part_of<S: Real>(segment: &Segment<S>) -> u32 {
     if segment.part < S::from_f64(0.5) {
         SETTLE
     } else if segment.part < S::from_f64(1.5) {

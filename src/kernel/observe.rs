@@ -1,4 +1,6 @@
-//! Twin of `shaders/observe.wgsl`: running reductions of one lane, as [`crate::observe`] makes them.
+//! Twin: shaders/observe.wgsl
+//!
+//! Running reductions of one lane, as [`crate::observe`] makes them.
 
 #![expect(clippy::too_many_arguments, reason = "the arguments are those of the WGSL twin")]
 
@@ -101,7 +103,7 @@ impl<S: Real> Sums<S> {
     }
 
     /// Adds a step of the window that begins at `at`.
-    pub fn window(
+    pub fn observe_window(
         &mut self,
         e: &Expansion<S>,
         t0: S,
@@ -146,11 +148,11 @@ impl<S: Real> Sums<S> {
         self.peaks[0] = self.peaks[0].max(maximum(&ax));
         self.peaks[1] = self.peaks[1].max(maximum(&ay));
         self.peaks[2] = self.peaks[2].max(maximum(&normal));
-        self.cross(e, at, step, tau);
+        self.cross_upwards(e, at, step, tau);
     }
 
     /// Notes an upward crossing of `ẋ2`.
-    fn cross(&mut self, e: &Expansion<S>, at: Moment<S>, step: S, tau: S) {
+    fn cross_upwards(&mut self, e: &Expansion<S>, at: Moment<S>, step: S, tau: S) {
         let before = e.x[1];
         let after = evaluate(&e.x, tau)[1];
         let jumped = self.has_previous && self.previous < S::ZERO && before >= S::ZERO;
@@ -179,7 +181,7 @@ impl<S: Real> Sums<S> {
     }
 
     /// Adds a step before the first event.
-    pub fn growth(&mut self, e: &Expansion<S>, tau: S) {
+    pub fn observe_growth(&mut self, e: &Expansion<S>, tau: S) {
         if self.growth_closed {
             return;
         }
@@ -210,7 +212,7 @@ pub const BISECTIONS: usize = 24;
 pub const SAMPLE_TIMES: [f64; 5] = [0.0, NODES[0], NODES[1], NODES[2], 1.0];
 
 /// The maximum of a smooth function from its samples, as [`crate::observe`] finds it.
-fn maximum<S: Real>(values: &[S; 5]) -> S {
+pub fn maximum<S: Real>(values: &[S; 5]) -> S {
     let mut top = 0;
     for i in 1..5 {
         if values[i] > values[top] {
@@ -254,7 +256,7 @@ impl<S: Real> Phase<S> {
     }
 
     /// Sets the frequency; false when there is none.
-    pub fn prepare(&mut self, scene: &Scene<S>, sums: &Sums<S>) -> bool {
+    pub fn prepare_phase(&mut self, scene: &Scene<S>, sums: &Sums<S>) -> bool {
         if sums.crossings < 2 {
             return false;
         }
@@ -267,7 +269,7 @@ impl<S: Real> Phase<S> {
     }
 
     /// Adds the part of a step between the first and the last crossing.
-    pub fn step(&mut self, e: &Expansion<S>, sums: &Sums<S>, at: Moment<S>, step: S, tau: S) {
+    pub fn observe_phase(&mut self, e: &Expansion<S>, sums: &Sums<S>, at: Moment<S>, step: S, tau: S) {
         let (low, high) = (clipped(&sums.first, &at, step, tau), clipped(&sums.last, &at, step, tau));
         let span = high - low;
         if span <= S::ZERO {
@@ -322,7 +324,7 @@ fn since_start<S: Real>(scene: &Scene<S>, moment: &Moment<S>) -> S {
 }
 
 /// `z exp(−iφ)` for `|φ| ≤ π/2`, kept at length 1.
-fn rotate<S: Real>([c, s]: [S; 2], angle: S) -> [S; 2] {
+pub fn rotate<S: Real>([c, s]: [S; 2], angle: S) -> [S; 2] {
     let square = angle * angle;
     let mut cosine = S::ONE;
     let mut sine = S::ONE;

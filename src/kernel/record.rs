@@ -1,4 +1,6 @@
-//! Twin of `shaders/response_main.wgsl`: a lane as the words of the kernel's buffers, and back.
+//! Twin: `shaders/response_main.wgsl`
+//!
+//! A lane as the words of the kernel's buffers, and back.
 
 use super::lane::Lane;
 use super::observe::{Moment, SUMS};

@@ -1,4 +1,6 @@
-//! Twin of `shaders/scene.wgsl`: what one instance hands to a kernel, word by word.
+//! Twin: shaders/scene.wgsl
+//!
+//! What one instance hands to a kernel, word by word.
 //!
 //! The host computes every word in f64 and narrows it once. Differences of nearly equal numbers (friction
 //! against that of the equilibrium, the stick cone at the equilibrium) are formed there.

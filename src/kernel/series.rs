@@ -1,4 +1,6 @@
-//! Twin of `shaders/series.wgsl`: the Taylor series of the motion on one contact state.
+//! Twin: shaders/series.wgsl
+//!
+//! The Taylor series of the motion on one contact state.
 //!
 //! The recurrence of [`crate::method::taylor`] at a fixed order, written so that a lane of a GPU runs it:
 //! deviations from the equilibrium with every constant that cancels formed on the host in f64.

@@ -7,6 +7,7 @@ mod instances;
 mod linear;
 mod probes;
 mod response;
+mod response_probes;
 mod runs;
 mod strict;
 mod sweeps;
@@ -59,6 +60,7 @@ fn main() {
     let slow = all.or(Some(Lack::Time));
     let groups = [
         (all, probes::CASES),
+        (all, response_probes::CASES),
         (all, linear::CASES),
         (f64, linear::F64),
         (all, response::CASES),

@@ -145,7 +145,7 @@ fn linear_equals<R: Real>() -> Result<(), Failed> {
 }
 
 /// A random instance of a law.
-fn instance(u: &mut Uniform, law: Law) -> Instance {
+pub(crate) fn instance(u: &mut Uniform, law: Law) -> Instance {
     let mut params = Params::default();
     let velocity = u.log(0.05, 10.0);
     params.set(Param::BeltVelocity, velocity);

@@ -7,8 +7,36 @@ use squealmap::kernel::scene::Law;
 use squealmap::kernel::source::{BINDINGS, Constant, Kernel, Precision, Settings, WORKGROUP_SIZE, words};
 use squealmap::kernel::{linear, response, source};
 
-/// Text of the Rust files and paths of the WGSL files that are twins.
-const TWINS: &[(&str, &str)] = &[(include_str!("../../src/kernel/linear.rs"), "shaders/linear.wgsl")];
+/// A Rust file and its WGSL twin, with the functions that only one of them needs.
+struct Twin {
+    name: &'static str,
+    /// Made for the host: constructors, narrowing, what WGSL keeps in globals or writes in place.
+    rust_only: &'static [&'static str],
+    /// Access to buffers, and what Rust writes in place or as a closure.
+    wgsl_only: &'static [&'static str],
+}
+
+const TWINS: &[Twin] = &[
+    // is_finite belongs to the host's file in WGSL.
+    Twin { name: "linear", rust_only: &["code", "all_finite"], wgsl_only: &[] },
+    Twin {
+        name: "scene",
+        rust_only: &["words", "read"],
+        wgsl_only: &["read_scene", "piece_of", "segment_of"],
+    },
+    Twin { name: "series", rust_only: &[], wgsl_only: &["largest"] },
+    Twin { name: "crossing", rust_only: &[], wgsl_only: &[] },
+    Twin {
+        name: "observe",
+        rust_only: &["start", "new", "default", "count_impact", "close_growth"],
+        wgsl_only: &["sample_time", "node_weight"],
+    },
+    Twin {
+        name: "lane",
+        rust_only: &["blank", "new", "is_at_end", "run"],
+        wgsl_only: &["start_lane", "restore_snapshot", "watch"],
+    },
+];
 
 /// Every kernel there is, in every form.
 pub(crate) const KERNELS: [(Kernel, &[(&str, Constant)]); 6] = [
@@ -155,25 +183,30 @@ fn flags_begin_with_status_and_steps() {
     }
 }
 
-/// The names of functions in a text, in order: those behind `keyword`, up to the bracket.
-fn functions(text: &str, keyword: &str) -> Vec<String> {
-    let name = |line: &str| {
-        let rest = line.strip_prefix(keyword)?;
-        Some(rest.split(['(', '<']).next()?.to_owned())
+/// The names of the functions in a text, in order, without some.
+fn functions<'a>(text: &'a str, without: &[&str]) -> Vec<&'a str> {
+    let name = |line: &'a str| {
+        let line = line.trim_start();
+        let line = line.strip_prefix("pub ").unwrap_or(line);
+        let line = line.strip_prefix("const ").unwrap_or(line);
+        line.strip_prefix("fn ")?.split(['(', '<']).next()
     };
-    text.lines().filter_map(name).collect()
+    text.lines().filter_map(name).filter(|name| !without.contains(name)).collect()
 }
 
 #[test]
 fn twins_have_the_same_functions_in_the_same_order() {
-    for (rust, wgsl) in TWINS {
-        let text = std::fs::read_to_string(wgsl).expect(wgsl);
-        let ours: Vec<String> = functions(rust, "pub fn ");
-        let theirs = functions(&text, "fn ");
-        // is_finite belongs to the host's file there.
-        let ours: Vec<&String> = ours.iter().filter(|name| *name != "all_finite").collect();
-        assert_eq!(ours, theirs.iter().collect::<Vec<_>>(), "{wgsl}");
-        assert!(rust.starts_with(&format!("//! Twin: {wgsl}\n")), "{wgsl}");
-        assert!(text.starts_with("// Twin: src/"), "{wgsl}");
+    for Twin { name, rust_only, wgsl_only } in TWINS {
+        let paths = [format!("src/kernel/{name}.rs"), format!("shaders/{name}.wgsl")];
+        let [rust, wgsl] = paths.clone().map(|path| std::fs::read_to_string(path).expect("a twin"));
+        let [ours, theirs] = [functions(&rust, rust_only), functions(&wgsl, wgsl_only)];
+        assert_eq!(ours, theirs, "{name}");
+        assert!(ours.len() > 2, "{name}: {ours:?}");
+        for (text, only) in [(&rust, rust_only), (&wgsl, wgsl_only)] {
+            let all = functions(text, &[]);
+            assert!(only.iter().all(|one| all.contains(one)), "{name}: of {only:?} some are gone");
+        }
+        assert!(rust.starts_with(&format!("//! Twin: {}\n", paths[1])), "{name}");
+        assert!(wgsl.starts_with(&format!("// Twin: {}\n", paths[0])), "{name}");
     }
 }
