@@ -264,6 +264,12 @@ pub fn outcome<S: Real>(scene: &Scene, plan: &Plan, segments: &Segments, lane: &
         return outcome;
     }
     outcome.simulated_time = scene.seconds(time(lane.segment, lane.index, 0.0), plan);
+    let sums = &lane.sums;
+    if !sums.total.iter().flatten().chain(&sums.peaks).all(|value| value.is_finite()) {
+        // A square beyond the scalar's range.
+        outcome.status = Status::NonFinite;
+        return outcome;
+    }
     let half = |k: usize| -> [f64; SUMS] { lane.sums.total[k].map(Real::to_f64) };
     let halves = [half(0), half(1)];
     let all: [f64; SUMS] = std::array::from_fn(|i| halves[0][i] + halves[1][i]);

@@ -1,12 +1,14 @@
 //! The response kernel: GPU against its twin and against the reference.
 
 use libtest_mimic::Failed;
+use squealmap::Error;
 use squealmap::backend::gpu::kernel::Compiled;
+use squealmap::backend::gpu::response::outcome_from;
 use squealmap::backend::gpu::run::{Drive, run};
 use squealmap::integrate::STEP_TOLERANCE;
 use squealmap::kernel::lane::Lane;
-use squealmap::kernel::record::{read, write};
-use squealmap::kernel::response::{TOLERANCE, choices, kernel, outcome, segments, words as packed_words};
+use squealmap::kernel::record::write;
+use squealmap::kernel::response::{TOLERANCE, choices, kernel, segments, words as packed_words};
 use squealmap::kernel::scene::{Law, Scene as Words};
 use squealmap::kernel::source::{Kernel, Precision, SETTING_WORDS, words};
 use squealmap::method::taylor::REFERENCE_ORDER;
@@ -22,6 +24,8 @@ use crate::words::{device, drive};
 pub(crate) const CASES: &[Case] = &[
     ("response::f32_equals_its_twin_over_short_runs", short_runs),
     ("response::amplitudes_are_those_of_the_reference", long_runs),
+    ("response::words_that_are_no_finished_lane_are_refused", refused),
+    ("response::a_kernel_that_stops_early_is_noticed", stops_early),
     ("response::any_number_of_steps_per_dispatch_gives_the_same_bits", any_dispatch),
 ];
 
@@ -59,6 +63,16 @@ fn plan(settle: f64, measure: f64) -> Plan {
 /// The words of every instance's lane after the run, on the GPU, and the scenes they belong to.
 #[expect(clippy::type_complexity, reason = "state and flags of each instance")]
 fn on_gpu(plan: &Plan, steps: Option<u32>) -> Result<Vec<(Scene, Words<f32>, Vec<f32>, Vec<u32>)>, Failed> {
+    with_source(plan, steps, &KERNEL.source(Precision::F32, &choices(Law::Pieces, false)))
+}
+
+/// As [`on_gpu`], with another text of the kernel.
+#[expect(clippy::type_complexity, reason = "state and flags of each instance")]
+fn with_source(
+    plan: &Plan,
+    steps: Option<u32>,
+    source: &str,
+) -> Result<Vec<(Scene, Words<f32>, Vec<f32>, Vec<u32>)>, Failed> {
     let scenes: Vec<Scene> =
         instances().iter().filter_map(|instance| Scene::new(instance, plan.start).ok()).collect();
     let packed: Vec<Vec<f64>> =
@@ -68,7 +82,7 @@ fn on_gpu(plan: &Plan, steps: Option<u32>) -> Result<Vec<(Scene, Words<f32>, Vec
     let inputs: Vec<f32> =
         (0..words(KERNEL.inputs)).flat_map(|word| packed.iter().map(move |one| one[word] as f32)).collect();
     let device = device(Precision::F32)?;
-    let compiled = Compiled::new(&device, &KERNEL, &choices(Law::Pieces, false))?;
+    let compiled = Compiled::from_source(&device, &KERNEL, source)?;
     let mut settings = [0; SETTING_WORDS];
     settings[0] = TOLERANCE.to_bits();
     let result =
@@ -112,8 +126,7 @@ fn long_runs() -> Result<(), Failed> {
     let plan = plan(60.0, 40.0);
     let mut errors = Vec::new();
     for ((scene, _, state, flags), instance) in on_gpu(&plan, None)?.into_iter().zip(instances()) {
-        let lane = read(&state, &flags).ok_or("words that are no lane")?;
-        let found = outcome(&scene, &plan, &segments(&scene, &plan), &lane);
+        let found = outcome_from(&scene, &plan, 0, &state, &flags)?;
         let expected = respond(&instance, &plan);
         if found.status != Status::Ok || (found.simulated_time / expected.simulated_time - 1.0).abs() > 1e-12
         {
@@ -144,4 +157,59 @@ fn any_dispatch() -> Result<(), Failed> {
         Ok(lanes.into_iter().flat_map(words).collect())
     };
     if bits(7)? == bits(32)? { Ok(()) } else { Err("the bits depend on the steps of a dispatch".into()) }
+}
+
+/// Planted faults in the words of finished lanes.
+fn refused() -> Result<(), Failed> {
+    let plan = plan(1.0, 1.0);
+    let (scene, _, state, flags) = on_gpu(&plan, None)?.swap_remove(7);
+    let read = |state: &[f32], flags: &[u32]| outcome_from(&scene, &plan, 7, state, flags);
+    assert_eq!(read(&state, &flags)?.status, Status::Ok);
+    let flag = |name: &str| -> usize {
+        KERNEL.flags.iter().take_while(|field| field.name != name).map(|field| field.words).sum()
+    };
+    let with = |name: &str, value: u32| {
+        let mut wrong = flags.clone();
+        wrong[flag(name)] = value;
+        read(&state, &wrong)
+    };
+    for unwritten in [
+        read(&state[1..], &flags),
+        read(&state, &flags[1..]),
+        read(&vec![0.0; state.len()], &vec![0; flags.len()]),
+        with("status", 0),
+        with("status", Status::NotComputed as u32),
+        with("status", 77),
+    ] {
+        assert!(matches!(unwritten, Err(Error::Unwritten { instance: 7 })), "{unwritten:?}");
+    }
+    for miscounted in [with("steps", 3), with("segment", 0)] {
+        assert!(matches!(miscounted, Err(Error::Miscounted { .. })), "{miscounted:?}");
+    }
+    for value in [f32::NAN, f32::INFINITY] {
+        let mut wrong = state.clone();
+        let total: usize =
+            KERNEL.state.iter().take_while(|field| field.name != "total").map(|field| field.words).sum();
+        wrong[total + 2] = value;
+        assert_eq!(read(&wrong, &flags)?.status, Status::NonFinite);
+    }
+    Ok(())
+}
+
+/// A kernel that calls every lane finished after ten steps.
+fn stops_early() -> Result<(), Failed> {
+    let plan = plan(2.0, 2.0);
+    let source = KERNEL.source(Precision::F32, &choices(Law::Pieces, false));
+    let early = source.replace(
+        "            iterate(tolerance);\n",
+        "            iterate(tolerance);\n            if lane.iterations > 10u { lane.status = STATUS_OK; }\n",
+    );
+    assert_ne!(source, early);
+    for (scene, _, state, flags) in with_source(&plan, None, &early)? {
+        match outcome_from(&scene, &plan, 0, &state, &flags) {
+            Err(Error::Miscounted { found: 11, wanted: 48, .. }) => {}
+            other => return Err(format!("{:?}", other.map(|outcome| outcome.simulated_time)).into()),
+        }
+    }
+    Ok(())
 }

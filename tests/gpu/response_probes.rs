@@ -56,6 +56,13 @@ pub(crate) const CASES: &[Case] = &[
         let call = "put(maximum(array<real, 5>(probed, probed * probed, real(0.3), real(0.5) - probed, real(0.1))));";
         probe(call, |_, x, _| vec![maximum(&[x, x * x, 0.3, 0.5 - x, 0.1])])
     }),
+    ("probes::a_wrong_twin_is_noticed", || {
+        let call = "let z = rotate(vec2<real>(real(0.6), real(0.8)), probed); put(z.x); put(z.y);";
+        match probe(call, |_, x, _| rotate([0.6, 0.801], x).to_vec()) {
+            Ok(()) => Err("the fault was not noticed".into()),
+            Err(_) => Ok(()),
+        }
+    }),
     ("probes::rotate", || {
         let call = "let z = rotate(vec2<real>(real(0.6), real(0.8)), probed); put(z.x); put(z.y);";
         probe(call, |_, x, _| rotate([0.6, 0.8], x).to_vec())

@@ -171,7 +171,7 @@ fn batch<R: Real>(form: Form, indices: Vec<usize>, rows: &[Vec<R>]) -> Batch<R, 
 /// The outcome of lane `lane` of `count`; `None` when it was cancelled before its end.
 ///
 /// # Errors
-/// When a lane that says it came to its end did not.
+/// Those of [`outcome_from`].
 fn outcome_of<R: Real>(
     spec: &Spec,
     plan: &Plan,
@@ -186,15 +186,30 @@ fn outcome_of<R: Real>(
     if result.cancelled && flags[FLAG_STATUS] == Status::Unwritten as u32 {
         return Ok(None);
     }
-    let unwritten = Error::Unwritten { instance: index };
-    let Ok(scene) = Scene::new(&spec.instance(index), plan.start) else { return Err(unwritten) };
-    let lane = record::read(&state, &flags).ok_or(unwritten)?;
-    let segments = segments(&scene, plan);
+    match Scene::new(&spec.instance(index), plan.start) {
+        Ok(scene) => outcome_from(&scene, plan, index, &state, &flags).map(Some),
+        Err(_) => Err(Error::Unwritten { instance: index }),
+    }
+}
+
+/// The outcome of instance `index` from the words of its lane.
+///
+/// # Errors
+/// When they are no finished lane, or one that says it came to its end and did not.
+pub fn outcome_from<R: Real>(
+    scene: &Scene,
+    plan: &Plan,
+    index: usize,
+    state: &[R],
+    flags: &[u32],
+) -> Result<Outcome> {
+    let lane = record::read(state, flags).ok_or(Error::Unwritten { instance: index })?;
+    let segments = segments(scene, plan);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whole numbers of steps")]
     let wanted: usize = segments.iter().map(|segment| segment[0] as usize).sum();
     let found = lane.iterations as usize;
     if lane.status == Status::Ok && (found < wanted || !lane.is_at_end(&segments)) {
         return Err(Error::Miscounted { kernel: KERNEL.name, found, wanted });
     }
-    Ok(Some(outcome(&scene, plan, &segments, &lane)))
+    Ok(outcome(scene, plan, &segments, &lane))
 }
