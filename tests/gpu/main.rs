@@ -1,6 +1,7 @@
 //! Tests that need an adapter, software or not. Without one each is shown as ignored with the reason; with
 //! `SQUEALMAP_REQUIRE_GPU=1` each fails instead.
 
+mod differences;
 mod faults;
 #[path = "../suite/instances.rs"]
 mod instances;

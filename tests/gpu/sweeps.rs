@@ -4,17 +4,17 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use libtest_mimic::Failed;
 use squealmap::backend::choice::{Backend, Options};
-use squealmap::grid::Value;
 use squealmap::kernel::response::{TOLERANCE, respond};
 use squealmap::kernel::source::Precision;
 use squealmap::map::{Map, Record, Stopped};
 use squealmap::model::Param;
-use squealmap::outcome::{Outcome, Status};
+use squealmap::outcome::Status;
 use squealmap::response::Plan;
 use squealmap::spec::{Duration, Spec};
 use squealmap::sweep;
 
 use crate::Case;
+use crate::differences::Differences;
 
 pub(crate) const CASES: &[Case] = &[
     ("sweeps::a_coarse_paper_map_is_that_of_the_reference", coarse_paper_map),
@@ -42,90 +42,24 @@ fn on_cpu(spec: &Spec) -> Result<Map, Failed> {
     Ok(sweep::run(spec.clone(), &Options { backend: Backend::Cpu, ..Options::default() }, &|_| {})?)
 }
 
-/// How a map differs from that of the reference.
-struct Differences {
-    /// One line for each instance whose status, type or regime differs.
-    labels: Vec<String>,
-    /// Relative differences of the amplitudes, of settled instances unless the belt has a ramp, rising.
-    amplitudes: Vec<f64>,
-    instances: usize,
+/// At least 99.5 % of the labels equal, amplitudes within the median and the 99th percentile.
+fn verdict(differences: &Differences, median: f64, p99: f64) -> Result<(), Failed> {
+    let Differences { labels, amplitudes, instances } = differences;
+    if labels.len() * 200 > *instances {
+        return Err(format!("{} of {instances} labels differ", labels.len()).into());
+    }
+    let found = [50, 99].map(|share| differences.quantile(share));
+    if amplitudes.len() < *instances || !(found[0] <= median && found[1] <= p99) {
+        return Err(format!("{} amplitudes: {found:?}", amplitudes.len()).into());
+    }
+    Ok(())
 }
 
-impl Differences {
-    fn new(map: &Map, reference: &Map) -> Differences {
-        let mut labels = Vec::new();
-        let mut amplitudes = Vec::new();
-        assert_eq!(map.records.len(), reference.records.len());
-        for (index, (a, b)) in map.records.iter().zip(&reference.records).enumerate() {
-            if (a.status, a.kind, a.regime) != (b.status, b.kind, b.regime) {
-                let at: Vec<String> =
-                    map.spec.grid.coordinates(index).into_iter().map(Value::to_string).collect();
-                labels.push(format!(
-                    "{}: {:?} {:?} {:?} instead of {:?} {:?} {:?}",
-                    at.join(" "),
-                    a.status,
-                    a.kind,
-                    a.regime,
-                    b.status,
-                    b.kind,
-                    b.regime
-                ));
-            }
-            let (Some(a), Some(b)) = (a.outcome, b.outcome) else { continue };
-            if (a.simulated_time - b.simulated_time).abs() > 1e-12 * b.simulated_time
-                && b.status == Status::Ok
-            {
-                labels.push(format!("{index}: {} s instead of {} s", a.simulated_time, b.simulated_time));
-            }
-            let ramp = map.spec.base.get(Param::RampDuration).is_some();
-            if ramp || reference.records[index].settled == Some(true) {
-                amplitudes.extend(relative(&a, &b));
-            }
-        }
-        amplitudes.sort_by(f64::total_cmp);
-        Differences { labels, amplitudes, instances: map.records.len() }
-    }
-
-    fn quantile(&self, share: usize) -> f64 {
-        self.amplitudes[(self.amplitudes.len() - 1) * share / 100]
-    }
-
-    /// At least 99.5 % of the labels equal, amplitudes within the median and the 99th percentile.
-    fn check(&self, median: f64, p99: f64) -> Result<(), Failed> {
-        println!(
-            "{} of {} labels differ; {} amplitudes: median {:.1e}, p99 {:.1e}, worst {:.1e}",
-            self.labels.len(),
-            self.instances,
-            self.amplitudes.len(),
-            self.quantile(50),
-            self.quantile(99),
-            self.quantile(100)
-        );
-        for line in &self.labels {
-            println!("  {line}");
-        }
-        self.verdict(median, p99)
-    }
-
-    /// As [`Differences::check`], silent.
-    fn verdict(&self, median: f64, p99: f64) -> Result<(), Failed> {
-        if self.labels.len() * 200 > self.instances {
-            return Err(format!("{} of {} labels differ", self.labels.len(), self.instances).into());
-        }
-        if self.amplitudes.len() < self.instances || self.quantile(50) > median || self.quantile(99) > p99 {
-            return Err(format!("amplitudes: {:e} {:e}", self.quantile(50), self.quantile(99)).into());
-        }
-        Ok(())
-    }
-}
-
-/// Relative differences of the amplitudes; a NaN or a missing value is infinitely far.
-fn relative(a: &Outcome, b: &Outcome) -> impl Iterator<Item = f64> {
-    let pairs = [(a.x2_std, b.x2_std), (a.y1_std, b.y1_std), (a.ax_rms, b.ax_rms), (a.ay_rms, b.ay_rms)];
-    pairs.into_iter().map(|(a, b)| match (a, b) {
-        (Some(a), Some(b)) if a.is_finite() => (a - b).abs() / b.abs().max(1e-12),
-        _ => f64::INFINITY,
-    })
+/// As [`verdict`], printing how the map differs.
+fn check(map: &Map, reference: &Map, median: f64, p99: f64) -> Result<(), Failed> {
+    let differences = Differences::new(map, reference);
+    println!("{differences}");
+    verdict(&differences, median, p99)
 }
 
 /// A sweep from the text of its file.
@@ -141,12 +75,12 @@ fn paper_map_of(points: usize) -> Result<Spec, Failed> {
 
 fn coarse_paper_map() -> Result<(), Failed> {
     let spec = paper_map_of(7)?;
-    Differences::new(&on_gpu(&spec, Precision::F32, None)?, &on_cpu(&spec)?).check(1e-5, 2e-3)
+    check(&on_gpu(&spec, Precision::F32, None)?, &on_cpu(&spec)?, 1e-5, 2e-3)
 }
 
 fn paper_map() -> Result<(), Failed> {
     let spec = paper_map_of(41)?;
-    Differences::new(&on_gpu(&spec, Precision::F32, None)?, &on_cpu(&spec)?).check(5e-3, 2e-2)
+    check(&on_gpu(&spec, Precision::F32, None)?, &on_cpu(&spec)?, 5e-3, 2e-2)
 }
 
 fn in_f64() -> Result<(), Failed> {
@@ -157,7 +91,7 @@ fn in_f64() -> Result<(), Failed> {
     for (index, record) in twin.records.iter_mut().enumerate() {
         record.outcome = Some(respond::<f64>(&spec.instance(index), &plan, f64::from(TOLERANCE)));
     }
-    Differences::new(&map, &twin).check(1e-12, 1e-6)
+    check(&map, &twin, 1e-12, 1e-6)
 }
 
 /// The shipped map at another normal stiffness must not pass for itself.
@@ -166,7 +100,7 @@ fn planted() -> Result<(), Failed> {
     let mut wrong = spec.clone();
     wrong.base.set(Param::K2, 1.02 * spec.base.require(Param::K2));
     let map = on_gpu(&wrong, Precision::F32, None)?;
-    match Differences::new(&map, &on_cpu(&spec)?).verdict(5e-3, 2e-2) {
+    match verdict(&Differences::new(&map, &on_cpu(&spec)?), 5e-3, 2e-2) {
         Ok(()) => Err("the fault was not noticed".into()),
         Err(_) => Ok(()),
     }
@@ -197,7 +131,7 @@ measure = "2 s"
 fn laws_and_ramp() -> Result<(), Failed> {
     for text in [LAWS.to_owned(), LAWS.to_owned() + RAMP] {
         let spec = spec(&text)?;
-        Differences::new(&on_gpu(&spec, Precision::F32, None)?, &on_cpu(&spec)?).check(1e-4, 5e-3)?;
+        check(&on_gpu(&spec, Precision::F32, None)?, &on_cpu(&spec)?, 1e-4, 5e-3)?;
     }
     Ok(())
 }
@@ -218,7 +152,7 @@ fn table() -> Result<(), Failed> {
          [response]\nsettle = \"3 s\"\nmeasure = \"2 s\"\n",
     )?;
     let spec = Spec::read(&directory.path().join("sweep.toml"))?;
-    Differences::new(&on_gpu(&spec, Precision::F32, None)?, &on_cpu(&spec)?).check(1e-4, 2e-3)
+    check(&on_gpu(&spec, Precision::F32, None)?, &on_cpu(&spec)?, 1e-4, 2e-3)
 }
 
 fn any_chunk() -> Result<(), Failed> {

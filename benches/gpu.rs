@@ -1,0 +1,82 @@
+//! The shipped map on the best adapter: instances per second, and its agreement with the f64 reference.
+//!
+//! `cargo bench --bench gpu` prints the log and keeps it under `benches/results/`. `SQUEALMAP_BENCH_POINTS`
+//! sets the friction coefficients on each axis (default 41, the shipped map; the reference takes 4 ms of a
+//! core per instance).
+
+#[path = "../tests/gpu/differences.rs"]
+mod differences;
+
+use std::error::Error;
+use std::fmt::Write;
+use std::time::SystemTime;
+
+use squealmap::backend::choice::{Backend, Options};
+use squealmap::backend::gpu::adapter::Adapter;
+use squealmap::export::manifest::{COMMIT, VERSION};
+use squealmap::kernel::source::Precision;
+use squealmap::map::Map;
+use squealmap::spec::Spec;
+use squealmap::sweep;
+
+use differences::Differences;
+
+/// Runs of which the fastest counts.
+const RUNS: usize = 3;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let points = std::env::var("SQUEALMAP_BENCH_POINTS").unwrap_or_else(|_| "41".to_owned());
+    let text = std::fs::read_to_string("sweeps/paper_map.toml")?;
+    let text = text.replace("points = 41", &format!("points = {points}"));
+    let spec = Spec::parse(&text, "paper_map.toml", "sweeps".as_ref())?;
+    let adapter = Adapter::best(Precision::F32, None)?.describe();
+    let seconds = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH)?.as_secs();
+    let mut log = String::new();
+    writeln!(log, "squealmap {VERSION}, commit {}, unix time {seconds}", COMMIT.unwrap_or("unknown"))?;
+    writeln!(log, "adapter: {adapter}")?;
+    writeln!(log, "paper_map with {points} coefficients per axis: {} instances", spec.grid.len())?;
+
+    let run = |backend, precision, strict| {
+        let options = Options { backend, precision, strict, ..Options::default() };
+        sweep::run(spec.clone(), &options, &|_| {})
+    };
+    let reference = run(Backend::Cpu, None, false)?;
+    writeln!(log, "\nreference, f64 on {} threads: {}", reference.provenance.threads, rate(&reference))?;
+    let mut cases = vec![("f32", Precision::F32, false)];
+    if adapter.strict {
+        cases.push(("f32 strict", Precision::F32, true));
+    }
+    if adapter.f64 {
+        cases.push(("f64", Precision::F64, false));
+    }
+    for (name, precision, strict) in cases {
+        let mut best = run(Backend::Gpu, Some(precision), strict)?;
+        for _ in 1..RUNS {
+            let again = run(Backend::Gpu, Some(precision), strict)?;
+            if again.records != best.records {
+                return Err("two runs differ".into());
+            }
+            if again.provenance.elapsed < best.provenance.elapsed {
+                best = again;
+            }
+        }
+        writeln!(log, "\n{name}: {}\n{}", rate(&best), Differences::new(&best, &reference))?;
+    }
+    print!("{log}");
+    let name: String = adapter.name.chars().filter(char::is_ascii_alphanumeric).collect();
+    std::fs::create_dir_all("benches/results")?;
+    std::fs::write(format!("benches/results/gpu-{}.txt", name.to_lowercase()), log)?;
+    Ok(())
+}
+
+/// How fast a map was computed, compilation and transfers included.
+fn rate(map: &Map) -> String {
+    let seconds = map.provenance.elapsed.as_secs_f64();
+    let steps: u64 =
+        map.records.iter().filter_map(|record| record.outcome).map(|outcome| outcome.steps).sum();
+    format!(
+        "{seconds:.2} s, {:.0} instances/s, {:.2e} steps/s",
+        map.records.len() as f64 / seconds,
+        steps as f64 / seconds
+    )
+}

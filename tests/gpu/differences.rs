@@ -1,0 +1,87 @@
+//! How a map differs from that of the reference; for tests and benchmarks.
+
+use std::fmt;
+
+use squealmap::grid::Value;
+use squealmap::map::Map;
+use squealmap::model::Param;
+use squealmap::outcome::{Outcome, Status};
+
+/// How a map differs from that of the reference.
+pub(crate) struct Differences {
+    /// One line for each instance whose status, type or regime differs.
+    pub(crate) labels: Vec<String>,
+    /// Relative differences of the amplitudes, of settled instances unless the belt has a ramp, rising.
+    pub(crate) amplitudes: Vec<f64>,
+    /// Instances of the map.
+    pub(crate) instances: usize,
+}
+
+impl Differences {
+    pub(crate) fn new(map: &Map, reference: &Map) -> Differences {
+        let mut labels = Vec::new();
+        let mut amplitudes = Vec::new();
+        assert_eq!(map.records.len(), reference.records.len());
+        for (index, (a, b)) in map.records.iter().zip(&reference.records).enumerate() {
+            if (a.status, a.kind, a.regime) != (b.status, b.kind, b.regime) {
+                let at: Vec<String> =
+                    map.spec.grid.coordinates(index).into_iter().map(Value::to_string).collect();
+                labels.push(format!(
+                    "{}: {:?} {:?} {:?} instead of {:?} {:?} {:?}",
+                    at.join(" "),
+                    a.status,
+                    a.kind,
+                    a.regime,
+                    b.status,
+                    b.kind,
+                    b.regime
+                ));
+            }
+            let (Some(a), Some(b)) = (a.outcome, b.outcome) else { continue };
+            if (a.simulated_time - b.simulated_time).abs() > 1e-12 * b.simulated_time
+                && b.status == Status::Ok
+            {
+                labels.push(format!("{index}: {} s instead of {} s", a.simulated_time, b.simulated_time));
+            }
+            let ramp = map.spec.base.get(Param::RampDuration).is_some();
+            if ramp || reference.records[index].settled == Some(true) {
+                amplitudes.extend(relative(&a, &b));
+            }
+        }
+        amplitudes.sort_by(f64::total_cmp);
+        Differences { labels, amplitudes, instances: map.records.len() }
+    }
+
+    /// The amplitude difference below which `share` per cent lie.
+    pub(crate) fn quantile(&self, share: usize) -> f64 {
+        self.amplitudes
+            .get(self.amplitudes.len().saturating_sub(1) * share / 100)
+            .copied()
+            .unwrap_or(f64::NAN)
+    }
+}
+
+impl fmt::Display for Differences {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "{} of {} labels differ; {} amplitudes: median {:.1e}, p99 {:.1e}, worst {:.1e}",
+            self.labels.len(),
+            self.instances,
+            self.amplitudes.len(),
+            self.quantile(50),
+            self.quantile(99),
+            self.quantile(100)
+        )?;
+        self.labels.iter().try_for_each(|line| write!(f, "\n  {line}"))
+    }
+}
+
+/// Relative differences of the amplitudes; a NaN or a missing value is infinitely far.
+fn relative(a: &Outcome, b: &Outcome) -> impl Iterator<Item = f64> {
+    let pairs = [(a.x2_std, b.x2_std), (a.y1_std, b.y1_std), (a.ax_rms, b.ax_rms), (a.ay_rms, b.ay_rms)];
+    pairs.into_iter().map(|(a, b)| match (a, b) {
+        (Some(a), Some(b)) if a.is_finite() => (a - b).abs() / b.abs().max(1e-12),
+        _ => f64::INFINITY,
+    })
+}
