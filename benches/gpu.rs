@@ -1,6 +1,6 @@
 //! The shipped map on the best adapter: instances per second, and its agreement with the f64 reference.
 //!
-//! `cargo bench --bench gpu` prints the log and keeps it under `benches/results/`. `SQUEALMAP_BENCH_POINTS`
+//! `cargo bench --bench gpu_map` prints the log and keeps it under `benches/results/`. `SQUEALMAP_BENCH_POINTS`
 //! sets the friction coefficients on each axis (default 41, the shipped map; the reference takes 4 ms of a
 //! core per instance).
 

@@ -214,7 +214,8 @@ fn watch(degree: u32, from_zero: bool, event: u32, rounding: real) {
 fn first_event(longest: real, tolerance: real) {
     located = Located(longest, NOTHING);
     let size = scene.n0 * (real(1.0) + scene.mu_stick) + abs(sn[0]) + abs(st[0]);
-    let rounding = tolerance * size;
+    let motion = largest(0u) + largest(1u) + largest(2u);
+    let rounding = tolerance * (scene.k1 + scene.k2) * motion + ROUNDINGS * EPSILON * size;
     if lane.contact == FREE {
         sg = sy;
         watch(ORDER, lane.disarmed == GAP, GAP, rounding * scene.inv_det);

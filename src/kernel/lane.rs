@@ -12,7 +12,7 @@ use super::observe::{Moment, Phase, Sums};
 use super::scalar::Real;
 use super::scene::{EVENTS_AT_ONCE, FIRST_HALF, SEGMENTS, SETTLE, Scene, Segment, Segments};
 use super::series::{
-    Body, Expansion, FREE, ORDER, REVERSE, SLIP, STICK, Series, evaluate, expand, step_length,
+    Body, Expansion, FREE, ORDER, REVERSE, SLIP, STICK, Series, evaluate, expand, largest, step_length,
 };
 use crate::outcome::Status;
 
@@ -41,6 +41,9 @@ pub const STEPS_PER_COUNT: u32 = 16;
 
 /// Most parts of one step.
 pub const MAX_PARTS: u32 = 100_000;
+
+/// Roundings of the static loads that a force may be off by.
+pub const ROUNDINGS: f64 = 8.0;
 
 /// What may be left of a step before it counts as done: this many roundings of what was left.
 pub const LEAST_REST: f64 = 8.0;
@@ -281,9 +284,12 @@ impl<S: Real> Lane<S> {
     fn first_event(&self, scene: &Scene<S>, e: &Expansion<S>, longest: S, tolerance: S) -> (S, u32) {
         let mut tau = longest;
         let mut event = NOTHING;
-        // Forces of the state differ from those of the truncated series by about this much.
+        // Forces of the state differ from those of the truncated series by the tolerance on the motion, and by
+        // the rounding of the static loads.
+        let motion = largest(e, 0) + largest(e, 1) + largest(e, 2);
         let size = scene.n0 * (S::ONE + scene.mu_stick) + e.n[0].abs() + e.t[0].abs();
-        let rounding = tolerance * size;
+        let rounding =
+            tolerance * (scene.k1 + scene.k2) * motion + S::from_f64(ROUNDINGS) * S::EPSILON * size;
         let mut watch = |g: &Series<S>, degree: usize, from_zero: bool, which: u32| {
             // The gap opens with ÿ2 = −N/det.
             let rounding = if which == GAP { rounding * scene.inv_det } else { rounding };

@@ -219,12 +219,16 @@ pub fn value<S: Real>(c: &Series<S>, tau: S) -> S {
     p
 }
 
+/// The largest magnitude of the positions' terms of degree `k`.
+pub fn largest<S: Real>(e: &Expansion<S>, k: usize) -> S {
+    e.x[k].abs().max(e.y[k].abs()).max(e.w[k].abs())
+}
+
 /// The largest step from `longest` down by halves whose two last terms stay below `tolerance` relative to
 /// the leading ones; 0 when none does.
 pub fn step_length<S: Real>(e: &Expansion<S>, longest: S, tolerance: S) -> S {
-    let largest = |k: usize| e.x[k].abs().max(e.y[k].abs()).max(e.w[k].abs());
-    let (l0, l1, l2) = (largest(0), largest(1), largest(2));
-    let (f7, f8) = (largest(ORDER - 1), largest(ORDER));
+    let (l0, l1, l2) = (largest(e, 0), largest(e, 1), largest(e, 2));
+    let (f7, f8) = (largest(e, ORDER - 1), largest(e, ORDER));
     let mut step = longest;
     for _ in 0..MAX_HALVINGS {
         let square = step * step;

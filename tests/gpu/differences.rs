@@ -77,11 +77,29 @@ impl fmt::Display for Differences {
     }
 }
 
-/// Relative differences of the amplitudes; a NaN or a missing value is infinitely far.
+/// Relative differences of amplitudes, frequency, mean friction and peak force, and absolute ones of the time
+/// fractions; a NaN or a value that only one of them has is infinitely far.
 fn relative(a: &Outcome, b: &Outcome) -> impl Iterator<Item = f64> {
-    let pairs = [(a.x2_std, b.x2_std), (a.y1_std, b.y1_std), (a.ax_rms, b.ax_rms), (a.ay_rms, b.ay_rms)];
-    pairs.into_iter().map(|(a, b)| match (a, b) {
-        (Some(a), Some(b)) if a.is_finite() => (a - b).abs() / b.abs().max(1e-12),
+    let numbers = [
+        (a.x2_std, b.x2_std),
+        (a.y1_std, b.y1_std),
+        (a.ax_rms, b.ax_rms),
+        (a.ay_rms, b.ay_rms),
+        (a.response_frequency, b.response_frequency),
+        (a.friction_mean, b.friction_mean),
+        (a.n_peak, b.n_peak),
+    ];
+    let fractions = [(a.stick, b.stick), (a.free, b.free), (a.reverse, b.reverse)];
+    let far = |pair: (Option<f64>, Option<f64>), relative: bool| match pair {
+        (Some(a), Some(b)) => {
+            let difference: f64 = a - b;
+            let size: f64 = if relative { b.abs().max(1e-12) } else { 1.0 };
+            let error = difference.abs() / size;
+            if error.is_finite() { error } else { f64::INFINITY }
+        }
+        (None, None) => 0.0,
         _ => f64::INFINITY,
-    })
+    };
+    let numbers = numbers.into_iter().map(move |pair| far(pair, true));
+    numbers.chain(fractions.into_iter().map(move |pair| far(pair, false)))
 }

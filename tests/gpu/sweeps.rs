@@ -19,6 +19,7 @@ use crate::differences::Differences;
 pub(crate) const CASES: &[Case] = &[
     ("sweeps::a_coarse_paper_map_is_that_of_the_reference", coarse_paper_map),
     ("sweeps::every_law_and_a_ramp_are_those_of_the_reference", laws_and_ramp),
+    ("sweeps::slow_belts_are_those_of_the_reference", slow_belts),
     ("sweeps::a_table_of_forty_rows_is_that_of_the_reference", table),
     ("sweeps::any_chunk_size_and_two_runs_give_the_same_records", any_chunk),
     ("sweeps::instances_that_cannot_start_keep_their_status", dead),
@@ -80,7 +81,7 @@ fn coarse_paper_map() -> Result<(), Failed> {
 
 fn paper_map() -> Result<(), Failed> {
     let spec = paper_map_of(41)?;
-    check(&on_gpu(&spec, Precision::F32, None)?, &on_cpu(&spec)?, 5e-3, 2e-2)
+    check(&on_gpu(&spec, Precision::F32, None)?, &on_cpu(&spec)?, 1e-5, 5e-4)
 }
 
 fn in_f64() -> Result<(), Failed> {
@@ -134,6 +135,17 @@ fn laws_and_ramp() -> Result<(), Failed> {
         check(&on_gpu(&spec, Precision::F32, None)?, &on_cpu(&spec)?, 1e-4, 5e-3)?;
     }
     Ok(())
+}
+
+fn slow_belts() -> Result<(), Failed> {
+    // The motion scales with the velocity, the static loads do not: what an event may be off by must follow
+    // the motion.
+    let spec = spec(
+        "[model]\ntheta = 0.0\n[friction]\nmu_s = 0.5\nmu_d = 0.3\nknee_velocity = 5.0\n\
+         [axes]\nbelt_velocity = { values = [1e-3, 3e-3, 1e-2, 1e-1] }\n\
+         [response]\nsettle = \"50 periods\"\nmeasure = \"20 periods\"\n",
+    )?;
+    check(&on_gpu(&spec, Precision::F32, None)?, &on_cpu(&spec)?, 1e-5, 2e-4)
 }
 
 fn table() -> Result<(), Failed> {

@@ -24,7 +24,7 @@ const TWINS: &[Twin] = &[
         rust_only: &["words", "read"],
         wgsl_only: &["read_scene", "piece_of", "segment_of"],
     },
-    Twin { name: "series", rust_only: &[], wgsl_only: &["largest"] },
+    Twin { name: "series", rust_only: &[], wgsl_only: &[] },
     Twin { name: "crossing", rust_only: &[], wgsl_only: &[] },
     Twin {
         name: "observe",
