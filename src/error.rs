@@ -436,36 +436,7 @@ impl Error {
             | Error::OutsideMaterial { at, .. }
             | Error::AtSyntax { at, .. }
             | Error::AtMissing { at, .. } => Some(at),
-            Error::ReadSweep { .. }
-            | Error::OutputDirectory { .. }
-            | Error::Write { .. }
-            | Error::Incomplete { .. }
-            | Error::Unwritten { .. }
-            | Error::WriteTable(_)
-            | Error::WriteManifest(_)
-            | Error::ReadSvg(_)
-            | Error::Rasterize { .. }
-            | Error::NoModesAxis
-            | Error::NoModesOfTuples
-            | Error::NoModes
-            | Error::Threads { .. }
-            | Error::NoAdapter { .. }
-            | Error::NoSuchAdapter { .. }
-            | Error::NoF64 { .. }
-            | Error::NoStrict { .. }
-            | Error::NoHardware { .. }
-            | Error::LongTable { .. }
-            | Error::CpuPrecision
-            | Error::CpuStrict
-            | Error::OpenDevice { .. }
-            | Error::Device { .. }
-            | Error::DeviceLost { .. }
-            | Error::DeviceLostAgain { .. }
-            | Error::ShortBuffer { .. }
-            | Error::Miscounted { .. }
-            | Error::Endless { .. }
-            | Error::Cancelled { .. }
-            | Error::Signal { .. } => None,
+            _ => None,
         }
     }
 
@@ -473,13 +444,6 @@ impl Error {
     #[must_use]
     pub fn is_bad_input(&self) -> bool {
         match self {
-            Error::Write { .. }
-            | Error::Incomplete { .. }
-            | Error::Unwritten { .. }
-            | Error::WriteTable(_)
-            | Error::WriteManifest(_)
-            | Error::ReadSvg(_)
-            | Error::Rasterize { .. } => false,
             Error::ReadSweep { .. }
             | Error::OutputDirectory { .. }
             | Error::NoModesAxis

@@ -52,6 +52,12 @@ impl Status {
         Status::NotComputed,
     ];
 
+    /// The status an engine or a kernel returned as a code; `None` when it may not return that.
+    #[must_use]
+    pub fn from_code(code: u32) -> Option<Status> {
+        Status::ALL.into_iter().find(|status| *status as u32 == code)
+    }
+
     /// The name in `map.csv`.
     #[must_use]
     pub fn name(self) -> &'static str {

@@ -5,13 +5,12 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use rayon::prelude::*;
 
 use crate::backend::computed::Computed;
-use crate::backend::take_response;
+use crate::backend::{begun, take_response};
 use crate::error::{Error, Result};
 use crate::kernel::source::Precision;
 use crate::linear;
 use crate::map::{Computation, Record};
 use crate::method::taylor::REFERENCE_ORDER;
-use crate::model::equilibrium::Equilibrium;
 use crate::outcome::Status;
 use crate::response::{Plan, respond};
 use crate::spec::Spec;
@@ -71,10 +70,7 @@ pub fn record(spec: &Spec, index: usize) -> Record {
 #[must_use]
 pub fn record_with(spec: &Spec, index: usize, plan: &Plan) -> Record {
     let instance = spec.instance(index);
-    let mut record = Record { status: Status::Ok, ..Record::default() };
-    if let Err(status) = Equilibrium::new(&instance) {
-        record.status = status;
-    }
+    let mut record = begun(&instance);
     let (kind, linear) = linear::analyse(&instance);
     if spec.analysis.linear {
         (record.kind, record.linear) = (kind, linear);

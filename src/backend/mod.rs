@@ -13,6 +13,7 @@ pub mod gpu;
 use crate::classify::{self, InstabilityType, Regime};
 use crate::map::Record;
 use crate::model::Param;
+use crate::model::equilibrium::Equilibrium;
 use crate::outcome::{Outcome, Status};
 use crate::spec::Instance;
 
@@ -21,6 +22,12 @@ use crate::spec::Instance;
 pub fn regime(instance: &Instance, kind: Option<InstabilityType>, outcome: &Outcome) -> (Regime, bool) {
     let velocity = instance.params.require(Param::BeltVelocity);
     classify::regime(outcome, velocity, kind == Some(InstabilityType::Stable))
+}
+
+/// The record of an instance before any analysis: `ok`, or why it has no equilibrium.
+fn begun(instance: &Instance) -> Record {
+    let status = Equilibrium::new(instance).err().unwrap_or(Status::Ok);
+    Record { status, ..Record::default() }
 }
 
 /// Puts a response into the record of its instance.

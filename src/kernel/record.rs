@@ -5,7 +5,7 @@
 use super::lane::Lane;
 use super::observe::{Moment, SUMS};
 use super::scalar::Real;
-use super::source::{Field, words};
+use super::source::{first_word, words};
 use crate::outcome::Status;
 
 /// The words of a lane in the order of the fields of the response kernel.
@@ -56,16 +56,13 @@ pub fn read<S: Real>(state: &[S], flags: &[u32]) -> Option<Lane<S>> {
     if state.len() != words(kernel.state) || flags.len() != words(kernel.flags) {
         return None;
     }
-    let from = |fields: &[Field], name: &str| -> usize {
-        fields.iter().take_while(|field| field.name != name).map(|field| field.words).sum()
-    };
-    let real = |name: &str, word: usize| state[from(kernel.state, name) + word];
-    let flag = |name: &str, word: usize| flags[from(kernel.flags, name) + word];
+    let real = |name: &str, word: usize| state[first_word(kernel.state, name) + word];
+    let flag = |name: &str, word: usize| flags[first_word(kernel.flags, name) + word];
     let three = |name: &str, word: usize| std::array::from_fn(|i| real(name, word + i));
     let moment =
         |name: &str| Moment { segment: flag(name, 0), index: flag(name, 1), fraction: real(name, 0) };
     let mut lane = Lane::blank();
-    lane.status = Status::ALL.into_iter().find(|status| *status as u32 == flag("status", 0))?;
+    lane.status = Status::from_code(flag("status", 0))?;
     lane.iterations = flag("steps", 0);
     lane.segment = flag("segment", 0);
     lane.index = flag("index", 0);

@@ -29,8 +29,8 @@ pub const MOST_PIECES: usize = 1024;
 /// The smallest kernel that holds laws of `pieces` pieces, and how many it holds; `None` above
 /// [`MOST_PIECES`].
 #[must_use]
-pub fn kernel_for(pieces: usize) -> Option<(Kernel, usize)> {
-    let kernels = [
+pub fn kernel_for(pieces: usize) -> Option<&'static (Kernel, usize)> {
+    static KERNELS: [(Kernel, usize); 7] = [
         (KERNEL, 1),
         (kernel::<2>(), 2),
         (kernel::<4>(), 4),
@@ -39,7 +39,7 @@ pub fn kernel_for(pieces: usize) -> Option<(Kernel, usize)> {
         (kernel::<256>(), 256),
         (kernel::<MOST_PIECES>(), MOST_PIECES),
     ];
-    kernels.into_iter().find(|(_, holds)| pieces <= *holds)
+    KERNELS.iter().find(|(_, holds)| pieces <= *holds)
 }
 
 /// What is carried of a lane between dispatches.

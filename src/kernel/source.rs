@@ -144,6 +144,12 @@ pub const fn words(fields: &[Field]) -> usize {
     sum
 }
 
+/// The first word of a field; the number of all words when there is no such field.
+#[must_use]
+pub fn first_word(fields: &[Field], name: &str) -> usize {
+    fields.iter().take_while(|field| field.name != name).map(|field| field.words).sum()
+}
+
 /// A constant of the header.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Constant {

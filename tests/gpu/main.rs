@@ -72,6 +72,7 @@ fn main() {
         (software, runs::TWO),
         (all, faults::CASES),
         (strict, strict::CASES),
+        (strict, runs::STRICT),
         (strict.or(f64), strict::F64),
     ];
     let trials = groups.into_iter().flat_map(|(lack, cases)| {

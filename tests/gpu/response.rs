@@ -10,7 +10,7 @@ use squealmap::kernel::lane::Lane;
 use squealmap::kernel::record::write;
 use squealmap::kernel::response::{TOLERANCE, choices, kernel, segments, words as packed_words};
 use squealmap::kernel::scene::{Law, Scene as Words};
-use squealmap::kernel::source::{Kernel, Precision, SETTING_WORDS, words};
+use squealmap::kernel::source::{Kernel, Precision, SETTING_WORDS, first_word, words};
 use squealmap::method::taylor::REFERENCE_ORDER;
 use squealmap::model::friction::FrictionLaw;
 use squealmap::model::{Param, Params};
@@ -49,7 +49,7 @@ fn instances() -> Vec<Instance> {
     velocities.iter().flat_map(|velocity| (0..25).map(|k| instance(*velocity, k))).collect()
 }
 
-fn plan(settle: f64, measure: f64) -> Plan {
+pub(crate) fn plan(settle: f64, measure: f64) -> Plan {
     Plan {
         start: StartKind::Kick,
         settle: Duration::Periods(settle),
@@ -165,12 +165,9 @@ fn refused() -> Result<(), Failed> {
     let (scene, _, state, flags) = on_gpu(&plan, None)?.swap_remove(7);
     let read = |state: &[f32], flags: &[u32]| outcome_from(&scene, &plan, 7, state, flags);
     assert_eq!(read(&state, &flags)?.status, Status::Ok);
-    let flag = |name: &str| -> usize {
-        KERNEL.flags.iter().take_while(|field| field.name != name).map(|field| field.words).sum()
-    };
     let with = |name: &str, value: u32| {
         let mut wrong = flags.clone();
-        wrong[flag(name)] = value;
+        wrong[first_word(KERNEL.flags, name)] = value;
         read(&state, &wrong)
     };
     for unwritten in [
@@ -188,9 +185,7 @@ fn refused() -> Result<(), Failed> {
     }
     for value in [f32::NAN, f32::INFINITY] {
         let mut wrong = state.clone();
-        let total: usize =
-            KERNEL.state.iter().take_while(|field| field.name != "total").map(|field| field.words).sum();
-        wrong[total + 2] = value;
+        wrong[first_word(KERNEL.state, "total") + 2] = value;
         assert_eq!(read(&wrong, &flags)?.status, Status::NonFinite);
     }
     Ok(())

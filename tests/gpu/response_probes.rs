@@ -13,11 +13,11 @@ use squealmap::kernel::series::{
     Body, Expansion, FREE, ORDER, REVERSE, SLIP, STICK, evaluate, expand, step_length, value,
 };
 use squealmap::kernel::source::{Kernel, Precision};
-use squealmap::response::{Plan, Scene};
-use squealmap::spec::{Duration, StartKind};
+use squealmap::response::Scene;
 
 use crate::Case;
 use crate::instances::Uniform;
+use crate::response::plan;
 use crate::strict::instance;
 use crate::words::{device, drive};
 
@@ -171,14 +171,7 @@ fn probe(call: &str, twin: fn(&Words<f32>, f32, &Body<f32>) -> Vec<f32>) -> Resu
 
 /// The words of random instances of a form of law.
 fn instances(law: Law) -> Vec<Vec<f64>> {
-    let plan = Plan {
-        settle: Duration::Periods(1.0),
-        measure: Duration::Periods(1.0),
-        start: StartKind::Kick,
-        steps_per_period: 12,
-        order: squealmap::method::taylor::REFERENCE_ORDER,
-        tolerance: squealmap::integrate::STEP_TOLERANCE,
-    };
+    let plan = plan(1.0, 1.0);
     let mut u = Uniform(23);
     std::iter::repeat_with(|| instance(&mut u, law))
         .inspect(|one| assert_eq!(law_of(one.law.kind()), law))

@@ -8,7 +8,6 @@ use rayon::prelude::*;
 use squealmap::backend::gpu::device::{Arithmetic, Device};
 use squealmap::backend::gpu::kernel::Compiled;
 use squealmap::backend::gpu::run::{ChunkResult, Drive, run};
-use squealmap::integrate::STEP_TOLERANCE;
 use squealmap::kernel::lane::Lane;
 use squealmap::kernel::record::write;
 use squealmap::kernel::response::{TOLERANCE, choices, kernel, segments, words};
@@ -16,15 +15,15 @@ use squealmap::kernel::scalar::Real;
 use squealmap::kernel::scene::{Law, Scene as Words};
 use squealmap::kernel::source::{Constant, FLAG_STEPS, Kernel, Precision, SETTING_WORDS};
 use squealmap::kernel::{linear, source};
-use squealmap::method::taylor::REFERENCE_ORDER;
 use squealmap::model::friction::FrictionLaw;
 use squealmap::model::{Param, Params};
 use squealmap::outcome::Status;
-use squealmap::response::{Plan, Scene};
-use squealmap::spec::{Duration, Instance, StartKind};
+use squealmap::response::Scene;
+use squealmap::spec::Instance;
 
 use crate::Case;
 use crate::instances::Uniform;
+use crate::response::plan;
 use crate::words::{device, drive, inputs, on_cpu};
 
 /// Instances of a comparison.
@@ -175,14 +174,7 @@ struct Run {
 
 /// Random instances that can be integrated, run by the twin.
 fn runs(law: Law, count: usize) -> Vec<Run> {
-    let plan = Plan {
-        start: StartKind::Kick,
-        settle: Duration::Periods(0.5),
-        measure: Duration::Periods(1.5),
-        steps_per_period: 12,
-        order: REFERENCE_ORDER,
-        tolerance: STEP_TOLERANCE,
-    };
+    let plan = plan(0.5, 1.5);
     let mut u = Uniform(11);
     let words: Vec<Vec<f64>> = std::iter::repeat_with(|| instance(&mut u, law))
         .filter_map(|one| Scene::new(&one, plan.start).ok())
@@ -228,8 +220,7 @@ fn response_equals(law: Law, modes: &[bool]) -> Result<(), Failed> {
 /// How the twins end, and how many saw what: the comparison is worth what the instances do.
 fn variety(runs: &[Run]) -> String {
     let many = |name: &str, holds: fn(u32) -> bool| {
-        let fields = RESPONSE.flags.iter().take_while(|field| field.name != name);
-        let word: usize = fields.map(|field| field.words).sum();
+        let word = source::first_word(RESPONSE.flags, name);
         runs.iter().filter(|one| holds(one.flags[word])).count()
     };
     format!(

@@ -7,6 +7,7 @@ use rayon::prelude::*;
 use super::chunks::{Batch, Session};
 use super::device::Device;
 use super::run::{ChunkResult, Drive};
+use crate::backend::begun;
 use crate::backend::choice::Options;
 use crate::classify::InstabilityType;
 use crate::error::{Error, Result};
@@ -16,7 +17,6 @@ use crate::kernel::source::{FLAG_STATUS, FLAG_STEPS, Precision, SETTING_WORDS};
 use crate::kernel::words::{INPUT_WORDS, STATE_WORDS, Words};
 use crate::linear::prepare;
 use crate::map::Record;
-use crate::model::equilibrium::Equilibrium;
 use crate::outcome::Status;
 use crate::spec::Spec;
 
@@ -83,10 +83,7 @@ fn append_in<R: Real>(
 /// Instance `index` before the kernel.
 fn known(spec: &Spec, index: usize) -> Known {
     let instance = spec.instance(index);
-    let mut record = Record { status: Status::Ok, ..Record::default() };
-    if let Err(status) = Equilibrium::new(&instance) {
-        record.status = status;
-    }
+    let mut record = begun(&instance);
     match prepare(&instance) {
         Ok(prepared) => (record, Some(Words::new(&prepared))),
         Err(kind) => {

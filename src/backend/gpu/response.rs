@@ -82,8 +82,8 @@ fn complete_in<R: Real>(
 ) -> Result<()> {
     let plan = Plan::new(spec);
     let mut session = Session::new(device.clone());
-    let largest = kernel_for(pieces_of(spec)).map_or(KERNEL, |(kernel, _)| kernel);
-    let chunk = options.chunk.unwrap_or(usize::MAX).min(session.chunk_size::<R>(&largest));
+    let largest = kernel_for(pieces_of(spec)).map_or(&KERNEL, |(kernel, _)| kernel);
+    let chunk = options.chunk.unwrap_or(usize::MAX).min(session.chunk_size::<R>(largest));
     let mut settings = [0; SETTING_WORDS];
     settings[0] = TOLERANCE.to_bits();
     let drive = Drive {
@@ -111,21 +111,23 @@ fn complete_in<R: Real>(
     let accept = |range: Range<usize>, results: Vec<(Vec<usize>, ChunkResult<R>)>| {
         let mut live = vec![false; range.len()];
         for (indices, result) in results {
-            let outcomes: Vec<Option<Outcome>> = (0..indices.len())
+            let done: Vec<Record> = (0..indices.len())
                 .into_par_iter()
-                .map(|lane| outcome_of(spec, &plan, indices[lane], &result, lane, indices.len()))
+                .map(|lane| {
+                    let index = indices[lane];
+                    let words = lane_words(&result, lane, indices.len());
+                    finished(spec, &plan, index, records[index], result.cancelled, &words)
+                })
                 .collect::<Result<_>>()?;
-            for (index, outcome) in indices.into_iter().zip(outcomes) {
+            for (index, record) in indices.into_iter().zip(done) {
                 live[index - range.start] = true;
-                match outcome {
-                    Some(outcome) => take(spec, index, &mut records[index], &outcome),
-                    None => records[index] = Record::NOT_COMPUTED,
-                }
+                records[index] = record;
             }
         }
         for index in range.clone().filter(|index| !live[index - range.start]) {
-            let status = Scene::new(&spec.instance(index), plan.start).err().unwrap_or(Status::Unwritten);
-            take(spec, index, &mut records[index], &Outcome { status, ..Outcome::default() });
+            let instance = spec.instance(index);
+            let status = Scene::new(&instance, plan.start).err().unwrap_or(Status::Unwritten);
+            take(spec, &instance, &mut records[index], &Outcome { status, ..Outcome::default() });
         }
         Ok(())
     };
@@ -139,16 +141,15 @@ fn complete_in<R: Real>(
 
 /// Puts an outcome into its record; the type of the equilibrium is that of the linear analysis, where there
 /// is one.
-fn take(spec: &Spec, index: usize, record: &mut Record, outcome: &Outcome) {
-    let instance = spec.instance(index);
-    let kind = if spec.analysis.linear { record.kind } else { linear::analyse(&instance).0 };
-    take_response(record, &instance, kind, outcome);
+fn take(spec: &Spec, instance: &Instance, record: &mut Record, outcome: &Outcome) {
+    let kind = if spec.analysis.linear { record.kind } else { linear::analyse(instance).0 };
+    take_response(record, instance, kind, outcome);
 }
 
 /// The kernel and the words of an instance; `None` when it cannot start.
 fn words_of<R: Real>(instance: &Instance, plan: &Plan) -> Option<(Form, Vec<R>)> {
     let scene = Scene::new(instance, plan.start).ok()?;
-    let (_, pieces) = kernel_for(scene.model.law.pieces.len())?;
+    let &(_, pieces) = kernel_for(scene.model.law.pieces.len())?;
     let segments = segments(&scene, plan);
     let ramp = segments.iter().any(|segment| segment[3] != 0.0);
     let packed = words(&scene, &segments, pieces);
@@ -158,7 +159,7 @@ fn words_of<R: Real>(instance: &Instance, plan: &Plan) -> Option<(Form, Vec<R>)>
 
 /// The instances of a chunk that share a kernel.
 fn batch<R: Real>(form: Form, indices: Vec<usize>, rows: &[Vec<R>]) -> Batch<R, Vec<usize>> {
-    let (kernel, _) = kernel_for(form.pieces).unwrap_or((KERNEL, 1));
+    let kernel = kernel_for(form.pieces).map_or(KERNEL, |(kernel, _)| *kernel);
     let mut inputs = vec![R::ZERO; rows.len() * source::words(kernel.inputs)];
     inputs.par_chunks_mut(rows.len()).enumerate().for_each(|(word, column)| {
         for (value, row) in column.iter_mut().zip(rows) {
@@ -168,28 +169,36 @@ fn batch<R: Real>(form: Form, indices: Vec<usize>, rows: &[Vec<R>]) -> Batch<R, 
     Batch { kernel, choices: choices(form.law, form.ramp).to_vec(), inputs, memory: indices }
 }
 
-/// The outcome of lane `lane` of `count`; `None` when it was cancelled before its end.
+/// State and flags of lane `lane` of `count`.
+fn lane_words<R: Real>(result: &ChunkResult<R>, lane: usize, count: usize) -> (Vec<R>, Vec<u32>) {
+    let of_lane = |word: usize| word * count + lane;
+    let state = (0..source::words(KERNEL.state)).map(|word| result.state[of_lane(word)]).collect();
+    let flags = (0..source::words(KERNEL.flags)).map(|word| result.flags[of_lane(word)]).collect();
+    (state, flags)
+}
+
+/// The record of instance `index`, completed from the words of its lane; not computed when the chunk was
+/// cancelled before the lane's end.
 ///
 /// # Errors
 /// Those of [`outcome_from`].
-fn outcome_of<R: Real>(
+fn finished<R: Real>(
     spec: &Spec,
     plan: &Plan,
     index: usize,
-    result: &ChunkResult<R>,
-    lane: usize,
-    count: usize,
-) -> Result<Option<Outcome>> {
-    let word = |word: usize| word * count + lane;
-    let state: Vec<R> = (0..source::words(KERNEL.state)).map(|w| result.state[word(w)]).collect();
-    let flags: Vec<u32> = (0..source::words(KERNEL.flags)).map(|w| result.flags[word(w)]).collect();
-    if result.cancelled && flags[FLAG_STATUS] == Status::Unwritten as u32 {
-        return Ok(None);
+    mut record: Record,
+    cancelled: bool,
+    (state, flags): &(Vec<R>, Vec<u32>),
+) -> Result<Record> {
+    if cancelled && flags[FLAG_STATUS] == Status::Unwritten as u32 {
+        return Ok(Record::NOT_COMPUTED);
     }
-    match Scene::new(&spec.instance(index), plan.start) {
-        Ok(scene) => outcome_from(&scene, plan, index, &state, &flags).map(Some),
-        Err(_) => Err(Error::Unwritten { instance: index }),
-    }
+    let instance = spec.instance(index);
+    let Ok(scene) = Scene::new(&instance, plan.start) else {
+        return Err(Error::Unwritten { instance: index });
+    };
+    take(spec, &instance, &mut record, &outcome_from(&scene, plan, index, state, flags)?);
+    Ok(record)
 }
 
 /// The outcome of instance `index` from the words of its lane.

@@ -112,8 +112,7 @@ pub fn check<R>(result: &ChunkResult<R>, count: usize, [_, state, flags]: [usize
     }
     let statuses = &result.flags[FLAG_STATUS * count..(FLAG_STATUS + 1) * count];
     let known = |code: &u32| {
-        Status::ALL.iter().any(|status| *status as u32 == *code)
-            || result.cancelled && *code == Status::Unwritten as u32
+        Status::from_code(*code).is_some() || result.cancelled && *code == Status::Unwritten as u32
     };
     match statuses.iter().position(|code| !known(code)) {
         Some(instance) => Err(Error::Unwritten { instance }),
