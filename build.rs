@@ -23,7 +23,10 @@ fn main() {
             println!("cargo::rerun-if-changed={path}");
         }
     }
-    println!("cargo::rerun-if-changed=src");
+    // Everything that the binary is made of: a change of it is a change of the mark below.
+    for made_of in ["src", "shaders", "assets", "Cargo.toml", "Cargo.lock"] {
+        println!("cargo::rerun-if-changed={made_of}");
+    }
     let Some(commit) = git(&root, &["rev-parse", "HEAD"]) else { return };
     let changes = git(&root, &["status", "--porcelain", "--untracked-files=no"]).unwrap_or_default();
     let mark = if changes.is_empty() { "" } else { "-dirty" };
