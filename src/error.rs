@@ -307,11 +307,30 @@ pub enum Error {
         /// The best adapter.
         adapter: String,
     },
-    /// A hardware GPU is required but something else would compute.
+    /// A hardware GPU is required but a software adapter would compute.
     #[error("--require-gpu: {instead} would compute; remove the flag or install a GPU driver")]
     NoHardware {
         /// What would compute.
         instead: String,
+    },
+    /// Something is asked for that only a GPU can honour, and none is taken.
+    #[error("{asked}: this needs a GPU, but {cause}; {remedy}, or remove {asked}")]
+    OnlyOnGpu {
+        /// The options.
+        asked: String,
+        /// Why no GPU is taken.
+        cause: String,
+        /// What helps against it.
+        remedy: String,
+    },
+    /// An adapter without a name.
+    #[error(
+        "--adapter is `{name}` but must be a part of an adapter's name as `squealmap adapters` prints it; \
+         give one or remove --adapter"
+    )]
+    EmptyAdapter {
+        /// The blanks that were given, if any.
+        name: String,
     },
     /// A friction table that no kernel holds.
     #[error(
@@ -329,6 +348,15 @@ pub enum Error {
     /// The CPU engine asked to be strict.
     #[error("the CPU engine rounds every operation by itself; remove --strict or use --backend gpu")]
     CpuStrict,
+    /// The CPU engine asked to use an adapter.
+    #[error("the CPU engine uses no adapter; remove --adapter {name} or use --backend gpu")]
+    CpuAdapter {
+        /// The part of a name that was given.
+        name: String,
+    },
+    /// The CPU engine asked to be a GPU.
+    #[error("the CPU engine is no GPU; remove --require-gpu or use --backend gpu")]
+    CpuRequireGpu,
     /// An adapter that cannot be opened.
     #[error("cannot open {adapter}: {why}; use --backend cpu")]
     OpenDevice {
@@ -456,8 +484,12 @@ impl Error {
             | Error::NoStrict { .. }
             | Error::NoHardware { .. }
             | Error::LongTable { .. }
+            | Error::OnlyOnGpu { .. }
+            | Error::EmptyAdapter { .. }
             | Error::CpuPrecision
-            | Error::CpuStrict => true,
+            | Error::CpuStrict
+            | Error::CpuAdapter { .. }
+            | Error::CpuRequireGpu => true,
             _ => self.place().is_some(),
         }
     }

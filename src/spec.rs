@@ -8,7 +8,7 @@ mod duration;
 mod files;
 mod instance;
 mod law;
-mod names;
+pub(crate) mod names;
 mod read;
 mod resolved;
 mod rows;

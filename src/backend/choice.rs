@@ -2,6 +2,7 @@
 
 use std::sync::atomic::AtomicBool;
 
+use super::fallback::NoGpu;
 use super::gpu::adapter::Adapter;
 use super::gpu::device::{Arithmetic, Device};
 use super::gpu::response;
@@ -26,14 +27,15 @@ pub enum Backend {
 pub struct Options<'a> {
     /// The backend.
     pub backend: Backend,
-    /// The scalar; `None`: f64 on the CPU, f32 on a GPU.
+    /// The scalar; `None`: f64 on the CPU, f32 on a GPU. f32 is an error where the CPU engine would compute.
     pub precision: Option<Precision>,
     /// Whether a GPU rounds every operation by itself: where it also divides exactly and keeps denormals, results
-    /// are those of the kernel's twin in every bit.
+    /// are those of the kernel's twin in every bit. An error where the CPU engine would compute.
     pub strict: bool,
     /// An error unless a hardware GPU computes.
     pub require_gpu: bool,
-    /// Only adapters whose name contains this, in any case.
+    /// Only adapters whose name contains this, in any case. An error where the CPU engine would compute, or
+    /// when it is blank.
     pub adapter: Option<&'a str>,
     /// Most instances of one chunk on a GPU; results do not depend on it.
     pub chunk: Option<usize>,
@@ -71,10 +73,13 @@ pub enum Engine {
 /// Chooses the engine of a sweep and says why to `options.note`.
 ///
 /// # Errors
-/// When the backend that is asked for is not there, lacks the precision or cannot compute the analysis.
+/// When the backend that is asked for is not there, lacks the precision or cannot compute the analysis; when
+/// an option would have no effect on what computes.
 pub fn choose(options: &Options, spec: &Spec) -> Result<Engine> {
+    if let Some(name) = options.adapter.filter(|name| name.trim().is_empty()) {
+        return Err(Error::EmptyAdapter { name: name.to_owned() });
+    }
     let (engine, why) = match options.backend {
-        Backend::Cpu if options.strict => return Err(Error::CpuStrict),
         Backend::Cpu => (cpu(options)?, "as asked for".to_owned()),
         Backend::Gpu => gpu(options, spec)?,
         Backend::Auto => auto(options, spec)?,
@@ -92,17 +97,27 @@ pub fn choose(options: &Options, spec: &Spec) -> Result<Engine> {
 }
 
 fn cpu(options: &Options) -> Result<Engine> {
+    if options.strict {
+        return Err(Error::CpuStrict);
+    }
     if options.precision == Some(Precision::F32) {
         return Err(Error::CpuPrecision);
     }
+    if let Some(name) = options.adapter {
+        return Err(Error::CpuAdapter { name: name.to_owned() });
+    }
     if options.require_gpu {
-        return Err(Error::NoHardware { instead: "the CPU engine".to_owned() });
+        return Err(Error::CpuRequireGpu);
     }
     Ok(Engine::Cpu)
 }
 
 fn gpu(options: &Options, spec: &Spec) -> Result<(Engine, String)> {
-    response::check(spec)?;
+    response::check(spec).map_err(|why| {
+        // Its advice, the CPU engine, would be refused next.
+        let asked = ["--backend gpu", "--require-gpu"].map(str::to_owned);
+        if options.require_gpu { NoGpu::Failed(why).refusal(&asked, true) } else { why }
+    })?;
     let arithmetic = options.arithmetic();
     let adapter = Adapter::best(arithmetic, options.adapter)?;
     if options.require_gpu && adapter.is_software() {
@@ -117,28 +132,23 @@ fn gpu(options: &Options, spec: &Spec) -> Result<(Engine, String)> {
 }
 
 fn auto(options: &Options, spec: &Spec) -> Result<(Engine, String)> {
-    let fallback = |why: String| {
-        if options.require_gpu {
-            return Err(Error::NoHardware { instead: format!("the CPU engine ({why})") });
-        }
-        Ok((cpu(options)?, why))
+    let no_gpu = match hardware(options, spec) {
+        Ok(device) => return Ok((Engine::Gpu(device), "the best GPU of this machine".to_owned())),
+        // A name that is nowhere is a slip of the pen, not a machine without a GPU.
+        Err(NoGpu::Failed(why @ Error::NoSuchAdapter { .. })) => return Err(why),
+        Err(no_gpu) => no_gpu,
     };
-    if let Err(why) = response::check(spec) {
-        return fallback(why.to_string());
-    }
+    no_gpu.allows_cpu(options)?;
+    Ok((Engine::Cpu, no_gpu.note()))
+}
+
+/// The best hardware GPU, open.
+fn hardware(options: &Options, spec: &Spec) -> std::result::Result<Device, NoGpu> {
+    response::check(spec).map_err(NoGpu::Failed)?;
     let arithmetic = options.arithmetic();
-    let adapter = match Adapter::best(arithmetic, options.adapter) {
-        Ok(adapter) => adapter,
-        Err(why @ (Error::NoAdapter { .. } | Error::NoF64 { .. } | Error::NoStrict { .. })) => {
-            return fallback(why.to_string());
-        }
-        Err(other) => return Err(other),
-    };
+    let adapter = Adapter::best(arithmetic, options.adapter).map_err(NoGpu::Failed)?;
     if adapter.is_software() {
-        return fallback(format!("the only adapter, {}, is software", adapter.describe()));
+        return Err(NoGpu::Software(adapter.describe().to_string()));
     }
-    match Device::open(&adapter, arithmetic) {
-        Ok(device) => Ok((Engine::Gpu(device), "the best GPU of this machine".to_owned())),
-        Err(why) => fallback(why.to_string()),
-    }
+    Device::open(&adapter, arithmetic).map_err(NoGpu::Failed)
 }

@@ -8,6 +8,7 @@
 pub mod choice;
 pub mod computed;
 pub mod cpu;
+mod fallback;
 pub mod gpu;
 
 use crate::classify::{self, InstabilityType, Regime};

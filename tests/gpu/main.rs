@@ -69,7 +69,7 @@ fn main() {
         (f64, sweeps::F64),
         (slow, sweeps::SLOW),
         (all, runs::CASES),
-        (software, runs::TWO),
+        (software, runs::SOFTWARE),
         (all, faults::CASES),
         (strict, strict::CASES),
         (strict, runs::STRICT),

@@ -1,6 +1,6 @@
 //! The program with a GPU backend: exit codes, messages, manifest. Drivers print lines of their own.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
@@ -24,7 +24,10 @@ pub(crate) const CASES: &[Case] = &[
 pub(crate) const STRICT: &[Case] = &[("runs::a_strict_linear_sweep", strict)];
 
 /// Cases that need the software driver's manifest.
-pub(crate) const TWO: &[Case] = &[("runs::two_adapters", two_adapters)];
+pub(crate) const SOFTWARE: &[Case] = &[
+    ("runs::two_adapters", two_adapters),
+    ("runs::auto_does_not_drop_what_only_a_gpu_honours", only_on_gpu),
+];
 
 /// The manifests of the software Vulkan driver.
 pub(crate) fn software_driver() -> Option<PathBuf> {
@@ -51,6 +54,55 @@ pub(crate) fn squealmap(arguments: &[&str]) -> Result<(Output, tempfile::TempDir
     Ok((output, directory))
 }
 
+/// Exit code, standard output and standard error of the program in a directory where only `drivers` answer.
+fn with_drivers(
+    directory: &Path,
+    drivers: &[PathBuf],
+    arguments: &[&str],
+) -> Result<(Option<i32>, String, String), Failed> {
+    let drivers = std::env::join_paths(drivers)?;
+    let output = Command::new(env!("CARGO_BIN_EXE_squealmap"))
+        .args(arguments)
+        .current_dir(directory)
+        .env("VK_ICD_FILENAMES", &drivers)
+        .env("VK_DRIVER_FILES", &drivers)
+        .output()?;
+    Ok((output.status.code(), text(&output.stdout), text(&output.stderr)))
+}
+
+/// With a software adapter alone, `auto` takes the CPU engine, but not in the place of what that cannot do.
+fn only_on_gpu() -> Result<(), Failed> {
+    let drivers = [software_driver().ok_or("no driver")?];
+    let directory = tempfile::tempdir()?;
+    std::fs::write(directory.path().join("belt.toml"), BELT)?;
+    let run = |arguments: &[&str]| {
+        with_drivers(directory.path(), &drivers, &[&["run", "belt.toml"], arguments].concat())
+    };
+    let (_, listed, _) = with_drivers(directory.path(), &drivers, &["adapters"])?;
+    let name = listed.lines().next().ok_or("no name")?;
+    for plain in [&[][..], &["--precision", "f64"]] {
+        let (code, _, err) = run(plain)?;
+        assert_eq!(code, Some(0), "{err}");
+        assert!(err.contains(&format!("computing on the CPU in f64: the only adapter, {name} (")), "{err}");
+    }
+    for (asked, remedy) in [
+        (&["--strict"][..], "take it all the same with --backend gpu"),
+        (&["--precision", "f32"], "take it all the same with --backend gpu"),
+        (&["--adapter", name], "take it all the same with --backend gpu"),
+        (&["--require-gpu"], "install the driver of a GPU"),
+    ] {
+        let (code, _, err) = run(asked)?;
+        let asked = asked.join(" ");
+        assert_eq!(code, Some(2), "{err}");
+        assert!(err.contains(&format!("error: {asked}: this needs a GPU, but {name} (")), "{err}");
+        assert!(err.contains(&format!(" is no hardware GPU; {remedy}, or remove {asked}\n")), "{err}");
+    }
+    let (code, _, err) = run(&["--backend", "gpu", "--require-gpu"])?;
+    assert_eq!(code, Some(2), "{err}");
+    assert!(err.contains(&format!("error: --require-gpu: {name} (")), "{err}");
+    Ok(())
+}
+
 fn two_adapters() -> Result<(), Failed> {
     let driver = software_driver().ok_or("no driver")?;
     let directory = tempfile::tempdir()?;
@@ -60,15 +112,7 @@ fn two_adapters() -> Result<(), Failed> {
         std::fs::copy(&driver, path)?;
     }
     std::fs::write(directory.path().join("belt.toml"), BELT)?;
-    let squealmap = |arguments: &[&str]| -> std::io::Result<(Option<i32>, String, String)> {
-        let output = Command::new(env!("CARGO_BIN_EXE_squealmap"))
-            .args(arguments)
-            .current_dir(directory.path())
-            .env("VK_ICD_FILENAMES", std::env::join_paths(&twice).unwrap_or_default())
-            .env("VK_DRIVER_FILES", std::env::join_paths(&twice).unwrap_or_default())
-            .output()?;
-        Ok((output.status.code(), text(&output.stdout), text(&output.stderr)))
-    };
+    let squealmap = |arguments: &[&str]| with_drivers(directory.path(), &twice, arguments);
     let (_, listed, _) = squealmap(&["adapters"])?;
     assert_eq!(listed.matches("  kind      software").count(), 2, "{listed}");
     let name = listed.lines().next().ok_or("no name")?;

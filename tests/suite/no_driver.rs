@@ -6,10 +6,17 @@
 use std::path::Path;
 use std::process::Command;
 
+/// A sweep with one row of its friction table more than kernels hold.
+const LONG: &str = "[friction]\nlaw = \"table\"\ntable = \"mu.csv\"\n[belt]\nbelt_velocity = 3\n\
+                    [response]\nsettle = \"2 periods\"\nmeasure = \"2 periods\"\n";
+
 /// Exit code and standard error of the program with the Vulkan loader pointed at `driver`.
 fn with_driver(driver: &Path, arguments: &[&str]) -> (Option<i32>, String, String) {
     let directory = tempfile::tempdir().unwrap();
     std::fs::copy("sweeps/paper_modes.toml", directory.path().join("modes.toml")).unwrap();
+    std::fs::write(directory.path().join("long.toml"), LONG).unwrap();
+    let rows: Vec<String> = (0..1025).map(|row| format!("{row},0.3")).collect();
+    std::fs::write(directory.path().join("mu.csv"), format!("velocity,mu\n{}\n", rows.join("\n"))).unwrap();
     let output = Command::new(env!("CARGO_BIN_EXE_squealmap"))
         .args(arguments)
         .current_dir(directory.path())
@@ -20,6 +27,11 @@ fn with_driver(driver: &Path, arguments: &[&str]) -> (Option<i32>, String, Strin
         .unwrap();
     let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
     (output.status.code(), text(output.stdout), text(output.stderr))
+}
+
+/// The words of a command line.
+fn words(line: &str) -> Vec<&str> {
+    line.split(' ').collect()
 }
 
 /// What must hold wherever no adapter answers.
@@ -33,13 +45,24 @@ fn nothing_answers(driver: &Path) {
     assert!(err.starts_with("error: no GPU was found: "), "{err}");
     assert!(err.contains("libvulkan1") && err.contains("mesa-vulkan-drivers"), "{err}");
 
-    let (code, _, err) = with_driver(driver, &["run", "modes.toml", "--require-gpu"]);
-    assert_eq!(code, Some(2), "{err}");
-    assert!(err.starts_with("error: --require-gpu: the CPU engine "), "{err}");
-
-    let (code, _, err) = with_driver(driver, &["run", "modes.toml", "--strict"]);
+    // In f64 the CPU engine computes what was asked for.
+    let (code, _, err) = with_driver(driver, &["run", "modes.toml", "--precision", "f64"]);
     assert_eq!(code, Some(0), "{err}");
     assert!(err.starts_with("computing on the CPU in f64: no GPU was found: "), "{err}");
+
+    for asked in
+        ["--precision f32", "--strict", "--adapter radeon", "--require-gpu", "--strict --precision f64"]
+    {
+        let (code, _, err) = with_driver(driver, &[&["run", "modes.toml"], &words(asked)[..]].concat());
+        assert_eq!(code, Some(2), "{err}");
+        let asked = asked.trim_end_matches(" --precision f64");
+        let cause = "this needs a GPU, but no adapter answers through Vulkan, Metal or DX12; install ";
+        assert!(err.starts_with(&format!("error: {asked}: {cause}")), "{err}");
+        assert!(err.ends_with(&format!(", or remove {asked}\n")), "{err}");
+    }
+    let all = "run modes.toml --require-gpu --strict --precision f32";
+    let (_, _, err) = with_driver(driver, &words(all));
+    assert!(err.starts_with("error: --precision f32, --strict and --require-gpu: this needs a GPU"), "{err}");
 
     let (code, out, _) = with_driver(driver, &["adapters"]);
     assert_eq!(code, Some(0));
@@ -60,23 +83,74 @@ fn a_driver_that_is_not_there() {
     nothing_answers(&manifest);
 }
 
+/// The one line that a run without any driver ends with, after exit code 2.
+fn refused(arguments: &str) -> String {
+    let (code, _, err) = with_driver(Path::new("/nonexistent"), &words(arguments));
+    assert_eq!(code, Some(2), "{err}");
+    assert_eq!(err.lines().count(), 1, "{err}");
+    err.trim_end().to_owned()
+}
+
 #[test]
 fn the_cpu_engine_has_no_f32() {
-    let (code, _, err) = with_driver(
-        Path::new("/nonexistent"),
-        &["run", "modes.toml", "--backend", "cpu", "--precision", "f32"],
+    assert_eq!(
+        refused("run modes.toml --backend cpu --precision f32"),
+        "error: the CPU engine computes in f64 only; remove --precision f32 or use --backend gpu"
     );
-    assert_eq!(code, Some(2), "{err}");
-    assert!(err.starts_with("error: the CPU engine computes in f64 only; remove --precision f32"), "{err}");
 }
 
 #[test]
 fn the_cpu_engine_is_not_asked_to_be_strict() {
-    let (code, _, err) =
-        with_driver(Path::new("/nonexistent"), &["run", "modes.toml", "--backend", "cpu", "--strict"]);
-    assert_eq!(code, Some(2), "{err}");
-    assert!(
-        err.starts_with("error: the CPU engine rounds every operation by itself; remove --strict"),
-        "{err}"
+    assert_eq!(
+        refused("run modes.toml --backend cpu --strict"),
+        "error: the CPU engine rounds every operation by itself; remove --strict or use --backend gpu"
     );
+}
+
+#[test]
+fn the_cpu_engine_uses_no_adapter() {
+    assert_eq!(
+        refused("run modes.toml --backend cpu --adapter radeon"),
+        "error: the CPU engine uses no adapter; remove --adapter radeon or use --backend gpu"
+    );
+}
+
+#[test]
+fn the_cpu_engine_is_no_gpu() {
+    assert_eq!(
+        refused("run modes.toml --backend cpu --require-gpu"),
+        "error: the CPU engine is no GPU; remove --require-gpu or use --backend gpu"
+    );
+}
+
+#[test]
+fn an_adapter_has_a_name() {
+    for backend in ["auto", "gpu", "cpu"] {
+        for name in ["", "  "] {
+            let arguments = ["run", "modes.toml", "--backend", backend, "--adapter", name];
+            let (code, _, err) = with_driver(Path::new("/nonexistent"), &arguments);
+            assert_eq!(code, Some(2), "{err}");
+            let expected = format!(
+                "error: --adapter is `{name}` but must be a part of an adapter's name as `squealmap adapters` \
+                 prints it; give one or remove --adapter\n"
+            );
+            assert_eq!(err, expected);
+        }
+    }
+}
+
+#[test]
+fn a_table_that_no_kernel_holds_is_the_reason_given() {
+    let cause = "a friction table of 1025 rows is too long for a GPU, which takes 1024; thin it out, or";
+    assert_eq!(refused("run long.toml --backend gpu"), format!("error: {cause} use --backend cpu"));
+    for asked in ["--require-gpu", "--backend gpu --require-gpu", "--strict"] {
+        let named = asked.replace(" --r", " and --r");
+        assert_eq!(
+            refused(&format!("run long.toml {asked}")),
+            format!("error: {named}: this needs a GPU, but {cause} remove {named}")
+        );
+    }
+    let (code, _, err) = with_driver(Path::new("/nonexistent"), &["run", "long.toml"]);
+    assert_eq!(code, Some(0), "{err}");
+    assert!(err.starts_with(&format!("computing on the CPU in f64: {cause} use --backend cpu")), "{err}");
 }
