@@ -1,9 +1,11 @@
 //! Whole sweeps with response on the GPU: against the reference, any chunk size, two runs, every kernel.
 
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use libtest_mimic::Failed;
 use squealmap::backend::choice::{Backend, Options};
+use squealmap::backend::gpu::adapter::Adapter;
+use squealmap::backend::gpu::response::software_chunk;
 use squealmap::kernel::response::{TOLERANCE, respond};
 use squealmap::kernel::source::Precision;
 use squealmap::map::{Map, Record, Stopped};
@@ -20,10 +22,13 @@ pub(crate) const CASES: &[Case] = &[
     ("sweeps::a_coarse_paper_map_is_that_of_the_reference", coarse_paper_map),
     ("sweeps::every_law_and_a_ramp_are_those_of_the_reference", laws_and_ramp),
     ("sweeps::slow_belts_are_those_of_the_reference", slow_belts),
-    ("sweeps::a_table_of_forty_rows_is_that_of_the_reference", table),
+    ("sweeps::a_table_of_forty_rows_is_that_of_the_reference", || table(40, 24)),
+    ("sweeps::a_table_of_a_hundred_rows_is_that_of_the_reference", || table(100, 12)),
+    ("sweeps::a_table_of_a_thousand_rows_is_that_of_the_reference", || table(1000, 6)),
     ("sweeps::any_chunk_size_and_two_runs_give_the_same_records", any_chunk),
     ("sweeps::instances_that_cannot_start_keep_their_status", dead),
     ("sweeps::a_cancelled_sweep_keeps_what_is_finished", cancelled),
+    ("sweeps::a_cancelled_sweep_keeps_its_chunks", keeps_chunks),
     ("sweeps::the_comparer_sees_another_scene", planted),
 ];
 
@@ -148,23 +153,29 @@ fn slow_belts() -> Result<(), Failed> {
     check(&on_gpu(&spec, Precision::F32, None)?, &on_cpu(&spec)?, 1e-5, 2e-4)
 }
 
-fn table() -> Result<(), Failed> {
+/// A table of `rows` rows, each longer one in a larger kernel, at `points` belt velocities.
+fn table(rows: i32, points: usize) -> Result<(), Failed> {
     let directory = tempfile::tempdir()?;
-    // The exponential law of 40 rows, so that a run passes many kinks.
+    // The exponential law up to 6 m/s, so that a run passes many kinks.
     let row = |i: i32| {
-        let v = 0.15 * f64::from(i);
+        let v = 6.0 * f64::from(i) / f64::from(rows);
         format!("{v},{}\n", 0.2 + 0.3 * (-v / 2.0).exp())
     };
-    let text = "velocity,mu\n".to_owned() + &(0..40).map(row).collect::<String>();
+    let text = "velocity,mu\n".to_owned() + &(0..rows).map(row).collect::<String>();
     std::fs::write(directory.path().join("mu.csv"), text)?;
     std::fs::write(
         directory.path().join("sweep.toml"),
-        "[friction]\nlaw = \"table\"\ntable = \"mu.csv\"\n\
-         [axes]\nbelt_velocity = { from = 0.2, to = 5.5, points = 24 }\n\
-         [response]\nsettle = \"3 s\"\nmeasure = \"2 s\"\n",
+        format!(
+            "[friction]\nlaw = \"table\"\ntable = \"mu.csv\"\n\
+             [axes]\nbelt_velocity = {{ from = 0.2, to = 5.5, points = {points} }}\n\
+             [response]\nsettle = \"3 s\"\nmeasure = \"2 s\"\n"
+        ),
     )?;
     let spec = Spec::read(&directory.path().join("sweep.toml"))?;
-    check(&on_gpu(&spec, Precision::F32, None)?, &on_cpu(&spec)?, 1e-4, 2e-3)
+    let reference = on_cpu(&spec)?;
+    let steps: u64 = reference.records.iter().filter_map(|one| one.outcome).map(|one| one.steps).sum();
+    println!("{steps} steps of the reference, an event ends one");
+    check(&on_gpu(&spec, Precision::F32, None)?, &reference, 1e-4, 2e-3)
 }
 
 fn any_chunk() -> Result<(), Failed> {
@@ -193,6 +204,38 @@ fn cancelled() -> Result<(), Failed> {
     for (found, expected) in map.records.iter().zip(&whole.records) {
         assert!(*found == Record::NOT_COMPUTED || found == expected);
     }
+    Ok(())
+}
+
+/// The chunks are those that a software adapter takes by itself; elsewhere they are asked for.
+fn keeps_chunks() -> Result<(), Failed> {
+    let chunk = software_chunk();
+    let software = Adapter::best(Precision::F32, None)?.may_be_software();
+    let spec = spec(&format!(
+        "[friction]\nmu_d = 0.3\nmu_s = 0.4\n[axes]\n\
+         belt_velocity = {{ from = 1, to = 3, points = {} }}\n\
+         [response]\nsettle = \"1 periods\"\nmeasure = \"1 periods\"\n",
+        4 * chunk
+    ))?;
+    let whole = on_gpu(&spec, Precision::F32, None)?;
+    assert_eq!(whole.computed(), 4 * chunk);
+    let (cancel, done) = (AtomicBool::new(false), AtomicUsize::new(0));
+    let options = Options {
+        backend: Backend::Gpu,
+        chunk: (!software).then_some(chunk),
+        cancel: Some(&cancel),
+        ..Options::default()
+    };
+    // In the second chunk, whatever part of it is finished by then.
+    let map = sweep::run(spec, &options, &|count| {
+        if done.fetch_add(count, Ordering::Relaxed) + count > chunk {
+            cancel.store(true, Ordering::Relaxed);
+        }
+    })?;
+    println!("{} of {} instances were finished, chunks of {chunk}", map.computed(), 4 * chunk);
+    assert_eq!(map.stopped, Some(Stopped::Cancelled));
+    assert_eq!(map.records[..chunk], whole.records[..chunk]);
+    assert!(map.records[2 * chunk..].iter().all(|record| *record == Record::NOT_COMPUTED));
     Ok(())
 }
 
