@@ -174,7 +174,7 @@ pub const fn kernel<const PIECES: usize>() -> Kernel {
                 ("GAP", Constant::U32(lane::GAP)),
             ]
         },
-        loops_per_step: LOOPS_PER_STEP,
+        loops_per_step: LOOPS_PER_STEP + SEARCHES_PER_STEP * (PIECES as u32 - 1),
     }
 }
 
@@ -182,8 +182,12 @@ pub const fn kernel<const PIECES: usize>() -> Kernel {
 /// those of the reference to 1.5e-4 at the 99th percentile.
 pub const TOLERANCE: f32 = 2e-4;
 
-/// Most loop iterations of one step, every loop at its longest.
+/// Most loop iterations of one step, every loop at its longest, without the searches for a piece of the law.
 const LOOPS_PER_STEP: u32 = 1500;
+
+/// Most searches for a piece in one step, each over all pieces: an impact looks for that before it and that
+/// after it.
+const SEARCHES_PER_STEP: u32 = 2;
 
 /// What a scene selects: the form of its law, and whether its belt has a ramp.
 #[must_use]

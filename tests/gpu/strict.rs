@@ -29,7 +29,7 @@ use crate::words::{device, drive, inputs, on_cpu};
 /// Instances of a comparison.
 const COUNT: usize = 65_536;
 
-/// Instances of a planted fault.
+/// Instances of a planted fault, and of a transient in f64.
 const FEW: usize = 2000;
 
 /// Steps of an instance that chatters.
@@ -43,15 +43,32 @@ const RESPONSE: Kernel = kernel::<PIECES>();
 
 pub(crate) const CASES: &[Case] = &[
     ("strict::linear_equals_its_twin_in_every_bit", linear_equals::<f32>),
-    ("strict::pieces_equal_their_twin_in_every_bit", || response_equals(Law::Pieces, &[false, true])),
-    ("strict::exponential_equals_its_twin_in_every_bit", || response_equals(Law::Exponential, &[true])),
-    ("strict::rational_equals_its_twin_in_every_bit", || response_equals(Law::Rational, &[true])),
+    ("strict::pieces_equal_their_twin_in_every_bit", || {
+        response_equals::<f32>(Law::Pieces, COUNT, &[false, true])
+    }),
+    ("strict::exponential_equals_its_twin_in_every_bit", || {
+        response_equals::<f32>(Law::Exponential, COUNT, &[true])
+    }),
+    ("strict::rational_equals_its_twin_in_every_bit", || {
+        response_equals::<f32>(Law::Rational, COUNT, &[true])
+    }),
     ("strict::one_changed_operation_is_noticed", changed_operation),
     ("strict::one_ulp_in_one_scene_is_noticed", changed_scene),
 ];
 
-pub(crate) const F64: &[Case] =
-    &[("strict::linear_in_f64_equals_its_twin_in_every_bit", linear_equals::<f64>)];
+/// Cases that need an adapter with f64 and a strict one.
+pub(crate) const F64: &[Case] = &[
+    ("strict::linear_in_f64_equals_its_twin_in_every_bit", linear_equals::<f64>),
+    ("strict::pieces_in_f64_equal_their_twin_in_every_bit", || {
+        response_equals::<f64>(Law::Pieces, FEW, &[false, true])
+    }),
+    ("strict::exponential_in_f64_equals_its_twin_in_every_bit", || {
+        response_equals::<f64>(Law::Exponential, FEW, &[true])
+    }),
+    ("strict::rational_in_f64_equals_its_twin_in_every_bit", || {
+        response_equals::<f64>(Law::Rational, FEW, &[true])
+    }),
+];
 
 /// The instances whose words are not the same to the bit, and what the first of them differs in.
 fn differing<R: Real>(
@@ -108,7 +125,7 @@ struct Group<R> {
 fn compared<R: Real>(
     kernel: &Kernel,
     choices: &[(&str, Constant)],
-    groups: &[Group<R>],
+    (groups, wanted): (&[Group<R>], usize),
     modes: &[bool],
 ) -> Result<(), Failed> {
     let text = kernel.source(R::PRECISION, choices);
@@ -130,7 +147,7 @@ fn compared<R: Real>(
             device.describe()
         );
         let software = device.describe().device_type == "software";
-        if instances != COUNT || *strict && software && different > 0 {
+        if instances != wanted || *strict && software && different > 0 {
             return Err(format!("{different} of {instances} instances differ: {first}").into());
         }
     }
@@ -140,7 +157,7 @@ fn compared<R: Real>(
 fn linear_equals<R: Real>() -> Result<(), Failed> {
     let inputs = inputs::<R>(COUNT);
     let twin = on_cpu(&inputs);
-    compared(&linear::KERNEL, &[], &[Group { inputs, twin }], &[false, true])
+    compared(&linear::KERNEL, &[], (&[Group { inputs, twin }], COUNT), &[false, true])
 }
 
 /// A random instance of a law.
@@ -166,14 +183,14 @@ pub(crate) fn instance(u: &mut Uniform, law: Law) -> Instance {
 }
 
 /// One instance and its twin at the end.
-struct Run {
+struct Run<R> {
     words: Vec<f64>,
-    state: Vec<f32>,
+    state: Vec<R>,
     flags: Vec<u32>,
 }
 
 /// Random instances that can be integrated, run by the twin.
-fn runs(law: Law, count: usize) -> Vec<Run> {
+fn runs<R: Real>(law: Law, count: usize) -> Vec<Run<R>> {
     let plan = plan(0.5, 1.5);
     let mut u = Uniform(11);
     let words: Vec<Vec<f64>> = std::iter::repeat_with(|| instance(&mut u, law))
@@ -186,7 +203,7 @@ fn runs(law: Law, count: usize) -> Vec<Run> {
         .map(|words| {
             let scene = Words::read(law, PIECES, &words);
             let mut lane = Lane::new(&scene);
-            lane.run(&scene, TOLERANCE);
+            lane.run(&scene, R::from_f64(f64::from(TOLERANCE)));
             let (state, flags) = write(&lane);
             Run { words, state, flags }
         })
@@ -194,11 +211,12 @@ fn runs(law: Law, count: usize) -> Vec<Run> {
 }
 
 /// Runs as word-major inputs and results.
-#[expect(clippy::cast_possible_truncation, reason = "the narrowing of the host")]
-fn group(runs: &[Run]) -> Group<f32> {
+fn group<R: Real>(runs: &[Run<R>]) -> Group<R> {
     let [inputs, state, flags] = [RESPONSE.inputs, RESPONSE.state, RESPONSE.flags].map(source::words);
     Group {
-        inputs: (0..inputs).flat_map(|word| runs.iter().map(move |one| one.words[word] as f32)).collect(),
+        inputs: (0..inputs)
+            .flat_map(|word| runs.iter().map(move |one| R::from_f64(one.words[word])))
+            .collect(),
         twin: ChunkResult {
             state: (0..state).flat_map(|word| runs.iter().map(move |one| one.state[word])).collect(),
             cancelled: false,
@@ -207,18 +225,19 @@ fn group(runs: &[Run]) -> Group<f32> {
     }
 }
 
-fn response_equals(law: Law, modes: &[bool]) -> Result<(), Failed> {
-    let runs = runs(law, COUNT);
+fn response_equals<R: Real>(law: Law, count: usize, modes: &[bool]) -> Result<(), Failed> {
+    let runs = runs::<R>(law, count);
     println!("{law:?}: {}", variety(&runs));
     // Those that chatter take many times the steps: all others would wait for them.
-    let (long, short): (Vec<Run>, Vec<Run>) = runs.into_iter().partition(|one| one.flags[FLAG_STEPS] > LONG);
-    let groups: Vec<Group<f32>> =
+    let (long, short): (Vec<Run<R>>, Vec<Run<R>>) =
+        runs.into_iter().partition(|one| one.flags[FLAG_STEPS] > LONG);
+    let groups: Vec<Group<R>> =
         [short, long].iter().filter(|some| !some.is_empty()).map(|some| group(some)).collect();
-    compared(&RESPONSE, &choices(law, true), &groups, modes)
+    compared(&RESPONSE, &choices(law, true), (&groups, count), modes)
 }
 
 /// How the twins end, and how many saw what: the comparison is worth what the instances do.
-fn variety(runs: &[Run]) -> String {
+fn variety<R>(runs: &[Run<R>]) -> String {
     let many = |name: &str, holds: fn(u32) -> bool| {
         let word = source::first_word(RESPONSE.flags, name);
         runs.iter().filter(|one| holds(one.flags[word])).count()
@@ -263,7 +282,7 @@ fn changed_operation() -> Result<(), Failed> {
 }
 
 fn changed_scene() -> Result<(), Failed> {
-    let mut group = group(&runs(Law::Pieces, FEW));
+    let mut group = group(&runs::<f32>(Law::Pieces, FEW));
     // k2 of instance 77.
     let word = &mut group.inputs[4 * FEW + 77];
     *word = word.next_up();
