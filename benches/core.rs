@@ -1,9 +1,11 @@
-//! Points per second of the eigenvalue analysis and instances per second of the transient reference, on
-//! one core. `cargo bench` prints both; `docs/performance.md` says what was measured.
+//! Points per second of the eigenvalue analysis and instances per second of the transient, reference and CPU
+//! engine, on one core. `cargo bench` prints both; `docs/performance.md` says what was measured.
 
 use std::hint::black_box;
+use std::sync::atomic::AtomicBool;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use squealmap::backend::cpu::outcomes;
 use squealmap::integrate::STEP_TOLERANCE;
 use squealmap::linear::analyse;
 use squealmap::method::taylor::REFERENCE_ORDER;
@@ -61,5 +63,30 @@ fn response(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, linear, response);
+fn lanes(criterion: &mut Criterion) {
+    let instances = plane(32);
+    let mut group = criterion.benchmark_group("lanes");
+    group.throughput(Throughput::Elements(instances.len() as u64));
+    group.sample_size(10);
+    for steps_per_period in [12, 5] {
+        let plan = Plan {
+            start: StartKind::Kick,
+            settle: Duration::Periods(100.0),
+            measure: Duration::Periods(40.0),
+            steps_per_period,
+            order: REFERENCE_ORDER,
+            tolerance: STEP_TOLERANCE,
+        };
+        let never = AtomicBool::new(false);
+        group.bench_function(format!("f32, 140 periods of {steps_per_period} steps"), |bencher| {
+            bencher.iter(|| outcomes::<f32>(black_box(&instances), &plan, &never));
+        });
+        group.bench_function(format!("f64, 140 periods of {steps_per_period} steps"), |bencher| {
+            bencher.iter(|| outcomes::<f64>(black_box(&instances), &plan, &never));
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, linear, response, lanes);
 criterion_main!(benches);

@@ -40,7 +40,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let options = Options { backend, precision, strict, ..Options::default() };
         sweep::run(spec.clone(), &options, &|_| {})
     };
-    let reference = run(Backend::Cpu, None, false)?;
+    let reference = run(Backend::Reference, None, false)?;
     writeln!(log, "\nreference, f64 on {} threads: {}", reference.provenance.threads, rate(&reference))?;
     let mut cases = vec![("f32", Precision::F32, false)];
     if adapter.strict {

@@ -50,7 +50,7 @@ fn first_crossing(degree: u32, step: real, from_zero: bool, near: real, rounding
         if start > HIGHEST_ORDER {
             return NEVER;
         }
-    } else if abs(sg[0]) <= near {
+    } else if sg[0] <= real(0.0) && sg[0] >= -near {
         start = 1u;
     }
     if sb[start] <= real(0.0) {

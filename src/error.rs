@@ -342,11 +342,11 @@ pub enum Error {
         /// The most there may be.
         limit: usize,
     },
-    /// The CPU engine asked to compute in f32.
-    #[error("the CPU engine computes in f64 only; remove --precision f32 or use --backend gpu")]
-    CpuPrecision,
+    /// The reference asked to compute in f32.
+    #[error("the reference computes in f64 only; remove --precision f32 or use --backend cpu")]
+    ReferencePrecision,
     /// The CPU engine asked to be strict.
-    #[error("the CPU engine rounds every operation by itself; remove --strict or use --backend gpu")]
+    #[error("--strict is about how a GPU rounds; remove --strict or use --backend gpu")]
     CpuStrict,
     /// The CPU engine asked to use an adapter.
     #[error("the CPU engine uses no adapter; remove --adapter {name} or use --backend gpu")]
@@ -486,7 +486,7 @@ impl Error {
             | Error::LongTable { .. }
             | Error::OnlyOnGpu { .. }
             | Error::EmptyAdapter { .. }
-            | Error::CpuPrecision
+            | Error::ReferencePrecision
             | Error::CpuStrict
             | Error::CpuAdapter { .. }
             | Error::CpuRequireGpu => true,

@@ -1,10 +1,12 @@
 //! What a sweep would cost, measured on a few of its instances.
 
+use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
-use crate::backend::cpu;
+use crate::backend::cpu::outcomes;
+use crate::linear::analyse;
 use crate::response::Plan;
-use crate::spec::Spec;
+use crate::spec::{Instance, Spec};
 
 /// Most instances that are measured.
 const SAMPLES: usize = 24;
@@ -14,6 +16,9 @@ const BUDGET: Duration = Duration::from_secs(3);
 
 /// Longer transients are measured over their first periods and scaled up.
 const MOST_PERIODS: f64 = 200.0;
+
+/// Copies of an instance that are measured together: the engine is made for many at a time.
+const COPIES: usize = 16;
 
 /// The cost of a sweep.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,11 +41,20 @@ pub fn estimate(spec: &Spec) -> Estimate {
     let (mut steps, mut time) = (0.0, Duration::ZERO);
     while sampled < samples && (sampled == 0 || began.elapsed() < BUDGET) {
         let index = sample(spread(sampled, samples), samples, instances);
-        let (plan, share) = Plan::new(spec).shortened(&spec.instance(index), MOST_PERIODS);
+        let instance = spec.instance(index);
+        let (plan, share) = Plan::new(spec).shortened(&instance, MOST_PERIODS);
         let start = Instant::now();
-        let record = cpu::record_with(spec, index, &plan);
-        time += start.elapsed().mul_f64(1.0 / share);
-        steps += record.outcome.map_or(0.0, |outcome| outcome.steps as f64 / share);
+        if spec.analysis.linear {
+            std::hint::black_box(analyse(&instance));
+        }
+        time += start.elapsed();
+        if spec.analysis.response {
+            let copies: Vec<Instance> = std::iter::repeat_n(instance, COPIES).collect();
+            let start = Instant::now();
+            let outcomes = outcomes::<f64>(&copies, &plan, &AtomicBool::new(false));
+            time += start.elapsed().mul_f64(1.0 / (share * COPIES as f64));
+            steps += outcomes.map_or(0.0, |outcomes| outcomes[0].steps as f64 / share);
+        }
         sampled += 1;
     }
     let scale = instances as f64 / sampled.max(1) as f64;

@@ -58,6 +58,7 @@ pub mod observe;
 pub mod outcome;
 pub mod place;
 pub mod response;
+pub mod simd;
 pub mod spec;
 pub mod sweep;
 pub mod trace;

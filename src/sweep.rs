@@ -5,7 +5,7 @@ use std::time::Instant;
 use crate::backend::choice::{Engine, Options, choose};
 use crate::backend::computed::Computed;
 use crate::backend::gpu::device::Device;
-use crate::backend::{cpu, gpu};
+use crate::backend::{cpu, gpu, reference};
 use crate::error::Result;
 use crate::map::{Computation, Map, Provenance, Record};
 use crate::spec::{Analysis, Spec};
@@ -19,9 +19,13 @@ use crate::spec::{Analysis, Spec};
 pub fn run(spec: Spec, options: &Options, progress: &(dyn Fn(usize) + Sync)) -> Result<Map> {
     let began = Instant::now();
     let (computed, linear, response) = match choose(options, &spec)? {
-        Engine::Cpu => {
-            let computed = cpu::records(&spec, options.cancel(), progress)?;
-            (computed, cpu::computation(cpu::linear_method()), cpu::computation(cpu::method()))
+        Engine::Cpu(precision) => {
+            let computed = cpu::records(&spec, precision, options.cancel(), progress)?;
+            (computed, reference::linear(cpu::NAME), cpu::response(precision))
+        }
+        Engine::Reference => {
+            let computed = reference::records(&spec, options.cancel(), progress)?;
+            (computed, reference::linear(reference::NAME), reference::response())
         }
         Engine::Gpu(device) => {
             let on_device = |method| Computation {

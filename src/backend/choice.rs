@@ -18,8 +18,10 @@ pub enum Backend {
     Auto,
     /// A GPU, or a software adapter.
     Gpu,
-    /// The CPU engine.
+    /// The CPU engine: many instances at a time in vector registers.
     Cpu,
+    /// The f64 reference, one instance at a time.
+    Reference,
 }
 
 /// How a sweep is to be computed.
@@ -27,7 +29,7 @@ pub enum Backend {
 pub struct Options<'a> {
     /// The backend.
     pub backend: Backend,
-    /// The scalar; `None`: f64 on the CPU, f32 on a GPU. f32 is an error where the CPU engine would compute.
+    /// The scalar; `None`: f64 on the CPU, f32 on a GPU. f32 is an error for the reference.
     pub precision: Option<Precision>,
     /// Whether a GPU rounds every operation by itself: where it also divides exactly and keeps denormals, results
     /// are those of the kernel's twin in every bit. An error where the CPU engine would compute.
@@ -64,8 +66,10 @@ impl<'a> Options<'a> {
 /// What computes.
 #[derive(Debug)]
 pub enum Engine {
-    /// The f64 reference on all cores.
-    Cpu,
+    /// The CPU engine.
+    Cpu(Precision),
+    /// The f64 reference.
+    Reference,
     /// An open adapter.
     Gpu(Device),
 }
@@ -80,13 +84,14 @@ pub fn choose(options: &Options, spec: &Spec) -> Result<Engine> {
         return Err(Error::EmptyAdapter { name: name.to_owned() });
     }
     let (engine, why) = match options.backend {
-        Backend::Cpu => (cpu(options)?, "as asked for".to_owned()),
+        Backend::Cpu | Backend::Reference => (cpu(options)?, "as asked for".to_owned()),
         Backend::Gpu => gpu(options, spec)?,
         Backend::Auto => auto(options, spec)?,
     };
     if let Some(note) = options.note {
         note(&match &engine {
-            Engine::Cpu => format!("computing on the CPU in f64: {why}"),
+            Engine::Cpu(precision) => format!("computing on the CPU in {precision}: {why}"),
+            Engine::Reference => format!("computing with the f64 reference: {why}"),
             Engine::Gpu(device) => {
                 let strict = if device.strict() { "strict " } else { "" };
                 format!("computing on {} in {strict}{}: {why}", device.describe(), device.precision())
@@ -100,16 +105,19 @@ fn cpu(options: &Options) -> Result<Engine> {
     if options.strict {
         return Err(Error::CpuStrict);
     }
-    if options.precision == Some(Precision::F32) {
-        return Err(Error::CpuPrecision);
-    }
     if let Some(name) = options.adapter {
         return Err(Error::CpuAdapter { name: name.to_owned() });
     }
     if options.require_gpu {
         return Err(Error::CpuRequireGpu);
     }
-    Ok(Engine::Cpu)
+    if options.backend == Backend::Reference {
+        if options.precision == Some(Precision::F32) {
+            return Err(Error::ReferencePrecision);
+        }
+        return Ok(Engine::Reference);
+    }
+    Ok(Engine::Cpu(options.precision.unwrap_or(Precision::F64)))
 }
 
 fn gpu(options: &Options, spec: &Spec) -> Result<(Engine, String)> {
@@ -139,7 +147,7 @@ fn auto(options: &Options, spec: &Spec) -> Result<(Engine, String)> {
         Err(no_gpu) => no_gpu,
     };
     no_gpu.allows_cpu(options)?;
-    Ok((Engine::Cpu, no_gpu.note()))
+    Ok((Engine::Cpu(options.precision.unwrap_or(Precision::F64)), no_gpu.note()))
 }
 
 /// The best hardware GPU, open.

@@ -1,5 +1,8 @@
-//! The f64 reference on all cores: one rayon task per instance, results independent of their number.
+//! Sweeps on all cores, many instances at a time in the lanes of vector registers ([`crate::simd`]).
+//!
+//! One rayon task takes a batch of instances; results depend neither on batches nor on the number of threads.
 
+use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use rayon::prelude::*;
@@ -7,76 +10,139 @@ use rayon::prelude::*;
 use crate::backend::computed::Computed;
 use crate::backend::{begun, take_response};
 use crate::error::{Error, Result};
+use crate::kernel::scene::Law;
 use crate::kernel::source::Precision;
 use crate::linear;
 use crate::map::{Computation, Record};
-use crate::method::taylor::REFERENCE_ORDER;
-use crate::outcome::Status;
-use crate::response::{Plan, respond};
-use crate::spec::Spec;
+use crate::outcome::{Outcome, Status};
+use crate::response::{Plan, Scene};
+use crate::simd::job::Job;
+use crate::simd::pass::Settings;
+use crate::simd::{Lanes, ORDER, tolerance};
+use crate::spec::{Instance, Spec};
 
 /// The name of the backend in a manifest.
 pub const NAME: &str = "cpu";
 
-/// How an analysis is computed here.
+/// Most instances of a batch: many per lane, so that few lanes rest at its end, and some 4 MiB.
+const MOST: usize = 1024;
+
+/// Fewest, where a sweep has more.
+const FEWEST: usize = 64;
+
+/// The response of a sweep in a manifest.
 #[must_use]
-pub fn computation(method: String) -> Computation {
-    let (backend, precision) = (NAME.to_owned(), Precision::F64.to_string());
-    Computation { backend, precision, method, adapter: None, strict: None }
+pub fn response(precision: Precision) -> Computation {
+    let bound = tolerance(precision);
+    Computation {
+        backend: NAME.to_owned(),
+        precision: precision.to_string(),
+        method: format!(
+            "Taylor series of order {ORDER}, truncation below {bound:e}, events located in the step"
+        ),
+        adapter: None,
+        strict: None,
+    }
 }
 
-/// The method of the eigenvalue analysis in a manifest.
-#[must_use]
-pub fn linear_method() -> String {
-    "closed form of the quartic, polished".to_owned()
-}
-
-/// The method of the response in a manifest.
-#[must_use]
-pub fn method() -> String {
-    format!("Taylor series of order {REFERENCE_ORDER}, events located in the step")
-}
-
-/// Computes a sweep; `progress` gets the number newly finished. Once `cancel` is set no instance is begun;
-/// those under way are finished.
+/// Computes a sweep; `progress` gets the number newly finished. Once `cancel` is set no batch is begun, and
+/// those under way are dropped.
 ///
 /// # Errors
-/// When `cancel` was set before any instance was begun.
-pub fn records(spec: &Spec, cancel: &AtomicBool, progress: &(dyn Fn(usize) + Sync)) -> Result<Computed> {
+/// When `cancel` was set before any batch was finished.
+pub fn records(
+    spec: &Spec,
+    precision: Precision,
+    cancel: &AtomicBool,
+    progress: &(dyn Fn(usize) + Sync),
+) -> Result<Computed> {
     let total = spec.grid.len();
-    let records: Vec<Record> = (0..total)
+    let plan = Plan::new(spec);
+    let size = (total / (4 * rayon::current_num_threads())).clamp(FEWEST, MOST);
+    let batches: Vec<Vec<Record>> = (0..total.div_ceil(size))
         .into_par_iter()
-        .map(|index| {
-            if cancel.load(Ordering::Relaxed) {
-                return Record::NOT_COMPUTED;
+        .map(|batch| {
+            let range = batch * size..((batch + 1) * size).min(total);
+            let records = self::batch(spec, range, &plan, precision, cancel);
+            if !cancel.load(Ordering::Relaxed) {
+                progress(records.len());
             }
-            let record = record(spec, index);
-            progress(1);
-            record
+            records
         })
         .collect();
+    let records: Vec<Record> = batches.concat();
     let done = records.iter().filter(|record| record.status != Status::NotComputed).count();
     let ended = if done < total { Err(Error::Cancelled { done, total }) } else { Ok(()) };
     Computed::new(records, total, ended)
 }
 
-/// Computes instance `index` of a sweep.
+/// The records of a range of instances; none of them is computed when `cancel` is set on the way.
 #[must_use]
-pub fn record(spec: &Spec, index: usize) -> Record {
-    record_with(spec, index, &Plan::new(spec))
+pub fn batch(
+    spec: &Spec,
+    range: Range<usize>,
+    plan: &Plan,
+    precision: Precision,
+    cancel: &AtomicBool,
+) -> Vec<Record> {
+    let nothing = vec![Record::NOT_COMPUTED; range.len()];
+    if cancel.load(Ordering::Relaxed) {
+        return nothing;
+    }
+    let instances: Vec<Instance> = range.map(|index| spec.instance(index)).collect();
+    let mut records: Vec<Record> = instances
+        .iter()
+        .map(|instance| {
+            let mut record = begun(instance);
+            if spec.analysis.linear {
+                (record.kind, record.linear) = linear::analyse(instance);
+            }
+            record
+        })
+        .collect();
+    if spec.analysis.response {
+        let outcomes = match precision {
+            Precision::F32 => outcomes::<f32>(&instances, plan, cancel),
+            Precision::F64 => outcomes::<f64>(&instances, plan, cancel),
+        };
+        let Some(outcomes) = outcomes else { return nothing };
+        for ((record, instance), outcome) in records.iter_mut().zip(&instances).zip(outcomes) {
+            let kind = if spec.analysis.linear { record.kind } else { linear::analyse(instance).0 };
+            take_response(record, instance, kind, &outcome);
+        }
+    }
+    records
 }
 
-/// Computes instance `index` of a sweep by another plan than the sweep's own.
+/// The transients of some instances; `None` when `cancel` is set on the way.
 #[must_use]
-pub fn record_with(spec: &Spec, index: usize, plan: &Plan) -> Record {
-    let instance = spec.instance(index);
-    let mut record = begun(&instance);
-    let (kind, linear) = linear::analyse(&instance);
-    if spec.analysis.linear {
-        (record.kind, record.linear) = (kind, linear);
+pub fn outcomes<T: Lanes>(instances: &[Instance], plan: &Plan, cancel: &AtomicBool) -> Option<Vec<Outcome>> {
+    let settings =
+        Settings { steps_per_period: plan.steps_per_period, tolerance: tolerance(T::PRECISION), cancel };
+    let mut outcomes = vec![Outcome::default(); instances.len()];
+    for form in [Law::Pieces, Law::Exponential, Law::Rational] {
+        let mut indices = Vec::new();
+        let mut jobs: Vec<Job<T>> = Vec::new();
+        for (index, instance) in instances.iter().enumerate() {
+            let kind = instance.law.kind();
+            if crate::kernel::response::law_of(kind) != form {
+                continue;
+            }
+            match Scene::new(instance, plan.start) {
+                Ok(scene) => {
+                    indices.push(index);
+                    jobs.push(Job::new(scene, kind, plan));
+                }
+                Err(status) => outcomes[index].status = status,
+            }
+        }
+        T::run(&mut jobs, settings);
+        if cancel.load(Ordering::Relaxed) {
+            return None;
+        }
+        for (index, job) in indices.into_iter().zip(&jobs) {
+            outcomes[index] = job.outcome(plan);
+        }
     }
-    if spec.analysis.response {
-        take_response(&mut record, &instance, kind, &respond(&instance, plan));
-    }
-    record
+    Some(outcomes)
 }

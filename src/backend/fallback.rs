@@ -2,7 +2,6 @@
 
 use super::choice::Options;
 use crate::error::{Error, Result};
-use crate::kernel::source::Precision;
 use crate::spec::names::list;
 
 /// Why there is no GPU to take.
@@ -76,9 +75,6 @@ impl NoGpu {
 /// What was asked for that only a GPU can honour, as written on the command line.
 fn only_on_gpu(options: &Options) -> Vec<String> {
     let mut asked = Vec::new();
-    if options.precision == Some(Precision::F32) {
-        asked.push("--precision f32".to_owned());
-    }
     if options.strict {
         asked.push("--strict".to_owned());
     }

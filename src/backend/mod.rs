@@ -1,8 +1,9 @@
 //! Where many instances run.
 //!
-//! - [`choice`]: which of the two computes, in which precision, and why.
+//! - [`choice`]: which of them computes, in which precision, and why.
 //! - [`computed`]: what an engine made of a sweep, all or a part.
-//! - [`cpu`]: the f64 reference on all cores.
+//! - [`cpu`]: vector registers of all cores.
+//! - [`reference`](mod@reference): the f64 reference, which judges the others.
 //! - [`gpu`]: compute kernels through wgpu.
 
 pub mod choice;
@@ -10,6 +11,7 @@ pub mod computed;
 pub mod cpu;
 mod fallback;
 pub mod gpu;
+pub mod reference;
 
 use crate::classify::{self, InstabilityType, Regime};
 use crate::map::Record;

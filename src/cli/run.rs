@@ -28,7 +28,8 @@ pub(crate) struct Run {
     /// Worker threads, 1 to 1024 [default: one per core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
-    /// What computes: `auto` takes a hardware GPU where there is one, else the CPU
+    /// What computes: `auto` takes a hardware GPU where there is one, else the CPU; `reference` is the
+    /// slow, accurate judge of the others
     #[arg(long, value_enum, default_value_t)]
     backend: BackendName,
     /// Arithmetic [default: f64 on the CPU, f32 on a GPU]
@@ -52,6 +53,7 @@ enum BackendName {
     Auto,
     Gpu,
     Cpu,
+    Reference,
 }
 
 /// The values of `--precision`.
@@ -79,6 +81,7 @@ impl Run {
                 BackendName::Auto => Backend::Auto,
                 BackendName::Gpu => Backend::Gpu,
                 BackendName::Cpu => Backend::Cpu,
+                BackendName::Reference => Backend::Reference,
             },
             precision: self.precision.map(|name| match name {
                 PrecisionName::F32 => Precision::F32,

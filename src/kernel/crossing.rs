@@ -56,7 +56,8 @@ pub fn deflated<S: Real>(b: &Series<S>, degree: usize, from: usize, t: S) -> [S;
 ///
 /// With `from_zero` it begins at zero by construction, and its first coefficients, which physics makes
 /// non-negative, count as zero when they are negative by no more than `rounding`, an absolute bound. A
-/// function within `near` of zero begins there too, and falls at once if its slope is negative.
+/// function below zero by no more than `near` begins there too, and falls at once if its slope is negative;
+/// one above zero has its crossing ahead, however near.
 #[must_use]
 pub fn first_crossing<S: Real>(
     g: &Series<S>,
@@ -85,7 +86,7 @@ pub fn first_crossing<S: Real>(
         if from > HIGHEST_ORDER {
             return never;
         }
-    } else if g[0].abs() <= near {
+    } else if g[0] <= S::ZERO && g[0] >= -near {
         from = 1;
     }
     if b[from] <= S::ZERO {

@@ -345,7 +345,7 @@ impl<S: Real> Lane<S> {
     }
 
     /// Carries out the transition of an event.
-    fn transition(&mut self, scene: &Scene<S>, event: u32, belt: Belt<S>) {
+    pub(crate) fn transition(&mut self, scene: &Scene<S>, event: u32, belt: Belt<S>) {
         self.sums.close_growth();
         match event {
             LOWER_KINK => {
@@ -420,7 +420,7 @@ impl<S: Real> Lane<S> {
     }
 
     /// Decides the contact state of a closed contact.
-    fn enter_contact(&mut self, scene: &Scene<S>, belt: Belt<S>) {
+    pub(crate) fn enter_contact(&mut self, scene: &Scene<S>, belt: Belt<S>) {
         let v = belt.velocity - self.body.v[0];
         if v > S::ZERO {
             self.slip_or_free(scene, S::ONE, v, false);

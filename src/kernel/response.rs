@@ -1,15 +1,12 @@
 //! An instance into a kernel's words, and a lane's records into an outcome (host only).
 
-#![expect(
-    clippy::cast_possible_truncation,
-    clippy::needless_range_loop,
-    reason = "small constants become words of a kernel; sums are read in the order of the kernel's loops"
-)]
+#![expect(clippy::cast_possible_truncation, reason = "small constants become words of a kernel")]
 
 use std::f64::consts::TAU;
 
 use super::lane::{self, Lane};
 use super::observe::{self, SUMS};
+use super::reductions::{End, Reductions};
 use super::scalar::Real;
 use super::scene::{
     self, FIRST_HALF, Law, PIECE_WORDS, SECOND_HALF, SEGMENT_WORDS, SEGMENTS, SETTLE, Scene as Words,
@@ -18,8 +15,7 @@ use super::scene::{
 use super::source::{Constant, Field, Kernel};
 use super::{crossing, series};
 use crate::model::friction::LawKind;
-use crate::observe::GrowthFit;
-use crate::outcome::{Outcome, Status};
+use crate::outcome::Outcome;
 use crate::response::{Plan, Scene};
 use crate::spec::Instance;
 
@@ -261,71 +257,22 @@ pub fn outcome<S: Real>(scene: &Scene, plan: &Plan, segments: &Segments, lane: &
         let step = segments.get(segment as usize).map_or(0.0, |s| s[1]);
         before + (f64::from(index) + fraction) * step
     };
-    let units = &scene.units;
-    let mut outcome =
-        Outcome { status: lane.status, steps: u64::from(lane.iterations), ..Outcome::default() };
-    if lane.status != Status::Ok {
-        outcome.simulated_time = time(lane.segment, lane.index, 0.0) * units.time;
-        return outcome;
-    }
-    outcome.simulated_time = scene.seconds(time(lane.segment, lane.index, 0.0), plan);
+    let moment = |m: &observe::Moment<S>| time(m.segment, m.index, m.fraction.to_f64());
     let sums = &lane.sums;
-    if !sums.total.iter().flatten().chain(&sums.peaks).all(|value| value.is_finite()) {
-        // A square beyond the scalar's range.
-        outcome.status = Status::NonFinite;
-        return outcome;
-    }
-    let half = |k: usize| -> [f64; SUMS] { lane.sums.total[k].map(Real::to_f64) };
-    let halves = [half(0), half(1)];
-    let all: [f64; SUMS] = std::array::from_fn(|i| halves[0][i] + halves[1][i]);
-    let std = |s: &[f64; SUMS], i: usize| (s[i + 1] / s[0] - (s[i] / s[0]).powi(2)).max(0.0).sqrt();
-    let rms = |s: &[f64; SUMS], i: usize| (s[i] / s[0]).sqrt();
-    let peaks = lane.sums.peaks.map(Real::to_f64);
-    outcome.x2_mean = Some(scene.equilibrium.x2 + all[1] / all[0] * units.length);
-    outcome.x2_std = Some(std(&all, 1) * units.length);
-    outcome.y1_mean = Some(scene.equilibrium.y1 + all[3] / all[0] * units.length);
-    outcome.y1_std = Some(std(&all, 3) * units.length);
-    outcome.ax_rms = Some(rms(&all, 5) * units.acceleration);
-    outcome.ay_rms = Some(rms(&all, 6) * units.acceleration);
-    outcome.ax_peak = Some(peaks[0] * units.acceleration);
-    outcome.ay_peak = Some(peaks[1] * units.acceleration);
-    outcome.friction_mean = (all[9] > 0.0).then(|| all[8] / all[9]);
-    outcome.n_peak = Some(peaks[2] * units.force);
-    outcome.stick = Some(all[10] / all[0]);
-    outcome.free = Some(all[11] / all[0]);
-    outcome.reverse = Some(all[12] / all[0]);
-    outcome.impacts_per_second = Some(f64::from(lane.sums.impacts) / (all[0] * units.time));
-    outcome.speed_rms_halves = halves.map(|s| rms(&s, 7) * units.velocity);
-    outcome.x2_std_halves = halves.map(|s| std(&s, 1) * units.length);
-    outcome.ay_rms_halves = halves.map(|s| rms(&s, 6) * units.acceleration);
-    let moment = |m: &super::observe::Moment<S>| time(m.segment, m.index, m.fraction.to_f64());
-    let span = moment(&lane.sums.last) - moment(&lane.sums.first);
-    if lane.sums.crossings >= 2 && span > 0.0 {
-        outcome.response_frequency = Some(f64::from(lane.sums.crossings - 1) / span / units.time);
-        let [x, y] =
-            [lane.phase.x, lane.phase.y].map(|z| num_complex::Complex64::new(z[0].to_f64(), z[1].to_f64()));
-        let ratio = y / x;
-        outcome.phase_cycle = (ratio.is_finite() && ratio.norm_sqr() > 0.0).then(|| ratio.arg().to_degrees());
-    }
-    if let Some(fit) = growth_fit(&lane.sums.growth.map(Real::to_f64)) {
-        outcome.growth_rate_measured = Some(fit.growth_rate / units.time);
-        outcome.frequency_measured = Some(fit.angular_frequency / TAU / units.time);
-        outcome.phase_measured = fit.phase.map(f64::to_degrees);
-    }
-    outcome
-}
-
-/// The fit of the growth window from its sums.
-fn growth_fit(words: &[f64; 15]) -> Option<GrowthFit> {
-    let mut product = [[0.0; 5]; 5];
-    let mut word = 5;
-    for i in 1..5 {
-        for j in i..5 {
-            product[i][j] = words[word];
-            product[j][i] = words[word];
-            word += 1;
-        }
-    }
-    let sum = [words[0], words[1], words[2], words[3], words[4]];
-    crate::observe::Growth::from_sums(words[0], sum, product).result()
+    let reductions = Reductions {
+        halves: sums.total.map(|half| half.map(Real::to_f64)),
+        peaks: sums.peaks.map(Real::to_f64),
+        impacts: sums.impacts,
+        crossings: u64::from(sums.crossings),
+        first: moment(&sums.first),
+        last: moment(&sums.last),
+        phase: [lane.phase.x, lane.phase.y].map(|part| part.map(Real::to_f64)),
+        growth: sums.growth.map(Real::to_f64),
+    };
+    let end = End {
+        status: lane.status,
+        steps: u64::from(lane.iterations),
+        time: time(lane.segment, lane.index, 0.0),
+    };
+    reductions.outcome(scene, plan, &end)
 }

@@ -80,14 +80,16 @@ fn only_on_gpu() -> Result<(), Failed> {
     };
     let (_, listed, _) = with_drivers(directory.path(), &drivers, &["adapters"])?;
     let name = listed.lines().next().ok_or("no name")?;
-    for plain in [&[][..], &["--precision", "f64"]] {
+    for (plain, precision) in
+        [(&[][..], "f64"), (&["--precision", "f64"], "f64"), (&["--precision", "f32"], "f32")]
+    {
         let (code, _, err) = run(plain)?;
         assert_eq!(code, Some(0), "{err}");
-        assert!(err.contains(&format!("computing on the CPU in f64: the only adapter, {name} (")), "{err}");
+        let expected = format!("computing on the CPU in {precision}: the only adapter, {name} (");
+        assert!(err.contains(&expected), "{err}");
     }
     for (asked, remedy) in [
         (&["--strict"][..], "take it all the same with --backend gpu"),
-        (&["--precision", "f32"], "take it all the same with --backend gpu"),
         (&["--adapter", name], "take it all the same with --backend gpu"),
         (&["--require-gpu"], "install the driver of a GPU"),
     ] {

@@ -52,6 +52,11 @@ pub(crate) const CASES: &[Case] = &[
     ("strict::rational_equals_its_twin_in_every_bit", || {
         response_equals::<f32>(Law::Rational, COUNT, &[true])
     }),
+    ("strict::belts_without_a_ramp_equal_their_twin_in_every_bit", || {
+        // Their kernel is built without one; the others hold both.
+        let forms = [Law::Pieces, Law::Exponential, Law::Rational];
+        forms.into_iter().try_for_each(|law| equals(&without_ramp::<f32>(law, FEW), law, false, &[true]))
+    }),
     ("strict::one_changed_operation_is_noticed", changed_operation),
     ("strict::one_ulp_in_one_scene_is_noticed", changed_scene),
 ];
@@ -191,9 +196,21 @@ struct Run<R> {
 
 /// Random instances that can be integrated, run by the twin.
 fn runs<R: Real>(law: Law, count: usize) -> Vec<Run<R>> {
-    let plan = plan(0.5, 1.5);
     let mut u = Uniform(11);
-    let words: Vec<Vec<f64>> = std::iter::repeat_with(|| instance(&mut u, law))
+    by_twin(law, count, std::iter::repeat_with(|| instance(&mut u, law)))
+}
+
+/// The same without those whose belt has a ramp.
+fn without_ramp<R: Real>(law: Law, count: usize) -> Vec<Run<R>> {
+    let mut u = Uniform(12);
+    let steady = |one: &Instance| one.params.get(Param::RampDuration).is_none();
+    by_twin(law, count, std::iter::repeat_with(|| instance(&mut u, law)).filter(steady))
+}
+
+/// As many of `instances` as can be integrated, run by the twin.
+fn by_twin<R: Real>(law: Law, count: usize, instances: impl Iterator<Item = Instance>) -> Vec<Run<R>> {
+    let plan = plan(0.5, 1.5);
+    let words: Vec<Vec<f64>> = instances
         .filter_map(|one| Scene::new(&one, plan.start).ok())
         .map(|scene| words(&scene, &segments(&scene, &plan), PIECES))
         .take(count)
@@ -211,7 +228,7 @@ fn runs<R: Real>(law: Law, count: usize) -> Vec<Run<R>> {
 }
 
 /// Runs as word-major inputs and results.
-fn group<R: Real>(runs: &[Run<R>]) -> Group<R> {
+fn group<R: Real>(runs: &[&Run<R>]) -> Group<R> {
     let [inputs, state, flags] = [RESPONSE.inputs, RESPONSE.state, RESPONSE.flags].map(source::words);
     Group {
         inputs: (0..inputs)
@@ -226,14 +243,17 @@ fn group<R: Real>(runs: &[Run<R>]) -> Group<R> {
 }
 
 fn response_equals<R: Real>(law: Law, count: usize, modes: &[bool]) -> Result<(), Failed> {
-    let runs = runs::<R>(law, count);
-    println!("{law:?}: {}", variety(&runs));
+    equals(&runs::<R>(law, count), law, true, modes)
+}
+
+fn equals<R: Real>(runs: &[Run<R>], law: Law, ramp: bool, modes: &[bool]) -> Result<(), Failed> {
+    println!("{law:?}: {}", variety(runs));
     // Those that chatter take many times the steps: all others would wait for them.
-    let (long, short): (Vec<Run<R>>, Vec<Run<R>>) =
-        runs.into_iter().partition(|one| one.flags[FLAG_STEPS] > LONG);
+    let (long, short): (Vec<&Run<R>>, Vec<&Run<R>>) =
+        runs.iter().partition(|one| one.flags[FLAG_STEPS] > LONG);
     let groups: Vec<Group<R>> =
         [short, long].iter().filter(|some| !some.is_empty()).map(|some| group(some)).collect();
-    compared(&RESPONSE, &choices(law, true), (&groups, count), modes)
+    compared(&RESPONSE, &choices(law, ramp), (&groups, runs.len()), modes)
 }
 
 /// How the twins end, and how many saw what: the comparison is worth what the instances do.
@@ -278,11 +298,11 @@ fn changed_operation() -> Result<(), Failed> {
     if changed == text() {
         return Err("nothing was changed".into());
     }
-    noticed(&changed, &group(&runs(Law::Pieces, FEW)))
+    noticed(&changed, &group(&runs(Law::Pieces, FEW).iter().collect::<Vec<_>>()))
 }
 
 fn changed_scene() -> Result<(), Failed> {
-    let mut group = group(&runs::<f32>(Law::Pieces, FEW));
+    let mut group = group(&runs::<f32>(Law::Pieces, FEW).iter().collect::<Vec<_>>());
     // k2 of instance 77.
     let word = &mut group.inputs[4 * FEW + 77];
     *word = word.next_up();

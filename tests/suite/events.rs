@@ -69,7 +69,7 @@ fn first_zero_of_the_relative_velocity_to_1e_9_s() {
 }
 
 /// The single mass `m = k = 1` under `N = 1`: θ = 0 with the mass shared between `m1` and `m2`.
-fn single_mass(law: FrictionLaw, velocity: f64, damping: f64, start: (f64, f64)) -> Instance {
+pub(crate) fn single_mass(law: FrictionLaw, velocity: f64, damping: f64, start: (f64, f64)) -> Instance {
     instance(
         law,
         &[

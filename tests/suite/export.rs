@@ -151,7 +151,7 @@ fn the_manifest_counts_and_explains() {
     assert_eq!(manifest["counts"]["status"], serde_json::json!({ "ok": 5, "painleve": 1 }));
     assert_eq!(manifest["counts"]["unsettled"], 4);
     assert_eq!(manifest["energy_gaining_impacts"], 12);
-    assert_eq!(manifest["computation"]["response"]["backend"], "cpu");
+    assert_eq!(manifest["computation"]["response"]["backend"], "reference");
     assert_eq!(manifest["computation"]["elapsed_seconds"], 2.5);
     assert_eq!(manifest["program"]["version"], env!("CARGO_PKG_VERSION"));
     let columns = manifest["columns"].as_array().expect("a list");

@@ -39,11 +39,15 @@ const TWINS: &[Twin] = &[
 ];
 
 /// Every kernel there is, in every form.
-pub(crate) const KERNELS: [(Kernel, &[(&str, Constant)]); 6] = [
+pub(crate) const KERNELS: [(Kernel, &[(&str, Constant)]); 10] = [
     (linear::KERNEL, &[]),
     (response::kernel::<1>(), &response::choices(Law::Pieces, false)),
     (response::kernel::<2>(), &response::choices(Law::Pieces, true)),
+    (response::kernel::<4>(), &response::choices(Law::Pieces, false)),
+    (response::kernel::<16>(), &response::choices(Law::Pieces, true)),
     (response::kernel::<64>(), &response::choices(Law::Pieces, false)),
+    (response::kernel::<256>(), &response::choices(Law::Pieces, true)),
+    (response::kernel::<1024>(), &response::choices(Law::Pieces, false)),
     (response::kernel::<1>(), &response::choices(Law::Exponential, true)),
     (response::kernel::<1>(), &response::choices(Law::Rational, false)),
 ];
@@ -187,7 +191,7 @@ fn flags_begin_with_status_and_steps() {
 fn functions<'a>(text: &'a str, without: &[&str]) -> Vec<&'a str> {
     let name = |line: &'a str| {
         let line = line.trim_start();
-        let line = line.strip_prefix("pub ").unwrap_or(line);
+        let line = line.strip_prefix("pub ").or(line.strip_prefix("pub(crate) ")).unwrap_or(line);
         let line = line.strip_prefix("const ").unwrap_or(line);
         line.strip_prefix("fn ")?.split(['(', '<']).next()
     };

@@ -21,6 +21,7 @@ mod observables;
 mod properties;
 mod regimes;
 mod response;
+mod simd;
 mod spec;
 mod stopped;
 mod strict;

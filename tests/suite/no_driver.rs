@@ -45,14 +45,15 @@ fn nothing_answers(driver: &Path) {
     assert!(err.starts_with("error: no GPU was found: "), "{err}");
     assert!(err.contains("libvulkan1") && err.contains("mesa-vulkan-drivers"), "{err}");
 
-    // In f64 the CPU engine computes what was asked for.
-    let (code, _, err) = with_driver(driver, &["run", "modes.toml", "--precision", "f64"]);
-    assert_eq!(code, Some(0), "{err}");
-    assert!(err.starts_with("computing on the CPU in f64: no GPU was found: "), "{err}");
+    // The CPU engine computes in the precision that was asked for.
+    for precision in ["f32", "f64"] {
+        let (code, _, err) = with_driver(driver, &["run", "modes.toml", "--precision", precision]);
+        assert_eq!(code, Some(0), "{err}");
+        let expected = format!("computing on the CPU in {precision}: no GPU was found: ");
+        assert!(err.starts_with(&expected), "{err}");
+    }
 
-    for asked in
-        ["--precision f32", "--strict", "--adapter radeon", "--require-gpu", "--strict --precision f64"]
-    {
+    for asked in ["--strict", "--adapter radeon", "--require-gpu", "--strict --precision f64"] {
         let (code, _, err) = with_driver(driver, &[&["run", "modes.toml"], &words(asked)[..]].concat());
         assert_eq!(code, Some(2), "{err}");
         let asked = asked.trim_end_matches(" --precision f64");
@@ -62,7 +63,7 @@ fn nothing_answers(driver: &Path) {
     }
     let all = "run modes.toml --require-gpu --strict --precision f32";
     let (_, _, err) = with_driver(driver, &words(all));
-    assert!(err.starts_with("error: --precision f32, --strict and --require-gpu: this needs a GPU"), "{err}");
+    assert!(err.starts_with("error: --strict and --require-gpu: this needs a GPU"), "{err}");
 
     let (code, out, _) = with_driver(driver, &["adapters"]);
     assert_eq!(code, Some(0));
@@ -92,10 +93,10 @@ fn refused(arguments: &str) -> String {
 }
 
 #[test]
-fn the_cpu_engine_has_no_f32() {
+fn the_reference_has_no_f32() {
     assert_eq!(
-        refused("run modes.toml --backend cpu --precision f32"),
-        "error: the CPU engine computes in f64 only; remove --precision f32 or use --backend gpu"
+        refused("run modes.toml --backend reference --precision f32"),
+        "error: the reference computes in f64 only; remove --precision f32 or use --backend cpu"
     );
 }
 
@@ -103,7 +104,7 @@ fn the_cpu_engine_has_no_f32() {
 fn the_cpu_engine_is_not_asked_to_be_strict() {
     assert_eq!(
         refused("run modes.toml --backend cpu --strict"),
-        "error: the CPU engine rounds every operation by itself; remove --strict or use --backend gpu"
+        "error: --strict is about how a GPU rounds; remove --strict or use --backend gpu"
     );
 }
 

@@ -36,9 +36,9 @@ fn spec() -> Spec {
 }
 
 /// Runs on `threads` threads and sets the cancel flag as soon as `after` instances are done.
-fn cancelled(after: usize, threads: usize) -> squealmap::Result<Map> {
+fn cancelled(backend: Backend, after: usize, threads: usize) -> squealmap::Result<Map> {
     let (cancel, done) = (AtomicBool::new(after == 0), AtomicUsize::new(0));
-    let options = Options { backend: Backend::Cpu, cancel: Some(&cancel), ..Options::default() };
+    let options = Options { backend, cancel: Some(&cancel), ..Options::default() };
     let progress = |count| {
         if done.fetch_add(count, Ordering::Relaxed) + count >= after {
             cancel.store(true, Ordering::Relaxed);
@@ -64,14 +64,21 @@ fn manifest(map: &Map) -> serde_json::Value {
 
 #[test]
 fn what_is_done_equals_a_full_run_and_the_rest_is_empty() {
-    let full = cancelled(usize::MAX, 2).expect("a full run");
+    // Each other thread may have begun one more.
+    stopped_and_full(Backend::Reference, [(1, 1), (60, 1), (60, 2), (TOTAL - 5, 3)], 1);
+    // Each may have finished one more batch.
+    stopped_and_full(Backend::Cpu, [(1, 1), (60, 1), (60, 2), (130, 3)], 75);
+}
+
+/// Runs that stop after some instances on some threads, which each finish `batch` at a time.
+fn stopped_and_full(backend: Backend, cases: [(usize, usize); 4], batch: usize) {
+    let full = cancelled(backend, usize::MAX, 2).expect("a full run");
     assert_eq!((full.computed(), &full.stopped), (TOTAL, &None));
     let expected = rows(&map_csv(&full).expect("a complete map"));
-    for (after, threads) in [(1, 1), (60, 1), (60, 2), (TOTAL - 5, 3)] {
-        let part = cancelled(after, threads).expect("a part");
+    for (after, threads) in cases {
+        let part = cancelled(backend, after, threads).expect("a part");
         let done = part.computed();
-        // Each other thread may have begun one more.
-        assert!((after..after + threads).contains(&done), "{done} of {after} on {threads} threads");
+        assert!((after..after + threads * batch).contains(&done), "{done} of {after} on {threads} threads");
         assert_eq!(part.stopped, Some(Stopped::Cancelled));
         let found = rows(&map_csv(&part).expect("a stopped map"));
         assert_eq!(found.len(), TOTAL);
@@ -92,12 +99,12 @@ fn what_is_done_equals_a_full_run_and_the_rest_is_empty() {
 
 #[test]
 fn the_manifest_says_how_far_it_came_and_why() {
-    let full = manifest(&cancelled(usize::MAX, 2).expect("a full run"));
+    let full = manifest(&cancelled(Backend::Reference, usize::MAX, 2).expect("a full run"));
     assert_eq!(full["complete"], true);
     assert_eq!(full["computation"]["computed"], TOTAL);
     assert!(full["computation"]["stopped"].is_null());
     assert!(full["counts"]["status"]["not_computed"].is_null());
-    let part = cancelled(40, 1).expect("a part");
+    let part = cancelled(Backend::Reference, 40, 1).expect("a part");
     let json = manifest(&part);
     assert_eq!(json["complete"], false);
     let computation = &json["computation"];
@@ -112,7 +119,9 @@ fn the_manifest_says_how_far_it_came_and_why() {
 
 #[test]
 fn a_run_cancelled_before_its_first_instance_is_an_error() {
-    assert!(matches!(cancelled(0, 2), Err(Error::Cancelled { done: 0, total: TOTAL })));
+    for backend in [Backend::Reference, Backend::Cpu] {
+        assert!(matches!(cancelled(backend, 0, 2), Err(Error::Cancelled { done: 0, total: TOTAL })));
+    }
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use squealmap::backend::cpu;
+use squealmap::backend::reference;
 use squealmap::classify::{InstabilityType, Regime};
 use squealmap::grid::{Axis, AxisKey, Grid, Value};
 use squealmap::linear::Linear;
@@ -47,8 +47,8 @@ pub(crate) fn spec(grid: Grid) -> Spec {
 pub(crate) fn map(grid: Grid, record: impl Fn(usize, &[&Value]) -> Record) -> Map {
     let records = (0..grid.len()).map(|i| record(i, &grid.coordinates(i))).collect();
     let provenance = Provenance {
-        linear: Some(cpu::computation("closed form".to_owned())),
-        response: Some(cpu::computation("rk4".to_owned())),
+        linear: Some(reference::in_f64(reference::NAME, "closed form".to_owned())),
+        response: Some(reference::in_f64(reference::NAME, "rk4".to_owned())),
         threads: 2,
         elapsed: Duration::from_millis(2500),
     };

@@ -1,0 +1,108 @@
+//! What an engine has reduced of a run, into an outcome in SI units (host only).
+
+use num_complex::Complex64;
+
+use super::observe::SUMS;
+use crate::observe::{Growth, GrowthFit};
+use crate::outcome::{Outcome, Status};
+use crate::response::{Plan, Scene};
+
+/// Words of the growth window.
+pub const GROWTH: usize = 15;
+
+/// Reductions of one run, scaled, deviations from the equilibrium.
+#[derive(Clone, Debug, Default)]
+pub struct Reductions {
+    /// The sums of [`super::observe::Sums::block`] over both halves of the window.
+    pub halves: [[f64; SUMS]; 2],
+    /// Largest `|ẍ2|`, `|ÿ1|`, `N`.
+    pub peaks: [f64; 3],
+    /// Impacts in the window.
+    pub impacts: u32,
+    /// Upward crossings of `ẋ2`.
+    pub crossings: u64,
+    /// Time of the first.
+    pub first: f64,
+    /// Time of the last.
+    pub last: f64,
+    /// Fourier components of `ẍ2` and `ÿ1` between the two, real and imaginary.
+    pub phase: [[f64; 2]; 2],
+    /// Time before the first event, sums of `x v a b` and their products, upper triangle by rows.
+    pub growth: [f64; GROWTH],
+}
+
+/// How a run ended.
+#[derive(Clone, Copy, Debug)]
+pub struct End {
+    /// Its status.
+    pub status: Status,
+    /// Its steps.
+    pub steps: u64,
+    /// The time it reached.
+    pub time: f64,
+}
+
+impl Reductions {
+    /// The outcome.
+    #[must_use]
+    pub fn outcome(&self, scene: &Scene, plan: &Plan, end: &End) -> Outcome {
+        let units = &scene.units;
+        let mut outcome = Outcome { status: end.status, steps: end.steps, ..Outcome::default() };
+        if end.status != Status::Ok {
+            outcome.simulated_time = end.time * units.time;
+            return outcome;
+        }
+        outcome.simulated_time = scene.seconds(end.time, plan);
+        if !self.halves.iter().flatten().chain(&self.peaks).all(|value| value.is_finite()) {
+            // A square beyond the scalar's range.
+            outcome.status = Status::NonFinite;
+            return outcome;
+        }
+        let halves = self.halves;
+        let all: [f64; SUMS] = std::array::from_fn(|i| halves[0][i] + halves[1][i]);
+        let std = |s: &[f64; SUMS], i: usize| (s[i + 1] / s[0] - (s[i] / s[0]).powi(2)).max(0.0).sqrt();
+        let rms = |s: &[f64; SUMS], i: usize| (s[i] / s[0]).sqrt();
+        outcome.x2_mean = Some(scene.equilibrium.x2 + all[1] / all[0] * units.length);
+        outcome.x2_std = Some(std(&all, 1) * units.length);
+        outcome.y1_mean = Some(scene.equilibrium.y1 + all[3] / all[0] * units.length);
+        outcome.y1_std = Some(std(&all, 3) * units.length);
+        outcome.ax_rms = Some(rms(&all, 5) * units.acceleration);
+        outcome.ay_rms = Some(rms(&all, 6) * units.acceleration);
+        outcome.ax_peak = Some(self.peaks[0] * units.acceleration);
+        outcome.ay_peak = Some(self.peaks[1] * units.acceleration);
+        outcome.friction_mean = (all[9] > 0.0).then(|| all[8] / all[9]);
+        outcome.n_peak = Some(self.peaks[2] * units.force);
+        outcome.stick = Some(all[10] / all[0]);
+        outcome.free = Some(all[11] / all[0]);
+        outcome.reverse = Some(all[12] / all[0]);
+        outcome.impacts_per_second = Some(f64::from(self.impacts) / (all[0] * units.time));
+        outcome.speed_rms_halves = halves.map(|s| rms(&s, 7) * units.velocity);
+        outcome.x2_std_halves = halves.map(|s| std(&s, 1) * units.length);
+        outcome.ay_rms_halves = halves.map(|s| rms(&s, 6) * units.acceleration);
+        let span = self.last - self.first;
+        if self.crossings >= 2 && span > 0.0 {
+            outcome.response_frequency = Some((self.crossings - 1) as f64 / span / units.time);
+            let [x, y] = self.phase.map(|z| Complex64::new(z[0], z[1]));
+            let ratio = y / x;
+            outcome.phase_cycle =
+                (ratio.is_finite() && ratio.norm_sqr() > 0.0).then(|| ratio.arg().to_degrees());
+        }
+        if let Some(fit) = growth_fit(&self.growth) {
+            outcome.growth_rate_measured = Some(fit.growth_rate / units.time);
+            outcome.frequency_measured = Some(fit.angular_frequency / std::f64::consts::TAU / units.time);
+            outcome.phase_measured = fit.phase.map(f64::to_degrees);
+        }
+        outcome
+    }
+}
+
+/// The fit of the growth window from its sums.
+fn growth_fit(words: &[f64; GROWTH]) -> Option<GrowthFit> {
+    let mut product = [[0.0; 5]; 5];
+    for (word, (i, j)) in (1..5).flat_map(|i| (i..5).map(move |j| (i, j))).enumerate() {
+        product[i][j] = words[5 + word];
+        product[j][i] = words[5 + word];
+    }
+    let sum = [words[0], words[1], words[2], words[3], words[4]];
+    Growth::from_sums(words[0], sum, product).result()
+}

@@ -1,0 +1,75 @@
+//! What of a scene a step needs in every lane.
+
+use crate::kernel::scalar::Real;
+use crate::model::equilibrium::Scaled;
+
+/// A linear form of the state: coefficients of `x2 y2 y1` and of their velocities.
+pub type Form = [f64; 6];
+
+/// `R`, the tangential spring force.
+pub const R: usize = 0;
+/// `W`, the normal spring force.
+pub const W: usize = 6;
+/// The acceleration of `m1`.
+pub const H: usize = 12;
+/// The tangential acceleration of `m2` in free flight.
+pub const FLIGHT_X: usize = 18;
+/// The normal acceleration of `m2` in free flight.
+pub const FLIGHT_Y: usize = 24;
+/// Both in free flight at the equilibrium.
+pub const FALL: usize = 30;
+/// `κ = m1 s c`.
+pub const KAPPA: usize = 32;
+/// Normal force of the equilibrium.
+pub const N0: usize = 33;
+/// Tangential force of the equilibrium.
+pub const T0: usize = 34;
+/// μ of the equilibrium.
+pub const MU0: usize = 35;
+/// Belt velocity of the equilibrium.
+pub const V0: usize = 36;
+/// Limit of stick.
+pub const MU_STICK: usize = 37;
+/// Margins of the stick cone at the equilibrium, forwards and backwards.
+pub const CONE: usize = 38;
+/// `k1 + k2`: a bound on what a change of position does to a force.
+pub const STIFFNESS: usize = 40;
+/// `1/det` of the mass matrix of `(x2, y2)`.
+pub const INV_DET: usize = 41;
+/// How many there are.
+pub const CONSTANTS: usize = 42;
+
+/// The constants of a scene.
+#[must_use]
+pub fn constants<T: Real>(model: &Scaled) -> [T; CONSTANTS] {
+    let (s, c) = (model.s, model.c);
+    // h = k2 (x s + y c − w) and g = k1 (x c − y s), likewise with the dampers.
+    let form = |cosine: f64, sine: f64| -> Form {
+        let part = |g: f64, h: f64| [sine * h * s + cosine * g * c, sine * h * c - cosine * g * s, -sine * h];
+        let ([x, y, w], [vx, vy, vw]) = (part(model.k1, model.k2), part(model.c1, model.c2));
+        [x, y, w, vx, vy, vw]
+    };
+    let (r, w, h) = (form(c, s), form(-s, c), form(0.0, 1.0));
+    let inv_det = 1.0 / model.det;
+    let combine = |on_r: f64, on_w: f64| -> Form { std::array::from_fn(|i| on_r * r[i] + on_w * w[i]) };
+    let tangential = [-model.normal_mass * inv_det, -model.kappa * inv_det];
+    let normal = [-model.kappa * inv_det, -inv_det];
+    let (n0, t0) = (model.n0, model.mu0 * model.n0);
+    let mut all = [0.0; CONSTANTS];
+    let mut put = |at: usize, values: &[f64]| all[at..at + values.len()].copy_from_slice(values);
+    put(R, &r);
+    put(W, &w);
+    put(H, &h.map(|value| value / model.m1));
+    put(FLIGHT_X, &combine(tangential[0], tangential[1]));
+    put(FLIGHT_Y, &combine(normal[0], normal[1]));
+    put(FALL, &[tangential[0] * t0 + tangential[1] * n0, normal[0] * t0 + normal[1] * n0]);
+    put(KAPPA, &[model.kappa]);
+    put(N0, &[n0]);
+    put(T0, &[t0]);
+    put(MU0, &[model.mu0]);
+    put(MU_STICK, &[model.law.mu_stick]);
+    put(CONE, &[(model.law.mu_stick - model.mu0) * n0, (model.law.mu_stick + model.mu0) * n0]);
+    put(STIFFNESS, &[model.k1 + model.k2]);
+    put(INV_DET, &[inv_det]);
+    all.map(T::from_f64)
+}

@@ -1,0 +1,324 @@
+//! The first event of every lane inside its step.
+//!
+//! The rules of [`crate::kernel::crossing`], for all lanes at once: a bound by Bernstein coefficients settles
+//! most event functions; one that it does not settle is sampled and its first root refined.
+
+use std::ops::Not;
+
+use pulp::Simd;
+
+use super::block::{Block, LOWER, SECOND, THIRD, UPPER};
+use super::constants::{CONE, INV_DET, MU_STICK, N0, R, STIFFNESS};
+use super::expand::Expansion;
+use super::vector::{Scalar, Vector};
+use crate::kernel::crossing::{HIGHEST_ORDER, SAMPLES, SOLVER_ITERATIONS};
+use crate::kernel::lane::ROUNDINGS;
+use crate::kernel::series::{REVERSE, STICK};
+
+/// Event functions on the step, in the order of [`super::block::FIRST`] to [`THIRD`].
+pub type Functions<S, T, const K: usize, const N: usize> = [[Vector<S, T, K>; N]; 3];
+
+/// The event functions; those a lane does not have are 1 throughout.
+#[inline(always)]
+pub fn functions<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const FLIGHT: bool>(
+    b: &Block<S, T, K>,
+    e: &Expansion<S, T, K, N>,
+    g: &mut Functions<S, T, K, N>,
+) {
+    let zero = e.step.like(0.0);
+    let one = e.step.like(1.0);
+    let slip = b.slip();
+    let sticks = b.up_to(REVERSE).not().and(b.up_to(STICK));
+    let free = b.free();
+    let sigma = b.sigma();
+    let square = e.step * e.step;
+    g[0] = e.n;
+    let speed = sigma * (b.belt - b.v[0]);
+    g[1][0] = e.step * (speed - b.piece[LOWER]);
+    g[2][0] = e.step * (b.piece[UPPER] - speed);
+    for k in 1..N - 1 {
+        let slower = if k == 1 { e.v[0][2] - b.drive * square } else { e.v[0][k + 1] };
+        let along = sigma * slower;
+        g[1][k] = -along;
+        g[2][k] = along;
+    }
+    if sticks.any() {
+        let mu = b.scene[MU_STICK];
+        for k in 0..N - 2 {
+            let mut t = (b.scene[R] * square).fma(e.p[0][k], b.scene[R + 2] * square * e.p[2][k]);
+            t = (b.scene[R + 3] * e.step).fma(e.v[0][k + 1], t);
+            t = (b.scene[R + 5] * e.step).fma(e.v[2][k + 1], t);
+            let mut forward = mu * e.n[k];
+            let mut backward = forward;
+            if k == 0 {
+                t += b.drive * square;
+                let still = mu.fnma(b.scene[N0] * square, forward);
+                forward = b.scene[CONE].fma(square, still);
+                backward = b.scene[CONE + 1].fma(square, still);
+            }
+            g[1][k] = sticks.select(forward - t, g[1][k]);
+            g[2][k] = sticks.select(backward + t, g[2][k]);
+        }
+        for k in N - 2..N - 1 {
+            g[1][k] = g[1][k].only(slip);
+            g[2][k] = g[2][k].only(slip);
+        }
+    }
+    if FLIGHT {
+        for k in 0..N {
+            g[0][k] = free.select(e.p[1][k], g[0][k]);
+            let rest = if k == 0 { one } else { zero };
+            g[1][k] = free.select(rest, g[1][k]);
+            g[2][k] = free.select(rest, g[2][k]);
+        }
+    }
+}
+
+/// A lower bound on [0, 1]: Bernstein coefficients of the part up to degree 4 less the rest.
+#[inline(always)]
+fn lower_bound<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
+    b: &[Vector<S, T, K>; N],
+) -> Vector<S, T, K> {
+    let (c1, c2, c3) = (b[1] * b[1].like(0.25), b[2] * b[1].like(1.0 / 6.0), b[3] * b[1].like(0.25));
+    let two = b[0].like(2.0);
+    let three = b[0].like(3.0);
+    let b1 = b[0] + c1;
+    let b2 = two.fma(c1, b[0] + c2);
+    let b3 = three.fma(c1 + c2, b[0] + c3);
+    let b4 = (b[0] + b[1]) + (b[2] + b[3]) + b[4];
+    let mut rest = b[5].abs();
+    for k in 6..N {
+        rest += b[k].abs();
+    }
+    b[0].min(b1).min(b2.min(b3)).min(b4) - rest
+}
+
+/// `Σ b_k t^k`.
+#[inline(always)]
+pub fn value<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
+    b: &[Vector<S, T, K>; N],
+    t: Vector<S, T, K>,
+) -> Vector<S, T, K> {
+    value_to(b, N - 1, t)
+}
+
+/// `Σ b_k t^k` up to a degree.
+#[inline(always)]
+pub fn value_to<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
+    b: &[Vector<S, T, K>; N],
+    degree: usize,
+    t: Vector<S, T, K>,
+) -> Vector<S, T, K> {
+    let mut sum = b[degree];
+    for k in (0..degree).rev() {
+        sum = sum.fma(t, b[k]);
+    }
+    sum
+}
+
+/// `Σ b_k t^k` and its derivative.
+#[inline(always)]
+fn value_and_slope<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
+    b: &[Vector<S, T, K>; N],
+    t: Vector<S, T, K>,
+) -> [Vector<S, T, K>; 2] {
+    let mut sum = b[N - 1];
+    let mut slope = sum.like(0.0);
+    for k in (0..N - 1).rev() {
+        slope = slope.fma(t, sum);
+        sum = sum.fma(t, b[k]);
+    }
+    [sum, slope]
+}
+
+/// Where in the step each lane's first event is, 1 when there is none, and the event function it belongs to,
+/// 0 for none.
+///
+/// Of two event functions that fall in one step the one with the earlier estimate (straight between samples)
+/// comes first.
+#[inline(always)]
+pub fn first_event<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const FLIGHT: bool>(
+    b: &Block<S, T, K>,
+    e: &Expansion<S, T, K, N>,
+    g: &Functions<S, T, K, N>,
+    tolerance: Vector<S, T, K>,
+) -> [Vector<S, T, K>; 2] {
+    let zero = e.step.like(0.0);
+    let one = e.step.like(1.0);
+    let second = e.step.like(f64::from(SECOND));
+    let third = e.step.like(f64::from(THIRD));
+    let from_zero = [
+        b.disarmed.less(second).and(zero.less(b.disarmed)),
+        b.disarmed.less(third).and(second.at_most(b.disarmed)),
+        third.at_most(b.disarmed),
+    ];
+    let mut open = from_zero;
+    for i in 0..3 {
+        open[i] = open[i].or(lower_bound(&g[i]).not_positive());
+    }
+    let mut pending = open[0].or(open[1]).or(open[2]);
+    if !pending.any() {
+        return [one, zero];
+    }
+    let (slip, flies) = (b.slip(), b.free());
+    let square = e.step * e.step;
+    // Forces are off by the truncation of the motion and the rounding of the static loads.
+    let band = force_band::<S, T, K, N, FLIGHT>(b, e, tolerance);
+    let mut best = Bracket { low: zero, high: one, estimate: one.like(2.0), event: zero };
+    let mut series = [zero; N];
+    let mut turn = 0;
+    while pending.any() {
+        // One open function per lane at a time.
+        let here = [open[0], open[0].not().and(open[1]), open[0].or(open[1]).not().and(open[2])];
+        let mut c = g[0];
+        for k in 0..N {
+            c[k] = here[1].select(g[1][k], here[2].select(g[2][k], c[k]));
+        }
+        let code = here[1].select(second, here[2].select(third, one));
+        let begins = here[0].and(from_zero[0]).or(here[1].and(from_zero[1])).or(here[2].and(from_zero[2]));
+        let of_force = slip.and(here[0]).or(slip.or(flies).not());
+        let near = of_force.and(c[0].not_positive()).and((-(band * square)).at_most(c[0]));
+        let mut deflate = begins.or(near).and(pending);
+        let mut live = pending;
+        if deflate.any() {
+            // A function that begins at zero, by construction or within rounding, loses that root.
+            let mut rounding = band * of_force.select(square, slip.select(e.step, b.scene[INV_DET]));
+            for turn in 1..=HIGHEST_ORDER + 1 {
+                if turn > HIGHEST_ORDER {
+                    live = live.and(deflate.not());
+                    break;
+                }
+                for k in 0..N - 1 {
+                    c[k] = deflate.select(c[k + 1], c[k]);
+                }
+                c[N - 1] = deflate.select(zero, c[N - 1]);
+                rounding = rounding * e.step;
+                deflate = deflate.and(begins).and(c[0].not_positive()).and((-rounding).at_most(c[0]));
+                if !deflate.any() {
+                    break;
+                }
+            }
+            live = live.and(lower_bound(&c).not_positive());
+        }
+        if live.any() {
+            let found = bracket(&c);
+            let earlier = live.and(found.estimate.less(best.estimate)).and(found.estimate.at_most(one));
+            best.low = earlier.select(found.low, best.low);
+            best.high = earlier.select(found.high, best.high);
+            best.estimate = earlier.select(found.estimate, best.estimate);
+            best.event = earlier.select(code, best.event);
+            if turn == 0 {
+                series = c;
+            } else {
+                for k in 0..N {
+                    series[k] = earlier.select(c[k], series[k]);
+                }
+            }
+            turn += 1;
+        }
+        for i in 0..3 {
+            open[i] = open[i].and(here[i].not());
+        }
+        pending = open[0].or(open[1]).or(open[2]);
+    }
+    let happens = zero.less(best.event);
+    if !happens.any() {
+        return [one, zero];
+    }
+    [happens.select(refine(&series, &best), one), best.event]
+}
+
+/// What a force may be off by at the beginning of a step.
+#[inline(always)]
+fn force_band<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const FLIGHT: bool>(
+    b: &Block<S, T, K>,
+    e: &Expansion<S, T, K, N>,
+    tolerance: Vector<S, T, K>,
+) -> Vector<S, T, K> {
+    let one = e.step.like(1.0);
+    let slower = largest::<S, T, K, N, FLIGHT>(e, 2).fma(e.rate, largest::<S, T, K, N, FLIGHT>(e, 1));
+    let motion = slower.fma(e.rate, largest::<S, T, K, N, FLIGHT>(e, 0));
+    let loads = (b.scene[MU_STICK] + one) * b.scene[N0] + e.n[0].abs() * (e.rate * e.rate);
+    let rounding = Vector::splat(b.simd, T::EPSILON) * e.step.like(ROUNDINGS);
+    rounding.fma(loads, tolerance * b.scene[STIFFNESS] * motion)
+}
+
+/// Where an event function falls below zero.
+struct Bracket<S: Simd, T: Scalar<S>, const K: usize> {
+    /// A place where it is still positive.
+    low: Vector<S, T, K>,
+    /// A place where it no longer is.
+    high: Vector<S, T, K>,
+    /// Between them on the straight line; 0 when it is not positive from the start, 2 when it stays positive.
+    estimate: Vector<S, T, K>,
+    /// The event function.
+    event: Vector<S, T, K>,
+}
+
+/// The first sample that is not positive, and the one before.
+#[inline(always)]
+fn bracket<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
+    c: &[Vector<S, T, K>; N],
+) -> Bracket<S, T, K> {
+    let (zero, never) = (c[0].like(0.0), c[0].like(2.0));
+    let (mut high, mut at_low, mut at_high) = (never, c[0].like(1.0), zero);
+    // From the last sample to the first: what is set last is the first crossing.
+    let mut here = value(c, c[0].like(1.0));
+    for i in (0..SAMPLES).rev() {
+        let t = i as f64 / SAMPLES as f64;
+        let before = if i == 0 { c[0] } else { value(c, c[0].like(t)) };
+        let down = here.not_positive();
+        high = down.select(c[0].like(t + 1.0 / SAMPLES as f64), high);
+        at_low = down.select(before, at_low);
+        at_high = down.select(here, at_high);
+        here = before;
+    }
+    let immediate = c[0].not_positive();
+    let width = c[0].like(1.0 / SAMPLES as f64);
+    let low = high - width;
+    let fall = at_low - at_high;
+    let inside = high.less(never);
+    let along = width * at_low / zero.less(fall).select(fall, width);
+    let estimate = inside.select(low + along, never);
+    Bracket { low, high, estimate: immediate.select(zero, estimate), event: zero }
+}
+
+/// The root in a bracket by Newton's method that stays inside.
+#[inline(always)]
+fn refine<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
+    c: &[Vector<S, T, K>; N],
+    bracket: &Bracket<S, T, K>,
+) -> Vector<S, T, K> {
+    let zero = c[0].like(0.0);
+    let (mut low, mut high, mut t) = (bracket.low, bracket.high, bracket.estimate);
+    let mut active = zero.less(t).and(t.at_most(zero.like(1.0)));
+    // Newton's method squares its error: what is left after such a change is below rounding.
+    let enough = Vector::splat(c[0].simd(), T::EPSILON.sqrt());
+    for _ in 0..SOLVER_ITERATIONS {
+        let [here, slope] = value_and_slope(c, t);
+        let positive = zero.less(here);
+        low = positive.select(t, low);
+        high = positive.select(high, t);
+        let down = slope.less(zero);
+        let newton = t - here / down.select(slope, zero.like(-1.0));
+        let good = down.and(low.at_most(newton)).and(newton.at_most(high));
+        let next = good.select(newton, (low + high) * zero.like(0.5));
+        let change = (next - t).abs();
+        t = active.select(next, t);
+        active = active.and(enough.less(change));
+        if !active.any() {
+            break;
+        }
+    }
+    t
+}
+
+/// The largest magnitude of the positions' coefficients of degree `k`.
+#[inline(always)]
+pub fn largest<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const FLIGHT: bool>(
+    e: &Expansion<S, T, K, N>,
+    k: usize,
+) -> Vector<S, T, K> {
+    let contact = e.p[0][k].abs().max(e.p[2][k].abs());
+    if FLIGHT { contact.max(e.p[1][k].abs()) } else { contact }
+}

@@ -1,0 +1,177 @@
+//! One instance between passes: where it is, and what it has seen.
+
+use std::f64::consts::TAU;
+
+use super::constants::{CONSTANTS, constants};
+use crate::kernel::lane::{Belt, GAP, Lane};
+use crate::kernel::reductions::{End, Reductions};
+use crate::kernel::response::{law_of, words};
+use crate::kernel::scalar::Real;
+use crate::kernel::scene::{Law, Scene as Words};
+use crate::model::friction::LawKind;
+use crate::outcome::{Outcome, Status};
+use crate::response::{Plan, Scene};
+
+/// Steps of a stretch: short sums keep their digits, and a lane is looked at between stretches.
+const STRETCH: f64 = 64.0;
+
+/// The parts of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// Up to the first event: growth, frequency and phase are measured.
+    Growth,
+    /// The rest of the time before the window.
+    Settle,
+    /// The window.
+    Window,
+    /// The window once more, from the first to the last crossing.
+    Phase,
+}
+
+impl Part {
+    /// All, in the order of a run.
+    pub const ALL: [Part; 4] = [Part::Growth, Part::Settle, Part::Window, Part::Phase];
+}
+
+/// An instance on its way.
+#[derive(Clone, Debug)]
+pub struct Job<T> {
+    /// The instance ready to be integrated.
+    pub scene: Scene,
+    /// The same as the kernel's twin has it.
+    pub words: Words<T>,
+    /// The same as the steps have it.
+    pub constants: [T; CONSTANTS],
+    /// Contact state, body and status; the rest of a lane is not used.
+    pub lane: Lane<T>,
+    /// Time reached at the last boundary of a stretch.
+    pub time: f64,
+    /// End of the present stretch.
+    pub until: f64,
+    /// Whether the first event is still to come.
+    pub growing: bool,
+    /// What it has reduced.
+    pub seen: Reductions,
+    /// `ẋ2` at the end of the last step of the window.
+    pub previous: T,
+    /// Steps.
+    pub steps: u64,
+    /// Times of the end of the settling, of the first half of the window and of the window.
+    pub marks: [f64; 3],
+    snapshot: Option<Box<Lane<T>>>,
+}
+
+impl<T: Real> Job<T> {
+    /// The start of an instance.
+    #[must_use]
+    pub fn new(scene: Scene, kind: LawKind, plan: &Plan) -> Job<T> {
+        let pieces = scene.model.law.pieces.len();
+        let packed = words(&scene, &[[0.0; 5]; 4], pieces);
+        let words: Words<T> = Words::read(law_of(kind), pieces, &packed);
+        let (settle, half) = (scene.scaled(plan.settle), 0.5 * scene.scaled(plan.measure));
+        let mut lane = Lane::blank();
+        let [x, w, vx, vw] = words.start;
+        lane.body.p = [x, T::ZERO, w];
+        lane.body.v = [vx, T::ZERO, vw];
+        let belt = scene.belt(0.0);
+        let belt =
+            Belt { velocity: T::from_f64(belt.velocity), acceleration: T::from_f64(belt.acceleration) };
+        lane.enter_contact(&words, belt);
+        Job {
+            constants: constants(&scene.model),
+            scene,
+            words,
+            lane,
+            time: 0.0,
+            until: 0.0,
+            growing: true,
+            seen: Reductions::default(),
+            previous: T::ZERO,
+            steps: 0,
+            marks: [settle, settle + half, settle + half + half],
+            snapshot: None,
+        }
+    }
+
+    /// The form of its law.
+    #[must_use]
+    pub fn law(&self) -> Law {
+        self.words.law
+    }
+
+    /// Whether a part of the run has anything to do; the window's start is remembered when it begins.
+    pub fn enter(&mut self, part: Part) -> bool {
+        if self.lane.status != Status::Unwritten {
+            return false;
+        }
+        match part {
+            Part::Growth => self.growing && self.time < self.marks[0],
+            Part::Settle => self.time < self.marks[0],
+            Part::Window => {
+                self.snapshot = Some(Box::new(self.lane.clone()));
+                true
+            }
+            Part::Phase => {
+                let Some(snapshot) = self.snapshot.take() else { return false };
+                if self.seen.crossings < 2 || self.seen.last <= self.seen.first {
+                    return false;
+                }
+                self.lane = *snapshot;
+                self.time = self.marks[0];
+                true
+            }
+        }
+    }
+
+    /// The half of the window the present stretch lies in.
+    #[must_use]
+    pub fn half(&self) -> usize {
+        usize::from(self.time >= self.marks[1])
+    }
+
+    /// The next stretch of a part: its length and its longest step; `None` at the end of the part.
+    pub fn stretch(&mut self, part: Part, steps_per_period: u32) -> Option<[f64; 2]> {
+        let goals: &[f64] = match part {
+            Part::Growth | Part::Settle => &self.marks[..1],
+            Part::Window => &self.marks[1..],
+            Part::Phase => &[self.seen.first, self.seen.last],
+        };
+        let goal = *goals.iter().find(|goal| self.time < **goal)?;
+        let (_, holds) = self.scene.belt_from(self.time);
+        let end = if holds < goal - self.time { self.time + holds } else { goal };
+        let nominal = TAU / f64::from(steps_per_period);
+        let length = end - self.time;
+        let whole = (length / nominal - 1e-6).ceil().max(1.0);
+        let step = length / whole;
+        if whole <= STRETCH {
+            self.until = end;
+            return Some([length, step]);
+        }
+        self.until = self.time + STRETCH * step;
+        Some([STRETCH * step, step])
+    }
+
+    /// Carries out an event; `exhausted` when there have been too many.
+    pub fn event(&mut self, event: u32, exhausted: bool, in_window: bool, belt: Belt<T>) {
+        self.growing = false;
+        if exhausted {
+            self.lane.status = Status::EventLimit;
+            return;
+        }
+        self.lane.transition(&self.words, event, belt);
+        if in_window && event == GAP {
+            self.seen.impacts += 1;
+        }
+    }
+
+    /// The outcome of a job that has passed all parts.
+    #[must_use]
+    pub fn outcome(&self, plan: &Plan) -> Outcome {
+        let end = self.marks[2];
+        let status = self.lane.status;
+        // The second pass goes over the window again and ends before its end.
+        let (status, time) =
+            if status == Status::Unwritten { (Status::Ok, end) } else { (status, self.time) };
+        self.seen.outcome(&self.scene, plan, &End { status, steps: self.steps, time })
+    }
+}

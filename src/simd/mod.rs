@@ -1,0 +1,109 @@
+//! The transient of many instances at a time in the lanes of the CPU's vector registers.
+//!
+//! The method is that of the kernels: Taylor series over the step, events located inside it. Lanes are
+//! asynchronous: each has its own instance, time, step and contact state, and none waits for another. A run
+//! is cut into parts, each stepped by code that does only what its part needs.
+
+#![expect(
+    clippy::inline_always,
+    clippy::needless_range_loop,
+    reason = "only what is inlined is compiled for the instruction set; several arrays share an index"
+)]
+#![expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "counts and codes travel as scalars of the lanes"
+)]
+
+pub mod block;
+pub mod constants;
+pub mod events;
+pub mod expand;
+pub mod job;
+pub mod observe;
+pub mod pass;
+pub mod transitions;
+pub mod vector;
+
+use pulp::{Arch, Simd, WithSimd};
+
+use crate::kernel::scalar::Real;
+use crate::kernel::scene::Law;
+use crate::kernel::source::Precision;
+use job::{Job, Part};
+use pass::{Settings, pass};
+use vector::Scalar;
+
+/// Registers of a vector.
+pub const REGISTERS: usize = 2;
+
+/// Order of the Taylor series.
+pub const ORDER: usize = 12;
+
+/// Bound on the truncation of a step, relative to the motion: in f32 it drowns in the rounding, in f64 the
+/// deviations of `paper_map` are those of the reference to 1e-7 at the 99th percentile.
+#[must_use]
+pub const fn tolerance(precision: Precision) -> f64 {
+    match precision {
+        Precision::F32 => 1e-4,
+        Precision::F64 => 1e-6,
+    }
+}
+
+/// A scalar the engine computes in.
+pub trait Lanes: Real {
+    /// Runs jobs whose laws have one form to their end.
+    fn run(jobs: &mut [Job<Self>], settings: Settings);
+}
+
+macro_rules! lanes {
+    ($scalar:ty) => {
+        impl Lanes for $scalar {
+            fn run(jobs: &mut [Job<Self>], settings: Settings) {
+                match jobs.first().map(Job::law) {
+                    None => {}
+                    Some(Law::Pieces) => {
+                        dispatch(Parts::<'_, $scalar, { ORDER + 1 }, { expand::PIECES }> { jobs, settings })
+                    }
+                    Some(_) => {
+                        dispatch(Parts::<'_, $scalar, { ORDER + 1 }, { expand::CURVED }> { jobs, settings })
+                    }
+                }
+            }
+        }
+
+        impl<const N: usize, const LAW: bool> WithSimd for Parts<'_, $scalar, N, LAW> {
+            type Output = ();
+            #[inline(always)]
+            fn with_simd<S: Simd>(self, simd: S) {
+                self.run(simd);
+            }
+        }
+    };
+}
+
+lanes!(f32);
+lanes!(f64);
+
+/// Runs an operation with the widest registers of this machine.
+fn dispatch<O: WithSimd<Output = ()>>(operation: O) {
+    Arch::new().dispatch(operation);
+}
+
+/// All parts of some jobs.
+struct Parts<'a, T: Real, const N: usize, const LAW: bool> {
+    jobs: &'a mut [Job<T>],
+    settings: Settings<'a>,
+}
+
+impl<T: Real, const N: usize, const LAW: bool> Parts<'_, T, N, LAW> {
+    #[inline(always)]
+    fn run<S: Simd>(self, simd: S)
+    where
+        T: Scalar<S>,
+    {
+        for part in Part::ALL {
+            pass::<S, T, REGISTERS, N, LAW>(simd, self.jobs, part, self.settings);
+        }
+    }
+}

@@ -1,0 +1,282 @@
+//! Running reductions of every lane over its present stretch; a stretch ends in the job's sums in f64.
+//!
+//! The definitions are those of [`crate::kernel::observe`].
+
+use std::ops::Not;
+
+use pulp::Simd;
+
+use super::block::Block;
+use super::constants::{N0, R, T0, W};
+use super::events::{value, value_to};
+use super::expand::Expansion;
+use super::vector::{Scalar, Vector};
+use crate::kernel::observe::{NODES, SAMPLE_TIMES, SUMS, WEIGHTS};
+use crate::kernel::reductions::GROWTH;
+use crate::kernel::series::{REVERSE, SLIP, STICK};
+
+/// Reductions of the present stretches.
+#[derive(Clone, Copy, Debug)]
+pub struct Sums<S: Simd, T: Scalar<S>, const K: usize> {
+    /// The sums of [`crate::kernel::observe::Sums::block`].
+    pub window: [Vector<S, T, K>; SUMS],
+    /// Largest `|ẍ2|`, `|ÿ1|`, `N`.
+    pub peaks: [Vector<S, T, K>; 3],
+    /// `ẋ2` at the end of the step before.
+    pub previous: Vector<S, T, K>,
+    /// Upward crossings of `ẋ2`.
+    pub crossings: Vector<S, T, K>,
+    /// Time of the first crossing since the stretch began.
+    pub first: Vector<S, T, K>,
+    /// Time of the last.
+    pub last: Vector<S, T, K>,
+    /// Time since the stretch began.
+    pub time: Vector<S, T, K>,
+    /// Sums before the first event.
+    pub growth: [Vector<S, T, K>; GROWTH],
+    /// 1 until the first event.
+    pub growing: Vector<S, T, K>,
+    /// Angular frequency of the second pass.
+    pub omega: Vector<S, T, K>,
+    /// `exp(−iωt)`.
+    pub carrier: [Vector<S, T, K>; 2],
+    /// Fourier components of `ẍ2` and `ÿ1`.
+    pub phase: [Vector<S, T, K>; 4],
+}
+
+impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
+    /// Nothing yet.
+    #[inline(always)]
+    pub fn new(simd: S) -> Self {
+        let zero = Vector::constant(simd, 0.0);
+        Sums {
+            window: [zero; SUMS],
+            peaks: [zero; 3],
+            previous: zero,
+            crossings: zero,
+            first: zero,
+            last: zero,
+            time: zero,
+            growth: [zero; GROWTH],
+            growing: zero,
+            omega: zero,
+            carrier: [zero; 2],
+            phase: [zero; 4],
+        }
+    }
+
+    /// Adds the part of the step up to `at` to the window.
+    #[inline(always)]
+    pub fn observe_window<const N: usize>(
+        &mut self,
+        b: &Block<S, T, K>,
+        e: &Expansion<S, T, K, N>,
+        at: Vector<S, T, K>,
+    ) {
+        let zero = at.like(0.0);
+        let tau = at * e.step;
+        let free = b.free();
+        let stick = b.up_to(STICK).and(b.up_to(REVERSE).not());
+        self.window[0] += tau;
+        self.window[10] += tau.only(stick);
+        self.window[11] += tau.only(free);
+        self.window[12] += tau.only(b.up_to(REVERSE).and(b.up_to(SLIP).not()));
+        let rate_square = e.rate * e.rate;
+        let (flying, t0) = (free.any(), free.select(zero, b.scene[T0]));
+        let mut samples = [[zero; 5]; 3];
+        for i in 0..5 {
+            let t = at * at.like(SAMPLE_TIMES[i]);
+            let ax = if i == 0 { e.a[0][0] } else { value_to(&e.a[0], N - 3, t) } * rate_square;
+            let ay = if i == 0 { e.a[1][0] } else { value_to(&e.a[1], N - 3, t) } * rate_square;
+            samples[0][i] = ax.abs();
+            samples[1][i] = ay.abs();
+            if i == 0 || i == 4 {
+                let n = if i == 0 { e.n[0] } else { value_to(&e.n, N - 3, t) };
+                samples[2][i] = n * rate_square;
+                continue;
+            }
+            let (x, w) = (value(&e.p[0], t), value(&e.p[2], t));
+            let (vx, vw) = (derivative(&e.v[0], t) * e.rate, derivative(&e.v[2], t) * e.rate);
+            let mut forces = [zero; 2];
+            for (force, c) in [(0, R), (1, W)] {
+                let mut sum = b.scene[c].fma(x, b.scene[c + 2] * w);
+                sum = b.scene[c + 3].fma(vx, b.scene[c + 5].fma(vw, sum));
+                if flying {
+                    sum = b.scene[c + 1].fma(value(&e.p[1], t), sum);
+                    sum = b.scene[c + 4].fma(derivative(&e.v[1], t) * e.rate, sum);
+                }
+                forces[force] = sum;
+            }
+            let mut normal = b.scene[super::constants::KAPPA].fnma(ax, forces[1] + b.scene[N0]);
+            let mut tangential = forces[0] + ax + t0;
+            if flying {
+                normal = free.select(zero, normal);
+                tangential = free.select(zero, tangential);
+            }
+            samples[2][i] = normal;
+            let weight = tau * at.like(WEIGHTS[i - 1]);
+            let sums = &mut self.window;
+            sums[1] = weight.fma(x, sums[1]);
+            sums[2] = weight.fma(x * x, sums[2]);
+            sums[3] = weight.fma(w, sums[3]);
+            sums[4] = weight.fma(w * w, sums[4]);
+            sums[5] = weight.fma(ax * ax, sums[5]);
+            sums[6] = weight.fma(ay * ay, sums[6]);
+            sums[7] = weight.fma(vx.fma(vx, vw * vw), sums[7]);
+            sums[8] = weight.fma(tangential, sums[8]);
+            sums[9] = weight.fma(normal, sums[9]);
+        }
+        for i in 0..3 {
+            self.peaks[i] = self.peaks[i].max(maximum(&samples[i]));
+        }
+    }
+
+    /// Notes an upward crossing of `ẋ2`; `after` is its value at the end of the part of the step.
+    #[inline(always)]
+    pub fn cross_upwards<const N: usize>(
+        &mut self,
+        e: &Expansion<S, T, K, N>,
+        at: Vector<S, T, K>,
+        after: Vector<S, T, K>,
+    ) {
+        let (zero, one) = (at.like(0.0), at.like(1.0));
+        let before = e.v[0][1] * e.rate;
+        let jumped = self.previous.less(zero).and(zero.at_most(before));
+        let rises = before.less(zero).and(zero.at_most(after)).and(zero.less(at));
+        if jumped.or(rises).any() {
+            // Straight from end to end, then two steps of Newton's method that stay inside.
+            let mut t = rises.select(at * before / (before - after).min(at.like(-1e-30)), zero);
+            for _ in 0..2 {
+                let slope = value_to(&e.a[0], N - 3, t) * e.rate;
+                let here = derivative(&e.v[0], t) * e.rate;
+                let next = t - here / zero.less(slope).select(slope, one);
+                t = rises.and(zero.less(slope)).select(next.max(zero).min(at), t);
+            }
+            let moment = t.fma(e.step, self.time);
+            let crossed = jumped.or(rises);
+            let is_first = crossed.and(self.crossings.not_positive());
+            self.first = is_first.select(moment, self.first);
+            self.last = crossed.select(moment, self.last);
+            self.crossings += one.only(crossed);
+        }
+        self.previous = after;
+    }
+
+    /// Adds a step before the first event; `p` and `v` are the state at its end.
+    #[inline(always)]
+    pub fn observe_growth<const N: usize>(
+        &mut self,
+        e: &Expansion<S, T, K, N>,
+        at: Vector<S, T, K>,
+        x: Vector<S, T, K>,
+        vx: Vector<S, T, K>,
+    ) {
+        let rate_square = e.rate * e.rate;
+        let tau = at * e.step * self.growing;
+        let sample =
+            [x, vx, value_to(&e.a[0], N - 3, at) * rate_square, value_to(&e.a[1], N - 3, at) * rate_square];
+        self.growth[0] += tau;
+        let mut word = 5;
+        for i in 0..4 {
+            let weighted = tau * sample[i];
+            self.growth[1 + i] += weighted;
+            for j in i..4 {
+                self.growth[word] = weighted.fma(sample[j], self.growth[word]);
+                word += 1;
+            }
+        }
+    }
+
+    /// Adds the part of the step up to `at` to the Fourier components.
+    #[inline(always)]
+    pub fn observe_phase<const N: usize>(&mut self, e: &Expansion<S, T, K, N>, at: Vector<S, T, K>) {
+        let rate_square = e.rate * e.rate;
+        let tau = at * e.step;
+        let angle = self.omega * tau;
+        let (outer, inner) =
+            (rotation(angle * at.like(NODES[0])), rotation(angle * at.like(NODES[1] - NODES[0])));
+        let mut carrier = self.carrier;
+        for i in 0..3 {
+            carrier = turn(carrier, if i == 0 { outer } else { inner });
+            let t = at * at.like(NODES[i]);
+            let weight = tau * rate_square * at.like(WEIGHTS[i]);
+            let (ax, ay) = (value_to(&e.a[0], N - 3, t) * weight, value_to(&e.a[1], N - 3, t) * weight);
+            self.phase[0] = ax.fma(carrier[0], self.phase[0]);
+            self.phase[1] = ax.fma(carrier[1], self.phase[1]);
+            self.phase[2] = ay.fma(carrier[0], self.phase[2]);
+            self.phase[3] = ay.fma(carrier[1], self.phase[3]);
+        }
+        self.carrier = turn(carrier, outer);
+    }
+}
+
+/// `Σ v_k t^(k − 1)` of coefficients that already carry their degree.
+#[inline(always)]
+pub fn derivative<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
+    v: &[Vector<S, T, K>; N],
+    t: Vector<S, T, K>,
+) -> Vector<S, T, K> {
+    let mut sum = v[N - 1];
+    for k in (1..N - 1).rev() {
+        sum = sum.fma(t, v[k]);
+    }
+    sum
+}
+
+/// The maximum of a smooth function from its samples, see [`crate::kernel::observe::maximum`].
+#[inline(always)]
+fn maximum<S: Simd, T: Scalar<S>, const K: usize>(values: &[Vector<S, T, K>; 5]) -> Vector<S, T, K> {
+    let zero = values[0].like(0.0);
+    let mut top = values[0];
+    // The slopes to both sides of the top and the distances they are taken over.
+    let mut left = zero;
+    let mut right = zero;
+    let mut width = [zero.like(1.0); 2];
+    for i in 1..5 {
+        let higher = top.less(values[i]);
+        top = higher.select(values[i], top);
+        let before = SAMPLE_TIMES[i] - SAMPLE_TIMES[i - 1];
+        left = higher.select((values[i] - values[i - 1]) * zero.like(1.0 / before), left);
+        width[0] = higher.select(zero.like(before), width[0]);
+        if i < 4 {
+            let after = SAMPLE_TIMES[i + 1] - SAMPLE_TIMES[i];
+            right = higher.select((values[i + 1] - values[i]) * zero.like(1.0 / after), right);
+            width[1] = higher.select(zero.like(after), width[1]);
+        } else {
+            right = higher.select(zero, right);
+            left = higher.select(zero, left);
+        }
+    }
+    // Inside, the slopes differ; the tangent is that of the parabola through three samples.
+    let curvature = (right - left) / (width[0] + width[1]);
+    let tangent = curvature.fma(width[0], left);
+    let bent = curvature.less(zero);
+    let rise = tangent * tangent / bent.select(curvature * zero.like(-4.0), zero.like(1.0));
+    bent.select(top + rise, top)
+}
+
+/// `cos φ` and `sin φ` for moderate angles.
+#[inline(always)]
+fn rotation<S: Simd, T: Scalar<S>, const K: usize>(angle: Vector<S, T, K>) -> [Vector<S, T, K>; 2] {
+    let one = angle.like(1.0);
+    let square = angle * angle;
+    let mut cosine = one;
+    let mut sine = one;
+    let mut k = 9;
+    while k >= 1 {
+        let n = f64::from(2 * k);
+        cosine = (square * one.like(1.0 / (n * (n - 1.0)))).fnma(cosine, one);
+        sine = (square * one.like(1.0 / (n * (n + 1.0)))).fnma(sine, one);
+        k -= 1;
+    }
+    [cosine, sine * angle]
+}
+
+/// `z exp(−iφ)`.
+#[inline(always)]
+fn turn<S: Simd, T: Scalar<S>, const K: usize>(
+    z: [Vector<S, T, K>; 2],
+    by: [Vector<S, T, K>; 2],
+) -> [Vector<S, T, K>; 2] {
+    [z[0].fma(by[0], z[1] * by[1]), z[1].fma(by[0], -(z[0] * by[1]))]
+}

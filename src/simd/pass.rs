@@ -1,0 +1,383 @@
+//! One part of the run for many instances: lanes are refilled as soon as they are done.
+
+use std::ops::Not;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use pulp::Simd;
+
+use super::block::{Block, event_of};
+use super::events::{Functions, first_event, functions, largest, value};
+use super::expand::{Expansion, expand};
+use super::job::{Job, Part};
+use super::observe::{Sums, derivative};
+use super::transitions::transitions;
+use super::vector::{Scalar, Vector};
+use crate::kernel::series::{REVERSE, STICK};
+use crate::outcome::Status;
+
+/// Steps of all lanes after which a wish to stop is looked for: some milliseconds.
+const TURNS: u32 = 4096;
+
+/// A step that is too long is shortened by this factor,
+const SHORTER: f64 = 0.75;
+/// and the next one begins at most so much longer;
+const LONGER: f64 = 1.4;
+/// at most so often: to 1e-7 of it.
+const MOST_SHORTER: usize = 56;
+
+/// What all instances of a pass share.
+#[derive(Clone, Copy, Debug)]
+pub struct Settings<'a> {
+    /// Steps per period `2π/ω0`.
+    pub steps_per_period: u32,
+    /// Bound on the truncation of a step.
+    pub tolerance: f64,
+    /// Set to stop early; what is under way is then of no use.
+    pub cancel: &'a AtomicBool,
+}
+
+/// Lanes and the instances they work on.
+struct Lanes<'a, S: Simd, T: Scalar<S>, const K: usize> {
+    block: Block<S, T, K>,
+    sums: Sums<S, T, K>,
+    jobs: &'a mut [Job<T>],
+    /// The job of each lane; `usize::MAX` for a lane that rests.
+    of_lane: Vec<usize>,
+    next: usize,
+    running: usize,
+    part: Part,
+    settings: Settings<'a>,
+}
+
+/// Runs one part of all instances that have one.
+#[inline(always)]
+pub fn pass<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool>(
+    simd: S,
+    jobs: &mut [Job<T>],
+    part: Part,
+    settings: Settings,
+) {
+    let Some(law) = jobs.first().map(Job::law) else { return };
+    let lanes = Vector::<S, T, K>::LANES;
+    let mut all = Lanes {
+        block: Block::idle(simd, law),
+        sums: Sums::new(simd),
+        jobs,
+        of_lane: vec![usize::MAX; lanes],
+        next: 0,
+        running: 0,
+        part,
+        settings,
+    };
+    for lane in 0..lanes {
+        refill::<S, T, K>(&mut all, lane);
+    }
+    let tolerance = Vector::constant(simd, settings.tolerance);
+    let mut e = Expansion::new(simd);
+    let mut g = [[Vector::constant(simd, 0.0); N]; 3];
+    let mut turn = 0_u32;
+    while all.running > 0 {
+        turn = turn.wrapping_add(1);
+        if turn.is_multiple_of(TURNS) && settings.cancel.load(Ordering::Relaxed) {
+            return;
+        }
+        if all.block.free().any() {
+            step::<S, T, K, N, LAW, true>(&mut all, &mut e, &mut g, tolerance);
+        } else {
+            step::<S, T, K, N, LAW, false>(&mut all, &mut e, &mut g, tolerance);
+        }
+    }
+}
+
+/// One step of every lane, up to its first event.
+#[inline(always)]
+fn step<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool, const FLIGHT: bool>(
+    all: &mut Lanes<S, T, K>,
+    e: &mut Expansion<S, T, K, N>,
+    g: &mut Functions<S, T, K, N>,
+    tolerance: Vector<S, T, K>,
+) {
+    let b = &mut all.block;
+    let zero = b.left.like(0.0);
+    let one = b.left.like(1.0);
+    let sticks = b.up_to(STICK).and(b.up_to(REVERSE).not());
+    b.v[0] = sticks.select(b.belt, b.v[0]);
+    let pace = b.pace.min(b.step);
+    let last = b.left.at_most(pace * one.like(1.0 + 1e-3));
+    let h = last.select(b.left, pace);
+    let ill_posed = expand::<S, T, K, N, LAW, FLIGHT>(b, h, e);
+    let failed = shorten::<S, T, K, N, FLIGHT>(e, tolerance).or(ill_posed);
+    if failed.any() {
+        fail::<S, T, K>(all, failed.select(one, zero), ill_posed.select(one, zero));
+        return;
+    }
+    functions::<S, T, K, N, FLIGHT>(b, e, g);
+    let [at, event] = first_event::<S, T, K, N, FLIGHT>(b, e, g, tolerance);
+    let (x, vx) = (value(&e.p[0], at), derivative(&e.v[0], at) * e.rate);
+    let sums = &mut all.sums;
+    if all.part == Part::Growth {
+        sums.observe_growth(e, at, x, vx);
+    } else if all.part == Part::Window {
+        sums.observe_window(b, e, at);
+        sums.cross_upwards(e, at, vx);
+        if sums.growing.not_positive().not().any() {
+            sums.observe_growth(e, at, x, vx);
+        }
+    } else if all.part == Part::Phase {
+        sums.observe_phase(e, at);
+    }
+    let tau = at * e.step;
+    sums.time += tau;
+    b.p[0] = x;
+    b.v[0] = vx;
+    b.p[2] = value(&e.p[2], at);
+    b.v[2] = derivative(&e.v[2], at) * e.rate;
+    if FLIGHT {
+        b.p[1] = value(&e.p[1], at);
+        b.v[1] = derivative(&e.v[1], at) * e.rate;
+    }
+    let whole = one.at_most(at).and(h.at_most(e.step)).and(last);
+    b.left = whole.select(zero, b.left - tau);
+    b.belt = b.drive.fma(tau, b.belt);
+    b.disarmed = zero.less(at).select(zero, b.disarmed);
+    // A step that had to be shortened is a guess at the next one.
+    let shortened = e.step.less(h);
+    b.pace = shortened.select(e.step, pace * one.like(LONGER));
+    b.steps += one;
+    let mut look = b.left.not_positive();
+    let happened = zero.less(event);
+    let mut pending = zero;
+    if happened.any() {
+        sums.growing = happened.select(zero, sums.growing);
+        let rare = if all.part == Part::Growth { happened } else { transitions(b, event, at) };
+        pending = rare.select(event, zero);
+        look = look.or(rare);
+    }
+    if look.any() {
+        visit::<S, T, K>(all, &look.select(one, zero), &pending);
+    }
+}
+
+/// Shortens the steps whose last terms are too large; returns the lanes where that does not help.
+#[inline(always)]
+fn shorten<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const FLIGHT: bool>(
+    e: &mut Expansion<S, T, K, N>,
+    tolerance: Vector<S, T, K>,
+) -> super::vector::Mask<S, T, K> {
+    let one = e.step.like(1.0);
+    let (l0, l1, l2) = (
+        largest::<S, T, K, N, FLIGHT>(e, 0),
+        largest::<S, T, K, N, FLIGHT>(e, 1),
+        largest::<S, T, K, N, FLIGHT>(e, 2),
+    );
+    let (f7, f8) = (largest::<S, T, K, N, FLIGHT>(e, N - 2), largest::<S, T, K, N, FLIGHT>(e, N - 1));
+    let mut bad = f7.max(f8).at_most(tolerance * l0.max(l1).max(l2)).not();
+    if !bad.any() {
+        return bad;
+    }
+    let mut t = one;
+    for _ in 0..MOST_SHORTER {
+        t = bad.select(t * one.like(SHORTER), t);
+        let square = t * t;
+        let mut power = t;
+        for _ in 2..N - 1 {
+            power = power * t;
+        }
+        bad = (f7.max(f8 * t) * power).at_most(tolerance * l0.max(l1 * t).max(l2 * square)).not();
+        if !bad.any() {
+            break;
+        }
+    }
+    let mut power = one;
+    let square = t * t;
+    for k in 0..N {
+        for i in 0..3 {
+            e.p[i][k] = e.p[i][k] * power;
+            e.v[i][k] = e.v[i][k] * power;
+        }
+        let power_of_force = power * square;
+        e.a[0][k] = e.a[0][k] * power_of_force;
+        e.a[1][k] = e.a[1][k] * power_of_force;
+        e.n[k] = e.n[k] * power_of_force;
+        power = power * t;
+    }
+    e.step = e.step * t;
+    e.rate = e.rate / t;
+    bad
+}
+
+/// Gives a lane its next instance, or lets it rest.
+fn refill<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>, lane: usize) {
+    if all.of_lane[lane] != usize::MAX {
+        all.of_lane[lane] = usize::MAX;
+        all.running -= 1;
+    }
+    while all.next < all.jobs.len() {
+        let index = all.next;
+        all.next += 1;
+        if !all.jobs[index].enter(all.part) {
+            continue;
+        }
+        all.of_lane[lane] = index;
+        all.running += 1;
+        all.block.load_scene(lane, &all.jobs[index].constants, &all.jobs[index].words);
+        if begin::<S, T, K>(all, lane) {
+            return;
+        }
+        all.of_lane[lane] = usize::MAX;
+        all.running -= 1;
+    }
+    all.block.rest(lane);
+    all.sums.growing.set(lane, T::ZERO);
+}
+
+/// Begins the next stretch of a lane; false at the end of the part.
+fn begin<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>, lane: usize) -> bool {
+    let job = &mut all.jobs[all.of_lane[lane]];
+    let Some([length, step]) = job.stretch(all.part, all.settings.steps_per_period) else { return false };
+    let belt = job.scene.belt(job.time);
+    let b = &mut all.block;
+    b.load_state(lane, &job.lane, &job.words);
+    b.belt.set(lane, T::from_f64(belt.velocity));
+    b.drive.set(lane, T::from_f64(belt.acceleration));
+    b.left.set(lane, T::from_f64(length));
+    b.step.set(lane, T::from_f64(step));
+    b.pace.set(lane, T::from_f64(step));
+    b.steps.set(lane, T::ZERO);
+    b.counted.set(lane, T::ZERO);
+    b.at_once.set(lane, T::ZERO);
+    let sums = &mut all.sums;
+    sums.time.set(lane, T::ZERO);
+    if all.part == Part::Growth || all.part == Part::Window {
+        sums.growth.iter_mut().for_each(|word| word.set(lane, T::ZERO));
+        sums.growing.set(lane, T::from_f64(f64::from(u8::from(job.growing))));
+    }
+    if all.part == Part::Window {
+        sums.window.iter_mut().for_each(|word| word.set(lane, T::ZERO));
+        sums.peaks.iter_mut().for_each(|word| word.set(lane, T::ZERO));
+        sums.crossings.set(lane, T::ZERO);
+        sums.previous.set(lane, job.previous);
+    }
+    if all.part == Part::Phase {
+        let omega =
+            std::f64::consts::TAU * (job.seen.crossings - 1) as f64 / (job.seen.last - job.seen.first);
+        sums.omega.set(lane, T::from_f64(omega));
+        sums.phase.iter_mut().for_each(|word| word.set(lane, T::ZERO));
+        // Before the first crossing nothing is added.
+        let angle = omega * (job.time - job.seen.first);
+        let length = if job.time < job.seen.first { 0.0 } else { 1.0 };
+        sums.carrier[0].set(lane, T::from_f64(length * angle.cos()));
+        sums.carrier[1].set(lane, T::from_f64(-length * angle.sin()));
+    }
+    true
+}
+
+/// Adds what a stretch has summed to the job.
+fn flush<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>, lane: usize) {
+    let job = &mut all.jobs[all.of_lane[lane]];
+    let sums = &all.sums;
+    job.growing &= sums.growing.get(lane) > T::ZERO;
+    if all.part == Part::Growth || all.part == Part::Window {
+        for (total, word) in job.seen.growth.iter_mut().zip(&sums.growth) {
+            *total += word.get(lane).to_f64();
+        }
+    }
+    if all.part == Part::Window {
+        let half = job.half();
+        for (total, word) in job.seen.halves[half].iter_mut().zip(&sums.window) {
+            *total += word.get(lane).to_f64();
+        }
+        for (peak, word) in job.seen.peaks.iter_mut().zip(&sums.peaks) {
+            *peak = peak.max(word.get(lane).to_f64());
+        }
+        let crossings = sums.crossings.get(lane).to_f64();
+        if crossings > 0.0 {
+            if job.seen.crossings == 0 {
+                job.seen.first = job.time + sums.first.get(lane).to_f64();
+            }
+            job.seen.last = job.time + sums.last.get(lane).to_f64();
+            job.seen.crossings += crossings as u64;
+        }
+        job.previous = sums.previous.get(lane);
+    }
+    if all.part == Part::Phase {
+        for (total, word) in job.seen.phase.iter_mut().flatten().zip(&sums.phase) {
+            *total += word.get(lane).to_f64();
+        }
+    }
+    job.steps += all.block.steps.get(lane).to_f64() as u64;
+}
+
+/// Looks after lanes that are at the end of their stretch or have an event that is still to be carried out.
+#[inline(never)]
+fn visit<S: Simd, T: Scalar<S>, const K: usize>(
+    all: &mut Lanes<S, T, K>,
+    look: &Vector<S, T, K>,
+    event: &Vector<S, T, K>,
+) {
+    for lane in 0..Vector::<S, T, K>::LANES {
+        if look.as_slice()[lane] <= T::ZERO {
+            continue;
+        }
+        let index = all.of_lane[lane];
+        if index == usize::MAX {
+            all.block.rest(lane);
+            continue;
+        }
+        let left = all.block.left.get(lane);
+        let job = &mut all.jobs[index];
+        all.block.store_state(lane, &mut job.lane, &job.words);
+        let function = event.as_slice()[lane].to_f64() as u32;
+        if function > 0 {
+            let code = event_of(function, job.lane.contact, job.lane.piece);
+            let exhausted = all.block.is_exhausted(lane);
+            job.event(code, exhausted, all.part == Part::Window, all.block.belt(lane));
+        }
+        let ended = all.part == Part::Growth && function > 0;
+        if ended || job.lane.status != Status::Unwritten {
+            let reached = job.until - left.to_f64();
+            flush::<S, T, K>(all, lane);
+            all.jobs[index].time = reached;
+            refill::<S, T, K>(all, lane);
+        } else if left > T::ZERO {
+            all.block.load_state(lane, &job.lane, &job.words);
+        } else {
+            flush::<S, T, K>(all, lane);
+            let job = &mut all.jobs[index];
+            job.time = job.until;
+            let body = job.lane.body;
+            if !body.p.iter().chain(&body.v).all(|value| value.is_finite()) {
+                job.lane.status = Status::NonFinite;
+            }
+            if job.lane.status != Status::Unwritten || !begin::<S, T, K>(all, lane) {
+                refill::<S, T, K>(all, lane);
+            }
+        }
+    }
+}
+
+/// Ends the lanes that cannot go on.
+#[inline(never)]
+fn fail<S: Simd, T: Scalar<S>, const K: usize>(
+    all: &mut Lanes<S, T, K>,
+    failed: Vector<S, T, K>,
+    ill_posed: Vector<S, T, K>,
+) {
+    for lane in 0..Vector::<S, T, K>::LANES {
+        if failed.get(lane) <= T::ZERO || all.of_lane[lane] == usize::MAX {
+            continue;
+        }
+        let job = &mut all.jobs[all.of_lane[lane]];
+        all.block.store_state(lane, &mut job.lane, &job.words);
+        let finite = job.lane.body.p.iter().chain(&job.lane.body.v).all(|value| value.is_finite());
+        job.lane.status = match (ill_posed.get(lane) > T::ZERO, finite) {
+            (_, false) => Status::NonFinite,
+            (true, _) => Status::Painleve,
+            _ => Status::StepTooLarge,
+        };
+        let reached = job.until - all.block.left.get(lane).to_f64();
+        flush::<S, T, K>(all, lane);
+        all.jobs[all.of_lane[lane]].time = reached;
+        refill::<S, T, K>(all, lane);
+    }
+}

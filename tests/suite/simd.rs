@@ -1,0 +1,154 @@
+//! The CPU engine: against the reference, against a closed form, and whatever its lanes are filled with.
+
+use std::f64::consts::TAU;
+use std::sync::atomic::AtomicBool;
+
+use crate::common::{bilinear, close, plan};
+use crate::events::single_mass;
+use crate::instances::Uniform;
+use crate::kernel_response::{compare, periods};
+use squealmap::backend::cpu::outcomes;
+use squealmap::model::friction::FrictionLaw;
+use squealmap::model::{Param, Params};
+use squealmap::outcome::{Outcome, Status};
+use squealmap::response::{Plan, respond};
+use squealmap::simd::Lanes;
+use squealmap::spec::{Duration, Instance};
+
+/// Instances of every law, some with a ramp, impacts with and without restitution, springs leaning both ways.
+fn of_every_law(count: usize) -> Vec<Instance> {
+    let mut u = Uniform(13);
+    (0..count).map(|k| any(&mut u, k)).collect()
+}
+
+fn any(u: &mut Uniform, k: usize) -> Instance {
+    let mut params = Params::default();
+    let velocity = u.log(0.05, 10.0);
+    params.set(Param::BeltVelocity, velocity);
+    if u.next() < 0.25 {
+        params.set(Param::BeltVelocityEnd, 2.0 * velocity * u.next());
+        params.set(Param::RampDuration, u.log(1e-3, 1.0));
+    }
+    params.set(Param::Theta, 0.9 * u.next() - 0.3);
+    params.set(Param::StartVelocity, 2.0 * velocity * u.next());
+    params.set(Param::StartDisplacement, 1e-3 * (u.next() - 0.5));
+    params.set(Param::Restitution, (1.5 * u.next() - 0.5).clamp(0.0, 0.95));
+    let (mu_s, mu_d, scale) = (0.9 * u.next(), 0.9 * u.next(), u.log(0.1, 10.0));
+    let law = match k % 4 {
+        0 => FrictionLaw::Bilinear { mu_s, mu_d, knee_velocity: scale },
+        1 => FrictionLaw::Exponential { mu_s, mu_d, stribeck_velocity: scale },
+        2 => FrictionLaw::Rational { mu_s, decay: scale },
+        _ => FrictionLaw::Constant { mu_s, mu_d },
+    };
+    Instance { params, law, impact_friction: u.next() < 0.5 }
+}
+
+fn run<T: Lanes>(instances: &[Instance], plan: &Plan) -> Vec<Outcome> {
+    outcomes::<T>(instances, plan, &AtomicBool::new(false)).expect("nobody stops it")
+}
+
+fn one<T: Lanes>(instance: &Instance, plan: &Plan, _: f64) -> Outcome {
+    run::<T>(std::slice::from_ref(instance), plan)[0]
+}
+
+/// The numbers of 100 scenes against those of the reference: median, 99th percentile.
+fn agrees<T: Lanes>(law: fn(f64, f64) -> FrictionLaw, median: f64, p99: f64) {
+    let (errors, regimes) = compare(law, one::<T>);
+    let quantile = |share: usize| errors[(errors.len() - 1) * share / 100];
+    assert!(errors.len() > 400 && regimes == 0, "{} numbers, {regimes} regimes differ", errors.len());
+    assert!(quantile(50) < median && quantile(99) < p99, "{:e} {:e}", quantile(50), quantile(99));
+}
+
+#[test]
+fn f64_agrees_with_the_reference() {
+    agrees::<f64>(bilinear, 1e-7, 1e-4);
+    agrees::<f64>(|mu_s, mu_d| FrictionLaw::Exponential { mu_s, mu_d, stribeck_velocity: 2.0 }, 1e-7, 1e-4);
+    agrees::<f64>(|mu_s, decay| FrictionLaw::Rational { mu_s, decay }, 1e-7, 1e-4);
+}
+
+#[test]
+fn f32_agrees_with_the_reference() {
+    agrees::<f32>(bilinear, 1e-5, 5e-4);
+    agrees::<f32>(|mu_s, mu_d| FrictionLaw::Exponential { mu_s, mu_d, stribeck_velocity: 2.0 }, 1e-5, 5e-4);
+    agrees::<f32>(|mu_s, decay| FrictionLaw::Rational { mu_s, decay }, 1e-5, 5e-4);
+}
+
+#[test]
+fn a_wrong_scene_is_seen() {
+    // Planted fault: the engine integrates another normal stiffness.
+    let wrong = |instance: &Instance, plan: &Plan, tolerance: f64| {
+        let mut instance = instance.clone();
+        instance.params.set(Param::K2, 1.0e5 * 1.001);
+        one::<f64>(&instance, plan, tolerance)
+    };
+    let (errors, _) = compare(bilinear, wrong);
+    assert!(errors[(errors.len() - 1) * 99 / 100] > 2e-4);
+}
+
+#[test]
+fn stick_slip_in_closed_form() {
+    // x + x'' = T with |T| = mu_s in stick and mu_d in slip: an arc around mu_d from v = V back to v = V.
+    let (mu_s, mu_d, velocity): (f64, f64, f64) = (0.6, 0.35, 0.2);
+    let instance = single_mass(FrictionLaw::Constant { mu_s, mu_d }, velocity, 0.0, (0.5, 0.0));
+    let excess = mu_s - mu_d;
+    let phase = excess.atan2(velocity);
+    let (slip, stick) = (TAU - 2.0 * phase, 2.0 * excess / velocity);
+    let period = slip + stick;
+    let square = (excess * excess + velocity * velocity) * 0.5 * (slip + (2.0 * phase).sin()) / period;
+    let plan = Plan { measure: Duration::Seconds(40.0 * period), ..plan(100.0, 1.0, 12) };
+    for (outcome, digits) in
+        [(one::<f64>(&instance, &plan, 0.0), 1e-6), (one::<f32>(&instance, &plan, 0.0), 2e-5)]
+    {
+        assert_eq!(outcome.status, Status::Ok);
+        let value = |value: Option<f64>| value.expect("a value");
+        close("stick", value(outcome.stick), stick / period, digits);
+        close("frequency", value(outcome.response_frequency), 1.0 / period, digits);
+        close("ax_rms", value(outcome.ax_rms), square.sqrt(), digits);
+    }
+}
+
+#[test]
+fn lanes_know_nothing_of_each_other() {
+    let instances = of_every_law(400);
+    let plan = Plan { settle: Duration::Periods(6.0), measure: Duration::Periods(6.0), ..periods() };
+    let together = run::<f32>(&instances, &plan);
+    let mut backwards: Vec<Instance> = instances.clone();
+    backwards.reverse();
+    let mut turned = run::<f32>(&backwards, &plan);
+    turned.reverse();
+    assert!(together.iter().filter(|outcome| outcome.status == Status::Ok).count() > 300);
+    for (k, outcome) in together.iter().enumerate() {
+        assert_eq!(*outcome, turned[k], "instance {k}");
+    }
+    for k in (0..400).step_by(7) {
+        assert_eq!(together[k], one::<f32>(&instances[k], &plan, 0.0), "instance {k}");
+    }
+}
+
+/// Every run ends at its time or says why not; how many do not end as the reference does.
+fn ends<T: Lanes>(instances: &[Instance], reference: &[Outcome], plan: &Plan) -> usize {
+    let mut different = 0;
+    for (outcome, expected) in run::<T>(instances, plan).iter().zip(reference) {
+        assert_ne!(outcome.status, Status::Unwritten);
+        if outcome.status == Status::Ok {
+            let wanted =
+                if expected.status == Status::Ok { expected.simulated_time } else { outcome.simulated_time };
+            close("time", outcome.simulated_time, wanted, 1e-12);
+            assert!(outcome.x2_std.is_some_and(f64::is_finite));
+        }
+        different += usize::from(outcome.status != expected.status);
+    }
+    different
+}
+
+#[test]
+fn no_lane_freezes() {
+    let instances = of_every_law(3000);
+    let plan = Plan { settle: Duration::Periods(5.0), measure: Duration::Periods(5.0), ..periods() };
+    let reference: Vec<Outcome> = instances.iter().map(|instance| respond(instance, &plan)).collect();
+    let different = [ends::<f64>(&instances, &reference, &plan), ends::<f32>(&instances, &reference, &plan)];
+    assert!(
+        different.into_iter().all(|count| count <= 6),
+        "{different:?} of 3000 do not end as the reference"
+    );
+}
