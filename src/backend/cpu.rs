@@ -27,8 +27,8 @@ pub const NAME: &str = "cpu";
 /// Most instances of a batch: many per lane, so that few lanes rest at its end, and some 4 MiB.
 const MOST: usize = 1024;
 
-/// Fewest, where a sweep has more.
-const FEWEST: usize = 64;
+/// Fewest, where a sweep has enough for all threads: the lanes of two vectors.
+const FEWEST: usize = 32;
 
 /// The response of a sweep in a manifest.
 #[must_use]
@@ -58,7 +58,8 @@ pub fn records(
 ) -> Result<Computed> {
     let total = spec.grid.len();
     let plan = Plan::new(spec);
-    let size = (total / (4 * rayon::current_num_threads())).clamp(FEWEST, MOST);
+    let threads = rayon::current_num_threads();
+    let size = (total / (4 * threads)).clamp(FEWEST, MOST).min(total.div_ceil(threads)).max(1);
     let batches: Vec<Vec<Record>> = (0..total.div_ceil(size))
         .into_par_iter()
         .map(|batch| {

@@ -144,6 +144,8 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Block<S, T, K> {
         if scene.pieces.len() > 1 {
             load_piece(&mut self.other, index, scene, usize::from(piece == 0));
         }
+        // Another contact state has other modes.
+        self.pace.set(index, self.step.get(index));
         self.many.set(index, T::from_f64(f64::from(u8::from(scene.pieces.len() > 2))));
         self.contact.set(index, T::from_f64(f64::from(lane.contact)));
         let disarmed = match lane.disarmed {

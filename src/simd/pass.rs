@@ -11,7 +11,7 @@ use super::expand::{Expansion, expand};
 use super::job::{Job, Part};
 use super::observe::{Sums, derivative};
 use super::transitions::transitions;
-use super::vector::{Scalar, Vector};
+use super::vector::{Mask, Scalar, Vector};
 use crate::kernel::series::{REVERSE, STICK};
 use crate::outcome::Status;
 
@@ -20,7 +20,7 @@ const TURNS: u32 = 4096;
 
 /// A step that is too long is shortened by this factor,
 const SHORTER: f64 = 0.75;
-/// and the next one begins at most so much longer;
+/// one whose truncation leaves room for it lets the next be longer by this factor;
 const LONGER: f64 = 1.4;
 /// at most so often: to 1e-7 of it.
 const MOST_SHORTER: usize = 56;
@@ -106,7 +106,8 @@ fn step<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool, 
     let last = b.left.at_most(pace * one.like(1.0 + 1e-3));
     let h = last.select(b.left, pace);
     let ill_posed = expand::<S, T, K, N, LAW, FLIGHT>(b, h, e);
-    let failed = shorten::<S, T, K, N, FLIGHT>(e, tolerance).or(ill_posed);
+    let (too_long, roomy) = shorten::<S, T, K, N, FLIGHT>(e, tolerance);
+    let failed = too_long.or(ill_posed);
     if failed.any() {
         fail::<S, T, K>(all, failed.select(one, zero), ill_posed.select(one, zero));
         return;
@@ -142,7 +143,7 @@ fn step<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool, 
     b.disarmed = zero.less(at).select(zero, b.disarmed);
     // A step that had to be shortened is a guess at the next one.
     let shortened = e.step.less(h);
-    b.pace = shortened.select(e.step, pace * one.like(LONGER));
+    b.pace = shortened.select(e.step, roomy.select(pace * one.like(LONGER), pace));
     b.steps += one;
     let mut look = b.left.not_positive();
     let happened = zero.less(event);
@@ -158,12 +159,13 @@ fn step<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool, 
     }
 }
 
-/// Shortens the steps whose last terms are too large; returns the lanes where that does not help.
+/// Shortens the steps whose last terms are too large; returns the lanes where that does not help, and those
+/// that had room for a longer one.
 #[inline(always)]
 fn shorten<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const FLIGHT: bool>(
     e: &mut Expansion<S, T, K, N>,
     tolerance: Vector<S, T, K>,
-) -> super::vector::Mask<S, T, K> {
+) -> (Mask<S, T, K>, Mask<S, T, K>) {
     let one = e.step.like(1.0);
     let (l0, l1, l2) = (
         largest::<S, T, K, N, FLIGHT>(e, 0),
@@ -171,9 +173,12 @@ fn shorten<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const FLIGHT: 
         largest::<S, T, K, N, FLIGHT>(e, 2),
     );
     let (f7, f8) = (largest::<S, T, K, N, FLIGHT>(e, N - 2), largest::<S, T, K, N, FLIGHT>(e, N - 1));
-    let mut bad = f7.max(f8).at_most(tolerance * l0.max(l1).max(l2)).not();
+    let bound = tolerance * l0.max(l1).max(l2);
+    let growth = (2..N).fold(1.0, |power, _| power * LONGER);
+    let roomy = (f7.max(f8 * one.like(LONGER)) * one.like(growth)).at_most(bound);
+    let mut bad = f7.max(f8).at_most(bound).not();
     if !bad.any() {
-        return bad;
+        return (bad, roomy);
     }
     let mut t = one;
     for _ in 0..MOST_SHORTER {
@@ -203,7 +208,7 @@ fn shorten<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const FLIGHT: 
     }
     e.step = e.step * t;
     e.rate = e.rate / t;
-    bad
+    (bad, roomy)
 }
 
 /// Gives a lane its next instance, or lets it rest.

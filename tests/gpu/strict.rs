@@ -15,14 +15,14 @@ use squealmap::kernel::scalar::Real;
 use squealmap::kernel::scene::{Law, Scene as Words};
 use squealmap::kernel::source::{Constant, FLAG_STEPS, Kernel, Precision, SETTING_WORDS};
 use squealmap::kernel::{linear, source};
+use squealmap::model::Param;
 use squealmap::model::friction::FrictionLaw;
-use squealmap::model::{Param, Params};
 use squealmap::outcome::Status;
 use squealmap::response::Scene;
 use squealmap::spec::Instance;
 
 use crate::Case;
-use crate::instances::Uniform;
+use crate::instances::{Uniform, moving};
 use crate::response::plan;
 use crate::words::{device, drive, inputs, on_cpu};
 
@@ -167,17 +167,7 @@ fn linear_equals<R: Real>() -> Result<(), Failed> {
 
 /// A random instance of a law.
 pub(crate) fn instance(u: &mut Uniform, law: Law) -> Instance {
-    let mut params = Params::default();
-    let velocity = u.log(0.05, 10.0);
-    params.set(Param::BeltVelocity, velocity);
-    if u.next() < 0.25 {
-        params.set(Param::BeltVelocityEnd, 2.0 * velocity * u.next());
-        params.set(Param::RampDuration, u.log(1e-3, 1.0));
-    }
-    params.set(Param::Theta, 0.9 * u.next() - 0.3);
-    params.set(Param::StartVelocity, 2.0 * velocity * u.next());
-    params.set(Param::StartDisplacement, 1e-3 * (u.next() - 0.5));
-    params.set(Param::Restitution, (1.5 * u.next() - 0.5).max(0.0));
+    let params = moving(u);
     let (mu_s, mu_d, scale) = (0.9 * u.next(), 0.9 * u.next(), u.log(0.1, 10.0));
     let law = match law {
         Law::Pieces => FrictionLaw::Bilinear { mu_s, mu_d, knee_velocity: scale },

@@ -18,6 +18,23 @@ impl Uniform {
     }
 }
 
+/// The paper's masses and springs, leaning both ways, on a belt of any velocity; some belts with a ramp, impacts
+/// with and without restitution.
+pub(crate) fn moving(u: &mut Uniform) -> Params {
+    let mut params = Params::default();
+    let velocity = u.log(0.05, 10.0);
+    params.set(Param::BeltVelocity, velocity);
+    if u.next() < 0.25 {
+        params.set(Param::BeltVelocityEnd, 2.0 * velocity * u.next());
+        params.set(Param::RampDuration, u.log(1e-3, 1.0));
+    }
+    params.set(Param::Theta, 0.9 * u.next() - 0.3);
+    params.set(Param::StartVelocity, 2.0 * velocity * u.next());
+    params.set(Param::StartDisplacement, 1e-3 * (u.next() - 0.5));
+    params.set(Param::Restitution, (1.5 * u.next() - 0.5).max(0.0));
+    params
+}
+
 /// Instances with a bilinear law.
 pub(crate) fn random(count: usize) -> Vec<Instance> {
     let mut u = Uniform(7);

@@ -5,11 +5,11 @@ use std::sync::atomic::AtomicBool;
 
 use crate::common::{bilinear, close, plan};
 use crate::events::single_mass;
-use crate::instances::Uniform;
+use crate::instances::{Uniform, moving};
 use crate::kernel_response::{compare, periods};
 use squealmap::backend::cpu::outcomes;
+use squealmap::model::Param;
 use squealmap::model::friction::FrictionLaw;
-use squealmap::model::{Param, Params};
 use squealmap::outcome::{Outcome, Status};
 use squealmap::response::{Plan, respond};
 use squealmap::simd::Lanes;
@@ -22,17 +22,7 @@ fn of_every_law(count: usize) -> Vec<Instance> {
 }
 
 fn any(u: &mut Uniform, k: usize) -> Instance {
-    let mut params = Params::default();
-    let velocity = u.log(0.05, 10.0);
-    params.set(Param::BeltVelocity, velocity);
-    if u.next() < 0.25 {
-        params.set(Param::BeltVelocityEnd, 2.0 * velocity * u.next());
-        params.set(Param::RampDuration, u.log(1e-3, 1.0));
-    }
-    params.set(Param::Theta, 0.9 * u.next() - 0.3);
-    params.set(Param::StartVelocity, 2.0 * velocity * u.next());
-    params.set(Param::StartDisplacement, 1e-3 * (u.next() - 0.5));
-    params.set(Param::Restitution, (1.5 * u.next() - 0.5).clamp(0.0, 0.95));
+    let params = moving(u);
     let (mu_s, mu_d, scale) = (0.9 * u.next(), 0.9 * u.next(), u.log(0.1, 10.0));
     let law = match k % 4 {
         0 => FrictionLaw::Bilinear { mu_s, mu_d, knee_velocity: scale },
