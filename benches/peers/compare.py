@@ -5,7 +5,8 @@
 
 The map: 12 x 12 x 4 (mu_s, mu_d in [0, 0.6], V 0.5, 1, 3, 6 m/s), start at the equilibrium with x2' += 0.3 V,
 100 + 40 periods. squealmap computes all observables of a map and the eigenvalues; the peers the standard deviation
-of x2. Times are CPU seconds of the computation, compile time of the peers apart; those of squealmap are taken on
+of x2 of samples of the window, which differs from squealmap's integral over time by 0.06 %: each is judged by its own
+kind, the peers by heyoka at 1e-12, squealmap by its reference. Times are CPU seconds of the computation, compile time of the peers apart; those of squealmap are taken on
 48 x 48 x 4 instances of the same map, because 576 are done in hundredths of a second."""
 import csv, json, os, subprocess, sys, tempfile, time
 import numpy as np
@@ -63,6 +64,9 @@ def main():
     ours = [("cpu", "f64", 12), ("cpu", "f64", 5), ("cpu", "f32", 12), ("cpu", "f32", 5), ("cpu", "f32", 4),
             ("reference", "f64", 12)]
     best, errors = {}, {}
+    judges = {"squealmap": squealmap(SMALL, "reference", "f64", 24)[0]}
+    apart = 100.0*np.abs(judges["squealmap"]/judge - 1.0)
+    print("the judges are apart by %.1e / %.1e %% (p50 / p99)\n" % (np.percentile(apart, 50), np.percentile(apart, 99)))
     for backend, precision, steps in ours:
         std, _ = squealmap(SMALL, backend, precision, steps)
         errors["squealmap %s %s %d steps" % (backend, precision, steps)] = std
@@ -75,7 +79,7 @@ def main():
             best[name] = max(best.get(name, 0.0), squealmap(LARGE if backend == "cpu" else SMALL, backend, precision, steps)[1])
     print("| code | instances per CPU-second | error of std x2, p50 / p99, % | over heyoka 1e-9 |\n|---|---|---|---|")
     for name, rate in best.items():
-        error = 100.0*np.abs(errors[name]/judge - 1.0)
+        error = 100.0*np.abs(errors[name]/judges.get(name.split()[0], judge) - 1.0)
         print("| %s | %.0f | %.1e / %.1e | %.1f |" % (name, rate, np.percentile(error, 50), np.percentile(error, 99), rate/best["heyoka 1e-9"]))
 
 
