@@ -12,6 +12,7 @@
 //! | one step, events inside it | [`method`] |
 //! | one instance from start to outcome | [`integrate`], [`observe`], [`response`], [`outcome`] |
 //! | the twins of the compute kernels | [`kernel`] |
+//! | many instances in vector registers | [`simd`] |
 //! | many instances | [`backend`], [`sweep`], [`estimate`] |
 //! | outcome → regime | [`classify`] |
 //! | map → bytes | [`map`], [`trace`], [`export`] |
