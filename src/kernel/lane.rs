@@ -197,7 +197,7 @@ impl<S: Real> Lane<S> {
         }
     }
 
-    fn body_is_finite(&self) -> bool {
+    pub(crate) fn body_is_finite(&self) -> bool {
         self.body.p.iter().chain(&self.body.v).all(|value| value.is_finite())
     }
 

@@ -121,6 +121,7 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Block<S, T, K> {
         self.pace.set(lane, T::ONE);
         self.contact.set(lane, T::from_f64(f64::from(STICK)));
         self.disarmed.set(lane, T::ZERO);
+        self.steps.set(lane, T::ZERO);
     }
 
     /// Loads the scene of an instance.
@@ -199,6 +200,12 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Block<S, T, K> {
     #[inline(always)]
     pub fn slip(&self) -> Mask<S, T, K> {
         self.up_to(REVERSE)
+    }
+
+    /// Lanes that stick.
+    #[inline(always)]
+    pub fn stick(&self) -> Mask<S, T, K> {
+        self.up_to(REVERSE).not().and(self.up_to(STICK))
     }
 
     /// Lanes that fly.

@@ -13,7 +13,6 @@ use super::expand::Expansion;
 use super::vector::{Scalar, Vector};
 use crate::kernel::crossing::{HIGHEST_ORDER, SAMPLES, SOLVER_ITERATIONS};
 use crate::kernel::lane::ROUNDINGS;
-use crate::kernel::series::{REVERSE, STICK};
 
 /// Event functions on the step, in the order of [`super::block::FIRST`] to [`THIRD`].
 pub type Functions<S, T, const K: usize, const N: usize> = [[Vector<S, T, K>; N]; 3];
@@ -28,7 +27,7 @@ pub fn functions<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const FL
     let zero = e.step.like(0.0);
     let one = e.step.like(1.0);
     let slip = b.slip();
-    let sticks = b.up_to(REVERSE).not().and(b.up_to(STICK));
+    let sticks = b.stick();
     let free = b.free();
     let sigma = b.sigma();
     let square = e.step * e.step;

@@ -13,7 +13,7 @@ use crate::outcome::{Outcome, Status};
 use crate::response::{Plan, Scene};
 
 /// Steps of a stretch: short sums keep their digits, and a lane is looked at between stretches.
-const STRETCH: f64 = 64.0;
+pub const STRETCH: f64 = 64.0;
 
 /// The parts of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

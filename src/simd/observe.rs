@@ -13,7 +13,7 @@ use super::expand::Expansion;
 use super::vector::{Scalar, Vector};
 use crate::kernel::observe::{NODES, SAMPLE_TIMES, SUMS, WEIGHTS};
 use crate::kernel::reductions::GROWTH;
-use crate::kernel::series::{REVERSE, SLIP, STICK};
+use crate::kernel::series::{REVERSE, SLIP};
 
 /// Reductions of the present stretches.
 #[derive(Clone, Copy, Debug)]
@@ -76,9 +76,8 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
         let zero = at.like(0.0);
         let tau = at * e.step;
         let free = b.free();
-        let stick = b.up_to(STICK).and(b.up_to(REVERSE).not());
         self.window[0] += tau;
-        self.window[10] += tau.only(stick);
+        self.window[10] += tau.only(b.stick());
         self.window[11] += tau.only(free);
         self.window[12] += tau.only(b.up_to(REVERSE).and(b.up_to(SLIP).not()));
         let rate_square = e.rate * e.rate;

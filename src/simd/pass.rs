@@ -8,11 +8,11 @@ use pulp::Simd;
 use super::block::{Block, event_of};
 use super::events::{Functions, first_event, functions, largest, value};
 use super::expand::{Expansion, expand};
-use super::job::{Job, Part};
+use super::job::{Job, Part, STRETCH};
 use super::observe::{Sums, derivative};
 use super::transitions::transitions;
 use super::vector::{Mask, Scalar, Vector};
-use crate::kernel::series::{REVERSE, STICK};
+use crate::kernel::lane::MAX_PARTS;
 use crate::outcome::Status;
 
 /// Steps of all lanes after which a wish to stop is looked for: some milliseconds.
@@ -24,6 +24,9 @@ const SHORTER: f64 = 0.75;
 const LONGER: f64 = 1.4;
 /// at most so often: to 1e-7 of it.
 const MOST_SHORTER: usize = 56;
+
+/// Most steps of a stretch.
+const MOST_STEPS: f64 = STRETCH * MAX_PARTS as f64;
 
 /// What all instances of a pass share.
 #[derive(Clone, Copy, Debug)]
@@ -100,14 +103,14 @@ fn step<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool, 
     let b = &mut all.block;
     let zero = b.left.like(0.0);
     let one = b.left.like(1.0);
-    let sticks = b.up_to(STICK).and(b.up_to(REVERSE).not());
-    b.v[0] = sticks.select(b.belt, b.v[0]);
+    b.v[0] = b.stick().select(b.belt, b.v[0]);
     let pace = b.pace.min(b.step);
     let last = b.left.at_most(pace * one.like(1.0 + 1e-3));
     let h = last.select(b.left, pace);
     let ill_posed = expand::<S, T, K, N, LAW, FLIGHT>(b, h, e);
     let (too_long, roomy) = shorten::<S, T, K, N, FLIGHT>(e, tolerance);
-    let failed = too_long.or(ill_posed);
+    // Steps so short that a stretch does not end.
+    let failed = too_long.or(ill_posed).or(one.like(MOST_STEPS).less(b.steps));
     if failed.any() {
         fail::<S, T, K>(all, failed.select(one, zero), ill_posed.select(one, zero));
         return;
@@ -350,8 +353,7 @@ fn visit<S: Simd, T: Scalar<S>, const K: usize>(
             flush::<S, T, K>(all, lane);
             let job = &mut all.jobs[index];
             job.time = job.until;
-            let body = job.lane.body;
-            if !body.p.iter().chain(&body.v).all(|value| value.is_finite()) {
+            if !job.lane.body_is_finite() {
                 job.lane.status = Status::NonFinite;
             }
             if job.lane.status != Status::Unwritten || !begin::<S, T, K>(all, lane) {
@@ -369,13 +371,16 @@ fn fail<S: Simd, T: Scalar<S>, const K: usize>(
     ill_posed: Vector<S, T, K>,
 ) {
     for lane in 0..Vector::<S, T, K>::LANES {
-        if failed.get(lane) <= T::ZERO || all.of_lane[lane] == usize::MAX {
+        if failed.get(lane) <= T::ZERO {
+            continue;
+        }
+        if all.of_lane[lane] == usize::MAX {
+            all.block.rest(lane);
             continue;
         }
         let job = &mut all.jobs[all.of_lane[lane]];
         all.block.store_state(lane, &mut job.lane, &job.words);
-        let finite = job.lane.body.p.iter().chain(&job.lane.body.v).all(|value| value.is_finite());
-        job.lane.status = match (ill_posed.get(lane) > T::ZERO, finite) {
+        job.lane.status = match (ill_posed.get(lane) > T::ZERO, job.lane.body_is_finite()) {
             (_, false) => Status::NonFinite,
             (true, _) => Status::Painleve,
             _ => Status::StepTooLarge,
