@@ -21,7 +21,7 @@ pub fn run(spec: Spec, options: &Options, progress: &(dyn Fn(usize) + Sync)) -> 
     let (computed, linear, response) = match choose(options, &spec)? {
         Engine::Cpu(precision) => {
             let computed = cpu::records(&spec, precision, options.cancel(), progress)?;
-            (computed, reference::linear(cpu::NAME), cpu::response(precision))
+            (computed, reference::linear(cpu::NAME), cpu::response(precision, spec.steps_per_period))
         }
         Engine::Reference => {
             let computed = reference::records(&spec, options.cancel(), progress)?;

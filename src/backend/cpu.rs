@@ -32,13 +32,13 @@ const FEWEST: usize = 32;
 
 /// The response of a sweep in a manifest.
 #[must_use]
-pub fn response(precision: Precision) -> Computation {
-    let bound = tolerance(precision);
+pub fn response(precision: Precision, steps_per_period: u32) -> Computation {
+    let bound = tolerance(precision, steps_per_period);
     Computation {
         backend: NAME.to_owned(),
         precision: precision.to_string(),
         method: format!(
-            "Taylor series of order {ORDER}, truncation below {bound:e}, events located in the step"
+            "Taylor series of order {ORDER}, truncation below {bound:.1e}, events located in the step"
         ),
         adapter: None,
         strict: None,
@@ -118,8 +118,11 @@ pub fn batch(
 /// The transients of some instances; `None` when `cancel` is set on the way.
 #[must_use]
 pub fn outcomes<T: Lanes>(instances: &[Instance], plan: &Plan, cancel: &AtomicBool) -> Option<Vec<Outcome>> {
-    let settings =
-        Settings { steps_per_period: plan.steps_per_period, tolerance: tolerance(T::PRECISION), cancel };
+    let settings = Settings {
+        steps_per_period: plan.steps_per_period,
+        tolerance: tolerance(T::PRECISION, plan.steps_per_period),
+        cancel,
+    };
     let mut outcomes = vec![Outcome::default(); instances.len()];
     for form in [Law::Pieces, Law::Exponential, Law::Rational] {
         let mut indices = Vec::new();

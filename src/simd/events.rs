@@ -7,90 +7,13 @@ use std::ops::Not;
 
 use pulp::Simd;
 
-use super::block::{Block, LOWER, SECOND, THIRD, UPPER};
-use super::constants::{CONE, INV_DET, MU_STICK, N0, R, STIFFNESS};
+use super::block::{Block, SECOND, THIRD};
+use super::constants::{INV_DET, MU_STICK, N0, STIFFNESS};
 use super::expand::Expansion;
+use super::functions::{Functions, may_fall};
 use super::vector::{Scalar, Vector};
 use crate::kernel::crossing::{HIGHEST_ORDER, SAMPLES, SOLVER_ITERATIONS};
 use crate::kernel::lane::ROUNDINGS;
-
-/// Event functions on the step, in the order of [`super::block::FIRST`] to [`THIRD`].
-pub type Functions<S, T, const K: usize, const N: usize> = [[Vector<S, T, K>; N]; 3];
-
-/// The event functions; those a lane does not have are 1 throughout.
-#[inline(always)]
-pub fn functions<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const FLIGHT: bool>(
-    b: &Block<S, T, K>,
-    e: &Expansion<S, T, K, N>,
-    g: &mut Functions<S, T, K, N>,
-) {
-    let zero = e.step.like(0.0);
-    let one = e.step.like(1.0);
-    let slip = b.slip();
-    let sticks = b.stick();
-    let free = b.free();
-    let sigma = b.sigma();
-    let square = e.step * e.step;
-    g[0] = e.n;
-    let speed = sigma * (b.belt - b.v[0]);
-    g[1][0] = e.step * (speed - b.piece[LOWER]);
-    g[2][0] = e.step * (b.piece[UPPER] - speed);
-    for k in 1..N - 1 {
-        let slower = if k == 1 { e.v[0][2] - b.drive * square } else { e.v[0][k + 1] };
-        let along = sigma * slower;
-        g[1][k] = -along;
-        g[2][k] = along;
-    }
-    if sticks.any() {
-        let mu = b.scene[MU_STICK];
-        for k in 0..N - 2 {
-            let mut t = (b.scene[R] * square).fma(e.p[0][k], b.scene[R + 2] * square * e.p[2][k]);
-            t = (b.scene[R + 3] * e.step).fma(e.v[0][k + 1], t);
-            t = (b.scene[R + 5] * e.step).fma(e.v[2][k + 1], t);
-            let mut forward = mu * e.n[k];
-            let mut backward = forward;
-            if k == 0 {
-                t += b.drive * square;
-                let still = mu.fnma(b.scene[N0] * square, forward);
-                forward = b.scene[CONE].fma(square, still);
-                backward = b.scene[CONE + 1].fma(square, still);
-            }
-            g[1][k] = sticks.select(forward - t, g[1][k]);
-            g[2][k] = sticks.select(backward + t, g[2][k]);
-        }
-        for k in N - 2..N - 1 {
-            g[1][k] = g[1][k].only(slip);
-            g[2][k] = g[2][k].only(slip);
-        }
-    }
-    if FLIGHT {
-        for k in 0..N {
-            g[0][k] = free.select(e.p[1][k], g[0][k]);
-            let rest = if k == 0 { one } else { zero };
-            g[1][k] = free.select(rest, g[1][k]);
-            g[2][k] = free.select(rest, g[2][k]);
-        }
-    }
-}
-
-/// A lower bound on [0, 1]: Bernstein coefficients of the part up to degree 4 less the rest.
-#[inline(always)]
-fn lower_bound<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
-    b: &[Vector<S, T, K>; N],
-) -> Vector<S, T, K> {
-    let (c1, c2, c3) = (b[1] * b[1].like(0.25), b[2] * b[1].like(1.0 / 6.0), b[3] * b[1].like(0.25));
-    let two = b[0].like(2.0);
-    let three = b[0].like(3.0);
-    let b1 = b[0] + c1;
-    let b2 = two.fma(c1, b[0] + c2);
-    let b3 = three.fma(c1 + c2, b[0] + c3);
-    let b4 = (b[0] + b[1]) + (b[2] + b[3]) + b[4];
-    let mut rest = b[5].abs();
-    for k in 6..N {
-        rest += b[k].abs();
-    }
-    b[0].min(b1).min(b2.min(b3)).min(b4) - rest
-}
 
 /// `Σ b_k t^k`.
 #[inline(always)]
@@ -151,10 +74,8 @@ pub fn first_event<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const 
         b.disarmed.less(third).and(second.at_most(b.disarmed)),
         third.at_most(b.disarmed),
     ];
-    let mut open = from_zero;
-    for i in 0..3 {
-        open[i] = open[i].or(lower_bound(&g[i]).not_positive());
-    }
+    let falls = may_fall::<S, T, K, N, FLIGHT>(b, e, g);
+    let mut open = [from_zero[0].or(falls[0]), from_zero[1].or(falls[1]), from_zero[2].or(falls[2])];
     let mut pending = open[0].or(open[1]).or(open[2]);
     if !pending.any() {
         return [one, zero];
@@ -163,15 +84,20 @@ pub fn first_event<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const 
     let square = e.step * e.step;
     // Forces are off by the truncation of the motion and the rounding of the static loads.
     let band = force_band::<S, T, K, N, FLIGHT>(b, e, tolerance);
-    let mut best = Bracket { low: zero, high: one, estimate: one.like(2.0), event: zero };
+    let mut best = Bracket { low: zero, high: one, estimate: one.like(2.0), event: zero, order: zero };
     let mut series = [zero; N];
     let mut turn = 0;
     while pending.any() {
         // One open function per lane at a time.
         let here = [open[0], open[0].not().and(open[1]), open[0].or(open[1]).not().and(open[2])];
-        let mut c = g[0];
-        for k in 0..N {
-            c[k] = here[1].select(g[1][k], here[2].select(g[2][k], c[k]));
+        let share = here[0].select(one, g.share);
+        let sign = here[1].select(one, here[2].select(-one, zero));
+        let mut c = [here[1].select(g.start[1], here[2].select(g.start[2], g.start[0])); N];
+        for k in 1..N {
+            c[k] = share * e.n[k];
+            if k < N - 1 {
+                c[k] = sign.fma(g.second[k], c[k]);
+            }
         }
         let code = here[1].select(second, here[2].select(third, one));
         let begins = here[0].and(from_zero[0]).or(here[1].and(from_zero[1])).or(here[2].and(from_zero[2]));
@@ -179,42 +105,41 @@ pub fn first_event<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const 
         let near = of_force.and(c[0].not_positive()).and((-(band * square)).at_most(c[0]));
         let mut deflate = begins.or(near).and(pending);
         let mut live = pending;
+        let mut lead = c[0];
+        let mut order = zero;
         if deflate.any() {
             // A function that begins at zero, by construction or within rounding, loses that root.
             let mut rounding = band * of_force.select(square, slip.select(e.step, b.scene[INV_DET]));
-            for turn in 1..=HIGHEST_ORDER + 1 {
-                if turn > HIGHEST_ORDER {
+            for degree in 0..=HIGHEST_ORDER {
+                if degree == HIGHEST_ORDER {
                     live = live.and(deflate.not());
                     break;
                 }
-                for k in 0..N - 1 {
-                    c[k] = deflate.select(c[k + 1], c[k]);
-                }
-                c[N - 1] = deflate.select(zero, c[N - 1]);
+                c[degree] = deflate.select(zero, c[degree]);
+                lead = deflate.select(c[degree + 1], lead);
+                order += one.only(deflate);
                 rounding = rounding * e.step;
-                deflate = deflate.and(begins).and(c[0].not_positive()).and((-rounding).at_most(c[0]));
+                deflate = deflate.and(begins).and(lead.not_positive()).and((-rounding).at_most(lead));
                 if !deflate.any() {
                     break;
                 }
             }
-            live = live.and(lower_bound(&c).not_positive());
         }
-        if live.any() {
-            let found = bracket(&c);
-            let earlier = live.and(found.estimate.less(best.estimate)).and(found.estimate.at_most(one));
-            best.low = earlier.select(found.low, best.low);
-            best.high = earlier.select(found.high, best.high);
-            best.estimate = earlier.select(found.estimate, best.estimate);
-            best.event = earlier.select(code, best.event);
-            if turn == 0 {
-                series = c;
-            } else {
-                for k in 0..N {
-                    series[k] = earlier.select(c[k], series[k]);
-                }
+        let found = bracket(&c, lead, order);
+        let earlier = live.and(found.estimate.less(best.estimate)).and(found.estimate.at_most(one));
+        best.low = earlier.select(found.low, best.low);
+        best.high = earlier.select(found.high, best.high);
+        best.estimate = earlier.select(found.estimate, best.estimate);
+        best.order = earlier.select(order, best.order);
+        best.event = earlier.select(code, best.event);
+        if turn == 0 {
+            series = c;
+        } else {
+            for k in 0..N {
+                series[k] = earlier.select(c[k], series[k]);
             }
-            turn += 1;
         }
+        turn += 1;
         for i in 0..3 {
             open[i] = open[i].and(here[i].not());
         }
@@ -252,12 +177,17 @@ struct Bracket<S: Simd, T: Scalar<S>, const K: usize> {
     estimate: Vector<S, T, K>,
     /// The event function.
     event: Vector<S, T, K>,
+    /// The order of its root at zero, which does not count.
+    order: Vector<S, T, K>,
 }
 
-/// The first sample that is not positive, and the one before.
+/// The first sample that is not positive, and the one before. `lead` is the first coefficient that counts:
+/// its sign is that of the function behind a root of some order at zero.
 #[inline(always)]
 fn bracket<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
     c: &[Vector<S, T, K>; N],
+    lead: Vector<S, T, K>,
+    order: Vector<S, T, K>,
 ) -> Bracket<S, T, K> {
     let (zero, never) = (c[0].like(0.0), c[0].like(2.0));
     let (mut high, mut at_low, mut at_high) = (never, c[0].like(1.0), zero);
@@ -265,24 +195,24 @@ fn bracket<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
     let mut here = value(c, c[0].like(1.0));
     for i in (0..SAMPLES).rev() {
         let t = i as f64 / SAMPLES as f64;
-        let before = if i == 0 { c[0] } else { value(c, c[0].like(t)) };
+        // Behind a root at zero the line says nothing: the middle.
+        let before = if i == 0 { zero.less(order).select(here.abs(), c[0]) } else { value(c, c[0].like(t)) };
         let down = here.not_positive();
         high = down.select(c[0].like(t + 1.0 / SAMPLES as f64), high);
         at_low = down.select(before, at_low);
         at_high = down.select(here, at_high);
         here = before;
     }
-    let immediate = c[0].not_positive();
     let width = c[0].like(1.0 / SAMPLES as f64);
     let low = high - width;
     let fall = at_low - at_high;
     let inside = high.less(never);
     let along = width * at_low / zero.less(fall).select(fall, width);
     let estimate = inside.select(low + along, never);
-    Bracket { low, high, estimate: immediate.select(zero, estimate), event: zero }
+    Bracket { low, high, estimate: lead.not_positive().select(zero, estimate), event: zero, order }
 }
 
-/// The root in a bracket by Newton's method that stays inside.
+/// The root in a bracket by Newton's method that stays inside, for the function without its root at zero.
 #[inline(always)]
 fn refine<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
     c: &[Vector<S, T, K>; N],
@@ -298,8 +228,10 @@ fn refine<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
         let positive = zero.less(here);
         low = positive.select(t, low);
         high = positive.select(high, t);
-        let down = slope.less(zero);
-        let newton = t - here / down.select(slope, zero.like(-1.0));
+        // Of g/t^m: t − g/(g′ − m g/t).
+        let scaled = slope * t - bracket.order * here;
+        let down = scaled.less(zero);
+        let newton = t - here * t / down.select(scaled, zero.like(-1.0));
         let good = down.and(low.at_most(newton)).and(newton.at_most(high));
         let next = good.select(newton, (low + high) * zero.like(0.5));
         let change = (next - t).abs();

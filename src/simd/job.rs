@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::constants::{CONSTANTS, constants};
+use super::stretches::Stretches;
 use crate::kernel::lane::{Belt, GAP, Lane};
 use crate::kernel::reductions::{End, Reductions};
 use crate::kernel::response::{law_of, words};
@@ -14,6 +15,13 @@ use crate::response::{Plan, Scene};
 
 /// Steps of a stretch: short sums keep their digits, and a lane is looked at between stretches.
 pub const STRETCH: f64 = 64.0;
+
+/// Relative error of a Fourier component from a guess of its frequency, in units of the bound on the truncation
+/// of a step: 0.006 degrees for 1e-5.
+const PHASE_ERROR: f64 = 10.0;
+
+/// Steps of the first stretch of a window, whose guess of the frequency is the worst.
+const FIRST_STRETCH: f64 = 16.0;
 
 /// The parts of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,6 +62,10 @@ pub struct Job<T> {
     pub seen: Reductions,
     /// `ẋ2` at the end of the last step of the window.
     pub previous: T,
+    /// The Fourier components of the window, stretch by stretch.
+    pub stretches: Stretches,
+    /// Angular frequency of the response as far as it is known before the window.
+    pub guess: f64,
     /// Steps.
     pub steps: u64,
     /// Times of the end of the settling, of the first half of the window and of the window.
@@ -87,6 +99,8 @@ impl<T: Real> Job<T> {
             growing: true,
             seen: Reductions::default(),
             previous: T::ZERO,
+            stretches: Stretches::default(),
+            guess: 1.0,
             steps: 0,
             marks: [settle, settle + half, settle + half + half],
             snapshot: None,
@@ -100,7 +114,7 @@ impl<T: Real> Job<T> {
     }
 
     /// Whether a part of the run has anything to do; the window's start is remembered when it begins.
-    pub fn enter(&mut self, part: Part) -> bool {
+    pub fn enter(&mut self, part: Part, tolerance: f64) -> bool {
         if self.lane.status != Status::Unwritten {
             return false;
         }
@@ -108,6 +122,7 @@ impl<T: Real> Job<T> {
             Part::Growth => self.growing && self.time < self.marks[0],
             Part::Settle => self.time < self.marks[0],
             Part::Window => {
+                self.previous = T::ZERO;
                 self.snapshot = Some(Box::new(self.lane.clone()));
                 true
             }
@@ -116,11 +131,34 @@ impl<T: Real> Job<T> {
                 if self.seen.crossings < 2 || self.seen.last <= self.seen.first {
                     return false;
                 }
+                if let Some(phase) = self.components(PHASE_ERROR * tolerance) {
+                    self.seen.phase = phase;
+                    return false;
+                }
                 self.lane = *snapshot;
                 self.time = self.marks[0];
                 true
             }
         }
+    }
+
+    /// The angular frequency between the first and the last crossing of the window.
+    #[must_use]
+    pub fn omega(&self) -> f64 {
+        TAU * (self.seen.crossings - 1) as f64 / (self.seen.last - self.seen.first)
+    }
+
+    /// The same as far as it is known on the way.
+    #[must_use]
+    pub fn guessed_omega(&self) -> f64 {
+        if self.seen.crossings > 2 { self.omega() } else { self.guess }
+    }
+
+    /// The Fourier components of the window from its stretches, if they are good enough.
+    fn components(&self, bound: f64) -> Option<[[f64; 2]; 2]> {
+        let all = |i: usize| self.seen.halves[0][i] + self.seen.halves[1][i];
+        let rms = [all(5), all(6)].map(|square| (square / all(0)).sqrt());
+        self.stretches.components(self.omega(), self.seen.first, rms, bound)
     }
 
     /// The half of the window the present stretch lies in.
@@ -143,12 +181,16 @@ impl<T: Real> Job<T> {
         let length = end - self.time;
         let whole = (length / nominal - 1e-6).ceil().max(1.0);
         let step = length / whole;
-        if whole <= STRETCH {
+        let most = match part {
+            Part::Window => STRETCH.min(FIRST_STRETCH * (1 + self.stretches.len()) as f64),
+            _ => STRETCH,
+        };
+        if whole <= most {
             self.until = end;
             return Some([length, step]);
         }
-        self.until = self.time + STRETCH * step;
-        Some([STRETCH * step, step])
+        self.until = self.time + most * step;
+        Some([most * step, step])
     }
 
     /// Carries out an event; `exhausted` when there have been too many.

@@ -10,10 +10,12 @@ use super::block::Block;
 use super::constants::{N0, R, T0, W};
 use super::events::{value, value_to};
 use super::expand::Expansion;
-use super::vector::{Scalar, Vector};
+use super::spectrum::{Nodes, Spectrum};
+use super::vector::{Mask, Scalar, Vector};
 use crate::kernel::observe::{NODES, SAMPLE_TIMES, SUMS, WEIGHTS};
 use crate::kernel::reductions::GROWTH;
 use crate::kernel::series::{REVERSE, SLIP};
+use crate::kernel::source::Precision;
 
 /// Reductions of the present stretches.
 #[derive(Clone, Copy, Debug)]
@@ -36,6 +38,8 @@ pub struct Sums<S: Simd, T: Scalar<S>, const K: usize> {
     pub growth: [Vector<S, T, K>; GROWTH],
     /// 1 until the first event.
     pub growing: Vector<S, T, K>,
+    /// Fourier components at a guessed frequency.
+    pub spectrum: Spectrum<S, T, K>,
     /// Angular frequency of the second pass.
     pub omega: Vector<S, T, K>,
     /// `exp(−iωt)`.
@@ -59,6 +63,7 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
             time: zero,
             growth: [zero; GROWTH],
             growing: zero,
+            spectrum: Spectrum::new(simd),
             omega: zero,
             carrier: [zero; 2],
             phase: [zero; 4],
@@ -71,6 +76,7 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
         &mut self,
         b: &Block<S, T, K>,
         e: &Expansion<S, T, K, N>,
+        nodes: &Nodes<S, T, K>,
         at: Vector<S, T, K>,
     ) {
         let zero = at.like(0.0);
@@ -85,13 +91,17 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
         let mut samples = [[zero; 5]; 3];
         for i in 0..5 {
             let t = at * at.like(SAMPLE_TIMES[i]);
-            let ax = if i == 0 { e.a[0][0] } else { value_to(&e.a[0], N - 3, t) } * rate_square;
-            let ay = if i == 0 { e.a[1][0] } else { value_to(&e.a[1], N - 3, t) } * rate_square;
+            let [ax, ay] = match i {
+                0 => [e.a[0][0] * rate_square, e.a[1][0] * rate_square],
+                4 => [value_to(&e.a[0], N - 3, at) * rate_square, value_to(&e.a[1], N - 3, at) * rate_square],
+                _ => nodes[i - 1],
+            };
             samples[0][i] = ax.abs();
             samples[1][i] = ay.abs();
             if i == 0 || i == 4 {
                 let n = if i == 0 { e.n[0] } else { value_to(&e.n, N - 3, t) };
-                samples[2][i] = n * rate_square;
+                // In flight the series is that of the gap.
+                samples[2][i] = free.select(zero, n * rate_square);
                 continue;
             }
             let (x, w) = (value(&e.p[0], t), value(&e.p[2], t));
@@ -130,35 +140,38 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
         }
     }
 
-    /// Notes an upward crossing of `ẋ2`; `after` is its value at the end of the part of the step.
+    /// Notes an upward crossing of `ẋ2`; `after` is its value at the end of the part of the step. Returns the
+    /// lanes that cross, and where in the step. Without refinements the crossing is on the straight line.
     #[inline(always)]
-    pub fn cross_upwards<const N: usize>(
+    pub fn cross_upwards<const N: usize, const REFINEMENTS: usize>(
         &mut self,
         e: &Expansion<S, T, K, N>,
         at: Vector<S, T, K>,
         after: Vector<S, T, K>,
-    ) {
+    ) -> (Mask<S, T, K>, Vector<S, T, K>) {
         let (zero, one) = (at.like(0.0), at.like(1.0));
         let before = e.v[0][1] * e.rate;
         let jumped = self.previous.less(zero).and(zero.at_most(before));
         let rises = before.less(zero).and(zero.at_most(after)).and(zero.less(at));
-        if jumped.or(rises).any() {
-            // Straight from end to end, then two steps of Newton's method that stay inside.
-            let mut t = rises.select(at * before / (before - after).min(at.like(-1e-30)), zero);
-            for _ in 0..2 {
+        let crossed = jumped.or(rises);
+        let mut t = zero;
+        if crossed.any() {
+            // Straight from end to end, then steps of Newton's method that stay inside.
+            t = rises.select(at * before / (before - after).min(at.like(-1e-30)), zero);
+            for _ in 0..REFINEMENTS {
                 let slope = value_to(&e.a[0], N - 3, t) * e.rate;
                 let here = derivative(&e.v[0], t) * e.rate;
                 let next = t - here / zero.less(slope).select(slope, one);
                 t = rises.and(zero.less(slope)).select(next.max(zero).min(at), t);
             }
             let moment = t.fma(e.step, self.time);
-            let crossed = jumped.or(rises);
             let is_first = crossed.and(self.crossings.not_positive());
             self.first = is_first.select(moment, self.first);
             self.last = crossed.select(moment, self.last);
             self.crossings += one.only(crossed);
         }
         self.previous = after;
+        (crossed, t)
     }
 
     /// Adds a step before the first event; `p` and `v` are the state at its end.
@@ -256,12 +269,15 @@ fn maximum<S: Simd, T: Scalar<S>, const K: usize>(values: &[Vector<S, T, K>; 5])
 
 /// `cos φ` and `sin φ` for moderate angles.
 #[inline(always)]
-fn rotation<S: Simd, T: Scalar<S>, const K: usize>(angle: Vector<S, T, K>) -> [Vector<S, T, K>; 2] {
+pub fn rotation<S: Simd, T: Scalar<S>, const K: usize>(angle: Vector<S, T, K>) -> [Vector<S, T, K>; 2] {
     let one = angle.like(1.0);
     let square = angle * angle;
     let mut cosine = one;
     let mut sine = one;
-    let mut k = 9;
+    let mut k = match T::PRECISION {
+        Precision::F32 => 6,
+        Precision::F64 => 10,
+    };
     while k >= 1 {
         let n = f64::from(2 * k);
         cosine = (square * one.like(1.0 / (n * (n - 1.0)))).fnma(cosine, one);
@@ -273,7 +289,7 @@ fn rotation<S: Simd, T: Scalar<S>, const K: usize>(angle: Vector<S, T, K>) -> [V
 
 /// `z exp(−iφ)`.
 #[inline(always)]
-fn turn<S: Simd, T: Scalar<S>, const K: usize>(
+pub fn turn<S: Simd, T: Scalar<S>, const K: usize>(
     z: [Vector<S, T, K>; 2],
     by: [Vector<S, T, K>; 2],
 ) -> [Vector<S, T, K>; 2] {

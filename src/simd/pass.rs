@@ -1,29 +1,26 @@
 //! One part of the run for many instances: lanes are refilled as soon as they are done.
 
+use std::f64::consts::TAU;
 use std::ops::Not;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use pulp::Simd;
 
 use super::block::{Block, event_of};
-use super::events::{Functions, first_event, functions, largest, value};
+use super::events::{first_event, value};
 use super::expand::{Expansion, expand};
+use super::functions::{Functions, functions};
 use super::job::{Job, Part, STRETCH};
 use super::observe::{Sums, derivative};
+use super::reach::{LONGER, reach};
+use super::spectrum::{COMPONENTS, accelerations};
 use super::transitions::transitions;
-use super::vector::{Mask, Scalar, Vector};
+use super::vector::{Scalar, Vector};
 use crate::kernel::lane::MAX_PARTS;
 use crate::outcome::Status;
 
 /// Steps of all lanes after which a wish to stop is looked for: some milliseconds.
 const TURNS: u32 = 4096;
-
-/// A step that is too long is shortened by this factor,
-const SHORTER: f64 = 0.75;
-/// one whose truncation leaves room for it lets the next be longer by this factor;
-const LONGER: f64 = 1.4;
-/// at most so often: to 1e-7 of it.
-const MOST_SHORTER: usize = 56;
 
 /// Most steps of a stretch.
 const MOST_STEPS: f64 = STRETCH * MAX_PARTS as f64;
@@ -77,7 +74,7 @@ pub fn pass<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bo
     }
     let tolerance = Vector::constant(simd, settings.tolerance);
     let mut e = Expansion::new(simd);
-    let mut g = [[Vector::constant(simd, 0.0); N]; 3];
+    let mut g = Functions::new(simd);
     let mut turn = 0_u32;
     while all.running > 0 {
         turn = turn.wrapping_add(1);
@@ -108,22 +105,29 @@ fn step<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool, 
     let last = b.left.at_most(pace * one.like(1.0 + 1e-3));
     let h = last.select(b.left, pace);
     let ill_posed = expand::<S, T, K, N, LAW, FLIGHT>(b, h, e);
-    let (too_long, roomy) = shorten::<S, T, K, N, FLIGHT>(e, tolerance);
+    let reach = reach::<S, T, K, N, FLIGHT>(e, tolerance);
     // Steps so short that a stretch does not end.
-    let failed = too_long.or(ill_posed).or(one.like(MOST_STEPS).less(b.steps));
+    let failed = reach.failed.or(ill_posed).or(one.like(MOST_STEPS).less(b.steps));
     if failed.any() {
         fail::<S, T, K>(all, failed.select(one, zero), ill_posed.select(one, zero));
         return;
     }
     functions::<S, T, K, N, FLIGHT>(b, e, g);
     let [at, event] = first_event::<S, T, K, N, FLIGHT>(b, e, g, tolerance);
+    let (at, event) = (at.min(reach.end), event.only(at.at_most(reach.end)));
     let (x, vx) = (value(&e.p[0], at), derivative(&e.v[0], at) * e.rate);
     let sums = &mut all.sums;
     if all.part == Part::Growth {
         sums.observe_growth(e, at, x, vx);
+        sums.cross_upwards::<N, 0>(e, at, vx);
+    } else if all.part == Part::Settle {
+        sums.cross_upwards::<N, 0>(e, at, vx);
     } else if all.part == Part::Window {
-        sums.observe_window(b, e, at);
-        sums.cross_upwards(e, at, vx);
+        let nodes = accelerations(e, at);
+        sums.observe_window(b, e, &nodes, at);
+        let time = sums.time;
+        let (crossed, moment) = sums.cross_upwards::<N, 2>(e, at, vx);
+        sums.spectrum.observe(e, &nodes, at, time, crossed, moment);
         if sums.growing.not_positive().not().any() {
             sums.observe_growth(e, at, x, vx);
         }
@@ -145,8 +149,8 @@ fn step<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool, 
     b.belt = b.drive.fma(tau, b.belt);
     b.disarmed = zero.less(at).select(zero, b.disarmed);
     // A step that had to be shortened is a guess at the next one.
-    let shortened = e.step.less(h);
-    b.pace = shortened.select(e.step, roomy.select(pace * one.like(LONGER), pace));
+    let possible = reach.end * e.step;
+    b.pace = possible.less(h).select(possible, reach.roomy.select(pace * one.like(LONGER), pace));
     b.steps += one;
     let mut look = b.left.not_positive();
     let happened = zero.less(event);
@@ -162,58 +166,6 @@ fn step<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool, 
     }
 }
 
-/// Shortens the steps whose last terms are too large; returns the lanes where that does not help, and those
-/// that had room for a longer one.
-#[inline(always)]
-fn shorten<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const FLIGHT: bool>(
-    e: &mut Expansion<S, T, K, N>,
-    tolerance: Vector<S, T, K>,
-) -> (Mask<S, T, K>, Mask<S, T, K>) {
-    let one = e.step.like(1.0);
-    let (l0, l1, l2) = (
-        largest::<S, T, K, N, FLIGHT>(e, 0),
-        largest::<S, T, K, N, FLIGHT>(e, 1),
-        largest::<S, T, K, N, FLIGHT>(e, 2),
-    );
-    let (f7, f8) = (largest::<S, T, K, N, FLIGHT>(e, N - 2), largest::<S, T, K, N, FLIGHT>(e, N - 1));
-    let bound = tolerance * l0.max(l1).max(l2);
-    let growth = (2..N).fold(1.0, |power, _| power * LONGER);
-    let roomy = (f7.max(f8 * one.like(LONGER)) * one.like(growth)).at_most(bound);
-    let mut bad = f7.max(f8).at_most(bound).not();
-    if !bad.any() {
-        return (bad, roomy);
-    }
-    let mut t = one;
-    for _ in 0..MOST_SHORTER {
-        t = bad.select(t * one.like(SHORTER), t);
-        let square = t * t;
-        let mut power = t;
-        for _ in 2..N - 1 {
-            power = power * t;
-        }
-        bad = (f7.max(f8 * t) * power).at_most(tolerance * l0.max(l1 * t).max(l2 * square)).not();
-        if !bad.any() {
-            break;
-        }
-    }
-    let mut power = one;
-    let square = t * t;
-    for k in 0..N {
-        for i in 0..3 {
-            e.p[i][k] = e.p[i][k] * power;
-            e.v[i][k] = e.v[i][k] * power;
-        }
-        let power_of_force = power * square;
-        e.a[0][k] = e.a[0][k] * power_of_force;
-        e.a[1][k] = e.a[1][k] * power_of_force;
-        e.n[k] = e.n[k] * power_of_force;
-        power = power * t;
-    }
-    e.step = e.step * t;
-    e.rate = e.rate / t;
-    (bad, roomy)
-}
-
 /// Gives a lane its next instance, or lets it rest.
 fn refill<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>, lane: usize) {
     if all.of_lane[lane] != usize::MAX {
@@ -223,7 +175,7 @@ fn refill<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>, lane:
     while all.next < all.jobs.len() {
         let index = all.next;
         all.next += 1;
-        if !all.jobs[index].enter(all.part) {
+        if !all.jobs[index].enter(all.part, all.settings.tolerance) {
             continue;
         }
         all.of_lane[lane] = index;
@@ -263,12 +215,15 @@ fn begin<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>, lane: 
     if all.part == Part::Window {
         sums.window.iter_mut().for_each(|word| word.set(lane, T::ZERO));
         sums.peaks.iter_mut().for_each(|word| word.set(lane, T::ZERO));
+        let begun = job.seen.crossings > 0;
+        sums.spectrum.begin(lane, job.guessed_omega(), 0.5 * length, begun);
+    }
+    if all.part != Part::Phase {
         sums.crossings.set(lane, T::ZERO);
         sums.previous.set(lane, job.previous);
     }
     if all.part == Part::Phase {
-        let omega =
-            std::f64::consts::TAU * (job.seen.crossings - 1) as f64 / (job.seen.last - job.seen.first);
+        let omega = job.omega();
         sums.omega.set(lane, T::from_f64(omega));
         sums.phase.iter_mut().for_each(|word| word.set(lane, T::ZERO));
         // Before the first crossing nothing is added.
@@ -306,8 +261,23 @@ fn flush<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>, lane: 
             job.seen.last = job.time + sums.last.get(lane).to_f64();
             job.seen.crossings += crossings as u64;
         }
-        job.previous = sums.previous.get(lane);
+        let half = 0.5 * (job.until - job.time);
+        let spectrum = &sums.spectrum;
+        let words = |words: &[Vector<S, T, K>; COMPONENTS]| words.map(|word| word.get(lane).to_f64());
+        job.stretches.push(
+            spectrum.omega.get(lane).to_f64(),
+            [job.time + half, half],
+            words(&spectrum.sums),
+            (crossings > 0.0).then(|| words(&spectrum.noted)),
+        );
+    } else if all.part != Part::Phase {
+        let cycles = sums.crossings.get(lane).to_f64() - 1.0;
+        let span = sums.last.get(lane).to_f64() - sums.first.get(lane).to_f64();
+        if cycles >= 2.0 && span > 0.0 {
+            job.guess = TAU * cycles / span;
+        }
     }
+    job.previous = sums.previous.get(lane);
     if all.part == Part::Phase {
         for (total, word) in job.seen.phase.iter_mut().flatten().zip(&sums.phase) {
             *total += word.get(lane).to_f64();

@@ -38,6 +38,8 @@ pub trait Scalar<S: Simd>: Real {
     fn neg(simd: S, a: Self::Register) -> Self::Register;
     /// `|a|`.
     fn abs(simd: S, a: Self::Register) -> Self::Register;
+    /// The square root.
+    fn sqrt(simd: S, a: Self::Register) -> Self::Register;
     /// The smaller.
     fn min(simd: S, a: Self::Register, b: Self::Register) -> Self::Register;
     /// The larger.
@@ -60,7 +62,7 @@ pub trait Scalar<S: Simd>: Real {
 
 macro_rules! scalar {
     ($scalar:ty, $register:ident, $mask:ident, $lanes:ident, $splat:ident, $add:ident, $sub:ident, $mul:ident,
-     $div:ident, $fma:ident, $fnma:ident, $neg:ident, $abs:ident, $min:ident, $max:ident, $less:ident,
+     $div:ident, $fma:ident, $fnma:ident, $neg:ident, $abs:ident, $sqrt:ident, $min:ident, $max:ident, $less:ident,
      $at_most:ident, $select:ident, $and:ident, $or:ident, $not:ident, $first:ident) => {
         impl<S: Simd> Scalar<S> for $scalar {
             type Register = S::$register;
@@ -102,6 +104,10 @@ macro_rules! scalar {
             #[inline(always)]
             fn abs(simd: S, a: Self::Register) -> Self::Register {
                 simd.$abs(a)
+            }
+            #[inline(always)]
+            fn sqrt(simd: S, a: Self::Register) -> Self::Register {
+                simd.$sqrt(a)
             }
             #[inline(always)]
             fn min(simd: S, a: Self::Register, b: Self::Register) -> Self::Register {
@@ -157,6 +163,7 @@ scalar!(
     negate_mul_add_e_f32s,
     neg_f32s,
     abs_f32s,
+    sqrt_f32s,
     min_f32s,
     max_f32s,
     less_than_f32s,
@@ -181,6 +188,7 @@ scalar!(
     negate_mul_add_e_f64s,
     neg_f64s,
     abs_f64s,
+    sqrt_f64s,
     min_f64s,
     max_f64s,
     less_than_f64s,
@@ -283,6 +291,17 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Vector<S, T, K> {
         let mut registers = self.registers;
         for k in 0..K {
             registers[k] = <T as Scalar<S>>::abs(self.simd, self.registers[k]);
+        }
+        Vector { simd: self.simd, registers }
+    }
+
+    /// The square root.
+    #[inline(always)]
+    #[must_use]
+    pub fn sqrt(self) -> Self {
+        let mut registers = self.registers;
+        for k in 0..K {
+            registers[k] = <T as Scalar<S>>::sqrt(self.simd, self.registers[k]);
         }
         Vector { simd: self.simd, registers }
     }

@@ -24,6 +24,7 @@ mod response;
 mod simd;
 mod spec;
 mod stopped;
+mod stretches;
 mod strict;
 mod sweeps;
 mod synthetic;

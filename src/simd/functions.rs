@@ -1,0 +1,143 @@
+//! The event functions of every lane's step, and which of them may fall to zero.
+
+use std::ops::Not;
+
+use pulp::Simd;
+
+use super::block::{Block, LOWER, UPPER};
+use super::constants::{CONE, MU_STICK, N0, R};
+use super::expand::Expansion;
+use super::vector::{Mask, Scalar, Vector};
+
+/// The event functions of a step. Each is `m n_k + s d_k` for `k > 0`, with the series `n` of the normal force
+/// (of the gap for lanes that fly) and one more; the rest differs from lane to lane.
+#[derive(Clone, Copy, Debug)]
+pub struct Functions<S: Simd, T: Scalar<S>, const K: usize, const N: usize> {
+    /// Their values at the beginning, in the order of [`super::block::FIRST`] to [`THIRD`].
+    pub start: [Vector<S, T, K>; 3],
+    /// The second series, from degree 1 on: sliding speed in slip, less the tangential force in stick.
+    pub second: [Vector<S, T, K>; N],
+    /// `m` of the second and third function: the limit of stick for lanes that stick.
+    pub share: Vector<S, T, K>,
+}
+
+impl<S: Simd, T: Scalar<S>, const K: usize, const N: usize> Functions<S, T, K, N> {
+    /// No function.
+    #[inline(always)]
+    pub fn new(simd: S) -> Self {
+        let zero = Vector::constant(simd, 0.0);
+        Functions { start: [zero; 3], second: [zero; N], share: zero }
+    }
+}
+
+/// The event functions; the series of the normal force becomes that of the gap in lanes that fly.
+#[inline(always)]
+pub fn functions<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const FLIGHT: bool>(
+    b: &Block<S, T, K>,
+    e: &mut Expansion<S, T, K, N>,
+    g: &mut Functions<S, T, K, N>,
+) {
+    let zero = e.step.like(0.0);
+    let sticks = b.stick();
+    let sigma = b.sigma();
+    let square = e.step * e.step;
+    let speed = sigma * (b.belt - b.v[0]);
+    g.start[1] = e.step * (speed - b.piece[LOWER]);
+    g.start[2] = e.step * (b.piece[UPPER] - speed);
+    g.share = zero;
+    let slower = -sigma;
+    g.second[1] = slower * (e.v[0][2] - b.drive * square);
+    for k in 2..N - 1 {
+        g.second[k] = slower * e.v[0][k + 1];
+    }
+    if sticks.any() {
+        let mu = b.scene[MU_STICK];
+        g.share = mu.only(sticks);
+        let (x, w) = (b.scene[R] * square, b.scene[R + 2] * square);
+        let (vx, vw) = (b.scene[R + 3] * e.step, b.scene[R + 5] * e.step);
+        for k in 0..N - 2 {
+            let mut t = x.fma(e.p[0][k], w * e.p[2][k]);
+            t = vx.fma(e.v[0][k + 1], vw.fma(e.v[2][k + 1], t));
+            if k == 0 {
+                t += b.drive * square;
+                let still = mu.fnma(b.scene[N0] * square, mu * e.n[0]);
+                g.start[1] = sticks.select(b.scene[CONE].fma(square, still) - t, g.start[1]);
+                g.start[2] = sticks.select(b.scene[CONE + 1].fma(square, still) + t, g.start[2]);
+            } else {
+                g.second[k] = sticks.select(-t, g.second[k]);
+            }
+        }
+        g.second[N - 2] = g.second[N - 2].only(sticks.not());
+    }
+    if FLIGHT {
+        let free = b.free();
+        for k in 0..N {
+            let force = if k < N - 2 { e.n[k] } else { zero };
+            e.n[k] = free.select(e.p[1][k], force);
+        }
+    } else {
+        e.n[N - 2] = zero;
+        e.n[N - 1] = zero;
+    }
+    g.start[0] = e.n[0];
+}
+
+/// A lower bound on [0, 1] of `b0 + b1 t + …`: Bernstein coefficients of the part up to degree 4 less a bound
+/// on the rest.
+#[inline(always)]
+fn lower_bound<S: Simd, T: Scalar<S>, const K: usize>(
+    b: [Vector<S, T, K>; 5],
+    rest: Vector<S, T, K>,
+) -> Vector<S, T, K> {
+    let (c1, c2, c3) = (b[1] * b[1].like(0.25), b[2] * b[1].like(1.0 / 6.0), b[3] * b[1].like(0.25));
+    let two = b[0].like(2.0);
+    let three = b[0].like(3.0);
+    let b1 = b[0] + c1;
+    let b2 = two.fma(c1, b[0] + c2);
+    let b3 = three.fma(c1 + c2, b[0] + c3);
+    let b4 = (b[0] + b[1]) + (b[2] + b[3]) + b[4];
+    b[0].min(b1).min(b2.min(b3)).min(b4) - rest
+}
+
+/// The sum of the magnitudes from degree 5 on.
+#[inline(always)]
+fn tail<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
+    b: &[Vector<S, T, K>; N],
+    end: usize,
+) -> Vector<S, T, K> {
+    let mut rest = b[5].abs();
+    for k in 6..end {
+        rest += b[k].abs();
+    }
+    rest
+}
+
+/// Lanes in which each event function may fall to zero in the step.
+#[inline(always)]
+pub fn may_fall<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const FLIGHT: bool>(
+    b: &Block<S, T, K>,
+    e: &Expansion<S, T, K, N>,
+    g: &Functions<S, T, K, N>,
+) -> [Mask<S, T, K>; 3] {
+    let force_rest = tail(&e.n, if FLIGHT { N } else { N - 2 });
+    let first = lower_bound([e.n[0], e.n[1], e.n[2], e.n[3], e.n[4]], force_rest);
+    let rest = g.share.fma(force_rest, tail(&g.second, N - 1));
+    let mut ahead = [g.start[1]; 5];
+    let mut back = [g.start[2]; 5];
+    for k in 1..5 {
+        let common = g.share * e.n[k];
+        ahead[k] = common + g.second[k];
+        back[k] = common - g.second[k];
+    }
+    let mut open = [
+        first.not_positive(),
+        lower_bound(ahead, rest).not_positive(),
+        lower_bound(back, rest).not_positive(),
+    ];
+    if FLIGHT {
+        let touches = b.free().not();
+        open[1] = open[1].and(touches);
+        open[2] = open[2].and(touches);
+    }
+    open
+}

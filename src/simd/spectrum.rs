@@ -1,0 +1,159 @@
+//! Fourier components of the window in one pass, at a frequency that is known only at its end.
+//!
+//! Every lane sums over a stretch `∫ a uᵐ exp(−iω′(t − t_m)) dt`, with a guess `ω′` of the frequency, the
+//! middle `t_m` of the stretch and `u = (t − t_m)/T` on `[−1, 1]`. The component at `ω = ω′ + δ` follows from
+//! the series of `exp(−iδTu)`: see [`crate::simd::stretches`]. The sums begin at the first upward crossing of
+//! `ẋ2` and are noted at every later one: the last is the end.
+
+use pulp::Simd;
+
+use super::events::value_to;
+use super::expand::Expansion;
+use super::observe::{rotation, turn};
+use super::vector::{Mask, Scalar, Vector};
+use crate::kernel::observe::{NODES, WEIGHTS};
+
+/// Powers of `u`.
+pub const MOMENTS: usize = 3;
+/// Sums of a stretch: by power, then real and imaginary part for `ẍ2` and `ÿ1`.
+pub const COMPONENTS: usize = 4 * MOMENTS;
+
+/// The sums of the present stretches.
+#[derive(Clone, Copy, Debug)]
+pub struct Spectrum<S: Simd, T: Scalar<S>, const K: usize> {
+    /// The guess.
+    pub omega: Vector<S, T, K>,
+    /// `exp(−iω′(t − t_m))`.
+    pub carrier: [Vector<S, T, K>; 2],
+    /// `1/T`.
+    pub scale: Vector<S, T, K>,
+    /// 1 from the first crossing on.
+    pub begun: Vector<S, T, K>,
+    /// Sums up to now.
+    pub sums: [Vector<S, T, K>; COMPONENTS],
+    /// Sums up to the last crossing of the stretch.
+    pub noted: [Vector<S, T, K>; COMPONENTS],
+}
+
+/// `ẍ2` and `ÿ1` at the nodes of a step.
+pub type Nodes<S, T, const K: usize> = [[Vector<S, T, K>; 2]; 3];
+
+/// The accelerations at the nodes of the step up to `at`.
+#[inline(always)]
+pub fn accelerations<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
+    e: &Expansion<S, T, K, N>,
+    at: Vector<S, T, K>,
+) -> Nodes<S, T, K> {
+    let rate_square = e.rate * e.rate;
+    let mut nodes = [[at; 2]; 3];
+    for i in 0..3 {
+        let t = at * at.like(NODES[i]);
+        for j in 0..2 {
+            nodes[i][j] = value_to(&e.a[j], N - 3, t) * rate_square;
+        }
+    }
+    nodes
+}
+
+/// The sums of a part of a step, and the carrier at its end.
+struct Part<S: Simd, T: Scalar<S>, const K: usize> {
+    sums: [Vector<S, T, K>; COMPONENTS],
+    carrier: [Vector<S, T, K>; 2],
+}
+
+impl<S: Simd, T: Scalar<S>, const K: usize> Spectrum<S, T, K> {
+    /// Nothing yet.
+    #[inline(always)]
+    pub fn new(simd: S) -> Self {
+        let zero = Vector::constant(simd, 0.0);
+        Spectrum {
+            omega: zero,
+            carrier: [zero; 2],
+            scale: zero,
+            begun: zero,
+            sums: [zero; COMPONENTS],
+            noted: [zero; COMPONENTS],
+        }
+    }
+
+    /// Begins a stretch of a lane: `half` is half its length.
+    #[inline(always)]
+    pub fn begin(&mut self, lane: usize, omega: f64, half: f64, begun: bool) {
+        self.omega.set(lane, T::from_f64(omega));
+        let omega = self.omega.get(lane).to_f64();
+        self.scale.set(lane, T::from_f64(1.0 / half));
+        self.carrier[0].set(lane, T::from_f64((omega * half).cos()));
+        self.carrier[1].set(lane, T::from_f64((omega * half).sin()));
+        self.begun.set(lane, T::from_f64(f64::from(u8::from(begun))));
+        for word in self.sums.iter_mut().chain(&mut self.noted) {
+            word.set(lane, T::ZERO);
+        }
+    }
+
+    /// The sums over the step up to `at`; `time` is that of its begin since the stretch began.
+    #[inline(always)]
+    fn part<const N: usize>(
+        &self,
+        e: &Expansion<S, T, K, N>,
+        accelerations: &Nodes<S, T, K>,
+        at: Vector<S, T, K>,
+        time: Vector<S, T, K>,
+    ) -> Part<S, T, K> {
+        let tau = at * e.step;
+        let angle = self.omega * tau;
+        let outer = rotation(angle * at.like(NODES[0]));
+        let inner = rotation(angle * at.like(NODES[1] - NODES[0]));
+        let mut carrier = self.carrier;
+        let mut sums = [at.like(0.0); COMPONENTS];
+        for i in 0..3 {
+            carrier = turn(carrier, if i == 0 { outer } else { inner });
+            let node = at.like(NODES[i]);
+            let weight = tau * at.like(WEIGHTS[i]);
+            let [ax, ay] = accelerations[i];
+            let (ax, ay) = (ax * weight, ay * weight);
+            let u = tau.fma(node, time).fma(self.scale, at.like(-1.0));
+            let mut terms = [ax * carrier[0], ax * carrier[1], ay * carrier[0], ay * carrier[1]];
+            for m in 0..MOMENTS {
+                for j in 0..4 {
+                    sums[4 * m + j] += terms[j];
+                    if m + 1 < MOMENTS {
+                        terms[j] = terms[j] * u;
+                    }
+                }
+            }
+        }
+        Part { sums, carrier: turn(carrier, outer) }
+    }
+
+    /// Adds a step up to `at`; `crossed` are the lanes that cross upwards in it, at `moment`.
+    #[inline(always)]
+    pub fn observe<const N: usize>(
+        &mut self,
+        e: &Expansion<S, T, K, N>,
+        nodes: &Nodes<S, T, K>,
+        at: Vector<S, T, K>,
+        time: Vector<S, T, K>,
+        crossed: Mask<S, T, K>,
+        moment: Vector<S, T, K>,
+    ) {
+        let zero = at.like(0.0);
+        let whole = self.part(e, nodes, at, time);
+        let begun = zero.less(self.begun);
+        if crossed.any() {
+            let before = self.part(e, &accelerations(e, moment), moment, time);
+            for i in 0..COMPONENTS {
+                let reached = self.sums[i] + before.sums[i];
+                self.noted[i] = crossed.select(reached.only(begun), self.noted[i]);
+                // The first crossing: what comes before it in the step does not count.
+                let rest = (whole.sums[i] - before.sums[i]).only(crossed);
+                self.sums[i] = begun.select(self.sums[i] + whole.sums[i], rest);
+            }
+            self.begun = crossed.select(at.like(1.0), self.begun);
+        } else {
+            for i in 0..COMPONENTS {
+                self.sums[i] += whole.sums[i].only(begun);
+            }
+        }
+        self.carrier = whole.carrier;
+    }
+}
