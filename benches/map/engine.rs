@@ -51,8 +51,8 @@ pub(crate) struct Case {
 pub(crate) struct Output {
     /// Steps of all instances, as their outcomes count them.
     pub(crate) steps: u64,
-    /// Instances that did not end as `ok`.
-    pub(crate) failed: usize,
+    /// Instances that did not end as `ok`, and how they did.
+    pub(crate) failed: Vec<(usize, Status)>,
     /// The outcomes of the judged instances.
     pub(crate) judged: Vec<Outcome>,
 }
@@ -145,8 +145,8 @@ fn on_cpu(work: Work, judged: &[usize], run: impl Fn(&[Instance]) -> Vec<Outcome
             let first = judged.partition_point(|index| *index < range.start);
             let of_range = judged[first..].iter().take_while(|index| **index < range.end);
             output.judged.extend(of_range.map(|index| outcomes[index - range.start]));
-            for outcome in &outcomes {
-                output.count(outcome);
+            for (index, outcome) in range.zip(&outcomes) {
+                output.count(index, outcome);
             }
             output
         })
@@ -154,7 +154,7 @@ fn on_cpu(work: Work, judged: &[usize], run: impl Fn(&[Instance]) -> Vec<Outcome
     let mut all = Output::default();
     for batch in batches {
         all.steps += batch.steps;
-        all.failed += batch.failed;
+        all.failed.extend(batch.failed);
         all.judged.extend(batch.judged);
     }
     all
@@ -162,8 +162,10 @@ fn on_cpu(work: Work, judged: &[usize], run: impl Fn(&[Instance]) -> Vec<Outcome
 
 impl Output {
     /// Counts an instance.
-    pub(crate) fn count(&mut self, outcome: &Outcome) {
+    pub(crate) fn count(&mut self, index: usize, outcome: &Outcome) {
         self.steps += outcome.steps;
-        self.failed += usize::from(outcome.status != Status::Ok);
+        if outcome.status != Status::Ok {
+            self.failed.push((index, outcome.status));
+        }
     }
 }

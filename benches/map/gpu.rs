@@ -45,8 +45,8 @@ pub(crate) fn run(
     };
     let map = sweep::run(spec, &options, &|_| {})?;
     let mut output = Output::default();
-    for record in &map.records {
-        output.count(&record.outcome.unwrap_or_default());
+    for (index, record) in map.records.iter().enumerate() {
+        output.count(index, &record.outcome.unwrap_or_default());
     }
     output.judged = judged.iter().map(|&index| map.records[index].outcome.unwrap_or_default()).collect();
     Ok(output)

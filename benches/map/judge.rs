@@ -40,7 +40,26 @@ impl Judge {
         let indices = work.sample(SAMPLE);
         let plan = reference_plan(STEPS);
         let truth = indices.par_iter().map(|&index| respond(&work.instance(index), &plan)).collect();
-        Judge { work, indices, truth }
+        let judge = Judge { work, indices, truth };
+        judge.check();
+        judge
+    }
+
+    /// Planted faults: a judge that does not see them would call every engine exact.
+    fn check(&self) {
+        let with = |fault: fn(&mut Outcome)| {
+            let mut outcomes = self.truth.clone();
+            outcomes.iter_mut().for_each(fault);
+            self.errors(&outcomes)
+        };
+        let (none, longer) =
+            (with(|_| ()), with(|outcome| outcome.x2_std = outcome.x2_std.map(|x| 1.01 * x)));
+        let undefined = with(|outcome| outcome.x2_std = Some(f64::NAN));
+        let unwritten = with(|outcome| *outcome = Outcome::default());
+        assert!(none.p99 <= 0.0 && none.labels <= 0.0, "the reference differs from itself: {none:?}");
+        assert!((longer.median - 0.01).abs() < 1e-9, "1 % more is not seen: {longer:?}");
+        assert!(undefined.median.is_infinite(), "a NaN passes for a number: {undefined:?}");
+        assert!(unwritten.labels >= 1.0, "unwritten outcomes pass for computed ones: {unwritten:?}");
     }
 
     /// The errors of the outcomes of the judged instances, in their order.

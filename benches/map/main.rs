@@ -121,6 +121,10 @@ fn measure(
         elapsed = clock.elapsed();
         if row.memory.is_none() {
             row.memory = peak_memory();
+            if let Some((index, status)) = output.failed.first() {
+                let (case, values) = (row.case, work.values(*index));
+                eprintln!("{case:?}: [mu_s, mu_d, V, kick] = {values:?} ended as {}", status.name());
+            }
             row.take(&output, judge.errors(&output.judged));
         }
     }

@@ -15,6 +15,7 @@ pub(crate) struct Row {
     pub(crate) best: Elapsed,
     /// Steps of the map.
     pub(crate) steps: u64,
+    /// Instances that did not end as `ok`.
     pub(crate) failed: usize,
     pub(crate) errors: Errors,
     /// The adapter; empty on the CPU.
@@ -34,7 +35,7 @@ impl Row {
 
     /// Takes what came of its map.
     pub(crate) fn take(&mut self, output: &Output, errors: Errors) {
-        (self.steps, self.failed, self.errors) = (output.steps, output.failed, errors);
+        (self.steps, self.failed, self.errors) = (output.steps, output.failed.len(), errors);
     }
 
     pub(crate) fn per_second(&self) -> f64 {

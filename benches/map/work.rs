@@ -44,7 +44,7 @@ impl Work {
     }
 
     /// `mu_s`, `mu_d`, belt velocity and kick of an instance.
-    fn values(self, index: usize) -> [f64; 4] {
+    pub(crate) fn values(self, index: usize) -> [f64; 4] {
         let coefficient = |k: usize| LARGEST_MU * k as f64 / (self.side - 1) as f64;
         let velocity = VELOCITIES[index / (self.side * self.side)];
         let [row, column] = [index / self.side % self.side, index % self.side];
