@@ -1,5 +1,6 @@
 //! Points per second of the eigenvalue analysis and instances per second of the transient, reference and CPU
-//! engine, on one core. `cargo bench` prints both; `docs/performance.md` says what was measured.
+//! engine, on one core. `cargo bench --bench core` prints both;
+//! `docs/performance.md` says what was measured.
 
 use std::hint::black_box;
 use std::sync::atomic::AtomicBool;

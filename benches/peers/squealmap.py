@@ -1,0 +1,29 @@
+"""The program on rows of instances: standard deviation of x2, and instances per second of one thread."""
+import csv, json, os, subprocess, tempfile
+import numpy as np
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+PROGRAM = os.path.join(ROOT, "target", "release", "squealmap")
+
+BRAKE = '[friction]\nlaw = "bilinear"\nknee_velocity = 5.0\n'
+BELT = ('[friction]\nlaw = "constant"\n'
+        '[model]\nm1 = 0.5\nm2 = 0.5\nk1 = 1.0\nk2 = 1.0\nc1 = 0.0\nc2 = 0.0\nf_ext = 1.0\ntheta = 0.0\n')
+
+
+def run(rows, sections, backend, precision, steps):
+    """rows of mu_s, mu_d, V, start velocity; `sections` of the sweep file say the rest"""
+    with tempfile.TemporaryDirectory() as d:
+        with open(os.path.join(d, "points.csv"), "w") as f:
+            f.write("mu_s,mu_d,belt_velocity,start_velocity\n")
+            f.writelines("%r,%r,%r,%r\n" % tuple(map(float, row)) for row in rows)
+        with open(os.path.join(d, "map.toml"), "w") as f:
+            f.write('points = "points.csv"\n' + sections +
+                    '[response]\nsettle = "100 periods"\nmeasure = "40 periods"\nsteps_per_period = %d\n' % steps)
+        subprocess.run([PROGRAM, "run", "map.toml", "-o", "out", "--threads", "1", "--backend", backend, "--precision", precision],
+                       cwd=d, check=True, capture_output=True)
+        with open(os.path.join(d, "out", "map.csv")) as f:
+            table = list(csv.DictReader(f))
+        with open(os.path.join(d, "out", "manifest.json")) as f:
+            rate = json.load(f)["computation"]["instances_per_second"]
+        assert all(row["status"] == "ok" for row in table)
+        return np.array([float(row["x2_std"]) for row in table]), rate
