@@ -21,6 +21,7 @@ mod picture_axis;
 mod plot;
 pub mod png;
 pub mod scale;
+pub mod signals;
 pub mod svg;
 pub mod text;
 pub mod trace;
