@@ -110,7 +110,7 @@ fn analyse(
         rate,
         time: [start, start + samples as f64 / rate],
         frequency: survey.frequency,
-        verdict: conclude(&windows, &episodes, recorded, geometry.is_some() && fits.is_none()),
+        verdict: conclude(&windows, &episodes, recorded, geometry.is_some() && fits.is_none(), samples),
         slope: quasi_static_slope(&windows),
         notes: notes(&survey),
         columns: survey.names,

@@ -12,8 +12,12 @@ const CLEAR: f64 = 3.0;
 const DECAYED: f64 = 0.5;
 /// The loudest window of a decaying oscillation lies in this first part of the record.
 const EARLY: f64 = 0.5;
+/// Weight of incoherence in a decay: modes that beat decay as surely, but are seen less clearly.
+const BEATING: f64 = 0.2;
+/// Fewest samples in which the absence of an oscillation means something.
+const LEAST_QUIET: u64 = 2048;
 /// Without any oscillation the signals support stability, but a record may be too short or too quiet.
-const QUIET_CONFIDENCE: f64 = 0.9;
+const QUIET_CONFIDENCE: f64 = 0.95;
 
 /// Mean friction against mean velocity.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,6 +34,7 @@ pub(super) fn conclude(
     episodes: &[Episode],
     recorded: Recorded,
     too_short: bool,
+    samples: u64,
 ) -> Verdict {
     if too_short {
         return Verdict::undecided(
@@ -37,18 +42,20 @@ pub(super) fn conclude(
         );
     }
     match episodes {
-        [] => without_growth(windows, recorded),
+        [] => without_growth(windows, recorded, samples),
         episodes => together(episodes),
     }
 }
 
 /// All confident episodes have to agree.
 fn together(episodes: &[Episode]) -> Verdict {
-    let strongest = |best: &&Episode, next: &&Episode| best.verdict.confidence.total_cmp(&next.verdict.confidence);
     let confident: Vec<&Episode> =
         episodes.iter().filter(|episode| episode.verdict.kind != Kind::Undecided).collect();
-    let candidates: Vec<&Episode> = if confident.is_empty() { episodes.iter().collect() } else { confident };
-    let Some(best) = candidates.iter().copied().max_by(|a, b| strongest(a, b)) else {
+    // Without a confident one, the episode with the largest gain tells most about why.
+    let weight = |episode: &Episode| if confident.is_empty() { episode.gain } else { episode.verdict.confidence };
+    let candidates: Vec<&Episode> =
+        if confident.is_empty() { episodes.iter().collect() } else { confident.clone() };
+    let Some(best) = candidates.iter().copied().max_by(|a, b| weight(a).total_cmp(&weight(b))) else {
         return Verdict::undecided("no oscillation was analysed");
     };
     if candidates.iter().any(|episode| episode.verdict.kind != best.verdict.kind) {
@@ -66,7 +73,7 @@ fn together(episodes: &[Episode]) -> Verdict {
 }
 
 /// No oscillation grows: there is none, it decays, or it has been there from the start.
-fn without_growth(windows: &[Window], recorded: Recorded) -> Verdict {
+fn without_growth(windows: &[Window], recorded: Recorded, samples: u64) -> Verdict {
     let stable = |confidence: f64, reason: String| Verdict {
         kind: if confidence >= super::verdict::CONFIDENT { Kind::NoInstability } else { Kind::Undecided },
         confidence,
@@ -75,7 +82,13 @@ fn without_growth(windows: &[Window], recorded: Recorded) -> Verdict {
     };
     let loud: Vec<&Window> = windows.iter().filter(|window| window.signal_to_noise >= LOUD).collect();
     let Some(loudest) = loud.iter().max_by(|a, b| a.sums.xx.total_cmp(&b.sums.xx)) else {
-        return stable(QUIET_CONFIDENCE, "no oscillation stands out of the noise".to_owned());
+        return if samples < LEAST_QUIET {
+            Verdict::undecided(format!(
+                "no oscillation stands out of the noise, but in {samples} samples one may hide; record longer"
+            ))
+        } else {
+            stable(QUIET_CONFIDENCE, "no oscillation stands out of the noise".to_owned())
+        };
     };
     let amplitude = |window: &Window| (window.sums.xx - window.sums.noise[0]).max(0.0).sqrt();
     let last = windows.last().map_or(0.0, amplitude) / amplitude(loudest);
@@ -87,7 +100,7 @@ fn without_growth(windows: &[Window], recorded: Recorded) -> Verdict {
     if early && z > CLEAR && last < DECAYED {
         let clear = loud.iter().map(|window| clarity(window, recorded)).sum::<f64>() / loud.len() as f64;
         return stable(
-            normal_below(z) * (0.5 + 0.5 * clear),
+            normal_below(z) * (1.0 - BEATING * (1.0 - clear)),
             format!(
                 "the oscillation at {:.1} Hz decays by {:.2} ± {:.2} 1/s",
                 loudest.frequency, -trend.value, trend.error

@@ -134,6 +134,20 @@ impl Sums {
         }
     }
 
+    /// By how much the friction of `self` differs from that of `other`, relative to the whole friction force and
+    /// beyond what noise explains: a strong motion that is no longer that of the weak one.
+    pub(super) fn friction_departs(&self, other: &Sums) -> f64 {
+        /// Standard errors of the difference that noise may reach.
+        const BY_NOISE: f64 = 3.0;
+        if self.xx <= 0.0 || other.xx <= 0.0 || self.tt <= 0.0 {
+            return 0.0;
+        }
+        let variance = |sums: &Sums| sums.noise[3] / sums.blocks.max(1.0) / INDEPENDENT / sums.xx;
+        let noise = (variance(self) + variance(other)).sqrt();
+        let off = (self.ux / self.xx - other.ux / other.xx).norm();
+        (off - BY_NOISE * noise).max(0.0) / (self.tx / self.xx).norm()
+    }
+
     /// Power of `q` that is neither `H x` nor noise.
     fn unexplained(&self, qq: f64, qx: f64, noise: f64) -> f64 {
         /// Over the few independent blocks of a window the power of noise scatters up to this multiple of its mean.
@@ -145,18 +159,18 @@ impl Sums {
         (qq - qx / self.xx - SCATTER * expected).max(0.0)
     }
 
-    /// Least squares of `q = H x` over the blocks. Its error counts twice: by the noise beside the
-    /// oscillation, and by what the blocks leave unexplained.
+    /// Least squares of `q = H x` over the blocks. Its error: the noise beside the oscillation, and what the blocks
+    /// leave unexplained beyond that.
     fn ratio(&self, qx: Complex64, qq: f64, noise: f64, share: f64) -> Ratio {
         if self.xx <= 0.0 {
             return Ratio { value: Complex64::ZERO, error: f64::INFINITY, coherence: 0.0 };
         }
         let value = qx / self.xx;
         let coherence = if qq > 0.0 { (qx.norm_sqr() / (self.xx * qq)).min(1.0) } else { 0.0 };
-        let mean_noise = (noise + value.norm_sqr() * self.noise[0]) / self.blocks.max(1.0);
-        let unexplained = qq * (1.0 - coherence) / self.effective(share);
+        let noise = noise + value.norm_sqr() * self.noise[0];
+        let beyond = (qq * (1.0 - coherence) - noise).max(0.0);
         // Half of each power lies in each part of the complex ratio.
-        let variance = 0.5 * (mean_noise / share + unexplained) / self.xx;
+        let variance = 0.5 * (noise / self.blocks.max(1.0) / share + beyond / self.effective(share)) / self.xx;
         Ratio { value, error: variance.sqrt(), coherence }
     }
 }

@@ -8,8 +8,10 @@ use super::window::{SHARED, Window};
 
 /// Power over noise from which an oscillation stands out of one window: noise alone reaches about 5.
 pub(super) const LOUD: f64 = 10.0;
-/// Standard errors by which a growth rate must exceed 0.
-const GROWS: f64 = 3.0;
+/// Standard errors by which the growth rate of a window must exceed 0: a run of windows tells more than each.
+const GROWS: f64 = 1.0;
+/// Standard errors by which the growth rate of an episode must exceed 0.
+const GROWS_CLEARLY: f64 = 4.0;
 /// Squared coherence below which a window does not hold one oscillation.
 const COHERENT: f64 = 0.8;
 /// Harmonics above this are those of a motion that sticks, detaches or crosses a kink.
@@ -18,17 +20,20 @@ const LINEAR: f64 = 0.1;
 const SECOND_MODE: f64 = 0.05;
 /// Amplitude of friction that follows neither the normal force nor the motion, relative to the whole: the small
 /// part that the slope contributes is not to be blurred by it.
-const NONLINEAR_FRICTION: f64 = 0.01;
+const NONLINEAR_FRICTION: f64 = 0.005;
+/// Fewest windows of an episode of which strong ones may be left out.
+const LEAST_KEPT: usize = 3;
 /// Windows of one episode have frequencies within this of each other, relative.
 const SAME: f64 = 0.05;
-/// Least gain of an episode (factor 2): below it a beat of two modes looks the same.
-const LEAST_GAIN: f64 = std::f64::consts::LN_2;
+/// Least gain of an episode (factor e): below it a beat of two modes looks the same.
+const LEAST_GAIN: f64 = 1.0;
 /// A gain from which no beat is taken for growth (factor 20): it would need two modes equal within 10 %.
 const LASTING: f64 = 3.0;
 /// Amplitude, relative to the one reached, that tells a beat before or after the growth.
 const AGAIN: f64 = 0.7;
-/// How far after an episode a beat is looked for, in lengths of the episode.
+/// How far after an episode a beat is looked for, in lengths of the episode, and in windows (36 periods) at least.
 const LOOK_AHEAD: usize = 3;
+const LOOK_AHEAD_LEAST: usize = 12;
 /// Degrees by which the phase of one mode may wander from the first to the second half.
 const STEADY: f64 = 12.0;
 /// The growth of one mode in its second half is at least this part of that of the first.
@@ -117,15 +122,18 @@ fn beats(windows: &[Window], first: usize, length: usize) -> bool {
     let end = first + length;
     let reached = windows[end - 1].sums.xx;
     let before = windows[..first].iter().any(|window| window.sums.xx > AGAIN * AGAIN * reached);
-    let after = windows[end..].iter().take(LOOK_AHEAD * length).take_while(|window| window.distortion < LINEAR);
+    let after = windows[end..].iter().take((LOOK_AHEAD * length).max(LOOK_AHEAD_LEAST)).take_while(|window| window.distortion < LINEAR);
     before || after.into_iter().any(|window| window.sums.xx < AGAIN * AGAIN * reached)
 }
 
 /// The episode of a run of growing windows; `None` when it gains too little.
 fn episode(run: &[Window], first: usize, recorded: Recorded, settings: &Settings) -> Option<Episode> {
+    // The accelerations stay in their ratio when friction begins to depart.
+    let accelerations = Part::new(run).feedback(settings);
+    let run = &run[..linear(run)];
     let whole = Part::new(run);
     let gain = whole.growth.value * (run[run.len() - 1].time[1] - run[0].time[0]);
-    if gain < LEAST_GAIN {
+    if gain < LEAST_GAIN || whole.growth.value < GROWS_CLEARLY * whole.growth.error {
         return None;
     }
     let distortion = run.iter().fold(0.0, |worst: f64, window| worst.max(window.distortion));
@@ -148,14 +156,27 @@ fn episode(run: &[Window], first: usize, recorded: Recorded, settings: &Settings
         friction: whole.friction,
         growth: whole.growth,
         gain,
-        phase: recorded.normal_acceleration.then(|| feedback.phase()),
-        coherence: recorded.normal_acceleration.then_some(feedback.normal_acceleration.coherence),
+        phase: recorded.normal_acceleration.then(|| accelerations.phase()),
+        coherence: recorded.normal_acceleration.then_some(accelerations.normal_acceleration.coherence),
         share: recorded.forces.then(|| feedback.share()),
         slope: normal_force.filter(|_| recorded.forces).map(|force| feedback.slope_of(force)),
         distortion,
         verdict,
         feedback,
     })
+}
+
+/// How many windows of a run are still linear: the last ones, which weigh most, are left out as long as their friction
+/// departs from that of all before.
+fn linear(run: &[Window]) -> usize {
+    let mut before = vec![Sums::default()];
+    for window in run {
+        let mut sums = before[before.len() - 1];
+        sums.add(&window.sums);
+        before.push(sums);
+    }
+    let departs = |kept: &usize| run[kept - 1].sums.friction_departs(&before[kept - 1]) > NONLINEAR_FRICTION;
+    (LEAST_KEPT + 1..=run.len()).rev().find(|kept| !departs(kept)).unwrap_or(run.len().min(LEAST_KEPT))
 }
 
 /// Two modes that beat also grow for a while, but their phase and growth change meanwhile.

@@ -16,9 +16,9 @@ pub const LEAST_PER_PERIOD: f64 = 2.5;
 const SEGMENT: usize = 1 << 16;
 /// Bins that slow drift of the whole record reaches.
 const DRIFT_BINS: usize = 4;
-/// A peak of the mean spectrum this much above its noise stands out: of some 10⁵ bins of noise the highest
-/// is about 12 times the mean.
-const STANDS_OUT: f64 = 30.0;
+/// A peak of a spectrum stands out when it exceeds its noise by the logarithm of the number of bins, which the highest
+/// bin of noise alone reaches, and this much more (chance 1 in 1000).
+const STANDS_OUT: f64 = 7.0;
 /// A normal force whose standard deviation exceeds its mean does not press.
 const PRESSES: f64 = 1.0;
 /// An acceleration whose mean exceeds its standard deviation this many times is none.
@@ -178,7 +178,8 @@ impl MeanSpectrum {
         let bins = (DRIFT_BINS..self.sum.len()).filter(|k| inside(*k));
         let highest = bins.max_by(|a, b| self.sum[*a].total_cmp(&self.sum[*b]))?;
         let position = refine(&self.sum, highest);
-        let stands_out = self.sum[highest] > STANDS_OUT * noise_floor(&self.sum, position);
+        let chance = (self.sum.len() as f64).ln() + STANDS_OUT;
+        let stands_out = self.sum[highest] > chance * noise_floor(&self.sum, position);
         stands_out.then_some(position * width)
     }
 }

@@ -5,7 +5,7 @@ use super::cross::Measured;
 use super::feedback::{Feedback, folded};
 
 /// From this confidence on a verdict is given; below it is undecided.
-pub const CONFIDENT: f64 = 0.8;
+pub const CONFIDENT: f64 = 0.9;
 /// Forces whose squared coherence with the acceleration is lower do not follow the oscillation.
 const FORCES_FOLLOW: f64 = 0.5;
 /// Degrees by which channels may disagree before they are called skewed.
@@ -123,7 +123,7 @@ pub(super) fn judge(feedback: &Feedback, setting: &Setting) -> Verdict {
         coherence = coherence.min(feedback.normal_acceleration.coherence);
         reasons.extend(skewed(feedback));
     }
-    let confidence = probability * coherence * (1.0 - setting.distortion).clamp(0.0, 1.0);
+    let confidence = probability * coherence * (1.0 - 0.5 * setting.distortion).clamp(0.0, 1.0);
     let decided = kind.filter(|_| confidence >= CONFIDENT);
     reasons.insert(0, evidence(feedback, decided.is_some(), &likely));
     Verdict { kind: decided.unwrap_or(Kind::Undecided), confidence, leaning: kind, reasons }

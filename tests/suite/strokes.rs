@@ -7,6 +7,7 @@
 use std::f64::consts::TAU;
 
 use squealmap::classify::InstabilityType;
+use squealmap::identify::CAUSE;
 use squealmap::linear::{self, Linear};
 use squealmap::model::Param;
 use squealmap::outcome::Status;
@@ -51,22 +52,70 @@ impl Random {
     }
 }
 
+/// What a stroke is drawn to be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Wanted {
+    /// Stable.
+    Stable,
+    /// The slope alone destabilises, mode coupling alone does not.
+    Slope,
+    /// Mode coupling alone destabilises, the slope alone does not.
+    Coupling,
+    /// Each alone destabilises and would give at least [`CAUSE`] of the growth.
+    Both,
+    /// Each alone destabilises, but one of them would give less than that.
+    BothOneWeak,
+    /// Neither alone destabilises.
+    Interaction,
+}
+
+impl Wanted {
+    pub(crate) const ALL: [Wanted; 6] =
+        [Wanted::Stable, Wanted::Slope, Wanted::Coupling, Wanted::Both, Wanted::BothOneWeak, Wanted::Interaction];
+
+    pub(crate) fn words(self) -> &'static str {
+        match self {
+            Wanted::Stable => "stable",
+            Wanted::Slope => "negative slope",
+            Wanted::Coupling => "mode coupling",
+            Wanted::Both => "both",
+            Wanted::BothOneWeak => "both, one of them weak",
+            Wanted::Interaction => "only both together",
+        }
+    }
+
+    /// The truth, from the eigenvalues.
+    fn of(kind: InstabilityType, linear: &Linear) -> Option<Wanted> {
+        let weaker = linear.growth_rate_flat.min(linear.growth_rate_frozen);
+        match kind {
+            InstabilityType::Stable => Some(Wanted::Stable),
+            InstabilityType::NegativeSlope => Some(Wanted::Slope),
+            InstabilityType::ModeCoupling => Some(Wanted::Coupling),
+            InstabilityType::Coexistence if weaker < CAUSE * linear.growth_rate => Some(Wanted::BothOneWeak),
+            InstabilityType::Coexistence => Some(Wanted::Both),
+            InstabilityType::Interaction => Some(Wanted::Interaction),
+            InstabilityType::Sticking | InstabilityType::Divergence => None,
+        }
+    }
+}
+
 /// One synthetic stroke.
 pub(crate) struct Stroke {
-    pub(crate) kind: InstabilityType,
     pub(crate) linear: Linear,
     pub(crate) samples: Vec<Sample>,
 }
 
 /// An instance of the wanted type with its eigenvalue analysis, drawn until there is one.
-pub(crate) fn draw(wanted: InstabilityType, random: &mut Random) -> (Instance, Linear) {
+pub(crate) fn draw(wanted: Wanted, random: &mut Random) -> (Instance, Linear) {
     loop {
         let compression = random.between(8e3, 15e3) / TABLE_1;
         let belt_velocity = random.between(1.0, 4.0);
         let mu = random.between(0.05, 0.6);
         let slope = if random.uniform() < 0.5 { 0.0 } else { -random.decades(1e-3, 3e-2) };
         // c/(2m) = ζω for each direction.
-        let mut damping = |mass: f64| 2.0 * random.decades(1e-4, 2e-3) * mass * TAU * TABLE_1;
+        // Only damping keeps each mechanism alone stable: an interaction needs more of it, and grows slowly.
+        let (most, slowest) = if wanted == Wanted::Interaction { (3e-3, 1e-3) } else { (1e-3, 8e-3) };
+        let mut damping = |mass: f64| 2.0 * random.decades(1e-4, most) * mass * TAU * TABLE_1;
         let (c1, c2) = (damping(2.3), damping(2.12));
         let values = [
             (Param::M1, 2.12 / compression),
@@ -86,7 +135,7 @@ pub(crate) fn draw(wanted: InstabilityType, random: &mut Random) -> (Instance, L
         let instance = instance(law, &values);
         if let (Some(kind), Some(linear)) = linear::analyse(&instance) {
             let relative = linear.growth_rate / (TAU * linear.frequency);
-            if kind == wanted && (kind == InstabilityType::Stable || (1e-3..3e-2).contains(&relative)) {
+            if Wanted::of(kind, &linear) == Some(wanted) && (wanted == Wanted::Stable || (slowest..3e-2).contains(&relative)) {
                 return (instance, linear);
             }
         }
@@ -95,12 +144,12 @@ pub(crate) fn draw(wanted: InstabilityType, random: &mut Random) -> (Instance, L
 
 /// Records a stroke: from a small kick through its growth until it saturates (or, stable, from a larger kick on),
 /// the belt slowing down by 3 %.
-pub(crate) fn stroke(wanted: InstabilityType, rate: f64, skew: f64, random: &mut Random) -> Stroke {
+pub(crate) fn stroke(wanted: Wanted, rate: f64, skew: f64, random: &mut Random) -> Stroke {
     loop {
         let (mut instance, linear) = draw(wanted, random);
         let belt_velocity = instance.params.require(Param::BeltVelocity);
         let period = 1.0 / linear.frequency;
-        let stable = wanted == InstabilityType::Stable;
+        let stable = wanted == Wanted::Stable;
         let kick: f64 = if stable { 0.1 } else { 3e-3 };
         // Up to 1.2 times the time in which the growth reaches the belt velocity; a decay to a tenth.
         let duration = if stable { 2.3 / linear.growth_rate.abs() } else { 1.2 * (1.0 / kick).ln() / linear.growth_rate };
@@ -111,7 +160,7 @@ pub(crate) fn stroke(wanted: InstabilityType, rate: f64, skew: f64, random: &mut
         let recording = Recording { rate, duration, skew, force_skew: 0.0 };
         let signals = record(&instance, &plan(1.0, 1.0, 12), &recording);
         if signals.status == Status::Ok {
-            return Stroke { kind: wanted, linear, samples: signals.samples };
+            return Stroke { linear, samples: signals.samples };
         }
     }
 }
