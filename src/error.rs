@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use crate::fit::FitFault;
 use crate::identify::Fault;
 pub use crate::place::Place;
 
@@ -443,6 +444,14 @@ pub enum Error {
         /// Which column, where, and what to do.
         fault: Box<Fault>,
     },
+    /// Measured friction that does not determine a material.
+    #[error("{name}: {fault}")]
+    Fit {
+        /// The file as the user wrote it.
+        name: String,
+        /// Which value, and what to do.
+        fault: FitFault,
+    },
     /// The handler of Ctrl-C cannot be set.
     #[error("cannot listen to Ctrl-C: {why}")]
     Signal {
@@ -483,6 +492,7 @@ impl Error {
         match self {
             Error::ReadSweep { .. }
             | Error::Signals { .. }
+            | Error::Fit { .. }
             | Error::OutputDirectory { .. }
             | Error::NoModesAxis
             | Error::NoModesOfTuples

@@ -16,7 +16,7 @@
 //! | many instances | [`backend`], [`sweep`], [`estimate`] |
 //! | outcome → regime | [`classify`] |
 //! | map → bytes | [`map`], [`trace`], [`export`] |
-//! | an instance as sensors record it; measured signals → verdict | [`signals`], [`identify`] |
+//! | an instance as sensors record it; measured signals → verdict | [`signals`], [`identify`], [`fit`] |
 //!
 //! ```
 //! use squealmap::backend::choice::Options;
@@ -49,6 +49,7 @@ pub mod classify;
 pub mod error;
 pub mod estimate;
 pub mod export;
+pub mod fit;
 pub mod grid;
 pub mod identify;
 pub mod integrate;

@@ -8,6 +8,7 @@ use super::envelope::Envelope;
 use super::episode::{Episode, Recorded, episodes, swapped};
 use super::fault::Fault;
 use super::read::Table;
+use super::reading::{Reading, reading};
 use super::settings::Settings;
 use super::spectrogram::{Builder, Spectrogram};
 use super::survey::{Survey, survey};
@@ -42,6 +43,16 @@ pub struct Identification {
     pub spectrogram: Spectrogram,
     /// Tangential and normal acceleration for a picture.
     pub envelopes: [Envelope; 2],
+    recorded: Recorded,
+    settings: Settings,
+}
+
+impl Identification {
+    /// Phase, feedback and verdict of one window alone.
+    #[must_use]
+    pub fn read(&self, window: &Window) -> Reading {
+        reading(window, self.recorded, &self.settings)
+    }
 }
 
 /// Analyses the signals that `open` reads (called twice: the file is read twice and never held), named `name` in
@@ -111,13 +122,15 @@ fn analyse(
         time: [start, start + samples as f64 / rate],
         frequency: survey.frequency,
         verdict: conclude(&windows, &episodes, recorded, geometry.is_some() && fits.is_none(), samples),
-        slope: quasi_static_slope(&windows),
+        slope: quasi_static_slope(&windows, &episodes),
         notes: notes(&survey),
         columns: survey.names,
         windows,
         episodes,
         spectrogram: spectrogram.finish(),
         envelopes,
+        recorded,
+        settings: settings.clone(),
     })
 }
 

@@ -76,14 +76,8 @@ pub(super) enum Cause {
 }
 
 impl Cause {
-    pub(super) const ALL: [Cause; 6] = [
-        Cause::None,
-        Cause::Slope,
-        Cause::Coupling,
-        Cause::Both,
-        Cause::Interaction,
-        Cause::Contradiction,
-    ];
+    pub(super) const ALL: [Cause; 6] =
+        [Cause::None, Cause::Slope, Cause::Coupling, Cause::Both, Cause::Interaction, Cause::Contradiction];
 }
 
 /// Probabilities of the causes, in the order of [`Cause::ALL`], for each damping.
@@ -119,7 +113,8 @@ pub(super) fn probabilities(feedback: &Feedback, largest_damping: f64) -> Probab
     let (normal, normal_error) = feedback.normal;
     let (slope, slope_error) = feedback.slope;
     // A falling slope follows the velocity exactly: where there is one it shows how late the forces are.
-    let late = feedback.asynchrony().map_or(FORCE_PHASE, |off| (off.value.abs() + 2.0 * off.error).to_radians());
+    let late =
+        feedback.asynchrony().map_or(FORCE_PHASE, |off| (off.value.abs() + 2.0 * off.error).to_radians());
     let along_error = normal_error.hypot(late.min(FORCE_PHASE) * normal.im);
     let across_error = normal_error.hypot(PHASE_ALLOWANCE * normal.norm());
     let slope_error = slope_error.hypot(SLOPE_ALLOWANCE * slope.re.abs());

@@ -52,7 +52,8 @@ fn together(episodes: &[Episode]) -> Verdict {
     let confident: Vec<&Episode> =
         episodes.iter().filter(|episode| episode.verdict.kind != Kind::Undecided).collect();
     // Without a confident one, the episode with the largest gain tells most about why.
-    let weight = |episode: &Episode| if confident.is_empty() { episode.gain } else { episode.verdict.confidence };
+    let weight =
+        |episode: &Episode| if confident.is_empty() { episode.gain } else { episode.verdict.confidence };
     let candidates: Vec<&Episode> =
         if confident.is_empty() { episodes.iter().collect() } else { confident.clone() };
     let Some(best) = candidates.iter().copied().max_by(|a, b| weight(a).total_cmp(&weight(b))) else {
@@ -67,7 +68,8 @@ fn together(episodes: &[Episode]) -> Verdict {
     }
     let mut verdict = best.verdict.clone();
     if let Some(first) = verdict.reasons.first_mut() {
-        *first = format!("from {:.4} to {:.4} s at {:.1} Hz {first}", best.time[0], best.time[1], best.frequency);
+        *first =
+            format!("from {:.4} to {:.4} s at {:.1} Hz {first}", best.time[0], best.time[1], best.frequency);
     }
     verdict
 }
@@ -150,9 +152,9 @@ fn line(points: &[[f64; 2]]) -> Measured {
     Measured { value, error: (residual / independent / spread).sqrt() }
 }
 
-/// Slope of the mean friction coefficient against the velocity over the windows in which the motion is small:
-/// large oscillations change the mean.
-pub(super) fn quasi_static_slope(windows: &[Window]) -> Option<Friction> {
+/// Slope of the mean friction coefficient against the velocity over the windows before the first growth has ended in
+/// which the motion is small: large oscillations change the mean, and stick and flight make it another quantity.
+pub(super) fn quasi_static_slope(windows: &[Window], episodes: &[Episode]) -> Option<Friction> {
     /// Windows below this part of the largest oscillation are quiet.
     const QUIET: f64 = 0.1;
     /// Fewest windows of a slope.
@@ -160,8 +162,10 @@ pub(super) fn quasi_static_slope(windows: &[Window]) -> Option<Friction> {
     /// Relative range of velocities below which there is no slope to speak of.
     const RANGE: f64 = 0.02;
     let loudest = windows.iter().map(|window| window.rms).fold(0.0, f64::max);
-    let quiet = windows.iter().filter(|window| window.rms <= QUIET * loudest);
-    let points: Vec<[f64; 2]> = quiet.filter_map(|window| Some([window.velocity?, window.friction?])).collect();
+    let end = episodes.first().map_or(windows.len(), |episode| episode.windows[1] + 1);
+    let quiet = windows[..end].iter().filter(|window| window.rms <= QUIET * loudest);
+    let points: Vec<[f64; 2]> =
+        quiet.filter_map(|window| Some([window.velocity?, window.friction?])).collect();
     let low = points.iter().map(|point| point[0]).fold(f64::INFINITY, f64::min);
     let high = points.iter().map(|point| point[0]).fold(f64::NEG_INFINITY, f64::max);
     let usable = points.len() >= LEAST && high - low > RANGE * high.abs().max(low.abs());

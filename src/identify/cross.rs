@@ -112,7 +112,8 @@ impl Sums {
     /// fixed ratio to the tangential acceleration, relative to the whole: a second mode.
     pub(super) fn second_mode(&self) -> f64 {
         let force = if self.nn > 0.0 { [self.nn, self.nx.norm_sqr(), self.noise[2]] } else { [0.0; 3] };
-        let acceleration = if self.yy > 0.0 { [self.yy, self.yx.norm_sqr(), self.noise[1]] } else { [0.0; 3] };
+        let acceleration =
+            if self.yy > 0.0 { [self.yy, self.yx.norm_sqr(), self.noise[1]] } else { [0.0; 3] };
         let part = |[qq, qx, noise]: [f64; 3]| {
             if qq > 0.0 { (self.unexplained(qq, qx, noise) / qq).sqrt() } else { 0.0 }
         };
@@ -170,7 +171,8 @@ impl Sums {
         let noise = noise + value.norm_sqr() * self.noise[0];
         let beyond = (qq * (1.0 - coherence) - noise).max(0.0);
         // Half of each power lies in each part of the complex ratio.
-        let variance = 0.5 * (noise / self.blocks.max(1.0) / share + beyond / self.effective(share)) / self.xx;
+        let variance =
+            0.5 * (noise / self.blocks.max(1.0) / share + beyond / self.effective(share)) / self.xx;
         Ratio { value, error: variance.sqrt(), coherence }
     }
 }

@@ -110,7 +110,9 @@ pub(super) fn episodes(windows: &[Window], recorded: Recorded, settings: &Settin
     for run in windows.chunk_by(same) {
         if grows(&run[0], recorded) {
             let beat = beats(windows, first, run.len());
-            found.extend(episode(run, first, recorded, settings).filter(|episode| !(beat && episode.gain < LASTING)));
+            found.extend(
+                episode(run, first, recorded, settings).filter(|episode| !(beat && episode.gain < LASTING)),
+            );
         }
         first += run.len();
     }
@@ -122,7 +124,10 @@ fn beats(windows: &[Window], first: usize, length: usize) -> bool {
     let end = first + length;
     let reached = windows[end - 1].sums.xx;
     let before = windows[..first].iter().any(|window| window.sums.xx > AGAIN * AGAIN * reached);
-    let after = windows[end..].iter().take((LOOK_AHEAD * length).max(LOOK_AHEAD_LEAST)).take_while(|window| window.distortion < LINEAR);
+    let after = windows[end..]
+        .iter()
+        .take((LOOK_AHEAD * length).max(LOOK_AHEAD_LEAST))
+        .take_while(|window| window.distortion < LINEAR);
     before || after.into_iter().any(|window| window.sums.xx < AGAIN * AGAIN * reached)
 }
 
@@ -187,7 +192,8 @@ fn wanders(run: &[Window], recorded: Recorded, settings: &Settings) -> Option<St
         return None;
     }
     let (early, late) = run.split_at(run.len() / 2);
-    let [early, late] = [early, late].map(|half| (Part::new(half).growth, Part::new(half).feedback(settings)));
+    let [early, late] =
+        [early, late].map(|half| (Part::new(half).growth, Part::new(half).feedback(settings)));
     let phases = [early.1, late.1].map(|feedback| match recorded.forces {
         true => feedback.force_phase(),
         false => feedback.phase(),
@@ -243,9 +249,11 @@ impl Part {
 fn growth(run: &[Window]) -> Measured {
     let weights = run.iter().map(|window| window.growth.error.max(f64::MIN_POSITIVE).powi(-2));
     let total: f64 = weights.clone().sum();
-    let value = run.iter().zip(weights.clone()).map(|(w, weight)| w.growth.value * weight).sum::<f64>() / total;
+    let value =
+        run.iter().zip(weights.clone()).map(|(w, weight)| w.growth.value * weight).sum::<f64>() / total;
     let scatter =
-        run.iter().zip(weights).map(|(w, weight)| weight * (w.growth.value - value).powi(2)).sum::<f64>() / total;
+        run.iter().zip(weights).map(|(w, weight)| weight * (w.growth.value - value).powi(2)).sum::<f64>()
+            / total;
     let independent = (run.len() as f64 / SHARED).max(1.0);
     Measured { value, error: (run.len() as f64 / independent / total + scatter / independent).sqrt() }
 }

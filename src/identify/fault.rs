@@ -35,7 +35,9 @@ pub enum Fault {
         flag: &'static str,
     },
     /// A row with another number of fields than the header.
-    #[error("line {line}: the row has {fields} field(s) but the header has {columns}; give one field per column")]
+    #[error(
+        "line {line}: the row has {fields} field(s) but the header has {columns}; give one field per column"
+    )]
     Ragged {
         /// Line, from 1.
         line: u64,
@@ -45,7 +47,9 @@ pub enum Fault {
         columns: usize,
     },
     /// An empty field, NaN, infinity or text.
-    #[error("line {line}: column `{column}` holds `{text}`, which is no finite number; cut the record before or after it")]
+    #[error(
+        "line {line}: column `{column}` holds `{text}`, which is no finite number; cut the record before or after it"
+    )]
     NotANumber {
         /// Line, from 1.
         line: u64,
@@ -55,7 +59,9 @@ pub enum Fault {
         text: String,
     },
     /// Time that stands still or runs backwards.
-    #[error("line {line}: column `{column}` is {time} s after {previous} s but must rise; sort the rows, name another column with --time, or give --rate")]
+    #[error(
+        "line {line}: column `{column}` is {time} s after {previous} s but must rise; sort the rows, name another column with --time, or give --rate"
+    )]
     NotRising {
         /// Line, from 1.
         line: u64,
@@ -66,8 +72,22 @@ pub enum Fault {
         /// The one before, s.
         previous: f64,
     },
+    /// A normal force that is not positive, where a friction coefficient is wanted.
+    #[error(
+        "line {line}: column `{column}` is {value} N, without contact there is no friction coefficient; leave such rows out"
+    )]
+    NoContact {
+        /// Line, from 1.
+        line: u64,
+        /// The column.
+        column: String,
+        /// Its value, N.
+        value: f64,
+    },
     /// Missing samples.
-    #[error("line {line}: a gap of {missing} sample(s) in column `{column}` before {time} s; cut the record there and give one part")]
+    #[error(
+        "line {line}: a gap of {missing} sample(s) in column `{column}` before {time} s; cut the record there and give one part"
+    )]
     Gap {
         /// Line, from 1.
         line: u64,
@@ -79,7 +99,9 @@ pub enum Fault {
         time: f64,
     },
     /// Samples that are not evenly spaced.
-    #[error("line {line}: column `{column}` steps by {step} s where {usual} s is usual; give evenly spaced samples (`squealmap trace --rate HZ` writes them)")]
+    #[error(
+        "line {line}: column `{column}` steps by {step} s where {usual} s is usual; give evenly spaced samples (`squealmap trace --rate HZ` writes them)"
+    )]
     Uneven {
         /// Line, from 1.
         line: u64,
@@ -107,7 +129,9 @@ pub enum Fault {
         because: String,
     },
     /// A channel that does not move.
-    #[error("column `{column}` ({words}) is constant at {value}; check the sensor, or name another column with {flag}")]
+    #[error(
+        "column `{column}` ({words}) is constant at {value}; check the sensor, or name another column with {flag}"
+    )]
     Constant {
         /// The column.
         column: String,
@@ -119,7 +143,9 @@ pub enum Fault {
         flag: &'static str,
     },
     /// A channel cut off at its end of range.
-    #[error("column `{column}` ({words}) is clipped at {value} ({runs} times, first at {time} s); record with a larger range, or cut the record before")]
+    #[error(
+        "column `{column}` ({words}) is clipped at {value} ({runs} times, first at {time} s); record with a larger range, or cut the record before"
+    )]
     Clipped {
         /// The column.
         column: String,
@@ -133,7 +159,9 @@ pub enum Fault {
         time: f64,
     },
     /// A friction coefficient that no brake has.
-    #[error("T/N of columns `{tangential}` and `{normal}` is {friction:.3}, above {largest}: they look swapped; exchange --tangential-force and --normal-force, or allow it with --largest-friction")]
+    #[error(
+        "T/N of columns `{tangential}` and `{normal}` is {friction:.3}, above {largest}: they look swapped; exchange --tangential-force and --normal-force, or allow it with --largest-friction"
+    )]
     SwappedForces {
         /// The column of the tangential force.
         tangential: String,
@@ -145,7 +173,9 @@ pub enum Fault {
         largest: f64,
     },
     /// A normal force that does not press.
-    #[error("column `{column}` (the normal force) has mean {mean:.4} and standard deviation {deviation:.4}: it presses on nothing, so it looks swapped or of the wrong sign; name another with --normal-force")]
+    #[error(
+        "column `{column}` (the normal force) has mean {mean:.4} and standard deviation {deviation:.4}: it presses on nothing, so it looks swapped or of the wrong sign; name another with --normal-force"
+    )]
     NotPressing {
         /// The column.
         column: String,
@@ -155,7 +185,9 @@ pub enum Fault {
         deviation: f64,
     },
     /// A friction force against the motion.
-    #[error("T/N of columns `{tangential}` and `{normal}` is {friction:.3}: the friction force has the wrong sign; change the sign of one column")]
+    #[error(
+        "T/N of columns `{tangential}` and `{normal}` is {friction:.3}: the friction force has the wrong sign; change the sign of one column"
+    )]
     NegativeFriction {
         /// The column of the tangential force.
         tangential: String,
@@ -165,7 +197,9 @@ pub enum Fault {
         friction: f64,
     },
     /// An acceleration that looks like a force.
-    #[error("column `{column}` ({words}) has mean {mean:.4} and standard deviation {deviation:.4}: that is a force or an offset, no vibration; name another column with {flag} or subtract its mean")]
+    #[error(
+        "column `{column}` ({words}) has mean {mean:.4} and standard deviation {deviation:.4}: that is a force or an offset, no vibration; name another column with {flag} or subtract its mean"
+    )]
     Offset {
         /// The column.
         column: String,
@@ -179,7 +213,9 @@ pub enum Fault {
         flag: &'static str,
     },
     /// Accelerations that contradict the forces unless they are swapped.
-    #[error("at {time:.6} s the friction force feeds the motion of column `{normal}` but not that of `{tangential}`: they look swapped (or skewed); exchange --tangential-acceleration and --normal-acceleration, or set --skew")]
+    #[error(
+        "at {time:.6} s the friction force feeds the motion of column `{normal}` but not that of `{tangential}`: they look swapped (or skewed); exchange --tangential-acceleration and --normal-acceleration, or set --skew"
+    )]
     SwappedAccelerations {
         /// The column of the tangential acceleration.
         tangential: String,
@@ -189,7 +225,9 @@ pub enum Fault {
         time: f64,
     },
     /// An oscillation too fast for the sampling.
-    #[error("the oscillation at {frequency:.1} Hz has {samples:.2} samples per period but needs at least {least}; sample faster or look below it with --band")]
+    #[error(
+        "the oscillation at {frequency:.1} Hz has {samples:.2} samples per period but needs at least {least}; sample faster or look below it with --band"
+    )]
     TooFast {
         /// Its frequency, Hz.
         frequency: f64,

@@ -58,10 +58,8 @@ impl Feedback {
         let omega = TAU * frequency;
         let lambda = Complex64::new(growth.value, omega);
         // A channel that is late by τ lags by ωτ.
-        let advanced = |ratio: Ratio, delay: f64| Ratio {
-            value: ratio.value * Complex64::cis(omega * delay),
-            ..ratio
-        };
+        let advanced =
+            |ratio: Ratio, delay: f64| Ratio { value: ratio.value * Complex64::cis(omega * delay), ..ratio };
         let normal_force = advanced(sums.normal_force(share), skews.force);
         let change = advanced(sums.friction(share), skews.force);
         Feedback {
@@ -117,7 +115,8 @@ impl Feedback {
 
 /// Argument of a complex number whose parts have this standard error, degrees.
 fn angle(value: Complex64, error: f64) -> Measured {
-    let error = if value.norm() > 0.0 { (error / value.norm()).min(std::f64::consts::PI) } else { f64::INFINITY };
+    let error =
+        if value.norm() > 0.0 { (error / value.norm()).min(std::f64::consts::PI) } else { f64::INFINITY };
     Measured { value: value.arg().to_degrees(), error: error.to_degrees() }
 }
 

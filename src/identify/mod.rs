@@ -7,7 +7,8 @@
 //! | windows: frequency, growth, cross-spectra | `window.rs`, `cross.rs`, `spectrum.rs` |
 //! | friction power and its parts | `feedback.rs` |
 //! | which mechanism alone would destabilise | `attribution.rs` |
-//! | verdict, confidence, reasons | `episode.rs`, `verdict.rs`, `conclude.rs` |
+//! | verdict, confidence, reasons | `episode.rs`, `verdict.rs`, `reading.rs`, `conclude.rs` |
+//! | points for `fit` | `points.rs` |
 //! | pictures | `spectrogram.rs`, `envelope.rs` |
 //! | all of it in order | `analysis.rs` |
 //!
@@ -24,8 +25,10 @@ mod episode;
 mod fault;
 mod feedback;
 mod pace;
+mod points;
 mod range;
 mod read;
+mod reading;
 mod settings;
 mod spectrogram;
 mod spectrum;
@@ -41,6 +44,8 @@ pub use cross::Measured;
 pub use envelope::Envelope;
 pub use episode::Episode;
 pub use fault::Fault;
+pub use points::{FrictionColumn, read_points};
+pub use reading::Reading;
 pub use settings::{DAMPING_RATIO, LARGEST_FRICTION, OVERLAP, Settings, WINDOW};
 pub use spectrogram::Spectrogram;
 pub use survey::{LEAST_PER_PERIOD, LEAST_SAMPLES};

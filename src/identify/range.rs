@@ -53,7 +53,11 @@ impl Extreme {
 
     fn clipped(&self, mean_step: f64) -> Option<Clipping> {
         let abrupt = self.exits > ABRUPT * mean_step * self.runs as f64;
-        (self.runs >= RUNS && abrupt).then_some(Clipping { value: self.value, runs: self.runs, first: self.first })
+        (self.runs >= RUNS && abrupt).then_some(Clipping {
+            value: self.value,
+            runs: self.runs,
+            first: self.first,
+        })
     }
 }
 

@@ -33,8 +33,18 @@ pub(super) struct Table {
 }
 
 impl Table {
-    /// Reads the header and finds the columns.
+    /// Reads the header and finds the columns of signals: time, or a rate, and at least the tangential acceleration.
     pub(super) fn open(input: Box<dyn Read>, settings: &Settings) -> Result<Table, Fault> {
+        Table::open_with(input, settings, &[Channel::TangentialAcceleration], true)
+    }
+
+    /// Reads the header and finds the columns; those of `needed` have to be there, and time if it is `timed`.
+    pub(super) fn open_with(
+        input: Box<dyn Read>,
+        settings: &Settings,
+        needed: &[Channel],
+        timed: bool,
+    ) -> Result<Table, Fault> {
         let mut input: Box<dyn BufRead> = Box::new(BufReader::with_capacity(BUFFER, input));
         let start = input.fill_buf().map_err(|why| Fault::Unreadable { why: why.to_string() })?;
         let separator = separator(start);
@@ -51,8 +61,8 @@ impl Table {
         for (channel, column) in Channel::ALL.into_iter().zip(&mut columns) {
             let named = settings.columns[channel as usize].as_deref();
             let found = find(&header, named.unwrap_or(channel.default_column()));
-            // Only the tangential acceleration is indispensable; what is named has to be there.
-            if found.is_none() && (named.is_some() || channel == Channel::TangentialAcceleration) {
+            // What is named has to be there, too.
+            if found.is_none() && (named.is_some() || needed.contains(&channel)) {
                 return Err(Fault::NoColumn {
                     words: channel.words(),
                     name: named.unwrap_or(channel.default_column()).to_owned(),
@@ -64,7 +74,7 @@ impl Table {
         }
         shared(&header, &columns)?;
         let time = find(&header, settings.time.as_deref().unwrap_or(TIME));
-        if time.is_none() && (settings.rate.is_none() || settings.time.is_some()) {
+        if timed && time.is_none() && (settings.rate.is_none() || settings.time.is_some()) {
             return Err(Fault::NoColumn {
                 words: "time",
                 name: settings.time.clone().unwrap_or(TIME.to_owned()),
@@ -73,7 +83,7 @@ impl Table {
             });
         }
         // A rate that is given is believed; the column of time is then not looked at.
-        let time = time.filter(|_| settings.rate.is_none());
+        let time = time.filter(|_| timed && settings.rate.is_none());
         Ok(Table { reader, record: ByteRecord::new(), header, time, columns })
     }
 

@@ -57,7 +57,11 @@ pub(super) struct Builder {
 
 impl Builder {
     /// For a record of `samples` at `rate` (Hz) from `start` (s), with its dominant frequency.
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive numbers of samples")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "positive numbers of samples"
+    )]
     pub(super) fn new(
         settings: &Settings,
         samples: u64,
@@ -101,8 +105,8 @@ impl Builder {
             return;
         }
         self.spectra.power(&self.waiting, &mut self.scratch);
-        let column = (self.windows.saturating_mul(self.columns as u64) / self.expected)
-            .min(self.columns as u64 - 1);
+        let column =
+            (self.windows.saturating_mul(self.columns as u64) / self.expected).min(self.columns as u64 - 1);
         self.add(usize::try_from(column).unwrap_or(0));
         self.windows += 1;
         self.waiting.drain(..self.hop.min(self.length));

@@ -34,7 +34,11 @@ pub(super) struct Geometry {
 
 impl Geometry {
     /// Windows for an oscillation of `period` samples.
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a positive number of samples")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a positive number of samples"
+    )]
     pub(super) fn new(period: f64) -> Geometry {
         let block = ((BLOCK_PERIODS * period).round() as usize).max(LEAST_BLOCK);
         let block_hop = (block / BLOCK_HOPS).max(1);
@@ -83,7 +87,12 @@ pub(super) struct Analyser {
 }
 
 impl Analyser {
-    pub(super) fn new(geometry: Geometry, rate: f64, has: PerChannel<bool>, band: Option<[f64; 2]>) -> Analyser {
+    pub(super) fn new(
+        geometry: Geometry,
+        rate: f64,
+        has: PerChannel<bool>,
+        band: Option<[f64; 2]>,
+    ) -> Analyser {
         Analyser {
             geometry,
             rate,
@@ -103,9 +112,8 @@ impl Analyser {
             self.has[channel as usize].then(|| values.iter().sum::<f64>() / values.len() as f64)
         };
         let normal_force = mean(Channel::NormalForce);
-        let friction = mean(Channel::TangentialForce)
-            .zip(normal_force)
-            .map(|(tangential, normal)| tangential / normal);
+        let friction =
+            mean(Channel::TangentialForce).zip(normal_force).map(|(tangential, normal)| tangential / normal);
         let (velocity, temperature) = (mean(Channel::Velocity), mean(Channel::Temperature));
         self.load(channels, friction.unwrap_or(0.0));
         let rms = (self.signals[0].iter().map(|a| a * a).sum::<f64>() / self.geometry.window as f64).sqrt();
@@ -142,7 +150,8 @@ impl Analyser {
     fn load(&mut self, channels: &PerChannel<&[f64]>, friction: f64) {
         let of = |channel: Channel| channels[channel as usize];
         let (tangential, normal) = (of(Channel::TangentialForce), of(Channel::NormalForce));
-        let vibrating = [of(Channel::TangentialAcceleration), of(Channel::NormalAcceleration), normal, tangential];
+        let vibrating =
+            [of(Channel::TangentialAcceleration), of(Channel::NormalAcceleration), normal, tangential];
         for (signal, values) in self.signals.iter_mut().zip(vibrating) {
             signal.clear();
             signal.extend_from_slice(values);
@@ -156,7 +165,8 @@ impl Analyser {
     fn peak(&mut self) -> (f64, f64, f64) {
         self.spectra.power(&self.signals[0], &mut self.power);
         let width = self.rate / self.geometry.window as f64;
-        let inside = |k: usize| self.band.is_none_or(|[low, high]| (low..=high).contains(&(k as f64 * width)));
+        let inside =
+            |k: usize| self.band.is_none_or(|[low, high]| (low..=high).contains(&(k as f64 * width)));
         let bins = (DRIFT_BINS..self.power.len()).filter(|k| inside(*k));
         let highest = bins.max_by(|a, b| self.power[*a].total_cmp(&self.power[*b])).unwrap_or(DRIFT_BINS);
         let bin = refine(&self.power, highest);

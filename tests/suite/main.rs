@@ -8,6 +8,8 @@ mod events;
 mod export;
 mod extremes;
 mod figure;
+mod fit;
+mod identify;
 mod instances;
 #[cfg(unix)]
 mod interrupt;
@@ -25,6 +27,7 @@ mod simd;
 mod spec;
 mod stopped;
 mod strict;
+mod strokes;
 mod sweeps;
 mod synthetic;
 mod trace_figure;

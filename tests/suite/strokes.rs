@@ -70,8 +70,14 @@ pub(crate) enum Wanted {
 }
 
 impl Wanted {
-    pub(crate) const ALL: [Wanted; 6] =
-        [Wanted::Stable, Wanted::Slope, Wanted::Coupling, Wanted::Both, Wanted::BothOneWeak, Wanted::Interaction];
+    pub(crate) const ALL: [Wanted; 6] = [
+        Wanted::Stable,
+        Wanted::Slope,
+        Wanted::Coupling,
+        Wanted::Both,
+        Wanted::BothOneWeak,
+        Wanted::Interaction,
+    ];
 
     pub(crate) fn words(self) -> &'static str {
         match self {
@@ -135,7 +141,9 @@ pub(crate) fn draw(wanted: Wanted, random: &mut Random) -> (Instance, Linear) {
         let instance = instance(law, &values);
         if let (Some(kind), Some(linear)) = linear::analyse(&instance) {
             let relative = linear.growth_rate / (TAU * linear.frequency);
-            if Wanted::of(kind, &linear) == Some(wanted) && (wanted == Wanted::Stable || (slowest..3e-2).contains(&relative)) {
+            if Wanted::of(kind, &linear) == Some(wanted)
+                && (wanted == Wanted::Stable || (slowest..3e-2).contains(&relative))
+            {
                 return (instance, linear);
             }
         }
@@ -152,7 +160,11 @@ pub(crate) fn stroke(wanted: Wanted, rate: f64, skew: f64, random: &mut Random) 
         let stable = wanted == Wanted::Stable;
         let kick: f64 = if stable { 0.1 } else { 3e-3 };
         // Up to 1.2 times the time in which the growth reaches the belt velocity; a decay to a tenth.
-        let duration = if stable { 2.3 / linear.growth_rate.abs() } else { 1.2 * (1.0 / kick).ln() / linear.growth_rate };
+        let duration = if stable {
+            2.3 / linear.growth_rate.abs()
+        } else {
+            1.2 * (1.0 / kick).ln() / linear.growth_rate
+        };
         let duration = duration.min(1500.0 * period);
         instance.params.set(Param::StartVelocity, kick * belt_velocity);
         instance.params.set(Param::BeltVelocityEnd, 0.97 * belt_velocity);
