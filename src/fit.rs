@@ -213,7 +213,8 @@ impl Problem<'_> {
         let eigen = normal.clone().symmetric_eigen();
         let largest = eigen.eigenvalues.max();
         let least = eigen.eigenvalues.imin();
-        if !(eigen.eigenvalues[least] > DETERMINED * largest) {
+        if eigen.eigenvalues[least].partial_cmp(&(DETERMINED * largest)) != Some(std::cmp::Ordering::Greater)
+        {
             return Err(self.undetermined(eigen.eigenvectors.column(least).icamax()));
         }
         let solution = normal.cholesky().map(|factors| factors.solve(&right));

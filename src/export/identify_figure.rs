@@ -23,7 +23,7 @@ const HEADROOM: f64 = 0.07;
 /// Ticks of the time axis.
 const TICKS: usize = 9;
 /// The lower end of the scale of levels, dB: a careful measurement resolves about that much.
-const FLOOR_DB: f64 = -60.0;
+const FLOOR_DB: f32 = -60.0;
 /// Strokes of tangential and normal acceleration.
 const STROKES: [&str; 2] = [
     r##"fill="none" stroke="#1F3F8F" stroke-width="0.5" stroke-linejoin="round""##,
@@ -81,7 +81,7 @@ pub fn identify_svg(found: &Identification, heading: &str) -> Result<String> {
             }
             2 => spectrogram(&mut svg, &found.spectrogram, &time, &frame, |s, k| s.normalised[k])?,
             _ => spectrogram(&mut svg, &found.spectrogram, &time, &frame, |s, k| {
-                1.0 - s.decibel[k] / FLOOR_DB as f32
+                1.0 - s.decibel[k] / FLOOR_DB
             })?,
         }
         frame.border(&mut svg);

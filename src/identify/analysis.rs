@@ -106,7 +106,9 @@ fn analyse(
         if waiting[0].len() == geometry.window {
             let at = start + from as f64 / rate;
             windows.push(analyser.window(at, &waiting.each_ref().map(Vec::as_slice)));
-            waiting.iter_mut().for_each(|waiting| drop(waiting.drain(..geometry.hop)));
+            for waiting in &mut waiting {
+                waiting.drain(..geometry.hop);
+            }
             from += geometry.hop as u64;
         }
     }

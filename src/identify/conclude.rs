@@ -144,7 +144,7 @@ fn line(points: &[[f64; 2]]) -> Measured {
     let (x0, y0) = (mean(0), mean(1));
     let spread: f64 = points.iter().map(|[x, _]| (x - x0).powi(2)).sum();
     let independent = n / SHARED - 2.0;
-    if !(spread > 0.0) || independent < 1.0 {
+    if spread.is_nan() || spread <= 0.0 || independent < 1.0 {
         return Measured { value: 0.0, error: f64::INFINITY };
     }
     let value = points.iter().map(|[x, y]| (x - x0) * (y - y0)).sum::<f64>() / spread;

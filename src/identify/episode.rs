@@ -194,10 +194,8 @@ fn wanders(run: &[Window], recorded: Recorded, settings: &Settings) -> Option<St
     let (early, late) = run.split_at(run.len() / 2);
     let [early, late] =
         [early, late].map(|half| (Part::new(half).growth, Part::new(half).feedback(settings)));
-    let phases = [early.1, late.1].map(|feedback| match recorded.forces {
-        true => feedback.force_phase(),
-        false => feedback.phase(),
-    });
+    let phases = [early.1, late.1]
+        .map(|feedback| if recorded.forces { feedback.force_phase() } else { feedback.phase() });
     let off = folded(phases[1].value - phases[0].value);
     let error = phases[0].error.hypot(phases[1].error);
     if off.abs() > STEADY + 2.0 * error {
@@ -225,7 +223,9 @@ struct Part {
 impl Part {
     fn new(run: &[Window]) -> Part {
         let mut sums = Sums::default();
-        run.iter().for_each(|window| sums.add(&window.sums));
+        for window in run {
+            sums.add(&window.sums);
+        }
         let mut part = Part { sums, growth: growth(run), frequency: 0.0, friction: None };
         part.frequency = part.weighted(run, |window| Some(window.frequency)).unwrap_or_default();
         part.friction = part.weighted(run, |window| window.friction);

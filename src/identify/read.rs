@@ -143,7 +143,7 @@ impl Table {
 fn separator(start: &[u8]) -> u8 {
     let mut lines = start.split(|byte| *byte == b'\n');
     let header = lines.find(|line| !line.is_empty() && line[0] != b'#').unwrap_or_default();
-    let count = |separator: &u8| header.iter().filter(|byte| *byte == separator).count();
+    let count = |separator: &u8| header.split(|byte| byte == separator).count();
     // Of equal counts the first separator of the list is the last of the reversed one.
     SEPARATORS.into_iter().rev().max_by_key(count).unwrap_or(b',')
 }

@@ -201,14 +201,14 @@ impl Analyser {
 
 /// Amplitude of the second and third harmonic relative to the fundamental at `bin`, the noise taken off.
 fn harmonics(power: &[f64], bin: f64, floor: f64) -> f64 {
+    /// The highest of three bins of noise and twice that for its scatter.
+    const ALLOWED: f64 = 4.0;
     let top = |position: f64| {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a bin is not negative")]
         let k = position.round() as usize;
         let near = k.saturating_sub(1)..=k + 1;
         near.filter_map(|k| power.get(k)).fold(0.0, |top: f64, p| top.max(*p))
     };
-    // The highest of three bins of noise and twice that for its scatter.
-    const ALLOWED: f64 = 4.0;
     let above: f64 = [2.0, 3.0].into_iter().map(|h| (top(h * bin) - ALLOWED * floor).max(0.0)).sum();
     let fundamental = top(bin);
     if fundamental > 0.0 { (above / fundamental).sqrt() } else { 0.0 }
@@ -228,7 +228,7 @@ fn growth(blocks: &[(f64, f64)], noise: f64) -> Measured {
     let t0 = points.iter().map(|[t, _, w, _]| w * t).sum::<f64>() / total;
     let l0 = points.iter().map(|[_, l, w, _]| w * l).sum::<f64>() / total;
     let spread: f64 = points.iter().map(|[t, _, w, _]| w * (t - t0).powi(2)).sum();
-    if points.len() < 3 || !(spread > 0.0) {
+    if points.len() < 3 || spread.is_nan() || spread <= 0.0 {
         return UNKNOWN;
     }
     let value = points.iter().map(|[t, l, w, _]| w * (t - t0) * (l - l0)).sum::<f64>() / spread;

@@ -2,6 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
+use std::fmt::Write as _;
 use std::io::{Cursor, Read};
 
 use squealmap::export::material::material_csv;
@@ -14,11 +15,11 @@ use squealmap::spec::Spec;
 use crate::common::near;
 use crate::strokes::Random;
 
-/// `sweeps/pad.csv`: rows of temperature, mu_s, mu_d; linear in between, knee at 5 m/s.
+/// `sweeps/pad.csv`: rows of temperature, `mu_s`, `mu_d`; linear in between, knee at 5 m/s.
 const PAD: [[f64; 3]; 3] = [[100.0, 0.10, 0.10], [300.0, 0.16, 0.12], [500.0, 0.32, 0.24]];
 
 fn pad(velocity: f64, temperature: f64) -> f64 {
-    let row = if temperature < 300.0 { 0 } else { 1 };
+    let row = usize::from(temperature >= 300.0);
     let part = (temperature - PAD[row][0]) / 200.0;
     let at = |k: usize| PAD[row][k] + part * (PAD[row + 1][k] - PAD[row][k]);
     let w = (velocity / 5.0).min(1.0);
@@ -52,7 +53,9 @@ fn the_pad_is_found_again() {
     }
     // The comparison turns red for another pad.
     let mut wrong = points(0.0);
-    wrong.iter_mut().for_each(|point| point.friction += 0.01);
+    for point in &mut wrong {
+        point.friction += 0.01;
+    }
     let found = fit(&wrong, LawKind::Bilinear, &rows, Some(5.0)).unwrap();
     near("shifted", found.columns[0].1[0], PAD[0][1] + 0.01, 1e-6);
 }
@@ -95,7 +98,7 @@ fn what_is_not_determined_is_named() {
 fn a_sweep_reads_the_material() {
     let mut table = "V,mu,temperature\n".to_owned();
     for point in points(0.0) {
-        table += &format!("{},{},{}\n", point.velocity, point.friction, point.temperature);
+        writeln!(table, "{},{},{}", point.velocity, point.friction, point.temperature).unwrap();
     }
     let input = Box::new(Cursor::new(table.into_bytes())) as Box<dyn Read>;
     let friction = FrictionColumn::Named("mu".to_owned());

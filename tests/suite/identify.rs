@@ -301,7 +301,9 @@ fn level(field: Field, part: f64) -> f64 {
 #[test]
 fn a_constant_velocity_is_remarked_and_analysed() {
     let mut samples = clean();
-    samples.iter_mut().for_each(|sample| sample.belt_velocity = 3.0);
+    for sample in &mut samples {
+        sample.belt_velocity = 3.0;
+    }
     let found = run(&csv(&samples), &Settings::default()).unwrap();
     assert_eq!(found.verdict.kind, Kind::ModeCoupling);
     assert!(

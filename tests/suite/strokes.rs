@@ -19,7 +19,7 @@ use crate::common::{bilinear, instance, plan};
 /// Frequency of Table 1 between its uncoupled modes, Hz.
 const TABLE_1: f64 = 33.6;
 
-/// SplitMix64 (Steele, Lea, Flood 2014) with normal numbers by Box and Muller.
+/// `SplitMix64` (Steele, Lea, Flood 2014) with normal numbers by Box and Muller.
 pub(crate) struct Random(u64);
 
 impl Random {
@@ -195,6 +195,8 @@ pub(crate) fn add_noise(samples: &mut [Sample], decibel: f64, random: &mut Rando
         let mean = values.iter().sum::<f64>() / values.len() as f64;
         let power = values.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / values.len() as f64;
         let noise = power.sqrt() * 10_f64.powf(-decibel / 20.0);
-        samples.iter_mut().for_each(|sample| *field(sample) += noise * random.normal());
+        for sample in samples.iter_mut() {
+            *field(sample) += noise * random.normal();
+        }
     }
 }
