@@ -31,9 +31,9 @@ const LEAST_GAIN: f64 = 1.0;
 const LASTING: f64 = 3.0;
 /// Amplitude, relative to the one reached, that tells a beat before or after the growth.
 const AGAIN: f64 = 0.7;
-/// How far after an episode a beat is looked for, in lengths of the episode, and in windows (36 periods) at least.
-const LOOK_AHEAD: usize = 3;
-const LOOK_AHEAD_LEAST: usize = 12;
+/// How far before and after an episode a beat is looked for, in lengths of the episode, and in windows (36 periods) at least.
+const LOOK_AROUND: usize = 3;
+const LOOK_AROUND_LEAST: usize = 12;
 /// Degrees by which the phase of one mode may wander from the first to the second half.
 const STEADY: f64 = 12.0;
 /// The growth of one mode in its second half is at least this part of that of the first.
@@ -119,16 +119,16 @@ pub(super) fn episodes(windows: &[Window], recorded: Recorded, settings: &Settin
     found
 }
 
-/// Whether the oscillation was as strong before, or soon gives back what it gained, in windows that are still linear.
+/// Whether the oscillation was as strong shortly before, or soon gives back what it gained, in windows that are still
+/// linear.
 fn beats(windows: &[Window], first: usize, length: usize) -> bool {
     let end = first + length;
     let reached = windows[end - 1].sums.xx;
-    let before = windows[..first].iter().any(|window| window.sums.xx > AGAIN * AGAIN * reached);
-    let after = windows[end..]
-        .iter()
-        .take((LOOK_AHEAD * length).max(LOOK_AHEAD_LEAST))
-        .take_while(|window| window.distortion < LINEAR);
-    before || after.into_iter().any(|window| window.sums.xx < AGAIN * AGAIN * reached)
+    let near = (LOOK_AROUND * length).max(LOOK_AROUND_LEAST);
+    let mut before = windows[first.saturating_sub(near)..first].iter();
+    let mut after = windows[end..].iter().take(near).take_while(|window| window.distortion < LINEAR);
+    before.any(|window| window.sums.xx > AGAIN * AGAIN * reached)
+        || after.any(|window| window.sums.xx < AGAIN * AGAIN * reached)
 }
 
 /// The episode of a run of growing windows; `None` when it gains too little.

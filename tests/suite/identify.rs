@@ -370,6 +370,34 @@ fn noise_alone_is_no_instability_and_a_steady_tone_is_undecided() {
     assert_eq!(rows(10.0).kind, Kind::Undecided);
 }
 
+/// A record may hold more than one squeal: the second one is no echo of the first.
+#[test]
+fn two_squeals_are_two_episodes() {
+    let mut random = Random::new(4);
+    let mut table = "ax2,ay1,T,N\n".to_owned();
+    for _ in 0..2 {
+        for k in 0..20_000 {
+            let t = f64::from(k) / 100e3;
+            // Grows from 0.02 s with 60 1/s for 0.08 s, holds, dies.
+            let envelope = (60.0 * (t.min(0.1) - 0.1)).exp() * (-80.0 * (t - 0.15).max(0.0)).exp();
+            let (sin, lag) = (7000.0 * std::f64::consts::TAU * t).sin_cos();
+            let (x, y) = (100.0 * envelope * sin, 60.0 * envelope * (0.8 * sin - 0.6 * lag));
+            let mut noise = || random.normal();
+            let normal = 1000.0 + 5.0 * y;
+            let row =
+                [x + 0.1 * noise(), y + 0.1 * noise(), 0.4 * normal + 0.1 * noise(), normal + 0.1 * noise()];
+            writeln!(table, "{},{},{},{}", row[0], row[1], row[2], row[3]).unwrap();
+        }
+    }
+    let found = run(table.as_bytes(), &Settings { rate: Some(100e3), ..Settings::default() }).unwrap();
+    let causes: Vec<Kind> = found.episodes.iter().map(|episode| episode.verdict.kind).collect();
+    assert_eq!(causes, [Kind::ModeCoupling; 2]);
+    for episode in &found.episodes {
+        near("growth", episode.growth.value, 60.0, 2.0);
+        near("phase", episode.phase.unwrap().value, -36.87, 0.5);
+    }
+}
+
 /// `docs/identify.md` holds the table between two marks; this writes it anew.
 #[test]
 #[ignore = "rewrites docs/identify.md: cargo test --release --test suite -- --ignored identify_table"]
