@@ -45,6 +45,8 @@ pub(super) struct Ratio {
     pub(super) value: Complex64,
     /// Standard error of each of its parts.
     pub(super) error: f64,
+    /// The part of the error that no noise explains.
+    pub(super) unexplained: f64,
     /// Squared coherence.
     pub(super) coherence: f64,
 }
@@ -164,7 +166,8 @@ impl Sums {
     /// leave unexplained beyond that.
     fn ratio(&self, qx: Complex64, qq: f64, noise: f64, share: f64) -> Ratio {
         if self.xx <= 0.0 {
-            return Ratio { value: Complex64::ZERO, error: f64::INFINITY, coherence: 0.0 };
+            let unexplained = f64::INFINITY;
+            return Ratio { value: Complex64::ZERO, error: f64::INFINITY, unexplained, coherence: 0.0 };
         }
         let value = qx / self.xx;
         let coherence = if qq > 0.0 { (qx.norm_sqr() / (self.xx * qq)).min(1.0) } else { 0.0 };
@@ -173,6 +176,7 @@ impl Sums {
         // Half of each power lies in each part of the complex ratio.
         let variance =
             0.5 * (noise / self.blocks.max(1.0) / share + beyond / self.effective(share)) / self.xx;
-        Ratio { value, error: variance.sqrt(), coherence }
+        let unexplained = (0.5 * beyond / self.effective(share) / self.xx).sqrt();
+        Ratio { value, error: variance.sqrt(), unexplained, coherence }
     }
 }

@@ -21,6 +21,8 @@ const SECOND_MODE: f64 = 0.05;
 /// Amplitude of friction that follows neither the normal force nor the motion, relative to the whole: the small
 /// part that the slope contributes is not to be blurred by it.
 const NONLINEAR_FRICTION: f64 = 0.005;
+/// Windows this strong, relative to the strongest, can be those in which friction departs.
+const STRONG: f64 = 0.1;
 /// Fewest windows of an episode of which strong ones may be left out.
 const LEAST_KEPT: usize = 3;
 /// Windows of one episode have frequencies within this of each other, relative.
@@ -171,17 +173,19 @@ fn episode(run: &[Window], first: usize, recorded: Recorded, settings: &Settings
     })
 }
 
-/// How many windows of a run are still linear: the last ones, which weigh most, are left out as long as their friction
-/// departs from that of all before.
+/// How many windows of a run are still linear: from the first strong one on whose friction departs from that of all
+/// before, the windows, which weigh most, are left out.
 fn linear(run: &[Window]) -> usize {
-    let mut before = vec![Sums::default()];
-    for window in run {
-        let mut sums = before[before.len() - 1];
-        sums.add(&window.sums);
-        before.push(sums);
+    let strongest = run.iter().map(|window| window.sums.xx).fold(0.0, f64::max);
+    let mut before = Sums::default();
+    for (kept, window) in run.iter().enumerate() {
+        let strong = window.sums.xx > STRONG * STRONG * strongest;
+        if kept >= LEAST_KEPT && strong && window.sums.friction_departs(&before) > NONLINEAR_FRICTION {
+            return kept;
+        }
+        before.add(&window.sums);
     }
-    let departs = |kept: &usize| run[kept - 1].sums.friction_departs(&before[kept - 1]) > NONLINEAR_FRICTION;
-    (LEAST_KEPT + 1..=run.len()).rev().find(|kept| !departs(kept)).unwrap_or(run.len().min(LEAST_KEPT))
+    run.len()
 }
 
 /// Two modes that beat also grow for a while, but their phase and growth change meanwhile.

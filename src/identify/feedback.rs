@@ -42,6 +42,8 @@ pub(super) struct Feedback {
     pub(super) normal: (Complex64, f64),
     /// `ν_s` and the standard error of its parts.
     pub(super) slope: (Complex64, f64),
+    /// The part of its error that no noise explains.
+    pub(super) unexplained: f64,
 }
 
 impl Feedback {
@@ -69,6 +71,7 @@ impl Feedback {
             normal_force,
             normal: (friction * lambda * normal_force.value, friction.abs() * omega * normal_force.error),
             slope: (lambda * change.value, omega * change.error),
+            unexplained: omega * change.unexplained,
         }
     }
 

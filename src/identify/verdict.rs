@@ -8,6 +8,8 @@ use super::feedback::{Feedback, folded};
 pub const CONFIDENT: f64 = 0.9;
 /// Forces whose squared coherence with the acceleration is lower do not follow the oscillation.
 const FORCES_FOLLOW: f64 = 0.5;
+/// Friction that no noise and no linear feedback explains, relative to the power: from here on it may hide a slope.
+const UNEXPLAINED: f64 = 0.2;
 /// Degrees by which channels may disagree before they are called skewed.
 const IN_STEP: f64 = 15.0;
 
@@ -112,6 +114,14 @@ pub(super) fn judge(feedback: &Feedback, setting: &Setting) -> Verdict {
              (by about {:.2e} s), or the acceleration columns are swapped; set --force-skew",
             off.value,
             -off.value.to_radians() / feedback.omega
+        ));
+    }
+    let unexplained = feedback.unexplained / (feedback.normal.0 + feedback.slope.0).re.abs();
+    if unexplained > UNEXPLAINED {
+        return Verdict::undecided(format!(
+            "friction follows neither the normal force nor the velocity ({:.0} % of its power): it is not linear any more; \
+             record the onset with less noise",
+            100.0 * unexplained
         ));
     }
     let likely = probabilities(feedback, setting.damping_ratio * feedback.omega);
