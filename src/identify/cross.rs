@@ -151,6 +151,12 @@ impl Sums {
         (off - BY_NOISE * noise).max(0.0) / (self.tx / self.xx).norm()
     }
 
+    /// Noise of the friction per block, over that of `other`: stick and impacts fill the spectrum and look like noise.
+    pub(super) fn noisier(&self, other: &Sums) -> f64 {
+        let mean = |sums: &Sums| sums.noise[3] / sums.blocks.max(1.0);
+        mean(self) / mean(other).max(f64::MIN_POSITIVE)
+    }
+
     /// Power of `q` that is neither `H x` nor noise.
     fn unexplained(&self, qq: f64, qx: f64, noise: f64) -> f64 {
         /// Over the few independent blocks of a window the power of noise scatters up to this multiple of its mean.

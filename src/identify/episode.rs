@@ -21,6 +21,8 @@ const SECOND_MODE: f64 = 0.05;
 /// Amplitude of friction that follows neither the normal force nor the motion, relative to the whole: the small
 /// part that the slope contributes is not to be blurred by it.
 const NONLINEAR_FRICTION: f64 = 0.005;
+/// Noise of sensors does not rise by this factor within a squeal; estimates of it from one window scatter by 2.
+const NOISIER: f64 = 8.0;
 /// Windows this strong, relative to the strongest, can be those in which friction departs.
 const STRONG: f64 = 0.1;
 /// Fewest windows of an episode of which strong ones may be left out.
@@ -180,7 +182,8 @@ fn linear(run: &[Window]) -> usize {
     let mut before = Sums::default();
     for (kept, window) in run.iter().enumerate() {
         let strong = window.sums.xx > STRONG * STRONG * strongest;
-        if kept >= LEAST_KEPT && strong && window.sums.friction_departs(&before) > NONLINEAR_FRICTION {
+        let departs = window.sums.friction_departs(&before) > NONLINEAR_FRICTION;
+        if kept >= LEAST_KEPT && strong && (departs || window.sums.noisier(&before) > NOISIER) {
             return kept;
         }
         before.add(&window.sums);
