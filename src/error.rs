@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use crate::fit::FitFault;
+use crate::identify::Fault;
 pub use crate::place::Place;
 
 /// Why a run failed. Instances that fail are data (see [`crate::outcome::Status`]), not errors.
@@ -434,6 +436,22 @@ pub enum Error {
         /// All instances.
         total: usize,
     },
+    /// Measured signals that are not fit for analysis.
+    #[error("{name}: {fault}")]
+    Signals {
+        /// The file as the user wrote it.
+        name: String,
+        /// Which column, where, and what to do.
+        fault: Box<Fault>,
+    },
+    /// Measured friction that does not determine a material.
+    #[error("{name}: {fault}")]
+    Fit {
+        /// The file as the user wrote it.
+        name: String,
+        /// Which value, and what to do.
+        fault: FitFault,
+    },
     /// The handler of Ctrl-C cannot be set.
     #[error("cannot listen to Ctrl-C: {why}")]
     Signal {
@@ -473,6 +491,8 @@ impl Error {
     pub fn is_bad_input(&self) -> bool {
         match self {
             Error::ReadSweep { .. }
+            | Error::Signals { .. }
+            | Error::Fit { .. }
             | Error::OutputDirectory { .. }
             | Error::NoModesAxis
             | Error::NoModesOfTuples

@@ -16,6 +16,7 @@
 //! | many instances | [`backend`], [`sweep`], [`estimate`] |
 //! | outcome → regime | [`classify`] |
 //! | map → bytes | [`map`], [`trace`], [`export`] |
+//! | an instance as sensors record it; measured signals → verdict | [`signals`], [`identify`], [`fit`] |
 //!
 //! ```
 //! use squealmap::backend::choice::Options;
@@ -48,7 +49,9 @@ pub mod classify;
 pub mod error;
 pub mod estimate;
 pub mod export;
+pub mod fit;
 pub mod grid;
+pub mod identify;
 pub mod integrate;
 pub mod kernel;
 pub mod linear;
@@ -59,6 +62,7 @@ pub mod observe;
 pub mod outcome;
 pub mod place;
 pub mod response;
+pub mod signals;
 pub mod simd;
 pub mod spec;
 pub mod sweep;

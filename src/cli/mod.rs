@@ -2,6 +2,8 @@
 
 mod adapters;
 mod check;
+mod fit;
+mod identify;
 mod modes;
 mod output;
 mod progress;
@@ -38,6 +40,10 @@ enum Command {
     Modes(modes::Modes),
     /// One instance in full, as a time series: trace.csv, trace.svg, trace.png
     Trace(trace::TraceCommand),
+    /// What measured signals say: identify.json, identify.svg, identify.png, windows.csv
+    Identify(identify::Identify),
+    /// A material file for sweeps from measured velocity, friction and temperature
+    Fit(fit::FitCommand),
 }
 
 /// The exit code after Ctrl-C: 128 and the number of the signal, as shells have it.
@@ -70,6 +76,8 @@ impl Cli {
             Command::Check(command) => command.execute()?,
             Command::Modes(command) => command.execute()?,
             Command::Trace(command) => command.execute()?,
+            Command::Identify(command) => command.execute()?,
+            Command::Fit(command) => command.execute()?,
         }
         Ok(ExitCode::SUCCESS)
     }

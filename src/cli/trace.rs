@@ -2,8 +2,12 @@
 
 use clap::Args;
 use squealmap::backend;
+use squealmap::export::signals::signals_csv;
 use squealmap::export::{png, trace as export};
+use squealmap::model::Param;
 use squealmap::outcome::Status;
+use squealmap::response::Plan;
+use squealmap::signals::{Recording, record};
 use squealmap::spec::Spec;
 use squealmap::trace::trace;
 use squealmap::{Result, linear};
@@ -13,6 +17,8 @@ use crate::cli::{Files, print};
 
 /// What is written.
 const FILES: [&str; 3] = ["trace.csv", "trace.png", "trace.svg"];
+/// What `--rate` adds.
+const SIGNALS: &str = "signals.csv";
 
 /// Arguments of `trace`.
 #[derive(Debug, Args)]
@@ -25,13 +31,18 @@ pub(crate) struct TraceCommand {
     /// Rows per period 2π/ω0, 1 to 10000, besides the events
     #[arg(long, value_name = "N", default_value_t = 50, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     samples_per_period: u32,
+    /// Also write signals.csv, evenly sampled with this rate, which `identify` reads
+    #[arg(long, value_name = "HZ", value_parser = clap::value_parser!(u32).range(1..))]
+    rate: Option<u32>,
 }
 
 impl TraceCommand {
     pub(crate) fn execute(self) -> Result<()> {
         let spec = Spec::read(&self.files.sweep)?;
         let instance = spec.instance_at(&self.at)?;
-        let output = Output::prepare(self.files.directory(), &FILES)?;
+        let names: &[&str] =
+            if self.rate.is_some() { &[FILES[0], FILES[1], FILES[2], SIGNALS] } else { &FILES };
+        let output = Output::prepare(self.files.directory(), names)?;
         let trace = trace(&spec, &instance, self.samples_per_period);
         let title = match (spec.title.as_str(), self.at.as_str()) {
             (title, "") => title.to_owned(),
@@ -39,11 +50,22 @@ impl TraceCommand {
             (title, at) => format!("{title}: {}", at.replace(',', ", ")),
         };
         let svg = export::trace_svg(&trace, &title)?;
-        let files = [
+        let mut files = vec![
             (FILES[0], export::trace_csv(&trace)?),
             (FILES[1], png::render(&svg)?),
             (FILES[2], svg.into_bytes()),
         ];
+        if let Some(rate) = self.rate {
+            let recording = Recording {
+                rate: f64::from(rate),
+                duration: trace.rows.last().map_or(0.0, |row| row.t),
+                skew: 0.0,
+                force_skew: 0.0,
+            };
+            let signals = record(&instance, &Plan::new(&spec), &recording);
+            let temperature = instance.params.get(Param::Temperature);
+            files.push((SIGNALS, signals_csv(&signals.samples, temperature)?));
+        }
         let paths = output.write(&files)?;
         let (kind, _) = linear::analyse(&instance);
         let end = match trace.outcome.status {

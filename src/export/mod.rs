@@ -2,7 +2,7 @@
 //!
 //! [`columns`] is the one table of output columns; [`csv`], [`manifest`] and [`figure`] write `map.csv`,
 //! `manifest.json` and `map.svg`; [`png`] draws any of the figures. [`modes`] and [`trace`] serve the
-//! commands of the same names.
+//! commands of the same names, [`identify`] and [`signals`] to and from measured signals.
 
 mod block;
 pub mod boundaries;
@@ -11,8 +11,11 @@ pub mod columns;
 pub mod csv;
 pub mod figure;
 mod frame;
+pub mod identify;
+mod identify_figure;
 mod legend;
 pub mod manifest;
+pub mod material;
 pub mod modes;
 mod modes_figure;
 pub mod palette;
@@ -20,7 +23,9 @@ mod panels;
 mod picture_axis;
 mod plot;
 pub mod png;
+mod raster;
 pub mod scale;
+pub mod signals;
 pub mod svg;
 pub mod text;
 pub mod trace;

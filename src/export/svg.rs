@@ -95,6 +95,11 @@ impl Svg {
         }
     }
 
+    /// Adds an embedded picture.
+    pub fn image(&mut self, attributes: &str) {
+        let _ = writeln!(self.body, "<image {attributes}/>");
+    }
+
     /// Adds a circle.
     pub fn circle(&mut self, x: f64, y: f64, radius: f64, attributes: &str) {
         let [x, y, radius] = [x, y, radius].map(number);

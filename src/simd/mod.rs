@@ -39,7 +39,7 @@ use pass::{Settings, pass};
 use vector::Scalar;
 
 /// Registers of a vector.
-pub const REGISTERS: usize = 2;
+pub const REGISTERS: usize = 1;
 
 /// Order of the Taylor series.
 pub const ORDER: usize = 12;

@@ -226,3 +226,37 @@ fn help_names_every_command_and_argument() {
     assert_eq!(ended.code, Some(2));
     assert!(ended.err.contains("0 is not in 1..=1024"), "{}", ended.err);
 }
+
+#[test]
+fn what_trace_writes_identify_reads() {
+    let directory = tempfile::tempdir().unwrap();
+    let sweep = "[friction]\nlaw = \"constant\"\nmu_s = 0.4\nmu_d = 0.4\n[belt]\nbelt_velocity = 3.0\n\
+                 [start]\nkind = \"kick\"\nstart_velocity = 0.01\n[response]\nsettle = \"1 s\"\nmeasure = \"1 s\"\n";
+    std::fs::write(directory.path().join("stroke.toml"), sweep).unwrap();
+    let ended = squealmap(directory.path(), &["trace", "stroke.toml", "--rate", "2000", "-o", "traced"]);
+    assert_eq!(ended.code, Some(0), "{}", ended.err);
+    assert!(ended.out.contains("wrote traced/signals.csv\n"), "{}", ended.out);
+    let ended = squealmap(directory.path(), &["identify", "traced/signals.csv", "-o", "found"]);
+    assert_eq!(ended.code, Some(0), "{}", ended.err);
+    assert!(ended.out.starts_with("mode coupling (confidence "), "{}", ended.out);
+    let report = std::fs::read(directory.path().join("found/identify.json")).unwrap();
+    let report: serde_json::Value = serde_json::from_slice(&report).unwrap();
+    assert_eq!(report["verdict"]["kind"], "mode_coupling");
+    // docs/physics.md, section 6: growth 4.339 1/s, 33.949 Hz, phase -40.74 degrees.
+    let episode = &report["episodes"][0];
+    let near = |value: &serde_json::Value, expected: f64, allowed: f64| {
+        let value = value.as_f64().unwrap();
+        assert!((value - expected).abs() < allowed, "{value} instead of {expected}");
+    };
+    near(&episode["growth_rate"]["value"], 4.339, 0.02 * 4.339);
+    near(&episode["frequency"], 33.949, 0.05);
+    near(&episode["phase"]["value"], -40.74, 0.5);
+    for file in ["identify.png", "identify.svg", "windows.csv"] {
+        assert!(directory.path().join("found").join(file).is_file(), "{file}");
+    }
+    // A trajectory has rows at its events: no even steps.
+    let ended = squealmap(directory.path(), &["identify", "traced/trace.csv", "-o", "refused"]);
+    assert_eq!(ended.code, Some(2), "{}", ended.out);
+    assert!(ended.err.starts_with("error: traced/trace.csv: line "), "{}", ended.err);
+    assert!(!directory.path().join("refused").exists());
+}

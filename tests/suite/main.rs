@@ -8,6 +8,8 @@ mod events;
 mod export;
 mod extremes;
 mod figure;
+mod fit;
+mod identify;
 mod instances;
 #[cfg(unix)]
 mod interrupt;
@@ -26,6 +28,7 @@ mod spec;
 mod stopped;
 mod stretches;
 mod strict;
+mod strokes;
 mod sweeps;
 mod synthetic;
 mod trace_figure;

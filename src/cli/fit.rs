@@ -1,0 +1,112 @@
+//! `squealmap fit`: measured friction as a material of sweeps.
+
+use std::fs::File;
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use squealmap::export::material::material_csv;
+use squealmap::fit::{Point, fit};
+use squealmap::identify::{Channel, FrictionColumn, Settings, read_points};
+use squealmap::model::friction::LawKind;
+use squealmap::{Error, Result};
+
+use crate::cli::identify::{finite, positive};
+use crate::cli::output::{Output, list};
+use crate::cli::print;
+
+/// What is written.
+const FILE: &str = "material.csv";
+/// Rows of a material when none are asked for.
+const ROWS: u16 = 5;
+
+/// The laws that can be fitted.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Law {
+    Bilinear,
+    Exponential,
+    Constant,
+}
+
+/// Arguments of `fit`.
+#[derive(Debug, Args)]
+pub(crate) struct FitCommand {
+    /// Measured points: CSV with a header
+    points: PathBuf,
+    /// Output directory [default: out/<name of the file>]
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Friction law of the material
+    #[arg(long, value_enum, default_value_t = Law::Bilinear)]
+    law: Law,
+    /// Knee or Stribeck velocity, m/s; left out, the best one is found
+    #[arg(long, value_name = "M/S", value_parser = positive)]
+    law_velocity: Option<f64>,
+    /// Column of the friction coefficient [default: the ratio of the forces]
+    #[arg(long, value_name = "COLUMN")]
+    friction: Option<String>,
+    /// Column of the tangential force, N [default: T]
+    #[arg(long, value_name = "COLUMN", conflicts_with = "friction")]
+    tangential_force: Option<String>,
+    /// Column of the normal force, N [default: N]
+    #[arg(long, value_name = "COLUMN", conflicts_with = "friction")]
+    normal_force: Option<String>,
+    /// Column of the sliding velocity, m/s [default: V]
+    #[arg(long, value_name = "COLUMN")]
+    velocity: Option<String>,
+    /// Column of the temperature, °C [default: temperature]
+    #[arg(long, value_name = "COLUMN", conflicts_with = "at_temperature")]
+    temperature: Option<String>,
+    /// The temperature of all points, °C, instead of a column
+    #[arg(long, value_name = "C", allow_negative_numbers = true, value_parser = finite)]
+    at_temperature: Option<f64>,
+    /// Temperatures of the rows, °C, rising [default: 5 from the lowest to the highest]
+    #[arg(long, value_name = "C,C,...", value_delimiter = ',', allow_negative_numbers = true, value_parser = finite)]
+    temperatures: Vec<f64>,
+}
+
+impl FitCommand {
+    pub(crate) fn execute(self) -> Result<()> {
+        let name = self.points.display().to_string();
+        let stem = self.points.file_stem().unwrap_or(self.points.as_os_str()).to_owned();
+        let directory = self.output.unwrap_or_else(|| PathBuf::from("out").join(stem));
+        let mut settings = Settings::default();
+        settings.columns[Channel::TangentialForce as usize] = self.tangential_force;
+        settings.columns[Channel::NormalForce as usize] = self.normal_force;
+        settings.columns[Channel::Velocity as usize] = self.velocity;
+        settings.columns[Channel::Temperature as usize] = self.temperature;
+        let friction = self.friction.map_or(FrictionColumn::Forces, FrictionColumn::Named);
+        let input = File::open(&self.points).map_err(|why| Error::Signals {
+            name: name.clone(),
+            fault: Box::new(squealmap::identify::Fault::Unreadable { why: why.to_string() }),
+        })?;
+        let points = read_points(Box::new(input), &name, &settings, &friction, self.at_temperature)?;
+        let rows = if self.temperatures.is_empty() { rows(&points) } else { self.temperatures };
+        let law = match self.law {
+            Law::Bilinear => LawKind::Bilinear,
+            Law::Exponential => LawKind::Exponential,
+            Law::Constant => LawKind::Constant,
+        };
+        let fitted = fit(&points, law, &rows, self.law_velocity)
+            .map_err(|fault| Error::Fit { name: name.clone(), fault })?;
+        let text = material_csv(&fitted, &name);
+        let output = Output::prepare(directory, &[FILE])?;
+        let paths = output.write(&[(FILE, text.clone().into_bytes())])?;
+        let usage = format!("[friction]\nlaw = \"{}\"\nmaterial = \"{FILE}\"\n", law.name());
+        print(&format!("{text}{}in a sweep file:\n{usage}", list(&paths)));
+        Ok(())
+    }
+}
+
+/// Evenly spaced temperatures over the points; one where they do not differ.
+fn rows(points: &[Point]) -> Vec<f64> {
+    let low = points.iter().map(|point| point.temperature).fold(f64::INFINITY, f64::min);
+    let high = points.iter().map(|point| point.temperature).fold(f64::NEG_INFINITY, f64::max);
+    if low < high {
+        let last = ROWS - 1;
+        (0..=last)
+            .map(|k| if k == last { high } else { low + (high - low) * f64::from(k) / f64::from(last) })
+            .collect()
+    } else {
+        points.first().map(|point| point.temperature).into_iter().collect()
+    }
+}

@@ -1,0 +1,176 @@
+//! `squealmap identify`: what measured signals say.
+
+use std::fmt::Write;
+use std::fs::File;
+use std::io::Read;
+use std::path::PathBuf;
+
+use clap::Args;
+use squealmap::Result;
+use squealmap::export::{identify as export, png};
+use squealmap::identify::{
+    DAMPING_RATIO, Identification, LARGEST_FRICTION, OVERLAP, Settings, WINDOW, identify,
+};
+
+use crate::cli::output::{Output, list};
+use crate::cli::print;
+
+/// What is written.
+const FILES: [&str; 4] = ["identify.json", "identify.png", "identify.svg", "windows.csv"];
+
+/// Arguments of `identify`.
+#[derive(Debug, Args)]
+pub(crate) struct Identify {
+    /// Measured signals: CSV with a header, separated by commas, semicolons or tabs
+    signals: PathBuf,
+    /// Output directory [default: out/<name of the file>]
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Column of time, s [default: t]
+    #[arg(long, value_name = "COLUMN")]
+    time: Option<String>,
+    /// Samples per second, Hz, instead of a column of time
+    #[arg(long, value_name = "HZ", value_parser = positive)]
+    rate: Option<f64>,
+    /// Column of the tangential acceleration, m/s² [default: ax2]
+    #[arg(long, value_name = "COLUMN")]
+    tangential_acceleration: Option<String>,
+    /// Column of the normal acceleration, m/s² [default: ay1]
+    #[arg(long, value_name = "COLUMN")]
+    normal_acceleration: Option<String>,
+    /// Column of the tangential force, N [default: T]
+    #[arg(long, value_name = "COLUMN")]
+    tangential_force: Option<String>,
+    /// Column of the normal force, N, positive in compression [default: N]
+    #[arg(long, value_name = "COLUMN")]
+    normal_force: Option<String>,
+    /// Column of the sliding velocity, m/s [default: V]
+    #[arg(long, value_name = "COLUMN")]
+    velocity: Option<String>,
+    /// Column of the temperature, °C [default: temperature]
+    #[arg(long, value_name = "COLUMN")]
+    temperature: Option<String>,
+    /// Delay of the normal acceleration behind the tangential one, s
+    #[arg(long, value_name = "S", default_value_t = 0.0, allow_negative_numbers = true, value_parser = finite)]
+    skew: f64,
+    /// Delay of the forces behind the tangential acceleration, s
+    #[arg(long, value_name = "S", default_value_t = 0.0, allow_negative_numbers = true, value_parser = finite)]
+    force_skew: f64,
+    /// Largest damping ratio the structure may have without friction
+    #[arg(long, value_name = "RATIO", default_value_t = DAMPING_RATIO, value_parser = ratio)]
+    damping_ratio: f64,
+    /// Frequencies in which to look for the oscillation, Hz
+    #[arg(long, value_name = "LOW,HIGH", value_parser = band)]
+    band: Option<[f64; 2]>,
+    /// Window of the spectrogram, s
+    #[arg(long, value_name = "S", default_value_t = WINDOW, value_parser = positive)]
+    window: f64,
+    /// Overlap of its windows
+    #[arg(long, value_name = "PART", default_value_t = OVERLAP, value_parser = ratio)]
+    overlap: f64,
+    /// Largest T/N that is believed
+    #[arg(long, value_name = "MU", default_value_t = LARGEST_FRICTION, value_parser = positive)]
+    largest_friction: f64,
+}
+
+impl Identify {
+    pub(crate) fn execute(self) -> Result<()> {
+        let name = self.signals.display().to_string();
+        let stem = self.signals.file_stem().unwrap_or(self.signals.as_os_str()).to_owned();
+        let heading = stem.to_string_lossy().into_owned();
+        let directory = self.output.clone().unwrap_or_else(|| PathBuf::from("out").join(stem));
+        let path = self.signals.clone();
+        let settings = self.settings();
+        let output = Output::prepare(directory, &FILES)?;
+        let open = || File::open(&path).map(|file| Box::new(file) as Box<dyn Read>);
+        let found = identify(open, &name, &settings)?;
+        let svg = export::identify_svg(&found, &heading)?;
+        let files = [
+            (FILES[0], export::report_json(&found, &name)?),
+            (FILES[1], png::render(&svg)?),
+            (FILES[2], svg.into_bytes()),
+            (FILES[3], export::windows_csv(&found)?),
+        ];
+        let paths = output.write(&files)?;
+        print(&(summary(&found) + &list(&paths)));
+        Ok(())
+    }
+
+    fn settings(self) -> Settings {
+        Settings {
+            time: self.time,
+            rate: self.rate,
+            columns: [
+                self.tangential_acceleration,
+                self.normal_acceleration,
+                self.tangential_force,
+                self.normal_force,
+                self.velocity,
+                self.temperature,
+            ],
+            skew: self.skew,
+            force_skew: self.force_skew,
+            damping_ratio: self.damping_ratio,
+            band: self.band,
+            window: self.window,
+            overlap: self.overlap,
+            largest_friction: self.largest_friction,
+        }
+    }
+}
+
+/// The verdict with its reasons.
+fn summary(found: &Identification) -> String {
+    let verdict = &found.verdict;
+    let mut text = format!("{} (confidence {:.2})\n", verdict.kind.words(), verdict.confidence);
+    for reason in &verdict.reasons {
+        let _ = writeln!(text, "  {reason}");
+    }
+    if let Some(friction) = found.slope {
+        let (slope, [low, high]) = (friction.slope, friction.velocity);
+        let _ = writeln!(
+            text,
+            "mean friction changes by {:.5} ± {:.5} s/m between {low:.3} and {high:.3} m/s",
+            slope.value, slope.error
+        );
+    }
+    let _ = writeln!(
+        text,
+        "{} samples at {:.1} Hz, {} window(s), {} episode(s) of growth",
+        found.samples,
+        found.rate,
+        found.windows.len(),
+        found.episodes.len()
+    );
+    for note in &found.notes {
+        let _ = writeln!(text, "note: {note}");
+    }
+    text
+}
+
+fn number(text: &str, legal: impl Fn(f64) -> bool, words: &str) -> std::result::Result<f64, String> {
+    let value: f64 = text.parse().map_err(|_| format!("must be {words}"))?;
+    if value.is_finite() && legal(value) { Ok(value) } else { Err(format!("must be {words}")) }
+}
+
+pub(super) fn finite(text: &str) -> std::result::Result<f64, String> {
+    number(text, |_| true, "a finite number")
+}
+
+pub(super) fn positive(text: &str) -> std::result::Result<f64, String> {
+    number(text, |x| x > 0.0, "a finite number greater than 0")
+}
+
+fn ratio(text: &str) -> std::result::Result<f64, String> {
+    number(text, |x| (0.0..1.0).contains(&x), "a number from 0 to below 1")
+}
+
+fn band(text: &str) -> std::result::Result<[f64; 2], String> {
+    let words = "two frequencies such as 1000,20000, the lower one first";
+    let (low, high) = text.split_once(',').ok_or_else(|| format!("must be {words}"))?;
+    let [low, high] = [low, high].map(|part| number(part.trim(), |x| x >= 0.0, words));
+    match (low?, high?) {
+        (low, high) if low < high => Ok([low, high]),
+        _ => Err(format!("must be {words}")),
+    }
+}

@@ -1,0 +1,145 @@
+//! `identify`: the table of windows and the report; the figure is in `identify_figure.rs`.
+
+use serde_json::{Value, json};
+
+use super::columns::Cell;
+use super::csv::Table;
+use super::manifest::{COMMIT, VERSION};
+use crate::error::{Error, Result};
+use crate::identify::{Channel, Episode, Identification, Measured, Verdict};
+
+pub use super::identify_figure::identify_svg;
+
+/// The columns of `windows.csv`; SI units, phases in degrees, temperature in °C.
+pub const COLUMNS: [&str; 22] = [
+    "start",
+    "end",
+    "friction",
+    "velocity",
+    "temperature",
+    "rms_acceleration",
+    "frequency",
+    "signal_to_noise_db",
+    "growth_rate",
+    "growth_rate_error",
+    "distortion",
+    "phase",
+    "phase_error",
+    "coherence",
+    "force_coherence",
+    "normal_share",
+    "normal_share_error",
+    "slope",
+    "slope_error",
+    "verdict",
+    "confidence",
+    "leaning",
+];
+
+/// One row per window, in order of time.
+///
+/// # Errors
+/// When the table cannot be written.
+pub fn windows_csv(found: &Identification) -> Result<Vec<u8>> {
+    let mut table = Table::new(COLUMNS.into_iter())?;
+    for window in &found.windows {
+        let reading = found.read(window);
+        let value = |measured: Option<Measured>| measured.map(|m| m.value);
+        let error = |measured: Option<Measured>| measured.map(|m| m.error);
+        let numbers = [
+            Some(window.time[0]),
+            Some(window.time[1]),
+            window.friction,
+            window.velocity,
+            window.temperature,
+            Some(window.rms),
+            Some(window.frequency),
+            Some(10.0 * window.signal_to_noise.log10()),
+            Some(window.growth.value),
+            Some(window.growth.error),
+            Some(window.distortion),
+            value(reading.phase),
+            error(reading.phase),
+            reading.coherence,
+            reading.force_coherence,
+            value(reading.share),
+            error(reading.share),
+            value(reading.slope),
+            error(reading.slope),
+        ];
+        let words = [
+            reading.verdict.kind.name().to_owned(),
+            Cell::from(reading.verdict.confidence).to_string(),
+            reading.verdict.leaning.map(|kind| kind.name().to_owned()).unwrap_or_default(),
+        ];
+        table.row(numbers.into_iter().map(|number| Cell::from(number).to_string()).chain(words))?;
+    }
+    table.finish()
+}
+
+/// Verdict, evidence and what was analysed, as JSON.
+///
+/// # Errors
+/// When it cannot be written.
+pub fn report_json(found: &Identification, name: &str) -> Result<Vec<u8>> {
+    let columns: serde_json::Map<String, Value> = Channel::ALL
+        .into_iter()
+        .zip(&found.columns)
+        .filter(|(_, column)| !column.is_empty())
+        .map(|(channel, column)| (channel.flag()[2..].replace('-', "_"), json!(column)))
+        .collect();
+    let report = json!({
+        "program": env!("CARGO_PKG_NAME"),
+        "version": VERSION,
+        "commit": COMMIT,
+        "signals": name,
+        "columns": columns,
+        "samples": found.samples,
+        "rate": found.rate,
+        "start": found.time[0],
+        "end": found.time[1],
+        "frequency": found.frequency,
+        "verdict": verdict(&found.verdict),
+        "friction_slope": found.slope.map(|friction| json!({
+            "slope": measured(friction.slope),
+            "velocity": friction.velocity,
+        })),
+        "episodes": found.episodes.iter().map(episode).collect::<Vec<_>>(),
+        "windows": found.windows.len(),
+        "notes": found.notes,
+        "units": "SI; phases in degrees, negative when the normal acceleration lags; temperature in °C",
+    });
+    let mut bytes = serde_json::to_vec_pretty(&report).map_err(Error::WriteManifest)?;
+    bytes.push(b'\n');
+    Ok(bytes)
+}
+
+fn verdict(verdict: &Verdict) -> Value {
+    json!({
+        "kind": verdict.kind,
+        "confidence": verdict.confidence,
+        "leaning": verdict.leaning,
+        "reasons": verdict.reasons,
+    })
+}
+
+fn measured(measured: Measured) -> Value {
+    json!({ "value": measured.value, "error": measured.error })
+}
+
+fn episode(episode: &Episode) -> Value {
+    json!({
+        "start": episode.time[0],
+        "end": episode.time[1],
+        "frequency": episode.frequency,
+        "friction": episode.friction,
+        "growth_rate": measured(episode.growth),
+        "gain": episode.gain.exp(),
+        "phase": episode.phase.map(measured),
+        "coherence": episode.coherence,
+        "normal_share": episode.share.map(measured),
+        "slope": episode.slope.map(measured),
+        "distortion": episode.distortion,
+        "verdict": verdict(&episode.verdict),
+    })
+}

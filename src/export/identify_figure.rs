@@ -1,0 +1,241 @@
+//! The figure of measured signals: friction, acceleration and spectrogram stacked on one time axis.
+
+use super::figure::{DOUBLE_COLUMN, MARGIN, program, title};
+use super::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room};
+use super::plot::Plot;
+use super::raster::{colour, data_uri};
+use super::scale::Scale;
+use super::svg::{Anchor, Style, Svg, number};
+use super::text::{Text, wrap};
+use crate::error::Result;
+use crate::identify::{Envelope, Identification, Kind, Spectrogram};
+
+/// Heights of friction, acceleration and each spectrogram, points.
+const HEIGHTS: [f64; 4] = [70.0, 92.0, 100.0, 100.0];
+/// Between panels, points; names of curves stand there.
+const GAP: f64 = TICK_SIZE + 8.0;
+/// Right of the panels, where the colour bars stand, points.
+const RIGHT: f64 = 46.0;
+/// Width of a colour bar and its distance, points.
+const BAR: [f64; 2] = [8.0, 6.0];
+/// Margin above and below curves, as a fraction of the panel.
+const HEADROOM: f64 = 0.07;
+/// Ticks of the time axis.
+const TICKS: usize = 9;
+/// The lower end of the scale of levels, dB: a careful measurement resolves about that much.
+const FLOOR_DB: f32 = -60.0;
+/// Strokes of tangential and normal acceleration.
+const STROKES: [&str; 2] = [
+    r##"fill="none" stroke="#1F3F8F" stroke-width="0.5" stroke-linejoin="round""##,
+    r##"fill="none" stroke="#E08A3C" stroke-width="0.5" stroke-linejoin="round""##,
+];
+/// Fill of episodes: light enough for curves on top.
+const EPISODE: &str = r##"fill="#F3E3B5""##;
+
+/// The figure as an SVG document, double column width.
+///
+/// # Errors
+/// When the spectrogram is too large for a picture.
+pub fn identify_svg(found: &Identification, heading: &str) -> Result<String> {
+    let mut svg = Svg::new();
+    let inner = DOUBLE_COLUMN - 2.0 * MARGIN;
+    let mut y = MARGIN + title(&mut svg, heading, inner);
+    for line in wrap(&verdict_line(found), inner, LABEL_SIZE, false) {
+        svg.text(MARGIN, y + LABEL_SIZE, &Text::from(line), Style::new(LABEL_SIZE, Anchor::Start));
+        y += LABEL_SIZE + 3.0;
+    }
+    y += 4.0;
+    let time = Scale::Linear { low: found.time[0], high: found.time[1] };
+    let unit = kilo(found.spectrogram.frequency[1]);
+    let frequency = Scale::Linear { low: 0.0, high: found.spectrogram.frequency[1] / unit.0 };
+    let friction =
+        Scale::spanning(found.windows.iter().filter_map(|window| window.friction)).widened(HEADROOM);
+    let values = found.envelopes.iter().flat_map(|envelope| envelope.columns.iter().flatten().copied());
+    let acceleration = Scale::spanning(values).widened(HEADROOM);
+    let scales = [&friction, &acceleration, &frequency, &frequency];
+    let ticks = scales.map(|scale| scale.ticks(5));
+    let room = ticks.iter().map(|ticks| y_tick_room(ticks)).fold(0.0, f64::max);
+    let left = MARGIN + LABEL_SIZE + 6.0 + room;
+    let width = DOUBLE_COLUMN - left - RIGHT;
+    let x_ticks = time.ticks(TICKS);
+    let labels = labels(acceleration.exponent(), unit.1);
+    for number in 0..HEIGHTS.len() {
+        let frame = Frame { x: left, y, width, height: HEIGHTS[number] };
+        let plot = Plot { frame, x: &time, y: scales[number] };
+        match number {
+            0 => {
+                episodes(&mut svg, found, &time, &frame);
+                let middle = |w: &crate::identify::Window| 0.5 * (w.time[0] + w.time[1]);
+                let points = found.windows.iter().filter_map(|w| w.friction.map(|mu| (middle(w), mu)));
+                plot.curve(&mut svg, points, STROKES[0]);
+                if found.windows.iter().all(|window| window.friction.is_none()) {
+                    nothing(&mut svg, &frame, "no windows, or forces not recorded");
+                }
+            }
+            1 => {
+                episodes(&mut svg, found, &time, &frame);
+                for (envelope, stroke) in found.envelopes.iter().zip(STROKES) {
+                    plot.curve(&mut svg, curve(envelope, found.time), stroke);
+                }
+                key(&mut svg, found, &frame);
+            }
+            2 => spectrogram(&mut svg, &found.spectrogram, &time, &frame, |s, k| s.normalised[k])?,
+            _ => spectrogram(&mut svg, &found.spectrogram, &time, &frame, |s, k| {
+                1.0 - s.decibel[k] / FLOOR_DB
+            })?,
+        }
+        frame.border(&mut svg);
+        frame.y_ticks(&mut svg, &ticks[number], true);
+        frame.x_ticks(&mut svg, &x_ticks, number + 1 == HEIGHTS.len());
+        let middle = y + 0.5 * frame.height;
+        svg.text(
+            MARGIN + LABEL_SIZE,
+            middle,
+            &labels[number],
+            Style::new(LABEL_SIZE, Anchor::Middle).upwards(),
+        );
+        match number {
+            2 => bar(&mut svg, &frame, ["0", "1"], "of its window"),
+            3 => bar(&mut svg, &frame, ["−60", "0"], "dB of record"),
+            _ => {}
+        }
+        y += frame.height + GAP;
+    }
+    let bottom = y - GAP;
+    let label = Text::from("Time ").symbol("t").plain(" (s)");
+    let base = bottom + x_tick_room() + LABEL_SIZE + 1.0;
+    svg.text(left + 0.5 * width, base, &label, Style::new(LABEL_SIZE, Anchor::Middle));
+    let name = if heading.is_empty() { "Measured signals" } else { heading };
+    Ok(svg.finish(DOUBLE_COLUMN, base + 2.0 + MARGIN, name, &program()))
+}
+
+/// `Verdict: mode coupling (confidence 0.97).`
+fn verdict_line(found: &Identification) -> String {
+    let verdict = &found.verdict;
+    let leaning = match (verdict.kind, verdict.leaning) {
+        (Kind::Undecided, Some(kind)) => format!(", leaning to {}", kind.words()),
+        _ => String::new(),
+    };
+    let confidence = if verdict.confidence > 0.0 {
+        format!(" (confidence {:.2})", verdict.confidence)
+    } else {
+        String::new()
+    };
+    format!("Verdict: {}{leaning}{confidence}", verdict.kind.words())
+}
+
+fn labels(exponent: i32, frequency_unit: &str) -> [Text; 4] {
+    let mut acceleration = Text::from("Acceleration (");
+    if exponent != 0 {
+        acceleration =
+            acceleration.plain("10").superscript(&exponent.to_string().replace('-', "−")).plain(" ");
+    }
+    let frequency = Text::from(format!("Frequency ({frequency_unit})"));
+    [
+        Text::from("Friction ").symbol("T").plain("/").symbol("N"),
+        acceleration.unit("m/s^2").plain(")"),
+        frequency.clone(),
+        frequency,
+    ]
+}
+
+/// Hz or kHz, whichever gives short labels.
+fn kilo(top: f64) -> (f64, &'static str) {
+    if top >= 2000.0 { (1000.0, "kHz") } else { (1.0, "Hz") }
+}
+
+/// Shades the episodes.
+fn episodes(svg: &mut Svg, found: &Identification, time: &Scale, frame: &Frame) {
+    for episode in &found.episodes {
+        let [from, to] = episode.time.map(|t| frame.across(time.position(t).clamp(0.0, 1.0)));
+        svg.rect([from, frame.y, to - from, frame.height], EPISODE);
+    }
+}
+
+/// Lowest and highest value of every column as one line.
+fn curve(envelope: &Envelope, [start, end]: [f64; 2]) -> impl Iterator<Item = (f64, f64)> {
+    let count = envelope.columns.len().max(1) as f64;
+    envelope.columns.iter().enumerate().flat_map(move |(k, [low, high])| {
+        let t = start + (end - start) * (k as f64 + 0.5) / count;
+        [(t, *low), (t, *high)]
+    })
+}
+
+/// Which curve is which, and what is shaded.
+fn key(svg: &mut Svg, found: &Identification, frame: &Frame) {
+    const SAMPLE: f64 = 12.0;
+    let base = frame.y - 4.0;
+    let mut x = frame.x;
+    let names = ["tangential", "normal"];
+    let drawn = found
+        .envelopes
+        .iter()
+        .zip(names)
+        .zip(STROKES)
+        .filter(|((envelope, _), _)| !envelope.columns.is_empty());
+    for ((_, name), stroke) in drawn {
+        let text = Text::from(name);
+        let y = base - 0.35 * TICK_SIZE;
+        svg.path(&super::svg::polyline([(x, y), (x + SAMPLE, y)]), stroke);
+        svg.text(x + SAMPLE + 3.0, base, &text, Style::new(TICK_SIZE, Anchor::Start));
+        x += SAMPLE + 14.0 + text.width(TICK_SIZE, false);
+    }
+    if !found.episodes.is_empty() {
+        svg.rect([x, base - 0.75 * TICK_SIZE, SAMPLE, 0.8 * TICK_SIZE], EPISODE);
+        svg.text(x + SAMPLE + 3.0, base, &Text::from("grows"), Style::new(TICK_SIZE, Anchor::Start));
+    }
+}
+
+/// Draws a spectrogram as an embedded picture.
+fn spectrogram(
+    svg: &mut Svg,
+    found: &Spectrogram,
+    time: &Scale,
+    frame: &Frame,
+    value: impl Fn(&Spectrogram, usize) -> f32,
+) -> Result<()> {
+    let picture = data_uri(found.columns, found.rows, |k| value(found, k))?;
+    let [from, to] = found.time.map(|t| frame.across(time.position(t)));
+    let [low, high] = found.frequency.map(|f| frame.up(f / found.frequency[1]));
+    let [x, y, width, height] = [from, high, to - from, low - high].map(number);
+    svg.open(r#"image-rendering="optimizeQuality""#);
+    svg.image(&format!(
+        r#"x="{x}" y="{y}" width="{width}" height="{height}" preserveAspectRatio="none" href="{picture}""#
+    ));
+    svg.close();
+    Ok(())
+}
+
+/// A colour bar right of a panel.
+fn bar(svg: &mut Svg, frame: &Frame, ends: [&str; 2], words: &str) {
+    /// Steps of the bar: more than the eye tells apart.
+    const STEPS: usize = 32;
+    let [width, distance] = BAR;
+    let x = frame.x + frame.width + distance;
+    let height = frame.height / STEPS as f64;
+    svg.open(r#"shape-rendering="crispEdges""#);
+    for step in 0..STEPS {
+        let [r, g, b] = colour(step as f32 / (STEPS - 1) as f32);
+        let y = frame.bottom() - (step + 1) as f64 * height;
+        svg.rect([x, y, width, height], &format!(r##"fill="#{r:02X}{g:02X}{b:02X}""##));
+    }
+    svg.close();
+    Frame { x, width, ..*frame }.border(svg);
+    let beside = x + width + 2.0;
+    for (end, y) in ends.into_iter().zip([frame.bottom(), frame.y + 0.75 * TICK_SIZE]) {
+        svg.text(beside, y, &Text::from(end), Style::new(TICK_SIZE, Anchor::Start));
+    }
+    let middle = frame.y + 0.5 * frame.height;
+    svg.text(
+        beside + TICK_SIZE + 1.0,
+        middle,
+        &Text::from(words),
+        Style::new(TICK_SIZE, Anchor::Middle).upwards(),
+    );
+}
+
+/// Words in an empty panel.
+fn nothing(svg: &mut Svg, frame: &Frame, words: &str) {
+    let (x, y) = (frame.across(0.5), frame.up(0.5));
+    svg.text(x, y, &Text::from(words), Style::new(TICK_SIZE, Anchor::Middle));
+}

@@ -1,0 +1,287 @@
+//! Episodes: windows in a row in which one oscillation grows.
+
+use super::cross::{INDEPENDENT, Measured, Sums};
+use super::feedback::{Feedback, Skews, folded};
+use super::settings::Settings;
+use super::verdict::{Setting, Verdict, judge};
+use super::window::{SHARED, Window};
+
+/// Power over noise from which an oscillation stands out of one window: noise alone reaches about 5.
+pub(super) const LOUD: f64 = 10.0;
+/// Standard errors by which the growth rate of a window must exceed 0: a run of windows tells more than each.
+const GROWS: f64 = 1.0;
+/// Standard errors by which the growth rate of an episode must exceed 0.
+const GROWS_CLEARLY: f64 = 4.0;
+/// Squared coherence below which a window does not hold one oscillation.
+const COHERENT: f64 = 0.8;
+/// Harmonics above this are those of a motion that sticks, detaches or crosses a kink.
+const LINEAR: f64 = 0.1;
+/// Amplitude of a second mode, relative to the first, from which a window is a beat.
+const SECOND_MODE: f64 = 0.05;
+/// Amplitude of friction that follows neither the normal force nor the motion, relative to the whole: the small
+/// part that the slope contributes is not to be blurred by it.
+const NONLINEAR_FRICTION: f64 = 0.005;
+/// Noise of sensors does not rise by this factor within a squeal; estimates of it from one window scatter by 2.
+const NOISIER: f64 = 8.0;
+/// Windows this strong, relative to the strongest, can be those in which friction departs.
+const STRONG: f64 = 0.1;
+/// Fewest windows of an episode of which strong ones may be left out.
+const LEAST_KEPT: usize = 3;
+/// Windows of one episode have frequencies within this of each other, relative.
+const SAME: f64 = 0.05;
+/// Least gain of an episode (factor e): below it a beat of two modes looks the same.
+const LEAST_GAIN: f64 = 1.0;
+/// A gain from which no beat is taken for growth (factor 20): it would need two modes equal within 10 %.
+const LASTING: f64 = 3.0;
+/// Amplitude, relative to the one reached, that tells a beat before or after the growth.
+const AGAIN: f64 = 0.7;
+/// How far before and after an episode a beat is looked for, in lengths of the episode, and in windows (36 periods) at least.
+const LOOK_AROUND: usize = 3;
+const LOOK_AROUND_LEAST: usize = 12;
+/// Degrees by which the phase of one mode may wander from the first to the second half.
+const STEADY: f64 = 12.0;
+/// The growth of one mode in its second half is at least this part of that of the first.
+const STEADY_GROWTH: f64 = 0.5;
+
+/// A growing oscillation.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Episode {
+    /// Its first and last window.
+    pub windows: [usize; 2],
+    /// Start and end, s.
+    pub time: [f64; 2],
+    /// Mean frequency, Hz, weighted by power.
+    pub frequency: f64,
+    /// Mean friction coefficient.
+    pub friction: Option<f64>,
+    /// Growth rate, 1/s.
+    pub growth: Measured,
+    /// Natural logarithm of the gain in amplitude.
+    pub gain: f64,
+    /// Phase of the normal against the tangential acceleration, degrees, negative when the normal one lags.
+    pub phase: Option<Measured>,
+    /// Squared coherence of the two accelerations.
+    pub coherence: Option<f64>,
+    /// Share of the friction power that comes from the normal force.
+    pub share: Option<Measured>,
+    /// `dμ/dV` from the oscillation, s/m.
+    pub slope: Option<Measured>,
+    /// Largest distortion of its windows.
+    pub distortion: f64,
+    /// What caused it.
+    pub verdict: Verdict,
+    pub(super) feedback: Feedback,
+}
+
+/// What the file records.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Recorded {
+    pub(super) normal_acceleration: bool,
+    pub(super) forces: bool,
+}
+
+/// Whether an oscillation grows in the window.
+pub(super) fn grows(window: &Window, recorded: Recorded) -> bool {
+    let coherence = coherence(&window.sums, recorded);
+    window.signal_to_noise >= LOUD
+        && window.growth.value > GROWS * window.growth.error
+        && coherence >= COHERENT
+        && window.distortion < LINEAR
+        && window.sums.second_mode() < SECOND_MODE
+        && window.sums.nonlinear_friction() < NONLINEAR_FRICTION
+}
+
+/// The best squared coherence with the tangential acceleration that the file offers.
+fn coherence(sums: &Sums, recorded: Recorded) -> f64 {
+    let force = sums.normal_force(INDEPENDENT).coherence;
+    let acceleration = sums.normal_acceleration(INDEPENDENT).coherence;
+    match (recorded.forces, recorded.normal_acceleration) {
+        (true, true) => force.max(acceleration),
+        (true, false) => force,
+        (false, true) => acceleration,
+        (false, false) => 1.0,
+    }
+}
+
+/// All episodes of a record.
+pub(super) fn episodes(windows: &[Window], recorded: Recorded, settings: &Settings) -> Vec<Episode> {
+    let same = |a: &Window, b: &Window| {
+        let alike = (a.frequency - b.frequency).abs() <= SAME * a.frequency;
+        grows(a, recorded) && grows(b, recorded) && alike
+    };
+    let mut found = Vec::new();
+    let mut first = 0;
+    for run in windows.chunk_by(same) {
+        if grows(&run[0], recorded) {
+            let beat = beats(windows, first, run.len());
+            found.extend(
+                episode(run, first, recorded, settings).filter(|episode| !(beat && episode.gain < LASTING)),
+            );
+        }
+        first += run.len();
+    }
+    found
+}
+
+/// Whether the oscillation was as strong shortly before, or soon gives back what it gained, in windows that are still
+/// linear.
+fn beats(windows: &[Window], first: usize, length: usize) -> bool {
+    let end = first + length;
+    let reached = windows[end - 1].sums.xx;
+    let near = (LOOK_AROUND * length).max(LOOK_AROUND_LEAST);
+    let mut before = windows[first.saturating_sub(near)..first].iter();
+    let mut after = windows[end..].iter().take(near).take_while(|window| window.distortion < LINEAR);
+    before.any(|window| window.sums.xx > AGAIN * AGAIN * reached)
+        || after.any(|window| window.sums.xx < AGAIN * AGAIN * reached)
+}
+
+/// The episode of a run of growing windows; `None` when it gains too little.
+fn episode(run: &[Window], first: usize, recorded: Recorded, settings: &Settings) -> Option<Episode> {
+    // The accelerations stay in their ratio when friction begins to depart.
+    let accelerations = Part::new(run).feedback(settings);
+    let run = &run[..linear(run)];
+    let whole = Part::new(run);
+    let gain = whole.growth.value * (run[run.len() - 1].time[1] - run[0].time[0]);
+    if gain < LEAST_GAIN || whole.growth.value < GROWS_CLEARLY * whole.growth.error {
+        return None;
+    }
+    let distortion = run.iter().fold(0.0, |worst: f64, window| worst.max(window.distortion));
+    let feedback = whole.feedback(settings);
+    let setting = Setting {
+        forces: recorded.forces,
+        normal_acceleration: recorded.normal_acceleration,
+        damping_ratio: settings.damping_ratio,
+        distortion,
+    };
+    let mut verdict = judge(&feedback, &setting);
+    if let Some(reason) = wanders(run, recorded, settings) {
+        verdict = Verdict::undecided(reason);
+    }
+    let normal_force = whole.weighted(run, |window| window.normal_force);
+    Some(Episode {
+        windows: [first, first + run.len() - 1],
+        time: [run[0].time[0], run[run.len() - 1].time[1]],
+        frequency: whole.frequency,
+        friction: whole.friction,
+        growth: whole.growth,
+        gain,
+        phase: recorded.normal_acceleration.then(|| accelerations.phase()),
+        coherence: recorded.normal_acceleration.then_some(accelerations.normal_acceleration.coherence),
+        share: recorded.forces.then(|| feedback.share()),
+        slope: normal_force.filter(|_| recorded.forces).map(|force| feedback.slope_of(force)),
+        distortion,
+        verdict,
+        feedback,
+    })
+}
+
+/// How many windows of a run are still linear: from the first strong one on whose friction departs from that of all
+/// before, the windows, which weigh most, are left out.
+fn linear(run: &[Window]) -> usize {
+    let strongest = run.iter().map(|window| window.sums.xx).fold(0.0, f64::max);
+    let mut before = Sums::default();
+    for (kept, window) in run.iter().enumerate() {
+        let strong = window.sums.xx > STRONG * STRONG * strongest;
+        let departs = window.sums.friction_departs(&before) > NONLINEAR_FRICTION;
+        if kept >= LEAST_KEPT && strong && (departs || window.sums.noisier(&before) > NOISIER) {
+            return kept;
+        }
+        before.add(&window.sums);
+    }
+    run.len()
+}
+
+/// Two modes that beat also grow for a while, but their phase and growth change meanwhile.
+fn wanders(run: &[Window], recorded: Recorded, settings: &Settings) -> Option<String> {
+    /// Fewer windows have no halves.
+    const HALVES: usize = 4;
+    if run.len() < HALVES {
+        return None;
+    }
+    let (early, late) = run.split_at(run.len() / 2);
+    let [early, late] =
+        [early, late].map(|half| (Part::new(half).growth, Part::new(half).feedback(settings)));
+    let phases = [early.1, late.1]
+        .map(|feedback| if recorded.forces { feedback.force_phase() } else { feedback.phase() });
+    let off = folded(phases[1].value - phases[0].value);
+    let error = phases[0].error.hypot(phases[1].error);
+    if off.abs() > STEADY + 2.0 * error {
+        return Some(format!(
+            "the phase between the directions wanders by {off:.0}° while it grows: two modes beat, or the mode changes"
+        ));
+    }
+    let slower = STEADY_GROWTH * early.0.value - late.0.value;
+    (slower > 2.0 * late.0.error.hypot(early.0.error)).then(|| {
+        format!(
+            "the growth falls from {:.1} to {:.1} 1/s while it grows: two modes beat, or it saturates",
+            early.0.value, late.0.value
+        )
+    })
+}
+
+/// Windows taken together.
+struct Part {
+    sums: Sums,
+    growth: Measured,
+    frequency: f64,
+    friction: Option<f64>,
+}
+
+impl Part {
+    fn new(run: &[Window]) -> Part {
+        let mut sums = Sums::default();
+        for window in run {
+            sums.add(&window.sums);
+        }
+        let mut part = Part { sums, growth: growth(run), frequency: 0.0, friction: None };
+        part.frequency = part.weighted(run, |window| Some(window.frequency)).unwrap_or_default();
+        part.friction = part.weighted(run, |window| window.friction);
+        part
+    }
+
+    /// The mean of a quantity over the windows, weighted by the power of the oscillation.
+    fn weighted(&self, run: &[Window], of: impl Fn(&Window) -> Option<f64>) -> Option<f64> {
+        let sum: Option<f64> = run.iter().map(|window| of(window).map(|x| x * window.sums.xx)).sum();
+        sum.map(|sum| sum / self.sums.xx)
+    }
+
+    fn feedback(&self, settings: &Settings) -> Feedback {
+        let skews = Skews { acceleration: settings.skew, force: settings.force_skew };
+        let share = INDEPENDENT / SHARED;
+        Feedback::new(&self.sums, self.growth, self.frequency, self.friction.unwrap_or(0.0), skews, share)
+    }
+}
+
+/// The growth rate of a run: the mean of its windows, weighted by their errors, which overlap.
+fn growth(run: &[Window]) -> Measured {
+    let weights = run.iter().map(|window| window.growth.error.max(f64::MIN_POSITIVE).powi(-2));
+    let total: f64 = weights.clone().sum();
+    let value =
+        run.iter().zip(weights.clone()).map(|(w, weight)| w.growth.value * weight).sum::<f64>() / total;
+    let scatter =
+        run.iter().zip(weights).map(|(w, weight)| weight * (w.growth.value - value).powi(2)).sum::<f64>()
+            / total;
+    let independent = (run.len() as f64 / SHARED).max(1.0);
+    Measured { value, error: (run.len() as f64 / independent / total + scatter / independent).sqrt() }
+}
+
+/// The first episode whose forces feed the normal column but not the tangential one: when it begins, s.
+pub(super) fn swapped(episodes: &[Episode], recorded: Recorded) -> Option<f64> {
+    /// Power factor below which nothing is fed.
+    const NOTHING: f64 = 0.1;
+    /// Power factor from which something is.
+    const SOMETHING: f64 = 0.3;
+    if !(recorded.forces && recorded.normal_acceleration) {
+        return None;
+    }
+    let swapped = |episode: &&Episode| {
+        let feedback = &episode.feedback;
+        // δT/ẋ, and δT/ẏ = δT/ẋ · ẍ/ÿ up to a positive factor.
+        let fed = feedback.normal.0 + feedback.slope.0;
+        let other = fed * feedback.normal_acceleration.value.conj();
+        let error = 2.0 * feedback.normal.1.hypot(feedback.slope.1) / fed.norm();
+        let factors = [fed, other].map(|feed| feed.re / feed.norm());
+        factors[0] < NOTHING - error && factors[1] > SOMETHING + error
+    };
+    episodes.iter().find(swapped).map(|episode| episode.time[0])
+}

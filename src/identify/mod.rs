@@ -1,0 +1,53 @@
+//! What measured signals say: is there an instability, and which mechanism causes it?
+//!
+//! | stage | file |
+//! |---|---|
+//! | columns, CSV → rows | `channel.rs`, `settings.rs`, `read.rs` |
+//! | is the file fit for analysis: gaps, clipping, swapped columns | `survey.rs`, `pace.rs`, `range.rs`, `fault.rs` |
+//! | windows: frequency, growth, cross-spectra | `window.rs`, `cross.rs`, `spectrum.rs` |
+//! | friction power and its parts | `feedback.rs` |
+//! | which mechanism alone would destabilise | `attribution.rs` |
+//! | verdict, confidence, reasons | `episode.rs`, `verdict.rs`, `reading.rs`, `conclude.rs` |
+//! | points for `fit` | `points.rs` |
+//! | pictures | `spectrogram.rs`, `envelope.rs` |
+//! | all of it in order | `analysis.rs` |
+//!
+//! A verdict rests on the signals alone and on one picture: a tangential and a normal mode, both slightly damped,
+//! coupled by friction. Where the signals leave more than one mechanism open, the verdict is undecided and says why.
+
+mod analysis;
+mod attribution;
+mod channel;
+mod conclude;
+mod cross;
+mod envelope;
+mod episode;
+mod fault;
+mod feedback;
+mod pace;
+mod points;
+mod range;
+mod read;
+mod reading;
+mod settings;
+mod spectrogram;
+mod spectrum;
+mod survey;
+mod verdict;
+mod window;
+
+pub use analysis::{Identification, identify};
+pub use attribution::{CAUSE, alone};
+pub use channel::Channel;
+pub use conclude::Friction;
+pub use cross::Measured;
+pub use envelope::Envelope;
+pub use episode::Episode;
+pub use fault::Fault;
+pub use points::{FrictionColumn, read_points};
+pub use reading::Reading;
+pub use settings::{DAMPING_RATIO, LARGEST_FRICTION, OVERLAP, Settings, WINDOW};
+pub use spectrogram::Spectrogram;
+pub use survey::{LEAST_PER_PERIOD, LEAST_SAMPLES};
+pub use verdict::{CONFIDENT, Kind, Verdict};
+pub use window::Window;

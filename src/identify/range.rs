@@ -1,0 +1,105 @@
+//! Range of one channel: mean and deviation, extremes, and whether it is cut off at one of them.
+
+/// Equal samples in a row that look cut off: at a smooth peak two may be equal by rounding.
+const RUN: u64 = 3;
+/// Runs at the same extreme value that are no chance.
+const RUNS: u64 = 3;
+/// A smooth peak leaves its highest value by far less than the signal's mean step, a cut one by about it.
+const ABRUPT: f64 = 0.25;
+
+/// Running statistics of a channel.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Range {
+    count: u64,
+    mean: f64,
+    squares: f64,
+    steps: f64,
+    last: f64,
+    high: Extreme,
+    low: Extreme,
+}
+
+/// Samples at the highest (or, negated, lowest) value so far.
+#[derive(Clone, Copy, Debug, Default)]
+struct Extreme {
+    value: f64,
+    /// Length of the run that the last sample belongs to, 0 when it is not at the extreme.
+    run: u64,
+    /// Completed runs of at least [`RUN`].
+    runs: u64,
+    /// Index of the first sample of the first such run.
+    first: u64,
+    /// The steps that led out of them.
+    exits: f64,
+}
+
+impl Extreme {
+    fn take(&mut self, value: f64, index: u64) {
+        if index == 0 || value > self.value {
+            *self = Extreme { value, run: 1, ..Extreme::default() };
+        } else if value.to_bits() == self.value.to_bits() {
+            self.run += 1;
+        } else {
+            if self.run >= RUN {
+                if self.runs == 0 {
+                    self.first = index - self.run;
+                }
+                self.runs += 1;
+                self.exits += self.value - value;
+            }
+            self.run = 0;
+        }
+    }
+
+    fn clipped(&self, mean_step: f64) -> Option<Clipping> {
+        let abrupt = self.exits > ABRUPT * mean_step * self.runs as f64;
+        (self.runs >= RUNS && abrupt).then_some(Clipping {
+            value: self.value,
+            runs: self.runs,
+            first: self.first,
+        })
+    }
+}
+
+/// Where a channel is cut off.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Clipping {
+    pub(super) value: f64,
+    pub(super) runs: u64,
+    /// Index of the first sample that is cut off.
+    pub(super) first: u64,
+}
+
+impl Range {
+    pub(super) fn take(&mut self, value: f64) {
+        self.high.take(value, self.count);
+        self.low.take(-value, self.count);
+        if self.count > 0 {
+            self.steps += (value - self.last).abs();
+        }
+        self.last = value;
+        self.count += 1;
+        let off = value - self.mean;
+        self.mean += off / self.count as f64;
+        self.squares += off * (value - self.mean);
+    }
+
+    pub(super) fn mean(&self) -> f64 {
+        self.mean
+    }
+
+    pub(super) fn deviation(&self) -> f64 {
+        (self.squares / self.count.max(1) as f64).sqrt()
+    }
+
+    pub(super) fn is_constant(&self) -> bool {
+        self.high.value.to_bits() == (-self.low.value).to_bits() || self.high.value <= -self.low.value
+    }
+
+    /// Where the channel is cut off, if it is. Forces that end at 0 have lost contact, which is no fault.
+    pub(super) fn clipping(&self) -> Option<Clipping> {
+        let mean_step = self.steps / self.count.saturating_sub(1).max(1) as f64;
+        let low = self.low.clipped(mean_step).map(|low| Clipping { value: -low.value, ..low });
+        self.high.clipped(mean_step).into_iter().chain(low).find(|clipping| clipping.value != 0.0)
+    }
+}

@@ -1,0 +1,174 @@
+//! CSV → samples, one row at a time: the memory needed does not depend on the length of the file.
+
+use std::io::{BufRead, BufReader, Read};
+
+use csv::ByteRecord;
+
+use super::channel::{Channel, PerChannel};
+use super::fault::Fault;
+use super::settings::Settings;
+
+/// Bytes read at a time.
+const BUFFER: usize = 1 << 18;
+/// The separators that are told apart by the header.
+const SEPARATORS: [u8; 3] = [b',', b';', b'\t'];
+/// The column of time when none is named.
+const TIME: &str = "t";
+
+/// One row: time (s) where the file has it, and the channels (0 where the file has none).
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Row {
+    pub(super) line: u64,
+    pub(super) time: Option<f64>,
+    pub(super) values: PerChannel<f64>,
+}
+
+/// A file of signals that is being read.
+pub(super) struct Table {
+    reader: csv::Reader<Box<dyn BufRead>>,
+    record: ByteRecord,
+    header: Vec<String>,
+    time: Option<usize>,
+    columns: PerChannel<Option<usize>>,
+}
+
+impl Table {
+    /// Reads the header and finds the columns of signals: time, or a rate, and at least the tangential acceleration.
+    pub(super) fn open(input: Box<dyn Read>, settings: &Settings) -> Result<Table, Fault> {
+        Table::open_with(input, settings, &[Channel::TangentialAcceleration], true)
+    }
+
+    /// Reads the header and finds the columns; those of `needed` have to be there, and time if it is `timed`.
+    pub(super) fn open_with(
+        input: Box<dyn Read>,
+        settings: &Settings,
+        needed: &[Channel],
+        timed: bool,
+    ) -> Result<Table, Fault> {
+        let mut input: Box<dyn BufRead> = Box::new(BufReader::with_capacity(BUFFER, input));
+        let start = input.fill_buf().map_err(|why| Fault::Unreadable { why: why.to_string() })?;
+        let separator = separator(start);
+        let mut reader = csv::ReaderBuilder::new()
+            .delimiter(separator)
+            .comment(Some(b'#'))
+            .trim(csv::Trim::All)
+            .flexible(true)
+            .from_reader(input);
+        let headers = reader.headers().map_err(|why| Fault::Unreadable { why: why.to_string() })?;
+        let header: Vec<String> =
+            headers.iter().map(|name| name.trim_start_matches('\u{feff}').to_owned()).collect();
+        let mut columns = PerChannel::default();
+        for (channel, column) in Channel::ALL.into_iter().zip(&mut columns) {
+            let named = settings.columns[channel as usize].as_deref();
+            let found = find(&header, named.unwrap_or(channel.default_column()));
+            // What is named has to be there, too.
+            if found.is_none() && (named.is_some() || needed.contains(&channel)) {
+                return Err(Fault::NoColumn {
+                    words: channel.words(),
+                    name: named.unwrap_or(channel.default_column()).to_owned(),
+                    header: listed(&header),
+                    flag: channel.flag(),
+                });
+            }
+            *column = found;
+        }
+        shared(&header, &columns)?;
+        let time = find(&header, settings.time.as_deref().unwrap_or(TIME));
+        if timed && time.is_none() && (settings.rate.is_none() || settings.time.is_some()) {
+            return Err(Fault::NoColumn {
+                words: "time",
+                name: settings.time.clone().unwrap_or(TIME.to_owned()),
+                header: listed(&header),
+                flag: "--time, or give the sampling rate with --rate",
+            });
+        }
+        // A rate that is given is believed; the column of time is then not looked at.
+        let time = time.filter(|_| timed && settings.rate.is_none());
+        Ok(Table { reader, record: ByteRecord::new(), header, time, columns })
+    }
+
+    /// The next row; `None` at the end of the file.
+    pub(super) fn next(&mut self) -> Result<Option<Row>, Fault> {
+        let more = self
+            .reader
+            .read_byte_record(&mut self.record)
+            .map_err(|why| Fault::Unreadable { why: why.to_string() })?;
+        if !more {
+            return Ok(None);
+        }
+        let line = self.record.position().map_or(0, csv::Position::line);
+        if self.record.len() != self.header.len() {
+            return Err(Fault::Ragged { line, fields: self.record.len(), columns: self.header.len() });
+        }
+        let mut values = PerChannel::default();
+        for (value, column) in values.iter_mut().zip(self.columns) {
+            if let Some(column) = column {
+                *value = self.number(column, line)?;
+            }
+        }
+        let time = self.time.map(|column| self.number(column, line)).transpose()?;
+        Ok(Some(Row { line, time, values }))
+    }
+
+    fn number(&self, column: usize, line: u64) -> Result<f64, Fault> {
+        let field = &self.record[column];
+        let text = std::str::from_utf8(field).unwrap_or_default();
+        match text.parse::<f64>() {
+            Ok(value) if value.is_finite() => Ok(value),
+            _ => Err(Fault::NotANumber {
+                line,
+                column: self.header[column].clone(),
+                text: String::from_utf8_lossy(field).into_owned(),
+            }),
+        }
+    }
+
+    /// Whether the file has the channel.
+    pub(super) fn has(&self, channel: Channel) -> bool {
+        self.columns[channel as usize].is_some()
+    }
+
+    /// The column of a channel, empty when the file has none.
+    pub(super) fn name(&self, channel: Channel) -> String {
+        self.columns[channel as usize].map(|column| self.header[column].clone()).unwrap_or_default()
+    }
+
+    /// The column of time.
+    pub(super) fn time_name(&self) -> String {
+        self.time.map(|column| self.header[column].clone()).unwrap_or_default()
+    }
+}
+
+/// The separator that the first line that is no comment holds most of.
+fn separator(start: &[u8]) -> u8 {
+    let mut lines = start.split(|byte| *byte == b'\n');
+    let header = lines.find(|line| !line.is_empty() && line[0] != b'#').unwrap_or_default();
+    let count = |separator: &u8| header.split(|byte| byte == separator).count();
+    // Of equal counts the first separator of the list is the last of the reversed one.
+    SEPARATORS.into_iter().rev().max_by_key(count).unwrap_or(b',')
+}
+
+fn find(header: &[String], name: &str) -> Option<usize> {
+    header.iter().position(|column| column == name)
+}
+
+fn listed(header: &[String]) -> String {
+    header.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+}
+
+/// Refuses a column that is named for two quantities.
+fn shared(header: &[String], columns: &PerChannel<Option<usize>>) -> Result<(), Fault> {
+    for (second, column) in Channel::ALL.into_iter().zip(columns) {
+        let Some(column) = column else { continue };
+        let first = Channel::ALL.into_iter().zip(columns).find(|(_, other)| **other == Some(*column));
+        if let Some((first, _)) = first.filter(|(first, _)| *first != second) {
+            return Err(Fault::SharedColumn {
+                name: header[*column].clone(),
+                first: first.words(),
+                second: second.words(),
+                flag: second.flag(),
+            });
+        }
+    }
+    Ok(())
+}

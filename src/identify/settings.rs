@@ -1,0 +1,60 @@
+//! What a user may choose.
+
+use super::channel::{Channel, PerChannel};
+
+/// Window of the spectrogram, s: that of the source paper.
+pub const WINDOW: f64 = 0.01;
+
+/// Overlap of the windows of the spectrogram: that of the source paper.
+pub const OVERLAP: f64 = 0.98;
+
+/// Largest damping ratio that the structure may have when nothing is known about it. Whether the slope, or
+/// mode coupling, *alone* would destabilise depends on the damping, which a growing oscillation does not show. Lightly
+/// damped discs ring with less (Table 1 of the source paper: 0.01 %); assemblies may have more, which an impact test
+/// shows.
+pub const DAMPING_RATIO: f64 = 0.002;
+
+/// Friction coefficients above this do not occur in brakes: the force columns are swapped.
+pub const LARGEST_FRICTION: f64 = 1.0;
+
+/// The choices of an analysis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// The column of time (s); `None`: `t` where the file has it, unless a rate is given.
+    pub time: Option<String>,
+    /// Samples per second (Hz) of a file without time.
+    pub rate: Option<f64>,
+    /// The columns in the order of [`Channel::ALL`]; `None`: the default name, if the file has it.
+    pub columns: [Option<String>; Channel::ALL.len()],
+    /// Delay of the normal acceleration behind the tangential one, s, which is taken out.
+    pub skew: f64,
+    /// Delay of the forces behind the tangential acceleration, s, which is taken out.
+    pub force_skew: f64,
+    /// Largest damping ratio of the structure without friction.
+    pub damping_ratio: f64,
+    /// Frequencies in which to look for the oscillation, Hz; `None`: all.
+    pub band: Option<[f64; 2]>,
+    /// Window of the spectrogram, s.
+    pub window: f64,
+    /// Overlap of its windows, below 1.
+    pub overlap: f64,
+    /// Largest friction coefficient that is believed.
+    pub largest_friction: f64,
+}
+
+impl Default for Settings {
+    fn default() -> Settings {
+        Settings {
+            time: None,
+            rate: None,
+            columns: PerChannel::default(),
+            skew: 0.0,
+            force_skew: 0.0,
+            damping_ratio: DAMPING_RATIO,
+            band: None,
+            window: WINDOW,
+            overlap: OVERLAP,
+            largest_friction: LARGEST_FRICTION,
+        }
+    }
+}

@@ -1,0 +1,90 @@
+//! Windowed spectra of real signals.
+
+use std::f64::consts::{LN_2, TAU};
+use std::sync::Arc;
+
+use num_complex::Complex64;
+use realfft::{RealFftPlanner, RealToComplex};
+
+/// The Hann window of this length: 0 at its first sample and one after its last.
+pub(super) fn hann(length: usize) -> Vec<f64> {
+    (0..length).map(|k| 0.5 - 0.5 * (TAU * k as f64 / length as f64).cos()).collect()
+}
+
+/// Takes mean and slope (least squares) out of a signal, so that they do not leak into its spectrum.
+pub(super) fn detrend(values: &mut [f64]) {
+    let n = values.len() as f64;
+    let middle = 0.5 * (n - 1.0);
+    let mean = values.iter().sum::<f64>() / n.max(1.0);
+    let moment: f64 = values.iter().enumerate().map(|(k, v)| (k as f64 - middle) * (v - mean)).sum();
+    // Σ (k − middle)² = n (n² − 1)/12.
+    let slope = moment * 12.0 / (n * (n * n - 1.0)).max(1.0);
+    for (k, value) in values.iter_mut().enumerate() {
+        *value -= mean + slope * (k as f64 - middle);
+    }
+}
+
+/// Power spectra of windows of one length.
+pub(super) struct Spectra {
+    transform: Arc<dyn RealToComplex<f64>>,
+    window: Vec<f64>,
+    input: Vec<f64>,
+    output: Vec<Complex64>,
+    scratch: Vec<Complex64>,
+}
+
+impl Spectra {
+    /// Spectra under this window.
+    pub(super) fn new(window: Vec<f64>) -> Spectra {
+        let transform = RealFftPlanner::new().plan_fft_forward(window.len());
+        let (input, output) = (transform.make_input_vec(), transform.make_output_vec());
+        let scratch = transform.make_scratch_vec();
+        Spectra { transform, window, input, output, scratch }
+    }
+
+    /// `|F_k|²` for `k = 0 …  length/2` of `values` (as many as the window), trend removed.
+    pub(super) fn power(&mut self, values: &[f64], power: &mut Vec<f64>) {
+        self.input.copy_from_slice(values);
+        detrend(&mut self.input);
+        for (value, weight) in self.input.iter_mut().zip(&self.window) {
+            *value *= weight;
+        }
+        self.transform
+            .process_with_scratch(&mut self.input, &mut self.output, &mut self.scratch)
+            .expect("the buffers are those that the transform made");
+        power.clear();
+        power.extend(self.output.iter().map(Complex64::norm_sqr));
+    }
+}
+
+/// Position of the peak at bin `k` between bins, from a parabola through the logarithms of three bins: for
+/// Hann windows within 0.02 bins.
+pub(super) fn refine(power: &[f64], k: usize) -> f64 {
+    let at = |k: usize| power.get(k).copied().unwrap_or(0.0).max(f64::MIN_POSITIVE).ln();
+    if k == 0 || k + 1 >= power.len() {
+        return k as f64;
+    }
+    let (left, middle, right) = (at(k - 1), at(k), at(k + 1));
+    let curvature = left - 2.0 * middle + right;
+    if curvature < 0.0 { k as f64 + (0.5 * (left - right) / curvature).clamp(-0.5, 0.5) } else { k as f64 }
+}
+
+/// Mean noise power per bin: the median of the bins away from the peak at `peak` (bins) and its harmonics;
+/// powers of noise are exponentially distributed, so their mean is the median over ln 2.
+pub(super) fn noise_floor(power: &[f64], peak: f64) -> f64 {
+    /// Bins that mean and slow drift reach.
+    const DRIFT: usize = 3;
+    /// Bins on either side that the main lobe of a growing oscillation under a Hann window reaches.
+    const LOBE: f64 = 4.0;
+    /// Harmonics that are left out, the fundamental included.
+    const HARMONICS: usize = 3;
+    let near = |k: usize| (1..=HARMONICS).any(|h| (k as f64 - h as f64 * peak).abs() < LOBE);
+    let mut quiet: Vec<f64> =
+        power.iter().enumerate().filter(|(k, _)| *k >= DRIFT && !near(*k)).map(|(_, p)| *p).collect();
+    if quiet.is_empty() {
+        return 0.0;
+    }
+    let middle = quiet.len() / 2;
+    let (_, median, _) = quiet.select_nth_unstable_by(middle, f64::total_cmp);
+    *median / LN_2
+}

@@ -1,0 +1,185 @@
+//! The first reading of a file: is it fit for analysis, and where is its oscillation?
+
+use super::channel::{Channel, PerChannel};
+use super::fault::Fault;
+use super::pace::Pace;
+use super::range::Range;
+use super::read::Table;
+use super::settings::Settings;
+use super::spectrum::{Spectra, hann, noise_floor, refine};
+
+/// Fewest samples of a record: below this there is no spectrum to speak of.
+pub const LEAST_SAMPLES: u64 = 64;
+/// Samples per period below which phases of noisy signals mean nothing (2 is the limit of sampling).
+pub const LEAST_PER_PERIOD: f64 = 2.5;
+/// Samples of a segment of the mean spectrum: 0.3 s at 200 kHz.
+const SEGMENT: usize = 1 << 16;
+/// Bins that slow drift of the whole record reaches.
+const DRIFT_BINS: usize = 4;
+/// A peak of a spectrum stands out when it exceeds its noise by the logarithm of the number of bins, which the highest
+/// bin of noise alone reaches, and this much more (chance 1 in 1000).
+const STANDS_OUT: f64 = 7.0;
+/// A normal force whose standard deviation exceeds its mean does not press.
+const PRESSES: f64 = 1.0;
+/// An acceleration whose mean exceeds its standard deviation this many times is none.
+const OFFSET: f64 = 3.0;
+
+/// What the first reading found.
+#[derive(Clone, Debug)]
+pub(super) struct Survey {
+    pub(super) samples: u64,
+    /// The time of the first sample, s.
+    pub(super) start: f64,
+    /// Samples per second, Hz.
+    pub(super) rate: f64,
+    pub(super) names: PerChannel<String>,
+    pub(super) has: PerChannel<bool>,
+    /// The strongest oscillation of the tangential acceleration, Hz; `None`: none stands out of the noise.
+    pub(super) frequency: Option<f64>,
+    /// Velocity and temperature that stand still.
+    pub(super) constant: Vec<Channel>,
+}
+
+/// Reads a whole file once.
+pub(super) fn survey(mut table: Table, settings: &Settings) -> Result<Survey, Fault> {
+    let mut pace = settings.rate.is_none().then(|| Pace::new(table.time_name()));
+    let mut ranges = PerChannel::<Range>::default();
+    let mut spectrum = MeanSpectrum::default();
+    let mut samples = 0;
+    while let Some(row) = table.next()? {
+        if let (Some(pace), Some(time)) = (&mut pace, row.time) {
+            pace.row(row.line, time)?;
+        }
+        for (range, value) in ranges.iter_mut().zip(row.values) {
+            range.take(value);
+        }
+        spectrum.take(row.values[Channel::TangentialAcceleration as usize]);
+        samples += 1;
+    }
+    if samples < LEAST_SAMPLES {
+        return Err(Fault::TooShort { samples, least: LEAST_SAMPLES, because: String::new() });
+    }
+    let (start, rate) = match pace {
+        Some(pace) => pace.finish()?,
+        None => (0.0, settings.rate.unwrap_or_default()),
+    };
+    if !(rate.is_finite() && rate > 0.0) {
+        return Err(Fault::NoRate { rate });
+    }
+    let names = Channel::ALL.map(|channel| table.name(channel));
+    let has = Channel::ALL.map(|channel| table.has(channel));
+    let mut constant = Vec::new();
+    for channel in Channel::ALL.into_iter().filter(|channel| table.has(*channel)) {
+        if judge(channel, &ranges[channel as usize], &names[channel as usize], rate)? {
+            constant.push(channel);
+        }
+    }
+    forces(&table, &ranges, settings)?;
+    let frequency = spectrum.peak(rate, settings.band);
+    if let Some(frequency) = frequency.filter(|f| rate / f < LEAST_PER_PERIOD) {
+        return Err(Fault::TooFast { frequency, samples: rate / frequency, least: LEAST_PER_PERIOD });
+    }
+    Ok(Survey { samples, start, rate, names, has, frequency, constant })
+}
+
+/// Refuses a channel that is constant, cut off or no vibration; `true` for one that may stand still, and does.
+fn judge(channel: Channel, range: &Range, name: &str, rate: f64) -> Result<bool, Fault> {
+    let (column, words, flag) = (name.to_owned(), channel.words(), channel.flag());
+    if range.is_constant() {
+        // A drag test at one velocity and one temperature is a good test.
+        return if channel.vibrates() {
+            Err(Fault::Constant { column, words, value: range.mean(), flag })
+        } else {
+            Ok(true)
+        };
+    }
+    if let Some(clipping) = range.clipping().filter(|_| channel.vibrates()) {
+        let time = clipping.first as f64 / rate;
+        return Err(Fault::Clipped { column, words, value: clipping.value, runs: clipping.runs, time });
+    }
+    let acceleration = matches!(channel, Channel::TangentialAcceleration | Channel::NormalAcceleration);
+    let (mean, deviation) = (range.mean(), range.deviation());
+    if acceleration && mean.abs() > OFFSET * deviation {
+        return Err(Fault::Offset { column, words, mean, deviation, flag });
+    }
+    Ok(false)
+}
+
+/// Refuses forces that are swapped or of the wrong sign.
+fn forces(table: &Table, ranges: &PerChannel<Range>, settings: &Settings) -> Result<(), Fault> {
+    let of = |channel: Channel| ranges[channel as usize];
+    let (tangential, normal) = (of(Channel::TangentialForce), of(Channel::NormalForce));
+    if !table.has(Channel::NormalForce) {
+        return Ok(());
+    }
+    if normal.mean() < PRESSES * normal.deviation() {
+        return Err(Fault::NotPressing {
+            column: table.name(Channel::NormalForce),
+            mean: normal.mean(),
+            deviation: normal.deviation(),
+        });
+    }
+    if !table.has(Channel::TangentialForce) {
+        return Ok(());
+    }
+    let friction = tangential.mean() / normal.mean();
+    let (tangential, normal) = (table.name(Channel::TangentialForce), table.name(Channel::NormalForce));
+    if friction > settings.largest_friction {
+        return Err(Fault::SwappedForces {
+            tangential,
+            normal,
+            friction,
+            largest: settings.largest_friction,
+        });
+    }
+    if friction < 0.0 {
+        return Err(Fault::NegativeFriction { tangential, normal, friction });
+    }
+    Ok(())
+}
+
+/// The mean power spectrum of a signal of any length: segments that overlap by half, and what remains.
+#[derive(Default)]
+struct MeanSpectrum {
+    waiting: Vec<f64>,
+    sum: Vec<f64>,
+    spectra: Option<Spectra>,
+    power: Vec<f64>,
+}
+
+impl MeanSpectrum {
+    fn take(&mut self, value: f64) {
+        self.waiting.push(value);
+        if self.waiting.len() == SEGMENT {
+            let spectra = self.spectra.get_or_insert_with(|| Spectra::new(hann(SEGMENT)));
+            spectra.power(&self.waiting, &mut self.power);
+            if self.sum.is_empty() {
+                self.sum.clone_from(&self.power);
+            } else {
+                self.sum.iter_mut().zip(&self.power).for_each(|(sum, power)| *sum += power);
+            }
+            self.waiting.drain(..SEGMENT / 2);
+        }
+    }
+
+    /// The frequency of the highest bin inside the band, Hz; `None` when it does not stand out.
+    fn peak(mut self, rate: f64, band: Option<[f64; 2]>) -> Option<f64> {
+        let mut length = SEGMENT;
+        if self.sum.is_empty() {
+            // A record shorter than a segment: no taper, as a growing oscillation is strongest at its end.
+            length = self.waiting.len();
+            Spectra::new(vec![1.0; length]).power(&self.waiting, &mut self.sum);
+        }
+        let width = rate / length as f64;
+        let inside = |k: usize| {
+            let frequency = k as f64 * width;
+            band.is_none_or(|[low, high]| (low..=high).contains(&frequency))
+        };
+        let bins = (DRIFT_BINS..self.sum.len()).filter(|k| inside(*k));
+        let highest = bins.max_by(|a, b| self.sum[*a].total_cmp(&self.sum[*b]))?;
+        let position = refine(&self.sum, highest);
+        let chance = (self.sum.len() as f64).ln() + STANDS_OUT;
+        let stands_out = self.sum[highest] > chance * noise_floor(&self.sum, position);
+        stands_out.then_some(position * width)
+    }
+}
