@@ -308,7 +308,10 @@ fn slip_or_free(direction: real, speed: real, rests: bool) {
         return;
     }
     let rw = loads();
-    if (rw.y + scene.n0) + scene.kappa * (rw.x + scene.t0) > real(0.0) {
+    // A body that lands again and again without time between is held: the force is zero within rounding, and
+    // flight does not open the gap.
+    let held = lane.contact == FREE && lane.at_once >= HELD_FROM;
+    if held || (rw.y + scene.n0) + scene.kappa * (rw.x + scene.t0) > real(0.0) {
         lane.piece = piece;
         enter(select(REVERSE, SLIP, direction > real(0.0)), rests);
     } else {

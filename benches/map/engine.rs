@@ -99,7 +99,7 @@ impl Case {
     fn plan(self) -> Plan {
         match self.engine {
             Engine::Reference => reference_plan(self.steps_per_period),
-            _ => plan(self.steps_per_period, ORDER, tolerance(self.precision)),
+            _ => plan(self.steps_per_period, ORDER, tolerance(self.precision, self.steps_per_period)),
         }
     }
 

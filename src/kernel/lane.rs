@@ -44,6 +44,8 @@ pub const MAX_PARTS: u32 = 100_000;
 
 /// Roundings of the static loads that a force may be off by.
 pub const ROUNDINGS: f64 = 8.0;
+/// Events without time between them from which on a landing ends flight.
+pub const HELD_FROM: u32 = 2;
 
 /// What may be left of a step before it counts as done: this many roundings of what was left.
 pub const LEAST_REST: f64 = 8.0;
@@ -383,7 +385,10 @@ impl<S: Real> Lane<S> {
             return;
         }
         let [r, w] = self.loads(scene);
-        if (w + scene.n0) + scene.kappa * (r + scene.t0) > S::ZERO {
+        // A body that lands again and again without time between is held: the force is zero within rounding, and
+        // flight does not open the gap.
+        let held = self.contact == FREE && self.at_once >= HELD_FROM;
+        if held || (w + scene.n0) + scene.kappa * (r + scene.t0) > S::ZERO {
             #[expect(clippy::cast_possible_truncation, reason = "a table has fewer than 2^32 rows")]
             let piece = piece as u32;
             self.piece = piece;

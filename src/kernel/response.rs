@@ -155,6 +155,7 @@ pub const fn kernel<const PIECES: usize>() -> Kernel {
                 ("BISECTIONS", Constant::U32(observe::BISECTIONS as u32)),
                 ("TAU", Constant::Real(TAU)),
                 ("ROUNDINGS", Constant::Real(lane::ROUNDINGS)),
+                ("HELD_FROM", Constant::U32(lane::HELD_FROM)),
                 ("LEAST_REST", Constant::Real(lane::LEAST_REST)),
                 ("STEPS_PER_COUNT", Constant::U32(lane::STEPS_PER_COUNT)),
                 ("MAX_PARTS", Constant::U32(lane::MAX_PARTS)),

@@ -167,6 +167,7 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Block<S, T, K> {
         };
         let number = |vector: &Vector<S, T, K>| vector.get(index).to_f64() as u32;
         lane.contact = number(&self.contact);
+        lane.at_once = number(&self.at_once);
         if self.piece[LOWER].get(index) <= T::ZERO {
             lane.piece = 0;
         } else if scene.pieces.len() == 2 {

@@ -8,8 +8,8 @@ use crate::events::single_mass;
 use crate::instances::{Uniform, moving};
 use crate::kernel_response::{compare, periods};
 use squealmap::backend::cpu::outcomes;
-use squealmap::model::Param;
 use squealmap::model::friction::FrictionLaw;
+use squealmap::model::{Param, Params};
 use squealmap::outcome::{Outcome, Status};
 use squealmap::response::{Plan, respond};
 use squealmap::simd::Lanes;
@@ -141,4 +141,21 @@ fn no_lane_freezes() {
         different.into_iter().all(|count| count <= 6),
         "{different:?} of 3000 do not end as the reference"
     );
+}
+
+/// In f32 the force at this landing is zero within its rounding: contact let go, flight came back at once.
+#[test]
+fn a_landing_at_zero_force_ends() {
+    let mut instance = Instance {
+        params: Params::default(),
+        law: bilinear(0.026_939_214_995_811_11, 0.224_310_764_373_674_75),
+        impact_friction: true,
+    };
+    instance.params.set(Param::BeltVelocity, 6.0);
+    instance.params.set(Param::StartVelocity, 1.8);
+    let plan =
+        Plan { settle: Duration::Periods(100.0), measure: Duration::Periods(40.0), ..plan(1.0, 1.0, 5) };
+    let (reference, outcome) = (respond(&instance, &plan), one::<f32>(&instance, &plan, 0.0));
+    assert_eq!(outcome.status, Status::Ok);
+    close("x2_std", outcome.x2_std.expect("done"), reference.x2_std.expect("done"), 1e-3);
 }
