@@ -60,18 +60,14 @@ pub fn records(
     let plan = Plan::new(spec);
     let threads = rayon::current_num_threads();
     let size = (total / (4 * threads)).clamp(FEWEST, MOST).min(total.div_ceil(threads)).max(1);
-    let batches: Vec<Vec<Record>> = (0..total.div_ceil(size))
-        .into_par_iter()
-        .map(|batch| {
-            let range = batch * size..((batch + 1) * size).min(total);
-            let records = self::batch(spec, range, &plan, precision, cancel);
-            if !cancel.load(Ordering::Relaxed) {
-                progress(records.len());
-            }
-            records
-        })
-        .collect();
-    let records: Vec<Record> = batches.concat();
+    let mut records = vec![Record::NOT_COMPUTED; total];
+    records.par_chunks_mut(size).enumerate().for_each(|(index, batch)| {
+        let range = index * size..index * size + batch.len();
+        batch.clone_from_slice(&self::batch(spec, range, &plan, precision, cancel));
+        if !cancel.load(Ordering::Relaxed) {
+            progress(batch.len());
+        }
+    });
     let done = records.iter().filter(|record| record.status != Status::NotComputed).count();
     let ended = if done < total { Err(Error::Cancelled { done, total }) } else { Ok(()) };
     Computed::new(records, total, ended)

@@ -13,7 +13,8 @@ use super::vector::{Mask, Scalar, Vector};
 /// (of the gap for lanes that fly) and one more; the rest differs from lane to lane.
 #[derive(Clone, Copy, Debug)]
 pub struct Functions<S: Simd, T: Scalar<S>, const K: usize, const N: usize> {
-    /// Their values at the beginning, in the order of [`super::block::FIRST`] to [`THIRD`].
+    /// Their values at the beginning, in the order of [`super::block::FIRST`] to
+    /// [`super::block::THIRD`].
     pub start: [Vector<S, T, K>; 3],
     /// The second series, from degree 1 on: sliding speed in slip, less the tangential force in stick.
     pub second: [Vector<S, T, K>; N],

@@ -11,7 +11,7 @@ use squealmap::backend::cpu::outcomes;
 use squealmap::model::friction::FrictionLaw;
 use squealmap::model::{Param, Params};
 use squealmap::outcome::{Outcome, Status};
-use squealmap::response::{Plan, respond};
+use squealmap::response::{Plan, Scene, respond};
 use squealmap::simd::Lanes;
 use squealmap::spec::{Duration, Instance};
 
@@ -141,6 +141,33 @@ fn no_lane_freezes() {
         different.into_iter().all(|count| count <= 6),
         "{different:?} of 3000 do not end as the reference"
     );
+}
+
+/// A million random instances run for the time they were asked for, or their status says why not.
+fn keep_time<T: Lanes>() {
+    let mut u = Uniform(29);
+    let plan = Plan { settle: Duration::Periods(5.0), measure: Duration::Periods(5.0), ..periods() };
+    let mut ends = std::collections::BTreeMap::new();
+    for _ in 0..1000 {
+        let instances: Vec<Instance> = (0..1000).map(|k| any(&mut u, k)).collect();
+        for (instance, outcome) in instances.iter().zip(run::<T>(&instances, &plan)) {
+            assert_ne!(outcome.status, Status::Unwritten);
+            *ends.entry(outcome.status.name()).or_insert(0) += 1;
+            if outcome.status == Status::Ok {
+                let scene = Scene::new(instance, plan.start).expect("it ran");
+                close("time", outcome.simulated_time, 10.0 * TAU * scene.units.time, 1e-12);
+            }
+        }
+    }
+    println!("{} {ends:?}", std::any::type_name::<T>());
+    assert!(ends["ok"] > 900_000, "{ends:?}");
+}
+
+#[test]
+#[ignore = "two minutes"]
+fn no_lane_freezes_in_a_million() {
+    keep_time::<f64>();
+    keep_time::<f32>();
 }
 
 /// In f32 the force at this landing is zero within its rounding: contact let go, flight came back at once.
