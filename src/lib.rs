@@ -65,6 +65,7 @@ pub mod response;
 pub mod signals;
 pub mod simd;
 pub mod spec;
+mod start;
 pub mod sweep;
 pub mod trace;
 

@@ -5,13 +5,13 @@ use std::f64::consts::TAU;
 use num_complex::Complex64;
 
 use crate::integrate::{Integrator, Observer, Resolution, STEP_TOLERANCE};
-use crate::linear;
 use crate::method::taylor::{BeltMotion, REFERENCE_ORDER, State};
 use crate::model::equilibrium::{Equilibrium, Scaled, Units};
 use crate::model::{Param, Params};
 use crate::observe::{CyclePhase, EnergyGains, Growth, Sums, Window};
 use crate::outcome::{Outcome, Status};
 use crate::spec::{Duration, Instance, Spec, StartKind};
+use crate::start::{kick, mode};
 
 /// How to integrate: what of the sweep is common to all instances.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -112,7 +112,7 @@ impl Scene {
         let ramp = Ramp::new(&instance.params, &units);
         let start = match start {
             StartKind::Kick => kick(&instance.params, &units),
-            StartKind::Mode => mode(instance, &units),
+            StartKind::Mode => mode(instance, &units, &model),
         };
         Ok(Scene { units, equilibrium, model, ramp, start })
     }
@@ -189,28 +189,6 @@ impl Scene {
             Duration::Ramp => self.ramp.duration,
         }
     }
-}
-
-/// At the equilibrium, plus the kick.
-fn kick(params: &Params, units: &Units) -> State {
-    let mut state = State::default();
-    state.position[0] = params.require(Param::StartDisplacement) / units.length;
-    state.velocity[0] = params.require(Param::StartVelocity) / units.velocity;
-    state
-}
-
-/// On the most unstable mode, `ẋ2` at its largest; at the equilibrium where there is no mode.
-fn mode(instance: &Instance, units: &Units) -> State {
-    let params = &instance.params;
-    let amplitude = params.require(Param::StartFraction) * params.require(Param::BeltVelocity);
-    let mut state = State::default();
-    if let Some((lambda, ratio)) = linear::leading_mode(instance) {
-        let velocity = amplitude / units.velocity;
-        let position = velocity / (lambda * units.time);
-        state.position = [position.re, 0.0, (position * ratio).re];
-        state.velocity = [velocity, 0.0, (velocity * ratio).re];
-    }
-    state
 }
 
 /// Integrates one instance.

@@ -48,7 +48,7 @@ pub struct Analysis {
 pub enum StartKind {
     /// At the sliding equilibrium plus `start_velocity` and `start_displacement`.
     Kick,
-    /// On the most unstable eigenmode with `start_fraction`.
+    /// On the most unstable eigenmode with `start_fraction` or `start_event_fraction`.
     Mode,
 }
 

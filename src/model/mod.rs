@@ -35,6 +35,7 @@ pub enum Param {
     StartVelocity,
     StartDisplacement,
     StartFraction,
+    StartEventFraction,
 }
 
 /// The sweep-file section a parameter belongs to.
@@ -153,6 +154,7 @@ params! {
     StartVelocity "start_velocity" "ẋ_2,0" "m/s" Start Some(0.01), Range::Finite, "kick: velocity added to x2' at the sliding equilibrium";
     StartDisplacement "start_displacement" "x_2,0" "m" Start Some(0.0), Range::Finite, "kick: displacement added to x2 at the sliding equilibrium";
     StartFraction "start_fraction" "a_0" "" Start Some(0.01), Range::Positive, "mode start: amplitude of x2' as a fraction of the belt velocity";
+    StartEventFraction "start_event_fraction" "a_e" "" Start None, Range::Open(0.0, 1.0), "mode start: amplitude as a fraction of that at which the mode first meets an event";
 }
 
 impl Param {

@@ -4,7 +4,7 @@ use crate::error::{Error, Place, Result};
 use crate::grid::{AxisKey, Grid, Value};
 use crate::model::friction::LawKind;
 use crate::model::{Param, Params};
-use crate::spec::check::{MATERIAL_LAWS, covered, idle_start, unused, used_by_laws};
+use crate::spec::check::{MATERIAL_LAWS, covered, start_reader, unused, used_by_laws};
 use crate::spec::names::{advice, list};
 use crate::spec::varied::FIXED;
 use crate::spec::{Instance, Spec, law};
@@ -171,7 +171,7 @@ impl At<'_> {
     /// Refuses what the instance does not read; a parameter that the sweep varies has to be named anyway.
     fn everything_has_effect(&self, spec: &Spec) -> Result<()> {
         let varied = spec.grid.keys();
-        let (idle, starts) = idle_start(spec.start);
+        let by_event = self.params.get(Param::StartEventFraction).is_some();
         for (key, at) in self.named.iter().filter(|(key, _)| !varied.contains(key)) {
             let used_by = match key {
                 AxisKey::Param(param) if law::LAW_PARAMS.contains(param) => {
@@ -180,7 +180,7 @@ impl At<'_> {
                 AxisKey::Param(Param::Temperature) => {
                     self.material.is_none().then(|| "a `material`".to_owned())
                 }
-                AxisKey::Param(param) => idle.contains(param).then(|| starts.to_owned()),
+                AxisKey::Param(param) => start_reader(spec.start, *param, by_event).map(str::to_owned),
                 AxisKey::Material => (self.law == LawKind::Table).then(|| used_by_laws(&MATERIAL_LAWS)),
                 AxisKey::Law => None,
             };

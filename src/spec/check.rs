@@ -124,11 +124,15 @@ impl Check<'_> {
     }
 
     fn start_has_effect(&self) -> Result<()> {
-        let (idle, user) = idle_start(self.sections.start);
-        match idle.iter().find_map(|&param| self.param(param)) {
-            Some((at, key)) => Err(unused(at, key, user.to_owned())),
-            None => Ok(()),
+        let by_event = self.param(Param::StartEventFraction).is_some();
+        for param in STARTS {
+            if let (Some((at, key)), Some(user)) =
+                (self.param(param), start_reader(self.sections.start, param, by_event))
+            {
+                return Err(unused(at, key, user.to_owned()));
+            }
         }
+        Ok(())
     }
 
     /// A ramp has an end and a duration.
@@ -253,11 +257,23 @@ impl Check<'_> {
     }
 }
 
-/// The amplitudes that a start does not read, and what reads them.
-pub(super) fn idle_start(start: StartKind) -> (&'static [Param], &'static str) {
-    match start {
-        StartKind::Kick => (&[Param::StartFraction], "kind = \"mode\" in [start]"),
-        StartKind::Mode => (&[Param::StartVelocity, Param::StartDisplacement], "kind = \"kick\" in [start]"),
+/// The amplitudes of starts.
+const STARTS: [Param; 4] =
+    [Param::StartVelocity, Param::StartDisplacement, Param::StartFraction, Param::StartEventFraction];
+
+/// What would read an amplitude that a start does not read; `by_event` when `start_event_fraction` is given.
+pub(super) fn start_reader(start: StartKind, param: Param, by_event: bool) -> Option<&'static str> {
+    match (start, param) {
+        (StartKind::Kick, Param::StartFraction | Param::StartEventFraction) => {
+            Some("kind = \"mode\" in [start]")
+        }
+        (StartKind::Mode, Param::StartVelocity | Param::StartDisplacement) => {
+            Some("kind = \"kick\" in [start]")
+        }
+        (StartKind::Mode, Param::StartFraction) if by_event => {
+            Some("a mode start without `start_event_fraction`")
+        }
+        _ => None,
     }
 }
 

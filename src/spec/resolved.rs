@@ -54,6 +54,9 @@ impl Spec {
             StartKind::Mode => {
                 start.remove("start_velocity");
                 start.remove("start_displacement");
+                if start.contains_key("start_event_fraction") {
+                    start.remove("start_fraction");
+                }
                 "mode"
             }
         };

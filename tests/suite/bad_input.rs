@@ -129,6 +129,14 @@ refuses! {
     fraction_of_a_kick: format!("{VALID}[start]\nstart_fraction = 0.1\n")
         => "s.toml:7:18: `start_fraction` in [start] would have no effect: it is used only by kind = \"mode\" in [start]; \
             remove it or choose that";
+    event_fraction_of_a_kick: format!("{VALID}[start]\nstart_event_fraction = 0.1\n")
+        => "s.toml:7:24: `start_event_fraction` in [start] would have no effect: it is used only by kind = \"mode\" in \
+            [start]; remove it or choose that";
+    two_fractions: format!("{VALID}[start]\nkind = \"mode\"\nstart_fraction = 0.1\nstart_event_fraction = 0.1\n")
+        => "s.toml:8:18: `start_fraction` in [start] would have no effect: it is used only by a mode start without \
+            `start_event_fraction`; remove it or choose that";
+    event_fraction_of_one: format!("{VALID}[start]\nkind = \"mode\"\nstart_event_fraction = 1\n")
+        => "s.toml:8:24: `start_event_fraction` in [start] is 1 but must be strictly between 0 and 1";
     half_a_ramp: format!("{VALID}ramp_duration = 10\n")
         => "s.toml:6:17: `belt_velocity_end` is missing: `ramp_duration` in [belt] describes a ramp, so give both or none";
     duration_without_unit: "[response]\nsettle = \"6\"\n"

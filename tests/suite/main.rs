@@ -25,6 +25,7 @@ mod regimes;
 mod response;
 mod simd;
 mod spec;
+mod start;
 mod stopped;
 mod stretches;
 mod strict;
