@@ -144,15 +144,18 @@ fn no_lane_freezes() {
 }
 
 /// A million random instances run for the time they were asked for, or their status says why not.
-fn keep_time<T: Lanes>() {
+/// At most `lost` of them end early, by grazing and chatter.
+fn keep_time<T: Lanes>(lost: i32) {
     let mut u = Uniform(29);
     let plan = Plan { settle: Duration::Periods(5.0), measure: Duration::Periods(5.0), ..periods() };
     let mut ends = std::collections::BTreeMap::new();
+    let mut rising = 0;
     for _ in 0..1000 {
         let instances: Vec<Instance> = (0..1000).map(|k| any(&mut u, k)).collect();
         for (instance, outcome) in instances.iter().zip(run::<T>(&instances, &plan)) {
             assert_ne!(outcome.status, Status::Unwritten);
             *ends.entry(outcome.status.name()).or_insert(0) += 1;
+            rising += i32::from(matches!(instance.law, FrictionLaw::Constant { mu_s, mu_d } if mu_d > mu_s));
             if outcome.status == Status::Ok {
                 let scene = Scene::new(instance, plan.start).expect("it ran");
                 close("time", outcome.simulated_time, 10.0 * TAU * scene.units.time, 1e-12);
@@ -160,14 +163,16 @@ fn keep_time<T: Lanes>() {
         }
     }
     println!("{} {ends:?}", std::any::type_name::<T>());
-    assert!(ends["ok"] > 900_000, "{ends:?}");
+    // A constant law that rises behind v = 0 is not well posed.
+    assert!(rising > 100_000 && ends["invalid_law"] == rising, "{rising} {ends:?}");
+    assert!(ends["ok"] + rising >= 1_000_000 - lost, "{ends:?}");
 }
 
 #[test]
 #[ignore = "two minutes"]
 fn no_lane_freezes_in_a_million() {
-    keep_time::<f64>();
-    keep_time::<f32>();
+    keep_time::<f64>(200);
+    keep_time::<f32>(2000);
 }
 
 /// In f32 the force at this landing is zero within its rounding: contact let go, flight came back at once.
