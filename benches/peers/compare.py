@@ -17,7 +17,6 @@ from peer_heyoka import Engine
 
 ROUNDS = int(sys.argv[1]) if len(sys.argv) > 1 else 3
 SMALL, LARGE = 12, 48
-STEPS = [("cpu", "f64", 12), ("cpu", "f64", 5), ("cpu", "f32", 12), ("cpu", "f32", 5), ("cpu", "f32", 4), ("reference", "f64", 12)]
 
 
 def heyoka(engine, rows):
@@ -66,12 +65,7 @@ def main():
     apart = 100.0*np.abs(ours/judge - 1.0)
     print("the judges are apart by %.1e / %.1e %% (p50 / p99)\n" % (np.percentile(apart, 50), np.percentile(apart, 99)))
     cases = {name: (run, judge) for name, run in peers(rows).items()}
-    for backend, precision, steps in STEPS:
-        def run(backend=backend, precision=precision, steps=steps):
-            std, rate = squealmap.run(rows, squealmap.BRAKE, backend, precision, steps)
-            if backend == "cpu": rate = squealmap.run(many, squealmap.BRAKE, backend, precision, steps)[1]
-            return std, rate
-        cases["**squealmap** `%s` %s %d steps" % (backend, precision, steps)] = (run, ours)
+    cases |= squealmap.cases(squealmap.BRAKE, rows, many, ours)
     turns.table(cases, ROUNDS, "heyoka 1e-09")
 
 

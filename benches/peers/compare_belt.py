@@ -12,7 +12,6 @@ import belt, squealmap, turns
 import peer_belt_heyoka, peer_belt_numba
 
 ROUNDS = int(sys.argv[1]) if len(sys.argv) > 1 else 3
-STEPS = [("cpu", "f64", 12), ("cpu", "f64", 5), ("cpu", "f32", 12), ("cpu", "f32", 5), ("cpu", "f32", 4), ("reference", "f64", 12)]
 
 
 def main():
@@ -28,12 +27,7 @@ def main():
     for steps in (294, 30):
         run = lambda rows, steps=steps: peer_belt_numba.run(rows, steps)
         cases["numba RK4 %d steps" % steps] = (lambda run=run: turns.timed(run, rows), integrated)
-    for backend, precision, steps in STEPS:
-        def ours(backend=backend, precision=precision, steps=steps):
-            std, rate = squealmap.run(rows, squealmap.BELT, backend, precision, steps)
-            if backend == "cpu": rate = squealmap.run(many, squealmap.BELT, backend, precision, steps)[1]
-            return std, rate
-        cases["**squealmap** `%s` %s %d steps" % (backend, precision, steps)] = (ours, integrated)
+    cases |= squealmap.cases(squealmap.BELT, rows, many, integrated)
     turns.table(cases, ROUNDS, "heyoka 1e-09")
 
 

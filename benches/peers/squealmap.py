@@ -9,6 +9,9 @@ BRAKE = '[friction]\nlaw = "bilinear"\nknee_velocity = 5.0\n'
 BELT = ('[friction]\nlaw = "constant"\n'
         '[model]\nm1 = 0.5\nm2 = 0.5\nk1 = 1.0\nk2 = 1.0\nc1 = 0.0\nc2 = 0.0\nf_ext = 1.0\ntheta = 0.0\n')
 
+# Engines, scalars and steps per period.
+STEPS = [("cpu", "f64", 12), ("cpu", "f64", 5), ("cpu", "f32", 12), ("cpu", "f32", 5), ("cpu", "f32", 4), ("reference", "f64", 12)]
+
 
 def run(rows, sections, backend, precision, steps):
     """rows of mu_s, mu_d, V, start velocity; `sections` of the sweep file say the rest"""
@@ -27,3 +30,15 @@ def run(rows, sections, backend, precision, steps):
             rate = json.load(f)["computation"]["instances_per_second"]
         assert all(row["status"] == "ok" for row in table)
         return np.array([float(row["x2_std"]) for row in table]), rate
+
+
+def cases(scene, rows, many, truth):
+    """the engines on rows for turns.table; rates of the CPU engine are those on many, because rows are done in no time"""
+    cases = {}
+    for backend, precision, steps in STEPS:
+        def case(backend=backend, precision=precision, steps=steps):
+            std, rate = run(rows, scene, backend, precision, steps)
+            if backend == "cpu": rate = run(many, scene, backend, precision, steps)[1]
+            return std, rate
+        cases["**squealmap** `%s` %s %d steps" % (backend, precision, steps)] = (case, truth)
+    return cases
