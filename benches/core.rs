@@ -46,6 +46,7 @@ fn response(criterion: &mut Criterion) {
     let plan = Plan {
         start: StartKind::Kick,
         settle: Duration::Periods(100.0),
+        settle_limit: None,
         measure: Duration::Periods(40.0),
         steps_per_period: 12,
         order: REFERENCE_ORDER,
@@ -73,6 +74,7 @@ fn lanes(criterion: &mut Criterion) {
         let plan = Plan {
             start: StartKind::Kick,
             settle: Duration::Periods(100.0),
+            settle_limit: None,
             measure: Duration::Periods(40.0),
             steps_per_period,
             order: REFERENCE_ORDER,

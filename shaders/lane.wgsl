@@ -148,7 +148,7 @@ fn next_segment() {
         done = segment_of(lane.segment).steps <= real(0.0);
     }
     if done {
-        if lane.second_pass == 1u || !prepare_phase() {
+        if lane.second_pass == 1u || before == OPEN_HALF || !prepare_phase() {
             lane.status = STATUS_OK;
             return;
         }
@@ -408,5 +408,8 @@ fn part_of(segment: Segment) -> u32 {
     if segment.part < real(1.5) {
         return FIRST_HALF;
     }
-    return SECOND_HALF;
+    if segment.part < real(2.5) {
+        return SECOND_HALF;
+    }
+    return OPEN_HALF;
 }

@@ -10,7 +10,7 @@
 //! | parameters, friction, equations, contact | [`model`] |
 //! | eigenvalues and attribution | [`linear`] |
 //! | one step, events inside it | [`method`] |
-//! | one instance from start to outcome | [`integrate`], [`observe`], [`response`], [`outcome`] |
+//! | one instance from start to outcome | [`integrate`], [`observe`], [`response`], [`settle`], [`outcome`] |
 //! | the twins of the compute kernels | [`kernel`] |
 //! | many instances in vector registers | [`simd`] |
 //! | many instances | [`backend`], [`sweep`], [`estimate`] |
@@ -62,6 +62,7 @@ pub mod observe;
 pub mod outcome;
 pub mod place;
 pub mod response;
+pub mod settle;
 pub mod signals;
 pub mod simd;
 pub mod spec;

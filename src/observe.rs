@@ -182,6 +182,8 @@ pub struct Window {
     pub ay_peak: f64,
     /// Largest `N`.
     pub n_peak: f64,
+    /// Events of any kind.
+    pub events: u64,
     /// Impacts.
     pub impacts: u64,
     /// Upward zero crossings of `ẋ2`.
@@ -250,6 +252,7 @@ impl Observer for Window {
     }
 
     fn event(&mut self, event: Event) {
+        self.events += 1;
         if matches!(event, Event::Impact { .. }) {
             self.impacts += 1;
         }

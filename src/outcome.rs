@@ -2,6 +2,8 @@
 
 use serde::Serialize;
 
+use crate::settle::Ending;
+
 /// How one instance ended. Code 0 means *unwritten*: a map that holds one is an error.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -130,6 +132,10 @@ pub struct Outcome {
     pub x2_std_halves: [f64; 2],
     /// Rms of `ÿ1` in the two halves, m/s².
     pub ay_rms_halves: [f64; 2],
+    /// How a run until settled ended.
+    pub ending: Option<Ending>,
+    /// The start of its last window, s: what came before was needed to settle.
+    pub settling_time: Option<f64>,
     /// Simulated time, s.
     pub simulated_time: f64,
     /// Steps taken, those ended by an event included.

@@ -10,6 +10,7 @@ use crate::model::equilibrium::{Equilibrium, Scaled, Units};
 use crate::model::{Param, Params};
 use crate::observe::{CyclePhase, EnergyGains, Growth, Sums, Window};
 use crate::outcome::{Outcome, Status};
+use crate::settle::Settling;
 use crate::spec::{Duration, Instance, Spec, StartKind};
 use crate::start::{kick, mode};
 
@@ -18,8 +19,10 @@ use crate::start::{kick, mode};
 pub struct Plan {
     /// How transients start.
     pub start: StartKind,
-    /// Time before the measuring window.
+    /// Time before the measuring window, or before the first of a run until settled.
     pub settle: Duration,
+    /// The latest start of a window in a run until settled.
+    pub settle_limit: Option<Duration>,
     /// Length of the measuring window.
     pub measure: Duration,
     /// Largest step: this many per period `2π/ω0`.
@@ -37,6 +40,7 @@ impl Plan {
         Plan {
             start: spec.start,
             settle: spec.settle,
+            settle_limit: spec.settle_limit,
             measure: spec.measure,
             steps_per_period: spec.steps_per_period,
             order: REFERENCE_ORDER,
@@ -46,9 +50,13 @@ impl Plan {
 }
 
 impl Plan {
-    /// The plan cut to at most `periods` of the instance, and the share of its time that is left.
+    /// The plan cut to at most `periods` of the instance, and the share of its time that is left; of a run until
+    /// settled the longest it may be.
     #[must_use]
     pub fn shortened(&self, instance: &Instance, periods: f64) -> (Plan, f64) {
+        if let Some(limit) = self.settle_limit {
+            return Plan { settle: limit, settle_limit: None, ..*self }.shortened(instance, periods);
+        }
         let Ok(scene) = Scene::new(instance, self.start) else { return (*self, 1.0) };
         let [settle, measure] = [self.settle, self.measure].map(|part| scene.scaled(part) / TAU);
         let share = (periods / (settle + measure)).min(1.0);
@@ -171,6 +179,9 @@ impl Scene {
     /// The SI value of the simulated time `time`: in full when it is exactly the time the plan asks for.
     #[must_use]
     pub fn seconds(&self, time: f64, plan: &Plan) -> f64 {
+        if plan.settle_limit.is_some() {
+            return time * self.units.time;
+        }
         let si = |duration| match duration {
             Duration::Seconds(seconds) => seconds,
             other => self.scaled(other) * self.units.time,
@@ -202,7 +213,7 @@ pub fn respond(instance: &Instance, plan: &Plan) -> Outcome {
         Ok(integrator) => integrator,
         Err(status) => return Outcome { status, ..Outcome::default() },
     };
-    match measure(&scene, &mut integrator, plan) {
+    match measure(&scene, &mut integrator, plan, Settling::new(instance, &scene, plan)) {
         Ok(outcome) => outcome,
         Err(status) => Outcome {
             status,
@@ -213,29 +224,49 @@ pub fn respond(instance: &Instance, plan: &Plan) -> Outcome {
     }
 }
 
-fn measure(scene: &Scene, integrator: &mut Integrator, plan: &Plan) -> Result<Outcome, Status> {
+fn measure(
+    scene: &Scene,
+    integrator: &mut Integrator,
+    plan: &Plan,
+    mut settling: Option<Settling>,
+) -> Result<Outcome, Status> {
     let mut growth = Growth::default();
     let mut gains = EnergyGains::default();
-    let mut window = Window::default();
-    let length = scene.scaled(plan.measure);
     scene.advance(integrator, scene.scaled(plan.settle), &mut (&mut growth, &mut gains))?;
-    let window_start = integrator.clone();
-    for half in 0..2 {
-        window.half = half;
-        let mut all = (&mut window, &mut (&mut growth, &mut gains));
-        scene.advance(integrator, 0.5 * length, &mut all)?;
+    let mut length = scene.scaled(plan.measure);
+    if let Some(settling) = &settling {
+        length = 2.0 * settling.half(None);
     }
-    let mut outcome = Outcome {
-        status: Status::Ok,
-        energy_gaining_impacts: Some(gains.0),
-        simulated_time: scene.seconds(integrator.time(), plan),
-        steps: integrator.steps(),
-        ..Outcome::default()
-    };
-    report_window(&mut outcome, scene, &window);
-    report_growth(&mut outcome, scene, &growth);
-    outcome.phase_cycle = cycle_phase(scene, window_start, &window, length)?;
-    if outcome_is_finite(&outcome) { Ok(outcome) } else { Err(Status::NonFinite) }
+    loop {
+        let window_start = integrator.clone();
+        let mut window = Window::default();
+        for half in 0..2 {
+            window.half = half;
+            let mut all = (&mut window, &mut (&mut growth, &mut gains));
+            scene.advance(integrator, 0.5 * length, &mut all)?;
+        }
+        let mut outcome = Outcome {
+            status: Status::Ok,
+            energy_gaining_impacts: Some(gains.0),
+            simulated_time: scene.seconds(integrator.time(), plan),
+            steps: integrator.steps(),
+            ..Outcome::default()
+        };
+        report_window(&mut outcome, scene, &window);
+        report_growth(&mut outcome, scene, &growth);
+        if !outcome_is_finite(&outcome) {
+            return Err(Status::NonFinite);
+        }
+        if let Some(settling) = &mut settling {
+            let Some(ending) = settling.judge(&outcome, window.events > 0, integrator.time()) else {
+                length = 2.0 * settling.half(window.response_frequency());
+                continue;
+            };
+            outcome = outcome.ended(ending, window_start.time() * scene.units.time);
+        }
+        outcome.phase_cycle = cycle_phase(scene, window_start, &window, length)?;
+        return Ok(outcome);
+    }
 }
 
 fn report_window(outcome: &mut Outcome, scene: &Scene, window: &Window) {

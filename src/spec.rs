@@ -34,6 +34,15 @@ pub const SETTLE: Duration = Duration::Periods(200.0);
 /// The measuring window when a sweep does not say (the ramp with a ramp).
 pub const MEASURE: Duration = Duration::Periods(100.0);
 
+/// Time before the first window of a run until settled.
+pub const FIRST_SETTLE: Duration = Duration::Periods(24.0);
+
+/// The windows of a run until settled when a sweep does not say; they are lengthened to whole cycles.
+pub const AUTO_MEASURE: Duration = Duration::Periods(48.0);
+
+/// The longest time to settle when a sweep does not say.
+pub const SETTLE_LIMIT: Duration = Duration::Periods(1000.0);
+
 /// What a sweep computes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Analysis {
@@ -86,8 +95,10 @@ pub struct Spec {
     pub grid: Grid,
     /// How transients start.
     pub start: StartKind,
-    /// Time before the measuring window.
+    /// Time before the measuring window, or before the first of a run until settled.
     pub settle: Duration,
+    /// The latest start of a window in a run until settled (`settle = "auto"`).
+    pub settle_limit: Option<Duration>,
     /// Length of the measuring window.
     pub measure: Duration,
     /// Largest step: this many per period `2π/ω0`.

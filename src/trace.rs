@@ -55,7 +55,10 @@ pub fn trace(spec: &Spec, instance: &Instance, samples_per_period: u32) -> Trace
             rows: &mut rows,
         };
         if let Ok(mut integrator) = scene.integrator(&plan) {
-            let length = scene.scaled(plan.settle) + scene.scaled(plan.measure);
+            let length = match plan.settle_limit {
+                Some(_) => outcome.simulated_time / scene.units.time,
+                None => scene.scaled(plan.settle) + scene.scaled(plan.measure),
+            };
             // A failure ends the trace early; the outcome holds the status.
             if scene.advance(&mut integrator, length, &mut sampler).is_ok() {
                 sampler.close();

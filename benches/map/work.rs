@@ -105,6 +105,7 @@ pub(crate) fn plan(steps_per_period: u32, order: usize, tolerance: f64) -> Plan 
     Plan {
         start: StartKind::Kick,
         settle: Duration::Periods(SETTLE),
+        settle_limit: None,
         measure: Duration::Periods(MEASURE),
         steps_per_period,
         order,

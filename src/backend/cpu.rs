@@ -131,7 +131,7 @@ pub fn outcomes<T: Lanes>(instances: &[Instance], plan: &Plan, cancel: &AtomicBo
             match Scene::new(instance, plan.start) {
                 Ok(scene) => {
                     indices.push(index);
-                    jobs.push(Job::new(scene, kind, plan));
+                    jobs.push(Job::new(instance, scene, plan));
                 }
                 Err(status) => outcomes[index].status = status,
             }
@@ -141,7 +141,7 @@ pub fn outcomes<T: Lanes>(instances: &[Instance], plan: &Plan, cancel: &AtomicBo
             return None;
         }
         for (index, job) in indices.into_iter().zip(&jobs) {
-            outcomes[index] = job.outcome(plan);
+            outcomes[index] = job.outcome();
         }
     }
     Some(outcomes)

@@ -18,13 +18,19 @@ use crate::map::Record;
 use crate::model::Param;
 use crate::model::equilibrium::Equilibrium;
 use crate::outcome::{Outcome, Status};
+use crate::settle::Ending;
 use crate::spec::Instance;
 
 /// The regime of a completed outcome, and whether it is settled; `kind` is the type of its equilibrium.
 #[must_use]
 pub fn regime(instance: &Instance, kind: Option<InstabilityType>, outcome: &Outcome) -> (Regime, bool) {
     let velocity = instance.params.require(Param::BeltVelocity);
-    classify::regime(outcome, velocity, kind == Some(InstabilityType::Stable))
+    let (regime, settled) = classify::regime(outcome, velocity, kind == Some(InstabilityType::Stable));
+    match outcome.ending {
+        None => (regime, settled),
+        Some(Ending::Decays) => (Regime::Equilibrium, true),
+        Some(ending) => (regime, ending == Ending::Settled),
+    }
 }
 
 /// The record of an instance before any analysis: `ok`, or why it has no equilibrium.

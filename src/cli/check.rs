@@ -51,7 +51,9 @@ fn describe(spec: &Spec) -> String {
         let _ = writeln!(
             text,
             "computes  the response from {start}: settle {}, measure {}, at least {} steps per period",
-            spec.settle, spec.measure, spec.steps_per_period
+            settle(spec),
+            spec.measure,
+            spec.steps_per_period
         );
     }
     match &spec.grid {
@@ -66,6 +68,14 @@ fn describe(spec: &Spec) -> String {
         }
     }
     text
+}
+
+/// The time before the measuring window.
+fn settle(spec: &Spec) -> String {
+    match spec.settle_limit {
+        Some(limit) => format!("until settled (at most {limit})"),
+        None => spec.settle.to_string(),
+    }
 }
 
 /// `mu_s: 41 values from 0 to 0.6`.

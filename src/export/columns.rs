@@ -3,7 +3,7 @@
 use crate::classify::{InstabilityType, Regime};
 use crate::grid::{AxisKey, Value};
 use crate::map::{Map, Record};
-use crate::spec::{Analysis, Spec};
+use crate::spec::Spec;
 
 /// The content of one cell.
 #[derive(Clone, Debug, PartialEq)]
@@ -70,14 +70,17 @@ pub enum Group {
     Linear,
     /// Time integration.
     Response,
+    /// Time integration until settled.
+    Settling,
 }
 
 impl Group {
-    fn asked(self, analysis: Analysis) -> bool {
+    fn asked(self, spec: &Spec) -> bool {
         match self {
             Group::Always => true,
-            Group::Linear => analysis.linear,
-            Group::Response => analysis.response,
+            Group::Linear => spec.analysis.linear,
+            Group::Response => spec.analysis.response,
+            Group::Settling => spec.analysis.response && spec.settle_limit.is_some(),
         }
     }
 }
@@ -135,7 +138,7 @@ pub fn columns(spec: &Spec) -> Vec<Column> {
         };
         Column { name: key.name(), unit, meaning, group: Group::Always, source: Source::Swept(position) }
     });
-    let computed = COMPUTED.iter().copied().filter(|column| column.group.asked(spec.analysis));
+    let computed = COMPUTED.iter().copied().filter(|column| column.group.asked(spec));
     std::iter::once(instance).chain(swept).chain(computed).collect()
 }
 
@@ -189,7 +192,8 @@ computed! {
     Response "free" "" response!(free), "fraction of the window in free flight";
     Response "reverse" "" response!(reverse), "fraction of the window in reversed slip";
     Response "impacts_per_second" "1/s" response!(impacts_per_second), "impacts per second, counting every bounce down to a rebound of 1e-6 ω0 F_ext/k2";
-    Response "settled" "" |r| r.settled.map_or(Cell::Empty, |flag| Cell::Count(u64::from(flag))), "1 when the two halves of the window agree, else 0";
+    Response "settled" "" |r| r.settled.map_or(Cell::Empty, |flag| Cell::Count(u64::from(flag))), "1 when the two halves of the window agree (until settled: when the windows do), else 0";
+    Settling "settling_time" "s" response!(settling_time), "start of the last window of a run until settled";
     Response "simulated_time" "s" |r| Cell::from(r.outcome.map(|outcome| outcome.simulated_time)), "simulated time";
     Response "steps" "" |r| r.outcome.map_or(Cell::Empty, |outcome| Cell::Count(outcome.steps)), "steps taken, those ended by an event included";
     Always "status" "" |r| Cell::text(Some(r.status.name())), "how the instance ended; not_computed: the run was stopped before it";

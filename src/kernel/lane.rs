@@ -10,7 +10,9 @@
 use super::crossing::{NEVER, first_crossing};
 use super::observe::{Moment, Phase, Sums};
 use super::scalar::Real;
-use super::scene::{EVENTS_AT_ONCE, FIRST_HALF, SEGMENTS, SETTLE, Scene, Segment, Segments};
+use super::scene::{
+    EVENTS_AT_ONCE, FIRST_HALF, OPEN_HALF, SECOND_HALF, SEGMENTS, SETTLE, Scene, Segment, Segments,
+};
 use super::series::{
     Body, Expansion, FREE, ORDER, REVERSE, SLIP, STICK, Series, evaluate, expand, largest, step_length,
 };
@@ -244,7 +246,7 @@ impl<S: Real> Lane<S> {
         let done =
             self.segment as usize >= SEGMENTS || scene.segments[self.segment as usize].steps <= S::ZERO;
         if done {
-            if self.second_pass || !self.phase.prepare_phase(scene, &self.sums) {
+            if self.second_pass || before == OPEN_HALF || !self.phase.prepare_phase(scene, &self.sums) {
                 self.status = Status::Ok;
                 return;
             }
@@ -492,7 +494,9 @@ fn part_of<S: Real>(segment: &Segment<S>) -> u32 {
         SETTLE
     } else if segment.part < S::from_f64(1.5) {
         FIRST_HALF
+    } else if segment.part < S::from_f64(2.5) {
+        SECOND_HALF
     } else {
-        super::scene::SECOND_HALF
+        OPEN_HALF
     }
 }

@@ -24,4 +24,5 @@ pub mod scene;
 pub mod series;
 pub mod source;
 pub mod spirv;
+pub mod windows;
 pub mod words;

@@ -69,6 +69,9 @@ pub fn read<S: Real>(state: &[S], flags: &[u32]) -> Option<Lane<S>> {
     lane.contact = flag("contact", 0);
     lane.piece = flag("piece", 0);
     lane.disarmed = flag("disarmed", 0);
+    lane.at_once = flag("at_once", 0);
+    lane.counted = flag("counted", 0);
+    lane.parts = flag("parts", 0);
     lane.second_pass = flag("second_pass", 0) == 1;
     lane.body.p = three("body", 0);
     lane.body.v = three("body", 3);
@@ -80,13 +83,21 @@ pub fn read<S: Real>(state: &[S], flags: &[u32]) -> Option<Lane<S>> {
         sums.total[1][i] = real("total", SUMS + i);
     }
     sums.peaks = three("peaks", 0);
+    sums.half = flag("half", 0);
+    sums.previous = real("previous", 0);
+    sums.has_previous = flag("has_previous", 0) == 1;
+    sums.growth_closed = flag("growth_closed", 0) == 1;
     sums.growth = std::array::from_fn(|i| real("growth", i));
     sums.impacts = flag("impacts", 0);
     sums.crossings = flag("crossings", 0);
     sums.first = moment("first");
     sums.last = moment("last");
     lane.phase.omega = real("phase", 0);
+    lane.phase.carrier = [real("phase", 1), real("phase", 2)];
     lane.phase.x = [real("phase", 3), real("phase", 4)];
     lane.phase.y = [real("phase", 5), real("phase", 6)];
+    lane.snapshot.p = three("snapshot", 0);
+    lane.snapshot.v = three("snapshot", 3);
+    lane.snapshot_flags = std::array::from_fn(|i| flag("snapshot", i));
     Some(lane)
 }

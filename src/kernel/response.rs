@@ -9,10 +9,11 @@ use super::observe::{self, SUMS};
 use super::reductions::{End, Reductions};
 use super::scalar::Real;
 use super::scene::{
-    self, FIRST_HALF, Law, PIECE_WORDS, SECOND_HALF, SEGMENT_WORDS, SEGMENTS, SETTLE, Scene as Words,
-    Segments,
+    self, FIRST_HALF, Law, OPEN_HALF, PIECE_WORDS, SECOND_HALF, SEGMENT_WORDS, SEGMENTS, SETTLE,
+    Scene as Words, Segments,
 };
 use super::source::{Constant, Field, Kernel};
+use super::windows::Windows;
 use super::{crossing, series};
 use crate::model::friction::LawKind;
 use crate::outcome::Outcome;
@@ -137,6 +138,7 @@ pub const fn kernel<const PIECES: usize>() -> Kernel {
                 ("SETTLE", Constant::U32(SETTLE)),
                 ("FIRST_HALF", Constant::U32(FIRST_HALF)),
                 ("SECOND_HALF", Constant::U32(SECOND_HALF)),
+                ("OPEN_HALF", Constant::U32(OPEN_HALF)),
                 ("EXP_DEGREE", Constant::U32(scene::EXP_DEGREE as u32)),
                 ("ORDER", Constant::U32(series::ORDER as u32)),
                 ("SERIES", Constant::U32(series::ORDER as u32 + 1)),
@@ -206,7 +208,16 @@ pub fn law_of(kind: LawKind) -> Law {
 #[must_use]
 pub fn segments(scene: &Scene, plan: &Plan) -> Segments {
     let half = 0.5 * scene.scaled(plan.measure);
-    let parts = [(SETTLE, scene.scaled(plan.settle)), (FIRST_HALF, half), (SECOND_HALF, half)];
+    cut(scene, plan, [(SETTLE, scene.scaled(plan.settle)), (FIRST_HALF, half), (SECOND_HALF, half)])
+}
+
+/// The segments of one window of a run until settled, without a second pass.
+#[must_use]
+pub fn window_segments(scene: &Scene, plan: &Plan, settle: f64, half: f64) -> Segments {
+    cut(scene, plan, [(SETTLE, settle), (FIRST_HALF, half), (OPEN_HALF, half)])
+}
+
+fn cut(scene: &Scene, plan: &Plan, parts: [(u32, f64); 3]) -> Segments {
     let nominal = TAU / f64::from(plan.steps_per_period);
     let mut segments = [[0.0; SEGMENT_WORDS]; SEGMENTS];
     let mut used = 0;
@@ -242,17 +253,22 @@ pub fn respond<S: Real>(instance: &Instance, plan: &Plan, tolerance: f64) -> Out
         Err(status) => return Outcome { status, ..Outcome::default() },
     };
     let pieces = scene.model.law.pieces.len();
-    let segments = segments(&scene, plan);
-    let packed = words(&scene, &segments, pieces);
-    let words: Words<S> = Words::read(law_of(instance.law.kind()), pieces, &packed);
-    let mut lane = Lane::new(&words);
-    lane.run(&words, S::from_f64(tolerance));
-    outcome(&scene, plan, &segments, &lane)
+    let mut windows = Windows::new(instance, &scene, plan);
+    let mut lane: Option<Lane<S>> = None;
+    loop {
+        let packed = words(&scene, &windows.segments, pieces);
+        let words: Words<S> = Words::read(law_of(instance.law.kind()), pieces, &packed);
+        let lane = lane.get_or_insert_with(|| Lane::new(&words));
+        lane.run(&words, S::from_f64(tolerance));
+        if let Some(outcome) = windows.take(&scene, lane) {
+            return outcome;
+        }
+    }
 }
 
-/// The outcome of a finished lane.
+/// What a finished lane has reduced, and how it ended; times from the beginning of the segments.
 #[must_use]
-pub fn outcome<S: Real>(scene: &Scene, plan: &Plan, segments: &Segments, lane: &Lane<S>) -> Outcome {
+pub fn reductions<S: Real>(segments: &Segments, lane: &Lane<S>) -> (Reductions, End) {
     let time = |segment: u32, index: u32, fraction: f64| -> f64 {
         let before: f64 = segments[..(segment as usize).min(SEGMENTS)].iter().map(|s| s[0] * s[1]).sum();
         let step = segments.get(segment as usize).map_or(0.0, |s| s[1]);
@@ -275,5 +291,5 @@ pub fn outcome<S: Real>(scene: &Scene, plan: &Plan, segments: &Segments, lane: &
         steps: u64::from(lane.iterations),
         time: time(lane.segment, lane.index, 0.0),
     };
-    reductions.outcome(scene, plan, &end)
+    (reductions, end)
 }

@@ -49,7 +49,7 @@ pub struct Segment<S> {
     pub velocity: S,
     /// Belt acceleration.
     pub acceleration: S,
-    /// [`SETTLE`], [`FIRST_HALF`] or [`SECOND_HALF`].
+    /// [`SETTLE`], [`FIRST_HALF`], [`SECOND_HALF`] or [`OPEN_HALF`].
     pub part: S,
 }
 
@@ -59,6 +59,8 @@ pub const SETTLE: u32 = 0;
 pub const FIRST_HALF: u32 = 1;
 /// Second half of the window.
 pub const SECOND_HALF: u32 = 2;
+/// Second half of a window that is not passed a second time.
+pub const OPEN_HALF: u32 = 3;
 
 /// Segments per instance: a ramp may end inside any part.
 pub const SEGMENTS: usize = 4;

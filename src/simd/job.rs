@@ -9,9 +9,10 @@ use crate::kernel::reductions::{End, Reductions};
 use crate::kernel::response::{law_of, words};
 use crate::kernel::scalar::Real;
 use crate::kernel::scene::{Law, Scene as Words};
-use crate::model::friction::LawKind;
 use crate::outcome::{Outcome, Status};
 use crate::response::{Plan, Scene};
+use crate::settle::{Ending, Settling};
+use crate::spec::Instance;
 
 /// Steps of a stretch: short sums keep their digits, and a lane is looked at between stretches.
 pub const STRETCH: f64 = 64.0;
@@ -70,17 +71,25 @@ pub struct Job<T> {
     pub steps: u64,
     /// Times of the end of the settling, of the first half of the window and of the window.
     pub marks: [f64; 3],
+    /// Whether no event has fallen into the window.
+    pub quiet: bool,
+    plan: Plan,
+    settling: Option<Settling>,
+    ending: Option<Ending>,
     snapshot: Option<Box<Lane<T>>>,
 }
 
 impl<T: Real> Job<T> {
     /// The start of an instance.
     #[must_use]
-    pub fn new(scene: Scene, kind: LawKind, plan: &Plan) -> Job<T> {
+    pub fn new(instance: &Instance, scene: Scene, plan: &Plan) -> Job<T> {
+        let kind = instance.law.kind();
         let pieces = scene.model.law.pieces.len();
         let packed = words(&scene, &[[0.0; 5]; 4], pieces);
         let words: Words<T> = Words::read(law_of(kind), pieces, &packed);
-        let (settle, half) = (scene.scaled(plan.settle), 0.5 * scene.scaled(plan.measure));
+        let settling = Settling::new(instance, &scene, plan);
+        let asked = 0.5 * scene.scaled(plan.measure);
+        let half = settling.as_ref().map_or(asked, |settling| settling.half(None));
         let mut lane = Lane::blank();
         let [x, w, vx, vw] = words.start;
         lane.body.p = [x, T::ZERO, w];
@@ -89,6 +98,7 @@ impl<T: Real> Job<T> {
         let belt =
             Belt { velocity: T::from_f64(belt.velocity), acceleration: T::from_f64(belt.acceleration) };
         lane.enter_contact(&words, belt);
+        let scene_settle = scene.scaled(plan.settle);
         Job {
             constants: constants(&scene.model),
             scene,
@@ -102,7 +112,11 @@ impl<T: Real> Job<T> {
             stretches: Stretches::default(),
             guess: 1.0,
             steps: 0,
-            marks: [settle, settle + half, settle + half + half],
+            marks: window(scene_settle, half),
+            quiet: true,
+            plan: *plan,
+            settling,
+            ending: None,
             snapshot: None,
         }
     }
@@ -122,6 +136,10 @@ impl<T: Real> Job<T> {
             Part::Growth => self.growing && self.time < self.marks[0],
             Part::Settle => self.time < self.marks[0],
             Part::Window => {
+                if self.time >= self.marks[2] {
+                    return false;
+                }
+                self.quiet = true;
                 self.previous = T::ZERO;
                 self.snapshot = Some(Box::new(self.lane.clone()));
                 true
@@ -206,14 +224,44 @@ impl<T: Real> Job<T> {
         }
     }
 
+    /// Judges the window of a run until settled; true when another one follows.
+    pub fn goes_on(&mut self) -> bool {
+        if self.lane.status != Status::Unwritten || self.ending.is_some() {
+            return false;
+        }
+        let outcome = self.outcome();
+        let guess = self.guessed_omega();
+        let frequency =
+            (self.seen.crossings >= 2 && self.seen.last > self.seen.first).then(|| self.omega() / TAU);
+        let Some(settling) = &mut self.settling else { return false };
+        self.ending = settling.judge(&outcome, !self.quiet, self.marks[2]);
+        if self.ending.is_some() || outcome.status != Status::Ok {
+            return false;
+        }
+        self.marks = window(self.marks[2], settling.half(frequency));
+        self.guess = guess;
+        self.seen = Reductions { growth: self.seen.growth, ..Reductions::default() };
+        self.stretches = Stretches::default();
+        true
+    }
+
     /// The outcome of a job that has passed all parts.
     #[must_use]
-    pub fn outcome(&self, plan: &Plan) -> Outcome {
+    pub fn outcome(&self) -> Outcome {
         let end = self.marks[2];
         let status = self.lane.status;
         // The second pass goes over the window again and ends before its end.
         let (status, time) =
             if status == Status::Unwritten { (Status::Ok, end) } else { (status, self.time) };
-        self.seen.outcome(&self.scene, plan, &End { status, steps: self.steps, time })
+        let outcome = self.seen.outcome(&self.scene, &self.plan, &End { status, steps: self.steps, time });
+        match self.ending {
+            Some(ending) => outcome.ended(ending, self.marks[0] * self.scene.units.time),
+            None => outcome,
+        }
     }
+}
+
+/// The times of a window's start, middle and end.
+fn window(start: f64, half: f64) -> [f64; 3] {
+    [start, start + half, start + half + half]
 }

@@ -29,6 +29,8 @@ pub mod stretches;
 pub mod transitions;
 pub mod vector;
 
+use std::sync::atomic::Ordering;
+
 use pulp::{Arch, Simd, WithSimd};
 
 use crate::kernel::scalar::Real;
@@ -108,8 +110,18 @@ impl<T: Real, const N: usize, const LAW: bool> Parts<'_, T, N, LAW> {
     where
         T: Scalar<S>,
     {
-        for part in Part::ALL {
-            pass::<S, T, REGISTERS, N, LAW>(simd, self.jobs, part, self.settings);
+        let Parts { jobs, settings } = self;
+        let mut parts = Part::ALL.into_iter().peekable();
+        while let Some(part) = parts.peek().copied() {
+            pass::<S, T, REGISTERS, N, LAW>(simd, jobs, part, settings);
+            if settings.cancel.load(Ordering::Relaxed) {
+                return;
+            }
+            // Those that are not settled go on together with another window.
+            let again = part == Part::Window && jobs.iter_mut().fold(false, |any, job| job.goes_on() | any);
+            if !again {
+                parts.next();
+            }
         }
     }
 }

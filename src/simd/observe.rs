@@ -32,6 +32,8 @@ pub struct Sums<S: Simd, T: Scalar<S>, const K: usize> {
     pub first: Vector<S, T, K>,
     /// Time of the last.
     pub last: Vector<S, T, K>,
+    /// 1 as long as the stretch has no event.
+    pub quiet: Vector<S, T, K>,
     /// Time since the stretch began.
     pub time: Vector<S, T, K>,
     /// Sums before the first event.
@@ -60,6 +62,7 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
             crossings: zero,
             first: zero,
             last: zero,
+            quiet: zero,
             time: zero,
             growth: [zero; GROWTH],
             growing: zero,

@@ -157,6 +157,7 @@ fn step<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool, 
     let mut pending = zero;
     if happened.any() {
         sums.growing = happened.select(zero, sums.growing);
+        sums.quiet = happened.select(zero, sums.quiet);
         let rare = if all.part == Part::Growth { happened } else { transitions(b, event, at) };
         pending = rare.select(event, zero);
         look = look.or(rare);
@@ -215,6 +216,7 @@ fn begin<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>, lane: 
     if all.part == Part::Window {
         sums.window.iter_mut().for_each(|word| word.set(lane, T::ZERO));
         sums.peaks.iter_mut().for_each(|word| word.set(lane, T::ZERO));
+        sums.quiet.set(lane, T::ONE);
         let begun = job.seen.crossings > 0;
         sums.spectrum.begin(lane, job.guessed_omega(), 0.5 * length, begun);
     }
@@ -247,6 +249,7 @@ fn flush<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>, lane: 
     }
     if all.part == Part::Window {
         let half = job.half();
+        job.quiet &= sums.quiet.get(lane) > T::ZERO;
         for (total, word) in job.seen.halves[half].iter_mut().zip(&sums.window) {
             *total += word.get(lane).to_f64();
         }

@@ -37,6 +37,7 @@ impl Check<'_> {
         self.start_has_effect()?;
         self.ramp_is_whole()?;
         self.belt_moves()?;
+        self.settling_has_effect()?;
         self.every_case()
     }
 
@@ -149,6 +150,26 @@ impl Check<'_> {
             }
         }
         Ok(())
+    }
+
+    /// A run until settled needs a belt that goes on as it is; its limit needs such a run.
+    fn settling_has_effect(&self) -> Result<()> {
+        let auto = "settle = \"auto\" in [response]";
+        match (&self.sections.auto, &self.sections.settle_limit) {
+            (None, Some((_, span))) => {
+                let key = "`settle_limit` in [response]".to_owned();
+                Err(unused(self.sweep.place(span.clone()), key, auto.to_owned()))
+            }
+            (Some(span), _) => match self.param(Param::RampDuration) {
+                Some((_, ramp)) => Err(Error::Conflict {
+                    at: self.sweep.place(span.clone()),
+                    key: auto.to_owned(),
+                    other: format!("{ramp}, during which nothing settles"),
+                }),
+                None => Ok(()),
+            },
+            (None, None) => Ok(()),
+        }
     }
 
     fn belt_moves(&self) -> Result<()> {

@@ -10,19 +10,22 @@ use crate::spec::document::{Node, out_of_range, string};
 /// Longest duration in seconds or periods: a typing error is refused, no study is.
 const LONGEST: f64 = 1e9;
 
-/// Reads a duration; only `settle` may be 0.
-pub(super) fn duration(source: &Source, node: &Node, label: &str, may_be_zero: bool) -> Result<Duration> {
-    const EXPECTED: &str = "a string such as \"6 s\" or \"200 periods\"";
-    let text = string(source, node, label, EXPECTED)?;
-    let bound = if may_be_zero { "not below 0" } else { "greater than 0" };
-    let bad = || out_of_range(source, node, label, format!("{EXPECTED}, {bound} and at most {LONGEST:e}"));
+/// Reads a duration; only that of `settle` may be 0.
+pub(super) fn duration(source: &Source, node: &Node, label: &str, settle: bool) -> Result<Duration> {
+    let (expected, bound) = if settle {
+        ("\"auto\" or a string such as \"6 s\" or \"200 periods\"", "not below 0")
+    } else {
+        ("a string such as \"6 s\" or \"200 periods\"", "greater than 0")
+    };
+    let text = string(source, node, label, expected)?;
+    let bad = || out_of_range(source, node, label, format!("{expected}, {bound} and at most {LONGEST:e}"));
 
     let mut words = text.split_whitespace();
     let (Some(count), Some(unit), None) = (words.next(), words.next(), words.next()) else {
         return Err(bad());
     };
     let count: f64 = count.parse().map_err(|_| bad())?;
-    let long_enough = if may_be_zero { count >= 0.0 } else { count > 0.0 };
+    let long_enough = if settle { count >= 0.0 } else { count > 0.0 };
     if !long_enough || count > LONGEST {
         return Err(bad());
     }

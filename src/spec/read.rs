@@ -13,7 +13,7 @@ use crate::spec::document::{entries, string};
 use crate::spec::files::Files;
 use crate::spec::sections::{Sections, TOP_LEVEL, section_of, unknown_key};
 use crate::spec::varied::Varied;
-use crate::spec::{Duration, MEASURE, SETTLE, Spec};
+use crate::spec::{AUTO_MEASURE, Duration, FIRST_SETTLE, MEASURE, SETTLE, SETTLE_LIMIT, Spec};
 
 impl Spec {
     /// Reads and validates a sweep file; files that it names are relative to its directory.
@@ -71,7 +71,13 @@ impl Spec {
 fn assemble(sections: Sections, varied: Varied, files: Files) -> Spec {
     let ramp = sections.base.get(Param::RampDuration).is_some()
         || varied.find(AxisKey::Param(Param::RampDuration)).is_some();
-    let (settle, measure) = if ramp { (Duration::Seconds(0.0), Duration::Ramp) } else { (SETTLE, MEASURE) };
+    let auto = sections.auto.is_some();
+    let (settle, measure) = match (ramp, auto) {
+        (true, _) => (Duration::Seconds(0.0), Duration::Ramp),
+        (false, true) => (FIRST_SETTLE, AUTO_MEASURE),
+        (false, false) => (SETTLE, MEASURE),
+    };
+    let limit = sections.settle_limit.map_or(SETTLE_LIMIT, |(limit, _)| limit);
     Spec {
         title: sections.title,
         analysis: sections.analysis,
@@ -84,6 +90,7 @@ fn assemble(sections: Sections, varied: Varied, files: Files) -> Spec {
         grid: varied.grid,
         start: sections.start,
         settle: sections.settle.unwrap_or(settle),
+        settle_limit: auto.then_some(limit),
         measure: sections.measure.unwrap_or(measure),
         steps_per_period: sections.steps_per_period,
     }

@@ -62,13 +62,25 @@ impl Spec {
         };
         start.insert("kind".to_owned(), json!(kind));
         spec.insert("start".to_owned(), Json::Object(start));
-        let response = json!({
-            "settle": self.settle.to_string(),
-            "measure": self.measure.to_string(),
-            "steps_per_period": self.steps_per_period,
-        });
-        spec.insert("response".to_owned(), response);
+        spec.insert("response".to_owned(), self.response());
         Json::Object(spec)
+    }
+
+    fn response(&self) -> Json {
+        let measure = self.measure.to_string();
+        match self.settle_limit {
+            None => json!({
+                "settle": self.settle.to_string(),
+                "measure": measure,
+                "steps_per_period": self.steps_per_period,
+            }),
+            Some(limit) => json!({
+                "settle": "auto",
+                "settle_limit": limit.to_string(),
+                "measure": measure,
+                "steps_per_period": self.steps_per_period,
+            }),
+        }
     }
 
     /// The values of a section that do not vary.

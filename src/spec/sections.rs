@@ -7,7 +7,7 @@ use crate::model::friction::LawKind;
 use crate::model::material::Outside;
 use crate::model::{PARAMS, Param, Params, Section};
 use crate::place::Source;
-use crate::spec::document::{Entry, array, boolean, choice, entries, integer, number, string, table};
+use crate::spec::document::{Entry, Node, array, boolean, choice, entries, integer, number, string, table};
 use crate::spec::duration::duration;
 use crate::spec::law;
 use crate::spec::names::unknown;
@@ -46,6 +46,10 @@ pub(super) struct Sections {
     pub(super) outside: Outside,
     pub(super) start: StartKind,
     pub(super) settle: Option<Duration>,
+    /// Where `settle = "auto"` stands.
+    pub(super) auto: Option<Range<usize>>,
+    /// `settle_limit`, and where it stands.
+    pub(super) settle_limit: Option<(Duration, Range<usize>)>,
     pub(super) measure: Option<Duration>,
     pub(super) steps_per_period: u32,
     pub(super) given: Vec<Given>,
@@ -65,6 +69,8 @@ impl Default for Sections {
             outside: Outside::Error,
             start: StartKind::Kick,
             settle: None,
+            auto: None,
+            settle_limit: None,
             measure: None,
             steps_per_period: STEPS_PER_PERIOD,
             given: Vec::new(),
@@ -172,12 +178,17 @@ impl Sections {
 
     /// `[response]`.
     pub(super) fn response(&mut self, source: &Source, entry: Entry) -> Result<()> {
-        const KEYS: [&str; 3] = ["settle", "measure", "steps_per_period"];
+        const KEYS: [&str; 4] = ["settle", "settle_limit", "measure", "steps_per_period"];
         let expected = "a table, written as a line [response] above its keys";
         for entry in entries(table(source, entry.node, "`response`", expected)?) {
             let label = format!("`{}` in [response]", entry.key);
             match entry.key {
+                "settle" if is_auto(entry.node) => self.auto = Some(entry.node.span()),
                 "settle" => self.settle = Some(duration(source, entry.node, &label, true)?),
+                "settle_limit" => {
+                    let limit = duration(source, entry.node, &label, false)?;
+                    self.settle_limit = Some((limit, entry.key_span()));
+                }
                 "measure" => self.measure = Some(duration(source, entry.node, &label, false)?),
                 "steps_per_period" => {
                     let steps = integer(source, entry.node, &label, STEPS_RANGE.0, STEPS_RANGE.1)?;
@@ -188,6 +199,11 @@ impl Sections {
         }
         Ok(())
     }
+}
+
+/// Whether a duration is left to the run.
+fn is_auto(node: &Node) -> bool {
+    node.get_ref().as_str() == Some("auto")
 }
 
 /// The keys of a section.
@@ -205,7 +221,7 @@ fn keys(section: Section) -> Vec<&'static str> {
 /// The section that does have the key, if there is one.
 fn home(key: &str) -> Option<&'static str> {
     match key {
-        "settle" | "measure" | "steps_per_period" => Some("response"),
+        "settle" | "settle_limit" | "measure" | "steps_per_period" => Some("response"),
         _ => [Section::Model, Section::Friction, Section::Belt, Section::Start]
             .into_iter()
             .find(|&section| keys(section).contains(&key))

@@ -14,12 +14,13 @@ use crate::spec::rows::Rows;
 use crate::spec::sections::law_value;
 
 /// Keys of a sweep file that cannot vary.
-pub(super) const FIXED: [&str; 9] = [
+pub(super) const FIXED: [&str; 10] = [
     "impact_friction",
     "table",
     "outside",
     "kind",
     "settle",
+    "settle_limit",
     "measure",
     "steps_per_period",
     "title",

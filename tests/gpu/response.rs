@@ -3,18 +3,18 @@
 use libtest_mimic::Failed;
 use squealmap::Error;
 use squealmap::backend::gpu::kernel::Compiled;
-use squealmap::backend::gpu::response::outcome_from;
+use squealmap::backend::gpu::response::read_lane;
 use squealmap::backend::gpu::run::{Drive, run};
 use squealmap::integrate::STEP_TOLERANCE;
 use squealmap::kernel::lane::Lane;
 use squealmap::kernel::record::write;
-use squealmap::kernel::response::{TOLERANCE, choices, kernel, segments, words as packed_words};
+use squealmap::kernel::response::{TOLERANCE, choices, kernel, reductions, segments, words as packed_words};
 use squealmap::kernel::scene::{Law, Scene as Words};
 use squealmap::kernel::source::{Kernel, Precision, SETTING_WORDS, first_word, words};
 use squealmap::method::taylor::REFERENCE_ORDER;
 use squealmap::model::friction::FrictionLaw;
 use squealmap::model::{Param, Params};
-use squealmap::outcome::Status;
+use squealmap::outcome::{Outcome, Status};
 use squealmap::response::{Plan, Scene, respond};
 use squealmap::spec::{Duration, Instance, StartKind};
 
@@ -53,6 +53,7 @@ pub(crate) fn plan(settle: f64, measure: f64) -> Plan {
     Plan {
         start: StartKind::Kick,
         settle: Duration::Periods(settle),
+        settle_limit: None,
         measure: Duration::Periods(measure),
         steps_per_period: 12,
         order: REFERENCE_ORDER,
@@ -120,6 +121,19 @@ fn short_runs() -> Result<(), Failed> {
     }
     println!("{equal} of {count} lanes equal in every bit; worst difference of a state {worst:.1e}");
     if worst < 1e-3 { Ok(()) } else { Err(format!("worst difference {worst:e}").into()) }
+}
+
+/// The outcome of a finished lane from its words.
+fn outcome_from(
+    scene: &Scene,
+    plan: &Plan,
+    index: usize,
+    state: &[f32],
+    flags: &[u32],
+) -> squealmap::Result<Outcome> {
+    let segments = segments(scene, plan);
+    let (seen, end) = reductions(&segments, &read_lane(&segments, index, state, flags)?);
+    Ok(seen.outcome(scene, plan, &end))
 }
 
 fn long_runs() -> Result<(), Failed> {

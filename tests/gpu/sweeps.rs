@@ -22,6 +22,7 @@ pub(crate) const CASES: &[Case] = &[
     ("sweeps::a_coarse_paper_map_is_that_of_the_reference", coarse_paper_map),
     ("sweeps::every_law_and_a_ramp_are_those_of_the_reference", laws_and_ramp),
     ("sweeps::leaning_springs_are_those_of_the_reference", leaning_springs),
+    ("sweeps::runs_until_settled_are_those_of_the_reference", until_settled),
     ("sweeps::slow_belts_are_those_of_the_reference", slow_belts),
     ("sweeps::a_table_of_forty_rows_is_that_of_the_reference", || table(40, 24)),
     ("sweeps::a_table_of_a_hundred_rows_is_that_of_the_reference", || table(100, 12)),
@@ -139,6 +140,34 @@ fn laws_and_ramp() -> Result<(), Failed> {
     for text in [LAWS.to_owned(), LAWS.to_owned() + RAMP] {
         let spec = spec(&text)?;
         check(&on_gpu(&spec, Precision::F32, None)?, &on_cpu(&spec)?, 1e-4, 5e-3)?;
+    }
+    Ok(())
+}
+
+/// Until settled, in chunks that leave few lanes to a window: the same endings, and windows of whole cycles.
+fn until_settled() -> Result<(), Failed> {
+    let spec = spec(
+        "[axes]\nmu_s = { values = [0.1, 0.25, 0.45] }\nmu_d = { values = [0.02, 0.1, 0.4] }\n\
+         belt_velocity = { values = [1, 3, 6] }\n\
+         [response]\nsettle = \"auto\"\nsettle_limit = \"150 periods\"\n",
+    )?;
+    let reference = on_cpu(&spec)?;
+    for chunk in [None, Some(10)] {
+        let map = on_gpu(&spec, Precision::F32, chunk)?;
+        check(&map, &reference, 1e-4, 5e-3)?;
+        let mut endings = std::collections::BTreeMap::new();
+        for (found, expected) in map.records.iter().zip(&reference.records) {
+            let (found, expected) =
+                (found.outcome.ok_or("an outcome")?, expected.outcome.ok_or("an outcome")?);
+            assert_eq!(found.ending, expected.ending);
+            let [a, b] = [found, expected].map(|one| one.settling_time.unwrap_or(f64::NAN));
+            assert!((a / b - 1.0).abs() < 1e-3, "{a} {b}");
+            let degrees = found.phase_cycle.unwrap_or(0.0) - expected.phase_cycle.unwrap_or(0.0);
+            assert!(degrees.abs() < 0.5 || degrees.abs() > 359.5, "{degrees}");
+            *endings.entry(format!("{:?}", found.ending)).or_insert(0) += 1;
+        }
+        println!("{endings:?}");
+        assert_eq!(endings.len(), 3, "decays, settled and not");
     }
     Ok(())
 }

@@ -34,6 +34,7 @@ pub(crate) fn plan(settle: f64, measure: f64, steps_per_period: u32) -> Plan {
     Plan {
         start: StartKind::Kick,
         settle: Duration::Seconds(settle),
+        settle_limit: None,
         measure: Duration::Seconds(measure),
         steps_per_period,
         order: REFERENCE_ORDER,

@@ -23,6 +23,7 @@ mod observables;
 mod properties;
 mod regimes;
 mod response;
+mod settle;
 mod simd;
 mod spec;
 mod start;

@@ -250,6 +250,7 @@ proptest! {
         };
         let plan = Plan {
             settle: squealmap::spec::Duration::Periods(10.0),
+            settle_limit: None,
             measure: squealmap::spec::Duration::Periods(10.0),
             ..plan(0.0, 1.0, 12)
         };

@@ -65,6 +65,20 @@ fn every_shipped_sweep_is_valid() {
 }
 
 #[test]
+fn a_run_until_settled_has_shorter_windows_and_a_limit() {
+    let base =
+        "[friction]\nmu_s = 0.4\nmu_d = 0.3\n[belt]\nbelt_velocity = 3\n[response]\nsettle = \"auto\"\n";
+    let spec = parse(base);
+    assert_eq!((spec.settle, spec.measure), (Duration::Periods(24.0), Duration::Periods(48.0)));
+    assert_eq!(spec.settle_limit, Some(Duration::Periods(1000.0)));
+    let json = spec.resolved();
+    assert_eq!(json["response"]["settle"], "auto");
+    assert_eq!(json["response"]["settle_limit"], "1000 periods");
+    let spec = parse(&format!("{base}settle_limit = \"60 s\"\nmeasure = \"2 s\"\n"));
+    assert_eq!((spec.settle_limit, spec.measure), (Some(Duration::Seconds(60.0)), Duration::Seconds(2.0)));
+}
+
+#[test]
 fn an_empty_friction_section_takes_the_defaults() {
     let spec = parse("[friction]\nmu_s = 0.4\nmu_d = 0.3\n[belt]\nbelt_velocity = 3\n");
     assert_eq!(spec.grid.len(), 1);

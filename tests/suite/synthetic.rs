@@ -38,6 +38,7 @@ pub(crate) fn spec(grid: Grid) -> Spec {
         grid,
         start: StartKind::Kick,
         settle: spec::Duration::Seconds(6.0),
+        settle_limit: None,
         measure: spec::Duration::Seconds(3.0),
         steps_per_period: 60,
     }

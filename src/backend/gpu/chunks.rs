@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::device::Device;
 use super::kernel::Compiled;
-use super::run::{ChunkResult, Drive, run};
+use super::run::{ChunkResult, Drive, resume};
 use crate::error::{Error, Result};
 use crate::kernel::scalar::Real;
 use crate::kernel::source::{Constant, Kernel, WORKGROUP_SIZE, words};
@@ -26,6 +26,8 @@ pub struct Batch<R, T> {
     pub choices: Choices,
     /// Word-major inputs; without any instance there is nothing to run, and nothing comes of it.
     pub inputs: Vec<R>,
+    /// Word-major state and flags that its instances have come to before; `None` at their start.
+    pub before: Option<(Vec<R>, Vec<u32>)>,
     /// What belongs to them.
     pub memory: T,
 }
@@ -72,18 +74,19 @@ impl Session {
 
     /// Runs `total` instances in chunks of at most `chunk`.
     ///
-    /// `prepare` makes the batches of a range, of as many instances as it likes; `accept` gets the range and
-    /// each batch's memory and result, also of a chunk that was cancelled on its way.
+    /// `prepare` makes the batches of a range, of as many instances as it likes; `accept` gets the range, whether
+    /// it has got it before, and each batch's memory and result, also of a chunk that was cancelled on its way. It
+    /// returns the batches that are to follow for the same range: none when that is done.
     ///
     /// # Errors
-    /// Those of [`run`]; a device lost for the second time.
+    /// Those of [`resume`]; a device lost for the second time.
     pub fn each<R: Real, T>(
         &mut self,
         total: usize,
         chunk: usize,
         drive: &Drive,
         mut prepare: impl FnMut(Range<usize>) -> Vec<Batch<R, T>>,
-        mut accept: impl FnMut(Range<usize>, Vec<(T, ChunkResult<R>)>) -> Result<()>,
+        mut accept: impl FnMut(Range<usize>, bool, Vec<(T, ChunkResult<R>)>) -> Result<Vec<Batch<R, T>>>,
     ) -> Result<()> {
         let mut chunk = chunk.max(1);
         let mut start = 0;
@@ -93,6 +96,9 @@ impl Session {
             let done = AtomicUsize::new(0);
             // What a lost device had already reported is not reported again.
             let progress = |count: usize| {
+                if !drive.counts {
+                    return;
+                }
                 let now = done.fetch_add(count, Ordering::Relaxed) + count;
                 let before = reported.fetch_max(now, Ordering::Relaxed);
                 if now > before {
@@ -100,13 +106,25 @@ impl Session {
                 }
             };
             let drive_chunk = Drive { offset: start, progress: &progress, ..*drive };
-            match self.run(prepare(range.clone()), &drive_chunk) {
-                Ok(results) => {
-                    let cancelled = results.iter().any(|(_, result)| result.cancelled);
-                    accept(range.clone(), results)?;
-                    if cancelled {
-                        return Err(Error::Cancelled { done: start, total });
-                    }
+            let mut batches = prepare(range.clone());
+            let mut again = false;
+            let ended = loop {
+                let results = match self.run(batches, &drive_chunk) {
+                    Ok(results) => results,
+                    Err(why) => break Err(why),
+                };
+                let cancelled = results.iter().any(|(_, result)| result.cancelled);
+                batches = accept(range.clone(), again, results)?;
+                if cancelled {
+                    return Err(Error::Cancelled { done: start, total });
+                }
+                if batches.is_empty() {
+                    break Ok(());
+                }
+                again = true;
+            };
+            match ended {
+                Ok(()) => {
                     let rest = range.len().saturating_sub(reported.swap(0, Ordering::Relaxed));
                     (drive.progress)(rest);
                     start = range.end;
@@ -142,7 +160,13 @@ impl Session {
                 continue;
             }
             let place = self.compiled(&batch.kernel, &batch.choices)?;
-            let result = match run(&self.device, &self.compiled[place].1, &batch.inputs, drive) {
+            let result = match resume(
+                &self.device,
+                &self.compiled[place].1,
+                &batch.inputs,
+                batch.before.as_ref(),
+                drive,
+            ) {
                 Err(Error::Cancelled { total, .. }) => ChunkResult::nothing(&batch.kernel, total),
                 other => other?,
             };

@@ -68,14 +68,22 @@ fn append_in<R: Real>(
         steps: None,
         most_dispatches: MOST_DISPATCHES,
         cancel: options.cancel(),
+        counts: true,
         progress,
     };
     let prepare = |range: Range<usize>| {
         let known: Vec<Known> = range.into_par_iter().map(|index| known(spec, index)).collect();
-        vec![Batch { kernel: KERNEL, choices: Vec::new(), inputs: inputs(&known), memory: known }]
+        vec![Batch {
+            kernel: KERNEL,
+            choices: Vec::new(),
+            inputs: inputs(&known),
+            before: None,
+            memory: known,
+        }]
     };
-    let accept = |_: Range<usize>, results: Vec<(Vec<Known>, ChunkResult<R>)>| {
-        results.into_iter().try_for_each(|(known, result)| take(records, known, &result))
+    let accept = |_: Range<usize>, _: bool, results: Vec<(Vec<Known>, ChunkResult<R>)>| {
+        results.into_iter().try_for_each(|(known, result)| take(records, known, &result))?;
+        Ok(Vec::new())
     };
     session.each(spec.grid.len(), chunk, &drive, prepare, accept)
 }

@@ -13,14 +13,14 @@ use super::run::{ChunkResult, Drive};
 use crate::backend::choice::Options;
 use crate::backend::take_response;
 use crate::error::{Error, Result};
+use crate::kernel::lane::Lane;
 use crate::kernel::record;
-use crate::kernel::response::{
-    KERNEL, MOST_PIECES, TOLERANCE, choices, kernel_for, law_of, outcome, segments, words,
-};
+use crate::kernel::response::{KERNEL, MOST_PIECES, TOLERANCE, choices, kernel_for, law_of, words};
 use crate::kernel::scalar::Real;
-use crate::kernel::scene::Law;
+use crate::kernel::scene::{Law, Segments};
 use crate::kernel::series::ORDER;
 use crate::kernel::source::{self, FLAG_STATUS, Precision, SETTING_WORDS, WORKGROUP_SIZE};
+use crate::kernel::windows::Windows;
 use crate::linear;
 use crate::map::Record;
 use crate::outcome::{Outcome, Status};
@@ -109,35 +109,43 @@ fn complete_in<R: Real>(
         // Every lane ends by itself: its steps, their parts and its events are counted.
         most_dispatches: u64::MAX,
         cancel: options.cancel(),
+        // A lane ends with every window.
+        counts: plan.settle_limit.is_none(),
         progress,
     };
     let prepare = |range: Range<usize>| {
-        let words = |index: usize| words_of(&spec.instance(index), &plan);
-        let prepared: Vec<Option<(Form, Vec<R>)>> = range.clone().into_par_iter().map(words).collect();
-        let mut batches: BTreeMap<Form, (Vec<usize>, Vec<Vec<R>>)> = BTreeMap::new();
-        for (index, one) in range.zip(prepared) {
-            if let Some((form, words)) = one {
-                let (indices, rows) = batches.entry(form).or_default();
-                indices.push(index);
-                rows.push(words);
-            }
+        let prepared: Vec<_> = range.into_par_iter().filter_map(|index| begin(spec, index, &plan)).collect();
+        let mut batches: BTreeMap<Form, Vec<Ready<R>>> = BTreeMap::new();
+        for (form, ready) in prepared {
+            batches.entry(form).or_default().push(ready);
         }
-        batches.into_iter().map(|(form, (indices, rows))| batch(form, indices, &rows)).collect()
+        batches.into_iter().map(|(form, ready)| batch(form, ready)).collect()
     };
-    let accept = |range: Range<usize>, results: Vec<(Vec<usize>, ChunkResult<R>)>| {
-        let mut live = vec![false; range.len()];
-        for (indices, result) in results {
-            let done: Vec<Record> = (0..indices.len())
+    let accept = |range: Range<usize>, again: bool, results: Vec<(Vec<Running>, ChunkResult<R>)>| {
+        let mut live = vec![again; range.len()];
+        let mut batches = BTreeMap::new();
+        for (running, result) in results {
+            let count = running.len();
+            let ends: Vec<End<R>> = running
                 .into_par_iter()
-                .map(|lane| {
-                    let index = indices[lane];
-                    let words = lane_words(&result, lane, indices.len());
-                    finished(spec, &plan, index, records[index], result.cancelled, &words)
-                })
+                .enumerate()
+                .map(|(lane, one)| end(spec, &plan, one, result.cancelled, &lane_words(&result, lane, count)))
                 .collect::<Result<_>>()?;
-            for (index, record) in indices.into_iter().zip(done) {
-                live[index - range.start] = true;
-                records[index] = record;
+            for end in ends {
+                match end {
+                    End::NotComputed(index) => {
+                        live[index - range.start] = true;
+                        records[index] = Record::NOT_COMPUTED;
+                    }
+                    End::Outcome(index, outcome) => {
+                        live[index - range.start] = true;
+                        take(spec, &spec.instance(index), &mut records[index], &outcome);
+                    }
+                    End::Again(form, ready) => {
+                        live[ready.running.index - range.start] = true;
+                        batches.entry(form).or_insert_with(Vec::new).push(ready);
+                    }
+                }
             }
         }
         for index in range.clone().filter(|index| !live[index - range.start]) {
@@ -145,7 +153,7 @@ fn complete_in<R: Real>(
             let status = Scene::new(&instance, plan.start).err().unwrap_or(Status::Unwritten);
             take(spec, &instance, &mut records[index], &Outcome { status, ..Outcome::default() });
         }
-        Ok(())
+        Ok(batches.into_iter().map(|(form, ready)| batch(form, ready)).collect())
     };
     let ended = session.each(spec.grid.len(), chunk, &drive, prepare, accept);
     // What a chunk that never came to its end would have filled.
@@ -162,27 +170,83 @@ fn take(spec: &Spec, instance: &Instance, record: &mut Record, outcome: &Outcome
     take_response(record, instance, kind, outcome);
 }
 
-/// The kernel and the words of an instance; `None` when it cannot start.
-fn words_of<R: Real>(instance: &Instance, plan: &Plan) -> Option<(Form, Vec<R>)> {
-    let scene = Scene::new(instance, plan.start).ok()?;
+/// An instance on its way through the windows of its run.
+#[derive(Debug)]
+struct Running {
+    index: usize,
+    /// `None` for the one window of a fixed time, which is as soon made again as kept.
+    windows: Option<Box<Windows>>,
+}
+
+/// An instance with what a kernel is to be given of it: its inputs, and the words it has come to before.
+#[derive(Debug)]
+struct Ready<R> {
+    running: Running,
+    inputs: Vec<R>,
+    before: Option<(Vec<R>, Vec<u32>)>,
+}
+
+/// What came of an instance.
+enum End<R> {
+    /// Nothing: the run was cancelled before.
+    NotComputed(usize),
+    /// Its outcome.
+    Outcome(usize, Outcome),
+    /// Another window.
+    Again(Form, Ready<R>),
+}
+
+/// The kernel and the words of an instance at its start; `None` when it cannot start.
+fn begin<R: Real>(spec: &Spec, index: usize, plan: &Plan) -> Option<(Form, Ready<R>)> {
+    let instance = spec.instance(index);
+    let scene = Scene::new(&instance, plan.start).ok()?;
+    let windows = Windows::new(&instance, &scene, plan);
+    let segments = windows.segments;
+    let windows = plan.settle_limit.is_some().then(|| Box::new(windows));
+    ready(&instance, &scene, &segments, Running { index, windows }, None)
+}
+
+/// The kernel and the words of an instance.
+fn ready<R: Real>(
+    instance: &Instance,
+    scene: &Scene,
+    segments: &Segments,
+    running: Running,
+    before: Option<(Vec<R>, Vec<u32>)>,
+) -> Option<(Form, Ready<R>)> {
     let &(_, pieces) = kernel_for(scene.model.law.pieces.len())?;
-    let segments = segments(&scene, plan);
     let ramp = segments.iter().any(|segment| segment[3] != 0.0);
-    let packed = words(&scene, &segments, pieces);
-    let narrow = packed.into_iter().map(R::from_f64).collect();
-    Some((Form { law: law_of(instance.law.kind()), pieces, ramp }, narrow))
+    let inputs = words(scene, segments, pieces).into_iter().map(R::from_f64).collect();
+    Some((Form { law: law_of(instance.law.kind()), pieces, ramp }, Ready { running, inputs, before }))
 }
 
 /// The instances of a chunk that share a kernel.
-fn batch<R: Real>(form: Form, indices: Vec<usize>, rows: &[Vec<R>]) -> Batch<R, Vec<usize>> {
+fn batch<R: Real>(form: Form, ready: Vec<Ready<R>>) -> Batch<R, Vec<Running>> {
     let kernel = kernel_for(form.pieces).map_or(KERNEL, |(kernel, _)| *kernel);
-    let mut inputs = vec![R::ZERO; rows.len() * source::words(kernel.inputs)];
-    inputs.par_chunks_mut(rows.len()).enumerate().for_each(|(word, column)| {
-        for (value, row) in column.iter_mut().zip(rows) {
-            *value = row[word];
+    let inputs = word_major(source::words(kernel.inputs), ready.len(), |row| &ready[row].inputs);
+    let before = ready.iter().map(|one| one.before.as_ref()).collect::<Option<Vec<_>>>().map(|before| {
+        (
+            word_major(source::words(kernel.state), before.len(), |row| &before[row].0),
+            word_major(source::words(kernel.flags), before.len(), |row| &before[row].1),
+        )
+    });
+    let memory = ready.into_iter().map(|one| one.running).collect();
+    Batch { kernel, choices: choices(form.law, form.ramp).to_vec(), inputs, before, memory }
+}
+
+/// Rows of words, word by word.
+fn word_major<'a, T: bytemuck::Pod + Send + Sync>(
+    words: usize,
+    rows: usize,
+    row: impl Fn(usize) -> &'a Vec<T> + Sync,
+) -> Vec<T> {
+    let mut columns = vec![T::zeroed(); words * rows];
+    columns.par_chunks_mut(rows.max(1)).enumerate().for_each(|(word, column)| {
+        for (index, value) in column.iter_mut().enumerate() {
+            *value = row(index)[word];
         }
     });
-    Batch { kernel, choices: choices(form.law, form.ramp).to_vec(), inputs, memory: indices }
+    columns
 }
 
 /// State and flags of lane `lane` of `count`.
@@ -193,48 +257,51 @@ fn lane_words<R: Real>(result: &ChunkResult<R>, lane: usize, count: usize) -> (V
     (state, flags)
 }
 
-/// The record of instance `index`, completed from the words of its lane; not computed when the chunk was
-/// cancelled before the lane's end.
+/// What came of an instance, from the words of its lane.
 ///
 /// # Errors
-/// Those of [`outcome_from`].
-fn finished<R: Real>(
+/// Those of [`read_lane`].
+fn end<R: Real>(
     spec: &Spec,
     plan: &Plan,
-    index: usize,
-    mut record: Record,
+    running: Running,
     cancelled: bool,
     (state, flags): &(Vec<R>, Vec<u32>),
-) -> Result<Record> {
+) -> Result<End<R>> {
+    let index = running.index;
     if cancelled && flags[FLAG_STATUS] == Status::Unwritten as u32 {
-        return Ok(Record::NOT_COMPUTED);
+        return Ok(End::NotComputed(index));
     }
     let instance = spec.instance(index);
     let Ok(scene) = Scene::new(&instance, plan.start) else {
         return Err(Error::Unwritten { instance: index });
     };
-    take(spec, &instance, &mut record, &outcome_from(&scene, plan, index, state, flags)?);
-    Ok(record)
+    let mut windows = running.windows.unwrap_or_else(|| Box::new(Windows::new(&instance, &scene, plan)));
+    let mut lane = read_lane(&windows.segments, index, state, flags)?;
+    match windows.take(&scene, &mut lane) {
+        Some(outcome) => Ok(End::Outcome(index, outcome)),
+        None if cancelled => Ok(End::NotComputed(index)),
+        None => {
+            let segments = windows.segments;
+            let running = Running { index, windows: Some(windows) };
+            let (form, ready) = ready(&instance, &scene, &segments, running, Some(record::write(&lane)))
+                .ok_or(Error::Unwritten { instance: index })?;
+            Ok(End::Again(form, ready))
+        }
+    }
 }
 
-/// The outcome of instance `index` from the words of its lane.
+/// The finished lane of instance `index` from its words.
 ///
 /// # Errors
 /// When they are no finished lane, or one that says it came to its end and did not.
-pub fn outcome_from<R: Real>(
-    scene: &Scene,
-    plan: &Plan,
-    index: usize,
-    state: &[R],
-    flags: &[u32],
-) -> Result<Outcome> {
+pub fn read_lane<R: Real>(segments: &Segments, index: usize, state: &[R], flags: &[u32]) -> Result<Lane<R>> {
     let lane = record::read(state, flags).ok_or(Error::Unwritten { instance: index })?;
-    let segments = segments(scene, plan);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whole numbers of steps")]
     let wanted: usize = segments.iter().map(|segment| segment[0] as usize).sum();
     let found = lane.iterations as usize;
-    if lane.status == Status::Ok && (found < wanted || !lane.is_at_end(&segments)) {
+    if lane.status == Status::Ok && (found < wanted || !lane.is_at_end(segments)) {
         return Err(Error::Miscounted { kernel: KERNEL.name, found, wanted });
     }
-    Ok(outcome(scene, plan, &segments, &lane))
+    Ok(lane)
 }

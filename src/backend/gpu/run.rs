@@ -38,6 +38,8 @@ pub struct Drive<'a> {
     pub most_dispatches: u64,
     /// Set to stop: between two dispatches.
     pub cancel: &'a AtomicBool,
+    /// Whether a lane that has ended is an instance that is done.
+    pub counts: bool,
     /// Gets the number of newly finished instances.
     pub progress: &'a (dyn Fn(usize) + Sync),
 }
@@ -65,15 +67,29 @@ impl<R: Real> ChunkResult<R> {
     }
 }
 
-/// Runs a chunk; `inputs` are word-major, `count` instances of all of the kernel's input words.
+/// Runs a chunk from its start; `inputs` are word-major, `count` instances of all of the kernel's input words.
 ///
 /// # Errors
-/// When the device fails or is lost, the run is cancelled before an instance is finished, the kernel does not
-/// end, or leaves an instance unwritten.
+/// Those of [`resume`].
 pub fn run<R: Real>(
     device: &Device,
     compiled: &Compiled,
     inputs: &[R],
+    drive: &Drive,
+) -> Result<ChunkResult<R>> {
+    resume(device, compiled, inputs, None, drive)
+}
+
+/// Runs a chunk; `before` are the word-major state and flags it goes on from, if it does.
+///
+/// # Errors
+/// When the device fails or is lost, the run is cancelled before an instance is finished, the kernel does not
+/// end, or leaves an instance unwritten.
+pub fn resume<R: Real>(
+    device: &Device,
+    compiled: &Compiled,
+    inputs: &[R],
+    before: Option<&(Vec<R>, Vec<u32>)>,
     drive: &Drive,
 ) -> Result<ChunkResult<R>> {
     let [input_words, state_words, flag_words] = compiled.words();
@@ -86,7 +102,17 @@ pub fn run<R: Real>(
         });
     }
     let sizes = [state_words * count * size_of::<R>(), flag_words * count * 4];
-    let buffers = device.checked("allocating buffers", || Buffers::new(device, compiled, inputs, sizes))?;
+    if let Some((state, flags)) = before {
+        for (name, found, wanted) in
+            [("state", size_of_val(&state[..]), sizes[0]), ("flags", size_of_val(&flags[..]), sizes[1])]
+        {
+            if found != wanted {
+                return Err(Error::ShortBuffer { name, found, wanted });
+            }
+        }
+    }
+    let buffers =
+        device.checked("allocating buffers", || Buffers::new(device, compiled, inputs, before, sizes))?;
     let finished = dispatch(device, compiled, &buffers, count, drive)?;
     let cancelled = finished < count;
     if cancelled && finished == 0 {
@@ -134,6 +160,7 @@ impl Buffers {
         device: &Device,
         compiled: &Compiled,
         inputs: &[R],
+        before: Option<&(Vec<R>, Vec<u32>)>,
         [state, flags]: [usize; 2],
     ) -> Buffers {
         use wgpu::BufferUsages as Usage;
@@ -148,8 +175,12 @@ impl Buffers {
         let settings = buffer("settings", size_of::<Settings>(), Usage::UNIFORM | Usage::COPY_DST);
         let input = buffer("inputs", size_of_val(inputs), Usage::STORAGE | Usage::COPY_DST);
         device.queue.write_buffer(&input, 0, bytemuck::cast_slice(inputs));
-        let state = buffer("state", state, Usage::STORAGE | Usage::COPY_SRC);
-        let flags = buffer("flags", flags, Usage::STORAGE | Usage::COPY_SRC);
+        let state = buffer("state", state, Usage::STORAGE | Usage::COPY_SRC | Usage::COPY_DST);
+        let flags = buffer("flags", flags, Usage::STORAGE | Usage::COPY_SRC | Usage::COPY_DST);
+        if let Some((words, counters)) = before {
+            device.queue.write_buffer(&state, 0, bytemuck::cast_slice(words));
+            device.queue.write_buffer(&flags, 0, bytemuck::cast_slice(counters));
+        }
         let progress = buffer("progress", PROGRESS_WORDS * 4, Usage::STORAGE | Usage::COPY_SRC);
         let bound = [&settings, &input, &state, &flags, &progress];
         let entries: Vec<wgpu::BindGroupEntry> = (0..)

@@ -1,0 +1,137 @@
+//! A run until it is settled: windows of whole cycles, one after another, until nothing changes any more.
+//!
+//! A window that ends within a cycle mixes the phase of its ends into its sums; one that is shorter than the beat
+//! of the two modes compares different parts of it. The halves of a window are therefore whole cycles of the
+//! motion as the window before has seen it, and not shorter than the beat.
+
+use std::f64::consts::TAU;
+
+use serde::Serialize;
+
+use crate::classify::{self, InstabilityType, Regime};
+use crate::linear;
+use crate::model::Param;
+use crate::model::equilibrium::Units;
+use crate::model::friction::LawKind;
+use crate::outcome::{Outcome, Status};
+use crate::response::{Plan, Scene};
+use crate::spec::Instance;
+
+/// The longest half of a window, in the halves that were asked for: near coalescence the beat is endless.
+const LONGEST_HALF: f64 = 4.0;
+
+/// Settled: the deviation of `x2` and the rms of `ÿ1` of three halves in a row agree within this fraction, half
+/// of what [`classify::THRESHOLDS`] asks of one window; and so much may still be to come.
+pub const AGREE: f64 = 0.005;
+
+/// A change of this fraction is no trend, whichever way it goes.
+const NO_TREND: f64 = 0.0005;
+
+/// How a run until settled ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Ending {
+    /// On its way back to a stable equilibrium without any event: its eigenvalues say the rest.
+    Decays,
+    /// Its windows agree.
+    Settled,
+    /// At the longest time to settle, its windows still differ.
+    Limit,
+}
+
+/// The windows of one run until settled; times are scaled.
+#[derive(Clone, Debug)]
+pub struct Settling {
+    limit: f64,
+    half: f64,
+    belt_velocity: f64,
+    stable: bool,
+    piecewise_linear: bool,
+    before: Option<[f64; 2]>,
+}
+
+impl Settling {
+    /// The windows of an instance; `None` when the plan has one, at a fixed time.
+    #[must_use]
+    pub fn new(instance: &Instance, scene: &Scene, plan: &Plan) -> Option<Settling> {
+        let limit = scene.scaled(plan.settle_limit?);
+        let asked = 0.5 * scene.scaled(plan.measure);
+        Some(Settling {
+            limit,
+            half: beat(instance, &scene.units).clamp(asked, LONGEST_HALF * asked),
+            belt_velocity: instance.params.require(Param::BeltVelocity),
+            stable: linear::analyse(instance).0 == Some(InstabilityType::Stable),
+            piecewise_linear: !matches!(instance.law.kind(), LawKind::Exponential | LawKind::Rational),
+            before: None,
+        })
+    }
+
+    /// The length of a half of the next window: whole cycles of a motion of `frequency` (cycles per scaled time).
+    #[must_use]
+    pub fn half(&self, frequency: Option<f64>) -> f64 {
+        match frequency {
+            Some(frequency) if frequency * self.half >= 0.5 => (frequency * self.half).ceil() / frequency,
+            _ => self.half,
+        }
+    }
+
+    /// Judges a window that ended at `end`; `events` says whether any fell into it. `None`: another one follows.
+    pub fn judge(&mut self, outcome: &Outcome, events: bool, end: f64) -> Option<Ending> {
+        let (regime, _) = classify::regime(outcome, self.belt_velocity, self.stable);
+        let halves = [outcome.x2_std_halves, outcome.ay_rms_halves];
+        let before = self.before.replace(halves.map(|[_, last]| last));
+        let [first, second] = outcome.speed_rms_halves;
+        if first == 0.0 && second == 0.0 || regime == Regime::Stuck {
+            return Some(Ending::Settled);
+        }
+        if self.stable && !events && (self.piecewise_linear || second <= first) {
+            return Some(Ending::Decays);
+        }
+        // What has met no event yet grows as its eigenvalue says, however slowly.
+        let moves = events && regime != Regime::Equilibrium;
+        if let Some(before) = before
+            && moves
+            && halves.iter().zip(before).all(|(&[a, b], before)| has_settled([before, a, b]))
+        {
+            return Some(Ending::Settled);
+        }
+        (end > self.limit).then_some(Ending::Limit)
+    }
+}
+
+/// Whether three values in a row, as far apart as the windows, are those of something settled: the last change
+/// is small, and so is all that follows when it is a step of a geometric approach.
+fn has_settled([a, b, c]: [f64; 3]) -> bool {
+    let (size, bound) = (b.max(c), AGREE * b.max(c));
+    let [before, last] = [b - a, c - b];
+    if last.abs() <= NO_TREND * size && before.abs() <= bound {
+        return true;
+    }
+    let ratio = last / before;
+    let approach = if before * last <= 0.0 { 1.0 } else { ratio / (1.0 - ratio) };
+    last.abs() <= bound && before.abs() <= bound && ratio < 1.0 && last.abs() * approach <= bound
+}
+
+/// The beat of the two modes of the sliding equilibrium, scaled: infinite when they have one frequency, 0 when
+/// there are no two oscillations.
+fn beat(instance: &Instance, units: &Units) -> f64 {
+    let Some(eigenvalues) = linear::eigenvalues(instance) else { return 0.0 };
+    let mut frequencies: Vec<f64> =
+        eigenvalues.iter().map(|z| z.im * units.time).filter(|w| *w > 0.0).collect();
+    frequencies.sort_by(f64::total_cmp);
+    match frequencies[..] {
+        [low, high] => TAU / (high - low),
+        _ => 0.0,
+    }
+}
+
+impl Outcome {
+    /// The outcome of the last window of a run until settled, which began at `start` (SI).
+    #[must_use]
+    pub fn ended(self, ending: Ending, start: f64) -> Outcome {
+        match self.status {
+            Status::Ok => Outcome { ending: Some(ending), settling_time: Some(start), ..self },
+            _ => self,
+        }
+    }
+}
