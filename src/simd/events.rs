@@ -9,7 +9,7 @@ use pulp::Simd;
 
 use super::block::{Block, SECOND, THIRD};
 use super::constants::{INV_DET, MU_STICK, N0, STIFFNESS};
-use super::expand::Expansion;
+use super::expand::{Expansion, FLIGHT, SINGLE};
 use super::functions::{Functions, may_fall};
 use super::vector::{Scalar, Vector};
 use crate::kernel::crossing::{HIGHEST_ORDER, SAMPLES, SOLVER_ITERATIONS};
@@ -59,7 +59,7 @@ fn value_and_slope<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
 /// Of two event functions that fall in one step the one with the earlier estimate (straight between samples)
 /// comes first.
 #[inline(always)]
-pub fn first_event<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const FLIGHT: bool>(
+pub fn first_event<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const MOTION: u8>(
     b: &Block<S, T, K>,
     e: &Expansion<S, T, K, N>,
     g: &Functions<S, T, K, N>,
@@ -74,7 +74,7 @@ pub fn first_event<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const 
         b.disarmed.less(third).and(second.at_most(b.disarmed)),
         third.at_most(b.disarmed),
     ];
-    let falls = may_fall::<S, T, K, N, FLIGHT>(b, e, g);
+    let falls = may_fall::<S, T, K, N, MOTION>(b, e, g);
     let mut open = [from_zero[0].or(falls[0]), from_zero[1].or(falls[1]), from_zero[2].or(falls[2])];
     let mut pending = open[0].or(open[1]).or(open[2]);
     if !pending.any() {
@@ -83,7 +83,7 @@ pub fn first_event<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const 
     let (slip, flies) = (b.slip(), b.free());
     let square = e.step * e.step;
     // Forces are off by the truncation of the motion and the rounding of the static loads.
-    let band = force_band::<S, T, K, N, FLIGHT>(b, e, tolerance);
+    let band = force_band::<S, T, K, N, MOTION>(b, e, tolerance);
     let mut best = Bracket { low: zero, high: one, estimate: one.like(2.0), event: zero, order: zero };
     let mut series = [zero; N];
     let mut turn = 0;
@@ -94,7 +94,7 @@ pub fn first_event<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const 
         let sign = here[1].select(one, here[2].select(-one, zero));
         let mut c = [here[1].select(g.start[1], here[2].select(g.start[2], g.start[0])); N];
         for k in 1..N {
-            c[k] = share * e.n[k];
+            c[k] = if MOTION == SINGLE { zero } else { share * e.n[k] };
             if k < N - 1 {
                 c[k] = sign.fma(g.second[k], c[k]);
             }
@@ -154,14 +154,14 @@ pub fn first_event<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const 
 
 /// What a force may be off by at the beginning of a step.
 #[inline(always)]
-fn force_band<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const FLIGHT: bool>(
+fn force_band<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const MOTION: u8>(
     b: &Block<S, T, K>,
     e: &Expansion<S, T, K, N>,
     tolerance: Vector<S, T, K>,
 ) -> Vector<S, T, K> {
     let one = e.step.like(1.0);
-    let slower = largest::<S, T, K, N, FLIGHT>(e, 2).fma(e.rate, largest::<S, T, K, N, FLIGHT>(e, 1));
-    let motion = slower.fma(e.rate, largest::<S, T, K, N, FLIGHT>(e, 0));
+    let slower = largest::<S, T, K, N, MOTION>(e, 2).fma(e.rate, largest::<S, T, K, N, MOTION>(e, 1));
+    let motion = slower.fma(e.rate, largest::<S, T, K, N, MOTION>(e, 0));
     let loads = (b.scene[MU_STICK] + one) * b.scene[N0] + e.n[0].abs() * (e.rate * e.rate);
     let rounding = Vector::splat(b.simd, T::EPSILON) * e.step.like(ROUNDINGS);
     rounding.fma(loads, tolerance * b.scene[STIFFNESS] * motion)
@@ -232,7 +232,8 @@ fn refine<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
         let scaled = slope * t - bracket.order * here;
         let down = scaled.less(zero);
         let newton = t - here * t / down.select(scaled, zero.like(-1.0));
-        let good = down.and(low.at_most(newton)).and(newton.at_most(high));
+        // At 0 the root that does not count is all there is to see.
+        let good = down.and(low.at_most(newton)).and(newton.at_most(high)).and(zero.less(newton));
         let next = good.select(newton, (low + high) * zero.like(0.5));
         let change = (next - t).abs();
         t = active.select(next, t);
@@ -246,10 +247,13 @@ fn refine<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
 
 /// The largest magnitude of the positions' coefficients of degree `k`.
 #[inline(always)]
-pub fn largest<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const FLIGHT: bool>(
+pub fn largest<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const MOTION: u8>(
     e: &Expansion<S, T, K, N>,
     k: usize,
 ) -> Vector<S, T, K> {
-    let contact = e.p[0][k].abs().max(e.p[2][k].abs());
-    if FLIGHT { contact.max(e.p[1][k].abs()) } else { contact }
+    match MOTION {
+        SINGLE => e.p[0][k].abs(),
+        FLIGHT => e.p[0][k].abs().max(e.p[2][k].abs()).max(e.p[1][k].abs()),
+        _ => e.p[0][k].abs().max(e.p[2][k].abs()),
+    }
 }

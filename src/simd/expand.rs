@@ -16,6 +16,13 @@ pub const PIECES: bool = false;
 /// Either of the two others; which one is known when it runs.
 pub const CURVED: bool = true;
 
+/// Motion of `x2` alone: θ = 0 and `y1` at rest, so that the normal force is that of the equilibrium.
+pub const SINGLE: u8 = 0;
+/// No lane flies: `y2` is 0.
+pub const CLOSED: u8 = 1;
+/// Some lane may fly.
+pub const FLIGHT: u8 = 2;
+
 /// Series of one step; `N` coefficients of the positions.
 #[derive(Clone, Copy, Debug)]
 pub struct Expansion<S: Simd, T: Scalar<S>, const K: usize, const N: usize> {
@@ -129,7 +136,7 @@ struct Forms<S: Simd, T: Scalar<S>, const K: usize> {
 
 /// The forms of every lane's contact state; `reciprocal` is `1/(1 + κ q0)`.
 #[inline(always)]
-fn forms<S: Simd, T: Scalar<S>, const K: usize, const FLIGHT: bool>(
+fn forms<S: Simd, T: Scalar<S>, const K: usize, const MOTION: u8>(
     b: &Block<S, T, K>,
     h: Vector<S, T, K>,
     [q0, q0_less]: [Vector<S, T, K>; 2],
@@ -144,14 +151,16 @@ fn forms<S: Simd, T: Scalar<S>, const K: usize, const FLIGHT: bool>(
     let mut aw = [zero; 6];
     let mut normal = [zero; 6];
     for i in 0..6 {
-        if !FLIGHT && (i == 1 || i == 4) {
+        if MOTION != FLIGHT && (i == 1 || i == 4) || MOTION == SINGLE && i % 3 > 0 {
             continue;
         }
         let (power, scaled) = if i < 3 { (square, scale) } else { (h, scale_damper) };
         ax[i] = (q0.fma(b.scene[W + i], -b.scene[R + i])) * scaled;
-        aw[i] = b.scene[H + i] * power;
-        normal[i] = b.scene[W + i] * power;
-        if FLIGHT {
+        if MOTION != SINGLE {
+            aw[i] = b.scene[H + i] * power;
+            normal[i] = b.scene[W + i] * power;
+        }
+        if MOTION == FLIGHT {
             ax[i] = free.select(b.scene[FLIGHT_X + i] * power, ax[i]);
             ay[i] = (b.scene[FLIGHT_Y + i] * power).only(free);
             normal[i] = free.select(zero, normal[i]);
@@ -161,7 +170,7 @@ fn forms<S: Simd, T: Scalar<S>, const K: usize, const FLIGHT: bool>(
     let mut load = b.scene[N0] * square;
     let mut kappa = b.scene[KAPPA];
     let mut fall = zero;
-    if FLIGHT {
+    if MOTION == FLIGHT {
         push = free.select(b.scene[FALL] * square, push);
         fall = (b.scene[FALL + 1] * square).only(free);
         load = free.select(zero, load);
@@ -170,10 +179,10 @@ fn forms<S: Simd, T: Scalar<S>, const K: usize, const FLIGHT: bool>(
     Forms { ax, ay, aw, normal, push, fall, load, kappa }
 }
 
-/// Expands the motion over the step `h`; returns the lanes whose contact forces are not unique. Without
-/// `FLIGHT` no lane may fly, and the series of `y2` are left alone.
+/// Expands the motion over the step `h`; returns the lanes whose contact forces are not unique. Series of what
+/// does not move are left alone.
 #[inline(always)]
-pub fn expand<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool, const FLIGHT: bool>(
+pub fn expand<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool, const MOTION: u8>(
     b: &Block<S, T, K>,
     h: Vector<S, T, K>,
     e: &mut Expansion<S, T, K, N>,
@@ -189,15 +198,17 @@ pub fn expand<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: 
     let ill_posed = inertia.not_positive();
     let per_step = one / (inertia * h);
     let reciprocal = per_step * h;
-    let forms = forms::<S, T, K, FLIGHT>(b, h, [q0, q0_less], reciprocal);
+    let forms = forms::<S, T, K, MOTION>(b, h, [q0, q0_less], reciprocal);
     let Forms { ax, ay, aw, normal, push, fall, load, kappa } = forms;
     let drive = b.drive * (h * h);
     // q_k = −slope · (relative velocity)_k, with 1/(1 + κ q0) folded in.
     let stiffening = slip.select(-(b.piece[SLOPE] * per_step), zero);
+    // Without a slope q is constant.
+    let sloped = LAW == CURVED || zero.less(stiffening.abs()).any();
 
     let Expansion { p, v, a, n, q, law, .. } = e;
     for i in 0..3 {
-        if FLIGHT || i != 1 {
+        if MOTION == FLIGHT || i == 0 || i == 2 && MOTION != SINGLE {
             p[i][0] = b.p[i];
             v[i][1] = b.v[i] * h;
             p[i][1] = v[i][1];
@@ -209,16 +220,18 @@ pub fn expand<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: 
         law[0] = q0;
     }
     for k in 0..N - 2 {
-        let mut x = ax[0].fma(p[0][k], ax[2] * p[2][k]);
-        let mut y = zero;
-        let mut w = aw[0].fma(p[0][k], aw[2] * p[2][k]);
-        let mut force = normal[0].fma(p[0][k], normal[2] * p[2][k]);
+        let (mut x, mut y, mut w, mut force) = (ax[0] * p[0][k], zero, zero, zero);
+        if MOTION != SINGLE {
+            x = ax[0].fma(p[0][k], ax[2] * p[2][k]);
+            w = aw[0].fma(p[0][k], aw[2] * p[2][k]);
+            force = normal[0].fma(p[0][k], normal[2] * p[2][k]);
+        }
         if k == 0 {
             x += push;
             y += fall;
             force += load;
         }
-        if FLIGHT {
+        if MOTION == FLIGHT {
             x = ax[1].fma(p[1][k], x);
             w = aw[1].fma(p[1][k], w);
             y = ay[0].fma(p[0][k], ay[1].fma(p[1][k], ay[2].fma(p[2][k], y)));
@@ -226,30 +239,40 @@ pub fn expand<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: 
             x = ax[4].fma(v[1][k + 1], x);
             w = aw[4].fma(v[1][k + 1], w);
         }
-        for j in 2..k {
-            x = q[j].fma(n[k - j], x);
+        if MOTION != SINGLE {
+            if sloped {
+                for j in 2..k {
+                    x = q[j].fma(n[k - j], x);
+                }
+            }
+            x = ax[5].fma(v[2][k + 1], x);
         }
-        x = ax[5].fma(v[2][k + 1], x);
         x = ax[3].fma(v[0][k + 1], x);
         if k > 0 {
             x = q[k].fma(n[0], x);
         }
-        if k > 1 {
-            x = q[1].fma(n[k - 1], x);
+        if MOTION != SINGLE {
+            if k > 1 {
+                x = q[1].fma(n[k - 1], x);
+            }
+            w = aw[5].fma(v[2][k + 1], w);
+            w = aw[3].fma(v[0][k + 1], w);
+            force = normal[5].fma(v[2][k + 1], force);
+            force = normal[3].fma(v[0][k + 1], force);
+            a[1][k] = w;
         }
-        w = aw[5].fma(v[2][k + 1], w);
-        w = aw[3].fma(v[0][k + 1], w);
-        force = normal[5].fma(v[2][k + 1], force);
-        force = normal[3].fma(v[0][k + 1], force);
-        n[k] = kappa.fnma(x, force);
+        if MOTION != SINGLE || k == 0 {
+            n[k] = kappa.fnma(x, force);
+        }
         a[0][k] = x;
-        a[1][k] = w;
         let (once, twice) = (h.like(1.0 / (k + 1) as f64), h.like(1.0 / ((k + 1) * (k + 2)) as f64));
         v[0][k + 2] = x * once;
         p[0][k + 2] = x * twice;
-        v[2][k + 2] = w * once;
-        p[2][k + 2] = w * twice;
-        if FLIGHT {
+        if MOTION != SINGLE {
+            v[2][k + 2] = w * once;
+            p[2][k + 2] = w * twice;
+        }
+        if MOTION == FLIGHT {
             v[1][k + 2] = y * once;
             p[1][k + 2] = y * twice;
         }

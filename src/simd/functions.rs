@@ -6,7 +6,7 @@ use pulp::Simd;
 
 use super::block::{Block, LOWER, UPPER};
 use super::constants::{CONE, MU_STICK, N0, R};
-use super::expand::Expansion;
+use super::expand::{Expansion, FLIGHT, SINGLE};
 use super::vector::{Mask, Scalar, Vector};
 
 /// The event functions of a step. Each is `m n_k + s d_k` for `k > 0`, with the series `n` of the normal force
@@ -33,7 +33,7 @@ impl<S: Simd, T: Scalar<S>, const K: usize, const N: usize> Functions<S, T, K, N
 
 /// The event functions; the series of the normal force becomes that of the gap in lanes that fly.
 #[inline(always)]
-pub fn functions<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const FLIGHT: bool>(
+pub fn functions<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const MOTION: u8>(
     b: &Block<S, T, K>,
     e: &mut Expansion<S, T, K, N>,
     g: &mut Functions<S, T, K, N>,
@@ -57,8 +57,11 @@ pub fn functions<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const FL
         let (x, w) = (b.scene[R] * square, b.scene[R + 2] * square);
         let (vx, vw) = (b.scene[R + 3] * e.step, b.scene[R + 5] * e.step);
         for k in 0..N - 2 {
-            let mut t = x.fma(e.p[0][k], w * e.p[2][k]);
-            t = vx.fma(e.v[0][k + 1], vw.fma(e.v[2][k + 1], t));
+            let mut t = vx.fma(e.v[0][k + 1], x * e.p[0][k]);
+            if MOTION != SINGLE {
+                t = x.fma(e.p[0][k], w * e.p[2][k]);
+                t = vx.fma(e.v[0][k + 1], vw.fma(e.v[2][k + 1], t));
+            }
             if k == 0 {
                 t += b.drive * square;
                 let still = mu.fnma(b.scene[N0] * square, mu * e.n[0]);
@@ -70,13 +73,13 @@ pub fn functions<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const FL
         }
         g.second[N - 2] = g.second[N - 2].only(sticks.not());
     }
-    if FLIGHT {
+    if MOTION == FLIGHT {
         let free = b.free();
         for k in 0..N {
             let force = if k < N - 2 { e.n[k] } else { zero };
             e.n[k] = free.select(e.p[1][k], force);
         }
-    } else {
+    } else if MOTION != SINGLE {
         e.n[N - 2] = zero;
         e.n[N - 1] = zero;
     }
@@ -115,27 +118,36 @@ fn tail<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
 
 /// Lanes in which each event function may fall to zero in the step.
 #[inline(always)]
-pub fn may_fall<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const FLIGHT: bool>(
+pub fn may_fall<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const MOTION: u8>(
     b: &Block<S, T, K>,
     e: &Expansion<S, T, K, N>,
     g: &Functions<S, T, K, N>,
 ) -> [Mask<S, T, K>; 3] {
-    let force_rest = tail(&e.n, if FLIGHT { N } else { N - 2 });
-    let first = lower_bound([e.n[0], e.n[1], e.n[2], e.n[3], e.n[4]], force_rest);
-    let rest = g.share.fma(force_rest, tail(&g.second, N - 1));
+    let mut rest = tail(&g.second, N - 1);
+    let mut first = e.n[0];
+    if MOTION != SINGLE {
+        let force_rest = tail(&e.n, if MOTION == FLIGHT { N } else { N - 2 });
+        first = lower_bound([e.n[0], e.n[1], e.n[2], e.n[3], e.n[4]], force_rest);
+        rest = g.share.fma(force_rest, rest);
+    }
     let mut ahead = [g.start[1]; 5];
     let mut back = [g.start[2]; 5];
     for k in 1..5 {
-        let common = g.share * e.n[k];
-        ahead[k] = common + g.second[k];
-        back[k] = common - g.second[k];
+        if MOTION == SINGLE {
+            ahead[k] = g.second[k];
+            back[k] = -g.second[k];
+        } else {
+            let common = g.share * e.n[k];
+            ahead[k] = common + g.second[k];
+            back[k] = common - g.second[k];
+        }
     }
     let mut open = [
         first.not_positive(),
         lower_bound(ahead, rest).not_positive(),
         lower_bound(back, rest).not_positive(),
     ];
-    if FLIGHT {
+    if MOTION == FLIGHT {
         let touches = b.free().not();
         open[1] = open[1].and(touches);
         open[2] = open[2].and(touches);

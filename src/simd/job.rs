@@ -9,6 +9,7 @@ use crate::kernel::reductions::{End, Reductions};
 use crate::kernel::response::{law_of, words};
 use crate::kernel::scalar::Real;
 use crate::kernel::scene::{Law, Scene as Words};
+use crate::kernel::series::FREE;
 use crate::outcome::{Outcome, Status};
 use crate::response::{Plan, Scene};
 use crate::settle::{Ending, Settling};
@@ -125,6 +126,14 @@ impl<T: Real> Job<T> {
     #[must_use]
     pub fn law(&self) -> Law {
         self.words.law
+    }
+
+    /// Whether `x2` alone moves: without an inclination nothing pushes `y1`, and the contact stays closed.
+    #[must_use]
+    pub fn is_single(&self) -> bool {
+        let body = &self.lane.body;
+        let rest = [body.p[1], body.p[2], body.v[1], body.v[2]].iter().all(|value| *value == T::ZERO);
+        rest && self.scene.model.s == 0.0 && self.lane.contact != FREE
     }
 
     /// Whether a part of the run has anything to do; the window's start is remembered when it begins.

@@ -9,8 +9,8 @@ use pulp::Simd;
 use super::block::Block;
 use super::constants::{N0, R, T0, W};
 use super::events::{value, value_to};
-use super::expand::Expansion;
-use super::spectrum::{Nodes, Spectrum};
+use super::expand::{Expansion, SINGLE};
+use super::spectrum::{Nodes, Spectrum, moving};
 use super::vector::{Mask, Scalar, Vector};
 use crate::kernel::observe::{NODES, SAMPLE_TIMES, SUMS, WEIGHTS};
 use crate::kernel::reductions::GROWTH;
@@ -75,7 +75,7 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
 
     /// Adds the part of the step up to `at` to the window.
     #[inline(always)]
-    pub fn observe_window<const N: usize>(
+    pub fn observe_window<const N: usize, const MOTION: u8>(
         &mut self,
         b: &Block<S, T, K>,
         e: &Expansion<S, T, K, N>,
@@ -91,26 +91,38 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
         self.window[12] += tau.only(b.up_to(REVERSE).and(b.up_to(SLIP).not()));
         let rate_square = e.rate * e.rate;
         let (flying, t0) = (free.any(), free.select(zero, b.scene[T0]));
+        let moving = moving(MOTION);
         let mut samples = [[zero; 5]; 3];
         for i in 0..5 {
             let t = at * at.like(SAMPLE_TIMES[i]);
             let [ax, ay] = match i {
-                0 => [e.a[0][0] * rate_square, e.a[1][0] * rate_square],
-                4 => [value_to(&e.a[0], N - 3, at) * rate_square, value_to(&e.a[1], N - 3, at) * rate_square],
+                0 => [0, 1].map(|j| e.a[j][0] * rate_square),
+                4 => {
+                    [0, 1].map(|j| if j < moving { value_to(&e.a[j], N - 3, at) * rate_square } else { zero })
+                }
                 _ => nodes[i - 1],
             };
             samples[0][i] = ax.abs();
             samples[1][i] = ay.abs();
             if i == 0 || i == 4 {
-                let n = if i == 0 { e.n[0] } else { value_to(&e.n, N - 3, t) };
-                // In flight the series is that of the gap.
-                samples[2][i] = free.select(zero, n * rate_square);
+                if MOTION != SINGLE {
+                    let n = if i == 0 { e.n[0] } else { value_to(&e.n, N - 3, t) };
+                    // In flight the series is that of the gap.
+                    samples[2][i] = free.select(zero, n * rate_square);
+                }
                 continue;
             }
-            let (x, w) = (value(&e.p[0], t), value(&e.p[2], t));
-            let (vx, vw) = (derivative(&e.v[0], t) * e.rate, derivative(&e.v[2], t) * e.rate);
+            let (x, vx) = (value(&e.p[0], t), derivative(&e.v[0], t) * e.rate);
+            let (mut w, mut vw) = (zero, zero);
+            if MOTION != SINGLE {
+                (w, vw) = (value(&e.p[2], t), derivative(&e.v[2], t) * e.rate);
+            }
             let mut forces = [zero; 2];
             for (force, c) in [(0, R), (1, W)] {
+                if MOTION == SINGLE {
+                    forces[force] = b.scene[c + 3].fma(vx, b.scene[c] * x);
+                    continue;
+                }
                 let mut sum = b.scene[c].fma(x, b.scene[c + 2] * w);
                 sum = b.scene[c + 3].fma(vx, b.scene[c + 5].fma(vw, sum));
                 if flying {
@@ -130,16 +142,24 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
             let sums = &mut self.window;
             sums[1] = weight.fma(x, sums[1]);
             sums[2] = weight.fma(x * x, sums[2]);
-            sums[3] = weight.fma(w, sums[3]);
-            sums[4] = weight.fma(w * w, sums[4]);
             sums[5] = weight.fma(ax * ax, sums[5]);
-            sums[6] = weight.fma(ay * ay, sums[6]);
-            sums[7] = weight.fma(vx.fma(vx, vw * vw), sums[7]);
+            if MOTION == SINGLE {
+                sums[7] = weight.fma(vx * vx, sums[7]);
+            } else {
+                sums[3] = weight.fma(w, sums[3]);
+                sums[4] = weight.fma(w * w, sums[4]);
+                sums[6] = weight.fma(ay * ay, sums[6]);
+                sums[7] = weight.fma(vx.fma(vx, vw * vw), sums[7]);
+            }
             sums[8] = weight.fma(tangential, sums[8]);
             sums[9] = weight.fma(normal, sums[9]);
         }
-        for i in 0..3 {
-            self.peaks[i] = self.peaks[i].max(maximum(&samples[i]));
+        self.peaks[0] = self.peaks[0].max(maximum(&samples[0]));
+        if MOTION == SINGLE {
+            self.peaks[2] = self.peaks[2].max(b.scene[N0]);
+        } else {
+            self.peaks[1] = self.peaks[1].max(maximum(&samples[1]));
+            self.peaks[2] = self.peaks[2].max(maximum(&samples[2]));
         }
     }
 
@@ -179,7 +199,7 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
 
     /// Adds a step before the first event; `p` and `v` are the state at its end.
     #[inline(always)]
-    pub fn observe_growth<const N: usize>(
+    pub fn observe_growth<const N: usize, const MOTION: u8>(
         &mut self,
         e: &Expansion<S, T, K, N>,
         at: Vector<S, T, K>,
@@ -188,15 +208,22 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
     ) {
         let rate_square = e.rate * e.rate;
         let tau = at * e.step * self.growing;
-        let sample =
-            [x, vx, value_to(&e.a[0], N - 3, at) * rate_square, value_to(&e.a[1], N - 3, at) * rate_square];
+        let mut sample = [x, vx, value_to(&e.a[0], N - 3, at) * rate_square, at.like(0.0)];
+        if MOTION != SINGLE {
+            sample[3] = value_to(&e.a[1], N - 3, at) * rate_square;
+        }
         self.growth[0] += tau;
         let mut word = 5;
         for i in 0..4 {
+            if MOTION == SINGLE && i == 3 {
+                break;
+            }
             let weighted = tau * sample[i];
             self.growth[1 + i] += weighted;
             for j in i..4 {
-                self.growth[word] = weighted.fma(sample[j], self.growth[word]);
+                if MOTION != SINGLE || j < 3 {
+                    self.growth[word] = weighted.fma(sample[j], self.growth[word]);
+                }
                 word += 1;
             }
         }

@@ -8,7 +8,7 @@ use pulp::Simd;
 
 use super::block::{Block, event_of};
 use super::events::{first_event, value};
-use super::expand::{Expansion, expand};
+use super::expand::{CLOSED, Expansion, FLIGHT, PIECES, SINGLE, expand};
 use super::functions::{Functions, functions};
 use super::job::{Job, Part, STRETCH};
 use super::observe::{Sums, derivative};
@@ -58,6 +58,7 @@ pub fn pass<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bo
     settings: Settings,
 ) {
     let Some(law) = jobs.first().map(Job::law) else { return };
+    let single = jobs.iter().all(Job::is_single);
     let lanes = Vector::<S, T, K>::LANES;
     let mut all = Lanes {
         block: Block::idle(simd, law),
@@ -81,17 +82,19 @@ pub fn pass<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bo
         if turn.is_multiple_of(TURNS) && settings.cancel.load(Ordering::Relaxed) {
             return;
         }
-        if all.block.free().any() {
-            step::<S, T, K, N, LAW, true>(&mut all, &mut e, &mut g, tolerance);
+        if LAW == PIECES && single {
+            step::<S, T, K, N, LAW, SINGLE>(&mut all, &mut e, &mut g, tolerance);
+        } else if all.block.free().any() {
+            step::<S, T, K, N, LAW, FLIGHT>(&mut all, &mut e, &mut g, tolerance);
         } else {
-            step::<S, T, K, N, LAW, false>(&mut all, &mut e, &mut g, tolerance);
+            step::<S, T, K, N, LAW, CLOSED>(&mut all, &mut e, &mut g, tolerance);
         }
     }
 }
 
 /// One step of every lane, up to its first event.
 #[inline(always)]
-fn step<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool, const FLIGHT: bool>(
+fn step<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool, const MOTION: u8>(
     all: &mut Lanes<S, T, K>,
     e: &mut Expansion<S, T, K, N>,
     g: &mut Functions<S, T, K, N>,
@@ -104,32 +107,32 @@ fn step<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool, 
     let pace = b.pace.min(b.step);
     let last = b.left.at_most(pace * one.like(1.0 + 1e-3));
     let h = last.select(b.left, pace);
-    let ill_posed = expand::<S, T, K, N, LAW, FLIGHT>(b, h, e);
-    let reach = reach::<S, T, K, N, FLIGHT>(e, tolerance);
+    let ill_posed = expand::<S, T, K, N, LAW, MOTION>(b, h, e);
+    let reach = reach::<S, T, K, N, MOTION>(e, tolerance);
     // Steps so short that a stretch does not end.
     let failed = reach.failed.or(ill_posed).or(one.like(MOST_STEPS).less(b.steps));
     if failed.any() {
         fail::<S, T, K>(all, failed.select(one, zero), ill_posed.select(one, zero));
         return;
     }
-    functions::<S, T, K, N, FLIGHT>(b, e, g);
-    let [at, event] = first_event::<S, T, K, N, FLIGHT>(b, e, g, tolerance);
+    functions::<S, T, K, N, MOTION>(b, e, g);
+    let [at, event] = first_event::<S, T, K, N, MOTION>(b, e, g, tolerance);
     let (at, event) = (at.min(reach.end), event.only(at.at_most(reach.end)));
     let (x, vx) = (value(&e.p[0], at), derivative(&e.v[0], at) * e.rate);
     let sums = &mut all.sums;
     if all.part == Part::Growth {
-        sums.observe_growth(e, at, x, vx);
+        sums.observe_growth::<N, MOTION>(e, at, x, vx);
         sums.cross_upwards::<N, 0>(e, at, vx);
     } else if all.part == Part::Settle {
         sums.cross_upwards::<N, 0>(e, at, vx);
     } else if all.part == Part::Window {
-        let nodes = accelerations(e, at);
-        sums.observe_window(b, e, &nodes, at);
+        let nodes = accelerations::<S, T, K, N, MOTION>(e, at);
+        sums.observe_window::<N, MOTION>(b, e, &nodes, at);
         let time = sums.time;
         let (crossed, moment) = sums.cross_upwards::<N, 2>(e, at, vx);
-        sums.spectrum.observe(e, &nodes, at, time, crossed, moment);
+        sums.spectrum.observe::<N, MOTION>(e, &nodes, at, time, crossed, moment);
         if sums.growing.not_positive().not().any() {
-            sums.observe_growth(e, at, x, vx);
+            sums.observe_growth::<N, MOTION>(e, at, x, vx);
         }
     } else if all.part == Part::Phase {
         sums.observe_phase(e, at);
@@ -138,9 +141,11 @@ fn step<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool, 
     sums.time += tau;
     b.p[0] = x;
     b.v[0] = vx;
-    b.p[2] = value(&e.p[2], at);
-    b.v[2] = derivative(&e.v[2], at) * e.rate;
-    if FLIGHT {
+    if MOTION != SINGLE {
+        b.p[2] = value(&e.p[2], at);
+        b.v[2] = derivative(&e.v[2], at) * e.rate;
+    }
+    if MOTION == FLIGHT {
         b.p[1] = value(&e.p[1], at);
         b.v[1] = derivative(&e.v[1], at) * e.rate;
     }

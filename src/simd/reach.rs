@@ -31,18 +31,18 @@ pub struct Reach<S: Simd, T: Scalar<S>, const K: usize> {
 /// How far the series are within the tolerance. A step that is far too long is made shorter, so that what
 /// looks for events has its samples where they count.
 #[inline(always)]
-pub fn reach<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const FLIGHT: bool>(
+pub fn reach<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const MOTION: u8>(
     e: &mut Expansion<S, T, K, N>,
     tolerance: Vector<S, T, K>,
 ) -> Reach<S, T, K> {
     let one = e.step.like(1.0);
     let (l0, l1, l2) = (
-        largest::<S, T, K, N, FLIGHT>(e, 0),
-        largest::<S, T, K, N, FLIGHT>(e, 1),
-        largest::<S, T, K, N, FLIGHT>(e, 2),
+        largest::<S, T, K, N, MOTION>(e, 0),
+        largest::<S, T, K, N, MOTION>(e, 1),
+        largest::<S, T, K, N, MOTION>(e, 2),
     );
     let (last_but_one, very_last) =
-        (largest::<S, T, K, N, FLIGHT>(e, N - 2), largest::<S, T, K, N, FLIGHT>(e, N - 1));
+        (largest::<S, T, K, N, MOTION>(e, N - 2), largest::<S, T, K, N, MOTION>(e, N - 1));
     let bound = tolerance * l0.max(l1).max(l2);
     let growth = (2..N).fold(1.0, |power, _| power * LONGER);
     let roomy = (last_but_one.max(very_last * one.like(LONGER)) * one.like(growth)).at_most(bound);

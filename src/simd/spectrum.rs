@@ -8,7 +8,7 @@
 use pulp::Simd;
 
 use super::events::value_to;
-use super::expand::Expansion;
+use super::expand::{Expansion, SINGLE};
 use super::observe::{rotation, turn};
 use super::vector::{Mask, Scalar, Vector};
 use crate::kernel::observe::{NODES, WEIGHTS};
@@ -38,17 +38,22 @@ pub struct Spectrum<S: Simd, T: Scalar<S>, const K: usize> {
 /// `ẍ2` and `ÿ1` at the nodes of a step.
 pub type Nodes<S, T, const K: usize> = [[Vector<S, T, K>; 2]; 3];
 
+/// How many of `x2` and `y1` move.
+pub const fn moving(motion: u8) -> usize {
+    if motion == SINGLE { 1 } else { 2 }
+}
+
 /// The accelerations at the nodes of the step up to `at`.
 #[inline(always)]
-pub fn accelerations<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
+pub fn accelerations<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const MOTION: u8>(
     e: &Expansion<S, T, K, N>,
     at: Vector<S, T, K>,
 ) -> Nodes<S, T, K> {
     let rate_square = e.rate * e.rate;
-    let mut nodes = [[at; 2]; 3];
+    let mut nodes = [[at.like(0.0); 2]; 3];
     for i in 0..3 {
         let t = at * at.like(NODES[i]);
-        for j in 0..2 {
+        for j in 0..moving(MOTION) {
             nodes[i][j] = value_to(&e.a[j], N - 3, t) * rate_square;
         }
     }
@@ -92,7 +97,7 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Spectrum<S, T, K> {
 
     /// The sums over the step up to `at`; `time` is that of its begin since the stretch began.
     #[inline(always)]
-    fn part<const N: usize>(
+    fn part<const N: usize, const MOTION: u8>(
         &self,
         e: &Expansion<S, T, K, N>,
         accelerations: &Nodes<S, T, K>,
@@ -114,7 +119,7 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Spectrum<S, T, K> {
             let u = tau.fma(node, time).fma(self.scale, at.like(-1.0));
             let mut terms = [ax * carrier[0], ax * carrier[1], ay * carrier[0], ay * carrier[1]];
             for m in 0..MOMENTS {
-                for j in 0..4 {
+                for j in 0..2 * moving(MOTION) {
                     sums[4 * m + j] += terms[j];
                     if m + 1 < MOMENTS {
                         terms[j] = terms[j] * u;
@@ -127,7 +132,7 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Spectrum<S, T, K> {
 
     /// Adds a step up to `at`; `crossed` are the lanes that cross upwards in it, at `moment`.
     #[inline(always)]
-    pub fn observe<const N: usize>(
+    pub fn observe<const N: usize, const MOTION: u8>(
         &mut self,
         e: &Expansion<S, T, K, N>,
         nodes: &Nodes<S, T, K>,
@@ -137,10 +142,11 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Spectrum<S, T, K> {
         moment: Vector<S, T, K>,
     ) {
         let zero = at.like(0.0);
-        let whole = self.part(e, nodes, at, time);
+        let whole = self.part::<N, MOTION>(e, nodes, at, time);
         let begun = zero.less(self.begun);
         if crossed.any() {
-            let before = self.part(e, &accelerations(e, moment), moment, time);
+            let nodes_before = accelerations::<S, T, K, N, MOTION>(e, moment);
+            let before = self.part::<N, MOTION>(e, &nodes_before, moment, time);
             for i in 0..COMPONENTS {
                 let reached = self.sums[i] + before.sums[i];
                 self.noted[i] = crossed.select(reached.only(begun), self.noted[i]);

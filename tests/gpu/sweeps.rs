@@ -149,7 +149,8 @@ fn until_settled() -> Result<(), Failed> {
     let spec = spec(
         "[axes]\nmu_s = { values = [0.1, 0.25, 0.45] }\nmu_d = { values = [0.02, 0.1, 0.4] }\n\
          belt_velocity = { values = [1, 3, 6] }\n\
-         [response]\nsettle = \"auto\"\nsettle_limit = \"150 periods\"\n",
+         [start]\nstart_velocity = 0.3\n\
+         [response]\nsettle = \"auto\"\nsettle_limit = \"200 periods\"\n",
     )?;
     let reference = on_cpu(&spec)?;
     for chunk in [None, Some(10)] {

@@ -25,6 +25,7 @@ mod regimes;
 mod response;
 mod settle;
 mod simd;
+mod single;
 mod spec;
 mod start;
 mod stopped;
