@@ -8,7 +8,6 @@ use std::thread::available_parallelism;
 use rayon::prelude::*;
 
 use super::chunks::{Batch, Session};
-use super::device::Device;
 use super::run::{ChunkResult, Drive};
 use crate::backend::choice::Options;
 use crate::backend::take_response;
@@ -50,20 +49,22 @@ fn pieces_of(spec: &Spec) -> usize {
     spec.table.as_ref().map_or(0, |table| table.velocity.len()).max(2)
 }
 
-/// Completes the records of a sweep with their response; when it ends early, those without are not computed.
+/// Completes the records of the instances from `first` on of a sweep with their response; when it ends early,
+/// those without are not computed. Instances in errors count from `first`.
 ///
 /// # Errors
 /// When the device fails, or the run is cancelled.
 pub fn complete(
     spec: &Spec,
-    device: &Device,
+    first: usize,
+    session: &mut Session,
     options: &Options,
     progress: &(dyn Fn(usize) + Sync),
     records: &mut [Record],
 ) -> Result<()> {
-    match device.precision() {
-        Precision::F32 => complete_in::<f32>(spec, device, options, progress, records),
-        Precision::F64 => complete_in::<f64>(spec, device, options, progress, records),
+    match session.device().precision() {
+        Precision::F32 => complete_in::<f32>(spec, first, session, options, progress, records),
+        Precision::F64 => complete_in::<f64>(spec, first, session, options, progress, records),
     }
 }
 
@@ -92,14 +93,14 @@ struct Form {
 
 fn complete_in<R: Real>(
     spec: &Spec,
-    device: &Device,
+    first: usize,
+    session: &mut Session,
     options: &Options,
     progress: &(dyn Fn(usize) + Sync),
     records: &mut [Record],
 ) -> Result<()> {
     let plan = Plan::new(spec);
-    let mut session = Session::new(device.clone());
-    let chunk = chunk_size::<R>(spec, &session, options);
+    let chunk = chunk_size::<R>(spec, session, options);
     let mut settings = [0; SETTING_WORDS];
     settings[0] = TOLERANCE.to_bits();
     let drive = Drive {
@@ -111,8 +112,9 @@ fn complete_in<R: Real>(
         cancel: options.cancel(),
         progress,
     };
+    let total = records.len();
     let prepare = |range: Range<usize>| {
-        let words = |index: usize| words_of(&spec.instance(index), &plan);
+        let words = |index: usize| words_of(&spec.instance(first + index), &plan);
         let prepared: Vec<Option<(Form, Vec<R>)>> = range.clone().into_par_iter().map(words).collect();
         let mut batches: BTreeMap<Form, (Vec<usize>, Vec<Vec<R>>)> = BTreeMap::new();
         for (index, one) in range.zip(prepared) {
@@ -132,7 +134,7 @@ fn complete_in<R: Real>(
                 .map(|lane| {
                     let index = indices[lane];
                     let words = lane_words(&result, lane, indices.len());
-                    finished(spec, &plan, index, records[index], result.cancelled, &words)
+                    finished(spec, &plan, [first, index], records[index], result.cancelled, &words)
                 })
                 .collect::<Result<_>>()?;
             for (index, record) in indices.into_iter().zip(done) {
@@ -141,13 +143,13 @@ fn complete_in<R: Real>(
             }
         }
         for index in range.clone().filter(|index| !live[index - range.start]) {
-            let instance = spec.instance(index);
+            let instance = spec.instance(first + index);
             let status = Scene::new(&instance, plan.start).err().unwrap_or(Status::Unwritten);
             take(spec, &instance, &mut records[index], &Outcome { status, ..Outcome::default() });
         }
         Ok(())
     };
-    let ended = session.each(spec.grid.len(), chunk, &drive, prepare, accept);
+    let ended = session.each(total, chunk, &drive, prepare, accept);
     // What a chunk that never came to its end would have filled.
     for record in records.iter_mut().filter(|record| record.outcome.is_none()) {
         *record = Record::NOT_COMPUTED;
@@ -193,7 +195,7 @@ fn lane_words<R: Real>(result: &ChunkResult<R>, lane: usize, count: usize) -> (V
     (state, flags)
 }
 
-/// The record of instance `index`, completed from the words of its lane; not computed when the chunk was
+/// The record of instance `first + index`, completed from the words of its lane; not computed when the chunk was
 /// cancelled before the lane's end.
 ///
 /// # Errors
@@ -201,7 +203,7 @@ fn lane_words<R: Real>(result: &ChunkResult<R>, lane: usize, count: usize) -> (V
 fn finished<R: Real>(
     spec: &Spec,
     plan: &Plan,
-    index: usize,
+    [first, index]: [usize; 2],
     mut record: Record,
     cancelled: bool,
     (state, flags): &(Vec<R>, Vec<u32>),
@@ -209,7 +211,7 @@ fn finished<R: Real>(
     if cancelled && flags[FLAG_STATUS] == Status::Unwritten as u32 {
         return Ok(Record::NOT_COMPUTED);
     }
-    let instance = spec.instance(index);
+    let instance = spec.instance(first + index);
     let Ok(scene) = Scene::new(&instance, plan.start) else {
         return Err(Error::Unwritten { instance: index });
     };
