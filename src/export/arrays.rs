@@ -93,7 +93,7 @@ impl Arrays {
         };
         let variables = columns(sheet.grid, sheet.analysis)
             .into_iter()
-            .filter(|column| column.is_computed())
+            .filter(Column::is_computed)
             .map(|column| Variable {
                 name: column.name,
                 unit: unit(column.unit),

@@ -163,7 +163,7 @@ impl Zarr {
         if !beside.is_empty() {
             attributes.insert("coordinates".to_owned(), json!(beside.join(" ")));
         }
-        array(&shape, &self.chunk, &names, [data_type.into(), fill], attributes)
+        array(&shape, &self.chunk, &names, [data_type.into(), fill], &attributes)
     }
 
     fn coordinate(&self, coordinate: &Coordinate) -> Json {
@@ -179,7 +179,7 @@ impl Zarr {
             attributes.insert("flag_meanings".to_owned(), json!(meanings));
             ["int32".into(), json!(-1)]
         };
-        array(&[length], &[length], &[name], data_type, attributes)
+        array(&[length], &[length], &[name], data_type, &attributes)
     }
 }
 
@@ -193,7 +193,7 @@ fn array(
     chunk: &[usize],
     names: &[&str],
     [data_type, fill]: [Json; 2],
-    attributes: Object<String, Json>,
+    attributes: &Object<String, Json>,
 ) -> Json {
     let codec = if data_type == "int8" {
         json!({ "name": "bytes" })

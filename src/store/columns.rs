@@ -87,9 +87,9 @@ pub fn decode(bytes: &[u8], count: usize, analysis: Analysis) -> Option<Vec<Reco
         });
         Some(Record {
             status,
-            kind: named(&InstabilityType::ALL, kind)?,
+            kind: named(&InstabilityType::ALL, kind).ok()?,
             linear,
-            regime: named(&Regime::ALL, regime)?,
+            regime: named(&Regime::ALL, regime).ok()?,
             settled: has(HAS_SETTLED).then(|| has(SETTLED)),
             outcome,
         })
@@ -97,11 +97,11 @@ pub fn decode(bytes: &[u8], count: usize, analysis: Analysis) -> Option<Vec<Reco
     (0..count).map(record).collect()
 }
 
-/// The entry of a list with this code; `None` when there is none.
-fn named<T: Copy>(all: &[T], code: u8) -> Option<Option<T>> {
+/// The entry of a list with this code, which is none for 0; an error when the list has no such code.
+fn named<T: Copy>(all: &[T], code: u8) -> Result<Option<T>, u8> {
     match usize::from(code).checked_sub(1) {
-        None => Some(None),
-        Some(place) => all.get(place).copied().map(Some),
+        None => Ok(None),
+        Some(place) => all.get(place).copied().map(Some).ok_or(code),
     }
 }
 

@@ -51,7 +51,8 @@ pub fn fill(store: &Store, solver: &mut Solver, wanted: &[usize], watch: Watch) 
     let (sender, receiver) = sync_channel(0);
     let mut filled = thread::scope(|scope| {
         let writer = scope.spawn(|| write_all(store, receiver));
-        let computed = compute(store, solver, wanted, watch, sender);
+        let computed = compute(store, solver, wanted, watch, &sender);
+        drop(sender);
         // An error of the writer is the cause of one of the computation.
         writer.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))?;
         computed
@@ -70,7 +71,7 @@ fn compute(
     solver: &mut Solver,
     wanted: &[usize],
     watch: Watch,
-    sender: SyncSender<Finished>,
+    sender: &SyncSender<Finished>,
 ) -> Result<Filled> {
     let mut filled = Filled { computed: 0, elapsed: Duration::ZERO, stopped: None, partial: None };
     let mut open = wanted.to_vec();

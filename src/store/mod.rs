@@ -9,7 +9,7 @@
 //! - [`tiling`]: how a sweep is cut.
 //! - [`identity`], [`grid_json`]: which sweep, program and engine, as one hash.
 //! - [`columns`], [`tile`]: records as bytes, with header and checksum.
-//! - [`description`]: `tiles/sweep.json`.
+//! - [`description`](mod@description): the file `tiles/sweep.json`.
 //! - [`claim`]: one process at a time writes a file.
 //! - [`directory`]: the tiles of a directory.
 //! - [`fill`]: computes what is missing.

@@ -29,7 +29,7 @@ fn cells(values: &[f64], flags: Option<(&[f64], &str)>, settled: bool) -> Vec<St
     let names: Vec<&str> = meanings.split(' ').collect();
     assert_eq!(names.len(), codes.len());
     let name = |value: &f64| {
-        let name = names[codes.iter().position(|code| code == value).unwrap()];
+        let name = names[codes.iter().position(|code| code.to_bits() == value.to_bits()).unwrap()];
         match (name, settled) {
             ("undefined", _) => "",
             ("no", true) => "0",

@@ -58,7 +58,9 @@ fn kill_and_resume(processes: usize, kills: usize) {
             // It may have come to its end.
             let _ = child.kill();
         }
-        children.into_iter().for_each(|mut child| drop(child.wait()));
+        for mut child in children {
+            drop(child.wait());
+        }
         stages.push(done(directory.path()));
     }
     assert!(stages.is_sorted(), "a finished tile stays: {stages:?}");

@@ -46,8 +46,9 @@ pub(crate) fn names(directory: &Path) -> Vec<String> {
         let entries = std::fs::read_dir(path).unwrap();
         entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect::<Vec<_>>()
     };
+    let is_tile = |name: &String| Path::new(name).extension().is_some_and(|end| end == "tile");
     let mut names = list(&directory.join("out/s"));
-    names.extend(list(&directory.join("out/s/tiles")).into_iter().filter(|name| !name.ends_with(".tile")));
+    names.extend(list(&directory.join("out/s/tiles")).into_iter().filter(|name| !is_tile(name)));
     names.sort();
     names
 }
