@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use crate::fit::FitFault;
 use crate::identify::Fault;
 pub use crate::place::Place;
+use crate::store::tile::Fault as TileFault;
 
 /// Why a run failed. Instances that fail are data (see [`crate::outcome::Status`]), not errors.
 #[derive(Debug, thiserror::Error)]
@@ -150,6 +151,17 @@ pub enum Error {
         /// The limit.
         limit: usize,
     },
+    /// More instances than the records of a sweep in memory may have.
+    #[error(
+        "the sweep has {instances} instances but at most {limit} fit the memory; compute it into a directory of \
+         tiles, as `squealmap run` does"
+    )]
+    TooManyInMemory {
+        /// The instances.
+        instances: usize,
+        /// The limit.
+        limit: usize,
+    },
     /// A row with another number of fields than the header.
     #[error("{at}: the row has {fields} field(s) but the header has {columns}; give one field per column")]
     RaggedRow {
@@ -216,6 +228,97 @@ pub enum Error {
         path: PathBuf,
         /// What the system says.
         why: String,
+    },
+    /// A directory without tiles.
+    #[error("`{}` holds no tiles; name the output directory of a `squealmap run`", path.display())]
+    NoTiles {
+        /// The directory.
+        path: PathBuf,
+    },
+    /// A description of tiles that is none.
+    #[error("cannot read `{}`: {why}", path.display())]
+    BadDescription {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        why: String,
+    },
+    /// A directory with tiles of another sweep.
+    #[error(
+        "`{}` holds {done} of {total} tiles of another sweep, program version or engine; choose another directory \
+         with -o, or remove `tiles` in it",
+        path.display()
+    )]
+    OtherSweep {
+        /// The directory.
+        path: PathBuf,
+        /// Its tiles.
+        done: usize,
+        /// All tiles of that sweep.
+        total: usize,
+    },
+    /// A tile that is not what it should be.
+    #[error("`{}` is bad: {fault}; run the sweep again", path.display())]
+    BadTile {
+        /// The tile.
+        path: PathBuf,
+        /// What is wrong with it.
+        fault: TileFault,
+    },
+    /// An export of a sweep that is not complete.
+    #[error(
+        "`{}` holds {done} of {total} tiles; run the sweep to its end, or add --partial for what is there",
+        path.display()
+    )]
+    TilesMissing {
+        /// The directory.
+        path: PathBuf,
+        /// Its tiles.
+        done: usize,
+        /// All tiles.
+        total: usize,
+    },
+    /// Directories of different sweeps that are to become one.
+    #[error(
+        "`{}` and `{}` hold tiles of different sweeps, program versions or engines; merge those of one",
+        target.display(),
+        source_dir.display()
+    )]
+    OtherMerge {
+        /// The directory that was to get the tiles.
+        target: PathBuf,
+        /// The other one.
+        source_dir: PathBuf,
+    },
+    /// A disk without room for a sweep.
+    #[error(
+        "the sweep needs about {needed} in `{}`, where {free} are free; free some, choose another directory with -o, \
+         or take fewer points",
+        path.display()
+    )]
+    NoSpace {
+        /// The directory.
+        path: PathBuf,
+        /// What is needed.
+        needed: String,
+        /// What is free.
+        free: String,
+    },
+    /// A tile that cannot be written.
+    #[error(
+        "cannot write `{}`: {why}; {done} of {total} tiles are done and stay; run the same command again when this \
+         is put right",
+        path.display()
+    )]
+    WriteTile {
+        /// The tile.
+        path: PathBuf,
+        /// What the system says.
+        why: String,
+        /// Tiles that are done.
+        done: usize,
+        /// All tiles.
+        total: usize,
     },
     /// An output file that cannot be written.
     #[error("cannot write `{}`: {why}", path.display())]
@@ -428,6 +531,12 @@ pub enum Error {
         /// Dispatches.
         dispatches: u64,
     },
+    /// An engine that failed before anything was done.
+    #[error("{why}")]
+    Engine {
+        /// What it says.
+        why: String,
+    },
     /// A run that was stopped from outside before anything was done, or a chunk of one.
     #[error("stopped after {done} of {total} instances; nothing was written")]
     Cancelled {
@@ -494,6 +603,12 @@ impl Error {
             | Error::Signals { .. }
             | Error::Fit { .. }
             | Error::OutputDirectory { .. }
+            | Error::NoTiles { .. }
+            | Error::BadDescription { .. }
+            | Error::OtherSweep { .. }
+            | Error::OtherMerge { .. }
+            | Error::TilesMissing { .. }
+            | Error::NoSpace { .. }
             | Error::NoModesAxis
             | Error::NoModesOfTuples
             | Error::NoModes

@@ -15,6 +15,8 @@
 //! | many instances in vector registers | [`simd`] |
 //! | many instances | [`backend`], [`sweep`], [`estimate`] |
 //! | outcome → regime | [`classify`] |
+//! | labels of an instance, counted | [`label`] |
+//! | sweeps of any size, tile by tile in a directory | [`store`] |
 //! | map → bytes | [`map`], [`trace`], [`export`] |
 //! | an instance as sensors record it; measured signals → verdict | [`signals`], [`identify`], [`fit`] |
 //!
@@ -54,6 +56,7 @@ pub mod grid;
 pub mod identify;
 pub mod integrate;
 pub mod kernel;
+pub mod label;
 pub mod linear;
 pub mod map;
 pub mod method;
@@ -67,6 +70,7 @@ pub mod signals;
 pub mod simd;
 pub mod spec;
 mod start;
+pub mod store;
 pub mod sweep;
 pub mod trace;
 

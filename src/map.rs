@@ -3,7 +3,7 @@
 use std::fmt;
 use std::time::Duration;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::classify::{InstabilityType, Regime};
 use crate::error::{Error, Result};
@@ -76,7 +76,7 @@ impl fmt::Display for Stopped {
 }
 
 /// Where and how one analysis was computed.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 pub struct Computation {
     /// `cpu` or `gpu`.
     pub backend: String,

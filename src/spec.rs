@@ -15,6 +15,8 @@ mod rows;
 mod sections;
 mod varied;
 
+pub(crate) use resolved::resolved_grid;
+
 use std::sync::Arc;
 
 use crate::grid::Grid;
@@ -22,8 +24,11 @@ use crate::model::Params;
 use crate::model::friction::{FrictionLaw, LawKind, MuTable};
 use crate::model::material::Material;
 
-/// Most instances of one sweep; the records of more would not fit the memory of a usual machine.
-pub const MAX_INSTANCES: usize = 100_000_000;
+/// Most instances of one sweep: what a disk of 44 TB (linear) or 225 TB (with response) holds.
+pub const MAX_INSTANCES: usize = 1_000_000_000_000;
+
+/// Most values of an axis and most tuples, which stand in memory.
+pub const MAX_VALUES: usize = 100_000_000;
 
 /// Steps per period `2π/ω0` when a sweep does not say: enough for a Taylor method of high order.
 pub const STEPS_PER_PERIOD: u32 = 12;
@@ -50,6 +55,8 @@ pub struct Analysis {
     pub linear: bool,
     /// Time integration.
     pub response: bool,
+    /// Time integration goes on until it is settled.
+    pub until_settled: bool,
 }
 
 /// How the transient starts; amplitudes are instance parameters.

@@ -47,25 +47,26 @@ pub fn response(precision: Precision, steps_per_period: u32) -> Computation {
     }
 }
 
-/// Computes a sweep; `progress` gets the number newly finished. Once `cancel` is set no batch is begun, and
-/// those under way are dropped.
+/// Computes the instances `range` of a sweep; `progress` gets the number newly finished. Once `cancel` is set no
+/// batch is begun, and those under way are dropped.
 ///
 /// # Errors
 /// When `cancel` was set before any batch was finished.
 pub fn records(
     spec: &Spec,
+    range: Range<usize>,
     precision: Precision,
     cancel: &AtomicBool,
     progress: &(dyn Fn(usize) + Sync),
 ) -> Result<Computed> {
-    let total = spec.grid.len();
+    let total = range.len();
     let plan = Plan::new(spec);
     let threads = rayon::current_num_threads();
     let size = (total / (4 * threads)).clamp(FEWEST, MOST).min(total.div_ceil(threads)).max(1);
     let mut records = vec![Record::NOT_COMPUTED; total];
     records.par_chunks_mut(size).enumerate().for_each(|(index, batch)| {
-        let range = index * size..index * size + batch.len();
-        batch.clone_from_slice(&self::batch(spec, range, &plan, precision, cancel));
+        let first = range.start + index * size;
+        batch.clone_from_slice(&self::batch(spec, first..first + batch.len(), &plan, precision, cancel));
         if !cancel.load(Ordering::Relaxed) {
             progress(batch.len());
         }

@@ -5,6 +5,7 @@
 //! - [`cpu`]: vector registers of all cores.
 //! - [`reference`](mod@reference): the f64 reference, which judges the others.
 //! - [`gpu`]: compute kernels through wgpu.
+//! - [`solver`]: the engine that was chosen, range after range of a sweep.
 
 pub mod choice;
 pub mod computed;
@@ -12,6 +13,7 @@ pub mod cpu;
 mod fallback;
 pub mod gpu;
 pub mod reference;
+pub mod solver;
 
 use crate::classify::{self, InstabilityType, Regime};
 use crate::map::Record;

@@ -2,6 +2,7 @@
 //!
 //! It judges the other engines: one instance at a time, a method of high order, steps as short as it takes.
 
+use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use rayon::prelude::*;
@@ -39,14 +40,19 @@ pub fn in_f64(backend: &str, method: String) -> Computation {
     Computation { backend: backend.to_owned(), precision, method, adapter: None, strict: None }
 }
 
-/// Computes a sweep; `progress` gets the number newly finished. Once `cancel` is set no instance is begun;
-/// those under way are finished.
+/// Computes the instances `range` of a sweep; `progress` gets the number newly finished. Once `cancel` is set no
+/// instance is begun; those under way are finished.
 ///
 /// # Errors
 /// When `cancel` was set before any instance was begun.
-pub fn records(spec: &Spec, cancel: &AtomicBool, progress: &(dyn Fn(usize) + Sync)) -> Result<Computed> {
-    let total = spec.grid.len();
-    let records: Vec<Record> = (0..total)
+pub fn records(
+    spec: &Spec,
+    range: Range<usize>,
+    cancel: &AtomicBool,
+    progress: &(dyn Fn(usize) + Sync),
+) -> Result<Computed> {
+    let total = range.len();
+    let records: Vec<Record> = range
         .into_par_iter()
         .map(|index| {
             if cancel.load(Ordering::Relaxed) {

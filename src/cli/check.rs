@@ -8,6 +8,8 @@ use squealmap::Result;
 use squealmap::estimate::estimate;
 use squealmap::grid::{Axis, AxisKey, Grid, Value};
 use squealmap::spec::{Spec, StartKind};
+use squealmap::store::space::{MOST_ROWS, Need, bytes};
+use squealmap::store::tiling::{TILE, Tiling};
 
 use crate::cli::print;
 use crate::cli::progress::seconds;
@@ -29,6 +31,7 @@ impl Check {
             describe(&spec)
         );
         print(&text);
+        print(&disk(&spec));
         print(&cost(&spec));
         Ok(())
     }
@@ -97,6 +100,17 @@ fn describe_axis(axis: &Axis) -> String {
         }
         [] => name.to_owned(),
     }
+}
+
+/// What the sweep would take of the disk.
+fn disk(spec: &Spec) -> String {
+    let tiling = Tiling { instances: spec.grid.len(), tile: TILE };
+    let need = Need::new(tiling, spec.analysis);
+    let table = need.table.map_or_else(
+        || format!("no map.csv by itself, of more than {MOST_ROWS} rows"),
+        |table| format!("{} of map.csv", bytes(table)),
+    );
+    format!("disk      about {} of tiles, {table}\n", bytes(need.tiles))
 }
 
 /// What the sweep would cost, measured on a few of its instances.

@@ -1,14 +1,19 @@
-//! The commands: one file each, and the only code that prints or opens files for writing.
+//! The commands: one file each, the only code that prints, and with [`squealmap::store`] the only code that opens
+//! files for writing.
 
 mod adapters;
 mod check;
+mod export;
 mod fit;
 mod identify;
+mod merge;
 mod modes;
 mod output;
 mod progress;
 pub(crate) mod report;
+mod results;
 mod run;
+mod status;
 mod summary;
 mod trace;
 
@@ -32,6 +37,12 @@ pub(crate) struct Cli {
 enum Command {
     /// Compute every instance of a sweep: map.csv, map.svg, map.png, manifest.json
     Run(run::Run),
+    /// How far a run has come: tiles that are done, in work or bad, rate, time left
+    Status(status::StatusCommand),
+    /// Bring the tiles of several directories together; when all are there, write the results
+    Merge(merge::Merge),
+    /// Write the tiles of a directory as CSV, Zarr v3 or NetCDF, at any time
+    Export(export::Export),
     /// List the GPUs of this machine: names, drivers, limits and features
     Adapters,
     /// Validate a sweep, say what it would compute and measure what it would cost; writes nothing
@@ -72,6 +83,9 @@ impl Cli {
     pub(crate) fn execute(self) -> Result<ExitCode> {
         match self.command {
             Command::Run(command) => return command.execute(),
+            Command::Merge(command) => return command.execute(),
+            Command::Status(command) => command.execute()?,
+            Command::Export(command) => command.execute()?,
             Command::Adapters => adapters::execute(),
             Command::Check(command) => command.execute()?,
             Command::Modes(command) => command.execute()?,

@@ -3,6 +3,7 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
+use squealmap::store::claim::Claim;
 use squealmap::{Error, Result};
 use tempfile::NamedTempFile;
 
@@ -37,6 +38,11 @@ impl Output {
         }
     }
 
+    /// The directory.
+    pub(crate) fn directory(&self) -> &Path {
+        &self.directory
+    }
+
     /// Writes all files or none: first under temporary names, then renamed. Returns their paths.
     pub(crate) fn write(mut self, files: &[(&str, Vec<u8>)]) -> Result<Vec<PathBuf>> {
         let mut written = Vec::with_capacity(files.len());
@@ -44,13 +50,12 @@ impl Output {
             let path = self.directory.join(name);
             let file = temporary(&self.directory)
                 .and_then(|mut file| file.write_all(bytes).map(|()| file))
-                .map_err(|why| Error::Write { path: path.clone(), why: why.to_string() })?;
+                .map_err(|why| cannot(&path, &why))?;
             written.push((path, file));
         }
         let mut paths = Vec::with_capacity(files.len());
         for (path, file) in written {
-            file.persist(&path)
-                .map_err(|why| Error::Write { path: path.clone(), why: why.error.to_string() })?;
+            file.persist(&path).map_err(|why| cannot(&path, &why.error))?;
             paths.push(path);
         }
         self.made.clear();
@@ -79,4 +84,16 @@ fn temporary(directory: &Path) -> std::io::Result<NamedTempFile> {
 /// The list of written files for the end of a command.
 pub(crate) fn list(paths: &[PathBuf]) -> String {
     paths.iter().fold(String::new(), |text, path| text + "wrote " + &path.display().to_string() + "\n")
+}
+
+/// A claim on a file that is written piece by piece.
+pub(crate) fn claim(path: &Path) -> Result<Claim> {
+    Claim::take(path)
+        .and_then(|claim| claim.ok_or_else(|| std::io::Error::other("another process is writing it")))
+        .map_err(|why| cannot(path, &why))
+}
+
+/// The error of a file that cannot be written.
+pub(crate) fn cannot(path: &Path, why: &std::io::Error) -> Error {
+    Error::Write { path: path.to_owned(), why: why.to_string() }
 }

@@ -1,24 +1,32 @@
 //! `squealmap run`: a whole sweep.
 
+use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
 
 use clap::{Args, ValueEnum};
 use squealmap::backend::choice::{Backend, Options};
-use squealmap::export::{csv, figure, manifest, png};
+use squealmap::backend::solver::Solver;
+use squealmap::export::manifest;
 use squealmap::kernel::source::Precision;
+use squealmap::label::Tally;
 use squealmap::map::Stopped;
 use squealmap::spec::Spec;
-use squealmap::{Error, Result, sweep};
+use squealmap::store::description::Description;
+use squealmap::store::directory::Store;
+use squealmap::store::fill::{Filled, Watch, fill};
+use squealmap::store::shard::Shard;
+use squealmap::store::space;
+use squealmap::store::tiling::TILE;
+use squealmap::{Error, Result};
 
 use crate::cli::output::{Output, list};
 use crate::cli::progress::{Progress, seconds};
+use crate::cli::results::{self, FILES, Results};
 use crate::cli::summary::summary;
 use crate::cli::{Files, INTERRUPTED, note, print};
-
-/// What is written.
-const FILES: [&str; 4] = ["map.csv", "manifest.json", "map.png", "map.svg"];
 
 /// Arguments of `run`.
 #[derive(Debug, Args)]
@@ -44,6 +52,13 @@ pub(crate) struct Run {
     /// Fail unless a hardware GPU computes
     #[arg(long)]
     require_gpu: bool,
+    /// Only the tiles k, k + n, k + 2n, … with k from 0 to n - 1, and no results, which `merge` writes; `auto` takes
+    /// k and n, `auto/n` takes k from the task of Slurm, mpirun, Kubernetes, PBS or HyperQueue
+    #[arg(long, value_name = "K/N", value_parser = shard)]
+    shard: Option<Shard>,
+    /// Instances of a tile: for tests, which have no time for large ones
+    #[arg(long, hide = true, default_value_t = TILE, value_parser = at_least_one)]
+    tile: usize,
 }
 
 /// The values of `--backend`.
@@ -74,7 +89,6 @@ impl Run {
             .build()
             .map_err(|why| Error::Threads { threads, why: why.to_string() })?;
 
-        let progress = Progress::new(spec.grid.len());
         let note = |text: &str| note(text);
         let options = Options {
             backend: match self.backend {
@@ -94,36 +108,144 @@ impl Run {
             cancel: Some(&cancel),
             note: Some(&note),
         };
-        let map = pool.install(|| sweep::run(spec, &options, &|count| progress.add(count)));
-        progress.finish();
-        let map = map?;
-
-        let svg = figure::map_svg(&map)?;
-        let files = [
-            (FILES[0], csv::map_csv(&map)?),
-            (FILES[1], manifest::manifest_json(&map)?),
-            (FILES[2], png::render(&svg)?),
-            (FILES[3], svg.into_bytes()),
-        ];
-        let paths = output.write(&files)?;
-
-        let elapsed = map.provenance.elapsed.as_secs_f64();
-        let computed = map.computed();
-        let rate = computed as f64 / elapsed.max(f64::MIN_POSITIVE);
-        let of = if map.stopped.is_some() { format!(" of {}", map.records.len()) } else { String::new() };
-        print(&format!(
-            "{computed}{of} instances in {} on {} thread(s), {rate:.0} instances/s\n\n{}\n{}",
-            seconds(elapsed),
-            map.provenance.threads,
-            summary(&map),
-            list(&paths)
-        ));
-        Ok(map.stopped.as_ref().map_or(ExitCode::SUCCESS, |why| ended(why, computed, map.records.len())))
+        let mut solver = Solver::new(&spec, &options)?;
+        let description = Description::new(&spec, solver.computations(), self.tile);
+        let store = Store::begin(output.directory(), description, &note)?;
+        let ended = pool.install(|| run(&store, &mut solver, &cancel, self.shard));
+        if ended.is_err() {
+            store.remove_if_empty();
+        }
+        ended
     }
 }
 
+/// Computes what is missing and writes the results of all.
+fn run(store: &Store, solver: &mut Solver, cancel: &AtomicBool, shard: Option<Shard>) -> Result<ExitCode> {
+    let tiling = store.description.tiling;
+    let total = tiling.instances;
+    let mut computed = 0;
+    let mut elapsed = Duration::ZERO;
+    store.expel_strangers(&note)?;
+    loop {
+        let missing = missing(store, shard.unwrap_or(Shard { number: 0, of: 1 }).tiles(tiling.count()))?;
+        let lacking: usize = missing.iter().map(|number| tiling.bounds(*number).len()).sum();
+        if lacking > 0 {
+            space::verify(&store.directory, &store.description, lacking)?;
+        }
+        let progress = Progress::new(lacking);
+        let watch = Watch { cancel, progress: &|count| progress.add(count), note: &note };
+        let filled = fill(store, solver, &missing, watch);
+        progress.finish();
+        let filled = filled?;
+        if let Some(shard) = shard {
+            return Ok(shard_done(store, shard, &filled));
+        }
+        computed += filled.computed;
+        elapsed += filled.elapsed;
+        let partial = filled.partial.as_ref().map(|(number, records)| (*number, records.as_slice()));
+        let fresh = computed + partial.map_or(0, |(_, records)| Tally::of(records).computed());
+        if let Some(why) = &filled.stopped
+            && fresh == 0
+            && missing.len() == tiling.count()
+        {
+            return Err(match why {
+                Stopped::Cancelled => Error::Cancelled { done: 0, total },
+                Stopped::Failed(why) => Error::Engine { why: why.clone() },
+            });
+        }
+        let run = manifest::Run {
+            threads: rayon::current_num_threads(),
+            elapsed,
+            computed: fresh,
+            stopped: filled.stopped.as_ref().map(ToString::to_string),
+            sweep_id: Some(store.description.id.to_string()),
+        };
+        match results::write(store, partial, &run)? {
+            // It is set aside and computed again.
+            Results::BadTile => {}
+            Results::Current => {
+                let directory = store.directory.display();
+                print(&if computed == 0 {
+                    format!(
+                        "all {total} instances were computed before; nothing is left to do in {directory}\n"
+                    )
+                } else {
+                    format!("{computed} of {total} instances in {}; ", seconds(elapsed.as_secs_f64()))
+                        + &format!("the results of all are in {directory}\n")
+                });
+                return Ok(ExitCode::SUCCESS);
+            }
+            Results::Written { paths, tally } => {
+                store.remove_if_empty();
+                print(&report(&run, store, &tally, &paths));
+                return Ok(filled
+                    .stopped
+                    .as_ref()
+                    .map_or(ExitCode::SUCCESS, |why| ended(why, store, &tally)));
+            }
+        }
+    }
+}
+
+/// Says how far a shard and the sweep have come, and gives the exit code.
+fn shard_done(store: &Store, shard: Shard, filled: &Filled) -> ExitCode {
+    let (done, total) = (store.done().unwrap_or_default(), store.description.tiling.count());
+    let directory = store.directory.display();
+    print(&format!(
+        "{} instances of shard {shard} in {}; {done} of {total} tiles are in {directory}{}\n",
+        filled.computed,
+        seconds(filled.elapsed.as_secs_f64()),
+        if done == total {
+            format!("; `squealmap merge {directory}` writes the results")
+        } else {
+            String::new()
+        }
+    ));
+    match &filled.stopped {
+        None => ExitCode::SUCCESS,
+        Some(Stopped::Cancelled) => {
+            note("stopped; run the same command again to compute the rest");
+            ExitCode::from(INTERRUPTED)
+        }
+        Some(Stopped::Failed(why)) => {
+            note(&format!("error: {why}"));
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Those of some tiles that are not there; bad ones are set aside and named.
+pub(crate) fn missing(store: &Store, tiles: impl Iterator<Item = usize>) -> Result<Vec<usize>> {
+    let there = store.numbers()?;
+    let mut missing = Vec::new();
+    for number in tiles {
+        if there.binary_search(&number).is_err() || !store.verify(number, &note)? {
+            missing.push(number);
+        }
+    }
+    Ok(missing)
+}
+
+/// What was computed, what came out, and the files.
+fn report(run: &manifest::Run, store: &Store, tally: &Tally, paths: &[PathBuf]) -> String {
+    let total = store.description.tiling.instances;
+    let before = tally.computed() - run.computed;
+    let elapsed = run.elapsed.as_secs_f64();
+    let rate = run.computed as f64 / elapsed.max(f64::MIN_POSITIVE);
+    let of = if run.computed < total { format!(" of {total}") } else { String::new() };
+    let before = if before > 0 { format!("; {before} were there before") } else { String::new() };
+    format!(
+        "{}{of} instances in {} on {} thread(s), {rate:.0} instances/s{before}\n\n{}\n{}",
+        run.computed,
+        seconds(elapsed),
+        run.threads,
+        summary(store.description.analysis, tally),
+        list(paths)
+    )
+}
+
 /// Says that a sweep is not complete, and gives the exit code.
-fn ended(stopped: &Stopped, done: usize, total: usize) -> ExitCode {
+fn ended(stopped: &Stopped, store: &Store, tally: &Tally) -> ExitCode {
     let code = match stopped {
         Stopped::Cancelled => INTERRUPTED,
         Stopped::Failed(why) => {
@@ -131,9 +253,12 @@ fn ended(stopped: &Stopped, done: usize, total: usize) -> ExitCode {
             1
         }
     };
+    let rest = if store.description.tiling.count() > 1 { "the rest" } else { "all" };
     note(&format!(
-        "stopped after {done} of {total} instances; wrote what is done, the others are `not_computed`; \
-         run the same command again to compute all"
+        "stopped after {} of {} instances; wrote what is done, the others are `not_computed`; \
+         run the same command again to compute {rest}",
+        tally.computed(),
+        tally.total()
     ));
     ExitCode::from(code)
 }
@@ -146,4 +271,17 @@ fn stop_at_ctrl_c() -> Result<Arc<AtomicBool>> {
     ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed))
         .map_err(|why| Error::Signal { why: why.to_string() })?;
     Ok(cancel)
+}
+
+/// A share of the tiles.
+fn shard(text: &str) -> std::result::Result<Shard, String> {
+    Shard::parse(text, &|name| std::env::var(name).ok())
+}
+
+/// A number of instances.
+fn at_least_one(text: &str) -> std::result::Result<usize, String> {
+    match text.parse() {
+        Ok(number) if number > 0 => Ok(number),
+        _ => Err("must be a whole number from 1 on".to_owned()),
+    }
 }

@@ -3,59 +3,57 @@
 use std::fmt::Write;
 
 use squealmap::classify::{InstabilityType, Regime};
-use squealmap::map::{Map, Record};
+use squealmap::label::{Label, Tally};
 use squealmap::outcome::Status;
+use squealmap::spec::Analysis;
 
 /// What stands where an analysis gave nothing.
 const NONE: &str = "-";
 
 /// The table of counts: one row per type, one column per regime, only those that occur among what was computed.
-pub(crate) fn summary(map: &Map) -> String {
-    let analysis = map.spec.analysis;
+pub(crate) fn summary(analysis: Analysis, tally: &Tally) -> String {
     let types: Vec<&str> = InstabilityType::ALL.iter().map(|kind| kind.name()).chain([NONE]).collect();
     let regimes: Vec<&str> = Regime::ALL.iter().map(|regime| regime.name()).chain([NONE]).collect();
-    let computed: Vec<&Record> =
-        map.records.iter().filter(|record| record.status != Status::NotComputed).collect();
-    let kind = |record: &Record| record.kind.map_or(NONE, InstabilityType::name);
-    let regime = |record: &Record| record.regime.map_or(NONE, Regime::name);
+    let computed = |label: Label| label.status() != Status::NotComputed;
+    let count = |selects: &dyn Fn(Label) -> bool| tally.count(|label| computed(label) && selects(label));
+    let kind = |label: Label| label.kind().map_or(NONE, InstabilityType::name);
+    let regime = |label: Label| label.regime().map_or(NONE, Regime::name);
 
     let mut text = String::new();
     if analysis.linear && analysis.response {
-        cross(&mut text, &computed, ("type", &types, &kind), (&regimes, &regime));
+        cross(&mut text, &count, ("type", &types, &kind), (&regimes, &regime));
     } else if analysis.linear {
-        cross(&mut text, &computed, ("type", &types, &kind), (&[], &|_| ""));
+        cross(&mut text, &count, ("type", &types, &kind), (&[], &|_| ""));
     } else {
-        cross(&mut text, &computed, ("regime", &regimes, &regime), (&[], &|_| ""));
+        cross(&mut text, &count, ("regime", &regimes, &regime), (&[], &|_| ""));
     }
-    if map.records.iter().any(|record| record.status != Status::Ok) {
+    if tally.count(|label| label.status() != Status::Ok) > 0 {
         let statuses: Vec<&str> = Status::IN_MAP.iter().map(|status| status.name()).collect();
         text.push('\n');
-        let all: Vec<&Record> = map.records.iter().collect();
-        cross(&mut text, &all, ("status", &statuses, &|record| record.status.name()), (&[], &|_| ""));
+        let all = |selects: &dyn Fn(Label) -> bool| tally.count(selects);
+        cross(&mut text, &all, ("status", &statuses, &|label| label.status().name()), (&[], &|_| ""));
     }
-    let unsettled = map.records.iter().filter(|record| record.settled == Some(false)).count();
+    let unsettled = tally.count(|label| label.settled() == Some(false));
     if unsettled > 0 {
-        let _ = writeln!(text, "\n{unsettled} of {} instances had not settled", computed.len());
+        let _ = writeln!(text, "\n{unsettled} of {} instances had not settled", tally.computed());
     }
     text
 }
 
-/// Names and which one a record has.
-type Rows<'a> = (&'a str, &'a [&'a str], &'a dyn Fn(&Record) -> &'static str);
-type Columns<'a> = (&'a [&'a str], &'a dyn Fn(&Record) -> &'static str);
+/// Counts what is selected.
+type Count<'a> = &'a dyn Fn(&dyn Fn(Label) -> bool) -> usize;
 
-/// Counts records by row and column; a last column holds the sums of the rows.
-fn cross(text: &mut String, records: &[&Record], (title, rows, row_of): Rows, (columns, column_of): Columns) {
+/// Names and which one a label has.
+type Rows<'a> = (&'a str, &'a [&'a str], &'a dyn Fn(Label) -> &'static str);
+type Columns<'a> = (&'a [&'a str], &'a dyn Fn(Label) -> &'static str);
+
+/// Counts instances by row and column; a last column holds the sums of the rows.
+fn cross(text: &mut String, of: Count, (title, rows, row_of): Rows, (columns, column_of): Columns) {
     let count = |row: &str, column: Option<&str>| {
-        let matches =
-            |record: &&&Record| row_of(record) == row && column.is_none_or(|name| column_of(record) == name);
-        records.iter().filter(matches).count()
+        of(&|label| row_of(label) == row && column.is_none_or(|name| column_of(label) == name))
     };
-    let columns: Vec<&str> = columns
-        .iter()
-        .copied()
-        .filter(|column| records.iter().any(|one| column_of(one) == *column))
-        .collect();
+    let columns: Vec<&str> =
+        columns.iter().copied().filter(|column| of(&|label| column_of(label) == *column) > 0).collect();
     let width = rows.iter().map(|row| row.len()).max().unwrap_or(0).max(title.len());
     let _ = write!(text, "{title:width$}");
     for column in &columns {

@@ -8,7 +8,8 @@ use super::panels::Panels;
 use super::picture_axis::Direction;
 use super::svg::{Anchor, Style, Svg};
 use super::text::Text;
-use crate::map::Map;
+use crate::grid::Grid;
+use crate::label::Tally;
 
 /// Between panels of a row, points.
 const GAP_ACROSS: f64 = 7.0;
@@ -37,7 +38,9 @@ const NAMED_ROW: f64 = 18.0;
 
 /// One block to draw.
 pub(super) struct Block<'a> {
-    pub(super) map: &'a Map,
+    pub(super) grid: &'a Grid,
+    /// The counts of all instances, also of those that no panel shows.
+    pub(super) tally: &'a Tally,
     pub(super) panels: &'a Panels,
     pub(super) colouring: Colouring,
     /// How many blocks the figure stacks.
@@ -90,7 +93,7 @@ impl Block<'_> {
                 let base = frame.y - 3.5 - line as f64 * LINE;
                 svg.text(frame.across(0.5), base, title, Style::new(LABEL_SIZE, Anchor::Middle));
             }
-            cells::draw(svg, self.map, panels, panel, self.colouring, &frame);
+            cells::draw(svg, self.grid, panels, panel, self.colouring, &frame);
             frame.border(svg);
             frame.x_ticks(svg, &x_ticks, ragged || row + 1 == rows);
             if let Some(ticks) = &y_ticks {
@@ -112,7 +115,7 @@ impl Block<'_> {
             svg.text(x + left + 0.5 * across, bottom, &label, Style::new(LABEL_SIZE, Anchor::Middle));
         }
         bottom += 9.0;
-        let legend = Legend::new(self.map, self.colouring, panels.scatter.is_none());
+        let legend = Legend::new(self.tally, self.colouring, panels.scatter.is_none());
         // Under the panels, or from the outer edge where that saves a line.
         let wide = legend.draw(None, x, bottom, width) < legend.draw(None, x + left, bottom, width - left);
         let indent = if wide { 0.0 } else { left };

@@ -8,7 +8,8 @@ use super::palette::Colouring;
 use super::panels::{Panel, Panels};
 use super::svg::{Svg, number};
 use crate::classify::InstabilityType;
-use crate::map::{Map, Record};
+use crate::grid::Grid;
+use crate::label::Label;
 use crate::outcome::Status;
 
 /// Fill of cells without a result, or not computed.
@@ -44,42 +45,42 @@ pub(super) fn unsettled_fill(dark: bool) -> &'static str {
 }
 
 /// Whether hatching applies: only the response settles.
-fn unsettled(record: &Record, colouring: Colouring) -> bool {
-    colouring == Colouring::Regime && record.settled == Some(false)
+fn unsettled(label: Label, colouring: Colouring) -> bool {
+    colouring == Colouring::Regime && label.settled() == Some(false)
 }
 
 /// Whether a stopped run did not come to what a colouring shows of an instance.
-pub(super) fn not_computed(record: &Record, colouring: Colouring) -> bool {
-    record.status == Status::NotComputed && colouring.class(record).is_none()
+pub(super) fn not_computed(label: Label, colouring: Colouring) -> bool {
+    label.status() == Status::NotComputed && colouring.class(label).is_none()
 }
 
 /// Draws the content of a panel into its frame.
 pub(super) fn draw(
     svg: &mut Svg,
-    map: &Map,
+    grid: &Grid,
     panels: &Panels,
     panel: &Panel,
     colouring: Colouring,
     frame: &Frame,
 ) {
     if panels.scatter.is_some() {
-        draw_points(svg, map, panels, panel, colouring, frame);
+        draw_points(svg, grid, panels, panel, colouring, frame);
     } else {
-        draw_cells(svg, map, panels, panel, colouring, frame);
+        draw_cells(svg, panels, panel, colouring, frame);
     }
 }
 
-fn draw_cells(svg: &mut Svg, map: &Map, panels: &Panels, panel: &Panel, colouring: Colouring, frame: &Frame) {
+fn draw_cells(svg: &mut Svg, panels: &Panels, panel: &Panel, colouring: Colouring, frame: &Frame) {
     let columns = panels.x.len();
     let rows = panels.y.as_ref().map_or(1, super::picture_axis::PictureAxis::len);
-    if columns * rows != panel.instances.len() || panel.instances.is_empty() {
+    if columns * rows != panel.cells.len() || panel.cells.is_empty() {
         return;
     }
     let unit = [0.0, 1.0];
     let y_edges = panels.y.as_ref().map_or(unit.as_slice(), |y| &y.edges);
     let at = |(i, j): Vertex| (frame.across(panels.x.edges[i]), frame.up(y_edges[j]));
-    let record = |i: usize, j: usize| &map.records[panel.instances[j * columns + i]];
-    let class = |i: usize, j: usize| colouring.class(record(i, j));
+    let label = |i: usize, j: usize| panels.labels[panel.cells.start + j * columns + i];
+    let class = |i: usize, j: usize| colouring.class(label(i, j));
     let region = |inside: &dyn Fn(usize, usize) -> bool| {
         outlines(columns, rows, inside).iter().map(|path| steps(path, &at, true)).collect::<String>()
     };
@@ -88,7 +89,7 @@ fn draw_cells(svg: &mut Svg, map: &Map, panels: &Panels, panel: &Panel, colourin
         let data = region(&|i, j| class(i, j) == Some(k));
         svg.path(&data, &format!(r#"class="{}" fill="{}""#, look.name, look.fill));
     }
-    let blank = |i: usize, j: usize| not_computed(record(i, j), colouring);
+    let blank = |i: usize, j: usize| not_computed(label(i, j), colouring);
     let failed = region(&|i, j| class(i, j).is_none() && !blank(i, j));
     let missing = region(&blank);
     for (name, data) in [("failed", &failed), ("not_computed", &missing)] {
@@ -99,7 +100,7 @@ fn draw_cells(svg: &mut Svg, map: &Map, panels: &Panels, panel: &Panel, colourin
     svg.path(&failed, r#"fill="url(#failed)" fill-rule="evenodd""#);
     for dark in [false, true] {
         let hatched = region(&|i, j| {
-            unsettled(record(i, j), colouring)
+            unsettled(label(i, j), colouring)
                 && class(i, j).is_some_and(|k| colouring.classes()[k].dark == dark)
         });
         svg.path(&hatched, &format!(r#"class="unsettled" {} fill-rule="evenodd""#, unsettled_fill(dark)));
@@ -108,7 +109,7 @@ fn draw_cells(svg: &mut Svg, map: &Map, panels: &Panels, panel: &Panel, colourin
         borders(columns, rows, differ).iter().map(|path| steps(path, &at, false)).collect::<String>()
     };
     let limit = |a: Vertex, b: Vertex| {
-        let sides = [record(a.0, a.1).kind, record(b.0, b.1).kind].map(|kind| kind.map(is_stable));
+        let sides = [label(a.0, a.1).kind(), label(b.0, b.1).kind()].map(|kind| kind.map(is_stable));
         colouring == Colouring::Regime && matches!(sides, [Some(one), Some(other)] if one != other)
     };
     // Where a run stopped is no border between classes.
@@ -127,7 +128,7 @@ pub(super) fn is_stable(kind: InstabilityType) -> bool {
 
 fn draw_points(
     svg: &mut Svg,
-    map: &Map,
+    grid: &Grid,
     panels: &Panels,
     panel: &Panel,
     colouring: Colouring,
@@ -135,23 +136,23 @@ fn draw_points(
 ) {
     let Some((x_column, y_column)) = panels.scatter else { return };
     // Nothing that was computed is covered by a point that was not.
-    let mut instances = panel.instances.clone();
-    instances.sort_by_key(|instance| !not_computed(&map.records[*instance], colouring));
-    for instance in &instances {
-        let coordinates = map.spec.grid.coordinates(*instance);
+    let mut points: Vec<usize> = panel.cells.clone().collect();
+    points.sort_by_key(|point| !not_computed(panels.labels[*point], colouring));
+    for cell in points {
+        let coordinates = grid.coordinates(panels.instances[cell]);
         let x = frame.across(coordinates.get(x_column).map_or(0.5, |value| panels.x.position(value)));
         let up = match (&panels.y, y_column) {
             (Some(axis), Some(column)) => axis.position(coordinates[column]),
             _ => 0.5,
         };
-        let record = &map.records[*instance];
-        if not_computed(record, colouring) {
+        let label = panels.labels[cell];
+        if not_computed(label, colouring) {
             missing_point(svg, x, frame.up(up));
             continue;
         }
-        point(svg, x, frame.up(up), colouring.class(record).map(|k| &colouring.classes()[k]));
-        if unsettled(record, colouring) {
-            let dark = colouring.class(record).is_some_and(|k| colouring.classes()[k].dark);
+        point(svg, x, frame.up(up), colouring.class(label).map(|k| &colouring.classes()[k]));
+        if unsettled(label, colouring) {
+            let dark = colouring.class(label).is_some_and(|k| colouring.classes()[k].dark);
             svg.circle(
                 x,
                 frame.up(up),

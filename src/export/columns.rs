@@ -1,9 +1,9 @@
 //! The one table of output columns: order, names, units, meanings and values.
 
 use crate::classify::{InstabilityType, Regime};
-use crate::grid::{AxisKey, Value};
-use crate::map::{Map, Record};
-use crate::spec::Spec;
+use crate::grid::{AxisKey, Grid, Value};
+use crate::map::Record;
+use crate::spec::Analysis;
 
 /// The content of one cell.
 #[derive(Clone, Debug, PartialEq)]
@@ -75,12 +75,12 @@ pub enum Group {
 }
 
 impl Group {
-    fn asked(self, spec: &Spec) -> bool {
+    fn asked(self, analysis: Analysis) -> bool {
         match self {
             Group::Always => true,
-            Group::Linear => spec.analysis.linear,
-            Group::Response => spec.analysis.response,
-            Group::Settling => spec.analysis.response && spec.settle_limit.is_some(),
+            Group::Linear => analysis.linear,
+            Group::Response => analysis.response,
+            Group::Settling => analysis.until_settled,
         }
     }
 }
@@ -89,7 +89,7 @@ impl Group {
 #[derive(Clone, Copy, Debug)]
 enum Source {
     Instance,
-    /// The swept value with this position in [`crate::grid::Grid::keys`].
+    /// The swept value with this position in [`Grid::keys`].
     Swept(usize),
     Record(fn(&Record) -> Cell),
 }
@@ -109,20 +109,26 @@ pub struct Column {
 }
 
 impl Column {
-    /// The cell of instance `index`.
+    /// Whether its values are computed: neither the index nor swept.
     #[must_use]
-    pub fn cell(&self, map: &Map, index: usize) -> Cell {
+    pub fn is_computed(&self) -> bool {
+        matches!(self.source, Source::Record(_))
+    }
+
+    /// The cell of instance `index` with its swept values, see [`Grid::coordinates`], and its record.
+    #[must_use]
+    pub fn cell(&self, index: usize, coordinates: &[&Value], record: &Record) -> Cell {
         match self.source {
             Source::Instance => Cell::Count(index as u64),
-            Source::Swept(position) => Cell::from(map.spec.grid.coordinates(index)[position]),
-            Source::Record(get) => get(&map.records[index]),
+            Source::Swept(position) => Cell::from(coordinates[position]),
+            Source::Record(get) => get(record),
         }
     }
 }
 
 /// The columns of a sweep's table in order; those of an analysis that was not asked for are left out.
 #[must_use]
-pub fn columns(spec: &Spec) -> Vec<Column> {
+pub fn columns(grid: &Grid, analysis: Analysis) -> Vec<Column> {
     let instance = Column {
         name: "instance",
         unit: "",
@@ -130,7 +136,7 @@ pub fn columns(spec: &Spec) -> Vec<Column> {
         group: Group::Always,
         source: Source::Instance,
     };
-    let swept = spec.grid.keys().into_iter().enumerate().map(|(position, key)| {
+    let swept = grid.keys().into_iter().enumerate().map(|(position, key)| {
         let (unit, meaning) = match key {
             AxisKey::Param(param) => (param.info().unit, param.info().meaning),
             AxisKey::Law => ("", "friction law"),
@@ -138,7 +144,7 @@ pub fn columns(spec: &Spec) -> Vec<Column> {
         };
         Column { name: key.name(), unit, meaning, group: Group::Always, source: Source::Swept(position) }
     });
-    let computed = COMPUTED.iter().copied().filter(|column| column.group.asked(spec));
+    let computed = COMPUTED.iter().copied().filter(|column| column.group.asked(analysis));
     std::iter::once(instance).chain(swept).chain(computed).collect()
 }
 

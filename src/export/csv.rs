@@ -1,9 +1,18 @@
 //! `map.csv`: one row per instance, in the order of the grid.
 
+use std::io::Write;
+
+use rayon::prelude::*;
+
 use super::accounted;
-use super::columns::columns;
+use super::columns::{Column, columns};
+use super::sheet::Sheet;
 use crate::error::{Error, Result};
-use crate::map::Map;
+use crate::grid::Grid;
+use crate::map::{Map, Record};
+
+/// Rows that one thread formats at a time.
+const ROWS: usize = 2048;
 
 /// The table of a map: UTF-8, comma separated, one header row, `\n` line ends.
 ///
@@ -11,12 +20,64 @@ use crate::map::Map;
 /// When an instance was never computed, and not because the run was stopped.
 pub fn map_csv(map: &Map) -> Result<Vec<u8>> {
     accounted(map)?;
-    let columns = columns(&map.spec);
-    let mut table = Table::new(columns.iter().map(|column| column.name))?;
-    for index in 0..map.records.len() {
-        table.row(columns.iter().map(|column| column.cell(map, index).to_string()))?;
+    let mut table = MapCsv::new(Sheet::from(map), Vec::new())?;
+    table.add(0, &map.records)?;
+    Ok(table.finish())
+}
+
+/// The table of a sweep, written part by part; keeps nothing of it.
+#[derive(Debug)]
+pub struct MapCsv<'a, W> {
+    sheet: Sheet<'a>,
+    columns: Vec<Column>,
+    out: W,
+}
+
+impl<'a, W: Write> MapCsv<'a, W> {
+    /// Writes the header.
+    ///
+    /// # Errors
+    /// When it cannot be written.
+    pub fn new(sheet: Sheet<'a>, mut out: W) -> Result<MapCsv<'a, W>> {
+        let columns = columns(sheet.grid, sheet.analysis);
+        let header = Table::new(columns.iter().map(|column| column.name))?.finish()?;
+        written(out.write_all(&header))?;
+        Ok(MapCsv { sheet, columns, out })
+    }
+
+    /// Writes the rows of the instances from `first` on; they are formatted on the rayon pool.
+    ///
+    /// # Errors
+    /// When they cannot be written.
+    pub fn add(&mut self, first: usize, records: &[Record]) -> Result<()> {
+        let (grid, columns) = (self.sheet.grid, &self.columns);
+        let parts: Vec<Vec<u8>> = records
+            .par_chunks(ROWS)
+            .enumerate()
+            .map(|(part, records)| rows(grid, columns, first + part * ROWS, records))
+            .collect::<Result<_>>()?;
+        parts.iter().try_for_each(|part| written(self.out.write_all(part)))
+    }
+
+    /// Gives back what it wrote to.
+    pub fn finish(self) -> W {
+        self.out
+    }
+}
+
+/// The rows of the instances from `first` on.
+fn rows(grid: &Grid, columns: &[Column], first: usize, records: &[Record]) -> Result<Vec<u8>> {
+    let mut table = Table(csv::Writer::from_writer(Vec::new()));
+    for (offset, record) in records.iter().enumerate() {
+        let index = first + offset;
+        let coordinates = grid.coordinates(index);
+        table.row(columns.iter().map(|column| column.cell(index, &coordinates, record).to_string()))?;
     }
     table.finish()
+}
+
+fn written(result: std::io::Result<()>) -> Result<()> {
+    result.map_err(|why| Error::WriteTable(why.into()))
 }
 
 /// A table in memory.

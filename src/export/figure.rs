@@ -10,10 +10,12 @@ use super::frame::{LABEL_SIZE, TITLE_SIZE};
 use super::manifest::{COMMIT, VERSION};
 use super::palette::Colouring;
 use super::panels::Panels;
+use super::sheet::Sheet;
 use super::svg::{Anchor, MM, Style, Svg};
 use super::text::{Text, wrap};
 use crate::error::Result;
-use crate::map::{Computation, Map};
+use crate::label::Tally;
+use crate::map::{Computation, Map, Record};
 
 /// Width of a figure of two columns of a journal, points.
 pub const DOUBLE_COLUMN: f64 = 180.0 * MM;
@@ -30,8 +32,53 @@ const BLOCK_GAP: f64 = 16.0;
 /// When an instance was never computed, and not because the run was stopped.
 pub fn map_svg(map: &Map) -> Result<String> {
     accounted(map)?;
-    let panels = Panels::new(&map.spec.grid);
-    let analysis = map.spec.analysis;
+    let mut figure = MapFigure::new(Sheet::from(map));
+    figure.add(0, &map.records);
+    Ok(figure.svg())
+}
+
+/// The figure of a sweep that is filled part by part; it keeps the labels of what it shows.
+#[derive(Debug)]
+pub struct MapFigure<'a> {
+    sheet: Sheet<'a>,
+    panels: Panels,
+    tally: Tally,
+}
+
+impl<'a> MapFigure<'a> {
+    /// An empty figure.
+    #[must_use]
+    pub fn new(sheet: Sheet<'a>) -> MapFigure<'a> {
+        MapFigure { sheet, panels: Panels::new(sheet.grid), tally: Tally::default() }
+    }
+
+    /// Takes the records from instance `first` on; every instance has to come once, here or in
+    /// [`MapFigure::add_missing`].
+    pub fn add(&mut self, first: usize, records: &[Record]) {
+        self.panels.add(first, records);
+        self.tally.add(records);
+    }
+
+    /// Takes instances that were not computed.
+    pub fn add_missing(&mut self, count: usize) {
+        self.tally.add_missing(count);
+    }
+
+    /// How many instances have which label.
+    #[must_use]
+    pub fn tally(&self) -> &Tally {
+        &self.tally
+    }
+
+    /// The SVG document.
+    #[must_use]
+    pub fn svg(&self) -> String {
+        draw(self.sheet, &self.panels, &self.tally)
+    }
+}
+
+fn draw(sheet: Sheet, panels: &Panels, tally: &Tally) -> String {
+    let analysis = sheet.analysis;
     let colourings: Vec<Colouring> =
         [(Colouring::Type, analysis.linear), (Colouring::Regime, analysis.response)]
             .into_iter()
@@ -42,7 +89,7 @@ pub fn map_svg(map: &Map) -> Result<String> {
     let inner = width - 2.0 * MARGIN;
     let mut svg = Svg::new();
     define_patterns(&mut svg);
-    let mut y = MARGIN + title(&mut svg, &map.spec.title, inner);
+    let mut y = MARGIN + title(&mut svg, sheet.title, inner);
     // Blocks of one picture stand side by side.
     let beside = one_panel && colourings.len() > 1;
     let across = if beside { 0.5 * (inner - BLOCK_GAP) } else { inner };
@@ -50,7 +97,7 @@ pub fn map_svg(map: &Map) -> Result<String> {
     for (number, colouring) in colourings.iter().enumerate() {
         let letter = (colourings.len() > 1).then_some(['a', 'b'][number]);
         let blocks = if beside { 1 } else { colourings.len() };
-        let block = Block { map, panels: &panels, colouring: *colouring, blocks, letter };
+        let block = Block { grid: sheet.grid, tally, panels, colouring: *colouring, blocks, letter };
         if beside {
             let x = MARGIN + number as f64 * (across + BLOCK_GAP);
             tallest = tallest.max(block.draw(&mut svg, x, y, across));
@@ -67,8 +114,8 @@ pub fn map_svg(map: &Map) -> Result<String> {
             svg.text(MARGIN, y, &Text::from(line), Style::new(LABEL_SIZE, Anchor::Start));
         }
     }
-    let name = if map.spec.title.is_empty() { "Stability map" } else { &map.spec.title };
-    Ok(svg.finish(width, y + MARGIN, name, &provenance(map)))
+    let name = if sheet.title.is_empty() { "Stability map" } else { sheet.title };
+    svg.finish(width, y + MARGIN, name, &provenance(sheet, tally))
 }
 
 /// Draws a title and returns the height it takes.
@@ -82,18 +129,21 @@ pub(super) fn title(svg: &mut Svg, text: &str, width: f64) -> f64 {
 }
 
 /// What made the picture; nothing that differs between two runs of the same sweep.
-fn provenance(map: &Map) -> String {
-    let made = &map.provenance;
-    let part = |name: &str, computation: &Option<Computation>| {
-        computation.as_ref().map(|computation| format!("; {name} {computation}")).unwrap_or_default()
+fn provenance(sheet: Sheet, tally: &Tally) -> String {
+    let part = |name: &str, computation: Option<&Computation>| {
+        computation.map(|computation| format!("; {name} {computation}")).unwrap_or_default()
     };
     format!(
         "{}{}{}; {} instances{}",
         program(),
-        part("linear", &made.linear),
-        part("response", &made.response),
-        map.records.len(),
-        map.stopped.as_ref().map(|_| format!(", {} of them computed", map.computed())).unwrap_or_default()
+        part("linear", sheet.linear),
+        part("response", sheet.response),
+        tally.total(),
+        if tally.computed() < tally.total() {
+            format!(", {} of them computed", tally.computed())
+        } else {
+            String::new()
+        }
     )
 }
 

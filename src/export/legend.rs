@@ -5,7 +5,7 @@ use super::frame::LABEL_SIZE;
 use super::palette::Colouring;
 use super::svg::{Anchor, Style, Svg, number};
 use super::text::Text;
-use crate::map::Map;
+use crate::label::{Label, Tally};
 use crate::outcome::Status;
 
 /// Width and height of a swatch, points.
@@ -32,30 +32,28 @@ enum Swatch {
 pub(super) struct Legend(Vec<(Swatch, Text)>);
 
 impl Legend {
-    /// The legend of a map under a colouring.
-    pub(super) fn new(map: &Map, colouring: Colouring, cells: bool) -> Legend {
-        let total = map.records.len();
+    /// The legend of a sweep with these counts under a colouring.
+    pub(super) fn new(tally: &Tally, colouring: Colouring, cells: bool) -> Legend {
+        let total = tally.total();
         let share = |n: usize| share(n, total);
-        let classes: Vec<Option<usize>> = map.records.iter().map(|record| colouring.class(record)).collect();
+        let class = |label: Label| colouring.class(label);
         let mut entries = Vec::new();
         for (k, look) in colouring.classes().iter().enumerate() {
-            let n = classes.iter().filter(|class| **class == Some(k)).count();
+            let n = tally.count(|label| class(label) == Some(k));
             if n > 0 {
                 entries.push((Swatch::Fill(look.fill), Text::from(format!("{} {}", look.label, share(n)))));
             }
         }
         if colouring == Colouring::Regime {
-            let n = map.records.iter().filter(|record| record.settled == Some(false)).count();
+            let n = tally.count(|label| label.settled() == Some(false));
             if n > 0 {
                 entries.push((Swatch::Unsettled, Text::from(format!("unsettled {}", share(n)))));
             }
         }
-        let missing = map.records.iter().filter(|record| not_computed(record, colouring)).count();
-        let failed = classes.iter().filter(|class| class.is_none()).count() - missing;
+        let missing = tally.count(|label| not_computed(label, colouring));
+        let failed = tally.count(|label| class(label).is_none()) - missing;
         if failed > 0 {
-            let of = |status: Status| {
-                map.records.iter().zip(&classes).filter(|(r, c)| r.status == status && c.is_none()).count()
-            };
+            let of = |status: Status| tally.count(|label| label.status() == status && class(label).is_none());
             let reasons: Vec<&str> = Status::ALL
                 .into_iter()
                 .filter(|status| *status != Status::Ok && of(*status) > 0)
@@ -68,7 +66,7 @@ impl Legend {
         if missing > 0 {
             entries.push((Swatch::NotComputed, Text::from(format!("not computed {}", share(missing)))));
         }
-        let stable = |wanted| map.records.iter().any(|record| record.kind.map(is_stable) == Some(wanted));
+        let stable = |wanted| tally.count(|label| label.kind().map(is_stable) == Some(wanted)) > 0;
         if colouring == Colouring::Regime && cells && stable(true) && stable(false) {
             entries.push((Swatch::Limit, Text::from("limit of linear stability")));
         }

@@ -1,13 +1,18 @@
 //! `manifest.json`: what was computed, by what, with which result, and what the columns mean.
 
+use std::time::Duration;
+
 use serde_json::{Map as Object, Value, json};
 
 use super::accounted;
 use super::columns::columns;
+use super::sheet::Sheet;
 use crate::classify::{InstabilityType, Regime};
 use crate::error::{Error, Result};
-use crate::map::{Map, Record};
+use crate::label::{Label, Tally};
+use crate::map::Map;
 use crate::outcome::Status;
+use crate::spec::Analysis;
 
 /// The crate's version.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
@@ -15,63 +20,90 @@ pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 /// The git commit the crate was built from, with `-dirty` when the checkout had changes; `None` outside a checkout.
 pub const COMMIT: Option<&str> = option_env!("SQUEALMAP_COMMIT");
 
+/// What a manifest says of the run, beside the sweep and its counts.
+#[derive(Clone, Debug)]
+pub struct Run {
+    /// Worker threads.
+    pub threads: usize,
+    /// Wall time of the computation.
+    pub elapsed: Duration,
+    /// Instances that were computed in this time.
+    pub computed: usize,
+    /// Why some are missing; `None` when none is.
+    pub stopped: Option<String>,
+    /// The identity of the sweep, where its tiles are kept.
+    pub sweep_id: Option<String>,
+}
+
 /// The manifest of a map: UTF-8 JSON, indented.
 ///
 /// # Errors
 /// When an instance was never computed, and not because the run was stopped.
 pub fn manifest_json(map: &Map) -> Result<Vec<u8>> {
     accounted(map)?;
-    let provenance = &map.provenance;
-    let seconds = provenance.elapsed.as_secs_f64();
-    let computed = map.computed();
-    let gaining = map.records.iter().filter_map(|record| record.outcome?.energy_gaining_impacts);
-    let columns: Vec<Value> = columns(&map.spec)
+    let run = Run {
+        threads: map.provenance.threads,
+        elapsed: map.provenance.elapsed,
+        computed: map.computed(),
+        stopped: map.stopped.as_ref().map(ToString::to_string),
+        sweep_id: None,
+    };
+    manifest(Sheet::from(map), &map.spec.resolved(), &Tally::of(&map.records), &run)
+}
+
+/// The manifest of a sweep from its resolved form and its counts: UTF-8 JSON, indented.
+///
+/// # Errors
+/// When it cannot be written as JSON.
+pub fn manifest(sheet: Sheet, resolved: &Value, tally: &Tally, run: &Run) -> Result<Vec<u8>> {
+    let seconds = run.elapsed.as_secs_f64();
+    let columns: Vec<Value> = columns(sheet.grid, sheet.analysis)
         .iter()
         .map(|column| json!({ "name": column.name, "unit": column.unit, "meaning": column.meaning }))
         .collect();
-    let manifest = json!({
-        "title": map.spec.title,
+    let mut manifest = json!({
+        "title": sheet.title,
         "program": { "name": env!("CARGO_PKG_NAME"), "version": VERSION, "git_commit": COMMIT },
-        "complete": map.stopped.is_none(),
+        "complete": run.stopped.is_none(),
         "computation": {
-            "linear": provenance.linear,
-            "response": provenance.response,
-            "threads": provenance.threads,
-            "instances": map.records.len(),
-            "computed": computed,
-            "stopped": map.stopped.as_ref().map(ToString::to_string),
+            "linear": sheet.linear,
+            "response": sheet.response,
+            "threads": run.threads,
+            "instances": tally.total(),
+            "computed": tally.computed(),
+            "stopped": run.stopped,
             "elapsed_seconds": seconds,
-            "instances_per_second": (seconds > 0.0).then(|| computed as f64 / seconds),
+            "instances_per_second": (seconds > 0.0).then(|| run.computed as f64 / seconds),
         },
-        "counts": counts(map),
-        "energy_gaining_impacts": gaining.reduce(|a, b| a + b),
-        "spec": map.spec.resolved(),
+        "counts": counts(sheet.analysis, tally),
+        "energy_gaining_impacts": tally.energy_gaining_impacts(),
+        "spec": resolved,
         "columns": columns,
     });
+    if let (Some(id), Value::Object(entries)) = (&run.sweep_id, &mut manifest) {
+        entries.insert("sweep_id".to_owned(), json!(id));
+    }
     let mut bytes = serde_json::to_vec_pretty(&manifest).map_err(Error::WriteManifest)?;
     bytes.push(b'\n');
     Ok(bytes)
 }
 
 /// How many instances have each type, regime and status; names that do not occur are left out.
-fn counts(map: &Map) -> Value {
+fn counts(analysis: Analysis, tally: &Tally) -> Value {
+    let count = |selects: &dyn Fn(Label) -> bool| tally.count(selects);
     let mut result = Object::new();
-    if map.spec.analysis.linear {
-        let kinds = InstabilityType::ALL.map(|kind| (kind.name(), count(map, |r| r.kind == Some(kind))));
+    if analysis.linear {
+        let kinds = InstabilityType::ALL.map(|kind| (kind.name(), count(&|one| one.kind() == Some(kind))));
         result.insert("type".to_owned(), occurring(&kinds));
     }
-    if map.spec.analysis.response {
-        let regimes = Regime::ALL.map(|regime| (regime.name(), count(map, |r| r.regime == Some(regime))));
+    if analysis.response {
+        let regimes = Regime::ALL.map(|regime| (regime.name(), count(&|one| one.regime() == Some(regime))));
         result.insert("regime".to_owned(), occurring(&regimes));
-        result.insert("unsettled".to_owned(), json!(count(map, |r| r.settled == Some(false))));
+        result.insert("unsettled".to_owned(), json!(count(&|one| one.settled() == Some(false))));
     }
-    let statuses = Status::IN_MAP.map(|status| (status.name(), count(map, |r| r.status == status)));
+    let statuses = Status::IN_MAP.map(|status| (status.name(), count(&|one| one.status() == status)));
     result.insert("status".to_owned(), occurring(&statuses));
     Value::Object(result)
-}
-
-fn count(map: &Map, selects: impl Fn(&Record) -> bool) -> usize {
-    map.records.iter().filter(|record| selects(record)).count()
 }
 
 fn occurring(counts: &[(&str, usize)]) -> Value {

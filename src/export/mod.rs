@@ -1,9 +1,11 @@
 //! Map → bytes. Every exporter returns bytes (or text) in full precision and base units; none opens a file.
 //!
-//! [`columns`] is the one table of output columns; [`csv`], [`manifest`] and [`figure`] write `map.csv`,
-//! `manifest.json` and `map.svg`; [`png`] draws any of the figures. [`modes`] and [`trace`] serve the
+//! [`sheet`] is what an export says of a sweep beside its records; [`columns`] is the one table of output columns; [`csv`], [`manifest`] and [`figure`] write `map.csv`,
+//! `manifest.json` and `map.svg`; [`png`] draws any of the figures. [`zarr`] and [`netcdf`] write the labelled
+//! [`arrays`] of a sweep, part by part. [`modes`] and [`trace`] serve the
 //! commands of the same names, [`identify`] and [`signals`] to and from measured signals.
 
+pub mod arrays;
 mod block;
 pub mod boundaries;
 mod cells;
@@ -18,6 +20,7 @@ pub mod manifest;
 pub mod material;
 pub mod modes;
 mod modes_figure;
+pub mod netcdf;
 pub mod palette;
 mod panels;
 mod picture_axis;
@@ -25,11 +28,13 @@ mod plot;
 pub mod png;
 mod raster;
 pub mod scale;
+pub mod sheet;
 pub mod signals;
 pub mod svg;
 pub mod text;
 pub mod trace;
 mod trace_figure;
+pub mod zarr;
 
 use crate::error::{Error, Result};
 use crate::map::{Map, Record};

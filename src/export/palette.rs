@@ -4,8 +4,7 @@
 //! that it survives the three kinds of dichromacy and a grey print; a test measures both. The hues are
 //! those of the sets of Okabe & Ito and of Tol, moved to evenly spaced lightness.
 
-use crate::classify::{InstabilityType, Regime};
-use crate::map::Record;
+use crate::label::Label;
 
 /// How one class is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,7 +19,7 @@ pub struct Class {
     pub dark: bool,
 }
 
-/// The classes of [`InstabilityType::ALL`], in that order.
+/// The classes of [`InstabilityType::ALL`](crate::classify::InstabilityType::ALL), in that order.
 pub const TYPES: [Class; 7] = [
     Class { name: "stable", label: "stable", fill: "#F2F2EE", dark: false },
     Class { name: "negative_slope", label: "negative slope", fill: "#56B4E9", dark: false },
@@ -31,7 +30,7 @@ pub const TYPES: [Class; 7] = [
     Class { name: "divergence", label: "divergence", fill: "#0A0A0A", dark: true },
 ];
 
-/// The classes of [`Regime::ALL`], in that order.
+/// The classes of [`Regime::ALL`](crate::classify::Regime::ALL), in that order.
 pub const REGIMES: [Class; 7] = [
     Class { name: "equilibrium", label: "equilibrium", fill: "#F2F2EE", dark: false },
     Class { name: "slip", label: "slip", fill: "#BDD965", dark: false },
@@ -45,9 +44,9 @@ pub const REGIMES: [Class; 7] = [
 /// What a block of panels colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Colouring {
-    /// By [`InstabilityType`].
+    /// By [`InstabilityType`](crate::classify::InstabilityType).
     Type,
-    /// By [`Regime`].
+    /// By [`Regime`](crate::classify::Regime).
     Regime,
 }
 
@@ -70,16 +69,12 @@ impl Colouring {
         }
     }
 
-    /// The position of a record's class in [`Colouring::classes`]; `None`: there is no result.
+    /// The position of a label's class in [`Colouring::classes`]; `None`: there is no result.
     #[must_use]
-    pub fn class(self, record: &Record) -> Option<usize> {
+    pub fn class(self, label: Label) -> Option<usize> {
         match self {
-            Colouring::Type => {
-                record.kind.and_then(|kind| InstabilityType::ALL.iter().position(|k| *k == kind))
-            }
-            Colouring::Regime => {
-                record.regime.and_then(|regime| Regime::ALL.iter().position(|r| *r == regime))
-            }
+            Colouring::Type => label.kind_position(),
+            Colouring::Regime => label.regime_position(),
         }
     }
 }

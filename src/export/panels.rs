@@ -1,30 +1,45 @@
 //! Which instances stand in which panel: the picture's axes and the small multiples.
 
+use std::ops::Range;
+
 use super::picture_axis::PictureAxis;
 use super::scale::value_label;
 use super::text::Text;
 use crate::grid::{Axis, AxisKey, Grid, Value};
+use crate::label::Label;
+use crate::map::Record;
 
 /// More panels than this do not fit a page; the figure then shows an even selection and says so.
 const MOST_PANELS: usize = 40;
 /// Tuples fall into panels when their other columns take no more combinations than this.
 const MOST_TUPLE_PANELS: usize = 12;
+/// More cells than this no print resolves; the figure then shows an even selection of the values and says so.
+const MOST_CELLS: usize = 1 << 22;
+/// And no axis has more of them than this.
+const MOST_VALUES: usize = 1 << 12;
 
 /// One panel.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Panel {
     /// Lines above it: the values of the further axes.
     pub(super) title: Vec<Text>,
-    /// Cells: the instances row by row from the bottom. Points: the instances.
-    pub(super) instances: Vec<usize>,
+    /// Its places in [`Panels::instances`]: cells row by row from the bottom, or points.
+    pub(super) cells: Range<usize>,
 }
 
-/// The panels of a map; every block of the figure has the same.
+/// The panels of a map; every block of the figure has the same. They keep the labels of what they show, and
+/// nothing of the rest.
 #[derive(Clone, Debug)]
 pub(super) struct Panels {
     pub(super) x: PictureAxis,
     pub(super) y: Option<PictureAxis>,
     pub(super) all: Vec<Panel>,
+    /// What is shown, panel after panel.
+    pub(super) instances: Vec<usize>,
+    /// The label of each.
+    pub(super) labels: Vec<Label>,
+    /// The places in `instances` in the order of the grid.
+    order: Vec<u32>,
     /// The number of values of the fastest further axis, when there are two or more such axes.
     pub(super) columns: Option<usize>,
     /// For scattered points: their columns for x and y.
@@ -39,6 +54,35 @@ impl Panels {
         match grid {
             Grid::Axes(axes) => from_axes(axes),
             Grid::Tuples { keys, rows } => from_tuples(keys, rows),
+        }
+    }
+
+    /// Panels of titles and instances that nothing is known of yet.
+    fn empty(all: Vec<(Vec<Text>, Vec<usize>)>) -> Panels {
+        let mut instances = Vec::with_capacity(all.iter().map(|(_, shown)| shown.len()).sum());
+        let all = all.into_iter().map(|(title, shown)| {
+            let first = instances.len();
+            instances.extend(shown);
+            Panel { title, cells: first..instances.len() }
+        });
+        let all = all.collect();
+        #[expect(clippy::cast_possible_truncation, reason = "cells are few, and tuples fit the memory")]
+        let mut order: Vec<u32> = (0..instances.len() as u32).collect();
+        order.sort_unstable_by_key(|place| instances[*place as usize]);
+        let labels = vec![Label::NOT_COMPUTED; instances.len()];
+        let x = PictureAxis::single();
+        Panels { x, y: None, all, instances, labels, order, columns: None, scatter: None, note: None }
+    }
+
+    /// Takes the labels of the records from instance `first` on.
+    pub(super) fn add(&mut self, first: usize, records: &[Record]) {
+        let from = self.order.partition_point(|place| self.instances[*place as usize] < first);
+        for place in &self.order[from..] {
+            let place = *place as usize;
+            match records.get(self.instances[place] - first) {
+                Some(record) => self.labels[place] = Label::from(record),
+                None => break,
+            }
         }
     }
 }
@@ -72,16 +116,19 @@ fn from_axes(axes: &[Axis]) -> Panels {
     for i in (1..axes.len()).rev() {
         strides[i - 1] = strides[i] * axes[i].values.len();
     }
-    let x = x_axis.map_or_else(PictureAxis::single, |i| PictureAxis::cells(&axes[i]));
-    let y = y_axis.map(|i| PictureAxis::cells(&axes[i]));
     let stride = |axis: Option<usize>| axis.map_or(0, |i| strides[i]);
-    let rows: &[usize] = y.as_ref().map_or(&[0], |y| &y.order);
     let further: Vec<usize> = (0..axes.len()).filter(|i| Some(*i) != x_axis && Some(*i) != y_axis).collect();
     // The longest of them runs along the rows of panels.
     let mut varying: Vec<usize> = further.iter().copied().filter(|i| axes[*i].values.len() > 1).collect();
     varying.sort_by_key(|i| axes[*i].values.len());
     let total: usize = varying.iter().map(|i| axes[*i].values.len()).product();
-    let panels = selection(total)
+    let shown = total.min(MOST_PANELS);
+    let limit = if y_axis.is_some() { (MOST_CELLS / shown).isqrt() } else { MOST_CELLS / shown };
+    let thin = |i: usize| Thinned::new(&axes[i], limit.min(MOST_VALUES));
+    let (x, y) = (x_axis.map(thin), y_axis.map(thin));
+    let across = x.as_ref().map_or_else(|| vec![0], Thinned::indices);
+    let rows = y.as_ref().map_or_else(|| vec![0], Thinned::indices);
+    let panels = selection(total, MOST_PANELS)
         .map(|number| {
             let mut rest = number;
             let mut at = vec![0; axes.len()];
@@ -95,22 +142,59 @@ fn from_axes(axes: &[Axis]) -> Panels {
             let row = |j: &usize| offset + j * stride(y_axis);
             let instances = rows
                 .iter()
-                .flat_map(|j| x.order.iter().map(move |i| (i, row(j))))
+                .flat_map(|j| across.iter().map(move |i| (i, row(j))))
                 .map(|(i, row)| row + i * stride(x_axis))
                 .collect();
-            Panel { title, instances }
+            (title, instances)
         })
         .collect::<Vec<_>>();
     let columns = (varying.len() > 1 && panels.len() == total)
         .then(|| varying.last().map_or(1, |i| axes[*i].values.len()));
-    let note = (panels.len() < total)
-        .then(|| format!("{} of {total} panels shown; the table holds all instances.", panels.len()));
-    Panels { x, y, all: panels, columns, scatter: None, note }
+    let mut left_out = Vec::new();
+    if panels.len() < total {
+        left_out.push(format!("{} of {total} panels", panels.len()));
+    }
+    for thinned in x.iter().chain(&y).filter(|one| one.picks.len() < one.of) {
+        left_out.push(format!("{} of {} values of {}", thinned.picks.len(), thinned.of, thinned.name));
+    }
+    let note = (!left_out.is_empty())
+        .then(|| format!("{} shown; the table holds all instances.", left_out.join(", ")));
+    let x = x.map_or_else(PictureAxis::single, |thinned| thinned.axis);
+    Panels { x, y: y.map(|thinned| thinned.axis), columns, note, ..Panels::empty(panels) }
 }
 
-/// An even selection of at most [`MOST_PANELS`] of `total` panels, first and last included.
-fn selection(total: usize) -> impl Iterator<Item = usize> {
-    let shown = total.min(MOST_PANELS);
+/// An axis of a picture with no more values than a print resolves.
+struct Thinned {
+    axis: PictureAxis,
+    /// The indices of its values on the axis of the sweep.
+    picks: Vec<usize>,
+    /// How many values that has, and what they are of.
+    of: usize,
+    name: &'static str,
+}
+
+impl Thinned {
+    fn new(axis: &Axis, limit: usize) -> Thinned {
+        let (of, name) = (axis.values.len(), axis.key.name());
+        let picks: Vec<usize> = selection(of, limit).collect();
+        let axis = if picks.len() < of {
+            let values = picks.iter().map(|i| axis.values[*i].clone()).collect();
+            PictureAxis::cells(&Axis { key: axis.key, values, log: axis.log })
+        } else {
+            PictureAxis::cells(axis)
+        };
+        Thinned { axis, picks, of, name }
+    }
+
+    /// The index on the axis of the sweep of each cell.
+    fn indices(&self) -> Vec<usize> {
+        self.axis.order.iter().map(|cell| self.picks[*cell]).collect()
+    }
+}
+
+/// An even selection of at most `most` of `total`, first and last included.
+fn selection(total: usize, most: usize) -> impl Iterator<Item = usize> {
+    let shown = total.min(most);
     (0..shown).map(move |i| if shown < total { i * (total - 1) / (shown - 1) } else { i })
 }
 
@@ -135,24 +219,25 @@ fn from_tuples(keys: &[AxisKey], rows: &[Vec<Value>]) -> Panels {
     let y_column = numbers.next().or_else(|| (0..keys.len()).find(|i| *i != x_column && varying(i)));
     let further: Vec<usize> =
         (0..keys.len()).filter(|i| *i != x_column && Some(*i) != y_column && varying(i)).collect();
-    let mut groups: Vec<(Vec<&Value>, Panel)> = Vec::new();
+    let mut groups: Vec<(Vec<&Value>, Vec<usize>)> = Vec::new();
     for (instance, row) in rows.iter().enumerate() {
         let group: Vec<&Value> = further.iter().map(|i| &row[*i]).collect();
         if let Some((_, panel)) = groups.iter_mut().find(|(other, _)| *other == group) {
-            panel.instances.push(instance);
+            panel.push(instance);
         } else if groups.len() <= MOST_TUPLE_PANELS {
-            let title = further.iter().map(|i| setting(keys[*i], &row[*i])).collect();
-            groups.push((group, Panel { title, instances: vec![instance] }));
+            groups.push((group, vec![instance]));
         }
     }
     // Worth separate panels only when these collect points.
     let split = groups.len() <= MOST_TUPLE_PANELS && 2 * groups.len() <= rows.len();
     let (panels, note) = if split || further.is_empty() {
-        (groups.into_iter().map(|(_, panel)| panel).collect(), None)
+        let title =
+            |group: &[&Value]| further.iter().zip(group).map(|(i, value)| setting(keys[*i], value)).collect();
+        (groups.into_iter().map(|(group, panel)| (title(&group), panel)).collect(), None)
     } else {
         let names: Vec<&str> = further.iter().map(|i| keys[*i].name()).collect();
         let note = format!("Also varying between the points: {}.", names.join(", "));
-        (vec![Panel { title: Vec::new(), instances: (0..rows.len()).collect() }], Some(note))
+        (vec![(Vec::new(), (0..rows.len()).collect())], Some(note))
     };
     let axis = |i: usize| PictureAxis::scatter(keys[i], &column(i));
     let (x, y) = if keys.is_empty() || rows.is_empty() {
@@ -160,5 +245,5 @@ fn from_tuples(keys: &[AxisKey], rows: &[Vec<Value>]) -> Panels {
     } else {
         (axis(x_column), y_column.map(axis))
     };
-    Panels { x, y, all: panels, columns: None, scatter: Some((x_column, y_column)), note }
+    Panels { x, y, scatter: Some((x_column, y_column)), note, ..Panels::empty(panels) }
 }

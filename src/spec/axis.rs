@@ -8,7 +8,7 @@ use crate::error::{Error, Result};
 use crate::grid::{Axis, AxisKey, Value};
 use crate::model::Param;
 use crate::place::Source;
-use crate::spec::MAX_INSTANCES;
+use crate::spec::MAX_VALUES;
 use crate::spec::document::{Node, array, choice, entries, integer, number, out_of_range, string, table};
 use crate::spec::names::unknown;
 use crate::spec::sections::law_value;
@@ -109,7 +109,7 @@ fn range(
     let (from_node, to_node) = (get("from")?, get("to")?);
     let from = number(source, from_node, &label("from"), param.info().range)?;
     let to = number(source, to_node, &label("to"), param.info().range)?;
-    let points = integer(source, get("points")?, &label("points"), 1, MAX_INSTANCES)?;
+    let points = integer(source, get("points")?, &label("points"), 1, MAX_VALUES)?;
     let log = match keys.get("scale") {
         None => false,
         Some(scale) => choice(source, scale, &label("scale"), "scale", &[("linear", false), ("log", true)])?,

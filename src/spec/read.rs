@@ -13,7 +13,7 @@ use crate::spec::document::{entries, string};
 use crate::spec::files::Files;
 use crate::spec::sections::{Sections, TOP_LEVEL, section_of, unknown_key};
 use crate::spec::varied::Varied;
-use crate::spec::{AUTO_MEASURE, Duration, FIRST_SETTLE, MEASURE, SETTLE, SETTLE_LIMIT, Spec};
+use crate::spec::{AUTO_MEASURE, Analysis, Duration, FIRST_SETTLE, MEASURE, SETTLE, SETTLE_LIMIT, Spec};
 
 impl Spec {
     /// Reads and validates a sweep file; files that it names are relative to its directory.
@@ -80,7 +80,7 @@ fn assemble(sections: Sections, varied: Varied, files: Files) -> Spec {
     let limit = sections.settle_limit.map_or(SETTLE_LIMIT, |(limit, _)| limit);
     Spec {
         title: sections.title,
-        analysis: sections.analysis,
+        analysis: Analysis { until_settled: auto && sections.analysis.response, ..sections.analysis },
         base: sections.base,
         impact_friction: sections.impact_friction,
         law: sections.law,

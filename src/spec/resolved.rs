@@ -28,23 +28,8 @@ impl Spec {
         spec.insert("model".to_owned(), Json::Object(model));
         spec.insert("friction".to_owned(), self.friction());
         spec.insert("belt".to_owned(), Json::Object(self.section(Section::Belt)));
-        match &self.grid {
-            Grid::Axes(axes) => {
-                let axes: Map<String, Json> = axes
-                    .iter()
-                    .map(|axis| {
-                        let values: Vec<Json> = axis.values.iter().map(value).collect();
-                        let scale = if axis.log { "log" } else { "linear" };
-                        (axis.key.name().to_owned(), json!({ "values": values, "scale": scale }))
-                    })
-                    .collect();
-                spec.insert("axes".to_owned(), Json::Object(axes));
-            }
-            Grid::Tuples { keys, rows } => {
-                let columns: Vec<&str> = keys.iter().map(|key| key.name()).collect();
-                spec.insert("points".to_owned(), json!({ "columns": columns, "rows": rows.len() }));
-            }
-        }
+        let (key, grid) = resolved_grid(&self.grid);
+        spec.insert(key.to_owned(), grid);
         let mut start = self.section(Section::Start);
         let kind = match self.start {
             StartKind::Kick => {
@@ -113,6 +98,28 @@ impl Spec {
             friction.insert("table".to_owned(), json!({ "velocity": table.velocity, "mu": table.mu }));
         }
         Json::Object(friction)
+    }
+}
+
+/// What varies, and the key it stands under: the values of `axes`, or the columns of `points`.
+#[must_use]
+pub(crate) fn resolved_grid(grid: &Grid) -> (&'static str, Json) {
+    match grid {
+        Grid::Axes(axes) => {
+            let axes: Map<String, Json> = axes
+                .iter()
+                .map(|axis| {
+                    let values: Vec<Json> = axis.values.iter().map(value).collect();
+                    let scale = if axis.log { "log" } else { "linear" };
+                    (axis.key.name().to_owned(), json!({ "values": values, "scale": scale }))
+                })
+                .collect();
+            ("axes", Json::Object(axes))
+        }
+        Grid::Tuples { keys, rows } => {
+            let columns: Vec<&str> = keys.iter().map(|key| key.name()).collect();
+            ("points", json!({ "columns": columns, "rows": rows.len() }))
+        }
     }
 }
 

@@ -60,7 +60,7 @@ impl Default for Sections {
     fn default() -> Self {
         Sections {
             title: String::new(),
-            analysis: Analysis { linear: true, response: true },
+            analysis: Analysis { linear: true, response: true, until_settled: false },
             base: Params::default(),
             impact_friction: true,
             law: LawKind::Bilinear,
@@ -97,7 +97,7 @@ impl Sections {
             return Ok(());
         }
         let names = array(source, entry.node, "`analysis`", "an array of \"linear\" and \"response\"")?;
-        self.analysis = Analysis { linear: false, response: false };
+        self.analysis = Analysis { linear: false, response: false, until_settled: false };
         for name in names {
             let choices = [("linear", false), ("response", true)];
             let response = choice(source, name, "an element of `analysis`", "analysis", &choices)?;

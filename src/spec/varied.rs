@@ -6,12 +6,12 @@ use std::path::Path;
 use crate::error::{Error, Result};
 use crate::grid::{Axis, AxisKey, Grid, Value};
 use crate::place::{Place, Source};
-use crate::spec::MAX_INSTANCES;
 use crate::spec::axis::axis;
 use crate::spec::document::{Entry, entries, table};
 use crate::spec::names::advice;
 use crate::spec::rows::Rows;
 use crate::spec::sections::law_value;
+use crate::spec::{MAX_INSTANCES, MAX_VALUES};
 
 /// Keys of a sweep file that cannot vary.
 pub(super) const FIXED: [&str; 10] = [
@@ -74,9 +74,9 @@ impl Varied {
         let file = Rows::read(sweep, span.clone(), "points", name, base_dir)?;
         let names: Vec<&str> = AxisKey::names().collect();
         let keys = file.columns(&names, AxisKey::from_name)?;
-        if file.body.len() > MAX_INSTANCES {
+        if file.body.len() > MAX_VALUES {
             let at = sweep.place(span);
-            return Err(Error::TooMany { at, count: file.body.len().to_string(), limit: MAX_INSTANCES });
+            return Err(Error::TooMany { at, count: file.body.len().to_string(), limit: MAX_VALUES });
         }
         let mut rows = Vec::with_capacity(file.body.len());
         for fields in &file.body {

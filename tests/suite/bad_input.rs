@@ -105,8 +105,8 @@ refuses! {
         => "s.toml:2:24: `points` of axis `mu_d` stands beside `values` of the same axis; remove one of them";
     log_from_zero: "[axes]\nc1 = { from = 0, to = 1, points = 3, scale = \"log\" }\n"
         => "s.toml:2:15: `from` of axis `c1` is 0 but must be greater than 0 for scale = \"log\"";
-    product_overflow: "[axes]\nmu_s = { from = 0, to = 1, points = 100_000 }\nmu_d = { from = 0, to = 1, points = 100_000 }\n"
-        => "s.toml:3:8: the sweep has at least 10000000000 instances but at most 100000000 are allowed; take fewer points";
+    product_overflow: "[axes]\nmu_s = { from = 0, to = 1, points = 100_000 }\nmu_d = { from = 0, to = 1, points = 100_000 }\nbelt_velocity = { from = 1, to = 2, points = 1_000 }\n"
+        => "s.toml:4:17: the sweep has at least 10000000000000 instances but at most 1000000000000 are allowed; take fewer points";
     key_in_section_and_axes: format!("{VALID}[axes]\nmu_s = {{ values = [0.1] }}\n")
         => "s.toml:7:1: axis `mu_s` stands beside `mu_s` in [friction]; remove one of them";
     axes_and_points: "points = \"p.csv\"\n[axes]\nmu_s = { values = [0.1] }\n"

@@ -8,14 +8,14 @@ use std::process::Command;
 use tempfile::TempDir;
 
 /// What a run of the program said and left behind.
-struct Ended {
-    code: Option<i32>,
-    out: String,
-    err: String,
+pub(crate) struct Ended {
+    pub(crate) code: Option<i32>,
+    pub(crate) out: String,
+    pub(crate) err: String,
 }
 
 /// Runs the program in `directory`.
-fn squealmap(directory: &Path, arguments: &[&str]) -> Ended {
+pub(crate) fn squealmap(directory: &Path, arguments: &[&str]) -> Ended {
     let output = Command::new(env!("CARGO_BIN_EXE_squealmap"))
         .args(arguments)
         .current_dir(directory)
@@ -63,10 +63,17 @@ fn run_writes_all_files_and_counts() {
     let directory = with_sweep("");
     let ended = squealmap(directory.path(), &["run", "small.toml", "--threads", "2"]);
     assert_eq!(ended.code, Some(0), "{}", ended.err);
-    let paths = ["out", "out/small", "out/small/manifest.json", "out/small/map.csv", "out/small/map.png"];
-    let expected: Vec<PathBuf> =
-        paths.iter().chain(&["out/small/map.svg", "small.toml"]).map(PathBuf::from).collect();
-    assert_eq!(tree(directory.path()), expected);
+    let files = ["manifest.json", "map.csv", "map.png", "map.svg", "tiles", "tiles/sweep.json"];
+    let mut found = tree(directory.path());
+    let tile = found.iter().position(|path| path.to_string_lossy().ends_with(".tile")).unwrap();
+    assert!(found.remove(tile).starts_with("out/small/tiles"));
+    let expected: Vec<PathBuf> = ["out".into(), "out/small".into()]
+        .into_iter()
+        .chain(files.iter().map(|name| Path::new("out/small").join(name)))
+        .chain(["small.toml".into()])
+        .collect();
+    found.sort();
+    assert_eq!(found, expected);
     assert!(ended.out.starts_with("6 instances in "), "{}", ended.out);
     assert!(ended.out.contains("wrote out/small/map.csv\n"), "{}", ended.out);
     let csv = std::fs::read_to_string(directory.path().join("out/small/map.csv")).unwrap();

@@ -1,5 +1,6 @@
 //! One integration binary, one module per topic.
 
+mod arrays;
 mod bad_input;
 mod cli;
 mod colour;
@@ -16,6 +17,8 @@ mod interrupt;
 mod kernel_linear;
 mod kernel_response;
 mod kernels;
+#[cfg(unix)]
+mod killed;
 mod linear;
 mod modes_figure;
 mod no_driver;
@@ -23,7 +26,9 @@ mod observables;
 mod properties;
 mod regimes;
 mod response;
+mod resume;
 mod settle;
+mod shards;
 mod simd;
 mod single;
 mod spec;
@@ -34,4 +39,5 @@ mod strict;
 mod strokes;
 mod sweeps;
 mod synthetic;
+mod tiles;
 mod trace_figure;

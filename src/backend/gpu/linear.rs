@@ -5,7 +5,6 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::chunks::{Batch, Session};
-use super::device::Device;
 use super::run::{ChunkResult, Drive};
 use crate::backend::begun;
 use crate::backend::choice::Options;
@@ -32,21 +31,22 @@ pub fn method() -> String {
     "two quadratic factors by a bracketed Newton search".to_owned()
 }
 
-/// Appends the records of a sweep with their linear part, in the order of its grid; when it ends early, those
-/// behind them are not computed.
+/// Appends the records of the instances `range` of a sweep with their linear part, in the order of its grid; when
+/// it ends early, those behind them are not computed. Instances in errors count from the start of the range.
 ///
 /// # Errors
 /// When the device fails, the run is cancelled, or a result is in doubt.
 pub fn append(
     spec: &Spec,
-    device: &Device,
+    range: Range<usize>,
+    session: &mut Session,
     options: &Options,
     progress: &(dyn Fn(usize) + Sync),
     records: &mut Vec<Record>,
 ) -> Result<()> {
-    match device.precision() {
-        Precision::F32 => append_in::<f32>(spec, device, options, progress, records),
-        Precision::F64 => append_in::<f64>(spec, device, options, progress, records),
+    match session.device().precision() {
+        Precision::F32 => append_in::<f32>(spec, range, session, options, progress, records),
+        Precision::F64 => append_in::<f64>(spec, range, session, options, progress, records),
     }
 }
 
@@ -55,12 +55,12 @@ type Known = (Record, Option<Words>);
 
 fn append_in<R: Real>(
     spec: &Spec,
-    device: &Device,
+    range: Range<usize>,
+    session: &mut Session,
     options: &Options,
     progress: &(dyn Fn(usize) + Sync),
     records: &mut Vec<Record>,
 ) -> Result<()> {
-    let mut session = Session::new(device.clone());
     let chunk = options.chunk.unwrap_or(usize::MAX).min(session.chunk_size::<R>(&KERNEL));
     let drive = Drive {
         offset: 0,
@@ -71,21 +71,17 @@ fn append_in<R: Real>(
         counts: true,
         progress,
     };
-    let prepare = |range: Range<usize>| {
-        let known: Vec<Known> = range.into_par_iter().map(|index| known(spec, index)).collect();
-        vec![Batch {
-            kernel: KERNEL,
-            choices: Vec::new(),
-            inputs: inputs(&known),
-            before: None,
-            memory: known,
-        }]
+    let first = range.start;
+    let prepare = |part: Range<usize>| {
+        let known: Vec<Known> = part.into_par_iter().map(|index| known(spec, first + index)).collect();
+        let inputs = inputs(&known);
+        vec![Batch { kernel: KERNEL, choices: Vec::new(), inputs, before: None, memory: known }]
     };
     let accept = |_: Range<usize>, _: bool, results: Vec<(Vec<Known>, ChunkResult<R>)>| {
         results.into_iter().try_for_each(|(known, result)| take(records, known, &result))?;
         Ok(Vec::new())
     };
-    session.each(spec.grid.len(), chunk, &drive, prepare, accept)
+    session.each(range.len(), chunk, &drive, prepare, accept)
 }
 
 /// Instance `index` before the kernel.

@@ -8,7 +8,6 @@ use std::thread::available_parallelism;
 use rayon::prelude::*;
 
 use super::chunks::{Batch, Session};
-use super::device::Device;
 use super::run::{ChunkResult, Drive};
 use crate::backend::choice::Options;
 use crate::backend::take_response;
@@ -50,20 +49,22 @@ fn pieces_of(spec: &Spec) -> usize {
     spec.table.as_ref().map_or(0, |table| table.velocity.len()).max(2)
 }
 
-/// Completes the records of a sweep with their response; when it ends early, those without are not computed.
+/// Completes the records of the instances from `first` on of a sweep with their response; when it ends early,
+/// those without are not computed. Instances in errors count from `first`.
 ///
 /// # Errors
 /// When the device fails, or the run is cancelled.
 pub fn complete(
     spec: &Spec,
-    device: &Device,
+    first: usize,
+    session: &mut Session,
     options: &Options,
     progress: &(dyn Fn(usize) + Sync),
     records: &mut [Record],
 ) -> Result<()> {
-    match device.precision() {
-        Precision::F32 => complete_in::<f32>(spec, device, options, progress, records),
-        Precision::F64 => complete_in::<f64>(spec, device, options, progress, records),
+    match session.device().precision() {
+        Precision::F32 => complete_in::<f32>(spec, first, session, options, progress, records),
+        Precision::F64 => complete_in::<f64>(spec, first, session, options, progress, records),
     }
 }
 
@@ -92,14 +93,14 @@ struct Form {
 
 fn complete_in<R: Real>(
     spec: &Spec,
-    device: &Device,
+    first: usize,
+    session: &mut Session,
     options: &Options,
     progress: &(dyn Fn(usize) + Sync),
     records: &mut [Record],
 ) -> Result<()> {
     let plan = Plan::new(spec);
-    let mut session = Session::new(device.clone());
-    let chunk = chunk_size::<R>(spec, &session, options);
+    let chunk = chunk_size::<R>(spec, session, options);
     let mut settings = [0; SETTING_WORDS];
     settings[0] = TOLERANCE.to_bits();
     let drive = Drive {
@@ -113,8 +114,10 @@ fn complete_in<R: Real>(
         counts: plan.settle_limit.is_none(),
         progress,
     };
+    let total = records.len();
     let prepare = |range: Range<usize>| {
-        let prepared: Vec<_> = range.into_par_iter().filter_map(|index| begin(spec, index, &plan)).collect();
+        let prepared: Vec<_> =
+            range.into_par_iter().filter_map(|index| begin(spec, [first, index], &plan)).collect();
         let mut batches: BTreeMap<Form, Vec<Ready<R>>> = BTreeMap::new();
         for (form, ready) in prepared {
             batches.entry(form).or_default().push(ready);
@@ -129,7 +132,10 @@ fn complete_in<R: Real>(
             let ends: Vec<End<R>> = running
                 .into_par_iter()
                 .enumerate()
-                .map(|(lane, one)| end(spec, &plan, one, result.cancelled, &lane_words(&result, lane, count)))
+                .map(|(lane, one)| {
+                    let words = lane_words(&result, lane, count);
+                    end(spec, &plan, first, one, result.cancelled, &words)
+                })
                 .collect::<Result<_>>()?;
             for end in ends {
                 match end {
@@ -139,7 +145,7 @@ fn complete_in<R: Real>(
                     }
                     End::Outcome(index, outcome) => {
                         live[index - range.start] = true;
-                        take(spec, &spec.instance(index), &mut records[index], &outcome);
+                        take(spec, &spec.instance(first + index), &mut records[index], &outcome);
                     }
                     End::Again(form, ready) => {
                         live[ready.running.index - range.start] = true;
@@ -149,13 +155,13 @@ fn complete_in<R: Real>(
             }
         }
         for index in range.clone().filter(|index| !live[index - range.start]) {
-            let instance = spec.instance(index);
+            let instance = spec.instance(first + index);
             let status = Scene::new(&instance, plan.start).err().unwrap_or(Status::Unwritten);
             take(spec, &instance, &mut records[index], &Outcome { status, ..Outcome::default() });
         }
         Ok(batches.into_iter().map(|(form, ready)| batch(form, ready)).collect())
     };
-    let ended = session.each(spec.grid.len(), chunk, &drive, prepare, accept);
+    let ended = session.each(total, chunk, &drive, prepare, accept);
     // What a chunk that never came to its end would have filled.
     for record in records.iter_mut().filter(|record| record.outcome.is_none()) {
         *record = Record::NOT_COMPUTED;
@@ -197,8 +203,8 @@ enum End<R> {
 }
 
 /// The kernel and the words of an instance at its start; `None` when it cannot start.
-fn begin<R: Real>(spec: &Spec, index: usize, plan: &Plan) -> Option<(Form, Ready<R>)> {
-    let instance = spec.instance(index);
+fn begin<R: Real>(spec: &Spec, [first, index]: [usize; 2], plan: &Plan) -> Option<(Form, Ready<R>)> {
+    let instance = spec.instance(first + index);
     let scene = Scene::new(&instance, plan.start).ok()?;
     let windows = Windows::new(&instance, &scene, plan);
     let segments = windows.segments;
@@ -264,6 +270,7 @@ fn lane_words<R: Real>(result: &ChunkResult<R>, lane: usize, count: usize) -> (V
 fn end<R: Real>(
     spec: &Spec,
     plan: &Plan,
+    first: usize,
     running: Running,
     cancelled: bool,
     (state, flags): &(Vec<R>, Vec<u32>),
@@ -272,7 +279,7 @@ fn end<R: Real>(
     if cancelled && flags[FLAG_STATUS] == Status::Unwritten as u32 {
         return Ok(End::NotComputed(index));
     }
-    let instance = spec.instance(index);
+    let instance = spec.instance(first + index);
     let Ok(scene) = Scene::new(&instance, plan.start) else {
         return Err(Error::Unwritten { instance: index });
     };

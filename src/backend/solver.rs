@@ -1,0 +1,123 @@
+//! The engine that was chosen for a sweep, computing one range of instances after the other.
+
+use std::fmt;
+use std::ops::Range;
+
+use super::choice::{Engine, Options, choose};
+use super::computed::Computed;
+use super::gpu::chunks::Session;
+use super::{cpu, gpu, reference};
+use crate::error::{Error, Result};
+use crate::kernel::source::Precision;
+use crate::map::{Computation, Record};
+use crate::spec::{Analysis, Spec};
+
+/// What computes a sweep.
+pub struct Solver<'a> {
+    spec: &'a Spec,
+    options: &'a Options<'a>,
+    on: On,
+}
+
+/// An engine with what it keeps between ranges.
+#[derive(Debug)]
+enum On {
+    Cpu(Precision),
+    Reference,
+    /// The kernels stay compiled.
+    Gpu(Session),
+}
+
+impl fmt::Debug for Solver<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Solver").field("on", &self.on).finish_non_exhaustive()
+    }
+}
+
+impl<'a> Solver<'a> {
+    /// Chooses the engine, see [`choose`].
+    ///
+    /// # Errors
+    /// Those of [`choose`].
+    pub fn new(spec: &'a Spec, options: &'a Options<'a>) -> Result<Solver<'a>> {
+        let on = match choose(options, spec)? {
+            Engine::Cpu(precision) => On::Cpu(precision),
+            Engine::Reference => On::Reference,
+            Engine::Gpu(device) => On::Gpu(Session::new(device)),
+        };
+        Ok(Solver { spec, options, on })
+    }
+
+    /// Where and how the eigenvalue analysis and the response are computed; `None` where not asked for.
+    #[must_use]
+    pub fn computations(&self) -> [Option<Computation>; 2] {
+        let Analysis { linear, response, .. } = self.spec.analysis;
+        let [of_linear, of_response] = match &self.on {
+            On::Cpu(precision) => {
+                [reference::linear(cpu::NAME), cpu::response(*precision, self.spec.steps_per_period)]
+            }
+            On::Reference => [reference::linear(reference::NAME), reference::response()],
+            On::Gpu(session) => {
+                let device = session.device();
+                [gpu::linear::method(), gpu::response::method()].map(|method| Computation {
+                    backend: gpu::NAME.to_owned(),
+                    precision: device.precision().to_string(),
+                    method,
+                    adapter: Some(device.describe().to_string()),
+                    strict: Some(device.strict()),
+                })
+            }
+        };
+        [linear.then_some(of_linear), response.then_some(of_response)]
+    }
+
+    /// The records of the instances `range`, in order; the CPU's part runs on the rayon pool it is called in.
+    /// `progress` gets the number of newly finished instances. A run that is cancelled or fails on its way
+    /// gives what is done, see [`Computed::stopped`].
+    ///
+    /// # Errors
+    /// When the engine fails or is cancelled before any instance of the range is done, or a result is in doubt.
+    pub fn records(&mut self, range: Range<usize>, progress: &(dyn Fn(usize) + Sync)) -> Result<Computed> {
+        let cancel = self.options.cancel();
+        match &mut self.on {
+            On::Cpu(precision) => cpu::records(self.spec, range, *precision, cancel, progress),
+            On::Reference => reference::records(self.spec, range, cancel, progress),
+            On::Gpu(session) => on_gpu(self.spec, range, session, self.options, progress),
+        }
+    }
+}
+
+/// The records of a range from a GPU; only the last analysis counts as progress, and only what has all of
+/// them is done.
+fn on_gpu(
+    spec: &Spec,
+    range: Range<usize>,
+    session: &mut Session,
+    options: &Options,
+    progress: &(dyn Fn(usize) + Sync),
+) -> Result<Computed> {
+    let Analysis { linear, response, .. } = spec.analysis;
+    let (first, total) = (range.start, range.len());
+    let mut records = Vec::with_capacity(total);
+    let mut ended = Ok(());
+    if linear {
+        let progress = if response { &|_: usize| {} } else { progress };
+        ended = gpu::linear::append(spec, range, session, options, progress, &mut records)
+            .map_err(|why| counted_from(first, why));
+    }
+    if response {
+        ended?;
+        records.resize(total, Record::default());
+        ended = gpu::response::complete(spec, first, session, options, progress, &mut records)
+            .map_err(|why| counted_from(first, why));
+    }
+    Computed::new(records, total, ended)
+}
+
+/// An error of a range that starts at `first`, its instance counted from the start of the sweep.
+fn counted_from(first: usize, why: Error) -> Error {
+    match why {
+        Error::Unwritten { instance } => Error::Unwritten { instance: first + instance },
+        other => other,
+    }
+}

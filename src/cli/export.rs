@@ -1,0 +1,186 @@
+//! `squealmap export`: the tiles of a directory in a format that other programs read.
+
+use std::fs;
+use std::io::{self, Seek, SeekFrom, Write};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use clap::{Args, ValueEnum};
+use squealmap::export::csv::MapCsv;
+use squealmap::export::netcdf::NetCdf;
+use squealmap::export::zarr::Zarr;
+use squealmap::map::Record;
+use squealmap::outcome::Status;
+use squealmap::store::directory::Store;
+use squealmap::{Error, Result};
+
+use crate::cli::output::{cannot, claim, list};
+use crate::cli::run::missing;
+use crate::cli::{note, print};
+
+/// Arguments of `export`.
+#[derive(Debug, Args)]
+pub(crate) struct Export {
+    /// Output directory of a run
+    directory: PathBuf,
+    /// What to write: map.csv, map.zarr (Zarr v3) or map.nc (NetCDF classic)
+    #[arg(long, value_enum)]
+    format: Format,
+    /// File, for zarr directory, to write [default: map.csv, map.zarr or map.nc in the output directory]
+    #[arg(short, long, value_name = "PATH")]
+    output: Option<PathBuf>,
+    /// Also where tiles are missing: their instances are `not_computed`
+    #[arg(long)]
+    partial: bool,
+}
+
+/// The values of `--format`.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Format {
+    Csv,
+    Zarr,
+    Netcdf,
+}
+
+impl Format {
+    fn file(self) -> &'static str {
+        match self {
+            Format::Csv => "map.csv",
+            Format::Zarr => "map.zarr",
+            Format::Netcdf => "map.nc",
+        }
+    }
+}
+
+impl Export {
+    pub(crate) fn execute(self) -> Result<()> {
+        let store = Store::open(&self.directory)?;
+        let total = store.description.tiling.count();
+        let lacking = missing(&store, 0..total)?.len();
+        if lacking > 0 && !self.partial {
+            let (path, done) = (self.directory, total - lacking);
+            return Err(Error::TilesMissing { path, done, total });
+        }
+        let path = self.output.unwrap_or_else(|| store.directory.join(self.format.file()));
+        let mut tiles = Tiles { store: &store, last: None };
+        match self.format {
+            Format::Csv => csv(&mut tiles, &path)?,
+            Format::Zarr => zarr(&mut tiles, &path)?,
+            Format::Netcdf => netcdf(&mut tiles, &path)?,
+        }
+        if lacking > 0 {
+            note(&format!("{} of {total} tiles are there; the rest is `not_computed`", total - lacking));
+        }
+        print(&list(&[path]));
+        Ok(())
+    }
+}
+
+/// The records of a directory in order, one tile in memory.
+struct Tiles<'a> {
+    store: &'a Store,
+    last: Option<(usize, Vec<Record>)>,
+}
+
+impl Tiles<'_> {
+    /// The records of tile `number`; not computed where it is missing.
+    fn tile(&mut self, number: usize) -> Result<&[Record]> {
+        if self.last.as_ref().is_none_or(|(last, _)| *last != number) {
+            let found = self.store.read(number).map_err(|fault| {
+                let path = self.store.path(number);
+                Error::BadTile { path, fault }
+            })?;
+            let length = self.store.description.tiling.bounds(number).len();
+            self.last = Some((number, found.unwrap_or_else(|| vec![Record::NOT_COMPUTED; length])));
+        }
+        Ok(self.last.as_ref().map_or(&[], |(_, records)| records))
+    }
+
+    /// The records of some instances.
+    fn range(&mut self, range: Range<usize>) -> Result<Vec<Record>> {
+        let size = self.store.description.tiling.tile;
+        let mut records = Vec::with_capacity(range.len());
+        while range.start + records.len() < range.end {
+            let next = range.start + records.len();
+            let tile = self.tile(next / size)?;
+            let from = next % size;
+            let to = tile.len().min(from + range.end - next);
+            records.extend_from_slice(&tile[from..to]);
+        }
+        Ok(records)
+    }
+}
+
+fn csv(tiles: &mut Tiles, path: &Path) -> Result<()> {
+    let mut claim = claim(path)?;
+    let tiling = tiles.store.description.tiling;
+    let file = claim.emptied().map_err(|why| cannot(path, &why))?;
+    let mut table = MapCsv::new(tiles.store.description.sheet(), file)?;
+    for number in 0..tiling.count() {
+        table.add(tiling.bounds(number).start, tiles.tile(number)?)?;
+    }
+    claim.publish().map_err(|why| cannot(path, &why))
+}
+
+fn netcdf(tiles: &mut Tiles, path: &Path) -> Result<()> {
+    let mut claim = claim(path)?;
+    let tiling = tiles.store.description.tiling;
+    let netcdf = NetCdf::new(tiles.store.description.sheet());
+    let failed = |why: io::Error| cannot(path, &why);
+    let file = claim.emptied().map_err(failed)?;
+    file.set_len(netcdf.size()).and_then(|()| file.write_all(&netcdf.start())).map_err(failed)?;
+    for number in 0..tiling.count() {
+        for (at, bytes) in netcdf.pieces(tiling.bounds(number).start, tiles.tile(number)?) {
+            file.seek(SeekFrom::Start(at)).and_then(|_| file.write_all(&bytes)).map_err(failed)?;
+        }
+    }
+    claim.publish().map_err(failed)
+}
+
+/// A directory of many files: made under another name, then renamed.
+fn zarr(tiles: &mut Tiles, path: &Path) -> Result<()> {
+    // Nobody else writes it as long as this is held; the file itself is never published.
+    let mut lock = path.as_os_str().to_owned();
+    lock.push(".lock");
+    let _claim = claim(Path::new(&lock))?;
+    let mut part = path.as_os_str().to_owned();
+    part.push(".part");
+    let part = PathBuf::from(part);
+    let failed = |why: io::Error| cannot(path, &why);
+    if path.exists() && !path.join("zarr.json").is_file() {
+        return Err(failed(io::Error::other("it is there and is no Zarr group")));
+    }
+    let written = remove(&part).map_err(failed).and_then(|()| zarr_files(tiles, &part));
+    if written.is_err() {
+        let _ = remove(&part);
+    }
+    written?;
+    remove(path).and_then(|()| fs::rename(&part, path)).map_err(failed)
+}
+
+fn zarr_files(tiles: &mut Tiles, part: &Path) -> Result<()> {
+    let tile = tiles.store.description.tiling.tile;
+    let zarr = Zarr::new(tiles.store.description.sheet(), tile);
+    let write = |(name, bytes): (String, Vec<u8>)| {
+        let path = part.join(name);
+        path.parent()
+            .map_or(Ok(()), fs::create_dir_all)
+            .and_then(|()| fs::write(&path, bytes))
+            .map_err(|why| cannot(&path, &why))
+    };
+    zarr.files().into_iter().try_for_each(write)?;
+    for number in 0..zarr.chunks() {
+        let records = tiles.range(zarr.bounds(number))?;
+        if records.iter().any(|record| record.status != Status::NotComputed) {
+            zarr.chunk(number, &records).into_iter().try_for_each(write)?;
+        }
+    }
+    Ok(())
+}
+
+fn remove(directory: &Path) -> io::Result<()> {
+    match fs::remove_dir_all(directory) {
+        Err(why) if why.kind() == io::ErrorKind::NotFound => Ok(()),
+        other => other,
+    }
+}

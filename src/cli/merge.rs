@@ -1,0 +1,74 @@
+//! `squealmap merge`: tiles of several directories in one, and their results.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::time::Duration;
+
+use clap::Args;
+use squealmap::export::manifest::Run;
+use squealmap::store::directory::Store;
+use squealmap::store::merge::merge;
+use squealmap::{Error, Result};
+
+use crate::cli::output::list;
+use crate::cli::results::{self, Results};
+use crate::cli::run::missing;
+use crate::cli::summary::summary;
+use crate::cli::{note, print};
+
+/// Arguments of `merge`.
+#[derive(Debug, Args)]
+pub(crate) struct Merge {
+    /// Output directory that gets the tiles of the others and, when all are there, the results; it may be new
+    target: PathBuf,
+    /// Output directories of runs of the same sweep
+    #[arg(value_name = "DIR")]
+    sources: Vec<PathBuf>,
+}
+
+impl Merge {
+    pub(crate) fn execute(self) -> Result<ExitCode> {
+        let sources = self.sources.iter().map(|path| Store::open(path)).collect::<Result<Vec<_>>>()?;
+        let target = match (Store::open(&self.target), sources.first()) {
+            (Err(Error::NoTiles { .. }), Some(source)) => {
+                Store::begin(&self.target, source.description.clone(), &note)?
+            }
+            (opened, _) => opened?,
+        };
+        target.expel_strangers(&note)?;
+        let mut brought = 0;
+        for source in &sources {
+            brought += merge(&target, source, &note)?;
+        }
+        let count = target.description.tiling.count();
+        let lacking = missing(&target, 0..count)?.len();
+        let heading = format!("{brought} tiles brought, {} of {count} are there", count - lacking);
+        if lacking > 0 {
+            print(&format!("{heading}\n"));
+            note("the results are written when all are there");
+            return Ok(ExitCode::FAILURE);
+        }
+        let run = Run {
+            threads: rayon::current_num_threads(),
+            elapsed: Duration::ZERO,
+            computed: 0,
+            stopped: None,
+            sweep_id: Some(target.description.id.to_string()),
+        };
+        Ok(match results::write(&target, None, &run)? {
+            Results::BadTile => {
+                note("a tile went bad while it was read; run the same command again");
+                ExitCode::FAILURE
+            }
+            Results::Current => {
+                print(&format!("{heading}; the results are those of all of them\n"));
+                ExitCode::SUCCESS
+            }
+            Results::Written { paths, tally } => {
+                let counts = summary(target.description.analysis, &tally);
+                print(&format!("{heading}\n\n{counts}\n{}", list(&paths)));
+                ExitCode::SUCCESS
+            }
+        })
+    }
+}

@@ -1,0 +1,61 @@
+//! `squealmap status`: how far a directory has come.
+
+use std::fmt::Write;
+use std::path::PathBuf;
+
+use clap::Args;
+use squealmap::Result;
+use squealmap::store::directory::Store;
+use squealmap::store::status::Status;
+
+use crate::cli::print;
+use crate::cli::progress::seconds;
+
+/// Arguments of `status`.
+#[derive(Debug, Args)]
+pub(crate) struct StatusCommand {
+    /// Output directory of a run
+    directory: PathBuf,
+    /// Read every tile and compare its checksum, instead of its length alone
+    #[arg(long)]
+    verify: bool,
+}
+
+impl StatusCommand {
+    pub(crate) fn execute(self) -> Result<()> {
+        let store = Store::open(&self.directory)?;
+        let status = Status::new(&store, self.verify)?;
+        print(&describe(&store, &status));
+        Ok(())
+    }
+}
+
+fn describe(store: &Store, status: &Status) -> String {
+    let description = &store.description;
+    let (tiles, total) = (description.tiling.count(), description.tiling.instances);
+    let mut text = String::new();
+    if !description.title.is_empty() {
+        let _ = writeln!(text, "title      {}", description.title);
+    }
+    let _ = writeln!(text, "sweep      {}, {}", &description.id.to_string()[..16], description.kind);
+    let percent = 100.0 * status.instances as f64 / total.max(1) as f64;
+    let _ = writeln!(
+        text,
+        "tiles      {} of {tiles} done, {} in work, {} bad, {} set aside",
+        status.done,
+        status.in_work,
+        status.bad.len(),
+        status.set_aside
+    );
+    let _ = writeln!(text, "instances  {} of {total} done, {percent:.1} %", status.instances);
+    if let Some(rate) = status.rate {
+        let _ = writeln!(text, "rate       {rate:.0} instances/s over the last tiles");
+    }
+    if let Some(left) = status.left(total) {
+        let _ = writeln!(text, "left       {} at this rate", seconds(left.as_secs_f64()));
+    }
+    for (path, fault) in &status.bad {
+        let _ = writeln!(text, "bad        `{path}`: {fault}; the next run computes it again");
+    }
+    text
+}

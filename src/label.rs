@@ -1,0 +1,140 @@
+//! The labels of an instance in two bytes, and how many instances have which.
+//!
+//! Figures, counts and summaries need nothing else of a record, so that none of them keeps the records of a sweep.
+
+use std::collections::BTreeMap;
+
+use crate::classify::{InstabilityType, Regime};
+use crate::map::Record;
+use crate::outcome::Status;
+
+/// Status, type, regime and whether it is settled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Label(u16);
+
+/// Bits of a part of a label: four of them, three of the others, two of `settled`.
+const KIND: u32 = 4;
+const REGIME: u32 = 8;
+const SETTLED: u32 = 12;
+const PART: u16 = 0xf;
+
+impl Label {
+    /// The label of an instance that a stopped run did not come to.
+    pub const NOT_COMPUTED: Label = Label(Status::NotComputed as u16);
+
+    /// How the instance ended.
+    #[must_use]
+    pub fn status(self) -> Status {
+        let code = u32::from(self.0 & PART);
+        Status::IN_MAP.into_iter().find(|status| *status as u32 == code).unwrap_or_default()
+    }
+
+    /// The type of instability, where there is one.
+    #[must_use]
+    pub fn kind(self) -> Option<InstabilityType> {
+        self.kind_position().map(|position| InstabilityType::ALL[position])
+    }
+
+    /// The position of the type in [`InstabilityType::ALL`].
+    #[must_use]
+    pub fn kind_position(self) -> Option<usize> {
+        self.part(KIND).checked_sub(1)
+    }
+
+    /// The regime, where there is one.
+    #[must_use]
+    pub fn regime(self) -> Option<Regime> {
+        self.regime_position().map(|position| Regime::ALL[position])
+    }
+
+    /// The position of the regime in [`Regime::ALL`].
+    #[must_use]
+    pub fn regime_position(self) -> Option<usize> {
+        self.part(REGIME).checked_sub(1)
+    }
+
+    /// Whether the regime is settled, where there is one.
+    #[must_use]
+    pub fn settled(self) -> Option<bool> {
+        self.part(SETTLED).checked_sub(1).map(|flag| flag == 1)
+    }
+
+    fn part(self, shift: u32) -> usize {
+        usize::from((self.0 >> shift) & PART)
+    }
+}
+
+impl From<&Record> for Label {
+    #[expect(clippy::cast_possible_truncation, reason = "positions and codes below 16")]
+    fn from(record: &Record) -> Label {
+        let position = |found: Option<usize>| found.map_or(0, |position| position as u16 + 1);
+        let kind = record.kind.and_then(|kind| InstabilityType::ALL.iter().position(|one| *one == kind));
+        let regime = record.regime.and_then(|regime| Regime::ALL.iter().position(|one| *one == regime));
+        let settled = record.settled.map(usize::from);
+        Label(
+            record.status as u16
+                | position(kind) << KIND
+                | position(regime) << REGIME
+                | position(settled) << SETTLED,
+        )
+    }
+}
+
+/// How many instances have each label.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Tally {
+    counts: BTreeMap<Label, usize>,
+    energy_gaining_impacts: Option<u64>,
+}
+
+impl Tally {
+    /// Counts some records.
+    pub fn add(&mut self, records: &[Record]) {
+        // Neighbours mostly have the same label.
+        for run in records.chunk_by(|a, b| Label::from(a) == Label::from(b)) {
+            *self.counts.entry(Label::from(&run[0])).or_default() += run.len();
+        }
+        for record in records {
+            if let Some(impacts) = record.outcome.and_then(|outcome| outcome.energy_gaining_impacts) {
+                *self.energy_gaining_impacts.get_or_insert(0) += impacts;
+            }
+        }
+    }
+
+    /// Counts instances that were not computed.
+    pub fn add_missing(&mut self, count: usize) {
+        *self.counts.entry(Label::NOT_COMPUTED).or_default() += count;
+    }
+
+    /// The tally of all records of a sweep.
+    #[must_use]
+    pub fn of(records: &[Record]) -> Tally {
+        let mut tally = Tally::default();
+        tally.add(records);
+        tally
+    }
+
+    /// How many instances have a label that is selected.
+    #[must_use]
+    pub fn count(&self, selects: impl Fn(Label) -> bool) -> usize {
+        self.counts.iter().filter(|(label, _)| selects(**label)).map(|(_, count)| count).sum()
+    }
+
+    /// How many instances were counted.
+    #[must_use]
+    pub fn total(&self) -> usize {
+        self.count(|_| true)
+    }
+
+    /// How many of them were computed.
+    #[must_use]
+    pub fn computed(&self) -> usize {
+        self.count(|label| label.status() != Status::NotComputed)
+    }
+
+    /// Impacts that gained energy, of all instances; only the reference counts them.
+    #[must_use]
+    pub fn energy_gaining_impacts(&self) -> Option<u64> {
+        self.energy_gaining_impacts
+    }
+}

@@ -1,0 +1,169 @@
+//! Records as columns of fixed width and back.
+//!
+//! Four columns of bytes (status, type, regime, flags), then columns of little-endian f64: five of the eigenvalue
+//! analysis, 22 of the response and the settling time, where asked for. An undefined number is a NaN. What no export shows, the values
+//! of the two halves of the window, is not kept.
+
+use crate::classify::{InstabilityType, Regime};
+use crate::linear::Linear;
+use crate::map::Record;
+use crate::outcome::{Outcome, Status};
+use crate::spec::Analysis;
+
+/// Columns of bytes.
+const LABELS: usize = 4;
+/// Numbers of the eigenvalue analysis.
+const LINEAR: usize = 5;
+/// Numbers of the response.
+const RESPONSE: usize = 22;
+
+/// Bits of the flags.
+const HAS_LINEAR: u8 = 1;
+const HAS_OUTCOME: u8 = 2;
+const HAS_SETTLED: u8 = 4;
+const SETTLED: u8 = 8;
+
+/// Bytes of one instance.
+#[must_use]
+pub fn width(analysis: Analysis) -> usize {
+    LABELS + 8 * numbers(analysis)
+}
+
+fn numbers(analysis: Analysis) -> usize {
+    LINEAR * usize::from(analysis.linear)
+        + RESPONSE * usize::from(analysis.response)
+        + usize::from(analysis.until_settled)
+}
+
+/// The columns of some records: `records.len() * width(analysis)` bytes.
+#[must_use]
+pub fn encode(records: &[Record], analysis: Analysis) -> Vec<u8> {
+    let mut bytes = Vec::with_capacity(records.len() * width(analysis));
+    bytes.extend(records.iter().map(|record| code(record.status as usize)));
+    let place = |found: Option<usize>| code(found.map_or(0, |place| place + 1));
+    bytes.extend(records.iter().map(|one| {
+        place(one.kind.and_then(|kind| InstabilityType::ALL.iter().position(|other| *other == kind)))
+    }));
+    bytes.extend(records.iter().map(|one| {
+        place(one.regime.and_then(|regime| Regime::ALL.iter().position(|other| *other == regime)))
+    }));
+    bytes.extend(records.iter().map(flags));
+    let mut column = |number: &dyn Fn(&Record) -> Option<f64>| {
+        for record in records {
+            bytes.extend(number(record).unwrap_or(f64::NAN).to_le_bytes());
+        }
+    };
+    if analysis.linear {
+        for k in 0..LINEAR {
+            column(&|record| record.linear.and_then(|linear| linear_numbers(&linear)[k]));
+        }
+    }
+    if analysis.response {
+        for k in 0..RESPONSE {
+            column(&|record| record.outcome.as_ref().and_then(|outcome| response_numbers(outcome)[k]));
+        }
+    }
+    if analysis.until_settled {
+        column(&|record| record.outcome.and_then(|outcome| outcome.settling_time));
+    }
+    bytes
+}
+
+/// The records of columns; `None` when a code or the length is none that [`encode`] writes.
+#[must_use]
+pub fn decode(bytes: &[u8], count: usize, analysis: Analysis) -> Option<Vec<Record>> {
+    if bytes.len() != count * width(analysis) {
+        return None;
+    }
+    let (labels, numbers) = bytes.split_at(LABELS * count);
+    let number = |column: usize, row: usize| {
+        let at = 8 * (column * count + row);
+        numbers.get(at..at + 8).and_then(|eight| eight.try_into().ok()).map_or(f64::NAN, f64::from_le_bytes)
+    };
+    let first_response = LINEAR * usize::from(analysis.linear);
+    let settling_time = |row: usize| {
+        if analysis.until_settled { defined(number(first_response + RESPONSE, row)) } else { None }
+    };
+    let record = |row: usize| {
+        let [status, kind, regime, flags] = std::array::from_fn(|k| labels[k * count + row]);
+        let status = Status::IN_MAP.into_iter().find(|one| *one as u32 == u32::from(status))?;
+        let has = |flag: u8| flags & flag != 0;
+        let linear = has(HAS_LINEAR).then(|| linear_from(std::array::from_fn(|k| number(k, row))));
+        let outcome = has(HAS_OUTCOME).then(|| Outcome {
+            status,
+            settling_time: settling_time(row),
+            ..response_from(std::array::from_fn(|k| number(first_response + k, row)))
+        });
+        Some(Record {
+            status,
+            kind: named(&InstabilityType::ALL, kind).ok()?,
+            linear,
+            regime: named(&Regime::ALL, regime).ok()?,
+            settled: has(HAS_SETTLED).then(|| has(SETTLED)),
+            outcome,
+        })
+    };
+    (0..count).map(record).collect()
+}
+
+/// The entry of a list with this code, which is none for 0; an error when the list has no such code.
+fn named<T: Copy>(all: &[T], code: u8) -> Result<Option<T>, u8> {
+    match usize::from(code).checked_sub(1) {
+        None => Ok(None),
+        Some(place) => all.get(place).copied().map(Some).ok_or(code),
+    }
+}
+
+/// A position or a status, which are few.
+fn code(position: usize) -> u8 {
+    u8::try_from(position).unwrap_or(u8::MAX)
+}
+
+fn flags(record: &Record) -> u8 {
+    let flag = |set: bool, bit: u8| if set { bit } else { 0 };
+    flag(record.linear.is_some(), HAS_LINEAR)
+        | flag(record.outcome.is_some(), HAS_OUTCOME)
+        | flag(record.settled.is_some(), HAS_SETTLED)
+        | flag(record.settled == Some(true), SETTLED)
+}
+
+fn linear_numbers(linear: &Linear) -> [Option<f64>; LINEAR] {
+    let Linear { growth_rate, frequency, phase, growth_rate_flat, growth_rate_frozen } = *linear;
+    [Some(growth_rate), Some(frequency), phase, Some(growth_rate_flat), Some(growth_rate_frozen)]
+}
+
+fn linear_from(numbers: [f64; LINEAR]) -> Linear {
+    let [growth_rate, frequency, phase, growth_rate_flat, growth_rate_frozen] = numbers;
+    Linear { growth_rate, frequency, phase: defined(phase), growth_rate_flat, growth_rate_frozen }
+}
+
+fn defined(number: f64) -> Option<f64> {
+    Some(number).filter(|number| !number.is_nan())
+}
+
+/// The one list of the response's columns, read in both directions.
+macro_rules! response {
+    ($($field:ident)*) => {
+        fn response_numbers(outcome: &Outcome) -> [Option<f64>; RESPONSE] {
+            let impacts = outcome.energy_gaining_impacts.map(|impacts| impacts as f64);
+            [$(outcome.$field,)* impacts, Some(outcome.simulated_time), Some(outcome.steps as f64)]
+        }
+
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "counts, written as f64")]
+        fn response_from(numbers: [f64; RESPONSE]) -> Outcome {
+            let mut next = numbers.into_iter();
+            let mut number = || next.next().unwrap_or(f64::NAN);
+            let mut outcome = Outcome::default();
+            $(outcome.$field = defined(number());)*
+            outcome.energy_gaining_impacts = defined(number()).map(|impacts| impacts as u64);
+            outcome.simulated_time = number();
+            outcome.steps = number() as u64;
+            outcome
+        }
+    };
+}
+
+response! {
+    x2_mean x2_std y1_mean y1_std ax_rms ay_rms ax_peak ay_peak friction_mean n_peak response_frequency
+    phase_cycle growth_rate_measured frequency_measured phase_measured stick free reverse impacts_per_second
+}

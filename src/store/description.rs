@@ -1,0 +1,156 @@
+//! `tiles/sweep.json`: what the tiles of a directory are, so that they can be read without the sweep file.
+
+use serde::{Deserialize, Serialize};
+use serde_json::{Value as Json, json};
+
+use super::grid_json::from_json;
+use super::identity::{GRID, Id, PHYSICS, identity, kind};
+use super::tile::Label;
+use super::tiling::Tiling;
+use crate::export::sheet::Sheet;
+use crate::grid::Grid;
+use crate::map::Computation;
+use crate::spec::{Analysis, Spec};
+
+/// The version of the format.
+const FORMAT: u32 = 1;
+
+/// What the tiles of a directory are.
+#[derive(Clone, Debug)]
+pub struct Description {
+    /// The id of the sweep.
+    pub id: Id,
+    /// The engine in words.
+    pub kind: String,
+    /// Title of figures and manifest.
+    pub title: String,
+    /// What is computed.
+    pub analysis: Analysis,
+    /// The instances.
+    pub grid: Grid,
+    /// How they are cut.
+    pub tiling: Tiling,
+    /// Where and how the eigenvalue analysis and the response are computed.
+    pub computations: [Option<Computation>; 2],
+    /// The sweep as the manifest shows it.
+    pub resolved: Json,
+    identity: Json,
+}
+
+/// The file; the id is that of `identity`.
+#[derive(Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+struct Document {
+    format: u32,
+    sweep_id: String,
+    title: String,
+    tile: usize,
+    linear: Option<Computation>,
+    response: Option<Computation>,
+    identity: Json,
+}
+
+impl Description {
+    /// The description of a sweep whose tiles have `tile` instances.
+    #[must_use]
+    pub fn new(spec: &Spec, computations: [Option<Computation>; 2], tile: usize) -> Description {
+        let identity = identity(spec, &computations);
+        Description {
+            id: Id::of(&identity),
+            kind: kind(&computations),
+            title: spec.title.clone(),
+            analysis: spec.analysis,
+            grid: spec.grid.clone(),
+            tiling: Tiling { instances: spec.grid.len(), tile: tile.max(1) },
+            computations,
+            resolved: resolved(&spec.title, identity[PHYSICS].clone(), &spec.grid),
+            identity,
+        }
+    }
+
+    /// The file.
+    #[must_use]
+    pub fn to_bytes(&self) -> Vec<u8> {
+        let [linear, response] = self.computations.clone();
+        let document = Document {
+            format: FORMAT,
+            sweep_id: self.id.to_string(),
+            title: self.title.clone(),
+            tile: self.tiling.tile,
+            linear,
+            response,
+            identity: self.identity.clone(),
+        };
+        let mut bytes = serde_json::to_vec_pretty(&document).unwrap_or_default();
+        bytes.push(b'\n');
+        bytes
+    }
+
+    /// Reads the file.
+    ///
+    /// # Errors
+    /// What is wrong with it, as the end of a sentence.
+    pub fn from_bytes(bytes: &[u8]) -> Result<Description, String> {
+        let document: Document = serde_json::from_slice(bytes).map_err(|why| why.to_string())?;
+        if document.format != FORMAT {
+            return Err(format!("its format is {} instead of {FORMAT}", document.format));
+        }
+        let id = Id::of(&document.identity);
+        if id.to_string() != document.sweep_id || document.tile == 0 {
+            return Err("it was changed: its content does not have its id".to_owned());
+        }
+        let physics = document.identity.get(PHYSICS).cloned().unwrap_or_default();
+        let grid = physics.get(GRID).and_then(from_json).ok_or("its grid is none")?;
+        let computations = [document.linear, document.response];
+        let [linear, response] = computations.each_ref().map(Option::is_some);
+        let until_settled = response && physics["response"]["settle"] == "auto";
+        let analysis = Analysis { linear, response, until_settled };
+        let tiling = Tiling { instances: grid.len(), tile: document.tile };
+        let resolved = resolved(&document.title, physics, &grid);
+        Ok(Description {
+            id,
+            kind: kind(&computations),
+            title: document.title,
+            analysis,
+            grid,
+            tiling,
+            computations,
+            resolved,
+            identity: document.identity,
+        })
+    }
+
+    /// The tile `number`.
+    #[must_use]
+    pub fn tile(&self, number: usize) -> Label {
+        Label {
+            sweep: self.id,
+            kind: self.kind.clone(),
+            analysis: self.analysis,
+            bounds: self.tiling.bounds(number),
+        }
+    }
+
+    /// The sweep as exports see it.
+    #[must_use]
+    pub fn sheet(&self) -> Sheet<'_> {
+        let [linear, response] = self.computations.each_ref().map(Option::as_ref);
+        Sheet { title: &self.title, analysis: self.analysis, grid: &self.grid, linear, response }
+    }
+}
+
+/// The manifest's form of a sweep, see [`Spec::resolved`], from what its identity holds.
+fn resolved(title: &str, physics: Json, grid: &Grid) -> Json {
+    let mut resolved = serde_json::Map::from_iter([("title".to_owned(), json!(title))]);
+    if let Json::Object(entries) = physics {
+        for (key, value) in entries {
+            if key == GRID {
+                let (key, value) = crate::spec::resolved_grid(grid);
+                resolved.insert(key.to_owned(), value);
+            } else {
+                resolved.insert(key, value);
+            }
+        }
+    }
+    Json::Object(resolved)
+}

@@ -1,0 +1,120 @@
+//! Computes the tiles that a directory lacks.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use super::claim::Claim;
+use super::directory::{Note, Store};
+use crate::backend::solver::Solver;
+use crate::error::{Error, Result};
+use crate::map::{Record, Stopped};
+
+/// Between two looks at a tile that another process computes.
+const WAIT: Duration = Duration::from_millis(50);
+
+/// What came of filling a directory.
+#[derive(Debug)]
+pub struct Filled {
+    /// Instances that were computed here.
+    pub computed: usize,
+    /// The wall time it took.
+    pub elapsed: Duration,
+    /// Why not all is there.
+    pub stopped: Option<Stopped>,
+    /// The records of a tile that was stopped on its way; those not done are [`Record::NOT_COMPUTED`].
+    pub partial: Option<(usize, Vec<Record>)>,
+}
+
+/// Who asks for tiles, and hears of them.
+#[derive(Clone, Copy)]
+pub struct Watch<'a> {
+    /// Set to stop early.
+    pub cancel: &'a AtomicBool,
+    /// Gets the number of newly finished instances.
+    pub progress: &'a (dyn Fn(usize) + Sync),
+    /// Gets a sentence about every bad tile.
+    pub note: Note<'a>,
+}
+
+/// A tile to be written.
+type Finished = (Claim, usize, Vec<Record>);
+
+/// Computes those of the tiles `wanted` that are not there; those that other processes are computing are waited
+/// for. One tile is computed while the one before is written: the records of two are in memory.
+///
+/// # Errors
+/// When a tile cannot be written, or a result is in doubt; all finished tiles stay.
+pub fn fill(store: &Store, solver: &mut Solver, wanted: &[usize], watch: Watch) -> Result<Filled> {
+    let began = Instant::now();
+    let (sender, receiver) = sync_channel(0);
+    let mut filled = thread::scope(|scope| {
+        let writer = scope.spawn(|| write_all(store, receiver));
+        let computed = compute(store, solver, wanted, watch, &sender);
+        drop(sender);
+        // An error of the writer is the cause of one of the computation.
+        writer.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))?;
+        computed
+    })?;
+    filled.elapsed = began.elapsed();
+    Ok(filled)
+}
+
+/// Writes what it is sent until there is no more.
+fn write_all(store: &Store, receiver: Receiver<Finished>) -> Result<()> {
+    receiver.into_iter().try_for_each(|(claim, number, records)| store.write(claim, number, &records))
+}
+
+fn compute(
+    store: &Store,
+    solver: &mut Solver,
+    wanted: &[usize],
+    watch: Watch,
+    sender: &SyncSender<Finished>,
+) -> Result<Filled> {
+    let mut filled = Filled { computed: 0, elapsed: Duration::ZERO, stopped: None, partial: None };
+    let mut open = wanted.to_vec();
+    while !open.is_empty() {
+        let mut busy = Vec::new();
+        for number in std::mem::take(&mut open) {
+            if watch.cancel.load(Ordering::Relaxed) {
+                filled.stopped = Some(Stopped::Cancelled);
+                return Ok(filled);
+            }
+            let Some(claim) = store.claim(number)? else {
+                busy.push(number);
+                continue;
+            };
+            // Another process may have finished it in the meantime.
+            if store.path(number).exists() {
+                continue;
+            }
+            let bounds = store.description.tiling.bounds(number);
+            let (first, count) = (bounds.start, bounds.len());
+            match solver.records(bounds, watch.progress) {
+                Ok(tile) if tile.stopped.is_none() => {
+                    filled.computed += count;
+                    if sender.send((claim, number, tile.records)).is_err() {
+                        // The writer has ended, with an error that is reported in place of this.
+                        return Err(Error::Cancelled { done: filled.computed, total: first });
+                    }
+                }
+                Ok(part) => {
+                    filled.stopped = part.stopped;
+                    filled.partial = Some((number, part.records));
+                    return Ok(filled);
+                }
+                Err(why) => {
+                    filled.stopped = Some(Stopped::try_from(why)?);
+                    return Ok(filled);
+                }
+            }
+        }
+        open = busy;
+        if !open.is_empty() {
+            thread::sleep(WAIT);
+        }
+    }
+    Ok(filled)
+}

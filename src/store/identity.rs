@@ -1,0 +1,112 @@
+//! Which sweep a tile belongs to: everything that its numbers depend on, in one canonical text, and its hash.
+
+use std::fmt;
+
+use serde_json::{Map as Object, Value as Json, json};
+
+use super::grid_json::to_json;
+use crate::export::manifest::{COMMIT, VERSION};
+use crate::map::Computation;
+use crate::spec::Spec;
+
+/// The key of the grid.
+pub const GRID: &str = "grid";
+
+/// The key of the physics.
+pub const PHYSICS: &str = "physics";
+
+/// BLAKE3 of a canonical text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Id(pub [u8; 32]);
+
+impl Id {
+    /// The id of a JSON value: keys sorted, no blanks, every number in the shortest form that reads back to the
+    /// same bits.
+    #[must_use]
+    pub fn of(value: &Json) -> Id {
+        let mut text = String::new();
+        write(value, &mut text);
+        Id(*blake3::hash(text.as_bytes()).as_bytes())
+    }
+}
+
+impl fmt::Display for Id {
+    /// 64 hexadecimal digits.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(blake3::Hash::from_bytes(self.0).to_hex().as_str())
+    }
+}
+
+/// What the numbers of a sweep depend on: the physics with all defaults, the program, the methods. Titles, threads
+/// and the name of an adapter are left out.
+#[must_use]
+pub fn identity(spec: &Spec, computations: &[Option<Computation>; 2]) -> Json {
+    let mut physics = Object::new();
+    if let Json::Object(entries) = spec.resolved() {
+        for (key, value) in entries {
+            match key.as_str() {
+                "title" => {}
+                // With the order of the axes, and with the rows of a file of tuples.
+                "axes" | "points" => drop(physics.insert(GRID.to_owned(), to_json(&spec.grid))),
+                _ => drop(physics.insert(key, value)),
+            }
+        }
+    }
+    let [linear, response] = computations.each_ref().map(|made| {
+        made.as_ref().map(|made| {
+            json!({
+                "backend": made.backend, "precision": made.precision, "method": made.method,
+                "strict": made.strict,
+            })
+        })
+    });
+    json!({
+        "program": { "name": env!("CARGO_PKG_NAME"), "version": VERSION, "git_commit": COMMIT },
+        "linear": linear,
+        "response": response,
+        PHYSICS: physics,
+    })
+}
+
+/// The engine of a sweep in a few words: `cpu f64`, `gpu f32 strict`.
+#[must_use]
+pub fn kind(computations: &[Option<Computation>; 2]) -> String {
+    let [linear, response] = computations;
+    response.as_ref().or(linear.as_ref()).map_or_else(String::new, |made| {
+        let strict = if made.strict == Some(true) { " strict" } else { "" };
+        format!("{} {}{strict}", made.backend, made.precision)
+    })
+}
+
+/// Writes a value canonically.
+fn write(value: &Json, text: &mut String) {
+    match value {
+        Json::Object(entries) => {
+            let mut sorted: Vec<(&String, &Json)> = entries.iter().collect();
+            sorted.sort_by_key(|(key, _)| *key);
+            list(text, ['{', '}'], sorted.into_iter(), |(key, value), text| {
+                text.push_str(&Json::from(key.as_str()).to_string());
+                text.push(':');
+                write(value, text);
+            });
+        }
+        Json::Array(values) => list(text, ['[', ']'], values.iter(), write),
+        simple => text.push_str(&simple.to_string()),
+    }
+}
+
+fn list<T>(
+    text: &mut String,
+    [open, close]: [char; 2],
+    items: impl Iterator<Item = T>,
+    write: impl Fn(T, &mut String),
+) {
+    text.push(open);
+    for (number, item) in items.enumerate() {
+        if number > 0 {
+            text.push(',');
+        }
+        write(item, text);
+    }
+    text.push(close);
+}

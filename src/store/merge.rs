@@ -1,0 +1,37 @@
+//! Tiles of one sweep from several directories in one of them.
+
+use super::directory::{Note, Store};
+use crate::error::{Error, Result};
+
+/// Brings the tiles of `source` into `target` that are not there; returns how many. Doing it again changes nothing.
+///
+/// # Errors
+/// When the directories are of different sweeps, or a tile cannot be written.
+pub fn merge(target: &Store, source: &Store, note: Note) -> Result<usize> {
+    if !target.is_same(source) {
+        return Err(Error::OtherMerge {
+            target: target.directory.clone(),
+            source_dir: source.directory.clone(),
+        });
+    }
+    let mut brought = 0;
+    for number in source.numbers()? {
+        if target.verify(number, note)? {
+            continue;
+        }
+        match source.read(number) {
+            Ok(None) => {}
+            Ok(Some(records)) => {
+                // Another process that has the claim writes the same.
+                if let Some(claim) = target.claim(number)? {
+                    target.write(claim, number, &records)?;
+                    brought += 1;
+                }
+            }
+            Err(fault) => {
+                note(&format!("`{}` is left out: {fault}", source.path(number).display()));
+            }
+        }
+    }
+    Ok(brought)
+}

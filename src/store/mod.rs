@@ -1,0 +1,32 @@
+//! Sweeps of any size in a directory, tile by tile.
+//!
+//! A grid is cut into tiles of a fixed number of instances. Each is a file in `tiles/` that appears complete or
+//! not at all, says of which sweep, program and engine it is, and carries a checksum. Nothing else is the truth:
+//! what is done is found by reading the tiles, and a tile that is not what it should be is set aside and done
+//! again. So a run goes on where it was stopped or killed, several processes work in one directory, and memory
+//! holds the records of a few tiles whatever the size of the sweep.
+//!
+//! - [`tiling`]: how a sweep is cut.
+//! - [`identity`], [`grid_json`]: which sweep, program and engine, as one hash.
+//! - [`columns`], [`tile`]: records as bytes, with header and checksum.
+//! - [`description`](mod@description): the file `tiles/sweep.json`.
+//! - [`claim`]: one process at a time writes a file.
+//! - [`directory`]: the tiles of a directory.
+//! - [`fill`]: computes what is missing.
+//! - [`shard`]: a share of the tiles.
+//! - [`status`], [`merge`](mod@merge): how far a directory has come; several directories in one.
+//! - [`space`]: what it takes of the disk.
+
+pub mod claim;
+pub mod columns;
+pub mod description;
+pub mod directory;
+pub mod fill;
+pub mod grid_json;
+pub mod identity;
+pub mod merge;
+pub mod shard;
+pub mod space;
+pub mod status;
+pub mod tile;
+pub mod tiling;
