@@ -452,6 +452,31 @@ pub enum Error {
         /// Which value, and what to do.
         fault: FitFault,
     },
+    /// A ramp of the paper's figures that does not come to its end.
+    #[error(
+        "the ramp under {case} of {duration} s with a kick of {kick} m ended early with status `{status}`; \
+         choose another --ramp-duration or --kick"
+    )]
+    PaperRamp {
+        /// The friction case in words.
+        case: &'static str,
+        /// Duration of the ramp, s.
+        duration: f64,
+        /// Displacement at its start, m.
+        kick: f64,
+        /// How it ended.
+        status: &'static str,
+    },
+    /// A growth of the paper's figures that does not grow.
+    #[error(
+        "nothing grows under {case} (status `{status}`); the shipped sweep of the figure is not the paper's"
+    )]
+    PaperGrowth {
+        /// The friction case in words.
+        case: &'static str,
+        /// How the transient ended.
+        status: &'static str,
+    },
     /// The handler of Ctrl-C cannot be set.
     #[error("cannot listen to Ctrl-C: {why}")]
     Signal {
@@ -493,6 +518,7 @@ impl Error {
             Error::ReadSweep { .. }
             | Error::Signals { .. }
             | Error::Fit { .. }
+            | Error::PaperRamp { .. }
             | Error::OutputDirectory { .. }
             | Error::NoModesAxis
             | Error::NoModesOfTuples

@@ -17,6 +17,7 @@
 //! | outcome → regime | [`classify`] |
 //! | map → bytes | [`map`], [`trace`], [`export`] |
 //! | an instance as sensors record it; measured signals → verdict | [`signals`], [`identify`], [`fit`] |
+//! | the source paper computed again | [`paper`] |
 //!
 //! ```
 //! use squealmap::backend::choice::Options;
@@ -60,6 +61,7 @@ pub mod method;
 pub mod model;
 pub mod observe;
 pub mod outcome;
+pub mod paper;
 pub mod place;
 pub mod response;
 pub mod signals;

@@ -6,6 +6,7 @@ mod fit;
 mod identify;
 mod modes;
 mod output;
+mod paper;
 mod progress;
 pub(crate) mod report;
 mod run;
@@ -42,6 +43,8 @@ enum Command {
     Trace(trace::TraceCommand),
     /// What measured signals say: identify.json, identify.svg, identify.png, windows.csv
     Identify(identify::Identify),
+    /// The source paper computed again: its figures, and what becomes of its claims
+    Paper(paper::PaperCommand),
     /// A material file for sweeps from measured velocity, friction and temperature
     Fit(fit::FitCommand),
 }
@@ -77,6 +80,7 @@ impl Cli {
             Command::Modes(command) => command.execute()?,
             Command::Trace(command) => command.execute()?,
             Command::Identify(command) => command.execute()?,
+            Command::Paper(command) => command.execute()?,
             Command::Fit(command) => command.execute()?,
         }
         Ok(ExitCode::SUCCESS)

@@ -2,7 +2,8 @@
 //!
 //! [`columns`] is the one table of output columns; [`csv`], [`manifest`] and [`figure`] write `map.csv`,
 //! `manifest.json` and `map.svg`; [`png`] draws any of the figures. [`modes`] and [`trace`] serve the
-//! commands of the same names, [`identify`] and [`signals`] to and from measured signals.
+//! commands of the same names, [`identify`] and [`signals`] to and from measured signals, [`paper`] the figures of
+//! the source paper.
 
 mod block;
 pub mod boundaries;
@@ -13,6 +14,7 @@ pub mod figure;
 mod frame;
 pub mod identify;
 mod identify_figure;
+mod key;
 mod legend;
 pub mod manifest;
 pub mod material;
@@ -20,6 +22,7 @@ pub mod modes;
 mod modes_figure;
 pub mod palette;
 mod panels;
+pub mod paper;
 mod picture_axis;
 mod plot;
 pub mod png;

@@ -142,6 +142,17 @@ impl Scale {
     }
 }
 
+/// ` (10³ m/s²)`: the unit of an axis and the power of ten taken out of its labels.
+#[must_use]
+pub fn axis_unit(unit: &str, exponent: i32) -> Text {
+    let text = Text::from(" (");
+    let text = match exponent {
+        0 => text,
+        _ => text.plain("10").superscript(&minus(&exponent.to_string())).plain(" "),
+    };
+    text.unit(unit).plain(")")
+}
+
 /// A number as figures print it: shortest form, a real minus sign, powers of ten for very large or small ones.
 #[must_use]
 pub fn value_label(value: f64) -> Text {

@@ -1,6 +1,7 @@
 //! One integration binary, one module per topic.
 
 mod bad_input;
+mod claims;
 mod cli;
 mod colour;
 mod common;
@@ -20,6 +21,7 @@ mod linear;
 mod modes_figure;
 mod no_driver;
 mod observables;
+mod paper;
 mod properties;
 mod regimes;
 mod response;

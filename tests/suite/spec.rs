@@ -213,7 +213,7 @@ proptest! {
         length in 0_usize..30,
         insert in "[-a-z0-9_\\[\\]{}=\",. \n#é]{0,12}",
     ) {
-        let names = ["paper_map", "paper_modes", "mass_on_belt", "temperature_map", "tuples"];
+        let names = ["paper_map", "paper/figure2", "mass_on_belt", "temperature_map", "tuples"];
         let text = std::fs::read_to_string(sweeps().join(names[file]).with_extension("toml")).unwrap();
         let mut chars: Vec<char> = text.chars().collect();
         let start = start.index(chars.len());
