@@ -467,6 +467,28 @@ pub enum Error {
         /// How it ended.
         status: &'static str,
     },
+    /// A directory that is not that of a run.
+    #[error("cannot read `{}`: {why}; `plot` takes the output directory of `squealmap run`", path.display())]
+    Archive {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        why: String,
+    },
+    /// A quantity that a map does not have.
+    #[error("the map has no quantity `{name}`; it has {names}; choose one with --quantity")]
+    NoSuchQuantity {
+        /// What was asked for.
+        name: String,
+        /// What there is.
+        names: String,
+    },
+    /// A PDF that cannot be made.
+    #[error("the figure could not be written as PDF: {why}")]
+    Pdf {
+        /// What the library says.
+        why: String,
+    },
     /// A growth of the paper's figures that does not grow.
     #[error(
         "nothing grows under {case} (status `{status}`); the shipped sweep of the figure is not the paper's"
@@ -518,6 +540,8 @@ impl Error {
             Error::ReadSweep { .. }
             | Error::Signals { .. }
             | Error::Fit { .. }
+            | Error::Archive { .. }
+            | Error::NoSuchQuantity { .. }
             | Error::PaperRamp { .. }
             | Error::OutputDirectory { .. }
             | Error::NoModesAxis

@@ -15,7 +15,7 @@
 //! | many instances in vector registers | [`simd`] |
 //! | many instances | [`backend`], [`sweep`], [`estimate`] |
 //! | outcome → regime | [`classify`] |
-//! | map → bytes | [`map`], [`trace`], [`export`] |
+//! | map → bytes, and a map read back | [`map`], [`trace`], [`export`], [`archive`] |
 //! | an instance as sensors record it; measured signals → verdict | [`signals`], [`identify`], [`fit`] |
 //! | the source paper computed again | [`paper`] |
 //!
@@ -45,6 +45,7 @@
 //! # Ok::<(), squealmap::Error>(())
 //! ```
 
+pub mod archive;
 pub mod backend;
 pub mod classify;
 pub mod error;

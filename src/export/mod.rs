@@ -7,6 +7,7 @@
 
 mod block;
 pub mod boundaries;
+pub mod boundary_lines;
 mod cells;
 pub mod columns;
 pub mod csv;
@@ -16,6 +17,7 @@ pub mod identify;
 mod identify_figure;
 mod key;
 mod legend;
+pub mod look;
 pub mod manifest;
 pub mod material;
 pub mod modes;
@@ -23,9 +25,12 @@ mod modes_figure;
 pub mod palette;
 mod panels;
 pub mod paper;
+pub mod pdf;
 mod picture_axis;
 mod plot;
 pub mod png;
+mod points;
+mod quantity;
 mod raster;
 pub mod scale;
 pub mod signals;

@@ -74,6 +74,16 @@ impl Scale {
         }
     }
 
+    /// The value at a position: the inverse of [`Scale::position`].
+    #[must_use]
+    pub fn value(&self, position: f64) -> f64 {
+        match self {
+            Scale::Linear { low, high } => low + (high - low) * position,
+            Scale::Log { low, high } => low * (high / low).powf(position),
+            Scale::Names(names) => position * names.len() as f64 - 0.5,
+        }
+    }
+
     /// The decimal exponent taken out of the tick labels: not 0 only for very large or small values.
     #[must_use]
     pub fn exponent(&self) -> i32 {

@@ -298,3 +298,34 @@ fn paper_refuses_with_one_sentence_and_leaves_nothing() {
     );
     assert_eq!(tree(directory.path()).len(), 3);
 }
+
+#[test]
+fn plot_draws_a_run_again() {
+    let directory = with_sweep("");
+    let ended = squealmap(directory.path(), &["run", "small.toml"]);
+    assert_eq!(ended.code, Some(0), "{}", ended.err);
+    let ended = squealmap(
+        directory.path(),
+        &["plot", "out/small", "--journal", "elsevier-1col", "--quantity", "type,growth,amplitude"],
+    );
+    assert_eq!(ended.code, Some(0), "{}", ended.err);
+    for file in ["plot.svg", "plot.pdf", "plot.png", "boundaries.csv"] {
+        assert!(directory.path().join("out/small").join(file).exists(), "{file}");
+    }
+    let svg = std::fs::read_to_string(directory.path().join("out/small/plot.svg")).unwrap();
+    assert!(
+        svg.contains("squealmap plot out/small --journal elsevier-1col --quantity type,growth,amplitude")
+    );
+    let before = tree(directory.path());
+    for (arguments, words) in [
+        (["out/small", "--quantity=colour"], "no quantity `colour`; it has type, regime, growth_rate"),
+        (["out/small", "--width=20mm"], "a width in millimetres from 60 to 400"),
+        (["out", "--hatch"], "cannot read `out/manifest.json`"),
+    ] {
+        let ended = squealmap(directory.path(), &["plot", arguments[0], arguments[1]]);
+        assert_eq!(ended.code, Some(2), "{}", ended.err);
+        let said = ended.err.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(said.contains(words), "{said}");
+    }
+    assert_eq!(tree(directory.path()), before, "what is refused leaves nothing");
+}

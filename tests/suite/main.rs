@@ -22,6 +22,7 @@ mod modes_figure;
 mod no_driver;
 mod observables;
 mod paper;
+mod plot;
 mod properties;
 mod regimes;
 mod response;

@@ -128,11 +128,14 @@ fn skeleton(report: &str) -> Vec<String> {
 fn the_shipped_report_is_what_the_command_makes() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let shipped = std::fs::read_to_string(root.join("docs/paper.md")).unwrap();
-    let evidence = Evidence::gather(&Study::new(Settings::default())).unwrap();
+    let mut evidence = Evidence::gather(&Study::new(Settings::default())).unwrap();
     let made = report(&evidence, "paper", "squealmap paper -o docs");
     // Numbers of chaotic motions are those of one processor; verdicts and pictures are not.
     assert_eq!(skeleton(&shipped), skeleton(&made));
     assert!(made.contains("```sh\nsquealmap paper -o docs\n```") && made.contains("10 s"));
+    evidence.critical_friction = None;
+    let other = report(&evidence, "paper", "squealmap paper -o docs");
+    assert_ne!(skeleton(&shipped), skeleton(&other), "another verdict is seen");
     let mut bytes = 0;
     for figure in Figure::ALL {
         let picture = root.join("docs/paper").join(figure.name()).with_extension("png");
