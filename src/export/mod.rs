@@ -1,7 +1,8 @@
 //! Map → bytes. Every exporter returns bytes (or text) in full precision and base units; none opens a file.
 //!
 //! [`columns`] is the one table of output columns; [`csv`], [`manifest`] and [`figure`] write `map.csv`,
-//! `manifest.json` and `map.svg`; [`png`] draws any of the figures. [`modes`] and [`trace`] serve the
+//! `manifest.json` and `map.svg`; [`png`] and [`pdf`] draw any of the figures, [`look`] says at which width and what of
+//! a map, [`boundary_lines`] gives its lines as a table. [`modes`] and [`trace`] serve the
 //! commands of the same names, [`identify`] and [`signals`] to and from measured signals, [`paper`] the figures of
 //! the source paper.
 

@@ -15,7 +15,8 @@ pub struct Trial {
     pub duration: f64,
     /// Displacement at their start, m.
     pub kick: f64,
-    /// What disturbs the equilibrium, m/s²: see [`disturbance`].
+    /// What disturbs the equilibrium, m/s²: the larger of the acceleration of a free oscillation with the displacement
+    /// of the kick, `ω0² x`, and that of the belt.
     pub disturbance: f64,
     /// Largest `|ẍ2|` and `|ÿ1|` of each case, in the order of [`Case::ALL`], m/s²; `None` for a ramp that failed.
     pub peaks: [Option<[f64; 2]>; 3],
@@ -86,8 +87,7 @@ pub(super) fn trials() -> Vec<Trial> {
     trials
 }
 
-/// The larger acceleration of the two that disturb the equilibrium of a ramp, m/s²: that of a free oscillation with
-/// the displacement of the kick, `ω0² x`, and that of the belt.
+/// See [`Trial::disturbance`].
 pub(super) fn disturbance(params: &Params) -> f64 {
     let value = |param| params.require(param);
     let kick = value(Param::StartDisplacement) / Units::new(params).time.powi(2);
