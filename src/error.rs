@@ -561,6 +561,53 @@ pub enum Error {
         /// Which value, and what to do.
         fault: FitFault,
     },
+    /// A ramp of the paper's figures that does not come to its end.
+    #[error(
+        "the ramp under {case} of {duration} s with a kick of {kick} m ended early with status `{status}`; \
+         choose another --ramp-duration or --kick"
+    )]
+    PaperRamp {
+        /// The friction case in words.
+        case: &'static str,
+        /// Duration of the ramp, s.
+        duration: f64,
+        /// Displacement at its start, m.
+        kick: f64,
+        /// How it ended.
+        status: &'static str,
+    },
+    /// A directory that is not that of a run.
+    #[error("cannot read `{}`: {why}; `plot` takes the output directory of `squealmap run`", path.display())]
+    Archive {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        why: String,
+    },
+    /// A quantity that a map does not have.
+    #[error("the map has no quantity `{name}`; it has {names}; choose one with --quantity")]
+    NoSuchQuantity {
+        /// What was asked for.
+        name: String,
+        /// What there is.
+        names: String,
+    },
+    /// A PDF that cannot be made.
+    #[error("the figure could not be written as PDF: {why}")]
+    Pdf {
+        /// What the library says.
+        why: String,
+    },
+    /// A growth of the paper's figures that does not grow.
+    #[error(
+        "nothing grows under {case} (status `{status}`); the shipped sweep of the figure is not the paper's"
+    )]
+    PaperGrowth {
+        /// The friction case in words.
+        case: &'static str,
+        /// How the transient ended.
+        status: &'static str,
+    },
     /// The handler of Ctrl-C cannot be set.
     #[error("cannot listen to Ctrl-C: {why}")]
     Signal {
@@ -602,6 +649,9 @@ impl Error {
             Error::ReadSweep { .. }
             | Error::Signals { .. }
             | Error::Fit { .. }
+            | Error::Archive { .. }
+            | Error::NoSuchQuantity { .. }
+            | Error::PaperRamp { .. }
             | Error::OutputDirectory { .. }
             | Error::NoTiles { .. }
             | Error::BadDescription { .. }

@@ -17,8 +17,9 @@
 //! | outcome → regime | [`classify`] |
 //! | labels of an instance, counted | [`label`] |
 //! | sweeps of any size, tile by tile in a directory | [`store`] |
-//! | map → bytes | [`map`], [`trace`], [`export`] |
+//! | map → bytes, and a map read back | [`map`], [`trace`], [`export`], [`archive`] |
 //! | an instance as sensors record it; measured signals → verdict | [`signals`], [`identify`], [`fit`] |
+//! | the source paper computed again | [`paper`] |
 //!
 //! ```
 //! use squealmap::backend::choice::Options;
@@ -46,6 +47,7 @@
 //! # Ok::<(), squealmap::Error>(())
 //! ```
 
+pub mod archive;
 pub mod backend;
 pub mod classify;
 pub mod error;
@@ -63,6 +65,7 @@ pub mod method;
 pub mod model;
 pub mod observe;
 pub mod outcome;
+pub mod paper;
 pub mod place;
 pub mod response;
 pub mod settle;

@@ -148,7 +148,11 @@ fn summary(found: &Identification) -> String {
     text
 }
 
-fn number(text: &str, legal: impl Fn(f64) -> bool, words: &str) -> std::result::Result<f64, String> {
+pub(super) fn number(
+    text: &str,
+    legal: impl Fn(f64) -> bool,
+    words: &str,
+) -> std::result::Result<f64, String> {
     let value: f64 = text.parse().map_err(|_| format!("must be {words}"))?;
     if value.is_finite() && legal(value) { Ok(value) } else { Err(format!("must be {words}")) }
 }

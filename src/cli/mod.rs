@@ -9,6 +9,8 @@ mod identify;
 mod merge;
 mod modes;
 mod output;
+mod paper;
+mod plot;
 mod progress;
 pub(crate) mod report;
 mod results;
@@ -49,10 +51,14 @@ enum Command {
     Check(check::Check),
     /// Eigenvalues against the first numeric axis of a sweep: modes.csv, modes.svg, modes.png
     Modes(modes::Modes),
+    /// The figure of a map again from its directory, for print: plot.svg, plot.pdf, plot.png, boundaries.csv
+    Plot(plot::Plot),
     /// One instance in full, as a time series: trace.csv, trace.svg, trace.png
     Trace(trace::TraceCommand),
     /// What measured signals say: identify.json, identify.svg, identify.png, windows.csv
     Identify(identify::Identify),
+    /// The source paper computed again: its figures, and what becomes of its claims
+    Paper(paper::PaperCommand),
     /// A material file for sweeps from measured velocity, friction and temperature
     Fit(fit::FitCommand),
 }
@@ -89,8 +95,10 @@ impl Cli {
             Command::Adapters => adapters::execute(),
             Command::Check(command) => command.execute()?,
             Command::Modes(command) => command.execute()?,
+            Command::Plot(command) => command.execute()?,
             Command::Trace(command) => command.execute()?,
             Command::Identify(command) => command.execute()?,
+            Command::Paper(command) => command.execute()?,
             Command::Fit(command) => command.execute()?,
         }
         Ok(ExitCode::SUCCESS)

@@ -16,19 +16,24 @@ pub(crate) struct Output {
 }
 
 impl Output {
-    /// Makes the directory where it does not exist and writes a file in it, which it removes; refuses one
-    /// where a directory stands in place of one of the `files` to come.
+    /// Makes the directory where it does not exist, and those that the names of `files` have in them, and
+    /// writes a file in each, which it removes; refuses one where a directory stands in place of one of the
+    /// `files` to come.
     pub(crate) fn prepare(directory: PathBuf, files: &[&str]) -> Result<Output> {
-        let made = directory
-            .ancestors()
-            .filter(|path| !path.as_os_str().is_empty())
-            .take_while(|path| !path.exists())
-            .map(Path::to_owned)
-            .collect();
-        let output = Output { directory, made };
-        std::fs::create_dir_all(&output.directory)
-            .and_then(|()| temporary(&output.directory)?.close())
-            .map_err(|why| Error::OutputDirectory { path: output.directory.clone(), why: why.to_string() })?;
+        let mut output = Output { directory, made: Vec::new() };
+        let mut inside: Vec<PathBuf> =
+            files.iter().filter_map(|name| Some(output.directory.join(name).parent()?.to_owned())).collect();
+        inside.insert(0, output.directory.clone());
+        inside.dedup();
+        for directory in inside {
+            let missing = directory.ancestors().filter(|path| !path.as_os_str().is_empty());
+            let missing: Vec<PathBuf> =
+                missing.take_while(|path| !path.exists()).map(Path::to_owned).collect();
+            output.made.splice(0..0, missing);
+            std::fs::create_dir_all(&directory)
+                .and_then(|()| temporary(&directory)?.close())
+                .map_err(|why| Error::OutputDirectory { path: directory.clone(), why: why.to_string() })?;
+        }
         match files.iter().find(|name| output.directory.join(name).is_dir()) {
             None => Ok(output),
             Some(name) => {

@@ -3,9 +3,10 @@
 use super::cells;
 use super::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room};
 use super::legend::Legend;
-use super::palette::Colouring;
+use super::look::Content;
 use super::panels::Panels;
 use super::picture_axis::Direction;
+use super::quantity;
 use super::svg::{Anchor, Style, Svg};
 use super::text::Text;
 use crate::grid::Grid;
@@ -21,6 +22,10 @@ const LINE: f64 = 10.0;
 const RIGHT: f64 = 6.0;
 /// A row of panels holds no more than this many.
 const MOST_COLUMNS: usize = 6;
+/// Panels are no narrower than this, points: the six of a row on two columns of a journal are a little wider.
+const NARROWEST: f64 = 64.0;
+/// The labels of the vertical axis take about this much, points.
+const LEFT: f64 = 34.0;
 /// Preferred number of panels in a row when there are more than one row of them.
 const COLUMNS: usize = 5;
 /// A picture is no taller than this, points (75 mm).
@@ -42,7 +47,7 @@ pub(super) struct Block<'a> {
     /// The counts of all instances, also of those that no panel shows.
     pub(super) tally: &'a Tally,
     pub(super) panels: &'a Panels,
-    pub(super) colouring: Colouring,
+    pub(super) content: Content<'a>,
     /// How many blocks the figure stacks.
     pub(super) blocks: usize,
     /// `(a)` before the heading, when there are several blocks.
@@ -61,15 +66,19 @@ impl Block<'_> {
             words += label.width(LABEL_SIZE, true) + 4.0;
         }
         heading.bold = false;
-        svg.text(words, y + LABEL_SIZE, &Text::from(self.colouring.heading()), heading);
+        let name = match self.content {
+            Content::Classes { colouring, .. } => Text::from(colouring.heading()),
+            Content::Quantity(quantity) => quantity::heading(quantity),
+        };
+        svg.text(words, y + LABEL_SIZE, &name, heading);
         let top = y + LABEL_SIZE + 6.0;
 
         let count = panels.all.len();
-        let columns = self.columns();
+        let columns = self.columns(width);
         let rows = count.div_ceil(columns);
         let lines = self.title_lines() as f64;
         // The labels of the vertical axis need its height, which needs the width they leave: start from a guess.
-        let mut left = 34.0;
+        let mut left = LEFT;
         let mut size = [0.0; 2];
         for _ in 0..2 {
             size = self.panel_size(width - left - RIGHT, columns);
@@ -93,7 +102,7 @@ impl Block<'_> {
                 let base = frame.y - 3.5 - line as f64 * LINE;
                 svg.text(frame.across(0.5), base, title, Style::new(LABEL_SIZE, Anchor::Middle));
             }
-            cells::draw(svg, self.grid, panels, panel, self.colouring, &frame);
+            cells::draw(svg, self.grid, panels, panel, self.content, &frame);
             frame.border(svg);
             frame.x_ticks(svg, &x_ticks, ragged || row + 1 == rows);
             if let Some(ticks) = &y_ticks {
@@ -115,7 +124,13 @@ impl Block<'_> {
             svg.text(x + left + 0.5 * across, bottom, &label, Style::new(LABEL_SIZE, Anchor::Middle));
         }
         bottom += 9.0;
-        let legend = Legend::new(self.tally, self.colouring, panels.scatter.is_none());
+        let (colouring, hatched) = match self.content {
+            Content::Classes { colouring, hatched } => (colouring, hatched),
+            Content::Quantity(quantity) => {
+                return bottom + quantity::bar(quantity, Some(svg), x + left, bottom, width - left) - y;
+            }
+        };
+        let legend = Legend::new(self.tally, colouring, hatched, panels.scatter.is_none());
         // Under the panels, or from the outer edge where that saves a line.
         let wide = legend.draw(None, x, bottom, width) < legend.draw(None, x + left, bottom, width - left);
         let indent = if wide { 0.0 } else { left };
@@ -126,12 +141,15 @@ impl Block<'_> {
         self.panels.all.iter().map(|panel| panel.title.len()).max().unwrap_or(0)
     }
 
-    fn columns(&self) -> usize {
+    fn columns(&self, width: f64) -> usize {
         let count = self.panels.all.len().max(1);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive count")]
+        let fit = ((width - LEFT - RIGHT + GAP_ACROSS) / (NARROWEST + GAP_ACROSS)).max(1.0) as usize;
+        let [most, preferred] = [MOST_COLUMNS, COLUMNS].map(|columns| columns.min(fit));
         match self.panels.columns {
-            Some(columns) if (2..=MOST_COLUMNS).contains(&columns) => columns,
-            _ if count <= MOST_COLUMNS => count,
-            _ => count.div_ceil(count.div_ceil(COLUMNS)),
+            Some(columns) if (2..=most).contains(&columns) => columns,
+            _ if count <= most => count,
+            _ => count.div_ceil(count.div_ceil(preferred)),
         }
     }
 

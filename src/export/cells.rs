@@ -4,8 +4,12 @@ use std::fmt::Write as _;
 
 use super::boundaries::{Vertex, borders, outlines};
 use super::frame::Frame;
+use super::look::Content;
 use super::palette::Colouring;
 use super::panels::{Panel, Panels};
+use super::picture_axis::PictureAxis;
+use super::points;
+use super::quantity;
 use super::svg::{Svg, number};
 use crate::classify::InstabilityType;
 use crate::grid::Grid;
@@ -21,8 +25,16 @@ pub(super) const LIMIT: [&str; 2] = [
     r##"fill="none" stroke="#FFFFFF" stroke-width="1.2" stroke-linejoin="round""##,
     r##"fill="none" stroke="#000000" stroke-width="0.75" stroke-dasharray="2.2 1.2" stroke-linejoin="round""##,
 ];
-/// Radius of scattered points.
-pub(super) const POINT_RADIUS: f64 = 3.2;
+
+/// One hatching per class after the first, in a square of 4 points; they differ in direction and density.
+const HATCHES: [&str; 6] = [
+    "M-1 1L1 -1M0 4L4 0M3 5L5 3",
+    "M-1 3L1 5M0 0L4 4M3 -1L5 1",
+    "M0 2H4",
+    "M2 0V4",
+    "M0 2H4M2 0V4",
+    "M0 0L4 4M4 0L0 4",
+];
 
 /// Hatchings, defined once per figure.
 pub(super) fn define_patterns(svg: &mut Svg) {
@@ -30,6 +42,13 @@ pub(super) fn define_patterns(svg: &mut Svg) {
         svg.define(&format!(
             r#"<pattern id="{id}" patternUnits="userSpaceOnUse" width="2.4" height="2.4"><path d="M-0.6 0.6L0.6 -0.6M0 2.4L2.4 0M1.8 3L3 1.8" stroke="{colour}" stroke-width="0.45"/></pattern>"#
         ));
+    }
+    for (k, lines) in HATCHES.iter().enumerate() {
+        for (tone, colour) in [("light", "#000000"), ("dark", "#FFFFFF")] {
+            svg.define(&format!(
+                r#"<pattern id="hatch-{k}-{tone}" patternUnits="userSpaceOnUse" width="4" height="4"><path d="{lines}" fill="none" stroke="{colour}" stroke-width="0.4"/></pattern>"#
+            ));
+        }
     }
     svg.define(
         r##"<pattern id="not-computed" patternUnits="userSpaceOnUse" width="4" height="4"><path d="M-1 3L1 5M0 0L4 4M3 -1L5 1" stroke="#B4B4B4" stroke-width="0.4"/></pattern>"##,
@@ -39,13 +58,20 @@ pub(super) fn define_patterns(svg: &mut Svg) {
     );
 }
 
+/// The hatching of the class with this position; the first class has none.
+pub(super) fn hatch(class: usize, dark: bool) -> Option<String> {
+    let number = class.checked_sub(1).filter(|number| *number < HATCHES.len())?;
+    let tone = if dark { "dark" } else { "light" };
+    Some(format!(r#"class="hatch" fill="url(#hatch-{number}-{tone})" fill-rule="evenodd""#))
+}
+
 /// The pattern that marks an unsettled instance of a class.
 pub(super) fn unsettled_fill(dark: bool) -> &'static str {
     if dark { r#"fill="url(#unsettled-on-dark)""# } else { r#"fill="url(#unsettled-on-light)""# }
 }
 
 /// Whether hatching applies: only the response settles.
-fn unsettled(label: Label, colouring: Colouring) -> bool {
+pub(super) fn unsettled(label: Label, colouring: Colouring) -> bool {
     colouring == Colouring::Regime && label.settled() == Some(false)
 }
 
@@ -60,25 +86,29 @@ pub(super) fn draw(
     grid: &Grid,
     panels: &Panels,
     panel: &Panel,
-    colouring: Colouring,
+    content: Content<'_>,
     frame: &Frame,
 ) {
+    let (colouring, hatched) = match content {
+        Content::Quantity(quantity) => return quantity::draw(svg, grid, panels, panel, quantity, frame),
+        Content::Classes { colouring, hatched } => (colouring, hatched),
+    };
     if panels.scatter.is_some() {
-        draw_points(svg, grid, panels, panel, colouring, frame);
+        points::draw(svg, grid, panels, panel, colouring, frame);
     } else {
-        draw_cells(svg, panels, panel, colouring, frame);
+        draw_cells(svg, panels, panel, (colouring, hatched), frame);
     }
 }
 
-fn draw_cells(svg: &mut Svg, panels: &Panels, panel: &Panel, colouring: Colouring, frame: &Frame) {
-    let columns = panels.x.len();
-    let rows = panels.y.as_ref().map_or(1, super::picture_axis::PictureAxis::len);
-    if columns * rows != panel.cells.len() || panel.cells.is_empty() {
-        return;
-    }
-    let unit = [0.0, 1.0];
-    let y_edges = panels.y.as_ref().map_or(unit.as_slice(), |y| &y.edges);
-    let at = |(i, j): Vertex| (frame.across(panels.x.edges[i]), frame.up(y_edges[j]));
+fn draw_cells(
+    svg: &mut Svg,
+    panels: &Panels,
+    panel: &Panel,
+    (colouring, hatched): (Colouring, bool),
+    frame: &Frame,
+) {
+    let Some([columns, rows]) = shape(panels, panel) else { return };
+    let at = |vertex: Vertex| corner(panels, frame, vertex);
     let label = |i: usize, j: usize| panels.labels[panel.cells.start + j * columns + i];
     let class = |i: usize, j: usize| colouring.class(label(i, j));
     let region = |inside: &dyn Fn(usize, usize) -> bool| {
@@ -88,6 +118,13 @@ fn draw_cells(svg: &mut Svg, panels: &Panels, panel: &Panel, colouring: Colourin
     for (k, look) in colouring.classes().iter().enumerate() {
         let data = region(&|i, j| class(i, j) == Some(k));
         svg.path(&data, &format!(r#"class="{}" fill="{}""#, look.name, look.fill));
+    }
+    if hatched {
+        for (k, look) in colouring.classes().iter().enumerate() {
+            if let Some(hatch) = hatch(k, look.dark) {
+                svg.path(&region(&|i, j| class(i, j) == Some(k)), &hatch);
+            }
+        }
     }
     let blank = |i: usize, j: usize| not_computed(label(i, j), colouring);
     let failed = region(&|i, j| class(i, j).is_none() && !blank(i, j));
@@ -126,70 +163,21 @@ pub(super) fn is_stable(kind: InstabilityType) -> bool {
     kind == InstabilityType::Stable
 }
 
-fn draw_points(
-    svg: &mut Svg,
-    grid: &Grid,
-    panels: &Panels,
-    panel: &Panel,
-    colouring: Colouring,
-    frame: &Frame,
-) {
-    let Some((x_column, y_column)) = panels.scatter else { return };
-    // Nothing that was computed is covered by a point that was not.
-    let mut points: Vec<usize> = panel.cells.clone().collect();
-    points.sort_by_key(|point| !not_computed(panels.labels[*point], colouring));
-    for cell in points {
-        let coordinates = grid.coordinates(panels.instances[cell]);
-        let x = frame.across(coordinates.get(x_column).map_or(0.5, |value| panels.x.position(value)));
-        let up = match (&panels.y, y_column) {
-            (Some(axis), Some(column)) => axis.position(coordinates[column]),
-            _ => 0.5,
-        };
-        let label = panels.labels[cell];
-        if not_computed(label, colouring) {
-            missing_point(svg, x, frame.up(up));
-            continue;
-        }
-        point(svg, x, frame.up(up), colouring.class(label).map(|k| &colouring.classes()[k]));
-        if unsettled(label, colouring) {
-            let dark = colouring.class(label).is_some_and(|k| colouring.classes()[k].dark);
-            svg.circle(
-                x,
-                frame.up(up),
-                POINT_RADIUS,
-                &format!(r#"class="unsettled" {}"#, unsettled_fill(dark)),
-            );
-        }
-    }
+/// Columns and rows of a panel of cells; `None` for one without any.
+pub(super) fn shape(panels: &Panels, panel: &Panel) -> Option<[usize; 2]> {
+    let shape = [panels.x.len(), panels.y.as_ref().map_or(1, PictureAxis::len)];
+    let cells = panel.cells.len();
+    (cells > 0 && shape[0] * shape[1] == cells).then_some(shape)
 }
 
-/// One point; without a class a white one with a cross.
-fn point(svg: &mut Svg, x: f64, y: f64, class: Option<&super::palette::Class>) {
-    /// Edge of a cross inside the circle.
-    const ARM: f64 = 0.7 * POINT_RADIUS;
-    let (name, fill) = class.map_or(("failed", FAILED_FILL), |look| (look.name, look.fill));
-    svg.circle(
-        x,
-        y,
-        POINT_RADIUS,
-        &format!(r##"class="{name}" fill="{fill}" stroke="#000000" stroke-width="0.5""##),
-    );
-    if class.is_none() {
-        let cross = [(-ARM, -ARM, ARM, ARM), (ARM, -ARM, -ARM, ARM)]
-            .map(|(a, b, c, d)| super::svg::polyline([(x + a, y + b), (x + c, y + d)]));
-        svg.path(&cross.concat(), r##"fill="none" stroke="#C00000" stroke-width="0.9""##);
-    }
-}
-
-/// A point that was not computed: hatched, in a thin grey line.
-fn missing_point(svg: &mut Svg, x: f64, y: f64) {
-    svg.circle(x, y, POINT_RADIUS, &format!(r#"class="not_computed" fill="{FAILED_FILL}""#));
-    let hatch = r##"fill="url(#not-computed)" stroke="#B4B4B4" stroke-width="0.5""##;
-    svg.circle(x, y, POINT_RADIUS, hatch);
+/// A corner between cells, points.
+pub(super) fn corner(panels: &Panels, frame: &Frame, (i, j): Vertex) -> (f64, f64) {
+    let up = panels.y.as_ref().map_or([0.0, 1.0][j.min(1)], |y| y.edges[j]);
+    (frame.across(panels.x.edges[i]), frame.up(up))
 }
 
 /// Path data along cell edges: horizontal and vertical steps only.
-fn steps(path: &[Vertex], at: &impl Fn(Vertex) -> (f64, f64), closed: bool) -> String {
+pub(super) fn steps(path: &[Vertex], at: &impl Fn(Vertex) -> (f64, f64), closed: bool) -> String {
     let mut data = String::new();
     let mut before: Option<Vertex> = None;
     let points = if closed { &path[..path.len().saturating_sub(1)] } else { path };

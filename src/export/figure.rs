@@ -7,6 +7,7 @@ use super::accounted;
 use super::block::Block;
 use super::cells::define_patterns;
 use super::frame::{LABEL_SIZE, TITLE_SIZE};
+use super::look::{Content, Look};
 use super::manifest::{COMMIT, VERSION};
 use super::palette::Colouring;
 use super::panels::Panels;
@@ -16,6 +17,7 @@ use super::text::{Text, wrap};
 use crate::error::Result;
 use crate::label::Tally;
 use crate::map::{Computation, Map, Record};
+use crate::spec::Analysis;
 
 /// Width of a figure of two columns of a journal, points.
 pub const DOUBLE_COLUMN: f64 = 180.0 * MM;
@@ -23,6 +25,8 @@ pub const DOUBLE_COLUMN: f64 = 180.0 * MM;
 pub const SINGLE_COLUMN: f64 = 88.0 * MM;
 /// White margin around everything, points.
 pub(super) const MARGIN: f64 = 4.0;
+/// The names of blocks.
+const LETTERS: [char; 8] = ['a', 'b', 'c', 'd', 'e', 'f', 'g', 'h'];
 /// Between blocks, points.
 const BLOCK_GAP: f64 = 16.0;
 
@@ -31,10 +35,28 @@ const BLOCK_GAP: f64 = 16.0;
 /// # Errors
 /// When an instance was never computed, and not because the run was stopped.
 pub fn map_svg(map: &Map) -> Result<String> {
+    look_svg(map, &Look::default())
+}
+
+/// Both classes, as far as they were computed.
+#[must_use]
+pub fn computed(analysis: Analysis, hatched: bool) -> Vec<Content<'static>> {
+    [(Colouring::Type, analysis.linear), (Colouring::Regime, analysis.response)]
+        .into_iter()
+        .filter(|(_, asked)| *asked)
+        .map(|(colouring, _)| Content::classes(colouring, hatched))
+        .collect()
+}
+
+/// A map as an SVG document with this look.
+///
+/// # Errors
+/// When an instance was never computed, and not because the run was stopped.
+pub fn look_svg(map: &Map, look: &Look<'_>) -> Result<String> {
     accounted(map)?;
     let mut figure = MapFigure::new(Sheet::from(map));
     figure.add(0, &map.records);
-    Ok(figure.svg())
+    Ok(figure.look(look))
 }
 
 /// The figure of a sweep that is filled part by part; it keeps the labels of what it shows.
@@ -73,31 +95,34 @@ impl<'a> MapFigure<'a> {
     /// The SVG document.
     #[must_use]
     pub fn svg(&self) -> String {
-        draw(self.sheet, &self.panels, &self.tally)
+        self.look(&Look::default())
+    }
+
+    /// The SVG document with a look.
+    #[must_use]
+    pub fn look(&self, look: &Look<'_>) -> String {
+        draw(self.sheet, &self.panels, &self.tally, look)
     }
 }
 
-fn draw(sheet: Sheet, panels: &Panels, tally: &Tally) -> String {
-    let analysis = sheet.analysis;
-    let colourings: Vec<Colouring> =
-        [(Colouring::Type, analysis.linear), (Colouring::Regime, analysis.response)]
-            .into_iter()
-            .filter_map(|(colouring, asked)| asked.then_some(colouring))
-            .collect();
+fn draw(sheet: Sheet, panels: &Panels, tally: &Tally, look: &Look<'_>) -> String {
+    let contents =
+        if look.contents.is_empty() { computed(sheet.analysis, false) } else { look.contents.clone() };
     let one_panel = panels.all.len() <= 1;
-    let width = if one_panel && colourings.len() < 2 { SINGLE_COLUMN } else { DOUBLE_COLUMN };
+    let usual = if one_panel && contents.len() < 2 { SINGLE_COLUMN } else { DOUBLE_COLUMN };
+    let width = look.points().unwrap_or(usual);
     let inner = width - 2.0 * MARGIN;
     let mut svg = Svg::new();
     define_patterns(&mut svg);
     let mut y = MARGIN + title(&mut svg, sheet.title, inner);
     // Blocks of one picture stand side by side.
-    let beside = one_panel && colourings.len() > 1;
+    let beside = one_panel && contents.len() == 2 && inner > SINGLE_COLUMN * 1.2;
     let across = if beside { 0.5 * (inner - BLOCK_GAP) } else { inner };
     let mut tallest: f64 = 0.0;
-    for (number, colouring) in colourings.iter().enumerate() {
-        let letter = (colourings.len() > 1).then_some(['a', 'b'][number]);
-        let blocks = if beside { 1 } else { colourings.len() };
-        let block = Block { grid: sheet.grid, tally, panels, colouring: *colouring, blocks, letter };
+    for (number, content) in contents.iter().enumerate() {
+        let letter = (contents.len() > 1).then(|| LETTERS[number % LETTERS.len()]);
+        let blocks = if beside { 1 } else { contents.len() };
+        let block = Block { grid: sheet.grid, tally, panels, content: *content, blocks, letter };
         if beside {
             let x = MARGIN + number as f64 * (across + BLOCK_GAP);
             tallest = tallest.max(block.draw(&mut svg, x, y, across));
@@ -115,7 +140,9 @@ fn draw(sheet: Sheet, panels: &Panels, tally: &Tally) -> String {
         }
     }
     let name = if sheet.title.is_empty() { "Stability map" } else { sheet.title };
-    svg.finish(width, y + MARGIN, name, &provenance(sheet, tally))
+    let command = look.command.as_ref().map(|command| format!("; made by: {command}")).unwrap_or_default();
+    let metadata = provenance(sheet, tally) + &command;
+    svg.finish_enlarged(look.enlarged, [width, y + MARGIN], name, &metadata)
 }
 
 /// Draws a title and returns the height it takes.

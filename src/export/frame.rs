@@ -64,6 +64,18 @@ impl Frame {
         svg.path(&marks, STROKE);
     }
 
+    /// Labelled ticks above the frame.
+    pub(super) fn x_ticks_above(&self, svg: &mut Svg, ticks: &[Tick]) {
+        let mut marks = String::new();
+        for tick in ticks.iter().filter(|tick| (0.0..=1.0).contains(&tick.at)) {
+            let x = self.across(tick.at);
+            let _ = write!(marks, "M{} {}v{}", number(x), number(self.y), number(-TICK_LENGTH));
+            let base = self.y - TICK_LENGTH - TICK_SPACE;
+            svg.text(x, base, &tick.label, Style::new(TICK_SIZE, Anchor::Middle));
+        }
+        svg.path(&marks, STROKE);
+    }
+
     /// Ticks left of the frame.
     pub(super) fn y_ticks(&self, svg: &mut Svg, ticks: &[Tick], labels: bool) {
         let mut marks = String::new();

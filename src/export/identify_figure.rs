@@ -2,9 +2,10 @@
 
 use super::figure::{DOUBLE_COLUMN, MARGIN, program, title};
 use super::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room};
+use super::key;
 use super::plot::Plot;
 use super::raster::{colour, data_uri};
-use super::scale::Scale;
+use super::scale::{Scale, axis_unit};
 use super::svg::{Anchor, Style, Svg, number};
 use super::text::{Text, wrap};
 use crate::error::Result;
@@ -125,15 +126,10 @@ fn verdict_line(found: &Identification) -> String {
 }
 
 fn labels(exponent: i32, frequency_unit: &str) -> [Text; 4] {
-    let mut acceleration = Text::from("Acceleration (");
-    if exponent != 0 {
-        acceleration =
-            acceleration.plain("10").superscript(&exponent.to_string().replace('-', "−")).plain(" ");
-    }
     let frequency = Text::from(format!("Frequency ({frequency_unit})"));
     [
         Text::from("Friction ").symbol("T").plain("/").symbol("N"),
-        acceleration.unit("m/s^2").plain(")"),
+        Text::from("Acceleration").then(axis_unit("m/s^2", exponent)),
         frequency.clone(),
         frequency,
     ]
@@ -165,21 +161,11 @@ fn curve(envelope: &Envelope, [start, end]: [f64; 2]) -> impl Iterator<Item = (f
 fn key(svg: &mut Svg, found: &Identification, frame: &Frame) {
     const SAMPLE: f64 = 12.0;
     let base = frame.y - 4.0;
-    let mut x = frame.x;
-    let names = ["tangential", "normal"];
-    let drawn = found
-        .envelopes
-        .iter()
-        .zip(names)
-        .zip(STROKES)
-        .filter(|((envelope, _), _)| !envelope.columns.is_empty());
-    for ((_, name), stroke) in drawn {
-        let text = Text::from(name);
-        let y = base - 0.35 * TICK_SIZE;
-        svg.path(&super::svg::polyline([(x, y), (x + SAMPLE, y)]), stroke);
-        svg.text(x + SAMPLE + 3.0, base, &text, Style::new(TICK_SIZE, Anchor::Start));
-        x += SAMPLE + 14.0 + text.width(TICK_SIZE, false);
-    }
+    let names = ["tangential", "normal"].map(Text::from);
+    let drawn = found.envelopes.iter().zip(names.into_iter().zip(STROKES));
+    let entries: Vec<(Text, &str)> =
+        drawn.filter(|(envelope, _)| !envelope.columns.is_empty()).map(|(_, entry)| entry).collect();
+    let x = key::lines(svg, frame.x, base, TICK_SIZE, &entries);
     if !found.episodes.is_empty() {
         svg.rect([x, base - 0.75 * TICK_SIZE, SAMPLE, 0.8 * TICK_SIZE], EPISODE);
         svg.text(x + SAMPLE + 3.0, base, &Text::from("grows"), Style::new(TICK_SIZE, Anchor::Start));

@@ -1,6 +1,6 @@
 //! The legend of a block: only what occurs, with shares or counts.
 
-use super::cells::{FAILED_FILL, LIMIT, is_stable, not_computed, unsettled_fill};
+use super::cells::{FAILED_FILL, LIMIT, hatch, is_stable, not_computed, unsettled_fill};
 use super::frame::LABEL_SIZE;
 use super::palette::Colouring;
 use super::svg::{Anchor, Style, Svg, number};
@@ -21,7 +21,7 @@ const COUNTED: usize = 200;
 
 /// What stands beside the words.
 enum Swatch {
-    Fill(&'static str),
+    Fill(&'static str, Option<String>),
     Unsettled,
     Failed,
     NotComputed,
@@ -33,7 +33,7 @@ pub(super) struct Legend(Vec<(Swatch, Text)>);
 
 impl Legend {
     /// The legend of a sweep with these counts under a colouring.
-    pub(super) fn new(tally: &Tally, colouring: Colouring, cells: bool) -> Legend {
+    pub(super) fn new(tally: &Tally, colouring: Colouring, hatched: bool, cells: bool) -> Legend {
         let total = tally.total();
         let share = |n: usize| share(n, total);
         let class = |label: Label| colouring.class(label);
@@ -41,7 +41,11 @@ impl Legend {
         for (k, look) in colouring.classes().iter().enumerate() {
             let n = tally.count(|label| class(label) == Some(k));
             if n > 0 {
-                entries.push((Swatch::Fill(look.fill), Text::from(format!("{} {}", look.label, share(n)))));
+                let hatch = hatch(k, look.dark).filter(|_| hatched && cells);
+                entries.push((
+                    Swatch::Fill(look.fill, hatch),
+                    Text::from(format!("{} {}", look.label, share(n))),
+                ));
             }
         }
         if colouring == Colouring::Regime {
@@ -98,7 +102,12 @@ fn draw_swatch(svg: &mut Svg, swatch: &Swatch, x: f64, y: f64) {
     let area = [x, y, SWATCH[0], SWATCH[1]];
     let border = r##"fill="none" stroke="#000000" stroke-width="0.5""##;
     match swatch {
-        Swatch::Fill(fill) => svg.rect(area, &format!(r#"fill="{fill}""#)),
+        Swatch::Fill(fill, hatch) => {
+            svg.rect(area, &format!(r#"fill="{fill}""#));
+            if let Some(hatch) = hatch {
+                svg.rect(area, hatch);
+            }
+        }
         Swatch::Unsettled => svg.rect(area, unsettled_fill(false)),
         Swatch::Failed => {
             svg.rect(area, &format!(r#"fill="{FAILED_FILL}""#));

@@ -1,13 +1,16 @@
 //! Map → bytes. Every exporter returns bytes (or text) in full precision and base units; none opens a file.
 //!
-//! [`sheet`] is what an export says of a sweep beside its records; [`columns`] is the one table of output columns; [`csv`], [`manifest`] and [`figure`] write `map.csv`,
-//! `manifest.json` and `map.svg`; [`png`] draws any of the figures. [`zarr`] and [`netcdf`] write the labelled
-//! [`arrays`] of a sweep, part by part. [`modes`] and [`trace`] serve the
-//! commands of the same names, [`identify`] and [`signals`] to and from measured signals.
+//! [`sheet`] is what an export says of a sweep beside its records; [`columns`] is the one table of output columns;
+//! [`csv`], [`manifest`] and [`figure`] write `map.csv`, `manifest.json` and `map.svg`; [`png`] and [`pdf`] draw any of
+//! the figures, [`look`] says at which width and what of a map, [`boundary_lines`] gives its lines as a table.
+//! [`zarr`] and [`netcdf`] write the labelled [`arrays`] of a sweep, part by part. [`modes`] and [`trace`] serve the
+//! commands of the same names, [`identify`] and [`signals`] to and from measured signals, [`paper`] the figures of
+//! the source paper.
 
 pub mod arrays;
 mod block;
 pub mod boundaries;
+pub mod boundary_lines;
 mod cells;
 pub mod columns;
 pub mod csv;
@@ -15,7 +18,9 @@ pub mod figure;
 mod frame;
 pub mod identify;
 mod identify_figure;
+mod key;
 mod legend;
+pub mod look;
 pub mod manifest;
 pub mod material;
 pub mod modes;
@@ -23,9 +28,13 @@ mod modes_figure;
 pub mod netcdf;
 pub mod palette;
 mod panels;
+pub mod paper;
+pub mod pdf;
 mod picture_axis;
 mod plot;
 pub mod png;
+mod points;
+mod quantity;
 mod raster;
 pub mod scale;
 pub mod sheet;

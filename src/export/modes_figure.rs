@@ -2,10 +2,11 @@
 
 use super::figure::{DOUBLE_COLUMN, MARGIN, SINGLE_COLUMN, program, title};
 use super::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room};
+use super::key;
 use super::modes::{Branch, Mode, Modes, eigenvalues, follow};
 use super::panels::setting;
 use super::picture_axis::{Direction, PictureAxis};
-use super::plot::{FIRST, Plot, SECOND};
+use super::plot::{CRITICAL, FIRST, Plot, SECOND};
 use super::scale::{Scale, value_label};
 use super::svg::{Anchor, Style, Svg, polyline};
 use super::text::Text;
@@ -27,8 +28,6 @@ const HEADROOM: f64 = 0.08;
 const LINE: f64 = 10.0;
 /// The line of zero growth.
 const ZERO: &str = r##"fill="none" stroke="#777777" stroke-width="0.5""##;
-/// The mark at a critical value.
-const CRITICAL: &str = r##"fill="none" stroke="#000000" stroke-width="0.6" stroke-dasharray="1.2 1.4""##;
 
 /// The figure of a sweep's eigenvalues as an SVG document: single column width for one branch.
 ///
@@ -59,7 +58,8 @@ pub fn draw(spec: &Spec, modes: &Modes) -> String {
     let left = MARGIN + LABEL_SIZE + 6.0 + room;
     let columns = shown.len().max(1) as f64;
     let across = (width - left - RIGHT - (columns - 1.0) * GAP) / columns;
-    key(&mut svg, left, y);
+    let names = ["mode 1", "mode 2"].map(Text::from).into_iter().zip([FIRST, SECOND]);
+    key::lines(&mut svg, left, y + LABEL_SIZE - 1.2, LABEL_SIZE, &names.collect::<Vec<_>>());
     y += LABEL_SIZE + 5.0;
     let titles: Vec<Vec<Text>> = shown.iter().map(|branch| settings(spec, modes, branch)).collect();
     let lines = titles.iter().map(Vec::len).max().unwrap_or(0) as f64;
@@ -146,18 +146,5 @@ fn critical(svg: &mut Svg, spec: &Spec, modes: &Modes, branch: &Branch, x: &Scal
             svg.text(middle, frame.y - 3.0, &text, Style::new(TICK_SIZE, Anchor::Middle));
             free = middle + half + 2.0;
         }
-    }
-}
-
-fn key(svg: &mut Svg, left: f64, y: f64) {
-    /// Length of a sample line, points.
-    const SAMPLE: f64 = 18.0;
-    let mut x = left;
-    for (words, stroke) in [("mode 1", FIRST), ("mode 2", SECOND)] {
-        svg.path(&polyline([(x, y + 0.5 * LABEL_SIZE), (x + SAMPLE, y + 0.5 * LABEL_SIZE)]), stroke);
-        let text = Text::from(words);
-        let base = y + LABEL_SIZE - 1.2;
-        svg.text(x + SAMPLE + 4.0, base, &text, Style::new(LABEL_SIZE, Anchor::Start));
-        x += SAMPLE + 4.0 + text.width(LABEL_SIZE, false) + 14.0;
     }
 }

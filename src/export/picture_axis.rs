@@ -118,6 +118,11 @@ impl PictureAxis {
         }
     }
 
+    /// What the axis shows; `None`: nothing in particular.
+    pub(super) fn key(&self) -> Option<AxisKey> {
+        self.key
+    }
+
     /// The number of cells.
     pub(super) fn len(&self) -> usize {
         self.order.len()

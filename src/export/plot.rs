@@ -12,6 +12,11 @@ pub(super) const FIRST: &str = r##"fill="none" stroke="#1F3F8F" stroke-width="0.
 /// Stroke of the second curve: lighter and dashed, so that it survives a grey print.
 pub(super) const SECOND: &str =
     r##"fill="none" stroke="#D55E00" stroke-width="0.9" stroke-dasharray="3.2 1.6" stroke-linejoin="round""##;
+/// Stroke of a third curve: dotted, between the two in lightness.
+pub(super) const THIRD: &str = r##"fill="none" stroke="#4F7F4F" stroke-width="1.1" stroke-dasharray="0.1 2.2" stroke-linecap="round" stroke-linejoin="round""##;
+/// The mark at a critical value.
+pub(super) const CRITICAL: &str =
+    r##"fill="none" stroke="#000000" stroke-width="0.6" stroke-dasharray="1.2 1.4""##;
 /// A frame with what its sides mean.
 pub(super) struct Plot<'a> {
     pub(super) frame: Frame,
@@ -34,6 +39,19 @@ impl Plot<'_> {
         }
         data.push_str(&polyline(thin(&piece)));
         svg.path(&data, stroke);
+    }
+}
+
+impl Plot<'_> {
+    /// Draws the area inside a closed line.
+    pub(super) fn area(&self, svg: &mut Svg, points: impl IntoIterator<Item = (f64, f64)>, style: &str) {
+        let at =
+            |(x, y): (f64, f64)| (self.frame.across(self.x.position(x)), self.frame.up(self.y.position(y)));
+        let outline = points.into_iter().filter(|(x, y)| x.is_finite() && y.is_finite()).map(at);
+        let data = polyline(outline);
+        if !data.is_empty() {
+            svg.path(&(data + "Z"), style);
+        }
     }
 }
 

@@ -11,7 +11,7 @@ use crate::error::{Error, Result};
 pub const DPI: f32 = 300.0;
 
 /// CSS pixels per inch: the unit in which the SVG library reports sizes.
-const CSS_DPI: f32 = 96.0;
+pub(super) const CSS_DPI: f32 = 96.0;
 
 /// The embedded family.
 const FAMILY: &str = "Liberation Sans";
@@ -27,7 +27,7 @@ const FONTS: [&[u8]; 3] = [
 /// # Errors
 /// When the document is not SVG, or too large for an image.
 pub fn render(svg: &str) -> Result<Vec<u8>> {
-    let tree = Tree::from_str(svg, &options()).map_err(Error::ReadSvg)?;
+    let tree = read(svg)?;
     let scale = DPI / CSS_DPI;
     let size = tree.size();
     #[expect(
@@ -40,6 +40,11 @@ pub fn render(svg: &str) -> Result<Vec<u8>> {
     resvg::render(&tree, Transform::from_scale(scale, scale), &mut pixmap.as_mut());
     let png = pixmap.encode_png().map_err(|_| Error::Rasterize { width, height })?;
     Ok(with_resolution(&png))
+}
+
+/// An SVG document with the embedded fonts.
+pub(super) fn read(svg: &str) -> Result<Tree> {
+    Tree::from_str(svg, &options()).map_err(Error::ReadSvg)
 }
 
 /// Only the embedded fonts, whatever family is asked for.

@@ -74,6 +74,16 @@ impl Scale {
         }
     }
 
+    /// The value at a position: the inverse of [`Scale::position`].
+    #[must_use]
+    pub fn value(&self, position: f64) -> f64 {
+        match self {
+            Scale::Linear { low, high } => low + (high - low) * position,
+            Scale::Log { low, high } => low * (high / low).powf(position),
+            Scale::Names(names) => position * names.len() as f64 - 0.5,
+        }
+    }
+
     /// The decimal exponent taken out of the tick labels: not 0 only for very large or small values.
     #[must_use]
     pub fn exponent(&self) -> i32 {
@@ -140,6 +150,17 @@ impl Scale {
         };
         ticks.into_iter().step_by(stride).map(tick).collect()
     }
+}
+
+/// ` (10³ m/s²)`: the unit of an axis and the power of ten taken out of its labels.
+#[must_use]
+pub fn axis_unit(unit: &str, exponent: i32) -> Text {
+    let text = Text::from(" (");
+    let text = match exponent {
+        0 => text,
+        _ => text.plain("10").superscript(&minus(&exponent.to_string())).plain(" "),
+    };
+    text.unit(unit).plain(")")
 }
 
 /// A number as figures print it: shortest form, a real minus sign, powers of ten for very large or small ones.

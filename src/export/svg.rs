@@ -129,7 +129,19 @@ impl Svg {
     /// The finished document of this size in points, on white.
     #[must_use]
     pub fn finish(self, width: f64, height: f64, title: &str, metadata: &str) -> String {
-        let [mm_width, mm_height] = [width / MM, height / MM].map(number);
+        self.finish_enlarged(1.0, [width, height], title, metadata)
+    }
+
+    /// The finished document, drawn in this size in points and shown so many times as large, on white.
+    #[must_use]
+    pub fn finish_enlarged(
+        self,
+        times: f64,
+        [width, height]: [f64; 2],
+        title: &str,
+        metadata: &str,
+    ) -> String {
+        let [mm_width, mm_height] = [width / MM, height / MM].map(|mm| number(times * mm));
         let [width, height] = [width, height].map(number);
         let title = escape(title);
         let metadata = escape(metadata);

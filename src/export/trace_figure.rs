@@ -2,8 +2,9 @@
 
 use super::figure::{DOUBLE_COLUMN, MARGIN, program, title};
 use super::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room};
+use super::key;
 use super::plot::Plot;
-use super::scale::Scale;
+use super::scale::{Scale, axis_unit};
 use super::svg::{Anchor, Style, Svg};
 use super::text::Text;
 use crate::error::Result;
@@ -112,7 +113,9 @@ pub fn trace_svg(trace: &Trace, heading: &str) -> Result<String> {
             frame.y_ticks(&mut svg, &ticks[number], column == 0);
             frame.x_ticks(&mut svg, &x_ticks, number + 1 == PANELS.len());
             if curves.len() > 1 && column == 0 {
-                key(&mut svg, curves, &frame);
+                let names = curves.iter().map(|curve| Text::default().symbol(curve.symbol));
+                let entries: Vec<(Text, &str)> = names.zip(STROKES).collect();
+                key::lines(&mut svg, frame.x, frame.y - 4.0, TICK_SIZE, &entries);
             }
         }
         let label = Text::from("Time ").symbol("t").plain(" (s)");
@@ -154,11 +157,7 @@ fn axis_label(curves: &[Curve], unit: &str, exponent: i32) -> Text {
     for (number, curve) in curves.iter().enumerate() {
         label = label.plain(if number == 0 { "" } else { ", " }).symbol(curve.symbol);
     }
-    label = label.plain(" (");
-    if exponent != 0 {
-        label = label.plain("10").superscript(&exponent.to_string().replace('-', "−")).plain(" ");
-    }
-    label.unit(unit).plain(")")
+    label.then(axis_unit(unit, exponent))
 }
 
 /// The upper edges of the panels below `y`.
@@ -171,21 +170,6 @@ fn tops(mut y: f64) -> [f64; PANELS.len()] {
         y += HEIGHT + GAP;
         top
     })
-}
-
-/// Which line is which, in the gap above a panel.
-fn key(svg: &mut Svg, curves: &[Curve], frame: &Frame) {
-    /// Length of a sample line, points.
-    const SAMPLE: f64 = 12.0;
-    let base = frame.y - 4.0;
-    let mut x = frame.x;
-    for (curve, stroke) in curves.iter().zip(STROKES) {
-        let text = Text::default().symbol(curve.symbol);
-        let y = base - 0.35 * TICK_SIZE;
-        svg.path(&super::svg::polyline([(x, y), (x + SAMPLE, y)]), stroke);
-        svg.text(x + SAMPLE + 3.0, base, &text, Style::new(TICK_SIZE, Anchor::Start));
-        x += SAMPLE + 11.0 + text.width(TICK_SIZE, false);
-    }
 }
 
 /// The states that occur; returns where the panels begin.

@@ -44,7 +44,7 @@ const BELT: &str = "[friction]\nmu_d = 0.3\nknee_velocity = 5.0\n[axes]\nmu_s = 
 /// Runs the program in a directory with the sweep `modes.toml`.
 pub(crate) fn squealmap(arguments: &[&str]) -> Result<(Output, tempfile::TempDir), Failed> {
     let directory = tempfile::tempdir()?;
-    std::fs::copy("sweeps/paper_modes.toml", directory.path().join("modes.toml"))?;
+    std::fs::copy("sweeps/paper/figure2.toml", directory.path().join("modes.toml"))?;
     std::fs::write(directory.path().join("belt.toml"), BELT)?;
     let output = Command::new(env!("CARGO_BIN_EXE_squealmap"))
         .args(arguments)

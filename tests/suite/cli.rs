@@ -267,3 +267,72 @@ fn what_trace_writes_identify_reads() {
     assert!(ended.err.starts_with("error: traced/trace.csv: line "), "{}", ended.err);
     assert!(!directory.path().join("refused").exists());
 }
+
+#[test]
+fn paper_writes_what_is_asked_for() {
+    let directory = tempfile::tempdir().unwrap();
+    let ended = squealmap(directory.path(), &["paper", "--only", "figure2,figure3", "-o", "a/b"]);
+    assert_eq!(ended.code, Some(0), "{}", ended.err);
+    let figures = ["figure2", "figure3"];
+    let files =
+        figures.iter().flat_map(|name| ["csv", "png", "svg"].map(|kind| format!("a/b/paper/{name}.{kind}")));
+    let expected: Vec<PathBuf> =
+        ["a", "a/b", "a/b/paper"].into_iter().map(PathBuf::from).chain(files.map(PathBuf::from)).collect();
+    assert_eq!(tree(directory.path()), expected, "no paper.md, which needs all figures");
+}
+
+#[test]
+fn paper_refuses_with_one_sentence_and_leaves_nothing() {
+    let directory = tempfile::tempdir().unwrap();
+    for (arguments, words) in [
+        (["--only", "figure9"], "[possible values: figure2,"),
+        (["--ramp-duration", "0.1"], "a number of seconds from 0.5 to 100"),
+        (["--ramp-duration", "nan"], "a number of seconds from 0.5 to 100"),
+        (["--kick", "1"], "a length in metres from 1e-9 to 0.01"),
+    ] {
+        let ended = squealmap(directory.path(), &["paper", arguments[0], arguments[1]]);
+        assert_eq!(ended.code, Some(2), "{}", ended.err);
+        assert!(ended.err.contains(words), "{}", ended.err);
+        assert!(tree(directory.path()).is_empty(), "{arguments:?}");
+    }
+    std::fs::create_dir_all(directory.path().join("out/paper/figure2.svg")).unwrap();
+    let ended = squealmap(directory.path(), &["paper", "--only", "figure2"]);
+    assert_eq!(ended.code, Some(2), "{}", ended.err);
+    assert!(
+        ended.err.contains("`paper/figure2.svg`, a file to be written there, is a directory"),
+        "{}",
+        ended.err
+    );
+    assert_eq!(tree(directory.path()).len(), 3);
+}
+
+#[test]
+fn plot_draws_a_run_again() {
+    let directory = with_sweep("");
+    let ended = squealmap(directory.path(), &["run", "small.toml"]);
+    assert_eq!(ended.code, Some(0), "{}", ended.err);
+    let ended = squealmap(
+        directory.path(),
+        &["plot", "out/small", "--journal", "elsevier-1col", "--quantity", "type,growth,amplitude"],
+    );
+    assert_eq!(ended.code, Some(0), "{}", ended.err);
+    for file in ["plot.svg", "plot.pdf", "plot.png", "boundaries.csv"] {
+        assert!(directory.path().join("out/small").join(file).exists(), "{file}");
+    }
+    let svg = std::fs::read_to_string(directory.path().join("out/small/plot.svg")).unwrap();
+    assert!(
+        svg.contains("squealmap plot out/small --journal elsevier-1col --quantity type,growth,amplitude")
+    );
+    let before = tree(directory.path());
+    for (arguments, words) in [
+        (["out/small", "--quantity=colour"], "no quantity `colour`; it has type, regime, growth_rate"),
+        (["out/small", "--width=20mm"], "a width in millimetres from 60 to 400"),
+        (["out", "--hatch"], "cannot read `out/manifest.json`"),
+    ] {
+        let ended = squealmap(directory.path(), &["plot", arguments[0], arguments[1]]);
+        assert_eq!(ended.code, Some(2), "{}", ended.err);
+        let said = ended.err.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(said.contains(words), "{said}");
+    }
+    assert_eq!(tree(directory.path()), before, "what is refused leaves nothing");
+}

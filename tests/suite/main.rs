@@ -2,6 +2,7 @@
 
 mod arrays;
 mod bad_input;
+mod claims;
 mod cli;
 mod colour;
 mod common;
@@ -23,6 +24,8 @@ mod linear;
 mod modes_figure;
 mod no_driver;
 mod observables;
+mod paper;
+mod plot;
 mod properties;
 mod regimes;
 mod response;

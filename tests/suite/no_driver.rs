@@ -13,7 +13,7 @@ const LONG: &str = "[friction]\nlaw = \"table\"\ntable = \"mu.csv\"\n[belt]\nbel
 /// Exit code and standard error of the program with the Vulkan loader pointed at `driver`.
 fn with_driver(driver: &Path, arguments: &[&str]) -> (Option<i32>, String, String) {
     let directory = tempfile::tempdir().unwrap();
-    std::fs::copy("sweeps/paper_modes.toml", directory.path().join("modes.toml")).unwrap();
+    std::fs::copy("sweeps/paper/figure2.toml", directory.path().join("modes.toml")).unwrap();
     std::fs::write(directory.path().join("long.toml"), LONG).unwrap();
     let rows: Vec<String> = (0..1025).map(|row| format!("{row},0.3")).collect();
     std::fs::write(directory.path().join("mu.csv"), format!("velocity,mu\n{}\n", rows.join("\n"))).unwrap();

@@ -52,7 +52,8 @@ fn paper_map_is_the_example_of_the_readme() {
 #[test]
 fn every_shipped_sweep_is_valid() {
     let mut count = 0;
-    for entry in std::fs::read_dir(sweeps()).unwrap() {
+    let entries = [sweeps().to_owned(), sweeps().join("paper")].map(|path| std::fs::read_dir(path).unwrap());
+    for entry in entries.into_iter().flatten() {
         let path = entry.unwrap().path();
         if path.extension().is_some_and(|extension| extension == "toml") {
             let spec = Spec::read(&path).unwrap_or_else(|error| panic!("{error}"));
@@ -61,7 +62,7 @@ fn every_shipped_sweep_is_valid() {
             count += 1;
         }
     }
-    assert_eq!(count, 5);
+    assert_eq!(count, 4 + 7, "and those of the paper");
 }
 
 #[test]
@@ -227,7 +228,7 @@ proptest! {
         length in 0_usize..30,
         insert in "[-a-z0-9_\\[\\]{}=\",. \n#é]{0,12}",
     ) {
-        let names = ["paper_map", "paper_modes", "mass_on_belt", "temperature_map", "tuples"];
+        let names = ["paper_map", "paper/figure2", "mass_on_belt", "temperature_map", "tuples"];
         let text = std::fs::read_to_string(sweeps().join(names[file]).with_extension("toml")).unwrap();
         let mut chars: Vec<char> = text.chars().collect();
         let start = start.index(chars.len());

@@ -50,8 +50,8 @@ fn paper_map_runs() {
 }
 
 #[test]
-fn paper_modes_merge_at_the_critical_friction() {
-    let map = run(read("paper_modes"));
+fn figure2_modes_merge_at_the_critical_friction() {
+    let map = run(read("paper/figure2"));
     for (index, record) in map.records.iter().enumerate() {
         let mu = map.spec.instance(index).params.require(Param::MuD);
         let expected = if mu < 0.226_361 { InstabilityType::Stable } else { InstabilityType::ModeCoupling };

@@ -1,0 +1,222 @@
+//! A map read back from the directory that `squealmap run` wrote: what its figures need, and its columns.
+
+use std::path::Path;
+
+use serde_json::Value as Json;
+
+use crate::classify::{InstabilityType, Regime};
+use crate::error::{Error, Result};
+use crate::grid::{Axis, AxisKey, Grid, Value};
+use crate::map::{Computation, Map, Provenance, Record, Stopped};
+use crate::model::Params;
+use crate::model::friction::LawKind;
+use crate::outcome::Status;
+use crate::spec::{Analysis, Duration, STEPS_PER_PERIOD, Spec, StartKind};
+
+/// The files of a map that are read.
+const FILES: [&str; 2] = ["manifest.json", "map.csv"];
+
+/// A column of numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NumberColumn {
+    /// The header.
+    pub name: String,
+    /// The SI unit; empty when dimensionless.
+    pub unit: String,
+    /// One line of explanation.
+    pub meaning: String,
+    /// One value per instance; `None` where it is undefined.
+    pub values: Vec<Option<f64>>,
+}
+
+/// A map read back.
+#[derive(Clone, Debug)]
+pub struct Archive {
+    /// The map. Of its sweep title, analysis and grid are read, of its records type, regime, status and whether they
+    /// are settled; the rest stands at defaults, which no figure reads.
+    pub map: Map,
+    /// What `map.csv` holds besides the instance, the swept values and names.
+    pub columns: Vec<NumberColumn>,
+    /// The program that computed it: version, and commit where known.
+    pub program: String,
+}
+
+impl Archive {
+    /// Reads the directory of a finished or stopped run.
+    ///
+    /// # Errors
+    /// When a file is missing or is not what a run writes.
+    pub fn read(directory: &Path) -> Result<Archive> {
+        let bad = |file: &str, why: String| Error::Archive { path: directory.join(file), why };
+        let read = |file: &str| {
+            std::fs::read_to_string(directory.join(file)).map_err(|why| bad(file, why.to_string()))
+        };
+        let [manifest, table] = FILES.map(read);
+        let manifest: Json =
+            serde_json::from_str(&manifest?).map_err(|why| bad(FILES[0], why.to_string()))?;
+        let table = Table::read(&table?).map_err(|why| bad(FILES[1], why))?;
+        let spec = spec(&manifest, &table).map_err(|why| bad(FILES[0], why))?;
+        let records = records(&table).map_err(|why| bad(FILES[1], why))?;
+        if records.len() != spec.grid.len() {
+            let why = format!("{} rows for {} instances", records.len(), spec.grid.len());
+            return Err(bad(FILES[1], why));
+        }
+        let stopped = manifest["computation"]["stopped"].as_str().map(|why| match why {
+            "cancelled" => Stopped::Cancelled,
+            why => Stopped::Failed(why.to_owned()),
+        });
+        let provenance = Provenance {
+            linear: computation(&manifest["computation"]["linear"]),
+            response: computation(&manifest["computation"]["response"]),
+            threads: 0,
+            elapsed: std::time::Duration::ZERO,
+        };
+        let columns = columns(&manifest, &table, &spec);
+        let program = &manifest["program"];
+        let commit = program["git_commit"].as_str().map(|commit| format!(" ({commit})"));
+        let program = format!("squealmap {}{}", text(&program["version"]), commit.unwrap_or_default());
+        Ok(Archive { map: Map { spec, records, stopped, provenance }, columns, program })
+    }
+}
+
+/// A table as text.
+struct Table {
+    header: Vec<String>,
+    rows: Vec<csv::StringRecord>,
+}
+
+impl Table {
+    fn read(text: &str) -> std::result::Result<Table, String> {
+        let mut reader = csv::Reader::from_reader(text.as_bytes());
+        let header = reader.headers().map_err(|why| why.to_string())?.iter().map(str::to_owned).collect();
+        let rows: std::result::Result<_, _> = reader.records().collect();
+        Ok(Table { header, rows: rows.map_err(|why| why.to_string())? })
+    }
+
+    fn find(&self, name: &str) -> Option<usize> {
+        self.header.iter().position(|header| header == name)
+    }
+
+    /// The cell of a column that may be missing; empty then.
+    fn cell<'a>(&self, row: &'a csv::StringRecord, name: &str) -> &'a str {
+        self.find(name).and_then(|k| row.get(k)).unwrap_or_default()
+    }
+}
+
+fn text(value: &Json) -> String {
+    value.as_str().unwrap_or_default().to_owned()
+}
+
+fn spec(manifest: &Json, table: &Table) -> std::result::Result<Spec, String> {
+    let resolved = manifest["spec"].as_object().ok_or("has no `spec`")?;
+    let analysis = resolved["analysis"].as_array().ok_or("has no `analysis` in `spec`")?;
+    let asked = |name: &str| analysis.iter().any(|one| one == name);
+    let grid = match (resolved.get("axes").and_then(Json::as_object), resolved.get("points")) {
+        (Some(axes), _) => Grid::Axes(axes.iter().map(axis).collect::<std::result::Result<_, _>>()?),
+        (None, Some(points)) => tuples(points, table)?,
+        (None, None) => return Err("has neither `axes` nor `points` in `spec`".to_owned()),
+    };
+    Ok(Spec {
+        title: text(&manifest["title"]),
+        analysis: Analysis {
+            linear: asked("linear"),
+            response: asked("response"),
+            until_settled: resolved.get("response").is_some_and(|response| response["settle"] == "auto"),
+        },
+        base: Params::default(),
+        impact_friction: true,
+        law: LawKind::Bilinear,
+        material: None,
+        materials: Vec::new(),
+        table: None,
+        grid,
+        start: StartKind::Kick,
+        settle: Duration::Seconds(0.0),
+        settle_limit: None,
+        measure: Duration::Seconds(0.0),
+        steps_per_period: STEPS_PER_PERIOD,
+    })
+}
+
+fn key(name: &str) -> std::result::Result<AxisKey, String> {
+    AxisKey::from_name(name).ok_or_else(|| format!("`{name}` is no parameter"))
+}
+
+fn axis((name, axis): (&String, &Json)) -> std::result::Result<Axis, String> {
+    let key = key(name)?;
+    let values = axis["values"].as_array().ok_or_else(|| format!("axis `{name}` has no values"))?;
+    let value = |value: &Json| match value.as_f64() {
+        Some(number) => Value::Number(number),
+        None => Value::Text(text(value)),
+    };
+    Ok(Axis { key, values: values.iter().map(value).collect(), log: axis["scale"] == "log" })
+}
+
+fn tuples(points: &Json, table: &Table) -> std::result::Result<Grid, String> {
+    let names: Vec<String> =
+        points["columns"].as_array().map(|names| names.iter().map(text).collect()).unwrap_or_default();
+    let keys = names.iter().map(|name| key(name)).collect::<std::result::Result<Vec<_>, _>>()?;
+    let value = |key: &AxisKey, cell: &str| match (key, cell.parse::<f64>()) {
+        (AxisKey::Param(_), Ok(number)) => Value::Number(number),
+        _ => Value::Text(cell.to_owned()),
+    };
+    let row = |row: &csv::StringRecord| {
+        keys.iter().zip(&names).map(|(key, name)| value(key, table.cell(row, name))).collect()
+    };
+    let rows = table.rows.iter().map(row).collect();
+    Ok(Grid::Tuples { keys, rows })
+}
+
+fn records(table: &Table) -> std::result::Result<Vec<Record>, String> {
+    if table.find("status").is_none() {
+        return Err("has no column `status`".to_owned());
+    }
+    let record = |row: &csv::StringRecord| {
+        let cell = |name: &str| table.cell(row, name);
+        let status = cell("status");
+        let status = Status::IN_MAP
+            .into_iter()
+            .find(|one| one.name() == status)
+            .ok_or_else(|| format!("`{status}` is no status"))?;
+        Ok(Record {
+            status,
+            kind: InstabilityType::ALL.into_iter().find(|kind| kind.name() == cell("type")),
+            regime: Regime::ALL.into_iter().find(|regime| regime.name() == cell("regime")),
+            settled: match cell("settled") {
+                "0" => Some(false),
+                "1" => Some(true),
+                _ => None,
+            },
+            ..Record::default()
+        })
+    };
+    table.rows.iter().map(record).collect()
+}
+
+fn computation(value: &Json) -> Option<Computation> {
+    value.is_object().then(|| Computation {
+        backend: text(&value["backend"]),
+        precision: text(&value["precision"]),
+        method: text(&value["method"]),
+        adapter: value["adapter"].as_str().map(str::to_owned),
+        strict: value["strict"].as_bool(),
+    })
+}
+
+/// The columns with a number in them that are not swept.
+fn columns(manifest: &Json, table: &Table, spec: &Spec) -> Vec<NumberColumn> {
+    let swept: Vec<&str> = spec.grid.keys().into_iter().map(AxisKey::name).collect();
+    let described = manifest["columns"].as_array().map(Vec::as_slice).unwrap_or_default();
+    let column = |column: &Json| {
+        let name = text(&column["name"]);
+        let place = table.find(&name).filter(|_| name != "instance" && !swept.contains(&name.as_str()))?;
+        let values: Vec<Option<f64>> = table
+            .rows
+            .iter()
+            .map(|row| row.get(place)?.parse().ok().filter(|x: &f64| x.is_finite()))
+            .collect();
+        let (unit, meaning) = (text(&column["unit"]), text(&column["meaning"]));
+        values.iter().any(Option::is_some).then_some(NumberColumn { name, unit, meaning, values })
+    };
+    described.iter().filter_map(column).collect()
+}

@@ -1,0 +1,103 @@
+//! How a map is shown: at which width, what of it, and where the picture comes from.
+
+use super::palette::Colouring;
+use super::svg::MM;
+use crate::archive::NumberColumn;
+
+/// Least and most width of a figure, mm: narrower ones do not hold their labels, wider ones fit no page.
+pub const WIDTHS: [f64; 2] = [60.0, 400.0];
+
+/// Widths that journals and talks ask for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Journal {
+    /// One column of an Elsevier journal.
+    Elsevier1Col,
+    /// Two columns of an Elsevier journal.
+    Elsevier2Col,
+    /// One column of a Nature journal.
+    Nature1Col,
+    /// A slide of 16:9, to be read from afar: everything is twice as large.
+    Slide,
+}
+
+impl Journal {
+    /// All of them.
+    pub const ALL: [Journal; 4] =
+        [Journal::Elsevier1Col, Journal::Elsevier2Col, Journal::Nature1Col, Journal::Slide];
+
+    /// The name on the command line.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Journal::Elsevier1Col => "elsevier-1col",
+            Journal::Elsevier2Col => "elsevier-2col",
+            Journal::Nature1Col => "nature-1col",
+            Journal::Slide => "slide",
+        }
+    }
+
+    /// Width of the figure, mm.
+    #[must_use]
+    pub fn width(self) -> f64 {
+        match self {
+            Journal::Elsevier1Col => 90.0,
+            Journal::Elsevier2Col => 190.0,
+            Journal::Nature1Col => 89.0,
+            Journal::Slide => 300.0,
+        }
+    }
+
+    /// How much larger than in print everything is.
+    #[must_use]
+    pub fn enlarged(self) -> f64 {
+        if self == Journal::Slide { 2.0 } else { 1.0 }
+    }
+}
+
+/// What a block of panels shows.
+#[derive(Clone, Copy, Debug)]
+pub enum Content<'a> {
+    /// Classes by colour.
+    Classes {
+        /// Which.
+        colouring: Colouring,
+        /// Whether each has its own hatching on top.
+        hatched: bool,
+    },
+    /// A number by lightness, with a bar.
+    Quantity(&'a NumberColumn),
+}
+
+impl Content<'_> {
+    /// Classes by colour, and where asked for types by hatching too; regimes have the hatching of what has not settled.
+    #[must_use]
+    pub fn classes(colouring: Colouring, hatched: bool) -> Content<'static> {
+        Content::Classes { colouring, hatched: hatched && colouring == Colouring::Type }
+    }
+}
+
+/// A look at a map.
+#[derive(Clone, Debug)]
+pub struct Look<'a> {
+    /// Width of the figure, mm; `None`: one or two columns, whichever the panels need.
+    pub width: Option<f64>,
+    /// How much larger than in print everything is.
+    pub enlarged: f64,
+    /// The blocks from top to bottom; empty: what was computed.
+    pub contents: Vec<Content<'a>>,
+    /// The command that makes the picture again, for its metadata.
+    pub command: Option<String>,
+}
+
+impl Default for Look<'_> {
+    fn default() -> Self {
+        Look { width: None, enlarged: 1.0, contents: Vec::new(), command: None }
+    }
+}
+
+impl Look<'_> {
+    /// The width in which to draw, points.
+    pub(super) fn points(&self) -> Option<f64> {
+        self.width.map(|mm| mm * MM / self.enlarged)
+    }
+}

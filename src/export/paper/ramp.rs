@@ -1,0 +1,148 @@
+//! Figures 4 to 6: both accelerations and the state of the contact while the belt slows down to rest.
+
+use super::Drawn;
+use crate::error::Result;
+use crate::export::columns::Cell;
+use crate::export::csv::Table;
+use crate::export::figure::{DOUBLE_COLUMN, MARGIN, program, title};
+use crate::export::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room};
+use crate::export::key;
+use crate::export::plot::{CRITICAL, Plot};
+use crate::export::scale::{Scale, Tick, axis_unit, value_label};
+use crate::export::svg::{Anchor, Style, Svg, polyline};
+use crate::export::text::Text;
+use crate::model::Param;
+use crate::paper::{Case, Ramp, Stretch, Study, millimetres};
+
+/// Heights of the panels, points.
+const HEIGHTS: [f64; 3] = [96.0, 96.0, 46.0];
+/// Between panels, points; names of curves stand there.
+const GAP: f64 = TICK_SIZE + 7.0;
+/// Right of the panels, points.
+const RIGHT: f64 = 8.0;
+/// Margin above and below curves, as a fraction of the panel.
+const HEADROOM: f64 = 0.06;
+/// Ticks of the axes of time and belt velocity.
+const TICKS: usize = 8;
+/// An acceleration: the area between its lowest and highest value per column.
+const ACCELERATION: &str = r##"fill="#9DB4DC" stroke="#1F3F8F" stroke-width="0.5" stroke-linejoin="round""##;
+/// Strokes of the shares of stick and free flight.
+const STATES: [&str; 2] = [
+    r##"fill="none" stroke="#1E8A6C" stroke-width="0.8" stroke-linejoin="round""##,
+    r##"fill="none" stroke="#A03785" stroke-width="0.8" stroke-dasharray="3.2 1.4" stroke-linejoin="round""##,
+];
+
+/// Accelerations as lowest and highest value per column, double column width.
+pub(super) fn draw(study: &Study, case: Case) -> Result<Drawn> {
+    let ramp = study.ramp(case)?;
+    let spec = study.sweep(case);
+    let heading = format!(
+        "{} in {} s, displaced by {} mm at the start",
+        spec.title,
+        ramp.duration,
+        millimetres(ramp.kick)
+    );
+    let instance = study.instance(case);
+    let knee = (instance.law.slope(0.0) != 0.0).then(|| instance.params.require(Param::KneeVelocity));
+    Ok(Drawn { svg: picture(ramp, &heading, knee), csv: table(ramp)? })
+}
+
+fn table(ramp: &Ramp) -> Result<Vec<u8>> {
+    let names = ["t", "belt_velocity", "ax2_low", "ax2_high", "ay1_low", "ay1_high", "stick", "free"];
+    let mut table = Table::new(names.into_iter())?;
+    for column in &ramp.columns {
+        let ([t, belt], [ax, ay]) = (centre(column), [column.tangential, column.normal]);
+        let numbers = [t, belt, ax[0], ax[1], ay[0], ay[1], column.stick, column.free];
+        table.row(numbers.into_iter().map(|x| Cell::from(x).to_string()))?;
+    }
+    table.finish()
+}
+
+/// Time and belt velocity in the middle of a stretch.
+fn centre(stretch: &Stretch) -> [f64; 2] {
+    [stretch.time, stretch.velocity].map(|[from, to]| 0.5 * (from + to))
+}
+
+fn picture(ramp: &Ramp, heading: &str, knee: Option<f64>) -> String {
+    let mut svg = Svg::new();
+    let mut y = MARGIN + title(&mut svg, heading, DOUBLE_COLUMN - 2.0 * MARGIN);
+    let time = Scale::Linear { low: 0.0, high: ramp.duration };
+    let [fastest, slowest] = [ramp.columns[0].velocity[0], ramp.columns[ramp.columns.len() - 1].velocity[1]];
+    let belt = Scale::Linear { low: fastest, high: slowest };
+    let spread = |value: fn(&Stretch) -> [f64; 2]| {
+        Scale::spanning(ramp.columns.iter().flat_map(value)).widened(HEADROOM)
+    };
+    let shares = ramp.parts.iter().flat_map(|part| [part.stick, part.free]);
+    let most = shares.fold(0.1, f64::max);
+    let scales = [
+        spread(|column| column.tangential),
+        spread(|column| column.normal),
+        Scale::Linear { low: 0.0, high: (1.0 + HEADROOM) * most },
+    ];
+    let ticks: [Vec<Tick>; 3] = std::array::from_fn(|k| scales[k].ticks(if k < 2 { 5 } else { 3 }));
+    let room = ticks.iter().map(|ticks| y_tick_room(ticks)).fold(0.0, f64::max);
+    let left = MARGIN + LABEL_SIZE + 6.0 + room;
+    let width = DOUBLE_COLUMN - left - RIGHT;
+    y += LABEL_SIZE + 2.0;
+    let label = Text::from("Belt velocity ").symbol("V").plain(" (m/s)");
+    svg.text(left + 0.5 * width, y, &label, Style::new(LABEL_SIZE, Anchor::Middle));
+    y += x_tick_room() + 2.0;
+    let top = y;
+    // Ticks are made on a rising scale; this one falls from left to right.
+    let rising = Scale::Linear { low: slowest, high: fastest };
+    let mirrored = |tick: Tick| Tick { at: 1.0 - tick.at, ..tick };
+    let velocities: Vec<Tick> = rising.ticks(TICKS).into_iter().map(mirrored).collect();
+    let labels = [
+        Text::from("(a) ").symbol("ẍ_2").then(axis_unit("m/s^2", scales[0].exponent())),
+        Text::from("(b) ").symbol("ÿ_1").then(axis_unit("m/s^2", scales[1].exponent())),
+        Text::from("(c) Share"),
+    ];
+    for number in 0..HEIGHTS.len() {
+        let frame = Frame { x: left, y, width, height: HEIGHTS[number] };
+        let plot = Plot { frame, x: &time, y: &scales[number] };
+        let between = |value: fn(&Stretch) -> [f64; 2]| {
+            let at = move |column: &Stretch, end: usize| (centre(column)[0], value(column)[end]);
+            let above = ramp.columns.iter().map(move |column| at(column, 1));
+            above.chain(ramp.columns.iter().rev().map(move |column| at(column, 0)))
+        };
+        // Within a period the states alternate: a share needs several.
+        let along =
+            |value: fn(&Stretch) -> f64| ramp.parts.iter().map(move |part| (centre(part)[0], value(part)));
+        match number {
+            0 => plot.area(&mut svg, between(|column| column.tangential), ACCELERATION),
+            1 => plot.area(&mut svg, between(|column| column.normal), ACCELERATION),
+            _ => {
+                plot.curve(&mut svg, along(|column| column.stick), STATES[0]);
+                plot.curve(&mut svg, along(|column| column.free), STATES[1]);
+                let words = ["stick", "free flight"].map(Text::from).into_iter().zip(STATES);
+                key::lines(&mut svg, left, y - 4.0, TICK_SIZE, &words.collect::<Vec<_>>());
+            }
+        }
+        frame.border(&mut svg);
+        frame.y_ticks(&mut svg, &ticks[number], true);
+        frame.x_ticks(&mut svg, &time.ticks(TICKS), number + 1 == HEIGHTS.len());
+        if number == 0 {
+            frame.x_ticks_above(&mut svg, &velocities);
+        }
+        let middle = Style::new(LABEL_SIZE, Anchor::Middle).upwards();
+        svg.text(MARGIN + LABEL_SIZE, y + 0.5 * frame.height, &labels[number], middle);
+        y += frame.height + GAP;
+    }
+    let bottom = y - GAP;
+    if let Some(knee) = knee {
+        let at = left + belt.position(knee) * width;
+        svg.path(&polyline([(at, top), (at, bottom)]), CRITICAL);
+        let words =
+            Text::default().symbol("V").plain(" = ").symbol("v_k").plain(" = ").then(value_label(knee));
+        svg.text(
+            at + 3.0,
+            top + HEIGHTS[0] + GAP - 4.0,
+            &words.plain(" m/s"),
+            Style::new(TICK_SIZE, Anchor::Start),
+        );
+    }
+    let base = bottom + x_tick_room() + LABEL_SIZE + 1.0;
+    let label = Text::from("Time ").symbol("t").plain(" (s)");
+    svg.text(left + 0.5 * width, base, &label, Style::new(LABEL_SIZE, Anchor::Middle));
+    svg.finish(DOUBLE_COLUMN, base + 3.0 + MARGIN, heading, &program())
+}

@@ -1,0 +1,91 @@
+//! The source paper computed again: its figures of the lumped model, and what becomes of its claims.
+//!
+//! | stage | file |
+//! |---|---|
+//! | the shipped sweeps behind the figures | `sweeps.rs` |
+//! | a ramp, reduced to what pictures show | `ramp.rs` |
+//! | growth before the first event | `growth.rs` |
+//! | other ramps and kicks | `accelerations.rs` |
+//! | what is computed, once each and when first asked for | `study.rs` |
+//! | the numbers the claims ask for | `evidence.rs` |
+//! | thresholds, verdicts | `limits.rs`, `claims.rs` |
+
+mod accelerations;
+mod claims;
+mod evidence;
+mod growth;
+mod limits;
+mod ramp;
+mod study;
+mod sweeps;
+
+pub use accelerations::Trial;
+pub use claims::{Claim, Verdict, claims};
+pub use evidence::{Evidence, RampFacts};
+pub use growth::{Growth, Phase, PhaseCase};
+pub use limits::{LIMITS, Limits};
+pub use ramp::{Ramp, Stretch};
+pub use study::{Settings, Study};
+pub use sweeps::Case;
+
+/// What the command draws.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[expect(missing_docs, reason = "the variants are the names of the figures")]
+pub enum Figure {
+    Figure2,
+    Figure3,
+    Figure4,
+    Figure5,
+    Figure6,
+    Figure7,
+    Accelerations,
+}
+
+impl Figure {
+    /// Every figure, in order.
+    pub const ALL: [Figure; 7] = [
+        Figure::Figure2,
+        Figure::Figure3,
+        Figure::Figure4,
+        Figure::Figure5,
+        Figure::Figure6,
+        Figure::Figure7,
+        Figure::Accelerations,
+    ];
+
+    /// The name of its files, and on the command line.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Figure::Figure2 => "figure2",
+            Figure::Figure3 => "figure3",
+            Figure::Figure4 => "figure4",
+            Figure::Figure5 => "figure5",
+            Figure::Figure6 => "figure6",
+            Figure::Figure7 => "figure7",
+            Figure::Accelerations => "accelerations",
+        }
+    }
+
+    /// Its heading in the report.
+    #[must_use]
+    pub fn heading(self) -> &'static str {
+        match self {
+            Figure::Figure2 => "Figure 2: frequencies and growth rates against friction",
+            Figure::Figure3 => "Figure 3: friction laws",
+            Figure::Figure4 => "Figure 4: ramp under a negative slope",
+            Figure::Figure5 => "Figure 5: ramp under mode coupling",
+            Figure::Figure6 => "Figure 6: ramp under both",
+            Figure::Figure7 => "Figure 7: accelerations during exponential growth",
+            Figure::Accelerations => "Beyond the paper: other ramps and kicks",
+        }
+    }
+}
+
+/// A length in mm for words, free of the rounding of the product.
+#[must_use]
+pub fn millimetres(metres: f64) -> f64 {
+    /// Decimals that every length of a kick has.
+    const DECIMALS: f64 = 1e9;
+    (1e3 * metres * DECIMALS).round() / DECIMALS
+}

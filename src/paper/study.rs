@@ -1,0 +1,88 @@
+//! What the paper's figures show, computed.
+
+use std::sync::OnceLock;
+
+use crate::error::Result;
+use crate::export::modes::{Modes, follow};
+use crate::linear;
+use crate::model::Param;
+use crate::paper::accelerations::{self, Trial};
+use crate::paper::ramp::Ramp;
+use crate::paper::sweeps::{Case, FIGURE_2};
+use crate::spec::{Instance, Spec};
+
+/// What the paper leaves open.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Settings {
+    /// Duration of the ramp of Figures 4 to 6, s; `None`: as shipped.
+    pub ramp_duration: Option<f64>,
+    /// Displacement at the start of that ramp, m; `None`: as shipped.
+    pub kick: Option<f64>,
+}
+
+/// The paper's cases with what it leaves open.
+#[derive(Debug)]
+pub struct Study {
+    settings: Settings,
+    ramps: [OnceLock<Ramp>; 3],
+    trials: OnceLock<Vec<Trial>>,
+}
+
+impl Study {
+    /// A study with these settings; computes nothing yet.
+    #[must_use]
+    pub fn new(settings: Settings) -> Study {
+        Study { settings, ramps: Default::default(), trials: OnceLock::new() }
+    }
+
+    /// The sweep of Figure 2 and its modes.
+    ///
+    /// # Errors
+    /// None with the shipped sweep; modes share one signature.
+    pub fn modes(&self) -> Result<(Spec, Modes)> {
+        let spec = FIGURE_2.spec();
+        let modes = follow(&spec, &|spec, index| linear::eigenvalues(&spec.instance(index)))?;
+        Ok((spec, modes))
+    }
+
+    /// The sweep of a case's ramp: the shipped one with the settings.
+    #[must_use]
+    pub fn sweep(&self, case: Case) -> Spec {
+        let mut spec = case.ramp();
+        let open = [
+            (Param::RampDuration, self.settings.ramp_duration),
+            (Param::StartDisplacement, self.settings.kick),
+        ];
+        for (param, value) in open {
+            if let Some(value) = value {
+                spec.base.set(param, value);
+            }
+        }
+        spec
+    }
+
+    /// The ramp of a case, computed when first asked for.
+    ///
+    /// # Errors
+    /// When the integration ends before the ramp does.
+    pub fn ramp(&self, case: Case) -> Result<&Ramp> {
+        let place = &self.ramps[case as usize];
+        if let Some(ramp) = place.get() {
+            return Ok(ramp);
+        }
+        let ramp = Ramp::compute(case, &self.sweep(case))?;
+        Ok(place.get_or_init(|| ramp))
+    }
+
+    /// Other ramps and kicks, computed when first asked for; the settings do not change them.
+    #[must_use]
+    pub fn trials(&self) -> &[Trial] {
+        self.trials.get_or_init(accelerations::trials)
+    }
+
+    /// The instance of a case's ramp.
+    #[must_use]
+    pub fn instance(&self, case: Case) -> Instance {
+        self.sweep(case).instance(0)
+    }
+}

@@ -1,0 +1,145 @@
+//! The paper's figures: what is computed for them, drawn and written.
+
+#![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
+
+use std::path::Path;
+
+use squealmap::export::paper::{Drawn, draw, report};
+use squealmap::paper::{Case, Evidence, Figure, Growth, PhaseCase, Settings, Study, Trial};
+
+use crate::common::{close, near};
+use crate::figure::draw as render;
+
+/// A figure, looked through by the picture library.
+fn figure(figure: Figure) -> Drawn {
+    let drawn = draw(figure, &Study::new(Settings::default())).unwrap();
+    render(&drawn.svg, figure.name());
+    drawn
+}
+
+/// The rows of a table as numbers, and its header.
+fn table(csv: &[u8]) -> (Vec<String>, Vec<Vec<f64>>) {
+    let mut reader = csv::Reader::from_reader(csv);
+    let header = reader.headers().unwrap().iter().map(str::to_owned).collect();
+    let rows = reader.records().map(|row| row.unwrap().iter().map(|x| x.parse().unwrap()).collect());
+    (header, rows.collect())
+}
+
+#[test]
+fn figure_2_shows_the_critical_friction() {
+    // physics.md, section 6: with the damping of Table 1.
+    assert!(figure(Figure::Figure2).svg.contains(" = 0.2264"));
+}
+
+#[test]
+fn figure_3_shows_the_laws_of_table_1() {
+    let (header, rows) = table(&figure(Figure::Figure3).csv);
+    assert_eq!(header, ["relative_velocity", "mu_figure4", "mu_figure5", "mu_figure6"]);
+    assert_eq!((rows[0][0], rows[rows.len() - 1][0]), (0.0, 7.0));
+    for row in rows {
+        let below = (row[0] / 5.0).min(1.0);
+        near("falling", row[1], 0.15 - 0.1 * below, 1e-15);
+        near("constant", row[2], 0.4, 0.0);
+        near("both", row[3], 0.4 - 0.1 * below, 1e-15);
+    }
+}
+
+#[test]
+fn ramps_are_reduced_without_losing_their_extremes() {
+    let study = Study::new(Settings::default());
+    for (figure, case) in [Figure::Figure4, Figure::Figure5, Figure::Figure6].into_iter().zip(Case::ALL) {
+        let drawn = draw(figure, &study).unwrap();
+        render(&drawn.svg, figure.name());
+        assert!(drawn.svg.len() < 60_000 && drawn.csv.len() < 60_000, "{figure:?} grows with the ramp");
+        let (header, rows) = table(&drawn.csv);
+        let names = ["t", "belt_velocity", "ax2_low", "ax2_high", "ay1_low", "ay1_high", "stick", "free"];
+        assert_eq!(header, names);
+        // The peaks of the outcome come from the series of the steps, not from samples.
+        let ramp = study.ramp(case).unwrap();
+        for (column, peak) in [(2, ramp.outcome.ax_peak), (4, ramp.outcome.ay_peak)] {
+            let drawn = rows.iter().map(|row| row[column + 1].max(-row[column])).fold(0.0, f64::max);
+            close("largest acceleration", drawn, peak.unwrap(), 2e-3);
+        }
+        let share = |column: usize| rows.iter().map(|row| row[column]).sum::<f64>() / rows.len() as f64;
+        close("stick", share(6), ramp.outcome.stick.unwrap(), 5e-3);
+        near("free flight", share(7), ramp.outcome.free.unwrap(), 5e-4);
+        assert!((rows[0][1] - 7.0).abs() < 0.02 && rows[rows.len() - 1][1] < 0.02, "from 7 m/s to rest");
+    }
+}
+
+#[test]
+fn short_ramps_show_the_waveform() {
+    let settings = Settings { ramp_duration: Some(0.5), kick: Some(1e-3) };
+    let study = Study::new(settings);
+    let ramp = study.ramp(Case::ModeCoupling).unwrap();
+    assert_eq!((ramp.duration, ramp.kick), (0.5, 1e-3));
+    // 17 periods: columns are so narrow that the motion is seen inside them.
+    let wide = ramp.columns.iter().filter(|column| column.tangential[1] - column.tangential[0] > 100.0);
+    assert!(wide.count() * 10 < ramp.columns.len());
+    render(&draw(Figure::Figure5, &study).unwrap().svg, "figure5_short");
+}
+
+#[test]
+fn figure_7_shows_the_phases_of_the_eigenvectors() {
+    // physics.md, section 6. T = μ N is not linear: towards the end of the growth its product of deviations shows.
+    let expected = [(2.233_027_54_f64, -13.126_833), (7.890_499_89, -56.418_074)];
+    for (case, (growth, phase)) in PhaseCase::ALL.into_iter().zip(expected) {
+        let found = Growth::compute(case).unwrap();
+        near("phase of the eigenvector", found.phase.eigenvector, phase, 1e-5);
+        near("measured phase", found.phase.measured, phase, 0.01);
+        close("growth rate", found.phase.growth_rate_measured, growth, 2e-3);
+        // Nothing but growth is shown: the samples end at the first event.
+        let (first, last) = (found.samples[0][0], found.samples[found.samples.len() - 1][0]);
+        let until_event = 100_f64.ln() / growth;
+        near("time of the first event", last - first, until_event, 0.03);
+    }
+    let drawn = figure(Figure::Figure7);
+    assert!(drawn.svg.contains("−13.1° (measured)") && drawn.svg.contains("−56.4° (eigenvector)"));
+}
+
+#[test]
+fn accelerations_on_another_ramp_are_those_of_the_equations() {
+    // physics.md, section 6, last paragraph: a ramp of 2 s with a kick of 0.1 mm.
+    let study = Study::new(Settings::default());
+    let wanted = [2.0, 1e-4].map(f64::to_bits);
+    let is_wanted = |trial: &&Trial| [trial.duration, trial.kick].map(f64::to_bits) == wanted;
+    let trial = study.trials().iter().find(is_wanted).unwrap();
+    for (peaks, expected) in trial.peaks.iter().zip([388.0, 658.0, 762.0]) {
+        close("largest |ẍ2|", peaks.unwrap()[0], expected, 5e-3);
+    }
+    let (_, rows) = table(&draw(Figure::Accelerations, &study).unwrap().csv);
+    assert_eq!(rows.len(), 8 * 7, "durations times kicks");
+    assert!(rows.iter().all(|row| row.len() == 8));
+    figure(Figure::Accelerations);
+}
+
+/// The figure, claim and verdict of every line of a report's table, and its headings and pictures.
+fn skeleton(report: &str) -> Vec<String> {
+    let cell = |line: &str, k: usize| line.split('|').nth(k).unwrap().trim().to_owned();
+    let of = |line: &str| match line {
+        line if line.starts_with("| ") => Some([1, 2, 4].map(|k| cell(line, k)).join(" | ")),
+        line if line.starts_with('#') || line.starts_with("![") => Some(line.to_owned()),
+        _ => None,
+    };
+    report.lines().filter_map(of).collect()
+}
+
+#[test]
+fn the_shipped_report_is_what_the_command_makes() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let shipped = std::fs::read_to_string(root.join("docs/paper.md")).unwrap();
+    let mut evidence = Evidence::gather(&Study::new(Settings::default())).unwrap();
+    let made = report(&evidence, "paper", "squealmap paper -o docs");
+    // Numbers of chaotic motions are those of one processor; verdicts and pictures are not.
+    assert_eq!(skeleton(&shipped), skeleton(&made));
+    assert!(made.contains("```sh\nsquealmap paper -o docs\n```") && made.contains("10 s"));
+    evidence.critical_friction = None;
+    let other = report(&evidence, "paper", "squealmap paper -o docs");
+    assert_ne!(skeleton(&shipped), skeleton(&other), "another verdict is seen");
+    let mut bytes = 0;
+    for figure in Figure::ALL {
+        let picture = root.join("docs/paper").join(figure.name()).with_extension("png");
+        bytes += std::fs::metadata(picture).unwrap().len();
+    }
+    assert!(bytes < 1_500_000, "{bytes} bytes of pictures");
+}
