@@ -19,6 +19,20 @@ impl Output {
     /// Makes the directory where it does not exist and writes a file in it, which it removes; refuses one
     /// where a directory stands in place of one of the `files` to come.
     pub(crate) fn prepare(directory: PathBuf, files: &[&str]) -> Result<Output> {
+        Output::prepare_with(directory, files, |directory| temporary(directory)?.close())
+    }
+
+    /// The same for files that are claimed: what a run that is killed in this moment leaves, the next one uses.
+    pub(crate) fn prepare_claimed(directory: PathBuf, files: &[&str]) -> Result<Output> {
+        let first = files.first().copied().unwrap_or_default();
+        Output::prepare_with(directory, files, |directory| Claim::take(&directory.join(first)).map(drop))
+    }
+
+    fn prepare_with(
+        directory: PathBuf,
+        files: &[&str],
+        probe: impl Fn(&Path) -> std::io::Result<()>,
+    ) -> Result<Output> {
         let made = directory
             .ancestors()
             .filter(|path| !path.as_os_str().is_empty())
@@ -27,7 +41,7 @@ impl Output {
             .collect();
         let output = Output { directory, made };
         std::fs::create_dir_all(&output.directory)
-            .and_then(|()| temporary(&output.directory)?.close())
+            .and_then(|()| probe(&output.directory))
             .map_err(|why| Error::OutputDirectory { path: output.directory.clone(), why: why.to_string() })?;
         match files.iter().find(|name| output.directory.join(name).is_dir()) {
             None => Ok(output),

@@ -34,11 +34,13 @@ fn numbers(analysis: Analysis) -> usize {
     LINEAR * usize::from(analysis.linear) + RESPONSE * usize::from(analysis.response)
 }
 
-/// The columns of some records: `records.len() * width(analysis)` bytes.
-#[must_use]
-pub fn encode(records: &[Record], analysis: Analysis) -> Vec<u8> {
+/// The columns of some records.
+///
+/// # Panics
+/// When `bytes` are not `records.len() * width(analysis)`.
+pub fn encode(records: &[Record], analysis: Analysis, bytes: &mut [u8]) {
     let count = records.len();
-    let mut bytes = vec![0; count * width(analysis)];
+    assert_eq!(bytes.len(), count * width(analysis), "columns have their length");
     let (labels, numbers) = bytes.split_at_mut(LABELS * count);
     let place = |found: Option<usize>| code(found.map_or(0, |place| place + 1));
     // Row by row: a record is several cache lines, and each is read once.
@@ -68,7 +70,6 @@ pub fn encode(records: &[Record], analysis: Analysis) -> Vec<u8> {
             response.into_iter().for_each(&mut put);
         }
     }
-    bytes
 }
 
 /// The records of columns; `None` when a code or the length is none that [`encode`] writes.

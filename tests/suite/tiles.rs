@@ -10,7 +10,7 @@ use squealmap::map::{Computation, Record};
 use squealmap::model::Param;
 use squealmap::outcome::{Outcome, Status};
 use squealmap::spec::{Analysis, Spec};
-use squealmap::store::columns::{decode, encode, width};
+use squealmap::store::columns::{decode, width};
 use squealmap::store::description::Description;
 use squealmap::store::grid_json::{from_json, to_json};
 use squealmap::store::identity::{Id, identity, kind};
@@ -18,6 +18,13 @@ use squealmap::store::tile::{Fault, Label};
 use squealmap::store::tiling::Tiling;
 
 use crate::synthetic::{axis, failed, record, span, spec};
+
+/// The columns of some records.
+fn encode(records: &[Record], analysis: Analysis) -> Vec<u8> {
+    let mut bytes = vec![0; records.len() * width(analysis)];
+    squealmap::store::columns::encode(records, analysis, &mut bytes);
+    bytes
+}
 
 const BOTH: Analysis = Analysis { linear: true, response: true };
 
