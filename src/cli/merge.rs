@@ -36,6 +36,7 @@ impl Merge {
             (opened, _) => opened?,
         };
         target.expel_strangers(&note)?;
+        target.clean()?;
         let mut brought = 0;
         for source in &sources {
             brought += merge(&target, source, &note)?;

@@ -20,6 +20,20 @@ impl Output {
     /// writes a file in each, which it removes; refuses one where a directory stands in place of one of the
     /// `files` to come.
     pub(crate) fn prepare(directory: PathBuf, files: &[&str]) -> Result<Output> {
+        Output::prepare_with(directory, files, |directory| temporary(directory)?.close())
+    }
+
+    /// The same for files that are claimed: what a run that is killed in this moment leaves, the next one uses.
+    pub(crate) fn prepare_claimed(directory: PathBuf, files: &[&str]) -> Result<Output> {
+        let first = files.first().copied().unwrap_or_default();
+        Output::prepare_with(directory, files, |directory| Claim::take(&directory.join(first)).map(drop))
+    }
+
+    fn prepare_with(
+        directory: PathBuf,
+        files: &[&str],
+        probe: impl Fn(&Path) -> std::io::Result<()>,
+    ) -> Result<Output> {
         let mut output = Output { directory, made: Vec::new() };
         let mut inside: Vec<PathBuf> =
             files.iter().filter_map(|name| Some(output.directory.join(name).parent()?.to_owned())).collect();
@@ -31,7 +45,7 @@ impl Output {
                 missing.take_while(|path| !path.exists()).map(Path::to_owned).collect();
             output.made.splice(0..0, missing);
             std::fs::create_dir_all(&directory)
-                .and_then(|()| temporary(&directory)?.close())
+                .and_then(|()| probe(&directory))
                 .map_err(|why| Error::OutputDirectory { path: directory.clone(), why: why.to_string() })?;
         }
         match files.iter().find(|name| output.directory.join(name).is_dir()) {

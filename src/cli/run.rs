@@ -82,7 +82,7 @@ impl Run {
     pub(crate) fn execute(self) -> Result<ExitCode> {
         let cancel = stop_at_ctrl_c()?;
         let spec = Spec::read(&self.files.sweep)?;
-        let output = Output::prepare(self.files.directory(), &FILES)?;
+        let output = Output::prepare_claimed(self.files.directory(), &FILES)?;
         let threads = self.threads.map_or(0, usize::from);
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
@@ -126,6 +126,7 @@ fn run(store: &Store, solver: &mut Solver, cancel: &AtomicBool, shard: Option<Sh
     let mut computed = 0;
     let mut elapsed = Duration::ZERO;
     store.expel_strangers(&note)?;
+    store.clean()?;
     loop {
         let missing = missing(store, shard.unwrap_or(Shard { number: 0, of: 1 }).tiles(tiling.count()))?;
         let lacking: usize = missing.iter().map(|number| tiling.bounds(*number).len()).sum();

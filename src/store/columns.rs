@@ -5,6 +5,7 @@
 //! of the two halves of the window, is not kept.
 
 use crate::classify::{InstabilityType, Regime};
+use crate::label::Label;
 use crate::linear::Linear;
 use crate::map::Record;
 use crate::outcome::{Outcome, Status};
@@ -35,38 +36,45 @@ fn numbers(analysis: Analysis) -> usize {
         + usize::from(analysis.until_settled)
 }
 
-/// The columns of some records: `records.len() * width(analysis)` bytes.
-#[must_use]
-pub fn encode(records: &[Record], analysis: Analysis) -> Vec<u8> {
-    let mut bytes = Vec::with_capacity(records.len() * width(analysis));
-    bytes.extend(records.iter().map(|record| code(record.status as usize)));
+/// The columns of some records.
+///
+/// # Panics
+/// When `bytes` are not `records.len() * width(analysis)`.
+pub fn encode(records: &[Record], analysis: Analysis, bytes: &mut [u8]) {
+    let count = records.len();
+    assert_eq!(bytes.len(), count * width(analysis), "columns have their length");
+    let (labels, numbers) = bytes.split_at_mut(LABELS * count);
     let place = |found: Option<usize>| code(found.map_or(0, |place| place + 1));
-    bytes.extend(records.iter().map(|one| {
-        place(one.kind.and_then(|kind| InstabilityType::ALL.iter().position(|other| *other == kind)))
-    }));
-    bytes.extend(records.iter().map(|one| {
-        place(one.regime.and_then(|regime| Regime::ALL.iter().position(|other| *other == regime)))
-    }));
-    bytes.extend(records.iter().map(flags));
-    let mut column = |number: &dyn Fn(&Record) -> Option<f64>| {
-        for record in records {
-            bytes.extend(number(record).unwrap_or(f64::NAN).to_le_bytes());
+    // Row by row: a record is several cache lines, and each is read once.
+    for (row, record) in records.iter().enumerate() {
+        let label = Label::from(record);
+        let codes = [
+            code(record.status as usize),
+            place(label.kind_position()),
+            place(label.regime_position()),
+            flags(record),
+        ];
+        for (column, code) in codes.into_iter().enumerate() {
+            labels[column * count + row] = code;
         }
-    };
-    if analysis.linear {
-        for k in 0..LINEAR {
-            column(&|record| record.linear.and_then(|linear| linear_numbers(&linear)[k]));
+        let mut column = 0;
+        let mut put = |number: Option<f64>| {
+            let at = 8 * (column * count + row);
+            numbers[at..at + 8].copy_from_slice(&number.unwrap_or(f64::NAN).to_le_bytes());
+            column += 1;
+        };
+        if analysis.linear {
+            let linear = record.linear.as_ref().map_or([None; LINEAR], linear_numbers);
+            linear.into_iter().for_each(&mut put);
+        }
+        if analysis.response {
+            let response = record.outcome.as_ref().map_or([None; RESPONSE], response_numbers);
+            response.into_iter().for_each(&mut put);
+        }
+        if analysis.until_settled {
+            put(record.outcome.and_then(|outcome| outcome.settling_time));
         }
     }
-    if analysis.response {
-        for k in 0..RESPONSE {
-            column(&|record| record.outcome.as_ref().and_then(|outcome| response_numbers(outcome)[k]));
-        }
-    }
-    if analysis.until_settled {
-        column(&|record| record.outcome.and_then(|outcome| outcome.settling_time));
-    }
-    bytes
 }
 
 /// The records of columns; `None` when a code or the length is none that [`encode`] writes.

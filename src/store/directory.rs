@@ -3,7 +3,7 @@
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
-use super::claim::Claim;
+use super::claim::{Claim, PART};
 use super::description::Description;
 use super::tile::Fault;
 use crate::error::{Error, Result};
@@ -186,6 +186,22 @@ impl Store {
         Ok(())
     }
 
+    /// Removes what a process that was killed has left of a file that is there by now.
+    ///
+    /// # Errors
+    /// When the directory cannot be read or written.
+    pub fn clean(&self) -> Result<()> {
+        let tiles = self.directory.join(TILES);
+        for name in self.entries()? {
+            let Some(path) = name.strip_suffix(PART).map(|name| tiles.join(name)) else { continue };
+            // Dropping a claim removes its file; one that a living process holds stays.
+            if path.exists() {
+                drop(Claim::take(&path).map_err(|why| refused(&self.directory, &why))?);
+            }
+        }
+        Ok(())
+    }
+
     /// How many of its tiles are there, bad ones included.
     ///
     /// # Errors
@@ -225,11 +241,15 @@ impl Store {
 
     /// The names in the directory that end like a tile's.
     fn tile_names(&self) -> Result<Vec<String>> {
+        Ok(self.entries()?.into_iter().filter(|name| name.ends_with(TILE)).collect())
+    }
+
+    /// The names in the directory of the tiles.
+    fn entries(&self) -> Result<Vec<String>> {
         let entries = std::fs::read_dir(self.directory.join(TILES))
             .and_then(Iterator::collect::<io::Result<Vec<_>>>)
             .map_err(|why| refused(&self.directory, &why))?;
-        let names = entries.into_iter().filter_map(|entry| entry.file_name().into_string().ok());
-        Ok(names.filter(|name| name.ends_with(TILE)).collect())
+        Ok(entries.into_iter().filter_map(|entry| entry.file_name().into_string().ok()).collect())
     }
 
     fn set_aside(&self, name: &str) -> io::Result<()> {

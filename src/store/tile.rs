@@ -120,14 +120,17 @@ impl Label {
     }
 
     /// The bytes of the tile with these records.
+    ///
+    /// # Panics
+    /// When they are not as many as its instances.
     #[must_use]
     pub fn write(&self, records: &[Record]) -> Vec<u8> {
-        let mut bytes = Vec::with_capacity(self.size());
-        bytes.extend(self.header());
-        bytes.extend(encode(records, self.analysis));
-        let checksum = blake3::hash(&bytes);
-        bytes.extend(checksum.as_bytes());
-        bytes.extend(END);
+        let mut bytes = vec![0; self.size()];
+        let (content, footer) = bytes.split_at_mut(self.size() - FOOTER);
+        content[..HEADER].copy_from_slice(&self.header());
+        encode(records, self.analysis, &mut content[HEADER..]);
+        footer[..CHECKSUM].copy_from_slice(blake3::hash(content).as_bytes());
+        footer[CHECKSUM..].copy_from_slice(END);
         bytes
     }
 

@@ -96,6 +96,33 @@ fn killed_fifty_times() {
 }
 
 #[test]
+fn after_ctrl_c_the_same_command_goes_on() {
+    let undisturbed = with(&sweep());
+    assert_eq!(squealmap(undisturbed.path(), &RUN).code, Some(0));
+    let directory = with(&sweep());
+    let mut child = start(directory.path());
+    while done(directory.path()) < 20 {
+        assert!(child.try_wait().unwrap().is_none(), "it ended before it was interrupted");
+        sleep(Duration::from_micros(200));
+    }
+    let sent = Command::new("sh").args(["-c", &format!("kill -INT {}", child.id())]).status().unwrap();
+    assert!(sent.success());
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    let kept = done(directory.path());
+    assert_eq!(names(directory.path()), COMPLETE, "the results of what is done are there");
+    let csv = std::fs::read_to_string(directory.path().join("out/s/map.csv")).unwrap();
+    let missing = csv.lines().filter(|line| line.ends_with(",not_computed")).count();
+    assert_eq!(csv.lines().count(), 3001);
+    // What was done of the tile in work counts too.
+    assert!((3000 - 10 * kept - 10..=3000 - 10 * kept).contains(&missing), "{kept} tiles, {missing} missing");
+    let ended = squealmap(directory.path(), &RUN);
+    assert_eq!(ended.code, Some(0), "{}", ended.err);
+    assert!(ended.out.starts_with(&format!("{} of 3000 instances in ", 3000 - 10 * kept)), "{}", ended.out);
+    let whole = std::fs::read(undisturbed.path().join("out/s/map.csv")).unwrap();
+    assert!(std::fs::read(directory.path().join("out/s/map.csv")).unwrap() == whole);
+}
+
+#[test]
 fn a_full_disk_leaves_finished_tiles() {
     let directory = with(&sweep());
     // Files of at most 4 blocks of 512 bytes: no tile fits; the signal is ignored, so that the write fails as on

@@ -20,6 +20,7 @@ mod kernel_response;
 mod kernels;
 #[cfg(unix)]
 mod killed;
+mod label;
 mod linear;
 mod modes_figure;
 mod no_driver;
@@ -42,5 +43,6 @@ mod strict;
 mod strokes;
 mod sweeps;
 mod synthetic;
+mod tile_cost;
 mod tiles;
 mod trace_figure;

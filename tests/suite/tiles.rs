@@ -10,7 +10,7 @@ use squealmap::map::{Computation, Record};
 use squealmap::model::Param;
 use squealmap::outcome::{Outcome, Status};
 use squealmap::spec::{Analysis, Spec};
-use squealmap::store::columns::{decode, encode, width};
+use squealmap::store::columns::{decode, width};
 use squealmap::store::description::Description;
 use squealmap::store::grid_json::{from_json, to_json};
 use squealmap::store::identity::{Id, identity, kind};
@@ -22,6 +22,13 @@ use crate::synthetic::{axis, failed, record, span, spec};
 const BOTH: Analysis = Analysis { linear: true, response: true, until_settled: false };
 /// Both, until settled: with the time that took.
 const UNTIL_SETTLED: Analysis = Analysis { until_settled: true, ..BOTH };
+
+/// The columns of some records.
+fn encode(records: &[Record], analysis: Analysis) -> Vec<u8> {
+    let mut bytes = vec![0; records.len() * width(analysis)];
+    squealmap::store::columns::encode(records, analysis, &mut bytes);
+    bytes
+}
 
 /// A record of which every number is different and known: `base` and its place in the documented order.
 fn numbered(base: f64) -> Record {
