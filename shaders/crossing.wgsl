@@ -32,6 +32,17 @@ fn deflated(degree: u32, start: u32, t: real) -> vec2<real> {
     return vec2<real>(value, slope);
 }
 
+fn lowest(degree: u32, start: u32, sample: real, curvature: real) -> real {
+    let gap = real(1.0) / real(SAMPLES);
+    var t = sample;
+    for (var i = 0u; i < DIP_ITERATIONS; i++) {
+        let slope = deflated(degree, start, t).y;
+        let next = t - slope * (gap * gap) / curvature;
+        t = min(max(next, sample - gap), sample + gap);
+    }
+    return t;
+}
+
 fn first_crossing(degree: u32, step: real, from_zero: bool, near: real, rounding: real) -> real {
     var power = real(1.0);
     for (var k = 0u; k <= degree; k++) {
@@ -52,19 +63,56 @@ fn first_crossing(degree: u32, step: real, from_zero: bool, near: real, rounding
         }
     } else if sg[0] <= real(0.0) && sg[0] >= -near {
         start = 1u;
+        while start <= HIGHEST_ORDER && sg[start] == real(0.0) {
+            start += 1u;
+        }
+        if start > HIGHEST_ORDER {
+            return NEVER;
+        }
     }
     if sb[start] <= real(0.0) {
         return real(0.0);
     }
     var low = real(0.0);
     var high = real(0.0);
+    let two = real(2.0);
+    let gap = real(1.0) / real(SAMPLES);
+    var before = sb[start];
+    var here = before;
     for (var i = 1u; i <= SAMPLES; i++) {
         let t = real(i) / real(SAMPLES);
         if high <= real(0.0) {
-            if deflated(degree, start, t).x <= real(0.0) {
+            let value = deflated(degree, start, t).x;
+            var curvature = before - two * here + value;
+            var falls = before - here;
+            if i == 1u {
+                falls = -(sb[start + 1u] * gap);
+                curvature = two * ((value - here) + falls);
+            }
+            if value <= real(0.0) {
                 high = t;
-            } else {
+            } else if falls > real(0.0) && here <= value && here <= DIP * curvature {
+                let bottom = lowest(degree, start, t - gap, curvature);
+                if deflated(degree, start, bottom).x <= real(0.0) {
+                    high = bottom;
+                    low = max(t - two * gap, real(0.0));
+                }
+            }
+            if high <= real(0.0) {
                 low = t;
+            }
+            before = here;
+            here = value;
+        }
+    }
+    if high <= real(0.0) {
+        let rise = deflated(degree, start, real(1.0)).y * gap;
+        let curvature = two * (rise + (before - here));
+        if rise > real(0.0) && here < before && here <= DIP * curvature {
+            let bottom = lowest(degree, start, real(1.0), curvature);
+            if deflated(degree, start, bottom).x <= real(0.0) {
+                high = bottom;
+                low = real(1.0) - gap;
             }
         }
     }

@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 
 use serde::Serialize;
 
-use crate::classify::{self, InstabilityType, Regime};
+use crate::classify::{self, InstabilityType, Regime, THRESHOLDS};
 use crate::linear;
 use crate::model::Param;
 use crate::model::equilibrium::Units;
@@ -19,6 +19,16 @@ use crate::spec::Instance;
 
 /// The longest half of a window, in the halves that were asked for: near coalescence the beat is endless.
 const LONGEST_HALF: f64 = 4.0;
+
+/// The shortest half, periods: a window of less than some cycles compares nothing.
+const SHORTEST_HALF: f64 = 8.0;
+
+/// A mode decays when its real part is below this fraction of its eigenvalue; what decays more slowly goes on for
+/// longer than anybody waits.
+const DECAYS_BELOW: f64 = -1e-6;
+
+/// What decays without any event is left to its eigenvalues after this many of its time constants, or a beat.
+const TIME_CONSTANTS: f64 = 3.0;
 
 /// Settled: the deviation of `x2` and the rms of `ÿ1` of three halves in a row agree within this fraction, half
 /// of what [`classify::THRESHOLDS`] asks of one window; and so much may still be to come.
@@ -46,8 +56,12 @@ pub struct Settling {
     half: f64,
     belt_velocity: f64,
     stable: bool,
+    /// How long a linear motion may grow before it decays; `None` when it does not.
+    wait: Option<f64>,
     piecewise_linear: bool,
     before: Option<[f64; 2]>,
+    /// The end of the window before, and the time without events up to there.
+    reached: [f64; 2],
 }
 
 impl Settling {
@@ -55,10 +69,13 @@ impl Settling {
     #[must_use]
     pub fn new(instance: &Instance, scene: &Scene, plan: &Plan) -> Option<Settling> {
         let limit = scene.scaled(plan.settle_limit?);
-        let asked = 0.5 * scene.scaled(plan.measure);
+        let asked = (0.5 * scene.scaled(plan.measure)).max(SHORTEST_HALF * TAU);
+        let beat = beat(instance, &scene.units);
         Some(Settling {
             limit,
-            half: beat(instance, &scene.units).clamp(asked, LONGEST_HALF * asked),
+            half: beat.clamp(asked, LONGEST_HALF * asked),
+            wait: time_constant(instance, &scene.units).map(|time| beat.min(TIME_CONSTANTS * time)),
+            reached: [scene.scaled(plan.settle), 0.0],
             belt_velocity: instance.params.require(Param::BeltVelocity),
             stable: linear::analyse(instance).0 == Some(InstabilityType::Stable),
             piecewise_linear: !matches!(instance.law.kind(), LawKind::Exponential | LawKind::Rational),
@@ -84,11 +101,21 @@ impl Settling {
         if first == 0.0 && second == 0.0 || regime == Regime::Stuck {
             return Some(Ending::Settled);
         }
-        if self.stable && !events && (self.piecewise_linear || second <= first) {
+        let [reached, quiet] = self.reached;
+        let quiet = if events { 0.0 } else { quiet + end - reached };
+        self.reached = [end, quiet];
+        // The beat of two decaying modes may still grow into an event; a curved law is linear for small motions.
+        let linear = self.piecewise_linear || second < THRESHOLDS.small_speed * self.belt_velocity;
+        let decays = self.wait.filter(|_| self.stable);
+        if linear && decays.is_some_and(|wait| quiet >= wait) {
             return Some(Ending::Decays);
         }
-        // What has met no event yet grows as its eigenvalue says, however slowly.
-        let moves = events && regime != Regime::Equilibrium;
+        // What has met no event yet grows or decays as its eigenvalues say, however slowly.
+        let moves = if events || !self.piecewise_linear {
+            regime != Regime::Equilibrium && (events || self.stable)
+        } else {
+            self.stable && decays.is_none()
+        };
         if let Some(before) = before
             && moves
             && halves.iter().zip(before).all(|(&[a, b], before)| has_settled([before, a, b]))
@@ -110,6 +137,12 @@ fn has_settled([a, b, c]: [f64; 3]) -> bool {
     let ratio = last / before;
     let approach = if before * last <= 0.0 { 1.0 } else { ratio / (1.0 - ratio) };
     last.abs() <= bound && before.abs() <= bound && ratio < 1.0 && last.abs() * approach <= bound
+}
+
+/// The time constant of the slowest mode of the sliding equilibrium, scaled; `None` when it does not decay.
+fn time_constant(instance: &Instance, units: &Units) -> Option<f64> {
+    let slowest = linear::eigenvalues(instance)?.into_iter().max_by(|a, b| a.re.total_cmp(&b.re))?;
+    (slowest.re < DECAYS_BELOW * slowest.norm()).then(|| -1.0 / (slowest.re * units.time))
 }
 
 /// The beat of the two modes of the sliding equilibrium, scaled: infinite when they have one frequency, 0 when

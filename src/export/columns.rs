@@ -47,13 +47,14 @@ impl Cell {
 }
 
 impl std::fmt::Display for Cell {
-    /// Numbers in the shortest form that reads back to the same bits.
+    /// Numbers in the shortest form that reads back to the same bits; zero has no sign.
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         /// Outside these magnitudes an exponent is shorter than the zeros it replaces.
         const PLAIN: std::ops::Range<f64> = 1e-5..1e16;
         match self {
             Cell::Empty => Ok(()),
-            Cell::Number(x) if *x == 0.0 || PLAIN.contains(&x.abs()) => write!(f, "{x}"),
+            Cell::Number(0.0) => f.write_str("0"),
+            Cell::Number(x) if PLAIN.contains(&x.abs()) => write!(f, "{x}"),
             Cell::Number(x) => write!(f, "{x:e}"),
             Cell::Count(n) => write!(f, "{n}"),
             Cell::Text(text) => f.write_str(text),

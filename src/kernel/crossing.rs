@@ -9,9 +9,15 @@
 use super::scalar::Real;
 use super::series::{ORDER, Series};
 
-/// Samples of an event function inside a step that the bound does not clear: a dip shorter than an eighth
-/// of a step may be missed.
+/// Samples of an event function inside a step that the bound does not clear.
 pub const SAMPLES: usize = 8;
+
+/// A sample lower than both its neighbours is followed to the minimum when it is below this part of their second
+/// difference: that of a parabola is no deeper than an eighth of it.
+pub const DIP: f64 = 0.25;
+
+/// Iterations that follow it: each leaves some tenth of the distance.
+pub const DIP_ITERATIONS: usize = 3;
 
 /// Iterations of the bracketed Newton solver.
 pub const SOLVER_ITERATIONS: usize = 12;
@@ -51,6 +57,18 @@ pub fn deflated<S: Real>(b: &Series<S>, degree: usize, from: usize, t: S) -> [S;
     [value, slope]
 }
 
+/// The place of the minimum around a sample that is lower than both its neighbours, from their second difference.
+pub fn lowest<S: Real>(b: &Series<S>, degree: usize, from: usize, sample: S, curvature: S) -> S {
+    let gap = S::from_f64(1.0 / SAMPLES as f64);
+    let mut t = sample;
+    for _ in 0..DIP_ITERATIONS {
+        let slope = deflated(b, degree, from, t)[1];
+        let next = t - slope * (gap * gap) / curvature;
+        t = next.max(sample - gap).min(sample + gap);
+    }
+    t
+}
+
 /// The time of the first downward crossing of `Σ g_k τ^k` in `(0, step]`, 0 when it is negative from the
 /// start, [`NEVER`] when it stays positive.
 ///
@@ -88,19 +106,58 @@ pub fn first_crossing<S: Real>(
         }
     } else if g[0] <= S::ZERO && g[0] >= -near {
         from = 1;
+        // A force that stays where it is does not fall.
+        while from <= HIGHEST_ORDER && g[from] == S::ZERO {
+            from += 1;
+        }
+        if from > HIGHEST_ORDER {
+            return never;
+        }
     }
     if b[from] <= S::ZERO {
         return S::ZERO;
     }
     let mut low = S::ZERO;
     let mut high = S::ZERO;
+    let (two, gap, dip) = (S::from_f64(2.0), S::from_f64(1.0 / SAMPLES as f64), S::from_f64(DIP));
+    let mut before = b[from];
+    let mut here = before;
     for i in 1..=SAMPLES {
         let t = S::from_f64(i as f64 / SAMPLES as f64);
         if high <= S::ZERO {
-            if deflated(&b, degree, from, t)[0] <= S::ZERO {
+            let value = deflated(&b, degree, from, t)[0];
+            // Lowest in the middle, or at the start on its way down: it may dip below zero in between.
+            let mut curvature = before - two * here + value;
+            let mut falls = before - here;
+            if i == 1 {
+                falls = -(b[from + 1] * gap);
+                curvature = two * ((value - here) + falls);
+            }
+            if value <= S::ZERO {
                 high = t;
-            } else {
+            } else if falls > S::ZERO && here <= value && here <= dip * curvature {
+                let bottom = lowest(&b, degree, from, t - gap, curvature);
+                if deflated(&b, degree, from, bottom)[0] <= S::ZERO {
+                    high = bottom;
+                    low = (t - two * gap).max(S::ZERO);
+                }
+            }
+            if high <= S::ZERO {
                 low = t;
+            }
+            before = here;
+            here = value;
+        }
+    }
+    if high <= S::ZERO {
+        // Lowest at the end, on its way up.
+        let rise = deflated(&b, degree, from, S::ONE)[1] * gap;
+        let curvature = two * (rise + (before - here));
+        if rise > S::ZERO && here < before && here <= dip * curvature {
+            let bottom = lowest(&b, degree, from, S::ONE, curvature);
+            if deflated(&b, degree, from, bottom)[0] <= S::ZERO {
+                high = bottom;
+                low = S::ONE - gap;
             }
         }
     }

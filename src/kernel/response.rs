@@ -151,6 +151,8 @@ pub const fn kernel<const PIECES: usize>() -> Kernel {
                 ("SOLVER_ITERATIONS", Constant::U32(crossing::SOLVER_ITERATIONS as u32)),
                 ("HIGHEST_ORDER", Constant::U32(crossing::HIGHEST_ORDER as u32)),
                 ("NEVER", Constant::Real(crossing::NEVER)),
+                ("DIP", Constant::Real(crossing::DIP)),
+                ("DIP_ITERATIONS", Constant::U32(crossing::DIP_ITERATIONS as u32)),
                 ("SUMS", Constant::U32(SUMS as u32)),
                 ("NODE_0", Constant::Real(observe::NODES[0])),
                 ("NODE_2", Constant::Real(observe::NODES[2])),
@@ -182,7 +184,7 @@ pub const fn kernel<const PIECES: usize>() -> Kernel {
 pub const TOLERANCE: f32 = 2e-4;
 
 /// Most loop iterations of one step, every loop at its longest, without the searches for a piece of the law.
-const LOOPS_PER_STEP: u32 = 1500;
+const LOOPS_PER_STEP: u32 = 1900;
 
 /// Most searches for a piece in one step, each over all pieces: an impact looks for that before it and that
 /// after it.

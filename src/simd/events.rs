@@ -12,7 +12,7 @@ use super::constants::{INV_DET, MU_STICK, N0, STIFFNESS};
 use super::expand::{Expansion, FLIGHT, SINGLE};
 use super::functions::{Functions, may_fall};
 use super::vector::{Scalar, Vector};
-use crate::kernel::crossing::{HIGHEST_ORDER, SAMPLES, SOLVER_ITERATIONS};
+use crate::kernel::crossing::{DIP, DIP_ITERATIONS, HIGHEST_ORDER, SAMPLES, SOLVER_ITERATIONS};
 use crate::kernel::lane::ROUNDINGS;
 
 /// `Σ b_k t^k`.
@@ -119,7 +119,9 @@ pub fn first_event<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const 
                 lead = deflate.select(c[degree + 1], lead);
                 order += one.only(deflate);
                 rounding = rounding * e.step;
-                deflate = deflate.and(begins).and(lead.not_positive()).and((-rounding).at_most(lead));
+                // A force that stays where it is does not fall.
+                let bound = rounding.only(begins);
+                deflate = deflate.and(lead.not_positive()).and((-bound).at_most(lead));
                 if !deflate.any() {
                     break;
                 }
@@ -191,24 +193,55 @@ fn bracket<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
 ) -> Bracket<S, T, K> {
     let (zero, never) = (c[0].like(0.0), c[0].like(2.0));
     let (mut high, mut at_low, mut at_high) = (never, c[0].like(1.0), zero);
-    // From the last sample to the first: what is set last is the first crossing.
-    let mut here = value(c, c[0].like(1.0));
+    let width = c[0].like(1.0 / SAMPLES as f64);
+    let (two, dip) = (c[0].like(2.0), c[0].like(DIP));
+    let (mut sample, mut curvature) = (never, c[0].like(1.0));
+    // From the last sample to the first: what is set last is the first crossing, and the first dip.
+    let mut after = zero;
+    let [mut here, slope] = value_and_slope(c, c[0].like(1.0));
+    let rise = slope * width;
     for i in (0..SAMPLES).rev() {
         let t = i as f64 / SAMPLES as f64;
-        // Behind a root at zero the line says nothing: the middle.
-        let before = if i == 0 { zero.less(order).select(here.abs(), c[0]) } else { value(c, c[0].like(t)) };
+        let before = if i == 0 { c[0] } else { value(c, c[0].like(t)) };
         let down = here.not_positive();
         high = down.select(c[0].like(t + 1.0 / SAMPLES as f64), high);
-        at_low = down.select(before, at_low);
+        // Behind a root at zero the line says nothing: the middle.
+        let start = if i == 0 { zero.less(order).select(here.abs(), before) } else { before };
+        at_low = down.select(start, at_low);
         at_high = down.select(here, at_high);
+        // Lowest in the middle, or at the end on its way up: it may dip below zero in between.
+        let climbs = if i + 1 < SAMPLES { after - here } else { rise };
+        let bent = if i + 1 < SAMPLES { (before - here) + climbs } else { two * ((before - here) + climbs) };
+        let lowest = here.less(before).and(zero.less(climbs)).and(here.at_most(bent * dip));
+        sample = lowest.select(c[0].like(t + 1.0 / SAMPLES as f64), sample);
+        curvature = lowest.select(bent, curvature);
+        after = here;
         here = before;
     }
-    let width = c[0].like(1.0 / SAMPLES as f64);
-    let low = high - width;
+    // Lowest at the start, on its way down.
+    let falls = -(c[1] * width);
+    let bent = two * ((after - here) + falls);
+    let lowest = zero.less(falls).and(here.at_most(after)).and(here.at_most(bent * dip));
+    let lowest = lowest.and(order.not_positive());
+    sample = lowest.select(zero, sample);
+    curvature = lowest.select(bent, curvature);
+    let mut low = high - width;
     let fall = at_low - at_high;
     let inside = high.less(never);
     let along = width * at_low / zero.less(fall).select(fall, width);
-    let estimate = inside.select(low + along, never);
+    let mut estimate = inside.select(low + along, never);
+    let dips = sample.less(high);
+    if dips.any() {
+        let mut t = sample;
+        for _ in 0..DIP_ITERATIONS {
+            let [_, slope] = value_and_slope(c, t);
+            t = (t - slope * (width * width) / curvature).max(sample - width).min(sample + width);
+        }
+        let below = dips.and(value(c, t).not_positive());
+        low = below.select((sample - width).max(zero), low);
+        high = below.select(t, high);
+        estimate = below.select((low + t) * t.like(0.5), estimate);
+    }
     Bracket { low, high, estimate: lead.not_positive().select(zero, estimate), event: zero, order }
 }
 

@@ -321,7 +321,7 @@ fn visit<S: Simd, T: Scalar<S>, const K: usize>(
         }
         let ended = all.part == Part::Growth && function > 0;
         if ended || job.lane.status != Status::Unwritten {
-            let reached = job.until - left.to_f64();
+            let reached = (job.until - left.to_f64()).max(job.time);
             flush::<S, T, K>(all, lane);
             all.jobs[index].time = reached;
             refill::<S, T, K>(all, lane);
@@ -363,7 +363,7 @@ fn fail<S: Simd, T: Scalar<S>, const K: usize>(
             (true, _) => Status::Painleve,
             _ => Status::StepTooLarge,
         };
-        let reached = job.until - all.block.left.get(lane).to_f64();
+        let reached = (job.until - all.block.left.get(lane).to_f64()).max(job.time);
         flush::<S, T, K>(all, lane);
         all.jobs[all.of_lane[lane]].time = reached;
         refill::<S, T, K>(all, lane);

@@ -195,6 +195,49 @@ fn a_landing_at_zero_force_ends() {
     ends_as_the_reference(0.026_939_214_995_811_11, 0.224_310_764_373_674_75, 6.0, 5);
 }
 
+/// A mass on a belt without damping, constant law: the share of a cycle in stick from the force margin alone.
+#[test]
+fn a_stick_shorter_than_an_eighth_of_a_step_is_found() {
+    for margin in [0.002, 0.005, 0.01, 0.02, 0.1] {
+        let mut instance = paper(0.3 + margin, 0.3, 1.0);
+        instance.law = FrictionLaw::Constant { mu_s: 0.3 + margin, mu_d: 0.3 };
+        for param in [Param::C1, Param::C2, Param::Theta] {
+            instance.params.set(param, 0.0);
+        }
+        instance.params.set(Param::StartVelocity, 1.5);
+        let plan = Plan { settle: Duration::Periods(60.0), measure: Duration::Periods(60.0), ..periods() };
+        // In stick x2 goes from −d to d at the belt's speed V, in slip it turns by 2π − 2 atan(d ω/V):
+        // k1 d = (mu_s − mu_d) N.
+        let value = |param| instance.params.require(param);
+        let (k1, mass, force) = (value(Param::K1), value(Param::M1) + value(Param::M2), value(Param::FExt));
+        let reach = margin * force / k1 * (k1 / mass).sqrt();
+        let (stick, slip) = (2.0 * reach, TAU - 2.0 * reach.atan());
+        for outcome in
+            [respond(&instance, &plan), one::<f64>(&instance, &plan, 0.0), one::<f32>(&instance, &plan, 0.0)]
+        {
+            let found = outcome.stick.expect("done");
+            let expected = stick / (stick + slip);
+            assert!(
+                (found - expected).abs() < 2e-3 * expected + 3e-5,
+                "{margin}: {found} instead of {expected}"
+            );
+        }
+    }
+}
+
+/// At a belt that stands still the equilibrium is at the edge of the stick cone: what rests there stays there.
+#[test]
+fn rest_on_a_belt_at_rest_is_no_event() {
+    for theta in [-0.1, 0.0, 0.01, 0.2] {
+        let mut instance = paper(0.4, 0.3, 0.0);
+        instance.params.set(Param::Theta, theta);
+        instance.params.set(Param::StartVelocity, 0.0);
+        for outcome in [one::<f64>(&instance, &periods(), 0.0), one::<f32>(&instance, &periods(), 0.0)] {
+            assert_eq!((outcome.status, outcome.stick), (Status::Ok, Some(1.0)), "θ = {theta}");
+        }
+    }
+}
+
 #[test]
 fn a_slip_of_a_thousandth_of_a_step_ends() {
     // Newton's method fell on the rest it begins from, found nothing there but a zero, and began again.
