@@ -8,7 +8,7 @@ use super::observe::{Phase, Sums};
 use super::reductions::{End, GROWTH, Reductions};
 use super::response::{reductions, segments, window_segments};
 use super::scalar::Real;
-use super::scene::{OPEN_HALF, SECOND_HALF, Segments};
+use super::scene::{SECOND_HALF, Segments};
 use crate::outcome::{Outcome, Status};
 use crate::response::{Plan, Scene};
 use crate::settle::{Ending, Settling};
@@ -66,22 +66,17 @@ impl Windows {
         if let Some(ending) = self.ending {
             return Some(outcome.ended(ending, self.start[1] * scene.units.time));
         }
-        match settling.judge(&outcome, lane.sums.growth_closed, end.time) {
-            Some(ending) => {
-                self.ending = Some(ending);
-                for segment in &mut self.segments {
-                    if segment[4] == f64::from(OPEN_HALF) {
-                        segment[4] = f64::from(SECOND_HALF);
-                    }
-                }
-                lane.back_to_the_end(&self.segments);
+        if let Some(ending) = settling.judge(&outcome, lane.sums.growth_closed, end.time) {
+            self.ending = Some(ending);
+            for [.., part] in &mut self.segments {
+                *part = part.min(f64::from(SECOND_HALF));
             }
-            None => {
-                let half = settling.half(frequency(&seen));
-                self.start = [end.time; 2];
-                self.segments = window_segments(scene, &self.plan, 0.0, half);
-                lane.next_window();
-            }
+            lane.back_to_the_end(&self.segments);
+        } else {
+            let half = settling.half(frequency(&seen));
+            self.start = [end.time; 2];
+            self.segments = window_segments(scene, &self.plan, 0.0, half);
+            lane.next_window();
         }
         None
     }

@@ -181,6 +181,7 @@ fn forms<S: Simd, T: Scalar<S>, const K: usize, const MOTION: u8>(
 
 /// Expands the motion over the step `h`; returns the lanes whose contact forces are not unique. Series of what
 /// does not move are left alone.
+#[expect(clippy::too_many_lines, reason = "one recurrence")]
 #[inline(always)]
 pub fn expand<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool, const MOTION: u8>(
     b: &Block<S, T, K>,

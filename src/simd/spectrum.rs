@@ -39,6 +39,7 @@ pub struct Spectrum<S: Simd, T: Scalar<S>, const K: usize> {
 pub type Nodes<S, T, const K: usize> = [[Vector<S, T, K>; 2]; 3];
 
 /// How many of `x2` and `y1` move.
+#[must_use]
 pub const fn moving(motion: u8) -> usize {
     if motion == SINGLE { 1 } else { 2 }
 }

@@ -67,15 +67,23 @@ fn a_limit_cycle_is_measured_over_whole_cycles_as_a_long_run_would() {
                 ("rms ay", found.ay_rms, long.ay_rms),
                 ("frequency", found.response_frequency, long.response_frequency),
             ] {
-                close(&format!("{name} of {what}"), actual.unwrap(), expected.unwrap(), 3e-3);
+                close(
+                    &format!("{name} of {what}"),
+                    actual.expect("a value"),
+                    expected.expect("a value"),
+                    3e-3,
+                );
             }
-            let degrees = found.phase_cycle.unwrap() - long.phase_cycle.unwrap();
+            let degrees = found.phase_cycle.expect("a value") - long.phase_cycle.expect("a value");
             assert!(degrees.abs() < 0.5, "{what}: {degrees} degrees");
             let begun = found.settling_time.expect("a time");
-            let half = 0.5 * (found.simulated_time - begun) * found.response_frequency.unwrap();
+            let half = 0.5 * (found.simulated_time - begun) * found.response_frequency.expect("a value");
             near(&format!("cycles of half a window of {what}"), half, half.round(), 0.02);
             // The windows asked for, at least; and no more settling than a fifth of the long run.
-            assert!(half / found.response_frequency.unwrap() >= 24.0 * period(&instance) * 0.999, "{what}");
+            assert!(
+                half / found.response_frequency.expect("a value") >= 24.0 * period(&instance) * 0.999,
+                "{what}"
+            );
             assert!(begun >= 72.0 * period(&instance) && begun < 40.0, "{what}: {begun} s");
         }
     }
@@ -86,8 +94,8 @@ fn engines_settle_in_the_same_window() {
     let instance = kicked(0.4, 0.3, 3.0, 0.01);
     let [(_, reference), others @ ..] = on_every_engine(&instance, &until_settled(1000.0));
     for (engine, found) in others {
-        close(engine, found.settling_time.unwrap(), reference.settling_time.unwrap(), 2e-4);
-        close(engine, found.x2_std.unwrap(), reference.x2_std.unwrap(), 1e-3);
+        close(engine, found.settling_time.expect("a value"), reference.settling_time.expect("a value"), 2e-4);
+        close(engine, found.x2_std.expect("a value"), reference.x2_std.expect("a value"), 1e-3);
     }
 }
 
@@ -99,7 +107,7 @@ fn a_decay_without_events_is_left_to_its_eigenvalues() {
     assert!((-0.03..0.0).contains(&linear.expect("one").growth_rate));
     for (engine, found) in on_every_engine(&instance, &until_settled(1000.0)) {
         assert_eq!(found.ending, Some(Ending::Decays), "{engine}");
-        near(engine, found.settling_time.unwrap(), 24.0 * period(&instance), 1e-9);
+        near(engine, found.settling_time.expect("a value"), 24.0 * period(&instance), 1e-9);
         assert_eq!(regime(&instance, kind, &found), (Regime::Equilibrium, true), "{engine}");
     }
 }
@@ -111,7 +119,7 @@ fn rest_is_settled_at_once() {
         let instance = kicked(mu_s, mu_d, 3.0, 0.0);
         let found = respond(&instance, &until_settled(1000.0));
         assert_eq!((found.status, found.ending), (Status::Ok, Some(Ending::Settled)));
-        near("start of the window", found.settling_time.unwrap(), 24.0 * period(&instance), 1e-9);
+        near("start of the window", found.settling_time.expect("a value"), 24.0 * period(&instance), 1e-9);
     }
 }
 
@@ -125,7 +133,7 @@ fn slow_growth_comes_to_its_limit_unsettled() {
     let limit = 150.0;
     for (engine, found) in on_every_engine(&instance, &until_settled(limit)) {
         assert_eq!((found.status, found.ending), (Status::Ok, Some(Ending::Limit)), "{engine}");
-        let (begun, limit) = (found.settling_time.unwrap(), limit * period(&instance));
+        let (begun, limit) = (found.settling_time.expect("a value"), limit * period(&instance));
         assert!(begun <= limit && found.simulated_time > limit, "{engine}: {begun}");
         assert!(!regime(&instance, kind, &found).1, "{engine}");
         // All its windows are one growth window.

@@ -47,7 +47,7 @@ fn same_bits<T: Lanes>(epsilon: f64) {
     for (index, (a, b)) in single.iter().zip(&general).enumerate() {
         assert_eq!(a.status, Status::Ok, "{index}");
         // The largest of many samples of one constant.
-        close("peak of N", a.n_peak.unwrap(), b.n_peak.unwrap(), 4.0 * epsilon);
+        close("peak of N", a.n_peak.expect("a value"), b.n_peak.expect("a value"), 4.0 * epsilon);
         // y1 has never moved, or by 1e-300: its phase then has a value.
         assert!(
             a.ay_peak == Some(0.0) && b.ay_peak < Some(1e-290),

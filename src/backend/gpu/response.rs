@@ -149,7 +149,7 @@ fn complete_in<R: Real>(
                     }
                     End::Again(form, ready) => {
                         live[ready.running.index - range.start] = true;
-                        batches.entry(form).or_insert_with(Vec::new).push(ready);
+                        batches.entry(form).or_insert_with(Vec::new).push(*ready);
                     }
                 }
             }
@@ -197,9 +197,9 @@ enum End<R> {
     /// Nothing: the run was cancelled before.
     NotComputed(usize),
     /// Its outcome.
-    Outcome(usize, Outcome),
+    Outcome(usize, Box<Outcome>),
     /// Another window.
-    Again(Form, Ready<R>),
+    Again(Form, Box<Ready<R>>),
 }
 
 /// The kernel and the words of an instance at its start; `None` when it cannot start.
@@ -286,14 +286,14 @@ fn end<R: Real>(
     let mut windows = running.windows.unwrap_or_else(|| Box::new(Windows::new(&instance, &scene, plan)));
     let mut lane = read_lane(&windows.segments, index, state, flags)?;
     match windows.take(&scene, &mut lane) {
-        Some(outcome) => Ok(End::Outcome(index, outcome)),
+        Some(outcome) => Ok(End::Outcome(index, Box::new(outcome))),
         None if cancelled => Ok(End::NotComputed(index)),
         None => {
             let segments = windows.segments;
             let running = Running { index, windows: Some(windows) };
             let (form, ready) = ready(&instance, &scene, &segments, running, Some(record::write(&lane)))
                 .ok_or(Error::Unwritten { instance: index })?;
-            Ok(End::Again(form, ready))
+            Ok(End::Again(form, Box::new(ready)))
         }
     }
 }
