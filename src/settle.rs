@@ -6,12 +6,12 @@
 
 use std::f64::consts::TAU;
 
+use num_complex::Complex64;
 use serde::Serialize;
 
 use crate::classify::{self, InstabilityType, Regime, THRESHOLDS};
 use crate::linear;
 use crate::model::Param;
-use crate::model::equilibrium::Units;
 use crate::model::friction::LawKind;
 use crate::outcome::{Outcome, Status};
 use crate::response::{Plan, Scene};
@@ -70,11 +70,14 @@ impl Settling {
     pub fn new(instance: &Instance, scene: &Scene, plan: &Plan) -> Option<Settling> {
         let limit = scene.scaled(plan.settle_limit?);
         let asked = (0.5 * scene.scaled(plan.measure)).max(SHORTEST_HALF * TAU);
-        let beat = beat(instance, &scene.units);
+        let time = scene.units.time;
+        let modes: Vec<Complex64> =
+            linear::eigenvalues(instance).into_iter().flatten().map(|z| z * time).collect();
+        let beat = beat(&modes);
         Some(Settling {
             limit,
             half: beat.clamp(asked, LONGEST_HALF * asked),
-            wait: time_constant(instance, &scene.units).map(|time| beat.min(TIME_CONSTANTS * time)),
+            wait: time_constant(&modes).map(|time| beat.min(TIME_CONSTANTS * time)),
             reached: [scene.scaled(plan.settle), 0.0],
             belt_velocity: instance.params.require(Param::BeltVelocity),
             stable: linear::analyse(instance).0 == Some(InstabilityType::Stable),
@@ -140,17 +143,15 @@ fn has_settled([a, b, c]: [f64; 3]) -> bool {
 }
 
 /// The time constant of the slowest mode of the sliding equilibrium, scaled; `None` when it does not decay.
-fn time_constant(instance: &Instance, units: &Units) -> Option<f64> {
-    let slowest = linear::eigenvalues(instance)?.into_iter().max_by(|a, b| a.re.total_cmp(&b.re))?;
-    (slowest.re < DECAYS_BELOW * slowest.norm()).then(|| -1.0 / (slowest.re * units.time))
+fn time_constant(modes: &[Complex64]) -> Option<f64> {
+    let slowest = modes.iter().max_by(|a, b| a.re.total_cmp(&b.re))?;
+    (slowest.re < DECAYS_BELOW * slowest.norm()).then(|| -1.0 / slowest.re)
 }
 
 /// The beat of the two modes of the sliding equilibrium, scaled: infinite when they have one frequency, 0 when
 /// there are no two oscillations.
-fn beat(instance: &Instance, units: &Units) -> f64 {
-    let Some(eigenvalues) = linear::eigenvalues(instance) else { return 0.0 };
-    let mut frequencies: Vec<f64> =
-        eigenvalues.iter().map(|z| z.im * units.time).filter(|w| *w > 0.0).collect();
+fn beat(modes: &[Complex64]) -> f64 {
+    let mut frequencies: Vec<f64> = modes.iter().map(|z| z.im).filter(|w| *w > 0.0).collect();
     frequencies.sort_by(f64::total_cmp);
     match frequencies[..] {
         [low, high] => TAU / (high - low),

@@ -43,6 +43,13 @@ pub struct End {
 }
 
 impl Reductions {
+    /// Cycles per time between the first and the last crossing, when there are two.
+    #[must_use]
+    pub fn frequency(&self) -> Option<f64> {
+        let span = self.last - self.first;
+        (self.crossings >= 2 && span > 0.0).then(|| (self.crossings - 1) as f64 / span)
+    }
+
     /// The outcome.
     #[must_use]
     pub fn outcome(&self, scene: &Scene, plan: &Plan, end: &End) -> Outcome {
@@ -79,9 +86,8 @@ impl Reductions {
         outcome.speed_rms_halves = halves.map(|s| rms(&s, 7) * units.velocity);
         outcome.x2_std_halves = halves.map(|s| std(&s, 1) * units.length);
         outcome.ay_rms_halves = halves.map(|s| rms(&s, 6) * units.acceleration);
-        let span = self.last - self.first;
-        if self.crossings >= 2 && span > 0.0 {
-            outcome.response_frequency = Some((self.crossings - 1) as f64 / span / units.time);
+        if let Some(frequency) = self.frequency() {
+            outcome.response_frequency = Some(frequency / units.time);
             let [x, y] = self.phase.map(|z| Complex64::new(z[0], z[1]));
             let ratio = y / x;
             outcome.phase_cycle =

@@ -5,7 +5,7 @@
 
 use super::lane::Lane;
 use super::observe::{Phase, Sums};
-use super::reductions::{End, GROWTH, Reductions};
+use super::reductions::{End, GROWTH};
 use super::response::{reductions, segments, window_segments};
 use super::scalar::Real;
 use super::scene::{SECOND_HALF, Segments};
@@ -73,7 +73,7 @@ impl Windows {
             }
             lane.back_to_the_end(&self.segments);
         } else {
-            let half = settling.half(frequency(&seen));
+            let half = settling.half(seen.frequency());
             self.start = [end.time; 2];
             self.segments = window_segments(scene, &self.plan, 0.0, half);
             lane.next_window();
@@ -90,12 +90,6 @@ impl Windows {
         }
         self.growing &= !closed;
     }
-}
-
-/// Cycles per time between the first and the last crossing.
-fn frequency(seen: &Reductions) -> Option<f64> {
-    let span = seen.last - seen.first;
-    (seen.crossings >= 2 && span > 0.0).then(|| (seen.crossings - 1) as f64 / span)
 }
 
 impl<S: Real> Lane<S> {

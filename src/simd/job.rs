@@ -240,8 +240,7 @@ impl<T: Real> Job<T> {
         }
         let outcome = self.outcome();
         let guess = self.guessed_omega();
-        let frequency =
-            (self.seen.crossings >= 2 && self.seen.last > self.seen.first).then(|| self.omega() / TAU);
+        let frequency = self.seen.frequency();
         let Some(settling) = &mut self.settling else { return false };
         self.ending = settling.judge(&outcome, !self.quiet, self.marks[2]);
         if self.ending.is_some() || outcome.status != Status::Ok {
