@@ -95,13 +95,16 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
         let mut samples = [[zero; 5]; 3];
         for i in 0..5 {
             let t = at * at.like(SAMPLE_TIMES[i]);
-            let [ax, ay] = match i {
-                0 => [0, 1].map(|j| e.a[j][0] * rate_square),
-                4 => {
-                    [0, 1].map(|j| if j < moving { value_to(&e.a[j], N - 3, at) * rate_square } else { zero })
-                }
-                _ => nodes[i - 1],
-            };
+            let mut accelerations = [zero; 2];
+            // A closure here would not be inlined: the arithmetic in it would be calls.
+            for j in 0..moving {
+                accelerations[j] = match i {
+                    0 => e.a[j][0] * rate_square,
+                    4 => value_to(&e.a[j], N - 3, at) * rate_square,
+                    _ => nodes[i - 1][j],
+                };
+            }
+            let [ax, ay] = accelerations;
             samples[0][i] = ax.abs();
             samples[1][i] = ay.abs();
             if i == 0 || i == 4 {
