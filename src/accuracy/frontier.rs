@@ -142,26 +142,34 @@ impl Frontier {
 /// A configuration on all scenes that count: its largest error and its lowest speed.
 struct Candidate {
     configuration: Configuration,
+    /// On how many it was measured.
+    scenes: usize,
     error: f64,
     per_second: f64,
 }
 
-/// The configurations that are allowed, each once.
+/// The configurations that are allowed and were measured on every scene that counts, each once.
 fn candidates<'a>(
     rows: impl Iterator<Item = &'a Row>,
     allowed: &dyn Fn(&Configuration) -> bool,
 ) -> Vec<Candidate> {
     let mut candidates: Vec<Candidate> = Vec::new();
+    let mut scenes: Vec<&str> = Vec::new();
     for row in rows {
+        if !scenes.contains(&row.scene.as_str()) {
+            scenes.push(&row.scene);
+        }
         let Some(configuration) = row.configuration() else { continue };
         match candidates.iter_mut().find(|one| one.configuration == configuration) {
             Some(one) => {
+                one.scenes += 1;
                 one.error = one.error.max(row.worst_p95);
                 one.per_second = one.per_second.min(row.per_second);
             }
             None if allowed(&configuration) => {
                 candidates.push(Candidate {
                     configuration,
+                    scenes: 1,
                     error: row.worst_p95,
                     per_second: row.per_second,
                 });
@@ -169,6 +177,7 @@ fn candidates<'a>(
             None => {}
         }
     }
+    candidates.retain(|one| one.scenes == scenes.len());
     candidates
 }
 

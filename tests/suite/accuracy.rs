@@ -200,9 +200,13 @@ fn tables_are_read_as_they_were_written_and_others_are_not() {
     let bytes = to_csv(&rows).unwrap();
     assert_eq!(from_csv(&bytes).unwrap(), rows);
     let text = String::from_utf8(bytes).unwrap();
-    for (from, to) in
-        [("cpu", "tpu"), ("f32", "f16"), (",900.0,", ",-1,"), ("worst_p95", "worst"), ("1e-5", "1e-5,1")]
-    {
+    for (from, to) in [
+        ("cpu", "tpu"),
+        ("f32", "f16"),
+        (",900.0,", ",-1,"),
+        ("worst_p95", "worst"),
+        (",600.0,", ",600.0,1,"),
+    ] {
         let broken = text.replacen(from, to, 1);
         assert!(broken != text && from_csv(broken.as_bytes()).is_err(), "{from} → {to}");
     }
