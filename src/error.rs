@@ -608,6 +608,33 @@ pub enum Error {
         /// How the transient ended.
         status: &'static str,
     },
+    /// A sweep on which no accuracy can be measured.
+    #[error("accuracy is measured on settled oscillations, but {what}")]
+    NothingToJudge {
+        /// What is missing, and what to do.
+        what: &'static str,
+    },
+    /// An accuracy beside what it chooses.
+    #[error("{option} stands beside --accuracy {accuracy}, which chooses it; remove one of them")]
+    AccuracyBeside {
+        /// The option as written.
+        option: String,
+        /// The accuracy.
+        accuracy: String,
+    },
+    /// An accuracy that nothing measured keeps.
+    #[error(
+        "no configuration that was measured on {kinds} keeps a relative error of {bound:e}: {least}; ask for less, for \
+         --accuracy reference, or measure this sweep with `squealmap tradeoff`"
+    )]
+    Inaccurate {
+        /// The relative error that was asked for.
+        bound: f64,
+        /// The kinds of scenes.
+        kinds: String,
+        /// What the best of them keeps.
+        least: String,
+    },
     /// The handler of Ctrl-C cannot be set.
     #[error("cannot listen to Ctrl-C: {why}")]
     Signal {
@@ -662,6 +689,9 @@ impl Error {
             | Error::NoModesAxis
             | Error::NoModesOfTuples
             | Error::NoModes
+            | Error::NothingToJudge { .. }
+            | Error::AccuracyBeside { .. }
+            | Error::Inaccurate { .. }
             | Error::Threads { .. }
             | Error::NoAdapter { .. }
             | Error::NoSuchAdapter { .. }

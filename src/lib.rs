@@ -16,6 +16,7 @@
 //! | many instances | [`backend`], [`sweep`], [`estimate`] |
 //! | outcome → regime | [`classify`] |
 //! | labels of an instance, counted | [`label`] |
+//! | speed against error, and the cheapest that is accurate enough | [`accuracy`] |
 //! | sweeps of any size, tile by tile in a directory | [`store`] |
 //! | map → bytes, and a map read back | [`map`], [`trace`], [`export`], [`archive`] |
 //! | an instance as sensors record it; measured signals → verdict | [`signals`], [`identify`], [`fit`] |
@@ -47,6 +48,7 @@
 //! # Ok::<(), squealmap::Error>(())
 //! ```
 
+pub mod accuracy;
 pub mod archive;
 pub mod backend;
 pub mod classify;

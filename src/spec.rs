@@ -23,6 +23,7 @@ use crate::grid::Grid;
 use crate::model::Params;
 use crate::model::friction::{FrictionLaw, LawKind, MuTable};
 use crate::model::material::Material;
+use crate::place::Place;
 
 /// Most instances of one sweep: what a disk of 44 TB (linear) or 225 TB (with response) holds.
 pub const MAX_INSTANCES: usize = 1_000_000_000_000;
@@ -110,6 +111,8 @@ pub struct Spec {
     pub measure: Duration,
     /// Largest step: this many per period `2π/ω0`.
     pub steps_per_period: u32,
+    /// Where the sweep gives them, if it does.
+    pub steps_given: Option<Place>,
 }
 
 /// Everything that defines one instance.

@@ -55,6 +55,7 @@ impl Merge {
             computed: 0,
             stopped: None,
             sweep_id: Some(target.description.id.to_string()),
+            accuracy: target.description.accuracy.clone(),
         };
         Ok(match results::write(&target, None, &run)? {
             Results::BadTile => {

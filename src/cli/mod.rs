@@ -5,6 +5,7 @@ mod adapters;
 mod check;
 mod export;
 mod fit;
+mod frontier;
 mod identify;
 mod merge;
 mod modes;
@@ -18,6 +19,7 @@ mod run;
 mod status;
 mod summary;
 mod trace;
+mod tradeoff;
 
 use std::io::Write;
 use std::path::PathBuf;
@@ -59,6 +61,8 @@ enum Command {
     Identify(identify::Identify),
     /// The source paper computed again: its figures, and what becomes of its claims
     Paper(paper::PaperCommand),
+    /// Speed against error of every engine on a sweep: tradeoff.csv, tradeoff.json, tradeoff.svg, tradeoff.png
+    Tradeoff(tradeoff::Tradeoff),
     /// A material file for sweeps from measured velocity, friction and temperature
     Fit(fit::FitCommand),
 }
@@ -99,6 +103,7 @@ impl Cli {
             Command::Trace(command) => command.execute()?,
             Command::Identify(command) => command.execute()?,
             Command::Paper(command) => command.execute()?,
+            Command::Tradeoff(command) => command.execute()?,
             Command::Fit(command) => command.execute()?,
         }
         Ok(ExitCode::SUCCESS)

@@ -7,7 +7,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use clap::{Args, ValueEnum};
+use squealmap::accuracy::configuration::{self, Configuration};
+use squealmap::accuracy::frontier::Choice;
+use squealmap::accuracy::level::Level;
 use squealmap::backend::choice::{Backend, Options};
+use squealmap::backend::gpu::adapter::Adapter;
 use squealmap::backend::solver::Solver;
 use squealmap::export::manifest;
 use squealmap::kernel::source::Precision;
@@ -26,7 +30,7 @@ use crate::cli::output::{Output, list};
 use crate::cli::progress::{Progress, seconds};
 use crate::cli::results::{self, FILES, Results};
 use crate::cli::summary::summary;
-use crate::cli::{Files, INTERRUPTED, note, print};
+use crate::cli::{Files, INTERRUPTED, frontier, note, print};
 
 /// Arguments of `run`.
 #[derive(Debug, Args)]
@@ -43,6 +47,11 @@ pub(crate) struct Run {
     /// Arithmetic [default: f64 on the CPU, f32 on a GPU]
     #[arg(long, value_enum)]
     precision: Option<PrecisionName>,
+    /// The fastest engine, arithmetic and steps per period with this relative error of deviation, accelerations and
+    /// frequency in 95 % of the settled oscillations: draft (1e-2), standard (1e-3), paper (1e-4), reference,
+    /// or a number up to 0.1; see `squealmap tradeoff`
+    #[arg(long, value_name = "LEVEL", value_parser = Level::parse)]
+    accuracy: Option<Level>,
     /// A GPU rounds every operation by itself, like the twin of its kernel on the CPU; needs Vulkan
     #[arg(long)]
     strict: bool,
@@ -78,10 +87,20 @@ enum PrecisionName {
     F64,
 }
 
+impl From<PrecisionName> for Precision {
+    fn from(name: PrecisionName) -> Precision {
+        match name {
+            PrecisionName::F32 => Precision::F32,
+            PrecisionName::F64 => Precision::F64,
+        }
+    }
+}
+
 impl Run {
     pub(crate) fn execute(self) -> Result<ExitCode> {
         let cancel = stop_at_ctrl_c()?;
-        let spec = Spec::read(&self.files.sweep)?;
+        let mut spec = Spec::read(&self.files.sweep)?;
+        let choice = self.accuracy.map(|level| self.choose(level, &spec)).transpose()?;
         let output = Output::prepare_claimed(self.files.directory(), &FILES)?;
         let threads = self.threads.map_or(0, usize::from);
         let pool = rayon::ThreadPoolBuilder::new()
@@ -97,10 +116,7 @@ impl Run {
                 BackendName::Cpu => Backend::Cpu,
                 BackendName::Reference => Backend::Reference,
             },
-            precision: self.precision.map(|name| match name {
-                PrecisionName::F32 => Precision::F32,
-                PrecisionName::F64 => Precision::F64,
-            }),
+            precision: self.precision.map(Precision::from),
             strict: self.strict,
             require_gpu: self.require_gpu,
             adapter: self.adapter.as_deref(),
@@ -108,8 +124,18 @@ impl Run {
             cancel: Some(&cancel),
             note: Some(&note),
         };
+        let options = match &choice {
+            None => options,
+            Some(choice) => {
+                note(&format!("--accuracy {}: {}", choice.chosen.asked, choice.chosen.configuration));
+                note(&choice.chosen.why);
+                spec = choice.configuration.sweep(&spec);
+                Options { adapter: options.adapter, ..choice.configuration.options(&options) }
+            }
+        };
         let mut solver = Solver::new(&spec, &options)?;
-        let description = Description::new(&spec, solver.computations(), self.tile);
+        let mut description = Description::new(&spec, solver.computations(), self.tile);
+        description.accuracy = choice.as_ref().map(|choice| choice.chosen.clone());
         let store = Store::begin(output.directory(), description, &note)?;
         let ended = pool.install(|| run(&store, &mut solver, &cancel, self.shard));
         if ended.is_err() {
@@ -117,6 +143,41 @@ impl Run {
         }
         ended
     }
+
+    /// The cheapest configuration for an accuracy.
+    ///
+    /// # Errors
+    /// When something that it chooses is given too, or nothing is accurate enough.
+    fn choose(&self, level: Level, spec: &Spec) -> Result<Choice> {
+        let beside = |option: String| Error::AccuracyBeside { option, accuracy: level.to_string() };
+        if let Some(at) = &spec.steps_given {
+            let key = "`steps_per_period` in [response]".to_owned();
+            let other = format!("--accuracy {level}, which chooses it");
+            return Err(Error::Conflict { at: at.clone(), key, other });
+        }
+        if let Some(precision) = self.precision {
+            return Err(beside(format!("--precision {}", Precision::from(precision))));
+        }
+        let only_gpu = self.strict || self.require_gpu || self.adapter.is_some();
+        let backend = match self.backend {
+            BackendName::Auto => only_gpu.then_some(Backend::Gpu),
+            BackendName::Gpu => Some(Backend::Gpu),
+            BackendName::Cpu => Some(Backend::Cpu),
+            BackendName::Reference => Some(Backend::Reference),
+        };
+        if let (Level::Reference, Some(other @ (Backend::Gpu | Backend::Cpu))) = (level, backend) {
+            return Err(beside(format!("--backend {}", configuration::name(other))));
+        }
+        frontier::of(spec)
+            .choose(level, spec, &|one| backend.is_none_or(|backend| backend == one.backend) && is_here(one))
+    }
+}
+
+/// Whether this machine has what a configuration needs: a GPU may have gone since it was measured.
+fn is_here(configuration: &Configuration) -> bool {
+    let adapter = configuration.adapter.as_deref();
+    configuration.backend != Backend::Gpu
+        || Adapter::best(configuration.precision, adapter).is_ok_and(|adapter| !adapter.is_software())
 }
 
 /// Computes what is missing and writes the results of all.
@@ -160,6 +221,7 @@ fn run(store: &Store, solver: &mut Solver, cancel: &AtomicBool, shard: Option<Sh
             computed: fresh,
             stopped: filled.stopped.as_ref().map(ToString::to_string),
             sweep_id: Some(store.description.id.to_string()),
+            accuracy: store.description.accuracy.clone(),
         };
         match results::write(store, partial, &run)? {
             // It is set aside and computed again.

@@ -7,6 +7,7 @@ use serde_json::{Map as Object, Value, json};
 use super::accounted;
 use super::columns::columns;
 use super::sheet::Sheet;
+use crate::accuracy::frontier::Chosen;
 use crate::classify::{InstabilityType, Regime};
 use crate::error::{Error, Result};
 use crate::label::{Label, Tally};
@@ -33,6 +34,8 @@ pub struct Run {
     pub stopped: Option<String>,
     /// The identity of the sweep, where its tiles are kept.
     pub sweep_id: Option<String>,
+    /// The accuracy that was asked for and what was chosen for it, where one was.
+    pub accuracy: Option<Chosen>,
 }
 
 /// The manifest of a map: UTF-8 JSON, indented.
@@ -47,6 +50,7 @@ pub fn manifest_json(map: &Map) -> Result<Vec<u8>> {
         computed: map.computed(),
         stopped: map.stopped.as_ref().map(ToString::to_string),
         sweep_id: None,
+        accuracy: None,
     };
     manifest(Sheet::from(map), &map.spec.resolved(), &Tally::of(&map.records), &run)
 }
@@ -82,6 +86,9 @@ pub fn manifest(sheet: Sheet, resolved: &Value, tally: &Tally, run: &Run) -> Res
     });
     if let (Some(id), Value::Object(entries)) = (&run.sweep_id, &mut manifest) {
         entries.insert("sweep_id".to_owned(), json!(id));
+    }
+    if let Some(accuracy) = &run.accuracy {
+        manifest["computation"]["accuracy"] = json!(accuracy);
     }
     let mut bytes = serde_json::to_vec_pretty(&manifest).map_err(Error::WriteManifest)?;
     bytes.push(b'\n');

@@ -4,8 +4,8 @@
 //! [`csv`], [`manifest`] and [`figure`] write `map.csv`, `manifest.json` and `map.svg`; [`png`] and [`pdf`] draw any of
 //! the figures, [`look`] says at which width and what of a map, [`boundary_lines`] gives its lines as a table.
 //! [`zarr`] and [`netcdf`] write the labelled [`arrays`] of a sweep, part by part. [`modes`] and [`trace`] serve the
-//! commands of the same names, [`identify`] and [`signals`] to and from measured signals, [`paper`] the figures of
-//! the source paper.
+//! commands of the same names, [`tradeoff`] speed against error, [`identify`] and [`signals`] to and from measured
+//! signals, [`paper`] the figures of the source paper.
 
 pub mod arrays;
 mod block;
@@ -43,6 +43,8 @@ pub mod svg;
 pub mod text;
 pub mod trace;
 mod trace_figure;
+pub mod tradeoff;
+mod tradeoff_figure;
 pub mod zarr;
 
 use crate::error::{Error, Result};

@@ -64,7 +64,8 @@ impl Spec {
         };
         let files = Files::read(&source, base_dir, &sections, &varied)?;
         Check { sweep: &source, sections: &sections, varied: &varied, files: &files }.all()?;
-        Ok(assemble(sections, varied, files))
+        let steps_given = sections.steps_given.clone().map(|span| source.place(span));
+        Ok(Spec { steps_given, ..assemble(sections, varied, files) })
     }
 }
 
@@ -93,5 +94,6 @@ fn assemble(sections: Sections, varied: Varied, files: Files) -> Spec {
         settle_limit: auto.then_some(limit),
         measure: sections.measure.unwrap_or(measure),
         steps_per_period: sections.steps_per_period,
+        steps_given: None,
     }
 }

@@ -14,7 +14,7 @@ use crate::spec::names::unknown;
 use crate::spec::{Analysis, Duration, STEPS_PER_PERIOD, StartKind};
 
 /// Fewest and most steps per period that may be asked for.
-const STEPS_RANGE: (usize, usize) = (4, 100_000);
+const STEPS_RANGE: (usize, usize) = (3, 100_000);
 
 /// A key that stands in a section.
 #[derive(Clone, Debug)]
@@ -52,6 +52,8 @@ pub(super) struct Sections {
     pub(super) settle_limit: Option<(Duration, Range<usize>)>,
     pub(super) measure: Option<Duration>,
     pub(super) steps_per_period: u32,
+    /// Where `steps_per_period` stands.
+    pub(super) steps_given: Option<Range<usize>>,
     pub(super) given: Vec<Given>,
     headers: Vec<(&'static str, Range<usize>)>,
 }
@@ -73,6 +75,7 @@ impl Default for Sections {
             settle_limit: None,
             measure: None,
             steps_per_period: STEPS_PER_PERIOD,
+            steps_given: None,
             given: Vec::new(),
             headers: Vec::new(),
         }
@@ -192,6 +195,7 @@ impl Sections {
                 "measure" => self.measure = Some(duration(source, entry.node, &label, false)?),
                 "steps_per_period" => {
                     let steps = integer(source, entry.node, &label, STEPS_RANGE.0, STEPS_RANGE.1)?;
+                    self.steps_given = Some(entry.node.span());
                     self.steps_per_period = u32::try_from(steps).expect("the range of steps fits u32");
                 }
                 _ => return Err(unknown_key(source, entry, "response", &KEYS)),

@@ -7,6 +7,7 @@ use super::grid_json::from_json;
 use super::identity::{GRID, Id, PHYSICS, identity, kind};
 use super::tile::Label;
 use super::tiling::Tiling;
+use crate::accuracy::frontier::Chosen;
 use crate::export::sheet::Sheet;
 use crate::grid::Grid;
 use crate::map::Computation;
@@ -34,6 +35,8 @@ pub struct Description {
     pub computations: [Option<Computation>; 2],
     /// The sweep as the manifest shows it.
     pub resolved: Json,
+    /// The accuracy that was asked for and what was chosen for it; what it does to the numbers stands elsewhere.
+    pub accuracy: Option<Chosen>,
     identity: Json,
 }
 
@@ -47,6 +50,8 @@ struct Document {
     tile: usize,
     linear: Option<Computation>,
     response: Option<Computation>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    accuracy: Option<Chosen>,
     identity: Json,
 }
 
@@ -64,6 +69,7 @@ impl Description {
             tiling: Tiling { instances: spec.grid.len(), tile: tile.max(1) },
             computations,
             resolved: resolved(&spec.title, identity[PHYSICS].clone(), &spec.grid),
+            accuracy: None,
             identity,
         }
     }
@@ -79,6 +85,7 @@ impl Description {
             tile: self.tiling.tile,
             linear,
             response,
+            accuracy: self.accuracy.clone(),
             identity: self.identity.clone(),
         };
         let mut bytes = serde_json::to_vec_pretty(&document).unwrap_or_default();
@@ -116,6 +123,7 @@ impl Description {
             tiling,
             computations,
             resolved,
+            accuracy: document.accuracy,
             identity: document.identity,
         })
     }

@@ -160,8 +160,8 @@ refuses! {
     endless_window: "[response]\nmeasure = \"inf s\"\n"
         => "s.toml:2:11: `measure` in [response] is \"inf s\" but must be a string such as \"6 s\" or \"200 periods\", \
             greater than 0 and at most 1e9";
-    too_few_steps: "[response]\nsteps_per_period = 3\n"
-        => "s.toml:2:20: `steps_per_period` in [response] is 3 but must be an integer between 4 and 100000";
+    too_few_steps: "[response]\nsteps_per_period = 2\n"
+        => "s.toml:2:20: `steps_per_period` in [response] is 2 but must be an integer between 3 and 100000";
     no_analysis: "analysis = []\n"
         => "s.toml:1:12: `analysis` is empty; give at least \"linear\" or \"response\"";
     unknown_analysis: "analysis = [\"linaer\"]\n"

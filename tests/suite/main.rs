@@ -1,5 +1,6 @@
 //! One integration binary, one module per topic.
 
+mod accuracy;
 mod arrays;
 mod bad_input;
 mod claims;

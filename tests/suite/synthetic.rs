@@ -41,6 +41,7 @@ pub(crate) fn spec(grid: Grid) -> Spec {
         settle_limit: None,
         measure: spec::Duration::Seconds(3.0),
         steps_per_period: 60,
+        steps_given: None,
     }
 }
 

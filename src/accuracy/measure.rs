@@ -1,0 +1,221 @@
+//! Every configuration on a sample of a sweep: instances per second against error.
+
+use std::time::{Duration, Instant};
+
+use rayon::ThreadPoolBuilder;
+
+use super::configuration::{Configuration, scenes};
+use super::draw::spread;
+use super::errors::{Judge, Quantiles, is_settled_oscillation, oscillates, quantile, worst};
+use super::frontier::mark;
+use super::row::{Rate, Row};
+use super::sample::{Sample, records, subset};
+use crate::backend::choice::{Backend, Options};
+use crate::backend::gpu::adapter::Adapter;
+use crate::backend::solver::Solver;
+use crate::error::{Error, Result};
+use crate::kernel::source::Precision;
+use crate::map::Record;
+use crate::outcome::Status;
+use crate::spec::Spec;
+
+/// Steps per period of the truth: twice those of a sweep.
+pub const TRUTH_STEPS: u32 = 24;
+
+/// Steps per period of what the truth is checked against.
+pub const CHECK_STEPS: u32 = 48;
+
+/// Settled oscillations of the sample on which the truth is checked.
+const CHECKED: usize = 32;
+
+/// Steps per period that are measured on the CPU engine and on GPUs.
+const STEPS: [u32; 15] = [3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 14, 16, 18, 20, 24];
+const GPU_STEPS: [u32; 6] = [4, 6, 8, 12, 16, 24];
+
+/// Steps per period of the reference as a sweep runs it.
+const REFERENCE_STEPS: u32 = 12;
+
+/// Instances that speed is measured on: enough for the batches of a real sweep.
+const TIMED: usize = 2048;
+
+/// Those of the reference, which takes one at a time.
+const TIMED_REFERENCE: usize = 128;
+
+/// Rounds of which the fastest counts, on a machine that has other work.
+const ROUNDS: usize = 3;
+
+/// No further round is begun after this time.
+const ENOUGH: Duration = Duration::from_millis(500);
+
+/// What to measure.
+#[derive(Clone, Copy, Debug)]
+pub struct Settings {
+    /// Instances of the sample.
+    pub sample: usize,
+    /// Its seed.
+    pub seed: u64,
+    /// Threads of a run, at least 1.
+    pub threads: usize,
+}
+
+/// What is said of the truth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Truth {
+    /// Settled oscillations on which it was compared with twice its steps.
+    pub checked: usize,
+    /// The worst relative error of any quantity there: median, 95th percentile and largest.
+    pub convergence: Quantiles,
+    /// Difference of the halves of its own windows over the settled oscillations.
+    pub scatter: Quantiles,
+    /// Share of the sweep that oscillates.
+    pub oscillating: f64,
+    /// Share that oscillates and is settled: what numbers are compared on.
+    pub settled: f64,
+    /// Settled oscillations of the sample.
+    pub judged: usize,
+    /// Share that did not come to its end.
+    pub failed: f64,
+}
+
+/// What came of it.
+#[derive(Clone, Debug)]
+pub struct Measurement {
+    /// The kind of scene; several of a sweep with several laws stand together.
+    pub scene: String,
+    /// The settings.
+    pub settings: Settings,
+    /// The sample.
+    pub sample: Sample,
+    /// The truth.
+    pub truth: Truth,
+    /// One row per configuration.
+    pub rows: Vec<Row>,
+    /// What was left out, and why.
+    pub left_out: Vec<String>,
+}
+
+/// Measures every configuration that this machine has; `note` gets a line for each.
+///
+/// # Errors
+/// When the sweep has no response or no settled oscillation, or is cancelled.
+pub fn measure(
+    spec: &Spec,
+    settings: Settings,
+    options: &Options,
+    note: &dyn Fn(&str),
+) -> Result<Measurement> {
+    if !spec.analysis.response {
+        return Err(Error::NothingToJudge {
+            what: "the sweep has no response: `analysis` lacks \"response\"",
+        });
+    }
+    let pool = |threads| {
+        ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .map_err(|why| Error::Threads { threads, why: why.to_string() })
+    };
+    let (one, all) = (pool(1)?, pool(settings.threads)?);
+    let sample = all.install(|| Sample::draw(spec, settings.sample, settings.seed, options))?;
+    let judged = subset(spec, &sample.indices);
+    note(&format!("computing the truth of {} instances", sample.indices.len()));
+    let truth = all.install(|| records(&Configuration::reference(TRUTH_STEPS), &judged, options))?;
+    let judge = Judge::new(truth, sample.weights.clone());
+    let truth = all.install(|| of_truth(&judge, &judged, options))?;
+    let total = spec.grid.len();
+    let timed = subset(spec, &spread(!settings.seed, TIMED.min(total), total, 0..total));
+    let scene = scenes(spec).join(" + ");
+    let (configurations, left_out) = configurations();
+    let mut rows = Vec::new();
+    for configuration in configurations {
+        let on_gpu = configuration.backend == Backend::Gpu;
+        let found = all.install(|| records(&configuration, &judged, options))?;
+        let instances = match configuration.backend {
+            Backend::Reference => TIMED_REFERENCE.min(timed.grid.len()),
+            _ => timed.grid.len(),
+        };
+        let time = || speed(&configuration, &timed, instances, options);
+        let per_cpu_second = if on_gpu { None } else { Some(one.install(time)?) };
+        let per_second = all.install(time)?;
+        let row =
+            Row::new(&scene, &configuration, Rate { per_cpu_second, per_second }, &judge.errors(&found));
+        note(&format!(
+            "{configuration}: {per_second:.0} instances/s, 95 % within {:.1e}, 99 % within {:.1e}",
+            row.worst_p95, row.worst_p99
+        ));
+        rows.push(row);
+    }
+    mark(&mut rows);
+    Ok(Measurement { scene, settings, sample, truth, rows, left_out })
+}
+
+/// Compares the truth with twice its steps, and counts.
+fn of_truth(judge: &Judge, judged: &Spec, options: &Options) -> Result<Truth> {
+    let settled: Vec<usize> =
+        (0..judge.truth().len()).filter(|at| is_settled_oscillation(&judge.truth()[*at])).collect();
+    if settled.is_empty() {
+        return Err(Error::NothingToJudge {
+            what: "the sample has no settled oscillation: take a longer `settle`, or \"auto\", in [response]",
+        });
+    }
+    let chosen: Vec<usize> =
+        spread(0, CHECKED, settled.len(), 0..settled.len()).into_iter().map(|at| settled[at]).collect();
+    let finer = records(&Configuration::reference(CHECK_STEPS), &subset(judged, &chosen), options)?;
+    let errors: Vec<(f64, f64)> =
+        chosen.iter().zip(&finer).map(|(at, finer)| (worst(&judge.truth()[*at], finer), 1.0)).collect();
+    Ok(Truth {
+        checked: chosen.len(),
+        convergence: [0.5, 0.95, 1.0].map(|share| quantile(errors.clone(), share)),
+        scatter: judge.scatter(),
+        oscillating: judge.share(oscillates),
+        settled: judge.share(is_settled_oscillation),
+        judged: settled.len(),
+        failed: judge.share(|record: &Record| record.status != Status::Ok),
+    })
+}
+
+/// Every configuration of this machine, and what is left out.
+fn configurations() -> (Vec<Configuration>, Vec<String>) {
+    let both = [Precision::F32, Precision::F64];
+    let mut all = vec![Configuration::reference(REFERENCE_STEPS)];
+    all.extend(
+        both.into_iter().flat_map(|precision| STEPS.map(|steps| Configuration::cpu(precision, steps))),
+    );
+    let mut left_out = Vec::new();
+    for precision in both {
+        match Adapter::best(precision, None) {
+            Ok(adapter) if adapter.is_software() => left_out.push(format!(
+                "{} in {precision}: software on the CPU, slower than the CPU engine at every accuracy",
+                adapter.describe()
+            )),
+            Ok(adapter) => all.extend(GPU_STEPS.map(|steps_per_period| Configuration {
+                backend: Backend::Gpu,
+                adapter: Some(adapter.describe().name.clone()),
+                precision,
+                steps_per_period,
+            })),
+            Err(why) => left_out.push(format!("a GPU in {precision}: {why}")),
+        }
+    }
+    (all, left_out)
+}
+
+/// Instances per second of the first instances of a sweep, in the pool it is called in: the fastest round.
+fn speed(configuration: &Configuration, timed: &Spec, instances: usize, options: &Options) -> Result<f64> {
+    let spec = configuration.sweep(timed);
+    let options = Options { note: None, ..configuration.options(options) };
+    let mut solver = Solver::new(&spec, &options)?;
+    let began = Instant::now();
+    let mut best = f64::INFINITY;
+    for _ in 0..ROUNDS {
+        let start = Instant::now();
+        if solver.records(0..instances, &|_| {})?.stopped.is_some() {
+            return Err(Error::Cancelled { done: 0, total: instances });
+        }
+        best = best.min(start.elapsed().as_secs_f64());
+        if began.elapsed() > ENOUGH {
+            break;
+        }
+    }
+    Ok(instances as f64 / best.max(f64::MIN_POSITIVE))
+}

@@ -1,0 +1,61 @@
+//! The table of measured speed and error that choices come from: where it stands, and how rows get into it.
+
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+
+use squealmap::accuracy::frontier::Frontier;
+use squealmap::accuracy::row::{Row, from_csv, to_csv};
+use squealmap::spec::Spec;
+use squealmap::{Error, Result};
+
+use crate::cli::note;
+use crate::cli::output::{cannot, claim};
+
+/// The name of the table.
+const TABLE: &str = "accuracy.csv";
+
+/// Where the table of this user stands; `None` where the system has no such place.
+fn place() -> Option<PathBuf> {
+    Some(dirs::cache_dir()?.join(env!("CARGO_PKG_NAME")).join(TABLE))
+}
+
+/// What a choice for this sweep is made from: what was measured on this machine where that covers the sweep, else
+/// what is shipped.
+pub(crate) fn of(spec: &Spec) -> Frontier {
+    let measured = place().and_then(|path| match read(&path) {
+        Ok(rows) => Some(Frontier::measured(rows, format!("`{}`", path.display()))),
+        Err(why) => {
+            note(&format!("{why}; the table that is shipped with the program takes its place"));
+            None
+        }
+    });
+    measured.filter(|frontier| frontier.covers(spec)).unwrap_or_else(Frontier::shipped)
+}
+
+/// Puts the rows of a measurement in place of those of the same scene; returns where, if anywhere.
+pub(crate) fn store(asked: Option<PathBuf>, rows: &[Row]) -> Result<Option<PathBuf>> {
+    let Some(path) = asked.or_else(place) else {
+        note("this system has no cache directory: give --store FILE to keep the table for `run --accuracy`");
+        return Ok(None);
+    };
+    // A table that cannot be read is measured anew, row by row.
+    let mut all = read(&path).unwrap_or_default();
+    all.retain(|row| rows.iter().all(|new| new.scene != row.scene));
+    all.extend_from_slice(rows);
+    let bytes = to_csv(&all)?;
+    if let Some(parent) = path.parent() {
+        std::fs::create_dir_all(parent).map_err(|why| cannot(&path, &why))?;
+    }
+    claim(&path)?.write(&bytes).map_err(|why| cannot(&path, &why))?;
+    Ok(Some(path))
+}
+
+/// The rows of a table; none where there is none.
+fn read(path: &Path) -> Result<Vec<Row>> {
+    let bad = |why| Error::BadDescription { path: path.to_owned(), why };
+    match std::fs::read(path) {
+        Ok(bytes) => from_csv(&bytes).map_err(bad),
+        Err(why) if why.kind() == ErrorKind::NotFound => Ok(Vec::new()),
+        Err(why) => Err(bad(why.to_string())),
+    }
+}
