@@ -151,6 +151,23 @@ pub enum Error {
         /// The limit.
         limit: usize,
     },
+    /// A map that is refined keeps a label per instance.
+    #[error(
+        "the sweep has {instances} instances but at most {limit} can be refined; make its axes shorter, or refine parts \
+         of it"
+    )]
+    TooManyToRefine {
+        /// Instances of the sweep.
+        instances: usize,
+        /// The limit.
+        limit: usize,
+    },
+    /// No plane whose lines could be followed.
+    #[error(
+        "refining follows the lines of a map over two numeric axes, but the sweep has no two numeric axes with at least \
+         3 values each; add some under `[axes]`, or use `squealmap run`"
+    )]
+    NothingToRefine,
     /// More instances than the records of a sweep in memory may have.
     #[error(
         "the sweep has {instances} instances but at most {limit} fit the memory; compute it into a directory of \

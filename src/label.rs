@@ -59,6 +59,12 @@ impl Label {
         self.part(SETTLED).checked_sub(1).map(|flag| flag == 1)
     }
 
+    /// The label without whether it is settled: instances that differ in nothing else belong to one region of a map.
+    #[must_use]
+    pub fn class(self) -> Label {
+        Label(self.0 & !(PART << SETTLED))
+    }
+
     fn part(self, shift: u32) -> usize {
         usize::from((self.0 >> shift) & PART)
     }
@@ -77,6 +83,19 @@ impl From<&Record> for Label {
                 | position(regime) << REGIME
                 | position(settled) << SETTLED,
         )
+    }
+}
+
+impl From<Label> for Record {
+    /// A record with these labels and nothing else.
+    fn from(label: Label) -> Record {
+        Record {
+            status: label.status(),
+            kind: label.kind(),
+            regime: label.regime(),
+            settled: label.settled(),
+            ..Record::default()
+        }
     }
 }
 

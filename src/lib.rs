@@ -69,6 +69,7 @@ pub mod observe;
 pub mod outcome;
 pub mod paper;
 pub mod place;
+pub mod refine;
 pub mod response;
 pub mod settle;
 pub mod signals;

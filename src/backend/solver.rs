@@ -78,11 +78,24 @@ impl<'a> Solver<'a> {
     /// # Errors
     /// When the engine fails or is cancelled before any instance of the range is done, or a result is in doubt.
     pub fn records(&mut self, range: Range<usize>, progress: &(dyn Fn(usize) + Sync)) -> Result<Computed> {
+        self.records_of(self.spec, range, progress)
+    }
+
+    /// The same of another sweep, which asks for the same analysis.
+    ///
+    /// # Errors
+    /// Those of [`Solver::records`].
+    pub fn records_of(
+        &mut self,
+        spec: &Spec,
+        range: Range<usize>,
+        progress: &(dyn Fn(usize) + Sync),
+    ) -> Result<Computed> {
         let cancel = self.options.cancel();
         match &mut self.on {
-            On::Cpu(precision) => cpu::records(self.spec, range, *precision, cancel, progress),
-            On::Reference => reference::records(self.spec, range, cancel, progress),
-            On::Gpu(session) => on_gpu(self.spec, range, session, self.options, progress),
+            On::Cpu(precision) => cpu::records(spec, range, *precision, cancel, progress),
+            On::Reference => reference::records(spec, range, cancel, progress),
+            On::Gpu(session) => on_gpu(spec, range, session, self.options, progress),
         }
     }
 }

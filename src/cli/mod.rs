@@ -13,6 +13,7 @@ mod output;
 mod paper;
 mod plot;
 mod progress;
+mod refine;
 pub(crate) mod report;
 mod results;
 mod run;
@@ -41,6 +42,8 @@ pub(crate) struct Cli {
 enum Command {
     /// Compute every instance of a sweep: map.csv, map.svg, map.png, manifest.json
     Run(run::Run),
+    /// The lines of a large map from few of its instances: boundaries.csv, points.csv, map.svg, map.png, refine.json
+    Refine(refine::RefineCommand),
     /// How far a run has come: tiles that are done, in work or bad, rate, time left
     Status(status::StatusCommand),
     /// Bring the tiles of several directories together; when all are there, write the results
@@ -94,6 +97,7 @@ impl Cli {
         match self.command {
             Command::Run(command) => return command.execute(),
             Command::Merge(command) => return command.execute(),
+            Command::Refine(command) => command.execute()?,
             Command::Status(command) => command.execute()?,
             Command::Export(command) => command.execute()?,
             Command::Adapters => adapters::execute(),

@@ -72,7 +72,7 @@ pub(crate) struct Run {
 
 /// The values of `--backend`.
 #[derive(Clone, Copy, Debug, Default, ValueEnum)]
-enum BackendName {
+pub(crate) enum BackendName {
     #[default]
     Auto,
     Gpu,
@@ -82,9 +82,20 @@ enum BackendName {
 
 /// The values of `--precision`.
 #[derive(Clone, Copy, Debug, ValueEnum)]
-enum PrecisionName {
+pub(crate) enum PrecisionName {
     F32,
     F64,
+}
+
+impl From<BackendName> for Backend {
+    fn from(name: BackendName) -> Backend {
+        match name {
+            BackendName::Auto => Backend::Auto,
+            BackendName::Gpu => Backend::Gpu,
+            BackendName::Cpu => Backend::Cpu,
+            BackendName::Reference => Backend::Reference,
+        }
+    }
 }
 
 impl From<PrecisionName> for Precision {
@@ -110,12 +121,7 @@ impl Run {
 
         let note = |text: &str| note(text);
         let options = Options {
-            backend: match self.backend {
-                BackendName::Auto => Backend::Auto,
-                BackendName::Gpu => Backend::Gpu,
-                BackendName::Cpu => Backend::Cpu,
-                BackendName::Reference => Backend::Reference,
-            },
+            backend: self.backend.into(),
             precision: self.precision.map(Precision::from),
             strict: self.strict,
             require_gpu: self.require_gpu,
@@ -328,7 +334,7 @@ fn ended(stopped: &Stopped, store: &Store, tally: &Tally) -> ExitCode {
 
 /// A flag that Ctrl-C sets; the run then ends between two instances or dispatches. Set before anything is
 /// made on the disk; a second Ctrl-C changes nothing, so that no file is left half written.
-fn stop_at_ctrl_c() -> Result<Arc<AtomicBool>> {
+pub(crate) fn stop_at_ctrl_c() -> Result<Arc<AtomicBool>> {
     let cancel = Arc::new(AtomicBool::new(false));
     let flag = Arc::clone(&cancel);
     ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed))

@@ -7,6 +7,7 @@ use super::look::Content;
 use super::panels::Panels;
 use super::picture_axis::Direction;
 use super::quantity;
+use super::scale::Tick;
 use super::svg::{Anchor, Style, Svg};
 use super::text::Text;
 use crate::grid::Grid;
@@ -14,6 +15,8 @@ use crate::label::Tally;
 
 /// Between panels of a row, points.
 const GAP_ACROSS: f64 = 7.0;
+/// Least room between the labels of two panels, points.
+const TICK_GAP: f64 = 3.0;
 /// Between rows of panels, points.
 const GAP_DOWN: f64 = 7.0;
 /// Height of a line of text, points.
@@ -89,6 +92,8 @@ impl Block<'_> {
         let below = if ragged { x_tick_room() } else { 0.0 };
         let pitch = lines * LINE + panel_height + GAP_DOWN + below;
         let x_ticks = panels.x.ticks(panel_width, Direction::Horizontal, TICK_SIZE);
+        // The last label of a panel must not run into the first of the next.
+        let inner_ticks = parted(&x_ticks, panel_width);
         let y_ticks = panels.y.as_ref().map(|axis| axis.ticks(panel_height, Direction::Vertical, TICK_SIZE));
         for (number, panel) in panels.all.iter().enumerate() {
             let (row, column) = (number / columns, number % columns);
@@ -104,7 +109,8 @@ impl Block<'_> {
             }
             cells::draw(svg, self.grid, panels, panel, self.content, &frame);
             frame.border(svg);
-            frame.x_ticks(svg, &x_ticks, ragged || row + 1 == rows);
+            let ticks = if column + 1 < columns { &inner_ticks } else { &x_ticks };
+            frame.x_ticks(svg, ticks, ragged || row + 1 == rows);
             if let Some(ticks) = &y_ticks {
                 frame.y_ticks(svg, ticks, column == 0);
             }
@@ -176,4 +182,17 @@ impl Block<'_> {
             Some(axis) => LABEL_SIZE + 6.0 + y_tick_room(&axis.ticks(height, Direction::Vertical, TICK_SIZE)),
         }
     }
+}
+
+/// The ticks of a panel with another one beside it: without the words of the last where they would touch its first.
+fn parted(ticks: &[Tick], width: f64) -> Vec<Tick> {
+    let mut parted = ticks.to_vec();
+    if let [first, .., last] = ticks {
+        let apart = (1.0 - last.at + first.at) * width + GAP_ACROSS;
+        let words = [first, last].map(|tick| 0.5 * tick.label.width(TICK_SIZE, false)).iter().sum::<f64>();
+        if let (true, Some(end)) = (apart < words + TICK_GAP, parted.last_mut()) {
+            end.label = Text::default();
+        }
+    }
+    parted
 }

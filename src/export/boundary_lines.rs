@@ -7,8 +7,11 @@ use super::palette::Colouring;
 use super::panels::Panels;
 use super::picture_axis::PictureAxis;
 use crate::error::Result;
-use crate::grid::AxisKey;
+use crate::grid::{AxisKey, Grid};
+use crate::label::Label;
 use crate::map::Map;
+use crate::refine::Refined;
+use crate::spec::{Analysis, Spec};
 
 /// One row per corner of a line: the number of the panel (from 1, in the order of the figure), what the line
 /// separates (`type` or `regime`), and both coordinates. A row of `NaN` ends each line: MATLAB's `plot` and
@@ -20,30 +23,70 @@ pub fn boundary_lines(map: &Map) -> Result<Vec<u8>> {
     let mut panels = Panels::new(&map.spec.grid);
     panels.add(0, &map.records);
     let keys = map.spec.grid.keys();
-    let mut table = Table::new(["panel", "separates", "x", "y"].into_iter())?;
-    let (Some(y), None) = (&panels.y, panels.scatter) else { return table.finish() };
+    let mut lines = Lines::new(map.spec.analysis)?;
+    let (Some(y), None) = (&panels.y, panels.scatter) else { return lines.table.finish() };
     let numeric = |axis: &PictureAxis| axis.key().is_some_and(|key| matches!(key, AxisKey::Param(_)));
     if keys.is_empty() || !numeric(&panels.x) || !numeric(y) {
-        return table.finish();
+        return lines.table.finish();
     }
-    let (columns, rows) = (panels.x.len(), y.len());
-    let asked =
-        [(Colouring::Type, map.spec.analysis.linear), (Colouring::Regime, map.spec.analysis.response)];
+    let columns = panels.x.len();
     for (number, panel) in panels.all.iter().enumerate() {
+        let label = |(i, j): Vertex| panels.labels[panel.cells.start + j * columns + i];
+        lines.add(number + 1, [&panels.x, y], label)?;
+    }
+    lines.table.finish()
+}
+
+/// The same of a refined map, at the full resolution of its grid; panels are planes.
+///
+/// # Errors
+/// When the table cannot be written.
+pub fn refined_lines(spec: &Spec, refined: &Refined) -> Result<Vec<u8>> {
+    let mut lines = Lines::new(spec.analysis)?;
+    let Grid::Axes(axes) = &spec.grid else { return lines.table.finish() };
+    let planes = &refined.planes;
+    let [x, y] = planes.axes.map(|i| PictureAxis::cells(&axes[i]));
+    for plane in 0..planes.count() {
+        let label = |(i, j): Vertex| refined.labels[planes.at(plane, x.order[i], y.order[j])];
+        lines.add(plane + 1, [&x, &y], label)?;
+    }
+    lines.table.finish()
+}
+
+/// The table of lines.
+struct Lines {
+    table: Table,
+    analysis: Analysis,
+}
+
+impl Lines {
+    fn new(analysis: Analysis) -> Result<Lines> {
+        let table = Table::new(["panel", "separates", "x", "y"].into_iter())?;
+        Ok(Lines { table, analysis })
+    }
+
+    /// Adds the lines of a panel of labelled cells.
+    fn add(
+        &mut self,
+        number: usize,
+        [x, y]: [&PictureAxis; 2],
+        label: impl Fn(Vertex) -> Label,
+    ) -> Result<()> {
+        let asked = [(Colouring::Type, self.analysis.linear), (Colouring::Regime, self.analysis.response)];
         for (colouring, _) in asked.into_iter().filter(|(_, asked)| *asked) {
-            let class = |(i, j): Vertex| colouring.class(panels.labels[panel.cells.start + j * columns + i]);
+            let class = |cell: Vertex| colouring.class(label(cell));
             let name = if colouring == Colouring::Type { "type" } else { "regime" };
             let mut row = |x: String, y: String| {
-                table.row([(number + 1).to_string(), name.to_owned(), x, y].into_iter())
+                self.table.row([number.to_string(), name.to_owned(), x, y].into_iter())
             };
-            for line in borders(columns, rows, |a, b| class(a) != class(b)) {
+            for line in borders(x.len(), y.len(), |a, b| class(a) != class(b)) {
                 for (i, j) in line {
-                    let [x, y] = [panels.x.scale.value(panels.x.edges[i]), y.scale.value(y.edges[j])];
+                    let [x, y] = [x.scale.value(x.edges[i]), y.scale.value(y.edges[j])];
                     row(Cell::from(x).to_string(), Cell::from(y).to_string())?;
                 }
                 row("NaN".to_owned(), "NaN".to_owned())?;
             }
         }
+        Ok(())
     }
-    table.finish()
 }

@@ -54,7 +54,21 @@ impl<'a, W: Write> MapCsv<'a, W> {
         let parts: Vec<Vec<u8>> = records
             .par_chunks(ROWS)
             .enumerate()
-            .map(|(part, records)| rows(grid, columns, first + part * ROWS, records))
+            .map(|(part, records)| rows(grid, columns, (first + part * ROWS).., records))
+            .collect::<Result<_>>()?;
+        parts.iter().try_for_each(|part| written(self.out.write_all(part)))
+    }
+
+    /// Writes the rows of some instances, formatted on the rayon pool.
+    ///
+    /// # Errors
+    /// When they cannot be written.
+    pub fn add_some(&mut self, instances: &[usize], records: &[Record]) -> Result<()> {
+        let (grid, columns) = (self.sheet.grid, &self.columns);
+        let parts: Vec<Vec<u8>> = instances
+            .par_chunks(ROWS)
+            .zip(records.par_chunks(ROWS))
+            .map(|(instances, records)| rows(grid, columns, instances.iter().copied(), records))
             .collect::<Result<_>>()?;
         parts.iter().try_for_each(|part| written(self.out.write_all(part)))
     }
@@ -65,11 +79,15 @@ impl<'a, W: Write> MapCsv<'a, W> {
     }
 }
 
-/// The rows of the instances from `first` on.
-fn rows(grid: &Grid, columns: &[Column], first: usize, records: &[Record]) -> Result<Vec<u8>> {
+/// The rows of some instances.
+fn rows(
+    grid: &Grid,
+    columns: &[Column],
+    instances: impl Iterator<Item = usize>,
+    records: &[Record],
+) -> Result<Vec<u8>> {
     let mut table = Table(csv::Writer::from_writer(Vec::new()));
-    for (offset, record) in records.iter().enumerate() {
-        let index = first + offset;
+    for (index, record) in instances.zip(records) {
         let coordinates = grid.coordinates(index);
         table.row(columns.iter().map(|column| column.cell(index, &coordinates, record).to_string()))?;
     }

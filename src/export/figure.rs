@@ -1,7 +1,8 @@
 //! `map.svg`: the print-ready stability map.
 //!
-//! The first two numeric axes are the picture, further axes small multiples. Colour is the type of
-//! instability and, in a second block, the regime of the response. Explicit tuples are points.
+//! The first two numeric axes (of more than seven values, where there are such) are the picture, further axes small
+//! multiples. Colour is the type of instability and, in a second block, the regime of the response. Explicit tuples
+//! are points.
 
 use super::accounted;
 use super::block::Block;

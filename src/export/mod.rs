@@ -36,6 +36,7 @@ pub mod png;
 mod points;
 mod quantity;
 mod raster;
+pub mod refined;
 pub mod scale;
 pub mod sheet;
 pub mod signals;

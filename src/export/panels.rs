@@ -92,13 +92,19 @@ fn numeric(key: AxisKey) -> bool {
     matches!(key, AxisKey::Param(_))
 }
 
-/// The axes of the picture: the first two numeric ones that vary; failing that a named one, failing that any.
+/// Numeric axes of more values than this come before shorter ones: those make panels.
+const FEW_VALUES: usize = 7;
+
+/// The axes of the picture: the first two numeric ones that vary, those of many values before those of few; failing
+/// that a named one, failing that any.
 fn choose(axes: &[Axis]) -> (Option<usize>, Option<usize>) {
     let varying = |i: &usize| axes[*i].values.len() > 1;
     let all = || 0..axes.len();
-    let mut chosen = all().filter(|i| numeric(axes[*i].key) && varying(i));
+    let mut chosen: Vec<usize> = all().filter(|i| numeric(axes[*i].key) && varying(i)).collect();
+    chosen.sort_by_key(|i| axes[*i].values.len() <= FEW_VALUES);
+    let mut chosen = chosen.into_iter();
     match (chosen.next(), chosen.next()) {
-        (Some(x), Some(y)) => (Some(x), Some(y)),
+        (Some(x), Some(y)) => (Some(x.min(y)), Some(x.max(y))),
         (Some(x), None) => (Some(x), all().find(|i| !numeric(axes[*i].key) && varying(i))),
         _ => {
             let mut named = all().filter(varying);

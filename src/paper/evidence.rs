@@ -4,7 +4,7 @@ use crate::error::Result;
 use crate::grid::{Axis, AxisKey, Grid, Value};
 use crate::model::Param;
 use crate::paper::accelerations::disturbance;
-use crate::paper::{Case, Growth, Phase, PhaseCase, Stretch, Study, Trial};
+use crate::paper::{Case, Growth, Phase, PhaseCase, PhaseTrial, Stretch, Study, Trial};
 use crate::spec::Spec;
 use crate::{export::modes::follow, linear};
 
@@ -59,6 +59,8 @@ pub struct Evidence {
     pub phases: [Phase; 2],
     /// Other ramps and kicks.
     pub trials: Vec<Trial>,
+    /// The phase method on trial.
+    pub phase_trial: PhaseTrial,
 }
 
 impl Evidence {
@@ -86,6 +88,7 @@ impl Evidence {
             swell,
             phases: [first?, second?],
             trials: study.trials().to_vec(),
+            phase_trial: study.phase_trial()?.clone(),
         })
     }
 }

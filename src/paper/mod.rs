@@ -6,6 +6,7 @@
 //! | a ramp, reduced to what pictures show | `ramp.rs` |
 //! | growth before the first event | `growth.rs` |
 //! | other ramps and kicks | `accelerations.rs` |
+//! | the phase as a fingerprint of the mechanism | `phase.rs` |
 //! | what is computed, once each and when first asked for | `study.rs` |
 //! | the numbers the claims ask for | `evidence.rs` |
 //! | thresholds, verdicts | `limits.rs`, `claims.rs` |
@@ -15,6 +16,7 @@ mod claims;
 mod evidence;
 mod growth;
 mod limits;
+mod phase;
 mod ramp;
 mod study;
 mod sweeps;
@@ -24,6 +26,7 @@ pub use claims::{Claim, Verdict, claims};
 pub use evidence::{Evidence, RampFacts};
 pub use growth::{Growth, Phase, PhaseCase};
 pub use limits::{LIMITS, Limits};
+pub use phase::{CUSTOMARY, PhaseTrial, Score, Source, Witness};
 pub use ramp::{Ramp, Stretch};
 pub use study::{Settings, Study};
 pub use sweeps::Case;
@@ -39,11 +42,12 @@ pub enum Figure {
     Figure6,
     Figure7,
     Accelerations,
+    Phase,
 }
 
 impl Figure {
     /// Every figure, in order.
-    pub const ALL: [Figure; 7] = [
+    pub const ALL: [Figure; 8] = [
         Figure::Figure2,
         Figure::Figure3,
         Figure::Figure4,
@@ -51,6 +55,7 @@ impl Figure {
         Figure::Figure6,
         Figure::Figure7,
         Figure::Accelerations,
+        Figure::Phase,
     ];
 
     /// The name of its files, and on the command line.
@@ -64,6 +69,7 @@ impl Figure {
             Figure::Figure6 => "figure6",
             Figure::Figure7 => "figure7",
             Figure::Accelerations => "accelerations",
+            Figure::Phase => "phase",
         }
     }
 
@@ -78,6 +84,7 @@ impl Figure {
             Figure::Figure6 => "Figure 6: ramp under both",
             Figure::Figure7 => "Figure 7: accelerations during exponential growth",
             Figure::Accelerations => "Beyond the paper: other ramps and kicks",
+            Figure::Phase => "Beyond the paper: the phase method on trial",
         }
     }
 }

@@ -7,6 +7,7 @@ use crate::export::modes::{Modes, follow};
 use crate::linear;
 use crate::model::Param;
 use crate::paper::accelerations::{self, Trial};
+use crate::paper::phase::PhaseTrial;
 use crate::paper::ramp::Ramp;
 use crate::paper::sweeps::{Case, FIGURE_2};
 use crate::spec::{Instance, Spec};
@@ -26,13 +27,14 @@ pub struct Study {
     settings: Settings,
     ramps: [OnceLock<Ramp>; 3],
     trials: OnceLock<Vec<Trial>>,
+    phases: OnceLock<PhaseTrial>,
 }
 
 impl Study {
     /// A study with these settings; computes nothing yet.
     #[must_use]
     pub fn new(settings: Settings) -> Study {
-        Study { settings, ramps: Default::default(), trials: OnceLock::new() }
+        Study { settings, ramps: Default::default(), trials: OnceLock::new(), phases: OnceLock::new() }
     }
 
     /// The sweep of Figure 2 and its modes.
@@ -78,6 +80,18 @@ impl Study {
     #[must_use]
     pub fn trials(&self) -> &[Trial] {
         self.trials.get_or_init(accelerations::trials)
+    }
+
+    /// The phase method on trial, computed when first asked for; the settings do not change it.
+    ///
+    /// # Errors
+    /// When its sweep cannot be computed at all.
+    pub fn phase_trial(&self) -> Result<&PhaseTrial> {
+        if let Some(trial) = self.phases.get() {
+            return Ok(trial);
+        }
+        let trial = PhaseTrial::compute()?;
+        Ok(self.phases.get_or_init(|| trial))
     }
 
     /// The instance of a case's ramp.

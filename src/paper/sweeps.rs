@@ -63,6 +63,7 @@ shipped! {
     FIGURE_7A "figure7a.toml";
     FIGURE_7B "figure7b.toml";
     ACCELERATIONS "accelerations.toml";
+    PHASE "phase.toml";
 }
 
 impl Shipped {

@@ -1,6 +1,6 @@
 //! The paper's claims: verdicts follow from the numbers. Results that contradict a claim change its verdict.
 
-use squealmap::paper::{Evidence, LIMITS, Phase, RampFacts, Stretch, Trial, Verdict, claims};
+use squealmap::paper::{Evidence, LIMITS, Phase, PhaseTrial, RampFacts, Stretch, Trial, Verdict, claims};
 
 /// A ramp of 28 parts from 7 m/s to rest whose largest `|ẍ2|` and `|ÿ1|` and free flight follow the velocity.
 fn ramp(follow: impl Fn(f64) -> (f64, f64, f64)) -> RampFacts {
@@ -42,6 +42,7 @@ fn faithful() -> Evidence {
         swell: Some(0.4),
         phases: [phase(-5.0), phase(-85.0)],
         trials: vec![trial(1e-4), trial(1e-5)],
+        phase_trial: PhaseTrial { witnesses: Vec::new() },
     }
 }
 

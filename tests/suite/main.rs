@@ -29,6 +29,7 @@ mod observables;
 mod paper;
 mod plot;
 mod properties;
+mod refine;
 mod regimes;
 mod response;
 mod resume;

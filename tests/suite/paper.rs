@@ -4,8 +4,11 @@
 
 use std::path::Path;
 
+use squealmap::classify::InstabilityType;
 use squealmap::export::paper::{Drawn, draw, report};
-use squealmap::paper::{Case, Evidence, Figure, Growth, PhaseCase, Settings, Study, Trial};
+use squealmap::paper::{
+    Case, Evidence, Figure, Growth, PhaseCase, PhaseTrial, Settings, Source, Study, Trial, Witness,
+};
 
 use crate::common::{close, near};
 use crate::figure::draw as render;
@@ -113,11 +116,54 @@ fn accelerations_on_another_ramp_are_those_of_the_equations() {
     figure(Figure::Accelerations);
 }
 
+#[test]
+fn thresholds_on_the_phase_are_counted_as_by_hand() {
+    let witness = |kind, phase: f64| Witness {
+        velocity: 1.0,
+        friction: [0.4, 0.3],
+        kind: Some(kind),
+        phases: [Some(phase), None, Some(phase)],
+    };
+    let slope = [10.0, 30.0, 50.0, 60.0].map(|phase| witness(InstabilityType::NegativeSlope, phase));
+    let coupling = [40.0, 70.0].map(|phase| witness(InstabilityType::ModeCoupling, phase));
+    // Neither of these counts.
+    let others = [InstabilityType::Coexistence, InstabilityType::Stable].map(|kind| witness(kind, 1.0));
+    let trial = PhaseTrial { witnesses: slope.into_iter().chain(coupling).chain(others).collect() };
+    let score = trial.score(Source::Eigenvector, 45.0).unwrap();
+    assert_eq!((score.slope, score.coupling, score.balanced()), (0.5, 0.5, 0.5));
+    // A phase on the threshold is called mode coupling.
+    assert_eq!(trial.score(Source::Cycle, 50.0).unwrap().slope, 0.5);
+    // From 60.5° on: all slopes, half of mode coupling; from 30.5° to 40°: half of the slopes, all of mode coupling.
+    let best = trial.best(Source::Eigenvector).unwrap();
+    assert_eq!(best.balanced(), 0.75);
+    assert!(trial.score(Source::Growth, 45.0).is_none() && trial.best(Source::Growth).is_none());
+    let (spread, count) = trial.spread(Source::Cycle, InstabilityType::NegativeSlope).unwrap();
+    assert_eq!((spread, count), ([10.0, 50.0, 60.0], 4));
+    assert!(trial.spread(Source::Cycle, InstabilityType::Interaction).is_none());
+}
+
+#[test]
+fn the_limit_cycle_tells_the_mechanism_where_its_growth_does_not() {
+    let study = Study::new(Settings::default());
+    let trial = study.phase_trial().unwrap();
+    assert_eq!(trial.witnesses.len(), 41 * 41 * 3);
+    // Time integration against eigenvectors, which it knows nothing of.
+    let mut differences: Vec<f64> =
+        trial.witnesses.iter().filter_map(|one| Some((one.phases[1]? - one.phases[0]?).abs())).collect();
+    differences.sort_by(f64::total_cmp);
+    assert!(differences.len() > 4500 && differences[differences.len() * 95 / 100] < 0.5);
+    let right = |source| trial.best(source).unwrap().balanced();
+    let [mode, growth, cycle] = Source::ALL.map(right);
+    assert!(cycle > 0.98 && mode < 0.8 && (mode - growth).abs() < 0.02, "{mode} {growth} {cycle}");
+    let drawn = figure(Figure::Phase);
+    assert_eq!(String::from_utf8(drawn.csv).unwrap().lines().count(), 1 + 41 * 41 * 3);
+}
+
 /// The figure, claim and verdict of every line of a report's table, and its headings and pictures.
 fn skeleton(report: &str) -> Vec<String> {
     let cell = |line: &str, k: usize| line.split('|').nth(k).unwrap().trim().to_owned();
     let of = |line: &str| match line {
-        line if line.starts_with("| ") => Some([1, 2, 4].map(|k| cell(line, k)).join(" | ")),
+        line if line.ends_with("** |") => Some([1, 2, 4].map(|k| cell(line, k)).join(" | ")),
         line if line.starts_with('#') || line.starts_with("![") => Some(line.to_owned()),
         _ => None,
     };

@@ -3,6 +3,7 @@
 mod accelerations;
 mod growth;
 mod laws;
+mod phase;
 mod ramp;
 mod report;
 
@@ -47,5 +48,6 @@ pub fn draw(figure: Figure, study: &Study) -> Result<Drawn> {
         Figure::Figure6 => ramp::draw(study, Case::Both),
         Figure::Figure7 => growth::draw(),
         Figure::Accelerations => accelerations::draw(study),
+        Figure::Phase => phase::draw(study),
     }
 }

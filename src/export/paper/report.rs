@@ -2,8 +2,11 @@
 
 use std::fmt::Write as _;
 
+use crate::classify::InstabilityType;
 use crate::export::figure::program;
-use crate::paper::{Evidence, Figure, LIMITS, Phase, Verdict, claims, millimetres};
+use crate::paper::{
+    CUSTOMARY, Evidence, Figure, LIMITS, Phase, PhaseTrial, Score, Source, Verdict, claims, millimetres,
+};
 
 /// The report in Markdown; `directory` is where the pictures stand, seen from the report, and `command` what made it.
 #[must_use]
@@ -104,5 +107,50 @@ fn caption(figure: Figure, evidence: &Evidence) -> String {
              (c) Figure 4 over Figure 5."
                 .to_owned()
         }
+        Figure::Phase => phase(&evidence.phase_trial),
     }
+}
+
+/// What the trial of the phase found.
+fn phase(trial: &PhaseTrial) -> String {
+    let mut text = format!(
+        "Each of the {} instances starts on its most unstable mode and runs until it is settled. Attributed are the \
+         eigenvalues: negative slope, mode coupling, coexistence (either alone would do), interaction (neither alone). A \
+         phase from the threshold on is called mode coupling. Thresholds are judged on instances with one mechanism alone, by \
+         the mean of both shares of right verdicts, which is 0.5 by chance.\n\n\
+         | phase of the | negative slope | mode coupling | coexistence | interaction | right at {CUSTOMARY}° (slope / coupling) \
+         | best threshold | right there (slope / coupling) |\n|---|---|---|---|---|---|---|---|\n",
+        trial.witnesses.len()
+    );
+    let kinds = [
+        InstabilityType::NegativeSlope,
+        InstabilityType::ModeCoupling,
+        InstabilityType::Coexistence,
+        InstabilityType::Interaction,
+    ];
+    for source in Source::ALL {
+        let _ = write!(text, "| {} |", source.words());
+        for kind in kinds {
+            let spread = trial.spread(source, kind).map_or_else(
+                || "none".to_owned(),
+                |([low, middle, high], count)| format!("{middle:.1}° ({low:.1} to {high:.1}°; {count})"),
+            );
+            let _ = write!(text, " {spread} |");
+        }
+        let shares = |score: Option<Score>| {
+            score.map_or_else(
+                || "none".to_owned(),
+                |score| format!("{:.1} / {:.1} %", 100.0 * score.slope, 100.0 * score.coupling),
+            )
+        };
+        let best = trial.best(source);
+        let threshold = best.map_or_else(|| "none".to_owned(), |score| format!("{:.1}°", score.threshold));
+        let at_customary = shares(trial.score(source, CUSTOMARY));
+        let _ = writeln!(text, " {at_customary} | {threshold} | {} |", shares(best));
+    }
+    text.push_str(
+        "\nMedian, 5th to 95th percentile of the magnitude, and number of instances. The phase of a mode depends on its \
+         eigenvalue alone, whatever drives it.",
+    );
+    text
 }

@@ -1,0 +1,255 @@
+//! The phase method on trial: maps of the phase and of its verdict, and how thresholds do.
+
+use super::Drawn;
+use crate::classify::InstabilityType;
+use crate::error::Result;
+use crate::export::cells::define_patterns;
+use crate::export::columns::Cell;
+use crate::export::csv::Table;
+use crate::export::figure::{DOUBLE_COLUMN, MARGIN, program, title};
+use crate::export::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room};
+use crate::export::key;
+use crate::export::panels::setting;
+use crate::export::plot::{CRITICAL, FIRST, Plot, SECOND, THIRD};
+use crate::export::raster::colour;
+use crate::export::scale::Scale;
+use crate::export::svg::{Anchor, Style, Svg};
+use crate::export::text::Text;
+use crate::grid::{AxisKey, Value};
+use crate::model::Param;
+use crate::paper::{CUSTOMARY, PhaseTrial, Source, Study, Witness};
+
+/// Between panels, points.
+const GAP: f64 = 8.0;
+/// Right of the panels, points.
+const RIGHT: f64 = 6.0;
+/// Room for the heading of a row of panels, points.
+const HEADING_ROOM: f64 = 13.0;
+/// Height of the panel of thresholds, points.
+const CURVES: f64 = 120.0;
+/// Steps of the fill over 90°.
+const STEPS: u32 = 45;
+/// Width and height of the bar and of the samples of the legend, points.
+const SAMPLE: [f64; 2] = [12.0, 7.0];
+/// Heading of picture and document.
+const HEADING: &str =
+    "The phase method on trial: does the phase of normal against tangential acceleration tell the mechanism?";
+
+/// What a verdict at the customary threshold comes to; light to dark.
+const VERDICTS: [(&str, &str); 5] = [
+    ("#FFFFFF", "stable"),
+    ("#DCDCDC", "both mechanisms, or neither alone"),
+    ("#A6D0E8", "right"),
+    ("#E08A2E", "negative slope taken for mode coupling"),
+    ("#5B2A6E", "mode coupling taken for negative slope"),
+];
+
+/// Maps and curves, double column width.
+pub(super) fn draw(study: &Study) -> Result<Drawn> {
+    let trial = study.phase_trial()?;
+    Ok(Drawn { svg: picture(trial), csv: table(trial)? })
+}
+
+fn table(trial: &PhaseTrial) -> Result<Vec<u8>> {
+    let names = ["belt_velocity", "mu_s", "mu_d", "type", "phase", "phase_measured", "phase_cycle"];
+    let mut table = Table::new(names.into_iter())?;
+    for witness in &trial.witnesses {
+        let number = |x: f64| Cell::from(x).to_string();
+        let numbers = [witness.velocity, witness.friction[0], witness.friction[1]].map(number);
+        let kind = witness.kind.map_or("", InstabilityType::name).to_owned();
+        let phases = witness.phases.map(|phase| phase.map(number).unwrap_or_default());
+        table.row(numbers.into_iter().chain([kind]).chain(phases))?;
+    }
+    table.finish()
+}
+
+/// The distinct values, rising.
+fn distinct(values: impl Iterator<Item = f64>) -> Vec<f64> {
+    let mut values: Vec<f64> = values.collect();
+    values.sort_by(f64::total_cmp);
+    values.dedup();
+    values
+}
+
+/// The fill of a phase.
+#[expect(clippy::cast_possible_truncation, reason = "a share of 90°")]
+fn shade(phase: f64) -> String {
+    let [r, g, b] = colour((phase / 90.0) as f32);
+    format!("#{r:02X}{g:02X}{b:02X}")
+}
+
+/// The fill of a phase in whole steps, hatched where there is none.
+fn phase_fill(phase: Option<f64>) -> String {
+    let step = 90.0 / f64::from(STEPS);
+    phase.map_or_else(|| "url(#not-computed)".to_owned(), |phase| shade((phase / step).floor() * step))
+}
+
+/// The class of a witness at the customary threshold.
+fn verdict(witness: &Witness) -> usize {
+    match (witness.kind, witness.couples(), witness.phases[0]) {
+        (Some(InstabilityType::Stable), ..) => 0,
+        (_, Some(couples), Some(phase)) => match (couples, phase >= CUSTOMARY) {
+            (false, true) => 3,
+            (true, false) => 4,
+            _ => 2,
+        },
+        _ => 1,
+    }
+}
+
+fn picture(trial: &PhaseTrial) -> String {
+    let mut svg = Svg::new();
+    define_patterns(&mut svg);
+    let inner = DOUBLE_COLUMN - 2.0 * MARGIN;
+    let mut y = MARGIN + title(&mut svg, HEADING, inner) + LABEL_SIZE;
+    let velocities = distinct(trial.witnesses.iter().map(|witness| witness.velocity));
+    let sides = [0, 1].map(|k| distinct(trial.witnesses.iter().map(|witness| witness.friction[k])));
+    let scales = sides.each_ref().map(|values| {
+        let (low, high) = (values.first().copied().unwrap_or(0.0), values.last().copied().unwrap_or(1.0));
+        let half = 0.5 * (high - low) / (values.len().max(2) - 1) as f64;
+        Scale::Linear { low: low - half, high: high + half }
+    });
+    let ticks = scales.each_ref().map(|scale| scale.ticks(4));
+    let left = MARGIN + LABEL_SIZE + 6.0 + y_tick_room(&ticks[1]);
+    let count = velocities.len().max(1) as f64;
+    let width = (DOUBLE_COLUMN - left - RIGHT - (count - 1.0) * GAP) / count;
+    let pair = Text::from("|phase of ").symbol("ÿ_1").plain(" against ").symbol("ẍ_2").plain("|, ");
+    let fills: [(Text, &dyn Fn(&Witness) -> String); 3] = [
+        (Text::from("(a) ").then(pair.clone()).plain("eigenvector"), &|one| phase_fill(one.phases[0])),
+        (Text::from("(b) ").then(pair).plain("settled limit cycle"), &|one| phase_fill(one.phases[2])),
+        (Text::from("(c) Verdict of the eigenvector's phase at 45°"), &|one| {
+            VERDICTS[verdict(one)].0.to_owned()
+        }),
+    ];
+    for (row, (heading, fill)) in fills.iter().enumerate() {
+        svg.text(left, y, heading, Style::new(LABEL_SIZE, Anchor::Start));
+        if row == 0 {
+            bar(&mut svg, DOUBLE_COLUMN - RIGHT - 136.0, y);
+        }
+        y += if row == 0 { HEADING_ROOM } else { 4.0 };
+        for (column, velocity) in velocities.iter().enumerate() {
+            let frame = Frame { x: left + column as f64 * (width + GAP), y, width, height: width };
+            if row == 0 {
+                let words = setting(AxisKey::Param(Param::BeltVelocity), &Value::Number(*velocity));
+                svg.text(frame.across(0.5), y - 3.0, &words, Style::new(TICK_SIZE, Anchor::Middle));
+            }
+            let shown = trial.witnesses.iter().filter(|one| one.velocity.to_bits() == velocity.to_bits());
+            cells(&mut svg, &frame, &sides, shown, fill);
+            frame.border(&mut svg);
+            frame.x_ticks(&mut svg, &ticks[0], row == 2);
+            frame.y_ticks(&mut svg, &ticks[1], column == 0);
+        }
+        let upwards = Style::new(LABEL_SIZE, Anchor::Middle).upwards();
+        svg.text(MARGIN + LABEL_SIZE, y + 0.5 * width, &Text::default().symbol("μ_d"), upwards);
+        y += width + LABEL_SIZE + 9.0;
+    }
+    y += x_tick_room() - 7.0;
+    svg.text(
+        left + 0.5 * (DOUBLE_COLUMN - RIGHT - left),
+        y,
+        &Text::default().symbol("μ_s"),
+        Style::new(LABEL_SIZE, Anchor::Middle),
+    );
+    y = legend(&mut svg, left, y + 6.0) + LABEL_SIZE + 10.0;
+    let frame = Frame { x: left, y: y + HEADING_ROOM, width: DOUBLE_COLUMN - RIGHT - left, height: CURVES };
+    let bottom = thresholds(&mut svg, trial, &frame);
+    svg.finish(DOUBLE_COLUMN, bottom + MARGIN, HEADING, &program())
+}
+
+/// One rectangle per run of equal fills of a row. Each reaches to the right and lower end of the panel and is
+/// covered by those that follow: no seams.
+fn cells<'a>(
+    svg: &mut Svg,
+    frame: &Frame,
+    sides: &[Vec<f64>; 2],
+    shown: impl Iterator<Item = &'a Witness>,
+    fill: &dyn Fn(&Witness) -> String,
+) {
+    let [columns, rows] = sides.each_ref().map(Vec::len);
+    let place = |values: &[f64], x: f64| values.partition_point(|value| *value < x);
+    let mut fills = vec![String::new(); columns * rows];
+    for witness in shown {
+        let [i, j] = [0, 1].map(|k| place(&sides[k], witness.friction[k]));
+        fills[j * columns + i] = fill(witness);
+    }
+    let [wide, high] = [frame.width / columns as f64, frame.height / rows as f64];
+    svg.open(r#"shape-rendering="crispEdges""#);
+    for (j, row) in fills.chunks(columns).enumerate().rev() {
+        let mut i = 0;
+        for run in row.chunk_by(|a, b| a == b) {
+            let top = frame.bottom() - (j + 1) as f64 * high;
+            let x = frame.x + i as f64 * wide;
+            let corner = [x, top, frame.x + frame.width - x, frame.bottom() - top];
+            if run[0].starts_with("url") {
+                svg.rect(corner, r##"fill="#FFFFFF""##);
+            }
+            svg.rect(corner, &format!(r#"fill="{}""#, run[0]));
+            i += run.len();
+        }
+    }
+    svg.close();
+}
+
+/// The bar of the phase, its words on the base line `base`.
+fn bar(svg: &mut Svg, x: f64, base: f64) {
+    let wide = 60.0 / f64::from(STEPS);
+    svg.text(x, base, &Text::from("0°"), Style::new(TICK_SIZE, Anchor::Start));
+    svg.open(r#"shape-rendering="crispEdges""#);
+    for k in 0..STEPS {
+        let fill = shade(90.0 * f64::from(k) / f64::from(STEPS));
+        let corner = [x + 11.0 + f64::from(k) * wide, base - SAMPLE[1] + 1.0, wide, SAMPLE[1]];
+        svg.rect(corner, &format!(r#"fill="{fill}""#));
+    }
+    svg.close();
+    let words = Text::from("90°   hatched: none");
+    svg.text(x + 74.0, base, &words, Style::new(TICK_SIZE, Anchor::Start));
+}
+
+/// What the fills of the verdicts mean; returns the last base line.
+fn legend(svg: &mut Svg, left: f64, top: f64) -> f64 {
+    let (mut x, mut base) = (left, top + LABEL_SIZE);
+    for (fill, words) in VERDICTS {
+        let words = Text::from(words);
+        let wide = SAMPLE[0] + 3.0 + words.width(TICK_SIZE, false) + 10.0;
+        if x + wide > DOUBLE_COLUMN - RIGHT && x > left {
+            (x, base) = (left, base + TICK_SIZE + 4.0);
+        }
+        let sample = [x, base - SAMPLE[1] + 1.0, SAMPLE[0], SAMPLE[1]];
+        svg.rect(sample, &format!(r##"fill="{fill}" stroke="#000000" stroke-width="0.4""##));
+        svg.text(x + SAMPLE[0] + 3.0, base, &words, Style::new(TICK_SIZE, Anchor::Start));
+        x += wide;
+    }
+    base
+}
+
+/// The share of right verdicts against the threshold; returns the lower end.
+fn thresholds(svg: &mut Svg, trial: &PhaseTrial, frame: &Frame) -> f64 {
+    let x = Scale::Linear { low: 0.0, high: 90.0 };
+    let y = Scale::Linear { low: 0.4, high: 1.02 };
+    let heading = "(d) Mean share of right verdicts where one mechanism acts alone, against the threshold";
+    svg.text(
+        frame.x,
+        frame.y - HEADING_ROOM + LABEL_SIZE - 4.0,
+        &Text::from(heading),
+        Style::new(LABEL_SIZE, Anchor::Start),
+    );
+    let plot = Plot { frame: *frame, x: &x, y: &y };
+    plot.curve(svg, [(CUSTOMARY, 0.4), (CUSTOMARY, 1.02)], CRITICAL);
+    let strokes = [FIRST, SECOND, THIRD];
+    for (source, stroke) in Source::ALL.into_iter().zip(strokes) {
+        let scores = trial.scores(source);
+        plot.curve(svg, scores.iter().map(|score| (score.threshold, score.balanced())), stroke);
+    }
+    frame.border(svg);
+    frame.x_ticks(svg, &x.ticks(10), true);
+    frame.y_ticks(svg, &y.ticks(5), true);
+    let upwards = Style::new(LABEL_SIZE, Anchor::Middle).upwards();
+    svg.text(MARGIN + LABEL_SIZE, frame.y + 0.5 * frame.height, &Text::from("Share right"), upwards);
+    let mut base = frame.bottom() + x_tick_room() + LABEL_SIZE + 1.0;
+    svg.text(frame.across(0.5), base, &Text::from("Threshold (°)"), Style::new(LABEL_SIZE, Anchor::Middle));
+    base += LABEL_SIZE + 5.0;
+    let entries: Vec<(Text, &str)> =
+        Source::ALL.into_iter().map(|source| Text::from(source.words())).zip(strokes).collect();
+    key::lines(svg, frame.x, base, LABEL_SIZE, &entries);
+    base + 3.0
+}
