@@ -68,6 +68,13 @@ impl Plan {
     }
 }
 
+/// Most steps of a run, the longest that a kernel counts: half an hour on one core.
+pub const MOST_STEPS: f64 = 2_147_483_648.0;
+
+/// The largest scaled number of an instance, and the inverse of the smallest: the squares of such numbers are finite,
+/// and products of them above zero, in f32 too.
+pub const LARGEST: f64 = 1e18;
+
 /// The belt velocity over time, scaled: linear from the first value to the last, then constant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ramp {
@@ -123,6 +130,35 @@ impl Scene {
             StartKind::Mode => mode(instance, &units, &model),
         };
         Ok(Scene { units, equilibrium, model, ramp, start })
+    }
+
+    /// Prepares an instance for a run as `plan` has it.
+    ///
+    /// # Errors
+    /// As [`Scene::new`]; [`Status::NonFinite`] for scaled numbers beyond [`LARGEST`], [`Status::StepTooLarge`] for a run
+    /// of more than [`MOST_STEPS`].
+    pub fn planned(instance: &Instance, plan: &Plan) -> Result<Scene, Status> {
+        let scene = Scene::new(instance, plan.start)?;
+        if !scene.is_representable() {
+            return Err(Status::NonFinite);
+        }
+        let periods = (scene.scaled(plan.settle) + scene.scaled(plan.measure)) / TAU;
+        let countable = periods * f64::from(plan.steps_per_period) <= MOST_STEPS;
+        if countable { Ok(scene) } else { Err(Status::StepTooLarge) }
+    }
+
+    /// Whether no scaled number is beyond [`LARGEST`], or so small that its inverse is.
+    fn is_representable(&self) -> bool {
+        let (model, ramp, start) = (&self.model, &self.ramp, &self.start);
+        let (size, rate) = (|value: &f64| value.abs() <= LARGEST, |value: &f64| value.abs() >= 1.0 / LARGEST);
+        let positive = [model.m1, model.k1, model.k2, model.det, model.n0, model.c];
+        let others = [model.c1, model.c2, model.mu0, model.law.mu_stick, ramp.start, ramp.end];
+        let mut pieces = model.law.pieces.iter().map(|piece| piece.largest());
+        positive.iter().all(|value| size(value) && rate(value))
+            && others.iter().chain(&model.law.kinks).chain(&start.position).chain(&start.velocity).all(size)
+            && pieces.all(|value| size(&value))
+            && [ramp.start, ramp.end].iter().all(|value| *value == 0.0 || rate(value))
+            && (ramp.duration == 0.0 || size(&((ramp.end - ramp.start) / ramp.duration)))
     }
 
     /// The belt at the time `t` (scaled).
@@ -205,7 +241,7 @@ impl Scene {
 /// Integrates one instance.
 #[must_use]
 pub fn respond(instance: &Instance, plan: &Plan) -> Outcome {
-    let scene = match Scene::new(instance, plan.start) {
+    let scene = match Scene::planned(instance, plan) {
         Ok(scene) => scene,
         Err(status) => return Outcome { status, ..Outcome::default() },
     };
