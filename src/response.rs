@@ -75,6 +75,9 @@ pub const MOST_STEPS: f64 = 2_147_483_648.0;
 /// and products of them above zero, in f32 too.
 pub const LARGEST: f64 = 1e18;
 
+/// The largest unit of a scaled number, SI, and the inverse of the smallest.
+const LARGEST_UNIT: f64 = 1e200;
+
 /// The belt velocity over time, scaled: linear from the first value to the last, then constant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ramp {
@@ -154,7 +157,14 @@ impl Scene {
         let positive = [model.m1, model.k1, model.k2, model.det, model.n0, model.c];
         let others = [model.c1, model.c2, model.mu0, model.law.mu_stick, ramp.start, ramp.end];
         let mut pieces = model.law.pieces.iter().map(|piece| piece.largest());
-        positive.iter().all(|value| size(value) && rate(value))
+        let Units { time, length, velocity, acceleration, force } = self.units;
+        // What they are multiplied by stays a number, too.
+        let units = [time, length, velocity, acceleration, force];
+        let in_range = |value: &f64| (1.0 / LARGEST_UNIT..=LARGEST_UNIT).contains(value);
+        let equilibrium = [self.equilibrium.x2, self.equilibrium.y1];
+        units.iter().all(in_range)
+            && equilibrium.iter().all(|value| value.abs() <= LARGEST_UNIT)
+            && positive.iter().all(|value| size(value) && rate(value))
             && others.iter().chain(&model.law.kinks).chain(&start.position).chain(&start.velocity).all(size)
             && pieces.all(|value| size(&value))
             && [ramp.start, ramp.end].iter().all(|value| *value == 0.0 || rate(value))
@@ -318,7 +328,8 @@ fn report_window(outcome: &mut Outcome, scene: &Scene, window: &Window) {
     outcome.ay_rms = Some(rms(all.ay, all.time) * units.acceleration);
     outcome.ax_peak = Some(window.ax_peak * units.acceleration);
     outcome.ay_peak = Some(window.ay_peak * units.acceleration);
-    outcome.friction_mean = (all.normal > 0.0).then(|| all.tangential / all.normal);
+    let friction = all.tangential / all.normal;
+    outcome.friction_mean = (all.normal > 0.0 && friction.is_finite()).then_some(friction);
     outcome.n_peak = Some(window.n_peak * units.force);
     outcome.response_frequency = window.response_frequency().map(|f| f / units.time);
     outcome.stick = Some(all.stick / all.time);

@@ -79,7 +79,8 @@ impl Reductions {
         outcome.ay_rms = Some(rms(&all, 6) * units.acceleration);
         outcome.ax_peak = Some(self.peaks[0] * units.acceleration);
         outcome.ay_peak = Some(self.peaks[1] * units.acceleration);
-        outcome.friction_mean = (all[9] > 0.0).then(|| all[8] / all[9]);
+        let friction = all[8] / all[9];
+        outcome.friction_mean = (all[9] > 0.0 && friction.is_finite()).then_some(friction);
         outcome.n_peak = Some(self.peaks[2] * units.force);
         outcome.stick = Some(all[10] / all[0]);
         outcome.free = Some(all[11] / all[0]);

@@ -64,7 +64,7 @@ pub struct Block<S: Simd, T: Scalar<S>, const K: usize> {
     pub disarmed: Vector<S, T, K>,
     /// The other piece of a law of two.
     pub other: [Vector<S, T, K>; 6],
-    /// 1 for laws of more pieces.
+    /// 1 for laws of more pieces, and of one: it has no kink to cross.
     pub many: Vector<S, T, K>,
     /// Steps of the present stretch.
     pub steps: Vector<S, T, K>,
@@ -147,7 +147,7 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Block<S, T, K> {
         }
         // Another contact state has other modes.
         self.pace.set(index, self.step.get(index));
-        self.many.set(index, T::from_f64(f64::from(u8::from(scene.pieces.len() > 2))));
+        self.many.set(index, T::from_f64(f64::from(u8::from(scene.pieces.len() != 2))));
         self.contact.set(index, T::from_f64(f64::from(lane.contact)));
         let disarmed = match lane.disarmed {
             NOTHING => 0,

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::constants::{CONSTANTS, constants};
 use super::stretches::Stretches;
 use super::tolerance;
-use crate::kernel::lane::{Belt, GAP, Lane};
+use crate::kernel::lane::{Belt, GAP, Lane, UPPER_KINK};
 use crate::kernel::reductions::{End, Reductions};
 use crate::kernel::response::{law_of, words};
 use crate::kernel::scalar::Real;
@@ -231,6 +231,11 @@ impl<T: Real> Job<T> {
         self.growing = false;
         if exhausted {
             self.lane.status = Status::EventLimit;
+            return;
+        }
+        if event == UPPER_KINK && self.lane.piece as usize + 1 >= self.words.pieces.len() {
+            // A speed beyond all kinks, where there is none.
+            self.lane.status = Status::NonFinite;
             return;
         }
         self.lane.transition(&self.words, event, belt);

@@ -14,6 +14,7 @@ mod extremes;
 mod fastest;
 mod figure;
 mod fit;
+mod fuzz;
 mod identify;
 mod instances;
 #[cfg(unix)]
