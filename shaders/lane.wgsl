@@ -71,7 +71,12 @@ fn iterate(tolerance: real) {
         }
     }
     let remaining = lane.rest * segment.step;
-    let longest = step_length(remaining, tolerance);
+    let allowed = input(INPUT_LONGEST + lane.contact, instance);
+    var longest = real(0.0);
+    // Shorter steps leave a position where it is.
+    if allowed * allowed >= EPSILON {
+        longest = step_length(min(remaining, allowed), tolerance);
+    }
     if longest <= real(0.0) {
         lane.status = select(STATUS_NON_FINITE, STATUS_STEP_TOO_LARGE, body_is_finite());
         return;
@@ -194,7 +199,8 @@ fn observe(segment: Segment, tau: real) {
         return;
     }
     if part != SETTLE {
-        observe_window(scene.t0, lane.contact, part, at, segment.step, tau);
+        let origin = vec2<real>(load(STATE_SNAPSHOT, instance), load(STATE_SNAPSHOT + 2u, instance));
+        observe_window(origin, scene.t0, lane.contact, part, at, segment.step, tau);
     }
     observe_growth(tau);
 }

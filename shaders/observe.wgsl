@@ -48,7 +48,7 @@ fn flush() {
     }
 }
 
-fn observe_window(t0: real, contact: u32, part: u32, at: Moment, step: real, tau: real) {
+fn observe_window(origin: vec2<real>, t0: real, contact: u32, part: u32, at: Moment, step: real, tau: real) {
     sums.half = select(1u, 0u, part == FIRST_HALF);
     block[0] += tau;
     if contact == STICK {
@@ -71,10 +71,12 @@ fn observe_window(t0: real, contact: u32, part: u32, at: Moment, step: real, tau
         normal[i] = value(&sn, t);
         if i > 0u && i < 4u {
             let weight = node_weight(i - 1u) * tau;
-            block[1] += weight * x.p;
-            block[2] += weight * (x.p * x.p);
-            block[3] += weight * w.p;
-            block[4] += weight * (w.p * w.p);
+            let dx = x.p - origin.x;
+            let dw = w.p - origin.y;
+            block[1] += weight * dx;
+            block[2] += weight * (dx * dx);
+            block[3] += weight * dw;
+            block[4] += weight * (dw * dw);
             block[5] += weight * (x.a * x.a);
             block[6] += weight * (w.a * w.a);
             block[7] += weight * (x.v * x.v + w.v * w.v);

@@ -7,6 +7,12 @@ use crate::identify::Fault;
 pub use crate::place::Place;
 use crate::store::tile::Fault as TileFault;
 
+/// A text of the input within a sentence: a line feed and the like by their escapes.
+fn one_line(text: &str) -> String {
+    let shown = |c: char| if c.is_control() { c.escape_default().to_string() } else { c.to_string() };
+    text.chars().map(shown).collect()
+}
+
 /// Why a run failed. Instances that fail are data (see [`crate::outcome::Status`]), not errors.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -20,7 +26,7 @@ pub enum Error {
         why: String,
     },
     /// A file that the sweep file names cannot be read.
-    #[error("{at}: cannot read the {role} file `{}`: {why}", path.display())]
+    #[error("{at}: cannot read the {role} file `{}`: {why}", one_line(&path.display().to_string()))]
     ReadNamed {
         /// Where it is named.
         at: Place,
@@ -40,7 +46,7 @@ pub enum Error {
         why: String,
     },
     /// A key, column or name that does not exist here.
-    #[error("{at}: unknown {what} `{name}` {within}; {advice}")]
+    #[error("{at}: unknown {what} `{}` {within}; {advice}", one_line(name))]
     Unknown {
         /// Where.
         at: Place,

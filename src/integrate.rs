@@ -3,9 +3,10 @@
 //! Time always advances: a step ends at an event or at its full length, and events that do not advance
 //! time are counted; too many end the instance with [`Status::EventLimit`].
 
+use crate::method::pace::{longest_steps, stands_still};
 use crate::method::roots::{Crossing, first_crossing};
 use crate::method::taylor::{
-    BeltMotion, Expansion, MAX_ORDER, Motion, NORMAL, RELATIVE, Series, State, TANGENTIAL,
+    BeltMotion, Expansion, MAX_ORDER, Motion, NORMAL, RELATIVE, Series, State, TANGENTIAL, X2,
 };
 use crate::model::contact::Contact;
 use crate::model::equilibrium::Scaled;
@@ -111,6 +112,8 @@ enum Disarmed {
 pub struct Integrator<'a> {
     model: &'a Scaled,
     resolution: Resolution,
+    /// The longest step of each contact state.
+    longest: [f64; 4],
     state: State,
     contact: Contact,
     disarmed: Disarmed,
@@ -137,6 +140,7 @@ impl<'a> Integrator<'a> {
         let mut integrator = Integrator {
             model,
             resolution,
+            longest: longest_steps(&model.fastest, resolution.order, resolution.tolerance),
             state,
             contact: Contact::Free,
             disarmed: Disarmed::Nothing,
@@ -217,7 +221,11 @@ impl<'a> Integrator<'a> {
         if inertia <= 0.0 {
             return Err(Status::Painleve);
         }
-        let full = self.resolution.nominal_step.min(longest);
+        let allowed = self.longest[self.contact.state() as usize];
+        if stands_still(allowed, f64::EPSILON) {
+            return Err(Status::StepTooLarge);
+        }
+        let full = self.resolution.nominal_step.min(allowed).min(longest);
         let step = expansion.step(full, self.resolution.tolerance, MAX_HALVINGS).ok_or_else(|| {
             let finest = self.resolution.nominal_step * 0.5_f64.powi(MAX_HALVINGS);
             if !self.state.is_finite() {
@@ -300,8 +308,11 @@ impl<'a> Integrator<'a> {
             Contact::Stick => {
                 let mu = self.model.law.mu_stick;
                 let (normal, tangential) = (expansion.contact(NORMAL), expansion.contact(TANGENTIAL));
-                for sigma in [1.0, -1.0] {
-                    let margin: Series = std::array::from_fn(|k| mu * normal[k] - sigma * tangential[k]);
+                let springs = self.model.springs(self.state.position, self.state.velocity);
+                let at_start = self.model.cone_margins(springs, expansion.acceleration(X2)[0]);
+                for (sigma, at_start) in [1.0, -1.0].into_iter().zip(at_start) {
+                    let mut margin: Series = std::array::from_fn(|k| mu * normal[k] - sigma * tangential[k]);
+                    margin[0] = at_start;
                     if !visit(Watched::StickLimit { sigma }, &margin[..forces], false) {
                         return;
                     }

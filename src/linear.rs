@@ -148,7 +148,28 @@ pub struct Prepared {
     pub s: f64,
 }
 
-/// The polynomials to solve, or the type of an instance without any (`None` for an ill-posed friction law).
+/// The smallest leading coefficient of a polynomial: it is divided by.
+const LEAST: f64 = 1e-290;
+
+/// The largest coefficient in units of the mean root: products of five are finite, and beyond it the roots are too far
+/// apart for the closed form.
+const LARGEST: f64 = 1e60;
+
+/// Whether the roots of a polynomial can be told in numbers.
+fn is_solvable(polynomial: &[f64; 5]) -> bool {
+    let [constant, .., leading] = *polynomial;
+    let scale = (constant / leading).abs().sqrt().sqrt();
+    let mut power = leading.abs();
+    let coefficients = polynomial.iter().rev().all(|coefficient| {
+        let in_range = coefficient.abs() <= LARGEST * power;
+        power *= scale;
+        in_range
+    });
+    leading.abs() >= LEAST && scale.is_finite() && power.is_finite() && coefficients
+}
+
+/// The polynomials to solve, or the type of an instance without any (`None` for an ill-posed friction law, and where
+/// their coefficients are beyond the range of numbers).
 ///
 /// # Errors
 /// The type: at rest, under divergence, or none.
@@ -162,13 +183,15 @@ pub fn prepare(instance: &Instance) -> Result<Prepared, Option<InstabilityType>>
     let equilibrium = sliding(instance).ok_or(Some(InstabilityType::Divergence))?;
     let system = Sliding::new(instance);
     let slope_damping = equilibrium.slope * equilibrium.normal_force;
-    Ok(Prepared {
+    let prepared = Prepared {
         full: system.polynomial(equilibrium.mu, slope_damping),
         flat: system.polynomial(equilibrium.mu, 0.0),
         frozen: system.polynomial(0.0, slope_damping),
         normal: [system.k2, system.c2, system.m1],
         s: system.s,
-    })
+    };
+    let solvable = [&prepared.full, &prepared.flat, &prepared.frozen].into_iter().all(is_solvable);
+    solvable.then_some(prepared).ok_or(None)
 }
 
 /// Type of instability and the eigenvalue analysis behind it (`None` at rest and under divergence); both
@@ -192,7 +215,8 @@ pub fn analyse(instance: &Instance) -> (Option<InstabilityType>, Option<Linear>)
         (true, false, false) => InstabilityType::Interaction,
     };
     let phase = (full.im != 0.0 && prepared.s != 0.0)
-        .then(|| Sliding::new(instance).mode_ratio(full).arg().to_degrees());
+        .then(|| Sliding::new(instance).mode_ratio(full).arg().to_degrees())
+        .filter(|phase| phase.is_finite());
     let linear = Linear {
         growth_rate: full.re,
         frequency: full.im / TAU,

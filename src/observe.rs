@@ -332,13 +332,14 @@ impl Growth {
         let (twice_growth, stiffness) = self.fit(A, V, X)?;
         let growth_rate = 0.5 * twice_growth;
         let square = -stiffness - growth_rate * growth_rate;
-        if square <= 0.0 {
+        if !(square > 0.0 && square.is_finite() && growth_rate.is_finite()) {
             return None;
         }
         let angular_frequency = square.sqrt();
         let phase = self
             .fit(B, A, V)
-            .map(|(alpha, beta)| (alpha + beta / Complex64::new(growth_rate, angular_frequency)).arg());
+            .map(|(alpha, beta)| (alpha + beta / Complex64::new(growth_rate, angular_frequency)).arg())
+            .filter(|phase| phase.is_finite());
         let follows = self.covariance(B, B) > 0.0;
         Some(GrowthFit { growth_rate, angular_frequency, phase: phase.filter(|_| follows) })
     }

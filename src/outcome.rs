@@ -22,9 +22,10 @@ pub enum Status {
     Painleve = 4,
     /// Events piled up (chatter, Zeno) beyond the limit; `simulated_time` says how far it came.
     EventLimit = 5,
-    /// The step needed for this instance is smaller than the integrator allows.
+    /// The step needed for this instance is smaller than the integrator allows, or the run has more than
+    /// [`crate::response::MOST_STEPS`].
     StepTooLarge = 6,
-    /// The state left the range of finite numbers.
+    /// The state left the range of finite numbers, or its scaled parameters are beyond [`crate::response::LARGEST`].
     NonFinite = 7,
     /// The run was stopped before it came to this instance.
     NotComputed = 8,

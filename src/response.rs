@@ -68,6 +68,16 @@ impl Plan {
     }
 }
 
+/// Most steps of a run, the longest that a kernel counts: half an hour on one core.
+pub const MOST_STEPS: f64 = 2_147_483_648.0;
+
+/// The largest scaled number of an instance, and the inverse of the smallest: the squares of such numbers are finite,
+/// and products of them above zero, in f32 too.
+pub const LARGEST: f64 = 1e18;
+
+/// The largest unit of a scaled number, SI, and the inverse of the smallest.
+const LARGEST_UNIT: f64 = 1e200;
+
 /// The belt velocity over time, scaled: linear from the first value to the last, then constant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ramp {
@@ -123,6 +133,42 @@ impl Scene {
             StartKind::Mode => mode(instance, &units, &model),
         };
         Ok(Scene { units, equilibrium, model, ramp, start })
+    }
+
+    /// Prepares an instance for a run as `plan` has it.
+    ///
+    /// # Errors
+    /// As [`Scene::new`]; [`Status::NonFinite`] for scaled numbers beyond [`LARGEST`], [`Status::StepTooLarge`] for a run
+    /// of more than [`MOST_STEPS`].
+    pub fn planned(instance: &Instance, plan: &Plan) -> Result<Scene, Status> {
+        let scene = Scene::new(instance, plan.start)?;
+        if !scene.is_representable() {
+            return Err(Status::NonFinite);
+        }
+        let periods = (scene.scaled(plan.settle) + scene.scaled(plan.measure)) / TAU;
+        let countable = periods * f64::from(plan.steps_per_period) <= MOST_STEPS;
+        if countable { Ok(scene) } else { Err(Status::StepTooLarge) }
+    }
+
+    /// Whether no scaled number is beyond [`LARGEST`], or so small that its inverse is.
+    fn is_representable(&self) -> bool {
+        let (model, ramp, start) = (&self.model, &self.ramp, &self.start);
+        let (size, rate) = (|value: &f64| value.abs() <= LARGEST, |value: &f64| value.abs() >= 1.0 / LARGEST);
+        let positive = [model.m1, model.k1, model.k2, model.det, model.n0, model.c];
+        let others = [model.c1, model.c2, model.mu0, model.law.mu_stick, ramp.start, ramp.end];
+        let mut pieces = model.law.pieces.iter().map(|piece| piece.largest());
+        let Units { time, length, velocity, acceleration, force } = self.units;
+        // What they are multiplied by stays a number, too.
+        let units = [time, length, velocity, acceleration, force];
+        let in_range = |value: &f64| (1.0 / LARGEST_UNIT..=LARGEST_UNIT).contains(value);
+        let equilibrium = [self.equilibrium.x2, self.equilibrium.y1];
+        units.iter().all(in_range)
+            && equilibrium.iter().all(|value| value.abs() <= LARGEST_UNIT)
+            && positive.iter().all(|value| size(value) && rate(value))
+            && others.iter().chain(&model.law.kinks).chain(&start.position).chain(&start.velocity).all(size)
+            && pieces.all(|value| size(&value))
+            && [ramp.start, ramp.end].iter().all(|value| *value == 0.0 || rate(value))
+            && (ramp.duration == 0.0 || size(&((ramp.end - ramp.start) / ramp.duration)))
     }
 
     /// The belt at the time `t` (scaled).
@@ -205,7 +251,7 @@ impl Scene {
 /// Integrates one instance.
 #[must_use]
 pub fn respond(instance: &Instance, plan: &Plan) -> Outcome {
-    let scene = match Scene::new(instance, plan.start) {
+    let scene = match Scene::planned(instance, plan) {
         Ok(scene) => scene,
         Err(status) => return Outcome { status, ..Outcome::default() },
     };
@@ -282,7 +328,8 @@ fn report_window(outcome: &mut Outcome, scene: &Scene, window: &Window) {
     outcome.ay_rms = Some(rms(all.ay, all.time) * units.acceleration);
     outcome.ax_peak = Some(window.ax_peak * units.acceleration);
     outcome.ay_peak = Some(window.ay_peak * units.acceleration);
-    outcome.friction_mean = (all.normal > 0.0).then(|| all.tangential / all.normal);
+    let friction = all.tangential / all.normal;
+    outcome.friction_mean = (all.normal > 0.0 && friction.is_finite()).then_some(friction);
     outcome.n_peak = Some(window.n_peak * units.force);
     outcome.response_frequency = window.response_frequency().map(|f| f / units.time);
     outcome.stick = Some(all.stick / all.time);

@@ -16,6 +16,7 @@ pub mod reference;
 pub mod solver;
 
 use crate::classify::{self, InstabilityType, Regime};
+use crate::linear;
 use crate::map::Record;
 use crate::model::Param;
 use crate::model::equilibrium::Equilibrium;
@@ -35,9 +36,13 @@ pub fn regime(instance: &Instance, kind: Option<InstabilityType>, outcome: &Outc
     }
 }
 
-/// The record of an instance before any analysis: `ok`, or why it has no equilibrium.
+/// The record of an instance before any analysis: `ok`, or why it has no equilibrium or none in numbers.
 fn begun(instance: &Instance) -> Record {
-    let status = Equilibrium::new(instance).err().unwrap_or(Status::Ok);
+    let status = match Equilibrium::new(instance) {
+        Err(status) => status,
+        Ok(_) if matches!(linear::prepare(instance), Err(None)) => Status::NonFinite,
+        Ok(_) => Status::Ok,
+    };
     Record { status, ..Record::default() }
 }
 

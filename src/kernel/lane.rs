@@ -177,7 +177,12 @@ impl<S: Real> Lane<S> {
             }
         }
         let remaining = self.rest * segment.step;
-        let longest = step_length(&e, remaining, tolerance);
+        let allowed = scene.longest[self.contact as usize];
+        let mut longest = S::ZERO;
+        // Shorter steps leave a position where it is.
+        if allowed * allowed >= S::EPSILON {
+            longest = step_length(&e, remaining.min(allowed), tolerance);
+        }
         if longest <= S::ZERO {
             self.status = if self.body_is_finite() { Status::StepTooLarge } else { Status::NonFinite };
             return;
@@ -279,7 +284,8 @@ impl<S: Real> Lane<S> {
             return;
         }
         if part != SETTLE {
-            self.sums.observe_window(e, scene.t0, self.contact, part, at, segment.step, tau);
+            let origin = [self.snapshot.p[0], self.snapshot.p[2]];
+            self.sums.observe_window(e, origin, scene.t0, self.contact, part, at, segment.step, tau);
         }
         self.sums.observe_growth(e, tau);
     }

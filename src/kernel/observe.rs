@@ -102,10 +102,12 @@ impl<S: Real> Sums<S> {
         self.growth_closed = true;
     }
 
-    /// Adds a step of the window that begins at `at`.
+    /// Adds a step of the window that begins at `at`; positions count from `origin`, where the window began: a
+    /// deviation around a mean far from the equilibrium would be lost in the squares.
     pub fn observe_window(
         &mut self,
         e: &Expansion<S>,
+        origin: [S; 2],
         t0: S,
         contact: u32,
         part: u32,
@@ -134,10 +136,12 @@ impl<S: Real> Sums<S> {
             normal[i] = value(&e.n, t);
             if i > 0 && i < 4 {
                 let weight = S::from_f64(WEIGHTS[i - 1]) * tau;
-                self.block[1] += weight * x[0];
-                self.block[2] += weight * (x[0] * x[0]);
-                self.block[3] += weight * w[0];
-                self.block[4] += weight * (w[0] * w[0]);
+                let dx = x[0] - origin[0];
+                let dw = w[0] - origin[1];
+                self.block[1] += weight * dx;
+                self.block[2] += weight * (dx * dx);
+                self.block[3] += weight * dw;
+                self.block[4] += weight * (dw * dw);
                 self.block[5] += weight * (x[2] * x[2]);
                 self.block[6] += weight * (w[2] * w[2]);
                 self.block[7] += weight * (x[1] * x[1] + w[1] * w[1]);

@@ -13,6 +13,8 @@ pub const GROWTH: usize = 15;
 /// Reductions of one run, scaled, deviations from the equilibrium.
 #[derive(Clone, Debug, Default)]
 pub struct Reductions {
+    /// `x2` and `y1` from which the sums of positions count.
+    pub origin: [f64; 2],
     /// The sums of [`super::observe::Sums::block`] over both halves of the window.
     pub halves: [[f64; SUMS]; 2],
     /// Largest `|ẍ2|`, `|ÿ1|`, `N`.
@@ -69,15 +71,16 @@ impl Reductions {
         let all: [f64; SUMS] = std::array::from_fn(|i| halves[0][i] + halves[1][i]);
         let std = |s: &[f64; SUMS], i: usize| (s[i + 1] / s[0] - (s[i] / s[0]).powi(2)).max(0.0).sqrt();
         let rms = |s: &[f64; SUMS], i: usize| (s[i] / s[0]).sqrt();
-        outcome.x2_mean = Some(scene.equilibrium.x2 + all[1] / all[0] * units.length);
+        outcome.x2_mean = Some(scene.equilibrium.x2 + (self.origin[0] + all[1] / all[0]) * units.length);
         outcome.x2_std = Some(std(&all, 1) * units.length);
-        outcome.y1_mean = Some(scene.equilibrium.y1 + all[3] / all[0] * units.length);
+        outcome.y1_mean = Some(scene.equilibrium.y1 + (self.origin[1] + all[3] / all[0]) * units.length);
         outcome.y1_std = Some(std(&all, 3) * units.length);
         outcome.ax_rms = Some(rms(&all, 5) * units.acceleration);
         outcome.ay_rms = Some(rms(&all, 6) * units.acceleration);
         outcome.ax_peak = Some(self.peaks[0] * units.acceleration);
         outcome.ay_peak = Some(self.peaks[1] * units.acceleration);
-        outcome.friction_mean = (all[9] > 0.0).then(|| all[8] / all[9]);
+        let friction = all[8] / all[9];
+        outcome.friction_mean = (all[9] > 0.0 && friction.is_finite()).then_some(friction);
         outcome.n_peak = Some(self.peaks[2] * units.force);
         outcome.stick = Some(all[10] / all[0]);
         outcome.free = Some(all[11] / all[0]);

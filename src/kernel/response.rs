@@ -119,6 +119,7 @@ pub const fn kernel<const PIECES: usize>() -> Kernel {
                 Field::one("impact_friction"),
                 Field::many("start", 4),
                 Field::one("slowest_rebound"),
+                Field::many("longest", 4),
                 Field::many("segments", SEGMENTS * SEGMENT_WORDS),
                 Field::many("pieces", PIECES * PIECE_WORDS),
             ]
@@ -250,7 +251,7 @@ pub fn words(scene: &Scene, segments: &Segments, pieces: usize) -> Vec<f64> {
 /// Integrates one instance with the twin of the kernel.
 #[must_use]
 pub fn respond<S: Real>(instance: &Instance, plan: &Plan, tolerance: f64) -> Outcome {
-    let scene = match Scene::new(instance, plan.start) {
+    let scene = match Scene::planned(instance, plan) {
         Ok(scene) => scene,
         Err(status) => return Outcome { status, ..Outcome::default() },
     };
@@ -279,6 +280,7 @@ pub fn reductions<S: Real>(segments: &Segments, lane: &Lane<S>) -> (Reductions, 
     let moment = |m: &observe::Moment<S>| time(m.segment, m.index, m.fraction.to_f64());
     let sums = &lane.sums;
     let reductions = Reductions {
+        origin: [lane.snapshot.p[0], lane.snapshot.p[2]].map(Real::to_f64),
         halves: sums.total.map(|half| half.map(Real::to_f64)),
         peaks: sums.peaks.map(Real::to_f64),
         impacts: sums.impacts,

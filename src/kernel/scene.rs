@@ -5,8 +5,11 @@
 //! The host computes every word in f64 and narrows it once. Differences of nearly equal numbers (friction
 //! against that of the equilibrium, the stick cone at the equilibrium) are formed there.
 
+use super::response::TOLERANCE;
 use super::scalar::Real;
+use super::series::ORDER;
 use crate::integrate::MAX_EVENTS_AT_ONCE;
+use crate::method::pace::longest_steps;
 use crate::model::equilibrium::Scaled;
 use crate::model::friction::Piece as LawPiece;
 
@@ -72,7 +75,7 @@ pub type Segments = [[f64; SEGMENT_WORDS]; SEGMENTS];
 pub const NO_KINK: f64 = 1e30;
 
 /// Words before the segments; the pieces come last.
-pub const SCENE_WORDS: usize = 24;
+pub const SCENE_WORDS: usize = 28;
 /// Words of a piece.
 pub const PIECE_WORDS: usize = 5;
 /// Words of a segment.
@@ -123,6 +126,8 @@ pub struct Scene<S> {
     pub start: [S; 4],
     /// Smallest rebound.
     pub slowest_rebound: S,
+    /// The longest step of each contact state.
+    pub longest: [S; 4],
     /// The pieces of the law.
     pub pieces: Vec<Piece<S>>,
     /// The segments.
@@ -160,6 +165,8 @@ pub fn words(model: &Scaled, v0: f64, start: [f64; 4], segments: &Segments, piec
     ];
     words.extend(start);
     words.push(crate::model::contact::SLOWEST_REBOUND);
+    let longest = longest_steps(&model.fastest, ORDER, f64::from(TOLERANCE));
+    words.extend(longest.map(|step| step.min(NO_KINK)));
     debug_assert_eq!(words.len(), SCENE_WORDS);
     for segment in segments {
         words.extend(segment);
@@ -214,6 +221,7 @@ impl<S: Real> Scene<S> {
             impact_friction: w[18],
             start: [w[19], w[20], w[21], w[22]],
             slowest_rebound: w[23],
+            longest: [w[24], w[25], w[26], w[27]],
             pieces: (0..pieces).map(piece).collect(),
             segments: std::array::from_fn(segment),
         }

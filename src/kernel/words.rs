@@ -48,7 +48,8 @@ impl Words {
         let kind = InstabilityType::ALL.into_iter().find(|one| code(*one) == kind)?;
         let [growth, frequency, ratio_re, ratio_im, flat, frozen] = state;
         let phase = (frequency != 0.0 && self.s != 0.0)
-            .then(|| (self.s * ratio_im).atan2(self.s * ratio_re).to_degrees());
+            .then(|| (self.s * ratio_im).atan2(self.s * ratio_re).to_degrees())
+            .filter(|phase| phase.is_finite());
         let linear = Linear {
             growth_rate: growth * self.scales[0],
             frequency: frequency * self.scales[0] / TAU,

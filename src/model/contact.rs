@@ -97,14 +97,21 @@ impl Scaled {
     /// # Errors
     /// [`Status::Painleve`] when the slip that follows has `M11 ≤ 0`.
     pub fn contact_at_rest(&self, springs: Springs, belt_acceleration: f64) -> Result<Contact, Status> {
-        let (r, w) = self.contact_loads(springs);
-        let tangential = r + belt_acceleration;
-        let normal = w - self.kappa * belt_acceleration;
-        if tangential.abs() <= self.law.mu_stick * normal {
-            Ok(Contact::Stick)
-        } else {
-            self.slip_or_free(springs, tangential.signum(), 0.0)
+        if self.cone_margins(springs, belt_acceleration).iter().all(|margin| *margin >= 0.0) {
+            return Ok(Contact::Stick);
         }
+        let (r, _) = self.contact_loads(springs);
+        self.slip_or_free(springs, (r + belt_acceleration).signum(), 0.0)
+    }
+
+    /// `μ_s N* − T*` and `μ_s N* + T*`, how far the forces of stick are inside their cone. The margins of the equilibrium
+    /// are formed by themselves: on a belt at rest it lies on the edge, where a rounding would decide.
+    #[must_use]
+    pub fn cone_margins(&self, springs: Springs, belt_acceleration: f64) -> [f64; 2] {
+        let tangential = springs.r + belt_acceleration;
+        let held = self.law.mu_stick * (springs.w - self.kappa * belt_acceleration);
+        let edge = |sigma: f64| (self.law.mu_stick - sigma * self.mu0) * self.n0;
+        [held - tangential + edge(1.0), held + tangential + edge(-1.0)]
     }
 
     /// Newton's impact at `y2 = 0` with the velocities `vx`, `vy < 0` and the belt velocity `belt`:

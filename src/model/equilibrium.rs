@@ -7,6 +7,7 @@
 //! ω0² = k1 c²/(m2 + m1 c²)      N0 = F_ext/(c + μ0 s)      k1 c x2 = F_ext (μ0 c − s)/(c + μ0 s)
 //! ```
 
+use super::fastest::{Fastest, fastest};
 use super::friction::PieceChain;
 use super::{Param, Params};
 use crate::outcome::Status;
@@ -124,6 +125,8 @@ pub struct Scaled {
     pub restitution: f64,
     /// Whether impacts carry a Coulomb impulse.
     pub impact_friction: bool,
+    /// How fast the quickest mode of each contact state is.
+    pub fastest: Fastest,
 }
 
 impl Scaled {
@@ -153,6 +156,7 @@ impl Scaled {
             law: instance.law.pieces(units.velocity),
             restitution: params.require(Param::Restitution),
             impact_friction: instance.impact_friction,
+            fastest: fastest(params, units, equilibrium),
         }
     }
 }

@@ -122,6 +122,18 @@ impl Piece {
         }
     }
 
+    /// The largest of its numbers.
+    #[must_use]
+    pub fn largest(self) -> f64 {
+        let [a, b, c] = match self {
+            Piece::Linear { at_zero, slope } => [at_zero, slope, 0.0],
+            Piece::Exponential { floor, height, rate } => [floor, height, rate],
+            Piece::Rational { at_zero, decay } => [at_zero, decay, 0.0],
+        };
+        // A NaN is not to be lost in a maximum.
+        if (a + b + c).is_nan() { f64::NAN } else { a.abs().max(b.abs()).max(c.abs()) }
+    }
+
     /// The same piece as a function of `|v|/velocity_unit`.
     #[must_use]
     pub fn scaled(self, velocity_unit: f64) -> Piece {

@@ -6,6 +6,7 @@
 pub mod belt;
 pub mod contact;
 pub mod equilibrium;
+pub mod fastest;
 pub mod friction;
 pub mod material;
 

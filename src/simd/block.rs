@@ -4,7 +4,7 @@ use std::ops::Not;
 
 use pulp::Simd;
 
-use super::constants::{CONSTANTS, V0};
+use super::constants::{CONE, CONSTANTS, LONGEST, N0, V0};
 use super::transitions::MOST_EVENTS;
 use super::vector::{Mask, Scalar, Vector};
 use crate::kernel::lane::{
@@ -64,7 +64,7 @@ pub struct Block<S: Simd, T: Scalar<S>, const K: usize> {
     pub disarmed: Vector<S, T, K>,
     /// The other piece of a law of two.
     pub other: [Vector<S, T, K>; 6],
-    /// 1 for laws of more pieces.
+    /// 1 for laws of more pieces, and of one: it has no kink to cross.
     pub many: Vector<S, T, K>,
     /// Steps of the present stretch.
     pub steps: Vector<S, T, K>,
@@ -111,7 +111,7 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Block<S, T, K> {
         for word in self.scene.iter_mut().chain(&mut self.piece).chain(&mut self.p).chain(&mut self.v) {
             word.set(lane, T::ZERO);
         }
-        for constant in [super::constants::N0, super::constants::CONE, super::constants::CONE + 1] {
+        for constant in [N0, CONE, CONE + 1, LONGEST, LONGEST + 1, LONGEST + 2] {
             self.scene[constant].set(lane, T::ONE);
         }
         self.belt.set(lane, T::ZERO);
@@ -147,7 +147,7 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Block<S, T, K> {
         }
         // Another contact state has other modes.
         self.pace.set(index, self.step.get(index));
-        self.many.set(index, T::from_f64(f64::from(u8::from(scene.pieces.len() > 2))));
+        self.many.set(index, T::from_f64(f64::from(u8::from(scene.pieces.len() != 2))));
         self.contact.set(index, T::from_f64(f64::from(lane.contact)));
         let disarmed = match lane.disarmed {
             NOTHING => 0,
@@ -189,6 +189,14 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Block<S, T, K> {
     pub fn is_exhausted(&self, lane: usize) -> bool {
         self.at_once.get(lane) > T::from_f64(f64::from(EVENTS_AT_ONCE))
             || self.counted.get(lane) > T::from_f64(MOST_EVENTS)
+    }
+
+    /// The longest step of the present contact states.
+    #[inline(always)]
+    pub fn longest(&self) -> Vector<S, T, K> {
+        let reverse = self.up_to(REVERSE).and(self.up_to(SLIP).not());
+        let closed = reverse.select(self.scene[LONGEST + 1], self.scene[LONGEST]);
+        self.free().select(self.scene[LONGEST + 2], closed)
     }
 
     /// Lanes in contact state `code` or one before it.

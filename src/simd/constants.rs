@@ -1,6 +1,9 @@
 //! What of a scene a step needs in every lane.
 
+use super::ORDER;
 use crate::kernel::scalar::Real;
+use crate::kernel::scene::NO_KINK;
+use crate::method::pace::longest_steps;
 use crate::model::equilibrium::Scaled;
 
 /// A linear form of the state: coefficients of `x2 y2 y1` and of their velocities.
@@ -36,12 +39,14 @@ pub const CONE: usize = 38;
 pub const STIFFNESS: usize = 40;
 /// `1/det` of the mass matrix of `(x2, y2)`.
 pub const INV_DET: usize = 41;
+/// The longest step of slip and stick, of reversed slip, of free flight.
+pub const LONGEST: usize = 42;
 /// How many there are.
-pub const CONSTANTS: usize = 42;
+pub const CONSTANTS: usize = 45;
 
-/// The constants of a scene.
+/// The constants of a scene whose steps have a truncation below `tolerance`.
 #[must_use]
-pub fn constants<T: Real>(model: &Scaled) -> [T; CONSTANTS] {
+pub fn constants<T: Real>(model: &Scaled, tolerance: f64) -> [T; CONSTANTS] {
     let (s, c) = (model.s, model.c);
     // h = k2 (x s + y c − w) and g = k1 (x c − y s), likewise with the dampers.
     let form = |cosine: f64, sine: f64| -> Form {
@@ -71,5 +76,7 @@ pub fn constants<T: Real>(model: &Scaled) -> [T; CONSTANTS] {
     put(CONE, &[(model.law.mu_stick - model.mu0) * n0, (model.law.mu_stick + model.mu0) * n0]);
     put(STIFFNESS, &[model.k1 + model.k2]);
     put(INV_DET, &[inv_det]);
+    let [slip, reverse, stick, free] = longest_steps(&model.fastest, ORDER, tolerance);
+    put(LONGEST, &[slip.min(stick), reverse.min(stick), free].map(|step| step.min(NO_KINK)));
     all.map(T::from_f64)
 }

@@ -5,7 +5,7 @@ use std::ops::Not;
 use pulp::Simd;
 
 use super::block::{Block, LOWER, UPPER};
-use super::constants::{CONE, MU_STICK, N0, R};
+use super::constants::{CONE, KAPPA, MU_STICK, R, W};
 use super::expand::{Expansion, FLIGHT, SINGLE};
 use super::vector::{Mask, Scalar, Vector};
 
@@ -63,10 +63,18 @@ pub fn functions<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const MO
                 t = vx.fma(e.v[0][k + 1], vw.fma(e.v[2][k + 1], t));
             }
             if k == 0 {
+                // Without the static load, whose rounding would decide at the edge of the cone.
+                let mut normal = zero;
+                if MOTION != SINGLE {
+                    normal = (b.scene[W] * square).fma(e.p[0][0], b.scene[W + 2] * square * e.p[2][0]);
+                    normal = (b.scene[W + 3] * e.step).fma(e.v[0][1], normal);
+                    normal = (b.scene[W + 5] * e.step).fma(e.v[2][1], normal);
+                    normal = b.scene[KAPPA].fnma(b.drive * square, normal);
+                }
                 t += b.drive * square;
-                let still = mu.fnma(b.scene[N0] * square, mu * e.n[0]);
-                g.start[1] = sticks.select(b.scene[CONE].fma(square, still) - t, g.start[1]);
-                g.start[2] = sticks.select(b.scene[CONE + 1].fma(square, still) + t, g.start[2]);
+                let held = mu * normal;
+                g.start[1] = sticks.select(b.scene[CONE].fma(square, held) - t, g.start[1]);
+                g.start[2] = sticks.select(b.scene[CONE + 1].fma(square, held) + t, g.start[2]);
             } else {
                 g.second[k] = sticks.select(-t, g.second[k]);
             }

@@ -4,7 +4,8 @@ use std::f64::consts::TAU;
 
 use super::constants::{CONSTANTS, constants};
 use super::stretches::Stretches;
-use crate::kernel::lane::{Belt, GAP, Lane};
+use super::tolerance;
+use crate::kernel::lane::{Belt, GAP, Lane, UPPER_KINK};
 use crate::kernel::reductions::{End, Reductions};
 use crate::kernel::response::{law_of, words};
 use crate::kernel::scalar::Real;
@@ -60,6 +61,8 @@ pub struct Job<T> {
     pub until: f64,
     /// Whether the first event is still to come.
     pub growing: bool,
+    /// `x2` and `y1` at the start of the window.
+    pub origin: [T; 2],
     /// What it has reduced.
     pub seen: Reductions,
     /// `ẋ2` at the end of the last step of the window.
@@ -101,13 +104,14 @@ impl<T: Real> Job<T> {
         lane.enter_contact(&words, belt);
         let scene_settle = scene.scaled(plan.settle);
         Job {
-            constants: constants(&scene.model),
+            constants: constants(&scene.model, tolerance(T::PRECISION, plan.steps_per_period)),
             scene,
             words,
             lane,
             time: 0.0,
             until: 0.0,
             growing: true,
+            origin: [T::ZERO; 2],
             seen: Reductions::default(),
             previous: T::ZERO,
             stretches: Stretches::default(),
@@ -150,6 +154,8 @@ impl<T: Real> Job<T> {
                 }
                 self.quiet = true;
                 self.previous = T::ZERO;
+                self.origin = [self.lane.body.p[0], self.lane.body.p[2]];
+                self.seen.origin = self.origin.map(T::to_f64);
                 self.snapshot = Some(Box::new(self.lane.clone()));
                 true
             }
@@ -225,6 +231,11 @@ impl<T: Real> Job<T> {
         self.growing = false;
         if exhausted {
             self.lane.status = Status::EventLimit;
+            return;
+        }
+        if event == UPPER_KINK && self.lane.piece as usize + 1 >= self.words.pieces.len() {
+            // A speed beyond all kinks, where there is none.
+            self.lane.status = Status::NonFinite;
             return;
         }
         self.lane.transition(&self.words, event, belt);

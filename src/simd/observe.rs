@@ -22,6 +22,8 @@ use crate::kernel::source::Precision;
 pub struct Sums<S: Simd, T: Scalar<S>, const K: usize> {
     /// The sums of [`crate::kernel::observe::Sums::block`].
     pub window: [Vector<S, T, K>; SUMS],
+    /// `x2` and `y1` at the start of the window, from which its sums count.
+    pub origin: [Vector<S, T, K>; 2],
     /// Largest `|ẍ2|`, `|ÿ1|`, `N`.
     pub peaks: [Vector<S, T, K>; 3],
     /// `ẋ2` at the end of the step before.
@@ -57,6 +59,7 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
         let zero = Vector::constant(simd, 0.0);
         Sums {
             window: [zero; SUMS],
+            origin: [zero; 2],
             peaks: [zero; 3],
             previous: zero,
             crossings: zero,
@@ -143,14 +146,16 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
             samples[2][i] = normal;
             let weight = tau * at.like(WEIGHTS[i - 1]);
             let sums = &mut self.window;
-            sums[1] = weight.fma(x, sums[1]);
-            sums[2] = weight.fma(x * x, sums[2]);
+            let dx = x - self.origin[0];
+            sums[1] = weight.fma(dx, sums[1]);
+            sums[2] = weight.fma(dx * dx, sums[2]);
             sums[5] = weight.fma(ax * ax, sums[5]);
             if MOTION == SINGLE {
                 sums[7] = weight.fma(vx * vx, sums[7]);
             } else {
-                sums[3] = weight.fma(w, sums[3]);
-                sums[4] = weight.fma(w * w, sums[4]);
+                let dw = w - self.origin[1];
+                sums[3] = weight.fma(dw, sums[3]);
+                sums[4] = weight.fma(dw * dw, sums[4]);
                 sums[6] = weight.fma(ay * ay, sums[6]);
                 sums[7] = weight.fma(vx.fma(vx, vw * vw), sums[7]);
             }
@@ -266,6 +271,20 @@ pub fn derivative<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
         sum = sum.fma(t, v[k]);
     }
     sum
+}
+
+/// What [`derivative`] has changed by since the start of the step. A velocity that is carried on by it takes no part in the
+/// scaling by a step and back, whose rounding, the same in every step of one length, would let it grow or decay.
+#[inline(always)]
+pub fn change<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
+    v: &[Vector<S, T, K>; N],
+    t: Vector<S, T, K>,
+) -> Vector<S, T, K> {
+    let mut sum = v[N - 1];
+    for k in (2..N - 1).rev() {
+        sum = sum.fma(t, v[k]);
+    }
+    sum * t
 }
 
 /// The maximum of a smooth function from its samples, see [`crate::kernel::observe::maximum`].

@@ -11,7 +11,7 @@ use super::events::{first_event, value};
 use super::expand::{CLOSED, Expansion, FLIGHT, PIECES, SINGLE, expand};
 use super::functions::{Functions, functions};
 use super::job::{Job, Part, STRETCH};
-use super::observe::{Sums, derivative};
+use super::observe::{Sums, change};
 use super::reach::{LONGER, reach};
 use super::spectrum::{COMPONENTS, accelerations};
 use super::transitions::transitions;
@@ -104,13 +104,16 @@ fn step<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool, 
     let zero = b.left.like(0.0);
     let one = b.left.like(1.0);
     b.v[0] = b.stick().select(b.belt, b.v[0]);
-    let pace = b.pace.min(b.step);
+    let allowed = b.longest();
+    let pace = b.pace.min(b.step).min(allowed);
     let last = b.left.at_most(pace * one.like(1.0 + 1e-3));
     let h = last.select(b.left, pace);
     let ill_posed = expand::<S, T, K, N, LAW, MOTION>(b, h, e);
     let reach = reach::<S, T, K, N, MOTION>(e, tolerance);
     // Steps so short that a stretch does not end.
     let failed = reach.failed.or(ill_posed).or(one.like(MOST_STEPS).less(b.steps));
+    // Steps so short that a position stays where it is.
+    let failed = failed.or((allowed * allowed).less(Vector::splat(b.simd, T::EPSILON)));
     if failed.any() {
         fail::<S, T, K>(all, failed.select(one, zero), ill_posed.select(one, zero));
         return;
@@ -118,7 +121,7 @@ fn step<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool, 
     functions::<S, T, K, N, MOTION>(b, e, g);
     let [at, event] = first_event::<S, T, K, N, MOTION>(b, e, g, tolerance);
     let (at, event) = (at.min(reach.end), event.only(at.at_most(reach.end)));
-    let (x, vx) = (value(&e.p[0], at), derivative(&e.v[0], at) * e.rate);
+    let (x, vx) = (value(&e.p[0], at), change(&e.v[0], at).fma(e.rate, b.v[0]));
     let sums = &mut all.sums;
     if all.part == Part::Growth {
         sums.observe_growth::<N, MOTION>(e, at, x, vx);
@@ -143,11 +146,11 @@ fn step<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool, 
     b.v[0] = vx;
     if MOTION != SINGLE {
         b.p[2] = value(&e.p[2], at);
-        b.v[2] = derivative(&e.v[2], at) * e.rate;
+        b.v[2] = change(&e.v[2], at).fma(e.rate, b.v[2]);
     }
     if MOTION == FLIGHT {
         b.p[1] = value(&e.p[1], at);
-        b.v[1] = derivative(&e.v[1], at) * e.rate;
+        b.v[1] = change(&e.v[1], at).fma(e.rate, b.v[1]);
     }
     let whole = one.at_most(at).and(h.at_most(e.step)).and(last);
     b.left = whole.select(zero, b.left - tau);
@@ -221,6 +224,9 @@ fn begin<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>, lane: 
     if all.part == Part::Window {
         sums.window.iter_mut().for_each(|word| word.set(lane, T::ZERO));
         sums.peaks.iter_mut().for_each(|word| word.set(lane, T::ZERO));
+        for (word, position) in sums.origin.iter_mut().zip(job.origin) {
+            word.set(lane, position);
+        }
         sums.quiet.set(lane, T::ONE);
         let begun = job.seen.crossings > 0;
         sums.spectrum.begin(lane, job.guessed_omega(), 0.5 * length, begun);

@@ -1,6 +1,7 @@
 //! Extremes give a status, never a panic, a hang or silent nonsense.
 
 use crate::common::{bilinear, close, constant, instance, near, paper, plan};
+use crate::engines::Engine;
 use squealmap::classify::{Regime, regime};
 use squealmap::linear::analyse;
 use squealmap::model::Param;
@@ -48,6 +49,35 @@ fn belt_at_rest() {
     close("frequency", outcome.response_frequency.expect("one"), omega / std::f64::consts::TAU, 1e-9);
     near("reversed half the time", outcome.reverse.expect("a fraction"), 0.5, 0.02);
     close("peak", outcome.ax_peak.expect("a peak"), 0.01 * omega, 1e-5);
+}
+
+/// However small the kick: friction stops it within `v²`, at most once on each side of the equilibrium, and holds it.
+#[test]
+fn a_kick_on_a_belt_at_rest_ends_in_rest() {
+    for theta in [0.0, 0.01, 0.3] {
+        for kick in [1e-2, 1e-4, 1e-6, 1e-9, 1e-12] {
+            let one = with(&paper(0.4, 0.3, 0.0), &[(Param::Theta, theta), (Param::StartVelocity, kick)]);
+            for engine in Engine::ALL {
+                let outcome = engine.run(&one, &plan(0.5, 0.5, 12));
+                let name = engine.name();
+                assert_eq!(
+                    (outcome.status, outcome.stick),
+                    (Status::Ok, Some(1.0)),
+                    "{name} θ = {theta}, {kick}"
+                );
+                assert_eq!(outcome.x2_std, Some(0.0), "{name} θ = {theta}, {kick}");
+            }
+        }
+    }
+}
+
+/// A run of more steps than a kernel counts is refused at once.
+#[test]
+fn a_run_without_end_is_refused() {
+    for engine in Engine::ALL {
+        let outcome = engine.run(&paper(0.4, 0.3, 3.0), &plan(1e8, 1.0, 12));
+        assert_eq!((outcome.status, outcome.steps), (Status::StepTooLarge, 0), "{}", engine.name());
+    }
 }
 
 #[test]

@@ -7,11 +7,15 @@ mod claims;
 mod cli;
 mod colour;
 mod common;
+mod engines;
 mod events;
+mod exact;
 mod export;
 mod extremes;
+mod fastest;
 mod figure;
 mod fit;
+mod fuzz;
 mod identify;
 mod instances;
 #[cfg(unix)]
@@ -22,6 +26,7 @@ mod kernels;
 #[cfg(unix)]
 mod killed;
 mod label;
+mod limits;
 mod linear;
 mod modes_figure;
 mod no_driver;

@@ -1,0 +1,62 @@
+//! Every engine behind one face: what holds for one has to hold for all, or to be written down.
+
+use std::sync::atomic::AtomicBool;
+
+use squealmap::backend::cpu::outcomes;
+use squealmap::kernel::response;
+use squealmap::outcome::Outcome;
+use squealmap::response::{Plan, respond};
+use squealmap::simd::Lanes;
+use squealmap::spec::Instance;
+
+/// What computes a transient, in which precision.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Engine {
+    Reference,
+    CpuF64,
+    CpuF32,
+    /// The kernel of a GPU, by its twin.
+    KernelF64,
+    KernelF32,
+}
+
+impl Engine {
+    pub(crate) const ALL: [Engine; 5] =
+        [Engine::Reference, Engine::CpuF64, Engine::CpuF32, Engine::KernelF64, Engine::KernelF32];
+
+    /// The name in a table.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Engine::Reference => "reference",
+            Engine::CpuF64 => "cpu f64",
+            Engine::CpuF32 => "cpu f32",
+            Engine::KernelF64 => "gpu f64",
+            Engine::KernelF32 => "gpu f32",
+        }
+    }
+
+    /// The transients of some instances.
+    pub(crate) fn run_all(self, instances: &[Instance], plan: &Plan) -> Vec<Outcome> {
+        let tolerance = f64::from(response::TOLERANCE);
+        match self {
+            Engine::Reference => instances.iter().map(|one| respond(one, plan)).collect(),
+            Engine::CpuF64 => lanes::<f64>(instances, plan),
+            Engine::CpuF32 => lanes::<f32>(instances, plan),
+            Engine::KernelF64 => {
+                instances.iter().map(|one| response::respond::<f64>(one, plan, tolerance)).collect()
+            }
+            Engine::KernelF32 => {
+                instances.iter().map(|one| response::respond::<f32>(one, plan, tolerance)).collect()
+            }
+        }
+    }
+
+    /// The transient of one instance.
+    pub(crate) fn run(self, instance: &Instance, plan: &Plan) -> Outcome {
+        self.run_all(std::slice::from_ref(instance), plan)[0]
+    }
+}
+
+fn lanes<T: Lanes>(instances: &[Instance], plan: &Plan) -> Vec<Outcome> {
+    outcomes::<T>(instances, plan, &AtomicBool::new(false)).expect("nobody stops it")
+}

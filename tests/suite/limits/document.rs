@@ -1,0 +1,111 @@
+//! The table as text, and a stored text against it.
+
+use std::fmt::Write;
+
+use super::measure::Found;
+use crate::engines::Engine;
+
+/// A scene and what each engine made of it: with 12 and with 4 steps per period, or with its own.
+pub(crate) struct Row {
+    pub(crate) name: String,
+    pub(crate) cells: [Vec<Found>; Engine::ALL.len()],
+}
+
+/// Smaller errors are not told apart.
+const SMALLEST: i32 = -9;
+
+const INTRODUCTION: &str = "\
+# Limits
+
+Where each method and precision stops being trustworthy: scenes at the ends of the ranges, and the largest relative error
+of each engine, to the next decade above three times of it, with 12 and with 4 steps per period (`12 / 4`), or the status in its place. The file is
+written and compared by the tests (`SQUEALMAP_WRITE_LIMITS=1 cargo test --release --test suite limits`): an error that has
+grown beyond its decade, or fallen by two, is a failed test. `gpu` is the kernel by its twin on the CPU.
+
+What holds for all of them:
+
+- **A step is never too large.** `steps_per_period` bounds it from above, and so do the truncation of the motion's series,
+  and, in each contact state, the fastest mode, shown by the motion or not (`|λ| h ≤ 1.8`, and small enough that an unseen mode
+  loses less than 5e-7 of itself in a step). With a step of a whole period every number below is within 10 % still, or the
+  status is not `ok`. Before the third bound, weakly excited stiff modes were raised from the rounding to the truncation's
+  bound, and `ay_rms` was off by 100 % at k2/k1 = 100 (cpu f32) and by a factor of 100 at 1e4.
+- **Stiffness costs time, then the status says so.** A run takes as many steps as its fastest mode asks for. Where they are
+  so short that a position stands still within the rounding (f32: `ω/ω0` above some 2000 to 4600; f64: never before the
+  500 000 steps per period at which all engines stop) it is `step_too_large`.
+- **Size does not matter.** Forces and velocities, masses and springs scale out; by powers of two not a bit changes. Scaled
+  numbers beyond 1e±18 are `non_finite`, before the run.
+- **Length does.** More than 2^31 steps are `step_too_large`. In f32 an amplitude loses or gains some 1e-8 of itself per step
+  at random.
+- **What is at rest is at rest.** Amplitudes below 1e-18 of `F_ext/k2` are 0 in f32: a motion that has died out that far
+  is told as none.
+- **Chaos.** From a restitution of about 0.95 on, and wherever a motion grazes the belt, the last bits decide: statuses and
+  statistics hold, single values do not.
+";
+
+/// A document is written with this factor on every error, for machines that round otherwise.
+pub(crate) const ROOM: f64 = 3.0;
+
+/// The document, every error times `room`.
+pub(crate) fn render(groups: &[(&'static str, &'static str, Vec<Row>)], room: f64) -> String {
+    let mut text = INTRODUCTION.to_owned();
+    let engines: Vec<&str> = Engine::ALL.iter().map(|engine| engine.name()).collect();
+    for (title, source, rows) in groups {
+        let _ = write!(text, "\n## {title}\n\n{source}\n\n| scene | {} |\n", engines.join(" | "));
+        let _ = writeln!(text, "|---|{}", "---|".repeat(engines.len()));
+        for row in rows {
+            let cells: Vec<String> = row.cells.iter().map(|found| cell(found, room)).collect();
+            let _ = writeln!(text, "| {} | {} |", row.name, cells.join(" | "));
+        }
+    }
+    text
+}
+
+/// `1e-6 / 1e-3`, or once what is the same with any step.
+fn cell(found: &[Found], room: f64) -> String {
+    let mut words: Vec<String> = found.iter().map(|one| word(*one, room)).collect();
+    words.dedup();
+    words.join(" / ")
+}
+
+fn word(found: Found, room: f64) -> String {
+    match found {
+        Found::Ended(status) => status.name().to_owned(),
+        #[expect(clippy::cast_possible_truncation, reason = "a decade")]
+        Found::Off(error) if error.is_finite() => {
+            let decade = (room * error).max(f64::MIN_POSITIVE).log10().ceil() as i32;
+            format!("1e{}", decade.max(SMALLEST))
+        }
+        Found::Off(_) => "missing".to_owned(),
+    }
+}
+
+/// Whether a stored document says what is measured; else the first line that does not.
+pub(crate) fn is_same(stored: &str, measured: &str) -> Result<(), String> {
+    let (stored, measured): (Vec<&str>, Vec<&str>) = (stored.lines().collect(), measured.lines().collect());
+    for (index, line) in measured.iter().enumerate() {
+        let Some(other) = stored.get(index) else { return Err(format!("missing: {line}")) };
+        let (cells, others) = (line.split(" | "), other.split(" | "));
+        let same = cells.clone().count() == others.clone().count()
+            && others.zip(cells).all(|(stored, measured)| stored == measured || agrees(stored, measured));
+        if !same {
+            return Err(format!("stored   {other}\nmeasured {line}"));
+        }
+    }
+    if stored.len() > measured.len() { Err(format!("too much: {}", stored[measured.len()])) } else { Ok(()) }
+}
+
+/// Whether a measured cell is what a stored one claims: the same decades, or one less.
+pub(crate) fn agrees(stored: &str, measured: &str) -> bool {
+    let grades = |cell: &str| -> Vec<String> {
+        let words: Vec<String> = cell.trim_matches(['|', ' ']).split(" / ").map(str::to_owned).collect();
+        // One word stands for both steps.
+        if words.len() == 1 { vec![words[0].clone(), words[0].clone()] } else { words }
+    };
+    grades(stored).iter().zip(&grades(measured)).all(|(stored, measured)| {
+        let decade = |word: &str| word.strip_prefix("1e").and_then(|digits| digits.parse::<i32>().ok());
+        match (decade(stored), decade(measured)) {
+            (Some(stored), Some(measured)) => measured <= stored && stored <= measured + 1,
+            _ => stored == measured,
+        }
+    })
+}

@@ -1,0 +1,135 @@
+//! The scenes: every parameter from one end of its range to the other.
+
+use squealmap::model::Param;
+use squealmap::model::friction::FrictionLaw;
+use squealmap::outcome::Status;
+
+use super::scene::{Group, Scene, as_reference, ends, periods, sliding, stick_slip};
+use crate::common::constant;
+
+/// Undamped coalescence of Table 1, the root of its closed form.
+const COALESCENCE: f64 = 0.226_361_594_06;
+
+pub(crate) fn groups() -> Vec<Group> {
+    vec![
+        Group {
+            title: "Sliding without an event",
+            source: "Deviations and accelerations of a small kick, x2 and y1, from the matrix exponential of the \
+                     equations; 20 periods before the window and 20 in it, θ = 0.1, μ = 0.1 unless said otherwise.",
+            scenes: slides(),
+        },
+        Group {
+            title: "Stick-slip of the single mass",
+            source: "θ = 0, no damping, μ_d = 0.3: share of stick, frequency and acceleration of the closed form.",
+            scenes: stick_slips(),
+        },
+        Group {
+            title: "Flight and impact",
+            source: "The same as the reference with 60 steps per period; its own column is that against 12. Chaotic \
+                     motions are left out: above e = 0.95 they part whatever the step.",
+            scenes: impacts(),
+        },
+        Group {
+            title: "What is refused",
+            source: "The status that the equations ask for.",
+            scenes: refused(),
+        },
+    ]
+}
+
+fn slides() -> Vec<Scene> {
+    let slide = |name: &str, values: &[(Param, f64)]| sliding(name, 0.1, 20.0, values);
+    let mut all = Vec::new();
+    for theta in [-1.4, -0.3, 0.0, 1e-6, 0.3, 1.0, 1.2, 1.4] {
+        all.push(slide(&format!("θ = {theta}"), &[(Param::Theta, theta), (Param::StartVelocity, 1e-4)]));
+    }
+    for ratio in [1e-6, 1e-3, 1e2, 1e4, 1e6] {
+        all.push(slide(&format!("k2/k1 = {ratio:e}"), &[(Param::K2, 1e5 * ratio)]));
+    }
+    for ratio in [1e-9, 1e-3, 10.0, 1e3] {
+        all.push(slide(&format!("m2/m1 = {ratio:e}"), &[(Param::M2, 2.12 * ratio)]));
+    }
+    for damping in [0.0, 1e2, 1e4, 1e5] {
+        all.push(slide(&format!("c1 = c2 = {damping:e}"), &[(Param::C1, damping), (Param::C2, damping)]));
+    }
+    for force in [1e-9, 1e9] {
+        let values =
+            [(Param::FExt, force), (Param::StartVelocity, 1e-6 * force), (Param::BeltVelocity, 1e-3 * force)];
+        all.push(slide(&format!("F_ext = {force:e}, velocities in proportion"), &values));
+    }
+    for velocity in [1e-6_f64, 1e3] {
+        let values = [(Param::BeltVelocity, velocity), (Param::StartVelocity, 1e-3 * velocity.min(1.0))];
+        all.push(slide(&format!("V = {velocity:e}"), &values));
+    }
+    all.push(slide("kick of 1e-12 m/s", &[(Param::StartVelocity, 1e-12)]));
+    let undamped = [(Param::C1, 0.0), (Param::C2, 0.0), (Param::Theta, 0.01)];
+    all.push(sliding("defective eigenvalue (coalescence)", COALESCENCE, 20.0, &undamped));
+    all.push(sliding("no damping, 2000 periods", 0.1, 1000.0, &undamped));
+    let fine = slide("10 000 steps per period", &[]);
+    all.push(Scene { plan: periods(20.0, 20.0, 10_000), ..fine });
+    all
+}
+
+fn stick_slips() -> Vec<Scene> {
+    let mut all = Vec::new();
+    for velocity in [1e-6, 1e-3, 1.0, 1e3] {
+        let name = format!("V = {velocity:e}, F_ext in proportion, μ_s = 0.5");
+        all.push(stick_slip(&name, velocity, 1000.0 * velocity, 0.2));
+    }
+    for (velocity, margin) in [(1e-3, 0.2), (1e-2, 0.2), (0.1, 0.2), (10.0, 0.2), (1.0, 0.01), (1.0, 100.0)] {
+        let name = format!("V = {velocity:e}, F_ext = 1000, μ_s − μ_d = {margin}");
+        all.push(stick_slip(&name, velocity, 1000.0, margin));
+    }
+    all
+}
+
+fn impacts() -> Vec<Scene> {
+    let base = [(Param::BeltVelocity, 6.9), (Param::StartDisplacement, 0.02)];
+    let with = |name: &str, more: &[(Param, f64)]| as_reference(name, constant(0.4), &[&base, more].concat());
+    let mut all = Vec::new();
+    for restitution in [0.0, 0.5, 0.9] {
+        all.push(with(&format!("e = {restitution}"), &[(Param::Restitution, restitution)]));
+    }
+    for ratio in [1e-6, 1e-3, 1e-2] {
+        all.push(with(
+            &format!("m2/m1 = {ratio:e}"),
+            &[(Param::M2, 2.12 * ratio), (Param::BeltVelocity, 3.0)],
+        ));
+    }
+    all
+}
+
+fn refused() -> Vec<Scene> {
+    let theta = std::f64::consts::FRAC_PI_4;
+    let reverse = [(Param::Theta, theta), (Param::BeltVelocity, 0.5), (Param::StartVelocity, 2.0)];
+    let belt = [(Param::BeltVelocity, 1.0)];
+    let rises = FrictionLaw::Constant { mu_s: 0.2, mu_d: 0.3 };
+    vec![
+        ends("Painlevé: μ = 1.5 at θ = π/4 in reversed slip", Status::Painleve, constant(1.5), &reverse),
+        ends(
+            "no equilibrium: μ = 2 at θ = −0.5",
+            Status::NoEquilibrium,
+            constant(2.0),
+            &[(Param::Theta, -0.5), (Param::BeltVelocity, 1.0)],
+        ),
+        ends("constant law with μ_s < μ_d", Status::InvalidLaw, rises, &belt),
+        ends(
+            "k2/k1 = 1e16",
+            Status::StepTooLarge,
+            constant(0.4),
+            &[(Param::K2, 1e16), (Param::K1, 1.0), (Param::BeltVelocity, 1.0)],
+        ),
+        ends(
+            "k1 = 1e300",
+            Status::NonFinite,
+            constant(0.4),
+            &[(Param::K1, 1e300), (Param::BeltVelocity, 1.0)],
+        ),
+        ends(
+            "F_ext = 1e-300",
+            Status::NonFinite,
+            constant(0.4),
+            &[(Param::FExt, 1e-300), (Param::BeltVelocity, 1.0)],
+        ),
+    ]
+}
