@@ -4,6 +4,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::accuracy::checks::Checks;
 use crate::classify::{InstabilityType, Regime};
 use crate::map::Record;
 use crate::outcome::Status;
@@ -85,6 +86,7 @@ impl From<&Record> for Label {
 pub struct Tally {
     counts: BTreeMap<Label, usize>,
     energy_gaining_impacts: Option<u64>,
+    checks: Checks,
 }
 
 impl Tally {
@@ -95,6 +97,7 @@ impl Tally {
             *self.counts.entry(Label::from(&run[0])).or_default() += run.len();
         }
         for record in records {
+            self.checks.add(record);
             if let Some(impacts) = record.outcome.and_then(|outcome| outcome.energy_gaining_impacts) {
                 *self.energy_gaining_impacts.get_or_insert(0) += impacts;
             }
@@ -130,6 +133,12 @@ impl Tally {
     #[must_use]
     pub fn computed(&self) -> usize {
         self.count(|label| label.status() != Status::NotComputed)
+    }
+
+    /// What the checks found.
+    #[must_use]
+    pub fn checks(&self) -> &Checks {
+        &self.checks
     }
 
     /// Impacts that gained energy, of all instances; only the reference counts them.

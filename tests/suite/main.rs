@@ -3,6 +3,7 @@
 mod accuracy;
 mod arrays;
 mod bad_input;
+mod checks;
 mod claims;
 mod cli;
 mod colour;
