@@ -21,7 +21,7 @@ use crate::map::{Record, Stopped};
 use crate::spec::Spec;
 
 /// Parts of the run time that the two kinds of checks may take, together below 5 %.
-const FINE_SHARE: f64 = 0.035;
+const FINE_SHARE: f64 = 0.03;
 const REFERENCE_SHARE: f64 = 0.01;
 
 /// What a GPU computes per second is not known beforehand: a fast one, so that its checks, which the CPU makes, stay

@@ -139,14 +139,14 @@ The same command without `--store` measures any sweep on any machine and keeps t
 Whether that is kept on sweeps that were not measured here (a rational law with rebounding impacts, a belt ramp, an
 exponential law run until it is settled) is a test: `cargo test --release --test suite promise -- --nocapture` computes all
 of their instances by `--accuracy 1e-3` and by the reference. At least 95 % of the settled oscillations must be within
-1e-3 and the truth's own scatter, and at least 80 % of the oscillations settled. With `--ignored` it also compares the error
+1e-3 and the truth's own scatter, and at least 80 % of the oscillations settled. With `--include-ignored` it also compares the error
 that a map of 14 400 instances states of itself with the error of every instance: within a factor of 2.
 
 ## What a map says of itself
 
 Every run with a response computes a few instances again, chosen by their index alone, so that threads, tiles, shards and a
-run that goes on give the same bytes. 3.5 % of the time go to the CPU engine in f64 with at least 16 steps per period (some
-1.5 % of the instances of a run in f32), 1 % to the reference (some 3 in 10 000). Their numbers follow from the speeds below, not
+run that goes on give the same bytes. 3 % of the time go to the CPU engine in f64 with at least 16 steps per period (some
+1 % of the instances of a run in f32), 1 % to the reference (some 3 in 10 000). Their numbers follow from the speeds below, not
 from a clock. With that budget the reference alone could say little of a map below a million instances, so the first draw
 gives the quantiles and the second the independent witness. Of the instances near a border between labels only those
 that were drawn take the finer result; to have all of them in f64 takes a run in f64.

@@ -43,7 +43,7 @@ fn coarse() -> (Map, Map) {
 fn checks_find_the_errors_that_an_independent_run_finds() {
     let (map, unchecked) = coarse();
     let checked: Vec<usize> = (0..2400).filter(|index| map.records[*index].check.is_some()).collect();
-    // By the shares: 3.5 % of the time for what costs some 4 to 6 times as much.
+    // By the shares: 3 % of the time for what costs some 4 to 6 times as much.
     assert!((8..60).contains(&checked.len()), "{}", checked.len());
     let truth =
         records(&Configuration::reference(24), &subset(&map.spec, &checked), &Options::default()).unwrap();

@@ -29,6 +29,7 @@ mod no_driver;
 mod observables;
 mod paper;
 mod plot;
+mod promise;
 mod properties;
 mod regimes;
 mod response;
