@@ -151,6 +151,9 @@ from a clock. With that budget the reference alone could say little of a map bel
 gives the quantiles and the second the independent witness. Of the instances near a border between labels only those
 that were drawn take the finer result; to have all of them in f64 takes a run in f64.
 
+Measured: 129 600 instances of the first sweep below (140 periods) at `standard` take 5.32 s of a processor instead of 5.15 s
+with `--no-check`, the mean of three runs each, on a machine with other work: 3 %.
+
 ## What is chosen
 
 Instances per second of a processor (with a GPU among them: of wall time), and the error that 95 % are within.
