@@ -122,6 +122,7 @@ fn spec(manifest: &Json, table: &Table) -> std::result::Result<Spec, String> {
             linear: asked("linear"),
             response: asked("response"),
             until_settled: resolved.get("response").is_some_and(|response| response["settle"] == "auto"),
+            checked: resolved.get("response").is_some_and(|response| response["check"] == true),
         },
         base: Params::default(),
         impact_friction: true,

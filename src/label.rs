@@ -4,6 +4,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::accuracy::checks::Checks;
 use crate::classify::{InstabilityType, Regime};
 use crate::map::Record;
 use crate::outcome::Status;
@@ -104,6 +105,7 @@ impl From<Label> for Record {
 pub struct Tally {
     counts: BTreeMap<Label, usize>,
     energy_gaining_impacts: Option<u64>,
+    checks: Checks,
 }
 
 impl Tally {
@@ -114,6 +116,7 @@ impl Tally {
             *self.counts.entry(Label::from(&run[0])).or_default() += run.len();
         }
         for record in records {
+            self.checks.add(record);
             if let Some(impacts) = record.outcome.and_then(|outcome| outcome.energy_gaining_impacts) {
                 *self.energy_gaining_impacts.get_or_insert(0) += impacts;
             }
@@ -149,6 +152,12 @@ impl Tally {
     #[must_use]
     pub fn computed(&self) -> usize {
         self.count(|label| label.status() != Status::NotComputed)
+    }
+
+    /// What the checks found.
+    #[must_use]
+    pub fn checks(&self) -> &Checks {
+        &self.checks
     }
 
     /// Impacts that gained energy, of all instances; only the reference counts them.

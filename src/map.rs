@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
+use crate::accuracy::check::Check;
 use crate::classify::{InstabilityType, Regime};
 use crate::error::{Error, Result};
 use crate::linear::Linear;
@@ -26,6 +27,8 @@ pub struct Record {
     pub settled: Option<bool>,
     /// The response, when asked for.
     pub outcome: Option<Outcome>,
+    /// What a check found, where the instance was checked.
+    pub check: Option<Check>,
 }
 
 impl Record {
@@ -37,6 +40,7 @@ impl Record {
         regime: None,
         settled: None,
         outcome: None,
+        check: None,
     };
 }
 

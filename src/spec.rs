@@ -50,6 +50,7 @@ pub const AUTO_MEASURE: Duration = Duration::Periods(48.0);
 pub const SETTLE_LIMIT: Duration = Duration::Periods(1000.0);
 
 /// What a sweep computes.
+#[expect(clippy::struct_excessive_bools, reason = "four questions with yes or no, asked one by one")]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Analysis {
     /// Complex eigenvalue analysis.
@@ -58,6 +59,16 @@ pub struct Analysis {
     pub response: bool,
     /// Time integration goes on until it is settled.
     pub until_settled: bool,
+    /// A few instances are computed again, to measure the error of the others.
+    pub checked: bool,
+}
+
+impl Analysis {
+    /// Whether instances are computed again: responses only.
+    #[must_use]
+    pub fn checks(self) -> bool {
+        self.response && self.checked
+    }
 }
 
 /// How the transient starts; amplitudes are instance parameters.

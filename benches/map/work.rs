@@ -65,7 +65,7 @@ impl Work {
         let text = format!(
             "analysis = [\"response\"]\n[friction]\nlaw = \"bilinear\"\nmu_s = 0.1\nmu_d = 0.1\n\
              knee_velocity = {KNEE:?}\n[belt]\nbelt_velocity = 1.0\n\
-             [response]\nsettle = \"{SETTLE} periods\"\nmeasure = \"{MEASURE} periods\"\n"
+             [response]\nsettle = \"{SETTLE} periods\"\nmeasure = \"{MEASURE} periods\"\ncheck = false\n"
         );
         let mut spec = Spec::parse(&text, "benches/map", ".".as_ref())?;
         spec.grid = Grid::Tuples {

@@ -2,7 +2,7 @@
 
 use super::configuration::{Configuration, scenes};
 use super::level::Level;
-use super::row::{Row, from_csv};
+use super::row::{Row, from_csv, pace};
 use crate::error::{Error, Result};
 use crate::spec::Spec;
 
@@ -17,11 +17,12 @@ pub const MARGIN: f64 = 2.0;
 
 /// Marks the efficient ones among the rows of each scene: no other is as accurate and as fast.
 pub fn mark(rows: &mut [Row]) {
+    let pace = pace(rows.iter());
     let beats = |a: &Row, b: &Row| {
         a.scene == b.scene
             && a.worst_p95 <= b.worst_p95
-            && a.per_second >= b.per_second
-            && (a.worst_p95 < b.worst_p95 || a.per_second > b.per_second)
+            && pace(a) >= pace(b)
+            && (a.worst_p95 < b.worst_p95 || pace(a) > pace(b))
     };
     let efficient: Vec<bool> = rows
         .iter()
@@ -92,6 +93,19 @@ impl Frontier {
         &self.rows
     }
 
+    /// Instances per second of one thread of a configuration of the CPU, with the nearest steps per period that were
+    /// measured, under laws of straight pieces; NaN where none was.
+    #[must_use]
+    pub fn cpu_rate(&self, wanted: &Configuration) -> f64 {
+        let of_kind = self.rows.iter().filter(|row| names(row, "pieces, fixed time")).filter_map(|row| {
+            let found = row.configuration()?;
+            let same = (found.backend, found.precision) == (wanted.backend, wanted.precision);
+            row.per_cpu_second.filter(|_| same).map(|rate| (found.steps_per_period, rate))
+        });
+        let nearest = of_kind.min_by_key(|(steps, _)| steps.abs_diff(wanted.steps_per_period));
+        nearest.map_or(f64::NAN, |(_, rate)| rate)
+    }
+
     /// Whether every kind of scene of a sweep was measured.
     #[must_use]
     pub fn covers(&self, spec: &Spec) -> bool {
@@ -115,11 +129,13 @@ impl Frontier {
         };
         let scenes = scenes(spec);
         let covered = self.covers(spec);
+        let may_be_taken = |row: &Row| row.configuration().is_some_and(|one| allowed(&one));
         let counts = |row: &&Row| !covered || scenes.iter().any(|scene| names(row, scene));
-        let candidates = candidates(self.rows.iter().filter(counts), allowed);
+        let rows: Vec<&Row> = self.rows.iter().filter(counts).filter(|row| may_be_taken(row)).collect();
+        let candidates = candidates(&rows);
         let kinds = if covered { scenes.join(" + ") } else { "all kinds of scenes".to_owned() };
         let enough = candidates.iter().filter(|one| MARGIN * one.error <= bound);
-        let Some(best) = enough.max_by(|a, b| a.per_second.total_cmp(&b.per_second)) else {
+        let Some(best) = enough.max_by(|a, b| a.pace.total_cmp(&b.pace)) else {
             let least = candidates.iter().map(|one| one.error).fold(f64::INFINITY, f64::min);
             let least = if least.is_finite() {
                 format!("the best keeps {:.1e}", MARGIN * least)
@@ -128,12 +144,14 @@ impl Frontier {
             };
             return Err(Error::Inaccurate { bound, kinds, least });
         };
+        let on_gpu = rows.iter().any(|row| row.per_cpu_second.is_none());
         let why = format!(
-            "the fastest of {} measured on {kinds} ({}) that keeps {bound:e}: 95 % within {:.1e}, {:.0} instances/s there",
+            "the fastest of {} measured on {kinds} ({}) that keeps {bound:e}: 95 % within {:.1e}, {:.0} instances/s{} there",
             candidates.len(),
             self.source,
             best.error,
-            best.per_second
+            best.pace,
+            if on_gpu { "" } else { " of a processor" }
         );
         Ok(Choice::new(level, best.configuration.clone(), Some(best.error), why))
     }
@@ -145,36 +163,32 @@ struct Candidate {
     /// On how many it was measured.
     scenes: usize,
     error: f64,
-    per_second: f64,
+    pace: f64,
 }
 
-/// The configurations that are allowed and were measured on every scene that counts, each once.
-fn candidates<'a>(
-    rows: impl Iterator<Item = &'a Row>,
-    allowed: &dyn Fn(&Configuration) -> bool,
-) -> Vec<Candidate> {
+/// The configurations that were measured on every scene of these rows, each once.
+fn candidates(rows: &[&Row]) -> Vec<Candidate> {
     let mut candidates: Vec<Candidate> = Vec::new();
-    let mut scenes: Vec<&str> = Vec::new();
+    let mut scenes: Vec<&str> = rows.iter().map(|row| row.scene.as_str()).collect();
+    scenes.sort_unstable();
+    scenes.dedup();
+    let pace = pace(rows.iter().copied());
     for row in rows {
-        if !scenes.contains(&row.scene.as_str()) {
-            scenes.push(&row.scene);
-        }
         let Some(configuration) = row.configuration() else { continue };
         match candidates.iter_mut().find(|one| one.configuration == configuration) {
             Some(one) => {
                 one.scenes += 1;
                 one.error = one.error.max(row.worst_p95);
-                one.per_second = one.per_second.min(row.per_second);
+                one.pace = one.pace.min(pace(row));
             }
-            None if allowed(&configuration) => {
+            None => {
                 candidates.push(Candidate {
                     configuration,
                     scenes: 1,
                     error: row.worst_p95,
-                    per_second: row.per_second,
+                    pace: pace(row),
                 });
             }
-            None => {}
         }
     }
     candidates.retain(|one| one.scenes == scenes.len());

@@ -1,9 +1,8 @@
 //! Every configuration on a sample of a sweep: instances per second against error.
 
-use std::time::{Duration, Instant};
-
 use rayon::ThreadPoolBuilder;
 
+use super::clock::Clock;
 use super::configuration::{Configuration, scenes};
 use super::draw::spread;
 use super::errors::{Judge, Quantiles, is_settled_oscillation, oscillates, quantile, worst};
@@ -35,17 +34,15 @@ const GPU_STEPS: [u32; 6] = [4, 6, 8, 12, 16, 24];
 /// Steps per period of the reference as a sweep runs it.
 const REFERENCE_STEPS: u32 = 12;
 
-/// Instances that speed is measured on: enough for the batches of a real sweep.
-const TIMED: usize = 2048;
+/// Instances that speed is measured on: enough to fill the lanes many times over.
+const TIMED: usize = 1024;
 
 /// Those of the reference, which takes one at a time.
-const TIMED_REFERENCE: usize = 128;
+const TIMED_REFERENCE: usize = 64;
 
-/// Rounds of which the fastest counts, on a machine that has other work.
-const ROUNDS: usize = 3;
-
-/// No further round is begun after this time.
-const ENOUGH: Duration = Duration::from_millis(500);
+/// Rounds of which the fastest counts; in each every configuration has its turn, so that none of them meets the other
+/// work of the machine alone.
+const ROUNDS: usize = 2;
 
 /// What to measure.
 #[derive(Clone, Copy, Debug)]
@@ -126,22 +123,34 @@ pub fn measure(
     let timed = subset(spec, &spread(!settings.seed, TIMED.min(total), total, 0..total));
     let scene = scenes(spec).join(" + ");
     let (configurations, left_out) = configurations();
+    let mut rates: Vec<Rate> = Vec::new();
+    for round in 0..ROUNDS {
+        for (at, configuration) in configurations.iter().enumerate() {
+            let instances = match configuration.backend {
+                Backend::Reference => TIMED_REFERENCE.min(timed.grid.len()),
+                _ => timed.grid.len(),
+            };
+            let time = || speed(configuration, &timed, instances, options);
+            let [_, per_second] = all.install(time)?;
+            let per_cpu_second = match configuration.backend {
+                Backend::Gpu => None,
+                _ => Some(one.install(time)?[0]),
+            };
+            let rate = Rate { per_cpu_second, per_second };
+            match rates.get_mut(at) {
+                None => rates.push(rate),
+                Some(before) => before.improve(rate),
+            }
+        }
+        note(&format!("speed: round {} of {ROUNDS} is done", round + 1));
+    }
     let mut rows = Vec::new();
-    for configuration in configurations {
-        let on_gpu = configuration.backend == Backend::Gpu;
-        let found = all.install(|| records(&configuration, &judged, options))?;
-        let instances = match configuration.backend {
-            Backend::Reference => TIMED_REFERENCE.min(timed.grid.len()),
-            _ => timed.grid.len(),
-        };
-        let time = || speed(&configuration, &timed, instances, options);
-        let per_cpu_second = if on_gpu { None } else { Some(one.install(time)?) };
-        let per_second = all.install(time)?;
-        let row =
-            Row::new(&scene, &configuration, Rate { per_cpu_second, per_second }, &judge.errors(&found));
+    for (configuration, rate) in configurations.iter().zip(rates) {
+        let found = all.install(|| records(configuration, &judged, options))?;
+        let row = Row::new(&scene, configuration, rate, &judge.errors(&found));
         note(&format!(
-            "{configuration}: {per_second:.0} instances/s, 95 % within {:.1e}, 99 % within {:.1e}",
-            row.worst_p95, row.worst_p99
+            "{configuration}: {:.0} instances/s, 95 % within {:.1e}, 99 % within {:.1e}",
+            rate.per_second, row.worst_p95, row.worst_p99
         ));
         rows.push(row);
     }
@@ -200,22 +209,20 @@ fn configurations() -> (Vec<Configuration>, Vec<String>) {
     (all, left_out)
 }
 
-/// Instances per second of the first instances of a sweep, in the pool it is called in: the fastest round.
-fn speed(configuration: &Configuration, timed: &Spec, instances: usize, options: &Options) -> Result<f64> {
+/// Instances per second of processor time of this thread and of wall time, of the first instances of a sweep, in the
+/// pool it is called in.
+fn speed(
+    configuration: &Configuration,
+    timed: &Spec,
+    instances: usize,
+    options: &Options,
+) -> Result<[f64; 2]> {
     let spec = configuration.sweep(timed);
     let options = Options { note: None, ..configuration.options(options) };
     let mut solver = Solver::new(&spec, &options)?;
-    let began = Instant::now();
-    let mut best = f64::INFINITY;
-    for _ in 0..ROUNDS {
-        let start = Instant::now();
-        if solver.records(0..instances, &|_| {})?.stopped.is_some() {
-            return Err(Error::Cancelled { done: 0, total: instances });
-        }
-        best = best.min(start.elapsed().as_secs_f64());
-        if began.elapsed() > ENOUGH {
-            break;
-        }
+    let clock = Clock::start();
+    if solver.records(0..instances, &|_| {})?.stopped.is_some() {
+        return Err(Error::Cancelled { done: 0, total: instances });
     }
-    Ok(instances as f64 / best.max(f64::MIN_POSITIVE))
+    Ok([clock.worked(), clock.wall()].map(|seconds| instances as f64 / seconds.max(f64::MIN_POSITIVE)))
 }

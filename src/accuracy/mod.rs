@@ -7,11 +7,16 @@
 //! - [`sample`]: a stratified sample of a sweep's own instances.
 //! - [`errors`]: how far results are from the truth.
 //! - [`measure`](mod@measure): every configuration on a sample.
+//! - [`clock`]: how long one thread has worked.
 //! - [`row`]: what was measured, as a table.
 //! - [`frontier`]: the cheapest configuration for an error.
 //! - [`level`]: the accuracy that is asked for.
+//! - [`check`](mod@check), [`checks`]: a few instances of every map computed again, and what that found.
 
 pub mod boundary;
+pub mod check;
+pub mod checks;
+pub mod clock;
 pub mod configuration;
 pub mod draw;
 pub mod errors;

@@ -74,6 +74,17 @@ pub struct Row {
     pub frontier: bool,
 }
 
+/// How fast a row counts: per second of a processor, which other work on the machine does not change much; where some
+/// row has a GPU, per second of wall time for all.
+#[must_use]
+pub fn pace<'a>(rows: impl Iterator<Item = &'a Row>) -> fn(&Row) -> f64 {
+    let mut all = true;
+    for row in rows {
+        all &= row.per_cpu_second.is_some();
+    }
+    if all { |row| row.per_cpu_second.unwrap_or_default() } else { |row| row.per_second }
+}
+
 /// Instances per second.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rate {
@@ -81,6 +92,17 @@ pub struct Rate {
     pub per_cpu_second: Option<f64>,
     /// Of all threads.
     pub per_second: f64,
+}
+
+impl Rate {
+    /// Takes what is faster.
+    pub fn improve(&mut self, other: Rate) {
+        self.per_second = self.per_second.max(other.per_second);
+        // None is less than any number.
+        if other.per_cpu_second > self.per_cpu_second {
+            self.per_cpu_second = other.per_cpu_second;
+        }
+    }
 }
 
 impl Row {

@@ -13,7 +13,7 @@ use crate::grid::Grid;
 use crate::kernel::source::Precision;
 use crate::label::Label;
 use crate::map::Record;
-use crate::spec::Spec;
+use crate::spec::{Analysis, Spec};
 
 /// Candidates for each instance of the sample: what is rarer than one in so many may be missed.
 const CANDIDATES: usize = 16;
@@ -100,12 +100,29 @@ fn shares(strata: &[(usize, bool)], size: usize) -> Vec<usize> {
     strata.iter().map(|one| given(*one)).collect()
 }
 
-/// The sweep of some of a sweep's instances.
+/// The sweep of some of a sweep's instances, which are not checked.
 #[must_use]
 pub fn subset(spec: &Spec, indices: &[usize]) -> Spec {
     let row = |index: &usize| spec.grid.coordinates(*index).into_iter().cloned().collect();
     let grid = Grid::Tuples { keys: spec.grid.keys(), rows: indices.iter().map(row).collect() };
-    Spec { grid, ..spec.clone() }
+    // Field by field: a grid of many values is not copied for a few of its instances.
+    Spec {
+        title: spec.title.clone(),
+        analysis: Analysis { checked: false, ..spec.analysis },
+        base: spec.base,
+        impact_friction: spec.impact_friction,
+        law: spec.law,
+        material: spec.material.clone(),
+        materials: spec.materials.clone(),
+        table: spec.table.clone(),
+        grid,
+        start: spec.start,
+        settle: spec.settle,
+        settle_limit: spec.settle_limit,
+        measure: spec.measure,
+        steps_per_period: spec.steps_per_period,
+        steps_given: None,
+    }
 }
 
 /// The records of a sweep by a configuration, on the rayon pool it is called in.

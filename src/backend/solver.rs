@@ -3,10 +3,12 @@
 use std::fmt;
 use std::ops::Range;
 
-use super::choice::{Engine, Options, choose};
+use super::choice::{Backend, Engine, Options, choose};
 use super::computed::Computed;
 use super::gpu::chunks::Session;
 use super::{cpu, gpu, reference};
+use crate::accuracy::check::check;
+use crate::accuracy::configuration::Configuration;
 use crate::error::{Error, Result};
 use crate::kernel::source::Precision;
 use crate::map::{Computation, Record};
@@ -73,7 +75,8 @@ impl<'a> Solver<'a> {
 
     /// The records of the instances `range`, in order; the CPU's part runs on the rayon pool it is called in.
     /// `progress` gets the number of newly finished instances. A run that is cancelled or fails on its way
-    /// gives what is done, see [`Computed::stopped`].
+    /// gives what is done, see [`Computed::stopped`]. With `checked` in the analysis some are computed again, see
+    /// [`mod@crate::accuracy::check`].
     ///
     /// # Errors
     /// When the engine fails or is cancelled before any instance of the range is done, or a result is in doubt.
@@ -92,10 +95,30 @@ impl<'a> Solver<'a> {
         progress: &(dyn Fn(usize) + Sync),
     ) -> Result<Computed> {
         let cancel = self.options.cancel();
-        match &mut self.on {
+        let all = range.clone();
+        let mut computed = match &mut self.on {
             On::Cpu(precision) => cpu::records(spec, range, *precision, cancel, progress),
             On::Reference => reference::records(spec, range, cancel, progress),
             On::Gpu(session) => on_gpu(spec, range, session, self.options, progress),
+        }?;
+        if spec.analysis.checks() && computed.stopped.is_none() {
+            computed.stopped = check(spec, all, &self.configuration(), &mut computed.records, cancel)?;
+        }
+        Ok(computed)
+    }
+
+    /// What computes, as one of the configurations that accuracy is measured of.
+    fn configuration(&self) -> Configuration {
+        let steps = self.spec.steps_per_period;
+        match &self.on {
+            On::Cpu(precision) => Configuration::cpu(*precision, steps),
+            On::Reference => Configuration::reference(steps),
+            On::Gpu(session) => Configuration {
+                backend: Backend::Gpu,
+                adapter: None,
+                precision: session.device().precision(),
+                steps_per_period: steps,
+            },
         }
     }
 }

@@ -53,7 +53,9 @@ pub(crate) struct RefineCommand {
 impl RefineCommand {
     pub(crate) fn execute(self) -> Result<()> {
         let cancel = stop_at_ctrl_c()?;
-        let spec = Spec::read(&self.files.sweep)?;
+        let mut spec = Spec::read(&self.files.sweep)?;
+        // Checks are drawn by the place in a sweep, and these instances are at another.
+        spec.analysis.checked = false;
         let output = Output::prepare(self.files.directory(), &FILES)?;
         let settings =
             Settings { coarse: usize::from(self.coarse), sample: self.sample as usize, seed: self.seed };

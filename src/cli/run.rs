@@ -52,6 +52,9 @@ pub(crate) struct Run {
     /// or a number up to 0.1; see `squealmap tradeoff`
     #[arg(long, value_name = "LEVEL", value_parser = Level::parse)]
     accuracy: Option<Level>,
+    /// Compute no instance again: the manifest then says nothing of the error
+    #[arg(long)]
+    no_check: bool,
     /// A GPU rounds every operation by itself, like the twin of its kernel on the CPU; needs Vulkan
     #[arg(long)]
     strict: bool,
@@ -111,6 +114,7 @@ impl Run {
     pub(crate) fn execute(self) -> Result<ExitCode> {
         let cancel = stop_at_ctrl_c()?;
         let mut spec = Spec::read(&self.files.sweep)?;
+        spec.analysis.checked &= !self.no_check;
         let choice = self.accuracy.map(|level| self.choose(level, &spec)).transpose()?;
         let output = Output::prepare_claimed(self.files.directory(), &FILES)?;
         let threads = self.threads.map_or(0, usize::from);

@@ -37,6 +37,11 @@ pub(crate) fn summary(analysis: Analysis, tally: &Tally) -> String {
     if unsettled > 0 {
         let _ = writeln!(text, "\n{unsettled} of {} instances had not settled", tally.computed());
     }
+    let checks = tally.checks().summary();
+    if !checks.is_empty() {
+        text.push('\n');
+        text += &checks;
+    }
     text
 }
 

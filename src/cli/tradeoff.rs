@@ -1,16 +1,18 @@
 //! `squealmap tradeoff`: speed against error of every engine on a sweep.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
-use squealmap::accuracy::measure::{Settings, measure};
+use squealmap::Result;
+use squealmap::accuracy::measure::{Measurement, Settings, measure};
+use squealmap::accuracy::row::{Row, to_csv};
 use squealmap::backend::choice::Options;
-use squealmap::export::{png, tradeoff};
+use squealmap::export::png;
+use squealmap::export::tradeoff::{self, Section};
 use squealmap::spec::Spec;
-use squealmap::{Result, accuracy};
 
 use crate::cli::output::{Output, list};
-use crate::cli::{Files, frontier, note, print};
+use crate::cli::{frontier, note, print};
 
 /// What is written.
 const FILES: [&str; 4] = ["tradeoff.csv", "tradeoff.json", "tradeoff.png", "tradeoff.svg"];
@@ -18,8 +20,12 @@ const FILES: [&str; 4] = ["tradeoff.csv", "tradeoff.json", "tradeoff.png", "trad
 /// Arguments of `tradeoff`.
 #[derive(Debug, Args)]
 pub(crate) struct Tradeoff {
-    #[command(flatten)]
-    files: Files,
+    /// Sweep files (TOML)
+    #[arg(required = true, value_name = "SWEEP")]
+    sweeps: Vec<PathBuf>,
+    /// Output directory; of several sweeps each has a directory of its name in it [default: out/<name of the sweep>]
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
     /// Instances that are judged, 16 to 100000, of all types and regimes, more near the borders between them
     #[arg(long, value_name = "N", default_value_t = 512, value_parser = clap::value_parser!(u32).range(16..=100_000))]
     sample: u32,
@@ -29,9 +35,9 @@ pub(crate) struct Tradeoff {
     /// Worker threads, 1 to 1024 [default: one per core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
-    /// Also the table as Markdown on standard output
-    #[arg(long)]
-    markdown: bool,
+    /// Also a report on all the sweeps in Markdown, its figures in a directory of the same name
+    #[arg(long, value_name = "FILE")]
+    report: Option<PathBuf>,
     /// The table that `run --accuracy` chooses from gets these rows [default: a file in the user's cache directory]
     #[arg(long, value_name = "FILE", conflicts_with = "no_store")]
     store: Option<PathBuf>,
@@ -40,34 +46,82 @@ pub(crate) struct Tradeoff {
     no_store: bool,
 }
 
+/// What came of a sweep.
+struct Done {
+    stem: String,
+    title: String,
+    measured: Measurement,
+    png: Vec<u8>,
+}
+
 impl Tradeoff {
     pub(crate) fn execute(self) -> Result<()> {
-        let spec = Spec::read(&self.files.sweep)?;
-        let output = Output::prepare(self.files.directory(), &FILES)?;
+        // A mistake in the last sweep is told before the first is measured.
+        let specs = self.sweeps.iter().map(|path| Spec::read(path)).collect::<Result<Vec<_>>>()?;
         let settings = Settings {
             sample: self.sample as usize,
             seed: self.seed,
             threads: self.threads.map_or_else(rayon::current_num_threads, usize::from),
         };
-        let measured = measure(&spec, settings, &Options::default(), &note)?;
-        let title = if spec.title.is_empty() { "Speed against error" } else { &spec.title };
-        let svg = tradeoff::figure(title, &measured);
-        let files = [
-            (FILES[0], accuracy::row::to_csv(&measured.rows)?),
-            (FILES[1], tradeoff::to_json(&spec.title, &measured)?),
-            (FILES[2], png::render(&svg)?),
-            (FILES[3], svg.into_bytes()),
-        ];
-        let mut paths = output.write(&files)?;
-        if !self.no_store {
-            paths.extend(frontier::store(self.store, &measured.rows)?);
+        let mut all = Vec::new();
+        for (path, spec) in self.sweeps.iter().zip(&specs) {
+            let stem = path.file_stem().unwrap_or(path.as_os_str());
+            let directory = match &self.output {
+                None => Path::new("out").join(stem),
+                Some(output) if self.sweeps.len() > 1 => output.join(stem),
+                Some(output) => output.clone(),
+            };
+            let output = Output::prepare(directory, &FILES)?;
+            let measured = measure(spec, settings, &Options::default(), &note)?;
+            let stem = stem.to_string_lossy().into_owned();
+            let (done, paths) = write(output, spec, stem, measured)?;
+            print(&tradeoff::summary(&done.measured));
+            print(&list(&paths));
+            all.push(done);
         }
-        if self.markdown {
-            print(&tradeoff::to_markdown(title, &measured));
-        } else {
-            print(&tradeoff::summary(&measured));
+        let mut paths = Vec::new();
+        if !self.no_store {
+            let rows: Vec<Row> = all.iter().flat_map(|done| done.measured.rows.clone()).collect();
+            paths.extend(frontier::store(self.store, &rows)?);
+        }
+        if let Some(report) = &self.report {
+            paths.extend(write_report(report, &all)?);
         }
         print(&list(&paths));
         Ok(())
     }
+}
+
+/// Writes table, summary and figure of a sweep.
+fn write(output: Output, spec: &Spec, stem: String, measured: Measurement) -> Result<(Done, Vec<PathBuf>)> {
+    let title = if spec.title.is_empty() { "Speed against error".to_owned() } else { spec.title.clone() };
+    let svg = tradeoff::figure(&title, &measured);
+    let png = png::render(&svg)?;
+    let files = [
+        (FILES[0], to_csv(&measured.rows)?),
+        (FILES[1], tradeoff::to_json(&spec.title, &measured)?),
+        (FILES[2], png.clone()),
+        (FILES[3], svg.into_bytes()),
+    ];
+    let paths = output.write(&files)?;
+    Ok((Done { stem, title, measured, png }, paths))
+}
+
+/// Writes the report, and the figures into a directory of its name.
+fn write_report(report: &Path, all: &[Done]) -> Result<Vec<PathBuf>> {
+    let name = report.file_name().unwrap_or(report.as_os_str()).to_string_lossy().into_owned();
+    let figures = report.file_stem().unwrap_or(report.as_os_str()).to_string_lossy().into_owned();
+    let figure = |done: &Done| format!("{figures}/{}.png", done.stem);
+    let sections: Vec<Section> = all
+        .iter()
+        .map(|done| Section { title: &done.title, figure: figure(done), measured: &done.measured })
+        .collect();
+    let text = tradeoff::to_markdown(&sections).into_bytes();
+    let drawn: Vec<(String, Vec<u8>)> = all.iter().map(|done| (figure(done), done.png.clone())).collect();
+    let mut files: Vec<(&str, Vec<u8>)> = vec![(&name, text)];
+    files.extend(drawn.iter().map(|(name, png)| (name.as_str(), png.clone())));
+    let names: Vec<&str> = files.iter().map(|(name, _)| *name).collect();
+    let directory = report.parent().unwrap_or(Path::new("")).to_owned();
+    let directory = if directory.as_os_str().is_empty() { PathBuf::from(".") } else { directory };
+    Output::prepare(directory, &names)?.write(&files)
 }

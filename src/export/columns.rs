@@ -1,5 +1,6 @@
 //! The one table of output columns: order, names, units, meanings and values.
 
+use crate::accuracy::check::{By, Check};
 use crate::classify::{InstabilityType, Regime};
 use crate::grid::{AxisKey, Grid, Value};
 use crate::map::Record;
@@ -73,6 +74,8 @@ pub enum Group {
     Response,
     /// Time integration until settled.
     Settling,
+    /// Instances computed again.
+    Checks,
 }
 
 impl Group {
@@ -82,6 +85,7 @@ impl Group {
             Group::Linear => analysis.linear,
             Group::Response => analysis.response,
             Group::Settling => analysis.until_settled,
+            Group::Checks => analysis.checks(),
         }
     }
 }
@@ -158,6 +162,15 @@ macro_rules! computed {
     };
 }
 
+/// The code of a check.
+fn checked(check: Check) -> u64 {
+    match check {
+        Check { by: By::Reference, .. } => 3,
+        Check { taken: true, .. } => 2,
+        Check { taken: false, .. } => 1,
+    }
+}
+
 /// A number of the eigenvalue analysis.
 macro_rules! linear {
     ($field:ident) => {
@@ -201,6 +214,8 @@ computed! {
     Response "impacts_per_second" "1/s" response!(impacts_per_second), "impacts per second, counting every bounce down to a rebound of 1e-6 ω0 F_ext/k2";
     Response "settled" "" |r| r.settled.map_or(Cell::Empty, |flag| Cell::Count(u64::from(flag))), "1 when the two halves of the window agree (until settled: when the windows do), else 0";
     Settling "settling_time" "s" response!(settling_time), "start of the last window of a run until settled";
+    Checks "checked" "" |r| r.check.map_or(Cell::Empty, |check| Cell::Count(checked(check))), "1: computed again in f64 with fine steps; 2: the same, and near a border between labels, so that the row is that result; 3: computed again by the reference; else empty";
+    Checks "check_error" "" |r| Cell::from(r.check.and_then(|check| check.error)), "worst relative error of x2_std, ax_rms, ay_rms and response_frequency against that, of a settled oscillation";
     Response "simulated_time" "s" |r| Cell::from(r.outcome.map(|outcome| outcome.simulated_time)), "simulated time";
     Response "steps" "" |r| r.outcome.map_or(Cell::Empty, |outcome| Cell::Count(outcome.steps)), "steps taken, those ended by an event included";
     Always "status" "" |r| Cell::text(Some(r.status.name())), "how the instance ended; not_computed: the run was stopped before it";

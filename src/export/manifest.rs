@@ -87,6 +87,9 @@ pub fn manifest(sheet: Sheet, resolved: &Value, tally: &Tally, run: &Run) -> Res
     if let (Some(id), Value::Object(entries)) = (&run.sweep_id, &mut manifest) {
         entries.insert("sweep_id".to_owned(), json!(id));
     }
+    if sheet.analysis.checks() {
+        manifest["checks"] = tally.checks().to_json();
+    }
     if let Some(accuracy) = &run.accuracy {
         manifest["computation"]["accuracy"] = json!(accuracy);
     }

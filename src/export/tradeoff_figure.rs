@@ -6,8 +6,9 @@ use super::plot::Plot;
 use super::scale::{Scale, value_label};
 use super::svg::{Anchor, Style, Svg};
 use super::text::Text;
+use super::tradeoff::on_gpu;
 use crate::accuracy::measure::Measurement;
-use crate::accuracy::row::Row;
+use crate::accuracy::row::{Row, pace};
 
 /// Height of the panel, points.
 const HEIGHT: f64 = 170.0;
@@ -39,11 +40,12 @@ const MARKS: [(&str, &str, &str); 5] = [
 #[must_use]
 pub fn figure(heading: &str, measured: &Measurement) -> String {
     let shown: Vec<&Row> = measured.rows.iter().filter(|row| row.worst_p95.is_finite()).collect();
+    let pace = pace(measured.rows.iter());
     let error = |row: &Row| row.worst_p95.max(LEAST);
     let mut svg = Svg::new();
     let mut y = MARGIN + title(&mut svg, heading, SINGLE_COLUMN - 2.0 * MARGIN);
     let x_scale = logarithmic(shown.iter().map(|row| error(row)));
-    let y_scale = logarithmic(shown.iter().map(|row| row.per_second));
+    let y_scale = logarithmic(shown.iter().map(|row| pace(row)));
     let y_ticks = y_scale.ticks(6);
     let left = MARGIN + LABEL_SIZE + 6.0 + y_tick_room(&y_ticks);
     for mark in MARKS.iter().filter(|mark| shown.iter().any(|row| is(row, mark))) {
@@ -63,9 +65,8 @@ pub fn figure(heading: &str, measured: &Measurement) -> String {
     }
     let mut frontier: Vec<&Row> = shown.iter().copied().filter(|row| row.frontier).collect();
     frontier.sort_by(|a, b| error(a).total_cmp(&error(b)));
-    plot.curve(&mut svg, frontier.iter().map(|row| (error(row), row.per_second)), FRONTIER);
-    let at =
-        |row: &Row| (frame.across(x_scale.position(error(row))), frame.up(y_scale.position(row.per_second)));
+    plot.curve(&mut svg, frontier.iter().map(|row| (error(row), pace(row))), FRONTIER);
+    let at = |row: &Row| (frame.across(x_scale.position(error(row))), frame.up(y_scale.position(pace(row))));
     for row in &shown {
         if let Some(mark) = MARKS.iter().find(|mark| is(row, mark)) {
             let (across, up) = at(row);
@@ -87,7 +88,9 @@ pub fn figure(heading: &str, measured: &Measurement) -> String {
     frame.x_ticks(&mut svg, &x_scale.ticks(6), true);
     frame.y_ticks(&mut svg, &y_ticks, true);
     let style = Style::new(LABEL_SIZE, Anchor::Middle);
-    svg.text(MARGIN + LABEL_SIZE, y + 0.5 * HEIGHT, &Text::from("Instances per second"), style.upwards());
+    let words =
+        if on_gpu(&measured.rows) { "Instances per second" } else { "Instances per second of a processor" };
+    svg.text(MARGIN + LABEL_SIZE, y + 0.5 * HEIGHT, &Text::from(words), style.upwards());
     y += HEIGHT + x_tick_room() + LABEL_SIZE + 1.0;
     let words = "Relative error that 95 % are within";
     svg.text(left + 0.5 * frame.width, y, &Text::from(words), style);

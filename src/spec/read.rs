@@ -81,7 +81,11 @@ fn assemble(sections: Sections, varied: Varied, files: Files) -> Spec {
     let limit = sections.settle_limit.map_or(SETTLE_LIMIT, |(limit, _)| limit);
     Spec {
         title: sections.title,
-        analysis: Analysis { until_settled: auto && sections.analysis.response, ..sections.analysis },
+        analysis: Analysis {
+            until_settled: auto && sections.analysis.response,
+            checked: sections.check && sections.analysis.response,
+            ..sections.analysis
+        },
         base: sections.base,
         impact_friction: sections.impact_friction,
         law: sections.law,

@@ -58,12 +58,14 @@ impl Spec {
                 "settle": self.settle.to_string(),
                 "measure": measure,
                 "steps_per_period": self.steps_per_period,
+                "check": self.analysis.checked,
             }),
             Some(limit) => json!({
                 "settle": "auto",
                 "settle_limit": limit.to_string(),
                 "measure": measure,
                 "steps_per_period": self.steps_per_period,
+                "check": self.analysis.checked,
             }),
         }
     }

@@ -51,6 +51,7 @@ pub(super) struct Sections {
     /// `settle_limit`, and where it stands.
     pub(super) settle_limit: Option<(Duration, Range<usize>)>,
     pub(super) measure: Option<Duration>,
+    pub(super) check: bool,
     pub(super) steps_per_period: u32,
     /// Where `steps_per_period` stands.
     pub(super) steps_given: Option<Range<usize>>,
@@ -62,7 +63,7 @@ impl Default for Sections {
     fn default() -> Self {
         Sections {
             title: String::new(),
-            analysis: Analysis { linear: true, response: true, until_settled: false },
+            analysis: Analysis { linear: true, response: true, until_settled: false, checked: false },
             base: Params::default(),
             impact_friction: true,
             law: LawKind::Bilinear,
@@ -74,6 +75,7 @@ impl Default for Sections {
             auto: None,
             settle_limit: None,
             measure: None,
+            check: true,
             steps_per_period: STEPS_PER_PERIOD,
             steps_given: None,
             given: Vec::new(),
@@ -100,7 +102,7 @@ impl Sections {
             return Ok(());
         }
         let names = array(source, entry.node, "`analysis`", "an array of \"linear\" and \"response\"")?;
-        self.analysis = Analysis { linear: false, response: false, until_settled: false };
+        self.analysis = Analysis { linear: false, response: false, until_settled: false, checked: false };
         for name in names {
             let choices = [("linear", false), ("response", true)];
             let response = choice(source, name, "an element of `analysis`", "analysis", &choices)?;
@@ -181,7 +183,7 @@ impl Sections {
 
     /// `[response]`.
     pub(super) fn response(&mut self, source: &Source, entry: Entry) -> Result<()> {
-        const KEYS: [&str; 4] = ["settle", "settle_limit", "measure", "steps_per_period"];
+        const KEYS: [&str; 5] = ["settle", "settle_limit", "measure", "steps_per_period", "check"];
         let expected = "a table, written as a line [response] above its keys";
         for entry in entries(table(source, entry.node, "`response`", expected)?) {
             let label = format!("`{}` in [response]", entry.key);
@@ -193,6 +195,7 @@ impl Sections {
                     self.settle_limit = Some((limit, entry.key_span()));
                 }
                 "measure" => self.measure = Some(duration(source, entry.node, &label, false)?),
+                "check" => self.check = boolean(source, entry.node, &label)?,
                 "steps_per_period" => {
                     let steps = integer(source, entry.node, &label, STEPS_RANGE.0, STEPS_RANGE.1)?;
                     self.steps_given = Some(entry.node.span());
@@ -225,7 +228,7 @@ fn keys(section: Section) -> Vec<&'static str> {
 /// The section that does have the key, if there is one.
 fn home(key: &str) -> Option<&'static str> {
     match key {
-        "settle" | "settle_limit" | "measure" | "steps_per_period" => Some("response"),
+        "settle" | "settle_limit" | "measure" | "steps_per_period" | "check" => Some("response"),
         _ => [Section::Model, Section::Friction, Section::Belt, Section::Start]
             .into_iter()
             .find(|&section| keys(section).contains(&key))

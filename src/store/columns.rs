@@ -1,9 +1,10 @@
 //! Records as columns of fixed width and back.
 //!
 //! Four columns of bytes (status, type, regime, flags), then columns of little-endian f64: five of the eigenvalue
-//! analysis, 22 of the response and the settling time, where asked for. An undefined number is a NaN. What no export shows, the values
+//! analysis, 22 of the response, the settling time and the error that a check found, where asked for. An undefined number is a NaN. What no export shows, the values
 //! of the two halves of the window, is not kept.
 
+use crate::accuracy::check::{By, Check};
 use crate::classify::{InstabilityType, Regime};
 use crate::label::Label;
 use crate::linear::Linear;
@@ -23,17 +24,22 @@ const HAS_LINEAR: u8 = 1;
 const HAS_OUTCOME: u8 = 2;
 const HAS_SETTLED: u8 = 4;
 const SETTLED: u8 = 8;
+const CHECKED_FINE: u8 = 16;
+const CHECKED_REFERENCE: u8 = 32;
+const TAKEN: u8 = 64;
+const CHANGED: u8 = 128;
 
 /// Bytes of one instance.
 #[must_use]
 pub fn width(analysis: Analysis) -> usize {
-    LABELS + 8 * numbers(analysis)
+    LABELS + 8 * numbers_of(analysis)
 }
 
-fn numbers(analysis: Analysis) -> usize {
+fn numbers_of(analysis: Analysis) -> usize {
     LINEAR * usize::from(analysis.linear)
         + RESPONSE * usize::from(analysis.response)
         + usize::from(analysis.until_settled)
+        + usize::from(analysis.checks())
 }
 
 /// The columns of some records.
@@ -74,6 +80,9 @@ pub fn encode(records: &[Record], analysis: Analysis, bytes: &mut [u8]) {
         if analysis.until_settled {
             put(record.outcome.and_then(|outcome| outcome.settling_time));
         }
+        if analysis.checks() {
+            put(record.check.and_then(|check| check.error));
+        }
     }
 }
 
@@ -92,6 +101,8 @@ pub fn decode(bytes: &[u8], count: usize, analysis: Analysis) -> Option<Vec<Reco
     let settling_time = |row: usize| {
         if analysis.until_settled { defined(number(first_response + RESPONSE, row)) } else { None }
     };
+    let last = numbers_of(analysis).saturating_sub(1);
+    let error = |row: usize| if analysis.checks() { defined(number(last, row)) } else { None };
     let record = |row: usize| {
         let [status, kind, regime, flags] = std::array::from_fn(|k| labels[k * count + row]);
         let status = Status::IN_MAP.into_iter().find(|one| *one as u32 == u32::from(status))?;
@@ -109,9 +120,21 @@ pub fn decode(bytes: &[u8], count: usize, analysis: Analysis) -> Option<Vec<Reco
             regime: named(&Regime::ALL, regime).ok()?,
             settled: has(HAS_SETTLED).then(|| has(SETTLED)),
             outcome,
+            check: check(flags, error(row)),
         })
     };
     (0..count).map(record).collect()
+}
+
+/// What a check found, from the flags and its error.
+fn check(flags: u8, error: Option<f64>) -> Option<Check> {
+    let has = |flag: u8| flags & flag != 0;
+    let by = match (has(CHECKED_FINE), has(CHECKED_REFERENCE)) {
+        (true, _) => By::Fine,
+        (false, true) => By::Reference,
+        (false, false) => return None,
+    };
+    Some(Check { by, taken: has(TAKEN), changed: has(CHANGED), error })
 }
 
 /// The entry of a list with this code, which is none for 0; an error when the list has no such code.
@@ -133,6 +156,12 @@ fn flags(record: &Record) -> u8 {
         | flag(record.outcome.is_some(), HAS_OUTCOME)
         | flag(record.settled.is_some(), HAS_SETTLED)
         | flag(record.settled == Some(true), SETTLED)
+        | record.check.map_or(0, |check| {
+            flag(check.by == By::Fine, CHECKED_FINE)
+                | flag(check.by == By::Reference, CHECKED_REFERENCE)
+                | flag(check.taken, TAKEN)
+                | flag(check.changed, CHANGED)
+        })
 }
 
 fn linear_numbers(linear: &Linear) -> [Option<f64>; LINEAR] {

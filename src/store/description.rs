@@ -111,7 +111,8 @@ impl Description {
         let computations = [document.linear, document.response];
         let [linear, response] = computations.each_ref().map(Option::is_some);
         let until_settled = response && physics["response"]["settle"] == "auto";
-        let analysis = Analysis { linear, response, until_settled };
+        let checked = response && physics["response"]["check"] == true;
+        let analysis = Analysis { linear, response, until_settled, checked };
         let tiling = Tiling { instances: grid.len(), tile: document.tile };
         let resolved = resolved(&document.title, physics, &grid);
         Ok(Description {

@@ -193,6 +193,25 @@ fn the_fastest_that_keeps_the_bound_is_chosen() {
 }
 
 #[test]
+fn with_a_gpu_wall_time_counts_and_without_it_that_of_a_processor() {
+    let [few, many] = [4, 6].map(|steps| Configuration::cpu(Precision::F32, steps));
+    let gpu = Configuration { backend: Backend::Gpu, adapter: Some("GPU 7".to_owned()), ..few.clone() };
+    let mut rows = [(&few, 900.0), (&many, 800.0), (&gpu, 700.0)]
+        .map(|(one, per_second)| row("pieces, fixed time", one, per_second, 1e-5));
+    // By wall time the CPU is busy, and a GPU is faster than either.
+    rows[0].per_second = 300.0;
+    rows[1].per_second = 400.0;
+    rows[2].per_cpu_second = None;
+    let frontier = Frontier::measured(rows.to_vec(), "here".to_owned());
+    let chosen = |allowed: &dyn Fn(&Configuration) -> bool| {
+        frontier.choose(Level::Within(1e-3), &law("bilinear"), allowed).unwrap().configuration
+    };
+    assert_eq!(chosen(&|_| true), gpu);
+    // A GPU that is not there does not decide by what the others are measured.
+    assert_eq!(chosen(&|one| one.backend == Backend::Cpu), few);
+}
+
+#[test]
 fn tables_are_read_as_they_were_written_and_others_are_not() {
     let mut rows = rows();
     rows[0].worst_p99 = f64::INFINITY;

@@ -56,7 +56,7 @@ fn an_analysis_not_asked_for_has_no_columns() {
     let linear =
         "instance,mu_s,mu_d,type,growth_rate,frequency,phase,growth_rate_flat,growth_rate_frozen,status";
     assert_eq!(header.join(","), linear);
-    sweep.spec.analysis = squealmap::spec::Analysis { linear: false, response: true, until_settled: false };
+    sweep.spec.analysis = squealmap::spec::Analysis { linear: false, response: true, ..sweep.spec.analysis };
     let (header, _) = parse(&map_csv(&sweep).expect("a complete map"));
     assert_eq!(header[3], "regime");
     assert!(!header.contains(&"growth_rate".to_owned()));

@@ -3,6 +3,7 @@
 mod accuracy;
 mod arrays;
 mod bad_input;
+mod checks;
 mod claims;
 mod cli;
 mod colour;
@@ -33,6 +34,7 @@ mod no_driver;
 mod observables;
 mod paper;
 mod plot;
+mod promise;
 mod properties;
 mod refine;
 mod regimes;

@@ -136,12 +136,12 @@ fn bad_tiles_are_named_set_aside_and_computed_again() {
     let ended = squealmap(directory.path(), &RUN);
     assert_eq!(ended.code, Some(0), "{}", ended.err);
     for (number, fault) in [
-        (0, "it has 100 of 7160 bytes"),
+        (0, "it has 100 of 7416 bytes"),
         (3, "its checksum does not match its content"),
         (5, "it is empty"),
         (7, "it belongs to another sweep, version or engine"),
         // The last tile is shorter.
-        (8, "it has 2760 of 7160 bytes"),
+        (8, "it has 2856 of 7416 bytes"),
     ] {
         let name = paths[number].display();
         let sentence =

@@ -31,7 +31,7 @@ const TOTAL: usize = 300;
 fn spec() -> Spec {
     let text = "[friction]\nmu_s = 0.4\n[axes]\nmu_d = { from = 0.1, to = 0.4, points = 20 }\n\
         belt_velocity = { from = 1, to = 8, points = 15 }\n\
-        [response]\nsettle = \"2 periods\"\nmeasure = \"2 periods\"\n";
+        [response]\nsettle = \"2 periods\"\nmeasure = \"2 periods\"\ncheck = false\n";
     Spec::parse(text, "stopped.toml", ".".as_ref()).expect("a valid sweep")
 }
 

@@ -28,7 +28,7 @@ pub(crate) fn span(param: Param, from: f64, to: f64, points: usize) -> Axis {
 pub(crate) fn spec(grid: Grid) -> Spec {
     Spec {
         title: "Stability map".to_owned(),
-        analysis: Analysis { linear: true, response: true, until_settled: false },
+        analysis: Analysis { linear: true, response: true, until_settled: false, checked: false },
         base: Params::default(),
         impact_friction: true,
         law: LawKind::Bilinear,
@@ -75,6 +75,7 @@ pub(crate) fn record(kind: InstabilityType, regime: Regime, settled: bool) -> Re
         regime: Some(regime),
         settled: Some(settled),
         outcome: Some(outcome),
+        check: None,
     }
 }
 

@@ -2,6 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
+use squealmap::accuracy::check::{By, Check};
 use squealmap::backend::reference;
 use squealmap::classify::{InstabilityType, Regime};
 use squealmap::grid::{Axis, AxisKey, Grid, Value};
@@ -19,7 +20,7 @@ use squealmap::store::tiling::Tiling;
 
 use crate::synthetic::{axis, failed, record, span, spec};
 
-const BOTH: Analysis = Analysis { linear: true, response: true, until_settled: false };
+const BOTH: Analysis = Analysis { linear: true, response: true, until_settled: false, checked: false };
 /// Both, until settled: with the time that took.
 const UNTIL_SETTLED: Analysis = Analysis { until_settled: true, ..BOTH };
 
@@ -73,6 +74,7 @@ fn numbered(base: f64) -> Record {
             steps: 26 + 1000,
             ..Outcome::default()
         }),
+        check: None,
     }
 }
 
@@ -116,6 +118,27 @@ fn records_come_back_bit_by_bit() {
     flipped[4 * all.len()] ^= 1;
     assert_ne!(decode(&flipped, all.len(), BOTH).unwrap(), all);
     assert_eq!(decode(&bytes[1..], all.len(), BOTH), None);
+    let checked = Analysis { checked: true, ..UNTIL_SETTLED };
+    for (by, taken, changed, error) in [
+        (By::Fine, false, true, Some(3e-5)),
+        (By::Fine, true, false, None),
+        (By::Reference, false, false, Some(f64::INFINITY)),
+    ] {
+        let check = Some(Check { by, taken, changed, error });
+        let late = |one: Outcome| Outcome { settling_time: Some(1.5), ..one };
+        let [first, second] =
+            [None, check].map(|check| Record { check, outcome: all[0].outcome.map(late), ..all[0] });
+        let all = [first, second, all[2]];
+        let bytes = encode(&all, checked);
+        assert_eq!(decode(&bytes, 3, checked).unwrap(), all);
+        // A flipped bit of the flags or of the error says something else.
+        let of_error = error.map(|_| (bytes.len() - 16, 1));
+        for (at, bit) in [(3 * 3 + 1, 64)].into_iter().chain(of_error) {
+            let mut flipped = bytes.clone();
+            flipped[at] ^= bit;
+            assert_ne!(decode(&flipped, 3, checked).unwrap()[1].check, check);
+        }
+    }
     for analysis in [Analysis { response: false, ..BOTH }, Analysis { linear: false, ..BOTH }, UNTIL_SETTLED]
     {
         let only = |one: &Record| Record {
