@@ -151,9 +151,9 @@ pub struct Prepared {
 /// The smallest leading coefficient of a polynomial: it is divided by.
 const LEAST: f64 = 1e-290;
 
-/// The largest coefficient in units of the mean root: products of five are finite, and beyond it the roots are too far
+/// The largest coefficient in units of the mean root: products of seven are finite, and beyond it the roots are too far
 /// apart for the closed form.
-const LARGEST: f64 = 1e60;
+const LARGEST: f64 = 1e40;
 
 /// Whether the roots of a polynomial can be told in numbers.
 fn is_solvable(polynomial: &[f64; 5]) -> bool {
