@@ -73,13 +73,17 @@ pub fn figure(heading: &str, measured: &Measurement) -> String {
             svg.circle(across, up, RADIUS, mark.2);
         }
     }
-    // The steps per period beside the efficient ones, where they do not overlap.
+    // The steps per period above the efficient ones, where neither words nor marks are in the way.
     let mut free = f64::MIN;
     for row in frontier {
         let (across, up) = at(row);
         let words = value_label(f64::from(row.steps_per_period));
         let half = 0.5 * words.width(TICK_SIZE, false);
-        if across - half > free {
+        let covered = |other: &&Row| {
+            let (x, y) = at(other);
+            (x - across).abs() < half + RADIUS && (up - 4.0 - TICK_SIZE - RADIUS..up - RADIUS).contains(&y)
+        };
+        if across - half > free && !shown.iter().any(covered) {
             svg.text(across, up - 4.0, &words, Style::new(TICK_SIZE, Anchor::Middle));
             free = across + half + 1.0;
         }
