@@ -53,6 +53,8 @@ pub struct Settings {
     pub seed: u64,
     /// Threads of a run, at least 1.
     pub threads: usize,
+    /// Whether software adapters are measured too.
+    pub software: bool,
 }
 
 /// What is said of the truth.
@@ -122,12 +124,13 @@ pub fn measure(
     let total = spec.grid.len();
     let timed = subset(spec, &spread(!settings.seed, TIMED.min(total), total, 0..total));
     let scene = scenes(spec).join(" + ");
-    let (configurations, left_out) = configurations();
+    let (configurations, left_out) = configurations(settings.software);
     let mut rates: Vec<Rate> = Vec::new();
     for round in 0..ROUNDS {
         for (at, configuration) in configurations.iter().enumerate() {
             let instances = match configuration.backend {
                 Backend::Reference => TIMED_REFERENCE.min(timed.grid.len()),
+                Backend::Gpu if settings.software => TIMED_REFERENCE.min(timed.grid.len()),
                 _ => timed.grid.len(),
             };
             let time = || speed(configuration, &timed, instances, options);
@@ -184,7 +187,7 @@ fn of_truth(judge: &Judge, judged: &Spec, options: &Options) -> Result<Truth> {
 }
 
 /// Every configuration of this machine, and what is left out.
-fn configurations() -> (Vec<Configuration>, Vec<String>) {
+fn configurations(software: bool) -> (Vec<Configuration>, Vec<String>) {
     let both = [Precision::F32, Precision::F64];
     let mut all = vec![Configuration::reference(REFERENCE_STEPS)];
     all.extend(
@@ -193,8 +196,9 @@ fn configurations() -> (Vec<Configuration>, Vec<String>) {
     let mut left_out = Vec::new();
     for precision in both {
         match Adapter::best(precision, None) {
-            Ok(adapter) if adapter.is_software() => left_out.push(format!(
-                "{} in {precision}: software on the CPU, slower than the CPU engine at every accuracy",
+            Ok(adapter) if adapter.is_software() && !software => left_out.push(format!(
+                "{} in {precision}: software on the CPU, slower than the CPU engine at every accuracy; `--software` \
+                 measures it",
                 adapter.describe()
             )),
             Ok(adapter) => all.extend(GPU_STEPS.map(|steps_per_period| Configuration {

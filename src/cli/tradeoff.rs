@@ -44,6 +44,9 @@ pub(crate) struct Tradeoff {
     /// Leave that table as it is
     #[arg(long)]
     no_store: bool,
+    /// Measure a software GPU too: slower than the CPU engine at every accuracy, so that `run` never chooses it
+    #[arg(long, requires = "no_store")]
+    software: bool,
 }
 
 /// What came of a sweep.
@@ -62,6 +65,7 @@ impl Tradeoff {
             sample: self.sample as usize,
             seed: self.seed,
             threads: self.threads.map_or_else(rayon::current_num_threads, usize::from),
+            software: self.software,
         };
         let mut all = Vec::new();
         for (path, spec) in self.sweeps.iter().zip(&specs) {

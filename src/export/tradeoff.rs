@@ -31,6 +31,7 @@ pub fn to_json(title: &str, measured: &Measurement) -> Result<Vec<u8>> {
             "sample": measured.settings.sample,
             "seed": measured.settings.seed,
             "threads": measured.settings.threads,
+            "software": measured.settings.software,
         },
         "truth": {
             "method": format!("reference, {TRUTH_STEPS} steps per period"),
@@ -134,7 +135,8 @@ the truth is the difference of the two halves of its own window.
 
 `run --accuracy` takes the fastest row whose p95 is within half of what is asked for: another sweep has other instances.
 The same command without `--store` measures any sweep on any machine and keeps the rows in the user's cache directory
-(`accuracy.csv`); they then come before the table that is shipped, which is the one below.
+(`accuracy.csv`); they then come before the table that is shipped, which is the one below. A software GPU is left out, since
+the CPU engine is faster at every accuracy: [accuracy_software.md](accuracy_software.md) has its numbers.
 
 Whether that is kept on sweeps that were not measured here (a rational law with rebounding impacts, a belt ramp, an
 exponential law run until it is settled) is a test: `cargo test --release --test suite promise -- --nocapture` computes all
@@ -160,10 +162,24 @@ Instances per second of a processor (with a GPU among them: of wall time), and t
 
 ";
 
+/// The begin of a report with a software GPU.
+const WITH_SOFTWARE: &str = "# Speed against error with a software GPU
+
+Made by
+
+    squealmap tradeoff sweeps/accuracy/pieces.toml --software --no-store --report docs/accuracy_software.md
+
+as [accuracy.md](accuracy.md) says; all rows of the GPU are shown, efficient or not.
+
+Instances per second of wall time, and the error that 95 % are within.
+
+";
+
 /// The report on some sweeps: Markdown.
 #[must_use]
 pub fn to_markdown(sections: &[Section]) -> String {
-    let mut text = INTRODUCTION.to_owned();
+    let software = sections.iter().any(|section| section.measured.settings.software);
+    let mut text = if software { WITH_SOFTWARE } else { INTRODUCTION }.to_owned();
     text += "| scene | ";
     let bounds = NAMES.into_iter().filter_map(|(name, level)| match level {
         Level::Within(bound) => Some((name, bound)),
@@ -229,7 +245,8 @@ fn section_of(text: &mut String, section: &Section) {
     *text += "| engine | steps per period | instances/s | per CPU-second | worst, p50 / p95 / p99 | x2_std | ax_rms | ay_rms | \
               response_frequency | stick (absolute) | other types, regimes, statuses, % |\n\
               |---|---|---|---|---|---|---|---|---|---|---|\n";
-    for row in measured.rows.iter().filter(|row| row.frontier || row.backend == "reference") {
+    let shown = |row: &&Row| row.frontier || ["reference", "gpu"].contains(&row.backend.as_str());
+    for row in measured.rows.iter().filter(shown) {
         let per_cpu = row.per_cpu_second.map_or("–".to_owned(), |rate| format!("{rate:.0}"));
         let _ = writeln!(
             text,
