@@ -135,18 +135,19 @@ impl Scene {
         Ok(Scene { units, equilibrium, model, ramp, start })
     }
 
-    /// Prepares an instance for a run as `plan` has it.
+    /// Prepares an instance for a run as `plan` has it, by a scalar with the rounding `epsilon`: beyond `2/epsilon` steps
+    /// (f32: 2^24) it no longer counts them, and an amplitude has drifted by percents.
     ///
     /// # Errors
     /// As [`Scene::new`]; [`Status::NonFinite`] for scaled numbers beyond [`LARGEST`], [`Status::StepTooLarge`] for a run
-    /// of more than [`MOST_STEPS`].
-    pub fn planned(instance: &Instance, plan: &Plan) -> Result<Scene, Status> {
+    /// of more steps than that or than [`MOST_STEPS`].
+    pub fn planned(instance: &Instance, plan: &Plan, epsilon: f64) -> Result<Scene, Status> {
         let scene = Scene::new(instance, plan.start)?;
         if !scene.is_representable() {
             return Err(Status::NonFinite);
         }
         let periods = (scene.scaled(plan.settle) + scene.scaled(plan.measure)) / TAU;
-        let countable = periods * f64::from(plan.steps_per_period) <= MOST_STEPS;
+        let countable = periods * f64::from(plan.steps_per_period) <= MOST_STEPS.min(2.0 / epsilon);
         if countable { Ok(scene) } else { Err(Status::StepTooLarge) }
     }
 
@@ -251,7 +252,7 @@ impl Scene {
 /// Integrates one instance.
 #[must_use]
 pub fn respond(instance: &Instance, plan: &Plan) -> Outcome {
-    let scene = match Scene::planned(instance, plan) {
+    let scene = match Scene::planned(instance, plan, f64::EPSILON) {
         Ok(scene) => scene,
         Err(status) => return Outcome { status, ..Outcome::default() },
     };

@@ -135,7 +135,7 @@ pub fn outcomes<T: Lanes>(instances: &[Instance], plan: &Plan, cancel: &AtomicBo
             if law_of(kind) != form || form == Law::Pieces && upright(instance) != single {
                 continue;
             }
-            match Scene::planned(instance, plan) {
+            match Scene::planned(instance, plan, T::EPSILON.to_f64()) {
                 Ok(scene) => {
                     indices.push(index);
                     jobs.push(Job::new(instance, scene, plan));

@@ -251,7 +251,7 @@ pub fn words(scene: &Scene, segments: &Segments, pieces: usize) -> Vec<f64> {
 /// Integrates one instance with the twin of the kernel.
 #[must_use]
 pub fn respond<S: Real>(instance: &Instance, plan: &Plan, tolerance: f64) -> Outcome {
-    let scene = match Scene::planned(instance, plan) {
+    let scene = match Scene::planned(instance, plan, S::EPSILON.to_f64()) {
         Ok(scene) => scene,
         Err(status) => return Outcome { status, ..Outcome::default() },
     };

@@ -156,7 +156,7 @@ fn units_change_no_bit() {
     }
 }
 
-/// The reference and the engine of the CPU keep an amplitude over a hundred million steps.
+/// The engine of the CPU keeps an amplitude over a hundred million steps in f64; in f32 it would drift by 12 %, and refuses.
 #[test]
 #[ignore = "minutes"]
 fn a_hundred_million_steps() {
@@ -171,11 +171,12 @@ fn a_hundred_million_steps() {
         ],
     );
     let Expected::Numbers(numbers) = &scene.expected else { panic!("numbers are expected") };
-    for engine in [Engine::CpuF64, Engine::CpuF32] {
-        let plan = Plan { ..scene::periods(8_333_333.0, 1.0, 12) };
-        let outcome = engine.run(&scene.instance, &plan);
-        println!("{} {:e}", engine.name(), error(&outcome, &numbers[..1]));
-        assert!(error(&outcome, &numbers[..1]) < WRONG, "{}", engine.name());
+    let plan = scene::periods(8_333_333.0, 1.0, 12);
+    let outcome = Engine::CpuF64.run(&scene.instance, &plan);
+    println!("{:e}", error(&outcome, &numbers[..1]));
+    assert!(error(&outcome, &numbers[..1]) < 1e-3);
+    for engine in [Engine::CpuF32, Engine::KernelF32] {
+        assert_eq!(engine.run(&scene.instance, &plan).status, Status::StepTooLarge, "{}", engine.name());
     }
 }
 
