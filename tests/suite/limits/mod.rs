@@ -7,7 +7,6 @@ mod scene;
 mod table;
 
 use squealmap::outcome::{Outcome, Status};
-use squealmap::response::Plan;
 
 use crate::engines::Engine;
 use document::{ROOM, Row, agrees, is_same, render};
