@@ -168,6 +168,15 @@ pub enum Error {
         /// The limit.
         limit: usize,
     },
+    /// Results of two sweeps would go to one place.
+    #[error(
+        "two of the sweep files are named `{name}`, so that their results would stand in one directory; rename one, or \
+         measure them by two commands"
+    )]
+    SameName {
+        /// The name, without its ending.
+        name: String,
+    },
     /// No plane whose lines could be followed.
     #[error(
         "refining follows the lines of a map over two numeric axes, but the sweep has no two numeric axes with at least \
@@ -713,6 +722,9 @@ impl Error {
             | Error::NoModesOfTuples
             | Error::NoModes
             | Error::NothingToJudge { .. }
+            | Error::NothingToRefine
+            | Error::SameName { .. }
+            | Error::TooManyToRefine { .. }
             | Error::AccuracyBeside { .. }
             | Error::Inaccurate { .. }
             | Error::Threads { .. }

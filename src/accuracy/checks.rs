@@ -36,6 +36,12 @@ impl Found {
         self.errors.values().sum()
     }
 
+    /// [`Found::quantile`], where the settled oscillations are enough for it: at least one of them is to lie above.
+    #[must_use]
+    pub fn known_quantile(&self, share: f64) -> Option<f64> {
+        self.quantile(share).filter(|_| (1.0 - share) * self.settled() as f64 >= 1.0 - 1e-9)
+    }
+
     /// The error that this share of the settled oscillations is within, to 12 %; `None` of none.
     #[must_use]
     pub fn quantile(&self, share: f64) -> Option<f64> {
@@ -66,7 +72,11 @@ impl Found {
             "by": judge,
             "checked": self.checked,
             "settled_oscillations": self.settled(),
-            "error": { "p50": self.quantile(0.5), "p95": self.quantile(0.95), "largest": self.quantile(1.0) },
+            "error": {
+                "p50": self.known_quantile(0.5),
+                "p95": self.known_quantile(0.95),
+                "largest": self.quantile(1.0),
+            },
             "labels_changed": self.changed,
             "labels_changed_share": self.changed as f64 / self.checked.max(1) as f64,
             "near_a_border": self.taken,
@@ -119,8 +129,17 @@ impl Checks {
             if found.checked == 0 {
                 return String::new();
             }
-            let within =
-                |share| found.quantile(share).map_or("–".to_owned(), |error| format!("{error:.1e}"));
+            let error = |error: Option<f64>| error.map_or("–".to_owned(), |error| format!("{error:.1e}"));
+            let errors = match (found.known_quantile(0.5), found.known_quantile(0.95), found.settled()) {
+                (_, _, 0) => String::new(),
+                (Some(median), Some(most), _) => {
+                    format!(" with relative errors of {median:.1e} (median) and {most:.1e} (95 %)")
+                }
+                _ => format!(
+                    " with relative errors of at most {}: too few to say more",
+                    error(found.quantile(1.0))
+                ),
+            };
             let near = if found.taken > 0 {
                 format!(
                     "; of {} near a border between labels {} changed, and take that result",
@@ -130,12 +149,9 @@ impl Checks {
                 String::new()
             };
             format!(
-                "checked by {judge}: {} instances, {} settled oscillations with relative errors of {} (median) and {} \
-                 (95 %), {} other labels{near}\n",
+                "checked by {judge}: {} instances, {} settled oscillations{errors}; {} other labels{near}\n",
                 found.checked,
                 found.settled(),
-                within(0.5),
-                within(0.95),
                 found.changed
             )
         };
@@ -186,6 +202,17 @@ mod tests {
             let quantile = found.quantile(share).unwrap_or(f64::NAN);
             assert!(quantile >= truth && quantile < 1.13 * truth, "{share}: {quantile:e}");
         }
+    }
+
+    #[test]
+    fn few_errors_have_no_95_percent() {
+        assert_eq!(found([1e-6; 19].into_iter()).known_quantile(0.95), None);
+        assert!(found([1e-6; 20].into_iter()).known_quantile(0.95).is_some());
+        assert_eq!(found([1e-6].into_iter()).known_quantile(0.5), None);
+        let mut checks = Checks::default();
+        let check = Check { by: By::Fine, taken: false, changed: false, error: Some(0.25) };
+        checks.add(&Record { check: Some(check), ..Record::default() });
+        assert!(checks.summary().contains("too few to say more"));
     }
 
     #[test]

@@ -42,7 +42,7 @@ pub(crate) struct Cli {
 enum Command {
     /// Compute every instance of a sweep: map.csv, map.svg, map.png, manifest.json
     Run(run::Run),
-    /// The lines of a large map from few of its instances: boundaries.csv, points.csv, map.svg, map.png, refine.json
+    /// The lines of a large map from few of its instances: boundaries.csv, points.csv, refined.svg, refined.png, refine.json
     Refine(refine::RefineCommand),
     /// How far a run has come: tiles that are done, in work or bad, rate, time left
     Status(status::StatusCommand),

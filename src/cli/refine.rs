@@ -13,7 +13,7 @@ use squealmap::export::sheet::Sheet;
 use squealmap::grid::Grid;
 use squealmap::kernel::source::Precision;
 use squealmap::map::{Record, Stopped};
-use squealmap::refine::{Refined, Settings, refine};
+use squealmap::refine::{Refined, Settings, planes_of, refine};
 use squealmap::spec::Spec;
 use squealmap::{Error, Result};
 
@@ -23,7 +23,7 @@ use crate::cli::summary::summary;
 use crate::cli::{Files, note, print};
 
 /// What is written.
-const FILES: [&str; 5] = ["boundaries.csv", "map.png", "map.svg", "points.csv", "refine.json"];
+const FILES: [&str; 5] = ["boundaries.csv", "points.csv", "refine.json", "refined.png", "refined.svg"];
 
 /// Labels that become records at a time, for the figure.
 const BLOCK: usize = 1 << 16;
@@ -56,6 +56,7 @@ impl RefineCommand {
         let mut spec = Spec::read(&self.files.sweep)?;
         // Checks are drawn by the place in a sweep, and these instances are at another.
         spec.analysis.checked = false;
+        planes_of(&spec.grid)?;
         let output = Output::prepare(self.files.directory(), &FILES)?;
         let settings =
             Settings { coarse: usize::from(self.coarse), sample: self.sample as usize, seed: self.seed };
@@ -90,10 +91,10 @@ impl RefineCommand {
         let svg = figure.look(&Look { command: Some(command), ..Look::default() });
         let files = [
             (FILES[0], refined_lines(&spec, &refined)?),
-            (FILES[1], png::render(&svg)?),
-            (FILES[2], svg.into_bytes()),
-            (FILES[3], rows.finish()),
-            (FILES[4], document(sheet, &refined, settings)?),
+            (FILES[1], rows.finish()),
+            (FILES[2], document(sheet, &refined, settings)?),
+            (FILES[3], png::render(&svg)?),
+            (FILES[4], svg.into_bytes()),
         ];
         print(&report(&refined, &summary(spec.analysis, figure.tally())));
         print(&list(&output.write(&files)?));
@@ -121,6 +122,9 @@ fn figure<'a>(sheet: Sheet<'a>, refined: &Refined) -> MapFigure<'a> {
 fn report(refined: &Refined, summary: &str) -> String {
     let instances = refined.labels.len();
     let share = 100.0 * refined.computed as f64 / instances as f64;
+    if refined.computed == instances {
+        return format!("computed all of {instances} instances\n\n{summary}\n");
+    }
     let missed = refined.missed_at_most().map_or_else(
         || "nothing was drawn to see what is missed".to_owned(),
         |most| {

@@ -3,13 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use squealmap::Result;
 use squealmap::accuracy::measure::{Measurement, Settings, measure};
 use squealmap::accuracy::row::{Row, to_csv};
 use squealmap::backend::choice::Options;
 use squealmap::export::png;
 use squealmap::export::tradeoff::{self, Section};
 use squealmap::spec::Spec;
+use squealmap::{Error, Result};
 
 use crate::cli::output::{Output, list};
 use crate::cli::{frontier, note, print};
@@ -61,6 +61,11 @@ impl Tradeoff {
     pub(crate) fn execute(self) -> Result<()> {
         // A mistake in the last sweep is told before the first is measured.
         let specs = self.sweeps.iter().map(|path| Spec::read(path)).collect::<Result<Vec<_>>>()?;
+        let names: Vec<_> =
+            self.sweeps.iter().map(|path| path.file_stem().unwrap_or(path.as_os_str())).collect();
+        if let Some(twice) = (1..names.len()).find(|at| names[..*at].contains(&names[*at])) {
+            return Err(Error::SameName { name: names[twice].to_string_lossy().into_owned() });
+        }
         let settings = Settings {
             sample: self.sample as usize,
             seed: self.seed,

@@ -71,16 +71,25 @@ impl Refined {
 /// What computes some instances: their records in the same order, or why there are none.
 pub type Compute<'a> = dyn FnMut(&[usize]) -> Result<Vec<Record>> + 'a;
 
-/// Refines the map of a grid.
+/// The planes of a grid that can be refined.
 ///
 /// # Errors
-/// When the grid has no plane of two numeric axes or too many instances, and those of `compute`.
-pub fn refine(grid: &Grid, settings: Settings, compute: &mut Compute) -> Result<Refined> {
+/// When it has no plane of two numeric axes, or too many instances.
+pub fn planes_of(grid: &Grid) -> Result<Planes> {
     let instances = grid.len();
     if instances > MOST_IN_MEMORY {
         return Err(Error::TooManyToRefine { instances, limit: MOST_IN_MEMORY });
     }
-    let planes = Planes::new(grid).ok_or(Error::NothingToRefine)?;
+    Planes::new(grid).ok_or(Error::NothingToRefine)
+}
+
+/// Refines the map of a grid.
+///
+/// # Errors
+/// Those of [`planes_of`] and of `compute`.
+pub fn refine(grid: &Grid, settings: Settings, compute: &mut Compute) -> Result<Refined> {
+    let planes = planes_of(grid)?;
+    let instances = grid.len();
     let mut map = Known { labels: vec![Label::NOT_COMPUTED; instances], computed: 0 };
     let mut cells: Vec<Cell> =
         (0..planes.count()).flat_map(|plane| Cell::coarse(&planes, plane, settings.coarse)).collect();

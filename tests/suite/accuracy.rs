@@ -328,6 +328,9 @@ fn tradeoff_refuses_what_it_cannot_judge() {
     assert_eq!(ended.code, Some(2));
     assert!(ended.err.contains("`analysis` lacks \"response\""), "{}", ended.err);
     assert!(!directory.path().join("t").exists());
+    let ended = squealmap(directory.path(), &["tradeoff", "s.toml", "./s.toml", "-o", "t", "--no-store"]);
+    assert_eq!(ended.code, Some(2));
+    assert!(ended.err.contains("are named `s`"), "{}", ended.err);
 }
 
 #[test]

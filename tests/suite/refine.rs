@@ -13,6 +13,8 @@ use squealmap::outcome::Status;
 use squealmap::refine::{Refined, Settings, refine};
 use squealmap::spec::Spec;
 
+use crate::cli::squealmap;
+
 const SETTINGS: Settings = Settings { coarse: 16, sample: 0, seed: 1 };
 
 /// Two planes of `columns` × `rows` points.
@@ -140,4 +142,52 @@ fn the_types_of_the_papers_map_are_those_of_the_whole_grid() {
 #[ignore = "minutes: every instance of the whole grid is integrated"]
 fn the_regimes_of_the_papers_map_are_those_of_the_whole_grid() {
     paper(1025, "[\"linear\", \"response\"]", 20);
+}
+
+#[test]
+fn the_command_writes_its_files_or_says_what_is_missing() {
+    let directory = tempfile::tempdir().unwrap();
+    let sweep = |name: &str, axes: &str| {
+        let text = format!(
+            "analysis = [\"linear\"]\n[friction]\nlaw = \"bilinear\"\nknee_velocity = 5.0\n\
+             [model]\nmu_s = 0.4\nmu_d = 0.3\n[belt]\nbelt_velocity = 3.0\n[axes]\n{axes}\n"
+        );
+        std::fs::write(directory.path().join(name), text).unwrap();
+    };
+    sweep(
+        "plane.toml",
+        "mu_s = { from = 0.0, to = 0.6, points = 65 }\nmu_d = { from = 0.0, to = 0.6, points = 65 }",
+    );
+    let arguments = ["refine", "plane.toml", "--coarse", "8", "--backend", "cpu"];
+    let ended = squealmap(directory.path(), &arguments);
+    assert_eq!(ended.code, Some(0), "{}", ended.err);
+    let out = directory.path().join("out/plane");
+    for name in ["boundaries.csv", "points.csv", "refined.png", "refined.svg"] {
+        assert!(std::fs::metadata(out.join(name)).unwrap().len() > 100, "{name}");
+    }
+    let document: serde_json::Value =
+        serde_json::from_slice(&std::fs::read(out.join("refine.json")).unwrap()).unwrap();
+    let points = std::fs::read_to_string(out.join("points.csv")).unwrap();
+    assert_eq!(document["computed"], points.lines().count() - 1);
+    assert_eq!(document["instances"], 65 * 65);
+    // physics.md: with constant friction (the diagonal) the modes couple from 0.2264 on. A vertex of the lines lies at
+    // most half a cell, 0.0047, from there in both directions.
+    let lines = std::fs::read_to_string(out.join("boundaries.csv")).unwrap();
+    let near = |line: &str| {
+        let at: Vec<f64> = line.split(',').skip(2).filter_map(|x| x.parse().ok()).collect();
+        at.len() == 2 && at.iter().all(|x| (x - 0.2264).abs() < 0.0048)
+    };
+    assert!(lines.lines().any(near), "the four regions meet at the critical friction");
+
+    sweep("line.toml", "mu_s = { from = 0.0, to = 0.6, points = 65 }");
+    sweep(
+        "large.toml",
+        "mu_s = { from = 0.0, to = 0.6, points = 20000 }\nmu_d = { from = 0.0, to = 0.6, points = 20000 }",
+    );
+    for (name, says) in [("line.toml", "two numeric axes"), ("large.toml", "400000000 instances")] {
+        let ended = squealmap(directory.path(), &["refine", name, "-o", "none"]);
+        assert_eq!(ended.code, Some(2), "{name}");
+        assert!(ended.err.contains(says), "{}", ended.err);
+        assert!(!directory.path().join("none").exists(), "nothing is left");
+    }
 }
