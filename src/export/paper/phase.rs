@@ -31,6 +31,9 @@ const CURVES: f64 = 120.0;
 const STEPS: u32 = 45;
 /// Width and height of the bar and of the samples of the legend, points.
 const SAMPLE: [f64; 2] = [12.0, 7.0];
+/// The fill of an instance.
+type Fill<'a> = &'a dyn Fn(&Witness) -> String;
+
 /// Heading of picture and document.
 const HEADING: &str =
     "The phase method on trial: does the phase of normal against tangential acceleration tell the mechanism?";
@@ -114,7 +117,7 @@ fn picture(trial: &PhaseTrial) -> String {
     let count = velocities.len().max(1) as f64;
     let width = (DOUBLE_COLUMN - left - RIGHT - (count - 1.0) * GAP) / count;
     let pair = Text::from("|phase of ").symbol("ÿ_1").plain(" against ").symbol("ẍ_2").plain("|, ");
-    let fills: [(Text, &dyn Fn(&Witness) -> String); 3] = [
+    let fills: [(Text, Fill); 3] = [
         (Text::from("(a) ").then(pair.clone()).plain("eigenvector"), &|one| phase_fill(one.phases[0])),
         (Text::from("(b) ").then(pair).plain("settled limit cycle"), &|one| phase_fill(one.phases[2])),
         (Text::from("(c) Verdict of the eigenvector's phase at 45°"), &|one| {
@@ -163,7 +166,7 @@ fn cells<'a>(
     frame: &Frame,
     sides: &[Vec<f64>; 2],
     shown: impl Iterator<Item = &'a Witness>,
-    fill: &dyn Fn(&Witness) -> String,
+    fill: Fill,
 ) {
     let [columns, rows] = sides.each_ref().map(Vec::len);
     let place = |values: &[f64], x: f64| values.partition_point(|value| *value < x);
