@@ -8,8 +8,8 @@
 //! edge. Missed is what no computed point shows: a region that lies inside one coarse cell. A random sample of what
 //! was not computed says how much of the map that may be; what it finds is divided too.
 //!
-//! - [`planes`]: the planes of a grid, and which instance a point is.
-//! - [`cell`]: a cell, its points, its parts.
+//! - `planes.rs`: the planes of a grid, and which instance a point is.
+//! - `cell.rs`: a cell, its points, its parts.
 
 mod cell;
 mod planes;
