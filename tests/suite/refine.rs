@@ -153,13 +153,13 @@ fn the_command_writes_its_files_or_says_what_is_missing() {
     let sweep = |name: &str, axes: &str| {
         let text = format!(
             "analysis = [\"linear\"]\n[friction]\nlaw = \"bilinear\"\nknee_velocity = 5.0\n\
-             [model]\nmu_s = 0.4\nmu_d = 0.3\n[belt]\nbelt_velocity = 3.0\n[axes]\n{axes}\n"
+             {axes}\n[belt]\nbelt_velocity = 3.0\n"
         );
         std::fs::write(directory.path().join(name), text).unwrap();
     };
     sweep(
         "plane.toml",
-        "mu_s = { from = 0.0, to = 0.6, points = 65 }\nmu_d = { from = 0.0, to = 0.6, points = 65 }",
+        "[axes]\nmu_s = { from = 0.0, to = 0.6, points = 65 }\nmu_d = { from = 0.0, to = 0.6, points = 65 }",
     );
     let arguments = ["refine", "plane.toml", "--coarse", "8", "--backend", "cpu"];
     let ended = squealmap(directory.path(), &arguments);
@@ -182,10 +182,10 @@ fn the_command_writes_its_files_or_says_what_is_missing() {
     };
     assert!(lines.lines().any(near), "the four regions meet at the critical friction");
 
-    sweep("line.toml", "mu_s = { from = 0.0, to = 0.6, points = 65 }");
+    sweep("line.toml", "mu_d = 0.3\n[axes]\nmu_s = { from = 0.0, to = 0.6, points = 65 }");
     sweep(
         "large.toml",
-        "mu_s = { from = 0.0, to = 0.6, points = 20000 }\nmu_d = { from = 0.0, to = 0.6, points = 20000 }",
+        "[axes]\nmu_s = { from = 0.0, to = 0.6, points = 20000 }\nmu_d = { from = 0.0, to = 0.6, points = 20000 }",
     );
     for (name, says) in [("line.toml", "two numeric axes"), ("large.toml", "400000000 instances")] {
         let ended = squealmap(directory.path(), &["refine", name, "-o", "none"]);
