@@ -70,6 +70,17 @@ impl TryFrom<Error> for Stopped {
     }
 }
 
+impl Stopped {
+    /// The error of a run that ended like this with `done` of `total` instances, where what is done is not kept.
+    #[must_use]
+    pub fn error(self, done: usize, total: usize) -> Error {
+        match self {
+            Stopped::Cancelled => Error::Cancelled { done, total },
+            Stopped::Failed(why) => Error::Engine { why },
+        }
+    }
+}
+
 impl fmt::Display for Stopped {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {

@@ -17,6 +17,7 @@ use crate::backend::choice::Backend;
 use crate::backend::{cpu, reference};
 use crate::error::Result;
 use crate::kernel::source::Precision;
+use crate::label::Label;
 use crate::map::{Record, Stopped};
 use crate::spec::Spec;
 
@@ -149,7 +150,7 @@ pub fn check(
 
 /// The record with what its check found; near a border it is the true one.
 fn judge_one(record: &Record, truth: &Record, by: By) -> Record {
-    let label = |record: &Record| (record.status, record.kind, record.regime);
+    let label = |record: &Record| Label::from(record).class();
     let taken = by == By::Fine && (is_near(record) || is_near(truth));
     let error = is_settled_oscillation(truth).then(|| worst(record, truth));
     let check = Check { by, taken, changed: label(record) != label(truth), error };

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use crate::backend::choice::{Backend, Options};
+use crate::backend::{cpu, gpu, reference};
 use crate::grid::{AxisKey, Grid, Value};
 use crate::kernel::source::Precision;
 use crate::model::friction::LawKind;
@@ -69,9 +70,9 @@ impl fmt::Display for Configuration {
 pub fn name(backend: Backend) -> &'static str {
     match backend {
         Backend::Auto => "auto",
-        Backend::Gpu => "gpu",
-        Backend::Cpu => "cpu",
-        Backend::Reference => "reference",
+        Backend::Gpu => gpu::NAME,
+        Backend::Cpu => cpu::NAME,
+        Backend::Reference => reference::NAME,
     }
 }
 

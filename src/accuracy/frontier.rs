@@ -6,6 +6,8 @@ use super::row::{Row, from_csv, pace};
 use crate::error::{Error, Result};
 use crate::spec::Spec;
 
+use std::sync::LazyLock;
+
 use serde::{Deserialize, Serialize};
 
 /// What is compiled in: `squealmap tradeoff` on the sweeps of `sweeps/accuracy`, see docs/accuracy.md.
@@ -76,9 +78,13 @@ impl Frontier {
     /// # Panics
     /// When the table in the program is none, which a test excludes.
     #[must_use]
-    pub fn shipped() -> Frontier {
-        let rows = from_csv(SHIPPED.as_bytes()).expect("the table that is compiled in can be read");
-        Frontier { rows, source: "shipped with the program".to_owned() }
+    pub fn shipped() -> &'static Frontier {
+        // Read once: every tile asks for it.
+        static READ: LazyLock<Frontier> = LazyLock::new(|| {
+            let rows = from_csv(SHIPPED.as_bytes()).expect("the table that is compiled in can be read");
+            Frontier { rows, source: "shipped with the program".to_owned() }
+        });
+        &READ
     }
 
     /// Rows that were measured on this machine; `source` says where they stand.

@@ -225,8 +225,8 @@ fn speed(
     let options = Options { note: None, ..configuration.options(options) };
     let mut solver = Solver::new(&spec, &options)?;
     let clock = Clock::start();
-    if solver.records(0..instances, &|_| {})?.stopped.is_some() {
-        return Err(Error::Cancelled { done: 0, total: instances });
+    if let Some(why) = solver.records(0..instances, &|_| {})?.stopped {
+        return Err(why.error(0, instances));
     }
     Ok([clock.worked(), clock.wall()].map(|seconds| instances as f64 / seconds.max(f64::MIN_POSITIVE)))
 }

@@ -136,7 +136,7 @@ pub fn records(configuration: &Configuration, spec: &Spec, options: &Options) ->
     let computed = Solver::new(&spec, &options)?.records(0..total, &|_| {})?;
     match computed.stopped {
         None => Ok(computed.records),
-        Some(_) => Err(crate::error::Error::Cancelled { done: 0, total }),
+        Some(why) => Err(why.error(0, total)),
     }
 }
 

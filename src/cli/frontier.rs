@@ -29,7 +29,7 @@ pub(crate) fn of(spec: &Spec) -> Frontier {
             None
         }
     });
-    measured.filter(|frontier| frontier.covers(spec)).unwrap_or_else(Frontier::shipped)
+    measured.filter(|frontier| frontier.covers(spec)).unwrap_or_else(|| Frontier::shipped().clone())
 }
 
 /// Puts the rows of a measurement in place of those of the same scene; returns where, if anywhere.

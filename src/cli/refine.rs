@@ -1,6 +1,8 @@
 //! `squealmap refine`: the lines of a large map from few of its instances.
 
 use clap::Args;
+use squealmap::Result;
+use squealmap::accuracy::sample::subset;
 use squealmap::backend::choice::Options;
 use squealmap::backend::solver::Solver;
 use squealmap::export::boundary_lines::refined_lines;
@@ -10,12 +12,10 @@ use squealmap::export::look::Look;
 use squealmap::export::png;
 use squealmap::export::refined::document;
 use squealmap::export::sheet::Sheet;
-use squealmap::grid::Grid;
 use squealmap::kernel::source::Precision;
-use squealmap::map::{Record, Stopped};
+use squealmap::map::Record;
 use squealmap::refine::{Refined, Settings, planes_of, refine};
 use squealmap::spec::Spec;
-use squealmap::{Error, Result};
 
 use crate::cli::output::{Output, list};
 use crate::cli::run::{BackendName, PrecisionName, stop_at_ctrl_c};
@@ -54,7 +54,7 @@ impl RefineCommand {
     pub(crate) fn execute(self) -> Result<()> {
         let cancel = stop_at_ctrl_c()?;
         let mut spec = Spec::read(&self.files.sweep)?;
-        // Checks are drawn by the place in a sweep, and these instances are at another.
+        // Checks are drawn by the place in a sweep, and what is computed here has another: no columns of theirs either.
         spec.analysis.checked = false;
         planes_of(&spec.grid)?;
         let output = Output::prepare(self.files.directory(), &FILES)?;
@@ -74,13 +74,9 @@ impl RefineCommand {
         let mut rows = MapCsv::new(sheet, Vec::new())?;
         let mut done = 0;
         let refined = refine(&spec.grid, settings, &mut |instances| {
-            let part = Spec { grid: tuples(&spec.grid, instances), ..spec.clone() };
-            let computed = solver.records_of(&part, 0..instances.len(), &|_| ())?;
+            let computed = solver.records_of(&subset(&spec, instances), 0..instances.len(), &|_| ())?;
             if let Some(why) = computed.stopped {
-                return Err(match why {
-                    Stopped::Cancelled => Error::Cancelled { done, total: spec.grid.len() },
-                    Stopped::Failed(why) => Error::Engine { why },
-                });
+                return Err(why.error(done, spec.grid.len()));
             }
             done += instances.len();
             rows.add_some(instances, &computed.records)?;
@@ -100,12 +96,6 @@ impl RefineCommand {
         print(&list(&output.write(&files)?));
         Ok(())
     }
-}
-
-/// Some instances of a grid.
-fn tuples(grid: &Grid, instances: &[usize]) -> Grid {
-    let row = |index: &usize| grid.coordinates(*index).into_iter().cloned().collect();
-    Grid::Tuples { keys: grid.keys(), rows: instances.iter().map(row).collect() }
 }
 
 /// The figure of all labels.

@@ -171,9 +171,7 @@ impl Run {
         let only_gpu = self.strict || self.require_gpu || self.adapter.is_some();
         let backend = match self.backend {
             BackendName::Auto => only_gpu.then_some(Backend::Gpu),
-            BackendName::Gpu => Some(Backend::Gpu),
-            BackendName::Cpu => Some(Backend::Cpu),
-            BackendName::Reference => Some(Backend::Reference),
+            asked => Some(Backend::from(asked)),
         };
         if let (Level::Reference, Some(other @ (Backend::Gpu | Backend::Cpu))) = (level, backend) {
             return Err(beside(format!("--backend {}", configuration::name(other))));
@@ -220,10 +218,7 @@ fn run(store: &Store, solver: &mut Solver, cancel: &AtomicBool, shard: Option<Sh
             && fresh == 0
             && missing.len() == tiling.count()
         {
-            return Err(match why {
-                Stopped::Cancelled => Error::Cancelled { done: 0, total },
-                Stopped::Failed(why) => Error::Engine { why: why.clone() },
-            });
+            return Err(why.clone().error(0, total));
         }
         let run = manifest::Run {
             threads: rayon::current_num_threads(),

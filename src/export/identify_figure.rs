@@ -4,7 +4,7 @@ use super::figure::{DOUBLE_COLUMN, MARGIN, program, title};
 use super::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room};
 use super::key;
 use super::plot::Plot;
-use super::raster::{colour, data_uri};
+use super::raster::{self, data_uri};
 use super::scale::{Scale, axis_unit};
 use super::svg::{Anchor, Style, Svg, number};
 use super::text::{Text, wrap};
@@ -201,9 +201,11 @@ fn bar(svg: &mut Svg, frame: &Frame, ends: [&str; 2], words: &str) {
     let height = frame.height / STEPS as f64;
     svg.open(r#"shape-rendering="crispEdges""#);
     for step in 0..STEPS {
-        let [r, g, b] = colour(step as f32 / (STEPS - 1) as f32);
         let y = frame.bottom() - (step + 1) as f64 * height;
-        svg.rect([x, y, width, height], &format!(r##"fill="#{r:02X}{g:02X}{b:02X}""##));
+        svg.rect(
+            [x, y, width, height],
+            &format!(r#"fill="{}""#, raster::fill(step as f32 / (STEPS - 1) as f32)),
+        );
     }
     svg.close();
     Frame { x, width, ..*frame }.border(svg);

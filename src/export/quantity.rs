@@ -5,7 +5,7 @@ use super::cells::{FAILED_FILL, corner, shape, steps};
 use super::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room};
 use super::panels::{Panel, Panels};
 use super::points::{POINT_RADIUS, positions};
-use super::raster::colour;
+use super::raster;
 use super::scale::{Scale, axis_unit};
 use super::svg::{Anchor, Style, Svg};
 use super::text::Text;
@@ -26,8 +26,7 @@ pub(super) fn scale(quantity: &NumberColumn) -> Scale {
 
 /// The fill of a step.
 fn fill(step: usize) -> String {
-    let [r, g, b] = colour(step as f32 / (STEPS - 1) as f32);
-    format!("#{r:02X}{g:02X}{b:02X}")
+    raster::fill(step as f32 / (STEPS - 1) as f32)
 }
 
 /// The step of every instance; `None` where the value is undefined.

@@ -31,6 +31,12 @@ pub(super) fn colour(value: f32) -> [u8; 3] {
     })
 }
 
+/// The same as the fill of a vector drawing.
+pub(super) fn fill(value: f32) -> String {
+    let [r, g, b] = colour(value);
+    format!("#{r:02X}{g:02X}{b:02X}")
+}
+
 /// A data URI of a picture of `columns` × `rows` values, column by column, the lowest row first.
 ///
 /// # Errors

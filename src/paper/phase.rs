@@ -3,7 +3,6 @@
 use crate::backend::choice::{Backend, Options};
 use crate::classify::{InstabilityType, Regime};
 use crate::error::Result;
-use crate::grid::{AxisKey, Value};
 use crate::kernel::source::Precision;
 use crate::map::Record;
 use crate::model::Param;
@@ -107,16 +106,9 @@ impl PhaseTrial {
         let mut spec = PHASE.spec();
         spec.analysis.checked = false;
         let map = sweep::run(spec, &options, &|_| ())?;
-        let keys = map.spec.grid.keys();
         let witness = |(index, record): (usize, &Record)| {
-            let coordinates = map.spec.grid.coordinates(index);
-            let value = |wanted: Param| {
-                let place = keys.iter().position(|key| *key == AxisKey::Param(wanted));
-                match place.map(|place| &coordinates[place]) {
-                    Some(Value::Number(number)) => *number,
-                    _ => f64::NAN,
-                }
-            };
+            let params = map.spec.instance(index).params;
+            let value = |param| params.require(param);
             Witness {
                 velocity: value(Param::BeltVelocity),
                 friction: [Param::MuS, Param::MuD].map(value),

@@ -2,6 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
+use squealmap::accuracy::sample::subset;
 use squealmap::backend::choice::{Backend, Options};
 use squealmap::backend::solver::Solver;
 use squealmap::classify::InstabilityType;
@@ -108,10 +109,7 @@ fn paper(points: u32, analysis: &str, share: usize) -> (Refined, usize) {
     let mut solver = Solver::new(&spec, &options).unwrap();
     let settings = Settings { coarse: 32, sample: 1000, seed: 1 };
     let refined = refine(&spec.grid, settings, &mut |instances| {
-        let row = |i: &usize| spec.grid.coordinates(*i).into_iter().cloned().collect();
-        let grid = Grid::Tuples { keys: spec.grid.keys(), rows: instances.iter().map(row).collect() };
-        let part = Spec { grid, ..spec.clone() };
-        Ok(solver.records_of(&part, 0..instances.len(), &|_| ())?.records)
+        Ok(solver.records_of(&subset(&spec, instances), 0..instances.len(), &|_| ())?.records)
     })
     .unwrap();
     let total = spec.grid.len();

@@ -1,6 +1,6 @@
 //! The largest accelerations for other ramps and kicks: three small maps with their numbers in the cells.
 
-use super::Drawn;
+use super::{Drawn, distinct};
 use crate::error::Result;
 use crate::export::columns::Cell;
 use crate::export::csv::Table;
@@ -70,20 +70,12 @@ fn table(trials: &[Trial]) -> Result<Vec<u8>> {
     table.finish()
 }
 
-/// The distinct values of the trials, rising.
-fn distinct(trials: &[Trial], value: fn(&Trial) -> f64) -> Vec<f64> {
-    let mut values: Vec<f64> = trials.iter().map(value).collect();
-    values.sort_by(f64::total_cmp);
-    values.dedup();
-    values
-}
-
 fn picture(trials: &[Trial]) -> String {
     let mut svg = Svg::new();
     let inner = DOUBLE_COLUMN - 2.0 * MARGIN;
     let y = MARGIN + title(&mut svg, HEADING, inner) + LABEL_SIZE + 5.0;
-    let durations = distinct(trials, |trial| trial.duration);
-    let kicks = distinct(trials, |trial| trial.kick);
+    let durations = distinct(trials.iter().map(|trial| trial.duration));
+    let kicks = distinct(trials.iter().map(|trial| trial.kick));
     let ticks = |values: &[f64], unit: f64| -> Vec<Tick> {
         let names = Scale::Names(values.iter().map(f64::to_string).collect());
         let tick =

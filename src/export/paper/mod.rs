@@ -51,3 +51,11 @@ pub fn draw(figure: Figure, study: &Study) -> Result<Drawn> {
         Figure::Phase => phase::draw(study),
     }
 }
+
+/// The distinct values, rising.
+fn distinct(values: impl Iterator<Item = f64>) -> Vec<f64> {
+    let mut values: Vec<f64> = values.collect();
+    values.sort_by(f64::total_cmp);
+    values.dedup();
+    values
+}

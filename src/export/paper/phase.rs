@@ -1,6 +1,6 @@
 //! The phase method on trial: maps of the phase and of its verdict, and how thresholds do.
 
-use super::Drawn;
+use super::{Drawn, distinct};
 use crate::classify::InstabilityType;
 use crate::error::Result;
 use crate::export::cells::define_patterns;
@@ -11,7 +11,7 @@ use crate::export::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_roo
 use crate::export::key;
 use crate::export::panels::setting;
 use crate::export::plot::{CRITICAL, FIRST, Plot, SECOND, THIRD};
-use crate::export::raster::colour;
+use crate::export::raster;
 use crate::export::scale::Scale;
 use crate::export::svg::{Anchor, Style, Svg};
 use crate::export::text::Text;
@@ -66,19 +66,10 @@ fn table(trial: &PhaseTrial) -> Result<Vec<u8>> {
     table.finish()
 }
 
-/// The distinct values, rising.
-fn distinct(values: impl Iterator<Item = f64>) -> Vec<f64> {
-    let mut values: Vec<f64> = values.collect();
-    values.sort_by(f64::total_cmp);
-    values.dedup();
-    values
-}
-
 /// The fill of a phase.
 #[expect(clippy::cast_possible_truncation, reason = "a share of 90°")]
 fn shade(phase: f64) -> String {
-    let [r, g, b] = colour((phase / 90.0) as f32);
-    format!("#{r:02X}{g:02X}{b:02X}")
+    raster::fill((phase / 90.0) as f32)
 }
 
 /// The fill of a phase in whole steps, hatched where there is none.
