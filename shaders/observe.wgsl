@@ -62,10 +62,14 @@ fn observe_window(origin: vec2<real>, t0: real, contact: u32, part: u32, at: Mom
     var ax: array<real, 5>;
     var ay: array<real, 5>;
     var normal: array<real, 5>;
+    var velocity: array<real, 5>;
+    var acceleration: array<real, 5>;
     for (var i = 0u; i < 5u; i++) {
         let t = sample_time(i) * tau;
         let x = evaluate(&sx, t);
         let w = evaluate(&sw, t);
+        velocity[i] = x.v;
+        acceleration[i] = x.a;
         ax[i] = abs(x.a);
         ay[i] = abs(w.a);
         normal[i] = value(&sn, t);
@@ -87,18 +91,46 @@ fn observe_window(origin: vec2<real>, t0: real, contact: u32, part: u32, at: Mom
     sums.peaks[0] = max(sums.peaks[0], maximum(ax));
     sums.peaks[1] = max(sums.peaks[1], maximum(ay));
     sums.peaks[2] = max(sums.peaks[2], maximum(normal));
-    cross_upwards(at, step, tau);
+    cross_upwards(velocity, acceleration, at, step, tau);
 }
 
-fn cross_upwards(at: Moment, step: real, tau: real) {
-    let before = sx[1];
-    let after = evaluate(&sx, tau).v;
-    let jumped = sums.has_previous == 1u && sums.previous < real(0.0) && before >= real(0.0);
-    let rises = before < real(0.0) && after >= real(0.0);
-    if jumped || rises {
-        var low = real(0.0);
-        var high = select(tau, real(0.0), jumped);
-        for (var i = 0u; i < BISECTIONS; i++) {
+fn cross_upwards(
+    velocity_in: array<real, 5>,
+    acceleration_in: array<real, 5>,
+    at: Moment,
+    step: real,
+    tau: real,
+) {
+    var velocity = velocity_in;
+    var acceleration = acceleration_in;
+    if sums.has_previous == 1u && sums.previous < real(0.0) && velocity[0] >= real(0.0) {
+        note(at);
+    }
+    for (var i = 0u; i < 4u; i++) {
+        var low = sample_time(i) * tau;
+        var high = sample_time(i + 1u) * tau;
+        let below = velocity[i] < real(0.0);
+        if below == (velocity[i + 1u] < real(0.0)) {
+            let before = acceleration[i];
+            let after = acceleration[i + 1u];
+            let rises = before > real(0.0) && after < real(0.0);
+            let falls = before < real(0.0) && after > real(0.0);
+            if !((below && rises) || (!below && falls)) {
+                continue;
+            }
+            let extremum = turn(low, high, below);
+            if (evaluate(&sx, extremum).v < real(0.0)) == below {
+                continue;
+            }
+            if below {
+                high = extremum;
+            } else {
+                low = extremum;
+            }
+        } else if !below {
+            continue;
+        }
+        for (var j = 0u; j < BISECTIONS; j++) {
             let middle = real(0.5) * (low + high);
             if evaluate(&sx, middle).v < real(0.0) {
                 low = middle;
@@ -106,15 +138,18 @@ fn cross_upwards(at: Moment, step: real, tau: real) {
                 high = middle;
             }
         }
-        let moment = Moment(at.segment, at.index, at.fraction + high / step);
-        if sums.crossings == 0u {
-            sums.first = moment;
-        }
-        sums.last = moment;
-        sums.crossings += 1u;
+        note(Moment(at.segment, at.index, at.fraction + high / step));
     }
-    sums.previous = after;
+    sums.previous = velocity[4];
     sums.has_previous = 1u;
+}
+
+fn note(moment: Moment) {
+    if sums.crossings == 0u {
+        sums.first = moment;
+    }
+    sums.last = moment;
+    sums.crossings += 1u;
 }
 
 fn observe_growth(tau: real) {
@@ -133,6 +168,20 @@ fn observe_growth(tau: real) {
             word += 1u;
         }
     }
+}
+
+fn turn(from_in: real, to_in: real, positive: bool) -> real {
+    var low = from_in;
+    var high = to_in;
+    for (var i = 0u; i < BISECTIONS; i++) {
+        let middle = real(0.5) * (low + high);
+        if (evaluate(&sx, middle).a > real(0.0)) == positive {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    return high;
 }
 
 fn maximum(values_in: array<real, 5>) -> real {

@@ -656,8 +656,8 @@ pub enum Error {
     },
     /// An accuracy that nothing measured keeps.
     #[error(
-        "no configuration that was measured on {kinds} keeps a relative error of {bound:e}: {least}; ask for less, for \
-         --accuracy reference, or measure this sweep with `squealmap tradeoff`"
+        "no configuration that was measured on {kinds} keeps a relative error of {bound:e}: the best keeps {least:.1e}; \
+         ask for less, for --accuracy reference, or measure this sweep with `squealmap tradeoff`"
     )]
     Inaccurate {
         /// The relative error that was asked for.
@@ -665,7 +665,16 @@ pub enum Error {
         /// The kinds of scenes.
         kinds: String,
         /// What the best of them keeps.
-        least: String,
+        least: f64,
+    },
+    /// An accuracy from what nobody has measured.
+    #[error(
+        "--accuracy chooses from what was measured, and of {kinds} nothing was that may be taken here; measure it with \
+         `squealmap tradeoff SWEEP` on this machine, or leave out --backend, --strict, --adapter and --require-gpu"
+    )]
+    Unmeasured {
+        /// The kinds of scenes.
+        kinds: String,
     },
     /// The handler of Ctrl-C cannot be set.
     #[error("cannot listen to Ctrl-C: {why}")]
@@ -727,6 +736,7 @@ impl Error {
             | Error::TooManyToRefine { .. }
             | Error::AccuracyBeside { .. }
             | Error::Inaccurate { .. }
+            | Error::Unmeasured { .. }
             | Error::Threads { .. }
             | Error::NoAdapter { .. }
             | Error::NoSuchAdapter { .. }

@@ -4,7 +4,7 @@
 //! method whatever the step; nothing is stored.
 
 use crate::integrate::{Event, Observer, Step};
-use crate::method::roots::{Crossing, first_crossing};
+use crate::method::roots::upward_crossings;
 use crate::method::taylor::{Motion, NORMAL, X2, Y1, horner_with_derivatives};
 use crate::model::contact::ContactState;
 use num_complex::Complex64;
@@ -219,13 +219,10 @@ impl Window {
         let (before, after) = (velocity[0], step.end.state.velocity[0]);
         if before >= 0.0 && self.previous_velocity.is_some_and(|v| v < 0.0) {
             self.crossed(step.start);
-        } else if before < 0.0 && after >= 0.0 {
-            let falling = velocity.map(|v| -v);
-            let tau = match first_crossing(&falling[..step.expansion.order], step.duration, false) {
-                Crossing::At(tau) => tau,
-                Crossing::Immediate => 0.0,
-                Crossing::Never => step.duration,
-            };
+        }
+        for tau in
+            upward_crossings(&velocity[..step.expansion.order], step.duration, [before < 0.0, after < 0.0])
+        {
             self.crossed(step.start + tau);
         }
         self.previous_velocity = Some(after);

@@ -3,6 +3,7 @@
 use super::configuration::{Configuration, scenes};
 use super::level::Level;
 use super::row::{Row, from_csv, pace};
+use super::trial::Trial;
 use crate::error::{Error, Result};
 use crate::spec::Spec;
 
@@ -63,12 +64,21 @@ pub struct Chosen {
     pub measured_p95: Option<f64>,
     /// Why.
     pub why: String,
+    /// The relative error that was asked for; `None` of the reference.
+    pub bound: Option<f64>,
+    /// What it did on the sweep itself; `None` of the reference, which judges.
+    pub trial: Option<Trial>,
 }
 
 impl Choice {
     fn new(level: Level, configuration: Configuration, measured_p95: Option<f64>, why: String) -> Choice {
         let (asked, in_words) = (level.to_string(), configuration.to_string());
-        Choice { configuration, chosen: Chosen { asked, configuration: in_words, measured_p95, why } }
+        let bound = match level {
+            Level::Within(bound) => Some(bound),
+            Level::Reference => None,
+        };
+        let chosen = Chosen { asked, configuration: in_words, measured_p95, why, bound, trial: None };
+        Choice { configuration, chosen }
     }
 }
 
@@ -129,9 +139,23 @@ impl Frontier {
         spec: &Spec,
         allowed: &dyn Fn(&Configuration) -> bool,
     ) -> Result<Choice> {
+        Ok(self.ranked(level, spec, allowed)?.remove(0))
+    }
+
+    /// What [`Frontier::choose`] gives and what comes after it, should that fail on the sweep itself: each slower and
+    /// more accurate than the one before. One at least.
+    ///
+    /// # Errors
+    /// When nothing measured is accurate enough.
+    pub fn ranked(
+        &self,
+        level: Level,
+        spec: &Spec,
+        allowed: &dyn Fn(&Configuration) -> bool,
+    ) -> Result<Vec<Choice>> {
         let Level::Within(bound) = level else {
             let reference = Configuration::reference(spec.steps_per_period);
-            return Ok(Choice::new(level, reference, None, "it is asked for".to_owned()));
+            return Ok(vec![Choice::new(level, reference, None, "it is asked for".to_owned())]);
         };
         let scenes = scenes(spec);
         let covered = self.covers(spec);
@@ -140,26 +164,37 @@ impl Frontier {
         let rows: Vec<&Row> = self.rows.iter().filter(counts).filter(|row| may_be_taken(row)).collect();
         let candidates = candidates(&rows);
         let kinds = if covered { scenes.join(" + ") } else { "all kinds of scenes".to_owned() };
-        let enough = candidates.iter().filter(|one| MARGIN * one.error <= bound);
-        let Some(best) = enough.max_by(|a, b| a.pace.total_cmp(&b.pace)) else {
+        let mut enough: Vec<&Candidate> =
+            candidates.iter().filter(|one| MARGIN * one.error <= bound).collect();
+        if enough.is_empty() {
             let least = candidates.iter().map(|one| one.error).fold(f64::INFINITY, f64::min);
-            let least = if least.is_finite() {
-                format!("the best keeps {:.1e}", MARGIN * least)
+            return Err(if least.is_finite() {
+                Error::Inaccurate { bound, kinds, least: MARGIN * least }
             } else {
-                "none is there that may be taken".to_owned()
-            };
-            return Err(Error::Inaccurate { bound, kinds, least });
-        };
+                Error::Unmeasured { kinds }
+            });
+        }
+        enough.sort_by(|a, b| b.pace.total_cmp(&a.pace));
         let on_gpu = rows.iter().any(|row| row.per_cpu_second.is_none());
-        let why = format!(
-            "the fastest of {} measured on {kinds} ({}) that keeps {bound:e}: 95 % within {:.1e}, {:.0} instances/s{} there",
-            candidates.len(),
-            self.source,
-            best.error,
-            best.pace,
-            if on_gpu { "" } else { " of a processor" }
-        );
-        Ok(Choice::new(level, best.configuration.clone(), Some(best.error), why))
+        let per = if on_gpu { "" } else { " of a processor" };
+        let mut ranked: Vec<Choice> = Vec::new();
+        let mut least = f64::INFINITY;
+        for one in enough {
+            if one.error >= least {
+                continue;
+            }
+            least = one.error;
+            let why = format!(
+                "{} of {} measured on {kinds} ({}) that keeps {bound:e}: 95 % within {:.1e}, {:.0} instances/s{per} there",
+                if ranked.is_empty() { "the fastest" } else { "the next more accurate" },
+                candidates.len(),
+                self.source,
+                one.error,
+                one.pace,
+            );
+            ranked.push(Choice::new(level, one.configuration.clone(), Some(one.error), why));
+        }
+        Ok(ranked)
     }
 }
 

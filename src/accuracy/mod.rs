@@ -11,6 +11,7 @@
 //! - [`row`]: what was measured, as a table.
 //! - [`frontier`]: the cheapest configuration for an error.
 //! - [`level`]: the accuracy that is asked for.
+//! - [`trial`]: what was chosen tried on some of the sweep's own instances.
 //! - [`check`](mod@check), [`checks`]: a few instances of every map computed again, and what that found.
 
 pub mod boundary;
@@ -25,3 +26,4 @@ pub mod level;
 pub mod measure;
 pub mod row;
 pub mod sample;
+pub mod trial;

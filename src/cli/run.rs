@@ -8,8 +8,9 @@ use std::time::Duration;
 
 use clap::{Args, ValueEnum};
 use squealmap::accuracy::configuration::{self, Configuration};
-use squealmap::accuracy::frontier::Choice;
+use squealmap::accuracy::frontier::{Choice, Chosen};
 use squealmap::accuracy::level::Level;
+use squealmap::accuracy::trial::first_that_keeps;
 use squealmap::backend::choice::{Backend, Options};
 use squealmap::backend::gpu::adapter::Adapter;
 use squealmap::backend::solver::Solver;
@@ -115,7 +116,7 @@ impl Run {
         let cancel = stop_at_ctrl_c()?;
         let mut spec = Spec::read(&self.files.sweep)?;
         spec.analysis.checked &= !self.no_check;
-        let choice = self.accuracy.map(|level| self.choose(level, &spec)).transpose()?;
+        let ranked = self.ranked(&spec)?;
         let output = Output::prepare_claimed(self.files.directory(), &FILES)?;
         let threads = self.threads.map_or(0, usize::from);
         let pool = rayon::ThreadPoolBuilder::new()
@@ -134,11 +135,12 @@ impl Run {
             cancel: Some(&cancel),
             note: Some(&note),
         };
+        let choice =
+            ranked.map(|ranked| pool.install(|| first_that_keeps(ranked, &spec, &options))).transpose()?;
         let options = match &choice {
             None => options,
             Some(choice) => {
-                note(&format!("--accuracy {}: {}", choice.chosen.asked, choice.chosen.configuration));
-                note(&choice.chosen.why);
+                say(&choice.chosen);
                 spec = choice.configuration.sweep(&spec);
                 Options { adapter: options.adapter, ..choice.configuration.options(&options) }
             }
@@ -154,11 +156,12 @@ impl Run {
         ended
     }
 
-    /// The cheapest configuration for an accuracy.
+    /// What may compute the sweep with the accuracy that is asked for, the fastest first; `None` where none is.
     ///
     /// # Errors
     /// When something that it chooses is given too, or nothing is accurate enough.
-    fn choose(&self, level: Level, spec: &Spec) -> Result<Choice> {
+    fn ranked(&self, spec: &Spec) -> Result<Option<Vec<Choice>>> {
+        let Some(level) = self.accuracy else { return Ok(None) };
         let beside = |option: String| Error::AccuracyBeside { option, accuracy: level.to_string() };
         if let Some(at) = &spec.steps_given {
             let key = "`steps_per_period` in [response]".to_owned();
@@ -176,8 +179,22 @@ impl Run {
         if let (Level::Reference, Some(other @ (Backend::Gpu | Backend::Cpu))) = (level, backend) {
             return Err(beside(format!("--backend {}", configuration::name(other))));
         }
-        frontier::of(spec)
-            .choose(level, spec, &|one| backend.is_none_or(|backend| backend == one.backend) && is_here(one))
+        if !spec.analysis.response {
+            note("--accuracy has nothing to choose: this sweep asks for no response");
+            return Ok(None);
+        }
+        let allowed =
+            |one: &Configuration| backend.is_none_or(|backend| backend == one.backend) && is_here(one);
+        frontier::of(spec).ranked(level, spec, &allowed).map(Some)
+    }
+}
+
+/// Says what was chosen, and why.
+fn say(chosen: &Chosen) {
+    note(&format!("--accuracy {}: {}", chosen.asked, chosen.configuration));
+    note(&chosen.why);
+    if let (Some(bound), Some(trial)) = (chosen.bound, chosen.trial) {
+        note(&trial.sentence(bound));
     }
 }
 
@@ -303,13 +320,26 @@ fn report(run: &manifest::Run, store: &Store, tally: &Tally, paths: &[PathBuf]) 
     let of = if run.computed < total { format!(" of {total}") } else { String::new() };
     let before = if before > 0 { format!("; {before} were there before") } else { String::new() };
     format!(
-        "{}{of} instances in {} on {} thread(s), {rate:.0} instances/s{before}\n\n{}\n{}",
+        "{}{of} instances in {} on {} thread(s), {rate:.0} instances/s{before}\n\n{}{}\n{}",
         run.computed,
         seconds(elapsed),
         run.threads,
         summary(store.description.analysis, tally),
+        missed(run, tally),
         list(paths)
     )
+}
+
+/// A sentence where the checks found less accuracy than was asked for.
+fn missed(run: &manifest::Run, tally: &Tally) -> String {
+    let bound = run.accuracy.as_ref().and_then(|chosen| chosen.bound);
+    match (bound, tally.checks().fine.known_quantile(0.95)) {
+        (Some(bound), Some(found)) if found > bound => format!(
+            "warning: that is more than the {bound:e} that was asked for; a part of it is the scatter of motions that do \
+             not repeat\n"
+        ),
+        _ => String::new(),
+    }
 }
 
 /// Says that a sweep is not complete, and gives the exit code.

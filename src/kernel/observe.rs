@@ -128,9 +128,13 @@ impl<S: Real> Sums<S> {
         let mut ax = [S::ZERO; 5];
         let mut ay = [S::ZERO; 5];
         let mut normal = [S::ZERO; 5];
+        let mut velocity = [S::ZERO; 5];
+        let mut acceleration = [S::ZERO; 5];
         for i in 0..5 {
             let t = S::from_f64(SAMPLE_TIMES[i]) * tau;
             let (x, w) = (evaluate(&e.x, t), evaluate(&e.w, t));
+            velocity[i] = x[1];
+            acceleration[i] = x[2];
             ax[i] = x[2].abs();
             ay[i] = w[2].abs();
             normal[i] = value(&e.n, t);
@@ -152,18 +156,46 @@ impl<S: Real> Sums<S> {
         self.peaks[0] = self.peaks[0].max(maximum(&ax));
         self.peaks[1] = self.peaks[1].max(maximum(&ay));
         self.peaks[2] = self.peaks[2].max(maximum(&normal));
-        self.cross_upwards(e, at, step, tau);
+        self.cross_upwards(e, &velocity, &acceleration, at, step, tau);
     }
 
-    /// Notes an upward crossing of `ẋ2`.
-    fn cross_upwards(&mut self, e: &Expansion<S>, at: Moment<S>, step: S, tau: S) {
-        let before = e.x[1];
-        let after = evaluate(&e.x, tau)[1];
-        let jumped = self.has_previous && self.previous < S::ZERO && before >= S::ZERO;
-        let rises = before < S::ZERO && after >= S::ZERO;
-        if jumped || rises {
-            let mut low = S::ZERO;
-            let mut high = if jumped { S::ZERO } else { tau };
+    /// Notes the upward crossings of `ẋ2`: a jump to the first sample, rises from one sample to the next, and those
+    /// on one side of an extremum that reaches over zero between two samples of the same sign.
+    fn cross_upwards(
+        &mut self,
+        e: &Expansion<S>,
+        velocity: &[S; 5],
+        acceleration: &[S; 5],
+        at: Moment<S>,
+        step: S,
+        tau: S,
+    ) {
+        if self.has_previous && self.previous < S::ZERO && velocity[0] >= S::ZERO {
+            self.note(at);
+        }
+        for i in 0..4 {
+            let mut low = S::from_f64(SAMPLE_TIMES[i]) * tau;
+            let mut high = S::from_f64(SAMPLE_TIMES[i + 1]) * tau;
+            let below = velocity[i] < S::ZERO;
+            if below == (velocity[i + 1] < S::ZERO) {
+                let (before, after) = (acceleration[i], acceleration[i + 1]);
+                let rises = before > S::ZERO && after < S::ZERO;
+                let falls = before < S::ZERO && after > S::ZERO;
+                if !((below && rises) || (!below && falls)) {
+                    continue;
+                }
+                let extremum = turn(e, low, high, below);
+                if (evaluate(&e.x, extremum)[1] < S::ZERO) == below {
+                    continue;
+                }
+                if below {
+                    high = extremum;
+                } else {
+                    low = extremum;
+                }
+            } else if !below {
+                continue;
+            }
             // Bisection: the crossing of a monotone piece, to the last bits of f32.
             for _ in 0..BISECTIONS {
                 let middle = S::from_f64(0.5) * (low + high);
@@ -173,15 +205,19 @@ impl<S: Real> Sums<S> {
                     high = middle;
                 }
             }
-            let moment = Moment { fraction: at.fraction + high / step, ..at };
-            if self.crossings == 0 {
-                self.first = moment;
-            }
-            self.last = moment;
-            self.crossings += 1;
+            self.note(Moment { fraction: at.fraction + high / step, ..at });
         }
-        self.previous = after;
+        self.previous = velocity[4];
         self.has_previous = true;
+    }
+
+    /// Notes one upward crossing.
+    fn note(&mut self, moment: Moment<S>) {
+        if self.crossings == 0 {
+            self.first = moment;
+        }
+        self.last = moment;
+        self.crossings += 1;
     }
 
     /// Adds a step before the first event.
@@ -211,6 +247,21 @@ impl<S: Real> Default for Sums<S> {
 
 /// Bisections of a crossing.
 pub const BISECTIONS: usize = 24;
+
+/// Where `ẍ2`, positive first or negative first, changes its sign.
+fn turn<S: Real>(e: &Expansion<S>, from: S, to: S, positive: bool) -> S {
+    let mut low = from;
+    let mut high = to;
+    for _ in 0..BISECTIONS {
+        let middle = S::from_f64(0.5) * (low + high);
+        if (evaluate(&e.x, middle)[2] > S::ZERO) == positive {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    high
+}
 
 /// Times of the samples of a step: its start, the nodes, its end.
 pub const SAMPLE_TIMES: [f64; 5] = [0.0, NODES[0], NODES[1], NODES[2], 1.0];

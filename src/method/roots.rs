@@ -1,8 +1,8 @@
-//! The first zero crossing of a polynomial event function inside a step.
+//! Zero crossings of a polynomial inside a step: the first of an event function, all of a velocity.
 //!
 //! Bernstein coefficients bound a polynomial on an interval: all positive, no zero; one change of sign,
-//! exactly one zero. Subdivision isolates the first downward crossing, so that no event is missed
-//! however short it is (variation-diminishing property; R. T. Farouki, Comput. Aided Geom. Des. 29, 379 (2012)).
+//! exactly one zero. Subdivision isolates the crossings, so that none is missed however short it is
+//! (variation-diminishing property; R. T. Farouki, Comput. Aided Geom. Des. 29, 379 (2012)).
 
 use super::taylor::{MAX_ORDER, Series, horner_with_derivative};
 
@@ -40,16 +40,11 @@ pub enum Crossing {
 /// state), and only a crossing after it has opened counts.
 #[must_use]
 pub fn first_crossing(series: &[f64], step: f64, from_zero: bool) -> Crossing {
-    let mut scaled: Series = [0.0; MAX_ORDER + 1];
-    let mut power = 1.0;
-    for (target, g) in scaled.iter_mut().zip(series) {
-        *target = g * power;
-        power *= step;
-    }
-    if !from_zero && lower_bound(&scaled[..series.len()]) > 0.0 {
+    let scaled = scaled(series, step, 1.0);
+    let mut coefficients = &scaled[..series.len()];
+    if !from_zero && lower_bound(coefficients) > 0.0 {
         return Crossing::Never;
     }
-    let mut coefficients = &scaled[..series.len()];
     if from_zero || (coefficients[0] <= 0.0 && coefficients[0] >= -ROUNDING * series_size(coefficients)) {
         let opening = series_size(&coefficients[1..]);
         for _ in 0..HIGHEST_ORDER_AT_START {
@@ -67,6 +62,17 @@ pub fn first_crossing(series: &[f64], step: f64, from_zero: bool) -> Crossing {
     }
     isolate(coefficients)
         .map_or(Crossing::Never, |(low, high)| Crossing::At(step * solve(coefficients, low, high)))
+}
+
+/// A series over the fraction of the step, times `sign`.
+fn scaled(series: &[f64], step: f64, sign: f64) -> Series {
+    let mut scaled: Series = [0.0; MAX_ORDER + 1];
+    let mut power = sign;
+    for (target, g) in scaled.iter_mut().zip(series) {
+        *target = g * power;
+        power *= step;
+    }
+    scaled
 }
 
 fn series_size(coefficients: &[f64]) -> f64 {
@@ -128,36 +134,96 @@ fn split(beta: &Series, degree: usize) -> (Series, Series) {
     (left, right)
 }
 
-/// The first interval in `[0, 1]` that holds exactly one crossing, from positive to not positive.
-fn isolate(coefficients: &[f64]) -> Option<(f64, f64)> {
-    let degree = coefficients.len() - 1;
-    let whole = bernstein(coefficients);
-    if whole[..=degree].iter().all(|beta| *beta > 0.0) {
-        return None;
+/// A part of `[0, 1]` in which a polynomial changes its sign at most once, or that is too short to be split.
+#[derive(Clone, Copy, Debug)]
+struct Piece {
+    low: f64,
+    high: f64,
+    /// Whether the polynomial is positive at `low`, and at `high`.
+    positive: [bool; 2],
+}
+
+/// The pieces of `[0, 1]` in order, without those where the polynomial is positive throughout.
+struct Pieces {
+    degree: usize,
+    waiting: Vec<(f64, f64, Series)>,
+}
+
+impl Pieces {
+    fn new(coefficients: &[f64]) -> Pieces {
+        let degree = coefficients.len() - 1;
+        let whole = bernstein(coefficients);
+        let positive = whole[..=degree].iter().all(|beta| *beta > 0.0);
+        Pieces { degree, waiting: if positive { Vec::new() } else { vec![(0.0, 1.0, whole)] } }
     }
-    let mut waiting = vec![(0.0, 1.0, whole)];
-    while let Some((low, width, beta)) = waiting.pop() {
-        let active = &beta[..=degree];
-        let changes = active.windows(2).filter(|pair| (pair[0] > 0.0) != (pair[1] > 0.0)).count();
-        let (first, last) = (active[0] > 0.0, active[degree] > 0.0);
-        if changes == 0 && first {
-            continue;
-        }
-        if !first || (changes == 1 && !last) {
-            return Some((low, low + width));
-        }
-        if width < FINEST_INTERVAL {
-            if !last {
-                return Some((low, low + width));
+}
+
+impl Iterator for Pieces {
+    type Item = Piece;
+
+    fn next(&mut self) -> Option<Piece> {
+        while let Some((low, width, beta)) = self.waiting.pop() {
+            let active = &beta[..=self.degree];
+            let changes = active.windows(2).filter(|pair| (pair[0] > 0.0) != (pair[1] > 0.0)).count();
+            let positive = [active[0] > 0.0, active[self.degree] > 0.0];
+            if changes == 0 && positive[0] {
+                continue;
             }
-            continue;
+            if changes <= 1 || width < FINEST_INTERVAL {
+                return Some(Piece { low, high: low + width, positive });
+            }
+            let (left, right) = split(&beta, self.degree);
+            let half = 0.5 * width;
+            self.waiting.push((low + half, half, right));
+            self.waiting.push((low, half, left));
         }
-        let (left, right) = split(&beta, degree);
-        let half = 0.5 * width;
-        waiting.push((low + half, half, right));
-        waiting.push((low, half, left));
+        None
     }
-    None
+}
+
+/// The first interval in `[0, 1]` that holds a crossing from positive to not positive.
+fn isolate(coefficients: &[f64]) -> Option<(f64, f64)> {
+    let crosses = |piece: &Piece| piece.positive != [true, true];
+    Pieces::new(coefficients).find(crosses).map(|piece| (piece.low, piece.high))
+}
+
+/// A change of sign this close to the end of a step, relative to it, may be the rounding of a zero at the end.
+const END_ROUNDING: f64 = 1e-9;
+
+/// All crossings of `Σ g_k τ^k` from below zero, for `τ` in `[0, step]` and in order.
+///
+/// `below` says whether the function is below zero at the start and at the end of the step, as the steps before and
+/// after have it: a zero that falls on a seam then counts once.
+#[must_use]
+pub fn upward_crossings(series: &[f64], step: f64, below: [bool; 2]) -> Vec<f64> {
+    // What is below zero is positive here: a zero itself then counts as above.
+    let mirrored = scaled(series, step, -1.0);
+    let upright = mirrored.map(|g| -g);
+    let (mirrored, upright) = (&mirrored[..series.len()], &upright[..series.len()]);
+    let quiet = match below {
+        [true, true] => lower_bound(mirrored) > 0.0,
+        [false, false] => lower_bound(upright) > 0.0,
+        _ => false,
+    };
+    if quiet {
+        return Vec::new();
+    }
+    let mut changes: Vec<(f64, bool)> = Pieces::new(mirrored)
+        .filter_map(|piece| match piece.positive {
+            [true, false] => Some((solve(mirrored, piece.low, piece.high), true)),
+            [false, true] => Some((solve(upright, piece.low, piece.high), false)),
+            _ => None,
+        })
+        .collect();
+    let ends_below = changes.len() % 2 == usize::from(!below[0]);
+    if ends_below != below[1] {
+        if changes.last().is_some_and(|&(tau, _)| tau > 1.0 - END_ROUNDING) {
+            changes.pop();
+        } else {
+            changes.push((1.0, !below[1]));
+        }
+    }
+    changes.into_iter().filter(|&(_, upward)| upward).map(|(tau, _)| tau * step).collect()
 }
 
 /// The zero between `low` (positive) and `high` (not positive): Newton, bisecting where it leaves the bracket.

@@ -17,6 +17,7 @@
 
 pub mod block;
 pub mod constants;
+pub mod crossings;
 pub mod events;
 pub mod expand;
 pub mod functions;

@@ -76,7 +76,7 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
         }
     }
 
-    /// Adds the part of the step up to `at` to the window.
+    /// Adds the part of the step up to `at` to the window. Returns `ẋ2` at the nodes.
     #[inline(always)]
     pub fn observe_window<const N: usize, const MOTION: u8>(
         &mut self,
@@ -84,9 +84,10 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
         e: &Expansion<S, T, K, N>,
         nodes: &Nodes<S, T, K>,
         at: Vector<S, T, K>,
-    ) {
+    ) -> [Vector<S, T, K>; 3] {
         let zero = at.like(0.0);
         let tau = at * e.step;
+        let mut velocities = [zero; 3];
         let free = b.free();
         self.window[0] += tau;
         self.window[10] += tau.only(b.stick());
@@ -119,6 +120,7 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
                 continue;
             }
             let (x, vx) = (value(&e.p[0], t), derivative(&e.v[0], t) * e.rate);
+            velocities[i - 1] = vx;
             let (mut w, mut vw) = (zero, zero);
             if MOTION != SINGLE {
                 (w, vw) = (value(&e.p[2], t), derivative(&e.v[2], t) * e.rate);
@@ -169,40 +171,31 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
             self.peaks[1] = self.peaks[1].max(maximum(&samples[1]));
             self.peaks[2] = self.peaks[2].max(maximum(&samples[2]));
         }
+        velocities
     }
 
-    /// Notes an upward crossing of `ẋ2`; `after` is its value at the end of the part of the step. Returns the
-    /// lanes that cross, and where in the step. Without refinements the crossing is on the straight line.
+    /// Counts upward crossings of `ẋ2` from end to end of the steps, on straight lines: a guess at the frequency.
     #[inline(always)]
-    pub fn cross_upwards<const N: usize, const REFINEMENTS: usize>(
-        &mut self,
-        e: &Expansion<S, T, K, N>,
-        at: Vector<S, T, K>,
-        after: Vector<S, T, K>,
-    ) -> (Mask<S, T, K>, Vector<S, T, K>) {
-        let (zero, one) = (at.like(0.0), at.like(1.0));
-        let before = e.v[0][1] * e.rate;
+    pub fn guess_crossings(&mut self, before: Vector<S, T, K>, after: Vector<S, T, K>, tau: Vector<S, T, K>) {
+        let zero = tau.like(0.0);
         let jumped = self.previous.less(zero).and(zero.at_most(before));
-        let rises = before.less(zero).and(zero.at_most(after)).and(zero.less(at));
+        let rises = before.less(zero).and(zero.at_most(after)).and(zero.less(tau));
         let crossed = jumped.or(rises);
-        let mut t = zero;
         if crossed.any() {
-            // Straight from end to end, then steps of Newton's method that stay inside.
-            t = rises.select(at * before / (before - after).min(at.like(-1e-30)), zero);
-            for _ in 0..REFINEMENTS {
-                let slope = value_to(&e.a[0], N - 3, t) * e.rate;
-                let here = derivative(&e.v[0], t) * e.rate;
-                let next = t - here / zero.less(slope).select(slope, one);
-                t = rises.and(zero.less(slope)).select(next.max(zero).min(at), t);
-            }
-            let moment = t.fma(e.step, self.time);
-            let is_first = crossed.and(self.crossings.not_positive());
-            self.first = is_first.select(moment, self.first);
-            self.last = crossed.select(moment, self.last);
-            self.crossings += one.only(crossed);
+            let part = rises.select(before / (before - after).min(tau.like(-1e-30)), zero);
+            self.note(crossed, part * tau);
         }
         self.previous = after;
-        (crossed, t)
+    }
+
+    /// Notes one upward crossing of some lanes, this long after the step began.
+    #[inline(always)]
+    pub fn note(&mut self, crossed: Mask<S, T, K>, after: Vector<S, T, K>) {
+        let moment = self.time + after;
+        let is_first = crossed.and(self.crossings.not_positive());
+        self.first = is_first.select(moment, self.first);
+        self.last = crossed.select(moment, self.last);
+        self.crossings += after.like(1.0).only(crossed);
     }
 
     /// Adds a step before the first event; `p` and `v` are the state at its end.

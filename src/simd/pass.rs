@@ -7,6 +7,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use pulp::Simd;
 
 use super::block::{Block, event_of};
+use super::crossings::{Track, cross_upwards};
 use super::events::{first_event, value};
 use super::expand::{CLOSED, Expansion, FLIGHT, PIECES, SINGLE, expand};
 use super::functions::{Functions, functions};
@@ -125,15 +126,15 @@ fn step<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool, 
     let sums = &mut all.sums;
     if all.part == Part::Growth {
         sums.observe_growth::<N, MOTION>(e, at, x, vx);
-        sums.cross_upwards::<N, 0>(e, at, vx);
+        sums.guess_crossings(b.v[0], vx, at * e.step);
     } else if all.part == Part::Settle {
-        sums.cross_upwards::<N, 0>(e, at, vx);
+        sums.guess_crossings(b.v[0], vx, at * e.step);
     } else if all.part == Part::Window {
         let nodes = accelerations::<S, T, K, N, MOTION>(e, at);
-        sums.observe_window::<N, MOTION>(b, e, &nodes, at);
-        let time = sums.time;
-        let (crossed, moment) = sums.cross_upwards::<N, 2>(e, at, vx);
-        sums.spectrum.observe::<N, MOTION>(e, &nodes, at, time, crossed, moment);
+        let velocities = sums.observe_window::<N, MOTION>(b, e, &nodes, at);
+        let track = Track::new(e, at, b.v[0], vx, velocities, &nodes);
+        cross_upwards::<S, T, K, N, MOTION>(sums, e, &track, at);
+        sums.spectrum.observe::<N, MOTION>(e, &nodes, at, sums.time);
         if sums.growing.not_positive().not().any() {
             sums.observe_growth::<N, MOTION>(e, at, x, vx);
         }

@@ -131,7 +131,29 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Spectrum<S, T, K> {
         Part { sums, carrier: turn(carrier, outer) }
     }
 
-    /// Adds a step up to `at`; `crossed` are the lanes that cross upwards in it, at `moment`.
+    /// Notes the sums of some lanes at an upward crossing, which is at `moment` of the step that is about to be added.
+    #[inline(always)]
+    pub fn note<const N: usize, const MOTION: u8>(
+        &mut self,
+        e: &Expansion<S, T, K, N>,
+        time: Vector<S, T, K>,
+        crossed: Mask<S, T, K>,
+        moment: Vector<S, T, K>,
+    ) {
+        let nodes = accelerations::<S, T, K, N, MOTION>(e, moment);
+        let before = self.part::<N, MOTION>(e, &nodes, moment, time).sums;
+        let zero = moment.like(0.0);
+        let begun = zero.less(self.begun);
+        for i in 0..COMPONENTS {
+            let reached = self.sums[i] + before[i];
+            self.noted[i] = crossed.select(reached.only(begun), self.noted[i]);
+            // The first crossing: what comes before it in the step does not count.
+            self.sums[i] = begun.select(self.sums[i], (zero - before[i]).only(crossed));
+        }
+        self.begun = crossed.select(moment.like(1.0), self.begun);
+    }
+
+    /// Adds a step up to `at`, whose crossings have been noted.
     #[inline(always)]
     pub fn observe<const N: usize, const MOTION: u8>(
         &mut self,
@@ -139,27 +161,11 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Spectrum<S, T, K> {
         nodes: &Nodes<S, T, K>,
         at: Vector<S, T, K>,
         time: Vector<S, T, K>,
-        crossed: Mask<S, T, K>,
-        moment: Vector<S, T, K>,
     ) {
-        let zero = at.like(0.0);
         let whole = self.part::<N, MOTION>(e, nodes, at, time);
-        let begun = zero.less(self.begun);
-        if crossed.any() {
-            let nodes_before = accelerations::<S, T, K, N, MOTION>(e, moment);
-            let before = self.part::<N, MOTION>(e, &nodes_before, moment, time);
-            for i in 0..COMPONENTS {
-                let reached = self.sums[i] + before.sums[i];
-                self.noted[i] = crossed.select(reached.only(begun), self.noted[i]);
-                // The first crossing: what comes before it in the step does not count.
-                let rest = (whole.sums[i] - before.sums[i]).only(crossed);
-                self.sums[i] = begun.select(self.sums[i] + whole.sums[i], rest);
-            }
-            self.begun = crossed.select(at.like(1.0), self.begun);
-        } else {
-            for i in 0..COMPONENTS {
-                self.sums[i] += whole.sums[i].only(begun);
-            }
+        let begun = at.like(0.0).less(self.begun);
+        for i in 0..COMPONENTS {
+            self.sums[i] += whole.sums[i].only(begun);
         }
         self.carrier = whole.carrier;
     }

@@ -347,6 +347,13 @@ fn an_accuracy_is_chosen_said_and_kept() {
     assert_eq!(chosen["asked"], "standard (1e-3)");
     assert!(ended.err.contains(chosen["configuration"].as_str().unwrap()), "{}", ended.err);
     assert!(ended.err.contains(chosen["why"].as_str().unwrap()), "{}", ended.err);
+    assert_eq!(chosen["bound"], 1e-3);
+    let tried = chosen["trial"]["instances"].as_u64().unwrap();
+    assert!(
+        tried >= 128 && ended.err.contains(&format!("tried on {tried} instances of this sweep")),
+        "{}",
+        ended.err
+    );
     let steps = manifest["spec"]["response"]["steps_per_period"].as_u64().unwrap();
     assert!(chosen["configuration"].as_str().unwrap().ends_with(&format!(", {steps} steps per period")));
     assert!(steps < 12, "{steps}");
@@ -355,6 +362,28 @@ fn an_accuracy_is_chosen_said_and_kept() {
     assert_eq!(manifest["computation"]["accuracy"], serde_json::Value::Null);
     assert_eq!(manifest["spec"]["response"]["steps_per_period"], 12);
     assert!(!ended.err.contains("accuracy"), "{}", ended.err);
+}
+
+#[test]
+fn an_accuracy_needs_a_response_and_a_measurement() {
+    let linear = "analysis = [\"linear\"]\n[friction]\nmu_s = 0.3\nmu_d = 0.2\n[belt]\nbelt_velocity = 1\n";
+    let directory = with(linear);
+    let ended = squealmap(directory.path(), &["run", "s.toml", "--accuracy", "draft"]);
+    assert_eq!(ended.code, Some(0), "{}", ended.err);
+    assert!(
+        ended.err.contains("--accuracy has nothing to choose: this sweep asks for no response"),
+        "{}",
+        ended.err
+    );
+    // No GPU stands in the table that is shipped.
+    let directory = with(MAP);
+    let ended = squealmap(directory.path(), &["run", "s.toml", "--accuracy", "draft", "--backend", "gpu"]);
+    assert_eq!(ended.code, Some(2), "{}", ended.err);
+    assert!(
+        ended.err.contains("nothing was that may be taken here; measure it with `squealmap tradeoff"),
+        "{}",
+        ended.err
+    );
 }
 
 #[test]

@@ -108,3 +108,52 @@ fn integrals(matrix: &Matrix4<f64>, start: Vector4<f64>, time: f64) -> (Vector4<
     }
     (mean * start, square)
 }
+
+/// The upward zero crossings of `ẋ2` in a window.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Crossings {
+    /// Crossings per time, from the first to the last.
+    pub(crate) frequency: f64,
+    /// The smallest `|ẋ2|` at an extremum, relative to the largest: how nearly it only touches zero.
+    pub(crate) closest: f64,
+}
+
+/// Every crossing counts, those included that lie close together around a shallow minimum or maximum.
+pub(crate) fn crossings(matrix: &Matrix4<f64>, start: Vector4<f64>, settle: f64, measure: f64) -> Crossings {
+    let fastest = matrix.complex_eigenvalues().iter().fold(0.0, |fastest: f64, root| fastest.max(root.im));
+    let count = (measure * fastest * 100.0).ceil();
+    let length = measure / count;
+    let step = flow(matrix, length);
+    let velocity = |state: &Vector4<f64>, after: f64| ((matrix * after).exp() * state)[2];
+    let root = |state: &Vector4<f64>, mut low: f64, mut high: f64| {
+        for _ in 0..50 {
+            let middle = 0.5 * (low + high);
+            if velocity(state, middle) < 0.0 { low = middle } else { high = middle }
+        }
+        low
+    };
+    let mut state = flow(matrix, settle) * start;
+    let (mut moments, mut extrema) = (Vec::new(), Vec::new());
+    for index in 0..count as u64 {
+        let next = step * state;
+        let slopes = [&state, &next].map(|z| (matrix.row(2) * z)[(0, 0)]);
+        let extremum = length * slopes[0] / (slopes[0] - slopes[1]);
+        let between = (slopes[0] * slopes[1] < 0.0).then(|| velocity(&state, extremum));
+        extrema.extend(between.map(f64::abs));
+        let bracket = match (state[2] < 0.0, next[2] < 0.0, between) {
+            (true, false, _) => Some((0.0, length)),
+            (false, false, Some(lowest)) if lowest < 0.0 => Some((extremum, length)),
+            (true, true, Some(highest)) if highest >= 0.0 => Some((0.0, extremum)),
+            _ => None,
+        };
+        if let Some((low, high)) = bracket {
+            moments.push(index as f64 * length + root(&state, low, high));
+        }
+        state = next;
+    }
+    let (least, most) = extrema.iter().fold((f64::MAX, 0.0_f64), |(a, b), v| (a.min(*v), b.max(*v)));
+    Crossings {
+        frequency: (moments.len() - 1) as f64 / (moments[moments.len() - 1] - moments[0]),
+        closest: least / most,
+    }
+}

@@ -8,6 +8,7 @@ mod claims;
 mod cli;
 mod colour;
 mod common;
+mod crossings;
 mod engines;
 mod events;
 mod exact;

@@ -5,10 +5,12 @@
 
 use squealmap::accuracy::configuration::Configuration;
 use squealmap::accuracy::errors::{is_settled_oscillation, oscillates, scatter, worst};
-use squealmap::accuracy::frontier::Frontier;
+use squealmap::accuracy::frontier::{Choice, Frontier};
 use squealmap::accuracy::level::Level;
-use squealmap::accuracy::sample::records;
+use squealmap::accuracy::sample::{records, subset};
+use squealmap::accuracy::trial::first_that_keeps;
 use squealmap::backend::choice::{Backend, Options};
+use squealmap::kernel::source::Precision;
 use squealmap::label::Tally;
 use squealmap::map::{Map, Record};
 use squealmap::spec::Spec;
@@ -36,13 +38,31 @@ const SETTLED: &str = "[model]\ntheta = 0.02\n[friction]\nlaw = \"exponential\"\
 /// The sweeps with what they are.
 const SWEEPS: [(&str, &str); 3] = [("rational", RATIONAL), ("ramp", RAMP), ("settled", SETTLED)];
 
-/// A sweep computed as `--accuracy 1e-3` chooses from the table that is shipped, and the truth of all its instances.
+/// A steep contact with strong dampers, far from every sweep that the table was measured on.
+const STEEP: &str = "[model]\ntheta = 1.0\nc1 = 20.0\nc2 = 20.0\n[friction]\nlaw = \"bilinear\"\nknee_velocity = 2.0\n\
+    [axes]\nmu_s = { from = 0.1, to = 0.6, points = 20 }\nmu_d = { from = 0.05, to = 0.4, points = 10 }\n\
+    belt_velocity = { values = [0.3, 3.0] }\n[start]\nstart_velocity = 0.2\n\
+    [response]\nsettle = \"80 periods\"\nmeasure = \"60 periods\"\n";
+
+/// A light body at an angle, two modes with many wiggles to a cycle.
+const LIGHT: &str = "[model]\ntheta = 0.3\nm2 = 0.002\n[friction]\nlaw = \"rational\"\n\
+    [axes]\nmu_s = { from = 0.1, to = 0.6, points = 20 }\ndecay = { from = 0.05, to = 3.0, points = 10 }\n\
+    belt_velocity = { values = [0.3, 3.0] }\n[start]\nstart_velocity = 0.2\n\
+    [response]\nsettle = \"80 periods\"\nmeasure = \"60 periods\"\n";
+
+/// What `--accuracy 1e-3` may choose from the table that is shipped, the fastest first.
+fn ranked(spec: &Spec) -> Vec<Choice> {
+    let level = Level::parse("1e-3").unwrap();
+    Frontier::shipped().ranked(level, spec, &|one| one.backend != Backend::Gpu).unwrap()
+}
+
+/// A sweep computed as `--accuracy 1e-3` chooses, and the truth of all its instances.
 fn computed(text: &str) -> (Map, Vec<Record>) {
     let spec = Spec::parse(text, "s.toml", ".".as_ref()).unwrap();
-    let level = Level::parse("1e-3").unwrap();
-    let choice = Frontier::shipped().choose(level, &spec, &|one| one.backend != Backend::Gpu).unwrap();
+    let choice = first_that_keeps(ranked(&spec), &spec, &Options::default()).unwrap();
     eprintln!("{}: {}", choice.chosen.configuration, choice.chosen.why);
     let options = choice.configuration.options(&Options::default());
+    eprintln!("{}", choice.chosen.trial.unwrap().sentence(1e-3));
     let map = sweep::run(choice.configuration.sweep(&spec), &options, &|_| {}).unwrap();
     let mut unchecked = spec;
     unchecked.analysis.checked = false;
@@ -86,6 +106,62 @@ fn a_promise_that_is_broken_is_seen() {
         all += 1;
     }
     assert!(100 * kept < 95 * all, "{kept} of {all}");
+}
+
+/// What was measured on other sweeps does not hold at every corner of the parameters: the trial on the sweep itself finds
+/// that and takes what does.
+#[test]
+fn a_thousandth_is_kept_far_from_what_was_measured() {
+    let mut rejected = 0;
+    for (name, text) in [("steep", STEEP), ("light", LIGHT)] {
+        let spec = Spec::parse(text, "s.toml", ".".as_ref()).unwrap();
+        let first = &ranked(&spec)[0].configuration;
+        let (map, truth) = computed(text);
+        rejected += usize::from(map.spec.steps_per_period != first.steps_per_period);
+        let kept = |records: &[Record]| {
+            let settled = truth.iter().zip(records).filter(|(truth, _)| is_settled_oscillation(truth));
+            let within = settled.clone().filter(|(truth, one)| worst(one, truth) <= 1e-3 + scatter(truth));
+            (within.count(), settled.count())
+        };
+        let (within, settled) = kept(&map.records);
+        let without = kept(
+            &records(first, &subset(&spec, &Vec::from_iter(0..truth.len())), &Options::default()).unwrap(),
+        );
+        eprintln!("{name}: {within} of {settled}; what the table alone chooses keeps {}", without.0);
+        assert!(settled >= 100 && 100 * within >= 95 * settled, "{name}: {within} of {settled}");
+    }
+    assert!(rejected > 0, "nowhere was the table's first choice rejected");
+}
+
+/// A trial rejects what is too coarse here, and says so where nothing passes.
+#[test]
+fn a_trial_goes_on_until_the_bound_is_kept() {
+    let spec = Spec::parse(STEEP, "s.toml", ".".as_ref()).unwrap();
+    let mut choices: Vec<Choice> = ranked(&spec).into_iter().take(1).collect();
+    for (precision, steps) in [(Precision::F32, 3), (Precision::F64, 24)] {
+        let mut choice = choices[0].clone();
+        choice.configuration = Configuration::cpu(precision, steps);
+        choices.push(choice);
+    }
+    choices.remove(0);
+    let bounded = |choices: &[Choice], bound: f64| {
+        let of = |mut choice: Choice| {
+            choice.chosen.bound = Some(bound);
+            choice
+        };
+        let chosen =
+            first_that_keeps(choices.iter().cloned().map(of).collect(), &spec, &Options::default()).unwrap();
+        (chosen.configuration.steps_per_period, chosen.chosen.trial.unwrap())
+    };
+    let (steps, trial) = bounded(&choices, 0.1);
+    assert!(steps == 3 && trial.passed(), "{steps} {trial:?}");
+    let (steps, trial) = bounded(&choices, 1e-5);
+    assert!(steps == 24 && trial.passed(), "{steps} {trial:?}");
+    // Without the finer one nothing keeps it.
+    let (_, trial) = bounded(&choices[..1], 1e-5);
+    assert!(!trial.passed(), "{trial:?}");
+    let said = trial.sentence(1e-5);
+    assert!(said.starts_with("warning: tried on 128 instances of this sweep"), "{said}");
 }
 
 /// The median and the 95th percentile that the checks of a large map state, against the errors of every instance.

@@ -3,7 +3,7 @@
 
 mod document;
 mod measure;
-mod scene;
+pub(crate) mod scene;
 mod table;
 
 use squealmap::outcome::{Outcome, Status};
