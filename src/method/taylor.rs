@@ -104,7 +104,7 @@ impl Expansion {
         }
         series.contact_series[0][RELATIVE] = belt.velocity - state.velocity[X2];
         match contact {
-            Contact::Slip { sigma, piece } => series.slip(model, sigma, model.law.pieces[piece], belt),
+            Contact::Slip { sigma, piece } => series.slip(model, sigma, piece, belt),
             Contact::Stick => series.stick(model, belt),
             Contact::Free => series.free(model, belt),
         }
@@ -125,8 +125,11 @@ impl Expansion {
         self.position[k + 2] = [x2 * twice, y2 * twice, y1 * twice, 0.0];
     }
 
-    fn slip(&mut self, model: &Scaled, sigma: f64, piece: Piece, belt: BeltMotion) {
-        let mut friction = FrictionSeries::new(piece, sigma, self.contact_series[0][RELATIVE]);
+    fn slip(&mut self, model: &Scaled, sigma: f64, piece: usize, belt: BeltMotion) {
+        let (ahead, velocity) = (belt.velocity - model.v0, self.position[1][X2]);
+        let beyond = model.friction_beyond_equilibrium(sigma, piece, ahead, velocity);
+        let mut friction =
+            FrictionSeries::new(model.law.pieces[piece], sigma, self.contact_series[0][RELATIVE]);
         let reciprocal_inertia = 1.0 / model.slip_inertia(friction.q[0]);
         let reciprocal_m1 = 1.0 / model.m1;
         for k in 0..=self.order - 2 {
@@ -135,7 +138,7 @@ impl Expansion {
                 (friction.q[0] * springs.w - springs.r, springs.r, springs.w);
             if k == 0 {
                 // q W − R with the equilibrium's μ0 N0 cancelled by hand: no loss for small motions.
-                force += (friction.q[0] - model.mu0) * model.n0;
+                force += beyond * model.n0;
                 tangential += model.mu0 * model.n0;
                 normal += model.n0;
             }

@@ -119,6 +119,8 @@ pub struct Scaled {
     pub n0: f64,
     /// μ of the equilibrium.
     pub mu0: f64,
+    /// Belt velocity of the equilibrium.
+    pub v0: f64,
     /// The friction law in scaled speeds.
     pub law: PieceChain,
     /// Newton restitution.
@@ -153,10 +155,23 @@ impl Scaled {
             normal_mass: m2 + m1 * s * s,
             n0: equilibrium.normal_force / units.force,
             mu0: equilibrium.mu,
+            v0: params.require(Param::BeltVelocity) / units.velocity,
             law: instance.law.pieces(units.velocity),
             restitution: params.require(Param::Restitution),
             impact_friction: instance.impact_friction,
             fastest: fastest(params, units, equilibrium),
+        }
+    }
+
+    /// `σ μ(v) − μ0` in slip on a piece of the law, with the belt faster than at the equilibrium by `ahead` and the body
+    /// moving at `velocity`: to the last digits of small motions about the equilibrium.
+    #[must_use]
+    pub fn friction_beyond_equilibrium(&self, sigma: f64, piece: usize, ahead: f64, velocity: f64) -> f64 {
+        let (own, law) = (piece == self.law.index(self.v0), self.law.pieces[piece]);
+        if sigma > 0.0 && own {
+            law.change(self.v0, ahead - velocity)
+        } else {
+            sigma * law.mu(sigma * (self.v0 + ahead - velocity)) - self.mu0
         }
     }
 }

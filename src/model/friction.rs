@@ -122,6 +122,20 @@ impl Piece {
         }
     }
 
+    /// `μ(speed + change) − μ(speed)`, to the last digits of however small a change.
+    #[must_use]
+    pub fn change(self, speed: f64, change: f64) -> f64 {
+        match self {
+            Piece::Linear { slope, .. } => slope * change,
+            Piece::Exponential { height, rate, .. } => {
+                height * (-rate * speed).exp() * (-rate * change).exp_m1()
+            }
+            Piece::Rational { at_zero, decay } => {
+                -at_zero * decay * change / ((1.0 + decay * speed) * (1.0 + decay * (speed + change)))
+            }
+        }
+    }
+
     /// The largest of its numbers.
     #[must_use]
     pub fn largest(self) -> f64 {

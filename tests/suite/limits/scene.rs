@@ -57,15 +57,27 @@ fn flat(mu: f64) -> FrictionLaw {
 
 /// A small kick of steady sliding, expected from the matrix exponential; `periods` before the window and in it.
 pub(crate) fn sliding(name: &str, mu: f64, length: f64, values: &[(Param, f64)]) -> Scene {
+    sliding_under(name, flat(mu), [mu, 0.0], length, values)
+}
+
+/// The same under a law with μ and slope (s/m) at the belt's velocity, 1 m/s unless it is among the values; a slope is
+/// that of all velocities only for the smallest kicks.
+pub(crate) fn sliding_under(
+    name: &str,
+    law: FrictionLaw,
+    [mu, slope]: [f64; 2],
+    length: f64,
+    values: &[(Param, f64)],
+) -> Scene {
     let mut one =
-        instance(flat(mu), &[(Param::Theta, 0.1), (Param::BeltVelocity, 1.0), (Param::StartVelocity, 1e-3)]);
+        instance(law, &[(Param::Theta, 0.1), (Param::BeltVelocity, 1.0), (Param::StartVelocity, 1e-3)]);
     for &(param, value) in values {
         one.params.set(param, value);
     }
     let value = |param| one.params.get(param).expect("a value");
     let time = length * Units::new(&one.params).period();
     let start = Vector4::new(value(Param::StartDisplacement), 0.0, value(Param::StartVelocity), 0.0);
-    let window = exact::window(&exact::sliding(&one, mu, 0.0), start, time, time);
+    let window = exact::window(&exact::sliding(&one, mu, slope), start, time, time);
     let numbers: [(Number, f64); 4] = [
         (|outcome| outcome.x2_std, window.x2_std),
         (|outcome| outcome.y1_std, window.y1_std),

@@ -4,8 +4,8 @@ use squealmap::model::Param;
 use squealmap::model::friction::FrictionLaw;
 use squealmap::outcome::Status;
 
-use super::scene::{Group, Scene, as_reference, ends, periods, sliding, stick_slip};
-use crate::common::constant;
+use super::scene::{Group, Scene, as_reference, ends, periods, sliding, sliding_under, stick_slip};
+use crate::common::{bilinear, constant};
 
 /// Undamped coalescence of Table 1, the root of its closed form.
 const COALESCENCE: f64 = 0.226_361_594_06;
@@ -61,7 +61,19 @@ fn slides() -> Vec<Scene> {
         let values = [(Param::BeltVelocity, velocity), (Param::StartVelocity, 1e-3 * velocity.min(1.0))];
         all.push(slide(&format!("V = {velocity:e}"), &values));
     }
-    all.push(slide("kick of 1e-12 m/s", &[(Param::StartVelocity, 1e-12)]));
+    let tiny = [(Param::StartVelocity, 1e-12)];
+    all.push(slide("kick of 1e-12 m/s", &tiny));
+    // μ and slope at 1 m/s, from the formulas of the laws; flat enough that the motion stays small.
+    let decayed = (-0.5_f64).exp();
+    let exponential = FrictionLaw::Exponential { mu_s: 0.14, mu_d: 0.1, stribeck_velocity: 2.0 };
+    let sloped = [
+        ("bilinear", bilinear(0.2, 0.1), [0.18, -0.02]),
+        ("exponential", exponential, [0.1 + 0.04 * decayed, -0.02 * decayed]),
+        ("rational", FrictionLaw::Rational { mu_s: 0.15, decay: 0.25 }, [0.12, -0.024]),
+    ];
+    for (law_name, law, at) in sloped {
+        all.push(sliding_under(&format!("kick of 1e-12 m/s, {law_name} law"), law, at, 20.0, &tiny));
+    }
     let undamped = [(Param::C1, 0.0), (Param::C2, 0.0), (Param::Theta, 0.01)];
     all.push(sliding("defective eigenvalue (coalescence)", COALESCENCE, 20.0, &undamped));
     all.push(sliding("no damping, 2000 periods", 0.1, 1000.0, &undamped));
