@@ -32,6 +32,15 @@ pub(crate) fn of(spec: &Spec) -> Frontier {
     measured.filter(|frontier| frontier.covers(spec)).unwrap_or_else(|| Frontier::shipped().clone())
 }
 
+/// Whether a table can be written, told before hours are spent on measuring it.
+pub(crate) fn writable(asked: Option<&Path>) -> Result<()> {
+    let Some(path) = asked.map(Path::to_owned).or_else(place) else { return Ok(()) };
+    if let Some(parent) = path.parent() {
+        std::fs::create_dir_all(parent).map_err(|why| cannot(&path, &why))?;
+    }
+    claim(&path).map(drop)
+}
+
 /// Puts the rows of a measurement in place of those of the same scene; returns where, if anywhere.
 pub(crate) fn store(asked: Option<PathBuf>, rows: &[Row]) -> Result<Option<PathBuf>> {
     let Some(path) = asked.or_else(place) else {

@@ -66,6 +66,9 @@ impl Tradeoff {
         if let Some(twice) = (1..names.len()).find(|at| names[..*at].contains(&names[*at])) {
             return Err(Error::SameName { name: names[twice].to_string_lossy().into_owned() });
         }
+        if !self.no_store {
+            frontier::writable(self.store.as_deref())?;
+        }
         let settings = Settings {
             sample: self.sample as usize,
             seed: self.seed,

@@ -24,7 +24,8 @@ const HEADROOM: f64 = 0.06;
 const LEAST: f64 = 1e-16;
 /// The frontier.
 const FRONTIER: &str = r##"fill="none" stroke="#000000" stroke-width="0.7""##;
-/// The accuracies that have a name.
+/// The accuracies that have a name, and their lines.
+const BOUNDS: [f64; 3] = [1e-2, 1e-3, 1e-4];
 const NAMED: &str = r##"fill="none" stroke="#999999" stroke-width="0.5" stroke-dasharray="2 2""##;
 
 /// Marks by engine: fill and line.
@@ -44,7 +45,7 @@ pub fn figure(heading: &str, measured: &Measurement) -> String {
     let error = |row: &Row| row.worst_p95.max(LEAST);
     let mut svg = Svg::new();
     let mut y = MARGIN + title(&mut svg, heading, SINGLE_COLUMN - 2.0 * MARGIN);
-    let x_scale = logarithmic(shown.iter().map(|row| error(row)));
+    let x_scale = logarithmic(shown.iter().map(|row| error(row)).chain(BOUNDS));
     let y_scale = logarithmic(shown.iter().map(|row| pace(row)));
     let y_ticks = y_scale.ticks(6);
     let left = MARGIN + LABEL_SIZE + 6.0 + y_tick_room(&y_ticks);
@@ -58,10 +59,8 @@ pub fn figure(heading: &str, measured: &Measurement) -> String {
     let frame = Frame { x: left, y, width: SINGLE_COLUMN - left - RIGHT, height: HEIGHT };
     let plot = Plot { frame, x: &x_scale, y: &y_scale };
     let ends = [y_scale.value(0.0), y_scale.value(1.0)];
-    for bound in [1e-2, 1e-3, 1e-4] {
-        if (0.0..=1.0).contains(&x_scale.position(bound)) {
-            plot.curve(&mut svg, ends.map(|end| (bound, end)), NAMED);
-        }
+    for bound in BOUNDS {
+        plot.curve(&mut svg, ends.map(|end| (bound, end)), NAMED);
     }
     let mut frontier: Vec<&Row> = shown.iter().copied().filter(|row| row.frontier).collect();
     frontier.sort_by(|a, b| error(a).total_cmp(&error(b)));

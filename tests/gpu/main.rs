@@ -1,8 +1,11 @@
 //! Tests that need an adapter, software or not. Without one each is shown as ignored with the reason; with
 //! `SQUEALMAP_REQUIRE_GPU=1` each fails instead.
 
+#[path = "../suite/fuzz/defect.rs"]
+mod defect;
 mod differences;
 mod faults;
+mod fuzz;
 #[path = "../suite/instances.rs"]
 mod instances;
 mod linear;
@@ -12,6 +15,8 @@ mod response_probes;
 mod runs;
 mod strict;
 mod sweeps;
+#[path = "../suite/fuzz/whole_range.rs"]
+mod whole_range;
 mod words;
 
 use libtest_mimic::{Arguments, Failed, Trial};
@@ -71,6 +76,7 @@ fn main() {
         (all, runs::CASES),
         (software, runs::SOFTWARE),
         (all, faults::CASES),
+        (all, fuzz::CASES),
         (strict, strict::CASES),
         (strict, runs::STRICT),
         (strict.or(f64), strict::F64),

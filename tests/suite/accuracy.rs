@@ -328,6 +328,12 @@ fn tradeoff_refuses_what_it_cannot_judge() {
     assert_eq!(ended.code, Some(2));
     assert!(ended.err.contains("`analysis` lacks \"response\""), "{}", ended.err);
     assert!(!directory.path().join("t").exists());
+    // A table that cannot be written is told before anything is measured.
+    std::fs::write(directory.path().join("m.toml"), MAP).unwrap();
+    let ended = squealmap(directory.path(), &["tradeoff", "m.toml", "-o", "t", "--store", "m.toml/table.csv"]);
+    assert_ne!(ended.code, Some(0));
+    assert!(ended.err.contains("m.toml/table.csv"), "{}", ended.err);
+    assert!(!directory.path().join("t").exists());
     let ended = squealmap(directory.path(), &["tradeoff", "s.toml", "./s.toml", "-o", "t", "--no-store"]);
     assert_eq!(ended.code, Some(2));
     assert!(ended.err.contains("are named `s`"), "{}", ended.err);

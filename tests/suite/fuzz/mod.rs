@@ -3,8 +3,9 @@
 //!
 //! Some seconds in a run of the suite; `SQUEALMAP_FUZZ_SECONDS=3600` for longer.
 
+mod defect;
 mod text;
-pub(crate) mod whole_range;
+mod whole_range;
 
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
@@ -18,6 +19,7 @@ use squealmap::response::{Plan, Scene};
 use squealmap::spec::Spec;
 
 use crate::engines::Engine;
+use defect::defect;
 
 /// The variable with the seconds each part goes on for.
 const SECONDS: &str = "SQUEALMAP_FUZZ_SECONDS";
@@ -30,6 +32,11 @@ const MOST_STEPS: f64 = 3e5;
 
 /// Defects of different kinds after which a search ends.
 const MOST_DEFECTS: usize = 8;
+
+/// A valid sweep of one instance.
+pub(crate) fn sweep() -> impl Strategy<Value = String> {
+    whole_range::parts().prop_map(|(own, shared)| own + &shared)
+}
 
 /// Tries random values until the time is over.
 fn until_the_time_is_over<T: Strategy>(
@@ -61,58 +68,6 @@ fn until_the_time_is_over<T: Strategy>(
     println!("{cases} cases");
     let defects: Vec<String> = defects.into_iter().map(|(_, defect)| defect).collect();
     assert!(defects.is_empty(), "{}", defects.join("\n"));
-}
-
-/// What is wrong with an outcome.
-pub(crate) fn defect(outcome: &Outcome) -> Option<String> {
-    let numbers = [
-        ("x2_mean", outcome.x2_mean),
-        ("x2_std", outcome.x2_std),
-        ("y1_mean", outcome.y1_mean),
-        ("y1_std", outcome.y1_std),
-        ("ax_rms", outcome.ax_rms),
-        ("ay_rms", outcome.ay_rms),
-        ("ax_peak", outcome.ax_peak),
-        ("ay_peak", outcome.ay_peak),
-        ("friction_mean", outcome.friction_mean),
-        ("n_peak", outcome.n_peak),
-        ("response_frequency", outcome.response_frequency),
-        ("phase_cycle", outcome.phase_cycle),
-        ("growth_rate_measured", outcome.growth_rate_measured),
-        ("frequency_measured", outcome.frequency_measured),
-        ("phase_measured", outcome.phase_measured),
-        ("stick", outcome.stick),
-        ("free", outcome.free),
-        ("reverse", outcome.reverse),
-        ("impacts_per_second", outcome.impacts_per_second),
-        ("settling_time", outcome.settling_time),
-    ];
-    let has = |name: &str| numbers.iter().any(|(other, number)| *other == name && number.is_some());
-    match outcome.status {
-        Status::Unwritten | Status::NotComputed => {
-            return Some(format!("its status is {:?}", outcome.status));
-        }
-        Status::Ok => {}
-        _ if numbers.iter().any(|(_, number)| number.is_some()) => {
-            return Some(format!("{:?} beside numbers", outcome.status));
-        }
-        _ => return (!outcome.simulated_time.is_finite()).then(|| "its time is not finite".to_owned()),
-    }
-    if let Some((name, number)) = numbers.iter().find(|(_, number)| number.is_some_and(|x| !x.is_finite())) {
-        return Some(format!("{name} is {number:?} with the status ok"));
-    }
-    let halves = [outcome.speed_rms_halves, outcome.x2_std_halves, outcome.ay_rms_halves];
-    if !halves.iter().flatten().chain([&outcome.simulated_time]).all(|number| number.is_finite()) {
-        return Some(format!("a half or the time is not finite with the status ok: {halves:?}"));
-    }
-    if let Some(name) =
-        ["x2_mean", "x2_std", "y1_std", "ax_rms", "ay_peak", "stick"].iter().find(|name| !has(name))
-    {
-        return Some(format!("{name} is missing with the status ok"));
-    }
-    let share = |number: Option<f64>| number.is_some_and(|share| (-1e-9..=1.0 + 1e-6).contains(&share));
-    (!(share(outcome.stick) && share(outcome.free) && share(outcome.reverse)))
-        .then(|| format!("shares of time: {:?} {:?} {:?}", outcome.stick, outcome.free, outcome.reverse))
 }
 
 fn is_finite(linear: &Linear) -> bool {
@@ -150,7 +105,7 @@ fn watch(case: &Arc<Mutex<(Instant, String)>>) {
 fn no_engine_is_at_a_loss() {
     let case = Arc::new(Mutex::new((Instant::now(), String::new())));
     watch(&case);
-    until_the_time_is_over(15, &whole_range::sweep(), |text| {
+    until_the_time_is_over(15, &sweep(), |text| {
         let spec = Spec::parse(&text, "random.toml", "".as_ref())
             .map_err(|why| TestCaseError::fail(format!("a valid sweep is refused: {why}")))?;
         let plan = Plan::new(&spec);

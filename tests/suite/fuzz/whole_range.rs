@@ -108,12 +108,13 @@ fn response() -> impl Strategy<Value = (bool, String)> {
     )
 }
 
-/// A valid sweep of one instance.
-pub(crate) fn sweep() -> impl Strategy<Value = String> {
+/// A valid sweep of one instance in parts: what instances of one sweep may differ in, model and friction and belt, and
+/// what they share.
+pub(crate) fn parts() -> impl Strategy<Value = (String, String)> {
     (model(), friction(), belt(), start(), response()).prop_map(
         |(model, friction, (ramps, belt), start, (auto, response))| {
             let response = if ramps && auto { FIXED.to_owned() } else { response };
-            [model, friction, belt, start, response].concat()
+            ([model, friction, belt].concat(), start + &response)
         },
     )
 }
