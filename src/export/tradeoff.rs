@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use serde_json::{Value as Json, json};
 
-use crate::accuracy::frontier::MARGIN;
+use crate::accuracy::frontier::{MARGIN, is_comparison};
 use crate::accuracy::level::{Level, NAMES};
 use crate::accuracy::measure::{CHECK_STEPS, Measurement, TRUTH_STEPS};
 use crate::accuracy::row::{Row, pace};
@@ -98,7 +98,7 @@ fn levels(rows: &[Row]) -> Json {
 #[must_use]
 pub fn fastest(rows: &[Row], bound: f64) -> Option<&Row> {
     let pace = pace(rows.iter());
-    let enough = rows.iter().filter(|row| MARGIN * row.worst_p95 <= bound);
+    let enough = rows.iter().filter(|row| MARGIN * row.worst_p95 <= bound && !is_comparison(row));
     enough.max_by(|a, b| pace(a).total_cmp(&pace(b)))
 }
 
@@ -225,7 +225,7 @@ fn section_of(text: &mut String, section: &Section) {
          {} instances judged, {} threads. {} of the sweep oscillate, {} settled; those of the sample are {}. {} did not \
          come to their end. The truth differs from that at {CHECK_STEPS} steps per period by {:.1e} / {:.1e} / {:.1e} \
          (p50 / p95 / largest of {}); its scatter is {:.1e} / {:.1e} / {:.1e} (p50 / p95 / p99). The efficient frontier, \
-         and the reference:\n\n",
+         the reference, and the methods to compare with:\n\n",
         section.title,
         section.figure,
         measured.sample.indices.len(),
@@ -245,7 +245,9 @@ fn section_of(text: &mut String, section: &Section) {
     *text += "| engine | steps per period | instances/s | per CPU-second | worst, p50 / p95 / p99 | x2_std | ax_rms | ay_rms | \
               response_frequency | stick (absolute) | other types, regimes, statuses, % |\n\
               |---|---|---|---|---|---|---|---|---|---|---|\n";
-    let shown = |row: &&Row| row.frontier || ["reference", "gpu"].contains(&row.backend.as_str());
+    let shown = |row: &&Row| {
+        row.frontier || is_comparison(row) || ["reference", "gpu"].contains(&row.backend.as_str())
+    };
     for row in measured.rows.iter().filter(shown) {
         let per_cpu = row.per_cpu_second.map_or("–".to_owned(), |rate| format!("{rate:.0}"));
         let _ = writeln!(
