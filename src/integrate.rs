@@ -247,7 +247,7 @@ impl<'a> Integrator<'a> {
         if inertia <= 0.0 {
             return Err(Status::Painleve);
         }
-        if stands_still(allowed, f64::EPSILON) {
+        if stands_still(allowed, f64::EPSILON) || self.is_unstable(allowed) {
             return Err(Status::StepTooLarge);
         }
         let full = self.resolution.nominal_step.min(allowed).min(longest);
@@ -277,6 +277,12 @@ impl<'a> Integrator<'a> {
             self.disarmed = Disarmed::Nothing;
         }
         Ok((taken, crossing))
+    }
+
+    /// Whether a step of fixed length is too long for the fastest mode of the present contact state.
+    fn is_unstable(&self, step: f64) -> bool {
+        let fastest = self.model.fastest[self.contact.state() as usize];
+        self.resolution.method != Method::Taylor && step * fastest > rk4::STABLE
     }
 
     /// `M11` at the start of a step in slip and its rate of change; 1 and 0 in the other contact states.

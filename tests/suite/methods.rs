@@ -215,16 +215,14 @@ fn observables_of_both_masses_have_order_4() {
         assert_eq!(outcome.status, Status::Ok);
         outcome
     };
-    let numbers: [(&str, fn(&Outcome) -> Option<f64>, f64); 4] = [
-        ("x2_std", |outcome| outcome.x2_std, exact.x2_std),
-        ("y1_std", |outcome| outcome.y1_std, exact.y1_std),
-        ("ax_rms", |outcome| outcome.ax_rms, exact.ax_rms),
-        ("ay_rms", |outcome| outcome.ay_rms, exact.ay_rms),
-    ];
-    for (name, number, expected) in numbers {
-        let value = |steps| number(&run(steps)).expect("a value");
-        has_order(name, errors(20, |steps| (value(steps) - expected).abs()), 4.0, 0.3);
-        close(name, value(160), expected, 1e-6);
+    let numbers = |outcome: Outcome| {
+        [outcome.x2_std, outcome.y1_std, outcome.ax_rms, outcome.ay_rms].map(|value| value.expect("a value"))
+    };
+    let measured = [20, 40, 80, 160].map(|steps| numbers(run(steps)));
+    let exact = [exact.x2_std, exact.y1_std, exact.ax_rms, exact.ay_rms];
+    for (k, name) in ["x2_std", "y1_std", "ax_rms", "ay_rms"].into_iter().enumerate() {
+        has_order(name, measured.map(|values| (values[k] - exact[k]).abs()), 4.0, 0.3);
+        close(name, measured[3][k], exact[k], 1e-6);
     }
 }
 
@@ -369,5 +367,21 @@ fn a_detaching_cycle_is_the_references() {
         for (value, expected) in run(method, steps).into_iter().zip(reference) {
             close(&format!("{method:?}"), value, expected, within);
         }
+    }
+}
+
+/// The faster mode of the overdamped single mass decays with `c/2 + sqrt(c²/4 − 1)`; steps beyond 2.785 of its time
+/// constants would let it grow.
+#[test]
+fn a_step_too_long_for_the_fastest_mode_is_refused() {
+    let steps = 12;
+    for (damping, expected) in [(4.5, Status::Ok), (6.0, Status::StepTooLarge)] {
+        let one = single_mass(FrictionLaw::Constant { mu_s: 0.3, mu_d: 0.3 }, 2.0, damping, (0.3, 0.5));
+        let turn = (0.5 * damping + (0.25 * damping * damping - 1.0_f64).sqrt()) * TAU / f64::from(steps);
+        assert_eq!(turn < 2.785, expected == Status::Ok, "{turn}");
+        for method in [Method::LocatedRk4, Method::FixedStep] {
+            assert_eq!(respond(&one, &Plan { method, ..plan(50.0, 50.0, steps) }).status, expected);
+        }
+        assert_eq!(respond(&one, &plan(50.0, 50.0, steps)).status, Status::Ok);
     }
 }

@@ -255,14 +255,16 @@ proptest! {
             measure: squealmap::spec::Duration::Periods(10.0),
             ..plan(0.0, 1.0, 12)
         };
-        let outcome = respond(&instance, &plan);
         let requested = 20.0 * squealmap::model::equilibrium::Units::new(&instance.params).period();
-        if outcome.status == Status::Ok {
-            prop_assert!((outcome.simulated_time / requested - 1.0).abs() < 1e-12);
-            prop_assert!(outcome.x2_std.is_some_and(f64::is_finite));
-        } else {
-            prop_assert!(outcome.status != Status::Unwritten);
-            prop_assert!(outcome.simulated_time < requested);
+        for method in [Method::Taylor, Method::LocatedRk4, Method::FixedStep] {
+            let outcome = respond(&instance, &Plan { method, ..plan });
+            if outcome.status == Status::Ok {
+                prop_assert!((outcome.simulated_time / requested - 1.0).abs() < 1e-12);
+                prop_assert!(outcome.x2_std.is_some_and(f64::is_finite));
+            } else {
+                prop_assert!(outcome.status != Status::Unwritten);
+                prop_assert!(outcome.simulated_time < requested);
+            }
         }
     }
 }
