@@ -166,14 +166,16 @@ changes the contact state only where they end, as codes with a fixed step do; th
 Measured on the first sweep below, p95 and instances per second of a processor: `located RK4` 1.6e-3 and 168 with 20 steps,
 7.9e-5 and 88 with 40, 2.8e-7 and 21 with 160; `fixed step` 2.9e-2 and 53 with 80 steps, 7.4e-3 and 14 with 294. At 12 steps
 the reference has 3.6e-9 and 179, the CPU engine in f32 with 6 has 3.3e-5 and 10 280. So for 1e-4 the engine is 120 times as
-fast as RK4 one instance at a time, and the reference, at the speed that RK4 has for 1.6e-3, is five orders better. Without
-location more steps are of little use: what twice as many make 15 times smaller with it they halve without.
+fast as RK4 one instance at a time, and the reference, at the speed that RK4 has for 1.6e-3, is five orders better: a step of
+RK4 costs two thirds of one of the reference, since events and observables of a step cost the same. Without location more
+steps are of little use: what twice as many make 15 times smaller with it they halve without. Under the exponential law (160
+instances of the sweep) it is the same: 6.3e-5 with 40 steps of RK4, 7.1e-3 with a fixed step and 294.
 
-What f32 loses lies neither in the bound on truncation nor in the state that is carried on. On the shipped map, settled
-oscillations, p50 / p95 / p99 of the worst: 8.7e-7 / 2.4e-6 / 3.5e-6. In f64 with the bound of f32 it is 1.6e-7 / 8.6e-7 /
-1.9e-6, with the constants of the instances rounded to f32 as well 5.4e-7 / 1.3e-6 / 2.2e-6. Positions and velocities in
-f32 with their lost parts carried along (compensated sums) leave it at 8.7e-7 / 2.3e-6 / 3.5e-6, at the same speed: the
-engine does without.
+What f32 loses is to a third the bound on truncation and not at all the state that is carried on. On the shipped map,
+settled oscillations, p50 / p95 / p99 of the worst: 8.7e-7 / 2.4e-6 / 3.5e-6. In f64 with the bound of f32 it is 1.6e-7 /
+8.6e-7 / 1.9e-6, with the constants of the instances rounded to f32 as well 5.4e-7 / 1.3e-6 / 2.2e-6. Positions and
+velocities in f32 with their lost parts carried along (compensated sums) leave it at 8.7e-7 / 2.3e-6 / 3.5e-6, at the same
+speed: the engine does without.
 
 ## What is chosen
 
