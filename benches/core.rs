@@ -9,6 +9,7 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use squealmap::backend::cpu::outcomes;
 use squealmap::integrate::STEP_TOLERANCE;
 use squealmap::linear::analyse;
+use squealmap::method::Method;
 use squealmap::method::taylor::REFERENCE_ORDER;
 use squealmap::model::friction::FrictionLaw;
 use squealmap::model::{Param, Params};
@@ -49,6 +50,7 @@ fn response(criterion: &mut Criterion) {
         settle_limit: None,
         measure: Duration::Periods(40.0),
         steps_per_period: 12,
+        method: Method::Taylor,
         order: REFERENCE_ORDER,
         tolerance: STEP_TOLERANCE,
     };
@@ -77,6 +79,7 @@ fn lanes(criterion: &mut Criterion) {
             settle_limit: None,
             measure: Duration::Periods(40.0),
             steps_per_period,
+            method: Method::Taylor,
             order: REFERENCE_ORDER,
             tolerance: STEP_TOLERANCE,
         };

@@ -4,11 +4,12 @@
 //! time are counted; too many end the instance with [`Status::EventLimit`].
 
 use crate::method::pace::{longest_steps, stands_still};
-use crate::method::roots::{Crossing, first_crossing};
+use crate::method::roots::Crossing;
 use crate::method::taylor::{
     BeltMotion, Expansion, MAX_ORDER, Motion, NORMAL, RELATIVE, Series, State, TANGENTIAL, X2,
 };
-use crate::model::contact::Contact;
+use crate::method::{Method, rk4};
+use crate::model::contact::{Contact, ContactState};
 use crate::model::equilibrium::Scaled;
 use crate::outcome::Status;
 
@@ -37,12 +38,28 @@ pub const STEP_TOLERANCE: f64 = 1e-11;
 /// How finely to integrate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Resolution {
-    /// Order of the position series, 4 to [`MAX_ORDER`].
+    /// How a step is taken.
+    pub method: Method,
+    /// Order of the position series, 4 to [`MAX_ORDER`]; of a Taylor series only.
     pub order: usize,
     /// Largest step, in units of `1/ω0`.
     pub nominal_step: f64,
-    /// Bound on the last two terms of the series; infinite for steps of fixed length.
+    /// Bound on the last two terms of the series; infinite for steps of fixed length. Of a Taylor series only.
     pub tolerance: f64,
+}
+
+impl Resolution {
+    /// The longest step of slip, reversed slip, stick and flight.
+    fn longest(&self, model: &Scaled) -> [f64; 4] {
+        let mut longest = match self.method {
+            Method::Taylor => longest_steps(&model.fastest, self.order, self.tolerance),
+            Method::LocatedRk4 | Method::FixedStep => [self.nominal_step; 4],
+        };
+        if self.method == Method::LocatedRk4 {
+            longest[ContactState::Free as usize] *= rk4::IN_FLIGHT;
+        }
+        longest
+    }
 }
 
 /// One accepted step: the series holds from `start` for `duration`.
@@ -140,7 +157,7 @@ impl<'a> Integrator<'a> {
         let mut integrator = Integrator {
             model,
             resolution,
-            longest: longest_steps(&model.fastest, resolution.order, resolution.tolerance),
+            longest: resolution.longest(model),
             state,
             contact: Contact::Free,
             disarmed: Disarmed::Nothing,
@@ -216,17 +233,29 @@ impl<'a> Integrator<'a> {
         belt: BeltMotion,
         observer: &mut impl Observer,
     ) -> Result<(f64, Option<Watched>), Status> {
-        let expansion = Expansion::new(self.model, self.resolution.order, &self.state, self.contact, belt);
+        let allowed = self.longest[self.contact.state() as usize];
+        let expansion = match self.resolution.method {
+            Method::Taylor => {
+                Expansion::new(self.model, self.resolution.order, &self.state, self.contact, belt)
+            }
+            // Of a step in full: divided by the rest of a stretch, however short, its output would be rounding.
+            Method::LocatedRk4 | Method::FixedStep => {
+                rk4::expand(self.model, &self.state, self.contact, belt, allowed)
+            }
+        };
         let (inertia, inertia_rate) = self.slip_inertia(&expansion);
         if inertia <= 0.0 {
             return Err(Status::Painleve);
         }
-        let allowed = self.longest[self.contact.state() as usize];
-        if stands_still(allowed, f64::EPSILON) {
+        if stands_still(allowed, f64::EPSILON) || self.is_unstable(allowed) {
             return Err(Status::StepTooLarge);
         }
         let full = self.resolution.nominal_step.min(allowed).min(longest);
-        let step = expansion.step(full, self.resolution.tolerance, MAX_HALVINGS).ok_or_else(|| {
+        let step = match self.resolution.method {
+            Method::Taylor => expansion.step(full, self.resolution.tolerance, MAX_HALVINGS),
+            Method::LocatedRk4 | Method::FixedStep => Some(full),
+        };
+        let step = step.ok_or_else(|| {
             let finest = self.resolution.nominal_step * 0.5_f64.powi(MAX_HALVINGS);
             if !self.state.is_finite() {
                 Status::NonFinite
@@ -250,6 +279,12 @@ impl<'a> Integrator<'a> {
         Ok((taken, crossing))
     }
 
+    /// Whether a step of fixed length is too long for the fastest mode of the present contact state.
+    fn is_unstable(&self, step: f64) -> bool {
+        let fastest = self.model.fastest[self.contact.state() as usize];
+        self.resolution.method != Method::Taylor && step * fastest > rk4::STABLE
+    }
+
     /// `M11` at the start of a step in slip and its rate of change; 1 and 0 in the other contact states.
     fn slip_inertia(&self, expansion: &Expansion) -> (f64, f64) {
         match self.contact {
@@ -267,6 +302,7 @@ impl<'a> Integrator<'a> {
     fn first_event(&self, expansion: &Expansion, step: f64) -> (f64, Option<Watched>) {
         let mut taken = step;
         let mut found = None;
+        let first_crossing = self.resolution.method.finder();
         self.watch(expansion, |watched, series, from_zero| {
             match first_crossing(series, taken, from_zero) {
                 Crossing::Never => {}

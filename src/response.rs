@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use num_complex::Complex64;
 
 use crate::integrate::{Integrator, Observer, Resolution, STEP_TOLERANCE};
+use crate::method::Method;
 use crate::method::taylor::{BeltMotion, REFERENCE_ORDER, State};
 use crate::model::equilibrium::{Equilibrium, Scaled, Units};
 use crate::model::{Param, Params};
@@ -27,6 +28,8 @@ pub struct Plan {
     pub measure: Duration,
     /// Largest step: this many per period `2π/ω0`.
     pub steps_per_period: u32,
+    /// How the reference takes a step; the other engines have their own way.
+    pub method: Method,
     /// Order of the Taylor series.
     pub order: usize,
     /// Bound on the truncation of a step; infinite for steps of fixed length.
@@ -43,6 +46,7 @@ impl Plan {
             settle_limit: spec.settle_limit,
             measure: spec.measure,
             steps_per_period: spec.steps_per_period,
+            method: Method::Taylor,
             order: REFERENCE_ORDER,
             tolerance: STEP_TOLERANCE,
         }
@@ -196,6 +200,7 @@ impl Scene {
     /// [`Status::Painleve`] when the first slip has no unique dynamics.
     pub fn integrator(&self, plan: &Plan) -> Result<Integrator<'_>, Status> {
         let resolution = Resolution {
+            method: plan.method,
             order: plan.order,
             nominal_step: TAU / f64::from(plan.steps_per_period),
             tolerance: plan.tolerance,

@@ -2,6 +2,7 @@
 
 use squealmap::grid::{AxisKey, Grid, Value};
 use squealmap::integrate::STEP_TOLERANCE;
+use squealmap::method::Method;
 use squealmap::method::taylor::REFERENCE_ORDER;
 use squealmap::model::friction::FrictionLaw;
 use squealmap::model::{Param, Params};
@@ -108,6 +109,7 @@ pub(crate) fn plan(steps_per_period: u32, order: usize, tolerance: f64) -> Plan 
         settle_limit: None,
         measure: Duration::Periods(MEASURE),
         steps_per_period,
+        method: Method::Taylor,
         order,
         tolerance,
     }

@@ -19,6 +19,7 @@ use crate::error::Result;
 use crate::kernel::source::Precision;
 use crate::label::Label;
 use crate::map::{Record, Stopped};
+use crate::method::Method;
 use crate::spec::Spec;
 
 /// Parts of the run time that the two kinds of checks may take, together below 5 %.
@@ -82,11 +83,11 @@ pub fn finer(configuration: &Configuration) -> Configuration {
 }
 
 impl Counts {
-    /// Those of a sweep of `total` instances; none where the reference computes it.
+    /// Those of a sweep of `total` instances; none where the reference computes it, or what is compared with it.
     #[must_use]
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a part of the total")]
     pub fn new(configuration: &Configuration, total: usize) -> Counts {
-        if configuration.backend == Backend::Reference {
+        if configuration.backend.method().is_some() {
             return Counts { fine: 0, reference: 0 };
         }
         let shipped = Frontier::shipped();
@@ -130,7 +131,7 @@ pub fn check(
         let all = 0..indices.len();
         let computed = match by {
             By::Fine => cpu::records(&sweep, all, judge.precision, cancel, &|_| {}),
-            By::Reference => reference::records(&sweep, all, cancel, &|_| {}),
+            By::Reference => reference::records(&sweep, all, Method::Taylor, cancel, &|_| {}),
         };
         let judged = match computed {
             Ok(judged) if judged.stopped.is_none() => judged.records,

@@ -6,6 +6,7 @@ use crate::backend::choice::{Backend, Options};
 use crate::backend::{cpu, gpu, reference};
 use crate::grid::{AxisKey, Grid, Value};
 use crate::kernel::source::Precision;
+use crate::method::Method;
 use crate::model::friction::LawKind;
 use crate::spec::Spec;
 
@@ -26,12 +27,18 @@ impl Configuration {
     /// The reference with so many steps per period.
     #[must_use]
     pub fn reference(steps_per_period: u32) -> Configuration {
-        Configuration {
-            backend: Backend::Reference,
-            adapter: None,
-            precision: Precision::F64,
-            steps_per_period,
-        }
+        Configuration::scalar(Method::Taylor, steps_per_period)
+    }
+
+    /// One instance at a time by a method: the reference, or one to compare with.
+    #[must_use]
+    pub fn scalar(method: Method, steps_per_period: u32) -> Configuration {
+        let backend = match method {
+            Method::Taylor => Backend::Reference,
+            Method::LocatedRk4 => Backend::LocatedRk4,
+            Method::FixedStep => Backend::FixedStep,
+        };
+        Configuration { backend, adapter: None, precision: Precision::F64, steps_per_period }
     }
 
     /// The CPU engine.
@@ -65,7 +72,7 @@ impl fmt::Display for Configuration {
     }
 }
 
-/// The name of a backend on the command line.
+/// The name of a backend in tables, and on the command line of those that are there.
 #[must_use]
 pub fn name(backend: Backend) -> &'static str {
     match backend {
@@ -73,13 +80,17 @@ pub fn name(backend: Backend) -> &'static str {
         Backend::Gpu => gpu::NAME,
         Backend::Cpu => cpu::NAME,
         Backend::Reference => reference::NAME,
+        Backend::LocatedRk4 => reference::name(Method::LocatedRk4),
+        Backend::FixedStep => reference::name(Method::FixedStep),
     }
 }
 
 /// The backend of a name.
 #[must_use]
 pub fn named(text: &str) -> Option<Backend> {
-    [Backend::Gpu, Backend::Cpu, Backend::Reference].into_iter().find(|backend| name(*backend) == text)
+    [Backend::Gpu, Backend::Cpu, Backend::Reference, Backend::LocatedRk4, Backend::FixedStep]
+        .into_iter()
+        .find(|backend| name(*backend) == text)
 }
 
 /// The kinds of scenes of a sweep, on which speed and error depend most: the form of the friction law, and whether

@@ -1,9 +1,10 @@
 //! The cheapest configuration for an error, from what was measured.
 
-use super::configuration::{Configuration, scenes};
+use super::configuration::{Configuration, named, scenes};
 use super::level::Level;
 use super::row::{Row, from_csv, pace};
 use super::trial::Trial;
+use crate::backend::choice::Backend;
 use crate::error::{Error, Result};
 use crate::spec::Spec;
 
@@ -18,18 +19,27 @@ const SHIPPED: &str = include_str!("default.csv");
 /// instances.
 pub const MARGIN: f64 = 2.0;
 
-/// Marks the efficient ones among the rows of each scene: no other is as accurate and as fast.
+/// Whether a row is of a method that is there to be compared with: it is never chosen.
+#[must_use]
+pub fn is_comparison(row: &Row) -> bool {
+    named(&row.backend).is_some_and(Backend::is_comparison)
+}
+
+/// Marks the efficient ones among the rows of each scene that may be chosen: no other is as accurate and as fast.
 pub fn mark(rows: &mut [Row]) {
     let pace = pace(rows.iter());
     let beats = |a: &Row, b: &Row| {
         a.scene == b.scene
+            && !is_comparison(a)
             && a.worst_p95 <= b.worst_p95
             && pace(a) >= pace(b)
             && (a.worst_p95 < b.worst_p95 || pace(a) > pace(b))
     };
     let efficient: Vec<bool> = rows
         .iter()
-        .map(|row| row.worst_p95.is_finite() && !rows.iter().any(|other| beats(other, row)))
+        .map(|row| {
+            row.worst_p95.is_finite() && !is_comparison(row) && !rows.iter().any(|other| beats(other, row))
+        })
         .collect();
     for (row, efficient) in rows.iter_mut().zip(efficient) {
         row.frontier = efficient;
@@ -159,7 +169,8 @@ impl Frontier {
         };
         let scenes = scenes(spec);
         let covered = self.covers(spec);
-        let may_be_taken = |row: &Row| row.configuration().is_some_and(|one| allowed(&one));
+        let may_be_taken =
+            |row: &Row| !is_comparison(row) && row.configuration().is_some_and(|one| allowed(&one));
         let counts = |row: &&Row| !covered || scenes.iter().any(|scene| names(row, scene));
         let rows: Vec<&Row> = self.rows.iter().filter(counts).filter(|row| may_be_taken(row)).collect();
         let candidates = candidates(&rows);

@@ -15,6 +15,7 @@ use crate::backend::solver::Solver;
 use crate::error::{Error, Result};
 use crate::kernel::source::Precision;
 use crate::map::Record;
+use crate::method::Method;
 use crate::outcome::Status;
 use crate::spec::Spec;
 
@@ -34,10 +35,14 @@ const GPU_STEPS: [u32; 6] = [4, 6, 8, 12, 16, 24];
 /// Steps per period of the reference as a sweep runs it.
 const REFERENCE_STEPS: u32 = 12;
 
+/// Steps per period of the methods that are there to be compared with; the source paper's fixed step has 294.
+const COMPARED: [(Method, &[u32]); 2] =
+    [(Method::LocatedRk4, &[12, 20, 40, 80, 160]), (Method::FixedStep, &[12, 20, 40, 80, 160, 294])];
+
 /// Instances that speed is measured on: enough to fill the lanes many times over.
 const TIMED: usize = 1024;
 
-/// Those of the reference, which takes one at a time.
+/// Those of the reference and what is compared with it, which take one at a time.
 const TIMED_REFERENCE: usize = 64;
 
 /// Rounds of which the fastest counts; in each every configuration has its turn, so that none of them meets the other
@@ -129,7 +134,7 @@ pub fn measure(
     for round in 0..ROUNDS {
         for (at, configuration) in configurations.iter().enumerate() {
             let instances = match configuration.backend {
-                Backend::Reference => TIMED_REFERENCE.min(timed.grid.len()),
+                one_by_one if one_by_one.method().is_some() => TIMED_REFERENCE.min(timed.grid.len()),
                 Backend::Gpu if settings.software => TIMED_REFERENCE.min(timed.grid.len()),
                 _ => timed.grid.len(),
             };
@@ -193,6 +198,9 @@ fn configurations(software: bool) -> (Vec<Configuration>, Vec<String>) {
     all.extend(
         both.into_iter().flat_map(|precision| STEPS.map(|steps| Configuration::cpu(precision, steps))),
     );
+    for (method, counts) in COMPARED {
+        all.extend(counts.iter().map(|steps| Configuration::scalar(method, *steps)));
+    }
     let mut left_out = Vec::new();
     for precision in both {
         match Adapter::best(precision, None) {

@@ -6,8 +6,10 @@ use super::fallback::NoGpu;
 use super::gpu::adapter::Adapter;
 use super::gpu::device::{Arithmetic, Device};
 use super::gpu::response;
+use super::reference;
 use crate::error::{Error, Result};
 use crate::kernel::source::Precision;
+use crate::method::Method;
 use crate::spec::Spec;
 
 /// The backend that is asked for.
@@ -22,6 +24,29 @@ pub enum Backend {
     Cpu,
     /// The f64 reference, one instance at a time.
     Reference,
+    /// Runge–Kutta steps in its place, events located: to compare with.
+    LocatedRk4,
+    /// Runge–Kutta steps in its place, events at their ends: to compare with.
+    FixedStep,
+}
+
+impl Backend {
+    /// Whether it is there to be compared with: no accuracy is reached by it that another does not reach faster.
+    #[must_use]
+    pub fn is_comparison(self) -> bool {
+        matches!(self, Backend::LocatedRk4 | Backend::FixedStep)
+    }
+
+    /// The method of those that compute one instance at a time in f64.
+    #[must_use]
+    pub fn method(self) -> Option<Method> {
+        match self {
+            Backend::Reference => Some(Method::Taylor),
+            Backend::LocatedRk4 => Some(Method::LocatedRk4),
+            Backend::FixedStep => Some(Method::FixedStep),
+            Backend::Auto | Backend::Gpu | Backend::Cpu => None,
+        }
+    }
 }
 
 /// How a sweep is to be computed.
@@ -68,8 +93,8 @@ impl<'a> Options<'a> {
 pub enum Engine {
     /// The CPU engine.
     Cpu(Precision),
-    /// The f64 reference.
-    Reference,
+    /// One instance at a time in f64 by this method, that of the reference or one to compare with.
+    Reference(Method),
     /// An open adapter.
     Gpu(Device),
 }
@@ -84,14 +109,15 @@ pub fn choose(options: &Options, spec: &Spec) -> Result<Engine> {
         return Err(Error::EmptyAdapter { name: name.to_owned() });
     }
     let (engine, why) = match options.backend {
-        Backend::Cpu | Backend::Reference => (cpu(options)?, "as asked for".to_owned()),
         Backend::Gpu => gpu(options, spec)?,
         Backend::Auto => auto(options, spec)?,
+        _ => (cpu(options)?, "as asked for".to_owned()),
     };
     if let Some(note) = options.note {
         note(&match &engine {
             Engine::Cpu(precision) => format!("computing on the CPU in {precision}: {why}"),
-            Engine::Reference => format!("computing with the f64 reference: {why}"),
+            Engine::Reference(Method::Taylor) => format!("computing with the f64 reference: {why}"),
+            Engine::Reference(method) => format!("computing by {} in f64: {why}", reference::name(*method)),
             Engine::Gpu(device) => {
                 let strict = if device.strict() { "strict " } else { "" };
                 format!("computing on {} in {strict}{}: {why}", device.describe(), device.precision())
@@ -111,11 +137,11 @@ fn cpu(options: &Options) -> Result<Engine> {
     if options.require_gpu {
         return Err(Error::CpuRequireGpu);
     }
-    if options.backend == Backend::Reference {
+    if let Some(method) = options.backend.method() {
         if options.precision == Some(Precision::F32) {
             return Err(Error::ReferencePrecision);
         }
-        return Ok(Engine::Reference);
+        return Ok(Engine::Reference(method));
     }
     Ok(Engine::Cpu(options.precision.unwrap_or(Precision::F64)))
 }

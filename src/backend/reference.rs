@@ -13,6 +13,7 @@ use crate::error::{Error, Result};
 use crate::kernel::source::Precision;
 use crate::linear::analyse;
 use crate::map::{Computation, Record};
+use crate::method::Method;
 use crate::method::taylor::REFERENCE_ORDER;
 use crate::outcome::Status;
 use crate::response::{Plan, respond};
@@ -27,10 +28,25 @@ pub fn linear(backend: &str) -> Computation {
     in_f64(backend, "closed form of the quartic, polished".to_owned())
 }
 
-/// The response of the reference in a manifest.
+/// The name of a method in tables and manifests; that of the reference's own is [`NAME`].
 #[must_use]
-pub fn response() -> Computation {
-    in_f64(NAME, format!("Taylor series of order {REFERENCE_ORDER}, events located in the step"))
+pub fn name(method: Method) -> &'static str {
+    match method {
+        Method::Taylor => NAME,
+        Method::LocatedRk4 => "located RK4",
+        Method::FixedStep => "fixed step",
+    }
+}
+
+/// The response by a method in a manifest.
+#[must_use]
+pub fn response(method: Method) -> Computation {
+    let in_words = match method {
+        Method::Taylor => format!("Taylor series of order {REFERENCE_ORDER}, events located in the step"),
+        Method::LocatedRk4 => "Runge–Kutta of order 4, events located in the step".to_owned(),
+        Method::FixedStep => "Runge–Kutta of order 4, events at the ends of steps".to_owned(),
+    };
+    in_f64(name(method), in_words)
 }
 
 /// A method of a backend in f64.
@@ -40,7 +56,7 @@ pub fn in_f64(backend: &str, method: String) -> Computation {
     Computation { backend: backend.to_owned(), precision, method, adapter: None, strict: None }
 }
 
-/// Computes the instances `range` of a sweep; `progress` gets the number newly finished. Once `cancel` is set no
+/// Computes the instances `range` of a sweep by a method; `progress` gets the number newly finished. Once `cancel` is set no
 /// instance is begun; those under way are finished.
 ///
 /// # Errors
@@ -48,17 +64,19 @@ pub fn in_f64(backend: &str, method: String) -> Computation {
 pub fn records(
     spec: &Spec,
     range: Range<usize>,
+    method: Method,
     cancel: &AtomicBool,
     progress: &(dyn Fn(usize) + Sync),
 ) -> Result<Computed> {
     let total = range.len();
+    let plan = Plan { method, ..Plan::new(spec) };
     let records: Vec<Record> = range
         .into_par_iter()
         .map(|index| {
             if cancel.load(Ordering::Relaxed) {
                 return Record::NOT_COMPUTED;
             }
-            let record = record(spec, index);
+            let record = record_with(spec, index, &plan);
             progress(1);
             record
         })

@@ -12,6 +12,7 @@ use crate::accuracy::configuration::Configuration;
 use crate::error::{Error, Result};
 use crate::kernel::source::Precision;
 use crate::map::{Computation, Record};
+use crate::method::Method;
 use crate::spec::{Analysis, Spec};
 
 /// What computes a sweep.
@@ -25,7 +26,7 @@ pub struct Solver<'a> {
 #[derive(Debug)]
 enum On {
     Cpu(Precision),
-    Reference,
+    Reference(Method),
     /// The kernels stay compiled.
     Gpu(Session),
 }
@@ -44,7 +45,7 @@ impl<'a> Solver<'a> {
     pub fn new(spec: &'a Spec, options: &'a Options<'a>) -> Result<Solver<'a>> {
         let on = match choose(options, spec)? {
             Engine::Cpu(precision) => On::Cpu(precision),
-            Engine::Reference => On::Reference,
+            Engine::Reference(method) => On::Reference(method),
             Engine::Gpu(device) => On::Gpu(Session::new(device)),
         };
         Ok(Solver { spec, options, on })
@@ -58,7 +59,9 @@ impl<'a> Solver<'a> {
             On::Cpu(precision) => {
                 [reference::linear(cpu::NAME), cpu::response(*precision, self.spec.steps_per_period)]
             }
-            On::Reference => [reference::linear(reference::NAME), reference::response()],
+            On::Reference(method) => {
+                [reference::linear(reference::name(*method)), reference::response(*method)]
+            }
             On::Gpu(session) => {
                 let device = session.device();
                 [gpu::linear::method(), gpu::response::method()].map(|method| Computation {
@@ -98,7 +101,7 @@ impl<'a> Solver<'a> {
         let all = range.clone();
         let mut computed = match &mut self.on {
             On::Cpu(precision) => cpu::records(spec, range, *precision, cancel, progress),
-            On::Reference => reference::records(spec, range, cancel, progress),
+            On::Reference(method) => reference::records(spec, range, *method, cancel, progress),
             On::Gpu(session) => on_gpu(spec, range, session, self.options, progress),
         }?;
         if spec.analysis.checks() && computed.stopped.is_none() {
@@ -112,7 +115,7 @@ impl<'a> Solver<'a> {
         let steps = self.spec.steps_per_period;
         match &self.on {
             On::Cpu(precision) => Configuration::cpu(*precision, steps),
-            On::Reference => Configuration::reference(steps),
+            On::Reference(method) => Configuration::scalar(*method, steps),
             On::Gpu(session) => Configuration {
                 backend: Backend::Gpu,
                 adapter: None,

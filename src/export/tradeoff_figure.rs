@@ -7,6 +7,7 @@ use super::scale::{Scale, value_label};
 use super::svg::{Anchor, Style, Svg};
 use super::text::Text;
 use super::tradeoff::on_gpu;
+use crate::accuracy::frontier::is_comparison;
 use crate::accuracy::measure::Measurement;
 use crate::accuracy::row::{Row, pace};
 
@@ -29,12 +30,14 @@ const BOUNDS: [f64; 3] = [1e-2, 1e-3, 1e-4];
 const NAMED: &str = r##"fill="none" stroke="#999999" stroke-width="0.5" stroke-dasharray="2 2""##;
 
 /// Marks by engine: fill and line.
-const MARKS: [(&str, &str, &str); 5] = [
+const MARKS: [(&str, &str, &str); 7] = [
     ("reference", "f64", r##"fill="#000000""##),
     ("cpu", "f64", r##"fill="#1F3F8F""##),
     ("cpu", "f32", r##"fill="#FFFFFF" stroke="#1F3F8F" stroke-width="0.9""##),
     ("gpu", "f64", r##"fill="#D55E00""##),
     ("gpu", "f32", r##"fill="#FFFFFF" stroke="#D55E00" stroke-width="0.9""##),
+    ("located RK4", "f64", r##"fill="#009E73""##),
+    ("fixed step", "f64", r##"fill="#CC79A7""##),
 ];
 
 /// The figure as an SVG document of single column width.
@@ -51,7 +54,9 @@ pub fn figure(heading: &str, measured: &Measurement) -> String {
     let left = MARGIN + LABEL_SIZE + 6.0 + y_tick_room(&y_ticks);
     for mark in MARKS.iter().filter(|mark| shown.iter().any(|row| is(row, mark))) {
         svg.circle(left + RADIUS, y + LABEL_SIZE - 2.8, RADIUS, mark.2);
-        let words = Text::from(format!("{} {}", mark.0, mark.1));
+        let compared =
+            if shown.iter().any(|row| is(row, mark) && is_comparison(row)) { ", to compare" } else { "" };
+        let words = Text::from(format!("{} {}{compared}", mark.0, mark.1));
         svg.text(left + 8.0, y + LABEL_SIZE, &words, Style::new(LABEL_SIZE, Anchor::Start));
         y += LINE;
     }

@@ -26,6 +26,9 @@ pub const REFERENCE_ORDER: usize = 16;
 /// Coefficients of one polynomial in local time, by degree.
 pub type Series = [f64; MAX_ORDER + 1];
 
+/// Coefficients of all components by degree.
+pub type Coefficients = [[f64; 4]; MAX_ORDER + 1];
+
 /// Components of the positions, velocities and accelerations.
 pub const X2: usize = 0;
 /// See [`X2`].
@@ -83,9 +86,9 @@ pub struct Expansion {
     /// The contact state on which the series holds.
     pub contact: Contact,
     /// Positions by degree `0..=order`; components [`X2`], [`Y2`], [`Y1`].
-    position: [[f64; 4]; MAX_ORDER + 1],
+    position: Coefficients,
     /// Contact by degree; [`TANGENTIAL`] and [`NORMAL`] to `order − 2`, [`RELATIVE`] to `order − 1`.
-    contact_series: [[f64; 4]; MAX_ORDER + 1],
+    contact_series: Coefficients,
 }
 
 impl Expansion {
@@ -107,6 +110,37 @@ impl Expansion {
             Contact::Slip { sigma, piece } => series.slip(model, sigma, piece, belt),
             Contact::Stick => series.stick(model, belt),
             Contact::Free => series.free(model, belt),
+        }
+        series
+    }
+
+    /// The motion of another method: positions by degree, 0 above `order − 2`. The forces on the way are those that such
+    /// a motion takes, `T = ẍ2 + R` and `N = W − κ ẍ2`; none in flight.
+    #[must_use]
+    pub fn from_positions(
+        model: &Scaled,
+        order: usize,
+        position: Coefficients,
+        contact: Contact,
+        belt: BeltMotion,
+    ) -> Self {
+        let mut series = Expansion { order, contact, position, contact_series: [[0.0; 4]; MAX_ORDER + 1] };
+        for k in 0..order {
+            let velocity = (k + 1) as f64 * position[k + 1][X2];
+            let drive = [belt.velocity, belt.acceleration].get(k).copied().unwrap_or_default();
+            series.contact_series[k][RELATIVE] = drive - velocity;
+        }
+        if contact == Contact::Stick {
+            series.contact_series.iter_mut().for_each(|of_degree| of_degree[RELATIVE] = 0.0);
+        }
+        if contact != Contact::Free {
+            for k in 0..=order - 2 {
+                let springs = series.springs(model, k);
+                let (r, w) = if k == 0 { model.contact_loads(springs) } else { (springs.r, springs.w) };
+                let a = ((k + 1) * (k + 2)) as f64 * position[k + 2][X2];
+                series.contact_series[k][TANGENTIAL] = a + r;
+                series.contact_series[k][NORMAL] = w - model.kappa * a;
+            }
         }
         series
     }
@@ -295,7 +329,7 @@ impl FrictionSeries {
     }
 
     /// Computes the coefficient of degree `k` from those of `v` up to `k`.
-    fn extend(&mut self, contact: &[[f64; 4]; MAX_ORDER + 1], k: usize) {
+    fn extend(&mut self, contact: &Coefficients, k: usize) {
         if k > self.degree {
             return;
         }

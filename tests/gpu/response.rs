@@ -11,6 +11,7 @@ use squealmap::kernel::record::write;
 use squealmap::kernel::response::{TOLERANCE, choices, kernel, reductions, segments, words as packed_words};
 use squealmap::kernel::scene::{Law, Scene as Words};
 use squealmap::kernel::source::{Kernel, Precision, SETTING_WORDS, first_word, words};
+use squealmap::method::Method;
 use squealmap::method::taylor::REFERENCE_ORDER;
 use squealmap::model::friction::FrictionLaw;
 use squealmap::model::{Param, Params};
@@ -56,6 +57,7 @@ pub(crate) fn plan(settle: f64, measure: f64) -> Plan {
         settle_limit: None,
         measure: Duration::Periods(measure),
         steps_per_period: 12,
+        method: Method::Taylor,
         order: REFERENCE_ORDER,
         tolerance: STEP_TOLERANCE,
     }

@@ -10,8 +10,10 @@ use squealmap::accuracy::row::{Rate, Row, from_csv, to_csv};
 use squealmap::accuracy::sample::{Sample, subset};
 use squealmap::backend::choice::{Backend, Options};
 use squealmap::classify::{InstabilityType, Regime};
+use squealmap::export::tradeoff::fastest;
 use squealmap::kernel::source::Precision;
 use squealmap::map::Record;
+use squealmap::method::Method;
 use squealmap::outcome::{Outcome, Status};
 use squealmap::spec::Spec;
 
@@ -193,6 +195,29 @@ fn the_fastest_that_keeps_the_bound_is_chosen() {
 }
 
 #[test]
+fn a_method_to_compare_with_is_measured_and_never_chosen() {
+    for method in [Method::LocatedRk4, Method::FixedStep] {
+        let compared = Configuration::scalar(method, 12);
+        let mut with = rows();
+        // Were it allowed, nothing would beat it.
+        with.push(row("pieces, fixed time", &compared, 9000.0, 1e-9));
+        with.push(row("rational, fixed time", &compared, 9000.0, 1e-9));
+        assert_eq!(from_csv(&to_csv(&with).unwrap()).unwrap(), with);
+        assert_eq!(with[6].configuration(), Some(compared));
+        mark(&mut with);
+        let mut without = rows();
+        mark(&mut without);
+        let marks = |rows: &[Row]| rows.iter().map(|row| row.frontier).collect::<Vec<_>>();
+        assert_eq!(marks(&with), [marks(&without), vec![false; 2]].concat());
+        let frontier = Frontier::measured(with.clone(), "here".to_owned());
+        let choice = frontier.choose(Level::Within(1e-3), &law("bilinear"), &|_| true).unwrap();
+        assert_eq!(choice.configuration, Configuration::cpu(Precision::F32, 6));
+        assert!(frontier.choose(Level::Within(1e-7), &law("bilinear"), &|_| true).is_err());
+        assert_eq!(fastest(&with, 1e-3), Some(&with[1]));
+    }
+}
+
+#[test]
 fn with_a_gpu_wall_time_counts_and_without_it_that_of_a_processor() {
     let [few, many] = [4, 6].map(|steps| Configuration::cpu(Precision::F32, steps));
     let gpu = Configuration { backend: Backend::Gpu, adapter: Some("GPU 7".to_owned()), ..few.clone() };
@@ -303,7 +328,15 @@ fn tradeoff_writes_its_files_and_keeps_its_table() {
     assert!(ended.out.contains("standard") && ended.out.contains("settled oscillations"), "{}", ended.out);
     let read = |name: &str| std::fs::read(directory.path().join(name)).unwrap();
     let rows = from_csv(&read("t/tradeoff.csv")).unwrap();
-    assert!(rows.len() >= 31 && rows.iter().any(|row| row.frontier));
+    assert!(rows.len() >= 42 && rows.iter().any(|row| row.frontier));
+    let error = |backend: &str, steps: u32| {
+        let found = rows.iter().find(|row| row.backend == backend && row.steps_per_period == steps);
+        found.expect("a row").worst_p95
+    };
+    // Order 4 against order 1: with many steps the difference is a large one.
+    assert!(error("located RK4", 160) < 1e-4, "{}", error("located RK4", 160));
+    assert!(error("fixed step", 160) > 10.0 * error("located RK4", 160));
+    assert!(error("located RK4", 20) > 10.0 * error("located RK4", 80));
     assert_eq!(from_csv(&read("table.csv")).unwrap(), rows);
     let json: serde_json::Value = serde_json::from_slice(&read("t/tradeoff.json")).unwrap();
     assert_eq!(json["scene"], "pieces, fixed time");
@@ -311,6 +344,7 @@ fn tradeoff_writes_its_files_and_keeps_its_table() {
     assert!(json["truth"]["difference"]["largest"].as_f64().unwrap() < 1e-6);
     let svg = String::from_utf8(read("t/tradeoff.svg")).unwrap();
     assert!(svg.contains("Instances per second") && svg.contains("<circle"));
+    assert!(svg.contains("located RK4 f64, to compare") && svg.contains("fixed step f64, to compare"));
     // The rows of a scene are replaced, those of others stay.
     let mut table = rows.clone();
     table.retain(|row| row.backend == "reference");
@@ -330,7 +364,8 @@ fn tradeoff_refuses_what_it_cannot_judge() {
     assert!(!directory.path().join("t").exists());
     // A table that cannot be written is told before anything is measured.
     std::fs::write(directory.path().join("m.toml"), MAP).unwrap();
-    let ended = squealmap(directory.path(), &["tradeoff", "m.toml", "-o", "t", "--store", "m.toml/table.csv"]);
+    let ended =
+        squealmap(directory.path(), &["tradeoff", "m.toml", "-o", "t", "--store", "m.toml/table.csv"]);
     assert_ne!(ended.code, Some(0));
     assert!(ended.err.contains("m.toml/table.csv"), "{}", ended.err);
     assert!(!directory.path().join("t").exists());

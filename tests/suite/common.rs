@@ -1,6 +1,7 @@
 //! Instances built by hand.
 
 use squealmap::integrate::STEP_TOLERANCE;
+use squealmap::method::Method;
 use squealmap::method::taylor::REFERENCE_ORDER;
 use squealmap::model::friction::FrictionLaw;
 use squealmap::model::{Param, Params};
@@ -37,6 +38,7 @@ pub(crate) fn plan(settle: f64, measure: f64, steps_per_period: u32) -> Plan {
         settle_limit: None,
         measure: Duration::Seconds(measure),
         steps_per_period,
+        method: Method::Taylor,
         order: REFERENCE_ORDER,
         tolerance: STEP_TOLERANCE,
     }

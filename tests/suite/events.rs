@@ -2,6 +2,7 @@
 
 use crate::common::{close, constant, instance, near, paper, plan};
 use squealmap::integrate::{Event, Observer, Step};
+use squealmap::method::Method;
 use squealmap::method::taylor::{BeltMotion, State};
 use squealmap::model::friction::FrictionLaw;
 use squealmap::model::{Param, Params};
@@ -9,11 +10,11 @@ use squealmap::response::{Plan, Scene};
 use squealmap::spec::{Instance, StartKind};
 
 /// Every event with its time (s) and the motion just before it, and the extremes of `x2` (m) at step ends.
-struct Log {
+pub(crate) struct Log {
     unit: squealmap::model::equilibrium::Units,
     x2_eq: f64,
     last: (f64, [f64; 3], [f64; 3]),
-    events: Vec<(f64, Event, [f64; 3], [f64; 3])>,
+    pub(crate) events: Vec<(f64, Event, [f64; 3], [f64; 3])>,
     turning_points: Vec<(f64, f64)>,
 }
 
@@ -40,7 +41,7 @@ impl Observer for Log {
     }
 }
 
-fn log(instance: &Instance, plan: &Plan, seconds: f64) -> Log {
+pub(crate) fn log(instance: &Instance, plan: &Plan, seconds: f64) -> Log {
     let scene = Scene::new(instance, plan.start).expect("an equilibrium");
     let mut integrator = scene.integrator(plan).expect("a start");
     let mut log = Log {
@@ -89,7 +90,7 @@ pub(crate) fn single_mass(law: FrictionLaw, velocity: f64, damping: f64, start: 
 }
 
 /// Times between successive events `event` once the motion is periodic: the last difference.
-fn period(log: &Log, event: Event) -> f64 {
+pub(crate) fn period(log: &Log, event: Event) -> f64 {
     let times: Vec<f64> = log.events.iter().filter(|entry| entry.1 == event).map(|entry| entry.0).collect();
     times[times.len() - 1] - times[times.len() - 2]
 }
@@ -193,6 +194,7 @@ fn free_flight_in_closed_form() {
         // y1 = y2 = 0: the spring is unstretched, one static deflection above the equilibrium.
         let start = State { position: [0.0, 0.0, 1.0], velocity: [0.0, 0.0, u0 / scene.units.velocity] };
         let resolution = squealmap::integrate::Resolution {
+            method: Method::Taylor,
             order: 14,
             nominal_step: std::f64::consts::TAU / 24.0,
             tolerance: 1e-9,

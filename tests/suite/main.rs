@@ -30,6 +30,7 @@ mod killed;
 mod label;
 mod limits;
 mod linear;
+mod methods;
 mod modes_figure;
 mod no_driver;
 mod observables;

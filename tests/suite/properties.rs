@@ -5,6 +5,7 @@ use num_complex::Complex64;
 use proptest::prelude::*;
 use squealmap::integrate::{Observer, Resolution, Step};
 use squealmap::linear::eigenvalues;
+use squealmap::method::Method;
 use squealmap::method::roots::{Crossing, first_crossing};
 use squealmap::method::taylor::{BeltMotion, Expansion, State};
 use squealmap::model::contact::Contact;
@@ -185,7 +186,7 @@ proptest! {
         instance.params.set(Param::Restitution, restitution);
         let scene = Scene::new(&instance, StartKind::Kick).expect("an equilibrium");
         let start = State { position: [0.0; 3], velocity: [0.0, 0.0, kick * scene.model.k2.sqrt()] };
-        let resolution = Resolution { order: 16, nominal_step: 0.5, tolerance: 1e-11 };
+        let resolution = Resolution { method: Method::Taylor, order: 16, nominal_step: 0.5, tolerance: 1e-11 };
         let belt = scene.belt(0.0);
         let mut integrator =
             squealmap::integrate::Integrator::new(&scene.model, resolution, start, belt).expect("a start");
@@ -207,7 +208,7 @@ proptest! {
         instance.params.set(Param::BeltVelocity, 0.0);
         let Ok(scene) = Scene::new(&instance, StartKind::Kick) else { return Ok(()) };
         let start = State { position: [0.0; 3], velocity: [kick, 0.0, 0.3 * kick] };
-        let resolution = Resolution { order: 16, nominal_step: 0.5, tolerance: 1e-11 };
+        let resolution = Resolution { method: Method::Taylor, order: 16, nominal_step: 0.5, tolerance: 1e-11 };
         let belt = BeltMotion { velocity: 0.0, acceleration: 0.0 };
         let Ok(mut integrator) = squealmap::integrate::Integrator::new(&scene.model, resolution, start, belt) else {
             return Ok(());
@@ -254,14 +255,16 @@ proptest! {
             measure: squealmap::spec::Duration::Periods(10.0),
             ..plan(0.0, 1.0, 12)
         };
-        let outcome = respond(&instance, &plan);
         let requested = 20.0 * squealmap::model::equilibrium::Units::new(&instance.params).period();
-        if outcome.status == Status::Ok {
-            prop_assert!((outcome.simulated_time / requested - 1.0).abs() < 1e-12);
-            prop_assert!(outcome.x2_std.is_some_and(f64::is_finite));
-        } else {
-            prop_assert!(outcome.status != Status::Unwritten);
-            prop_assert!(outcome.simulated_time < requested);
+        for method in [Method::Taylor, Method::LocatedRk4, Method::FixedStep] {
+            let outcome = respond(&instance, &Plan { method, ..plan });
+            if outcome.status == Status::Ok {
+                prop_assert!((outcome.simulated_time / requested - 1.0).abs() < 1e-12);
+                prop_assert!(outcome.x2_std.is_some_and(f64::is_finite));
+            } else {
+                prop_assert!(outcome.status != Status::Unwritten);
+                prop_assert!(outcome.simulated_time < requested);
+            }
         }
     }
 }

@@ -14,8 +14,9 @@ use proptest::prelude::*;
 use proptest::test_runner::{Config, TestError, TestRunner};
 use squealmap::backend::reference;
 use squealmap::linear::Linear;
+use squealmap::method::Method;
 use squealmap::outcome::{Outcome, Status};
-use squealmap::response::{Plan, Scene};
+use squealmap::response::{Plan, Scene, respond};
 use squealmap::spec::Spec;
 
 use crate::engines::Engine;
@@ -124,6 +125,11 @@ fn no_engine_is_at_a_loss() {
             let outcome = engine.run(&spec.instance(0), &plan);
             if let Some(defect) = defect(&outcome) {
                 return Err(TestCaseError::fail(format!("{}: {defect}", engine.name())));
+            }
+        }
+        for method in [Method::LocatedRk4, Method::FixedStep] {
+            if let Some(defect) = defect(&respond(&spec.instance(0), &Plan { method, ..plan })) {
+                return Err(TestCaseError::fail(format!("{method:?}: {defect}")));
             }
         }
         Ok(())
