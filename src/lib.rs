@@ -11,6 +11,7 @@
 //! | eigenvalues and attribution | [`linear`] |
 //! | one step, events inside it | [`method`] |
 //! | one instance from start to outcome | [`integrate`], [`observe`], [`response`], [`settle`], [`outcome`] |
+//! | one instance from several starts: bistability, basins | [`starts`] |
 //! | the twins of the compute kernels | [`kernel`] |
 //! | many instances in vector registers | [`simd`] |
 //! | many instances | [`backend`], [`sweep`], [`estimate`] |
@@ -76,6 +77,7 @@ pub mod signals;
 pub mod simd;
 pub mod spec;
 mod start;
+pub mod starts;
 pub mod store;
 pub mod sweep;
 pub mod trace;

@@ -3,6 +3,8 @@
 mod accuracy;
 mod arrays;
 mod bad_input;
+mod bistable;
+mod bistable_files;
 mod checks;
 mod claims;
 mod cli;
