@@ -12,6 +12,7 @@
 //! | one step, events inside it | [`method`] |
 //! | one instance from start to outcome | [`integrate`], [`observe`], [`response`], [`settle`], [`outcome`] |
 //! | one instance from several starts: bistability, basins | [`starts`] |
+//! | a cycle followed while a parameter rises and falls | [`hysteresis`] |
 //! | the twins of the compute kernels | [`kernel`] |
 //! | many instances in vector registers | [`simd`] |
 //! | many instances | [`backend`], [`sweep`], [`estimate`] |
@@ -58,6 +59,7 @@ pub mod estimate;
 pub mod export;
 pub mod fit;
 pub mod grid;
+pub mod hysteresis;
 pub mod identify;
 pub mod integrate;
 pub mod kernel;

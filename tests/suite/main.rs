@@ -19,6 +19,7 @@ mod fastest;
 mod figure;
 mod fit;
 mod fuzz;
+mod hysteresis;
 mod identify;
 mod instances;
 #[cfg(unix)]

@@ -114,6 +114,11 @@ fn basin_counts_every_start() {
 }
 
 #[test]
+fn hysteresis_runs() {
+    run(read("hysteresis"));
+}
+
+#[test]
 fn temperature_map_runs_from_stable_to_unstable() {
     let map = run(thin(read("temperature_map")));
     for (index, record) in map.records.iter().enumerate() {
