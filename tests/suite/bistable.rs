@@ -2,13 +2,16 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+
 use crate::common::close;
 use crate::synthetic::record;
+use squealmap::Error;
 use squealmap::backend::choice::{Backend, Options};
 use squealmap::backend::solver::Solver;
 use squealmap::classify::{InstabilityType, Regime};
 use squealmap::kernel::source::Precision;
-use squealmap::map::Record;
+use squealmap::map::{Record, Stopped};
 use squealmap::outcome::{Outcome, Status};
 use squealmap::spec::Spec;
 use squealmap::starts::{Attractor, Basin, differ};
@@ -252,4 +255,32 @@ fn the_default_large_start_finds_the_cycle_below_the_critical_friction() {
         close("frequency", outcome.response_frequency.unwrap(), 34.09, 1e-3);
         close("peak", outcome.ax_peak.unwrap(), 800.0, 0.02);
     }
+}
+
+/// A run that is stopped keeps the instances that have come to the last of their starts, and says nothing of the others.
+#[test]
+fn a_cancelled_sweep_keeps_what_has_all_starts() {
+    let boxed = "[start]\nkind = \"box\"\nbox_samples = 5000\nbox_displacement_from = -2.5\nbox_displacement_to = 1.5\n\
+        box_velocity_from = 0\nbox_velocity_to = 2\n[response]\nsettle = \"2 periods\"\nmeasure = \"2 periods\"\ncheck = false\n";
+    let spec = exponential("0.7, 1.5, 2.5, 1.3", boxed);
+    let (cancel, done) = (AtomicBool::new(false), AtomicUsize::new(0));
+    let options = Options { cancel: Some(&cancel), ..engines()[1] };
+    let stop = |newly: usize| {
+        let now = done.fetch_add(newly, Ordering::Relaxed) + newly;
+        cancel.store(now >= 2, Ordering::Relaxed);
+    };
+    let computed = Solver::new(&spec, &options).unwrap().records(0..4, &stop).unwrap();
+    assert_eq!(computed.stopped, Some(Stopped::Cancelled));
+    let whole = run(&spec, &engines()[1]);
+    let expected = [&whole[0], &whole[1], &Record::NOT_COMPUTED, &Record::NOT_COMPUTED];
+    assert!(computed.records.iter().eq(expected), "{:?}", computed.records);
+    // Both starts of instances that are taken at a time: none is done.
+    let both = exponential(
+        "0.7, 1.5",
+        "[start]\nkind = \"both\"\n[response]\nsettle = \"2 periods\"\nmeasure = \"2 periods\"\n",
+    );
+    cancel.store(false, Ordering::Relaxed);
+    let ended =
+        Solver::new(&both, &options).unwrap().records(0..2, &|_| cancel.store(true, Ordering::Relaxed));
+    assert!(matches!(ended, Err(Error::Cancelled { done: 0, total: 2 })), "{ended:?}");
 }
