@@ -11,7 +11,8 @@ use crate::map::{Computation, Map, Provenance, Record, Stopped};
 use crate::model::Params;
 use crate::model::friction::LawKind;
 use crate::outcome::Status;
-use crate::spec::{Analysis, Duration, STEPS_PER_PERIOD, Spec, StartKind};
+use crate::spec::{Analysis, Duration, Pass, STEPS_PER_PERIOD, Spec, StartKind};
+use crate::starts;
 
 /// The files of a map that are read.
 const FILES: [&str; 2] = ["manifest.json", "map.csv"];
@@ -123,6 +124,7 @@ fn spec(manifest: &Json, table: &Table) -> std::result::Result<Spec, String> {
             response: asked("response"),
             until_settled: resolved.get("response").is_some_and(|response| response["settle"] == "auto"),
             checked: resolved.get("response").is_some_and(|response| response["check"] == true),
+            starts: starts::from_json(&manifest["spec"]["start"]),
         },
         base: Params::default(),
         impact_friction: true,
@@ -132,6 +134,7 @@ fn spec(manifest: &Json, table: &Table) -> std::result::Result<Spec, String> {
         table: None,
         grid,
         start: StartKind::Kick,
+        pass: Pass::Own,
         settle: Duration::Seconds(0.0),
         settle_limit: None,
         measure: Duration::Seconds(0.0),
@@ -184,15 +187,21 @@ fn records(table: &Table) -> std::result::Result<Vec<Record>, String> {
             status,
             kind: InstabilityType::ALL.into_iter().find(|kind| kind.name() == cell("type")),
             regime: Regime::ALL.into_iter().find(|regime| regime.name() == cell("regime")),
-            settled: match cell("settled") {
-                "0" => Some(false),
-                "1" => Some(true),
-                _ => None,
-            },
+            settled: flag(cell("settled")),
+            bistable: flag(cell("bistable")),
             ..Record::default()
         })
     };
     table.rows.iter().map(record).collect()
+}
+
+/// A column of yes and no.
+fn flag(cell: &str) -> Option<bool> {
+    match cell {
+        "0" => Some(false),
+        "1" => Some(true),
+        _ => None,
+    }
 }
 
 fn computation(value: &Json) -> Option<Computation> {

@@ -115,11 +115,20 @@ pub struct Thresholds {
     pub small_growth: f64,
     /// Settled: standard deviation of `x2` and rms of `ÿ1` of the two halves agree within this fraction.
     pub settled: f64,
+    /// Two oscillations from two starts are two cycles: standard deviation of `x2` or rms of `ÿ1` apart by more than this
+    /// fraction of the larger. Well above what settled halves may differ by, and below the steps between branches.
+    pub apart: f64,
 }
 
 /// The thresholds in use.
-pub const THRESHOLDS: Thresholds =
-    Thresholds { state_counts: 1e-3, decay: 0.99, small_speed: 0.01, small_growth: 1.01, settled: 0.01 };
+pub const THRESHOLDS: Thresholds = Thresholds {
+    state_counts: 1e-3,
+    decay: 0.99,
+    small_speed: 0.01,
+    small_growth: 1.01,
+    settled: 0.01,
+    apart: 0.05,
+};
 
 /// The regime of a completed outcome at the belt velocity `belt_velocity` (m/s), and whether it is settled.
 ///

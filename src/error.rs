@@ -233,6 +233,15 @@ pub enum Error {
         /// Its highest temperature, °C.
         high: f64,
     },
+    /// A motion that is to be followed in steps while its belt moves by a ramp.
+    #[error(
+        "`--sweep-up-down` holds the belt at every value, but this instance has a ramp, `ramp_duration` = {duration} s; \
+         take the ramp out of [belt]"
+    )]
+    FollowsRamp {
+        /// Its duration, s.
+        duration: f64,
+    },
     /// A part of an `--at` argument that is not `name=value`, or names something twice.
     #[error("{at}: `{part}` {problem}; write name=value pairs such as mu_s=0.4,belt_velocity=3")]
     AtSyntax {
@@ -720,6 +729,7 @@ impl Error {
             | Error::Archive { .. }
             | Error::NoSuchQuantity { .. }
             | Error::PaperRamp { .. }
+            | Error::FollowsRamp { .. }
             | Error::OutputDirectory { .. }
             | Error::NoTiles { .. }
             | Error::BadDescription { .. }

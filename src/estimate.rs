@@ -52,8 +52,10 @@ pub fn estimate(spec: &Spec) -> Estimate {
             let copies: Vec<Instance> = std::iter::repeat_n(instance, COPIES).collect();
             let start = Instant::now();
             let outcomes = outcomes::<f64>(&copies, &plan, &AtomicBool::new(false));
-            time += start.elapsed().mul_f64(1.0 / (share * COPIES as f64));
-            steps += outcomes.map_or(0.0, |outcomes| outcomes[0].steps as f64 / share);
+            // Other starts cost about as much as the small one.
+            let starts = spec.analysis.starts.count() as f64;
+            time += start.elapsed().mul_f64(starts / (share * COPIES as f64));
+            steps += outcomes.map_or(0.0, |outcomes| starts * outcomes[0].steps as f64 / share);
         }
         sampled += 1;
     }

@@ -9,15 +9,17 @@ use crate::classify::{InstabilityType, Regime};
 use crate::map::Record;
 use crate::outcome::Status;
 
-/// Status, type, regime and whether it is settled.
+/// Status, type, regime, whether it is settled and whether it is bistable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Label(u16);
 
-/// Bits of a part of a label: four of them, three of the others, two of `settled`.
+/// Bits of a part of a label: four of them, two of `settled` and `bistable`.
 const KIND: u32 = 4;
 const REGIME: u32 = 8;
 const SETTLED: u32 = 12;
+const BISTABLE: u32 = 14;
 const PART: u16 = 0xf;
+const FLAG: u16 = 0x3;
 
 impl Label {
     /// The label of an instance that a stopped run did not come to.
@@ -57,13 +59,23 @@ impl Label {
     /// Whether the regime is settled, where there is one.
     #[must_use]
     pub fn settled(self) -> Option<bool> {
-        self.part(SETTLED).checked_sub(1).map(|flag| flag == 1)
+        self.flag(SETTLED)
+    }
+
+    /// Whether several starts ended differently, where that is known.
+    #[must_use]
+    pub fn bistable(self) -> Option<bool> {
+        self.flag(BISTABLE)
     }
 
     /// The label without whether it is settled: instances that differ in nothing else belong to one region of a map.
     #[must_use]
     pub fn class(self) -> Label {
-        Label(self.0 & !(PART << SETTLED))
+        Label(self.0 & !(FLAG << SETTLED))
+    }
+
+    fn flag(self, shift: u32) -> Option<bool> {
+        ((self.0 >> shift) & FLAG).checked_sub(1).map(|flag| flag == 1)
     }
 
     fn part(self, shift: u32) -> usize {
@@ -77,12 +89,13 @@ impl From<&Record> for Label {
         let position = |found: Option<usize>| found.map_or(0, |position| position as u16 + 1);
         let kind = record.kind.and_then(|kind| InstabilityType::ALL.iter().position(|one| *one == kind));
         let regime = record.regime.and_then(|regime| Regime::ALL.iter().position(|one| *one == regime));
-        let settled = record.settled.map(usize::from);
+        let [settled, bistable] = [record.settled, record.bistable].map(|flag| flag.map(usize::from));
         Label(
             record.status as u16
                 | position(kind) << KIND
                 | position(regime) << REGIME
-                | position(settled) << SETTLED,
+                | position(settled) << SETTLED
+                | position(bistable) << BISTABLE,
         )
     }
 }
@@ -95,6 +108,7 @@ impl From<Label> for Record {
             kind: label.kind(),
             regime: label.regime(),
             settled: label.settled(),
+            bistable: label.bistable(),
             ..Record::default()
         }
     }
@@ -116,9 +130,11 @@ impl Tally {
             *self.counts.entry(Label::from(&run[0])).or_default() += run.len();
         }
         for record in records {
-            self.checks.add(record);
-            if let Some(impacts) = record.outcome.and_then(|outcome| outcome.energy_gaining_impacts) {
-                *self.energy_gaining_impacts.get_or_insert(0) += impacts;
+            for start in std::iter::once(record).chain(record.large()) {
+                self.checks.add(start);
+                if let Some(impacts) = start.outcome.and_then(|outcome| outcome.energy_gaining_impacts) {
+                    *self.energy_gaining_impacts.get_or_insert(0) += impacts;
+                }
             }
         }
     }

@@ -11,6 +11,8 @@
 //! | eigenvalues and attribution | [`linear`] |
 //! | one step, events inside it | [`method`] |
 //! | one instance from start to outcome | [`integrate`], [`observe`], [`response`], [`settle`], [`outcome`] |
+//! | one instance from several starts: bistability, basins | [`starts`] |
+//! | a cycle followed while a parameter rises and falls | [`hysteresis`] |
 //! | the twins of the compute kernels | [`kernel`] |
 //! | many instances in vector registers | [`simd`] |
 //! | many instances | [`backend`], [`sweep`], [`estimate`] |
@@ -57,6 +59,7 @@ pub mod estimate;
 pub mod export;
 pub mod fit;
 pub mod grid;
+pub mod hysteresis;
 pub mod identify;
 pub mod integrate;
 pub mod kernel;
@@ -76,6 +79,7 @@ pub mod signals;
 pub mod simd;
 pub mod spec;
 mod start;
+pub mod starts;
 pub mod store;
 pub mod sweep;
 pub mod trace;

@@ -11,9 +11,10 @@ use crate::error::{Error, Result};
 use crate::linear::Linear;
 use crate::outcome::{Outcome, Status};
 use crate::spec::Spec;
+use crate::starts::{Basin, Others};
 
 /// What was computed of one instance.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Record {
     /// How it ended.
     pub status: Status,
@@ -29,6 +30,10 @@ pub struct Record {
     pub outcome: Option<Outcome>,
     /// What a check found, where the instance was checked.
     pub check: Option<Check>,
+    /// Whether several starts ended differently; `None` where there is one, or some have not settled.
+    pub bistable: Option<bool>,
+    /// What other starts gave, where there are any.
+    pub others: Option<Others>,
 }
 
 impl Record {
@@ -41,7 +46,27 @@ impl Record {
         settled: None,
         outcome: None,
         check: None,
+        bistable: None,
+        others: None,
     };
+
+    /// The record of the large start, where there is one.
+    #[must_use]
+    pub fn large(&self) -> Option<&Record> {
+        match &self.others {
+            Some(Others::Large(record)) => Some(record),
+            _ => None,
+        }
+    }
+
+    /// What the starts of a box gave, where there are any.
+    #[must_use]
+    pub fn basin(&self) -> Option<Basin> {
+        match &self.others {
+            Some(Others::Basin(basin)) => Some(*basin),
+            _ => None,
+        }
+    }
 }
 
 /// Why a run stopped before its end.

@@ -194,6 +194,12 @@ impl Scene {
         self.start
     }
 
+    /// The same from another start.
+    #[must_use]
+    pub fn started(self, start: State) -> Scene {
+        Scene { start, ..self }
+    }
+
     /// Starts the integration.
     ///
     /// # Errors
@@ -257,22 +263,25 @@ impl Scene {
 /// Integrates one instance.
 #[must_use]
 pub fn respond(instance: &Instance, plan: &Plan) -> Outcome {
-    let scene = match Scene::planned(instance, plan, f64::EPSILON) {
-        Ok(scene) => scene,
-        Err(status) => return Outcome { status, ..Outcome::default() },
-    };
+    match Scene::planned(instance, plan, f64::EPSILON) {
+        Ok(scene) => respond_in(&scene, instance, plan).0,
+        Err(status) => Outcome { status, ..Outcome::default() },
+    }
+}
+
+/// Integrates one instance from the start of its scene; gives the state at the end too, where it came to its end.
+#[must_use]
+pub fn respond_in(scene: &Scene, instance: &Instance, plan: &Plan) -> (Outcome, Option<State>) {
     let mut integrator = match scene.integrator(plan) {
         Ok(integrator) => integrator,
-        Err(status) => return Outcome { status, ..Outcome::default() },
+        Err(status) => return (Outcome { status, ..Outcome::default() }, None),
     };
-    match measure(&scene, &mut integrator, plan, Settling::new(instance, &scene, plan)) {
-        Ok(outcome) => outcome,
-        Err(status) => Outcome {
-            status,
-            simulated_time: scene.seconds(integrator.time(), plan),
-            steps: integrator.steps(),
-            ..Outcome::default()
-        },
+    match measure(scene, &mut integrator, plan, Settling::new(instance, scene, plan)) {
+        Ok(outcome) => (outcome, Some(integrator.state())),
+        Err(status) => {
+            let (simulated_time, steps) = (scene.seconds(integrator.time(), plan), integrator.steps());
+            (Outcome { status, simulated_time, steps, ..Outcome::default() }, None)
+        }
     }
 }
 

@@ -13,6 +13,7 @@ mod read;
 mod resolved;
 mod rows;
 mod sections;
+mod start;
 mod varied;
 
 pub(crate) use resolved::resolved_grid;
@@ -61,6 +62,8 @@ pub struct Analysis {
     pub until_settled: bool,
     /// A few instances are computed again, to measure the error of the others.
     pub checked: bool,
+    /// The starts of the time integration.
+    pub starts: Starts,
 }
 
 impl Analysis {
@@ -69,6 +72,40 @@ impl Analysis {
     pub fn checks(self) -> bool {
         self.response && self.checked
     }
+}
+
+/// How many starts every instance has.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Starts {
+    /// One, as [`StartKind`] says.
+    #[default]
+    One,
+    /// Two: the kick, and a large start with `large_velocity` and `large_displacement`.
+    Both,
+    /// The kick, and so many starts drawn from a box of displacements and velocities.
+    Box(u32),
+}
+
+impl Starts {
+    /// How many transients every instance has.
+    #[must_use]
+    pub fn count(self) -> usize {
+        match self {
+            Starts::One => 1,
+            Starts::Both => 2,
+            Starts::Box(samples) => 1 + samples as usize,
+        }
+    }
+}
+
+/// Which of its starts an instance is computed from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Pass {
+    /// The one of [`StartKind`].
+    #[default]
+    Own,
+    /// The large one of [`Starts::Both`].
+    Large,
 }
 
 /// How the transient starts; amplitudes are instance parameters.
@@ -114,6 +151,8 @@ pub struct Spec {
     pub grid: Grid,
     /// How transients start.
     pub start: StartKind,
+    /// Which of several starts [`Spec::instance`] gives.
+    pub pass: Pass,
     /// Time before the measuring window, or before the first of a run until settled.
     pub settle: Duration,
     /// The latest start of a window in a run until settled (`settle = "auto"`).

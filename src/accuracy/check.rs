@@ -155,5 +155,5 @@ fn judge_one(record: &Record, truth: &Record, by: By) -> Record {
     let taken = by == By::Fine && (is_near(record) || is_near(truth));
     let error = is_settled_oscillation(truth).then(|| worst(record, truth));
     let check = Check { by, taken, changed: label(record) != label(truth), error };
-    Record { check: Some(check), ..if taken { *truth } else { *record } }
+    Record { check: Some(check), ..if taken { truth } else { record }.clone() }
 }

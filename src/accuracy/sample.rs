@@ -13,7 +13,7 @@ use crate::grid::Grid;
 use crate::kernel::source::Precision;
 use crate::label::Label;
 use crate::map::Record;
-use crate::spec::{Analysis, Spec};
+use crate::spec::{Analysis, Spec, Starts};
 
 /// Candidates for each instance of the sample: what is rarer than one in so many may be missed.
 const CANDIDATES: usize = 16;
@@ -100,7 +100,7 @@ fn shares(strata: &[(usize, bool)], size: usize) -> Vec<usize> {
     strata.iter().map(|one| given(*one)).collect()
 }
 
-/// The sweep of some of a sweep's instances, which are not checked.
+/// The sweep of some of a sweep's instances, which are not checked and have one start each, the sweep's own.
 #[must_use]
 pub fn subset(spec: &Spec, indices: &[usize]) -> Spec {
     let row = |index: &usize| spec.grid.coordinates(*index).into_iter().cloned().collect();
@@ -108,7 +108,7 @@ pub fn subset(spec: &Spec, indices: &[usize]) -> Spec {
     // Field by field: a grid of many values is not copied for a few of its instances.
     Spec {
         title: spec.title.clone(),
-        analysis: Analysis { checked: false, ..spec.analysis },
+        analysis: Analysis { checked: false, starts: Starts::One, ..spec.analysis },
         base: spec.base,
         impact_friction: spec.impact_friction,
         law: spec.law,
@@ -117,6 +117,7 @@ pub fn subset(spec: &Spec, indices: &[usize]) -> Spec {
         table: spec.table.clone(),
         grid,
         start: spec.start,
+        pass: spec.pass,
         settle: spec.settle,
         settle_limit: spec.settle_limit,
         measure: spec.measure,

@@ -14,6 +14,7 @@ mod fallback;
 pub mod gpu;
 pub mod reference;
 pub mod solver;
+mod starts;
 
 use crate::classify::{self, InstabilityType, Regime};
 use crate::linear;
@@ -37,7 +38,7 @@ pub fn regime(instance: &Instance, kind: Option<InstabilityType>, outcome: &Outc
 }
 
 /// The record of an instance before any analysis: `ok`, or why it has no equilibrium or none in numbers.
-fn begun(instance: &Instance) -> Record {
+pub(crate) fn begun(instance: &Instance) -> Record {
     let status = match Equilibrium::new(instance) {
         Err(status) => status,
         Ok(_) if matches!(linear::prepare(instance), Err(None)) => Status::NonFinite,
@@ -47,7 +48,12 @@ fn begun(instance: &Instance) -> Record {
 }
 
 /// Puts a response into the record of its instance.
-fn take_response(record: &mut Record, instance: &Instance, kind: Option<InstabilityType>, outcome: &Outcome) {
+pub(crate) fn take_response(
+    record: &mut Record,
+    instance: &Instance,
+    kind: Option<InstabilityType>,
+    outcome: &Outcome,
+) {
     record.status = outcome.status;
     if outcome.status == Status::Ok {
         let (regime, settled) = regime(instance, kind, outcome);

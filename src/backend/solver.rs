@@ -6,14 +6,20 @@ use std::ops::Range;
 use super::choice::{Backend, Engine, Options, choose};
 use super::computed::Computed;
 use super::gpu::chunks::Session;
-use super::{cpu, gpu, reference};
+use super::{cpu, gpu, reference, starts};
 use crate::accuracy::check::check;
 use crate::accuracy::configuration::Configuration;
 use crate::error::{Error, Result};
 use crate::kernel::source::Precision;
 use crate::map::{Computation, Record};
 use crate::method::Method;
-use crate::spec::{Analysis, Spec};
+use crate::spec::{Analysis, Spec, Starts};
+
+/// Starts that a CPU takes at a time of instances with several, enough for many cores.
+const BLOCK: usize = 8192;
+
+/// The least that a GPU takes, which takes a range at once.
+const GPU_BLOCK: usize = 65_536;
 
 /// What computes a sweep.
 pub struct Solver<'a> {
@@ -92,6 +98,23 @@ impl<'a> Solver<'a> {
     /// # Errors
     /// Those of [`Solver::records`].
     pub fn records_of(
+        &mut self,
+        spec: &Spec,
+        range: Range<usize>,
+        progress: &(dyn Fn(usize) + Sync),
+    ) -> Result<Computed> {
+        if spec.analysis.starts == Starts::One {
+            return self.once(spec, range, progress);
+        }
+        let block = if let On::Gpu(_) = &self.on { range.len().max(GPU_BLOCK) } else { BLOCK };
+        let mut once = |spec: &Spec, range: Range<usize>, progress: &(dyn Fn(usize) + Sync)| {
+            self.once(spec, range, progress)
+        };
+        starts::records(spec, range, block, &mut once, progress)
+    }
+
+    /// The records of instances with one start each.
+    fn once(
         &mut self,
         spec: &Spec,
         range: Range<usize>,

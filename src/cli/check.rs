@@ -7,7 +7,7 @@ use clap::Args;
 use squealmap::Result;
 use squealmap::estimate::estimate;
 use squealmap::grid::{Axis, AxisKey, Grid, Value};
-use squealmap::spec::{Spec, StartKind};
+use squealmap::spec::{Spec, StartKind, Starts};
 use squealmap::store::space::{MOST_ROWS, Need, bytes};
 use squealmap::store::tiling::{TILE, Tiling};
 
@@ -50,6 +50,11 @@ fn describe(spec: &Spec) -> String {
         let start = match spec.start {
             StartKind::Kick => "a kick at the sliding equilibrium",
             StartKind::Mode => "the most unstable mode",
+        };
+        let start = match spec.analysis.starts {
+            Starts::One => start.to_owned(),
+            Starts::Both => format!("{start} and from a large start"),
+            Starts::Box(samples) => format!("{start} and from {samples} start(s) of a box"),
         };
         let _ = writeln!(
             text,

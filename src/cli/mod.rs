@@ -6,6 +6,7 @@ mod check;
 mod export;
 mod fit;
 mod frontier;
+mod hysteresis;
 mod identify;
 mod merge;
 mod modes;

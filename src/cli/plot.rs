@@ -103,12 +103,7 @@ impl Plot {
 /// What a name asks for.
 fn content<'a>(archive: &'a Archive, name: &str, hatched: bool) -> Result<Content<'a>> {
     let asked = archive.map.spec.analysis;
-    let class = match name {
-        "type" if asked.linear => Some(Colouring::Type),
-        "regime" if asked.response => Some(Colouring::Regime),
-        _ => None,
-    };
-    if let Some(colouring) = class {
+    if let Some(colouring) = Colouring::of(asked).find(|colouring| colouring.name() == name) {
         return Ok(Content::classes(colouring, hatched));
     }
     let column = ALIASES.iter().find(|(alias, _)| *alias == name).map_or(name, |(_, column)| column);
@@ -119,9 +114,13 @@ fn content<'a>(archive: &'a Archive, name: &str, hatched: bool) -> Result<Conten
 
 /// Everything that can be shown.
 fn names(columns: &[NumberColumn], asked: squealmap::spec::Analysis) -> String {
-    let classes = [("type", asked.linear), ("regime", asked.response)];
-    let classes = classes.into_iter().filter_map(|(name, asked)| asked.then_some(name));
-    classes.chain(columns.iter().map(|column| column.name.as_str())).collect::<Vec<_>>().join(", ")
+    let mut names: Vec<&str> = Colouring::of(asked).map(Colouring::name).collect();
+    for column in columns.iter().map(|column| column.name.as_str()) {
+        if !names.contains(&column) {
+            names.push(column);
+        }
+    }
+    names.join(", ")
 }
 
 /// The names of journals.

@@ -15,7 +15,7 @@ use squealmap::export::sheet::Sheet;
 use squealmap::kernel::source::Precision;
 use squealmap::map::Record;
 use squealmap::refine::{Refined, Settings, planes_of, refine};
-use squealmap::spec::Spec;
+use squealmap::spec::{Spec, Starts};
 
 use crate::cli::output::{Output, list};
 use crate::cli::run::{BackendName, PrecisionName, stop_at_ctrl_c};
@@ -56,6 +56,10 @@ impl RefineCommand {
         let mut spec = Spec::read(&self.files.sweep)?;
         // Checks are drawn by the place in a sweep, and what is computed here has another: no columns of theirs either.
         spec.analysis.checked = false;
+        // So are the starts of a box; two starts are the same at any place, and their verdicts have lines too.
+        if let Starts::Box(_) = spec.analysis.starts {
+            spec.analysis.starts = Starts::One;
+        }
         planes_of(&spec.grid)?;
         let output = Output::prepare(self.files.directory(), &FILES)?;
         let settings =
@@ -74,7 +78,9 @@ impl RefineCommand {
         let mut rows = MapCsv::new(sheet, Vec::new())?;
         let mut done = 0;
         let refined = refine(&spec.grid, settings, &mut |instances| {
-            let computed = solver.records_of(&subset(&spec, instances), 0..instances.len(), &|_| ())?;
+            let mut part = subset(&spec, instances);
+            part.analysis.starts = spec.analysis.starts;
+            let computed = solver.records_of(&part, 0..instances.len(), &|_| ())?;
             if let Some(why) = computed.stopped {
                 return Err(why.error(done, spec.grid.len()));
             }

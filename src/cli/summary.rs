@@ -5,7 +5,7 @@ use std::fmt::Write;
 use squealmap::classify::{InstabilityType, Regime};
 use squealmap::label::{Label, Tally};
 use squealmap::outcome::Status;
-use squealmap::spec::Analysis;
+use squealmap::spec::{Analysis, Starts};
 
 /// What stands where an analysis gave nothing.
 const NONE: &str = "-";
@@ -36,6 +36,16 @@ pub(crate) fn summary(analysis: Analysis, tally: &Tally) -> String {
     let unsettled = tally.count(|label| label.settled() == Some(false));
     if unsettled > 0 {
         let _ = writeln!(text, "\n{unsettled} of {} instances had not settled", tally.computed());
+    }
+    if analysis.starts != Starts::One {
+        let verdict = |wanted: Option<bool>| count(&|label| label.bistable() == wanted);
+        let _ = writeln!(
+            text,
+            "\n{} of {} instances are bistable: starts end differently ({} without a verdict)",
+            verdict(Some(true)),
+            tally.computed(),
+            verdict(None)
+        );
     }
     let checks = tally.checks().summary();
     if !checks.is_empty() {

@@ -12,6 +12,7 @@ use squealmap::spec::Spec;
 use squealmap::trace::trace;
 use squealmap::{Result, linear};
 
+use crate::cli::hysteresis::{self, Range};
 use crate::cli::output::{Output, list};
 use crate::cli::{Files, print};
 
@@ -34,21 +35,27 @@ pub(crate) struct TraceCommand {
     /// Also write signals.csv, evenly sampled with this rate, which `identify` reads
     #[arg(long, value_name = "HZ", value_parser = clap::value_parser!(u32).range(1..))]
     rate: Option<u32>,
+    /// Follow the motion while this parameter rises and falls in steps, each from the state in which the one before
+    /// ended: hysteresis.csv and its figure instead of the trace
+    #[arg(long, value_name = "NAME=FROM..TO", value_parser = Range::parse, conflicts_with_all = ["rate", "samples_per_period"])]
+    sweep_up_down: Option<Range>,
+    /// Values of `--sweep-up-down`, 2 to 10000
+    #[arg(long, value_name = "N", default_value_t = 41, requires = "sweep_up_down", value_parser = clap::value_parser!(u32).range(2..=10_000))]
+    points: u32,
 }
 
 impl TraceCommand {
     pub(crate) fn execute(self) -> Result<()> {
         let spec = Spec::read(&self.files.sweep)?;
+        if let Some(range) = &self.sweep_up_down {
+            return hysteresis::execute(&spec, self.files.directory(), &self.at, range, self.points);
+        }
         let instance = spec.instance_at(&self.at)?;
         let names: &[&str] =
             if self.rate.is_some() { &[FILES[0], FILES[1], FILES[2], SIGNALS] } else { &FILES };
         let output = Output::prepare(self.files.directory(), names)?;
         let trace = trace(&spec, &instance, self.samples_per_period);
-        let title = match (spec.title.as_str(), self.at.as_str()) {
-            (title, "") => title.to_owned(),
-            ("", at) => at.replace(',', ", "),
-            (title, at) => format!("{title}: {}", at.replace(',', ", ")),
-        };
+        let title = title(&spec, &self.at);
         let svg = export::trace_svg(&trace, &title)?;
         let mut files = vec![
             (FILES[0], export::trace_csv(&trace)?),
@@ -81,5 +88,14 @@ impl TraceCommand {
             list(&paths)
         ));
         Ok(())
+    }
+}
+
+/// The title of a sweep with what was asked for.
+pub(crate) fn title(spec: &Spec, at: &str) -> String {
+    match (spec.title.as_str(), at) {
+        (title, "") => title.to_owned(),
+        ("", at) => at.replace(',', ", "),
+        (title, at) => format!("{title}: {}", at.replace(',', ", ")),
     }
 }

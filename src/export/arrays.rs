@@ -98,7 +98,7 @@ impl Arrays {
                 name: column.name,
                 unit: unit(column.unit),
                 meaning: column.meaning,
-                kind: kind(column.name),
+                kind: kind(column.quantity()),
                 column,
             })
             .collect();
@@ -125,12 +125,14 @@ impl Variable {
     }
 
     fn code(&self, record: &Record) -> i8 {
+        let record = self.column.of(record);
         let label = Label::from(record);
         let after = |place: Option<usize>| place.map_or(0, |place| small(place + 1));
-        match self.name {
+        match self.column.quantity() {
             "type" => after(label.kind_position()),
             "regime" => after(label.regime_position()),
             "settled" => label.settled().map_or(-1, i8::from),
+            "bistable" => label.bistable().map_or(-1, i8::from),
             _ => small(record.status as usize),
         }
     }
@@ -154,7 +156,7 @@ fn kind(name: &str) -> Kind {
     match name {
         "type" => numbered(&mut InstabilityType::ALL.iter().map(|kind| kind.name())),
         "regime" => numbered(&mut Regime::ALL.iter().map(|regime| regime.name())),
-        "settled" => Kind::Codes([(-1, "undefined"), (0, "no"), (1, "yes")].map(named).to_vec()),
+        "settled" | "bistable" => Kind::Codes([(-1, "undefined"), (0, "no"), (1, "yes")].map(named).to_vec()),
         "status" => {
             let codes = Status::IN_MAP.map(|status| named((small(status as usize), status.name())));
             Kind::Codes(codes.to_vec())

@@ -12,6 +12,7 @@ use super::svg::{Anchor, Style, Svg};
 use super::text::Text;
 use crate::grid::Grid;
 use crate::label::Tally;
+use crate::spec::Starts;
 
 /// Between panels of a row, points.
 const GAP_ACROSS: f64 = 7.0;
@@ -51,6 +52,8 @@ pub(super) struct Block<'a> {
     pub(super) tally: &'a Tally,
     pub(super) panels: &'a Panels,
     pub(super) content: Content<'a>,
+    /// The starts of every instance.
+    pub(super) starts: Starts,
     /// How many blocks the figure stacks.
     pub(super) blocks: usize,
     /// `(a)` before the heading, when there are several blocks.
@@ -70,7 +73,7 @@ impl Block<'_> {
         }
         heading.bold = false;
         let name = match self.content {
-            Content::Classes { colouring, .. } => Text::from(colouring.heading()),
+            Content::Classes { colouring, .. } => Text::from(colouring.heading(self.starts)),
             Content::Quantity(quantity) => quantity::heading(quantity),
         };
         svg.text(words, y + LABEL_SIZE, &name, heading);

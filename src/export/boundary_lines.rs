@@ -72,12 +72,10 @@ impl Lines {
         [x, y]: [&PictureAxis; 2],
         label: impl Fn(Vertex) -> Label,
     ) -> Result<()> {
-        let asked = [(Colouring::Type, self.analysis.linear), (Colouring::Regime, self.analysis.response)];
-        for (colouring, _) in asked.into_iter().filter(|(_, asked)| *asked) {
+        for colouring in Colouring::of(self.analysis) {
             let class = |cell: Vertex| colouring.class(label(cell));
-            let name = if colouring == Colouring::Type { "type" } else { "regime" };
             let mut row = |x: String, y: String| {
-                self.table.row([number.to_string(), name.to_owned(), x, y].into_iter())
+                self.table.row([number.to_string(), colouring.name().to_owned(), x, y].into_iter())
             };
             for line in borders(x.len(), y.len(), |a, b| class(a) != class(b)) {
                 for (i, j) in line {

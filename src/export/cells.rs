@@ -147,7 +147,7 @@ fn draw_cells(
     };
     let limit = |a: Vertex, b: Vertex| {
         let sides = [label(a.0, a.1).kind(), label(b.0, b.1).kind()].map(|kind| kind.map(is_stable));
-        colouring == Colouring::Regime && matches!(sides, [Some(one), Some(other)] if one != other)
+        colouring != Colouring::Type && matches!(sides, [Some(one), Some(other)] if one != other)
     };
     // Where a run stopped is no border between classes.
     let known = |a: Vertex, b: Vertex| !blank(a.0, a.1) && !blank(b.0, b.1);

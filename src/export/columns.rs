@@ -4,7 +4,8 @@ use crate::accuracy::check::{By, Check};
 use crate::classify::{InstabilityType, Regime};
 use crate::grid::{AxisKey, Grid, Value};
 use crate::map::Record;
-use crate::spec::Analysis;
+use crate::spec::{Analysis, Starts};
+use crate::starts::Basin;
 
 /// The content of one cell.
 #[derive(Clone, Debug, PartialEq)]
@@ -76,6 +77,10 @@ pub enum Group {
     Settling,
     /// Instances computed again.
     Checks,
+    /// Several starts.
+    Starts,
+    /// Starts from a box.
+    Basin,
 }
 
 impl Group {
@@ -86,6 +91,8 @@ impl Group {
             Group::Response => analysis.response,
             Group::Settling => analysis.until_settled,
             Group::Checks => analysis.checks(),
+            Group::Starts => analysis.starts != Starts::One,
+            Group::Basin => matches!(analysis.starts, Starts::Box(_)),
         }
     }
 }
@@ -97,6 +104,8 @@ enum Source {
     /// The swept value with this position in [`Grid::keys`].
     Swept(usize),
     Record(fn(&Record) -> Cell),
+    /// The same of the record of the large start.
+    Large(fn(&Record) -> Cell),
 }
 
 /// One output column.
@@ -117,7 +126,26 @@ impl Column {
     /// Whether its values are computed: neither the index nor swept.
     #[must_use]
     pub fn is_computed(&self) -> bool {
-        matches!(self.source, Source::Record(_))
+        matches!(self.source, Source::Record(_) | Source::Large(_))
+    }
+
+    /// The record that its values are read from, and its name there: both are others in a column of the large start.
+    #[must_use]
+    pub fn of<'a>(&self, record: &'a Record) -> &'a Record {
+        static NOTHING: Record = Record::NOT_COMPUTED;
+        match self.source {
+            Source::Large(_) => record.large().unwrap_or(&NOTHING),
+            _ => record,
+        }
+    }
+
+    /// The name of the same quantity of an only start.
+    #[must_use]
+    pub fn quantity(&self) -> &'static str {
+        match self.source {
+            Source::Large(_) => self.name.strip_suffix(LARGE_SUFFIX).unwrap_or(self.name),
+            _ => self.name,
+        }
     }
 
     /// The cell of instance `index` with its swept values, see [`Grid::coordinates`], and its record.
@@ -126,7 +154,7 @@ impl Column {
         match self.source {
             Source::Instance => Cell::Count(index as u64),
             Source::Swept(position) => Cell::from(coordinates[position]),
-            Source::Record(get) => get(record),
+            Source::Record(get) | Source::Large(get) => get(self.of(record)),
         }
     }
 }
@@ -149,15 +177,34 @@ pub fn columns(grid: &Grid, analysis: Analysis) -> Vec<Column> {
         };
         Column { name: key.name(), unit, meaning, group: Group::Always, source: Source::Swept(position) }
     });
-    let computed = COMPUTED.iter().copied().filter(|column| column.group.asked(analysis));
-    std::iter::once(instance).chain(swept).chain(computed).collect()
+    let asked = |column: &Column| column.group.asked(analysis);
+    let computed = COMPUTED.iter().copied().filter(asked);
+    let of_large = |column: &Column| {
+        analysis.starts == Starts::Both
+            && !matches!(column.group, Group::Linear | Group::Starts)
+            && asked(column)
+    };
+    let large = LARGE.iter().copied().filter(of_large);
+    std::iter::once(instance).chain(swept).chain(computed).chain(large).collect()
 }
+
+/// What the names of columns of the large start end in.
+const LARGE_SUFFIX: &str = "_large";
 
 macro_rules! computed {
     ($($group:ident $name:literal $unit:literal $get:expr, $meaning:literal;)*) => {
         /// What is computed of an instance, in the order of `map.csv`.
         const COMPUTED: &[Column] = &[$(Column {
             name: $name, unit: $unit, meaning: $meaning, group: Group::$group, source: Source::Record($get),
+        }),*];
+
+        /// The same of the large start; what concerns both is left out.
+        const LARGE: &[Column] = &[$(Column {
+            name: concat!($name, "_large"),
+            unit: $unit,
+            meaning: concat!("from the large start: ", $meaning),
+            group: Group::$group,
+            source: Source::Large($get),
         }),*];
     };
 }
@@ -169,6 +216,16 @@ fn checked(check: Check) -> u64 {
         Check { taken: true, .. } => 2,
         Check { taken: false, .. } => 1,
     }
+}
+
+/// A yes or no.
+fn flag(value: Option<bool>) -> Cell {
+    value.map_or(Cell::Empty, |flag| Cell::Count(u64::from(flag)))
+}
+
+/// The fraction of the starts of a box that a count of them is.
+fn fraction(record: &Record, count: fn(&Basin) -> u32) -> Cell {
+    Cell::from(record.basin().and_then(|basin| basin.fraction(count(&basin))))
 }
 
 /// A number of the eigenvalue analysis.
@@ -212,11 +269,15 @@ computed! {
     Response "free" "" response!(free), "fraction of the window in free flight";
     Response "reverse" "" response!(reverse), "fraction of the window in reversed slip";
     Response "impacts_per_second" "1/s" response!(impacts_per_second), "impacts per second, counting every bounce down to a rebound of 1e-6 ω0 F_ext/k2";
-    Response "settled" "" |r| r.settled.map_or(Cell::Empty, |flag| Cell::Count(u64::from(flag))), "1 when the two halves of the window agree (until settled: when the windows do), else 0";
+    Response "settled" "" |r| flag(r.settled), "1 when the two halves of the window agree (until settled: when the windows do), else 0";
     Settling "settling_time" "s" response!(settling_time), "start of the last window of a run until settled";
     Checks "checked" "" |r| r.check.map_or(Cell::Empty, |check| Cell::Count(checked(check))), "1: computed again in f64 with fine steps; 2: the same, and near a border between labels, so that the row is that result; 3: computed again by the reference; else empty";
     Checks "check_error" "" |r| Cell::from(r.check.and_then(|check| check.error)), "worst relative error of x2_std, ax_rms, ay_rms and response_frequency against that, of a settled oscillation";
     Response "simulated_time" "s" |r| Cell::from(r.outcome.map(|outcome| outcome.simulated_time)), "simulated time";
     Response "steps" "" |r| r.outcome.map_or(Cell::Empty, |outcome| Cell::Count(outcome.steps)), "steps taken, those ended by an event included";
+    Starts "bistable" "" |r| flag(r.bistable), "1 where starts end differently: in sliding, in an oscillation, stuck, or (small and large) in oscillations with amplitudes more than 5 % apart; empty where one has not settled";
+    Basin "basin_equilibrium" "" |r| fraction(r, |basin| basin.equilibrium), "fraction p of the starts in the box that end in a stable sliding equilibrium; its standard error is sqrt(p (1 - p)/box_samples)";
+    Basin "basin_oscillation" "" |r| fraction(r, |basin| basin.oscillation), "fraction p of the starts in the box that end in a settled oscillation; its standard error is sqrt(p (1 - p)/box_samples)";
+    Basin "basin_other" "" |r| fraction(r, |basin| basin.other), "fraction of the starts in the box that end stuck, have not settled or have no response";
     Always "status" "" |r| Cell::text(Some(r.status.name())), "how the instance ended; not_computed: the run was stopped before it";
 }

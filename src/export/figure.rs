@@ -39,14 +39,10 @@ pub fn map_svg(map: &Map) -> Result<String> {
     look_svg(map, &Look::default())
 }
 
-/// Both classes, as far as they were computed.
+/// All classes, as far as they were computed.
 #[must_use]
 pub fn computed(analysis: Analysis, hatched: bool) -> Vec<Content<'static>> {
-    [(Colouring::Type, analysis.linear), (Colouring::Regime, analysis.response)]
-        .into_iter()
-        .filter(|(_, asked)| *asked)
-        .map(|(colouring, _)| Content::classes(colouring, hatched))
-        .collect()
+    Colouring::of(analysis).map(|colouring| Content::classes(colouring, hatched)).collect()
 }
 
 /// A map as an SVG document with this look.
@@ -123,7 +119,8 @@ fn draw(sheet: Sheet, panels: &Panels, tally: &Tally, look: &Look<'_>) -> String
     for (number, content) in contents.iter().enumerate() {
         let letter = (contents.len() > 1).then(|| LETTERS[number % LETTERS.len()]);
         let blocks = if beside { 1 } else { contents.len() };
-        let block = Block { grid: sheet.grid, tally, panels, content: *content, blocks, letter };
+        let starts = sheet.analysis.starts;
+        let block = Block { grid: sheet.grid, tally, panels, content: *content, starts, blocks, letter };
         if beside {
             let x = MARGIN + number as f64 * (across + BLOCK_GAP);
             tallest = tallest.max(block.draw(&mut svg, x, y, across));

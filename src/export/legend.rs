@@ -71,7 +71,7 @@ impl Legend {
             entries.push((Swatch::NotComputed, Text::from(format!("not computed {}", share(missing)))));
         }
         let stable = |wanted| tally.count(|label| label.kind().map(is_stable) == Some(wanted)) > 0;
-        if colouring == Colouring::Regime && cells && stable(true) && stable(false) {
+        if colouring != Colouring::Type && cells && stable(true) && stable(false) {
             entries.push((Swatch::Limit, Text::from("limit of linear stability")));
         }
         Legend(entries)

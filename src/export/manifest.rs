@@ -13,7 +13,7 @@ use crate::error::{Error, Result};
 use crate::label::{Label, Tally};
 use crate::map::Map;
 use crate::outcome::Status;
-use crate::spec::Analysis;
+use crate::spec::{Analysis, Starts};
 
 /// The crate's version.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
@@ -110,6 +110,13 @@ fn counts(analysis: Analysis, tally: &Tally) -> Value {
         let regimes = Regime::ALL.map(|regime| (regime.name(), count(&|one| one.regime() == Some(regime))));
         result.insert("regime".to_owned(), occurring(&regimes));
         result.insert("unsettled".to_owned(), json!(count(&|one| one.settled() == Some(false))));
+    }
+    if analysis.starts != Starts::One {
+        let computed = |one: Label| one.status() != Status::NotComputed;
+        let verdict = |wanted: Option<bool>| count(&|one| computed(one) && one.bistable() == wanted);
+        let verdicts =
+            json!({ "yes": verdict(Some(true)), "no": verdict(Some(false)), "no_verdict": verdict(None) });
+        result.insert("bistable".to_owned(), verdicts);
     }
     let statuses = Status::IN_MAP.map(|status| (status.name(), count(&|one| one.status() == status)));
     result.insert("status".to_owned(), occurring(&statuses));

@@ -3,8 +3,8 @@
 //! [`sheet`] is what an export says of a sweep beside its records; [`columns`] is the one table of output columns;
 //! [`csv`], [`manifest`] and [`figure`] write `map.csv`, `manifest.json` and `map.svg`; [`png`] and [`pdf`] draw any of
 //! the figures, [`look`] says at which width and what of a map, [`boundary_lines`] gives its lines as a table.
-//! [`zarr`] and [`netcdf`] write the labelled [`arrays`] of a sweep, part by part. [`modes`] and [`trace`] serve the
-//! commands of the same names, [`tradeoff`] speed against error, [`identify`] and [`signals`] to and from measured
+//! [`zarr`] and [`netcdf`] write the labelled [`arrays`] of a sweep, part by part. [`modes`], [`trace`] and
+//! [`hysteresis`] serve the commands `modes` and `trace`, [`tradeoff`] speed against error, [`identify`] and [`signals`] to and from measured
 //! signals, [`paper`] the figures of the source paper.
 
 pub mod arrays;
@@ -16,6 +16,8 @@ pub mod columns;
 pub mod csv;
 pub mod figure;
 mod frame;
+pub mod hysteresis;
+mod hysteresis_figure;
 pub mod identify;
 mod identify_figure;
 mod key;

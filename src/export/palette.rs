@@ -5,6 +5,7 @@
 //! those of the sets of Okabe & Ito and of Tol, moved to evenly spaced lightness.
 
 use crate::label::Label;
+use crate::spec::{Analysis, Starts};
 
 /// How one class is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,6 +42,13 @@ pub const REGIMES: [Class; 7] = [
     Class { name: "stuck", label: "stuck", fill: "#0A0A0A", dark: true },
 ];
 
+/// Whether several starts end differently.
+pub const BISTABILITY: [Class; 3] = [
+    Class { name: "monostable", label: "one attractor", fill: "#F2F2EE", dark: false },
+    Class { name: "no_verdict", label: "no verdict", fill: "#A9B4BA", dark: false },
+    Class { name: "bistable", label: "bistable", fill: "#A5480F", dark: true },
+];
+
 /// What a block of panels colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Colouring {
@@ -48,24 +56,51 @@ pub enum Colouring {
     Type,
     /// By [`Regime`](crate::classify::Regime).
     Regime,
+    /// By whether several starts end differently.
+    Bistability,
 }
 
 impl Colouring {
-    /// The heading of the block.
+    /// What of an analysis is coloured, in the order of figures.
+    pub fn of(analysis: Analysis) -> impl Iterator<Item = Colouring> {
+        let asked = [
+            (Colouring::Type, analysis.linear),
+            (Colouring::Regime, analysis.response),
+            (Colouring::Bistability, analysis.starts != Starts::One),
+        ];
+        asked.into_iter().filter_map(|(colouring, asked)| asked.then_some(colouring))
+    }
+
+    /// The name of its column in `map.csv`.
     #[must_use]
-    pub fn heading(self) -> &'static str {
+    pub fn name(self) -> &'static str {
+        match self {
+            Colouring::Type => "type",
+            Colouring::Regime => "regime",
+            Colouring::Bistability => "bistable",
+        }
+    }
+
+    /// The heading of the block, for instances with these starts.
+    #[must_use]
+    pub fn heading(self, starts: Starts) -> &'static str {
         match self {
             Colouring::Type => "Type of instability (complex eigenvalues)",
+            Colouring::Regime if starts != Starts::One => {
+                "Regime of the response to the small start (time integration)"
+            }
             Colouring::Regime => "Regime of the response (time integration)",
+            Colouring::Bistability => "Bistability: starts that end differently",
         }
     }
 
     /// Its classes.
     #[must_use]
-    pub fn classes(self) -> &'static [Class; 7] {
+    pub fn classes(self) -> &'static [Class] {
         match self {
             Colouring::Type => &TYPES,
             Colouring::Regime => &REGIMES,
+            Colouring::Bistability => &BISTABILITY,
         }
     }
 
@@ -75,6 +110,10 @@ impl Colouring {
         match self {
             Colouring::Type => label.kind_position(),
             Colouring::Regime => label.regime_position(),
+            Colouring::Bistability => match label.bistable() {
+                Some(bistable) => Some(if bistable { 2 } else { 0 }),
+                None => label.regime().map(|_| 1),
+            },
         }
     }
 }

@@ -4,8 +4,9 @@ use crate::error::{Error, Place, Result};
 use crate::grid::{AxisKey, Grid, Value};
 use crate::model::friction::LawKind;
 use crate::model::{Param, Params};
-use crate::spec::check::{MATERIAL_LAWS, covered, start_reader, unused, used_by_laws};
+use crate::spec::check::{MATERIAL_LAWS, covered, unused, used_by_laws};
 use crate::spec::names::{advice, list};
+use crate::spec::start::Kind;
 use crate::spec::varied::FIXED;
 use crate::spec::{Instance, Spec, law};
 
@@ -180,7 +181,7 @@ impl At<'_> {
                 AxisKey::Param(Param::Temperature) => {
                     self.material.is_none().then(|| "a `material`".to_owned())
                 }
-                AxisKey::Param(param) => start_reader(spec.start, *param, by_event).map(str::to_owned),
+                AxisKey::Param(param) => Kind::of(spec).reader(*param, by_event).map(str::to_owned),
                 AxisKey::Material => (self.law == LawKind::Table).then(|| used_by_laws(&MATERIAL_LAWS)),
                 AxisKey::Law => None,
             };

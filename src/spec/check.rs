@@ -8,11 +8,11 @@ use crate::model::friction::LawKind;
 use crate::model::material::Material;
 use crate::model::{Param, Section};
 use crate::place::Source;
-use crate::spec::StartKind;
 use crate::spec::files::Files;
 use crate::spec::law::{self, LAW_PARAMS};
 use crate::spec::names::list;
 use crate::spec::sections::Sections;
+use crate::spec::start::{AMPLITUDES, BOUNDS, Kind};
 use crate::spec::varied::Varied;
 
 /// The laws that a material serves.
@@ -126,14 +126,22 @@ impl Check<'_> {
 
     fn start_has_effect(&self) -> Result<()> {
         let by_event = self.param(Param::StartEventFraction).is_some();
-        for param in STARTS {
-            if let (Some((at, key)), Some(user)) =
-                (self.param(param), start_reader(self.sections.start, param, by_event))
-            {
+        let kind = self.sections.start;
+        for param in AMPLITUDES {
+            if let (Some((at, key)), Some(user)) = (self.param(param), kind.reader(param, by_event)) {
                 return Err(unused(at, key, user.to_owned()));
             }
         }
-        Ok(())
+        if kind != Kind::Box
+            && let Some(given) = self.sections.find("box_samples")
+        {
+            let at = self.sweep.place(given.span.clone());
+            return Err(unused(at, given.label(), "kind = \"box\" in [start]".to_owned()));
+        }
+        let unbound = BOUNDS.into_iter().find(|bound| kind == Kind::Box && self.param(*bound).is_none());
+        unbound.map_or(Ok(()), |bound| {
+            Err(self.missing(bound, "kind = \"box\" in [start] draws starts between its bounds".to_owned()))
+        })
     }
 
     /// A ramp has an end and a duration.
@@ -275,26 +283,6 @@ impl Check<'_> {
         };
         let span = self.sections.find("temperature").map_or(0..0, |given| given.span.clone());
         covered(material, &Value::Number(temperature), || self.sweep.place(span.clone()))
-    }
-}
-
-/// The amplitudes of starts.
-const STARTS: [Param; 4] =
-    [Param::StartVelocity, Param::StartDisplacement, Param::StartFraction, Param::StartEventFraction];
-
-/// What would read an amplitude that a start does not read; `by_event` when `start_event_fraction` is given.
-pub(super) fn start_reader(start: StartKind, param: Param, by_event: bool) -> Option<&'static str> {
-    match (start, param) {
-        (StartKind::Kick, Param::StartFraction | Param::StartEventFraction) => {
-            Some("kind = \"mode\" in [start]")
-        }
-        (StartKind::Mode, Param::StartVelocity | Param::StartDisplacement) => {
-            Some("kind = \"kick\" in [start]")
-        }
-        (StartKind::Mode, Param::StartFraction) if by_event => {
-            Some("a mode start without `start_event_fraction`")
-        }
-        _ => None,
     }
 }
 

@@ -7,6 +7,7 @@ use crate::model::friction::LawKind;
 use crate::model::material::Material;
 use crate::model::{Param, Params};
 use crate::spec::{Instance, Spec, law};
+use crate::starts;
 
 impl Spec {
     /// Instance `index` of the grid, material resolved at the instance's temperature.
@@ -27,6 +28,7 @@ impl Spec {
                 _ => {}
             }
         }
+        starts::place(self.pass, &mut params);
         self.assemble(params, kind, material)
     }
 

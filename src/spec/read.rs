@@ -13,7 +13,9 @@ use crate::spec::document::{entries, string};
 use crate::spec::files::Files;
 use crate::spec::sections::{Sections, TOP_LEVEL, section_of, unknown_key};
 use crate::spec::varied::Varied;
-use crate::spec::{AUTO_MEASURE, Analysis, Duration, FIRST_SETTLE, MEASURE, SETTLE, SETTLE_LIMIT, Spec};
+use crate::spec::{
+    AUTO_MEASURE, Analysis, Duration, FIRST_SETTLE, MEASURE, Pass, SETTLE, SETTLE_LIMIT, Spec, Starts,
+};
 
 impl Spec {
     /// Reads and validates a sweep file; files that it names are relative to its directory.
@@ -78,12 +80,14 @@ fn assemble(sections: Sections, varied: Varied, files: Files) -> Spec {
         (false, true) => (FIRST_SETTLE, AUTO_MEASURE),
         (false, false) => (SETTLE, MEASURE),
     };
+    let starts = sections.starts();
     let limit = sections.settle_limit.map_or(SETTLE_LIMIT, |(limit, _)| limit);
     Spec {
         title: sections.title,
         analysis: Analysis {
             until_settled: auto && sections.analysis.response,
             checked: sections.check && sections.analysis.response,
+            starts: if sections.analysis.response { starts } else { Starts::One },
             ..sections.analysis
         },
         base: sections.base,
@@ -93,7 +97,8 @@ fn assemble(sections: Sections, varied: Varied, files: Files) -> Spec {
         materials: files.materials,
         table: files.table,
         grid: varied.grid,
-        start: sections.start,
+        start: sections.start.transient(),
+        pass: Pass::Own,
         settle: sections.settle.unwrap_or(settle),
         settle_limit: auto.then_some(limit),
         measure: sections.measure.unwrap_or(measure),

@@ -5,7 +5,8 @@ use serde_json::{Map, Value as Json, json};
 use crate::grid::{AxisKey, Grid, Value};
 use crate::model::material::{Material, Outside};
 use crate::model::{PARAMS, Section};
-use crate::spec::{Spec, StartKind};
+use crate::spec::start::{AMPLITUDES, Kind};
+use crate::spec::{Spec, Starts};
 
 impl Spec {
     /// The sweep with the section names of a sweep file and all defaults written out.
@@ -31,21 +32,15 @@ impl Spec {
         let (key, grid) = resolved_grid(&self.grid);
         spec.insert(key.to_owned(), grid);
         let mut start = self.section(Section::Start);
-        let kind = match self.start {
-            StartKind::Kick => {
-                start.remove("start_fraction");
-                "kick"
-            }
-            StartKind::Mode => {
-                start.remove("start_velocity");
-                start.remove("start_displacement");
-                if start.contains_key("start_event_fraction") {
-                    start.remove("start_fraction");
-                }
-                "mode"
-            }
-        };
-        start.insert("kind".to_owned(), json!(kind));
+        let kind = Kind::of(self);
+        let by_event = start.contains_key("start_event_fraction");
+        for param in AMPLITUDES.into_iter().filter(|param| kind.reader(*param, by_event).is_some()) {
+            start.remove(param.info().name);
+        }
+        start.insert("kind".to_owned(), json!(kind.name()));
+        if let Starts::Box(samples) = self.analysis.starts {
+            start.insert("box_samples".to_owned(), json!(samples));
+        }
         spec.insert("start".to_owned(), Json::Object(start));
         spec.insert("response".to_owned(), self.response());
         Json::Object(spec)

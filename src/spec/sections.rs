@@ -11,7 +11,8 @@ use crate::spec::document::{Entry, Node, array, boolean, choice, entries, intege
 use crate::spec::duration::duration;
 use crate::spec::law;
 use crate::spec::names::unknown;
-use crate::spec::{Analysis, Duration, STEPS_PER_PERIOD, StartKind};
+use crate::spec::start::{BOX_SAMPLES, Kind, SAMPLES_RANGE};
+use crate::spec::{Analysis, Duration, STEPS_PER_PERIOD, Starts};
 
 /// Fewest and most steps per period that may be asked for.
 const STEPS_RANGE: (usize, usize) = (3, 100_000);
@@ -44,7 +45,9 @@ pub(super) struct Sections {
     pub(super) table: Option<FileName>,
     pub(super) material: Option<FileName>,
     pub(super) outside: Outside,
-    pub(super) start: StartKind,
+    pub(super) start: Kind,
+    /// Starts drawn from a box.
+    pub(super) box_samples: u32,
     pub(super) settle: Option<Duration>,
     /// Where `settle = "auto"` stands.
     pub(super) auto: Option<Range<usize>>,
@@ -63,14 +66,21 @@ impl Default for Sections {
     fn default() -> Self {
         Sections {
             title: String::new(),
-            analysis: Analysis { linear: true, response: true, until_settled: false, checked: false },
+            analysis: Analysis {
+                linear: true,
+                response: true,
+                until_settled: false,
+                checked: false,
+                starts: Starts::One,
+            },
             base: Params::default(),
             impact_friction: true,
             law: LawKind::Bilinear,
             table: None,
             material: None,
             outside: Outside::Error,
-            start: StartKind::Kick,
+            start: Kind::Kick,
+            box_samples: BOX_SAMPLES,
             settle: None,
             auto: None,
             settle_limit: None,
@@ -85,6 +95,11 @@ impl Default for Sections {
 }
 
 impl Sections {
+    /// The starts of every instance.
+    pub(super) fn starts(&self) -> Starts {
+        self.start.starts(self.box_samples)
+    }
+
     /// Where a key of a section stands, if it does.
     pub(super) fn find(&self, name: &str) -> Option<&Given> {
         self.given.iter().find(|given| given.name == name)
@@ -102,7 +117,7 @@ impl Sections {
             return Ok(());
         }
         let names = array(source, entry.node, "`analysis`", "an array of \"linear\" and \"response\"")?;
-        self.analysis = Analysis { linear: false, response: false, until_settled: false, checked: false };
+        (self.analysis.linear, self.analysis.response) = (false, false);
         for name in names {
             let choices = [("linear", false), ("response", true)];
             let response = choice(source, name, "an element of `analysis`", "analysis", &choices)?;
@@ -163,9 +178,13 @@ impl Sections {
                 special = Some("outside");
             }
             (Section::Start, "kind") => {
-                let choices = [("kick", StartKind::Kick), ("mode", StartKind::Mode)];
-                self.start = choice(source, node, &label, "start", &choices)?;
+                self.start = choice(source, node, &label, "start", &Kind::ALL)?;
                 special = Some("kind");
+            }
+            (Section::Start, "box_samples") => {
+                let samples = integer(source, node, &label, SAMPLES_RANGE.0, SAMPLES_RANGE.1)?;
+                self.box_samples = u32::try_from(samples).expect("the range of samples fits u32");
+                special = Some("box_samples");
             }
             _ => {}
         }
@@ -219,7 +238,7 @@ fn keys(section: Section) -> Vec<&'static str> {
         Section::Model => &["impact_friction"],
         Section::Friction => &["law", "table", "material", "outside"],
         Section::Belt => &[],
-        Section::Start => &["kind"],
+        Section::Start => &["kind", "box_samples"],
     };
     let numeric = PARAMS.iter().filter(|row| row.section == section).map(|row| row.name);
     special.iter().copied().chain(numeric).collect()

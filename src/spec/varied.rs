@@ -14,11 +14,12 @@ use crate::spec::sections::law_value;
 use crate::spec::{MAX_INSTANCES, MAX_VALUES};
 
 /// Keys of a sweep file that cannot vary.
-pub(super) const FIXED: [&str; 10] = [
+pub(super) const FIXED: [&str; 11] = [
     "impact_friction",
     "table",
     "outside",
     "kind",
+    "box_samples",
     "settle",
     "settle_limit",
     "measure",

@@ -121,6 +121,8 @@ pub fn decode(bytes: &[u8], count: usize, analysis: Analysis) -> Option<Vec<Reco
             settled: has(HAS_SETTLED).then(|| has(SETTLED)),
             outcome,
             check: check(flags, error(row)),
+            bistable: None,
+            others: None,
         })
     };
     (0..count).map(record).collect()

@@ -11,7 +11,8 @@ use crate::accuracy::frontier::Chosen;
 use crate::export::sheet::Sheet;
 use crate::grid::Grid;
 use crate::map::Computation;
-use crate::spec::{Analysis, Spec};
+use crate::spec::{Analysis, Spec, Starts};
+use crate::starts;
 
 /// The version of the format.
 const FORMAT: u32 = 1;
@@ -112,7 +113,8 @@ impl Description {
         let [linear, response] = computations.each_ref().map(Option::is_some);
         let until_settled = response && physics["response"]["settle"] == "auto";
         let checked = response && physics["response"]["check"] == true;
-        let analysis = Analysis { linear, response, until_settled, checked };
+        let starts = if response { starts::from_json(&physics["start"]) } else { Starts::One };
+        let analysis = Analysis { linear, response, until_settled, checked, starts };
         let tiling = Tiling { instances: grid.len(), tile: document.tile };
         let resolved = resolved(&document.title, physics, &grid);
         Ok(Description {

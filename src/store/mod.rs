@@ -8,7 +8,7 @@
 //!
 //! - [`tiling`]: how a sweep is cut.
 //! - [`identity`], [`grid_json`]: which sweep, program and engine, as one hash.
-//! - [`columns`], [`tile`]: records as bytes, with header and checksum.
+//! - [`columns`], [`starts`], [`tile`]: records as bytes, with header and checksum.
 //! - [`description`](mod@description): the file `tiles/sweep.json`.
 //! - [`claim`]: one process at a time writes a file.
 //! - [`directory`]: the tiles of a directory.
@@ -27,6 +27,7 @@ pub mod identity;
 pub mod merge;
 pub mod shard;
 pub mod space;
+pub mod starts;
 pub mod status;
 pub mod tile;
 pub mod tiling;

@@ -5,13 +5,16 @@ use std::path::Path;
 use super::description::Description;
 use super::tiling::Tiling;
 use crate::error::{Error, Result};
-use crate::spec::Analysis;
+use crate::spec::{Analysis, Starts};
 
 /// Sweeps of more instances get no `map.csv` by themselves: nothing that reads tables reads these.
 pub const MOST_ROWS: usize = 20_000_000;
 
 /// Bytes of a row of `map.csv`, on the large side: eigenvalues, response, and what is in every row.
 const ROW: [u64; 3] = [130, 430, 40];
+
+/// The same of what the starts of a box gave.
+const BASIN: u64 = 64;
 
 /// Bytes of figures, manifest and description, on the large side.
 const AROUND: u64 = 32 << 20;
@@ -32,11 +35,18 @@ impl Need {
     /// The need of a sweep, cut like this.
     #[must_use]
     pub fn new(tiling: Tiling, analysis: Analysis) -> Need {
-        let width = super::columns::width(analysis) as u64;
+        let width = super::starts::width(analysis) as u64;
         let instances = tiling.instances as u64;
         let around = 120 * tiling.count() as u64;
-        let row =
-            ROW[2] + if analysis.linear { ROW[0] } else { 0 } + if analysis.response { ROW[1] } else { 0 };
+        let others = match analysis.starts {
+            Starts::One => 0,
+            Starts::Both => ROW[1] + 1,
+            Starts::Box(_) => BASIN,
+        };
+        let row = ROW[2]
+            + others
+            + if analysis.linear { ROW[0] } else { 0 }
+            + if analysis.response { ROW[1] } else { 0 };
         let table = (tiling.instances <= MOST_ROWS).then_some(instances * row);
         Need { tiles: instances * width + around, table }
     }

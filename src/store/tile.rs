@@ -8,7 +8,7 @@
 //! | 16 | the engine in words, padded with zeros |
 //! | 4 | 1 eigenvalue analysis, 2 response, u32 |
 //! | 4 | zero |
-//! | … | the columns, see [`super::columns`] |
+//! | … | the columns, see [`super::columns`] and [`super::starts`] |
 //! | 32 | BLAKE3 of everything before |
 //! | 8 | `SQMTEND1` |
 //!
@@ -16,8 +16,8 @@
 
 use std::ops::Range;
 
-use super::columns::{decode, encode, width};
 use super::identity::Id;
+use super::starts::{decode, encode, width};
 use crate::map::Record;
 use crate::spec::Analysis;
 

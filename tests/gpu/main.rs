@@ -13,6 +13,7 @@ mod probes;
 mod response;
 mod response_probes;
 mod runs;
+mod starts;
 mod strict;
 mod sweeps;
 #[path = "../suite/fuzz/whole_range.rs"]
@@ -71,6 +72,7 @@ fn main() {
         (f64, linear::F64),
         (all, response::CASES),
         (all, sweeps::CASES),
+        (all, starts::CASES),
         (f64, sweeps::F64),
         (slow, sweeps::SLOW),
         (all, runs::CASES),

@@ -132,6 +132,27 @@ refuses! {
     event_fraction_of_a_kick: format!("{VALID}[start]\nstart_event_fraction = 0.1\n")
         => "s.toml:7:24: `start_event_fraction` in [start] would have no effect: it is used only by kind = \"mode\" in \
             [start]; remove it or choose that";
+    large_start_of_a_kick: format!("{VALID}[start]\nlarge_velocity = 1\n")
+        => "s.toml:7:18: `large_velocity` in [start] would have no effect: it is used only by kind = \"both\" in [start]; \
+            remove it or choose that";
+    kick_of_a_mode: format!("{VALID}[start]\nkind = \"mode\"\nstart_velocity = 1\n")
+        => "s.toml:8:18: `start_velocity` in [start] would have no effect: it is used only by kind = \"kick\", \"both\" or \
+            \"box\" in [start]; remove it or choose that";
+    box_without_a_bound: format!("{VALID}[start]\nkind = \"box\"\nbox_displacement_from = 0\nbox_displacement_to = 1\nbox_velocity_to = 1\n")
+        => "s.toml:6:2: `box_velocity_from` is missing: kind = \"box\" in [start] draws starts between its bounds, so give \
+            it in [start] or vary it";
+    box_of_both: format!("{VALID}[start]\nkind = \"both\"\nbox_velocity_to = 1\n")
+        => "s.toml:8:19: `box_velocity_to` in [start] would have no effect: it is used only by kind = \"box\" in [start]; \
+            remove it or choose that";
+    samples_of_a_kick: format!("{VALID}[start]\nbox_samples = 10\n")
+        => "s.toml:7:15: `box_samples` in [start] would have no effect: it is used only by kind = \"box\" in [start]; \
+            remove it or choose that";
+    no_samples: "[start]\nkind = \"box\"\nbox_samples = 0\n"
+        => "s.toml:3:15: `box_samples` in [start] is 0 but must be an integer between 1 and 1000000";
+    axis_of_samples: "[axes]\nbox_samples = { values = [1, 2] }\n"
+        => "s.toml:2:1: unknown axis `box_samples` in [axes]; this key holds for the whole sweep and cannot vary";
+    unknown_start: "[start]\nkind = \"large\"\n"
+        => "s.toml:2:8: unknown start `large` as `kind` in [start]; choose from kick, mode, both and box";
     two_fractions: format!("{VALID}[start]\nkind = \"mode\"\nstart_fraction = 0.1\nstart_event_fraction = 0.1\n")
         => "s.toml:8:18: `start_fraction` in [start] would have no effect: it is used only by a mode start without \
             `start_event_fraction`; remove it or choose that";

@@ -5,7 +5,7 @@ use squealmap::Error;
 use squealmap::classify::{InstabilityType as Kind, Regime};
 use squealmap::export::boundaries::{borders, outlines};
 use squealmap::export::figure::map_svg;
-use squealmap::export::palette::{Class, REGIMES, TYPES};
+use squealmap::export::palette::{BISTABILITY, Class, REGIMES, TYPES};
 use squealmap::export::png;
 use squealmap::grid::{Axis, AxisKey, Grid, Value};
 use squealmap::map::{Map, Record};
@@ -341,7 +341,7 @@ fn colours_survive_colour_blindness_and_grey_print() {
     const LEAST_DIFFERENCE: f64 = 11.0;
     /// Steps of lightness L* in a grey print.
     const LEAST_STEP: f64 = 12.0;
-    let check = |classes: &[Class; 7]| {
+    let check = |classes: &[Class]| {
         for (name, seen) in &DICHROMACIES {
             for (i, one) in classes.iter().enumerate() {
                 for other in &classes[i + 1..] {
@@ -350,15 +350,16 @@ fn colours_survive_colour_blindness_and_grey_print() {
                 }
             }
         }
-        let mut grey = classes.map(|class| lab(class.fill, &DICHROMACIES[0].1)[0]);
-        for (class, lightness) in classes.iter().zip(grey) {
-            assert_eq!(class.dark, lightness < 50.0, "{}", class.name);
+        let mut grey: Vec<f64> = classes.iter().map(|class| lab(class.fill, &DICHROMACIES[0].1)[0]).collect();
+        for (class, lightness) in classes.iter().zip(&grey) {
+            assert_eq!(class.dark, *lightness < 50.0, "{}", class.name);
         }
         grey.sort_by(f64::total_cmp);
         assert!(grey.windows(2).all(|pair| pair[1] - pair[0] > LEAST_STEP), "{grey:?}");
     };
     check(&TYPES);
     check(&REGIMES);
+    check(&BISTABILITY);
     assert_eq!(TYPES.map(|class| class.name), Kind::ALL.map(Kind::name));
     assert_eq!(REGIMES.map(|class| class.name), Regime::ALL.map(Regime::name));
 }

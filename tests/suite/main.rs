@@ -3,6 +3,8 @@
 mod accuracy;
 mod arrays;
 mod bad_input;
+mod bistable;
+mod bistable_files;
 mod checks;
 mod claims;
 mod cli;
@@ -18,6 +20,7 @@ mod fastest;
 mod figure;
 mod fit;
 mod fuzz;
+mod hysteresis;
 mod identify;
 mod instances;
 #[cfg(unix)]

@@ -99,7 +99,7 @@ fn a_promise_that_is_broken_is_seen() {
     let settled = truth.iter().zip(&map.records).filter(|(truth, _)| is_settled_oscillation(truth));
     let (mut kept, mut all) = (0, 0);
     for (truth, record) in settled {
-        let mut off = *record;
+        let mut off = record.clone();
         let outcome = off.outcome.as_mut().unwrap();
         outcome.ax_rms = outcome.ax_rms.map(|x| 1.03 * x);
         kept += usize::from(worst(&off, truth) <= 1e-3 + scatter(truth));

@@ -22,8 +22,14 @@ const BELT: f64 = 2.0;
 /// The thresholds are part of what the columns mean: they change with the documentation only.
 #[test]
 fn thresholds_are_those_of_the_documentation() {
-    let documented =
-        Thresholds { state_counts: 0.001, decay: 0.99, small_speed: 0.01, small_growth: 1.01, settled: 0.01 };
+    let documented = Thresholds {
+        state_counts: 0.001,
+        decay: 0.99,
+        small_speed: 0.01,
+        small_growth: 1.01,
+        settled: 0.01,
+        apart: 0.05,
+    };
     assert_eq!(THRESHOLDS, documented);
 }
 

@@ -128,13 +128,13 @@ fn a_run_cancelled_before_its_first_instance_is_an_error() {
 fn a_failed_device_leaves_what_it_did_before() {
     let good = record(Kind::Stable, Regime::Slip, true);
     let lost = || Error::DeviceLostAgain { why: "gone".to_owned(), done: 2, total: 5 };
-    let part = Computed::new(vec![good, good], 5, Err(lost())).expect("a part");
+    let part = Computed::new(vec![good.clone(), good.clone()], 5, Err(lost())).expect("a part");
     let rest = Record::NOT_COMPUTED;
-    assert_eq!(part.records, [good, good, rest, rest, rest]);
+    assert_eq!(part.records, [good.clone(), good, rest.clone(), rest.clone(), rest]);
     assert_eq!(part.stopped, Some(Stopped::Failed(lost().to_string())));
     let none = Computed::new(Vec::new(), 5, Err(lost()));
     assert!(matches!(none, Err(Error::DeviceLostAgain { .. })));
-    let mut stopped = map(Grid::Axes(vec![span(Param::MuD, 0.0, 0.4, 5)]), |i, _| part.records[i]);
+    let mut stopped = map(Grid::Axes(vec![span(Param::MuD, 0.0, 0.4, 5)]), |i, _| part.records[i].clone());
     stopped.stopped = part.stopped;
     assert_eq!(manifest(&stopped)["computation"]["stopped"], lost().to_string());
 }
@@ -149,7 +149,7 @@ fn a_result_in_doubt_leaves_nothing() {
         || Error::Endless { kernel: "linear", finished: 1, count: 2, dispatches: 4 },
     ];
     for fault in faults {
-        let ended = Computed::new(vec![good], 5, Err(fault()));
+        let ended = Computed::new(vec![good.clone()], 5, Err(fault()));
         let found = ended.map(|part| part.records.len()).map_err(|why| why.to_string());
         assert_eq!(found, Err(fault().to_string()));
     }
@@ -180,8 +180,9 @@ fn no_kernel_may_say_that_it_did_not_compute() {
 fn what_is_missing_without_a_reason_is_refused() {
     let with = |missing: Record, stopped: Option<Stopped>| {
         let good = record(Kind::Stable, Regime::Slip, true);
-        let mut map =
-            map(Grid::Axes(vec![span(Param::MuD, 0.0, 0.4, 5)]), |i, _| if i == 3 { missing } else { good });
+        let mut map = map(Grid::Axes(vec![span(Param::MuD, 0.0, 0.4, 5)]), |i, _| {
+            if i == 3 { missing.clone() } else { good.clone() }
+        });
         map.stopped = stopped;
         [map_csv(&map).map(drop), manifest_json(&map).map(drop), map_svg(&map).map(drop)]
     };

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use squealmap::backend::choice::Options;
 use squealmap::classify::InstabilityType;
-use squealmap::grid::{Axis, Grid};
+use squealmap::grid::{Axis, Grid, Value};
 use squealmap::map::Map;
 use squealmap::model::Param;
 use squealmap::model::friction::FrictionLaw;
@@ -86,6 +86,36 @@ fn mass_on_belt_is_unstable_where_the_slope_beats_the_damping() {
         unstable += usize::from(velocity < critical);
     }
     assert!(unstable > map.records.len() / 5 && unstable < map.records.len() / 5 * 4, "{unstable}");
+}
+
+#[test]
+fn bistable_band_lies_above_the_limit_of_linear_stability() {
+    let mut spec = read("bistable_band");
+    if let Grid::Axes(axes) = &mut spec.grid {
+        // c = 0.1 N s/m: the band is known in closed form, and below it the growth is slow for one value.
+        axes[0].values.retain(|value| matches!(value, Value::Number(c) if (c - 0.1).abs() < 1e-9));
+        assert_eq!(axes[0].values.len(), 1);
+    }
+    let map = run(spec);
+    for (index, record) in map.records.iter().enumerate() {
+        let velocity = map.spec.instance(index).params.require(Param::BeltVelocity);
+        if !(1.12..1.152).contains(&velocity) {
+            assert_eq!(record.bistable, Some((1.152..1.8366).contains(&velocity)), "V = {velocity}");
+        }
+    }
+}
+
+#[test]
+fn basin_counts_every_start() {
+    let map = run(thin(read("basin")));
+    let slide: Vec<u32> = map.records.iter().map(|one| one.basin().unwrap().equilibrium).collect();
+    // V = 1, 1.5 and 2 m/s: none, some and all of the 200 starts.
+    assert!(slide[0] == 0 && (40..90).contains(&slide[1]) && slide[2] == 200, "{slide:?}");
+}
+
+#[test]
+fn hysteresis_runs() {
+    run(read("hysteresis"));
 }
 
 #[test]

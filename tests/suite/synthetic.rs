@@ -10,7 +10,7 @@ use squealmap::map::{Map, Provenance, Record};
 use squealmap::model::friction::LawKind;
 use squealmap::model::{Param, Params};
 use squealmap::outcome::{Outcome, Status};
-use squealmap::spec::{self, Analysis, Spec, StartKind};
+use squealmap::spec::{self, Analysis, Pass, Spec, StartKind, Starts};
 
 /// A numeric axis.
 pub(crate) fn axis(param: Param, values: &[f64]) -> Axis {
@@ -28,7 +28,13 @@ pub(crate) fn span(param: Param, from: f64, to: f64, points: usize) -> Axis {
 pub(crate) fn spec(grid: Grid) -> Spec {
     Spec {
         title: "Stability map".to_owned(),
-        analysis: Analysis { linear: true, response: true, until_settled: false, checked: false },
+        analysis: Analysis {
+            linear: true,
+            response: true,
+            until_settled: false,
+            checked: false,
+            starts: Starts::One,
+        },
         base: Params::default(),
         impact_friction: true,
         law: LawKind::Bilinear,
@@ -37,6 +43,7 @@ pub(crate) fn spec(grid: Grid) -> Spec {
         table: None,
         grid,
         start: StartKind::Kick,
+        pass: Pass::Own,
         settle: spec::Duration::Seconds(6.0),
         settle_limit: None,
         measure: spec::Duration::Seconds(3.0),
@@ -75,7 +82,7 @@ pub(crate) fn record(kind: InstabilityType, regime: Regime, settled: bool) -> Re
         regime: Some(regime),
         settled: Some(settled),
         outcome: Some(outcome),
-        check: None,
+        ..Record::default()
     }
 }
 

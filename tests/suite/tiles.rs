@@ -10,7 +10,7 @@ use squealmap::linear::Linear;
 use squealmap::map::{Computation, Record};
 use squealmap::model::Param;
 use squealmap::outcome::{Outcome, Status};
-use squealmap::spec::{Analysis, Spec};
+use squealmap::spec::{Analysis, Spec, Starts};
 use squealmap::store::columns::{decode, width};
 use squealmap::store::description::Description;
 use squealmap::store::grid_json::{from_json, to_json};
@@ -20,7 +20,8 @@ use squealmap::store::tiling::Tiling;
 
 use crate::synthetic::{axis, failed, record, span, spec};
 
-const BOTH: Analysis = Analysis { linear: true, response: true, until_settled: false, checked: false };
+const BOTH: Analysis =
+    Analysis { linear: true, response: true, until_settled: false, checked: false, starts: Starts::One };
 /// Both, until settled: with the time that took.
 const UNTIL_SETTLED: Analysis = Analysis { until_settled: true, ..BOTH };
 
@@ -74,7 +75,7 @@ fn numbered(base: f64) -> Record {
             steps: 26 + 1000,
             ..Outcome::default()
         }),
-        check: None,
+        ..Record::default()
     }
 }
 
@@ -82,7 +83,7 @@ fn numbered(base: f64) -> Record {
 fn records() -> Vec<Record> {
     let mut sparse = record(InstabilityType::Stable, Regime::Equilibrium, false);
     sparse.linear.as_mut().unwrap().phase = None;
-    let linear_only = Record { regime: None, settled: None, outcome: None, ..sparse };
+    let linear_only = Record { regime: None, settled: None, outcome: None, ..sparse.clone() };
     vec![numbered(1000.0), failed(Status::Painleve), Record::NOT_COMPUTED, sparse, linear_only]
 }
 
@@ -127,8 +128,8 @@ fn records_come_back_bit_by_bit() {
         let check = Some(Check { by, taken, changed, error });
         let late = |one: Outcome| Outcome { settling_time: Some(1.5), ..one };
         let [first, second] =
-            [None, check].map(|check| Record { check, outcome: all[0].outcome.map(late), ..all[0] });
-        let all = [first, second, all[2]];
+            [None, check].map(|check| Record { check, outcome: all[0].outcome.map(late), ..all[0].clone() });
+        let all = [first, second, all[2].clone()];
         let bytes = encode(&all, checked);
         assert_eq!(decode(&bytes, 3, checked).unwrap(), all);
         // A flipped bit of the flags or of the error says something else.
@@ -150,7 +151,7 @@ fn records_come_back_bit_by_bit() {
                 .outcome
                 .filter(|_| analysis.response)
                 .map(|outcome| Outcome { settling_time: analysis.until_settled.then_some(12.5), ..outcome }),
-            ..*one
+            ..one.clone()
         };
         let all: Vec<Record> = all.iter().map(only).collect();
         assert_eq!(decode(&encode(&all, analysis), all.len(), analysis).unwrap(), all);

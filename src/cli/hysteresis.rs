@@ -1,0 +1,107 @@
+//! `squealmap trace --sweep-up-down`: a motion followed while a parameter rises and falls.
+
+use std::path::PathBuf;
+
+use squealmap::export::{hysteresis as export, png};
+use squealmap::hysteresis::{Direction, Hysteresis};
+use squealmap::model::{Param, Section};
+use squealmap::response::Plan;
+use squealmap::spec::Spec;
+use squealmap::{Error, Result};
+
+use crate::cli::output::{Output, list};
+use crate::cli::print;
+use crate::cli::trace::title;
+
+/// What is written.
+const FILES: [&str; 3] = ["hysteresis.csv", "hysteresis.png", "hysteresis.svg"];
+
+/// A parameter and its lowest and highest value.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Range {
+    param: Param,
+    from: f64,
+    to: f64,
+}
+
+impl Range {
+    /// Reads `mu_s=0.1..0.6`.
+    pub(crate) fn parse(text: &str) -> std::result::Result<Range, String> {
+        let syntax = || "write name=from..to, such as mu_s=0.1..0.6".to_owned();
+        let (name, range) = text.split_once('=').ok_or_else(syntax)?;
+        let (from, to) = range.split_once("..").ok_or_else(syntax)?;
+        let param = Param::from_name(name.trim()).ok_or_else(|| {
+            format!("`{}` is no parameter of a sweep file with numbers as values", name.trim())
+        })?;
+        if param.info().section == Section::Start
+            || [Param::BeltVelocityEnd, Param::RampDuration].contains(&param)
+        {
+            return Err(format!(
+                "`{}` says how a motion starts or ends, and cannot be followed",
+                param.info().name
+            ));
+        }
+        let number = |text: &str| {
+            let limits = param.info().range;
+            let value = text.trim().parse().ok().filter(|value: &f64| limits.contains(*value));
+            value.ok_or_else(|| {
+                format!("`{}` is `{}`, but has to be {limits}", param.info().name, text.trim())
+            })
+        };
+        let (from, to) = (number(from)?, number(to)?);
+        if from < to {
+            Ok(Range { param, from, to })
+        } else {
+            Err(format!("the range from {from} to {to} does not rise; write the lower value first"))
+        }
+    }
+
+    /// So many values with equal steps, both ends exact.
+    fn values(&self, points: u32) -> Vec<f64> {
+        let last = points - 1;
+        let step = (self.to - self.from) / f64::from(last);
+        (0..points).map(|at| if at == last { self.to } else { self.from + step * f64::from(at) }).collect()
+    }
+}
+
+/// Follows the instance `at` over the range and writes both branches.
+pub(crate) fn execute(spec: &Spec, directory: PathBuf, at: &str, range: &Range, points: u32) -> Result<()> {
+    let name = range.param.info().name;
+    let instance = |value: f64| {
+        let comma = if at.trim().is_empty() { "" } else { "," };
+        spec.instance_at(&format!("{at}{comma}{name}={value}"))
+    };
+    let ramp = instance(range.from)?.params.get(Param::RampDuration);
+    if let Some(duration) = ramp {
+        return Err(Error::FollowsRamp { duration });
+    }
+    let output = Output::prepare(directory, &FILES)?;
+    let found = Hysteresis::follow(range.param, range.values(points), &Plan::new(spec), instance)?;
+    let svg = export::hysteresis_svg(&found, &title(spec, at));
+    let files = [
+        (FILES[0], export::hysteresis_csv(spec, &found)?),
+        (FILES[1], png::render(&svg)?),
+        (FILES[2], svg.into_bytes()),
+    ];
+    let paths = output.write(&files)?;
+    let branches = Direction::ALL.map(|direction| {
+        let jumps: Vec<String> = found.jumps(direction).iter().map(|[a, b]| format!("{a} and {b}")).collect();
+        let jumps = if jumps.is_empty() {
+            "no jump".to_owned()
+        } else {
+            format!("a jump between {}", jumps.join(", "))
+        };
+        format!("{name} {}: {jumps}\n", direction.name())
+    });
+    let unsettled = Direction::ALL
+        .iter()
+        .flat_map(|direction| found.branch(*direction))
+        .filter(|record| record.settled != Some(true))
+        .count();
+    let warning = match unsettled {
+        0 => String::new(),
+        some => format!("{some} of {} values had not settled\n", 2 * found.values.len()),
+    };
+    print(&format!("{}{warning}{}", branches.concat(), list(&paths)));
+    Ok(())
+}

@@ -1,0 +1,37 @@
+//! Branches of a parameter that rises and falls, as a table; their figure is in `hysteresis_figure.rs`.
+
+use super::columns::{Cell, Column, columns};
+use super::csv::Table;
+use crate::error::Result;
+use crate::hysteresis::{Direction, Hysteresis};
+use crate::spec::{Analysis, Spec, Starts};
+
+pub use super::hysteresis_figure::hysteresis_svg;
+
+/// The table of both branches, row by row as they were gone: the branch, the value, and the columns of a map.
+///
+/// # Errors
+/// When the table cannot be written.
+pub fn hysteresis_csv(spec: &Spec, hysteresis: &Hysteresis) -> Result<Vec<u8>> {
+    let analysis = Analysis {
+        linear: true,
+        response: true,
+        until_settled: spec.settle_limit.is_some(),
+        checked: false,
+        starts: Starts::One,
+    };
+    let grid = hysteresis.grid();
+    // The index of an instance says nothing here.
+    let columns: Vec<Column> = columns(&grid, analysis).into_iter().skip(1).collect();
+    let mut table = Table::new(std::iter::once("branch").chain(columns.iter().map(|column| column.name)))?;
+    for direction in Direction::ALL {
+        let branch = direction.name().to_owned();
+        for at in direction.order(hysteresis.values.len()) {
+            let (coordinates, record) = (grid.coordinates(at), &hysteresis.branch(direction)[at]);
+            let cell = |column: &Column| -> Cell { column.cell(at, &coordinates, record) };
+            let cells = columns.iter().map(|column| cell(column).to_string());
+            table.row(std::iter::once(branch.clone()).chain(cells))?;
+        }
+    }
+    table.finish()
+}

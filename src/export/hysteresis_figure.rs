@@ -1,0 +1,199 @@
+//! The figure of both branches: amplitude against the parameter, with the equilibrium and where both exist.
+
+use std::fmt::Write as _;
+
+use super::figure::{MARGIN, SINGLE_COLUMN, program, title};
+use super::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room};
+use super::key;
+use super::picture_axis::{Direction as Along, PictureAxis};
+use super::plot::{FIRST, Plot, SECOND};
+use super::scale::{Scale, axis_unit};
+use super::svg::{Anchor, Style, Svg, number};
+use super::text::Text;
+use crate::classify::InstabilityType;
+use crate::grid::{Axis, Grid};
+use crate::hysteresis::{Direction, Hysteresis};
+use crate::map::Record;
+use crate::starts::Attractor;
+
+/// Height of the panel, points.
+const HEIGHT: f64 = 150.0;
+/// Right of the panel, points.
+const RIGHT: f64 = 8.0;
+/// Above the highest amplitude and below zero, as fractions of the panel.
+const HEADROOM: f64 = 0.08;
+/// Left and right of the branches, as a fraction of the panel: marks stay inside.
+const MARGIN_ACROSS: f64 = 0.02;
+/// A tick of the vertical axis takes about this much, points.
+const TICK_HEIGHT: f64 = 24.0;
+/// Half the width of a mark, points.
+const MARK: f64 = 2.0;
+/// Branches of more values than this are lines without marks.
+const MOST_MARKS: usize = 80;
+/// Amplitudes below this are shown in millimetres, m.
+const METRES: f64 = 0.1;
+/// Where both branches exist.
+const BOTH: &str = r##"class="bistable" fill="#F4E3D7""##;
+/// The equilibrium where it is stable, and where it is not.
+const EQUILIBRIUM: [&str; 2] = [
+    r##"class="stable" fill="none" stroke="#000000" stroke-width="1.8""##,
+    r##"class="unstable" fill="none" stroke="#000000" stroke-width="1.1" stroke-dasharray="1.6 2""##,
+];
+/// Where a branch jumps.
+const JUMP: &str = r##"class="jump" fill="none" stroke="#555555" stroke-width="0.5""##;
+/// Strokes and fills of the marks of both branches.
+const MARKS: [&str; 2] = [
+    r##"fill="#1F3F8F" stroke="#1F3F8F" stroke-width="0.5""##,
+    r##"fill="#FFFFFF" stroke="#D55E00" stroke-width="0.7""##,
+];
+
+/// The figure of both branches as an SVG document, single column width.
+#[must_use]
+pub fn hysteresis_svg(hysteresis: &Hysteresis, heading: &str) -> String {
+    let Grid::Axes(axes) = hysteresis.grid() else { return String::new() };
+    let largest = Direction::ALL
+        .iter()
+        .flat_map(|direction| hysteresis.branch(*direction).iter().map(amplitude))
+        .filter(|amplitude| amplitude.is_finite())
+        .fold(0.0, f64::max);
+    let (factor, unit) = if largest < METRES { (1e3, "mm") } else { (1.0, "m") };
+    let x = Scale::spanning(hysteresis.values.iter().copied()).widened(MARGIN_ACROSS);
+    let y = Scale::spanning([0.0, largest * factor]).widened(HEADROOM);
+    let mut svg = Svg::new();
+    let mut top = MARGIN + title(&mut svg, heading, SINGLE_COLUMN - 2.0 * MARGIN);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive count")]
+    let y_ticks = y.ticks((HEIGHT / TICK_HEIGHT) as usize);
+    let left = MARGIN + LABEL_SIZE + 6.0 + y_tick_room(&y_ticks);
+    let width = SINGLE_COLUMN - left - RIGHT;
+    top = legend(&mut svg, hysteresis, left, top);
+    let frame = Frame { x: left, y: top, width, height: HEIGHT };
+    let plot = Plot { frame, x: &x, y: &y };
+    both(&mut svg, hysteresis, &plot);
+    equilibrium(&mut svg, hysteresis, &plot);
+    for (direction, (stroke, mark)) in Direction::ALL.into_iter().zip([FIRST, SECOND].into_iter().zip(MARKS))
+    {
+        let points: Vec<(f64, f64)> = hysteresis
+            .values
+            .iter()
+            .zip(hysteresis.branch(direction))
+            .map(|(value, record)| (*value, factor * amplitude(record)))
+            .collect();
+        let jumps = hysteresis.jumps(direction);
+        let jumped = |a: f64, b: f64| jumps.iter().any(|[from, to]| from.min(*to) <= a && b <= from.max(*to));
+        // A branch is interrupted where it jumps; a thin line says where to.
+        let pieces = points.chunk_by(|a, b| !jumped(a.0, b.0));
+        let nothing = (f64::NAN, f64::NAN);
+        plot.curve(&mut svg, pieces.flat_map(|piece| piece.iter().copied().chain([nothing])), stroke);
+        let pairs = points.windows(2).filter(|pair| jumped(pair[0].0, pair[1].0));
+        plot.curve(&mut svg, pairs.flat_map(|pair| [pair[0], pair[1], nothing]), JUMP);
+        if points.len() <= MOST_MARKS {
+            let at = points.iter().filter(|(_, amplitude)| amplitude.is_finite());
+            let at = at.map(|(value, amplitude)| {
+                (frame.across(x.position(*value)), frame.up(y.position(*amplitude)))
+            });
+            svg.path(&at.map(|at| triangle(direction, at)).collect::<String>(), mark);
+        }
+    }
+    frame.border(&mut svg);
+    let axis = axis(&axes[0], &x);
+    frame.x_ticks(&mut svg, &axis.ticks(width, Along::Horizontal, TICK_SIZE), true);
+    frame.y_ticks(&mut svg, &y_ticks, true);
+    let label = Text::from("Standard deviation of ").symbol("x_2").then(axis_unit(unit, y.exponent()));
+    let upwards = Style::new(LABEL_SIZE, Anchor::Middle).upwards();
+    svg.text(MARGIN + LABEL_SIZE, top + 0.5 * HEIGHT, &label, upwards);
+    let base = frame.bottom() + x_tick_room() + LABEL_SIZE + 1.0;
+    let label = axis.label(width, LABEL_SIZE);
+    svg.text(left + 0.5 * width, base, &label, Style::new(LABEL_SIZE, Anchor::Middle));
+    let name = if heading.is_empty() { "Hysteresis" } else { heading };
+    svg.finish(SINGLE_COLUMN, base + MARGIN + 2.0, name, &program())
+}
+
+/// The parameter from edge to edge of the panel.
+fn axis(axis: &Axis, x: &Scale) -> PictureAxis {
+    PictureAxis::cells(axis).edge_to_edge(x)
+}
+
+/// What is drawn of a record, m: 0 at the equilibrium, of which a run sees the beginning of the decay only.
+fn amplitude(record: &Record) -> f64 {
+    if Attractor::of(record, record.kind) == Some(Attractor::Equilibrium) {
+        return 0.0;
+    }
+    record.outcome.and_then(|outcome| outcome.x2_std).unwrap_or(f64::NAN)
+}
+
+/// Shades the values at which the branches end differently, half a step to each side; neighbours are one area.
+fn both(svg: &mut Svg, hysteresis: &Hysteresis, plot: &Plot<'_>) {
+    let bistable = hysteresis.bistable();
+    let at = |value: f64| plot.frame.across(plot.x.position(value));
+    let mut number = 0;
+    for run in bistable.chunk_by(|a, b| a == b) {
+        let last = number + run.len() - 1;
+        if run[0] == Some(true) {
+            let [from, to] =
+                [edges(&hysteresis.values, number)[0], edges(&hysteresis.values, last)[1]].map(at);
+            svg.rect([from, plot.frame.y, to - from, plot.frame.height], BOTH);
+        }
+        number = last + 1;
+    }
+}
+
+/// Half way to the neighbours of a value; the first and the last have none beyond them.
+fn edges(values: &[f64], number: usize) -> [f64; 2] {
+    let here = values[number];
+    let middle = |other: Option<&f64>| other.map_or(here, |other| 0.5 * (here + other));
+    [middle(number.checked_sub(1).and_then(|before| values.get(before))), middle(values.get(number + 1))]
+}
+
+/// The equilibrium as a line at 0, where its eigenvalues say stable and where not.
+fn equilibrium(svg: &mut Svg, hysteresis: &Hysteresis, plot: &Plot<'_>) {
+    let stable = |at: usize| hysteresis.up[at].kind.map(|kind| kind == InstabilityType::Stable);
+    for (wanted, stroke) in [true, false].into_iter().zip(EQUILIBRIUM) {
+        // From the middle between two values on, the next one counts.
+        let line = (0..hysteresis.values.len()).flat_map(|at| {
+            let height = if stable(at) == Some(wanted) { 0.0 } else { f64::NAN };
+            edges(&hysteresis.values, at).map(|value| (value, height))
+        });
+        plot.curve(svg, line, stroke);
+    }
+}
+
+/// A mark that points where its branch goes.
+fn triangle(direction: Direction, (x, y): (f64, f64)) -> String {
+    let tip = if direction == Direction::Up { 1.25 * MARK } else { -1.25 * MARK };
+    let mut data = String::new();
+    let _ = write!(
+        data,
+        "M{} {}V{}L{} {}Z",
+        number(x - 0.5 * tip),
+        number(y - MARK),
+        number(y + MARK),
+        number(x + 0.75 * tip),
+        number(y)
+    );
+    data
+}
+
+/// What is what; returns where the panel begins.
+fn legend(svg: &mut Svg, hysteresis: &Hysteresis, left: f64, top: f64) -> f64 {
+    let symbol = hysteresis.param.info().symbol;
+    let branch = |words: &str| Text::default().symbol(symbol).plain(words);
+    let mut base = top + LABEL_SIZE;
+    let mut x = left;
+    for (direction, (words, stroke)) in
+        Direction::ALL.into_iter().zip([(" rising", FIRST), (" falling", SECOND)])
+    {
+        let at = (x + 0.5 * key::SAMPLE, base - key::MIDDLE * LABEL_SIZE);
+        x = key::lines(svg, x, base, LABEL_SIZE, &[(branch(words), stroke)]);
+        svg.path(&triangle(direction, at), MARKS[direction as usize]);
+    }
+    base += LABEL_SIZE + 4.0;
+    let words = ["stable equilibrium", "unstable"].map(Text::from);
+    let entries: Vec<(Text, &str)> = words.into_iter().zip(EQUILIBRIUM).collect();
+    let mut x = key::lines(svg, left, base, LABEL_SIZE, &entries);
+    if hysteresis.bistable().contains(&Some(true)) {
+        svg.rect([x, base - LABEL_SIZE + 2.0, 10.0, LABEL_SIZE - 1.5], BOTH);
+        x += 13.5;
+        svg.text(x, base, &Text::from("bistable"), Style::new(LABEL_SIZE, Anchor::Start));
+    }
+    base + 8.0
+}

@@ -1,0 +1,97 @@
+//! Records of several starts as columns: those of the small start as of any sweep ([`super::columns`]), then a byte for
+//! `bistable` and what the other starts gave: the columns of the large one, or three counts of a box (u32).
+//!
+//! A sweep of one start has its own columns and not a byte more.
+
+use super::columns;
+use crate::map::Record;
+use crate::outcome::Status;
+use crate::spec::{Analysis, Starts};
+use crate::starts::{Basin, Others};
+
+/// Bytes of the counts of a box.
+const COUNTS: usize = 12;
+
+/// Codes of `bistable`.
+const CODES: [Option<bool>; 3] = [None, Some(false), Some(true)];
+
+/// What is kept of the small start, and of the large one.
+fn parts(analysis: Analysis) -> [Analysis; 2] {
+    let small = Analysis { starts: Starts::One, ..analysis };
+    [small, Analysis { linear: false, ..small }]
+}
+
+/// Bytes of one instance.
+#[must_use]
+pub fn width(analysis: Analysis) -> usize {
+    let [small, large] = parts(analysis);
+    columns::width(small)
+        + match analysis.starts {
+            Starts::One => 0,
+            Starts::Both => 1 + columns::width(large),
+            Starts::Box(_) => 1 + COUNTS,
+        }
+}
+
+/// The columns of some records.
+///
+/// # Panics
+/// When `bytes` are not `records.len() * width(analysis)`.
+pub fn encode(records: &[Record], analysis: Analysis, bytes: &mut [u8]) {
+    let [small, large] = parts(analysis);
+    let (own, others) = bytes.split_at_mut(records.len() * columns::width(small));
+    columns::encode(records, small, own);
+    if analysis.starts == Starts::One {
+        return;
+    }
+    let (flags, others) = others.split_at_mut(records.len());
+    for (flag, record) in flags.iter_mut().zip(records) {
+        *flag = record.bistable.map_or(0, |bistable| 1 + u8::from(bistable));
+    }
+    if analysis.starts == Starts::Both {
+        let of_large = |record: &Record| record.large().cloned().unwrap_or(Record::NOT_COMPUTED);
+        columns::encode(&records.iter().map(of_large).collect::<Vec<_>>(), large, others);
+    } else {
+        for (twelve, record) in others.chunks_exact_mut(COUNTS).zip(records) {
+            let Basin { equilibrium, oscillation, other } = record.basin().unwrap_or_default();
+            for (four, count) in twelve.chunks_exact_mut(4).zip([equilibrium, oscillation, other]) {
+                four.copy_from_slice(&count.to_le_bytes());
+            }
+        }
+    }
+}
+
+/// The records of columns; `None` when a code or the length is none that [`encode`] writes.
+#[must_use]
+pub fn decode(bytes: &[u8], count: usize, analysis: Analysis) -> Option<Vec<Record>> {
+    if bytes.len() != count * width(analysis) {
+        return None;
+    }
+    let [small, large] = parts(analysis);
+    let (own, others) = bytes.split_at(count * columns::width(small));
+    let mut records = columns::decode(own, count, small)?;
+    if analysis.starts == Starts::One {
+        return Some(records);
+    }
+    let (flags, others) = others.split_at(count);
+    let others: Vec<Option<Others>> = if analysis.starts == Starts::Both {
+        let computed =
+            |record: Record| (record.status != Status::NotComputed).then(|| Others::Large(Box::new(record)));
+        columns::decode(others, count, large)?.into_iter().map(computed).collect()
+    } else {
+        others.chunks_exact(COUNTS).map(|twelve| basin(twelve).map(Others::Basin)).collect()
+    };
+    for ((record, flag), others) in records.iter_mut().zip(flags).zip(others) {
+        record.bistable = *CODES.get(usize::from(*flag))?;
+        record.others = others;
+    }
+    Some(records)
+}
+
+/// The counts of a box; `None` where no start was counted.
+fn basin(twelve: &[u8]) -> Option<Basin> {
+    let mut counts = twelve.chunks_exact(4).map(|four| four.try_into().map_or(0, u32::from_le_bytes));
+    let mut next = || counts.next().unwrap_or(0);
+    let basin = Basin { equilibrium: next(), oscillation: next(), other: next() };
+    (basin.total() > 0).then_some(basin)
+}
