@@ -111,8 +111,28 @@ impl From<PrecisionName> for Precision {
 }
 
 impl Run {
+    /// Instances of a tile.
+    pub(crate) fn tile(&self) -> usize {
+        self.tile
+    }
+
+    /// Worker threads that were asked for.
+    pub(crate) fn threads(&self) -> Option<u16> {
+        self.threads
+    }
+
+    /// The engine that was asked for.
+    pub(crate) fn backend(&self) -> BackendName {
+        self.backend
+    }
+
+    /// The accuracy that was asked for.
+    pub(crate) fn accuracy(&self) -> Option<Level> {
+        self.accuracy
+    }
+
     pub(crate) fn execute(self) -> Result<ExitCode> {
-        let cancel = stop_at_ctrl_c()?;
+        let cancel = stop_at_signal()?;
         let mut spec = Spec::read(&self.files.sweep)?;
         spec.analysis.checked &= !self.no_check;
         let choice = self.accuracy.map(|level| self.choose(level, &spec)).transpose()?;
@@ -331,12 +351,15 @@ fn ended(stopped: &Stopped, store: &Store, tally: &Tally) -> ExitCode {
     ExitCode::from(code)
 }
 
-/// A flag that Ctrl-C sets; the run then ends between two instances or dispatches. Set before anything is
+/// A flag that Ctrl-C sets, and SIGTERM, by which schedulers end a process; the run then ends between two instances or dispatches. Set before anything is
 /// made on the disk; a second Ctrl-C changes nothing, so that no file is left half written.
-pub(crate) fn stop_at_ctrl_c() -> Result<Arc<AtomicBool>> {
+pub(crate) fn stop_at_signal() -> Result<Arc<AtomicBool>> {
     let cancel = Arc::new(AtomicBool::new(false));
     let flag = Arc::clone(&cancel);
     ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed))
+        .map_err(|why| Error::Signal { why: why.to_string() })?;
+    #[cfg(unix)]
+    signal_hook::flag::register(signal_hook::consts::SIGTERM, Arc::clone(&cancel))
         .map_err(|why| Error::Signal { why: why.to_string() })?;
     Ok(cancel)
 }

@@ -97,6 +97,16 @@ fn killed_fifty_times() {
 
 #[test]
 fn after_ctrl_c_the_same_command_goes_on() {
+    stopped_by("INT");
+}
+
+#[test]
+fn after_the_signal_of_a_scheduler_the_same_command_goes_on() {
+    stopped_by("TERM");
+}
+
+/// Ends a run by a signal, then lets the same command go on; compares with a run that nobody disturbed.
+fn stopped_by(signal: &str) {
     let undisturbed = with(&sweep());
     assert_eq!(squealmap(undisturbed.path(), &RUN).code, Some(0));
     let directory = with(&sweep());
@@ -105,7 +115,7 @@ fn after_ctrl_c_the_same_command_goes_on() {
         assert!(child.try_wait().unwrap().is_none(), "it ended before it was interrupted");
         sleep(Duration::from_micros(200));
     }
-    let sent = Command::new("sh").args(["-c", &format!("kill -INT {}", child.id())]).status().unwrap();
+    let sent = Command::new("sh").args(["-c", &format!("kill -{signal} {}", child.id())]).status().unwrap();
     assert!(sent.success());
     assert_eq!(child.wait().unwrap().code(), Some(130));
     let kept = done(directory.path());

@@ -50,6 +50,8 @@ mod stopped;
 mod stretches;
 mod strict;
 mod strokes;
+#[cfg(unix)]
+mod submit;
 mod sweeps;
 mod synthetic;
 mod tile_cost;
