@@ -322,6 +322,14 @@ pub enum Error {
         /// The other one.
         source_dir: PathBuf,
     },
+    /// A directory of which nothing can be reused.
+    #[error("--reuse `{}`: {why}, or remove --reuse", path.display())]
+    OtherReuse {
+        /// The directory.
+        path: PathBuf,
+        /// What is in the way, and what to do.
+        why: &'static str,
+    },
     /// A disk without room for a sweep.
     #[error(
         "the sweep needs about {needed} in `{}`, where {free} are free; free some, choose another directory with -o, \
@@ -377,6 +385,9 @@ pub enum Error {
     /// A table could not be written.
     #[error("the table could not be written")]
     WriteTable(#[source] csv::Error),
+    /// The same as Parquet.
+    #[error("the Parquet file could not be written")]
+    WriteParquet(#[source] parquet::errors::ParquetError),
     /// The manifest could not be written.
     #[error("the manifest could not be written")]
     WriteManifest(#[source] serde_json::Error),
@@ -767,6 +778,7 @@ impl Error {
             | Error::BadDescription { .. }
             | Error::OtherSweep { .. }
             | Error::OtherMerge { .. }
+            | Error::OtherReuse { .. }
             | Error::TilesMissing { .. }
             | Error::NoSpace { .. }
             | Error::NoModesAxis

@@ -52,7 +52,7 @@ enum Command {
     Submit(submit::Submit),
     /// Bring the tiles of several directories together; when all are there, write the results
     Merge(merge::Merge),
-    /// Write the tiles of a directory as CSV, Zarr v3 or NetCDF, at any time
+    /// Write the tiles of a directory as CSV, Zarr v3, NetCDF or Parquet, at any time
     Export(export::Export),
     /// List the GPUs of this machine: names, drivers, limits and features
     Adapters,

@@ -90,6 +90,17 @@ impl Group {
     }
 }
 
+/// What the cells of a column hold where they are not empty.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Content {
+    /// [`Cell::Number`].
+    Number,
+    /// [`Cell::Count`].
+    Count,
+    /// [`Cell::Text`].
+    Name,
+}
+
 /// Where the values of a column come from.
 #[derive(Clone, Copy, Debug)]
 enum Source {
@@ -118,6 +129,16 @@ impl Column {
     #[must_use]
     pub fn is_computed(&self) -> bool {
         matches!(self.source, Source::Record(_))
+    }
+
+    /// What its cells hold; the tests compare it with every one of them.
+    #[must_use]
+    pub fn content(&self) -> Content {
+        match self.name {
+            "instance" | "settled" | "checked" | "steps" => Content::Count,
+            "law" | "material" | "type" | "regime" | "status" => Content::Name,
+            _ => Content::Number,
+        }
     }
 
     /// The cell of instance `index` with its swept values, see [`Grid::coordinates`], and its record.

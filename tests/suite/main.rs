@@ -33,6 +33,7 @@ mod modes_figure;
 mod no_driver;
 mod observables;
 mod paper;
+mod parquet;
 mod plot;
 mod promise;
 mod properties;
