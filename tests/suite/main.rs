@@ -41,6 +41,7 @@ mod refine;
 mod regimes;
 mod response;
 mod resume;
+mod reuse;
 mod settle;
 mod shards;
 mod simd;
