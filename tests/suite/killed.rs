@@ -13,9 +13,9 @@ use crate::resume::{COMPLETE, SWEEP, names, tiles, with};
 /// Of 10 instances.
 const TILES: f64 = 300.0;
 
-const RUN: [&str; 8] = ["run", "s.toml", "--backend", "cpu", "--tile", "10", "--threads", "1"];
+pub(crate) const RUN: [&str; 8] = ["run", "s.toml", "--backend", "cpu", "--tile", "10", "--threads", "1"];
 
-fn sweep() -> String {
+pub(crate) fn sweep() -> String {
     SWEEP.replace("points = 15", "points = 150").replace("\"2 periods\"", "\"20 periods\"")
 }
 
@@ -26,7 +26,7 @@ fn start(directory: &Path) -> Child {
 }
 
 /// Tiles that are there by now.
-fn done(directory: &Path) -> usize {
+pub(crate) fn done(directory: &Path) -> usize {
     let Ok(entries) = std::fs::read_dir(directory.join("out/s/tiles")) else { return 0 };
     entries.flatten().filter(|entry| entry.file_name().to_string_lossy().ends_with(".tile")).count()
 }

@@ -59,3 +59,5 @@ mod synthetic;
 mod tile_cost;
 mod tiles;
 mod trace_figure;
+#[cfg(unix)]
+mod unwritable;

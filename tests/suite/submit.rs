@@ -12,7 +12,7 @@ use std::time::Duration;
 
 use tempfile::TempDir;
 
-use crate::cli::{Ended, squealmap};
+use crate::cli::{Ended, squealmap, unwrapped};
 use crate::resume::{SWEEP, names, tiles, with};
 
 /// What a quoting that is not one would fall over.
@@ -26,13 +26,22 @@ const SCONTROL: &str = "#!/bin/sh\ncase $1 in show) echo 'MaxArraySize          
     *) echo \"$@\" >>\"$FAKE/scontrol.calls\";; esac\n";
 const SCANCEL: &str = "#!/bin/sh\necho \"$@\" >\"$FAKE/scancel.calls\"\n";
 
+/// Copies a file for being run, by a process of its own: one that this process has open for writing, while another
+/// thread starts a program, cannot be run.
+pub(crate) fn copy_program(from: &Path, to: &Path) {
+    let copied = Command::new("cp").args([from, to]).status().unwrap();
+    assert!(copied.success());
+    fs::set_permissions(to, fs::Permissions::from_mode(0o755)).unwrap();
+}
+
 /// A directory of programs.
 fn fakes(programs: &[(&str, &str)]) -> TempDir {
     let directory = tempfile::tempdir().unwrap();
     for (name, text) in programs {
         let path = directory.path().join(name);
-        fs::write(&path, text).unwrap();
-        fs::set_permissions(&path, fs::Permissions::from_mode(0o755)).unwrap();
+        let written = path.with_extension("text");
+        fs::write(&written, text).unwrap();
+        copy_program(&written, &path);
     }
     directory
 }
@@ -222,10 +231,7 @@ fn what_is_wrong_is_a_sentence_and_leaves_nothing() {
     ] {
         let directory = with(SWEEP);
         let ended = submit(fakes.path(), directory.path(), arguments);
-        // The error report breaks its lines.
-        let said: Vec<&str> = ended.err.split_whitespace().filter(|word| *word != "│").collect();
-        let wanted: Vec<&str> = sentence.split_whitespace().collect();
-        assert!(said.join(" ").contains(&wanted.join(" ")), "{sentence}: {}", ended.err);
+        assert!(unwrapped(&ended.err).contains(sentence), "{sentence}: {}", ended.err);
         assert_eq!(ended.code, Some(code), "{}", ended.err);
         let left: Vec<_> =
             fs::read_dir(directory.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
