@@ -107,6 +107,8 @@ if [ "${version%%.*}" -ge 24 ]; then echo "CgroupPlugin=disabled" >"$top/cgroup.
 wait_for 20 "munged does not open its socket" test -S "$top/munge.socket"
 (cd "$top/controller" && exec slurmctld -D) &>"$top/controller/out.log" &
 for node in n1 n2; do (cd "$top/$node" && exec slurmd -D -N "$node") &>"$top/$node/out.log" & done
+# Else the shell tells of each that is killed.
+disown -a
 idle() { [ "$(timeout 5 sinfo -h -N -t idle -o %N 2>/dev/null | wc -l)" -eq 2 ]; }
 wait_for 40 "the two nodes do not come up" idle
 

@@ -54,6 +54,7 @@ mod tests {
         let year = Duration::from_hours(8766);
         assert_eq!(tasks(year, CORE, 7, 1001), 7);
         assert_eq!(tasks(year, CORE, 1_000_000, 1001), 1001);
-        assert_eq!(tasks(Duration::MAX, CORE, usize::MAX, usize::MAX), 30_744_573_456_182_586);
+        assert_eq!(tasks(Duration::MAX, CORE, 7, usize::MAX), 7);
+        assert_eq!(tasks(Duration::ZERO, CORE, 7, 1001), 1);
     }
 }
