@@ -1,6 +1,6 @@
 """Opens what `squealmap export` wrote with xarray, netCDF4, scipy and pandas and compares it with map.csv.
 
-    python3 -m venv /tmp/exports && /tmp/exports/bin/pip install xarray zarr netCDF4 scipy pandas
+    python3 -m venv /tmp/exports && /tmp/exports/bin/pip install xarray zarr netCDF4 scipy pandas pyarrow
     /tmp/exports/bin/python .ci/exports.py OUTPUT_DIRECTORY
 """
 
@@ -54,7 +54,28 @@ compare(xr.open_dataset(directory / "map.nc", engine="scipy"), "scipy")
 with netcdf_file(directory / "map.nc", mmap=False) as file:
     assert file.variables["status"].data.size == len(table)
 
+
+def same(frame):
+    """Whether a data frame is the table: its columns in order, numbers in every bit, names."""
+    if list(frame.columns) != list(table.columns) or len(frame) != len(table):
+        return False
+    numeric = [name for name in table.columns if pd.api.types.is_numeric_dtype(table[name])]
+    others = [name for name in table.columns if name not in numeric and table[name].notna().any()]
+    return all(
+        np.array_equal(frame[name].astype(float), table[name].astype(float), equal_nan=True) for name in numeric
+    ) and all((frame[name].fillna("") == table[name].fillna("")).all() for name in others)
+
+
+frame = pd.read_parquet(directory / "map.parquet")
+assert same(frame), "parquet"
+assert all(frame.attrs["meanings"][name] for name in frame.columns) and frame.attrs["units"]["growth_rate"] == "1/s"
+
 # The comparison sees a fault.
+for name in ["growth_rate", "status"]:
+    spoilt = frame.copy()
+    spoilt.loc[3, name] = spoilt.loc[4, name] + spoilt.loc[4, name]
+    if same(spoilt):
+        sys.exit(f"the planted fault in {name} of the data frame was not seen")
 agreed = compared
 spoilt = zarr.load().copy(deep=True)
 spoilt["status"].values.flat[0] += 1

@@ -331,6 +331,14 @@ pub enum Error {
         /// The other one.
         source_dir: PathBuf,
     },
+    /// A directory of which nothing can be reused.
+    #[error("--reuse `{}`: {why}, or remove --reuse", path.display())]
+    OtherReuse {
+        /// The directory.
+        path: PathBuf,
+        /// What is in the way, and what to do.
+        why: &'static str,
+    },
     /// A disk without room for a sweep.
     #[error(
         "the sweep needs about {needed} in `{}`, where {free} are free; free some, choose another directory with -o, \
@@ -386,6 +394,9 @@ pub enum Error {
     /// A table could not be written.
     #[error("the table could not be written")]
     WriteTable(#[source] csv::Error),
+    /// The same as Parquet.
+    #[error("the Parquet file could not be written")]
+    WriteParquet(#[source] parquet::errors::ParquetError),
     /// The manifest could not be written.
     #[error("the manifest could not be written")]
     WriteManifest(#[source] serde_json::Error),
@@ -685,6 +696,57 @@ pub enum Error {
         /// The kinds of scenes.
         kinds: String,
     },
+    /// A scheduler that is not there.
+    #[error(
+        "`{program}` of Slurm is not on the path; submit from a node of the cluster, or see with --dry-run what would be \
+         submitted"
+    )]
+    NoScheduler {
+        /// The program that was called.
+        program: &'static str,
+    },
+    /// A scheduler that refuses.
+    #[error("`{program}` failed: {why}")]
+    Scheduler {
+        /// The program that was called.
+        program: &'static str,
+        /// What it says.
+        why: String,
+    },
+    /// The first of two jobs is there and cannot be taken back.
+    #[error(
+        "job {array} computes the tiles, but there is no job that merges them: {why}; `squealmap merge` does it when that \
+         is done"
+    )]
+    HalfSubmitted {
+        /// The number of the array job.
+        array: String,
+        /// What was said of the other one.
+        why: String,
+    },
+    /// More GPUs for a task than it uses.
+    #[error(
+        "--gpus is `{gpus}` but must be 1 or TYPE:1, as a run uses one GPU; take more --tasks for more GPUs"
+    )]
+    ManyGpus {
+        /// What was asked for.
+        gpus: String,
+    },
+    /// A path that no script holds.
+    #[error(
+        "the path `{}` cannot stand in a job: it is no UTF-8 or holds a control character; rename it",
+        one_line(&path.display().to_string())
+    )]
+    PathOfJob {
+        /// The path.
+        path: PathBuf,
+    },
+    /// The path of the program is not known.
+    #[error("cannot find the path of this program for the nodes: {why}")]
+    OwnProgram {
+        /// What the system says.
+        why: String,
+    },
     /// The handler of Ctrl-C cannot be set.
     #[error("cannot listen to Ctrl-C: {why}")]
     Signal {
@@ -735,6 +797,7 @@ impl Error {
             | Error::BadDescription { .. }
             | Error::OtherSweep { .. }
             | Error::OtherMerge { .. }
+            | Error::OtherReuse { .. }
             | Error::TilesMissing { .. }
             | Error::NoSpace { .. }
             | Error::NoModesAxis
@@ -745,6 +808,9 @@ impl Error {
             | Error::SameName { .. }
             | Error::TooManyToRefine { .. }
             | Error::AccuracyBeside { .. }
+            | Error::NoScheduler { .. }
+            | Error::ManyGpus { .. }
+            | Error::PathOfJob { .. }
             | Error::Inaccurate { .. }
             | Error::Unmeasured { .. }
             | Error::Threads { .. }

@@ -19,7 +19,7 @@
 //! | outcome → regime | [`classify`] |
 //! | labels of an instance, counted | [`label`] |
 //! | speed against error, and the cheapest that is accurate enough | [`accuracy`] |
-//! | sweeps of any size, tile by tile in a directory | [`store`] |
+//! | sweeps of any size, tile by tile in a directory, by the jobs of a cluster | [`store`], [`cluster`] |
 //! | map → bytes, and a map read back | [`map`], [`trace`], [`export`], [`archive`] |
 //! | an instance as sensors record it; measured signals → verdict | [`signals`], [`identify`], [`fit`] |
 //! | the source paper computed again | [`paper`] |
@@ -54,6 +54,7 @@ pub mod accuracy;
 pub mod archive;
 pub mod backend;
 pub mod classify;
+pub mod cluster;
 pub mod error;
 pub mod estimate;
 pub mod export;

@@ -9,6 +9,7 @@ use super::gpu::chunks::Session;
 use super::{cpu, gpu, reference, starts};
 use crate::accuracy::check::check;
 use crate::accuracy::configuration::Configuration;
+use crate::accuracy::sample::subset;
 use crate::error::{Error, Result};
 use crate::kernel::source::Precision;
 use crate::map::{Computation, Record};
@@ -129,6 +130,41 @@ impl<'a> Solver<'a> {
         }?;
         if spec.analysis.checks() && computed.stopped.is_none() {
             computed.stopped = check(spec, all, &self.configuration(), &mut computed.records, cancel)?;
+        }
+        Ok(computed)
+    }
+
+    /// The records of the instances `range` where some are `known`, as this engine makes them before any check; only the
+    /// others are computed.
+    ///
+    /// # Errors
+    /// Those of [`Solver::records`].
+    pub fn records_beside(
+        &mut self,
+        range: Range<usize>,
+        known: &[Option<Record>],
+        progress: &(dyn Fn(usize) + Sync),
+    ) -> Result<Computed> {
+        let spec = self.spec;
+        let lacking: Vec<usize> =
+            range.clone().zip(known).filter(|(_, known)| known.is_none()).map(|(index, _)| index).collect();
+        if lacking.len() == range.len() {
+            return self.records(range, progress);
+        }
+        progress(range.len() - lacking.len());
+        let fresh = if lacking.is_empty() {
+            Computed { records: Vec::new(), stopped: None }
+        } else {
+            self.records_of(&subset(spec, &lacking), 0..lacking.len(), progress)?
+        };
+        let mut records = fresh.records.into_iter();
+        let merged = known
+            .iter()
+            .map(|known| known.clone().or_else(|| records.next()).unwrap_or(Record::NOT_COMPUTED));
+        let mut computed = Computed { records: merged.collect(), stopped: fresh.stopped };
+        if spec.analysis.checks() && computed.stopped.is_none() {
+            let cancel = self.options.cancel();
+            computed.stopped = check(spec, range, &self.configuration(), &mut computed.records, cancel)?;
         }
         Ok(computed)
     }

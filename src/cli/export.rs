@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 use squealmap::export::csv::MapCsv;
 use squealmap::export::netcdf::NetCdf;
+use squealmap::export::parquet::MapParquet;
 use squealmap::export::zarr::Zarr;
 use squealmap::map::Record;
 use squealmap::outcome::Status;
@@ -23,10 +24,10 @@ use crate::cli::{note, print};
 pub(crate) struct Export {
     /// Output directory of a run
     directory: PathBuf,
-    /// What to write: map.csv, map.zarr (Zarr v3) or map.nc (NetCDF classic)
+    /// What to write: map.csv, map.zarr (Zarr v3), map.nc (NetCDF classic) or map.parquet
     #[arg(long, value_enum)]
     format: Format,
-    /// File, for zarr directory, to write [default: map.csv, map.zarr or map.nc in the output directory]
+    /// File, for zarr directory, to write [default: the name above, in the output directory]
     #[arg(short, long, value_name = "PATH")]
     output: Option<PathBuf>,
     /// Also where tiles are missing: their instances are `not_computed`
@@ -40,6 +41,7 @@ enum Format {
     Csv,
     Zarr,
     Netcdf,
+    Parquet,
 }
 
 impl Format {
@@ -48,6 +50,7 @@ impl Format {
             Format::Csv => "map.csv",
             Format::Zarr => "map.zarr",
             Format::Netcdf => "map.nc",
+            Format::Parquet => "map.parquet",
         }
     }
 }
@@ -67,6 +70,7 @@ impl Export {
             Format::Csv => csv(&mut tiles, &path)?,
             Format::Zarr => zarr(&mut tiles, &path)?,
             Format::Netcdf => netcdf(&mut tiles, &path)?,
+            Format::Parquet => parquet(&mut tiles, &path)?,
         }
         if lacking > 0 {
             note(&format!("{} of {total} tiles are there; the rest is `not_computed`", total - lacking));
@@ -96,6 +100,12 @@ impl Tiles<'_> {
         Ok(self.last.as_ref().map_or(&[], |(_, records)| records))
     }
 
+    /// Gives the records of every tile to `write`, with the first instance, in order.
+    fn each(&mut self, mut write: impl FnMut(usize, &[Record]) -> Result<()>) -> Result<()> {
+        let tiling = self.store.description.tiling;
+        (0..tiling.count()).try_for_each(|number| write(tiling.bounds(number).start, self.tile(number)?))
+    }
+
     /// The records of some instances.
     fn range(&mut self, range: Range<usize>) -> Result<Vec<Record>> {
         let size = self.store.description.tiling.tile;
@@ -113,27 +123,32 @@ impl Tiles<'_> {
 
 fn csv(tiles: &mut Tiles, path: &Path) -> Result<()> {
     let mut claim = claim(path)?;
-    let tiling = tiles.store.description.tiling;
     let file = claim.emptied().map_err(|why| cannot(path, &why))?;
     let mut table = MapCsv::new(tiles.store.description.sheet(), file)?;
-    for number in 0..tiling.count() {
-        table.add(tiling.bounds(number).start, tiles.tile(number)?)?;
-    }
+    tiles.each(|first, records| table.add(first, records))?;
+    claim.publish().map_err(|why| cannot(path, &why))
+}
+
+fn parquet(tiles: &mut Tiles, path: &Path) -> Result<()> {
+    let mut claim = claim(path)?;
+    let file = claim.emptied().map_err(|why| cannot(path, &why))?;
+    let mut table = MapParquet::new(tiles.store.description.sheet(), file)?;
+    tiles.each(|first, records| table.add(first, records))?;
+    table.finish()?;
     claim.publish().map_err(|why| cannot(path, &why))
 }
 
 fn netcdf(tiles: &mut Tiles, path: &Path) -> Result<()> {
     let mut claim = claim(path)?;
-    let tiling = tiles.store.description.tiling;
     let netcdf = NetCdf::new(tiles.store.description.sheet());
     let failed = |why: io::Error| cannot(path, &why);
     let file = claim.emptied().map_err(failed)?;
     file.set_len(netcdf.size()).and_then(|()| file.write_all(&netcdf.start())).map_err(failed)?;
-    for number in 0..tiling.count() {
-        for (at, bytes) in netcdf.pieces(tiling.bounds(number).start, tiles.tile(number)?) {
-            file.seek(SeekFrom::Start(at)).and_then(|_| file.write_all(&bytes)).map_err(failed)?;
-        }
-    }
+    tiles.each(|first, records| {
+        netcdf.pieces(first, records).iter().try_for_each(|(at, bytes)| {
+            file.seek(SeekFrom::Start(*at)).and_then(|_| file.write_all(bytes)).map_err(failed)
+        })
+    })?;
     claim.publish().map_err(failed)
 }
 

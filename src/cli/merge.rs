@@ -53,6 +53,7 @@ impl Merge {
             threads: rayon::current_num_threads(),
             elapsed: Duration::ZERO,
             computed: 0,
+            reused: None,
             stopped: None,
             sweep_id: Some(target.description.id.to_string()),
             accuracy: target.description.accuracy.clone(),

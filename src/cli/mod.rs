@@ -18,7 +18,9 @@ mod refine;
 pub(crate) mod report;
 mod results;
 mod run;
+mod scheduler;
 mod status;
+mod submit;
 mod summary;
 mod trace;
 mod tradeoff;
@@ -47,9 +49,11 @@ enum Command {
     Refine(refine::RefineCommand),
     /// How far a run has come: tiles that are done, in work or bad, rate, time left
     Status(status::StatusCommand),
+    /// Submit a sweep to a cluster: an array job that computes its tiles, and one that merges them
+    Submit(submit::Submit),
     /// Bring the tiles of several directories together; when all are there, write the results
     Merge(merge::Merge),
-    /// Write the tiles of a directory as CSV, Zarr v3 or NetCDF, at any time
+    /// Write the tiles of a directory as CSV, Zarr v3, NetCDF or Parquet, at any time
     Export(export::Export),
     /// List the GPUs of this machine: names, drivers, limits and features
     Adapters,
@@ -71,7 +75,7 @@ enum Command {
     Fit(fit::FitCommand),
 }
 
-/// The exit code after Ctrl-C: 128 and the number of the signal, as shells have it.
+/// The exit code after Ctrl-C or SIGTERM: 128 and the number of the signal, as shells have it.
 pub(crate) const INTERRUPTED: u8 = 130;
 
 /// The sweep file and where its results go.
@@ -99,6 +103,7 @@ impl Cli {
             Command::Run(command) => return command.execute(),
             Command::Merge(command) => return command.execute(),
             Command::Refine(command) => command.execute()?,
+            Command::Submit(command) => command.execute()?,
             Command::Status(command) => command.execute()?,
             Command::Export(command) => command.execute()?,
             Command::Adapters => adapters::execute(),

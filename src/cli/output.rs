@@ -62,6 +62,12 @@ impl Output {
         &self.directory
     }
 
+    /// The directory, which stays even if nothing is written into it here.
+    pub(crate) fn keep(mut self) -> PathBuf {
+        self.made.clear();
+        std::mem::take(&mut self.directory)
+    }
+
     /// Writes all files or none: first under temporary names, then renamed. Returns their paths.
     pub(crate) fn write(mut self, files: &[(&str, Vec<u8>)]) -> Result<Vec<PathBuf>> {
         let mut written = Vec::with_capacity(files.len());

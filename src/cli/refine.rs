@@ -18,7 +18,7 @@ use squealmap::refine::{Refined, Settings, planes_of, refine};
 use squealmap::spec::{Spec, Starts};
 
 use crate::cli::output::{Output, list};
-use crate::cli::run::{BackendName, PrecisionName, stop_at_ctrl_c};
+use crate::cli::run::{BackendName, PrecisionName, stop_at_signal};
 use crate::cli::summary::summary;
 use crate::cli::{Files, note, print};
 
@@ -52,7 +52,7 @@ pub(crate) struct RefineCommand {
 
 impl RefineCommand {
     pub(crate) fn execute(self) -> Result<()> {
-        let cancel = stop_at_ctrl_c()?;
+        let cancel = stop_at_signal()?;
         let mut spec = Spec::read(&self.files.sweep)?;
         // Checks are drawn by the place in a sweep, and what is computed here has another: no columns of theirs either.
         spec.analysis.checked = false;

@@ -22,6 +22,7 @@ use squealmap::spec::Spec;
 use squealmap::store::description::Description;
 use squealmap::store::directory::Store;
 use squealmap::store::fill::{Filled, Watch, fill};
+use squealmap::store::reuse::Reuse;
 use squealmap::store::shard::Shard;
 use squealmap::store::space;
 use squealmap::store::tiling::TILE;
@@ -69,6 +70,9 @@ pub(crate) struct Run {
     /// k and n, `auto/n` takes k from the task of Slurm, mpirun, Kubernetes, PBS or HyperQueue
     #[arg(long, value_name = "K/N", value_parser = shard)]
     shard: Option<Shard>,
+    /// Output directory of a run of this sweep with other values of the axes: instances of both are taken over
+    #[arg(long, value_name = "DIR")]
+    reuse: Option<PathBuf>,
     /// Instances of a tile: for tests, which have no time for large ones
     #[arg(long, hide = true, default_value_t = TILE, value_parser = at_least_one)]
     tile: usize,
@@ -112,8 +116,28 @@ impl From<PrecisionName> for Precision {
 }
 
 impl Run {
+    /// Instances of a tile.
+    pub(crate) fn tile(&self) -> usize {
+        self.tile
+    }
+
+    /// Worker threads that were asked for.
+    pub(crate) fn threads(&self) -> Option<u16> {
+        self.threads
+    }
+
+    /// The engine that was asked for.
+    pub(crate) fn backend(&self) -> BackendName {
+        self.backend
+    }
+
+    /// The accuracy that was asked for.
+    pub(crate) fn accuracy(&self) -> Option<Level> {
+        self.accuracy
+    }
+
     pub(crate) fn execute(self) -> Result<ExitCode> {
-        let cancel = stop_at_ctrl_c()?;
+        let cancel = stop_at_signal()?;
         let mut spec = Spec::read(&self.files.sweep)?;
         spec.analysis.checked &= !self.no_check;
         let ranked = self.ranked(&spec)?;
@@ -148,8 +172,11 @@ impl Run {
         let mut solver = Solver::new(&spec, &options)?;
         let mut description = Description::new(&spec, solver.computations(), self.tile);
         description.accuracy = choice.as_ref().map(|choice| choice.chosen.clone());
+        let reuse = self.reuse.as_ref();
+        let reuse =
+            reuse.map(|directory| Reuse::new(directory, &description, output.directory())).transpose()?;
         let store = Store::begin(output.directory(), description, &note)?;
-        let ended = pool.install(|| run(&store, &mut solver, &cancel, self.shard));
+        let ended = pool.install(|| run(&store, &mut solver, &cancel, self.shard, reuse.as_ref()));
         if ended.is_err() {
             store.remove_if_empty();
         }
@@ -206,10 +233,16 @@ fn is_here(configuration: &Configuration) -> bool {
 }
 
 /// Computes what is missing and writes the results of all.
-fn run(store: &Store, solver: &mut Solver, cancel: &AtomicBool, shard: Option<Shard>) -> Result<ExitCode> {
+fn run(
+    store: &Store,
+    solver: &mut Solver,
+    cancel: &AtomicBool,
+    shard: Option<Shard>,
+    reuse: Option<&Reuse>,
+) -> Result<ExitCode> {
     let tiling = store.description.tiling;
     let total = tiling.instances;
-    let mut computed = 0;
+    let (mut computed, mut reused) = (0, 0);
     let mut elapsed = Duration::ZERO;
     store.expel_strangers(&note)?;
     store.clean()?;
@@ -221,18 +254,20 @@ fn run(store: &Store, solver: &mut Solver, cancel: &AtomicBool, shard: Option<Sh
         }
         let progress = Progress::new(lacking);
         let watch = Watch { cancel, progress: &|count| progress.add(count), note: &note };
-        let filled = fill(store, solver, &missing, watch);
+        let filled = fill(store, solver, &missing, reuse, watch);
         progress.finish();
         let filled = filled?;
         if let Some(shard) = shard {
             return Ok(shard_done(store, shard, &filled));
         }
         computed += filled.computed;
+        reused += filled.reused;
         elapsed += filled.elapsed;
         let partial = filled.partial.as_ref().map(|(number, records)| (*number, records.as_slice()));
-        let fresh = computed + partial.map_or(0, |(_, records)| Tally::of(records).computed());
+        let of_partial = partial.map_or(0, |(_, records)| Tally::of(records).computed());
+        let fresh = computed + of_partial - filled.partial_reused;
         if let Some(why) = &filled.stopped
-            && fresh == 0
+            && fresh + reused == 0
             && missing.len() == tiling.count()
         {
             return Err(why.clone().error(0, total));
@@ -241,6 +276,7 @@ fn run(store: &Store, solver: &mut Solver, cancel: &AtomicBool, shard: Option<Sh
             threads: rayon::current_num_threads(),
             elapsed,
             computed: fresh,
+            reused: reuse.map(|reuse| (reused, reuse.sweep_id())),
             stopped: filled.stopped.as_ref().map(ToString::to_string),
             sweep_id: Some(store.description.id.to_string()),
             accuracy: store.description.accuracy.clone(),
@@ -250,7 +286,7 @@ fn run(store: &Store, solver: &mut Solver, cancel: &AtomicBool, shard: Option<Sh
             Results::BadTile => {}
             Results::Current => {
                 let directory = store.directory.display();
-                print(&if computed == 0 {
+                print(&if computed + reused == 0 {
                     format!(
                         "all {total} instances were computed before; nothing is left to do in {directory}\n"
                     )
@@ -314,13 +350,15 @@ pub(crate) fn missing(store: &Store, tiles: impl Iterator<Item = usize>) -> Resu
 /// What was computed, what came out, and the files.
 fn report(run: &manifest::Run, store: &Store, tally: &Tally, paths: &[PathBuf]) -> String {
     let total = store.description.tiling.instances;
-    let before = tally.computed() - run.computed;
+    let reused = run.reused.as_ref().map_or(0, |(instances, _)| *instances);
+    let before = tally.computed().saturating_sub(run.computed + reused);
     let elapsed = run.elapsed.as_secs_f64();
     let rate = run.computed as f64 / elapsed.max(f64::MIN_POSITIVE);
     let of = if run.computed < total { format!(" of {total}") } else { String::new() };
     let before = if before > 0 { format!("; {before} were there before") } else { String::new() };
+    let reused = if run.reused.is_some() { format!("; {reused} were taken over") } else { String::new() };
     format!(
-        "{}{of} instances in {} on {} thread(s), {rate:.0} instances/s{before}\n\n{}{}\n{}",
+        "{}{of} instances in {} on {} thread(s), {rate:.0} instances/s{before}{reused}\n\n{}{}\n{}",
         run.computed,
         seconds(elapsed),
         run.threads,
@@ -361,12 +399,15 @@ fn ended(stopped: &Stopped, store: &Store, tally: &Tally) -> ExitCode {
     ExitCode::from(code)
 }
 
-/// A flag that Ctrl-C sets; the run then ends between two instances or dispatches. Set before anything is
+/// A flag that Ctrl-C sets, and SIGTERM, by which schedulers end a process; the run then ends between two instances or dispatches. Set before anything is
 /// made on the disk; a second Ctrl-C changes nothing, so that no file is left half written.
-pub(crate) fn stop_at_ctrl_c() -> Result<Arc<AtomicBool>> {
+pub(crate) fn stop_at_signal() -> Result<Arc<AtomicBool>> {
     let cancel = Arc::new(AtomicBool::new(false));
     let flag = Arc::clone(&cancel);
     ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed))
+        .map_err(|why| Error::Signal { why: why.to_string() })?;
+    #[cfg(unix)]
+    signal_hook::flag::register(signal_hook::consts::SIGTERM, Arc::clone(&cancel))
         .map_err(|why| Error::Signal { why: why.to_string() })?;
     Ok(cancel)
 }

@@ -97,6 +97,17 @@ impl Group {
     }
 }
 
+/// What the cells of a column hold where they are not empty.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Content {
+    /// [`Cell::Number`].
+    Number,
+    /// [`Cell::Count`].
+    Count,
+    /// [`Cell::Text`].
+    Name,
+}
+
 /// Where the values of a column come from.
 #[derive(Clone, Copy, Debug)]
 enum Source {
@@ -145,6 +156,16 @@ impl Column {
         match self.source {
             Source::Large(_) => self.name.strip_suffix(LARGE_SUFFIX).unwrap_or(self.name),
             _ => self.name,
+        }
+    }
+
+    /// What its cells hold; the tests compare it with every one of them.
+    #[must_use]
+    pub fn content(&self) -> Content {
+        match self.name {
+            "instance" | "settled" | "checked" | "steps" => Content::Count,
+            "law" | "material" | "type" | "regime" | "status" => Content::Name,
+            _ => Content::Number,
         }
     }
 

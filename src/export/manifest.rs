@@ -30,6 +30,8 @@ pub struct Run {
     pub elapsed: Duration,
     /// Instances that were computed in this time.
     pub computed: usize,
+    /// Instances that were taken over from another sweep in this time, and the identity of that; `None` without one.
+    pub reused: Option<(usize, String)>,
     /// Why some are missing; `None` when none is.
     pub stopped: Option<String>,
     /// The identity of the sweep, where its tiles are kept.
@@ -48,6 +50,7 @@ pub fn manifest_json(map: &Map) -> Result<Vec<u8>> {
         threads: map.provenance.threads,
         elapsed: map.provenance.elapsed,
         computed: map.computed(),
+        reused: None,
         stopped: map.stopped.as_ref().map(ToString::to_string),
         sweep_id: None,
         accuracy: None,
@@ -92,6 +95,9 @@ pub fn manifest(sheet: Sheet, resolved: &Value, tally: &Tally, run: &Run) -> Res
     }
     if let Some(accuracy) = &run.accuracy {
         manifest["computation"]["accuracy"] = json!(accuracy);
+    }
+    if let Some((instances, from)) = &run.reused {
+        manifest["computation"]["reused"] = json!({ "instances": instances, "from_sweep": from });
     }
     let mut bytes = serde_json::to_vec_pretty(&manifest).map_err(Error::WriteManifest)?;
     bytes.push(b'\n');

@@ -131,6 +131,19 @@ impl Description {
         })
     }
 
+    /// Whether another sweep has everything but its grid in common with this one.
+    #[must_use]
+    pub fn differs_only_in_grid(&self, other: &Description) -> bool {
+        let without_grid = |one: &Description| {
+            let mut identity = one.identity.clone();
+            if let Some(Json::Object(physics)) = identity.get_mut(PHYSICS) {
+                physics.remove(GRID);
+            }
+            Id::of(&identity)
+        };
+        without_grid(self) == without_grid(other)
+    }
+
     /// The tile `number`.
     #[must_use]
     pub fn tile(&self, number: usize) -> Label {

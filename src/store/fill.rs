@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 
 use super::claim::Claim;
 use super::directory::{Note, Store};
+use super::reuse::Reuse;
 use crate::backend::solver::Solver;
 use crate::error::{Error, Result};
 use crate::map::{Record, Stopped};
@@ -15,16 +16,20 @@ use crate::map::{Record, Stopped};
 const WAIT: Duration = Duration::from_millis(50);
 
 /// What came of filling a directory.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Filled {
-    /// Instances that were computed here.
+    /// Instances of finished tiles that were computed here.
     pub computed: usize,
+    /// Instances that were taken over from another sweep, those of a tile that was stopped included.
+    pub reused: usize,
     /// The wall time it took.
     pub elapsed: Duration,
     /// Why not all is there.
     pub stopped: Option<Stopped>,
     /// The records of a tile that was stopped on its way; those not done are [`Record::NOT_COMPUTED`].
     pub partial: Option<(usize, Vec<Record>)>,
+    /// How many of these were taken over.
+    pub partial_reused: usize,
 }
 
 /// Who asks for tiles, and hears of them.
@@ -41,17 +46,23 @@ pub struct Watch<'a> {
 /// A tile to be written.
 type Finished = (Claim, usize, Vec<Record>);
 
-/// Computes those of the tiles `wanted` that are not there; those that other processes are computing are waited
+/// Computes those of the tiles `wanted` that are not there, as far as `reuse` has none of their instances; tiles that other processes are computing are waited
 /// for. One tile is computed while the one before is written: the records of two are in memory.
 ///
 /// # Errors
 /// When a tile cannot be written, or a result is in doubt; all finished tiles stay.
-pub fn fill(store: &Store, solver: &mut Solver, wanted: &[usize], watch: Watch) -> Result<Filled> {
+pub fn fill(
+    store: &Store,
+    solver: &mut Solver,
+    wanted: &[usize],
+    reuse: Option<&Reuse>,
+    watch: Watch,
+) -> Result<Filled> {
     let began = Instant::now();
     let (sender, receiver) = sync_channel(0);
     let mut filled = thread::scope(|scope| {
         let writer = scope.spawn(|| write_all(store, receiver));
-        let computed = compute(store, solver, wanted, watch, &sender);
+        let computed = compute(store, solver, wanted, reuse, watch, &sender);
         drop(sender);
         // An error of the writer is the cause of one of the computation.
         writer.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))?;
@@ -70,10 +81,11 @@ fn compute(
     store: &Store,
     solver: &mut Solver,
     wanted: &[usize],
+    reuse: Option<&Reuse>,
     watch: Watch,
     sender: &SyncSender<Finished>,
 ) -> Result<Filled> {
-    let mut filled = Filled { computed: 0, elapsed: Duration::ZERO, stopped: None, partial: None };
+    let mut filled = Filled::default();
     let mut open = wanted.to_vec();
     while !open.is_empty() {
         let mut busy = Vec::new();
@@ -92,9 +104,18 @@ fn compute(
             }
             let bounds = store.description.tiling.bounds(number);
             let (first, count) = (bounds.start, bounds.len());
-            match solver.records(bounds, watch.progress) {
+            let (made, reused) = match reuse {
+                None => (solver.records(bounds, watch.progress), 0),
+                Some(reuse) => {
+                    let known = reuse.known(bounds.clone(), watch.note);
+                    let reused = known.iter().flatten().count();
+                    (solver.records_beside(bounds, &known, watch.progress), reused)
+                }
+            };
+            match made {
                 Ok(tile) if tile.stopped.is_none() => {
-                    filled.computed += count;
+                    filled.computed += count - reused;
+                    filled.reused += reused;
                     if sender.send((claim, number, tile.records)).is_err() {
                         // The writer has ended, with an error that is reported in place of this.
                         return Err(Error::Cancelled { done: filled.computed, total: first });
@@ -102,6 +123,8 @@ fn compute(
                 }
                 Ok(part) => {
                     filled.stopped = part.stopped;
+                    filled.reused += reused;
+                    filled.partial_reused = reused;
                     filled.partial = Some((number, part.records));
                     return Ok(filled);
                 }

@@ -13,6 +13,7 @@
 //! - [`claim`]: one process at a time writes a file.
 //! - [`directory`]: the tiles of a directory.
 //! - [`fill`]: computes what is missing.
+//! - [`reuse`]: what another directory has of it.
 //! - [`shard`]: a share of the tiles.
 //! - [`status`], [`merge`](mod@merge): how far a directory has come; several directories in one.
 //! - [`space`]: what it takes of the disk.
@@ -25,6 +26,7 @@ pub mod fill;
 pub mod grid_json;
 pub mod identity;
 pub mod merge;
+pub mod reuse;
 pub mod shard;
 pub mod space;
 pub mod starts;

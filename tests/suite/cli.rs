@@ -28,6 +28,11 @@ pub(crate) fn squealmap(directory: &Path, arguments: &[&str]) -> Ended {
     Ended { code: output.status.code(), out: text(output.stdout), err: text(output.stderr) }
 }
 
+/// An error report without its breaks of lines.
+pub(crate) fn unwrapped(err: &str) -> String {
+    err.split_whitespace().filter(|word| *word != "│").collect::<Vec<_>>().join(" ")
+}
+
 /// A directory with a small sweep `small.toml` (with `extra` in `[model]`) in it.
 fn with_sweep(extra: &str) -> TempDir {
     let directory = tempfile::tempdir().unwrap();

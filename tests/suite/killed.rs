@@ -13,9 +13,9 @@ use crate::resume::{COMPLETE, SWEEP, names, tiles, with};
 /// Of 10 instances.
 const TILES: f64 = 300.0;
 
-const RUN: [&str; 8] = ["run", "s.toml", "--backend", "cpu", "--tile", "10", "--threads", "1"];
+pub(crate) const RUN: [&str; 8] = ["run", "s.toml", "--backend", "cpu", "--tile", "10", "--threads", "1"];
 
-fn sweep() -> String {
+pub(crate) fn sweep() -> String {
     SWEEP.replace("points = 15", "points = 150").replace("\"2 periods\"", "\"20 periods\"")
 }
 
@@ -26,7 +26,7 @@ fn start(directory: &Path) -> Child {
 }
 
 /// Tiles that are there by now.
-fn done(directory: &Path) -> usize {
+pub(crate) fn done(directory: &Path) -> usize {
     let Ok(entries) = std::fs::read_dir(directory.join("out/s/tiles")) else { return 0 };
     entries.flatten().filter(|entry| entry.file_name().to_string_lossy().ends_with(".tile")).count()
 }
@@ -97,6 +97,16 @@ fn killed_fifty_times() {
 
 #[test]
 fn after_ctrl_c_the_same_command_goes_on() {
+    stopped_by("INT");
+}
+
+#[test]
+fn after_the_signal_of_a_scheduler_the_same_command_goes_on() {
+    stopped_by("TERM");
+}
+
+/// Ends a run by a signal, then lets the same command go on; compares with a run that nobody disturbed.
+fn stopped_by(signal: &str) {
     let undisturbed = with(&sweep());
     assert_eq!(squealmap(undisturbed.path(), &RUN).code, Some(0));
     let directory = with(&sweep());
@@ -105,7 +115,7 @@ fn after_ctrl_c_the_same_command_goes_on() {
         assert!(child.try_wait().unwrap().is_none(), "it ended before it was interrupted");
         sleep(Duration::from_micros(200));
     }
-    let sent = Command::new("sh").args(["-c", &format!("kill -INT {}", child.id())]).status().unwrap();
+    let sent = Command::new("sh").args(["-c", &format!("kill -{signal} {}", child.id())]).status().unwrap();
     assert!(sent.success());
     assert_eq!(child.wait().unwrap().code(), Some(130));
     let kept = done(directory.path());

@@ -38,6 +38,7 @@ mod modes_figure;
 mod no_driver;
 mod observables;
 mod paper;
+mod parquet;
 mod plot;
 mod promise;
 mod properties;
@@ -45,6 +46,7 @@ mod refine;
 mod regimes;
 mod response;
 mod resume;
+mod reuse;
 mod settle;
 mod shards;
 mod simd;
@@ -55,8 +57,12 @@ mod stopped;
 mod stretches;
 mod strict;
 mod strokes;
+#[cfg(unix)]
+mod submit;
 mod sweeps;
 mod synthetic;
 mod tile_cost;
 mod tiles;
 mod trace_figure;
+#[cfg(unix)]
+mod unwritable;
