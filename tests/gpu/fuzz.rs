@@ -63,7 +63,7 @@ fn is_short(spec: &Spec, plan: &Plan) -> bool {
     let fastest = scene.model.fastest.into_iter().filter(|rate| rate.is_finite()).fold(0.0, f64::max);
     let length = scene.scaled(plan.settle) + scene.scaled(plan.measure);
     let steps = length * fastest.max(f64::from(plan.steps_per_period) / 6.0);
-    steps < MOST_STEPS || steps > 1e18
+    !(MOST_STEPS..=1e18).contains(&steps)
 }
 
 /// A random sweep: start, response and what only some laws have are those of the first draw, all other numbers of each

@@ -134,7 +134,8 @@ pub(crate) fn crossings(matrix: &Matrix4<f64>, start: Vector4<f64>, settle: f64,
     };
     let mut state = flow(matrix, settle) * start;
     let (mut moments, mut extrema) = (Vec::new(), Vec::new());
-    for index in 0..count as u64 {
+    let mut began = 0.0;
+    while began < 0.5_f64.mul_add(-length, measure) {
         let next = step * state;
         let slopes = [&state, &next].map(|z| (matrix.row(2) * z)[(0, 0)]);
         let extremum = length * slopes[0] / (slopes[0] - slopes[1]);
@@ -147,9 +148,10 @@ pub(crate) fn crossings(matrix: &Matrix4<f64>, start: Vector4<f64>, settle: f64,
             _ => None,
         };
         if let Some((low, high)) = bracket {
-            moments.push(index as f64 * length + root(&state, low, high));
+            moments.push(began + root(&state, low, high));
         }
         state = next;
+        began += length;
     }
     let (least, most) = extrema.iter().fold((f64::MAX, 0.0_f64), |(a, b), v| (a.min(*v), b.max(*v)));
     Crossings {

@@ -26,7 +26,7 @@ use defect::defect;
 const SECONDS: &str = "SQUEALMAP_FUZZ_SECONDS";
 
 /// A case that takes longer hangs: the longest legal ones of these sweeps take ten seconds of a processor.
-const HANGS: Duration = Duration::from_secs(120);
+const HANGS: Duration = Duration::from_mins(2);
 
 /// Instances that ask for more steps are legal and slow; they are left out.
 const MOST_STEPS: f64 = 3e5;
