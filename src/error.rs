@@ -724,6 +724,12 @@ pub enum Error {
         /// What was said of the other one.
         why: String,
     },
+    /// Tasks that would take over another directory.
+    #[error(
+        "--reuse stands among the options of a job's tasks, which do not say together what they took over; use `run --reuse` \
+         for the sweep as a whole, or leave it out"
+    )]
+    ReuseInJobs,
     /// More GPUs for a task than it uses.
     #[error(
         "--gpus is `{gpus}` but must be 1 or TYPE:1, as a run uses one GPU; take more --tasks for more GPUs"
@@ -810,6 +816,7 @@ impl Error {
             | Error::AccuracyBeside { .. }
             | Error::NoScheduler { .. }
             | Error::ManyGpus { .. }
+            | Error::ReuseInJobs
             | Error::PathOfJob { .. }
             | Error::Inaccurate { .. }
             | Error::Unmeasured { .. }

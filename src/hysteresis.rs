@@ -108,6 +108,23 @@ impl Hysteresis {
         self.up.iter().zip(&self.down).map(|(up, down)| differ(up, down, up.kind)).collect()
     }
 
+    /// The ranges of neighbouring values at which the branches end differently, from the first to the last value of each.
+    #[must_use]
+    pub fn apart(&self) -> Vec<[f64; 2]> {
+        let mut ranges: Vec<[f64; 2]> = Vec::new();
+        let mut before = false;
+        for (value, differs) in self.values.iter().zip(self.bistable()) {
+            let differs = differs == Some(true);
+            match ranges.last_mut() {
+                Some(range) if differs && before => range[1] = *value,
+                _ if differs => ranges.push([*value; 2]),
+                _ => {}
+            }
+            before = differs;
+        }
+        ranges
+    }
+
     /// The values as a grid of one axis.
     #[must_use]
     pub fn grid(&self) -> Grid {

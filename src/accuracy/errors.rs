@@ -132,6 +132,13 @@ impl Judge {
         Judge { truth, weights }
     }
 
+    /// The judge of some of the instances, by their places.
+    #[must_use]
+    pub fn part_of(&self, places: &[usize]) -> Judge {
+        let truth = places.iter().map(|at| self.truth[*at].clone()).collect();
+        Judge { truth, weights: places.iter().map(|at| self.weights[*at]).collect() }
+    }
+
     /// The true records.
     #[must_use]
     pub fn truth(&self) -> &[Record] {

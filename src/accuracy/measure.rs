@@ -45,6 +45,14 @@ const TIMED: usize = 1024;
 /// Those of the reference and what is compared with it, which take one at a time.
 const TIMED_REFERENCE: usize = 64;
 
+/// Those of what is only there to be compared with, timed in one round: slow, and never chosen. For the same reason only
+/// one of so many instances of the sample is judged.
+const TIMED_COMPARED: usize = 16;
+const ONE_COMPARED_OF: usize = 8;
+
+/// A speed is taken over so many seconds at least: clocks count the work of a thread in slices.
+const SHORTEST_TIMING: f64 = 0.02;
+
 /// Rounds of which the fastest counts; in each every configuration has its turn, so that none of them meets the other
 /// work of the machine alone.
 const ROUNDS: usize = 2;
@@ -133,7 +141,12 @@ pub fn measure(
     let mut rates: Vec<Rate> = Vec::new();
     for round in 0..ROUNDS {
         for (at, configuration) in configurations.iter().enumerate() {
+            let compared = configuration.backend.is_comparison();
+            if compared && round > 0 {
+                continue;
+            }
             let instances = match configuration.backend {
+                _ if compared => TIMED_COMPARED.min(timed.grid.len()),
                 one_by_one if one_by_one.method().is_some() => TIMED_REFERENCE.min(timed.grid.len()),
                 Backend::Gpu if settings.software => TIMED_REFERENCE.min(timed.grid.len()),
                 _ => timed.grid.len(),
@@ -152,9 +165,12 @@ pub fn measure(
         }
         note(&format!("speed: round {} of {ROUNDS} is done", round + 1));
     }
+    let (few, judge_of_few) = compared(&judged, &judge);
     let mut rows = Vec::new();
     for (configuration, rate) in configurations.iter().zip(rates) {
-        let found = all.install(|| records(configuration, &judged, options))?;
+        let (judged, judge) =
+            if configuration.backend.is_comparison() { (&few, &judge_of_few) } else { (&judged, &judge) };
+        let found = all.install(|| records(configuration, judged, options))?;
         let row = Row::new(&scene, configuration, rate, &judge.errors(&found));
         note(&format!(
             "{configuration}: {:.0} instances/s, 95 % within {:.1e}, 99 % within {:.1e}",
@@ -164,6 +180,12 @@ pub fn measure(
     }
     mark(&mut rows);
     Ok(Measurement { scene, settings, sample, truth, rows, left_out })
+}
+
+/// The part of the sample that the methods to compare with are judged on.
+fn compared(judged: &Spec, judge: &Judge) -> (Spec, Judge) {
+    let few: Vec<usize> = (0..judged.grid.len()).step_by(ONE_COMPARED_OF).collect();
+    (subset(judged, &few), judge.part_of(&few))
 }
 
 /// Compares the truth with twice its steps, and counts.
@@ -233,8 +255,12 @@ fn speed(
     let options = Options { note: None, ..configuration.options(options) };
     let mut solver = Solver::new(&spec, &options)?;
     let clock = Clock::start();
-    if let Some(why) = solver.records(0..instances, &|_| {})?.stopped {
-        return Err(why.error(0, instances));
+    let mut computed = 0;
+    while computed == 0 || clock.wall() < SHORTEST_TIMING || clock.worked() <= 0.0 {
+        if let Some(why) = solver.records(0..instances, &|_| {})?.stopped {
+            return Err(why.error(0, instances));
+        }
+        computed += instances;
     }
-    Ok([clock.worked(), clock.wall()].map(|seconds| instances as f64 / seconds.max(f64::MIN_POSITIVE)))
+    Ok([clock.worked(), clock.wall()].map(|seconds| computed as f64 / seconds))
 }

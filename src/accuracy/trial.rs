@@ -17,19 +17,21 @@ use crate::map::Record;
 use crate::spec::Spec;
 
 /// Instances of the first draw; each further one has four times as many.
-const FIRST_DRAW: usize = 128;
+const FIRST_DRAW: usize = 192;
 const GROWTH: usize = 4;
 
-/// Beyond the first draw at most this part of the sweep.
-const MOST: f64 = 0.02;
+/// At most so many instances, or this part of the sweep.
+const MOST: usize = 1024;
+const MOST_PART: f64 = 0.02;
 
-/// So many settled oscillations have a 95th percentile, and are enough.
-const ENOUGH: usize = 40;
+/// Fewer settled oscillations have no 95th percentile; so many are enough.
 const FEWEST: usize = 20;
+const ENOUGH: usize = 100;
 
-/// The share of the oscillations of the trial that have to keep the bound. It is more than the 95 % of the promise, as
-/// a sample's quantile lies on either side of that of all.
-const KEPT: f64 = 0.975;
+/// The part of the oscillations of a trial that may break the bound, half of what the promise allows: several choices are
+/// tried on one sample, of which none is to pass by luck. What breaks the bound in 10 % of all cases passes a trial of 100
+/// oscillations one time in 500, one of 40 one time in 70.
+const BROKEN: f64 = 0.025;
 
 /// Seed of the draw.
 const SEED: u64 = 0x5153_5452;
@@ -43,15 +45,15 @@ pub struct Trial {
     pub settled_oscillations: usize,
     /// The relative error beyond the truth's own scatter that 95 % of them keep; `None` of fewer than 20.
     pub p95: Option<f64>,
-    /// The part of them that keeps the bound; `None` without any.
-    pub kept: Option<f64>,
+    /// How many of them break the bound.
+    pub broken: usize,
 }
 
 impl Trial {
     /// Whether the bound was kept, as far as so few can tell.
     #[must_use]
     pub fn passed(&self) -> bool {
-        self.kept.is_none_or(|kept| kept >= KEPT)
+        self.broken as f64 <= (BROKEN * self.settled_oscillations as f64 - 0.5).max(0.0)
     }
 
     /// What it says to a user.
@@ -72,8 +74,9 @@ impl Trial {
             return format!("{sample}: {found}");
         }
         format!(
-            "warning: {sample}: {found}, which is not {bound:e}, and nothing measured is more accurate; the checks in the \
-             summary say what the whole sweep has"
+            "warning: {sample}: {found}, but {} break {bound:e}, more than half of what may, and nothing measured is more \
+             accurate; the checks in the summary say what the whole sweep has",
+            self.broken
         )
     }
 }
@@ -115,7 +118,7 @@ impl Sample {
     fn draw(spec: &Spec, judge: &Configuration, options: &Options) -> Result<Sample> {
         let total = spec.grid.len();
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a part of the total")]
-        let most = ((MOST * total as f64) as usize).max(FIRST_DRAW).min(total);
+        let most = ((MOST_PART * total as f64) as usize).max(MOST).min(total);
         let mut count = FIRST_DRAW.min(total);
         loop {
             let sweep = subset(spec, &spread(SEED, count, total, 0..total));
@@ -138,13 +141,12 @@ impl Sample {
             .map(|(record, truth)| (worst(record, truth) - scatter(truth)).max(0.0))
             .collect();
         let settled = errors.len();
-        let kept = errors.iter().filter(|error| **error <= bound).count();
         let judge = Judge::new(self.truth.clone(), vec![1.0; self.truth.len()]);
         Ok(Trial {
             instances: self.truth.len(),
             settled_oscillations: settled,
             p95: (settled >= FEWEST).then(|| judge.errors(&found).beyond_scatter),
-            kept: (settled > 0).then(|| kept as f64 / settled as f64),
+            broken: errors.iter().filter(|error| **error > bound).count(),
         })
     }
 }

@@ -85,9 +85,10 @@ pub(crate) fn execute(spec: &Spec, directory: PathBuf, at: &str, range: &Range, 
     ];
     let paths = output.write(&files)?;
     let branches = Direction::ALL.map(|direction| {
-        let jumps: Vec<String> = found.jumps(direction).iter().map(|[a, b]| format!("{a} and {b}")).collect();
+        let between = |[a, b]: &[f64; 2]| format!("{} and {}", shown(*a), shown(*b));
+        let jumps: Vec<String> = found.jumps(direction).iter().map(between).collect();
         let jumps = if jumps.is_empty() {
-            "no jump".to_owned()
+            "no jump between sliding and oscillation".to_owned()
         } else {
             format!("a jump between {}", jumps.join(", "))
         };
@@ -98,10 +99,22 @@ pub(crate) fn execute(spec: &Spec, directory: PathBuf, at: &str, range: &Range, 
         .flat_map(|direction| found.branch(*direction))
         .filter(|record| record.settled != Some(true))
         .count();
+    let apart: Vec<String> =
+        found.apart().iter().map(|[a, b]| format!("{} to {}", shown(*a), shown(*b))).collect();
+    let apart = if apart.is_empty() {
+        "the branches end alike at every value\n".to_owned()
+    } else {
+        format!("the branches end differently from {}\n", apart.join(", "))
+    };
     let warning = match unsettled {
         0 => String::new(),
         some => format!("{some} of {} values had not settled\n", 2 * found.values.len()),
     };
-    print(&format!("{}{warning}{}", branches.concat(), list(&paths)));
+    print(&format!("{}{apart}{warning}{}", branches.concat(), list(&paths)));
     Ok(())
+}
+
+/// A value without the rounding of its place on an axis.
+fn shown(value: f64) -> f64 {
+    format!("{value:.11e}").parse().unwrap_or(value)
 }

@@ -131,6 +131,11 @@ impl Run {
         self.backend
     }
 
+    /// Whether it takes over the instances of another directory.
+    pub(crate) fn reuses(&self) -> bool {
+        self.reuse.is_some()
+    }
+
     /// The accuracy that was asked for.
     pub(crate) fn accuracy(&self) -> Option<Level> {
         self.accuracy

@@ -36,7 +36,7 @@ pub(crate) struct Submit {
     cpus: u16,
     /// Time limit of a task in a form of Slurm, such as 30 (minutes) or 4:00:00; a minute before it the run ends with the
     /// tiles that are done, and the task is queued again [default: the partition's]
-    #[arg(long, value_name = "TIME")]
+    #[arg(long, value_name = "TIME", value_parser = time_limit)]
     time: Option<String>,
     /// Tasks of the array [default: by the cost that `check` measures, ten minutes each or more]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
@@ -131,6 +131,9 @@ impl Submit {
 
     /// The jobs.
     fn jobs(&self, run: &Run, tasks: usize) -> Result<Jobs> {
+        if run.reuses() {
+            return Err(Error::ReuseInJobs);
+        }
         if let Some(gpus) = self.gpus.as_deref().filter(|gpus| gpus.rsplit(':').next() != Some("1")) {
             return Err(Error::ManyGpus { gpus: gpus.to_owned() });
         }
@@ -174,6 +177,20 @@ impl Submit {
         };
         words.iter().copied()
     }
+}
+
+/// A time limit in one of the forms of Slurm: minutes, minutes:seconds, hours:minutes:seconds, days-hours,
+/// days-hours:minutes, days-hours:minutes:seconds.
+fn time_limit(text: &str) -> std::result::Result<String, String> {
+    let (days, rest) = text.split_once('-').map_or((None, text), |(days, rest)| (Some(days), rest));
+    let parts: Vec<&str> = days.into_iter().chain(rest.split(':')).collect();
+    let is_number =
+        |part: &&str| !part.is_empty() && part.len() <= 9 && part.bytes().all(|c| c.is_ascii_digit());
+    let fits = rest.split(':').count() <= 3 && parts.iter().all(is_number);
+    if fits && parts.iter().any(|part| part.bytes().any(|c| c != b'0')) {
+        return Ok(text.to_owned());
+    }
+    Err("must be a time of Slurm: minutes (30), h:mm:ss (4:00:00), or days-hours (1-12)".to_owned())
 }
 
 /// Submits both jobs, or none; returns their numbers.

@@ -162,8 +162,8 @@ impl Column {
     /// What its cells hold; the tests compare it with every one of them.
     #[must_use]
     pub fn content(&self) -> Content {
-        match self.name {
-            "instance" | "settled" | "checked" | "steps" => Content::Count,
+        match self.quantity() {
+            "instance" | "settled" | "checked" | "steps" | "bistable" => Content::Count,
             "law" | "material" | "type" | "regime" | "status" => Content::Name,
             _ => Content::Number,
         }

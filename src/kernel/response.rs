@@ -220,6 +220,9 @@ pub fn window_segments(scene: &Scene, plan: &Plan, settle: f64, half: f64) -> Se
     cut(scene, plan, [(SETTLE, settle), (FIRST_HALF, half), (OPEN_HALF, half)])
 }
 
+/// A ramp that has less than this part of its time to go is over.
+const END_ROUNDING: f64 = 1e-14;
+
 fn cut(scene: &Scene, plan: &Plan, parts: [(u32, f64); 3]) -> Segments {
     let nominal = TAU / f64::from(plan.steps_per_period);
     let mut segments = [[0.0; SEGMENT_WORDS]; SEGMENTS];
@@ -227,8 +230,14 @@ fn cut(scene: &Scene, plan: &Plan, parts: [(u32, f64); 3]) -> Segments {
     let mut time = 0.0;
     for (part, length) in parts {
         let mut rest = length;
-        while rest > 0.0 && used < SEGMENTS {
-            let (belt, holds) = scene.belt_from(time);
+        while rest > 0.0 {
+            let (mut belt, mut holds) = scene.belt_from(time);
+            if holds <= END_ROUNDING * time {
+                // The sum of the parts falls short of the end of the ramp by its rounding: a segment of nothing, for which
+                // there is no room.
+                time *= 1.0 + END_ROUNDING;
+                (belt, holds) = scene.belt_from(time);
+            }
             let duration = rest.min(holds);
             let steps = (duration / nominal).ceil().max(1.0);
             segments[used] = [steps, duration / steps, belt.velocity, belt.acceleration, f64::from(part)];

@@ -164,10 +164,10 @@ params! {
     StartEventFraction "start_event_fraction" "a_e" "" Start None, Range::Open(0.0, 1.0), "mode start: amplitude as a fraction of that at which the mode first meets an event";
     LargeVelocity "large_velocity" "ẋ_2,L" "m/s" Start None, Range::Finite, "large start: velocity added to x2' at the sliding equilibrium; by default that of the belt, which is stick";
     LargeDisplacement "large_displacement" "x_2,L" "m" Start Some(0.0), Range::Finite, "large start: displacement added to x2 at the sliding equilibrium";
-    BoxDisplacementFrom "box_displacement_from" "x_2,a" "m" Start None, Range::Finite, "box of starts: one bound of the displacement added to x2 at the sliding equilibrium";
-    BoxDisplacementTo "box_displacement_to" "x_2,b" "m" Start None, Range::Finite, "box of starts: the other bound of that displacement";
-    BoxVelocityFrom "box_velocity_from" "ẋ_2,a" "m/s" Start None, Range::Finite, "box of starts: one bound of the velocity added to x2' at the sliding equilibrium";
-    BoxVelocityTo "box_velocity_to" "ẋ_2,b" "m/s" Start None, Range::Finite, "box of starts: the other bound of that velocity";
+    BoxDisplacementFrom "box_displacement_from" "x_2,a" "m" Start None, Range::Closed(-1e150, 1e150), "box of starts: one bound of the displacement added to x2 at the sliding equilibrium";
+    BoxDisplacementTo "box_displacement_to" "x_2,b" "m" Start None, Range::Closed(-1e150, 1e150), "box of starts: the other bound of that displacement";
+    BoxVelocityFrom "box_velocity_from" "ẋ_2,a" "m/s" Start None, Range::Closed(-1e150, 1e150), "box of starts: one bound of the velocity added to x2' at the sliding equilibrium";
+    BoxVelocityTo "box_velocity_to" "ẋ_2,b" "m/s" Start None, Range::Closed(-1e150, 1e150), "box of starts: the other bound of that velocity";
 }
 
 impl Param {

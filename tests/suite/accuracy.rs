@@ -391,7 +391,7 @@ fn an_accuracy_is_chosen_said_and_kept() {
     assert_eq!(chosen["bound"], 1e-3);
     let tried = chosen["trial"]["instances"].as_u64().unwrap();
     assert!(
-        tried >= 128 && ended.err.contains(&format!("tried on {tried} instances of this sweep")),
+        tried >= 192 && ended.err.contains(&format!("tried on {tried} instances of this sweep")),
         "{}",
         ended.err
     );

@@ -57,6 +57,8 @@ fn the_branches_of_the_belt_velocity() {
         assert!(!ends(&found, 1.75) && !ends(&found, 1.95));
         assert!(!jumps_at(&found, Direction::Down, 1.02) && !jumps_at(&found, Direction::Down, 1.3));
         let step = found.values[1] - found.values[0];
+        let [[first, last]] = found.apart()[..] else { panic!("{:?}", found.apart()) };
+        assert!((first - hopf).abs() < 0.05 + step && (last - end).abs() < 2.01 * step, "{first} {last}");
         for (value, bistable) in found.values.iter().zip(found.bistable()) {
             // Near both limits a motion may not have settled, or have left the cycle early.
             if (hopf - 0.05..hopf).contains(value) || (end - 2.0 * step..end).contains(value) {

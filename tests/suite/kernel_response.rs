@@ -1,12 +1,12 @@
 //! The twin of the response kernel against the reference: is the method right, and is f32 enough?
 
-use crate::common::{bilinear, paper, plan};
+use crate::common::{bilinear, near, paper, plan};
 use squealmap::classify::regime;
-use squealmap::kernel::response::respond as twin;
+use squealmap::kernel::response::{respond as twin, segments};
 use squealmap::model::Param;
 use squealmap::model::friction::FrictionLaw;
 use squealmap::outcome::{Outcome, Status};
-use squealmap::response::{Plan, respond};
+use squealmap::response::{Plan, Scene, respond};
 use squealmap::spec::{Duration, Instance};
 
 /// Bound on the truncation of the kernel's steps, in use for f32.
@@ -91,4 +91,28 @@ fn the_comparer_sees_a_wrong_scene() {
     };
     let (errors, _) = compare(bilinear, wrong);
     assert!(errors[(errors.len() - 1) * 99 / 100] > 2e-3);
+}
+
+/// The segments of a run make up the time that was asked for, wherever a ramp ends: a sum that falls short of that by its
+/// rounding once took the place of the second half of the window, with the status `ok`.
+#[test]
+fn segments_make_up_the_time_that_is_asked_for() {
+    // A sequence that fills the unit square evenly.
+    let even = |index: u32, ratio: f64| (f64::from(index) * ratio).fract();
+    for index in 0..20_000 {
+        let (settle, measure) = (60.0 * even(index, 0.754_877_666), 0.1 + 60.0 * even(index, 0.569_840_291));
+        let mut one = paper(0.3, 0.2, 1.0);
+        one.params.set(Param::BeltVelocityEnd, 1.0 + f64::from(index % 2));
+        one.params.set(Param::RampDuration, (settle + measure) * even(index, 0.618_033_989));
+        let plan = plan(settle, measure, 4);
+        let scene = Scene::new(&one, plan.start).expect("an equilibrium");
+        let segments = segments(&scene, &plan);
+        let asked =
+            [scene.scaled(plan.settle), 0.5 * scene.scaled(plan.measure), 0.5 * scene.scaled(plan.measure)];
+        for (part, asked) in asked.into_iter().enumerate() {
+            let of_part = segments.iter().filter(|segment| segment[0] > 0.0 && segment[4] == part as f64);
+            let sum: f64 = of_part.map(|segment| segment[0] * segment[1]).sum();
+            near(&format!("part {part} of {settle} s + {measure} s"), sum, asked, 1e-9);
+        }
+    }
 }

@@ -227,6 +227,10 @@ fn what_is_wrong_is_a_sentence_and_leaves_nothing() {
         (slurm(), &["--gpus", "2"], 2, "--gpus is `2` but must be 1 or TYPE:1, as a run uses one GPU"),
         (slurm(), &["--", "--shard", "0/2"], 2, "'--shard <K/N>' cannot be used multiple times"),
         (slurm(), &["--", "--backend", "fpga"], 2, "invalid value 'fpga' for '--backend <BACKEND>'"),
+        (slurm(), &["--", "--reuse", "old"], 2, "--reuse stands among the options of a job's tasks"),
+        (slurm(), &["--time", "soon"], 2, "must be a time of Slurm"),
+        (slurm(), &["--time", "0:00"], 2, "must be a time of Slurm"),
+        (slurm(), &["--time", "1-2-3"], 2, "must be a time of Slurm"),
         (slurm(), &["-o", "a\nb"], 2, "the path `a\\nb` cannot stand in a job"),
     ] {
         let directory = with(SWEEP);
