@@ -182,9 +182,12 @@ pub fn measure(
     Ok(Measurement { scene, settings, sample, truth, rows, left_out })
 }
 
-/// The part of the sample that the methods to compare with are judged on.
+/// The part of the sample that the methods to compare with are judged on: of the settled oscillations, and of all others.
 fn compared(judged: &Spec, judge: &Judge) -> (Spec, Judge) {
-    let few: Vec<usize> = (0..judged.grid.len()).step_by(ONE_COMPARED_OF).collect();
+    let (settled, others): (Vec<usize>, Vec<usize>) =
+        (0..judged.grid.len()).partition(|at| is_settled_oscillation(&judge.truth()[*at]));
+    let few: Vec<usize> =
+        [settled, others].iter().flat_map(|part| part.iter().step_by(ONE_COMPARED_OF).copied()).collect();
     (subset(judged, &few), judge.part_of(&few))
 }
 

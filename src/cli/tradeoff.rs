@@ -17,6 +17,9 @@ use crate::cli::{frontier, note, print};
 /// What is written.
 const FILES: [&str; 4] = ["tradeoff.csv", "tradeoff.json", "tradeoff.png", "tradeoff.svg"];
 
+/// Settled oscillations below which a sweep is measured for the eye alone.
+const FEWEST_JUDGED: usize = 20;
+
 /// Arguments of `tradeoff`.
 #[derive(Debug, Args)]
 pub(crate) struct Tradeoff {
@@ -93,8 +96,19 @@ impl Tradeoff {
         }
         let mut paths = Vec::new();
         if !self.no_store {
-            let rows: Vec<Row> = all.iter().flat_map(|done| done.measured.rows.clone()).collect();
-            paths.extend(frontier::store(self.store, &rows)?);
+            let told = |done: &&Done| done.measured.truth.judged >= FEWEST_JUDGED;
+            let rows: Vec<Row> =
+                all.iter().filter(told).flat_map(|done| done.measured.rows.clone()).collect();
+            for done in all.iter().filter(|done| !told(done)) {
+                note(&format!(
+                    "`{}`: {} settled oscillations have no 95th percentile, and `run --accuracy` will not choose by them; \
+                     take a larger --sample",
+                    done.stem, done.measured.truth.judged
+                ));
+            }
+            if !rows.is_empty() {
+                paths.extend(frontier::store(self.store, &rows)?);
+            }
         }
         if let Some(report) = &self.report {
             paths.extend(write_report(report, &all)?);

@@ -319,11 +319,11 @@ fn a_sample_has_every_type_and_stands_for_the_whole_sweep() {
 #[test]
 fn tradeoff_writes_its_files_and_keeps_its_table() {
     let directory = with(MAP);
-    let run = |store: &[&str]| {
-        let arguments = ["tradeoff", "s.toml", "--sample", "16", "-o", "t"];
-        squealmap(directory.path(), &[&arguments[..], store].concat())
+    let run = |sample: &str, table: &str| {
+        let arguments = ["tradeoff", "s.toml", "--sample", sample, "-o", "t", "--store", table];
+        squealmap(directory.path(), &arguments)
     };
-    let ended = run(&["--store", "table.csv"]);
+    let ended = run("400", "table.csv");
     assert_eq!(ended.code, Some(0), "{}", ended.err);
     assert!(ended.out.contains("standard") && ended.out.contains("settled oscillations"), "{}", ended.out);
     let read = |name: &str| std::fs::read(directory.path().join(name)).unwrap();
@@ -350,8 +350,13 @@ fn tradeoff_writes_its_files_and_keeps_its_table() {
     table.retain(|row| row.backend == "reference");
     table[0].scene = "rational, fixed time".to_owned();
     std::fs::write(directory.path().join("table.csv"), to_csv(&table).unwrap()).unwrap();
-    assert_eq!(run(&["--store", "table.csv"]).code, Some(0));
+    assert_eq!(run("400", "table.csv").code, Some(0));
     assert_eq!(from_csv(&read("table.csv")).unwrap().len(), rows.len() + 1);
+    // What too few were judged for is for the eye alone.
+    let ended = run("16", "few.csv");
+    assert_eq!(ended.code, Some(0), "{}", ended.err);
+    assert!(ended.err.contains("settled oscillations have no 95th percentile"), "{}", ended.err);
+    assert!(!directory.path().join("few.csv").exists());
 }
 
 #[test]
