@@ -47,7 +47,7 @@ const TIMED_REFERENCE: usize = 64;
 
 /// Those of what is only there to be compared with, timed in one round: slow, and never chosen. For the same reason only
 /// one of so many instances of the sample is judged.
-const TIMED_COMPARED: usize = 16;
+const TIMED_COMPARED: usize = 8;
 const ONE_COMPARED_OF: usize = 8;
 
 /// A speed is taken over so many seconds at least: clocks count the work of a thread in slices.

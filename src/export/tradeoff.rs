@@ -166,7 +166,7 @@ Two more methods are measured and drawn, to compare with; `--accuracy` never tak
 steps of order 4, half as long in flight, in the reference's place: its dense output of degree 5 goes the way of the Taylor
 series through the same location of events, transitions and observables. `fixed step` takes the same steps at one length and
 changes the contact state only where they end, as codes with a fixed step do; the source paper's has 294 in a period.
-They are slow: only every eighth instance of the sample is judged, and their speed is taken from 16.
+They are slow: only every eighth instance of the sample is judged, and their speed is taken from few.
 
 Measured on a whole sample of the bilinear law's sweep, p95 and instances per second of a processor: `located RK4` 1.6e-3 and 168 with 20 steps,
 7.9e-5 and 88 with 40, 2.8e-7 and 21 with 160; `fixed step` 2.9e-2 and 53 with 80 steps, 7.4e-3 and 14 with 294. At 12 steps
