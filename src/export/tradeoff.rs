@@ -137,7 +137,7 @@ the truth is the difference of the two halves of its own window.
 Before it computes the sweep it tries that row on 192 or more of the sweep's own instances, against the CPU engine in f64
 with fine steps; as long as more than 2.5 % of the settled oscillations among them break what is asked for (and the truth's
 own scatter), it goes on to the next more accurate row. Far from the sweeps below the table alone is not enough: with
-m2 = 2 g at an angle of 0.3 its first choice keeps 1e-3 in 91 % of the oscillations, what the trial takes in 98 %.
+m2 = 2 g at an angle of 0.3 its first choice keeps 1e-3 in 91 % of the oscillations, what the trial takes in 97 %.
 The same command without `--store` measures any sweep on any machine and keeps the rows in the user's cache directory
 (`accuracy.csv`); they then come before the table that is shipped, which is the one below. A software GPU is left out, since
 the CPU engine is faster at every accuracy: [accuracy_software.md](accuracy_software.md) has its numbers.
