@@ -628,13 +628,37 @@ pub enum Error {
         /// How it ended.
         status: &'static str,
     },
-    /// A directory that is not that of a run.
-    #[error("cannot read `{}`: {why}; `plot` takes the output directory of `squealmap run`", path.display())]
+    /// A file of a directory that is not as its command writes it.
+    #[error(
+        "cannot read `{}`: {why}; `plot` takes an output directory as its command wrote it: run that again",
+        path.display()
+    )]
     Archive {
         /// The file.
         path: PathBuf,
         /// What is wrong with it.
         why: String,
+    },
+    /// A directory without a figure.
+    #[error(
+        "there is nothing to draw in `{}`: looked for {wanted}; give `plot` the output directory of one of these commands",
+        path.display()
+    )]
+    NothingToPlot {
+        /// The directory.
+        path: PathBuf,
+        /// The files that were looked for.
+        wanted: String,
+    },
+    /// An option of maps for another figure.
+    #[error("{option} is of maps, but the figure of `{}` is that of `{figure}`; leave {option} out", path.display())]
+    OnlyOfMaps {
+        /// The option.
+        option: &'static str,
+        /// The figure that the directory holds.
+        figure: &'static str,
+        /// The directory.
+        path: PathBuf,
     },
     /// A quantity that a map does not have.
     #[error("the map has no quantity `{name}`; it has {names}; choose one with --quantity")]
@@ -795,6 +819,8 @@ impl Error {
             | Error::Signals { .. }
             | Error::Fit { .. }
             | Error::Archive { .. }
+            | Error::NothingToPlot { .. }
+            | Error::OnlyOfMaps { .. }
             | Error::NoSuchQuantity { .. }
             | Error::PaperRamp { .. }
             | Error::FollowsRamp { .. }

@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use squealmap::export::heading::Heading;
+use squealmap::export::look::Look;
 use squealmap::export::{hysteresis as export, png};
 use squealmap::hysteresis::{Direction, Hysteresis};
 use squealmap::model::{Param, Section};
@@ -11,10 +13,9 @@ use squealmap::{Error, Result};
 
 use crate::cli::output::{Output, list};
 use crate::cli::print;
-use crate::cli::trace::title;
 
 /// What is written.
-const FILES: [&str; 3] = ["hysteresis.csv", "hysteresis.png", "hysteresis.svg"];
+const FILES: [&str; 4] = ["hysteresis.csv", "hysteresis.json", "hysteresis.png", "hysteresis.svg"];
 
 /// A parameter and its lowest and highest value.
 #[derive(Clone, Copy, Debug)]
@@ -77,11 +78,13 @@ pub(crate) fn execute(spec: &Spec, directory: PathBuf, at: &str, range: &Range, 
     }
     let output = Output::prepare(directory, &FILES)?;
     let found = Hysteresis::follow(range.param, range.values(points), &Plan::new(spec), instance)?;
-    let svg = export::hysteresis_svg(&found, &title(spec, at));
+    let heading = Heading::new(&spec.title, at);
+    let svg = export::hysteresis_svg(&found, &heading, &Look::default());
     let files = [
         (FILES[0], export::hysteresis_csv(spec, &found)?),
-        (FILES[1], png::render(&svg)?),
-        (FILES[2], svg.into_bytes()),
+        (FILES[1], export::document(&found, &heading)?),
+        (FILES[2], png::render(&svg)?),
+        (FILES[3], svg.into_bytes()),
     ];
     let paths = output.write(&files)?;
     let branches = Direction::ALL.map(|direction| {

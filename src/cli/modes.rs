@@ -2,6 +2,7 @@
 
 use clap::Args;
 use squealmap::Result;
+use squealmap::export::look::Look;
 use squealmap::export::{modes, png};
 use squealmap::spec::Spec;
 
@@ -9,7 +10,7 @@ use crate::cli::output::{Output, list};
 use crate::cli::{Files, print};
 
 /// What is written.
-const FILES: [&str; 3] = ["modes.csv", "modes.png", "modes.svg"];
+const FILES: [&str; 4] = ["modes.csv", "modes.json", "modes.png", "modes.svg"];
 
 /// Arguments of `modes`.
 #[derive(Debug, Args)]
@@ -22,11 +23,13 @@ impl Modes {
     pub(crate) fn execute(self) -> Result<()> {
         let spec = Spec::read(&self.files.sweep)?;
         let output = Output::prepare(self.files.directory(), &FILES)?;
-        let svg = modes::modes_svg(&spec)?;
+        let found = modes::modes_of(&spec)?;
+        let svg = modes::draw(&spec, &found, &Look::default());
         let files = [
-            (FILES[0], modes::modes_csv(&spec)?),
-            (FILES[1], png::render(&svg)?),
-            (FILES[2], svg.into_bytes()),
+            (FILES[0], modes::table(&spec, &found)?),
+            (FILES[1], modes::document(&spec, &found)?),
+            (FILES[2], png::render(&svg)?),
+            (FILES[3], svg.into_bytes()),
         ];
         print(&list(&output.write(&files)?));
         Ok(())

@@ -18,7 +18,7 @@ const REPORT: &str = "paper.md";
 /// The directory of the figures, inside the output directory.
 const FIGURES: &str = "paper";
 /// What is written of a figure.
-const EXTENSIONS: [&str; 3] = ["png", "svg", "csv"];
+const EXTENSIONS: [&str; 4] = ["png", "svg", "csv", "json"];
 
 /// Arguments of `paper`.
 #[derive(Debug, Args)]

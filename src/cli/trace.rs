@@ -2,6 +2,8 @@
 
 use clap::Args;
 use squealmap::backend;
+use squealmap::export::heading::Heading;
+use squealmap::export::look::Look;
 use squealmap::export::signals::signals_csv;
 use squealmap::export::{png, trace as export};
 use squealmap::model::Param;
@@ -17,7 +19,7 @@ use crate::cli::output::{Output, list};
 use crate::cli::{Files, print};
 
 /// What is written.
-const FILES: [&str; 3] = ["trace.csv", "trace.png", "trace.svg"];
+const FILES: [&str; 4] = ["trace.csv", "trace.json", "trace.png", "trace.svg"];
 /// What `--rate` adds.
 const SIGNALS: &str = "signals.csv";
 
@@ -52,15 +54,16 @@ impl TraceCommand {
         }
         let instance = spec.instance_at(&self.at)?;
         let names: &[&str] =
-            if self.rate.is_some() { &[FILES[0], FILES[1], FILES[2], SIGNALS] } else { &FILES };
+            if self.rate.is_some() { &[FILES[0], FILES[1], FILES[2], FILES[3], SIGNALS] } else { &FILES };
         let output = Output::prepare(self.files.directory(), names)?;
         let trace = trace(&spec, &instance, self.samples_per_period);
-        let title = title(&spec, &self.at);
-        let svg = export::trace_svg(&trace, &title)?;
+        let heading = Heading::new(&spec.title, &self.at);
+        let svg = export::trace_svg(&trace, &heading, &Look::default())?;
         let mut files = vec![
             (FILES[0], export::trace_csv(&trace)?),
-            (FILES[1], png::render(&svg)?),
-            (FILES[2], svg.into_bytes()),
+            (FILES[1], export::document(&trace, &heading)?),
+            (FILES[2], png::render(&svg)?),
+            (FILES[3], svg.into_bytes()),
         ];
         if let Some(rate) = self.rate {
             let recording = Recording {
@@ -88,14 +91,5 @@ impl TraceCommand {
             list(&paths)
         ));
         Ok(())
-    }
-}
-
-/// The title of a sweep with what was asked for.
-pub(crate) fn title(spec: &Spec, at: &str) -> String {
-    match (spec.title.as_str(), at) {
-        (title, "") => title.to_owned(),
-        ("", at) => at.replace(',', ", "),
-        (title, at) => format!("{title}: {}", at.replace(',', ", ")),
     }
 }

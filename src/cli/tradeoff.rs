@@ -6,6 +6,7 @@ use clap::Args;
 use squealmap::accuracy::measure::{Measurement, Settings, measure};
 use squealmap::accuracy::row::{Row, to_csv};
 use squealmap::backend::choice::Options;
+use squealmap::export::look::Look;
 use squealmap::export::png;
 use squealmap::export::tradeoff::{self, Section};
 use squealmap::spec::Spec;
@@ -121,7 +122,7 @@ impl Tradeoff {
 /// Writes table, summary and figure of a sweep.
 fn write(output: Output, spec: &Spec, stem: String, measured: Measurement) -> Result<(Done, Vec<PathBuf>)> {
     let title = if spec.title.is_empty() { "Speed against error".to_owned() } else { spec.title.clone() };
-    let svg = tradeoff::figure(&title, &measured);
+    let svg = tradeoff::figure(&spec.title, &measured.rows, &Look::default());
     let png = png::render(&svg)?;
     let files = [
         (FILES[0], to_csv(&measured.rows)?),

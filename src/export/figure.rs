@@ -138,8 +138,7 @@ fn draw(sheet: Sheet, panels: &Panels, tally: &Tally, look: &Look<'_>) -> String
         }
     }
     let name = if sheet.title.is_empty() { "Stability map" } else { sheet.title };
-    let command = look.command.as_ref().map(|command| format!("; made by: {command}")).unwrap_or_default();
-    let metadata = provenance(sheet, tally) + &command;
+    let metadata = provenance(sheet, tally) + &look.made_by();
     svg.finish_enlarged(look.enlarged, [width, y + MARGIN], name, &metadata)
 }
 

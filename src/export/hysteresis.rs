@@ -1,7 +1,11 @@
 //! Branches of a parameter that rises and falls, as a table; their figure is in `hysteresis_figure.rs`.
 
+use serde_json::json;
+
 use super::columns::{Cell, Column, columns};
 use super::csv::Table;
+use super::heading::Heading;
+use super::manifest::described;
 use crate::error::Result;
 use crate::hysteresis::{Direction, Hysteresis};
 use crate::spec::{Analysis, Spec, Starts};
@@ -34,4 +38,14 @@ pub fn hysteresis_csv(spec: &Spec, hysteresis: &Hysteresis) -> Result<Vec<u8>> {
         }
     }
     table.finish()
+}
+
+/// What the figure needs beside the table, as JSON: the heading, and which parameter was followed.
+///
+/// # Errors
+/// When it cannot be written.
+pub fn document(hysteresis: &Hysteresis, heading: &Heading) -> Result<Vec<u8>> {
+    let mut document = heading.to_json();
+    document["parameter"] = json!(hysteresis.param.info().name);
+    described(&document)
 }

@@ -2,9 +2,11 @@
 
 use std::fmt::Write as _;
 
-use super::figure::{MARGIN, SINGLE_COLUMN, program, title};
+use super::figure::{MARGIN, SINGLE_COLUMN};
 use super::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room};
-use super::key;
+use super::heading::Heading;
+use super::key::{self, Sample};
+use super::look::Look;
 use super::picture_axis::{Direction as Along, PictureAxis};
 use super::plot::{FIRST, Plot, SECOND};
 use super::scale::{Scale, axis_unit};
@@ -47,9 +49,9 @@ const MARKS: [&str; 2] = [
     r##"fill="#FFFFFF" stroke="#D55E00" stroke-width="0.7""##,
 ];
 
-/// The figure of both branches as an SVG document, single column width.
+/// The figure of both branches as an SVG document, single column width unless the look says otherwise.
 #[must_use]
-pub fn hysteresis_svg(hysteresis: &Hysteresis, heading: &str) -> String {
+pub fn hysteresis_svg(hysteresis: &Hysteresis, heading: &Heading, look: &Look<'_>) -> String {
     let Grid::Axes(axes) = hysteresis.grid() else { return String::new() };
     let largest = Direction::ALL
         .iter()
@@ -59,13 +61,14 @@ pub fn hysteresis_svg(hysteresis: &Hysteresis, heading: &str) -> String {
     let (factor, unit) = if largest < METRES { (1e3, "mm") } else { (1.0, "m") };
     let x = Scale::spanning(hysteresis.values.iter().copied()).widened(MARGIN_ACROSS);
     let y = Scale::spanning([0.0, largest * factor]).widened(HEADROOM);
+    let page = look.points().unwrap_or(SINGLE_COLUMN);
     let mut svg = Svg::new();
-    let mut top = MARGIN + title(&mut svg, heading, SINGLE_COLUMN - 2.0 * MARGIN);
+    let mut top = MARGIN + heading.draw(&mut svg, page - 2.0 * MARGIN);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive count")]
     let y_ticks = y.ticks((HEIGHT / TICK_HEIGHT) as usize);
     let left = MARGIN + LABEL_SIZE + 6.0 + y_tick_room(&y_ticks);
-    let width = SINGLE_COLUMN - left - RIGHT;
-    top = legend(&mut svg, hysteresis, left, top);
+    let width = page - left - RIGHT;
+    top = legend(&mut svg, hysteresis, [left, top], width);
     let frame = Frame { x: left, y: top, width, height: HEIGHT };
     let plot = Plot { frame, x: &x, y: &y };
     both(&mut svg, hysteresis, &plot);
@@ -104,8 +107,7 @@ pub fn hysteresis_svg(hysteresis: &Hysteresis, heading: &str) -> String {
     let base = frame.bottom() + x_tick_room() + LABEL_SIZE + 1.0;
     let label = axis.label(width, LABEL_SIZE);
     svg.text(left + 0.5 * width, base, &label, Style::new(LABEL_SIZE, Anchor::Middle));
-    let name = if heading.is_empty() { "Hysteresis" } else { heading };
-    svg.finish(SINGLE_COLUMN, base + MARGIN + 2.0, name, &program())
+    look.finish(svg, [page, base + MARGIN + 2.0], heading.name("Hysteresis"))
 }
 
 /// The parameter from edge to edge of the panel.
@@ -174,10 +176,10 @@ fn triangle(direction: Direction, (x, y): (f64, f64)) -> String {
 }
 
 /// What is what; returns where the panel begins.
-fn legend(svg: &mut Svg, hysteresis: &Hysteresis, left: f64, top: f64) -> f64 {
+fn legend(svg: &mut Svg, hysteresis: &Hysteresis, [left, top]: [f64; 2], width: f64) -> f64 {
     let symbol = hysteresis.param.info().symbol;
     let branch = |words: &str| Text::default().symbol(symbol).plain(words);
-    let mut base = top + LABEL_SIZE;
+    let base = top + LABEL_SIZE;
     let mut x = left;
     for (direction, (words, stroke)) in
         Direction::ALL.into_iter().zip([(" rising", FIRST), (" falling", SECOND)])
@@ -186,14 +188,10 @@ fn legend(svg: &mut Svg, hysteresis: &Hysteresis, left: f64, top: f64) -> f64 {
         x = key::lines(svg, x, base, LABEL_SIZE, &[(branch(words), stroke)]);
         svg.path(&triangle(direction, at), MARKS[direction as usize]);
     }
-    base += LABEL_SIZE + 4.0;
     let words = ["stable equilibrium", "unstable"].map(Text::from);
-    let entries: Vec<(Text, &str)> = words.into_iter().zip(EQUILIBRIUM).collect();
-    let mut x = key::lines(svg, left, base, LABEL_SIZE, &entries);
+    let mut entries: Vec<(Text, Sample<'_>)> = words.into_iter().zip(EQUILIBRIUM.map(Sample::Line)).collect();
     if hysteresis.bistable().contains(&Some(true)) {
-        svg.rect([x, base - LABEL_SIZE + 2.0, 10.0, LABEL_SIZE - 1.5], BOTH);
-        x += 13.5;
-        svg.text(x, base, &Text::from("bistable"), Style::new(LABEL_SIZE, Anchor::Start));
+        entries.push((Text::from("bistable"), Sample::Area(BOTH)));
     }
-    base + 8.0
+    base + 4.0 + key::rows(svg, [left, base + 4.0], width, LABEL_SIZE, &entries) + 5.0
 }

@@ -1,10 +1,14 @@
-//! Which line is which: sample lines with words in a row.
+//! Which line is which: samples with words in a row, or in as many as a width asks for.
 
 use super::svg::{Anchor, Style, Svg, polyline};
 use super::text::Text;
 
 /// Length of a sample line, points.
 pub(super) const SAMPLE: f64 = 15.0;
+/// Length of a sample of an area, points.
+const AREA: f64 = 10.0;
+/// Between rows, points.
+const LINE_GAP: f64 = 3.0;
 /// Between a sample and its words, points.
 const WORD_GAP: f64 = 3.0;
 /// Between entries, points.
@@ -21,4 +25,59 @@ pub(super) fn lines(svg: &mut Svg, mut x: f64, base: f64, size: f64, entries: &[
         x += SAMPLE + WORD_GAP + words.width(size, false) + ENTRY_GAP;
     }
     x
+}
+
+/// What stands before the words of an entry.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Sample<'a> {
+    /// A line.
+    Line(&'a str),
+    /// A filled area.
+    Area(&'a str),
+    /// A mark of this radius, points.
+    Mark(f64, &'a str),
+}
+
+impl Sample<'_> {
+    /// Draws it left of words on a base line.
+    fn draw(self, svg: &mut Svg, x: f64, base: f64, size: f64) {
+        let y = base - MIDDLE * size;
+        match self {
+            Sample::Line(stroke) => svg.path(&polyline([(x, y), (x + SAMPLE, y)]), stroke),
+            Sample::Area(fill) => svg.rect([x, base - 0.75 * size, AREA, 0.8 * size], fill),
+            Sample::Mark(radius, fill) => svg.circle(x + radius, y, radius, fill),
+        }
+    }
+
+    fn width(self) -> f64 {
+        match self {
+            Sample::Line(_) => SAMPLE,
+            Sample::Area(_) => AREA,
+            Sample::Mark(radius, _) => 2.0 * radius,
+        }
+    }
+}
+
+/// Draws entries from `[x, y]` on, in as many rows as they take within `width`; returns the height of the rows.
+pub(super) fn rows(
+    svg: &mut Svg,
+    [x, y]: [f64; 2],
+    width: f64,
+    size: f64,
+    entries: &[(Text, Sample<'_>)],
+) -> f64 {
+    let line = size + LINE_GAP;
+    let (mut left, mut height) = (x, if entries.is_empty() { 0.0 } else { line });
+    for (words, sample) in entries {
+        let room = sample.width() + WORD_GAP + words.width(size, false);
+        if left > x && left + room > x + width {
+            left = x;
+            height += line;
+        }
+        let base = y + height - LINE_GAP;
+        sample.draw(svg, left, base, size);
+        svg.text(left + sample.width() + WORD_GAP, base, words, Style::new(size, Anchor::Start));
+        left += room + ENTRY_GAP;
+    }
+    height
 }

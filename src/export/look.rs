@@ -1,7 +1,8 @@
-//! How a map is shown: at which width, what of it, and where the picture comes from.
+//! How a figure is shown: at which width, what of a map, and where the picture comes from.
 
+use super::figure::program;
 use super::palette::Colouring;
-use super::svg::MM;
+use super::svg::{MM, Svg};
 use crate::archive::NumberColumn;
 
 /// Least and most width of a figure, mm: narrower ones do not hold their labels, wider ones fit no page.
@@ -76,14 +77,14 @@ impl Content<'_> {
     }
 }
 
-/// A look at a map.
+/// A look at a figure.
 #[derive(Clone, Debug)]
 pub struct Look<'a> {
-    /// Width of the figure, mm; `None`: one or two columns, whichever the panels need.
+    /// Width of the figure, mm; `None`: one or two columns, whichever its panels need.
     pub width: Option<f64>,
     /// How much larger than in print everything is.
     pub enlarged: f64,
-    /// The blocks from top to bottom; empty: what was computed.
+    /// Of a map, the blocks from top to bottom; empty: what was computed. Other figures have none.
     pub contents: Vec<Content<'a>>,
     /// The command that makes the picture again, for its metadata.
     pub command: Option<String>,
@@ -99,5 +100,16 @@ impl Look<'_> {
     /// The width in which to draw, points.
     pub(super) fn points(&self) -> Option<f64> {
         self.width.map(|mm| mm * MM / self.enlarged)
+    }
+
+    /// The finished document of a figure that was drawn in this size in points; the program and the command that makes it
+    /// again stand in its metadata.
+    pub(super) fn finish(&self, svg: Svg, size: [f64; 2], name: &str) -> String {
+        svg.finish_enlarged(self.enlarged, size, name, &(program() + &self.made_by()))
+    }
+
+    /// The command, for the end of a line of metadata.
+    pub(super) fn made_by(&self) -> String {
+        self.command.as_ref().map(|command| format!("; made by: {command}")).unwrap_or_default()
     }
 }

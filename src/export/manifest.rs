@@ -99,7 +99,22 @@ pub fn manifest(sheet: Sheet, resolved: &Value, tally: &Tally, run: &Run) -> Res
     if let Some((instances, from)) = &run.reused {
         manifest["computation"]["reused"] = json!({ "instances": instances, "from_sweep": from });
     }
-    let mut bytes = serde_json::to_vec_pretty(&manifest).map_err(Error::WriteManifest)?;
+    pretty(&manifest)
+}
+
+/// What a table does not say of its figure, with the program that wrote both: UTF-8 JSON, indented.
+pub(super) fn described(entries: &Value) -> Result<Vec<u8>> {
+    let mut document =
+        json!({ "program": { "name": env!("CARGO_PKG_NAME"), "version": VERSION, "git_commit": COMMIT } });
+    if let (Value::Object(all), Value::Object(entries)) = (&mut document, entries) {
+        all.extend(entries.clone());
+    }
+    pretty(&document)
+}
+
+/// A document as bytes, indented.
+fn pretty(document: &Value) -> Result<Vec<u8>> {
+    let mut bytes = serde_json::to_vec_pretty(document).map_err(Error::WriteManifest)?;
     bytes.push(b'\n');
     Ok(bytes)
 }

@@ -16,6 +16,7 @@ pub mod columns;
 pub mod csv;
 pub mod figure;
 mod frame;
+pub mod heading;
 pub mod hysteresis;
 mod hysteresis_figure;
 pub mod identify;

@@ -1,12 +1,15 @@
 //! `modes`: the eigenvalues along an axis, as a table; its figure is in `modes_figure.rs`.
 
 use num_complex::Complex64;
+use serde_json::json;
 
 use super::columns::Cell;
 use super::csv::Table;
+use super::manifest::described;
 use crate::error::{Error, Result};
 use crate::grid::{Axis, AxisKey, Grid, Value};
 use crate::spec::Spec;
+use crate::store::grid_json;
 
 pub use super::modes_figure::{draw, modes_svg};
 
@@ -66,31 +69,52 @@ pub type Eigenvalues<'a> = &'a dyn Fn(&Spec, usize) -> Option<[Complex64; 4]>;
 /// When the sweep has no axis of numbers with at least two values, or no instance with modes.
 pub fn follow(spec: &Spec, eigenvalues: Eigenvalues<'_>) -> Result<Modes> {
     let Grid::Axes(axes) = &spec.grid else { return Err(Error::NoModesOfTuples) };
+    let Modes { axis, mut branches } = along(axes)?;
+    for branch in &mut branches {
+        let raw: Vec<_> = branch.instances.iter().map(|index| eigenvalues(spec, *index).map(pairs)).collect();
+        let growth: Vec<_> = raw.iter().map(|pair| pair.map(largest)).collect();
+        let between = |x: f64| {
+            eigenvalues(&single(spec, axes, axis, branch.first, x), 0).map(|values| largest(pairs(values)))
+        };
+        branch.critical = critical_values(&branch.values, &growth, &between);
+        branch.modes = connect(&raw);
+    }
+    if branches.iter().all(|branch| branch.modes.iter().all(Option::is_none)) {
+        return Err(Error::NoModes);
+    }
+    Ok(Modes { axis, branches })
+}
+
+/// The branches of axes, without modes.
+///
+/// # Errors
+/// When none is of numbers with at least two values.
+pub(crate) fn along(axes: &[Axis]) -> Result<Modes> {
     let axis = axes
         .iter()
         .position(|axis| matches!(axis.key, AxisKey::Param(_)) && axis.values.len() > 1)
         .ok_or(Error::NoModesAxis)?;
     let stride: usize = axes[axis + 1..].iter().map(|axis| axis.values.len()).product();
     let length = axes[axis].values.len();
+    let total = axes.iter().map(|axis| axis.values.len()).product();
     let order = rising(&axes[axis]);
-    let branches: Vec<Branch> = (0..spec.grid.len())
-        .filter(|index| (index / stride).is_multiple_of(length))
-        .map(|first| {
-            let instances: Vec<usize> = order.iter().map(|(i, _)| first + i * stride).collect();
-            let raw: Vec<_> = instances.iter().map(|index| eigenvalues(spec, *index).map(pairs)).collect();
-            let values: Vec<f64> = order.iter().map(|(_, x)| *x).collect();
-            let growth: Vec<_> = raw.iter().map(|pair| pair.map(largest)).collect();
-            let between = |x: f64| {
-                eigenvalues(&single(spec, axes, axis, first, x), 0).map(|values| largest(pairs(values)))
-            };
-            let critical = critical_values(&values, &growth, &between);
-            Branch { first, instances, values, modes: connect(&raw), critical }
-        })
-        .collect();
-    if branches.iter().all(|branch| branch.modes.iter().all(Option::is_none)) {
-        return Err(Error::NoModes);
-    }
-    Ok(Modes { axis, branches })
+    let branch = |first: usize| Branch {
+        first,
+        instances: order.iter().map(|(i, _)| first + i * stride).collect(),
+        values: order.iter().map(|(_, x)| *x).collect(),
+        modes: Vec::new(),
+        critical: Vec::new(),
+    };
+    let firsts = (0..total).filter(|index: &usize| (index / stride).is_multiple_of(length));
+    Ok(Modes { axis, branches: firsts.map(branch).collect() })
+}
+
+/// The modes of a sweep by its own eigenvalues.
+///
+/// # Errors
+/// Those of [`follow`].
+pub fn modes_of(spec: &Spec) -> Result<Modes> {
+    follow(spec, &eigenvalues)
 }
 
 /// The growth rate of the less stable mode.
@@ -175,7 +199,7 @@ fn connect(raw: &[Option<[Mode; 2]>]) -> Vec<Option<[Mode; 2]>> {
 /// # Errors
 /// When the sweep has no axis of numbers with at least two values, or no instance with modes.
 pub fn modes_csv(spec: &Spec) -> Result<Vec<u8>> {
-    table(spec, &follow(spec, &eigenvalues)?)
+    table(spec, &modes_of(spec)?)
 }
 
 /// The table of modes that were followed.
@@ -209,6 +233,19 @@ pub fn table(spec: &Spec, modes: &Modes) -> Result<Vec<u8>> {
         table.row(std::iter::once(index.to_string()).chain(swept).chain(cells))?;
     }
     table.finish()
+}
+
+/// What the figure needs beside the table, as JSON: title and axes of the sweep, and the critical values of each branch.
+///
+/// # Errors
+/// When it cannot be written.
+pub fn document(spec: &Spec, modes: &Modes) -> Result<Vec<u8>> {
+    let critical: Vec<&[f64]> = modes.branches.iter().map(|branch| branch.critical.as_slice()).collect();
+    described(&json!({
+        "title": spec.title,
+        "grid": grid_json::to_json(&spec.grid),
+        "critical": critical,
+    }))
 }
 
 /// The eigenvalues of an instance, 1/s.

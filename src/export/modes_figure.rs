@@ -1,9 +1,10 @@
 //! The two-panel figure of the modes: frequency above, growth rate below, as Figure 2 of the paper.
 
-use super::figure::{DOUBLE_COLUMN, MARGIN, SINGLE_COLUMN, program, title};
+use super::figure::{DOUBLE_COLUMN, MARGIN, SINGLE_COLUMN, title};
 use super::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room};
 use super::key;
-use super::modes::{Branch, Mode, Modes, eigenvalues, follow};
+use super::look::Look;
+use super::modes::{Branch, Mode, Modes, modes_of};
 use super::panels::setting;
 use super::picture_axis::{Direction, PictureAxis};
 use super::plot::{CRITICAL, FIRST, Plot, SECOND};
@@ -34,14 +35,16 @@ const ZERO: &str = r##"fill="none" stroke="#777777" stroke-width="0.5""##;
 /// # Errors
 /// When the sweep has no axis of numbers with at least two values, or no instance with modes.
 pub fn modes_svg(spec: &Spec) -> Result<String> {
-    Ok(draw(spec, &follow(spec, &eigenvalues)?))
+    Ok(draw(spec, &modes_of(spec)?, &Look::default()))
 }
 
-/// The figure of modes that were followed.
+/// The figure of modes that were followed: single column width for one branch, double for several, unless the look says
+/// otherwise.
 #[must_use]
-pub fn draw(spec: &Spec, modes: &Modes) -> String {
+pub fn draw(spec: &Spec, modes: &Modes, look: &Look<'_>) -> String {
     let shown = &modes.branches[..modes.branches.len().min(MOST_BRANCHES)];
-    let width = if shown.len() > 1 { DOUBLE_COLUMN } else { SINGLE_COLUMN };
+    let usual = if shown.len() > 1 { DOUBLE_COLUMN } else { SINGLE_COLUMN };
+    let width = look.points().unwrap_or(usual);
     let mut svg = Svg::new();
     let mut y = MARGIN + title(&mut svg, &spec.title, width - 2.0 * MARGIN);
     let axis = match &spec.grid {
@@ -99,7 +102,7 @@ pub fn draw(spec: &Spec, modes: &Modes) -> String {
         svg.text(MARGIN, y, &Text::from(note), Style::new(LABEL_SIZE, Anchor::Start));
     }
     let name = if spec.title.is_empty() { "Modes" } else { &spec.title };
-    svg.finish(width, y + MARGIN + 2.0, name, &program())
+    look.finish(svg, [width, y + MARGIN + 2.0], name)
 }
 
 /// The values of the further axes of a branch.

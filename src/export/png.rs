@@ -27,6 +27,20 @@ const FONTS: [&[u8]; 3] = [
 /// # Errors
 /// When the document is not SVG, or too large for an image.
 pub fn render(svg: &str) -> Result<Vec<u8>> {
+    Ok(with_chunks(&image(svg)?, &[resolution()]))
+}
+
+/// The same with a title and what made it as texts, which image viewers show.
+///
+/// # Errors
+/// When the document is not SVG, or too large for an image.
+pub fn render_described(svg: &str, title: &str, provenance: &str) -> Result<Vec<u8>> {
+    let chunks = [resolution(), words("Title", title), words("Description", provenance)];
+    Ok(with_chunks(&image(svg)?, &chunks))
+}
+
+/// The picture without chunks of its own.
+fn image(svg: &str) -> Result<Vec<u8>> {
     let tree = read(svg)?;
     let scale = DPI / CSS_DPI;
     let size = tree.size();
@@ -38,8 +52,7 @@ pub fn render(svg: &str) -> Result<Vec<u8>> {
     let [width, height] = [size.width(), size.height()].map(|length| (length * scale).ceil() as u32);
     let mut pixmap = Pixmap::new(width, height).ok_or(Error::Rasterize { width, height })?;
     resvg::render(&tree, Transform::from_scale(scale, scale), &mut pixmap.as_mut());
-    let png = pixmap.encode_png().map_err(|_| Error::Rasterize { width, height })?;
-    Ok(with_resolution(&png))
+    pixmap.encode_png().map_err(|_| Error::Rasterize { width, height })
 }
 
 /// An SVG document with the embedded fonts.
@@ -57,10 +70,8 @@ fn options() -> Options<'static> {
     Options { fontdb: Arc::new(fonts), font_family: FAMILY.to_owned(), ..Options::default() }
 }
 
-/// Inserts the chunk `pHYs` (pixels per metre) after the header.
-fn with_resolution(png: &[u8]) -> Vec<u8> {
-    /// Signature (8) and the chunk `IHDR` (25).
-    const HEADER: usize = 33;
+/// The chunk `pHYs`: pixels per metre.
+fn resolution() -> Vec<u8> {
     /// 300 dots per inch in dots per metre.
     const PER_METRE: u32 = 11_811;
     /// The unit code of metres.
@@ -69,11 +80,33 @@ fn with_resolution(png: &[u8]) -> Vec<u8> {
     body.extend(PER_METRE.to_be_bytes());
     body.extend(PER_METRE.to_be_bytes());
     body.push(METRE);
+    body
+}
+
+/// The chunk `iTXt`: a keyword and a text in UTF-8, not compressed, in no particular language.
+fn words(keyword: &str, text: &str) -> Vec<u8> {
+    let mut body = b"iTXt".to_vec();
+    body.extend(keyword.as_bytes());
+    body.extend([0; 5]);
+    body.extend(text.as_bytes());
+    body
+}
+
+/// Inserts chunks (type and content) after the header.
+fn with_chunks(png: &[u8], chunks: &[Vec<u8>]) -> Vec<u8> {
+    /// Signature (8) and the chunk `IHDR` (25).
+    const HEADER: usize = 33;
+    /// Bytes of the type, which the length of a chunk does not count.
+    const TYPE: usize = 4;
     let header = HEADER.min(png.len());
     let mut out = png[..header].to_vec();
-    out.extend([0, 0, 0, 9]);
-    out.extend(&body);
-    out.extend(crc32(&body).to_be_bytes());
+    for chunk in chunks {
+        // No text of a figure comes near the limit of 2³¹ bytes.
+        let length = u32::try_from(chunk.len() - TYPE).unwrap_or(u32::MAX);
+        out.extend(length.to_be_bytes());
+        out.extend(chunk);
+        out.extend(crc32(chunk).to_be_bytes());
+    }
     out.extend(&png[header..]);
     out
 }

@@ -1,6 +1,10 @@
 //! `trace`: one instance in full, as a table; its figure is in `trace_figure.rs`.
 
+use serde_json::json;
+
 use super::csv::Table;
+use super::heading::Heading;
+use super::manifest::described;
 use crate::error::Result;
 use crate::trace::{Trace, TraceRow};
 
@@ -21,6 +25,16 @@ pub fn trace_csv(trace: &Trace) -> Result<Vec<u8>> {
         table.row(cells.into_iter().chain(std::iter::once(row.state.name().to_owned())))?;
     }
     table.finish()
+}
+
+/// What the figure needs beside the table, as JSON: the heading, and the frequency of the response, Hz.
+///
+/// # Errors
+/// When it cannot be written.
+pub fn document(trace: &Trace, heading: &Heading) -> Result<Vec<u8>> {
+    let mut document = heading.to_json();
+    document["response_frequency"] = json!(trace.outcome.response_frequency);
+    described(&document)
 }
 
 /// The numbers of a sample in the order of [`COLUMNS`].

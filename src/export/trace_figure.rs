@@ -1,8 +1,10 @@
 //! The figure of a trajectory: stacked panels on one time axis, shaded by contact state.
 
-use super::figure::{DOUBLE_COLUMN, MARGIN, program, title};
+use super::figure::{DOUBLE_COLUMN, MARGIN};
 use super::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room};
-use super::key;
+use super::heading::Heading;
+use super::key::{self, Sample};
+use super::look::Look;
 use super::plot::Plot;
 use super::scale::{Scale, axis_unit};
 use super::svg::{Anchor, Style, Svg};
@@ -38,8 +40,6 @@ const STROKES: [&str; 2] = [
     r##"fill="none" stroke="#1F3F8F" stroke-width="0.6" stroke-linejoin="round""##,
     r##"fill="none" stroke="#E08A3C" stroke-width="0.6" stroke-linejoin="round""##,
 ];
-/// A swatch of the legend, points.
-const SWATCH: f64 = 10.0;
 
 /// Shaded states with their colours, light enough for curves on top; slip stays white.
 const SHADES: [(ContactState, &str, &str); 3] = [
@@ -74,14 +74,15 @@ const PANELS: [(&[Curve], &str); 4] = [
     ),
 ];
 
-/// The figure of a trajectory as an SVG document, double column width: the whole run and, where that holds
-/// many periods, its last few beside it.
+/// The figure of a trajectory as an SVG document, double column width unless the look says otherwise: the whole run
+/// and, where that holds many periods, its last few beside it.
 ///
 /// # Errors
 /// None so far; figures share one signature.
-pub fn trace_svg(trace: &Trace, heading: &str) -> Result<String> {
+pub fn trace_svg(trace: &Trace, heading: &Heading, look: &Look<'_>) -> Result<String> {
+    let page = look.points().unwrap_or(DOUBLE_COLUMN);
     let mut svg = Svg::new();
-    let mut y = MARGIN + title(&mut svg, heading, DOUBLE_COLUMN - 2.0 * MARGIN);
+    let mut y = MARGIN + heading.draw(&mut svg, page - 2.0 * MARGIN);
     let scales = PANELS.map(|(curves, _)| {
         let values = curves.iter().flat_map(|curve| trace.rows.iter().map(curve.value));
         Scale::spanning(values).widened(HEADROOM)
@@ -89,11 +90,11 @@ pub fn trace_svg(trace: &Trace, heading: &str) -> Result<String> {
     let ticks = scales.each_ref().map(|scale| scale.ticks(5));
     let room = ticks.iter().map(|ticks| y_tick_room(ticks)).fold(0.0, f64::max);
     let left = MARGIN + LABEL_SIZE + 6.0 + room;
-    y = legend(&mut svg, trace, left, y);
+    y = legend(&mut svg, trace, [left, y], page - left - RIGHT);
     let tops = tops(y);
     let bottom = tops[PANELS.len() - 1] + HEIGHT;
     let mut from = left;
-    let columns = columns(trace, DOUBLE_COLUMN - left - RIGHT);
+    let columns = columns(trace, page - left - RIGHT);
     let last = columns.len() - 1;
     for (column, (rows, width)) in columns.into_iter().enumerate() {
         let time = Scale::spanning(rows.iter().map(|row| row.t));
@@ -128,9 +129,8 @@ pub fn trace_svg(trace: &Trace, heading: &str) -> Result<String> {
         let middle = tops[number] + 0.5 * HEIGHT;
         svg.text(MARGIN + LABEL_SIZE, middle, &label, Style::new(LABEL_SIZE, Anchor::Middle).upwards());
     }
-    let name = if heading.is_empty() { "Trajectory" } else { heading };
     let height = bottom + x_tick_room() + LABEL_SIZE + 3.0 + MARGIN;
-    Ok(svg.finish(DOUBLE_COLUMN, height, name, &program()))
+    Ok(look.finish(svg, [page, height], heading.name("Trajectory")))
 }
 
 /// The samples and width of each column: everything, and the last few periods when there are many.
@@ -173,19 +173,17 @@ fn tops(mut y: f64) -> [f64; PANELS.len()] {
 }
 
 /// The states that occur; returns where the panels begin.
-fn legend(svg: &mut Svg, trace: &Trace, left: f64, y: f64) -> f64 {
-    let mut x = left;
-    for (state, fill, words) in SHADES {
-        if !trace.rows.iter().any(|row| row.state == state) {
-            continue;
-        }
-        let border = format!(r##"fill="{fill}" stroke="#000000" stroke-width="0.4""##);
-        svg.rect([x, y, SWATCH, LABEL_SIZE - 1.0], &border);
-        let text = Text::from(words);
-        svg.text(x + SWATCH + 3.5, y + LABEL_SIZE - 2.0, &text, Style::new(LABEL_SIZE, Anchor::Start));
-        x += SWATCH + 3.5 + text.width(LABEL_SIZE, false) + 14.0;
-    }
-    if x > left { y + LABEL_SIZE + 5.0 } else { y }
+fn legend(svg: &mut Svg, trace: &Trace, [left, y]: [f64; 2], width: f64) -> f64 {
+    let occurs = |state: ContactState| trace.rows.iter().any(|row| row.state == state);
+    let fills = SHADES.map(|(_, fill, _)| format!(r##"fill="{fill}" stroke="#000000" stroke-width="0.4""##));
+    let entries: Vec<(Text, Sample<'_>)> = SHADES
+        .iter()
+        .zip(&fills)
+        .filter(|((state, ..), _)| occurs(*state))
+        .map(|((.., words), fill)| (Text::from(*words), Sample::Area(fill)))
+        .collect();
+    let height = key::rows(svg, [left, y], width, LABEL_SIZE, &entries);
+    if entries.is_empty() { y } else { y + height + 2.0 }
 }
 
 /// Shades the background; of a column the state that fills most of it.

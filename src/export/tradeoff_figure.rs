@@ -1,14 +1,16 @@
 //! The work-precision diagram: instances per second against error, the efficient frontier as a line.
 
-use super::figure::{MARGIN, SINGLE_COLUMN, program, title};
+use super::figure::{MARGIN, SINGLE_COLUMN, title};
 use super::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room};
+use super::key::{self, Sample};
+use super::look::Look;
 use super::plot::Plot;
 use super::scale::{Scale, value_label};
 use super::svg::{Anchor, Style, Svg};
 use super::text::Text;
 use super::tradeoff::on_gpu;
 use crate::accuracy::frontier::is_comparison;
-use crate::accuracy::measure::Measurement;
+use crate::accuracy::level::{Level, NAMES};
 use crate::accuracy::row::{Row, pace};
 
 /// Height of the panel, points.
@@ -17,7 +19,7 @@ const HEIGHT: f64 = 170.0;
 const RIGHT: f64 = 8.0;
 /// Radius of a mark, points.
 const RADIUS: f64 = 1.9;
-/// Height of a line of the key, points.
+/// Height of a line of words below the panel, points.
 const LINE: f64 = 11.0;
 /// Margin around the marks, as a fraction of the panel.
 const HEADROOM: f64 = 0.06;
@@ -25,8 +27,7 @@ const HEADROOM: f64 = 0.06;
 const LEAST: f64 = 1e-16;
 /// The frontier.
 const FRONTIER: &str = r##"fill="none" stroke="#000000" stroke-width="0.7""##;
-/// The accuracies that have a name, and their lines.
-const BOUNDS: [f64; 3] = [1e-2, 1e-3, 1e-4];
+/// The lines of the accuracies that have a name.
 const NAMED: &str = r##"fill="none" stroke="#999999" stroke-width="0.5" stroke-dasharray="2 2""##;
 
 /// Marks by engine: fill and line.
@@ -40,31 +41,41 @@ const MARKS: [(&str, &str, &str); 7] = [
     ("fixed step", "f64", r##"fill="#CC79A7""##),
 ];
 
-/// The figure as an SVG document of single column width.
+/// The figure as an SVG document of single column width unless the look says otherwise.
 #[must_use]
-pub fn figure(heading: &str, measured: &Measurement) -> String {
-    let shown: Vec<&Row> = measured.rows.iter().filter(|row| row.worst_p95.is_finite()).collect();
-    let pace = pace(measured.rows.iter());
+pub fn figure(heading: &str, rows: &[Row], look: &Look<'_>) -> String {
+    let heading = if heading.is_empty() { "Speed against error" } else { heading };
+    let shown: Vec<&Row> = rows.iter().filter(|row| row.worst_p95.is_finite()).collect();
+    let pace = pace(rows.iter());
+    let page = look.points().unwrap_or(SINGLE_COLUMN);
+    let bounds = NAMES.into_iter().filter_map(|(name, level)| match level {
+        Level::Within(bound) => Some((name, bound)),
+        Level::Reference => None,
+    });
+    let (names, bounds): (Vec<&str>, Vec<f64>) = bounds.unzip();
     let error = |row: &Row| row.worst_p95.max(LEAST);
     let mut svg = Svg::new();
-    let mut y = MARGIN + title(&mut svg, heading, SINGLE_COLUMN - 2.0 * MARGIN);
-    let x_scale = logarithmic(shown.iter().map(|row| error(row)).chain(BOUNDS));
+    let mut y = MARGIN + title(&mut svg, heading, page - 2.0 * MARGIN);
+    let x_scale = logarithmic(shown.iter().map(|row| error(row)).chain(bounds.iter().copied()));
     let y_scale = logarithmic(shown.iter().map(|row| pace(row)));
     let y_ticks = y_scale.ticks(6);
     let left = MARGIN + LABEL_SIZE + 6.0 + y_tick_room(&y_ticks);
-    for mark in MARKS.iter().filter(|mark| shown.iter().any(|row| is(row, mark))) {
-        svg.circle(left + RADIUS, y + LABEL_SIZE - 2.8, RADIUS, mark.2);
-        let compared =
-            if shown.iter().any(|row| is(row, mark) && is_comparison(row)) { ", to compare" } else { "" };
-        let words = Text::from(format!("{} {}{compared}", mark.0, mark.1));
-        svg.text(left + 8.0, y + LABEL_SIZE, &words, Style::new(LABEL_SIZE, Anchor::Start));
-        y += LINE;
-    }
-    y += 6.0;
-    let frame = Frame { x: left, y, width: SINGLE_COLUMN - left - RIGHT, height: HEIGHT };
+    let width = page - left - RIGHT;
+    let occurring = MARKS.iter().filter(|mark| shown.iter().any(|row| is(row, mark)));
+    let mut entries: Vec<(Text, Sample<'_>)> = occurring
+        .map(|mark| {
+            let compared = shown.iter().any(|row| is(row, mark) && is_comparison(row));
+            let compared = if compared { ", to compare" } else { "" };
+            (Text::from(format!("{} {}{compared}", mark.0, mark.1)), Sample::Mark(RADIUS, mark.2))
+        })
+        .collect();
+    entries.push((Text::from("efficient frontier"), Sample::Line(FRONTIER)));
+    entries.push((Text::from(names.join(", ")), Sample::Line(NAMED)));
+    y += key::rows(&mut svg, [left, y], width, LABEL_SIZE, &entries) + 4.0;
+    let frame = Frame { x: left, y, width, height: HEIGHT };
     let plot = Plot { frame, x: &x_scale, y: &y_scale };
     let ends = [y_scale.value(0.0), y_scale.value(1.0)];
-    for bound in BOUNDS {
+    for bound in bounds {
         plot.curve(&mut svg, ends.map(|end| (bound, end)), NAMED);
     }
     let mut frontier: Vec<&Row> = shown.iter().copied().filter(|row| row.frontier).collect();
@@ -80,32 +91,35 @@ pub fn figure(heading: &str, measured: &Measurement) -> String {
     // The steps per period above the efficient ones, where neither words nor marks are in the way.
     let mut free = f64::MIN;
     for row in frontier {
+        // The line rises to the right: left of a mark and above it there is none.
         let (across, up) = at(row);
         let words = value_label(f64::from(row.steps_per_period));
-        let half = 0.5 * words.width(TICK_SIZE, false);
+        let room = words.width(TICK_SIZE, false);
+        let [right, base] = [across - RADIUS, up - RADIUS - 1.0];
         let covered = |other: &&Row| {
             let (x, y) = at(other);
-            (x - across).abs() < half + RADIUS && (up - 4.0 - TICK_SIZE - RADIUS..up - RADIUS).contains(&y)
+            (right - room - RADIUS..right + RADIUS).contains(&x)
+                && (base - TICK_SIZE..base + RADIUS).contains(&y)
         };
-        if across - half > free && !shown.iter().any(covered) {
-            svg.text(across, up - 4.0, &words, Style::new(TICK_SIZE, Anchor::Middle));
-            free = across + half + 1.0;
+        let inside = right - room > frame.x && base - TICK_SIZE > frame.y;
+        if inside && right - room > free && !shown.iter().any(covered) {
+            svg.text(right, base, &words, Style::new(TICK_SIZE, Anchor::End));
+            free = right + 1.0;
         }
     }
     frame.border(&mut svg);
     frame.x_ticks(&mut svg, &x_scale.ticks(6), true);
     frame.y_ticks(&mut svg, &y_ticks, true);
     let style = Style::new(LABEL_SIZE, Anchor::Middle);
-    let words =
-        if on_gpu(&measured.rows) { "Instances per second" } else { "Instances per second of a processor" };
+    let words = if on_gpu(rows) { "Instances per second" } else { "Instances per second of a processor" };
     svg.text(MARGIN + LABEL_SIZE, y + 0.5 * HEIGHT, &Text::from(words), style.upwards());
     y += HEIGHT + x_tick_room() + LABEL_SIZE + 1.0;
     let words = "Relative error that 95 % are within";
     svg.text(left + 0.5 * frame.width, y, &Text::from(words), style);
     y += LINE;
-    let words = "Numbers: steps per period on the efficient frontier (line)";
+    let words = "Numbers: steps per period on the frontier";
     svg.text(left + 0.5 * frame.width, y, &Text::from(words), Style::new(TICK_SIZE, Anchor::Middle));
-    svg.finish(SINGLE_COLUMN, y + MARGIN + 2.0, heading, &program())
+    look.finish(svg, [page, y + MARGIN + 2.0], heading)
 }
 
 fn is(row: &Row, (backend, precision, _): &(&str, &str, &str)) -> bool {

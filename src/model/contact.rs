@@ -14,6 +14,10 @@ pub enum ContactState {
 }
 
 impl ContactState {
+    /// All of them.
+    pub const ALL: [ContactState; 4] =
+        [ContactState::Slip, ContactState::Reverse, ContactState::Stick, ContactState::Free];
+
     /// The name in a trace file.
     #[must_use]
     pub fn name(self) -> &'static str {

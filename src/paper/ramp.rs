@@ -36,6 +36,14 @@ pub struct Stretch {
 }
 
 impl Stretch {
+    /// Time and belt velocity at both ends of stretch `k` of `count` equal ones of a ramp.
+    pub(crate) fn place(duration: f64, velocity: [f64; 2], [k, count]: [usize; 2]) -> ([f64; 2], [f64; 2]) {
+        let at = |k: usize| duration * k as f64 / count as f64;
+        let belt = |t: f64| velocity[0] + (velocity[1] - velocity[0]) * t / duration;
+        let time = [at(k), at(k + 1)];
+        (time, time.map(belt))
+    }
+
     /// The largest `|ẍ2|` and `|ÿ1|`, m/s².
     #[must_use]
     pub fn peaks(&self) -> [f64; 2] {
@@ -84,11 +92,9 @@ impl Ramp {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive count")]
         let cut = |count: f64| {
             let count = count.round().max(1.0) as usize;
-            let at = |k: usize| duration * k as f64 / count as f64;
-            let belt = |t: f64| velocity[0] + (velocity[1] - velocity[0]) * t / duration;
-            let stretch = |k: usize| {
-                let time = [at(k), at(k + 1)];
-                Stretch { time, velocity: time.map(belt), ..reduce(rows, time) }
+            let stretch = |k| {
+                let (time, velocity) = Stretch::place(duration, velocity, [k, count]);
+                Stretch { time, velocity, ..reduce(rows, time) }
             };
             (0..count).map(stretch).collect::<Vec<_>>()
         };

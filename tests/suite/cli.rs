@@ -334,7 +334,7 @@ fn plot_draws_a_run_again() {
     for (arguments, words) in [
         (["out/small", "--quantity=colour"], "no quantity `colour`; it has type, regime, growth_rate"),
         (["out/small", "--width=20mm"], "a width in millimetres from 60 to 400"),
-        (["out", "--hatch"], "cannot read `out/manifest.json`"),
+        (["out", "--hatch"], "there is nothing to draw in `out`: looked for manifest.json and map.csv"),
     ] {
         let ended = squealmap(directory.path(), &["plot", arguments[0], arguments[1]]);
         assert_eq!(ended.code, Some(2), "{}", ended.err);

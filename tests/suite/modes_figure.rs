@@ -2,6 +2,7 @@
 
 use num_complex::Complex64;
 use squealmap::Error;
+use squealmap::export::look::Look;
 use squealmap::export::modes::{draw, follow, modes_csv, modes_svg};
 use squealmap::linear::eigenvalues;
 use squealmap::spec::Spec;
@@ -46,7 +47,7 @@ fn modes_keep_their_names_where_frequencies_cross() {
     for pair in modes.branches[0].modes.iter().flatten() {
         assert_eq!((pair[0].growth_rate(), pair[1].growth_rate()), (-1.0, 2.0));
     }
-    render(&draw(&spec, &modes), "modes_crossing");
+    render(&draw(&spec, &modes, &Look::default()), "modes_crossing");
 }
 
 #[test]
@@ -86,7 +87,7 @@ fn overdamped_modes_show_both_decays() {
         let slow = pair.iter().find(|mode| mode.fast.is_some()).expect("a real pair");
         assert!(slow.frequency() == 0.0 && slow.fast.is_some_and(|fast| fast < slow.growth_rate()));
     }
-    render(&draw(&spec, &modes), "modes_overdamped");
+    render(&draw(&spec, &modes, &Look::default()), "modes_overdamped");
 }
 
 #[test]

@@ -39,7 +39,7 @@ fn directory(map: &Map) -> TempDir {
 }
 
 /// Width and height that an SVG document states, mm.
-fn size(svg: &str) -> [f64; 2] {
+pub(crate) fn size(svg: &str) -> [f64; 2] {
     let root = svg.lines().find(|line| line.starts_with("<svg")).unwrap();
     ["width", "height"].map(|name| {
         let rest = root.split_once(&format!(" {name}=\"")).unwrap().1;
@@ -48,11 +48,20 @@ fn size(svg: &str) -> [f64; 2] {
 }
 
 /// The sizes of all texts, points as drawn.
-fn text_sizes(svg: &str) -> Vec<f64> {
+pub(crate) fn text_sizes(svg: &str) -> Vec<f64> {
     let texts = svg.lines().filter(|line| line.starts_with("<text"));
     texts
         .map(|line| line.split("font-size=\"").nth(1).unwrap().split('"').next().unwrap().parse().unwrap())
         .collect()
+}
+
+/// Width and height of the page of a PDF, mm, as a reader of the file finds them.
+pub(crate) fn page(pdf: &[u8]) -> [f64; 2] {
+    let text = String::from_utf8_lossy(pdf);
+    let page = text.split_once("/MediaBox").unwrap().1.split_once(['[']).unwrap().1;
+    let page: Vec<f64> =
+        page.split_once(']').unwrap().0.split_whitespace().map(|x| x.parse().unwrap()).collect();
+    [page[2] - page[0], page[3] - page[1]].map(|points| points / 72.0 * 25.4)
 }
 
 #[test]
@@ -120,11 +129,8 @@ fn every_format_has_the_width_that_was_asked_for() {
         // The page of the PDF, in points, as a reader of the file finds it.
         let bytes = pdf::render(&svg, "A title", "squealmap plot somewhere").unwrap();
         let text = String::from_utf8_lossy(&bytes);
-        let page = text.split_once("/MediaBox").unwrap().1.split_once(['[']).unwrap().1;
-        let page: Vec<f64> =
-            page.split_once(']').unwrap().0.split_whitespace().map(|x| x.parse().unwrap()).collect();
-        for (points, mm) in [(page[2] - page[0], width), (page[3] - page[1], height)] {
-            near("PDF", points / 72.0 * 25.4, mm, 0.02);
+        for (found, stated) in page(&bytes).into_iter().zip([width, height]) {
+            near("PDF", found, stated, 0.02);
         }
         assert!(
             text.starts_with("%PDF-") && text.contains("/FontFile"),

@@ -1,5 +1,7 @@
 //! The table and the figure of a trajectory.
 
+use squealmap::export::heading::Heading;
+use squealmap::export::look::Look;
 use squealmap::export::trace::{trace_csv, trace_svg};
 use squealmap::model::contact::ContactState;
 use squealmap::outcome::{Outcome, Status};
@@ -51,7 +53,8 @@ fn the_table_reads_back_to_the_same_bits() {
 
 #[test]
 fn states_are_shaded_where_they_are() {
-    let svg = trace_svg(&trajectory(500, 0.2, None), "A short run").expect("a figure");
+    let svg =
+        trace_svg(&trajectory(500, 0.2, None), &"A short run".into(), &Look::default()).expect("a figure");
     let picture = draw(&svg, "trace_short");
     let frames = frames(&svg);
     assert_eq!(frames.len(), 4, "a short run has no second column");
@@ -63,7 +66,8 @@ fn states_are_shaded_where_they_are() {
 
 #[test]
 fn long_runs_stay_small_and_show_their_last_periods() {
-    let svg = trace_svg(&trajectory(200_000, 9.0, Some(34.0)), "A long run").expect("a figure");
+    let svg = trace_svg(&trajectory(200_000, 9.0, Some(34.0)), &"A long run".into(), &Look::default())
+        .expect("a figure");
     draw(&svg, "trace_long");
     assert_eq!(frames(&svg).len(), 8);
     assert!(svg.len() < 700_000, "{} bytes", svg.len());
@@ -79,12 +83,16 @@ fn long_runs_stay_small_and_show_their_last_periods() {
 #[test]
 fn odd_trajectories_are_drawn() {
     for samples in [0, 1, 2] {
-        draw(&trace_svg(&trajectory(samples, 1.0, Some(34.0)), "").expect("a figure"), "trace_odd");
+        draw(
+            &trace_svg(&trajectory(samples, 1.0, Some(34.0)), &Heading::default(), &Look::default())
+                .expect("a figure"),
+            "trace_odd",
+        );
     }
     let mut broken = trajectory(100, 0.1, None);
     broken.rows[40].position[0] = f64::NAN;
     broken.rows[41].normal_force = f64::INFINITY;
-    let svg = trace_svg(&broken, "").expect("a figure");
+    let svg = trace_svg(&broken, &Heading::default(), &Look::default()).expect("a figure");
     assert!(!svg.contains("NaN") && !svg.contains("inf"));
     draw(&svg, "trace_broken");
 }

@@ -1,15 +1,18 @@
 //! The largest accelerations for other ramps and kicks: three small maps with their numbers in the cells.
 
-use super::{Drawn, distinct};
+use serde_json::{Value as Json, json};
+
+use super::distinct;
 use crate::error::Result;
 use crate::export::columns::Cell;
 use crate::export::csv::Table;
-use crate::export::figure::{DOUBLE_COLUMN, MARGIN, program, title};
+use crate::export::figure::{DOUBLE_COLUMN, MARGIN, title};
 use crate::export::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room};
+use crate::export::look::Look;
 use crate::export::scale::{Scale, Tick, value_label};
 use crate::export::svg::{Anchor, Style, Svg};
 use crate::export::text::{Text, wrap};
-use crate::paper::{LIMITS, Study, Trial};
+use crate::paper::{LIMITS, Trial};
 
 /// Size of the numbers in the cells, points.
 const NUMBER_SIZE: f64 = 7.0;
@@ -25,8 +28,12 @@ const LARGER: &str = r##"fill="#F0B878" stroke="#FFFFFF" stroke-width="0.5""##;
 const SMALLER: &str = r##"fill="#D8E4F2" stroke="#FFFFFF" stroke-width="0.5""##;
 /// Fill of trials in which not every case grew.
 const NOT_GROWN: &str = r##"fill="#F4F4F4" stroke="#FFFFFF" stroke-width="0.5""##;
+/// Between maps that stand one below the other, points: ticks, axis label and name.
+const BETWEEN: f64 = 40.0;
+/// On narrower pages the maps do not fit side by side, points.
+const NARROW: f64 = 400.0;
 /// Heading of picture and document.
-const HEADING: &str =
+pub(super) const HEADING: &str =
     "Largest accelerations during the ramp, as ratios, against its duration and the first kick";
 /// What the fills mean.
 const NOTE: &str = "Orange: above 1. Blue: up to 1. Grey, in italics: not in every case has the vibration grown to ten \
@@ -44,24 +51,20 @@ const MAPS: [(&str, &str, Ratio); 3] = [
 /// The acceleration of each map.
 const SYMBOLS: [&str; 3] = ["ẍ_2", "ÿ_1", "ẍ_2"];
 
-/// Three maps over ramp duration and kick, double column width.
-pub(super) fn draw(study: &Study) -> Result<Drawn> {
-    let trials = study.trials();
-    Ok(Drawn { svg: picture(trials), csv: table(trials)? })
-}
+/// The columns of the table.
+pub(crate) const COLUMNS: [&str; 8] = [
+    "ramp_duration",
+    "start_displacement",
+    "ax_peak_figure4",
+    "ay_peak_figure4",
+    "ax_peak_figure5",
+    "ay_peak_figure5",
+    "ax_peak_figure6",
+    "ay_peak_figure6",
+];
 
-fn table(trials: &[Trial]) -> Result<Vec<u8>> {
-    let names = [
-        "ramp_duration",
-        "start_displacement",
-        "ax_peak_figure4",
-        "ay_peak_figure4",
-        "ax_peak_figure5",
-        "ay_peak_figure5",
-        "ax_peak_figure6",
-        "ay_peak_figure6",
-    ];
-    let mut table = Table::new(names.into_iter())?;
+pub(super) fn table(trials: &[Trial]) -> Result<Vec<u8>> {
+    let mut table = Table::new(COLUMNS.into_iter())?;
     for trial in trials {
         let peaks = trial.peaks.iter().flat_map(|peaks| [peaks.map(|p| p[0]), peaks.map(|p| p[1])]);
         let numbers = [Some(trial.duration), Some(trial.kick)].into_iter().chain(peaks);
@@ -70,9 +73,18 @@ fn table(trials: &[Trial]) -> Result<Vec<u8>> {
     table.finish()
 }
 
-fn picture(trials: &[Trial]) -> String {
+/// What the table does not hold: what disturbs the equilibrium in each row, m/s².
+pub(super) fn to_json(trials: &[Trial]) -> Json {
+    let disturbances: Vec<f64> = trials.iter().map(|trial| trial.disturbance).collect();
+    json!({ "title": HEADING, "disturbance": disturbances })
+}
+
+/// Three maps over ramp duration and kick, double column width unless the look says otherwise; one below the other on
+/// a narrow page.
+pub(super) fn picture(trials: &[Trial], look: &Look<'_>) -> String {
+    let page = look.points().unwrap_or(DOUBLE_COLUMN);
     let mut svg = Svg::new();
-    let inner = DOUBLE_COLUMN - 2.0 * MARGIN;
+    let inner = page - 2.0 * MARGIN;
     let y = MARGIN + title(&mut svg, HEADING, inner) + LABEL_SIZE + 5.0;
     let durations = distinct(trials.iter().map(|trial| trial.duration));
     let kicks = distinct(trials.iter().map(|trial| trial.kick));
@@ -84,11 +96,14 @@ fn picture(trials: &[Trial]) -> String {
     };
     let [x_ticks, y_ticks] = [ticks(&durations, 1.0), ticks(&kicks, 1e-3)];
     let left = MARGIN + LABEL_SIZE + 6.0 + y_tick_room(&y_ticks);
-    let width = (DOUBLE_COLUMN - left - RIGHT - 2.0 * GAP) / 3.0;
+    let columns = if page < NARROW { 1 } else { MAPS.len() };
+    let width = (page - left - RIGHT - (columns - 1) as f64 * GAP) / columns as f64;
     let cell = width / durations.len().max(1) as f64;
     let height = ROW * kicks.len() as f64;
     for (number, (letter, words, ratio)) in MAPS.into_iter().enumerate() {
-        let frame = Frame { x: left + number as f64 * (width + GAP), y, width, height };
+        let (column, row) = (number % columns, number / columns);
+        let y = y + row as f64 * (height + BETWEEN);
+        let frame = Frame { x: left + column as f64 * (width + GAP), y, width, height };
         let name = Text::from(letter).symbol(SYMBOLS[number]).plain(": ").plain(words);
         svg.text(frame.x, y - 4.0, &name, Style::new(LABEL_SIZE, Anchor::Start));
         for trial in trials {
@@ -118,17 +133,20 @@ fn picture(trials: &[Trial]) -> String {
         }
         frame.border(&mut svg);
         frame.x_ticks(&mut svg, &x_ticks, true);
-        frame.y_ticks(&mut svg, &y_ticks, number == 0);
+        frame.y_ticks(&mut svg, &y_ticks, column == 0);
         let base = frame.bottom() + x_tick_room() + LABEL_SIZE + 1.0;
         let label = Text::from("Ramp duration (s)");
         svg.text(frame.across(0.5), base, &label, Style::new(LABEL_SIZE, Anchor::Middle));
+        if column == 0 {
+            let upwards = Style::new(LABEL_SIZE, Anchor::Middle).upwards();
+            svg.text(MARGIN + LABEL_SIZE, y + 0.5 * height, &Text::from("First kick (mm)"), upwards);
+        }
     }
-    let upwards = Style::new(LABEL_SIZE, Anchor::Middle).upwards();
-    svg.text(MARGIN + LABEL_SIZE, y + 0.5 * height, &Text::from("First kick (mm)"), upwards);
-    let mut base = y + height + x_tick_room() + LABEL_SIZE + 6.0;
+    let below = (MAPS.len() / columns - 1) as f64 * (height + BETWEEN);
+    let mut base = y + below + height + x_tick_room() + LABEL_SIZE + 6.0;
     for line in wrap(NOTE, inner, TICK_SIZE, false) {
         base += TICK_SIZE + 2.0;
         svg.text(MARGIN, base, &Text::from(line), Style::new(TICK_SIZE, Anchor::Start));
     }
-    svg.finish(DOUBLE_COLUMN, base + 3.0 + MARGIN, HEADING, &program())
+    look.finish(svg, [page, base + 3.0 + MARGIN], HEADING)
 }

@@ -1,12 +1,14 @@
 //! Figure 7: both accelerations during exponential growth, whole and a few periods close up.
 
-use super::Drawn;
+use serde_json::{Value as Json, json};
+
 use crate::error::Result;
 use crate::export::columns::Cell;
 use crate::export::csv::Table;
-use crate::export::figure::{DOUBLE_COLUMN, MARGIN, program, title};
+use crate::export::figure::{DOUBLE_COLUMN, MARGIN, title};
 use crate::export::frame::{Frame, LABEL_SIZE, x_tick_room, y_tick_room};
 use crate::export::key;
+use crate::export::look::Look;
 use crate::export::panels::setting;
 use crate::export::plot::{FIRST, Plot, SECOND};
 use crate::export::scale::{Scale, axis_unit};
@@ -28,96 +30,172 @@ const RIGHT: f64 = 8.0;
 const HEADROOM: f64 = 0.07;
 /// Periods of the close-up, the last before the first event.
 const PERIODS: f64 = 3.0;
+/// From one case to the one below, points.
+const BLOCK: f64 = HEIGHTS[0] + GAP + HEIGHTS[1] + 52.0;
+/// On narrower pages the cases do not fit side by side, points.
+const NARROW: f64 = 440.0;
 /// Heading of picture and document.
-const HEADING: &str = "Accelerations during exponential growth, up to the first event";
+pub(super) const HEADING: &str = "Accelerations during exponential growth, up to the first event";
 
-/// Both cases side by side, double column width.
-pub(super) fn draw() -> Result<Drawn> {
-    let growths: Vec<Growth> = PhaseCase::ALL.into_iter().map(Growth::compute).collect::<Result<_>>()?;
-    let mut table = Table::new(["figure", "t", "ax2", "ay1"].into_iter())?;
-    for (growth, name) in growths.iter().zip(["7a", "7b"]) {
+/// The names of the cases in the table.
+const NAMES: [&str; 2] = ["7a", "7b"];
+/// The columns of the table.
+pub(crate) const COLUMNS: [&str; 4] = ["figure", "t", "ax2", "ay1"];
+
+/// A growing oscillation as the picture shows it.
+#[derive(Clone, Debug)]
+pub struct Growing {
+    /// The mechanism in words.
+    pub(crate) words: String,
+    /// `μ_s` and `μ_d`.
+    pub(crate) friction: [f64; 2],
+    /// Frequency of its mode, Hz.
+    pub(crate) frequency: f64,
+    /// Phase of `ÿ1` against `ẍ2` from the eigenvector and from the signals, degrees.
+    pub(crate) phases: [f64; 2],
+    /// Time (s), `ẍ2` and `ÿ1` (m/s²) up to the first event.
+    pub(crate) samples: Vec<[f64; 3]>,
+}
+
+impl From<Growth> for Growing {
+    fn from(growth: Growth) -> Growing {
+        Growing {
+            words: growth.case.words().to_owned(),
+            friction: growth.friction(),
+            frequency: growth.linear.frequency,
+            phases: [growth.phase.eigenvector, growth.phase.measured],
+            samples: growth.samples,
+        }
+    }
+}
+
+/// Both cases.
+pub(super) fn compute() -> Result<Vec<Growing>> {
+    PhaseCase::ALL.into_iter().map(|case| Growth::compute(case).map(Growing::from)).collect()
+}
+
+/// The names of cases and what the table does not hold of each.
+pub(super) fn to_json(growths: &[Growing]) -> Json {
+    let case = |(growth, name): (&Growing, &str)| {
+        json!({
+            "figure": name,
+            "mechanism": growth.words,
+            "mu_s": growth.friction[0],
+            "mu_d": growth.friction[1],
+            "frequency": growth.frequency,
+            "phase_eigenvector": growth.phases[0],
+            "phase_measured": growth.phases[1],
+        })
+    };
+    json!({ "title": HEADING, "cases": growths.iter().zip(NAMES).map(case).collect::<Vec<_>>() })
+}
+
+pub(super) fn table(growths: &[Growing]) -> Result<Vec<u8>> {
+    let mut table = Table::new(COLUMNS.into_iter())?;
+    for (growth, name) in growths.iter().zip(NAMES) {
         for sample in &growth.samples {
             let numbers = sample.map(|x| Cell::from(x).to_string());
             table.row(std::iter::once(name.to_owned()).chain(numbers))?;
         }
     }
-    Ok(Drawn { svg: picture(&growths), csv: table.finish()? })
+    table.finish()
 }
 
-fn picture(growths: &[Growth]) -> String {
+/// Both cases side by side, double column width unless the look says otherwise; one below the other on a narrow page.
+pub(super) fn picture(growths: &[Growing], look: &Look<'_>) -> String {
+    let page = look.points().unwrap_or(DOUBLE_COLUMN);
     let mut svg = Svg::new();
-    let mut y = MARGIN + title(&mut svg, HEADING, DOUBLE_COLUMN - 2.0 * MARGIN);
-    let scales = |growth: &Growth| {
-        let all = growth.samples.iter().flat_map(|[_, x, y]| [*x, *y]);
-        let close = Scale::Linear { low: -1.0, high: 1.0 };
-        [Scale::spanning(all).widened(HEADROOM), close.widened(HEADROOM)]
+    let mut y = MARGIN + title(&mut svg, HEADING, page - 2.0 * MARGIN);
+    let room = |growth: &Growing| {
+        scales(growth).iter().map(|scale| y_tick_room(&scale.ticks(5))).fold(0.0, f64::max)
     };
-    let room =
-        |growth: &Growth| scales(growth).iter().map(|scale| y_tick_room(&scale.ticks(5))).fold(0.0, f64::max);
     let room = growths.iter().map(room).fold(0.0, f64::max);
     let left = MARGIN + LABEL_SIZE + 6.0 + room;
-    let count = growths.len() as f64;
-    let width = (DOUBLE_COLUMN - left - RIGHT - (count - 1.0) * COLUMN_GAP) / count;
+    let columns = if page < NARROW { 1 } else { growths.len().max(1) };
+    let width = (page - left - RIGHT - (columns - 1) as f64 * COLUMN_GAP) / columns as f64;
     let words = ["ẍ_2", "ÿ_1"].map(|symbol| Text::default().symbol(symbol));
     let entries: Vec<(Text, &str)> = words.into_iter().zip([FIRST, SECOND]).collect();
     key::lines(&mut svg, left, y + LABEL_SIZE, LABEL_SIZE, &entries);
     y += 2.0 * LABEL_SIZE + 12.0;
-    let tops = [y, y + HEIGHTS[0] + GAP];
-    for (number, growth) in growths.iter().enumerate() {
-        let x = left + number as f64 * (width + COLUMN_GAP);
-        let letter = Text::from(["(a) ", "(b) "][number % 2]);
-        svg.text(x, y - 4.0, &letter.then(caption(growth)), Style::new(LABEL_SIZE, Anchor::Start));
-        let scales = scales(growth);
-        let close = close_up(growth);
-        let largest = [1, 2].map(|k| close.iter().map(|sample| sample[k].abs()).fold(0.0, f64::max));
-        svg.text(x, tops[1] - 4.0, &phases(growth), Style::new(LABEL_SIZE, Anchor::Start));
-        for (row, samples) in [&growth.samples, close].into_iter().enumerate() {
-            let frame = Frame { x, y: tops[row], width, height: HEIGHTS[row] };
-            let time = Scale::spanning(samples.iter().map(|sample| sample[0]));
-            let plot = Plot { frame, x: &time, y: &scales[row] };
-            for (k, stroke) in [FIRST, SECOND].into_iter().enumerate() {
-                let unit = if row == 0 { 1.0 } else { largest[k] };
-                plot.curve(&mut svg, samples.iter().map(|sample| (sample[0], sample[k + 1] / unit)), stroke);
-            }
-            frame.border(&mut svg);
-            frame.x_ticks(&mut svg, &time.ticks(5), true);
-            frame.y_ticks(&mut svg, &scales[row].ticks(5), true);
-        }
-        let base = tops[1] + HEIGHTS[1] + x_tick_room() + LABEL_SIZE + 1.0;
-        let label = Text::from("Time ").symbol("t").plain(" (s)");
-        svg.text(x + 0.5 * width, base, &label, Style::new(LABEL_SIZE, Anchor::Middle));
-    }
     let exponent = growths.first().map_or(0, |growth| scales(growth)[0].exponent());
+    let mut bottom = y;
+    for (number, growth) in growths.iter().enumerate() {
+        let (column, row) = (number % columns, number / columns);
+        let x = left + column as f64 * (width + COLUMN_GAP);
+        let top = y + row as f64 * BLOCK;
+        let letter = Text::from(["(a) ", "(b) "][number % 2]);
+        svg.text(x, top - 4.0, &letter.then(caption(growth)), Style::new(LABEL_SIZE, Anchor::Start));
+        panels(&mut svg, growth, [x, top], width);
+        if column == 0 {
+            labels(&mut svg, top, exponent);
+        }
+        bottom = top + HEIGHTS[0] + GAP + HEIGHTS[1] + x_tick_room() + LABEL_SIZE + 3.0;
+    }
+    look.finish(svg, [page, bottom + MARGIN], HEADING)
+}
+
+/// Scales of the whole growth and of the close-up.
+fn scales(growth: &Growing) -> [Scale; 2] {
+    let all = growth.samples.iter().flat_map(|[_, x, y]| [*x, *y]);
+    let close = Scale::Linear { low: -1.0, high: 1.0 };
+    [Scale::spanning(all).widened(HEADROOM), close.widened(HEADROOM)]
+}
+
+/// The whole growth, and its close-up below.
+fn panels(svg: &mut Svg, growth: &Growing, [x, top]: [f64; 2], width: f64) {
+    let scales = scales(growth);
+    let close = close_up(growth);
+    let largest = [1, 2].map(|k| close.iter().map(|sample| sample[k].abs()).fold(0.0, f64::max));
+    let tops = [top, top + HEIGHTS[0] + GAP];
+    svg.text(x, tops[1] - 4.0, &phases(growth), Style::new(LABEL_SIZE, Anchor::Start));
+    for (row, samples) in [&growth.samples, close].into_iter().enumerate() {
+        let frame = Frame { x, y: tops[row], width, height: HEIGHTS[row] };
+        let time = Scale::spanning(samples.iter().map(|sample| sample[0]));
+        let plot = Plot { frame, x: &time, y: &scales[row] };
+        for (k, stroke) in [FIRST, SECOND].into_iter().enumerate() {
+            let unit = if row == 0 { 1.0 } else { largest[k] };
+            plot.curve(svg, samples.iter().map(|sample| (sample[0], sample[k + 1] / unit)), stroke);
+        }
+        frame.border(svg);
+        frame.x_ticks(svg, &time.ticks(5), true);
+        frame.y_ticks(svg, &scales[row].ticks(5), true);
+    }
+    let base = tops[1] + HEIGHTS[1] + x_tick_room() + LABEL_SIZE + 1.0;
+    let label = Text::from("Time ").symbol("t").plain(" (s)");
+    svg.text(x + 0.5 * width, base, &label, Style::new(LABEL_SIZE, Anchor::Middle));
+}
+
+/// What both panels of the first column show.
+fn labels(svg: &mut Svg, top: f64, exponent: i32) {
     let labels =
         [Text::from("Acceleration").then(axis_unit("m/s^2", exponent)), Text::from("Each over its largest")];
-    for (row, label) in labels.iter().enumerate() {
+    let middles = [top + 0.5 * HEIGHTS[0], top + HEIGHTS[0] + GAP + 0.5 * HEIGHTS[1]];
+    for (label, middle) in labels.iter().zip(middles) {
         let style = Style::new(LABEL_SIZE, Anchor::Middle).upwards();
-        svg.text(MARGIN + LABEL_SIZE, tops[row] + 0.5 * HEIGHTS[row], label, style);
+        svg.text(MARGIN + LABEL_SIZE, middle, label, style);
     }
-    let bottom = tops[1] + HEIGHTS[1] + x_tick_room() + LABEL_SIZE + 3.0;
-    svg.finish(DOUBLE_COLUMN, bottom + MARGIN, HEADING, &program())
 }
 
 /// The last periods.
-fn close_up(growth: &Growth) -> &[[f64; 3]] {
+fn close_up(growth: &Growing) -> &[[f64; 3]] {
     let samples = growth.samples.as_slice();
     let end = samples.last().map_or(0.0, |sample| sample[0]);
-    let start = end - PERIODS / growth.linear.frequency;
+    let start = end - PERIODS / growth.frequency;
     &samples[samples.partition_point(|sample| sample[0] < start)..]
 }
 
 /// `negative slope, μ_s = 0.07, μ_d = 0.02`.
-fn caption(growth: &Growth) -> Text {
-    let [mu_s, mu_d] = growth.friction();
+fn caption(growth: &Growing) -> Text {
+    let [mu_s, mu_d] = growth.friction;
     let value = |param, number| setting(AxisKey::Param(param), &Value::Number(number));
-    let words = Text::from(growth.case.words()).plain(", ").then(value(Param::MuS, mu_s));
+    let words = Text::from(growth.words.as_str()).plain(", ").then(value(Param::MuS, mu_s));
     words.plain(", ").then(value(Param::MuD, mu_d))
 }
 
 /// `ÿ_1 against ẍ_2: −13.1° (eigenvector), −13.1° (measured)`.
-fn phases(growth: &Growth) -> Text {
+fn phases(growth: &Growing) -> Text {
     let degrees = |phase: f64| format!("{phase:.1}°").replace('-', "−");
-    let [eigenvector, measured] = [growth.phase.eigenvector, growth.phase.measured].map(degrees);
+    let [eigenvector, measured] = growth.phases.map(degrees);
     let pair = Text::default().symbol("ÿ_1").plain(" against ").symbol("ẍ_2");
     pair.plain(&format!(": {eigenvector} (eigenvector), {measured} (measured)"))
 }

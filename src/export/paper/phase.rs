@@ -1,23 +1,24 @@
 //! The phase method on trial: maps of the phase and of its verdict, and how thresholds do.
 
-use super::{Drawn, distinct};
+use super::distinct;
 use crate::classify::InstabilityType;
 use crate::error::Result;
 use crate::export::cells::define_patterns;
 use crate::export::columns::Cell;
 use crate::export::csv::Table;
-use crate::export::figure::{DOUBLE_COLUMN, MARGIN, program, title};
+use crate::export::figure::{DOUBLE_COLUMN, MARGIN, title};
 use crate::export::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room};
-use crate::export::key;
+use crate::export::key::{self, Sample};
+use crate::export::look::Look;
 use crate::export::panels::setting;
 use crate::export::plot::{CRITICAL, FIRST, Plot, SECOND, THIRD};
 use crate::export::raster;
 use crate::export::scale::Scale;
 use crate::export::svg::{Anchor, Style, Svg};
-use crate::export::text::Text;
+use crate::export::text::{Text, wrap};
 use crate::grid::{AxisKey, Value};
 use crate::model::Param;
-use crate::paper::{CUSTOMARY, PhaseTrial, Source, Study, Witness};
+use crate::paper::{CUSTOMARY, PhaseTrial, Source, Witness};
 
 /// Between panels, points.
 const GAP: f64 = 8.0;
@@ -29,13 +30,20 @@ const HEADING_ROOM: f64 = 13.0;
 const CURVES: f64 = 120.0;
 /// Steps of the fill over 90°.
 const STEPS: u32 = 45;
-/// Width and height of the bar and of the samples of the legend, points.
-const SAMPLE: [f64; 2] = [12.0, 7.0];
+/// Height of the bar of the phase, points.
+const BAR_HEIGHT: f64 = 7.0;
+/// Width of the bar with its words, points.
+const BAR: f64 = 136.0;
+/// Least width of a map, points.
+const LEAST: f64 = 55.0;
 /// The fill of an instance.
 type Fill<'a> = &'a dyn Fn(&Witness) -> String;
 
+/// Heading of the panel of thresholds.
+const CURVES_HEADING: &str =
+    "(d) Mean share of right verdicts where one mechanism acts alone, against the threshold";
 /// Heading of picture and document.
-const HEADING: &str =
+pub(super) const HEADING: &str =
     "The phase method on trial: does the phase of normal against tangential acceleration tell the mechanism?";
 
 /// What a verdict at the customary threshold comes to; light to dark.
@@ -47,15 +55,12 @@ const VERDICTS: [(&str, &str); 5] = [
     ("#5B2A6E", "mode coupling taken for negative slope"),
 ];
 
-/// Maps and curves, double column width.
-pub(super) fn draw(study: &Study) -> Result<Drawn> {
-    let trial = study.phase_trial()?;
-    Ok(Drawn { svg: picture(trial), csv: table(trial)? })
-}
+/// The columns of the table.
+pub(crate) const COLUMNS: [&str; 7] =
+    ["belt_velocity", "mu_s", "mu_d", "type", "phase", "phase_measured", "phase_cycle"];
 
-fn table(trial: &PhaseTrial) -> Result<Vec<u8>> {
-    let names = ["belt_velocity", "mu_s", "mu_d", "type", "phase", "phase_measured", "phase_cycle"];
-    let mut table = Table::new(names.into_iter())?;
+pub(super) fn table(trial: &PhaseTrial) -> Result<Vec<u8>> {
+    let mut table = Table::new(COLUMNS.into_iter())?;
     for witness in &trial.witnesses {
         let number = |x: f64| Cell::from(x).to_string();
         let numbers = [witness.velocity, witness.friction[0], witness.friction[1]].map(number);
@@ -91,10 +96,12 @@ fn verdict(witness: &Witness) -> usize {
     }
 }
 
-fn picture(trial: &PhaseTrial) -> String {
+/// Maps and curves, double column width unless the look says otherwise; on a narrow page the maps take several rows.
+pub(super) fn picture(trial: &PhaseTrial, look: &Look<'_>) -> String {
+    let page = look.points().unwrap_or(DOUBLE_COLUMN);
     let mut svg = Svg::new();
     define_patterns(&mut svg);
-    let inner = DOUBLE_COLUMN - 2.0 * MARGIN;
+    let inner = page - 2.0 * MARGIN;
     let mut y = MARGIN + title(&mut svg, HEADING, inner) + LABEL_SIZE;
     let velocities = distinct(trial.witnesses.iter().map(|witness| witness.velocity));
     let sides = [0, 1].map(|k| distinct(trial.witnesses.iter().map(|witness| witness.friction[k])));
@@ -105,8 +112,12 @@ fn picture(trial: &PhaseTrial) -> String {
     });
     let ticks = scales.each_ref().map(|scale| scale.ticks(4));
     let left = MARGIN + LABEL_SIZE + 6.0 + y_tick_room(&ticks[1]);
-    let count = velocities.len().max(1) as f64;
-    let width = (DOUBLE_COLUMN - left - RIGHT - (count - 1.0) * GAP) / count;
+    let room = page - left - RIGHT;
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive count")]
+    let most = ((room + GAP) / (LEAST + GAP)).max(1.0) as usize;
+    let columns = velocities.len().clamp(1, most);
+    let lines = velocities.len().div_ceil(columns);
+    let width = (room - (columns - 1) as f64 * GAP) / columns as f64;
     let pair = Text::from("|phase of ").symbol("ÿ_1").plain(" against ").symbol("ẍ_2").plain("|, ");
     let fills: [(Text, Fill); 3] = [
         (Text::from("(a) ").then(pair.clone()).plain("eigenvector"), &|one| phase_fill(one.phases[0])),
@@ -118,36 +129,46 @@ fn picture(trial: &PhaseTrial) -> String {
     for (row, (heading, fill)) in fills.iter().enumerate() {
         svg.text(left, y, heading, Style::new(LABEL_SIZE, Anchor::Start));
         if row == 0 {
-            bar(&mut svg, DOUBLE_COLUMN - RIGHT - 136.0, y);
+            // Beside the heading where there is room, else below.
+            let at = page - RIGHT - BAR;
+            if left + heading.width(LABEL_SIZE, false) + GAP > at {
+                y += HEADING_ROOM;
+            }
+            bar(&mut svg, at, y);
         }
-        y += if row == 0 { HEADING_ROOM } else { 4.0 };
-        for (column, velocity) in velocities.iter().enumerate() {
+        y += if row == 0 || lines > 1 { HEADING_ROOM } else { 4.0 };
+        for (number, velocity) in velocities.iter().enumerate() {
+            let (column, line) = (number % columns, number / columns);
+            if column == 0 && line > 0 {
+                y += width + HEADING_ROOM;
+            }
             let frame = Frame { x: left + column as f64 * (width + GAP), y, width, height: width };
-            if row == 0 {
+            if row == 0 || lines > 1 {
                 let words = setting(AxisKey::Param(Param::BeltVelocity), &Value::Number(*velocity));
                 svg.text(frame.across(0.5), y - 3.0, &words, Style::new(TICK_SIZE, Anchor::Middle));
             }
             let shown = trial.witnesses.iter().filter(|one| one.velocity.to_bits() == velocity.to_bits());
             cells(&mut svg, &frame, &sides, shown, fill);
             frame.border(&mut svg);
-            frame.x_ticks(&mut svg, &ticks[0], row == 2);
+            frame.x_ticks(&mut svg, &ticks[0], row == 2 && line + 1 == lines);
             frame.y_ticks(&mut svg, &ticks[1], column == 0);
+            if column == 0 {
+                let upwards = Style::new(LABEL_SIZE, Anchor::Middle).upwards();
+                svg.text(MARGIN + LABEL_SIZE, y + 0.5 * width, &Text::default().symbol("μ_d"), upwards);
+            }
         }
-        let upwards = Style::new(LABEL_SIZE, Anchor::Middle).upwards();
-        svg.text(MARGIN + LABEL_SIZE, y + 0.5 * width, &Text::default().symbol("μ_d"), upwards);
         y += width + LABEL_SIZE + 9.0;
     }
     y += x_tick_room() - 7.0;
-    svg.text(
-        left + 0.5 * (DOUBLE_COLUMN - RIGHT - left),
-        y,
-        &Text::default().symbol("μ_s"),
-        Style::new(LABEL_SIZE, Anchor::Middle),
-    );
-    y = legend(&mut svg, left, y + 6.0) + LABEL_SIZE + 10.0;
-    let frame = Frame { x: left, y: y + HEADING_ROOM, width: DOUBLE_COLUMN - RIGHT - left, height: CURVES };
+    svg.text(left + 0.5 * room, y, &Text::default().symbol("μ_s"), Style::new(LABEL_SIZE, Anchor::Middle));
+    y = legend(&mut svg, [left, y + 6.0], room) + LABEL_SIZE + 10.0;
+    for line in wrap(CURVES_HEADING, room, LABEL_SIZE, false) {
+        y += LABEL_SIZE + 2.0;
+        svg.text(left, y - 6.0, &Text::from(line), Style::new(LABEL_SIZE, Anchor::Start));
+    }
+    let frame = Frame { x: left, y, width: room, height: CURVES };
     let bottom = thresholds(&mut svg, trial, &frame);
-    svg.finish(DOUBLE_COLUMN, bottom + MARGIN, HEADING, &program())
+    look.finish(svg, [page, bottom + MARGIN], HEADING)
 }
 
 /// One rectangle per run of equal fills of a row. Each reaches to the right and lower end of the panel and is
@@ -191,7 +212,7 @@ fn bar(svg: &mut Svg, x: f64, base: f64) {
     svg.open(r#"shape-rendering="crispEdges""#);
     for k in 0..STEPS {
         let fill = shade(90.0 * f64::from(k) / f64::from(STEPS));
-        let corner = [x + 11.0 + f64::from(k) * wide, base - SAMPLE[1] + 1.0, wide, SAMPLE[1]];
+        let corner = [x + 11.0 + f64::from(k) * wide, base - BAR_HEIGHT + 1.0, wide, BAR_HEIGHT];
         svg.rect(corner, &format!(r#"fill="{fill}""#));
     }
     svg.close();
@@ -199,34 +220,18 @@ fn bar(svg: &mut Svg, x: f64, base: f64) {
     svg.text(x + 74.0, base, &words, Style::new(TICK_SIZE, Anchor::Start));
 }
 
-/// What the fills of the verdicts mean; returns the last base line.
-fn legend(svg: &mut Svg, left: f64, top: f64) -> f64 {
-    let (mut x, mut base) = (left, top + LABEL_SIZE);
-    for (fill, words) in VERDICTS {
-        let words = Text::from(words);
-        let wide = SAMPLE[0] + 3.0 + words.width(TICK_SIZE, false) + 10.0;
-        if x + wide > DOUBLE_COLUMN - RIGHT && x > left {
-            (x, base) = (left, base + TICK_SIZE + 4.0);
-        }
-        let sample = [x, base - SAMPLE[1] + 1.0, SAMPLE[0], SAMPLE[1]];
-        svg.rect(sample, &format!(r##"fill="{fill}" stroke="#000000" stroke-width="0.4""##));
-        svg.text(x + SAMPLE[0] + 3.0, base, &words, Style::new(TICK_SIZE, Anchor::Start));
-        x += wide;
-    }
-    base
+/// What the fills of the verdicts mean; returns where they end.
+fn legend(svg: &mut Svg, [left, top]: [f64; 2], width: f64) -> f64 {
+    let fills = VERDICTS.map(|(fill, _)| format!(r##"fill="{fill}" stroke="#000000" stroke-width="0.4""##));
+    let words = VERDICTS.iter().map(|(_, words)| Text::from(*words));
+    let entries: Vec<(Text, Sample<'_>)> = words.zip(fills.iter().map(|fill| Sample::Area(fill))).collect();
+    top + key::rows(svg, [left, top], width, TICK_SIZE, &entries)
 }
 
 /// The share of right verdicts against the threshold; returns the lower end.
 fn thresholds(svg: &mut Svg, trial: &PhaseTrial, frame: &Frame) -> f64 {
     let x = Scale::Linear { low: 0.0, high: 90.0 };
     let y = Scale::Linear { low: 0.4, high: 1.02 };
-    let heading = "(d) Mean share of right verdicts where one mechanism acts alone, against the threshold";
-    svg.text(
-        frame.x,
-        frame.y - HEADING_ROOM + LABEL_SIZE - 4.0,
-        &Text::from(heading),
-        Style::new(LABEL_SIZE, Anchor::Start),
-    );
     let plot = Plot { frame: *frame, x: &x, y: &y };
     plot.curve(svg, [(CUSTOMARY, 0.4), (CUSTOMARY, 1.02)], CRITICAL);
     let strokes = [FIRST, SECOND, THIRD];

@@ -1,18 +1,20 @@
 //! Figures 4 to 6: both accelerations and the state of the contact while the belt slows down to rest.
 
-use super::Drawn;
+use serde_json::{Value as Json, json};
+
 use crate::error::Result;
 use crate::export::columns::Cell;
 use crate::export::csv::Table;
-use crate::export::figure::{DOUBLE_COLUMN, MARGIN, program, title};
+use crate::export::figure::{DOUBLE_COLUMN, MARGIN, title};
 use crate::export::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room};
 use crate::export::key;
+use crate::export::look::Look;
 use crate::export::plot::{CRITICAL, Plot};
 use crate::export::scale::{Scale, Tick, axis_unit, value_label};
 use crate::export::svg::{Anchor, Style, Svg, polyline};
 use crate::export::text::Text;
 use crate::model::Param;
-use crate::paper::{Case, Ramp, Stretch, Study, millimetres};
+use crate::paper::{Case, Stretch, Study, millimetres};
 
 /// Heights of the panels, points.
 const HEIGHTS: [f64; 3] = [96.0, 96.0, 46.0];
@@ -22,8 +24,8 @@ const GAP: f64 = TICK_SIZE + 7.0;
 const RIGHT: f64 = 8.0;
 /// Margin above and below curves, as a fraction of the panel.
 const HEADROOM: f64 = 0.06;
-/// Ticks of the axes of time and belt velocity.
-const TICKS: usize = 8;
+/// Ticks of the axes of time and belt velocity take about this much each, points.
+const TICK_WIDTH: f64 = 55.0;
 /// An acceleration: the area between its lowest and highest value per column.
 const ACCELERATION: &str = r##"fill="#9DB4DC" stroke="#1F3F8F" stroke-width="0.5" stroke-linejoin="round""##;
 /// Strokes of the shares of stick and free flight.
@@ -32,24 +34,61 @@ const STATES: [&str; 2] = [
     r##"fill="none" stroke="#A03785" stroke-width="0.8" stroke-dasharray="3.2 1.4" stroke-linejoin="round""##,
 ];
 
-/// Accelerations as lowest and highest value per column, double column width.
-pub(super) fn draw(study: &Study, case: Case) -> Result<Drawn> {
-    let ramp = study.ramp(case)?;
-    let spec = study.sweep(case);
-    let heading = format!(
-        "{} in {} s, displaced by {} mm at the start",
-        spec.title,
-        ramp.duration,
-        millimetres(ramp.kick)
-    );
-    let instance = study.instance(case);
-    let knee = (instance.law.slope(0.0) != 0.0).then(|| instance.params.require(Param::KneeVelocity));
-    Ok(Drawn { svg: picture(ramp, &heading, knee), csv: table(ramp)? })
+/// The columns of the table.
+pub(crate) const COLUMNS: [&str; 8] =
+    ["t", "belt_velocity", "ax2_low", "ax2_high", "ay1_low", "ay1_high", "stick", "free"];
+
+/// A ramp as its picture shows it.
+#[derive(Clone, Debug)]
+pub struct Slowdown {
+    /// What stands above it.
+    pub(crate) heading: String,
+    /// The belt velocity from which on friction is constant, m/s; `None` where it is constant everywhere.
+    pub(crate) knee: Option<f64>,
+    /// Its duration, s.
+    pub(crate) duration: f64,
+    /// The belt velocity at its begin and end, m/s.
+    pub(crate) velocity: [f64; 2],
+    /// The ramp in stretches of a period each.
+    pub(crate) columns: Vec<Stretch>,
+    /// The ramp in wider stretches, of which the shares are shown.
+    pub(crate) parts: Vec<Stretch>,
 }
 
-fn table(ramp: &Ramp) -> Result<Vec<u8>> {
-    let names = ["t", "belt_velocity", "ax2_low", "ax2_high", "ay1_low", "ay1_high", "stick", "free"];
-    let mut table = Table::new(names.into_iter())?;
+impl Slowdown {
+    /// The ramp of a case.
+    pub(super) fn compute(study: &Study, case: Case) -> Result<Slowdown> {
+        let ramp = study.ramp(case)?;
+        let spec = study.sweep(case);
+        let kick = millimetres(ramp.kick);
+        let heading = format!("{} in {} s, displaced by {kick} mm at the start", spec.title, ramp.duration);
+        let instance = study.instance(case);
+        let value = |param| instance.params.require(param);
+        Ok(Slowdown {
+            heading,
+            knee: (instance.law.slope(0.0) != 0.0).then(|| value(Param::KneeVelocity)),
+            duration: ramp.duration,
+            velocity: [Param::BeltVelocity, Param::BeltVelocityEnd].map(value),
+            columns: ramp.columns.clone(),
+            parts: ramp.parts.clone(),
+        })
+    }
+
+    /// What the table does not hold.
+    pub(super) fn to_json(&self) -> Json {
+        let shares: Vec<[f64; 2]> = self.parts.iter().map(|part| [part.stick, part.free]).collect();
+        json!({
+            "title": self.heading,
+            "knee_velocity": self.knee,
+            "ramp_duration": self.duration,
+            "belt_velocity": self.velocity,
+            "stick_and_free": shares,
+        })
+    }
+}
+
+pub(super) fn table(ramp: &Slowdown) -> Result<Vec<u8>> {
+    let mut table = Table::new(COLUMNS.into_iter())?;
     for column in &ramp.columns {
         let ([t, belt], [ax, ay]) = (centre(column), [column.tangential, column.normal]);
         let numbers = [t, belt, ax[0], ax[1], ay[0], ay[1], column.stick, column.free];
@@ -63,11 +102,13 @@ fn centre(stretch: &Stretch) -> [f64; 2] {
     [stretch.time, stretch.velocity].map(|[from, to]| 0.5 * (from + to))
 }
 
-fn picture(ramp: &Ramp, heading: &str, knee: Option<f64>) -> String {
+/// Accelerations as lowest and highest value per column, double column width unless the look says otherwise.
+pub(super) fn picture(ramp: &Slowdown, look: &Look<'_>) -> String {
+    let page = look.points().unwrap_or(DOUBLE_COLUMN);
     let mut svg = Svg::new();
-    let mut y = MARGIN + title(&mut svg, heading, DOUBLE_COLUMN - 2.0 * MARGIN);
+    let mut y = MARGIN + title(&mut svg, &ramp.heading, page - 2.0 * MARGIN);
     let time = Scale::Linear { low: 0.0, high: ramp.duration };
-    let [fastest, slowest] = [ramp.columns[0].velocity[0], ramp.columns[ramp.columns.len() - 1].velocity[1]];
+    let [fastest, slowest] = ramp.velocity;
     let belt = Scale::Linear { low: fastest, high: slowest };
     let spread = |value: fn(&Stretch) -> [f64; 2]| {
         Scale::spanning(ramp.columns.iter().flat_map(value)).widened(HEADROOM)
@@ -82,7 +123,7 @@ fn picture(ramp: &Ramp, heading: &str, knee: Option<f64>) -> String {
     let ticks: [Vec<Tick>; 3] = std::array::from_fn(|k| scales[k].ticks(if k < 2 { 5 } else { 3 }));
     let room = ticks.iter().map(|ticks| y_tick_room(ticks)).fold(0.0, f64::max);
     let left = MARGIN + LABEL_SIZE + 6.0 + room;
-    let width = DOUBLE_COLUMN - left - RIGHT;
+    let width = page - left - RIGHT;
     y += LABEL_SIZE + 2.0;
     let label = Text::from("Belt velocity ").symbol("V").plain(" (m/s)");
     svg.text(left + 0.5 * width, y, &label, Style::new(LABEL_SIZE, Anchor::Middle));
@@ -91,7 +132,9 @@ fn picture(ramp: &Ramp, heading: &str, knee: Option<f64>) -> String {
     // Ticks are made on a rising scale; this one falls from left to right.
     let rising = Scale::Linear { low: slowest, high: fastest };
     let mirrored = |tick: Tick| Tick { at: 1.0 - tick.at, ..tick };
-    let velocities: Vec<Tick> = rising.ticks(TICKS).into_iter().map(mirrored).collect();
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive count")]
+    let most = (width / TICK_WIDTH).round() as usize;
+    let velocities: Vec<Tick> = rising.ticks(most).into_iter().map(mirrored).collect();
     let labels = [
         Text::from("(a) ").symbol("ẍ_2").then(axis_unit("m/s^2", scales[0].exponent())),
         Text::from("(b) ").symbol("ÿ_1").then(axis_unit("m/s^2", scales[1].exponent())),
@@ -120,7 +163,7 @@ fn picture(ramp: &Ramp, heading: &str, knee: Option<f64>) -> String {
         }
         frame.border(&mut svg);
         frame.y_ticks(&mut svg, &ticks[number], true);
-        frame.x_ticks(&mut svg, &time.ticks(TICKS), number + 1 == HEIGHTS.len());
+        frame.x_ticks(&mut svg, &time.ticks(most), number + 1 == HEIGHTS.len());
         if number == 0 {
             frame.x_ticks_above(&mut svg, &velocities);
         }
@@ -129,7 +172,7 @@ fn picture(ramp: &Ramp, heading: &str, knee: Option<f64>) -> String {
         y += frame.height + GAP;
     }
     let bottom = y - GAP;
-    if let Some(knee) = knee {
+    if let Some(knee) = ramp.knee {
         let at = left + belt.position(knee) * width;
         svg.path(&polyline([(at, top), (at, bottom)]), CRITICAL);
         let words =
@@ -144,5 +187,5 @@ fn picture(ramp: &Ramp, heading: &str, knee: Option<f64>) -> String {
     let base = bottom + x_tick_room() + LABEL_SIZE + 1.0;
     let label = Text::from("Time ").symbol("t").plain(" (s)");
     svg.text(left + 0.5 * width, base, &label, Style::new(LABEL_SIZE, Anchor::Middle));
-    svg.finish(DOUBLE_COLUMN, base + 3.0 + MARGIN, heading, &program())
+    look.finish(svg, [page, base + 3.0 + MARGIN], &ramp.heading)
 }

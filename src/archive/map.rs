@@ -4,8 +4,9 @@ use std::path::Path;
 
 use serde_json::Value as Json;
 
+use super::folder::{Folder, Table, Why, program, text};
 use crate::classify::{InstabilityType, Regime};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::grid::{Axis, AxisKey, Grid, Value};
 use crate::map::{Computation, Map, Provenance, Record, Stopped};
 use crate::model::Params;
@@ -15,7 +16,7 @@ use crate::spec::{Analysis, Duration, Pass, STEPS_PER_PERIOD, Spec, StartKind};
 use crate::starts;
 
 /// The files of a map that are read.
-const FILES: [&str; 2] = ["manifest.json", "map.csv"];
+pub(super) const FILES: [&str; 2] = ["manifest.json", "map.csv"];
 
 /// A column of numbers.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,19 +49,14 @@ impl Archive {
     /// # Errors
     /// When a file is missing or is not what a run writes.
     pub fn read(directory: &Path) -> Result<Archive> {
-        let bad = |file: &str, why: String| Error::Archive { path: directory.join(file), why };
-        let read = |file: &str| {
-            std::fs::read_to_string(directory.join(file)).map_err(|why| bad(file, why.to_string()))
-        };
-        let [manifest, table] = FILES.map(read);
-        let manifest: Json =
-            serde_json::from_str(&manifest?).map_err(|why| bad(FILES[0], why.to_string()))?;
-        let table = Table::read(&table?).map_err(|why| bad(FILES[1], why))?;
-        let spec = spec(&manifest, &table).map_err(|why| bad(FILES[0], why))?;
-        let records = records(&table).map_err(|why| bad(FILES[1], why))?;
+        let folder = Folder(directory);
+        let manifest = folder.json(FILES[0])?;
+        let table = folder.table(FILES[1])?;
+        let spec = spec(&manifest, &table).map_err(|why| folder.bad(FILES[0], why))?;
+        let records = records(&table).map_err(|why| folder.bad(FILES[1], why))?;
         if records.len() != spec.grid.len() {
             let why = format!("{} rows for {} instances", records.len(), spec.grid.len());
-            return Err(bad(FILES[1], why));
+            return Err(folder.bad(FILES[1], why));
         }
         let stopped = manifest["computation"]["stopped"].as_str().map(|why| match why {
             "cancelled" => Stopped::Cancelled,
@@ -73,42 +69,12 @@ impl Archive {
             elapsed: std::time::Duration::ZERO,
         };
         let columns = columns(&manifest, &table, &spec);
-        let program = &manifest["program"];
-        let commit = program["git_commit"].as_str().map(|commit| format!(" ({commit})"));
-        let program = format!("squealmap {}{}", text(&program["version"]), commit.unwrap_or_default());
+        let program = program(&manifest);
         Ok(Archive { map: Map { spec, records, stopped, provenance }, columns, program })
     }
 }
 
-/// A table as text.
-struct Table {
-    header: Vec<String>,
-    rows: Vec<csv::StringRecord>,
-}
-
-impl Table {
-    fn read(text: &str) -> std::result::Result<Table, String> {
-        let mut reader = csv::Reader::from_reader(text.as_bytes());
-        let header = reader.headers().map_err(|why| why.to_string())?.iter().map(str::to_owned).collect();
-        let rows: std::result::Result<_, _> = reader.records().collect();
-        Ok(Table { header, rows: rows.map_err(|why| why.to_string())? })
-    }
-
-    fn find(&self, name: &str) -> Option<usize> {
-        self.header.iter().position(|header| header == name)
-    }
-
-    /// The cell of a column that may be missing; empty then.
-    fn cell<'a>(&self, row: &'a csv::StringRecord, name: &str) -> &'a str {
-        self.find(name).and_then(|k| row.get(k)).unwrap_or_default()
-    }
-}
-
-fn text(value: &Json) -> String {
-    value.as_str().unwrap_or_default().to_owned()
-}
-
-fn spec(manifest: &Json, table: &Table) -> std::result::Result<Spec, String> {
+fn spec(manifest: &Json, table: &Table) -> Why<Spec> {
     let resolved = manifest["spec"].as_object().ok_or("has no `spec`")?;
     let analysis = resolved["analysis"].as_array().ok_or("has no `analysis` in `spec`")?;
     let asked = |name: &str| analysis.iter().any(|one| one == name);
@@ -117,15 +83,21 @@ fn spec(manifest: &Json, table: &Table) -> std::result::Result<Spec, String> {
         (None, Some(points)) => tuples(points, table)?,
         (None, None) => return Err("has neither `axes` nor `points` in `spec`".to_owned()),
     };
-    Ok(Spec {
-        title: text(&manifest["title"]),
-        analysis: Analysis {
-            linear: asked("linear"),
-            response: asked("response"),
-            until_settled: resolved.get("response").is_some_and(|response| response["settle"] == "auto"),
-            checked: resolved.get("response").is_some_and(|response| response["check"] == true),
-            starts: starts::from_json(&manifest["spec"]["start"]),
-        },
+    let analysis = Analysis {
+        linear: asked("linear"),
+        response: asked("response"),
+        until_settled: resolved.get("response").is_some_and(|response| response["settle"] == "auto"),
+        checked: resolved.get("response").is_some_and(|response| response["check"] == true),
+        starts: starts::from_json(&manifest["spec"]["start"]),
+    };
+    Ok(drawn_spec(text(&manifest["title"]), analysis, grid))
+}
+
+/// A sweep of which a figure is drawn: what it does not read stands at defaults.
+pub(super) fn drawn_spec(title: String, analysis: Analysis, grid: Grid) -> Spec {
+    Spec {
+        title,
+        analysis,
         base: Params::default(),
         impact_friction: true,
         law: LawKind::Bilinear,
@@ -140,14 +112,14 @@ fn spec(manifest: &Json, table: &Table) -> std::result::Result<Spec, String> {
         measure: Duration::Seconds(0.0),
         steps_per_period: STEPS_PER_PERIOD,
         steps_given: None,
-    })
+    }
 }
 
-fn key(name: &str) -> std::result::Result<AxisKey, String> {
+fn key(name: &str) -> Why<AxisKey> {
     AxisKey::from_name(name).ok_or_else(|| format!("`{name}` is no parameter"))
 }
 
-fn axis((name, axis): (&String, &Json)) -> std::result::Result<Axis, String> {
+fn axis((name, axis): (&String, &Json)) -> Why<Axis> {
     let key = key(name)?;
     let values = axis["values"].as_array().ok_or_else(|| format!("axis `{name}` has no values"))?;
     let value = |value: &Json| match value.as_f64() {
@@ -157,7 +129,7 @@ fn axis((name, axis): (&String, &Json)) -> std::result::Result<Axis, String> {
     Ok(Axis { key, values: values.iter().map(value).collect(), log: axis["scale"] == "log" })
 }
 
-fn tuples(points: &Json, table: &Table) -> std::result::Result<Grid, String> {
+fn tuples(points: &Json, table: &Table) -> Why<Grid> {
     let names: Vec<String> =
         points["columns"].as_array().map(|names| names.iter().map(text).collect()).unwrap_or_default();
     let keys = names.iter().map(|name| key(name)).collect::<std::result::Result<Vec<_>, _>>()?;
@@ -172,27 +144,29 @@ fn tuples(points: &Json, table: &Table) -> std::result::Result<Grid, String> {
     Ok(Grid::Tuples { keys, rows })
 }
 
-fn records(table: &Table) -> std::result::Result<Vec<Record>, String> {
+fn records(table: &Table) -> Why<Vec<Record>> {
     if table.find("status").is_none() {
         return Err("has no column `status`".to_owned());
     }
-    let record = |row: &csv::StringRecord| {
-        let cell = |name: &str| table.cell(row, name);
-        let status = cell("status");
-        let status = Status::IN_MAP
-            .into_iter()
-            .find(|one| one.name() == status)
-            .ok_or_else(|| format!("`{status}` is no status"))?;
-        Ok(Record {
-            status,
-            kind: InstabilityType::ALL.into_iter().find(|kind| kind.name() == cell("type")),
-            regime: Regime::ALL.into_iter().find(|regime| regime.name() == cell("regime")),
-            settled: flag(cell("settled")),
-            bistable: flag(cell("bistable")),
-            ..Record::default()
-        })
-    };
-    table.rows.iter().map(record).collect()
+    table.rows.iter().map(|row| record(table, row)).collect()
+}
+
+/// What figures read of a record.
+pub(super) fn record(table: &Table, row: &csv::StringRecord) -> Why<Record> {
+    let cell = |name: &str| table.cell(row, name);
+    let status = cell("status");
+    let status = Status::IN_MAP
+        .into_iter()
+        .find(|one| one.name() == status)
+        .ok_or_else(|| format!("`{status}` is no status"))?;
+    Ok(Record {
+        status,
+        kind: InstabilityType::ALL.into_iter().find(|kind| kind.name() == cell("type")),
+        regime: Regime::ALL.into_iter().find(|regime| regime.name() == cell("regime")),
+        settled: flag(cell("settled")),
+        bistable: flag(cell("bistable")),
+        ..Record::default()
+    })
 }
 
 /// A column of yes and no.

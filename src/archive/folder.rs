@@ -1,0 +1,104 @@
+//! A directory as a reader sees it: its files, tables of text, and errors that name the file.
+
+use std::path::Path;
+
+use serde_json::Value as Json;
+
+use crate::error::{Error, Result};
+use crate::export::heading::Heading;
+
+/// What is wrong with a file, as the end of a sentence.
+pub(super) type Why<T> = std::result::Result<T, String>;
+
+/// A directory that a command has written.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Folder<'a>(pub(super) &'a Path);
+
+impl Folder<'_> {
+    /// The error of one of its files.
+    pub(super) fn bad(self, file: &str, why: impl Into<String>) -> Error {
+        Error::Archive { path: self.0.join(file), why: why.into() }
+    }
+
+    /// The text of a file.
+    pub(super) fn text(self, file: &str) -> Result<String> {
+        std::fs::read_to_string(self.0.join(file)).map_err(|why| self.bad(file, why.to_string()))
+    }
+
+    /// A file of JSON.
+    pub(super) fn json(self, file: &str) -> Result<Json> {
+        serde_json::from_str(&self.text(file)?).map_err(|why| self.bad(file, why.to_string()))
+    }
+
+    /// A table.
+    pub(super) fn table(self, file: &str) -> Result<Table> {
+        Table::read(&self.text(file)?).map_err(|why| self.bad(file, why))
+    }
+}
+
+/// A table as text.
+pub(super) struct Table {
+    pub(super) header: Vec<String>,
+    pub(super) rows: Vec<csv::StringRecord>,
+}
+
+impl Table {
+    fn read(text: &str) -> Why<Table> {
+        let mut reader = csv::Reader::from_reader(text.as_bytes());
+        let header = reader.headers().map_err(|why| why.to_string())?.iter().map(str::to_owned).collect();
+        let rows: std::result::Result<_, _> = reader.records().collect();
+        Ok(Table { header, rows: rows.map_err(|why| why.to_string())? })
+    }
+
+    pub(super) fn find(&self, name: &str) -> Option<usize> {
+        self.header.iter().position(|header| header == name)
+    }
+
+    /// The place of a column that has to be there.
+    pub(super) fn column(&self, name: &str) -> Why<usize> {
+        self.find(name).ok_or_else(|| format!("has no column `{name}`"))
+    }
+
+    /// The cell of a column that may be missing; empty then.
+    pub(super) fn cell<'a>(&self, row: &'a csv::StringRecord, name: &str) -> &'a str {
+        self.find(name).and_then(|k| row.get(k)).unwrap_or_default()
+    }
+
+    /// The numbers of some columns, row by row; an empty cell, which is an undefined value, is NaN.
+    pub(super) fn numbers<const N: usize>(&self, names: [&str; N]) -> Why<Vec<[f64; N]>> {
+        let mut places = [0; N];
+        for (place, name) in places.iter_mut().zip(names) {
+            *place = self.column(name)?;
+        }
+        let row = |(line, row): (usize, &csv::StringRecord)| {
+            let mut numbers = [f64::NAN; N];
+            for ((number, place), name) in numbers.iter_mut().zip(places).zip(names) {
+                let cell = row.get(place).unwrap_or_default();
+                if !cell.is_empty() {
+                    *number = cell
+                        .parse()
+                        .map_err(|_| format!("row {}: `{name}` is `{cell}`, no number", line + 1))?;
+                }
+            }
+            Ok(numbers)
+        };
+        self.rows.iter().enumerate().map(row).collect()
+    }
+}
+
+/// A text of a document; empty where there is none.
+pub(super) fn text(value: &Json) -> String {
+    value.as_str().unwrap_or_default().to_owned()
+}
+
+/// The program that a document says it was written by: version, and commit where known.
+pub(super) fn program(document: &Json) -> String {
+    let program = &document["program"];
+    let commit = program["git_commit"].as_str().map(|commit| format!(" ({commit})"));
+    format!("squealmap {}{}", text(&program["version"]), commit.unwrap_or_default())
+}
+
+/// The heading of a document.
+pub(super) fn heading(document: &Json) -> Why<Heading> {
+    Heading::from_json(document).ok_or_else(|| "has no `title`".to_owned())
+}

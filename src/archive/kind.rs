@@ -1,0 +1,101 @@
+//! Which figures there are, and which of them a directory holds.
+
+use std::path::Path;
+
+use super::{hysteresis, map, modes, trace, tradeoff};
+use crate::error::{Error, Result};
+use crate::paper::Figure;
+
+/// A figure of a command that can be drawn from its directory.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// The map of `run`.
+    Map,
+    /// The trajectory of `trace`.
+    Trace,
+    /// Both branches of `trace --sweep-up-down`.
+    Hysteresis,
+    /// The eigenvalues of `modes`.
+    Modes,
+    /// Speed against error of `tradeoff`.
+    Tradeoff,
+    /// A figure of `paper`.
+    Paper(Figure),
+}
+
+impl Kind {
+    /// All of them; where a directory holds several, the first is drawn unless another is asked for.
+    pub const ALL: [Kind; 13] = [
+        Kind::Map,
+        Kind::Trace,
+        Kind::Hysteresis,
+        Kind::Modes,
+        Kind::Tradeoff,
+        Kind::Paper(Figure::Figure2),
+        Kind::Paper(Figure::Figure3),
+        Kind::Paper(Figure::Figure4),
+        Kind::Paper(Figure::Figure5),
+        Kind::Paper(Figure::Figure6),
+        Kind::Paper(Figure::Figure7),
+        Kind::Paper(Figure::Accelerations),
+        Kind::Paper(Figure::Phase),
+    ];
+
+    /// The name on the command line.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Kind::Map => "map",
+            Kind::Trace => "trace",
+            Kind::Hysteresis => "hysteresis",
+            Kind::Modes => "modes",
+            Kind::Tradeoff => "tradeoff",
+            Kind::Paper(figure) => figure.name(),
+        }
+    }
+
+    /// The files that it is drawn from.
+    #[must_use]
+    pub fn files(self) -> [&'static str; 2] {
+        match self {
+            Kind::Map => map::FILES,
+            Kind::Trace => trace::FILES,
+            Kind::Hysteresis => hysteresis::FILES,
+            Kind::Modes => modes::FILES,
+            Kind::Tradeoff => tradeoff::FILES,
+            Kind::Paper(Figure::Figure2) => ["figure2.csv", "figure2.json"],
+            Kind::Paper(Figure::Figure3) => ["figure3.csv", "figure3.json"],
+            Kind::Paper(Figure::Figure4) => ["figure4.csv", "figure4.json"],
+            Kind::Paper(Figure::Figure5) => ["figure5.csv", "figure5.json"],
+            Kind::Paper(Figure::Figure6) => ["figure6.csv", "figure6.json"],
+            Kind::Paper(Figure::Figure7) => ["figure7.csv", "figure7.json"],
+            Kind::Paper(Figure::Accelerations) => ["accelerations.csv", "accelerations.json"],
+            Kind::Paper(Figure::Phase) => ["phase.csv", "phase.json"],
+        }
+    }
+
+    /// The figures that a directory holds, in the order of [`Kind::ALL`]: all their files are there.
+    #[must_use]
+    pub fn held(directory: &Path) -> Vec<Kind> {
+        let there = |kind: &Kind| kind.files().iter().all(|file| directory.join(file).is_file());
+        Kind::ALL.into_iter().filter(there).collect()
+    }
+
+    /// The figure to draw: the one that is asked for, or the first.
+    ///
+    /// # Errors
+    /// When the directory holds none, or not the one that is asked for.
+    pub fn choose(directory: &Path, asked: Option<Kind>) -> Result<Kind> {
+        let held = Kind::held(directory);
+        let found = match asked {
+            Some(kind) => held.contains(&kind).then_some(kind),
+            None => held.first().copied(),
+        };
+        found.ok_or_else(|| {
+            let wanted = asked.map_or(Kind::ALL.to_vec(), |kind| vec![kind]);
+            let look_for = |kind: Kind| format!("{} for `{}`", kind.files().join(" and "), kind.name());
+            let wanted: Vec<String> = wanted.into_iter().map(look_for).collect();
+            Error::NothingToPlot { path: directory.to_owned(), wanted: wanted.join(", ") }
+        })
+    }
+}

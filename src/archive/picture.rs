@@ -1,0 +1,107 @@
+//! One figure read back, ready to be drawn at any width.
+
+use std::path::Path;
+
+use super::folder::{Folder, program};
+use super::{Archive, Kind, hysteresis, modes, paper, trace, tradeoff};
+use crate::accuracy::row::Row;
+use crate::error::Result;
+use crate::export::figure::look_svg;
+use crate::export::heading::Heading;
+use crate::export::hysteresis::hysteresis_svg;
+use crate::export::look::Look;
+use crate::export::modes::{Modes, draw};
+use crate::export::paper::Shown;
+use crate::export::trace::trace_svg;
+use crate::export::tradeoff::figure;
+use crate::hysteresis::Hysteresis;
+use crate::spec::Spec;
+use crate::trace::Trace;
+
+/// What a figure shows.
+#[derive(Clone, Debug)]
+enum Content {
+    Map(Box<Archive>),
+    Trace(Trace, Heading),
+    Hysteresis(Hysteresis, Heading),
+    Modes(Box<Spec>, Modes),
+    Tradeoff(String, Vec<Row>),
+    Paper(Shown),
+}
+
+/// A figure read back from the directory of its command.
+#[derive(Clone, Debug)]
+pub struct Picture {
+    content: Content,
+    /// The program that computed it: version, and commit where known.
+    pub program: String,
+}
+
+impl Picture {
+    /// Reads what a figure is drawn from.
+    ///
+    /// # Errors
+    /// When a file is missing or is not what the command writes.
+    pub fn read(directory: &Path, kind: Kind) -> Result<Picture> {
+        let folder = Folder(directory);
+        let content = match kind {
+            Kind::Map => Content::Map(Box::new(Archive::read(directory)?)),
+            Kind::Trace => {
+                let (trace, heading) = trace::read(folder)?;
+                Content::Trace(trace, heading)
+            }
+            Kind::Hysteresis => {
+                let (hysteresis, heading) = hysteresis::read(folder)?;
+                Content::Hysteresis(hysteresis, heading)
+            }
+            Kind::Modes => {
+                let (spec, modes) = modes::read(folder, kind.files())?;
+                Content::Modes(Box::new(spec), modes)
+            }
+            Kind::Tradeoff => {
+                let (title, rows) = tradeoff::read(folder)?;
+                Content::Tradeoff(title, rows)
+            }
+            Kind::Paper(figure) => Content::Paper(paper::read(folder, figure, kind.files())?),
+        };
+        let document = kind.files().into_iter().find(|file| file.ends_with(".json"));
+        let program = program(&document.map_or(Ok(serde_json::Value::Null), |file| folder.json(file))?);
+        Ok(Picture { content, program })
+    }
+
+    /// The map, of which quantities and lines can be asked for too.
+    #[must_use]
+    pub fn map(&self) -> Option<&Archive> {
+        match &self.content {
+            Content::Map(archive) => Some(archive),
+            _ => None,
+        }
+    }
+
+    /// The title of the sweep; may be empty.
+    #[must_use]
+    pub fn title(&self) -> &str {
+        match &self.content {
+            Content::Map(archive) => &archive.map.spec.title,
+            Content::Trace(_, heading) | Content::Hysteresis(_, heading) => &heading.title,
+            Content::Modes(spec, _) => &spec.title,
+            Content::Tradeoff(title, _) => title,
+            Content::Paper(shown) => shown.title(),
+        }
+    }
+
+    /// The figure as an SVG document: at the default look the same as the command's own.
+    ///
+    /// # Errors
+    /// When an instance of a map was never computed, and not because the run was stopped.
+    pub fn svg(&self, look: &Look<'_>) -> Result<String> {
+        match &self.content {
+            Content::Map(archive) => look_svg(&archive.map, look),
+            Content::Trace(trace, heading) => trace_svg(trace, heading, look),
+            Content::Hysteresis(hysteresis, heading) => Ok(hysteresis_svg(hysteresis, heading, look)),
+            Content::Modes(spec, modes) => Ok(draw(spec, modes, look)),
+            Content::Tradeoff(title, rows) => Ok(figure(title, rows, look)),
+            Content::Paper(shown) => Ok(shown.svg(look)),
+        }
+    }
+}

@@ -1,0 +1,205 @@
+//! One small figure of every kind, made by hand and left in a directory as its command would leave it.
+
+#![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
+
+use std::f64::consts::TAU;
+
+use num_complex::Complex64;
+use squealmap::accuracy::row::{Row, from_csv, to_csv};
+use squealmap::archive::Kind;
+use squealmap::classify::{InstabilityType, Regime};
+use squealmap::export::figure::map_svg;
+use squealmap::export::heading::Heading;
+use squealmap::export::look::Look;
+use squealmap::export::paper::Shown;
+use squealmap::export::{csv, hysteresis, manifest, modes, trace, tradeoff};
+use squealmap::grid::Grid;
+use squealmap::hysteresis::Hysteresis;
+use squealmap::map::Record;
+use squealmap::model::Param;
+use squealmap::model::contact::ContactState;
+use squealmap::outcome::{Outcome, Status};
+use squealmap::paper::{Figure, PhaseTrial, Settings, Study, Trial, Witness};
+use squealmap::trace::{Trace, TraceRow};
+use tempfile::TempDir;
+
+use crate::synthetic::{axis, map, number, paper_like, record, span, spec};
+
+/// A figure and the directory that it can be drawn from.
+pub(crate) struct Piece {
+    pub(crate) kind: Kind,
+    pub(crate) directory: TempDir,
+    /// The picture of the command itself.
+    pub(crate) svg: String,
+}
+
+/// Leaves files in a directory.
+fn piece(kind: Kind, svg: String, files: [Vec<u8>; 2]) -> Piece {
+    let directory = tempfile::tempdir().unwrap();
+    for (name, bytes) in kind.files().into_iter().zip(files) {
+        std::fs::write(directory.path().join(name), bytes).unwrap();
+    }
+    Piece { kind, directory, svg }
+}
+
+/// One of every kind.
+pub(crate) fn all() -> Vec<Piece> {
+    let mut pieces = vec![a_map(), a_trace(), a_hysteresis(), some_modes(), a_tradeoff()];
+    pieces.extend(Figure::ALL.map(of_the_paper));
+    pieces
+}
+
+/// A map like the paper's, of three velocities.
+fn a_map() -> Piece {
+    let axes = vec![
+        span(Param::MuS, 0.0, 0.6, 13),
+        span(Param::MuD, 0.0, 0.6, 13),
+        axis(Param::BeltVelocity, &[0.5, 3.0, 6.0]),
+    ];
+    let map = map(Grid::Axes(axes), |_, at| paper_like(number(at[0]), number(at[1]), number(at[2])));
+    let files = [manifest::manifest_json(&map).unwrap(), csv::map_csv(&map).unwrap()];
+    piece(Kind::Map, map_svg(&map).unwrap(), files)
+}
+
+/// A sine that sticks, flies and slides back, long enough for a second column.
+fn a_trace() -> Piece {
+    const FREQUENCY: f64 = 20.0;
+    let row = |k: u32| {
+        let t = f64::from(k) / 800.0;
+        let (sin, cos) = (FREQUENCY * TAU * t).sin_cos();
+        TraceRow {
+            t,
+            position: [0.01 * sin / 3.0, 0.0, -0.01],
+            velocity: [1.2 * cos, 0.0, 0.0],
+            acceleration: [-150.0 * sin, 0.0, 100.0 * cos],
+            normal_force: 1000.0 + 300.0 * cos,
+            tangential_force: 400.0 - 80.0 * sin,
+            state: ContactState::ALL[k as usize / 7 % 4],
+        }
+    };
+    let outcome = Outcome { status: Status::Ok, response_frequency: Some(FREQUENCY), ..Outcome::default() };
+    let found = Trace { rows: (0..800).map(row).collect(), outcome };
+    let heading = Heading::new("A sine", "mu_s=0.4, mu_d = 0.3,law=bilinear,belt_velocity=3,k1=2e6");
+    let svg = trace::trace_svg(&found, &heading, &Look::default()).unwrap();
+    piece(Kind::Trace, svg, [trace::trace_csv(&found).unwrap(), trace::document(&found, &heading).unwrap()])
+}
+
+/// A cycle that lives from one half of the range to two thirds beside a stable equilibrium.
+fn a_hysteresis() -> Piece {
+    let values: Vec<f64> = (0..13).map(|k| 0.1 + f64::from(k) / 30.0).collect();
+    let at = |cycle: bool, k: usize| {
+        let kind = if k < 6 { InstabilityType::NegativeSlope } else { InstabilityType::Stable };
+        let regime = if cycle { Regime::StickSlip } else { Regime::Equilibrium };
+        let x2_std = Some(if cycle { 1e-3 * values[k] } else { 1e-9 });
+        let outcome = Outcome { status: Status::Ok, x2_std, ..Outcome::default() };
+        Record { outcome: Some(outcome), ..record(kind, regime, true) }
+    };
+    let branch = |end: usize| (0..values.len()).map(|k| at(k < end, k)).collect();
+    let found = Hysteresis { param: Param::MuS, up: branch(9), down: branch(6), values };
+    let heading = Heading::new("A loop", "belt_velocity=1.5");
+    let sweep = spec(found.grid());
+    let svg = hysteresis::hysteresis_svg(&found, &heading, &Look::default());
+    let files = [
+        hysteresis::hysteresis_csv(&sweep, &found).unwrap(),
+        hysteresis::document(&found, &heading).unwrap(),
+    ];
+    piece(Kind::Hysteresis, svg, files)
+}
+
+/// Two modes that merge, at two velocities.
+fn some_modes() -> Piece {
+    let axes = vec![span(Param::MuD, 0.0, 0.5, 11), axis(Param::BeltVelocity, &[1.0, 2.5])];
+    let sweep = spec(Grid::Axes(axes));
+    let two = |spec: &squealmap::spec::Spec, index: usize| {
+        let at = spec.grid.coordinates(index);
+        let (mu, v) = (number(at[0]), number(at[1]));
+        let apart = 0.3 * v - mu;
+        let (split, growth) = if apart > 0.0 { (apart, 0.0) } else { (0.0, -apart) };
+        let [a, b] = [(1.0, -1.0), (-1.0, 1.0)]
+            .map(|(side, sign)| Complex64::new(sign * 40.0 * growth - 0.5, 200.0 - side * 60.0 * split));
+        Some([a, a.conj(), b, b.conj()])
+    };
+    let found = modes::follow(&sweep, &two).unwrap();
+    let svg = modes::draw(&sweep, &found, &Look::default());
+    let files = [modes::table(&sweep, &found).unwrap(), modes::document(&sweep, &found).unwrap()];
+    piece(Kind::Modes, svg, files)
+}
+
+/// Two engines, the reference and one to compare with.
+fn a_tradeoff() -> Piece {
+    let engine = |backend: &str, precision: &str, steps: u32, speed: f64, error: f64, frontier: bool| {
+        let row = serde_json::json!({
+            "scene": "pieces", "backend": backend, "adapter": null, "precision": precision,
+            "steps_per_period": steps, "per_cpu_second": speed, "per_second": 2.0 * speed,
+            "types": 0.0, "regimes": 0.0, "statuses": 0.0, "beyond_scatter_p95": 0.0, "frontier": frontier,
+        });
+        let mut row = row.as_object().unwrap().clone();
+        for name in ["x2_std", "ax_rms", "ay_rms", "response_frequency", "worst", "stick"] {
+            for (quantile, factor) in [("p50", 0.3), ("p95", 1.0), ("p99", 3.0)] {
+                row.insert(format!("{name}_{quantile}"), (factor * error).into());
+            }
+        }
+        serde_json::from_value::<Row>(row.into()).unwrap()
+    };
+    let mut rows = vec![engine("reference", "f64", 12, 180.0, 3e-9, true)];
+    for (k, steps) in [24, 12, 8, 5].into_iter().enumerate() {
+        let k = k as f64;
+        rows.push(engine("cpu", "f64", steps, 2000.0 * 1.5_f64.powf(k), 2e-8 * 20_f64.powf(k), k < 2.0));
+        rows.push(engine("cpu", "f32", steps, 3900.0 * 1.5_f64.powf(k), 1e-6 * 5_f64.powf(k), true));
+    }
+    rows.push(engine("located RK4", "f64", 20, 170.0, 1.6e-3, false));
+    let table = to_csv(&rows).unwrap();
+    assert_eq!(from_csv(&table).unwrap(), rows, "every number comes back");
+    let document = serde_json::json!({ "title": "Speed", "program": { "version": "0.1.0" } });
+    let svg = tradeoff::figure("Speed", &rows, &Look::default());
+    piece(Kind::Tradeoff, svg, [table, document.to_string().into_bytes()])
+}
+
+/// A figure of the paper: what is dear is short or made up.
+fn of_the_paper(figure: Figure) -> Piece {
+    let shown = match figure {
+        Figure::Accelerations => Shown::Accelerations(trials()),
+        Figure::Phase => Shown::Phase(phases()),
+        cheap => {
+            let study = Study::new(Settings { ramp_duration: Some(0.5), kick: None });
+            Shown::compute(cheap, &study).unwrap()
+        }
+    };
+    let svg = shown.svg(&Look::default());
+    piece(Kind::Paper(figure), svg, [shown.csv().unwrap(), shown.document().unwrap()])
+}
+
+fn trials() -> Vec<Trial> {
+    let trial = |k: u32| {
+        let (duration, kick) = ([0.5, 2.0, 10.0][k as usize / 3], [1e-4, 3e-4, 1e-3][k as usize % 3]);
+        let peak = |base: f64| (k != 4).then(|| [base + f64::from(k), 0.5 * base]);
+        Trial {
+            duration,
+            kick,
+            disturbance: 3.0 * f64::from(k),
+            peaks: [peak(80.0), peak(120.0), peak(125.0)],
+        }
+    };
+    (0..9).map(trial).collect()
+}
+
+fn phases() -> PhaseTrial {
+    let kinds = [
+        InstabilityType::Stable,
+        InstabilityType::NegativeSlope,
+        InstabilityType::ModeCoupling,
+        InstabilityType::Coexistence,
+    ];
+    let witness = |k: usize| {
+        let (v, i, j) = (k / 36, k / 6 % 6, k % 6);
+        let kind = kinds[(i + j) / 3];
+        let phase = 7.0 * (i + 2 * j) as f64;
+        Witness {
+            velocity: [0.5, 1.0, 3.0, 4.9][v],
+            friction: [0.1 * i as f64, 0.1 * j as f64],
+            kind: Some(kind),
+            phases: [Some(phase), (j > 0).then_some(0.9 * phase), (i != j).then_some(0.5 * phase)],
+        }
+    };
+    PhaseTrial { witnesses: (0..144).map(witness).collect() }
+}

@@ -1,0 +1,196 @@
+//! Every figure of the program comes back from its directory, at the size of a journal.
+
+#![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
+
+use std::sync::Arc;
+
+use resvg::usvg::{Node, Options, Tree, fontdb};
+use squealmap::Error;
+use squealmap::archive::{Kind, Picture};
+use squealmap::export::look::{Journal, Look};
+use squealmap::export::{pdf, png};
+
+use crate::common::near;
+use crate::figure::draw;
+use crate::gallery::{Piece, all};
+use crate::plot::{page, size, text_sizes};
+
+fn read(piece: &Piece) -> Picture {
+    Picture::read(piece.directory.path(), piece.kind).unwrap()
+}
+
+/// The texts of a document that do not lie on its page, with their boxes in points of the drawing.
+fn outside(svg: &str) -> Vec<String> {
+    let mut fonts = fontdb::Database::new();
+    for font in ["Regular", "Italic", "Bold"] {
+        let path = format!("{}/assets/fonts/LiberationSans-{font}.ttf", env!("CARGO_MANIFEST_DIR"));
+        fonts.load_font_source(fontdb::Source::Binary(Arc::new(std::fs::read(path).unwrap())));
+    }
+    fonts.set_sans_serif_family("Liberation Sans");
+    let family = "Liberation Sans".to_owned();
+    let options = Options { fontdb: Arc::new(fonts), font_family: family, ..Options::default() };
+    let tree = Tree::from_str(svg, &options).unwrap();
+    let mut found = Vec::new();
+    texts(tree.root(), &mut |node| {
+        let area = node.abs_stroke_bounding_box();
+        let inside = area.left() >= 0.0
+            && area.top() >= 0.0
+            && area.right() <= tree.size().width()
+            && area.bottom() <= tree.size().height();
+        if let (false, Node::Text(text)) = (inside, node) {
+            let words: String = text.chunks().iter().map(|chunk| chunk.text().to_owned()).collect();
+            found.push(format!("`{words}` at {area:?} of {:?}", tree.size()));
+        }
+    });
+    found
+}
+
+fn texts(group: &resvg::usvg::Group, each: &mut impl FnMut(&Node)) {
+    for node in group.children() {
+        match node {
+            Node::Group(group) => texts(group, each),
+            Node::Text(_) => each(node),
+            _ => {}
+        }
+    }
+}
+
+#[test]
+fn every_figure_comes_back_from_its_directory() {
+    let pieces = all();
+    assert_eq!(pieces.iter().map(|piece| piece.kind).collect::<Vec<_>>(), Kind::ALL, "one of each");
+    for piece in &pieces {
+        let name = piece.kind.name();
+        assert_eq!(Kind::choose(piece.directory.path(), None).unwrap(), piece.kind);
+        let picture = read(piece);
+        let again = picture.svg(&Look::default()).unwrap();
+        assert!(again == piece.svg, "{name}: not the same text");
+        assert!(picture.program.starts_with("squealmap 0."), "{name}: {}", picture.program);
+        let command = "squealmap plot somewhere --width 120mm".to_owned();
+        let other = picture.svg(&Look { command: Some(command.clone()), ..Look::default() }).unwrap();
+        let [a, b] = [&again, &other].map(|svg| svg.lines().collect::<Vec<_>>());
+        let differ: Vec<&str> = a.iter().zip(&b).filter(|(a, b)| a != b).map(|(_, b)| *b).collect();
+        assert!(a.len() == b.len() && differ.len() == 1, "{name}: {differ:?}");
+        assert!(differ[0].starts_with("<metadata>") && differ[0].contains(&command), "{name}: {differ:?}");
+    }
+}
+
+/// The picture is drawn from the numbers in the table: another number is another picture.
+#[test]
+fn another_number_is_another_picture() {
+    for piece in all().iter().filter(|piece| piece.kind != Kind::Map) {
+        let path = piece.directory.path().join(piece.kind.files()[0]);
+        let text = std::fs::read_to_string(&path).unwrap();
+        let rows: Vec<&str> = text.lines().collect();
+        // A tenth off in every number: whichever of them the figure shows.
+        let row = rows[rows.len() / 2];
+        let cell = |cell: &str| {
+            cell.parse::<f64>().map_or_else(|_| cell.to_owned(), |x| (1.1 * x + 0.01).to_string())
+        };
+        let whole =
+            ["steps_per_period", "instance"].map(|name| rows[0].split(',').position(|one| one == name));
+        let changed: Vec<String> = row
+            .split(',')
+            .enumerate()
+            .map(|(k, old)| if whole.contains(&Some(k)) { old.to_owned() } else { cell(old) })
+            .collect();
+        let changed = text.replace(row, &changed.join(","));
+        assert_ne!(changed, text);
+        std::fs::write(&path, changed).unwrap();
+        let name = piece.kind.name();
+        // Both branches of a hysteresis have to have the same values.
+        match Picture::read(piece.directory.path(), piece.kind) {
+            Ok(picture) => assert!(picture.svg(&Look::default()).unwrap() != piece.svg, "{name}"),
+            Err(Error::Archive { .. }) if piece.kind == Kind::Hysteresis => {}
+            Err(why) => panic!("{name}: {why}"),
+        }
+        // What is no number is named with its row and column, or by the reader of the rows.
+        let broken = text.replacen(row, &row.replace(['1', '2', '3', '4', '5', '6', '7', '8', '9'], "x"), 1);
+        std::fs::write(&path, broken).unwrap();
+        let error = Picture::read(piece.directory.path(), piece.kind).unwrap_err();
+        assert!(error.is_bad_input() && error.to_string().contains(piece.kind.files()[0]), "{name}: {error}");
+    }
+}
+
+#[test]
+fn a_directory_without_figures_says_what_was_looked_for() {
+    let empty = tempfile::tempdir().unwrap();
+    let error = Kind::choose(empty.path(), None).unwrap_err();
+    assert!(error.is_bad_input() && matches!(error, Error::NothingToPlot { .. }), "{error}");
+    for kind in Kind::ALL {
+        assert!(kind.files().iter().all(|file| error.to_string().contains(file)), "{error}");
+        let error = Kind::choose(empty.path(), Some(kind)).unwrap_err().to_string();
+        assert!(error.contains(kind.files()[0]) && error.contains(kind.name()), "{error}");
+    }
+    for piece in all() {
+        for file in piece.kind.files() {
+            let path = piece.directory.path().join(file);
+            let kept = std::fs::read(&path).unwrap();
+            std::fs::write(&path, "{").unwrap();
+            let error = Picture::read(piece.directory.path(), piece.kind).unwrap_err();
+            assert!(error.to_string().contains(file), "{error}");
+            std::fs::write(&path, kept).unwrap();
+        }
+    }
+}
+
+/// Sizes as a reader of the files finds them, of every figure at every width that is asked for.
+#[test]
+fn every_figure_has_the_size_of_its_journal() {
+    let mut beyond = Vec::new();
+    for piece in all() {
+        let picture = read(&piece);
+        for journal in Journal::ALL {
+            let (kind, name) = (piece.kind.name(), journal.name());
+            let look = Look { width: Some(journal.width()), enlarged: journal.enlarged(), ..Look::default() };
+            let svg = picture.svg(&look).unwrap();
+            let [width, height] = size(&svg);
+            near(&format!("{kind}, {name}: SVG"), width, journal.width(), 0.01);
+            let pixels = draw(&svg, &format!("print_{kind}_{name}"));
+            near(
+                &format!("{kind}, {name}: PNG"),
+                f64::from(pixels.width()) / 300.0 * 25.4,
+                width,
+                25.4 / 300.0,
+            );
+            let found = page(&pdf::render(&svg, picture.title(), "a command").unwrap());
+            for (found, stated) in found.into_iter().zip([width, height]) {
+                near(&format!("{kind}, {name}: PDF"), found, stated, 0.02);
+            }
+            for points in text_sizes(&svg) {
+                assert!((7.0..=9.0).contains(&points), "{kind}, {name}: {points} pt");
+            }
+            beyond.extend(outside(&svg).into_iter().map(|text| format!("{kind}, {name}: {text}")));
+        }
+    }
+    assert!(beyond.is_empty(), "{}", beyond.join("\n"));
+    // A text beyond the page is seen.
+    let svg = all()[1].svg.replacen("<text x=\"", "<text x=\"9", 1);
+    assert_eq!(outside(&svg).len(), 1);
+}
+
+#[test]
+fn a_png_says_what_made_it() {
+    let piece = &all()[3];
+    let bytes = png::render_described(&piece.svg, "Modes µ", "squealmap plot out").unwrap();
+    let decoder =
+        |bytes: &[u8]| resvg::tiny_skia::Pixmap::decode_png(bytes).map(|picture| picture.data().to_vec());
+    assert_eq!(decoder(&bytes).unwrap(), decoder(&png::render(&piece.svg).unwrap()).unwrap());
+    let chunks = chunks(&bytes);
+    let texts: Vec<&[u8]> =
+        chunks.iter().filter(|(name, _)| name == b"iTXt").map(|(_, body)| *body).collect();
+    let expected = ["Title\0\0\0\0\0Modes µ", "Description\0\0\0\0\0squealmap plot out"];
+    assert_eq!(texts, expected.map(str::as_bytes));
+}
+
+/// Type and content of every chunk of a PNG, as its specification lays them out.
+fn chunks(png: &[u8]) -> Vec<([u8; 4], &[u8])> {
+    let mut rest = &png[8..];
+    let mut found = Vec::new();
+    while rest.len() >= 12 {
+        let length = u32::from_be_bytes(rest[..4].try_into().unwrap()) as usize;
+        found.push((rest[4..8].try_into().unwrap(), &rest[8..8 + length]));
+        rest = &rest[12 + length..];
+    }
+    found
+}
