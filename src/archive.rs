@@ -140,6 +140,7 @@ fn spec(manifest: &Json, table: &Table) -> std::result::Result<Spec, String> {
         measure: Duration::Seconds(0.0),
         steps_per_period: STEPS_PER_PERIOD,
         steps_given: None,
+        refine: None,
     })
 }
 
