@@ -183,6 +183,15 @@ pub enum Error {
          3 values each; add some under `[axes]`, or use `squealmap run`"
     )]
     NothingToRefine,
+    /// An option that a refined sweep does not have.
+    #[error(
+        "{option} has no effect on a sweep with [refine], which computes its instances level by level; leave the option \
+         out, or remove [refine] to compute the whole grid"
+    )]
+    RefineBeside {
+        /// The option.
+        option: &'static str,
+    },
     /// More instances than the records of a sweep in memory may have.
     #[error(
         "the sweep has {instances} instances but at most {limit} fit the memory; compute it into a directory of \
@@ -297,6 +306,17 @@ pub enum Error {
         done: usize,
         /// All tiles of that sweep.
         total: usize,
+    },
+    /// A part of a refined map that cannot be written.
+    #[error(
+        "cannot write `{}`: {why}; what was computed before it stays; run the same command again when this is put right",
+        path.display()
+    )]
+    WritePart {
+        /// The part.
+        path: PathBuf,
+        /// What the system says.
+        why: String,
     },
     /// A tile that is not what it should be.
     #[error("`{}` is bad: {fault}; run the sweep again", path.display())]
@@ -837,6 +857,7 @@ impl Error {
             | Error::NoModes
             | Error::NothingToJudge { .. }
             | Error::NothingToRefine
+            | Error::RefineBeside { .. }
             | Error::SameName { .. }
             | Error::TooManyToRefine { .. }
             | Error::AccuracyBeside { .. }

@@ -25,6 +25,7 @@ use crate::model::Params;
 use crate::model::friction::{FrictionLaw, LawKind, MuTable};
 use crate::model::material::Material;
 use crate::place::Place;
+use crate::refine::Settings;
 
 /// Most instances of one sweep: what a disk of 44 TB (linear) or 225 TB (with response) holds.
 pub const MAX_INSTANCES: usize = 1_000_000_000_000;
@@ -163,6 +164,8 @@ pub struct Spec {
     pub steps_per_period: u32,
     /// Where the sweep gives them, if it does.
     pub steps_given: Option<Place>,
+    /// How its map is refined; `None`: every instance is computed.
+    pub refine: Option<Settings>,
 }
 
 /// Everything that defines one instance.

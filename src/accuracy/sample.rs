@@ -123,6 +123,7 @@ pub fn subset(spec: &Spec, indices: &[usize]) -> Spec {
         measure: spec.measure,
         steps_per_period: spec.steps_per_period,
         steps_given: None,
+        refine: None,
     }
 }
 

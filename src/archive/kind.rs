@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::{hysteresis, map, modes, trace, tradeoff};
+use super::{hysteresis, map, modes, refined, trace, tradeoff};
 use crate::error::{Error, Result};
 use crate::paper::Figure;
 
@@ -11,6 +11,8 @@ use crate::paper::Figure;
 pub enum Kind {
     /// The map of `run`.
     Map,
+    /// The map of `refine`.
+    Refined,
     /// The trajectory of `trace`.
     Trace,
     /// Both branches of `trace --sweep-up-down`.
@@ -25,8 +27,9 @@ pub enum Kind {
 
 impl Kind {
     /// All of them; where a directory holds several, the first is drawn unless another is asked for.
-    pub const ALL: [Kind; 13] = [
+    pub const ALL: [Kind; 14] = [
         Kind::Map,
+        Kind::Refined,
         Kind::Trace,
         Kind::Hysteresis,
         Kind::Modes,
@@ -46,6 +49,7 @@ impl Kind {
     pub fn name(self) -> &'static str {
         match self {
             Kind::Map => "map",
+            Kind::Refined => "refined",
             Kind::Trace => "trace",
             Kind::Hysteresis => "hysteresis",
             Kind::Modes => "modes",
@@ -59,6 +63,7 @@ impl Kind {
     pub fn files(self) -> [&'static str; 2] {
         match self {
             Kind::Map => map::FILES,
+            Kind::Refined => refined::FILES,
             Kind::Trace => trace::FILES,
             Kind::Hysteresis => hysteresis::FILES,
             Kind::Modes => modes::FILES,

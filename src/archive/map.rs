@@ -112,6 +112,7 @@ pub(super) fn drawn_spec(title: String, analysis: Analysis, grid: Grid) -> Spec 
         measure: Duration::Seconds(0.0),
         steps_per_period: STEPS_PER_PERIOD,
         steps_given: None,
+        refine: None,
     }
 }
 
@@ -178,7 +179,7 @@ fn flag(cell: &str) -> Option<bool> {
     }
 }
 
-fn computation(value: &Json) -> Option<Computation> {
+pub(super) fn computation(value: &Json) -> Option<Computation> {
     value.is_object().then(|| Computation {
         backend: text(&value["backend"]),
         precision: text(&value["precision"]),

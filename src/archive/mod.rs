@@ -3,7 +3,8 @@
 //! - `kind.rs`: which figures there are, what each is drawn from, and which of them a directory holds.
 //! - `picture.rs`: one figure read back, ready to be drawn at any width.
 //! - `map.rs`: the map of `run`; its table is there for quantities too.
-//! - `trace.rs`, `hysteresis.rs`, `modes.rs`, `tradeoff.rs`, `paper.rs`: the other commands.
+//! - `trace.rs`, `hysteresis.rs`, `modes.rs`, `tradeoff.rs`, `paper.rs`, `refined.rs`: the other
+//!   commands.
 //! - `folder.rs`: files and tables of a directory, and what to say when they are not as they should be.
 
 mod folder;
@@ -13,6 +14,7 @@ mod map;
 mod modes;
 mod paper;
 mod picture;
+mod refined;
 mod trace;
 mod tradeoff;
 

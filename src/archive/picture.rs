@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use super::folder::{Folder, program};
-use super::{Archive, Kind, hysteresis, modes, paper, trace, tradeoff};
+use super::refined::Lines;
+use super::{Archive, Kind, hysteresis, modes, paper, refined, trace, tradeoff};
 use crate::accuracy::row::Row;
 use crate::error::Result;
 use crate::export::figure::look_svg;
@@ -22,6 +23,7 @@ use crate::trace::Trace;
 #[derive(Clone, Debug)]
 enum Content {
     Map(Box<Archive>),
+    Refined(Box<Lines>),
     Trace(Trace, Heading),
     Hysteresis(Hysteresis, Heading),
     Modes(Box<Spec>, Modes),
@@ -46,6 +48,7 @@ impl Picture {
         let folder = Folder(directory);
         let content = match kind {
             Kind::Map => Content::Map(Box::new(Archive::read(directory)?)),
+            Kind::Refined => Content::Refined(Box::new(refined::read(folder)?)),
             Kind::Trace => {
                 let (trace, heading) = trace::read(folder)?;
                 Content::Trace(trace, heading)
@@ -83,6 +86,7 @@ impl Picture {
     pub fn title(&self) -> &str {
         match &self.content {
             Content::Map(archive) => &archive.map.spec.title,
+            Content::Refined(lines) => &lines.spec.title,
             Content::Trace(_, heading) | Content::Hysteresis(_, heading) => &heading.title,
             Content::Modes(spec, _) => &spec.title,
             Content::Tradeoff(title, _) => title,
@@ -97,6 +101,7 @@ impl Picture {
     pub fn svg(&self, look: &Look<'_>) -> Result<String> {
         match &self.content {
             Content::Map(archive) => look_svg(&archive.map, look),
+            Content::Refined(lines) => Ok(lines.svg(look)),
             Content::Trace(trace, heading) => trace_svg(trace, heading, look),
             Content::Hysteresis(hysteresis, heading) => Ok(hysteresis_svg(hysteresis, heading, look)),
             Content::Modes(spec, modes) => Ok(draw(spec, modes, look)),

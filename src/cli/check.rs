@@ -7,6 +7,7 @@ use clap::Args;
 use squealmap::Result;
 use squealmap::estimate::estimate;
 use squealmap::grid::{Axis, AxisKey, Grid, Value};
+use squealmap::refine::Settings;
 use squealmap::spec::{Spec, StartKind, Starts};
 use squealmap::store::space::{MOST_ROWS, Need, bytes};
 use squealmap::store::tiling::{TILE, Tiling};
@@ -62,6 +63,13 @@ fn describe(spec: &Spec) -> String {
             settle(spec),
             spec.measure,
             spec.steps_per_period
+        );
+    }
+    if let Some(Settings { coarse, sample, .. }) = spec.refine {
+        let _ = writeln!(
+            text,
+            "refines   from {coarse} cells along each side, and {sample} drawn at random: disk and cost are of the whole \
+             grid, of which it computes a part"
         );
     }
     match &spec.grid {

@@ -1,8 +1,10 @@
 //! The commands: one file each, the only code that prints, and with [`squealmap::store`] the only code that opens
 //! files for writing.
 
+mod accuracy;
 mod adapters;
 mod check;
+mod engine;
 mod export;
 mod fit;
 mod frontier;
@@ -19,6 +21,7 @@ pub(crate) mod report;
 mod results;
 mod run;
 mod scheduler;
+mod signal;
 mod status;
 mod submit;
 mod summary;
@@ -102,7 +105,7 @@ impl Cli {
         match self.command {
             Command::Run(command) => return command.execute(),
             Command::Merge(command) => return command.execute(),
-            Command::Refine(command) => command.execute()?,
+            Command::Refine(command) => return command.execute(),
             Command::Submit(command) => command.execute()?,
             Command::Status(command) => command.execute()?,
             Command::Export(command) => command.execute()?,

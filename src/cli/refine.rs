@@ -1,32 +1,39 @@
 //! `squealmap refine`: the lines of a large map from few of its instances.
 
+use std::io::BufWriter;
+use std::process::ExitCode;
+use std::sync::atomic::AtomicBool;
+
 use clap::Args;
-use squealmap::Result;
 use squealmap::accuracy::sample::subset;
-use squealmap::backend::choice::Options;
 use squealmap::backend::solver::Solver;
 use squealmap::export::boundary_lines::refined_lines;
 use squealmap::export::csv::MapCsv;
 use squealmap::export::figure::MapFigure;
 use squealmap::export::look::Look;
 use squealmap::export::png;
-use squealmap::export::refined::document;
+use squealmap::export::refined::{document, figure};
 use squealmap::export::sheet::Sheet;
-use squealmap::kernel::source::Precision;
+use squealmap::label::Label;
 use squealmap::map::Record;
-use squealmap::refine::{Refined, Settings, planes_of, refine};
+use squealmap::refine::{COARSE, Refined, Settings, planes_of, refine};
 use squealmap::spec::{Spec, Starts};
+use squealmap::store::description::Description;
+use squealmap::store::parts::Parts;
+use squealmap::store::space;
+use squealmap::store::tiling::TILE;
+use squealmap::{Error, Result};
 
-use crate::cli::output::{Output, list};
-use crate::cli::run::{BackendName, PrecisionName, stop_at_signal};
+use crate::cli::engine::EngineArgs;
+use crate::cli::output::{Output, cannot, claim, list};
+use crate::cli::progress::Progress;
+use crate::cli::run::at_least_one;
+use crate::cli::signal::stop_at_signal;
 use crate::cli::summary::summary;
-use crate::cli::{Files, note, print};
+use crate::cli::{Files, INTERRUPTED, note, print};
 
-/// What is written.
-const FILES: [&str; 5] = ["boundaries.csv", "points.csv", "refine.json", "refined.png", "refined.svg"];
-
-/// Labels that become records at a time, for the figure.
-const BLOCK: usize = 1 << 16;
+/// What is written; the table as it comes, the others at the end.
+const FILES: [&str; 5] = ["points.csv", "boundaries.csv", "refine.json", "refined.png", "refined.svg"];
 
 /// Arguments of `refine`.
 #[derive(Debug, Args)]
@@ -34,26 +41,55 @@ pub(crate) struct RefineCommand {
     #[command(flatten)]
     files: Files,
     /// Cells along each side of a map to begin with, 2 to 4096: a region smaller than one of them may be missed
-    #[arg(long, value_name = "N", default_value_t = 32, value_parser = clap::value_parser!(u16).range(2..=4096))]
-    coarse: u16,
-    /// Instances drawn among those that no line asks for, to see what is missed
-    #[arg(long, value_name = "N", default_value_t = 1000)]
-    sample: u32,
-    /// Seed of the drawing
-    #[arg(long, value_name = "N", default_value_t = 1)]
-    seed: u64,
-    /// What computes, as of `run`
-    #[arg(long, value_enum, default_value_t)]
-    backend: BackendName,
-    /// Arithmetic, as of `run`
-    #[arg(long, value_enum)]
-    precision: Option<PrecisionName>,
+    /// [default: of the sweep's [refine], or 32]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(COARSE.0 as i64..=COARSE.1 as i64))]
+    coarse: Option<u16>,
+    /// Instances drawn among those that no line asks for, to see what is missed [default: of [refine], or 1000]
+    #[arg(long, value_name = "N")]
+    sample: Option<u32>,
+    /// Seed of the drawing [default: of [refine], or 1]
+    #[arg(long, value_name = "N")]
+    seed: Option<u64>,
+    #[command(flatten)]
+    engine: EngineArgs,
+    /// Instances of a part: for tests, which have no time for large ones
+    #[arg(long, hide = true, default_value_t = TILE, value_parser = at_least_one)]
+    tile: usize,
 }
 
 impl RefineCommand {
-    pub(crate) fn execute(self) -> Result<()> {
+    pub(crate) fn execute(self) -> Result<ExitCode> {
         let cancel = stop_at_signal()?;
-        let mut spec = Spec::read(&self.files.sweep)?;
+        let spec = Spec::read(&self.files.sweep)?;
+        let given = spec.refine.unwrap_or_default();
+        let settings = Settings {
+            coarse: self.coarse.map_or(given.coarse, usize::from),
+            sample: self.sample.map_or(given.sample, |sample| sample as usize),
+            seed: self.seed.unwrap_or(given.seed),
+        };
+        let refining = Refining { files: &self.files, engine: &self.engine, part: self.tile };
+        refining.execute(spec, settings, &cancel)
+    }
+}
+
+/// A refinement as asked for by `refine`, or by `run` of a sweep with `[refine]`.
+#[derive(Debug)]
+pub(crate) struct Refining<'a> {
+    /// The sweep file and where its results go.
+    pub(crate) files: &'a Files,
+    /// What computes.
+    pub(crate) engine: &'a EngineArgs,
+    /// Most instances of a part.
+    pub(crate) part: usize,
+}
+
+impl Refining<'_> {
+    pub(crate) fn execute(
+        &self,
+        mut spec: Spec,
+        settings: Settings,
+        cancel: &AtomicBool,
+    ) -> Result<ExitCode> {
         // Checks are drawn by the place in a sweep, and what is computed here has another: no columns of theirs either.
         spec.analysis.checked = false;
         // So are the starts of a box; two starts are the same at any place, and their verdicts have lines too.
@@ -61,65 +97,91 @@ impl RefineCommand {
             spec.analysis.starts = Starts::One;
         }
         planes_of(&spec.grid)?;
-        let output = Output::prepare(self.files.directory(), &FILES)?;
-        let settings =
-            Settings { coarse: usize::from(self.coarse), sample: self.sample as usize, seed: self.seed };
-        let say = |text: &str| note(text);
-        let options = Options {
-            backend: self.backend.into(),
-            precision: self.precision.map(Precision::from),
-            cancel: Some(&cancel),
-            note: Some(&say),
-            ..Options::default()
-        };
+        let output = Output::prepare_claimed(self.files.directory(), &FILES)?;
+        let options = self.engine.options(cancel, &note);
         let mut solver = Solver::new(&spec, &options)?;
-        let engine = solver.computations();
-        let sheet = Sheet::new(&spec, engine.each_ref().map(Option::as_ref));
-        let mut rows = MapCsv::new(sheet, Vec::new())?;
-        let mut done = 0;
-        let refined = refine(&spec.grid, settings, &mut |instances| {
-            let mut part = subset(&spec, instances);
-            part.analysis.starts = spec.analysis.starts;
-            let computed = solver.records_of(&part, 0..instances.len(), &|_| ())?;
-            if let Some(why) = computed.stopped {
-                return Err(why.error(done, spec.grid.len()));
+        let description = Description::new(&spec, solver.computations(), self.part);
+        let table_path = output.directory().join(FILES[0]);
+        let mut table = claim(&table_path)?;
+        let file = BufWriter::new(table.emptied().map_err(|why| cannot(&table_path, &why))?);
+        let mut rows = MapCsv::new(description.sheet(), file)?;
+        let parts = Parts::begin(output.directory(), &description)?;
+        let mut fresh = 0;
+        let mut compute = |instances: &[usize]| {
+            space::verify_parts(output.directory(), spec.analysis, instances.len())?;
+            let progress = Progress::new(instances.len());
+            let mut labels = Vec::with_capacity(instances.len());
+            for block in instances.chunks(self.part) {
+                let part = parts.records(block, &note, &mut || {
+                    let mut sweep = subset(&spec, block);
+                    sweep.analysis.starts = spec.analysis.starts;
+                    let made = solver.records_of(&sweep, 0..block.len(), &|count| progress.add(count))?;
+                    made.stopped.map_or(Ok(made.records), |why| Err(why.error(0, block.len())))
+                })?;
+                if part.found {
+                    progress.add(block.len());
+                } else {
+                    fresh += block.len();
+                }
+                rows.add_some(block, &part.records)?;
+                labels.extend(part.records.iter().map(Label::from));
             }
-            done += instances.len();
-            rows.add_some(instances, &computed.records)?;
-            Ok(computed.records)
-        })?;
+            progress.finish();
+            Ok(labels)
+        };
+        let refined = self.engine.pool()?.install(|| refine(&spec.grid, settings, &mut compute));
+        let refined = match refined {
+            Err(Error::Cancelled { .. }) => {
+                parts.remove_if_empty();
+                note(&stopped(fresh));
+                return Ok(ExitCode::from(INTERRUPTED));
+            }
+            Err(why) => {
+                parts.remove_if_empty();
+                return Err(why);
+            }
+            Ok(refined) => refined,
+        };
+        rows.finish().into_inner().map_err(|why| cannot(&table_path, why.error()))?;
+        let sheet = description.sheet();
         let figure = figure(sheet, &refined);
         let command = format!("squealmap refine, from {} computed instances", refined.computed);
         let svg = figure.look(&Look { command: Some(command), ..Look::default() });
         let files = [
-            (FILES[0], refined_lines(&spec, &refined)?),
-            (FILES[1], rows.finish()),
+            (FILES[1], refined_lines(&spec, &refined)?),
             (FILES[2], document(sheet, &refined, settings)?),
             (FILES[3], png::render(&svg)?),
             (FILES[4], svg.into_bytes()),
         ];
-        print(&report(&refined, &summary(spec.analysis, figure.tally())));
+        table.publish().map_err(|why| cannot(&table_path, &why))?;
+        print(&report(&refined, fresh, &summary(spec.analysis, figure.tally())));
+        print(&list(&[table_path]));
         print(&list(&output.write(&files)?));
-        Ok(())
+        if parts.strangers()? > 0 {
+            note("parts of other sweeps, programs or engines stand in `parts` too; they may be removed");
+        }
+        Ok(ExitCode::SUCCESS)
     }
 }
 
-/// The figure of all labels.
-fn figure<'a>(sheet: Sheet<'a>, refined: &Refined) -> MapFigure<'a> {
-    let mut figure = MapFigure::new(sheet);
-    for (block, labels) in refined.labels.chunks(BLOCK).enumerate() {
-        let records: Vec<Record> = labels.iter().map(|label| Record::from(*label)).collect();
-        figure.add(block * BLOCK, &records);
-    }
-    figure
+/// What becomes of a refinement that was stopped.
+fn stopped(fresh: usize) -> String {
+    format!(
+        "stopped after {fresh} more instances, which stay in `parts`; no lines are written yet; run the same command again \
+         to go on"
+    )
 }
 
-/// What was computed, what came out, and what may be missed.
-fn report(refined: &Refined, summary: &str) -> String {
+/// What was computed, `fresh` of it now, what came out, and what may be missed.
+fn report(refined: &Refined, fresh: usize, summary: &str) -> String {
     let instances = refined.labels.len();
     let share = 100.0 * refined.computed as f64 / instances as f64;
+    let before = match refined.computed - fresh {
+        0 => String::new(),
+        before => format!(", {before} of them before"),
+    };
     if refined.computed == instances {
-        return format!("computed all of {instances} instances\n\n{summary}\n");
+        return format!("computed all of {instances} instances{before}\n\n{summary}\n");
     }
     let missed = refined.missed_at_most().map_or_else(
         || "nothing was drawn to see what is missed".to_owned(),
@@ -133,5 +195,8 @@ fn report(refined: &Refined, summary: &str) -> String {
             )
         },
     );
-    format!("computed {} of {instances} instances ({share:.2} %); {missed}\n\n{summary}\n", refined.computed)
+    format!(
+        "computed {} of {instances} instances ({share:.2} %){before}; {missed}\n\n{summary}\n",
+        refined.computed
+    )
 }

@@ -2,20 +2,15 @@
 
 use std::path::PathBuf;
 use std::process::ExitCode;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
-use clap::{Args, ValueEnum};
-use squealmap::accuracy::configuration::{self, Configuration};
-use squealmap::accuracy::frontier::{Choice, Chosen};
+use clap::Args;
 use squealmap::accuracy::level::Level;
 use squealmap::accuracy::trial::first_that_keeps;
-use squealmap::backend::choice::{Backend, Options};
-use squealmap::backend::gpu::adapter::Adapter;
+use squealmap::backend::choice::Options;
 use squealmap::backend::solver::Solver;
 use squealmap::export::manifest;
-use squealmap::kernel::source::Precision;
 use squealmap::label::Tally;
 use squealmap::map::Stopped;
 use squealmap::spec::Spec;
@@ -28,44 +23,28 @@ use squealmap::store::space;
 use squealmap::store::tiling::TILE;
 use squealmap::{Error, Result};
 
+use crate::cli::accuracy::{AccuracyArgs, say};
+use crate::cli::engine::{BackendName, EngineArgs};
 use crate::cli::output::{Output, list};
 use crate::cli::progress::{Progress, seconds};
+use crate::cli::refine::Refining;
 use crate::cli::results::{self, FILES, Results};
+use crate::cli::signal::stop_at_signal;
 use crate::cli::summary::summary;
-use crate::cli::{Files, INTERRUPTED, frontier, note, print};
+use crate::cli::{Files, INTERRUPTED, note, print};
 
 /// Arguments of `run`.
 #[derive(Debug, Args)]
 pub(crate) struct Run {
     #[command(flatten)]
     files: Files,
-    /// Worker threads, 1 to 1024 [default: one per core]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    threads: Option<u16>,
-    /// What computes: `auto` takes a hardware GPU where there is one, else the CPU; `reference` is the
-    /// slow, accurate judge of the others
-    #[arg(long, value_enum, default_value_t)]
-    backend: BackendName,
-    /// Arithmetic [default: f64 on the CPU, f32 on a GPU]
-    #[arg(long, value_enum)]
-    precision: Option<PrecisionName>,
-    /// The fastest engine, arithmetic and steps per period with this relative error of deviation, accelerations and
-    /// frequency in 95 % of the settled oscillations: draft (1e-2), standard (1e-3), paper (1e-4), reference,
-    /// or a number up to 0.1; see `squealmap tradeoff`
-    #[arg(long, value_name = "LEVEL", value_parser = Level::parse)]
-    accuracy: Option<Level>,
+    #[command(flatten)]
+    engine: EngineArgs,
+    #[command(flatten)]
+    accuracy: AccuracyArgs,
     /// Compute no instance again: the manifest then says nothing of the error
     #[arg(long)]
     no_check: bool,
-    /// A GPU rounds every operation by itself, like the twin of its kernel on the CPU; needs Vulkan
-    #[arg(long)]
-    strict: bool,
-    /// Only a GPU with this in its name; see `squealmap adapters`
-    #[arg(long, value_name = "NAME")]
-    adapter: Option<String>,
-    /// Fail unless a hardware GPU computes
-    #[arg(long)]
-    require_gpu: bool,
     /// Only the tiles k, k + n, k + 2n, … with k from 0 to n - 1, and no results, which `merge` writes; `auto` takes
     /// k and n, `auto/n` takes k from the task of Slurm, mpirun, Kubernetes, PBS or HyperQueue
     #[arg(long, value_name = "K/N", value_parser = shard)]
@@ -78,43 +57,6 @@ pub(crate) struct Run {
     tile: usize,
 }
 
-/// The values of `--backend`.
-#[derive(Clone, Copy, Debug, Default, ValueEnum)]
-pub(crate) enum BackendName {
-    #[default]
-    Auto,
-    Gpu,
-    Cpu,
-    Reference,
-}
-
-/// The values of `--precision`.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub(crate) enum PrecisionName {
-    F32,
-    F64,
-}
-
-impl From<BackendName> for Backend {
-    fn from(name: BackendName) -> Backend {
-        match name {
-            BackendName::Auto => Backend::Auto,
-            BackendName::Gpu => Backend::Gpu,
-            BackendName::Cpu => Backend::Cpu,
-            BackendName::Reference => Backend::Reference,
-        }
-    }
-}
-
-impl From<PrecisionName> for Precision {
-    fn from(name: PrecisionName) -> Precision {
-        match name {
-            PrecisionName::F32 => Precision::F32,
-            PrecisionName::F64 => Precision::F64,
-        }
-    }
-}
-
 impl Run {
     /// Instances of a tile.
     pub(crate) fn tile(&self) -> usize {
@@ -123,12 +65,12 @@ impl Run {
 
     /// Worker threads that were asked for.
     pub(crate) fn threads(&self) -> Option<u16> {
-        self.threads
+        self.engine.threads
     }
 
     /// The engine that was asked for.
     pub(crate) fn backend(&self) -> BackendName {
-        self.backend
+        self.engine.backend
     }
 
     /// Whether it takes over the instances of another directory.
@@ -138,32 +80,22 @@ impl Run {
 
     /// The accuracy that was asked for.
     pub(crate) fn accuracy(&self) -> Option<Level> {
-        self.accuracy
+        self.accuracy.accuracy
     }
 
     pub(crate) fn execute(self) -> Result<ExitCode> {
         let cancel = stop_at_signal()?;
         let mut spec = Spec::read(&self.files.sweep)?;
         spec.analysis.checked &= !self.no_check;
-        let ranked = self.ranked(&spec)?;
+        if let Some(settings) = spec.refine {
+            self.can_refine()?;
+            let refining = Refining { files: &self.files, engine: &self.engine, part: self.tile };
+            return refining.execute(spec, settings, &cancel);
+        }
+        let ranked = self.accuracy.ranked(&spec, &self.engine)?;
         let output = Output::prepare_claimed(self.files.directory(), &FILES)?;
-        let threads = self.threads.map_or(0, usize::from);
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build()
-            .map_err(|why| Error::Threads { threads, why: why.to_string() })?;
-
-        let note = |text: &str| note(text);
-        let options = Options {
-            backend: self.backend.into(),
-            precision: self.precision.map(Precision::from),
-            strict: self.strict,
-            require_gpu: self.require_gpu,
-            adapter: self.adapter.as_deref(),
-            chunk: None,
-            cancel: Some(&cancel),
-            note: Some(&note),
-        };
+        let pool = self.engine.pool()?;
+        let options = self.engine.options(&cancel, &note);
         let choice =
             ranked.map(|ranked| pool.install(|| first_that_keeps(ranked, &spec, &options))).transpose()?;
         let options = match &choice {
@@ -188,53 +120,18 @@ impl Run {
         ended
     }
 
-    /// What may compute the sweep with the accuracy that is asked for, the fastest first; `None` where none is.
-    ///
-    /// # Errors
-    /// When something that it chooses is given too, or nothing is accurate enough.
-    fn ranked(&self, spec: &Spec) -> Result<Option<Vec<Choice>>> {
-        let Some(level) = self.accuracy else { return Ok(None) };
-        let beside = |option: String| Error::AccuracyBeside { option, accuracy: level.to_string() };
-        if let Some(at) = &spec.steps_given {
-            let key = "`steps_per_period` in [response]".to_owned();
-            let other = format!("--accuracy {level}, which chooses it");
-            return Err(Error::Conflict { at: at.clone(), key, other });
-        }
-        if let Some(precision) = self.precision {
-            return Err(beside(format!("--precision {}", Precision::from(precision))));
-        }
-        let only_gpu = self.strict || self.require_gpu || self.adapter.is_some();
-        let backend = match self.backend {
-            BackendName::Auto => only_gpu.then_some(Backend::Gpu),
-            asked => Some(Backend::from(asked)),
-        };
-        if let (Level::Reference, Some(other @ (Backend::Gpu | Backend::Cpu))) = (level, backend) {
-            return Err(beside(format!("--backend {}", configuration::name(other))));
-        }
-        if !spec.analysis.response {
-            note("--accuracy has nothing to choose: this sweep asks for no response");
-            return Ok(None);
-        }
-        let allowed =
-            |one: &Configuration| backend.is_none_or(|backend| backend == one.backend) && is_here(one);
-        frontier::of(spec).ranked(level, spec, &allowed).map(Some)
+    /// Refuses what a refined sweep does not have.
+    fn can_refine(&self) -> Result<()> {
+        let options = [
+            ("--accuracy", self.accuracy.accuracy.is_some()),
+            ("--shard", self.shard.is_some()),
+            ("--reuse", self.reuse.is_some()),
+        ];
+        options
+            .into_iter()
+            .find(|(_, given)| *given)
+            .map_or(Ok(()), |(option, _)| Err(Error::RefineBeside { option }))
     }
-}
-
-/// Says what was chosen, and why.
-fn say(chosen: &Chosen) {
-    note(&format!("--accuracy {}: {}", chosen.asked, chosen.configuration));
-    note(&chosen.why);
-    if let (Some(bound), Some(trial)) = (chosen.bound, chosen.trial) {
-        note(&trial.sentence(bound));
-    }
-}
-
-/// Whether this machine has what a configuration needs: a GPU may have gone since it was measured.
-fn is_here(configuration: &Configuration) -> bool {
-    let adapter = configuration.adapter.as_deref();
-    configuration.backend != Backend::Gpu
-        || Adapter::best(configuration.precision, adapter).is_ok_and(|adapter| !adapter.is_software())
 }
 
 /// Computes what is missing and writes the results of all.
@@ -404,26 +301,13 @@ fn ended(stopped: &Stopped, store: &Store, tally: &Tally) -> ExitCode {
     ExitCode::from(code)
 }
 
-/// A flag that Ctrl-C sets, and SIGTERM, by which schedulers end a process; the run then ends between two instances or dispatches. Set before anything is
-/// made on the disk; a second Ctrl-C changes nothing, so that no file is left half written.
-pub(crate) fn stop_at_signal() -> Result<Arc<AtomicBool>> {
-    let cancel = Arc::new(AtomicBool::new(false));
-    let flag = Arc::clone(&cancel);
-    ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed))
-        .map_err(|why| Error::Signal { why: why.to_string() })?;
-    #[cfg(unix)]
-    signal_hook::flag::register(signal_hook::consts::SIGTERM, Arc::clone(&cancel))
-        .map_err(|why| Error::Signal { why: why.to_string() })?;
-    Ok(cancel)
-}
-
 /// A share of the tiles.
 fn shard(text: &str) -> std::result::Result<Shard, String> {
     Shard::parse(text, &|name| std::env::var(name).ok())
 }
 
 /// A number of instances.
-fn at_least_one(text: &str) -> std::result::Result<usize, String> {
+pub(crate) fn at_least_one(text: &str) -> std::result::Result<usize, String> {
     match text.parse() {
         Ok(number) if number > 0 => Ok(number),
         _ => Err("must be a whole number from 1 on".to_owned()),

@@ -12,8 +12,9 @@ use squealmap::spec::Spec;
 use squealmap::store::tiling::Tiling;
 use squealmap::{Error, Result};
 
+use crate::cli::engine::BackendName;
 use crate::cli::output::Output;
-use crate::cli::run::{BackendName, Run};
+use crate::cli::run::Run;
 use crate::cli::scheduler::call;
 use crate::cli::{Files, note, print};
 
@@ -66,6 +67,9 @@ struct Tail {
 impl Submit {
     pub(crate) fn execute(self) -> Result<()> {
         let spec = Spec::read(&self.files.sweep)?;
+        if spec.refine.is_some() {
+            return Err(Error::RefineBeside { option: "`submit`" });
+        }
         let tail = self.tail();
         let tiling = Tiling { instances: spec.grid.len(), tile: tail.run.tile() };
         let here = Path::new(".");

@@ -1,13 +1,30 @@
-//! `refine.json`: how the lines of a refined map were found, and what may be missed.
+//! The figure of a refined map, and `refine.json`: how the lines of a refined map were found, and what may be missed.
 
 use serde_json::{Value as Json, json};
 
+use super::figure::MapFigure;
 use super::manifest::{COMMIT, VERSION};
 use super::sheet::Sheet;
 use crate::error::{Error, Result};
 use crate::grid::{Axis, Grid};
-use crate::map::Computation;
+use crate::map::{Computation, Record};
 use crate::refine::{Refined, Settings};
+use crate::spec::Starts;
+use crate::store::grid_json;
+
+/// Labels that become records at a time.
+const BLOCK: usize = 1 << 16;
+
+/// The figure of all labels.
+#[must_use]
+pub fn figure<'a>(sheet: Sheet<'a>, refined: &Refined) -> MapFigure<'a> {
+    let mut figure = MapFigure::new(sheet);
+    for (block, labels) in refined.labels.chunks(BLOCK).enumerate() {
+        let records: Vec<Record> = labels.iter().map(|label| Record::from(*label)).collect();
+        figure.add(block * BLOCK, &records);
+    }
+    figure
+}
 
 /// The document.
 ///
@@ -31,6 +48,10 @@ pub fn document(sheet: Sheet, refined: &Refined, settings: Settings) -> Result<V
         "title": sheet.title,
         "linear": engine(sheet.linear),
         "response": engine(sheet.response),
+        "computation": { "linear": sheet.linear, "response": sheet.response },
+        "analysis": { "linear": sheet.analysis.linear, "response": sheet.analysis.response },
+        "both_starts": sheet.analysis.starts == Starts::Both,
+        "grid": grid_json::to_json(sheet.grid),
         "x": name(x),
         "y": name(y),
         "planes": planes,
@@ -40,6 +61,7 @@ pub fn document(sheet: Sheet, refined: &Refined, settings: Settings) -> Result<V
         "coarse_cells_per_side": settings.coarse,
         "sample": {
             "seed": settings.seed,
+            "asked_for": settings.sample,
             "instances": refined.sampled,
             "with_another_label": refined.missed,
             "share_at_most_95_percent": refined.missed_at_most(),

@@ -20,7 +20,6 @@ use crate::accuracy::draw::spread;
 use crate::error::{Error, Result};
 use crate::grid::Grid;
 use crate::label::Label;
-use crate::map::Record;
 use crate::sweep::MOST_IN_MEMORY;
 
 use cell::Cell;
@@ -36,6 +35,15 @@ pub struct Settings {
     /// Seed of the drawing.
     pub seed: u64,
 }
+
+impl Default for Settings {
+    fn default() -> Self {
+        Settings { coarse: 32, sample: 1000, seed: 1 }
+    }
+}
+
+/// Fewest and most coarse cells along a side.
+pub const COARSE: (usize, usize) = (2, 4096);
 
 /// A refined map.
 #[derive(Clone, Debug)]
@@ -68,8 +76,8 @@ impl Refined {
     }
 }
 
-/// What computes some instances: their records in the same order, or why there are none.
-pub type Compute<'a> = dyn FnMut(&[usize]) -> Result<Vec<Record>> + 'a;
+/// What computes some instances: their labels in the same order, or why there are none.
+pub type Compute<'a> = dyn FnMut(&[usize]) -> Result<Vec<Label>> + 'a;
 
 /// The planes of a grid that can be refined.
 ///
@@ -131,8 +139,8 @@ impl Known {
         if wanted.is_empty() {
             return Ok(());
         }
-        for (index, record) in wanted.iter().zip(compute(&wanted)?) {
-            self.labels[*index] = Label::from(&record);
+        for (index, label) in wanted.iter().zip(compute(&wanted)?) {
+            self.labels[*index] = label;
         }
         self.computed += wanted.len();
         Ok(())

@@ -47,6 +47,7 @@ impl Spec {
                 (_, Some(section)) => sections.section(&source, section, entry)?,
                 ("title" | "analysis", _) => sections.top_level(&source, entry)?,
                 ("response", _) => sections.response(&source, entry)?,
+                ("refine", _) => sections.refine(&source, entry)?,
                 ("axes", _) => axes = Some(entry),
                 ("points", _) => points = Some(entry),
                 _ => return Err(unknown_key(&source, entry, "", &TOP_LEVEL)),
@@ -104,5 +105,6 @@ fn assemble(sections: Sections, varied: Varied, files: Files) -> Spec {
         measure: sections.measure.unwrap_or(measure),
         steps_per_period: sections.steps_per_period,
         steps_given: None,
+        refine: sections.refine,
     }
 }

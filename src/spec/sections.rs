@@ -7,6 +7,7 @@ use crate::model::friction::LawKind;
 use crate::model::material::Outside;
 use crate::model::{PARAMS, Param, Params, Section};
 use crate::place::Source;
+use crate::refine::{COARSE, Settings};
 use crate::spec::document::{Entry, Node, array, boolean, choice, entries, integer, number, string, table};
 use crate::spec::duration::duration;
 use crate::spec::law;
@@ -16,6 +17,12 @@ use crate::spec::{Analysis, Duration, STEPS_PER_PERIOD, Starts};
 
 /// Fewest and most steps per period that may be asked for.
 const STEPS_RANGE: (usize, usize) = (3, 100_000);
+
+/// Most instances that a refined map draws, as many as any sweep in memory has.
+const MOST_SAMPLED: usize = u32::MAX as usize;
+
+/// The largest seed that TOML holds.
+const MOST_SEED: usize = i64::MAX as usize;
 
 /// A key that stands in a section.
 #[derive(Clone, Debug)]
@@ -58,6 +65,8 @@ pub(super) struct Sections {
     pub(super) steps_per_period: u32,
     /// Where `steps_per_period` stands.
     pub(super) steps_given: Option<Range<usize>>,
+    /// `[refine]`.
+    pub(super) refine: Option<Settings>,
     pub(super) given: Vec<Given>,
     headers: Vec<(&'static str, Range<usize>)>,
 }
@@ -88,6 +97,7 @@ impl Default for Sections {
             check: true,
             steps_per_period: STEPS_PER_PERIOD,
             steps_given: None,
+            refine: None,
             given: Vec::new(),
             headers: Vec::new(),
         }
@@ -225,6 +235,24 @@ impl Sections {
         }
         Ok(())
     }
+
+    /// `[refine]`.
+    pub(super) fn refine(&mut self, source: &Source, entry: Entry) -> Result<()> {
+        const KEYS: [&str; 3] = ["coarse", "sample", "seed"];
+        let mut settings = Settings::default();
+        let expected = "a table, written as a line [refine] above its keys";
+        for entry in entries(table(source, entry.node, "`refine`", expected)?) {
+            let label = format!("`{}` in [refine]", entry.key);
+            match entry.key {
+                "coarse" => settings.coarse = integer(source, entry.node, &label, COARSE.0, COARSE.1)?,
+                "sample" => settings.sample = integer(source, entry.node, &label, 0, MOST_SAMPLED)?,
+                "seed" => settings.seed = integer(source, entry.node, &label, 0, MOST_SEED)? as u64,
+                _ => return Err(unknown_key(source, entry, "refine", &KEYS)),
+            }
+        }
+        self.refine = Some(settings);
+        Ok(())
+    }
 }
 
 /// Whether a duration is left to the run.
@@ -248,6 +276,7 @@ fn keys(section: Section) -> Vec<&'static str> {
 fn home(key: &str) -> Option<&'static str> {
     match key {
         "settle" | "settle_limit" | "measure" | "steps_per_period" | "check" => Some("response"),
+        "coarse" | "sample" | "seed" => Some("refine"),
         _ => [Section::Model, Section::Friction, Section::Belt, Section::Start]
             .into_iter()
             .find(|&section| keys(section).contains(&key))
@@ -276,8 +305,8 @@ pub(super) fn law_value(source: &Source, span: Range<usize>, name: &str, within:
 }
 
 /// The keys of the top level.
-pub(super) const TOP_LEVEL: [&str; 9] =
-    ["title", "analysis", "points", "model", "friction", "belt", "axes", "start", "response"];
+pub(super) const TOP_LEVEL: [&str; 10] =
+    ["title", "analysis", "points", "model", "friction", "belt", "axes", "start", "response", "refine"];
 
 /// The section of a top-level key.
 pub(super) fn section_of(key: &str) -> Option<Section> {

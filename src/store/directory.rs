@@ -3,8 +3,10 @@
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
-use super::claim::{Claim, PART};
+use super::claim::Claim;
 use super::description::Description;
+pub use super::folder::Note;
+use super::folder::{BAD, Folder, TILE};
 use super::tile::Fault;
 use crate::error::{Error, Result};
 use crate::map::Record;
@@ -13,10 +15,6 @@ use crate::map::Record;
 pub const TILES: &str = "tiles";
 /// What they are.
 pub const DESCRIPTION: &str = "sweep.json";
-/// Where tiles go that are not what they should be.
-pub const BAD: &str = "bad";
-/// The end of the name of a tile.
-const TILE: &str = ".tile";
 
 /// An output directory with tiles.
 #[derive(Debug)]
@@ -26,9 +24,6 @@ pub struct Store {
     /// What its tiles are.
     pub description: Description,
 }
-
-/// What gets one sentence for the user.
-pub type Note<'a> = &'a (dyn Fn(&str) + Sync);
 
 impl Store {
     /// The tiles that are in a directory.
@@ -56,8 +51,9 @@ impl Store {
     /// # Errors
     /// When it holds tiles of another sweep, or cannot be written.
     pub fn begin(directory: &Path, description: Description, note: Note) -> Result<Store> {
-        let cannot = |why: io::Error| refused(directory, &why);
-        std::fs::create_dir_all(directory.join(TILES)).map_err(cannot)?;
+        let folder = Folder::new(directory, TILES);
+        folder.make()?;
+        let cannot = |why: io::Error| folder.refused(&why);
         let store = Store { directory: directory.to_owned(), description };
         match Store::open(directory) {
             Ok(other) if store.is_same(&other) => {
@@ -74,7 +70,7 @@ impl Store {
             }
             Err(Error::NoTiles { .. }) => {}
             Err(why) => {
-                store.set_aside(DESCRIPTION).map_err(cannot)?;
+                folder.set_aside(DESCRIPTION).map_err(cannot)?;
                 note(&format!("{why}; it was set aside in `{TILES}/{BAD}` and written again"));
             }
         }
@@ -102,7 +98,7 @@ impl Store {
     /// The path of tile `number`.
     #[must_use]
     pub fn path(&self, number: usize) -> PathBuf {
-        self.directory.join(TILES).join(self.name(number))
+        self.folder().path(&self.name(number))
     }
 
     /// Claims tile `number`; `None` while another process computes it.
@@ -137,11 +133,7 @@ impl Store {
     /// # Errors
     /// What is wrong with it.
     pub fn read(&self, number: usize) -> std::result::Result<Option<Vec<Record>>, Fault> {
-        match std::fs::read(self.path(number)) {
-            Ok(bytes) => self.description.tile(number).read(&bytes).map(Some),
-            Err(why) if why.kind() == ErrorKind::NotFound => Ok(None),
-            Err(why) => Err(Fault::Unreadable { why: why.to_string() }),
-        }
+        self.folder().read(&self.name(number), &self.description.tile(number))
     }
 
     /// Whether tile `number` is there and good; one that is bad is set aside and named.
@@ -157,12 +149,8 @@ impl Store {
         match self.read(number) {
             Ok(found) => Ok(found.is_some()),
             Err(fault) => {
-                let name = self.name(number);
-                self.set_aside(&name).map_err(|why| refused(&self.directory, &why))?;
-                note(&format!(
-                    "`{}` is set aside in `{TILES}/{BAD}`: {fault}; it is computed again",
-                    self.path(number).display()
-                ));
+                let what = format!("{fault}; it is computed again");
+                self.folder().expel(&self.name(number), &what, note)?;
                 Ok(false)
             }
         }
@@ -173,17 +161,9 @@ impl Store {
     /// # Errors
     /// When the directory cannot be read or written.
     pub fn expel_strangers(&self, note: Note) -> Result<()> {
-        for name in self.tile_names()? {
-            if self.number(&name).is_none() {
-                self.set_aside(&name).map_err(|why| refused(&self.directory, &why))?;
-                let path = self.directory.join(TILES).join(&name);
-                note(&format!(
-                    "`{}` is set aside in `{TILES}/{BAD}`: it is no tile of this sweep",
-                    path.display()
-                ));
-            }
-        }
-        Ok(())
+        let folder = self.folder();
+        let strangers = folder.tiles()?.into_iter().filter(|name| self.number(name).is_none());
+        strangers.into_iter().try_for_each(|name| folder.expel(&name, "it is no tile of this sweep", note))
     }
 
     /// Removes what a process that was killed has left of a file that is there by now.
@@ -191,15 +171,7 @@ impl Store {
     /// # Errors
     /// When the directory cannot be read or written.
     pub fn clean(&self) -> Result<()> {
-        let tiles = self.directory.join(TILES);
-        for name in self.entries()? {
-            let Some(path) = name.strip_suffix(PART).map(|name| tiles.join(name)) else { continue };
-            // Dropping a claim removes its file; one that a living process holds stays.
-            if path.exists() {
-                drop(Claim::take(&path).map_err(|why| refused(&self.directory, &why))?);
-            }
-        }
-        Ok(())
+        self.folder().clean()
     }
 
     /// How many of its tiles are there, bad ones included.
@@ -216,7 +188,7 @@ impl Store {
     /// When the directory cannot be read.
     pub fn numbers(&self) -> Result<Vec<usize>> {
         let mut numbers: Vec<usize> =
-            self.tile_names()?.iter().filter_map(|name| self.number(name)).collect();
+            self.folder().tiles()?.iter().filter_map(|name| self.number(name)).collect();
         numbers.sort_unstable();
         Ok(numbers)
     }
@@ -239,27 +211,9 @@ impl Store {
         (number < self.description.tiling.count() && self.name(number) == name).then_some(number)
     }
 
-    /// The names in the directory that end like a tile's.
-    fn tile_names(&self) -> Result<Vec<String>> {
-        Ok(self.entries()?.into_iter().filter(|name| name.ends_with(TILE)).collect())
-    }
-
-    /// The names in the directory of the tiles.
-    fn entries(&self) -> Result<Vec<String>> {
-        let entries = std::fs::read_dir(self.directory.join(TILES))
-            .and_then(Iterator::collect::<io::Result<Vec<_>>>)
-            .map_err(|why| refused(&self.directory, &why))?;
-        Ok(entries.into_iter().filter_map(|entry| entry.file_name().into_string().ok()).collect())
-    }
-
-    fn set_aside(&self, name: &str) -> io::Result<()> {
-        let tiles = self.directory.join(TILES);
-        std::fs::create_dir_all(tiles.join(BAD))?;
-        match std::fs::rename(tiles.join(name), tiles.join(BAD).join(name)) {
-            // Another process was faster.
-            Err(why) if why.kind() == ErrorKind::NotFound => Ok(()),
-            other => other,
-        }
+    /// Where its tiles are.
+    fn folder(&self) -> Folder {
+        Folder::new(&self.directory, TILES)
     }
 }
 
@@ -268,8 +222,4 @@ fn remove(path: &Path) -> io::Result<()> {
         Err(why) if why.kind() == ErrorKind::NotFound => Ok(()),
         other => other,
     }
-}
-
-fn refused(directory: &Path, why: &io::Error) -> Error {
-    Error::OutputDirectory { path: directory.to_owned(), why: why.to_string() }
 }

@@ -11,8 +11,10 @@
 //! - [`columns`], [`starts`], [`tile`]: records as bytes, with header and checksum.
 //! - [`description`](mod@description): the file `tiles/sweep.json`.
 //! - [`claim`]: one process at a time writes a file.
+//! - `folder.rs`: files of a folder, what is set aside.
 //! - [`directory`]: the tiles of a directory.
 //! - [`fill`]: computes what is missing.
+//! - [`parts`]: pieces of a sweep whose order shows only on the way.
 //! - [`reuse`]: what another directory has of it.
 //! - [`shard`]: a share of the tiles.
 //! - [`status`], [`merge`](mod@merge): how far a directory has come; several directories in one.
@@ -23,9 +25,11 @@ pub mod columns;
 pub mod description;
 pub mod directory;
 pub mod fill;
+mod folder;
 pub mod grid_json;
 pub mod identity;
 pub mod merge;
+pub mod parts;
 pub mod reuse;
 pub mod shard;
 pub mod space;

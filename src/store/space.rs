@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::description::Description;
-use super::tiling::Tiling;
+use super::tiling::{TILE, Tiling};
 use crate::error::{Error, Result};
 use crate::spec::{Analysis, Starts};
 
@@ -62,7 +62,20 @@ pub fn verify(directory: &Path, description: &Description, missing: usize) -> Re
     let tiling = Tiling { instances: missing, ..description.tiling };
     let tiles = Need::new(tiling, description.analysis).tiles;
     let table = Need::new(description.tiling, description.analysis).table.unwrap_or(0);
-    let needed = tiles + table + AROUND;
+    fits(directory, tiles + table + AROUND, free)
+}
+
+/// Whether the disk of a directory has room for the parts of `missing` instances and their rows.
+///
+/// # Errors
+/// When it has not.
+pub fn verify_parts(directory: &Path, analysis: Analysis, missing: usize) -> Result<()> {
+    let Ok(free) = fs4::available_space(directory) else { return Ok(()) };
+    let need = Need::new(Tiling { instances: missing, tile: TILE }, analysis);
+    fits(directory, need.tiles + need.table.unwrap_or(0) + AROUND, free)
+}
+
+fn fits(directory: &Path, needed: u64, free: u64) -> Result<()> {
     if needed + RESERVE > free {
         return Err(Error::NoSpace { path: directory.to_owned(), needed: bytes(needed), free: bytes(free) });
     }

@@ -4,7 +4,8 @@ use std::fs::File;
 use std::time::{Duration, SystemTime};
 
 use super::claim::PART;
-use super::directory::{BAD, Store, TILES};
+use super::directory::{Store, TILES};
+use super::folder::BAD;
 use super::tile::Fault;
 use crate::error::{Error, Result};
 

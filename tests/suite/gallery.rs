@@ -7,19 +7,23 @@ use std::f64::consts::TAU;
 use num_complex::Complex64;
 use squealmap::accuracy::row::{Row, from_csv, to_csv};
 use squealmap::archive::Kind;
+use squealmap::backend::reference;
 use squealmap::classify::{InstabilityType, Regime};
 use squealmap::export::figure::map_svg;
 use squealmap::export::heading::Heading;
 use squealmap::export::look::Look;
 use squealmap::export::paper::Shown;
-use squealmap::export::{csv, hysteresis, manifest, modes, trace, tradeoff};
+use squealmap::export::sheet::Sheet;
+use squealmap::export::{csv, hysteresis, manifest, modes, refined, trace, tradeoff};
 use squealmap::grid::Grid;
 use squealmap::hysteresis::Hysteresis;
+use squealmap::label::Label;
 use squealmap::map::Record;
 use squealmap::model::Param;
 use squealmap::model::contact::ContactState;
 use squealmap::outcome::{Outcome, Status};
 use squealmap::paper::{Figure, PhaseTrial, Settings, Study, Trial, Witness};
+use squealmap::refine;
 use squealmap::trace::{Trace, TraceRow};
 use tempfile::TempDir;
 
@@ -44,7 +48,7 @@ fn piece(kind: Kind, svg: String, files: [Vec<u8>; 2]) -> Piece {
 
 /// One of every kind.
 pub(crate) fn all() -> Vec<Piece> {
-    let mut pieces = vec![a_map(), a_trace(), a_hysteresis(), some_modes(), a_tradeoff()];
+    let mut pieces = vec![a_map(), a_refined_map(), a_trace(), a_hysteresis(), some_modes(), a_tradeoff()];
     pieces.extend(Figure::ALL.map(of_the_paper));
     pieces
 }
@@ -59,6 +63,33 @@ fn a_map() -> Piece {
     let map = map(Grid::Axes(axes), |_, at| paper_like(number(at[0]), number(at[1]), number(at[2])));
     let files = [manifest::manifest_json(&map).unwrap(), csv::map_csv(&map).unwrap()];
     piece(Kind::Map, map_svg(&map).unwrap(), files)
+}
+
+/// A map of two planes, refined from few of its instances.
+fn a_refined_map() -> Piece {
+    let axes = vec![
+        span(Param::MuS, 0.0, 0.6, 65),
+        span(Param::MuD, 0.0, 0.6, 65),
+        axis(Param::BeltVelocity, &[1.0, 4.9]),
+    ];
+    let mut sweep = spec(Grid::Axes(axes));
+    sweep.title = "Few points".to_owned();
+    let computation = |method: &str| reference::in_f64(reference::NAME, method.to_owned());
+    let engine = [computation("closed form"), computation("rk4")];
+    let sheet = Sheet::new(&sweep, engine.each_ref().map(Some));
+    let mut points = csv::MapCsv::new(sheet, Vec::new()).unwrap();
+    let settings = refine::Settings { coarse: 8, sample: 50, seed: 3 };
+    let found = refine::refine(&sweep.grid, settings, &mut |instances| {
+        let at = |index: &usize| sweep.grid.coordinates(*index).into_iter().map(number).collect::<Vec<_>>();
+        let records: Vec<Record> =
+            instances.iter().map(at).map(|at| paper_like(at[0], at[1], at[2])).collect();
+        points.add_some(instances, &records)?;
+        Ok(records.iter().map(Label::from).collect())
+    })
+    .unwrap();
+    assert!(found.computed < sweep.grid.len() / 2);
+    let svg = refined::figure(sheet, &found).look(&Look::default());
+    piece(Kind::Refined, svg, [points.finish(), refined::document(sheet, &found, settings).unwrap()])
 }
 
 /// A sine that sticks, flies and slides back, long enough for a second column.

@@ -45,6 +45,7 @@ mod plot;
 mod promise;
 mod properties;
 mod refine;
+mod refine_parts;
 mod regimes;
 mod response;
 mod resume;

@@ -44,7 +44,7 @@ fn drawn(grid: &Grid, settings: Settings, inside: impl Fn([f64; 3]) -> bool) -> 
     let refined = refine(grid, settings, &mut |instances| {
         assert!(instances.windows(2).all(|pair| pair[0] < pair[1]), "each once, in the order of the grid");
         computed += instances.len();
-        Ok(instances.iter().map(|index| label(*index)).collect())
+        Ok(instances.iter().map(|index| Label::from(&label(*index))).collect())
     })
     .unwrap();
     assert_eq!(refined.computed, computed);
@@ -109,7 +109,8 @@ fn paper(points: u32, analysis: &str, share: usize) -> (Refined, usize) {
     let mut solver = Solver::new(&spec, &options).unwrap();
     let settings = Settings { coarse: 32, sample: 1000, seed: 1 };
     let refined = refine(&spec.grid, settings, &mut |instances| {
-        Ok(solver.records_of(&subset(&spec, instances), 0..instances.len(), &|_| ())?.records)
+        let made = solver.records_of(&subset(&spec, instances), 0..instances.len(), &|_| ())?;
+        Ok(made.records.iter().map(Label::from).collect())
     })
     .unwrap();
     let total = spec.grid.len();

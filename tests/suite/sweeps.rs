@@ -50,6 +50,14 @@ fn paper_map_runs() {
 }
 
 #[test]
+fn refined_map_runs_and_asks_to_be_refined() {
+    let spec = read("refined_map");
+    assert_eq!(spec.grid.len(), 1025 * 1025 * 3);
+    assert_eq!(spec.refine.map(|settings| (settings.coarse, settings.sample)), Some((32, 1000)));
+    assert_eq!(run(thin(spec)).records.len(), 27);
+}
+
+#[test]
 fn figure2_modes_merge_at_the_critical_friction() {
     let map = run(read("paper/figure2"));
     for (index, record) in map.records.iter().enumerate() {

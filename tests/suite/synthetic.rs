@@ -49,6 +49,7 @@ pub(crate) fn spec(grid: Grid) -> Spec {
         measure: spec::Duration::Seconds(3.0),
         steps_per_period: 60,
         steps_given: None,
+        refine: None,
     }
 }
 

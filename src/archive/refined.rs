@@ -1,0 +1,87 @@
+//! `points.csv` and `refine.json`: a refined map read back, by following its lines again through the instances that were
+//! computed.
+
+use std::collections::BTreeMap;
+
+use serde_json::Value as Json;
+
+use super::folder::{Folder, Table, Why, text};
+use super::map::{computation, drawn_spec, record};
+use crate::error::Result;
+use crate::export::look::Look;
+use crate::export::refined::figure;
+use crate::export::sheet::Sheet;
+use crate::grid::Grid;
+use crate::label::Label;
+use crate::map::Computation;
+use crate::refine::{Refined, Settings, refine};
+use crate::spec::{Analysis, Spec, Starts};
+use crate::store::grid_json;
+
+/// The files that are read.
+pub(super) const FILES: [&str; 2] = ["points.csv", "refine.json"];
+
+/// A refined map and its sweep, of which title, analysis and grid are read.
+#[derive(Clone, Debug)]
+pub(super) struct Lines {
+    pub(super) spec: Spec,
+    computations: [Option<Computation>; 2],
+    refined: Refined,
+}
+
+impl Lines {
+    /// The figure.
+    pub(super) fn svg(&self, look: &Look<'_>) -> String {
+        let sheet = Sheet::new(&self.spec, self.computations.each_ref().map(Option::as_ref));
+        figure(sheet, &self.refined).look(look)
+    }
+}
+
+/// Reads the points and follows the lines again: the same points are asked for as by the command.
+pub(super) fn read(folder: Folder<'_>) -> Result<Lines> {
+    let document = folder.json(FILES[1])?;
+    let (spec, settings) = sweep(&document).map_err(|why| folder.bad(FILES[1], why))?;
+    let known = labels(&folder.table(FILES[0])?).map_err(|why| folder.bad(FILES[0], why))?;
+    let refined = refine(&spec.grid, settings, &mut |instances| {
+        let label = |instance: &usize| {
+            let missing = || format!("has no instance {instance}, which the lines of `refine.json` lead to");
+            known.get(instance).copied().ok_or_else(|| folder.bad(FILES[0], missing()))
+        };
+        instances.iter().map(label).collect()
+    })?;
+    let computations = ["linear", "response"].map(|name| computation(&document["computation"][name]));
+    Ok(Lines { spec, computations, refined })
+}
+
+/// Title, analysis, grid, and how it was refined.
+fn sweep(document: &Json) -> Why<(Spec, Settings)> {
+    let grid = grid_json::from_json(&document["grid"]).filter(|grid| matches!(grid, Grid::Axes(_)));
+    let grid = grid.ok_or_else(|| "has no `grid` of axes".to_owned())?;
+    let asked = |name: &str| document["analysis"][name] == true;
+    let analysis = Analysis {
+        linear: asked("linear"),
+        response: asked("response"),
+        until_settled: false,
+        checked: false,
+        starts: if document["both_starts"] == true { Starts::Both } else { Starts::One },
+    };
+    let count = |value: &Json, name: &str| value.as_u64().ok_or_else(|| format!("has no count `{name}`"));
+    #[expect(clippy::cast_possible_truncation, reason = "counts that the command took from a usize")]
+    let settings = Settings {
+        coarse: count(&document["coarse_cells_per_side"], "coarse_cells_per_side")? as usize,
+        sample: count(&document["sample"]["asked_for"], "asked_for")? as usize,
+        seed: count(&document["sample"]["seed"], "seed")?,
+    };
+    Ok((drawn_spec(text(&document["title"]), analysis, grid), settings))
+}
+
+/// The label of every instance that was computed.
+fn labels(table: &Table) -> Why<BTreeMap<usize, Label>> {
+    let place = table.column("instance")?;
+    let label = |row: &csv::StringRecord| {
+        let cell = row.get(place).unwrap_or_default();
+        let instance = cell.parse().map_err(|_| format!("`instance` is `{cell}`, no count"))?;
+        Ok((instance, Label::from(&record(table, row)?)))
+    };
+    table.rows.iter().map(label).collect()
+}

@@ -1,0 +1,74 @@
+//! `--accuracy`: what may compute a sweep as accurately as is asked for.
+
+use clap::Args;
+use squealmap::accuracy::configuration::{self, Configuration};
+use squealmap::accuracy::frontier::{Choice, Chosen};
+use squealmap::accuracy::level::Level;
+use squealmap::backend::choice::Backend;
+use squealmap::backend::gpu::adapter::Adapter;
+use squealmap::kernel::source::Precision;
+use squealmap::spec::Spec;
+use squealmap::{Error, Result};
+
+use crate::cli::engine::{BackendName, EngineArgs};
+use crate::cli::{frontier, note};
+
+/// The argument.
+#[derive(Debug, Args)]
+pub(crate) struct AccuracyArgs {
+    /// The fastest engine, arithmetic and steps per period with this relative error of deviation, accelerations and
+    /// frequency in 95 % of the settled oscillations: draft (1e-2), standard (1e-3), paper (1e-4), reference,
+    /// or a number up to 0.1; see `squealmap tradeoff`
+    #[arg(long, value_name = "LEVEL", value_parser = Level::parse)]
+    pub(crate) accuracy: Option<Level>,
+}
+
+impl AccuracyArgs {
+    /// What may compute the sweep with the accuracy that is asked for, the fastest first; `None` where none is.
+    ///
+    /// # Errors
+    /// When something that it chooses is given too, or nothing is accurate enough.
+    pub(crate) fn ranked(&self, spec: &Spec, engine: &EngineArgs) -> Result<Option<Vec<Choice>>> {
+        let Some(level) = self.accuracy else { return Ok(None) };
+        let beside = |option: String| Error::AccuracyBeside { option, accuracy: level.to_string() };
+        if let Some(at) = &spec.steps_given {
+            let key = "`steps_per_period` in [response]".to_owned();
+            let other = format!("--accuracy {level}, which chooses it");
+            return Err(Error::Conflict { at: at.clone(), key, other });
+        }
+        if let Some(precision) = engine.precision {
+            return Err(beside(format!("--precision {}", Precision::from(precision))));
+        }
+        let only_gpu = engine.strict || engine.require_gpu || engine.adapter.is_some();
+        let backend = match engine.backend {
+            BackendName::Auto => only_gpu.then_some(Backend::Gpu),
+            asked => Some(Backend::from(asked)),
+        };
+        if let (Level::Reference, Some(other @ (Backend::Gpu | Backend::Cpu))) = (level, backend) {
+            return Err(beside(format!("--backend {}", configuration::name(other))));
+        }
+        if !spec.analysis.response {
+            note("--accuracy has nothing to choose: this sweep asks for no response");
+            return Ok(None);
+        }
+        let allowed =
+            |one: &Configuration| backend.is_none_or(|backend| backend == one.backend) && is_here(one);
+        frontier::of(spec).ranked(level, spec, &allowed).map(Some)
+    }
+}
+
+/// Says what was chosen, and why.
+pub(crate) fn say(chosen: &Chosen) {
+    note(&format!("--accuracy {}: {}", chosen.asked, chosen.configuration));
+    note(&chosen.why);
+    if let (Some(bound), Some(trial)) = (chosen.bound, chosen.trial) {
+        note(&trial.sentence(bound));
+    }
+}
+
+/// Whether this machine has what a configuration needs: a GPU may have gone since it was measured.
+fn is_here(configuration: &Configuration) -> bool {
+    let adapter = configuration.adapter.as_deref();
+    configuration.backend != Backend::Gpu
+        || Adapter::best(configuration.precision, adapter).is_ok_and(|adapter| !adapter.is_software())
+}

@@ -1,0 +1,96 @@
+//! What computes: the options that every command with an engine has.
+
+use std::sync::atomic::AtomicBool;
+
+use clap::{Args, ValueEnum};
+use rayon::ThreadPool;
+use squealmap::backend::choice::{Backend, Options};
+use squealmap::kernel::source::Precision;
+use squealmap::store::directory::Note;
+use squealmap::{Error, Result};
+
+/// Arguments that choose an engine.
+#[derive(Debug, Args)]
+pub(crate) struct EngineArgs {
+    /// Worker threads, 1 to 1024 [default: one per core]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub(crate) threads: Option<u16>,
+    /// What computes: `auto` takes a hardware GPU where there is one, else the CPU; `reference` is the
+    /// slow, accurate judge of the others
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) backend: BackendName,
+    /// Arithmetic [default: f64 on the CPU, f32 on a GPU]
+    #[arg(long, value_enum)]
+    pub(crate) precision: Option<PrecisionName>,
+    /// A GPU rounds every operation by itself, like the twin of its kernel on the CPU; needs Vulkan
+    #[arg(long)]
+    pub(crate) strict: bool,
+    /// Only a GPU with this in its name; see `squealmap adapters`
+    #[arg(long, value_name = "NAME")]
+    pub(crate) adapter: Option<String>,
+    /// Fail unless a hardware GPU computes
+    #[arg(long)]
+    pub(crate) require_gpu: bool,
+}
+
+/// The values of `--backend`.
+#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+pub(crate) enum BackendName {
+    #[default]
+    Auto,
+    Gpu,
+    Cpu,
+    Reference,
+}
+
+/// The values of `--precision`.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum PrecisionName {
+    F32,
+    F64,
+}
+
+impl From<BackendName> for Backend {
+    fn from(name: BackendName) -> Backend {
+        match name {
+            BackendName::Auto => Backend::Auto,
+            BackendName::Gpu => Backend::Gpu,
+            BackendName::Cpu => Backend::Cpu,
+            BackendName::Reference => Backend::Reference,
+        }
+    }
+}
+
+impl From<PrecisionName> for Precision {
+    fn from(name: PrecisionName) -> Precision {
+        match name {
+            PrecisionName::F32 => Precision::F32,
+            PrecisionName::F64 => Precision::F64,
+        }
+    }
+}
+
+impl EngineArgs {
+    /// The worker threads.
+    pub(crate) fn pool(&self) -> Result<ThreadPool> {
+        let threads = self.threads.map_or(0, usize::from);
+        rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .map_err(|why| Error::Threads { threads, why: why.to_string() })
+    }
+
+    /// The engine that is asked for.
+    pub(crate) fn options<'a>(&'a self, cancel: &'a AtomicBool, note: Note<'a>) -> Options<'a> {
+        Options {
+            backend: self.backend.into(),
+            precision: self.precision.map(Precision::from),
+            strict: self.strict,
+            require_gpu: self.require_gpu,
+            adapter: self.adapter.as_deref(),
+            chunk: None,
+            cancel: Some(cancel),
+            note: Some(note),
+        }
+    }
+}

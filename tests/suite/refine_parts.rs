@@ -1,0 +1,206 @@
+//! A refined map in parts: killed, spoilt, asked for once more, asked for by the sweep itself.
+
+#![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::thread::sleep;
+use std::time::Duration;
+
+use tempfile::TempDir;
+
+use crate::cli::{squealmap, unwrapped};
+
+/// A plane with response, long enough to be killed in.
+const SWEEP: &str = "[friction]\nlaw = \"bilinear\"\nknee_velocity = 5.0\n[axes]\n\
+    mu_s = { from = 0.0, to = 0.6, points = 65 }\nmu_d = { from = 0.0, to = 0.6, points = 65 }\n\
+    [belt]\nbelt_velocity = 3.0\n[response]\nsettle = \"20 periods\"\nmeasure = \"20 periods\"\n";
+
+/// The same asked for by the sweep itself.
+const SECTION: &str = "[refine]\ncoarse = 8\nsample = 100\nseed = 7\n";
+
+const REFINE: [&str; 10] =
+    ["refine", "s.toml", "--coarse", "8", "--sample", "100", "--seed", "7", "--backend", "cpu"];
+
+const FILES: [&str; 5] = ["boundaries.csv", "points.csv", "refine.json", "refined.png", "refined.svg"];
+
+fn with(sweep: &str) -> TempDir {
+    let directory = tempfile::tempdir().unwrap();
+    std::fs::write(directory.path().join("s.toml"), sweep).unwrap();
+    directory
+}
+
+/// Parts of so few instances that there are many.
+fn arguments<'a>(base: &[&'a str]) -> Vec<&'a str> {
+    [base, &["--tile", "30", "--threads", "1"]].concat()
+}
+
+/// Refines without disturbance.
+fn undisturbed() -> TempDir {
+    let directory = with(SWEEP);
+    let ended = squealmap(directory.path(), &arguments(&REFINE));
+    assert_eq!(ended.code, Some(0), "{}", ended.err);
+    directory
+}
+
+/// Names and bytes of the parts, sorted.
+fn parts(directory: &Path) -> Vec<(PathBuf, Vec<u8>)> {
+    let Ok(entries) = std::fs::read_dir(directory.join("out/s/parts")) else { return Vec::new() };
+    let paths = entries.flatten().map(|entry| entry.path());
+    let mut paths: Vec<PathBuf> =
+        paths.filter(|path| path.extension().is_some_and(|end| end == "tile")).collect();
+    paths.sort();
+    let name = |path: &Path| PathBuf::from(path.file_name().unwrap());
+    paths.into_iter().map(|path| (name(&path), std::fs::read(&path).unwrap())).collect()
+}
+
+fn results(directory: &Path) -> Vec<Vec<u8>> {
+    FILES.iter().map(|name| std::fs::read(directory.join("out/s").join(name)).unwrap()).collect()
+}
+
+/// Everything in the output directory but its parts.
+fn names(directory: &Path) -> Vec<String> {
+    let entries = std::fs::read_dir(directory.join("out/s")).unwrap();
+    let mut names: Vec<String> =
+        entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn killed_anywhere_it_goes_on_to_the_same_bytes() {
+    let whole = undisturbed();
+    let wanted = parts(whole.path());
+    assert!(wanted.len() > 20, "{} parts", wanted.len());
+    let directory = with(SWEEP);
+    let mut stages = Vec::new();
+    for kill in 1..=12 {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_squealmap"));
+        command.args(arguments(&REFINE)).current_dir(directory.path());
+        let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        let least = wanted.len() * kill / 14;
+        while parts(directory.path()).len() < least && child.try_wait().unwrap().is_none() {
+            sleep(Duration::from_micros(300));
+        }
+        // At any moment of a part.
+        sleep(Duration::from_micros(700 * kill as u64));
+        child.kill().unwrap();
+        child.wait().unwrap();
+        stages.push(parts(directory.path()).len());
+    }
+    assert!(stages.is_sorted(), "a finished part stays: {stages:?}");
+    let met = stages.iter().filter(|done| (1..wanted.len()).contains(*done)).count();
+    assert!(met >= 6, "most kills meet a refinement on its way: {stages:?}");
+    let ended = squealmap(directory.path(), &arguments(&REFINE));
+    assert_eq!(ended.code, Some(0), "{}", ended.err);
+    assert!(!ended.err.contains("set aside"), "{}", ended.err);
+    assert!(ended.out.contains(" of them before"), "{}", ended.out);
+    assert!(parts(directory.path()) == wanted, "a part differs");
+    assert!(results(directory.path()) == results(whole.path()), "results differ");
+    assert_eq!(names(directory.path()), names(whole.path()), "nothing half-written is left");
+}
+
+#[test]
+fn what_is_there_is_not_computed_again() {
+    let directory = undisturbed();
+    let before = results(directory.path());
+    let computed = |out: &str| -> Vec<usize> {
+        let line = out.lines().next().unwrap().replace(',', " ");
+        line.split_whitespace().filter_map(|word| word.parse().ok()).collect()
+    };
+    let ended = squealmap(directory.path(), &arguments(&REFINE));
+    let [all, _, old] = computed(&ended.out)[..3] else { panic!("{}", ended.out) };
+    assert_eq!(all, old, "{}", ended.out);
+    assert!(results(directory.path()) == before);
+    // A larger sample begins after the lines, which are known.
+    let more = [&REFINE[..4], &["--sample", "200", "--seed", "7", "--backend", "cpu"]].concat();
+    let ended = squealmap(directory.path(), &arguments(&more));
+    let [more, _, known] = computed(&ended.out)[..3] else { panic!("{}", ended.out) };
+    assert!(known + 200 >= more && known < more, "{}", ended.out);
+    // Another engine takes nothing over.
+    let other = [&REFINE[..8], &["--backend", "cpu", "--precision", "f32"]].concat();
+    let ended = squealmap(directory.path(), &arguments(&other));
+    assert!(!ended.out.contains("before"), "{}", ended.out);
+    assert!(ended.err.contains("parts of other sweeps"), "{}", ended.err);
+}
+
+#[test]
+fn spoilt_parts_are_named_and_computed_again() {
+    let whole = undisturbed();
+    let wanted = parts(whole.path());
+    let folder = whole.path().join("out/s/parts");
+    let at = |number: usize| folder.join(&wanted[number].0);
+    let bytes = |number: usize| wanted[number].1.clone();
+    let mut flipped = bytes(1);
+    let middle = flipped.len() / 2;
+    flipped[middle] ^= 4;
+    let spoilt = [
+        (0, bytes(0)[..100].to_vec(), "bytes"),
+        (1, flipped, "its checksum does not match"),
+        (2, Vec::new(), "it is empty"),
+        (3, bytes(4), "it belongs to another sweep"),
+        (5, b"a text".to_vec(), "it is no tile"),
+    ];
+    for (number, content, _) in &spoilt {
+        std::fs::write(at(*number), content).unwrap();
+    }
+    let before = results(whole.path());
+    let ended = squealmap(whole.path(), &arguments(&REFINE));
+    assert_eq!(ended.code, Some(0), "{}", ended.err);
+    for (number, _, why) in &spoilt {
+        let name = wanted[*number].0.display().to_string();
+        let line = ended.err.lines().find(|line| line.contains(&name)).unwrap_or_default();
+        assert!(line.contains(why) && line.contains("computed again"), "{number}: {}", ended.err);
+    }
+    assert!(parts(whole.path()) == wanted && results(whole.path()) == before);
+    assert_eq!(std::fs::read_dir(folder.join("bad")).unwrap().count(), spoilt.len());
+}
+
+#[test]
+fn a_sweep_asks_for_it_itself() {
+    let whole = undisturbed();
+    let asked = with(&format!("{SWEEP}{SECTION}"));
+    let ended = squealmap(asked.path(), &arguments(&["run", "s.toml", "--backend", "cpu"]));
+    assert_eq!(ended.code, Some(0), "{}", ended.err);
+    assert!(results(asked.path()) == results(whole.path()));
+    // The keys of the section are what `refine` begins with, and its options come before them.
+    let ended = squealmap(asked.path(), &["refine", "s.toml", "--backend", "cpu", "-o", "again"]);
+    assert_eq!(ended.code, Some(0), "{}", ended.err);
+    let document = |directory: &str| -> serde_json::Value {
+        let bytes = std::fs::read(asked.path().join(directory).join("refine.json")).unwrap();
+        serde_json::from_slice(&bytes).unwrap()
+    };
+    assert_eq!(document("again"), document("out/s"));
+    let options = ["refine", "s.toml", "--backend", "cpu", "--coarse", "16", "-o", "finer"];
+    assert_eq!(squealmap(asked.path(), &options).code, Some(0));
+    assert_eq!(document("finer")["coarse_cells_per_side"], 16);
+    assert_eq!(document("finer")["sample"]["seed"], 7);
+    let checked = squealmap(asked.path(), &["check", "s.toml"]);
+    assert!(checked.out.contains("refines   from 8 cells along each side"), "{}", checked.out);
+
+    for (options, says) in [
+        (&["run", "s.toml", "--shard", "0/2"][..], "--shard has no effect on a sweep with [refine]"),
+        (&["run", "s.toml", "--accuracy", "draft"], "--accuracy has no effect"),
+        (&["run", "s.toml", "--reuse", "again"], "--reuse has no effect"),
+        (&["submit", "s.toml", "--slurm", "--dry-run"], "`submit` has no effect"),
+    ] {
+        let ended = squealmap(asked.path(), &[options, &["-o", "none"]].concat());
+        assert_eq!(ended.code, Some(2), "{}", ended.err);
+        assert!(unwrapped(&ended.err).contains(says), "{}", ended.err);
+    }
+    for (section, says) in [
+        ("[refine]\ncoarse = 1\n", "`coarse` in [refine] is 1 but must be an integer between 2 and 4096"),
+        ("[refine]\nseed = -1\n", "`seed` in [refine] is -1"),
+        ("[refine]\nlevels = 3\n", "unknown key `levels` in [refine]"),
+        ("refine = true\n", "a table, written as a line [refine]"),
+        ("[start]\ncoarse = 8\n", "it belongs to [refine]"),
+    ] {
+        let text =
+            if section.starts_with('[') { format!("{SWEEP}{section}") } else { format!("{section}{SWEEP}") };
+        let wrong = with(&text);
+        let ended = squealmap(wrong.path(), &["run", "s.toml", "-o", "none"]);
+        assert_eq!(ended.code, Some(2), "{section}: {}", ended.err);
+        assert!(unwrapped(&ended.err).contains(says), "{section}: {}", ended.err);
+    }
+    assert!(!asked.path().join("none").exists(), "nothing is left");
+}
