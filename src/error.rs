@@ -680,6 +680,30 @@ pub enum Error {
         /// The directory.
         path: PathBuf,
     },
+    /// A cut that a map does not have.
+    #[error("--cut {cut}: {why}")]
+    Cut {
+        /// What was asked for.
+        cut: String,
+        /// Why there is none, and what to write.
+        why: String,
+    },
+    /// A map that is no source for LaTeX.
+    #[error("--tikz writes the classes of a map, but {why}; leave --tikz out")]
+    Tikz {
+        /// Why there is none.
+        why: &'static str,
+    },
+    /// Lines of equal value of something that has no values.
+    #[error(
+        "{option} draws lines of equal value, which `{name}` has none of; name numbers, such as --quantity growth"
+    )]
+    NoIsolines {
+        /// The option.
+        option: &'static str,
+        /// What is shown.
+        name: String,
+    },
     /// A quantity that a map does not have.
     #[error("the map has no quantity `{name}`; it has {names}; choose one with --quantity")]
     NoSuchQuantity {
@@ -841,6 +865,9 @@ impl Error {
             | Error::Archive { .. }
             | Error::NothingToPlot { .. }
             | Error::OnlyOfMaps { .. }
+            | Error::Cut { .. }
+            | Error::NoIsolines { .. }
+            | Error::Tikz { .. }
             | Error::NoSuchQuantity { .. }
             | Error::PaperRamp { .. }
             | Error::FollowsRamp { .. }

@@ -12,8 +12,8 @@ use crate::map::{Computation, Map, Provenance, Record, Stopped};
 use crate::model::Params;
 use crate::model::friction::LawKind;
 use crate::outcome::Status;
-use crate::spec::{Analysis, Duration, Pass, STEPS_PER_PERIOD, Spec, StartKind};
-use crate::starts;
+use crate::spec::{Analysis, Duration, Pass, STEPS_PER_PERIOD, Spec, StartKind, Starts};
+use crate::starts::{self, Basin, Others};
 
 /// The files of a map that are read.
 pub(super) const FILES: [&str; 2] = ["manifest.json", "map.csv"];
@@ -53,7 +53,7 @@ impl Archive {
         let manifest = folder.json(FILES[0])?;
         let table = folder.table(FILES[1])?;
         let spec = spec(&manifest, &table).map_err(|why| folder.bad(FILES[0], why))?;
-        let records = records(&table).map_err(|why| folder.bad(FILES[1], why))?;
+        let mut records = records(&table).map_err(|why| folder.bad(FILES[1], why))?;
         if records.len() != spec.grid.len() {
             let why = format!("{} rows for {} instances", records.len(), spec.grid.len());
             return Err(folder.bad(FILES[1], why));
@@ -69,6 +69,11 @@ impl Archive {
             elapsed: std::time::Duration::ZERO,
         };
         let columns = columns(&manifest, &table, &spec);
+        match spec.analysis.starts {
+            Starts::Box(starts) => take_basins(&mut records, &columns, starts),
+            Starts::Both => take_large(&mut records, &table),
+            Starts::One => {}
+        }
         let program = program(&manifest);
         Ok(Archive { map: Map { spec, records, stopped, provenance }, columns, program })
     }
@@ -168,6 +173,41 @@ pub(super) fn record(table: &Table, row: &csv::StringRecord) -> Why<Record> {
         bistable: flag(cell("bistable")),
         ..Record::default()
     })
+}
+
+/// Takes what became of the large start of every instance.
+fn take_large(records: &mut [Record], table: &Table) {
+    for (record, row) in records.iter_mut().zip(&table.rows) {
+        let cell = |name: &str| table.cell(row, name);
+        let status = Status::IN_MAP.into_iter().find(|one| one.name() == cell("status_large"));
+        let large = status.map(|status| Record {
+            status,
+            regime: Regime::ALL.into_iter().find(|regime| regime.name() == cell("regime_large")),
+            settled: flag(cell("settled_large")),
+            ..Record::default()
+        });
+        record.others = large.map(|large| Others::Large(Box::new(large)));
+    }
+}
+
+/// Takes what became of so many starts of every instance from the columns of fractions.
+fn take_basins(records: &mut [Record], columns: &[NumberColumn], starts: u32) {
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a fraction of a count is one"
+    )]
+    let count = |name: &str, instance: usize| {
+        let column = columns.iter().find(|column| column.name == name)?;
+        Some((column.values.get(instance).copied().flatten()? * f64::from(starts)).round() as u32)
+    };
+    for (instance, record) in records.iter_mut().enumerate() {
+        let counts =
+            ["basin_equilibrium", "basin_oscillation", "basin_other"].map(|name| count(name, instance));
+        if let [Some(equilibrium), Some(oscillation), Some(other)] = counts {
+            record.others = Some(Others::Basin(Basin { equilibrium, oscillation, other }));
+        }
+    }
 }
 
 /// A column of yes and no.

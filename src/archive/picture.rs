@@ -24,7 +24,7 @@ use crate::trace::Trace;
 enum Content {
     Map(Box<Archive>),
     Refined(Box<Lines>),
-    Trace(Trace, Heading),
+    Trace(Box<Trace>, Heading),
     Hysteresis(Hysteresis, Heading),
     Modes(Box<Spec>, Modes),
     Tradeoff(String, Vec<Row>),
@@ -51,7 +51,7 @@ impl Picture {
             Kind::Refined => Content::Refined(Box::new(refined::read(folder)?)),
             Kind::Trace => {
                 let (trace, heading) = trace::read(folder)?;
-                Content::Trace(trace, heading)
+                Content::Trace(Box::new(trace), heading)
             }
             Kind::Hysteresis => {
                 let (hysteresis, heading) = hysteresis::read(folder)?;
@@ -67,7 +67,7 @@ impl Picture {
             }
             Kind::Paper(figure) => Content::Paper(paper::read(folder, figure, kind.files())?),
         };
-        let document = kind.files().into_iter().find(|file| file.ends_with(".json"));
+        let document = kind.files().into_iter().find(|file| file.rsplit('.').next() == Some("json"));
         let program = program(&document.map_or(Ok(serde_json::Value::Null), |file| folder.json(file))?);
         Ok(Picture { content, program })
     }

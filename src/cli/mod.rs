@@ -15,6 +15,7 @@ mod modes;
 mod output;
 mod paper;
 mod plot;
+mod plot_map;
 mod progress;
 mod refine;
 pub(crate) mod report;
@@ -64,7 +65,7 @@ enum Command {
     Check(check::Check),
     /// Eigenvalues against the first numeric axis of a sweep: modes.csv, modes.svg, modes.png
     Modes(modes::Modes),
-    /// The figure of a map again from its directory, for print: plot.svg, plot.pdf, plot.png, boundaries.csv
+    /// The figure of a command again from its directory, for print: plot.svg, plot.pdf, plot.png
     Plot(plot::Plot),
     /// One instance in full, as a time series: trace.csv, trace.svg, trace.png
     Trace(trace::TraceCommand),

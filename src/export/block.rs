@@ -4,9 +4,10 @@ use super::cells;
 use super::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room};
 use super::legend::Legend;
 use super::look::Content;
+use super::palette::Colouring;
 use super::panels::Panels;
 use super::picture_axis::Direction;
-use super::quantity;
+use super::quantity::{self, Field};
 use super::scale::Tick;
 use super::svg::{Anchor, Style, Svg};
 use super::text::Text;
@@ -72,9 +73,13 @@ impl Block<'_> {
             words += label.width(LABEL_SIZE, true) + 4.0;
         }
         heading.bold = false;
-        let name = match self.content {
-            Content::Classes { colouring, .. } => Text::from(colouring.heading(self.starts)),
-            Content::Quantity(quantity) => quantity::heading(quantity),
+        let field = Field::of(self.content, panels);
+        let name = match (self.content, &field) {
+            (Content::Classes { colouring, .. }, _) => Text::from(colouring.heading(self.starts)),
+            (Content::LargeRegime, _) => {
+                Text::from("Regime of the response to the large start (time integration)")
+            }
+            (_, field) => field.as_ref().map(Field::heading).unwrap_or_default(),
         };
         svg.text(words, y + LABEL_SIZE, &name, heading);
         let top = y + LABEL_SIZE + 6.0;
@@ -133,11 +138,12 @@ impl Block<'_> {
             svg.text(x + left + 0.5 * across, bottom, &label, Style::new(LABEL_SIZE, Anchor::Middle));
         }
         bottom += 9.0;
+        if let Some(field) = field {
+            return bottom + quantity::bar(&field, Some(svg), x + left, bottom, width - left) - y;
+        }
         let (colouring, hatched) = match self.content {
             Content::Classes { colouring, hatched } => (colouring, hatched),
-            Content::Quantity(quantity) => {
-                return bottom + quantity::bar(quantity, Some(svg), x + left, bottom, width - left) - y;
-            }
+            _ => (Colouring::Regime, false),
         };
         let legend = Legend::new(self.tally, colouring, hatched, panels.scatter.is_none());
         // Under the panels, or from the outer edge where that saves a line.

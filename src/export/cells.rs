@@ -4,12 +4,13 @@ use std::fmt::Write as _;
 
 use super::boundaries::{Vertex, borders, outlines};
 use super::frame::Frame;
+use super::isolines;
 use super::look::Content;
 use super::palette::Colouring;
 use super::panels::{Panel, Panels};
 use super::picture_axis::PictureAxis;
 use super::points;
-use super::quantity;
+use super::quantity::{self, Field};
 use super::svg::{Svg, number};
 use crate::classify::InstabilityType;
 use crate::grid::Grid;
@@ -89,8 +90,15 @@ pub(super) fn draw(
     content: Content<'_>,
     frame: &Frame,
 ) {
+    if let Some(field) = Field::of(content, panels) {
+        quantity::draw(svg, grid, panels, panel, &field, frame);
+    }
     let (colouring, hatched) = match content {
-        Content::Quantity(quantity) => return quantity::draw(svg, grid, panels, panel, quantity, frame),
+        Content::Basin => return,
+        Content::LargeRegime => (Colouring::Regime, false),
+        Content::Quantity { column, levels } => {
+            return isolines::draw(svg, panels, panel, (column, levels), frame);
+        }
         Content::Classes { colouring, hatched } => (colouring, hatched),
     };
     if panels.scatter.is_some() {

@@ -16,9 +16,9 @@ use super::sheet::Sheet;
 use super::svg::{Anchor, MM, Style, Svg};
 use super::text::{Text, wrap};
 use crate::error::Result;
-use crate::label::Tally;
+use crate::label::{Label, Tally};
 use crate::map::{Computation, Map, Record};
-use crate::spec::Analysis;
+use crate::spec::{Analysis, Starts};
 
 /// Width of a figure of two columns of a journal, points.
 pub const DOUBLE_COLUMN: f64 = 180.0 * MM;
@@ -39,10 +39,18 @@ pub fn map_svg(map: &Map) -> Result<String> {
     look_svg(map, &Look::default())
 }
 
-/// All classes, as far as they were computed.
+/// All classes as far as they were computed, the regime from a second start, and the basins of starts from a box.
 #[must_use]
 pub fn computed(analysis: Analysis, hatched: bool) -> Vec<Content<'static>> {
-    Colouring::of(analysis).map(|colouring| Content::classes(colouring, hatched)).collect()
+    let mut contents = Vec::new();
+    for colouring in Colouring::of(analysis) {
+        contents.push(Content::classes(colouring, hatched));
+        if colouring == Colouring::Regime && analysis.starts == Starts::Both {
+            contents.push(Content::LargeRegime);
+        }
+    }
+    contents.extend(matches!(analysis.starts, Starts::Box(_)).then_some(Content::Basin));
+    contents
 }
 
 /// A map as an SVG document with this look.
@@ -62,13 +70,20 @@ pub struct MapFigure<'a> {
     sheet: Sheet<'a>,
     panels: Panels,
     tally: Tally,
+    /// The same of the large start, where there is one.
+    large: Option<(Panels, Tally)>,
 }
 
 impl<'a> MapFigure<'a> {
     /// An empty figure.
     #[must_use]
     pub fn new(sheet: Sheet<'a>) -> MapFigure<'a> {
-        MapFigure { sheet, panels: Panels::new(sheet.grid), tally: Tally::default() }
+        let panels = Panels::new(sheet.grid);
+        let boxed = matches!(sheet.analysis.starts, Starts::Box(_));
+        let panels = if boxed { panels.with_basins() } else { panels };
+        let both = sheet.analysis.starts == Starts::Both;
+        let large = both.then(|| (Panels::new(sheet.grid), Tally::default()));
+        MapFigure { sheet, panels, tally: Tally::default(), large }
     }
 
     /// Takes the records from instance `first` on; every instance has to come once, here or in
@@ -76,11 +91,19 @@ impl<'a> MapFigure<'a> {
     pub fn add(&mut self, first: usize, records: &[Record]) {
         self.panels.add(first, records);
         self.tally.add(records);
+        if let Some((panels, tally)) = &mut self.large {
+            let records: Vec<Record> = records.iter().map(from_large_start).collect();
+            panels.add(first, &records);
+            tally.add(&records);
+        }
     }
 
     /// Takes instances that were not computed.
     pub fn add_missing(&mut self, count: usize) {
         self.tally.add_missing(count);
+        if let Some((_, tally)) = &mut self.large {
+            tally.add_missing(count);
+        }
     }
 
     /// How many instances have which label.
@@ -98,13 +121,23 @@ impl<'a> MapFigure<'a> {
     /// The SVG document with a look.
     #[must_use]
     pub fn look(&self, look: &Look<'_>) -> String {
-        draw(self.sheet, &self.panels, &self.tally, look)
+        draw(self, look)
     }
 }
 
-fn draw(sheet: Sheet, panels: &Panels, tally: &Tally, look: &Look<'_>) -> String {
-    let contents =
+/// The labels of an instance from its large start; the type belongs to the equilibrium, whatever the start.
+fn from_large_start(record: &Record) -> Record {
+    let of_large = record.large().map_or(Record::NOT_COMPUTED, |large| Record::from(Label::from(large)));
+    Record { kind: record.kind, ..of_large }
+}
+
+fn draw(figure: &MapFigure<'_>, look: &Look<'_>) -> String {
+    let MapFigure { sheet, panels, tally, large } = figure;
+    let mut contents =
         if look.contents.is_empty() { computed(sheet.analysis, false) } else { look.contents.clone() };
+    // A map of labels alone, as that of `refine`, has none of a large start.
+    let known = large.as_ref().is_some_and(|(_, tally)| tally.computed() > 0);
+    contents.retain(|content| known || !matches!(content, Content::LargeRegime));
     let one_panel = panels.all.len() <= 1;
     let usual = if one_panel && contents.len() < 2 { SINGLE_COLUMN } else { DOUBLE_COLUMN };
     let width = look.points().unwrap_or(usual);
@@ -120,6 +153,10 @@ fn draw(sheet: Sheet, panels: &Panels, tally: &Tally, look: &Look<'_>) -> String
         let letter = (contents.len() > 1).then(|| LETTERS[number % LETTERS.len()]);
         let blocks = if beside { 1 } else { contents.len() };
         let starts = sheet.analysis.starts;
+        let (panels, tally) = match (content, large) {
+            (Content::LargeRegime, Some((panels, tally))) => (panels, tally),
+            _ => (panels, tally),
+        };
         let block = Block { grid: sheet.grid, tally, panels, content: *content, starts, blocks, letter };
         if beside {
             let x = MARGIN + number as f64 * (across + BLOCK_GAP);
@@ -138,7 +175,7 @@ fn draw(sheet: Sheet, panels: &Panels, tally: &Tally, look: &Look<'_>) -> String
         }
     }
     let name = if sheet.title.is_empty() { "Stability map" } else { sheet.title };
-    let metadata = provenance(sheet, tally) + &look.made_by();
+    let metadata = provenance(*sheet, tally) + &look.made_by();
     svg.finish_enlarged(look.enlarged, [width, y + MARGIN], name, &metadata)
 }
 

@@ -66,7 +66,16 @@ pub enum Content<'a> {
         hatched: bool,
     },
     /// A number by lightness, with a bar.
-    Quantity(&'a NumberColumn),
+    Quantity {
+        /// Its values.
+        column: &'a NumberColumn,
+        /// Values at which lines of equal value are drawn, none where empty.
+        levels: &'a [f64],
+    },
+    /// The regime from the large start of two, by colour.
+    LargeRegime,
+    /// The fraction of the starts of a box that end in a settled oscillation, by lightness, with a bar.
+    Basin,
 }
 
 impl Content<'_> {
@@ -74,6 +83,14 @@ impl Content<'_> {
     #[must_use]
     pub fn classes(colouring: Colouring, hatched: bool) -> Content<'static> {
         Content::Classes { colouring, hatched: hatched && colouring == Colouring::Type }
+    }
+}
+
+impl<'a> Content<'a> {
+    /// A number by lightness, without lines.
+    #[must_use]
+    pub fn quantity(column: &'a NumberColumn) -> Content<'a> {
+        Content::Quantity { column, levels: &[] }
     }
 }
 

@@ -38,6 +38,8 @@ pub(super) struct Panels {
     pub(super) instances: Vec<usize>,
     /// The label of each.
     pub(super) labels: Vec<Label>,
+    /// The fraction of starts that end in an oscillation of each, NaN where it is undefined; empty where a sweep has none.
+    pub(super) basins: Vec<f64>,
     /// The places in `instances` in the order of the grid.
     order: Vec<u32>,
     /// The number of values of the fastest further axis, when there are two or more such axes.
@@ -71,16 +73,27 @@ impl Panels {
         order.sort_unstable_by_key(|place| instances[*place as usize]);
         let labels = vec![Label::NOT_COMPUTED; instances.len()];
         let x = PictureAxis::single();
-        Panels { x, y: None, all, instances, labels, order, columns: None, scatter: None, note: None }
+        let basins = Vec::new();
+        Panels { x, y: None, all, instances, labels, basins, order, columns: None, scatter: None, note: None }
     }
 
-    /// Takes the labels of the records from instance `first` on.
+    /// The same for a sweep with starts from a box, of which the fractions are shown too.
+    pub(super) fn with_basins(self) -> Panels {
+        Panels { basins: vec![f64::NAN; self.instances.len()], ..self }
+    }
+
+    /// Takes the labels, and the fractions, of the records from instance `first` on.
     pub(super) fn add(&mut self, first: usize, records: &[Record]) {
         let from = self.order.partition_point(|place| self.instances[*place as usize] < first);
         for place in &self.order[from..] {
             let place = *place as usize;
             match records.get(self.instances[place] - first) {
-                Some(record) => self.labels[place] = Label::from(record),
+                Some(record) => {
+                    self.labels[place] = Label::from(record);
+                    if let (Some(fraction), Some(basin)) = (self.basins.get_mut(place), record.basin()) {
+                        *fraction = basin.fraction(basin.oscillation).unwrap_or(f64::NAN);
+                    }
+                }
                 None => break,
             }
         }
@@ -199,7 +212,7 @@ impl Thinned {
 }
 
 /// An even selection of at most `most` of `total`, first and last included.
-fn selection(total: usize, most: usize) -> impl Iterator<Item = usize> {
+pub(super) fn selection(total: usize, most: usize) -> impl Iterator<Item = usize> {
     let shown = total.min(most);
     (0..shown).map(move |i| if shown < total { i * (total - 1) / (shown - 1) } else { i })
 }

@@ -128,6 +128,19 @@ impl PictureAxis {
         self.order.len()
     }
 
+    /// The position of the middle of a cell, moved on by a part of the way to the next: on a log axis in the logarithm.
+    pub(super) fn between(&self, place: f64) -> f64 {
+        let last = self.len().saturating_sub(1);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to the cells")]
+        let cell = (place.max(0.0) as usize).min(last);
+        let middle = |cell: usize| match self.values.get(cell) {
+            Some(value) => self.scale.position(*value),
+            None => self.scale.position(cell as f64),
+        };
+        let (from, to) = (middle(cell), middle((cell + 1).min(last)));
+        from + (place - cell as f64) * (to - from)
+    }
+
     /// Whether the axis has names instead of numbers.
     pub(super) fn is_named(&self) -> bool {
         matches!(self.scale, Scale::Names(_))

@@ -102,7 +102,7 @@ impl Scale {
                 let unit = 10_f64.powi(self.exponent());
                 linear_ticks(low / unit, high / unit, most)
                     .into_iter()
-                    .map(|(value, label)| Tick { at: self.position(value * unit), label })
+                    .map(|(value, label)| Tick { at: snapped(self.position(value * unit)), label })
                     .collect()
             }
             Scale::Log { low, high } => self.log_ticks(*low, *high, most),
@@ -217,6 +217,14 @@ fn linear_ticks(low: f64, high: f64, most: usize) -> Vec<(f64, Text)> {
         k += 1.0;
     }
     ticks
+}
+
+/// A position that is beyond an end by rounding only is that end: no frame leaves its tick out.
+fn snapped(at: f64) -> f64 {
+    /// More than rounding, and far less than a printer resolves.
+    const ROUNDING: f64 = 1e-9;
+    let end = at.clamp(0.0, 1.0);
+    if (at - end).abs() < ROUNDING { end } else { at }
 }
 
 /// The decimal exponent of a positive number.

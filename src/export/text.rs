@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use super::svg::{escape, number};
+use super::tex::{escaped, formula};
 
 /// The families of every text: metric-compatible, the last embedded for PNG.
 pub const FONT_FAMILY: &str = "Arial, Helvetica, Liberation Sans, sans-serif";
@@ -101,6 +102,25 @@ impl Text {
             span.text.chars().map(advance).sum::<f64>() * scale
         };
         self.0.iter().map(span_width).sum::<f64>() * size * factor
+    }
+
+    /// The text as LaTeX writes it, symbols and scripts in formulas.
+    pub(super) fn tex(&self) -> String {
+        let mut out = String::new();
+        let mut inside = false;
+        for span in &self.0 {
+            if (span.italic || span.script != Script::Base) != inside {
+                out.push('$');
+                inside = !inside;
+            }
+            let _ = match span.script {
+                Script::Sub => write!(out, r"_{{\mathrm{{{}}}}}", formula(&span.text)),
+                Script::Sup => write!(out, "^{{{}}}", formula(&span.text)),
+                Script::Base if inside => write!(out, "{}", formula(&span.text)),
+                Script::Base => write!(out, "{}", escaped(&span.text)),
+            };
+        }
+        if inside { out + "$" } else { out }
     }
 
     /// The content of an SVG `text` element.

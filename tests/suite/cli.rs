@@ -281,8 +281,9 @@ fn paper_writes_what_is_asked_for() {
     let ended = squealmap(directory.path(), &["paper", "--only", "figure2,figure3", "-o", "a/b"]);
     assert_eq!(ended.code, Some(0), "{}", ended.err);
     let figures = ["figure2", "figure3"];
-    let files =
-        figures.iter().flat_map(|name| ["csv", "png", "svg"].map(|kind| format!("a/b/paper/{name}.{kind}")));
+    let files = figures
+        .iter()
+        .flat_map(|name| ["csv", "json", "png", "svg"].map(|kind| format!("a/b/paper/{name}.{kind}")));
     let expected: Vec<PathBuf> =
         ["a", "a/b", "a/b/paper"].into_iter().map(PathBuf::from).chain(files.map(PathBuf::from)).collect();
     assert_eq!(tree(directory.path()), expected, "no paper.md, which needs all figures");

@@ -12,7 +12,7 @@ use squealmap::classify::{InstabilityType, Regime};
 use squealmap::export::figure::map_svg;
 use squealmap::export::heading::Heading;
 use squealmap::export::look::Look;
-use squealmap::export::paper::Shown;
+use squealmap::export::paper::{Growing, Shown, Slowdown};
 use squealmap::export::sheet::Sheet;
 use squealmap::export::{csv, hysteresis, manifest, modes, refined, trace, tradeoff};
 use squealmap::grid::Grid;
@@ -22,7 +22,7 @@ use squealmap::map::Record;
 use squealmap::model::Param;
 use squealmap::model::contact::ContactState;
 use squealmap::outcome::{Outcome, Status};
-use squealmap::paper::{Figure, PhaseTrial, Settings, Study, Trial, Witness};
+use squealmap::paper::{Figure, PhaseTrial, Settings, Stretch, Study, Trial, Witness};
 use squealmap::refine;
 use squealmap::trace::{Trace, TraceRow};
 use tempfile::TempDir;
@@ -73,7 +73,7 @@ fn a_refined_map() -> Piece {
         axis(Param::BeltVelocity, &[1.0, 4.9]),
     ];
     let mut sweep = spec(Grid::Axes(axes));
-    sweep.title = "Few points".to_owned();
+    "Few points".clone_into(&mut sweep.title);
     let computation = |method: &str| reference::in_f64(reference::NAME, method.to_owned());
     let engine = [computation("closed form"), computation("rk4")];
     let sheet = Sheet::new(&sweep, engine.each_ref().map(Some));
@@ -96,7 +96,7 @@ fn a_refined_map() -> Piece {
 fn a_trace() -> Piece {
     const FREQUENCY: f64 = 20.0;
     let row = |k: u32| {
-        let t = f64::from(k) / 800.0;
+        let t = f64::from(k) / 400.0;
         let (sin, cos) = (FREQUENCY * TAU * t).sin_cos();
         TraceRow {
             t,
@@ -109,7 +109,7 @@ fn a_trace() -> Piece {
         }
     };
     let outcome = Outcome { status: Status::Ok, response_frequency: Some(FREQUENCY), ..Outcome::default() };
-    let found = Trace { rows: (0..800).map(row).collect(), outcome };
+    let found = Trace { rows: (0..300).map(row).collect(), outcome };
     let heading = Heading::new("A sine", "mu_s=0.4, mu_d = 0.3,law=bilinear,belt_velocity=3,k1=2e6");
     let svg = trace::trace_svg(&found, &heading, &Look::default()).unwrap();
     piece(Kind::Trace, svg, [trace::trace_csv(&found).unwrap(), trace::document(&found, &heading).unwrap()])
@@ -186,18 +186,64 @@ fn a_tradeoff() -> Piece {
     piece(Kind::Tradeoff, svg, [table, document.to_string().into_bytes()])
 }
 
-/// A figure of the paper: what is dear is short or made up.
+/// A figure of the paper: what is dear is made up.
 fn of_the_paper(figure: Figure) -> Piece {
     let shown = match figure {
         Figure::Accelerations => Shown::Accelerations(trials()),
         Figure::Phase => Shown::Phase(phases()),
-        cheap => {
-            let study = Study::new(Settings { ramp_duration: Some(0.5), kick: None });
-            Shown::compute(cheap, &study).unwrap()
+        Figure::Figure7 => Shown::Growth(growths()),
+        Figure::Figure2 | Figure::Figure3 => {
+            Shown::compute(figure, &Study::new(Settings::default())).unwrap()
         }
+        Figure::Figure4 => Shown::Ramp(ramp(Some(5.0))),
+        _ => Shown::Ramp(ramp(None)),
     };
     let svg = shown.svg(&Look::default());
     piece(Kind::Paper(figure), svg, [shown.csv().unwrap(), shown.document().unwrap()])
+}
+
+/// A ramp of 10 s on which the vibration grows, sticks and dies down.
+fn ramp(knee: Option<f64>) -> Slowdown {
+    const DURATION: f64 = 10.0;
+    let stretches = |count: u32| {
+        let stretch = |k: u32| {
+            let at = |k: u32| DURATION * f64::from(k) / f64::from(count);
+            let time = [at(k), at(k + 1)];
+            let size = 100.0 * at(k).min(1.2 * (DURATION - at(k)));
+            Stretch {
+                time,
+                velocity: time.map(|t| 7.0 + (0.0 - 7.0) * t / DURATION),
+                tangential: [-size, 1.1 * size],
+                normal: [-0.4 * size - 3.0, 0.5 * size],
+                stick: 0.02 * at(k),
+                free: 0.01 * (DURATION - at(k)),
+            }
+        };
+        (0..count).map(stretch).collect()
+    };
+    Slowdown {
+        heading: "Belt from 7 m/s to rest".to_owned(),
+        knee,
+        duration: DURATION,
+        velocity: [7.0, 0.0],
+        columns: stretches(90),
+        parts: stretches(28),
+    }
+}
+
+/// Two vibrations that grow, one in phase and one in quadrature.
+fn growths() -> Vec<Growing> {
+    let growing = |words: &str, friction: [f64; 2], lag: f64| {
+        let sample = |k: u32| {
+            let t = f64::from(k) / 400.0;
+            let (size, angle) = ((4.0 * t).exp(), TAU * 16.0 * t);
+            [t, size * angle.sin(), 0.2 * size * (angle - lag).sin()]
+        };
+        let phases = [-lag.to_degrees(), -lag.to_degrees() + 0.3];
+        let samples = (0..200).map(sample).collect();
+        Growing { words: words.to_owned(), friction, frequency: 16.0, phases, samples }
+    };
+    vec![growing("negative slope", [0.07, 0.02], 0.2), growing("mode coupling", [0.8, 0.8], 1.0)]
 }
 
 fn trials() -> Vec<Trial> {

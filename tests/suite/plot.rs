@@ -11,8 +11,10 @@ use squealmap::export::look::{Content, Journal, Look};
 use squealmap::export::palette::TYPES;
 use squealmap::export::{csv, manifest, pdf, png};
 use squealmap::grid::{Axis, AxisKey, Grid, Value};
-use squealmap::map::Map;
+use squealmap::map::{Map, Record};
 use squealmap::model::Param;
+use squealmap::spec::Starts;
+use squealmap::starts::{Basin, Others};
 use tempfile::TempDir;
 
 use crate::colour::{DICHROMACIES, delta_e, lab, rgb};
@@ -160,7 +162,7 @@ fn quantities_have_a_bar_and_undefined_cells_are_hatched() {
     let back = Archive::read(directory(&map).path()).unwrap();
     let column = |name: &str| back.columns.iter().find(|column| column.name == name).unwrap();
     assert_eq!((column("growth_rate").unit.as_str(), column("growth_rate").values[65]), ("1/s", Some(1.0)));
-    let contents = vec![Content::Quantity(column("growth_rate")), Content::Quantity(column("phase"))];
+    let contents = vec![Content::quantity(column("growth_rate")), Content::quantity(column("phase"))];
     let svg = look_svg(&back.map, &Look { contents, ..Look::default() }).unwrap();
     let picture = draw(&svg, "plot_quantity");
     assert!(
@@ -258,4 +260,63 @@ fn the_metadata_names_the_command() {
     );
     assert!(png::render(&svg).is_ok());
     assert!(matches!(pdf::render("no picture", "", ""), Err(Error::ReadSvg(_))));
+}
+
+#[test]
+fn the_basins_of_a_box_have_a_block_of_their_own() {
+    const STARTS: u32 = 12;
+    let axes = vec![span(Param::MuS, 0.0, 0.6, 13), span(Param::MuD, 0.0, 0.6, 3)];
+    let mut map = map(Grid::Axes(axes), |k, _| {
+        let oscillation = u32::try_from(k / 3).unwrap();
+        let basin = Basin { equilibrium: STARTS - oscillation, oscillation, other: 0 };
+        let others = (k != 38).then_some(Others::Basin(basin));
+        Record { others, ..record(Kind::Stable, Regime::Slip, true) }
+    });
+    map.spec.analysis.starts = Starts::Box(STARTS);
+    let svg = map_svg(&map).unwrap();
+    let back = Archive::read(directory(&map).path()).unwrap();
+    assert_eq!(map_svg(&back.map).unwrap(), svg, "the same text from the columns of fractions");
+    assert!(svg.contains(">fraction of starts<") && svg.contains("hatched: undefined (1)"));
+    let picture = draw(&svg, "plot_basins");
+    // Type, regime, bistability, and the fractions: each a panel, the last with a bar.
+    let frames = frames(&svg);
+    assert_eq!(frames.len(), 4 + 1);
+    let lightness = |k: usize| {
+        let [r, g, b] = colour(&picture, frames[3], ((k as f64 + 0.5) / 13.0, 0.5));
+        lab(&format!("#{r:02X}{g:02X}{b:02X}"), &DICHROMACIES[0].1)[0]
+    };
+    let along: Vec<f64> = (0..13).map(lightness).collect();
+    assert!(along.windows(2).all(|pair| pair[1] < pair[0] - 2.0), "{along:?}");
+    // The column by itself has the same words beside its bar.
+    let column = back.columns.iter().find(|column| column.name == "basin_oscillation").unwrap();
+    let contents = vec![Content::quantity(column)];
+    let svg = look_svg(&back.map, &Look { contents, ..Look::default() }).unwrap();
+    assert!(svg.contains(">fraction of starts<"));
+}
+
+#[test]
+fn the_regime_from_a_large_start_has_a_block_of_its_own() {
+    let axes = vec![span(Param::MuS, 0.0, 0.6, 6), span(Param::MuD, 0.0, 0.6, 6)];
+    let mut map = map(Grid::Axes(axes), |k, _| {
+        let large = record(Kind::Stable, Regime::ALL[k % 7], k % 3 > 0);
+        let others = Some(Others::Large(Box::new(Record { kind: None, linear: None, ..large })));
+        Record { others, ..record(Kind::Stable, Regime::Slip, true) }
+    });
+    map.spec.analysis.starts = Starts::Both;
+    let svg = map_svg(&map).unwrap();
+    let back = Archive::read(directory(&map).path()).unwrap();
+    assert_eq!(map_svg(&back.map).unwrap(), svg, "the same text from the columns of the large start");
+    assert!(svg.contains("large start (time integration)"));
+    assert_eq!(frames(&svg).len(), 4, "type, both regimes, bistability");
+    // Every regime occurs from the large start alone: once as an area, and in the legend with its number.
+    let slip = svg.matches("class=\"slip\"").count();
+    assert_eq!(slip, 2, "one area from each start");
+    for regime in Regime::ALL.into_iter().filter(|regime| *regime != Regime::Slip) {
+        assert_eq!(svg.matches(&format!("class=\"{}\"", regime.name())).count(), 1, "{}", regime.name());
+    }
+    // Without large starts in the records, as in a refined map, there is no such block.
+    for record in &mut map.records {
+        record.others = None;
+    }
+    assert_eq!(frames(&map_svg(&map).unwrap()).len(), 3);
 }

@@ -46,15 +46,15 @@ pub(crate) const COLUMNS: [&str; 4] = ["figure", "t", "ax2", "ay1"];
 #[derive(Clone, Debug)]
 pub struct Growing {
     /// The mechanism in words.
-    pub(crate) words: String,
+    pub words: String,
     /// `μ_s` and `μ_d`.
-    pub(crate) friction: [f64; 2],
+    pub friction: [f64; 2],
     /// Frequency of its mode, Hz.
-    pub(crate) frequency: f64,
+    pub frequency: f64,
     /// Phase of `ÿ1` against `ẍ2` from the eigenvector and from the signals, degrees.
-    pub(crate) phases: [f64; 2],
+    pub phases: [f64; 2],
     /// Time (s), `ẍ2` and `ÿ1` (m/s²) up to the first event.
-    pub(crate) samples: Vec<[f64; 3]>,
+    pub samples: Vec<[f64; 3]>,
 }
 
 impl From<Growth> for Growing {

@@ -31,7 +31,7 @@ pub(super) const HEADING: &str = "Friction laws of the three ramps";
 #[derive(Clone, Debug)]
 pub struct Laws {
     /// Relative velocity, m/s, and the friction coefficient of each case there.
-    pub(crate) rows: Vec<[f64; 4]>,
+    pub rows: Vec<[f64; 4]>,
 }
 
 impl Laws {

@@ -42,17 +42,17 @@ pub(crate) const COLUMNS: [&str; 8] =
 #[derive(Clone, Debug)]
 pub struct Slowdown {
     /// What stands above it.
-    pub(crate) heading: String,
+    pub heading: String,
     /// The belt velocity from which on friction is constant, m/s; `None` where it is constant everywhere.
-    pub(crate) knee: Option<f64>,
+    pub knee: Option<f64>,
     /// Its duration, s.
-    pub(crate) duration: f64,
+    pub duration: f64,
     /// The belt velocity at its begin and end, m/s.
-    pub(crate) velocity: [f64; 2],
+    pub velocity: [f64; 2],
     /// The ramp in stretches of a period each.
-    pub(crate) columns: Vec<Stretch>,
+    pub columns: Vec<Stretch>,
     /// The ramp in wider stretches, of which the shares are shown.
-    pub(crate) parts: Vec<Stretch>,
+    pub parts: Vec<Stretch>,
 }
 
 impl Slowdown {

@@ -1,0 +1,208 @@
+//! What `squealmap plot` can show of a map: classes, quantities with lines of equal value, and cuts.
+
+use clap::Args;
+use squealmap::archive::{Archive, NumberColumn};
+use squealmap::export::boundary_lines::boundary_lines;
+use squealmap::export::cut::{Cut, cut_csv, cut_svg};
+use squealmap::export::figure;
+use squealmap::export::isolines::{isoline_table, round_levels};
+use squealmap::export::look::{Content, Look};
+use squealmap::export::palette::Colouring;
+use squealmap::export::tikz::map_tikz;
+use squealmap::{Error, Result};
+
+use crate::cli::identify::finite;
+
+/// The lines between classes.
+const BOUNDARIES: &str = "boundaries.csv";
+/// The lines of equal value.
+const ISOLINES: &str = "isolines.csv";
+/// The source for LaTeX.
+const TIKZ: &str = "plot.tex";
+/// The curves of a cut.
+const CUT: &str = "cut.csv";
+
+/// Short names of quantities and their columns.
+const ALIASES: [(&str, &str); 4] = [
+    ("growth", "growth_rate"),
+    ("amplitude", "x2_std"),
+    ("stick_fraction", "stick"),
+    ("cycle_frequency", "response_frequency"),
+];
+
+/// What a cut shows where nothing is asked for, as far as it was computed.
+const OF_A_CUT: [&str; 2] = ["growth_rate", "x2_std"];
+
+/// Names and bytes of the tables beside a figure.
+pub(crate) type Tables = Vec<(&'static str, Vec<u8>)>;
+
+/// Options of maps.
+#[derive(Debug, Args)]
+pub(crate) struct OfMaps {
+    /// Of a map, what to show, separated by commas, one block each: type, regime, growth, amplitude, frequency, phase,
+    /// `stick_fraction` or any column of numbers in map.csv [default: type and regime, as far as computed]
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
+    quantity: Vec<String>,
+    /// Of a map, types by hatching too, not by colour alone
+    #[arg(long)]
+    hatch: bool,
+    /// Of a map, lines at these values of its quantities, separated by commas; isolines.csv has them too
+    #[arg(long, value_name = "VALUE,...", value_delimiter = ',', allow_negative_numbers = true, value_parser = finite)]
+    isolines: Vec<f64>,
+    /// Of a map, lines at about so many round values of each quantity, 1 to 30
+    #[arg(long, value_name = "N", conflicts_with = "isolines", value_parser = clap::value_parser!(u8).range(1..=30))]
+    levels: Option<u8>,
+    /// Of a map, curves instead, where axes have these values: along the longest of the others, one for each value of the
+    /// shortest, a panel for each of what is left; cut.csv has them too
+    #[arg(long, value_name = "NAME=VALUE,...", conflicts_with_all = ["hatch", "isolines", "levels", "tikz"])]
+    cut: Option<String>,
+    /// Of a map, its classes as plot.tex too, a source for LaTeX with pgfplots
+    #[arg(long)]
+    tikz: bool,
+}
+
+impl OfMaps {
+    /// The first of these options that is there.
+    pub(crate) fn given(&self) -> Option<&'static str> {
+        let all = [
+            ("--quantity", !self.quantity.is_empty()),
+            ("--hatch", self.hatch),
+            ("--isolines", !self.isolines.is_empty()),
+            ("--levels", self.levels.is_some()),
+            ("--cut", self.cut.is_some()),
+            ("--tikz", self.tikz),
+        ];
+        all.into_iter().find(|(_, given)| *given).map(|(option, _)| option)
+    }
+
+    /// These options, for the command that makes the same again.
+    pub(crate) fn command(&self) -> String {
+        let mut command = String::new();
+        let mut add = |option: &str, value: &str| command.extend([" ", option, " ", value]);
+        if !self.quantity.is_empty() {
+            add("--quantity", &self.quantity.join(","));
+        }
+        if !self.isolines.is_empty() {
+            add("--isolines", &self.isolines.iter().map(f64::to_string).collect::<Vec<_>>().join(","));
+        }
+        if let Some(levels) = self.levels {
+            add("--levels", &levels.to_string());
+        }
+        if let Some(cut) = &self.cut {
+            add("--cut", cut);
+        }
+        for (option, given) in [(" --hatch", self.hatch), (" --tikz", self.tikz)] {
+            command += if given { option } else { "" };
+        }
+        command
+    }
+
+    /// The tables beside the figure.
+    pub(crate) fn tables(&self) -> Vec<&'static str> {
+        if self.cut.is_some() {
+            return vec![CUT];
+        }
+        let more = [(ISOLINES, self.lines().is_some()), (TIKZ, self.tikz)];
+        let more = more.into_iter().filter(|(_, given)| *given).map(|(name, _)| name);
+        std::iter::once(BOUNDARIES).chain(more).collect()
+    }
+
+    /// The option that asks for lines of equal value.
+    fn lines(&self) -> Option<&'static str> {
+        match (self.isolines.is_empty(), self.levels) {
+            (false, _) => Some("--isolines"),
+            (true, Some(_)) => Some("--levels"),
+            (true, None) => None,
+        }
+    }
+
+    /// The figure and the tables.
+    pub(crate) fn draw(&self, archive: &Archive, look: Look<'_>) -> Result<(String, Tables)> {
+        if let Some(cut) = &self.cut {
+            return self.draw_cut(archive, cut, &look);
+        }
+        let mut contents = Vec::new();
+        for name in &self.quantity {
+            contents.push(content(archive, name, self.hatch)?);
+        }
+        if contents.is_empty() {
+            contents = figure::computed(archive.map.spec.analysis, self.hatch);
+        }
+        let mut tables = vec![(BOUNDARIES, boundary_lines(&archive.map)?)];
+        let levels = self.levels_of(&contents)?;
+        let mut quantities = Vec::new();
+        for (content, of) in contents.iter_mut().zip(&levels) {
+            if let Content::Quantity { column, levels } = content {
+                *levels = of;
+                quantities.push((*column, *levels));
+            }
+        }
+        if self.lines().is_some() {
+            tables.push((ISOLINES, isoline_table(&archive.map, &quantities)?));
+        }
+        let look = Look { contents, ..look };
+        if self.tikz {
+            tables.push((TIKZ, map_tikz(&archive.map, &look)?.into_bytes()));
+        }
+        Ok((figure::look_svg(&archive.map, &look)?, tables))
+    }
+
+    /// The values at which each content has lines.
+    fn levels_of(&self, contents: &[Content<'_>]) -> Result<Vec<Vec<f64>>> {
+        let Some(option) = self.lines() else { return Ok(vec![Vec::new(); contents.len()]) };
+        let of = |content: &Content<'_>| match (content, self.levels) {
+            (Content::Quantity { column, .. }, Some(most)) => Ok(round_levels(column, usize::from(most))),
+            (Content::Quantity { .. }, None) => Ok(self.isolines.clone()),
+            // What is shown without being named.
+            (Content::Basin | Content::LargeRegime, _) => Ok(Vec::new()),
+            (Content::Classes { colouring, .. }, _) => {
+                Err(Error::NoIsolines { option, name: colouring.name().to_owned() })
+            }
+        };
+        contents.iter().map(of).collect()
+    }
+
+    fn draw_cut(&self, archive: &Archive, at: &str, look: &Look<'_>) -> Result<(String, Tables)> {
+        let spec = &archive.map.spec;
+        let cut = Cut::new(&spec.grid, at)?;
+        let mut quantities: Vec<&NumberColumn> = Vec::new();
+        for name in &self.quantity {
+            quantities.push(column(archive, name).ok_or_else(|| unknown(archive, name, false))?);
+        }
+        if quantities.is_empty() {
+            quantities = OF_A_CUT.iter().filter_map(|name| column(archive, name)).collect();
+        }
+        if quantities.is_empty() {
+            return Err(unknown(archive, OF_A_CUT[0], false));
+        }
+        let table = cut_csv(&spec.grid, &cut, &quantities)?;
+        Ok((cut_svg(&cut, &quantities, &spec.title, look), vec![(CUT, table)]))
+    }
+}
+
+/// What a name asks for.
+fn content<'a>(archive: &'a Archive, name: &str, hatched: bool) -> Result<Content<'a>> {
+    let asked = archive.map.spec.analysis;
+    if let Some(colouring) = Colouring::of(asked).find(|colouring| colouring.name() == name) {
+        return Ok(Content::classes(colouring, hatched));
+    }
+    column(archive, name).map(Content::quantity).ok_or_else(|| unknown(archive, name, true))
+}
+
+/// The column of a quantity.
+fn column<'a>(archive: &'a Archive, name: &str) -> Option<&'a NumberColumn> {
+    let name = ALIASES.iter().find(|(alias, _)| *alias == name).map_or(name, |(_, column)| column);
+    archive.columns.iter().find(|one| one.name == name)
+}
+
+/// The error of a name that is none, with everything that can be shown.
+fn unknown(archive: &Archive, name: &str, classes: bool) -> Error {
+    let shown = Colouring::of(archive.map.spec.analysis).filter(|_| classes);
+    let mut names: Vec<&str> = shown.map(|colouring| -> &str { colouring.name() }).collect();
+    for column in &archive.columns {
+        if !names.contains(&column.name.as_str()) {
+            names.push(&column.name);
+        }
+    }
+    Error::NoSuchQuantity { name: name.to_owned(), names: names.join(", ") }
+}

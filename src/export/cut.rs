@@ -1,0 +1,190 @@
+//! A cut through a map: quantities along one axis, a curve for each value of another; the figure is in `cut_figure.rs`.
+
+use super::columns::Cell;
+use super::csv::Table;
+use crate::archive::NumberColumn;
+use crate::error::{Error, Result};
+use crate::grid::{Axis, AxisKey, Grid, Value};
+
+pub use super::cut_figure::cut_svg;
+
+/// Two values are the same where they differ by no more than this part of them: rounding of a step times an index.
+const SAME: f64 = 1e-9;
+
+/// One curve: the instances along the axis, in rising order of its values.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Curve {
+    /// The value of the further axis that this curve is for; `None` where there is one curve.
+    pub of: Option<(AxisKey, Value)>,
+    /// The values of the axis, rising.
+    pub x: Vec<f64>,
+    /// The instance at each.
+    pub instances: Vec<usize>,
+}
+
+/// The curves that share a panel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CutPanel {
+    /// The values of the axes beyond.
+    pub of: Vec<(AxisKey, Value)>,
+    /// One curve for each value of the further axis.
+    pub curves: Vec<Curve>,
+}
+
+/// A cut.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cut {
+    /// The axis along which the curves run.
+    pub axis: Axis,
+    /// The values that are held.
+    pub held: Vec<(AxisKey, Value)>,
+    /// The panels; one where no axis is left for more.
+    pub panels: Vec<CutPanel>,
+}
+
+impl Cut {
+    /// Cuts a grid of axes where some of them have these values, such as `mu_d=0.3,belt_velocity=3`. Of the other axes
+    /// the numeric one of most values is that of the curves, the shortest of the rest has a curve for each of its values,
+    /// and what is beyond has panels.
+    ///
+    /// # Errors
+    /// When the grid has no such axis or value, or no axis of numbers is left.
+    pub fn new(grid: &Grid, at: &str) -> Result<Cut> {
+        let refused = |why: String| Error::Cut { cut: at.to_owned(), why };
+        let Grid::Axes(axes) = grid else {
+            return Err(refused("a map of single points has no axes to cut".to_owned()));
+        };
+        let mut fixed: Vec<Option<usize>> =
+            axes.iter().map(|axis| (axis.values.len() == 1).then_some(0)).collect();
+        for one in at.split(',') {
+            let (place, index) = find(axes, one.trim()).map_err(refused)?;
+            fixed[place] = Some(index);
+        }
+        let mut free: Vec<usize> = (0..axes.len()).filter(|i| fixed[*i].is_none()).collect();
+        free.sort_by_key(|i| axes[*i].values.len());
+        let numeric = |i: &usize| matches!(axes[*i].key, AxisKey::Param(_));
+        let along = free.iter().copied().rfind(numeric);
+        let along = along.ok_or_else(|| refused("no axis of numbers is left for the curves".to_owned()))?;
+        let mut others = free.into_iter().filter(|i| *i != along);
+        let (curves, beyond) = (others.next(), others.collect::<Vec<usize>>());
+        let held = (0..axes.len()).filter_map(|i| Some(setting(axes, i, fixed[i]?))).collect();
+        let base: Vec<usize> = fixed.iter().map(|index| index.unwrap_or(0)).collect();
+        let panels = combinations(axes, &beyond, &base)
+            .into_iter()
+            .map(|of_panel| CutPanel {
+                of: beyond.iter().map(|i| setting(axes, *i, of_panel[*i])).collect(),
+                curves: combinations(axes, curves.as_slice(), &of_panel)
+                    .into_iter()
+                    .map(|of_curve| {
+                        let of = curves.map(|i| setting(axes, i, of_curve[i]));
+                        curve(axes, along, of, &of_curve)
+                    })
+                    .collect(),
+            })
+            .collect();
+        Ok(Cut { axis: axes[along].clone(), held, panels })
+    }
+}
+
+/// The axis and the index of a value, both as written: `mu_d=0.3`.
+fn find(axes: &[Axis], text: &str) -> std::result::Result<(usize, usize), String> {
+    let (name, asked) = text.split_once('=').ok_or("write name=value, such as mu_d=0.3")?;
+    let (name, asked) = (name.trim(), asked.trim());
+    let names = || axes.iter().map(|axis| axis.key.name()).collect::<Vec<_>>().join(", ");
+    let place = axes.iter().position(|axis| axis.key.name() == name);
+    let place = place.ok_or_else(|| format!("the map has no axis `{name}`; it has {}", names()))?;
+    let is = |value: &Value| match (value, asked.parse::<f64>()) {
+        (Value::Number(x), Ok(y)) => (x - y).abs() <= SAME * x.abs().max(y.abs()),
+        (Value::Text(text), _) => text == asked,
+        _ => false,
+    };
+    let index = axes[place].values.iter().position(is);
+    let index = index.ok_or_else(|| {
+        format!("`{name}` has no value {asked}; take one of its own, {}", nearest(&axes[place], asked))
+    })?;
+    Ok((place, index))
+}
+
+/// The values of an axis next to one that it does not have, or all of its names.
+fn nearest(axis: &Axis, asked: &str) -> String {
+    /// That many are enough to see the spacing.
+    const SHOWN: usize = 2;
+    let mut values = axis.values.clone();
+    if let Ok(asked) = asked.parse::<f64>() {
+        let apart = |value: &Value| match value {
+            Value::Number(x) => (x - asked).abs(),
+            Value::Text(_) => f64::INFINITY,
+        };
+        values.sort_by(|a, b| apart(a).total_cmp(&apart(b)));
+        values.truncate(SHOWN);
+    }
+    // Without the rounding of a step times an index.
+    let shown = |value: &Value| match value {
+        Value::Number(x) => format!("{x:.11e}").parse().unwrap_or(*x).to_string(),
+        Value::Text(text) => text.clone(),
+    };
+    values.iter().map(shown).collect::<Vec<_>>().join(" or ")
+}
+
+fn setting(axes: &[Axis], place: usize, index: usize) -> (AxisKey, Value) {
+    (axes[place].key, axes[place].values[index].clone())
+}
+
+/// The indices of every combination of the values of some axes, the others as in `base`; the last axis varies fastest.
+fn combinations(axes: &[Axis], of: &[usize], base: &[usize]) -> Vec<Vec<usize>> {
+    of.iter().fold(vec![base.to_vec()], |all, place| {
+        let each = |at: Vec<usize>| {
+            (0..axes[*place].values.len()).map(move |index| {
+                let mut at = at.clone();
+                at[*place] = index;
+                at
+            })
+        };
+        all.into_iter().flat_map(each).collect()
+    })
+}
+
+/// The instances along an axis, the other indices as in `at`.
+fn curve(axes: &[Axis], along: usize, of: Option<(AxisKey, Value)>, at: &[usize]) -> Curve {
+    let mut points: Vec<(f64, usize)> = axes[along]
+        .values
+        .iter()
+        .enumerate()
+        .map(|(index, value)| {
+            let number = if let Value::Number(x) = value { *x } else { f64::NAN };
+            let index_of = |i: usize| if i == along { index } else { at[i] };
+            // The first axis varies slowest.
+            let instance =
+                (0..axes.len()).fold(0, |instance, i| instance * axes[i].values.len() + index_of(i));
+            (number, instance)
+        })
+        .collect();
+    points.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let (x, instances) = points.into_iter().unzip();
+    Curve { of, x, instances }
+}
+
+/// The cut as a table: the numbers of panel and curve (from 1), every swept value, and the quantities; a row per instance.
+///
+/// # Errors
+/// When the table cannot be written.
+pub fn cut_csv(grid: &Grid, cut: &Cut, quantities: &[&NumberColumn]) -> Result<Vec<u8>> {
+    let swept = grid.keys().into_iter().map(|key| -> &str { key.name() });
+    let names = quantities.iter().map(|column| column.name.as_str());
+    let header: Vec<&str> = ["panel", "curve"].into_iter().chain(swept).chain(names).collect();
+    let mut table = Table::new(header.into_iter())?;
+    for (panel, of_panel) in cut.panels.iter().enumerate() {
+        for (curve, of_curve) in of_panel.curves.iter().enumerate() {
+            for instance in &of_curve.instances {
+                let numbers = [panel + 1, curve + 1].map(|number| number.to_string());
+                let swept =
+                    grid.coordinates(*instance).into_iter().map(|value| Cell::from(value).to_string());
+                let of = |column: &&NumberColumn| {
+                    Cell::from(column.values.get(*instance).copied().flatten()).to_string()
+                };
+                table.row(numbers.into_iter().chain(swept).chain(quantities.iter().map(of)))?;
+            }
+        }
+    }
+    table.finish()
+}

@@ -1,0 +1,141 @@
+//! The figure of a cut: a row of panels for each quantity, a curve for each value of the further axis.
+
+use super::cut::{Cut, CutPanel};
+use super::figure::{DOUBLE_COLUMN, MARGIN, SINGLE_COLUMN};
+use super::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room};
+use super::heading::Heading;
+use super::key::{self, Sample};
+use super::look::Look;
+use super::panels::{selection, setting};
+use super::picture_axis::{Direction, PictureAxis};
+use super::plot::{FIRST, Plot, SECOND, THIRD};
+use super::scale::{Scale, Tick, axis_unit};
+use super::svg::{Anchor, Style, Svg};
+use super::text::Text;
+use crate::archive::NumberColumn;
+
+/// Height of a panel, points.
+const HEIGHT: f64 = 110.0;
+/// Between panels, points.
+const GAP: f64 = 9.0;
+/// Right of the panels, points.
+const RIGHT: f64 = 8.0;
+/// Margin above and below curves, as a fraction of the panel.
+const HEADROOM: f64 = 0.08;
+/// Height of a line of a panel's title, points.
+const LINE: f64 = 10.0;
+/// Side by side no more panels than this; the table holds all.
+const MOST_PANELS: usize = 4;
+/// Panels are no narrower than this, points.
+const NARROWEST: f64 = 90.0;
+/// Curves that differ in colour, in lightness and in their dashes; of more values an even selection is shown.
+const STROKES: [&str; 6] = [
+    FIRST,
+    SECOND,
+    THIRD,
+    r##"fill="none" stroke="#000000" stroke-width="0.8" stroke-dasharray="6 1.4 1 1.4" stroke-linejoin="round""##,
+    r##"fill="none" stroke="#B0669A" stroke-width="1.3" stroke-linejoin="round""##,
+    r##"fill="none" stroke="#56B4E9" stroke-width="0.9" stroke-dasharray="7 2.4" stroke-linejoin="round""##,
+];
+
+/// The figure of a cut as an SVG document: single column width for one panel, double for several, unless the look says
+/// otherwise.
+#[must_use]
+pub fn cut_svg(cut: &Cut, quantities: &[&NumberColumn], title: &str, look: &Look<'_>) -> String {
+    let usual = if cut.panels.len() > 1 { DOUBLE_COLUMN } else { SINGLE_COLUMN };
+    let page = look.points().unwrap_or(usual);
+    let inner = page - 2.0 * MARGIN;
+    let heading = Heading { title: title.to_owned(), settings: cut.held.clone() };
+    let mut svg = Svg::new();
+    let mut y = MARGIN + heading.draw(&mut svg, inner);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive count")]
+    let fit = (inner / NARROWEST).max(1.0) as usize;
+    let panels: Vec<&CutPanel> =
+        selection(cut.panels.len(), MOST_PANELS.min(fit)).map(|k| &cut.panels[k]).collect();
+    let curves: Vec<usize> = selection(cut.panels[0].curves.len(), STROKES.len()).collect();
+    let scales: Vec<Scale> = quantities.iter().map(|column| scale(column, &panels, &curves)).collect();
+    let ticks: Vec<Vec<Tick>> = scales.iter().map(|scale| scale.ticks(5)).collect();
+    let left = MARGIN + LABEL_SIZE + 6.0 + ticks.iter().map(|ticks| y_tick_room(ticks)).fold(0.0, f64::max);
+    let across = page - left - RIGHT;
+    let columns = panels.len() as f64;
+    let width = (across - (columns - 1.0) * GAP) / columns;
+    y += legend(&mut svg, panels[0], &curves, [left, y], across);
+    let lines = panels.iter().map(|panel| panel.of.len()).max().unwrap_or(0) as f64;
+    y += lines * LINE + 2.0;
+    let x = along(cut);
+    let axis = PictureAxis::cells(&cut.axis).edge_to_edge(&x);
+    let x_ticks = axis.ticks(width, Direction::Horizontal, TICK_SIZE);
+    for (number, panel) in panels.iter().enumerate() {
+        let from = left + number as f64 * (width + GAP);
+        for (line, (key, value)) in panel.of.iter().rev().enumerate() {
+            let base = y - 3.5 - line as f64 * LINE;
+            let middle = Style::new(LABEL_SIZE, Anchor::Middle);
+            svg.text(from + 0.5 * width, base, &setting(*key, value), middle);
+        }
+        for (row, column) in quantities.iter().enumerate() {
+            let frame = Frame { x: from, y: y + row as f64 * (HEIGHT + GAP), width, height: HEIGHT };
+            let plot = Plot { frame, x: &x, y: &scales[row] };
+            for (curve, stroke) in curves.iter().zip(STROKES) {
+                let curve = &panel.curves[*curve];
+                let of = |instance: &usize| value(column, *instance).unwrap_or(f64::NAN);
+                let points = curve.x.iter().copied().zip(curve.instances.iter().map(of));
+                plot.curve(&mut svg, points, stroke);
+            }
+            frame.border(&mut svg);
+            frame.x_ticks(&mut svg, &x_ticks, row + 1 == quantities.len());
+            frame.y_ticks(&mut svg, &ticks[row], number == 0);
+        }
+    }
+    for (row, column) in quantities.iter().enumerate() {
+        let label = label(column, scales[row].exponent());
+        let middle = y + row as f64 * (HEIGHT + GAP) + 0.5 * HEIGHT;
+        svg.text(MARGIN + LABEL_SIZE, middle, &label, Style::new(LABEL_SIZE, Anchor::Middle).upwards());
+    }
+    y += quantities.len() as f64 * (HEIGHT + GAP) - GAP + x_tick_room() + LABEL_SIZE + 1.0;
+    let middle = Style::new(LABEL_SIZE, Anchor::Middle);
+    svg.text(left + 0.5 * across, y, &axis.label(across, LABEL_SIZE), middle);
+    let shown =
+        [(panels.len(), cut.panels.len(), "panels"), (curves.len(), cut.panels[0].curves.len(), "curves")];
+    for (some, all, what) in shown.into_iter().filter(|(some, all, _)| some < all) {
+        y += LABEL_SIZE + 4.0;
+        let note = Text::from(format!("{some} of {all} {what} shown; the table holds all."));
+        svg.text(MARGIN, y, &note, Style::new(TICK_SIZE, Anchor::Start));
+    }
+    look.finish(svg, [page, y + MARGIN + 2.0], if title.is_empty() { "Cut" } else { title })
+}
+
+fn value(column: &NumberColumn, instance: usize) -> Option<f64> {
+    column.values.get(instance).copied().flatten()
+}
+
+/// The scale of a quantity over all that is shown.
+fn scale(column: &NumberColumn, panels: &[&CutPanel], curves: &[usize]) -> Scale {
+    let shown = panels.iter().flat_map(|panel| curves.iter().map(|curve| &panel.curves[*curve]));
+    let values =
+        shown.flat_map(|curve| curve.instances.iter().filter_map(|instance| value(column, *instance)));
+    Scale::spanning(values).widened(HEADROOM)
+}
+
+/// The axis of the curves, from its first value to its last.
+fn along(cut: &Cut) -> Scale {
+    let x = &cut.panels[0].curves[0].x;
+    match Scale::spanning(x.iter().copied()) {
+        Scale::Linear { low, high } if cut.axis.log && low > 0.0 => Scale::Log { low, high },
+        linear => linear,
+    }
+}
+
+/// `growth rate (10³ 1/s)`.
+fn label(column: &NumberColumn, exponent: i32) -> Text {
+    let words = Text::from(column.name.replace('_', " "));
+    let unit = column.unit.replace("deg", "°");
+    if unit.is_empty() && exponent == 0 { words } else { words.then(axis_unit(&unit, exponent)) }
+}
+
+/// Which curve is which; returns the height it takes.
+fn legend(svg: &mut Svg, panel: &CutPanel, curves: &[usize], from: [f64; 2], width: f64) -> f64 {
+    let words = curves.iter().filter_map(|curve| panel.curves[*curve].of.as_ref());
+    let entries: Vec<(Text, Sample<'_>)> =
+        words.map(|(key, value)| setting(*key, value)).zip(STROKES.map(Sample::Line)).collect();
+    key::rows(svg, from, width, LABEL_SIZE, &entries) + 3.0
+}

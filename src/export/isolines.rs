@@ -1,0 +1,135 @@
+//! Lines of equal value on the panels of a quantity, with their values on them, and the same lines as a table.
+
+use super::cells::shape;
+use super::columns::Cell;
+use super::csv::Table;
+use super::frame::{Frame, TICK_SIZE};
+use super::marching::{Place, isolines};
+use super::panels::{Panel, Panels};
+use super::scale::value_label;
+use super::svg::{Anchor, Style, Svg, polyline};
+use super::text::Text;
+use crate::archive::NumberColumn;
+use crate::error::Result;
+use crate::map::Map;
+
+/// The light casing of a line and the line itself: seen on light and on dark.
+const STROKES: [&str; 2] = [
+    r##"fill="none" stroke="#FFFFFF" stroke-width="1.5" stroke-linejoin="round""##,
+    r##"class="isoline" fill="none" stroke="#000000" stroke-width="0.6" stroke-linejoin="round""##,
+];
+/// Behind a label.
+const PLATE: &str = r##"fill="#FFFFFF" fill-opacity="0.8""##;
+/// Between a label and what is around it, points.
+const ROOM: f64 = 1.5;
+
+/// A box on the page: left, upper, right and lower end, points.
+type Area = [f64; 4];
+
+/// Draws the lines of a panel of cells; a panel of points has none.
+pub(super) fn draw(
+    svg: &mut Svg,
+    panels: &Panels,
+    panel: &Panel,
+    (column, levels): (&NumberColumn, &[f64]),
+    frame: &Frame,
+) {
+    let at = |[x, y]: [f64; 2]| (frame.across(x), frame.up(y));
+    let lines: Vec<(f64, Vec<(f64, f64)>)> = lines(panels, panel, column, levels)
+        .into_iter()
+        .map(|(level, line)| (level, line.into_iter().map(at).collect()))
+        .collect();
+    for stroke in STROKES {
+        let data = lines.iter().map(|(_, line)| polyline(line.iter().copied()));
+        svg.path(&data.collect::<String>(), stroke);
+    }
+    let mut taken: Vec<Area> = Vec::new();
+    for (level, line) in &lines {
+        let label = value_label(*level);
+        if let Some(area) = place(line, &label, frame, &taken) {
+            let [left, top, right, bottom] = area;
+            svg.rect([left, top, right - left, bottom - top], PLATE);
+            let base = bottom - ROOM;
+            svg.text(0.5 * (left + right), base, &label, Style::new(TICK_SIZE, Anchor::Middle));
+            taken.push(area);
+        }
+    }
+}
+
+/// Where the label of a line goes: as near its middle as the frame and other labels let it; nowhere on a short line.
+fn place(line: &[(f64, f64)], label: &Text, frame: &Frame, taken: &[Area]) -> Option<Area> {
+    let half = [0.5 * label.width(TICK_SIZE, false) + ROOM, 0.36 * TICK_SIZE + ROOM];
+    let length: f64 = line.windows(2).map(|pair| (pair[1].0 - pair[0].0).hypot(pair[1].1 - pair[0].1)).sum();
+    if length < 4.0 * half[0] {
+        return None;
+    }
+    let middle = line.len() / 2;
+    let mut order: Vec<usize> = (0..line.len()).collect();
+    order.sort_by_key(|k| k.abs_diff(middle));
+    order.into_iter().find_map(|k| {
+        let (x, y) = line[k];
+        let area = [x - half[0], y - half[1], x + half[0], y + half[1]];
+        let [left, top, right, bottom] = area;
+        let inside =
+            left > frame.x && right < frame.x + frame.width && top > frame.y && bottom < frame.bottom();
+        let free = |other: &Area| right < other[0] || left > other[2] || bottom < other[1] || top > other[3];
+        (inside && taken.iter().all(free)).then_some(area)
+    })
+}
+
+/// The lines of a panel with their levels, as positions from 0 to 1 across and up.
+fn lines(panels: &Panels, panel: &Panel, column: &NumberColumn, levels: &[f64]) -> Vec<(f64, Vec<Place>)> {
+    let (Some(y), None, Some([columns, rows])) = (&panels.y, panels.scatter, shape(panels, panel)) else {
+        return Vec::new();
+    };
+    let value = |i: usize, j: usize| {
+        let instance = panels.instances[panel.cells.start + j * columns + i];
+        column.values.get(instance).copied().flatten()
+    };
+    let position = |[i, j]: Place| [panels.x.between(i), y.between(j)];
+    let of = |level: f64| {
+        let found = isolines([columns, rows], level, value);
+        found.into_iter().map(move |line| (level, line.into_iter().map(position).collect()))
+    };
+    levels.iter().flat_map(|level| of(*level).collect::<Vec<_>>()).collect()
+}
+
+/// The lines as a table: the number of the panel (from 1, in the order of the figure), the quantity, its value, and both
+/// coordinates. A row of `NaN` ends each line.
+///
+/// # Errors
+/// When the table cannot be written.
+pub fn isoline_table(map: &Map, quantities: &[(&NumberColumn, &[f64])]) -> Result<Vec<u8>> {
+    let panels = Panels::new(&map.spec.grid);
+    let mut table = Table::new(["panel", "quantity", "value", "x", "y"].into_iter())?;
+    for (column, levels) in quantities {
+        for (number, panel) in panels.all.iter().enumerate() {
+            for (level, line) in lines(&panels, panel, column, levels) {
+                let mut row = |x: String, y: String| {
+                    let level = Cell::from(level).to_string();
+                    table.row([(number + 1).to_string(), column.name.clone(), level, x, y].into_iter())
+                };
+                for [x, y] in line {
+                    let up = panels.y.as_ref().map_or(f64::NAN, |axis| axis.scale.value(y));
+                    row(Cell::from(panels.x.scale.value(x)).to_string(), Cell::from(up).to_string())?;
+                }
+                row("NaN".to_owned(), "NaN".to_owned())?;
+            }
+        }
+    }
+    table.finish()
+}
+
+/// About so many round values between the lowest and the highest of a quantity.
+#[must_use]
+pub fn round_levels(column: &NumberColumn, most: usize) -> Vec<f64> {
+    /// Digits of a round value: what is beyond is rounding.
+    const DIGITS: usize = 9;
+    let scale = super::quantity::scale(column);
+    let value = |at: f64| {
+        let value = scale.value(at);
+        format!("{value:.DIGITS$e}").parse().unwrap_or(value)
+    };
+    let inside = |at: &f64| (0.0..=1.0).contains(at);
+    scale.ticks(most).into_iter().map(|tick| tick.at).filter(inside).map(value).collect()
+}
