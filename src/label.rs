@@ -132,7 +132,9 @@ impl Tally {
         for record in records {
             for start in std::iter::once(record).chain(record.large()) {
                 self.checks.add(start);
-                if let Some(impacts) = start.outcome.and_then(|outcome| outcome.energy_gaining_impacts) {
+                if let Some(impacts) =
+                    start.outcome.as_ref().and_then(|outcome| outcome.energy_gaining_impacts)
+                {
                     *self.energy_gaining_impacts.get_or_insert(0) += impacts;
                 }
             }

@@ -66,7 +66,10 @@ pub fn records(
     let mut records = vec![Record::NOT_COMPUTED; total];
     records.par_chunks_mut(size).enumerate().for_each(|(index, batch)| {
         let first = range.start + index * size;
-        batch.clone_from_slice(&self::batch(spec, first..first + batch.len(), &plan, precision, cancel));
+        let made = self::batch(spec, first..first + batch.len(), &plan, precision, cancel);
+        for (record, made) in batch.iter_mut().zip(made) {
+            *record = made;
+        }
         if !cancel.load(Ordering::Relaxed) {
             progress(batch.len());
         }
