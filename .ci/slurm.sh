@@ -5,14 +5,18 @@
 #
 #     .ci/slurm.sh PROGRAM
 #
+# Ends with 0 when all of that holds, with 3 where Slurm cannot be installed or does not come up, else with 1.
+#
 # Needs root and packages of Debian, which it installs. Takes about three minutes: a task whose node has failed waits
 # two of them. All it makes is in a temporary directory; all it starts works in there and ends with it.
 set -euo pipefail
 program=$(realpath "$1")
 
+# Until the cluster is up nothing has been tested.
+verdict=3
 fail() {
     echo "slurm.sh: $*" >&2
-    exit 1
+    exit "$verdict"
 }
 
 for tool in munged slurmctld slurmd sbatch pgrep; do
@@ -110,7 +114,8 @@ for node in n1 n2; do (cd "$top/$node" && exec slurmd -D -N "$node") &>"$top/$no
 # Else the shell tells of each that is killed.
 disown -a
 idle() { [ "$(timeout 5 sinfo -h -N -t idle -o %N 2>/dev/null | wc -l)" -eq 2 ]; }
-wait_for 40 "the two nodes do not come up" idle
+wait_for 60 "the two nodes do not come up" idle
+verdict=1
 
 # Ten tiles of some seconds, in a directory that has to be quoted; what one process makes of them is beside it.
 work="$top/it's a \$sweep"
@@ -137,8 +142,8 @@ on_its_way() {
     [ "$(find shared/tiles -name '*.tile' 2>/dev/null | wc -l)" -ge 2 ] &&
         [ "$(find shared/tiles -name '*.tile.part' 2>/dev/null | wc -l)" -ge 2 ]
 }
-wait_for 30 "the two tasks do not start" running
-wait_for 60 "the two tasks do not compute" on_its_way
+wait_for 60 "the two tasks do not start" running
+wait_for 120 "the two tasks do not compute" on_its_way
 task=$(squeue -h -w n2 -o %A)
 destroy "$top/n1"
 scancel --batch --signal=USR1 "$task"
@@ -147,7 +152,7 @@ done_then=$(find shared/tiles -name '*.tile' | wc -l)
 requeued() { [ "$(squeue -h -t PD -r -o %A | wc -l)" -eq 3 ]; }
 wait_for 90 "the two tasks are not queued again beside the merge job" requeued
 echo "node n1 killed and the task on n2 ended with $done_then of 10 tiles; both tasks are queued again"
-wait_for 200 "the tasks do not come to their end" test -s shared/manifest.json
+wait_for 300 "the tasks do not come to their end" test -s shared/manifest.json
 over() { [ -z "$(squeue -h)" ]; }
 wait_for 20 "the merge job does not come to its end" over
 

@@ -75,7 +75,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 fn rate(map: &Map) -> String {
     let seconds = map.provenance.elapsed.as_secs_f64();
     let steps: u64 =
-        map.records.iter().filter_map(|record| record.outcome).map(|outcome| outcome.steps).sum();
+        map.records.iter().filter_map(|record| record.outcome.as_ref()).map(|outcome| outcome.steps).sum();
     format!(
         "{seconds:.2} s, {:.0} instances/s, {:.2e} steps/s",
         map.records.len() as f64 / seconds,

@@ -6,10 +6,6 @@ use serde::Serialize;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum InstabilityType {
-    /// The belt stands still: no sliding equilibrium to analyse.
-    Sticking,
-    /// `c + μ0 s ≤ 0`: no sliding equilibrium exists.
-    Divergence,
     /// The sliding equilibrium is stable.
     Stable,
     /// Unstable by the falling friction-velocity slope alone.
@@ -20,7 +16,20 @@ pub enum InstabilityType {
     Coexistence,
     /// Unstable although each mechanism alone is stable.
     Interaction,
+    /// The belt stands still: no sliding equilibrium to analyse.
+    Sticking,
+    /// `c + μ0 s ≤ 0`: no sliding equilibrium exists.
+    Divergence,
 }
+
+// The place of a class in its list is its number.
+const _: () = {
+    let mut place = 0;
+    while place < InstabilityType::ALL.len() {
+        assert!(InstabilityType::ALL[place] as usize == place && Regime::ALL[place] as usize == place);
+        place += 1;
+    }
+};
 
 impl InstabilityType {
     /// Every type, in the order of legends and summaries.

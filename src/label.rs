@@ -87,8 +87,8 @@ impl From<&Record> for Label {
     #[expect(clippy::cast_possible_truncation, reason = "positions and codes below 16")]
     fn from(record: &Record) -> Label {
         let position = |found: Option<usize>| found.map_or(0, |position| position as u16 + 1);
-        let kind = record.kind.and_then(|kind| InstabilityType::ALL.iter().position(|one| *one == kind));
-        let regime = record.regime.and_then(|regime| Regime::ALL.iter().position(|one| *one == regime));
+        let kind = record.kind.map(|kind| kind as usize);
+        let regime = record.regime.map(|regime| regime as usize);
         let [settled, bistable] = [record.settled, record.bistable].map(|flag| flag.map(usize::from));
         Label(
             record.status as u16
@@ -132,7 +132,9 @@ impl Tally {
         for record in records {
             for start in std::iter::once(record).chain(record.large()) {
                 self.checks.add(start);
-                if let Some(impacts) = start.outcome.and_then(|outcome| outcome.energy_gaining_impacts) {
+                if let Some(impacts) =
+                    start.outcome.as_ref().and_then(|outcome| outcome.energy_gaining_impacts)
+                {
                     *self.energy_gaining_impacts.get_or_insert(0) += impacts;
                 }
             }

@@ -26,8 +26,8 @@ pub struct Record {
     pub regime: Option<Regime>,
     /// Whether the regime is settled.
     pub settled: Option<bool>,
-    /// The response, when asked for.
-    pub outcome: Option<Outcome>,
+    /// The response, when asked for; apart, as a record without one is a quarter as large.
+    pub outcome: Option<Box<Outcome>>,
     /// What a check found, where the instance was checked.
     pub check: Option<Check>,
     /// Whether several starts ended differently; `None` where there is one, or some have not settled.
@@ -141,7 +141,7 @@ impl fmt::Display for Computation {
 pub struct Provenance {
     /// The eigenvalue analysis, when asked for.
     pub linear: Option<Computation>,
-    /// The response, when asked for.
+    /// The response, when asked for; apart, as a record without one is a quarter as large.
     pub response: Option<Computation>,
     /// Worker threads.
     pub threads: usize,

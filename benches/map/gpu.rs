@@ -46,8 +46,11 @@ pub(crate) fn run(
     let map = sweep::run(spec, &options, &|_| {})?;
     let mut output = Output::default();
     for (index, record) in map.records.iter().enumerate() {
-        output.count(index, &record.outcome.unwrap_or_default());
+        output.count(index, &record.outcome.as_deref().copied().unwrap_or_default());
     }
-    output.judged = judged.iter().map(|&index| map.records[index].outcome.unwrap_or_default()).collect();
+    output.judged = judged
+        .iter()
+        .map(|&index| map.records[index].outcome.as_deref().copied().unwrap_or_default())
+        .collect();
     Ok(output)
 }

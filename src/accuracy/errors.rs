@@ -39,10 +39,9 @@ pub fn relative(value: Option<f64>, truth: Option<f64>) -> f64 {
 /// The relative errors of the quantities of a record; all infinite where it has no response.
 #[must_use]
 pub fn of_record(record: &Record, truth: &Record) -> [f64; 4] {
-    let responded = |record: &Record| record.outcome.filter(|_| record.status == Status::Ok);
-    match (responded(record), responded(truth)) {
-        (Some(value), Some(truth)) => {
-            let (value, truth) = (values(&value), values(&truth));
+    match (&record.outcome, &truth.outcome) {
+        (Some(value), Some(of_truth)) if record.status == Status::Ok && truth.status == Status::Ok => {
+            let (value, truth) = (values(value), values(of_truth));
             std::array::from_fn(|k| relative(value[k], truth[k]))
         }
         _ => [f64::INFINITY; 4],
@@ -185,7 +184,7 @@ impl Judge {
         assert_eq!(records.len(), self.truth.len(), "a record for every true one");
         let differs =
             |of: &dyn Fn(&Record, &Record) -> bool| self.part(|at| of(&records[at], &self.truth[at]));
-        let stick = |record: &Record| record.outcome.and_then(|outcome| outcome.stick);
+        let stick = |record: &Record| record.outcome.as_ref().and_then(|outcome| outcome.stick);
         Errors {
             quantities: std::array::from_fn(|k| {
                 self.quantiles(records, |record, truth| of_record(record, truth)[k])

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::check::finer;
 use super::configuration::Configuration;
 use super::draw::spread;
-use super::errors::{Judge, is_settled_oscillation, scatter, worst};
+use super::errors::{is_settled_oscillation, quantile, scatter, worst};
 use super::frontier::Choice;
 use super::sample::{records, subset};
 use crate::backend::choice::Options;
@@ -141,11 +141,11 @@ impl Sample {
             .map(|(record, truth)| (worst(record, truth) - scatter(truth)).max(0.0))
             .collect();
         let settled = errors.len();
-        let judge = Judge::new(self.truth.clone(), vec![1.0; self.truth.len()]);
         Ok(Trial {
             instances: self.truth.len(),
             settled_oscillations: settled,
-            p95: (settled >= FEWEST).then(|| judge.errors(&found).beyond_scatter),
+            p95: (settled >= FEWEST)
+                .then(|| quantile(errors.iter().map(|error| (*error, 1.0)).collect(), 0.95)),
             broken: errors.iter().filter(|error| **error > bound).count(),
         })
     }

@@ -66,7 +66,10 @@ pub fn records(
     let mut records = vec![Record::NOT_COMPUTED; total];
     records.par_chunks_mut(size).enumerate().for_each(|(index, batch)| {
         let first = range.start + index * size;
-        batch.clone_from_slice(&self::batch(spec, first..first + batch.len(), &plan, precision, cancel));
+        let made = self::batch(spec, first..first + batch.len(), &plan, precision, cancel);
+        for (record, made) in batch.iter_mut().zip(made) {
+            *record = made;
+        }
         if !cancel.load(Ordering::Relaxed) {
             progress(batch.len());
         }
@@ -85,9 +88,10 @@ pub fn batch(
     precision: Precision,
     cancel: &AtomicBool,
 ) -> Vec<Record> {
-    let nothing = vec![Record::NOT_COMPUTED; range.len()];
+    let count = range.len();
+    let nothing = || vec![Record::NOT_COMPUTED; count];
     if cancel.load(Ordering::Relaxed) {
-        return nothing;
+        return nothing();
     }
     let instances: Vec<Instance> = range.map(|index| spec.instance(index)).collect();
     let mut records: Vec<Record> = instances
@@ -105,7 +109,7 @@ pub fn batch(
             Precision::F32 => outcomes::<f32>(&instances, plan, cancel),
             Precision::F64 => outcomes::<f64>(&instances, plan, cancel),
         };
-        let Some(outcomes) = outcomes else { return nothing };
+        let Some(outcomes) = outcomes else { return nothing() };
         for ((record, instance), outcome) in records.iter_mut().zip(&instances).zip(outcomes) {
             let kind = if spec.analysis.linear { record.kind } else { linear::analyse(instance).0 };
             take_response(record, instance, kind, &outcome);

@@ -60,5 +60,5 @@ pub(crate) fn take_response(
         record.regime = Some(regime);
         record.settled = Some(settled);
     }
-    record.outcome = Some(*outcome);
+    record.outcome = Some(Box::new(*outcome));
 }

@@ -259,7 +259,7 @@ macro_rules! linear {
 /// A number of the response.
 macro_rules! response {
     ($field:ident) => {
-        |record| Cell::from(record.outcome.and_then(|outcome| outcome.$field))
+        |record| Cell::from(record.outcome.as_ref().and_then(|outcome| outcome.$field))
     };
 }
 
@@ -294,8 +294,8 @@ computed! {
     Settling "settling_time" "s" response!(settling_time), "start of the last window of a run until settled";
     Checks "checked" "" |r| r.check.map_or(Cell::Empty, |check| Cell::Count(checked(check))), "1: computed again in f64 with fine steps; 2: the same, and near a border between labels, so that the row is that result; 3: computed again by the reference; else empty";
     Checks "check_error" "" |r| Cell::from(r.check.and_then(|check| check.error)), "worst relative error of x2_std, ax_rms, ay_rms and response_frequency against that, of a settled oscillation";
-    Response "simulated_time" "s" |r| Cell::from(r.outcome.map(|outcome| outcome.simulated_time)), "simulated time";
-    Response "steps" "" |r| r.outcome.map_or(Cell::Empty, |outcome| Cell::Count(outcome.steps)), "steps taken, those ended by an event included";
+    Response "simulated_time" "s" |r| Cell::from(r.outcome.as_ref().map(|outcome| outcome.simulated_time)), "simulated time";
+    Response "steps" "" |r| r.outcome.as_ref().map_or(Cell::Empty, |outcome| Cell::Count(outcome.steps)), "steps taken, those ended by an event included";
     Starts "bistable" "" |r| flag(r.bistable), "1 where starts end differently: in sliding, in an oscillation, stuck, or (small and large) in oscillations with amplitudes more than 5 % apart; empty where one has not settled";
     Basin "basin_equilibrium" "" |r| fraction(r, |basin| basin.equilibrium), "fraction p of the starts in the box that end in a stable sliding equilibrium; its standard error is sqrt(p (1 - p)/box_samples)";
     Basin "basin_oscillation" "" |r| fraction(r, |basin| basin.oscillation), "fraction p of the starts in the box that end in a settled oscillation; its standard error is sqrt(p (1 - p)/box_samples)";

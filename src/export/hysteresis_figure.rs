@@ -120,7 +120,7 @@ fn amplitude(record: &Record) -> f64 {
     if Attractor::of(record, record.kind) == Some(Attractor::Equilibrium) {
         return 0.0;
     }
-    record.outcome.and_then(|outcome| outcome.x2_std).unwrap_or(f64::NAN)
+    record.outcome.as_ref().and_then(|outcome| outcome.x2_std).unwrap_or(f64::NAN)
 }
 
 /// Shades the values at which the branches end differently, half a step to each side; neighbours are one area.

@@ -48,13 +48,17 @@ impl<'a, W: Write + Send> MapParquet<'a, W> {
     /// Writes the rows of the instances from `first` on as a row group.
     ///
     /// # Errors
-    /// When they cannot be written.
+    /// When they cannot be written, or a cell is not of its column's content.
     pub fn add(&mut self, first: usize, records: &[Record]) -> Result<()> {
         let mut parts: Vec<Part> = self.columns.iter().map(|column| Part::new(column.content())).collect();
         for (index, record) in (first..).zip(records) {
             let coordinates = self.sheet.grid.coordinates(index);
             for (part, column) in parts.iter_mut().zip(&self.columns) {
-                part.push(column.cell(index, &coordinates, record));
+                if !part.push(column.cell(index, &coordinates, record)) {
+                    let why =
+                        format!("a cell of `{}` in row {index} is not of its column's kind", column.name);
+                    return Err(Error::WriteParquet(ParquetError::General(why)));
+                }
             }
         }
         let write = || {
@@ -131,7 +135,8 @@ impl Part {
         Part { values, defined: Vec::new() }
     }
 
-    fn push(&mut self, cell: Cell) {
+    /// Adds a row; whether the cell is empty or of the column's content.
+    fn push(&mut self, cell: Cell) -> bool {
         let defined = match (&mut self.values, cell) {
             (Values::Numbers(numbers), Cell::Number(number)) => {
                 numbers.push(number);
@@ -146,10 +151,11 @@ impl Part {
                 names.push(ByteArray::from(name.into_bytes()));
                 true
             }
-            // Only what is empty: every column has the content that it says.
-            _ => false,
+            (_, Cell::Empty) => false,
+            _ => return false,
         };
         self.defined.push(i16::from(defined));
+        true
     }
 
     fn write<W: Write + Send>(

@@ -74,11 +74,11 @@ pub fn encode(records: &[Record], analysis: Analysis, bytes: &mut [u8]) {
             linear.into_iter().for_each(&mut put);
         }
         if analysis.response {
-            let response = record.outcome.as_ref().map_or([None; RESPONSE], response_numbers);
+            let response = record.outcome.as_deref().map_or([None; RESPONSE], response_numbers);
             response.into_iter().for_each(&mut put);
         }
         if analysis.until_settled {
-            put(record.outcome.and_then(|outcome| outcome.settling_time));
+            put(record.outcome.as_ref().and_then(|outcome| outcome.settling_time));
         }
         if analysis.checks() {
             put(record.check.and_then(|check| check.error));
@@ -108,10 +108,12 @@ pub fn decode(bytes: &[u8], count: usize, analysis: Analysis) -> Option<Vec<Reco
         let status = Status::IN_MAP.into_iter().find(|one| *one as u32 == u32::from(status))?;
         let has = |flag: u8| flags & flag != 0;
         let linear = has(HAS_LINEAR).then(|| linear_from(std::array::from_fn(|k| number(k, row))));
-        let outcome = has(HAS_OUTCOME).then(|| Outcome {
-            status,
-            settling_time: settling_time(row),
-            ..response_from(std::array::from_fn(|k| number(first_response + k, row)))
+        let outcome = has(HAS_OUTCOME).then(|| {
+            Box::new(Outcome {
+                status,
+                settling_time: settling_time(row),
+                ..response_from(std::array::from_fn(|k| number(first_response + k, row)))
+            })
         });
         Some(Record {
             status,

@@ -109,13 +109,13 @@ impl Store {
         Claim::take(&self.path(number)).map_err(|why| self.cannot_write(number, &why))
     }
 
-    /// Writes a tile that was claimed.
+    /// Writes a tile that was claimed; `bytes` is room for it that may be used again.
     ///
     /// # Errors
     /// When the disk is full, read-only or gone; the other tiles stay as they are.
-    pub fn write(&self, claim: Claim, number: usize, records: &[Record]) -> Result<()> {
-        let bytes = self.description.tile(number).write(records);
-        claim.write(&bytes).map_err(|why| self.cannot_write(number, &why))
+    pub fn write(&self, claim: Claim, number: usize, records: &[Record], bytes: &mut Vec<u8>) -> Result<()> {
+        self.description.tile(number).write_into(records, bytes);
+        claim.write(bytes).map_err(|why| self.cannot_write(number, &why))
     }
 
     fn cannot_write(&self, number: usize, why: &io::Error) -> Error {

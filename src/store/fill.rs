@@ -74,7 +74,10 @@ pub fn fill(
 
 /// Writes what it is sent until there is no more.
 fn write_all(store: &Store, receiver: Receiver<Finished>) -> Result<()> {
-    receiver.into_iter().try_for_each(|(claim, number, records)| store.write(claim, number, &records))
+    let mut bytes = Vec::new();
+    receiver
+        .into_iter()
+        .try_for_each(|(claim, number, records)| store.write(claim, number, &records, &mut bytes))
 }
 
 fn compute(

@@ -15,6 +15,7 @@ pub fn merge(target: &Store, source: &Store, note: Note) -> Result<usize> {
         });
     }
     let mut brought = 0;
+    let mut bytes = Vec::new();
     for number in source.numbers()? {
         if target.verify(number, note)? {
             continue;
@@ -24,7 +25,7 @@ pub fn merge(target: &Store, source: &Store, note: Note) -> Result<usize> {
             Ok(Some(records)) => {
                 // Another process that has the claim writes the same.
                 if let Some(claim) = target.claim(number)? {
-                    target.write(claim, number, &records)?;
+                    target.write(claim, number, &records, &mut bytes)?;
                     brought += 1;
                 }
             }

@@ -125,13 +125,22 @@ impl Label {
     /// When they are not as many as its instances.
     #[must_use]
     pub fn write(&self, records: &[Record]) -> Vec<u8> {
-        let mut bytes = vec![0; self.size()];
+        let mut bytes = Vec::new();
+        self.write_into(records, &mut bytes);
+        bytes
+    }
+
+    /// The same into what may be used again, whose pages the system then need not give anew.
+    ///
+    /// # Panics
+    /// When they are not as many as its instances.
+    pub fn write_into(&self, records: &[Record], bytes: &mut Vec<u8>) {
+        bytes.resize(self.size(), 0);
         let (content, footer) = bytes.split_at_mut(self.size() - FOOTER);
         content[..HEADER].copy_from_slice(&self.header());
         encode(records, self.analysis, &mut content[HEADER..]);
         footer[..CHECKSUM].copy_from_slice(blake3::hash(content).as_bytes());
         footer[CHECKSUM..].copy_from_slice(END);
-        bytes
     }
 
     /// The records of a tile that says this of itself.

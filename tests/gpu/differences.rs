@@ -37,7 +37,7 @@ impl Differences {
                     b.regime
                 ));
             }
-            let (Some(a), Some(b)) = (a.outcome, b.outcome) else { continue };
+            let (Some(a), Some(b)) = (&a.outcome, &b.outcome) else { continue };
             // Windows of whole cycles are as long as the frequencies that were measured.
             let within = if map.spec.settle_limit.is_some() { 1e-3 } else { 1e-12 };
             if (a.simulated_time - b.simulated_time).abs() > within * b.simulated_time

@@ -111,7 +111,7 @@ fn no_instance_is_at_a_loss() -> Result<(), Failed> {
             Options { backend: Backend::Gpu, precision: Some(Precision::F32), ..Options::default() };
         let map = sweep::run(spec, &options, &|_| {}).map_err(|why| format!("{why}:\n{text}"))?;
         for (index, record) in map.records.iter().enumerate() {
-            let outcome = record.outcome.unwrap_or_default();
+            let outcome = record.outcome.as_deref().copied().unwrap_or_default();
             let found = if record.status == Status::Ok || record.outcome.is_some() {
                 defect(&Outcome { status: record.status, ..outcome })
             } else {

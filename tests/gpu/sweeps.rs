@@ -100,7 +100,7 @@ fn in_f64() -> Result<(), Failed> {
     let map = twin.clone();
     let plan = Plan::new(&spec);
     for (index, record) in twin.records.iter_mut().enumerate() {
-        record.outcome = Some(respond::<f64>(&spec.instance(index), &plan, f64::from(TOLERANCE)));
+        record.outcome = Some(Box::new(respond::<f64>(&spec.instance(index), &plan, f64::from(TOLERANCE))));
     }
     check(&map, &twin, 1e-12, 1e-6)
 }
@@ -161,8 +161,10 @@ fn until_settled() -> Result<(), Failed> {
         check(&map, &reference, 1e-4, 5e-3)?;
         let mut endings = std::collections::BTreeMap::new();
         for (found, expected) in map.records.iter().zip(&reference.records) {
-            let (found, expected) =
-                (found.outcome.ok_or("an outcome")?, expected.outcome.ok_or("an outcome")?);
+            let (found, expected) = (
+                found.outcome.as_deref().ok_or("an outcome")?,
+                expected.outcome.as_deref().ok_or("an outcome")?,
+            );
             assert_eq!(found.ending, expected.ending);
             let [a, b] = [found, expected].map(|one| one.settling_time.unwrap_or(f64::NAN));
             assert!((a / b - 1.0).abs() < 1e-3, "{a} {b}");
@@ -233,7 +235,8 @@ fn table(rows: i32, points: usize) -> Result<(), Failed> {
     let mut spec = Spec::read(&directory.path().join("sweep.toml"))?;
     spec.analysis.checked = false;
     let reference = on_cpu(&spec)?;
-    let steps: u64 = reference.records.iter().filter_map(|one| one.outcome).map(|one| one.steps).sum();
+    let steps: u64 =
+        reference.records.iter().filter_map(|one| one.outcome.as_ref()).map(|one| one.steps).sum();
     println!("{steps} steps of the reference, an event ends one");
     check(&on_gpu(&spec, Precision::F32, None)?, &reference, 1e-4, 2e-3)
 }
@@ -324,7 +327,7 @@ fn two_million_steps() -> Result<(), Failed> {
     )?;
     let map = on_gpu(&spec, Precision::F32, None)?;
     for (index, record) in map.records.iter().enumerate() {
-        let outcome = record.outcome.ok_or("no outcome")?;
+        let outcome = record.outcome.as_deref().ok_or("no outcome")?;
         let scene =
             squealmap::response::Scene::new(&spec.instance(index), spec.start).map_err(Status::name)?;
         let asked = scene.scaled(spec.settle) + scene.scaled(spec.measure);

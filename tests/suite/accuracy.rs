@@ -39,7 +39,7 @@ fn oscillation(value: f64) -> Record {
         kind: Some(InstabilityType::NegativeSlope),
         regime: Some(Regime::StickSlip),
         settled: Some(true),
-        outcome: Some(outcome),
+        outcome: Some(Box::new(outcome)),
         ..Record::default()
     }
 }

@@ -204,7 +204,7 @@ fn the_cut_into_ranges_does_not_matter() {
 pub(crate) fn oscillation(regime: Regime, x2_std: f64) -> Record {
     let outcome =
         Outcome { status: Status::Ok, x2_std: Some(x2_std), ay_rms: Some(1.0), ..Outcome::default() };
-    Record { outcome: Some(outcome), ..record(InstabilityType::Stable, regime, true) }
+    Record { outcome: Some(Box::new(outcome)), ..record(InstabilityType::Stable, regime, true) }
 }
 
 #[test]
@@ -251,7 +251,7 @@ fn the_default_large_start_finds_the_cycle_below_the_critical_friction() {
         assert_eq!([&records[0], &records[1]].map(|record| record.bistable), [Some(false), Some(true)]);
         let cycle = records[1].large().unwrap();
         assert_eq!(cycle.regime, Some(Regime::DetachingStickSlip));
-        let outcome = cycle.outcome.unwrap();
+        let outcome = cycle.outcome.as_deref().unwrap();
         close("frequency", outcome.response_frequency.unwrap(), 34.09, 1e-3);
         close("peak", outcome.ax_peak.unwrap(), 800.0, 0.02);
     }

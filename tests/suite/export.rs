@@ -87,7 +87,8 @@ fn numbers_read_back_to_the_same_bits() {
     let values = [0.1 + 0.2, -1.0 / 3.0, 5e-324, f64::MAX, 1e-5 / 3.0, -2.171_401e-7];
     let sweep = small(|i| {
         let mut record = good(i);
-        record.outcome = Some(Outcome { status: Status::Ok, x2_mean: Some(values[i]), ..Outcome::default() });
+        record.outcome =
+            Some(Box::new(Outcome { status: Status::Ok, x2_mean: Some(values[i]), ..Outcome::default() }));
         record
     });
     let table = parse(&map_csv(&sweep).expect("a complete map"));
@@ -104,7 +105,7 @@ fn numbers_that_are_not_finite_are_empty() {
     let sweep = small(|i| {
         let mut record = good(i);
         let values = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
-        record.outcome = Some(Outcome { x2_mean: Some(values[i % 3]), ..Outcome::default() });
+        record.outcome = Some(Box::new(Outcome { x2_mean: Some(values[i % 3]), ..Outcome::default() }));
         record
     });
     let table = parse(&map_csv(&sweep).expect("a complete map"));
@@ -139,7 +140,9 @@ fn the_manifest_counts_and_explains() {
         1 => record(InstabilityType::Stable, Regime::Equilibrium, true),
         _ => {
             let mut record = good(i);
-            record.outcome = record.outcome.map(|o| Outcome { energy_gaining_impacts: Some(3), ..o });
+            if let Some(outcome) = &mut record.outcome {
+                outcome.energy_gaining_impacts = Some(3);
+            }
             record
         }
     });
@@ -175,7 +178,7 @@ fn every_column_holds_its_own_value() {
             growth_rate_flat: at("growth_rate_flat"),
             growth_rate_frozen: at("growth_rate_frozen"),
         }),
-        outcome: Some(Outcome {
+        outcome: Some(Box::new(Outcome {
             status: Status::Ok,
             x2_mean: some("x2_mean"),
             x2_std: some("x2_std"),
@@ -199,7 +202,7 @@ fn every_column_holds_its_own_value() {
             simulated_time: at("simulated_time"),
             steps: 31,
             ..Outcome::default()
-        }),
+        })),
         ..record(InstabilityType::Interaction, Regime::Detaching, true)
     });
     let table = parse(&map_csv(&sweep).expect("a complete map"));

@@ -268,10 +268,20 @@ fn slow() -> String {
     SWEEP.replace("points = 15", "points = 150").replace("settle = \"2 periods\"", "settle = \"400 periods\"")
 }
 
-/// Tells a task that its time limit is near.
-fn near_the_limit(task: &Child) {
-    let sent = Command::new("sh").args(["-c", &format!("kill -USR1 {}", task.id())]).status().unwrap();
+/// Runs a task with tiles of `tile` instances until so many files with this end are there, tells it that its time limit is
+/// near, and gives what it said as it was interrupted.
+fn ends_near_its_limit(fakes: &Path, directory: &Path, tile: &str, (count, end): (usize, &str)) -> String {
+    let mut child = task(fakes, directory, tile);
+    while there(directory, end) < count {
+        assert!(child.try_wait().unwrap().is_none(), "it ended before its time");
+        sleep(Duration::from_millis(1));
+    }
+    let sent = Command::new("sh").args(["-c", &format!("kill -USR1 {}", child.id())]).status().unwrap();
     assert!(sent.success());
+    let output = child.wait_with_output().unwrap();
+    let err = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(130), "{err}");
+    err
 }
 
 fn there(directory: &Path, end: &str) -> usize {
@@ -282,15 +292,7 @@ fn there(directory: &Path, end: &str) -> usize {
 #[test]
 fn near_its_time_limit_a_task_ends_with_its_tiles_and_is_queued_again() {
     let (directory, fakes) = (with(&slow()), slurm());
-    let mut child = task(fakes.path(), directory.path(), "10");
-    while there(directory.path(), ".tile") < 5 {
-        assert!(child.try_wait().unwrap().is_none(), "it ended before its time");
-        sleep(Duration::from_millis(1));
-    }
-    near_the_limit(&child);
-    let output = child.wait_with_output().unwrap();
-    let err = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(130), "{err}");
+    let err = ends_near_its_limit(fakes.path(), directory.path(), "10", (5, ".tile"));
     assert!(err.contains("the time limit is near; the task goes on in a new one"), "{err}");
     assert_eq!(read_to_string(fakes.path().join("scontrol.calls")).unwrap(), "requeue 97\n");
     assert!((5..300).contains(&there(directory.path(), ".tile")));
@@ -300,15 +302,7 @@ fn near_its_time_limit_a_task_ends_with_its_tiles_and_is_queued_again() {
 #[test]
 fn a_task_that_has_done_nothing_is_not_queued_again() {
     let (directory, fakes) = (with(&slow()), slurm());
-    let mut child = task(fakes.path(), directory.path(), "3000");
-    while there(directory.path(), ".part") < 1 {
-        assert!(child.try_wait().unwrap().is_none(), "it ended before its time");
-        sleep(Duration::from_millis(1));
-    }
-    near_the_limit(&child);
-    let output = child.wait_with_output().unwrap();
-    let err = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(130), "{err}");
+    let err = ends_near_its_limit(fakes.path(), directory.path(), "3000", (1, ".part"));
     assert!(err.contains("error: no tile was done within the time limit"), "{err}");
     assert!(!fakes.path().join("scontrol.calls").exists());
 }

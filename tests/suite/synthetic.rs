@@ -82,7 +82,7 @@ pub(crate) fn record(kind: InstabilityType, regime: Regime, settled: bool) -> Re
         linear: Some(linear),
         regime: Some(regime),
         settled: Some(settled),
-        outcome: Some(outcome),
+        outcome: Some(Box::new(outcome)),
         ..Record::default()
     }
 }
@@ -90,7 +90,7 @@ pub(crate) fn record(kind: InstabilityType, regime: Regime, settled: bool) -> Re
 /// An instance without any result.
 pub(crate) fn failed(status: Status) -> Record {
     let outcome = Outcome { status, ..Outcome::default() };
-    Record { status, outcome: Some(outcome), ..Record::default() }
+    Record { status, outcome: Some(Box::new(outcome)), ..Record::default() }
 }
 
 /// A number of an instance's coordinates.

@@ -49,7 +49,7 @@ fn numbered(base: f64) -> Record {
         }),
         regime: Some(Regime::DetachingStickSlip),
         settled: Some(true),
-        outcome: Some(Outcome {
+        outcome: Some(Box::new(Outcome {
             status: Status::Ok,
             x2_mean: some(),
             x2_std: some(),
@@ -74,7 +74,7 @@ fn numbered(base: f64) -> Record {
             simulated_time: base + 25.0,
             steps: 26 + 1000,
             ..Outcome::default()
-        }),
+        })),
         ..Record::default()
     }
 }
@@ -126,9 +126,12 @@ fn records_come_back_bit_by_bit() {
         (By::Reference, false, false, Some(f64::INFINITY)),
     ] {
         let check = Some(Check { by, taken, changed, error });
-        let late = |one: Outcome| Outcome { settling_time: Some(1.5), ..one };
-        let [first, second] =
-            [None, check].map(|check| Record { check, outcome: all[0].outcome.map(late), ..all[0].clone() });
+        let late = |one: &Outcome| Box::new(Outcome { settling_time: Some(1.5), ..*one });
+        let [first, second] = [None, check].map(|check| Record {
+            check,
+            outcome: all[0].outcome.as_deref().map(late),
+            ..all[0].clone()
+        });
         let all = [first, second, all[2].clone()];
         let bytes = encode(&all, checked);
         assert_eq!(decode(&bytes, 3, checked).unwrap(), all);
@@ -149,8 +152,10 @@ fn records_come_back_bit_by_bit() {
             settled: one.settled.filter(|_| analysis.response),
             outcome: one
                 .outcome
+                .as_deref()
                 .filter(|_| analysis.response)
-                .map(|outcome| Outcome { settling_time: analysis.until_settled.then_some(12.5), ..outcome }),
+                .map(|outcome| Outcome { settling_time: analysis.until_settled.then_some(12.5), ..*outcome })
+                .map(Box::new),
             ..one.clone()
         };
         let all: Vec<Record> = all.iter().map(only).collect();
