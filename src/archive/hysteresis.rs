@@ -42,7 +42,7 @@ fn branches(table: &Table, param: Param) -> Why<Hysteresis> {
                     x2_std: x2_std.is_finite().then_some(*x2_std),
                     ..Outcome::default()
                 };
-                Ok((*value, Record { outcome: Some(outcome), ..record }))
+                Ok((*value, Record { outcome: Some(Box::new(outcome)), ..record }))
             })
             .collect()
     };

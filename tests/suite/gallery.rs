@@ -123,7 +123,7 @@ fn a_hysteresis() -> Piece {
         let regime = if cycle { Regime::StickSlip } else { Regime::Equilibrium };
         let x2_std = Some(if cycle { 1e-3 * values[k] } else { 1e-9 });
         let outcome = Outcome { status: Status::Ok, x2_std, ..Outcome::default() };
-        Record { outcome: Some(outcome), ..record(kind, regime, true) }
+        Record { outcome: Some(Box::new(outcome)), ..record(kind, regime, true) }
     };
     let branch = |end: usize| (0..values.len()).map(|k| at(k < end, k)).collect();
     let found = Hysteresis { param: Param::MuS, up: branch(9), down: branch(6), values };
