@@ -63,11 +63,11 @@ enum Command {
     Adapters,
     /// Validate a sweep, say what it would compute and measure what it would cost; writes nothing
     Check(check::Check),
-    /// Eigenvalues against the first numeric axis of a sweep: modes.csv, modes.svg, modes.png
+    /// Eigenvalues against the first numeric axis of a sweep: modes.csv, modes.json, modes.svg, modes.png
     Modes(modes::Modes),
     /// The figure of a command again from its directory, for print: plot.svg, plot.pdf, plot.png
     Plot(plot::Plot),
-    /// One instance in full, as a time series: trace.csv, trace.svg, trace.png
+    /// One instance in full, as a time series: trace.csv, trace.json, trace.svg, trace.png
     Trace(trace::TraceCommand),
     /// What measured signals say: identify.json, identify.svg, identify.png, windows.csv
     Identify(identify::Identify),

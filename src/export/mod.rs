@@ -2,7 +2,8 @@
 //!
 //! [`sheet`] is what an export says of a sweep beside its records; [`columns`] is the one table of output columns;
 //! [`csv`], [`manifest`] and [`figure`] write `map.csv`, `manifest.json` and `map.svg`; [`png`] and [`pdf`] draw any of
-//! the figures, [`look`] says at which width and what of a map, [`boundary_lines`] gives its lines as a table.
+//! the figures, [`look`] says at which width and what of a map, [`boundary_lines`] gives its lines as a table, [`isolines`] those of
+//! equal value, [`cut`] curves through it, and [`tikz`] its source for LaTeX. [`heading`] stands above figures of one instance.
 //! [`zarr`] and [`netcdf`] write the labelled [`arrays`] of a sweep, part by part, [`parquet`] its table. [`modes`],
 //! [`trace`] and [`hysteresis`] serve the commands `modes` and `trace`, [`tradeoff`] speed against error, [`identify`] and [`signals`] to and from measured
 //! signals, [`paper`] the figures of the source paper.

@@ -211,6 +211,49 @@ fn modes_and_trace_write_their_files() {
 }
 
 #[test]
+fn plot_draws_what_a_directory_holds() {
+    let directory = with_sweep("");
+    let at = "mu_d=0.35,belt_velocity=2.5";
+    for command in [&["modes", "small.toml"][..], &["trace", "small.toml", "--at", at]] {
+        let ended = squealmap(directory.path(), command);
+        assert_eq!(ended.code, Some(0), "{}", ended.err);
+    }
+    let read = |path: &str| std::fs::read(directory.path().join(path)).unwrap();
+    let picture = |path: &str| {
+        let svg = String::from_utf8(read(path)).unwrap();
+        let lines = svg.lines().filter(|line| !line.starts_with("<metadata>"));
+        lines.map(str::to_owned).collect::<Vec<_>>()
+    };
+    // The first of several, and the others are named.
+    let ended = squealmap(directory.path(), &["plot", "out/small"]);
+    assert_eq!(ended.code, Some(0), "{}", ended.err);
+    assert!(ended.err.contains("with --figure there is also modes"), "{}", ended.err);
+    assert!(picture("out/small/plot.svg") == picture("out/small/trace.svg"), "the command's own picture");
+    // Another at the width of a journal, with the command in every file.
+    let command = ["plot", "out/small", "--figure", "modes", "--journal", "nature-1col"];
+    let ended = squealmap(directory.path(), &[&command[..], &["-o", "print"]].concat());
+    assert_eq!((ended.code, ended.err.as_str()), (Some(0), ""));
+    assert_eq!(
+        tree(&directory.path().join("print")),
+        ["plot.pdf", "plot.png", "plot.svg"].map(PathBuf::from)
+    );
+    let words = format!("squealmap {}, of results of squealmap 0.1.0", command.join(" "));
+    for file in ["plot.pdf", "plot.png", "plot.svg"] {
+        let bytes = read(&format!("print/{file}"));
+        assert!(String::from_utf8_lossy(&bytes).contains(&words), "{file}");
+    }
+    // What only maps have is refused, and so is what is not there.
+    for (option, words) in [
+        ("--levels=3", "--levels is of maps, but the figure of `out/small` is that of `trace`"),
+        ("--figure=figure4", "looked for figure4.csv and figure4.json for `figure4`"),
+    ] {
+        let ended = squealmap(directory.path(), &["plot", "out/small", option]);
+        let said = ended.err.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(ended.code == Some(2) && said.contains(words), "{said}");
+    }
+}
+
+#[test]
 fn trace_lists_what_is_missing() {
     let directory = with_sweep("");
     let ended = squealmap(directory.path(), &["trace", "small.toml", "--at", "mu_d=0.3"]);
@@ -324,6 +367,16 @@ fn plot_draws_a_run_again() {
         &["plot", "out/small", "--journal", "elsevier-1col", "--quantity", "type,growth,amplitude"],
     );
     assert_eq!(ended.code, Some(0), "{}", ended.err);
+    for (options, file) in [
+        (&["--quantity=growth", "--isolines=-1,0,2"][..], "isolines.csv"),
+        (&["--cut=mu_d=0.3"], "cut.csv"),
+        (&["--tikz"], "plot.tex"),
+    ] {
+        let all = [&["plot", "out/small", "-o", "other"], options].concat();
+        let ended = squealmap(directory.path(), &all);
+        assert_eq!(ended.code, Some(0), "{}", ended.err);
+        assert!(directory.path().join("other").join(file).exists(), "{file}");
+    }
     for file in ["plot.svg", "plot.pdf", "plot.png", "boundaries.csv"] {
         assert!(directory.path().join("out/small").join(file).exists(), "{file}");
     }

@@ -24,8 +24,12 @@ const GAP: f64 = TICK_SIZE + 7.0;
 const RIGHT: f64 = 8.0;
 /// Margin above and below curves, as a fraction of the panel.
 const HEADROOM: f64 = 0.06;
-/// Ticks of the axes of time and belt velocity take about this much each, points.
-const TICK_WIDTH: f64 = 55.0;
+/// Ticks of the axes of time and belt velocity take about this much each, points ...
+const TICK_WIDTH: f64 = 58.0;
+/// ... and there are about so many at least.
+const FEWEST_TICKS: f64 = 5.0;
+/// The key of the shares takes about this much, points.
+const KEY_WIDTH: f64 = 130.0;
 /// An acceleration: the area between its lowest and highest value per column.
 const ACCELERATION: &str = r##"fill="#9DB4DC" stroke="#1F3F8F" stroke-width="0.5" stroke-linejoin="round""##;
 /// Strokes of the shares of stick and free flight.
@@ -133,13 +137,16 @@ pub(super) fn picture(ramp: &Slowdown, look: &Look<'_>) -> String {
     let rising = Scale::Linear { low: slowest, high: fastest };
     let mirrored = |tick: Tick| Tick { at: 1.0 - tick.at, ..tick };
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive count")]
-    let most = (width / TICK_WIDTH).round() as usize;
+    let most = (width / TICK_WIDTH).round().max(FEWEST_TICKS) as usize;
     let velocities: Vec<Tick> = rising.ticks(most).into_iter().map(mirrored).collect();
     let labels = [
         Text::from("(a) ").symbol("ẍ_2").then(axis_unit("m/s^2", scales[0].exponent())),
         Text::from("(b) ").symbol("ÿ_1").then(axis_unit("m/s^2", scales[1].exponent())),
         Text::from("(c) Share"),
     ];
+    // The line of the knee does not cross the key.
+    let knee = ramp.knee.map(|knee| left + belt.position(knee) * width);
+    let beside = knee.filter(|at| *at < left + KEY_WIDTH).map_or(left, |at| at + 6.0);
     for number in 0..HEIGHTS.len() {
         let frame = Frame { x: left, y, width, height: HEIGHTS[number] };
         let plot = Plot { frame, x: &time, y: &scales[number] };
@@ -158,7 +165,7 @@ pub(super) fn picture(ramp: &Slowdown, look: &Look<'_>) -> String {
                 plot.curve(&mut svg, along(|column| column.stick), STATES[0]);
                 plot.curve(&mut svg, along(|column| column.free), STATES[1]);
                 let words = ["stick", "free flight"].map(Text::from).into_iter().zip(STATES);
-                key::lines(&mut svg, left, y - 4.0, TICK_SIZE, &words.collect::<Vec<_>>());
+                key::lines(&mut svg, beside, y - 4.0, TICK_SIZE, &words.collect::<Vec<_>>());
             }
         }
         frame.border(&mut svg);
@@ -172,8 +179,7 @@ pub(super) fn picture(ramp: &Slowdown, look: &Look<'_>) -> String {
         y += frame.height + GAP;
     }
     let bottom = y - GAP;
-    if let Some(knee) = ramp.knee {
-        let at = left + belt.position(knee) * width;
+    if let (Some(at), Some(knee)) = (knee, ramp.knee) {
         svg.path(&polyline([(at, top), (at, bottom)]), CRITICAL);
         let words =
             Text::default().symbol("V").plain(" = ").symbol("v_k").plain(" = ").then(value_label(knee));
