@@ -4,9 +4,10 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use clap::Args;
-use squealmap::Result;
 use squealmap::store::directory::Store;
+use squealmap::store::parts::Parts;
 use squealmap::store::status::Status;
+use squealmap::{Error, Result};
 
 use crate::cli::print;
 use crate::cli::progress::seconds;
@@ -23,7 +24,15 @@ pub(crate) struct StatusCommand {
 
 impl StatusCommand {
     pub(crate) fn execute(self) -> Result<()> {
-        let store = Store::open(&self.directory)?;
+        let store = match (Store::open(&self.directory), Parts::found(&self.directory)) {
+            (Err(Error::NoTiles { .. }), Ok(Some([parts, instances]))) => {
+                print(&format!(
+                    "refinement  {parts} part(s) of {instances} instances are done; how many are to come shows on the way\n"
+                ));
+                return Ok(());
+            }
+            (store, _) => store?,
+        };
         let status = Status::new(&store, self.verify)?;
         print(&describe(&store, &status));
         Ok(())

@@ -4,13 +4,15 @@
 //! that it is found again whatever else was computed, and never taken for other instances. Parts of other sweeps may
 //! stand beside it.
 
+use std::fs::File;
+use std::io::Read;
 use std::path::Path;
 
 use super::claim::Claim;
 use super::description::Description;
 use super::folder::{Folder, Note, TILE};
 use super::identity::Id;
-use super::tile::Label;
+use super::tile::{Label, instances_in};
 use crate::error::{Error, Result};
 use crate::map::Record;
 use crate::spec::Analysis;
@@ -78,6 +80,25 @@ impl Parts {
             claim.write(&label.write(&records)).map_err(cannot)?;
         }
         Ok(Part { records, found: false })
+    }
+
+    /// How many parts a directory has, of whatever sweep, and how many instances they say to have; `None` where there are
+    /// none.
+    ///
+    /// # Errors
+    /// When the folder cannot be read.
+    pub fn found(directory: &Path) -> Result<Option<[usize; 2]>> {
+        let folder = Folder::new(directory, PARTS);
+        if !folder.path("").is_dir() {
+            return Ok(None);
+        }
+        let names = folder.tiles()?;
+        let instances = names.iter().filter_map(|name| {
+            let mut header = [0; 56];
+            File::open(folder.path(name)).and_then(|mut file| file.read_exact(&mut header)).ok()?;
+            instances_in(&header)
+        });
+        Ok(Some([names.len(), instances.sum()]).filter(|_| !names.is_empty()))
     }
 
     /// How many parts of other sweeps, programs and engines stand beside these.

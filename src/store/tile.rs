@@ -40,6 +40,14 @@ pub struct Label {
     pub bounds: Range<usize>,
 }
 
+/// How many instances a tile says that it has, by its first bytes; `None` of what is no tile.
+#[must_use]
+pub fn instances_in(header: &[u8]) -> Option<usize> {
+    let number = |at: usize| header.get(at..at + 8)?.try_into().ok().map(u64::from_le_bytes);
+    let [first, end] = [40, 48].map(number);
+    usize::try_from(end?.checked_sub(first?)?).ok().filter(|_| header.starts_with(MAGIC))
+}
+
 /// What is wrong with a tile.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Fault {

@@ -112,6 +112,9 @@ fn what_is_there_is_not_computed_again() {
     let [all, _, old] = computed(&ended.out)[..3] else { panic!("{}", ended.out) };
     assert_eq!(all, old, "{}", ended.out);
     assert!(results(directory.path()) == before);
+    let status = squealmap(directory.path(), &["status", "out/s"]).out;
+    let [_, counted] = computed(&status)[..2] else { panic!("{status}") };
+    assert_eq!(counted, all, "{status}");
     // A larger sample begins after the lines, which are known.
     let more = [&REFINE[..4], &["--sample", "200", "--seed", "7", "--backend", "cpu"]].concat();
     let ended = squealmap(directory.path(), &arguments(&more));
