@@ -22,6 +22,7 @@ const STEPS_RANGE: (usize, usize) = (3, 100_000);
 const MOST_SAMPLED: usize = u32::MAX as usize;
 
 /// The largest seed that TOML holds.
+#[expect(clippy::cast_possible_truncation, reason = "the smaller of both limits where pointers have 32 bits")]
 const MOST_SEED: usize = i64::MAX as usize;
 
 /// A key that stands in a section.

@@ -47,7 +47,7 @@ impl Differences {
             }
             let ramp = map.spec.base.get(Param::RampDuration).is_some();
             if ramp || reference.records[index].settled == Some(true) {
-                amplitudes.extend(relative(&a, &b));
+                amplitudes.extend(relative(a, b));
             }
         }
         amplitudes.sort_by(f64::total_cmp);
