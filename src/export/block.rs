@@ -76,9 +76,7 @@ impl Block<'_> {
         let field = Field::of(self.content, panels);
         let name = match (self.content, &field) {
             (Content::Classes { colouring, .. }, _) => Text::from(colouring.heading(self.starts)),
-            (Content::LargeRegime, _) => {
-                Text::from("Regime of the response to the large start (time integration)")
-            }
+            (Content::LargeRegime, _) => Text::from("Regime from the large start (time integration)"),
             (_, field) => field.as_ref().map(Field::heading).unwrap_or_default(),
         };
         svg.text(words, y + LABEL_SIZE, &name, heading);

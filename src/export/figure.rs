@@ -145,13 +145,14 @@ fn draw(figure: &MapFigure<'_>, look: &Look<'_>) -> String {
     let mut svg = Svg::new();
     define_patterns(&mut svg);
     let mut y = MARGIN + title(&mut svg, sheet.title, inner);
-    // Blocks of one picture stand side by side.
-    let beside = one_panel && contents.len() == 2 && inner > SINGLE_COLUMN * 1.2;
+    // Blocks of one picture stand side by side; strips of one axis do so only in pairs.
+    let pair = contents.len() == 2 || (contents.len() > 2 && panels.y.is_some());
+    let beside = one_panel && pair && inner > SINGLE_COLUMN * 1.2;
     let across = if beside { 0.5 * (inner - BLOCK_GAP) } else { inner };
     let mut tallest: f64 = 0.0;
     for (number, content) in contents.iter().enumerate() {
         let letter = (contents.len() > 1).then(|| LETTERS[number % LETTERS.len()]);
-        let blocks = if beside { 1 } else { contents.len() };
+        let blocks = if beside { contents.len().div_ceil(2) } else { contents.len() };
         let starts = sheet.analysis.starts;
         let (panels, tally) = match (content, large) {
             (Content::LargeRegime, Some((panels, tally))) => (panels, tally),
@@ -159,7 +160,12 @@ fn draw(figure: &MapFigure<'_>, look: &Look<'_>) -> String {
         };
         let block = Block { grid: sheet.grid, tally, panels, content: *content, starts, blocks, letter };
         if beside {
-            let x = MARGIN + number as f64 * (across + BLOCK_GAP);
+            let column = number % 2;
+            if column == 0 && number > 0 {
+                y += tallest + BLOCK_GAP;
+                tallest = 0.0;
+            }
+            let x = MARGIN + column as f64 * (across + BLOCK_GAP);
             tallest = tallest.max(block.draw(&mut svg, x, y, across));
         } else {
             let gap = if number == 0 { 0.0 } else { BLOCK_GAP };

@@ -86,9 +86,7 @@ impl Colouring {
     pub fn heading(self, starts: Starts) -> &'static str {
         match self {
             Colouring::Type => "Type of instability (complex eigenvalues)",
-            Colouring::Regime if starts != Starts::One => {
-                "Regime of the response to the small start (time integration)"
-            }
+            Colouring::Regime if starts != Starts::One => "Regime from the small start (time integration)",
             Colouring::Regime => "Regime of the response (time integration)",
             Colouring::Bistability => "Bistability: starts that end differently",
         }
