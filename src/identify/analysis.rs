@@ -1,4 +1,4 @@
-//! The spine: survey the file, read it again window by window, find episodes, conclude.
+//! The spine: survey the file, read it again window by window, find episodes, read these again, conclude.
 
 use std::io::Read;
 
@@ -10,6 +10,7 @@ use super::fault::Fault;
 use super::read::Table;
 use super::reading::{Reading, reading};
 use super::settings::Settings;
+use super::spans::{Known, sharpened};
 use super::spectrogram::{Builder, Spectrogram};
 use super::survey::{Survey, survey};
 use super::verdict::Verdict;
@@ -45,6 +46,8 @@ pub struct Identification {
     pub envelopes: [Envelope; 2],
     recorded: Recorded,
     settings: Settings,
+    /// `None`: no window fits.
+    geometry: Option<Geometry>,
 }
 
 impl Identification {
@@ -55,7 +58,7 @@ impl Identification {
     }
 }
 
-/// Analyses the signals that `open` reads (called twice: the file is read twice and never held), named `name` in
+/// Analyses the signals that `open` reads (called up to three times: the file is read anew and never held), named `name` in
 /// messages.
 ///
 /// # Errors
@@ -71,7 +74,15 @@ pub fn identify(
     };
     let named = |fault| Error::Signals { name: name.to_owned(), fault: Box::new(fault) };
     let survey = table().and_then(|table| survey(table, settings)).map_err(named)?;
-    table().and_then(|table| analyse(table, survey, settings)).map_err(named)
+    let too_short = survey.too_short();
+    let mut found = table().and_then(|table| analyse(table, survey, settings)).map_err(named)?;
+    if let Some(geometry) = found.geometry.filter(|_| !found.episodes.is_empty()) {
+        let Identification { recorded, rate, time: [start, _], .. } = found;
+        let known = Known { recorded, settings, geometry, rate, start };
+        table().and_then(|table| sharpened(table, &mut found.episodes, &known)).map_err(named)?;
+    }
+    found.verdict = conclude(&found.windows, &found.episodes, found.recorded, too_short, found.samples);
+    Ok(found)
 }
 
 /// The second reading.
@@ -86,8 +97,7 @@ fn analyse(
         normal_acceleration: has(Channel::NormalAcceleration),
         forces: has(Channel::TangentialForce) && has(Channel::NormalForce),
     };
-    let geometry = survey.frequency.map(|frequency| Geometry::new(rate / frequency));
-    let fits = geometry.filter(|geometry| geometry.window as u64 <= samples);
+    let fits = survey.geometry().filter(|geometry| geometry.window as u64 <= samples);
     let mut analyser = fits.map(|geometry| Analyser::new(geometry, rate, survey.has, settings.band));
     let mut spectrogram = Builder::new(settings, samples, rate, start, survey.frequency);
     let mut envelopes = [Envelope::new(samples), Envelope::new(samples)];
@@ -123,7 +133,8 @@ fn analyse(
         rate,
         time: [start, start + samples as f64 / rate],
         frequency: survey.frequency,
-        verdict: conclude(&windows, &episodes, recorded, geometry.is_some() && fits.is_none(), samples),
+        // Concluded when the episodes are known in full.
+        verdict: Verdict::undecided("not concluded"),
         slope: quasi_static_slope(&windows, &episodes),
         notes: notes(&survey),
         columns: survey.names,
@@ -133,6 +144,7 @@ fn analyse(
         envelopes,
         recorded,
         settings: settings.clone(),
+        geometry: fits,
     })
 }
 

@@ -2,7 +2,7 @@
 
 use super::attribution::normal_below;
 use super::cross::{INDEPENDENT, Measured};
-use super::episode::{Episode, LOUD, Recorded};
+use super::episode::{Episode, LOUD, Recorded, is_linear};
 use super::verdict::{Kind, Verdict};
 use super::window::{SHARED, Window};
 
@@ -10,6 +10,8 @@ use super::window::{SHARED, Window};
 const CLEAR: f64 = 3.0;
 /// An oscillation that has lost this factor since it was loudest has decayed.
 const DECAYED: f64 = 0.5;
+/// The same where every window is linear.
+const DECAYED_LINEAR: f64 = 0.85;
 /// The loudest window of a decaying oscillation lies in this first part of the record.
 const EARLY: f64 = 0.5;
 /// Weight of incoherence in a decay: modes that beat decay as surely, but are seen less clearly.
@@ -96,10 +98,13 @@ fn without_growth(windows: &[Window], recorded: Recorded, samples: u64) -> Verdi
     let last = windows.last().map_or(0.0, amplitude) / amplitude(loudest);
     let began = windows.first().map_or(0.0, |window| window.time[0]);
     let ended = windows.last().map_or(0.0, |window| window.time[1]);
-    let early = loudest.time[0] - began < EARLY * (ended - began);
     let trend = decay(&loud);
     let z = -trend.value / trend.error;
-    if early && z > CLEAR && last < DECAYED {
+    // A decay that stays linear needs no halving: nothing but a free oscillation loses a part so steadily.
+    let linear = loud.iter().all(|window| is_linear(window));
+    let enough = if linear && z > 2.0 * CLEAR { DECAYED_LINEAR } else { DECAYED };
+    let early = loudest.time[0] - began < EARLY * (ended - began);
+    if early && z > CLEAR && last < enough {
         let clear = loud.iter().map(|window| clarity(window, recorded)).sum::<f64>() / loud.len() as f64;
         return stable(
             normal_below(z) * (1.0 - BEATING * (1.0 - clear)),

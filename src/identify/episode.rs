@@ -71,6 +71,8 @@ pub struct Episode {
     /// What caused it.
     pub verdict: Verdict,
     pub(super) feedback: Feedback,
+    /// What keeps it undecided whatever the feedback: two modes, or one that changes.
+    pub(super) wanders: bool,
 }
 
 /// What the file records.
@@ -86,9 +88,13 @@ pub(super) fn grows(window: &Window, recorded: Recorded) -> bool {
     window.signal_to_noise >= LOUD
         && window.growth.value > GROWS * window.growth.error
         && coherence >= COHERENT
-        && window.distortion < LINEAR
         && window.sums.second_mode() < SECOND_MODE
-        && window.sums.nonlinear_friction() < NONLINEAR_FRICTION
+        && is_linear(window)
+}
+
+/// Whether nothing sticks, detaches or crosses a kink.
+pub(super) fn is_linear(window: &Window) -> bool {
+    window.distortion < LINEAR && window.sums.nonlinear_friction() < NONLINEAR_FRICTION
 }
 
 /// The best squared coherence with the tangential acceleration that the file offers.
@@ -154,25 +160,43 @@ fn episode(run: &[Window], first: usize, recorded: Recorded, settings: &Settings
         distortion,
     };
     let mut verdict = judge(&feedback, &setting);
-    if let Some(reason) = wanders(run, recorded, settings) {
+    let reason = wanders(run, recorded, settings);
+    let wanders = reason.is_some();
+    if let Some(reason) = reason {
         verdict = Verdict::undecided(reason);
     }
     let normal_force = whole.weighted(run, |window| window.normal_force);
-    Some(Episode {
+    let mut episode = Episode {
         windows: [first, first + run.len() - 1],
         time: [run[0].time[0], run[run.len() - 1].time[1]],
         frequency: whole.frequency,
         friction: whole.friction,
         growth: whole.growth,
         gain,
-        phase: recorded.normal_acceleration.then(|| accelerations.phase()),
-        coherence: recorded.normal_acceleration.then_some(accelerations.normal_acceleration.coherence),
-        share: recorded.forces.then(|| feedback.share()),
-        slope: normal_force.filter(|_| recorded.forces).map(|force| feedback.slope_of(force)),
+        phase: None,
+        coherence: None,
+        share: None,
+        slope: None,
         distortion,
         verdict,
         feedback,
-    })
+        wanders,
+    };
+    episode.measured(recorded, normal_force);
+    episode.phase = recorded.normal_acceleration.then(|| accelerations.phase());
+    episode.coherence = recorded.normal_acceleration.then_some(accelerations.normal_acceleration.coherence);
+    Some(episode)
+}
+
+impl Episode {
+    /// Sets phase, coherence, share and slope from the feedback, with the mean normal force (N) where it is recorded.
+    pub(super) fn measured(&mut self, recorded: Recorded, normal_force: Option<f64>) {
+        let feedback = self.feedback;
+        self.phase = recorded.normal_acceleration.then(|| feedback.phase());
+        self.coherence = recorded.normal_acceleration.then_some(feedback.normal_acceleration.coherence);
+        self.share = recorded.forces.then(|| feedback.share());
+        self.slope = normal_force.filter(|_| recorded.forces).map(|force| feedback.slope_of(force));
+    }
 }
 
 /// How many windows of a run are still linear: from the first strong one on whose friction departs from that of all

@@ -5,6 +5,7 @@ mod arrays;
 mod bad_input;
 mod bistable;
 mod bistable_files;
+mod bound;
 mod checks;
 mod claims;
 mod cli;
@@ -56,6 +57,7 @@ mod start;
 mod stopped;
 mod stretches;
 mod strict;
+mod stroke_table;
 mod strokes;
 #[cfg(unix)]
 mod submit;
