@@ -4,8 +4,8 @@
 //! [`csv`], [`manifest`] and [`figure`] write `map.csv`, `manifest.json` and `map.svg`; [`png`] and [`pdf`] draw any of
 //! the figures, [`look`] says at which width and what of a map, [`boundary_lines`] gives its lines as a table.
 //! [`zarr`] and [`netcdf`] write the labelled [`arrays`] of a sweep, part by part, [`parquet`] its table. [`modes`],
-//! [`trace`] and [`hysteresis`] serve the commands `modes` and `trace`, [`tradeoff`] speed against error, [`identify`] and [`signals`] to and from measured
-//! signals, [`paper`] the figures of the source paper.
+//! [`trace`] and [`hysteresis`] serve the commands `modes` and `trace`, [`tradeoff`] speed against error, [`identify`], [`spectrogram`] and [`signals`] to and
+//! from measured signals, [`paper`] the figures of the source paper.
 
 pub mod arrays;
 mod block;
@@ -43,6 +43,7 @@ pub mod refined;
 pub mod scale;
 pub mod sheet;
 pub mod signals;
+pub mod spectrogram;
 pub mod svg;
 pub mod text;
 pub mod trace;

@@ -130,6 +130,7 @@ impl Known<'_> {
             damping_ratio: settings.damping_ratio,
             // The fit has harmonics of its own.
             distortion: 0.0,
+            episode: true,
         };
         if !episode.wanders {
             episode.verdict = judge(&feedback, &setting);

@@ -42,8 +42,12 @@ pub(super) struct Survey {
 }
 
 impl Survey {
-    /// The windows that its oscillation asks for; `None` where none stands out.
-    pub(super) fn geometry(&self) -> Option<Geometry> {
+    /// Windows of the record; `None` where no oscillation stands out or there is less than one window of it.
+    pub(super) fn windows(&self) -> Option<Geometry> {
+        self.geometry().filter(|geometry| geometry.window as u64 <= self.samples)
+    }
+
+    fn geometry(&self) -> Option<Geometry> {
         self.frequency.map(|frequency| Geometry::new(self.rate / frequency))
     }
 

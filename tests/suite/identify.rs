@@ -14,7 +14,8 @@ use crate::common::near;
 use crate::strokes::{FIELDS, Field, Random, Wanted, stroke};
 
 pub(crate) fn run(bytes: &[u8], settings: &Settings) -> Result<Identification, Error> {
-    identify(|| Ok(Box::new(Cursor::new(bytes.to_vec())) as Box<dyn Read>), "signals.csv", settings)
+    let open = || Ok(Box::new(Cursor::new(bytes.to_vec())) as Box<dyn Read>);
+    identify(open, "signals.csv", settings, &mut |_, _| ())
 }
 
 pub(crate) fn csv(samples: &[Sample]) -> Vec<u8> {

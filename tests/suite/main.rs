@@ -23,6 +23,7 @@ mod fit;
 mod fuzz;
 mod hysteresis;
 mod identify;
+mod identify_files;
 mod instances;
 #[cfg(unix)]
 mod interrupt;
@@ -36,6 +37,7 @@ mod limits;
 mod linear;
 mod methods;
 mod modes_figure;
+mod netcdf_file;
 mod no_driver;
 mod observables;
 mod paper;
