@@ -120,6 +120,10 @@ pub struct Tally {
     counts: BTreeMap<Label, usize>,
     energy_gaining_impacts: Option<u64>,
     checks: Checks,
+    /// Statuses of large starts that failed.
+    failed: BTreeMap<&'static str, usize>,
+    /// Starts of boxes that failed.
+    failed_in_boxes: u64,
 }
 
 impl Tally {
@@ -130,6 +134,10 @@ impl Tally {
             *self.counts.entry(Label::from(&run[0])).or_default() += run.len();
         }
         for record in records {
+            if let Some(large) = record.large().filter(|large| large.status != Status::Ok) {
+                *self.failed.entry(large.status.name()).or_default() += 1;
+            }
+            self.failed_in_boxes += record.basin().map_or(0, |basin| u64::from(basin.failed));
             for start in std::iter::once(record).chain(record.large()) {
                 self.checks.add(start);
                 if let Some(impacts) = start.outcome.and_then(|outcome| outcome.energy_gaining_impacts) {
@@ -168,6 +176,17 @@ impl Tally {
     #[must_use]
     pub fn computed(&self) -> usize {
         self.count(|label| label.status() != Status::NotComputed)
+    }
+
+    /// How many large starts failed with each status.
+    pub fn failed(&self) -> impl Iterator<Item = (&'static str, usize)> {
+        self.failed.iter().map(|(status, count)| (*status, *count))
+    }
+
+    /// How many starts of boxes failed.
+    #[must_use]
+    pub fn failed_in_boxes(&self) -> u64 {
+        self.failed_in_boxes
     }
 
     /// What the checks found.

@@ -47,6 +47,12 @@ const MARKS: [&str; 2] = [
     r##"fill="#FFFFFF" stroke="#D55E00" stroke-width="0.7""##,
 ];
 
+/// Marks of what has not settled: its amplitude is not that of the branch.
+const UNSETTLED: [&str; 2] = [
+    r##"class="unsettled" fill="none" stroke="#1F3F8F" stroke-width="0.9""##,
+    r##"class="unsettled" fill="none" stroke="#D55E00" stroke-width="0.9""##,
+];
+
 /// The figure of both branches as an SVG document, single column width.
 #[must_use]
 pub fn hysteresis_svg(hysteresis: &Hysteresis, heading: &str) -> String {
@@ -87,11 +93,21 @@ pub fn hysteresis_svg(hysteresis: &Hysteresis, heading: &str) -> String {
         let pairs = points.windows(2).filter(|pair| jumped(pair[0].0, pair[1].0));
         plot.curve(&mut svg, pairs.flat_map(|pair| [pair[0], pair[1], nothing]), JUMP);
         if points.len() <= MOST_MARKS {
-            let at = points.iter().filter(|(_, amplitude)| amplitude.is_finite());
-            let at = at.map(|(value, amplitude)| {
-                (frame.across(x.position(*value)), frame.up(y.position(*amplitude)))
-            });
-            svg.path(&at.map(|at| triangle(direction, at)).collect::<String>(), mark);
+            let at = |(value, amplitude): (f64, f64)| {
+                (frame.across(x.position(value)), frame.up(y.position(amplitude)))
+            };
+            let (mut settled, mut crosses) = (String::new(), String::new());
+            for (point, record) in points.iter().zip(hysteresis.branch(direction)) {
+                if is_unsettled(record) {
+                    crosses += &cross(at(*point));
+                } else if point.1.is_finite() {
+                    settled += &triangle(direction, at(*point));
+                }
+            }
+            svg.path(&settled, mark);
+            if !crosses.is_empty() {
+                svg.path(&crosses, UNSETTLED[direction as usize]);
+            }
         }
     }
     frame.border(&mut svg);
@@ -119,6 +135,11 @@ fn amplitude(record: &Record) -> f64 {
         return 0.0;
     }
     record.outcome.and_then(|outcome| outcome.x2_std).unwrap_or(f64::NAN)
+}
+
+/// Whether a record has an amplitude, but not that in which it would end.
+fn is_unsettled(record: &Record) -> bool {
+    amplitude(record).is_finite() && Attractor::of(record, record.kind).is_none()
 }
 
 /// Shades the values at which the branches end differently, half a step to each side; neighbours are one area.
@@ -173,6 +194,16 @@ fn triangle(direction: Direction, (x, y): (f64, f64)) -> String {
     data
 }
 
+/// A mark of what has not settled.
+fn cross((x, y): (f64, f64)) -> String {
+    let mut data = String::new();
+    for tilt in [-MARK, MARK] {
+        let ends = [x - MARK, y - tilt, x + MARK, y + tilt].map(number);
+        let _ = write!(data, "M{} {}L{} {}", ends[0], ends[1], ends[2], ends[3]);
+    }
+    data
+}
+
 /// What is what; returns where the panel begins.
 fn legend(svg: &mut Svg, hysteresis: &Hysteresis, left: f64, top: f64) -> f64 {
     let symbol = hysteresis.param.info().symbol;
@@ -194,6 +225,14 @@ fn legend(svg: &mut Svg, hysteresis: &Hysteresis, left: f64, top: f64) -> f64 {
         svg.rect([x, base - LABEL_SIZE + 2.0, 10.0, LABEL_SIZE - 1.5], BOTH);
         x += 13.5;
         svg.text(x, base, &Text::from("bistable"), Style::new(LABEL_SIZE, Anchor::Start));
+    }
+    let branches = Direction::ALL.map(|direction| hysteresis.branch(direction));
+    let marked = hysteresis.values.len() <= MOST_MARKS;
+    if marked && branches.into_iter().flatten().any(is_unsettled) {
+        base += LABEL_SIZE + 4.0;
+        svg.path(&cross((left + MARK, base - key::MIDDLE * LABEL_SIZE)), UNSETTLED[0]);
+        let words = Text::from("not settled");
+        svg.text(left + 2.0 * MARK + 3.5, base, &words, Style::new(LABEL_SIZE, Anchor::Start));
     }
     base + 8.0
 }
