@@ -120,10 +120,8 @@ pub struct Tally {
     counts: BTreeMap<Label, usize>,
     energy_gaining_impacts: Option<u64>,
     checks: Checks,
-    /// Statuses of large starts that failed.
-    failed: BTreeMap<&'static str, usize>,
-    /// Starts of boxes that failed.
-    failed_in_boxes: u64,
+    /// Starts beside the small one that failed: large ones by their status, those of boxes together (`None`).
+    failed: BTreeMap<Option<&'static str>, u64>,
 }
 
 impl Tally {
@@ -135,9 +133,11 @@ impl Tally {
         }
         for record in records {
             if let Some(large) = record.large().filter(|large| large.status != Status::Ok) {
-                *self.failed.entry(large.status.name()).or_default() += 1;
+                *self.failed.entry(Some(large.status.name())).or_default() += 1;
             }
-            self.failed_in_boxes += record.basin().map_or(0, |basin| u64::from(basin.failed));
+            if let Some(basin) = record.basin().filter(|basin| basin.failed > 0) {
+                *self.failed.entry(None).or_default() += u64::from(basin.failed);
+            }
             for start in std::iter::once(record).chain(record.large()) {
                 self.checks.add(start);
                 if let Some(impacts) = start.outcome.and_then(|outcome| outcome.energy_gaining_impacts) {
@@ -179,14 +179,14 @@ impl Tally {
     }
 
     /// How many large starts failed with each status.
-    pub fn failed(&self) -> impl Iterator<Item = (&'static str, usize)> {
-        self.failed.iter().map(|(status, count)| (*status, *count))
+    pub fn failed(&self) -> impl Iterator<Item = (&'static str, u64)> {
+        self.failed.iter().filter_map(|(status, count)| Some(((*status)?, *count)))
     }
 
     /// How many starts of boxes failed.
     #[must_use]
     pub fn failed_in_boxes(&self) -> u64 {
-        self.failed_in_boxes
+        self.failed.get(&None).copied().unwrap_or_default()
     }
 
     /// What the checks found.

@@ -86,7 +86,7 @@ fn without_growth(overview: &Overview, samples: u64) -> Verdict {
         } else {
             stable(QUIET_CONFIDENCE, "no oscillation stands out of the noise".to_owned())
         };
-    };
+    }
     let [power, start, frequency] = overview.loudest;
     let [began, ended] = overview.time;
     let trend = overview.trend();

@@ -242,7 +242,9 @@ fn a_box_is_bistable_where_both_were_met() {
     let cycle = oscillation(Regime::StickSlip, 1.0);
     let failed = Record { status: Status::EventLimit, ..cycle.clone() };
     let mut counted = Basin::default();
-    [&cycle, &failed, &cycle].into_iter().for_each(|record| counted.add(record, stable));
+    for record in [&cycle, &failed, &cycle] {
+        counted.add(record, stable);
+    }
     assert_eq!(counted, Basin { equilibrium: 0, oscillation: 2, other: 0, failed: 1 });
     assert_eq!((counted.total(), counted.is_bistable()), (3, None));
 }

@@ -21,11 +21,11 @@ const GROWTH: f64 = 12.0;
 #[test]
 fn the_spectrogram_shows_a_growing_tone_where_it_is() {
     let directory = tempfile::tempdir().unwrap();
-    let mut table = "ax2\n".to_owned();
+    let mut table = b"ax2\n".to_vec();
     for k in 0..10_000 {
         let t = f64::from(k) / RATE;
         let value = (GROWTH * t).exp() * (TAU * TONE * t).sin();
-        table.push_str(&format!("{value}\n"));
+        writeln!(table, "{value}").unwrap();
     }
     std::fs::write(directory.path().join("tone.csv"), table).unwrap();
     let ended = squealmap(directory.path(), &["identify", "tone.csv", "--rate", "20000", "-o", "found"]);
@@ -63,7 +63,7 @@ fn the_spectrogram_shows_a_growing_tone_where_it_is() {
 }
 
 /// Writes a record of so many bytes: a squeal of 7 kHz every 0.2 s at 100 kHz, in noise.
-fn squeals(path: &Path, bytes: u64) -> u64 {
+fn squeals(path: &Path, bytes: u64) -> usize {
     let mut file = BufWriter::new(std::fs::File::create(path).unwrap());
     let mut random = Random::new(1);
     // Drawing is slower than analysing: noise from a table that no squeal is in step with.
@@ -76,7 +76,7 @@ fn squeals(path: &Path, bytes: u64) -> u64 {
         let (sin, cos) = (7000.0 * TAU * t).sin_cos();
         let (x, y) = (100.0 * envelope * sin, 60.0 * envelope * (0.8 * sin - 0.6 * cos));
         let normal = 1000.0 + 5.0 * y;
-        let mut at = (rows * 4) as usize;
+        let mut at = 4 * rows;
         let mut drawn = || {
             at += 1;
             noise[at % noise.len()]

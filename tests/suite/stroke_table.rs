@@ -186,7 +186,9 @@ fn phases_are_as_uncertain_as_they_say() {
     assert!((0.5..=0.9).contains(&median), "errors are {median} times the least possible in the median");
     // Phases 1° further off have other standard errors: the judge notices.
     let mut shifted = judged;
-    shifted.iter_mut().for_each(|stroke| stroke.true_phase += 1.0);
+    for stroke in &mut shifted {
+        stroke.true_phase += 1.0;
+    }
     assert!(within(&shifted, 2.0).0 < 0.92);
 }
 
