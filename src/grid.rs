@@ -20,6 +20,25 @@ impl std::fmt::Display for Value {
     }
 }
 
+/// Value `index` of so many from end to end: equal steps, of logarithms if `log`; both ends exact.
+#[must_use]
+pub fn spaced([from, to]: [f64; 2], points: usize, log: bool, index: usize) -> f64 {
+    if index == 0 {
+        return from;
+    }
+    if index + 1 == points {
+        return to;
+    }
+    let last = (points - 1) as f64;
+    let value = if log {
+        // Logarithms rather than the ratio, which could overflow.
+        (from.ln() + index as f64 * ((to.ln() - from.ln()) / last)).exp()
+    } else {
+        from + index as f64 * ((to - from) / last)
+    };
+    value.clamp(from.min(to), from.max(to))
+}
+
 /// What an axis (or a column of a tuple file) varies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AxisKey {

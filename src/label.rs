@@ -120,6 +120,8 @@ pub struct Tally {
     counts: BTreeMap<Label, usize>,
     energy_gaining_impacts: Option<u64>,
     checks: Checks,
+    /// Starts beside the small one that failed: large ones by their status, those of boxes together (`None`).
+    failed: BTreeMap<Option<&'static str>, u64>,
 }
 
 impl Tally {
@@ -130,6 +132,12 @@ impl Tally {
             *self.counts.entry(Label::from(&run[0])).or_default() += run.len();
         }
         for record in records {
+            if let Some(large) = record.large().filter(|large| large.status != Status::Ok) {
+                *self.failed.entry(Some(large.status.name())).or_default() += 1;
+            }
+            if let Some(basin) = record.basin().filter(|basin| basin.failed > 0) {
+                *self.failed.entry(None).or_default() += u64::from(basin.failed);
+            }
             for start in std::iter::once(record).chain(record.large()) {
                 self.checks.add(start);
                 if let Some(impacts) =
@@ -170,6 +178,17 @@ impl Tally {
     #[must_use]
     pub fn computed(&self) -> usize {
         self.count(|label| label.status() != Status::NotComputed)
+    }
+
+    /// How many large starts failed with each status.
+    pub fn failed(&self) -> impl Iterator<Item = (&'static str, u64)> {
+        self.failed.iter().filter_map(|(status, count)| Some(((*status)?, *count)))
+    }
+
+    /// How many starts of boxes failed.
+    #[must_use]
+    pub fn failed_in_boxes(&self) -> u64 {
+        self.failed.get(&None).copied().unwrap_or_default()
     }
 
     /// What the checks found.

@@ -33,8 +33,10 @@ pub struct Basin {
     pub equilibrium: u32,
     /// In a settled oscillation of any kind.
     pub oscillation: u32,
-    /// Elsewhere: stuck, not settled, or without a response.
+    /// Elsewhere: stuck, or not settled.
     pub other: u32,
+    /// Nowhere: the response failed.
+    pub failed: u32,
 }
 
 /// Where a response has ended.
@@ -88,9 +90,10 @@ fn apart(a: f64, b: f64) -> bool {
 }
 
 impl Basin {
-    /// Counts one more start.
-    pub fn add(&mut self, end: Option<Attractor>) {
-        match end {
+    /// Counts the record of one more start, its equilibrium being of the type `kind`.
+    pub fn add(&mut self, record: &Record, kind: Option<InstabilityType>) {
+        match Attractor::of(record, kind) {
+            None if record.status != Status::Ok => self.failed += 1,
             Some(Attractor::Equilibrium) => self.equilibrium += 1,
             Some(Attractor::Oscillation) => self.oscillation += 1,
             Some(Attractor::Stuck) | None => self.other += 1,
@@ -100,7 +103,7 @@ impl Basin {
     /// How many starts there were.
     #[must_use]
     pub fn total(self) -> u32 {
-        self.equilibrium + self.oscillation + self.other
+        self.equilibrium + self.oscillation + self.other + self.failed
     }
 
     /// The fraction of so many of them; undefined of none.
@@ -109,11 +112,11 @@ impl Basin {
         (self.total() > 0).then(|| f64::from(count) / f64::from(self.total()))
     }
 
-    /// Whether both sliding and oscillation were met; `None` where only one was and some starts ended elsewhere.
+    /// Whether both sliding and oscillation were met; `None` where only one was and some starts ended elsewhere or failed.
     #[must_use]
     pub fn is_bistable(self) -> Option<bool> {
         let both = self.equilibrium > 0 && self.oscillation > 0;
-        (both || self.other == 0).then_some(both)
+        (both || self.other + self.failed == 0).then_some(both)
     }
 }
 

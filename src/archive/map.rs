@@ -202,10 +202,10 @@ fn take_basins(records: &mut [Record], columns: &[NumberColumn], starts: u32) {
         Some((column.values.get(instance).copied().flatten()? * f64::from(starts)).round() as u32)
     };
     for (instance, record) in records.iter_mut().enumerate() {
-        let counts =
-            ["basin_equilibrium", "basin_oscillation", "basin_other"].map(|name| count(name, instance));
-        if let [Some(equilibrium), Some(oscillation), Some(other)] = counts {
-            record.others = Some(Others::Basin(Basin { equilibrium, oscillation, other }));
+        let counts = ["basin_equilibrium", "basin_oscillation", "basin_other", "basin_failed"]
+            .map(|name| count(name, instance));
+        if let [Some(equilibrium), Some(oscillation), Some(other), Some(failed)] = counts {
+            record.others = Some(Others::Basin(Basin { equilibrium, oscillation, other, failed }));
         }
     }
 }

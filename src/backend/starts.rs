@@ -12,7 +12,7 @@ use crate::map::{Record, Stopped};
 use crate::model::Param;
 use crate::outcome::Status;
 use crate::spec::{Analysis, Pass, Spec, Starts};
-use crate::starts::{Attractor, Basin, Others, differ, drawn};
+use crate::starts::{Basin, Others, differ, drawn};
 
 /// Computes a range of a sweep whose instances have one start each; gives the number of newly finished ones.
 pub(super) type Once<'a> = dyn FnMut(&Spec, Range<usize>, &(dyn Fn(usize) + Sync)) -> Result<Computed> + 'a;
@@ -135,7 +135,7 @@ fn with_box(
         }
         let mut basin = Basin::default();
         for one in starts {
-            basin.add(Attractor::of(one, *kind));
+            basin.add(one, *kind);
         }
         record.bistable = basin.is_bistable();
         record.others = Some(Others::Basin(basin));

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use squealmap::export::heading::Heading;
 use squealmap::export::look::Look;
 use squealmap::export::{hysteresis as export, png};
+use squealmap::grid::spaced;
 use squealmap::hysteresis::{Direction, Hysteresis};
 use squealmap::model::{Param, Section};
 use squealmap::response::Plan;
@@ -59,9 +60,8 @@ impl Range {
 
     /// So many values with equal steps, both ends exact.
     fn values(&self, points: u32) -> Vec<f64> {
-        let last = points - 1;
-        let step = (self.to - self.from) / f64::from(last);
-        (0..points).map(|at| if at == last { self.to } else { self.from + step * f64::from(at) }).collect()
+        let points = points as usize;
+        (0..points).map(|at| spaced([self.from, self.to], points, false, at)).collect()
     }
 }
 
@@ -109,11 +109,18 @@ pub(crate) fn execute(spec: &Spec, directory: PathBuf, at: &str, range: &Range, 
     } else {
         format!("the branches end differently from {}\n", apart.join(", "))
     };
+    let stays = Direction::ALL.iter().all(|direction| found.jumps(*direction).is_empty());
+    let hint = if stays {
+        "no branch leaves the state in which it begins: inside a bistable band the other one is never met; \
+         begin outside of it (a wider range), or with a larger start\n"
+    } else {
+        ""
+    };
     let warning = match unsettled {
         0 => String::new(),
         some => format!("{some} of {} values had not settled\n", 2 * found.values.len()),
     };
-    print(&format!("{}{apart}{warning}{}", branches.concat(), list(&paths)));
+    print(&format!("{}{apart}{hint}{warning}{}", branches.concat(), list(&paths)));
     Ok(())
 }
 

@@ -7,7 +7,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 use squealmap::Result;
-use squealmap::export::{identify as export, png};
+use squealmap::export::identify::{self as export, WindowsCsv};
+use squealmap::export::png;
+use squealmap::export::spectrogram::spectrogram_nc;
 use squealmap::identify::{
     DAMPING_RATIO, Identification, LARGEST_FRICTION, OVERLAP, Settings, WINDOW, identify,
 };
@@ -16,7 +18,7 @@ use crate::cli::output::{Output, list};
 use crate::cli::print;
 
 /// What is written.
-const FILES: [&str; 4] = ["identify.json", "identify.png", "identify.svg", "windows.csv"];
+const FILES: [&str; 5] = ["identify.json", "identify.png", "identify.svg", "spectrogram.nc", "windows.csv"];
 
 /// Arguments of `identify`.
 #[derive(Debug, Args)]
@@ -83,15 +85,18 @@ impl Identify {
         let settings = self.settings();
         let output = Output::prepare(directory, &FILES)?;
         let open = || File::open(&path).map(|file| Box::new(file) as Box<dyn Read>);
-        let found = identify(open, &name, &settings)?;
+        let windows = output.draft(FILES[4])?;
+        let mut table = WindowsCsv::new(windows.file.as_file())?;
+        let found = identify(open, &name, &settings, &mut |window, reading| table.add(window, reading))?;
+        table.finish()?;
         let svg = export::identify_svg(&found, &heading)?;
         let files = [
             (FILES[0], export::report_json(&found, &name)?),
             (FILES[1], png::render(&svg)?),
             (FILES[2], svg.into_bytes()),
-            (FILES[3], export::windows_csv(&found)?),
+            (FILES[3], spectrogram_nc(&found.spectrogram, &heading)),
         ];
-        let paths = output.write(&files)?;
+        let paths = output.write_beside(&files, vec![windows])?;
         print(&(summary(&found) + &list(&paths)));
         Ok(())
     }
@@ -139,7 +144,7 @@ fn summary(found: &Identification) -> String {
         "{} samples at {:.1} Hz, {} window(s), {} episode(s) of growth",
         found.samples,
         found.rate,
-        found.windows.len(),
+        found.windows,
         found.episodes.len()
     );
     for note in &found.notes {

@@ -68,9 +68,24 @@ impl Output {
         std::mem::take(&mut self.directory)
     }
 
+    /// A file of the directory that is written as its content comes, for [`Output::write_beside`].
+    pub(crate) fn draft<'a>(&self, name: &'a str) -> Result<Draft<'a>> {
+        let file = temporary(&self.directory).map_err(|why| cannot(&self.directory.join(name), &why))?;
+        Ok(Draft { name, file })
+    }
+
     /// Writes all files or none: first under temporary names, then renamed. Returns their paths.
-    pub(crate) fn write(mut self, files: &[(&str, Vec<u8>)]) -> Result<Vec<PathBuf>> {
-        let mut written = Vec::with_capacity(files.len());
+    pub(crate) fn write(self, files: &[(&str, Vec<u8>)]) -> Result<Vec<PathBuf>> {
+        self.write_beside(files, Vec::new())
+    }
+
+    /// The same with files that have been written already.
+    pub(crate) fn write_beside(
+        mut self,
+        files: &[(&str, Vec<u8>)],
+        drafts: Vec<Draft>,
+    ) -> Result<Vec<PathBuf>> {
+        let mut written = Vec::with_capacity(files.len() + drafts.len());
         for (name, bytes) in files {
             let path = self.directory.join(name);
             let file = temporary(&self.directory)
@@ -78,6 +93,7 @@ impl Output {
                 .map_err(|why| cannot(&path, &why))?;
             written.push((path, file));
         }
+        written.extend(drafts.into_iter().map(|draft| (self.directory.join(draft.name), draft.file)));
         let mut paths = Vec::with_capacity(files.len());
         for (path, file) in written {
             file.persist(&path).map_err(|why| cannot(&path, &why.error))?;
@@ -95,6 +111,13 @@ impl Drop for Output {
             let _ = std::fs::remove_dir(directory);
         }
     }
+}
+
+/// A file that is written as its content comes; dropped, it leaves nothing.
+#[derive(Debug)]
+pub(crate) struct Draft<'a> {
+    name: &'a str,
+    pub(crate) file: NamedTempFile,
 }
 
 /// A file under a temporary name that has the permissions of any other new file once it is renamed.

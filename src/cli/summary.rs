@@ -47,6 +47,13 @@ pub(crate) fn summary(analysis: Analysis, tally: &Tally) -> String {
             verdict(None)
         );
     }
+    let failed: Vec<String> = tally.failed().map(|(status, count)| format!("{count} {status}")).collect();
+    if !failed.is_empty() {
+        let _ = writeln!(text, "large starts without a response: {}", failed.join(", "));
+    }
+    if tally.failed_in_boxes() > 0 {
+        let _ = writeln!(text, "{} starts of boxes have no response", tally.failed_in_boxes());
+    }
     let checks = tally.checks().summary();
     if !checks.is_empty() {
         text.push('\n');

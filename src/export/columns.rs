@@ -299,6 +299,7 @@ computed! {
     Starts "bistable" "" |r| flag(r.bistable), "1 where starts end differently: in sliding, in an oscillation, stuck, or (small and large) in oscillations with amplitudes more than 5 % apart; empty where one has not settled";
     Basin "basin_equilibrium" "" |r| fraction(r, |basin| basin.equilibrium), "fraction p of the starts in the box that end in a stable sliding equilibrium; its standard error is sqrt(p (1 - p)/box_samples)";
     Basin "basin_oscillation" "" |r| fraction(r, |basin| basin.oscillation), "fraction p of the starts in the box that end in a settled oscillation; its standard error is sqrt(p (1 - p)/box_samples)";
-    Basin "basin_other" "" |r| fraction(r, |basin| basin.other), "fraction of the starts in the box that end stuck, have not settled or have no response";
+    Basin "basin_other" "" |r| fraction(r, |basin| basin.other), "fraction of the starts in the box that end stuck or have not settled";
+    Basin "basin_failed" "" |r| fraction(r, |basin| basin.failed), "fraction of the starts in the box whose response failed";
     Always "status" "" |r| Cell::text(Some(r.status.name())), "how the instance ended; not_computed: the run was stopped before it";
 }

@@ -49,6 +49,12 @@ const MARKS: [&str; 2] = [
     r##"fill="#FFFFFF" stroke="#D55E00" stroke-width="0.7""##,
 ];
 
+/// Marks of what has not settled: its amplitude is not that of the branch.
+const UNSETTLED: [&str; 2] = [
+    r##"class="unsettled" fill="none" stroke="#1F3F8F" stroke-width="0.9""##,
+    r##"class="unsettled" fill="none" stroke="#D55E00" stroke-width="0.9""##,
+];
+
 /// The figure of both branches as an SVG document, single column width unless the look says otherwise.
 #[must_use]
 pub fn hysteresis_svg(hysteresis: &Hysteresis, heading: &Heading, look: &Look<'_>) -> String {
@@ -90,11 +96,21 @@ pub fn hysteresis_svg(hysteresis: &Hysteresis, heading: &Heading, look: &Look<'_
         let pairs = points.windows(2).filter(|pair| jumped(pair[0].0, pair[1].0));
         plot.curve(&mut svg, pairs.flat_map(|pair| [pair[0], pair[1], nothing]), JUMP);
         if points.len() <= MOST_MARKS {
-            let at = points.iter().filter(|(_, amplitude)| amplitude.is_finite());
-            let at = at.map(|(value, amplitude)| {
-                (frame.across(x.position(*value)), frame.up(y.position(*amplitude)))
-            });
-            svg.path(&at.map(|at| triangle(direction, at)).collect::<String>(), mark);
+            let at = |(value, amplitude): (f64, f64)| {
+                (frame.across(x.position(value)), frame.up(y.position(amplitude)))
+            };
+            let (mut settled, mut crosses) = (String::new(), String::new());
+            for (point, record) in points.iter().zip(hysteresis.branch(direction)) {
+                if is_unsettled(record) {
+                    crosses += &key::cross(at(*point), MARK);
+                } else if point.1.is_finite() {
+                    settled += &triangle(direction, at(*point));
+                }
+            }
+            svg.path(&settled, mark);
+            if !crosses.is_empty() {
+                svg.path(&crosses, UNSETTLED[direction as usize]);
+            }
         }
     }
     frame.border(&mut svg);
@@ -121,6 +137,11 @@ fn amplitude(record: &Record) -> f64 {
         return 0.0;
     }
     record.outcome.as_ref().and_then(|outcome| outcome.x2_std).unwrap_or(f64::NAN)
+}
+
+/// Whether a record has an amplitude, but not that in which it would end.
+fn is_unsettled(record: &Record) -> bool {
+    amplitude(record).is_finite() && Attractor::of(record, record.kind).is_none()
 }
 
 /// Shades the values at which the branches end differently, half a step to each side; neighbours are one area.
@@ -192,6 +213,11 @@ fn legend(svg: &mut Svg, hysteresis: &Hysteresis, [left, top]: [f64; 2], width: 
     let mut entries: Vec<(Text, Sample<'_>)> = words.into_iter().zip(EQUILIBRIUM.map(Sample::Line)).collect();
     if hysteresis.bistable().contains(&Some(true)) {
         entries.push((Text::from("bistable"), Sample::Area(BOTH)));
+    }
+    let branches = Direction::ALL.map(|direction| hysteresis.branch(direction));
+    let marked = hysteresis.values.len() <= MOST_MARKS;
+    if marked && branches.into_iter().flatten().any(is_unsettled) {
+        entries.push((Text::from("not settled"), Sample::Cross(MARK, UNSETTLED[0])));
     }
     base + 4.0 + key::rows(svg, [left, base + 4.0], width, LABEL_SIZE, &entries) + 5.0
 }

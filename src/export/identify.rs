@@ -1,12 +1,13 @@
 //! `identify`: the table of windows and the report; the figure is in `identify_figure.rs`.
 
+use std::io::Write;
+
 use serde_json::{Value, json};
 
 use super::columns::Cell;
-use super::csv::Table;
 use super::manifest::{COMMIT, VERSION};
 use crate::error::{Error, Result};
-use crate::identify::{Channel, Episode, Identification, Measured, Verdict};
+use crate::identify::{Channel, Episode, Identification, Measured, Reading, Verdict, Window};
 
 pub use super::identify_figure::identify_svg;
 
@@ -36,45 +37,73 @@ pub const COLUMNS: [&str; 22] = [
     "leaning",
 ];
 
-/// One row per window, in order of time.
-///
-/// # Errors
-/// When the table cannot be written.
-pub fn windows_csv(found: &Identification) -> Result<Vec<u8>> {
-    let mut table = Table::new(COLUMNS.into_iter())?;
-    for window in &found.windows {
-        let reading = found.read(window);
-        let value = |measured: Option<Measured>| measured.map(|m| m.value);
-        let error = |measured: Option<Measured>| measured.map(|m| m.error);
-        let numbers = [
-            Some(window.time[0]),
-            Some(window.time[1]),
-            window.friction,
-            window.velocity,
-            window.temperature,
-            Some(window.rms),
-            Some(window.frequency),
-            Some(10.0 * window.signal_to_noise.log10()),
-            Some(window.growth.value),
-            Some(window.growth.error),
-            Some(window.distortion),
-            value(reading.phase),
-            error(reading.phase),
-            reading.coherence,
-            reading.force_coherence,
-            value(reading.share),
-            error(reading.share),
-            value(reading.slope),
-            error(reading.slope),
-        ];
-        let words = [
-            reading.verdict.kind.name().to_owned(),
-            Cell::from(reading.verdict.confidence).to_string(),
-            reading.verdict.leaning.map(|kind| kind.name().to_owned()).unwrap_or_default(),
-        ];
-        table.row(numbers.into_iter().map(|number| Cell::from(number).to_string()).chain(words))?;
+/// `windows.csv`, one row per window, written as they come; keeps nothing of it.
+#[derive(Debug)]
+pub struct WindowsCsv<W: Write> {
+    writer: csv::Writer<W>,
+    /// What became of it so far.
+    written: Result<()>,
+}
+
+impl<W: Write> WindowsCsv<W> {
+    /// Writes the header.
+    ///
+    /// # Errors
+    /// When it cannot be written.
+    pub fn new(out: W) -> Result<WindowsCsv<W>> {
+        let mut writer = csv::Writer::from_writer(out);
+        writer.write_record(COLUMNS).map_err(Error::WriteTable)?;
+        Ok(WindowsCsv { writer, written: Ok(()) })
     }
-    table.finish()
+
+    /// Writes the row of the next window. An error is kept until [`WindowsCsv::finish`]; nothing is written after it.
+    pub fn add(&mut self, window: &Window, reading: &Reading) {
+        if self.written.is_ok() {
+            self.written = self.writer.write_record(row(window, reading)).map_err(Error::WriteTable);
+        }
+    }
+
+    /// What was written to.
+    ///
+    /// # Errors
+    /// When a row could not be written.
+    pub fn finish(self) -> Result<W> {
+        self.written?;
+        self.writer.into_inner().map_err(|error| Error::WriteTable(error.into_error().into()))
+    }
+}
+
+/// The row of a window.
+fn row(window: &Window, reading: &Reading) -> Vec<String> {
+    let value = |measured: Option<Measured>| measured.map(|m| m.value);
+    let error = |measured: Option<Measured>| measured.map(|m| m.error);
+    let numbers = [
+        Some(window.time[0]),
+        Some(window.time[1]),
+        window.friction,
+        window.velocity,
+        window.temperature,
+        Some(window.rms),
+        Some(window.frequency),
+        Some(10.0 * window.signal_to_noise.log10()),
+        Some(window.growth.value),
+        Some(window.growth.error),
+        Some(window.distortion),
+        value(reading.phase),
+        error(reading.phase),
+        reading.coherence,
+        reading.force_coherence,
+        value(reading.share),
+        error(reading.share),
+        value(reading.slope),
+        error(reading.slope),
+    ];
+    let words = [
+        reading.verdict.kind.name().to_owned(),
+        Cell::from(reading.verdict.confidence).to_string(),
+        reading.verdict.leaning.map(|kind| kind.name().to_owned()).unwrap_or_default(),
+    ];
+    numbers.into_iter().map(|number| Cell::from(number).to_string()).chain(words).collect()
 }
 
 /// Verdict, evidence and what was analysed, as JSON.
@@ -105,7 +134,7 @@ pub fn report_json(found: &Identification, name: &str) -> Result<Vec<u8>> {
             "velocity": friction.velocity,
         })),
         "episodes": found.episodes.iter().map(episode).collect::<Vec<_>>(),
-        "windows": found.windows.len(),
+        "windows": found.windows,
         "notes": found.notes,
         "units": "SI; phases in degrees, negative when the normal acceleration lags; temperature in °C",
     });

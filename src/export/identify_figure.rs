@@ -49,8 +49,7 @@ pub fn identify_svg(found: &Identification, heading: &str) -> Result<String> {
     let time = Scale::Linear { low: found.time[0], high: found.time[1] };
     let unit = kilo(found.spectrogram.frequency[1]);
     let frequency = Scale::Linear { low: 0.0, high: found.spectrogram.frequency[1] / unit.0 };
-    let friction =
-        Scale::spanning(found.windows.iter().filter_map(|window| window.friction)).widened(HEADROOM);
+    let friction = Scale::spanning(found.friction.columns.iter().flatten().copied()).widened(HEADROOM);
     let values = found.envelopes.iter().flat_map(|envelope| envelope.columns.iter().flatten().copied());
     let acceleration = Scale::spanning(values).widened(HEADROOM);
     let scales = [&friction, &acceleration, &frequency, &frequency];
@@ -66,10 +65,8 @@ pub fn identify_svg(found: &Identification, heading: &str) -> Result<String> {
         match number {
             0 => {
                 episodes(&mut svg, found, &time, &frame);
-                let middle = |w: &crate::identify::Window| 0.5 * (w.time[0] + w.time[1]);
-                let points = found.windows.iter().filter_map(|w| w.friction.map(|mu| (middle(w), mu)));
-                plot.curve(&mut svg, points, STROKES[0]);
-                if found.windows.iter().all(|window| window.friction.is_none()) {
+                plot.curve(&mut svg, curve(&found.friction, found.friction_time), STROKES[0]);
+                if found.friction.columns.is_empty() {
                     nothing(&mut svg, &frame, "no windows, or forces not recorded");
                 }
             }

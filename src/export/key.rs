@@ -27,6 +27,11 @@ pub(super) fn lines(svg: &mut Svg, mut x: f64, base: f64, size: f64, entries: &[
     x
 }
 
+/// The outline of a cross of this radius, points.
+pub(super) fn cross((x, y): (f64, f64), radius: f64) -> String {
+    [-radius, radius].map(|tilt| polyline([(x - radius, y - tilt), (x + radius, y + tilt)])).concat()
+}
+
 /// What stands before the words of an entry.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Sample<'a> {
@@ -36,6 +41,8 @@ pub(super) enum Sample<'a> {
     Area(&'a str),
     /// A mark of this radius, points.
     Mark(f64, &'a str),
+    /// A cross of this radius, points.
+    Cross(f64, &'a str),
 }
 
 impl Sample<'_> {
@@ -46,6 +53,7 @@ impl Sample<'_> {
             Sample::Line(stroke) => svg.path(&polyline([(x, y), (x + SAMPLE, y)]), stroke),
             Sample::Area(fill) => svg.rect([x, base - 0.75 * size, AREA, 0.8 * size], fill),
             Sample::Mark(radius, fill) => svg.circle(x + radius, y, radius, fill),
+            Sample::Cross(radius, stroke) => svg.path(&cross((x + radius, y), radius), stroke),
         }
     }
 
@@ -53,7 +61,7 @@ impl Sample<'_> {
         match self {
             Sample::Line(_) => SAMPLE,
             Sample::Area(_) => AREA,
-            Sample::Mark(radius, _) => 2.0 * radius,
+            Sample::Mark(radius, _) | Sample::Cross(radius, _) => 2.0 * radius,
         }
     }
 }

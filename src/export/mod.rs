@@ -5,8 +5,8 @@
 //! the figures, [`look`] says at which width and what of a map, [`boundary_lines`] gives its lines as a table, [`isolines`] those of
 //! equal value, [`cut`] curves through it, and [`tikz`] its source for LaTeX. [`heading`] stands above figures of one instance.
 //! [`zarr`] and [`netcdf`] write the labelled [`arrays`] of a sweep, part by part, [`parquet`] its table. [`modes`],
-//! [`trace`] and [`hysteresis`] serve the commands `modes` and `trace`, [`tradeoff`] speed against error, [`identify`] and [`signals`] to and from measured
-//! signals, [`paper`] the figures of the source paper.
+//! [`trace`] and [`hysteresis`] serve the commands `modes` and `trace`, [`tradeoff`] speed against error, [`identify`], [`spectrogram`] and [`signals`] to and
+//! from measured signals, [`paper`] the figures of the source paper.
 
 pub mod arrays;
 mod block;
@@ -49,6 +49,7 @@ pub mod refined;
 pub mod scale;
 pub mod sheet;
 pub mod signals;
+pub mod spectrogram;
 pub mod svg;
 mod tex;
 pub mod text;

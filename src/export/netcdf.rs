@@ -8,13 +8,14 @@ use super::manifest::VERSION;
 use super::sheet::Sheet;
 use crate::map::Record;
 
-const DIMENSIONS: u32 = 10;
-const VARIABLES: u32 = 11;
-const ATTRIBUTES: u32 = 12;
+pub(super) const DIMENSIONS: u32 = 10;
+pub(super) const VARIABLES: u32 = 11;
+pub(super) const ATTRIBUTES: u32 = 12;
 const BYTE: u32 = 1;
 const CHAR: u32 = 2;
 const INT: u32 = 4;
-const DOUBLE: u32 = 6;
+pub(super) const FLOAT: u32 = 5;
+pub(super) const DOUBLE: u32 = 6;
 
 /// CDF-2 holds variables of fewer bytes than this.
 const LARGE: u64 = 0xFFFF_FFFC;
@@ -106,10 +107,7 @@ impl NetCdf {
     }
 
     fn header(&self, sizes: &[u64]) -> Vec<u8> {
-        let mut out = Writer { bytes: Vec::new(), large: self.large };
-        out.bytes.extend(b"CDF");
-        out.bytes.push(if self.large { 5 } else { 2 });
-        out.count(0);
+        let mut out = Writer::new(self.large);
         out.list(DIMENSIONS, self.arrays.dimensions.len());
         for (name, length) in &self.arrays.dimensions {
             out.name(name);
@@ -148,19 +146,28 @@ impl NetCdf {
 }
 
 /// Writes the parts of a header, big-endian.
-struct Writer {
-    bytes: Vec<u8>,
+pub(super) struct Writer {
+    pub(super) bytes: Vec<u8>,
     large: bool,
 }
 
 impl Writer {
+    /// The beginning of a file without records: CDF-5 for large ones, else CDF-2.
+    pub(super) fn new(large: bool) -> Writer {
+        let mut out = Writer { bytes: Vec::new(), large };
+        out.bytes.extend(b"CDF");
+        out.bytes.push(if large { 5 } else { 2 });
+        out.count(0);
+        out
+    }
+
     fn word(&mut self, word: u32) {
         self.bytes.extend(word.to_be_bytes());
     }
 
     /// A count, an index or a length: 64 bits in CDF-5.
     #[expect(clippy::cast_possible_truncation, reason = "below 4 GiB in CDF-2")]
-    fn count(&mut self, count: u64) {
+    pub(super) fn count(&mut self, count: u64) {
         if self.large {
             self.bytes.extend(count.to_be_bytes());
         } else {
@@ -168,7 +175,7 @@ impl Writer {
         }
     }
 
-    fn list(&mut self, tag: u32, length: usize) {
+    pub(super) fn list(&mut self, tag: u32, length: usize) {
         self.word(if length == 0 { 0 } else { tag });
         self.count(length as u64);
     }
@@ -179,12 +186,12 @@ impl Writer {
         self.bytes.resize(self.bytes.len().next_multiple_of(4), 0);
     }
 
-    fn name(&mut self, name: &str) {
+    pub(super) fn name(&mut self, name: &str) {
         self.count(name.len() as u64);
         self.padded(name.as_bytes());
     }
 
-    fn text(&mut self, name: &str, text: &str) {
+    pub(super) fn text(&mut self, name: &str, text: &str) {
         // A text without a byte is no attribute to every reader.
         let text = if text.is_empty() { " " } else { text };
         self.name(name);
@@ -241,7 +248,7 @@ impl Writer {
     }
 
     /// Type, size and beginning of a variable.
-    fn place(&mut self, kind: u32, place: Option<(&u64, &u64)>) {
+    pub(super) fn place(&mut self, kind: u32, place: Option<(&u64, &u64)>) {
         let (size, begin) = place.unwrap_or((&0, &0));
         self.word(kind);
         self.count(*size);

@@ -61,9 +61,7 @@ fn point(svg: &mut Svg, x: f64, y: f64, class: Option<&Class>) {
         &format!(r##"class="{name}" fill="{fill}" stroke="#000000" stroke-width="0.5""##),
     );
     if class.is_none() {
-        let cross = [(-ARM, -ARM, ARM, ARM), (ARM, -ARM, -ARM, ARM)]
-            .map(|(a, b, c, d)| super::svg::polyline([(x + a, y + b), (x + c, y + d)]));
-        svg.path(&cross.concat(), r##"fill="none" stroke="#C00000" stroke-width="0.9""##);
+        svg.path(&super::key::cross((x, y), ARM), r##"fill="none" stroke="#C00000" stroke-width="0.9""##);
     }
 }
 

@@ -1,19 +1,22 @@
-//! The spine: survey the file, read it again window by window, find episodes, conclude.
+//! The spine: survey the file, read it again window by window, find episodes, read these again, conclude.
 
 use std::io::Read;
 
 use super::channel::{Channel, PerChannel};
-use super::conclude::{Friction, conclude, quasi_static_slope};
+use super::conclude::{Friction, conclude};
 use super::envelope::Envelope;
-use super::episode::{Episode, Recorded, episodes, swapped};
+use super::episode::{Episode, Recorded, swapped};
 use super::fault::Fault;
+use super::overview::Overview;
 use super::read::Table;
 use super::reading::{Reading, reading};
+use super::runs::Runs;
 use super::settings::Settings;
+use super::spans::{Known, sharpened};
 use super::spectrogram::{Builder, Spectrogram};
 use super::survey::{Survey, survey};
 use super::verdict::Verdict;
-use super::window::{Analyser, Geometry, Window};
+use super::window::{Analyser, Window};
 use crate::error::{Error, Result};
 
 /// Everything found in a file of signals.
@@ -29,8 +32,8 @@ pub struct Identification {
     pub columns: [String; Channel::ALL.len()],
     /// The strongest oscillation of the record, Hz; `None`: none stands out.
     pub frequency: Option<f64>,
-    /// The windows in order of time.
-    pub windows: Vec<Window>,
+    /// Number of windows.
+    pub windows: usize,
     /// The growing oscillations in order of time.
     pub episodes: Vec<Episode>,
     /// Slope of the mean friction coefficient against the mean velocity of the quiet windows.
@@ -43,20 +46,14 @@ pub struct Identification {
     pub spectrogram: Spectrogram,
     /// Tangential and normal acceleration for a picture.
     pub envelopes: [Envelope; 2],
-    recorded: Recorded,
-    settings: Settings,
+    /// Mean friction coefficient of the windows for a picture, over [`Identification::friction_time`].
+    pub friction: Envelope,
+    /// Start of the first and end of the last window, s.
+    pub friction_time: [f64; 2],
 }
 
-impl Identification {
-    /// Phase, feedback and verdict of one window alone.
-    #[must_use]
-    pub fn read(&self, window: &Window) -> Reading {
-        reading(window, self.recorded, &self.settings)
-    }
-}
-
-/// Analyses the signals that `open` reads (called twice: the file is read twice and never held), named `name` in
-/// messages.
+/// Analyses the signals that `open` reads (called up to three times: the file is read anew and never held), named `name` in
+/// messages. `each` is given every window in order of time, with what it says by itself; none is kept.
 ///
 /// # Errors
 /// [`Error::Signals`] when the file cannot be read or is not fit for analysis: which column, where, what to do.
@@ -64,6 +61,7 @@ pub fn identify(
     mut open: impl FnMut() -> std::io::Result<Box<dyn Read>>,
     name: &str,
     settings: &Settings,
+    each: &mut dyn FnMut(&Window, &Reading),
 ) -> Result<Identification> {
     let mut table = || -> std::result::Result<Table, Fault> {
         let input = open().map_err(|why| Fault::Unreadable { why: why.to_string() })?;
@@ -71,28 +69,44 @@ pub fn identify(
     };
     let named = |fault| Error::Signals { name: name.to_owned(), fault: Box::new(fault) };
     let survey = table().and_then(|table| survey(table, settings)).map_err(named)?;
-    table().and_then(|table| analyse(table, survey, settings)).map_err(named)
+    let too_short = survey.too_short();
+    let (mut found, overview) =
+        table().and_then(|table| analyse(table, &survey, settings, each)).map_err(named)?;
+    if let Some(geometry) = survey.windows().filter(|_| !found.episodes.is_empty()) {
+        let Survey { rate, start, .. } = survey;
+        let known = Known { recorded: recorded(&survey), settings, geometry, rate, start };
+        table().and_then(|table| sharpened(table, &mut found.episodes, &known)).map_err(named)?;
+    }
+    found.verdict = conclude(&overview, &found.episodes, too_short, found.samples);
+    Ok(found)
+}
+
+fn recorded(survey: &Survey) -> Recorded {
+    let has = |channel: Channel| survey.has[channel as usize];
+    Recorded {
+        normal_acceleration: has(Channel::NormalAcceleration),
+        forces: has(Channel::TangentialForce) && has(Channel::NormalForce),
+    }
 }
 
 /// The second reading.
 fn analyse(
     mut table: Table,
-    survey: Survey,
+    survey: &Survey,
     settings: &Settings,
-) -> std::result::Result<Identification, Fault> {
-    let Survey { samples, start, rate, .. } = survey;
-    let has = |channel: Channel| survey.has[channel as usize];
-    let recorded = Recorded {
-        normal_acceleration: has(Channel::NormalAcceleration),
-        forces: has(Channel::TangentialForce) && has(Channel::NormalForce),
-    };
-    let geometry = survey.frequency.map(|frequency| Geometry::new(rate / frequency));
-    let fits = geometry.filter(|geometry| geometry.window as u64 <= samples);
+    each: &mut dyn FnMut(&Window, &Reading),
+) -> std::result::Result<(Identification, Overview), Fault> {
+    let Survey { samples, start, rate, .. } = *survey;
+    let recorded = recorded(survey);
+    let fits = survey.windows();
     let mut analyser = fits.map(|geometry| Analyser::new(geometry, rate, survey.has, settings.band));
     let mut spectrogram = Builder::new(settings, samples, rate, start, survey.frequency);
     let mut envelopes = [Envelope::new(samples), Envelope::new(samples)];
     let mut waiting = PerChannel::<Vec<f64>>::default();
-    let mut windows: Vec<Window> = Vec::new();
+    let count = fits.map_or(0, |geometry| (samples - geometry.window as u64) / geometry.hop as u64 + 1);
+    let mut friction = Envelope::new(count);
+    let mut runs = Runs::new(recorded, settings);
+    let mut overview = Overview::new(recorded);
     let mut from: u64 = 0;
     while let Some(row) = table.next()? {
         let tangential = row.values[Channel::TangentialAcceleration as usize];
@@ -105,35 +119,43 @@ fn analyse(
         waiting.iter_mut().zip(row.values).for_each(|(waiting, value)| waiting.push(value));
         if waiting[0].len() == geometry.window {
             let at = start + from as f64 / rate;
-            windows.push(analyser.window(at, &waiting.each_ref().map(Vec::as_slice)));
+            let window = analyser.window(at, &waiting.each_ref().map(Vec::as_slice));
+            each(&window, &reading(&window, recorded, settings));
+            runs.take(&window);
+            overview.take(&window);
+            if let Some(mu) = window.friction {
+                friction.take(mu);
+            }
             for waiting in &mut waiting {
                 waiting.drain(..geometry.hop);
             }
             from += geometry.hop as u64;
         }
     }
-    let episodes = episodes(&windows, recorded, settings);
+    let episodes = runs.finish();
     if let Some(time) = swapped(&episodes, recorded) {
         let name = |channel: Channel| survey.names[channel as usize].clone();
         let [tangential, normal] = [Channel::TangentialAcceleration, Channel::NormalAcceleration].map(name);
         return Err(Fault::SwappedAccelerations { tangential, normal, time });
     }
-    Ok(Identification {
+    let found = Identification {
         samples,
         rate,
         time: [start, start + samples as f64 / rate],
         frequency: survey.frequency,
-        verdict: conclude(&windows, &episodes, recorded, geometry.is_some() && fits.is_none(), samples),
-        slope: quasi_static_slope(&windows, &episodes),
-        notes: notes(&survey),
-        columns: survey.names,
-        windows,
+        // Concluded when the episodes are known in full.
+        verdict: Verdict::undecided("not concluded"),
+        slope: overview.quasi_static_slope(&episodes),
+        notes: notes(survey),
+        columns: survey.names.clone(),
+        windows: overview.windows,
         episodes,
         spectrogram: spectrogram.finish(),
         envelopes,
-        recorded,
-        settings: settings.clone(),
-    })
+        friction,
+        friction_time: overview.time,
+    };
+    Ok((found, overview))
 }
 
 /// What limits the analysis.

@@ -33,25 +33,30 @@
 
 use num_complex::Complex64;
 
+use super::cross::Measured;
 use super::feedback::Feedback;
 
-/// Systematic error of ψ in the two-mode picture, rad: its 90th percentile over the instances above.
-const PHASE_ALLOWANCE: f64 = 0.02;
+/// Systematic error of ψ in the two-mode picture, rad: its 90th percentile over the instances above is 0.02, 1.64 standard
+/// errors.
+const PHASE_ALLOWANCE: f64 = 0.0125;
 /// Phase by which forces may be late without anybody knowing, rad (3°: 0.6 µs at 14.5 kHz), unless the signals show it.
 const FORCE_PHASE: f64 = 0.05;
+/// Systematic error of the angle between friction coefficient and velocity, rad.
+const ANGLE_ALLOWANCE: f64 = 0.02;
 /// Systematic error of the slope's part, relative.
-const SLOPE_ALLOWANCE: f64 = 0.03;
-/// Points per uncertain quantity, in standard errors, with weights. Standard errors come from few independent blocks, so
-/// the points of a normal distribution are a quarter wider (Student's distribution of 5 degrees of freedom).
-const NODES: [(f64, f64); 7] = [
-    (-3.0, 0.0224),
-    (-2.0, 0.1109),
-    (-1.0, 0.2897),
-    (0.0, 0.3990),
-    (1.0, 0.2897),
-    (2.0, 0.1109),
-    (3.0, 0.0224),
+const SLOPE_ALLOWANCE: f64 = 0.02;
+/// Points per uncertain quantity, in standard errors, with the weights of a normal distribution.
+const FINE: &[(f64, f64)] = &[
+    (-3.0, 0.0044),
+    (-2.0, 0.0540),
+    (-1.0, 0.2420),
+    (0.0, 0.3989),
+    (1.0, 0.2420),
+    (2.0, 0.0540),
+    (3.0, 0.0044),
 ];
+/// The same for single windows, of which a record may have a million: by Gauss and Hermite.
+const COARSE: &[(f64, f64)] = &[(-1.732_050_8, 1.0 / 6.0), (0.0, 2.0 / 3.0), (1.732_050_8, 1.0 / 6.0)];
 /// Values of each damping from 0 to its bound, both included, and pairs of them.
 const DAMPINGS: usize = 3;
 const PAIRS: usize = DAMPINGS * DAMPINGS;
@@ -108,35 +113,49 @@ pub fn alone(growth: f64, share: f64, psi: f64, [d_x, d_y]: [f64; 2]) -> [f64; 2
     [coupled - 0.5 * (d_x + d_y), (1.0 - share) * p - d_x]
 }
 
-/// The probabilities, given the largest damping (1/s).
-pub(super) fn probabilities(feedback: &Feedback, largest_damping: f64) -> Probabilities {
+/// The probabilities, given the largest damping (1/s); `fine`: 29 times the work.
+pub(super) fn probabilities(feedback: &Feedback, largest_damping: f64, fine: bool) -> Probabilities {
+    let nodes = if fine { FINE } else { COARSE };
     let (normal, normal_error) = feedback.normal;
     let (slope, slope_error) = feedback.slope;
-    // A falling slope follows the velocity exactly: where there is one it shows how late the forces are.
-    let late =
-        feedback.asynchrony().map_or(FORCE_PHASE, |off| (off.value.abs() + 2.0 * off.error).to_radians());
-    let along_error = normal_error.hypot(late.min(FORCE_PHASE) * normal.im);
+    let total = normal + slope;
+    // `T` and `N` come from sensors of their own: the errors of `ν_n` and of the sum are independent.
+    let total_error = (slope_error * slope_error - normal_error * normal_error).max(0.0).sqrt();
+    let total_error = total_error.hypot(SLOPE_ALLOWANCE * slope.re.abs());
     let across_error = normal_error.hypot(PHASE_ALLOWANCE * normal.norm());
-    let slope_error = slope_error.hypot(SLOPE_ALLOWANCE * slope.re.abs());
+    let late = lateness(feedback);
     let grows = normal_below(feedback.growth.value / feedback.growth.error);
     let growth = feedback.growth.value.max(0.0);
-    let all = NODES.iter().map(|(_, weight)| weight).sum::<f64>().powi(3);
+    let all = nodes.iter().map(|(_, weight)| weight).sum::<f64>().powi(4);
     let mut found = Probabilities::default();
     for (k, of) in found.0.iter_mut().enumerate() {
         let dampings =
             [k / DAMPINGS, k % DAMPINGS].map(|step| largest_damping * step as f64 / (DAMPINGS - 1) as f64);
         of[Cause::None as usize] = 1.0 - grows;
-        for (a, weight_a) in NODES {
-            for (b, weight_b) in NODES {
-                for (c, weight_c) in NODES {
-                    let fed = Complex64::new(normal.re + a * along_error, normal.im + b * across_error);
-                    let cause = cause(growth, fed, slope.re + c * slope_error, dampings);
-                    of[cause as usize] += grows * weight_a * weight_b * weight_c / all;
+        for (l, weight_l) in nodes.iter().copied() {
+            let turn = Complex64::cis(-(late.value + l * late.error));
+            let (normal, total) = (normal * turn, (total * turn).re);
+            for (a, weight_a) in nodes.iter().copied() {
+                for (b, weight_b) in nodes.iter().copied() {
+                    for (c, weight_c) in nodes.iter().copied() {
+                        let fed = Complex64::new(normal.re + a * normal_error, normal.im + b * across_error);
+                        let cause = cause(growth, fed, total + c * total_error - fed.re, dampings);
+                        of[cause as usize] += grows * weight_l * weight_a * weight_b * weight_c / all;
+                    }
                 }
             }
         }
     }
     found
+}
+
+/// The angle by which the forces turn `ν_n` and `ν_s` because they are late, rad: what is known beforehand, and, where
+/// there is a slope, what it shows.
+fn lateness(feedback: &Feedback) -> Measured {
+    let Some(off) = feedback.asynchrony() else { return Measured { value: 0.0, error: FORCE_PHASE } };
+    let (angle, error) = (off.value.to_radians(), off.error.to_radians().hypot(ANGLE_ALLOWANCE));
+    let weight = FORCE_PHASE * FORCE_PHASE / (FORCE_PHASE * FORCE_PHASE + error * error);
+    Measured { value: weight * angle, error: error * weight.sqrt() }
 }
 
 /// The cause when everything is known.

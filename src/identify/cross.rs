@@ -40,7 +40,7 @@ pub struct Measured {
 }
 
 /// A complex amplitude ratio against the tangential acceleration.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Ratio {
     pub(super) value: Complex64,
     /// Standard error of each of its parts.

@@ -2,6 +2,7 @@
 
 use super::cross::{INDEPENDENT, Measured, Sums};
 use super::feedback::{Feedback, Skews, folded};
+use super::runs::Brief;
 use super::settings::Settings;
 use super::verdict::{Setting, Verdict, judge};
 use super::window::{SHARED, Window};
@@ -28,13 +29,13 @@ const STRONG: f64 = 0.1;
 /// Fewest windows of an episode of which strong ones may be left out.
 const LEAST_KEPT: usize = 3;
 /// Windows of one episode have frequencies within this of each other, relative.
-const SAME: f64 = 0.05;
+pub(super) const SAME: f64 = 0.05;
 /// Least gain of an episode (factor e): below it a beat of two modes looks the same.
 const LEAST_GAIN: f64 = 1.0;
 /// A gain from which no beat is taken for growth (factor 20): it would need two modes equal within 10 %.
-const LASTING: f64 = 3.0;
+pub(super) const LASTING: f64 = 3.0;
 /// Amplitude, relative to the one reached, that tells a beat before or after the growth.
-const AGAIN: f64 = 0.7;
+const AGAIN: f32 = 0.7;
 /// How far before and after an episode a beat is looked for, in lengths of the episode, and in windows (36 periods) at least.
 const LOOK_AROUND: usize = 3;
 const LOOK_AROUND_LEAST: usize = 12;
@@ -71,6 +72,8 @@ pub struct Episode {
     /// What caused it.
     pub verdict: Verdict,
     pub(super) feedback: Feedback,
+    /// What keeps it undecided whatever the feedback: two modes, or one that changes.
+    pub(super) wanders: bool,
 }
 
 /// What the file records.
@@ -86,9 +89,13 @@ pub(super) fn grows(window: &Window, recorded: Recorded) -> bool {
     window.signal_to_noise >= LOUD
         && window.growth.value > GROWS * window.growth.error
         && coherence >= COHERENT
-        && window.distortion < LINEAR
         && window.sums.second_mode() < SECOND_MODE
-        && window.sums.nonlinear_friction() < NONLINEAR_FRICTION
+        && is_linear(window)
+}
+
+/// Whether nothing sticks, detaches or crosses a kink.
+pub(super) fn is_linear(window: &Window) -> bool {
+    window.distortion < LINEAR && window.sums.nonlinear_friction() < NONLINEAR_FRICTION
 }
 
 /// The best squared coherence with the tangential acceleration that the file offers.
@@ -103,40 +110,25 @@ fn coherence(sums: &Sums, recorded: Recorded) -> f64 {
     }
 }
 
-/// All episodes of a record.
-pub(super) fn episodes(windows: &[Window], recorded: Recorded, settings: &Settings) -> Vec<Episode> {
-    let same = |a: &Window, b: &Window| {
-        let alike = (a.frequency - b.frequency).abs() <= SAME * a.frequency;
-        grows(a, recorded) && grows(b, recorded) && alike
-    };
-    let mut found = Vec::new();
-    let mut first = 0;
-    for run in windows.chunk_by(same) {
-        if grows(&run[0], recorded) {
-            let beat = beats(windows, first, run.len());
-            found.extend(
-                episode(run, first, recorded, settings).filter(|episode| !(beat && episode.gain < LASTING)),
-            );
-        }
-        first += run.len();
-    }
-    found
-}
-
 /// Whether the oscillation was as strong shortly before, or soon gives back what it gained, in windows that are still
 /// linear.
-fn beats(windows: &[Window], first: usize, length: usize) -> bool {
+pub(super) fn beats(briefs: &[Brief], first: usize, length: usize) -> bool {
     let end = first + length;
-    let reached = windows[end - 1].sums.xx;
+    let again = AGAIN * AGAIN * briefs[end - 1].power;
     let near = (LOOK_AROUND * length).max(LOOK_AROUND_LEAST);
-    let mut before = windows[first.saturating_sub(near)..first].iter();
-    let mut after = windows[end..].iter().take(near).take_while(|window| window.distortion < LINEAR);
-    before.any(|window| window.sums.xx > AGAIN * AGAIN * reached)
-        || after.any(|window| window.sums.xx < AGAIN * AGAIN * reached)
+    let mut before = briefs[first.saturating_sub(near)..first].iter();
+    let linear = |brief: &&Brief| f64::from(brief.distortion) < LINEAR;
+    let mut after = briefs[end..].iter().take(near).take_while(linear);
+    before.any(|brief| brief.power > again) || after.any(|brief| brief.power < again)
 }
 
 /// The episode of a run of growing windows; `None` when it gains too little.
-fn episode(run: &[Window], first: usize, recorded: Recorded, settings: &Settings) -> Option<Episode> {
+pub(super) fn episode(
+    run: &[Window],
+    first: usize,
+    recorded: Recorded,
+    settings: &Settings,
+) -> Option<Episode> {
     // The accelerations stay in their ratio when friction begins to depart.
     let accelerations = Part::new(run).feedback(settings);
     let run = &run[..linear(run)];
@@ -152,27 +144,46 @@ fn episode(run: &[Window], first: usize, recorded: Recorded, settings: &Settings
         normal_acceleration: recorded.normal_acceleration,
         damping_ratio: settings.damping_ratio,
         distortion,
+        episode: true,
     };
     let mut verdict = judge(&feedback, &setting);
-    if let Some(reason) = wanders(run, recorded, settings) {
+    let reason = wanders(run, recorded, settings);
+    let wanders = reason.is_some();
+    if let Some(reason) = reason {
         verdict = Verdict::undecided(reason);
     }
     let normal_force = whole.weighted(run, |window| window.normal_force);
-    Some(Episode {
+    let mut episode = Episode {
         windows: [first, first + run.len() - 1],
         time: [run[0].time[0], run[run.len() - 1].time[1]],
         frequency: whole.frequency,
         friction: whole.friction,
         growth: whole.growth,
         gain,
-        phase: recorded.normal_acceleration.then(|| accelerations.phase()),
-        coherence: recorded.normal_acceleration.then_some(accelerations.normal_acceleration.coherence),
-        share: recorded.forces.then(|| feedback.share()),
-        slope: normal_force.filter(|_| recorded.forces).map(|force| feedback.slope_of(force)),
+        phase: None,
+        coherence: None,
+        share: None,
+        slope: None,
         distortion,
         verdict,
         feedback,
-    })
+        wanders,
+    };
+    episode.measured(recorded, normal_force);
+    episode.phase = recorded.normal_acceleration.then(|| accelerations.phase());
+    episode.coherence = recorded.normal_acceleration.then_some(accelerations.normal_acceleration.coherence);
+    Some(episode)
+}
+
+impl Episode {
+    /// Sets phase, coherence, share and slope from the feedback, with the mean normal force (N) where it is recorded.
+    pub(super) fn measured(&mut self, recorded: Recorded, normal_force: Option<f64>) {
+        let feedback = self.feedback;
+        self.phase = recorded.normal_acceleration.then(|| feedback.phase());
+        self.coherence = recorded.normal_acceleration.then_some(feedback.normal_acceleration.coherence);
+        self.share = recorded.forces.then(|| feedback.share());
+        self.slope = normal_force.filter(|_| recorded.forces).map(|force| feedback.slope_of(force));
+    }
 }
 
 /// How many windows of a run are still linear: from the first strong one on whose friction departs from that of all

@@ -57,17 +57,29 @@ impl Feedback {
         skews: Skews,
         share: f64,
     ) -> Feedback {
-        let omega = TAU * frequency;
+        let ratios = [sums.normal_acceleration(share), sums.normal_force(share), sums.friction(share)];
+        Feedback::from_ratios(ratios, growth, TAU * frequency, friction, skews)
+    }
+
+    /// From the ratios of normal acceleration, normal force and `T − μN` to the tangential acceleration at the angular
+    /// frequency `omega` (rad/s), with the mean friction coefficient μ.
+    pub(super) fn from_ratios(
+        [normal_acceleration, normal_force, change]: [Ratio; 3],
+        growth: Measured,
+        omega: f64,
+        friction: f64,
+        skews: Skews,
+    ) -> Feedback {
         let lambda = Complex64::new(growth.value, omega);
         // A channel that is late by τ lags by ωτ.
         let advanced =
             |ratio: Ratio, delay: f64| Ratio { value: ratio.value * Complex64::cis(omega * delay), ..ratio };
-        let normal_force = advanced(sums.normal_force(share), skews.force);
-        let change = advanced(sums.friction(share), skews.force);
+        let normal_force = advanced(normal_force, skews.force);
+        let change = advanced(change, skews.force);
         Feedback {
             growth,
             omega,
-            normal_acceleration: advanced(sums.normal_acceleration(share), skews.acceleration),
+            normal_acceleration: advanced(normal_acceleration, skews.acceleration),
             normal_force,
             normal: (friction * lambda * normal_force.value, friction.abs() * omega * normal_force.error),
             slope: (lambda * change.value, omega * change.error),

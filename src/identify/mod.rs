@@ -5,9 +5,10 @@
 //! | columns, CSV → rows | `channel.rs`, `settings.rs`, `read.rs` |
 //! | is the file fit for analysis: gaps, clipping, swapped columns | `survey.rs`, `pace.rs`, `range.rs`, `fault.rs` |
 //! | windows: frequency, growth, cross-spectra | `window.rs`, `cross.rs`, `spectrum.rs` |
+//! | episodes of growth; one mode fitted to the samples of each | `runs.rs`, `episode.rs`, `spans.rs`, `sharpen.rs`, `mode.rs` |
 //! | friction power and its parts | `feedback.rs` |
 //! | which mechanism alone would destabilise | `attribution.rs` |
-//! | verdict, confidence, reasons | `episode.rs`, `verdict.rs`, `reading.rs`, `conclude.rs` |
+//! | verdict, confidence, reasons | `verdict.rs`, `reading.rs`, `overview.rs`, `conclude.rs` |
 //! | points for `fit` | `points.rs` |
 //! | pictures | `spectrogram.rs`, `envelope.rs` |
 //! | all of it in order | `analysis.rs` |
@@ -24,12 +25,18 @@ mod envelope;
 mod episode;
 mod fault;
 mod feedback;
+mod line;
+mod mode;
+mod overview;
 mod pace;
 mod points;
 mod range;
 mod read;
 mod reading;
+mod runs;
 mod settings;
+mod sharpen;
+mod spans;
 mod spectrogram;
 mod spectrum;
 mod survey;

@@ -51,6 +51,7 @@ fn verdict(window: &Window, feedback: &Feedback, recorded: Recorded, settings: &
             normal_acceleration: recorded.normal_acceleration,
             damping_ratio: settings.damping_ratio,
             distortion: window.distortion,
+            episode: false,
         };
         return judge(feedback, &setting);
     }

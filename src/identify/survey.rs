@@ -7,6 +7,7 @@ use super::range::Range;
 use super::read::Table;
 use super::settings::Settings;
 use super::spectrum::{Spectra, hann, noise_floor, refine};
+use super::window::Geometry;
 
 /// Fewest samples of a record: below this there is no spectrum to speak of.
 pub const LEAST_SAMPLES: u64 = 64;
@@ -38,6 +39,22 @@ pub(super) struct Survey {
     pub(super) frequency: Option<f64>,
     /// Velocity and temperature that stand still.
     pub(super) constant: Vec<Channel>,
+}
+
+impl Survey {
+    /// Windows of the record; `None` where no oscillation stands out or there is less than one window of it.
+    pub(super) fn windows(&self) -> Option<Geometry> {
+        self.geometry().filter(|geometry| geometry.window as u64 <= self.samples)
+    }
+
+    fn geometry(&self) -> Option<Geometry> {
+        self.frequency.map(|frequency| Geometry::new(self.rate / frequency))
+    }
+
+    /// Whether there is an oscillation, but not one window of it.
+    pub(super) fn too_short(&self) -> bool {
+        self.geometry().is_some_and(|geometry| geometry.window as u64 > self.samples)
+    }
 }
 
 /// Reads a whole file once.

@@ -91,6 +91,8 @@ pub(super) struct Setting {
     pub(super) damping_ratio: f64,
     /// Harmonics relative to the fundamental.
     pub(super) distortion: f64,
+    /// Whether it is an episode, on which the verdict on the record rests, and not one window.
+    pub(super) episode: bool,
 }
 
 /// The verdict on an oscillation that grows.
@@ -124,7 +126,7 @@ pub(super) fn judge(feedback: &Feedback, setting: &Setting) -> Verdict {
             100.0 * unexplained
         ));
     }
-    let likely = probabilities(feedback, setting.damping_ratio * feedback.omega);
+    let likely = probabilities(feedback, setting.damping_ratio * feedback.omega, setting.episode);
     let (kind, probability) = leading(&likely);
     // Lowered by what is not one linear mode.
     let mut coherence = force_coherence;

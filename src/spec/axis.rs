@@ -5,7 +5,7 @@ use std::ops::Range;
 use toml::de::DeTable;
 
 use crate::error::{Error, Result};
-use crate::grid::{Axis, AxisKey, Value};
+use crate::grid::{Axis, AxisKey, Value, spaced};
 use crate::model::Param;
 use crate::place::Source;
 use crate::spec::MAX_VALUES;
@@ -133,24 +133,6 @@ fn range(
         return Err(out_of_range(source, to_node, &label("to"), limit));
     }
     admit(points)?;
-    let values = (0..points).map(|index| Value::Number(value(from, to, points, log, index))).collect();
+    let values = (0..points).map(|index| Value::Number(spaced([from, to], points, log, index))).collect();
     Ok((Axis { key: AxisKey::Param(param), values, log }, vec![span]))
-}
-
-/// Value `index`: index times step, both ends exact.
-fn value(from: f64, to: f64, points: usize, log: bool, index: usize) -> f64 {
-    if index == 0 {
-        return from;
-    }
-    if index + 1 == points {
-        return to;
-    }
-    let last = (points - 1) as f64;
-    let value = if log {
-        // Logarithms rather than the ratio, which could overflow.
-        (from.ln() + index as f64 * ((to.ln() - from.ln()) / last)).exp()
-    } else {
-        from + index as f64 * ((to - from) / last)
-    };
-    value.clamp(from.min(to), from.max(to))
 }

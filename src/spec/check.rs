@@ -132,6 +132,16 @@ impl Check<'_> {
                 return Err(unused(at, key, user.to_owned()));
             }
         }
+        if let (Kind::Both | Kind::Box, false) = (kind, self.sections.analysis.response)
+            && let Some(given) = self.sections.find("kind")
+        {
+            let key = format!("`kind = \"{}\"` in [start]", kind.name());
+            return Err(unused(
+                self.sweep.place(given.span.clone()),
+                key,
+                "\"response\" in `analysis`".to_owned(),
+            ));
+        }
         if kind != Kind::Box
             && let Some(given) = self.sections.find("box_samples")
         {

@@ -1,5 +1,5 @@
 //! Records of several starts as columns: those of the small start as of any sweep ([`super::columns`]), then a byte for
-//! `bistable` and what the other starts gave: the columns of the large one, or three counts of a box (u32).
+//! `bistable` and what the other starts gave: the columns of the large one, or four counts of a box (u32).
 //!
 //! A sweep of one start has its own columns and not a byte more.
 
@@ -10,7 +10,7 @@ use crate::spec::{Analysis, Starts};
 use crate::starts::{Basin, Others};
 
 /// Bytes of the counts of a box.
-const COUNTS: usize = 12;
+const COUNTS: usize = 16;
 
 /// Codes of `bistable`.
 const CODES: [Option<bool>; 3] = [None, Some(false), Some(true)];
@@ -52,9 +52,9 @@ pub fn encode(records: &[Record], analysis: Analysis, bytes: &mut [u8]) {
         let of_large = |record: &Record| record.large().cloned().unwrap_or(Record::NOT_COMPUTED);
         columns::encode(&records.iter().map(of_large).collect::<Vec<_>>(), large, others);
     } else {
-        for (twelve, record) in others.chunks_exact_mut(COUNTS).zip(records) {
-            let Basin { equilibrium, oscillation, other } = record.basin().unwrap_or_default();
-            for (four, count) in twelve.chunks_exact_mut(4).zip([equilibrium, oscillation, other]) {
+        for (bytes, record) in others.chunks_exact_mut(COUNTS).zip(records) {
+            let Basin { equilibrium, oscillation, other, failed } = record.basin().unwrap_or_default();
+            for (four, count) in bytes.chunks_exact_mut(4).zip([equilibrium, oscillation, other, failed]) {
                 four.copy_from_slice(&count.to_le_bytes());
             }
         }
@@ -79,7 +79,7 @@ pub fn decode(bytes: &[u8], count: usize, analysis: Analysis) -> Option<Vec<Reco
             |record: Record| (record.status != Status::NotComputed).then(|| Others::Large(Box::new(record)));
         columns::decode(others, count, large)?.into_iter().map(computed).collect()
     } else {
-        others.chunks_exact(COUNTS).map(|twelve| basin(twelve).map(Others::Basin)).collect()
+        others.chunks_exact(COUNTS).map(|bytes| basin(bytes).map(Others::Basin)).collect()
     };
     for ((record, flag), others) in records.iter_mut().zip(flags).zip(others) {
         record.bistable = *CODES.get(usize::from(*flag))?;
@@ -89,9 +89,9 @@ pub fn decode(bytes: &[u8], count: usize, analysis: Analysis) -> Option<Vec<Reco
 }
 
 /// The counts of a box; `None` where no start was counted.
-fn basin(twelve: &[u8]) -> Option<Basin> {
-    let mut counts = twelve.chunks_exact(4).map(|four| four.try_into().map_or(0, u32::from_le_bytes));
+fn basin(bytes: &[u8]) -> Option<Basin> {
+    let mut counts = bytes.chunks_exact(4).map(|four| four.try_into().map_or(0, u32::from_le_bytes));
     let mut next = || counts.next().unwrap_or(0);
-    let basin = Basin { equilibrium: next(), oscillation: next(), other: next() };
+    let basin = Basin { equilibrium: next(), oscillation: next(), other: next(), failed: next() };
     (basin.total() > 0).then_some(basin)
 }

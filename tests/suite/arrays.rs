@@ -8,6 +8,7 @@ use std::path::Path;
 use serde_json::Value as Json;
 
 use crate::cli::squealmap;
+use crate::netcdf_file::netcdf;
 use crate::resume::{SWEEP, with};
 
 /// The columns of `map.csv`.
@@ -178,100 +179,9 @@ fn missing_tiles_are_not_computed_in_every_format() {
     compare_netcdf(directory.path()).unwrap();
 }
 
-/// Reads the header of a NetCDF classic file.
-struct Header<'a> {
-    bytes: &'a [u8],
-    at: usize,
-    wide: bool,
-}
-
-impl Header<'_> {
-    fn word(&mut self) -> u32 {
-        self.at += 4;
-        u32::from_be_bytes(self.bytes[self.at - 4..self.at].try_into().unwrap())
-    }
-
-    fn count(&mut self) -> usize {
-        if !self.wide {
-            return self.word() as usize;
-        }
-        usize::try_from(self.long()).unwrap()
-    }
-
-    fn long(&mut self) -> u64 {
-        (u64::from(self.word()) << 32) | u64::from(self.word())
-    }
-
-    fn padded(&mut self, length: usize) -> Vec<u8> {
-        let bytes = self.bytes[self.at..self.at + length].to_vec();
-        self.at += length.next_multiple_of(4);
-        bytes
-    }
-
-    fn name(&mut self) -> String {
-        let length = self.count();
-        String::from_utf8(self.padded(length)).unwrap()
-    }
-
-    /// Texts as they are, numbers as text.
-    fn attributes(&mut self) -> BTreeMap<String, String> {
-        assert_eq!(self.word(), 12);
-        let count = self.count();
-        let mut all = BTreeMap::new();
-        for _ in 0..count {
-            let (name, kind, length) = (self.name(), self.word(), self.count());
-            let text = match kind {
-                2 => String::from_utf8(self.padded(length)).unwrap(),
-                1 => self
-                    .padded(length)
-                    .iter()
-                    .map(|byte| byte.cast_signed().to_string())
-                    .collect::<Vec<_>>()
-                    .join(" "),
-                other => panic!("{other}"),
-            };
-            all.insert(name, text);
-        }
-        all
-    }
-}
-
-/// A variable: its dimensions, attributes and values.
-type Variable = (Vec<String>, BTreeMap<String, String>, Vec<f64>);
-
-fn netcdf(path: &Path) -> BTreeMap<String, Variable> {
-    let bytes = std::fs::read(path).unwrap();
-    assert_eq!(&bytes[..3], b"CDF");
-    let mut header = Header { bytes: &bytes, at: 4, wide: bytes[3] == 5 };
-    assert_eq!((bytes[3], header.count(), header.word()), (2, 0, 10));
-    let count = header.count();
-    let dimensions: Vec<(String, usize)> = (0..count).map(|_| (header.name(), header.count())).collect();
-    assert_eq!(header.attributes()["title"], "Tiles");
-    assert_eq!(header.word(), 11);
-    let mut variables = BTreeMap::new();
-    for _ in 0..header.count() {
-        let name = header.name();
-        let rank = header.count();
-        let ids: Vec<usize> = (0..rank).map(|_| header.count()).collect();
-        let attributes = header.attributes();
-        let (kind, size, begin) = (header.word(), header.count(), usize::try_from(header.long()).unwrap());
-        let length: usize = ids.iter().map(|id| dimensions[*id].1).product();
-        let width = if kind == 6 { 8 } else { 1 };
-        assert_eq!(size, (width * length).next_multiple_of(4), "{name}");
-        let values = bytes[begin..begin + width * length].chunks_exact(width).map(|bytes| match kind {
-            6 => f64::from_be_bytes(bytes.try_into().unwrap()),
-            1 => f64::from(bytes[0].cast_signed()),
-            other => panic!("{other}"),
-        });
-        let names = ids.iter().map(|id| dimensions[*id].0.clone()).collect();
-        variables.insert(name, (names, attributes, values.collect()));
-    }
-    variables
-}
-
 /// Compares all computed columns with a file.
 fn compare_netcdf(directory: &Path) -> Result<(), String> {
-    let variables = netcdf(&directory.join("out/s/map.nc"));
+    let variables = netcdf(&directory.join("out/s/map.nc"), "Tiles");
     let table = table(directory);
     if variables.len() != table.len() - 1 {
         return Err(format!("{} variables", variables.len()));
@@ -298,7 +208,7 @@ fn netcdf_holds_what_the_table_holds() {
     assert_eq!((ended.code, ended.out.as_str()), (Some(0), "wrote out/s/map.nc\n"), "{}", ended.err);
     compare_netcdf(directory.path()).unwrap();
     let path = directory.path().join("out/s/map.nc");
-    let variables = netcdf(&path);
+    let variables = netcdf(&path, "Tiles");
     let (dimensions, attributes, values) = &variables["belt_velocity"];
     assert_eq!(
         (dimensions.as_slice(), attributes["units"].as_str()),

@@ -147,6 +147,9 @@ refuses! {
     samples_of_a_kick: format!("{VALID}[start]\nbox_samples = 10\n")
         => "s.toml:7:15: `box_samples` in [start] would have no effect: it is used only by kind = \"box\" in [start]; \
             remove it or choose that";
+    starts_without_a_response: format!("analysis = [\"linear\"]\n{VALID}[start]\nkind = \"both\"\n")
+        => "s.toml:8:8: `kind = \"both\"` in [start] would have no effect: it is used only by \"response\" in `analysis`; \
+            remove it or choose that";
     no_samples: "[start]\nkind = \"box\"\nbox_samples = 0\n"
         => "s.toml:3:15: `box_samples` in [start] is 0 but must be an integer between 1 and 1000000";
     axis_of_samples: "[axes]\nbox_samples = { values = [1, 2] }\n"

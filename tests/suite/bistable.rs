@@ -230,13 +230,23 @@ fn verdicts_of_two_starts() {
 
 #[test]
 fn a_box_is_bistable_where_both_were_met() {
-    let basin = |equilibrium, oscillation, other| Basin { equilibrium, oscillation, other };
+    let basin = |equilibrium, oscillation, other| Basin { equilibrium, oscillation, other, failed: 0 };
     assert_eq!(basin(3, 1, 0).is_bistable(), Some(true));
     assert_eq!(basin(3, 1, 7).is_bistable(), Some(true));
     assert_eq!(basin(4, 0, 0).is_bistable(), Some(false));
     assert_eq!(basin(4, 0, 1).is_bistable(), None);
     assert_eq!(basin(0, 0, 0).fraction(0), None);
     assert_eq!(basin(1, 3, 0).fraction(1), Some(0.25));
+    // A start that failed is counted as that, and may hide either end.
+    let stable = Some(InstabilityType::Stable);
+    let cycle = oscillation(Regime::StickSlip, 1.0);
+    let failed = Record { status: Status::EventLimit, ..cycle.clone() };
+    let mut counted = Basin::default();
+    for record in [&cycle, &failed, &cycle] {
+        counted.add(record, stable);
+    }
+    assert_eq!(counted, Basin { equilibrium: 0, oscillation: 2, other: 0, failed: 1 });
+    assert_eq!((counted.total(), counted.is_bistable()), (3, None));
 }
 
 /// The two-mass model below its critical friction (physics.md, section 6): the cycle sticks and detaches.

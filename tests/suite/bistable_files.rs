@@ -25,7 +25,7 @@ fn tiles_keep_all_starts() {
     let large = Record { kind: None, linear: None, ..oscillation(Regime::StickSlip, 2.5) };
     let small = || record(InstabilityType::Stable, Regime::Equilibrium, true);
     let with = |bistable, others| Record { bistable, others: Some(others), ..small() };
-    let basin = Basin { equilibrium: 70_000, oscillation: 2, other: 1 };
+    let basin = Basin { equilibrium: 70_000, oscillation: 2, other: 1, failed: 3 };
     for (starts, records) in [
         (Starts::Both, [with(Some(true), Others::Large(Box::new(large.clone()))), Record::NOT_COMPUTED]),
         (
@@ -35,7 +35,7 @@ fn tiles_keep_all_starts() {
                 with(Some(false), Others::Large(Box::new(large))),
             ],
         ),
-        (Starts::Box(70_003), [with(Some(true), Others::Basin(basin)), Record::NOT_COMPUTED]),
+        (Starts::Box(70_006), [with(Some(true), Others::Basin(basin)), Record::NOT_COMPUTED]),
     ] {
         let analysis = Analysis { starts, ..one };
         let mut bytes = vec![0; 2 * starts::width(analysis)];
@@ -61,7 +61,7 @@ fn the_program_keeps_all_starts_through_tiles_and_shards() {
             "kind = \"both\"\n",
             &["bistable", "x2_std_large", "regime_large", "checked_large", "status_large"][..],
         ),
-        (boxed, &["bistable", "basin_equilibrium", "basin_oscillation", "basin_other"]),
+        (boxed, &["bistable", "basin_equilibrium", "basin_oscillation", "basin_other", "basin_failed"]),
     ] {
         let sweep = format!(
             "title = \"Starts\"\n{SINGLE}c1 = 0.1\n[friction]\nlaw = \"exponential\"\nmu_s = 1\nmu_d = 0.5\n\

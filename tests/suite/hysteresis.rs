@@ -6,6 +6,9 @@ use crate::bistable::highest_velocity_of_the_cycle;
 use crate::cli::squealmap;
 use crate::resume::with;
 use squealmap::Error;
+use squealmap::export::heading::Heading;
+use squealmap::export::hysteresis::hysteresis_svg;
+use squealmap::export::look::Look;
 use squealmap::hysteresis::{Direction, Hysteresis};
 use squealmap::model::Param;
 use squealmap::response::Plan;
@@ -157,6 +160,36 @@ fn the_program_writes_both_branches() {
     assert_eq!(svg.matches("class=\"bistable\"").count(), 1 + 1, "one area and the legend");
     assert_eq!(svg.matches("class=\"jump\"").count(), 2);
     assert!(read("hysteresis.png").starts_with(b"\x89PNG"));
+}
+
+/// Inside the bistable band a small kick stays at the equilibrium all the way: no jump, and a word on why.
+#[test]
+fn a_range_inside_the_band_says_where_to_begin() {
+    let sweep = format!(
+        "{SINGLE}{EXPONENTIAL}mu_s = 1\n[start]\nstart_velocity = 0.0001\n{SETTLE}[axes]\nbelt_velocity = {{ values = [1] }}\n"
+    );
+    let hint = "begin outside of it (a wider range), or with a larger start";
+    for (range, hinted) in [("belt_velocity=1.3..1.7", true), ("belt_velocity=1..2", false)] {
+        let directory = with(&sweep);
+        let ended =
+            squealmap(directory.path(), &["trace", "s.toml", "--sweep-up-down", range, "--points", "3"]);
+        assert_eq!((ended.code, ended.out.contains(hint)), (Some(0), hinted), "{range}: {}", ended.out);
+    }
+}
+
+/// What has not settled is a cross, and the key says so.
+#[test]
+fn unsettled_values_are_marked() {
+    let short = "[response]\nsettle = \"1 periods\"\nmeasure = \"2 periods\"\n";
+    for (response, marked) in [(short, true), (SETTLE, false)] {
+        let spec = parse(&format!(
+            "{SINGLE}{EXPONENTIAL}mu_s = 1\n[start]\nstart_velocity = 0.1\n{response}[axes]\nbelt_velocity = {{ values = [1] }}\n"
+        ));
+        let found = follow(&spec, Param::BeltVelocity, [0.6, 1.0], 3);
+        let svg = hysteresis_svg(&found, &Heading::new("", ""), &Look::default());
+        let shown = svg.contains("class=\"unsettled\"") && svg.contains("not settled");
+        assert_eq!(shown, marked, "{response}");
+    }
 }
 
 #[test]

@@ -4,7 +4,6 @@
 
 use std::fmt::Write as _;
 use std::io::{Cursor, Read};
-use std::path::Path;
 
 use squealmap::Error;
 use squealmap::export::signals::signals_csv;
@@ -12,141 +11,15 @@ use squealmap::identify::{Fault, Identification, Kind, Settings, alone, identify
 use squealmap::signals::Sample;
 
 use crate::common::near;
-use crate::strokes::{FIELDS, Field, Random, Stroke, Wanted, add_noise, stroke};
+use crate::strokes::{FIELDS, Field, Random, Wanted, stroke};
 
-/// The seed of the table: strokes, noise and skews follow from it.
-const SEED: u64 = 1;
-/// Signal-to-noise ratios, dB.
-const RATIOS: [f64; 5] = [40.0, 30.0, 20.0, 10.0, 0.0];
-/// From this ratio on verdicts are held to the requirements, dB.
-const GOOD: f64 = 20.0;
-/// Sampling rates, Hz.
-const RATES: [f64; 2] = [200e3, 51.2e3];
-/// How many strokes of each kind there are per ratio and rate.
-const SHARES: [(Wanted, usize); 6] = [
-    (Wanted::Stable, 6),
-    (Wanted::Slope, 4),
-    (Wanted::Coupling, 5),
-    (Wanted::Both, 3),
-    (Wanted::BothOneWeak, 1),
-    (Wanted::Interaction, 1),
-];
-/// Largest skew of the normal acceleration, s.
-const LARGEST_SKEW: f64 = 20e-6;
-/// Bound on the damping ratio that the analysis is given: that of the strokes.
-const DAMPING_RATIO: f64 = 1e-3;
-
-fn run(bytes: &[u8], settings: &Settings) -> Result<Identification, Error> {
-    identify(|| Ok(Box::new(Cursor::new(bytes.to_vec())) as Box<dyn Read>), "signals.csv", settings)
+pub(crate) fn run(bytes: &[u8], settings: &Settings) -> Result<Identification, Error> {
+    let open = || Ok(Box::new(Cursor::new(bytes.to_vec())) as Box<dyn Read>);
+    identify(open, "signals.csv", settings, &mut |_, _| ())
 }
 
-fn csv(samples: &[Sample]) -> Vec<u8> {
+pub(crate) fn csv(samples: &[Sample]) -> Vec<u8> {
     signals_csv(samples, None).unwrap()
-}
-
-/// One stroke of the table and what was found.
-struct Judged {
-    wanted: Wanted,
-    ratio: f64,
-    skew_known: bool,
-    /// `None`: named and not analysed.
-    found: Option<Identification>,
-    true_phase: f64,
-}
-
-impl Judged {
-    fn kind(&self) -> Option<Kind> {
-        self.found.as_ref().map(|found| found.verdict.kind)
-    }
-
-    /// Whether a confident verdict is wrong. Of two mechanisms of which one is weak the other is the cause, and both
-    /// are named rightly, too.
-    fn wrong(&self) -> bool {
-        let right: &[Kind] = match self.wanted {
-            Wanted::Stable => &[Kind::NoInstability],
-            Wanted::Slope => &[Kind::NegativeSlope],
-            Wanted::Coupling => &[Kind::ModeCoupling],
-            Wanted::Both => &[Kind::Both],
-            Wanted::BothOneWeak => &[Kind::NegativeSlope, Kind::ModeCoupling, Kind::Both],
-            Wanted::Interaction => &[],
-        };
-        self.kind().is_some_and(|kind| kind != Kind::Undecided && !right.contains(&kind))
-    }
-
-    /// Error of the phase of the last episode, degrees, where the skew is known and the oscillation grows.
-    fn phase_error(&self) -> Option<f64> {
-        let episode = self.found.as_ref()?.episodes.last()?;
-        let unstable = self.wanted != Wanted::Stable;
-        let off = (episode.phase?.value - self.true_phase + 180.0).rem_euclid(360.0) - 180.0;
-        (self.skew_known && unstable).then_some(off)
-    }
-}
-
-/// The 200 strokes.
-fn table(seed: u64) -> Vec<Judged> {
-    let mut random = Random::new(seed);
-    let mut judged = Vec::new();
-    for ratio in RATIOS {
-        for rate in RATES {
-            for wanted in SHARES.iter().flat_map(|(wanted, count)| std::iter::repeat_n(*wanted, *count)) {
-                let skew_known = judged.len() % 2 == 0;
-                let skew = LARGEST_SKEW * random.uniform();
-                let Stroke { linear, mut samples } = stroke(wanted, rate, skew, &mut random);
-                add_noise(&mut samples, ratio, &mut random);
-                let settings = Settings {
-                    skew: if skew_known { skew } else { 0.0 },
-                    damping_ratio: DAMPING_RATIO,
-                    ..Settings::default()
-                };
-                let found = run(&csv(&samples), &settings).ok();
-                let true_phase = linear.phase.unwrap_or(f64::NAN);
-                judged.push(Judged { wanted, ratio, skew_known, found, true_phase });
-            }
-        }
-    }
-    judged
-}
-
-/// The worst and the median error of the phase at this ratio, degrees, and how many there are.
-fn phase_errors(judged: &[Judged], ratio: f64) -> (f64, f64, usize) {
-    let at = judged.iter().filter(|stroke| stroke.ratio >= ratio && stroke.ratio < ratio + 1.0);
-    let mut errors: Vec<f64> = at.filter_map(Judged::phase_error).map(f64::abs).collect();
-    errors.sort_by(f64::total_cmp);
-    let median = errors.get(errors.len() / 2).copied().unwrap_or(f64::NAN);
-    (errors.last().copied().unwrap_or(f64::NAN), median, errors.len())
-}
-
-/// Confident verdicts among these strokes, in percent.
-fn confident(strokes: &[&Judged]) -> usize {
-    let count =
-        strokes.iter().filter(|stroke| stroke.kind().is_some_and(|kind| kind != Kind::Undecided)).count();
-    100 * count / strokes.len().max(1)
-}
-
-/// Whether the four verdicts can say what it is.
-fn has_a_verdict(stroke: &Judged) -> bool {
-    !matches!(stroke.wanted, Wanted::BothOneWeak | Wanted::Interaction)
-}
-
-#[test]
-fn two_hundred_strokes() {
-    let judged = table(SEED);
-    assert_eq!(judged.len(), 200);
-    let good: Vec<&Judged> = judged.iter().filter(|stroke| stroke.ratio >= GOOD).collect();
-    for stroke in &good {
-        let found = stroke.found.as_ref().map(|found| &found.verdict);
-        assert!(!stroke.wrong(), "{:?} at {} dB called {found:?}", stroke.wanted, stroke.ratio);
-    }
-    let named: Vec<&Judged> = good.into_iter().filter(|stroke| has_a_verdict(stroke)).collect();
-    assert!(confident(&named) >= 80, "{} % confident", confident(&named));
-    for ratio in [40.0, 30.0, 20.0] {
-        let (worst, _, count) = phase_errors(&judged, ratio);
-        assert!(worst <= 2.0 && count >= 8, "{ratio} dB: phase off by {worst}° at worst of {count}");
-    }
-    // The judge itself turns red: a verdict against the truth, and a wrong phase.
-    let right = judged.into_iter().find(|stroke| stroke.kind() == Some(Kind::ModeCoupling)).unwrap();
-    assert!(!right.wrong());
-    assert!(Judged { wanted: Wanted::Slope, ..right }.wrong());
 }
 
 /// `identify` of the phase must not be right by luck: an unknown skew shows in full.
@@ -396,66 +269,4 @@ fn two_squeals_are_two_episodes() {
         near("growth", episode.growth.value, 60.0, 2.0);
         near("phase", episode.phase.unwrap().value, -36.87, 0.5);
     }
-}
-
-/// `docs/identify.md` holds the table between two marks; this writes it anew.
-#[test]
-#[ignore = "rewrites docs/identify.md: cargo test --release --test suite -- --ignored identify_table"]
-fn identify_table() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/identify.md");
-    let document = std::fs::read_to_string(&path).unwrap();
-    let (before, rest) = document.split_once("<!-- table -->\n").unwrap();
-    let (_, after) = rest.split_once("<!-- end of table -->").unwrap();
-    let table = markdown();
-    std::fs::write(&path, format!("{before}<!-- table -->\n{table}<!-- end of table -->{after}")).unwrap();
-}
-
-/// Confusion tables, phases and the spread over seeds.
-fn markdown() -> String {
-    /// Other draws, to show what the fixed seed is worth.
-    const OTHERS: std::ops::RangeInclusive<u64> = 2..=24;
-    let judged = table(SEED);
-    let mut text = String::new();
-    for (heading, good) in [("20 dB and better", true), ("10 and 0 dB", false)] {
-        writeln!(text, "### {heading}\n\n| truth | no instability | negative slope | mode coupling | both | undecided | strokes |").unwrap();
-        writeln!(text, "|---|---|---|---|---|---|---|").unwrap();
-        for wanted in Wanted::ALL {
-            let of: Vec<&Judged> =
-                judged.iter().filter(|s| s.wanted == wanted && (s.ratio >= GOOD) == good).collect();
-            write!(text, "| {} |", wanted.words()).unwrap();
-            for kind in Kind::ALL {
-                let count = of.iter().filter(|s| s.kind().unwrap_or(Kind::Undecided) == kind).count();
-                write!(text, " {} |", if count == 0 { String::new() } else { count.to_string() }).unwrap();
-            }
-            writeln!(text, " {} |", of.len()).unwrap();
-        }
-        text.push('\n');
-    }
-    writeln!(text, "### Per ratio\n\n| signal to noise | confident | of those with a verdict | confidently wrong | phase: median error | worst | strokes with a phase |").unwrap();
-    writeln!(text, "|---|---|---|---|---|---|---|").unwrap();
-    for ratio in RATIOS {
-        let at: Vec<&Judged> = judged.iter().filter(|s| (s.ratio - ratio).abs() < 0.5).collect();
-        let named: Vec<&Judged> = at.iter().copied().filter(|s| has_a_verdict(s)).collect();
-        let wrong = at.iter().filter(|s| s.wrong()).count();
-        let (worst, median, count) = phase_errors(&judged, ratio);
-        let (all, named) = (confident(&at), confident(&named));
-        writeln!(
-            text,
-            "| {ratio} dB | {all} % | {named} % | {wrong} | {median:.2}° | {worst:.2}° | {count} |"
-        )
-        .unwrap();
-    }
-    writeln!(text, "\n### Other seeds, 20 dB and better\n\n| seed | confident | of those with a verdict | confidently wrong | worst phase at 40, 30, 20 dB |").unwrap();
-    writeln!(text, "|---|---|---|---|---|").unwrap();
-    for seed in OTHERS {
-        let judged = table(seed);
-        let good: Vec<&Judged> = judged.iter().filter(|s| s.ratio >= GOOD).collect();
-        let named: Vec<&Judged> = good.iter().copied().filter(|s| has_a_verdict(s)).collect();
-        let wrong = good.iter().filter(|s| s.wrong()).count();
-        let worst =
-            [40.0, 30.0, 20.0].map(|ratio| format!("{:.2}°", phase_errors(&judged, ratio).0)).join(", ");
-        writeln!(text, "| {seed} | {} % | {} % | {wrong} | {worst} |", confident(&good), confident(&named))
-            .unwrap();
-    }
-    text
 }

@@ -7,6 +7,7 @@ use squealmap::label::{Label, Tally};
 use squealmap::map::Record;
 use squealmap::model::Param;
 use squealmap::outcome::Status;
+use squealmap::starts::{Basin, Others};
 
 use crate::figure::{colour, draw, frames};
 use crate::synthetic::{failed, map, number, record, span};
@@ -57,6 +58,28 @@ fn a_tally_counts_in_any_order_and_in_parts() {
     let mut whole = Tally::of(&records);
     whole.add_missing(5);
     assert_eq!(whole, tally);
+}
+
+/// Of starts beside the small one those that failed are counted, and no others.
+#[test]
+fn a_tally_counts_the_starts_that_failed() {
+    let small = || record(InstabilityType::Stable, Regime::Equilibrium, true);
+    let large = |large| Record { others: Some(Others::Large(Box::new(large))), ..small() };
+    let boxed = |basin| Record { others: Some(Others::Basin(basin)), ..small() };
+    let basin = Basin { equilibrium: 1, oscillation: 2, other: 3, failed: 4 };
+    let tally = Tally::of(&[
+        large(small()),
+        large(failed(Status::Painleve)),
+        large(failed(Status::EventLimit)),
+        large(failed(Status::Painleve)),
+        boxed(basin),
+        boxed(Basin { failed: 0, ..basin }),
+        boxed(basin),
+        failed(Status::Painleve),
+    ]);
+    let counted: Vec<_> = tally.failed().collect();
+    assert_eq!(counted, [("event_limit", 1), ("painleve", 2)]);
+    assert_eq!(tally.failed_in_boxes(), 8);
 }
 
 #[test]

@@ -268,7 +268,7 @@ fn the_basins_of_a_box_have_a_block_of_their_own() {
     let axes = vec![span(Param::MuS, 0.0, 0.6, 13), span(Param::MuD, 0.0, 0.6, 3)];
     let mut map = map(Grid::Axes(axes), |k, _| {
         let oscillation = u32::try_from(k / 3).unwrap();
-        let basin = Basin { equilibrium: STARTS - oscillation, oscillation, other: 0 };
+        let basin = Basin { equilibrium: STARTS - oscillation, oscillation, other: 0, failed: 0 };
         let others = (k != 38).then_some(Others::Basin(basin));
         Record { others, ..record(Kind::Stable, Regime::Slip, true) }
     });

@@ -107,6 +107,7 @@ impl Wanted {
 
 /// One synthetic stroke.
 pub(crate) struct Stroke {
+    pub(crate) instance: Instance,
     pub(crate) linear: Linear,
     pub(crate) samples: Vec<Sample>,
 }
@@ -172,7 +173,7 @@ pub(crate) fn stroke(wanted: Wanted, rate: f64, skew: f64, random: &mut Random) 
         let recording = Recording { rate, duration, skew, force_skew: 0.0 };
         let signals = record(&instance, &plan(1.0, 1.0, 12), &recording);
         if signals.status == Status::Ok {
-            return Stroke { linear, samples: signals.samples };
+            return Stroke { instance, linear, samples: signals.samples };
         }
     }
 }
@@ -188,9 +189,10 @@ pub(crate) const FIELDS: [Field; 4] = [
     |sample| &mut sample.normal_force,
 ];
 
-/// Adds white noise to every vibrating channel, `decibel` below what it does about its mean over the whole stroke.
-pub(crate) fn add_noise(samples: &mut [Sample], decibel: f64, random: &mut Random) {
-    for field in FIELDS {
+/// Adds white noise to every vibrating channel, `decibel` below what it does about its mean over the whole stroke; its
+/// standard deviations in the order of [`FIELDS`].
+pub(crate) fn add_noise(samples: &mut [Sample], decibel: f64, random: &mut Random) -> [f64; FIELDS.len()] {
+    FIELDS.map(|field| {
         let values: Vec<f64> = samples.iter_mut().map(|sample| *field(sample)).collect();
         let mean = values.iter().sum::<f64>() / values.len() as f64;
         let power = values.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / values.len() as f64;
@@ -198,5 +200,6 @@ pub(crate) fn add_noise(samples: &mut [Sample], decibel: f64, random: &mut Rando
         for sample in samples.iter_mut() {
             *field(sample) += noise * random.normal();
         }
-    }
+        noise
+    })
 }
