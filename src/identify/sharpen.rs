@@ -22,6 +22,10 @@ const LEAST_PERIODS: f64 = 5.0;
 pub(super) const MOST: usize = 1 << 14;
 /// Steps of the end per period.
 const STEPS: f64 = 2.0;
+/// Steps per e-folding are no more than this.
+const PER_FOLD: f64 = 40.0;
+/// Steps of a stride.
+const STRIDE: u32 = 8;
 /// Steps back from the last end that fits: what it may already hold of a stick or a kink is too little to be seen.
 const BACK: usize = 1;
 /// Part of the amplitude that may be left over without noise: terms of higher order, the second mode.
@@ -42,6 +46,14 @@ pub(super) struct Span {
     pub(super) end: usize,
 }
 
+impl Span {
+    /// The mode of a part of the samples.
+    fn fit(&self, [start, end]: [usize; 2], guess: Complex64) -> Option<Mode> {
+        let channels: Vec<&[f64]> = self.channels.iter().map(|channel| &channel[start..end]).collect();
+        Mode::fit(&channels, self.rate, guess)
+    }
+}
+
 /// The mode up to the end of its linear growth and the samples of the span that it was fitted to, from what windows say
 /// of growth (1/s) and frequency (Hz); `None` where nothing fits.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive numbers of samples")]
@@ -53,23 +65,39 @@ pub(super) fn sharpen(span: &Span, growth: f64, frequency: f64) -> Option<(Mode,
     let longest = ((LENGTH * fold) as usize).clamp(least, MOST.max(least));
     let lowest = (span.end as f64 - BEFORE * fold).max(least as f64);
     let highest = (span.end as f64 + AFTER * fold).min(all as f64);
-    let ends = (0_u32..).map(|step| lowest + f64::from(step) * period / STEPS);
+    // Slow growth has many periods per e-folding: the end is looked for in strides first.
+    let fine = (period / STEPS).max(fold / PER_FOLD);
+    let mut stride = if fine > period / STEPS { STRIDE } else { 1 };
     let mut guess = Complex64::new(growth, TAU * frequency);
     let mut noise: Option<Vec<f64>> = None;
     let mut fitted = Vec::new();
-    for end in ends.take_while(|end| *end <= highest).map(|end| end as usize) {
-        let part = [end.saturating_sub(longest), end];
-        let channels: Vec<&[f64]> = span.channels.iter().map(|channel| &channel[part[0]..part[1]]).collect();
-        let Some(mode) = Mode::fit(&channels, span.rate, guess) else { continue };
-        // The noise is that of the first part, in which nothing has ended yet.
-        let noise = noise.get_or_insert_with(|| mode.channels.iter().map(|channel| channel.noise).collect());
-        if !fits(&mode, noise, period) {
-            break;
+    let (mut number, mut limit) = (0_u32, u32::MAX);
+    loop {
+        let end = lowest + f64::from(number) * fine;
+        let inside = end <= highest && number < limit;
+        let part = [(end as usize).saturating_sub(longest), end as usize];
+        let mode = if inside { span.fit(part, guess) } else { None };
+        if let Some(mode) = mode {
+            // The noise is that of the first part, in which nothing has ended yet.
+            let noise =
+                noise.get_or_insert_with(|| mode.channels.iter().map(|channel| channel.noise).collect());
+            if fits(&mode, noise, period) {
+                guess = Complex64::new(mode.growth.value, mode.omega);
+                fitted.push((mode, part));
+                if fitted.len() > BACK + 1 {
+                    fitted.remove(0);
+                }
+            } else {
+                limit = number;
+            }
         }
-        guess = Complex64::new(mode.growth.value, mode.omega);
-        fitted.push((mode, part));
-        if fitted.len() > BACK + 1 {
-            fitted.remove(0);
+        if inside && number < limit {
+            number += stride;
+        } else if stride > 1 && number > 0 {
+            number = number - stride + 1;
+            stride = 1;
+        } else {
+            break;
         }
     }
     let found = fitted.into_iter().next();
