@@ -25,6 +25,11 @@ impl Folder<'_> {
         std::fs::read_to_string(self.0.join(file)).map_err(|why| self.bad(file, why.to_string()))
     }
 
+    /// The bytes of a file.
+    pub(super) fn bytes(self, file: &str) -> Result<Vec<u8>> {
+        std::fs::read(self.0.join(file)).map_err(|why| self.bad(file, why.to_string()))
+    }
+
     /// A file of JSON.
     pub(super) fn json(self, file: &str) -> Result<Json> {
         serde_json::from_str(&self.text(file)?).map_err(|why| self.bad(file, why.to_string()))

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::{hysteresis, map, modes, refined, trace, tradeoff};
+use super::{hysteresis, identify, map, modes, refined, trace, tradeoff};
 use crate::error::{Error, Result};
 use crate::paper::Figure;
 
@@ -21,19 +21,22 @@ pub enum Kind {
     Modes,
     /// Speed against error of `tradeoff`.
     Tradeoff,
+    /// Measured signals of `identify`.
+    Identify,
     /// A figure of `paper`.
     Paper(Figure),
 }
 
 impl Kind {
     /// All of them; where a directory holds several, the first is drawn unless another is asked for.
-    pub const ALL: [Kind; 14] = [
+    pub const ALL: [Kind; 15] = [
         Kind::Map,
         Kind::Refined,
         Kind::Trace,
         Kind::Hysteresis,
         Kind::Modes,
         Kind::Tradeoff,
+        Kind::Identify,
         Kind::Paper(Figure::Figure2),
         Kind::Paper(Figure::Figure3),
         Kind::Paper(Figure::Figure4),
@@ -54,6 +57,7 @@ impl Kind {
             Kind::Hysteresis => "hysteresis",
             Kind::Modes => "modes",
             Kind::Tradeoff => "tradeoff",
+            Kind::Identify => "identify",
             Kind::Paper(figure) => figure.name(),
         }
     }
@@ -68,6 +72,7 @@ impl Kind {
             Kind::Hysteresis => hysteresis::FILES,
             Kind::Modes => modes::FILES,
             Kind::Tradeoff => tradeoff::FILES,
+            Kind::Identify => identify::FILES,
             Kind::Paper(Figure::Figure2) => ["figure2.csv", "figure2.json"],
             Kind::Paper(Figure::Figure3) => ["figure3.csv", "figure3.json"],
             Kind::Paper(Figure::Figure4) => ["figure4.csv", "figure4.json"],

@@ -4,12 +4,13 @@ use std::path::Path;
 
 use super::folder::{Folder, program};
 use super::refined::Lines;
-use super::{Archive, Kind, hysteresis, modes, paper, refined, trace, tradeoff};
+use super::{Archive, Kind, hysteresis, identify, modes, paper, refined, trace, tradeoff};
 use crate::accuracy::row::Row;
 use crate::error::Result;
 use crate::export::figure::look_svg;
 use crate::export::heading::Heading;
 use crate::export::hysteresis::hysteresis_svg;
+use crate::export::identify as identify_figure;
 use crate::export::look::Look;
 use crate::export::modes::{Modes, draw};
 use crate::export::paper::Shown;
@@ -28,6 +29,7 @@ enum Content {
     Hysteresis(Hysteresis, Heading),
     Modes(Box<Spec>, Modes),
     Tradeoff(String, Vec<Row>),
+    Identify(Box<identify_figure::Shown>),
     Paper(Shown),
 }
 
@@ -65,6 +67,7 @@ impl Picture {
                 let (title, rows) = tradeoff::read(folder)?;
                 Content::Tradeoff(title, rows)
             }
+            Kind::Identify => Content::Identify(Box::new(identify::read(folder)?)),
             Kind::Paper(figure) => Content::Paper(paper::read(folder, figure, kind.files())?),
         };
         let document = kind.files().into_iter().find(|file| file.rsplit('.').next() == Some("json"));
@@ -90,6 +93,7 @@ impl Picture {
             Content::Trace(_, heading) | Content::Hysteresis(_, heading) => &heading.title,
             Content::Modes(spec, _) => &spec.title,
             Content::Tradeoff(title, _) => title,
+            Content::Identify(shown) => &shown.title,
             Content::Paper(shown) => shown.title(),
         }
     }
@@ -106,6 +110,7 @@ impl Picture {
             Content::Hysteresis(hysteresis, heading) => Ok(hysteresis_svg(hysteresis, heading, look)),
             Content::Modes(spec, modes) => Ok(draw(spec, modes, look)),
             Content::Tradeoff(title, rows) => Ok(figure(title, rows, look)),
+            Content::Identify(shown) => identify_figure::identify_svg(shown, look),
             Content::Paper(shown) => Ok(shown.svg(look)),
         }
     }

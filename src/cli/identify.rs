@@ -7,7 +7,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 use squealmap::Result;
-use squealmap::export::identify::{self as export, WindowsCsv};
+use squealmap::export::identify::{self as export, Shown, WindowsCsv};
+use squealmap::export::look::Look;
 use squealmap::export::png;
 use squealmap::export::spectrogram::spectrogram_nc;
 use squealmap::identify::{
@@ -18,7 +19,8 @@ use crate::cli::output::{Output, list};
 use crate::cli::print;
 
 /// What is written.
-const FILES: [&str; 5] = ["identify.json", "identify.png", "identify.svg", "spectrogram.nc", "windows.csv"];
+const FILES: [&str; 6] =
+    ["figure.json", "identify.json", "identify.png", "identify.svg", "spectrogram.nc", "windows.csv"];
 
 /// Arguments of `identify`.
 #[derive(Debug, Args)]
@@ -85,16 +87,18 @@ impl Identify {
         let settings = self.settings();
         let output = Output::prepare(directory, &FILES)?;
         let open = || File::open(&path).map(|file| Box::new(file) as Box<dyn Read>);
-        let windows = output.draft(FILES[4])?;
+        let windows = output.draft(FILES[5])?;
         let mut table = WindowsCsv::new(windows.file.as_file())?;
         let found = identify(open, &name, &settings, &mut |window, reading| table.add(window, reading))?;
         table.finish()?;
-        let svg = export::identify_svg(&found, &heading)?;
+        let shown = Shown::new(&found, &heading);
+        let svg = export::identify_svg(&shown, &Look::default())?;
         let files = [
-            (FILES[0], export::report_json(&found, &name)?),
-            (FILES[1], png::render(&svg)?),
-            (FILES[2], svg.into_bytes()),
-            (FILES[3], spectrogram_nc(&found.spectrogram, &heading)),
+            (FILES[0], shown.document()?),
+            (FILES[1], export::report_json(&found, &name)?),
+            (FILES[2], png::render(&svg)?),
+            (FILES[3], svg.into_bytes()),
+            (FILES[4], spectrogram_nc(&found.spectrogram, &heading)),
         ];
         let paths = output.write_beside(&files, vec![windows])?;
         print(&(summary(&found) + &list(&paths)));

@@ -20,7 +20,7 @@ const FILES: [&str; 3] = ["plot.pdf", "plot.png", "plot.svg"];
 /// Arguments of `plot`.
 #[derive(Debug, Args)]
 pub(crate) struct Plot {
-    /// Output directory of a command that draws a figure (run, refine, trace, modes, tradeoff, paper); plot.svg,
+    /// Output directory of a command that draws a figure (run, refine, trace, modes, tradeoff, identify, paper); plot.svg,
     /// plot.pdf and plot.png go there too
     directory: PathBuf,
     /// Which figure, where the directory holds several [default: the first of those named here]

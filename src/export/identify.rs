@@ -9,7 +9,7 @@ use super::manifest::{COMMIT, VERSION};
 use crate::error::{Error, Result};
 use crate::identify::{Channel, Episode, Identification, Measured, Reading, Verdict, Window};
 
-pub use super::identify_figure::identify_svg;
+pub use super::identify_figure::{Shown, identify_svg};
 
 /// The columns of `windows.csv`; SI units, phases in degrees, temperature in °C.
 pub const COLUMNS: [&str; 22] = [

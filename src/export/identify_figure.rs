@@ -1,15 +1,20 @@
 //! The figure of measured signals: friction, acceleration and spectrogram stacked on one time axis.
 
-use super::figure::{DOUBLE_COLUMN, MARGIN, program, title};
+use serde::{Deserialize, Serialize};
+use serde_json::json;
+
+use super::figure::{DOUBLE_COLUMN, MARGIN, title};
 use super::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room};
 use super::key;
+use super::look::Look;
+use super::manifest::{COMMIT, VERSION};
 use super::plot::Plot;
 use super::raster::{self, data_uri};
 use super::scale::{Scale, axis_unit};
 use super::svg::{Anchor, Style, Svg, number};
 use super::text::{Text, wrap};
-use crate::error::Result;
-use crate::identify::{Envelope, Identification, Kind, Spectrogram};
+use crate::error::{Error, Result};
+use crate::identify::{Identification, Kind, Spectrogram};
 
 /// Heights of friction, acceleration and each spectrogram, points.
 const HEIGHTS: [f64; 4] = [70.0, 92.0, 100.0, 100.0];
@@ -23,6 +28,9 @@ const BAR: [f64; 2] = [8.0, 6.0];
 const HEADROOM: f64 = 0.07;
 /// Ticks of the time axis.
 const TICKS: usize = 9;
+/// Those of a panel narrower than this, points.
+const FEW_TICKS: usize = 5;
+const NARROW: f64 = 250.0;
 /// The lower end of the scale of levels, dB: a careful measurement resolves about that much.
 const FLOOR_DB: f32 = -60.0;
 /// Strokes of tangential and normal acceleration.
@@ -33,15 +41,67 @@ const STROKES: [&str; 2] = [
 /// Fill of episodes: light enough for curves on top.
 const EPISODE: &str = r##"fill="#F3E3B5""##;
 
-/// The figure as an SVG document, double column width.
+/// What the figure shows.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+pub struct Shown {
+    /// The heading; may be empty.
+    pub title: String,
+    /// The verdict in words.
+    pub verdict: String,
+    /// Start and end of the record, s.
+    pub time: [f64; 2],
+    /// Lowest and highest value of each column, side by side over the record, of tangential and normal acceleration, m/s²;
+    /// empty where not recorded.
+    pub accelerations: [Vec<[f64; 2]>; 2],
+    /// Start and end of what is known of the friction, s.
+    pub friction_time: [f64; 2],
+    /// The same of the friction coefficient.
+    pub friction: Vec<[f64; 2]>,
+    /// Start and end of every episode of growth, s.
+    pub episodes: Vec<[f64; 2]>,
+    /// The spectrogram, whose numbers stand in `spectrogram.nc`.
+    pub spectrogram: Spectrogram,
+}
+
+impl Shown {
+    /// Of an identification.
+    #[must_use]
+    pub fn new(found: &Identification, title: &str) -> Shown {
+        Shown {
+            title: title.to_owned(),
+            verdict: verdict_line(found),
+            time: found.time,
+            accelerations: found.envelopes.each_ref().map(|envelope| envelope.columns.clone()),
+            friction_time: found.friction_time,
+            friction: found.friction.columns.clone(),
+            episodes: found.episodes.iter().map(|episode| episode.time).collect(),
+            spectrogram: found.spectrogram.clone(),
+        }
+    }
+
+    /// `figure.json`: all of it but the numbers of the spectrogram.
+    ///
+    /// # Errors
+    /// When it cannot be written.
+    pub fn document(&self) -> Result<Vec<u8>> {
+        let program = json!({ "version": VERSION, "git_commit": COMMIT });
+        let mut bytes = serde_json::to_vec(&json!({ "program": program, "figure": self }))
+            .map_err(Error::WriteManifest)?;
+        bytes.push(b'\n');
+        Ok(bytes)
+    }
+}
+
+/// The figure as an SVG document, double column width unless the look says otherwise.
 ///
 /// # Errors
 /// When the spectrogram is too large for a picture.
-pub fn identify_svg(found: &Identification, heading: &str) -> Result<String> {
+pub fn identify_svg(found: &Shown, look: &Look<'_>) -> Result<String> {
     let mut svg = Svg::new();
-    let inner = DOUBLE_COLUMN - 2.0 * MARGIN;
-    let mut y = MARGIN + title(&mut svg, heading, inner);
-    for line in wrap(&verdict_line(found), inner, LABEL_SIZE, false) {
+    let page = look.points().unwrap_or(DOUBLE_COLUMN);
+    let inner = page - 2.0 * MARGIN;
+    let mut y = MARGIN + title(&mut svg, &found.title, inner);
+    for line in wrap(&found.verdict, inner, LABEL_SIZE, false) {
         svg.text(MARGIN, y + LABEL_SIZE, &Text::from(line), Style::new(LABEL_SIZE, Anchor::Start));
         y += LABEL_SIZE + 3.0;
     }
@@ -49,15 +109,15 @@ pub fn identify_svg(found: &Identification, heading: &str) -> Result<String> {
     let time = Scale::Linear { low: found.time[0], high: found.time[1] };
     let unit = kilo(found.spectrogram.frequency[1]);
     let frequency = Scale::Linear { low: 0.0, high: found.spectrogram.frequency[1] / unit.0 };
-    let friction = Scale::spanning(found.friction.columns.iter().flatten().copied()).widened(HEADROOM);
-    let values = found.envelopes.iter().flat_map(|envelope| envelope.columns.iter().flatten().copied());
+    let friction = Scale::spanning(found.friction.iter().flatten().copied()).widened(HEADROOM);
+    let values = found.accelerations.iter().flatten().flatten().copied();
     let acceleration = Scale::spanning(values).widened(HEADROOM);
     let scales = [&friction, &acceleration, &frequency, &frequency];
     let ticks = scales.map(|scale| scale.ticks(5));
     let room = ticks.iter().map(|ticks| y_tick_room(ticks)).fold(0.0, f64::max);
     let left = MARGIN + LABEL_SIZE + 6.0 + room;
-    let width = DOUBLE_COLUMN - left - RIGHT;
-    let x_ticks = time.ticks(TICKS);
+    let width = page - left - RIGHT;
+    let x_ticks = time.ticks(if width < NARROW { FEW_TICKS } else { TICKS });
     let labels = labels(acceleration.exponent(), unit.1);
     for number in 0..HEIGHTS.len() {
         let frame = Frame { x: left, y, width, height: HEIGHTS[number] };
@@ -66,13 +126,13 @@ pub fn identify_svg(found: &Identification, heading: &str) -> Result<String> {
             0 => {
                 episodes(&mut svg, found, &time, &frame);
                 plot.curve(&mut svg, curve(&found.friction, found.friction_time), STROKES[0]);
-                if found.friction.columns.is_empty() {
+                if found.friction.is_empty() {
                     nothing(&mut svg, &frame, "no windows, or forces not recorded");
                 }
             }
             1 => {
                 episodes(&mut svg, found, &time, &frame);
-                for (envelope, stroke) in found.envelopes.iter().zip(STROKES) {
+                for (envelope, stroke) in found.accelerations.iter().zip(STROKES) {
                     plot.curve(&mut svg, curve(envelope, found.time), stroke);
                 }
                 key(&mut svg, found, &frame);
@@ -103,8 +163,8 @@ pub fn identify_svg(found: &Identification, heading: &str) -> Result<String> {
     let label = Text::from("Time ").symbol("t").plain(" (s)");
     let base = bottom + x_tick_room() + LABEL_SIZE + 1.0;
     svg.text(left + 0.5 * width, base, &label, Style::new(LABEL_SIZE, Anchor::Middle));
-    let name = if heading.is_empty() { "Measured signals" } else { heading };
-    Ok(svg.finish(DOUBLE_COLUMN, base + 2.0 + MARGIN, name, &program()))
+    let name = if found.title.is_empty() { "Measured signals" } else { &found.title };
+    Ok(look.finish(svg, [page, base + 2.0 + MARGIN], name))
 }
 
 /// `Verdict: mode coupling (confidence 0.97).`
@@ -138,30 +198,30 @@ fn kilo(top: f64) -> (f64, &'static str) {
 }
 
 /// Shades the episodes.
-fn episodes(svg: &mut Svg, found: &Identification, time: &Scale, frame: &Frame) {
+fn episodes(svg: &mut Svg, found: &Shown, time: &Scale, frame: &Frame) {
     for episode in &found.episodes {
-        let [from, to] = episode.time.map(|t| frame.across(time.position(t).clamp(0.0, 1.0)));
+        let [from, to] = episode.map(|t| frame.across(time.position(t).clamp(0.0, 1.0)));
         svg.rect([from, frame.y, to - from, frame.height], EPISODE);
     }
 }
 
 /// Lowest and highest value of every column as one line.
-fn curve(envelope: &Envelope, [start, end]: [f64; 2]) -> impl Iterator<Item = (f64, f64)> {
-    let count = envelope.columns.len().max(1) as f64;
-    envelope.columns.iter().enumerate().flat_map(move |(k, [low, high])| {
+fn curve(columns: &[[f64; 2]], [start, end]: [f64; 2]) -> impl Iterator<Item = (f64, f64)> {
+    let count = columns.len().max(1) as f64;
+    columns.iter().enumerate().flat_map(move |(k, [low, high])| {
         let t = start + (end - start) * (k as f64 + 0.5) / count;
         [(t, *low), (t, *high)]
     })
 }
 
 /// Which curve is which, and what is shaded.
-fn key(svg: &mut Svg, found: &Identification, frame: &Frame) {
+fn key(svg: &mut Svg, found: &Shown, frame: &Frame) {
     const SAMPLE: f64 = 12.0;
     let base = frame.y - 4.0;
     let names = ["tangential", "normal"].map(Text::from);
-    let drawn = found.envelopes.iter().zip(names.into_iter().zip(STROKES));
+    let drawn = found.accelerations.iter().zip(names.into_iter().zip(STROKES));
     let entries: Vec<(Text, &str)> =
-        drawn.filter(|(envelope, _)| !envelope.columns.is_empty()).map(|(_, entry)| entry).collect();
+        drawn.filter(|(columns, _)| !columns.is_empty()).map(|(_, entry)| entry).collect();
     let x = key::lines(svg, frame.x, base, TICK_SIZE, &entries);
     if !found.episodes.is_empty() {
         svg.rect([x, base - 0.75 * TICK_SIZE, SAMPLE, 0.8 * TICK_SIZE], EPISODE);

@@ -1,5 +1,7 @@
 //! The spectrogram of the tangential acceleration, reduced to the columns of a picture while it streams.
 
+use serde::{Deserialize, Serialize};
+
 use super::settings::Settings;
 use super::spectrum::{Spectra, hann};
 
@@ -17,7 +19,7 @@ const ABOVE: f64 = 4.0;
 const LEAST_SAMPLES: usize = 16;
 
 /// A spectrogram.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
 pub struct Spectrogram {
     /// Time of the left and right edge, s.
     pub time: [f64; 2],
@@ -30,8 +32,10 @@ pub struct Spectrogram {
     /// Number of rows.
     pub rows: usize,
     /// Amplitude over the largest one of the same window, column by column, lowest frequency first.
+    #[serde(skip)]
     pub normalised: Vec<f32>,
     /// Power over the largest one of the record, dB, in the same order.
+    #[serde(skip)]
     pub decibel: Vec<f32>,
 }
 

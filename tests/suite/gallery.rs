@@ -14,9 +14,11 @@ use squealmap::export::heading::Heading;
 use squealmap::export::look::Look;
 use squealmap::export::paper::{Growing, Shown, Slowdown};
 use squealmap::export::sheet::Sheet;
-use squealmap::export::{csv, hysteresis, manifest, modes, refined, trace, tradeoff};
+use squealmap::export::spectrogram::spectrogram_nc;
+use squealmap::export::{csv, hysteresis, identify, manifest, modes, refined, trace, tradeoff};
 use squealmap::grid::Grid;
 use squealmap::hysteresis::Hysteresis;
+use squealmap::identify::Spectrogram;
 use squealmap::label::Label;
 use squealmap::map::Record;
 use squealmap::model::Param;
@@ -48,7 +50,15 @@ fn piece(kind: Kind, svg: String, files: [Vec<u8>; 2]) -> Piece {
 
 /// One of every kind.
 pub(crate) fn all() -> Vec<Piece> {
-    let mut pieces = vec![a_map(), a_refined_map(), a_trace(), a_hysteresis(), some_modes(), a_tradeoff()];
+    let mut pieces = vec![
+        a_map(),
+        a_refined_map(),
+        a_trace(),
+        a_hysteresis(),
+        some_modes(),
+        a_tradeoff(),
+        an_identification(),
+    ];
     pieces.extend(Figure::ALL.map(of_the_paper));
     pieces
 }
@@ -90,6 +100,42 @@ fn a_refined_map() -> Piece {
     assert!(found.computed < sweep.grid.len() / 2);
     let svg = refined::figure(sheet, &found).look(&Look::default());
     piece(Kind::Refined, svg, [points.finish(), refined::document(sheet, &found, settings).unwrap()])
+}
+
+/// A growing oscillation with its spectrogram.
+fn an_identification() -> Piece {
+    let (columns, rows) = (40, 12);
+    let level = |k: usize| {
+        let (column, row) = (k / rows, k % rows);
+        let off = row as f32 - 4.0 - 0.05 * column as f32;
+        (-0.5 * off * off).exp()
+    };
+    let normalised: Vec<f32> = (0..columns * rows).map(level).collect();
+    let spectrogram = Spectrogram {
+        time: [0.0125, 1.9875],
+        frequency: [0.0, 3000.0],
+        window: 0.025,
+        columns,
+        rows,
+        decibel: normalised.iter().map(|level| 20.0 * level.max(1e-4).log10()).collect(),
+        normalised,
+    };
+    let wave = |k: u32, size: f64| {
+        let swing = size * (0.06 * f64::from(k)).exp().min(8.0);
+        [-swing, 0.9 * swing]
+    };
+    let shown = identify::Shown {
+        title: "A stroke".to_owned(),
+        verdict: "Verdict: mode coupling (confidence 0.97)".to_owned(),
+        time: [0.0, 2.0],
+        accelerations: [1.0, 0.4].map(|size| (0..60).map(|k| wave(k, size)).collect()),
+        friction_time: [0.1, 1.9],
+        friction: (0..30).map(|k| [0.4 - 1e-3 * f64::from(k), 0.41 + 1.0 / 3e3 * f64::from(k)]).collect(),
+        episodes: vec![[0.2, 1.1]],
+        spectrogram,
+    };
+    let svg = identify::identify_svg(&shown, &Look::default()).unwrap();
+    piece(Kind::Identify, svg, [spectrogram_nc(&shown.spectrogram, &shown.title), shown.document().unwrap()])
 }
 
 /// A sine that sticks, flies and slides back, long enough for a second column.

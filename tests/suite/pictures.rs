@@ -89,7 +89,7 @@ fn changed(row: &str, header: &str, labels: bool) -> String {
 /// The picture is drawn from the numbers in the table: another number is another picture.
 #[test]
 fn another_number_is_another_picture() {
-    for piece in &all() {
+    for piece in all().iter().filter(|piece| piece.kind != Kind::Identify) {
         let name = piece.kind.name();
         let labels = matches!(piece.kind, Kind::Map | Kind::Refined);
         let file =
@@ -112,6 +112,33 @@ fn another_number_is_another_picture() {
         std::fs::write(&path, text.replace(row, &broken)).unwrap();
         let error = Picture::read(piece.directory.path(), piece.kind).unwrap_err();
         assert!(error.is_bad_input() && error.to_string().contains(file), "{name}: {error}");
+    }
+}
+
+/// The same of measured signals, whose spectrogram is no table: another number is another picture, another byte an error.
+#[test]
+fn the_spectrogram_belongs_to_its_figure() {
+    let piece = all().into_iter().find(|piece| piece.kind == Kind::Identify).unwrap();
+    let [nc, json] = piece.kind.files().map(|file| piece.directory.path().join(file));
+    let text = std::fs::read_to_string(&json).unwrap();
+    std::fs::write(&json, text.replacen("[0.2,1.1]", "[0.3,1.1]", 1)).unwrap();
+    assert!(read(&piece).svg(&Look::default()).unwrap() != piece.svg);
+    let bytes = std::fs::read(&nc).unwrap();
+    let mut level = bytes.clone();
+    let last = bytes.len() - 4;
+    level[last..].copy_from_slice(&(-30.0_f32).to_be_bytes());
+    std::fs::write(&json, &text).unwrap();
+    std::fs::write(&nc, &level).unwrap();
+    assert!(read(&piece).svg(&Look::default()).unwrap() != piece.svg);
+    let mut header = bytes.clone();
+    header[9] ^= 1;
+    let other_size = text.replacen("\"rows\":12", "\"rows\":13", 1);
+    assert_ne!(other_size, text);
+    for (text, bytes) in [(&text, header), (&text, bytes[..100].to_vec()), (&other_size, bytes)] {
+        std::fs::write(&json, text).unwrap();
+        std::fs::write(&nc, bytes).unwrap();
+        let error = Picture::read(piece.directory.path(), piece.kind).unwrap_err();
+        assert!(error.to_string().contains("does not belong to `figure.json`"), "{error}");
     }
 }
 

@@ -1,0 +1,21 @@
+//! `figure.json` and `spectrogram.nc`: the figure of measured signals read back.
+
+use super::folder::Folder;
+use crate::error::Result;
+use crate::export::identify::Shown;
+use crate::export::spectrogram::filled_from;
+
+/// The files that are read.
+pub(super) const FILES: [&str; 2] = ["spectrogram.nc", "figure.json"];
+
+/// What the figure shows.
+pub(super) fn read(folder: Folder<'_>) -> Result<Shown> {
+    let document = folder.json(FILES[1])?;
+    let shown: Shown = serde_json::from_value(document["figure"].clone())
+        .map_err(|why| folder.bad(FILES[1], why.to_string()))?;
+    let bytes = folder.bytes(FILES[0])?;
+    let spectrogram = filled_from(shown.spectrogram.clone(), &shown.title, &bytes);
+    let spectrogram =
+        spectrogram.ok_or_else(|| folder.bad(FILES[0], "does not belong to `figure.json` beside it"))?;
+    Ok(Shown { spectrogram, ..shown })
+}
