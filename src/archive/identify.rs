@@ -14,7 +14,7 @@ pub(super) fn read(folder: Folder<'_>) -> Result<Shown> {
     let shown: Shown = serde_json::from_value(document["figure"].clone())
         .map_err(|why| folder.bad(FILES[1], why.to_string()))?;
     let bytes = folder.bytes(FILES[0])?;
-    let spectrogram = filled_from(shown.spectrogram.clone(), &shown.title, &bytes);
+    let spectrogram = filled_from(&shown.spectrogram, &shown.title, &bytes);
     let spectrogram =
         spectrogram.ok_or_else(|| folder.bad(FILES[0], "does not belong to `figure.json` beside it"))?;
     Ok(Shown { spectrogram, ..shown })

@@ -36,7 +36,7 @@ pub fn spectrogram_nc(spectrogram: &Spectrogram, title: &str) -> Vec<u8> {
 /// The numbers of the file of a spectrogram whose ranges and sizes are known; `None` when these are not the bytes that
 /// [`spectrogram_nc`] writes of it.
 #[must_use]
-pub fn filled_from(spectrogram: Spectrogram, title: &str, bytes: &[u8]) -> Option<Spectrogram> {
+pub fn filled_from(spectrogram: &Spectrogram, title: &str, bytes: &[u8]) -> Option<Spectrogram> {
     let count = spectrogram.columns.checked_mul(spectrogram.rows)?;
     let both = bytes.get(bytes.len().checked_sub(count.checked_mul(8)?)?..)?;
     let number = |four: &[u8]| four.try_into().map_or(f32::NAN, f32::from_be_bytes);
@@ -44,7 +44,7 @@ pub fn filled_from(spectrogram: Spectrogram, title: &str, bytes: &[u8]) -> Optio
     let filled = Spectrogram {
         normalised: numbers.by_ref().take(count).collect(),
         decibel: numbers.collect(),
-        ..spectrogram
+        ..spectrogram.clone()
     };
     (spectrogram_nc(&filled, title) == bytes).then_some(filled)
 }
