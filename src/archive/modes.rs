@@ -8,23 +8,13 @@ use serde_json::Value as Json;
 use super::folder::{Folder, Table, Why, text};
 use super::map::drawn_spec;
 use crate::error::Result;
-use crate::export::modes::{Mode, Modes, along};
+use crate::export::modes::{COLUMNS, Mode, Modes, along};
 use crate::grid::Grid;
 use crate::spec::{Analysis, Spec, Starts};
 use crate::store::grid_json;
 
 /// The files that are read.
 pub(super) const FILES: [&str; 2] = ["modes.csv", "modes.json"];
-
-/// The columns of the two modes.
-const COLUMNS: [&str; 6] = [
-    "frequency_1",
-    "growth_rate_1",
-    "growth_rate_1_fast",
-    "frequency_2",
-    "growth_rate_2",
-    "growth_rate_2_fast",
-];
 
 /// The modes in a table and a document, and their sweep, of which title and grid are read.
 pub(super) fn read(folder: Folder<'_>, files: [&str; 2]) -> Result<(Spec, Modes)> {

@@ -12,6 +12,7 @@ use super::plot::{FIRST, Plot, SECOND, THIRD};
 use super::scale::{Scale, Tick, axis_unit};
 use super::svg::{Anchor, Style, Svg};
 use super::text::Text;
+use super::words;
 use crate::archive::NumberColumn;
 
 /// Height of a panel, points.
@@ -125,11 +126,12 @@ fn along(cut: &Cut) -> Scale {
     }
 }
 
-/// `growth rate (10³ 1/s)`.
+/// `Growth rate σ (10³ 1/s)`.
 fn label(column: &NumberColumn, exponent: i32) -> Text {
-    let words = Text::from(column.name.replace('_', " "));
     let unit = column.unit.replace("deg", "°");
-    if unit.is_empty() && exponent == 0 { words } else { words.then(axis_unit(&unit, exponent)) }
+    let plain = unit.is_empty() && exponent == 0;
+    let unit = if plain { Text::default() } else { axis_unit(&unit, exponent) };
+    words::label(column, &unit, HEIGHT, LABEL_SIZE)
 }
 
 /// Which curve is which; returns the height it takes.

@@ -58,6 +58,7 @@ pub mod trace;
 mod trace_figure;
 pub mod tradeoff;
 mod tradeoff_figure;
+mod words;
 pub mod zarr;
 
 use crate::error::{Error, Result};

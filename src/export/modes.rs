@@ -202,27 +202,29 @@ pub fn modes_csv(spec: &Spec) -> Result<Vec<u8>> {
     table(spec, &modes_of(spec)?)
 }
 
+/// The columns of the two modes in `modes.csv`.
+pub const COLUMNS: [&str; 6] = [
+    "frequency_1",
+    "growth_rate_1",
+    "growth_rate_1_fast",
+    "frequency_2",
+    "growth_rate_2",
+    "growth_rate_2_fast",
+];
+
 /// The table of modes that were followed.
 ///
 /// # Errors
 /// When the table cannot be written.
 pub fn table(spec: &Spec, modes: &Modes) -> Result<Vec<u8>> {
     let names = spec.grid.keys().into_iter().map(AxisKey::name);
-    let computed = [
-        "frequency_1",
-        "growth_rate_1",
-        "growth_rate_1_fast",
-        "frequency_2",
-        "growth_rate_2",
-        "growth_rate_2_fast",
-    ];
     let mut rows: Vec<(usize, Option<[Mode; 2]>)> = modes
         .branches
         .iter()
         .flat_map(|branch| branch.instances.iter().copied().zip(branch.modes.iter().copied()))
         .collect();
     rows.sort_by_key(|(index, _)| *index);
-    let mut table = Table::new(std::iter::once("instance").chain(names).chain(computed))?;
+    let mut table = Table::new(std::iter::once("instance").chain(names).chain(COLUMNS))?;
     for (index, pair) in rows {
         let swept = spec.grid.coordinates(index).into_iter().map(|value| Cell::from(value).to_string());
         let mode = |k: usize| {

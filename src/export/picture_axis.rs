@@ -2,6 +2,7 @@
 
 use super::scale::{Scale, Tick, value_label};
 use super::text::Text;
+use super::words::capital;
 use crate::grid::{Axis, AxisKey, Value};
 
 /// Room between the ends of tick labels, points.
@@ -215,11 +216,6 @@ fn quantity(name: &str, meaning: &str) -> String {
         name.replace('_', " ")
     };
     capital(&phrase)
-}
-
-fn capital(phrase: &str) -> String {
-    let mut letters = phrase.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
 fn as_number(value: &Value) -> Option<f64> {

@@ -10,6 +10,7 @@ use super::raster;
 use super::scale::{Scale, axis_unit};
 use super::svg::{Anchor, Style, Svg};
 use super::text::Text;
+use super::words;
 use crate::archive::NumberColumn;
 use crate::grid::Grid;
 
@@ -125,11 +126,11 @@ pub(super) fn draw(
     svg.path(&missing, r#"fill="url(#not-computed)" fill-rule="evenodd""#);
 }
 
-/// `growth rate (1/s)`.
+/// `Growth rate σ (1/s)`.
 fn heading(quantity: &NumberColumn) -> Text {
-    let words = quantity.name.replace('_', " ");
     let unit = quantity.unit.replace("deg", "°");
-    if unit.is_empty() { Text::from(words) } else { Text::from(words).plain(" (").unit(&unit).plain(")") }
+    let unit = if unit.is_empty() { Text::default() } else { axis_unit(&unit, 0) };
+    words::label(quantity, &unit, f64::INFINITY, LABEL_SIZE)
 }
 
 /// Draws the bar from `(x, y)` downwards and returns its height; `svg` is `None` to measure only.

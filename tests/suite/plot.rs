@@ -165,10 +165,7 @@ fn quantities_have_a_bar_and_undefined_cells_are_hatched() {
     let contents = vec![Content::quantity(column("growth_rate")), Content::quantity(column("phase"))];
     let svg = look_svg(&back.map, &Look { contents, ..Look::default() }).unwrap();
     let picture = draw(&svg, "plot_quantity");
-    assert!(
-        svg.contains(">growth rate (1/s)<") && svg.contains("hatched: undefined (422)"),
-        "422 of 845 are odd"
-    );
+    assert!(svg.contains(">Growth rate <") && svg.contains("hatched: undefined (422)"), "422 of 845 are odd");
     // mu_s runs to the right, and with it the growth: the picture darkens steadily.
     let frame = frames(&svg)[0];
     let lightness = |k: usize| {
