@@ -680,6 +680,16 @@ pub enum Error {
         /// The directory.
         path: PathBuf,
     },
+    /// A figure narrower than its words.
+    #[error("--width is {width} mm, but the figure `{figure}` needs at least {least} mm for its words")]
+    TooNarrow {
+        /// What was asked for, mm.
+        width: f64,
+        /// The figure.
+        figure: &'static str,
+        /// The least, mm.
+        least: f64,
+    },
     /// A cut that a map does not have.
     #[error("--cut {cut}: {why}")]
     Cut {
@@ -865,6 +875,7 @@ impl Error {
             | Error::Archive { .. }
             | Error::NothingToPlot { .. }
             | Error::OnlyOfMaps { .. }
+            | Error::TooNarrow { .. }
             | Error::Cut { .. }
             | Error::NoIsolines { .. }
             | Error::Tikz { .. }

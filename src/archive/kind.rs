@@ -4,6 +4,7 @@ use std::path::Path;
 
 use super::{hysteresis, identify, map, modes, refined, trace, tradeoff};
 use crate::error::{Error, Result};
+use crate::export::look::WIDTHS;
 use crate::paper::Figure;
 
 /// A figure of a command that can be drawn from its directory.
@@ -81,6 +82,17 @@ impl Kind {
             Kind::Paper(Figure::Figure7) => ["figure7.csv", "figure7.json"],
             Kind::Paper(Figure::Accelerations) => ["accelerations.csv", "accelerations.json"],
             Kind::Paper(Figure::Phase) => ["phase.csv", "phase.json"],
+        }
+    }
+
+    /// The least width in which all its words have room, mm.
+    #[must_use]
+    pub fn narrowest(self) -> f64 {
+        match self {
+            Kind::Paper(Figure::Phase) => 88.0,
+            Kind::Paper(Figure::Figure7) => 84.0,
+            Kind::Map | Kind::Identify | Kind::Paper(_) => 70.0,
+            _ => WIDTHS[0],
         }
     }
 

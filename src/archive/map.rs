@@ -68,7 +68,7 @@ impl Archive {
             threads: 0,
             elapsed: std::time::Duration::ZERO,
         };
-        let columns = columns(&manifest, &table, &spec);
+        let columns = columns(&manifest, &table, &spec).map_err(|why| folder.bad(FILES[1], why))?;
         match spec.analysis.starts {
             Starts::Box(starts) => take_basins(&mut records, &columns, starts),
             Starts::Both => take_large(&mut records, &table),
@@ -154,7 +154,28 @@ fn records(table: &Table) -> Why<Vec<Record>> {
     if table.find("status").is_none() {
         return Err("has no column `status`".to_owned());
     }
+    // A program that sorts rows leaves the numbers of the instances.
+    if table.find("instance").is_some() {
+        let number = |row: &csv::StringRecord| table.cell(row, "instance").to_owned();
+        let moved = (0..).zip(&table.rows).find(|(place, row)| number(row) != usize::to_string(place));
+        if let Some((place, row)) = moved {
+            return Err(format!(
+                "row {} is of instance `{}`, not {place}; keep the rows in order",
+                place + 1,
+                number(row)
+            ));
+        }
+    }
     table.rows.iter().map(|row| record(table, row)).collect()
+}
+
+/// The entry of a list with the name in a cell; none of an empty cell.
+fn named<T: Copy>(all: &[T], name: fn(T) -> &'static str, column: &str, cell: &str) -> Why<Option<T>> {
+    if cell.is_empty() {
+        return Ok(None);
+    }
+    let found = all.iter().copied().find(|one| name(*one) == cell);
+    found.map(Some).ok_or_else(|| format!("`{column}` is `{cell}`, which is none"))
 }
 
 /// What figures read of a record.
@@ -167,8 +188,8 @@ pub(super) fn record(table: &Table, row: &csv::StringRecord) -> Why<Record> {
         .ok_or_else(|| format!("`{status}` is no status"))?;
     Ok(Record {
         status,
-        kind: InstabilityType::ALL.into_iter().find(|kind| kind.name() == cell("type")),
-        regime: Regime::ALL.into_iter().find(|regime| regime.name() == cell("regime")),
+        kind: named(&InstabilityType::ALL, InstabilityType::name, "type", cell("type"))?,
+        regime: named(&Regime::ALL, Regime::name, "regime", cell("regime"))?,
         settled: flag(cell("settled")),
         bistable: flag(cell("bistable")),
         ..Record::default()
@@ -230,19 +251,30 @@ pub(super) fn computation(value: &Json) -> Option<Computation> {
 }
 
 /// The columns with a number in them that are not swept.
-fn columns(manifest: &Json, table: &Table, spec: &Spec) -> Vec<NumberColumn> {
+fn columns(manifest: &Json, table: &Table, spec: &Spec) -> Why<Vec<NumberColumn>> {
     let swept: Vec<&str> = spec.grid.keys().into_iter().map(AxisKey::name).collect();
     let described = manifest["columns"].as_array().map(Vec::as_slice).unwrap_or_default();
     let column = |column: &Json| {
         let name = text(&column["name"]);
-        let place = table.find(&name).filter(|_| name != "instance" && !swept.contains(&name.as_str()))?;
-        let values: Vec<Option<f64>> = table
+        if name == "instance" || swept.contains(&name.as_str()) {
+            return Ok(None);
+        }
+        let place = table.column(&name)?;
+        let cell = |row: &csv::StringRecord| row.get(place).unwrap_or_default().to_owned();
+        let number = |cell: String| cell.parse().ok().filter(|x: &f64| x.is_finite());
+        let values: Vec<Option<f64>> = table.rows.iter().map(|row| number(cell(row))).collect();
+        let words = table
             .rows
             .iter()
-            .map(|row| row.get(place)?.parse().ok().filter(|x: &f64| x.is_finite()))
-            .collect();
+            .map(cell)
+            .zip(&values)
+            .find(|(cell, value)| !cell.is_empty() && value.is_none());
+        // A column of names has no number at all.
+        if let (Some((cell, _)), true) = (words, values.iter().any(Option::is_some)) {
+            return Err(format!("`{name}` is `{cell}` in a row, no number"));
+        }
         let (unit, meaning) = (text(&column["unit"]), text(&column["meaning"]));
-        values.iter().any(Option::is_some).then_some(NumberColumn { name, unit, meaning, values })
+        Ok(values.iter().any(Option::is_some).then_some(NumberColumn { name, unit, meaning, values }))
     };
-    described.iter().filter_map(column).collect()
+    described.iter().filter_map(|one| column(one).transpose()).collect()
 }

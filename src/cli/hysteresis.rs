@@ -110,7 +110,7 @@ pub(crate) fn execute(spec: &Spec, directory: PathBuf, at: &str, range: &Range, 
         format!("the branches end differently from {}\n", apart.join(", "))
     };
     let stays = Direction::ALL.iter().all(|direction| found.jumps(*direction).is_empty());
-    let hint = if stays {
+    let hint = if stays && found.apart().is_empty() {
         "no branch leaves the state in which it begins: inside a bistable band the other one is never met; \
          begin outside of it (a wider range), or with a larger start\n"
     } else {

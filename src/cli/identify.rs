@@ -55,10 +55,10 @@ pub(crate) struct Identify {
     #[arg(long, value_name = "COLUMN")]
     temperature: Option<String>,
     /// Delay of the normal acceleration behind the tangential one, s
-    #[arg(long, value_name = "S", default_value_t = 0.0, allow_negative_numbers = true, value_parser = finite)]
+    #[arg(long, value_name = "S", default_value_t = 0.0, allow_hyphen_values = true, value_parser = finite)]
     skew: f64,
     /// Delay of the forces behind the tangential acceleration, s
-    #[arg(long, value_name = "S", default_value_t = 0.0, allow_negative_numbers = true, value_parser = finite)]
+    #[arg(long, value_name = "S", default_value_t = 0.0, allow_hyphen_values = true, value_parser = finite)]
     force_skew: f64,
     /// Largest damping ratio the structure may have without friction
     #[arg(long, value_name = "RATIO", default_value_t = DAMPING_RATIO, value_parser = ratio)]

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use squealmap::archive::{Kind, Picture};
+use squealmap::cluster::slurm::quote;
 use squealmap::export::look::{Journal, Look, WIDTHS};
 use squealmap::export::{pdf, png};
 use squealmap::{Error, Result};
@@ -16,6 +17,9 @@ use crate::cli::{note, print};
 
 /// What is written of every figure.
 const FILES: [&str; 3] = ["plot.pdf", "plot.png", "plot.svg"];
+
+/// Where `paper` puts its figures.
+const PAPER: &str = "paper";
 
 /// Arguments of `plot`.
 #[derive(Debug, Args)]
@@ -32,7 +36,7 @@ pub(crate) struct Plot {
     /// The width that a journal or a talk asks for
     #[arg(long, value_parser = journals(), conflicts_with = "width")]
     journal: Option<Journal>,
-    /// Width of the figure, 60mm to 400mm
+    /// Width of the figure, 60mm to 400mm; some figures need more than 60mm for their words
     #[arg(long, value_name = "MM", value_parser = width)]
     width: Option<f64>,
     #[command(flatten)]
@@ -40,8 +44,16 @@ pub(crate) struct Plot {
 }
 
 impl Plot {
-    pub(crate) fn execute(self) -> Result<()> {
+    pub(crate) fn execute(mut self) -> Result<()> {
+        // What `paper` was told to write to holds its figures one further down.
+        let inside = self.directory.join(PAPER);
+        if Kind::held(&self.directory).is_empty() && !Kind::held(&inside).is_empty() {
+            self.directory = inside;
+        }
         let kind = Kind::choose(&self.directory, self.figure)?;
+        if let Some(width) = self.width.filter(|width| *width < kind.narrowest()) {
+            return Err(Error::TooNarrow { width, figure: kind.name(), least: kind.narrowest() });
+        }
         let picture = Picture::read(&self.directory, kind)?;
         let provenance = format!("{}, of results of {}", self.command(), picture.program);
         let look = Look {
@@ -82,7 +94,7 @@ impl Plot {
 
     /// The command that makes the same again.
     fn command(&self) -> String {
-        let mut command = format!("squealmap plot {}", self.directory.display());
+        let mut command = format!("squealmap plot {}", quote(&self.directory.display().to_string()));
         let mut add = |text: String| command.push_str(&text);
         if let Some(figure) = self.figure {
             add(format!(" --figure {}", figure.name()));

@@ -47,7 +47,7 @@ pub(crate) struct OfMaps {
     #[arg(long)]
     hatch: bool,
     /// Of a map, lines at these values of its quantities, separated by commas; isolines.csv has them too
-    #[arg(long, value_name = "VALUE,...", value_delimiter = ',', allow_negative_numbers = true, value_parser = finite)]
+    #[arg(long, value_name = "VALUE,...", value_delimiter = ',', allow_hyphen_values = true, value_parser = finite)]
     isolines: Vec<f64>,
     /// Of a map, lines at about so many round values of each quantity, 1 to 30
     #[arg(long, value_name = "N", conflicts_with = "isolines", value_parser = clap::value_parser!(u8).range(1..=30))]

@@ -144,7 +144,8 @@ fn words(words: &[String]) -> String {
 }
 
 /// One word of a shell, whatever is in it.
-fn quote(word: &str) -> String {
+#[must_use]
+pub fn quote(word: &str) -> String {
     // Only a zero byte cannot be quoted, and neither arguments nor paths have one.
     shlex::try_quote(word).map_or_else(|_| "''".to_owned(), std::borrow::Cow::into_owned)
 }

@@ -10,6 +10,7 @@ use squealmap::archive::{Kind, Picture};
 use squealmap::export::look::{Journal, Look};
 use squealmap::export::{pdf, png};
 
+use crate::cli::squealmap;
 use crate::common::near;
 use crate::figure::draw;
 use crate::gallery::{Piece, all};
@@ -193,6 +194,13 @@ fn every_figure_has_the_size_of_its_journal() {
             beyond.extend(outside(&svg).into_iter().map(|text| format!("{kind}, {name}: {text}")));
         }
     }
+    for piece in all() {
+        let look = Look { width: Some(piece.kind.narrowest()), ..Look::default() };
+        let svg = read(&piece).svg(&look).unwrap();
+        beyond.extend(
+            outside(&svg).into_iter().map(|text| format!("{}, narrowest: {text}", piece.kind.name())),
+        );
+    }
     assert!(beyond.is_empty(), "{}", beyond.join("\n"));
     // A text beyond the page is seen.
     let svg = all()[2].svg.replacen("<text x=\"", "<text x=\"99", 1);
@@ -223,4 +231,21 @@ fn chunks(png: &[u8]) -> Vec<([u8; 4], &[u8])> {
         rest = &rest[12 + length..];
     }
     found
+}
+
+#[test]
+fn what_paper_was_told_to_write_to_can_be_named() {
+    let figure = all().into_iter().find(|piece| piece.kind.name() == "figure3").unwrap();
+    let directory = tempfile::tempdir().unwrap();
+    let inside = directory.path().join("paper");
+    std::fs::create_dir(&inside).unwrap();
+    for file in figure.kind.files() {
+        std::fs::copy(figure.directory.path().join(file), inside.join(file)).unwrap();
+    }
+    let ended = squealmap(directory.path(), &["plot", "."]);
+    assert_eq!(ended.code, Some(0), "{}", ended.err);
+    assert!(inside.join("plot.svg").is_file());
+    let narrow = squealmap(directory.path(), &["plot", ".", "--width", "69"]);
+    assert_eq!(narrow.code, Some(2));
+    assert!(narrow.err.contains("the figure `figure3` needs at least 70 mm"), "{}", narrow.err);
 }

@@ -17,6 +17,7 @@ use squealmap::spec::Starts;
 use squealmap::starts::{Basin, Others};
 use tempfile::TempDir;
 
+use crate::cli::squealmap;
 use crate::colour::{DICHROMACIES, delta_e, lab, rgb};
 use crate::common::near;
 use crate::figure::{colour, draw, frames};
@@ -316,4 +317,54 @@ fn the_regime_from_a_large_start_has_a_block_of_its_own() {
         record.others = None;
     }
     assert_eq!(frames(&map_svg(&map).unwrap()).len(), 3);
+}
+
+#[test]
+fn a_spoilt_table_is_refused_not_drawn() {
+    let directory = directory(&sweep());
+    let path = directory.path().join("map.csv");
+    let text = std::fs::read_to_string(&path).unwrap();
+    let rows: Vec<&str> = text.lines().collect();
+    let mut moved = rows.clone();
+    moved.swap(5, 9);
+    let with = |name: &str, value: &str| {
+        let column = rows[0].split(',').position(|header| header == name).unwrap();
+        let mut cells: Vec<&str> = rows[3].split(',').collect();
+        cells[column] = value;
+        text.replace(rows[3], &cells.join(","))
+    };
+    for (content, words) in [
+        (moved.join("\n"), "row 5 is of instance `8`, not 4; keep the rows in order"),
+        (with("type", "foo"), "`type` is `foo`, which is none"),
+        (with("regime", "bar"), "`regime` is `bar`, which is none"),
+        (with("growth_rate", "x-0.02"), "`growth_rate` is `x-0.02` in a row, no number"),
+        (text.replacen("growth_rate,", "growth,", 1), "has no column `growth_rate`"),
+    ] {
+        std::fs::write(&path, content).unwrap();
+        let error = Archive::read(directory.path()).unwrap_err();
+        assert!(error.is_bad_input() && error.to_string().contains(words), "{words}: {error}");
+    }
+}
+
+#[test]
+fn the_command_in_the_metadata_makes_the_same_again() {
+    let directory = directory(&sweep());
+    let inside = directory.path().join("it's here");
+    std::fs::create_dir(&inside).unwrap();
+    for name in ["map.csv", "manifest.json"] {
+        std::fs::rename(directory.path().join(name), inside.join(name)).unwrap();
+    }
+    let first = squealmap(
+        directory.path(),
+        &["plot", "it's here", "--quantity", "growth", "--isolines", "-1,0", "--width", "90"],
+    );
+    assert_eq!(first.code, Some(0), "{}", first.err);
+    let svg = std::fs::read_to_string(inside.join("plot.svg")).unwrap();
+    let metadata = svg.lines().find(|line| line.starts_with("<metadata>")).unwrap();
+    let command = metadata.split_once("squealmap plot ").unwrap().1.split_once(", of results").unwrap().0;
+    assert!(command.ends_with("--width 90mm --quantity growth --isolines -1,0"), "{command}");
+    let words = shlex::split(&command.replace("&quot;", "\"").replace("&apos;", "'")).unwrap();
+    let words: Vec<&str> = std::iter::once("plot").chain(words.iter().map(String::as_str)).collect();
+    assert_eq!(squealmap(directory.path(), &words).code, Some(0), "{words:?}");
+    assert_eq!(std::fs::read_to_string(inside.join("plot.svg")).unwrap(), svg);
 }
