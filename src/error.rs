@@ -180,13 +180,13 @@ pub enum Error {
     /// No plane whose lines could be followed.
     #[error(
         "refining follows the lines of a map over two numeric axes, but the sweep has no two numeric axes with at least \
-         3 values each; add some under `[axes]`, or use `squealmap run`"
+         3 values each; add some under `[axes]`, or compute the whole grid by `squealmap run`, without [refine]"
     )]
     NothingToRefine,
     /// An option that a refined sweep does not have.
     #[error(
-        "{option} has no effect on a sweep with [refine], which computes its instances level by level; leave the option \
-         out, or remove [refine] to compute the whole grid"
+        "{option} cannot be used for a sweep with [refine], which one process computes level by level; leave it out, or \
+         remove [refine] to compute the whole grid"
     )]
     RefineBeside {
         /// The option.
@@ -280,7 +280,7 @@ pub enum Error {
         why: String,
     },
     /// A directory without tiles.
-    #[error("`{}` holds no tiles; name the output directory of a `squealmap run`", path.display())]
+    #[error("`{}` holds no tiles; name the output directory of a `squealmap run` of a whole grid", path.display())]
     NoTiles {
         /// The directory.
         path: PathBuf,
@@ -361,7 +361,7 @@ pub enum Error {
     },
     /// A disk without room for a sweep.
     #[error(
-        "the sweep needs about {needed} in `{}`, where {free} are free; free some, choose another directory with -o, \
+        "the sweep needs about {needed} in `{}`, 64 MB of it to leave free, where {free} are free; free some, choose another directory with -o, \
          or take fewer points",
         path.display()
     )]

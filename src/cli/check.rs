@@ -7,7 +7,7 @@ use clap::Args;
 use squealmap::Result;
 use squealmap::estimate::estimate;
 use squealmap::grid::{Axis, AxisKey, Grid, Value};
-use squealmap::refine::Settings;
+use squealmap::refine::{Settings, planes_of};
 use squealmap::spec::{Spec, StartKind, Starts};
 use squealmap::store::space::{MOST_ROWS, Need, bytes};
 use squealmap::store::tiling::{TILE, Tiling};
@@ -25,6 +25,9 @@ pub(crate) struct Check {
 impl Check {
     pub(crate) fn execute(self) -> Result<()> {
         let spec = Spec::read(&self.sweep)?;
+        if spec.refine.is_some() {
+            planes_of(&spec.grid)?;
+        }
         let text = format!(
             "{} is valid: {} instance(s)\n{}",
             self.sweep.display(),
@@ -53,6 +56,9 @@ fn describe(spec: &Spec) -> String {
             StartKind::Mode => "the most unstable mode",
         };
         let start = match spec.analysis.starts {
+            Starts::Box(_) if spec.refine.is_some() => {
+                format!("{start}, not from a box, which [refine] leaves out")
+            }
             Starts::One => start.to_owned(),
             Starts::Both => format!("{start} and from a large start"),
             Starts::Box(samples) => format!("{start} and from {samples} start(s) of a box"),

@@ -29,8 +29,11 @@ use crate::cli::signal::stop_at_signal;
 use crate::cli::summary::summary;
 use crate::cli::{Files, INTERRUPTED, note, print};
 
+/// How the lines were found.
+pub(crate) const DOCUMENT: &str = "refine.json";
+
 /// What is written; the table as it comes, the others at the end.
-const FILES: [&str; 5] = ["points.csv", "boundaries.csv", "refine.json", "refined.png", "refined.svg"];
+const FILES: [&str; 5] = ["points.csv", "boundaries.csv", DOCUMENT, "refined.png", "refined.svg"];
 
 /// Arguments of `refine`.
 #[derive(Debug, Args)]
@@ -91,6 +94,7 @@ impl Refining<'_> {
         spec.analysis.checked = false;
         // So are the starts of a box; two starts are the same at any place, and their verdicts have lines too.
         if let Starts::Box(_) = spec.analysis.starts {
+            note("a refined map has no starts from a box: every instance starts from its kick alone");
             spec.analysis.starts = Starts::One;
         }
         planes_of(&spec.grid)?;
@@ -103,13 +107,14 @@ impl Refining<'_> {
         let file = BufWriter::new(table.emptied().map_err(|why| cannot(&table_path, &why))?);
         let mut rows = MapCsv::new(description.sheet(), file)?;
         let parts = Parts::begin(output.directory(), &description)?;
+        let table_full = |why: Error| cannot(&table_path, &std::io::Error::other(why));
         let mut fresh = 0;
         let mut compute = |instances: &[usize]| {
-            space::verify_parts(output.directory(), spec.analysis, instances.len())?;
             let progress = Progress::new(instances.len());
             let mut labels = Vec::with_capacity(instances.len());
             for block in instances.chunks(self.part) {
                 let part = parts.records(block, &note, &mut || {
+                    space::verify_parts(output.directory(), spec.analysis, block.len())?;
                     let mut sweep = subset(&spec, block);
                     sweep.analysis.starts = spec.analysis.starts;
                     let made = solver.records_of(&sweep, 0..block.len(), &|count| progress.add(count))?;
@@ -120,7 +125,7 @@ impl Refining<'_> {
                 } else {
                     fresh += block.len();
                 }
-                rows.add_some(block, &part.records)?;
+                rows.add_some(block, &part.records).map_err(table_full)?;
                 labels.extend(part.records.iter().map(Label::from));
             }
             progress.finish();
@@ -150,10 +155,12 @@ impl Refining<'_> {
             (FILES[3], png::render(&svg)?),
             (FILES[4], svg.into_bytes()),
         ];
+        let mut paths = output.write(&files)?;
         table.publish().map_err(|why| cannot(&table_path, &why))?;
+        paths.push(table_path);
+        paths.sort();
         print(&report(&refined, fresh, &summary(spec.analysis, figure.tally())));
-        print(&list(&[table_path]));
-        print(&list(&output.write(&files)?));
+        print(&list(&paths));
         if parts.strangers()? > 0 {
             note("parts of other sweeps, programs or engines stand in `parts` too; they may be removed");
         }
@@ -163,6 +170,9 @@ impl Refining<'_> {
 
 /// What becomes of a refinement that was stopped.
 fn stopped(fresh: usize) -> String {
+    if fresh == 0 {
+        return "stopped before another part was done; run the same command again to go on".to_owned();
+    }
     format!(
         "stopped after {fresh} more instances, which stay in `parts`; no lines are written yet; run the same command again \
          to go on"

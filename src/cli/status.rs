@@ -11,6 +11,7 @@ use squealmap::{Error, Result};
 
 use crate::cli::print;
 use crate::cli::progress::seconds;
+use crate::cli::refine::DOCUMENT;
 
 /// Arguments of `status`.
 #[derive(Debug, Args)]
@@ -25,9 +26,15 @@ pub(crate) struct StatusCommand {
 impl StatusCommand {
     pub(crate) fn execute(self) -> Result<()> {
         let store = match (Store::open(&self.directory), Parts::found(&self.directory)) {
-            (Err(Error::NoTiles { .. }), Ok(Some([parts, instances]))) => {
+            (Err(Error::NoTiles { .. }), Ok(Some([parts, instances, bad]))) => {
+                let bad = if bad > 0 { format!(", {bad} bad") } else { String::new() };
+                let end = if self.directory.join(DOCUMENT).is_file() {
+                    "its results are written"
+                } else {
+                    "how many are to come shows on the way"
+                };
                 print(&format!(
-                    "refinement  {parts} part(s) of {instances} instances are done; how many are to come shows on the way\n"
+                    "refinement  {parts} part(s) of {instances} instances are done{bad}; {end}\n"
                 ));
                 return Ok(());
             }

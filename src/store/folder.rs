@@ -44,7 +44,12 @@ impl Folder {
     /// # Errors
     /// What is wrong with it.
     pub(super) fn read(&self, name: &str, label: &Label) -> std::result::Result<Option<Vec<Record>>, Fault> {
-        match std::fs::read(self.path(name)) {
+        let path = self.path(name);
+        // Reading from a pipe would not end.
+        if path.metadata().is_ok_and(|found| !found.is_file()) {
+            return Err(Fault::Unreadable { why: "it is no file".to_owned() });
+        }
+        match std::fs::read(path) {
             Ok(bytes) => label.read(&bytes).map(Some),
             Err(why) if why.kind() == ErrorKind::NotFound => Ok(None),
             Err(why) => Err(Fault::Unreadable { why: why.to_string() }),
@@ -62,8 +67,16 @@ impl Folder {
     }
 
     pub(super) fn set_aside(&self, name: &str) -> io::Result<()> {
-        std::fs::create_dir_all(self.path(BAD))?;
-        match std::fs::rename(self.path(name), self.path(BAD).join(name)) {
+        let bad = self.path(BAD);
+        std::fs::create_dir_all(&bad)?;
+        // What was set aside before stays.
+        let mut place = bad.join(name);
+        let mut number = 1;
+        while place.symlink_metadata().is_ok() {
+            number += 1;
+            place = bad.join(format!("{name}.{number}"));
+        }
+        match std::fs::rename(self.path(name), place) {
             // Another process was faster.
             Err(why) if why.kind() == ErrorKind::NotFound => Ok(()),
             other => other,

@@ -4,8 +4,6 @@
 //! that it is found again whatever else was computed, and never taken for other instances. Parts of other sweeps may
 //! stand beside it.
 
-use std::fs::File;
-use std::io::Read;
 use std::path::Path;
 
 use super::claim::Claim;
@@ -82,23 +80,26 @@ impl Parts {
         Ok(Part { records, found: false })
     }
 
-    /// How many parts a directory has, of whatever sweep, and how many instances they say to have; `None` where there are
-    /// none.
+    /// How many good parts a directory has, of whatever sweep, how many instances they have, and how many are bad; `None`
+    /// where there is no folder of parts.
     ///
     /// # Errors
     /// When the folder cannot be read.
-    pub fn found(directory: &Path) -> Result<Option<[usize; 2]>> {
+    pub fn found(directory: &Path) -> Result<Option<[usize; 3]>> {
         let folder = Folder::new(directory, PARTS);
         if !folder.path("").is_dir() {
             return Ok(None);
         }
-        let names = folder.tiles()?;
-        let instances = names.iter().filter_map(|name| {
-            let mut header = [0; 56];
-            File::open(folder.path(name)).and_then(|mut file| file.read_exact(&mut header)).ok()?;
-            instances_in(&header)
-        });
-        Ok(Some([names.len(), instances.sum()]).filter(|_| !names.is_empty()))
+        let mut found = [0; 3];
+        for name in folder.tiles()? {
+            let path = folder.path(&name);
+            let bytes = if path.is_file() { std::fs::read(path).unwrap_or_default() } else { Vec::new() };
+            match instances_in(&bytes) {
+                Some(instances) => found = [found[0] + 1, found[1] + instances, found[2]],
+                None => found[2] += 1,
+            }
+        }
+        Ok(Some(found))
     }
 
     /// How many parts of other sweeps, programs and engines stand beside these.

@@ -76,7 +76,8 @@ pub fn verify_parts(directory: &Path, analysis: Analysis, missing: usize) -> Res
 }
 
 fn fits(directory: &Path, needed: u64, free: u64) -> Result<()> {
-    if needed + RESERVE > free {
+    let needed = needed + RESERVE;
+    if needed > free {
         return Err(Error::NoSpace { path: directory.to_owned(), needed: bytes(needed), free: bytes(free) });
     }
     Ok(())

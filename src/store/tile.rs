@@ -40,12 +40,17 @@ pub struct Label {
     pub bounds: Range<usize>,
 }
 
-/// How many instances a tile says that it has, by its first bytes; `None` of what is no tile.
+/// How many instances a tile says that it has, whichever it is; `None` of what is no tile or has another checksum.
 #[must_use]
-pub fn instances_in(header: &[u8]) -> Option<usize> {
-    let number = |at: usize| header.get(at..at + 8)?.try_into().ok().map(u64::from_le_bytes);
+pub fn instances_in(bytes: &[u8]) -> Option<usize> {
+    let (content, footer) = bytes.split_at_checked(bytes.len().checked_sub(FOOTER)?)?;
+    let is_whole = content.len() >= HEADER
+        && content.starts_with(MAGIC)
+        && blake3::hash(content).as_bytes()[..] == footer[..CHECKSUM]
+        && footer[CHECKSUM..] == END[..];
+    let number = |at: usize| content.get(at..at + 8)?.try_into().ok().map(u64::from_le_bytes);
     let [first, end] = [40, 48].map(number);
-    usize::try_from(end?.checked_sub(first?)?).ok().filter(|_| header.starts_with(MAGIC))
+    usize::try_from(end?.checked_sub(first?)?).ok().filter(|_| is_whole)
 }
 
 /// What is wrong with a tile.

@@ -157,6 +157,54 @@ fn spoilt_parts_are_named_and_computed_again() {
     }
     assert!(parts(whole.path()) == wanted && results(whole.path()) == before);
     assert_eq!(std::fs::read_dir(folder.join("bad")).unwrap().count(), spoilt.len());
+    // Again, a directory in the place of one and a pipe in that of another: what was set aside stays there.
+    std::fs::remove_file(at(0)).unwrap();
+    std::fs::create_dir(at(0)).unwrap();
+    std::fs::write(at(0).join("inside"), "kept").unwrap();
+    std::fs::remove_file(at(1)).unwrap();
+    assert!(Command::new("mkfifo").arg(at(1)).status().unwrap().success());
+    let status = squealmap(whole.path(), &["status", "out/s"]);
+    assert!(status.out.contains("done, 2 bad; its results are written"), "{}", status.out);
+    let ended = squealmap(whole.path(), &arguments(&REFINE));
+    assert_eq!(ended.code, Some(0), "{}", ended.err);
+    assert_eq!(ended.err.matches("it is no file; it is computed again").count(), 2, "{}", ended.err);
+    assert!(parts(whole.path()) == wanted && results(whole.path()) == before);
+    assert_eq!(std::fs::read_dir(folder.join("bad")).unwrap().count(), spoilt.len() + 2);
+}
+
+/// Results are all of one refinement, also where the disk is full at their end.
+#[test]
+fn a_full_disk_at_the_end_leaves_the_results_of_before() {
+    let directory = undisturbed();
+    let before = results(directory.path());
+    let other = arguments(&["refine", "s.toml", "--coarse", "16", "--sample", "0", "--backend", "cpu"]);
+    // Files of at most so many blocks of 512 bytes: parts fit, pictures do not.
+    let script = "trap '' XFSZ; ulimit -f 50; exec \"$0\" \"$@\"";
+    let mut limited = Command::new("sh");
+    limited.args(["-c", script, env!("CARGO_BIN_EXE_squealmap")]).args(&other).current_dir(directory.path());
+    let output = limited.output().unwrap();
+    let err = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{err}");
+    assert!(err.contains("cannot write `out/s/"), "{err}");
+    assert!(results(directory.path()) == before, "{err}");
+}
+
+#[test]
+fn what_cannot_be_refined_is_refused_by_check_too() {
+    let one = "mu_d = 0.3\n[belt]\nbelt_velocity = 3.0\n[axes]\nmu_s = { from = 0.0, to = 0.6, points = 65 }\n[refine]\n";
+    let directory = with(&format!("[friction]\nlaw = \"bilinear\"\nknee_velocity = 5.0\n{one}"));
+    for command in ["check", "run"] {
+        let ended = squealmap(directory.path(), &[command, "s.toml"]);
+        assert_eq!(ended.code, Some(2), "{command}: {}", ended.out);
+        assert!(unwrapped(&ended.err).contains("two numeric axes"), "{}", ended.err);
+    }
+    let bounds = "box_displacement_from = -0.1\nbox_displacement_to = 0.1\nbox_velocity_from = 0\nbox_velocity_to = 1\n";
+    let boxed = with(&format!("{SWEEP}[start]\nkind = \"box\"\nbox_samples = 3\n{bounds}{SECTION}"));
+    let checked = squealmap(boxed.path(), &["check", "s.toml"]);
+    assert!(checked.out.contains("not from a box, which [refine] leaves out"), "{}", checked.out);
+    let ended = squealmap(boxed.path(), &["run", "s.toml", "--backend", "cpu"]);
+    assert_eq!(ended.code, Some(0), "{}", ended.err);
+    assert!(ended.err.contains("no starts from a box"), "{}", ended.err);
 }
 
 #[test]
@@ -182,10 +230,10 @@ fn a_sweep_asks_for_it_itself() {
     assert!(checked.out.contains("refines   from 8 cells along each side"), "{}", checked.out);
 
     for (options, says) in [
-        (&["run", "s.toml", "--shard", "0/2"][..], "--shard has no effect on a sweep with [refine]"),
-        (&["run", "s.toml", "--accuracy", "draft"], "--accuracy has no effect"),
-        (&["run", "s.toml", "--reuse", "again"], "--reuse has no effect"),
-        (&["submit", "s.toml", "--slurm", "--dry-run"], "`submit` has no effect"),
+        (&["run", "s.toml", "--shard", "0/2"][..], "--shard cannot be used for a sweep with [refine]"),
+        (&["run", "s.toml", "--accuracy", "draft"], "--accuracy cannot be used"),
+        (&["run", "s.toml", "--reuse", "again"], "--reuse cannot be used"),
+        (&["submit", "s.toml", "--slurm", "--dry-run"], "`submit` cannot be used"),
     ] {
         let ended = squealmap(asked.path(), &[options, &["-o", "none"]].concat());
         assert_eq!(ended.code, Some(2), "{}", ended.err);

@@ -241,7 +241,13 @@ fn a_sweep_without_room_is_refused_before_it_begins() {
     let ended = squealmap(directory.path(), &["run", "s.toml", "--backend", "cpu"]);
     assert_eq!(ended.code, Some(2), "{}", ended.err);
     // 44 bytes of each instance and 120 of each tile: 44.0 TB.
-    assert!(ended.err.contains("error: the sweep needs about 44 TB in `out/s`, where "), "{}", ended.err);
+    assert!(
+        ended
+            .err
+            .contains("error: the sweep needs about 44 TB in `out/s`, 64 MB of it to leave free, where "),
+        "{}",
+        ended.err
+    );
     assert!(!directory.path().join("out").exists());
     let ended = squealmap(directory.path(), &["check", "s.toml"]);
     assert!(ended.out.contains("disk      about 44 TB of tiles"), "{}", ended.out);

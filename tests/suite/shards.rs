@@ -122,7 +122,10 @@ fn what_can_not_be_merged_is_named() {
     );
     let ended = squealmap(directory.path(), &["status", "three"]);
     assert_eq!(ended.code, Some(2));
-    assert_eq!(ended.err, "error: `three` holds no tiles; name the output directory of a `squealmap run`\n");
+    assert_eq!(
+        ended.err,
+        "error: `three` holds no tiles; name the output directory of a `squealmap run` of a whole grid\n"
+    );
 }
 
 #[test]
