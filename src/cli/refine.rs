@@ -9,7 +9,7 @@ use squealmap::accuracy::sample::subset;
 use squealmap::backend::solver::Solver;
 use squealmap::export::boundary_lines::refined_lines;
 use squealmap::export::csv::MapCsv;
-use squealmap::export::look::Look;
+use squealmap::export::look::{AGAIN, Look};
 use squealmap::export::png;
 use squealmap::export::refined::{document, figure};
 use squealmap::label::Label;
@@ -147,7 +147,10 @@ impl Refining<'_> {
         rows.finish().into_inner().map_err(|why| cannot(&table_path, why.error()))?;
         let sheet = description.sheet();
         let figure = figure(sheet, &refined);
-        let command = format!("squealmap refine, from {} computed instances", refined.computed);
+        let command = format!(
+            "squealmap refine, from {} computed instances; drawn again by: {AGAIN}",
+            refined.computed
+        );
         let svg = figure.look(&Look { command: Some(command), ..Look::default() });
         let files = [
             (FILES[1], refined_lines(&spec, &refined)?),

@@ -8,6 +8,9 @@ use crate::archive::NumberColumn;
 /// Least and most width of a figure, mm: narrower ones do not hold their labels, wider ones fit no page.
 pub const WIDTHS: [f64; 2] = [60.0, 400.0];
 
+/// What draws the picture of a command again.
+pub const AGAIN: &str = "squealmap plot DIR, with DIR the directory of this file";
+
 /// Widths that journals and talks ask for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Journal {
@@ -125,8 +128,9 @@ impl Look<'_> {
         svg.finish_enlarged(self.enlarged, size, name, &(program() + &self.made_by()))
     }
 
-    /// The command, for the end of a line of metadata.
+    /// The command, for the end of a line of metadata; that of any command is `plot` of its directory.
     pub(super) fn made_by(&self) -> String {
-        self.command.as_ref().map(|command| format!("; made by: {command}")).unwrap_or_default()
+        let again = || format!("; drawn again by: {AGAIN}");
+        self.command.as_ref().map_or_else(again, |command| format!("; made by: {command}"))
     }
 }

@@ -41,6 +41,8 @@ const LOOK_AROUND: usize = 3;
 const LOOK_AROUND_LEAST: usize = 12;
 /// Degrees by which the phase of one mode may wander from the first to the second half.
 const STEADY: f64 = 12.0;
+/// Growth below this part of that of the beginning is growth that saturates.
+const SLOWER: f64 = 0.9;
 /// The growth of one mode in its second half is at least this part of that of the first.
 const STEADY_GROWTH: f64 = 0.5;
 
@@ -187,11 +189,14 @@ impl Episode {
 }
 
 /// How many windows of a run are still linear: from the first strong one on whose friction departs from that of all
-/// before, the windows, which weigh most, are left out.
+/// before, or whose growth falls, the windows, which weigh most, are left out.
 fn linear(run: &[Window]) -> usize {
     let strongest = run.iter().map(|window| window.sums.xx).fold(0.0, f64::max);
     let mut before = Sums::default();
     for (kept, window) in run.iter().enumerate() {
+        if kept >= LEAST_KEPT && saturates(&run[..kept], window) {
+            return kept;
+        }
         let strong = window.sums.xx > STRONG * STRONG * strongest;
         let departs = window.sums.friction_departs(&before) > NONLINEAR_FRICTION;
         if kept >= LEAST_KEPT && strong && (departs || window.sums.noisier(&before) > NOISIER) {
@@ -200,6 +205,14 @@ fn linear(run: &[Window]) -> usize {
         before.add(&window.sums);
     }
     run.len()
+}
+
+/// Whether a window grows clearly less than those before, which have grown too long for a beat.
+fn saturates(before: &[Window], window: &Window) -> bool {
+    let early = growth(&before[..before.len().div_ceil(2)]);
+    let gain = early.value * (before[before.len() - 1].time[1] - before[0].time[0]);
+    let fallen = SLOWER * early.value - window.growth.value;
+    gain >= LASTING && fallen > 2.0 * (SLOWER * early.error).hypot(window.growth.error)
 }
 
 /// Two modes that beat also grow for a while, but their phase and growth change meanwhile.
