@@ -99,6 +99,7 @@ impl Refining<'_> {
         }
         planes_of(&spec.grid)?;
         let output = Output::prepare_claimed(self.files.directory(), &FILES)?;
+        let pool = self.engine.pool()?;
         let options = self.engine.options(cancel, &note);
         let mut solver = Solver::new(&spec, &options)?;
         let description = Description::new(&spec, solver.computations(), self.part);
@@ -131,19 +132,15 @@ impl Refining<'_> {
             progress.finish();
             Ok(labels)
         };
-        let refined = self.engine.pool()?.install(|| refine(&spec.grid, settings, &mut compute));
-        let refined = match refined {
-            Err(Error::Cancelled { .. }) => {
-                parts.remove_if_empty();
-                note(&stopped(fresh));
-                return Ok(ExitCode::from(INTERRUPTED));
-            }
-            Err(why) => {
-                parts.remove_if_empty();
-                return Err(why);
-            }
-            Ok(refined) => refined,
-        };
+        let refined = pool.install(|| refine(&spec.grid, settings, &mut compute));
+        if refined.is_err() {
+            parts.remove_if_empty();
+        }
+        if let Err(Error::Cancelled { .. }) = refined {
+            note(&stopped(fresh));
+            return Ok(ExitCode::from(INTERRUPTED));
+        }
+        let refined = refined?;
         rows.finish().into_inner().map_err(|why| cannot(&table_path, why.error()))?;
         let sheet = description.sheet();
         let figure = figure(sheet, &refined);

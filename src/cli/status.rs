@@ -25,24 +25,25 @@ pub(crate) struct StatusCommand {
 
 impl StatusCommand {
     pub(crate) fn execute(self) -> Result<()> {
-        let store = match (Store::open(&self.directory), Parts::found(&self.directory)) {
-            (Err(Error::NoTiles { .. }), Ok(Some([parts, instances, bad]))) => {
-                let bad = if bad > 0 { format!(", {bad} bad") } else { String::new() };
-                let end = if self.directory.join(DOCUMENT).is_file() {
-                    "its results are written"
-                } else {
-                    "how many are to come shows on the way"
-                };
-                print(&format!(
-                    "refinement  {parts} part(s) of {instances} instances are done{bad}; {end}\n"
-                ));
-                return Ok(());
-            }
-            (store, _) => store?,
+        let text = match Store::open(&self.directory) {
+            Ok(store) => describe(&store, &Status::new(&store, self.verify)?),
+            Err(no_tiles @ Error::NoTiles { .. }) => self.refinement().ok_or(no_tiles)?,
+            Err(why) => return Err(why),
         };
-        let status = Status::new(&store, self.verify)?;
-        print(&describe(&store, &status));
+        print(&text);
         Ok(())
+    }
+
+    /// How far a refinement has come; `None` where there is none.
+    fn refinement(&self) -> Option<String> {
+        let [parts, instances, bad] = Parts::found(&self.directory).ok().flatten()?;
+        let bad = if bad > 0 { format!(", {bad} bad") } else { String::new() };
+        let end = if self.directory.join(DOCUMENT).is_file() {
+            "its results are written"
+        } else {
+            "how many are to come shows on the way"
+        };
+        Some(format!("refinement  {parts} part(s) of {instances} instances are done{bad}; {end}\n"))
     }
 }
 

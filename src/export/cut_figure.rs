@@ -9,7 +9,7 @@ use super::look::Look;
 use super::panels::{selection, setting};
 use super::picture_axis::{Direction, PictureAxis};
 use super::plot::{FIRST, Plot, SECOND, THIRD};
-use super::scale::{Scale, Tick, axis_unit};
+use super::scale::{Scale, Tick};
 use super::svg::{Anchor, Style, Svg};
 use super::text::Text;
 use super::words;
@@ -88,7 +88,7 @@ pub fn cut_svg(cut: &Cut, quantities: &[&NumberColumn], title: &str, look: &Look
         }
     }
     for (row, column) in quantities.iter().enumerate() {
-        let label = label(column, scales[row].exponent());
+        let label = words::label(column, scales[row].exponent(), HEIGHT, LABEL_SIZE);
         let middle = y + row as f64 * (HEIGHT + GAP) + 0.5 * HEIGHT;
         svg.text(MARGIN + LABEL_SIZE, middle, &label, Style::new(LABEL_SIZE, Anchor::Middle).upwards());
     }
@@ -124,14 +124,6 @@ fn along(cut: &Cut) -> Scale {
         Scale::Linear { low, high } if cut.axis.log && low > 0.0 => Scale::Log { low, high },
         linear => linear,
     }
-}
-
-/// `Growth rate σ (10³ 1/s)`.
-fn label(column: &NumberColumn, exponent: i32) -> Text {
-    let unit = column.unit.replace("deg", "°");
-    let plain = unit.is_empty() && exponent == 0;
-    let unit = if plain { Text::default() } else { axis_unit(&unit, exponent) };
-    words::label(column, &unit, HEIGHT, LABEL_SIZE)
 }
 
 /// Which curve is which; returns the height it takes.

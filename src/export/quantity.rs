@@ -43,7 +43,7 @@ impl<'a> Field<'a> {
             Content::Quantity { column, .. } => {
                 let value = |place: usize| column.values.get(panels.instances[place]).copied().flatten();
                 Some(Field {
-                    heading: heading(column),
+                    heading: words::label(column, 0, f64::INFINITY, LABEL_SIZE),
                     label: if column.name.starts_with("basin_") { STARTS } else { "" },
                     scale: scale(column),
                     undefined: column.values.iter().filter(|value| value.is_none()).count(),
@@ -124,13 +124,6 @@ pub(super) fn draw(
     let missing = region(None);
     svg.path(&missing, &format!(r#"class="undefined" fill="{FAILED_FILL}""#));
     svg.path(&missing, r#"fill="url(#not-computed)" fill-rule="evenodd""#);
-}
-
-/// `Growth rate σ (1/s)`.
-fn heading(quantity: &NumberColumn) -> Text {
-    let unit = quantity.unit.replace("deg", "°");
-    let unit = if unit.is_empty() { Text::default() } else { axis_unit(&unit, 0) };
-    words::label(quantity, &unit, f64::INFINITY, LABEL_SIZE)
 }
 
 /// Draws the bar from `(x, y)` downwards and returns its height; `svg` is `None` to measure only.

@@ -1,5 +1,6 @@
 //! What figures call the columns of a map.
 
+use super::scale::axis_unit;
 use super::text::Text;
 use crate::archive::NumberColumn;
 
@@ -39,8 +40,10 @@ const NAMES: [(&str, &str, &str); 29] = [
 /// The end of the name of a column of the large start.
 const LARGE: &str = "_large";
 
-/// The name of a column within `room` points at this size, and its unit as the end of the words.
-pub(super) fn label(column: &NumberColumn, unit: &Text, room: f64, size: f64) -> Text {
+/// The name of a column within `room` points at this size, and its unit with a power of ten.
+pub(super) fn label(column: &NumberColumn, exponent: i32, room: f64, size: f64) -> Text {
+    let unit = column.unit.replace("deg", "°");
+    let unit = if unit.is_empty() && exponent == 0 { Text::default() } else { axis_unit(&unit, exponent) };
     let (name, large) = match column.name.strip_suffix(LARGE) {
         Some(name) => (name, ", large start"),
         None => (column.name.as_str(), ""),
@@ -79,15 +82,14 @@ mod tests {
 
     #[test]
     fn columns_have_names_in_print() {
-        let unit = Text::from(" (m)");
         let x2 = Text::from("Standard deviation of ").symbol("x_2");
-        assert_eq!(label(&column("x2_std"), &unit, 500.0, 8.0), x2.clone().plain(" (m)"));
-        assert_eq!(label(&column("x2_std_large"), &unit, 500.0, 8.0), x2.plain(", large start (m)"));
+        assert_eq!(label(&column("x2_std"), 0, 500.0, 8.0), x2.clone().plain(" (m)"));
+        assert_eq!(label(&column("x2_std_large"), 0, 500.0, 8.0), x2.plain(", large start (m)"));
         let short = Text::from("Std. of ").symbol("x_2").plain(" (m)");
-        assert_eq!(label(&column("x2_std"), &unit, 60.0, 8.0), short);
-        assert_eq!(label(&column("simulated_time"), &unit, 500.0, 8.0), Text::from("Simulated time (m)"));
+        assert_eq!(label(&column("x2_std"), 0, 60.0, 8.0), short);
+        assert_eq!(label(&column("simulated_time"), 0, 500.0, 8.0), Text::from("Simulated time (m)"));
         let force = Text::from("Largest normal force ").symbol("N").plain(" (m)");
-        assert_eq!(label(&column("n_peak"), &unit, 500.0, 8.0), force);
+        assert_eq!(label(&column("n_peak"), 0, 500.0, 8.0), force);
     }
 
     #[test]
