@@ -193,8 +193,13 @@ impl Episode {
 fn linear(run: &[Window]) -> usize {
     let strongest = run.iter().map(|window| window.sums.xx).fold(0.0, f64::max);
     let mut before = Sums::default();
+    let mut early = Growth::default();
     for (kept, window) in run.iter().enumerate() {
-        if kept >= LEAST_KEPT && saturates(&run[..kept], window) {
+        // The first half of the windows before this one.
+        if kept % 2 == 1 {
+            early.add(&run[kept / 2]);
+        }
+        if kept >= LEAST_KEPT && saturates(&early.measured(), &run[..kept], window) {
             return kept;
         }
         let strong = window.sums.xx > STRONG * STRONG * strongest;
@@ -207,9 +212,8 @@ fn linear(run: &[Window]) -> usize {
     run.len()
 }
 
-/// Whether a window grows clearly less than those before, which have grown too long for a beat.
-fn saturates(before: &[Window], window: &Window) -> bool {
-    let early = growth(&before[..before.len().div_ceil(2)]);
+/// Whether a window grows clearly less than the early ones before, which have grown too long for a beat.
+fn saturates(early: &Measured, before: &[Window], window: &Window) -> bool {
     let gain = early.value * (before[before.len() - 1].time[1] - before[0].time[0]);
     let fallen = SLOWER * early.value - window.growth.value;
     gain >= LASTING && fallen > 2.0 * (SLOWER * early.error).hypot(window.growth.error)
@@ -278,15 +282,39 @@ impl Part {
 
 /// The growth rate of a run: the mean of its windows, weighted by their errors, which overlap.
 fn growth(run: &[Window]) -> Measured {
-    let weights = run.iter().map(|window| window.growth.error.max(f64::MIN_POSITIVE).powi(-2));
-    let total: f64 = weights.clone().sum();
-    let value =
-        run.iter().zip(weights.clone()).map(|(w, weight)| w.growth.value * weight).sum::<f64>() / total;
-    let scatter =
-        run.iter().zip(weights).map(|(w, weight)| weight * (w.growth.value - value).powi(2)).sum::<f64>()
-            / total;
-    let independent = (run.len() as f64 / SHARED).max(1.0);
-    Measured { value, error: (run.len() as f64 / independent / total + scatter / independent).sqrt() }
+    let mut growth = Growth::default();
+    for window in run {
+        growth.add(window);
+    }
+    growth.measured()
+}
+
+/// Growth rates of windows as they come: their number, and sums of weights and
+/// weighted squares about the mean.
+#[derive(Default)]
+struct Growth {
+    count: usize,
+    weight: f64,
+    mean: f64,
+    square: f64,
+}
+
+impl Growth {
+    fn add(&mut self, window: &Window) {
+        let weight = window.growth.error.max(f64::MIN_POSITIVE).powi(-2);
+        let off = window.growth.value - self.mean;
+        self.count += 1;
+        self.weight += weight;
+        self.mean += off * weight / self.weight;
+        self.square += weight * off * (window.growth.value - self.mean);
+    }
+
+    fn measured(&self) -> Measured {
+        let scatter = self.square / self.weight;
+        let independent = (self.count as f64 / SHARED).max(1.0);
+        let error = (self.count as f64 / independent / self.weight + scatter / independent).sqrt();
+        Measured { value: self.mean, error }
+    }
 }
 
 /// The first episode whose forces feed the normal column but not the tangential one: when it begins, s.
