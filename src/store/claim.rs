@@ -9,6 +9,8 @@ use std::path::{Path, PathBuf};
 
 use same_file::Handle;
 
+use super::direct::{self, Room};
+
 /// The end of the name of a file that is being written.
 pub const PART: &str = ".part";
 
@@ -73,6 +75,19 @@ impl Claim {
     pub fn write(mut self, bytes: &[u8]) -> io::Result<()> {
         self.emptied()?.write_all(bytes)?;
         self.publish()
+    }
+
+    /// Writes the whole file, past the system's cache where that can be done and pays, and gives it its name.
+    ///
+    /// # Errors
+    /// Those of [`Claim::publish`].
+    pub fn write_large(mut self, room: &Room) -> io::Result<()> {
+        self.emptied()?;
+        // Of an error past the cache the one through it, if there is one, counts.
+        if room.bytes().len() >= direct::LEAST && direct::write(&self.part, room).is_ok() {
+            return self.publish();
+        }
+        self.write(room.bytes())
     }
 }
 

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::claim::Claim;
 use super::description::Description;
+use super::direct::Room;
 pub use super::folder::Note;
 use super::folder::{BAD, Folder, TILE};
 use super::tile::Fault;
@@ -109,13 +110,14 @@ impl Store {
         Claim::take(&self.path(number)).map_err(|why| self.cannot_write(number, &why))
     }
 
-    /// Writes a tile that was claimed; `bytes` is room for it that may be used again.
+    /// Writes a tile that was claimed; `room` may be used again.
     ///
     /// # Errors
     /// When the disk is full, read-only or gone; the other tiles stay as they are.
-    pub fn write(&self, claim: Claim, number: usize, records: &[Record], bytes: &mut Vec<u8>) -> Result<()> {
-        self.description.tile(number).write_into(records, bytes);
-        claim.write(bytes).map_err(|why| self.cannot_write(number, &why))
+    pub fn write(&self, claim: Claim, number: usize, records: &[Record], room: &mut Room) -> Result<()> {
+        let tile = self.description.tile(number);
+        tile.write_into(records, room.take(tile.size()));
+        claim.write_large(room).map_err(|why| self.cannot_write(number, &why))
     }
 
     fn cannot_write(&self, number: usize, why: &io::Error) -> Error {

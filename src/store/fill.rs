@@ -6,6 +6,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use super::claim::Claim;
+use super::direct::Room;
 use super::directory::{Note, Store};
 use super::reuse::Reuse;
 use crate::backend::solver::Solver;
@@ -74,10 +75,10 @@ pub fn fill(
 
 /// Writes what it is sent until there is no more.
 fn write_all(store: &Store, receiver: Receiver<Finished>) -> Result<()> {
-    let mut bytes = Vec::new();
+    let mut room = Room::default();
     receiver
         .into_iter()
-        .try_for_each(|(claim, number, records)| store.write(claim, number, &records, &mut bytes))
+        .try_for_each(|(claim, number, records)| store.write(claim, number, &records, &mut room))
 }
 
 fn compute(

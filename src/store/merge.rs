@@ -1,5 +1,6 @@
 //! Tiles of one sweep from several directories in one of them.
 
+use super::direct::Room;
 use super::directory::{Note, Store};
 use crate::error::{Error, Result};
 
@@ -15,7 +16,7 @@ pub fn merge(target: &Store, source: &Store, note: Note) -> Result<usize> {
         });
     }
     let mut brought = 0;
-    let mut bytes = Vec::new();
+    let mut room = Room::default();
     for number in source.numbers()? {
         if target.verify(number, note)? {
             continue;
@@ -25,7 +26,7 @@ pub fn merge(target: &Store, source: &Store, note: Note) -> Result<usize> {
             Ok(Some(records)) => {
                 // Another process that has the claim writes the same.
                 if let Some(claim) = target.claim(number)? {
-                    target.write(claim, number, &records, &mut bytes)?;
+                    target.write(claim, number, &records, &mut room)?;
                     brought += 1;
                 }
             }

@@ -11,6 +11,7 @@
 //! - [`columns`], [`starts`], [`tile`]: records as bytes, with header and checksum.
 //! - [`description`](mod@description): the file `tiles/sweep.json`.
 //! - [`claim`]: one process at a time writes a file.
+//! - [`direct`]: bytes of large tiles, past the system's cache.
 //! - `folder.rs`: files of a folder, what is set aside.
 //! - [`directory`]: the tiles of a directory.
 //! - [`fill`]: computes what is missing.
@@ -23,6 +24,7 @@
 pub mod claim;
 pub mod columns;
 pub mod description;
+pub mod direct;
 pub mod directory;
 pub mod fill;
 mod folder;

@@ -138,17 +138,16 @@ impl Label {
     /// When they are not as many as its instances.
     #[must_use]
     pub fn write(&self, records: &[Record]) -> Vec<u8> {
-        let mut bytes = Vec::new();
+        let mut bytes = vec![0; self.size()];
         self.write_into(records, &mut bytes);
         bytes
     }
 
-    /// The same into what may be used again, whose pages the system then need not give anew.
+    /// The same into room of its size.
     ///
     /// # Panics
-    /// When they are not as many as its instances.
-    pub fn write_into(&self, records: &[Record], bytes: &mut Vec<u8>) {
-        bytes.resize(self.size(), 0);
+    /// When they are not as many as its instances, or `bytes` not as many as its [`Label::size`].
+    pub fn write_into(&self, records: &[Record], bytes: &mut [u8]) {
         let (content, footer) = bytes.split_at_mut(self.size() - FOOTER);
         content[..HEADER].copy_from_slice(&self.header());
         encode(records, self.analysis, &mut content[HEADER..]);

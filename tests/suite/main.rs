@@ -12,6 +12,7 @@ mod cli;
 mod colour;
 mod common;
 mod crossings;
+mod direct;
 mod engines;
 mod events;
 mod exact;
