@@ -7,8 +7,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use rayon::prelude::*;
 
+use crate::backend::again::{self, outcomes_again};
 use crate::backend::computed::Computed;
-use crate::backend::{begun, take_response};
+use crate::backend::{begun, kind_of, take_response};
 use crate::error::{Error, Result};
 use crate::kernel::response::law_of;
 use crate::kernel::scene::Law;
@@ -40,7 +41,8 @@ pub fn response(precision: Precision, steps_per_period: u32) -> Computation {
         backend: NAME.to_owned(),
         precision: precision.to_string(),
         method: format!(
-            "Taylor series of order {ORDER}, truncation below {bound:.1e}, events located in the step"
+            "Taylor series of order {ORDER}, truncation below {bound:.1e}, events located in the step{}",
+            again::note(precision)
         ),
         adapter: None,
         strict: None,
@@ -106,12 +108,13 @@ pub fn batch(
         .collect();
     if spec.analysis.response {
         let outcomes = match precision {
-            Precision::F32 => outcomes::<f32>(&instances, plan, cancel),
+            Precision::F32 => outcomes::<f32>(&instances, plan, cancel)
+                .and_then(|made| outcomes_again(&instances, plan, made, cancel)),
             Precision::F64 => outcomes::<f64>(&instances, plan, cancel),
         };
         let Some(outcomes) = outcomes else { return nothing() };
         for ((record, instance), outcome) in records.iter_mut().zip(&instances).zip(outcomes) {
-            let kind = if spec.analysis.linear { record.kind } else { linear::analyse(instance).0 };
+            let kind = kind_of(spec, instance, record);
             take_response(record, instance, kind, &outcome);
         }
     }

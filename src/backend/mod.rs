@@ -1,5 +1,6 @@
 //! Where many instances run.
 //!
+//! - [`again`]: what ends early in f32, in f64.
 //! - [`choice`]: which of them computes, in which precision, and why.
 //! - [`computed`]: what an engine made of a sweep, all or a part.
 //! - [`cpu`]: vector registers of all cores.
@@ -7,6 +8,7 @@
 //! - [`gpu`]: compute kernels through wgpu.
 //! - [`solver`]: the engine that was chosen, range after range of a sweep.
 
+pub mod again;
 pub mod choice;
 pub mod computed;
 pub mod cpu;
@@ -23,7 +25,7 @@ use crate::model::Param;
 use crate::model::equilibrium::Equilibrium;
 use crate::outcome::{Outcome, Status};
 use crate::settle::Ending;
-use crate::spec::Instance;
+use crate::spec::{Instance, Spec};
 
 /// The regime of a completed outcome, and whether it is settled; `kind` is the type of its equilibrium.
 #[must_use]
@@ -47,7 +49,12 @@ pub(crate) fn begun(instance: &Instance) -> Record {
     Record { status, ..Record::default() }
 }
 
-/// Puts a response into the record of its instance.
+/// The type of the equilibrium of an instance: that of its record, where the sweep has the linear analysis.
+pub(crate) fn kind_of(spec: &Spec, instance: &Instance, record: &Record) -> Option<InstabilityType> {
+    if spec.analysis.linear { record.kind } else { linear::analyse(instance).0 }
+}
+
+/// Puts a response into the record of its instance; `kind` is the type of its equilibrium.
 pub(crate) fn take_response(
     record: &mut Record,
     instance: &Instance,

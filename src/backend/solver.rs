@@ -71,7 +71,7 @@ impl<'a> Solver<'a> {
             }
             On::Gpu(session) => {
                 let device = session.device();
-                [gpu::linear::method(), gpu::response::method()].map(|method| Computation {
+                [gpu::linear::method(), gpu::response::method(device.precision())].map(|method| Computation {
                     backend: gpu::NAME.to_owned(),
                     precision: device.precision().to_string(),
                     method,

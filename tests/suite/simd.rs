@@ -7,6 +7,7 @@ use crate::common::{bilinear, close, paper, plan};
 use crate::events::single_mass;
 use crate::instances::{Uniform, moving};
 use crate::kernel_response::{compare, periods};
+use squealmap::backend::again::outcomes_again;
 use squealmap::backend::cpu::outcomes;
 use squealmap::model::Param;
 use squealmap::model::friction::FrictionLaw;
@@ -173,6 +174,25 @@ fn keep_time<T: Lanes>(lost: i32) {
 fn no_lane_freezes_in_a_million() {
     keep_time::<f64>(200);
     keep_time::<f32>(2000);
+}
+
+/// What does not come to its end in f32 has the result of f64, and everything else its own.
+#[test]
+fn what_ends_early_in_f32_is_computed_in_f64() {
+    let instances = of_every_law(6000);
+    let plan = Plan { settle: Duration::Periods(5.0), measure: Duration::Periods(5.0), ..periods() };
+    let [single, double] = [run::<f32>(&instances, &plan), run::<f64>(&instances, &plan)];
+    let made = outcomes_again(&instances, &plan, single.clone(), &AtomicBool::new(false)).expect("nobody");
+    let ends_early = |outcome: &Outcome| outcome.status == Status::EventLimit;
+    let early = single.iter().filter(|outcome| ends_early(outcome)).count();
+    let left = made.iter().filter(|outcome| ends_early(outcome)).count();
+    assert!(early >= 4 && left < early, "{early} {left}");
+    for (index, outcome) in made.iter().enumerate() {
+        let failed =
+            matches!(single[index].status, Status::EventLimit | Status::StepTooLarge | Status::NonFinite);
+        let expected = if failed { &double[index] } else { &single[index] };
+        assert_eq!(outcome, expected, "{index}");
+    }
 }
 
 /// The reference's result in f32 too, of an instance that did not come to its end.

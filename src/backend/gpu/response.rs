@@ -9,8 +9,9 @@ use rayon::prelude::*;
 
 use super::chunks::{Batch, Session};
 use super::run::{ChunkResult, Drive};
+use crate::backend::again::{self, records_again};
 use crate::backend::choice::Options;
-use crate::backend::take_response;
+use crate::backend::{kind_of, take_response};
 use crate::error::{Error, Result};
 use crate::kernel::lane::Lane;
 use crate::kernel::record;
@@ -20,7 +21,6 @@ use crate::kernel::scene::{Law, Segments};
 use crate::kernel::series::ORDER;
 use crate::kernel::source::{self, FLAG_STATUS, Precision, SETTING_WORDS, WORKGROUP_SIZE};
 use crate::kernel::windows::Windows;
-use crate::linear;
 use crate::map::Record;
 use crate::outcome::{Outcome, Status};
 use crate::response::{Plan, Scene};
@@ -28,8 +28,11 @@ use crate::spec::{Instance, Spec};
 
 /// The method in a manifest.
 #[must_use]
-pub fn method() -> String {
-    format!("Taylor series of order {ORDER}, truncation below {TOLERANCE:e}, events located in the step")
+pub fn method(precision: Precision) -> String {
+    let again = again::note(precision);
+    format!(
+        "Taylor series of order {ORDER}, truncation below {TOLERANCE:e}, events located in the step{again}"
+    )
 }
 
 /// Whether a GPU computes the response of a sweep, where it is asked for.
@@ -63,7 +66,11 @@ pub fn complete(
     records: &mut [Record],
 ) -> Result<()> {
     match session.device().precision() {
-        Precision::F32 => complete_in::<f32>(spec, first, session, options, progress, records),
+        Precision::F32 => {
+            let ended = complete_in::<f32>(spec, first, session, options, progress, records);
+            records_again(spec, first, records, options.cancel());
+            ended
+        }
         Precision::F64 => complete_in::<f64>(spec, first, session, options, progress, records),
     }
 }
@@ -170,10 +177,9 @@ fn complete_in<R: Real>(
     ended
 }
 
-/// Puts an outcome into its record; the type of the equilibrium is that of the linear analysis, where there
-/// is one.
+/// Puts an outcome into its record.
 fn take(spec: &Spec, instance: &Instance, record: &mut Record, outcome: &Outcome) {
-    let kind = if spec.analysis.linear { record.kind } else { linear::analyse(instance).0 };
+    let kind = kind_of(spec, instance, record);
     take_response(record, instance, kind, outcome);
 }
 
