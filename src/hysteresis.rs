@@ -13,7 +13,10 @@ use crate::model::Param;
 use crate::outcome::Outcome;
 use crate::response::{Plan, Scene, respond_in};
 use crate::spec::Instance;
-use crate::starts::{Attractor, differ};
+use crate::starts::{Attractor, apart, differ};
+
+/// A branch jumps from one cycle to another where its amplitude changes so many times as fast as beside it.
+pub const SHARP: f64 = 4.0;
 
 /// A direction in which the parameter goes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -100,6 +103,39 @@ impl Hysteresis {
         let ends: Vec<(f64, Attractor)> = direction.order(self.values.len()).filter_map(end).collect();
         let jumps = ends.windows(2).filter(|pair| pair[0].1 != pair[1].1);
         jumps.map(|pair| [pair[0].0, pair[1].0]).collect()
+    }
+
+    /// The values between which a branch goes from one cycle to another, in the order in which it comes to them: both ends
+    /// are oscillations whose standard deviations of `x2` are those of two cycles ([`crate::classify::THRESHOLDS`]), and it changes so many
+    /// times as fast as beside it ([`SHARP`]). A rise that is steep over less than a step of the parameter looks the same.
+    #[must_use]
+    pub fn jumps_of_amplitude(&self, direction: Direction) -> Vec<[f64; 2]> {
+        let end = |at: usize| {
+            let record = &self.branch(direction)[at];
+            let end = Attractor::of(record, record.kind)?;
+            let size = record.outcome.as_ref().and_then(|outcome| outcome.x2_std);
+            Some((self.values[at], size.filter(|_| end == Attractor::Oscillation)))
+        };
+        let ends: Vec<(f64, Option<f64>)> = direction.order(self.values.len()).filter_map(end).collect();
+        // How fast the amplitude changes from each end to the next.
+        let rate = |pair: &[(f64, Option<f64>)]| {
+            let [(from, a), (to, b)] = [pair[0], pair[1]];
+            a.zip(b).map(|(a, b)| (b - a).abs() / (to - from).abs())
+        };
+        let rates: Vec<Option<f64>> = ends.windows(2).map(rate).collect();
+        let sharp = |step: usize| {
+            let beside = [step.checked_sub(1), step.checked_add(1)];
+            let beside: Vec<f64> =
+                beside.into_iter().flatten().filter_map(|other| *rates.get(other)?).collect();
+            !beside.is_empty()
+                && rates[step].is_some_and(|rate| beside.iter().all(|other| rate > SHARP * other))
+        };
+        let differ = |step: usize| {
+            let [a, b] = [ends[step].1, ends[step + 1].1];
+            a.zip(b).is_some_and(|(a, b)| apart(a, b))
+        };
+        let jumps = (0..rates.len()).filter(|step| differ(*step) && sharp(*step));
+        jumps.map(|step| [ends[step].0, ends[step + 1].0]).collect()
     }
 
     /// Whether the branches end differently at each value; `None` where one has not settled.

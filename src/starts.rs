@@ -85,7 +85,7 @@ pub fn differ(small: &Record, large: &Record, kind: Option<InstabilityType>) -> 
 }
 
 /// Whether two amplitudes are those of two cycles.
-fn apart(a: f64, b: f64) -> bool {
+pub(crate) fn apart(a: f64, b: f64) -> bool {
     (a - b).abs() > THRESHOLDS.apart * a.max(b)
 }
 

@@ -89,13 +89,19 @@ pub(crate) fn execute(spec: &Spec, directory: PathBuf, at: &str, range: &Range, 
     let paths = output.write(&files)?;
     let branches = Direction::ALL.map(|direction| {
         let between = |[a, b]: &[f64; 2]| format!("{} and {}", shown(*a), shown(*b));
-        let jumps: Vec<String> = found.jumps(direction).iter().map(between).collect();
-        let jumps = if jumps.is_empty() {
+        let all = |jumps: Vec<[f64; 2]>| jumps.iter().map(between).collect::<Vec<_>>().join(", ");
+        let [ends, cycles] = [all(found.jumps(direction)), all(found.jumps_of_amplitude(direction))];
+        let ends = if ends.is_empty() {
             "no jump between sliding and oscillation".to_owned()
         } else {
-            format!("a jump between {}", jumps.join(", "))
+            format!("a jump between {ends}")
         };
-        format!("{name} {}: {jumps}\n", direction.name())
+        let cycles = if cycles.is_empty() {
+            String::new()
+        } else {
+            format!("; from one oscillation to another between {cycles}")
+        };
+        format!("{name} {}: {ends}{cycles}\n", direction.name())
     });
     let unsettled = Direction::ALL
         .iter()
