@@ -690,6 +690,16 @@ pub enum Error {
         /// The least, mm.
         least: f64,
     },
+    /// A figure taller than the page.
+    #[error("the figure would be {height:.0} mm tall, but a page holds {most:.0} mm; {advice}")]
+    TooTall {
+        /// Its height, mm.
+        height: f64,
+        /// The most, mm.
+        most: f64,
+        /// What to do.
+        advice: &'static str,
+    },
     /// A cut that a map does not have.
     #[error("--cut {cut}: {why}")]
     Cut {
@@ -876,6 +886,7 @@ impl Error {
             | Error::NothingToPlot { .. }
             | Error::OnlyOfMaps { .. }
             | Error::TooNarrow { .. }
+            | Error::TooTall { .. }
             | Error::Cut { .. }
             | Error::NoIsolines { .. }
             | Error::Tikz { .. }

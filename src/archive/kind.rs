@@ -89,8 +89,7 @@ impl Kind {
     #[must_use]
     pub fn narrowest(self) -> f64 {
         match self {
-            Kind::Paper(Figure::Phase) => 88.0,
-            Kind::Paper(Figure::Figure7) => 84.0,
+            Kind::Paper(Figure::Phase | Figure::Figure7) => 84.0,
             Kind::Map | Kind::Identify | Kind::Paper(_) => 70.0,
             _ => WIDTHS[0],
         }

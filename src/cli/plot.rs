@@ -18,6 +18,11 @@ use crate::cli::{note, print};
 /// What is written of every figure.
 const FILES: [&str; 3] = ["plot.pdf", "plot.png", "plot.svg"];
 
+/// What makes a figure lower.
+const OF_A_MAP: &str =
+    "take a wider journal or --width, name fewer with --quantity, or show part of the map with --cut";
+const OF_OTHERS: &str = "take another --journal, or --width, which sets no height";
+
 /// Where `paper` puts its figures.
 const PAPER: &str = "paper";
 
@@ -39,6 +44,9 @@ pub(crate) struct Plot {
     /// Width of the figure, 60mm to 400mm; some figures need more than 60mm for their words
     #[arg(long, value_name = "MM", value_parser = width)]
     width: Option<f64>,
+    /// What stands above the figure instead of the title of the sweep; "" for nothing
+    #[arg(long, value_name = "TEXT")]
+    title: Option<String>,
     #[command(flatten)]
     map: OfMaps,
 }
@@ -58,22 +66,23 @@ impl Plot {
         let provenance = format!("{}, of results of {}", self.command(), picture.program);
         let look = Look {
             width: self.journal.map(Journal::width).or(self.width),
-            enlarged: self.journal.map_or(1.0, Journal::enlarged),
-            contents: Vec::new(),
+            title: self.title.clone(),
             command: Some(provenance.clone()),
+            ..self.journal.map_or_else(Look::default, Look::of_journal)
         };
         let tables = picture.map().map_or(Vec::new(), |_| self.map.tables());
         let names: Vec<&str> = FILES.into_iter().chain(tables).collect();
         let (svg, mut files) = match (picture.map(), self.map.given()) {
-            (Some(archive), _) => self.map.draw(archive, look)?,
+            (Some(archive), _) => self.map.draw(archive, look.clone())?,
             (None, None) => (picture.svg(&look)?, Vec::new()),
             (None, Some(option)) => {
                 let path = self.directory.clone();
                 return Err(Error::OnlyOfMaps { option, figure: kind.name(), path });
             }
         };
+        look.check_height(&svg, if picture.map().is_some() { OF_A_MAP } else { OF_OTHERS })?;
         let output = Output::prepare(self.output.clone().unwrap_or_else(|| self.directory.clone()), &names)?;
-        let title = picture.title();
+        let title = look.title(picture.title());
         files.push((FILES[0], pdf::render(&svg, title, &provenance)?));
         files.push((FILES[1], png::render_described(&svg, title, &provenance)?));
         files.push((FILES[2], svg.into_bytes()));
@@ -104,6 +113,9 @@ impl Plot {
         }
         if let Some(width) = self.width {
             add(format!(" --width {width}mm"));
+        }
+        if let Some(title) = &self.title {
+            add(format!(" --title {}", quote(title)));
         }
         command + &self.map.command()
     }

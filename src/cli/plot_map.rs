@@ -53,7 +53,7 @@ pub(crate) struct OfMaps {
     #[arg(long, value_name = "N", conflicts_with = "isolines", value_parser = clap::value_parser!(u8).range(1..=30))]
     levels: Option<u8>,
     /// Of a map, curves instead, where axes have these values: along the longest of the others, one for each value of the
-    /// shortest, a panel for each of what is left; cut.csv has them too
+    /// shortest (or of an axis that is named several times), a panel for each of what is left; cut.csv has them too
     #[arg(long, value_name = "NAME=VALUE,...", conflicts_with_all = ["hatch", "isolines", "levels", "tikz"])]
     cut: Option<String>,
     /// Of a map, its classes as plot.tex too, a source for LaTeX with pgfplots
@@ -175,8 +175,8 @@ impl OfMaps {
         if quantities.is_empty() {
             return Err(unknown(archive, OF_A_CUT[0], false));
         }
-        let table = cut_csv(&spec.grid, &cut, &quantities)?;
-        Ok((cut_svg(&cut, &quantities, &spec.title, look), vec![(CUT, table)]))
+        let table = cut_csv(&archive.map, &cut, &quantities)?;
+        Ok((cut_svg(&archive.map, &cut, &quantities, look), vec![(CUT, table)]))
     }
 }
 

@@ -1,8 +1,11 @@
 //! One block of a figure: heading, a grid of panels with shared axes, legend.
 
 use super::cells;
+use super::curve_block::{self, is_curve};
 use super::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room};
+use super::layout::Layout;
 use super::legend::Legend;
+use super::letters;
 use super::look::Content;
 use super::palette::Colouring;
 use super::panels::Panels;
@@ -15,8 +18,8 @@ use crate::grid::Grid;
 use crate::label::Tally;
 use crate::spec::Starts;
 
-/// Between panels of a row, points.
-const GAP_ACROSS: f64 = 7.0;
+/// Between panels of a row, points; more, up to the second, where their labels would touch.
+const GAP_ACROSS: [f64; 2] = [7.0, 15.0];
 /// Least room between the labels of two panels, points.
 const TICK_GAP: f64 = 3.0;
 /// Between rows of panels, points.
@@ -29,18 +32,18 @@ const RIGHT: f64 = 6.0;
 const MOST_COLUMNS: usize = 6;
 /// Panels are no narrower than this, points: the six of a row on two columns of a journal are a little wider.
 const NARROWEST: f64 = 64.0;
+/// On a page that would be too tall otherwise they may be as narrow as this.
+const CROWDED: f64 = 44.0;
 /// The labels of the vertical axis take about this much, points.
 const LEFT: f64 = 34.0;
 /// Preferred number of panels in a row when there are more than one row of them.
 const COLUMNS: usize = 5;
 /// A picture is no taller than this, points (75 mm).
 const TALLEST: f64 = 213.0;
-/// Panels become flatter when the rows of all blocks would not fit this height, points (230 mm) ...
-const PAGE: f64 = 652.0;
-/// ... but never flatter than this.
-const FLATTEST: f64 = 0.6;
 /// Heading, axis and legend of a block take about this much, points.
 const AROUND: f64 = 72.0;
+/// Axis and letter of a block with a curve take about this much, points.
+const CURVE_AROUND: f64 = 26.0;
 /// Height of a picture without a vertical axis, points.
 const STRIP: f64 = 24.0;
 /// Height of a row of named cells, points.
@@ -55,20 +58,28 @@ pub(super) struct Block<'a> {
     pub(super) content: Content<'a>,
     /// The starts of every instance.
     pub(super) starts: Starts,
-    /// How many blocks the figure stacks.
+    /// How many blocks the figure stacks, and how it arranges them.
     pub(super) blocks: usize,
-    /// `(a)` before the heading, when there are several blocks.
-    pub(super) letter: Option<char>,
+    pub(super) layout: Layout,
+    /// The number of the letter before the heading, when there are several blocks.
+    pub(super) letter: Option<usize>,
+    /// Whether the height alone is asked for: nothing is drawn into the panels.
+    pub(super) measured: bool,
 }
 
 impl Block<'_> {
     /// Draws it with the upper left corner at `(x, y)` and returns its height.
     pub(super) fn draw(&self, svg: &mut Svg, x: f64, y: f64, width: f64) -> f64 {
         let panels = self.panels;
+        if is_curve(self.content, panels) {
+            let room = self.layout.page / self.blocks as f64 - CURVE_AROUND;
+            let height = room.clamp(self.layout.flattest * curve_block::HEIGHT, curve_block::HEIGHT);
+            return curve_block::draw(svg, panels, (self.content, self.letter), [x, y], [width, height]);
+        }
         let mut heading = Style::new(LABEL_SIZE, Anchor::Start).bold();
         let mut words = x;
         if let Some(letter) = self.letter {
-            let label = Text::from(format!("({letter})"));
+            let label = Text::from(letters::letter(letter));
             svg.text(x, y + LABEL_SIZE, &label, heading);
             words += label.width(LABEL_SIZE, true) + 4.0;
         }
@@ -88,9 +99,10 @@ impl Block<'_> {
         let lines = self.title_lines() as f64;
         // The labels of the vertical axis need its height, which needs the width they leave: start from a guess.
         let mut left = LEFT;
-        let mut size = [0.0; 2];
+        let mut size = self.panel_size(width - left - RIGHT, columns, GAP_ACROSS[0]);
+        let gap = gap_across(&panels.x.ticks(size[0], Direction::Horizontal, TICK_SIZE), size[0]);
         for _ in 0..2 {
-            size = self.panel_size(width - left - RIGHT, columns);
+            size = self.panel_size(width - left - RIGHT, columns, gap);
             left = self.left_room(size[1]);
         }
         let [panel_width, panel_height] = size;
@@ -99,12 +111,12 @@ impl Block<'_> {
         let pitch = lines * LINE + panel_height + GAP_DOWN + below;
         let x_ticks = panels.x.ticks(panel_width, Direction::Horizontal, TICK_SIZE);
         // The last label of a panel must not run into the first of the next.
-        let inner_ticks = parted(&x_ticks, panel_width);
+        let inner_ticks = parted(&x_ticks, panel_width, gap);
         let y_ticks = panels.y.as_ref().map(|axis| axis.ticks(panel_height, Direction::Vertical, TICK_SIZE));
         for (number, panel) in panels.all.iter().enumerate() {
             let (row, column) = (number / columns, number % columns);
             let frame = Frame {
-                x: x + left + column as f64 * (panel_width + GAP_ACROSS),
+                x: x + left + column as f64 * (panel_width + gap),
                 y: top + row as f64 * pitch + lines * LINE,
                 width: panel_width,
                 height: panel_height,
@@ -113,7 +125,9 @@ impl Block<'_> {
                 let base = frame.y - 3.5 - line as f64 * LINE;
                 svg.text(frame.across(0.5), base, title, Style::new(LABEL_SIZE, Anchor::Middle));
             }
-            cells::draw(svg, self.grid, panels, panel, self.content, &frame);
+            if !self.measured {
+                cells::draw(svg, self.grid, panels, panel, self.content, &frame);
+            }
             frame.border(svg);
             let ticks = if column + 1 < columns { &inner_ticks } else { &x_ticks };
             frame.x_ticks(svg, ticks, ragged || row + 1 == rows);
@@ -122,7 +136,7 @@ impl Block<'_> {
             }
         }
         let plots = rows as f64 * pitch - GAP_DOWN - below;
-        let across = columns as f64 * (panel_width + GAP_ACROSS) - GAP_ACROSS;
+        let across = columns as f64 * (panel_width + gap) - gap;
         if let Some(axis) = &panels.y {
             let room = plots - lines * LINE;
             let label = axis.label(room + lines * LINE, LABEL_SIZE);
@@ -137,7 +151,7 @@ impl Block<'_> {
         }
         bottom += 9.0;
         if let Some(field) = field {
-            return bottom + quantity::bar(&field, Some(svg), x + left, bottom, width - left) - y;
+            return bottom + quantity::bar(&field, panels, svg, [x + left, bottom], width - left) - y;
         }
         let (colouring, hatched) = match self.content {
             Content::Classes { colouring, hatched } => (colouring, hatched),
@@ -157,18 +171,20 @@ impl Block<'_> {
     fn columns(&self, width: f64) -> usize {
         let count = self.panels.all.len().max(1);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive count")]
-        let fit = ((width - LEFT - RIGHT + GAP_ACROSS) / (NARROWEST + GAP_ACROSS)).max(1.0) as usize;
-        let [most, preferred] = [MOST_COLUMNS, COLUMNS].map(|columns| columns.min(fit));
-        match self.panels.columns {
+        let fit =
+            |least: f64| ((width - LEFT - RIGHT + GAP_ACROSS[0]) / (least + GAP_ACROSS[0])).max(1.0) as usize;
+        let [most, preferred] = [MOST_COLUMNS, COLUMNS].map(|columns| columns.min(fit(NARROWEST)));
+        let usual = match self.panels.columns {
             Some(columns) if (2..=most).contains(&columns) => columns,
             _ if count <= most => count,
             _ => count.div_ceil(count.div_ceil(preferred)),
-        }
+        };
+        (usual + self.layout.more_columns).min(fit(CROWDED).max(usual)).min(count)
     }
 
-    fn panel_size(&self, width: f64, columns: usize) -> [f64; 2] {
+    fn panel_size(&self, width: f64, columns: usize, gap: f64) -> [f64; 2] {
         let n = columns as f64;
-        let panel = (width - (n - 1.0) * GAP_ACROSS) / n;
+        let panel = (width - (n - 1.0) * gap) / n;
         let height = match &self.panels.y {
             None => STRIP,
             Some(axis) if axis.is_named() => (NAMED_ROW * axis.len() as f64).clamp(2.0 * NAMED_ROW, TALLEST),
@@ -176,8 +192,8 @@ impl Block<'_> {
                 let count = self.panels.all.len();
                 let titles = self.title_lines() as f64 * LINE + GAP_DOWN;
                 let rows = count.div_ceil(columns).max(1) as f64;
-                let room = (PAGE / self.blocks as f64 - AROUND) / rows - titles;
-                room.clamp(FLATTEST * panel, panel).min(TALLEST)
+                let room = (self.layout.page / self.blocks as f64 - AROUND) / rows - titles;
+                room.clamp(self.layout.flattest * panel, panel).min(TALLEST)
             }
         };
         [panel, height]
@@ -191,15 +207,28 @@ impl Block<'_> {
     }
 }
 
+/// How far the ticks of a panel let the next one stand from it.
+fn gap_across(ticks: &[Tick], width: f64) -> f64 {
+    let [least, most] = GAP_ACROSS;
+    let wanted = least - room_between(ticks, width, least);
+    if wanted > most { least } else { wanted.max(least) }
+}
+
+/// What is left between the words of the last tick of a panel and those of the first of the next, points; less than 0
+/// where they touch.
+fn room_between(ticks: &[Tick], width: f64, gap: f64) -> f64 {
+    let [first, .., last] = ticks else { return 0.0 };
+    let words = [first, last].map(|tick| 0.5 * tick.label.width(TICK_SIZE, false)).iter().sum::<f64>();
+    (1.0 - last.at + first.at) * width + gap - words - TICK_GAP
+}
+
 /// The ticks of a panel with another one beside it: without the words of the last where they would touch its first.
-fn parted(ticks: &[Tick], width: f64) -> Vec<Tick> {
+fn parted(ticks: &[Tick], width: f64, gap: f64) -> Vec<Tick> {
+    /// Panels that became a little narrower keep their labels.
+    const SLACK: f64 = 0.5;
     let mut parted = ticks.to_vec();
-    if let [first, .., last] = ticks {
-        let apart = (1.0 - last.at + first.at) * width + GAP_ACROSS;
-        let words = [first, last].map(|tick| 0.5 * tick.label.width(TICK_SIZE, false)).iter().sum::<f64>();
-        if let (true, Some(end)) = (apart < words + TICK_GAP, parted.last_mut()) {
-            end.label = Text::default();
-        }
+    if let (true, Some(end)) = (room_between(ticks, width, gap) < -SLACK, parted.last_mut()) {
+        end.label = Text::default();
     }
     parted
 }

@@ -44,6 +44,11 @@ pub(super) fn define_patterns(svg: &mut Svg) {
             r#"<pattern id="{id}" patternUnits="userSpaceOnUse" width="2.4" height="2.4"><path d="M-0.6 0.6L0.6 -0.6M0 2.4L2.4 0M1.8 3L3 1.8" stroke="{colour}" stroke-width="0.45"/></pattern>"#
         ));
     }
+    for (tone, colour) in [("light", "#000000"), ("dark", "#FFFFFF")] {
+        svg.define(&format!(
+            r#"<pattern id="dots-on-{tone}" patternUnits="userSpaceOnUse" width="3" height="3"><path d="M0.75 0.75h0.01M2.25 2.25h0.01" stroke="{colour}" stroke-width="0.8" stroke-linecap="round"/></pattern>"#
+        ));
+    }
     for (k, lines) in HATCHES.iter().enumerate() {
         for (tone, colour) in [("light", "#000000"), ("dark", "#FFFFFF")] {
             svg.define(&format!(

@@ -2,9 +2,11 @@
 
 use super::columns::Cell;
 use super::csv::Table;
+use super::trust;
 use crate::archive::NumberColumn;
 use crate::error::{Error, Result};
 use crate::grid::{Axis, AxisKey, Grid, Value};
+use crate::map::Map;
 
 pub use super::cut_figure::cut_svg;
 
@@ -43,9 +45,10 @@ pub struct Cut {
 }
 
 impl Cut {
-    /// Cuts a grid of axes where some of them have these values, such as `mu_d=0.3,belt_velocity=3`. Of the other axes
-    /// the numeric one of most values is that of the curves, the shortest of the rest has a curve for each of its values,
-    /// and what is beyond has panels.
+    /// Cuts a grid of axes where some of them have these values, such as `mu_d=0.3,belt_velocity=3`; an axis that is named
+    /// several times, as in `mu_d=0.1,mu_d=0.2`, has a curve for each. Of the axes that are not named the numeric one of
+    /// most values is that of the curves, the shortest of the rest has a curve for each of its values, and what is beyond
+    /// has panels.
     ///
     /// # Errors
     /// When the grid has no such axis or value, or no axis of numbers is left.
@@ -54,26 +57,41 @@ impl Cut {
         let Grid::Axes(axes) = grid else {
             return Err(refused("a map of single points has no axes to cut".to_owned()));
         };
-        let mut fixed: Vec<Option<usize>> =
-            axes.iter().map(|axis| (axis.values.len() == 1).then_some(0)).collect();
+        // The indices that are asked for of each axis; none: it is free.
+        let mut asked: Vec<Vec<usize>> =
+            axes.iter().map(|axis| if axis.values.len() == 1 { vec![0] } else { Vec::new() }).collect();
         for one in at.split(',') {
             let (place, index) = find(axes, one.trim()).map_err(refused)?;
-            fixed[place] = Some(index);
+            if !asked[place].contains(&index) {
+                asked[place].push(index);
+            }
         }
-        let mut free: Vec<usize> = (0..axes.len()).filter(|i| fixed[*i].is_none()).collect();
+        let mut free: Vec<usize> = (0..axes.len()).filter(|i| asked[*i].is_empty()).collect();
         free.sort_by_key(|i| axes[*i].values.len());
         let numeric = |i: &usize| matches!(axes[*i].key, AxisKey::Param(_));
         let along = free.iter().copied().rfind(numeric);
-        let along = along.ok_or_else(|| refused("no axis of numbers is left for the curves".to_owned()))?;
-        let mut others = free.into_iter().filter(|i| *i != along);
-        let (curves, beyond) = (others.next(), others.collect::<Vec<usize>>());
-        let held = (0..axes.len()).filter_map(|i| Some(setting(axes, i, fixed[i]?))).collect();
-        let base: Vec<usize> = fixed.iter().map(|index| index.unwrap_or(0)).collect();
-        let panels = combinations(axes, &beyond, &base)
+        let along = along.ok_or_else(|| {
+            let advice = "no axis of numbers is left for the curves; leave one of them out, or --cut as a whole: without \
+                          it --quantity draws a curve along the one axis of a sweep";
+            refused(advice.to_owned())
+        })?;
+        // What was asked for by several values is to be compared: it has the curves.
+        let several = (0..axes.len()).filter(|i| asked[*i].len() > 1);
+        let others: Vec<usize> = several.chain(free.into_iter().filter(|i| *i != along)).collect();
+        let (curves, beyond) = (others.first().copied(), others.get(1..).unwrap_or_default());
+        let one = |i: usize| if let [index] = asked[i][..] { Some(setting(axes, i, index)) } else { None };
+        let held = (0..axes.len()).filter_map(one).collect();
+        let base: Vec<usize> = asked.iter().map(|indices| indices.first().copied().unwrap_or(0)).collect();
+        let values: Vec<Vec<usize>> = asked
+            .into_iter()
+            .zip(axes)
+            .map(|(asked, axis)| if asked.is_empty() { (0..axis.values.len()).collect() } else { asked })
+            .collect();
+        let panels = combinations(&values, beyond, &base)
             .into_iter()
             .map(|of_panel| CutPanel {
                 of: beyond.iter().map(|i| setting(axes, *i, of_panel[*i])).collect(),
-                curves: combinations(axes, curves.as_slice(), &of_panel)
+                curves: combinations(&values, curves.as_slice(), &of_panel)
                     .into_iter()
                     .map(|of_curve| {
                         let of = curves.map(|i| setting(axes, i, of_curve[i]));
@@ -130,13 +148,13 @@ fn setting(axes: &[Axis], place: usize, index: usize) -> (AxisKey, Value) {
     (axes[place].key, axes[place].values[index].clone())
 }
 
-/// The indices of every combination of the values of some axes, the others as in `base`; the last axis varies fastest.
-fn combinations(axes: &[Axis], of: &[usize], base: &[usize]) -> Vec<Vec<usize>> {
+/// Every combination of the indices of some axes, the others as in `base`; the last axis varies fastest.
+fn combinations(values: &[Vec<usize>], of: &[usize], base: &[usize]) -> Vec<Vec<usize>> {
     of.iter().fold(vec![base.to_vec()], |all, place| {
         let each = |at: Vec<usize>| {
-            (0..axes[*place].values.len()).map(move |index| {
+            values[*place].iter().map(move |index| {
                 let mut at = at.clone();
-                at[*place] = index;
+                at[*place] = *index;
                 at
             })
         };
@@ -164,15 +182,22 @@ fn curve(axes: &[Axis], along: usize, of: Option<(AxisKey, Value)>, at: &[usize]
     Curve { of, x, instances }
 }
 
-/// The cut as a table: the numbers of panel and curve (from 1), every swept value, and the quantities; a row per instance.
+/// The cut as a table: the numbers of panel and curve (from 1), every swept value, and the quantities, after one of a
+/// measuring window a column of the same name with `_settled` at its end (1, or 0 where the value is not that of a settled
+/// response); a row per instance.
 ///
 /// # Errors
 /// When the table cannot be written.
-pub fn cut_csv(grid: &Grid, cut: &Cut, quantities: &[&NumberColumn]) -> Result<Vec<u8>> {
+pub fn cut_csv(map: &Map, cut: &Cut, quantities: &[&NumberColumn]) -> Result<Vec<u8>> {
+    let grid = &map.spec.grid;
     let swept = grid.keys().into_iter().map(|key| -> &str { key.name() });
-    let names = quantities.iter().map(|column| column.name.as_str());
-    let header: Vec<&str> = ["panel", "curve"].into_iter().chain(swept).chain(names).collect();
-    let mut table = Table::new(header.into_iter())?;
+    let names = quantities.iter().flat_map(|column| {
+        let settled = trust::is_of_the_window(column).then(|| format!("{}_settled", column.name));
+        std::iter::once(column.name.clone()).chain(settled)
+    });
+    let header = ["panel", "curve"].into_iter().chain(swept).map(str::to_owned).chain(names);
+    let header: Vec<String> = header.collect();
+    let mut table = Table::new(header.iter().map(String::as_str))?;
     for (panel, of_panel) in cut.panels.iter().enumerate() {
         for (curve, of_curve) in of_panel.curves.iter().enumerate() {
             for instance in &of_curve.instances {
@@ -180,9 +205,15 @@ pub fn cut_csv(grid: &Grid, cut: &Cut, quantities: &[&NumberColumn]) -> Result<V
                 let swept =
                     grid.coordinates(*instance).into_iter().map(|value| Cell::from(value).to_string());
                 let of = |column: &&NumberColumn| {
-                    Cell::from(column.values.get(*instance).copied().flatten()).to_string()
+                    let value = Cell::from(column.values.get(*instance).copied().flatten()).to_string();
+                    let record = map.records.get(*instance);
+                    let settled = u8::from(!record.is_some_and(|record| trust::is_unsettled(column, record)))
+                        .to_string();
+                    let settled = if value.is_empty() { String::new() } else { settled };
+                    let settled = trust::is_of_the_window(column).then_some(settled);
+                    std::iter::once(value).chain(settled)
                 };
-                table.row(numbers.into_iter().chain(swept).chain(quantities.iter().map(of)))?;
+                table.row(numbers.into_iter().chain(swept).chain(quantities.iter().flat_map(of)))?;
             }
         }
     }

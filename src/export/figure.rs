@@ -8,6 +8,7 @@ use super::accounted;
 use super::block::Block;
 use super::cells::define_patterns;
 use super::frame::{LABEL_SIZE, TITLE_SIZE};
+use super::layout::Layout;
 use super::look::{Content, Look};
 use super::manifest::{COMMIT, VERSION};
 use super::palette::Colouring;
@@ -15,6 +16,7 @@ use super::panels::Panels;
 use super::sheet::Sheet;
 use super::svg::{Anchor, MM, Style, Svg};
 use super::text::{Text, wrap};
+use super::trust;
 use crate::error::Result;
 use crate::label::{Label, Tally};
 use crate::map::{Computation, Map, Record};
@@ -26,8 +28,6 @@ pub const DOUBLE_COLUMN: f64 = 180.0 * MM;
 pub const SINGLE_COLUMN: f64 = 88.0 * MM;
 /// White margin around everything, points.
 pub(super) const MARGIN: f64 = 4.0;
-/// The names of blocks.
-const LETTERS: [char; 8] = ['a', 'b', 'c', 'd', 'e', 'f', 'g', 'h'];
 /// Between blocks, points.
 const BLOCK_GAP: f64 = 16.0;
 
@@ -142,24 +142,50 @@ fn draw(figure: &MapFigure<'_>, look: &Look<'_>) -> String {
     let usual = if one_panel && contents.len() < 2 { SINGLE_COLUMN } else { DOUBLE_COLUMN };
     let width = look.points().unwrap_or(usual);
     let inner = width - 2.0 * MARGIN;
-    let mut svg = Svg::new();
-    define_patterns(&mut svg);
-    let mut y = MARGIN + title(&mut svg, sheet.title, inner);
     // Blocks of one picture stand side by side; strips of one axis do so only in pairs.
     let pair = contents.len() == 2 || (contents.len() > 2 && panels.y.is_some());
-    let beside = one_panel && pair && inner > SINGLE_COLUMN * 1.2;
-    let across = if beside { 0.5 * (inner - BLOCK_GAP) } else { inner };
+    let usual = Layout::usual(one_panel && pair && inner > SINGLE_COLUMN * 1.2);
+    let layout = look.tallest().map_or(usual, |tallest| {
+        let pairs = contents.len() > 1 && inner > SINGLE_COLUMN * 1.2;
+        let height = |layout| compose(figure, look, (&contents, layout, true), width).1[1];
+        Layout::fitting(usual, pairs, tallest, height)
+    });
+    let (svg, size) = compose(figure, look, (&contents, layout, false), width);
+    let title = look.title(sheet.title);
+    let name = if title.is_empty() { "Stability map" } else { title };
+    let metadata = provenance(*sheet, tally) + &look.made_by();
+    svg.finish_enlarged(look.enlarged, size, name, &metadata)
+}
+
+/// The picture in a layout and its size; one that is measured only has empty panels.
+fn compose(
+    figure: &MapFigure<'_>,
+    look: &Look<'_>,
+    (contents, layout, measured): (&[Content<'_>], Layout, bool),
+    width: f64,
+) -> (Svg, [f64; 2]) {
+    let MapFigure { sheet, panels, tally, large } = figure;
+    let inner = width - 2.0 * MARGIN;
+    let mut svg = Svg::new();
+    define_patterns(&mut svg);
+    let mut y = MARGIN + title(&mut svg, look.title(sheet.title), inner);
+    let across = if layout.beside { 0.5 * (inner - BLOCK_GAP) } else { inner };
     let mut tallest: f64 = 0.0;
     for (number, content) in contents.iter().enumerate() {
-        let letter = (contents.len() > 1).then(|| LETTERS[number % LETTERS.len()]);
-        let blocks = if beside { contents.len().div_ceil(2) } else { contents.len() };
+        let letter = (contents.len() > 1).then_some(number);
+        let blocks = if layout.beside { contents.len().div_ceil(2) } else { contents.len() };
         let starts = sheet.analysis.starts;
         let (panels, tally) = match (content, large) {
             (Content::LargeRegime, Some((panels, tally))) => (panels, tally),
+            (Content::Quantity { column, .. }, Some((panels, tally))) if trust::is_of_large_start(column) => {
+                (panels, tally)
+            }
             _ => (panels, tally),
         };
-        let block = Block { grid: sheet.grid, tally, panels, content: *content, starts, blocks, letter };
-        if beside {
+        let content = *content;
+        let block =
+            Block { grid: sheet.grid, tally, panels, content, starts, blocks, layout, letter, measured };
+        if layout.beside {
             let column = number % 2;
             if column == 0 && number > 0 {
                 y += tallest + BLOCK_GAP;
@@ -180,9 +206,7 @@ fn draw(figure: &MapFigure<'_>, look: &Look<'_>) -> String {
             svg.text(MARGIN, y, &Text::from(line), Style::new(LABEL_SIZE, Anchor::Start));
         }
     }
-    let name = if sheet.title.is_empty() { "Stability map" } else { sheet.title };
-    let metadata = provenance(*sheet, tally) + &look.made_by();
-    svg.finish_enlarged(look.enlarged, [width, y + MARGIN], name, &metadata)
+    (svg, [width, y + MARGIN])
 }
 
 /// Draws a title and returns the height it takes.

@@ -92,6 +92,15 @@ impl Frame {
     }
 }
 
+/// How many ticks a vertical axis of this length takes at most.
+pub(super) fn y_tick_count(height: f64) -> usize {
+    /// A tick takes about this much, points.
+    const EACH: f64 = 11.0;
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to few")]
+    let count = (height / EACH).clamp(2.0, 5.0) as usize;
+    count
+}
+
 /// Room below a frame for ticks and their labels.
 pub(super) fn x_tick_room() -> f64 {
     TICK_LENGTH + TICK_SPACE + TICK_SIZE

@@ -58,7 +58,14 @@ const UNSETTLED: [&str; 2] = [
 /// The figure of both branches as an SVG document, single column width unless the look says otherwise.
 #[must_use]
 pub fn hysteresis_svg(hysteresis: &Hysteresis, heading: &Heading, look: &Look<'_>) -> String {
-    let Grid::Axes(axes) = hysteresis.grid() else { return String::new() };
+    let heading = look.headed(heading);
+    let draw = |part: f64| draw(hysteresis, &heading, look, part * HEIGHT);
+    look.fitted(heading.name("Hysteresis"), HEIGHT, draw)
+}
+
+/// The picture and its size, with a panel of this height.
+fn draw(hysteresis: &Hysteresis, heading: &Heading, look: &Look<'_>, height: f64) -> (Svg, [f64; 2]) {
+    let Grid::Axes(axes) = hysteresis.grid() else { return (Svg::new(), [0.0; 2]) };
     let largest = Direction::ALL
         .iter()
         .flat_map(|direction| hysteresis.branch(*direction).iter().map(amplitude))
@@ -71,11 +78,11 @@ pub fn hysteresis_svg(hysteresis: &Hysteresis, heading: &Heading, look: &Look<'_
     let mut svg = Svg::new();
     let mut top = MARGIN + heading.draw(&mut svg, page - 2.0 * MARGIN);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive count")]
-    let y_ticks = y.ticks((HEIGHT / TICK_HEIGHT) as usize);
+    let y_ticks = y.ticks((height / TICK_HEIGHT) as usize);
     let left = MARGIN + LABEL_SIZE + 6.0 + y_tick_room(&y_ticks);
     let width = page - left - RIGHT;
     top = legend(&mut svg, hysteresis, [left, top], width);
-    let frame = Frame { x: left, y: top, width, height: HEIGHT };
+    let frame = Frame { x: left, y: top, width, height };
     let plot = Plot { frame, x: &x, y: &y };
     both(&mut svg, hysteresis, &plot);
     equilibrium(&mut svg, hysteresis, &plot);
@@ -87,7 +94,7 @@ pub fn hysteresis_svg(hysteresis: &Hysteresis, heading: &Heading, look: &Look<'_
             .zip(hysteresis.branch(direction))
             .map(|(value, record)| (*value, factor * amplitude(record)))
             .collect();
-        let jumps = hysteresis.jumps(direction);
+        let jumps = [hysteresis.jumps(direction), hysteresis.jumps_of_amplitude(direction)].concat();
         let jumped = |a: f64, b: f64| jumps.iter().any(|[from, to]| from.min(*to) <= a && b <= from.max(*to));
         // A branch is interrupted where it jumps; a thin line says where to.
         let pieces = points.chunk_by(|a, b| !jumped(a.0, b.0));
@@ -119,11 +126,11 @@ pub fn hysteresis_svg(hysteresis: &Hysteresis, heading: &Heading, look: &Look<'_
     frame.y_ticks(&mut svg, &y_ticks, true);
     let label = Text::from("Standard deviation of ").symbol("x_2").then(axis_unit(unit, y.exponent()));
     let upwards = Style::new(LABEL_SIZE, Anchor::Middle).upwards();
-    svg.text(MARGIN + LABEL_SIZE, top + 0.5 * HEIGHT, &label, upwards);
+    svg.text(MARGIN + LABEL_SIZE, top + 0.5 * height, &label, upwards);
     let base = frame.bottom() + x_tick_room() + LABEL_SIZE + 1.0;
     let label = axis.label(width, LABEL_SIZE);
     svg.text(left + 0.5 * width, base, &label, Style::new(LABEL_SIZE, Anchor::Middle));
-    look.finish(svg, [page, base + MARGIN + 2.0], heading.name("Hysteresis"))
+    (svg, [page, base + MARGIN + 2.0])
 }
 
 /// The parameter from edge to edge of the panel.
@@ -167,13 +174,19 @@ fn edges(values: &[f64], number: usize) -> [f64; 2] {
     [middle(number.checked_sub(1).and_then(|before| values.get(before))), middle(values.get(number + 1))]
 }
 
+/// Whether the equilibrium is stable at each value; `None` where it has no type.
+fn stable(hysteresis: &Hysteresis) -> Vec<Option<bool>> {
+    let stable = |record: &Record| record.kind.map(|kind| kind == InstabilityType::Stable);
+    hysteresis.up.iter().map(stable).collect()
+}
+
 /// The equilibrium as a line at 0, where its eigenvalues say stable and where not.
 fn equilibrium(svg: &mut Svg, hysteresis: &Hysteresis, plot: &Plot<'_>) {
-    let stable = |at: usize| hysteresis.up[at].kind.map(|kind| kind == InstabilityType::Stable);
+    let stable = stable(hysteresis);
     for (wanted, stroke) in [true, false].into_iter().zip(EQUILIBRIUM) {
         // From the middle between two values on, the next one counts.
         let line = (0..hysteresis.values.len()).flat_map(|at| {
-            let height = if stable(at) == Some(wanted) { 0.0 } else { f64::NAN };
+            let height = if stable[at] == Some(wanted) { 0.0 } else { f64::NAN };
             edges(&hysteresis.values, at).map(|value| (value, height))
         });
         plot.curve(svg, line, stroke);
@@ -209,15 +222,21 @@ fn legend(svg: &mut Svg, hysteresis: &Hysteresis, [left, top]: [f64; 2], width: 
         x = key::lines(svg, x, base, LABEL_SIZE, &[(branch(words), stroke)]);
         svg.path(&triangle(direction, at), MARKS[direction as usize]);
     }
-    let words = ["stable equilibrium", "unstable"].map(Text::from);
-    let mut entries: Vec<(Text, Sample<'_>)> = words.into_iter().zip(EQUILIBRIUM.map(Sample::Line)).collect();
+    let stable = stable(hysteresis);
+    let lines = [(true, "stable equilibrium"), (false, "unstable equilibrium")].into_iter().zip(EQUILIBRIUM);
+    let mut entries: Vec<(Text, Sample<'_>)> = lines
+        .filter(|((wanted, _), _)| stable.contains(&Some(*wanted)))
+        .map(|((_, words), stroke)| (Text::from(words), Sample::Line(stroke)))
+        .collect();
     if hysteresis.bistable().contains(&Some(true)) {
         entries.push((Text::from("bistable"), Sample::Area(BOTH)));
     }
-    let branches = Direction::ALL.map(|direction| hysteresis.branch(direction));
     let marked = hysteresis.values.len() <= MOST_MARKS;
-    if marked && branches.into_iter().flatten().any(is_unsettled) {
-        entries.push((Text::from("not settled"), Sample::Cross(MARK, UNSETTLED[0])));
+    let crossed = |direction: &Direction| marked && hysteresis.branch(*direction).iter().any(is_unsettled);
+    let crosses: Vec<&str> =
+        Direction::ALL.into_iter().filter(crossed).map(|direction| UNSETTLED[direction as usize]).collect();
+    if !crosses.is_empty() {
+        entries.push((Text::from("not settled"), Sample::Crosses(MARK, &crosses)));
     }
     base + 4.0 + key::rows(svg, [left, base + 4.0], width, LABEL_SIZE, &entries) + 5.0
 }

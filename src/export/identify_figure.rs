@@ -4,8 +4,9 @@ use serde::{Deserialize, Serialize};
 use serde_json::json;
 
 use super::figure::{DOUBLE_COLUMN, MARGIN, title};
-use super::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room};
+use super::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_count, y_tick_room};
 use super::key;
+use super::letters;
 use super::look::Look;
 use super::manifest::{COMMIT, VERSION};
 use super::plot::Plot;
@@ -97,10 +98,22 @@ impl Shown {
 /// # Errors
 /// When the spectrogram is too large for a picture.
 pub fn identify_svg(found: &Shown, look: &Look<'_>) -> Result<String> {
+    let pictures = [
+        picture(&found.spectrogram, |s, k| s.normalised[k])?,
+        picture(&found.spectrogram, |s, k| 1.0 - s.decibel[k] / FLOOR_DB)?,
+    ];
+    let name = look.title(&found.title);
+    let name = if name.is_empty() { "Measured signals" } else { name };
+    let draw = |part: f64| draw(found, &pictures, look, HEIGHTS.map(|height| part * height));
+    Ok(look.fitted(name, HEIGHTS.iter().sum(), draw))
+}
+
+/// The picture and its size, with panels of these heights.
+fn draw(found: &Shown, pictures: &[String; 2], look: &Look<'_>, heights: [f64; 4]) -> (Svg, [f64; 2]) {
     let mut svg = Svg::new();
     let page = look.points().unwrap_or(DOUBLE_COLUMN);
     let inner = page - 2.0 * MARGIN;
-    let mut y = MARGIN + title(&mut svg, &found.title, inner);
+    let mut y = MARGIN + title(&mut svg, look.title(&found.title), inner);
     for line in wrap(&found.verdict, inner, LABEL_SIZE, false) {
         svg.text(MARGIN, y + LABEL_SIZE, &Text::from(line), Style::new(LABEL_SIZE, Anchor::Start));
         y += LABEL_SIZE + 3.0;
@@ -113,14 +126,14 @@ pub fn identify_svg(found: &Shown, look: &Look<'_>) -> Result<String> {
     let values = found.accelerations.iter().flatten().flatten().copied();
     let acceleration = Scale::spanning(values).widened(HEADROOM);
     let scales = [&friction, &acceleration, &frequency, &frequency];
-    let ticks = scales.map(|scale| scale.ticks(5));
+    let ticks: [_; 4] = std::array::from_fn(|k| scales[k].ticks(y_tick_count(heights[k])));
     let room = ticks.iter().map(|ticks| y_tick_room(ticks)).fold(0.0, f64::max);
     let left = MARGIN + LABEL_SIZE + 6.0 + room;
     let width = page - left - RIGHT;
     let x_ticks = time.ticks(if width < NARROW { FEW_TICKS } else { TICKS });
     let labels = labels(acceleration.exponent(), unit.1);
-    for number in 0..HEIGHTS.len() {
-        let frame = Frame { x: left, y, width, height: HEIGHTS[number] };
+    for (number, height) in heights.into_iter().enumerate() {
+        let frame = Frame { x: left, y, width, height };
         let plot = Plot { frame, x: &time, y: scales[number] };
         match number {
             0 => {
@@ -137,24 +150,15 @@ pub fn identify_svg(found: &Shown, look: &Look<'_>) -> Result<String> {
                 }
                 key(&mut svg, found, &frame);
             }
-            2 => spectrogram(&mut svg, &found.spectrogram, &time, &frame, |s, k| s.normalised[k])?,
-            _ => spectrogram(&mut svg, &found.spectrogram, &time, &frame, |s, k| {
-                1.0 - s.decibel[k] / FLOOR_DB
-            })?,
+            _ => spectrogram(&mut svg, &found.spectrogram, &pictures[number - 2], &time, &frame),
         }
         frame.border(&mut svg);
         frame.y_ticks(&mut svg, &ticks[number], true);
-        frame.x_ticks(&mut svg, &x_ticks, number + 1 == HEIGHTS.len());
-        let middle = y + 0.5 * frame.height;
-        svg.text(
-            MARGIN + LABEL_SIZE,
-            middle,
-            &labels[number],
-            Style::new(LABEL_SIZE, Anchor::Middle).upwards(),
-        );
+        frame.x_ticks(&mut svg, &x_ticks, number + 1 == heights.len());
+        letters::side(&mut svg, (number, heights.len()), &frame, &labels[number]);
         match number {
-            2 => bar(&mut svg, &frame, ["0", "1"], "of its window"),
-            3 => bar(&mut svg, &frame, ["−60", "0"], "dB of record"),
+            2 => bar(&mut svg, &frame, ["0", "1"], ["of its window", "rel."]),
+            3 => bar(&mut svg, &frame, ["−60", "0"], ["dB of record", "dB"]),
             _ => {}
         }
         y += frame.height + GAP;
@@ -163,8 +167,7 @@ pub fn identify_svg(found: &Shown, look: &Look<'_>) -> Result<String> {
     let label = Text::from("Time ").symbol("t").plain(" (s)");
     let base = bottom + x_tick_room() + LABEL_SIZE + 1.0;
     svg.text(left + 0.5 * width, base, &label, Style::new(LABEL_SIZE, Anchor::Middle));
-    let name = if found.title.is_empty() { "Measured signals" } else { &found.title };
-    Ok(look.finish(svg, [page, base + 2.0 + MARGIN], name))
+    (svg, [page, base + 2.0 + MARGIN])
 }
 
 /// `Verdict: mode coupling (confidence 0.97).`
@@ -182,11 +185,15 @@ fn verdict_line(found: &Identification) -> String {
     format!("Verdict: {}{leaning}{confidence}", verdict.kind.words())
 }
 
-fn labels(exponent: i32, frequency_unit: &str) -> [Text; 4] {
-    let frequency = Text::from(format!("Frequency ({frequency_unit})"));
+/// The labels of the panels, each with a shorter one for flat panels.
+fn labels(exponent: i32, frequency_unit: &str) -> [[Text; 2]; 4] {
+    let unit = format!(" ({frequency_unit})");
+    let frequency = [Text::from("Frequency"), Text::default().symbol("f")].map(|text| text.plain(&unit));
+    let coefficient = Text::default().symbol("T").plain("/").symbol("N");
+    let acceleration = axis_unit("m/s^2", exponent);
     [
-        Text::from("Friction ").symbol("T").plain("/").symbol("N"),
-        Text::from("Acceleration").then(axis_unit("m/s^2", exponent)),
+        [Text::from("Friction ").then(coefficient.clone()), coefficient],
+        [Text::from("Acceleration"), Text::default().symbol("a")].map(|text| text.then(acceleration.clone())),
         frequency.clone(),
         frequency,
     ]
@@ -229,15 +236,13 @@ fn key(svg: &mut Svg, found: &Shown, frame: &Frame) {
     }
 }
 
-/// Draws a spectrogram as an embedded picture.
-fn spectrogram(
-    svg: &mut Svg,
-    found: &Spectrogram,
-    time: &Scale,
-    frame: &Frame,
-    value: impl Fn(&Spectrogram, usize) -> f32,
-) -> Result<()> {
-    let picture = data_uri(found.columns, found.rows, |k| value(found, k))?;
+/// A spectrogram as an embedded picture.
+fn picture(found: &Spectrogram, value: impl Fn(&Spectrogram, usize) -> f32) -> Result<String> {
+    data_uri(found.columns, found.rows, |k| value(found, k))
+}
+
+/// Draws the picture of a spectrogram.
+fn spectrogram(svg: &mut Svg, found: &Spectrogram, picture: &str, time: &Scale, frame: &Frame) {
     let [from, to] = found.time.map(|t| frame.across(time.position(t)));
     let [low, high] = found.frequency.map(|f| frame.up(f / found.frequency[1]));
     let [x, y, width, height] = [from, high, to - from, low - high].map(number);
@@ -246,11 +251,10 @@ fn spectrogram(
         r#"x="{x}" y="{y}" width="{width}" height="{height}" preserveAspectRatio="none" href="{picture}""#
     ));
     svg.close();
-    Ok(())
 }
 
-/// A colour bar right of a panel.
-fn bar(svg: &mut Svg, frame: &Frame, ends: [&str; 2], words: &str) {
+/// A colour bar right of a panel; the second words are for a flat one.
+fn bar(svg: &mut Svg, frame: &Frame, ends: [&str; 2], words: [&str; 2]) {
     /// Steps of the bar: more than the eye tells apart.
     const STEPS: usize = 32;
     let [width, distance] = BAR;
@@ -271,12 +275,13 @@ fn bar(svg: &mut Svg, frame: &Frame, ends: [&str; 2], words: &str) {
         svg.text(beside, y, &Text::from(end), Style::new(TICK_SIZE, Anchor::Start));
     }
     let middle = frame.y + 0.5 * frame.height;
-    svg.text(
-        beside + TICK_SIZE + 1.0,
-        middle,
-        &Text::from(words),
-        Style::new(TICK_SIZE, Anchor::Middle).upwards(),
-    );
+    let [long, short] = words.map(Text::from);
+    if long.width(TICK_SIZE, false) + 2.0 * TICK_SIZE <= frame.height {
+        let upwards = Style::new(TICK_SIZE, Anchor::Middle).upwards();
+        svg.text(beside + TICK_SIZE + 1.0, middle, &long, upwards);
+    } else {
+        svg.text(beside, middle + 0.35 * TICK_SIZE, &short, Style::new(TICK_SIZE, Anchor::Start));
+    }
 }
 
 /// Words in an empty panel.

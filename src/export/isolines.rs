@@ -4,7 +4,7 @@ use super::cells::shape;
 use super::columns::Cell;
 use super::csv::Table;
 use super::frame::{Frame, TICK_SIZE};
-use super::marching::{Place, isolines};
+use super::marching::{Place, isolines, lines_of_angle};
 use super::panels::{Panel, Panels};
 use super::scale::value_label;
 use super::svg::{Anchor, Style, Svg, polyline};
@@ -23,6 +23,15 @@ const PLATE: &str = r##"fill="#FFFFFF" fill-opacity="0.8""##;
 /// Between a label and what is around it, points.
 const ROOM: f64 = 1.5;
 
+/// The unit of quantities that are angles.
+const DEGREES: &str = "deg";
+/// Lines that reach no further than this, in cells, go around a single instance: the grid does not resolve them.
+const SHORTEST: f64 = 1.0;
+/// Values this near a level, as a part of the largest of the quantity, are that level: rounding of what is computed.
+const FLAT: f64 = 1e-9;
+
+/// A line on the page, points.
+type Drawn<'a> = &'a [(f64, f64)];
 /// A box on the page: left, upper, right and lower end, points.
 type Area = [f64; 4];
 
@@ -46,7 +55,12 @@ pub(super) fn draw(
     let mut taken: Vec<Area> = Vec::new();
     for (level, line) in &lines {
         let label = value_label(*level);
-        if let Some(area) = place(line, &label, frame, &taken) {
+        let others: Vec<Drawn<'_>> = lines
+            .iter()
+            .map(|(_, other)| other.as_slice())
+            .filter(|other| *other != line.as_slice())
+            .collect();
+        if let Some(area) = place(line, &label, frame, (&taken, &others)) {
             let [left, top, right, bottom] = area;
             svg.rect([left, top, right - left, bottom - top], PLATE);
             let base = bottom - ROOM;
@@ -56,8 +70,14 @@ pub(super) fn draw(
     }
 }
 
-/// Where the label of a line goes: as near its middle as the frame and other labels let it; nowhere on a short line.
-fn place(line: &[(f64, f64)], label: &Text, frame: &Frame, taken: &[Area]) -> Option<Area> {
+/// Where the label of a line goes: as near its middle as the frame, other labels and, if anyhow, other lines let it;
+/// nowhere on a short line.
+fn place(
+    line: &[(f64, f64)],
+    label: &Text,
+    frame: &Frame,
+    (taken, others): (&[Area], &[Drawn<'_>]),
+) -> Option<Area> {
     let half = [0.5 * label.width(TICK_SIZE, false) + ROOM, 0.36 * TICK_SIZE + ROOM];
     let length: f64 = line.windows(2).map(|pair| (pair[1].0 - pair[0].0).hypot(pair[1].1 - pair[0].1)).sum();
     if length < 4.0 * half[0] {
@@ -66,7 +86,7 @@ fn place(line: &[(f64, f64)], label: &Text, frame: &Frame, taken: &[Area]) -> Op
     let middle = line.len() / 2;
     let mut order: Vec<usize> = (0..line.len()).collect();
     order.sort_by_key(|k| k.abs_diff(middle));
-    order.into_iter().find_map(|k| {
+    let mut free = order.into_iter().filter_map(|k| {
         let (x, y) = line[k];
         let area = [x - half[0], y - half[1], x + half[0], y + half[1]];
         let [left, top, right, bottom] = area;
@@ -74,6 +94,28 @@ fn place(line: &[(f64, f64)], label: &Text, frame: &Frame, taken: &[Area]) -> Op
             left > frame.x && right < frame.x + frame.width && top > frame.y && bottom < frame.bottom();
         let free = |other: &Area| right < other[0] || left > other[2] || bottom < other[1] || top > other[3];
         (inside && taken.iter().all(free)).then_some(area)
+    });
+    let first = free.next()?;
+    let clear = |area: &Area| !others.iter().any(|other| crosses(other, *area));
+    Some(std::iter::once(first).chain(free).find(clear).unwrap_or(first))
+}
+
+/// Whether a line runs through an area.
+fn crosses(line: &[(f64, f64)], [left, top, right, bottom]: Area) -> bool {
+    line.windows(2).any(|pair| {
+        let [(x, y), (to_x, to_y)] = [pair[0], pair[1]];
+        // The part of the segment between each pair of sides.
+        let within = |from: f64, to: f64, low: f64, high: f64| {
+            let step = to - from;
+            if step == 0.0 {
+                if (low..=high).contains(&from) { [0.0, 1.0] } else { [1.0, 0.0] }
+            } else {
+                let ends = [(low - from) / step, (high - from) / step];
+                [ends[0].min(ends[1]).max(0.0), ends[0].max(ends[1]).min(1.0)]
+            }
+        };
+        let [across, up] = [within(x, to_x, left, right), within(y, to_y, top, bottom)];
+        across[0].max(up[0]) <= across[1].min(up[1])
     })
 }
 
@@ -86,12 +128,47 @@ fn lines(panels: &Panels, panel: &Panel, column: &NumberColumn, levels: &[f64]) 
         let instance = panels.instances[panel.cells.start + j * columns + i];
         column.values.get(instance).copied().flatten()
     };
+    let flat = FLAT * largest(column);
+    // What is the level but for rounding is the level: on a plateau of it there are no lines.
+    let settled = |level: f64| {
+        move |i: usize, j: usize| {
+            value(i, j).map(|value| if (value - level).abs() <= flat { level } else { value })
+        }
+    };
     let position = |[i, j]: Place| [panels.x.between(i), y.between(j)];
     let of = |level: f64| {
-        let found = isolines([columns, rows], level, value);
-        found.into_iter().map(move |line| (level, line.into_iter().map(position).collect()))
+        let found = if column.unit == DEGREES {
+            lines_of_angle([columns, rows], level, settled(level))
+        } else {
+            isolines([columns, rows], level, settled(level))
+        };
+        found
+            .into_iter()
+            .filter(|line| extent(line) >= SHORTEST)
+            .map(move |line| (level, line.into_iter().map(position).collect()))
     };
-    levels.iter().flat_map(|level| of(*level).collect::<Vec<_>>()).collect()
+    // 180° and −180° are one angle.
+    let new = |k: &usize| {
+        let whole = |other: &f64| (levels[*k] - other).rem_euclid(360.0) == 0.0;
+        column.unit != DEGREES || !levels[..*k].iter().any(whole)
+    };
+    (0..levels.len()).filter(new).flat_map(|k| of(levels[k]).collect::<Vec<_>>()).collect()
+}
+
+/// The largest magnitude of a quantity.
+fn largest(column: &NumberColumn) -> f64 {
+    column.values.iter().flatten().fold(0.0, |largest: f64, value| largest.max(value.abs()))
+}
+
+/// How far a line reaches across or up, in cells.
+fn extent(line: &[Place]) -> f64 {
+    let along = |k: usize| {
+        let (low, high) = line
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| (low.min(at[k]), high.max(at[k])));
+        high - low
+    };
+    along(0).max(along(1))
 }
 
 /// The lines as a table: the number of the panel (from 1, in the order of the figure), the quantity, its value, and both

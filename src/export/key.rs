@@ -13,6 +13,8 @@ const LINE_GAP: f64 = 3.0;
 const WORD_GAP: f64 = 3.0;
 /// Between entries, points.
 const ENTRY_GAP: f64 = 12.0;
+/// From one cross to the next, in radii.
+const CROSS_PITCH: f64 = 3.0;
 /// Height of the sample line above the base line, relative to the size of the words.
 pub(super) const MIDDLE: f64 = 0.35;
 
@@ -41,8 +43,8 @@ pub(super) enum Sample<'a> {
     Area(&'a str),
     /// A mark of this radius, points.
     Mark(f64, &'a str),
-    /// A cross of this radius, points.
-    Cross(f64, &'a str),
+    /// Crosses of this radius, points, one in each stroke.
+    Crosses(f64, &'a [&'a str]),
 }
 
 impl Sample<'_> {
@@ -53,7 +55,12 @@ impl Sample<'_> {
             Sample::Line(stroke) => svg.path(&polyline([(x, y), (x + SAMPLE, y)]), stroke),
             Sample::Area(fill) => svg.rect([x, base - 0.75 * size, AREA, 0.8 * size], fill),
             Sample::Mark(radius, fill) => svg.circle(x + radius, y, radius, fill),
-            Sample::Cross(radius, stroke) => svg.path(&cross((x + radius, y), radius), stroke),
+            Sample::Crosses(radius, strokes) => {
+                for (number, stroke) in strokes.iter().enumerate() {
+                    let middle = x + radius * (1.0 + CROSS_PITCH * number as f64);
+                    svg.path(&cross((middle, y), radius), stroke);
+                }
+            }
         }
     }
 
@@ -61,7 +68,10 @@ impl Sample<'_> {
         match self {
             Sample::Line(_) => SAMPLE,
             Sample::Area(_) => AREA,
-            Sample::Mark(radius, _) | Sample::Cross(radius, _) => 2.0 * radius,
+            Sample::Mark(radius, _) => 2.0 * radius,
+            Sample::Crosses(radius, strokes) => {
+                radius * (2.0 + CROSS_PITCH * (strokes.len().max(1) - 1) as f64)
+            }
         }
     }
 }

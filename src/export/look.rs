@@ -1,6 +1,7 @@
 //! How a figure is shown: at which width, what of a map, and where the picture comes from.
 
 use super::figure::program;
+use super::heading::Heading;
 use super::palette::Colouring;
 use super::svg::{MM, Svg};
 use crate::archive::NumberColumn;
@@ -48,6 +49,16 @@ impl Journal {
             Journal::Elsevier2Col => 190.0,
             Journal::Nature1Col => 89.0,
             Journal::Slide => 300.0,
+        }
+    }
+
+    /// The tallest figure that fits, mm: the text area of a page, or a slide of 16:9.
+    #[must_use]
+    pub fn height(self) -> f64 {
+        match self {
+            Journal::Elsevier1Col | Journal::Elsevier2Col => 240.0,
+            Journal::Nature1Col => 247.0,
+            Journal::Slide => 168.75,
         }
     }
 
@@ -102,6 +113,10 @@ impl<'a> Content<'a> {
 pub struct Look<'a> {
     /// Width of the figure, mm; `None`: one or two columns, whichever its panels need.
     pub width: Option<f64>,
+    /// The most height that the figure may have, mm: panels become flatter, or stand beside one another; `None`: any.
+    pub height: Option<f64>,
+    /// What stands above the figure instead of the title of the sweep; empty: nothing.
+    pub title: Option<String>,
     /// How much larger than in print everything is.
     pub enlarged: f64,
     /// Of a map, the blocks from top to bottom; empty: what was computed. Other figures have none.
@@ -112,11 +127,29 @@ pub struct Look<'a> {
 
 impl Default for Look<'_> {
     fn default() -> Self {
-        Look { width: None, enlarged: 1.0, contents: Vec::new(), command: None }
+        Look { width: None, height: None, title: None, enlarged: 1.0, contents: Vec::new(), command: None }
     }
 }
 
 impl Look<'_> {
+    /// A look for a journal or a talk.
+    #[must_use]
+    pub fn of_journal(journal: Journal) -> Self {
+        let (width, height) = (Some(journal.width()), Some(journal.height()));
+        Look { width, height, enlarged: journal.enlarged(), ..Look::default() }
+    }
+
+    /// What stands above the figure: what was asked for, or its own title.
+    #[must_use]
+    pub fn title<'a>(&'a self, own: &'a str) -> &'a str {
+        self.title.as_deref().unwrap_or(own)
+    }
+
+    /// The same of a heading with settings, which stay.
+    pub(super) fn headed(&self, own: &Heading) -> Heading {
+        Heading { title: self.title(&own.title).to_owned(), settings: own.settings.clone() }
+    }
+
     /// The width in which to draw, points.
     pub(super) fn points(&self) -> Option<f64> {
         self.width.map(|mm| mm * MM / self.enlarged)

@@ -11,13 +11,44 @@ type Edge = (usize, usize, bool);
 /// A point of a line, in columns and rows: between `(2, 5)` and `(3, 5)` it is `[2.x, 5.0]`.
 pub type Place = [f64; 2];
 
+/// The lines of an angle over `columns` × `rows` angles in degrees. Angles are told apart along the shorter arc: where
+/// they jump from 180° to −180° there is no line, and the line of 180° is found there. Neighbours more than a quarter of
+/// a turn apart have no line between them: which way the angle goes there, the points do not tell.
+#[must_use]
+pub fn lines_of_angle(
+    size: [usize; 2],
+    level: f64,
+    value: impl Fn(usize, usize) -> Option<f64>,
+) -> Vec<Vec<Place>> {
+    /// Half a turn, and a quarter, degrees.
+    const HALF: f64 = 180.0;
+    const QUARTER: f64 = 90.0;
+    let away = |i: usize, j: usize| {
+        let from = |angle: f64| (angle - level + HALF).rem_euclid(2.0 * HALF) - HALF;
+        value(i, j).filter(|angle| angle.is_finite()).map(from)
+    };
+    squares(size, 0.0, away, |corners| {
+        (0..4).all(|side| (corners[side] - corners[(side + 1) % 4]).abs() < QUARTER)
+    })
+}
+
 /// The lines of a level over `columns` × `rows` values; `value` gives that of a column and row, `None` where it is
 /// undefined. The last place of a closed line is the first again. A value that is the level counts as above it.
 #[must_use]
 pub fn isolines(
+    size: [usize; 2],
+    level: f64,
+    value: impl Fn(usize, usize) -> Option<f64>,
+) -> Vec<Vec<Place>> {
+    squares(size, level, value, |_| true)
+}
+
+/// The same, only in squares whose corners, from the lower left one anticlockwise, are smooth.
+fn squares(
     [columns, rows]: [usize; 2],
     level: f64,
     value: impl Fn(usize, usize) -> Option<f64>,
+    smooth: impl Fn([f64; 4]) -> bool,
 ) -> Vec<Vec<Place>> {
     let value = |i: usize, j: usize| value(i, j).filter(|value| value.is_finite());
     let mut joined: BTreeMap<Edge, Vec<Edge>> = BTreeMap::new();
@@ -25,6 +56,9 @@ pub fn isolines(
         for i in 0..columns.saturating_sub(1) {
             let corners = [value(i, j), value(i + 1, j), value(i + 1, j + 1), value(i, j + 1)];
             let [Some(a), Some(b), Some(c), Some(d)] = corners else { continue };
+            if !smooth([a, b, c, d]) {
+                continue;
+            }
             for [one, other] in segments([a, b, c, d], level) {
                 // Edges of a square: below, right, above, left.
                 let edge =

@@ -1,8 +1,9 @@
 //! The two-panel figure of the modes: frequency above, growth rate below, as Figure 2 of the paper.
 
 use super::figure::{DOUBLE_COLUMN, MARGIN, SINGLE_COLUMN, title};
-use super::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room};
+use super::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_count, y_tick_room};
 use super::key;
+use super::letters;
 use super::look::Look;
 use super::modes::{Branch, Mode, Modes, modes_of};
 use super::panels::setting;
@@ -19,8 +20,10 @@ use crate::spec::Spec;
 const MOST_BRANCHES: usize = 4;
 /// Height of a panel, points.
 const HEIGHT: f64 = 120.0;
-/// Between the two panels, and between columns, points.
+/// Between the two panels, points.
 const GAP: f64 = 9.0;
+/// Between columns, points: room for half of two tick labels.
+const GAP_ACROSS: f64 = 15.0;
 /// Right of the panels, points.
 const RIGHT: f64 = 8.0;
 /// Margin above and below curves, as a fraction of the panel.
@@ -42,11 +45,18 @@ pub fn modes_svg(spec: &Spec) -> Result<String> {
 /// otherwise.
 #[must_use]
 pub fn draw(spec: &Spec, modes: &Modes, look: &Look<'_>) -> String {
+    let name = look.title(&spec.title);
+    let name = if name.is_empty() { "Modes" } else { name };
+    look.fitted(name, 2.0 * HEIGHT, |part| page(spec, modes, look, part * HEIGHT))
+}
+
+/// The picture and its size, with panels of this height.
+fn page(spec: &Spec, modes: &Modes, look: &Look<'_>, height: f64) -> (Svg, [f64; 2]) {
     let shown = &modes.branches[..modes.branches.len().min(MOST_BRANCHES)];
     let usual = if shown.len() > 1 { DOUBLE_COLUMN } else { SINGLE_COLUMN };
     let width = look.points().unwrap_or(usual);
     let mut svg = Svg::new();
-    let mut y = MARGIN + title(&mut svg, &spec.title, width - 2.0 * MARGIN);
+    let mut y = MARGIN + title(&mut svg, look.title(&spec.title), width - 2.0 * MARGIN);
     let axis = match &spec.grid {
         Grid::Axes(axes) => PictureAxis::cells(&axes[modes.axis]),
         Grid::Tuples { .. } => PictureAxis::single(),
@@ -56,11 +66,11 @@ pub fn draw(spec: &Spec, modes: &Modes, look: &Look<'_>) -> String {
     let frequency = Scale::spanning(all().map(Mode::frequency)).widened(HEADROOM);
     let growth = Scale::spanning(all().map(Mode::growth_rate).chain([0.0])).widened(HEADROOM);
     let scales = [frequency, growth];
-    let ticks = scales.each_ref().map(|scale| scale.ticks(6));
+    let ticks = scales.each_ref().map(|scale| scale.ticks(y_tick_count(height)));
     let room = ticks.iter().map(|ticks| y_tick_room(ticks)).fold(0.0, f64::max);
     let left = MARGIN + LABEL_SIZE + 6.0 + room;
     let columns = shown.len().max(1) as f64;
-    let across = (width - left - RIGHT - (columns - 1.0) * GAP) / columns;
+    let across = (width - left - RIGHT - (columns - 1.0) * GAP_ACROSS) / columns;
     let names = ["mode 1", "mode 2"].map(Text::from).into_iter().zip([FIRST, SECOND]);
     key::lines(&mut svg, left, y + LABEL_SIZE - 1.2, LABEL_SIZE, &names.collect::<Vec<_>>());
     y += LABEL_SIZE + 5.0;
@@ -72,37 +82,35 @@ pub fn draw(spec: &Spec, modes: &Modes, look: &Look<'_>) -> String {
     let axis = axis.edge_to_edge(&x);
     let x_ticks = axis.ticks(across, Direction::Horizontal, TICK_SIZE);
     for (number, branch) in shown.iter().enumerate() {
-        let from = left + number as f64 * (across + GAP);
+        let from = left + number as f64 * (across + GAP_ACROSS);
         for (line, text) in titles[number].iter().rev().enumerate() {
             let base = y - mark_room - 3.5 - line as f64 * LINE;
             svg.text(from + 0.5 * across, base, text, Style::new(LABEL_SIZE, Anchor::Middle));
         }
         for (row, scale) in scales.iter().enumerate() {
-            let frame = Frame { x: from, y: y + row as f64 * (HEIGHT + GAP), width: across, height: HEIGHT };
+            let frame = Frame { x: from, y: y + row as f64 * (height + GAP), width: across, height };
             let plot = Plot { frame, x: &x, y: scale };
             curves(&mut svg, &plot, branch, row == 1);
             frame.border(&mut svg);
             frame.x_ticks(&mut svg, &x_ticks, row == 1);
             frame.y_ticks(&mut svg, &ticks[row], number == 0);
         }
-        let frame = Frame { x: from, y, width: across, height: 2.0 * HEIGHT + GAP };
+        let frame = Frame { x: from, y, width: across, height: 2.0 * height + GAP };
         critical(&mut svg, spec, modes, branch, &x, &frame);
     }
     for (row, words) in ["Frequency (Hz)", "Growth rate (1/s)"].into_iter().enumerate() {
-        let middle = y + row as f64 * (HEIGHT + GAP) + 0.5 * HEIGHT;
-        let style = Style::new(LABEL_SIZE, Anchor::Middle).upwards();
-        svg.text(MARGIN + LABEL_SIZE, middle, &Text::from(words), style);
+        let frame = Frame { x: left, y: y + row as f64 * (height + GAP), width: 0.0, height };
+        letters::side(&mut svg, (row, 2), &frame, &[Text::from(words)]);
     }
-    y += 2.0 * HEIGHT + GAP + x_tick_room() + LABEL_SIZE + 1.0;
-    let whole = columns * (across + GAP) - GAP;
+    y += 2.0 * height + GAP + x_tick_room() + LABEL_SIZE + 1.0;
+    let whole = columns * (across + GAP_ACROSS) - GAP_ACROSS;
     svg.text(left + 0.5 * whole, y, &axis.label(whole, LABEL_SIZE), Style::new(LABEL_SIZE, Anchor::Middle));
     if shown.len() < modes.branches.len() {
         y += LABEL_SIZE + 6.0;
         let note = format!("{} of {} shown; the table holds all.", shown.len(), modes.branches.len());
         svg.text(MARGIN, y, &Text::from(note), Style::new(LABEL_SIZE, Anchor::Start));
     }
-    let name = if spec.title.is_empty() { "Modes" } else { &spec.title };
-    look.finish(svg, [width, y + MARGIN + 2.0], name)
+    (svg, [width, y + MARGIN + 2.0])
 }
 
 /// The values of the further axes of a branch.

@@ -1,6 +1,6 @@
 //! A swept quantity along one side of a picture: cells around its values, ticks and label.
 
-use super::scale::{Scale, Tick, value_label};
+use super::scale::{Scale, Tick, snapped, value_label};
 use super::text::Text;
 use super::words::capital;
 use crate::grid::{Axis, AxisKey, Value};
@@ -170,7 +170,7 @@ impl PictureAxis {
             let at_values: Vec<Tick> = self
                 .values
                 .iter()
-                .map(|x| Tick { at: self.scale.position(*x), label: value_label(*x) })
+                .map(|x| Tick { at: snapped(self.scale.position(*x)), label: value_label(*x) })
                 .collect();
             let short = at_values.iter().all(|tick| tick.label.width(size, false) <= SHORT_LABEL * size);
             if short && fits(&at_values) {

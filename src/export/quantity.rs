@@ -3,6 +3,7 @@
 use super::boundaries::{Vertex, outlines};
 use super::cells::{FAILED_FILL, corner, shape, steps};
 use super::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room};
+use super::key::{self, Sample};
 use super::look::Content;
 use super::panels::{Panel, Panels};
 use super::points::{POINT_RADIUS, positions};
@@ -10,6 +11,7 @@ use super::raster;
 use super::scale::{Scale, axis_unit};
 use super::svg::{Anchor, Style, Svg};
 use super::text::Text;
+use super::trust;
 use super::words;
 use crate::archive::NumberColumn;
 use crate::grid::Grid;
@@ -20,12 +22,17 @@ const STEPS: usize = 48;
 const BAR: f64 = 7.0;
 /// The bar is no longer than this, points.
 const LONGEST: f64 = 220.0;
+/// The samples of what is undefined and of what has not settled.
+const UNDEFINED: &str = r##"fill="url(#not-computed)" stroke="#000000" stroke-width="0.4""##;
+const DOTTED: &str = r##"fill="url(#dots-on-light)" stroke="#000000" stroke-width="0.4""##;
 /// What the bar of a fraction of starts says.
 const STARTS: &str = "fraction of starts";
 
 /// What a block shows: values of the places of its panels, and words.
 pub(super) struct Field<'a> {
     heading: Text,
+    /// Whose values they are, where they stand in a column.
+    column: Option<&'a NumberColumn>,
     /// Beside the bar; empty where the heading says it all.
     label: &'static str,
     scale: Scale,
@@ -33,6 +40,8 @@ pub(super) struct Field<'a> {
     undefined: usize,
     /// The value of a place in [`Panels::instances`].
     value: Box<dyn Fn(usize) -> Option<f64> + 'a>,
+    /// Whether that value is one of a response that has not settled.
+    unsettled: Box<dyn Fn(usize) -> bool + 'a>,
 }
 
 impl<'a> Field<'a> {
@@ -44,10 +53,16 @@ impl<'a> Field<'a> {
                 let value = |place: usize| column.values.get(panels.instances[place]).copied().flatten();
                 Some(Field {
                     heading: words::label(column, 0, f64::INFINITY, LABEL_SIZE),
+                    column: Some(column),
                     label: if column.name.starts_with("basin_") { STARTS } else { "" },
                     scale: scale(column),
                     undefined: column.values.iter().filter(|value| value.is_none()).count(),
                     value: Box::new(value),
+                    unsettled: if trust::is_of_the_window(column) {
+                        Box::new(|place: usize| panels.labels[place].settled() == Some(false))
+                    } else {
+                        Box::new(|_| false)
+                    },
                 })
             }
             Content::Basin => {
@@ -55,13 +70,32 @@ impl<'a> Field<'a> {
                     |place: usize| panels.basins.get(place).copied().filter(|fraction| fraction.is_finite());
                 Some(Field {
                     heading: Text::from("Starts in a box that end in a settled oscillation"),
+                    column: None,
                     label: STARTS,
                     scale: Scale::Linear { low: 0.0, high: 1.0 },
                     undefined: (0..panels.instances.len()).filter(|place| value(*place).is_none()).count(),
                     value: Box::new(value),
+                    // Starts that have not settled are counted apart.
+                    unsettled: Box::new(|_| false),
                 })
             }
         }
+    }
+
+    /// Whether a place has a value that is not to be trusted.
+    pub(super) fn is_doubtful(&self, place: usize) -> bool {
+        (self.unsettled)(place) && (self.value)(place).is_some()
+    }
+
+    /// The value of a place; `None` where it is undefined.
+    pub(super) fn value(&self, place: usize) -> Option<f64> {
+        (self.value)(place)
+    }
+
+    /// The label of an axis of this length, points, with a power of ten.
+    pub(super) fn axis_label(&self, exponent: i32, room: f64) -> Text {
+        let of = |column| words::label(column, exponent, room, LABEL_SIZE);
+        self.column.map_or_else(|| Text::from(words::capital(self.label)), of)
     }
 
     /// What stands above the block.
@@ -100,36 +134,66 @@ pub(super) fn draw(
         for place in panel.cells.clone() {
             let instance = panels.instances[place];
             let Some([x, y]) = positions(grid, panels, instance, frame) else { continue };
-            let fill = of(place).map_or_else(|| FAILED_FILL.to_owned(), fill);
+            let tone = of(place).map_or_else(|| FAILED_FILL.to_owned(), fill);
             svg.circle(
                 x,
                 y,
                 POINT_RADIUS,
-                &format!(r##"fill="{fill}" stroke="#000000" stroke-width="0.5""##),
+                &format!(r##"fill="{tone}" stroke="#000000" stroke-width="0.5""##),
             );
+            if field.is_doubtful(place) {
+                svg.circle(x, y, POINT_RADIUS, &dotted(of(place).is_some_and(is_dark)));
+            }
         }
         return;
     }
     let Some([columns, rows]) = shape(panels, panel) else { return };
     let at = |vertex: Vertex| corner(panels, frame, vertex);
-    let region = |wanted: Option<usize>| {
-        let inside = |i: usize, j: usize| of(panel.cells.start + j * columns + i) == wanted;
-        outlines(columns, rows, inside).iter().map(|path| steps(path, &at, true)).collect::<String>()
+    let place = |i: usize, j: usize| panel.cells.start + j * columns + i;
+    let region = |inside: &dyn Fn(usize) -> bool| {
+        let paths = outlines(columns, rows, |i, j| inside(place(i, j)));
+        paths.iter().map(|path| steps(path, &at, true)).collect::<String>()
     };
     svg.open(r#"shape-rendering="crispEdges" fill-rule="evenodd""#);
     for number in 0..STEPS {
-        svg.path(&region(Some(number)), &format!(r#"fill="{}""#, fill(number)));
+        svg.path(&region(&|place| of(place) == Some(number)), &format!(r#"fill="{}""#, fill(number)));
     }
     svg.close();
-    let missing = region(None);
+    let missing = region(&|place| of(place).is_none());
     svg.path(&missing, &format!(r#"class="undefined" fill="{FAILED_FILL}""#));
     svg.path(&missing, r#"fill="url(#not-computed)" fill-rule="evenodd""#);
+    for dark in [false, true] {
+        let doubtful = region(&|place| field.is_doubtful(place) && of(place).map(is_dark) == Some(dark));
+        svg.path(&doubtful, &dotted(dark));
+    }
 }
 
-/// Draws the bar from `(x, y)` downwards and returns its height; `svg` is `None` to measure only.
-pub(super) fn bar(field: &Field<'_>, svg: Option<&mut Svg>, x: f64, y: f64, width: f64) -> f64 {
-    let height = BAR + x_tick_room() + LABEL_SIZE;
-    let Some(svg) = svg else { return height };
+/// Whether dots on a step have to be white.
+fn is_dark(step: usize) -> bool {
+    2 * step > STEPS
+}
+
+/// The dots on what has not settled.
+fn dotted(dark: bool) -> String {
+    let tone = if dark { "dark" } else { "light" };
+    format!(r#"class="unsettled" fill="url(#dots-on-{tone})" fill-rule="evenodd""#)
+}
+
+/// What hatching and dots mean, as far as they occur.
+fn remarks(field: &Field<'_>, panels: &Panels) -> Vec<(Text, Sample<'static>)> {
+    let mut entries = Vec::new();
+    if field.undefined > 0 {
+        entries.push((Text::from(format!("undefined ({})", field.undefined)), Sample::Area(UNDEFINED)));
+    }
+    let doubtful = (0..panels.instances.len()).filter(|place| field.is_doubtful(*place)).count();
+    if doubtful > 0 {
+        entries.push((Text::from(format!("not settled ({doubtful})")), Sample::Area(DOTTED)));
+    }
+    entries
+}
+
+/// Draws the bar from `(x, y)` downwards, what hatching and dots mean below it, and returns their height.
+pub(super) fn bar(field: &Field<'_>, panels: &Panels, svg: &mut Svg, [x, y]: [f64; 2], width: f64) -> f64 {
     let power =
         if field.scale.exponent() == 0 { Text::default() } else { axis_unit("", field.scale.exponent()) };
     let beside = power.plain(field.label);
@@ -138,17 +202,14 @@ pub(super) fn bar(field: &Field<'_>, svg: Option<&mut Svg>, x: f64, y: f64, widt
     let wide = frame.width / STEPS as f64;
     svg.open(r#"shape-rendering="crispEdges""#);
     for number in 0..STEPS {
-        let left = x + number as f64 * wide;
-        svg.rect([left, y, wide, BAR], &format!(r#"fill="{}""#, fill(number)));
+        // Each reaches to the end and is covered by those that follow: no seams.
+        let left = number as f64 * wide;
+        svg.rect([x + left, y, frame.width - left, BAR], &format!(r#"fill="{}""#, fill(number)));
     }
     svg.close();
     frame.border(svg);
     frame.x_ticks(svg, &field.scale.ticks(6), true);
     svg.text(x + frame.width + 3.0, y + BAR - 1.0, &beside, Style::new(TICK_SIZE, Anchor::Start));
-    if field.undefined > 0 {
-        let words = Text::from(format!("hatched: undefined ({})", field.undefined));
-        let base = y + height;
-        svg.text(x, base, &words, Style::new(TICK_SIZE, Anchor::Start));
-    }
-    height
+    let height = BAR + x_tick_room() + 3.0;
+    height + key::rows(svg, [x, y + height], width, TICK_SIZE, &remarks(field, panels))
 }

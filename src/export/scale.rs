@@ -122,7 +122,7 @@ impl Scale {
         /// Fewer ticks do not show a scale.
         const FEWEST: usize = 3;
         let decades = decade(low)..=decade(high);
-        let inside = |value: f64| (low..=high).contains(&value);
+        let inside = |value: f64| (0.0..=1.0).contains(&snapped(self.position(value)));
         let at = |mantissas: &[f64]| -> Vec<(f64, i32)> {
             let all = decades.clone().flat_map(|d| mantissas.iter().map(move |m| (*m, d)));
             all.filter(|(m, d)| inside(m * 10_f64.powi(*d))).collect()
@@ -138,7 +138,7 @@ impl Scale {
             return linear_ticks(low, high, most)
                 .into_iter()
                 .filter(|(value, _)| *value > 0.0)
-                .map(|(value, label)| Tick { at: self.position(value), label })
+                .map(|(value, label)| Tick { at: snapped(self.position(value)), label })
                 .collect();
         }
         let stride = ticks.len().div_ceil(most.max(2));
@@ -146,7 +146,7 @@ impl Scale {
         let tick = |(mantissa, exponent): (f64, i32)| {
             let value = mantissa * 10_f64.powi(exponent);
             let label = if plain { value_label(value) } else { power_label(mantissa, exponent) };
-            Tick { at: self.position(value), label }
+            Tick { at: snapped(self.position(value)), label }
         };
         ticks.into_iter().step_by(stride).map(tick).collect()
     }
@@ -220,7 +220,7 @@ fn linear_ticks(low: f64, high: f64, most: usize) -> Vec<(f64, Text)> {
 }
 
 /// A position that is beyond an end by rounding only is that end: no frame leaves its tick out.
-fn snapped(at: f64) -> f64 {
+pub(super) fn snapped(at: f64) -> f64 {
     /// More than rounding, and far less than a printer resolves.
     const ROUNDING: f64 = 1e-9;
     let end = at.clamp(0.0, 1.0);

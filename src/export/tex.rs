@@ -43,6 +43,13 @@ pub(super) fn formula(text: &str) -> String {
 fn in_math(c: char) -> Option<&'static str> {
     Some(match c {
         'θ' => r"\theta",
+        'ϑ' => r"\vartheta",
+        'δ' => r"\delta",
+        'σ' => r"\sigma",
+        'φ' => r"\varphi",
+        'ẋ' => r"\dot{x}",
+        'ẍ' => r"\ddot{x}",
+        'ÿ' => r"\ddot{y}",
         'μ' => r"\mu",
         'ω' => r"\omega",
         '−' => "-",

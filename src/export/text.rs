@@ -8,8 +8,10 @@ use super::tex::{escaped, formula};
 /// The families of every text: metric-compatible, the last embedded for PNG.
 pub const FONT_FAMILY: &str = "Arial, Helvetica, Liberation Sans, sans-serif";
 
-/// Size of sub- and superscripts relative to the text.
+/// Size of sub- and superscripts relative to the text, ...
 const SCRIPT_SIZE: f64 = 0.74;
+/// ... and the least that journals print, points.
+const LEAST_SCRIPT: f64 = 6.0;
 /// Depth of a subscript below the base line, in ems of the text.
 const SUB_SHIFT: f64 = 0.22;
 /// Height of a superscript above the base line, in ems of the text.
@@ -98,10 +100,10 @@ impl Text {
     pub fn width(&self, size: f64, bold: bool) -> f64 {
         let factor = if bold { BOLD_WIDTH } else { 1.0 };
         let span_width = |span: &Span| {
-            let scale = if span.script == Script::Base { 1.0 } else { SCRIPT_SIZE };
-            span.text.chars().map(advance).sum::<f64>() * scale
+            let size = if span.script == Script::Base { size } else { script_size(size) };
+            span.text.chars().map(advance).sum::<f64>() * size
         };
-        self.0.iter().map(span_width).sum::<f64>() * size * factor
+        self.0.iter().map(span_width).sum::<f64>() * factor
     }
 
     /// The text as LaTeX writes it, symbols and scripts in formulas.
@@ -139,7 +141,7 @@ impl Text {
                 shift = wanted;
             }
             if span.script != Script::Base {
-                let _ = write!(attributes, r#" font-size="{}""#, number(SCRIPT_SIZE * size));
+                let _ = write!(attributes, r#" font-size="{}""#, number(script_size(size)));
             }
             if span.italic {
                 attributes.push_str(r#" font-style="italic""#);
@@ -153,6 +155,11 @@ impl Text {
         }
         out
     }
+}
+
+/// The size of a script of a text, points.
+fn script_size(size: f64) -> f64 {
+    (SCRIPT_SIZE * size).max(LEAST_SCRIPT).min(size)
 }
 
 /// Splits a title into lines that fit a width.

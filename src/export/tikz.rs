@@ -5,9 +5,10 @@
 use std::fmt::Write as _;
 
 use super::boundaries::{Vertex, borders, outlines};
-use super::cells::shape;
+use super::cells::{shape, unsettled};
 use super::figure::{DOUBLE_COLUMN, computed};
 use super::frame::LABEL_SIZE;
+use super::letters::letter;
 use super::look::{Content, Look};
 use super::palette::Colouring;
 use super::panels::{Panel, Panels};
@@ -22,8 +23,11 @@ use crate::map::Map;
 
 /// Room for the labels of the vertical axis, points.
 const LEFT: f64 = 36.0;
-/// Between panels, points.
-const GAP: f64 = 7.0;
+/// Between panels, points: room for half a tick label of each.
+const GAP: f64 = 16.0;
+/// What hatching means: no result, and a response that has not settled.
+const FAILED: &str = "pattern=crosshatch, pattern color=red";
+const UNSETTLED: &str = "pattern=north east lines, pattern color=black!60";
 /// A row holds no more panels than this.
 const COLUMNS: usize = 5;
 /// Panels are no larger than this, points.
@@ -37,7 +41,7 @@ const PREAMBLE: &str = r"\documentclass[border=2pt]{standalone}
 \usepgfplotslibrary{groupplots}
 \usetikzlibrary{patterns}
 \pgfplotsset{compat=1.16}
-\newcommand{\swatch}[1]{\tikz\draw[line width=0.4pt,fill=#1] (0,0) rectangle (3.6mm,2.2mm);}
+\newcommand{\swatch}[1]{\tikz\draw[line width=0.4pt,#1] (0,0) rectangle (3.6mm,2.2mm);}
 ";
 
 /// The source of the classes of a map, in the width of the look.
@@ -67,12 +71,16 @@ pub fn map_tikz(map: &Map, look: &Look<'_>) -> Result<String> {
         let _ = writeln!(out, r"\definecolor{{{}}}{{HTML}}{{{}}}", colour(class.name), &class.fill[1..]);
     }
     out += "\\begin{document}\n\\small\n\\begin{tabular}{@{}l@{}}\n";
-    if !map.spec.title.is_empty() {
-        let _ = writeln!(out, r"\textbf{{{}}}\\[2mm]", escaped(&map.spec.title));
+    let title = look.title(&map.spec.title);
+    if !title.is_empty() {
+        let _ = writeln!(out, r"\textbf{{{}}}\\[2mm]", escaped(title));
     }
     let width = look.points().unwrap_or(DOUBLE_COLUMN);
-    for colouring in colourings {
-        let _ = writeln!(out, r"{}\\[1mm]", escaped(colouring.heading(map.spec.analysis.starts)));
+    let several = colourings.len() > 1;
+    for (number, colouring) in colourings.into_iter().enumerate() {
+        let letter = if several { format!(r"\textbf{{{}}} ", letter(number)) } else { String::new() };
+        let heading = escaped(colouring.heading(map.spec.analysis.starts));
+        let _ = writeln!(out, r"{letter}{heading}\\[1mm]");
         block(&mut out, &panels, y, colouring, width);
         legend(&mut out, &panels, colouring, width);
     }
@@ -97,7 +105,7 @@ fn block(out: &mut String, panels: &Panels, y: &PictureAxis, colouring: Colourin
         "\\begin{{tikzpicture}}\n\\begin{{groupplot}}[\n  group style={{group size={columns} by {rows}, \
          horizontal sep={GAP}pt, vertical sep={down}pt,\n    x descriptions at=edge bottom, y descriptions at=edge left}},\n  \
          scale only axis, width={side:.2}pt, height={side:.2}pt, enlargelimits=false, axis on top,\n  tick align=outside, \
-         xtick pos=bottom, ytick pos=left, title style={{yshift=-1ex, align=center}},\n"
+         tick label style={{font=\\footnotesize}}, xtick pos=bottom, ytick pos=left, title style={{yshift=-1ex, align=center}},\n"
     );
     for (letter, axis) in [('x', &panels.x), ('y', y)] {
         let [low, high] = [0.0, 1.0].map(|at| axis.scale.value(at));
@@ -149,9 +157,8 @@ fn areas(out: &mut String, panels: &Panels, y: &PictureAxis, panel: &Panel, colo
     for (k, look) in colouring.classes().iter().enumerate() {
         fill(&colour(look.name), &|cell| class(cell) == Some(k));
     }
-    fill("pattern=crosshatch, pattern color=red", &|cell| class(cell).is_none());
-    let unsettled = |cell: Vertex| colouring == Colouring::Regime && label(cell).settled() == Some(false);
-    fill("pattern=north east lines, pattern color=black!60", &unsettled);
+    fill(FAILED, &|cell| class(cell).is_none());
+    fill(UNSETTLED, &|cell| unsettled(label(cell), colouring));
     for line in borders(columns, rows, |a, b| class(a) != class(b)) {
         let _ = writeln!(out, "\\draw[line width=0.4pt] {};", path(&line));
     }
@@ -161,8 +168,15 @@ fn areas(out: &mut String, panels: &Panels, y: &PictureAxis, panel: &Panel, colo
 fn legend(out: &mut String, panels: &Panels, colouring: Colouring, width: f64) {
     let occurs = |k: usize| panels.labels.iter().any(|label: &Label| colouring.class(*label) == Some(k));
     let classes = colouring.classes().iter().enumerate().filter(|(k, _)| occurs(*k));
+    let classes = classes.map(|(_, look)| (format!("fill={}", colour(look.name)), escaped(look.label)));
+    let hatched = [
+        (FAILED, "no result", panels.labels.iter().any(|label| colouring.class(*label).is_none())),
+        (UNSETTLED, "not settled", panels.labels.iter().any(|label| unsettled(*label, colouring))),
+    ];
+    let hatched = hatched.into_iter().filter(|(.., occurs)| *occurs);
     let entries: Vec<String> = classes
-        .map(|(_, look)| format!(r"\mbox{{\swatch{{{}}}~{}}}", colour(look.name), escaped(look.label)))
+        .chain(hatched.map(|(style, words, _)| (style.to_owned(), words.to_owned())))
+        .map(|(style, words)| format!(r"\mbox{{\swatch{{{style}}}~{words}}}"))
         .collect();
     let _ = writeln!(out, "\\parbox{{{width:.2}pt}}{{\\raggedright {}}}\\\\[3mm]", entries.join("\\quad\n"));
 }

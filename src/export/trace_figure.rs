@@ -1,9 +1,10 @@
 //! The figure of a trajectory: stacked panels on one time axis, shaded by contact state.
 
 use super::figure::{DOUBLE_COLUMN, MARGIN};
-use super::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room};
+use super::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_count, y_tick_room};
 use super::heading::Heading;
 use super::key::{self, Sample};
+use super::letters;
 use super::look::Look;
 use super::plot::Plot;
 use super::scale::{Scale, axis_unit};
@@ -80,6 +81,13 @@ const PANELS: [(&[Curve], &str); 4] = [
 /// # Errors
 /// None so far; figures share one signature.
 pub fn trace_svg(trace: &Trace, heading: &Heading, look: &Look<'_>) -> Result<String> {
+    let heading = look.headed(heading);
+    let panels = HEIGHT * PANELS.len() as f64;
+    Ok(look.fitted(heading.name("Trajectory"), panels, |part| draw(trace, &heading, look, part * HEIGHT)))
+}
+
+/// The picture and its size, with panels of this height.
+fn draw(trace: &Trace, heading: &Heading, look: &Look<'_>, panel: f64) -> (Svg, [f64; 2]) {
     let page = look.points().unwrap_or(DOUBLE_COLUMN);
     let mut svg = Svg::new();
     let mut y = MARGIN + heading.draw(&mut svg, page - 2.0 * MARGIN);
@@ -87,12 +95,12 @@ pub fn trace_svg(trace: &Trace, heading: &Heading, look: &Look<'_>) -> Result<St
         let values = curves.iter().flat_map(|curve| trace.rows.iter().map(curve.value));
         Scale::spanning(values).widened(HEADROOM)
     });
-    let ticks = scales.each_ref().map(|scale| scale.ticks(5));
+    let ticks = scales.each_ref().map(|scale| scale.ticks(y_tick_count(panel)));
     let room = ticks.iter().map(|ticks| y_tick_room(ticks)).fold(0.0, f64::max);
     let left = MARGIN + LABEL_SIZE + 6.0 + room;
     y = legend(&mut svg, trace, [left, y], page - left - RIGHT);
-    let tops = tops(y);
-    let bottom = tops[PANELS.len() - 1] + HEIGHT;
+    let tops = tops(y, panel);
+    let bottom = tops[PANELS.len() - 1] + panel;
     let mut from = left;
     let columns = columns(trace, page - left - RIGHT);
     let last = columns.len() - 1;
@@ -101,7 +109,7 @@ pub fn trace_svg(trace: &Trace, heading: &Heading, look: &Look<'_>) -> Result<St
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive count")]
         let x_ticks = time.ticks((width / TICK_WIDTH) as usize);
         for (number, (curves, _)) in PANELS.iter().enumerate() {
-            let frame = Frame { x: from, y: tops[number], width, height: HEIGHT };
+            let frame = Frame { x: from, y: tops[number], width, height: panel };
             let plot = Plot { frame, x: &time, y: &scales[number] };
             // Over many periods the states alternate faster than a printer resolves.
             if column == last {
@@ -126,11 +134,11 @@ pub fn trace_svg(trace: &Trace, heading: &Heading, look: &Look<'_>) -> Result<St
     }
     for (number, (curves, unit)) in PANELS.iter().enumerate() {
         let label = axis_label(curves, unit, scales[number].exponent());
-        let middle = tops[number] + 0.5 * HEIGHT;
-        svg.text(MARGIN + LABEL_SIZE, middle, &label, Style::new(LABEL_SIZE, Anchor::Middle).upwards());
+        let frame = Frame { x: left, y: tops[number], width: 0.0, height: panel };
+        letters::side(&mut svg, (number, PANELS.len()), &frame, &[label]);
     }
     let height = bottom + x_tick_room() + LABEL_SIZE + 3.0 + MARGIN;
-    Ok(look.finish(svg, [page, height], heading.name("Trajectory")))
+    (svg, [page, height])
 }
 
 /// The samples and width of each column: everything, and the last few periods when there are many.
@@ -161,13 +169,13 @@ fn axis_label(curves: &[Curve], unit: &str, exponent: i32) -> Text {
 }
 
 /// The upper edges of the panels below `y`.
-fn tops(mut y: f64) -> [f64; PANELS.len()] {
+fn tops(mut y: f64, panel: f64) -> [f64; PANELS.len()] {
     std::array::from_fn(|number| {
         if PANELS[number].0.len() > 1 {
             y += if number == 0 { KEY_GAP } else { KEY_GAP - GAP };
         }
         let top = y;
-        y += HEIGHT + GAP;
+        y += panel + GAP;
         top
     })
 }

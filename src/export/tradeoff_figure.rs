@@ -1,7 +1,7 @@
 //! The work-precision diagram: instances per second against error, the efficient frontier as a line.
 
 use super::figure::{MARGIN, SINGLE_COLUMN, title};
-use super::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room};
+use super::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_count, y_tick_room};
 use super::key::{self, Sample};
 use super::look::Look;
 use super::plot::Plot;
@@ -44,7 +44,14 @@ const MARKS: [(&str, &str, &str); 7] = [
 /// The figure as an SVG document of single column width unless the look says otherwise.
 #[must_use]
 pub fn figure(heading: &str, rows: &[Row], look: &Look<'_>) -> String {
-    let heading = if heading.is_empty() { "Speed against error" } else { heading };
+    let name = if heading.is_empty() { "Speed against error" } else { heading };
+    let heading = look.title(name);
+    let name = if heading.is_empty() { name } else { heading };
+    look.fitted(name, HEIGHT, |part| draw(heading, rows, look, part * HEIGHT))
+}
+
+/// The picture and its size, with a panel of this height.
+fn draw(heading: &str, rows: &[Row], look: &Look<'_>, height: f64) -> (Svg, [f64; 2]) {
     let shown: Vec<&Row> = rows.iter().filter(|row| row.worst_p95.is_finite()).collect();
     let pace = pace(rows.iter());
     let page = look.points().unwrap_or(SINGLE_COLUMN);
@@ -58,7 +65,7 @@ pub fn figure(heading: &str, rows: &[Row], look: &Look<'_>) -> String {
     let mut y = MARGIN + title(&mut svg, heading, page - 2.0 * MARGIN);
     let x_scale = logarithmic(shown.iter().map(|row| error(row)).chain(bounds.iter().copied()));
     let y_scale = logarithmic(shown.iter().map(|row| pace(row)));
-    let y_ticks = y_scale.ticks(6);
+    let y_ticks = y_scale.ticks(y_tick_count(height));
     let left = MARGIN + LABEL_SIZE + 6.0 + y_tick_room(&y_ticks);
     let width = page - left - RIGHT;
     let occurring = MARKS.iter().filter(|mark| shown.iter().any(|row| is(row, mark)));
@@ -72,7 +79,7 @@ pub fn figure(heading: &str, rows: &[Row], look: &Look<'_>) -> String {
     entries.push((Text::from("efficient frontier"), Sample::Line(FRONTIER)));
     entries.push((Text::from(names.join(", ")), Sample::Line(NAMED)));
     y += key::rows(&mut svg, [left, y], width, LABEL_SIZE, &entries) + 4.0;
-    let frame = Frame { x: left, y, width, height: HEIGHT };
+    let frame = Frame { x: left, y, width, height };
     let plot = Plot { frame, x: &x_scale, y: &y_scale };
     let ends = [y_scale.value(0.0), y_scale.value(1.0)];
     for bound in bounds {
@@ -112,14 +119,14 @@ pub fn figure(heading: &str, rows: &[Row], look: &Look<'_>) -> String {
     frame.y_ticks(&mut svg, &y_ticks, true);
     let style = Style::new(LABEL_SIZE, Anchor::Middle);
     let words = if on_gpu(rows) { "Instances per second" } else { "Instances per second of a processor" };
-    svg.text(MARGIN + LABEL_SIZE, y + 0.5 * HEIGHT, &Text::from(words), style.upwards());
-    y += HEIGHT + x_tick_room() + LABEL_SIZE + 1.0;
+    svg.text(MARGIN + LABEL_SIZE, y + 0.5 * height, &Text::from(words), style.upwards());
+    y += height + x_tick_room() + LABEL_SIZE + 1.0;
     let words = "Relative error that 95 % are within";
     svg.text(left + 0.5 * frame.width, y, &Text::from(words), style);
     y += LINE;
     let words = "Numbers: steps per period on the frontier";
     svg.text(left + 0.5 * frame.width, y, &Text::from(words), Style::new(TICK_SIZE, Anchor::Middle));
-    look.finish(svg, [page, y + MARGIN + 2.0], heading)
+    (svg, [page, y + MARGIN + 2.0])
 }
 
 fn is(row: &Row, (backend, precision, _): &(&str, &str, &str)) -> bool {

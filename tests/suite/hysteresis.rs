@@ -5,12 +5,16 @@
 use crate::bistable::highest_velocity_of_the_cycle;
 use crate::cli::squealmap;
 use crate::resume::with;
+use crate::synthetic::record;
 use squealmap::Error;
+use squealmap::classify::{InstabilityType, Regime};
 use squealmap::export::heading::Heading;
 use squealmap::export::hysteresis::hysteresis_svg;
 use squealmap::export::look::Look;
 use squealmap::hysteresis::{Direction, Hysteresis};
+use squealmap::map::Record;
 use squealmap::model::Param;
+use squealmap::outcome::{Outcome, Status};
 use squealmap::response::Plan;
 use squealmap::spec::Spec;
 
@@ -190,6 +194,84 @@ fn unsettled_values_are_marked() {
         let shown = svg.contains("class=\"unsettled\"") && svg.contains("not settled");
         assert_eq!(shown, marked, "{response}");
     }
+}
+
+/// Two cycles, one of which ends: the amplitude jumps within the oscillation, and the branches differ between both jumps. A
+/// rise that the steps of the parameter resolve is none.
+#[test]
+fn jumps_from_one_cycle_to_another_are_found() {
+    let values: Vec<f64> = (0..21).map(|k| 0.1 * f64::from(k)).collect();
+    let with = |size: &dyn Fn(usize) -> f64, settled: &dyn Fn(usize) -> bool| -> Vec<Record> {
+        let of = |k: usize| {
+            let outcome = Outcome { status: Status::Ok, x2_std: Some(size(k)), ..Outcome::default() };
+            Record {
+                outcome: Some(Box::new(outcome)),
+                ..record(InstabilityType::NegativeSlope, Regime::StickSlip, settled(k))
+            }
+        };
+        (0..values.len()).map(of).collect()
+    };
+    let of = |up: Vec<Record>, down: Vec<Record>| Hysteresis {
+        param: Param::BeltVelocity,
+        values: values.clone(),
+        up,
+        down,
+    };
+    let slow = |k: usize| 1.0 + 0.02 * k as f64;
+    let two = |end: usize| move |k: usize| slow(k) * if k < end { 1.0 } else { 1.5 };
+    let found = of(with(&two(14), &|_| true), with(&two(8), &|_| true));
+    let between = |pair: [usize; 2]| pair.map(|k| values[k]);
+    assert_eq!(found.jumps_of_amplitude(Direction::Up), [between([13, 14])]);
+    assert_eq!(found.jumps_of_amplitude(Direction::Down), [between([8, 7])]);
+    assert!(found.jumps(Direction::Up).is_empty(), "it oscillates all the way");
+    let svg = hysteresis_svg(&found, &Heading::new("", ""), &Look::default());
+    assert_eq!(svg.matches("class=\"jump\"").count(), 2);
+    // A value that has not settled is passed over; smooth rises and steps of a few percent are no jumps.
+    let found = of(with(&two(14), &|k| k != 14), with(&slow, &|_| true));
+    assert_eq!(found.jumps_of_amplitude(Direction::Up), [between([13, 15])]);
+    assert!(found.jumps_of_amplitude(Direction::Down).is_empty());
+    let tanh = |k: usize| 2.0 + ((k as f64 - 10.0) / 3.0).tanh();
+    let root = |k: usize| (k as f64).sqrt() + 1e-3;
+    let small = |k: usize| if k < 9 { 1.0 } else { 1.03 };
+    for smooth in [&tanh as &dyn Fn(usize) -> f64, &root, &small] {
+        let found = of(with(smooth, &|_| true), with(smooth, &|_| true));
+        assert!(
+            found.jumps_of_amplitude(Direction::Up).is_empty()
+                && found.jumps_of_amplitude(Direction::Down).is_empty()
+        );
+    }
+}
+
+/// The legend has what is drawn: a stable equilibrium only where there is one, crosses in the colours of their branches.
+#[test]
+fn the_legend_has_what_is_drawn() {
+    let blue = "stroke=\"#1F3F8F\" stroke-width=\"0.9\"";
+    let orange = "stroke=\"#D55E00\" stroke-width=\"0.9\"";
+    let of = |kind: InstabilityType, settled: [bool; 2]| {
+        let branch = |settled: bool| -> Vec<Record> {
+            let of = |k: usize| {
+                let outcome = Outcome { status: Status::Ok, x2_std: Some(1.0), ..Outcome::default() };
+                let settled = settled || k != 2;
+                Record { outcome: Some(Box::new(outcome)), ..record(kind, Regime::Slip, settled) }
+            };
+            (0..5).map(of).collect()
+        };
+        let [up, down] = settled.map(branch);
+        let found = Hysteresis { param: Param::MuS, values: vec![0.1, 0.2, 0.3, 0.4, 0.5], up, down };
+        let svg = hysteresis_svg(&found, &Heading::new("", ""), &Look::default());
+        let crosses = [blue, orange].map(|stroke| {
+            svg.lines().filter(|line| line.contains("class=\"unsettled\"") && line.contains(stroke)).count()
+        });
+        (svg.contains(">stable equilibrium<"), svg.contains(">unstable equilibrium<"), crosses)
+    };
+    assert_eq!(of(InstabilityType::NegativeSlope, [true, true]), (false, true, [0, 0]));
+    assert_eq!(
+        of(InstabilityType::Stable, [true, false]),
+        (true, false, [0, 2]),
+        "in the plot and in the legend"
+    );
+    assert_eq!(of(InstabilityType::Stable, [false, true]), (true, false, [2, 0]));
+    assert_eq!(of(InstabilityType::Stable, [false, false]), (true, false, [2, 2]));
 }
 
 #[test]

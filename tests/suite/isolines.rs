@@ -189,7 +189,7 @@ fn a_cut_is_the_function_along_its_axis() {
     assert_eq!(cut.axis.key, AxisKey::Param(Param::MuD));
     assert_eq!(cut.held, [(AxisKey::Param(Param::BeltVelocity), Value::Number(3.0))]);
     assert_eq!((cut.panels.len(), cut.panels[0].curves.len()), (1, 3));
-    let table = String::from_utf8(cut_csv(grid, &cut, &[&column]).unwrap()).unwrap();
+    let table = String::from_utf8(cut_csv(&map, &cut, &[&column]).unwrap()).unwrap();
     let rows: Vec<Vec<&str>> = table.lines().map(|line| line.split(',').collect()).collect();
     assert_eq!(rows[0], ["panel", "curve", "mu_s", "mu_d", "belt_velocity", "growth_rate"]);
     assert_eq!(rows.len(), 1 + 3 * 13);
@@ -217,7 +217,7 @@ fn a_cut_is_the_function_along_its_axis() {
     let cut = Cut::new(&map.spec.grid, "theta=0.02").unwrap();
     assert_eq!((cut.panels.len(), cut.panels[0].curves.len()), (3, 2), "the shortest has the curves");
     for (width, name) in [(None, "cut"), (Some(90.0), "cut_narrow")] {
-        let svg = cut_svg(&cut, &[&column, &column], "A cut", &Look { width, ..Look::default() });
+        let svg = cut_svg(&map, &cut, &[&column, &column], &Look { width, ..Look::default() });
         draw(&svg, name);
         assert!(outside(&svg).is_empty(), "{:?}", outside(&svg));
     }

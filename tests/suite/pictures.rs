@@ -46,6 +46,15 @@ pub(crate) fn outside(svg: &str) -> Vec<String> {
     found
 }
 
+/// The sizes of sub- and superscripts, points as drawn.
+fn script_sizes(svg: &str) -> Vec<f64> {
+    let scripts = svg.split("<tspan").skip(1).filter_map(|script| {
+        let attributes = script.split_once('>').unwrap().0;
+        Some(attributes.split_once("font-size=\"")?.1.split_once('"').unwrap().0.parse().unwrap())
+    });
+    scripts.collect()
+}
+
 fn texts(group: &resvg::usvg::Group, each: &mut impl FnMut(&Node)) {
     for node in group.children() {
         match node {
@@ -173,9 +182,13 @@ fn every_figure_has_the_size_of_its_journal() {
         let picture = read(&piece);
         for journal in Journal::ALL {
             let (kind, name) = (piece.kind.name(), journal.name());
-            let look = Look { width: Some(journal.width()), enlarged: journal.enlarged(), ..Look::default() };
+            let look = Look::of_journal(journal);
             let svg = picture.svg(&look).unwrap();
             let [width, height] = size(&svg);
+            // Its maps are three rows of squares and more: too many for a slide, and refused there.
+            let fits = (kind, journal) != ("phase", Journal::Slide);
+            assert_eq!(height <= journal.height() + 0.01, fits, "{kind}, {name}: {height} mm tall");
+            assert_eq!(look.check_height(&svg, "").is_ok(), fits, "{kind}, {name}");
             near(&format!("{kind}, {name}: SVG"), width, journal.width(), 0.01);
             let pixels = draw(&svg, &format!("print_{kind}_{name}"));
             near(
@@ -190,6 +203,9 @@ fn every_figure_has_the_size_of_its_journal() {
             }
             for points in text_sizes(&svg) {
                 assert!((7.0..=9.0).contains(&points), "{kind}, {name}: {points} pt");
+            }
+            for points in script_sizes(&svg) {
+                assert!((6.0..=9.0).contains(&points), "{kind}, {name}: script of {points} pt");
             }
             beyond.extend(outside(&svg).into_iter().map(|text| format!("{kind}, {name}: {text}")));
         }

@@ -166,7 +166,7 @@ fn quantities_have_a_bar_and_undefined_cells_are_hatched() {
     let contents = vec![Content::quantity(column("growth_rate")), Content::quantity(column("phase"))];
     let svg = look_svg(&back.map, &Look { contents, ..Look::default() }).unwrap();
     let picture = draw(&svg, "plot_quantity");
-    assert!(svg.contains(">Growth rate <") && svg.contains("hatched: undefined (422)"), "422 of 845 are odd");
+    assert!(svg.contains(">Growth rate <") && svg.contains("undefined (422)"), "422 of 845 are odd");
     // mu_s runs to the right, and with it the growth: the picture darkens steadily.
     let frame = frames(&svg)[0];
     let lightness = |k: usize| {
@@ -274,7 +274,7 @@ fn the_basins_of_a_box_have_a_block_of_their_own() {
     let svg = map_svg(&map).unwrap();
     let back = Archive::read(directory(&map).path()).unwrap();
     assert_eq!(map_svg(&back.map).unwrap(), svg, "the same text from the columns of fractions");
-    assert!(svg.contains(">fraction of starts<") && svg.contains("hatched: undefined (1)"));
+    assert!(svg.contains(">fraction of starts<") && svg.contains("undefined (1)"));
     let picture = draw(&svg, "plot_basins");
     // Type, regime, bistability, and the fractions: each a panel, the last with a bar.
     let frames = frames(&svg);

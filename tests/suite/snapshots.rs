@@ -6,10 +6,12 @@
 use std::path::PathBuf;
 
 use crate::gallery::all;
+use crate::gallery_plots::plots;
 
 /// A figure without what changes from commit to commit.
 fn lasting(svg: &str) -> String {
-    let lines = svg.lines().filter(|line| !line.starts_with("<metadata>"));
+    let lines =
+        svg.lines().filter(|line| !line.starts_with("<metadata>") && !line.starts_with("% squealmap"));
     lines.flat_map(|line| [line, "\n"]).collect()
 }
 
@@ -29,9 +31,10 @@ fn no_figure_has_changed_unseen() {
     let directory = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/suite/snapshots");
     let write = std::env::var_os("SQUEALMAP_SNAPSHOTS").is_some_and(|value| value == "write");
     let mut changed = Vec::new();
-    for piece in all() {
-        let name = format!("{}.svg", piece.kind.name());
-        let drawn = lasting(&piece.svg);
+    let kinds = all().into_iter().map(|piece| (format!("{}.svg", piece.kind.name()), piece.svg));
+    let others = plots().into_iter().map(|(name, drawn)| (name.to_owned(), drawn));
+    for (name, drawn) in kinds.chain(others) {
+        let drawn = lasting(&drawn);
         let path = directory.join(&name);
         if write {
             std::fs::create_dir_all(&directory).unwrap();

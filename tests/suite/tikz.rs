@@ -1,4 +1,4 @@
-//! The source for LaTeX: its structure, since no LaTeX is at hand.
+//! The source for LaTeX: its structure; where `pdflatex` is at hand, it is compiled too.
 
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
@@ -128,6 +128,31 @@ fn areas_are_where_their_classes_are() {
     assert_eq!(tex.matches("\\draw[line width=0.4pt] (axis").count(), 1, "one line between them");
 }
 
+/// pdflatex knows no letters beyond ASCII in formulas: every label of an axis is written in commands.
+#[test]
+fn every_axis_is_written_in_commands() {
+    for param in squealmap::model::PARAMS.iter().map(|row| row.param) {
+        let axes = vec![span(param, 1.0, 2.0, 3), span(Param::MuD, 0.0, 0.6, 3)];
+        let map = map(Grid::Axes(axes), |_, _| record(Kind::Stable, Regime::Slip, true));
+        let tex = map_tikz(&map, &Look::default()).unwrap();
+        let labels: Vec<&str> = tex.lines().filter(|line| line.contains("label={")).collect();
+        assert!(labels.len() == 4 && labels.iter().all(|label| label.is_ascii()), "{labels:?}");
+        assert_eq!(unbalanced(&tex), None);
+    }
+}
+
+/// Hatching is in the legend where it occurs.
+#[test]
+fn hatching_has_its_words() {
+    let tex = map_tikz(&sweep(), &Look::default()).unwrap();
+    assert_eq!(tex.matches("~not settled}").count(), 1);
+    assert_eq!(tex.matches("~no result}").count(), 1, "of the regime alone");
+    let axes = vec![span(Param::MuS, 0.0, 0.6, 3), span(Param::MuD, 0.0, 0.6, 3)];
+    let plain = map(Grid::Axes(axes), |_, _| record(Kind::Stable, Regime::Slip, true));
+    let tex = map_tikz(&plain, &Look::default()).unwrap();
+    assert!(!tex.contains("~not settled}") && !tex.contains("~no result}"));
+}
+
 #[test]
 fn points_are_no_source() {
     let rows = (0..3).map(|k| vec![Value::Number(f64::from(k))]).collect();
@@ -135,4 +160,40 @@ fn points_are_no_source() {
     let map = map(grid, |_, _| record(Kind::Stable, Regime::Slip, true));
     let error = map_tikz(&map, &Look::default()).unwrap_err();
     assert!(error.is_bad_input() && matches!(error, Error::Tikz { .. }), "{error}");
+}
+
+/// `pdflatex` makes one page of every kind of source, without an error or a word beyond the page. Machines without it, or
+/// without its packages, have the tests of the structure alone.
+#[test]
+fn pdflatex_makes_a_page_of_it() {
+    let k2 = Axis { log: true, ..axis(Param::K2, &[1e3, 1e4, 1e5, 1e6]) };
+    let law = ["bilinear", "rational"].map(|name| Value::Text(name.to_owned())).to_vec();
+    let law = Axis { key: AxisKey::Law, values: law, log: false };
+    let named =
+        map(Grid::Axes(vec![k2, law]), |k, _| record(Kind::ALL[k % 7], Regime::ALL[k % 7], k % 2 == 0));
+    let axes = vec![span(Param::Decay, 0.1, 0.6, 5), span(Param::StartVelocity, 0.1, 0.6, 5)];
+    let greek = map(Grid::Axes(axes), |_, at| paper_like(number(at[0]), number(at[1]), 3.0));
+    for (name, map) in [("three axes", sweep()), ("log and names", named), ("greek", greek)] {
+        let tex = map_tikz(&map, &Look { width: Some(190.0), ..Look::default() }).unwrap();
+        let Some(said) = compiled(&tex) else { return };
+        assert!(said.contains("Output written on plot.pdf (1 page"), "{name}: {said}");
+        assert!(!said.contains("\n! ") && !said.contains("Overfull"), "{name}: {said}");
+    }
+    // A mistake is seen.
+    let tex = map_tikz(&sweep(), &Look::default()).unwrap();
+    let broken = compiled(&tex.replacen("\\begin{groupplot}", "\\begin{groupplots}", 1)).unwrap();
+    assert!(broken.contains("\n! "), "{broken}");
+}
+
+/// What `pdflatex` says of a source; `None` where it, or a package that the source needs, is not there.
+fn compiled(tex: &str) -> Option<String> {
+    let directory = tempfile::tempdir().unwrap();
+    std::fs::write(directory.path().join("plot.tex"), tex).unwrap();
+    let ended = std::process::Command::new("pdflatex")
+        .args(["-interaction=nonstopmode", "plot.tex"])
+        .current_dir(directory.path())
+        .output()
+        .ok()?;
+    let said = String::from_utf8_lossy(&ended.stdout).into_owned();
+    (!said.contains("not found")).then_some(said)
 }

@@ -82,10 +82,22 @@ pub(super) fn to_json(trials: &[Trial]) -> Json {
 /// Three maps over ramp duration and kick, double column width unless the look says otherwise; one below the other on
 /// a narrow page.
 pub(super) fn picture(trials: &[Trial], look: &Look<'_>) -> String {
+    let rows = distinct(trials.iter().map(|trial| trial.kick)).len() as f64;
+    let maps = MAPS.len() / columns(look.points().unwrap_or(DOUBLE_COLUMN));
+    look.fitted(HEADING, maps as f64 * rows * ROW, |part| draw(trials, look, part * ROW))
+}
+
+/// How many maps stand side by side on a page.
+fn columns(page: f64) -> usize {
+    if page < NARROW { 1 } else { MAPS.len() }
+}
+
+/// The picture and its size, with rows of cells of this height.
+fn draw(trials: &[Trial], look: &Look<'_>, cell_height: f64) -> (Svg, [f64; 2]) {
     let page = look.points().unwrap_or(DOUBLE_COLUMN);
     let mut svg = Svg::new();
     let inner = page - 2.0 * MARGIN;
-    let y = MARGIN + title(&mut svg, HEADING, inner) + LABEL_SIZE + 5.0;
+    let y = MARGIN + title(&mut svg, look.title(HEADING), inner) + LABEL_SIZE + 5.0;
     let durations = distinct(trials.iter().map(|trial| trial.duration));
     let kicks = distinct(trials.iter().map(|trial| trial.kick));
     let ticks = |values: &[f64], unit: f64| -> Vec<Tick> {
@@ -96,10 +108,10 @@ pub(super) fn picture(trials: &[Trial], look: &Look<'_>) -> String {
     };
     let [x_ticks, y_ticks] = [ticks(&durations, 1.0), ticks(&kicks, 1e-3)];
     let left = MARGIN + LABEL_SIZE + 6.0 + y_tick_room(&y_ticks);
-    let columns = if page < NARROW { 1 } else { MAPS.len() };
+    let columns = columns(page);
     let width = (page - left - RIGHT - (columns - 1) as f64 * GAP) / columns as f64;
     let cell = width / durations.len().max(1) as f64;
-    let height = ROW * kicks.len() as f64;
+    let height = cell_height * kicks.len() as f64;
     for (number, (letter, words, ratio)) in MAPS.into_iter().enumerate() {
         let (column, row) = (number % columns, number / columns);
         let y = y + row as f64 * (height + BETWEEN);
@@ -112,7 +124,7 @@ pub(super) fn picture(trials: &[Trial], look: &Look<'_>) -> String {
             let (Some(i), Some(j)) = (place(&durations, trial.duration), place(&kicks, trial.kick)) else {
                 continue;
             };
-            let (x, top) = (frame.x + i as f64 * cell, frame.bottom() - (j + 1) as f64 * ROW);
+            let (x, top) = (frame.x + i as f64 * cell, frame.bottom() - (j + 1) as f64 * cell_height);
             let value = ratio(trial);
             let grown = LIMITS.grown(trial);
             let fill = match value {
@@ -125,10 +137,10 @@ pub(super) fn picture(trials: &[Trial], look: &Look<'_>) -> String {
                 }
                 _ => NOT_GROWN,
             };
-            svg.rect([x, top, cell, ROW], fill);
+            svg.rect([x, top, cell, cell_height], fill);
             let words = value.map_or_else(|| "–".to_owned(), |ratio| format!("{ratio:.2}"));
             let words = if grown { Text::from(words) } else { Text::default().symbol(&words) };
-            let base = top + 0.5 * ROW + 0.35 * NUMBER_SIZE;
+            let base = top + 0.5 * cell_height + 0.35 * NUMBER_SIZE;
             svg.text(x + 0.5 * cell, base, &words, Style::new(NUMBER_SIZE, Anchor::Middle));
         }
         frame.border(&mut svg);
@@ -148,5 +160,5 @@ pub(super) fn picture(trials: &[Trial], look: &Look<'_>) -> String {
         base += TICK_SIZE + 2.0;
         svg.text(MARGIN, base, &Text::from(line), Style::new(TICK_SIZE, Anchor::Start));
     }
-    look.finish(svg, [page, base + 3.0 + MARGIN], HEADING)
+    (svg, [page, base + 3.0 + MARGIN])
 }

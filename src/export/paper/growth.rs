@@ -6,7 +6,7 @@ use crate::error::Result;
 use crate::export::columns::Cell;
 use crate::export::csv::Table;
 use crate::export::figure::{DOUBLE_COLUMN, MARGIN, title};
-use crate::export::frame::{Frame, LABEL_SIZE, x_tick_room, y_tick_room};
+use crate::export::frame::{Frame, LABEL_SIZE, x_tick_room, y_tick_count, y_tick_room};
 use crate::export::key;
 use crate::export::look::Look;
 use crate::export::panels::setting;
@@ -18,8 +18,8 @@ use crate::grid::{AxisKey, Value};
 use crate::model::Param;
 use crate::paper::{Growth, PhaseCase};
 
-/// Heights of the whole growth and of the close-up, points.
-const HEIGHTS: [f64; 2] = [105.0, 105.0];
+/// Height of the whole growth, and of the close-up, points.
+const HEIGHT: f64 = 105.0;
 /// Between the two, points: ticks of time and words.
 const GAP: f64 = 34.0;
 /// Between the columns, points: their own tick labels.
@@ -30,10 +30,10 @@ const RIGHT: f64 = 8.0;
 const HEADROOM: f64 = 0.07;
 /// Periods of the close-up, the last before the first event.
 const PERIODS: f64 = 3.0;
-/// From one case to the one below, points.
-const BLOCK: f64 = HEIGHTS[0] + GAP + HEIGHTS[1] + 52.0;
+/// From the lower end of one case to the one below, points.
+const BETWEEN: f64 = 52.0;
 /// On narrower pages the cases do not fit side by side, points.
-const NARROW: f64 = 440.0;
+const NARROW: f64 = 420.0;
 /// Heading of picture and document.
 pub(super) const HEADING: &str = "Accelerations during exponential growth, up to the first event";
 
@@ -103,15 +103,26 @@ pub(super) fn table(growths: &[Growing]) -> Result<Vec<u8>> {
 
 /// Both cases side by side, double column width unless the look says otherwise; one below the other on a narrow page.
 pub(super) fn picture(growths: &[Growing], look: &Look<'_>) -> String {
+    let rows = growths.len().div_ceil(columns(growths, look.points().unwrap_or(DOUBLE_COLUMN))) as f64;
+    look.fitted(HEADING, rows * 2.0 * HEIGHT, |part| draw(growths, look, part * HEIGHT))
+}
+
+/// How many cases stand side by side on a page.
+fn columns(growths: &[Growing], page: f64) -> usize {
+    if page < NARROW { 1 } else { growths.len().max(1) }
+}
+
+/// The picture and its size, with panels of this height.
+fn draw(growths: &[Growing], look: &Look<'_>, height: f64) -> (Svg, [f64; 2]) {
     let page = look.points().unwrap_or(DOUBLE_COLUMN);
     let mut svg = Svg::new();
-    let mut y = MARGIN + title(&mut svg, HEADING, page - 2.0 * MARGIN);
+    let mut y = MARGIN + title(&mut svg, look.title(HEADING), page - 2.0 * MARGIN);
     let room = |growth: &Growing| {
-        scales(growth).iter().map(|scale| y_tick_room(&scale.ticks(5))).fold(0.0, f64::max)
+        scales(growth).iter().map(|scale| y_tick_room(&scale.ticks(y_tick_count(height)))).fold(0.0, f64::max)
     };
     let room = growths.iter().map(room).fold(0.0, f64::max);
     let left = MARGIN + LABEL_SIZE + 6.0 + room;
-    let columns = if page < NARROW { 1 } else { growths.len().max(1) };
+    let columns = columns(growths, page);
     let width = (page - left - RIGHT - (columns - 1) as f64 * COLUMN_GAP) / columns as f64;
     let words = ["ẍ_2", "ÿ_1"].map(|symbol| Text::default().symbol(symbol));
     let entries: Vec<(Text, &str)> = words.into_iter().zip([FIRST, SECOND]).collect();
@@ -122,16 +133,16 @@ pub(super) fn picture(growths: &[Growing], look: &Look<'_>) -> String {
     for (number, growth) in growths.iter().enumerate() {
         let (column, row) = (number % columns, number / columns);
         let x = left + column as f64 * (width + COLUMN_GAP);
-        let top = y + row as f64 * BLOCK;
+        let top = y + row as f64 * (2.0 * height + GAP + BETWEEN);
         let letter = Text::from(["(a) ", "(b) "][number % 2]);
         svg.text(x, top - 4.0, &letter.then(caption(growth)), Style::new(LABEL_SIZE, Anchor::Start));
-        panels(&mut svg, growth, [x, top], width);
+        panels(&mut svg, growth, [x, top], [width, height]);
         if column == 0 {
-            labels(&mut svg, top, exponent);
+            labels(&mut svg, top, height, exponent);
         }
-        bottom = top + HEIGHTS[0] + GAP + HEIGHTS[1] + x_tick_room() + LABEL_SIZE + 3.0;
+        bottom = top + 2.0 * height + GAP + x_tick_room() + LABEL_SIZE + 3.0;
     }
-    look.finish(svg, [page, bottom + MARGIN], HEADING)
+    (svg, [page, bottom + MARGIN])
 }
 
 /// Scales of the whole growth and of the close-up.
@@ -142,14 +153,14 @@ fn scales(growth: &Growing) -> [Scale; 2] {
 }
 
 /// The whole growth, and its close-up below.
-fn panels(svg: &mut Svg, growth: &Growing, [x, top]: [f64; 2], width: f64) {
+fn panels(svg: &mut Svg, growth: &Growing, [x, top]: [f64; 2], [width, height]: [f64; 2]) {
     let scales = scales(growth);
     let close = close_up(growth);
     let largest = [1, 2].map(|k| close.iter().map(|sample| sample[k].abs()).fold(0.0, f64::max));
-    let tops = [top, top + HEIGHTS[0] + GAP];
-    svg.text(x, tops[1] - 4.0, &phases(growth), Style::new(LABEL_SIZE, Anchor::Start));
+    let tops = [top, top + height + GAP];
+    svg.text(x, tops[1] - 4.0, &phases(growth, width + RIGHT), Style::new(LABEL_SIZE, Anchor::Start));
     for (row, samples) in [&growth.samples, close].into_iter().enumerate() {
-        let frame = Frame { x, y: tops[row], width, height: HEIGHTS[row] };
+        let frame = Frame { x, y: tops[row], width, height };
         let time = Scale::spanning(samples.iter().map(|sample| sample[0]));
         let plot = Plot { frame, x: &time, y: &scales[row] };
         for (k, stroke) in [FIRST, SECOND].into_iter().enumerate() {
@@ -158,18 +169,18 @@ fn panels(svg: &mut Svg, growth: &Growing, [x, top]: [f64; 2], width: f64) {
         }
         frame.border(svg);
         frame.x_ticks(svg, &time.ticks(5), true);
-        frame.y_ticks(svg, &scales[row].ticks(5), true);
+        frame.y_ticks(svg, &scales[row].ticks(y_tick_count(height)), true);
     }
-    let base = tops[1] + HEIGHTS[1] + x_tick_room() + LABEL_SIZE + 1.0;
+    let base = tops[1] + height + x_tick_room() + LABEL_SIZE + 1.0;
     let label = Text::from("Time ").symbol("t").plain(" (s)");
     svg.text(x + 0.5 * width, base, &label, Style::new(LABEL_SIZE, Anchor::Middle));
 }
 
 /// What both panels of the first column show.
-fn labels(svg: &mut Svg, top: f64, exponent: i32) {
+fn labels(svg: &mut Svg, top: f64, height: f64, exponent: i32) {
     let labels =
         [Text::from("Acceleration").then(axis_unit("m/s^2", exponent)), Text::from("Each over its largest")];
-    let middles = [top + 0.5 * HEIGHTS[0], top + HEIGHTS[0] + GAP + 0.5 * HEIGHTS[1]];
+    let middles = [top + 0.5 * height, top + height + GAP + 0.5 * height];
     for (label, middle) in labels.iter().zip(middles) {
         let style = Style::new(LABEL_SIZE, Anchor::Middle).upwards();
         svg.text(MARGIN + LABEL_SIZE, middle, label, style);
@@ -192,10 +203,12 @@ fn caption(growth: &Growing) -> Text {
     words.plain(", ").then(value(Param::MuD, mu_d))
 }
 
-/// `ÿ_1 against ẍ_2: −13.1° (eigenvector), −13.1° (measured)`.
-fn phases(growth: &Growing) -> Text {
+/// `ÿ_1 against ẍ_2: −13.1° (eigenvector), −13.1° (measured)`; shorter where there is less room, points.
+fn phases(growth: &Growing, room: f64) -> Text {
     let degrees = |phase: f64| format!("{phase:.1}°").replace('-', "−");
     let [eigenvector, measured] = growth.phases.map(degrees);
     let pair = Text::default().symbol("ÿ_1").plain(" against ").symbol("ẍ_2");
-    pair.plain(&format!(": {eigenvector} (eigenvector), {measured} (measured)"))
+    let text = |mode: &str| pair.clone().plain(&format!(": {eigenvector} ({mode}), {measured} (measured)"));
+    let long = text("eigenvector");
+    if long.width(LABEL_SIZE, false) <= room { long } else { text("mode") }
 }

@@ -4,7 +4,7 @@ use crate::error::Result;
 use crate::export::columns::Cell;
 use crate::export::csv::Table;
 use crate::export::figure::{MARGIN, SINGLE_COLUMN, title};
-use crate::export::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room};
+use crate::export::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_count, y_tick_room};
 use crate::export::key::{self, Sample};
 use crate::export::look::Look;
 use crate::export::plot::{FIRST, Plot, SECOND, THIRD};
@@ -56,14 +56,19 @@ impl Laws {
 
     /// Friction against the relative velocity, single column width unless the look says otherwise.
     pub(super) fn picture(&self, look: &Look<'_>) -> String {
+        look.fitted(HEADING, HEIGHT, |part| self.draw(look, part * HEIGHT))
+    }
+
+    /// The picture and its size, with a panel of this height.
+    fn draw(&self, look: &Look<'_>, height: f64) -> (Svg, [f64; 2]) {
         let page = look.points().unwrap_or(SINGLE_COLUMN);
         let mut svg = Svg::new();
-        let mut y = MARGIN + title(&mut svg, HEADING, page - 2.0 * MARGIN);
+        let mut y = MARGIN + title(&mut svg, look.title(HEADING), page - 2.0 * MARGIN);
         let fastest = self.rows.iter().map(|row| row[0]).fold(0.0, f64::max);
         let velocity = Scale::Linear { low: 0.0, high: fastest };
         let largest = self.rows.iter().flat_map(|row| row[1..].iter().copied()).fold(0.0, f64::max);
         let friction = Scale::Linear { low: 0.0, high: HEADROOM * largest };
-        let ticks = friction.ticks(6);
+        let ticks = friction.ticks(y_tick_count(height));
         let left = MARGIN + LABEL_SIZE + 6.0 + y_tick_room(&ticks);
         let width = page - left - RIGHT;
         let strokes = [FIRST, SECOND, THIRD];
@@ -71,7 +76,7 @@ impl Laws {
         let words = words.map(|(letter, case)| Text::from(letter).plain(case.words()));
         let entries: Vec<(Text, Sample<'_>)> = words.zip(strokes.map(Sample::Line)).collect();
         y += key::rows(&mut svg, [left, y], width, TICK_SIZE, &entries) + 3.0;
-        let frame = Frame { x: left, y, width, height: HEIGHT };
+        let frame = Frame { x: left, y, width, height };
         let plot = Plot { frame, x: &velocity, y: &friction };
         for (k, stroke) in strokes.into_iter().enumerate() {
             plot.curve(&mut svg, self.rows.iter().map(|row| (row[0], row[k + 1])), stroke);
@@ -81,10 +86,10 @@ impl Laws {
         frame.y_ticks(&mut svg, &ticks, true);
         let label = Text::from("Friction coefficient ").symbol("μ");
         let upwards = Style::new(LABEL_SIZE, Anchor::Middle).upwards();
-        svg.text(MARGIN + LABEL_SIZE, frame.y + 0.5 * HEIGHT, &label, upwards);
+        svg.text(MARGIN + LABEL_SIZE, frame.y + 0.5 * height, &label, upwards);
         let base = frame.bottom() + x_tick_room() + LABEL_SIZE + 1.0;
         let label = Text::from("Relative velocity ").symbol("v").plain(" (m/s)");
         svg.text(frame.across(0.5), base, &label, Style::new(LABEL_SIZE, Anchor::Middle));
-        look.finish(svg, [page, base + 2.0 + MARGIN], HEADING)
+        (svg, [page, base + 2.0 + MARGIN])
     }
 }

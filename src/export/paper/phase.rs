@@ -7,7 +7,7 @@ use crate::export::cells::define_patterns;
 use crate::export::columns::Cell;
 use crate::export::csv::Table;
 use crate::export::figure::{DOUBLE_COLUMN, MARGIN, title};
-use crate::export::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room};
+use crate::export::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_count, y_tick_room};
 use crate::export::key::{self, Sample};
 use crate::export::look::Look;
 use crate::export::panels::setting;
@@ -34,6 +34,8 @@ const STEPS: u32 = 45;
 const BAR_HEIGHT: f64 = 7.0;
 /// Width of the bar with its words, points.
 const BAR: f64 = 136.0;
+/// What the labels of the vertical axis take about, points.
+const MAPS_LEFT: f64 = 32.0;
 /// Least width of a map, points.
 const LEAST: f64 = 55.0;
 /// The fill of an instance.
@@ -99,10 +101,27 @@ fn verdict(witness: &Witness) -> usize {
 /// Maps and curves, double column width unless the look says otherwise; on a narrow page the maps take several rows.
 pub(super) fn picture(trial: &PhaseTrial, look: &Look<'_>) -> String {
     let page = look.points().unwrap_or(DOUBLE_COLUMN);
+    // The labels of the axis take about as much on every page.
+    let (_, lines, width) = rows(trial, page - MAPS_LEFT - RIGHT);
+    look.fitted(HEADING, 3.0 * lines as f64 * width + CURVES, |part| draw(trial, look, part))
+}
+
+/// How many maps stand side by side in a width, in how many lines, and their width.
+fn rows(trial: &PhaseTrial, room: f64) -> (usize, usize, f64) {
+    let velocities = distinct(trial.witnesses.iter().map(|witness| witness.velocity)).len();
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive count")]
+    let most = ((room + GAP) / (LEAST + GAP)).max(1.0) as usize;
+    let columns = velocities.clamp(1, most);
+    (columns, velocities.div_ceil(columns), (room - (columns - 1) as f64 * GAP) / columns as f64)
+}
+
+/// The picture and its size, with maps and curves of this part of their usual height.
+fn draw(trial: &PhaseTrial, look: &Look<'_>, part: f64) -> (Svg, [f64; 2]) {
+    let page = look.points().unwrap_or(DOUBLE_COLUMN);
     let mut svg = Svg::new();
     define_patterns(&mut svg);
     let inner = page - 2.0 * MARGIN;
-    let mut y = MARGIN + title(&mut svg, HEADING, inner) + LABEL_SIZE;
+    let mut y = MARGIN + title(&mut svg, look.title(HEADING), inner) + LABEL_SIZE;
     let velocities = distinct(trial.witnesses.iter().map(|witness| witness.velocity));
     let sides = [0, 1].map(|k| distinct(trial.witnesses.iter().map(|witness| witness.friction[k])));
     let scales = sides.each_ref().map(|values| {
@@ -113,11 +132,8 @@ pub(super) fn picture(trial: &PhaseTrial, look: &Look<'_>) -> String {
     let ticks = scales.each_ref().map(|scale| scale.ticks(4));
     let left = MARGIN + LABEL_SIZE + 6.0 + y_tick_room(&ticks[1]);
     let room = page - left - RIGHT;
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive count")]
-    let most = ((room + GAP) / (LEAST + GAP)).max(1.0) as usize;
-    let columns = velocities.len().clamp(1, most);
-    let lines = velocities.len().div_ceil(columns);
-    let width = (room - (columns - 1) as f64 * GAP) / columns as f64;
+    let (columns, lines, width) = rows(trial, room);
+    let height = part * width;
     let pair = Text::from("|phase of ").symbol("ÿ_1").plain(" against ").symbol("ẍ_2").plain("|, ");
     let fills: [(Text, Fill); 3] = [
         (Text::from("(a) ").then(pair.clone()).plain("eigenvector"), &|one| phase_fill(one.phases[0])),
@@ -140,9 +156,9 @@ pub(super) fn picture(trial: &PhaseTrial, look: &Look<'_>) -> String {
         for (number, velocity) in velocities.iter().enumerate() {
             let (column, line) = (number % columns, number / columns);
             if column == 0 && line > 0 {
-                y += width + HEADING_ROOM;
+                y += height + HEADING_ROOM;
             }
-            let frame = Frame { x: left + column as f64 * (width + GAP), y, width, height: width };
+            let frame = Frame { x: left + column as f64 * (width + GAP), y, width, height };
             if row == 0 || lines > 1 {
                 let words = setting(AxisKey::Param(Param::BeltVelocity), &Value::Number(*velocity));
                 svg.text(frame.across(0.5), y - 3.0, &words, Style::new(TICK_SIZE, Anchor::Middle));
@@ -154,10 +170,10 @@ pub(super) fn picture(trial: &PhaseTrial, look: &Look<'_>) -> String {
             frame.y_ticks(&mut svg, &ticks[1], column == 0);
             if column == 0 {
                 let upwards = Style::new(LABEL_SIZE, Anchor::Middle).upwards();
-                svg.text(MARGIN + LABEL_SIZE, y + 0.5 * width, &Text::default().symbol("μ_d"), upwards);
+                svg.text(MARGIN + LABEL_SIZE, y + 0.5 * height, &Text::default().symbol("μ_d"), upwards);
             }
         }
-        y += width + LABEL_SIZE + 9.0;
+        y += height + LABEL_SIZE + 9.0;
     }
     y += x_tick_room() - 7.0;
     svg.text(left + 0.5 * room, y, &Text::default().symbol("μ_s"), Style::new(LABEL_SIZE, Anchor::Middle));
@@ -166,9 +182,9 @@ pub(super) fn picture(trial: &PhaseTrial, look: &Look<'_>) -> String {
         y += LABEL_SIZE + 2.0;
         svg.text(left, y - 6.0, &Text::from(line), Style::new(LABEL_SIZE, Anchor::Start));
     }
-    let frame = Frame { x: left, y, width: room, height: CURVES };
+    let frame = Frame { x: left, y, width: room, height: part * CURVES };
     let bottom = thresholds(&mut svg, trial, &frame);
-    look.finish(svg, [page, bottom + MARGIN], HEADING)
+    (svg, [page, bottom + MARGIN])
 }
 
 /// One rectangle per run of equal fills of a row. Each reaches to the right and lower end of the panel and is
@@ -241,14 +257,13 @@ fn thresholds(svg: &mut Svg, trial: &PhaseTrial, frame: &Frame) -> f64 {
     }
     frame.border(svg);
     frame.x_ticks(svg, &x.ticks(10), true);
-    frame.y_ticks(svg, &y.ticks(5), true);
+    frame.y_ticks(svg, &y.ticks(y_tick_count(frame.height)), true);
     let upwards = Style::new(LABEL_SIZE, Anchor::Middle).upwards();
     svg.text(MARGIN + LABEL_SIZE, frame.y + 0.5 * frame.height, &Text::from("Share right"), upwards);
     let mut base = frame.bottom() + x_tick_room() + LABEL_SIZE + 1.0;
     svg.text(frame.across(0.5), base, &Text::from("Threshold (°)"), Style::new(LABEL_SIZE, Anchor::Middle));
-    base += LABEL_SIZE + 5.0;
-    let entries: Vec<(Text, &str)> =
-        Source::ALL.into_iter().map(|source| Text::from(source.words())).zip(strokes).collect();
-    key::lines(svg, frame.x, base, LABEL_SIZE, &entries);
-    base + 3.0
+    base += 5.0;
+    let words = Source::ALL.into_iter().map(|source| Text::from(source.words()));
+    let entries: Vec<(Text, Sample<'_>)> = words.zip(strokes.map(Sample::Line)).collect();
+    base + key::rows(svg, [frame.x, base], frame.width, LABEL_SIZE, &entries)
 }

@@ -6,8 +6,9 @@ use crate::error::Result;
 use crate::export::columns::Cell;
 use crate::export::csv::Table;
 use crate::export::figure::{DOUBLE_COLUMN, MARGIN, title};
-use crate::export::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room};
+use crate::export::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_count, y_tick_room};
 use crate::export::key;
+use crate::export::letters;
 use crate::export::look::Look;
 use crate::export::plot::{CRITICAL, Plot};
 use crate::export::scale::{Scale, Tick, axis_unit, value_label};
@@ -108,9 +109,15 @@ fn centre(stretch: &Stretch) -> [f64; 2] {
 
 /// Accelerations as lowest and highest value per column, double column width unless the look says otherwise.
 pub(super) fn picture(ramp: &Slowdown, look: &Look<'_>) -> String {
+    let draw = |part: f64| draw(ramp, look, HEIGHTS.map(|height| part * height));
+    look.fitted(&ramp.heading, HEIGHTS.iter().sum(), draw)
+}
+
+/// The picture and its size, with panels of these heights.
+fn draw(ramp: &Slowdown, look: &Look<'_>, heights: [f64; 3]) -> (Svg, [f64; 2]) {
     let page = look.points().unwrap_or(DOUBLE_COLUMN);
     let mut svg = Svg::new();
-    let mut y = MARGIN + title(&mut svg, &ramp.heading, page - 2.0 * MARGIN);
+    let mut y = MARGIN + title(&mut svg, look.title(&ramp.heading), page - 2.0 * MARGIN);
     let time = Scale::Linear { low: 0.0, high: ramp.duration };
     let [fastest, slowest] = ramp.velocity;
     let belt = Scale::Linear { low: fastest, high: slowest };
@@ -124,7 +131,7 @@ pub(super) fn picture(ramp: &Slowdown, look: &Look<'_>) -> String {
         spread(|column| column.normal),
         Scale::Linear { low: 0.0, high: (1.0 + HEADROOM) * most },
     ];
-    let ticks: [Vec<Tick>; 3] = std::array::from_fn(|k| scales[k].ticks(if k < 2 { 5 } else { 3 }));
+    let ticks: [Vec<Tick>; 3] = std::array::from_fn(|k| scales[k].ticks(y_tick_count(heights[k])));
     let room = ticks.iter().map(|ticks| y_tick_room(ticks)).fold(0.0, f64::max);
     let left = MARGIN + LABEL_SIZE + 6.0 + room;
     let width = page - left - RIGHT;
@@ -140,15 +147,15 @@ pub(super) fn picture(ramp: &Slowdown, look: &Look<'_>) -> String {
     let most = (width / TICK_WIDTH).round().max(FEWEST_TICKS) as usize;
     let velocities: Vec<Tick> = rising.ticks(most).into_iter().map(mirrored).collect();
     let labels = [
-        Text::from("(a) ").symbol("ẍ_2").then(axis_unit("m/s^2", scales[0].exponent())),
-        Text::from("(b) ").symbol("ÿ_1").then(axis_unit("m/s^2", scales[1].exponent())),
-        Text::from("(c) Share"),
+        Text::default().symbol("ẍ_2").then(axis_unit("m/s^2", scales[0].exponent())),
+        Text::default().symbol("ÿ_1").then(axis_unit("m/s^2", scales[1].exponent())),
+        Text::from("Share"),
     ];
     // The line of the knee does not cross the key.
     let knee = ramp.knee.map(|knee| left + belt.position(knee) * width);
     let beside = knee.filter(|at| *at < left + KEY_WIDTH).map_or(left, |at| at + 6.0);
-    for number in 0..HEIGHTS.len() {
-        let frame = Frame { x: left, y, width, height: HEIGHTS[number] };
+    for (number, height) in heights.into_iter().enumerate() {
+        let frame = Frame { x: left, y, width, height };
         let plot = Plot { frame, x: &time, y: &scales[number] };
         let between = |value: fn(&Stretch) -> [f64; 2]| {
             let at = move |column: &Stretch, end: usize| (centre(column)[0], value(column)[end]);
@@ -170,12 +177,11 @@ pub(super) fn picture(ramp: &Slowdown, look: &Look<'_>) -> String {
         }
         frame.border(&mut svg);
         frame.y_ticks(&mut svg, &ticks[number], true);
-        frame.x_ticks(&mut svg, &time.ticks(most), number + 1 == HEIGHTS.len());
+        frame.x_ticks(&mut svg, &time.ticks(most), number + 1 == heights.len());
         if number == 0 {
             frame.x_ticks_above(&mut svg, &velocities);
         }
-        let middle = Style::new(LABEL_SIZE, Anchor::Middle).upwards();
-        svg.text(MARGIN + LABEL_SIZE, y + 0.5 * frame.height, &labels[number], middle);
+        letters::side(&mut svg, (number, heights.len()), &frame, &labels[number..=number]);
         y += frame.height + GAP;
     }
     let bottom = y - GAP;
@@ -185,7 +191,7 @@ pub(super) fn picture(ramp: &Slowdown, look: &Look<'_>) -> String {
             Text::default().symbol("V").plain(" = ").symbol("v_k").plain(" = ").then(value_label(knee));
         svg.text(
             at + 3.0,
-            top + HEIGHTS[0] + GAP - 4.0,
+            top + heights[0] + GAP - 4.0,
             &words.plain(" m/s"),
             Style::new(TICK_SIZE, Anchor::Start),
         );
@@ -193,5 +199,5 @@ pub(super) fn picture(ramp: &Slowdown, look: &Look<'_>) -> String {
     let base = bottom + x_tick_room() + LABEL_SIZE + 1.0;
     let label = Text::from("Time ").symbol("t").plain(" (s)");
     svg.text(left + 0.5 * width, base, &label, Style::new(LABEL_SIZE, Anchor::Middle));
-    look.finish(svg, [page, base + 3.0 + MARGIN], &ramp.heading)
+    (svg, [page, base + 3.0 + MARGIN])
 }

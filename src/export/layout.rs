@@ -1,0 +1,95 @@
+//! How the blocks of a map are arranged on its page.
+
+/// Panels become flatter when the rows of all blocks would not fit this height, points (230 mm) ...
+const PAGE: f64 = 652.0;
+/// ... but not flatter than this, as long as the page is no limit, ...
+const FLAT: f64 = 0.6;
+/// ... and never flatter than this.
+const FLATTEST: f64 = 0.35;
+/// So many more columns of panels than usual are tried.
+const MORE_COLUMNS: usize = 4;
+
+/// An arrangement.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Layout {
+    /// Whether blocks stand side by side in pairs.
+    pub(super) beside: bool,
+    /// How many more columns of panels a block has than usual.
+    pub(super) more_columns: usize,
+    /// The least height of a panel, as a part of its width.
+    pub(super) flattest: f64,
+    /// The height that the blocks should take together, points.
+    pub(super) page: f64,
+}
+
+impl Layout {
+    /// The usual one.
+    pub(super) fn usual(beside: bool) -> Layout {
+        Layout { beside, more_columns: 0, flattest: FLAT, page: PAGE }
+    }
+
+    /// The first that is no taller than a page, points: with more columns of panels, with blocks side by side where that
+    /// is possible, with flatter panels; failing that the last. `height` measures a figure.
+    pub(super) fn fitting(
+        usual: Layout,
+        pairs: bool,
+        tallest: f64,
+        height: impl Fn(Layout) -> f64,
+    ) -> Layout {
+        let usual = Layout { page: usual.page.min(tallest), ..usual };
+        let besides: Vec<bool> = if pairs && !usual.beside { vec![false, true] } else { vec![usual.beside] };
+        let all = [FLAT, FLATTEST].into_iter().flat_map(|flattest| {
+            besides.iter().flat_map(move |beside| {
+                (0..=MORE_COLUMNS).map(move |more_columns| Layout {
+                    beside: *beside,
+                    more_columns,
+                    flattest,
+                    ..usual
+                })
+            })
+        });
+        let mut last = usual;
+        for layout in all {
+            last = layout;
+            // What stands around the panels is guessed at first, and known once it is measured.
+            for _ in 0..2 {
+                let beyond = height(last) - tallest;
+                if beyond <= 0.0 {
+                    return last;
+                }
+                last.page -= beyond + 0.1;
+            }
+            if height(last) <= tallest {
+                return last;
+            }
+        }
+        last
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Panels of a part of their width, in rows: what is tried first is what changes least.
+    #[test]
+    fn what_changes_least_comes_first() {
+        let usual = Layout::usual(false);
+        let of = |tallest: f64| {
+            Layout::fitting(usual, true, tallest, |layout| {
+                let columns = (2 + layout.more_columns).min(4) as f64;
+                let width = if layout.beside { 100.0 } else { 200.0 } / columns;
+                let blocks = if layout.beside { 1.0 } else { 2.0 };
+                let rows = (4.0 / columns).ceil();
+                let panel = (layout.page / blocks / rows).clamp(layout.flattest * width, width);
+                blocks * rows * panel + 20.0
+            })
+        };
+        assert_eq!(of(420.0), Layout { page: 420.0, ..usual });
+        assert!(of(300.0).page < usual.page && of(300.0).more_columns == 0, "flatter first");
+        assert_eq!((of(200.0).beside, of(200.0).more_columns), (false, 1));
+        assert_eq!((of(150.0).beside, of(150.0).more_columns), (false, 2));
+        assert_eq!((of(75.0).beside, of(75.0).flattest.to_bits()), (true, FLAT.to_bits()));
+        assert_eq!(of(30.0).flattest.to_bits(), FLATTEST.to_bits());
+    }
+}
