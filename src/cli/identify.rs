@@ -139,8 +139,8 @@ fn summary(found: &Identification) -> String {
         let (slope, [low, high]) = (friction.slope, friction.velocity);
         let _ = writeln!(
             text,
-            "mean friction changes by {:.5} ± {:.5} s/m between {low:.3} and {high:.3} m/s",
-            slope.value, slope.error
+            "mean friction changes by {} s/m between {low:.3} and {high:.3} m/s",
+            slope.text(1.0, 5)
         );
     }
     let _ = writeln!(

@@ -157,8 +157,8 @@ fn draw(found: &Shown, pictures: &[String; 2], look: &Look<'_>, heights: [f64; 4
         frame.x_ticks(&mut svg, &x_ticks, number + 1 == heights.len());
         letters::side(&mut svg, (number, heights.len()), &frame, &labels[number]);
         match number {
-            2 => bar(&mut svg, &frame, ["0", "1"], ["of its window", "rel."]),
-            3 => bar(&mut svg, &frame, ["−60", "0"], ["dB of record", "dB"]),
+            2 => bar(&mut svg, &frame, ["0", "1"], ["re window maximum", "rel."]),
+            3 => bar(&mut svg, &frame, ["−60", "0"], ["dB re record maximum", "dB"]),
             _ => {}
         }
         y += frame.height + GAP;

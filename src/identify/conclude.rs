@@ -97,10 +97,7 @@ fn without_growth(overview: &Overview, samples: u64) -> Verdict {
     if early && z > CLEAR && overview.last < enough * power.sqrt() {
         return stable(
             normal_below(z) * (1.0 - BEATING * (1.0 - overview.clarity())),
-            format!(
-                "the oscillation at {frequency:.1} Hz decays by {:.2} ± {:.2} 1/s",
-                -trend.value, trend.error
-            ),
+            format!("the oscillation at {frequency:.1} Hz decays by {} 1/s", trend.text(-1.0, 2)),
         );
     }
     Verdict::undecided(format!(

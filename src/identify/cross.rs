@@ -51,6 +51,20 @@ pub(super) struct Ratio {
     pub(super) coherence: f64,
 }
 
+impl Measured {
+    /// `4.3 ± 0.1`, both times `factor`, with this many decimals, or more until the error shows a digit.
+    #[must_use]
+    pub fn text(&self, factor: f64, decimals: usize) -> String {
+        /// Decimals of an error that is nearly nothing.
+        const MOST: f64 = 12.0;
+        let (value, error) = (factor * self.value, factor.abs() * self.error);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 12")]
+        let shown = if error > 0.0 { (-error.log10().floor()).clamp(0.0, MOST) as usize } else { 0 };
+        let decimals = decimals.max(shown);
+        format!("{value:.decimals$} ± {error:.decimals$}")
+    }
+}
+
 impl Sums {
     /// Adds one block.
     pub(super) fn block(&mut self, [x, y, n, t, u]: [Complex64; 5], noise: [f64; 4]) {

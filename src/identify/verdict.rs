@@ -1,7 +1,6 @@
 //! The verdict on one growing oscillation, with its confidence and its reasons.
 
 use super::attribution::{Cause, Probabilities, probabilities};
-use super::cross::Measured;
 use super::feedback::{Feedback, folded};
 
 /// From this confidence on a verdict is given; below it is undecided.
@@ -160,8 +159,8 @@ fn evidence(feedback: &Feedback, decided: bool, likely: &Probabilities) -> Strin
     let share = feedback.share();
     let mut text = format!(
         "it grows by {} 1/s; {} of the power comes from the normal force, which is {} away from the velocity",
-        plus_minus(feedback.growth, 1.0, 1),
-        plus_minus(share, 100.0, 0) + " %",
+        feedback.growth.text(1.0, 1),
+        share.text(100.0, 0) + " %",
         format_args!("{:.0}°", feedback.normal.0.arg().to_degrees().abs()),
     );
     if !decided {
@@ -200,9 +199,4 @@ fn skewed(feedback: &Feedback) -> Option<String> {
             -off.to_radians() / feedback.omega
         )
     })
-}
-
-/// `4.3 ± 0.1`.
-fn plus_minus(measured: Measured, factor: f64, digits: usize) -> String {
-    format!("{:.digits$} ± {:.digits$}", factor * measured.value, factor * measured.error)
 }

@@ -212,7 +212,7 @@ fn undecided(judged: &[Judged]) -> String {
         let found = stroke.found.as_ref();
         let episode = found.and_then(|found| found.episodes.last());
         let number = |measured: Option<Measured>, digits: usize| {
-            measured.map_or("–".to_owned(), |m| format!("{:.digits$} ± {:.digits$}", m.value, m.error))
+            measured.map_or("–".to_owned(), |m| m.text(1.0, digits))
         };
         let verdict = found.map(|found| &found.verdict);
         writeln!(
