@@ -22,6 +22,20 @@ pub enum Fault {
         /// The option that names it.
         flag: &'static str,
     },
+    /// A column that is asked for and stands twice in the header.
+    #[error(
+        "column `{name}` for {words} stands {count} times in the header; give each column a name of its own, or name another with {flag}"
+    )]
+    Ambiguous {
+        /// The quantity.
+        words: &'static str,
+        /// The column.
+        name: String,
+        /// How often it stands there.
+        count: usize,
+        /// The option that names it.
+        flag: &'static str,
+    },
     /// Two quantities from one column.
     #[error("column `{name}` is named for {first} and for {second}; name another with {flag}")]
     SharedColumn {
@@ -118,6 +132,32 @@ pub enum Fault {
         /// The rate.
         rate: f64,
     },
+    /// A rate that is not that of the column of time.
+    #[error(
+        "--rate is {given} Hz but column `{column}` holds {found:.6} samples per second; leave out --rate, or give the column another name in the header if it is no time in seconds"
+    )]
+    Contradicted {
+        /// The rate given, Hz.
+        given: f64,
+        /// The column of time.
+        column: String,
+        /// The rate by it, Hz.
+        found: f64,
+    },
+    /// A delay between channels that no recorder has.
+    #[error(
+        "{flag} is {delay} s but must be at most one period of the oscillation at {frequency:.1} Hz, {period:.3e} s; give the delay in seconds, or shift the channels by whole samples before"
+    )]
+    TooLate {
+        /// The option.
+        flag: &'static str,
+        /// The delay, s.
+        delay: f64,
+        /// The strongest oscillation, Hz.
+        frequency: f64,
+        /// Its period, s.
+        period: f64,
+    },
     /// Too few samples.
     #[error("the record has {samples} sample(s) but at least {least} are needed{because}; record longer")]
     TooShort {
@@ -156,6 +196,22 @@ pub enum Fault {
         /// How often.
         runs: u64,
         /// When first, s from the start of the record.
+        time: f64,
+    },
+    /// Values that no vibration has.
+    #[error(
+        "column `{column}` ({words}) holds {count} value(s) far outside all around them (first {value} at {time} s), as a dropout or a logger's mark for a missing value; cut the record before or after them, or replace them by the mean of their neighbours"
+    )]
+    Outliers {
+        /// The column.
+        column: String,
+        /// The quantity.
+        words: &'static str,
+        /// The first of them.
+        value: f64,
+        /// How many samples.
+        count: u64,
+        /// When first, s.
         time: f64,
     },
     /// A friction coefficient that no brake has.

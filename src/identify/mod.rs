@@ -3,9 +3,9 @@
 //! | stage | file |
 //! |---|---|
 //! | columns, CSV → rows | `channel.rs`, `settings.rs`, `read.rs` |
-//! | is the file fit for analysis: gaps, clipping, swapped columns | `survey.rs`, `pace.rs`, `range.rs`, `fault.rs` |
+//! | is the file fit for analysis: gaps, outliers, clipping, swapped columns | `survey.rs`, `pace.rs`, `range.rs`, `outlier.rs`, `fault.rs` |
 //! | windows: frequency, growth, cross-spectra | `window.rs`, `cross.rs`, `spectrum.rs` |
-//! | episodes of growth; one mode fitted to the samples of each | `runs.rs`, `episode.rs`, `spans.rs`, `sharpen.rs`, `mode.rs` |
+//! | episodes of growth; one mode fitted to the samples of each | `runs.rs`, `episode.rs`, `spans.rs`, `sharpen.rs`, `mode.rs`, `shape.rs`, `course.rs` |
 //! | friction power and its parts | `feedback.rs` |
 //! | which mechanism alone would destabilise | `attribution.rs` |
 //! | verdict, confidence, reasons | `verdict.rs`, `reading.rs`, `overview.rs`, `conclude.rs` |
@@ -20,6 +20,7 @@ mod analysis;
 mod attribution;
 mod channel;
 mod conclude;
+mod course;
 mod cross;
 mod envelope;
 mod episode;
@@ -27,6 +28,7 @@ mod fault;
 mod feedback;
 mod line;
 mod mode;
+mod outlier;
 mod overview;
 mod pace;
 mod points;
@@ -35,6 +37,7 @@ mod read;
 mod reading;
 mod runs;
 mod settings;
+mod shape;
 mod sharpen;
 mod spans;
 mod spectrogram;

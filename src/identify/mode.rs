@@ -1,19 +1,20 @@
-//! One growing oscillation fitted to samples: its eigenvalue and its complex amplitude in every channel at once.
+//! One growing oscillation fitted to samples: its course and its complex amplitude in every channel at once.
 //!
-//! Every channel is `c + d τ + Re(A exp(λτ)) + e exp(2στ) + Re(C exp(2λτ))` and white noise, with one `λ = σ + iω` for
-//! all: the last two terms are what friction adds that is quadratic in the motion. For a given λ that is linear, so
-//! λ alone is iterated (Gauss and Newton, linear part projected out: Golub and Pereyra 1973), each channel weighted by
-//! its own noise. An oscillation that grows by e in five periods has nearly all it tells in its last five: no window
+//! Every channel is `c + d τ + Re(A z) + e |z|² + Re(C z²)` and white noise, with one course `z(τ)` (shape.rs; at first
+//! `exp(λτ)`) for all: the last two terms are what friction adds that is quadratic in the motion. For a given course that
+//! is linear, so its parameters alone are iterated (Gauss and Newton, linear part projected out: Golub and Pereyra 1973),
+//! each channel weighted by its own noise. An oscillation that grows by e in five periods has nearly all it tells in its last five: no window
 //! may fade them out.
 
-use nalgebra::{DMatrix, DVector, Matrix2, Vector2};
+use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
 use super::cross::{Measured, Ratio};
+use super::shape::Shape;
 
-/// Most rounds for the eigenvalue; five are usual.
-const ROUNDS: usize = 12;
-/// The eigenvalue is found when it changes by less than this part of its standard error.
+/// Most rounds for the course; five are usual.
+const ROUNDS: usize = 16;
+/// The course is found when its parameters change by less than this part of their standard errors.
 const FOUND: f64 = 1e-2;
 /// Added to the squares of columns of norm 1, so that near copies of one another do no harm.
 const RIDGE: f64 = 1e-9;
@@ -46,7 +47,9 @@ pub(super) struct Fitted {
 /// A growing oscillation as samples show it.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Mode {
-    /// Growth rate, 1/s.
+    /// The course.
+    pub(super) shape: Shape,
+    /// Growth rate of the linear motion, 1/s.
     pub(super) growth: Measured,
     /// Angular frequency, rad/s.
     pub(super) omega: f64,
@@ -57,27 +60,29 @@ pub(super) struct Mode {
 }
 
 impl Mode {
-    /// Fits channels of equal length, sampled at `rate` (Hz), from a first guess of λ (1/s); `None` where there are too
-    /// few samples or no growing oscillation is found.
-    pub(super) fn fit(channels: &[&[f64]], rate: f64, guess: Complex64) -> Option<Mode> {
+    /// Fits channels of equal length, sampled at `rate` (Hz), from a first guess of the course; `None` where there are too
+    /// few samples or no such oscillation is found.
+    pub(super) fn fit(channels: &[&[f64]], rate: f64, guess: Shape) -> Option<Mode> {
         let samples = channels.first()?.len();
         if samples < LEAST_PER_UNKNOWN * COLUMNS {
             return None;
         }
         let signals: Vec<DVector<f64>> = channels.iter().map(|q| DVector::from_column_slice(q)).collect();
-        let mut lambda = guess;
+        let mut shape = guess;
         for _ in 0..ROUNDS {
-            let (mode, step, errors) = linearised(&signals, rate, lambda)?;
-            lambda += Complex64::new(step[0], step[1]);
-            let found = step[0].abs() < FOUND * errors[0] && step[1].abs() < FOUND * errors[1];
-            if !(lambda.re > 0.0 && lambda.im > 0.0) {
-                return None;
-            }
-            if found {
+            let (mode, steps, errors) = linearised(&signals, rate, shape)?;
+            shape = shape.moved(&steps)?;
+            if steps.iter().zip(&errors).all(|(step, error)| step.abs() < FOUND * error) {
                 return Some(mode);
             }
         }
         None
+    }
+
+    /// Twice the logarithm by which the samples are more likely under `self` than under another mode of the same samples.
+    pub(super) fn likelier_than(&self, other: &Mode) -> f64 {
+        let pairs = self.channels.iter().zip(&other.channels).zip(&self.residuals);
+        pairs.map(|((own, other), left)| 2.0 * left.len() as f64 * (other.noise / own.noise).ln()).sum()
     }
 
     /// Channel `q` against channel `x`.
@@ -92,28 +97,48 @@ impl Mode {
     }
 }
 
-/// The linear part at λ, the step that improves λ, and its standard errors.
-fn linearised(signals: &[DVector<f64>], rate: f64, lambda: Complex64) -> Option<(Mode, [f64; 2], [f64; 2])> {
+/// What is linear once the course is given: one column each of the unknowns and of the parameters' effects.
+struct Columns {
+    matrix: DMatrix<f64>,
+    /// What a change of each parameter adds: `Re(A z')` and `−Im(A z')` side by side.
+    change: DMatrix<f64>,
+    norms: Vec<f64>,
+}
+
+impl Columns {
+    fn new(samples: usize, rate: f64, shape: Shape) -> Columns {
+        let length = samples as f64 / rate;
+        // At a third of the sampling rate the second harmonic looks like the oscillation itself.
+        let thirds = 3.0 * shape.omega() / std::f64::consts::TAU / rate;
+        let aliased = (thirds - 1.0).abs() * samples as f64 / 3.0 < ALIASED;
+        let count = shape.parameters().len();
+        let mut matrix = DMatrix::<f64>::zeros(samples, COLUMNS);
+        let mut change = DMatrix::<f64>::zeros(samples, 2 * count);
+        for k in 0..samples {
+            let tau = (k as f64 + 1.0 - samples as f64) / rate;
+            let point = shape.at(tau);
+            let z = point.z;
+            let twice = if aliased { Complex64::ZERO } else { z * z };
+            let row = [1.0, tau / length, z.re, -z.im, z.norm_sqr(), twice.re, -twice.im];
+            row.into_iter().enumerate().for_each(|(column, value)| matrix[(k, column)] = value);
+            for (parameter, slope) in point.slopes.iter().take(count).enumerate() {
+                let added = z * slope;
+                (change[(k, 2 * parameter)], change[(k, 2 * parameter + 1)]) = (added.re, -added.im);
+            }
+        }
+        let norms: Vec<f64> =
+            matrix.column_iter().map(|column| column.norm().max(f64::MIN_POSITIVE)).collect();
+        for (mut column, norm) in matrix.column_iter_mut().zip(&norms) {
+            column /= *norm;
+        }
+        Columns { matrix, change, norms }
+    }
+}
+
+/// The linear part of a course, the steps that improve its parameters, and their standard errors.
+fn linearised(signals: &[DVector<f64>], rate: f64, shape: Shape) -> Option<(Mode, Vec<f64>, Vec<f64>)> {
     let samples = signals.first()?.len();
-    let length = samples as f64 / rate;
-    // At a third of the sampling rate the second harmonic looks like the oscillation itself.
-    let thirds = 3.0 * lambda.im / std::f64::consts::TAU / rate;
-    let aliased = (thirds - 1.0).abs() * samples as f64 / 3.0 < ALIASED;
-    let mut matrix = DMatrix::<f64>::zeros(samples, COLUMNS);
-    // τ exp(λτ): what a change of λ adds.
-    let mut change = DMatrix::<f64>::zeros(samples, 2);
-    for k in 0..samples {
-        let tau = (k as f64 + 1.0 - samples as f64) / rate;
-        let grown = (lambda * tau).exp();
-        let twice = if aliased { Complex64::ZERO } else { grown * grown };
-        let row = [1.0, tau / length, grown.re, -grown.im, grown.norm_sqr(), twice.re, -twice.im];
-        row.into_iter().enumerate().for_each(|(column, value)| matrix[(k, column)] = value);
-        (change[(k, 0)], change[(k, 1)]) = (tau * grown.re, -tau * grown.im);
-    }
-    let norms: Vec<f64> = matrix.column_iter().map(|column| column.norm().max(f64::MIN_POSITIVE)).collect();
-    for (mut column, norm) in matrix.column_iter_mut().zip(&norms) {
-        column /= *norm;
-    }
+    let Columns { matrix, change, norms } = Columns::new(samples, rate, shape);
     let mut squares = matrix.tr_mul(&matrix);
     (0..COLUMNS).for_each(|k| squares[(k, k)] += RIDGE);
     let solver = squares.cholesky()?;
@@ -122,9 +147,11 @@ fn linearised(signals: &[DVector<f64>], rate: f64, lambda: Complex64) -> Option<
     let spread = CHOSEN * (0.5 * spread.sum::<f64>()).sqrt();
     let change = &change - &matrix * solver.solve(&matrix.tr_mul(&change));
     let inner = change.tr_mul(&change);
-    let (mut normal, mut right) = (Matrix2::<f64>::zeros(), Vector2::<f64>::zeros());
-    let mut mode =
-        Mode { growth: Measured::default(), omega: lambda.im, channels: Vec::new(), residuals: Vec::new() };
+    let count = shape.parameters().len();
+    let (mut normal, mut right) = (DMatrix::<f64>::zeros(count, count), DVector::<f64>::zeros(count));
+    let growth = Measured { value: shape.growth(), error: f64::INFINITY };
+    let (channels, residuals) = (Vec::new(), Vec::new());
+    let mut mode = Mode { shape, growth, omega: shape.omega(), channels, residuals };
     for signal in signals {
         let coefficients = solver.solve(&matrix.tr_mul(signal));
         let residual = signal - &matrix * &coefficients;
@@ -134,18 +161,23 @@ fn linearised(signals: &[DVector<f64>], rate: f64, lambda: Complex64) -> Option<
             return None;
         }
         let amplitude = Complex64::new(value(AMPLITUDE), value(AMPLITUDE + 1));
-        // Growth and frequency: Re(A τ e) and Re(iA τ e) in the two columns of `change`.
-        let turned = nalgebra::matrix![amplitude.re, -amplitude.im; amplitude.im, amplitude.re];
-        normal += turned.transpose() * &inner * turned / variance;
-        right += turned.transpose() * change.tr_mul(&residual) / variance;
+        // Re(A z') of each parameter from the two columns of it.
+        let mut taken = DMatrix::<f64>::zeros(2 * count, count);
+        for parameter in 0..count {
+            (taken[(2 * parameter, parameter)], taken[(2 * parameter + 1, parameter)]) =
+                (amplitude.re, amplitude.im);
+        }
+        normal += taken.transpose() * &inner * &taken / variance;
+        right += taken.transpose() * change.tr_mul(&residual) / variance;
         let noise = variance.sqrt();
         mode.channels.push(Fitted { amplitude, error: noise * spread, mean: value(0), noise });
         mode.residuals.push(residual);
     }
     let covariance = normal.try_inverse()?;
-    let step = covariance * right;
-    let errors = [0, 1].map(|k| CHOSEN * covariance[(k, k)].sqrt());
-    mode.growth = Measured { value: lambda.re, error: errors[0] };
-    let fine = errors.iter().chain(step.iter()).all(|x| x.is_finite());
-    fine.then_some((mode, [step[0], step[1]], errors))
+    let steps: Vec<f64> = (&covariance * right).iter().copied().collect();
+    let errors: Vec<f64> = (0..count).map(|k| CHOSEN * covariance[(k, k)].sqrt()).collect();
+    // The first parameter of all courses but powers is the growth rate.
+    mode.growth.error = errors[0];
+    let fine = errors.iter().chain(&steps).all(|x| x.is_finite());
+    fine.then_some((mode, steps, errors))
 }

@@ -29,6 +29,8 @@ pub(super) struct Table {
     record: ByteRecord,
     header: Vec<String>,
     time: Option<usize>,
+    /// Whether the column of time gives the rate; else it may contradict the one given.
+    believed: bool,
     columns: PerChannel<Option<usize>>,
 }
 
@@ -70,6 +72,9 @@ impl Table {
                     flag: channel.flag(),
                 });
             }
+            if let Some(found) = found {
+                once(&header, &header[found], channel.words(), channel.flag())?;
+            }
             *column = found;
         }
         shared(&header, &columns)?;
@@ -82,9 +87,12 @@ impl Table {
                 flag: "--time, or give the sampling rate with --rate",
             });
         }
-        // A rate that is given is believed; the column of time is then not looked at.
-        let time = time.filter(|_| timed && settings.rate.is_none());
-        Ok(Table { reader, record: ByteRecord::new(), header, time, columns })
+        let time = time.filter(|_| timed);
+        let believed = settings.rate.is_none();
+        if let Some(found) = time.filter(|_| believed) {
+            once(&header, &header[found], "time", "--time")?;
+        }
+        Ok(Table { reader, record: ByteRecord::new(), header, time, believed, columns })
     }
 
     /// The next row; `None` at the end of the file.
@@ -106,7 +114,9 @@ impl Table {
                 *value = self.number(column, line)?;
             }
         }
-        let time = self.time.map(|column| self.number(column, line)).transpose()?;
+        let time = self.time.map(|column| self.number(column, line));
+        // Beside a given rate any text may stand for the time.
+        let time = if self.believed { time.transpose()? } else { time.and_then(Result::ok) };
         Ok(Some(Row { line, time, values }))
     }
 
@@ -150,6 +160,12 @@ fn separator(start: &[u8]) -> u8 {
 
 fn find(header: &[String], name: &str) -> Option<usize> {
     header.iter().position(|column| column == name)
+}
+
+/// Refuses a column whose name stands more than once in the header.
+fn once(header: &[String], name: &str, words: &'static str, flag: &'static str) -> Result<(), Fault> {
+    let count = header.iter().filter(|column| *column == name).count();
+    if count > 1 { Err(Fault::Ambiguous { words, name: name.to_owned(), count, flag }) } else { Ok(()) }
 }
 
 fn listed(header: &[String]) -> String {

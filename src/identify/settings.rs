@@ -22,13 +22,13 @@ pub const LARGEST_FRICTION: f64 = 1.0;
 pub struct Settings {
     /// The column of time (s); `None`: `t` where the file has it, unless a rate is given.
     pub time: Option<String>,
-    /// Samples per second (Hz) of a file without time.
+    /// Samples per second (Hz); where the file has a column of time, that must not contradict it.
     pub rate: Option<f64>,
     /// The columns in the order of [`Channel::ALL`]; `None`: the default name, if the file has it.
     pub columns: [Option<String>; Channel::ALL.len()],
-    /// Delay of the normal acceleration behind the tangential one, s, which is taken out.
+    /// Delay of the normal acceleration behind the tangential one, s, which is taken out; at most one period.
     pub skew: f64,
-    /// Delay of the forces behind the tangential acceleration, s, which is taken out.
+    /// Delay of the forces behind the tangential acceleration, s, which is taken out; at most one period.
     pub force_skew: f64,
     /// Largest damping ratio of the structure without friction.
     pub damping_ratio: f64,

@@ -6,16 +6,16 @@
 
 use std::f64::consts::TAU;
 
-use num_complex::Complex64;
-
+use super::cross::Measured;
 use super::mode::Mode;
+use super::shape::Shape;
 
 /// From this many e-foldings before the end that windows have found, the end is looked for …
 const BEFORE: f64 = 1.5;
 /// … to this many after it.
 pub(super) const AFTER: f64 = 1.0;
 /// E-foldings that are fitted: what lies before is below 1.2 % of the amplitude.
-const LENGTH: f64 = 4.5;
+pub(super) const LENGTH: f64 = 4.5;
 /// Fewest periods of a fit.
 const LEAST_PERIODS: f64 = 5.0;
 /// Most samples of a fit.
@@ -48,16 +48,26 @@ pub(super) struct Span {
 
 impl Span {
     /// The mode of a part of the samples.
-    fn fit(&self, [start, end]: [usize; 2], guess: Complex64) -> Option<Mode> {
+    pub(super) fn fit(&self, [start, end]: [usize; 2], guess: Shape) -> Option<Mode> {
         let channels: Vec<&[f64]> = self.channels.iter().map(|channel| &channel[start..end]).collect();
         Mode::fit(&channels, self.rate, guess)
     }
 }
 
-/// The mode up to the end of its linear growth and the samples of the span that it was fitted to, from what windows say
-/// of growth (1/s) and frequency (Hz); `None` where nothing fits.
+/// What all samples of a growth tell.
+pub(super) struct Sharpened {
+    /// The exponential that fits.
+    pub(super) mode: Mode,
+    /// Growth rate of the linear motion, 1/s.
+    pub(super) linear: Measured,
+    /// The sample of the span at which the exponential ends.
+    pub(super) end: usize,
+}
+
+/// The mode up to the end of its linear growth, from what windows say of growth (1/s) and frequency (Hz); `None` where
+/// nothing fits.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive numbers of samples")]
-pub(super) fn sharpen(span: &Span, growth: f64, frequency: f64) -> Option<(Mode, [usize; 2])> {
+pub(super) fn sharpen(span: &Span, growth: f64, frequency: f64) -> Option<Sharpened> {
     let fold = span.rate / growth;
     let period = span.rate / frequency;
     let all = span.channels.first()?.len();
@@ -68,7 +78,7 @@ pub(super) fn sharpen(span: &Span, growth: f64, frequency: f64) -> Option<(Mode,
     // Slow growth has many periods per e-folding: the end is looked for in strides first.
     let fine = (period / STEPS).max(fold / PER_FOLD);
     let mut stride = if fine > period / STEPS { STRIDE } else { 1 };
-    let mut guess = Complex64::new(growth, TAU * frequency);
+    let mut guess = Shape::Exponential([growth, TAU * frequency]);
     let mut noise: Option<Vec<f64>> = None;
     let mut fitted = Vec::new();
     let (mut number, mut limit) = (0_u32, u32::MAX);
@@ -82,7 +92,7 @@ pub(super) fn sharpen(span: &Span, growth: f64, frequency: f64) -> Option<(Mode,
             let noise =
                 noise.get_or_insert_with(|| mode.channels.iter().map(|channel| channel.noise).collect());
             if fits(&mode, noise, period) {
-                guess = Complex64::new(mode.growth.value, mode.omega);
+                guess = mode.shape;
                 fitted.push((mode, part));
                 if fitted.len() > BACK + 1 {
                     fitted.remove(0);
@@ -101,10 +111,15 @@ pub(super) fn sharpen(span: &Span, growth: f64, frequency: f64) -> Option<(Mode,
         }
     }
     let found = fitted.into_iter().next();
-    found.filter(|(mode, _)| {
-        let same_growth = (1.0 / SAME_GROWTH..SAME_GROWTH).contains(&(mode.growth.value / growth));
-        same_growth && (mode.omega / (TAU * frequency) - 1.0).abs() < SAME_FREQUENCY
-    })
+    let (mode, part) = found?;
+    let alike = |a: f64, b: f64| (1.0 / SAME_GROWTH..SAME_GROWTH).contains(&(a / b));
+    let same =
+        alike(mode.growth.value, growth) && (mode.omega / (TAU * frequency) - 1.0).abs() < SAME_FREQUENCY;
+    // Saturation begins before it is seen: only with it are growth rate and error those of the linear motion.
+    let saturating = span.fit(part, Shape::saturating(mode.growth.value, mode.omega));
+    let linear = saturating.map(|saturating| saturating.growth);
+    let linear = linear.filter(|linear| alike(linear.value, mode.growth.value)).unwrap_or(mode.growth);
+    same.then_some(Sharpened { mode, linear, end: part[1] })
 }
 
 /// Whether the last period is as close to the mode as the noise lets it be.

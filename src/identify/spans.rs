@@ -1,15 +1,15 @@
 //! The third reading of a file: the samples of its episodes, and what a fit to them tells.
 
 use super::channel::Channel;
+use super::course::course;
 use super::cross::Ratio;
 use super::episode::{Episode, Recorded};
 use super::fault::Fault;
 use super::feedback::{Feedback, Skews};
-use super::mode::Mode;
 use super::read::Table;
 use super::settings::Settings;
-use super::sharpen::{AFTER, MOST, Span, sharpen};
-use super::verdict::{Setting, judge};
+use super::sharpen::{AFTER, MOST, Sharpened, Span, sharpen};
+use super::verdict::{Setting, Verdict, judge};
 use super::window::Geometry;
 
 /// The channels of a fit; the tangential acceleration is the first.
@@ -99,14 +99,44 @@ impl Known<'_> {
         let [first, seen, _] = open.samples;
         let end = usize::try_from(seen - first).unwrap_or(usize::MAX);
         let span = Span { channels: open.channels, rate: self.rate, end };
-        if let Some((mode, part)) = sharpen(&span, episode.growth.value, episode.frequency) {
-            let end = self.start + (first as f64 + part[1] as f64) / self.rate;
-            self.replace(episode, &mode, end);
+        let (growth, frequency) = (episode.growth.value, episode.frequency);
+        let sharp = sharpen(&span, growth, frequency);
+        let whole = course(&span, span.end, growth, frequency);
+        // Windows may see a little more than the linear growth: that alone must not decide.
+        let alone = |sharp: &Sharpened| course(&span, sharp.end, growth, frequency).driven.is_some();
+        let driven = whole.driven.filter(|_| sharp.as_ref().is_none_or(alone));
+        if let Some(reason) = driven {
+            episode.verdict = Verdict::undecided(reason);
+            episode.wanders = true;
+        }
+        if let Some(sharp) = sharp {
+            let end = self.start + (first as f64 + sharp.end as f64) / self.rate;
+            self.replace(episode, &sharp, end);
+        } else if let Some(growth) = whole.growth {
+            // Most of what windows saw is saturated already: no exponential fits, but its beginning still shows.
+            self.judged(episode, Feedback { growth, ..episode.feedback }, episode.distortion);
         }
     }
 
+    /// Judges an episode anew by what is known better.
+    fn judged(&self, episode: &mut Episode, feedback: Feedback, distortion: f64) {
+        let setting = Setting {
+            forces: self.recorded.forces,
+            normal_acceleration: self.recorded.normal_acceleration,
+            damping_ratio: self.settings.damping_ratio,
+            distortion,
+            episode: true,
+        };
+        if !episode.wanders {
+            episode.verdict = judge(&feedback, &setting);
+        }
+        episode.growth = feedback.growth;
+        episode.feedback = feedback;
+    }
+
     /// Takes what the fit tells of an episode, which ends at `end` (s).
-    fn replace(&self, episode: &mut Episode, mode: &Mode, end: f64) {
+    fn replace(&self, episode: &mut Episode, sharp: &Sharpened, end: f64) {
+        let Sharpened { mode, linear, .. } = sharp;
         let channels = self.fitted();
         let of = |channel: Channel| channels.iter().position(|fitted| *fitted == channel);
         let ratio = |channel: Channel| of(channel).map(|q| mode.ratio(q, 0)).unwrap_or_default();
@@ -123,24 +153,13 @@ impl Known<'_> {
         let settings = self.settings;
         let skews = Skews { acceleration: settings.skew, force: settings.force_skew };
         let ratios = [ratio(Channel::NormalAcceleration), pressed, change];
-        let feedback = Feedback::from_ratios(ratios, mode.growth, mode.omega, mu, skews);
-        let setting = Setting {
-            forces: self.recorded.forces,
-            normal_acceleration: self.recorded.normal_acceleration,
-            damping_ratio: settings.damping_ratio,
-            // The fit has harmonics of its own.
-            distortion: 0.0,
-            episode: true,
-        };
-        if !episode.wanders {
-            episode.verdict = judge(&feedback, &setting);
-        }
+        let feedback = Feedback::from_ratios(ratios, *linear, mode.omega, mu, skews);
+        // The fit has harmonics of its own.
+        self.judged(episode, feedback, 0.0);
         episode.time[1] = end;
-        episode.growth = mode.growth;
         episode.gain = mode.growth.value * (end - episode.time[0]);
         episode.frequency = mode.omega / std::f64::consts::TAU;
         episode.friction = friction.or(episode.friction);
-        episode.feedback = feedback;
         episode.measured(self.recorded, normal_force);
     }
 }

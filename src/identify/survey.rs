@@ -2,6 +2,7 @@
 
 use super::channel::{Channel, PerChannel};
 use super::fault::Fault;
+use super::outlier::Watch;
 use super::pace::Pace;
 use super::range::Range;
 use super::read::Table;
@@ -20,6 +21,8 @@ const DRIFT_BINS: usize = 4;
 /// A peak of a spectrum stands out when it exceeds its noise by the logarithm of the number of bins, which the highest
 /// bin of noise alone reaches, and this much more (chance 1 in 1000).
 const STANDS_OUT: f64 = 7.0;
+/// A given rate and the column of time may differ by this part: times printed with few digits.
+const SAME_RATE: f64 = 0.01;
 /// A normal force whose standard deviation exceeds its mean does not press.
 const PRESSES: f64 = 1.0;
 /// An acceleration whose mean exceeds its standard deviation this many times is none.
@@ -61,14 +64,22 @@ impl Survey {
 pub(super) fn survey(mut table: Table, settings: &Settings) -> Result<Survey, Fault> {
     let mut pace = settings.rate.is_none().then(|| Pace::new(table.time_name()));
     let mut ranges = PerChannel::<Range>::default();
+    let mut watches = PerChannel::<Watch>::default();
     let mut spectrum = MeanSpectrum::default();
     let mut samples = 0;
+    let mut times = None::<[f64; 2]>;
     while let Some(row) = table.next()? {
         if let (Some(pace), Some(time)) = (&mut pace, row.time) {
             pace.row(row.line, time)?;
         }
+        if let Some(time) = row.time {
+            times = Some([times.map_or(time, |[first, _]| first), time]);
+        }
         for (range, value) in ranges.iter_mut().zip(row.values) {
             range.take(value);
+        }
+        for (watch, value) in watches.iter_mut().zip(row.values) {
+            watch.take(value);
         }
         spectrum.take(row.values[Channel::TangentialAcceleration as usize]);
         samples += 1;
@@ -83,8 +94,22 @@ pub(super) fn survey(mut table: Table, settings: &Settings) -> Result<Survey, Fa
     if !(rate.is_finite() && rate > 0.0) {
         return Err(Fault::NoRate { rate });
     }
+    if let Some((given, [first, last])) = settings.rate.zip(times) {
+        let found = (samples - 1) as f64 / (last - first);
+        if found.is_finite() && found > 0.0 && (found / given - 1.0).abs() > SAME_RATE {
+            return Err(Fault::Contradicted { given, column: table.time_name(), found });
+        }
+    }
     let names = Channel::ALL.map(|channel| table.name(channel));
     let has = Channel::ALL.map(|channel| table.has(channel));
+    // Outliers first: they make a channel look offset or swapped.
+    for (channel, watch) in Channel::ALL.into_iter().zip(watches) {
+        if let Some(found) = watch.finish() {
+            let (column, words) = (names[channel as usize].clone(), channel.words());
+            let time = start + found.first as f64 / rate;
+            return Err(Fault::Outliers { column, words, value: found.value, count: found.count, time });
+        }
+    }
     let mut constant = Vec::new();
     for channel in Channel::ALL.into_iter().filter(|channel| table.has(*channel)) {
         if judge(channel, &ranges[channel as usize], &names[channel as usize], rate)? {
@@ -96,7 +121,21 @@ pub(super) fn survey(mut table: Table, settings: &Settings) -> Result<Survey, Fa
     if let Some(frequency) = frequency.filter(|f| rate / f < LEAST_PER_PERIOD) {
         return Err(Fault::TooFast { frequency, samples: rate / frequency, least: LEAST_PER_PERIOD });
     }
+    if let Some(frequency) = frequency {
+        late(settings, frequency)?;
+    }
     Ok(Survey { samples, start, rate, names, has, frequency, constant })
+}
+
+/// Refuses delays longer than a period of the oscillation (Hz): over these its amplitude changes, too.
+fn late(settings: &Settings, frequency: f64) -> Result<(), Fault> {
+    let period = 1.0 / frequency;
+    for (flag, delay) in [("--skew", settings.skew), ("--force-skew", settings.force_skew)] {
+        if delay.abs() > period {
+            return Err(Fault::TooLate { flag, delay, frequency, period });
+        }
+    }
+    Ok(())
 }
 
 /// Refuses a channel that is constant, cut off or no vibration; `true` for one that may stand still, and does.

@@ -2,7 +2,6 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
-use std::f64::consts::TAU;
 use std::fmt::Write as _;
 use std::io::{Cursor, Read};
 
@@ -12,7 +11,7 @@ use squealmap::identify::{Fault, Identification, Kind, Settings, alone, identify
 use squealmap::signals::Sample;
 
 use crate::common::near;
-use crate::strokes::{FIELDS, Field, Random, Wanted, add_noise, stroke};
+use crate::strokes::{FIELDS, Field, Random, Wanted, stroke};
 
 pub(crate) fn run(bytes: &[u8], settings: &Settings) -> Result<Identification, Error> {
     let open = || Ok(Box::new(Cursor::new(bytes.to_vec())) as Box<dyn Read>);
@@ -245,52 +244,6 @@ fn noise_alone_is_no_instability_and_a_steady_tone_is_undecided() {
 }
 
 /// A record may hold more than one squeal: the second one is no echo of the first.
-/// A growth that falls off smoothly, by the normal form of Hopf: amplitude `e^{σt}/√(1 + (e^{σt}/a)²)`, forces in proportion.
-fn saturating(rate: f64, growth: f64, frequency: f64) -> Vec<Sample> {
-    const SATURATED: f64 = 1000.0;
-    let count = (0..).take_while(|k| f64::from(*k) < 14.0 / growth * rate);
-    count
-        .map(|k| {
-            let t = f64::from(k) / rate;
-            let rise = (growth * t).exp();
-            let amplitude = rise / (1.0 + (rise / SATURATED).powi(2)).sqrt();
-            let swing = |degrees: f64| (TAU * frequency * t + degrees.to_radians()).cos();
-            // The velocity lags a quarter behind the acceleration, less what it grows.
-            let lag = (TAU * frequency).atan2(growth).to_degrees();
-            let normal = 2000.0 * amplitude / growth.hypot(TAU * frequency) * swing(40.0 - lag);
-            Sample {
-                t,
-                tangential_acceleration: amplitude * swing(0.0),
-                normal_acceleration: 0.5 * amplitude * swing(-41.0),
-                tangential_force: 400.0 + 0.4 * normal,
-                normal_force: 1000.0 + normal,
-                belt_velocity: 3.0 - 0.03 * t,
-            }
-        })
-        .collect()
-}
-
-/// The kind is that of the linear growth, and so are growth and phase as far as they stand out of the noise.
-#[test]
-fn growth_that_saturates_smoothly_is_seen_at_its_beginning() {
-    let mut random = Random::new(3);
-    for (rate, growth, frequency) in [(200e3, 300.0, 9e3), (51.2e3, 60.0, 2e3)] {
-        for decibel in [60.0, 40.0, 30.0, 20.0] {
-            let mut samples = saturating(rate, growth, frequency);
-            let _ = add_noise(&mut samples, decibel, &mut random);
-            let found = run(&csv(&samples), &Settings::default()).unwrap();
-            let name = format!("{frequency} Hz, {decibel} dB");
-            assert_eq!(found.verdict.kind, Kind::ModeCoupling, "{name}: {:?}", found.verdict);
-            let episode = &found.episodes[0];
-            // An episode ends where growth falls to 0.9 of the beginning: the mean is between the two. At 20 dB two e-foldings
-            // stand out of the noise, and the growth falls all along them.
-            let off = if decibel < 25.0 { 0.25 } else { 0.1 };
-            near(&format!("growth, {name}"), episode.growth.value, growth, off * growth);
-            near(&format!("phase, {name}"), episode.phase.unwrap().value, -41.0, 2.0);
-        }
-    }
-}
-
 #[test]
 fn two_squeals_are_two_episodes() {
     let mut random = Random::new(4);

@@ -27,7 +27,9 @@ mod gallery;
 mod gallery_plots;
 mod hysteresis;
 mod identify;
+mod identify_faults;
 mod identify_files;
+mod identify_growth;
 mod instances;
 #[cfg(unix)]
 mod interrupt;

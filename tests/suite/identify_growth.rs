@@ -1,0 +1,134 @@
+//! The course of a growth: what saturates smoothly is measured at its beginning, what is driven is no instability.
+
+#![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
+
+use std::f64::consts::TAU;
+
+use squealmap::identify::{Identification, Kind, Measured, Settings};
+use squealmap::signals::Sample;
+
+use crate::common::near;
+use crate::identify::{csv, run};
+use crate::strokes::{Random, add_noise};
+
+/// An oscillation of one mode: amplitude (m/s²) over time (s), growth rate (1/s) for the phase of the velocity, forces in
+/// proportion, all of its power from the normal force.
+fn oscillation(
+    rate: f64,
+    duration: f64,
+    frequency: f64,
+    growth: f64,
+    envelope: impl Fn(f64) -> f64,
+) -> Vec<Sample> {
+    let count = (0..).take_while(|k| f64::from(*k) < duration * rate);
+    count
+        .map(|k| {
+            let t = f64::from(k) / rate;
+            let amplitude = envelope(t);
+            let swing = |degrees: f64| (TAU * frequency * t + degrees.to_radians()).cos();
+            // The velocity lags a quarter behind the acceleration, less what it grows.
+            let lag = (TAU * frequency).atan2(growth).to_degrees();
+            let normal = 2000.0 * amplitude / growth.hypot(TAU * frequency) * swing(40.0 - lag);
+            Sample {
+                t,
+                tangential_acceleration: amplitude * swing(0.0),
+                normal_acceleration: 0.5 * amplitude * swing(-41.0),
+                tangential_force: 400.0 + 0.4 * normal,
+                normal_force: 1000.0 + normal,
+                belt_velocity: 3.0 - 0.03 * t,
+            }
+        })
+        .collect()
+}
+
+/// A growth that falls off smoothly, by the normal form of Hopf: amplitude `e^{σt}/√(1 + (e^{σt}/a)²)`.
+pub(crate) fn saturating(rate: f64, growth: f64, frequency: f64) -> Vec<Sample> {
+    const SATURATED: f64 = 1000.0;
+    oscillation(rate, 14.0 / growth, frequency, growth, |t| {
+        let rise = (growth * t).exp();
+        rise / (1.0 + (rise / SATURATED).powi(2)).sqrt()
+    })
+}
+
+fn noisy(mut samples: Vec<Sample>, decibel: f64, random: &mut Random) -> Identification {
+    let _ = add_noise(&mut samples, decibel, random);
+    run(&csv(&samples), &Settings::default()).unwrap()
+}
+
+/// Deviation over stated error.
+fn deviation(measured: Measured, truth: f64) -> f64 {
+    (measured.value - truth) / measured.error
+}
+
+/// The kind is that of the linear growth; growth and phase are, too, and as uncertain as they say.
+#[test]
+fn growth_that_saturates_smoothly_is_measured_at_its_beginning() {
+    let mut random = Random::new(3);
+    for decibel in [60.0, 40.0, 30.0, 20.0] {
+        let mut growths = Vec::new();
+        for (rate, growth, frequency) in [(200e3, 300.0, 9e3), (51.2e3, 60.0, 2e3)].repeat(8) {
+            let found = noisy(saturating(rate, growth, frequency), decibel, &mut random);
+            let name = format!("{frequency} Hz, {decibel} dB");
+            // At 20 dB the growth stands out of the noise for little more than one window: some have no episode.
+            if decibel < 25.0 && found.episodes.is_empty() {
+                assert_eq!(found.verdict.kind, Kind::Undecided, "{name}: {:?}", found.verdict);
+                continue;
+            }
+            assert_eq!(found.verdict.kind, Kind::ModeCoupling, "{name}: {:?}", found.verdict);
+            let episode = &found.episodes[0];
+            near(&format!("growth, {name}"), episode.growth.value, growth, 0.1 * growth);
+            near(&format!("phase, {name}"), episode.phase.unwrap().value, -41.0, 2.0);
+            growths.push((episode.growth, growth));
+        }
+        assert!(growths.len() >= 8, "{decibel} dB: {} episodes", growths.len());
+        let squares = |off: f64| {
+            let all = growths.iter().map(|(found, truth)| deviation(*found, truth * off).powi(2));
+            (all.sum::<f64>() / growths.len() as f64).sqrt()
+        };
+        let typical = squares(1.0);
+        assert!((0.4..=1.6).contains(&typical), "{decibel} dB: growth is {typical} of its stated errors off");
+        // The judge notices a growth rate that is 7 % off.
+        assert!(squares(1.07) > 1.6, "{decibel} dB: blind to 7 %");
+    }
+}
+
+/// Amplitude over the part of the record that has passed.
+type Ramp = fn(f64) -> f64;
+
+/// A vibration that is driven harder and harder, or through a resonance, grows, but not by itself.
+#[test]
+fn what_is_driven_is_no_instability() {
+    let mut random = Random::new(5);
+    let mut named = 0;
+    for (rate, frequency, duration) in [(51.2e3, 2e3, 1.0), (51.2e3, 2e3, 0.1), (200e3, 9e3, 0.2)] {
+        let ramps: [(&str, Ramp); 5] = [
+            ("t", |part| part),
+            ("t²", |part| part * part),
+            ("t from an offset", |part| 0.05 + part),
+            ("t, then held", |part| (2.0 * part).min(1.0)),
+            ("t² from rest", |part| (1.25 * (part - 0.2)).max(0.0).powi(2)),
+        ];
+        for (name, ramp) in ramps {
+            for decibel in [60.0, 40.0, 20.0] {
+                let samples = oscillation(rate, duration, frequency, 0.0, |t| 100.0 * ramp(t / duration));
+                let verdict = noisy(samples, decibel, &mut random).verdict;
+                assert_eq!(
+                    verdict.kind,
+                    Kind::Undecided,
+                    "{name}, {frequency} Hz, {decibel} dB: {verdict:?}"
+                );
+                named += usize::from(verdict.reasons[0].contains("driven"));
+            }
+        }
+    }
+    assert!(named >= 12, "{named} named as driven");
+}
+
+#[test]
+fn an_error_shows_at_least_one_digit() {
+    let text = |value: f64, error: f64| Measured { value, error }.text(1.0, 1);
+    assert_eq!(text(1836.62, 2.31), "1836.6 ± 2.3");
+    assert_eq!(text(4.68, 0.005_146), "4.680 ± 0.005");
+    assert_eq!(text(4.68, 0.0), "4.7 ± 0.0");
+    assert_eq!(Measured { value: 1.0, error: 0.000_02 }.text(100.0, 0), "100.000 ± 0.002");
+}
