@@ -4,6 +4,8 @@
 //! analysis, 22 of the response, the settling time and the error that a check found, where asked for. An undefined number is a NaN. What no export shows, the values
 //! of the two halves of the window, is not kept.
 
+use std::borrow::Borrow;
+
 use crate::accuracy::check::{By, Check};
 use crate::classify::{InstabilityType, Regime};
 use crate::label::Label;
@@ -46,13 +48,18 @@ fn numbers_of(analysis: Analysis) -> usize {
 ///
 /// # Panics
 /// When `bytes` are not `records.len() * width(analysis)`.
-pub fn encode(records: &[Record], analysis: Analysis, bytes: &mut [u8]) {
+pub fn encode<R: Borrow<Record>>(
+    records: impl ExactSizeIterator<Item = R>,
+    analysis: Analysis,
+    bytes: &mut [u8],
+) {
     let count = records.len();
     assert_eq!(bytes.len(), count * width(analysis), "columns have their length");
     let (labels, numbers) = bytes.split_at_mut(LABELS * count);
     let place = |found: Option<usize>| code(found.map_or(0, |place| place + 1));
-    // Row by row: a record is several cache lines, and each is read once.
-    for (row, record) in records.iter().enumerate() {
+    // Row by row: a record is several cache lines, and each is read once, and given up where it is not needed any more.
+    for (row, record) in records.enumerate() {
+        let record = record.borrow();
         let label = Label::from(record);
         let codes = [
             code(record.status as usize),

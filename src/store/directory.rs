@@ -114,9 +114,9 @@ impl Store {
     ///
     /// # Errors
     /// When the disk is full, read-only or gone; the other tiles stay as they are.
-    pub fn write(&self, claim: Claim, number: usize, records: &[Record], room: &mut Room) -> Result<()> {
+    pub fn write(&self, claim: Claim, number: usize, records: Vec<Record>, room: &mut Room) -> Result<()> {
         let tile = self.description.tile(number);
-        tile.write_into(records, room.take(tile.size()));
+        tile.write_into(records.into(), room.take(tile.size()));
         claim.write_large(room).map_err(|why| self.cannot_write(number, &why))
     }
 

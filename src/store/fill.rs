@@ -78,7 +78,7 @@ fn write_all(store: &Store, receiver: Receiver<Finished>) -> Result<()> {
     let mut room = Room::default();
     receiver
         .into_iter()
-        .try_for_each(|(claim, number, records)| store.write(claim, number, &records, &mut room))
+        .try_for_each(|(claim, number, records)| store.write(claim, number, records, &mut room))
 }
 
 fn compute(

@@ -26,7 +26,7 @@ pub fn merge(target: &Store, source: &Store, note: Note) -> Result<usize> {
             Ok(Some(records)) => {
                 // Another process that has the claim writes the same.
                 if let Some(claim) = target.claim(number)? {
-                    target.write(claim, number, &records, &mut room)?;
+                    target.write(claim, number, records, &mut room)?;
                     brought += 1;
                 }
             }

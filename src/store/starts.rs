@@ -3,6 +3,8 @@
 //!
 //! A sweep of one start has its own columns and not a byte more.
 
+use std::borrow::Cow;
+
 use super::columns;
 use crate::map::Record;
 use crate::outcome::Status;
@@ -37,20 +39,25 @@ pub fn width(analysis: Analysis) -> usize {
 ///
 /// # Panics
 /// When `bytes` are not `records.len() * width(analysis)`.
-pub fn encode(records: &[Record], analysis: Analysis, bytes: &mut [u8]) {
+pub fn encode(records: Cow<[Record]>, analysis: Analysis, bytes: &mut [u8]) {
     let [small, large] = parts(analysis);
     let (own, others) = bytes.split_at_mut(records.len() * columns::width(small));
-    columns::encode(records, small, own);
     if analysis.starts == Starts::One {
+        match records {
+            Cow::Borrowed(records) => columns::encode(records.iter(), small, own),
+            Cow::Owned(records) => columns::encode(records.into_iter(), small, own),
+        }
         return;
     }
+    let records = records.as_ref();
+    columns::encode(records.iter(), small, own);
     let (flags, others) = others.split_at_mut(records.len());
     for (flag, record) in flags.iter_mut().zip(records) {
         *flag = record.bistable.map_or(0, |bistable| 1 + u8::from(bistable));
     }
     if analysis.starts == Starts::Both {
         let of_large = |record: &Record| record.large().cloned().unwrap_or(Record::NOT_COMPUTED);
-        columns::encode(&records.iter().map(of_large).collect::<Vec<_>>(), large, others);
+        columns::encode(records.iter().map(of_large), large, others);
     } else {
         for (bytes, record) in others.chunks_exact_mut(COUNTS).zip(records) {
             let Basin { equilibrium, oscillation, other, failed } = record.basin().unwrap_or_default();

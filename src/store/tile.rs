@@ -14,6 +14,7 @@
 //!
 //! All numbers are little-endian.
 
+use std::borrow::Cow;
 use std::ops::Range;
 
 use super::identity::Id;
@@ -139,7 +140,7 @@ impl Label {
     #[must_use]
     pub fn write(&self, records: &[Record]) -> Vec<u8> {
         let mut bytes = vec![0; self.size()];
-        self.write_into(records, &mut bytes);
+        self.write_into(records.into(), &mut bytes);
         bytes
     }
 
@@ -147,7 +148,7 @@ impl Label {
     ///
     /// # Panics
     /// When they are not as many as its instances, or `bytes` not as many as its [`Label::size`].
-    pub fn write_into(&self, records: &[Record], bytes: &mut [u8]) {
+    pub fn write_into(&self, records: Cow<[Record]>, bytes: &mut [u8]) {
         let (content, footer) = bytes.split_at_mut(self.size() - FOOTER);
         content[..HEADER].copy_from_slice(&self.header());
         encode(records, self.analysis, &mut content[HEADER..]);

@@ -121,7 +121,7 @@ fn the_comparison_sees_a_record_that_was_changed() {
     let mut records = old.read(3).unwrap().unwrap();
     let outcome = records[1].outcome.as_mut().unwrap();
     outcome.x2_std = outcome.x2_std.map(|value| value * (1.0 + f64::EPSILON));
-    old.write(old.claim(3).unwrap().unwrap(), 3, &records, &mut Room::default()).unwrap();
+    old.write(old.claim(3).unwrap().unwrap(), 3, records, &mut Room::default()).unwrap();
     let ended = run(directory.path(), &[&UNCHECKED[..], &["--reuse", "old"]].concat());
     assert_eq!(ended.code, Some(0), "{}", ended.err);
     let (found, wanted) = (tiles(directory.path()), tiles(whole.path()));

@@ -3,8 +3,8 @@
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
 use std::sync::atomic::AtomicBool;
-use std::time::Instant;
 
+use crate::common::close;
 use squealmap::backend::choice::{Backend, Options};
 use squealmap::backend::solver::Solver;
 use squealmap::kernel::source::Precision;
@@ -34,15 +34,13 @@ fn processor() -> f64 {
     (ticks(11) + ticks(12)) / 100.0
 }
 
-/// Processor and wall time of what is done, s.
-fn timed(work: impl FnOnce()) -> [f64; 2] {
-    let (before, began) = (processor(), Instant::now());
-    work();
-    [processor() - before, began.elapsed().as_secs_f64()]
-}
+/// Tiles computed alone and with the directory in turn: some tenths of a second of processors, of which the system's
+/// clock counts hundredths.
+const GROUP: usize = 4;
 
-/// Times of computing all tiles, and of filling a directory with them.
-fn round(spec: &Spec) -> [[f64; 2]; 2] {
+/// Processor time of computing all tiles of a sweep alone, and of filling a directory with them, s, group by group in turn:
+/// the machine, which other programs share, is as fast for the one as for the other.
+fn costs(spec: &Spec) -> Vec<[f64; 2]> {
     let precision = Some(Precision::F32);
     let options = Options { backend: Backend::Cpu, precision, ..Options::default() };
     let mut solver = Solver::new(spec, &options).unwrap();
@@ -50,21 +48,49 @@ fn round(spec: &Spec) -> [[f64; 2]; 2] {
     let description = Description::new(spec, solver.computations(), TILE);
     let store = Store::begin(directory.path(), description, &|_| {}).unwrap();
     let tiling = store.description.tiling;
-    let pure = timed(|| {
-        for number in 0..tiling.count() {
-            drop(solver.records(tiling.bounds(number), &|_| {}).unwrap());
-        }
-    });
-    let wanted: Vec<usize> = (0..tiling.count()).collect();
     let cancel = AtomicBool::new(false);
     let watch = Watch { cancel: &cancel, progress: &|_| {}, note: &|_| {} };
-    let filled = timed(|| drop(fill(&store, &mut solver, &wanted, None, watch).unwrap()));
-    assert_eq!(store.done().unwrap(), tiling.count());
-    [pure, filled]
+    let tiles: Vec<usize> = (0..tiling.count()).collect();
+    let mut costs = Vec::new();
+    for (turn, group) in tiles.chunks_exact(GROUP).enumerate() {
+        let mut cost = [0.0; 2];
+        // Neither is always the first.
+        for what in [turn % 2, 1 - turn % 2] {
+            let before = processor();
+            if what == 0 {
+                for &number in group {
+                    drop(solver.records(tiling.bounds(number), &|_| {}).unwrap());
+                }
+            } else {
+                drop(fill(&store, &mut solver, group, None, watch).unwrap());
+            }
+            cost[what] = processor() - before;
+        }
+        costs.push(cost);
+    }
+    assert_eq!(store.done().unwrap(), costs.len() * GROUP);
+    costs
 }
 
-/// Rounds in turn: other programs share the machine.
-const ROUNDS: usize = 8;
+/// What filling costs beside computing, a share of it, and its standard error from one group to the next.
+fn overhead(costs: &[[f64; 2]]) -> [f64; 2] {
+    let count = costs.len() as f64;
+    let mean = |k: usize| costs.iter().map(|cost| cost[k]).sum::<f64>() / count;
+    let ratio = mean(1) / mean(0);
+    let square = costs.iter().map(|cost| (cost[1] - ratio * cost[0]).powi(2)).sum::<f64>();
+    [ratio - 1.0, (square / (count * (count - 1.0))).sqrt() / mean(0)]
+}
+
+#[test]
+fn the_cost_of_tiles_has_its_error() {
+    let [share, error] = overhead(&[[1.0, 1.1], [2.0, 2.2], [4.0, 4.4]]);
+    close("share", share, 0.1, 1e-12);
+    assert!(error < 1e-12);
+    // Residuals of 0.1 and −0.1 around a mean of 1: 0.1 divided by the root of one degree of freedom.
+    let [share, error] = overhead(&[[1.0, 1.1], [1.0, 0.9]]);
+    assert!(share.abs() < 1e-12);
+    close("error", error, 0.1, 1e-12);
+}
 
 #[test]
 #[ignore = "takes some minutes: cargo test --release --test suite -- --ignored --nocapture tile_cost"]
@@ -72,21 +98,17 @@ fn tile_cost() {
     let response = "[start]\nkind = \"kick\"\nstart_velocity = 0.01\n[response]\nsettle = \"100 periods\"\n\
         measure = \"40 periods\"\nsteps_per_period = 4\n";
     for (name, text) in [
-        ("5e6 linear", sweep("linear", [2500, 500], "")),
-        ("5e5 response, f32, 4 steps", sweep("response", [500, 250], response)),
+        ("2e7 linear", sweep("linear", [2500, 2000], "")),
+        ("1e6 response, f32, 4 steps", sweep("response", [500, 500], response)),
     ] {
         let spec = Spec::parse(&text, "cost.toml", ".".as_ref()).unwrap();
-        let rounds: Vec<_> = (0..ROUNDS).map(|_| round(&spec)).collect();
-        for (time, which) in [(0, "processor"), (1, "wall")] {
-            let of = |work: usize| rounds.iter().map(move |round| round[work][time]);
-            let least = [0, 1].map(|work| of(work).fold(f64::INFINITY, f64::min));
-            let mean = [0, 1].map(|work| of(work).sum::<f64>() / ROUNDS as f64);
-            for (name_of, [pure, filled]) in [("least", least), ("mean", mean)] {
-                println!(
-                    "{name}, {which}, {name_of} of {ROUNDS}: {pure:.2} s, with tiles {filled:.2} s ({:+.1} %)",
-                    100.0 * (filled / pure - 1.0)
-                );
-            }
-        }
+        let costs = costs(&spec);
+        let [share, error] = overhead(&costs);
+        let alone: f64 = costs.iter().map(|cost| cost[0]).sum();
+        println!(
+            "{name}: {alone:.1} s of processors alone, with tiles {:+.1} % ± {:.1} %",
+            100.0 * share,
+            100.0 * error
+        );
     }
 }

@@ -28,7 +28,7 @@ const UNTIL_SETTLED: Analysis = Analysis { until_settled: true, ..BOTH };
 /// The columns of some records.
 fn encode(records: &[Record], analysis: Analysis) -> Vec<u8> {
     let mut bytes = vec![0; records.len() * width(analysis)];
-    squealmap::store::columns::encode(records, analysis, &mut bytes);
+    squealmap::store::columns::encode(records.iter(), analysis, &mut bytes);
     bytes
 }
 
