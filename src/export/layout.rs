@@ -4,10 +4,8 @@
 const PAGE: f64 = 652.0;
 /// ... but not flatter than this, as long as the page is no limit, ...
 const FLAT: f64 = 0.6;
-/// ... nor than this, before all else is tried, ...
-const FLATTER: f64 = 0.35;
 /// ... and never flatter than this.
-const FLATTEST: f64 = 0.25;
+const FLATTEST: f64 = 0.35;
 /// So many more columns of panels than usual are tried.
 const MORE_COLUMNS: usize = 4;
 
@@ -40,7 +38,7 @@ impl Layout {
     ) -> Layout {
         let usual = Layout { page: usual.page.min(tallest), ..usual };
         let besides: Vec<bool> = if pairs && !usual.beside { vec![false, true] } else { vec![usual.beside] };
-        let all = [FLAT, FLATTER, FLATTEST].into_iter().flat_map(|flattest| {
+        let all = [FLAT, FLATTEST].into_iter().flat_map(|flattest| {
             besides.iter().flat_map(move |beside| {
                 (0..=MORE_COLUMNS).map(move |more_columns| Layout {
                     beside: *beside,
