@@ -61,6 +61,13 @@ impl Status {
         Status::ALL.into_iter().find(|status| *status as u32 == code)
     }
 
+    /// Whether an instance ended for a reason that may lie in the arithmetic: what piles up or overflows in one may come
+    /// through in another.
+    #[must_use]
+    pub fn may_come_through(self) -> bool {
+        matches!(self, Status::EventLimit | Status::StepTooLarge | Status::NonFinite)
+    }
+
     /// The name in `map.csv`.
     #[must_use]
     pub fn name(self) -> &'static str {

@@ -38,9 +38,7 @@ fn near_regime(record: &Record) -> bool {
     let Some(outcome) = &record.outcome else { return false };
     match record.status {
         Status::Ok => {}
-        // What piles up or overflows in one arithmetic may come through in another.
-        Status::EventLimit | Status::StepTooLarge | Status::NonFinite => return true,
-        _ => return false,
+        status => return status.may_come_through(),
     }
     let counts = THRESHOLDS.state_counts;
     let fraction = [outcome.stick, outcome.free, outcome.reverse]

@@ -11,7 +11,7 @@ use super::cpu::outcomes;
 use super::{kind_of, take_response};
 use crate::kernel::source::Precision;
 use crate::map::Record;
-use crate::outcome::{Outcome, Status};
+use crate::outcome::Outcome;
 use crate::response::Plan;
 use crate::spec::{Instance, Spec};
 
@@ -27,11 +27,6 @@ pub fn note(precision: Precision) -> &'static str {
 /// Instances computed together: some to every lane.
 const TOGETHER: usize = 64;
 
-/// Whether a run ended for a reason that may lie in the arithmetic.
-fn may_come_through(status: Status) -> bool {
-    matches!(status, Status::EventLimit | Status::StepTooLarge | Status::NonFinite)
-}
-
 /// Computes those outcomes again that ended early; `None` when `cancel` is set on the way.
 #[must_use]
 pub fn outcomes_again(
@@ -40,7 +35,7 @@ pub fn outcomes_again(
     mut made: Vec<Outcome>,
     cancel: &AtomicBool,
 ) -> Option<Vec<Outcome>> {
-    let failed: Vec<usize> = (0..made.len()).filter(|index| may_come_through(made[*index].status)).collect();
+    let failed: Vec<usize> = (0..made.len()).filter(|index| made[*index].status.may_come_through()).collect();
     let few: Vec<Instance> = failed.iter().map(|index| instances[*index].clone()).collect();
     for (index, outcome) in failed.into_iter().zip(outcomes::<f64>(&few, plan, cancel)?) {
         made[index] = outcome;
@@ -53,7 +48,7 @@ pub fn outcomes_again(
 pub fn records_again(spec: &Spec, first: usize, records: &mut [Record], cancel: &AtomicBool) {
     let plan = Plan::new(spec);
     let failed: Vec<usize> = (0..records.len())
-        .filter(|index| records[*index].outcome.is_some() && may_come_through(records[*index].status))
+        .filter(|index| records[*index].outcome.is_some() && records[*index].status.may_come_through())
         .collect();
     let made: Vec<(usize, Record)> = failed
         .par_chunks(TOGETHER)
