@@ -3,7 +3,7 @@
 use std::io::Read;
 
 use super::channel::{Channel, PerChannel};
-use super::conclude::{Friction, conclude};
+use super::conclude::{Friction, Looked, conclude};
 use super::envelope::Envelope;
 use super::episode::{Episode, Recorded, swapped};
 use super::fault::Fault;
@@ -69,7 +69,8 @@ pub fn identify(
     };
     let named = |fault| Error::Signals { name: name.to_owned(), fault: Box::new(fault) };
     let survey = table().and_then(|table| survey(table, settings)).map_err(named)?;
-    let too_short = survey.too_short();
+    let (samples, too_short) = (survey.samples, survey.too_short());
+    let looked = Looked { samples, too_short, band: settings.band, outside: survey.outside };
     let (mut found, overview) =
         table().and_then(|table| analyse(table, &survey, settings, each)).map_err(named)?;
     if let Some(geometry) = survey.windows().filter(|_| !found.episodes.is_empty()) {
@@ -77,7 +78,7 @@ pub fn identify(
         let known = Known { recorded: recorded(&survey), settings, geometry, rate, start };
         table().and_then(|table| sharpened(table, &mut found.episodes, &known)).map_err(named)?;
     }
-    found.verdict = conclude(&overview, &found.episodes, too_short, found.samples);
+    found.verdict = conclude(&overview, &found.episodes, &looked);
     Ok(found)
 }
 

@@ -30,15 +30,28 @@ pub struct Friction {
     pub velocity: [f64; 2],
 }
 
+/// Where an oscillation was looked for.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Looked {
+    /// Samples of the record.
+    pub(super) samples: u64,
+    /// Whether there is an oscillation, but not one window of it.
+    pub(super) too_short: bool,
+    /// The frequencies asked for, Hz; `None`: all.
+    pub(super) band: Option<[f64; 2]>,
+    /// The strongest oscillation of the record where these do not hold it, Hz.
+    pub(super) outside: Option<f64>,
+}
+
 /// The verdict on a record.
-pub(super) fn conclude(overview: &Overview, episodes: &[Episode], too_short: bool, samples: u64) -> Verdict {
-    if too_short {
+pub(super) fn conclude(overview: &Overview, episodes: &[Episode], looked: &Looked) -> Verdict {
+    if looked.too_short {
         return Verdict::undecided(
             "the record holds fewer than 12 periods of its oscillation; record longer, or look above it with --band",
         );
     }
     match episodes {
-        [] => without_growth(overview, samples),
+        [] => without_growth(overview, looked),
         episodes => together(episodes),
     }
 }
@@ -71,7 +84,7 @@ fn together(episodes: &[Episode]) -> Verdict {
 }
 
 /// No oscillation grows: there is none, it decays, or it has been there from the start.
-fn without_growth(overview: &Overview, samples: u64) -> Verdict {
+fn without_growth(overview: &Overview, looked: &Looked) -> Verdict {
     let stable = |confidence: f64, reason: String| Verdict {
         kind: if confidence >= super::verdict::CONFIDENT { Kind::NoInstability } else { Kind::Undecided },
         confidence,
@@ -79,12 +92,18 @@ fn without_growth(overview: &Overview, samples: u64) -> Verdict {
         reasons: vec![reason],
     };
     if overview.loud == 0 {
-        return if samples < LEAST_QUIET {
-            Verdict::undecided(format!(
-                "no oscillation stands out of the noise, but in {samples} samples one may hide; record longer"
-            ))
-        } else {
-            stable(QUIET_CONFIDENCE, "no oscillation stands out of the noise".to_owned())
+        let Looked { samples, band, outside, .. } = *looked;
+        let between =
+            band.map_or(String::new(), |[low, high]| format!(" between {low} and {high} Hz (--band)"));
+        let nothing = format!("no oscillation{between} stands out of the noise");
+        return match outside {
+            Some(frequency) => Verdict::undecided(format!(
+                "{nothing}; the strongest one of the record, at {frequency:.1} Hz, was not looked at: widen --band"
+            )),
+            None if samples < LEAST_QUIET => {
+                Verdict::undecided(format!("{nothing}, but in {samples} samples one may hide; record longer"))
+            }
+            None => stable(QUIET_CONFIDENCE, nothing),
         };
     }
     let [power, start, frequency] = overview.loudest;

@@ -50,7 +50,7 @@ pub enum Fault {
     },
     /// A row with another number of fields than the header.
     #[error(
-        "line {line}: the row has {fields} field(s) but the header has {columns}; give one field per column"
+        "line {line}: the row has {fields} field(s) but the header has {columns}; give one field per column{because}"
     )]
     Ragged {
         /// Line, from 1.
@@ -59,12 +59,26 @@ pub enum Fault {
         fields: usize,
         /// Those of the header.
         columns: usize,
+        /// What it looks like, with a leading semicolon, or nothing.
+        because: &'static str,
     },
     /// An empty field, NaN, infinity or text.
     #[error(
         "line {line}: column `{column}` holds `{text}`, which is no finite number; cut the record before or after it"
     )]
     NotANumber {
+        /// Line, from 1.
+        line: u64,
+        /// The column.
+        column: String,
+        /// What stands there.
+        text: String,
+    },
+    /// Decimal points and decimal commas in one file, or commas between thousands.
+    #[error(
+        "line {line}: column `{column}` holds `{text}`, but of points and commas the file has both before decimals; write all numbers with a decimal point and without marks between thousands"
+    )]
+    TwoMarks {
         /// Line, from 1.
         line: u64,
         /// The column.

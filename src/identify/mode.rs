@@ -13,9 +13,13 @@ use super::cross::{Measured, Ratio};
 use super::shape::Shape;
 
 /// Most rounds for the course; five are usual.
-const ROUNDS: usize = 16;
+const ROUNDS: usize = 24;
 /// The course is found when its parameters change by less than this part of their standard errors.
 const FOUND: f64 = 1e-2;
+/// Most halvings of a step.
+const HALVINGS: i32 = 5;
+/// A step may lose this much of twice the logarithm of the likelihood, by rounding.
+const SAME: f64 = 1e-3;
 /// Added to the squares of columns of norm 1, so that near copies of one another do no harm.
 const RIDGE: f64 = 1e-9;
 /// Periods over the fit by which the second harmonic must miss the oscillation as sampled.
@@ -63,20 +67,26 @@ impl Mode {
     /// Fits channels of equal length, sampled at `rate` (Hz), from a first guess of the course; `None` where there are too
     /// few samples or no such oscillation is found.
     pub(super) fn fit(channels: &[&[f64]], rate: f64, guess: Shape) -> Option<Mode> {
-        let samples = channels.first()?.len();
-        if samples < LEAST_PER_UNKNOWN * COLUMNS {
-            return None;
-        }
-        let signals: Vec<DVector<f64>> = channels.iter().map(|q| DVector::from_column_slice(q)).collect();
-        let mut shape = guess;
+        let signals = vectors(channels)?;
+        let mut best = linearised(&signals, rate, guess)?;
         for _ in 0..ROUNDS {
-            let (mode, steps, errors) = linearised(&signals, rate, shape)?;
-            shape = shape.moved(&steps)?;
-            if steps.iter().zip(&errors).all(|(step, error)| step.abs() < FOUND * error) {
-                return Some(mode);
+            let (mode, steps, errors) = &best;
+            if steps.iter().zip(errors).all(|(step, error)| step.abs() < FOUND * error) {
+                return Some(best.0);
             }
+            // Shorter steps where the whole one leads away from what is likely.
+            best = (0..HALVINGS).find_map(|halved| {
+                let steps: Vec<f64> = steps.iter().map(|step| step * 0.5_f64.powi(halved)).collect();
+                let next = linearised(&signals, rate, mode.shape.moved(&steps)?)?;
+                (next.0.likelier_than(mode) > -SAME).then_some(next)
+            })?;
         }
         None
+    }
+
+    /// The same of a given course.
+    pub(super) fn held(channels: &[&[f64]], rate: f64, shape: Shape) -> Option<Mode> {
+        linearised(&vectors(channels)?, rate, shape).map(|(mode, ..)| mode)
     }
 
     /// Twice the logarithm by which the samples are more likely under `self` than under another mode of the same samples.
@@ -95,6 +105,12 @@ impl Mode {
             |of: Fitted| of.amplitude.norm_sqr() / (of.amplitude.norm_sqr() + 2.0 * of.error * of.error);
         Ratio { value, error, unexplained: 0.0, coherence: share(q) * share(x) }
     }
+}
+
+/// Channels as vectors; `None` where there are too few samples.
+fn vectors(channels: &[&[f64]]) -> Option<Vec<DVector<f64>>> {
+    let enough = channels.first()?.len() >= LEAST_PER_UNKNOWN * COLUMNS;
+    enough.then(|| channels.iter().map(|q| DVector::from_column_slice(q)).collect())
 }
 
 /// What is linear once the course is given: one column each of the unknowns and of the parameters' effects.

@@ -31,7 +31,17 @@ pub(super) struct Table {
     time: Option<usize>,
     /// Whether the column of time gives the rate; else it may contradict the one given.
     believed: bool,
+    /// Whether a comma is what separates the fields.
+    by_commas: bool,
+    marks: Marks,
     columns: PerChannel<Option<usize>>,
+}
+
+/// The marks before the decimals that the file has shown so far.
+#[derive(Clone, Copy, Debug, Default)]
+struct Marks {
+    point: bool,
+    comma: bool,
 }
 
 impl Table {
@@ -92,7 +102,9 @@ impl Table {
         if let Some(found) = time.filter(|_| believed) {
             once(&header, &header[found], "time", "--time")?;
         }
-        Ok(Table { reader, record: ByteRecord::new(), header, time, believed, columns })
+        let by_commas = separator == b',';
+        let (record, marks) = (ByteRecord::new(), Marks::default());
+        Ok(Table { reader, record, header, time, believed, by_commas, marks, columns })
     }
 
     /// The next row; `None` at the end of the file.
@@ -106,7 +118,14 @@ impl Table {
         }
         let line = self.record.position().map_or(0, csv::Position::line);
         if self.record.len() != self.header.len() {
-            return Err(Fault::Ragged { line, fields: self.record.len(), columns: self.header.len() });
+            let (fields, columns) = (self.record.len(), self.header.len());
+            // `0,5,1,25` under `t,a`.
+            let because = if self.by_commas && fields > columns {
+                "; where these are decimal commas, separate the fields with semicolons or tabs"
+            } else {
+                ""
+            };
+            return Err(Fault::Ragged { line, fields, columns, because });
         }
         let mut values = PerChannel::default();
         for (value, column) in values.iter_mut().zip(self.columns) {
@@ -120,17 +139,24 @@ impl Table {
         Ok(Some(Row { line, time, values }))
     }
 
-    fn number(&self, column: usize, line: u64) -> Result<f64, Fault> {
+    /// A finite number with a point or a comma before its decimals; one file has one of the two.
+    fn number(&mut self, column: usize, line: u64) -> Result<f64, Fault> {
         let field = &self.record[column];
         let text = std::str::from_utf8(field).unwrap_or_default();
-        match text.parse::<f64>() {
-            Ok(value) if value.is_finite() => Ok(value),
-            _ => Err(Fault::NotANumber {
-                line,
-                column: self.header[column].clone(),
-                text: String::from_utf8_lossy(field).into_owned(),
-            }),
+        // Commas that separate fields are none of a field.
+        let comma = text.contains(',');
+        let value = if comma { text.replacen(',', ".", 1).parse() } else { text.parse::<f64>() };
+        let name = || self.header[column].clone();
+        let Some(value) = value.ok().filter(|value| value.is_finite()) else {
+            let text = String::from_utf8_lossy(field).into_owned();
+            return Err(Fault::NotANumber { line, column: name(), text });
+        };
+        self.marks.comma |= comma;
+        self.marks.point |= !comma && text.contains('.');
+        if self.marks.comma && self.marks.point {
+            return Err(Fault::TwoMarks { line, column: name(), text: text.to_owned() });
         }
+        Ok(value)
     }
 
     /// Whether the file has the channel.

@@ -5,13 +5,12 @@
 //! ```text
 //! exponential   exp(λτ)                                                   the beginning of an instability
 //! saturating    exp(λτ) (1 + κ(e^{2στ} − 1))^{−(1 + iη/κ)/2}              and its end: dz/dt = λz − c|z|²z (Stuart, Landau)
-//! power         (1 + τ/T)^p exp(iωτ), 0 before τ = −T                     driven harder and harder: p = 1, 2
-//! bell          exp(λτ − sτ²/2)                                           driven through a resonance
+//! power         (1 + κστ)^{1/κ} exp(iωτ), 0 where 1 + κστ < 0             driven harder and harder
 //! ```
 //!
 //! κ is the part of the growth that saturation has taken away at the end, η the same of the frequency. The growth rate of
 //! an exponential is the same at all times, that of a saturating one falls with the square of its amplitude, at its end;
-//! those of a power and of a bell fall from the beginning.
+//! that of a power falls from the beginning.
 
 use num_complex::Complex64;
 
@@ -22,10 +21,8 @@ pub(super) enum Shape {
     Exponential([f64; 2]),
     /// σ, ω, κ, η.
     Saturating([f64; 4]),
-    /// ω, T, and the exponent p, which is not fitted.
-    Power([f64; 2], f64),
-    /// σ at the end, ω, s.
-    Bell([f64; 3]),
+    /// σ at the end, ω, κ.
+    Power([f64; 3]),
 }
 
 /// `z` and the derivatives of `ln z` by the parameters, at one time.
@@ -43,9 +40,9 @@ impl Shape {
     /// The parameters that are fitted.
     pub(super) fn parameters(&self) -> &[f64] {
         match self {
-            Shape::Exponential(of) | Shape::Power(of, _) => of,
+            Shape::Exponential(of) => of,
+            Shape::Power(of) => of,
             Shape::Saturating(of) => of,
-            Shape::Bell(of) => of,
         }
     }
 
@@ -60,11 +57,8 @@ impl Shape {
                 let (growth, kappa) = (within(growth, growth + a), below_one(kappa, kappa + c));
                 Shape::Saturating([growth, omega + b, kappa, eta + d])
             }
-            (Shape::Power([omega, length], exponent), [a, b]) => {
-                Shape::Power([omega + a, within(length, length + b)], exponent)
-            }
-            (Shape::Bell([growth, omega, narrow]), [a, b, c]) => {
-                Shape::Bell([growth + a, omega + b, narrow + c])
+            (Shape::Power([growth, omega, kappa]), [a, b, c]) => {
+                Shape::Power([within(growth, growth + a), omega + b, kappa + c.clamp(-0.25, 0.25)])
             }
             _ => return None,
         };
@@ -72,13 +66,35 @@ impl Shape {
         (!decays && moved.omega() > 0.0).then_some(moved)
     }
 
-    /// Growth rate (1/s) of the linear motion; of a power and a bell that at the end.
+    /// Growth rate (1/s) of the linear motion; of a power that at the end.
     pub(super) fn growth(&self) -> f64 {
         match self {
             Shape::Exponential([growth, ..])
             | Shape::Saturating([growth, ..])
-            | Shape::Bell([growth, ..]) => *growth,
-            Shape::Power([_, length], exponent) => exponent / length,
+            | Shape::Power([growth, ..]) => *growth,
+        }
+    }
+
+    /// Growth rate (1/s) at `tau` (s).
+    pub(super) fn rate(&self, tau: f64) -> f64 {
+        match self {
+            Shape::Saturating([growth, _, kappa, _]) => {
+                growth * (1.0 - kappa) / (1.0 + kappa * (2.0 * growth * tau).exp_m1())
+            }
+            Shape::Power([growth, _, kappa]) => growth / (1.0 + kappa * growth * tau),
+            Shape::Exponential([growth, _]) => *growth,
+        }
+    }
+
+    /// What may be an instability, as a fit that ends at `tau` (s) sees it.
+    pub(super) fn seen_from(self, tau: f64) -> Shape {
+        match self {
+            Shape::Saturating([growth, omega, kappa, eta]) => {
+                let lost = (2.0 * growth * tau).exp_m1();
+                let part = (1.0 + lost) / (1.0 + kappa * lost);
+                Shape::Saturating([growth, omega, kappa * part, eta * part])
+            }
+            other => other,
         }
     }
 
@@ -86,8 +102,7 @@ impl Shape {
         match self {
             Shape::Exponential([_, omega])
             | Shape::Saturating([_, omega, ..])
-            | Shape::Power([omega, _], _)
-            | Shape::Bell([_, omega, _]) => *omega,
+            | Shape::Power([_, omega, _]) => *omega,
         }
     }
 
@@ -109,17 +124,14 @@ impl Shape {
                     [tau + c * by_growth, i_tau, -0.5 * log + c * by_kappa, Complex64::new(0.0, -0.5 * log)];
                 (Complex64::new(growth, omega) * tau + c * log).exp()
             }
-            Shape::Power([omega, length], exponent) => {
-                let part = 1.0 + tau / length;
+            Shape::Power([growth, omega, kappa]) => {
+                let part = 1.0 + kappa * growth * tau;
                 if part <= 0.0 {
                     return Point { z: Complex64::ZERO, slopes };
                 }
-                slopes[..2].copy_from_slice(&[i_tau, (-exponent * tau / (length * length * part)).into()]);
-                part.powf(exponent) * Complex64::cis(omega * tau)
-            }
-            Shape::Bell([growth, omega, narrow]) => {
-                slopes[..3].copy_from_slice(&[tau.into(), i_tau, (-0.5 * tau * tau).into()]);
-                Complex64::new(growth * tau - 0.5 * narrow * tau * tau, omega * tau).exp()
+                let [log, by_kappa] = logarithm(kappa, growth * tau);
+                slopes[..3].copy_from_slice(&[(tau / part).into(), i_tau, by_kappa.into()]);
+                Complex64::new(log, omega * tau).exp()
             }
         };
         Point { z, slopes }

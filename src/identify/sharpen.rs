@@ -34,6 +34,8 @@ const MODEL: f64 = 0.004;
 const LARGE: f64 = 4.0;
 /// The fit and the windows see the same growth within this factor …
 const SAME_GROWTH: f64 = 2.0;
+/// Standard errors by which the growth rate must exceed 0.
+const CLEARLY: f64 = 3.0;
 /// … and the same frequency within this part.
 const SAME_FREQUENCY: f64 = 0.05;
 
@@ -48,9 +50,17 @@ pub(super) struct Span {
 
 impl Span {
     /// The mode of a part of the samples.
-    pub(super) fn fit(&self, [start, end]: [usize; 2], guess: Shape) -> Option<Mode> {
-        let channels: Vec<&[f64]> = self.channels.iter().map(|channel| &channel[start..end]).collect();
-        Mode::fit(&channels, self.rate, guess)
+    pub(super) fn fit(&self, part: [usize; 2], guess: Shape) -> Option<Mode> {
+        Mode::fit(&self.part(part), self.rate, guess)
+    }
+
+    /// The mode of a part of the samples with this very course.
+    pub(super) fn held(&self, part: [usize; 2], shape: Shape) -> Option<Mode> {
+        Mode::held(&self.part(part), self.rate, shape)
+    }
+
+    fn part(&self, [start, end]: [usize; 2]) -> Vec<&[f64]> {
+        self.channels.iter().map(|channel| &channel[start..end]).collect()
     }
 }
 
@@ -119,7 +129,8 @@ pub(super) fn sharpen(span: &Span, growth: f64, frequency: f64) -> Option<Sharpe
     let saturating = span.fit(part, Shape::saturating(mode.growth.value, mode.omega));
     let linear = saturating.map(|saturating| saturating.growth);
     let linear = linear.filter(|linear| alike(linear.value, mode.growth.value)).unwrap_or(mode.growth);
-    same.then_some(Sharpened { mode, linear, end: part[1] })
+    let clear = linear.value > CLEARLY * linear.error;
+    (same && clear).then_some(Sharpened { mode, linear, end: part[1] })
 }
 
 /// Whether the last period is as close to the mode as the noise lets it be.

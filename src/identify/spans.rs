@@ -20,6 +20,9 @@ const FITTED: [Channel; 4] = [
     Channel::NormalForce,
 ];
 
+/// E-foldings by which linear growth tells whether it is driven.
+const ENOUGH: f64 = 1.5;
+
 /// What the other readings know of the record.
 pub(super) struct Known<'a> {
     pub(super) recorded: Recorded,
@@ -102,8 +105,11 @@ impl Known<'_> {
         let (growth, frequency) = (episode.growth.value, episode.frequency);
         let sharp = sharpen(&span, growth, frequency);
         let whole = course(&span, span.end, growth, frequency);
-        // Windows may see a little more than the linear growth: that alone must not decide.
-        let alone = |sharp: &Sharpened| course(&span, sharp.end, growth, frequency).driven.is_some();
+        // Windows may see a little more than the linear growth: that alone must not decide, where enough is linear.
+        let alone = |sharp: &Sharpened| {
+            let gain = sharp.linear.value * sharp.end as f64 / self.rate;
+            gain < ENOUGH || course(&span, sharp.end, growth, frequency).driven.is_some()
+        };
         let driven = whole.driven.filter(|_| sharp.as_ref().is_none_or(alone));
         if let Some(reason) = driven {
             episode.verdict = Verdict::undecided(reason);

@@ -40,6 +40,8 @@ pub(super) struct Survey {
     pub(super) has: PerChannel<bool>,
     /// The strongest oscillation of the tangential acceleration, Hz; `None`: none stands out of the noise.
     pub(super) frequency: Option<f64>,
+    /// The strongest oscillation of all frequencies, Hz, where a band is given that does not hold it.
+    pub(super) outside: Option<f64>,
     /// Velocity and temperature that stand still.
     pub(super) constant: Vec<Channel>,
 }
@@ -118,13 +120,16 @@ pub(super) fn survey(mut table: Table, settings: &Settings) -> Result<Survey, Fa
     }
     forces(&table, &ranges, settings)?;
     let frequency = spectrum.peak(rate, settings.band);
+    let strongest = settings.band.and_then(|band| spectrum.peak(rate, None).map(|found| (band, found)));
+    let outside =
+        strongest.filter(|([low, high], found)| !(low..=high).contains(&found)).map(|(_, found)| found);
     if let Some(frequency) = frequency.filter(|f| rate / f < LEAST_PER_PERIOD) {
         return Err(Fault::TooFast { frequency, samples: rate / frequency, least: LEAST_PER_PERIOD });
     }
     if let Some(frequency) = frequency {
         late(settings, frequency)?;
     }
-    Ok(Survey { samples, start, rate, names, has, frequency, constant })
+    Ok(Survey { samples, start, rate, names, has, frequency, outside, constant })
 }
 
 /// Refuses delays longer than a period of the oscillation (Hz): over these its amplitude changes, too.
@@ -219,9 +224,9 @@ impl MeanSpectrum {
     }
 
     /// The frequency of the highest bin inside the band, Hz; `None` when it does not stand out.
-    fn peak(mut self, rate: f64, band: Option<[f64; 2]>) -> Option<f64> {
+    fn peak(&mut self, rate: f64, band: Option<[f64; 2]>) -> Option<f64> {
         let mut length = SEGMENT;
-        if self.sum.is_empty() {
+        if self.spectra.is_none() {
             // A record shorter than a segment: no taper, as a growing oscillation is strongest at its end.
             length = self.waiting.len();
             Spectra::new(vec![1.0; length]).power(&self.waiting, &mut self.sum);

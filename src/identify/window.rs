@@ -131,7 +131,7 @@ impl Analyser {
             let floor = noise_floor(&self.power, bin);
             distortion = distortion.max(harmonics(&self.power, bin, floor));
         }
-        let (sums, growth) = self.blocks(frequency, noise.map(|power| power * shorter));
+        let (sums, growth, frequency) = self.blocks(frequency, noise.map(|power| power * shorter));
         Window {
             time: [start, start + self.geometry.window as f64 / self.rate],
             friction,
@@ -174,12 +174,15 @@ impl Analyser {
         (bin, harmonics(&self.power, bin, floor), floor)
     }
 
-    /// Complex amplitudes of every block at `frequency`, and the growth rate of their magnitude.
-    fn blocks(&self, frequency: f64, noise: [f64; 4]) -> (Sums, Measured) {
+    /// Complex amplitudes of every block at `frequency` (Hz), the growth rate of their magnitude, and the frequency again
+    /// (Hz), from the phase that they gain: the peak of a spectrum is biased by up to 0.02 bins, 0.2 %.
+    fn blocks(&self, frequency: f64, noise: [f64; 4]) -> (Sums, Measured, f64) {
         let Geometry { block, block_hop, .. } = self.geometry;
         let turn = Complex64::cis(-TAU * frequency / self.rate);
         let mut sums = Sums::default();
         let mut amplitudes = [(0.0, 0.0); BLOCKS];
+        let (mut before, mut gained) = (Complex64::ZERO, Complex64::ZERO);
+        let hop = block_hop as f64 / self.rate;
         for (number, amplitude) in amplitudes.iter_mut().enumerate() {
             let from = number * block_hop;
             let mut totals = [Complex64::ZERO; 5];
@@ -192,10 +195,13 @@ impl Analyser {
                 phasor *= turn;
             }
             sums.block(totals, noise);
+            gained += totals[0] * before.conj();
+            before = totals[0];
             let middle = (from as f64 + 0.5 * block as f64) / self.rate;
             *amplitude = (middle, totals[0].norm_sqr());
         }
-        (sums, growth(&amplitudes, noise[0]))
+        let ahead = (gained * Complex64::cis(-TAU * frequency * hop)).arg() / (TAU * hop);
+        (sums, growth(&amplitudes, noise[0]), frequency + ahead)
     }
 }
 

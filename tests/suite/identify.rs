@@ -11,7 +11,7 @@ use squealmap::identify::{Fault, Identification, Kind, Settings, alone, identify
 use squealmap::signals::Sample;
 
 use crate::common::near;
-use crate::strokes::{FIELDS, Field, Random, Wanted, stroke};
+use crate::strokes::{FIELDS, Field, Random, Wanted, add_noise, stroke};
 
 pub(crate) fn run(bytes: &[u8], settings: &Settings) -> Result<Identification, Error> {
     let open = || Ok(Box::new(Cursor::new(bytes.to_vec())) as Box<dyn Read>);
@@ -120,7 +120,10 @@ fn broken_files_are_named_and_not_analysed() {
             "{found}"
         );
     }
-    assert!(matches!(fault(&with(50, "0,1")), Fault::Ragged { line: 51, fields: 2, columns: 6 }));
+    assert!(matches!(
+        fault(&with(50, "0,1")),
+        Fault::Ragged { line: 51, fields: 2, columns: 6, because: "" }
+    ));
     let mut cut = lines.clone();
     cut.drain(60..63);
     let found = fault(cut.join("\n").as_bytes());
@@ -184,6 +187,57 @@ fn a_constant_velocity_is_remarked_and_analysed() {
         "{:?}",
         found.notes
     );
+}
+
+/// A comma before the decimals is read as one where it can be told from what separates the fields.
+#[test]
+fn decimal_commas_are_read_or_named() {
+    let table = text(&clean());
+    let points = run(table.as_bytes(), &Settings::default()).unwrap();
+    let commas = run(table.replace(',', ";").replace('.', ",").as_bytes(), &Settings::default()).unwrap();
+    assert_eq!(commas.verdict, points.verdict);
+    assert_eq!(commas.episodes, points.episodes);
+    // Both in one file, or both in one number, are not guessed at.
+    let mixed = table.replace(',', ";").replacen("0.", "0,", 20_000);
+    let found = fault(mixed.as_bytes());
+    assert!(matches!(&found, Fault::TwoMarks { text, .. } if text.contains('.')), "{found}");
+    let (header, _) = table.split_once('\n').unwrap();
+    let thousands = format!("{}\n0,0;1.234,5;0;1;1;3\n", header.replace(',', ";"));
+    assert!(matches!(fault(thousands.as_bytes()), Fault::NotANumber { line: 2, .. }));
+    // Commas for both: fields that the header has no names for.
+    let doubled = format!("{header}\n0,0,0,5,0,25,1,5,2,5,3,0\n");
+    let found = fault(doubled.as_bytes()).to_string();
+    assert!(found.contains("decimal commas") && found.contains("12 field(s)"), "{found}");
+}
+
+/// A band beside the squeal does not make a record free of it.
+#[test]
+fn a_band_without_the_oscillation_is_named() {
+    let samples = clean();
+    let squeal = run(&csv(&samples), &Settings::default()).unwrap().frequency.unwrap();
+    let looked = |samples: &[Sample], band: [f64; 2]| {
+        run(&csv(samples), &Settings { band: Some(band), ..Settings::default() }).unwrap().verdict
+    };
+    let inside = looked(&samples, [0.8 * squeal, 1.2 * squeal]);
+    assert_eq!(inside.kind, Kind::ModeCoupling);
+    // Noise in which nothing is seen at other frequencies.
+    let mut random = Random::new(11);
+    let mut noisy = samples.clone();
+    let _ = add_noise(&mut noisy, 40.0, &mut random);
+    let beside = looked(&noisy, [0.3 * squeal, 0.4 * squeal]);
+    assert_eq!(beside.kind, Kind::Undecided, "{beside:?}");
+    let reason = &beside.reasons[0];
+    assert!(reason.contains("--band") && reason.contains(&format!("{squeal:.0}")[..3]), "{reason}");
+    for sample in &mut noisy {
+        for field in FIELDS {
+            *field(sample) = random.normal();
+        }
+        sample.normal_force += 1000.0;
+        sample.tangential_force += 400.0;
+    }
+    let quiet = looked(&noisy, [0.3 * squeal, 0.4 * squeal]);
+    assert_eq!(quiet.kind, Kind::NoInstability, "{quiet:?}");
+    assert!(quiet.reasons[0].contains(&format!("{} and {} Hz", 0.3 * squeal, 0.4 * squeal)), "{quiet:?}");
 }
 
 #[test]
