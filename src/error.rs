@@ -659,6 +659,14 @@ pub enum Error {
         /// What is wrong with it.
         why: String,
     },
+    /// What is to be drawn is no directory.
+    #[error("`{}` {why}; give `plot` the output directory of a command", path.display())]
+    NoDirectoryToPlot {
+        /// The path.
+        path: PathBuf,
+        /// What it is instead.
+        why: &'static str,
+    },
     /// A directory without a figure.
     #[error(
         "there is nothing to draw in `{}`: looked for {wanted}; give `plot` the output directory of one of these commands",
@@ -884,6 +892,7 @@ impl Error {
             | Error::Fit { .. }
             | Error::Archive { .. }
             | Error::NothingToPlot { .. }
+            | Error::NoDirectoryToPlot { .. }
             | Error::OnlyOfMaps { .. }
             | Error::TooNarrow { .. }
             | Error::TooTall { .. }

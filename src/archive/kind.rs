@@ -113,6 +113,10 @@ impl Kind {
             None => held.first().copied(),
         };
         found.ok_or_else(|| {
+            if !directory.is_dir() {
+                let why = if directory.exists() { "is no directory" } else { "does not exist" };
+                return Error::NoDirectoryToPlot { path: directory.to_owned(), why };
+            }
             let wanted = asked.map_or(Kind::ALL.to_vec(), |kind| vec![kind]);
             let look_for = |kind: Kind| format!("{} for `{}`", kind.files().join(" and "), kind.name());
             let wanted: Vec<String> = wanted.into_iter().map(look_for).collect();

@@ -31,6 +31,14 @@ pub struct NumberColumn {
     pub values: Vec<Option<f64>>,
 }
 
+impl NumberColumn {
+    /// Whether its values are angles in degrees, of which −180 and 180 are one.
+    #[must_use]
+    pub fn is_angle(&self) -> bool {
+        self.unit == "deg"
+    }
+}
+
 /// A map read back.
 #[derive(Clone, Debug)]
 pub struct Archive {

@@ -18,6 +18,11 @@ pub(super) fn read(folder: Folder<'_>) -> Result<(Trace, Heading)> {
     let document = folder.json(FILES[1])?;
     let heading = heading(&document).map_err(|why| folder.bad(FILES[1], why))?;
     let rows = rows(&table).map_err(|why| folder.bad(FILES[0], why))?;
+    // A table that was cut short at the end of a line looks whole; directories of before have no number of rows.
+    if let Some(all) = document["rows"].as_u64().filter(|all| *all != rows.len() as u64) {
+        let why = format!("has {} rows, but `{}` says {all}", rows.len(), FILES[1]);
+        return Err(folder.bad(FILES[0], why));
+    }
     let response_frequency = document["response_frequency"].as_f64();
     Ok((Trace { rows, outcome: Outcome { response_frequency, ..Outcome::default() } }, heading))
 }

@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use squealmap::export::heading::Heading;
+use squealmap::export::hysteresis as export;
 use squealmap::export::look::Look;
-use squealmap::export::{hysteresis as export, png};
 use squealmap::grid::spaced;
 use squealmap::hysteresis::{Direction, Hysteresis};
 use squealmap::model::{Param, Section};
@@ -13,7 +13,7 @@ use squealmap::spec::Spec;
 use squealmap::{Error, Result};
 
 use crate::cli::output::{Output, list};
-use crate::cli::print;
+use crate::cli::{png_of, print};
 
 /// What is written.
 const FILES: [&str; 4] = ["hysteresis.csv", "hysteresis.json", "hysteresis.png", "hysteresis.svg"];
@@ -83,7 +83,7 @@ pub(crate) fn execute(spec: &Spec, directory: PathBuf, at: &str, range: &Range, 
     let files = [
         (FILES[0], export::hysteresis_csv(spec, &found)?),
         (FILES[1], export::document(&found, &heading)?),
-        (FILES[2], png::render(&svg)?),
+        (FILES[2], png_of(&svg)?),
         (FILES[3], svg.into_bytes()),
     ];
     let paths = output.write(&files)?;

@@ -9,14 +9,13 @@ use clap::Args;
 use squealmap::Result;
 use squealmap::export::identify::{self as export, Shown, WindowsCsv};
 use squealmap::export::look::Look;
-use squealmap::export::png;
 use squealmap::export::spectrogram::spectrogram_nc;
 use squealmap::identify::{
     DAMPING_RATIO, Identification, LARGEST_FRICTION, OVERLAP, Settings, WINDOW, identify,
 };
 
 use crate::cli::output::{Output, list};
-use crate::cli::print;
+use crate::cli::{png_of, print};
 
 /// What is written.
 const FILES: [&str; 6] =
@@ -96,7 +95,7 @@ impl Identify {
         let files = [
             (FILES[0], shown.document()?),
             (FILES[1], export::report_json(&found, &name)?),
-            (FILES[2], png::render(&svg)?),
+            (FILES[2], png_of(&svg)?),
             (FILES[3], svg.into_bytes()),
             (FILES[4], spectrogram_nc(&found.spectrogram, &heading)),
         ];

@@ -15,6 +15,7 @@ mod modes;
 mod output;
 mod paper;
 mod plot;
+mod plot_beside;
 mod plot_map;
 mod progress;
 mod refine;
@@ -131,6 +132,26 @@ fn print(text: &str) {
 }
 
 /// A remark beside the result, on standard error.
+/// The PNG of a figure of a command, with a note where its font lacks a character.
+fn png_of(svg: &str) -> Result<Vec<u8>> {
+    tell_missing(svg)?;
+    squealmap::export::png::render(svg)
+}
+
+/// Says which characters of a figure its font lacks.
+fn tell_missing(svg: &str) -> Result<()> {
+    let missing = squealmap::export::glyphs::missing(svg)?;
+    let shown: Vec<String> = missing.iter().map(|c| format!("`{c}` (U+{:04X})", u32::from(*c))).collect();
+    if !shown.is_empty() {
+        note(&format!(
+            "the font of the figures, Liberation Sans, has no {}: boxes stand there in PNG and PDF; write the title or name \
+             without it",
+            shown.join(", ")
+        ));
+    }
+    Ok(())
+}
+
 fn note(text: &str) {
     let _ = writeln!(std::io::stderr().lock(), "{text}");
 }

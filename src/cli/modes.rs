@@ -3,11 +3,11 @@
 use clap::Args;
 use squealmap::Result;
 use squealmap::export::look::Look;
-use squealmap::export::{modes, png};
+use squealmap::export::modes;
 use squealmap::spec::Spec;
 
 use crate::cli::output::{Output, list};
-use crate::cli::{Files, print};
+use crate::cli::{Files, png_of, print};
 
 /// What is written.
 const FILES: [&str; 4] = ["modes.csv", "modes.json", "modes.png", "modes.svg"];
@@ -28,7 +28,7 @@ impl Modes {
         let files = [
             (FILES[0], modes::table(&spec, &found)?),
             (FILES[1], modes::document(&spec, &found)?),
-            (FILES[2], png::render(&svg)?),
+            (FILES[2], png_of(&svg)?),
             (FILES[3], svg.into_bytes()),
         ];
         print(&list(&output.write(&files)?));

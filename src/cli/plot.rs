@@ -13,7 +13,7 @@ use squealmap::{Error, Result};
 use crate::cli::identify::number;
 use crate::cli::output::{Output, list};
 use crate::cli::plot_map::OfMaps;
-use crate::cli::{note, print};
+use crate::cli::{note, plot_beside, print, tell_missing};
 
 /// What is written of every figure.
 const FILES: [&str; 3] = ["plot.pdf", "plot.png", "plot.svg"];
@@ -42,7 +42,7 @@ pub(crate) struct Plot {
     #[arg(long, value_parser = journals(), conflicts_with = "width")]
     journal: Option<Journal>,
     /// Width of the figure, 60mm to 400mm; some figures need more than 60mm for their words
-    #[arg(long, value_name = "MM", value_parser = width)]
+    #[arg(long, value_name = "MM", allow_hyphen_values = true, value_parser = width)]
     width: Option<f64>,
     /// What stands above the figure instead of the title of the sweep; "" for nothing
     #[arg(long, value_name = "TEXT")]
@@ -83,10 +83,16 @@ impl Plot {
         look.check_height(&svg, if picture.map().is_some() { OF_A_MAP } else { OF_OTHERS })?;
         let output = Output::prepare(self.output.clone().unwrap_or_else(|| self.directory.clone()), &names)?;
         let title = look.title(picture.title());
+        let beside =
+            picture.map().map_or(Vec::new(), |_| plot_beside::stale(output.directory(), FILES[2], &names));
+        let directory = output.directory().to_owned();
+        let svg = plot_beside::with_tables(svg, &files);
+        tell_missing(&svg)?;
         files.push((FILES[0], pdf::render(&svg, title, &provenance)?));
         files.push((FILES[1], png::render_described(&svg, title, &provenance)?));
         files.push((FILES[2], svg.into_bytes()));
         print(&list(&output.write(&files)?));
+        plot_beside::remove(&directory, &beside);
         self.tell_others(kind);
         Ok(())
     }

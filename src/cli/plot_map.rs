@@ -3,15 +3,19 @@
 use clap::Args;
 use squealmap::archive::{Archive, NumberColumn};
 use squealmap::export::boundary_lines::boundary_lines;
-use squealmap::export::cut::{Cut, cut_csv, cut_svg};
+use squealmap::export::columns::Cell;
+use squealmap::export::cut::{Cut, cut_csv, cut_svg, left_out};
 use squealmap::export::figure;
 use squealmap::export::isolines::{isoline_table, round_levels};
 use squealmap::export::look::{Content, Look};
 use squealmap::export::palette::Colouring;
 use squealmap::export::tikz::map_tikz;
+use squealmap::grid::{Grid, Value};
+use squealmap::spec::Starts;
 use squealmap::{Error, Result};
 
 use crate::cli::identify::finite;
+use crate::cli::note;
 
 /// The lines between classes.
 const BOUNDARIES: &str = "boundaries.csv";
@@ -21,6 +25,12 @@ const ISOLINES: &str = "isolines.csv";
 const TIKZ: &str = "plot.tex";
 /// The curves of a cut.
 const CUT: &str = "cut.csv";
+
+/// The regime from the large start of two.
+const LARGE_REGIME: &str = "regime_large";
+
+/// All tables that stand beside maps.
+pub(crate) const TABLES: [&str; 4] = [BOUNDARIES, ISOLINES, TIKZ, CUT];
 
 /// Short names of quantities and their columns.
 const ALIASES: [(&str, &str); 4] = [
@@ -138,7 +148,12 @@ impl OfMaps {
             }
         }
         if self.lines().is_some() {
-            tables.push((ISOLINES, isoline_table(&archive.map, &quantities)?));
+            let table = isoline_table(&archive.map, &quantities)?;
+            // A sweep of one axis has levels across its curves.
+            if has_planes(archive) {
+                tell_without_lines(&table, &quantities);
+            }
+            tables.push((ISOLINES, table));
         }
         let look = Look { contents, ..look };
         if self.tikz {
@@ -154,7 +169,9 @@ impl OfMaps {
             (Content::Quantity { column, .. }, Some(most)) => Ok(round_levels(column, usize::from(most))),
             (Content::Quantity { .. }, None) => Ok(self.isolines.clone()),
             // What is shown without being named.
-            (Content::Basin | Content::LargeRegime, _) => Ok(Vec::new()),
+            (Content::Basin, _) => Ok(Vec::new()),
+            (Content::LargeRegime, _) if self.quantity.is_empty() => Ok(Vec::new()),
+            (Content::LargeRegime, _) => Err(Error::NoIsolines { option, name: LARGE_REGIME.to_owned() }),
             (Content::Classes { colouring, .. }, _) => {
                 Err(Error::NoIsolines { option, name: colouring.name().to_owned() })
             }
@@ -167,6 +184,10 @@ impl OfMaps {
         let cut = Cut::new(&spec.grid, at)?;
         let mut quantities: Vec<&NumberColumn> = Vec::new();
         for name in &self.quantity {
+            if is_class(archive, name) {
+                let why = format!("curves are of numbers, which `{name}` is not; leave it out, or --cut");
+                return Err(Error::Cut { cut: at.to_owned(), why });
+            }
             quantities.push(column(archive, name).ok_or_else(|| unknown(archive, name, false))?);
         }
         if quantities.is_empty() {
@@ -175,9 +196,85 @@ impl OfMaps {
         if quantities.is_empty() {
             return Err(unknown(archive, OF_A_CUT[0], false));
         }
+        for (some, all, what) in left_out(&cut, look) {
+            note(&format!(
+                "the figure shows {some} of {all} {what}, {CUT} has all; name more axes or values in --cut to choose them, such as \
+                 {}",
+                example(&cut)
+            ));
+        }
         let table = cut_csv(&archive.map, &cut, &quantities)?;
         Ok((cut_svg(&archive.map, &cut, &quantities, look), vec![(CUT, table)]))
     }
+}
+
+/// A further axis with a value of it, as --cut takes them.
+fn example(cut: &Cut) -> String {
+    let panel = cut.panels.first();
+    let beyond = panel.and_then(|panel| panel.of.first());
+    let of_curve = panel.and_then(|panel| panel.curves.first()?.of.as_ref());
+    beyond.or(of_curve).map_or_else(String::new, |(key, value)| match value {
+        Value::Number(number) => format!("{}={number}", key.name()),
+        Value::Text(text) => format!("{}={text}", key.name()),
+    })
+}
+
+/// A number in a sentence: four digits, and powers of ten for large ones.
+fn shown(x: f64) -> String {
+    Cell::from(format!("{x:.3e}").parse().unwrap_or(x)).to_string()
+}
+
+/// Says at which values that were asked for no line is.
+fn tell_without_lines(table: &[u8], quantities: &[(&NumberColumn, &[f64])]) {
+    let table = String::from_utf8_lossy(table);
+    for (column, levels) in quantities {
+        let there = |level: f64| {
+            table.lines().any(|line| {
+                let mut cells = line.split(',').skip(1);
+                let of = cells.next() == Some(column.name.as_str());
+                of && cells.next().and_then(|cell| cell.parse::<f64>().ok()) == Some(level)
+            })
+        };
+        // −180° and 180° are one line.
+        let there = |level: f64| {
+            there(level)
+                || (column.is_angle() && there(-level) && level.abs().to_bits() == 180.0_f64.to_bits())
+        };
+        let without: Vec<String> =
+            levels.iter().filter(|level| !there(**level)).map(|level| shown(*level)).collect();
+        let (low, high) = column
+            .values
+            .iter()
+            .flatten()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(*x), high.max(*x)));
+        if !without.is_empty() {
+            note(&format!(
+                "`{}` has no line at {}; its values go from {} to {}",
+                column.name,
+                without.join(", "),
+                shown(low),
+                shown(high)
+            ));
+        }
+    }
+}
+
+/// Whether a map has two axes, on which lines can lie.
+fn has_planes(archive: &Archive) -> bool {
+    let Grid::Axes(axes) = &archive.map.spec.grid else { return false };
+    axes.iter().filter(|axis| axis.values.len() > 1).count() > 1
+}
+
+/// Whether a name is that of classes.
+fn is_class(archive: &Archive, name: &str) -> bool {
+    let spec = &archive.map.spec;
+    Colouring::of(spec.analysis).any(|colouring| colouring.name() == name) || is_large_regime(archive, name)
+}
+
+/// Whether a name is that of the regime from the large start of two.
+fn is_large_regime(archive: &Archive, name: &str) -> bool {
+    let analysis = archive.map.spec.analysis;
+    analysis.response && analysis.starts == Starts::Both && name == LARGE_REGIME
 }
 
 /// What a name asks for.
@@ -185,6 +282,9 @@ fn content<'a>(archive: &'a Archive, name: &str, hatched: bool) -> Result<Conten
     let asked = archive.map.spec.analysis;
     if let Some(colouring) = Colouring::of(asked).find(|colouring| colouring.name() == name) {
         return Ok(Content::classes(colouring, hatched));
+    }
+    if is_large_regime(archive, name) {
+        return Ok(Content::LargeRegime);
     }
     column(archive, name).map(Content::quantity).ok_or_else(|| unknown(archive, name, true))
 }
@@ -199,6 +299,7 @@ fn column<'a>(archive: &'a Archive, name: &str) -> Option<&'a NumberColumn> {
 fn unknown(archive: &Archive, name: &str, classes: bool) -> Error {
     let shown = Colouring::of(archive.map.spec.analysis).filter(|_| classes);
     let mut names: Vec<&str> = shown.map(|colouring| -> &str { colouring.name() }).collect();
+    names.extend((classes && is_large_regime(archive, LARGE_REGIME)).then_some(LARGE_REGIME));
     for column in &archive.columns {
         if !names.contains(&column.name.as_str()) {
             names.push(&column.name);

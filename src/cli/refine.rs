@@ -10,7 +10,6 @@ use squealmap::backend::solver::Solver;
 use squealmap::export::boundary_lines::refined_lines;
 use squealmap::export::csv::MapCsv;
 use squealmap::export::look::{AGAIN, Look};
-use squealmap::export::png;
 use squealmap::export::refined::{document, figure};
 use squealmap::label::Label;
 use squealmap::refine::{COARSE, Refined, Settings, planes_of, refine};
@@ -27,7 +26,7 @@ use crate::cli::progress::Progress;
 use crate::cli::run::at_least_one;
 use crate::cli::signal::stop_at_signal;
 use crate::cli::summary::summary;
-use crate::cli::{Files, INTERRUPTED, note, print};
+use crate::cli::{Files, INTERRUPTED, note, png_of, print};
 
 /// How the lines were found.
 pub(crate) const DOCUMENT: &str = "refine.json";
@@ -152,7 +151,7 @@ impl Refining<'_> {
         let files = [
             (FILES[1], refined_lines(&spec, &refined)?),
             (FILES[2], document(sheet, &refined, settings)?),
-            (FILES[3], png::render(&svg)?),
+            (FILES[3], png_of(&svg)?),
             (FILES[4], svg.into_bytes()),
         ];
         let mut paths = output.write(&files)?;

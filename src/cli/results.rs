@@ -9,15 +9,14 @@ use squealmap::Result;
 use squealmap::export::csv::MapCsv;
 use squealmap::export::figure::MapFigure;
 use squealmap::export::manifest::{self, Run};
-use squealmap::export::png;
 use squealmap::label::Tally;
 use squealmap::map::Record;
 use squealmap::store::claim::Claim;
 use squealmap::store::directory::Store;
 use squealmap::store::space::MOST_ROWS;
 
-use crate::cli::note;
 use crate::cli::output::{cannot, claim};
+use crate::cli::{note, png_of};
 
 /// What is written.
 pub(crate) const FILES: [&str; 4] = ["map.csv", "manifest.json", "map.png", "map.svg"];
@@ -80,7 +79,7 @@ pub(crate) fn write(store: &Store, partial: Partial, run: &Run) -> Result<Result
     let svg = figure.svg();
     let text = manifest::manifest(sheet, &description.resolved, &tally, run)?;
     let mut files: Vec<(PathBuf, Claim)> = Vec::new();
-    for (name, bytes) in [(FILES[2], png::render(&svg)?), (FILES[3], svg.into_bytes())] {
+    for (name, bytes) in [(FILES[2], png_of(&svg)?), (FILES[3], svg.into_bytes())] {
         let mut file = claim(&path(name))?;
         fill(&mut file, &bytes).map_err(|why| cannot(&path(name), &why))?;
         files.push((path(name), file));

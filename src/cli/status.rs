@@ -26,12 +26,21 @@ pub(crate) struct StatusCommand {
 impl StatusCommand {
     pub(crate) fn execute(self) -> Result<()> {
         let text = match Store::open(&self.directory) {
-            Ok(store) => describe(&store, &Status::new(&store, self.verify)?),
+            Ok(store) => describe(&store, &Status::new(&store, self.verify)?) + self.hint(),
             Err(no_tiles @ Error::NoTiles { .. }) => self.refinement().ok_or(no_tiles)?,
             Err(why) => return Err(why),
         };
         print(&text);
         Ok(())
+    }
+
+    /// What was not looked at.
+    fn hint(&self) -> &'static str {
+        if self.verify {
+            ""
+        } else {
+            "checked    lengths of tiles alone; --verify reads them and compares their checksums\n"
+        }
     }
 
     /// How far a refinement has come; `None` where there is none.

@@ -5,7 +5,7 @@ use squealmap::backend;
 use squealmap::export::heading::Heading;
 use squealmap::export::look::Look;
 use squealmap::export::signals::signals_csv;
-use squealmap::export::{png, trace as export};
+use squealmap::export::trace as export;
 use squealmap::model::Param;
 use squealmap::outcome::Status;
 use squealmap::response::Plan;
@@ -16,7 +16,7 @@ use squealmap::{Result, linear};
 
 use crate::cli::hysteresis::{self, Range};
 use crate::cli::output::{Output, list};
-use crate::cli::{Files, print};
+use crate::cli::{Files, png_of, print};
 
 /// What is written.
 const FILES: [&str; 4] = ["trace.csv", "trace.json", "trace.png", "trace.svg"];
@@ -62,7 +62,7 @@ impl TraceCommand {
         let mut files = vec![
             (FILES[0], export::trace_csv(&trace)?),
             (FILES[1], export::document(&trace, &heading)?),
-            (FILES[2], png::render(&svg)?),
+            (FILES[2], png_of(&svg)?),
             (FILES[3], svg.into_bytes()),
         ];
         if let Some(rate) = self.rate {

@@ -7,13 +7,12 @@ use squealmap::accuracy::measure::{Measurement, Settings, measure};
 use squealmap::accuracy::row::{Row, to_csv};
 use squealmap::backend::choice::Options;
 use squealmap::export::look::Look;
-use squealmap::export::png;
 use squealmap::export::tradeoff::{self, Section};
 use squealmap::spec::Spec;
 use squealmap::{Error, Result};
 
 use crate::cli::output::{Output, list};
-use crate::cli::{frontier, note, print};
+use crate::cli::{frontier, note, png_of, print};
 
 /// What is written.
 const FILES: [&str; 4] = ["tradeoff.csv", "tradeoff.json", "tradeoff.png", "tradeoff.svg"];
@@ -123,7 +122,7 @@ impl Tradeoff {
 fn write(output: Output, spec: &Spec, stem: String, measured: Measurement) -> Result<(Done, Vec<PathBuf>)> {
     let title = if spec.title.is_empty() { "Speed against error".to_owned() } else { spec.title.clone() };
     let svg = tradeoff::figure(&spec.title, &measured.rows, &Look::default());
-    let png = png::render(&svg)?;
+    let png = png_of(&svg)?;
     let files = [
         (FILES[0], to_csv(&measured.rows)?),
         (FILES[1], tradeoff::to_json(&spec.title, &measured)?),

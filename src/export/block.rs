@@ -63,6 +63,8 @@ pub(super) struct Block<'a> {
     pub(super) layout: Layout,
     /// The number of the letter before the heading, when there are several blocks.
     pub(super) letter: Option<usize>,
+    /// What stands left of panels at least, points: those of curves and strips that stand one below the other begin together.
+    pub(super) least_left: f64,
     /// Whether the height alone is asked for: nothing is drawn into the panels.
     pub(super) measured: bool,
 }
@@ -72,9 +74,9 @@ impl Block<'_> {
     pub(super) fn draw(&self, svg: &mut Svg, x: f64, y: f64, width: f64) -> f64 {
         let panels = self.panels;
         if is_curve(self.content, panels) {
-            let room = self.layout.page / self.blocks as f64 - CURVE_AROUND;
-            let height = room.clamp(self.layout.flattest * curve_block::HEIGHT, curve_block::HEIGHT);
-            return curve_block::draw(svg, panels, (self.content, self.letter), [x, y], [width, height]);
+            let left = self.left().max(self.least_left);
+            let size = [width, self.curve_height(), left];
+            return curve_block::draw(svg, panels, (self.content, self.letter), [x, y], size);
         }
         let mut heading = Style::new(LABEL_SIZE, Anchor::Start).bold();
         let mut words = x;
@@ -164,6 +166,21 @@ impl Block<'_> {
         bottom + legend.draw(Some(svg), x + indent, bottom, width - indent) - y
     }
 
+    /// The height of the panel of a curve.
+    fn curve_height(&self) -> f64 {
+        let room = self.layout.page / self.blocks as f64 - CURVE_AROUND;
+        room.clamp(self.layout.flattest * curve_block::HEIGHT, curve_block::HEIGHT)
+    }
+
+    /// What a block of one panel without a picture takes left of it, points.
+    pub(super) fn left(&self) -> f64 {
+        if is_curve(self.content, self.panels) {
+            curve_block::left(self.content, self.panels, self.curve_height())
+        } else {
+            0.0
+        }
+    }
+
     fn title_lines(&self) -> usize {
         self.panels.all.iter().map(|panel| panel.title.len()).max().unwrap_or(0)
     }
@@ -193,7 +210,7 @@ impl Block<'_> {
                 let titles = self.title_lines() as f64 * LINE + GAP_DOWN;
                 let rows = count.div_ceil(columns).max(1) as f64;
                 let room = (self.layout.page / self.blocks as f64 - AROUND) / rows - titles;
-                room.clamp(self.layout.flattest * panel, panel).min(TALLEST)
+                room.clamp(self.layout.least_height(panel), panel).min(TALLEST)
             }
         };
         [panel, height]
@@ -201,7 +218,7 @@ impl Block<'_> {
 
     fn left_room(&self, height: f64) -> f64 {
         match &self.panels.y {
-            None => RIGHT,
+            None => self.least_left.max(RIGHT),
             Some(axis) => LABEL_SIZE + 6.0 + y_tick_room(&axis.ticks(height, Direction::Vertical, TICK_SIZE)),
         }
     }

@@ -21,9 +21,10 @@ use crate::outcome::Status;
 pub(super) const FAILED_FILL: &str = "#FFFFFF";
 /// Border lines between classes.
 const BORDER: &str = r##"fill="none" stroke="#000000" stroke-width="0.5" stroke-linejoin="round""##;
-/// The light casing and the dashes of the linear stability limit.
+/// The light line and the dashes on it of the linear stability limit: as wide as each other, so that no region beside it is
+/// hidden.
 pub(super) const LIMIT: [&str; 2] = [
-    r##"fill="none" stroke="#FFFFFF" stroke-width="1.2" stroke-linejoin="round""##,
+    r##"fill="none" stroke="#FFFFFF" stroke-width="0.75" stroke-linejoin="round""##,
     r##"fill="none" stroke="#000000" stroke-width="0.75" stroke-dasharray="2.2 1.2" stroke-linejoin="round""##,
 ];
 

@@ -1,5 +1,6 @@
 //! A quantity of a sweep with one axis of numbers: a curve along it, as a block of a map's figure.
 
+use super::cyclic;
 use super::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_count, y_tick_room};
 use super::letters;
 use super::look::Content;
@@ -8,14 +9,14 @@ use super::panels::Panels;
 use super::picture_axis::Direction;
 use super::plot::{FIRST, Plot};
 use super::quantity::Field;
-use super::scale::Scale;
+use super::scale::{Scale, Tick};
 use super::svg::{Anchor, Style, Svg};
 use super::{key, key::Sample};
 
 /// Height of the panel, points.
 pub(super) const HEIGHT: f64 = 110.0;
-/// Right of the panel, points.
-const RIGHT: f64 = 8.0;
+/// Right of the panel, as of strips, points.
+const RIGHT: f64 = 6.0;
 /// Margin above and below the curve, as a fraction of the panel.
 const HEADROOM: f64 = 0.08;
 /// A line at a level that was asked for.
@@ -28,28 +29,49 @@ pub(super) fn is_curve(content: Content<'_>, panels: &Panels) -> bool {
     numbers && along && panels.y.is_none() && panels.scatter.is_none() && panels.all.len() == 1
 }
 
-/// Draws it with the upper left corner at `[x, y]`, in a width and with a panel of this height; returns the height of the
-/// block.
+/// The points of a curve, positions along its axis and values, and the scale of the values.
+fn curve(field: &Field<'_>, panels: &Panels) -> (Vec<(f64, f64)>, Scale) {
+    let value = |place: usize| field.value(place).unwrap_or(f64::NAN);
+    let places = panels.all[0].cells.clone().enumerate();
+    let points: Vec<(f64, f64)> =
+        places.map(|(cell, place)| (panels.x.between(cell as f64), value(place))).collect();
+    let drawn = if field.is_angle() { cyclic::parted(&points) } else { points };
+    let scale = Scale::spanning(drawn.iter().map(|(_, value)| *value)).widened(HEADROOM);
+    (drawn, scale)
+}
+
+/// The ticks of the values.
+fn ticks(field: &Field<'_>, scale: &Scale, height: f64) -> Vec<Tick> {
+    let quarters = if field.is_angle() { cyclic::ticks(scale) } else { None };
+    quarters.unwrap_or_else(|| scale.ticks(y_tick_count(height)))
+}
+
+/// What stands left of a panel of this height, points.
+pub(super) fn left(content: Content<'_>, panels: &Panels, height: f64) -> f64 {
+    Field::of(content, panels).map_or(0.0, |field| {
+        let (_, scale) = curve(&field, panels);
+        LABEL_SIZE + 6.0 + y_tick_room(&ticks(&field, &scale, height))
+    })
+}
+
+/// Draws it with the upper left corner at `[x, y]`, in a width, with a panel of this height and `left` points before it;
+/// returns the height of the block.
 pub(super) fn draw(
     svg: &mut Svg,
     panels: &Panels,
     (content, letter): (Content<'_>, Option<usize>),
     [x, y]: [f64; 2],
-    [width, height]: [f64; 2],
+    [width, height, left]: [f64; 3],
 ) -> f64 {
     let Some(field) = Field::of(content, panels) else { return 0.0 };
     let places = panels.all[0].cells.clone();
-    let value = |place: usize| field.value(place).unwrap_or(f64::NAN);
-    let along: Vec<(f64, f64)> = places
-        .clone()
+    let (along, scale) = curve(&field, panels);
+    let doubtful: Vec<(f64, f64)> = places
         .enumerate()
-        .map(|(cell, place)| (panels.x.between(cell as f64), value(place)))
+        .filter(|(_, place)| field.is_doubtful(*place))
+        .map(|(cell, place)| (panels.x.between(cell as f64), field.value(place).unwrap_or(f64::NAN)))
         .collect();
-    let doubtful: Vec<(f64, f64)> =
-        places.zip(&along).filter(|(place, _)| field.is_doubtful(*place)).map(|(_, point)| *point).collect();
-    let scale = Scale::spanning(along.iter().map(|(_, value)| *value)).widened(HEADROOM);
-    let ticks = scale.ticks(y_tick_count(height));
-    let left = LABEL_SIZE + 6.0 + y_tick_room(&ticks);
+    let ticks = ticks(&field, &scale, height);
     let mut top = y;
     if !doubtful.is_empty() {
         let entry = ("not settled".into(), Sample::Mark(MARK, UNSETTLED));

@@ -8,7 +8,8 @@ use crate::error::{Error, Result};
 use crate::grid::{Axis, AxisKey, Grid, Value};
 use crate::map::Map;
 
-pub use super::cut_figure::cut_svg;
+use super::cut_figure::MOST_CURVES;
+pub use super::cut_figure::{cut_svg, left_out};
 
 /// Two values are the same where they differ by no more than this part of them: rounding of a step times an index.
 const SAME: f64 = 1e-9;
@@ -51,7 +52,8 @@ impl Cut {
     /// has panels.
     ///
     /// # Errors
-    /// When the grid has no such axis or value, or no axis of numbers is left.
+    /// When the grid has no such axis or value, no axis of numbers is left, or more values of an axis are named than a
+    /// panel can show curves.
     pub fn new(grid: &Grid, at: &str) -> Result<Cut> {
         let refused = |why: String| Error::Cut { cut: at.to_owned(), why };
         let Grid::Axes(axes) = grid else {
@@ -77,6 +79,13 @@ impl Cut {
         })?;
         // What was asked for by several values is to be compared: it has the curves.
         let several = (0..axes.len()).filter(|i| asked[*i].len() > 1);
+        if let Some(i) = several.clone().next().filter(|i| asked[*i].len() > MOST_CURVES) {
+            let (name, many) = (axes[i].key.name(), asked[i].len());
+            return Err(refused(format!(
+                "{many} values of `{name}` are named, but a panel shows {MOST_CURVES} curves; leave some out, or draw several \
+                 figures with -o"
+            )));
+        }
         let others: Vec<usize> = several.chain(free.into_iter().filter(|i| *i != along)).collect();
         let (curves, beyond) = (others.first().copied(), others.get(1..).unwrap_or_default());
         let one = |i: usize| if let [index] = asked[i][..] { Some(setting(axes, i, index)) } else { None };

@@ -1,6 +1,7 @@
 //! The figure of a cut: a row of panels for each quantity, a curve for each value of the further axis.
 
-use super::cut::{Cut, CutPanel};
+use super::cut::{Curve, Cut, CutPanel};
+use super::cyclic;
 use super::figure::{DOUBLE_COLUMN, MARGIN, SINGLE_COLUMN};
 use super::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_count, y_tick_room};
 use super::heading::Heading;
@@ -19,6 +20,8 @@ use super::words;
 use crate::archive::NumberColumn;
 use crate::map::Map;
 
+/// The axis of positions.
+const POSITION: Scale = Scale::Linear { low: 0.0, high: 1.0 };
 /// Height of a panel, points.
 const HEIGHT: f64 = 110.0;
 /// Between panels that stand one below the other, points.
@@ -35,8 +38,10 @@ const LINE: f64 = 10.0;
 const MOST_PANELS: usize = 4;
 /// Panels are no narrower than this, points.
 const NARROWEST: f64 = 90.0;
+/// So many curves of a panel can be told apart.
+pub(super) const MOST_CURVES: usize = 6;
 /// Curves that differ in colour, in lightness and in their dashes; of more values an even selection is shown.
-const STROKES: [&str; 6] = [
+const STROKES: [&str; MOST_CURVES] = [
     FIRST,
     SECOND,
     THIRD,
@@ -55,21 +60,43 @@ pub fn cut_svg(map: &Map, cut: &Cut, quantities: &[&NumberColumn], look: &Look<'
     look.fitted(name, panels, |part| draw(map, cut, quantities, look, part * HEIGHT))
 }
 
+/// Of what a cut has more than its figure shows: how many are shown, of how many, and what they are. The table has all.
+#[must_use]
+pub fn left_out(cut: &Cut, look: &Look<'_>) -> Vec<(usize, usize, &'static str)> {
+    let curves = cut.panels.first().map_or(0, |panel| panel.curves.len());
+    let all = [(most_panels(page(cut, look)), cut.panels.len(), "panels"), (MOST_CURVES, curves, "curves")];
+    all.into_iter().filter(|(some, all, _)| some < all).collect()
+}
+
+/// The width of the page, points.
+fn page(cut: &Cut, look: &Look<'_>) -> f64 {
+    look.points().unwrap_or(if cut.panels.len() > 1 { DOUBLE_COLUMN } else { SINGLE_COLUMN })
+}
+
+/// How many panels stand side by side on a page of this width.
+fn most_panels(page: f64) -> usize {
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive count")]
+    let fit = ((page - 2.0 * MARGIN) / NARROWEST).max(1.0) as usize;
+    MOST_PANELS.min(fit)
+}
+
 /// The picture and its size, with panels of this height.
 fn draw(map: &Map, cut: &Cut, quantities: &[&NumberColumn], look: &Look<'_>, height: f64) -> (Svg, [f64; 2]) {
-    let usual = if cut.panels.len() > 1 { DOUBLE_COLUMN } else { SINGLE_COLUMN };
-    let page = look.points().unwrap_or(usual);
+    let page = page(cut, look);
     let inner = page - 2.0 * MARGIN;
     let heading = look.headed(&Heading { title: map.spec.title.clone(), settings: cut.held.clone() });
     let mut svg = Svg::new();
     let mut y = MARGIN + heading.draw(&mut svg, inner);
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive count")]
-    let fit = (inner / NARROWEST).max(1.0) as usize;
     let panels: Vec<&CutPanel> =
-        selection(cut.panels.len(), MOST_PANELS.min(fit)).map(|k| &cut.panels[k]).collect();
+        selection(cut.panels.len(), most_panels(page)).map(|k| &cut.panels[k]).collect();
     let curves: Vec<usize> = selection(cut.panels[0].curves.len(), STROKES.len()).collect();
-    let scales: Vec<Scale> = quantities.iter().map(|column| scale(column, &panels, &curves)).collect();
-    let ticks: Vec<Vec<Tick>> = scales.iter().map(|scale| scale.ticks(y_tick_count(height))).collect();
+    let x = along(cut);
+    let scales: Vec<Scale> = quantities.iter().map(|column| scale(column, &panels, &curves, &x)).collect();
+    let ticks = |(scale, column): (&Scale, &&NumberColumn)| {
+        let quarters = if column.is_angle() { cyclic::ticks(scale) } else { None };
+        quarters.unwrap_or_else(|| scale.ticks(y_tick_count(height)))
+    };
+    let ticks: Vec<Vec<Tick>> = scales.iter().zip(quantities).map(ticks).collect();
     let left = MARGIN + LABEL_SIZE + 6.0 + ticks.iter().map(|ticks| y_tick_room(ticks)).fold(0.0, f64::max);
     let across = page - left - RIGHT;
     let columns = panels.len() as f64;
@@ -87,7 +114,6 @@ fn draw(map: &Map, cut: &Cut, quantities: &[&NumberColumn], look: &Look<'_>, hei
     y += legend(&mut svg, panels[0], &curves, doubtful, [left, y], across);
     let lines = panels.iter().map(|panel| panel.of.len()).max().unwrap_or(0) as f64;
     y += lines * LINE + 2.0;
-    let x = along(cut);
     let axis = PictureAxis::cells(&cut.axis).edge_to_edge(&x);
     let x_ticks = axis.ticks(width, Direction::Horizontal, TICK_SIZE);
     for (number, panel) in panels.iter().enumerate() {
@@ -99,15 +125,15 @@ fn draw(map: &Map, cut: &Cut, quantities: &[&NumberColumn], look: &Look<'_>, hei
         }
         for (row, column) in quantities.iter().enumerate() {
             let frame = Frame { x: from, y: y + row as f64 * (height + GAP), width, height };
-            let plot = Plot { frame, x: &x, y: &scales[row] };
+            let plot = Plot { frame, x: &POSITION, y: &scales[row] };
             for (curve, stroke) in curves.iter().zip(STROKES) {
                 let curve = &panel.curves[*curve];
-                let of = |instance: &usize| value(column, *instance).unwrap_or(f64::NAN);
-                let points = curve.x.iter().copied().zip(curve.instances.iter().map(of));
-                plot.curve(&mut svg, points.clone(), stroke);
-                let doubtful = points.zip(&curve.instances);
+                let points = points(column, curve, &x);
+                let doubtful = points.iter().zip(&curve.instances);
                 let doubtful = doubtful.filter(|(_, instance)| unsettled(column, **instance));
-                open_marks(&mut svg, &plot, doubtful.map(|(point, _)| point), stroke);
+                let doubtful = doubtful.map(|(point, _)| *point);
+                plot.curve(&mut svg, drawn(column, &points), stroke);
+                open_marks(&mut svg, &plot, doubtful, stroke);
             }
             frame.border(&mut svg);
             frame.x_ticks(&mut svg, &x_ticks, row + 1 == quantities.len());
@@ -122,9 +148,7 @@ fn draw(map: &Map, cut: &Cut, quantities: &[&NumberColumn], look: &Look<'_>, hei
     y += quantities.len() as f64 * (height + GAP) - GAP + x_tick_room() + LABEL_SIZE + 1.0;
     let middle = Style::new(LABEL_SIZE, Anchor::Middle);
     svg.text(left + 0.5 * across, y, &axis.label(across, LABEL_SIZE), middle);
-    let shown =
-        [(panels.len(), cut.panels.len(), "panels"), (curves.len(), cut.panels[0].curves.len(), "curves")];
-    for (some, all, what) in shown.into_iter().filter(|(some, all, _)| some < all) {
+    for (some, all, what) in left_out(cut, look) {
         y += LABEL_SIZE + 4.0;
         let note = Text::from(format!("{some} of {all} {what} shown; the table holds all."));
         svg.text(MARGIN, y, &note, Style::new(TICK_SIZE, Anchor::Start));
@@ -136,12 +160,24 @@ fn value(column: &NumberColumn, instance: usize) -> Option<f64> {
     column.values.get(instance).copied().flatten()
 }
 
+/// The points of a curve: positions along the axis, 0 to 1, and values.
+fn points(column: &NumberColumn, curve: &Curve, x: &Scale) -> Vec<(f64, f64)> {
+    let of = |(x_value, instance): (&f64, &usize)| {
+        (x.position(*x_value), value(column, *instance).unwrap_or(f64::NAN))
+    };
+    curve.x.iter().zip(&curve.instances).map(of).collect()
+}
+
+/// The same as they are drawn: those of angles go on at the other side of ±180°.
+fn drawn(column: &NumberColumn, points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    if column.is_angle() { cyclic::parted(points) } else { points.to_vec() }
+}
+
 /// The scale of a quantity over all that is shown.
-fn scale(column: &NumberColumn, panels: &[&CutPanel], curves: &[usize]) -> Scale {
+fn scale(column: &NumberColumn, panels: &[&CutPanel], curves: &[usize], x: &Scale) -> Scale {
     let shown = panels.iter().flat_map(|panel| curves.iter().map(|curve| &panel.curves[*curve]));
-    let values =
-        shown.flat_map(|curve| curve.instances.iter().filter_map(|instance| value(column, *instance)));
-    Scale::spanning(values).widened(HEADROOM)
+    let values = shown.flat_map(|curve| drawn(column, &points(column, curve, x)));
+    Scale::spanning(values.map(|(_, value)| value)).widened(HEADROOM)
 }
 
 /// The axis of the curves, from its first value to its last.

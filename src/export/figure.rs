@@ -171,9 +171,10 @@ fn compose(
     let mut y = MARGIN + title(&mut svg, look.title(sheet.title), inner);
     let across = if layout.beside { 0.5 * (inner - BLOCK_GAP) } else { inner };
     let mut tallest: f64 = 0.0;
+    let mut blocks = Vec::with_capacity(contents.len());
     for (number, content) in contents.iter().enumerate() {
         let letter = (contents.len() > 1).then_some(number);
-        let blocks = if layout.beside { contents.len().div_ceil(2) } else { contents.len() };
+        let stacked = if layout.beside { contents.len().div_ceil(2) } else { contents.len() };
         let starts = sheet.analysis.starts;
         let (panels, tally) = match (content, large) {
             (Content::LargeRegime, Some((panels, tally))) => (panels, tally),
@@ -182,9 +183,22 @@ fn compose(
             }
             _ => (panels, tally),
         };
-        let content = *content;
-        let block =
-            Block { grid: sheet.grid, tally, panels, content, starts, blocks, layout, letter, measured };
+        blocks.push(Block {
+            grid: sheet.grid,
+            tally,
+            panels,
+            content: *content,
+            starts,
+            blocks: stacked,
+            layout,
+            letter,
+            least_left: 0.0,
+            measured,
+        });
+    }
+    let least_left = blocks.iter().map(Block::left).fold(0.0, f64::max);
+    for (number, block) in blocks.into_iter().enumerate() {
+        let block = Block { least_left, ..block };
         if layout.beside {
             let column = number % 2;
             if column == 0 && number > 0 {

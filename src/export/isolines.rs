@@ -6,7 +6,8 @@ use super::csv::Table;
 use super::frame::{Frame, TICK_SIZE};
 use super::marching::{Place, isolines, lines_of_angle};
 use super::panels::{Panel, Panels};
-use super::scale::value_label;
+use super::quantity;
+use super::scale::{Scale, value_label};
 use super::svg::{Anchor, Style, Svg, polyline};
 use super::text::Text;
 use crate::archive::NumberColumn;
@@ -23,8 +24,6 @@ const PLATE: &str = r##"fill="#FFFFFF" fill-opacity="0.8""##;
 /// Between a label and what is around it, points.
 const ROOM: f64 = 1.5;
 
-/// The unit of quantities that are angles.
-const DEGREES: &str = "deg";
 /// Lines that reach no further than this, in cells, go around a single instance: the grid does not resolve them.
 const SHORTEST: f64 = 1.0;
 /// Values this near a level, as a part of the largest of the quantity, are that level: rounding of what is computed.
@@ -53,8 +52,10 @@ pub(super) fn draw(
         svg.path(&data.collect::<String>(), stroke);
     }
     let mut taken: Vec<Area> = Vec::new();
+    // In the notation of the bar, which may have a power of ten beside it.
+    let unit = 10_f64.powi(quantity::exponent(column));
     for (level, line) in &lines {
-        let label = value_label(*level);
+        let label = value_label(level / unit);
         let others: Vec<Drawn<'_>> = lines
             .iter()
             .map(|(_, other)| other.as_slice())
@@ -80,9 +81,10 @@ fn place(
 ) -> Option<Area> {
     let half = [0.5 * label.width(TICK_SIZE, false) + ROOM, 0.36 * TICK_SIZE + ROOM];
     let length: f64 = line.windows(2).map(|pair| (pair[1].0 - pair[0].0).hypot(pair[1].1 - pair[0].1)).sum();
-    if length < 4.0 * half[0] {
+    if length < 3.0 * half[0] {
         return None;
     }
+    let line = &closer(line);
     let middle = line.len() / 2;
     let mut order: Vec<usize> = (0..line.len()).collect();
     order.sort_by_key(|k| k.abs_diff(middle));
@@ -98,6 +100,26 @@ fn place(
     let first = free.next()?;
     let clear = |area: &Area| !others.iter().any(|other| crosses(other, *area));
     Some(std::iter::once(first).chain(free).find(clear).unwrap_or(first))
+}
+
+/// A line with points no further apart than half a label is high: a long segment has room for one anywhere.
+fn closer(line: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    const APART: f64 = 0.5 * TICK_SIZE;
+    let mut points: Vec<(f64, f64)> = line.iter().take(1).copied().collect();
+    for pair in line.windows(2) {
+        let [(x, y), (to_x, to_y)] = [pair[0], pair[1]];
+        let parts = ((to_x - x).hypot(to_y - y) / APART).ceil().max(1.0);
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a small positive count"
+        )]
+        points.extend((1..=parts as u32).map(|k| {
+            let part = f64::from(k) / parts;
+            (x + part * (to_x - x), y + part * (to_y - y))
+        }));
+    }
+    points
 }
 
 /// Whether a line runs through an area.
@@ -137,7 +159,7 @@ fn lines(panels: &Panels, panel: &Panel, column: &NumberColumn, levels: &[f64]) 
     };
     let position = |[i, j]: Place| [panels.x.between(i), y.between(j)];
     let of = |level: f64| {
-        let found = if column.unit == DEGREES {
+        let found = if column.is_angle() {
             lines_of_angle([columns, rows], level, settled(level))
         } else {
             isolines([columns, rows], level, settled(level))
@@ -150,7 +172,7 @@ fn lines(panels: &Panels, panel: &Panel, column: &NumberColumn, levels: &[f64]) 
     // 180° and −180° are one angle.
     let new = |k: &usize| {
         let whole = |other: &f64| (levels[*k] - other).rem_euclid(360.0) == 0.0;
-        column.unit != DEGREES || !levels[..*k].iter().any(whole)
+        !column.is_angle() || !levels[..*k].iter().any(whole)
     };
     (0..levels.len()).filter(new).flat_map(|k| of(levels[k]).collect::<Vec<_>>()).collect()
 }
@@ -197,12 +219,26 @@ pub fn isoline_table(map: &Map, quantities: &[(&NumberColumn, &[f64])]) -> Resul
     table.finish()
 }
 
+/// At most about so many round parts of a turn, degrees, on a scale.
+fn parts_of_a_turn(scale: &Scale, most: usize) -> Vec<f64> {
+    /// Steps that a turn has whole numbers of.
+    const STEPS: [f64; 6] = [10.0, 15.0, 30.0, 45.0, 60.0, 90.0];
+    let [low, high] = [scale.value(0.0), scale.value(1.0)];
+    let step = STEPS.into_iter().find(|step| (high - low) / step <= most as f64).unwrap_or(90.0);
+    let first = (low / step).ceil();
+    let levels = (0..).map(|k| (first + f64::from(k)) * step);
+    levels.take_while(|level| *level <= high).map(|level| level + 0.0).collect()
+}
+
 /// About so many round values between the lowest and the highest of a quantity.
 #[must_use]
 pub fn round_levels(column: &NumberColumn, most: usize) -> Vec<f64> {
     /// Digits of a round value: what is beyond is rounding.
     const DIGITS: usize = 9;
-    let scale = super::quantity::scale(column);
+    let scale = quantity::scale(column);
+    if column.is_angle() {
+        return parts_of_a_turn(&scale, most);
+    }
     let value = |at: f64| {
         let value = scale.value(at);
         format!("{value:.DIGITS$e}").parse().unwrap_or(value)

@@ -4,8 +4,11 @@
 const PAGE: f64 = 652.0;
 /// ... but not flatter than this, as long as the page is no limit, ...
 const FLAT: f64 = 0.6;
-/// ... and never flatter than this.
-const FLATTEST: f64 = 0.35;
+/// ... never flatter than this, ...
+const FLATTEST: f64 = 0.25;
+/// ... and never lower than what a reader needs, points: two labels on the axis beside it, and cells that can be seen. What
+/// is lower does not fit its page.
+const LOWEST: f64 = 22.0;
 /// So many more columns of panels than usual are tried.
 const MORE_COLUMNS: usize = 4;
 
@@ -23,6 +26,11 @@ pub(super) struct Layout {
 }
 
 impl Layout {
+    /// The least height of a panel of this width, points; none is taller than wide.
+    pub(super) fn least_height(&self, width: f64) -> f64 {
+        (self.flattest * width).max(LOWEST).min(width)
+    }
+
     /// The usual one.
     pub(super) fn usual(beside: bool) -> Layout {
         Layout { beside, more_columns: 0, flattest: FLAT, page: PAGE }
@@ -71,6 +79,21 @@ impl Layout {
 mod tests {
     use super::*;
 
+    /// Whatever the page, panels stay readable: as low as two labels beside them let them be, and not flatter than a quarter.
+    #[test]
+    fn panels_stay_readable() {
+        for flattest in [FLAT, FLATTEST] {
+            let layout = Layout { flattest, ..Layout::usual(false) };
+            for width in [10.0, 44.0, 64.0, 120.0, 400.0] {
+                let least = layout.least_height(width);
+                assert!(
+                    least >= LOWEST.min(width) && least >= flattest * width && least <= width,
+                    "{width}: {least}"
+                );
+            }
+        }
+    }
+
     /// Panels of a part of their width, in rows: what is tried first is what changes least.
     #[test]
     fn what_changes_least_comes_first() {
@@ -81,7 +104,7 @@ mod tests {
                 let width = if layout.beside { 100.0 } else { 200.0 } / columns;
                 let blocks = if layout.beside { 1.0 } else { 2.0 };
                 let rows = (4.0 / columns).ceil();
-                let panel = (layout.page / blocks / rows).clamp(layout.flattest * width, width);
+                let panel = (layout.page / blocks / rows).clamp(layout.least_height(width), width);
                 blocks * rows * panel + 20.0
             })
         };

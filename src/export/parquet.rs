@@ -182,3 +182,22 @@ fn column<T: DataType, W: Write + Send>(
     column.typed::<T>().write_batch(values, Some(defined), None)?;
     column.close()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A cell is of the content of its column or empty; another is refused and leaves nothing.
+    #[test]
+    fn a_cell_of_another_kind_is_refused() {
+        let cells = || [Cell::Number(0.5), Cell::Count(3), Cell::Text("ok".to_owned())];
+        for (own, content) in [Content::Number, Content::Count, Content::Name].into_iter().enumerate() {
+            for (kind, cell) in cells().into_iter().enumerate() {
+                let mut part = Part::new(content);
+                assert!(part.push(Cell::Empty));
+                assert_eq!(part.push(cell), kind == own, "{content:?}, cell {kind}");
+                assert_eq!(part.defined, if kind == own { vec![0, 1] } else { vec![0] });
+            }
+        }
+    }
+}

@@ -181,9 +181,25 @@ impl PictureAxis {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive count")]
         let most = (length / each).clamp(2.0, 8.0) as usize;
         let ticks = self.scale.ticks(most);
-        let stride = (1..=ticks.len().max(1))
-            .find(|stride| fits(&ticks.iter().step_by(*stride).cloned().collect::<Vec<_>>()));
-        ticks.into_iter().step_by(stride.unwrap_or(1)).collect()
+        // Every one, or every second and so on, as far as their labels fit.
+        let some = |ticks: Vec<Tick>| -> Vec<Tick> {
+            let every = |stride: usize| ticks.iter().step_by(stride).cloned().collect::<Vec<_>>();
+            (1..=ticks.len()).map(every).find(|ticks| fits(ticks)).unwrap_or_default()
+        };
+        let ticks = some(ticks);
+        if ticks.len() > 1 || self.values.len() < 2 {
+            return ticks;
+        }
+        // One value is no scale: two of more round values, or the ends.
+        let ends = || {
+            let at =
+                |value: &f64| Tick { at: snapped(self.scale.position(*value)), label: value_label(*value) };
+            let all: Vec<Tick> = self.values.iter().map(at).collect();
+            if let [first, .., last] = &all[..] { vec![first.clone(), last.clone()] } else { all }
+        };
+        let round = (most + 1..=3 * most).map(|most| some(self.scale.ticks(most)));
+        let ends = (self.scale.exponent() == 0).then(ends).into_iter();
+        round.chain(ends).find(|ticks| ticks.len() > 1 && fits(ticks)).unwrap_or(ticks)
     }
 
     /// The longest of the words, symbol and unit that fits into `available` points.

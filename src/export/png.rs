@@ -16,11 +16,10 @@ pub(super) const CSS_DPI: f32 = 96.0;
 /// The embedded family.
 const FAMILY: &str = "Liberation Sans";
 
-const FONTS: [&[u8]; 3] = [
-    include_bytes!("../../assets/fonts/LiberationSans-Regular.ttf"),
-    include_bytes!("../../assets/fonts/LiberationSans-Italic.ttf"),
-    include_bytes!("../../assets/fonts/LiberationSans-Bold.ttf"),
-];
+pub(super) const REGULAR: &[u8] = include_bytes!("../../assets/fonts/LiberationSans-Regular.ttf");
+pub(super) const BOLD: &[u8] = include_bytes!("../../assets/fonts/LiberationSans-Bold.ttf");
+pub(super) const FONTS: [&[u8]; 3] =
+    [REGULAR, include_bytes!("../../assets/fonts/LiberationSans-Italic.ttf"), BOLD];
 
 /// The PNG of an SVG document at [`DPI`] with its resolution recorded.
 ///

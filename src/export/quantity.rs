@@ -1,7 +1,9 @@
-//! A number over the panels: cells or points by lightness, and the bar that says how much.
+//! A number over the panels: cells or points by lightness (angles by colours that close a circle), and the bar that says how
+//! much.
 
 use super::boundaries::{Vertex, outlines};
 use super::cells::{FAILED_FILL, corner, shape, steps};
+use super::cyclic;
 use super::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room};
 use super::key::{self, Sample};
 use super::look::Content;
@@ -9,7 +11,7 @@ use super::panels::{Panel, Panels};
 use super::points::{POINT_RADIUS, positions};
 use super::raster;
 use super::scale::{Scale, axis_unit};
-use super::svg::{Anchor, Style, Svg};
+use super::svg::{Anchor, Style, Svg, polyline};
 use super::text::Text;
 use super::trust;
 use super::words;
@@ -25,6 +27,11 @@ const LONGEST: f64 = 220.0;
 /// The samples of what is undefined and of what has not settled.
 const UNDEFINED: &str = r##"fill="url(#not-computed)" stroke="#000000" stroke-width="0.4""##;
 const DOTTED: &str = r##"fill="url(#dots-on-light)" stroke="#000000" stroke-width="0.4""##;
+/// A mark in the bar: as a line of equal value, on a light casing.
+const MARKS: [&str; 2] = [
+    r##"fill="none" stroke="#FFFFFF" stroke-width="1.5""##,
+    r##"class="level" fill="none" stroke="#000000" stroke-width="0.6""##,
+];
 /// What the bar of a fraction of starts says.
 const STARTS: &str = "fraction of starts";
 
@@ -36,6 +43,9 @@ pub(super) struct Field<'a> {
     /// Beside the bar; empty where the heading says it all.
     label: &'static str,
     scale: Scale,
+    tones: Tones,
+    /// Where lines of equal value are drawn.
+    levels: &'a [f64],
     /// How many values are undefined.
     undefined: usize,
     /// The value of a place in [`Panels::instances`].
@@ -49,13 +59,15 @@ impl<'a> Field<'a> {
     pub(super) fn of(content: Content<'a>, panels: &'a Panels) -> Option<Field<'a>> {
         match content {
             Content::Classes { .. } | Content::LargeRegime => None,
-            Content::Quantity { column, .. } => {
+            Content::Quantity { column, levels } => {
                 let value = |place: usize| column.values.get(panels.instances[place]).copied().flatten();
                 Some(Field {
                     heading: words::label(column, 0, f64::INFINITY, LABEL_SIZE),
                     column: Some(column),
                     label: if column.name.starts_with("basin_") { STARTS } else { "" },
-                    scale: scale(column),
+                    scale: if column.is_angle() { cyclic::scale() } else { scale(column) },
+                    tones: if column.is_angle() { Tones::Circle } else { Tones::Lightness },
+                    levels,
                     undefined: column.values.iter().filter(|value| value.is_none()).count(),
                     value: Box::new(value),
                     unsettled: if trust::is_of_the_window(column) {
@@ -73,6 +85,8 @@ impl<'a> Field<'a> {
                     column: None,
                     label: STARTS,
                     scale: Scale::Linear { low: 0.0, high: 1.0 },
+                    tones: Tones::Lightness,
+                    levels: &[],
                     undefined: (0..panels.instances.len()).filter(|place| value(*place).is_none()).count(),
                     value: Box::new(value),
                     // Starts that have not settled are counted apart.
@@ -85,6 +99,11 @@ impl<'a> Field<'a> {
     /// Whether a place has a value that is not to be trusted.
     pub(super) fn is_doubtful(&self, place: usize) -> bool {
         (self.unsettled)(place) && (self.value)(place).is_some()
+    }
+
+    /// Whether the values are angles.
+    pub(super) fn is_angle(&self) -> bool {
+        self.tones == Tones::Circle
     }
 
     /// The value of a place; `None` where it is undefined.
@@ -109,15 +128,53 @@ pub(super) fn scale(quantity: &NumberColumn) -> Scale {
     Scale::spanning(quantity.values.iter().flatten().copied())
 }
 
-/// The fill of a step.
-fn fill(step: usize) -> String {
-    raster::fill(step as f32 / (STEPS - 1) as f32)
+/// The power of ten that the bar of a quantity has beside it.
+pub(super) fn exponent(quantity: &NumberColumn) -> i32 {
+    if quantity.is_angle() { 0 } else { scale(quantity).exponent() }
 }
 
-/// The step of every instance; `None` where the value is undefined.
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to the steps")]
-fn step(value: Option<f64>, scale: &Scale) -> Option<usize> {
-    value.map(|x| (scale.position(x) * STEPS as f64).clamp(0.0, (STEPS - 1) as f64) as usize)
+/// How values become colours.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Tones {
+    /// The larger the darker.
+    Lightness,
+    /// Angles around a circle.
+    Circle,
+}
+
+impl Tones {
+    /// The number of steps.
+    fn steps(self) -> usize {
+        if self == Tones::Circle { cyclic::STEPS } else { STEPS }
+    }
+
+    /// The fill of a step.
+    fn fill(self, step: usize) -> String {
+        match self {
+            Tones::Lightness => raster::fill(step as f32 / (STEPS - 1) as f32),
+            Tones::Circle => cyclic::fill(step).to_owned(),
+        }
+    }
+
+    /// The step of a value on a scale.
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to the steps")]
+    fn step(self, value: f64, scale: &Scale) -> usize {
+        match self {
+            Tones::Lightness => {
+                (scale.position(value) * STEPS as f64).clamp(0.0, (STEPS - 1) as f64) as usize
+            }
+            Tones::Circle => cyclic::step(value),
+        }
+    }
+
+    /// Whether dots on a step have to be white.
+    fn is_dark(self, step: usize) -> bool {
+        match self {
+            Tones::Lightness => 2 * step > STEPS,
+            // Light around the middle, dark around both ends.
+            Tones::Circle => !(STEPS / 4..3 * STEPS / 4).contains(&step),
+        }
+    }
 }
 
 /// Draws the content of a panel into its frame.
@@ -129,12 +186,14 @@ pub(super) fn draw(
     field: &Field<'_>,
     frame: &Frame,
 ) {
-    let of = |place: usize| step((field.value)(place), &field.scale);
+    let tones = field.tones;
+    let of = |place: usize| (field.value)(place).map(|value| tones.step(value, &field.scale));
+    let is_dark = |step| tones.is_dark(step);
     if panels.scatter.is_some() {
         for place in panel.cells.clone() {
             let instance = panels.instances[place];
             let Some([x, y]) = positions(grid, panels, instance, frame) else { continue };
-            let tone = of(place).map_or_else(|| FAILED_FILL.to_owned(), fill);
+            let tone = of(place).map_or_else(|| FAILED_FILL.to_owned(), |step| tones.fill(step));
             svg.circle(
                 x,
                 y,
@@ -155,8 +214,8 @@ pub(super) fn draw(
         paths.iter().map(|path| steps(path, &at, true)).collect::<String>()
     };
     svg.open(r#"shape-rendering="crispEdges" fill-rule="evenodd""#);
-    for number in 0..STEPS {
-        svg.path(&region(&|place| of(place) == Some(number)), &format!(r#"fill="{}""#, fill(number)));
+    for number in 0..tones.steps() {
+        svg.path(&region(&|place| of(place) == Some(number)), &format!(r#"fill="{}""#, tones.fill(number)));
     }
     svg.close();
     let missing = region(&|place| of(place).is_none());
@@ -166,11 +225,6 @@ pub(super) fn draw(
         let doubtful = region(&|place| field.is_doubtful(place) && of(place).map(is_dark) == Some(dark));
         svg.path(&doubtful, &dotted(dark));
     }
-}
-
-/// Whether dots on a step have to be white.
-fn is_dark(step: usize) -> bool {
-    2 * step > STEPS
 }
 
 /// The dots on what has not settled.
@@ -199,16 +253,27 @@ pub(super) fn bar(field: &Field<'_>, panels: &Panels, svg: &mut Svg, [x, y]: [f6
     let beside = power.plain(field.label);
     let room = beside.width(TICK_SIZE, false) + 6.0;
     let frame = Frame { x, y, width: (width - room).min(LONGEST), height: BAR };
-    let wide = frame.width / STEPS as f64;
+    let tones = field.tones;
+    let wide = frame.width / tones.steps() as f64;
     svg.open(r#"shape-rendering="crispEdges""#);
-    for number in 0..STEPS {
+    for number in 0..tones.steps() {
         // Each reaches to the end and is covered by those that follow: no seams.
         let left = number as f64 * wide;
-        svg.rect([x + left, y, frame.width - left, BAR], &format!(r#"fill="{}""#, fill(number)));
+        svg.rect([x + left, y, frame.width - left, BAR], &format!(r#"fill="{}""#, tones.fill(number)));
     }
     svg.close();
+    let levels = field.levels.iter().map(|level| field.scale.position(*level));
+    let marks = levels.filter(|at| (0.0..=1.0).contains(at)).map(|at| {
+        let x = frame.across(at);
+        polyline([(x, y), (x, y + BAR)])
+    });
+    let marks: String = marks.collect();
+    for stroke in MARKS {
+        svg.path(&marks, stroke);
+    }
     frame.border(svg);
-    frame.x_ticks(svg, &field.scale.ticks(6), true);
+    let ticks = if field.is_angle() { cyclic::ticks(&field.scale) } else { None };
+    frame.x_ticks(svg, &ticks.unwrap_or_else(|| field.scale.ticks(6)), true);
     svg.text(x + frame.width + 3.0, y + BAR - 1.0, &beside, Style::new(TICK_SIZE, Anchor::Start));
     let height = BAR + x_tick_room() + 3.0;
     height + key::rows(svg, [x, y + height], width, TICK_SIZE, &remarks(field, panels))

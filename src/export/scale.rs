@@ -158,8 +158,9 @@ pub fn axis_unit(unit: &str, exponent: i32) -> Text {
     let text = Text::from(" (");
     let text = match exponent {
         0 => text,
-        _ => text.plain("10").superscript(&minus(&exponent.to_string())).plain(" "),
+        _ => text.plain("10").superscript(&minus(&exponent.to_string())),
     };
+    let text = if exponent == 0 || unit.is_empty() { text } else { text.plain(" ") };
     text.unit(unit).plain(")")
 }
 

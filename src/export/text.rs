@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use super::glyphs;
 use super::svg::{escape, number};
 use super::tex::{escaped, formula};
 
@@ -165,16 +166,32 @@ fn script_size(size: f64) -> f64 {
 /// Splits a title into lines that fit a width.
 pub(super) fn wrap(text: &str, width: f64, size: f64, bold: bool) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
-    for word in text.split_whitespace() {
+    for word in text.split_whitespace().flat_map(|word| parts(word, width, size, bold)) {
         match lines.last_mut() {
-            Some(line) if Text::from(format!("{line} {word}")).width(size, bold) <= width => {
+            Some(line) if glyphs::width(&format!("{line} {word}"), size, bold) <= width => {
                 line.push(' ');
-                line.push_str(word);
+                line.push_str(&word);
             }
-            _ => lines.push(word.to_owned()),
+            _ => lines.push(word),
         }
     }
     lines
+}
+
+/// A word, in parts where it is wider than a line.
+fn parts(word: &str, width: f64, size: f64, bold: bool) -> Vec<String> {
+    let mut parts = vec![String::new()];
+    for letter in word.chars() {
+        match parts.last_mut() {
+            Some(part)
+                if part.is_empty() || glyphs::width(&format!("{part}{letter}"), size, bold) <= width =>
+            {
+                part.push(letter);
+            }
+            _ => parts.push(letter.to_string()),
+        }
+    }
+    parts
 }
 
 /// Advance of a character in ems: Liberation Sans (and Arial, Helvetica).

@@ -27,13 +27,15 @@ pub fn trace_csv(trace: &Trace) -> Result<Vec<u8>> {
     table.finish()
 }
 
-/// What the figure needs beside the table, as JSON: the heading, and the frequency of the response, Hz.
+/// What the figure needs beside the table, as JSON: the heading, the frequency of the response, Hz, and
+/// the number of its rows.
 ///
 /// # Errors
 /// When it cannot be written.
 pub fn document(trace: &Trace, heading: &Heading) -> Result<Vec<u8>> {
     let mut document = heading.to_json();
     document["response_frequency"] = json!(trace.outcome.response_frequency);
+    document["rows"] = json!(trace.rows.len());
     described(&document)
 }
 

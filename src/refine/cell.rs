@@ -40,6 +40,16 @@ impl Cell {
         })
     }
 
+    /// The corner next to a point of the cell; the lower or left one of two as near.
+    pub(super) fn nearest_corner(&self, point: Point) -> Point {
+        let nearest = |[low, high]: [u32; 2], at: u32| if at - low <= high - at { low } else { high };
+        Point {
+            plane: self.plane,
+            column: nearest(self.columns, point.column),
+            row: nearest(self.rows, point.row),
+        }
+    }
+
     /// All points, edges included.
     pub(super) fn points(&self) -> impl Iterator<Item = Point> {
         let Cell { plane, columns, rows } = *self;

@@ -50,8 +50,8 @@ pub const COARSE: (usize, usize) = (2, 4096);
 pub struct Refined {
     /// The planes of the grid.
     pub planes: Planes,
-    /// The label of every instance, computed or taken from the cell around it; whether it is settled is left out,
-    /// since no line follows that.
+    /// The label of every instance, computed or taken from the cell around it; whether it is settled, which no line
+    /// follows, is then that of the cell's nearest corner.
     pub labels: Vec<Label>,
     /// How many were computed.
     pub computed: usize,
@@ -112,7 +112,7 @@ pub fn refine(grid: &Grid, settings: Settings, compute: &mut Compute) -> Result<
     drop(rest);
     let guessed = filled(&planes, &cells, &map);
     map.compute(drawn.clone(), compute)?;
-    let missed = drawn.iter().filter(|at| guessed[**at] != map.labels[**at].class()).count();
+    let missed = drawn.iter().filter(|at| guessed[**at].class() != map.labels[**at].class()).count();
     drop(guessed);
     divide(&planes, &mut cells, &mut map, compute)?;
     let labels = filled(&planes, &cells, &map);
@@ -187,10 +187,11 @@ fn is_mixed(planes: &Planes, cell: &Cell, map: &Known) -> bool {
 fn filled(planes: &Planes, cells: &[Cell], map: &Known) -> Vec<Label> {
     let mut labels = map.labels.clone();
     for cell in cells {
-        let of_corner = map.labels[planes.instance(cell.corners()[0])];
         for point in cell.points() {
             let label = &mut labels[planes.instance(point)];
-            *label = if *label == Label::NOT_COMPUTED { of_corner } else { *label }.class();
+            if *label == Label::NOT_COMPUTED {
+                *label = map.labels[planes.instance(cell.nearest_corner(point))];
+            }
         }
     }
     labels

@@ -34,7 +34,7 @@ pub(crate) fn unwrapped(err: &str) -> String {
 }
 
 /// A directory with a small sweep `small.toml` (with `extra` in `[model]`) in it.
-fn with_sweep(extra: &str) -> TempDir {
+pub(crate) fn with_sweep(extra: &str) -> TempDir {
     let directory = tempfile::tempdir().unwrap();
     let sweep = format!(
         "title = \"Small\"\n[model]\n{extra}\n[friction]\nmu_s = 0.4\n[axes]\nmu_d = {{ values = [0.3, 0.4] }}\n\
@@ -45,7 +45,7 @@ fn with_sweep(extra: &str) -> TempDir {
 }
 
 /// Everything in a directory tree, relative to it.
-fn tree(directory: &Path) -> Vec<PathBuf> {
+pub(crate) fn tree(directory: &Path) -> Vec<PathBuf> {
     let mut paths = Vec::new();
     let mut open = vec![directory.to_owned()];
     while let Some(next) = open.pop() {

@@ -23,7 +23,7 @@ fn column(name: &str, unit: &str, values: Vec<Option<f64>>) -> NumberColumn {
 }
 
 /// The places of a path, points.
-fn places(path: &str) -> Vec<[f64; 2]> {
+pub(crate) fn places(path: &str) -> Vec<[f64; 2]> {
     let data = path.split_once("d=\"").unwrap().1.split_once('"').unwrap().0;
     let pairs = data.split(['M', 'L']).filter(|pair| !pair.is_empty());
     pairs
@@ -184,6 +184,8 @@ fn rounding_and_single_instances_have_no_lines() {
     assert_eq!(lines(&|x, y| -(x - y).abs() + noise(x, y), 0.0), 0, "a ridge");
     assert_eq!(lines(&|x, y| (x - 12.0).max(0.0) + noise(x, y), 0.0), 0, "nothing is below");
     assert_eq!(lines(&|x, y| (12.4 - x).min(0.0) + noise(x, y), 0.0), 1, "the end of the plateau");
+    // What is far more than rounding is none, however small beside the largest value.
+    assert_eq!(lines(&|x, y| if x + y < 3.0 { 30.0 } else { 1e-7 * (x - 12.4) }, 0.0), 2, "a small slope");
     // A single instance at (9, 9) that is above, by less than the grid resolves; and a hill.
     assert_eq!(lines(&|x, y| if (x, y) == (9.0, 9.0) { 0.2 } else { -1.0 }, 0.0), 0);
     assert_eq!(lines(&|x, y| 4.0 - (x - 9.0).hypot(y - 9.0), 0.0), 1);

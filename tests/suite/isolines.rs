@@ -94,6 +94,20 @@ fn lines_of_a_plane_are_straight() {
     assert!(worst > 1e-3, "{worst}");
 }
 
+/// Round values of an angle are parts of a turn.
+#[test]
+fn levels_of_angles_are_parts_of_a_turn() {
+    let of = |low: f64, high: f64, unit: &str, most: usize| {
+        let values = vec![Some(low), None, Some(high)];
+        let (name, meaning) = ("phase".to_owned(), String::new());
+        round_levels(&NumberColumn { name, unit: unit.to_owned(), meaning, values }, most)
+    };
+    assert_eq!(of(-71.8, 176.2, "deg", 4), [0.0, 90.0]);
+    assert_eq!(of(-71.8, 176.2, "deg", 6), [-45.0, 0.0, 45.0, 90.0, 135.0]);
+    assert_eq!(of(-180.0, 180.0, "deg", 2), [-180.0, -90.0, 0.0, 90.0, 180.0]);
+    assert_eq!(of(-71.8, 176.2, "1/s", 4), [0.0, 100.0]);
+}
+
 /// A cone has circles: closed, each once, within the error h²/(8 r) of linear interpolation.
 #[test]
 fn lines_of_a_cone_are_circles() {

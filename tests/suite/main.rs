@@ -1,6 +1,7 @@
 //! One integration binary, one module per topic.
 
 mod accuracy;
+mod angles;
 mod arrays;
 mod bad_input;
 mod bistable;
@@ -52,6 +53,8 @@ mod paper;
 mod parquet;
 mod pictures;
 mod plot;
+mod plot_notes;
+mod print;
 mod promise;
 mod properties;
 mod refine;

@@ -84,13 +84,14 @@ fn the_title_is_an_option_of_plot() {
     assert!(map_tikz(&map, &look).unwrap().contains("\\textbf{Mine}"));
 }
 
-/// Up to twelve panels of two blocks fit a page, three a slide, and all of one block: with every word on the page. More are
-/// refused.
+/// Up to twelve panels of two blocks fit a page, the five of the paper's map a slide, and all of one block: with every word
+/// on the page, and panels in which two labels and the cells can be read. Refused is only what has no higher panels left.
 #[test]
 fn maps_fit_the_page() {
+    /// The least height of a panel, points: two labels of 7 pt beside it, and half a line between and around them.
+    const READABLE: f64 = 22.0;
     let velocities = |count: u32| -> Vec<f64> { (0..count).map(|k| 0.5 + 0.25 * f64::from(k)).collect() };
-    for (count, on_slide, elsewhere) in
-        [(1, true, true), (3, true, true), (5, false, true), (12, false, true)]
+    for (count, on_slide, elsewhere) in [(1, true, true), (3, true, true), (5, true, true), (12, false, true)]
     {
         let axes = vec![
             span(Param::MuS, 0.0, 0.6, 21),
@@ -106,6 +107,9 @@ fn maps_fit_the_page() {
             let expected = if journal == Journal::Slide { on_slide } else { elsewhere };
             assert_eq!(fits, expected, "{name}: {:?}", size(&svg));
             assert_eq!(look.check_height(&svg, "").is_ok(), fits, "{name}");
+            let heights: Vec<f64> = frames(&svg).iter().map(|frame| frame[3]).collect();
+            let lowest = heights.iter().copied().fold(f64::INFINITY, f64::min);
+            assert!(lowest >= READABLE - 0.01 && (fits || lowest < READABLE + 0.01), "{name}: {heights:?}");
             draw(&svg, &name);
             assert!(outside(&svg).is_empty(), "{name}: {:?}", outside(&svg));
             assert_eq!(frames(&svg).len(), 2 * count as usize, "{name}");

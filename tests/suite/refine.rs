@@ -5,7 +5,7 @@
 use squealmap::accuracy::sample::subset;
 use squealmap::backend::choice::{Backend, Options};
 use squealmap::backend::solver::Solver;
-use squealmap::classify::InstabilityType;
+use squealmap::classify::{InstabilityType, Regime};
 use squealmap::grid::{Axis, AxisKey, Grid, Value};
 use squealmap::label::Label;
 use squealmap::map::Record;
@@ -74,6 +74,37 @@ fn lines_are_followed_wherever_they_go() {
     }
 }
 
+/// Whether an instance has settled is known of every one: its own, or that of the nearest corner that was computed.
+#[test]
+fn what_has_not_settled_is_told_of_every_instance() {
+    let grid = grid(257, 257);
+    let settled = |index: usize| {
+        let Value::Number(x) = grid.coordinates(index)[0] else { panic!("numbers") };
+        *x > 100.0
+    };
+    let mut known = Vec::new();
+    let refined = refine(&grid, SETTINGS, &mut |instances| {
+        known.extend_from_slice(instances);
+        let record = |index: &usize| Record {
+            status: Status::Ok,
+            regime: Some(Regime::Slip),
+            settled: Some(settled(*index)),
+            ..Record::default()
+        };
+        Ok(instances.iter().map(|index| Label::from(&record(index))).collect())
+    })
+    .unwrap();
+    assert!(known.iter().all(|index| refined.labels[*index].settled() == Some(settled(*index))));
+    let wrong = |index: &usize| refined.labels[*index].settled() != Some(settled(*index));
+    let wrong: Vec<usize> = (0..grid.len()).filter(wrong).collect();
+    // One region for the lines; the coarse cells are 16 points wide, so that the end is found within 8.
+    let end = |index: &usize| {
+        let Value::Number(x) = grid.coordinates(*index)[0] else { panic!("numbers") };
+        (*x - 100.0).abs() <= 8.0
+    };
+    assert!(wrong.iter().all(end) && wrong.len() < 5 * 2 * 257, "{}", wrong.len());
+}
+
 #[test]
 fn an_island_inside_a_coarse_cell_is_missed_and_a_sample_says_so() {
     let grid = grid(257, 257);
@@ -121,7 +152,7 @@ fn paper(points: u32, analysis: &str, share: usize) -> (Refined, usize) {
         assert_eq!(records.len(), range.len());
         wrong += range
             .zip(&records)
-            .filter(|(i, record)| refined.labels[*i] != Label::from(*record).class())
+            .filter(|(i, record)| refined.labels[*i].class() != Label::from(*record).class())
             .count();
     }
     println!(

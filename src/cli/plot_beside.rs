@@ -1,0 +1,58 @@
+//! What stands beside a picture: the picture says which tables belong to it, and those of the picture before go with it.
+
+use std::path::Path;
+
+use crate::cli::note;
+use crate::cli::plot_map::{TABLES, Tables};
+
+/// What comes before the list of tables in the metadata of a picture.
+const BESIDE: &str = "; beside it: ";
+/// The end of the metadata.
+const END: &str = "</metadata>";
+/// So many characters of a checksum tell two tables apart.
+const CHECKSUM: usize = 16;
+
+/// A picture whose metadata name the tables beside it, each with the beginning of its BLAKE3 checksum.
+pub(crate) fn with_tables(svg: String, tables: &Tables) -> String {
+    let each = tables.iter().map(|(name, bytes)| format!("{name} {}", checksum(bytes)));
+    let list = each.collect::<Vec<_>>().join(", ");
+    if list.is_empty() { svg } else { svg.replacen(END, &format!("{BESIDE}{list}{END}"), 1) }
+}
+
+fn checksum(bytes: &[u8]) -> String {
+    blake3::hash(bytes).to_hex()[..CHECKSUM].to_owned()
+}
+
+/// A table in the directory of a picture that does not have it.
+#[derive(Debug)]
+pub(crate) struct Stale {
+    name: &'static str,
+    /// Whether it is as it was written with the picture before.
+    unchanged: bool,
+}
+
+/// The tables of a directory that `written`, the names of what is going to be written, are without; its picture is that
+/// of before.
+pub(crate) fn stale(directory: &Path, picture: &str, written: &[&str]) -> Vec<Stale> {
+    let before = std::fs::read_to_string(directory.join(picture)).unwrap_or_default();
+    let beside = before.split_once(END).and_then(|(metadata, _)| metadata.rsplit_once(BESIDE));
+    let beside = beside.map_or("", |(_, list)| list);
+    let of = |name: &'static str| {
+        let bytes = std::fs::read(directory.join(name)).ok()?;
+        let as_written = format!("{name} {}", checksum(&bytes));
+        Some(Stale { name, unchanged: beside.split(", ").any(|one| one == as_written) })
+    };
+    TABLES.into_iter().filter(|name| !written.contains(name)).filter_map(of).collect()
+}
+
+/// Removes what the program wrote itself, and names what it did not, or not so.
+pub(crate) fn remove(directory: &Path, stale: &[Stale]) {
+    for Stale { name, unchanged } in stale {
+        let path = directory.join(name);
+        if *unchanged && std::fs::remove_file(&path).is_ok() {
+            note(&format!("removed `{}`, which belonged to the picture before", path.display()));
+        } else {
+            note(&format!("`{}` does not belong to this picture; it stays as it is", path.display()));
+        }
+    }
+}
