@@ -80,8 +80,15 @@ fn place(
     (taken, others): (&[Area], &[Drawn<'_>]),
 ) -> Option<Area> {
     let half = [0.5 * label.width(TICK_SIZE, false) + ROOM, 0.36 * TICK_SIZE + ROOM];
-    let length: f64 = line.windows(2).map(|pair| (pair[1].0 - pair[0].0).hypot(pair[1].1 - pair[0].1)).sum();
-    if length < 3.0 * half[0] {
+    // A label would hide what reaches little further than it does.
+    let reach = |of: fn(&(f64, f64)) -> f64| {
+        let ends = line
+            .iter()
+            .map(of)
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+        ends.1 - ends.0
+    };
+    if reach(|at| at.0).max(reach(|at| at.1)) < 2.5 * half[0] {
         return None;
     }
     let line = &closer(line);

@@ -111,7 +111,7 @@ fn a_map_has_one_notation() {
     let factor = svg.lines().find(|line| line.starts_with("<text") && line.contains("(10<")).unwrap();
     let words: String = factor.split('>').filter_map(|part| part.split('<').next()).collect();
     assert_eq!(words.trim(), "(10−3)");
-    let marks = svg.lines().filter(|line| line.contains("class=\"level\"")).next_back().unwrap();
+    let marks = svg.lines().rfind(|line| line.contains("class=\"level\"")).unwrap();
     assert_eq!(marks.matches('M').count(), 3, "three lines across the bar");
 }
 
