@@ -21,8 +21,8 @@ const RIGHT: f64 = 8.0;
 const RADIUS: f64 = 1.9;
 /// Height of a line of words below the panel, points.
 const LINE: f64 = 11.0;
-/// Margin around the marks, as a fraction of the panel.
-const HEADROOM: f64 = 0.06;
+/// Margin around the marks, as a fraction of the panel: the number above the topmost has room in it.
+const HEADROOM: f64 = 0.08;
 /// Errors below are drawn here: what is exact has no logarithm.
 const LEAST: f64 = 1e-16;
 /// The frontier.
@@ -59,7 +59,10 @@ fn draw(heading: &str, rows: &[Row], look: &Look<'_>, height: f64) -> (Svg, [f64
         Level::Within(bound) => Some((name, bound)),
         Level::Reference => None,
     });
-    let (names, bounds): (Vec<&str>, Vec<f64>) = bounds.unzip();
+    let mut bounds: Vec<(&str, f64)> = bounds.collect();
+    // As they stand in the panel.
+    bounds.sort_by(|a, b| a.1.total_cmp(&b.1));
+    let (names, bounds): (Vec<&str>, Vec<f64>) = bounds.into_iter().unzip();
     let error = |row: &Row| row.worst_p95.max(LEAST);
     let mut svg = Svg::new();
     let mut y = MARGIN + title(&mut svg, heading, page - 2.0 * MARGIN);
