@@ -131,7 +131,6 @@ fn print(text: &str) {
     let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
 }
 
-/// A remark beside the result, on standard error.
 /// The PNG of a figure of a command, with a note where its font lacks a character.
 fn png_of(svg: &str) -> Result<Vec<u8>> {
     tell_missing(svg)?;
@@ -152,6 +151,7 @@ fn tell_missing(svg: &str) -> Result<()> {
     Ok(())
 }
 
+/// A remark beside the result, on standard error.
 fn note(text: &str) {
     let _ = writeln!(std::io::stderr().lock(), "{text}");
 }

@@ -234,7 +234,7 @@ fn undecided(judged: &[Judged]) -> String {
 /// Confusion tables, phases and the spread over seeds.
 fn markdown() -> String {
     /// Other draws, to show what the fixed seed is worth.
-    const OTHERS: std::ops::RangeInclusive<u64> = 2..=24;
+    const OTHERS: std::ops::RangeInclusive<u64> = 2..=36;
     let judged = table(SEED);
     let mut text = String::new();
     for (heading, good) in [("20 dB and better", true), ("10 and 0 dB", false)] {
