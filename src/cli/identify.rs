@@ -11,7 +11,7 @@ use squealmap::export::identify::{self as export, Shown, WindowsCsv};
 use squealmap::export::look::Look;
 use squealmap::export::spectrogram::spectrogram_nc;
 use squealmap::identify::{
-    DAMPING_RATIO, Identification, LARGEST_FRICTION, OVERLAP, Settings, WINDOW, identify,
+    DAMPING_RATIO, INCLINATION, Identification, LARGEST_FRICTION, OVERLAP, Settings, WINDOW, identify,
 };
 
 use crate::cli::output::{Output, list};
@@ -62,7 +62,10 @@ pub(crate) struct Identify {
     /// Largest damping ratio the structure may have without friction
     #[arg(long, value_name = "RATIO", default_value_t = DAMPING_RATIO, value_parser = ratio)]
     damping_ratio: f64,
-    /// Frequencies in which to look for the oscillation, Hz
+    /// Largest inclination of the structure to the contact, rad
+    #[arg(long, value_name = "RAD", default_value_t = INCLINATION, value_parser = ratio)]
+    inclination: f64,
+    /// Frequencies in which to look for the oscillation, Hz; nothing is filtered
     #[arg(long, value_name = "LOW,HIGH", value_parser = band)]
     band: Option<[f64; 2]>,
     /// Window of the spectrogram, s
@@ -119,6 +122,7 @@ impl Identify {
             skew: self.skew,
             force_skew: self.force_skew,
             damping_ratio: self.damping_ratio,
+            inclination: self.inclination,
             band: self.band,
             window: self.window,
             overlap: self.overlap,
@@ -130,7 +134,7 @@ impl Identify {
 /// The verdict with its reasons.
 fn summary(found: &Identification) -> String {
     let verdict = &found.verdict;
-    let mut text = format!("{} (confidence {:.2})\n", verdict.kind.words(), verdict.confidence);
+    let mut text = format!("{} (confidence {:.2})\n", verdict.kind.words(), verdict.shown_confidence());
     for reason in &verdict.reasons {
         let _ = writeln!(text, "  {reason}");
     }

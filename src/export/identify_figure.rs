@@ -178,7 +178,7 @@ fn verdict_line(found: &Identification) -> String {
         _ => String::new(),
     };
     let confidence = if verdict.confidence > 0.0 {
-        format!(" (confidence {:.2})", verdict.confidence)
+        format!(" (confidence {:.2})", verdict.shown_confidence())
     } else {
         String::new()
     };
@@ -262,9 +262,9 @@ fn bar(svg: &mut Svg, frame: &Frame, ends: [&str; 2], words: [&str; 2]) {
     let height = frame.height / STEPS as f64;
     svg.open(r#"shape-rendering="crispEdges""#);
     for step in 0..STEPS {
-        let y = frame.bottom() - (step + 1) as f64 * height;
+        // Each reaches to the top and is covered by those that follow: no seams.
         svg.rect(
-            [x, y, width, height],
+            [x, frame.y, width, frame.height - step as f64 * height],
             &format!(r#"fill="{}""#, raster::fill(step as f32 / (STEPS - 1) as f32)),
         );
     }

@@ -166,6 +166,17 @@ fn notes(survey: &Survey) -> Vec<String> {
         let column = &survey.names[*channel as usize];
         notes.push(format!("column `{column}` ({}) is constant", channel.words()));
     }
+    for (channel, stand) in &survey.still {
+        notes.push(format!(
+            "column `{}` ({}) stands still at {} for {} samples from {:.6} s on: a dropout, unless everything rests there; cut the \
+             record before it",
+            survey.names[*channel as usize],
+            channel.words(),
+            stand.value,
+            stand.count,
+            survey.start + stand.first as f64 / survey.rate
+        ));
+    }
     for channel in Channel::ALL.into_iter().filter(|channel| !survey.has[*channel as usize]) {
         let limits = match channel {
             Channel::NormalAcceleration => ": no phase between the accelerations",

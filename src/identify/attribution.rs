@@ -27,9 +27,14 @@
 //! A mechanism counts as a cause when it alone would give at least a tenth of the observed growth: no measurement
 //! tells a slope of exactly 0 from a tiny one, and without damping the tiniest would be unstable alone.
 //!
+//! Beside friction the inclination θ of the structure to the contact couples the modes, without power: of `κ = ν_n (z + d_y + iΔ)`
+//! only the part `1 − tan θ/μ` is there. Where the slope gives power, too, that hardly matters; where it takes power out (a
+//! rising law, `r > 1`), a few per cent decide whether mode coupling alone would grow or needs the damping by the slope
+//! (interaction).
+//!
 //! Measuring errors are carried through as a probability: the closer to a threshold, the less of it falls on one kind.
 //! The dampings, which a growing oscillation does not show, are no matter of probability: a kind has the least of its
-//! probabilities over all dampings from 0 to a stated bound.
+//! probabilities over all dampings, and inclinations, from 0 to a stated bound.
 
 use num_complex::Complex64;
 
@@ -60,6 +65,9 @@ const COARSE: &[(f64, f64)] = &[(-1.732_050_8, 1.0 / 6.0), (0.0, 2.0 / 3.0), (1.
 /// Values of each damping from 0 to its bound, both included, and pairs of them.
 const DAMPINGS: usize = 3;
 const PAIRS: usize = DAMPINGS * DAMPINGS;
+/// Values of the inclination likewise.
+const TILTS: usize = 3;
+const CASES: usize = PAIRS * TILTS;
 /// Share of the observed growth from which on a mechanism counts as a cause.
 pub const CAUSE: f64 = 0.1;
 
@@ -85,17 +93,26 @@ impl Cause {
         [Cause::None, Cause::Slope, Cause::Coupling, Cause::Both, Cause::Interaction, Cause::Contradiction];
 }
 
-/// Probabilities of the causes, in the order of [`Cause::ALL`], for each damping.
+/// What a growing oscillation does not show.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Bounds {
+    /// Largest damping, 1/s.
+    pub(super) damping: f64,
+    /// Largest coupling of the modes by the inclination, over that by friction.
+    pub(super) tilt: f64,
+}
+
+/// Probabilities of the causes, in the order of [`Cause::ALL`], for each pair of dampings and inclination.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Probabilities([[f64; Cause::ALL.len()]; PAIRS]);
+pub(super) struct Probabilities([[f64; Cause::ALL.len()]; CASES]);
 
 impl Probabilities {
-    /// The mean over the dampings: what there is to choose from.
+    /// The mean over the cases: what there is to choose from.
     pub(super) fn mean(&self, cause: Cause) -> f64 {
-        self.0.iter().map(|of| of[cause as usize]).sum::<f64>() / PAIRS as f64
+        self.0.iter().map(|of| of[cause as usize]).sum::<f64>() / CASES as f64
     }
 
-    /// The least over the dampings: what is sure.
+    /// The least over the cases: what is sure.
     pub(super) fn least(&self, cause: Cause) -> f64 {
         self.0.iter().map(|of| of[cause as usize]).fold(1.0, f64::min)
     }
@@ -113,8 +130,8 @@ pub fn alone(growth: f64, share: f64, psi: f64, [d_x, d_y]: [f64; 2]) -> [f64; 2
     [coupled - 0.5 * (d_x + d_y), (1.0 - share) * p - d_x]
 }
 
-/// The probabilities, given the largest damping (1/s); `fine`: 29 times the work.
-pub(super) fn probabilities(feedback: &Feedback, largest_damping: f64, fine: bool) -> Probabilities {
+/// The probabilities; `fine`: 29 times the work.
+pub(super) fn probabilities(feedback: &Feedback, bounds: &Bounds, fine: bool) -> Probabilities {
     let nodes = if fine { FINE } else { COARSE };
     let (normal, normal_error) = feedback.normal;
     let (slope, slope_error) = feedback.slope;
@@ -129,8 +146,9 @@ pub(super) fn probabilities(feedback: &Feedback, largest_damping: f64, fine: boo
     let all = nodes.iter().map(|(_, weight)| weight).sum::<f64>().powi(4);
     let mut found = Probabilities::default();
     for (k, of) in found.0.iter_mut().enumerate() {
-        let dampings =
-            [k / DAMPINGS, k % DAMPINGS].map(|step| largest_damping * step as f64 / (DAMPINGS - 1) as f64);
+        let dampings = [k / DAMPINGS % DAMPINGS, k % DAMPINGS]
+            .map(|step| bounds.damping * step as f64 / (DAMPINGS - 1) as f64);
+        let tilt = bounds.tilt * (k / PAIRS) as f64 / (TILTS - 1) as f64;
         of[Cause::None as usize] = 1.0 - grows;
         for (l, weight_l) in nodes.iter().copied() {
             let turn = Complex64::cis(-(late.value + l * late.error));
@@ -139,7 +157,8 @@ pub(super) fn probabilities(feedback: &Feedback, largest_damping: f64, fine: boo
                 for (b, weight_b) in nodes.iter().copied() {
                     for (c, weight_c) in nodes.iter().copied() {
                         let fed = Complex64::new(normal.re + a * normal_error, normal.im + b * across_error);
-                        let cause = cause(growth, fed, total + c * total_error - fed.re, dampings);
+                        let slope = total + c * total_error - fed.re;
+                        let cause = cause(growth, tilted(fed, slope, tilt), slope, dampings);
                         of[cause as usize] += grows * weight_l * weight_a * weight_b * weight_c / all;
                     }
                 }
@@ -156,6 +175,13 @@ fn lateness(feedback: &Feedback) -> Measured {
     let (angle, error) = (off.value.to_radians(), off.error.to_radians().hypot(ANGLE_ALLOWANCE));
     let weight = FORCE_PHASE * FORCE_PHASE / (FORCE_PHASE * FORCE_PHASE + error * error);
     Measured { value: weight * angle, error: error * weight.sqrt() }
+}
+
+/// The feedback of the normal force less the coupling by this part of it that gives no power, where the slope takes power
+/// out and an oscillation could still grow.
+fn tilted(normal: Complex64, slope: f64, tilt: f64) -> Complex64 {
+    let less = normal * (1.0 - tilt);
+    if slope < 0.0 && less.re + slope > 0.0 { less } else { normal }
 }
 
 /// The cause when everything is known.

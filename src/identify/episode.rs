@@ -76,6 +76,8 @@ pub struct Episode {
     pub(super) feedback: Feedback,
     /// What keeps it undecided whatever the feedback: two modes, or one that changes.
     pub(super) wanders: bool,
+    /// Whether the oscillation was there before it grew.
+    pub(super) preceded: bool,
 }
 
 /// What the file records.
@@ -124,6 +126,29 @@ pub(super) fn beats(briefs: &[Brief], first: usize, length: usize) -> bool {
     before.any(|brief| brief.power > again) || after.any(|brief| brief.power < again)
 }
 
+/// Whether an oscillation was nearly as strong before the windows that grow at this rate (1/s), from `first` on, as in the
+/// first of them: two e-foldings before, or at the beginning of the record.
+pub(super) fn preceded(briefs: &[Brief], first: usize, window: &Window, growth: f64) -> bool {
+    /// Windows that far apart share no sample.
+    const APART: usize = 4;
+    /// E-foldings over which growth and no growth differ clearly, and that are enough.
+    const LEAST: f64 = 0.5;
+    const MOST: f64 = 2.0;
+    let folds = growth * (window.time[1] - window.time[0]) / APART as f64;
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a positive number of windows"
+    )]
+    let apart = ((MOST / folds).ceil() as usize).max(APART).min(first);
+    let before = briefs[first - apart];
+    // Half-way between what stands still and what grows at the same rate.
+    let grown = folds * apart as f64;
+    let nearly = 0.5 * (1.0 + (-grown).exp());
+    let strong = f64::from(before.power) > nearly * nearly * f64::from(briefs[first].power);
+    apart >= APART && grown >= LEAST && before.loud && strong
+}
+
 /// The episode of a run of growing windows; `None` when it gains too little.
 pub(super) fn episode(
     run: &[Window],
@@ -145,6 +170,7 @@ pub(super) fn episode(
         forces: recorded.forces,
         normal_acceleration: recorded.normal_acceleration,
         damping_ratio: settings.damping_ratio,
+        inclination: settings.inclination,
         distortion,
         episode: true,
     };
@@ -170,6 +196,7 @@ pub(super) fn episode(
         verdict,
         feedback,
         wanders,
+        preceded: false,
     };
     episode.measured(recorded, normal_force);
     episode.phase = recorded.normal_acceleration.then(|| accelerations.phase());

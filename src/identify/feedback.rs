@@ -34,6 +34,8 @@ pub(super) struct Feedback {
     pub(super) growth: Measured,
     /// Angular frequency, rad/s.
     pub(super) omega: f64,
+    /// Mean friction coefficient.
+    pub(super) friction: f64,
     /// `ÿ/ẍ`.
     pub(super) normal_acceleration: Ratio,
     /// `δN/ẍ`.
@@ -79,6 +81,7 @@ impl Feedback {
         Feedback {
             growth,
             omega,
+            friction,
             normal_acceleration: advanced(normal_acceleration, skews.acceleration),
             normal_force,
             normal: (friction * lambda * normal_force.value, friction.abs() * omega * normal_force.error),

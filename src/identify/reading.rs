@@ -50,6 +50,7 @@ fn verdict(window: &Window, feedback: &Feedback, recorded: Recorded, settings: &
             forces: recorded.forces,
             normal_acceleration: recorded.normal_acceleration,
             damping_ratio: settings.damping_ratio,
+            inclination: settings.inclination,
             distortion: window.distortion,
             episode: false,
         };

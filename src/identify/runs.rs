@@ -1,6 +1,6 @@
 //! Windows as they come → episodes: only those of the run under way are kept, and two numbers of every other.
 
-use super::episode::{Episode, LASTING, Recorded, SAME, beats, episode, grows};
+use super::episode::{Episode, LASTING, LOUD, Recorded, SAME, beats, episode, grows, preceded};
 use super::settings::Settings;
 use super::window::Window;
 
@@ -11,6 +11,8 @@ pub(super) struct Brief {
     pub(super) power: f32,
     /// Harmonics relative to the fundamental.
     pub(super) distortion: f32,
+    /// Whether an oscillation stands out of the noise.
+    pub(super) loud: bool,
 }
 
 /// Gathers windows in a row in which one oscillation grows.
@@ -40,7 +42,8 @@ impl<'a> Runs<'a> {
         if grows {
             self.run.push(*window);
         }
-        self.briefs.push(Brief { power: window.sums.xx as f32, distortion: window.distortion as f32 });
+        let (power, distortion) = (window.sums.xx as f32, window.distortion as f32);
+        self.briefs.push(Brief { power, distortion, loud: window.signal_to_noise >= LOUD });
     }
 
     /// Ends the run under way.
@@ -48,8 +51,10 @@ impl<'a> Runs<'a> {
         let length = self.run.len();
         if length > 0 {
             let first = self.briefs.len() - length;
-            let found = episode(&self.run, first, self.recorded, self.settings);
-            self.found.extend(found.map(|episode| (episode, length)));
+            if let Some(found) = episode(&self.run, first, self.recorded, self.settings) {
+                let preceded = preceded(&self.briefs, first, &self.run[0], found.growth.value);
+                self.found.push((Episode { preceded, ..found }, length));
+            }
             self.run.clear();
         }
     }

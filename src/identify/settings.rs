@@ -14,6 +14,10 @@ pub const OVERLAP: f64 = 0.98;
 /// shows.
 pub const DAMPING_RATIO: f64 = 0.002;
 
+/// Largest inclination of the structure to the contact when nothing is known about it, rad: twice that of Table 1 of the source
+/// paper. It couples the two directions beside friction, without any power, by `tan θ/μ` of what friction does.
+pub const INCLINATION: f64 = 0.02;
+
 /// Friction coefficients above this do not occur in brakes: the force columns are swapped.
 pub const LARGEST_FRICTION: f64 = 1.0;
 
@@ -32,6 +36,8 @@ pub struct Settings {
     pub force_skew: f64,
     /// Largest damping ratio of the structure without friction.
     pub damping_ratio: f64,
+    /// Largest inclination of the structure to the contact, rad.
+    pub inclination: f64,
     /// Frequencies in which to look for the oscillation, Hz; `None`: all.
     pub band: Option<[f64; 2]>,
     /// Window of the spectrogram, s.
@@ -51,6 +57,7 @@ impl Default for Settings {
             skew: 0.0,
             force_skew: 0.0,
             damping_ratio: DAMPING_RATIO,
+            inclination: INCLINATION,
             band: None,
             window: WINDOW,
             overlap: OVERLAP,

@@ -3,7 +3,7 @@
 use super::channel::Channel;
 use super::course::course;
 use super::cross::Ratio;
-use super::episode::{Episode, Recorded};
+use super::episode::{Episode, LASTING, Recorded};
 use super::fault::Fault;
 use super::feedback::{Feedback, Skews};
 use super::read::Table;
@@ -122,6 +122,21 @@ impl Known<'_> {
             // Most of what windows saw is saturated already: no exponential fits, but its beginning still shows.
             self.judged(episode, Feedback { growth, ..episode.feedback }, episode.distortion);
         }
+        if let Some([low, high]) =
+            self.settings.band.filter(|[low, high]| !(low..=high).contains(&&episode.frequency))
+        {
+            episode.verdict = Verdict::undecided(format!(
+                "the oscillation lies outside of the band that was looked at, {low} to {high} Hz (--band); move it"
+            ));
+            episode.wanders = true;
+        }
+        if episode.preceded && episode.gain < LASTING && !episode.wanders {
+            episode.verdict = Verdict::undecided(
+                "the oscillation was there before it grew, and too little of its growth is exponential (less than twentyfold) to \
+                 tell an instability from a vibration that is driven; record what drives it",
+            );
+            episode.wanders = true;
+        }
     }
 
     /// Judges an episode anew by what is known better.
@@ -130,6 +145,7 @@ impl Known<'_> {
             forces: self.recorded.forces,
             normal_acceleration: self.recorded.normal_acceleration,
             damping_ratio: self.settings.damping_ratio,
+            inclination: self.settings.inclination,
             distortion,
             episode: true,
         };

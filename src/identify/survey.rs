@@ -8,6 +8,7 @@ use super::range::Range;
 use super::read::Table;
 use super::settings::Settings;
 use super::spectrum::{Spectra, hann, noise_floor, refine};
+use super::still::{Stand, Stillness};
 use super::window::Geometry;
 
 /// Fewest samples of a record: below this there is no spectrum to speak of.
@@ -21,6 +22,8 @@ const DRIFT_BINS: usize = 4;
 /// A peak of a spectrum stands out when it exceeds its noise by the logarithm of the number of bins, which the highest
 /// bin of noise alone reaches, and this much more (chance 1 in 1000).
 const STANDS_OUT: f64 = 7.0;
+/// Periods of the oscillation for which nothing that sticks or flies stands still.
+const STILL: f64 = 3.0;
 /// A given rate and the column of time may differ by this part: times printed with few digits.
 const SAME_RATE: f64 = 0.01;
 /// A normal force whose standard deviation exceeds its mean does not press.
@@ -44,6 +47,8 @@ pub(super) struct Survey {
     pub(super) outside: Option<f64>,
     /// Velocity and temperature that stand still.
     pub(super) constant: Vec<Channel>,
+    /// Vibrating channels that stand still for a while.
+    pub(super) still: Vec<(Channel, Stand)>,
 }
 
 impl Survey {
@@ -66,6 +71,7 @@ impl Survey {
 pub(super) fn survey(mut table: Table, settings: &Settings) -> Result<Survey, Fault> {
     let mut pace = settings.rate.is_none().then(|| Pace::new(table.time_name()));
     let mut ranges = PerChannel::<Range>::default();
+    let mut stills = PerChannel::<Stillness>::default();
     let mut watches = PerChannel::<Watch>::default();
     let mut spectrum = MeanSpectrum::default();
     let mut samples = 0;
@@ -82,6 +88,9 @@ pub(super) fn survey(mut table: Table, settings: &Settings) -> Result<Survey, Fa
         }
         for (watch, value) in watches.iter_mut().zip(row.values) {
             watch.take(value);
+        }
+        for (still, value) in stills.iter_mut().zip(row.values) {
+            still.take(value);
         }
         spectrum.take(row.values[Channel::TangentialAcceleration as usize]);
         samples += 1;
@@ -129,7 +138,10 @@ pub(super) fn survey(mut table: Table, settings: &Settings) -> Result<Survey, Fa
     if let Some(frequency) = frequency {
         late(settings, frequency)?;
     }
-    Ok(Survey { samples, start, rate, names, has, frequency, outside, constant })
+    let least = frequency.map_or(f64::INFINITY, |frequency| STILL * rate / frequency);
+    let still = Channel::ALL.into_iter().zip(stills).filter(|(channel, _)| channel.vibrates());
+    let still = still.filter_map(|(channel, still)| Some((channel, still.finish(least)?))).collect();
+    Ok(Survey { samples, start, rate, names, has, frequency, outside, constant, still })
 }
 
 /// Refuses delays longer than a period of the oscillation (Hz): over these its amplitude changes, too.

@@ -1,6 +1,6 @@
 //! The verdict on one growing oscillation, with its confidence and its reasons.
 
-use super::attribution::{Cause, Probabilities, probabilities};
+use super::attribution::{Bounds, Cause, Probabilities, probabilities};
 use super::feedback::{Feedback, folded};
 
 /// From this confidence on a verdict is given; below it is undecided.
@@ -73,6 +73,12 @@ pub struct Verdict {
 }
 
 impl Verdict {
+    /// The confidence for two decimals: what is below [`CONFIDENT`] does not round up to it.
+    #[must_use]
+    pub fn shown_confidence(&self) -> f64 {
+        if self.confidence < CONFIDENT { self.confidence.min(CONFIDENT - 0.01) } else { self.confidence }
+    }
+
     /// The signals do not tell, for one reason.
     pub(super) fn undecided(reason: impl Into<String>) -> Verdict {
         Verdict { kind: Kind::Undecided, confidence: 0.0, leaning: None, reasons: vec![reason.into()] }
@@ -88,6 +94,8 @@ pub(super) struct Setting {
     pub(super) normal_acceleration: bool,
     /// Largest damping ratio.
     pub(super) damping_ratio: f64,
+    /// Largest inclination of the structure to the contact, rad.
+    pub(super) inclination: f64,
     /// Harmonics relative to the fundamental.
     pub(super) distortion: f64,
     /// Whether it is an episode, on which the verdict on the record rests, and not one window.
@@ -125,7 +133,11 @@ pub(super) fn judge(feedback: &Feedback, setting: &Setting) -> Verdict {
             100.0 * unexplained
         ));
     }
-    let likely = probabilities(feedback, setting.damping_ratio * feedback.omega, setting.episode);
+    let bounds = Bounds {
+        damping: setting.damping_ratio * feedback.omega,
+        tilt: setting.inclination.tan() / feedback.friction.abs().max(f64::MIN_POSITIVE),
+    };
+    let likely = probabilities(feedback, &bounds, setting.episode);
     let (kind, probability) = leading(&likely);
     // Lowered by what is not one linear mode.
     let mut coherence = force_coherence;

@@ -6,11 +6,14 @@ use std::fmt::Write as _;
 use std::io::{Cursor, Read};
 
 use squealmap::Error;
+use squealmap::classify::InstabilityType;
 use squealmap::export::signals::signals_csv;
-use squealmap::identify::{Fault, Identification, Kind, Settings, alone, identify};
-use squealmap::signals::Sample;
+use squealmap::identify::{Fault, INCLINATION, Identification, Kind, Settings, alone, identify};
+use squealmap::linear;
+use squealmap::model::Param;
+use squealmap::signals::{Recording, Sample, record};
 
-use crate::common::near;
+use crate::common::{near, paper, plan};
 use crate::strokes::{FIELDS, Field, Random, Wanted, add_noise, stroke};
 
 pub(crate) fn run(bytes: &[u8], settings: &Settings) -> Result<Identification, Error> {
@@ -210,6 +213,62 @@ fn decimal_commas_are_read_or_named() {
     assert!(found.contains("decimal commas") && found.contains("12 field(s)"), "{found}");
 }
 
+/// Where a rising law takes power out, a few per cent of coupling by the inclination decide: Table 1 of the source paper.
+#[test]
+fn a_rising_law_that_interacts_is_no_mode_coupling() {
+    let judged = |mu_s: f64, mu_d: f64, belt_velocity: f64, inclination: f64| {
+        let mut instance = paper(mu_s, mu_d, belt_velocity);
+        let (kind, linear) = linear::analyse(&instance);
+        let growth = linear.unwrap().growth_rate;
+        instance.params.set(Param::StartVelocity, 3e-3 * belt_velocity);
+        let duration = 1.2 * 300_f64.ln() / growth;
+        let recording = Recording { rate: 1000.0, duration, skew: 0.0, force_skew: 0.0 };
+        let samples = record(&instance, &plan(1.0, 1.0, 12), &recording).samples;
+        let settings = Settings { inclination, ..Settings::default() };
+        (kind.unwrap(), run(&csv(&samples), &settings).unwrap().verdict)
+    };
+    let interacting =
+        [(0.06, 0.6, 0.5), (0.1, 0.6, 1.0), (0.05, 0.6, 1.0), (0.15, 0.6, 0.5), (0.1, 0.5, 1.0)];
+    for (mu_s, mu_d, belt_velocity) in interacting {
+        let (truth, verdict) = judged(mu_s, mu_d, belt_velocity, INCLINATION);
+        assert_eq!(truth, InstabilityType::Interaction);
+        assert_eq!(verdict.kind, Kind::Undecided, "({mu_s}, {mu_d}, {belt_velocity}): {verdict:?}");
+    }
+    // What would be said of a structure without inclination, and where the coupling is strong enough.
+    assert_eq!(judged(0.06, 0.6, 0.5, 0.0).1.kind, Kind::ModeCoupling);
+    for (mu_s, mu_d, belt_velocity) in [(0.5, 0.6, 1.0), (0.4, 0.6, 3.0)] {
+        let (truth, verdict) = judged(mu_s, mu_d, belt_velocity, INCLINATION);
+        assert_eq!(truth, InstabilityType::ModeCoupling);
+        assert_eq!(verdict.kind, Kind::ModeCoupling, "({mu_s}, {mu_d}, {belt_velocity}): {verdict:?}");
+    }
+}
+
+/// A channel that stops and goes on is remarked, one that decays below its resolution is not.
+#[test]
+fn a_dropout_is_remarked() {
+    let notes = |samples: &[Sample]| run(&csv(samples), &Settings::default()).unwrap().notes;
+    let still = |notes: &[String]| notes.iter().filter(|note| note.contains("stands still")).count();
+    let mut random = Random::new(11);
+    let mut noisy = clean();
+    let _ = add_noise(&mut noisy, 40.0, &mut random);
+    assert_eq!(still(&notes(&noisy)), 0);
+    let mut frozen = noisy.clone();
+    let (from, held) = (frozen.len() / 2, frozen[frozen.len() / 2].tangential_acceleration);
+    frozen[from..from + 200].iter_mut().for_each(|sample| sample.tangential_acceleration = held);
+    let found = notes(&frozen);
+    let note = found.iter().find(|note| note.contains("stands still")).unwrap();
+    for part in ["`ax2`", "200 samples", &format!("{:.6} s", frozen[from].t)] {
+        assert!(note.contains(part), "{note}");
+    }
+    // Rounded to a resolution in which its beginning is lost.
+    let mut coarse = clean();
+    let unit = level(FIELDS[0], 0.02);
+    for sample in &mut coarse {
+        sample.tangential_acceleration = (sample.tangential_acceleration / unit).round() * unit;
+    }
+    assert_eq!(still(&notes(&coarse)), 0);
+}
+
 /// A band beside the squeal does not make a record free of it.
 #[test]
 fn a_band_without_the_oscillation_is_named() {
@@ -220,6 +279,11 @@ fn a_band_without_the_oscillation_is_named() {
     };
     let inside = looked(&samples, [0.8 * squeal, 1.2 * squeal]);
     assert_eq!(inside.kind, Kind::ModeCoupling);
+    // The foot of its peak is no oscillation of the band.
+    for band in [[0.3 * squeal, 0.96 * squeal], [1.04 * squeal, 1.6 * squeal]] {
+        let foot = looked(&samples, band);
+        assert_eq!(foot.kind, Kind::Undecided, "{foot:?}");
+    }
     // Noise in which nothing is seen at other frequencies.
     let mut random = Random::new(11);
     let mut noisy = samples.clone();

@@ -138,6 +138,40 @@ fn what_is_driven_is_no_instability() {
     assert!(named >= 36, "{named} named as driven");
 }
 
+/// A vibration that was there before it is driven harder: too little of its growth looks exponential to decide.
+#[test]
+fn what_was_there_before_is_no_instability() {
+    let step = |part: f64| {
+        let risen = (2.0 * part - 0.4).clamp(0.0, 1.0);
+        risen * risen * (3.0 - 2.0 * risen)
+    };
+    let after = |part: f64| (part - 0.25).max(0.0);
+    let mut random = Random::new(7);
+    let mut named = 0;
+    for decibel in [60.0, 40.0] {
+        for (rate, frequency, duration) in [(51.2e3, 2e3, 0.4), (51.2e3, 2e3, 0.1), (200e3, 9e3, 0.2)] {
+            let ramps: [(&str, &dyn Fn(f64) -> f64); 5] = [
+                ("square after 0.6 %", &|part| 0.006 + after(part).powi(2)),
+                ("square after 6 %", &|part| 0.06 + after(part).powi(2)),
+                ("cube after 0.6 %", &|part| 0.006 + after(part).powi(3)),
+                ("step after 1 %", &|part| 0.01 + step(part)),
+                ("step after 10 %", &|part| 0.1 + step(part)),
+            ];
+            for (name, ramp) in ramps {
+                let samples = oscillation(rate, duration, frequency, 0.0, |t| 100.0 * ramp(t / duration));
+                let verdict = noisy(samples, decibel, &mut random).verdict;
+                assert_eq!(
+                    verdict.kind,
+                    Kind::Undecided,
+                    "{name}, {frequency} Hz, {decibel} dB: {verdict:?}"
+                );
+                named += usize::from(verdict.reasons[0].contains("was there before"));
+            }
+        }
+    }
+    assert!(named >= 6, "{named} were there before");
+}
+
 /// A resonance (Hz, quality factor) that a drive passes, from 0.95 to 1.05 of its frequency; forces as those of
 /// [`oscillation`].
 fn swept(rate: f64, duration: f64, frequency: f64, quality: f64) -> Vec<Sample> {

@@ -10,6 +10,9 @@ use crate::kernel::source::Precision;
 
 /// A submission that takes longer has hung: dispatches are cut to a tenth of a second.
 const PATIENCE: Duration = Duration::from_mins(1);
+/// The same on a processor, which compiles a kernel within its first submission (half a minute) and shares its cores with
+/// whatever else runs.
+const SOFTWARE_PATIENCE: Duration = Duration::from_mins(10);
 
 /// What a device computes in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -163,7 +166,8 @@ impl Device {
     /// # Errors
     /// When the device is lost or does not answer.
     pub fn wait(&self) -> Result<()> {
-        let wait = wgpu::PollType::Wait { submission_index: None, timeout: Some(PATIENCE) };
+        let patience = if self.adapter.is_software() { SOFTWARE_PATIENCE } else { PATIENCE };
+        let wait = wgpu::PollType::Wait { submission_index: None, timeout: Some(patience) };
         let polled = self.raw.poll(wait);
         self.alive()?;
         polled.map(|_| ()).map_err(|why| Error::DeviceLost { why: why.to_string() })

@@ -232,7 +232,7 @@ fn bar(svg: &mut Svg, x: f64, base: f64) {
         svg.rect(corner, &format!(r#"fill="{fill}""#));
     }
     svg.close();
-    let words = Text::from("90°   hatched: none");
+    let words = Text::from("≥90°  hatched: none");
     svg.text(x + 74.0, base, &words, Style::new(TICK_SIZE, Anchor::Start));
 }
 
