@@ -3,7 +3,7 @@
 use super::channel::Channel;
 use super::course::course;
 use super::cross::Ratio;
-use super::episode::{Episode, LASTING, Recorded};
+use super::episode::{Episode, Recorded};
 use super::fault::Fault;
 use super::feedback::{Feedback, Skews};
 use super::read::Table;
@@ -22,6 +22,9 @@ const FITTED: [Channel; 4] = [
 
 /// E-foldings by which linear growth tells whether it is driven.
 const ENOUGH: f64 = 1.5;
+
+/// The same where the oscillation was there before.
+const FIFTYFOLD: f64 = 4.0;
 
 /// What the other readings know of the record.
 pub(super) struct Known<'a> {
@@ -130,9 +133,9 @@ impl Known<'_> {
             ));
             episode.wanders = true;
         }
-        if episode.preceded && episode.gain < LASTING && !episode.wanders {
+        if episode.preceded && episode.gain < FIFTYFOLD && !episode.wanders {
             episode.verdict = Verdict::undecided(
-                "the oscillation was there before it grew, and too little of its growth is exponential (less than twentyfold) to \
+                "the oscillation was there before it grew, and too little of its growth is exponential (less than fiftyfold) to \
                  tell an instability from a vibration that is driven; record what drives it",
             );
             episode.wanders = true;

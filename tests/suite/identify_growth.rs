@@ -99,6 +99,34 @@ type Ramp = fn(f64) -> f64;
 /// Rates (Hz), frequencies (Hz) and durations (s) of records.
 const RECORDS: [(f64, f64, f64); 3] = [(51.2e3, 2e3, 1.0), (51.2e3, 2e3, 0.1), (200e3, 9e3, 0.2)];
 
+/// How many records of a vibration that is driven with these amplitudes are called so, in these words; all have to be
+/// undecided.
+fn undecided(ramps: &[(&str, Ramp)], records: &[(f64, f64, f64)], decibels: &[f64], words: &str) -> usize {
+    let mut named = 0;
+    for decibel in decibels {
+        let mut random = Random::new(5);
+        for (name, ramp) in ramps {
+            for (rate, frequency, duration) in records.iter().copied() {
+                let samples = oscillation(rate, duration, frequency, 0.0, |t| 100.0 * ramp(t / duration));
+                let verdict = noisy(samples, *decibel, &mut random).verdict;
+                assert_eq!(
+                    verdict.kind,
+                    Kind::Undecided,
+                    "{name}, {frequency} Hz, {decibel} dB: {verdict:?}"
+                );
+                named += usize::from(verdict.reasons[0].contains(words));
+            }
+        }
+    }
+    named
+}
+
+/// A smooth step.
+fn step(part: f64) -> f64 {
+    let risen = (2.0 * part - 0.4).clamp(0.0, 1.0);
+    risen * risen * (3.0 - 2.0 * risen)
+}
+
 /// A vibration that is driven harder and harder, or through a resonance, grows, but not by itself.
 #[test]
 fn what_is_driven_is_no_instability() {
@@ -113,62 +141,25 @@ fn what_is_driven_is_no_instability() {
         ("t² from rest", |part| (1.25 * (part - 0.2)).max(0.0).powi(2)),
         ("a bell", |part| (-12.5 * (part - 0.7).powi(2)).exp()),
         ("a resonance", |part| 1.0 / (1.0 + (20.0 * (part - 0.6)).powi(2))),
-        ("a smooth step", |part| {
-            let risen = (2.0 * part - 0.4).clamp(0.0, 1.0);
-            risen * risen * (3.0 - 2.0 * risen)
-        }),
+        ("a smooth step", step),
         ("modulation", |part| 1.0 + 0.9 * (2.0 * TAU * part - 1.6).sin()),
     ];
-    let mut named = 0;
-    for decibel in [60.0, 40.0, 20.0] {
-        let mut random = Random::new(5);
-        for (name, ramp) in ramps {
-            for (rate, frequency, duration) in RECORDS {
-                let samples = oscillation(rate, duration, frequency, 0.0, |t| 100.0 * ramp(t / duration));
-                let verdict = noisy(samples, decibel, &mut random).verdict;
-                assert_eq!(
-                    verdict.kind,
-                    Kind::Undecided,
-                    "{name}, {frequency} Hz, {decibel} dB: {verdict:?}"
-                );
-                named += usize::from(verdict.reasons[0].contains("driven"));
-            }
-        }
-    }
+    let named = undecided(&ramps, &RECORDS, &[60.0, 40.0, 20.0], "driven");
     assert!(named >= 36, "{named} named as driven");
 }
 
 /// A vibration that was there before it is driven harder: too little of its growth looks exponential to decide.
 #[test]
 fn what_was_there_before_is_no_instability() {
-    let step = |part: f64| {
-        let risen = (2.0 * part - 0.4).clamp(0.0, 1.0);
-        risen * risen * (3.0 - 2.0 * risen)
-    };
-    let after = |part: f64| (part - 0.25).max(0.0);
-    let mut random = Random::new(7);
-    let mut named = 0;
-    for decibel in [60.0, 40.0] {
-        for (rate, frequency, duration) in [(51.2e3, 2e3, 0.4), (51.2e3, 2e3, 0.1), (200e3, 9e3, 0.2)] {
-            let ramps: [(&str, &dyn Fn(f64) -> f64); 5] = [
-                ("square after 0.6 %", &|part| 0.006 + after(part).powi(2)),
-                ("square after 6 %", &|part| 0.06 + after(part).powi(2)),
-                ("cube after 0.6 %", &|part| 0.006 + after(part).powi(3)),
-                ("step after 1 %", &|part| 0.01 + step(part)),
-                ("step after 10 %", &|part| 0.1 + step(part)),
-            ];
-            for (name, ramp) in ramps {
-                let samples = oscillation(rate, duration, frequency, 0.0, |t| 100.0 * ramp(t / duration));
-                let verdict = noisy(samples, decibel, &mut random).verdict;
-                assert_eq!(
-                    verdict.kind,
-                    Kind::Undecided,
-                    "{name}, {frequency} Hz, {decibel} dB: {verdict:?}"
-                );
-                named += usize::from(verdict.reasons[0].contains("was there before"));
-            }
-        }
-    }
+    let ramps: [(&str, Ramp); 5] = [
+        ("square after 0.6 %", |part| 0.006 + (part - 0.25).max(0.0).powi(2)),
+        ("square after 6 %", |part| 0.06 + (part - 0.25).max(0.0).powi(2)),
+        ("cube after 0.6 %", |part| 0.006 + (part - 0.25).max(0.0).powi(3)),
+        ("step after 1 %", |part| 0.01 + step(part)),
+        ("step after 10 %", |part| 0.1 + step(part)),
+    ];
+    let records = [(51.2e3, 2e3, 0.4), (51.2e3, 2e3, 0.1), (200e3, 9e3, 0.2)];
+    let named = undecided(&ramps, &records, &[60.0, 40.0], "was there before");
     assert!(named >= 6, "{named} were there before");
 }
 
