@@ -25,9 +25,8 @@ pub fn longest_steps(fastest: &Fastest, order: usize, tolerance: f64) -> [f64; 4
 
 /// How far a mode may turn within a step.
 fn turn(order: usize, tolerance: f64) -> f64 {
-    // The root of the product, factor by factor.
-    let root = |value: f64| value.powf(1.0 / order as f64);
-    (1..=order).fold(root(tolerance), |turn, k| turn * root(k as f64)).min(STABLE)
+    let factorial: f64 = (1..=order).map(|k| k as f64).product();
+    (tolerance * factorial).powf(1.0 / order as f64).min(STABLE)
 }
 
 /// Whether steps are so short that a scalar of that rounding stands still: `x + ẍ h²` is `x`.

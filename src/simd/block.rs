@@ -33,6 +33,9 @@ pub const LOWER: usize = 4;
 /// Upper end in `|v|`.
 pub const UPPER: usize = 5;
 
+/// [`Block::many`] of a law of one piece.
+pub const ONE_PIECE: f64 = 0.5;
+
 /// Lanes in step order of their fields.
 #[derive(Clone, Copy, Debug)]
 pub struct Block<S: Simd, T: Scalar<S>, const K: usize> {
@@ -64,7 +67,7 @@ pub struct Block<S: Simd, T: Scalar<S>, const K: usize> {
     pub disarmed: Vector<S, T, K>,
     /// The other piece of a law of two.
     pub other: [Vector<S, T, K>; 6],
-    /// 1 for laws of more pieces, and of one: it has no kink to cross.
+    /// 1 for laws of more pieces, [`ONE_PIECE`] for those of one, which have no kink to cross.
     pub many: Vector<S, T, K>,
     /// Steps of the present stretch.
     pub steps: Vector<S, T, K>,
@@ -147,7 +150,12 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Block<S, T, K> {
         }
         // Another contact state has other modes.
         self.pace.set(index, self.step.get(index));
-        self.many.set(index, T::from_f64(f64::from(u8::from(scene.pieces.len() != 2))));
+        let many = match scene.pieces.len() {
+            1 => ONE_PIECE,
+            2 => 0.0,
+            _ => 1.0,
+        };
+        self.many.set(index, T::from_f64(many));
         self.contact.set(index, T::from_f64(f64::from(lane.contact)));
         let disarmed = match lane.disarmed {
             NOTHING => 0,

@@ -41,8 +41,14 @@ pub const STIFFNESS: usize = 40;
 pub const INV_DET: usize = 41;
 /// The longest step of slip and stick, of reversed slip, of free flight.
 pub const LONGEST: usize = 42;
+/// `m2 + m1 s²`.
+pub const NORMAL_MASS: usize = 45;
+/// Newton restitution.
+pub const RESTITUTION: usize = 46;
+/// 1 with a Coulomb impulse, else 0.
+pub const IMPACT_FRICTION: usize = 47;
 /// How many there are.
-pub const CONSTANTS: usize = 45;
+pub const CONSTANTS: usize = 48;
 
 /// The constants of a scene whose steps have a truncation below `tolerance`.
 #[must_use]
@@ -78,5 +84,8 @@ pub fn constants<T: Real>(model: &Scaled, tolerance: f64) -> [T; CONSTANTS] {
     put(INV_DET, &[inv_det]);
     let [slip, reverse, stick, free] = longest_steps(&model.fastest, ORDER, tolerance);
     put(LONGEST, &[slip.min(stick), reverse.min(stick), free].map(|step| step.min(NO_KINK)));
+    put(NORMAL_MASS, &[model.normal_mass]);
+    put(RESTITUTION, &[model.restitution]);
+    put(IMPACT_FRICTION, &[f64::from(u8::from(model.impact_friction))]);
     all.map(T::from_f64)
 }

@@ -60,13 +60,16 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Track<S, T, K> {
     }
 }
 
-/// Where a lane crosses upwards: between two fractions of the step, near a third.
+/// Where a lane crosses upwards: between two fractions of the step.
 #[derive(Clone, Copy, Debug)]
 struct Bracket<S: Simd, T: Scalar<S>, const K: usize> {
     crosses: Mask<S, T, K>,
     low: Vector<S, T, K>,
     high: Vector<S, T, K>,
-    guess: Vector<S, T, K>,
+    /// `ẋ2` at both.
+    velocity: [Vector<S, T, K>; 2],
+    /// `ẍ2` at both.
+    acceleration: [Vector<S, T, K>; 2],
 }
 
 /// Notes the upward crossings of `ẋ2` up to `at` in the order of their times.
@@ -83,65 +86,128 @@ pub fn cross_upwards<S: Simd, T: Scalar<S>, const K: usize, const N: usize, cons
     let zero = at.like(0.0);
     let jumped = sums.previous.less(zero).and(zero.at_most(track.velocity[0]));
     sums.previous = track.velocity[4];
-    let rises = track.rises(0).or(track.rises(1)).or(track.rises(2)).or(track.rises(3));
+    let rises = [track.rises(0), track.rises(1), track.rises(2), track.rises(3)];
     let turns = track.turns(0).or(track.turns(1)).or(track.turns(2)).or(track.turns(3));
     let turns_somewhere = turns.any();
-    if !turns_somewhere && !jumped.or(rises).any() {
+    if !turns_somewhere && !jumped.or(rises[0]).or(rises[1]).or(rises[2]).or(rises[3]).any() {
         return;
     }
-    let mut brackets = [Bracket { crosses: jumped, low: zero, high: zero, guess: zero }; 5];
+    let mut brackets = [Bracket {
+        crosses: jumped,
+        low: zero,
+        high: zero,
+        velocity: [at.like(-1.0), zero],
+        acceleration: [zero; 2],
+    }; 5];
     for i in 0..4 {
-        brackets[i + 1] = between(e, track, i, at, turns_somewhere);
+        brackets[i + 1] = Bracket {
+            crosses: rises[i],
+            low: at * at.like(SAMPLE_TIMES[i]),
+            high: at * at.like(SAMPLE_TIMES[i + 1]),
+            velocity: [track.velocity[i], track.velocity[i + 1]],
+            acceleration: [track.acceleration[i], track.acceleration[i + 1]],
+        };
+        if turns_somewhere {
+            turn_over(e, track, i, &mut brackets[i + 1]);
+        }
     }
+    let begun = zero.less(sums.spectrum.begun);
     loop {
         // The next crossing of every lane: most have one at most.
+        let mut next = brackets[4];
+        for i in (0..4).rev() {
+            next = choose(brackets[i].crosses, &brackets[i], &next);
+        }
         let mut crossed = zero.less(zero);
-        let (mut low, mut high, mut t) = (zero, zero, zero);
+        let mut again = crossed;
         for bracket in &mut brackets {
-            let taken = bracket.crosses.and(crossed.not());
-            low = taken.select(bracket.low, low);
-            high = taken.select(bracket.high, high);
-            t = taken.select(bracket.guess, t);
-            bracket.crosses = bracket.crosses.and(taken.not());
-            crossed = crossed.or(taken);
+            let here = bracket.crosses;
+            bracket.crosses = here.and(crossed);
+            again = again.or(bracket.crosses);
+            crossed = crossed.or(here);
         }
-        if !crossed.any() {
-            return;
-        }
-        for _ in 0..REFINEMENTS {
-            let slope = value_to(&e.a[0], N - 3, t) * e.rate;
-            let here = derivative(&e.v[0], t) * e.rate;
-            let rising = zero.less(slope);
-            let next = t - here / rising.select(slope, at.like(1.0));
-            t = rising.select(next.max(low).min(high), t);
+        let mut t = next.guess(e);
+        // The first crossing of the window and what may be the last of a stretch: the sums begin and end there.
+        let late = sums.spectrum.closing.at_most(t.fma(e.step, sums.time));
+        let counts = crossed.and(begun.not().or(late));
+        if counts.any() {
+            for _ in 0..REFINEMENTS {
+                let slope = value_to(&e.a[0], N - 3, t) * e.rate;
+                let here = derivative(&e.v[0], t) * e.rate;
+                let rising = counts.and(zero.less(slope));
+                let nearer = t - here / rising.select(slope, at.like(1.0));
+                t = rising.select(nearer.max(next.low).min(next.high), t);
+            }
+            sums.spectrum.note::<N, MOTION>(e, sums.time, counts, t);
         }
         sums.note(crossed, t * e.step);
-        sums.spectrum.note::<N, MOTION>(e, sums.time, crossed, t);
+        sums.spectrum.fresh = crossed.select(at.like(1.0).only(counts), sums.spectrum.fresh);
+        if !again.any() {
+            return;
+        }
     }
 }
 
-/// The lanes that cross upwards between one sample and the next.
+/// The one bracket in some lanes, the other in the rest.
 #[inline(always)]
-fn between<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
+fn choose<S: Simd, T: Scalar<S>, const K: usize>(
+    mask: Mask<S, T, K>,
+    one: &Bracket<S, T, K>,
+    other: &Bracket<S, T, K>,
+) -> Bracket<S, T, K> {
+    Bracket {
+        crosses: other.crosses,
+        low: mask.select(one.low, other.low),
+        high: mask.select(one.high, other.high),
+        velocity: [
+            mask.select(one.velocity[0], other.velocity[0]),
+            mask.select(one.velocity[1], other.velocity[1]),
+        ],
+        acceleration: [
+            mask.select(one.acceleration[0], other.acceleration[0]),
+            mask.select(one.acceleration[1], other.acceleration[1]),
+        ],
+    }
+}
+
+impl<S: Simd, T: Scalar<S>, const K: usize> Bracket<S, T, K> {
+    /// Where the cubic through velocities and accelerations crosses, by a step of Newton's method from the straight line.
+    #[inline(always)]
+    fn guess<const N: usize>(&self, e: &Expansion<S, T, K, N>) -> Vector<S, T, K> {
+        let ([v, w], one) = (self.velocity, self.low.like(1.0));
+        let zero = self.low.like(0.0);
+        let span = self.high - self.low;
+        let time = span * e.step;
+        let [a, b] = [self.acceleration[0] * time, self.acceleration[1] * time];
+        let rise = w - v;
+        let s = (-v) / rise.max(one.like(1e-30));
+        let (square, cube) = (rise.fma(one.like(3.0), -(a + a + b)), a + b - rise - rise);
+        let here = cube.fma(s, square).fma(s, a).fma(s, v);
+        let slope = (cube * one.like(3.0)).fma(s, square + square).fma(s, a);
+        let rising = zero.less(slope);
+        let nearer = s - here / rising.select(slope, one);
+        let s = rising.select(nearer.max(zero).min(one), s);
+        s.fma(span, self.low)
+    }
+}
+
+/// Lanes whose velocity turns towards zero between two samples and reaches over it: the side of the extremum that rises.
+#[inline(always)]
+fn turn_over<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
     e: &Expansion<S, T, K, N>,
     track: &Track<S, T, K>,
     i: usize,
-    at: Vector<S, T, K>,
-    turns_somewhere: bool,
-) -> Bracket<S, T, K> {
-    let tiny = at.like(1e-30);
-    let (low, high) = (at * at.like(SAMPLE_TIMES[i]), at * at.like(SAMPLE_TIMES[i + 1]));
-    let [v, w] = [track.velocity[i], track.velocity[i + 1]];
-    let crosses = track.rises(i);
-    let straight = low + (high - low) * (v / (v - w).min(at.like(-1e-30)));
-    let rise = Bracket { crosses, low, high, guess: straight };
+    bracket: &mut Bracket<S, T, K>,
+) {
     let turns = track.turns(i);
-    if !turns_somewhere || !turns.any() {
-        return rise;
+    if !turns.any() {
+        return;
     }
-    let zero = at.like(0.0);
-    let [a, b] = [track.acceleration[i], track.acceleration[i + 1]];
-    let bend = turns.select((b - a) / (high - low).max(tiny), at.like(1.0));
+    let (low, high) = (bracket.low, bracket.high);
+    let (zero, tiny) = (low.like(0.0), low.like(1e-30));
+    let [v, w] = bracket.velocity;
+    let [a, b] = bracket.acceleration;
+    let bend = turns.select((b - a) / (high - low).max(tiny), low.like(1.0));
     let mut turn = low - a / bend;
     for _ in 0..REFINEMENTS {
         let here = value_to(&e.a[0], N - 3, turn) * (e.rate * e.rate);
@@ -151,13 +217,10 @@ fn between<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
     let is_hump = v.less(zero);
     let over = is_hump.and(zero.at_most(depth)).or(is_hump.not().and(depth.less(zero)));
     let over = turns.and(over);
-    // The parabola through the extremum and the sample on the side of the crossing.
-    let part = (depth / is_hump.select((depth - v).max(tiny), (depth - w).min(zero - tiny))).max(zero).sqrt();
-    let guess = is_hump.select(turn - (turn - low) * part, turn + (high - turn) * part);
-    Bracket {
-        crosses: crosses.or(over),
-        low: over.and(is_hump.not()).select(turn, low),
-        high: over.and(is_hump).select(turn, high),
-        guess: over.select(guess, straight),
-    }
+    let (from, to) = (over.and(is_hump.not()), over.and(is_hump));
+    bracket.crosses = bracket.crosses.or(over);
+    bracket.low = from.select(turn, low);
+    bracket.high = to.select(turn, high);
+    bracket.velocity = [from.select(depth, v), to.select(depth, w)];
+    bracket.acceleration = [from.select(zero, a), to.select(zero, b)];
 }

@@ -179,6 +179,17 @@ fn forms<S: Simd, T: Scalar<S>, const K: usize, const MOTION: u8>(
     Forms { ax, ay, aw, normal, push, fall, load, kappa }
 }
 
+/// `1/k`, and 0 for 0.
+const PER: [f64; 32] = {
+    let mut inverse = [0.0; 32];
+    let mut k = 1;
+    while k < 32 {
+        inverse[k] = 1.0 / k as f64;
+        k += 1;
+    }
+    inverse
+};
+
 /// Expands the motion over the step `h`; returns the lanes whose contact forces are not unique. Series of what
 /// does not move are left alone.
 #[expect(clippy::too_many_lines, reason = "one recurrence")]
@@ -220,7 +231,11 @@ pub fn expand<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: 
     } else if LAW == CURVED {
         law[0] = q0;
     }
+    // Of straight laws: what a degree of the accelerations takes from the one before it, so that it waits for
+    // nothing else.
+    let (mut drag, mut back, mut force_before) = (zero, zero, zero);
     for k in 0..N - 2 {
+        let waits_less = LAW == PIECES && k > 1;
         let (mut x, mut y, mut w, mut force) = (ax[0] * p[0][k], zero, zero, zero);
         if MOTION != SINGLE {
             x = ax[0].fma(p[0][k], ax[2] * p[2][k]);
@@ -246,18 +261,31 @@ pub fn expand<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: 
                     x = q[j].fma(n[k - j], x);
                 }
             }
-            x = ax[5].fma(v[2][k + 1], x);
         }
-        x = ax[3].fma(v[0][k + 1], x);
-        if k > 0 {
-            x = q[k].fma(n[0], x);
-        }
-        if MOTION != SINGLE {
-            if k > 1 {
+        let part = h.like(PER[k]);
+        if waits_less {
+            if MOTION != SINGLE {
+                x = q[1].fma(force_before, x);
+                x = (ax[5] * part).fma(a[1][k - 1], x);
+                w = (aw[5] * part).fma(a[1][k - 1], w);
+                w = (aw[3] * part).fma(a[0][k - 1], w);
+            }
+            x = drag.fma(part, back).fma(a[0][k - 1], x);
+        } else {
+            if MOTION != SINGLE {
+                x = ax[5].fma(v[2][k + 1], x);
+                w = aw[5].fma(v[2][k + 1], w);
+                w = aw[3].fma(v[0][k + 1], w);
+            }
+            x = ax[3].fma(v[0][k + 1], x);
+            if k > 0 {
+                x = q[k].fma(n[0], x);
+            }
+            if MOTION != SINGLE && k > 1 {
                 x = q[1].fma(n[k - 1], x);
             }
-            w = aw[5].fma(v[2][k + 1], w);
-            w = aw[3].fma(v[0][k + 1], w);
+        }
+        if MOTION != SINGLE {
             force = normal[5].fma(v[2][k + 1], force);
             force = normal[3].fma(v[0][k + 1], force);
             a[1][k] = w;
@@ -265,8 +293,9 @@ pub fn expand<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: 
         if MOTION != SINGLE || k == 0 {
             n[k] = kappa.fnma(x, force);
         }
+        force_before = force;
         a[0][k] = x;
-        let (once, twice) = (h.like(1.0 / (k + 1) as f64), h.like(1.0 / ((k + 1) * (k + 2)) as f64));
+        let (once, twice) = (h.like(PER[k + 1]), h.like(PER[k + 1] * PER[k + 2]));
         v[0][k + 2] = x * once;
         p[0][k + 2] = x * twice;
         if MOTION != SINGLE {
@@ -281,6 +310,12 @@ pub fn expand<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: 
         let slower = if k == 0 { v[0][2] - drive } else { v[0][k + 2] };
         if LAW == PIECES {
             q[k + 1] = stiffening * slower;
+            if k == 0 {
+                drag = stiffening.fma(n[0], ax[3]);
+            }
+            if k == 0 && MOTION != SINGLE {
+                back = -(q[1] * kappa);
+            }
         } else {
             // Kept as the relative velocity times the degree or not, as its law needs it.
             let rate = per_step * inertia;

@@ -117,11 +117,11 @@ fn tail<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
     b: &[Vector<S, T, K>; N],
     end: usize,
 ) -> Vector<S, T, K> {
-    let mut rest = b[5].abs();
-    for k in 6..end {
-        rest += b[k].abs();
+    let mut rest = [b[5].abs(), b[6].abs()];
+    for k in 7..end {
+        rest[(k + 1) % 2] += b[k].abs();
     }
-    rest
+    rest[0] + rest[1]
 }
 
 /// Lanes in which each event function may fall to zero in the step.

@@ -10,21 +10,24 @@ use crate::kernel::reductions::{End, Reductions};
 use crate::kernel::response::{law_of, words};
 use crate::kernel::scalar::Real;
 use crate::kernel::scene::{Law, Scene as Words};
-use crate::kernel::series::FREE;
+use crate::kernel::series::{Body, FREE};
 use crate::outcome::{Outcome, Status};
 use crate::response::{Plan, Scene};
 use crate::settle::{Ending, Settling};
 use crate::spec::Instance;
 
-/// Steps of a stretch: short sums keep their digits, and a lane is looked at between stretches.
-pub const STRETCH: f64 = 64.0;
+/// Steps of a stretch of the window: short sums keep their digits, and a lane is looked at between stretches.
+pub const STRETCH: f64 = 80.0;
+
+/// Steps of a stretch between the first event and the window, whose sums are only a guess at the frequency.
+pub const LONG_STRETCH: f64 = 256.0;
 
 /// Relative error of a Fourier component from a guess of its frequency, in units of the bound on the truncation
 /// of a step: 0.006 degrees for 1e-5.
 const PHASE_ERROR: f64 = 10.0;
 
 /// Steps of the first stretch of a window, whose guess of the frequency is the worst.
-const FIRST_STRETCH: f64 = 16.0;
+const FIRST_STRETCH: f64 = 32.0;
 
 /// The parts of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -70,7 +73,7 @@ pub struct Job<T> {
     /// The Fourier components of the window, stretch by stretch.
     pub stretches: Stretches,
     /// Angular frequency of the response as far as it is known before the window.
-    pub guess: f64,
+    pub guess: Option<f64>,
     /// Steps.
     pub steps: u64,
     /// Times of the end of the settling, of the first half of the window and of the window.
@@ -80,7 +83,27 @@ pub struct Job<T> {
     plan: Plan,
     settling: Option<Settling>,
     ending: Option<Ending>,
-    snapshot: Option<Box<Lane<T>>>,
+    snapshot: Option<Snapshot<T>>,
+}
+
+/// The state of a lane at the start of the window.
+#[derive(Clone, Copy, Debug)]
+struct Snapshot<T> {
+    body: Body<T>,
+    contact: u32,
+    piece: u32,
+    disarmed: u32,
+}
+
+impl<T: Real> Snapshot<T> {
+    fn of(lane: &Lane<T>) -> Self {
+        Snapshot { body: lane.body, contact: lane.contact, piece: lane.piece, disarmed: lane.disarmed }
+    }
+
+    fn restore(self, lane: &mut Lane<T>) {
+        (lane.body, lane.contact, lane.piece, lane.disarmed) =
+            (self.body, self.contact, self.piece, self.disarmed);
+    }
 }
 
 impl<T: Real> Job<T> {
@@ -115,7 +138,7 @@ impl<T: Real> Job<T> {
             seen: Reductions::default(),
             previous: T::ZERO,
             stretches: Stretches::default(),
-            guess: 1.0,
+            guess: None,
             steps: 0,
             marks: window(scene_settle, half),
             quiet: true,
@@ -156,7 +179,7 @@ impl<T: Real> Job<T> {
                 self.previous = T::ZERO;
                 self.origin = [self.lane.body.p[0], self.lane.body.p[2]];
                 self.seen.origin = self.origin.map(T::to_f64);
-                self.snapshot = Some(Box::new(self.lane.clone()));
+                self.snapshot = Some(Snapshot::of(&self.lane));
                 true
             }
             Part::Phase => {
@@ -168,7 +191,7 @@ impl<T: Real> Job<T> {
                     self.seen.phase = phase;
                     return false;
                 }
-                self.lane = *snapshot;
+                snapshot.restore(&mut self.lane);
                 self.time = self.marks[0];
                 true
             }
@@ -182,9 +205,14 @@ impl<T: Real> Job<T> {
     }
 
     /// The same as far as it is known on the way.
+    fn known_omega(&self) -> Option<f64> {
+        if self.seen.crossings > 2 { Some(self.omega()) } else { self.guess }
+    }
+
+    /// The same, or `ω0`.
     #[must_use]
     pub fn guessed_omega(&self) -> f64 {
-        if self.seen.crossings > 2 { self.omega() } else { self.guess }
+        self.known_omega().unwrap_or(1.0)
     }
 
     /// The Fourier components of the window from its stretches, if they are good enough.
@@ -216,6 +244,7 @@ impl<T: Real> Job<T> {
         let step = length / whole;
         let most = match part {
             Part::Window => STRETCH.min(FIRST_STRETCH * (1 + self.stretches.len()) as f64),
+            Part::Settle => LONG_STRETCH,
             _ => STRETCH,
         };
         if whole <= most {
@@ -250,7 +279,7 @@ impl<T: Real> Job<T> {
             return false;
         }
         let outcome = self.outcome();
-        let guess = self.guessed_omega();
+        let guess = self.known_omega();
         let frequency = self.seen.frequency();
         let Some(settling) = &mut self.settling else { return false };
         self.ending = settling.judge(&outcome, !self.quiet, self.marks[2]);

@@ -21,6 +21,7 @@ pub mod crossings;
 pub mod events;
 pub mod expand;
 pub mod functions;
+pub mod impacts;
 pub mod job;
 pub mod observe;
 pub mod pass;

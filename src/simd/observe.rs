@@ -8,7 +8,7 @@ use pulp::Simd;
 
 use super::block::Block;
 use super::constants::{N0, R, T0, W};
-use super::events::{value, value_to};
+use super::events::{value, value_soon, value_to};
 use super::expand::{Expansion, SINGLE};
 use super::spectrum::{Nodes, Spectrum, moving};
 use super::vector::{Mask, Scalar, Vector};
@@ -34,6 +34,8 @@ pub struct Sums<S: Simd, T: Scalar<S>, const K: usize> {
     pub first: Vector<S, T, K>,
     /// Time of the last.
     pub last: Vector<S, T, K>,
+    /// Impacts.
+    pub impacts: Vector<S, T, K>,
     /// 1 as long as the stretch has no event.
     pub quiet: Vector<S, T, K>,
     /// Time since the stretch began.
@@ -65,6 +67,7 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
             crossings: zero,
             first: zero,
             last: zero,
+            impacts: zero,
             quiet: zero,
             time: zero,
             growth: [zero; GROWTH],
@@ -273,11 +276,7 @@ pub fn change<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
     v: &[Vector<S, T, K>; N],
     t: Vector<S, T, K>,
 ) -> Vector<S, T, K> {
-    let mut sum = v[N - 1];
-    for k in (2..N - 1).rev() {
-        sum = sum.fma(t, v[k]);
-    }
-    sum * t
+    value_soon(v, 2, N - 1, t) * t
 }
 
 /// The maximum of a smooth function from its samples, see [`crate::kernel::observe::maximum`].
@@ -285,31 +284,27 @@ pub fn change<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
 fn maximum<S: Simd, T: Scalar<S>, const K: usize>(values: &[Vector<S, T, K>; 5]) -> Vector<S, T, K> {
     let zero = values[0].like(0.0);
     let mut top = values[0];
-    // The slopes to both sides of the top and the distances they are taken over.
+    // The slopes to both sides of the top, the way to the sample before and the inverse of that between its neighbours.
     let mut left = zero;
     let mut right = zero;
-    let mut width = [zero.like(1.0); 2];
-    for i in 1..5 {
+    let mut before = zero;
+    let mut per_width = zero;
+    for i in 1..4 {
         let higher = top.less(values[i]);
+        let widths = [SAMPLE_TIMES[i] - SAMPLE_TIMES[i - 1], SAMPLE_TIMES[i + 1] - SAMPLE_TIMES[i]];
         top = higher.select(values[i], top);
-        let before = SAMPLE_TIMES[i] - SAMPLE_TIMES[i - 1];
-        left = higher.select((values[i] - values[i - 1]) * zero.like(1.0 / before), left);
-        width[0] = higher.select(zero.like(before), width[0]);
-        if i < 4 {
-            let after = SAMPLE_TIMES[i + 1] - SAMPLE_TIMES[i];
-            right = higher.select((values[i + 1] - values[i]) * zero.like(1.0 / after), right);
-            width[1] = higher.select(zero.like(after), width[1]);
-        } else {
-            right = higher.select(zero, right);
-            left = higher.select(zero, left);
-        }
+        left = higher.select((values[i] - values[i - 1]) * zero.like(1.0 / widths[0]), left);
+        right = higher.select((values[i + 1] - values[i]) * zero.like(1.0 / widths[1]), right);
+        before = higher.select(zero.like(widths[0]), before);
+        per_width = higher.select(zero.like(1.0 / (widths[0] + widths[1])), per_width);
     }
-    // Inside, the slopes differ; the tangent is that of the parabola through three samples.
-    let curvature = (right - left) / (width[0] + width[1]);
-    let tangent = curvature.fma(width[0], left);
-    let bent = curvature.less(zero);
+    // Inside, the slopes differ; the tangent is that of the parabola through three samples. At an end there is none.
+    let curvature = (right - left) * per_width;
+    let tangent = curvature.fma(before, left);
+    let inside = values[4].at_most(top);
+    let bent = curvature.less(zero).and(inside);
     let rise = tangent * tangent / bent.select(curvature * zero.like(-4.0), zero.like(1.0));
-    bent.select(top + rise, top)
+    bent.select(top + rise, top.max(values[4]))
 }
 
 /// `cos φ` and `sin φ` for moderate angles.

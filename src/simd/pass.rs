@@ -8,7 +8,7 @@ use pulp::Simd;
 
 use super::block::{Block, event_of};
 use super::crossings::{Track, cross_upwards};
-use super::events::{first_event, value};
+use super::events::{first_event, value_soon};
 use super::expand::{CLOSED, Expansion, FLIGHT, PIECES, SINGLE, expand};
 use super::functions::{Functions, functions};
 use super::job::{Job, Part, STRETCH};
@@ -23,7 +23,11 @@ use crate::outcome::Status;
 /// Steps of all lanes after which a wish to stop is looked for: some milliseconds.
 const TURNS: u32 = 4096;
 
-/// Most steps of a stretch.
+/// Steps of the single mass that one of them may take while it sticks to a belt of one velocity: its motion is a straight
+/// line, which every formula here is exact for, but for the turn of the Fourier sums' carriers, good up to a whole one.
+const STICK_STEPS: f64 = 4.0;
+
+/// Most steps of a stretch; f32 counts them.
 const MOST_STEPS: f64 = STRETCH * MAX_PARTS as f64;
 
 /// What all instances of a pass share.
@@ -106,7 +110,11 @@ fn step<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool, 
     let one = b.left.like(1.0);
     b.v[0] = b.stick().select(b.belt, b.v[0]);
     let allowed = b.longest();
-    let pace = b.pace.min(b.step).min(allowed);
+    let mut pace = b.pace.min(b.step).min(allowed);
+    if MOTION == SINGLE {
+        let waits = b.stick().and(b.drive.abs().not_positive());
+        pace = waits.select((b.step * one.like(STICK_STEPS)).min(one.like(TAU)), pace);
+    }
     let last = b.left.at_most(pace * one.like(1.0 + 1e-3));
     let h = last.select(b.left, pace);
     let ill_posed = expand::<S, T, K, N, LAW, MOTION>(b, h, e);
@@ -122,7 +130,7 @@ fn step<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool, 
     functions::<S, T, K, N, MOTION>(b, e, g);
     let [at, event] = first_event::<S, T, K, N, MOTION>(b, e, g, tolerance);
     let (at, event) = (at.min(reach.end), event.only(at.at_most(reach.end)));
-    let (x, vx) = (value(&e.p[0], at), change(&e.v[0], at).fma(e.rate, b.v[0]));
+    let (x, vx) = (value_soon(&e.p[0], 0, N - 1, at), change(&e.v[0], at).fma(e.rate, b.v[0]));
     let sums = &mut all.sums;
     if all.part == Part::Growth {
         sums.observe_growth::<N, MOTION>(e, at, x, vx);
@@ -146,11 +154,11 @@ fn step<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool, 
     b.p[0] = x;
     b.v[0] = vx;
     if MOTION != SINGLE {
-        b.p[2] = value(&e.p[2], at);
+        b.p[2] = value_soon(&e.p[2], 0, N - 1, at);
         b.v[2] = change(&e.v[2], at).fma(e.rate, b.v[2]);
     }
     if MOTION == FLIGHT {
-        b.p[1] = value(&e.p[1], at);
+        b.p[1] = value_soon(&e.p[1], 0, N - 1, at);
         b.v[1] = change(&e.v[1], at).fma(e.rate, b.v[1]);
     }
     let whole = one.at_most(at).and(h.at_most(e.step)).and(last);
@@ -167,7 +175,15 @@ fn step<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool, 
     if happened.any() {
         sums.growing = happened.select(zero, sums.growing);
         sums.quiet = happened.select(zero, sums.quiet);
-        let rare = if all.part == Part::Growth { happened } else { transitions(b, event, at) };
+        let hits = b.free().and(happened);
+        let rare = if all.part == Part::Growth {
+            happened
+        } else {
+            transitions::<S, T, K, LAW, MOTION>(b, event, at)
+        };
+        if MOTION == FLIGHT && all.part == Part::Window {
+            sums.impacts += one.only(hits.and(rare.not()));
+        }
         pending = rare.select(event, zero);
         look = look.or(rare);
     }
@@ -229,6 +245,7 @@ fn begin<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>, lane: 
             word.set(lane, position);
         }
         sums.quiet.set(lane, T::ONE);
+        sums.impacts.set(lane, T::ZERO);
         let begun = job.seen.crossings > 0;
         sums.spectrum.begin(lane, job.guessed_omega(), 0.5 * length, begun);
     }
@@ -262,6 +279,7 @@ fn flush<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>, lane: 
     if all.part == Part::Window {
         let half = job.half();
         job.quiet &= sums.quiet.get(lane) > T::ZERO;
+        job.seen.impacts += sums.impacts.get(lane).to_f64() as u32;
         for (total, word) in job.seen.halves[half].iter_mut().zip(&sums.window) {
             *total += word.get(lane).to_f64();
         }
@@ -285,11 +303,14 @@ fn flush<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>, lane: 
             words(&spectrum.sums),
             (crossings > 0.0).then(|| words(&spectrum.noted)),
         );
+        if crossings > 0.0 && spectrum.fresh.get(lane) <= T::ZERO {
+            job.stretches.forget();
+        }
     } else if all.part != Part::Phase {
         let cycles = sums.crossings.get(lane).to_f64() - 1.0;
         let span = sums.last.get(lane).to_f64() - sums.first.get(lane).to_f64();
         if cycles >= 2.0 && span > 0.0 {
-            job.guess = TAU * cycles / span;
+            job.guess = Some(TAU * cycles / span);
         }
     }
     job.previous = sums.previous.get(lane);

@@ -3,7 +3,10 @@
 //! Every lane sums over a stretch `∫ a uᵐ exp(−iω′(t − t_m)) dt`, with a guess `ω′` of the frequency, the
 //! middle `t_m` of the stretch and `u = (t − t_m)/T` on `[−1, 1]`. The component at `ω = ω′ + δ` follows from
 //! the series of `exp(−iδTu)`: see [`crate::simd::stretches`]. The sums begin at the first upward crossing of
-//! `ẋ2` and are noted at every later one: the last is the end.
+//! `ẋ2`; the last of the window is their end. They are noted at all that may be the last of a stretch, the guess
+//! says when: where it was wrong, the window is passed once more.
+
+use std::f64::consts::TAU;
 
 use pulp::Simd;
 
@@ -18,6 +21,9 @@ pub const MOMENTS: usize = 3;
 /// Sums of a stretch: by power, then real and imaginary part for `ẍ2` and `ÿ1`.
 pub const COMPONENTS: usize = 4 * MOMENTS;
 
+/// Periods of the guess before the end of a stretch from which crossings are noted.
+const CLOSING: f64 = 1.5;
+
 /// The sums of the present stretches.
 #[derive(Clone, Copy, Debug)]
 pub struct Spectrum<S: Simd, T: Scalar<S>, const K: usize> {
@@ -29,9 +35,13 @@ pub struct Spectrum<S: Simd, T: Scalar<S>, const K: usize> {
     pub scale: Vector<S, T, K>,
     /// 1 from the first crossing on.
     pub begun: Vector<S, T, K>,
+    /// The time of the stretch from which crossings are noted.
+    pub closing: Vector<S, T, K>,
+    /// 1 when the last crossing has been.
+    pub fresh: Vector<S, T, K>,
     /// Sums up to now.
     pub sums: [Vector<S, T, K>; COMPONENTS],
-    /// Sums up to the last crossing of the stretch.
+    /// Sums up to the last crossing that was noted.
     pub noted: [Vector<S, T, K>; COMPONENTS],
 }
 
@@ -77,6 +87,8 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Spectrum<S, T, K> {
             carrier: [zero; 2],
             scale: zero,
             begun: zero,
+            closing: zero,
+            fresh: zero,
             sums: [zero; COMPONENTS],
             noted: [zero; COMPONENTS],
         }
@@ -91,6 +103,8 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Spectrum<S, T, K> {
         self.carrier[0].set(lane, T::from_f64((omega * half).cos()));
         self.carrier[1].set(lane, T::from_f64((omega * half).sin()));
         self.begun.set(lane, T::from_f64(f64::from(u8::from(begun))));
+        self.closing.set(lane, T::from_f64(2.0 * half - CLOSING * TAU / omega));
+        self.fresh.set(lane, T::ZERO);
         for word in self.sums.iter_mut().chain(&mut self.noted) {
             word.set(lane, T::ZERO);
         }

@@ -61,6 +61,11 @@ impl Stretches {
         self.whole.push(Stretch { omega, middle, half, sums });
     }
 
+    /// The last crossing was not noted.
+    pub fn forget(&mut self) {
+        self.last = None;
+    }
+
     /// The components of `ẍ2` and `ÿ1` at `omega`, phases from `start` on; `None` when a guess was so far off
     /// that the terms left out of a series may exceed `bound` times a component. `rms` are the root mean
     /// squares of both signals.

@@ -1,14 +1,17 @@
-//! What most events do, in all lanes at once: rest, stick, slip, kinks and lift-off.
+//! What most events do, in all lanes at once: rest, stick, slip, kinks, lift-off and impacts.
 //!
-//! The rules are those of [`crate::kernel::lane`]; impacts and what is rare are left to it, lane by lane.
+//! The rules are those of [`crate::kernel::lane`]; what is rare is left to it, lane by lane.
 
 use std::ops::Not;
 
 use pulp::Simd;
 
-use super::block::{Block, FIRST, LOWER, SECOND, THIRD, UPPER};
+use super::block::{Block, FIRST, LOWER, ONE_PIECE, SECOND, THIRD, UPPER};
 use super::constants::{CONE, KAPPA, MU_STICK, N0, R, T0, W};
+use super::expand::{FLIGHT, PIECES};
+use super::impacts::{at_speed, impact};
 use super::vector::{Mask, Scalar, Vector};
+use crate::kernel::lane::HELD_FROM;
 use crate::kernel::scene::EVENTS_AT_ONCE;
 use crate::kernel::series::{FREE, REVERSE, SLIP, STICK};
 
@@ -29,10 +32,9 @@ fn code<S: Simd, T: Scalar<S>, const K: usize>(like: Vector<S, T, K>, code: u32)
     like.like(f64::from(code))
 }
 
-/// Carries out the events of lanes with a closed contact, `at` their places in the step; returns the lanes
-/// that are left to be looked at.
+/// Carries out the events of all lanes, `at` their places in the step; returns the lanes that are left to be looked at.
 #[inline(always)]
-pub fn transitions<S: Simd, T: Scalar<S>, const K: usize>(
+pub fn transitions<S: Simd, T: Scalar<S>, const K: usize, const LAW: bool, const MOTION: u8>(
     b: &mut Block<S, T, K>,
     event: Vector<S, T, K>,
     at: Vector<S, T, K>,
@@ -52,7 +54,19 @@ pub fn transitions<S: Simd, T: Scalar<S>, const K: usize>(
     let inner = slip.and(second).and(b.piece[LOWER].not_positive());
     let kink = slip.and(second.or(third)).and(inner.not());
     let cone = slip.or(free).not().and(second.or(third));
-    let stops = inner.or(cone);
+    let mut rare = kink.and(zero.less(b.many)).or(limit);
+    let mut lands = Landing::nowhere(event);
+    if MOTION == FLIGHT {
+        let hits = happened.and(free);
+        if LAW == PIECES && hits.any() {
+            rare = rare.or(hits.and(event.like(ONE_PIECE).less(b.many)));
+            lands = land(b, hits, &mut rare);
+        } else {
+            rare = rare.or(hits);
+        }
+    }
+    let at_rest = inner.or(lands.at_rest);
+    let stops = at_rest.or(cone);
 
     // At v = 0: stick inside the cone, else slip in the direction of the force.
     b.v[0] = stops.select(b.belt, b.v[0]);
@@ -62,25 +76,26 @@ pub fn transitions<S: Simd, T: Scalar<S>, const K: usize>(
     let held = b.scene[MU_STICK] * normal;
     let forward = held - tangential + b.scene[CONE];
     let backward = held + tangential + b.scene[CONE + 1];
-    let sticks = inner.and(zero.at_most(forward)).and(zero.at_most(backward));
-    let ahead = cone.and(second).or(inner.and(zero.at_most(tangential + b.scene[T0])));
+    let sticks = at_rest.and(zero.at_most(forward)).and(zero.at_most(backward));
+    let ahead = cone.and(second).or(at_rest.and(zero.at_most(tangential + b.scene[T0])));
     let q = ahead.select(b.scene[MU_STICK], -b.scene[MU_STICK]);
     let slides = stops.and(sticks.not());
     let ill_posed = slides.and(b.scene[KAPPA].fma(q, one).not_positive());
-    let pressed = zero.less(b.scene[KAPPA].fma(r + b.scene[T0], w + b.scene[N0]));
-    let rare = kink.and(zero.less(b.many)).or(ill_posed).or(happened.and(free)).or(limit);
+    let pressed = zero.less(b.scene[KAPPA].fma(r + b.scene[T0], w + b.scene[N0])).or(lands.held);
+    let rare = rare.or(ill_posed);
     let done = happened.and(rare.not());
 
-    let slipping = ahead.select(code(event, SLIP), code(event, REVERSE));
+    let slipping = ahead.or(lands.forward).select(code(event, SLIP), code(event, REVERSE));
     let mut contact = sticks.select(code(event, STICK), b.contact);
-    contact = slides.select(pressed.select(slipping, code(event, FREE)), contact);
+    let moves = slides.or(lands.moving);
+    contact = moves.select(pressed.select(slipping, code(event, FREE)), contact);
     contact = lift_off.select(code(event, FREE), contact);
-    let mut disarmed = slides.select(pressed.select(code(event, SECOND), code(event, FIRST)), zero);
-    disarmed = lift_off.select(code(event, FIRST), disarmed);
+    let mut disarmed = slides.select(code(event, SECOND), zero);
+    disarmed = moves.and(pressed.not()).or(lift_off).or(lands.rebounds).select(code(event, FIRST), disarmed);
     disarmed = kink.select(third.select(code(event, SECOND), code(event, THIRD)), disarmed);
     b.contact = done.select(contact, b.contact);
     b.disarmed = done.select(disarmed, b.disarmed);
-    let swap = kink.and(done);
+    let swap = kink.or(lands.elsewhere).and(done);
     if swap.any() {
         for word in 0..=UPPER {
             let (here, there) = (b.piece[word], b.other[word]);
@@ -89,4 +104,69 @@ pub fn transitions<S: Simd, T: Scalar<S>, const K: usize>(
         }
     }
     rare
+}
+
+/// Lanes that fall onto the belt.
+struct Landing<S: Simd, T: Scalar<S>, const K: usize> {
+    /// They rest on it.
+    at_rest: Mask<S, T, K>,
+    /// They slide.
+    moving: Mask<S, T, K>,
+    /// Those of them that the belt overtakes.
+    forward: Mask<S, T, K>,
+    /// They fly on.
+    rebounds: Mask<S, T, K>,
+    /// A body that lands again and again without time between is held: the force is zero within rounding.
+    held: Mask<S, T, K>,
+    /// They slide on the other piece of their law.
+    elsewhere: Mask<S, T, K>,
+}
+
+impl<S: Simd, T: Scalar<S>, const K: usize> Landing<S, T, K> {
+    /// No lane lands.
+    #[inline(always)]
+    fn nowhere(like: Vector<S, T, K>) -> Self {
+        let none = like.like(0.0).less(like.like(0.0));
+        Landing { at_rest: none, moving: none, forward: none, rebounds: none, held: none, elsewhere: none }
+    }
+}
+
+/// Carries out the impacts of the lanes `hits` but for those that are `rare`.
+#[inline(always)]
+fn land<S: Simd, T: Scalar<S>, const K: usize>(
+    b: &mut Block<S, T, K>,
+    hits: Mask<S, T, K>,
+    rare: &mut Mask<S, T, K>,
+) -> Landing<S, T, K> {
+    let zero = b.left.like(0.0);
+    let after = impact(b);
+    let relative = b.belt - after.tangential;
+    let speed = relative.abs();
+    let landed = at_speed(b, speed);
+    let rebounds = zero.less(after.rebound);
+    let forward = zero.less(relative);
+    let moving = zero.less(speed);
+    let q = forward.select(landed.mu, -landed.mu);
+    let inertia = b.scene[KAPPA].fma(q, zero.like(1.0));
+    let ill_posed = after.ill_posed.or(rebounds.not().and(moving).and(inertia.not_positive()));
+    // What is not a number is for the scalar code, which ends the lane.
+    let known = moving.or(speed.not_positive());
+    *rare = rare.or(hits.and(ill_posed.or(known.not())));
+    let hits = hits.and(rare.not());
+    b.p[1] = hits.select(zero, b.p[1]);
+    b.v[0] = hits.select(after.tangential, b.v[0]);
+    b.v[1] = hits.select(after.rebound, b.v[1]);
+    // Another contact state has other modes.
+    b.pace = hits.select(b.step, b.pace);
+    let closes = hits.and(rebounds.not());
+    let held = closes.and(zero.like(f64::from(HELD_FROM)).at_most(b.at_once));
+    let moving = closes.and(moving);
+    Landing {
+        at_rest: closes.and(moving.not()),
+        moving,
+        forward: moving.and(forward),
+        rebounds: hits.and(rebounds),
+        held,
+        elsewhere: hits.and(landed.elsewhere),
+    }
 }

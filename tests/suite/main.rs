@@ -31,6 +31,7 @@ mod identify;
 mod identify_faults;
 mod identify_files;
 mod identify_growth;
+mod impacts;
 mod instances;
 #[cfg(unix)]
 mod interrupt;

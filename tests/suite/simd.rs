@@ -179,20 +179,21 @@ fn no_lane_freezes_in_a_million() {
 /// What does not come to its end in f32 has the result of f64, and everything else its own.
 #[test]
 fn what_ends_early_in_f32_is_computed_in_f64() {
-    let instances = of_every_law(6000);
+    let instances = of_every_law(600);
     let plan = Plan { settle: Duration::Periods(5.0), measure: Duration::Periods(5.0), ..periods() };
-    let [single, double] = [run::<f32>(&instances, &plan), run::<f64>(&instances, &plan)];
+    let [mut single, double] = [run::<f32>(&instances, &plan), run::<f64>(&instances, &plan)];
+    let early = [Status::EventLimit, Status::StepTooLarge, Status::NonFinite];
+    // Few end early by themselves: some are made to.
+    for (index, outcome) in single.iter_mut().step_by(20).enumerate() {
+        *outcome = Outcome { status: early[index % 3], ..Outcome::default() };
+    }
     let made = outcomes_again(&instances, &plan, single.clone(), &AtomicBool::new(false)).expect("nobody");
-    let ends_early = |outcome: &Outcome| outcome.status == Status::EventLimit;
-    let early = single.iter().filter(|outcome| ends_early(outcome)).count();
-    let left = made.iter().filter(|outcome| ends_early(outcome)).count();
-    assert!(early >= 4 && left < early, "{early} {left}");
     for (index, outcome) in made.iter().enumerate() {
-        let failed =
-            matches!(single[index].status, Status::EventLimit | Status::StepTooLarge | Status::NonFinite);
+        let failed = early.contains(&single[index].status);
         let expected = if failed { &double[index] } else { &single[index] };
         assert_eq!(outcome, expected, "{index}");
     }
+    assert!(single.iter().zip(&made).filter(|(before, after)| before != after).count() >= 20);
 }
 
 /// The reference's result in f32 too, of an instance that did not come to its end.

@@ -1,8 +1,8 @@
-//! θ = 0: the engine steps the single mass on a belt by less code, to the same bits.
+//! θ = 0: the engine steps the single mass on a belt by less code, and by fewer steps while it sticks.
 
 use std::sync::atomic::AtomicBool;
 
-use crate::common::{close, instance, plan};
+use crate::common::{instance, plan};
 use crate::instances::Uniform;
 use squealmap::backend::cpu::outcomes;
 use squealmap::model::Param;
@@ -40,38 +40,57 @@ fn run<T: Lanes>(instances: &[Instance]) -> Vec<Outcome> {
     outcomes::<T>(instances, &plan, &AtomicBool::new(false)).expect("nobody stops it")
 }
 
-/// An inclination too small for any number to notice takes the general way.
-fn same_bits<T: Lanes>(epsilon: f64) {
-    let (single, general) = (run::<T>(&instances(0.0)), run::<T>(&instances(1e-300)));
-    let mut stuck = 0;
-    for (index, (a, b)) in single.iter().zip(&general).enumerate() {
-        assert_eq!(a.status, Status::Ok, "{index}");
-        // The largest of many samples of one constant.
-        close("peak of N", a.n_peak.expect("a value"), b.n_peak.expect("a value"), 4.0 * epsilon);
-        // y1 has never moved, or by 1e-300: its phase then has a value.
-        assert!(
-            a.ay_peak == Some(0.0) && b.ay_peak < Some(1e-290),
-            "{index}: {:?} {:?}",
-            a.ay_peak,
-            b.ay_peak
-        );
-        let b = Outcome { n_peak: a.n_peak, ay_peak: a.ay_peak, ..*b };
-        assert_eq!(
-            *a,
-            Outcome { phase_cycle: a.phase_cycle, phase_measured: a.phase_measured, ..b },
-            "{index}"
-        );
-        stuck += usize::from(a.stick > Some(0.01));
+/// The largest relative difference of an observable, and the steps taken, of two ways to the same.
+fn apart(one: &[Outcome], other: &[Outcome]) -> (f64, [u64; 2]) {
+    let mut worst = 0.0_f64;
+    for (index, (a, b)) in one.iter().zip(other).enumerate() {
+        assert_eq!([a.status, b.status], [Status::Ok; 2], "{index}");
+        // y1 has never moved, or by 1e-300.
+        assert!(a.ay_peak == Some(0.0) && b.ay_peak < Some(1e-290), "{index}: {a:?} {b:?}");
+        let of = |o: &Outcome| {
+            [
+                o.x2_mean,
+                o.x2_std,
+                o.ax_rms,
+                o.friction_mean,
+                o.n_peak,
+                o.response_frequency,
+                o.stick,
+                o.reverse,
+            ]
+        };
+        for (a, b) in of(a).into_iter().zip(of(b)) {
+            let (a, b) = (a.unwrap_or(0.0), b.unwrap_or(0.0));
+            worst = worst.max((a - b).abs() / a.abs().max(1e-3));
+        }
     }
+    (worst, [one, other].map(|all| all.iter().map(|outcome| outcome.steps).sum()))
+}
+
+/// An inclination too small for any number to notice takes the general way, whose steps are as short in stick.
+fn agrees<T: Lanes>(bound: f64) {
+    let (single, general) = (run::<T>(&instances(0.0)), run::<T>(&instances(1e-300)));
+    let (worst, [few, many]) = apart(&single, &general);
+    assert!(worst < bound, "{worst:e}");
+    assert!(few < many, "{few} {many} steps");
+    let stuck = single.iter().filter(|outcome| outcome.stick > Some(0.01)).count();
     assert!(stuck > 50, "{stuck} of 200 stick");
+    // Planted fault: another limit of stick.
+    let mut planted = instances(0.0);
+    for instance in &mut planted {
+        if let FrictionLaw::Bilinear { mu_s, .. } | FrictionLaw::Constant { mu_s, .. } = &mut instance.law {
+            *mu_s *= 1.001;
+        }
+    }
+    assert!(apart(&run::<T>(&planted), &general).0 > 2.0 * bound);
 }
 
 #[test]
-fn f64_is_that_of_the_general_case_in_every_bit() {
-    same_bits::<f64>(f64::EPSILON);
+fn f64_is_that_of_the_general_case() {
+    agrees::<f64>(1e-5);
 }
 
 #[test]
-fn f32_is_that_of_the_general_case_in_every_bit() {
-    same_bits::<f32>(f64::from(f32::EPSILON));
+fn f32_is_that_of_the_general_case() {
+    agrees::<f32>(1e-4);
 }

@@ -98,3 +98,11 @@ fn without_a_crossing_there_is_nothing() {
     all.push(OMEGA, [10.0, 10.0], [1.0; COMPONENTS], None);
     assert!(components(&all).is_none());
 }
+
+#[test]
+fn a_last_crossing_that_was_missed_is_not_used() {
+    let (mut all, _) = stretches(0.0);
+    assert!(components(&all).is_some());
+    all.forget();
+    assert!(components(&all).is_none());
+}
