@@ -63,7 +63,6 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Track<S, T, K> {
 /// Where a lane crosses upwards: between two fractions of the step.
 #[derive(Clone, Copy, Debug)]
 struct Bracket<S: Simd, T: Scalar<S>, const K: usize> {
-    crosses: Mask<S, T, K>,
     low: Vector<S, T, K>,
     high: Vector<S, T, K>,
     /// `ẋ2` at both.
@@ -88,64 +87,85 @@ pub fn cross_upwards<S: Simd, T: Scalar<S>, const K: usize, const N: usize, cons
     sums.previous = track.velocity[4];
     let rises = [track.rises(0), track.rises(1), track.rises(2), track.rises(3)];
     let turns = track.turns(0).or(track.turns(1)).or(track.turns(2)).or(track.turns(3));
-    let turns_somewhere = turns.any();
-    if !turns_somewhere && !jumped.or(rises[0]).or(rises[1]).or(rises[2]).or(rises[3]).any() {
+    let mut crossed = jumped;
+    let mut again = turns;
+    for rises in rises {
+        again = again.or(crossed.and(rises));
+        crossed = crossed.or(rises);
+    }
+    if !crossed.or(again).any() {
         return;
     }
-    let mut brackets = [Bracket {
-        crosses: jumped,
-        low: zero,
-        high: zero,
-        velocity: [at.like(-1.0), zero],
-        acceleration: [zero; 2],
-    }; 5];
+    let jump = Bracket { low: zero, high: zero, velocity: [at.like(-1.0), zero], acceleration: [zero; 2] };
+    let mut brackets = [jump; 5];
     for i in 0..4 {
         brackets[i + 1] = Bracket {
-            crosses: rises[i],
             low: at * at.like(SAMPLE_TIMES[i]),
             high: at * at.like(SAMPLE_TIMES[i + 1]),
             velocity: [track.velocity[i], track.velocity[i + 1]],
             acceleration: [track.acceleration[i], track.acceleration[i + 1]],
         };
-        if turns_somewhere {
-            turn_over(e, track, i, &mut brackets[i + 1]);
-        }
     }
-    let begun = zero.less(sums.spectrum.begun);
+    let mut next = brackets[4];
+    if !again.any() {
+        // Every lane crosses once at most.
+        for i in (0..3).rev() {
+            next = choose(rises[i], &brackets[i + 1], &next);
+        }
+        take::<S, T, K, N, MOTION>(sums, e, &choose(jumped, &jump, &next), crossed);
+        return;
+    }
+    let mut crosses = [jumped, rises[0], rises[1], rises[2], rises[3]];
+    for i in 0..4 {
+        let over = turn_over(e, track, i, &mut brackets[i + 1]);
+        crosses[i + 1] = crosses[i + 1].or(over);
+    }
     loop {
-        // The next crossing of every lane: most have one at most.
-        let mut next = brackets[4];
+        next = brackets[4];
         for i in (0..4).rev() {
-            next = choose(brackets[i].crosses, &brackets[i], &next);
+            next = choose(crosses[i], &brackets[i], &next);
         }
         let mut crossed = zero.less(zero);
         let mut again = crossed;
-        for bracket in &mut brackets {
-            let here = bracket.crosses;
-            bracket.crosses = here.and(crossed);
-            again = again.or(bracket.crosses);
+        for crosses in &mut crosses {
+            let here = *crosses;
+            *crosses = here.and(crossed);
+            again = again.or(*crosses);
             crossed = crossed.or(here);
         }
-        let mut t = next.guess(e);
-        // The first crossing of the window and what may be the last of a stretch: the sums begin and end there.
-        let late = sums.spectrum.closing.at_most(t.fma(e.step, sums.time));
-        let counts = crossed.and(begun.not().or(late));
-        if counts.any() {
-            for _ in 0..REFINEMENTS {
-                let slope = value_to(&e.a[0], N - 3, t) * e.rate;
-                let here = derivative(&e.v[0], t) * e.rate;
-                let rising = counts.and(zero.less(slope));
-                let nearer = t - here / rising.select(slope, at.like(1.0));
-                t = rising.select(nearer.max(next.low).min(next.high), t);
-            }
-            sums.spectrum.note::<N, MOTION>(e, sums.time, counts, t);
-        }
-        sums.note(crossed, t * e.step);
-        sums.spectrum.fresh = crossed.select(at.like(1.0).only(counts), sums.spectrum.fresh);
+        take::<S, T, K, N, MOTION>(sums, e, &next, crossed);
         if !again.any() {
             return;
         }
     }
+}
+
+/// Notes a crossing of some lanes: exactly where the sums of the window begin or may end, that is the first one and what
+/// may be the last of a stretch.
+#[inline(always)]
+fn take<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const MOTION: u8>(
+    sums: &mut Sums<S, T, K>,
+    e: &Expansion<S, T, K, N>,
+    bracket: &Bracket<S, T, K>,
+    crossed: Mask<S, T, K>,
+) {
+    let mut t = bracket.guess(e);
+    let (zero, one) = (t.like(0.0), t.like(1.0));
+    let begun = zero.less(sums.spectrum.begun);
+    let late = sums.spectrum.closing.at_most(t.fma(e.step, sums.time));
+    let counts = crossed.and(begun.not().or(late));
+    if counts.any() {
+        for _ in 0..REFINEMENTS {
+            let slope = value_to(&e.a[0], N - 3, t) * e.rate;
+            let here = derivative(&e.v[0], t) * e.rate;
+            let rising = counts.and(zero.less(slope));
+            let nearer = t - here / rising.select(slope, one);
+            t = rising.select(nearer.max(bracket.low).min(bracket.high), t);
+        }
+        sums.spectrum.note::<N, MOTION>(e, sums.time, counts, t);
+    }
+    sums.note(crossed, t * e.step);
+    sums.spectrum.fresh = crossed.select(one.only(counts), sums.spectrum.fresh);
 }
 
 /// The one bracket in some lanes, the other in the rest.
@@ -156,7 +176,6 @@ fn choose<S: Simd, T: Scalar<S>, const K: usize>(
     other: &Bracket<S, T, K>,
 ) -> Bracket<S, T, K> {
     Bracket {
-        crosses: other.crosses,
         low: mask.select(one.low, other.low),
         high: mask.select(one.high, other.high),
         velocity: [
@@ -191,17 +210,18 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Bracket<S, T, K> {
     }
 }
 
-/// Lanes whose velocity turns towards zero between two samples and reaches over it: the side of the extremum that rises.
+/// Lanes whose velocity turns towards zero between two samples and reaches over it; their bracket becomes the side of the
+/// extremum that rises.
 #[inline(always)]
 fn turn_over<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
     e: &Expansion<S, T, K, N>,
     track: &Track<S, T, K>,
     i: usize,
     bracket: &mut Bracket<S, T, K>,
-) {
+) -> Mask<S, T, K> {
     let turns = track.turns(i);
     if !turns.any() {
-        return;
+        return turns;
     }
     let (low, high) = (bracket.low, bracket.high);
     let (zero, tiny) = (low.like(0.0), low.like(1e-30));
@@ -218,9 +238,9 @@ fn turn_over<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
     let over = is_hump.and(zero.at_most(depth)).or(is_hump.not().and(depth.less(zero)));
     let over = turns.and(over);
     let (from, to) = (over.and(is_hump.not()), over.and(is_hump));
-    bracket.crosses = bracket.crosses.or(over);
     bracket.low = from.select(turn, low);
     bracket.high = to.select(turn, high);
     bracket.velocity = [from.select(depth, v), to.select(depth, w)];
     bracket.acceleration = [from.select(zero, a), to.select(zero, b)];
+    over
 }

@@ -92,8 +92,7 @@ fn value_and_slope<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
 /// Where in the step each lane's first event is, 1 when there is none, and the event function it belongs to,
 /// 0 for none.
 ///
-/// Of two event functions that fall in one step the one with the earlier estimate (straight between samples)
-/// comes first.
+/// Of two event functions that fall in one step the one with the earlier estimate comes first.
 #[inline(always)]
 pub fn first_event<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const MOTION: u8>(
     b: &Block<S, T, K>,
@@ -281,13 +280,16 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Function<S, T, K> {
     }
 }
 
+/// The least part of the way between two samples at which a root is looked for first.
+const LEAST: f64 = 1e-3;
+
 /// Where an event function falls below zero.
 struct Bracket<S: Simd, T: Scalar<S>, const K: usize> {
     /// A place where it is still positive.
     low: Vector<S, T, K>,
     /// A place where it no longer is.
     high: Vector<S, T, K>,
-    /// Between them on the straight line; 0 when it is not positive from the start, 2 when it stays positive.
+    /// Between them on the parabola through one sample more; 0 when it is not positive from the start, 2 when it stays positive.
     estimate: Vector<S, T, K>,
 }
 
@@ -301,7 +303,7 @@ fn bracket<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
 ) -> Bracket<S, T, K> {
     let (zero, never) = (lead.like(0.0), lead.like(2.0));
     let width = lead.like(1.0 / SAMPLES as f64);
-    let (mut high, mut at_low, mut at_high) = (never, lead.like(1.0), zero);
+    let (mut high, mut at_low, mut at_high, mut behind) = (never, lead.like(1.0), zero, zero);
     // The second difference less the value over DIP: not negative where the function may dip below zero.
     let weight = lead.like(2.0 + 1.0 / DIP);
     let half_weight = lead.like(1.0 + 0.5 / DIP);
@@ -320,6 +322,7 @@ fn bracket<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
         let start = if i == 1 { has_root.select(here.abs(), before) } else { before };
         at_low = down.select(start, at_low);
         at_high = down.select(here, at_high);
+        behind = down.select(after, behind);
         let bent = if i < SAMPLES {
             weight.fnma(here, before + after)
         } else {
@@ -336,8 +339,14 @@ fn bracket<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
     let mut low = high - width;
     let fall = at_low - at_high;
     let inside = high.less(never);
-    let along = width * at_low / zero.less(fall).select(fall, width);
-    let mut estimate = inside.select(low + along, never);
+    let per_fall = lead.like(1.0) / zero.less(fall).select(fall, width);
+    // On the straight line, and from there towards the parabola through one sample more.
+    let along = at_low * per_fall;
+    let bend = (at_low - at_high) + (behind - at_high);
+    let nearer = along - (along - along * along) * lead.like(0.5) * bend * per_fall;
+    let straight = has_root.or(inside.not());
+    let part = straight.select(along, nearer.max(lead.like(LEAST)).min(lead.like(1.0)));
+    let mut estimate = inside.select(width.fma(part, low), never);
     if zero.at_most(depth).any() {
         let [sample, curvature] = dips(c, ahead, falls, has_root);
         let dips = sample.less(high);
@@ -404,7 +413,7 @@ fn refine<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
         Precision::F32 => 2.5e-3,
         Precision::F64 => 3e-6,
     });
-    for turn in 0..SOLVER_ITERATIONS {
+    for _ in 0..SOLVER_ITERATIONS {
         let [here, slope, bend] = value_slope_and_bend(c, t);
         let positive = zero.less(here);
         low = positive.select(t, low);
@@ -421,8 +430,7 @@ fn refine<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
         let change = (next - t).abs();
         t = active.select(next, t);
         active = active.and(enough.less(change));
-        // One lane or another always needs two.
-        if turn > 0 && !active.any() {
+        if !active.any() {
             break;
         }
     }

@@ -38,6 +38,8 @@ pub struct Expansion<S: Simd, T: Scalar<S>, const K: usize, const N: usize> {
     pub step: Vector<S, T, K>,
     /// `1/step`.
     pub rate: Vector<S, T, K>,
+    /// `1/k`, and 0 for 0.
+    per: [Vector<S, T, K>; N],
     /// `q`, with the inverse of the inertia.
     q: [Vector<S, T, K>; N],
     /// What the recurrence of a curved law carries.
@@ -50,7 +52,12 @@ impl<S: Simd, T: Scalar<S>, const K: usize, const N: usize> Expansion<S, T, K, N
     pub fn new(simd: S) -> Self {
         let zero = Vector::constant(simd, 0.0);
         let series = [zero; N];
+        let mut per = series;
+        for k in 1..N {
+            per[k] = Vector::constant(simd, 1.0 / k as f64);
+        }
         Expansion {
+            per,
             p: [series; 3],
             v: [series; 3],
             a: [series; 2],
@@ -179,17 +186,6 @@ fn forms<S: Simd, T: Scalar<S>, const K: usize, const MOTION: u8>(
     Forms { ax, ay, aw, normal, push, fall, load, kappa }
 }
 
-/// `1/k`, and 0 for 0.
-const PER: [f64; 32] = {
-    let mut inverse = [0.0; 32];
-    let mut k = 1;
-    while k < 32 {
-        inverse[k] = 1.0 / k as f64;
-        k += 1;
-    }
-    inverse
-};
-
 /// Expands the motion over the step `h`; returns the lanes whose contact forces are not unique. Series of what
 /// does not move are left alone.
 #[expect(clippy::too_many_lines, reason = "one recurrence")]
@@ -218,7 +214,7 @@ pub fn expand<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: 
     // Without a slope q is constant.
     let sloped = LAW == CURVED || zero.less(stiffening.abs()).any();
 
-    let Expansion { p, v, a, n, q, law, .. } = e;
+    let Expansion { p, v, a, n, q, law, per, .. } = e;
     for i in 0..3 {
         if MOTION == FLIGHT || i == 0 || i == 2 && MOTION != SINGLE {
             p[i][0] = b.p[i];
@@ -262,7 +258,7 @@ pub fn expand<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: 
                 }
             }
         }
-        let part = h.like(PER[k]);
+        let part = per[k];
         if waits_less {
             if MOTION != SINGLE {
                 x = q[1].fma(force_before, x);
@@ -295,16 +291,16 @@ pub fn expand<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: 
         }
         force_before = force;
         a[0][k] = x;
-        let (once, twice) = (h.like(PER[k + 1]), h.like(PER[k + 1] * PER[k + 2]));
+        let (once, next) = (per[k + 1], per[k + 2]);
         v[0][k + 2] = x * once;
-        p[0][k + 2] = x * twice;
+        p[0][k + 2] = v[0][k + 2] * next;
         if MOTION != SINGLE {
             v[2][k + 2] = w * once;
-            p[2][k + 2] = w * twice;
+            p[2][k + 2] = v[2][k + 2] * next;
         }
         if MOTION == FLIGHT {
             v[1][k + 2] = y * once;
-            p[1][k + 2] = y * twice;
+            p[1][k + 2] = v[1][k + 2] * next;
         }
         // The relative velocity of degree k + 1, times the step.
         let slower = if k == 0 { v[0][2] - drive } else { v[0][k + 2] };
