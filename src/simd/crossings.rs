@@ -4,9 +4,9 @@ use std::ops::Not;
 
 use pulp::Simd;
 
-use super::events::value_to;
 use super::expand::Expansion;
 use super::observe::{Sums, derivative};
+use super::polynomial::value_to;
 use super::spectrum::Nodes;
 use super::vector::{Mask, Scalar, Vector};
 use crate::kernel::observe::SAMPLE_TIMES;

@@ -251,11 +251,9 @@ pub fn expand<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: 
             x = ax[4].fma(v[1][k + 1], x);
             w = aw[4].fma(v[1][k + 1], w);
         }
-        if MOTION != SINGLE {
-            if sloped {
-                for j in 2..k {
-                    x = q[j].fma(n[k - j], x);
-                }
+        if MOTION != SINGLE && sloped {
+            for j in 2..k {
+                x = q[j].fma(n[k - j], x);
             }
         }
         let part = per[k];

@@ -8,8 +8,8 @@ use pulp::Simd;
 
 use super::block::Block;
 use super::constants::{N0, R, T0, W};
-use super::events::{value, value_soon, value_to};
 use super::expand::{Expansion, SINGLE};
+use super::polynomial::{value, value_soon, value_to};
 use super::spectrum::{Nodes, Spectrum, moving};
 use super::vector::{Mask, Scalar, Vector};
 use crate::kernel::observe::{NODES, SAMPLE_TIMES, SUMS, WEIGHTS};

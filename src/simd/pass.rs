@@ -8,11 +8,12 @@ use pulp::Simd;
 
 use super::block::{Block, event_of};
 use super::crossings::{Track, cross_upwards};
-use super::events::{first_event, value_soon};
+use super::events::first_event;
 use super::expand::{CLOSED, Expansion, FLIGHT, PIECES, SINGLE, expand};
 use super::functions::{Functions, functions};
 use super::job::{Job, Part, STRETCH};
 use super::observe::{Sums, change};
+use super::polynomial::value_soon;
 use super::reach::{LONGER, reach};
 use super::spectrum::{COMPONENTS, accelerations};
 use super::transitions::transitions;

@@ -4,8 +4,7 @@ use std::ops::Not;
 
 use pulp::Simd;
 
-use super::events::largest;
-use super::expand::Expansion;
+use super::expand::{Expansion, FLIGHT, SINGLE};
 use super::vector::{Mask, Scalar, Vector};
 
 /// A step whose truncation leaves room for it lets the next be longer by this factor.
@@ -75,4 +74,17 @@ pub fn reach<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const MOTION
         end = far.select(one, end);
     }
     Reach { end, failed, roomy }
+}
+
+/// The largest magnitude of the positions' coefficients of degree `k`.
+#[inline(always)]
+pub fn largest<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const MOTION: u8>(
+    e: &Expansion<S, T, K, N>,
+    k: usize,
+) -> Vector<S, T, K> {
+    match MOTION {
+        SINGLE => e.p[0][k].abs(),
+        FLIGHT => e.p[0][k].abs().max(e.p[2][k].abs()).max(e.p[1][k].abs()),
+        _ => e.p[0][k].abs().max(e.p[2][k].abs()),
+    }
 }

@@ -10,9 +10,9 @@ use std::f64::consts::TAU;
 
 use pulp::Simd;
 
-use super::events::value_to;
 use super::expand::{Expansion, SINGLE};
 use super::observe::{rotation, turn};
+use super::polynomial::value_to;
 use super::vector::{Mask, Scalar, Vector};
 use crate::kernel::observe::{NODES, WEIGHTS};
 

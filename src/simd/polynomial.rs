@@ -1,0 +1,95 @@
+//! Polynomials in every lane: values and derivatives of the series of a step, whose time runs from 0 to 1.
+
+use pulp::Simd;
+
+use super::vector::{Scalar, Vector};
+
+/// `Σ b_k t^k`.
+#[inline(always)]
+pub fn value<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
+    b: &[Vector<S, T, K>; N],
+    t: Vector<S, T, K>,
+) -> Vector<S, T, K> {
+    value_to(b, N - 1, t)
+}
+
+/// `Σ b_k t^(k − first)` from one degree up to another, even and odd ones at a time: sooner there than by a chain.
+#[inline(always)]
+pub fn value_soon<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
+    b: &[Vector<S, T, K>; N],
+    first: usize,
+    degree: usize,
+    t: Vector<S, T, K>,
+) -> Vector<S, T, K> {
+    let square = t * t;
+    let [mut lower, mut upper] = [b[degree - 1], b[degree]];
+    let mut k = degree - 1;
+    while k >= first + 2 {
+        k -= 2;
+        lower = lower.fma(square, b[k]);
+        upper = upper.fma(square, b[k + 1]);
+    }
+    let sum = upper.fma(t, lower);
+    if k == first { sum } else { sum.fma(t, b[first]) }
+}
+
+/// `Σ b_k t^k` up to a degree.
+#[inline(always)]
+pub fn value_to<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
+    b: &[Vector<S, T, K>; N],
+    degree: usize,
+    t: Vector<S, T, K>,
+) -> Vector<S, T, K> {
+    let mut sum = b[degree];
+    for k in (0..degree).rev() {
+        sum = sum.fma(t, b[k]);
+    }
+    sum
+}
+
+/// `Σ b_k` and `Σ k b_k`: value and slope at 1.
+#[inline(always)]
+pub fn at_one<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
+    b: &[Vector<S, T, K>; N],
+) -> [Vector<S, T, K>; 2] {
+    // Four sums at a time, which do not wait for each other.
+    let mut sums = [b[0], b[1], b[2], b[3]];
+    let mut slopes = [b[0].like(0.0), b[1], b[2] + b[2], b[3] * b[3].like(3.0)];
+    for k in 4..N {
+        sums[k % 4] += b[k];
+        slopes[k % 4] = b[k].fma(b[k].like(k as f64), slopes[k % 4]);
+    }
+    [(sums[0] + sums[1]) + (sums[2] + sums[3]), (slopes[0] + slopes[1]) + (slopes[2] + slopes[3])]
+}
+
+/// `Σ b_k t^k` and its derivative.
+#[inline(always)]
+pub fn value_and_slope<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
+    b: &[Vector<S, T, K>; N],
+    t: Vector<S, T, K>,
+) -> [Vector<S, T, K>; 2] {
+    let mut sum = b[N - 1];
+    let mut slope = sum.like(0.0);
+    for k in (0..N - 1).rev() {
+        slope = slope.fma(t, sum);
+        sum = sum.fma(t, b[k]);
+    }
+    [sum, slope]
+}
+
+/// `Σ b_k t^k` and its first two derivatives.
+#[inline(always)]
+pub fn value_slope_and_bend<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
+    b: &[Vector<S, T, K>; N],
+    t: Vector<S, T, K>,
+) -> [Vector<S, T, K>; 3] {
+    let mut sum = b[N - 1];
+    let mut slope = sum.like(0.0);
+    let mut half_bend = sum.like(0.0);
+    for k in (0..N - 1).rev() {
+        half_bend = half_bend.fma(t, slope);
+        slope = slope.fma(t, sum);
+        sum = sum.fma(t, b[k]);
+    }
+    [sum, slope, half_bend + half_bend]
+}
