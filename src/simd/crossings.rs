@@ -87,13 +87,7 @@ pub fn cross_upwards<S: Simd, T: Scalar<S>, const K: usize, const N: usize, cons
     sums.previous = track.velocity[4];
     let rises = [track.rises(0), track.rises(1), track.rises(2), track.rises(3)];
     let turns = track.turns(0).or(track.turns(1)).or(track.turns(2)).or(track.turns(3));
-    let mut crossed = jumped;
-    let mut again = turns;
-    for rises in rises {
-        again = again.or(crossed.and(rises));
-        crossed = crossed.or(rises);
-    }
-    if !crossed.or(again).any() {
+    if !jumped.or(rises[0]).or(rises[1]).or(rises[2]).or(rises[3]).or(turns).any() {
         return;
     }
     let jump = Bracket { low: zero, high: zero, velocity: [at.like(-1.0), zero], acceleration: [zero; 2] };
@@ -106,22 +100,16 @@ pub fn cross_upwards<S: Simd, T: Scalar<S>, const K: usize, const N: usize, cons
             acceleration: [track.acceleration[i], track.acceleration[i + 1]],
         };
     }
-    let mut next = brackets[4];
-    if !again.any() {
-        // Every lane crosses once at most.
-        for i in (0..3).rev() {
-            next = choose(rises[i], &brackets[i + 1], &next);
-        }
-        take::<S, T, K, N, MOTION>(sums, e, &choose(jumped, &jump, &next), crossed);
-        return;
-    }
     let mut crosses = [jumped, rises[0], rises[1], rises[2], rises[3]];
-    for i in 0..4 {
-        let over = turn_over(e, track, i, &mut brackets[i + 1]);
-        crosses[i + 1] = crosses[i + 1].or(over);
+    if turns.any() {
+        for i in 0..4 {
+            let over = turn_over(e, track, i, &mut brackets[i + 1]);
+            crosses[i + 1] = crosses[i + 1].or(over);
+        }
     }
     loop {
-        next = brackets[4];
+        // The next crossing of every lane: most have one at most.
+        let mut next = brackets[4];
         for i in (0..4).rev() {
             next = choose(crosses[i], &brackets[i], &next);
         }
