@@ -20,8 +20,6 @@ pub struct Rounding<S: Simd, T: Scalar<S>, const K: usize> {
     pub force: Vector<S, T, K>,
     /// The event function.
     pub function: Vector<S, T, K>,
-    /// One degree more.
-    pub step: Vector<S, T, K>,
 }
 
 impl<S: Simd, T: Scalar<S>, const K: usize> Rounding<S, T, K> {
@@ -41,7 +39,7 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Rounding<S, T, K> {
         let band = rounding.fma(loads, tolerance * b.scene[STIFFNESS] * motion);
         let square = e.step * e.step;
         let unit = of_force.select(square, b.slip().select(e.step, b.scene[INV_DET]));
-        Rounding { force: band * square, function: band * unit, step: e.step }
+        Rounding { force: band * square, function: band * unit }
     }
 }
 
@@ -89,7 +87,7 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Function<S, T, K> {
         for degree in 0..HIGHEST_ORDER {
             lead = deflate.select(self.coefficient::<N, MOTION>(e, g, degree + 1), lead);
             self.order += one.only(deflate);
-            bound = bound * rounding.step;
+            bound = bound * e.step;
             // A force that stays where it is does not fall.
             deflate = deflate.and(lead.not_positive()).and((-bound.only(begins)).at_most(lead));
             if !deflate.any() {

@@ -276,7 +276,7 @@ pub fn change<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
     v: &[Vector<S, T, K>; N],
     t: Vector<S, T, K>,
 ) -> Vector<S, T, K> {
-    value_soon(v, 2, N - 1, t) * t
+    value_soon(v, 2, t) * t
 }
 
 /// The maximum of a smooth function from its samples, see [`crate::kernel::observe::maximum`].

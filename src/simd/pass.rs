@@ -131,7 +131,7 @@ fn step<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool, 
     functions::<S, T, K, N, MOTION>(b, e, g);
     let [at, event] = first_event::<S, T, K, N, MOTION>(b, e, g, tolerance);
     let (at, event) = (at.min(reach.end), event.only(at.at_most(reach.end)));
-    let (x, vx) = (value_soon(&e.p[0], 0, N - 1, at), change(&e.v[0], at).fma(e.rate, b.v[0]));
+    let (x, vx) = (value_soon(&e.p[0], 0, at), change(&e.v[0], at).fma(e.rate, b.v[0]));
     let sums = &mut all.sums;
     if all.part == Part::Growth {
         sums.observe_growth::<N, MOTION>(e, at, x, vx);
@@ -155,11 +155,11 @@ fn step<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool, 
     b.p[0] = x;
     b.v[0] = vx;
     if MOTION != SINGLE {
-        b.p[2] = value_soon(&e.p[2], 0, N - 1, at);
+        b.p[2] = value_soon(&e.p[2], 0, at);
         b.v[2] = change(&e.v[2], at).fma(e.rate, b.v[2]);
     }
     if MOTION == FLIGHT {
-        b.p[1] = value_soon(&e.p[1], 0, N - 1, at);
+        b.p[1] = value_soon(&e.p[1], 0, at);
         b.v[1] = change(&e.v[1], at).fma(e.rate, b.v[1]);
     }
     let whole = one.at_most(at).and(h.at_most(e.step)).and(last);

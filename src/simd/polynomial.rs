@@ -13,17 +13,16 @@ pub fn value<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
     value_to(b, N - 1, t)
 }
 
-/// `Σ b_k t^(k − first)` from one degree up to another, even and odd ones at a time: sooner there than by a chain.
+/// `Σ b_k t^(k − first)` from a degree on, even and odd ones at a time: sooner there than by a chain.
 #[inline(always)]
 pub fn value_soon<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
     b: &[Vector<S, T, K>; N],
     first: usize,
-    degree: usize,
     t: Vector<S, T, K>,
 ) -> Vector<S, T, K> {
     let square = t * t;
-    let [mut lower, mut upper] = [b[degree - 1], b[degree]];
-    let mut k = degree - 1;
+    let [mut lower, mut upper] = [b[N - 2], b[N - 1]];
+    let mut k = N - 2;
     while k >= first + 2 {
         k -= 2;
         lower = lower.fma(square, b[k]);

@@ -46,7 +46,7 @@ pub fn bracket<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
         let down = here.not_positive();
         high = down.select(t, high);
         t = t - width;
-        let before = if i == 1 { c[0] } else { value_soon(c, 0, N - 1, t) };
+        let before = if i == 1 { c[0] } else { value_soon(c, 0, t) };
         // Behind a root at zero the line says nothing: the middle.
         let start = if i == 1 { has_root.select(here.abs(), before) } else { before };
         at_low = down.select(start, at_low);
