@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::ops::Not;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use pulp::Simd;
+use pulp::{NullaryFnOnce, Simd};
 
 use super::block::{Block, event_of};
 use super::crossings::{Track, cross_upwards};
@@ -88,13 +88,35 @@ pub fn pass<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bo
         if turn.is_multiple_of(TURNS) && settings.cancel.load(Ordering::Relaxed) {
             return;
         }
+        // A function of its own for each motion: one body of all of them takes the compiler far longer.
+        let (all, e, g) = (&mut all, &mut e, &mut g);
         if LAW == PIECES && single {
-            step::<S, T, K, N, LAW, SINGLE>(&mut all, &mut e, &mut g, tolerance);
+            simd.vectorize(Step::<S, T, K, N, LAW, SINGLE> { all, e, g, tolerance });
         } else if all.block.free().any() {
-            step::<S, T, K, N, LAW, FLIGHT>(&mut all, &mut e, &mut g, tolerance);
+            simd.vectorize(Step::<S, T, K, N, LAW, FLIGHT> { all, e, g, tolerance });
         } else {
-            step::<S, T, K, N, LAW, CLOSED>(&mut all, &mut e, &mut g, tolerance);
+            simd.vectorize(Step::<S, T, K, N, LAW, CLOSED> { all, e, g, tolerance });
         }
+    }
+}
+
+/// One step of every lane.
+struct Step<'a, 'b, S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool, const MOTION: u8>
+{
+    all: &'a mut Lanes<'b, S, T, K>,
+    e: &'a mut Expansion<S, T, K, N>,
+    g: &'a mut Functions<S, T, K, N>,
+    tolerance: Vector<S, T, K>,
+}
+
+impl<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool, const MOTION: u8> NullaryFnOnce
+    for Step<'_, '_, S, T, K, N, LAW, MOTION>
+{
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        step::<S, T, K, N, LAW, MOTION>(self.all, self.e, self.g, self.tolerance);
     }
 }
 
