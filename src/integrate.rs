@@ -3,7 +3,7 @@
 //! Time always advances: a step ends at an event or at its full length, and events that do not advance
 //! time are counted; too many end the instance with [`Status::EventLimit`].
 
-use crate::method::pace::{longest_steps, stands_still};
+use crate::method::pace::{Turns, stands_still};
 use crate::method::roots::Crossing;
 use crate::method::taylor::{
     BeltMotion, Expansion, MAX_ORDER, Motion, NORMAL, RELATIVE, Series, State, TANGENTIAL, X2,
@@ -52,7 +52,7 @@ impl Resolution {
     /// The longest step of slip, reversed slip, stick and flight.
     fn longest(&self, model: &Scaled) -> [f64; 4] {
         let mut longest = match self.method {
-            Method::Taylor => longest_steps(&model.fastest, self.order, self.tolerance),
+            Method::Taylor => Turns::new(self.order, self.tolerance).longest_steps(&model.fastest),
             Method::LocatedRk4 | Method::FixedStep => [self.nominal_step; 4],
         };
         if self.method == Method::LocatedRk4 {

@@ -205,8 +205,8 @@ pub fn analyse(instance: &Instance) -> (Option<InstabilityType>, Option<Linear>)
     let leading = |polynomial| rightmost(&quartic::roots(polynomial));
     let full = leading(prepared.full);
     #[expect(clippy::float_cmp, reason = "the same polynomial, bit by bit")]
-    let flat = if prepared.flat == prepared.full { full } else { leading(prepared.flat) };
-    let frozen = leading(prepared.frozen);
+    let without = |polynomial| if polynomial == prepared.full { full } else { leading(polynomial) };
+    let (flat, frozen) = (without(prepared.flat), without(prepared.frozen));
     let kind = match (is_unstable(full), is_unstable(flat), is_unstable(frozen)) {
         (false, _, _) => InstabilityType::Stable,
         (true, false, true) => InstabilityType::NegativeSlope,

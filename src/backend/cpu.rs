@@ -16,6 +16,7 @@ use crate::kernel::scene::Law;
 use crate::kernel::source::Precision;
 use crate::linear;
 use crate::map::{Computation, Record};
+use crate::method::pace::Turns;
 use crate::model::Param;
 use crate::outcome::{Outcome, Status};
 use crate::response::{Plan, Scene};
@@ -129,23 +130,27 @@ pub fn outcomes<T: Lanes>(instances: &[Instance], plan: &Plan, cancel: &AtomicBo
         tolerance: tolerance(T::PRECISION, plan.steps_per_period),
         cancel,
     };
+    let turns = Turns::new(ORDER, settings.tolerance);
     let mut outcomes = vec![Outcome::default(); instances.len()];
     let upright = |instance: &Instance| instance.params.require(Param::Theta) == 0.0;
     // What steps together has a law of one form; the single mass is stepped by less code.
     for (form, single) in
         [(Law::Pieces, true), (Law::Pieces, false), (Law::Exponential, false), (Law::Rational, false)]
     {
-        let mut indices = Vec::new();
-        let mut jobs: Vec<Job<T>> = Vec::new();
+        let here = |instance: &Instance| {
+            let same = law_of(instance.law.kind()) == form;
+            same && (form != Law::Pieces || upright(instance) == single)
+        };
+        let count = instances.iter().filter(|instance| here(instance)).count();
+        let (mut indices, mut jobs) = (Vec::with_capacity(count), Vec::<Job<T>>::with_capacity(count));
         for (index, instance) in instances.iter().enumerate() {
-            let kind = instance.law.kind();
-            if law_of(kind) != form || form == Law::Pieces && upright(instance) != single {
+            if !here(instance) {
                 continue;
             }
             match Scene::planned(instance, plan, T::EPSILON.to_f64()) {
                 Ok(scene) => {
                     indices.push(index);
-                    jobs.push(Job::new(instance, scene, plan));
+                    jobs.push(Job::new(instance, scene, plan, &turns));
                 }
                 Err(status) => outcomes[index].status = status,
             }

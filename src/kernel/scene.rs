@@ -5,11 +5,13 @@
 //! The host computes every word in f64 and narrows it once. Differences of nearly equal numbers (friction
 //! against that of the equilibrium, the stick cone at the equilibrium) are formed there.
 
+use std::sync::LazyLock;
+
 use super::response::TOLERANCE;
 use super::scalar::Real;
 use super::series::ORDER;
 use crate::integrate::MAX_EVENTS_AT_ONCE;
-use crate::method::pace::longest_steps;
+use crate::method::pace::Turns;
 use crate::model::equilibrium::Scaled;
 use crate::model::friction::Piece as LawPiece;
 
@@ -137,12 +139,16 @@ pub struct Scene<S> {
 /// Events at one instant before an instance is given up; the same as in the reference.
 pub const EVENTS_AT_ONCE: u32 = MAX_EVENTS_AT_ONCE;
 
+/// What a step of the kernel may turn.
+static TURNS: LazyLock<Turns> = LazyLock::new(|| Turns::new(ORDER, f64::from(TOLERANCE)));
+
 /// The words of an instance in f64, in the order of the kernel's input buffer.
 #[must_use]
 pub fn words(model: &Scaled, v0: f64, start: [f64; 4], segments: &Segments, pieces: usize) -> Vec<f64> {
     let (mu0, n0) = (model.mu0, model.n0);
     let mu_s = model.law.mu_stick;
-    let mut words = vec![
+    let mut words = Vec::with_capacity(SCENE_WORDS + SEGMENTS * SEGMENT_WORDS + pieces * PIECE_WORDS);
+    words.extend([
         model.s,
         model.c,
         1.0 / model.m1,
@@ -162,11 +168,10 @@ pub fn words(model: &Scaled, v0: f64, start: [f64; 4], segments: &Segments, piec
         (mu_s + mu0) * n0,
         model.restitution,
         f64::from(u8::from(model.impact_friction)),
-    ];
+    ]);
     words.extend(start);
     words.push(crate::model::contact::SLOWEST_REBOUND);
-    let longest = longest_steps(&model.fastest, ORDER, f64::from(TOLERANCE));
-    words.extend(longest.map(|step| step.min(NO_KINK)));
+    words.extend(TURNS.longest_steps(&model.fastest).map(|step| step.min(NO_KINK)));
     debug_assert_eq!(words.len(), SCENE_WORDS);
     for segment in segments {
         words.extend(segment);
@@ -189,39 +194,44 @@ impl<S: Real> Scene<S> {
     /// Reads the words of an instance.
     #[must_use]
     pub fn read(law: Law, pieces: usize, words: &[f64]) -> Scene<S> {
-        let narrow: Vec<S> = words.iter().map(|word| S::from_f64(*word)).collect();
+        let w = |i: usize| S::from_f64(words[i]);
         let piece = |i: usize| {
-            let w = &narrow[SCENE_WORDS + SEGMENTS * SEGMENT_WORDS + i * PIECE_WORDS..];
-            Piece { at_zero: w[0], slope: w[1], rate: w[2], offset: w[3], kink: w[4] }
+            let at = SCENE_WORDS + SEGMENTS * SEGMENT_WORDS + i * PIECE_WORDS;
+            Piece { at_zero: w(at), slope: w(at + 1), rate: w(at + 2), offset: w(at + 3), kink: w(at + 4) }
         };
         let segment = |i: usize| {
-            let w = &narrow[SCENE_WORDS + i * SEGMENT_WORDS..];
-            Segment { steps: w[0], step: w[1], velocity: w[2], acceleration: w[3], part: w[4] }
+            let at = SCENE_WORDS + i * SEGMENT_WORDS;
+            Segment {
+                steps: w(at),
+                step: w(at + 1),
+                velocity: w(at + 2),
+                acceleration: w(at + 3),
+                part: w(at + 4),
+            }
         };
-        let w = &narrow;
         Scene {
             law,
-            s: w[0],
-            c: w[1],
-            inv_m1: w[2],
-            k1: w[3],
-            k2: w[4],
-            c1: w[5],
-            c2: w[6],
-            kappa: w[7],
-            inv_det: w[8],
-            normal_mass: w[9],
-            n0: w[10],
-            t0: w[11],
-            mu0: w[12],
-            v0: w[13],
-            mu_stick: w[14],
-            cone: [w[15], w[16]],
-            restitution: w[17],
-            impact_friction: w[18],
-            start: [w[19], w[20], w[21], w[22]],
-            slowest_rebound: w[23],
-            longest: [w[24], w[25], w[26], w[27]],
+            s: w(0),
+            c: w(1),
+            inv_m1: w(2),
+            k1: w(3),
+            k2: w(4),
+            c1: w(5),
+            c2: w(6),
+            kappa: w(7),
+            inv_det: w(8),
+            normal_mass: w(9),
+            n0: w(10),
+            t0: w(11),
+            mu0: w(12),
+            v0: w(13),
+            mu_stick: w(14),
+            cone: [w(15), w(16)],
+            restitution: w(17),
+            impact_friction: w(18),
+            start: [w(19), w(20), w(21), w(22)],
+            slowest_rebound: w(23),
+            longest: [w(24), w(25), w(26), w(27)],
             pieces: (0..pieces).map(piece).collect(),
             segments: std::array::from_fn(segment),
         }

@@ -2,31 +2,79 @@
 
 use crate::model::fastest::Fastest;
 
-/// Beyond this many radians of an undamped mode a step makes it grow, for every order in use: the first excess over 1
-/// of the step's amplification lies at 2.02 for order 8, 1.86 for order 12 and 2.11 for order 16.
+/// Beyond this many radians of an undamped mode a step of even order makes it grow: the first excess over 1 of the
+/// step's amplification lies at 2.02 for order 8, 1.86 for order 12 and 2.11 for order 16.
 pub const STABLE: f64 = 1.8;
 
-/// In contact, which may last for the whole of a run, a step takes at most this part from a mode: what rings unseen
-/// is still there at the end.
+/// A step of order 13 only ever damps such a mode, up to 3.6 radians; so far the nodes and samples within a step show
+/// what it does.
+pub const SEEN: f64 = 2.1;
+
+/// In contact, which may last for the whole of a run, the last term of a mode's own series may be this part of it: what
+/// rings unseen is still there at the end. A step takes less from it, a tenth of that at even orders.
 pub const KEPT: f64 = 5e-7;
 
-/// The longest step of slip, reversed slip, stick and flight: no mode of it turns by more than [`STABLE`], nor so far
-/// that the last term of its own series, `(|λ| h)^n/n!`, is above `tolerance` (in contact: nor above [`KEPT`]); infinite
-/// for steps of fixed length.
-#[must_use]
-pub fn longest_steps(fastest: &Fastest, order: usize, tolerance: f64) -> [f64; 4] {
-    if !tolerance.is_finite() {
-        return [f64::INFINITY; 4];
+/// The same at order 13, whose steps take half of it.
+const KEPT_DAMPED: f64 = 1e-7;
+
+/// Where the tolerance is coarse, it may be this part of that, for modes that do not ring more often within a run than the
+/// motion: up to [`SLOW`] times `ω0`.
+const KEPT_OF_TOLERANCE: f64 = 2.5e-3;
+
+/// See [`KEPT_OF_TOLERANCE`].
+const SLOW: f64 = 2.0;
+
+/// How far a mode may turn within a step, radians: not by more than [`STABLE`] or [`SEEN`], nor so far that the last term
+/// of its own series, `(|λ| h)^n/n!`, is above a tolerance (in contact: nor above [`KEPT`]).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Turns {
+    contact: f64,
+    slow: f64,
+    flight: f64,
+}
+
+impl Turns {
+    /// Of series of an order; an infinite tolerance asks for steps of fixed length, which end where they end.
+    #[must_use]
+    pub fn new(order: usize, tolerance: f64) -> Turns {
+        if !tolerance.is_finite() {
+            return Turns { contact: f64::INFINITY, slow: f64::INFINITY, flight: f64::INFINITY };
+        }
+        let kept = if damps(order) { KEPT_DAMPED } else { KEPT };
+        Turns {
+            contact: turn(order, tolerance.min(kept)),
+            slow: turn(order, tolerance.min(kept.max(tolerance * KEPT_OF_TOLERANCE))),
+            flight: turn(order, tolerance),
+        }
     }
-    let contact = turn(order, tolerance.min(KEPT));
-    let [slip, reverse, stick, free] = *fastest;
-    [contact / slip, contact / reverse, contact / stick, turn(order, tolerance) / free]
+
+    /// The longest step of slip, reversed slip, stick and flight.
+    #[must_use]
+    pub fn longest_steps(&self, fastest: &Fastest) -> [f64; 4] {
+        if self.contact.is_infinite() {
+            return [f64::INFINITY; 4];
+        }
+        let closed = |rate: f64| if rate <= SLOW { self.slow } else { self.contact } / rate;
+        let [slip, reverse, stick, free] = *fastest;
+        [closed(slip), closed(reverse), closed(stick), self.flight / free]
+    }
 }
 
 /// How far a mode may turn within a step.
 fn turn(order: usize, tolerance: f64) -> f64 {
     let factorial: f64 = (1..=order).map(|k| k as f64).product();
-    (tolerance * factorial).powf(1.0 / order as f64).min(STABLE)
+    (tolerance * factorial).powf(1.0 / order as f64).min(longest_turn(order))
+}
+
+/// The longest turn for which a step of that order is of use.
+#[must_use]
+pub fn longest_turn(order: usize) -> f64 {
+    if damps(order) { SEEN } else { STABLE }
+}
+
+/// Whether steps of that order damp an undamped mode, however long they are.
+fn damps(order: usize) -> bool {
+    order % 4 == 1
 }
 
 /// Whether steps are so short that a scalar of that rounding stands still: `x + ẍ h²` is `x`.

@@ -1,9 +1,8 @@
 //! What of a scene a step needs in every lane.
 
-use super::ORDER;
 use crate::kernel::scalar::Real;
 use crate::kernel::scene::NO_KINK;
-use crate::method::pace::longest_steps;
+use crate::method::pace::Turns;
 use crate::model::equilibrium::Scaled;
 
 /// A linear form of the state: coefficients of `x2 y2 y1` and of their velocities.
@@ -50,9 +49,9 @@ pub const IMPACT_FRICTION: usize = 47;
 /// How many there are.
 pub const CONSTANTS: usize = 48;
 
-/// The constants of a scene whose steps have a truncation below `tolerance`.
+/// The constants of a scene whose steps may `turn` that far.
 #[must_use]
-pub fn constants<T: Real>(model: &Scaled, tolerance: f64) -> [T; CONSTANTS] {
+pub fn constants<T: Real>(model: &Scaled, turns: &Turns) -> [T; CONSTANTS] {
     let (s, c) = (model.s, model.c);
     // h = k2 (x s + y c − w) and g = k1 (x c − y s), likewise with the dampers.
     let form = |cosine: f64, sine: f64| -> Form {
@@ -66,8 +65,12 @@ pub fn constants<T: Real>(model: &Scaled, tolerance: f64) -> [T; CONSTANTS] {
     let tangential = [-model.normal_mass * inv_det, -model.kappa * inv_det];
     let normal = [-model.kappa * inv_det, -inv_det];
     let (n0, t0) = (model.n0, model.mu0 * model.n0);
-    let mut all = [0.0; CONSTANTS];
-    let mut put = |at: usize, values: &[f64]| all[at..at + values.len()].copy_from_slice(values);
+    let mut all = [T::ZERO; CONSTANTS];
+    let mut put = |at: usize, values: &[f64]| {
+        for (word, value) in all[at..].iter_mut().zip(values) {
+            *word = T::from_f64(*value);
+        }
+    };
     put(R, &r);
     put(W, &w);
     put(H, &h.map(|value| value / model.m1));
@@ -82,10 +85,10 @@ pub fn constants<T: Real>(model: &Scaled, tolerance: f64) -> [T; CONSTANTS] {
     put(CONE, &[(model.law.mu_stick - model.mu0) * n0, (model.law.mu_stick + model.mu0) * n0]);
     put(STIFFNESS, &[model.k1 + model.k2]);
     put(INV_DET, &[inv_det]);
-    let [slip, reverse, stick, free] = longest_steps(&model.fastest, ORDER, tolerance);
+    let [slip, reverse, stick, free] = turns.longest_steps(&model.fastest);
     put(LONGEST, &[slip.min(stick), reverse.min(stick), free].map(|step| step.min(NO_KINK)));
     put(NORMAL_MASS, &[model.normal_mass]);
     put(RESTITUTION, &[model.restitution]);
     put(IMPACT_FRICTION, &[f64::from(u8::from(model.impact_friction))]);
-    all.map(T::from_f64)
+    all
 }

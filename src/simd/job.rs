@@ -4,13 +4,13 @@ use std::f64::consts::TAU;
 
 use super::constants::{CONSTANTS, constants};
 use super::stretches::Stretches;
-use super::tolerance;
 use crate::kernel::lane::{Belt, GAP, Lane, UPPER_KINK};
 use crate::kernel::reductions::{End, Reductions};
 use crate::kernel::response::{law_of, words};
 use crate::kernel::scalar::Real;
 use crate::kernel::scene::{Law, Scene as Words};
 use crate::kernel::series::{Body, FREE};
+use crate::method::pace::Turns;
 use crate::outcome::{Outcome, Status};
 use crate::response::{Plan, Scene};
 use crate::settle::{Ending, Settling};
@@ -107,9 +107,9 @@ impl<T: Real> Snapshot<T> {
 }
 
 impl<T: Real> Job<T> {
-    /// The start of an instance.
+    /// The start of an instance, whose steps may turn so far.
     #[must_use]
-    pub fn new(instance: &Instance, scene: Scene, plan: &Plan) -> Job<T> {
+    pub fn new(instance: &Instance, scene: Scene, plan: &Plan, turns: &Turns) -> Job<T> {
         let kind = instance.law.kind();
         let pieces = scene.model.law.pieces.len();
         let packed = words(&scene, &[[0.0; 5]; 4], pieces);
@@ -127,7 +127,7 @@ impl<T: Real> Job<T> {
         lane.enter_contact(&words, belt);
         let scene_settle = scene.scaled(plan.settle);
         Job {
-            constants: constants(&scene.model, tolerance(T::PRECISION, plan.steps_per_period)),
+            constants: constants(&scene.model, turns),
             scene,
             words,
             lane,
@@ -184,7 +184,8 @@ impl<T: Real> Job<T> {
             }
             Part::Phase => {
                 let Some(snapshot) = self.snapshot.take() else { return false };
-                if self.seen.crossings < 2 || self.seen.last <= self.seen.first {
+                // The single mass has no phase.
+                if self.seen.crossings < 2 || self.seen.last <= self.seen.first || self.is_single() {
                     return false;
                 }
                 if let Some(phase) = self.components(PHASE_ERROR * tolerance) {
@@ -243,7 +244,9 @@ impl<T: Real> Job<T> {
         let whole = (length / nominal - 1e-6).ceil().max(1.0);
         let step = length / whole;
         let most = match part {
-            Part::Window => STRETCH.min(FIRST_STRETCH * (1 + self.stretches.len()) as f64),
+            Part::Window if !self.is_single() => {
+                STRETCH.min(FIRST_STRETCH * (1 + self.stretches.len()) as f64)
+            }
             Part::Settle => LONG_STRETCH,
             _ => STRETCH,
         };

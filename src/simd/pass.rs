@@ -15,7 +15,7 @@ use super::job::{Job, Part, STRETCH};
 use super::observe::{Sums, change};
 use super::polynomial::value_soon;
 use super::reach::{LONGER, reach};
-use super::spectrum::{COMPONENTS, accelerations};
+use super::spectrum::{COMPONENTS, Spectrum, accelerations};
 use super::transitions::transitions;
 use super::vector::{Scalar, Vector};
 use crate::kernel::lane::MAX_PARTS;
@@ -47,6 +47,8 @@ struct Lanes<'a, S: Simd, T: Scalar<S>, const K: usize> {
     block: Block<S, T, K>,
     sums: Sums<S, T, K>,
     jobs: &'a mut [Job<T>],
+    /// Whether they are all single masses.
+    single: bool,
     /// The job of each lane; `usize::MAX` for a lane that rests.
     of_lane: Vec<usize>,
     next: usize,
@@ -70,6 +72,7 @@ pub fn pass<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bo
         block: Block::idle(simd, law),
         sums: Sums::new(simd),
         jobs,
+        single,
         of_lane: vec![usize::MAX; lanes],
         next: 0,
         running: 0,
@@ -165,7 +168,9 @@ fn step<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool, 
         let velocities = sums.observe_window::<N, MOTION>(b, e, &nodes, at);
         let track = Track::new(e, at, b.v[0], vx, velocities, &nodes);
         cross_upwards::<S, T, K, N, MOTION>(sums, e, &track, at);
-        sums.spectrum.observe::<N, MOTION>(e, &nodes, at, sums.time);
+        if MOTION != SINGLE {
+            sums.spectrum.observe::<N, MOTION>(e, &nodes, at, sums.time);
+        }
         if sums.growing.not_positive().not().any() {
             sums.observe_growth::<N, MOTION>(e, at, x, vx);
         }
@@ -271,6 +276,9 @@ fn begin<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>, lane: 
         sums.impacts.set(lane, T::ZERO);
         let begun = job.seen.crossings > 0;
         sums.spectrum.begin(lane, job.guessed_omega(), 0.5 * length, begun);
+        if !all.single {
+            sums.spectrum.turn_back(lane, 0.5 * length);
+        }
     }
     if all.part != Part::Phase {
         sums.crossings.set(lane, T::ZERO);
@@ -317,17 +325,8 @@ fn flush<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>, lane: 
             job.seen.last = job.time + sums.last.get(lane).to_f64();
             job.seen.crossings += crossings as u64;
         }
-        let half = 0.5 * (job.until - job.time);
-        let spectrum = &sums.spectrum;
-        let words = |words: &[Vector<S, T, K>; COMPONENTS]| words.map(|word| word.get(lane).to_f64());
-        job.stretches.push(
-            spectrum.omega.get(lane).to_f64(),
-            [job.time + half, half],
-            words(&spectrum.sums),
-            (crossings > 0.0).then(|| words(&spectrum.noted)),
-        );
-        if crossings > 0.0 && spectrum.fresh.get(lane) <= T::ZERO {
-            job.stretches.forget();
+        if !all.single {
+            keep_spectrum(job, &sums.spectrum, lane, crossings > 0.0);
         }
     } else if all.part != Part::Phase {
         let cycles = sums.crossings.get(lane).to_f64() - 1.0;
@@ -343,6 +342,32 @@ fn flush<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>, lane: 
         }
     }
     job.steps += all.block.steps.get(lane).to_f64() as u64;
+}
+
+/// Adds the Fourier sums of a stretch to the job; `crossed` says whether it has a crossing.
+fn keep_spectrum<S: Simd, T: Scalar<S>, const K: usize>(
+    job: &mut Job<T>,
+    spectrum: &Spectrum<S, T, K>,
+    lane: usize,
+    crossed: bool,
+) {
+    let half = 0.5 * (job.until - job.time);
+    let words = |words: &[Vector<S, T, K>; COMPONENTS]| {
+        let mut values = [0.0; COMPONENTS];
+        for (value, word) in values.iter_mut().zip(words) {
+            *value = word.get(lane).to_f64();
+        }
+        values
+    };
+    job.stretches.push(
+        spectrum.omega.get(lane).to_f64(),
+        [job.time + half, half],
+        words(&spectrum.sums),
+        crossed.then(|| words(&spectrum.noted)),
+    );
+    if crossed && spectrum.fresh.get(lane) <= T::ZERO {
+        job.stretches.forget();
+    }
 }
 
 /// Looks after lanes that are at the end of their stretch or have an event that is still to be carried out.

@@ -23,13 +23,18 @@ pub fn value_soon<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
     let square = t * t;
     let [mut lower, mut upper] = [b[N - 2], b[N - 1]];
     let mut k = N - 2;
-    while k >= first + 2 {
+    while k >= first + 3 {
         k -= 2;
         lower = lower.fma(square, b[k]);
         upper = upper.fma(square, b[k + 1]);
     }
-    let sum = upper.fma(t, lower);
-    if k == first { sum } else { sum.fma(t, b[first]) }
+    // What the first term, the largest, is added to is rounded once.
+    let mut sum = upper.fma(t, lower);
+    while k > first {
+        k -= 1;
+        sum = sum.fma(t, b[k]);
+    }
+    sum
 }
 
 /// `Σ b_k t^k` up to a degree.

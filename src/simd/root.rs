@@ -33,13 +33,14 @@ pub fn bracket<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
     let (zero, never) = (lead.like(0.0), lead.like(2.0));
     let width = lead.like(1.0 / SAMPLES as f64);
     let (mut high, mut at_low, mut at_high, mut behind) = (never, lead.like(1.0), zero, zero);
+    let mut t = lead.like(1.0);
+    let [mut here, slope] = at_one(c);
+    let (ahead, falls) = (slope * width, -(c[1] * width));
+    let mut samples = [here; SAMPLES + 1];
+    let mut after = here + ahead;
     // The second difference less the value over DIP: not negative where the function may dip below zero.
     let weight = lead.like(2.0 + 1.0 / DIP);
     let half_weight = lead.like(1.0 + 0.5 / DIP);
-    let mut t = lead.like(1.0);
-    let [mut here, slope] = at_one(c);
-    let ahead = slope * width;
-    let mut after = here + ahead;
     let mut depth = -never;
     // From the last sample to the first: what is set last is the first crossing.
     for i in (1..=SAMPLES).rev() {
@@ -47,6 +48,7 @@ pub fn bracket<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
         high = down.select(t, high);
         t = t - width;
         let before = if i == 1 { c[0] } else { value_soon(c, 0, t) };
+        samples[i - 1] = before;
         // Behind a root at zero the line says nothing: the middle.
         let start = if i == 1 { has_root.select(here.abs(), before) } else { before };
         at_low = down.select(start, at_low);
@@ -62,7 +64,6 @@ pub fn bracket<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
         after = here;
         here = before;
     }
-    let falls = -(c[1] * width);
     let at_start = half_weight.fnma(here, after + falls);
     depth = has_root.select(depth, depth.max(at_start));
     let mut low = high - width;
@@ -77,7 +78,7 @@ pub fn bracket<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
     let part = straight.select(along, nearer.max(lead.like(LEAST)).min(lead.like(1.0)));
     let mut estimate = inside.select(width.fma(part, low), never);
     if zero.at_most(depth).any() {
-        let [sample, curvature] = dips(c, ahead, falls, has_root);
+        let [sample, curvature] = dips(&samples, ahead, falls, has_root);
         let dips = sample.less(high);
         if dips.any() {
             let mut t = sample;
@@ -96,8 +97,8 @@ pub fn bracket<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
 
 /// The first sample near which a function may dip below zero, 2 for none, and its second difference there.
 #[inline(always)]
-fn dips<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
-    c: &[Vector<S, T, K>; N],
+fn dips<S: Simd, T: Scalar<S>, const K: usize>(
+    samples: &[Vector<S, T, K>; SAMPLES + 1],
     ahead: Vector<S, T, K>,
     falls: Vector<S, T, K>,
     has_root: Mask<S, T, K>,
@@ -105,21 +106,17 @@ fn dips<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
     let (zero, two, dip) = (falls.like(0.0), falls.like(2.0), falls.like(DIP));
     let (mut sample, mut curvature) = (two, falls.like(1.0));
     // Lowest in the middle, or at the end on its way up: it may dip below zero in between.
-    let mut here = value(c, falls.like(1.0));
-    let mut after = here + ahead;
     for i in (1..=SAMPLES).rev() {
-        let before = if i == 1 { c[0] } else { value(c, two.like((i - 1) as f64 / SAMPLES as f64)) };
-        let climbs = if i < SAMPLES { after - here } else { ahead };
+        let (before, here) = (samples[i - 1], samples[i]);
+        let climbs = if i < SAMPLES { samples[i + 1] - here } else { ahead };
         let bent = if i < SAMPLES { (before - here) + climbs } else { two * ((before - here) + climbs) };
         let lowest = here.less(before).and(zero.less(climbs)).and(here.at_most(bent * dip));
         sample = lowest.select(two.like(i as f64 / SAMPLES as f64), sample);
         curvature = lowest.select(bent, curvature);
-        after = here;
-        here = before;
     }
     // Lowest at the start, on its way down.
-    let bent = two * ((after - here) + falls);
-    let lowest = zero.less(falls).and(here.at_most(after)).and(here.at_most(bent * dip));
+    let bent = two * ((samples[1] - samples[0]) + falls);
+    let lowest = zero.less(falls).and(samples[0].at_most(samples[1])).and(samples[0].at_most(bent * dip));
     let lowest = lowest.and(has_root.not());
     [lowest.select(zero, sample), lowest.select(bent, curvature)]
 }

@@ -94,17 +94,22 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Spectrum<S, T, K> {
         }
     }
 
-    /// Begins a stretch of a lane: `half` is half its length.
+    /// Begins a stretch of a lane, whose crossings count: `half` is half its length.
     #[inline(always)]
     pub fn begin(&mut self, lane: usize, omega: f64, half: f64, begun: bool) {
         self.omega.set(lane, T::from_f64(omega));
-        let omega = self.omega.get(lane).to_f64();
-        self.scale.set(lane, T::from_f64(1.0 / half));
-        self.carrier[0].set(lane, T::from_f64((omega * half).cos()));
-        self.carrier[1].set(lane, T::from_f64((omega * half).sin()));
         self.begun.set(lane, T::from_f64(f64::from(u8::from(begun))));
         self.closing.set(lane, T::from_f64(2.0 * half - CLOSING * TAU / omega));
         self.fresh.set(lane, T::ZERO);
+    }
+
+    /// Begins its sums, at minus `half` of its middle.
+    #[inline(always)]
+    pub fn turn_back(&mut self, lane: usize, half: f64) {
+        let (sine, cosine) = (self.omega.get(lane).to_f64() * half).sin_cos();
+        self.scale.set(lane, T::from_f64(1.0 / half));
+        self.carrier[0].set(lane, T::from_f64(cosine));
+        self.carrier[1].set(lane, T::from_f64(sine));
         for word in self.sums.iter_mut().chain(&mut self.noted) {
             word.set(lane, T::ZERO);
         }
@@ -154,6 +159,12 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Spectrum<S, T, K> {
         crossed: Mask<S, T, K>,
         moment: Vector<S, T, K>,
     ) {
+        let one = moment.like(1.0);
+        if MOTION == SINGLE {
+            // What y1 does has no phase.
+            self.begun = crossed.select(one, self.begun);
+            return;
+        }
         let nodes = accelerations::<S, T, K, N, MOTION>(e, moment);
         let before = self.part::<N, MOTION>(e, &nodes, moment, time).sums;
         let zero = moment.like(0.0);
@@ -164,7 +175,7 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Spectrum<S, T, K> {
             // The first crossing: what comes before it in the step does not count.
             self.sums[i] = begun.select(self.sums[i], (zero - before[i]).only(crossed));
         }
-        self.begun = crossed.select(moment.like(1.0), self.begun);
+        self.begun = crossed.select(one, self.begun);
     }
 
     /// Adds a step up to `at`, whose crossings have been noted.

@@ -1,7 +1,7 @@
 //! The fastest mode of each contact state against eigenvalues by nalgebra and closed forms; no step passes it.
 
 use nalgebra::Schur;
-use squealmap::method::pace::{STABLE, longest_steps};
+use squealmap::method::pace::{Turns, longest_turn};
 use squealmap::model::Param;
 use squealmap::response::Scene;
 use squealmap::spec::{Instance, StartKind};
@@ -101,14 +101,26 @@ fn the_stable_turn_is_that_of_the_series() {
         let root = half * half - det;
         if root > 0.0 { half.abs() + root.sqrt() } else { det.sqrt() }
     };
-    for order in [8, 12, 16] {
-        let steps = |from: f64, to: f64| (0..1000).map(move |i| from + (to - from) * f64::from(i) / 1000.0);
-        assert!(steps(0.01, STABLE).all(|turn| growth(order, turn) <= 1.0 + 1e-11), "order {order}");
-        assert!(steps(STABLE, 3.5).any(|turn| growth(order, turn) > 1.0 + 1e-9), "order {order}");
+    let steps = |from: f64, to: f64| (0..1000).map(move |i| from + (to - from) * f64::from(i) / 1000.0);
+    for order in [8, 12, 13, 16] {
+        let stable = longest_turn(order);
+        let growth = |turn| growth(i32::try_from(order).expect("small"), turn);
+        assert!(steps(0.01, stable).all(|turn| growth(turn) <= 1.0 + 1e-11), "order {order}");
+        assert!(steps(stable, 4.0).any(|turn| growth(turn) > 1.0 + 1e-9), "order {order}");
     }
-    let longest = longest_steps(&[1.0, 2.0, 0.0, 100.0], 12, 1e-3);
-    assert!(longest[0] < STABLE && longest[2].is_infinite());
+    assert!(steps(0.01, 3.6).all(|turn| growth(13, turn) <= 1.0), "order 13 damps");
+
+    let turns = |order, tolerance| Turns::new(order, tolerance).longest_steps(&[1.0, 2.0, 0.0, 100.0]);
+    let longest = turns(12, 1e-3);
+    assert!(longest[0] <= longest_turn(12) && longest[2].is_infinite());
     close("twice as fast", longest[1], 0.5 * longest[0], 1e-15);
-    close("in flight", longest[3], 0.01 * STABLE, 1e-15);
-    assert!(longest_steps(&[1.0; 4], 12, f64::INFINITY).iter().all(|step| step.is_infinite()));
+    close("in flight", longest[3], 0.01 * longest_turn(12), 1e-15);
+    assert!(turns(12, f64::INFINITY).iter().all(|step| step.is_infinite()));
+    // (5e-7 · 8!)^(1/8) and (1e-7 · 13!)^(1/13).
+    close("kept by order 8", turns(8, 2e-4)[0], 0.613_848_7, 1e-6);
+    close("kept by order 13", turns(13, 1e-5)[0], 1.640_381, 1e-6);
+    // Where the tolerance is coarse 2.5e-6, not of modes that ring more often.
+    close("kept of a coarse tolerance", turns(13, 1e-3)[0], longest_turn(13), 1e-6);
+    let stiff = Turns::new(13, 1e-3).longest_steps(&[1e3; 4]);
+    close("kept of a stiff mode", stiff[0], 1e-3 * 1.640_381, 1e-6);
 }

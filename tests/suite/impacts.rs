@@ -7,9 +7,11 @@ use pulp::{Arch, Simd, WithSimd};
 use crate::common::plan;
 use crate::instances::{Uniform, moving};
 use squealmap::kernel::series::FREE;
+use squealmap::method::pace::Turns;
 use squealmap::model::Param;
 use squealmap::model::friction::FrictionLaw;
 use squealmap::response::Scene;
+use squealmap::simd::ORDER;
 use squealmap::simd::block::Block;
 use squealmap::simd::impacts::impact;
 use squealmap::simd::job::Job;
@@ -57,6 +59,7 @@ impl WithSimd for &mut InLanes<'_> {
 /// changes what the lanes get.
 fn impacts(planted: impl Fn(&mut Instance)) -> (f64, [usize; 4]) {
     let mut u = Uniform(29);
+    let turns = Turns::new(ORDER, 1e-6);
     let mut jobs = Vec::new();
     let mut expected = Vec::new();
     while jobs.len() < 4000 {
@@ -78,7 +81,7 @@ fn impacts(planted: impl Fn(&mut Instance)) -> (f64, [usize; 4]) {
         planted(&mut changed);
         let scene =
             Scene::planned(&changed, &plan(1.0, 0.1, 12), f64::EPSILON).expect("it could be prepared before");
-        jobs.push((Job::<f64>::new(&changed, scene, &plan(1.0, 0.1, 12)), moment));
+        jobs.push((Job::<f64>::new(&changed, scene, &plan(1.0, 0.1, 12), &turns), moment));
     }
     let mut lanes = InLanes { jobs: &jobs, made: Vec::new() };
     Arch::new().dispatch(&mut lanes);
