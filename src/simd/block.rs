@@ -63,6 +63,8 @@ pub struct Block<S: Simd, T: Scalar<S>, const K: usize> {
     pub pace: Vector<S, T, K>,
     /// Contact state.
     pub contact: Vector<S, T, K>,
+    /// The highest code of the contact states of the present stretch.
+    pub reached: Vector<S, T, K>,
     /// The event function that begins at zero.
     pub disarmed: Vector<S, T, K>,
     /// The other piece of a law of two.
@@ -95,6 +97,7 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Block<S, T, K> {
             step: zero,
             pace: zero,
             contact: zero,
+            reached: zero,
             disarmed: zero,
             other: [zero; 6],
             many: zero,

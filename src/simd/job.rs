@@ -22,6 +22,12 @@ pub const STRETCH: f64 = 80.0;
 /// Steps of a stretch between the first event and the window, whose sums are only a guess at the frequency.
 pub const LONG_STRETCH: f64 = 256.0;
 
+/// Steps of the last of them.
+const LAST_STRETCH: f64 = 48.0;
+
+/// Length of [`Part::Approach`]: ten periods.
+const APPROACH: f64 = 10.0 * TAU;
+
 /// Relative error of a Fourier component from a guess of its frequency, in units of the bound on the truncation
 /// of a step: 0.006 degrees for 1e-5.
 const PHASE_ERROR: f64 = 10.0;
@@ -34,6 +40,8 @@ const FIRST_STRETCH: f64 = 32.0;
 pub enum Part {
     /// Up to the first event: growth, frequency and phase are measured.
     Growth,
+    /// Some periods more, which show what the instance does: see [`Job::habit`].
+    Approach,
     /// The rest of the time before the window.
     Settle,
     /// The window.
@@ -44,7 +52,7 @@ pub enum Part {
 
 impl Part {
     /// All, in the order of a run.
-    pub const ALL: [Part; 4] = [Part::Growth, Part::Settle, Part::Window, Part::Phase];
+    pub const ALL: [Part; 5] = [Part::Growth, Part::Approach, Part::Settle, Part::Window, Part::Phase];
 }
 
 /// An instance on its way.
@@ -64,6 +72,11 @@ pub struct Job<T> {
     pub until: f64,
     /// Whether the first event is still to come.
     pub growing: bool,
+    /// What it did in the last part: the highest code of its contact states, and whether it had events. Instances of one habit
+    /// go on side by side, as a step does what any of its lanes needs.
+    pub habit: (u32, bool),
+    /// End of [`Part::Approach`].
+    approached: f64,
     /// `x2` and `y1` at the start of the window.
     pub origin: [T; 2],
     /// What it has reduced.
@@ -134,6 +147,8 @@ impl<T: Real> Job<T> {
             time: 0.0,
             until: 0.0,
             growing: true,
+            habit: (0, false),
+            approached: 0.0,
             origin: [T::ZERO; 2],
             seen: Reductions::default(),
             previous: T::ZERO,
@@ -168,8 +183,13 @@ impl<T: Real> Job<T> {
         if self.lane.status != Status::Unwritten {
             return false;
         }
+        self.habit = (0, false);
         match part {
             Part::Growth => self.growing && self.time < self.marks[0],
+            Part::Approach => {
+                self.approached = self.marks[0].min(self.time + APPROACH);
+                self.time < self.marks[0] && !self.is_single()
+            }
             Part::Settle => self.time < self.marks[0],
             Part::Window => {
                 if self.time >= self.marks[2] {
@@ -233,6 +253,7 @@ impl<T: Real> Job<T> {
     pub fn stretch(&mut self, part: Part, steps_per_period: u32) -> Option<[f64; 2]> {
         let goals: &[f64] = match part {
             Part::Growth | Part::Settle => &self.marks[..1],
+            Part::Approach => &[self.approached],
             Part::Window => &self.marks[1..],
             Part::Phase => &[self.seen.first, self.seen.last],
         };
@@ -247,7 +268,9 @@ impl<T: Real> Job<T> {
             Part::Window if !self.is_single() => {
                 STRETCH.min(FIRST_STRETCH * (1 + self.stretches.len()) as f64)
             }
-            Part::Settle => LONG_STRETCH,
+            // The last one guesses the frequency: it is late, and not too short.
+            Part::Settle if whole > LAST_STRETCH => LONG_STRETCH.min(whole - LAST_STRETCH),
+            Part::Approach | Part::Settle => LONG_STRETCH,
             _ => STRETCH,
         };
         if whole <= most {

@@ -51,6 +51,8 @@ struct Lanes<'a, S: Simd, T: Scalar<S>, const K: usize> {
     single: bool,
     /// The job of each lane; `usize::MAX` for a lane that rests.
     of_lane: Vec<usize>,
+    /// The jobs in the order in which they are taken.
+    order: Vec<usize>,
     next: usize,
     running: usize,
     part: Part,
@@ -68,12 +70,15 @@ pub fn pass<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bo
     let Some(law) = jobs.first().map(Job::law) else { return };
     let single = jobs.iter().all(Job::is_single);
     let lanes = Vector::<S, T, K>::LANES;
+    let mut order: Vec<usize> = (0..jobs.len()).collect();
+    order.sort_by_key(|index| jobs[*index].habit);
     let mut all = Lanes {
         block: Block::idle(simd, law),
         sums: Sums::new(simd),
         jobs,
         single,
         of_lane: vec![usize::MAX; lanes],
+        order,
         next: 0,
         running: 0,
         part,
@@ -135,6 +140,7 @@ fn step<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool, 
     let zero = b.left.like(0.0);
     let one = b.left.like(1.0);
     b.v[0] = b.stick().select(b.belt, b.v[0]);
+    b.reached = b.reached.max(b.contact);
     let allowed = b.longest();
     let mut pace = b.pace.min(b.step).min(allowed);
     if MOTION == SINGLE {
@@ -161,7 +167,7 @@ fn step<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool, 
     if all.part == Part::Growth {
         sums.observe_growth::<N, MOTION>(e, at, x, vx);
         sums.guess_crossings(b.v[0], vx, at * e.step);
-    } else if all.part == Part::Settle {
+    } else if matches!(all.part, Part::Approach | Part::Settle) {
         sums.guess_crossings(b.v[0], vx, at * e.step);
     } else if all.part == Part::Window {
         let nodes = accelerations::<S, T, K, N, MOTION>(e, at);
@@ -227,7 +233,7 @@ fn refill<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>, lane:
         all.running -= 1;
     }
     while all.next < all.jobs.len() {
-        let index = all.next;
+        let index = all.order[all.next];
         all.next += 1;
         if !all.jobs[index].enter(all.part, all.settings.tolerance) {
             continue;
@@ -259,6 +265,7 @@ fn begin<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>, lane: 
     b.pace.set(lane, T::from_f64(step));
     b.steps.set(lane, T::ZERO);
     b.counted.set(lane, T::ZERO);
+    b.reached.set(lane, T::ZERO);
     b.at_once.set(lane, T::ZERO);
     let sums = &mut all.sums;
     sums.time.set(lane, T::ZERO);
@@ -301,6 +308,8 @@ fn begin<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>, lane: 
 fn flush<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>, lane: usize) {
     let job = &mut all.jobs[all.of_lane[lane]];
     let sums = &all.sums;
+    let contact = all.block.reached.get(lane).to_f64() as u32;
+    job.habit = job.habit.max((contact, all.block.counted.get(lane) > T::ZERO));
     job.growing &= sums.growing.get(lane) > T::ZERO;
     if all.part == Part::Growth || all.part == Part::Window {
         for (total, word) in job.seen.growth.iter_mut().zip(&sums.growth) {
