@@ -10,8 +10,8 @@ BELT = ('[friction]\nlaw = "constant"\n'
         '[model]\nm1 = 0.5\nm2 = 0.5\nk1 = 1.0\nk2 = 1.0\nc1 = 0.0\nc2 = 0.0\nf_ext = 1.0\ntheta = 0.0\n')
 
 # Engines, scalars and steps per period.
-STEPS = [("cpu", "f64", 12), ("cpu", "f64", 5), ("cpu", "f64", 4), ("cpu", "f32", 12), ("cpu", "f32", 5), ("cpu", "f32", 4),
-         ("cpu", "f32", 3), ("reference", "f64", 12)]
+STEPS = [("cpu", "f64", 12), ("cpu", "f64", 5), ("cpu", "f64", 4), ("cpu", "f64", 3), ("cpu", "f32", 12), ("cpu", "f32", 5),
+         ("cpu", "f32", 4), ("cpu", "f32", 3), ("reference", "f64", 12)]
 
 
 def run(rows, sections, backend, precision, steps):
