@@ -38,12 +38,6 @@ pub struct Expansion<S: Simd, T: Scalar<S>, const K: usize, const N: usize> {
     pub step: Vector<S, T, K>,
     /// `1/step`.
     pub rate: Vector<S, T, K>,
-    /// `1/k`, and 0 for 0.
-    per: [Vector<S, T, K>; N],
-    /// `q`, with the inverse of the inertia.
-    q: [Vector<S, T, K>; N],
-    /// What the recurrence of a curved law carries.
-    law: [Vector<S, T, K>; N],
 }
 
 impl<S: Simd, T: Scalar<S>, const K: usize, const N: usize> Expansion<S, T, K, N> {
@@ -52,21 +46,7 @@ impl<S: Simd, T: Scalar<S>, const K: usize, const N: usize> Expansion<S, T, K, N
     pub fn new(simd: S) -> Self {
         let zero = Vector::constant(simd, 0.0);
         let series = [zero; N];
-        let mut per = series;
-        for k in 1..N {
-            per[k] = Vector::constant(simd, 1.0 / k as f64);
-        }
-        Expansion {
-            per,
-            p: [series; 3],
-            v: [series; 3],
-            a: [series; 2],
-            n: series,
-            step: zero,
-            rate: zero,
-            q: series,
-            law: series,
-        }
+        Expansion { p: [series; 3], v: [series; 3], a: [series; 2], n: series, step: zero, rate: zero }
     }
 }
 
@@ -122,6 +102,7 @@ fn exp_m1<S: Simd, T: Scalar<S>, const K: usize>(x: Vector<S, T, K>) -> Vector<S
 
 /// What the accelerations and the normal force are made of over a step, times its square: coefficients of the
 /// coordinates and of their velocities (the power of the step is in them), and constants.
+#[derive(Clone, Copy)]
 struct Forms<S: Simd, T: Scalar<S>, const K: usize> {
     /// Acceleration of `x2`, friction by the curvature of its law aside.
     ax: [Vector<S, T, K>; 6],
@@ -188,7 +169,6 @@ fn forms<S: Simd, T: Scalar<S>, const K: usize, const MOTION: u8>(
 
 /// Expands the motion over the step `h`; returns the lanes whose contact forces are not unique. Series of what
 /// does not move are left alone.
-#[expect(clippy::too_many_lines, reason = "one recurrence")]
 #[inline(always)]
 pub fn expand<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool, const MOTION: u8>(
     b: &Block<S, T, K>,
@@ -207,14 +187,13 @@ pub fn expand<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: 
     let per_step = one / (inertia * h);
     let reciprocal = per_step * h;
     let forms = forms::<S, T, K, MOTION>(b, h, [q0, q0_less], reciprocal);
-    let Forms { ax, ay, aw, normal, push, fall, load, kappa } = forms;
     let drive = b.drive * (h * h);
     // q_k = −slope · (relative velocity)_k, with 1/(1 + κ q0) folded in.
     let stiffening = slip.select(-(b.piece[SLOPE] * per_step), zero);
     // Without a slope q is constant.
     let sloped = LAW == CURVED || zero.less(stiffening.abs()).any();
 
-    let Expansion { p, v, a, n, q, law, per, .. } = e;
+    let Expansion { p, v, .. } = e;
     for i in 0..3 {
         if MOTION == FLIGHT || i == 0 || i == 2 && MOTION != SINGLE {
             p[i][0] = b.p[i];
@@ -222,114 +201,183 @@ pub fn expand<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: 
             p[i][1] = v[i][1];
         }
     }
+    let mut friction = Friction { q: [zero; N], law: [zero; N] };
     if LAW == CURVED && b.law == Law::Exponential {
-        law[0] = sigma.fma(q0, -b.piece[AT_ZERO]);
+        friction.law[0] = sigma.fma(q0, -b.piece[AT_ZERO]);
     } else if LAW == CURVED {
-        law[0] = q0;
+        friction.law[0] = q0;
     }
-    // Of straight laws: what a degree of the accelerations takes from the one before it, so that it waits for
-    // nothing else.
-    let (mut drag, mut back, mut force_before) = (zero, zero, zero);
-    for k in 0..N - 2 {
-        let waits_less = LAW == PIECES && k > 1;
-        let (mut x, mut y, mut w, mut force) = (ax[0] * p[0][k], zero, zero, zero);
-        if MOTION != SINGLE {
-            x = ax[0].fma(p[0][k], ax[2] * p[2][k]);
-            w = aw[0].fma(p[0][k], aw[2] * p[2][k]);
-            force = normal[0].fma(p[0][k], normal[2] * p[2][k]);
-        }
-        if k == 0 {
-            x += push;
-            y += fall;
-            force += load;
-        }
-        if MOTION == FLIGHT {
-            x = ax[1].fma(p[1][k], x);
-            w = aw[1].fma(p[1][k], w);
-            y = ay[0].fma(p[0][k], ay[1].fma(p[1][k], ay[2].fma(p[2][k], y)));
-            y = ay[3].fma(v[0][k + 1], ay[4].fma(v[1][k + 1], ay[5].fma(v[2][k + 1], y)));
-            x = ax[4].fma(v[1][k + 1], x);
-            w = aw[4].fma(v[1][k + 1], w);
-        }
-        if MOTION != SINGLE && sloped {
-            for j in 2..k {
-                x = q[j].fma(n[k - j], x);
-            }
-        }
-        let part = per[k];
-        if waits_less {
-            if MOTION != SINGLE {
-                x = q[1].fma(force_before, x);
-                x = (ax[5] * part).fma(a[1][k - 1], x);
-                w = (aw[5] * part).fma(a[1][k - 1], w);
-                w = (aw[3] * part).fma(a[0][k - 1], w);
-            }
-            x = drag.fma(part, back).fma(a[0][k - 1], x);
-        } else {
-            if MOTION != SINGLE {
-                x = ax[5].fma(v[2][k + 1], x);
-                w = aw[5].fma(v[2][k + 1], w);
-                w = aw[3].fma(v[0][k + 1], w);
-            }
-            x = ax[3].fma(v[0][k + 1], x);
-            if k > 0 {
-                x = q[k].fma(n[0], x);
-            }
-            if MOTION != SINGLE && k > 1 {
-                x = q[1].fma(n[k - 1], x);
-            }
-        }
-        if MOTION != SINGLE {
-            force = normal[5].fma(v[2][k + 1], force);
-            force = normal[3].fma(v[0][k + 1], force);
-            a[1][k] = w;
-        }
-        if MOTION != SINGLE || k == 0 {
-            n[k] = kappa.fnma(x, force);
-        }
-        force_before = force;
-        a[0][k] = x;
-        let (once, next) = (per[k + 1], per[k + 2]);
-        v[0][k + 2] = x * once;
-        p[0][k + 2] = v[0][k + 2] * next;
-        if MOTION != SINGLE {
-            v[2][k + 2] = w * once;
-            p[2][k + 2] = v[2][k + 2] * next;
-        }
-        if MOTION == FLIGHT {
-            v[1][k + 2] = y * once;
-            p[1][k + 2] = v[1][k + 2] * next;
-        }
-        // The relative velocity of degree k + 1, times the step.
-        let slower = if k == 0 { v[0][2] - drive } else { v[0][k + 2] };
-        if LAW == PIECES {
-            q[k + 1] = stiffening * slower;
-            if k == 0 {
-                drag = stiffening.fma(n[0], ax[3]);
-            }
-            if k == 0 && MOTION != SINGLE {
-                back = -(q[1] * kappa);
-            }
-        } else {
-            // Kept as the relative velocity times the degree or not, as its law needs it.
-            let rate = per_step * inertia;
-            let mut sum = zero;
-            law[k + 1] = zero;
-            for j in 1..=k + 1 {
-                let along = if j == 1 { drive - v[0][2] } else { -v[0][j + 1] } * rate;
-                let along = if b.law == Law::Exponential { along * h.like(j as f64) } else { along };
-                sum = along.fma(law[k + 1 - j], sum);
-            }
-            if b.law == Law::Exponential {
-                law[k + 1] = -(sigma * b.piece[RATE] * sum) * once;
-                q[k + 1] = (sigma * law[k + 1] * reciprocal).only(slip);
-            } else {
-                law[k + 1] = -(b.piece[RATE] * sigma * sum) / (b.piece[RATE] * sigma).fma(relative, one);
-                q[k + 1] = (law[k + 1] * reciprocal).only(slip);
-            }
-        }
+    let known = Known {
+        forms,
+        stiffening,
+        drive,
+        sloped,
+        reciprocal,
+        rate: per_step * inertia,
+        sigma,
+        relative,
+        slip,
+    };
+    let mut course = Course { drag: zero, back: zero, force_before: zero };
+    // Written out, with every constant and every place known.
+    macro_rules! degrees {
+        ($($k:literal)*) => {
+            $(if $k < N - 2 {
+                degree::<S, T, K, N, LAW, MOTION>($k, b, &known, e, &mut friction, &mut course);
+            })*
+        };
     }
+    degrees!(0 1 2 3 4 5 6 7 8 9 10 11 12 13 14);
     e.step = h;
     e.rate = per_step * inertia;
     ill_posed
+}
+
+/// What all degrees of a step share.
+#[derive(Clone, Copy)]
+struct Known<S: Simd, T: Scalar<S>, const K: usize> {
+    forms: Forms<S, T, K>,
+    /// `q_k` of a straight law is this times the velocity of degree `k`.
+    stiffening: Vector<S, T, K>,
+    /// The belt's acceleration, times the square of the step.
+    drive: Vector<S, T, K>,
+    /// Whether `q` is not constant.
+    sloped: bool,
+    /// `1/(1 + κ q0)`.
+    reciprocal: Vector<S, T, K>,
+    /// `1/step`.
+    rate: Vector<S, T, K>,
+    sigma: Vector<S, T, K>,
+    /// The relative velocity at the beginning.
+    relative: Vector<S, T, K>,
+    slip: Mask<S, T, K>,
+}
+
+/// The series of the friction law.
+struct Friction<S: Simd, T: Scalar<S>, const K: usize, const N: usize> {
+    /// `q`, with the inverse of the inertia.
+    q: [Vector<S, T, K>; N],
+    /// What the recurrence of a curved law carries.
+    law: [Vector<S, T, K>; N],
+}
+
+/// Of straight laws: what a degree of the accelerations takes from the one before it, so that it waits for nothing else.
+struct Course<S: Simd, T: Scalar<S>, const K: usize> {
+    drag: Vector<S, T, K>,
+    back: Vector<S, T, K>,
+    force_before: Vector<S, T, K>,
+}
+
+/// The accelerations of degree `k`, and what of the motion follows from them.
+#[inline(always)]
+fn degree<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool, const MOTION: u8>(
+    k: usize,
+    b: &Block<S, T, K>,
+    known: &Known<S, T, K>,
+    e: &mut Expansion<S, T, K, N>,
+    friction: &mut Friction<S, T, K, N>,
+    course: &mut Course<S, T, K>,
+) {
+    let Known { forms, stiffening, drive, sloped, reciprocal, rate, sigma, relative, slip } = *known;
+    let Forms { ax, ay, aw, normal, push, fall, load, kappa } = forms;
+    let (zero, one) = (drive.like(0.0), drive.like(1.0));
+    let Expansion { p, v, a, n, .. } = e;
+    let Friction { q, law } = friction;
+    let waits_less = LAW == PIECES && k > 1;
+    let (mut x, mut y, mut w, mut force) = (ax[0] * p[0][k], zero, zero, zero);
+    if MOTION != SINGLE {
+        x = ax[0].fma(p[0][k], ax[2] * p[2][k]);
+        w = aw[0].fma(p[0][k], aw[2] * p[2][k]);
+        force = normal[0].fma(p[0][k], normal[2] * p[2][k]);
+    }
+    if k == 0 {
+        x += push;
+        y += fall;
+        force += load;
+    }
+    if MOTION == FLIGHT {
+        x = ax[1].fma(p[1][k], x);
+        w = aw[1].fma(p[1][k], w);
+        y = ay[0].fma(p[0][k], ay[1].fma(p[1][k], ay[2].fma(p[2][k], y)));
+        y = ay[3].fma(v[0][k + 1], ay[4].fma(v[1][k + 1], ay[5].fma(v[2][k + 1], y)));
+        x = ax[4].fma(v[1][k + 1], x);
+        w = aw[4].fma(v[1][k + 1], w);
+    }
+    if MOTION != SINGLE && sloped {
+        for j in 2..k {
+            x = q[j].fma(n[k - j], x);
+        }
+    }
+    let part = zero.like(1.0 / k.max(1) as f64);
+    if waits_less {
+        if MOTION != SINGLE {
+            x = q[1].fma(course.force_before, x);
+            x = ax[5].fma(v[2][k + 1], x);
+            w = aw[5].fma(v[2][k + 1], w);
+            w = aw[3].fma(v[0][k + 1], w);
+        }
+        x = course.drag.fma(part, course.back).fma(a[0][k - 1], x);
+    } else {
+        if MOTION != SINGLE {
+            x = ax[5].fma(v[2][k + 1], x);
+            w = aw[5].fma(v[2][k + 1], w);
+            w = aw[3].fma(v[0][k + 1], w);
+        }
+        x = ax[3].fma(v[0][k + 1], x);
+        if k > 0 {
+            x = q[k].fma(n[0], x);
+        }
+        if MOTION != SINGLE && k > 1 {
+            x = q[1].fma(n[k - 1], x);
+        }
+    }
+    if MOTION != SINGLE {
+        force = normal[5].fma(v[2][k + 1], force);
+        force = normal[3].fma(v[0][k + 1], force);
+        a[1][k] = w;
+    }
+    if MOTION != SINGLE || k == 0 {
+        n[k] = kappa.fnma(x, force);
+    }
+    course.force_before = force;
+    a[0][k] = x;
+    let once = zero.like(1.0 / (k + 1) as f64);
+    let twice = zero.like(1.0 / ((k + 1) * (k + 2)) as f64);
+    v[0][k + 2] = x * once;
+    p[0][k + 2] = x * twice;
+    if MOTION != SINGLE {
+        v[2][k + 2] = w * once;
+        p[2][k + 2] = w * twice;
+    }
+    if MOTION == FLIGHT {
+        v[1][k + 2] = y * once;
+        p[1][k + 2] = y * twice;
+    }
+    // The relative velocity of degree k + 1, times the step.
+    let slower = if k == 0 { v[0][2] - drive } else { v[0][k + 2] };
+    if LAW == PIECES {
+        q[k + 1] = stiffening * slower;
+        if k == 0 {
+            course.drag = stiffening.fma(n[0], ax[3]);
+        }
+        if k == 0 && MOTION != SINGLE {
+            course.back = -(q[1] * kappa);
+        }
+    } else {
+        // Kept as the relative velocity times the degree or not, as its law needs it.
+        let mut sum = zero;
+        law[k + 1] = zero;
+        for j in 1..=k + 1 {
+            let along = if j == 1 { drive - v[0][2] } else { -v[0][j + 1] } * rate;
+            let along = if b.law == Law::Exponential { along * drive.like(j as f64) } else { along };
+            sum = along.fma(law[k + 1 - j], sum);
+        }
+        if b.law == Law::Exponential {
+            law[k + 1] = -(sigma * b.piece[RATE] * sum) * once;
+            q[k + 1] = (sigma * law[k + 1] * reciprocal).only(slip);
+        } else {
+            law[k + 1] = -(b.piece[RATE] * sigma * sum) / (b.piece[RATE] * sigma).fma(relative, one);
+            q[k + 1] = (law[k + 1] * reciprocal).only(slip);
+        }
+    }
 }
