@@ -14,6 +14,9 @@ use super::functions::{Functions, may_fall};
 use super::root::{Bracket, bracket, refine};
 use super::vector::{Scalar, Vector};
 
+/// The span of a function that may rise as far as it will.
+const NO_SPAN: f64 = 1e30;
+
 /// Where in the step each lane's first event is, 1 when there is none, and the event function it belongs to,
 /// 0 for none.
 ///
@@ -41,15 +44,22 @@ pub fn first_event<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const 
         return [one, zero];
     }
     let (slip, flies) = (b.slip(), b.free());
-    let mut best = Bracket { low: zero, high: one, estimate: one.like(2.0) };
+    let mut best = Bracket { low: zero, high: one, estimate: one.like(2.0), beyond: slip };
     let mut of_best = Function { start: zero, share: zero, sign: zero, order: zero };
     let mut event = zero;
     let mut c = [zero; N];
+    // Lanes whose series is no longer that of the last search.
+    let mut turned = zero.less(zero);
     let mut turns = 0;
     while pending.any() {
         turns += 1;
-        // One open function per lane at a time.
-        let here = [open[0], open[0].not().and(open[1]), open[0].or(open[1]).not().and(open[2])];
+        // One open function per lane at a time; but both that a sliding speed has, between whose kinks it lies, are one
+        // with a span: that which begins at a kink, or that of the lower one.
+        let ahead = open[0].not().and(open[1]);
+        let back = open[0].not().and(open[2]);
+        let pair = slip.and(ahead).and(back);
+        let ahead = ahead.and(pair.and(from_zero[2]).not());
+        let here = [open[0], ahead, back.and(ahead.not())];
         let mut f = Function {
             start: here[1].select(g.start[1], here[2].select(g.start[2], g.start[0])),
             share: here[0].select(one, g.share),
@@ -70,19 +80,31 @@ pub fn first_event<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const 
             f.start = begins.select(zero, f.start);
             f.order = one.only(begins);
         }
+        // In doubt one after the other.
+        let pair = pair.and(doubtful.not());
         f.series::<N, MOTION>(e, g, &mut c);
-        let found = bracket(&c, zero.less(f.order), lead);
+        let has_root = zero.less(f.order);
+        let found = if pair.any() {
+            let span = pair.select(g.start[1] + g.start[2], one.like(NO_SPAN));
+            let lead = begins.select(lead, lead.min(span - lead));
+            bracket::<S, T, K, N, true>(&c, has_root, lead, span)
+        } else {
+            bracket::<S, T, K, N, false>(&c, has_root, lead, one)
+        };
         let earlier = live.and(found.estimate.less(best.estimate)).and(found.estimate.at_most(one));
+        let other = here[1].select(g.start[2], g.start[1]);
         best.low = earlier.select(found.low, best.low);
         best.high = earlier.select(found.high, best.high);
         best.estimate = earlier.select(found.estimate, best.estimate);
-        of_best.start = earlier.select(f.start, of_best.start);
+        of_best.start = earlier.select(found.beyond.select(other, f.start), of_best.start);
         of_best.share = earlier.select(f.share, of_best.share);
-        of_best.sign = earlier.select(f.sign, of_best.sign);
-        of_best.order = earlier.select(f.order, of_best.order);
-        event = earlier.select(here[1].select(second, here[2].select(third, one)), event);
+        of_best.sign = earlier.select(found.beyond.select(-f.sign, f.sign), of_best.sign);
+        of_best.order = earlier.select(f.order.only(found.beyond.not()), of_best.order);
+        let of_speed = here[1].and(found.beyond.not()).or(here[2].and(found.beyond));
+        event = earlier.select(of_speed.select(second, here[0].select(one, third)), event);
+        turned = turned.or(earlier.and(found.beyond));
         for i in 0..3 {
-            open[i] = open[i].and(here[i].not());
+            open[i] = open[i].and(here[i].or(pair).not());
         }
         pending = open[0].or(open[1]).or(open[2]);
     }
@@ -90,7 +112,7 @@ pub fn first_event<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const 
     if !happens.any() {
         return [one, zero];
     }
-    if turns > 1 {
+    if turns > 1 || turned.any() {
         of_best.series::<N, MOTION>(e, g, &mut c);
     }
     [happens.select(refine(&c, of_best.order, &best), one), event]

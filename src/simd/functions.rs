@@ -94,21 +94,15 @@ pub fn functions<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const MO
     g.start[0] = e.n[0];
 }
 
-/// A lower bound on [0, 1] of `b0 + b1 t + …`: Bernstein coefficients of the part up to degree 4 less a bound
-/// on the rest.
+/// The Bernstein coefficients on [0, 1] of the part of a series from degree 1 to 4, but for the first, which is 0.
 #[inline(always)]
-fn lower_bound<S: Simd, T: Scalar<S>, const K: usize>(
-    b: [Vector<S, T, K>; 5],
-    rest: Vector<S, T, K>,
-) -> Vector<S, T, K> {
+fn bernstein<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
+    b: &[Vector<S, T, K>; N],
+) -> [Vector<S, T, K>; 4] {
     let (c1, c2, c3) = (b[1] * b[1].like(0.25), b[2] * b[1].like(1.0 / 6.0), b[3] * b[1].like(0.25));
-    let two = b[0].like(2.0);
-    let three = b[0].like(3.0);
-    let b1 = b[0] + c1;
-    let b2 = two.fma(c1, b[0] + c2);
-    let b3 = three.fma(c1 + c2, b[0] + c3);
-    let b4 = (b[0] + b[1]) + (b[2] + b[3]) + b[4];
-    b[0].min(b1).min(b2.min(b3)).min(b4) - rest
+    let second = c1.like(2.0).fma(c1, c2);
+    let third = c1.like(3.0).fma(c1 + c2, c3);
+    [c1, second, third, (b[1] + b[2]) + (b[3] + b[4])]
 }
 
 /// The sum of the magnitudes from degree 5 on.
@@ -131,30 +125,28 @@ pub fn may_fall<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const MOT
     e: &Expansion<S, T, K, N>,
     g: &Functions<S, T, K, N>,
 ) -> [Mask<S, T, K>; 3] {
+    let zero = e.step.like(0.0);
     let mut rest = tail(&g.second, N - 1);
-    let mut first = e.n[0];
+    let (mut first, mut of_force) = (e.n[0], [zero; 4]);
     if MOTION != SINGLE {
         let force_rest = tail(&e.n, if MOTION == FLIGHT { N } else { N - 2 });
-        first = lower_bound([e.n[0], e.n[1], e.n[2], e.n[3], e.n[4]], force_rest);
+        of_force = bernstein(&e.n);
+        let least = of_force[0].min(of_force[1]).min(of_force[2].min(of_force[3])).min(zero);
+        first = e.n[0] + least - force_rest;
         rest = g.share.fma(force_rest, rest);
     }
-    let mut ahead = [g.start[1]; 5];
-    let mut back = [g.start[2]; 5];
-    for k in 1..5 {
-        if MOTION == SINGLE {
-            ahead[k] = g.second[k];
-            back[k] = -g.second[k];
-        } else {
-            let common = g.share * e.n[k];
-            ahead[k] = common + g.second[k];
-            back[k] = common - g.second[k];
+    let along = bernstein(&g.second);
+    let (mut ahead, mut back) = (zero, zero);
+    for i in 0..4 {
+        let [mut up, mut down] = [along[i], -along[i]];
+        if MOTION != SINGLE {
+            [up, down] = [g.share.fma(of_force[i], up), g.share.fma(of_force[i], down)];
         }
+        ahead = ahead.min(up);
+        back = back.min(down);
     }
-    let mut open = [
-        first.not_positive(),
-        lower_bound(ahead, rest).not_positive(),
-        lower_bound(back, rest).not_positive(),
-    ];
+    let mut open =
+        [first.not_positive(), (g.start[1] + ahead).at_most(rest), (g.start[2] + back).at_most(rest)];
     if MOTION == FLIGHT {
         let touches = b.free().not();
         open[1] = open[1].and(touches);

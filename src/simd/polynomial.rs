@@ -20,9 +20,20 @@ pub fn value_soon<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
     first: usize,
     t: Vector<S, T, K>,
 ) -> Vector<S, T, K> {
+    soon_to(b, first, N - 1, t)
+}
+
+/// The same up to a degree.
+#[inline(always)]
+pub fn soon_to<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
+    b: &[Vector<S, T, K>; N],
+    first: usize,
+    degree: usize,
+    t: Vector<S, T, K>,
+) -> Vector<S, T, K> {
     let square = t * t;
-    let [mut lower, mut upper] = [b[N - 2], b[N - 1]];
-    let mut k = N - 2;
+    let [mut lower, mut upper] = [b[degree - 1], b[degree]];
+    let mut k = degree - 1;
     while k >= first + 3 {
         k -= 2;
         lower = lower.fma(square, b[k]);

@@ -1,10 +1,11 @@
 //! The first place in a step where a function of every lane falls below zero: sampled, then solved.
 
+use std::hint::black_box;
 use std::ops::Not;
 
 use pulp::Simd;
 
-use super::polynomial::{at_one, value, value_and_slope, value_slope_and_bend, value_soon};
+use super::polynomial::{at_one, soon_to, value, value_and_slope, value_slope_and_bend};
 use super::vector::{Mask, Scalar, Vector};
 use crate::kernel::crossing::{DIP, DIP_ITERATIONS, SAMPLES, SOLVER_ITERATIONS};
 use crate::kernel::source::Precision;
@@ -12,7 +13,7 @@ use crate::kernel::source::Precision;
 /// The least part of the way between two samples at which a root is looked for first.
 const LEAST: f64 = 1e-3;
 
-/// Where an event function falls below zero.
+/// Where an event function falls below zero, or rises beyond its span.
 pub struct Bracket<S: Simd, T: Scalar<S>, const K: usize> {
     /// A place where it is still positive.
     pub low: Vector<S, T, K>,
@@ -20,79 +21,165 @@ pub struct Bracket<S: Simd, T: Scalar<S>, const K: usize> {
     pub high: Vector<S, T, K>,
     /// Between them on the parabola through one sample more; 0 when it is not positive from the start, 2 when it stays positive.
     pub estimate: Vector<S, T, K>,
+    /// Lanes whose function rises beyond its span there.
+    pub beyond: Mask<S, T, K>,
 }
 
-/// The first sample that is not positive, and the one before. `lead` is the first coefficient that counts, `has_root`
-/// says that it is not the first.
+/// The distance of a value to the nearer end of `[0, span]`, negative outside; the value itself without a span.
 #[inline(always)]
-pub fn bracket<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
+fn within<S: Simd, T: Scalar<S>, const K: usize, const SPAN: bool>(
+    value: Vector<S, T, K>,
+    span: Vector<S, T, K>,
+) -> Vector<S, T, K> {
+    if SPAN { value.min(span - value) } else { value }
+}
+
+/// A walk over the samples of a function from the last to the first: what is kept last is the first crossing.
+struct Walk<S: Simd, T: Scalar<S>, const K: usize> {
+    /// The present sample, and the function there.
+    t: Vector<S, T, K>,
+    value: Vector<S, T, K>,
+    inside: Vector<S, T, K>,
+    /// The function at the sample after it.
+    value_after: Vector<S, T, K>,
+    inside_after: Vector<S, T, K>,
+    /// The first sample outside, 2 for none, and the function there, one before and one after.
+    high: Vector<S, T, K>,
+    at_high: Vector<S, T, K>,
+    at_low: Vector<S, T, K>,
+    behind: Vector<S, T, K>,
+    /// How far inside a second difference allows the function to dip below zero, up to the first crossing: nowhere if
+    /// negative; and the same but for the first sample.
+    depth: Vector<S, T, K>,
+    depth_before: Vector<S, T, K>,
+    /// The second difference less the value over [`DIP`] has this weight of the present sample.
+    weight: Vector<S, T, K>,
+}
+
+impl<S: Simd, T: Scalar<S>, const K: usize> Walk<S, T, K> {
+    /// On to the sample before, where the function has this value; returns what [`within`] makes of it.
+    #[inline(always)]
+    fn back<const SPAN: bool>(&mut self, value: Vector<S, T, K>, span: Vector<S, T, K>) -> Vector<S, T, K> {
+        let down = self.inside.not_positive();
+        self.high = down.select(self.t, self.high);
+        self.at_high = down.select(self.value, self.at_high);
+        self.at_low = down.select(value, self.at_low);
+        self.behind = down.select(self.value_after, self.behind);
+        let inside = within::<S, T, K, SPAN>(value, span);
+        self.depth_before = self.depth;
+        let bent = self.weight.fnma(self.inside, inside + self.inside_after);
+        self.depth = down.select(value.like(-1.0), self.depth.max(bent));
+        self.weight = value.like(2.0 + 1.0 / DIP);
+        (self.inside_after, self.value_after) = (self.inside, self.value);
+        (self.inside, self.value) = (inside, value);
+        self.t = self.t - value.like(1.0 / SAMPLES as f64);
+        inside
+    }
+}
+
+/// The first sample that is not inside `[0, span]` (with `SPAN`; else that is not positive), and the one before. `lead` is
+/// the first coefficient that counts (the distance to the nearer end where it is the value at the start), `has_root` says
+/// that it is not the first.
+#[inline(always)]
+pub fn bracket<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const SPAN: bool>(
     c: &[Vector<S, T, K>; N],
     has_root: Mask<S, T, K>,
     lead: Vector<S, T, K>,
+    span: Vector<S, T, K>,
 ) -> Bracket<S, T, K> {
-    let (zero, never) = (lead.like(0.0), lead.like(2.0));
+    let (zero, one, never, half) = (lead.like(0.0), lead.like(1.0), lead.like(2.0), lead.like(0.5));
     let width = lead.like(1.0 / SAMPLES as f64);
-    let (mut high, mut at_low, mut at_high, mut behind) = (never, lead.like(1.0), zero, zero);
-    let mut t = lead.like(1.0);
-    let [mut here, slope] = at_one(c);
-    let (ahead, falls) = (slope * width, -(c[1] * width));
-    let mut samples = [here; SAMPLES + 1];
-    let mut after = here + ahead;
-    // The second difference less the value over DIP: not negative where the function may dip below zero.
-    let weight = lead.like(2.0 + 1.0 / DIP);
-    let half_weight = lead.like(1.0 + 0.5 / DIP);
-    let mut depth = -never;
-    // From the last sample to the first: what is set last is the first crossing.
-    for i in (1..=SAMPLES).rev() {
-        let down = here.not_positive();
-        high = down.select(t, high);
-        t = t - width;
-        let before = if i == 1 { c[0] } else { value_soon(c, 0, t) };
-        samples[i - 1] = before;
-        // Behind a root at zero the line says nothing: the middle.
-        let start = if i == 1 { has_root.select(here.abs(), before) } else { before };
-        at_low = down.select(start, at_low);
-        at_high = down.select(here, at_high);
-        behind = down.select(after, behind);
-        let bent = if i < SAMPLES {
-            weight.fnma(here, before + after)
-        } else {
-            half_weight.fnma(here, before + ahead)
-        };
-        let rises = if i == 1 { down.or(has_root) } else { down };
-        depth = rises.select(depth, depth.max(bent));
-        after = here;
-        here = before;
+    let [last, slope] = at_one(c);
+    let inside = within::<S, T, K, SPAN>(last, span);
+    let (mut ahead, mut falls) = (slope * width, -(c[1] * width));
+    let value_after = last + ahead;
+    if SPAN {
+        // Towards the nearer end.
+        let middle = span * half;
+        ahead = middle.less(last).select(-ahead, ahead);
+        falls = middle.less(c[0]).select(-falls, falls);
     }
-    let at_start = half_weight.fnma(here, after + falls);
-    depth = has_root.select(depth, depth.max(at_start));
+    // At either end the second difference has the slope in place of a sample.
+    let half_weight = lead.like(1.0 + 0.5 / DIP);
+    let mut walk = Walk {
+        t: one,
+        value: last,
+        inside,
+        value_after,
+        inside_after: ahead,
+        high: never,
+        at_high: zero,
+        at_low: one,
+        behind: zero,
+        depth: -one,
+        depth_before: -one,
+        weight: half_weight,
+    };
+    let mut samples = [inside; SAMPLES + 1];
+    // Loops, as their code is short. What the degrees leave out is some 3e-6 of a motion that turns by 2 in the step, in
+    // shorter steps far less: enough to know where to look.
+    let mut i = black_box(SAMPLES);
+    while i > SAMPLES / 2 {
+        i -= 1;
+        samples[i] = walk.back::<SPAN>(soon_to(c, 0, N - 3, walk.t - width), span);
+    }
+    let mut i = black_box(SAMPLES / 2);
+    while i > 1 {
+        i -= 1;
+        samples[i] = walk.back::<SPAN>(soon_to(c, 0, 7, walk.t - width), span);
+    }
+    samples[0] = walk.back::<SPAN>(c[0], span);
+    let at_start = half_weight.fnma(walk.inside, walk.inside_after + falls);
+    // Next to a root at zero the first sample says nothing.
+    let depth = has_root.select(walk.depth_before, walk.depth.max(at_start));
+    let Walk { mut high, mut at_high, mut at_low, mut behind, .. } = walk;
+    let gone = lead.not_positive();
+    let crosses = high.less(never);
     let mut low = high - width;
+    let mut beyond = never.less(zero);
+    if SPAN {
+        beyond = (span * half).less(gone.select(c[0], at_high));
+        // All three on the side where it leaves.
+        at_low = beyond.select(span - at_low, at_low);
+        at_high = beyond.select(span - at_high, at_high);
+        behind = beyond.select(span - behind, behind);
+    }
+    // Next to a root at zero the line is that of the function without it, of its slope there.
+    let straight = has_root.and(high.at_most(width));
+    let at_low = straight.select(lead * width, at_low);
     let fall = at_low - at_high;
-    let inside = high.less(never);
-    let per_fall = lead.like(1.0) / zero.less(fall).select(fall, width);
+    let per_fall = one / zero.less(fall).select(fall, width);
     // On the straight line, and from there towards the parabola through one sample more.
     let along = at_low * per_fall;
-    let bend = (at_low - at_high) + (behind - at_high);
-    let nearer = along - (along - along * along) * lead.like(0.5) * bend * per_fall;
-    let straight = has_root.or(inside.not());
-    let part = straight.select(along, nearer.max(lead.like(LEAST)).min(lead.like(1.0)));
-    let mut estimate = inside.select(width.fma(part, low), never);
-    if zero.at_most(depth).any() {
+    let bend = fall + (behind - at_high);
+    let nearer = along - (along - along * along) * half * bend * per_fall;
+    let part = straight.or(crosses.not()).select(along, nearer.max(lead.like(LEAST)).min(one));
+    let mut estimate = crosses.select(width.fma(part, low), never);
+    if zero.at_most(depth).and(width.less(high)).and(gone.not()).any() {
         let [sample, curvature] = dips(&samples, ahead, falls, has_root);
         let dips = sample.less(high);
         if dips.any() {
+            let side = if SPAN { (span * half).less(value(c, sample)).select(-width, width) } else { width };
             let mut t = sample;
             for _ in 0..DIP_ITERATIONS {
                 let [_, slope] = value_and_slope(c, t);
-                t = (t - slope * (width * width) / curvature).max(sample - width).min(sample + width);
+                t = (t - slope * (side * width) / curvature)
+                    .max(sample - width)
+                    .min(sample + width)
+                    .max(zero)
+                    .min(one);
             }
-            let below = dips.and(value(c, t).not_positive());
+            let deepest = value(c, t);
+            let below = dips.and(within::<S, T, K, SPAN>(deepest, span).not_positive());
             low = below.select((sample - width).max(zero), low);
             high = below.select(t, high);
-            estimate = below.select((low + t) * t.like(0.5), estimate);
+            estimate = below.select((low + t) * half, estimate);
+            if SPAN {
+                beyond = below.and((span * half).less(deepest)).or(below.not().and(beyond));
+            }
         }
     }
-    Bracket { low, high, estimate: lead.not_positive().select(zero, estimate) }
+    Bracket { low, high, estimate: gone.select(zero, estimate), beyond }
 }
 
 /// The first sample near which a function may dip below zero, 2 for none, and its second difference there.

@@ -42,6 +42,7 @@ mod kernels;
 #[cfg(unix)]
 mod killed;
 mod label;
+mod leaves;
 mod limits;
 mod linear;
 mod methods;
