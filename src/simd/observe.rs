@@ -9,8 +9,8 @@ use pulp::Simd;
 use super::block::Block;
 use super::constants::{N0, R, T0, W};
 use super::expand::{Expansion, SINGLE};
-use super::polynomial::{value, value_soon, value_to};
-use super::spectrum::{Nodes, Spectrum, moving};
+use super::polynomial::{value_soon, value_to};
+use super::spectrum::{Nodes, Spectrum, moving, seen};
 use super::vector::{Mask, Scalar, Vector};
 use crate::kernel::observe::{NODES, SAMPLE_TIMES, SUMS, WEIGHTS};
 use crate::kernel::reductions::GROWTH;
@@ -122,11 +122,12 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
                 }
                 continue;
             }
-            let (x, vx) = (value(&e.p[0], t), derivative(&e.v[0], t) * e.rate);
+            let degree = seen(N - 1, i - 1);
+            let (x, vx) = (value_to(&e.p[0], degree, t), derivative_to(&e.v[0], degree, t) * e.rate);
             velocities[i - 1] = vx;
             let (mut w, mut vw) = (zero, zero);
             if MOTION != SINGLE {
-                (w, vw) = (value(&e.p[2], t), derivative(&e.v[2], t) * e.rate);
+                (w, vw) = (value_to(&e.p[2], degree, t), derivative_to(&e.v[2], degree, t) * e.rate);
             }
             let mut forces = [zero; 2];
             for (force, c) in [(0, R), (1, W)] {
@@ -137,8 +138,8 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
                 let mut sum = b.scene[c].fma(x, b.scene[c + 2] * w);
                 sum = b.scene[c + 3].fma(vx, b.scene[c + 5].fma(vw, sum));
                 if flying {
-                    sum = b.scene[c + 1].fma(value(&e.p[1], t), sum);
-                    sum = b.scene[c + 4].fma(derivative(&e.v[1], t) * e.rate, sum);
+                    sum = b.scene[c + 1].fma(value_to(&e.p[1], degree, t), sum);
+                    sum = b.scene[c + 4].fma(derivative_to(&e.v[1], degree, t) * e.rate, sum);
                 }
                 forces[force] = sum;
             }
@@ -262,8 +263,18 @@ pub fn derivative<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
     v: &[Vector<S, T, K>; N],
     t: Vector<S, T, K>,
 ) -> Vector<S, T, K> {
-    let mut sum = v[N - 1];
-    for k in (1..N - 1).rev() {
+    derivative_to(v, N - 1, t)
+}
+
+/// The same up to a degree of the position.
+#[inline(always)]
+pub fn derivative_to<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
+    v: &[Vector<S, T, K>; N],
+    degree: usize,
+    t: Vector<S, T, K>,
+) -> Vector<S, T, K> {
+    let mut sum = v[degree];
+    for k in (1..degree).rev() {
         sum = sum.fma(t, v[k]);
     }
     sum

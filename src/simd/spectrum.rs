@@ -54,6 +54,14 @@ pub const fn moving(motion: u8) -> usize {
     if motion == SINGLE { 1 } else { 2 }
 }
 
+/// The degree up to which a series counts at a node: what is left out of a motion that turns by 2 in the step is below
+/// 1e-6 of it at the first two nodes, in shorter steps far less.
+#[must_use]
+pub const fn seen(highest: usize, node: usize) -> usize {
+    let counts = [7, 10, highest][node];
+    if counts < highest { counts } else { highest }
+}
+
 /// The accelerations at the nodes of the step up to `at`.
 #[inline(always)]
 pub fn accelerations<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const MOTION: u8>(
@@ -65,7 +73,7 @@ pub fn accelerations<S: Simd, T: Scalar<S>, const K: usize, const N: usize, cons
     for i in 0..3 {
         let t = at * at.like(NODES[i]);
         for j in 0..moving(MOTION) {
-            nodes[i][j] = value_to(&e.a[j], N - 3, t) * rate_square;
+            nodes[i][j] = value_to(&e.a[j], seen(N - 3, i), t) * rate_square;
         }
     }
     nodes
