@@ -178,17 +178,18 @@ impl<T: Real> Job<T> {
         rest && self.scene.model.s == 0.0 && self.lane.contact != FREE
     }
 
-    /// Whether a part of the run has anything to do; the window's start is remembered when it begins.
-    pub fn enter(&mut self, part: Part, tolerance: f64) -> bool {
+    /// Whether a part of the run has anything to do; the window's start is remembered when it begins. Among none but
+    /// single masses (`single`) growth is measured on the way to the window.
+    pub fn enter(&mut self, part: Part, tolerance: f64, single: bool) -> bool {
         if self.lane.status != Status::Unwritten {
             return false;
         }
         self.habit = (0, false);
         match part {
-            Part::Growth => self.growing && self.time < self.marks[0],
+            Part::Growth => self.growing && self.time < self.marks[0] && !single,
             Part::Approach => {
                 self.approached = self.marks[0].min(self.time + APPROACH);
-                self.time < self.marks[0] && !self.is_single()
+                self.time < self.marks[0] && !single
             }
             Part::Settle => self.time < self.marks[0],
             Part::Window => {
@@ -301,7 +302,7 @@ impl<T: Real> Job<T> {
 
     /// Judges the window of a run until settled; true when another one follows.
     pub fn goes_on(&mut self) -> bool {
-        if self.lane.status != Status::Unwritten || self.ending.is_some() {
+        if self.lane.status != Status::Unwritten || self.ending.is_some() || self.settling.is_none() {
             return false;
         }
         let outcome = self.outcome();

@@ -47,7 +47,7 @@ struct Lanes<'a, S: Simd, T: Scalar<S>, const K: usize> {
     block: Block<S, T, K>,
     sums: Sums<S, T, K>,
     jobs: &'a mut [Job<T>],
-    /// Whether they are all single masses.
+    /// Whether they are all single masses with straight laws, stepped as [`SINGLE`].
     single: bool,
     /// The job of each lane; `usize::MAX` for a lane that rests.
     of_lane: Vec<usize>,
@@ -59,6 +59,13 @@ struct Lanes<'a, S: Simd, T: Scalar<S>, const K: usize> {
     settings: Settings<'a>,
 }
 
+impl<S: Simd, T: Scalar<S>, const K: usize> Lanes<'_, S, T, K> {
+    /// Whether growth before the first event is measured.
+    fn sees_growth(&self) -> bool {
+        matches!(self.part, Part::Growth | Part::Window) || self.single && self.part == Part::Settle
+    }
+}
+
 /// Runs one part of all instances that have one.
 #[inline(always)]
 pub fn pass<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool>(
@@ -68,7 +75,7 @@ pub fn pass<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bo
     settings: Settings,
 ) {
     let Some(law) = jobs.first().map(Job::law) else { return };
-    let single = jobs.iter().all(Job::is_single);
+    let single = LAW == PIECES && jobs.iter().all(Job::is_single);
     let lanes = Vector::<S, T, K>::LANES;
     let mut order: Vec<usize> = (0..jobs.len()).collect();
     order.sort_by_key(|index| jobs[*index].habit);
@@ -98,7 +105,7 @@ pub fn pass<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bo
         }
         // A function of its own for each motion: one body of all of them takes the compiler far longer.
         let (all, e, g) = (&mut all, &mut e, &mut g);
-        if LAW == PIECES && single {
+        if single {
             simd.vectorize(Step::<S, T, K, N, LAW, SINGLE> { all, e, g, tolerance });
         } else if all.block.free().any() {
             simd.vectorize(Step::<S, T, K, N, LAW, FLIGHT> { all, e, g, tolerance });
@@ -167,6 +174,12 @@ fn step<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool, 
     if all.part == Part::Growth {
         sums.observe_growth::<N, MOTION>(e, at, x, vx);
         sums.guess_crossings(b.v[0], vx, at * e.step);
+    } else if MOTION == SINGLE && all.part == Part::Settle {
+        // No phase, hence no frequency to be guessed.
+        sums.previous = vx;
+        if sums.growing.not_positive().not().any() {
+            sums.observe_growth::<N, MOTION>(e, at, x, vx);
+        }
     } else if matches!(all.part, Part::Approach | Part::Settle) {
         sums.guess_crossings(b.v[0], vx, at * e.step);
     } else if all.part == Part::Window {
@@ -235,7 +248,7 @@ fn refill<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>, lane:
     while all.next < all.jobs.len() {
         let index = all.order[all.next];
         all.next += 1;
-        if !all.jobs[index].enter(all.part, all.settings.tolerance) {
+        if !all.jobs[index].enter(all.part, all.settings.tolerance, all.single) {
             continue;
         }
         all.of_lane[lane] = index;
@@ -253,6 +266,7 @@ fn refill<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>, lane:
 
 /// Begins the next stretch of a lane; false at the end of the part.
 fn begin<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>, lane: usize) -> bool {
+    let sees_growth = all.sees_growth();
     let job = &mut all.jobs[all.of_lane[lane]];
     let Some([length, step]) = job.stretch(all.part, all.settings.steps_per_period) else { return false };
     let belt = job.scene.belt(job.time);
@@ -269,7 +283,7 @@ fn begin<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>, lane: 
     b.at_once.set(lane, T::ZERO);
     let sums = &mut all.sums;
     sums.time.set(lane, T::ZERO);
-    if all.part == Part::Growth || all.part == Part::Window {
+    if sees_growth {
         sums.growth.iter_mut().for_each(|word| word.set(lane, T::ZERO));
         sums.growing.set(lane, T::from_f64(f64::from(u8::from(job.growing))));
     }
@@ -306,12 +320,13 @@ fn begin<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>, lane: 
 
 /// Adds what a stretch has summed to the job.
 fn flush<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>, lane: usize) {
+    let sees_growth = all.sees_growth();
     let job = &mut all.jobs[all.of_lane[lane]];
     let sums = &all.sums;
     let contact = all.block.reached.get(lane).to_f64() as u32;
     job.habit = job.habit.max((contact, all.block.counted.get(lane) > T::ZERO));
     job.growing &= sums.growing.get(lane) > T::ZERO;
-    if all.part == Part::Growth || all.part == Part::Window {
+    if sees_growth {
         for (total, word) in job.seen.growth.iter_mut().zip(&sums.growth) {
             *total += word.get(lane).to_f64();
         }
