@@ -28,8 +28,9 @@ use crate::spec::{Instance, Spec};
 /// The name of the backend in a manifest.
 pub const NAME: &str = "cpu";
 
-/// Most instances of a batch: many per lane, so that few lanes rest at its end, and some 4 MiB.
-const MOST: usize = 1024;
+/// Most instances of a batch: many per lane, so that few lanes rest at its end, and not more than a core's cache holds
+/// (1.5 MiB).
+const MOST: usize = 512;
 
 /// Fewest, where a sweep has enough for all threads: the lanes of two vectors.
 const FEWEST: usize = 32;
@@ -141,20 +142,18 @@ pub fn outcomes<T: Lanes>(instances: &[Instance], plan: &Plan, cancel: &AtomicBo
             let same = law_of(instance.law.kind()) == form;
             same && (form != Law::Pieces || upright(instance) == single)
         };
-        let count = instances.iter().filter(|instance| here(instance)).count();
-        let (mut indices, mut jobs) = (Vec::with_capacity(count), Vec::<Job<T>>::with_capacity(count));
-        for (index, instance) in instances.iter().enumerate() {
-            if !here(instance) {
-                continue;
+        let mut indices: Vec<usize> = (0..instances.len()).filter(|index| here(&instances[*index])).collect();
+        let mut jobs = Vec::<Job<T>>::with_capacity(indices.len());
+        indices.retain(|index| match Scene::planned(&instances[*index], plan, T::EPSILON.to_f64()) {
+            Ok(scene) => {
+                jobs.push(Job::new(&instances[*index], scene, plan, &turns));
+                true
             }
-            match Scene::planned(instance, plan, T::EPSILON.to_f64()) {
-                Ok(scene) => {
-                    indices.push(index);
-                    jobs.push(Job::new(instance, scene, plan, &turns));
-                }
-                Err(status) => outcomes[index].status = status,
+            Err(status) => {
+                outcomes[*index].status = status;
+                false
             }
-        }
+        });
         T::run(&mut jobs, settings);
         if cancel.load(Ordering::Relaxed) {
             return None;
