@@ -14,7 +14,7 @@ use super::functions::{Functions, may_fall};
 use super::root::{Bracket, bracket, refine};
 use super::vector::{Scalar, Vector};
 
-/// The span of a function that may rise as far as it will.
+/// The span of a function that may rise as far as it will: no number of a lane comes near.
 const NO_SPAN: f64 = 1e30;
 
 /// Where in the step each lane's first event is, 1 when there is none, and the event function it belongs to,

@@ -220,6 +220,7 @@ pub fn expand<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: 
     };
     let mut course = Course { drag: zero, back: zero, force_before: zero };
     // Written out, with every constant and every place known.
+    const { assert!(N <= 17, "a degree is missing below") };
     macro_rules! degrees {
         ($($k:literal)*) => {
             $(if $k < N - 2 {
@@ -261,7 +262,7 @@ struct Friction<S: Simd, T: Scalar<S>, const K: usize, const N: usize> {
     law: [Vector<S, T, K>; N],
 }
 
-/// Of straight laws: what a degree of the accelerations takes from the one before it, so that it waits for nothing else.
+/// Of straight laws: what a degree of the accelerations takes from the one before it, so that it waits for little else.
 struct Course<S: Simd, T: Scalar<S>, const K: usize> {
     drag: Vector<S, T, K>,
     back: Vector<S, T, K>,

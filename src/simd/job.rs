@@ -269,6 +269,8 @@ impl<T: Real> Job<T> {
             Part::Window if !self.is_single() => {
                 STRETCH.min(FIRST_STRETCH * (1 + self.stretches.len()) as f64)
             }
+            // Sums of growth, as in the window.
+            Part::Settle if self.growing => STRETCH,
             // The last one guesses the frequency: it is late, and not too short.
             Part::Settle if whole > LAST_STRETCH => LONG_STRETCH.min(whole - LAST_STRETCH),
             Part::Approach | Part::Settle => LONG_STRETCH,

@@ -174,14 +174,11 @@ fn step<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool, 
     if all.part == Part::Growth {
         sums.observe_growth::<N, MOTION>(e, at, x, vx);
         sums.guess_crossings(b.v[0], vx, at * e.step);
-    } else if MOTION == SINGLE && all.part == Part::Settle {
-        // No phase, hence no frequency to be guessed.
-        sums.previous = vx;
-        if sums.growing.not_positive().not().any() {
-            sums.observe_growth::<N, MOTION>(e, at, x, vx);
-        }
     } else if matches!(all.part, Part::Approach | Part::Settle) {
         sums.guess_crossings(b.v[0], vx, at * e.step);
+        if MOTION == SINGLE && sums.growing.not_positive().not().any() {
+            sums.observe_growth::<N, MOTION>(e, at, x, vx);
+        }
     } else if all.part == Part::Window {
         let nodes = accelerations::<S, T, K, N, MOTION>(e, at);
         let velocities = sums.observe_window::<N, MOTION>(b, e, &nodes, at);
