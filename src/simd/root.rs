@@ -14,7 +14,7 @@ use crate::kernel::source::Precision;
 const LEAST: f64 = 1e-3;
 
 /// By how much of the step a bracket may be off.
-const SLACK: f64 = 1e-4;
+pub const SLACK: f64 = 1e-4;
 
 /// Where an event function falls below zero, or rises beyond its span.
 pub struct Bracket<S: Simd, T: Scalar<S>, const K: usize> {
