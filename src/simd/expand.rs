@@ -77,7 +77,7 @@ pub fn friction<S: Simd, T: Scalar<S>, const K: usize, const LAW: bool>(
 
 /// `exp(x) − 1`, see [`crate::kernel::scene::exp_m1`].
 #[inline(always)]
-fn exp_m1<S: Simd, T: Scalar<S>, const K: usize>(x: Vector<S, T, K>) -> Vector<S, T, K> {
+pub fn exp_m1<S: Simd, T: Scalar<S>, const K: usize>(x: Vector<S, T, K>) -> Vector<S, T, K> {
     const DOUBLINGS: usize = 8;
     let x = x.max(x.like(-80.0)).min(x.like(80.0));
     let large = x.like(0.5).less(x.abs());
@@ -219,7 +219,6 @@ pub fn expand<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: 
         slip,
     };
     let mut course = Course { drag: zero, back: zero, force_before: zero };
-    // Written out, with every constant and every place known.
     const { assert!(N <= 17, "a degree is missing below") };
     macro_rules! degrees {
         ($($k:literal)*) => {
@@ -228,9 +227,17 @@ pub fn expand<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: 
             })*
         };
     }
-    degrees!(0 1 2 3 4 5 6 7 8 9 10 11 12 13 14);
+    if LAW == PIECES {
+        // Written out, with every constant and every place known.
+        degrees!(0 1 2 3 4 5 6 7 8 9 10 11 12 13 14);
+    } else {
+        // Of a curved law each degree is a sum of all before: a loop, which compiles in a fraction of the time.
+        for k in 0..N - 2 {
+            degree::<S, T, K, N, LAW, MOTION>(k, b, &known, e, &mut friction, &mut course);
+        }
+    }
     e.step = h;
-    e.rate = per_step * inertia;
+    e.rate = known.rate;
     ill_posed
 }
 

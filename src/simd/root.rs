@@ -61,7 +61,7 @@ struct Walk<S: Simd, T: Scalar<S>, const K: usize> {
 impl<S: Simd, T: Scalar<S>, const K: usize> Walk<S, T, K> {
     /// On to the sample before, where the function has this value.
     #[inline(always)]
-    fn back<const SPAN: bool>(&mut self, value: Vector<S, T, K>, span: Vector<S, T, K>) -> Vector<S, T, K> {
+    fn back<const SPAN: bool>(&mut self, value: Vector<S, T, K>, span: Vector<S, T, K>) {
         let down = self.inside.not_positive();
         self.high = down.select(self.t, self.high);
         self.at_high = down.select(self.value, self.at_high);
@@ -81,7 +81,6 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Walk<S, T, K> {
         self.value_after = self.value;
         (self.inside, self.value) = (inside, value);
         self.t = self.t - value.like(1.0 / SAMPLES as f64);
-        value
     }
 }
 
@@ -124,14 +123,17 @@ pub fn bracket<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const SPAN
     let mut i = black_box(SAMPLES);
     while i > SAMPLES / 2 {
         i -= 1;
-        samples[i] = walk.back::<SPAN>(value_soon(c, 0, walk.t - width), span);
+        samples[i] = value_soon(c, 0, walk.t - width);
+        walk.back::<SPAN>(samples[i], span);
     }
     let mut i = black_box(SAMPLES / 2);
     while i > 1 {
         i -= 1;
-        samples[i] = walk.back::<SPAN>(soon_to(c, 0, 7, walk.t - width), span);
+        samples[i] = soon_to(c, 0, 7, walk.t - width);
+        walk.back::<SPAN>(samples[i], span);
     }
-    samples[0] = walk.back::<SPAN>(c[0], span);
+    samples[0] = c[0];
+    walk.back::<SPAN>(c[0], span);
     let middle = span * half;
     let bent = (walk.value_after - walk.value) + falls;
     let at_start = lead.like(0.5 / DIP).fnma(walk.inside, if SPAN { bent.abs() } else { bent });
