@@ -5,8 +5,8 @@ use std::ops::Not;
 use pulp::Simd;
 
 use super::expand::Expansion;
-use super::observe::{Sums, derivative};
-use super::polynomial::value_to;
+use super::observe::Sums;
+use super::polynomial::{soon_to, value_soon, value_to};
 use super::spectrum::Nodes;
 use super::vector::{Mask, Scalar, Vector};
 use crate::kernel::observe::SAMPLE_TIMES;
@@ -144,8 +144,8 @@ fn take<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const MOTION: u8>
     let counts = crossed.and(begun.not().or(late));
     if counts.any() {
         for _ in 0..REFINEMENTS {
-            let slope = value_to(&e.a[0], N - 3, t) * e.rate;
-            let here = derivative(&e.v[0], t) * e.rate;
+            let slope = soon_to(&e.a[0], 0, N - 3, t) * e.rate;
+            let here = value_soon(&e.v[0], 1, t) * e.rate;
             let rising = counts.and(zero.less(slope));
             let nearer = t - here / rising.select(slope, one);
             t = rising.select(nearer.max(bracket.low).min(bracket.high), t);
@@ -218,10 +218,10 @@ fn turn_over<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
     let bend = turns.select((b - a) / (high - low).max(tiny), low.like(1.0));
     let mut turn = low - a / bend;
     for _ in 0..REFINEMENTS {
-        let here = value_to(&e.a[0], N - 3, turn) * (e.rate * e.rate);
+        let here = soon_to(&e.a[0], 0, N - 3, turn) * (e.rate * e.rate);
         turn = (turn - here / bend).max(low).min(high);
     }
-    let depth = derivative(&e.v[0], turn) * e.rate;
+    let depth = value_soon(&e.v[0], 1, turn) * e.rate;
     let is_hump = v.less(zero);
     let over = is_hump.and(zero.at_most(depth)).or(is_hump.not().and(depth.less(zero)));
     let over = turns.and(over);

@@ -92,19 +92,30 @@ pub fn value_and_slope<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
     [sum, slope]
 }
 
-/// `Σ b_k t^k` and its first two derivatives.
+/// `Σ b_k t^k` and its first two derivatives, even and odd degrees at a time: sooner there than by a chain.
 #[inline(always)]
 pub fn value_slope_and_bend<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
     b: &[Vector<S, T, K>; N],
     t: Vector<S, T, K>,
 ) -> [Vector<S, T, K>; 3] {
-    let mut sum = b[N - 1];
-    let mut slope = sum.like(0.0);
-    let mut half_bend = sum.like(0.0);
-    for k in (0..N - 1).rev() {
-        half_bend = half_bend.fma(t, slope);
-        slope = slope.fma(t, sum);
-        sum = sum.fma(t, b[k]);
+    // E(s) + t O(s) with s = t², each with its derivatives by s.
+    let square = t * t;
+    let zero = t.like(0.0);
+    let top = [b[(N - 1) / 2 * 2], b[(N - 2) / 2 * 2 + 1]];
+    let mut parts = [[top[0], zero, zero], [top[1], zero, zero]];
+    for odd in 0..2 {
+        let mut k = (N - 1 - odd) / 2 * 2 + odd;
+        while k >= 2 {
+            k -= 2;
+            let [value, slope, half_bend] = parts[odd];
+            parts[odd] = [value.fma(square, b[k]), slope.fma(square, value), half_bend.fma(square, slope)];
+        }
     }
-    [sum, slope, half_bend + half_bend]
+    let [[even, even_slope, even_half], [odd, odd_slope, odd_half]] = parts;
+    let twice = t + t;
+    // P″ = 2 E′ + 4 s E″ + t (6 O′ + 4 s O″).
+    let four = square * t.like(8.0);
+    let of_even = four.fma(even_half, even_slope + even_slope);
+    let of_odd = four.fma(odd_half, odd_slope * t.like(6.0));
+    [odd.fma(t, even), twice.fma(odd_slope.fma(t, even_slope), odd), of_odd.fma(t, of_even)]
 }
