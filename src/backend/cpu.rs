@@ -21,7 +21,7 @@ use crate::model::Param;
 use crate::outcome::{Outcome, Status};
 use crate::response::{Plan, Scene};
 use crate::simd::job::Job;
-use crate::simd::pass::Settings;
+use crate::simd::lanes::Settings;
 use crate::simd::{Lanes, ORDER, tolerance};
 use crate::spec::{Instance, Spec};
 

@@ -5,6 +5,9 @@ use crate::kernel::scene::NO_KINK;
 use crate::method::pace::Turns;
 use crate::model::equilibrium::Scaled;
 
+/// The largest decay rate of a mass that swings, in units of its angular frequency.
+const MOST_DECAY: f64 = 0.3;
+
 /// A linear form of the state: coefficients of `x2 y2 y1` and of their velocities.
 pub type Form = [f64; 6];
 
@@ -46,8 +49,11 @@ pub const NORMAL_MASS: usize = 45;
 pub const RESTITUTION: usize = 46;
 /// 1 with a Coulomb impulse, else 0.
 pub const IMPACT_FRICTION: usize = 47;
+/// Of the free oscillation of the single mass: decay rate, angular frequency and its inverse, the inverse of the stiffness,
+/// and by how much of a turn a velocity is less than a quarter ahead of its position. All 0 where it does not swing.
+pub const SWING: usize = 48;
 /// How many there are.
-pub const CONSTANTS: usize = 48;
+pub const CONSTANTS: usize = 53;
 
 /// The constants of a scene whose steps may `turn` that far.
 #[must_use]
@@ -90,5 +96,17 @@ pub fn constants<T: Real>(model: &Scaled, turns: &Turns) -> [T; CONSTANTS] {
     put(NORMAL_MASS, &[model.normal_mass]);
     put(RESTITUTION, &[model.restitution]);
     put(IMPACT_FRICTION, &[f64::from(u8::from(model.impact_friction))]);
+    put(SWING, &swing(r[0], r[3]));
     all
+}
+
+/// See [`SWING`], of a mass 1 with this stiffness and this damper.
+fn swing(stiffness: f64, damper: f64) -> [f64; 5] {
+    let decay = 0.5 * damper;
+    let square = stiffness - decay * decay;
+    if !(decay >= 0.0 && square > 0.0 && decay * decay <= MOST_DECAY * MOST_DECAY * square) {
+        return [0.0; 5];
+    }
+    let omega = square.sqrt();
+    [decay, omega, 1.0 / omega, 1.0 / stiffness, decay.atan2(omega)]
 }

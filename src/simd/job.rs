@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::constants::{CONSTANTS, constants};
+use super::constants::{CONSTANTS, SWING, constants};
 use super::stretches::Stretches;
 use crate::kernel::lane::{Belt, GAP, Lane, UPPER_KINK};
 use crate::kernel::reductions::{End, Reductions};
@@ -21,6 +21,9 @@ pub const STRETCH: f64 = 80.0;
 
 /// Steps of a stretch between the first event and the window, whose sums are only a guess at the frequency.
 pub const LONG_STRETCH: f64 = 256.0;
+
+/// Periods `2π/ω0` of a stretch of the single mass in closed form, whose steps are whole swings.
+const SWINGS: f64 = 100.0;
 
 /// Steps of the last of them.
 const LAST_STRETCH: f64 = 48.0;
@@ -178,6 +181,15 @@ impl<T: Real> Job<T> {
         rest && self.scene.model.s == 0.0 && self.lane.contact != FREE
     }
 
+    /// Whether its motion between two events has a closed form that [`super::swing`] knows, if it is a single mass: constant
+    /// friction, a belt of one velocity, weak damping.
+    #[must_use]
+    pub fn swings(&self) -> bool {
+        let pieces = &self.words.pieces;
+        let constant = pieces.len() == 1 && pieces[0].slope == T::ZERO;
+        constant && self.scene.belt(0.0).acceleration == 0.0 && self.constants[SWING + 1] > T::ZERO
+    }
+
     /// Whether a part of the run has anything to do; the window's start is remembered when it begins. Among none but
     /// single masses (`single`) growth is measured on the way to the window.
     pub fn enter(&mut self, part: Part, tolerance: f64, single: bool) -> bool {
@@ -266,6 +278,7 @@ impl<T: Real> Job<T> {
         let whole = (length / nominal - 1e-6).ceil().max(1.0);
         let step = length / whole;
         let most = match part {
+            _ if self.swings() && self.is_single() => SWINGS * f64::from(steps_per_period),
             Part::Window if !self.is_single() => {
                 STRETCH.min(FIRST_STRETCH * (1 + self.stretches.len()) as f64)
             }

@@ -15,6 +15,7 @@
     reason = "counts and codes travel as scalars of the lanes"
 )]
 
+pub mod angle;
 pub mod block;
 pub mod constants;
 pub mod crossings;
@@ -24,6 +25,7 @@ pub mod function;
 pub mod functions;
 pub mod impacts;
 pub mod job;
+pub mod lanes;
 pub mod observe;
 pub mod pass;
 pub mod polynomial;
@@ -31,6 +33,9 @@ pub mod reach;
 pub mod root;
 pub mod spectrum;
 pub mod stretches;
+pub mod swing;
+pub mod swing_step;
+pub mod swing_sums;
 pub mod transitions;
 pub mod vector;
 
@@ -42,7 +47,8 @@ use crate::kernel::scalar::Real;
 use crate::kernel::scene::Law;
 use crate::kernel::source::Precision;
 use job::{Job, Part};
-use pass::{Settings, pass};
+use lanes::Settings;
+use pass::pass;
 use vector::Scalar;
 
 /// Registers of a vector.

@@ -212,11 +212,17 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
         vx: Vector<S, T, K>,
     ) {
         let rate_square = e.rate * e.rate;
-        let tau = at * e.step * self.growing;
         let mut sample = [x, vx, value_to(&e.a[0], N - 3, at) * rate_square, at.like(0.0)];
         if MOTION != SINGLE {
             sample[3] = value_to(&e.a[1], N - 3, at) * rate_square;
         }
+        self.add_growth::<MOTION>(at * e.step, &sample);
+    }
+
+    /// Adds `x2`, its velocity, its acceleration and that of `y1` for a time `tau` to the lanes that grow.
+    #[inline(always)]
+    pub fn add_growth<const MOTION: u8>(&mut self, tau: Vector<S, T, K>, sample: &[Vector<S, T, K>; 4]) {
+        let tau = tau * self.growing;
         self.growth[0] += tau;
         let mut word = 5;
         for i in 0..4 {
@@ -257,16 +263,7 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
     }
 }
 
-/// `Σ v_k t^(k − 1)` of coefficients that already carry their degree.
-#[inline(always)]
-pub fn derivative<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
-    v: &[Vector<S, T, K>; N],
-    t: Vector<S, T, K>,
-) -> Vector<S, T, K> {
-    derivative_to(v, N - 1, t)
-}
-
-/// The same up to a degree of the position.
+/// `Σ v_k t^(k − 1)` of coefficients that already carry their degree, up to a degree of the position.
 #[inline(always)]
 pub fn derivative_to<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
     v: &[Vector<S, T, K>; N],
@@ -280,7 +277,7 @@ pub fn derivative_to<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
     sum
 }
 
-/// What [`derivative`] has changed by since the start of the step. A velocity that is carried on by it takes no part in the
+/// What [`derivative_to`] the last degree has changed by since the start of the step. A velocity that is carried on by it takes no part in the
 /// scaling by a step and back, whose rounding, the same in every step of one length, would let it grow or decay.
 #[inline(always)]
 pub fn change<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(

@@ -80,6 +80,7 @@ mod strokes;
 #[cfg(unix)]
 mod submit;
 mod sweeps;
+mod swings;
 mod synthetic;
 mod tikz;
 mod tile_cost;
