@@ -43,7 +43,8 @@ pub fn response(precision: Precision, steps_per_period: u32) -> Computation {
         backend: NAME.to_owned(),
         precision: precision.to_string(),
         method: format!(
-            "Taylor series of order {ORDER}, truncation below {bound:.1e}, events located in the step{}",
+            "Taylor series of order {ORDER}, truncation below {bound:.1e}, events located in the step, single masses \
+             with constant friction in closed form{}",
             again::note(precision)
         ),
         adapter: None,

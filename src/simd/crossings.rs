@@ -129,7 +129,7 @@ pub fn cross_upwards<S: Simd, T: Scalar<S>, const K: usize, const N: usize, cons
 }
 
 /// Notes a crossing of some lanes: exactly where the sums of the window begin or may end, that is the first one and what
-/// may be the last of a stretch.
+/// may be the last.
 #[inline(always)]
 fn take<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const MOTION: u8>(
     sums: &mut Sums<S, T, K>,

@@ -227,7 +227,7 @@ pub fn expand<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: 
             })*
         };
     }
-    if LAW == PIECES {
+    if const { LAW == PIECES } {
         // Written out, with every constant and every place known.
         degrees!(0 1 2 3 4 5 6 7 8 9 10 11 12 13 14);
     } else {

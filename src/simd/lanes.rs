@@ -151,7 +151,7 @@ fn begin<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>, lane: 
         sums.quiet.set(lane, T::ONE);
         sums.impacts.set(lane, T::ZERO);
         let begun = job.seen.crossings > 0;
-        sums.spectrum.begin(lane, job.guessed_omega(), 0.5 * length, begun);
+        sums.spectrum.begin(lane, job.guessed_omega(), job.marks[2] - job.time, begun);
         if !all.single {
             sums.spectrum.turn_back(lane, 0.5 * length);
         }

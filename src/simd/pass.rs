@@ -44,7 +44,8 @@ pub fn pass<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bo
     let (swings, steps): (Vec<usize>, Vec<usize>) =
         order.into_iter().partition(|index| single && jobs[*index].swings());
     let block = Block::idle(simd, law);
-    if !swings.is_empty() {
+    // What cannot be is not compiled: both conditions are known before.
+    if const { LAW == PIECES } && !swings.is_empty() {
         let mut all = Lanes::new(block, jobs, single, swings, part, settings);
         while all.go_on() {
             simd.vectorize(Swings::<S, T, K> { all: &mut all });
@@ -59,7 +60,7 @@ pub fn pass<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bo
     while all.go_on() {
         // A function of its own for each motion: one body of all of them takes the compiler far longer.
         let (all, e, g) = (&mut all, &mut e, &mut g);
-        if single {
+        if const { LAW == PIECES } && single {
             simd.vectorize(Step::<S, T, K, N, LAW, SINGLE> { all, e, g, tolerance });
         } else if all.block.free().any() {
             simd.vectorize(Step::<S, T, K, N, LAW, FLIGHT> { all, e, g, tolerance });

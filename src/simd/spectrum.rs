@@ -3,8 +3,8 @@
 //! Every lane sums over a stretch `∫ a uᵐ exp(−iω′(t − t_m)) dt`, with a guess `ω′` of the frequency, the
 //! middle `t_m` of the stretch and `u = (t − t_m)/T` on `[−1, 1]`. The component at `ω = ω′ + δ` follows from
 //! the series of `exp(−iδTu)`: see [`crate::simd::stretches`]. The sums begin at the first upward crossing of
-//! `ẋ2`; the last of the window is their end. They are noted at all that may be the last of a stretch, the guess
-//! says when: where it was wrong, the window is passed once more.
+//! `ẋ2`; the last of the window is their end. They are noted at all that may be the last one, the guess says when:
+//! where it was wrong, the window is passed once more.
 
 use std::f64::consts::TAU;
 
@@ -21,7 +21,7 @@ pub const MOMENTS: usize = 3;
 /// Sums of a stretch: by power, then real and imaginary part for `ẍ2` and `ÿ1`.
 pub const COMPONENTS: usize = 4 * MOMENTS;
 
-/// Periods of the guess before the end of a stretch from which crossings are noted.
+/// Periods of the guess before the end of the window from which crossings are noted.
 const CLOSING: f64 = 1.5;
 
 /// The sums of the present stretches.
@@ -102,12 +102,12 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Spectrum<S, T, K> {
         }
     }
 
-    /// Begins a stretch of a lane, whose crossings count: `half` is half its length.
+    /// Begins a stretch of a lane, whose crossings count: the window ends `left` behind its beginning.
     #[inline(always)]
-    pub fn begin(&mut self, lane: usize, omega: f64, half: f64, begun: bool) {
+    pub fn begin(&mut self, lane: usize, omega: f64, left: f64, begun: bool) {
         self.omega.set(lane, T::from_f64(omega));
         self.begun.set(lane, T::from_f64(f64::from(u8::from(begun))));
-        self.closing.set(lane, T::from_f64(2.0 * half - CLOSING * TAU / omega));
+        self.closing.set(lane, T::from_f64(left - CLOSING * TAU / omega));
         self.fresh.set(lane, T::ZERO);
     }
 
