@@ -278,7 +278,8 @@ impl<T: Real> Job<T> {
         let whole = (length / nominal - 1e-6).ceil().max(1.0);
         let step = length / whole;
         let most = match part {
-            _ if self.swings() && self.is_single() => SWINGS * f64::from(steps_per_period),
+            // What grows is sampled in steps as short as those of a series.
+            _ if !self.growing && self.swings() && self.is_single() => SWINGS * f64::from(steps_per_period),
             Part::Window if !self.is_single() => {
                 STRETCH.min(FIRST_STRETCH * (1 + self.stretches.len()) as f64)
             }
