@@ -108,5 +108,7 @@ fn swing(stiffness: f64, damper: f64) -> [f64; 5] {
         return [0.0; 5];
     }
     let omega = square.sqrt();
+    // So little that nothing is lost, and that f32 may not be able to divide by.
+    let decay = if decay < 1e-18 * omega { 0.0 } else { decay };
     [decay, omega, 1.0 / omega, 1.0 / stiffness, decay.atan2(omega)]
 }

@@ -104,7 +104,7 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Swing<S, T, K> {
     /// `exp(−δt) − 1`.
     #[inline(always)]
     pub fn decayed(&self, t: Vector<S, T, K>) -> Vector<S, T, K> {
-        if self.damped { exp_m1(-(self.decay * t)) } else { t.like(0.0) }
+        if self.damped { exp_m1(t.like(0.0) - self.decay * t) } else { t.like(0.0) }
     }
 
     /// Distance from the centre and velocity at `t`, and what [`Swing::decayed`] is there.
@@ -171,14 +171,14 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Swing<S, T, K> {
         least: Vector<S, T, K>,
     ) -> (Vector<S, T, K>, Vector<S, T, K>, Vector<S, T, K>) {
         let (zero, one, two) = (low.like(0.0), low.like(1.0), low.like(2.0));
-        // As if the amplitude stayed what it is at the end.
+        // As if the amplitude stayed what it is at the end, where the velocity is `cos(lag)` of it and hardly changes.
         let square = self.begin[1].fma(self.begin[1], self.sine[1] * self.sine[1]);
         let decayed = self.decayed(least);
-        let amplitude = square.sqrt();
+        let amplitude = self.omega * (square * self.per_stiffness).sqrt();
         let amplitude = amplitude.fma(decayed, amplitude);
         let known = zero.less(amplitude);
         let cosine = (self.sigma * b.belt / known.select(amplitude, one)).min(one).max(-one);
-        let mut t = (least - (about_arccos(cosine) - self.lag) * self.per_omega).max(low).min(high);
+        let mut t = (least - about_arccos(cosine) * self.per_omega).max(low).min(high);
         let enough = self.per_omega
             * one.like(match T::PRECISION {
                 Precision::F32 => 2.5e-3,
@@ -197,7 +197,9 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Swing<S, T, K> {
             high = before.select(high, t);
             // Halley's method; where it leads out, the middle.
             let denominator = two * a * a - over * jerk;
+            // Next to an extremum its step is short, however far the root.
             let rises = zero.less(self.sigma * a).and(zero.less(denominator));
+            let rises = rises.and(denominator.at_most(one.like(4.0) * a * a));
             let halley = t - two * over * a / rises.select(denominator, one);
             let good = rises.and(low.at_most(halley)).and(halley.at_most(high));
             let next = good.select(halley, (low + high) * one.like(0.5));
@@ -205,7 +207,9 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Swing<S, T, K> {
             // What little is left by the series.
             let moved = step.fma(step.fma(step.fma(jerk * one.like(1.0 / 6.0), a * one.like(0.5)), v), z);
             position = active.select(moved, position);
-            there = active.select((here + one).fma(-(self.decay * step), here), there);
+            let lost = self.decay * step;
+            let lost = (lost * lost).fma(one.like(0.5), -lost);
+            there = active.select((here + one).fma(lost, here), there);
             at = active.select(next, at);
             t = next;
             active = active.and(enough.less(step.abs()));

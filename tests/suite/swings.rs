@@ -1,7 +1,7 @@
 //! The single mass with constant friction, which the engine follows in closed form from event to event: against the Taylor
 //! series of the reference, for every damping it takes.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 use std::sync::atomic::AtomicBool;
 
 use crate::common::{close, instance, plan};
@@ -163,6 +163,34 @@ fn f64_is_the_motion_of_the_reference() {
 #[test]
 fn f32_is_the_motion_of_the_reference() {
     agrees::<f32>(2e-3, 1e-1);
+}
+
+/// From `ẋ2 = −u` at the equilibrium the velocity is `u exp(−rθ)` at most, with `r = δ/ω` and `θ = π − 2 atan r`: a little more
+/// than that of the belt.
+#[test]
+fn a_stop_at_the_largest_velocity_is_where_the_reference_has_it() {
+    let mut u = Uniform(43);
+    let grazing: Vec<Instance> = (0..60)
+        .map(|k| {
+            let velocity = u.log(0.1, 2.0);
+            let values =
+                [(Param::Theta, 0.0), (Param::BeltVelocity, velocity), (Param::C1, 250.0 * u.next())];
+            let mut one = instance(FrictionLaw::Constant { mu_s: 0.6, mu_d: 0.2 }, &values);
+            let p = |param| one.params.require(param);
+            let mass = p(Param::M1) + p(Param::M2);
+            let decay = 0.5 * p(Param::C1) / mass;
+            let r = decay / (p(Param::K1) / mass - decay * decay).sqrt();
+            let most = velocity * (r * (PI - 2.0 * r.atan())).exp();
+            one.params.set(Param::StartVelocity, -most * (1.0 + [1e-5, 1e-4, 1e-3][k % 3]));
+            one
+        })
+        .collect();
+    let expected = reference(&grazing, &periods(0.0, 2.0, FINE));
+    let made = run::<f64>(&grazing, &periods(0.0, 2.0, 3));
+    assert!(expected.iter().all(|outcome| outcome.stick > Some(0.01)));
+    let errors = errors(&grazing, &made, &expected, 1e-6);
+    let worst = errors[errors.len() - 1];
+    assert!(worst.0 < 5e-6, "{worst:?}: {:?} {:?}", made[worst.1], expected[worst.1]);
 }
 
 #[test]
