@@ -22,11 +22,11 @@ pub const STRETCH: f64 = 80.0;
 /// Steps of a stretch between the first event and the window, whose sums are only a guess at the frequency.
 pub const LONG_STRETCH: f64 = 256.0;
 
-/// Periods `2π/ω0` of a stretch of the single mass in closed form, whose steps are whole swings.
-const SWINGS: f64 = 100.0;
-
 /// Steps of the last of them.
 const LAST_STRETCH: f64 = 48.0;
+
+/// Periods `2π/ω0` of a stretch of the single mass in closed form, whose steps are whole swings.
+const SWINGS: f64 = 100.0;
 
 /// Length of [`Part::Approach`]: ten periods.
 const APPROACH: f64 = 10.0 * TAU;

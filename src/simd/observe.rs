@@ -277,8 +277,9 @@ pub fn derivative_to<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
     sum
 }
 
-/// What [`derivative_to`] the last degree has changed by since the start of the step. A velocity that is carried on by it takes no part in the
-/// scaling by a step and back, whose rounding, the same in every step of one length, would let it grow or decay.
+/// What [`derivative_to`] the last degree has changed by since the start of the step. A velocity that is carried on by it
+/// takes no part in the scaling by a step and back, whose rounding, the same in every step of one length, would let it grow
+/// or decay.
 #[inline(always)]
 pub fn change<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
     v: &[Vector<S, T, K>; N],
