@@ -161,7 +161,7 @@ fn is_solvable(polynomial: &[f64; 5]) -> bool {
     let scale = (constant / leading).abs().sqrt().sqrt();
     let mut power = leading.abs();
     let coefficients = polynomial.iter().rev().all(|coefficient| {
-        let in_range = coefficient.abs() <= LARGEST * power;
+        let in_range = coefficient.is_finite() && coefficient.abs() <= LARGEST * power;
         power *= scale;
         in_range
     });

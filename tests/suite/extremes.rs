@@ -153,6 +153,22 @@ fn no_equilibrium_and_invalid_law_are_reported() {
     assert_eq!(run(&instance(law, &[(Param::BeltVelocity, 1.0)])).status, Status::InvalidLaw);
 }
 
+/// Coefficients of the characteristic polynomial beyond all numbers are told, and no eigenvalues that are none.
+#[test]
+fn a_polynomial_beyond_numbers_has_no_eigenvalues() {
+    let heavy =
+        with(&paper(0.3, 0.3, 1.0), &[(Param::Theta, 0.0), (Param::M2, f64::MAX), (Param::K2, 1e290)]);
+    assert_eq!(analyse(&heavy), (None, None));
+    // Only what is divided out: the same polynomial in other units.
+    let large = with(
+        &paper(0.4, 0.4, 3.0),
+        &[Param::M1, Param::M2, Param::K1, Param::K2, Param::C1, Param::C2]
+            .map(|param| (param, 1e140 * paper(0.4, 0.4, 3.0).params.require(param))),
+    );
+    let (a, b) = (analyse(&paper(0.4, 0.4, 3.0)).1, analyse(&large).1);
+    close("growth", b.expect("one").growth_rate, a.expect("one").growth_rate, 1e-12);
+}
+
 #[test]
 fn a_step_beyond_the_finest_is_reported() {
     let stiff = with(&paper(0.4, 0.4, 3.0), &[(Param::K2, 1e16), (Param::M2, 1e-3)]);
