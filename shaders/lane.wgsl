@@ -85,7 +85,7 @@ fn iterate(tolerance: real) {
     let tau = located.tau;
     let event = located.event;
     if tau > real(0.0) {
-        observe(segment, tau);
+        observe(segment, belt, tau);
         let x = evaluate(&sx, tau);
         let y = evaluate(&sy, tau);
         let w = evaluate(&sw, tau);
@@ -191,7 +191,7 @@ fn restore_snapshot() {
     lane.disarmed = flag(FLAG_SNAPSHOT + 2u, instance);
 }
 
-fn observe(segment: Segment, tau: real) {
+fn observe(segment: Segment, belt: Belt, tau: real) {
     let part = part_of(segment);
     let at = Moment(lane.segment, lane.index, real(1.0) - lane.rest);
     if lane.second_pass == 1u {
@@ -201,6 +201,9 @@ fn observe(segment: Segment, tau: real) {
     if part != SETTLE {
         let origin = vec2<real>(load(STATE_SNAPSHOT, instance), load(STATE_SNAPSHOT + 2u, instance));
         observe_window(origin, scene.t0, lane.contact, part, at, segment.step, tau);
+        if lane.contact == REVERSE {
+            sums.previous = max(sums.previous, belt.velocity + belt.acceleration * tau);
+        }
     }
     observe_growth(tau);
 }

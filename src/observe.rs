@@ -216,7 +216,11 @@ impl Window {
 
     fn count_crossings(&mut self, step: &Step) {
         let velocity = step.expansion.tangential_velocity();
-        let (before, after) = (velocity[0], step.end.state.velocity[0]);
+        let (before, mut after) = (velocity[0], step.end.state.velocity[0]);
+        if step.expansion.contact.state() == ContactState::Reverse {
+            // What comes down to the velocity of the belt has not gone below it, which matters where that is 0.
+            after = after.max(step.belt.velocity + step.belt.acceleration * step.duration);
+        }
         if before >= 0.0 && self.previous_velocity.is_some_and(|v| v < 0.0) {
             self.crossed(step.start);
         }

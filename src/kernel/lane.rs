@@ -189,7 +189,7 @@ impl<S: Real> Lane<S> {
         }
         let (tau, event) = self.first_event(scene, &e, longest, tolerance);
         if tau > S::ZERO {
-            self.observe(scene, &e, &segment, tau);
+            self.observe(scene, &e, &segment, belt, tau);
             let (x, y, w) = (evaluate(&e.x, tau), evaluate(&e.y, tau), evaluate(&e.w, tau));
             self.body = Body { p: [x[0], y[0], w[0]], v: [x[1], y[1], w[1]] };
             self.disarmed = NOTHING;
@@ -276,7 +276,7 @@ impl<S: Real> Lane<S> {
         self.snapshot_flags = [self.contact, self.piece, self.disarmed];
     }
 
-    fn observe(&mut self, scene: &Scene<S>, e: &Expansion<S>, segment: &Segment<S>, tau: S) {
+    fn observe(&mut self, scene: &Scene<S>, e: &Expansion<S>, segment: &Segment<S>, belt: Belt<S>, tau: S) {
         let part = part_of(segment);
         let at = Moment { segment: self.segment, index: self.index, fraction: S::ONE - self.rest };
         if self.second_pass {
@@ -286,6 +286,10 @@ impl<S: Real> Lane<S> {
         if part != SETTLE {
             let origin = [self.snapshot.p[0], self.snapshot.p[2]];
             self.sums.observe_window(e, origin, scene.t0, self.contact, part, at, segment.step, tau);
+            if self.contact == REVERSE {
+                // What comes down to the velocity of the belt has not gone below it, which matters where that is 0.
+                self.sums.previous = self.sums.previous.max(belt.velocity + belt.acceleration * tau);
+            }
         }
         self.sums.observe_growth(e, tau);
     }

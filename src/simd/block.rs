@@ -205,8 +205,7 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Block<S, T, K> {
     /// The longest step of the present contact states.
     #[inline(always)]
     pub fn longest(&self) -> Vector<S, T, K> {
-        let reverse = self.up_to(REVERSE).and(self.up_to(SLIP).not());
-        let closed = reverse.select(self.scene[LONGEST + 1], self.scene[LONGEST]);
+        let closed = self.reverse().select(self.scene[LONGEST + 1], self.scene[LONGEST]);
         self.free().select(self.scene[LONGEST + 2], closed)
     }
 
@@ -220,6 +219,12 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Block<S, T, K> {
     #[inline(always)]
     pub fn slip(&self) -> Mask<S, T, K> {
         self.up_to(REVERSE)
+    }
+
+    /// Lanes that overtake their belts.
+    #[inline(always)]
+    pub fn reverse(&self) -> Mask<S, T, K> {
+        self.slip().and(self.up_to(SLIP).not())
     }
 
     /// Lanes that stick.

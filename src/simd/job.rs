@@ -262,8 +262,9 @@ impl<T: Real> Job<T> {
         usize::from(self.time >= self.marks[1])
     }
 
-    /// The next stretch of a part: its length and its longest step; `None` at the end of the part.
-    pub fn stretch(&mut self, part: Part, steps_per_period: u32) -> Option<[f64; 2]> {
+    /// The next stretch of a part: its length and its longest step; `None` at the end of the part. What `swings` is stepped
+    /// in closed form.
+    pub fn stretch(&mut self, part: Part, steps_per_period: u32, swings: bool) -> Option<[f64; 2]> {
         let goals: &[f64] = match part {
             Part::Growth | Part::Settle => &self.marks[..1],
             Part::Approach => &[self.approached],
@@ -279,7 +280,7 @@ impl<T: Real> Job<T> {
         let step = length / whole;
         let most = match part {
             // What grows is sampled in steps as short as those of a series.
-            _ if !self.growing && self.swings() && self.is_single() => SWINGS * f64::from(steps_per_period),
+            _ if swings && !self.growing => SWINGS * f64::from(steps_per_period),
             Part::Window if !self.is_single() => {
                 STRETCH.min(FIRST_STRETCH * (1 + self.stretches.len()) as f64)
             }

@@ -34,8 +34,10 @@ pub struct Lanes<'a, S: Simd, T: Scalar<S>, const K: usize> {
     pub sums: Sums<S, T, K>,
     /// The instances.
     pub jobs: &'a mut [Job<T>],
-    /// Whether they are all single masses with straight laws, stepped as [`super::expand::SINGLE`] or in closed form.
+    /// Whether they are all single masses with straight laws.
     pub single: bool,
+    /// Whether these lanes are stepped in closed form.
+    swings: bool,
     /// The job of each lane; `usize::MAX` for a lane that rests.
     of_lane: Vec<usize>,
     /// The jobs in the order in which they are taken.
@@ -55,7 +57,7 @@ impl<'a, S: Simd, T: Scalar<S>, const K: usize> Lanes<'a, S, T, K> {
     pub fn new(
         block: Block<S, T, K>,
         jobs: &'a mut [Job<T>],
-        single: bool,
+        [single, swings]: [bool; 2],
         order: Vec<usize>,
         part: Part,
         settings: Settings<'a>,
@@ -67,6 +69,7 @@ impl<'a, S: Simd, T: Scalar<S>, const K: usize> Lanes<'a, S, T, K> {
             sums,
             jobs,
             single,
+            swings,
             of_lane,
             order,
             next: 0,
@@ -123,7 +126,8 @@ fn refill<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>, lane:
 fn begin<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>, lane: usize) -> bool {
     let sees_growth = all.sees_growth();
     let job = &mut all.jobs[all.of_lane[lane]];
-    let Some([length, step]) = job.stretch(all.part, all.settings.steps_per_period) else { return false };
+    let stretch = job.stretch(all.part, all.settings.steps_per_period, all.swings);
+    let Some([length, step]) = stretch else { return false };
     let belt = job.scene.belt(job.time);
     let b = &mut all.block;
     b.load_state(lane, &job.lane, &job.words);

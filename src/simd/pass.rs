@@ -46,7 +46,7 @@ pub fn pass<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bo
     let block = Block::idle(simd, law);
     // What cannot be is not compiled: both conditions are known before.
     if const { LAW == PIECES } && !swings.is_empty() {
-        let mut all = Lanes::new(block, jobs, single, swings, part, settings);
+        let mut all = Lanes::new(block, jobs, [single, true], swings, part, settings);
         while all.go_on() {
             simd.vectorize(Swings::<S, T, K> { all: &mut all });
         }
@@ -54,7 +54,7 @@ pub fn pass<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bo
     if steps.is_empty() {
         return;
     }
-    let mut all = Lanes::new(block, jobs, single, steps, part, settings);
+    let mut all = Lanes::new(block, jobs, [single, false], steps, part, settings);
     let tolerance = Vector::constant(simd, settings.tolerance);
     let (mut e, mut g) = (Expansion::new(simd), Functions::new(simd));
     while all.go_on() {
@@ -200,6 +200,8 @@ pub fn carry_out<S: Simd, T: Scalar<S>, const K: usize, const LAW: bool, const M
     if happened.any() {
         sums.growing = happened.select(zero, sums.growing);
         sums.quiet = happened.select(zero, sums.quiet);
+        // What comes down to the velocity of the belt has not gone below it, which matters where that is 0.
+        sums.previous = b.reverse().select(sums.previous.max(b.belt), sums.previous);
         let hits = b.free().and(happened);
         let rare = if all.part == Part::Growth {
             happened

@@ -101,6 +101,13 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Swing<S, T, K> {
         }
     }
 
+    /// The largest value that the derivative `n` would have at its first extremum, had nothing decayed since the beginning.
+    #[inline(always)]
+    pub fn largest(&self, n: usize) -> Vector<S, T, K> {
+        let square = self.begin[n].fma(self.begin[n], self.sine[n] * self.sine[n]);
+        self.omega * (square * self.per_stiffness).sqrt()
+    }
+
     /// `exp(−δt) − 1`.
     #[inline(always)]
     pub fn decayed(&self, t: Vector<S, T, K>) -> Vector<S, T, K> {
@@ -138,7 +145,7 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Swing<S, T, K> {
         let least = folded(self.phase + one.like(FRAC_PI_2), TAU);
         let begins = zero.less(b.disarmed).and(least.less(one.like(UNSURE)));
         let least = begins.select(least + one.like(TAU), least) * self.per_omega;
-        let longest = one.like(LONGEST).min(short.select(b.step, one.like(LONGEST)));
+        let longest = short.select(b.step, one.like(LONGEST));
         let end = sticks.select(lasts, least);
         let mut tau = end.min(b.left).min(longest);
         let cone = sticks.and(lasts.at_most(tau));
@@ -172,10 +179,8 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Swing<S, T, K> {
     ) -> (Vector<S, T, K>, Vector<S, T, K>, Vector<S, T, K>) {
         let (zero, one, two) = (low.like(0.0), low.like(1.0), low.like(2.0));
         // As if the amplitude stayed what it is at the end, where the velocity is `cos(lag)` of it and hardly changes.
-        let square = self.begin[1].fma(self.begin[1], self.sine[1] * self.sine[1]);
-        let decayed = self.decayed(least);
-        let amplitude = self.omega * (square * self.per_stiffness).sqrt();
-        let amplitude = amplitude.fma(decayed, amplitude);
+        let amplitude = self.largest(1);
+        let amplitude = self.decayed(least).fma(amplitude, amplitude);
         let known = zero.less(amplitude);
         let cosine = (self.sigma * b.belt / known.select(amplitude, one)).min(one).max(-one);
         let mut t = (least - about_arccos(cosine) * self.per_omega).max(low).min(high);

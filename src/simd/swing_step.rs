@@ -29,8 +29,9 @@ pub fn swing_step<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K
     let grows = zero.less(sums.growing);
     let end = motion.reach(b, grows);
     let tau = end.tau;
-    if sums.previous.less(zero).and(zero.at_most(b.v[0])).any() {
-        sums.note(sums.previous.less(zero).and(zero.at_most(b.v[0])), zero);
+    let jumped = sums.previous.less(zero).and(zero.at_most(b.v[0]));
+    if jumped.any() {
+        sums.note(jumped, zero);
     }
     let (crossed, when) = motion.rises(&end);
     if crossed.any() {

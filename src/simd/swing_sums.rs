@@ -14,7 +14,6 @@ use super::constants::{N0, R, T0};
 use super::observe::Sums;
 use super::swing::{Reached, Swing};
 use super::vector::{Scalar, Vector};
-use crate::kernel::series::{REVERSE, SLIP};
 
 impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
     /// Adds a step to the window.
@@ -52,7 +51,7 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
         self.window[8] += sticks.select(on_belt, friction);
         self.window[9] += b.scene[N0] * tau;
         self.window[10] += tau.only(sticks);
-        self.window[12] += tau.only(b.up_to(REVERSE).and(b.up_to(SLIP).not()));
+        self.window[12] += tau.only(b.reverse());
         let largest = motion.largest_acceleration(tau).max(a0.abs()).max(a1.abs());
         self.peaks[0] = self.peaks[0].max(largest.only(sticks.not()));
         self.peaks[2] = self.peaks[2].max(b.scene[N0]);
@@ -74,7 +73,9 @@ fn squares<S: Simd, T: Scalar<S>, const K: usize>(
     let change = motion.decay * (p1 * p1 - p0 * p0);
     let sum = energy - change;
     let difference = p1 * q1 - p0 * q0 + change;
-    [(sum - difference) * half * motion.per_stiffness, (sum + difference) * half]
+    // Of what is next to nothing beside the other the rounding may be negative; what is no number stays none.
+    let squares = [(sum - difference) * half * motion.per_stiffness, (sum + difference) * half];
+    squares.map(|square| square.only(square.less(span.like(0.0)).not()))
 }
 
 impl<S: Simd, T: Scalar<S>, const K: usize> Swing<S, T, K> {
@@ -82,8 +83,7 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Swing<S, T, K> {
     #[inline(always)]
     fn largest_acceleration(&self, tau: Vector<S, T, K>) -> Vector<S, T, K> {
         let t = folded(folded(self.phase - self.lag, TAU), PI) * self.per_omega;
-        let square = self.begin[2].fma(self.begin[2], self.sine[2] * self.sine[2]);
-        let size = (square * self.omega * self.omega * self.per_stiffness).sqrt();
+        let size = self.largest(2);
         self.decayed(t).fma(size, size).only(t.less(tau))
     }
 }

@@ -5,6 +5,7 @@ use std::f64::consts::{PI, TAU};
 use std::sync::atomic::AtomicBool;
 
 use crate::common::{close, instance, plan};
+use crate::engines::Engine;
 use crate::instances::Uniform;
 use squealmap::backend::cpu::outcomes;
 use squealmap::model::Param;
@@ -82,18 +83,8 @@ fn numbers(o: &Outcome) -> Vec<(&'static str, Option<f64>, f64)> {
     ]
 }
 
-/// What the reference is no judge of: on a belt at rest a stop is a crossing or none, as the last bit of a velocity falls.
-fn undecided(instance: &Instance, name: &str) -> bool {
-    name == "response_frequency" && instance.params.require(Param::BeltVelocity) == 0.0
-}
-
 /// The errors of all numbers, the largest last; what moves by less than `still` of a metre per second squared is at rest.
-fn errors(
-    instances: &[Instance],
-    made: &[Outcome],
-    expected: &[Outcome],
-    still: f64,
-) -> Vec<(f64, usize, &'static str)> {
+fn errors(made: &[Outcome], expected: &[Outcome], still: f64) -> Vec<(f64, usize, &'static str)> {
     let mut errors = Vec::new();
     for (index, (ours, theirs)) in made.iter().zip(expected).enumerate() {
         assert_eq!([ours.status, theirs.status], [Status::Ok; 2], "{index}");
@@ -102,9 +93,6 @@ fn errors(
             continue;
         }
         for ((name, made, _), (_, expected, size)) in numbers(ours).into_iter().zip(numbers(theirs)) {
-            if undecided(&instances[index], name) {
-                continue;
-            }
             let error = match (made, expected) {
                 (Some(made), Some(expected)) => (made - expected).abs() / size.max(f64::MIN_POSITIVE),
                 (None, None) => continue,
@@ -132,7 +120,7 @@ fn agrees<T: Lanes>(bound: f64, still: f64) {
         let expected = reference(&instances, &periods(settle, measure, FINE));
         for steps_per_period in [3, 12] {
             let made = run::<T>(&instances, &periods(settle, measure, steps_per_period));
-            let errors = errors(&instances, &made, &expected, still);
+            let errors = errors(&made, &expected, still);
             assert!(errors.len() > 10 * COUNT / 2, "{}", errors.len());
             let worst = errors[errors.len() - 1];
             assert!(worst.0 < bound, "{worst:?}: {:?} {:?}", made[worst.1], expected[worst.1]);
@@ -148,7 +136,7 @@ fn agrees<T: Lanes>(bound: f64, still: f64) {
                 instance.params.set(param, instance.params.require(param) * by);
             }
             let made = run::<T>(&planted, &periods(settle, measure, 3));
-            let errors = errors(&instances, &made, &expected, still);
+            let errors = errors(&made, &expected, still);
             assert!(errors[errors.len() - 1].0 > 2.0 * bound, "{param:?}");
         }
     }
@@ -188,31 +176,61 @@ fn a_stop_at_the_largest_velocity_is_where_the_reference_has_it() {
     let expected = reference(&grazing, &periods(0.0, 2.0, FINE));
     let made = run::<f64>(&grazing, &periods(0.0, 2.0, 3));
     assert!(expected.iter().all(|outcome| outcome.stick > Some(0.01)));
-    let errors = errors(&grazing, &made, &expected, 1e-6);
+    let errors = errors(&made, &expected, 1e-6);
     let worst = errors[errors.len() - 1];
     assert!(worst.0 < 5e-6, "{worst:?}: {:?} {:?}", made[worst.1], expected[worst.1]);
 }
 
 #[test]
 fn on_a_belt_at_rest_every_half_swing_takes_the_same_time() {
-    let mut instances = instances();
-    for instance in &mut instances {
-        instance.params.set(Param::BeltVelocity, 0.0);
-        instance.law = FrictionLaw::Constant { mu_s: 0.02, mu_d: 0.01 };
+    // The second has a kink without a bend: what the closed form leaves to the series.
+    let laws = [
+        FrictionLaw::Constant { mu_s: 0.02, mu_d: 0.01 },
+        FrictionLaw::Bilinear { mu_s: 0.01, mu_d: 0.01, knee_velocity: 0.5 },
+    ];
+    for (engine, law) in Engine::ALL.into_iter().flat_map(|engine| laws.iter().map(move |law| (engine, law)))
+    {
+        let mut instances = instances();
+        instances.truncate(COUNT / 3);
+        for instance in &mut instances {
+            instance.params.set(Param::BeltVelocity, 0.0);
+            instance.law = law.clone();
+        }
+        let made = engine.run_all(&instances, &periods(0.0, 4.0, 12));
+        let mut seen = 0;
+        for (instance, outcome) in instances.iter().zip(&made) {
+            let p = |param| instance.params.require(param);
+            let mass = p(Param::M1) + p(Param::M2);
+            let decay = 0.5 * p(Param::C1) / mass;
+            let expected = (p(Param::K1) / mass - decay * decay).sqrt() / TAU;
+            if let Some(frequency) = outcome.response_frequency {
+                // The kernel's series is of order 8.
+                let exact = matches!(engine, Engine::Reference | Engine::CpuF64);
+                let bound = if exact { 1e-9 } else { 1e-5 };
+                close(&format!("frequency, {}, {law:?}", engine.name()), frequency, expected, bound);
+                seen += 1;
+            }
+        }
+        assert!(seen > COUNT / 6, "{seen}");
     }
-    let made = run::<f64>(&instances, &periods(0.0, 4.0, 12));
-    let mut seen = 0;
-    for (instance, outcome) in instances.iter().zip(&made) {
-        let p = |param| instance.params.require(param);
-        let mass = p(Param::M1) + p(Param::M2);
-        let decay = 0.5 * p(Param::C1) / mass;
-        let expected = (p(Param::K1) / mass - decay * decay).sqrt() / TAU;
-        if let Some(frequency) = outcome.response_frequency {
-            close("frequency", frequency, expected, 1e-9);
-            seen += 1;
+}
+
+/// Where the velocity is next to nothing beside what it is a quarter of a turn later, and a stop ends a window.
+#[test]
+fn short_windows_have_numbers() {
+    fn all<T: Lanes>(instances: &[Instance]) {
+        for k in 0..150 {
+            for outcome in run::<T>(instances, &periods(0.013 * f64::from(k), 0.002, 12)) {
+                assert_eq!(outcome.status, Status::Ok);
+                let mut numbers =
+                    numbers(&outcome).into_iter().filter_map(|(name, number, _)| Some((name, number?)));
+                assert_eq!(numbers.find(|(_, number)| !number.is_finite()), None, "{k}: {outcome:?}");
+            }
         }
     }
-    assert!(seen > COUNT / 2, "{seen}");
+    let instances = instances();
+    all::<f64>(&instances);
+    all::<f32>(&instances);
 }
 
 #[test]
