@@ -10,7 +10,7 @@ use pulp::Simd;
 use super::block::{Block, SECOND, THIRD};
 use super::expand::Expansion;
 use super::function::{Function, Rounding};
-use super::functions::{Functions, may_fall};
+use super::functions::{Functions, may_fall, may_return};
 use super::root::{Bracket, bracket, refine};
 use super::vector::{Scalar, Vector};
 
@@ -43,6 +43,14 @@ pub fn first_event<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const 
     if !pending.any() {
         return [one, zero];
     }
+    let rounding = Rounding::new::<N, MOTION>(b, e, tolerance);
+    if from_zero[1].or(from_zero[2]).any() {
+        let returns = may_return(g, from_zero[2], rounding.speed * e.step);
+        for i in 1..3 {
+            open[i] = open[i].and(from_zero[i].not().or(returns));
+        }
+        pending = open[0].or(open[1]).or(open[2]);
+    }
     let (slip, flies) = (b.slip(), b.free());
     let mut best = Bracket { low: zero, high: one, estimate: one.like(2.0), beyond: slip };
     let mut of_best = Function { start: zero, share: zero, sign: zero, order: zero };
@@ -74,8 +82,7 @@ pub fn first_event<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const 
         let doubtful = begins.and(lead.not_positive());
         let low = of_force.and(pending).and(begins.not()).and(f.start.not_positive());
         if doubtful.or(low).any() {
-            let rounding = Rounding::new::<N, MOTION>(b, e, tolerance, of_force);
-            lead = f.deflate::<N, MOTION>(e, g, &rounding, [begins, low], &mut live);
+            lead = f.deflate::<N, MOTION>(b, e, g, &rounding, [begins, low, of_force], &mut live);
         } else {
             f.start = begins.select(zero, f.start);
             f.order = one.only(begins);

@@ -18,8 +18,10 @@ use crate::kernel::lane::ROUNDINGS;
 pub struct Rounding<S: Simd, T: Scalar<S>, const K: usize> {
     /// A force.
     pub force: Vector<S, T, K>,
-    /// The event function.
-    pub function: Vector<S, T, K>,
+    /// A sliding speed.
+    pub speed: Vector<S, T, K>,
+    /// What opens the gap.
+    gap: Vector<S, T, K>,
 }
 
 impl<S: Simd, T: Scalar<S>, const K: usize> Rounding<S, T, K> {
@@ -29,7 +31,6 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Rounding<S, T, K> {
         b: &Block<S, T, K>,
         e: &Expansion<S, T, K, N>,
         tolerance: Vector<S, T, K>,
-        of_force: Mask<S, T, K>,
     ) -> Self {
         let one = e.step.like(1.0);
         let slower = largest::<S, T, K, N, MOTION>(e, 2).fma(e.rate, largest::<S, T, K, N, MOTION>(e, 1));
@@ -37,9 +38,13 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Rounding<S, T, K> {
         let loads = (b.scene[MU_STICK] + one) * b.scene[N0] + e.n[0].abs() * (e.rate * e.rate);
         let rounding = Vector::splat(b.simd, T::EPSILON) * e.step.like(ROUNDINGS);
         let band = rounding.fma(loads, tolerance * b.scene[STIFFNESS] * motion);
-        let square = e.step * e.step;
-        let unit = of_force.select(square, b.slip().select(e.step, b.scene[INV_DET]));
-        Rounding { force: band * square, function: band * unit }
+        Rounding { force: band * e.step * e.step, speed: band * e.step, gap: band * b.scene[INV_DET] }
+    }
+
+    /// The event function of lanes that slide or fly, or that of a force.
+    #[inline(always)]
+    fn of(&self, b: &Block<S, T, K>, of_force: Mask<S, T, K>) -> Vector<S, T, K> {
+        of_force.select(self.force, b.slip().select(self.speed, self.gap))
     }
 }
 
@@ -69,20 +74,22 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Function<S, T, K> {
     }
 
     /// Takes the root at zero from functions that begin there, by construction (`begins`) or within rounding (some of
-    /// `low`); returns the first coefficient that counts. Lanes with nothing but zeros are no longer `live`.
+    /// `low`); returns the first coefficient that counts. Lanes with nothing but zeros are no longer `live`. `of_force` says
+    /// which functions are forces.
     #[inline(always)]
     pub fn deflate<const N: usize, const MOTION: u8>(
         &mut self,
+        b: &Block<S, T, K>,
         e: &Expansion<S, T, K, N>,
         g: &Functions<S, T, K, N>,
         rounding: &Rounding<S, T, K>,
-        [begins, low]: [Mask<S, T, K>; 2],
+        [begins, low, of_force]: [Mask<S, T, K>; 3],
         live: &mut Mask<S, T, K>,
     ) -> Vector<S, T, K> {
         let (zero, one) = (self.start.like(0.0), self.start.like(1.0));
         let mut deflate = begins.or(low.and((-rounding.force).at_most(self.start)));
         let mut lead = self.start;
-        let mut bound = rounding.function;
+        let mut bound = rounding.of(b, of_force);
         self.start = deflate.select(zero, self.start);
         for degree in 0..HIGHEST_ORDER {
             lead = deflate.select(self.coefficient::<N, MOTION>(e, g, degree + 1), lead);

@@ -94,28 +94,53 @@ pub fn functions<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const MO
     g.start[0] = e.n[0];
 }
 
-/// The Bernstein coefficients on [0, 1] of the part of a series from degree 1 to 4, but for the first, which is 0.
+/// Terms of a series that are bounded by their Bernstein coefficients, those above by their magnitudes: of four, twice as
+/// many lift-offs are looked for.
+const BOUNDED: usize = 6;
+
+/// The Bernstein coefficients on [0, 1] of `Σ b_(before + k) t^k` for k from 1 to [`BOUNDED`], but for the first, which is 0.
 #[inline(always)]
 fn bernstein<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
     b: &[Vector<S, T, K>; N],
-) -> [Vector<S, T, K>; 4] {
-    let (c1, c2, c3) = (b[1] * b[1].like(0.25), b[2] * b[1].like(1.0 / 6.0), b[3] * b[1].like(0.25));
-    let second = c1.like(2.0).fma(c1, c2);
-    let third = c1.like(3.0).fma(c1 + c2, c3);
-    [c1, second, third, (b[1] + b[2]) + (b[3] + b[4])]
+    before: usize,
+) -> [Vector<S, T, K>; BOUNDED] {
+    let like = |number: f64| b[0].like(number);
+    let [b1, b2, b3] = [b[before + 1], b[before + 2], b[before + 3]];
+    let [b4, b5, b6] = [b[before + 4], b[before + 5], b[before + 6]];
+    // Over the binomial coefficients of the degree.
+    let (sixth, fifteenth) = (like(1.0 / 6.0), like(1.0 / 15.0));
+    let (c1, c2, c3) = (b1 * sixth, b2 * fifteenth, b3 * like(1.0 / 20.0));
+    let (c4, c5) = (b4 * fifteenth, b5 * sixth);
+    let second = like(2.0).fma(c1, c2);
+    let third = like(3.0).fma(c1 + c2, c3);
+    let fourth = like(4.0).fma(c1 + c3, like(6.0).fma(c2, c4));
+    let fifth = like(5.0).fma(c1 + c4, like(10.0).fma(c2 + c3, c5));
+    [c1, second, third, fourth, fifth, ((b1 + b2) + (b3 + b4)) + (b5 + b6)]
 }
 
-/// The sum of the magnitudes from degree 5 on.
+/// The sum of the magnitudes that [`bernstein`] leaves.
 #[inline(always)]
 fn tail<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
     b: &[Vector<S, T, K>; N],
+    before: usize,
     end: usize,
 ) -> Vector<S, T, K> {
-    let mut rest = [b[5].abs(), b[6].abs()];
-    for k in 7..end {
-        rest[(k + 1) % 2] += b[k].abs();
+    let first = before + BOUNDED + 1;
+    let mut rest = [b[first].abs(), b[first + 1].abs()];
+    for k in first + 2..end {
+        rest[(k - first) % 2] += b[k].abs();
     }
     rest[0] + rest[1]
+}
+
+/// The least and the largest of some numbers and 0.
+#[inline(always)]
+fn extremes<S: Simd, T: Scalar<S>, const K: usize>(b: &[Vector<S, T, K>; BOUNDED]) -> [Vector<S, T, K>; 2] {
+    let zero = b[0].like(0.0);
+    [
+        b[0].min(b[1]).min(b[2].min(b[3])).min(b[4].min(b[5]).min(zero)),
+        b[0].max(b[1]).max(b[2].max(b[3])).max(b[4].max(b[5]).max(zero)),
+    ]
 }
 
 /// Lanes in which each event function may fall to zero in the step.
@@ -126,18 +151,18 @@ pub fn may_fall<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const MOT
     g: &Functions<S, T, K, N>,
 ) -> [Mask<S, T, K>; 3] {
     let zero = e.step.like(0.0);
-    let mut rest = tail(&g.second, N - 1);
-    let (mut first, mut of_force) = (e.n[0], [zero; 4]);
+    let mut rest = tail(&g.second, 0, N - 1);
+    let (mut first, mut of_force) = (e.n[0], [zero; BOUNDED]);
     if MOTION != SINGLE {
-        let force_rest = tail(&e.n, if MOTION == FLIGHT { N } else { N - 2 });
-        of_force = bernstein(&e.n);
-        let least = of_force[0].min(of_force[1]).min(of_force[2].min(of_force[3])).min(zero);
+        let force_rest = tail(&e.n, 0, if MOTION == FLIGHT { N } else { N - 2 });
+        of_force = bernstein(&e.n, 0);
+        let [least, _] = extremes(&of_force);
         first = e.n[0] + least - force_rest;
         rest = g.share.fma(force_rest, rest);
     }
-    let along = bernstein(&g.second);
+    let along = bernstein(&g.second, 0);
     let (mut ahead, mut back) = (zero, zero);
-    for i in 0..4 {
+    for i in 0..BOUNDED {
         let [mut up, mut down] = [along[i], -along[i]];
         if MOTION != SINGLE {
             [up, down] = [g.share.fma(of_force[i], up), g.share.fma(of_force[i], down)];
@@ -153,4 +178,22 @@ pub fn may_fall<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const MOT
         open[2] = open[2].and(touches);
     }
     open
+}
+
+/// Whether the sliding speed of lanes that slip, and begin at the lower end of its piece or at the upper one (`upper`), may
+/// come back to it: whether its series without that root may fall to zero. A first coefficient that is not below zero by
+/// more than `bound` is taken for zero, as [`super::function::Function::deflate`] does.
+#[inline(always)]
+pub fn may_return<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
+    g: &Functions<S, T, K, N>,
+    upper: Mask<S, T, K>,
+    bound: Vector<S, T, K>,
+) -> Mask<S, T, K> {
+    // c₁ + t h(t), where h is bounded.
+    let c = &g.second;
+    let [least, most] = extremes(&bernstein(c, 2));
+    let least = upper.select(-(c[2] + most), c[2] + least) - tail(c, 2, N - 1);
+    let begin = upper.select(-c[1], c[1]);
+    let zero = least.like(0.0);
+    (-bound).at_most(begin).and(zero.less(begin.max(zero) + least)).not()
 }
