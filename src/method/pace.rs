@@ -8,7 +8,7 @@ pub const STABLE: f64 = 1.8;
 
 /// A step of order 13 only ever damps such a mode, up to 3.6 radians; so far the nodes and samples within a step show
 /// what it does.
-pub const SEEN: f64 = 2.1;
+pub const SEEN: f64 = 2.35;
 
 /// In contact, which may last for the whole of a run, the last term of a mode's own series may be this part of it: what
 /// rings unseen is still there at the end. A step takes less from it, a tenth of that at even orders.
@@ -19,7 +19,7 @@ const KEPT_DAMPED: f64 = 1e-7;
 
 /// Where the tolerance is coarse, it may be this part of that, for modes that do not ring more often within a run than the
 /// motion: up to [`SLOW`] times `ω0`.
-const KEPT_OF_TOLERANCE: f64 = 2.5e-3;
+const KEPT_OF_TOLERANCE: f64 = 1e-2;
 
 /// See [`KEPT_OF_TOLERANCE`].
 const SLOW: f64 = 2.0;

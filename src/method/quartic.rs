@@ -75,7 +75,7 @@ fn factor(a: f64, b: f64, c: f64, d: f64) -> [Complex64; 4] {
         }
         _ => {
             // Two factors with the same linear term.
-            let gap = Complex64::new(l3 * l3 - d, 0.0).sqrt();
+            let gap = square_root(Complex64::new(l3 * l3 - d, 0.0));
             let [p, q] = quadratic(Complex64::new(l1, 0.0), l3 + gap);
             let [r, s] = quadratic(Complex64::new(l1, 0.0), l3 - gap);
             [p, q, r, s]
@@ -122,9 +122,21 @@ fn quadratic_real(p: f64, q: f64) -> [Complex64; 2] {
     }
 }
 
+/// The square root with a real part that is not negative, without angles.
+fn square_root(z: Complex64) -> Complex64 {
+    let larger = (0.5 * (z.re.abs() + z.norm_sqr().sqrt())).sqrt();
+    if larger == 0.0 {
+        Complex64::ZERO
+    } else if z.re >= 0.0 {
+        Complex64::new(larger, 0.5 * z.im / larger)
+    } else {
+        Complex64::new(0.5 * z.im.abs() / larger, larger.copysign(z.im))
+    }
+}
+
 /// Roots of `ζ² + p ζ + q` with complex coefficients.
 fn quadratic(p: Complex64, q: Complex64) -> [Complex64; 2] {
-    let root = (0.25 * p * p - q).sqrt();
+    let root = square_root(0.25 * p * p - q);
     let half = -0.5 * p;
     let larger = if (half.conj() * root).re < 0.0 { half - root } else { half + root };
     let smaller = if larger.norm_sqr() == 0.0 { larger } else { q / larger };

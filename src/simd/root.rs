@@ -118,8 +118,8 @@ pub fn bracket<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const SPAN
         weight: lead.like(weight(SPAN, 0.5)),
     };
     let mut samples = [last; SAMPLES + 1];
-    // Loops, as their code is short. In the first half of the step what lies above degree 7 is below 4e-6 of a motion that
-    // turns by 2 in the step, in shorter steps far less: enough to know where to look, within [`SLACK`].
+    // Loops, as their code is short. In the first half of the step what lies above degree 7 is below 1e-5 of a motion that
+    // turns by 2.35 in the step, in shorter steps far less: enough to know where to look, within [`SLACK`].
     let mut i = black_box(SAMPLES);
     while i > SAMPLES / 2 {
         i -= 1;

@@ -156,8 +156,10 @@ fn no_equilibrium_and_invalid_law_are_reported() {
 /// Coefficients of the characteristic polynomial beyond all numbers are told, and no eigenvalues that are none.
 #[test]
 fn a_polynomial_beyond_numbers_has_no_eigenvalues() {
-    let heavy =
-        with(&paper(0.3, 0.3, 1.0), &[(Param::Theta, 0.0), (Param::M2, f64::MAX), (Param::K2, 1e290)]);
+    let heavy = with(
+        &paper(0.3, 0.3, 1.0),
+        &[(Param::Theta, 0.0), (Param::M1, 0.1), (Param::M2, f64::MAX), (Param::K2, 1e290)],
+    );
     assert_eq!(analyse(&heavy), (None, None));
     // Only what is divided out: the same polynomial in other units.
     let large = with(
