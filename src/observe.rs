@@ -216,11 +216,7 @@ impl Window {
 
     fn count_crossings(&mut self, step: &Step) {
         let velocity = step.expansion.tangential_velocity();
-        let (before, mut after) = (velocity[0], step.end.state.velocity[0]);
-        if step.expansion.contact.state() == ContactState::Reverse {
-            // What comes down to the velocity of the belt has not gone below it, which matters where that is 0.
-            after = after.max(step.belt.velocity + step.belt.acceleration * step.duration);
-        }
+        let (before, after) = (velocity[0], step.end.state.velocity[0]);
         if before >= 0.0 && self.previous_velocity.is_some_and(|v| v < 0.0) {
             self.crossed(step.start);
         }
@@ -229,7 +225,10 @@ impl Window {
         {
             self.crossed(step.start + tau);
         }
-        self.previous_velocity = Some(after);
+        // What comes down to the velocity of the belt has not gone below it, which matters where that is 0.
+        let reverse = step.expansion.contact.state() == ContactState::Reverse;
+        let belt = step.belt.velocity + step.belt.acceleration * step.duration;
+        self.previous_velocity = Some(if reverse { after.max(belt) } else { after });
     }
 }
 

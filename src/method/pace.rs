@@ -19,7 +19,10 @@ const KEPT_DAMPED: f64 = 1e-7;
 
 /// Where the tolerance is coarse, it may be this part of that, for modes that do not ring more often within a run than the
 /// motion: up to [`SLOW`] times `ω0`.
-const KEPT_OF_TOLERANCE: f64 = 1e-2;
+const KEPT_OF_TOLERANCE: f64 = 2.5e-3;
+
+/// The same at order 13.
+const KEPT_OF_TOLERANCE_DAMPED: f64 = 1e-2;
 
 /// See [`KEPT_OF_TOLERANCE`].
 const SLOW: f64 = 2.0;
@@ -40,10 +43,11 @@ impl Turns {
         if !tolerance.is_finite() {
             return Turns { contact: f64::INFINITY, slow: f64::INFINITY, flight: f64::INFINITY };
         }
-        let kept = if damps(order) { KEPT_DAMPED } else { KEPT };
+        let (kept, part) =
+            if damps(order) { (KEPT_DAMPED, KEPT_OF_TOLERANCE_DAMPED) } else { (KEPT, KEPT_OF_TOLERANCE) };
         Turns {
             contact: turn(order, tolerance.min(kept)),
-            slow: turn(order, tolerance.min(kept.max(tolerance * KEPT_OF_TOLERANCE))),
+            slow: turn(order, tolerance.min(kept.max(tolerance * part))),
             flight: turn(order, tolerance),
         }
     }

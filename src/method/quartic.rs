@@ -122,7 +122,7 @@ fn quadratic_real(p: f64, q: f64) -> [Complex64; 2] {
     }
 }
 
-/// The square root with a real part that is not negative, without angles.
+/// The square root with a real part that is not negative, without angles; of magnitudes between 1e-150 and 1e150.
 fn square_root(z: Complex64) -> Complex64 {
     let larger = (0.5 * (z.re.abs() + z.norm_sqr().sqrt())).sqrt();
     if larger == 0.0 {

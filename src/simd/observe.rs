@@ -14,7 +14,6 @@ use super::spectrum::{Nodes, Spectrum, moving, seen};
 use super::vector::{Mask, Scalar, Vector};
 use crate::kernel::observe::{NODES, SAMPLE_TIMES, SUMS, WEIGHTS};
 use crate::kernel::reductions::GROWTH;
-use crate::kernel::series::{REVERSE, SLIP};
 use crate::kernel::source::Precision;
 
 /// Reductions of the present stretches.
@@ -95,7 +94,7 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
         self.window[0] += tau;
         self.window[10] += tau.only(b.stick());
         self.window[11] += tau.only(free);
-        self.window[12] += tau.only(b.up_to(REVERSE).and(b.up_to(SLIP).not()));
+        self.window[12] += tau.only(b.reverse());
         let rate_square = e.rate * e.rate;
         let (flying, t0) = (free.any(), free.select(zero, b.scene[T0]));
         let moving = moving(MOTION);

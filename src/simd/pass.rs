@@ -201,7 +201,7 @@ pub fn carry_out<S: Simd, T: Scalar<S>, const K: usize, const LAW: bool, const M
         sums.growing = happened.select(zero, sums.growing);
         sums.quiet = happened.select(zero, sums.quiet);
         // What comes down to the velocity of the belt has not gone below it, which matters where that is 0.
-        sums.previous = b.reverse().select(sums.previous.max(b.belt), sums.previous);
+        sums.previous = happened.and(b.reverse()).select(sums.previous.max(b.belt), sums.previous);
         let hits = b.free().and(happened);
         let rare = if all.part == Part::Growth {
             happened

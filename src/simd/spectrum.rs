@@ -55,7 +55,7 @@ pub const fn moving(motion: u8) -> usize {
 }
 
 /// The degree up to which a series counts at a node: what is left out of a motion that turns by 2.35 in the step is below
-/// 1e-6 of it at the first two nodes, in shorter steps far less.
+/// 2e-6 of it at the first two nodes, in shorter steps far less.
 #[must_use]
 pub const fn seen(highest: usize, node: usize) -> usize {
     let counts = [7, 10, highest][node];

@@ -161,7 +161,7 @@ fn a_polynomial_beyond_numbers_has_no_eigenvalues() {
         &[(Param::Theta, 0.0), (Param::M1, 0.1), (Param::M2, f64::MAX), (Param::K2, 1e290)],
     );
     assert_eq!(analyse(&heavy), (None, None));
-    // Only what is divided out: the same polynomial in other units.
+    // A factor in all coefficients changes nothing, however large.
     let large = with(
         &paper(0.4, 0.4, 3.0),
         &[Param::M1, Param::M2, Param::K1, Param::K2, Param::C1, Param::C2]

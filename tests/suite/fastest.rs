@@ -121,6 +121,7 @@ fn the_stable_turn_is_that_of_the_series() {
     close("kept by order 13", turns(13, 1e-5)[0], 1.640_381, 1e-6);
     // (1e-5 · 13!)^(1/13) where the tolerance is coarse, not of modes that ring more often.
     close("kept of a coarse tolerance", turns(13, 1e-3)[0], 2.337_711, 1e-6);
+    close("seen in flight", turns(13, 1e-3)[3], 0.01 * 2.35, 1e-15);
     let stiff = Turns::new(13, 1e-3).longest_steps(&[1e3; 4]);
     close("kept of a stiff mode", stiff[0], 1e-3 * 1.640_381, 1e-6);
 }

@@ -142,7 +142,7 @@ fn cases() -> Vec<Case> {
         job.lane.body.v = [belt - sign * speed, 0.0, around()];
         // No longer than the engine's are.
         let longest = job.constants[LONGEST + usize::from(sign < 0.0)];
-        let step = longest.min(0.3 + 1.8 * u.next());
+        let step = longest.min(0.3 + 2.1 * u.next());
         cases.push(Case { job, belt, step, disarmed });
     }
     cases

@@ -25,9 +25,9 @@ grown beyond its decade, or fallen by two, is a failed test. `gpu` is the kernel
 What holds for all of them:
 
 - **A step is never too large.** `steps_per_period` bounds it from above, and so do the truncation of the motion's series,
-  and, in each contact state, the fastest mode, shown by the motion or not (`|λ| h ≤ 1.8`, on the CPU engine 2.1, and small
-  enough that an unseen mode loses less than 5e-7 of itself in a step; with 3 to 5 steps per period 2.5e-6, where it is no
-  faster than 2 ω0). With a step of a whole period every number below is within 10 % still, or the status is not `ok`.
+  and, in each contact state, the fastest mode, shown by the motion or not (`|λ| h ≤ 1.8`, on the CPU engine 2.35, and small
+  enough that an unseen mode loses less than 5e-7 of itself in a step; on the CPU engine, in f32 and with 3 to 8 steps per period, a hundredth of the
+  tolerance, 1e-5 at most, if it is no faster than 2 ω0). With a step of a whole period every number below is within 10 % still, or the status is not `ok`.
   Before the third bound, weakly excited stiff modes were raised from the rounding to the truncation's
   bound, and `ay_rms` was off by 100 % at k2/k1 = 100 (cpu f32) and by a factor of 100 at 1e4.
 - **Stiffness costs time, then the status says so.** A run takes as many steps as its fastest mode asks for. Where they are
