@@ -2,8 +2,6 @@
 //!
 //! The definitions are those of [`crate::kernel::observe`].
 
-use std::ops::Not;
-
 use pulp::Simd;
 
 use super::block::Block;
