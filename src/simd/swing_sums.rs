@@ -74,8 +74,10 @@ fn squares<S: Simd, T: Scalar<S>, const K: usize>(
     let sum = energy - change;
     let difference = p1 * q1 - p0 * q0 + change;
     // Of what is next to nothing beside the other the rounding may be negative; what is no number stays none.
-    let squares = [(sum - difference) * half * motion.per_stiffness, (sum + difference) * half];
-    squares.map(|square| square.only(square.less(span.like(0.0)).not()))
+    let (zero, p, q) =
+        (span.like(0.0), (sum - difference) * half * motion.per_stiffness, (sum + difference) * half);
+    // Written out: the closure of a `map` over an array is not inlined.
+    [p.only(p.less(zero).not()), q.only(q.less(zero).not())]
 }
 
 impl<S: Simd, T: Scalar<S>, const K: usize> Swing<S, T, K> {
