@@ -142,6 +142,7 @@ fn begin<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>, lane: 
     b.at_once.set(lane, T::ZERO);
     let sums = &mut all.sums;
     sums.time.set(lane, T::ZERO);
+    sums.cycle.since.set(lane, -T::ONE);
     if sees_growth {
         sums.growth.iter_mut().for_each(|word| word.set(lane, T::ZERO));
         sums.growing.set(lane, T::from_f64(f64::from(u8::from(job.growing))));

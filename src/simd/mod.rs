@@ -34,6 +34,7 @@ pub mod root;
 pub mod spectrum;
 pub mod stretches;
 pub mod swing;
+pub mod swing_cycle;
 pub mod swing_step;
 pub mod swing_sums;
 pub mod transitions;

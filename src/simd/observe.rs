@@ -9,6 +9,7 @@ use super::constants::{N0, R, T0, W};
 use super::expand::{Expansion, SINGLE};
 use super::polynomial::{value_soon, value_to};
 use super::spectrum::{Nodes, Spectrum, moving, seen};
+use super::swing_cycle::Cycle;
 use super::vector::{Mask, Scalar, Vector};
 use crate::kernel::observe::{NODES, SAMPLE_TIMES, SUMS, WEIGHTS};
 use crate::kernel::reductions::GROWTH;
@@ -35,6 +36,8 @@ pub struct Sums<S: Simd, T: Scalar<S>, const K: usize> {
     pub impacts: Vector<S, T, K>,
     /// 1 as long as the stretch has no event.
     pub quiet: Vector<S, T, K>,
+    /// The last cycle of what is followed in closed form.
+    pub cycle: Cycle<S, T, K>,
     /// Time since the stretch began.
     pub time: Vector<S, T, K>,
     /// Sums before the first event.
@@ -66,6 +69,7 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
             last: zero,
             impacts: zero,
             quiet: zero,
+            cycle: Cycle::new(simd),
             time: zero,
             growth: [zero; GROWTH],
             growing: zero,

@@ -53,5 +53,9 @@ pub fn swing_step<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K
     b.left = b.left.at_most(tau).and(happened.not()).select(zero, b.left - tau);
     b.disarmed = zero.less(tau).select(zero, b.disarmed);
     b.steps += one;
+    let slips = motion.sticks.and(happened);
+    if slips.any() {
+        sums.add_cycles(b, slips, all.part == Part::Window);
+    }
     carry_out::<S, T, K, PIECES, SINGLE>(all, end.event, tau);
 }

@@ -10,6 +10,7 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Not, Sub};
 use pulp::Simd;
 
 use crate::kernel::scalar::Real;
+use crate::kernel::source::Precision;
 
 /// A scalar with its register and comparison mask under an instruction set.
 pub trait Scalar<S: Simd>: Real {
@@ -351,6 +352,31 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Vector<S, T, K> {
     #[inline(always)]
     pub fn not_positive(self) -> Mask<S, T, K> {
         self.at_most(self.like(0.0))
+    }
+
+    /// The largest whole number that is not above `self`, below 2^22.
+    #[inline(always)]
+    #[must_use]
+    pub fn floor(self) -> Self {
+        // Behind this one there are no digits for a fraction.
+        let large = self.like(match T::PRECISION {
+            Precision::F32 => 12_582_912.0,
+            Precision::F64 => 6_755_399_441_055_744.0,
+        });
+        let whole = (self + large) - large;
+        self.less(whole).select(whole - self.like(1.0), whole)
+    }
+
+    /// Stores a selection of what stands in this place and something else, as a whole. Of an assignment the compiler makes a
+    /// masked store, which takes processors without masks in registers of their own a dozen cycles and more (AMD, AVX2).
+    #[inline(always)]
+    pub fn put(&mut self, selected: Self) {
+        if const { size_of::<T::Bits>() < 16 } {
+            *self = selected;
+        } else {
+            // A place that the compiler does not know to be that of the selection.
+            *std::hint::black_box(self) = selected;
+        }
     }
 
     /// `self` where the mask is set, else 0.

@@ -277,6 +277,44 @@ fn whole_swings_are_few_steps() {
     assert!(2 * few < many, "{few} {many}");
 }
 
+/// Of a cycle that repeats itself one is followed, however long the run: its steps are as many, and what they sum is, of windows of
+/// three times as many cycles, three times as much.
+#[test]
+fn of_many_equal_cycles_one_is_followed() {
+    let cycle = |one: &Instance| {
+        let p = |param| one.params.require(param);
+        let FrictionLaw::Constant { mu_s, mu_d } = one.law else { panic!("a constant law") };
+        let frequency = (p(Param::K1) / (p(Param::M1) + p(Param::M2))).sqrt();
+        let alpha = (mu_s - mu_d) * p(Param::FExt) * frequency / p(Param::K1) / p(Param::BeltVelocity);
+        // Periods of the free swing, of the model: stick 2α, slip 2 (π − atan α).
+        (2.0 * alpha + 2.0 * (PI - alpha.atan())) / TAU
+    };
+    let mut u = Uniform(47);
+    for k in 0..200 {
+        let mu_d = 0.05 + 0.3 * u.next();
+        let mu_s = mu_d + 0.05 + 0.3 * u.next();
+        let mut one = instance(
+            FrictionLaw::Constant { mu_s, mu_d },
+            &[(Param::Theta, 0.0), (Param::BeltVelocity, u.log(0.05, 2.0)), (Param::C1, 0.0)],
+        );
+        one.params.set(Param::StartVelocity, 1.2 * one.params.require(Param::BeltVelocity));
+        let period = cycle(&one);
+        let runs =
+            [4.0, 12.0].map(|cycles| run::<f64>(&[one.clone()], &periods(10.0, cycles * period, 12))[0]);
+        let [short, long] = runs;
+        assert!(short.stick > Some(0.01), "instance {k} does not stick: {one:?}");
+        // Half a window more or less of a cycle, which has a few steps.
+        assert!(long.steps <= short.steps + 8, "{k}: {} and {} steps", short.steps, long.steps);
+        for ((name, made, _), (_, expected, size)) in numbers(&long).into_iter().zip(numbers(&short)) {
+            if name != "simulated_time" && !name.contains("measured") {
+                let (made, expected) = (made.expect(name), expected.expect(name));
+                assert!((made - expected).abs() <= 1e-11 * size, "{k}, {name}: {made} and {expected}");
+            }
+        }
+        close("cycles", long.response_frequency.expect("it swings"), natural(&one) / period, 1e-10);
+    }
+}
+
 #[test]
 fn bits_do_not_depend_on_neighbours() {
     // Some swing, some have too strong a damper, a ramp or another law, and are stepped.

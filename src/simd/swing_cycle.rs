@@ -1,0 +1,61 @@
+//! The stick-slip cycle of the single mass on a belt of one velocity, of which only one is followed: whatever came before,
+//! stick ends in one and the same state, at the limit of friction and with the velocity of the belt. From there on the motion
+//! repeats itself, and whole cycles up to the end of a stretch are added at once.
+
+use pulp::Simd;
+
+use super::block::Block;
+use super::observe::Sums;
+use super::vector::{Mask, Scalar, Vector};
+use crate::kernel::observe::SUMS;
+
+/// A slip from the end of stick turns by more than half a turn of an angular frequency of about 1; what is shorter is chatter.
+const SHORTEST: f64 = 1.0;
+
+/// What the lanes had at the last end of stick of their stretches.
+#[derive(Clone, Copy, Debug)]
+pub struct Cycle<S: Simd, T: Scalar<S>, const K: usize> {
+    /// Time since the stretch began; negative before the first.
+    pub since: Vector<S, T, K>,
+    /// The sums of the window.
+    window: [Vector<S, T, K>; SUMS],
+    /// Upward crossings of `ẋ2`.
+    crossings: Vector<S, T, K>,
+}
+
+impl<S: Simd, T: Scalar<S>, const K: usize> Cycle<S, T, K> {
+    /// Nothing yet.
+    #[inline(always)]
+    pub fn new(simd: S) -> Self {
+        let zero = Vector::constant(simd, 0.0);
+        Cycle { since: zero.like(-1.0), window: [zero; SUMS], crossings: zero }
+    }
+}
+
+impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
+    /// Where stick has come to its end for the second time (`slips`), adds the whole cycles that are left of the stretch;
+    /// where for the first, remembers it. `window`: whether the sums of the window count.
+    #[inline(always)]
+    pub fn add_cycles(&mut self, b: &mut Block<S, T, K>, slips: Mask<S, T, K>, window: bool) {
+        let zero = b.left.like(0.0);
+        let period = self.time - self.cycle.since;
+        let known = slips.and(zero.at_most(self.cycle.since)).and(zero.like(SHORTEST).less(period));
+        let cycles = (b.left / known.select(period, zero.like(1.0))).floor().only(known);
+        let skipped = cycles * period;
+        if window {
+            for i in 0..SUMS {
+                let once = self.window[i] - self.cycle.window[i];
+                self.window[i] = known.select(cycles.fma(once, self.window[i]), self.window[i]);
+                self.cycle.window[i] = slips.select(self.window[i], self.cycle.window[i]);
+            }
+        }
+        // One that has none keeps its last.
+        let rises = self.crossings - self.cycle.crossings;
+        self.last = known.and(zero.less(rises)).select(self.last + skipped, self.last);
+        self.crossings += (cycles * rises).only(known);
+        self.cycle.crossings = slips.select(self.crossings, self.cycle.crossings);
+        self.time += skipped;
+        b.left = (b.left - skipped).max(zero);
+        self.cycle.since = slips.select(self.time, self.cycle.since);
+    }
+}
