@@ -76,7 +76,8 @@ pub fn functions<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const MO
                 g.start[1] = sticks.select(b.scene[CONE].fma(square, held) - t, g.start[1]);
                 g.start[2] = sticks.select(b.scene[CONE + 1].fma(square, held) + t, g.start[2]);
             } else {
-                g.second[k] = sticks.select(-t, g.second[k]);
+                let second = sticks.select(-t, g.second[k]);
+                g.second[k].put(second);
             }
         }
         g.second[N - 2] = g.second[N - 2].only(sticks.not());
@@ -85,7 +86,8 @@ pub fn functions<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const MO
         let free = b.free();
         for k in 0..N {
             let force = if k < N - 2 { e.n[k] } else { zero };
-            e.n[k] = free.select(e.p[1][k], force);
+            let first = free.select(e.p[1][k], force);
+            e.n[k].put(first);
         }
     } else if MOTION != SINGLE {
         e.n[N - 2] = zero;

@@ -115,7 +115,8 @@ fn step<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool, 
     let b = &mut all.block;
     let zero = b.left.like(0.0);
     let one = b.left.like(1.0);
-    b.v[0] = b.stick().select(b.belt, b.v[0]);
+    let velocity = b.stick().select(b.belt, b.v[0]);
+    b.v[0].put(velocity);
     b.reached = b.reached.max(b.contact);
     let allowed = b.longest();
     let mut pace = b.pace.min(b.step).min(allowed);
@@ -198,10 +199,12 @@ pub fn carry_out<S: Simd, T: Scalar<S>, const K: usize, const LAW: bool, const M
     let happened = zero.less(event);
     let mut pending = zero;
     if happened.any() {
-        sums.growing = happened.select(zero, sums.growing);
-        sums.quiet = happened.select(zero, sums.quiet);
+        let (growing, quiet) = (happened.select(zero, sums.growing), happened.select(zero, sums.quiet));
+        sums.growing.put(growing);
+        sums.quiet.put(quiet);
         // What comes down to the velocity of the belt has not gone below it, which matters where that is 0.
-        sums.previous = happened.and(b.reverse()).select(sums.previous.max(b.belt), sums.previous);
+        let previous = happened.and(b.reverse()).select(sums.previous.max(b.belt), sums.previous);
+        sums.previous.put(previous);
         let hits = b.free().and(happened);
         let rare = if all.part == Part::Growth {
             happened

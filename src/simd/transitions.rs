@@ -93,14 +93,15 @@ pub fn transitions<S: Simd, T: Scalar<S>, const K: usize, const LAW: bool, const
     let mut disarmed = slides.select(code(event, SECOND), zero);
     disarmed = moves.and(pressed.not()).or(lift_off).or(lands.rebounds).select(code(event, FIRST), disarmed);
     disarmed = kink.select(third.select(code(event, SECOND), code(event, THIRD)), disarmed);
-    b.contact = done.select(contact, b.contact);
-    b.disarmed = done.select(disarmed, b.disarmed);
+    let (contact, disarmed) = (done.select(contact, b.contact), done.select(disarmed, b.disarmed));
+    b.contact.put(contact);
+    b.disarmed.put(disarmed);
     let swap = kink.or(lands.elsewhere).and(done);
     if swap.any() {
         for word in 0..=UPPER {
             let (here, there) = (b.piece[word], b.other[word]);
-            b.piece[word] = swap.select(there, here);
-            b.other[word] = swap.select(here, there);
+            b.piece[word].put(swap.select(there, here));
+            b.other[word].put(swap.select(here, there));
         }
     }
     rare
