@@ -198,8 +198,9 @@ impl Motion {
 /// One value: its record, and where it has ended. After an equilibrium, of which a run sees the beginning of the decay
 /// only, and after a failure the next value starts afresh.
 fn step(instance: &Instance, plan: &Plan, from: Option<Motion>) -> (Record, Option<Motion>) {
-    let mut record = begun(instance);
-    (record.kind, record.linear) = linear::analyse(instance);
+    let prepared = linear::prepare(instance);
+    let mut record = begun(instance, &prepared);
+    (record.kind, record.linear) = linear::solve(&prepared);
     let kind = record.kind;
     let scene = match Scene::planned(instance, plan, f64::EPSILON) {
         Ok(scene) => scene,

@@ -84,11 +84,16 @@ impl Sliding {
         ]
     }
 
-    /// `y1/x2` of the mode with the eigenvalue `lambda`: it depends on λ alone.
-    fn mode_ratio(&self, lambda: Complex64) -> Complex64 {
-        let spring = self.c2 * lambda + self.k2;
-        spring * self.s / (self.m1 * lambda * lambda + spring)
+    /// `k2, c2, m1`: the polynomial of the normal mode, powers 0 to 2.
+    fn normal(&self) -> [f64; 3] {
+        [self.k2, self.c2, self.m1]
     }
+}
+
+/// `y1/x2` of the mode with the eigenvalue `lambda`, which it depends on alone: [`Sliding::normal`] and `sin θ`.
+fn mode_ratio([k2, c2, m1]: [f64; 3], s: f64, lambda: Complex64) -> Complex64 {
+    let spring = c2 * lambda + k2;
+    spring * s / (m1 * lambda * lambda + spring)
 }
 
 /// The eigenvalue of largest real part; of a pair the one with positive imaginary part.
@@ -130,7 +135,7 @@ pub fn leading_mode(instance: &Instance) -> Option<(Complex64, Complex64)> {
         return Some((lambda, Complex64::ZERO));
     }
     let lambda = rightmost(&quartic::roots(system.polynomial(equilibrium.mu, slope_damping)));
-    Some((lambda, system.mode_ratio(lambda)))
+    Some((lambda, mode_ratio(system.normal(), system.s, lambda)))
 }
 
 /// The three characteristic polynomials of one sliding equilibrium (powers 0 to 4) and what the mode ratio needs.
@@ -187,7 +192,7 @@ pub fn prepare(instance: &Instance) -> Result<Prepared, Option<InstabilityType>>
         full: system.polynomial(equilibrium.mu, slope_damping),
         flat: system.polynomial(equilibrium.mu, 0.0),
         frozen: system.polynomial(0.0, slope_damping),
-        normal: [system.k2, system.c2, system.m1],
+        normal: system.normal(),
         s: system.s,
     };
     let solvable = [&prepared.full, &prepared.flat, &prepared.frozen].into_iter().all(is_solvable);
@@ -198,9 +203,17 @@ pub fn prepare(instance: &Instance) -> Result<Prepared, Option<InstabilityType>>
 /// `None` for an ill-posed friction law.
 #[must_use]
 pub fn analyse(instance: &Instance) -> (Option<InstabilityType>, Option<Linear>) {
-    let prepared = match prepare(instance) {
+    solve(&prepare(instance))
+}
+
+/// The same from what [`prepare`] has made.
+#[must_use]
+pub fn solve(
+    prepared: &Result<Prepared, Option<InstabilityType>>,
+) -> (Option<InstabilityType>, Option<Linear>) {
+    let prepared = match prepared {
         Ok(prepared) => prepared,
-        Err(kind) => return (kind, None),
+        Err(kind) => return (*kind, None),
     };
     let leading = |polynomial| rightmost(&quartic::roots(polynomial));
     let full = leading(prepared.full);
@@ -215,7 +228,7 @@ pub fn analyse(instance: &Instance) -> (Option<InstabilityType>, Option<Linear>)
         (true, false, false) => InstabilityType::Interaction,
     };
     let phase = (full.im != 0.0 && prepared.s != 0.0)
-        .then(|| Sliding::new(instance).mode_ratio(full).arg().to_degrees())
+        .then(|| mode_ratio(prepared.normal, prepared.s, full).arg().to_degrees())
         .filter(|phase| phase.is_finite());
     let linear = Linear {
         growth_rate: full.re,

@@ -102,9 +102,10 @@ pub fn batch(
     let mut records: Vec<Record> = instances
         .iter()
         .map(|instance| {
-            let mut record = begun(instance);
+            let prepared = linear::prepare(instance);
+            let mut record = begun(instance, &prepared);
             if spec.analysis.linear {
-                (record.kind, record.linear) = linear::analyse(instance);
+                (record.kind, record.linear) = linear::solve(&prepared);
             }
             record
         })

@@ -19,7 +19,7 @@ pub mod solver;
 mod starts;
 
 use crate::classify::{self, InstabilityType, Regime};
-use crate::linear;
+use crate::linear::{self, Prepared};
 use crate::map::Record;
 use crate::model::Param;
 use crate::model::equilibrium::Equilibrium;
@@ -39,12 +39,16 @@ pub fn regime(instance: &Instance, kind: Option<InstabilityType>, outcome: &Outc
     }
 }
 
-/// The record of an instance before any analysis: `ok`, or why it has no equilibrium or none in numbers.
-pub(crate) fn begun(instance: &Instance) -> Record {
-    let status = match Equilibrium::new(instance) {
-        Err(status) => status,
-        Ok(_) if matches!(linear::prepare(instance), Err(None)) => Status::NonFinite,
+/// The record of an instance before any analysis: `ok`, or why it has no equilibrium or none in numbers; `prepared` are its
+/// polynomials.
+pub(crate) fn begun(instance: &Instance, prepared: &Result<Prepared, Option<InstabilityType>>) -> Record {
+    let status = match prepared {
         Ok(_) => Status::Ok,
+        Err(kind) => match Equilibrium::new(instance) {
+            Err(status) => status,
+            Ok(_) if kind.is_none() => Status::NonFinite,
+            Ok(_) => Status::Ok,
+        },
     };
     Record { status, ..Record::default() }
 }

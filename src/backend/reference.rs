@@ -11,7 +11,7 @@ use crate::backend::computed::Computed;
 use crate::backend::{begun, take_response};
 use crate::error::{Error, Result};
 use crate::kernel::source::Precision;
-use crate::linear::analyse;
+use crate::linear::{prepare, solve};
 use crate::map::{Computation, Record};
 use crate::method::Method;
 use crate::method::taylor::REFERENCE_ORDER;
@@ -96,8 +96,9 @@ pub fn record(spec: &Spec, index: usize) -> Record {
 #[must_use]
 pub fn record_with(spec: &Spec, index: usize, plan: &Plan) -> Record {
     let instance = spec.instance(index);
-    let mut record = begun(&instance);
-    let (kind, linear) = analyse(&instance);
+    let prepared = prepare(&instance);
+    let mut record = begun(&instance, &prepared);
+    let (kind, linear) = solve(&prepared);
     if spec.analysis.linear {
         (record.kind, record.linear) = (kind, linear);
     }

@@ -87,8 +87,9 @@ fn append_in<R: Real>(
 /// Instance `index` before the kernel.
 fn known(spec: &Spec, index: usize) -> Known {
     let instance = spec.instance(index);
-    let mut record = begun(&instance);
-    match prepare(&instance) {
+    let prepared = prepare(&instance);
+    let mut record = begun(&instance, &prepared);
+    match prepared {
         Ok(prepared) => (record, Some(Words::new(&prepared))),
         Err(kind) => {
             record.kind = kind;
