@@ -9,6 +9,7 @@ use super::block::{Block, event_of};
 use super::job::{Job, Part};
 use super::observe::Sums;
 use super::spectrum::{COMPONENTS, Spectrum};
+use super::swing_cycle::NEVER;
 use super::vector::{Scalar, Vector};
 use crate::outcome::Status;
 
@@ -142,7 +143,7 @@ fn begin<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>, lane: 
     b.at_once.set(lane, T::ZERO);
     let sums = &mut all.sums;
     sums.time.set(lane, T::ZERO);
-    sums.cycle.since.set(lane, -T::ONE);
+    sums.cycle.since.set(lane, T::from_f64(NEVER));
     if sees_growth {
         sums.growth.iter_mut().for_each(|word| word.set(lane, T::ZERO));
         sums.growing.set(lane, T::from_f64(f64::from(u8::from(job.growing))));

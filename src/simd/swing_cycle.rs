@@ -1,6 +1,9 @@
-//! The stick-slip cycle of the single mass on a belt of one velocity, of which only one is followed: whatever came before,
-//! stick ends in one and the same state, at the limit of friction and with the velocity of the belt. From there on the motion
-//! repeats itself, and whole cycles up to the end of a stretch are added at once.
+//! The stick-slip cycle of the single mass on a belt of one velocity, of which only one is followed in a stretch: whatever came
+//! before, stick ends in the same state but for rounding, at the limit of friction and with the velocity of the belt. From there
+//! on the motion repeats itself, and whole cycles up to the end of the stretch are added at once.
+//!
+//! Slip ends `2 μ_d N` inside the limit of stick. Without any dynamic friction and damping it ends on it, and rounding decides every
+//! time whether the body sticks or slips back: what slips back tells nothing of the next cycle.
 
 use pulp::Simd;
 
@@ -11,6 +14,9 @@ use crate::kernel::observe::SUMS;
 
 /// A slip from the end of stick turns by more than half a turn of an angular frequency of about 1; what is shorter is chatter.
 const SHORTEST: f64 = 1.0;
+
+/// [`Cycle::since`] before the first end of stick.
+pub const NEVER: f64 = -1.0;
 
 /// What the lanes had at the last end of stick of their stretches.
 #[derive(Clone, Copy, Debug)]
@@ -28,7 +34,15 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Cycle<S, T, K> {
     #[inline(always)]
     pub fn new(simd: S) -> Self {
         let zero = Vector::constant(simd, 0.0);
-        Cycle { since: zero.like(-1.0), window: [zero; SUMS], crossings: zero }
+        Cycle { since: zero.like(NEVER), window: [zero; SUMS], crossings: zero }
+    }
+
+    /// Forgets the cycles of lanes that slip back.
+    #[inline(always)]
+    pub fn slips_back(&mut self, reverse: Mask<S, T, K>) {
+        if reverse.any() {
+            self.since = reverse.select(self.since.like(NEVER), self.since);
+        }
     }
 }
 

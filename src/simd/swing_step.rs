@@ -25,6 +25,7 @@ pub fn swing_step<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K
         return;
     }
     let motion = Swing::new(b);
+    sums.cycle.slips_back(b.reverse());
     // What grows is sampled at the ends of the steps, which must not all be in one place of the swing.
     let grows = zero.less(sums.growing);
     let end = motion.reach(b, grows);

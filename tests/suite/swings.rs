@@ -277,8 +277,8 @@ fn whole_swings_are_few_steps() {
     assert!(2 * few < many, "{few} {many}");
 }
 
-/// Of a cycle that repeats itself one is followed, however long the run: its steps are as many, and what they sum is, of windows of
-/// three times as many cycles, three times as much.
+/// Of a cycle that repeats itself one is followed: the steps of a window of three times as many cycles are as many, and what they sum
+/// is three times as much.
 #[test]
 fn of_many_equal_cycles_one_is_followed() {
     let cycle = |one: &Instance| {
