@@ -139,22 +139,25 @@ impl Grid {
     /// The swept values of instance `index`, in the order of [`Grid::keys`].
     #[must_use]
     pub fn coordinates(&self, index: usize) -> Vec<&Value> {
+        let mut values = Vec::new();
+        self.each(index, |_, value| values.push(value));
+        values.reverse();
+        values
+    }
+
+    /// Gives what varies and its value at instance `index` to `take`, from the last axis to the first.
+    pub fn each<'a>(&'a self, index: usize, mut take: impl FnMut(AxisKey, &'a Value)) {
         match self {
             Grid::Axes(axes) => {
                 let mut rest = index;
-                let mut values: Vec<&Value> = axes
-                    .iter()
-                    .rev()
-                    .map(|axis| {
-                        let value = &axis.values[rest % axis.values.len()];
-                        rest /= axis.values.len();
-                        value
-                    })
-                    .collect();
-                values.reverse();
-                values
+                for axis in axes.iter().rev() {
+                    take(axis.key, &axis.values[rest % axis.values.len()]);
+                    rest /= axis.values.len();
+                }
             }
-            Grid::Tuples { rows, .. } => rows[index].iter().collect(),
+            Grid::Tuples { keys, rows } => {
+                keys.iter().zip(&rows[index]).rev().for_each(|(key, value)| take(*key, value));
+            }
         }
     }
 }

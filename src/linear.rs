@@ -173,12 +173,15 @@ fn is_solvable(polynomial: &[f64; 5]) -> bool {
     leading.abs() >= LEAST && scale.is_finite() && power.is_finite() && coefficients
 }
 
-/// The polynomials to solve, or the type of an instance without any (`None` for an ill-posed friction law, and where
-/// their coefficients are beyond the range of numbers).
+/// The polynomials to solve, or the type of an instance without any: at rest, under divergence, or `None` for an ill-posed
+/// friction law, and where the coefficients are beyond the range of numbers.
+pub type Preparation = Result<Prepared, Option<InstabilityType>>;
+
+/// The polynomials of an instance.
 ///
 /// # Errors
-/// The type: at rest, under divergence, or none.
-pub fn prepare(instance: &Instance) -> Result<Prepared, Option<InstabilityType>> {
+/// The type, see [`Preparation`].
+pub fn prepare(instance: &Instance) -> Preparation {
     if !instance.law.is_valid() {
         return Err(None);
     }
@@ -208,9 +211,7 @@ pub fn analyse(instance: &Instance) -> (Option<InstabilityType>, Option<Linear>)
 
 /// The same from what [`prepare`] has made.
 #[must_use]
-pub fn solve(
-    prepared: &Result<Prepared, Option<InstabilityType>>,
-) -> (Option<InstabilityType>, Option<Linear>) {
+pub fn solve(prepared: &Preparation) -> (Option<InstabilityType>, Option<Linear>) {
     let prepared = match prepared {
         Ok(prepared) => prepared,
         Err(kind) => return (*kind, None),

@@ -9,7 +9,8 @@ use rayon::prelude::*;
 
 use crate::backend::again::{self, outcomes_again};
 use crate::backend::computed::Computed;
-use crate::backend::{begun, kind_of, take_response};
+use crate::backend::{begun, take_response};
+use crate::classify::InstabilityType;
 use crate::error::{Error, Result};
 use crate::kernel::response::law_of;
 use crate::kernel::scene::Law;
@@ -99,17 +100,18 @@ pub fn batch(
         return nothing();
     }
     let instances: Vec<Instance> = range.map(|index| spec.instance(index)).collect();
-    let mut records: Vec<Record> = instances
+    let (mut records, kinds): (Vec<Record>, Vec<Option<InstabilityType>>) = instances
         .iter()
         .map(|instance| {
             let prepared = linear::prepare(instance);
             let mut record = begun(instance, &prepared);
+            let (kind, linear) = linear::solve(&prepared);
             if spec.analysis.linear {
-                (record.kind, record.linear) = linear::solve(&prepared);
+                (record.kind, record.linear) = (kind, linear);
             }
-            record
+            (record, kind)
         })
-        .collect();
+        .unzip();
     if spec.analysis.response {
         let outcomes = match precision {
             Precision::F32 => outcomes::<f32>(&instances, plan, cancel)
@@ -117,9 +119,10 @@ pub fn batch(
             Precision::F64 => outcomes::<f64>(&instances, plan, cancel),
         };
         let Some(outcomes) = outcomes else { return nothing() };
-        for ((record, instance), outcome) in records.iter_mut().zip(&instances).zip(outcomes) {
-            let kind = kind_of(spec, instance, record);
-            take_response(record, instance, kind, &outcome);
+        for (((record, instance), kind), outcome) in
+            records.iter_mut().zip(&instances).zip(kinds).zip(&outcomes)
+        {
+            take_response(record, instance, kind, outcome);
         }
     }
     records
@@ -128,11 +131,7 @@ pub fn batch(
 /// The transients of some instances; `None` when `cancel` is set on the way.
 #[must_use]
 pub fn outcomes<T: Lanes>(instances: &[Instance], plan: &Plan, cancel: &AtomicBool) -> Option<Vec<Outcome>> {
-    let settings = Settings {
-        steps_per_period: plan.steps_per_period,
-        tolerance: tolerance(T::PRECISION, plan.steps_per_period),
-        cancel,
-    };
+    let settings = Settings { plan, tolerance: tolerance(T::PRECISION, plan.steps_per_period), cancel };
     let turns = Turns::new(ORDER, settings.tolerance);
     let mut outcomes = vec![Outcome::default(); instances.len()];
     let upright = |instance: &Instance| instance.params.require(Param::Theta) == 0.0;
@@ -161,7 +160,7 @@ pub fn outcomes<T: Lanes>(instances: &[Instance], plan: &Plan, cancel: &AtomicBo
             return None;
         }
         for (index, job) in indices.into_iter().zip(&jobs) {
-            outcomes[index] = job.outcome();
+            outcomes[index] = job.outcome(plan);
         }
     }
     Some(outcomes)

@@ -19,7 +19,7 @@ pub mod solver;
 mod starts;
 
 use crate::classify::{self, InstabilityType, Regime};
-use crate::linear::{self, Prepared};
+use crate::linear::{self, Preparation};
 use crate::map::Record;
 use crate::model::Param;
 use crate::model::equilibrium::Equilibrium;
@@ -41,7 +41,7 @@ pub fn regime(instance: &Instance, kind: Option<InstabilityType>, outcome: &Outc
 
 /// The record of an instance before any analysis: `ok`, or why it has no equilibrium or none in numbers; `prepared` are its
 /// polynomials.
-pub(crate) fn begun(instance: &Instance, prepared: &Result<Prepared, Option<InstabilityType>>) -> Record {
+pub(crate) fn begun(instance: &Instance, prepared: &Preparation) -> Record {
     let status = match prepared {
         Ok(_) => Status::Ok,
         Err(kind) => match Equilibrium::new(instance) {

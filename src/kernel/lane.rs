@@ -7,6 +7,9 @@
 
 #![expect(clippy::needless_range_loop, reason = "the loops are those of the WGSL twin")]
 
+use super::contact::{
+    Belt, CONE_BACKWARD, CONE_FORWARD, GAP, LIFT_OFF, LOWER_KINK, NOTHING, REST, State, UPPER_KINK,
+};
 use super::crossing::{NEVER, first_crossing};
 use super::observe::{Moment, Phase, Sums};
 use super::scalar::Real;
@@ -17,23 +20,6 @@ use super::series::{
     Body, Expansion, FREE, ORDER, REVERSE, SLIP, STICK, Series, evaluate, expand, largest, step_length,
 };
 use crate::outcome::Status;
-
-/// What an event function belongs to.
-pub const NOTHING: u32 = 0;
-/// `v` falls to 0.
-pub const REST: u32 = 1;
-/// `|v|` falls to the lower kink.
-pub const LOWER_KINK: u32 = 2;
-/// `|v|` rises to the upper kink.
-pub const UPPER_KINK: u32 = 3;
-/// `N` falls to 0.
-pub const LIFT_OFF: u32 = 4;
-/// `T` leaves the stick cone forwards.
-pub const CONE_FORWARD: u32 = 5;
-/// `T` leaves the stick cone backwards.
-pub const CONE_BACKWARD: u32 = 6;
-/// `y2` returns to 0.
-pub const GAP: u32 = 7;
 
 /// Most events within [`STEPS_PER_COUNT`] steps.
 pub const MAX_EVENTS_PER_COUNT: u32 = 20_000;
@@ -46,39 +32,26 @@ pub const MAX_PARTS: u32 = 100_000;
 
 /// Roundings of the static loads that a force may be off by.
 pub const ROUNDINGS: f64 = 8.0;
-/// Events without time between them from which on a landing ends flight.
-pub const HELD_FROM: u32 = 2;
-
 /// What may be left of a step before it counts as done: this many roundings of what was left.
 pub const LEAST_REST: f64 = 8.0;
 
 /// The running integration of one instance.
 #[derive(Clone, Debug)]
 pub struct Lane<S> {
-    /// Position and velocity.
-    pub body: Body<S>,
+    /// Body, contact and status.
+    pub state: State<S>,
     /// What is left of the present step, as a fraction of it.
     pub rest: S,
     /// Observables.
     pub sums: Sums<S>,
     /// Second pass over the window.
     pub phase: Phase<S>,
-    /// Status; [`Status::Unwritten`] while running.
-    pub status: Status,
     /// Iterations done.
     pub iterations: u32,
     /// Running segment.
     pub segment: u32,
     /// Whole steps done of it.
     pub index: u32,
-    /// Contact state.
-    pub contact: u32,
-    /// Piece of the friction law.
-    pub piece: u32,
-    /// The event function that began at zero.
-    pub disarmed: u32,
-    /// Events without time between them.
-    pub at_once: u32,
     /// Events since the last count began.
     pub counted: u32,
     /// Parts of the present step.
@@ -86,54 +59,34 @@ pub struct Lane<S> {
     /// Whether the window is passed the second time.
     pub second_pass: bool,
     /// State at the start of the window.
-    pub snapshot: Body<S>,
-    /// Contact state, piece, disarmed event at the start of the window.
-    pub snapshot_flags: [u32; 3],
-}
-
-/// The belt during one step part.
-#[derive(Clone, Copy, Debug)]
-pub struct Belt<S> {
-    /// Velocity.
-    pub velocity: S,
-    /// Acceleration.
-    pub acceleration: S,
+    pub snapshot: State<S>,
 }
 
 impl<S: Real> Lane<S> {
     /// Nothing yet.
     #[must_use]
     pub fn blank() -> Self {
-        let body = Body { p: [S::ZERO; 3], v: [S::ZERO; 3] };
         Lane {
-            body,
+            state: State::blank(),
             rest: S::ONE,
             sums: Sums::new(),
             phase: Phase::new(),
-            status: Status::Unwritten,
             iterations: 0,
             segment: 0,
             index: 0,
-            contact: FREE,
-            piece: 0,
-            disarmed: NOTHING,
-            at_once: 0,
             counted: 0,
             parts: 0,
             second_pass: false,
-            snapshot: body,
-            snapshot_flags: [FREE, 0, NOTHING],
+            snapshot: State::blank(),
         }
     }
 
     /// The start of an instance.
     #[must_use]
     pub fn new(scene: &Scene<S>) -> Self {
-        let [x, w, vx, vw] = scene.start;
-        let mut lane = Lane::blank();
-        lane.body = Body { p: [x, S::ZERO, w], v: [vx, S::ZERO, vw] };
         let first = scene.segments[0];
-        lane.enter_contact(scene, Belt { velocity: first.velocity, acceleration: first.acceleration });
+        let belt = Belt { velocity: first.velocity, acceleration: first.acceleration };
+        let mut lane = Lane { state: State::new(scene, belt), ..Lane::blank() };
         lane.take_snapshot();
         lane
     }
@@ -146,7 +99,7 @@ impl<S: Real> Lane<S> {
 
     /// Runs to the end.
     pub fn run(&mut self, scene: &Scene<S>, tolerance: S) {
-        while self.status == Status::Unwritten {
+        while self.state.status == Status::Unwritten {
             self.iterate(scene, tolerance);
         }
     }
@@ -164,55 +117,55 @@ impl<S: Real> Lane<S> {
             velocity: segment.velocity + segment.acceleration * (elapsed * segment.step),
             acceleration: segment.acceleration,
         };
-        if self.contact == STICK {
-            self.body.v[0] = belt.velocity;
+        if self.state.contact == STICK {
+            self.state.body.v[0] = belt.velocity;
         }
-        let piece = &scene.pieces[self.piece as usize];
-        let e = expand(scene, &self.body, self.contact, piece, belt.velocity, belt.acceleration);
-        if self.contact <= REVERSE {
+        let piece = &scene.pieces[self.state.piece as usize];
+        let e = expand(scene, &self.state.body, self.state.contact, piece, belt.velocity, belt.acceleration);
+        if self.state.contact <= REVERSE {
             let q = scene.friction(piece, self.sigma(), e.v[0], scene.v0 - e.v[0]).0;
             if S::ONE + scene.kappa * q <= S::ZERO {
-                self.status = Status::Painleve;
+                self.state.status = Status::Painleve;
                 return;
             }
         }
         let remaining = self.rest * segment.step;
-        let allowed = scene.longest[self.contact as usize];
+        let allowed = scene.longest[self.state.contact as usize];
         let mut longest = S::ZERO;
         // Shorter steps leave a position where it is.
         if allowed * allowed >= S::EPSILON {
             longest = step_length(&e, remaining.min(allowed), tolerance);
         }
         if longest <= S::ZERO {
-            self.status = if self.body_is_finite() { Status::StepTooLarge } else { Status::NonFinite };
+            self.state.status = if self.body_is_finite() { Status::StepTooLarge } else { Status::NonFinite };
             return;
         }
         let (tau, event) = self.first_event(scene, &e, longest, tolerance);
         if tau > S::ZERO {
             self.observe(scene, &e, &segment, belt, tau);
             let (x, y, w) = (evaluate(&e.x, tau), evaluate(&e.y, tau), evaluate(&e.w, tau));
-            self.body = Body { p: [x[0], y[0], w[0]], v: [x[1], y[1], w[1]] };
-            self.disarmed = NOTHING;
+            self.state.body = Body { p: [x[0], y[0], w[0]], v: [x[1], y[1], w[1]] };
+            self.state.disarmed = NOTHING;
         }
         if !self.body_is_finite() {
-            self.status = Status::NonFinite;
+            self.state.status = Status::NonFinite;
             return;
         }
         self.advance_time(&segment, tau, tau >= remaining * (S::ONE - S::from_f64(LEAST_REST) * S::EPSILON));
         if event != NOTHING {
             self.count_event(tau);
             let then = Belt { velocity: belt.velocity + belt.acceleration * tau, ..belt };
-            self.transition(scene, event, then);
+            self.carry_out(scene, event, then);
         }
     }
 
-    pub(crate) fn body_is_finite(&self) -> bool {
-        self.body.p.iter().chain(&self.body.v).all(|value| value.is_finite())
+    fn body_is_finite(&self) -> bool {
+        self.state.is_finite()
     }
 
     /// `σ` of the present slip.
     fn sigma(&self) -> S {
-        if self.contact == SLIP { S::ONE } else { -S::ONE }
+        if self.state.contact == SLIP { S::ONE } else { -S::ONE }
     }
 
     /// Moves the clock by `tau`.
@@ -230,15 +183,15 @@ impl<S: Real> Lane<S> {
             self.rest -= tau / segment.step;
         }
         if self.parts > MAX_PARTS {
-            self.status = Status::StepTooLarge;
+            self.state.status = Status::StepTooLarge;
         }
     }
 
     fn count_event(&mut self, tau: S) {
-        self.at_once = if tau > S::ZERO { 0 } else { self.at_once + 1 };
+        self.state.at_once = if tau > S::ZERO { 0 } else { self.state.at_once + 1 };
         self.counted += 1;
-        if self.at_once > EVENTS_AT_ONCE || self.counted > MAX_EVENTS_PER_COUNT {
-            self.status = Status::EventLimit;
+        if self.state.at_once > EVENTS_AT_ONCE || self.counted > MAX_EVENTS_PER_COUNT {
+            self.state.status = Status::EventLimit;
         }
     }
 
@@ -252,12 +205,11 @@ impl<S: Real> Lane<S> {
             self.segment as usize >= SEGMENTS || scene.segments[self.segment as usize].steps <= S::ZERO;
         if done {
             if self.second_pass || before == OPEN_HALF || !self.phase.prepare_phase(scene, &self.sums) {
-                self.status = Status::Ok;
+                self.state.status = Status::Ok;
                 return;
             }
             self.second_pass = true;
-            self.body = self.snapshot;
-            [self.contact, self.piece, self.disarmed] = self.snapshot_flags;
+            self.restore_snapshot();
             self.segment = 0;
             while part_of(&scene.segments[self.segment as usize]) == SETTLE {
                 self.segment += 1;
@@ -272,8 +224,11 @@ impl<S: Real> Lane<S> {
 
     /// Remembers the start of the window.
     pub fn take_snapshot(&mut self) {
-        self.snapshot = self.body;
-        self.snapshot_flags = [self.contact, self.piece, self.disarmed];
+        self.snapshot = self.state;
+    }
+
+    fn restore_snapshot(&mut self) {
+        self.state.return_to(&self.snapshot);
     }
 
     fn observe(&mut self, scene: &Scene<S>, e: &Expansion<S>, segment: &Segment<S>, belt: Belt<S>, tau: S) {
@@ -284,9 +239,9 @@ impl<S: Real> Lane<S> {
             return;
         }
         if part != SETTLE {
-            let origin = [self.snapshot.p[0], self.snapshot.p[2]];
-            self.sums.observe_window(e, origin, scene.t0, self.contact, part, at, segment.step, tau);
-            if self.contact == REVERSE {
+            let origin = [self.snapshot.body.p[0], self.snapshot.body.p[2]];
+            self.sums.observe_window(e, origin, scene.t0, self.state.contact, part, at, segment.step, tau);
+            if self.state.contact == REVERSE {
                 // What comes down to the velocity of the belt has not gone below it, which matters where that is 0.
                 self.sums.previous = self.sums.previous.max(belt.velocity + belt.acceleration * tau);
             }
@@ -318,9 +273,9 @@ impl<S: Real> Lane<S> {
                 }
             }
         };
-        if self.contact == FREE {
-            watch(&e.y, ORDER, self.disarmed == GAP, GAP);
-        } else if self.contact == STICK {
+        if self.state.contact == FREE {
+            watch(&e.y, ORDER, self.state.disarmed == GAP, GAP);
+        } else if self.state.contact == STICK {
             let mut forward = [S::ZERO; ORDER + 1];
             let mut backward = [S::ZERO; ORDER + 1];
             for k in 0..=ORDER - 2 {
@@ -341,160 +296,31 @@ impl<S: Real> Lane<S> {
                 speed[k] = sigma * e.v[k];
             }
             let start = speed[0];
-            if self.piece == 0 {
-                watch(&speed, ORDER - 1, self.disarmed == REST, REST);
+            if self.state.piece == 0 {
+                watch(&speed, ORDER - 1, self.state.disarmed == REST, REST);
             } else {
-                speed[0] = start - scene.pieces[self.piece as usize - 1].kink;
-                watch(&speed, ORDER - 1, self.disarmed == LOWER_KINK, LOWER_KINK);
+                speed[0] = start - scene.pieces[self.state.piece as usize - 1].kink;
+                watch(&speed, ORDER - 1, self.state.disarmed == LOWER_KINK, LOWER_KINK);
             }
-            if (self.piece as usize) + 1 < scene.pieces.len() {
+            if (self.state.piece as usize) + 1 < scene.pieces.len() {
                 for k in 0..ORDER {
                     speed[k] = -(sigma * e.v[k]);
                 }
-                speed[0] = scene.pieces[self.piece as usize].kink - start;
-                watch(&speed, ORDER - 1, self.disarmed == UPPER_KINK, UPPER_KINK);
+                speed[0] = scene.pieces[self.state.piece as usize].kink - start;
+                watch(&speed, ORDER - 1, self.state.disarmed == UPPER_KINK, UPPER_KINK);
             }
         }
         (tau, event)
     }
 
-    /// Carries out the transition of an event.
-    pub(crate) fn transition(&mut self, scene: &Scene<S>, event: u32, belt: Belt<S>) {
+    /// Carries out an event.
+    fn carry_out(&mut self, scene: &Scene<S>, event: u32, belt: Belt<S>) {
         self.sums.close_growth();
-        match event {
-            LOWER_KINK => {
-                self.piece -= 1;
-                self.disarmed = UPPER_KINK;
-            }
-            UPPER_KINK => {
-                self.piece += 1;
-                self.disarmed = LOWER_KINK;
-            }
-            REST => self.at_rest(scene, belt),
-            CONE_FORWARD => self.slip_or_free(scene, S::ONE, S::ZERO, true),
-            CONE_BACKWARD => self.slip_or_free(scene, -S::ONE, S::ZERO, true),
-            LIFT_OFF => self.enter(FREE, false),
-            _ => self.impact(scene, belt),
-        }
-    }
-
-    /// `R − μ0 N0` and `W − N0` at the present state.
-    fn loads(&self, scene: &Scene<S>) -> [S; 2] {
-        let [x, y, w] = self.body.p;
-        let [vx, vy, vw] = self.body.v;
-        let h = scene.k2 * (x * scene.s + y * scene.c - w) + scene.c2 * (vx * scene.s + vy * scene.c - vw);
-        let g = scene.k1 * (x * scene.c - y * scene.s) + scene.c1 * (vx * scene.c - vy * scene.s);
-        [scene.c * g + scene.s * h, scene.c * h - scene.s * g]
-    }
-
-    /// Slip in direction `sigma` at `speed`, or flight when its normal force is not positive.
-    fn slip_or_free(&mut self, scene: &Scene<S>, sigma: S, speed: S, at_rest: bool) {
-        let piece = scene.piece_at(speed);
-        let v = sigma * speed;
-        let q = scene.friction(&scene.pieces[piece], sigma, v, scene.v0 - v).0;
-        if S::ONE + scene.kappa * q <= S::ZERO {
-            self.status = Status::Painleve;
-            return;
-        }
-        let [r, w] = self.loads(scene);
-        // A body that lands again and again without time between is held: the force is zero within rounding, and
-        // flight does not open the gap.
-        let held = self.contact == FREE && self.at_once >= HELD_FROM;
-        if held || (w + scene.n0) + scene.kappa * (r + scene.t0) > S::ZERO {
-            #[expect(clippy::cast_possible_truncation, reason = "a table has fewer than 2^32 rows")]
-            let piece = piece as u32;
-            self.piece = piece;
-            self.enter(if sigma > S::ZERO { SLIP } else { REVERSE }, at_rest);
-        } else {
-            self.enter(FREE, false);
-        }
-    }
-
-    fn enter(&mut self, contact: u32, at_rest: bool) {
-        self.contact = contact;
-        self.disarmed = NOTHING;
-        if contact == FREE {
-            self.disarmed = GAP;
-        } else if contact <= REVERSE && at_rest {
-            self.disarmed = REST;
-        }
-    }
-
-    /// Decides the contact state at `v = 0`.
-    fn at_rest(&mut self, scene: &Scene<S>, belt: Belt<S>) {
-        self.body.v[0] = belt.velocity;
-        let [r, w] = self.loads(scene);
-        let tangential = r + belt.acceleration;
-        let normal = w - scene.kappa * belt.acceleration;
-        let forward = scene.mu_stick * normal - tangential + scene.cone[0];
-        let backward = scene.mu_stick * normal + tangential + scene.cone[1];
-        if forward >= S::ZERO && backward >= S::ZERO {
-            self.enter(STICK, true);
-        } else {
-            let sigma = if tangential + scene.t0 >= S::ZERO { S::ONE } else { -S::ONE };
-            self.slip_or_free(scene, sigma, S::ZERO, true);
-        }
-    }
-
-    /// Decides the contact state of a closed contact.
-    pub(crate) fn enter_contact(&mut self, scene: &Scene<S>, belt: Belt<S>) {
-        let v = belt.velocity - self.body.v[0];
-        if v > S::ZERO {
-            self.slip_or_free(scene, S::ONE, v, false);
-        } else if v < S::ZERO {
-            self.slip_or_free(scene, -S::ONE, -v, false);
-        } else {
-            self.at_rest(scene, belt);
-        }
-    }
-
-    /// `Δẋ2` of an impact that changes `ẏ2` by `change` with `P_t = q P_n`.
-    fn tangential_jump(&mut self, scene: &Scene<S>, q: S, change: S) -> S {
-        let inertia = S::ONE + scene.kappa * q;
-        if inertia <= S::ZERO {
-            self.status = Status::Painleve;
-            return S::ZERO;
-        }
-        (scene.normal_mass * q + scene.kappa) / inertia * change
-    }
-
-    /// Newton's impact with friction inside its cone, see [`crate::model::contact`].
-    fn impact(&mut self, scene: &Scene<S>, belt: Belt<S>) {
         let in_window = part_of(&scene.segments[self.segment as usize]) != SETTLE;
-        if in_window && !self.second_pass {
+        if event == GAP && in_window && !self.second_pass {
             self.sums.count_impact();
         }
-        let vx = self.body.v[0];
-        let vy = self.body.v[1].min(S::ZERO);
-        let mut rebound = -(scene.restitution * vy);
-        if rebound < scene.slowest_rebound {
-            rebound = S::ZERO;
-        }
-        let change = rebound - vy;
-        let relative = belt.velocity - vx;
-        let mut after = belt.velocity;
-        if scene.impact_friction > S::ZERO {
-            let limit = scene.mu(relative.abs());
-            let q = if relative < S::ZERO { -limit } else { limit };
-            let jump = self.tangential_jump(scene, q, change);
-            let tangential = relative - scene.kappa * change;
-            let normal = scene.normal_mass * change - scene.kappa * relative;
-            if (relative - jump) * relative > S::ZERO {
-                after = vx + jump;
-            } else if tangential.abs() > limit * normal {
-                after = vx + self.tangential_jump(scene, -q, change);
-            }
-        } else {
-            after = vx + self.tangential_jump(scene, S::ZERO, change);
-        }
-        self.body.p[1] = S::ZERO;
-        self.body.v[0] = after;
-        self.body.v[1] = rebound;
-        if rebound > S::ZERO {
-            self.enter(FREE, false);
-        } else {
-            self.enter_contact(scene, belt);
-        }
+        self.state.transition(scene, event, belt);
     }
 }
 

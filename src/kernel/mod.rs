@@ -7,11 +7,12 @@
 //! - [`source`]: the contract between host and kernels: bindings, words, settings, constants.
 //! - [`scalar`]: f32 and f64 under one trait.
 //! - [`linear`]: eigenvalues and attribution of one instance.
-//! - [`scene`], [`series`], [`crossing`], [`observe`], [`lane`]: the transient of one instance.
+//! - [`scene`], [`series`], [`crossing`], [`observe`], [`contact`], [`lane`]: the transient of one instance.
 //! - [`response`]: an instance as words of the response kernel, and its outcome (f64, host only).
 //! - [`spirv`]: a kernel as SPIR-V in which every operation on floats is rounded by itself.
 //! - [`words`]: an instance as words of the linear kernel, and back (f64, host only).
 
+pub mod contact;
 pub mod crossing;
 pub mod lane;
 pub mod linear;

@@ -13,8 +13,8 @@ use crate::outcome::Status;
 pub fn write<S: Real>(lane: &Lane<S>) -> (Vec<S>, Vec<u32>) {
     let sums = &lane.sums;
     let mut state = Vec::new();
-    state.extend(lane.body.p);
-    state.extend(lane.body.v);
+    state.extend(lane.state.body.p);
+    state.extend(lane.state.body.v);
     state.push(lane.rest);
     state.extend(sums.block);
     state.extend(sums.total.concat());
@@ -23,18 +23,18 @@ pub fn write<S: Real>(lane: &Lane<S>) -> (Vec<S>, Vec<u32>) {
     state.extend(sums.growth);
     state.push(lane.phase.omega);
     state.extend([lane.phase.carrier, lane.phase.x, lane.phase.y].concat());
-    state.extend(lane.snapshot.p);
-    state.extend(lane.snapshot.v);
+    state.extend(lane.snapshot.body.p);
+    state.extend(lane.snapshot.body.v);
     let mut flags = vec![
-        lane.status as u32,
+        lane.state.status as u32,
         lane.iterations,
         1,
         lane.segment,
         lane.index,
-        lane.contact,
-        lane.piece,
-        lane.disarmed,
-        lane.at_once,
+        lane.state.contact,
+        lane.state.piece,
+        lane.state.disarmed,
+        lane.state.at_once,
         lane.counted,
         lane.parts,
         u32::from(lane.second_pass),
@@ -45,7 +45,7 @@ pub fn write<S: Real>(lane: &Lane<S>) -> (Vec<S>, Vec<u32>) {
         u32::from(sums.growth_closed),
     ];
     flags.extend([sums.first.segment, sums.first.index, sums.last.segment, sums.last.index]);
-    flags.extend(lane.snapshot_flags);
+    flags.extend([lane.snapshot.contact, lane.snapshot.piece, lane.snapshot.disarmed]);
     (state, flags)
 }
 
@@ -62,19 +62,19 @@ pub fn read<S: Real>(state: &[S], flags: &[u32]) -> Option<Lane<S>> {
     let moment =
         |name: &str| Moment { segment: flag(name, 0), index: flag(name, 1), fraction: real(name, 0) };
     let mut lane = Lane::blank();
-    lane.status = Status::from_code(flag("status", 0))?;
+    lane.state.status = Status::from_code(flag("status", 0))?;
     lane.iterations = flag("steps", 0);
     lane.segment = flag("segment", 0);
     lane.index = flag("index", 0);
-    lane.contact = flag("contact", 0);
-    lane.piece = flag("piece", 0);
-    lane.disarmed = flag("disarmed", 0);
-    lane.at_once = flag("at_once", 0);
+    lane.state.contact = flag("contact", 0);
+    lane.state.piece = flag("piece", 0);
+    lane.state.disarmed = flag("disarmed", 0);
+    lane.state.at_once = flag("at_once", 0);
     lane.counted = flag("counted", 0);
     lane.parts = flag("parts", 0);
     lane.second_pass = flag("second_pass", 0) == 1;
-    lane.body.p = three("body", 0);
-    lane.body.v = three("body", 3);
+    lane.state.body.p = three("body", 0);
+    lane.state.body.v = three("body", 3);
     lane.rest = real("rest", 0);
     let sums = &mut lane.sums;
     for i in 0..SUMS {
@@ -96,8 +96,9 @@ pub fn read<S: Real>(state: &[S], flags: &[u32]) -> Option<Lane<S>> {
     lane.phase.carrier = [real("phase", 1), real("phase", 2)];
     lane.phase.x = [real("phase", 3), real("phase", 4)];
     lane.phase.y = [real("phase", 5), real("phase", 6)];
-    lane.snapshot.p = three("snapshot", 0);
-    lane.snapshot.v = three("snapshot", 3);
-    lane.snapshot_flags = std::array::from_fn(|i| flag("snapshot", i));
+    lane.snapshot.body.p = three("snapshot", 0);
+    lane.snapshot.body.v = three("snapshot", 3);
+    [lane.snapshot.contact, lane.snapshot.piece, lane.snapshot.disarmed] =
+        std::array::from_fn(|i| flag("snapshot", i));
     Some(lane)
 }

@@ -14,7 +14,7 @@ use super::scene::{
 };
 use super::source::{Constant, Field, Kernel};
 use super::windows::Windows;
-use super::{crossing, series};
+use super::{contact, crossing, series};
 use crate::model::friction::LawKind;
 use crate::outcome::Outcome;
 use crate::response::{Plan, Scene};
@@ -94,6 +94,7 @@ pub const fn kernel<const PIECES: usize>() -> Kernel {
             ("shaders/series.wgsl", include_str!("../../shaders/series.wgsl")),
             ("shaders/crossing.wgsl", include_str!("../../shaders/crossing.wgsl")),
             ("shaders/observe.wgsl", include_str!("../../shaders/observe.wgsl")),
+            ("shaders/contact.wgsl", include_str!("../../shaders/contact.wgsl")),
             ("shaders/lane.wgsl", include_str!("../../shaders/lane.wgsl")),
             ("shaders/response_main.wgsl", include_str!("../../shaders/response_main.wgsl")),
         ],
@@ -160,20 +161,20 @@ pub const fn kernel<const PIECES: usize>() -> Kernel {
                 ("BISECTIONS", Constant::U32(observe::BISECTIONS as u32)),
                 ("TAU", Constant::Real(TAU)),
                 ("ROUNDINGS", Constant::Real(lane::ROUNDINGS)),
-                ("HELD_FROM", Constant::U32(lane::HELD_FROM)),
+                ("HELD_FROM", Constant::U32(contact::HELD_FROM)),
                 ("LEAST_REST", Constant::Real(lane::LEAST_REST)),
                 ("STEPS_PER_COUNT", Constant::U32(lane::STEPS_PER_COUNT)),
                 ("MAX_PARTS", Constant::U32(lane::MAX_PARTS)),
                 ("MAX_EVENTS_PER_COUNT", Constant::U32(lane::MAX_EVENTS_PER_COUNT)),
                 ("EVENTS_AT_ONCE", Constant::U32(scene::EVENTS_AT_ONCE)),
-                ("NOTHING", Constant::U32(lane::NOTHING)),
-                ("REST", Constant::U32(lane::REST)),
-                ("LOWER_KINK", Constant::U32(lane::LOWER_KINK)),
-                ("UPPER_KINK", Constant::U32(lane::UPPER_KINK)),
-                ("LIFT_OFF", Constant::U32(lane::LIFT_OFF)),
-                ("CONE_FORWARD", Constant::U32(lane::CONE_FORWARD)),
-                ("CONE_BACKWARD", Constant::U32(lane::CONE_BACKWARD)),
-                ("GAP", Constant::U32(lane::GAP)),
+                ("NOTHING", Constant::U32(contact::NOTHING)),
+                ("REST", Constant::U32(contact::REST)),
+                ("LOWER_KINK", Constant::U32(contact::LOWER_KINK)),
+                ("UPPER_KINK", Constant::U32(contact::UPPER_KINK)),
+                ("LIFT_OFF", Constant::U32(contact::LIFT_OFF)),
+                ("CONE_FORWARD", Constant::U32(contact::CONE_FORWARD)),
+                ("CONE_BACKWARD", Constant::U32(contact::CONE_BACKWARD)),
+                ("GAP", Constant::U32(contact::GAP)),
             ]
         },
         loops_per_step: LOOPS_PER_STEP + SEARCHES_PER_STEP * (PIECES as u32 - 1),
@@ -252,9 +253,19 @@ fn cut(scene: &Scene, plan: &Plan, parts: [(u32, f64); 3]) -> Segments {
 /// The words of an instance for kernels built for `pieces` pieces.
 #[must_use]
 pub fn words(scene: &Scene, segments: &Segments, pieces: usize) -> Vec<f64> {
+    scene::words(&scene.model, scene.belt(0.0).velocity, start(scene), segments, pieces)
+}
+
+/// An instance as the kernel's twin has it, without segments.
+#[must_use]
+pub fn without_segments<S: Real>(law: LawKind, scene: &Scene) -> Words<S> {
+    Words::of(law_of(law), &scene.model, scene.belt(0.0).velocity, start(scene))
+}
+
+/// `x2`, `y1`, `ẋ2`, `ẏ1` at the start.
+fn start(scene: &Scene) -> [f64; 4] {
     let start = scene.start();
-    let start = [start.position[0], start.position[2], start.velocity[0], start.velocity[2]];
-    scene::words(&scene.model, scene.belt(0.0).velocity, start, segments, pieces)
+    [start.position[0], start.position[2], start.velocity[0], start.velocity[2]]
 }
 
 /// Integrates one instance with the twin of the kernel.
@@ -289,7 +300,7 @@ pub fn reductions<S: Real>(segments: &Segments, lane: &Lane<S>) -> (Reductions, 
     let moment = |m: &observe::Moment<S>| time(m.segment, m.index, m.fraction.to_f64());
     let sums = &lane.sums;
     let reductions = Reductions {
-        origin: [lane.snapshot.p[0], lane.snapshot.p[2]].map(Real::to_f64),
+        origin: [lane.snapshot.body.p[0], lane.snapshot.body.p[2]].map(Real::to_f64),
         halves: sums.total.map(|half| half.map(Real::to_f64)),
         peaks: sums.peaks.map(Real::to_f64),
         impacts: sums.impacts,
@@ -300,7 +311,7 @@ pub fn reductions<S: Real>(segments: &Segments, lane: &Lane<S>) -> (Reductions, 
         growth: sums.growth.map(Real::to_f64),
     };
     let end = End {
-        status: lane.status,
+        status: lane.state.status,
         steps: u64::from(lane.iterations),
         time: time(lane.segment, lane.index, 0.0),
     };

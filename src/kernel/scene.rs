@@ -7,6 +7,8 @@
 
 use std::sync::LazyLock;
 
+use smallvec::SmallVec;
+
 use super::response::TOLERANCE;
 use super::scalar::Real;
 use super::series::ORDER;
@@ -41,6 +43,13 @@ pub struct Piece<S> {
     pub offset: S,
     /// Upper end in `|v|`; [`NO_KINK`] for the last piece.
     pub kink: S,
+}
+
+impl<S: Real> Piece<S> {
+    fn read(words: &[f64]) -> Piece<S> {
+        let w = |i: usize| S::from_f64(words[i]);
+        Piece { at_zero: w(0), slope: w(1), rate: w(2), offset: w(3), kink: w(4) }
+    }
 }
 
 /// A stretch of constant belt acceleration and step inside one part of the run.
@@ -131,7 +140,7 @@ pub struct Scene<S> {
     /// The longest step of each contact state.
     pub longest: [S; 4],
     /// The pieces of the law.
-    pub pieces: Vec<Piece<S>>,
+    pub pieces: SmallVec<[Piece<S>; 2]>,
     /// The segments.
     pub segments: [Segment<S>; SEGMENTS],
 }
@@ -145,10 +154,21 @@ static TURNS: LazyLock<Turns> = LazyLock::new(|| Turns::new(ORDER, f64::from(TOL
 /// The words of an instance in f64, in the order of the kernel's input buffer.
 #[must_use]
 pub fn words(model: &Scaled, v0: f64, start: [f64; 4], segments: &Segments, pieces: usize) -> Vec<f64> {
+    let mut words = Vec::with_capacity(SCENE_WORDS + SEGMENTS * SEGMENT_WORDS + pieces * PIECE_WORDS);
+    words.extend(head(model, v0, start));
+    words.extend(segments.as_flattened());
+    // What there is room for beyond the last is the last.
+    words.extend((0..pieces).flat_map(|index| piece(model, v0, index.min(model.law.pieces.len() - 1))));
+    words
+}
+
+/// Those before the segments.
+fn head(model: &Scaled, v0: f64, start: [f64; 4]) -> [f64; SCENE_WORDS] {
     let (mu0, n0) = (model.mu0, model.n0);
     let mu_s = model.law.mu_stick;
-    let mut words = Vec::with_capacity(SCENE_WORDS + SEGMENTS * SEGMENT_WORDS + pieces * PIECE_WORDS);
-    words.extend([
+    let [x, w, vx, vw] = start;
+    let [slip, reverse, stick, free] = TURNS.longest_steps(&model.fastest).map(|step| step.min(NO_KINK));
+    [
         model.s,
         model.c,
         1.0 / model.m1,
@@ -168,26 +188,28 @@ pub fn words(model: &Scaled, v0: f64, start: [f64; 4], segments: &Segments, piec
         (mu_s + mu0) * n0,
         model.restitution,
         f64::from(u8::from(model.impact_friction)),
-    ]);
-    words.extend(start);
-    words.push(crate::model::contact::SLOWEST_REBOUND);
-    words.extend(TURNS.longest_steps(&model.fastest).map(|step| step.min(NO_KINK)));
-    debug_assert_eq!(words.len(), SCENE_WORDS);
-    for segment in segments {
-        words.extend(segment);
+        x,
+        w,
+        vx,
+        vw,
+        crate::model::contact::SLOWEST_REBOUND,
+        slip,
+        reverse,
+        stick,
+        free,
+    ]
+}
+
+/// Those of a piece of the law.
+fn piece(model: &Scaled, v0: f64, index: usize) -> [f64; PIECE_WORDS] {
+    let kink = model.law.kinks.get(index).copied().unwrap_or(NO_KINK);
+    match model.law.pieces[index] {
+        LawPiece::Linear { at_zero, slope } => [at_zero, slope, 0.0, at_zero + slope * v0 - model.mu0, kink],
+        LawPiece::Exponential { floor, height, rate } => {
+            [floor, height, rate, height * (-rate * v0).exp(), kink]
+        }
+        LawPiece::Rational { at_zero, decay } => [at_zero, 0.0, decay, 1.0 / (1.0 + decay * v0), kink],
     }
-    for index in 0..pieces {
-        let index = index.min(model.law.pieces.len() - 1);
-        let kink = model.law.kinks.get(index).copied().unwrap_or(NO_KINK);
-        words.extend(match model.law.pieces[index] {
-            LawPiece::Linear { at_zero, slope } => [at_zero, slope, 0.0, at_zero + slope * v0 - mu0, kink],
-            LawPiece::Exponential { floor, height, rate } => {
-                [floor, height, rate, height * (-rate * v0).exp(), kink]
-            }
-            LawPiece::Rational { at_zero, decay } => [at_zero, 0.0, decay, 1.0 / (1.0 + decay * v0), kink],
-        });
-    }
-    words
 }
 
 impl<S: Real> Scene<S> {
@@ -195,10 +217,6 @@ impl<S: Real> Scene<S> {
     #[must_use]
     pub fn read(law: Law, pieces: usize, words: &[f64]) -> Scene<S> {
         let w = |i: usize| S::from_f64(words[i]);
-        let piece = |i: usize| {
-            let at = SCENE_WORDS + SEGMENTS * SEGMENT_WORDS + i * PIECE_WORDS;
-            Piece { at_zero: w(at), slope: w(at + 1), rate: w(at + 2), offset: w(at + 3), kink: w(at + 4) }
-        };
         let segment = |i: usize| {
             let at = SCENE_WORDS + i * SEGMENT_WORDS;
             Segment {
@@ -208,6 +226,31 @@ impl<S: Real> Scene<S> {
                 acceleration: w(at + 3),
                 part: w(at + 4),
             }
+        };
+        let piece = |i: usize| {
+            let at = SCENE_WORDS + SEGMENTS * SEGMENT_WORDS + i * PIECE_WORDS;
+            Piece::read(&words[at..at + PIECE_WORDS])
+        };
+        let pieces = (0..pieces).map(piece).collect();
+        Scene { pieces, segments: std::array::from_fn(segment), ..Scene::read_head(law, words) }
+    }
+
+    /// An instance without segments, by its law's own pieces.
+    #[must_use]
+    pub fn of(law: Law, model: &Scaled, v0: f64, start: [f64; 4]) -> Scene<S> {
+        let pieces = (0..model.law.pieces.len()).map(|index| Piece::read(&piece(model, v0, index))).collect();
+        Scene { pieces, ..Scene::read_head(law, &head(model, v0, start)) }
+    }
+
+    /// What stands before the segments.
+    fn read_head(law: Law, words: &[f64]) -> Scene<S> {
+        let w = |i: usize| S::from_f64(words[i]);
+        let nothing = Segment {
+            steps: S::ZERO,
+            step: S::ZERO,
+            velocity: S::ZERO,
+            acceleration: S::ZERO,
+            part: S::ZERO,
         };
         Scene {
             law,
@@ -232,8 +275,8 @@ impl<S: Real> Scene<S> {
             start: [w(19), w(20), w(21), w(22)],
             slowest_rebound: w(23),
             longest: [w(24), w(25), w(26), w(27)],
-            pieces: (0..pieces).map(piece).collect(),
-            segments: std::array::from_fn(segment),
+            pieces: SmallVec::new(),
+            segments: [nothing; SEGMENTS],
         }
     }
 

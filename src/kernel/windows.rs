@@ -96,7 +96,7 @@ impl<S: Real> Lane<S> {
     /// Goes on with another window from here. Its first event closes its growth, so that it tells whether it had
     /// any.
     fn next_window(&mut self) {
-        self.status = Status::Unwritten;
+        self.state.status = Status::Unwritten;
         [self.segment, self.index] = [0; 2];
         self.second_pass = false;
         self.sums = Sums::new();
@@ -106,7 +106,7 @@ impl<S: Real> Lane<S> {
 
     /// Stands before the decision about a second pass once more.
     fn back_to_the_end(&mut self, segments: &Segments) {
-        self.status = Status::Unwritten;
+        self.state.status = Status::Unwritten;
         self.segment -= 1;
         #[expect(
             clippy::cast_possible_truncation,

@@ -6,6 +6,8 @@
 
 use std::sync::Arc;
 
+use smallvec::SmallVec;
+
 /// Which law; the parameters of each are in [`FrictionLaw`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[expect(missing_docs, reason = "the variants are the names of the laws in FrictionLaw")]
@@ -175,9 +177,9 @@ impl Piece {
 #[derive(Clone, Debug, PartialEq)]
 pub struct PieceChain {
     /// The pieces, from `|v| = 0` on; at least one.
-    pub pieces: Vec<Piece>,
+    pub pieces: SmallVec<[Piece; 2]>,
     /// The speeds between the pieces, rising; one fewer than pieces.
-    pub kinks: Vec<f64>,
+    pub kinks: SmallVec<[f64; 1]>,
     /// Limit of stick: `|T| ≤ mu_stick N`.
     pub mu_stick: f64,
 }

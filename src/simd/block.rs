@@ -4,11 +4,11 @@ use std::ops::Not;
 
 use pulp::Simd;
 
-use super::constants::{CONE, CONSTANTS, LONGEST, N0, V0};
+use super::constants::{CONE, CONSTANTS, LONGEST, N0, SWING_WORDS, V0};
 use super::transitions::MOST_EVENTS;
 use super::vector::{Mask, Scalar, Vector};
-use crate::kernel::lane::{
-    Belt, CONE_BACKWARD, CONE_FORWARD, GAP, LIFT_OFF, LOWER_KINK, Lane, NOTHING, REST, UPPER_KINK,
+use crate::kernel::contact::{
+    Belt, CONE_BACKWARD, CONE_FORWARD, GAP, LIFT_OFF, LOWER_KINK, NOTHING, REST, State, UPPER_KINK,
 };
 use crate::kernel::scene::{EVENTS_AT_ONCE, Law, Scene};
 use crate::kernel::series::{Body, FREE, REVERSE, SLIP, STICK};
@@ -139,14 +139,22 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Block<S, T, K> {
         self.scene[V0].set(lane, scene.v0);
     }
 
+    /// Loads what the steps in closed form need of a single mass; the rest is 0, as it does not move `y1`.
+    #[inline(always)]
+    pub fn load_swing(&mut self, lane: usize, constants: &[T; CONSTANTS]) {
+        for word in SWING_WORDS {
+            self.scene[word].set(lane, constants[word]);
+        }
+    }
+
     /// Loads the state of a lane.
     #[inline(always)]
-    pub fn load_state(&mut self, index: usize, lane: &Lane<T>, scene: &Scene<T>) {
+    pub fn load_state(&mut self, index: usize, state: &State<T>, scene: &Scene<T>) {
         for i in 0..3 {
-            self.p[i].set(index, lane.body.p[i]);
-            self.v[i].set(index, lane.body.v[i]);
+            self.p[i].set(index, state.body.p[i]);
+            self.v[i].set(index, state.body.v[i]);
         }
-        let piece = if lane.contact == STICK { 0 } else { lane.piece as usize };
+        let piece = if state.contact == STICK { 0 } else { state.piece as usize };
         load_piece(&mut self.piece, index, scene, piece);
         if scene.pieces.len() > 1 {
             load_piece(&mut self.other, index, scene, usize::from(piece == 0));
@@ -159,11 +167,11 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Block<S, T, K> {
             _ => 1.0,
         };
         self.many.set(index, T::from_f64(many));
-        self.contact.set(index, T::from_f64(f64::from(lane.contact)));
-        let disarmed = match lane.disarmed {
+        self.contact.set(index, T::from_f64(f64::from(state.contact)));
+        let disarmed = match state.disarmed {
             NOTHING => 0,
             UPPER_KINK => THIRD,
-            _ if lane.contact == FREE => FIRST,
+            _ if state.contact == FREE => FIRST,
             _ => SECOND,
         };
         self.disarmed.set(index, T::from_f64(f64::from(disarmed)));
@@ -171,22 +179,22 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Block<S, T, K> {
 
     /// Stores the state of a lane.
     #[inline(always)]
-    pub fn store_state(&self, index: usize, lane: &mut Lane<T>, scene: &Scene<T>) {
-        lane.body = Body {
+    pub fn store_state(&self, index: usize, state: &mut State<T>, scene: &Scene<T>) {
+        state.body = Body {
             p: [self.p[0].get(index), self.p[1].get(index), self.p[2].get(index)],
             v: [self.v[0].get(index), self.v[1].get(index), self.v[2].get(index)],
         };
         let number = |vector: &Vector<S, T, K>| vector.get(index).to_f64() as u32;
-        lane.contact = number(&self.contact);
-        lane.at_once = number(&self.at_once);
+        state.contact = number(&self.contact);
+        state.at_once = number(&self.at_once);
         if self.piece[LOWER].get(index) <= T::ZERO {
-            lane.piece = 0;
+            state.piece = 0;
         } else if scene.pieces.len() == 2 {
-            lane.piece = 1;
+            state.piece = 1;
         }
-        lane.disarmed = match number(&self.disarmed) {
+        state.disarmed = match number(&self.disarmed) {
             0 => NOTHING,
-            function => event_of(function, lane.contact, lane.piece),
+            function => event_of(function, state.contact, state.piece),
         };
     }
 

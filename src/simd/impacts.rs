@@ -1,6 +1,6 @@
 //! What an impact does, in all lanes at once, for laws of at most two straight pieces.
 //!
-//! The rules are those of [`crate::kernel::lane`] and [`crate::model::contact`].
+//! The rules are those of [`crate::kernel::contact`] and [`crate::model::contact`].
 
 use std::ops::Not;
 

@@ -4,12 +4,12 @@ use std::f64::consts::TAU;
 
 use super::constants::{CONSTANTS, SWING, constants};
 use super::stretches::Stretches;
-use crate::kernel::lane::{Belt, GAP, Lane, UPPER_KINK};
+use crate::kernel::contact::{Belt, GAP, State, UPPER_KINK};
 use crate::kernel::reductions::{End, Reductions};
-use crate::kernel::response::{law_of, words};
+use crate::kernel::response::without_segments;
 use crate::kernel::scalar::Real;
 use crate::kernel::scene::{Law, Scene as Words};
-use crate::kernel::series::{Body, FREE};
+use crate::kernel::series::FREE;
 use crate::method::pace::Turns;
 use crate::outcome::{Outcome, Status};
 use crate::response::{Plan, Scene};
@@ -47,7 +47,7 @@ pub enum Part {
     Approach,
     /// The rest of the time before the window.
     Settle,
-    /// The window.
+    /// The window; of what swings all of the run.
     Window,
     /// The window once more, from the first to the last crossing.
     Phase,
@@ -67,14 +67,16 @@ pub struct Job<T> {
     pub words: Words<T>,
     /// The same as the steps have it.
     pub constants: [T; CONSTANTS],
-    /// Contact state, body and status; the rest of a lane is not used.
-    pub lane: Lane<T>,
+    /// Body, contact and status.
+    pub state: State<T>,
     /// Time reached at the last boundary of a stretch.
     pub time: f64,
     /// End of the present stretch.
     pub until: f64,
     /// Whether the first event is still to come.
     pub growing: bool,
+    /// Whether the present stretch has sums of growth.
+    pub sums_growth: bool,
     /// What it did in the last part: the highest code of its contact states, and whether it had events. Instances of one habit
     /// go on side by side, as a step does what any of its lanes needs.
     pub habit: (u32, bool),
@@ -96,60 +98,33 @@ pub struct Job<T> {
     pub marks: [f64; 3],
     /// Whether no event has fallen into the window.
     pub quiet: bool,
-    plan: Plan,
-    settling: Option<Settling>,
+    settling: Option<Box<Settling>>,
     ending: Option<Ending>,
-    snapshot: Option<Snapshot<T>>,
-}
-
-/// The state of a lane at the start of the window.
-#[derive(Clone, Copy, Debug)]
-struct Snapshot<T> {
-    body: Body<T>,
-    contact: u32,
-    piece: u32,
-    disarmed: u32,
-}
-
-impl<T: Real> Snapshot<T> {
-    fn of(lane: &Lane<T>) -> Self {
-        Snapshot { body: lane.body, contact: lane.contact, piece: lane.piece, disarmed: lane.disarmed }
-    }
-
-    fn restore(self, lane: &mut Lane<T>) {
-        (lane.body, lane.contact, lane.piece, lane.disarmed) =
-            (self.body, self.contact, self.piece, self.disarmed);
-    }
+    /// The state at the start of the window.
+    snapshot: Option<State<T>>,
 }
 
 impl<T: Real> Job<T> {
     /// The start of an instance, whose steps may turn so far.
     #[must_use]
     pub fn new(instance: &Instance, scene: Scene, plan: &Plan, turns: &Turns) -> Job<T> {
-        let kind = instance.law.kind();
-        let pieces = scene.model.law.pieces.len();
-        let packed = words(&scene, &[[0.0; 5]; 4], pieces);
-        let words: Words<T> = Words::read(law_of(kind), pieces, &packed);
-        let settling = Settling::new(instance, &scene, plan);
+        let words: Words<T> = without_segments(instance.law.kind(), &scene);
+        let settling = Settling::new(instance, &scene, plan).map(Box::new);
         let asked = 0.5 * scene.scaled(plan.measure);
         let half = settling.as_ref().map_or(asked, |settling| settling.half(None));
-        let mut lane = Lane::blank();
-        let [x, w, vx, vw] = words.start;
-        lane.body.p = [x, T::ZERO, w];
-        lane.body.v = [vx, T::ZERO, vw];
         let belt = scene.belt(0.0);
         let belt =
             Belt { velocity: T::from_f64(belt.velocity), acceleration: T::from_f64(belt.acceleration) };
-        lane.enter_contact(&words, belt);
         let scene_settle = scene.scaled(plan.settle);
         Job {
             constants: constants(&scene.model, turns),
             scene,
+            state: State::new(&words, belt),
             words,
-            lane,
             time: 0.0,
             until: 0.0,
             growing: true,
+            sums_growth: false,
             habit: (0, false),
             approached: 0.0,
             origin: [T::ZERO; 2],
@@ -160,7 +135,6 @@ impl<T: Real> Job<T> {
             steps: 0,
             marks: window(scene_settle, half),
             quiet: true,
-            plan: *plan,
             settling,
             ending: None,
             snapshot: None,
@@ -176,9 +150,9 @@ impl<T: Real> Job<T> {
     /// Whether `x2` alone moves: without an inclination nothing pushes `y1`, and the contact stays closed.
     #[must_use]
     pub fn is_single(&self) -> bool {
-        let body = &self.lane.body;
+        let body = &self.state.body;
         let rest = [body.p[1], body.p[2], body.v[1], body.v[2]].iter().all(|value| *value == T::ZERO);
-        rest && self.scene.model.s == 0.0 && self.lane.contact != FREE
+        rest && self.scene.model.s == 0.0 && self.state.contact != FREE
     }
 
     /// Whether its motion between two events has a closed form that [`super::swing`] knows, if it is a single mass: constant
@@ -190,10 +164,10 @@ impl<T: Real> Job<T> {
         constant && self.scene.belt(0.0).acceleration == 0.0 && self.constants[SWING + 1] > T::ZERO
     }
 
-    /// Whether a part of the run has anything to do; the window's start is remembered when it begins. Among none but
-    /// single masses (`single`) growth is measured on the way to the window.
+    /// Whether a part of the run has anything to do. Among none but single masses (`single`) growth is measured on the way to
+    /// the window.
     pub fn enter(&mut self, part: Part, tolerance: f64, single: bool) -> bool {
-        if self.lane.status != Status::Unwritten {
+        if self.state.status != Status::Unwritten {
             return false;
         }
         self.habit = (0, false);
@@ -204,17 +178,7 @@ impl<T: Real> Job<T> {
                 self.time < self.marks[0] && !single
             }
             Part::Settle => self.time < self.marks[0],
-            Part::Window => {
-                if self.time >= self.marks[2] {
-                    return false;
-                }
-                self.quiet = true;
-                self.previous = T::ZERO;
-                self.origin = [self.lane.body.p[0], self.lane.body.p[2]];
-                self.seen.origin = self.origin.map(T::to_f64);
-                self.snapshot = Some(Snapshot::of(&self.lane));
-                true
-            }
+            Part::Window => self.time < self.marks[2],
             Part::Phase => {
                 let Some(snapshot) = self.snapshot.take() else { return false };
                 // The single mass has no phase.
@@ -225,10 +189,27 @@ impl<T: Real> Job<T> {
                     self.seen.phase = phase;
                     return false;
                 }
-                snapshot.restore(&mut self.lane);
+                self.state.return_to(&snapshot);
                 self.time = self.marks[0];
                 true
             }
+        }
+    }
+
+    /// Whether the window has begun.
+    #[must_use]
+    pub fn in_window(&self) -> bool {
+        self.time >= self.marks[0]
+    }
+
+    /// Remembers the start of the window, where it has begun and that has not been done.
+    pub fn open_window(&mut self) {
+        if self.snapshot.is_none() && self.in_window() {
+            self.quiet = true;
+            self.previous = T::ZERO;
+            self.origin = [self.state.body.p[0], self.state.body.p[2]];
+            self.seen.origin = self.origin.map(T::to_f64);
+            self.snapshot = Some(self.state);
         }
     }
 
@@ -268,7 +249,7 @@ impl<T: Real> Job<T> {
         let goals: &[f64] = match part {
             Part::Growth | Part::Settle => &self.marks[..1],
             Part::Approach => &[self.approached],
-            Part::Window => &self.marks[1..],
+            Part::Window => &self.marks,
             Part::Phase => &[self.seen.first, self.seen.last],
         };
         let goal = *goals.iter().find(|goal| self.time < **goal)?;
@@ -303,26 +284,26 @@ impl<T: Real> Job<T> {
     pub fn event(&mut self, event: u32, exhausted: bool, in_window: bool, belt: Belt<T>) {
         self.growing = false;
         if exhausted {
-            self.lane.status = Status::EventLimit;
+            self.state.status = Status::EventLimit;
             return;
         }
-        if event == UPPER_KINK && self.lane.piece as usize + 1 >= self.words.pieces.len() {
+        if event == UPPER_KINK && self.state.piece as usize + 1 >= self.words.pieces.len() {
             // A speed beyond all kinks, where there is none.
-            self.lane.status = Status::NonFinite;
+            self.state.status = Status::NonFinite;
             return;
         }
-        self.lane.transition(&self.words, event, belt);
+        self.state.transition(&self.words, event, belt);
         if in_window && event == GAP {
             self.seen.impacts += 1;
         }
     }
 
     /// Judges the window of a run until settled; true when another one follows.
-    pub fn goes_on(&mut self) -> bool {
-        if self.lane.status != Status::Unwritten || self.ending.is_some() || self.settling.is_none() {
+    pub fn goes_on(&mut self, plan: &Plan) -> bool {
+        if self.state.status != Status::Unwritten || self.ending.is_some() || self.settling.is_none() {
             return false;
         }
-        let outcome = self.outcome();
+        let outcome = self.outcome(plan);
         let guess = self.known_omega();
         let frequency = self.seen.frequency();
         let Some(settling) = &mut self.settling else { return false };
@@ -334,18 +315,19 @@ impl<T: Real> Job<T> {
         self.guess = guess;
         self.seen = Reductions { growth: self.seen.growth, ..Reductions::default() };
         self.stretches = Stretches::default();
+        self.snapshot = None;
         true
     }
 
     /// The outcome of a job that has passed all parts.
     #[must_use]
-    pub fn outcome(&self) -> Outcome {
+    pub fn outcome(&self, plan: &Plan) -> Outcome {
         let end = self.marks[2];
-        let status = self.lane.status;
+        let status = self.state.status;
         // The second pass goes over the window again and ends before its end.
         let (status, time) =
             if status == Status::Unwritten { (Status::Ok, end) } else { (status, self.time) };
-        let outcome = self.seen.outcome(&self.scene, &self.plan, &End { status, steps: self.steps, time });
+        let outcome = self.seen.outcome(&self.scene, plan, &End { status, steps: self.steps, time });
         match self.ending {
             Some(ending) => outcome.ended(ending, self.marks[0] * self.scene.units.time),
             None => outcome,

@@ -12,6 +12,7 @@ use super::spectrum::{COMPONENTS, Spectrum};
 use super::swing_cycle::NEVER;
 use super::vector::{Scalar, Vector};
 use crate::outcome::Status;
+use crate::response::Plan;
 
 /// Steps of all lanes after which a wish to stop is looked for: some milliseconds.
 const TURNS: u32 = 4096;
@@ -19,8 +20,8 @@ const TURNS: u32 = 4096;
 /// What all instances of a pass share.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings<'a> {
-    /// Steps per period `2π/ω0`.
-    pub steps_per_period: u32,
+    /// How long they run, and in which steps.
+    pub plan: &'a Plan,
     /// Bound on the truncation of a step.
     pub tolerance: f64,
     /// Set to stop early; what is under way is then of no use.
@@ -112,7 +113,12 @@ fn refill<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>, lane:
         }
         all.of_lane[lane] = index;
         all.running += 1;
-        all.block.load_scene(lane, &all.jobs[index].constants, &all.jobs[index].words);
+        let job = &all.jobs[index];
+        if all.swings {
+            all.block.load_swing(lane, &job.constants);
+        } else {
+            all.block.load_scene(lane, &job.constants, &job.words);
+        }
         if begin::<S, T, K>(all, lane) {
             return;
         }
@@ -127,11 +133,15 @@ fn refill<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>, lane:
 fn begin<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>, lane: usize) -> bool {
     let sees_growth = all.sees_growth();
     let job = &mut all.jobs[all.of_lane[lane]];
-    let stretch = job.stretch(all.part, all.settings.steps_per_period, all.swings);
+    if all.part == Part::Window {
+        job.open_window();
+    }
+    job.sums_growth = sees_growth && job.growing;
+    let stretch = job.stretch(all.part, all.settings.plan.steps_per_period, all.swings);
     let Some([length, step]) = stretch else { return false };
     let belt = job.scene.belt(job.time);
     let b = &mut all.block;
-    b.load_state(lane, &job.lane, &job.words);
+    b.load_state(lane, &job.state, &job.words);
     b.belt.set(lane, T::from_f64(belt.velocity));
     b.drive.set(lane, T::from_f64(belt.acceleration));
     b.left.set(lane, T::from_f64(length));
@@ -145,8 +155,10 @@ fn begin<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>, lane: 
     sums.time.set(lane, T::ZERO);
     sums.cycle.since.set(lane, T::from_f64(NEVER));
     if sees_growth {
-        sums.growth.iter_mut().for_each(|word| word.set(lane, T::ZERO));
         sums.growing.set(lane, T::from_f64(f64::from(u8::from(job.growing))));
+        if job.sums_growth {
+            sums.growth.iter_mut().for_each(|word| word.set(lane, T::ZERO));
+        }
     }
     if all.part == Part::Window {
         sums.window.iter_mut().for_each(|word| word.set(lane, T::ZERO));
@@ -156,8 +168,10 @@ fn begin<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>, lane: 
         }
         sums.quiet.set(lane, T::ONE);
         sums.impacts.set(lane, T::ZERO);
-        let begun = job.seen.crossings > 0;
-        sums.spectrum.begin(lane, job.guessed_omega(), job.marks[2] - job.time, begun);
+        if !all.swings {
+            let begun = job.seen.crossings > 0;
+            sums.spectrum.begin(lane, job.guessed_omega(), job.marks[2] - job.time, begun);
+        }
         if !all.single {
             sums.spectrum.turn_back(lane, 0.5 * length);
         }
@@ -181,18 +195,17 @@ fn begin<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>, lane: 
 
 /// Adds what a stretch has summed to the job.
 fn flush<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>, lane: usize) {
-    let sees_growth = all.sees_growth();
     let job = &mut all.jobs[all.of_lane[lane]];
     let sums = &all.sums;
     let contact = all.block.reached.get(lane).to_f64() as u32;
     job.habit = job.habit.max((contact, all.block.counted.get(lane) > T::ZERO));
-    job.growing &= sums.growing.get(lane) > T::ZERO;
-    if sees_growth {
+    if job.sums_growth {
         for (total, word) in job.seen.growth.iter_mut().zip(&sums.growth) {
             *total += word.get(lane).to_f64();
         }
     }
-    if all.part == Part::Window {
+    job.growing &= sums.growing.get(lane) > T::ZERO;
+    if all.part == Part::Window && job.in_window() {
         let half = job.half();
         job.quiet &= sums.quiet.get(lane) > T::ZERO;
         job.seen.impacts += sums.impacts.get(lane).to_f64() as u32;
@@ -273,29 +286,29 @@ pub fn visit<S: Simd, T: Scalar<S>, const K: usize>(
         }
         let left = all.block.left.get(lane);
         let job = &mut all.jobs[index];
-        all.block.store_state(lane, &mut job.lane, &job.words);
+        all.block.store_state(lane, &mut job.state, &job.words);
         let function = event.as_slice()[lane].to_f64() as u32;
         if function > 0 {
-            let code = event_of(function, job.lane.contact, job.lane.piece);
+            let code = event_of(function, job.state.contact, job.state.piece);
             let exhausted = all.block.is_exhausted(lane);
             job.event(code, exhausted, all.part == Part::Window, all.block.belt(lane));
         }
         let ended = all.part == Part::Growth && function > 0;
-        if ended || job.lane.status != Status::Unwritten {
+        if ended || job.state.status != Status::Unwritten {
             let reached = (job.until - left.to_f64()).max(job.time);
             flush::<S, T, K>(all, lane);
             all.jobs[index].time = reached;
             refill::<S, T, K>(all, lane);
         } else if left > T::ZERO {
-            all.block.load_state(lane, &job.lane, &job.words);
+            all.block.load_state(lane, &job.state, &job.words);
         } else {
             flush::<S, T, K>(all, lane);
             let job = &mut all.jobs[index];
             job.time = job.until;
-            if !job.lane.body_is_finite() {
-                job.lane.status = Status::NonFinite;
+            if !job.state.is_finite() {
+                job.state.status = Status::NonFinite;
             }
-            if job.lane.status != Status::Unwritten || !begin::<S, T, K>(all, lane) {
+            if job.state.status != Status::Unwritten || !begin::<S, T, K>(all, lane) {
                 refill::<S, T, K>(all, lane);
             }
         }
@@ -318,8 +331,8 @@ pub fn fail<S: Simd, T: Scalar<S>, const K: usize>(
             continue;
         }
         let job = &mut all.jobs[all.of_lane[lane]];
-        all.block.store_state(lane, &mut job.lane, &job.words);
-        job.lane.status = match (ill_posed.get(lane) > T::ZERO, job.lane.body_is_finite()) {
+        all.block.store_state(lane, &mut job.state, &job.words);
+        job.state.status = match (ill_posed.get(lane) > T::ZERO, job.state.is_finite()) {
             (_, false) => Status::NonFinite,
             (true, _) => Status::Painleve,
             _ => Status::StepTooLarge,

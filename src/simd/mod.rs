@@ -123,14 +123,17 @@ impl<T: Real, const N: usize, const LAW: bool> Parts<'_, T, N, LAW> {
         T: Scalar<S>,
     {
         let Parts { jobs, settings } = self;
+        // Once for all parts: those that swing pass all their time in one of them.
+        let single = LAW == expand::PIECES && jobs.iter().all(Job::is_single);
         let mut parts = Part::ALL.into_iter().peekable();
         while let Some(part) = parts.peek().copied() {
-            pass::<S, T, REGISTERS, N, LAW>(simd, jobs, part, settings);
+            pass::<S, T, REGISTERS, N, LAW>(simd, jobs, part, single, settings);
             if settings.cancel.load(Ordering::Relaxed) {
                 return;
             }
             // Those that are not settled go on together with another window.
-            let again = part == Part::Window && jobs.iter_mut().fold(false, |any, job| job.goes_on() | any);
+            let again = part == Part::Window
+                && jobs.iter_mut().fold(false, |any, job| job.goes_on(settings.plan) | any);
             if !again {
                 parts.next();
             }

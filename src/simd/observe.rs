@@ -198,8 +198,9 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
     pub fn note(&mut self, crossed: Mask<S, T, K>, after: Vector<S, T, K>) {
         let moment = self.time + after;
         let is_first = crossed.and(self.crossings.not_positive());
-        self.first = is_first.select(moment, self.first);
-        self.last = crossed.select(moment, self.last);
+        let (first, last) = (is_first.select(moment, self.first), crossed.select(moment, self.last));
+        self.first.put(first);
+        self.last.put(last);
         self.crossings += after.like(1.0).only(crossed);
     }
 

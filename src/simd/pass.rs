@@ -28,16 +28,16 @@ const STICK_STEPS: f64 = 4.0;
 /// Most steps of a stretch; f32 counts them.
 pub const MOST_STEPS: f64 = STRETCH * MAX_PARTS as f64;
 
-/// Runs one part of all instances that have one.
+/// Runs one part of all instances that have one; `single` says whether they are all single masses.
 #[inline(always)]
 pub fn pass<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool>(
     simd: S,
     jobs: &mut [Job<T>],
     part: Part,
+    single: bool,
     settings: Settings,
 ) {
     let Some(law) = jobs.first().map(Job::law) else { return };
-    let single = LAW == PIECES && jobs.iter().all(Job::is_single);
     let mut order: Vec<usize> = (0..jobs.len()).collect();
     order.sort_by_key(|index| jobs[*index].habit);
     // Each its own way, whatever its neighbours are.
@@ -45,7 +45,7 @@ pub fn pass<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bo
         order.into_iter().partition(|index| single && jobs[*index].swings());
     let block = Block::idle(simd, law);
     // What cannot be is not compiled: both conditions are known before.
-    if const { LAW == PIECES } && !swings.is_empty() {
+    if const { LAW == PIECES } && part == Part::Window && !swings.is_empty() {
         let mut all = Lanes::new(block, jobs, [single, true], swings, part, settings);
         while all.go_on() {
             simd.vectorize(Swings::<S, T, K> { all: &mut all });
@@ -178,7 +178,8 @@ fn step<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool, 
     let whole = one.at_most(at).and(h.at_most(e.step)).and(last);
     b.left = whole.select(zero, b.left - tau);
     b.belt = b.drive.fma(tau, b.belt);
-    b.disarmed = zero.less(at).select(zero, b.disarmed);
+    let disarmed = zero.less(at).select(zero, b.disarmed);
+    b.disarmed.put(disarmed);
     // A step that had to be shortened is a guess at the next one.
     let possible = reach.end * e.step;
     b.pace = possible.less(h).select(possible, reach.roomy.select(pace * one.like(LONGER), pace));

@@ -179,9 +179,11 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Spectrum<S, T, K> {
         let begun = zero.less(self.begun);
         for i in 0..COMPONENTS {
             let reached = self.sums[i] + before[i];
-            self.noted[i] = crossed.select(reached.only(begun), self.noted[i]);
+            let noted = crossed.select(reached.only(begun), self.noted[i]);
+            self.noted[i].put(noted);
             // The first crossing: what comes before it in the step does not count.
-            self.sums[i] = begun.select(self.sums[i], (zero - before[i]).only(crossed));
+            let sum = begun.select(self.sums[i], (zero - before[i]).only(crossed));
+            self.sums[i].put(sum);
         }
         self.begun = crossed.select(one, self.begun);
     }

@@ -59,17 +59,21 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
         if window {
             for i in 0..SUMS {
                 let once = self.window[i] - self.cycle.window[i];
-                self.window[i] = known.select(cycles.fma(once, self.window[i]), self.window[i]);
-                self.cycle.window[i] = slips.select(self.window[i], self.cycle.window[i]);
+                let whole = known.select(cycles.fma(once, self.window[i]), self.window[i]);
+                self.window[i].put(whole);
+                self.cycle.window[i].put(slips.select(whole, self.cycle.window[i]));
             }
         }
         // One that has none keeps its last.
         let rises = self.crossings - self.cycle.crossings;
-        self.last = known.and(zero.less(rises)).select(self.last + skipped, self.last);
-        self.crossings += (cycles * rises).only(known);
-        self.cycle.crossings = slips.select(self.crossings, self.cycle.crossings);
+        let last = known.and(zero.less(rises)).select(self.last + skipped, self.last);
+        self.last.put(last);
+        self.crossings += cycles * rises;
+        let crossings = slips.select(self.crossings, self.cycle.crossings);
+        self.cycle.crossings.put(crossings);
         self.time += skipped;
         b.left = (b.left - skipped).max(zero);
-        self.cycle.since = slips.select(self.time, self.cycle.since);
+        let since = slips.select(self.time, self.cycle.since);
+        self.cycle.since.put(since);
     }
 }

@@ -17,7 +17,8 @@ use super::vector::Scalar;
 pub fn swing_step<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>) {
     let (b, sums) = (&mut all.block, &mut all.sums);
     let (zero, one) = (b.left.like(0.0), b.left.like(1.0));
-    b.v[0] = b.stick().select(b.belt, b.v[0]);
+    let velocity = b.stick().select(b.belt, b.v[0]);
+    b.v[0].put(velocity);
     b.reached = b.reached.max(b.contact);
     let failed = one.like(MOST_STEPS).less(b.steps);
     if failed.any() {
@@ -52,7 +53,8 @@ pub fn swing_step<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K
     b.v[0] = end.state[1];
     let happened = zero.less(end.event);
     b.left = b.left.at_most(tau).and(happened.not()).select(zero, b.left - tau);
-    b.disarmed = zero.less(tau).select(zero, b.disarmed);
+    let disarmed = zero.less(tau).select(zero, b.disarmed);
+    b.disarmed.put(disarmed);
     b.steps += one;
     let slips = motion.sticks.and(happened);
     if slips.any() {

@@ -1,6 +1,6 @@
 //! What most events do, in all lanes at once: rest, stick, slip, kinks, lift-off and impacts.
 //!
-//! The rules are those of [`crate::kernel::lane`]; what is rare is left to it, lane by lane.
+//! The rules are those of [`crate::kernel::contact`]; what is rare is left to it, lane by lane.
 
 use std::ops::Not;
 
@@ -11,7 +11,7 @@ use super::constants::{CONE, KAPPA, MU_STICK, N0, R, T0, W};
 use super::expand::{FLIGHT, PIECES};
 use super::impacts::{at_speed, impact};
 use super::vector::{Mask, Scalar, Vector};
-use crate::kernel::lane::HELD_FROM;
+use crate::kernel::contact::HELD_FROM;
 use crate::kernel::scene::EVENTS_AT_ONCE;
 use crate::kernel::series::{FREE, REVERSE, SLIP, STICK};
 
@@ -41,7 +41,8 @@ pub fn transitions<S: Simd, T: Scalar<S>, const K: usize, const LAW: bool, const
 ) -> Mask<S, T, K> {
     let (zero, one) = (event.like(0.0), event.like(1.0));
     let happened = zero.less(event);
-    b.at_once = happened.select((b.at_once + one).only(at.not_positive()), b.at_once);
+    let at_once = happened.select((b.at_once + one).only(at.not_positive()), b.at_once);
+    b.at_once.put(at_once);
     b.counted += one.only(happened);
     let limit = event.like(f64::from(EVENTS_AT_ONCE)).less(b.at_once);
     let limit = limit.or(event.like(MOST_EVENTS).less(b.counted));
@@ -69,7 +70,8 @@ pub fn transitions<S: Simd, T: Scalar<S>, const K: usize, const LAW: bool, const
     let stops = at_rest.or(cone);
 
     // At v = 0: stick inside the cone, else slip in the direction of the force.
-    b.v[0] = stops.select(b.belt, b.v[0]);
+    let velocity = stops.select(b.belt, b.v[0]);
+    b.v[0].put(velocity);
     let (r, w) = (form(b, R), form(b, W));
     let tangential = r + b.drive;
     let normal = b.scene[KAPPA].fnma(b.drive, w);
@@ -154,11 +156,14 @@ fn land<S: Simd, T: Scalar<S>, const K: usize>(
     let known = moving.or(speed.not_positive());
     *rare = rare.or(hits.and(ill_posed.or(known.not())));
     let hits = hits.and(rare.not());
-    b.p[1] = hits.select(zero, b.p[1]);
-    b.v[0] = hits.select(after.tangential, b.v[0]);
-    b.v[1] = hits.select(after.rebound, b.v[1]);
+    let gap = hits.select(zero, b.p[1]);
+    b.p[1].put(gap);
+    let (tangential, rebound) = (hits.select(after.tangential, b.v[0]), hits.select(after.rebound, b.v[1]));
+    b.v[0].put(tangential);
+    b.v[1].put(rebound);
     // Another contact state has other modes.
-    b.pace = hits.select(b.step, b.pace);
+    let pace = hits.select(b.step, b.pace);
+    b.pace.put(pace);
     let closes = hits.and(rebounds.not());
     let held = closes.and(zero.like(f64::from(HELD_FROM)).at_most(b.at_once));
     let moving = closes.and(moving);

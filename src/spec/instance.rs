@@ -19,15 +19,13 @@ impl Spec {
         let mut params = self.base;
         let mut kind = self.law;
         let mut material = self.material.as_ref();
-        for (key, value) in self.grid.keys().into_iter().zip(self.grid.coordinates(index)) {
-            match (key, value) {
-                (AxisKey::Param(param), Value::Number(number)) => params.set(param, *number),
-                (AxisKey::Law, Value::Text(name)) => kind = law::from_name(name).unwrap_or(kind),
-                (AxisKey::Material, Value::Text(name)) => material = self.material_named(name),
-                // Validation gives numbers to parameters and names to the other keys.
-                _ => {}
-            }
-        }
+        self.grid.each(index, |key, value| match (key, value) {
+            (AxisKey::Param(param), Value::Number(number)) => params.set(param, *number),
+            (AxisKey::Law, Value::Text(name)) => kind = law::from_name(name).unwrap_or(kind),
+            (AxisKey::Material, Value::Text(name)) => material = self.material_named(name),
+            // Validation gives numbers to parameters and names to the other keys.
+            _ => {}
+        });
         starts::place(self.pass, &mut params);
         self.assemble(params, kind, material)
     }

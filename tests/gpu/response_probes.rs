@@ -152,7 +152,7 @@ fn probe(call: &str, twin: fn(&Words<f32>, f32, &Body<f32>) -> Vec<f32>) -> Resu
             let scene = Words::read(law, PIECES, words);
             #[expect(clippy::cast_precision_loss, reason = "small numbers")]
             let x = (i as f32 + 0.5) / COUNT as f32;
-            let expected = twin(&scene, x, &Lane::new(&scene).body);
+            let expected = twin(&scene, x, &Lane::new(&scene).state.body);
             let size = expected.iter().fold(0.0_f32, |size, value| size.max(value.abs()));
             for (k, expected) in expected.into_iter().enumerate() {
                 let actual = result.state[k * COUNT + i];

@@ -38,7 +38,7 @@ impl WithSimd for &mut InLanes<'_> {
         for jobs in self.jobs.chunks(<f64 as Scalar<S>>::LANES) {
             let mut block: Block<S, f64, 1> = Block::idle(simd, jobs[0].0.law());
             for (lane, (job, moment)) in jobs.iter().enumerate() {
-                let mut state = job.lane.clone();
+                let mut state = job.state;
                 state.contact = FREE;
                 state.body.v = [moment.vx, moment.vy, 0.0];
                 block.load_scene(lane, &job.constants, &job.words);

@@ -21,7 +21,7 @@ const TWINS: &[Twin] = &[
     Twin { name: "linear", rust_only: &["code", "all_finite"], wgsl_only: &[] },
     Twin {
         name: "scene",
-        rust_only: &["words", "read"],
+        rust_only: &["read", "words", "head", "piece", "of", "read_head"],
         wgsl_only: &["read_scene", "piece_of", "segment_of"],
     },
     Twin { name: "series", rust_only: &[], wgsl_only: &[] },
@@ -31,10 +31,11 @@ const TWINS: &[Twin] = &[
         rust_only: &["start", "new", "default", "count_impact", "close_growth"],
         wgsl_only: &["sample_time", "node_weight"],
     },
+    Twin { name: "contact", rust_only: &["blank", "new", "return_to", "is_finite"], wgsl_only: &[] },
     Twin {
         name: "lane",
         rust_only: &["blank", "new", "is_at_end", "run"],
-        wgsl_only: &["start_lane", "restore_snapshot", "watch"],
+        wgsl_only: &["start_lane", "watch"],
     },
 ];
 

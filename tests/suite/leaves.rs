@@ -5,7 +5,7 @@ use pulp::{Arch, Simd, WithSimd};
 
 use crate::common::plan;
 use crate::instances::{Uniform, moving};
-use squealmap::kernel::lane::NOTHING;
+use squealmap::kernel::contact::NOTHING;
 use squealmap::kernel::series::{REVERSE, SLIP};
 use squealmap::method::pace::Turns;
 use squealmap::model::friction::FrictionLaw;
@@ -72,7 +72,7 @@ impl WithSimd for &mut InLanes<'_> {
             let mut steps = Vector::splat(simd, 1.0);
             for (lane, case) in cases.iter().enumerate() {
                 block.load_scene(lane, &case.job.constants, &case.job.words);
-                block.load_state(lane, &case.job.lane, &case.job.words);
+                block.load_state(lane, &case.job.state, &case.job.words);
                 block.belt.set(lane, case.belt);
                 block.disarmed.set(lane, f64::from(case.disarmed));
                 steps.set(lane, case.step);
@@ -88,7 +88,7 @@ impl WithSimd for &mut InLanes<'_> {
                 first_event::<S, f64, 1, N, CLOSED>(&block, &e, &g, Vector::splat(simd, TOLERANCE));
             for (lane, case) in cases.iter().enumerate() {
                 let step = e.step.get(lane);
-                let sign = if case.job.lane.contact == SLIP { 1.0 } else { -1.0 };
+                let sign = if case.job.state.contact == SLIP { 1.0 } else { -1.0 };
                 let mut speed = [0.0; N];
                 for (k, coefficient) in speed.iter_mut().enumerate().take(N - 1) {
                     *coefficient = -sign * e.v[0][k + 1].get(lane);
@@ -136,10 +136,10 @@ fn cases() -> Vec<Case> {
         };
         let belt = 2.0 * u.next();
         let mut around = || 3.0 * (2.0 * u.next() - 1.0);
-        job.lane.contact = if sign > 0.0 { SLIP } else { REVERSE };
-        (job.lane.piece, job.lane.disarmed) = (piece, NOTHING);
-        job.lane.body.p = [around(), 0.0, around()];
-        job.lane.body.v = [belt - sign * speed, 0.0, around()];
+        job.state.contact = if sign > 0.0 { SLIP } else { REVERSE };
+        (job.state.piece, job.state.disarmed) = (piece, NOTHING);
+        job.state.body.p = [around(), 0.0, around()];
+        job.state.body.v = [belt - sign * speed, 0.0, around()];
         // No longer than the engine's are.
         let longest = job.constants[LONGEST + usize::from(sign < 0.0)];
         let step = longest.min(0.3 + 2.1 * u.next());

@@ -167,7 +167,7 @@ fn no_kernel_may_say_that_it_did_not_compute() {
     assert!(matches!(said, Err(Error::Unwritten { instance: 2 })));
     for (status, known) in [(Status::Ok, true), (Status::NotComputed, false), (Status::Unwritten, false)] {
         let mut lane = Lane::<f32>::blank();
-        lane.status = status;
+        lane.state.status = status;
         let (state, flags) = write(&lane);
         assert_eq!(read(&state, &flags).is_some(), known, "{status:?}");
     }

@@ -314,7 +314,7 @@ pub fn read_lane<R: Real>(segments: &Segments, index: usize, state: &[R], flags:
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whole numbers of steps")]
     let wanted: usize = segments.iter().map(|segment| segment[0] as usize).sum();
     let found = lane.iterations as usize;
-    if lane.status == Status::Ok && (found < wanted || !lane.is_at_end(segments)) {
+    if lane.state.status == Status::Ok && (found < wanted || !lane.is_at_end(segments)) {
         return Err(Error::Miscounted { kernel: KERNEL.name, found, wanted });
     }
     Ok(lane)
