@@ -17,12 +17,12 @@ def on_the_map():
     rows, engine = model.bench_map(12), peer_heyoka.Engine(1e-9, force_avx512=True)
     blocks = range(0, len(rows), engine.bs)
     run = lambda rows: np.concatenate([engine.run(rows[k:k + engine.bs], 100, 40)[0] for k in blocks])
-    return (lambda: turns.timed(run, rows)[1]), squealmap.BRAKE, model.bench_map(48)
+    return (lambda: turns.timed(run, rows)[1]), squealmap.BRAKE, model.bench_map(96)
 
 
 def on_the_belt():
     rows, engine = belt.belt_map(), peer_belt_heyoka.Engine(1e-9, force_avx512=True)
-    return (lambda: turns.timed(engine.run, rows)[1]), squealmap.BELT, belt.belt_map(48)
+    return (lambda: turns.timed(engine.run, rows)[1]), squealmap.BELT, belt.belt_map(400)
 
 
 def main():
@@ -31,7 +31,7 @@ def main():
         ratios = {case: [] for case in STEPS}
         for _ in range(ROUNDS):
             for case in STEPS:
-                before, rate = heyoka(), squealmap.run(rows, scene, "cpu", *case)[1]
+                before, rate = heyoka(), squealmap.rate(rows, scene, "cpu", *case)
                 ratios[case].append(2.0*rate/(before + heyoka()))
         for (precision, steps), values in ratios.items():
             low, middle, high = np.percentile(values, [25, 50, 75])

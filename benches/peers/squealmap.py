@@ -1,5 +1,5 @@
 """The program on rows of instances: standard deviation of x2, and instances per second of one thread."""
-import csv, json, os, subprocess, tempfile
+import csv, json, os, re, subprocess, tempfile
 import numpy as np
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
@@ -17,21 +17,34 @@ STEPS = [("cpu", "f64", 12), ("cpu", "f64", 5), ("cpu", "f64", 4), ("cpu", "f64"
 def run(rows, sections, backend, precision, steps):
     """rows of mu_s, mu_d, V, start velocity; `sections` of the sweep file say the rest"""
     with tempfile.TemporaryDirectory() as d:
-        with open(os.path.join(d, "points.csv"), "w") as f:
-            f.write("mu_s,mu_d,belt_velocity,start_velocity\n")
-            f.writelines("%r,%r,%r,%r\n" % tuple(map(float, row)) for row in rows)
-        with open(os.path.join(d, "map.toml"), "w") as f:
-            f.write('points = "points.csv"\n' + sections +
-                    '[response]\nsettle = "100 periods"\nmeasure = "40 periods"\nsteps_per_period = %d\n' % steps)
-        subprocess.run([PROGRAM, "run", "map.toml", "-o", "out", "--threads", "1", "--backend", backend, "--precision", precision,
-                        "--no-check"],
-                       cwd=d, check=True, capture_output=True)
+        sweep(d, rows, sections, backend, precision, steps)
         with open(os.path.join(d, "out", "map.csv")) as f:
             table = list(csv.DictReader(f))
         with open(os.path.join(d, "out", "manifest.json")) as f:
-            rate = json.load(f)["computation"]["instances_per_second"]
+            found = json.load(f)["computation"]["instances_per_second"]
         assert all(row["status"] == "ok" for row in table)
-        return np.array([float(row["x2_std"]) for row in table]), rate
+        return np.array([float(row["x2_std"]) for row in table]), found
+
+
+def rate(rows, sections, backend, precision, steps):
+    """instances per second alone, tiles written but no table and no figure of them"""
+    with tempfile.TemporaryDirectory() as d:
+        said = sweep(d, rows, sections, backend, precision, steps, "--shard", "0/1")
+        count, seconds = re.match(r"(\d+) instances of shard 0/1 in ([\d.]+) s;", said).groups()
+        assert int(count) == len(rows)
+        return len(rows)/float(seconds)
+
+
+def sweep(d, rows, sections, backend, precision, steps, *options):
+    """computes rows into the folder `out` of `d`; what the program says"""
+    with open(os.path.join(d, "points.csv"), "w") as f:
+        f.write("mu_s,mu_d,belt_velocity,start_velocity\n")
+        f.writelines("%r,%r,%r,%r\n" % tuple(map(float, row)) for row in rows)
+    with open(os.path.join(d, "map.toml"), "w") as f:
+        f.write('points = "points.csv"\n' + sections +
+                '[response]\nsettle = "100 periods"\nmeasure = "40 periods"\nsteps_per_period = %d\n' % steps)
+    return subprocess.run([PROGRAM, "run", "map.toml", "-o", "out", "--threads", "1", "--backend", backend, "--precision", precision,
+                           "--no-check", *options], cwd=d, check=True, capture_output=True, text=True).stdout
 
 
 def cases(scene, rows, many, truth):
@@ -39,8 +52,8 @@ def cases(scene, rows, many, truth):
     cases = {}
     for backend, precision, steps in STEPS:
         def case(backend=backend, precision=precision, steps=steps):
-            std, rate = run(rows, scene, backend, precision, steps)
-            if backend == "cpu": rate = run(many, scene, backend, precision, steps)[1]
-            return std, rate
+            std, found = run(rows, scene, backend, precision, steps)
+            if backend == "cpu": found = rate(many, scene, backend, precision, steps)
+            return std, found
         cases["**squealmap** `%s` %s %d steps" % (backend, precision, steps)] = (case, truth)
     return cases

@@ -128,6 +128,8 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Block<S, T, K> {
         self.contact.set(lane, T::from_f64(f64::from(STICK)));
         self.disarmed.set(lane, T::ZERO);
         self.steps.set(lane, T::ZERO);
+        self.counted.set(lane, T::ZERO);
+        self.at_once.set(lane, T::ZERO);
     }
 
     /// Loads the scene of an instance.
