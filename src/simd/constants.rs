@@ -53,22 +53,8 @@ pub const IMPACT_FRICTION: usize = 47;
 /// and by how much of a turn a velocity is less than a quarter ahead of its position. All 0 where it does not swing.
 pub const SWING: usize = 48;
 /// Those that steps in closed form need.
-pub const SWING_WORDS: [usize; 14] = [
-    R,
-    R + 3,
-    N0,
-    T0,
-    MU0,
-    MU_STICK,
-    CONE,
-    CONE + 1,
-    SWING,
-    SWING + 1,
-    SWING + 2,
-    SWING + 3,
-    SWING + 4,
-    STIFFNESS,
-];
+pub const SWING_WORDS: [usize; 13] =
+    [R, R + 3, N0, T0, MU0, MU_STICK, CONE, CONE + 1, SWING, SWING + 1, SWING + 2, SWING + 3, SWING + 4];
 /// How many there are.
 pub const CONSTANTS: usize = 53;
 
