@@ -141,7 +141,8 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Block<S, T, K> {
         self.scene[V0].set(lane, scene.v0);
     }
 
-    /// Loads what the steps in closed form need of a single mass; the rest is 0, as it does not move `y1`.
+    /// Loads what the steps in closed form need of a single mass; the rest stays 0, which in transitions stands beside the
+    /// motion of `y1`, 0 as well.
     #[inline(always)]
     pub fn load_swing(&mut self, lane: usize, constants: &[T; CONSTANTS]) {
         for word in SWING_WORDS {

@@ -52,11 +52,12 @@ pub const IMPACT_FRICTION: usize = 47;
 /// Of the free oscillation of the single mass: decay rate, angular frequency and its inverse, the inverse of the stiffness,
 /// and by how much of a turn a velocity is less than a quarter ahead of its position. All 0 where it does not swing.
 pub const SWING: usize = 48;
-/// Those that steps in closed form need.
-pub const SWING_WORDS: [usize; 13] =
-    [R, R + 3, N0, T0, MU0, MU_STICK, CONE, CONE + 1, SWING, SWING + 1, SWING + 2, SWING + 3, SWING + 4];
 /// How many there are.
 pub const CONSTANTS: usize = 53;
+
+/// Those that steps in closed form need.
+pub const SWING_WORDS: [usize; 12] =
+    [R, R + 3, N0, T0, MU0, CONE, CONE + 1, SWING, SWING + 1, SWING + 2, SWING + 3, SWING + 4];
 
 /// The constants of a scene whose steps may `turn` that far.
 #[must_use]

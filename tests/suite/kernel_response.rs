@@ -52,6 +52,7 @@ pub(crate) fn compare(
             (other.ay_rms, reference.ay_rms, 1e-12),
             (other.n_peak, reference.n_peak, 1e-12),
             (other.friction_mean, reference.friction_mean, 1e-2),
+            (other.impacts_per_second, reference.impacts_per_second, 1.0),
         ] {
             let (a, b) = (a.expect("a value"), b.expect("a value"));
             // A NaN must not pass for a small difference.
