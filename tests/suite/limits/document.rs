@@ -39,6 +39,9 @@ What holds for all of them:
   itself per step, 12 % over 1e8 of them; in f64 by 4e-5.
 - **What is at rest is at rest.** Amplitudes below 1e-18 of `F_ext/k2` are 0 in f32: a motion that has died out that far
   is told as none.
+- **On the edge rounding decides.** A single mass without any damping and with `mu_d = 0` slips from one edge of the stick cone
+  exactly to the other. Any `mu_d` above 0 makes it stick there; at 0 itself the last bits say whether it sticks or slips
+  back, the engines differ, and the status is `ok`. Ask for `mu_d = 1e-6`.
 - **Chaos.** From a restitution of about 0.95 on, and wherever a motion grazes the belt, the last bits decide: statuses and
   statistics hold, single values do not.
 ";
