@@ -6,7 +6,7 @@ use pulp::Simd;
 
 use super::expand::Expansion;
 use super::observe::Sums;
-use super::polynomial::{soon_to, value_soon, value_to};
+use super::polynomial::{soon_to, value_soon};
 use super::spectrum::Nodes;
 use super::vector::{Mask, Scalar, Vector};
 use crate::kernel::observe::SAMPLE_TIMES;
@@ -34,7 +34,7 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Track<S, T, K> {
     ) -> Self {
         let [v1, v2, v3] = velocities;
         let rate_square = e.rate * e.rate;
-        let ends = [e.a[0][0] * rate_square, value_to(&e.a[0], N - 3, at) * rate_square];
+        let ends = [e.a[0][0] * rate_square, soon_to(&e.a[0], 0, N - 3, at) * rate_square];
         Track {
             velocity: [before, v1, v2, v3, after],
             acceleration: [ends[0], nodes[0][0], nodes[1][0], nodes[2][0], ends[1]],

@@ -57,10 +57,17 @@ pub fn functions<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const MO
         let (x, w) = (b.scene[R] * square, b.scene[R + 2] * square);
         let (vx, vw) = (b.scene[R + 3] * e.step, b.scene[R + 5] * e.step);
         for k in 0..N - 2 {
-            let mut t = vx.fma(e.v[0][k + 1], x * e.p[0][k]);
+            // The belt holds x2, whose series ends with degree 2.
+            let moves = k <= 2;
+            let mut t = if MOTION == SINGLE { zero } else { w * e.p[2][k] };
+            if moves {
+                t = x.fma(e.p[0][k], t);
+            }
             if MOTION != SINGLE {
-                t = x.fma(e.p[0][k], w * e.p[2][k]);
-                t = vx.fma(e.v[0][k + 1], vw.fma(e.v[2][k + 1], t));
+                t = vw.fma(e.v[2][k + 1], t);
+            }
+            if moves {
+                t = vx.fma(e.v[0][k + 1], t);
             }
             if k == 0 {
                 // Without the static load, whose rounding would decide at the edge of the cone.

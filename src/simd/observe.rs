@@ -7,7 +7,7 @@ use pulp::Simd;
 use super::block::Block;
 use super::constants::{N0, R, T0, W};
 use super::expand::{Expansion, SINGLE};
-use super::polynomial::{value_soon, value_to};
+use super::polynomial::{soon_to, value_soon};
 use super::spectrum::{Nodes, Spectrum, moving, seen};
 use super::swing_cycle::Cycle;
 use super::vector::{Mask, Scalar, Vector};
@@ -108,7 +108,7 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
             for j in 0..moving {
                 accelerations[j] = match i {
                     0 => e.a[j][0] * rate_square,
-                    4 => value_to(&e.a[j], N - 3, at) * rate_square,
+                    4 => soon_to(&e.a[j], 0, N - 3, at) * rate_square,
                     _ => nodes[i - 1][j],
                 };
             }
@@ -117,19 +117,20 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
             samples[1][i] = ay.abs();
             if i == 0 || i == 4 {
                 if MOTION != SINGLE {
-                    let n = if i == 0 { e.n[0] } else { value_to(&e.n, N - 3, t) };
+                    let n = if i == 0 { e.n[0] } else { soon_to(&e.n, 0, N - 3, t) };
                     // In flight the series is that of the gap.
                     samples[2][i] = free.select(zero, n * rate_square);
                 }
                 continue;
             }
             let degree = seen(N - 1, i - 1);
-            let (x, vx) = (value_to(&e.p[0], degree, t), derivative_to(&e.v[0], degree, t) * e.rate);
+            let (x, vx) = (soon_to(&e.p[0], 0, degree, t), soon_to(&e.v[0], 1, degree, t) * e.rate);
             velocities[i - 1] = vx;
             let (mut w, mut vw) = (zero, zero);
             if MOTION != SINGLE {
-                (w, vw) = (value_to(&e.p[2], degree, t), derivative_to(&e.v[2], degree, t) * e.rate);
+                (w, vw) = (soon_to(&e.p[2], 0, degree, t), soon_to(&e.v[2], 1, degree, t) * e.rate);
             }
+            // Those of lanes in contact, whose y2 is 0.
             let mut forces = [zero; 2];
             for (force, c) in [(0, R), (1, W)] {
                 if MOTION == SINGLE {
@@ -138,10 +139,6 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
                 }
                 let mut sum = b.scene[c].fma(x, b.scene[c + 2] * w);
                 sum = b.scene[c + 3].fma(vx, b.scene[c + 5].fma(vw, sum));
-                if flying {
-                    sum = b.scene[c + 1].fma(value_to(&e.p[1], degree, t), sum);
-                    sum = b.scene[c + 4].fma(derivative_to(&e.v[1], degree, t) * e.rate, sum);
-                }
                 forces[force] = sum;
             }
             let mut normal = b.scene[super::constants::KAPPA].fnma(ax, forces[1] + b.scene[N0]);
@@ -214,9 +211,9 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
         vx: Vector<S, T, K>,
     ) {
         let rate_square = e.rate * e.rate;
-        let mut sample = [x, vx, value_to(&e.a[0], N - 3, at) * rate_square, at.like(0.0)];
+        let mut sample = [x, vx, soon_to(&e.a[0], 0, N - 3, at) * rate_square, at.like(0.0)];
         if MOTION != SINGLE {
-            sample[3] = value_to(&e.a[1], N - 3, at) * rate_square;
+            sample[3] = soon_to(&e.a[1], 0, N - 3, at) * rate_square;
         }
         self.add_growth::<MOTION>(at * e.step, &sample);
     }
@@ -255,7 +252,7 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
             carrier = turn(carrier, if i == 0 { outer } else { inner });
             let t = at * at.like(NODES[i]);
             let weight = tau * rate_square * at.like(WEIGHTS[i]);
-            let (ax, ay) = (value_to(&e.a[0], N - 3, t) * weight, value_to(&e.a[1], N - 3, t) * weight);
+            let (ax, ay) = (soon_to(&e.a[0], 0, N - 3, t) * weight, soon_to(&e.a[1], 0, N - 3, t) * weight);
             self.phase[0] = ax.fma(carrier[0], self.phase[0]);
             self.phase[1] = ax.fma(carrier[1], self.phase[1]);
             self.phase[2] = ay.fma(carrier[0], self.phase[2]);
@@ -265,23 +262,9 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
     }
 }
 
-/// `Σ v_k t^(k − 1)` of coefficients that already carry their degree, up to a degree of the position.
-#[inline(always)]
-pub fn derivative_to<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
-    v: &[Vector<S, T, K>; N],
-    degree: usize,
-    t: Vector<S, T, K>,
-) -> Vector<S, T, K> {
-    let mut sum = v[degree];
-    for k in (1..degree).rev() {
-        sum = sum.fma(t, v[k]);
-    }
-    sum
-}
-
-/// What [`derivative_to`] the last degree has changed by since the start of the step. A velocity that is carried on by it
-/// takes no part in the scaling by a step and back, whose rounding, the same in every step of one length, would let it grow
-/// or decay.
+/// What a velocity `Σ v_k t^(k − 1)`, whose coefficients carry their degree, has changed by since the start of the step. One
+/// that is carried on by it takes no part in the scaling by a step and back, whose rounding, the same in every step of one
+/// length, would let it grow or decay.
 #[inline(always)]
 pub fn change<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
     v: &[Vector<S, T, K>; N],

@@ -10,7 +10,11 @@ pub fn value<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
     b: &[Vector<S, T, K>; N],
     t: Vector<S, T, K>,
 ) -> Vector<S, T, K> {
-    value_to(b, N - 1, t)
+    let mut sum = b[N - 1];
+    for k in (0..N - 1).rev() {
+        sum = sum.fma(t, b[k]);
+    }
+    sum
 }
 
 /// `Σ b_k t^(k − first)` from a degree on, even and odd ones at a time: sooner there than by a chain.
@@ -43,20 +47,6 @@ pub fn soon_to<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
     let mut sum = upper.fma(t, lower);
     while k > first {
         k -= 1;
-        sum = sum.fma(t, b[k]);
-    }
-    sum
-}
-
-/// `Σ b_k t^k` up to a degree.
-#[inline(always)]
-pub fn value_to<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
-    b: &[Vector<S, T, K>; N],
-    degree: usize,
-    t: Vector<S, T, K>,
-) -> Vector<S, T, K> {
-    let mut sum = b[degree];
-    for k in (0..degree).rev() {
         sum = sum.fma(t, b[k]);
     }
     sum

@@ -12,7 +12,7 @@ use pulp::Simd;
 
 use super::expand::{Expansion, SINGLE};
 use super::observe::{rotation, turn};
-use super::polynomial::value_to;
+use super::polynomial::soon_to;
 use super::vector::{Mask, Scalar, Vector};
 use crate::kernel::observe::{NODES, WEIGHTS};
 
@@ -73,7 +73,7 @@ pub fn accelerations<S: Simd, T: Scalar<S>, const K: usize, const N: usize, cons
     for i in 0..3 {
         let t = at * at.like(NODES[i]);
         for j in 0..moving(MOTION) {
-            nodes[i][j] = value_to(&e.a[j], seen(N - 3, i), t) * rate_square;
+            nodes[i][j] = soon_to(&e.a[j], 0, seen(N - 3, i), t) * rate_square;
         }
     }
     nodes
