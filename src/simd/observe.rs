@@ -201,7 +201,7 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
         self.crossings += after.like(1.0).only(crossed);
     }
 
-    /// Adds a step before the first event; `p` and `v` are the state at its end.
+    /// Adds a step before the first event; `x` and `vx` are position and velocity at its end.
     #[inline(always)]
     pub fn observe_growth<const N: usize, const MOTION: u8>(
         &mut self,

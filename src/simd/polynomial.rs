@@ -27,7 +27,7 @@ pub fn value_soon<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
     soon_to(b, first, N - 1, t)
 }
 
-/// The same up to a degree.
+/// The same up to a degree above the first.
 #[inline(always)]
 pub fn soon_to<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
     b: &[Vector<S, T, K>; N],
