@@ -7,6 +7,9 @@
 use crate::label::Label;
 use crate::spec::{Analysis, Starts};
 
+/// The colour of what is at rest, hardly told from white paper.
+pub const PALE: &str = "#F2F2EE";
+
 /// How one class is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Class {
@@ -22,7 +25,7 @@ pub struct Class {
 
 /// The classes of [`InstabilityType::ALL`](crate::classify::InstabilityType::ALL), in that order.
 pub const TYPES: [Class; 7] = [
-    Class { name: "stable", label: "stable", fill: "#F2F2EE", dark: false },
+    Class { name: "stable", label: "stable", fill: PALE, dark: false },
     Class { name: "negative_slope", label: "negative slope", fill: "#56B4E9", dark: false },
     Class { name: "mode_coupling", label: "mode coupling", fill: "#B5441A", dark: true },
     Class { name: "coexistence", label: "coexistence", fill: "#452087", dark: true },
@@ -33,7 +36,7 @@ pub const TYPES: [Class; 7] = [
 
 /// The classes of [`Regime::ALL`](crate::classify::Regime::ALL), in that order.
 pub const REGIMES: [Class; 7] = [
-    Class { name: "equilibrium", label: "equilibrium", fill: "#F2F2EE", dark: false },
+    Class { name: "equilibrium", label: "equilibrium", fill: PALE, dark: false },
     Class { name: "slip", label: "slip", fill: "#BDD965", dark: false },
     Class { name: "stick_slip", label: "stick–slip", fill: "#45B89B", dark: false },
     Class { name: "slip_reversal", label: "slip reversal", fill: "#5B85CC", dark: false },
@@ -44,7 +47,7 @@ pub const REGIMES: [Class; 7] = [
 
 /// Whether several starts end differently.
 pub const BISTABILITY: [Class; 3] = [
-    Class { name: "monostable", label: "one attractor", fill: "#F2F2EE", dark: false },
+    Class { name: "monostable", label: "one attractor", fill: PALE, dark: false },
     Class { name: "no_verdict", label: "no verdict", fill: "#A9B4BA", dark: false },
     Class { name: "bistable", label: "bistable", fill: "#A5480F", dark: true },
 ];

@@ -1,5 +1,6 @@
 //! Which instances stand in which panel: the picture's axes and the small multiples.
 
+use std::cmp::Ordering;
 use std::ops::Range;
 
 use super::picture_axis::PictureAxis;
@@ -230,6 +231,15 @@ pub(super) fn setting(key: AxisKey, value: &Value) -> Text {
     }
 }
 
+/// The order of two settings of numbers.
+fn by_numbers(one: &[&Value], other: &[&Value]) -> Ordering {
+    let orders = one.iter().zip(other).map(|pair| match pair {
+        (Value::Number(a), Value::Number(b)) => a.total_cmp(b),
+        _ => Ordering::Equal,
+    });
+    orders.fold(Ordering::Equal, Ordering::then)
+}
+
 fn from_tuples(keys: &[AxisKey], rows: &[Vec<Value>]) -> Panels {
     let column = |i: usize| rows.iter().map(|row| &row[i]).collect::<Vec<&Value>>();
     let varying = |i: &usize| rows.iter().any(|row| row[*i] != rows[0][*i]);
@@ -246,6 +256,10 @@ fn from_tuples(keys: &[AxisKey], rows: &[Vec<Value>]) -> Panels {
         } else if groups.len() <= MOST_TUPLE_PANELS {
             groups.push((group, vec![instance]));
         }
+    }
+    // Names keep the order in which they come, numbers need not.
+    if further.iter().all(|i| numeric(keys[*i])) {
+        groups.sort_by(|(one, _), (other, _)| by_numbers(one, other));
     }
     // Worth separate panels only when these collect points.
     let split = groups.len() <= MOST_TUPLE_PANELS && 2 * groups.len() <= rows.len();

@@ -8,7 +8,7 @@ use super::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room};
 use super::key::{self, Sample};
 use super::look::Content;
 use super::panels::{Panel, Panels};
-use super::points::{POINT_RADIUS, positions};
+use super::points::{self, positions};
 use super::raster;
 use super::scale::{Scale, axis_unit};
 use super::svg::{Anchor, Style, Svg, polyline};
@@ -190,21 +190,7 @@ pub(super) fn draw(
     let of = |place: usize| (field.value)(place).map(|value| tones.step(value, &field.scale));
     let is_dark = |step| tones.is_dark(step);
     if panels.scatter.is_some() {
-        for place in panel.cells.clone() {
-            let instance = panels.instances[place];
-            let Some([x, y]) = positions(grid, panels, instance, frame) else { continue };
-            let tone = of(place).map_or_else(|| FAILED_FILL.to_owned(), |step| tones.fill(step));
-            svg.circle(
-                x,
-                y,
-                POINT_RADIUS,
-                &format!(r##"fill="{tone}" stroke="#000000" stroke-width="0.5""##),
-            );
-            if field.is_doubtful(place) {
-                svg.circle(x, y, POINT_RADIUS, &dotted(of(place).is_some_and(is_dark)));
-            }
-        }
-        return;
+        return draw_points(svg, grid, panels, panel, field, frame);
     }
     let Some([columns, rows]) = shape(panels, panel) else { return };
     let at = |vertex: Vertex| corner(panels, frame, vertex);
@@ -224,6 +210,39 @@ pub(super) fn draw(
     for dark in [false, true] {
         let doubtful = region(&|place| field.is_doubtful(place) && of(place).map(is_dark) == Some(dark));
         svg.path(&doubtful, &dotted(dark));
+    }
+}
+
+/// The same for scattered points.
+fn draw_points(svg: &mut Svg, grid: &Grid, panels: &Panels, panel: &Panel, field: &Field<'_>, frame: &Frame) {
+    let tones = field.tones;
+    let step = |place: usize| (field.value)(place).map(|value| tones.step(value, &field.scale));
+    let radius = points::radius(panels, frame);
+    let mut layers = vec![Vec::new(); tones.steps() + 1];
+    let mut doubtful = [Vec::new(), Vec::new()];
+    for place in panel.cells.clone() {
+        let Some([x, y]) = positions(grid, panels, panels.instances[place], frame) else { continue };
+        let step = step(place);
+        let dark = step.is_some_and(|step| tones.is_dark(step));
+        if !points::outlined(radius) {
+            layers[step.map_or(0, |step| step + 1)].push([x, y]);
+            if field.is_doubtful(place) {
+                doubtful[usize::from(dark)].push([x, y]);
+            }
+            continue;
+        }
+        let tone = step.map_or_else(|| FAILED_FILL.to_owned(), |step| tones.fill(step));
+        svg.circle(x, y, radius, &format!(r##"fill="{tone}" stroke="#000000" stroke-width="0.5""##));
+        if field.is_doubtful(place) {
+            svg.circle(x, y, radius, &dotted(dark));
+        }
+    }
+    for (number, at) in layers.iter().enumerate() {
+        let tone = number.checked_sub(1).map_or_else(|| FAILED_FILL.to_owned(), |step| tones.fill(step));
+        points::dots(svg, at, radius, "value", &tone);
+    }
+    for (at, tone) in doubtful.iter().zip(["url(#dots-on-light)", "url(#dots-on-dark)"]) {
+        points::dots(svg, at, radius, "unsettled", tone);
     }
 }
 
