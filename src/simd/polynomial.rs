@@ -4,19 +4,6 @@ use pulp::Simd;
 
 use super::vector::{Scalar, Vector};
 
-/// `Σ b_k t^k`.
-#[inline(always)]
-pub fn value<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
-    b: &[Vector<S, T, K>; N],
-    t: Vector<S, T, K>,
-) -> Vector<S, T, K> {
-    let mut sum = b[N - 1];
-    for k in (0..N - 1).rev() {
-        sum = sum.fma(t, b[k]);
-    }
-    sum
-}
-
 /// `Σ b_k t^(k − first)` from a degree on, even and odd ones at a time: sooner there than by a chain.
 #[inline(always)]
 pub fn value_soon<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(

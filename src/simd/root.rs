@@ -5,7 +5,7 @@ use std::ops::Not;
 
 use pulp::Simd;
 
-use super::polynomial::{at_one, soon_to, value, value_and_slope, value_slope_and_bend, value_soon};
+use super::polynomial::{at_one, soon_to, value_and_slope, value_slope_and_bend, value_soon};
 use super::vector::{Mask, Scalar, Vector};
 use crate::kernel::crossing::{DIP, DIP_ITERATIONS, SAMPLES, SOLVER_ITERATIONS};
 use crate::kernel::source::Precision;
@@ -168,7 +168,7 @@ pub fn bracket<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const SPAN
         let [sample, curvature] = dips::<S, T, K, SPAN>(&samples, ahead, falls, has_root, span);
         let dips = sample.less(high).and(may_dip);
         if dips.any() {
-            let side = if SPAN { middle.less(value(c, sample)).select(-width, width) } else { width };
+            let side = if SPAN { middle.less(value_soon(c, 0, sample)).select(-width, width) } else { width };
             let mut t = sample;
             for _ in 0..DIP_ITERATIONS {
                 let [_, slope] = value_and_slope(c, t);
@@ -178,7 +178,7 @@ pub fn bracket<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const SPAN
                     .max(zero)
                     .min(one);
             }
-            let deepest = value(c, t);
+            let deepest = value_soon(c, 0, t);
             let below = dips.and(within::<S, T, K, SPAN>(deepest, span).not_positive());
             low = below.select((sample - width).max(zero), low);
             high = below.select(t, high);

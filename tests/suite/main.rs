@@ -72,6 +72,7 @@ mod single;
 mod snapshots;
 mod spec;
 mod start;
+mod stick_leaves;
 mod stopped;
 mod stretches;
 mod strict;
