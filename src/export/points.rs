@@ -17,7 +17,7 @@ const RADII: [f64; 2] = [0.4, 3.2];
 const PER_DISTANCE: f64 = 0.4;
 /// Smaller points have no outline, which would be most of them.
 const OUTLINED_FROM: f64 = 1.6;
-/// Points of one path: a renderer takes one of very many in no time that grows with their number alone.
+/// Points of one path: a renderer's time grows faster than the points of a single one.
 const POINTS_OF_A_PATH: usize = 256;
 
 /// Colour of small points that were not computed.

@@ -3,40 +3,18 @@
 
 use pulp::{Arch, Simd, WithSimd};
 
-use crate::common::plan;
-use crate::instances::{Uniform, moving};
+use crate::first_events::{Body, N, job, steps};
+use crate::instances::Uniform;
 use squealmap::kernel::contact::NOTHING;
 use squealmap::kernel::series::{REVERSE, SLIP};
-use squealmap::method::pace::Turns;
-use squealmap::model::friction::FrictionLaw;
-use squealmap::response::Scene;
-use squealmap::simd::ORDER;
-use squealmap::simd::block::{Block, FIRST, LOWER, SECOND, THIRD, UPPER};
+use squealmap::simd::block::{FIRST, LOWER, SECOND, THIRD, UPPER};
 use squealmap::simd::constants::LONGEST;
-use squealmap::simd::events::first_event;
-use squealmap::simd::expand::{CLOSED, Expansion, PIECES, expand};
-use squealmap::simd::functions::{Functions, functions};
-use squealmap::simd::job::Job;
-use squealmap::simd::reach::reach;
-use squealmap::simd::vector::{Scalar, Vector};
-use squealmap::spec::Instance;
-
-const N: usize = ORDER + 1;
 
 /// Samples of the dense search.
 const DENSE: usize = 1000;
 
 /// Bound on the truncation of a step, the coarsest of the engine.
 const TOLERANCE: f64 = 1e-3;
-
-/// A sliding body and its step.
-struct Case {
-    job: Job<f64>,
-    belt: f64,
-    step: f64,
-    /// The event function that begins at zero.
-    disarmed: u32,
-}
 
 /// The series of a step as the lanes have them, and the event they find.
 struct Made {
@@ -51,79 +29,42 @@ struct Made {
     event: u32,
 }
 
-/// The code of an event function in a lane.
-fn code_of(number: f64) -> u32 {
-    [FIRST, SECOND, THIRD]
-        .into_iter()
-        .find(|code| (f64::from(*code) - number).abs() < 0.5)
-        .expect("an event function")
-}
-
 struct InLanes<'a> {
-    cases: &'a [Case],
+    bodies: &'a [Body],
     made: Vec<Made>,
 }
 
 impl WithSimd for &mut InLanes<'_> {
     type Output = ();
     fn with_simd<S: Simd>(self, simd: S) {
-        for cases in self.cases.chunks(<f64 as Scalar<S>>::LANES) {
-            let mut block: Block<S, f64, 1> = Block::idle(simd, cases[0].job.law());
-            let mut steps = Vector::splat(simd, 1.0);
-            for (lane, case) in cases.iter().enumerate() {
-                block.load_scene(lane, &case.job.constants, &case.job.words);
-                block.load_state(lane, &case.job.state, &case.job.words);
-                block.belt.set(lane, case.belt);
-                block.disarmed.set(lane, f64::from(case.disarmed));
-                steps.set(lane, case.step);
-            }
-            let mut e = Expansion::<S, f64, 1, N>::new(simd);
-            let mut g = Functions::<S, f64, 1, N>::new(simd);
-            let ill_posed = expand::<S, f64, 1, N, PIECES, CLOSED>(&block, steps, &mut e);
-            assert!(!ill_posed.any());
-            let reach = reach::<S, f64, 1, N, CLOSED>(&mut e, Vector::splat(simd, TOLERANCE));
-            let normal = e.n;
-            functions::<S, f64, 1, N, CLOSED>(&block, &mut e, &mut g);
-            let [at, event] =
-                first_event::<S, f64, 1, N, CLOSED>(&block, &e, &g, Vector::splat(simd, TOLERANCE));
-            for (lane, case) in cases.iter().enumerate() {
-                let step = e.step.get(lane);
-                let sign = if case.job.state.contact == SLIP { 1.0 } else { -1.0 };
+        steps(simd, self.bodies, TOLERANCE, |made, bodies| {
+            for (lane, body) in bodies.iter().enumerate() {
+                let step = made.e.step.get(lane);
+                let sign = if body.job.state.contact == SLIP { 1.0 } else { -1.0 };
                 let mut speed = [0.0; N];
                 for (k, coefficient) in speed.iter_mut().enumerate().take(N - 1) {
-                    *coefficient = -sign * e.v[0][k + 1].get(lane);
+                    *coefficient = -sign * made.e.v[0][k + 1].get(lane);
                 }
-                speed[0] += sign * case.belt * step;
-                let end = |word: usize| block.piece[word].get(lane) * step;
-                let mut forces = [0.0; N];
-                for (force, series) in forces.iter_mut().zip(&normal).take(N - 2) {
+                speed[0] += sign * body.belt * step;
+                let end = |word: usize| made.block.piece[word].get(lane) * step;
+                let mut normal = [0.0; N];
+                for (force, series) in normal.iter_mut().zip(&made.normal).take(N - 2) {
                     *force = series.get(lane);
                 }
-                self.made.push(Made {
-                    normal: forces,
-                    speed,
-                    ends: [end(LOWER), end(UPPER)],
-                    until: reach.end.get(lane),
-                    at: at.get(lane),
-                    event: if event.get(lane) > 0.0 { code_of(event.get(lane)) } else { 0 },
-                });
+                let ends = [end(LOWER), end(UPPER)];
+                let (at, event) = made.event(lane);
+                self.made.push(Made { normal, speed, ends, until: made.until.get(lane), at, event });
             }
-        }
+        });
     }
 }
 
 /// Bodies that slide on either piece of a bilinear law, some of which have just come onto it.
-fn cases() -> Vec<Case> {
+fn bodies() -> Vec<Body> {
     let mut u = Uniform(31);
-    let turns = Turns::new(ORDER, TOLERANCE);
-    let mut cases = Vec::new();
-    while cases.len() < 4000 {
-        let (mu_s, mu_d) = (0.6 * u.next(), 0.6 * u.next());
-        let law = FrictionLaw::Bilinear { mu_s, mu_d, knee_velocity: u.log(0.03, 1.0) };
-        let instance = Instance { params: moving(&mut u), law, impact_friction: false };
-        let plan = plan(1.0, 0.1, 12);
-        let Ok(scene) = Scene::planned(&instance, &plan, f64::EPSILON) else { continue };
-        let mut job = Job::<f64>::new(&instance, scene, &plan, &turns);
+    let mut bodies = Vec::new();
+    while bodies.len() < 4000 {
+        let Some(mut job) = job(&mut u, TOLERANCE) else { continue };
         let Some(knee) = job.scene.model.law.kinks.first().copied() else { continue };
         let (piece, sign) = (u32::from(u.next() < 0.3), if u.next() < 0.8 { 1.0 } else { -1.0 });
         // In a third of them the speed is that of an end of its piece.
@@ -143,9 +84,9 @@ fn cases() -> Vec<Case> {
         // No longer than the engine's are.
         let longest = job.constants[LONGEST + usize::from(sign < 0.0)];
         let step = longest.min(0.3 + 2.1 * u.next());
-        cases.push(Case { job, belt, step, disarmed });
+        bodies.push(Body { job, belt, drive: 0.0, step, disarmed });
     }
-    cases
+    bodies
 }
 
 fn value(series: &[f64; N], t: f64) -> f64 {
@@ -208,14 +149,14 @@ fn expected(made: &Made, disarmed: u32) -> Result<Option<(f64, u32)>, ()> {
 
 /// How many lanes differ, and what has been seen: nothing, lift-off, lower end, upper end, undecided, both ends left.
 fn differ(planted: impl Fn(&mut Made)) -> (usize, [usize; 6]) {
-    let cases = cases();
-    let mut lanes = InLanes { cases: &cases, made: Vec::new() };
+    let bodies = bodies();
+    let mut lanes = InLanes { bodies: &bodies, made: Vec::new() };
     Arch::new().dispatch(&mut lanes);
     let (mut different, mut seen) = (0, [0; 6]);
-    for (case, mut made) in cases.iter().zip(lanes.made) {
+    for (body, mut made) in bodies.iter().zip(lanes.made) {
         planted(&mut made);
         // What lies beyond the end is looked for again.
-        let (at, event) = match expected(&made, case.disarmed) {
+        let (at, event) = match expected(&made, body.disarmed) {
             Ok(Some((at, _))) if at > made.until => (1.0, 0),
             Ok(first) => first.unwrap_or((1.0, 0)),
             Err(()) => {

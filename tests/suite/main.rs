@@ -22,6 +22,7 @@ mod export;
 mod extremes;
 mod fastest;
 mod figure;
+mod first_events;
 mod fit;
 mod fuzz;
 mod gallery;

@@ -3,64 +3,39 @@
 
 use pulp::{Arch, Simd, WithSimd};
 
-use crate::common::plan;
-use crate::instances::{Uniform, moving};
+use crate::first_events::{Body, job, steps};
+use crate::instances::Uniform;
 use squealmap::kernel::series::STICK;
-use squealmap::method::pace::Turns;
 use squealmap::model::equilibrium::Scaled;
-use squealmap::model::friction::FrictionLaw;
-use squealmap::response::Scene;
-use squealmap::simd::ORDER;
-use squealmap::simd::block::{Block, SECOND, THIRD};
-use squealmap::simd::events::first_event;
-use squealmap::simd::expand::{CLOSED, Expansion, PIECES, expand};
-use squealmap::simd::functions::{Functions, functions};
-use squealmap::simd::job::Job;
-use squealmap::simd::vector::{Scalar, Vector};
-use squealmap::spec::Instance;
-
-const N: usize = ORDER + 1;
+use squealmap::simd::block::{SECOND, THIRD};
+use squealmap::simd::constants::R;
 
 /// Short steps of the other integration.
 const SHORT: usize = 2000;
 
-/// Bound on the truncation of a step.
+/// Bound on the truncation of a step; the series of all here are good to their ends.
 const TOLERANCE: f64 = 1e-9;
 
-/// A sticking body, the belt below it and a step in which its series is exact but for 1e-9.
-struct Case {
-    job: Job<f64>,
-    belt: f64,
-    drive: f64,
-    step: f64,
-}
-
-impl Case {
-    /// Random ones inside the cone.
-    fn all() -> Vec<Case> {
+impl Body {
+    /// Random ones that stick, inside the cone.
+    fn sticking() -> Vec<Body> {
         let mut u = Uniform(53);
-        let turns = Turns::new(ORDER, TOLERANCE);
-        let mut cases = Vec::new();
-        while cases.len() < 2000 {
-            let (mu_s, mu_d) = (0.6 * u.next(), 0.6 * u.next());
-            let law = FrictionLaw::Bilinear { mu_s, mu_d, knee_velocity: u.log(0.03, 1.0) };
-            let instance = Instance { params: moving(&mut u), law, impact_friction: false };
-            let plan = plan(1.0, 0.1, 12);
-            let Ok(scene) = Scene::planned(&instance, &plan, f64::EPSILON) else { continue };
-            let mut job = Job::<f64>::new(&instance, scene, &plan, &turns);
+        let mut bodies = Vec::new();
+        while bodies.len() < 2000 {
+            let Some(mut job) = job(&mut u, TOLERANCE) else { continue };
             let belt = 2.0 * u.next() - 1.0;
             let drive = if u.next() < 0.5 { 0.0 } else { u.next() - 0.5 };
             let mut around = || 2.0 * u.next() - 1.0;
             job.state.contact = STICK;
             job.state.body.p = [around(), 0.0, around()];
             job.state.body.v = [belt, 0.0, around()];
-            let case = Case { job, belt, drive, step: 0.1 + 0.5 * u.next() };
+            let body = Body { job, belt, drive, step: 0.1 + 0.5 * u.next(), disarmed: 0 };
             // What begins at the edge may be on either side of it.
-            if case.margins(&[0.0; 2], 0.0).iter().all(|margin| *margin > 1e-3) {
-                cases.push(case);
+            if body.margins(&[0.0; 2], 0.0).iter().all(|margin| *margin > 1e-3) {
+                bodies.push(body);
             }
         }
-        cases
+        bodies
     }
 
     fn model(&self) -> &Scaled {
@@ -119,49 +94,28 @@ impl Case {
 
 /// Where in its step each lane has an event, and which.
 struct InLanes<'a> {
-    cases: &'a [Case],
+    bodies: &'a [Body],
     found: Vec<(f64, u32)>,
 }
 
 impl WithSimd for &mut InLanes<'_> {
     type Output = ();
     fn with_simd<S: Simd>(self, simd: S) {
-        for cases in self.cases.chunks(<f64 as Scalar<S>>::LANES) {
-            let mut block: Block<S, f64, 1> = Block::idle(simd, cases[0].job.law());
-            let mut steps = Vector::splat(simd, 1.0);
-            for (lane, case) in cases.iter().enumerate() {
-                block.load_scene(lane, &case.job.constants, &case.job.words);
-                block.load_state(lane, &case.job.state, &case.job.words);
-                block.belt.set(lane, case.belt);
-                block.drive.set(lane, case.drive);
-                steps.set(lane, case.step);
+        steps(simd, self.bodies, TOLERANCE, |step, bodies| {
+            for lane in 0..bodies.len() {
+                assert!(step.until.get(lane) >= 1.0);
+                self.found.push(step.event(lane));
             }
-            let mut e = Expansion::<S, f64, 1, N>::new(simd);
-            let mut g = Functions::<S, f64, 1, N>::new(simd);
-            assert!(!expand::<S, f64, 1, N, PIECES, CLOSED>(&block, steps, &mut e).any());
-            functions::<S, f64, 1, N, CLOSED>(&block, &mut e, &mut g);
-            let tolerance = Vector::splat(simd, TOLERANCE);
-            let [at, event] = first_event::<S, f64, 1, N, CLOSED>(&block, &e, &g, tolerance);
-            for lane in 0..cases.len() {
-                let event = [SECOND, THIRD]
-                    .into_iter()
-                    .find(|code| (f64::from(*code) - event.get(lane)).abs() < 0.5)
-                    .unwrap_or_else(|| {
-                        assert!(event.get(lane).abs() < 0.5, "neither side of the cone");
-                        0
-                    });
-                self.found.push((at.get(lane), event));
-            }
-        }
+        });
     }
 }
 
 /// How many lanes differ, and how many do not leave, leave forwards, backwards, cannot be told.
-fn differ(planted: impl Fn(&mut Case)) -> (usize, [usize; 4]) {
-    let mut cases = Case::all();
-    let expected: Vec<_> = cases.iter().map(Case::leaves).collect();
-    cases.iter_mut().for_each(planted);
-    let mut lanes = InLanes { cases: &cases, found: Vec::new() };
+fn differ(planted: impl Fn(&mut Body)) -> (usize, [usize; 4]) {
+    let mut bodies = Body::sticking();
+    let expected: Vec<_> = bodies.iter().map(Body::leaves).collect();
+    bodies.iter_mut().for_each(planted);
+    let mut lanes = InLanes { bodies: &bodies, found: Vec::new() };
     Arch::new().dispatch(&mut lanes);
     let (mut different, mut seen) = (0, [0; 4]);
     for ((at, event), expected) in lanes.found.into_iter().zip(expected) {
@@ -192,10 +146,10 @@ fn the_stick_cone_is_left_where_the_model_leaves_it() {
 #[test]
 fn a_wrong_leave_is_seen() {
     // Planted faults: a belt whose acceleration is not felt, another damping, a velocity of y1 that is off by 1e-4.
-    let drive = |case: &mut Case| case.drive = 0.0;
-    let damper = |case: &mut Case| case.job.constants[squealmap::simd::constants::R + 3] *= 1.1;
-    let velocity = |case: &mut Case| case.job.state.body.v[2] += 1e-4;
-    for planted in [&drive as &dyn Fn(&mut Case), &damper, &velocity] {
+    let drive = |body: &mut Body| body.drive = 0.0;
+    let damper = |body: &mut Body| body.job.constants[R + 3] *= 1.1;
+    let velocity = |body: &mut Body| body.job.state.body.v[2] += 1e-4;
+    for planted in [&drive as &dyn Fn(&mut Body), &damper, &velocity] {
         assert!(differ(planted).0 > 100);
     }
 }
