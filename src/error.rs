@@ -732,6 +732,14 @@ pub enum Error {
         /// What is shown.
         name: String,
     },
+    /// Something of areas that a map of single points does not have.
+    #[error(
+        "{option} needs axes, and this sweep lists its instances in a file of `points`; leave {option} out"
+    )]
+    NoAreas {
+        /// The option.
+        option: &'static str,
+    },
     /// A quantity that a map does not have.
     #[error("the map has no quantity `{name}`; it has {names}; choose one with --quantity")]
     NoSuchQuantity {
@@ -898,6 +906,7 @@ impl Error {
             | Error::TooTall { .. }
             | Error::Cut { .. }
             | Error::NoIsolines { .. }
+            | Error::NoAreas { .. }
             | Error::Tikz { .. }
             | Error::NoSuchQuantity { .. }
             | Error::PaperRamp { .. }

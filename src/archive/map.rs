@@ -147,14 +147,19 @@ fn tuples(points: &Json, table: &Table) -> Why<Grid> {
     let names: Vec<String> =
         points["columns"].as_array().map(|names| names.iter().map(text).collect()).unwrap_or_default();
     let keys = names.iter().map(|name| key(name)).collect::<std::result::Result<Vec<_>, _>>()?;
-    let value = |key: &AxisKey, cell: &str| match (key, cell.parse::<f64>()) {
-        (AxisKey::Param(_), Ok(number)) => Value::Number(number),
-        _ => Value::Text(cell.to_owned()),
+    if let Some(rows) = points["rows"].as_u64().filter(|rows| *rows != table.rows.len() as u64) {
+        return Err(format!("{} rows for {rows} instances", table.rows.len()));
+    }
+    let value = |(key, name): (&AxisKey, &String), row: usize, cell: &str| match (key, cell.parse::<f64>()) {
+        (AxisKey::Param(_), Ok(number)) if number.is_finite() => Ok(Value::Number(number)),
+        (AxisKey::Param(_), _) => Err(format!("row {}: `{name}` is `{cell}`, no number", row + 1)),
+        _ => Ok(Value::Text(cell.to_owned())),
     };
-    let row = |row: &csv::StringRecord| {
-        keys.iter().zip(&names).map(|(key, name)| value(key, table.cell(row, name))).collect()
+    let row = |(number, row): (usize, &csv::StringRecord)| {
+        let columns = keys.iter().zip(&names);
+        columns.map(|column| value(column, number, table.cell(row, column.1))).collect()
     };
-    let rows = table.rows.iter().map(row).collect();
+    let rows = table.rows.iter().enumerate().map(row).collect::<Why<Vec<Vec<Value>>>>()?;
     Ok(Grid::Tuples { keys, rows })
 }
 

@@ -126,10 +126,18 @@ impl OfMaps {
         }
     }
 
+    /// The option that points have nothing for.
+    fn of_areas(&self) -> Option<&'static str> {
+        if self.hatch { Some("--hatch") } else { self.lines() }
+    }
+
     /// The figure and the tables.
     pub(crate) fn draw(&self, archive: &Archive, look: Look<'_>) -> Result<(String, Tables)> {
         if let Some(cut) = &self.cut {
             return self.draw_cut(archive, cut, &look);
+        }
+        if let (Grid::Tuples { .. }, Some(option)) = (&archive.map.spec.grid, self.of_areas()) {
+            return Err(Error::NoAreas { option });
         }
         let mut contents = Vec::new();
         for name in &self.quantity {
@@ -305,5 +313,6 @@ fn unknown(archive: &Archive, name: &str, classes: bool) -> Error {
             names.push(&column.name);
         }
     }
+    names.extend(ALIASES.iter().map(|(alias, _)| *alias).filter(|alias| column(archive, alias).is_some()));
     Error::NoSuchQuantity { name: name.to_owned(), names: names.join(", ") }
 }

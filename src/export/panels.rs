@@ -1,6 +1,7 @@
 //! Which instances stand in which panel: the picture's axes and the small multiples.
 
 use std::cmp::Ordering;
+use std::collections::HashSet;
 use std::ops::Range;
 
 use super::picture_axis::PictureAxis;
@@ -28,6 +29,17 @@ pub(super) struct Panel {
     pub(super) cells: Range<usize>,
 }
 
+/// What panels of scattered points know of them.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Scatter {
+    /// Their column for x.
+    pub(super) x: usize,
+    /// Their column for y, where another one varies.
+    pub(super) y: Option<usize>,
+    /// How many different points the fullest panel has.
+    pub(super) fullest: usize,
+}
+
 /// The panels of a map; every block of the figure has the same. They keep the labels of what they show, and
 /// nothing of the rest.
 #[derive(Clone, Debug)]
@@ -45,8 +57,8 @@ pub(super) struct Panels {
     order: Vec<u32>,
     /// The number of values of the fastest further axis, when there are two or more such axes.
     pub(super) columns: Option<usize>,
-    /// For scattered points: their columns for x and y.
-    pub(super) scatter: Option<(usize, Option<usize>)>,
+    /// For scattered points.
+    pub(super) scatter: Option<Scatter>,
     /// What a reader has to know.
     pub(super) note: Option<String>,
 }
@@ -231,13 +243,37 @@ pub(super) fn setting(key: AxisKey, value: &Value) -> Text {
     }
 }
 
-/// The order of two settings of numbers.
-fn by_numbers(one: &[&Value], other: &[&Value]) -> Ordering {
-    let orders = one.iter().zip(other).map(|pair| match pair {
-        (Value::Number(a), Value::Number(b)) => a.total_cmp(b),
-        _ => Ordering::Equal,
+/// The instances of a panel, and what they have in common.
+type Group<'a> = (Vec<&'a Value>, Vec<usize>);
+
+/// Panels in an order for readers: numbers ascend, names stay in the order in which they come.
+fn sorted(groups: Vec<Group<'_>>) -> Vec<Group<'_>> {
+    let first = |column: usize, name: &Value| groups.iter().position(|(setting, _)| setting[column] == name);
+    let rank = |(column, value): (usize, &&Value)| match value {
+        Value::Number(number) => *number,
+        name @ Value::Text(_) => first(column, name).map_or(0.0, |place| place as f64),
+    };
+    let ranks = |group: &Group<'_>| group.0.iter().enumerate().map(rank).collect();
+    let ranks: Vec<Vec<f64>> = groups.iter().map(ranks).collect();
+    let mut ranked: Vec<(Vec<f64>, Group<'_>)> = ranks.into_iter().zip(groups).collect();
+    ranked.sort_by(|(one, _), (other, _)| {
+        one.iter().zip(other).fold(Ordering::Equal, |order, (a, b)| order.then(a.total_cmp(b)))
     });
-    orders.fold(Ordering::Equal, Ordering::then)
+    ranked.into_iter().map(|(_, group)| group).collect()
+}
+
+/// How many different points the fullest panel of some has.
+fn fullest(panels: &[(Vec<Text>, Vec<usize>)], place: impl Fn(usize) -> [Option<Value>; 2]) -> usize {
+    let key = |value: Option<Value>| match value {
+        Some(Value::Number(number)) => (number.to_bits(), String::new()),
+        Some(Value::Text(name)) => (0, name),
+        None => (0, String::new()),
+    };
+    let different = |panel: &(Vec<Text>, Vec<usize>)| {
+        let places = panel.1.iter().map(|instance| place(*instance).map(key));
+        places.collect::<HashSet<_>>().len()
+    };
+    panels.iter().map(different).max().unwrap_or(0)
 }
 
 fn from_tuples(keys: &[AxisKey], rows: &[Vec<Value>]) -> Panels {
@@ -248,7 +284,7 @@ fn from_tuples(keys: &[AxisKey], rows: &[Vec<Value>]) -> Panels {
     let y_column = numbers.next().or_else(|| (0..keys.len()).find(|i| *i != x_column && varying(i)));
     let further: Vec<usize> =
         (0..keys.len()).filter(|i| *i != x_column && Some(*i) != y_column && varying(i)).collect();
-    let mut groups: Vec<(Vec<&Value>, Vec<usize>)> = Vec::new();
+    let mut groups: Vec<Group<'_>> = Vec::new();
     for (instance, row) in rows.iter().enumerate() {
         let group: Vec<&Value> = further.iter().map(|i| &row[*i]).collect();
         if let Some((_, panel)) = groups.iter_mut().find(|(other, _)| *other == group) {
@@ -257,13 +293,10 @@ fn from_tuples(keys: &[AxisKey], rows: &[Vec<Value>]) -> Panels {
             groups.push((group, vec![instance]));
         }
     }
-    // Names keep the order in which they come, numbers need not.
-    if further.iter().all(|i| numeric(keys[*i])) {
-        groups.sort_by(|(one, _), (other, _)| by_numbers(one, other));
-    }
+    let groups = sorted(groups);
     // Worth separate panels only when these collect points.
     let split = groups.len() <= MOST_TUPLE_PANELS && 2 * groups.len() <= rows.len();
-    let (panels, note) = if split || further.is_empty() {
+    let (panels, note): (Vec<_>, _) = if split || further.is_empty() {
         let title =
             |group: &[&Value]| further.iter().zip(group).map(|(i, value)| setting(keys[*i], value)).collect();
         (groups.into_iter().map(|(group, panel)| (title(&group), panel)).collect(), None)
@@ -278,5 +311,7 @@ fn from_tuples(keys: &[AxisKey], rows: &[Vec<Value>]) -> Panels {
     } else {
         (axis(x_column), y_column.map(axis))
     };
-    Panels { x, y, scatter: Some((x_column, y_column)), note, ..Panels::empty(panels) }
+    let place = |instance: usize| [Some(x_column), y_column].map(|i| rows[instance].get(i?).cloned());
+    let scatter = Some(Scatter { x: x_column, y: y_column, fullest: fullest(&panels, place) });
+    Panels { x, y, scatter, note, ..Panels::empty(panels) }
 }

@@ -6,37 +6,37 @@ use std::fmt::Write as _;
 use super::cells::{FAILED_FILL, not_computed, unsettled, unsettled_paint};
 use super::frame::Frame;
 use super::palette::{Class, Colouring, PALE};
-use super::panels::{Panel, Panels};
+use super::panels::{Panel, Panels, Scatter};
 use super::svg::{Svg, number};
 use crate::grid::Grid;
 use crate::label::Label;
 
+/// Colours of crosses and of hatching.
+const FAILED: &str = "#C00000";
+pub(super) const NOT_COMPUTED: &str = "#B4B4B4";
 /// Largest and smallest radius of a point.
 const RADII: [f64; 2] = [0.4, 3.2];
 /// Radius by the distance of points that fill a panel evenly: neighbours leave half of its area free.
 const PER_DISTANCE: f64 = 0.4;
 /// Smaller points have no outline, which would be most of them.
 const OUTLINED_FROM: f64 = 1.6;
-/// Points of one path: a renderer's time grows faster than the points of a single one.
-const POINTS_OF_A_PATH: usize = 256;
-
-/// Colour of small points that were not computed.
-const MISSING: &str = "#B4B4B4";
-/// Layers of small points that failed, by their radius, and the least of that.
-const FAILED: [(f64, &str); 3] = [(1.8, "#000000"), (1.5, FAILED_FILL), (0.9, "#C00000")];
-const LEAST_FAILED: f64 = 0.8;
-/// The rim of small points that are as light as the paper, and their radius within it.
-const RIM: &str = "#808080";
-const WITHIN_RIM: f64 = 0.7;
+/// Marks of one path: a renderer's time grows faster than the number in a single one.
+const MARKS_OF_A_PATH: usize = 256;
+/// The rim of small points is their colour in this lightness, and this part of the radius is within it.
+const RIM: f64 = 0.7;
+/// Small points that failed are larger by this factor, and no smaller than that.
+const FAILED_SIZE: f64 = 1.5;
+const LEAST_FAILED: f64 = 1.0;
+/// Width of the strokes of small marks, by their radius.
+const STROKE: f64 = 0.35;
 
 /// The radius of all points of a figure, so small that those of its fullest panel can be told apart.
-pub(super) fn radius(panels: &Panels, frame: &Frame) -> f64 {
-    let most = panels.all.iter().map(|panel| panel.cells.len()).max().unwrap_or(1).max(1);
-    let distance = (frame.width * frame.height / most as f64).sqrt();
+pub(super) fn radius(scatter: Scatter, frame: &Frame) -> f64 {
+    let distance = (frame.width * frame.height / scatter.fullest.max(1) as f64).sqrt();
     (PER_DISTANCE * distance).clamp(RADII[0], RADII[1])
 }
 
-/// Whether points of this radius have an outline; else they are drawn by [`dots`].
+/// Whether points of this radius have an outline; else they are drawn as [`Marks`].
 pub(super) fn outlined(radius: f64) -> bool {
     radius >= OUTLINED_FROM
 }
@@ -50,7 +50,8 @@ pub(super) fn draw(
     colouring: Colouring,
     frame: &Frame,
 ) {
-    let radius = radius(panels, frame);
+    let Some(scatter) = panels.scatter else { return };
+    let radius = radius(scatter, frame);
     let at = |place: &usize| positions(grid, panels, panels.instances[*place], frame);
     let missing = |place: &usize| not_computed(panels.labels[*place], colouring);
     // Nothing that was computed is covered by a point that was not.
@@ -99,49 +100,109 @@ fn draw_dense(
     }
     let mut order: Vec<usize> = (0..classes.len()).collect();
     order.sort_by_key(|k| Reverse(members[*k].len()));
-    dots(svg, missing, radius, "not_computed", MISSING);
+    let marks = Marks { radius, class: "not_computed" };
+    marks.backslashes(svg, missing, NOT_COMPUTED);
     for k in order {
         let Class { name, fill, dark, .. } = classes[k];
-        dots(svg, &members[k], radius, name, fill);
-        dots(svg, &hatched[k], radius, "unsettled", unsettled_paint(dark));
-    }
-    // White rings around red: no class looks like them.
-    for (times, colour) in FAILED {
-        layer(svg, &failed, times * radius.max(LEAST_FAILED), "failed", colour);
-    }
-}
-
-/// Draws discs without outline, but for those that are as light as the paper: the round ends of lines of no length.
-pub(super) fn dots(svg: &mut Svg, at: &[[f64; 2]], radius: f64, name: &str, colour: &str) {
-    if matches!(colour, FAILED_FILL | PALE) {
-        layer(svg, at, radius, name, RIM);
-        layer(svg, at, radius * WITHIN_RIM, name, colour);
-    } else {
-        layer(svg, at, radius, name, colour);
-    }
-}
-
-/// One layer of [`dots`].
-fn layer(svg: &mut Svg, at: &[[f64; 2]], radius: f64, name: &str, colour: &str) {
-    let width = number(2.0 * radius);
-    let look = format!(
-        r#"class="{name}" fill="none" stroke="{colour}" stroke-width="{width}" stroke-linecap="round""#
-    );
-    for points in at.chunks(POINTS_OF_A_PATH) {
-        let mut data = String::new();
-        for [x, y] in points {
-            let _ = write!(data, "M{} {}h0.01", number(*x), number(*y));
+        let marks = Marks { class: name, ..marks };
+        if fill == PALE {
+            marks.rims(svg, &members[k], fill);
+        } else {
+            marks.discs(svg, &members[k], fill);
         }
-        svg.path(&data, &look);
+        Marks { class: "unsettled", ..marks }.slashes(svg, &hatched[k], contrast(dark));
     }
+    let marks = Marks { radius: (FAILED_SIZE * radius).max(LEAST_FAILED), class: "failed" };
+    marks.discs(svg, &failed, "#000000");
+    Marks { radius: 0.85 * marks.radius, ..marks }.discs(svg, &failed, FAILED_FILL);
+    marks.crosses(svg, &failed, FAILED);
+}
+
+/// What is seen on a colour.
+pub(super) fn contrast(dark: bool) -> &'static str {
+    if dark { "#FFFFFF" } else { "#000000" }
+}
+
+/// How many small points are drawn, without outlines.
+#[derive(Clone, Copy)]
+pub(super) struct Marks {
+    pub(super) radius: f64,
+    /// Their class in the document.
+    pub(super) class: &'static str,
+}
+
+impl Marks {
+    /// Discs: the round ends of lines of no length.
+    pub(super) fn discs(self, svg: &mut Svg, at: &[[f64; 2]], colour: &str) {
+        self.draw(svg, at, &Stroke { colour, width: 2.0 * self.radius, shape: "h0.01" });
+    }
+
+    /// Discs with a rim in a darker shade, so that a light one is seen on the paper.
+    pub(super) fn rims(self, svg: &mut Svg, at: &[[f64; 2]], colour: &str) {
+        self.discs(svg, at, &shade(colour));
+        Marks { radius: RIM * self.radius, ..self }.discs(svg, at, colour);
+    }
+
+    /// Strokes in the direction of the hatching of what has not settled.
+    pub(super) fn slashes(self, svg: &mut Svg, at: &[[f64; 2]], colour: &str) {
+        let [arm, all] = [0.6 * self.radius, 1.2 * self.radius].map(number);
+        let shape = format!("m-{arm} {arm}l{all} -{all}");
+        self.draw(svg, at, &Stroke { colour, width: STROKE * self.radius, shape: &shape });
+    }
+
+    /// Strokes in the direction of the hatching of what has no result.
+    pub(super) fn backslashes(self, svg: &mut Svg, at: &[[f64; 2]], colour: &str) {
+        let [arm, all] = [0.6 * self.radius, 1.2 * self.radius].map(number);
+        let shape = format!("m-{arm} -{arm}l{all} {all}");
+        self.draw(svg, at, &Stroke { colour, width: STROKE * self.radius, shape: &shape });
+    }
+
+    /// Crosses.
+    fn crosses(self, svg: &mut Svg, at: &[[f64; 2]], colour: &str) {
+        let [arm, all] = [0.5 * self.radius, self.radius].map(number);
+        let shape = format!("m-{arm} {arm}l{all} -{all}m-{all} 0l{all} {all}");
+        self.draw(svg, at, &Stroke { colour, width: 0.35 * self.radius, shape: &shape });
+    }
+
+    /// The same stroke at every place.
+    fn draw(self, svg: &mut Svg, at: &[[f64; 2]], stroke: &Stroke<'_>) {
+        let (class, Stroke { colour, shape, .. }) = (self.class, stroke);
+        let width = number(stroke.width);
+        let look = format!(
+            r#"class="{class}" fill="none" stroke="{colour}" stroke-width="{width}" stroke-linecap="round""#
+        );
+        for points in at.chunks(MARKS_OF_A_PATH) {
+            let mut data = String::new();
+            for [x, y] in points {
+                let _ = write!(data, "M{} {}{shape}", number(*x), number(*y));
+            }
+            svg.path(&data, &look);
+        }
+    }
+}
+
+/// A line from a place on.
+struct Stroke<'a> {
+    colour: &'a str,
+    width: f64,
+    /// The rest of its path.
+    shape: &'a str,
+}
+
+/// A colour `#RRGGBB` in the lightness [`RIM`].
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a part of a byte")]
+fn shade(colour: &str) -> String {
+    let channel = |i: usize| u8::from_str_radix(colour.get(i..i + 2).unwrap_or("00"), 16).unwrap_or(0);
+    let [r, g, b] = [1, 3, 5].map(|i| (f64::from(channel(i)) * RIM) as u8);
+    format!("#{r:02X}{g:02X}{b:02X}")
 }
 
 /// Where a scattered point stands in a frame, points; `None` where the panels hold cells.
 pub(super) fn positions(grid: &Grid, panels: &Panels, instance: usize, frame: &Frame) -> Option<[f64; 2]> {
-    let (x_column, y_column) = panels.scatter?;
+    let scatter = panels.scatter?;
     let coordinates = grid.coordinates(instance);
-    let x = coordinates.get(x_column).map_or(0.5, |value| panels.x.position(value));
-    let up = match (&panels.y, y_column) {
+    let x = coordinates.get(scatter.x).map_or(0.5, |value| panels.x.position(value));
+    let up = match (&panels.y, scatter.y) {
         (Some(axis), Some(column)) => axis.position(coordinates[column]),
         _ => 0.5,
     };
@@ -162,7 +223,7 @@ fn point(svg: &mut Svg, [x, y]: [f64; 2], radius: f64, class: Option<&Class>) {
     if class.is_none() {
         svg.path(
             &super::key::cross((x, y), ARM * radius),
-            r##"fill="none" stroke="#C00000" stroke-width="0.9""##,
+            &format!(r#"fill="none" stroke="{FAILED}" stroke-width="0.9""#),
         );
     }
 }
@@ -170,6 +231,6 @@ fn point(svg: &mut Svg, [x, y]: [f64; 2], radius: f64, class: Option<&Class>) {
 /// A point that was not computed: hatched, in a thin grey line.
 fn missing_point(svg: &mut Svg, [x, y]: [f64; 2], radius: f64) {
     svg.circle(x, y, radius, &format!(r#"class="not_computed" fill="{FAILED_FILL}""#));
-    let hatch = r##"fill="url(#not-computed)" stroke="#B4B4B4" stroke-width="0.5""##;
-    svg.circle(x, y, radius, hatch);
+    let hatch = format!(r#"fill="url(#not-computed)" stroke="{NOT_COMPUTED}" stroke-width="0.5""#);
+    svg.circle(x, y, radius, &hatch);
 }

@@ -8,7 +8,7 @@ use super::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room};
 use super::key::{self, Sample};
 use super::look::Content;
 use super::panels::{Panel, Panels};
-use super::points::{self, positions};
+use super::points::{self, Marks, NOT_COMPUTED, contrast, positions};
 use super::raster;
 use super::scale::{Scale, axis_unit};
 use super::svg::{Anchor, Style, Svg, polyline};
@@ -27,6 +27,8 @@ const LONGEST: f64 = 220.0;
 /// The samples of what is undefined and of what has not settled.
 const UNDEFINED: &str = r##"fill="url(#not-computed)" stroke="#000000" stroke-width="0.4""##;
 const DOTTED: &str = r##"fill="url(#dots-on-light)" stroke="#000000" stroke-width="0.4""##;
+/// Radius of a dot on a small point, by that of the point.
+const DOT: f64 = 0.4;
 /// A mark in the bar: as a line of equal value, on a light casing.
 const MARKS: [&str; 2] = [
     r##"fill="none" stroke="#FFFFFF" stroke-width="1.5""##,
@@ -213,36 +215,57 @@ pub(super) fn draw(
     }
 }
 
-/// The same for scattered points.
+/// The same for scattered points. What has a value is on top of what has none.
 fn draw_points(svg: &mut Svg, grid: &Grid, panels: &Panels, panel: &Panel, field: &Field<'_>, frame: &Frame) {
-    let tones = field.tones;
-    let step = |place: usize| (field.value)(place).map(|value| tones.step(value, &field.scale));
-    let radius = points::radius(panels, frame);
-    let mut layers = vec![Vec::new(); tones.steps() + 1];
-    let mut doubtful = [Vec::new(), Vec::new()];
+    let Some(scatter) = panels.scatter else { return };
+    let (tones, radius) = (field.tones, points::radius(scatter, frame));
+    let mut undefined = Vec::new();
+    let mut defined = Vec::new();
     for place in panel.cells.clone() {
-        let Some([x, y]) = positions(grid, panels, panels.instances[place], frame) else { continue };
-        let step = step(place);
-        let dark = step.is_some_and(|step| tones.is_dark(step));
-        if !points::outlined(radius) {
-            layers[step.map_or(0, |step| step + 1)].push([x, y]);
-            if field.is_doubtful(place) {
-                doubtful[usize::from(dark)].push([x, y]);
-            }
-            continue;
+        let Some(at) = positions(grid, panels, panels.instances[place], frame) else { continue };
+        match (field.value)(place) {
+            Some(value) => defined.push((at, tones.step(value, &field.scale), field.is_doubtful(place))),
+            None => undefined.push(at),
         }
-        let tone = step.map_or_else(|| FAILED_FILL.to_owned(), |step| tones.fill(step));
+    }
+    if !points::outlined(radius) {
+        return draw_small_points(svg, &undefined, &defined, tones, radius);
+    }
+    for [x, y] in undefined {
+        svg.circle(x, y, radius, &format!(r#"class="undefined" fill="{FAILED_FILL}""#));
+        svg.circle(x, y, radius, UNDEFINED);
+    }
+    for ([x, y], step, doubtful) in defined {
+        let tone = tones.fill(step);
         svg.circle(x, y, radius, &format!(r##"fill="{tone}" stroke="#000000" stroke-width="0.5""##));
-        if field.is_doubtful(place) {
-            svg.circle(x, y, radius, &dotted(dark));
+        if doubtful {
+            svg.circle(x, y, radius, &dotted(tones.is_dark(step)));
         }
     }
-    for (number, at) in layers.iter().enumerate() {
-        let tone = number.checked_sub(1).map_or_else(|| FAILED_FILL.to_owned(), |step| tones.fill(step));
-        points::dots(svg, at, radius, "value", &tone);
+}
+
+/// The same for points too small for outlines: places, the steps of their values, and whether they have not settled.
+fn draw_small_points(
+    svg: &mut Svg,
+    undefined: &[[f64; 2]],
+    defined: &[([f64; 2], usize, bool)],
+    tones: Tones,
+    radius: f64,
+) {
+    Marks { radius, class: "undefined" }.backslashes(svg, undefined, NOT_COMPUTED);
+    let mut of_step = vec![Vec::new(); tones.steps()];
+    let mut doubtful = [Vec::new(), Vec::new()];
+    for (at, step, open) in defined {
+        of_step[*step].push(*at);
+        if *open {
+            doubtful[usize::from(tones.is_dark(*step))].push(*at);
+        }
     }
-    for (at, tone) in doubtful.iter().zip(["url(#dots-on-light)", "url(#dots-on-dark)"]) {
-        points::dots(svg, at, radius, "unsettled", tone);
+    for (step, at) in of_step.iter().enumerate() {
+        Marks { radius, class: "value" }.rims(svg, at, &tones.fill(step));
+    }
+    for (dark, at) in [(false, &doubtful[0]), (true, &doubtful[1])] {
+        Marks { radius: DOT * radius, class: "unsettled" }.discs(svg, at, contrast(dark));
     }
 }
 

@@ -13,7 +13,6 @@ use squealmap::model::Param;
 use squealmap::outcome::Status;
 
 use crate::colour::{DICHROMACIES, delta_e, lab, rgb};
-use crate::common::near;
 use crate::synthetic::{axis, failed, map, number, paper_like, record, span};
 
 /// Renders a figure; with `SQUEALMAP_GALLERY` set to a directory, also leaves the picture there to be looked at.
@@ -224,48 +223,6 @@ fn tuples_are_points() {
     assert!(svg.contains("Also varying between the points: belt_velocity."));
     let none = Grid::Tuples { keys: vec![AxisKey::Param(Param::MuS)], rows: vec![vec![Value::Number(0.1)]] };
     figure(&map(none, |_, _| failed(Status::Painleve)), "one_tuple");
-}
-
-/// Many points are drawn in small discs without outlines, each once, the rare classes last; panels of numbers ascend.
-#[test]
-fn many_points_shrink() {
-    const SIDE: usize = 80;
-    let keys =
-        vec![AxisKey::Param(Param::MuS), AxisKey::Param(Param::MuD), AxisKey::Param(Param::BeltVelocity)];
-    // Two panels of 6400 points; in the first one in a hundred is stable, one failed.
-    let row = |i: usize| [(i / 2 % SIDE) as f64, (i / 2 / SIDE) as f64, [6.0, 3.0][i % 2]];
-    let rows = (0..2 * SIDE * SIDE).map(|i| row(i).map(Value::Number).to_vec()).collect();
-    let sweep = map(Grid::Tuples { keys, rows }, |i, _| match i {
-        6 => failed(Status::NonFinite),
-        _ if i % 200 == 0 => record(Kind::Stable, Regime::Equilibrium, true),
-        _ => record(Kind::ModeCoupling, Regime::Detaching, i % 4 > 0),
-    });
-    let (svg, picture) = figure(&sweep, "dense");
-    assert!(!svg.contains("<circle"));
-    // Of both blocks, types and regimes.
-    let of = |class: &str| {
-        let own = |line: &&str| line.contains("h0.01") && line.contains(class);
-        svg.lines().filter(own).map(|line| line.matches("h0.01").count()).sum::<usize>()
-    };
-    let all = 2 * SIDE * SIDE;
-    // A rim and its inside.
-    let stable = all / 200;
-    assert_eq!(of(r#""stable""#), 2 * stable);
-    assert_eq!(of(r#""mode_coupling""#), all - stable - 1);
-    assert_eq!(of(r#""detaching""#), all - stable - 1);
-    assert_eq!(of(r#""unsettled""#), all / 4 - stable);
-    // In three layers.
-    assert_eq!(of(r#""failed""#), 6);
-    let place = |word: &str| svg.find(word).unwrap_or_else(|| panic!("no {word}"));
-    assert!(place(r#"class="mode_coupling""#) < place(r#"class="stable""#), "the rare on top");
-    assert!(place("= 3") < place("= 6"), "panels ascend");
-    // Discs of 0.4 of their distance that nowhere meet cover π 0.4² of the frame.
-    let painted = |frame: [f64; 4]| {
-        let pixels = colours(&picture, frame, (0.0, 0.0), (1.0, 1.0));
-        let dark = pixels.iter().filter(|pixel| u32::from(pixel[1]) + u32::from(pixel[2]) < 350).count();
-        dark as f64 / pixels.len() as f64
-    };
-    near("painted part", painted(frames(&svg)[1]), 0.16 * std::f64::consts::PI, 0.05);
 }
 
 #[test]

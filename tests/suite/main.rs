@@ -66,6 +66,7 @@ mod regimes;
 mod response;
 mod resume;
 mod reuse;
+mod scattered;
 mod settle;
 mod shards;
 mod simd;
