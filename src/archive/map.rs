@@ -60,6 +60,7 @@ impl Archive {
         let folder = Folder(directory);
         let manifest = folder.json(FILES[0])?;
         let table = folder.table(FILES[1])?;
+        whole(&manifest, &table).map_err(|why| folder.bad(FILES[1], why))?;
         let spec = spec(&manifest, &table).map_err(|why| folder.bad(FILES[0], why))?;
         let mut records = records(&table).map_err(|why| folder.bad(FILES[1], why))?;
         if records.len() != spec.grid.len() {
@@ -147,20 +148,33 @@ fn tuples(points: &Json, table: &Table) -> Why<Grid> {
     let names: Vec<String> =
         points["columns"].as_array().map(|names| names.iter().map(text).collect()).unwrap_or_default();
     let keys = names.iter().map(|name| key(name)).collect::<std::result::Result<Vec<_>, _>>()?;
+    let value = |key: &AxisKey, cell: &str| match (key, cell.parse::<f64>()) {
+        (AxisKey::Param(_), Ok(number)) => Value::Number(number),
+        _ => Value::Text(cell.to_owned()),
+    };
+    let row = |row: &csv::StringRecord| {
+        keys.iter().zip(&names).map(|(key, name)| value(key, table.cell(row, name))).collect()
+    };
+    let rows = table.rows.iter().map(row).collect();
+    Ok(Grid::Tuples { keys, rows })
+}
+
+/// Whether the table has all tuples of the sweep, and numbers where they are numbers.
+fn whole(manifest: &Json, table: &Table) -> Why<()> {
+    let points = &manifest["spec"]["points"];
     if let Some(rows) = points["rows"].as_u64().filter(|rows| *rows != table.rows.len() as u64) {
         return Err(format!("{} rows for {rows} instances", table.rows.len()));
     }
-    let value = |(key, name): (&AxisKey, &String), row: usize, cell: &str| match (key, cell.parse::<f64>()) {
-        (AxisKey::Param(_), Ok(number)) if number.is_finite() => Ok(Value::Number(number)),
-        (AxisKey::Param(_), _) => Err(format!("row {}: `{name}` is `{cell}`, no number", row + 1)),
-        _ => Ok(Value::Text(cell.to_owned())),
-    };
-    let row = |(number, row): (usize, &csv::StringRecord)| {
-        let columns = keys.iter().zip(&names);
-        columns.map(|column| value(column, number, table.cell(row, column.1))).collect()
-    };
-    let rows = table.rows.iter().enumerate().map(row).collect::<Why<Vec<Vec<Value>>>>()?;
-    Ok(Grid::Tuples { keys, rows })
+    let names = points["columns"].as_array().into_iter().flatten().map(text);
+    for name in names.filter(|name| matches!(AxisKey::from_name(name), Some(AxisKey::Param(_)))) {
+        for (number, row) in table.rows.iter().enumerate() {
+            let cell = table.cell(row, &name);
+            if !cell.parse::<f64>().is_ok_and(f64::is_finite) {
+                return Err(format!("row {}: `{name}` is `{cell}`, no number", number + 1));
+            }
+        }
+    }
+    Ok(())
 }
 
 fn records(table: &Table) -> Why<Vec<Record>> {

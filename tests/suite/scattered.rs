@@ -170,9 +170,9 @@ fn points_have_no_areas_and_all_their_rows() {
     let text = std::fs::read_to_string(&path).unwrap();
     let rows: Vec<&str> = text.lines().collect();
     std::fs::write(&path, rows[..3].join("\n")).unwrap();
-    refused(&[], "2 rows for 3 instances");
+    refused(&[], "map.csv`: 2 rows for 3 instances");
     std::fs::write(&path, text.replacen(",0.4,", ",nan,", 1)).unwrap();
-    refused(&[], "row 2: `mu_s` is `nan`, no number");
+    refused(&[], "map.csv`: row 2: `mu_s` is `nan`, no number");
     std::fs::write(&path, text).unwrap();
     assert_eq!(squealmap(directory.path(), &["plot", "out"]).code, Some(0));
 }
