@@ -60,11 +60,14 @@ impl Archive {
         let folder = Folder(directory);
         let manifest = folder.json(FILES[0])?;
         let table = folder.table(FILES[1])?;
-        whole(&manifest, &table).map_err(|why| folder.bad(FILES[1], why))?;
+        numbers_are_numbers(&manifest, &table).map_err(|why| folder.bad(FILES[1], why))?;
         let spec = spec(&manifest, &table).map_err(|why| folder.bad(FILES[0], why))?;
         let mut records = records(&table).map_err(|why| folder.bad(FILES[1], why))?;
-        if records.len() != spec.grid.len() {
-            let why = format!("{} rows for {} instances", records.len(), spec.grid.len());
+        // The rows of a list of instances are those of the table itself.
+        let listed = manifest["spec"]["points"]["rows"].as_u64();
+        let instances = listed.unwrap_or(spec.grid.len() as u64);
+        if records.len() as u64 != instances {
+            let why = format!("{} rows for {instances} instances", records.len());
             return Err(folder.bad(FILES[1], why));
         }
         let stopped = manifest["computation"]["stopped"].as_str().map(|why| match why {
@@ -159,19 +162,14 @@ fn tuples(points: &Json, table: &Table) -> Why<Grid> {
     Ok(Grid::Tuples { keys, rows })
 }
 
-/// Whether the table has all tuples of the sweep, and numbers where they are numbers.
-fn whole(manifest: &Json, table: &Table) -> Why<()> {
-    let points = &manifest["spec"]["points"];
-    if let Some(rows) = points["rows"].as_u64().filter(|rows| *rows != table.rows.len() as u64) {
-        return Err(format!("{} rows for {rows} instances", table.rows.len()));
-    }
-    let names = points["columns"].as_array().into_iter().flatten().map(text);
+/// Whether the coordinates of listed instances are numbers, where they are parameters.
+fn numbers_are_numbers(manifest: &Json, table: &Table) -> Why<()> {
+    let names = manifest["spec"]["points"]["columns"].as_array().into_iter().flatten().map(text);
     for name in names.filter(|name| matches!(AxisKey::from_name(name), Some(AxisKey::Param(_)))) {
-        for (number, row) in table.rows.iter().enumerate() {
-            let cell = table.cell(row, &name);
-            if !cell.parse::<f64>().is_ok_and(f64::is_finite) {
-                return Err(format!("row {}: `{name}` is `{cell}`, no number", number + 1));
-            }
+        let numbers = table.numbers([name.as_str()])?;
+        if let Some(row) = numbers.iter().position(|[number]| !number.is_finite()) {
+            let cell = table.cell(&table.rows[row], &name);
+            return Err(format!("row {}: `{name}` is `{cell}`, no number", row + 1));
         }
     }
     Ok(())

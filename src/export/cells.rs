@@ -73,8 +73,8 @@ pub(super) fn hatch(class: usize, dark: bool) -> Option<String> {
 }
 
 /// The pattern that marks an unsettled instance of a class.
-pub(super) fn unsettled_paint(dark: bool) -> &'static str {
-    if dark { "url(#unsettled-on-dark)" } else { "url(#unsettled-on-light)" }
+pub(super) fn unsettled_fill(dark: bool) -> &'static str {
+    if dark { r#"fill="url(#unsettled-on-dark)""# } else { r#"fill="url(#unsettled-on-light)""# }
 }
 
 /// Whether hatching applies: only the response settles.
@@ -154,10 +154,7 @@ fn draw_cells(
             unsettled(label(i, j), colouring)
                 && class(i, j).is_some_and(|k| colouring.classes()[k].dark == dark)
         });
-        svg.path(
-            &hatched,
-            &format!(r#"class="unsettled" fill="{}" fill-rule="evenodd""#, unsettled_paint(dark)),
-        );
+        svg.path(&hatched, &format!(r#"class="unsettled" {} fill-rule="evenodd""#, unsettled_fill(dark)));
     }
     let lines = |differ: &dyn Fn(Vertex, Vertex) -> bool| {
         borders(columns, rows, differ).iter().map(|path| steps(path, &at, false)).collect::<String>()

@@ -1,6 +1,6 @@
 //! The legend of a block: only what occurs, with shares or counts.
 
-use super::cells::{FAILED_FILL, LIMIT, hatch, is_stable, not_computed, unsettled_paint};
+use super::cells::{FAILED_FILL, LIMIT, hatch, is_stable, not_computed, unsettled_fill};
 use super::frame::LABEL_SIZE;
 use super::palette::Colouring;
 use super::svg::{Anchor, Style, Svg, number};
@@ -108,7 +108,7 @@ fn draw_swatch(svg: &mut Svg, swatch: &Swatch, x: f64, y: f64) {
                 svg.rect(area, hatch);
             }
         }
-        Swatch::Unsettled => svg.rect(area, &format!(r#"fill="{}""#, unsettled_paint(false))),
+        Swatch::Unsettled => svg.rect(area, unsettled_fill(false)),
         Swatch::Failed => {
             svg.rect(area, &format!(r#"fill="{FAILED_FILL}""#));
             svg.rect(area, r#"fill="url(#failed)""#);

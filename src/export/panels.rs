@@ -263,11 +263,11 @@ fn sorted(groups: Vec<Group<'_>>) -> Vec<Group<'_>> {
 }
 
 /// How many different points the fullest panel of some has.
-fn fullest(panels: &[(Vec<Text>, Vec<usize>)], place: impl Fn(usize) -> [Option<Value>; 2]) -> usize {
-    let key = |value: Option<Value>| match value {
-        Some(Value::Number(number)) => (number.to_bits(), String::new()),
-        Some(Value::Text(name)) => (0, name),
-        None => (0, String::new()),
+fn fullest<'a>(panels: &[(Vec<Text>, Vec<usize>)], place: impl Fn(usize) -> [Option<&'a Value>; 2]) -> usize {
+    let key = |value: Option<&'a Value>| match value {
+        Some(Value::Number(number)) => (number.to_bits(), ""),
+        Some(Value::Text(name)) => (0, name.as_str()),
+        None => (0, ""),
     };
     let different = |panel: &(Vec<Text>, Vec<usize>)| {
         let places = panel.1.iter().map(|instance| place(*instance).map(key));
@@ -311,7 +311,7 @@ fn from_tuples(keys: &[AxisKey], rows: &[Vec<Value>]) -> Panels {
     } else {
         (axis(x_column), y_column.map(axis))
     };
-    let place = |instance: usize| [Some(x_column), y_column].map(|i| rows[instance].get(i?).cloned());
+    let place = |instance: usize| [Some(x_column), y_column].map(|i| rows[instance].get(i?));
     let scatter = Some(Scatter { x: x_column, y: y_column, fullest: fullest(&panels, place) });
     Panels { x, y, scatter, note, ..Panels::empty(panels) }
 }

@@ -3,7 +3,7 @@
 use std::cmp::Reverse;
 use std::fmt::Write as _;
 
-use super::cells::{FAILED_FILL, not_computed, unsettled, unsettled_paint};
+use super::cells::{FAILED_FILL, not_computed, unsettled, unsettled_fill};
 use super::frame::Frame;
 use super::palette::{Class, Colouring, PALE};
 use super::panels::{Panel, Panels, Scatter};
@@ -70,7 +70,7 @@ pub(super) fn draw(
         point(svg, [x, y], radius, colouring.class(label).map(|k| &colouring.classes()[k]));
         if unsettled(label, colouring) {
             let dark = colouring.class(label).is_some_and(|k| colouring.classes()[k].dark);
-            svg.circle(x, y, radius, &format!(r#"class="unsettled" fill="{}""#, unsettled_paint(dark)));
+            svg.circle(x, y, radius, &format!(r#"class="unsettled" {}"#, unsettled_fill(dark)));
         }
     }
 }
@@ -123,7 +123,7 @@ pub(super) fn contrast(dark: bool) -> &'static str {
     if dark { "#FFFFFF" } else { "#000000" }
 }
 
-/// How many small points are drawn, without outlines.
+/// How small points are drawn, of which there are many: without outlines.
 #[derive(Clone, Copy)]
 pub(super) struct Marks {
     pub(super) radius: f64,
@@ -145,15 +145,18 @@ impl Marks {
 
     /// Strokes in the direction of the hatching of what has not settled.
     pub(super) fn slashes(self, svg: &mut Svg, at: &[[f64; 2]], colour: &str) {
-        let [arm, all] = [0.6 * self.radius, 1.2 * self.radius].map(number);
-        let shape = format!("m-{arm} {arm}l{all} -{all}");
-        self.draw(svg, at, &Stroke { colour, width: STROKE * self.radius, shape: &shape });
+        self.diagonals(svg, at, colour, ["", "-"]);
     }
 
     /// Strokes in the direction of the hatching of what has no result.
     pub(super) fn backslashes(self, svg: &mut Svg, at: &[[f64; 2]], colour: &str) {
+        self.diagonals(svg, at, colour, ["-", ""]);
+    }
+
+    /// Strokes through places; the signs are those of their heights: to where they start, from there to where they end.
+    fn diagonals(self, svg: &mut Svg, at: &[[f64; 2]], colour: &str, [before, along]: [&str; 2]) {
         let [arm, all] = [0.6 * self.radius, 1.2 * self.radius].map(number);
-        let shape = format!("m-{arm} -{arm}l{all} {all}");
+        let shape = format!("m-{arm} {before}{arm}l{all} {along}{all}");
         self.draw(svg, at, &Stroke { colour, width: STROKE * self.radius, shape: &shape });
     }
 
@@ -161,7 +164,7 @@ impl Marks {
     fn crosses(self, svg: &mut Svg, at: &[[f64; 2]], colour: &str) {
         let [arm, all] = [0.5 * self.radius, self.radius].map(number);
         let shape = format!("m-{arm} {arm}l{all} -{all}m-{all} 0l{all} {all}");
-        self.draw(svg, at, &Stroke { colour, width: 0.35 * self.radius, shape: &shape });
+        self.draw(svg, at, &Stroke { colour, width: STROKE * self.radius, shape: &shape });
     }
 
     /// The same stroke at every place.

@@ -130,13 +130,13 @@ fn panels_ascend_and_names_stay() {
     ];
     let row = |i: usize| {
         let law = Value::Text(["exponential", "bilinear"][i / 20].to_owned());
-        let number = |x: f64| Value::Number(x);
-        vec![number(i as f64), number((i * i % 7) as f64), law, number([10.0, 9.0][i % 2])]
+        let [mu_s, mu_d, velocity] = [i as f64, (i * i % 7) as f64, [10.0, 9.0][i % 2]].map(Value::Number);
+        vec![mu_s, mu_d, law, velocity]
     };
     let grid = Grid::Tuples { keys, rows: (0..40).map(row).collect() };
     let svg = map_svg(&map(grid, |_, _| record(Kind::Stable, Regime::Slip, true))).unwrap();
     draw(&svg, "panels_of_names");
-    let words: Vec<&str> = ["exponential", "bilinear", "= 9", "= 10"].to_vec();
+    let words = ["exponential", "bilinear", "= 9", "= 10"];
     let titles = svg
         .match_indices('>')
         .filter_map(|(at, _)| words.iter().find(|word| svg[at + 1..].trim_start().starts_with(**word)));

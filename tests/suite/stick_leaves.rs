@@ -124,13 +124,8 @@ fn differ(planted: impl Fn(&mut Body)) -> (usize, [usize; 4]) {
             continue;
         };
         let (place, code) = expected.unwrap_or((1.0, 0));
-        seen[if code == 0 {
-            0
-        } else if code == SECOND {
-            1
-        } else {
-            2
-        }] += 1;
+        let kind = [0, SECOND, THIRD].iter().position(|one| *one == code).expect("an end");
+        seen[kind] += 1;
         different += usize::from(event != code || (at - place).abs() > 1e-6);
     }
     (different, seen)
