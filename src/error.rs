@@ -307,6 +307,26 @@ pub enum Error {
         /// All tiles of that sweep.
         total: usize,
     },
+    /// A directory that cannot be put right by this program.
+    #[error(
+        "`{}` was computed by another version of the program or an engine that is not at hand; run its sweep file with \
+         that one, or into another directory with -o",
+        path.display()
+    )]
+    OtherVersion {
+        /// The directory.
+        path: PathBuf,
+    },
+    /// Whole tiles of a sweep under other names than this run gives them.
+    #[error(
+        "`{}` is a good tile of this sweep, cut into tiles of another size; nothing was changed: give the same `--tile` as \
+         the run before, or choose another directory with -o",
+        path.display()
+    )]
+    OtherCut {
+        /// The tile.
+        path: PathBuf,
+    },
     /// A part of a refined map that cannot be written.
     #[error(
         "cannot write `{}`: {why}; what was computed before it stays; run the same command again when this is put right",
@@ -915,6 +935,8 @@ impl Error {
             | Error::NoTiles { .. }
             | Error::BadDescription { .. }
             | Error::OtherSweep { .. }
+            | Error::OtherVersion { .. }
+            | Error::OtherCut { .. }
             | Error::OtherMerge { .. }
             | Error::OtherReuse { .. }
             | Error::TilesMissing { .. }

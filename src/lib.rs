@@ -19,6 +19,7 @@
 //! | outcome → regime | [`classify`] |
 //! | labels of an instance, counted | [`label`] |
 //! | speed against error, and the cheapest that is accurate enough | [`accuracy`] |
+//! | what is kept: the one door to the disk | [`disk`] |
 //! | sweeps of any size, tile by tile in a directory, by the jobs of a cluster | [`store`], [`cluster`] |
 //! | map → bytes, and a map read back | [`map`], [`trace`], [`export`], [`archive`] |
 //! | an instance as sensors record it; measured signals → verdict | [`signals`], [`identify`], [`fit`] |
@@ -55,6 +56,7 @@ pub mod archive;
 pub mod backend;
 pub mod classify;
 pub mod cluster;
+pub mod disk;
 pub mod error;
 pub mod estimate;
 pub mod export;

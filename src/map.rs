@@ -50,6 +50,13 @@ impl Record {
         others: None,
     };
 
+    /// The record before any check; `None` where that is not known, or nothing was computed.
+    #[must_use]
+    pub fn as_made(&self) -> Option<Record> {
+        let made = self.status != Status::NotComputed && self.check.is_none_or(|check| !check.taken);
+        made.then(|| Record { check: None, ..self.clone() })
+    }
+
     /// The record of the large start, where there is one.
     #[must_use]
     pub fn large(&self) -> Option<&Record> {

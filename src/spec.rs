@@ -1,5 +1,6 @@
 //! TOML → validated spec; the only file that reads TOML.
 
+mod again;
 mod at;
 mod axis;
 mod check;

@@ -6,6 +6,7 @@ use serde_json::Value as Json;
 
 use crate::error::{Error, Result};
 use crate::export::heading::Heading;
+use crate::export::manifest::Sum;
 
 /// What is wrong with a file, as the end of a sentence.
 pub(super) type Why<T> = std::result::Result<T, String>;
@@ -22,12 +23,12 @@ impl Folder<'_> {
 
     /// The text of a file.
     pub(super) fn text(self, file: &str) -> Result<String> {
-        std::fs::read_to_string(self.0.join(file)).map_err(|why| self.bad(file, why.to_string()))
+        String::from_utf8(self.bytes(file)?).map_err(|_| self.bad(file, "it is no UTF-8 text"))
     }
 
     /// The bytes of a file.
     pub(super) fn bytes(self, file: &str) -> Result<Vec<u8>> {
-        std::fs::read(self.0.join(file)).map_err(|why| self.bad(file, why.to_string()))
+        crate::disk::read(&self.0.join(file)).map_err(|why| self.bad(file, why.to_string()))
     }
 
     /// A file of JSON.
@@ -35,9 +36,22 @@ impl Folder<'_> {
         serde_json::from_str(&self.text(file)?).map_err(|why| self.bad(file, why.to_string()))
     }
 
+    /// A file of which a document may say length and checksum; one that has others is refused.
+    pub(super) fn named(self, file: &str, document: &Json) -> Result<Vec<u8>> {
+        let bytes = self.bytes(file)?;
+        match Sum::in_manifest(document, file) {
+            Some(sum) if sum != Sum::of(&bytes) => {
+                let why = "it is not the file that manifest.json names: its checksum is another one; run the same command \
+                           again, or `squealmap verify --repair`, which writes it anew";
+                Err(self.bad(file, why))
+            }
+            _ => Ok(bytes),
+        }
+    }
+
     /// A table.
     pub(super) fn table(self, file: &str) -> Result<Table> {
-        Table::read(&self.text(file)?).map_err(|why| self.bad(file, why))
+        Table::read(self.text(file)?.as_bytes()).map_err(|why| self.bad(file, why))
     }
 }
 
@@ -48,8 +62,8 @@ pub(super) struct Table {
 }
 
 impl Table {
-    fn read(text: &str) -> Why<Table> {
-        let mut reader = csv::Reader::from_reader(text.as_bytes());
+    pub(super) fn read(text: &[u8]) -> Why<Table> {
+        let mut reader = csv::Reader::from_reader(text);
         let header = reader.headers().map_err(|why| why.to_string())?.iter().map(str::to_owned).collect();
         let rows: std::result::Result<_, _> = reader.records().collect();
         Ok(Table { header, rows: rows.map_err(|why| why.to_string())? })

@@ -6,7 +6,7 @@ use super::fallback::NoGpu;
 use super::gpu::adapter::Adapter;
 use super::gpu::device::{Arithmetic, Device};
 use super::gpu::response;
-use super::reference;
+use super::{cpu, gpu, reference};
 use crate::error::{Error, Result};
 use crate::kernel::source::Precision;
 use crate::method::Method;
@@ -31,6 +31,18 @@ pub enum Backend {
 }
 
 impl Backend {
+    /// The one of this name in a [`crate::map::Computation`].
+    #[must_use]
+    pub fn of_name(name: &str) -> Option<Backend> {
+        match name {
+            gpu::NAME => Some(Backend::Gpu),
+            cpu::NAME => Some(Backend::Cpu),
+            name => [Backend::Reference, Backend::LocatedRk4, Backend::FixedStep]
+                .into_iter()
+                .find(|one| one.method().is_some_and(|method| reference::name(method) == name)),
+        }
+    }
+
     /// Whether it is there to be compared with: no accuracy is reached by it that another does not reach faster.
     #[must_use]
     pub fn is_comparison(self) -> bool {

@@ -36,6 +36,9 @@ const MOST: usize = 512;
 /// Fewest, where a sweep has enough for all threads: the lanes of two vectors.
 const FEWEST: usize = 32;
 
+/// Instances for each thread that keep it busy: two batches.
+pub(super) const BUSY: usize = 2 * FEWEST;
+
 /// The response of a sweep in a manifest.
 #[must_use]
 pub fn response(precision: Precision, steps_per_period: u32) -> Computation {

@@ -12,7 +12,7 @@ use crate::accuracy::configuration::Configuration;
 use crate::accuracy::sample::subset;
 use crate::error::{Error, Result};
 use crate::kernel::source::Precision;
-use crate::map::{Computation, Record};
+use crate::map::{Computation, Record, Stopped};
 use crate::method::Method;
 use crate::spec::{Analysis, Spec, Starts};
 
@@ -134,8 +134,18 @@ impl<'a> Solver<'a> {
         Ok(computed)
     }
 
-    /// The records of the instances `range` where some are `known`, as this engine makes them before any check; only the
-    /// others are computed.
+    /// Instances that keep it busy, at least: ranges of fewer leave cores or lanes without work.
+    #[must_use]
+    pub fn busy_with(&self) -> usize {
+        match &self.on {
+            On::Cpu(_) => cpu::BUSY * rayon::current_num_threads(),
+            On::Reference(_) => rayon::current_num_threads(),
+            On::Gpu(_) => GPU_BLOCK.div_ceil(self.spec.analysis.starts.count()),
+        }
+    }
+
+    /// The records of the instances `range` where some are `known`: of one start each as this engine makes them, before
+    /// any check, of several starts with their checks. Only the others are computed.
     ///
     /// # Errors
     /// Those of [`Solver::records`].
@@ -145,13 +155,28 @@ impl<'a> Solver<'a> {
         known: &[Option<Record>],
         progress: &(dyn Fn(usize) + Sync),
     ) -> Result<Computed> {
+        let lacking = known.iter().filter(|known| known.is_none()).count();
+        if lacking == range.len() {
+            return self.records(range, progress);
+        }
+        progress(range.len() - lacking);
+        if self.spec.analysis.starts == Starts::One {
+            self.one_start_beside(range, known, progress)
+        } else {
+            self.several_starts_beside(range, known, progress)
+        }
+    }
+
+    /// The lacking instances as a sweep of their own; then checks as of all.
+    fn one_start_beside(
+        &mut self,
+        range: Range<usize>,
+        known: &[Option<Record>],
+        progress: &(dyn Fn(usize) + Sync),
+    ) -> Result<Computed> {
         let spec = self.spec;
         let lacking: Vec<usize> =
             range.clone().zip(known).filter(|(_, known)| known.is_none()).map(|(index, _)| index).collect();
-        if lacking.len() == range.len() {
-            return self.records(range, progress);
-        }
-        progress(range.len() - lacking.len());
         let fresh = if lacking.is_empty() {
             Computed { records: Vec::new(), stopped: None }
         } else {
@@ -165,6 +190,35 @@ impl<'a> Solver<'a> {
         if spec.analysis.checks() && computed.stopped.is_none() {
             let cancel = self.options.cancel();
             computed.stopped = check(spec, range, &self.configuration(), &mut computed.records, cancel)?;
+        }
+        Ok(computed)
+    }
+
+    /// The lacking instances stretch by stretch: where other starts lie depends on the number of an instance.
+    fn several_starts_beside(
+        &mut self,
+        range: Range<usize>,
+        known: &[Option<Record>],
+        progress: &(dyn Fn(usize) + Sync),
+    ) -> Result<Computed> {
+        let mut computed = Computed { records: Vec::with_capacity(range.len()), stopped: None };
+        for stretch in known.chunk_by(|one, next| one.is_some() == next.is_some()) {
+            let first = range.start + computed.records.len();
+            if stretch[0].is_some() || computed.stopped.is_some() {
+                let records = stretch.iter().map(|known| known.clone().unwrap_or(Record::NOT_COMPUTED));
+                computed.records.extend(records);
+                continue;
+            }
+            match self.records(first..first + stretch.len(), progress) {
+                Ok(part) => {
+                    computed.records.extend(part.records);
+                    computed.stopped = part.stopped;
+                }
+                Err(why) => {
+                    computed.stopped = Some(Stopped::try_from(why)?);
+                    computed.records.resize(first - range.start + stretch.len(), Record::NOT_COMPUTED);
+                }
+            }
         }
         Ok(computed)
     }

@@ -94,7 +94,7 @@ fn kinds(spec: &Spec, range: Range<usize>, records: &[Record]) -> Vec<Option<Ins
     }
 }
 
-/// Joins what the large start gives; an instance that was stopped before it is not done.
+/// Joins what the large start gives; an instance that was stopped before it, or before it was checked, is not done.
 fn with_large(
     records: &mut [Record],
     kinds: &[Option<InstabilityType>],
@@ -103,7 +103,10 @@ fn with_large(
     once: &mut Once,
     progress: &(dyn Fn(usize) + Sync),
 ) -> Result<Option<Stopped>> {
-    let computed = once(large, range, progress)?;
+    let mut computed = once(large, range, progress)?;
+    if computed.stopped.is_some() && large.analysis.checks() {
+        computed.records.fill(Record::NOT_COMPUTED);
+    }
     for ((record, from), kind) in records.iter_mut().zip(computed.records).zip(kinds) {
         if from.status == Status::NotComputed {
             *record = Record::NOT_COMPUTED;

@@ -9,8 +9,9 @@ use squealmap::estimate::estimate;
 use squealmap::grid::{Axis, AxisKey, Grid, Value};
 use squealmap::refine::{Settings, planes_of};
 use squealmap::spec::{Spec, StartKind, Starts};
+use squealmap::store::cut::tile_of;
 use squealmap::store::space::{MOST_ROWS, Need, bytes};
-use squealmap::store::tiling::{TILE, Tiling};
+use squealmap::store::tiling::Tiling;
 
 use crate::cli::print;
 use crate::cli::progress::seconds;
@@ -123,7 +124,7 @@ fn describe_axis(axis: &Axis) -> String {
 
 /// What the sweep would take of the disk.
 fn disk(spec: &Spec) -> String {
-    let tiling = Tiling { instances: spec.grid.len(), tile: TILE };
+    let tiling = Tiling { instances: spec.grid.len(), tile: tile_of(spec) };
     let need = Need::new(tiling, spec.analysis);
     let table = need.table.map_or_else(
         || format!("no map.csv by itself, of more than {MOST_ROWS} rows"),

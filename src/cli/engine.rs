@@ -73,11 +73,7 @@ impl From<PrecisionName> for Precision {
 impl EngineArgs {
     /// The worker threads.
     pub(crate) fn pool(&self) -> Result<ThreadPool> {
-        let threads = self.threads.map_or(0, usize::from);
-        rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build()
-            .map_err(|why| Error::Threads { threads, why: why.to_string() })
+        pool(self.threads)
     }
 
     /// The engine that is asked for.
@@ -93,4 +89,13 @@ impl EngineArgs {
             note: Some(note),
         }
     }
+}
+
+/// So many worker threads, or one per core.
+pub(crate) fn pool(threads: Option<u16>) -> Result<ThreadPool> {
+    let threads = threads.map_or(0, usize::from);
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .map_err(|why| Error::Threads { threads, why: why.to_string() })
 }

@@ -1,21 +1,21 @@
 //! `squealmap export`: the tiles of a directory in a format that other programs read.
 
-use std::fs;
 use std::io::{self, Seek, SeekFrom, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
+use squealmap::disk::{self, Handle, How, door};
 use squealmap::export::csv::MapCsv;
 use squealmap::export::netcdf::NetCdf;
 use squealmap::export::parquet::MapParquet;
-use squealmap::export::zarr::Zarr;
+use squealmap::export::zarr::{METADATA, Zarr};
 use squealmap::map::Record;
 use squealmap::outcome::Status;
 use squealmap::store::directory::Store;
 use squealmap::{Error, Result};
 
-use crate::cli::output::{cannot, claim, list};
+use crate::cli::output::{cannot, cannot_table, claim, list};
 use crate::cli::run::missing;
 use crate::cli::{note, print};
 
@@ -94,6 +94,10 @@ impl Tiles<'_> {
                 let path = self.store.path(number);
                 Error::BadTile { path, fault }
             })?;
+            let found = match found {
+                None => self.store.kept(number, &note)?,
+                found => found,
+            };
             let length = self.store.description.tiling.bounds(number).len();
             self.last = Some((number, found.unwrap_or_else(|| vec![Record::NOT_COMPUTED; length])));
         }
@@ -124,17 +128,19 @@ impl Tiles<'_> {
 fn csv(tiles: &mut Tiles, path: &Path) -> Result<()> {
     let mut claim = claim(path)?;
     let file = claim.emptied().map_err(|why| cannot(path, &why))?;
-    let mut table = MapCsv::new(tiles.store.description.sheet(), file)?;
-    tiles.each(|first, records| table.add(first, records))?;
+    let full = |why| cannot_table(path, why);
+    let mut table = MapCsv::new(tiles.store.description.sheet(), file).map_err(full)?;
+    tiles.each(|first, records| table.add(first, records).map_err(full))?;
     claim.publish().map_err(|why| cannot(path, &why))
 }
 
 fn parquet(tiles: &mut Tiles, path: &Path) -> Result<()> {
     let mut claim = claim(path)?;
     let file = claim.emptied().map_err(|why| cannot(path, &why))?;
-    let mut table = MapParquet::new(tiles.store.description.sheet(), file)?;
-    tiles.each(|first, records| table.add(first, records))?;
-    table.finish()?;
+    let full = |why| cannot_table(path, why);
+    let mut table = MapParquet::new(tiles.store.description.sheet(), file).map_err(full)?;
+    tiles.each(|first, records| table.add(first, records).map_err(full))?;
+    table.finish().map_err(full)?;
     claim.publish().map_err(|why| cannot(path, &why))
 }
 
@@ -143,7 +149,7 @@ fn netcdf(tiles: &mut Tiles, path: &Path) -> Result<()> {
     let netcdf = NetCdf::new(tiles.store.description.sheet());
     let failed = |why: io::Error| cannot(path, &why);
     let file = claim.emptied().map_err(failed)?;
-    file.set_len(netcdf.size()).and_then(|()| file.write_all(&netcdf.start())).map_err(failed)?;
+    file.resize(netcdf.size()).and_then(|()| file.write_all(&netcdf.start())).map_err(failed)?;
     tiles.each(|first, records| {
         netcdf.pieces(first, records).iter().try_for_each(|(at, bytes)| {
             file.seek(SeekFrom::Start(*at)).and_then(|_| file.write_all(bytes)).map_err(failed)
@@ -155,47 +161,59 @@ fn netcdf(tiles: &mut Tiles, path: &Path) -> Result<()> {
 /// A directory of many files: made under another name, then renamed.
 fn zarr(tiles: &mut Tiles, path: &Path) -> Result<()> {
     // Nobody else writes it as long as this is held; the file itself is never published.
-    let mut lock = path.as_os_str().to_owned();
-    lock.push(".lock");
-    let _claim = claim(Path::new(&lock))?;
-    let mut part = path.as_os_str().to_owned();
-    part.push(".part");
-    let part = PathBuf::from(part);
+    let _claim = claim(&beside(path, ".lock"))?;
+    let part = beside(path, ".part");
     let failed = |why: io::Error| cannot(path, &why);
-    if path.exists() && !path.join("zarr.json").is_file() {
+    if path.exists() && !path.join(METADATA).is_file() {
         return Err(failed(io::Error::other("it is there and is no Zarr group")));
     }
-    let written = remove(&part).map_err(failed).and_then(|()| zarr_files(tiles, &part));
+    let written = disk::remove_all(&part).map_err(failed).and_then(|()| zarr_files(tiles, &part));
     if written.is_err() {
-        let _ = remove(&part);
+        let _ = disk::remove_all(&part);
     }
     written?;
-    remove(path).and_then(|()| fs::rename(&part, path)).map_err(failed)
+    // A folder takes the place of none: the one before steps aside until the new one is there.
+    let old = beside(path, ".old");
+    disk::remove_all(&old)
+        .and_then(|()| if path.exists() { door().rename(path, &old) } else { Ok(()) })
+        .and_then(|()| door().rename(&part, path))
+        .and_then(|()| disk::lasting(path))
+        .and_then(|()| disk::remove_all(&old))
+        .map_err(failed)
 }
 
+/// The path with more at its end.
+fn beside(path: &Path, end: &str) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(end);
+    PathBuf::from(name)
+}
+
+/// Writes the group, its own metadata last; every file and name lasts then.
 fn zarr_files(tiles: &mut Tiles, part: &Path) -> Result<()> {
     let tile = tiles.store.description.tiling.tile;
     let zarr = Zarr::new(tiles.store.description.sheet(), tile);
-    let write = |(name, bytes): (String, Vec<u8>)| {
+    let mut folders = std::collections::BTreeSet::new();
+    let mut write = |(name, bytes): (String, Vec<u8>)| {
         let path = part.join(name);
-        path.parent()
-            .map_or(Ok(()), fs::create_dir_all)
-            .and_then(|()| fs::write(&path, bytes))
-            .map_err(|why| cannot(&path, &why))
+        let folder = path.parent().unwrap_or(part).to_owned();
+        let new = if folders.contains(&folder) { Ok(Vec::new()) } else { disk::make_all(&folder) };
+        let written = new
+            .and_then(|_| Handle::open(&path, How::Write))
+            .and_then(|mut file| file.write_all(&bytes).and_then(|()| file.sync()));
+        folders.insert(folder);
+        written.map_err(|why| cannot(&path, &why))
     };
-    zarr.files().into_iter().try_for_each(write)?;
+    let (of_group, others): (Vec<_>, Vec<_>) =
+        zarr.files().into_iter().partition(|(name, _)| name == METADATA);
+    others.into_iter().try_for_each(&mut write)?;
     for number in 0..zarr.chunks() {
         let records = tiles.range(zarr.bounds(number))?;
         if records.iter().any(|record| record.status != Status::NotComputed) {
-            zarr.chunk(number, &records).into_iter().try_for_each(write)?;
+            zarr.chunk(number, &records).into_iter().try_for_each(&mut write)?;
         }
     }
-    Ok(())
-}
-
-fn remove(directory: &Path) -> io::Result<()> {
-    match fs::remove_dir_all(directory) {
-        Err(why) if why.kind() == io::ErrorKind::NotFound => Ok(()),
-        other => other,
-    }
+    of_group.into_iter().try_for_each(&mut write)?;
+    let lasting = |folder: &PathBuf| door().sync_folder(folder).map_err(|why| cannot(folder, &why));
+    folders.iter().try_for_each(lasting)
 }

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use squealmap::accuracy::frontier::Frontier;
 use squealmap::accuracy::row::{Row, from_csv, to_csv};
+use squealmap::disk;
 use squealmap::spec::Spec;
 use squealmap::{Error, Result};
 
@@ -36,7 +37,7 @@ pub(crate) fn of(spec: &Spec) -> Frontier {
 pub(crate) fn writable(asked: Option<&Path>) -> Result<()> {
     let Some(path) = asked.map(Path::to_owned).or_else(place) else { return Ok(()) };
     if let Some(parent) = path.parent() {
-        std::fs::create_dir_all(parent).map_err(|why| cannot(&path, &why))?;
+        disk::make_all(parent).map_err(|why| cannot(&path, &why))?;
     }
     claim(&path).map(drop)
 }
@@ -53,7 +54,7 @@ pub(crate) fn store(asked: Option<PathBuf>, rows: &[Row]) -> Result<Option<PathB
     all.extend_from_slice(rows);
     let bytes = to_csv(&all)?;
     if let Some(parent) = path.parent() {
-        std::fs::create_dir_all(parent).map_err(|why| cannot(&path, &why))?;
+        disk::make_all(parent).map_err(|why| cannot(&path, &why))?;
     }
     claim(&path)?.write(&bytes).map_err(|why| cannot(&path, &why))?;
     Ok(Some(path))
@@ -62,7 +63,7 @@ pub(crate) fn store(asked: Option<PathBuf>, rows: &[Row]) -> Result<Option<PathB
 /// The rows of a table; none where there is none.
 fn read(path: &Path) -> Result<Vec<Row>> {
     let bad = |why| Error::BadDescription { path: path.to_owned(), why };
-    match std::fs::read(path) {
+    match disk::read(path) {
         Ok(bytes) => from_csv(&bytes).map_err(bad),
         Err(why) if why.kind() == ErrorKind::NotFound => Ok(Vec::new()),
         Err(why) => Err(bad(why.to_string())),

@@ -89,8 +89,8 @@ impl Identify {
         let settings = self.settings();
         let output = Output::prepare(directory, &FILES)?;
         let open = || File::open(&path).map(|file| Box::new(file) as Box<dyn Read>);
-        let windows = output.draft(FILES[5])?;
-        let mut table = WindowsCsv::new(windows.file.as_file())?;
+        let mut windows = output.draft(FILES[5])?;
+        let mut table = WindowsCsv::new(windows.file())?;
         let found = identify(open, &name, &settings, &mut |window, reading| table.add(window, reading))?;
         table.finish()?;
         let shown = Shown::new(&found, &heading);

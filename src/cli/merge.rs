@@ -13,8 +13,9 @@ use squealmap::{Error, Result};
 use crate::cli::output::list;
 use crate::cli::results::{self, Results};
 use crate::cli::run::missing;
+use crate::cli::signal::stop_at_signal;
 use crate::cli::summary::summary;
-use crate::cli::{note, print};
+use crate::cli::{INTERRUPTED, note, print};
 
 /// Arguments of `merge`.
 #[derive(Debug, Args)]
@@ -28,6 +29,7 @@ pub(crate) struct Merge {
 
 impl Merge {
     pub(crate) fn execute(self) -> Result<ExitCode> {
+        let cancel = stop_at_signal()?;
         let sources = self.sources.iter().map(|path| Store::open(path)).collect::<Result<Vec<_>>>()?;
         let target = match (Store::open(&self.target), sources.first()) {
             (Err(Error::NoTiles { .. }), Some(source)) => {
@@ -55,13 +57,17 @@ impl Merge {
             computed: 0,
             reused: None,
             stopped: None,
-            sweep_id: Some(target.description.id.to_string()),
+            tiles: None,
             accuracy: target.description.accuracy.clone(),
         };
-        Ok(match results::write(&target, None, &run)? {
-            Results::BadTile => {
-                note("a tile went bad while it was read; run the same command again");
+        Ok(match results::write(&target, &run, &cancel)? {
+            Results::Lacking => {
+                note("a tile went bad or was removed while it was read; run the same command again");
                 ExitCode::FAILURE
+            }
+            Results::Stopped => {
+                note("stopped; another process is writing the results");
+                ExitCode::from(INTERRUPTED)
             }
             Results::Current => {
                 print(&format!("{heading}; the results are those of all of them\n"));

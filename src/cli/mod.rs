@@ -19,7 +19,7 @@ mod plot_beside;
 mod plot_map;
 mod progress;
 mod refine;
-pub(crate) mod report;
+mod report;
 mod results;
 mod run;
 mod scheduler;
@@ -27,8 +27,10 @@ mod signal;
 mod status;
 mod submit;
 mod summary;
+mod summed;
 mod trace;
 mod tradeoff;
+mod verify;
 
 use std::io::Write;
 use std::path::PathBuf;
@@ -41,7 +43,7 @@ use squealmap::Result;
 /// brake contact become unstable, by which mechanism, and what does it then do?
 #[derive(Debug, Parser)]
 #[command(version, arg_required_else_help = true)]
-pub(crate) struct Cli {
+struct Cli {
     #[command(subcommand)]
     command: Command,
 }
@@ -54,6 +56,8 @@ enum Command {
     Refine(refine::RefineCommand),
     /// How far a run has come: tiles that are done, in work or bad, rate, time left
     Status(status::StatusCommand),
+    /// Check tiles, results and description of a directory against their checksums; --repair computes again what is bad
+    Verify(verify::Verify),
     /// Submit a sweep to a cluster: an array job that computes its tiles, and one that merges them
     Submit(submit::Submit),
     /// Bring the tiles of several directories together; when all are there, write the results
@@ -81,7 +85,7 @@ enum Command {
 }
 
 /// The exit code after Ctrl-C or SIGTERM: 128 and the number of the signal, as shells have it.
-pub(crate) const INTERRUPTED: u8 = 130;
+const INTERRUPTED: u8 = 130;
 
 /// The sweep file and where its results go.
 #[derive(Debug, Args)]
@@ -103,11 +107,12 @@ impl Files {
 
 impl Cli {
     /// Runs the command and gives the exit code.
-    pub(crate) fn execute(self) -> Result<ExitCode> {
+    fn execute(self) -> Result<ExitCode> {
         match self.command {
             Command::Run(command) => return command.execute(),
             Command::Merge(command) => return command.execute(),
             Command::Refine(command) => return command.execute(),
+            Command::Verify(command) => return command.execute(),
             Command::Submit(command) => command.execute()?,
             Command::Status(command) => command.execute()?,
             Command::Export(command) => command.execute()?,
@@ -122,6 +127,21 @@ impl Cli {
             Command::Fit(command) => command.execute()?,
         }
         Ok(ExitCode::SUCCESS)
+    }
+}
+
+/// Parses, executes, reports an error and gives the exit code.
+pub(crate) fn main() -> ExitCode {
+    match Cli::parse().execute() {
+        Ok(code) => code,
+        Err(error) => {
+            report::report(&error);
+            ExitCode::from(match error {
+                squealmap::Error::Cancelled { .. } => INTERRUPTED,
+                error if error.is_bad_input() => 2,
+                _ => 1,
+            })
+        }
     }
 }
 

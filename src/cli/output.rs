@@ -1,11 +1,16 @@
 //! The output directory: proven writable before the run, filled at once after it.
 
-use std::io::Write;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::thread;
+use std::time::{Duration, Instant};
 
+use squealmap::disk::{self, Handle, door};
 use squealmap::store::claim::Claim;
 use squealmap::{Error, Result};
-use tempfile::NamedTempFile;
+
+/// What is claimed where no file is to come.
+const PROBE: &str = ".squealmap";
 
 /// An output directory that exists and can be written.
 #[derive(Debug)]
@@ -16,37 +21,24 @@ pub(crate) struct Output {
 }
 
 impl Output {
-    /// Makes the directory where it does not exist, and those that the names of `files` have in them, and
-    /// writes a file in each, which it removes; refuses one where a directory stands in place of one of the
-    /// `files` to come.
+    /// Makes the directory where it does not exist, and those that the names of `files` have in them, and claims a file
+    /// in each, which it gives up: what a run that is killed in this moment leaves, the next one uses. Refuses one where a
+    /// directory stands in place of one of the `files` to come.
     pub(crate) fn prepare(directory: PathBuf, files: &[&str]) -> Result<Output> {
-        Output::prepare_with(directory, files, |directory| temporary(directory)?.close())
-    }
-
-    /// The same for files that are claimed: what a run that is killed in this moment leaves, the next one uses.
-    pub(crate) fn prepare_claimed(directory: PathBuf, files: &[&str]) -> Result<Output> {
-        let first = files.first().copied().unwrap_or_default();
-        Output::prepare_with(directory, files, |directory| Claim::take(&directory.join(first)).map(drop))
-    }
-
-    fn prepare_with(
-        directory: PathBuf,
-        files: &[&str],
-        probe: impl Fn(&Path) -> std::io::Result<()>,
-    ) -> Result<Output> {
         let mut output = Output { directory, made: Vec::new() };
-        let mut inside: Vec<PathBuf> =
-            files.iter().filter_map(|name| Some(output.directory.join(name).parent()?.to_owned())).collect();
-        inside.insert(0, output.directory.clone());
-        inside.dedup();
-        for directory in inside {
-            let missing = directory.ancestors().filter(|path| !path.as_os_str().is_empty());
-            let missing: Vec<PathBuf> =
-                missing.take_while(|path| !path.exists()).map(Path::to_owned).collect();
-            output.made.splice(0..0, missing);
-            std::fs::create_dir_all(&directory)
-                .and_then(|()| probe(&directory))
-                .map_err(|why| Error::OutputDirectory { path: directory.clone(), why: why.to_string() })?;
+        let probes = if files.is_empty() { &[PROBE][..] } else { files };
+        let mut proven: Vec<PathBuf> = Vec::new();
+        for name in probes {
+            let path = output.directory.join(name);
+            let folder = path.parent().unwrap_or(&output.directory).to_owned();
+            if proven.contains(&folder) {
+                continue;
+            }
+            let made = disk::make_all(&folder)
+                .and_then(|made| Claim::take(&path).map(|_| made))
+                .map_err(|why| Error::OutputDirectory { path: folder.clone(), why: why.to_string() })?;
+            output.made.splice(0..0, made);
+            proven.push(folder);
         }
         match files.iter().find(|name| output.directory.join(name).is_dir()) {
             None => Ok(output),
@@ -69,9 +61,10 @@ impl Output {
     }
 
     /// A file of the directory that is written as its content comes, for [`Output::write_beside`].
-    pub(crate) fn draft<'a>(&self, name: &'a str) -> Result<Draft<'a>> {
-        let file = temporary(&self.directory).map_err(|why| cannot(&self.directory.join(name), &why))?;
-        Ok(Draft { name, file })
+    pub(crate) fn draft(&self, name: &str) -> Result<Draft> {
+        let mut claim = claim(&self.directory.join(name))?;
+        claim.emptied().map_err(|why| cannot(&self.directory.join(name), &why))?;
+        Ok(Draft(claim))
     }
 
     /// Writes all files or none: first under temporary names, then renamed. Returns their paths.
@@ -88,15 +81,15 @@ impl Output {
         let mut written = Vec::with_capacity(files.len() + drafts.len());
         for (name, bytes) in files {
             let path = self.directory.join(name);
-            let file = temporary(&self.directory)
-                .and_then(|mut file| file.write_all(bytes).map(|()| file))
-                .map_err(|why| cannot(&path, &why))?;
-            written.push((path, file));
+            let mut claim = claim(&path)?;
+            claim.emptied().and_then(|file| file.write_all(bytes)).map_err(|why| cannot(&path, &why))?;
+            written.push(claim);
         }
-        written.extend(drafts.into_iter().map(|draft| (self.directory.join(draft.name), draft.file)));
-        let mut paths = Vec::with_capacity(files.len());
-        for (path, file) in written {
-            file.persist(&path).map_err(|why| cannot(&path, &why.error))?;
+        written.extend(drafts.into_iter().map(|Draft(claim)| claim));
+        let mut paths = Vec::with_capacity(written.len());
+        for claim in written {
+            let path = claim.path().to_owned();
+            claim.publish().map_err(|why| cannot(&path, &why))?;
             paths.push(path);
         }
         self.made.clear();
@@ -108,25 +101,20 @@ impl Drop for Output {
     fn drop(&mut self) {
         for directory in &self.made {
             // Fails, as it should, when there is something in it.
-            let _ = std::fs::remove_dir(directory);
+            let _ = door().remove_folder(directory);
         }
     }
 }
 
 /// A file that is written as its content comes; dropped, it leaves nothing.
 #[derive(Debug)]
-pub(crate) struct Draft<'a> {
-    name: &'a str,
-    pub(crate) file: NamedTempFile,
-}
+pub(crate) struct Draft(Claim);
 
-/// A file under a temporary name that has the permissions of any other new file once it is renamed.
-fn temporary(directory: &Path) -> std::io::Result<NamedTempFile> {
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".squealmap-").suffix(".tmp");
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    builder.tempfile_in(directory)
+impl Draft {
+    /// Takes what was written to it.
+    pub(crate) fn file(&mut self) -> &mut Handle {
+        self.0.file()
+    }
 }
 
 /// The list of written files for the end of a command.
@@ -134,14 +122,33 @@ pub(crate) fn list(paths: &[PathBuf]) -> String {
     paths.iter().fold(String::new(), |text, path| text + "wrote " + &path.display().to_string() + "\n")
 }
 
+/// Another process that only looks whether it may write a file has it no longer than this; one that writes it is an error.
+const PATIENCE: Duration = Duration::from_secs(1);
+
 /// A claim on a file that is written piece by piece.
 pub(crate) fn claim(path: &Path) -> Result<Claim> {
-    Claim::take(path)
-        .and_then(|claim| claim.ok_or_else(|| std::io::Error::other("another process is writing it")))
-        .map_err(|why| cannot(path, &why))
+    let began = Instant::now();
+    loop {
+        match Claim::take(path).map_err(|why| cannot(path, &why))? {
+            Some(claim) => return Ok(claim),
+            None if began.elapsed() > PATIENCE => {
+                return Err(cannot(path, &io::Error::other("another process is writing it")));
+            }
+            None => thread::sleep(PATIENCE / 100),
+        }
+    }
+}
+
+/// The error of a table that cannot be written: with its path, and what the system says.
+pub(crate) fn cannot_table(path: &Path, why: Error) -> Error {
+    match why {
+        Error::WriteTable(why) => cannot(path, &io::Error::other(why)),
+        Error::WriteParquet(why) => cannot(path, &io::Error::other(why)),
+        other => other,
+    }
 }
 
 /// The error of a file that cannot be written.
-pub(crate) fn cannot(path: &Path, why: &std::io::Error) -> Error {
+pub(crate) fn cannot(path: &Path, why: &io::Error) -> Error {
     Error::Write { path: path.to_owned(), why: why.to_string() }
 }

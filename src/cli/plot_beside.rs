@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use squealmap::disk::{self, door};
+
 use crate::cli::note;
 use crate::cli::plot_map::{TABLES, Tables};
 
@@ -34,11 +36,12 @@ pub(crate) struct Stale {
 /// The tables of a directory that `written`, the names of what is going to be written, are without; its picture is that
 /// of before.
 pub(crate) fn stale(directory: &Path, picture: &str, written: &[&str]) -> Vec<Stale> {
-    let before = std::fs::read_to_string(directory.join(picture)).unwrap_or_default();
+    let before = disk::read(&directory.join(picture)).unwrap_or_default();
+    let before = String::from_utf8_lossy(&before);
     let beside = before.split_once(END).and_then(|(metadata, _)| metadata.rsplit_once(BESIDE));
     let beside = beside.map_or("", |(_, list)| list);
     let of = |name: &'static str| {
-        let bytes = std::fs::read(directory.join(name)).ok()?;
+        let bytes = disk::read(&directory.join(name)).ok()?;
         let as_written = format!("{name} {}", checksum(&bytes));
         Some(Stale { name, unchanged: beside.split(", ").any(|one| one == as_written) })
     };
@@ -49,7 +52,7 @@ pub(crate) fn stale(directory: &Path, picture: &str, written: &[&str]) -> Vec<St
 pub(crate) fn remove(directory: &Path, stale: &[Stale]) {
     for Stale { name, unchanged } in stale {
         let path = directory.join(name);
-        if *unchanged && std::fs::remove_file(&path).is_ok() {
+        if *unchanged && door().remove(&path).is_ok() {
             note(&format!("removed `{}`, which belonged to the picture before", path.display()));
         } else {
             note(&format!("`{}` does not belong to this picture; it stays as it is", path.display()));

@@ -14,14 +14,14 @@ use squealmap::export::refined::{document, figure};
 use squealmap::label::Label;
 use squealmap::refine::{COARSE, Refined, Settings, planes_of, refine};
 use squealmap::spec::{Spec, Starts};
+use squealmap::store::cut::tile_of;
 use squealmap::store::description::Description;
 use squealmap::store::parts::Parts;
 use squealmap::store::space;
-use squealmap::store::tiling::TILE;
 use squealmap::{Error, Result};
 
 use crate::cli::engine::EngineArgs;
-use crate::cli::output::{Output, cannot, claim, list};
+use crate::cli::output::{Output, cannot, cannot_table, claim, list};
 use crate::cli::progress::Progress;
 use crate::cli::run::at_least_one;
 use crate::cli::signal::stop_at_signal;
@@ -52,8 +52,8 @@ pub(crate) struct RefineCommand {
     #[command(flatten)]
     engine: EngineArgs,
     /// Instances of a part: for tests, which have no time for large ones
-    #[arg(long, hide = true, default_value_t = TILE, value_parser = at_least_one)]
-    tile: usize,
+    #[arg(long, hide = true, value_parser = at_least_one)]
+    tile: Option<usize>,
 }
 
 impl RefineCommand {
@@ -79,7 +79,7 @@ pub(crate) struct Refining<'a> {
     /// What computes.
     pub(crate) engine: &'a EngineArgs,
     /// Most instances of a part.
-    pub(crate) part: usize,
+    pub(crate) part: Option<usize>,
 }
 
 impl Refining<'_> {
@@ -97,22 +97,24 @@ impl Refining<'_> {
             spec.analysis.starts = Starts::One;
         }
         planes_of(&spec.grid)?;
-        let output = Output::prepare_claimed(self.files.directory(), &FILES)?;
+        let part_size = self.part.unwrap_or_else(|| tile_of(&spec));
+        let output = Output::prepare(self.files.directory(), &FILES)?;
         let pool = self.engine.pool()?;
         let options = self.engine.options(cancel, &note);
         let mut solver = Solver::new(&spec, &options)?;
-        let description = Description::new(&spec, solver.computations(), self.part);
+        let description = Description::new(&spec, solver.computations(), part_size);
         let table_path = output.directory().join(FILES[0]);
         let mut table = claim(&table_path)?;
         let file = BufWriter::new(table.emptied().map_err(|why| cannot(&table_path, &why))?);
-        let mut rows = MapCsv::new(description.sheet(), file)?;
+        let mut rows =
+            MapCsv::new(description.sheet(), file).map_err(|why| cannot_table(&table_path, why))?;
         let parts = Parts::begin(output.directory(), &description)?;
-        let table_full = |why: Error| cannot(&table_path, &std::io::Error::other(why));
+        let table_full = |why: Error| cannot_table(&table_path, why);
         let mut fresh = 0;
         let mut compute = |instances: &[usize]| {
             let progress = Progress::new(instances.len());
             let mut labels = Vec::with_capacity(instances.len());
-            for block in instances.chunks(self.part) {
+            for block in instances.chunks(part_size) {
                 let part = parts.records(block, &note, &mut || {
                     space::verify_parts(output.directory(), spec.analysis, block.len())?;
                     let mut sweep = subset(&spec, block);

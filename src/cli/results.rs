@@ -1,31 +1,38 @@
 //! `map.csv`, figures and manifest of a directory of tiles, read tile by tile.
 
-use std::io::{self, Write};
+use std::io::{self, Read, Write};
 use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::Duration;
 
 use squealmap::Result;
+use squealmap::disk::{self, Handle, How};
 use squealmap::export::csv::MapCsv;
 use squealmap::export::figure::MapFigure;
-use squealmap::export::manifest::{self, Run};
+use squealmap::export::manifest::{self, OfTiles, Run, Sum};
 use squealmap::label::Tally;
 use squealmap::map::Record;
 use squealmap::store::claim::Claim;
-use squealmap::store::directory::Store;
+use squealmap::store::directory::{Fingerprint, Store};
+use squealmap::store::seal::is_intact;
 use squealmap::store::space::MOST_ROWS;
 
-use crate::cli::output::{cannot, claim};
+use crate::cli::output::{cannot, cannot_table, claim};
+use crate::cli::summed::Summed;
 use crate::cli::{note, png_of};
 
 /// What is written.
-pub(crate) const FILES: [&str; 4] = ["map.csv", "manifest.json", "map.png", "map.svg"];
+pub(crate) const FILES: [&str; 4] = ["map.csv", MANIFEST, "map.png", "map.svg"];
+
+/// What says that the others are there.
+const MANIFEST: &str = "manifest.json";
 
 /// Between two looks at results that another process writes.
 const WAIT: Duration = Duration::from_millis(50);
 
-/// Records beside the tiles: those of a tile that was stopped on its way.
-pub(crate) type Partial<'a> = Option<(usize, &'a [Record])>;
+/// Bytes of a file that are read at a time to be summed.
+const BLOCK: usize = 1 << 16;
 
 /// What came of writing results.
 pub(crate) enum Results {
@@ -33,64 +40,98 @@ pub(crate) enum Results {
     Written { paths: Vec<PathBuf>, tally: Tally },
     /// They were there already, or another process has just written them.
     Current,
-    /// A tile is bad: nothing was written.
-    BadTile,
+    /// A tile is bad or not there: nothing was written.
+    Lacking,
+    /// Another process was writing them when this one was to stop.
+    Stopped,
 }
 
 /// Writes all files or none: first under temporary names, then renamed; the manifest, which is the claim on all
-/// of them, last. Tiles that are not there are `not_computed`.
-pub(crate) fn write(store: &Store, partial: Partial, run: &Run) -> Result<Results> {
+/// of them, last. Where `run` was stopped, tiles may be missing: what is kept of them stands in their place, and the rest is
+/// `not_computed`.
+pub(crate) fn write(store: &Store, run: &Run, cancel: &AtomicBool) -> Result<Results> {
     let path = |name: &str| store.directory.join(name);
-    let Some(mut manifest_file) = claim_or_current(store, run)? else { return Ok(Results::Current) };
+    let mut manifest_file = match claim_or_current(store, run, cancel)? {
+        Claimed::Claim(claim) => claim,
+        Claimed::Current => return Ok(Results::Current),
+        Claimed::Stopped => return Ok(Results::Stopped),
+    };
     let description = &store.description;
     let sheet = description.sheet();
     let tiling = description.tiling;
     let mut figure = MapFigure::new(sheet);
     let csv_path = path(FILES[0]);
+    let table_full = |why: squealmap::Error| cannot_table(&csv_path, why);
     let mut table = if tiling.instances <= MOST_ROWS { Some(claim(&csv_path)?) } else { None };
     let mut rows = match &mut table {
-        Some(table) => Some(MapCsv::new(sheet, table.emptied().map_err(|why| cannot(&csv_path, &why))?)?),
+        Some(table) => {
+            let file = Summed::new(table.emptied().map_err(|why| cannot(&csv_path, &why))?);
+            Some(MapCsv::new(sheet, file).map_err(table_full)?)
+        }
         None => None,
     };
+    let mut fingerprint = Some(Fingerprint::default());
     for number in 0..tiling.count() {
         let bounds = tiling.bounds(number);
-        let Ok(found) = records(store, number, partial) else { return Ok(Results::BadTile) };
+        let Ok(tile) = store.read_tile(number) else { return Ok(Results::Lacking) };
+        if tile.is_none() && run.stopped.is_none() {
+            return Ok(Results::Lacking);
+        }
+        match (&tile, &mut fingerprint) {
+            (Some(tile), Some(fingerprint)) => fingerprint.add(&tile.checksum),
+            _ => fingerprint = None,
+        }
+        let found = match tile {
+            Some(tile) => Some(tile.records),
+            None => store.kept(number, &note)?,
+        };
         match &found {
             Some(records) => figure.add(bounds.start, records),
             None => figure.add_missing(bounds.len()),
         }
         if let Some(rows) = &mut rows {
             let missing = || vec![Record::NOT_COMPUTED; bounds.len()];
-            rows.add(bounds.start, &found.unwrap_or_else(missing))?;
+            rows.add(bounds.start, &found.unwrap_or_else(missing)).map_err(table_full)?;
         }
     }
+    let table_sum = rows.map(|rows| rows.finish().sum());
+    let tally = figure.tally().clone();
+    let svg = figure.svg();
+    let mut files: Vec<(PathBuf, Claim)> = Vec::new();
+    let mut sums: Vec<(&'static str, Sum)> = Vec::new();
+    for (name, bytes) in [(FILES[2], png_of(&svg)?), (FILES[3], svg.into_bytes())] {
+        let mut file = claim(&path(name))?;
+        fill(&mut file, &bytes).map_err(|why| cannot(&path(name), &why))?;
+        files.push((path(name), file));
+        sums.push((name, Sum::of(&bytes)));
+    }
+    sums.splice(0..0, table_sum.map(|sum| (FILES[0], sum)));
+    let of_tiles = OfTiles {
+        sweep_id: description.id.to_string(),
+        checksum: fingerprint.map(|fingerprint| (tiling.count(), fingerprint.finish().to_string())),
+        files: sums,
+    };
+    let run = Run { tiles: Some(of_tiles), ..run.clone() };
+    let text = manifest::manifest(sheet, &description.resolved, &tally, &run)?;
+    let manifest_path = path(MANIFEST);
+    fill(&mut manifest_file, &text).map_err(|why| cannot(&manifest_path, &why))?;
+    // The manifest says that the others are there: the one before goes first, and the new one comes last.
+    disk::remove_if_there(&manifest_path)
+        .and_then(|()| disk::lasting(&manifest_path))
+        .map_err(|why| cannot(&manifest_path, &why))?;
     if table.is_none() {
         note(&format!(
             "no {} of more than {MOST_ROWS} rows is written; `squealmap export {} --format csv` does",
             FILES[0],
             store.directory.display()
         ));
-        // One of another sweep must not stand beside these results.
-        if csv_path.exists() && manifest_of(store)["sweep_id"] != description.id.to_string() {
-            std::fs::remove_file(&csv_path).map_err(|why| cannot(&csv_path, &why))?;
-        }
+        // One of before must not stand beside these results.
+        disk::remove_if_there(&csv_path).map_err(|why| cannot(&csv_path, &why))?;
     }
-    let tally = figure.tally().clone();
-    let svg = figure.svg();
-    let text = manifest::manifest(sheet, &description.resolved, &tally, run)?;
-    let mut files: Vec<(PathBuf, Claim)> = Vec::new();
-    for (name, bytes) in [(FILES[2], png_of(&svg)?), (FILES[3], svg.into_bytes())] {
-        let mut file = claim(&path(name))?;
-        fill(&mut file, &bytes).map_err(|why| cannot(&path(name), &why))?;
-        files.push((path(name), file));
-    }
-    let manifest_path = path(FILES[1]);
-    fill(&mut manifest_file, &text).map_err(|why| cannot(&manifest_path, &why))?;
-    files.insert(0, (manifest_path, manifest_file));
     files.extend(table.map(|table| (csv_path, table)));
+    files.push((manifest_path, manifest_file));
     let mut paths = Vec::new();
-    // From the last to the first: the manifest says that the others are there.
-    for (path, file) in files.into_iter().rev() {
+    for (path, file) in files {
         file.publish().map_err(|why| cannot(&path, &why))?;
         paths.push(path);
     }
@@ -98,45 +139,89 @@ pub(crate) fn write(store: &Store, partial: Partial, run: &Run) -> Result<Result
     Ok(Results::Written { paths, tally })
 }
 
-/// The claim on the results; nothing when they are complete and current.
-fn claim_or_current(store: &Store, run: &Run) -> Result<Option<Claim>> {
-    let path = store.directory.join(FILES[1]);
+/// What came of asking for the right to write results.
+enum Claimed {
+    Claim(Claim),
+    Current,
+    Stopped,
+}
+
+/// The claim on the results, unless they are complete and current; waits for another process that writes them, until it is
+/// to stop.
+fn claim_or_current(store: &Store, run: &Run, cancel: &AtomicBool) -> Result<Claimed> {
+    let path = store.directory.join(MANIFEST);
+    let mut told = false;
     loop {
         let claim = Claim::take(&path).map_err(|why| cannot(&path, &why))?;
-        if run.stopped.is_none() && are_current(store) {
-            return Ok(None);
-        }
         match claim {
-            Some(claim) => return Ok(Some(claim)),
-            None => thread::sleep(WAIT),
+            Some(_) if run.stopped.is_none() && faults(store).is_empty() => return Ok(Claimed::Current),
+            Some(claim) => return Ok(Claimed::Claim(claim)),
+            None if cancel.load(Ordering::Relaxed) => return Ok(Claimed::Stopped),
+            None => {}
         }
+        if !std::mem::replace(&mut told, true) {
+            note(&format!(
+                "waiting for another process that writes the results in {}",
+                store.directory.display()
+            ));
+        }
+        thread::sleep(WAIT);
     }
 }
 
 /// The manifest that is there; null where there is none.
 fn manifest_of(store: &Store) -> serde_json::Value {
-    let bytes = std::fs::read(store.directory.join(FILES[1])).unwrap_or_default();
+    let bytes = disk::read(&store.directory.join(MANIFEST)).unwrap_or_default();
     serde_json::from_slice(&bytes).unwrap_or_default()
 }
 
-/// Whether the files are there and those of all tiles of this sweep.
-fn are_current(store: &Store) -> bool {
+/// Why the results are not those of all tiles of this sweep as they are now, a sentence each; none where they are.
+pub(crate) fn faults(store: &Store) -> Vec<String> {
     let manifest = manifest_of(store);
-    let wanted = if store.description.tiling.instances <= MOST_ROWS { &FILES[..] } else { &FILES[1..] };
-    manifest["complete"] == true
-        && manifest["sweep_id"] == store.description.id.to_string()
-        && manifest["title"] == store.description.title
-        && wanted.iter().all(|name| store.directory.join(name).is_file())
+    if manifest.is_null() {
+        return vec![format!("`{MANIFEST}` is not there or no document")];
+    }
+    let mut faults = Vec::new();
+    let mut expect = |holds: bool, why: &str| {
+        if !holds {
+            faults.push(format!("`{MANIFEST}`: {why}"));
+        }
+    };
+    let description = &store.description;
+    expect(is_intact(&manifest), "its content does not have its checksum");
+    expect(manifest["sweep_id"] == description.id.to_string(), "it is of another sweep, version or engine");
+    expect(manifest["title"] == description.title, "its title is another one");
+    expect(manifest["complete"] == true, "it says that the results are not complete");
+    let fingerprint = store.fingerprint().map(|id| id.to_string());
+    let of_all = fingerprint.is_some_and(|found| manifest["tiles"]["blake3"] == found);
+    expect(of_all, "it is not of the tiles that are there");
+    let tables = if description.tiling.instances <= MOST_ROWS { &FILES[..] } else { &FILES[1..] };
+    for name in tables.iter().filter(|name| **name != MANIFEST) {
+        let named = Sum::in_manifest(&manifest, name);
+        match sum(&store.directory.join(name)) {
+            Ok(found) if Some(&found) == named.as_ref() => {}
+            Ok(_) => faults.push(format!(
+                "`{name}` is not the file that `{MANIFEST}` names: its checksum is another one"
+            )),
+            Err(why) => faults.push(format!("`{name}` cannot be read: {why}")),
+        }
+    }
+    faults
 }
 
-/// The records of a tile, or of the one that was stopped; `None` of one that was not begun.
-fn records(
-    store: &Store,
-    number: usize,
-    partial: Partial,
-) -> std::result::Result<Option<Vec<Record>>, squealmap::store::tile::Fault> {
-    let of_partial = |(of, records): (usize, &[Record])| (of == number).then(|| records.to_vec());
-    Ok(store.read(number)?.or_else(|| partial.and_then(of_partial)))
+/// Length and checksum of a file, which is not held in memory.
+fn sum(path: &std::path::Path) -> io::Result<Sum> {
+    let mut file = Handle::open(path, How::Read)?;
+    let mut summed = Summed::new(io::sink());
+    let mut block = vec![0; BLOCK];
+    loop {
+        match file.read(&mut block) {
+            Ok(0) => return Ok(summed.sum()),
+            Ok(count) => summed.write_all(&block[..count])?,
+            Err(why) if why.kind() == io::ErrorKind::Interrupted => {}
+            Err(why) => return Err(why),
+        }
+    }
 }
 
 fn fill(claim: &mut Claim, bytes: &[u8]) -> io::Result<()> {

@@ -14,13 +14,13 @@ use squealmap::export::manifest;
 use squealmap::label::Tally;
 use squealmap::map::Stopped;
 use squealmap::spec::Spec;
+use squealmap::store::cut::tile_of;
 use squealmap::store::description::Description;
 use squealmap::store::directory::Store;
 use squealmap::store::fill::{Filled, Watch, fill};
 use squealmap::store::reuse::Reuse;
 use squealmap::store::shard::Shard;
 use squealmap::store::space;
-use squealmap::store::tiling::TILE;
 use squealmap::{Error, Result};
 
 use crate::cli::accuracy::{AccuracyArgs, say};
@@ -53,14 +53,14 @@ pub(crate) struct Run {
     #[arg(long, value_name = "DIR")]
     reuse: Option<PathBuf>,
     /// Instances of a tile: for tests, which have no time for large ones
-    #[arg(long, hide = true, default_value_t = TILE, value_parser = at_least_one)]
-    tile: usize,
+    #[arg(long, hide = true, value_parser = at_least_one)]
+    tile: Option<usize>,
 }
 
 impl Run {
-    /// Instances of a tile.
-    pub(crate) fn tile(&self) -> usize {
-        self.tile
+    /// Instances of a tile of a sweep.
+    pub(crate) fn tile(&self, spec: &Spec) -> usize {
+        self.tile.unwrap_or_else(|| tile_of(spec))
     }
 
     /// Worker threads that were asked for.
@@ -93,7 +93,7 @@ impl Run {
             return refining.execute(spec, settings, &cancel);
         }
         let ranked = self.accuracy.ranked(&spec, &self.engine)?;
-        let output = Output::prepare_claimed(self.files.directory(), &FILES)?;
+        let output = Output::prepare(self.files.directory(), &FILES)?;
         let pool = self.engine.pool()?;
         let options = self.engine.options(&cancel, &note);
         let choice =
@@ -107,7 +107,7 @@ impl Run {
             }
         };
         let mut solver = Solver::new(&spec, &options)?;
-        let mut description = Description::new(&spec, solver.computations(), self.tile);
+        let mut description = Description::new(&spec, solver.computations(), self.tile(&spec));
         description.accuracy = choice.as_ref().map(|choice| choice.chosen.clone());
         let reuse = self.reuse.as_ref();
         let reuse =
@@ -135,7 +135,7 @@ impl Run {
 }
 
 /// Computes what is missing and writes the results of all.
-fn run(
+pub(crate) fn run(
     store: &Store,
     solver: &mut Solver,
     cancel: &AtomicBool,
@@ -165,29 +165,26 @@ fn run(
         computed += filled.computed;
         reused += filled.reused;
         elapsed += filled.elapsed;
-        let partial = filled.partial.as_ref().map(|(number, records)| (*number, records.as_slice()));
-        let of_partial = partial.map_or(0, |(_, records)| Tally::of(records).computed());
-        let fresh = computed + of_partial - filled.partial_reused;
         if let Some(why) = &filled.stopped
-            && fresh + reused == 0
-            && missing.len() == tiling.count()
+            && store.done()? == 0
+            && store.kept_instances()? == 0
         {
             return Err(why.clone().error(0, total));
         }
         let run = manifest::Run {
             threads: rayon::current_num_threads(),
             elapsed,
-            computed: fresh,
+            computed,
             reused: reuse.map(|reuse| (reused, reuse.sweep_id())),
             stopped: filled.stopped.as_ref().map(ToString::to_string),
-            sweep_id: Some(store.description.id.to_string()),
+            tiles: None,
             accuracy: store.description.accuracy.clone(),
         };
-        match results::write(store, partial, &run)? {
-            // It is set aside and computed again.
-            Results::BadTile => {}
+        let directory = store.directory.display();
+        match results::write(store, &run, cancel)? {
+            // What is bad is set aside, and what is not there is computed.
+            Results::Lacking => {}
             Results::Current => {
-                let directory = store.directory.display();
                 print(&if computed + reused == 0 {
                     format!(
                         "all {total} instances were computed before; nothing is left to do in {directory}\n"
@@ -198,13 +195,21 @@ fn run(
                 });
                 return Ok(ExitCode::SUCCESS);
             }
+            Results::Stopped => {
+                note(&format!(
+                    "stopped; the results in {directory} are left to the process that is writing them; run the same \
+                     command again to see that they are complete"
+                ));
+                return Ok(ExitCode::from(INTERRUPTED));
+            }
             Results::Written { paths, tally } => {
                 store.remove_if_empty();
                 print(&report(&run, store, &tally, &paths));
-                return Ok(filled
-                    .stopped
-                    .as_ref()
-                    .map_or(ExitCode::SUCCESS, |why| ended(why, store, &tally)));
+                // Complete is what was written, whatever stopped the run in its last moment.
+                return Ok(match &filled.stopped {
+                    Some(why) if tally.computed() < total => ended(why, &tally),
+                    _ => ExitCode::SUCCESS,
+                });
             }
         }
     }
@@ -283,7 +288,7 @@ fn missed(run: &manifest::Run, tally: &Tally) -> String {
 }
 
 /// Says that a sweep is not complete, and gives the exit code.
-fn ended(stopped: &Stopped, store: &Store, tally: &Tally) -> ExitCode {
+fn ended(stopped: &Stopped, tally: &Tally) -> ExitCode {
     let code = match stopped {
         Stopped::Cancelled => INTERRUPTED,
         Stopped::Failed(why) => {
@@ -291,10 +296,9 @@ fn ended(stopped: &Stopped, store: &Store, tally: &Tally) -> ExitCode {
             1
         }
     };
-    let rest = if store.description.tiling.count() > 1 { "the rest" } else { "all" };
     note(&format!(
         "stopped after {} of {} instances; wrote what is done, the others are `not_computed`; \
-         run the same command again to compute {rest}",
+         run the same command again to compute the rest",
         tally.computed(),
         tally.total()
     ));

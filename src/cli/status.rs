@@ -74,6 +74,10 @@ fn describe(store: &Store, status: &Status) -> String {
         status.set_aside
     );
     let _ = writeln!(text, "instances  {} of {total} done, {percent:.1} %", status.instances);
+    if status.kept > 0 {
+        let _ =
+            writeln!(text, "kept       {} instances of tiles that were stopped on their way", status.kept);
+    }
     if let Some(rate) = status.rate {
         let _ = writeln!(text, "rate       {rate:.0} instances/s over the last tiles");
     }

@@ -71,7 +71,7 @@ impl Submit {
             return Err(Error::RefineBeside { option: "`submit`" });
         }
         let tail = self.tail();
-        let tiling = Tiling { instances: spec.grid.len(), tile: tail.run.tile() };
+        let tiling = Tiling { instances: spec.grid.len(), tile: tail.run.tile(&spec) };
         let here = Path::new(".");
         let most = match call("scontrol", &["show".to_owned(), "config".to_owned()], here, "") {
             Ok(config) => max_array_size(&config).unwrap_or(DEFAULT_MAX_ARRAY_SIZE),

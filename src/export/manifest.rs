@@ -14,12 +14,49 @@ use crate::label::{Label, Tally};
 use crate::map::Map;
 use crate::outcome::Status;
 use crate::spec::{Analysis, Starts};
+use crate::store::seal::sealed;
 
 /// The crate's version.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 /// The git commit the crate was built from, with `-dirty` when the checkout had changes; `None` outside a checkout.
 pub const COMMIT: Option<&str> = option_env!("SQUEALMAP_COMMIT");
+
+/// The tiles that results are of, and the results beside the manifest.
+#[derive(Clone, Debug)]
+pub struct OfTiles {
+    /// The identity of the sweep.
+    pub sweep_id: String,
+    /// How many tiles it has, and the checksum of all ([`crate::store::directory::Fingerprint`]); `None` where some are
+    /// not there.
+    pub checksum: Option<(usize, String)>,
+    /// Every file with its length and BLAKE3 checksum.
+    pub files: Vec<(&'static str, Sum)>,
+}
+
+/// Length and checksum of a file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Sum {
+    /// Bytes.
+    pub bytes: u64,
+    /// BLAKE3, hexadecimal.
+    pub blake3: String,
+}
+
+impl Sum {
+    /// Of some bytes.
+    #[must_use]
+    pub fn of(bytes: &[u8]) -> Sum {
+        Sum { bytes: bytes.len() as u64, blake3: blake3::hash(bytes).to_hex().to_string() }
+    }
+
+    /// What a manifest says of a file; `None` where it does not.
+    #[must_use]
+    pub fn in_manifest(manifest: &Value, file: &str) -> Option<Sum> {
+        let entry = manifest.get("files")?.get(file)?;
+        Some(Sum { bytes: entry.get("bytes")?.as_u64()?, blake3: entry.get("blake3")?.as_str()?.to_owned() })
+    }
+}
 
 /// What a manifest says of the run, beside the sweep and its counts.
 #[derive(Clone, Debug)]
@@ -34,8 +71,8 @@ pub struct Run {
     pub reused: Option<(usize, String)>,
     /// Why some are missing; `None` when none is.
     pub stopped: Option<String>,
-    /// The identity of the sweep, where its tiles are kept.
-    pub sweep_id: Option<String>,
+    /// The tiles that the results are of, where tiles are kept.
+    pub tiles: Option<OfTiles>,
     /// The accuracy that was asked for and what was chosen for it, where one was.
     pub accuracy: Option<Chosen>,
 }
@@ -52,7 +89,7 @@ pub fn manifest_json(map: &Map) -> Result<Vec<u8>> {
         computed: map.computed(),
         reused: None,
         stopped: map.stopped.as_ref().map(ToString::to_string),
-        sweep_id: None,
+        tiles: None,
         accuracy: None,
     };
     manifest(Sheet::from(map), &map.spec.resolved(), &Tally::of(&map.records), &run)
@@ -71,7 +108,7 @@ pub fn manifest(sheet: Sheet, resolved: &Value, tally: &Tally, run: &Run) -> Res
     let mut manifest = json!({
         "title": sheet.title,
         "program": { "name": env!("CARGO_PKG_NAME"), "version": VERSION, "git_commit": COMMIT },
-        "complete": run.stopped.is_none(),
+        "complete": tally.computed() == tally.total(),
         "computation": {
             "linear": sheet.linear,
             "response": sheet.response,
@@ -87,9 +124,6 @@ pub fn manifest(sheet: Sheet, resolved: &Value, tally: &Tally, run: &Run) -> Res
         "spec": resolved,
         "columns": columns,
     });
-    if let (Some(id), Value::Object(entries)) = (&run.sweep_id, &mut manifest) {
-        entries.insert("sweep_id".to_owned(), json!(id));
-    }
     if sheet.analysis.checks() {
         manifest["checks"] = tally.checks().to_json();
     }
@@ -99,7 +133,16 @@ pub fn manifest(sheet: Sheet, resolved: &Value, tally: &Tally, run: &Run) -> Res
     if let Some((instances, from)) = &run.reused {
         manifest["computation"]["reused"] = json!({ "instances": instances, "from_sweep": from });
     }
-    pretty(&manifest)
+    if let Some(OfTiles { sweep_id, checksum, files }) = &run.tiles {
+        manifest["sweep_id"] = json!(sweep_id);
+        manifest["tiles"] =
+            json!(checksum.as_ref().map(|(count, sum)| json!({ "count": count, "blake3": sum })));
+        let sums = files
+            .iter()
+            .map(|(name, sum)| ((*name).to_owned(), json!({ "bytes": sum.bytes, "blake3": sum.blake3 })));
+        manifest["files"] = Value::Object(sums.collect());
+    }
+    pretty(&sealed(manifest))
 }
 
 /// What a table does not say of its figure, with the program that wrote both: UTF-8 JSON, indented.

@@ -13,7 +13,7 @@ use super::sheet::Sheet;
 use crate::map::Record;
 
 /// The file of a group's or an array's metadata.
-const METADATA: &str = "zarr.json";
+pub const METADATA: &str = "zarr.json";
 
 /// A file of the group: its path below the group, with `/`, and its bytes.
 pub type File = (String, Vec<u8>);

@@ -36,6 +36,18 @@ pub(super) fn duration(source: &Source, node: &Node, label: &str, settle: bool) 
     }
 }
 
+impl Duration {
+    /// The length of time that is displayed like this; `None` of other words.
+    pub(super) fn from_words(text: &str) -> Option<Duration> {
+        match text.split_once(' ') {
+            None => (text == Duration::Ramp.to_string()).then_some(Duration::Ramp),
+            Some((count, "s")) => count.parse().ok().map(Duration::Seconds),
+            Some((count, "periods")) => count.parse().ok().map(Duration::Periods),
+            Some(_) => None,
+        }
+    }
+}
+
 impl fmt::Display for Duration {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

@@ -3,13 +3,12 @@
 //! The temporary file is the claim: whoever holds the system's lock on it may write it. Such a lock ends with its
 //! process, however that ends, and what is left of the file is written over by the next one.
 
-use std::fs::{File, OpenOptions, TryLockError};
+use std::fs::TryLockError;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use same_file::Handle;
-
 use super::direct::{self, Room};
+use crate::disk::{self, Handle, How, door};
 
 /// The end of the name of a file that is being written.
 pub const PART: &str = ".part";
@@ -19,53 +18,66 @@ pub const PART: &str = ".part";
 pub struct Claim {
     path: PathBuf,
     part: PathBuf,
-    file: File,
+    file: Handle,
 }
 
 impl Claim {
     /// Claims the file `path`; `None` while another process has it.
     ///
     /// # Errors
-    /// When the directory cannot be written, or its file system knows no locks.
+    /// When the directory cannot be written, its file system knows no locks, or a link stands in place of the file.
     pub fn take(path: &Path) -> io::Result<Option<Claim>> {
         let mut part = path.as_os_str().to_owned();
         part.push(PART);
         let part = PathBuf::from(part);
         loop {
-            let file = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(&part)?;
+            let file = Handle::open(&part, How::Write)?;
             match file.try_lock() {
                 Ok(()) => {}
                 Err(TryLockError::WouldBlock) => return Ok(None),
                 Err(TryLockError::Error(why)) => return Err(why),
             }
             // Another process may have renamed or removed the file between opening and locking it.
-            if is_at(&file, &part)? {
+            if file.is_at(&part)? {
                 return Ok(Some(Claim { path: path.to_owned(), part, file }));
             }
         }
+    }
+
+    /// The path of the file to be written.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.path
     }
 
     /// The file, empty, for writing piece by piece before [`Claim::publish`].
     ///
     /// # Errors
     /// When it cannot be emptied.
-    pub fn emptied(&mut self) -> io::Result<&mut File> {
-        self.file.set_len(0)?;
+    pub fn emptied(&mut self) -> io::Result<&mut Handle> {
+        self.file.resize(0)?;
         io::Seek::rewind(&mut self.file)?;
         Ok(&mut self.file)
+    }
+
+    /// The file as it is, for writing on.
+    pub fn file(&mut self) -> &mut Handle {
+        &mut self.file
     }
 
     /// Gives the file its name, once its bytes are on the disk.
     ///
     /// # Errors
-    /// When the disk is full, read-only or gone.
+    /// When the disk is full, read-only or gone, or the file was moved away meanwhile.
     pub fn publish(self) -> io::Result<()> {
-        self.file.sync_all()?;
-        std::fs::rename(&self.part, &self.path)?;
-        match self.path.parent() {
-            Some(directory) => sync(directory),
-            None => Ok(()),
+        self.file.sync()?;
+        // Of a directory that was moved, another file may stand under the name by now.
+        if !self.file.is_at(&self.part)? {
+            self.part.metadata()?;
+            return Err(io::Error::other("another file took its place while it was written"));
         }
+        door().rename(&self.part, &self.path)?;
+        disk::lasting(&self.path)
     }
 
     /// Writes the whole file and gives it its name.
@@ -94,29 +106,8 @@ impl Claim {
 impl Drop for Claim {
     fn drop(&mut self) {
         // Still locked: what stands there is this claim's own, unless it has its name by now.
-        if is_at(&self.file, &self.part).unwrap_or(false) {
-            let _ = std::fs::remove_file(&self.part);
+        if self.file.is_at(&self.part).unwrap_or(false) {
+            let _ = door().remove(&self.part);
         }
     }
-}
-
-/// Whether an open file is the one at a path.
-fn is_at(file: &File, path: &Path) -> io::Result<bool> {
-    match Handle::from_path(path) {
-        Ok(found) => Ok(found == Handle::from_file(file.try_clone()?)?),
-        Err(why) if why.kind() == io::ErrorKind::NotFound => Ok(false),
-        Err(why) => Err(why),
-    }
-}
-
-/// A new name is on the disk only with its directory.
-#[cfg(unix)]
-fn sync(directory: &Path) -> io::Result<()> {
-    let directory = if directory.as_os_str().is_empty() { Path::new(".") } else { directory };
-    File::open(directory)?.sync_all()
-}
-
-#[cfg(not(unix))]
-fn sync(_directory: &Path) -> io::Result<()> {
-    Ok(())
 }

@@ -5,6 +5,7 @@ use serde_json::{Value as Json, json};
 
 use super::grid_json::from_json;
 use super::identity::{GRID, Id, PHYSICS, identity, kind};
+use super::seal::{is_intact, sealed};
 use super::tile::Label;
 use super::tiling::Tiling;
 use crate::accuracy::frontier::Chosen;
@@ -15,7 +16,10 @@ use crate::spec::{Analysis, Spec, Starts};
 use crate::starts;
 
 /// The version of the format.
-const FORMAT: u32 = 1;
+const FORMAT: u32 = 2;
+
+/// The versions that are read: the first has no checksum.
+const READ: [u32; 2] = [1, FORMAT];
 
 /// What the tiles of a directory are.
 #[derive(Clone, Debug)]
@@ -54,6 +58,8 @@ struct Document {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     accuracy: Option<Chosen>,
     identity: Json,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    checksum: Option<String>,
 }
 
 impl Description {
@@ -88,7 +94,9 @@ impl Description {
             response,
             accuracy: self.accuracy.clone(),
             identity: self.identity.clone(),
+            checksum: None,
         };
+        let document = serde_json::to_value(&document).map(sealed).unwrap_or_default();
         let mut bytes = serde_json::to_vec_pretty(&document).unwrap_or_default();
         bytes.push(b'\n');
         bytes
@@ -99,10 +107,15 @@ impl Description {
     /// # Errors
     /// What is wrong with it, as the end of a sentence.
     pub fn from_bytes(bytes: &[u8]) -> Result<Description, String> {
-        let document: Document = serde_json::from_slice(bytes).map_err(|why| why.to_string())?;
-        if document.format != FORMAT {
-            return Err(format!("its format is {} instead of {FORMAT}", document.format));
+        let written: Json = serde_json::from_slice(bytes).map_err(|why| why.to_string())?;
+        let format = written["format"].as_u64().and_then(|format| u32::try_from(format).ok());
+        let format = format.filter(|format| READ.contains(format)).ok_or_else(|| {
+            format!("its format is {} instead of {FORMAT}, that of this version", written["format"])
+        })?;
+        if format == FORMAT && !is_intact(&written) {
+            return Err("it was changed: its content does not have its checksum".to_owned());
         }
+        let document: Document = serde_json::from_value(written).map_err(|why| why.to_string())?;
         let id = Id::of(&document.identity);
         if id.to_string() != document.sweep_id || document.tile == 0 {
             return Err("it was changed: its content does not have its id".to_owned());
@@ -129,6 +142,15 @@ impl Description {
             accuracy: document.accuracy,
             identity: document.identity,
         })
+    }
+
+    /// The sweep, to be computed again by this program; `None` where another version described it.
+    #[must_use]
+    pub fn spec(&self) -> Option<Spec> {
+        let physics = &self.identity[PHYSICS];
+        let spec = Spec::from_resolved(physics, &self.title, self.analysis, self.grid.clone())?;
+        // What was read back is the sweep if it has its identity, and only then.
+        (Id::of(&identity(&spec, &self.computations)) == self.id).then_some(spec)
     }
 
     /// Whether another sweep has everything but its grid in common with this one.

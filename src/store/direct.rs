@@ -4,9 +4,10 @@
 //! half of what tiles cost beside computing, and pushes out what other programs keep there. A file opened with
 //! `O_DIRECT` takes whole blocks from memory that begins at a block.
 
-use std::fs::{File, OpenOptions};
 use std::io::{self, Write};
 use std::path::Path;
+
+use crate::disk::{Handle, How};
 
 /// A multiple of the blocks of all usual disks.
 const BLOCK: usize = 4096;
@@ -53,19 +54,7 @@ impl Room {
 /// # Errors
 /// Those of the disk; where the system or the file system knows no such way.
 pub fn write(path: &Path, room: &Room) -> io::Result<()> {
-    let mut file = open(path)?;
+    let mut file = Handle::open(path, How::Direct)?;
     file.write_all(room.blocks())?;
-    file.set_len(room.len as u64)
-}
-
-#[cfg(target_os = "linux")]
-fn open(path: &Path) -> io::Result<File> {
-    use std::os::unix::fs::OpenOptionsExt;
-
-    OpenOptions::new().write(true).custom_flags(libc::O_DIRECT).open(path)
-}
-
-#[cfg(not(target_os = "linux"))]
-fn open(_path: &Path) -> io::Result<File> {
-    Err(io::ErrorKind::Unsupported.into())
+    file.resize(room.len as u64)
 }

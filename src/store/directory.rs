@@ -1,16 +1,19 @@
 //! The tiles of an output directory.
 
-use std::io::{self, ErrorKind};
+use std::io::{self, ErrorKind, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
 use super::claim::Claim;
 use super::description::Description;
 use super::direct::Room;
 pub use super::folder::Note;
-use super::folder::{BAD, Folder, TILE};
-use super::tile::Fault;
+use super::folder::{BAD, Folder, SOME, TILE, Tile};
+use super::identity::Id;
+use super::tile::{Checksum, FOOTER, Fault, checksum_in, instances_in, sweep_in};
+use crate::disk::{self, Handle, How, door};
 use crate::error::{Error, Result};
 use crate::map::Record;
+use crate::outcome::Status;
 
 /// The directory of the tiles inside the output directory.
 pub const TILES: &str = "tiles";
@@ -33,7 +36,7 @@ impl Store {
     /// When there are none, or their description cannot be read.
     pub fn open(directory: &Path) -> Result<Store> {
         let path = directory.join(TILES).join(DESCRIPTION);
-        let bytes = match std::fs::read(&path) {
+        let bytes = match disk::read(&path) {
             Err(why) if why.kind() == ErrorKind::NotFound => {
                 return Err(Error::NoTiles { path: directory.to_owned() });
             }
@@ -58,7 +61,10 @@ impl Store {
         let store = Store { directory: directory.to_owned(), description };
         match Store::open(directory) {
             Ok(other) if store.is_same(&other) => {
-                return Ok(Store { description: other.description, ..store });
+                if other.description.to_bytes() == store.description.to_bytes() {
+                    return Ok(store);
+                }
+                // The same tiles with another title, or of a version that had no checksum here.
             }
             Ok(other) => {
                 let (done, total) = (other.done()?, other.description.tiling.count());
@@ -66,7 +72,8 @@ impl Store {
                     return Err(Error::OtherSweep { path: directory.to_owned(), done, total });
                 }
                 for number in 0..total.min(1) {
-                    remove(&other.path(number)).map_err(cannot)?;
+                    disk::remove_if_there(&other.path(number)).map_err(cannot)?;
+                    disk::remove_if_there(&other.path_of_some(number)).map_err(cannot)?;
                 }
             }
             Err(Error::NoTiles { .. }) => {}
@@ -102,6 +109,17 @@ impl Store {
         self.folder().path(&self.name(number))
     }
 
+    /// The path of what is done of tile `number` while it is not there.
+    #[must_use]
+    pub fn path_of_some(&self, number: usize) -> PathBuf {
+        self.folder().path(&self.name_of_some(number))
+    }
+
+    fn name_of_some(&self, number: usize) -> String {
+        let name = self.name(number);
+        format!("{}{SOME}", name.strip_suffix(TILE).unwrap_or(&name))
+    }
+
     /// Claims tile `number`; `None` while another process computes it.
     ///
     /// # Errors
@@ -117,7 +135,83 @@ impl Store {
     pub fn write(&self, claim: Claim, number: usize, records: Vec<Record>, room: &mut Room) -> Result<()> {
         let tile = self.description.tile(number);
         tile.write_into(records.into(), room.take(tile.size()));
-        claim.write_large(room).map_err(|why| self.cannot_write(number, &why))
+        claim.write_large(room).map_err(|why| self.cannot_write(number, &why))?;
+        // It says no more than the tile; what a crash leaves of it the next run removes.
+        let _ = disk::remove_if_there(&self.path_of_some(number));
+        Ok(())
+    }
+
+    /// Keeps what is done of a tile that was claimed and is stopped on its way; what is not done is
+    /// [`Record::NOT_COMPUTED`]. What was kept before stays where nothing has come in its place.
+    ///
+    /// # Errors
+    /// When the disk is full, read-only or gone.
+    pub fn keep(&self, _claim: &Claim, number: usize, mut records: Vec<Record>) -> Result<()> {
+        let before = self.read_some(number).ok().flatten().unwrap_or_default();
+        for (record, before) in records.iter_mut().zip(before) {
+            if record.status == Status::NotComputed {
+                *record = before;
+            }
+        }
+        let bytes = self.description.tile(number).write(&records);
+        let cannot = |why: io::Error| self.cannot_write(number, &why);
+        match Claim::take(&self.path_of_some(number)).map_err(cannot)? {
+            Some(claim) => claim.write(&bytes).map_err(cannot),
+            None => Err(cannot(io::Error::other("another process is writing it"))),
+        }
+    }
+
+    /// What a stopped run has kept of tile `number`; `None` where there is nothing.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub fn read_some(&self, number: usize) -> std::result::Result<Option<Vec<Record>>, Fault> {
+        let bytes = self.folder().bytes(&self.name_of_some(number))?;
+        bytes.map(|bytes| self.description.tile(number).read_some(&bytes)).transpose()
+    }
+
+    /// The same; what is bad is set aside and named.
+    ///
+    /// # Errors
+    /// When it is bad and cannot be set aside.
+    pub fn kept(&self, number: usize, note: Note) -> Result<Option<Vec<Record>>> {
+        match self.read_some(number) {
+            Ok(found) => Ok(found),
+            Err(fault) => {
+                let what = format!("{fault}; it is computed again");
+                self.folder().expel(&self.name_of_some(number), &what, note)?;
+                Ok(None)
+            }
+        }
+    }
+
+    /// What is wrong with what stopped runs have kept, by its path.
+    ///
+    /// # Errors
+    /// When the directory cannot be read.
+    pub fn bad_kept(&self) -> Result<Vec<(String, Fault)>> {
+        let folder = self.folder();
+        let fault = |name: String| {
+            let fault = self.read_some(self.number_of_some(&name)?).err()?;
+            Some((folder.path(&name).display().to_string(), fault))
+        };
+        Ok(folder.ending(SOME)?.into_iter().filter_map(fault).collect())
+    }
+
+    /// The instances that stopped runs have kept of tiles that are not there.
+    ///
+    /// # Errors
+    /// When the directory cannot be read.
+    pub fn kept_instances(&self) -> Result<usize> {
+        let there = self.numbers()?;
+        let done = |records: &Vec<Record>| {
+            records.iter().filter(|record| record.status != Status::NotComputed).count()
+        };
+        let of =
+            |name: &String| self.number_of_some(name).filter(|number| there.binary_search(number).is_err());
+        let numbers = self.folder().ending(SOME)?;
+        let kept = numbers.iter().filter_map(of).filter_map(|number| self.read_some(number).ok().flatten());
+        Ok(kept.map(|records| done(&records)).sum())
     }
 
     fn cannot_write(&self, number: usize, why: &io::Error) -> Error {
@@ -135,7 +229,29 @@ impl Store {
     /// # Errors
     /// What is wrong with it.
     pub fn read(&self, number: usize) -> std::result::Result<Option<Vec<Record>>, Fault> {
+        Ok(self.read_tile(number)?.map(|tile| tile.records))
+    }
+
+    /// The same with the checksum of the tile.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub fn read_tile(&self, number: usize) -> std::result::Result<Option<Tile>, Fault> {
         self.folder().read(&self.name(number), &self.description.tile(number))
+    }
+
+    /// The checksum of all its tiles as they are now, of which only the ends are read; `None` when one is not there.
+    #[must_use]
+    pub fn fingerprint(&self) -> Option<Id> {
+        let mut all = Fingerprint::default();
+        for number in 0..self.description.tiling.count() {
+            let mut end = [0; FOOTER];
+            let mut file = Handle::open(&self.path(number), How::Read).ok()?;
+            file.seek(SeekFrom::End(-i64::try_from(FOOTER).ok()?)).ok()?;
+            file.read_exact(&mut end).ok()?;
+            all.add(&checksum_in(&end)?);
+        }
+        Some(all.finish())
     }
 
     /// Whether tile `number` is there and good; one that is bad is set aside and named.
@@ -161,11 +277,18 @@ impl Store {
     /// Sets files aside that have the form of a tile's name and are no tile of this sweep.
     ///
     /// # Errors
-    /// When the directory cannot be read or written.
+    /// When the directory cannot be read or written; when one is a good tile of this sweep all the same.
     pub fn expel_strangers(&self, note: Note) -> Result<()> {
         let folder = self.folder();
         let strangers = folder.tiles()?.into_iter().filter(|name| self.number(name).is_none());
-        strangers.into_iter().try_for_each(|name| folder.expel(&name, "it is no tile of this sweep", note))
+        let kept = folder.ending(SOME)?.into_iter().filter(|name| self.number_of_some(name).is_none());
+        strangers.chain(kept).try_for_each(|name| {
+            let bytes = folder.bytes(&name).ok().flatten().unwrap_or_default();
+            if sweep_in(&bytes) == Some(self.description.id) && instances_in(&bytes).is_some() {
+                return Err(Error::OtherCut { path: folder.path(&name) });
+            }
+            folder.expel(&name, "it is no tile of this sweep", note)
+        })
     }
 
     /// Removes what a process that was killed has left of a file that is there by now.
@@ -173,7 +296,14 @@ impl Store {
     /// # Errors
     /// When the directory cannot be read or written.
     pub fn clean(&self) -> Result<()> {
-        self.folder().clean()
+        let folder = self.folder();
+        folder.clean()?;
+        let of_tiles = folder.ending(SOME)?.into_iter();
+        let stale =
+            of_tiles.filter(|name| self.number_of_some(name).is_some_and(|of| self.path(of).exists()));
+        stale.into_iter().try_for_each(|name| {
+            disk::remove_if_there(&folder.path(&name)).map_err(|why| folder.refused(&why))
+        })
     }
 
     /// How many of its tiles are there, bad ones included.
@@ -198,12 +328,11 @@ impl Store {
     /// Removes an empty store, so that a run of which nothing came leaves nothing.
     pub fn remove_if_empty(&self) {
         let tiles = self.directory.join(TILES);
-        let Ok(entries) = std::fs::read_dir(&tiles) else { return };
-        let only = entries.flatten().all(|entry| entry.file_name() == DESCRIPTION);
-        if only {
+        let Ok(names) = door().names(&tiles) else { return };
+        if names.iter().all(|name| name == DESCRIPTION) {
             // Fails, as it should, when another process has begun a tile in between.
-            let _ = std::fs::remove_file(tiles.join(DESCRIPTION));
-            let _ = std::fs::remove_dir(tiles);
+            let _ = door().remove(&tiles.join(DESCRIPTION));
+            let _ = door().remove_folder(&tiles);
         }
     }
 
@@ -213,15 +342,30 @@ impl Store {
         (number < self.description.tiling.count() && self.name(number) == name).then_some(number)
     }
 
+    /// The same of what was kept of a tile.
+    fn number_of_some(&self, name: &str) -> Option<usize> {
+        self.number(&format!("{}{TILE}", name.strip_suffix(SOME)?))
+    }
+
     /// Where its tiles are.
     fn folder(&self) -> Folder {
         Folder::new(&self.directory, TILES)
     }
 }
 
-fn remove(path: &Path) -> io::Result<()> {
-    match std::fs::remove_file(path) {
-        Err(why) if why.kind() == ErrorKind::NotFound => Ok(()),
-        other => other,
+/// The checksum of the checksums of tiles, in their order.
+#[derive(Debug, Default)]
+pub struct Fingerprint(blake3::Hasher);
+
+impl Fingerprint {
+    /// Takes the next tile.
+    pub fn add(&mut self, checksum: &Checksum) {
+        self.0.update(checksum);
+    }
+
+    /// The checksum of all.
+    #[must_use]
+    pub fn finish(&self) -> Id {
+        Id(*self.0.finalize().as_bytes())
     }
 }

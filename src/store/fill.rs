@@ -12,6 +12,8 @@ use super::reuse::Reuse;
 use crate::backend::solver::Solver;
 use crate::error::{Error, Result};
 use crate::map::{Record, Stopped};
+use crate::outcome::Status;
+use crate::spec::Starts;
 
 /// Between two looks at a tile that another process computes.
 const WAIT: Duration = Duration::from_millis(50);
@@ -19,18 +21,14 @@ const WAIT: Duration = Duration::from_millis(50);
 /// What came of filling a directory.
 #[derive(Debug, Default)]
 pub struct Filled {
-    /// Instances of finished tiles that were computed here.
+    /// Instances that were computed here, those of tiles that were stopped on their way included.
     pub computed: usize,
-    /// Instances that were taken over from another sweep, those of a tile that was stopped included.
+    /// Instances that were taken over from another sweep.
     pub reused: usize,
     /// The wall time it took.
     pub elapsed: Duration,
     /// Why not all is there.
     pub stopped: Option<Stopped>,
-    /// The records of a tile that was stopped on its way; those not done are [`Record::NOT_COMPUTED`].
-    pub partial: Option<(usize, Vec<Record>)>,
-    /// How many of these were taken over.
-    pub partial_reused: usize,
 }
 
 /// Who asks for tiles, and hears of them.
@@ -40,15 +38,16 @@ pub struct Watch<'a> {
     pub cancel: &'a AtomicBool,
     /// Gets the number of newly finished instances.
     pub progress: &'a (dyn Fn(usize) + Sync),
-    /// Gets a sentence about every bad tile.
+    /// Gets a sentence about every bad tile, and about what is waited for.
     pub note: Note<'a>,
 }
 
 /// A tile to be written.
 type Finished = (Claim, usize, Vec<Record>);
 
-/// Computes those of the tiles `wanted` that are not there, as far as `reuse` has none of their instances; tiles that other processes are computing are waited
-/// for. One tile is computed while the one before is written: the records of two are in memory.
+/// Computes those of the tiles `wanted` that are not there, as far as neither a stopped run nor `reuse` has their instances;
+/// tiles that other processes are computing are waited for. Tiles are computed while those before are written, as many
+/// together as keep the engine busy: the records of two such groups are in memory.
 ///
 /// # Errors
 /// When a tile cannot be written, or a result is in doubt; all finished tiles stay.
@@ -62,12 +61,16 @@ pub fn fill(
     let began = Instant::now();
     let (sender, receiver) = sync_channel(0);
     let mut filled = thread::scope(|scope| {
-        let writer = scope.spawn(|| write_all(store, receiver));
-        let computed = compute(store, solver, wanted, reuse, watch, &sender);
+        let writer = thread::Builder::new()
+            .spawn_scoped(scope, || write_all(store, receiver))
+            .map_err(|why| Error::Threads { threads: 1, why: why.to_string() })?;
+        let mut filling = Filling { store, solver, reuse, watch, sender, filled: Filled::default() };
+        let ended = filling.all(wanted);
+        let Filling { sender, filled, .. } = filling;
         drop(sender);
         // An error of the writer is the cause of one of the computation.
         writer.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))?;
-        computed
+        ended.map(|()| filled)
     })?;
     filled.elapsed = began.elapsed();
     Ok(filled)
@@ -81,67 +84,137 @@ fn write_all(store: &Store, receiver: Receiver<Finished>) -> Result<()> {
         .try_for_each(|(claim, number, records)| store.write(claim, number, records, &mut room))
 }
 
-fn compute(
-    store: &Store,
-    solver: &mut Solver,
-    wanted: &[usize],
-    reuse: Option<&Reuse>,
-    watch: Watch,
-    sender: &SyncSender<Finished>,
-) -> Result<Filled> {
-    let mut filled = Filled::default();
-    let mut open = wanted.to_vec();
-    while !open.is_empty() {
-        let mut busy = Vec::new();
-        for number in std::mem::take(&mut open) {
-            if watch.cancel.load(Ordering::Relaxed) {
-                filled.stopped = Some(Stopped::Cancelled);
-                return Ok(filled);
+/// A directory that is being filled.
+struct Filling<'a, 'b> {
+    store: &'a Store,
+    solver: &'a mut Solver<'b>,
+    reuse: Option<&'a Reuse>,
+    watch: Watch<'a>,
+    sender: SyncSender<Finished>,
+    filled: Filled,
+}
+
+impl Filling<'_, '_> {
+    fn all(&mut self, wanted: &[usize]) -> Result<()> {
+        let mut open = wanted.to_vec();
+        let mut told = false;
+        while !open.is_empty() {
+            let mut busy = Vec::new();
+            let mut rest = open.as_slice();
+            while let (false, group) = (self.is_cancelled(), self.next_group(&mut rest, &mut busy)?)
+                && !group.is_empty()
+            {
+                self.compute(group)?;
+                if self.filled.stopped.is_some() {
+                    return Ok(());
+                }
             }
-            let Some(claim) = store.claim(number)? else {
-                busy.push(number);
-                continue;
-            };
-            // Another process may have finished it in the meantime.
-            if store.path(number).exists() {
-                continue;
+            if self.is_cancelled() {
+                self.filled.stopped = Some(Stopped::Cancelled);
+                return Ok(());
             }
-            let bounds = store.description.tiling.bounds(number);
-            let (first, count) = (bounds.start, bounds.len());
-            let (made, reused) = match reuse {
-                None => (solver.records(bounds, watch.progress), 0),
-                Some(reuse) => {
-                    let known = reuse.known(bounds.clone(), watch.note);
-                    let reused = known.iter().flatten().count();
-                    (solver.records_beside(bounds, &known, watch.progress), reused)
+            open = busy;
+            if !open.is_empty() {
+                if !std::mem::replace(&mut told, true) {
+                    let count = open.len();
+                    (self.watch.note)(&format!("waiting for {count} tile(s) that other processes compute"));
                 }
-            };
-            match made {
-                Ok(tile) if tile.stopped.is_none() => {
-                    filled.computed += count - reused;
-                    filled.reused += reused;
-                    if sender.send((claim, number, tile.records)).is_err() {
-                        // The writer has ended, with an error that is reported in place of this.
-                        return Err(Error::Cancelled { done: filled.computed, total: first });
-                    }
-                }
-                Ok(part) => {
-                    filled.stopped = part.stopped;
-                    filled.reused += reused;
-                    filled.partial_reused = reused;
-                    filled.partial = Some((number, part.records));
-                    return Ok(filled);
-                }
-                Err(why) => {
-                    filled.stopped = Some(Stopped::try_from(why)?);
-                    return Ok(filled);
-                }
+                thread::sleep(WAIT);
             }
         }
-        open = busy;
-        if !open.is_empty() {
-            thread::sleep(WAIT);
-        }
+        Ok(())
     }
-    Ok(filled)
+
+    fn is_cancelled(&self) -> bool {
+        self.watch.cancel.load(Ordering::Relaxed)
+    }
+
+    /// Claims the next tiles of `rest` that nobody has and that follow one another, as many as keep the engine busy; those
+    /// that other processes have go to `busy`. Empty at the end.
+    fn next_group(&self, rest: &mut &[usize], busy: &mut Vec<usize>) -> Result<Vec<(usize, Claim)>> {
+        let enough = self.solver.busy_with();
+        let mut group: Vec<(usize, Claim)> = Vec::new();
+        while let Some((number, others)) = rest.split_first() {
+            let follows = group.last().is_none_or(|(last, _)| last + 1 == *number);
+            if !follows || group.len() * self.store.description.tiling.tile >= enough {
+                break;
+            }
+            *rest = others;
+            match self.store.claim(*number)? {
+                // Another process may have finished it in the meantime.
+                Some(_) if self.store.path(*number).exists() => {}
+                Some(claim) => group.push((*number, claim)),
+                None => busy.push(*number),
+            }
+        }
+        Ok(group)
+    }
+
+    /// Computes the tiles of a group, and sends them to be written; where that is stopped, keeps what is done.
+    fn compute(&mut self, group: Vec<(usize, Claim)>) -> Result<()> {
+        let tiling = self.store.description.tiling;
+        let bounds = |number: usize| tiling.bounds(number);
+        let (Some((first, _)), Some((last, _))) = (group.first(), group.last()) else { return Ok(()) };
+        let range = bounds(*first).start..bounds(*last).end;
+        let (mut known, mut reused) = (Vec::with_capacity(range.len()), 0);
+        for (number, _) in &group {
+            let [of_tile, taken] = self.known(*number, &mut known)?;
+            debug_assert_eq!(of_tile, bounds(*number).len());
+            reused += taken;
+        }
+        let before = known.iter().flatten().count();
+        let made = match self.solver.records_beside(range.clone(), &known, self.watch.progress) {
+            Ok(made) => made,
+            Err(why) => {
+                self.filled.stopped = Some(Stopped::try_from(why)?);
+                return Ok(());
+            }
+        };
+        let is_done = |record: &Record| record.status != Status::NotComputed;
+        self.filled.computed += made.records.iter().filter(|record| is_done(record)).count() - before;
+        self.filled.reused += reused;
+        let mut records = made.records.into_iter();
+        for (number, claim) in group {
+            let of_tile: Vec<Record> = records.by_ref().take(bounds(number).len()).collect();
+            if made.stopped.is_none() {
+                if self.sender.send((claim, number, of_tile)).is_err() {
+                    // The writer has ended, with an error that is reported in place of this.
+                    return Err(Error::Cancelled { done: self.filled.computed, total: tiling.instances });
+                }
+            } else if of_tile.iter().any(is_done) {
+                self.store.keep(&claim, number, of_tile)?;
+            }
+        }
+        self.filled.stopped = made.stopped;
+        Ok(())
+    }
+
+    /// Adds what is known of the instances of a tile, from a stopped run or another sweep; gives how many instances it has,
+    /// and how many of them are another sweep's.
+    fn known(&self, number: usize, known: &mut Vec<Option<Record>>) -> Result<[usize; 2]> {
+        let description = &self.store.description;
+        let bounds = description.tiling.bounds(number);
+        let one_start = description.analysis.starts == Starts::One;
+        let as_known = |record: &Record| match record.status {
+            Status::NotComputed => None,
+            _ if one_start => record.as_made(),
+            _ => Some(record.clone()),
+        };
+        let first = known.len();
+        match self.store.kept(number, self.watch.note)? {
+            Some(kept) => known.extend(kept.iter().map(as_known)),
+            None => known.resize(first + bounds.len(), None),
+        }
+        let mut reused = 0;
+        if let Some(reuse) = self.reuse {
+            for (place, found) in known[first..].iter_mut().zip(reuse.known(bounds.clone(), self.watch.note))
+            {
+                if place.is_none() && found.is_some() {
+                    *place = found;
+                    reused += 1;
+                }
+            }
+        }
+        Ok([bounds.len(), reused])
+    }
 }

@@ -4,7 +4,8 @@ use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
 use super::claim::{Claim, PART};
-use super::tile::{Fault, Label};
+use super::tile::{Checksum, Fault, Label, checksum_in};
+use crate::disk::{self, door};
 use crate::error::{Error, Result};
 use crate::map::Record;
 
@@ -12,9 +13,20 @@ use crate::map::Record;
 pub(super) const BAD: &str = "bad";
 /// The end of the name of a tile.
 pub(super) const TILE: &str = ".tile";
+/// The end of the name of what is done of a tile that was stopped on its way.
+pub(super) const SOME: &str = ".some";
 
 /// What gets one sentence for the user.
 pub type Note<'a> = &'a (dyn Fn(&str) + Sync);
+
+/// A tile that was read and is good.
+#[derive(Clone, Debug)]
+pub struct Tile {
+    /// Its records.
+    pub records: Vec<Record>,
+    /// Its checksum.
+    pub checksum: Checksum,
+}
 
 /// A folder of tiles.
 #[derive(Clone, Debug)]
@@ -31,7 +43,7 @@ impl Folder {
 
     /// Makes it where it is not there.
     pub(super) fn make(&self) -> Result<()> {
-        std::fs::create_dir_all(self.output.join(self.name)).map_err(|why| self.refused(&why))
+        disk::make_all(&self.output.join(self.name)).map(drop).map_err(|why| self.refused(&why))
     }
 
     /// The path of something in it.
@@ -39,18 +51,20 @@ impl Folder {
         self.output.join(self.name).join(name)
     }
 
-    /// The records of a tile that says `label` of itself; `None` when it is not there.
+    /// The records of a tile that says `label` of itself, and its checksum; `None` when it is not there.
     ///
     /// # Errors
     /// What is wrong with it.
-    pub(super) fn read(&self, name: &str, label: &Label) -> std::result::Result<Option<Vec<Record>>, Fault> {
-        let path = self.path(name);
-        // Reading from a pipe would not end.
-        if path.metadata().is_ok_and(|found| !found.is_file()) {
-            return Err(Fault::Unreadable { why: "it is no file".to_owned() });
-        }
-        match std::fs::read(path) {
-            Ok(bytes) => label.read(&bytes).map(Some),
+    pub(super) fn read(&self, name: &str, label: &Label) -> std::result::Result<Option<Tile>, Fault> {
+        let Some(bytes) = self.bytes(name)? else { return Ok(None) };
+        let checksum = checksum_in(&bytes).unwrap_or_default();
+        label.read(&bytes).map(|records| Some(Tile { records, checksum }))
+    }
+
+    /// The bytes of a file; `None` when it is not there.
+    pub(super) fn bytes(&self, name: &str) -> std::result::Result<Option<Vec<u8>>, Fault> {
+        match disk::read(&self.path(name)) {
+            Ok(bytes) => Ok(Some(bytes)),
             Err(why) if why.kind() == ErrorKind::NotFound => Ok(None),
             Err(why) => Err(Fault::Unreadable { why: why.to_string() }),
         }
@@ -68,7 +82,7 @@ impl Folder {
 
     pub(super) fn set_aside(&self, name: &str) -> io::Result<()> {
         let bad = self.path(BAD);
-        std::fs::create_dir_all(&bad)?;
+        disk::make_all(&bad)?;
         // What was set aside before stays.
         let mut place = bad.join(name);
         let mut number = 1;
@@ -76,7 +90,7 @@ impl Folder {
             number += 1;
             place = bad.join(format!("{name}.{number}"));
         }
-        match std::fs::rename(self.path(name), place) {
+        match door().rename(&self.path(name), &place) {
             // Another process was faster.
             Err(why) if why.kind() == ErrorKind::NotFound => Ok(()),
             other => other,
@@ -85,7 +99,12 @@ impl Folder {
 
     /// The names in it that end like a tile's.
     pub(super) fn tiles(&self) -> Result<Vec<String>> {
-        Ok(self.entries()?.into_iter().filter(|name| name.ends_with(TILE)).collect())
+        self.ending(TILE)
+    }
+
+    /// The names in it with this end.
+    pub(super) fn ending(&self, end: &str) -> Result<Vec<String>> {
+        Ok(self.entries()?.into_iter().filter(|name| name.ends_with(end)).collect())
     }
 
     /// Removes what a process that was killed has left of a file that is there by now.
@@ -105,10 +124,8 @@ impl Folder {
 
     /// The names in it.
     fn entries(&self) -> Result<Vec<String>> {
-        let entries = std::fs::read_dir(self.output.join(self.name))
-            .and_then(Iterator::collect::<io::Result<Vec<_>>>)
-            .map_err(|why| self.refused(&why))?;
-        Ok(entries.into_iter().filter_map(|entry| entry.file_name().into_string().ok()).collect())
+        let names = door().names(&self.output.join(self.name)).map_err(|why| self.refused(&why))?;
+        Ok(names.into_iter().filter_map(|name| name.into_string().ok()).collect())
     }
 
     /// The error of an output directory that does not take what it should.

@@ -11,6 +11,7 @@ use super::description::Description;
 use super::folder::{Folder, Note, TILE};
 use super::identity::Id;
 use super::tile::{Label, instances_in};
+use crate::disk::{self, door};
 use crate::error::{Error, Result};
 use crate::map::Record;
 use crate::spec::Analysis;
@@ -66,7 +67,7 @@ impl Parts {
         let label = self.label(instances);
         let name = self.name(&label);
         match self.folder.read(&name, &label) {
-            Ok(Some(records)) => return Ok(Part { records, found: true }),
+            Ok(Some(tile)) => return Ok(Part { records: tile.records, found: true }),
             Ok(None) => {}
             Err(fault) => self.folder.expel(&name, &format!("{fault}; it is computed again"), note)?,
         }
@@ -92,9 +93,7 @@ impl Parts {
         }
         let mut found = [0; 3];
         for name in folder.tiles()? {
-            let path = folder.path(&name);
-            let bytes = if path.is_file() { std::fs::read(path).unwrap_or_default() } else { Vec::new() };
-            match instances_in(&bytes) {
+            match instances_in(&disk::read(&folder.path(&name)).unwrap_or_default()) {
                 Some(instances) => found = [found[0] + 1, found[1] + instances, found[2]],
                 None => found[2] += 1,
             }
@@ -114,7 +113,7 @@ impl Parts {
     /// Removes the folder when nothing is in it, so that a run of which nothing came leaves nothing.
     pub fn remove_if_empty(&self) {
         // Fails, as it should, when there is something in it.
-        let _ = std::fs::remove_dir(self.folder.path(""));
+        let _ = door().remove_folder(&self.folder.path(""));
     }
 
     /// What the part of these instances says of itself.

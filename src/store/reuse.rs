@@ -16,7 +16,6 @@ use super::directory::{Note, Store};
 use crate::error::{Error, Result};
 use crate::grid::{Axis, Grid, Value};
 use crate::map::Record;
-use crate::outcome::Status;
 use crate::spec::Starts;
 
 /// Another directory, seen from a sweep.
@@ -87,7 +86,7 @@ impl Reuse {
             match self.source.read(number) {
                 Ok(Some(records)) => {
                     for (at, there) in places {
-                        known[at] = as_made(&records[there]);
+                        known[at] = records[there].as_made();
                     }
                 }
                 Ok(None) => {}
@@ -119,10 +118,4 @@ fn places(here: &[Value], there: &[Value]) -> Vec<Option<usize>> {
     };
     let numbers: BTreeMap<_, usize> = there.iter().map(key).zip(0..).collect();
     here.iter().map(|value| numbers.get(&key(value)).copied()).collect()
-}
-
-/// A record before any check; `None` where that is not known.
-fn as_made(record: &Record) -> Option<Record> {
-    let made = record.status != Status::NotComputed && record.check.is_none_or(|check| !check.taken);
-    made.then(|| Record { check: None, ..record.clone() })
 }

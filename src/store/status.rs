@@ -1,12 +1,12 @@
 //! How far a directory of tiles has come.
 
-use std::fs::File;
 use std::time::{Duration, SystemTime};
 
 use super::claim::PART;
 use super::directory::{Store, TILES};
 use super::folder::BAD;
 use super::tile::Fault;
+use crate::disk::{Handle, How, door};
 use crate::error::{Error, Result};
 
 /// The rate is that of so many of the last tiles.
@@ -19,6 +19,8 @@ pub struct Status {
     pub done: usize,
     /// Their instances.
     pub instances: usize,
+    /// Instances beside them that stopped runs have kept.
+    pub kept: usize,
     /// Tiles that processes are computing.
     pub in_work: usize,
     /// What was set aside.
@@ -38,7 +40,7 @@ impl Status {
     pub fn new(store: &Store, verify: bool) -> Result<Status> {
         let description = &store.description;
         let mut status =
-            Status { done: 0, instances: 0, in_work: 0, set_aside: 0, bad: Vec::new(), rate: None };
+            Status { done: 0, instances: 0, kept: 0, in_work: 0, set_aside: 0, bad: Vec::new(), rate: None };
         let mut times: Vec<(SystemTime, usize)> = Vec::new();
         for number in store.numbers()? {
             let (path, label) = (store.path(number), description.tile(number));
@@ -63,7 +65,7 @@ impl Status {
         }
         status.rate = rate(times);
         let tiles = store.directory.join(TILES);
-        let list = |path: &std::path::Path| std::fs::read_dir(path).map(Iterator::flatten);
+        let list = |path: &std::path::Path| door().names(path);
         let unreadable = |why: std::io::Error| Error::OutputDirectory {
             path: store.directory.clone(),
             why: why.to_string(),
@@ -71,10 +73,12 @@ impl Status {
         // A file that is being written is locked; one that a killed process left is not.
         status.in_work = list(&tiles)
             .map_err(unreadable)?
-            .filter(|entry| entry.file_name().to_string_lossy().ends_with(PART))
-            .filter(|entry| File::open(entry.path()).is_ok_and(|file| file.try_lock_shared().is_err()))
+            .into_iter()
+            .filter(|name| name.to_string_lossy().ends_with(PART))
+            .filter(|name| Handle::open(&tiles.join(name), How::Read).is_ok_and(|file| file.is_locked()))
             .count();
-        status.set_aside = list(&tiles.join(BAD)).map_or(0, Iterator::count);
+        status.set_aside = list(&tiles.join(BAD)).map_or(0, |names| names.len());
+        status.kept = store.kept_instances()?;
         Ok(status)
     }
 

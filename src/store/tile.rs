@@ -20,13 +20,18 @@ use std::ops::Range;
 use super::identity::Id;
 use super::starts::{decode, encode, width};
 use crate::map::Record;
+use crate::outcome::Status;
 use crate::spec::Analysis;
 
 const MAGIC: &[u8; 8] = b"SQMTILE1";
 const END: &[u8; 8] = b"SQMTEND1";
 const HEADER: usize = 80;
 const CHECKSUM: usize = 32;
-const FOOTER: usize = CHECKSUM + END.len();
+/// Bytes at the end of a tile that hold its checksum.
+pub const FOOTER: usize = CHECKSUM + END.len();
+
+/// BLAKE3 of the bytes of a tile before it.
+pub type Checksum = [u8; CHECKSUM];
 
 /// What a tile says of itself.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -52,6 +57,19 @@ pub fn instances_in(bytes: &[u8]) -> Option<usize> {
     let number = |at: usize| content.get(at..at + 8)?.try_into().ok().map(u64::from_le_bytes);
     let [first, end] = [40, 48].map(number);
     usize::try_from(end?.checked_sub(first?)?).ok().filter(|_| is_whole)
+}
+
+/// The sweep that a tile says it belongs to; `None` of what is no tile.
+#[must_use]
+pub fn sweep_in(bytes: &[u8]) -> Option<Id> {
+    bytes.strip_prefix(MAGIC)?.first_chunk().copied().map(Id)
+}
+
+/// The checksum that a tile of whatever sweep ends with; `None` of what is too short for one.
+#[must_use]
+pub fn checksum_in(end: &[u8]) -> Option<Checksum> {
+    let footer = &end[end.len().checked_sub(FOOTER)?..];
+    footer[CHECKSUM..].starts_with(END).then(|| footer.first_chunk().copied()).flatten()
 }
 
 /// What is wrong with a tile.
@@ -83,6 +101,9 @@ pub enum Fault {
     /// The checksum matches, but a code in it is none.
     #[error("it holds a code that does not exist")]
     Code,
+    /// A tile says that it is whole, and is not.
+    #[error("it holds instances that were not computed")]
+    Uncomputed,
     /// It cannot be read.
     #[error("it cannot be read: {why}")]
     Unreadable {
@@ -161,6 +182,16 @@ impl Label {
     /// # Errors
     /// What is wrong with it: nothing of such a tile is used.
     pub fn read(&self, bytes: &[u8]) -> Result<Vec<Record>, Fault> {
+        let records = self.read_some(bytes)?;
+        let whole = records.iter().all(|record| record.status != Status::NotComputed);
+        whole.then_some(records).ok_or(Fault::Uncomputed)
+    }
+
+    /// The same of a tile that was stopped on its way: some of its records are [`Record::NOT_COMPUTED`].
+    ///
+    /// # Errors
+    /// What is wrong with it: nothing of such a tile is used.
+    pub fn read_some(&self, bytes: &[u8]) -> Result<Vec<Record>, Fault> {
         if bytes.is_empty() {
             return Err(Fault::Empty);
         }

@@ -2,9 +2,11 @@
 
 use std::ops::Range;
 
-/// Instances of a tile: some 3 MB of eigenvalues, 14 MB with response, and the work of a core for a fraction of a
-/// second to some seconds.
+/// Most instances of a tile: some 3 MB of eigenvalues, 14 MB with response.
 pub const TILE: usize = 65_536;
+
+/// Fewest, however much they cost: they fill the lanes of some cores.
+pub const LEAST: usize = 64;
 
 /// The tiles of a sweep; their bounds depend on nothing else, so that threads, processes and machines agree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -61,7 +61,7 @@ fn what_is_done_is_written() {
     assert_eq!(
         end,
         "20000 instances; wrote what is done, the others are `not_computed`; \
-         run the same command again to compute all"
+         run the same command again to compute the rest"
     );
     let out = String::from_utf8(output.stdout).unwrap();
     assert!(out.starts_with(&format!("{done} of 20000 instances in ")), "{out}");

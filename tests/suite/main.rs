@@ -89,6 +89,8 @@ mod tikz;
 mod tile_cost;
 mod tiles;
 mod trace_figure;
+mod turmoil;
 mod unsettled;
 #[cfg(unix)]
 mod unwritable;
+mod whole;

@@ -170,9 +170,17 @@ fn points_have_no_areas_and_all_their_rows() {
     let text = std::fs::read_to_string(&path).unwrap();
     let rows: Vec<&str> = text.lines().collect();
     std::fs::write(&path, rows[..3].join("\n")).unwrap();
+    refused(&[], "map.csv`: it is not the file that manifest.json names: its checksum is another one");
+    // A manifest of before there were checksums.
+    let manifest = directory.path().join("out/manifest.json");
+    let written = std::fs::read(&manifest).unwrap();
+    let mut document: serde_json::Value = serde_json::from_slice(&written).unwrap();
+    document.as_object_mut().unwrap().remove("files").unwrap();
+    std::fs::write(&manifest, document.to_string()).unwrap();
     refused(&[], "map.csv`: 2 rows for 3 instances");
     std::fs::write(&path, text.replacen(",0.4,", ",nan,", 1)).unwrap();
     refused(&[], "map.csv`: row 2: `mu_s` is `nan`, no number");
     std::fs::write(&path, text).unwrap();
+    std::fs::write(&manifest, written).unwrap();
     assert_eq!(squealmap(directory.path(), &["plot", "out"]).code, Some(0));
 }

@@ -197,6 +197,11 @@ fn a_tile_has_the_documented_layout() {
 fn what_is_no_such_tile_is_refused() {
     let all = records();
     let label = tile(10..10 + all.len());
+    // One of them was not computed: what a stopped run keeps, and no tile.
+    let some = label.write(&all);
+    assert_eq!((label.read(&some), label.read_some(&some).unwrap()), (Err(Fault::Uncomputed), all.clone()));
+    let all: Vec<Record> = all.into_iter().filter(|record| record.status != Status::NotComputed).collect();
+    let label = tile(10..10 + all.len());
     let bytes = label.write(&all);
     assert_eq!(label.read(&bytes).unwrap(), all);
     assert_eq!(label.read(&[]), Err(Fault::Empty));

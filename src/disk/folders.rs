@@ -1,0 +1,66 @@
+//! Folders, and names that last.
+
+use std::io::{self, ErrorKind};
+use std::path::{Path, PathBuf};
+
+use super::door;
+use super::file::retried;
+
+/// Makes a folder and those above it where they are not there, so that they last; gives those that were made, the
+/// deepest first.
+///
+/// # Errors
+/// When one cannot be made.
+pub fn make_all(path: &Path) -> io::Result<Vec<PathBuf>> {
+    let missing = path.ancestors().filter(|path| !path.as_os_str().is_empty());
+    let missing: Vec<PathBuf> = missing.take_while(|path| !path.is_dir()).map(Path::to_owned).collect();
+    for folder in missing.iter().rev() {
+        match retried(|| door().make_folder(folder)) {
+            // Another process was faster.
+            Err(why) if why.kind() == ErrorKind::AlreadyExists && folder.is_dir() => {}
+            other => other?,
+        }
+        lasting(folder)?;
+    }
+    Ok(missing)
+}
+
+/// Waits until the name of a file or folder, or that it is gone, is on the disk.
+///
+/// # Errors
+/// Those of the disk.
+pub fn lasting(path: &Path) -> io::Result<()> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    retried(|| door().sync_folder(folder.unwrap_or(Path::new("."))))
+}
+
+/// Removes a file that may be there.
+///
+/// # Errors
+/// When it is there and cannot be removed.
+pub fn remove_if_there(path: &Path) -> io::Result<()> {
+    match retried(|| door().remove(path)) {
+        Err(why) if why.kind() == ErrorKind::NotFound => Ok(()),
+        other => other,
+    }
+}
+
+/// Removes a folder that may be there, with all that is in it; links in it are removed and not followed.
+///
+/// # Errors
+/// When something cannot be removed.
+pub fn remove_all(path: &Path) -> io::Result<()> {
+    let names = match retried(|| door().names(path)) {
+        Err(why) if why.kind() == ErrorKind::NotFound => return Ok(()),
+        other => other?,
+    };
+    for name in names {
+        let inside = path.join(name);
+        if inside.symlink_metadata().is_ok_and(|found| found.is_dir()) {
+            remove_all(&inside)?;
+        } else {
+            remove_if_there(&inside)?;
+        }
+    }
+    retried(|| door().remove_folder(path))
+}

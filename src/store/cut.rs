@@ -1,0 +1,58 @@
+//! How many instances a tile has: as many as make some seconds of work of one core.
+//!
+//! What is lost with a process that is killed is the tiles in its work, and processes share a sweep by tiles: so a tile of
+//! costly instances has few of them. The number follows from the sweep alone, by a count of steps and not by a clock, so
+//! that every process, machine and run cuts a sweep alike.
+
+use crate::method::pace::Turns;
+use crate::response::{Plan, Scene};
+use crate::simd::{ORDER, tolerance};
+use crate::spec::Spec;
+
+use super::tiling::{LEAST, TILE};
+use crate::kernel::source::Precision;
+
+/// Steps of a tile: one core takes some seconds for them in f32, twice that in f64.
+const STEPS: f64 = 6e7;
+
+/// Steps per period of a motion that no fast mode shortens.
+const PER_PERIOD: f64 = 3.0;
+
+/// Periods before the first window and in the windows of most runs until settled.
+const UNTIL_SETTLED: f64 = 300.0;
+
+/// Instances that are looked at, spread over the sweep.
+const SAMPLES: usize = 32;
+
+/// Instances of a tile of a sweep: a power of two from [`LEAST`] to [`TILE`].
+#[must_use]
+pub fn tile_of(spec: &Spec) -> usize {
+    if !spec.analysis.response {
+        return TILE;
+    }
+    let plan = Plan::new(spec);
+    let turns = Turns::new(ORDER, tolerance(Precision::F64, spec.steps_per_period));
+    let instances = spec.grid.len();
+    let samples = SAMPLES.min(instances).max(1);
+    let steps = |sample: usize| {
+        // In the middle of equal parts; in 128 bits, as the product may be large.
+        let index = (2 * sample as u128 + 1) * instances as u128 / (2 * samples as u128);
+        let instance = spec.instance(usize::try_from(index).unwrap_or(usize::MAX).min(instances - 1));
+        // What cannot start costs nothing.
+        let Ok(scene) = Scene::planned(&instance, &plan, f64::EPSILON) else { return 0.0 };
+        let periods = |duration| scene.scaled(duration) / std::f64::consts::TAU;
+        let asked = match plan.settle_limit {
+            Some(limit) => periods(limit).min(UNTIL_SETTLED) + periods(plan.measure),
+            None => periods(plan.settle) + periods(plan.measure),
+        };
+        let longest = turns.longest_steps(&scene.model.fastest)[0];
+        asked * PER_PERIOD.max(std::f64::consts::TAU / longest)
+    };
+    let mean = if instances == 0 { 0.0 } else { (0..samples).map(steps).sum::<f64>() / samples as f64 };
+    let cost = mean * spec.analysis.starts.count() as f64;
+    let mut tile = TILE;
+    while tile > LEAST && tile as f64 * cost > STEPS {
+        tile /= 2;
+    }
+    tile
+}
