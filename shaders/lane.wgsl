@@ -70,7 +70,11 @@ fn iterate(tolerance: real) {
     var longest = real(0.0);
     // Shorter steps leave a position where it is.
     if allowed * allowed >= EPSILON {
-        longest = step_length(min(remaining, allowed), tolerance);
+        var within = allowed;
+        if LAW == LAW_PIECES && lane.contact <= REVERSE {
+            within = min(within, piece.rate);
+        }
+        longest = step_length(min(remaining, within), tolerance);
     }
     if longest <= real(0.0) {
         lane.status = select(STATUS_NON_FINITE, STATUS_STEP_TOO_LARGE, body_is_finite());

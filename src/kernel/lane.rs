@@ -14,7 +14,7 @@ use super::crossing::{NEVER, first_crossing};
 use super::observe::{Moment, Phase, Sums};
 use super::scalar::Real;
 use super::scene::{
-    EVENTS_AT_ONCE, FIRST_HALF, OPEN_HALF, SECOND_HALF, SEGMENTS, SETTLE, Scene, Segment, Segments,
+    EVENTS_AT_ONCE, FIRST_HALF, Law, OPEN_HALF, SECOND_HALF, SEGMENTS, SETTLE, Scene, Segment, Segments,
 };
 use super::series::{
     Body, Expansion, FREE, ORDER, REVERSE, SLIP, STICK, Series, evaluate, expand, largest, step_length,
@@ -134,7 +134,11 @@ impl<S: Real> Lane<S> {
         let mut longest = S::ZERO;
         // Shorter steps leave a position where it is.
         if allowed * allowed >= S::EPSILON {
-            longest = step_length(&e, remaining.min(allowed), tolerance);
+            let mut within = allowed;
+            if scene.law == Law::Pieces && self.state.contact <= REVERSE {
+                within = within.min(piece.rate);
+            }
+            longest = step_length(&e, remaining.min(within), tolerance);
         }
         if longest <= S::ZERO {
             self.state.status = if self.body_is_finite() { Status::StepTooLarge } else { Status::NonFinite };

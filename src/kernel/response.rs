@@ -15,6 +15,7 @@ use super::scene::{
 use super::source::{Constant, Field, Kernel};
 use super::windows::Windows;
 use super::{contact, crossing, series};
+use crate::method::pace::Turns;
 use crate::model::friction::LawKind;
 use crate::outcome::Outcome;
 use crate::response::{Plan, Scene};
@@ -256,10 +257,10 @@ pub fn words(scene: &Scene, segments: &Segments, pieces: usize) -> Vec<f64> {
     scene::words(&scene.model, scene.belt(0.0).velocity, start(scene), segments, pieces)
 }
 
-/// An instance as the kernel's twin has it, without segments.
+/// An instance as the kernel's twin has it, without segments, for steps that may turn so far.
 #[must_use]
-pub fn without_segments<S: Real>(law: LawKind, scene: &Scene) -> Words<S> {
-    Words::of(law_of(law), &scene.model, scene.belt(0.0).velocity, start(scene))
+pub fn without_segments<S: Real>(law: LawKind, scene: &Scene, turns: &Turns) -> Words<S> {
+    Words::of(law_of(law), &scene.model, scene.belt(0.0).velocity, start(scene), turns)
 }
 
 /// `x2`, `y1`, `ẋ2`, `ẏ1` at the start.

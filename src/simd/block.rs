@@ -24,7 +24,7 @@ pub const THIRD: u32 = 3;
 pub const AT_ZERO: usize = 0;
 /// `dμ/d|v|`.
 pub const SLOPE: usize = 1;
-/// Decay rate.
+/// Decay rate; the longest step of slip on a straight piece.
 pub const RATE: usize = 2;
 /// μ at the belt velocity of the equilibrium less that of the equilibrium.
 pub const OFFSET: usize = 3;

@@ -108,7 +108,7 @@ impl<T: Real> Job<T> {
     /// The start of an instance, whose steps may turn so far.
     #[must_use]
     pub fn new(instance: &Instance, scene: Scene, plan: &Plan, turns: &Turns) -> Job<T> {
-        let words: Words<T> = without_segments(instance.law.kind(), &scene);
+        let words: Words<T> = without_segments(instance.law.kind(), &scene, turns);
         let settling = Settling::new(instance, &scene, plan).map(Box::new);
         let asked = 0.5 * scene.scaled(plan.measure);
         let half = settling.as_ref().map_or(asked, |settling| settling.half(None));

@@ -5,7 +5,7 @@ use std::ops::Not;
 
 use pulp::{NullaryFnOnce, Simd};
 
-use super::block::Block;
+use super::block::{Block, RATE};
 use super::crossings::{Track, cross_upwards};
 use super::events::first_event;
 use super::expand::{CLOSED, Expansion, FLIGHT, PIECES, SINGLE, expand};
@@ -120,6 +120,9 @@ fn step<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool, 
     b.reached = b.reached.max(b.contact);
     let allowed = b.longest();
     let mut pace = b.pace.min(b.step).min(allowed);
+    if LAW == PIECES {
+        pace = b.slip().select(pace.min(b.piece[RATE]), pace);
+    }
     if MOTION == SINGLE {
         let waits = b.stick().and(b.drive.abs().not_positive());
         pace = waits.select((b.step * one.like(STICK_STEPS)).min(one.like(TAU)), pace);

@@ -37,6 +37,7 @@ mod instances;
 #[cfg(unix)]
 mod interrupt;
 mod isolines;
+mod jagged;
 mod kernel_linear;
 mod kernel_response;
 mod kernels;
