@@ -22,7 +22,7 @@ use crate::model::Param;
 use crate::outcome::{Outcome, Status};
 use crate::response::{Plan, Scene};
 use crate::simd::job::Job;
-use crate::simd::lanes::Settings;
+use crate::simd::lanes::{Settings, Terms};
 use crate::simd::{Lanes, ORDER, tolerance};
 use crate::spec::{Instance, Spec};
 
@@ -131,7 +131,19 @@ pub fn batch(
 /// The transients of some instances; `None` when `cancel` is set on the way.
 #[must_use]
 pub fn outcomes<T: Lanes>(instances: &[Instance], plan: &Plan, cancel: &AtomicBool) -> Option<Vec<Outcome>> {
-    let settings = Settings { plan, tolerance: tolerance(T::PRECISION, plan.steps_per_period), cancel };
+    outcomes_on::<T>(instances, plan, Terms::default(), cancel)
+}
+
+/// The same on other terms.
+#[must_use]
+pub fn outcomes_on<T: Lanes>(
+    instances: &[Instance],
+    plan: &Plan,
+    terms: Terms,
+    cancel: &AtomicBool,
+) -> Option<Vec<Outcome>> {
+    let tolerance = tolerance(T::PRECISION, plan.steps_per_period);
+    let settings = Settings { plan, tolerance, terms, cancel };
     let turns = Turns::new(ORDER, settings.tolerance);
     let mut outcomes = vec![Outcome::default(); instances.len()];
     let upright = |instance: &Instance| instance.params.require(Param::Theta) == 0.0;
@@ -145,7 +157,7 @@ pub fn outcomes<T: Lanes>(instances: &[Instance], plan: &Plan, cancel: &AtomicBo
         };
         let mut indices: Vec<usize> = (0..instances.len()).filter(|index| here(&instances[*index])).collect();
         let mut jobs = Vec::<Job<T>>::with_capacity(indices.len());
-        indices.retain(|index| match Scene::planned(&instances[*index], plan, T::EPSILON.to_f64()) {
+        indices.retain(|index| match Scene::planned(&instances[*index], plan) {
             Ok(scene) => {
                 jobs.push(Job::new(&instances[*index], scene, plan, &turns));
                 true

@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::constants::{CONSTANTS, SWING, constants};
+use super::count::Count;
 use super::stretches::Stretches;
 use crate::kernel::contact::{Belt, GAP, State, UPPER_KINK};
 use crate::kernel::reductions::{End, Reductions};
@@ -94,6 +95,8 @@ pub struct Job<T> {
     pub guess: Option<f64>,
     /// Steps.
     pub steps: u64,
+    /// Steps and events of the present period.
+    pub count: Count,
     /// Times of the end of the settling, of the first half of the window and of the window.
     pub marks: [f64; 3],
     /// Whether no event has fallen into the window.
@@ -133,6 +136,7 @@ impl<T: Real> Job<T> {
             stretches: Stretches::default(),
             guess: None,
             steps: 0,
+            count: Count::default(),
             marks: window(scene_settle, half),
             quiet: true,
             settling,

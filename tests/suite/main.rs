@@ -7,6 +7,7 @@ mod bad_input;
 mod bistable;
 mod bistable_files;
 mod bound;
+mod bounded;
 mod checks;
 mod claims;
 mod cli;
