@@ -5,6 +5,7 @@
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use pulp::Arch;
 use rayon::prelude::*;
 
 use crate::backend::again::{self, outcomes_again};
@@ -45,12 +46,21 @@ pub fn response(precision: Precision, steps_per_period: u32) -> Computation {
         precision: precision.to_string(),
         method: format!(
             "Taylor series of order {ORDER}, truncation below {bound:.1e}, events located in the step, single masses \
-             with constant friction in closed form{}",
-            again::note(precision)
+             with constant friction in closed form{}{}",
+            again::note(precision),
+            rounding(Arch::new())
         ),
         adapter: None,
         strict: None,
     }
+}
+
+/// What a method says of how an instruction set rounds. Whatever their widths, registers give the same bits, but for those
+/// of machines that cannot add a product unrounded: a directory is not gone on with on the other kind.
+#[must_use]
+pub fn rounding(instructions: Arch) -> &'static str {
+    // Elsewhere than on x86 every machine can, but for those without any vector registers.
+    if matches!(instructions, Arch::Scalar) { ", products rounded before they are added" } else { "" }
 }
 
 /// Computes the instances `range` of a sweep; `progress` gets the number newly finished. Once `cancel` is set no

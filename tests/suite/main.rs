@@ -35,6 +35,7 @@ mod identify_files;
 mod identify_growth;
 mod impacts;
 mod instances;
+mod instructions;
 #[cfg(unix)]
 mod interrupt;
 mod isolines;
