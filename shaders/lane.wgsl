@@ -70,7 +70,11 @@ fn iterate(tolerance: real) {
     var longest = real(0.0);
     // Shorter steps leave a position where it is.
     if allowed * allowed >= EPSILON {
-        longest = step_length(min(remaining, allowed), tolerance);
+        var within = allowed;
+        if LAW == LAW_PIECES && lane.contact <= REVERSE {
+            within = min(within, piece.rate);
+        }
+        longest = step_length(min(remaining, within), tolerance);
     }
     if longest <= real(0.0) {
         lane.status = select(STATUS_NON_FINITE, STATUS_STEP_TOO_LARGE, body_is_finite());
@@ -117,15 +121,19 @@ fn advance_time(segment: Segment, tau: real, whole: bool) {
     if whole {
         lane.rest = real(1.0);
         lane.index += 1u;
-        lane.parts = 0u;
-        if lane.index % STEPS_PER_COUNT == 0u {
-            lane.counted = 0u;
+        if lane.index % STEPS_PER_SUM == 0u {
             flush();
+        }
+        if lane.index % max(u32(TAU / segment.step), 1u) == 0u {
+            lane.counted = 0u;
+            lane.parts = 0u;
         }
     } else {
         lane.rest = lane.rest - tau / segment.step;
     }
-    if lane.parts > MAX_PARTS {
+    // The second pass takes no step that the first has not.
+    let endless = lane.iterations > MOST_STEPS && lane.second_pass == 0u;
+    if lane.parts > MAX_STEPS_PER_PERIOD || endless {
         lane.status = STATUS_STEP_TOO_LARGE;
     }
 }
@@ -133,7 +141,7 @@ fn advance_time(segment: Segment, tau: real, whole: bool) {
 fn count_event(tau: real) {
     lane.at_once = select(lane.at_once + 1u, 0u, tau > real(0.0));
     lane.counted += 1u;
-    if lane.at_once > EVENTS_AT_ONCE || lane.counted > MAX_EVENTS_PER_COUNT {
+    if lane.at_once > EVENTS_AT_ONCE || lane.counted > MAX_EVENTS_PER_PERIOD {
         lane.status = STATUS_EVENT_LIMIT;
     }
 }

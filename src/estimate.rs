@@ -3,9 +3,11 @@
 use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
-use crate::backend::cpu::outcomes;
+use crate::backend::cpu::outcomes_on;
 use crate::linear::analyse;
-use crate::response::Plan;
+use crate::outcome::{Outcome, Status};
+use crate::response::{MOST_STEPS, Plan, Scene};
+use crate::simd::lanes::Terms;
 use crate::spec::{Instance, Spec};
 
 /// Most instances that are measured.
@@ -17,6 +19,9 @@ const BUDGET: Duration = Duration::from_secs(3);
 /// Longer transients are measured over their first periods and scaled up.
 const MOST_PERIODS: f64 = 200.0;
 
+/// No sample takes more steps: some tenths of a second.
+const MOST_OF_A_SAMPLE: u32 = 50_000;
+
 /// Copies of an instance that are measured together: the engine is made for many at a time.
 const COPIES: usize = 16;
 
@@ -25,6 +30,9 @@ const COPIES: usize = 16;
 pub struct Estimate {
     /// Instances that were measured.
     pub sampled: usize,
+    /// Those of them that were not followed to their end, as their steps are too many: what they took is scaled up by the
+    /// time they came to. A run that goes on as it began takes that, one that becomes stiffer more.
+    pub cut_short: usize,
     /// Steps of the whole sweep.
     pub steps: f64,
     /// Time of one thread for the whole sweep.
@@ -37,30 +45,55 @@ pub fn estimate(spec: &Spec) -> Estimate {
     let instances = spec.grid.len();
     let samples = SAMPLES.min(instances);
     let began = Instant::now();
-    let mut sampled = 0;
+    let (mut sampled, mut cut_short) = (0, 0);
     let (mut steps, mut time) = (0.0, Duration::ZERO);
     while sampled < samples && (sampled == 0 || began.elapsed() < BUDGET) {
         let index = sample(spread(sampled, samples), samples, instances);
         let instance = spec.instance(index);
-        let (plan, share) = Plan::new(spec).shortened(&instance, MOST_PERIODS);
         let start = Instant::now();
         if spec.analysis.linear {
             std::hint::black_box(analyse(&instance));
         }
         time += start.elapsed();
         if spec.analysis.response {
+            let periods =
+                MOST_PERIODS.min(0.5 * f64::from(MOST_OF_A_SAMPLE) / f64::from(spec.steps_per_period));
+            // What the whole plan refuses costs nothing.
+            let whole = Plan::new(spec);
+            let (plan, share) = match Scene::planned(&instance, &whole) {
+                Ok(_) => whole.shortened(&instance, periods),
+                Err(_) => (whole, 1.0),
+            };
+            let terms = Terms { most_steps: MOST_OF_A_SAMPLE, ..Terms::default() };
             let copies: Vec<Instance> = std::iter::repeat_n(instance, COPIES).collect();
             let start = Instant::now();
-            let outcomes = outcomes::<f64>(&copies, &plan, &AtomicBool::new(false));
-            // Other starts cost about as much as the small one.
-            let starts = spec.analysis.starts.count() as f64;
-            time += start.elapsed().mul_f64(starts / (share * COPIES as f64));
-            steps += outcomes.map_or(0.0, |outcomes| starts * outcomes[0].steps as f64 / share);
+            let outcomes =
+                outcomes_on::<f64>(&copies, &plan, terms, &AtomicBool::new(false)).unwrap_or_default();
+            let elapsed = start.elapsed();
+            let outcome = outcomes.first().copied().unwrap_or_default();
+            let reached = reached(&outcome, &copies[0], &plan);
+            cut_short += usize::from(reached < 1.0);
+            // Other starts cost about as much as the small one; no run has more steps than it may.
+            let taken = outcome.steps.max(1) as f64;
+            let more = (1.0 / (share * reached)).min(f64::from(MOST_STEPS) / taken).max(1.0);
+            let runs = spec.analysis.starts.count() as f64;
+            time += elapsed.mul_f64(runs * more / COPIES as f64);
+            steps += runs * more * outcome.steps as f64;
         }
         sampled += 1;
     }
     let scale = instances as f64 / sampled.max(1) as f64;
-    Estimate { sampled, steps: steps * scale, cpu_time: time.mul_f64(scale) }
+    Estimate { sampled, cut_short, steps: steps * scale, cpu_time: time.mul_f64(scale) }
+}
+
+/// The part of a plan's time that a sample came to before its steps were counted out; 1 where they were not.
+fn reached(outcome: &Outcome, instance: &Instance, plan: &Plan) -> f64 {
+    if outcome.status != Status::StepTooLarge || outcome.steps < u64::from(MOST_OF_A_SAMPLE) {
+        return 1.0;
+    }
+    let Ok(scene) = Scene::new(instance, plan.start) else { return 1.0 };
+    let whole = (scene.scaled(plan.settle) + scene.scaled(plan.measure)) * scene.units.time;
+    (outcome.simulated_time / whole).min(1.0)
 }
 
 /// An instance of part `part` of `parts` equal parts of the grid; where in the part follows the golden

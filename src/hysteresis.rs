@@ -202,7 +202,7 @@ fn step(instance: &Instance, plan: &Plan, from: Option<Motion>) -> (Record, Opti
     let mut record = begun(instance, &prepared);
     (record.kind, record.linear) = linear::solve(&prepared);
     let kind = record.kind;
-    let scene = match Scene::planned(instance, plan, f64::EPSILON) {
+    let scene = match Scene::planned(instance, plan) {
         Ok(scene) => scene,
         Err(status) => {
             take_response(&mut record, instance, kind, &Outcome { status, ..Outcome::default() });

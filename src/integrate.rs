@@ -12,6 +12,7 @@ use crate::method::{Method, rk4};
 use crate::model::contact::{Contact, ContactState};
 use crate::model::equilibrium::Scaled;
 use crate::outcome::Status;
+use crate::response::MOST_STEPS;
 
 /// Most events at one and the same instant.
 pub const MAX_EVENTS_AT_ONCE: u32 = 64;
@@ -23,7 +24,7 @@ pub const MAX_EVENTS_PER_PERIOD: u32 = 20_000;
 /// Most halvings of the nominal step, enough for the boundary layers of extreme starts.
 pub const MAX_HALVINGS: i32 = 24;
 
-/// Most steps within one period `2π/ω0`; stiffer instances end with [`Status::StepTooLarge`].
+/// Most steps within one period `2π/ω0`; stiffer instances end with [`Status::StepTooLarge`], on every engine.
 /// Five times the finest setting of a sweep.
 pub const MAX_STEPS_PER_PERIOD: u32 = 500_000;
 
@@ -369,7 +370,7 @@ impl<'a> Integrator<'a> {
             self.steps_in_period = 0;
         }
         self.steps_in_period += 1;
-        if self.steps_in_period > MAX_STEPS_PER_PERIOD {
+        if self.steps_in_period > MAX_STEPS_PER_PERIOD || self.steps > u64::from(MOST_STEPS) {
             return Err(Status::StepTooLarge);
         }
         if event {

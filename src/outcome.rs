@@ -23,7 +23,7 @@ pub enum Status {
     /// Events piled up (chatter, Zeno) beyond the limit; `simulated_time` says how far it came.
     EventLimit = 5,
     /// The step needed for this instance is smaller than the integrator allows, or the run has more than
-    /// [`crate::response::MOST_STEPS`].
+    /// [`crate::response::MOST_STEPS`], or a period more than [`crate::integrate::MAX_STEPS_PER_PERIOD`].
     StepTooLarge = 6,
     /// The state left the range of finite numbers, or its scaled parameters are beyond [`crate::response::LARGEST`].
     NonFinite = 7,

@@ -45,7 +45,7 @@ pub fn trace(spec: &Spec, instance: &Instance, samples_per_period: u32) -> Trace
     let plan = Plan::new(spec);
     let outcome = respond(instance, &plan);
     let mut rows = Vec::new();
-    if let Ok(scene) = Scene::planned(instance, &plan, f64::EPSILON) {
+    if let Ok(scene) = Scene::planned(instance, &plan) {
         let mut sampler = Sampler {
             scene: &scene,
             spacing: TAU / f64::from(samples_per_period.max(1)),

@@ -5,6 +5,7 @@
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use pulp::Arch;
 use rayon::prelude::*;
 
 use crate::backend::again::{self, outcomes_again};
@@ -22,7 +23,7 @@ use crate::model::Param;
 use crate::outcome::{Outcome, Status};
 use crate::response::{Plan, Scene};
 use crate::simd::job::Job;
-use crate::simd::lanes::Settings;
+use crate::simd::lanes::{Settings, Terms};
 use crate::simd::{Lanes, ORDER, tolerance};
 use crate::spec::{Instance, Spec};
 
@@ -48,12 +49,21 @@ pub fn response(precision: Precision, steps_per_period: u32) -> Computation {
         precision: precision.to_string(),
         method: format!(
             "Taylor series of order {ORDER}, truncation below {bound:.1e}, events located in the step, single masses \
-             with constant friction in closed form{}",
-            again::note(precision)
+             with constant friction in closed form{}{}",
+            again::note(precision),
+            rounding(Arch::new())
         ),
         adapter: None,
         strict: None,
     }
+}
+
+/// What a method says of how an instruction set rounds. Whatever their widths, registers give the same bits, but for those
+/// of machines that cannot add a product unrounded: a directory is not gone on with on the other kind.
+#[must_use]
+pub fn rounding(instructions: Arch) -> &'static str {
+    // Elsewhere than on x86 every machine can, but for those without any vector registers.
+    if matches!(instructions, Arch::Scalar) { ", products rounded before they are added" } else { "" }
 }
 
 /// Computes the instances `range` of a sweep; `progress` gets the number newly finished. Once `cancel` is set no
@@ -134,7 +144,19 @@ pub fn batch(
 /// The transients of some instances; `None` when `cancel` is set on the way.
 #[must_use]
 pub fn outcomes<T: Lanes>(instances: &[Instance], plan: &Plan, cancel: &AtomicBool) -> Option<Vec<Outcome>> {
-    let settings = Settings { plan, tolerance: tolerance(T::PRECISION, plan.steps_per_period), cancel };
+    outcomes_on::<T>(instances, plan, Terms::default(), cancel)
+}
+
+/// The same on other terms.
+#[must_use]
+pub fn outcomes_on<T: Lanes>(
+    instances: &[Instance],
+    plan: &Plan,
+    terms: Terms,
+    cancel: &AtomicBool,
+) -> Option<Vec<Outcome>> {
+    let tolerance = tolerance(T::PRECISION, plan.steps_per_period);
+    let settings = Settings { plan, tolerance, terms, cancel };
     let turns = Turns::new(ORDER, settings.tolerance);
     let mut outcomes = vec![Outcome::default(); instances.len()];
     let upright = |instance: &Instance| instance.params.require(Param::Theta) == 0.0;
@@ -148,7 +170,7 @@ pub fn outcomes<T: Lanes>(instances: &[Instance], plan: &Plan, cancel: &AtomicBo
         };
         let mut indices: Vec<usize> = (0..instances.len()).filter(|index| here(&instances[*index])).collect();
         let mut jobs = Vec::<Job<T>>::with_capacity(indices.len());
-        indices.retain(|index| match Scene::planned(&instances[*index], plan, T::EPSILON.to_f64()) {
+        indices.retain(|index| match Scene::planned(&instances[*index], plan) {
             Ok(scene) => {
                 jobs.push(Job::new(&instances[*index], scene, plan, &turns));
                 true

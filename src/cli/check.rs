@@ -140,8 +140,15 @@ fn cost(spec: &Spec) -> String {
     let total = estimate.cpu_time.as_secs_f64();
     let steps =
         if spec.analysis.response { format!("{:.1e} steps, ", estimate.steps) } else { String::new() };
+    let [about, cut_short] = match estimate.cut_short {
+        0 => ["about", ""].map(str::to_owned),
+        cut => [
+            "at least".to_owned(),
+            format!(", {cut} of them only in part, as their steps are too many: more if they become stiffer"),
+        ],
+    };
     format!(
-        "cost      about {steps}{} on {threads} thread(s), {} on one (measured on {} of the instances)\n",
+        "cost      {about} {steps}{} on {threads} thread(s), {} on one (measured on {} of the instances{cut_short})\n",
         seconds(total / threads as f64),
         seconds(total),
         estimate.sampled

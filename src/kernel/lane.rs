@@ -7,6 +7,8 @@
 
 #![expect(clippy::needless_range_loop, reason = "the loops are those of the WGSL twin")]
 
+use std::f64::consts::TAU;
+
 use super::contact::{
     Belt, CONE_BACKWARD, CONE_FORWARD, GAP, LIFT_OFF, LOWER_KINK, NOTHING, REST, State, UPPER_KINK,
 };
@@ -14,21 +16,17 @@ use super::crossing::{NEVER, first_crossing};
 use super::observe::{Moment, Phase, Sums};
 use super::scalar::Real;
 use super::scene::{
-    EVENTS_AT_ONCE, FIRST_HALF, OPEN_HALF, SECOND_HALF, SEGMENTS, SETTLE, Scene, Segment, Segments,
+    EVENTS_AT_ONCE, FIRST_HALF, Law, OPEN_HALF, SECOND_HALF, SEGMENTS, SETTLE, Scene, Segment, Segments,
 };
 use super::series::{
     Body, Expansion, FREE, ORDER, REVERSE, SLIP, STICK, Series, evaluate, expand, largest, step_length,
 };
+use crate::integrate::{MAX_EVENTS_PER_PERIOD, MAX_STEPS_PER_PERIOD};
 use crate::outcome::Status;
+use crate::response::MOST_STEPS;
 
-/// Most events within [`STEPS_PER_COUNT`] steps.
-pub const MAX_EVENTS_PER_COUNT: u32 = 20_000;
-
-/// Steps over which events are counted.
-pub const STEPS_PER_COUNT: u32 = 16;
-
-/// Most parts of one step.
-pub const MAX_PARTS: u32 = 100_000;
+/// Steps whose sums are added up before they join the others.
+pub const STEPS_PER_SUM: u32 = 16;
 
 /// Roundings of the static loads that a force may be off by.
 pub const ROUNDINGS: f64 = 8.0;
@@ -52,9 +50,9 @@ pub struct Lane<S> {
     pub segment: u32,
     /// Whole steps done of it.
     pub index: u32,
-    /// Events since the last count began.
+    /// Events since the last period began.
     pub counted: u32,
-    /// Parts of the present step.
+    /// Parts of steps since then.
     pub parts: u32,
     /// Whether the window is passed the second time.
     pub second_pass: bool,
@@ -134,7 +132,11 @@ impl<S: Real> Lane<S> {
         let mut longest = S::ZERO;
         // Shorter steps leave a position where it is.
         if allowed * allowed >= S::EPSILON {
-            longest = step_length(&e, remaining.min(allowed), tolerance);
+            let mut within = allowed;
+            if scene.law == Law::Pieces && self.state.contact <= REVERSE {
+                within = within.min(piece.rate);
+            }
+            longest = step_length(&e, remaining.min(within), tolerance);
         }
         if longest <= S::ZERO {
             self.state.status = if self.body_is_finite() { Status::StepTooLarge } else { Status::NonFinite };
@@ -174,15 +176,25 @@ impl<S: Real> Lane<S> {
         if whole {
             self.rest = S::ONE;
             self.index += 1;
-            self.parts = 0;
-            if self.index.is_multiple_of(STEPS_PER_COUNT) {
-                self.counted = 0;
+            if self.index.is_multiple_of(STEPS_PER_SUM) {
                 self.sums.flush();
+            }
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "what is beyond all that are counted may be the most of them"
+            )]
+            let period = ((S::from_f64(TAU) / segment.step).to_f64() as u32).max(1);
+            if self.index.is_multiple_of(period) {
+                self.counted = 0;
+                self.parts = 0;
             }
         } else {
             self.rest -= tau / segment.step;
         }
-        if self.parts > MAX_PARTS {
+        // The second pass takes no step that the first has not.
+        let endless = self.iterations > MOST_STEPS && !self.second_pass;
+        if self.parts > MAX_STEPS_PER_PERIOD || endless {
             self.state.status = Status::StepTooLarge;
         }
     }
@@ -190,7 +202,7 @@ impl<S: Real> Lane<S> {
     fn count_event(&mut self, tau: S) {
         self.state.at_once = if tau > S::ZERO { 0 } else { self.state.at_once + 1 };
         self.counted += 1;
-        if self.state.at_once > EVENTS_AT_ONCE || self.counted > MAX_EVENTS_PER_COUNT {
+        if self.state.at_once > EVENTS_AT_ONCE || self.counted > MAX_EVENTS_PER_PERIOD {
             self.state.status = Status::EventLimit;
         }
     }

@@ -15,9 +15,11 @@ use super::scene::{
 use super::source::{Constant, Field, Kernel};
 use super::windows::Windows;
 use super::{contact, crossing, series};
+use crate::integrate::{MAX_EVENTS_PER_PERIOD, MAX_STEPS_PER_PERIOD};
+use crate::method::pace::Turns;
 use crate::model::friction::LawKind;
 use crate::outcome::Outcome;
-use crate::response::{Plan, Scene};
+use crate::response::{MOST_STEPS, Plan, Scene};
 use crate::spec::Instance;
 
 /// Most pieces of a friction law in a kernel: the rows of the longest table.
@@ -163,9 +165,10 @@ pub const fn kernel<const PIECES: usize>() -> Kernel {
                 ("ROUNDINGS", Constant::Real(lane::ROUNDINGS)),
                 ("HELD_FROM", Constant::U32(contact::HELD_FROM)),
                 ("LEAST_REST", Constant::Real(lane::LEAST_REST)),
-                ("STEPS_PER_COUNT", Constant::U32(lane::STEPS_PER_COUNT)),
-                ("MAX_PARTS", Constant::U32(lane::MAX_PARTS)),
-                ("MAX_EVENTS_PER_COUNT", Constant::U32(lane::MAX_EVENTS_PER_COUNT)),
+                ("STEPS_PER_SUM", Constant::U32(lane::STEPS_PER_SUM)),
+                ("MOST_STEPS", Constant::U32(MOST_STEPS)),
+                ("MAX_STEPS_PER_PERIOD", Constant::U32(MAX_STEPS_PER_PERIOD)),
+                ("MAX_EVENTS_PER_PERIOD", Constant::U32(MAX_EVENTS_PER_PERIOD)),
                 ("EVENTS_AT_ONCE", Constant::U32(scene::EVENTS_AT_ONCE)),
                 ("NOTHING", Constant::U32(contact::NOTHING)),
                 ("REST", Constant::U32(contact::REST)),
@@ -256,10 +259,10 @@ pub fn words(scene: &Scene, segments: &Segments, pieces: usize) -> Vec<f64> {
     scene::words(&scene.model, scene.belt(0.0).velocity, start(scene), segments, pieces)
 }
 
-/// An instance as the kernel's twin has it, without segments.
+/// An instance as the kernel's twin has it, without segments, for steps that may turn so far.
 #[must_use]
-pub fn without_segments<S: Real>(law: LawKind, scene: &Scene) -> Words<S> {
-    Words::of(law_of(law), &scene.model, scene.belt(0.0).velocity, start(scene))
+pub fn without_segments<S: Real>(law: LawKind, scene: &Scene, turns: &Turns) -> Words<S> {
+    Words::of(law_of(law), &scene.model, scene.belt(0.0).velocity, start(scene), turns)
 }
 
 /// `x2`, `y1`, `ẋ2`, `ẏ1` at the start.
@@ -271,7 +274,7 @@ fn start(scene: &Scene) -> [f64; 4] {
 /// Integrates one instance with the twin of the kernel.
 #[must_use]
 pub fn respond<S: Real>(instance: &Instance, plan: &Plan, tolerance: f64) -> Outcome {
-    let scene = match Scene::planned(instance, plan, S::EPSILON.to_f64()) {
+    let scene = match Scene::planned(instance, plan) {
         Ok(scene) => scene,
         Err(status) => return Outcome { status, ..Outcome::default() },
     };

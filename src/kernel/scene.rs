@@ -36,7 +36,7 @@ pub struct Piece<S> {
     pub at_zero: S,
     /// `dμ/d|v|`.
     pub slope: S,
-    /// Decay rate of `exponential` and `rational`.
+    /// Decay rate of `exponential` and `rational`; the longest step of slip on a straight piece.
     pub rate: S,
     /// μ of this piece at the initial belt velocity less μ of the equilibrium; of `exponential`: its
     /// height there.
@@ -154,11 +154,12 @@ static TURNS: LazyLock<Turns> = LazyLock::new(|| Turns::new(ORDER, f64::from(TOL
 /// The words of an instance in f64, in the order of the kernel's input buffer.
 #[must_use]
 pub fn words(model: &Scaled, v0: f64, start: [f64; 4], segments: &Segments, pieces: usize) -> Vec<f64> {
+    let last = model.law.pieces.len() - 1;
     let mut words = Vec::with_capacity(SCENE_WORDS + SEGMENTS * SEGMENT_WORDS + pieces * PIECE_WORDS);
     words.extend(head(model, v0, start));
     words.extend(segments.as_flattened());
     // What there is room for beyond the last is the last.
-    words.extend((0..pieces).flat_map(|index| piece(model, v0, index.min(model.law.pieces.len() - 1))));
+    words.extend((0..pieces).flat_map(|index| piece(model, v0, index.min(last), &TURNS)));
     words
 }
 
@@ -200,11 +201,14 @@ fn head(model: &Scaled, v0: f64, start: [f64; 4]) -> [f64; SCENE_WORDS] {
     ]
 }
 
-/// Those of a piece of the law.
-fn piece(model: &Scaled, v0: f64, index: usize) -> [f64; PIECE_WORDS] {
+/// Those of a piece of the law, on which a step may turn so far.
+fn piece(model: &Scaled, v0: f64, index: usize, turns: &Turns) -> [f64; PIECE_WORDS] {
     let kink = model.law.kinks.get(index).copied().unwrap_or(NO_KINK);
     match model.law.pieces[index] {
-        LawPiece::Linear { at_zero, slope } => [at_zero, slope, 0.0, at_zero + slope * v0 - model.mu0, kink],
+        LawPiece::Linear { at_zero, slope } => {
+            let longest = turns.longest_step_on(model, index).min(NO_KINK);
+            [at_zero, slope, longest, at_zero + slope * v0 - model.mu0, kink]
+        }
         LawPiece::Exponential { floor, height, rate } => {
             [floor, height, rate, height * (-rate * v0).exp(), kink]
         }
@@ -235,10 +239,11 @@ impl<S: Real> Scene<S> {
         Scene { pieces, segments: std::array::from_fn(segment), ..Scene::read_head(law, words) }
     }
 
-    /// An instance without segments, by its law's own pieces.
+    /// An instance without segments, by its law's own pieces, whose steps may turn so far.
     #[must_use]
-    pub fn of(law: Law, model: &Scaled, v0: f64, start: [f64; 4]) -> Scene<S> {
-        let pieces = (0..model.law.pieces.len()).map(|index| Piece::read(&piece(model, v0, index))).collect();
+    pub fn of(law: Law, model: &Scaled, v0: f64, start: [f64; 4], turns: &Turns) -> Scene<S> {
+        let piece = |index: usize| Piece::read(&piece(model, v0, index, turns));
+        let pieces = (0..model.law.pieces.len()).map(piece).collect();
         Scene { pieces, ..Scene::read_head(law, &head(model, v0, start)) }
     }
 

@@ -1,6 +1,7 @@
 //! The longest step that a Taylor series of some order may take of a mode, whether the motion shows it or not.
 
-use crate::model::fastest::Fastest;
+use crate::model::equilibrium::Scaled;
+use crate::model::fastest::{Fastest, fastest_beyond};
 
 /// Beyond this many radians of an undamped mode a step of even order makes it grow: the first excess over 1 of the
 /// step's amplification lies at 2.02 for order 8, 1.86 for order 12 and 2.11 for order 16.
@@ -50,6 +51,14 @@ impl Turns {
             slow: turn(order, tolerance.min(kept.max(tolerance * part))),
             flight: turn(order, tolerance),
         }
+    }
+
+    /// The longest step of slip on a piece of the law, infinite where that of slip is enough.
+    #[must_use]
+    pub fn longest_step_on(&self, model: &Scaled, piece: usize) -> f64 {
+        let beyond = fastest_beyond(model, piece);
+        let [slip, reverse, ..] = model.fastest;
+        if beyond > 0.0 { self.contact / (slip.max(reverse) + beyond) } else { f64::INFINITY }
     }
 
     /// The longest step of slip, reversed slip, stick and flight.

@@ -5,7 +5,6 @@ use std::ops::Not;
 use pulp::Simd;
 
 use super::constants::{CONE, CONSTANTS, LONGEST, N0, SWING_WORDS, V0};
-use super::transitions::MOST_EVENTS;
 use super::vector::{Mask, Scalar, Vector};
 use crate::kernel::contact::{
     Belt, CONE_BACKWARD, CONE_FORWARD, GAP, LIFT_OFF, LOWER_KINK, NOTHING, REST, State, UPPER_KINK,
@@ -24,7 +23,7 @@ pub const THIRD: u32 = 3;
 pub const AT_ZERO: usize = 0;
 /// `dμ/d|v|`.
 pub const SLOPE: usize = 1;
-/// Decay rate.
+/// Decay rate; the longest step of slip on a straight piece.
 pub const RATE: usize = 2;
 /// μ at the belt velocity of the equilibrium less that of the equilibrium.
 pub const OFFSET: usize = 3;
@@ -35,6 +34,9 @@ pub const UPPER: usize = 5;
 
 /// [`Block::many`] of a law of one piece.
 pub const ONE_PIECE: f64 = 0.5;
+
+/// What a lane that rests has left, time, steps and events: more than it comes to.
+const ENDLESS: f64 = 1e30;
 
 /// Lanes in step order of their fields.
 #[derive(Clone, Copy, Debug)]
@@ -73,8 +75,12 @@ pub struct Block<S: Simd, T: Scalar<S>, const K: usize> {
     pub many: Vector<S, T, K>,
     /// Steps of the present stretch.
     pub steps: Vector<S, T, K>,
+    /// The most of them, see [`super::count`].
+    pub most_steps: Vector<S, T, K>,
     /// Events of the present stretch.
     pub counted: Vector<S, T, K>,
+    /// The most of them.
+    pub most_events: Vector<S, T, K>,
     /// Events without time between them.
     pub at_once: Vector<S, T, K>,
 }
@@ -102,7 +108,9 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Block<S, T, K> {
             other: [zero; 6],
             many: zero,
             steps: zero,
+            most_steps: zero,
             counted: zero,
+            most_events: zero,
             at_once: zero,
         };
         for lane in 0..Vector::<S, T, K>::LANES {
@@ -122,13 +130,15 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Block<S, T, K> {
         }
         self.belt.set(lane, T::ZERO);
         self.drive.set(lane, T::ZERO);
-        self.left.set(lane, T::from_f64(1e30));
+        self.left.set(lane, T::from_f64(ENDLESS));
         self.step.set(lane, T::ONE);
         self.pace.set(lane, T::ONE);
         self.contact.set(lane, T::from_f64(f64::from(STICK)));
         self.disarmed.set(lane, T::ZERO);
         self.steps.set(lane, T::ZERO);
+        self.most_steps.set(lane, T::from_f64(ENDLESS));
         self.counted.set(lane, T::ZERO);
+        self.most_events.set(lane, T::from_f64(ENDLESS));
         self.at_once.set(lane, T::ZERO);
     }
 
@@ -210,7 +220,7 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Block<S, T, K> {
     /// Whether a lane has had too many events.
     pub fn is_exhausted(&self, lane: usize) -> bool {
         self.at_once.get(lane) > T::from_f64(f64::from(EVENTS_AT_ONCE))
-            || self.counted.get(lane) > T::from_f64(MOST_EVENTS)
+            || self.counted.get(lane) > self.most_events.get(lane)
     }
 
     /// The longest step of the present contact states.

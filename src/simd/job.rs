@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::constants::{CONSTANTS, SWING, constants};
+use super::count::Count;
 use super::stretches::Stretches;
 use crate::kernel::contact::{Belt, GAP, State, UPPER_KINK};
 use crate::kernel::reductions::{End, Reductions};
@@ -94,6 +95,8 @@ pub struct Job<T> {
     pub guess: Option<f64>,
     /// Steps.
     pub steps: u64,
+    /// Steps and events of the present period.
+    pub count: Count,
     /// Times of the end of the settling, of the first half of the window and of the window.
     pub marks: [f64; 3],
     /// Whether no event has fallen into the window.
@@ -108,7 +111,7 @@ impl<T: Real> Job<T> {
     /// The start of an instance, whose steps may turn so far.
     #[must_use]
     pub fn new(instance: &Instance, scene: Scene, plan: &Plan, turns: &Turns) -> Job<T> {
-        let words: Words<T> = without_segments(instance.law.kind(), &scene);
+        let words: Words<T> = without_segments(instance.law.kind(), &scene, turns);
         let settling = Settling::new(instance, &scene, plan).map(Box::new);
         let asked = 0.5 * scene.scaled(plan.measure);
         let half = settling.as_ref().map_or(asked, |settling| settling.half(None));
@@ -133,6 +136,7 @@ impl<T: Real> Job<T> {
             stretches: Stretches::default(),
             guess: None,
             steps: 0,
+            count: Count::default(),
             marks: window(scene_settle, half),
             quiet: true,
             settling,

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use pulp::Simd;
+use pulp::{Arch, Simd};
 
 use super::block::{Block, event_of};
 use super::job::{Job, Part};
@@ -12,10 +12,26 @@ use super::spectrum::{COMPONENTS, Spectrum};
 use super::swing_cycle::NEVER;
 use super::vector::{Scalar, Vector};
 use crate::outcome::Status;
-use crate::response::Plan;
+use crate::response::{MOST_STEPS, Plan};
 
 /// Steps of all lanes after which a wish to stop is looked for: some milliseconds.
 const TURNS: u32 = 4096;
+
+/// On what terms an engine runs: no result that comes to its end depends on them.
+#[derive(Clone, Copy, Debug)]
+pub struct Terms {
+    /// Most steps of an instance.
+    pub most_steps: u32,
+    /// The instruction set of the lanes.
+    pub instructions: Arch,
+}
+
+impl Default for Terms {
+    /// As many steps as a run may have, the widest registers of this machine.
+    fn default() -> Terms {
+        Terms { most_steps: MOST_STEPS, instructions: Arch::new() }
+    }
+}
 
 /// What all instances of a pass share.
 #[derive(Clone, Copy, Debug)]
@@ -24,6 +40,8 @@ pub struct Settings<'a> {
     pub plan: &'a Plan,
     /// Bound on the truncation of a step.
     pub tolerance: f64,
+    /// Most steps of an instance, and the instruction set.
+    pub terms: Terms,
     /// Set to stop early; what is under way is then of no use.
     pub cancel: &'a AtomicBool,
 }
@@ -139,6 +157,12 @@ fn begin<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>, lane: 
     job.sums_growth = sees_growth && job.growing;
     let stretch = job.stretch(all.part, all.settings.plan.steps_per_period, all.swings);
     let Some([length, step]) = stretch else { return false };
+    // The second pass takes no step that the first has not.
+    let left = match all.part {
+        Part::Phase => f64::INFINITY,
+        _ => f64::from(all.settings.terms.most_steps) - job.steps as f64,
+    };
+    let [most_steps, most_events] = job.count.most([job.time, job.until], left);
     let belt = job.scene.belt(job.time);
     let b = &mut all.block;
     b.load_state(lane, &job.state, &job.words);
@@ -148,7 +172,9 @@ fn begin<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>, lane: 
     b.step.set(lane, T::from_f64(step));
     b.pace.set(lane, T::from_f64(step));
     b.steps.set(lane, T::ZERO);
+    b.most_steps.set(lane, T::from_f64(most_steps));
     b.counted.set(lane, T::ZERO);
+    b.most_events.set(lane, T::from_f64(most_events));
     b.reached.set(lane, T::ZERO);
     b.at_once.set(lane, T::ZERO);
     let sums = &mut all.sums;
@@ -239,7 +265,9 @@ fn flush<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>, lane: 
             *total += word.get(lane).to_f64();
         }
     }
-    job.steps += all.block.steps.get(lane).to_f64() as u64;
+    let steps = all.block.steps.get(lane).to_f64();
+    job.count.add(steps, all.block.counted.get(lane).to_f64());
+    job.steps += steps as u64;
 }
 
 /// Adds the Fourier sums of a stretch to the job; `crossed` says whether it has a crossing.

@@ -18,6 +18,7 @@
 pub mod angle;
 pub mod block;
 pub mod constants;
+pub mod count;
 pub mod crossings;
 pub mod events;
 pub mod expand;
@@ -42,7 +43,7 @@ pub mod vector;
 
 use std::sync::atomic::Ordering;
 
-use pulp::{Arch, Simd, WithSimd};
+use pulp::{Simd, WithSimd};
 
 use crate::kernel::scalar::Real;
 use crate::kernel::scene::Law;
@@ -82,12 +83,24 @@ macro_rules! lanes {
             fn run(jobs: &mut [Job<Self>], settings: Settings) {
                 match jobs.first().map(Job::law) {
                     None => {}
-                    Some(Law::Pieces) => {
-                        dispatch(Parts::<'_, $scalar, { ORDER + 1 }, { expand::PIECES }> { jobs, settings })
-                    }
-                    Some(_) => {
-                        dispatch(Parts::<'_, $scalar, { ORDER + 1 }, { expand::CURVED }> { jobs, settings })
-                    }
+                    Some(Law::Pieces) => settings.terms.instructions.dispatch(Parts::<
+                        '_,
+                        $scalar,
+                        { ORDER + 1 },
+                        { expand::PIECES },
+                    > {
+                        jobs,
+                        settings,
+                    }),
+                    Some(_) => settings.terms.instructions.dispatch(Parts::<
+                        '_,
+                        $scalar,
+                        { ORDER + 1 },
+                        { expand::CURVED },
+                    > {
+                        jobs,
+                        settings,
+                    }),
                 }
             }
         }
@@ -104,11 +117,6 @@ macro_rules! lanes {
 
 lanes!(f32);
 lanes!(f64);
-
-/// Runs an operation with the widest registers of this machine.
-fn dispatch<O: WithSimd<Output = ()>>(operation: O) {
-    Arch::new().dispatch(operation);
-}
 
 /// All parts of some jobs.
 struct Parts<'a, T: Real, const N: usize, const LAW: bool> {

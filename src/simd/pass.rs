@@ -5,12 +5,12 @@ use std::ops::Not;
 
 use pulp::{NullaryFnOnce, Simd};
 
-use super::block::Block;
+use super::block::{Block, RATE};
 use super::crossings::{Track, cross_upwards};
 use super::events::first_event;
 use super::expand::{CLOSED, Expansion, FLIGHT, PIECES, SINGLE, expand};
 use super::functions::{Functions, functions};
-use super::job::{Job, Part, STRETCH};
+use super::job::{Job, Part};
 use super::lanes::{Lanes, Settings, fail, visit};
 use super::observe::change;
 use super::polynomial::value_soon;
@@ -19,14 +19,10 @@ use super::spectrum::accelerations;
 use super::swing_step::swing_step;
 use super::transitions::transitions;
 use super::vector::{Scalar, Vector};
-use crate::kernel::lane::MAX_PARTS;
 
 /// Steps of the single mass that one of them may take while it sticks to a belt of one velocity: its motion is a straight
 /// line, which every formula here is exact for, but for the turn of the Fourier sums' carriers, good up to a whole one.
 const STICK_STEPS: f64 = 4.0;
-
-/// Most steps of a stretch; f32 counts them.
-pub const MOST_STEPS: f64 = STRETCH * MAX_PARTS as f64;
 
 /// Runs one part of all instances that have one; `single` says whether they are all single masses.
 #[inline(always)]
@@ -120,6 +116,9 @@ fn step<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool, 
     b.reached = b.reached.max(b.contact);
     let allowed = b.longest();
     let mut pace = b.pace.min(b.step).min(allowed);
+    if LAW == PIECES {
+        pace = b.slip().select(pace.min(b.piece[RATE]), pace);
+    }
     if MOTION == SINGLE {
         let waits = b.stick().and(b.drive.abs().not_positive());
         pace = waits.select((b.step * one.like(STICK_STEPS)).min(one.like(TAU)), pace);
@@ -128,8 +127,8 @@ fn step<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool, 
     let h = last.select(b.left, pace);
     let ill_posed = expand::<S, T, K, N, LAW, MOTION>(b, h, e);
     let reach = reach::<S, T, K, N, MOTION>(e, tolerance);
-    // Steps so short that a stretch does not end.
-    let failed = reach.failed.or(ill_posed).or(one.like(MOST_STEPS).less(b.steps));
+    // Steps so short that a period does not end, or so many that the run does not.
+    let failed = reach.failed.or(ill_posed).or(b.most_steps.less(b.steps));
     // Steps so short that a position stays where it is.
     let failed = failed.or((allowed * allowed).less(Vector::splat(b.simd, T::EPSILON)));
     if failed.any() {

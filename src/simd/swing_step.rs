@@ -8,7 +8,7 @@ use super::constants::R;
 use super::expand::{PIECES, SINGLE};
 use super::job::Part;
 use super::lanes::{Lanes, fail};
-use super::pass::{MOST_STEPS, carry_out};
+use super::pass::carry_out;
 use super::swing::Swing;
 use super::vector::Scalar;
 
@@ -20,7 +20,7 @@ pub fn swing_step<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K
     let velocity = b.stick().select(b.belt, b.v[0]);
     b.v[0].put(velocity);
     b.reached = b.reached.max(b.contact);
-    let failed = one.like(MOST_STEPS).less(b.steps);
+    let failed = b.most_steps.less(b.steps);
     if failed.any() {
         fail::<S, T, K>(all, failed.select(one, zero), zero);
         return;

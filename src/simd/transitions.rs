@@ -15,9 +15,6 @@ use crate::kernel::contact::HELD_FROM;
 use crate::kernel::scene::EVENTS_AT_ONCE;
 use crate::kernel::series::{FREE, REVERSE, SLIP, STICK};
 
-/// Most events of a stretch.
-pub const MOST_EVENTS: f64 = 80_000.0;
-
 /// A linear form of the state.
 #[inline(always)]
 fn form<S: Simd, T: Scalar<S>, const K: usize>(b: &Block<S, T, K>, at: usize) -> Vector<S, T, K> {
@@ -45,7 +42,7 @@ pub fn transitions<S: Simd, T: Scalar<S>, const K: usize, const LAW: bool, const
     b.at_once.put(at_once);
     b.counted += one.only(happened);
     let limit = event.like(f64::from(EVENTS_AT_ONCE)).less(b.at_once);
-    let limit = limit.or(event.like(MOST_EVENTS).less(b.counted));
+    let limit = limit.or(b.most_events.less(b.counted));
 
     let (slip, free) = (b.slip(), b.free());
     let first = happened.and(event.at_most(event.like(f64::from(FIRST))));

@@ -73,14 +73,13 @@ fn impacts(planted: impl Fn(&mut Instance)) -> (f64, [usize; 4]) {
             FrictionLaw::Constant { mu_s, mu_d: mu_s }
         };
         let instance = Instance { params, law, impact_friction: u.next() < 0.8 };
-        let Ok(scene) = Scene::planned(&instance, &plan(1.0, 0.1, 12), f64::EPSILON) else { continue };
+        let Ok(scene) = Scene::planned(&instance, &plan(1.0, 0.1, 12)) else { continue };
         let belt = 3.0 * u.next();
         let moment = Moment { vx: belt + 4.0 * (u.next() - 0.5), vy: -2.0 * u.next(), belt };
         expected.push((scene.model.impact(moment.vx, moment.vy, belt).ok(), moment));
         let mut changed = instance.clone();
         planted(&mut changed);
-        let scene =
-            Scene::planned(&changed, &plan(1.0, 0.1, 12), f64::EPSILON).expect("it could be prepared before");
+        let scene = Scene::planned(&changed, &plan(1.0, 0.1, 12)).expect("it could be prepared before");
         jobs.push((Job::<f64>::new(&changed, scene, &plan(1.0, 0.1, 12), &turns), moment));
     }
     let mut lanes = InLanes { jobs: &jobs, made: Vec::new() };

@@ -17,9 +17,23 @@ use squealmap::simd::Lanes;
 use squealmap::spec::{Duration, Instance};
 
 /// Instances of every law, some with a ramp, impacts with and without restitution, springs leaning both ways.
-fn of_every_law(count: usize) -> Vec<Instance> {
+pub(crate) fn of_every_law(count: usize) -> Vec<Instance> {
     let mut u = Uniform(13);
     (0..count).map(|k| any(&mut u, k)).collect()
+}
+
+/// Single masses with constant and bilinear friction, some without damping.
+pub(crate) fn single_masses(count: usize) -> Vec<Instance> {
+    let mut u = Uniform(29);
+    let one = |k: usize| {
+        let mut instance = any(&mut u, if k.is_multiple_of(2) { 3 } else { 0 });
+        instance.params.set(Param::Theta, 0.0);
+        if k.is_multiple_of(3) {
+            instance.params.set(Param::C1, 0.0);
+        }
+        instance
+    };
+    (0..count).map(one).collect()
 }
 
 fn any(u: &mut Uniform, k: usize) -> Instance {

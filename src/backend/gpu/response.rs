@@ -163,8 +163,7 @@ fn complete_in<R: Real>(
         }
         for index in range.clone().filter(|index| !live[index - range.start]) {
             let instance = spec.instance(first + index);
-            let status =
-                Scene::planned(&instance, &plan, R::EPSILON.to_f64()).err().unwrap_or(Status::Unwritten);
+            let status = Scene::planned(&instance, &plan).err().unwrap_or(Status::Unwritten);
             take(spec, &instance, &mut records[index], &Outcome { status, ..Outcome::default() });
         }
         Ok(batches.into_iter().map(|(form, ready)| batch(form, ready)).collect())
@@ -212,7 +211,7 @@ enum End<R> {
 /// The kernel and the words of an instance at its start; `None` when it cannot start.
 fn begin<R: Real>(spec: &Spec, [first, index]: [usize; 2], plan: &Plan) -> Option<(Form, Ready<R>)> {
     let instance = spec.instance(first + index);
-    let scene = Scene::planned(&instance, plan, R::EPSILON.to_f64()).ok()?;
+    let scene = Scene::planned(&instance, plan).ok()?;
     let windows = Windows::new(&instance, &scene, plan);
     let segments = windows.segments;
     let windows = plan.settle_limit.is_some().then(|| Box::new(windows));
@@ -287,7 +286,7 @@ fn end<R: Real>(
         return Ok(End::NotComputed(index));
     }
     let instance = spec.instance(first + index);
-    let Ok(scene) = Scene::planned(&instance, plan, R::EPSILON.to_f64()) else {
+    let Ok(scene) = Scene::planned(&instance, plan) else {
         return Err(Error::Unwritten { instance: index });
     };
     let mut windows = running.windows.unwrap_or_else(|| Box::new(Windows::new(&instance, &scene, plan)));

@@ -35,8 +35,15 @@ What holds for all of them:
   500 000 steps per period at which all engines stop) it is `step_too_large`.
 - **Size does not matter.** Forces and velocities, masses and springs scale out; by powers of two not a bit changes. Scaled
   numbers beyond 1e±18 are `non_finite`, before the run.
-- **Length does.** More than 2^31 steps, in f32 2^24, are `step_too_large`: in f32 an amplitude drifts by some 1e-9 of
-  itself per step, 12 % over 1e8 of them; in f64 by 4e-5.
+- **Length does.** A run has 2^24 steps at most, 1.4 million periods with 12 steps each, on every engine: in f32 an amplitude
+  drifts by some 1e-9 of itself per step, 2 % over so many. A plan of more is `step_too_large` before the run, and a run that
+  comes to more where it has to take shorter steps is so there, a minute or two after its beginning. Each of several
+  starts is a run of its own.
+- **So is a period bounded:** by 500 000 steps (`step_too_large`) and 20 000 events (`event_limit`). The reference counts them
+  period by period, the kernels of a GPU in periods of whole steps. The CPU engine counts at the ends of its stretches of up to
+  256 steps, and a stretch that is longer than a period may have the steps of all its periods in one of them, at most 2^23.
+- **So is a friction table.** On a piece that rises steeply, sliding is held by a rate of the slope times the normal force, which the
+  engine of the CPU and the kernels resolve; where 500 000 steps per period are not enough it is `step_too_large`.
 - **What is at rest is at rest.** Amplitudes below 1e-18 of `F_ext/k2` are 0 in f32: a motion that has died out that far
   is told as none.
 - **On the edge rounding decides.** A single mass without any damping and with `mu_d = 0` slips from one edge of the stick cone

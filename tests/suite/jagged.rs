@@ -1,0 +1,66 @@
+//! Friction tables whose rows jump up and down: between two of them friction may rise so steeply that the motion is held
+//! to within a millionth of its velocity.
+
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use crate::common::{instance, plan};
+use crate::engines::Engine;
+use crate::instances::Uniform;
+use squealmap::integrate::MAX_STEPS_PER_PERIOD;
+use squealmap::model::Param;
+use squealmap::model::fastest::fastest_beyond;
+use squealmap::model::friction::{FrictionLaw, MuTable};
+use squealmap::outcome::{Outcome, Status};
+use squealmap::response::{Plan, Scene};
+use squealmap::spec::{Duration, Instance, StartKind};
+
+/// A table of 200 rows up to `top` m/s, every μ between 0 and 1.
+fn table(u: &mut Uniform, top: f64) -> FrictionLaw {
+    let mut velocity: Vec<f64> = (0..199).map(|_| top * u.next()).collect();
+    velocity.push(0.0);
+    velocity.sort_by(f64::total_cmp);
+    let mu = velocity.iter().map(|_| u.next()).collect();
+    FrictionLaw::Table(Arc::new(MuTable { velocity, mu }))
+}
+
+fn jagged(count: usize) -> Vec<Instance> {
+    let mut u = Uniform(41);
+    let one = |k: usize| {
+        let top = [1.0, 3.0, 5.0][k % 3];
+        let law = table(&mut u, top);
+        let theta = [0.0, 0.01, 0.1, 0.3][k % 4];
+        let kick = [0.01, 0.1, 1.0][(k / 3) % 3];
+        let belt = top * (0.05 + 0.85 * u.next());
+        instance(law, &[(Param::Theta, theta), (Param::StartVelocity, kick), (Param::BeltVelocity, belt)])
+    };
+    (0..count).map(one).collect()
+}
+
+/// Whether a period has more steps than it may while the motion stays on the steepest piece, each of at most 1.64 rad.
+fn is_too_steep(instance: &Instance) -> bool {
+    let scene = Scene::new(instance, StartKind::Kick).expect("an equilibrium");
+    let pieces = 0..scene.model.law.pieces.len();
+    let fastest = pieces.map(|piece| fastest_beyond(&scene.model, piece)).fold(0.0, f64::max);
+    TAU * fastest > 1.64 * f64::from(MAX_STEPS_PER_PERIOD)
+}
+
+#[test]
+fn every_engine_comes_through_a_jagged_table() {
+    let plan =
+        Plan { settle: Duration::Periods(20.0), measure: Duration::Periods(10.0), ..plan(0.0, 1.0, 12) };
+    let instances = jagged(48);
+    for engine in [Engine::Reference, Engine::CpuF64] {
+        let made = engine.run_all(&instances, &plan);
+        let unexpected = |(k, one): &(usize, &Outcome)| match one.status {
+            Status::Ok => false,
+            Status::StepTooLarge => !is_too_steep(&instances[*k]),
+            _ => true,
+        };
+        let ended = made.iter().enumerate().filter(unexpected);
+        let ended: Vec<_> = ended.map(|(k, one)| (k, one.status, one.simulated_time)).collect();
+        assert!(ended.is_empty(), "{}: {ended:?}", engine.name());
+        let ok = made.iter().filter(|one| one.status == Status::Ok).count();
+        assert!(ok + 4 > made.len(), "{}: {ok}", engine.name());
+    }
+}
