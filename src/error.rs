@@ -447,7 +447,10 @@ pub enum Error {
     )]
     NoModes,
     /// The worker threads cannot be started.
-    #[error("cannot start {threads} worker threads: {why}; choose another number with --threads")]
+    #[error(
+        "cannot start {threads} worker thread(s): {why}; take fewer with --threads, or raise the limits on threads and \
+         memory (`ulimit -u`, `ulimit -v`)"
+    )]
     Threads {
         /// How many were asked for.
         threads: usize,
@@ -934,7 +937,6 @@ impl Error {
             | Error::PathOfJob { .. }
             | Error::Inaccurate { .. }
             | Error::Unmeasured { .. }
-            | Error::Threads { .. }
             | Error::NoAdapter { .. }
             | Error::NoSuchAdapter { .. }
             | Error::NoF64 { .. }

@@ -3,11 +3,9 @@
 use std::sync::atomic::AtomicBool;
 
 use clap::{Args, ValueEnum};
-use rayon::ThreadPool;
 use squealmap::backend::choice::{Backend, Options};
 use squealmap::kernel::source::Precision;
 use squealmap::store::directory::Note;
-use squealmap::{Error, Result};
 
 /// Arguments that choose an engine.
 #[derive(Debug, Args)]
@@ -71,15 +69,6 @@ impl From<PrecisionName> for Precision {
 }
 
 impl EngineArgs {
-    /// The worker threads.
-    pub(crate) fn pool(&self) -> Result<ThreadPool> {
-        let threads = self.threads.map_or(0, usize::from);
-        rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build()
-            .map_err(|why| Error::Threads { threads, why: why.to_string() })
-    }
-
     /// The engine that is asked for.
     pub(crate) fn options<'a>(&'a self, cancel: &'a AtomicBool, note: Note<'a>) -> Options<'a> {
         Options {

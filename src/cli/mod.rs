@@ -27,6 +27,7 @@ mod signal;
 mod status;
 mod submit;
 mod summary;
+mod threads;
 mod trace;
 mod tradeoff;
 
@@ -104,7 +105,41 @@ impl Files {
 impl Cli {
     /// Runs the command and gives the exit code.
     pub(crate) fn execute(self) -> Result<ExitCode> {
-        match self.command {
+        match self.command.threads() {
+            Workers::None => self.command.execute(),
+            Workers::Of(asked) => threads::pool(asked)?.install(|| self.command.execute()),
+        }
+    }
+}
+
+/// The worker threads that a command takes.
+enum Workers {
+    /// None: nothing in it computes or draws.
+    None,
+    /// As many as asked for, or one per core.
+    Of(Option<u16>),
+}
+
+impl Command {
+    fn threads(&self) -> Workers {
+        match self {
+            Command::Run(command) => Workers::Of(command.threads()),
+            Command::Refine(command) => Workers::Of(command.engine.threads),
+            Command::Submit(_) | Command::Status(_) | Command::Adapters | Command::Fit(_) => Workers::None,
+            Command::Merge(_)
+            | Command::Export(_)
+            | Command::Check(_)
+            | Command::Modes(_)
+            | Command::Plot(_)
+            | Command::Trace(_)
+            | Command::Identify(_)
+            | Command::Paper(_)
+            | Command::Tradeoff(_) => Workers::Of(None),
+        }
+    }
+
+    fn execute(self) -> Result<ExitCode> {
+        match self {
             Command::Run(command) => return command.execute(),
             Command::Merge(command) => return command.execute(),
             Command::Refine(command) => return command.execute(),

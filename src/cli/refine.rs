@@ -50,7 +50,7 @@ pub(crate) struct RefineCommand {
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
     #[command(flatten)]
-    engine: EngineArgs,
+    pub(crate) engine: EngineArgs,
     /// Instances of a part: for tests, which have no time for large ones
     #[arg(long, hide = true, default_value_t = TILE, value_parser = at_least_one)]
     tile: usize,
@@ -98,7 +98,6 @@ impl Refining<'_> {
         }
         planes_of(&spec.grid)?;
         let output = Output::prepare_claimed(self.files.directory(), &FILES)?;
-        let pool = self.engine.pool()?;
         let options = self.engine.options(cancel, &note);
         let mut solver = Solver::new(&spec, &options)?;
         let description = Description::new(&spec, solver.computations(), self.part);
@@ -131,7 +130,7 @@ impl Refining<'_> {
             progress.finish();
             Ok(labels)
         };
-        let refined = pool.install(|| refine(&spec.grid, settings, &mut compute));
+        let refined = refine(&spec.grid, settings, &mut compute);
         if refined.is_err() {
             parts.remove_if_empty();
         }

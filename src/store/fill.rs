@@ -1,7 +1,7 @@
 //! Computes the tiles that a directory lacks.
 
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::sync::mpsc::{Receiver, sync_channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -62,8 +62,17 @@ pub fn fill(
     let began = Instant::now();
     let (sender, receiver) = sync_channel(0);
     let mut filled = thread::scope(|scope| {
-        let writer = scope.spawn(|| write_all(store, receiver));
-        let computed = compute(store, solver, wanted, reuse, watch, &sender);
+        let writer = thread::Builder::new().spawn_scoped(scope, || write_all(store, receiver));
+        let Ok(writer) = writer else {
+            // Where no thread can be started each tile is written before the next is computed.
+            let mut room = Room::default();
+            return compute(store, solver, wanted, reuse, watch, &mut |(claim, number, records)| {
+                store.write(claim, number, records, &mut room)
+            });
+        };
+        // The writer has ended with an error, which is reported in place of this.
+        let ended = |_| Error::Cancelled { done: 0, total: 0 };
+        let computed = compute(store, solver, wanted, reuse, watch, &mut |tile| sender.send(tile).map_err(ended));
         drop(sender);
         // An error of the writer is the cause of one of the computation.
         writer.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))?;
@@ -87,7 +96,7 @@ fn compute(
     wanted: &[usize],
     reuse: Option<&Reuse>,
     watch: Watch,
-    sender: &SyncSender<Finished>,
+    finish: &mut dyn FnMut(Finished) -> Result<()>,
 ) -> Result<Filled> {
     let mut filled = Filled::default();
     let mut open = wanted.to_vec();
@@ -107,7 +116,7 @@ fn compute(
                 continue;
             }
             let bounds = store.description.tiling.bounds(number);
-            let (first, count) = (bounds.start, bounds.len());
+            let count = bounds.len();
             let (made, reused) = match reuse {
                 None => (solver.records(bounds, watch.progress), 0),
                 Some(reuse) => {
@@ -120,10 +129,7 @@ fn compute(
                 Ok(tile) if tile.stopped.is_none() => {
                     filled.computed += count - reused;
                     filled.reused += reused;
-                    if sender.send((claim, number, tile.records)).is_err() {
-                        // The writer has ended, with an error that is reported in place of this.
-                        return Err(Error::Cancelled { done: filled.computed, total: first });
-                    }
+                    finish((claim, number, tile.records))?;
                 }
                 Ok(part) => {
                     filled.stopped = part.stopped;

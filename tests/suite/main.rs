@@ -50,6 +50,7 @@ mod methods;
 mod modes_figure;
 mod netcdf_file;
 mod no_driver;
+mod no_threads;
 mod observables;
 mod page;
 mod paper;
