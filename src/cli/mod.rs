@@ -5,6 +5,7 @@ mod accuracy;
 mod adapters;
 mod check;
 mod engine;
+mod excerpt;
 mod export;
 mod fit;
 mod frontier;
@@ -31,8 +32,9 @@ mod threads;
 mod trace;
 mod tradeoff;
 
+use std::ffi::OsStr;
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
@@ -96,10 +98,19 @@ struct Files {
 
 impl Files {
     /// The output directory, by default `out/<file stem>`.
-    fn directory(&self) -> PathBuf {
-        let stem = self.sweep.file_stem().unwrap_or(self.sweep.as_os_str());
-        self.output.clone().unwrap_or_else(|| PathBuf::from("out").join(stem))
+    fn directory(&self) -> Result<PathBuf> {
+        self.output.clone().map_or_else(|| Ok(PathBuf::from("out").join(stem(&self.sweep)?)), Ok)
     }
+}
+
+/// The name of a file without its ending, for a directory of its own.
+fn stem(path: &Path) -> Result<&OsStr> {
+    let stem = path.file_stem().unwrap_or_default();
+    // `..toml` and `...toml` are files, but what remains of their names is no directory of their own.
+    if stem.is_empty() || stem == "." || stem == ".." {
+        return Err(squealmap::Error::NoStem { path: path.to_owned() });
+    }
+    Ok(stem)
 }
 
 impl Cli {

@@ -97,7 +97,7 @@ impl Refining<'_> {
             spec.analysis.starts = Starts::One;
         }
         planes_of(&spec.grid)?;
-        let output = Output::prepare_claimed(self.files.directory(), &FILES)?;
+        let output = Output::prepare_claimed(self.files.directory()?, &FILES)?;
         let options = self.engine.options(cancel, &note);
         let mut solver = Solver::new(&spec, &options)?;
         let description = Description::new(&spec, solver.computations(), self.part);

@@ -93,7 +93,7 @@ impl Run {
             return refining.execute(spec, settings, &cancel);
         }
         let ranked = self.accuracy.ranked(&spec, &self.engine)?;
-        let output = Output::prepare_claimed(self.files.directory(), &FILES)?;
+        let output = Output::prepare_claimed(self.files.directory()?, &FILES)?;
         let options = self.engine.options(&cancel, &note);
         let choice = ranked.map(|ranked| first_that_keeps(ranked, &spec, &options)).transpose()?;
         let options = match &choice {

@@ -19,14 +19,17 @@ pub(crate) fn pool(asked: Option<u16>) -> Result<ThreadPool> {
         Ok(pool) => return Ok(pool),
         Err(why) => why,
     };
-    let fewer = std::iter::successors(Some(cores / 2), |threads| Some(threads / 2)).take_while(|&n| n > 0);
-    let pool = fewer.filter_map(|threads| started(threads).ok()).next();
+    let mut fewer =
+        std::iter::successors(Some(cores / 2), |threads| Some(threads / 2)).take_while(|&n| n > 0);
+    let pool = fewer.find_map(|threads| started(threads).ok());
     let (pool, given) = match pool {
         Some(pool) => {
             let given = format!("{} started", pool.current_num_threads());
             (pool, given)
         }
-        None => (own().map_err(|why| Error::Threads { threads: 1, why })?, "the program's own is used".to_owned()),
+        None => {
+            (own().map_err(|why| Error::Threads { threads: 1, why })?, "the program's own is used".to_owned())
+        }
     };
     note(&format!(
         "{cores} worker thread(s) cannot be started: {refused}; {given}; raise the limits on threads and memory \

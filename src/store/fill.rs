@@ -72,7 +72,8 @@ pub fn fill(
         };
         // The writer has ended with an error, which is reported in place of this.
         let ended = |_| Error::Cancelled { done: 0, total: 0 };
-        let computed = compute(store, solver, wanted, reuse, watch, &mut |tile| sender.send(tile).map_err(ended));
+        let computed =
+            compute(store, solver, wanted, reuse, watch, &mut |tile| sender.send(tile).map_err(ended));
         drop(sender);
         // An error of the writer is the cause of one of the computation.
         writer.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))?;

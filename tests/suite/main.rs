@@ -33,6 +33,7 @@ mod identify_faults;
 mod identify_files;
 mod identify_growth;
 mod impacts;
+mod input_files;
 mod instances;
 #[cfg(unix)]
 mod interrupt;
