@@ -5,13 +5,14 @@ use std::path::PathBuf;
 use crate::fit::FitFault;
 use crate::identify::Fault;
 pub use crate::place::Place;
+use crate::quote::{clipped, one_line, quoted};
 use crate::store::tile::Fault as TileFault;
 
-/// A text of the input within a sentence: a line feed and the like by their escapes.
-fn one_line(text: &str) -> String {
-    let shown = |c: char| if c.is_control() { c.escape_default().to_string() } else { c.to_string() };
-    text.chars().map(shown).collect()
-}
+/// The most characters of what a parser says, which may quote the input.
+const SAID: usize = 300;
+
+/// The most characters of what is wrong with a file of signals; the names in its header are many.
+const FAULT: usize = 1200;
 
 /// Why a run failed. Instances that fail are data (see [`crate::outcome::Status`]), not errors.
 #[derive(Debug, thiserror::Error)]
@@ -38,7 +39,7 @@ pub enum Error {
         why: String,
     },
     /// A text is not what its format wants (TOML, or rows of fields).
-    #[error("{at}: {why}")]
+    #[error("{at}: {}", clipped(why, SAID))]
     Syntax {
         /// Where.
         at: Place,
@@ -46,7 +47,7 @@ pub enum Error {
         why: String,
     },
     /// A key, column or name that does not exist here.
-    #[error("{at}: unknown {what} `{}` {within}; {advice}", one_line(name))]
+    #[error("{at}: unknown {what} `{}` {within}; {advice}", quoted(name))]
     Unknown {
         /// Where.
         at: Place,
@@ -227,8 +228,9 @@ pub enum Error {
     },
     /// A temperature outside the rows of a material that is not clamped.
     #[error(
-        "{at}: `temperature` is {value} but material `{material}` covers {low} to {high} °C; \
-         stay inside or set outside = \"clamp\" in [friction]"
+        "{at}: `temperature` is {value} but material `{}` covers {low} to {high} °C; \
+         stay inside or set outside = \"clamp\" in [friction]",
+        quoted(material)
     )]
     OutsideMaterial {
         /// Where the temperature is given.
@@ -252,7 +254,7 @@ pub enum Error {
         duration: f64,
     },
     /// A part of an `--at` argument that is not `name=value`, or names something twice.
-    #[error("{at}: `{part}` {problem}; write name=value pairs such as mu_s=0.4,belt_velocity=3")]
+    #[error("{at}: `{}` {problem}; write name=value pairs such as mu_s=0.4,belt_velocity=3", quoted(part))]
     AtSyntax {
         /// The argument.
         at: Place,
@@ -286,7 +288,7 @@ pub enum Error {
         path: PathBuf,
     },
     /// A description of tiles that is none.
-    #[error("cannot read `{}`: {why}", path.display())]
+    #[error("cannot read `{}`: {}", path.display(), clipped(why, SAID))]
     BadDescription {
         /// The file.
         path: PathBuf,
@@ -466,8 +468,17 @@ pub enum Error {
         "no instance of the sweep has modes: none has a sliding equilibrium on a moving belt; give at least one a `belt_velocity` above 0 (and, where theta < 0, less friction)"
     )]
     NoModes,
+    /// A sweep file whose name names no directory.
+    #[error("the name of `{}` gives the results no directory of their own; name one with -o", one_line(&path.display().to_string()))]
+    NoStem {
+        /// The sweep file.
+        path: PathBuf,
+    },
     /// The worker threads cannot be started.
-    #[error("cannot start {threads} worker threads: {why}; choose another number with --threads")]
+    #[error(
+        "cannot start {threads} worker thread(s): {why}; take fewer with --threads, or raise the limits on threads and \
+         memory (`ulimit -u`, `ulimit -v`)"
+    )]
     Threads {
         /// How many were asked for.
         threads: usize,
@@ -638,7 +649,7 @@ pub enum Error {
         total: usize,
     },
     /// Measured signals that are not fit for analysis.
-    #[error("{name}: {fault}")]
+    #[error("{name}: {}", clipped(&fault.to_string(), FAULT))]
     Signals {
         /// The file as the user wrote it.
         name: String,
@@ -646,7 +657,7 @@ pub enum Error {
         fault: Box<Fault>,
     },
     /// Measured friction that does not determine a material.
-    #[error("{name}: {fault}")]
+    #[error("{name}: {}", clipped(&fault.to_string(), FAULT))]
     Fit {
         /// The file as the user wrote it.
         name: String,
@@ -670,8 +681,9 @@ pub enum Error {
     },
     /// A file of a directory that is not as its command writes it.
     #[error(
-        "cannot read `{}`: {why}; `plot` takes an output directory as its command wrote it: run that again",
-        path.display()
+        "cannot read `{}`: {}; `plot` takes an output directory as its command wrote it: run that again",
+        path.display(),
+        clipped(why, SAID)
     )]
     Archive {
         /// The file.
@@ -954,9 +966,9 @@ impl Error {
             | Error::ManyGpus { .. }
             | Error::ReuseInJobs
             | Error::PathOfJob { .. }
+            | Error::NoStem { .. }
             | Error::Inaccurate { .. }
             | Error::Unmeasured { .. }
-            | Error::Threads { .. }
             | Error::NoAdapter { .. }
             | Error::NoSuchAdapter { .. }
             | Error::NoF64 { .. }

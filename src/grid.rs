@@ -1,5 +1,8 @@
 //! Axes, index ↔ coordinates, order. The first axis varies slowest.
 
+use std::ops::Index;
+use std::sync::Arc;
+
 use crate::model::{PARAMS, Param};
 
 /// One coordinate of an instance.
@@ -8,7 +11,9 @@ pub enum Value {
     /// A numeric parameter's value.
     Number(f64),
     /// A name: of a friction law, or a material file as written in the sweep file.
-    Text(String),
+    ///
+    /// One pointer wide, and one text for all rows that name it: rows are many.
+    Text(Arc<String>),
 }
 
 impl std::fmt::Display for Value {
@@ -98,9 +103,96 @@ pub enum Grid {
         /// The column keys.
         keys: Vec<AxisKey>,
         /// One row per instance, as long as `keys`.
-        rows: Vec<Vec<Value>>,
+        rows: Rows,
     },
 }
+
+/// Rows of equally many values, in one piece of memory that copies share.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Rows {
+    width: usize,
+    count: usize,
+    values: Arc<Vec<Value>>,
+}
+
+impl Rows {
+    /// `count` rows of `width` values, one row after the other.
+    ///
+    /// # Panics
+    /// When there are not `count * width` values.
+    #[must_use]
+    pub fn new(width: usize, count: usize, values: Vec<Value>) -> Rows {
+        assert_eq!(Some(values.len()), width.checked_mul(count), "rows are whole");
+        Rows { width, count, values: Arc::new(values) }
+    }
+
+    /// The number of rows.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.count
+    }
+
+    /// Whether there is none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.count == 0
+    }
+
+    /// The rows in order.
+    pub fn iter(&self) -> impl Iterator<Item = &[Value]> {
+        (0..self.count).map(|row| &self[row])
+    }
+}
+
+impl Index<usize> for Rows {
+    type Output = [Value];
+
+    fn index(&self, row: usize) -> &[Value] {
+        assert!(row < self.count, "row {row} of {}", self.count);
+        &self.values[row * self.width..(row + 1) * self.width]
+    }
+}
+
+impl From<Vec<Vec<Value>>> for Rows {
+    fn from(rows: Vec<Vec<Value>>) -> Rows {
+        rows.into_iter().collect()
+    }
+}
+
+impl FromIterator<Vec<Value>> for Rows {
+    /// # Panics
+    /// When a row is longer or shorter than the first.
+    fn from_iter<I: IntoIterator<Item = Vec<Value>>>(rows: I) -> Rows {
+        let (mut width, mut count, mut values) = (None, 0, Vec::new());
+        for row in rows {
+            assert_eq!(*width.get_or_insert(row.len()), row.len(), "rows are equally long");
+            count += 1;
+            values.extend(row);
+        }
+        Rows::new(width.unwrap_or(0), count, values)
+    }
+}
+
+/// Names of which each is kept once.
+#[derive(Debug, Default)]
+pub(crate) struct Names(Vec<Arc<String>>);
+
+impl Names {
+    /// The name as a value.
+    pub(crate) fn value(&mut self, name: &str) -> Value {
+        if let Some(known) = self.0.iter().find(|known| known.as_str() == name) {
+            return Value::Text(Arc::clone(known));
+        }
+        let name = Arc::new(name.to_owned());
+        if self.0.len() < SHARED_NAMES {
+            self.0.push(Arc::clone(&name));
+        }
+        Value::Text(name)
+    }
+}
+
+/// Names beyond these are not shared: looking them up would cost more than they.
+const SHARED_NAMES: usize = 256;
 
 impl Grid {
     /// The number of instances; `None` when the product overflows `usize`.

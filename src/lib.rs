@@ -5,7 +5,7 @@
 //!
 //! | stage | module |
 //! |---|---|
-//! | sweep file (TOML) → validated sweep | [`spec`], [`error`], [`place`] |
+//! | sweep file (TOML) → validated sweep | [`spec`], [`files`], [`error`], [`place`], [`quote`] |
 //! | axes, index ↔ coordinates | [`grid`] |
 //! | parameters, friction, equations, contact | [`model`] |
 //! | eigenvalues and attribution | [`linear`] |
@@ -60,6 +60,7 @@ pub mod disk;
 pub mod error;
 pub mod estimate;
 pub mod export;
+pub mod files;
 pub mod fit;
 pub mod grid;
 pub mod hysteresis;
@@ -75,6 +76,7 @@ pub mod observe;
 pub mod outcome;
 pub mod paper;
 pub mod place;
+pub mod quote;
 pub mod refine;
 pub mod response;
 pub mod settle;

@@ -4,6 +4,8 @@ use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
 
+use crate::quote::one_line;
+
 /// A text that errors can point into: the sweep file, or a file that it names.
 #[derive(Clone, Debug)]
 pub(crate) struct Source {
@@ -105,9 +107,10 @@ impl Place {
 
 impl fmt::Display for Place {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let source = one_line(&self.0.source);
         match self.0.position {
-            Some((line, column)) => write!(f, "{}:{line}:{column}", self.0.source),
-            None => f.write_str(&self.0.source),
+            Some((line, column)) => write!(f, "{source}:{line}:{column}"),
+            None => f.write_str(&source),
         }
     }
 }

@@ -31,7 +31,16 @@ use crate::refine::Settings;
 /// Most instances of one sweep: what a disk of 44 TB (linear) or 225 TB (with response) holds.
 pub const MAX_INSTANCES: usize = 1_000_000_000_000;
 
-/// Most values of an axis and most tuples, which stand in memory.
+/// The most bytes of a sweep file, whose values take thirty times that while they are read.
+pub const MAX_SWEEP_BYTES: u64 = 4 * crate::files::MIB;
+
+/// Most rows of a file of points, which stand in memory: those of the longest `map.csv` that is written by itself.
+pub const MAX_ROWS: usize = 20_000_000;
+
+/// Most rows of a friction table or a material, all of which an instance may look through.
+pub const MAX_TABLE_ROWS: usize = 65_536;
+
+/// Most values of an axis, which stand in memory.
 pub const MAX_VALUES: usize = 100_000_000;
 
 /// Steps per period `2π/ω0` when a sweep does not say: enough for a Taylor method of high order.

@@ -112,7 +112,9 @@ pub fn scenes(spec: &Spec) -> Vec<String> {
         },
     };
     let kind_of = |value: &Value| {
-        LawKind::ALL.into_iter().find(|kind| matches!(value, Value::Text(name) if name == kind.name()))
+        LawKind::ALL
+            .into_iter()
+            .find(|kind| matches!(value, Value::Text(name) if name.as_str() == kind.name()))
     };
     let mut forms: Vec<&str> = swept.into_iter().filter_map(kind_of).map(form).collect();
     if forms.is_empty() {

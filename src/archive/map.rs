@@ -143,7 +143,7 @@ fn axis((name, axis): (&String, &Json)) -> Why<Axis> {
     let values = axis["values"].as_array().ok_or_else(|| format!("axis `{name}` has no values"))?;
     let value = |value: &Json| match value.as_f64() {
         Some(number) => Value::Number(number),
-        None => Value::Text(text(value)),
+        None => Value::Text(text(value).into()),
     };
     Ok(Axis { key, values: values.iter().map(value).collect(), log: axis["scale"] == "log" })
 }
@@ -154,7 +154,7 @@ fn tuples(points: &Json, table: &Table) -> Why<Grid> {
     let keys = names.iter().map(|name| key(name)).collect::<std::result::Result<Vec<_>, _>>()?;
     let value = |key: &AxisKey, cell: &str| match (key, cell.parse::<f64>()) {
         (AxisKey::Param(_), Ok(number)) => Value::Number(number),
-        _ => Value::Text(cell.to_owned()),
+        _ => Value::Text(cell.to_owned().into()),
     };
     let row = |row: &csv::StringRecord| {
         keys.iter().zip(&names).map(|(key, name)| value(key, table.cell(row, name))).collect()

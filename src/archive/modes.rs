@@ -28,7 +28,7 @@ pub(super) fn read(folder: Folder<'_>, files: [&str; 2]) -> Result<(Spec, Modes)
 /// Title, axes and critical values.
 fn sweep(document: &Json) -> Why<(Spec, Modes)> {
     let no_axes = || "has no `grid` with an axis of numbers".to_owned();
-    let grid = grid_json::from_json(&document["grid"]).ok_or_else(no_axes)?;
+    let grid = grid_json::from_json(&document["grid"], None).ok_or_else(no_axes)?;
     let Grid::Axes(axes) = &grid else { return Err(no_axes()) };
     let mut modes = along(axes).map_err(|_| no_axes())?;
     let critical = document["critical"].as_array().map_or(&[][..], Vec::as_slice);

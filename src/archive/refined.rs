@@ -55,7 +55,7 @@ pub(super) fn read(folder: Folder<'_>) -> Result<Lines> {
 
 /// Title, analysis, grid, and how it was refined.
 fn sweep(document: &Json) -> Why<(Spec, Settings)> {
-    let grid = grid_json::from_json(&document["grid"]).filter(|grid| matches!(grid, Grid::Axes(_)));
+    let grid = grid_json::from_json(&document["grid"], None).filter(|grid| matches!(grid, Grid::Axes(_)));
     let grid = grid.ok_or_else(|| "has no `grid` of axes".to_owned())?;
     let asked = |name: &str| document["analysis"][name] == true;
     let analysis = Analysis {

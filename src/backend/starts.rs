@@ -161,5 +161,5 @@ fn boxed(own: &Spec, range: Range<usize>, samples: u32) -> Spec {
         }
     }
     let analysis = Analysis { linear: false, checked: false, ..own.analysis };
-    Spec { grid: Grid::Tuples { keys, rows }, analysis, ..own.clone() }
+    Spec { grid: Grid::Tuples { keys, rows: rows.into() }, analysis, ..own.clone() }
 }

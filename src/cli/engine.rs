@@ -3,11 +3,9 @@
 use std::sync::atomic::AtomicBool;
 
 use clap::{Args, ValueEnum};
-use rayon::ThreadPool;
 use squealmap::backend::choice::{Backend, Options};
 use squealmap::kernel::source::Precision;
 use squealmap::store::directory::Note;
-use squealmap::{Error, Result};
 
 /// Arguments that choose an engine.
 #[derive(Debug, Args)]
@@ -71,11 +69,6 @@ impl From<PrecisionName> for Precision {
 }
 
 impl EngineArgs {
-    /// The worker threads.
-    pub(crate) fn pool(&self) -> Result<ThreadPool> {
-        pool(self.threads)
-    }
-
     /// The engine that is asked for.
     pub(crate) fn options<'a>(&'a self, cancel: &'a AtomicBool, note: Note<'a>) -> Options<'a> {
         Options {
@@ -89,13 +82,4 @@ impl EngineArgs {
             note: Some(note),
         }
     }
-}
-
-/// So many worker threads, or one per core.
-pub(crate) fn pool(threads: Option<u16>) -> Result<ThreadPool> {
-    let threads = threads.map_or(0, usize::from);
-    rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
-        .build()
-        .map_err(|why| Error::Threads { threads, why: why.to_string() })
 }

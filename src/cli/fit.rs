@@ -1,6 +1,5 @@
 //! `squealmap fit`: measured friction as a material of sweeps.
 
-use std::fs::File;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
@@ -12,7 +11,7 @@ use squealmap::{Error, Result};
 
 use crate::cli::identify::{finite, positive};
 use crate::cli::output::{Output, list};
-use crate::cli::print;
+use crate::cli::{print, stem};
 
 /// What is written.
 const FILE: &str = "material.csv";
@@ -67,17 +66,19 @@ pub(crate) struct FitCommand {
 impl FitCommand {
     pub(crate) fn execute(self) -> Result<()> {
         let name = self.points.display().to_string();
-        let stem = self.points.file_stem().unwrap_or(self.points.as_os_str()).to_owned();
-        let directory = self.output.unwrap_or_else(|| PathBuf::from("out").join(stem));
+        let directory = match self.output {
+            Some(directory) => directory,
+            None => PathBuf::from("out").join(stem(&self.points)?),
+        };
         let mut settings = Settings::default();
         settings.columns[Channel::TangentialForce as usize] = self.tangential_force;
         settings.columns[Channel::NormalForce as usize] = self.normal_force;
         settings.columns[Channel::Velocity as usize] = self.velocity;
         settings.columns[Channel::Temperature as usize] = self.temperature;
         let friction = self.friction.map_or(FrictionColumn::Forces, FrictionColumn::Named);
-        let input = File::open(&self.points).map_err(|why| Error::Signals {
+        let input = squealmap::files::open(&self.points).map_err(|why| Error::Signals {
             name: name.clone(),
-            fault: Box::new(squealmap::identify::Fault::Unreadable { why: why.to_string() }),
+            fault: Box::new(squealmap::identify::Fault::Unreadable { why }),
         })?;
         let points = read_points(Box::new(input), &name, &settings, &friction, self.at_temperature)?;
         let rows = if self.temperatures.is_empty() { rows(&points) } else { self.temperatures };

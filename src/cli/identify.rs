@@ -1,7 +1,6 @@
 //! `squealmap identify`: what measured signals say.
 
 use std::fmt::Write;
-use std::fs::File;
 use std::io::Read;
 use std::path::PathBuf;
 
@@ -10,12 +9,14 @@ use squealmap::Result;
 use squealmap::export::identify::{self as export, Shown, WindowsCsv};
 use squealmap::export::look::Look;
 use squealmap::export::spectrogram::spectrogram_nc;
+use squealmap::files;
 use squealmap::identify::{
     DAMPING_RATIO, INCLINATION, Identification, LARGEST_FRICTION, OVERLAP, Settings, WINDOW, identify,
 };
+use squealmap::quote::one_line;
 
 use crate::cli::output::{Output, list};
-use crate::cli::{png_of, print};
+use crate::cli::{png_of, print, stem};
 
 /// What is written.
 const FILES: [&str; 6] =
@@ -82,13 +83,17 @@ pub(crate) struct Identify {
 impl Identify {
     pub(crate) fn execute(self) -> Result<()> {
         let name = self.signals.display().to_string();
-        let stem = self.signals.file_stem().unwrap_or(self.signals.as_os_str()).to_owned();
-        let heading = stem.to_string_lossy().into_owned();
-        let directory = self.output.clone().unwrap_or_else(|| PathBuf::from("out").join(stem));
+        let heading = one_line(&self.signals.file_stem().unwrap_or_default().to_string_lossy());
+        let directory = match &self.output {
+            Some(directory) => directory.clone(),
+            None => PathBuf::from("out").join(stem(&self.signals)?),
+        };
         let path = self.signals.clone();
         let settings = self.settings();
         let output = Output::prepare(directory, &FILES)?;
-        let open = || File::open(&path).map(|file| Box::new(file) as Box<dyn Read>);
+        // Read up to three times, which a pipe cannot be.
+        let open =
+            || files::open(&path).map(|file| Box::new(file) as Box<dyn Read>).map_err(std::io::Error::other);
         let mut windows = output.draft(FILES[5])?;
         let mut table = WindowsCsv::new(windows.file())?;
         let found = identify(open, &name, &settings, &mut |window, reading| table.add(window, reading))?;

@@ -5,6 +5,7 @@ mod accuracy;
 mod adapters;
 mod check;
 mod engine;
+mod excerpt;
 mod export;
 mod fit;
 mod frontier;
@@ -28,12 +29,14 @@ mod status;
 mod submit;
 mod summary;
 mod summed;
+mod threads;
 mod trace;
 mod tradeoff;
 mod verify;
 
+use std::ffi::OsStr;
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
@@ -99,16 +102,60 @@ struct Files {
 
 impl Files {
     /// The output directory, by default `out/<file stem>`.
-    fn directory(&self) -> PathBuf {
-        let stem = self.sweep.file_stem().unwrap_or(self.sweep.as_os_str());
-        self.output.clone().unwrap_or_else(|| PathBuf::from("out").join(stem))
+    fn directory(&self) -> Result<PathBuf> {
+        self.output.clone().map_or_else(|| Ok(PathBuf::from("out").join(stem(&self.sweep)?)), Ok)
     }
+}
+
+/// The name of a file without its ending, for a directory of its own.
+fn stem(path: &Path) -> Result<&OsStr> {
+    let stem = path.file_stem().unwrap_or_default();
+    // `..toml` and `...toml` are files, but what remains of their names is no directory of their own.
+    if stem.is_empty() || stem == "." || stem == ".." {
+        return Err(squealmap::Error::NoStem { path: path.to_owned() });
+    }
+    Ok(stem)
 }
 
 impl Cli {
     /// Runs the command and gives the exit code.
     fn execute(self) -> Result<ExitCode> {
-        match self.command {
+        match self.command.threads() {
+            Workers::None => self.command.execute(),
+            Workers::Of(asked) => threads::pool(asked)?.install(|| self.command.execute()),
+        }
+    }
+}
+
+/// The worker threads that a command takes.
+enum Workers {
+    /// None: nothing in it computes or draws.
+    None,
+    /// As many as asked for, or one per core.
+    Of(Option<u16>),
+}
+
+impl Command {
+    fn threads(&self) -> Workers {
+        match self {
+            Command::Run(command) => Workers::Of(command.threads()),
+            Command::Refine(command) => Workers::Of(command.engine.threads),
+            Command::Verify(command) => Workers::Of(command.threads),
+            Command::Submit(_) | Command::Status(_) | Command::Adapters | Command::Fit(_) => Workers::None,
+            Command::Merge(_)
+            | Command::Export(_)
+            | Command::Check(_)
+            | Command::Modes(_)
+            | Command::Plot(_)
+            | Command::Trace(_)
+            | Command::Identify(_)
+            | Command::Paper(_)
+            | Command::Tradeoff(_) => Workers::Of(None),
+        }
+    }
+
+    fn execute(self) -> Result<ExitCode> {
+        match self {
             Command::Run(command) => return command.execute(),
             Command::Merge(command) => return command.execute(),
             Command::Refine(command) => return command.execute(),

@@ -22,7 +22,7 @@ pub(crate) struct Modes {
 impl Modes {
     pub(crate) fn execute(self) -> Result<()> {
         let spec = Spec::read(&self.files.sweep)?;
-        let output = Output::prepare(self.files.directory(), &FILES)?;
+        let output = Output::prepare(self.files.directory()?, &FILES)?;
         let found = modes::modes_of(&spec)?;
         let svg = modes::draw(&spec, &found, &Look::default());
         let files = [

@@ -50,7 +50,7 @@ pub(crate) struct RefineCommand {
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
     #[command(flatten)]
-    engine: EngineArgs,
+    pub(crate) engine: EngineArgs,
     /// Instances of a part: for tests, which have no time for large ones
     #[arg(long, hide = true, value_parser = at_least_one)]
     tile: Option<usize>,
@@ -98,8 +98,7 @@ impl Refining<'_> {
         }
         planes_of(&spec.grid)?;
         let part_size = self.part.unwrap_or_else(|| tile_of(&spec));
-        let output = Output::prepare(self.files.directory(), &FILES)?;
-        let pool = self.engine.pool()?;
+        let output = Output::prepare(self.files.directory()?, &FILES)?;
         let options = self.engine.options(cancel, &note);
         let mut solver = Solver::new(&spec, &options)?;
         let description = Description::new(&spec, solver.computations(), part_size);
@@ -133,7 +132,7 @@ impl Refining<'_> {
             progress.finish();
             Ok(labels)
         };
-        let refined = pool.install(|| refine(&spec.grid, settings, &mut compute));
+        let refined = refine(&spec.grid, settings, &mut compute);
         if refined.is_err() {
             parts.remove_if_empty();
         }

@@ -4,9 +4,11 @@ use std::error::Error as _;
 use std::fmt::{self, Write as _};
 use std::io::{IsTerminal, Write as _};
 
-use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, SourceCode};
+use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, SourceCode};
 use squealmap::Error;
 use squealmap::error::Place;
+
+use crate::cli::excerpt::Excerpt;
 
 /// Prints the error, its causes and the place in the input that it is about.
 pub(crate) fn report(error: &Error) {
@@ -27,8 +29,7 @@ pub(crate) fn report(error: &Error) {
 fn snippet(place: &Place) -> String {
     let terminal = std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
     let theme = if terminal { GraphicalTheme::unicode() } else { GraphicalTheme::unicode_nocolor() };
-    let diagnostic =
-        Underlined { code: NamedSource::new(place.source(), place.text().to_owned()), span: place.span() };
+    let diagnostic = Underlined(Excerpt::new(place));
     let mut text = String::new();
     let rendered = GraphicalReportHandler::new_themed(theme)
         .with_context_lines(1)
@@ -38,12 +39,9 @@ fn snippet(place: &Place) -> String {
     rendered.ok().and_then(|text| text.split_once('\n').map(|(_, rest)| rest.to_owned())).unwrap_or_default()
 }
 
-/// A source text with one range underlined.
+/// A part of a source text with one range underlined.
 #[derive(Debug)]
-struct Underlined {
-    code: NamedSource<String>,
-    span: std::ops::Range<usize>,
-}
+struct Underlined(Excerpt);
 
 impl fmt::Display for Underlined {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -55,11 +53,11 @@ impl std::error::Error for Underlined {}
 
 impl Diagnostic for Underlined {
     fn source_code(&self) -> Option<&dyn SourceCode> {
-        Some(&self.code)
+        Some(&self.0)
     }
 
     fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
-        let span = LabeledSpan::new(None, self.span.start, self.span.len());
+        let span = LabeledSpan::new(None, self.0.span.start, self.0.span.len());
         Some(Box::new(std::iter::once(span)))
     }
 }

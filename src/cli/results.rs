@@ -169,15 +169,10 @@ fn claim_or_current(store: &Store, run: &Run, cancel: &AtomicBool) -> Result<Cla
     }
 }
 
-/// The manifest that is there; null where there is none.
-fn manifest_of(store: &Store) -> serde_json::Value {
-    let bytes = disk::read(&store.directory.join(MANIFEST)).unwrap_or_default();
-    serde_json::from_slice(&bytes).unwrap_or_default()
-}
-
 /// Why the results are not those of all tiles of this sweep as they are now, a sentence each; none where they are.
 pub(crate) fn faults(store: &Store) -> Vec<String> {
-    let manifest = manifest_of(store);
+    let bytes = disk::read(&store.directory.join(MANIFEST)).unwrap_or_default();
+    let manifest: serde_json::Value = serde_json::from_slice(&bytes).unwrap_or_default();
     if manifest.is_null() {
         return vec![format!("`{MANIFEST}` is not there or no document")];
     }
@@ -188,7 +183,7 @@ pub(crate) fn faults(store: &Store) -> Vec<String> {
         }
     };
     let description = &store.description;
-    expect(is_intact(&manifest), "its content does not have its checksum");
+    expect(is_intact(&bytes), "its content does not have its checksum");
     expect(manifest["sweep_id"] == description.id.to_string(), "it is of another sweep, version or engine");
     expect(manifest["title"] == description.title, "its title is another one");
     expect(manifest["complete"] == true, "it says that the results are not complete");

@@ -93,11 +93,9 @@ impl Run {
             return refining.execute(spec, settings, &cancel);
         }
         let ranked = self.accuracy.ranked(&spec, &self.engine)?;
-        let output = Output::prepare(self.files.directory(), &FILES)?;
-        let pool = self.engine.pool()?;
+        let output = Output::prepare(self.files.directory()?, &FILES)?;
         let options = self.engine.options(&cancel, &note);
-        let choice =
-            ranked.map(|ranked| pool.install(|| first_that_keeps(ranked, &spec, &options))).transpose()?;
+        let choice = ranked.map(|ranked| first_that_keeps(ranked, &spec, &options)).transpose()?;
         let options = match &choice {
             None => options,
             Some(choice) => {
@@ -113,7 +111,7 @@ impl Run {
         let reuse =
             reuse.map(|directory| Reuse::new(directory, &description, output.directory())).transpose()?;
         let store = Store::begin(output.directory(), description, &note)?;
-        let ended = pool.install(|| run(&store, &mut solver, &cancel, self.shard, reuse.as_ref()));
+        let ended = run(&store, &mut solver, &cancel, self.shard, reuse.as_ref());
         if ended.is_err() {
             store.remove_if_empty();
         }

@@ -1,7 +1,7 @@
 //! Ctrl-C, and the signal by which schedulers end a process.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
 use squealmap::{Error, Result};
 
@@ -9,11 +9,24 @@ use squealmap::{Error, Result};
 /// made on the disk; a second Ctrl-C changes nothing, so that no file is left half written.
 pub(crate) fn stop_at_signal() -> Result<Arc<AtomicBool>> {
     let cancel = Arc::new(AtomicBool::new(false));
-    let flag = Arc::clone(&cancel);
-    ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed))
-        .map_err(|why| Error::Signal { why: why.to_string() })?;
-    #[cfg(unix)]
-    signal_hook::flag::register(signal_hook::consts::SIGTERM, Arc::clone(&cancel))
-        .map_err(|why| Error::Signal { why: why.to_string() })?;
+    listen(&cancel).map_err(|why| Error::Signal { why })?;
     Ok(cancel)
+}
+
+/// The flag is set by the handler itself: no thread, which a limit on threads or memory could refuse.
+#[cfg(unix)]
+fn listen(cancel: &Arc<AtomicBool>) -> std::result::Result<(), String> {
+    use signal_hook::consts::{SIGINT, SIGTERM};
+
+    for signal in [SIGINT, SIGTERM] {
+        signal_hook::flag::register(signal, Arc::clone(cancel)).map_err(|why| why.to_string())?;
+    }
+    Ok(())
+}
+
+#[cfg(not(unix))]
+fn listen(cancel: &Arc<AtomicBool>) -> std::result::Result<(), String> {
+    let flag = Arc::clone(cancel);
+    ctrlc::set_handler(move || flag.store(true, std::sync::atomic::Ordering::Relaxed))
+        .map_err(|why| why.to_string())
 }

@@ -70,7 +70,7 @@ impl Submit {
         if spec.refine.is_some() {
             return Err(Error::RefineBeside { option: "`submit`" });
         }
-        let tail = self.tail();
+        let tail = self.tail()?;
         let tiling = Tiling { instances: spec.grid.len(), tile: tail.run.tile(&spec) };
         let here = Path::new(".");
         let most = match call("scontrol", &["show".to_owned(), "config".to_owned()], here, "") {
@@ -87,7 +87,7 @@ impl Submit {
             print(&jobs.by_hand());
             return Ok(());
         }
-        let logs = Output::prepare(self.files.directory().join(LOGS), &[])?;
+        let logs = Output::prepare(self.files.directory()?.join(LOGS), &[])?;
         let (array, merge) = submit(&jobs, logs.directory())?;
         let kept = logs.keep();
         print(&format!(
@@ -96,19 +96,19 @@ impl Submit {
             tiling.count(),
             tiling.instances,
             kept.display(),
-            self.files.directory().display()
+            self.files.directory()?.display()
         ));
         Ok(())
     }
 
     /// The options after `--`, read by the command they are for. One that it does not know ends the program here, not
     /// on a node.
-    fn tail(&self) -> Tail {
+    fn tail(&self) -> Result<Tail> {
         let own: [OsString; 5] =
-            ["-o".into(), self.files.directory().into(), "--shard".into(), "0/1".into(), "--".into()];
+            ["-o".into(), self.files.directory()?.into(), "--shard".into(), "0/1".into(), "--".into()];
         let (options, sweep) = own.split_at(4);
         let words = options.iter().cloned().chain(self.run.iter().map(OsString::from));
-        Tail::parse_from(words.chain(sweep.iter().cloned()).chain([self.files.sweep.clone().into()]))
+        Ok(Tail::parse_from(words.chain(sweep.iter().cloned()).chain([self.files.sweep.clone().into()])))
     }
 
     /// The number of tasks.
@@ -147,7 +147,7 @@ impl Submit {
             text.ok_or_else(|| Error::PathOfJob { path: path.to_owned() })
         };
         let program = std::env::current_exe().map_err(|why| Error::OwnProgram { why: why.to_string() })?;
-        let (program, directory) = (absolute(&program)?, absolute(&self.files.directory())?);
+        let (program, directory) = (absolute(&program)?, absolute(&self.files.directory()?)?);
         let sweep = absolute(&self.files.sweep)?;
         let stem = self.files.sweep.file_stem().unwrap_or_default().to_string_lossy();
         let mut words = vec![program.clone(), "run".to_owned(), sweep, "-o".to_owned(), directory.clone()];

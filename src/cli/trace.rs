@@ -50,12 +50,12 @@ impl TraceCommand {
     pub(crate) fn execute(self) -> Result<()> {
         let spec = Spec::read(&self.files.sweep)?;
         if let Some(range) = &self.sweep_up_down {
-            return hysteresis::execute(&spec, self.files.directory(), &self.at, range, self.points);
+            return hysteresis::execute(&spec, self.files.directory()?, &self.at, range, self.points);
         }
         let instance = spec.instance_at(&self.at)?;
         let names: &[&str] =
             if self.rate.is_some() { &[FILES[0], FILES[1], FILES[2], FILES[3], SIGNALS] } else { &FILES };
-        let output = Output::prepare(self.files.directory(), names)?;
+        let output = Output::prepare(self.files.directory()?, names)?;
         let trace = trace(&spec, &instance, self.samples_per_period);
         let heading = Heading::new(&spec.title, &self.at);
         let svg = export::trace_svg(&trace, &heading, &Look::default())?;

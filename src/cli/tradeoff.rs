@@ -12,7 +12,7 @@ use squealmap::spec::Spec;
 use squealmap::{Error, Result};
 
 use crate::cli::output::{Output, list};
-use crate::cli::{frontier, note, png_of, print};
+use crate::cli::{frontier, note, png_of, print, stem as own_name};
 
 /// What is written.
 const FILES: [&str; 4] = ["tradeoff.csv", "tradeoff.json", "tradeoff.png", "tradeoff.svg"];
@@ -64,8 +64,7 @@ impl Tradeoff {
     pub(crate) fn execute(self) -> Result<()> {
         // A mistake in the last sweep is told before the first is measured.
         let specs = self.sweeps.iter().map(|path| Spec::read(path)).collect::<Result<Vec<_>>>()?;
-        let names: Vec<_> =
-            self.sweeps.iter().map(|path| path.file_stem().unwrap_or(path.as_os_str())).collect();
+        let names: Vec<_> = self.sweeps.iter().map(|path| own_name(path)).collect::<Result<_>>()?;
         if let Some(twice) = (1..names.len()).find(|at| names[..*at].contains(&names[*at])) {
             return Err(Error::SameName { name: names[twice].to_string_lossy().into_owned() });
         }
@@ -80,7 +79,7 @@ impl Tradeoff {
         };
         let mut all = Vec::new();
         for (path, spec) in self.sweeps.iter().zip(&specs) {
-            let stem = path.file_stem().unwrap_or(path.as_os_str());
+            let stem = own_name(path)?;
             let directory = match &self.output {
                 None => Path::new("out").join(stem),
                 Some(output) if self.sweeps.len() > 1 => output.join(stem),

@@ -14,7 +14,6 @@ use squealmap::store::parts::Parts;
 use squealmap::store::status::Status;
 use squealmap::{Error, Result};
 
-use crate::cli::engine::pool;
 use crate::cli::note;
 use crate::cli::print;
 use crate::cli::results::faults;
@@ -31,7 +30,7 @@ pub(crate) struct Verify {
     repair: bool,
     /// Worker threads of a repair, 1 to 1024 [default: one per core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    threads: Option<u16>,
+    pub(crate) threads: Option<u16>,
 }
 
 impl Verify {
@@ -110,12 +109,11 @@ impl Verify {
             note: Some(&note),
             ..Options::default()
         };
-        let pool = pool(self.threads)?;
         let mut solver = Solver::new(&spec, &options)?;
         let description = Description::new(&spec, solver.computations(), store.description.tiling.tile);
         if description.id != store.description.id {
             return Err(other());
         }
-        pool.install(|| run(store, &mut solver, &cancel, None, None))
+        run(store, &mut solver, &cancel, None, None)
     }
 }

@@ -180,8 +180,8 @@ fn along(dimension: usize, axis: &Axis) -> Coordinate {
     let mut number = |value: &Value| match value {
         Value::Number(number) => *number,
         Value::Text(text) => {
-            let at = names.iter().position(|name| name == text).unwrap_or_else(|| {
-                names.push(text.clone());
+            let at = names.iter().position(|name| name == text.as_str()).unwrap_or_else(|| {
+                names.push(text.to_string());
                 names.len() - 1
             });
             at as f64

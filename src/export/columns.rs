@@ -37,7 +37,7 @@ impl From<&Value> for Cell {
     fn from(value: &Value) -> Cell {
         match value {
             Value::Number(x) => Cell::from(*x),
-            Value::Text(text) => Cell::Text(text.clone()),
+            Value::Text(text) => Cell::Text(text.to_string()),
         }
     }
 }

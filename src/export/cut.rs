@@ -122,7 +122,7 @@ fn find(axes: &[Axis], text: &str) -> std::result::Result<(usize, usize), String
     let place = place.ok_or_else(|| format!("the map has no axis `{name}`; it has {}", names()))?;
     let is = |value: &Value| match (value, asked.parse::<f64>()) {
         (Value::Number(x), Ok(y)) => (x - y).abs() <= SAME * x.abs().max(y.abs()),
-        (Value::Text(text), _) => text == asked,
+        (Value::Text(text), _) => text.as_str() == asked,
         _ => false,
     };
     let index = axes[place].values.iter().position(is);
@@ -148,7 +148,7 @@ fn nearest(axis: &Axis, asked: &str) -> String {
     // Without the rounding of a step times an index.
     let shown = |value: &Value| match value {
         Value::Number(x) => format!("{x:.11e}").parse().unwrap_or(*x).to_string(),
-        Value::Text(text) => text.clone(),
+        Value::Text(text) => text.to_string(),
     };
     values.iter().map(shown).collect::<Vec<_>>().join(" or ")
 }

@@ -35,7 +35,7 @@ impl Heading {
         let settings = at.split(',').filter_map(|one| {
             let (name, value) = one.split_once('=')?;
             let value = value.trim();
-            let value = value.parse().map_or_else(|_| Value::Text(value.to_owned()), Value::Number);
+            let value = value.parse().map_or_else(|_| Value::Text(value.to_owned().into()), Value::Number);
             Some((AxisKey::from_name(name.trim())?, value))
         });
         Heading { title: title.to_owned(), settings: settings.collect() }
@@ -46,7 +46,7 @@ impl Heading {
     pub fn to_json(&self) -> Json {
         let setting = |(key, value): &(AxisKey, Value)| match value {
             Value::Number(number) => json!([key.name(), number]),
-            Value::Text(text) => json!([key.name(), text]),
+            Value::Text(text) => json!([key.name(), text.as_str()]),
         };
         json!({ "title": self.title, "at": self.settings.iter().map(setting).collect::<Vec<_>>() })
     }
@@ -56,7 +56,7 @@ impl Heading {
     pub fn from_json(document: &Json) -> Option<Heading> {
         let setting = |pair: &Json| {
             let value = match &pair[1] {
-                Json::String(text) => Value::Text(text.clone()),
+                Json::String(text) => Value::Text(text.clone().into()),
                 number => Value::Number(number.as_f64()?),
             };
             Some((AxisKey::from_name(pair[0].as_str()?)?, value))

@@ -142,7 +142,7 @@ pub fn manifest(sheet: Sheet, resolved: &Value, tally: &Tally, run: &Run) -> Res
             .map(|(name, sum)| ((*name).to_owned(), json!({ "bytes": sum.bytes, "blake3": sum.blake3 })));
         manifest["files"] = Value::Object(sums.collect());
     }
-    pretty(&sealed(manifest))
+    pretty(&manifest).map(sealed)
 }
 
 /// What a table does not say of its figure, with the program that wrote both: UTF-8 JSON, indented.

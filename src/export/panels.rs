@@ -7,7 +7,7 @@ use std::ops::Range;
 use super::picture_axis::PictureAxis;
 use super::scale::value_label;
 use super::text::Text;
-use crate::grid::{Axis, AxisKey, Grid, Value};
+use crate::grid::{Axis, AxisKey, Grid, Rows, Value};
 use crate::label::Label;
 use crate::map::Record;
 
@@ -276,7 +276,7 @@ fn fullest<'a>(panels: &[(Vec<Text>, Vec<usize>)], place: impl Fn(usize) -> [Opt
     panels.iter().map(different).max().unwrap_or(0)
 }
 
-fn from_tuples(keys: &[AxisKey], rows: &[Vec<Value>]) -> Panels {
+fn from_tuples(keys: &[AxisKey], rows: &Rows) -> Panels {
     let column = |i: usize| rows.iter().map(|row| &row[i]).collect::<Vec<&Value>>();
     let varying = |i: &usize| rows.iter().any(|row| row[*i] != rows[0][*i]);
     let mut numbers = (0..keys.len()).filter(|i| numeric(keys[*i]) && varying(i));

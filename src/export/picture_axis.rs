@@ -244,7 +244,7 @@ fn as_number(value: &Value) -> Option<f64> {
 fn as_name(value: &Value) -> String {
     match value {
         Value::Number(x) => x.to_string(),
-        Value::Text(text) => text.clone(),
+        Value::Text(text) => text.to_string(),
     }
 }
 

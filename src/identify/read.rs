@@ -1,15 +1,20 @@
 //! CSV → samples, one row at a time: the memory needed does not depend on the length of the file.
 
+use std::cell::Cell;
 use std::io::{BufRead, BufReader, Read};
+use std::rc::Rc;
 
 use csv::ByteRecord;
 
 use super::channel::{Channel, PerChannel};
 use super::fault::Fault;
 use super::settings::Settings;
+use crate::quote::{clipped, quoted};
 
 /// Bytes read at a time.
 const BUFFER: usize = 1 << 18;
+/// Bytes that a row may take: without a line feed, or within double quotes that are not closed, a row is the rest of the file.
+const LONGEST_ROW: usize = 1 << 20;
 /// The separators that are told apart by the header.
 const SEPARATORS: [u8; 3] = [b',', b';', b'\t'];
 /// The column of time when none is named.
@@ -26,6 +31,8 @@ pub(super) struct Row {
 /// A file of signals that is being read.
 pub(super) struct Table {
     reader: csv::Reader<Box<dyn BufRead>>,
+    /// Bytes read since the last whole row.
+    since: Rc<Cell<usize>>,
     record: ByteRecord,
     header: Vec<String>,
     time: Option<usize>,
@@ -57,6 +64,8 @@ impl Table {
         needed: &[Channel],
         timed: bool,
     ) -> Result<Table, Fault> {
+        let since = Rc::new(Cell::new(0));
+        let input = Bounded { input, since: Rc::clone(&since) };
         let mut input: Box<dyn BufRead> = Box::new(BufReader::with_capacity(BUFFER, input));
         let start = input.fill_buf().map_err(|why| Fault::Unreadable { why: why.to_string() })?;
         let separator = separator(start);
@@ -77,7 +86,7 @@ impl Table {
             if found.is_none() && (named.is_some() || needed.contains(&channel)) {
                 return Err(Fault::NoColumn {
                     words: channel.words(),
-                    name: named.unwrap_or(channel.default_column()).to_owned(),
+                    name: quoted(named.unwrap_or(channel.default_column())),
                     header: listed(&header),
                     flag: channel.flag(),
                 });
@@ -104,7 +113,8 @@ impl Table {
         }
         let by_commas = separator == b',';
         let (record, marks) = (ByteRecord::new(), Marks::default());
-        Ok(Table { reader, record, header, time, believed, by_commas, marks, columns })
+        since.set(0);
+        Ok(Table { reader, since, record, header, time, believed, by_commas, marks, columns })
     }
 
     /// The next row; `None` at the end of the file.
@@ -116,6 +126,7 @@ impl Table {
         if !more {
             return Ok(None);
         }
+        self.since.set(0);
         let line = self.record.position().map_or(0, csv::Position::line);
         if self.record.len() != self.header.len() {
             let (fields, columns) = (self.record.len(), self.header.len());
@@ -146,15 +157,15 @@ impl Table {
         // Commas that separate fields are none of a field.
         let comma = text.contains(',');
         let value = if comma { text.replacen(',', ".", 1).parse() } else { text.parse::<f64>() };
-        let name = || self.header[column].clone();
+        let name = || quoted(&self.header[column]);
         let Some(value) = value.ok().filter(|value| value.is_finite()) else {
-            let text = String::from_utf8_lossy(field).into_owned();
+            let text = quoted(&String::from_utf8_lossy(field));
             return Err(Fault::NotANumber { line, column: name(), text });
         };
         self.marks.comma |= comma;
         self.marks.point |= !comma && text.contains('.');
         if self.marks.comma && self.marks.point {
-            return Err(Fault::TwoMarks { line, column: name(), text: text.to_owned() });
+            return Err(Fault::TwoMarks { line, column: name(), text: quoted(text) });
         }
         Ok(value)
     }
@@ -166,12 +177,12 @@ impl Table {
 
     /// The column of a channel, empty when the file has none.
     pub(super) fn name(&self, channel: Channel) -> String {
-        self.columns[channel as usize].map(|column| self.header[column].clone()).unwrap_or_default()
+        self.columns[channel as usize].map(|column| quoted(&self.header[column])).unwrap_or_default()
     }
 
     /// The column of time.
     pub(super) fn time_name(&self) -> String {
-        self.time.map(|column| self.header[column].clone()).unwrap_or_default()
+        self.time.map(|column| quoted(&self.header[column])).unwrap_or_default()
     }
 }
 
@@ -191,11 +202,35 @@ fn find(header: &[String], name: &str) -> Option<usize> {
 /// Refuses a column whose name stands more than once in the header.
 fn once(header: &[String], name: &str, words: &'static str, flag: &'static str) -> Result<(), Fault> {
     let count = header.iter().filter(|column| *column == name).count();
-    if count > 1 { Err(Fault::Ambiguous { words, name: name.to_owned(), count, flag }) } else { Ok(()) }
+    if count > 1 { Err(Fault::Ambiguous { words, name: quoted(name), count, flag }) } else { Ok(()) }
 }
 
+/// The most characters that are said of a header.
+const LISTED: usize = 400;
+
 fn listed(header: &[String]) -> String {
-    header.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+    let names: Vec<String> = header.iter().take(LISTED).map(|name| format!("`{}`", quoted(name))).collect();
+    clipped(&names.join(", "), LISTED)
+}
+
+/// A reader that gives up where a row has no end.
+struct Bounded {
+    input: Box<dyn Read>,
+    since: Rc<Cell<usize>>,
+}
+
+impl Read for Bounded {
+    fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
+        // What was read ahead of a row counts as well.
+        if self.since.get() > LONGEST_ROW + BUFFER {
+            return Err(std::io::Error::other(format!(
+                "a row is longer than {LONGEST_ROW} bytes: is a double quote not closed, or is this no table of signals?"
+            )));
+        }
+        let read = self.input.read(buffer)?;
+        self.since.set(self.since.get() + read);
+        Ok(read)
+    }
 }
 
 /// Refuses a column that is named for two quantities.
@@ -205,7 +240,7 @@ fn shared(header: &[String], columns: &PerChannel<Option<usize>>) -> Result<(), 
         let first = Channel::ALL.into_iter().zip(columns).find(|(_, other)| **other == Some(*column));
         if let Some((first, _)) = first.filter(|(first, _)| *first != second) {
             return Err(Fault::SharedColumn {
-                name: header[*column].clone(),
+                name: quoted(&header[*column]),
                 first: first.words(),
                 second: second.words(),
                 flag: second.flag(),

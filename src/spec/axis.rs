@@ -84,11 +84,11 @@ fn explicit(
             AxisKey::Law => {
                 let law = string(source, node, &label, "the name of a friction law, as a string")?;
                 law_value(source, node.span(), law, &format!("as {label}"))?;
-                Value::Text(law.to_owned())
+                Value::Text(law.to_owned().into())
             }
-            AxisKey::Material => {
-                Value::Text(string(source, node, &label, "the path of a file, as a string")?.to_owned())
-            }
+            AxisKey::Material => Value::Text(
+                string(source, node, &label, "the path of a file, as a string")?.to_owned().into(),
+            ),
         });
         spans.push(node.span());
     }

@@ -8,6 +8,7 @@ use crate::model::friction::LawKind;
 use crate::model::material::Material;
 use crate::model::{Param, Section};
 use crate::place::Source;
+use crate::quote::quoted;
 use crate::spec::files::Files;
 use crate::spec::law::{self, LAW_PARAMS};
 use crate::spec::names::list;
@@ -236,7 +237,7 @@ impl Check<'_> {
                 let (law, material) = (position(AxisKey::Law), position(AxisKey::Material));
                 for (index, row) in rows.iter().enumerate() {
                     let material = match material.map(|column| &row[column]) {
-                        Some(Value::Text(name)) => self.files.materials.iter().find(|one| one.name == *name),
+                        Some(Value::Text(name)) => self.files.materials.iter().find(|one| one.name == **name),
                         _ => self.files.material.as_ref(),
                     };
                     let kind = match law.map(|column| &row[column]) {
@@ -269,7 +270,7 @@ impl Check<'_> {
                     at: self.sweep.place(self.sections.header(Section::Friction)),
                     key: param.info().name,
                     needed_by,
-                    remedy: format!("give material `{}` such a column", material.name),
+                    remedy: format!("give material `{}` such a column", quoted(&material.name)),
                 },
                 None => self.missing(param, needed_by),
             });

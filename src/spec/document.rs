@@ -8,6 +8,7 @@ use toml::de::{DeArray, DeTable, DeValue};
 use crate::error::{Error, Result};
 use crate::model;
 use crate::place::Source;
+use crate::quote::quoted;
 use crate::spec::names::unknown;
 
 /// A value of the document with its byte range.
@@ -46,13 +47,11 @@ pub(super) fn entries<'a, 'i>(table: &'a DeTable<'i>) -> Vec<Entry<'a, 'i>> {
 
 /// The value as written, shortened when it is long.
 fn written(source: &Source, span: Range<usize>) -> String {
-    const LONGEST: usize = 40;
     let text = source.written(span);
-    if text.chars().count() <= LONGEST && !text.contains('\n') {
-        return text.to_owned();
+    match text.split_once('\n') {
+        Some((line, _)) => format!("{}…", quoted(line).trim_end_matches('…')),
+        None => quoted(text),
     }
-    let head: String = text.chars().take_while(|&c| c != '\n').take(LONGEST).collect();
-    format!("{head}…")
 }
 
 /// The error of a value of another type than `expected`.

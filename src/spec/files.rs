@@ -10,7 +10,7 @@ use crate::model::material::{Material, Outside};
 use crate::model::{Param, Range};
 use crate::place::Source;
 use crate::spec::law::LAW_PARAMS;
-use crate::spec::rows::Rows;
+use crate::spec::rows::{Role, Rows};
 use crate::spec::sections::Sections;
 use crate::spec::varied::Varied;
 
@@ -60,7 +60,7 @@ fn read_material(
     base_dir: &Path,
     outside: Outside,
 ) -> Result<Arc<Material>> {
-    let file = Rows::read(source, span, "material", name, base_dir)?;
+    let file = Rows::read(source, span, Role::Material, name, base_dir)?;
     let known: Vec<Param> = std::iter::once(Param::Temperature).chain(LAW_PARAMS).collect();
     let names: Vec<&str> = known.iter().map(|param| param.info().name).collect();
     let params = file.columns(&names, |text| Param::from_name(text).filter(|param| known.contains(param)))?;
@@ -87,20 +87,16 @@ fn read_table(
     base_dir: &Path,
 ) -> Result<Arc<MuTable>> {
     const NAMES: [&str; 2] = ["velocity", "mu"];
-    let file = Rows::read(source, span, "table", name, base_dir)?;
+    let file = Rows::read(source, span, Role::Table, name, base_dir)?;
     let columns = file.columns(&NAMES, |text| NAMES.iter().position(|name| *name == text))?;
     let mut values = [None, None];
     for (index, &which) in columns.iter().enumerate() {
-        let numbers: Vec<f64> = file
-            .body
-            .iter()
-            .map(|row| file.number(&row[index], NAMES[which], Range::NonNegative))
-            .collect::<Result<_>>()?;
+        let numbers = file.numbers(index, NAMES[which], Range::NonNegative)?;
         if which == 0 {
             file.rising("velocity", index, &numbers)?;
             if numbers[0] > 0.0 {
                 return Err(Error::OutOfRange {
-                    at: file.source.place(file.body[0][index].span.clone()),
+                    at: file.source.place(file.span(0, index)),
                     key: "the first `velocity`".to_owned(),
                     value: numbers[0].to_string(),
                     limit: "0, where the table gives the limit of stick".to_owned(),
@@ -109,12 +105,12 @@ fn read_table(
         }
         values[which] = Some(numbers);
     }
-    if file.body.len() < 2 {
-        let at = file.source.place(file.body[0][0].span.clone());
+    if file.len() < 2 {
+        let at = file.source.place(file.span(0, 0));
         return Err(Error::OutOfRange {
             at,
             key: "the number of rows of a friction table".to_owned(),
-            value: file.body.len().to_string(),
+            value: file.len().to_string(),
             limit: "at least 2; for one value choose law = \"constant\"".to_owned(),
         });
     }
@@ -126,7 +122,7 @@ fn read_table(
 
 fn column(file: &Rows, index: usize, param: Param) -> Result<Vec<f64>> {
     let info = param.info();
-    file.body.iter().map(|row| file.number(&row[index], info.name, info.range)).collect()
+    file.numbers(index, info.name, info.range)
 }
 
 fn no_column(file: &Rows, key: &'static str, what: &str) -> Error {

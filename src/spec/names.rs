@@ -8,8 +8,15 @@ use crate::place::Source;
 /// From this similarity (0..1) on, a name is suggested; below, all names are listed.
 const SUGGEST: f64 = 0.7;
 
+/// Names of more bytes are not compared.
+const LONGEST_NAME: usize = 100;
+
 /// The candidate most similar to `name`, if any is similar; the shorter one when two are equally so.
 fn nearest<'a>(name: &str, candidates: &[&'a str]) -> Option<&'a str> {
+    // What is far longer than every name is like none of them, and comparing it would take its length squared.
+    if name.len() > LONGEST_NAME {
+        return None;
+    }
     let name = name.to_lowercase();
     // A common beginning counts (Jaro-Winkler), and so does the number of edits (Levenshtein).
     let prefix = |candidate: &str| strsim::jaro_winkler(&name, candidate);

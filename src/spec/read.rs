@@ -5,6 +5,7 @@ use std::path::Path;
 use toml::de::DeTable;
 
 use crate::error::{Error, Result};
+use crate::files;
 use crate::grid::AxisKey;
 use crate::model::Param;
 use crate::place::Source;
@@ -14,7 +15,8 @@ use crate::spec::files::Files;
 use crate::spec::sections::{Sections, TOP_LEVEL, section_of, unknown_key};
 use crate::spec::varied::Varied;
 use crate::spec::{
-    AUTO_MEASURE, Analysis, Duration, FIRST_SETTLE, MEASURE, Pass, SETTLE, SETTLE_LIMIT, Spec, Starts,
+    AUTO_MEASURE, Analysis, Duration, FIRST_SETTLE, MAX_SWEEP_BYTES, MEASURE, Pass, SETTLE, SETTLE_LIMIT,
+    Spec, Starts,
 };
 
 impl Spec {
@@ -23,8 +25,8 @@ impl Spec {
     /// # Errors
     /// When the file or one that it names cannot be read, or anything in them is not valid.
     pub fn read(path: &Path) -> Result<Spec> {
-        let text = std::fs::read_to_string(path)
-            .map_err(|why| Error::ReadSweep { path: path.to_owned(), why: why.to_string() })?;
+        let text = files::text(path, MAX_SWEEP_BYTES)
+            .map_err(|why| Error::ReadSweep { path: path.to_owned(), why })?;
         Spec::parse(&text, &path.display().to_string(), path.parent().unwrap_or(Path::new("")))
     }
 

@@ -123,7 +123,7 @@ pub(crate) fn resolved_grid(grid: &Grid) -> (&'static str, Json) {
 fn value(value: &Value) -> Json {
     match value {
         Value::Number(number) => json!(number),
-        Value::Text(text) => json!(text),
+        Value::Text(text) => json!(text.as_str()),
     }
 }
 

@@ -3,27 +3,68 @@
 //! Blank lines and lines that begin with `#` are skipped, a field may stand in double quotes, and line
 //! ends and a byte order mark of any system are understood.
 
+use std::borrow::Cow;
 use std::ops::Range;
 use std::path::Path;
 
 use crate::error::{Error, Result};
+use crate::files::{self, MIB};
 use crate::model;
 use crate::place::Source;
+use crate::quote::{is_obeyed, quoted};
 use crate::spec::names::unknown;
+use crate::spec::{MAX_ROWS, MAX_TABLE_ROWS};
+
+/// What a file of rows is for.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Role {
+    Points,
+    Table,
+    Material,
+}
+
+impl Role {
+    fn name(self) -> &'static str {
+        match self {
+            Role::Points => "points",
+            Role::Table => "table",
+            Role::Material => "material",
+        }
+    }
+
+    /// The most bytes that are read.
+    fn most_bytes(self) -> u64 {
+        match self {
+            Role::Points => 1024 * MIB,
+            Role::Table | Role::Material => 16 * MIB,
+        }
+    }
+
+    /// The most rows there may be.
+    fn most_rows(self) -> usize {
+        match self {
+            Role::Points => MAX_ROWS,
+            Role::Table | Role::Material => MAX_TABLE_ROWS,
+        }
+    }
+}
 
 /// One field: its text without surrounding blanks and quotes, and where it stands.
 #[derive(Clone, Debug)]
-pub(super) struct Field {
-    pub(super) text: String,
+pub(super) struct Field<'a> {
+    pub(super) text: Cow<'a, str>,
     pub(super) span: Range<usize>,
 }
 
-/// A file of rows, every row as long as the header.
+/// A file of rows, every row as long as the header. Only its text is held; fields are found again when they are asked for.
 #[derive(Debug)]
 pub(super) struct Rows {
     pub(super) source: Source,
-    pub(super) header: Vec<Field>,
-    pub(super) body: Vec<Vec<Field>>,
+    /// The header, its names without quotes.
+    pub(super) header: Vec<Field<'static>>,
+    /// Where the first row begins.
+    body: usize,
+    count: usize,
 }
 
 impl Rows {
@@ -31,50 +72,94 @@ impl Rows {
     pub(super) fn read(
         sweep: &Source,
         span: Range<usize>,
-        role: &'static str,
+        role: Role,
         name: &str,
         base_dir: &Path,
     ) -> Result<Rows> {
         let path = base_dir.join(name);
-        match std::fs::read_to_string(&path) {
-            Ok(text) => Rows::parse(Source::new(path.display().to_string(), &text)),
-            Err(why) => Err(Error::ReadNamed { at: sweep.place(span), role, path, why: why.to_string() }),
+        let text = match files::text(&path, role.most_bytes()) {
+            Ok(text) => text,
+            Err(why) => return Err(Error::ReadNamed { at: sweep.place(span), role: role.name(), path, why }),
+        };
+        // It becomes the name of a material, in figures and on terminals.
+        if name.chars().any(is_obeyed) {
+            let why = "its name holds a control character; rename the file".to_owned();
+            return Err(Error::ReadNamed { at: sweep.place(span), role: role.name(), path, why });
+        }
+        let rows = Rows::parse(Source::new(path.display().to_string(), &text))?;
+        if rows.count > role.most_rows() {
+            let (count, most) = (rows.count, role.most_rows());
+            let why = format!("it has {count} rows but at most {most} are allowed; take fewer");
+            return Err(Error::ReadNamed { at: sweep.place(span), role: role.name(), path, why });
+        }
+        Ok(rows)
+    }
+
+    /// Finds header and rows of a text.
+    pub(super) fn parse(source: Source) -> Result<Rows> {
+        let mut lines = Lines { text: &source.text, start: 0 };
+        let Some(line) = lines.next() else {
+            let at = source.place(0..0);
+            return Err(Error::Empty { at, what: "the file".to_owned(), least: "a header and one row" });
+        };
+        let mut fields = Vec::new();
+        split(&source, line, &mut fields)?;
+        let header: Vec<Field<'static>> = fields
+            .iter()
+            .map(|field| Field { text: field.text.clone().into_owned().into(), span: field.span.clone() })
+            .collect();
+        let body = lines.start;
+        let mut count = 0;
+        for line in lines {
+            split(&source, line.clone(), &mut fields)?;
+            if fields.len() != header.len() {
+                let (fields, columns) = (fields.len(), header.len());
+                return Err(Error::RaggedRow { at: source.place(line), fields, columns });
+            }
+            count += 1;
+        }
+        if count == 0 {
+            let span = header.first().map_or(0, |field| field.span.start)
+                ..header.last().map_or(0, |field| field.span.end);
+            return Err(Error::NoRows { at: source.place(span) });
+        }
+        drop(fields);
+        Ok(Rows { source, header, body, count })
+    }
+
+    /// The number of rows.
+    pub(super) fn len(&self) -> usize {
+        self.count
+    }
+
+    /// Gives the number and the fields of every row to `take`.
+    pub(super) fn each(&self, mut take: impl FnMut(usize, &[Field]) -> Result<()>) -> Result<()> {
+        let mut fields = Vec::with_capacity(self.header.len());
+        for (number, line) in (Lines { text: &self.source.text, start: self.body }).enumerate() {
+            split(&self.source, line, &mut fields)?;
+            take(number, &fields)?;
+        }
+        Ok(())
+    }
+
+    /// Where the field in some row and column stands.
+    pub(super) fn span(&self, row: usize, column: usize) -> Range<usize> {
+        let line = Lines { text: &self.source.text, start: self.body }.nth(row).unwrap_or(0..0);
+        let mut fields = Vec::new();
+        match split(&self.source, line.clone(), &mut fields) {
+            Ok(()) => fields.get(column).map_or(line, |field| field.span.clone()),
+            Err(_) => line,
         }
     }
 
-    /// Splits a text into header and rows.
-    pub(super) fn parse(source: Source) -> Result<Rows> {
-        let mut header: Option<Vec<Field>> = None;
-        let mut body = Vec::new();
-        let mut start = 0;
-        for line in source.text.split_inclusive('\n') {
-            let end = start + line.trim_end().len();
-            let content = line.trim();
-            if !content.is_empty() && !content.starts_with('#') {
-                let fields = split(&source, start..end.max(start))?;
-                match &header {
-                    None => header = Some(fields),
-                    Some(header) if header.len() == fields.len() => body.push(fields),
-                    Some(header) => {
-                        let (fields, columns) = (fields.len(), header.len());
-                        return Err(Error::RaggedRow { at: source.place(start..end), fields, columns });
-                    }
-                }
-            }
-            start += line.len();
-        }
-        match header {
-            Some(header) if !body.is_empty() => Ok(Rows { source, header, body }),
-            Some(header) => {
-                let span = header.first().map_or(0, |field| field.span.start)
-                    ..header.last().map_or(0, |field| field.span.end);
-                Err(Error::NoRows { at: source.place(span) })
-            }
-            None => {
-                let at = source.place(0..0);
-                Err(Error::Empty { at, what: "the file".to_owned(), least: "a header and one row" })
-            }
-        }
+    /// The numbers of a column.
+    pub(super) fn numbers(&self, column: usize, name: &str, range: model::Range) -> Result<Vec<f64>> {
+        let mut numbers = Vec::with_capacity(self.count);
+        self.each(|_, fields| {
+            numbers.push(self.number(&fields[column], name, range)?);
+            Ok(())
+        })?;
+        Ok(numbers)
     }
 
     /// Turns every column name into what it stands for; refuses unknown and repeated names.
@@ -92,7 +177,7 @@ impl Rows {
             if columns.contains(&column) {
                 return Err(Error::Conflict {
                     at: self.source.place(field.span.clone()),
-                    key: format!("column `{}`", field.text),
+                    key: format!("column `{}`", quoted(&field.text)),
                     other: "a column of the same name".to_owned(),
                 });
             }
@@ -106,8 +191,11 @@ impl Rows {
         let at = || self.source.place(field.span.clone());
         let key = || format!("column `{name}`");
         let Ok(value) = field.text.parse::<f64>() else {
-            let found =
-                if field.text.is_empty() { "an empty cell".to_owned() } else { format!("`{}`", field.text) };
+            let found = if field.text.is_empty() {
+                "an empty cell".to_owned()
+            } else {
+                format!("`{}`", quoted(&field.text))
+            };
             return Err(Error::WrongType { at: at(), key: key(), expected: "a number".to_owned(), found });
         };
         if range.contains(value) {
@@ -116,7 +204,7 @@ impl Rows {
             Err(Error::OutOfRange {
                 at: at(),
                 key: key(),
-                value: field.text.clone(),
+                value: quoted(&field.text),
                 limit: range.to_string(),
             })
         }
@@ -126,7 +214,7 @@ impl Rows {
     pub(super) fn rising(&self, name: &'static str, column: usize, values: &[f64]) -> Result<()> {
         for (row, pair) in values.windows(2).enumerate() {
             if pair[0] >= pair[1] {
-                let at = self.source.place(self.body[row + 1][column].span.clone());
+                let at = self.source.place(self.span(row + 1, column));
                 return Err(Error::NotRising { at, column: name, value: pair[1], previous: pair[0] });
             }
         }
@@ -134,36 +222,65 @@ impl Rows {
     }
 }
 
+/// The lines of a text that hold something, without blanks at their ends: neither blank nor a comment.
+struct Lines<'a> {
+    text: &'a str,
+    start: usize,
+}
+
+impl Iterator for Lines<'_> {
+    type Item = Range<usize>;
+
+    fn next(&mut self) -> Option<Range<usize>> {
+        while self.start < self.text.len() {
+            let rest = &self.text[self.start..];
+            let line = rest.find('\n').map_or(rest, |end| &rest[..=end]);
+            let start = self.start;
+            self.start += line.len();
+            let content = line.trim();
+            if !content.is_empty() && !content.starts_with('#') {
+                return Some(start..start + line.trim_end().len());
+            }
+        }
+        None
+    }
+}
+
 /// Splits one line into fields.
-fn split(source: &Source, line: Range<usize>) -> Result<Vec<Field>> {
+fn split<'a>(source: &'a Source, line: Range<usize>, fields: &mut Vec<Field<'a>>) -> Result<()> {
     let text = source.written(line.clone());
-    let mut fields = Vec::new();
+    fields.clear();
     let mut start = 0;
-    let mut quoted = false;
-    for (at, c) in text.char_indices() {
-        match c {
-            '"' => quoted = !quoted,
-            ',' if !quoted => {
+    let mut in_quotes = false;
+    for (at, byte) in text.bytes().enumerate() {
+        match byte {
+            b'"' => in_quotes = !in_quotes,
+            b',' if !in_quotes => {
                 fields.push(field(text, start..at, line.start));
                 start = at + 1;
             }
             _ => {}
         }
     }
-    if quoted {
+    if in_quotes {
         let why = "a double quote is opened but not closed in this row; close it".to_owned();
         return Err(Error::Syntax { at: source.place(line.start + start..line.end), why });
     }
     fields.push(field(text, start..text.len(), line.start));
-    Ok(fields)
+    Ok(())
 }
 
 /// The field in `range` of `line`, which begins at `offset` of the file.
-fn field(line: &str, range: Range<usize>, offset: usize) -> Field {
+fn field(line: &str, range: Range<usize>, offset: usize) -> Field<'_> {
     let raw = &line[range.clone()];
     let text = raw.trim();
     let start = offset + range.start + (raw.len() - raw.trim_start().len());
     let span = start..start + text.len();
     let bare = text.strip_prefix('"').and_then(|rest| rest.strip_suffix('"'));
-    Field { text: bare.map_or_else(|| text.to_owned(), |inner| inner.replace("\"\"", "\"")), span }
+    let text = match bare {
+        Some(inner) if inner.contains('"') => inner.replace("\"\"", "\"").into(),
+        Some(inner) => inner.into(),
+        None => text.into(),
+    };
+    Field { text, span }
 }

@@ -7,8 +7,11 @@ use crate::model::friction::LawKind;
 use crate::model::material::Outside;
 use crate::model::{PARAMS, Param, Params, Section};
 use crate::place::Source;
+use crate::quote::is_obeyed;
 use crate::refine::{COARSE, Settings};
-use crate::spec::document::{Entry, Node, array, boolean, choice, entries, integer, number, string, table};
+use crate::spec::document::{
+    Entry, Node, array, boolean, choice, entries, integer, number, out_of_range, string, table,
+};
 use crate::spec::duration::duration;
 use crate::spec::law;
 use crate::spec::names::unknown;
@@ -124,7 +127,12 @@ impl Sections {
     /// `title` and `analysis`.
     pub(super) fn top_level(&mut self, source: &Source, entry: Entry) -> Result<()> {
         if entry.key == "title" {
-            string(source, entry.node, "`title`", "a string")?.clone_into(&mut self.title);
+            let title = string(source, entry.node, "`title`", "a string")?;
+            if title.chars().any(is_obeyed) {
+                let limit = "one line of text without control characters";
+                return Err(out_of_range(source, entry.node, "`title`", limit));
+            }
+            title.clone_into(&mut self.title);
             return Ok(());
         }
         let names = array(source, entry.node, "`analysis`", "an array of \"linear\" and \"response\"")?;

@@ -4,14 +4,14 @@ use std::ops::Range;
 use std::path::Path;
 
 use crate::error::{Error, Result};
-use crate::grid::{Axis, AxisKey, Grid, Value};
+use crate::grid::{self, Axis, AxisKey, Grid, Names, Value};
 use crate::place::{Place, Source};
+use crate::spec::MAX_INSTANCES;
 use crate::spec::axis::axis;
 use crate::spec::document::{Entry, entries, table};
 use crate::spec::names::advice;
-use crate::spec::rows::Rows;
+use crate::spec::rows::{Role, Rows};
 use crate::spec::sections::law_value;
-use crate::spec::{MAX_INSTANCES, MAX_VALUES};
 
 /// Keys of a sweep file that cannot vary.
 pub(super) const FIXED: [&str; 11] = [
@@ -36,15 +36,17 @@ pub(super) struct Varied {
     pub(super) source: Source,
     /// Where each key of the grid stands.
     pub(super) keys: Vec<(AxisKey, Range<usize>)>,
-    /// Where each value stands: `[axis][value]` (a single place when the values are from `from` to `to`)
-    /// or `[row][column]`.
+    /// Where each value of an axis stands: `[axis][value]` (a single place when the values are from `from` to `to`).
     spans: Vec<Vec<Range<usize>>>,
+    /// The file of tuples, which is asked where a value stands.
+    file: Option<Rows>,
 }
 
 impl Varied {
     /// A single instance.
     pub(super) fn nothing(source: &Source) -> Varied {
-        Varied { grid: Grid::Axes(Vec::new()), source: source.clone(), keys: Vec::new(), spans: Vec::new() }
+        let grid = Grid::Axes(Vec::new());
+        Varied { grid, source: source.clone(), keys: Vec::new(), spans: Vec::new(), file: None }
     }
 
     /// Reads `[axes]`.
@@ -72,35 +74,33 @@ impl Varied {
 
     /// Reads the file of tuples named `name`.
     pub(super) fn tuples(sweep: &Source, span: Range<usize>, name: &str, base_dir: &Path) -> Result<Varied> {
-        let file = Rows::read(sweep, span.clone(), "points", name, base_dir)?;
+        let file = Rows::read(sweep, span, Role::Points, name, base_dir)?;
         let names: Vec<&str> = AxisKey::names().collect();
         let keys = file.columns(&names, AxisKey::from_name)?;
-        if file.body.len() > MAX_VALUES {
-            let at = sweep.place(span);
-            return Err(Error::TooMany { at, count: file.body.len().to_string(), limit: MAX_VALUES });
-        }
-        let mut rows = Vec::with_capacity(file.body.len());
-        for fields in &file.body {
-            let mut row = Vec::with_capacity(keys.len());
+        let mut names = Names::default();
+        let mut values = Vec::with_capacity(file.len() * keys.len());
+        file.each(|_, fields| {
             for (&key, field) in keys.iter().zip(fields) {
-                row.push(match key {
+                values.push(match key {
                     AxisKey::Param(param) => {
                         Value::Number(file.number(field, key.name(), param.info().range)?)
                     }
                     AxisKey::Law => {
                         law_value(&file.source, field.span.clone(), &field.text, "in column `law`")?;
-                        Value::Text(field.text.clone())
+                        names.value(&field.text)
                     }
-                    AxisKey::Material => Value::Text(field.text.clone()),
+                    AxisKey::Material => names.value(&field.text),
                 });
             }
-            rows.push(row);
-        }
+            Ok(())
+        })?;
+        let rows = grid::Rows::new(keys.len(), file.len(), values);
         Ok(Varied {
             keys: keys.iter().copied().zip(file.header.iter().map(|field| field.span.clone())).collect(),
             grid: Grid::Tuples { keys, rows },
-            spans: file.body.iter().map(|row| row.iter().map(|field| field.span.clone()).collect()).collect(),
-            source: file.source,
+            spans: Vec::new(),
+            source: file.source.clone(),
+            file: Some(file),
         })
     }
 
@@ -124,11 +124,10 @@ impl Varied {
 
     /// Where a value of axis or column `key` (by position) stands; `value` counts values or rows.
     fn value_span(&self, key: usize, value: usize) -> Range<usize> {
-        let span = match self.grid {
-            Grid::Axes(_) => self.spans[key].get(value).or_else(|| self.spans[key].last()),
-            Grid::Tuples { .. } => self.spans[value].get(key),
-        };
-        span.cloned().unwrap_or(0..0)
+        match &self.file {
+            None => self.spans[key].get(value).or_else(|| self.spans[key].last()).cloned().unwrap_or(0..0),
+            Some(file) => file.span(value, key),
+        }
     }
 
     /// The position of a key among the axes or columns.
@@ -139,19 +138,19 @@ impl Varied {
     /// The distinct names of the key `law` or `material` with the place of their first use.
     pub(super) fn names(&self, key: AxisKey) -> Vec<(&str, Range<usize>)> {
         let Some(at) = self.position(key) else { return Vec::new() };
-        let values: Vec<&Value> = match &self.grid {
-            Grid::Axes(axes) => axes[at].values.iter().collect(),
-            Grid::Tuples { rows, .. } => rows.iter().map(|row| &row[at]).collect(),
+        let values: Box<dyn Iterator<Item = &Value>> = match &self.grid {
+            Grid::Axes(axes) => Box::new(axes[at].values.iter()),
+            Grid::Tuples { rows, .. } => Box::new(rows.iter().map(move |row| &row[at])),
         };
-        let mut names: Vec<(&str, Range<usize>)> = Vec::new();
-        for (index, value) in values.into_iter().enumerate() {
+        let mut first: Vec<(&str, usize)> = Vec::new();
+        for (index, value) in values.enumerate() {
             if let Value::Text(name) = value
-                && !names.iter().any(|(known, _)| known == name)
+                && !first.iter().any(|(known, _)| *known == name.as_str())
             {
-                names.push((name, self.value_span(at, index)));
+                first.push((name, index));
             }
         }
-        names
+        first.into_iter().map(|(name, index)| (name, self.value_span(at, index))).collect()
     }
 }
 

@@ -39,7 +39,7 @@ pub fn tile_of(spec: &Spec) -> usize {
         let index = (2 * sample as u128 + 1) * instances as u128 / (2 * samples as u128);
         let instance = spec.instance(usize::try_from(index).unwrap_or(usize::MAX).min(instances - 1));
         // What cannot start costs nothing.
-        let Ok(scene) = Scene::planned(&instance, &plan, f64::EPSILON) else { return 0.0 };
+        let Ok(scene) = Scene::planned(&instance, &plan) else { return 0.0 };
         let periods = |duration| scene.scaled(duration) / std::f64::consts::TAU;
         let asked = match plan.settle_limit {
             Some(limit) => periods(limit).min(UNTIL_SETTLED) + periods(plan.measure),

@@ -1,11 +1,13 @@
 //! `tiles/sweep.json`: what the tiles of a directory are, so that they can be read without the sweep file.
 
+use std::io::{self, Write};
+
 use serde::{Deserialize, Serialize};
 use serde_json::{Value as Json, json};
 
-use super::grid_json::from_json;
+use super::grid_json::{Parted, Whole, from_json, rows};
 use super::identity::{GRID, Id, PHYSICS, identity, kind};
-use super::seal::{is_intact, sealed};
+use super::seal::{Sealing, is_intact};
 use super::tile::Label;
 use super::tiling::Tiling;
 use crate::accuracy::frontier::Chosen;
@@ -48,7 +50,7 @@ pub struct Description {
 /// The file; the id is that of `identity`.
 #[derive(Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
-struct Document {
+struct Document<I> {
     format: u32,
     sweep_id: String,
     title: String,
@@ -57,7 +59,7 @@ struct Document {
     response: Option<Computation>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     accuracy: Option<Chosen>,
-    identity: Json,
+    identity: I,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     checksum: Option<String>,
 }
@@ -68,7 +70,7 @@ impl Description {
     pub fn new(spec: &Spec, computations: [Option<Computation>; 2], tile: usize) -> Description {
         let identity = identity(spec, &computations);
         Description {
-            id: Id::of(&identity),
+            id: Id::with_rows(&identity, rows(&spec.grid)),
             kind: kind(&computations),
             title: spec.title.clone(),
             analysis: spec.analysis,
@@ -84,6 +86,17 @@ impl Description {
     /// The file.
     #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        // Memory takes any text.
+        let _ = self.write(&mut bytes);
+        bytes
+    }
+
+    /// Writes the file, value by value.
+    ///
+    /// # Errors
+    /// What `out` gives.
+    pub fn write(&self, out: impl io::Write) -> io::Result<()> {
         let [linear, response] = self.computations.clone();
         let document = Document {
             format: FORMAT,
@@ -93,13 +106,13 @@ impl Description {
             linear,
             response,
             accuracy: self.accuracy.clone(),
-            identity: self.identity.clone(),
+            identity: Whole { json: &self.identity, rows: rows(&self.grid), sorted: false },
             checksum: None,
         };
-        let document = serde_json::to_value(&document).map(sealed).unwrap_or_default();
-        let mut bytes = serde_json::to_vec_pretty(&document).unwrap_or_default();
-        bytes.push(b'\n');
-        bytes
+        let mut out = Sealing::new(out);
+        serde_json::to_writer_pretty(&mut out, &document)?;
+        out.write_all(b"\n")?;
+        out.finish()
     }
 
     /// Reads the file.
@@ -107,21 +120,20 @@ impl Description {
     /// # Errors
     /// What is wrong with it, as the end of a sentence.
     pub fn from_bytes(bytes: &[u8]) -> Result<Description, String> {
-        let written: Json = serde_json::from_slice(bytes).map_err(|why| why.to_string())?;
-        let format = written["format"].as_u64().and_then(|format| u32::try_from(format).ok());
-        let format = format.filter(|format| READ.contains(format)).ok_or_else(|| {
-            format!("its format is {} instead of {FORMAT}, that of this version", written["format"])
-        })?;
-        if format == FORMAT && !is_intact(&written) {
+        let document: Document<Parted> = serde_json::from_slice(bytes).map_err(|why| why.to_string())?;
+        if !READ.contains(&document.format) {
+            return Err(format!("its format is {} instead of {FORMAT}, that of this version", document.format));
+        }
+        if document.format == FORMAT && !is_intact(bytes) {
             return Err("it was changed: its content does not have its checksum".to_owned());
         }
-        let document: Document = serde_json::from_value(written).map_err(|why| why.to_string())?;
-        let id = Id::of(&document.identity);
+        let Parted { json: identity, rows } = document.identity;
+        let id = Id::with_rows(&identity, rows.as_ref());
         if id.to_string() != document.sweep_id || document.tile == 0 {
             return Err("it was changed: its content does not have its id".to_owned());
         }
-        let physics = document.identity.get(PHYSICS).cloned().unwrap_or_default();
-        let grid = physics.get(GRID).and_then(from_json).ok_or("its grid is none")?;
+        let physics = identity.get(PHYSICS).cloned().unwrap_or_default();
+        let grid = physics.get(GRID).and_then(|grid| from_json(grid, rows)).ok_or("its grid is none")?;
         let computations = [document.linear, document.response];
         let [linear, response] = computations.each_ref().map(Option::is_some);
         let until_settled = response && physics["response"]["settle"] == "auto";
@@ -140,7 +152,7 @@ impl Description {
             computations,
             resolved,
             accuracy: document.accuracy,
-            identity: document.identity,
+            identity,
         })
     }
 

@@ -84,8 +84,11 @@ impl Store {
         }
         let path = directory.join(TILES).join(DESCRIPTION);
         // Another process that holds the claim writes the same.
-        if let Some(claim) = Claim::take(&path).map_err(cannot)? {
-            claim.write(&store.description.to_bytes()).map_err(cannot)?;
+        if let Some(mut claim) = Claim::take(&path).map_err(cannot)? {
+            let mut file = io::BufWriter::new(claim.emptied().map_err(cannot)?);
+            store.description.write(&mut file).and_then(|()| io::Write::flush(&mut file)).map_err(cannot)?;
+            drop(file);
+            claim.publish().map_err(cannot)?;
         }
         Ok(store)
     }

@@ -1,7 +1,7 @@
 //! Computes the tiles that a directory lacks.
 
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::sync::mpsc::{Receiver, sync_channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -61,16 +61,23 @@ pub fn fill(
     let began = Instant::now();
     let (sender, receiver) = sync_channel(0);
     let mut filled = thread::scope(|scope| {
-        let writer = thread::Builder::new()
-            .spawn_scoped(scope, || write_all(store, receiver))
-            .map_err(|why| Error::Threads { threads: 1, why: why.to_string() })?;
-        let mut filling = Filling { store, solver, reuse, watch, sender, filled: Filled::default() };
-        let ended = filling.all(wanted);
-        let Filling { sender, filled, .. } = filling;
+        let mut fill = |finish: &mut dyn FnMut(Finished) -> Result<()>| {
+            let mut filling = Filling { store, solver, reuse, watch, finish, filled: Filled::default() };
+            filling.all(wanted).map(|()| filling.filled)
+        };
+        let writer = thread::Builder::new().spawn_scoped(scope, || write_all(store, receiver));
+        let Ok(writer) = writer else {
+            // Where no thread can be started each tile is written before the next is computed.
+            let mut room = Room::default();
+            return fill(&mut |(claim, number, records)| store.write(claim, number, records, &mut room));
+        };
+        // The writer has ended with an error, which is reported in place of this.
+        let ended = |_| Error::Cancelled { done: 0, total: 0 };
+        let filled = fill(&mut |tile| sender.send(tile).map_err(ended));
         drop(sender);
         // An error of the writer is the cause of one of the computation.
         writer.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))?;
-        ended.map(|()| filled)
+        filled
     })?;
     filled.elapsed = began.elapsed();
     Ok(filled)
@@ -90,7 +97,7 @@ struct Filling<'a, 'b> {
     solver: &'a mut Solver<'b>,
     reuse: Option<&'a Reuse>,
     watch: Watch<'a>,
-    sender: SyncSender<Finished>,
+    finish: &'a mut dyn FnMut(Finished) -> Result<()>,
     filled: Filled,
 }
 
@@ -177,10 +184,7 @@ impl Filling<'_, '_> {
         for (number, claim) in group {
             let of_tile: Vec<Record> = records.by_ref().take(bounds(number).len()).collect();
             if made.stopped.is_none() {
-                if self.sender.send((claim, number, of_tile)).is_err() {
-                    // The writer has ended, with an error that is reported in place of this.
-                    return Err(Error::Cancelled { done: self.filled.computed, total: tiling.instances });
-                }
+                (self.finish)((claim, number, of_tile))?;
             } else if of_tile.iter().any(is_done) {
                 self.store.keep(&claim, number, of_tile)?;
             }

@@ -1,11 +1,13 @@
 //! Which sweep a tile belongs to: everything that its numbers depend on, in one canonical text, and its hash.
 
 use std::fmt;
+use std::io::{BufWriter, Write};
 
 use serde_json::{Map as Object, Value as Json, json};
 
-use super::grid_json::to_json;
+use super::grid_json::{Whole, to_json};
 use crate::export::manifest::{COMMIT, VERSION};
+use crate::grid::Rows;
 use crate::map::Computation;
 use crate::spec::Spec;
 
@@ -24,9 +26,21 @@ impl Id {
     /// same bits.
     #[must_use]
     pub fn of(value: &Json) -> Id {
-        let mut text = String::new();
-        write(value, &mut text);
-        Id(*blake3::hash(text.as_bytes()).as_bytes())
+        Id::of_whole(&Whole { json: value, rows: None, sorted: true })
+    }
+
+    /// The id of an [`identity`] whose rows, if it has any, stand beside it.
+    #[must_use]
+    pub fn with_rows(value: &Json, rows: Option<&Rows>) -> Id {
+        Id::of_whole(&Whole { json: value, rows, sorted: true })
+    }
+
+    /// The text goes into the hash as it is made: that of many rows is never held.
+    fn of_whole(whole: &Whole) -> Id {
+        let mut text = BufWriter::new(blake3::Hasher::new());
+        serde_json::to_writer(&mut text, whole).expect("a hash takes any text");
+        text.flush().expect("a hash takes any text");
+        Id(*text.get_ref().finalize().as_bytes())
     }
 }
 
@@ -38,7 +52,7 @@ impl fmt::Display for Id {
 }
 
 /// What the numbers of a sweep depend on: the physics with all defaults, the program, the methods. Titles, threads
-/// and the name of an adapter are left out.
+/// and the name of an adapter are left out. The rows of a file of points stand beside it, see [`to_json`].
 #[must_use]
 pub fn identity(spec: &Spec, computations: &[Option<Computation>; 2]) -> Json {
     let mut physics = Object::new();
@@ -76,37 +90,4 @@ pub fn kind(computations: &[Option<Computation>; 2]) -> String {
         let strict = if made.strict == Some(true) { " strict" } else { "" };
         format!("{} {}{strict}", made.backend, made.precision)
     })
-}
-
-/// Writes a value canonically.
-fn write(value: &Json, text: &mut String) {
-    match value {
-        Json::Object(entries) => {
-            let mut sorted: Vec<(&String, &Json)> = entries.iter().collect();
-            sorted.sort_by_key(|(key, _)| *key);
-            list(text, ['{', '}'], sorted.into_iter(), |(key, value), text| {
-                text.push_str(&Json::from(key.as_str()).to_string());
-                text.push(':');
-                write(value, text);
-            });
-        }
-        Json::Array(values) => list(text, ['[', ']'], values.iter(), write),
-        simple => text.push_str(&simple.to_string()),
-    }
-}
-
-fn list<T>(
-    text: &mut String,
-    [open, close]: [char; 2],
-    items: impl Iterator<Item = T>,
-    write: impl Fn(T, &mut String),
-) {
-    text.push(open);
-    for (number, item) in items.enumerate() {
-        if number > 0 {
-            text.push(',');
-        }
-        write(item, text);
-    }
-    text.push(close);
 }

@@ -114,7 +114,7 @@ impl Reuse {
 fn places(here: &[Value], there: &[Value]) -> Vec<Option<usize>> {
     let key = |value: &Value| match value {
         Value::Number(number) => (number.to_bits(), String::new()),
-        Value::Text(text) => (0, text.clone()),
+        Value::Text(text) => (0, text.to_string()),
     };
     let numbers: BTreeMap<_, usize> = there.iter().map(key).zip(0..).collect();
     here.iter().map(|value| numbers.get(&key(value)).copied()).collect()

@@ -95,7 +95,7 @@ fn random(runner: &mut TestRunner) -> Result<(String, Spec), Failed> {
         if rows.len() >= INSTANCES / 4 && base.settle_limit.is_none_or(|_| is_short(&base, &Plan::new(&base)))
         {
             let keys = keys.into_iter().map(AxisKey::Param).collect();
-            return Ok((text, Spec { grid: Grid::Tuples { keys, rows }, ..base }));
+            return Ok((text, Spec { grid: Grid::Tuples { keys, rows: rows.into() }, ..base }));
         }
     }
 }

@@ -125,8 +125,8 @@ fn unwritten_and_missing_instances_are_errors() {
 #[test]
 fn tuples_keep_their_columns_and_quote_names() {
     let keys = vec![AxisKey::Material, AxisKey::Param(Param::Temperature)];
-    let rows = vec![vec![Value::Text("pad, new.csv".to_owned()), Value::Number(350.0)]];
-    let sweep = map(Grid::Tuples { keys, rows }, |i, _| good(i));
+    let rows = vec![vec![Value::Text("pad, new.csv".to_owned().into()), Value::Number(350.0)]];
+    let sweep = map(Grid::Tuples { keys, rows: rows.into() }, |i, _| good(i));
     let table = parse(&map_csv(&sweep).expect("a complete map"));
     assert_eq!(table.0[1..3], ["material", "temperature"]);
     assert_eq!(cell(&table, 0, "material"), "pad, new.csv");

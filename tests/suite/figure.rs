@@ -183,7 +183,8 @@ fn strips_names_and_single_instances() {
     });
     let (svg, _) = figure(&short, "one_by_n");
     assert!(svg.contains(" = 0.3"));
-    let laws = ["bilinear", "exponential", "rational"].map(|name| Value::Text(name.to_owned())).to_vec();
+    let laws =
+        ["bilinear", "exponential", "rational"].map(|name| Value::Text(name.to_owned().into())).to_vec();
     let law = Axis { key: AxisKey::Law, values: laws, log: false };
     let axes = vec![law.clone(), span(Param::BeltVelocity, 0.1, 7.0, 70)];
     let named = map(Grid::Axes(axes), |i, at| paper_like(0.3 + 0.1 * (i / 70) as f64, 0.2, number(at[1])));
@@ -208,7 +209,7 @@ fn tuples_are_points() {
     ];
     let rows = tuples.map(|(s, d, v)| [s, d, v].map(Value::Number).to_vec()).to_vec();
     let make = |at: &[&Value]| paper_like(number(at[0]), number(at[1]), number(at[2]));
-    let sweep = map(Grid::Tuples { keys: keys.clone(), rows }, |i, at| {
+    let sweep = map(Grid::Tuples { keys: keys.clone(), rows: rows.into() }, |i, at| {
         if i == 2 { failed(Status::NonFinite) } else { make(at) }
     });
     let (svg, _) = figure(&sweep, "tuples");
@@ -221,7 +222,8 @@ fn tuples_are_points() {
     let sweep = map(Grid::Tuples { keys, rows }, |_, at| make(at));
     let (svg, _) = figure(&sweep, "many_tuples");
     assert!(svg.contains("Also varying between the points: belt_velocity."));
-    let none = Grid::Tuples { keys: vec![AxisKey::Param(Param::MuS)], rows: vec![vec![Value::Number(0.1)]] };
+    let none =
+        Grid::Tuples { keys: vec![AxisKey::Param(Param::MuS)], rows: vec![vec![Value::Number(0.1)]].into() };
     figure(&map(none, |_, _| failed(Status::Painleve)), "one_tuple");
 }
 

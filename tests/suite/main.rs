@@ -34,6 +34,7 @@ mod identify_faults;
 mod identify_files;
 mod identify_growth;
 mod impacts;
+mod input_files;
 mod instances;
 mod instructions;
 #[cfg(unix)]
@@ -53,6 +54,7 @@ mod methods;
 mod modes_figure;
 mod netcdf_file;
 mod no_driver;
+mod no_threads;
 mod observables;
 mod page;
 mod paper;

@@ -70,7 +70,7 @@ pub(crate) fn page(pdf: &[u8]) -> [f64; 2] {
 #[test]
 fn the_figure_of_a_map_comes_back_from_its_directory() {
     let unsorted = Axis { log: true, ..axis(Param::K2, &[1e6, 1e4, 1e5]) };
-    let law = ["bilinear", "rational"].map(|name| Value::Text(name.to_owned())).to_vec();
+    let law = ["bilinear", "rational"].map(|name| Value::Text(name.to_owned().into())).to_vec();
     let law = Axis { key: AxisKey::Law, values: law, log: false };
     let others = [
         Grid::Axes(vec![unsorted, law]),

@@ -59,7 +59,9 @@ fn every_axis_has_two_ticks() {
             })
             .collect();
         let keys = [Param::MuS, Param::MuD, Param::BeltVelocity].map(AxisKey::Param).to_vec();
-        let sweep = map(Grid::Tuples { keys, rows }, |_, at| paper_like(number(at[0]), number(at[1]), 1.0));
+        let sweep = map(Grid::Tuples { keys, rows: rows.into() }, |_, at| {
+            paper_like(number(at[0]), number(at[1]), 1.0)
+        });
         for journal in [Journal::Elsevier1Col, Journal::Elsevier2Col] {
             let contents = vec![Content::classes(Colouring::Type, false)];
             let svg = look_svg(&sweep, &Look { contents, ..Look::of_journal(journal) }).unwrap();

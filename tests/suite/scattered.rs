@@ -129,7 +129,7 @@ fn panels_ascend_and_names_stay() {
         AxisKey::Param(Param::BeltVelocity),
     ];
     let row = |i: usize| {
-        let law = Value::Text(["exponential", "bilinear"][i / 20].to_owned());
+        let law = Value::Text(["exponential", "bilinear"][i / 20].to_owned().into());
         let [mu_s, mu_d, velocity] = [i as f64, (i * i % 7) as f64, [10.0, 9.0][i % 2]].map(Value::Number);
         vec![mu_s, mu_d, law, velocity]
     };

@@ -98,7 +98,7 @@ fn the_source_of_a_map_is_whole() {
 #[test]
 fn areas_are_where_their_classes_are() {
     let k2 = Axis { log: true, ..axis(Param::K2, &[1e3, 1e4, 1e5, 1e6]) };
-    let law = ["bilinear", "rational", "constant"].map(|name| Value::Text(name.to_owned())).to_vec();
+    let law = ["bilinear", "rational", "constant"].map(|name| Value::Text(name.to_owned().into())).to_vec();
     let law = Axis { key: AxisKey::Law, values: law, log: false };
     let mut map = map(Grid::Axes(vec![k2, law]), |k, _| {
         record(if k < 6 { Kind::Stable } else { Kind::ModeCoupling }, Regime::Slip, true)
@@ -167,7 +167,7 @@ fn points_are_no_source() {
 #[test]
 fn pdflatex_makes_a_page_of_it() {
     let k2 = Axis { log: true, ..axis(Param::K2, &[1e3, 1e4, 1e5, 1e6]) };
-    let law = ["bilinear", "rational"].map(|name| Value::Text(name.to_owned())).to_vec();
+    let law = ["bilinear", "rational"].map(|name| Value::Text(name.to_owned().into())).to_vec();
     let law = Axis { key: AxisKey::Law, values: law, log: false };
     let named =
         map(Grid::Axes(vec![k2, law]), |k, _| record(Kind::ALL[k % 7], Regime::ALL[k % 7], k % 2 == 0));

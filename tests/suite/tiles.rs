@@ -13,7 +13,7 @@ use squealmap::outcome::{Outcome, Status};
 use squealmap::spec::{Analysis, Spec, Starts};
 use squealmap::store::columns::{decode, width};
 use squealmap::store::description::Description;
-use squealmap::store::grid_json::{from_json, to_json};
+use squealmap::store::grid_json::{self, from_json, to_json};
 use squealmap::store::identity::{Id, identity, kind};
 use squealmap::store::tile::{Fault, Label};
 use squealmap::store::tiling::Tiling;
@@ -257,6 +257,27 @@ fn canonical_text_is_sorted_short_and_exact() {
     assert_eq!(Id::of(&json).0, *blake3::hash(text.as_bytes()).as_bytes());
 }
 
+#[test]
+fn rows_beside_the_json_have_the_id_and_the_text_of_rows_in_it() {
+    let rows = vec![
+        vec![Value::Text("pad \"1\".csv".to_owned().into()), Value::Number(1.0)],
+        vec![Value::Text("ä".to_owned().into()), Value::Number(-0.0)],
+        vec![Value::Text("ä".to_owned().into()), Value::Number(1e300 / 3.0)],
+    ];
+    let grid =
+        Grid::Tuples { keys: vec![AxisKey::Material, AxisKey::Param(Param::Temperature)], rows: rows.into() };
+    let whole = serde_json::json!({ "columns": ["material", "temperature"],
+        "rows": [["pad \"1\".csv", 1.0], ["ä", -0.0], ["ä", 1e300 / 3.0]] });
+    assert_eq!(Id::with_rows(&to_json(&grid), grid_json::rows(&grid)), Id::of(&whole));
+    let made = Description::new(&spec(grid.clone()), computed("f64"), 4);
+    let written: serde_json::Value = serde_json::from_slice(&made.to_bytes()).unwrap();
+    assert_eq!(written["identity"]["physics"]["grid"], whole);
+    assert_eq!(Id::of(&written["identity"]), made.id);
+    // Laid out as any JSON of these values is.
+    let pretty = serde_json::to_string_pretty(&written).unwrap() + "\n";
+    assert_eq!(String::from_utf8(made.to_bytes()).unwrap(), pretty);
+}
+
 fn computed(precision: &str) -> [Option<Computation>; 2] {
     let made =
         Computation { precision: precision.to_owned(), ..reference::in_f64("cpu", "method".to_owned()) };
@@ -269,7 +290,9 @@ fn grid() -> Grid {
 
 #[test]
 fn the_id_is_that_of_physics_and_method_alone() {
-    let id = |spec: &Spec, made: &[Option<Computation>; 2]| Id::of(&identity(spec, made));
+    let id = |spec: &Spec, made: &[Option<Computation>; 2]| {
+        Id::with_rows(&identity(spec, made), grid_json::rows(&spec.grid))
+    };
     let base = spec(grid());
     let reference_id = id(&base, &computed("f64"));
     let same = [Spec { title: "Another".to_owned(), ..base.clone() }, base.clone()];
@@ -283,7 +306,7 @@ fn the_id_is_that_of_physics_and_method_alone() {
     let keys = vec![AxisKey::Param(Param::MuS), AxisKey::Param(Param::MuD)];
     let tuples = |last: f64| {
         let rows = [0.1, last].map(|x| vec![Value::Number(x), Value::Number(0.2)]).to_vec();
-        spec(Grid::Tuples { keys: keys.clone(), rows })
+        spec(Grid::Tuples { keys: keys.clone(), rows: rows.into() })
     };
     let others = [
         warmer,
@@ -314,16 +337,17 @@ fn a_description_comes_back() {
         Grid::Axes(Vec::new()),
         Grid::Axes(vec![Axis {
             key: AxisKey::Law,
-            values: vec![Value::Text("constant".to_owned())],
+            values: vec![Value::Text("constant".to_owned().into())],
             log: false,
         }]),
         Grid::Tuples {
             keys: vec![AxisKey::Material, AxisKey::Param(Param::Temperature)],
-            rows: vec![vec![Value::Text("pad \"1\", new.csv".to_owned()), Value::Number(0.1 + 0.2)]],
+            rows: vec![vec![Value::Text("pad \"1\", new.csv".to_owned().into()), Value::Number(0.1 + 0.2)]]
+                .into(),
         },
         Grid::Axes(vec![axis(Param::C1, &[5e-324, 1.0 / 3.0, 0.1 + 0.2, f64::MAX])]),
     ] {
-        assert_eq!(from_json(&to_json(&grid)), Some(grid.clone()));
+        assert_eq!(from_json(&to_json(&grid), grid_json::rows(&grid).cloned()), Some(grid.clone()));
         let sweep = spec(grid.clone());
         let made = Description::new(&sweep, computed("f64"), 4);
         let back = Description::from_bytes(&made.to_bytes()).unwrap();

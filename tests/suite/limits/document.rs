@@ -51,6 +51,10 @@ What holds for all of them:
   back, the engines differ, and the status is `ok`. Ask for `mu_d = 1e-6`.
 - **Chaos.** From a restitution of about 0.95 on, and wherever a motion grazes the belt, the last bits decide: statuses and
   statistics hold, single values do not.
+- **Inputs have limits.** Only regular files are read, no pipes or devices: a sweep file of at most 4 MiB, points of 1 GiB and
+  20 million rows, friction tables and materials of 16 MiB and 65 536 rows (1024 on a GPU). Points take 16 bytes per value
+  beside the file itself. Signals are of any length and read up to three times, a row of them has at most 1 MiB. A value in a
+  message is cut after 40 characters, and control characters are shown by their escapes; a title has none.
 ";
 
 /// A document is written with this factor on every error, for machines that round otherwise.
