@@ -48,9 +48,15 @@ impl Spec {
             base,
             impact_friction: resolved["model"]["impact_friction"].as_bool()?,
             law,
-            material: optional(friction.get("material"), material)?,
+            material: match friction.get("material") {
+                None => None,
+                Some(rows) => Some(material(rows)?),
+            },
             materials,
-            table: optional(friction.get("table"), table)?,
+            table: match friction.get("table") {
+                None => None,
+                Some(rows) => Some(table(rows)?),
+            },
             grid,
             start: kind.transient(),
             pass: Pass::Own,
@@ -62,11 +68,6 @@ impl Spec {
             refine: None,
         })
     }
-}
-
-/// What `read` makes of an entry that may be missing; `None` where it is there and is none.
-fn optional<T>(entry: Option<&Json>, read: impl Fn(&Json) -> Option<T>) -> Option<Option<T>> {
-    entry.map_or(Some(None), |entry| read(entry).map(Some))
 }
 
 fn law(name: &str) -> Option<LawKind> {

@@ -122,7 +122,10 @@ impl Description {
     pub fn from_bytes(bytes: &[u8]) -> Result<Description, String> {
         let document: Document<Parted> = serde_json::from_slice(bytes).map_err(|why| why.to_string())?;
         if !READ.contains(&document.format) {
-            return Err(format!("its format is {} instead of {FORMAT}, that of this version", document.format));
+            return Err(format!(
+                "its format is {} instead of {FORMAT}, that of this version",
+                document.format
+            ));
         }
         if document.format == FORMAT && !is_intact(bytes) {
             return Err("it was changed: its content does not have its checksum".to_owned());

@@ -69,9 +69,11 @@ impl Change {
     /// The folder whose names it changed.
     fn folder(&self) -> &Path {
         let path = match self {
-            Change::Made(path) | Change::MadeFolder(path) | Change::RemovedFolder(path) => path,
-            Change::Renamed { to, .. } => to,
-            Change::Removed { path, .. } => path,
+            Change::Made(path)
+            | Change::MadeFolder(path)
+            | Change::RemovedFolder(path)
+            | Change::Renamed { to: path, .. }
+            | Change::Removed { path, .. } => path,
         };
         path.parent().unwrap_or(Path::new(""))
     }

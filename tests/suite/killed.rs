@@ -121,15 +121,17 @@ fn stopped_by(signal: &str) {
     assert!(sent.success());
     assert_eq!(child.wait().unwrap().code(), Some(130));
     let kept = done(directory.path());
-    assert_eq!(names(directory.path()), COMPLETE, "the results of what is done are there");
+    let there = names(directory.path()).into_iter().filter(|name| !name.ends_with(".some"));
+    assert_eq!(there.collect::<Vec<_>>(), COMPLETE, "the results of what is done are there");
     let csv = std::fs::read_to_string(directory.path().join("out/s/map.csv")).unwrap();
     let missing = csv.lines().filter(|line| line.ends_with(",not_computed")).count();
     assert_eq!(csv.lines().count(), 3001);
-    // What was done of the tile in work counts too.
-    assert!((3000 - 10 * kept - 10..=3000 - 10 * kept).contains(&missing), "{kept} tiles, {missing} missing");
+    // What was done of the tiles in work counts too: of seven, which keep one thread busy.
+    assert!((3000 - 10 * kept - 70..=3000 - 10 * kept).contains(&missing), "{kept} tiles, {missing} missing");
     let ended = squealmap(directory.path(), &RUN);
     assert_eq!(ended.code, Some(0), "{}", ended.err);
-    assert!(ended.out.starts_with(&format!("{} of 3000 instances in ", 3000 - 10 * kept)), "{}", ended.out);
+    // What was kept of them is not computed again.
+    assert!(ended.out.starts_with(&format!("{missing} of 3000 instances in ")), "{}", ended.out);
     let whole = std::fs::read(undisturbed.path().join("out/s/map.csv")).unwrap();
     assert!(std::fs::read(directory.path().join("out/s/map.csv")).unwrap() == whole);
 }
