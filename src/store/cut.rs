@@ -13,7 +13,7 @@ use super::tiling::{LEAST, TILE};
 use crate::kernel::source::Precision;
 
 /// Steps of a tile: one core takes some seconds for them in f32, twice that in f64.
-const STEPS: f64 = 6e7;
+const STEPS: f64 = 1.2e8;
 
 /// Steps per period of a motion that no fast mode shortens.
 const PER_PERIOD: f64 = 3.0;
