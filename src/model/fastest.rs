@@ -5,7 +5,6 @@
 //! acceleration the square of its frequency counts.
 
 use super::equilibrium::{Equilibrium, Scaled, Units};
-use super::friction::Piece;
 use crate::model::{Param, Params};
 
 /// Magnitudes of the largest eigenvalue of slip, reversed slip, stick and free flight, scaled; infinite where the
@@ -16,8 +15,8 @@ pub type Fastest = [f64; 4];
 const HARDER: f64 = 2.0;
 
 /// The part of its rate that counts of a piece that drives the motion away. The motion shows it, and the truncation of its
-/// series shortens the step; a series over a hundred thousand times of such a step only tells nothing at all.
-const SHOWN: f64 = 0.25;
+/// series shortens the step; a series over ten thousand times of such a step only tells nothing at all.
+const SHOWN: f64 = 1.0 / 16.0;
 
 /// How fast slip is on a piece of the law, beyond what [`Fastest`] counts; 0 where that is enough.
 ///
@@ -26,11 +25,8 @@ const SHOWN: f64 = 0.25;
 /// no longer ends at the kinks of the piece.
 #[must_use]
 pub fn fastest_beyond(model: &Scaled, piece: usize) -> f64 {
-    let slope = |piece: usize| match model.law.pieces[piece] {
-        Piece::Linear { slope, .. } => slope,
-        Piece::Exponential { .. } | Piece::Rational { .. } => 0.0,
-    };
-    let (here, known) = (slope(piece), slope(model.law.index(model.v0)).max(0.0));
+    let law = &model.law;
+    let (here, known) = (law.slope_of(piece), law.slope_of(law.index(model.v0)).max(0.0));
     if here < 0.0 {
         -SHOWN * here * model.n0
     } else if here > known {

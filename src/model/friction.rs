@@ -191,6 +191,15 @@ impl PieceChain {
         self.kinks.partition_point(|&kink| kink <= speed)
     }
 
+    /// `dμ/d|v|` of a straight piece, 0 of others.
+    #[must_use]
+    pub fn slope_of(&self, piece: usize) -> f64 {
+        match self.pieces[piece] {
+            Piece::Linear { slope, .. } => slope,
+            Piece::Exponential { .. } | Piece::Rational { .. } => 0.0,
+        }
+    }
+
     /// μ in slip at the speed `speed ≥ 0`.
     #[must_use]
     pub fn mu(&self, speed: f64) -> f64 {

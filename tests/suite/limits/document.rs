@@ -42,7 +42,7 @@ What holds for all of them:
 - **So is a period bounded:** by 500 000 steps (`step_too_large`) and 20 000 events (`event_limit`). The reference counts them
   period by period, the kernels of a GPU in periods of whole steps. The CPU engine counts at the ends of its stretches of up to
   256 steps, and a stretch that is longer than a period may have the steps of all its periods in one of them, at most 2^23.
-- **So is a friction table.** On a piece that rises steeply, sliding is held by a rate of the slope times the normal force, which the
+- **So is a friction table.** On a short piece that rises steeply, sliding is held by a rate of the slope times the normal force, which the
   engine of the CPU and the kernels resolve; where 500 000 steps per period are not enough it is `step_too_large`.
 - **What is at rest is at rest.** Amplitudes below 1e-18 of `F_ext/k2` are 0 in f32: a motion that has died out that far
   is told as none.
