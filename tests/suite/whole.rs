@@ -258,8 +258,8 @@ fn a_tile_is_some_seconds_of_work_whatever_an_instance_costs() {
         tile_of(&Spec::parse(&text, "s.toml", ".".as_ref()).unwrap())
     };
     assert_eq!(of("[response]\nsettle = \"6 s\"\nmeasure = \"3 s\"\n"), 65_536);
-    assert_eq!(of("[response]\nsettle = \"600 periods\"\nmeasure = \"300 periods\"\n"), 16_384);
-    // 201 starts of 348 periods at 3 steps each: 209 844 steps, of which 6e7 hold 285.
+    assert_eq!(of("[response]\nsettle = \"600 periods\"\nmeasure = \"300 periods\"\n"), 32_768);
+    // 201 starts of 348 periods with 3 to 4 steps each: 2.1e5 to 2.8e5 steps, of which 1.2e8 hold 420 to 570.
     assert_eq!(
         of("[start]\nkind = \"box\"\nbox_samples = 200\nbox_velocity_from = -1\nbox_velocity_to = 1\n\
         box_displacement_from = 0\nbox_displacement_to = 0.01\n[response]\nsettle = \"auto\"\n"),
