@@ -60,9 +60,9 @@ fn read_material(
     base_dir: &Path,
     outside: Outside,
 ) -> Result<Arc<Material>> {
-    let file = Rows::read(source, span, Role::Material, name, base_dir)?;
     let known: Vec<Param> = std::iter::once(Param::Temperature).chain(LAW_PARAMS).collect();
     let names: Vec<&str> = known.iter().map(|param| param.info().name).collect();
+    let file = Rows::read(source, span, Role::Material, &names, name, base_dir)?;
     let params = file.columns(&names, |text| Param::from_name(text).filter(|param| known.contains(param)))?;
     let mut temperature = None;
     let mut columns = Vec::new();
@@ -87,7 +87,7 @@ fn read_table(
     base_dir: &Path,
 ) -> Result<Arc<MuTable>> {
     const NAMES: [&str; 2] = ["velocity", "mu"];
-    let file = Rows::read(source, span, Role::Table, name, base_dir)?;
+    let file = Rows::read(source, span, Role::Table, &NAMES, name, base_dir)?;
     let columns = file.columns(&NAMES, |text| NAMES.iter().position(|name| *name == text))?;
     let mut values = [None, None];
     for (index, &which) in columns.iter().enumerate() {

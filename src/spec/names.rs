@@ -9,10 +9,10 @@ use crate::place::Source;
 const SUGGEST: f64 = 0.7;
 
 /// Names of more bytes are not compared.
-const LONGEST_NAME: usize = 100;
+pub(super) const LONGEST_NAME: usize = 100;
 
 /// The candidate most similar to `name`, if any is similar; the shorter one when two are equally so.
-fn nearest<'a>(name: &str, candidates: &[&'a str]) -> Option<&'a str> {
+pub(super) fn nearest<'a>(name: &str, candidates: &[&'a str]) -> Option<&'a str> {
     // What is far longer than every name is like none of them, and comparing it would take its length squared.
     if name.len() > LONGEST_NAME {
         return None;

@@ -12,7 +12,7 @@ use crate::files::{self, MIB};
 use crate::model;
 use crate::place::Source;
 use crate::quote::{is_obeyed, quoted};
-use crate::spec::names::unknown;
+use crate::spec::names::{LONGEST_NAME, list, nearest, unknown};
 use crate::spec::{MAX_ROWS, MAX_TABLE_ROWS};
 
 /// What a file of rows is for.
@@ -68,11 +68,13 @@ pub(super) struct Rows {
 }
 
 impl Rows {
-    /// Reads the file `name` (relative to `base_dir`), which stands at `span` of `sweep`.
+    /// Reads the file `name` (relative to `base_dir`), which stands at `span` of `sweep`. One whose header has no column
+    /// like those of `columns` is another file, of which no more than the first name is told.
     pub(super) fn read(
         sweep: &Source,
         span: Range<usize>,
         role: Role,
+        columns: &[&str],
         name: &str,
         base_dir: &Path,
     ) -> Result<Rows> {
@@ -86,7 +88,15 @@ impl Rows {
             let why = "its name holds a control character; rename the file".to_owned();
             return Err(Error::ReadNamed { at: sweep.place(span), role: role.name(), path, why });
         }
-        let rows = Rows::parse(Source::new(path.display().to_string(), &text))?;
+        let source = Source::new(path.display().to_string(), &text);
+        if let Some(first) = stranger(&source, columns) {
+            let why = format!(
+                "its header begins with `{first}` and names none of its columns; give a CSV file with columns of {}",
+                list(columns)
+            );
+            return Err(Error::ReadNamed { at: sweep.place(span), role: role.name(), path, why });
+        }
+        let rows = Rows::parse(source)?;
         if rows.count > role.most_rows() {
             let (count, most) = (rows.count, role.most_rows());
             let why = format!("it has {count} rows but at most {most} are allowed; take fewer");
@@ -220,6 +230,17 @@ impl Rows {
         }
         Ok(())
     }
+}
+
+/// The first name of a header of several words in which nothing is like a column: that of another kind of file.
+fn stranger(source: &Source, columns: &[&str]) -> Option<String> {
+    let line = Lines { text: &source.text, start: 0 }.next()?;
+    let mut fields = Vec::new();
+    split(source, line, &mut fields).ok()?;
+    let is_word = |text: &str| text.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '-' | ' '));
+    let foreign = fields.iter().all(|field| nearest(&field.text, columns).is_none())
+        && !fields.iter().all(|field| is_word(&field.text) && field.text.len() <= LONGEST_NAME);
+    foreign.then(|| quoted(&fields[0].text))
 }
 
 /// The lines of a text that hold something, without blanks at their ends: neither blank nor a comment.

@@ -74,8 +74,8 @@ impl Varied {
 
     /// Reads the file of tuples named `name`.
     pub(super) fn tuples(sweep: &Source, span: Range<usize>, name: &str, base_dir: &Path) -> Result<Varied> {
-        let file = Rows::read(sweep, span, Role::Points, name, base_dir)?;
         let names: Vec<&str> = AxisKey::names().collect();
+        let file = Rows::read(sweep, span, Role::Points, &names, name, base_dir)?;
         let keys = file.columns(&names, AxisKey::from_name)?;
         let mut names = Names::default();
         let mut values = Vec::with_capacity(file.len() * keys.len());

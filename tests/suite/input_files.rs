@@ -150,6 +150,24 @@ fn excerpts_are_clipped_and_escaped() {
 }
 
 #[test]
+fn of_a_file_that_is_no_table_only_a_cell_is_told() {
+    let secret = "root:x:0:0:root:/root:/bin/sh\nsecret:x:1:1::/home/secret:/bin/sh\n";
+    for sweep in [
+        "points = \"f\"\n".to_owned(),
+        TABLE.replace("t.csv", "f"),
+        "[friction]\nmaterial = \"f\"\ntemperature = 20\n[belt]\nbelt_velocity = 1\n".to_owned(),
+    ] {
+        let directory = with(&[("s.toml", &sweep), ("f", secret)]);
+        let said = refused(directory.path());
+        assert!(
+            said.contains("its header begins with `root:x:0:0:root:/root:/bin/sh` and names none"),
+            "{said}"
+        );
+        assert!(!said.contains("secret"), "{said}");
+    }
+}
+
+#[test]
 fn the_place_of_a_long_line_is_still_shown() {
     let row = format!("{}oops{}", "1,".repeat(3000), ",1".repeat(3000));
     let header = "mu_s".to_owned() + &",mu_s".repeat(6000);
