@@ -86,8 +86,8 @@ pub fn decode(bytes: &[u8], count: usize, analysis: Analysis) -> Option<Vec<Reco
             |record: Record| (record.status != Status::NotComputed).then(|| Others::Large(Box::new(record)));
         columns::decode(others, count, large)?.into_iter().map(computed).collect()
     } else {
-        let basins = others.chunks_exact(COUNTS).map(|bytes| Some(basin(bytes)?.map(Others::Basin)));
-        basins.collect::<Option<_>>()?
+        let counted = |basin: Basin| (basin.total() > 0).then_some(Others::Basin(basin));
+        others.chunks_exact(COUNTS).map(|bytes| basin(bytes).map(counted)).collect::<Option<_>>()?
     };
     for ((record, flag), others) in records.iter_mut().zip(flags).zip(others) {
         record.bistable = *CODES.get(usize::from(*flag))?;
@@ -96,12 +96,11 @@ pub fn decode(bytes: &[u8], count: usize, analysis: Analysis) -> Option<Vec<Reco
     Some(records)
 }
 
-/// The counts of a box, `Some(None)` where no start was counted; `None` of counts that no box has.
-fn basin(bytes: &[u8]) -> Option<Option<Basin>> {
+/// The counts of a box; `None` of counts that no box has, beyond their sum.
+fn basin(bytes: &[u8]) -> Option<Basin> {
     let mut counts = bytes.chunks_exact(4).map(|four| four.try_into().map_or(0, u32::from_le_bytes));
     let mut next = || counts.next().unwrap_or(0);
     let basin = Basin { equilibrium: next(), oscillation: next(), other: next(), failed: next() };
     let all = [basin.equilibrium, basin.oscillation, basin.other, basin.failed];
-    let total = all.into_iter().try_fold(0_u32, u32::checked_add)?;
-    Some((total > 0).then_some(basin))
+    all.into_iter().try_fold(0_u32, u32::checked_add).map(|_| basin)
 }
