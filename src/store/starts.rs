@@ -86,7 +86,8 @@ pub fn decode(bytes: &[u8], count: usize, analysis: Analysis) -> Option<Vec<Reco
             |record: Record| (record.status != Status::NotComputed).then(|| Others::Large(Box::new(record)));
         columns::decode(others, count, large)?.into_iter().map(computed).collect()
     } else {
-        others.chunks_exact(COUNTS).map(|bytes| basin(bytes).map(Others::Basin)).collect()
+        let counted = |basin: Basin| (basin.total() > 0).then_some(Others::Basin(basin));
+        others.chunks_exact(COUNTS).map(|bytes| basin(bytes).map(counted)).collect::<Option<_>>()?
     };
     for ((record, flag), others) in records.iter_mut().zip(flags).zip(others) {
         record.bistable = *CODES.get(usize::from(*flag))?;
@@ -95,10 +96,11 @@ pub fn decode(bytes: &[u8], count: usize, analysis: Analysis) -> Option<Vec<Reco
     Some(records)
 }
 
-/// The counts of a box; `None` where no start was counted.
+/// The counts of a box; `None` of counts that no box has, beyond their sum.
 fn basin(bytes: &[u8]) -> Option<Basin> {
     let mut counts = bytes.chunks_exact(4).map(|four| four.try_into().map_or(0, u32::from_le_bytes));
     let mut next = || counts.next().unwrap_or(0);
     let basin = Basin { equilibrium: next(), oscillation: next(), other: next(), failed: next() };
-    (basin.total() > 0).then_some(basin)
+    let all = [basin.equilibrium, basin.oscillation, basin.other, basin.failed];
+    all.into_iter().try_fold(0_u32, u32::checked_add).map(|_| basin)
 }

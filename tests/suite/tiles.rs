@@ -11,6 +11,7 @@ use squealmap::map::{Computation, Record};
 use squealmap::model::Param;
 use squealmap::outcome::{Outcome, Status};
 use squealmap::spec::{Analysis, Spec, Starts};
+use squealmap::starts::{Basin, Others};
 use squealmap::store::columns::{decode, width};
 use squealmap::store::description::Description;
 use squealmap::store::grid_json::{self, from_json, to_json};
@@ -359,4 +360,17 @@ fn a_description_comes_back() {
             .replace("\"steps_per_period\": 60", "\"steps_per_period\": 6");
         assert!(Description::from_bytes(changed.as_bytes()).unwrap_err().contains("changed"));
     }
+}
+
+#[test]
+fn counts_of_a_box_beyond_their_sum_are_a_bad_tile() {
+    let basin = Basin { equilibrium: u32::MAX, oscillation: 1, other: 0, failed: 0 };
+    let record = Record { others: Some(Others::Basin(basin)), ..Record::NOT_COMPUTED };
+    let label = Label {
+        sweep: Id([7; 32]),
+        kind: "cpu f64".to_owned(),
+        analysis: Analysis { starts: Starts::Box(3), ..BOTH },
+        bounds: 0..1,
+    };
+    assert_eq!(label.read(&label.write(&[record])).unwrap_err(), Fault::Code);
 }
