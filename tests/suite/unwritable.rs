@@ -94,12 +94,15 @@ fn a_directory_that_goes_and_comes_back() {
 fn a_file_in_the_place_of_a_directory() {
     disturbed(
         &|directory| {
+            // A run that fails removes an empty output directory that it made; here it would be gone too early.
+            fs::write(directory.join("out/s/stays"), "").unwrap();
             fs::rename(directory.join("out/s/tiles"), directory.join("away")).unwrap();
             fs::write(directory.join("out/s/tiles"), "").unwrap();
         },
         &|directory| {
             fs::remove_file(directory.join("out/s/tiles")).unwrap();
             fs::rename(directory.join("away"), directory.join("out/s/tiles")).unwrap();
+            fs::remove_file(directory.join("out/s/stays")).unwrap();
         },
         &["cannot write `out/s/tiles/", "run the same command again"],
     );
