@@ -9,7 +9,7 @@ use crate::quote::{clipped, one_line, quoted};
 use crate::store::tile::Fault as TileFault;
 
 /// The most characters of what a parser says, which may quote the input.
-const SAID: usize = 300;
+pub const SAID: usize = 300;
 
 /// The most characters of what is wrong with a file of signals; the names in its header are many.
 const FAULT: usize = 1200;
@@ -288,8 +288,33 @@ pub enum Error {
         path: PathBuf,
     },
     /// A description of tiles that is none.
-    #[error("cannot read `{}`: {}", path.display(), clipped(why, SAID))]
+    #[error(
+        "cannot read `{}`: {}; run its sweep file once more: the description is written anew, and good tiles stay",
+        path.display(),
+        clipped(why, SAID)
+    )]
     BadDescription {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        why: String,
+    },
+    /// A map with holes under the name of the whole one.
+    #[error(
+        "`{}` is where the whole map belongs, and tiles are missing; name another file with --output, or leave it out",
+        path.display()
+    )]
+    PartialAsWhole {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A table of measured accuracies that is none.
+    #[error(
+        "cannot read `{}`: {}; remove it, or measure again with `squealmap tradeoff`",
+        path.display(),
+        clipped(why, SAID)
+    )]
+    BadFrontier {
         /// The file.
         path: PathBuf,
         /// What is wrong with it.
@@ -318,6 +343,28 @@ pub enum Error {
     OtherVersion {
         /// The directory.
         path: PathBuf,
+    },
+    /// A whole tile in a directory whose description does not name it.
+    #[error(
+        "`{}` is a good tile of another sweep, program version or engine; nothing was changed: choose another directory \
+         with -o, or move it away",
+        path.display()
+    )]
+    StrangeTile {
+        /// The tile.
+        path: PathBuf,
+    },
+    /// A description of tiles in a format that this version does not know.
+    #[error(
+        "cannot read `{}`: its format is {found}, which this version of the program does not know; nothing was changed: \
+         use the version that wrote it, or choose another directory with -o",
+        path.display()
+    )]
+    OtherFormat {
+        /// The file.
+        path: PathBuf,
+        /// Its format.
+        found: u32,
     },
     /// Whole tiles of a sweep under other names than this run gives them.
     #[error(
@@ -946,9 +993,13 @@ impl Error {
             | Error::OutputDirectory { .. }
             | Error::NoTiles { .. }
             | Error::BadDescription { .. }
+            | Error::BadFrontier { .. }
+            | Error::PartialAsWhole { .. }
             | Error::OtherSweep { .. }
             | Error::OtherVersion { .. }
             | Error::OtherCut { .. }
+            | Error::StrangeTile { .. }
+            | Error::OtherFormat { .. }
             | Error::OtherMerge { .. }
             | Error::OtherReuse { .. }
             | Error::TilesMissing { .. }

@@ -94,7 +94,7 @@ impl Archive {
 
 fn spec(manifest: &Json, table: &Table) -> Why<Spec> {
     let resolved = manifest["spec"].as_object().ok_or("has no `spec`")?;
-    let analysis = resolved["analysis"].as_array().ok_or("has no `analysis` in `spec`")?;
+    let analysis = manifest["spec"]["analysis"].as_array().ok_or("has no `analysis` in `spec`")?;
     let asked = |name: &str| analysis.iter().any(|one| one == name);
     let grid = match (resolved.get("axes").and_then(Json::as_object), resolved.get("points")) {
         (Some(axes), _) => Grid::Axes(axes.iter().map(axis).collect::<std::result::Result<_, _>>()?),

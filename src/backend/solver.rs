@@ -16,8 +16,9 @@ use crate::map::{Computation, Record, Stopped};
 use crate::method::Method;
 use crate::spec::{Analysis, Spec, Starts};
 
-/// Starts that a CPU takes at a time of instances with several, enough for many cores.
-const BLOCK: usize = 8192;
+/// Starts that a CPU takes at a time of instances with several: some batches for each core, and less than a second's work of
+/// cheap ones, which a stop would lose.
+const BLOCK: usize = 2048;
 
 /// The least that a GPU takes, which takes a range at once.
 const GPU_BLOCK: usize = 65_536;
@@ -134,11 +135,12 @@ impl<'a> Solver<'a> {
         Ok(computed)
     }
 
-    /// Instances that keep it busy, at least: ranges of fewer leave cores or lanes without work.
+    /// Instances that keep it busy, at least: ranges of fewer leave cores or lanes without work. Of instances so dear that a
+    /// tile has few, a core takes no more than a tile at a time, lest a stop loses many.
     #[must_use]
-    pub fn busy_with(&self) -> usize {
+    pub fn busy_with(&self, tile: usize) -> usize {
         match &self.on {
-            On::Cpu(_) => cpu::BUSY * rayon::current_num_threads(),
+            On::Cpu(_) => cpu::BUSY.min(tile) * rayon::current_num_threads(),
             On::Reference(_) => rayon::current_num_threads(),
             On::Gpu(_) => GPU_BLOCK.div_ceil(self.spec.analysis.starts.count()),
         }

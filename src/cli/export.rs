@@ -27,7 +27,7 @@ pub(crate) struct Export {
     /// What to write: map.csv, map.zarr (Zarr v3), map.nc (NetCDF classic) or map.parquet
     #[arg(long, value_enum)]
     format: Format,
-    /// File, for zarr directory, to write [default: the name above, in the output directory]
+    /// File, for zarr directory, to write [default: the name above, in the output directory; partial.… where tiles are missing]
     #[arg(short, long, value_name = "PATH")]
     output: Option<PathBuf>,
     /// Also where tiles are missing: their instances are `not_computed`
@@ -45,13 +45,20 @@ enum Format {
 }
 
 impl Format {
-    fn file(self) -> &'static str {
+    /// The end of the name of its file.
+    fn ending(self) -> &'static str {
         match self {
-            Format::Csv => "map.csv",
-            Format::Zarr => "map.zarr",
-            Format::Netcdf => "map.nc",
-            Format::Parquet => "map.parquet",
+            Format::Csv => "csv",
+            Format::Zarr => "zarr",
+            Format::Netcdf => "nc",
+            Format::Parquet => "parquet",
         }
+    }
+
+    /// Its file where none is named. One with holes never stands where the whole map would.
+    fn file(self, is_whole: bool) -> String {
+        let stem = if is_whole { "map" } else { "partial" };
+        format!("{stem}.{}", self.ending())
     }
 }
 
@@ -64,8 +71,12 @@ impl Export {
             let (path, done) = (self.directory, total - lacking);
             return Err(Error::TilesMissing { path, done, total });
         }
-        let path = self.output.unwrap_or_else(|| store.directory.join(self.format.file()));
-        let mut tiles = Tiles { store: &store, last: None };
+        let whole = store.directory.join(self.format.file(true));
+        let path = self.output.unwrap_or_else(|| store.directory.join(self.format.file(lacking == 0)));
+        if lacking > 0 && is_same(&path, &whole) {
+            return Err(Error::PartialAsWhole { path });
+        }
+        let mut tiles = Tiles { store: &store, partial: lacking > 0, last: None };
         match self.format {
             Format::Csv => csv(&mut tiles, &path)?,
             Format::Zarr => zarr(&mut tiles, &path)?,
@@ -80,14 +91,25 @@ impl Export {
     }
 }
 
+/// Whether two paths name one file, which need not be there.
+fn is_same(one: &Path, two: &Path) -> bool {
+    let folder = |path: &Path| {
+        let parent = path.parent().filter(|parent| !parent.as_os_str().is_empty());
+        parent.unwrap_or(Path::new(".")).canonicalize().ok()
+    };
+    one.file_name() == two.file_name() && folder(one) == folder(two)
+}
+
 /// The records of a directory in order, one tile in memory.
 struct Tiles<'a> {
     store: &'a Store,
+    /// Whether some may be missing.
+    partial: bool,
     last: Option<(usize, Vec<Record>)>,
 }
 
 impl Tiles<'_> {
-    /// The records of tile `number`; not computed where it is missing.
+    /// The records of tile `number`; not computed where it is missing and may be.
     fn tile(&mut self, number: usize) -> Result<&[Record]> {
         if self.last.as_ref().is_none_or(|(last, _)| *last != number) {
             let found = self.store.read(number).map_err(|fault| {
@@ -95,7 +117,12 @@ impl Tiles<'_> {
                 Error::BadTile { path, fault }
             })?;
             let found = match found {
-                None => self.store.kept(number, &note)?,
+                None if self.partial => self.store.kept(number, &note)?,
+                // It was there a moment ago.
+                None => {
+                    let (path, total) = (self.store.directory.clone(), self.store.description.tiling.count());
+                    return Err(Error::TilesMissing { path, done: self.store.done()?, total });
+                }
                 found => found,
             };
             let length = self.store.description.tiling.bounds(number).len();

@@ -62,7 +62,7 @@ pub(crate) fn store(asked: Option<PathBuf>, rows: &[Row]) -> Result<Option<PathB
 
 /// The rows of a table; none where there is none.
 fn read(path: &Path) -> Result<Vec<Row>> {
-    let bad = |why| Error::BadDescription { path: path.to_owned(), why };
+    let bad = |why| Error::BadFrontier { path: path.to_owned(), why };
     match disk::read(path) {
         Ok(bytes) => from_csv(&bytes).map_err(bad),
         Err(why) if why.kind() == ErrorKind::NotFound => Ok(Vec::new()),

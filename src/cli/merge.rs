@@ -65,7 +65,7 @@ impl Merge {
                 note("a tile went bad or was removed while it was read; run the same command again");
                 ExitCode::FAILURE
             }
-            Results::Stopped => {
+            Results::Stopped | Results::Fuller { .. } => {
                 note("stopped; another process is writing the results");
                 ExitCode::from(INTERRUPTED)
             }

@@ -44,6 +44,8 @@ pub(crate) enum Results {
     Lacking,
     /// Another process was writing them when this one was to stop.
     Stopped,
+    /// A run that was stopped has fewer instances than the results that are there, which stay.
+    Fuller { tally: Tally },
 }
 
 /// Writes all files or none: first under temporary names, then renamed; the manifest, which is the claim on all
@@ -96,6 +98,9 @@ pub(crate) fn write(store: &Store, run: &Run, cancel: &AtomicBool) -> Result<Res
     }
     let table_sum = rows.map(|rows| rows.finish().sum());
     let tally = figure.tally().clone();
+    if run.stopped.is_some() && instances_there(store) > Some(tally.computed()) {
+        return Ok(Results::Fuller { tally });
+    }
     let svg = figure.svg();
     let mut files: Vec<(PathBuf, Claim)> = Vec::new();
     let mut sums: Vec<(&'static str, Sum)> = Vec::new();
@@ -167,6 +172,19 @@ fn claim_or_current(store: &Store, run: &Run, cancel: &AtomicBool) -> Result<Cla
         }
         thread::sleep(WAIT);
     }
+}
+
+/// The instances that the results of this sweep which are there were computed of; `None` where there are none that are whole.
+fn instances_there(store: &Store) -> Option<usize> {
+    let bytes = disk::read(&store.directory.join(MANIFEST)).ok().filter(|bytes| is_intact(bytes))?;
+    let manifest: serde_json::Value = serde_json::from_slice(&bytes).ok()?;
+    let is_of_this = manifest["sweep_id"] == store.description.id.to_string();
+    let is_there = |name: &&str| {
+        let named = Sum::in_manifest(&manifest, name);
+        named.is_none_or(|named| sum(&store.directory.join(name)).is_ok_and(|found| found == named))
+    };
+    let computed = usize::try_from(manifest["computation"]["computed"].as_u64()?).ok()?;
+    (is_of_this && FILES.iter().all(is_there)).then_some(computed)
 }
 
 /// Why the results are not those of all tiles of this sweep as they are now, a sentence each; none where they are.

@@ -200,12 +200,19 @@ pub(crate) fn run(
                 ));
                 return Ok(ExitCode::from(INTERRUPTED));
             }
+            Results::Fuller { tally } => {
+                note(&format!(
+                    "the results in {directory} have more instances than the tiles there; they stay"
+                ));
+                let stopped = filled.stopped.as_ref().unwrap_or(&Stopped::Cancelled);
+                return Ok(ended(stopped, &tally, "kept"));
+            }
             Results::Written { paths, tally } => {
                 store.remove_if_empty();
                 print(&report(&run, store, &tally, &paths));
                 // Complete is what was written, whatever stopped the run in its last moment.
                 return Ok(match &filled.stopped {
-                    Some(why) if tally.computed() < total => ended(why, &tally),
+                    Some(why) if tally.computed() < total => ended(why, &tally, "wrote"),
                     _ => ExitCode::SUCCESS,
                 });
             }
@@ -285,8 +292,8 @@ fn missed(run: &manifest::Run, tally: &Tally) -> String {
     }
 }
 
-/// Says that a sweep is not complete, and gives the exit code.
-fn ended(stopped: &Stopped, tally: &Tally) -> ExitCode {
+/// Says that a sweep is not complete and what was done with what is, and gives the exit code.
+fn ended(stopped: &Stopped, tally: &Tally, did: &str) -> ExitCode {
     let code = match stopped {
         Stopped::Cancelled => INTERRUPTED,
         Stopped::Failed(why) => {
@@ -295,7 +302,7 @@ fn ended(stopped: &Stopped, tally: &Tally) -> ExitCode {
         }
     };
     note(&format!(
-        "stopped after {} of {} instances; wrote what is done, the others are `not_computed`; \
+        "stopped after {} of {} instances; {did} what is done, the others are `not_computed`; \
          run the same command again to compute the rest",
         tally.computed(),
         tally.total()

@@ -20,6 +20,9 @@ use crate::cli::results::faults;
 use crate::cli::run::run;
 use crate::cli::signal::stop_at_signal;
 
+/// Missing tiles that are named.
+const NAMED: usize = 10;
+
 /// Arguments of `verify`.
 #[derive(Debug, Args)]
 pub(crate) struct Verify {
@@ -53,6 +56,14 @@ impl Verify {
             status.done,
             status.bad.len()
         );
+        let there = store.numbers()?;
+        let lacking = (0..total).filter(|number| there.binary_search(number).is_err());
+        for number in lacking.clone().take(NAMED) {
+            let _ = writeln!(text, "missing      `{}`", store.path(number).display());
+        }
+        if let more @ 1.. = lacking.count().saturating_sub(NAMED) {
+            let _ = writeln!(text, "missing      {more} more");
+        }
         for (path, fault) in status.bad.iter().chain(&bad_kept) {
             let _ = writeln!(text, "bad          `{path}`: {fault}");
         }

@@ -129,7 +129,8 @@ fn open_file(path: &Path) -> io::Result<File> {
 fn not_followed(path: &Path) -> io::Result<File> {
     // Where somebody else may write, a link there would let this program overwrite any file of its user.
     if path.symlink_metadata().is_ok_and(|found| !found.is_file()) {
-        return Err(io::Error::new(io::ErrorKind::InvalidInput, "it is a link or no file; remove it"));
+        let why = format!("`{}` is a link or no file; remove it", path.display());
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, why));
     }
     let mut options = OpenOptions::new();
     options.read(true).write(true).create(true).truncate(false);

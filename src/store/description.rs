@@ -45,6 +45,23 @@ pub struct Description {
     /// The accuracy that was asked for and what was chosen for it; what it does to the numbers stands elsewhere.
     pub accuracy: Option<Chosen>,
     identity: Json,
+    /// The version of the format that it was read in, or is written in.
+    format: u32,
+}
+
+/// Why bytes are no description.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Unread {
+    /// Of a format that this version does not know.
+    Format(u32),
+    /// What is wrong, as the end of a sentence.
+    Bad(String),
+}
+
+/// What every format has.
+#[derive(Deserialize)]
+struct Versioned {
+    format: u32,
 }
 
 /// The file; the id is that of `identity`.
@@ -80,7 +97,14 @@ impl Description {
             resolved: resolved(&spec.title, identity[PHYSICS].clone(), &spec.grid),
             accuracy: None,
             identity,
+            format: FORMAT,
         }
+    }
+
+    /// Whether the file of this says what the file of another one of the same tiles does.
+    #[must_use]
+    pub fn is_written_as(&self, other: &Description) -> bool {
+        (self.format, &self.title, &self.accuracy) == (other.format, &other.title, &other.accuracy)
     }
 
     /// The file.
@@ -118,15 +142,17 @@ impl Description {
     /// Reads the file.
     ///
     /// # Errors
-    /// What is wrong with it, as the end of a sentence.
-    pub fn from_bytes(bytes: &[u8]) -> Result<Description, String> {
-        let document: Document<Parted> = serde_json::from_slice(bytes).map_err(|why| why.to_string())?;
-        if !READ.contains(&document.format) {
-            return Err(format!(
-                "its format is {} instead of {FORMAT}, that of this version",
-                document.format
-            ));
+    /// Why it cannot be read.
+    pub fn from_bytes(bytes: &[u8]) -> Result<Description, Unread> {
+        // First of all, as another format may have other entries.
+        match serde_json::from_slice(bytes) {
+            Ok(Versioned { format }) if !READ.contains(&format) => Err(Unread::Format(format)),
+            _ => Description::parse(bytes).map_err(Unread::Bad),
         }
+    }
+
+    fn parse(bytes: &[u8]) -> Result<Description, String> {
+        let document: Document<Parted> = serde_json::from_slice(bytes).map_err(|why| why.to_string())?;
         if document.format == FORMAT && !is_intact(bytes) {
             return Err("it was changed: its content does not have its checksum".to_owned());
         }
@@ -156,6 +182,7 @@ impl Description {
             resolved,
             accuracy: document.accuracy,
             identity,
+            format: document.format,
         })
     }
 

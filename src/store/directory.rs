@@ -4,16 +4,17 @@ use std::io::{self, ErrorKind, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
 use super::claim::Claim;
-use super::description::Description;
+use super::description::{Description, Unread};
 use super::direct::Room;
 pub use super::folder::Note;
-use super::folder::{BAD, Folder, SOME, TILE, Tile};
+use super::folder::{Folder, SOME, TILE, Tile};
 use super::identity::Id;
 use super::tile::{Checksum, FOOTER, Fault, checksum_in, instances_in, sweep_in};
 use crate::disk::{self, Handle, How, door};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, SAID};
 use crate::map::Record;
 use crate::outcome::Status;
+use crate::quote::clipped;
 
 /// The directory of the tiles inside the output directory.
 pub const TILES: &str = "tiles";
@@ -44,8 +45,10 @@ impl Store {
                 other.map_err(|why| Error::BadDescription { path: path.clone(), why: why.to_string() })?
             }
         };
-        let description =
-            Description::from_bytes(&bytes).map_err(|why| Error::BadDescription { path, why })?;
+        let description = Description::from_bytes(&bytes).map_err(|why| match why {
+            Unread::Format(found) => Error::OtherFormat { path, found },
+            Unread::Bad(why) => Error::BadDescription { path, why },
+        })?;
         Ok(Store { directory: directory.to_owned(), description })
     }
 
@@ -53,7 +56,7 @@ impl Store {
     /// that stands there gives way: it is cheap to compute again.
     ///
     /// # Errors
-    /// When it holds tiles of another sweep, or cannot be written.
+    /// When it holds whole tiles of another sweep, or a description of another version, or cannot be written.
     pub fn begin(directory: &Path, description: Description, note: Note) -> Result<Store> {
         let folder = Folder::new(directory, TILES);
         folder.make()?;
@@ -61,7 +64,7 @@ impl Store {
         let store = Store { directory: directory.to_owned(), description };
         match Store::open(directory) {
             Ok(other) if store.is_same(&other) => {
-                if other.description.to_bytes() == store.description.to_bytes() {
+                if other.description.is_written_as(&store.description) {
                     return Ok(store);
                 }
                 // The same tiles with another title, or of a version that had no checksum here.
@@ -76,11 +79,13 @@ impl Store {
                     disk::remove_if_there(&other.path_of_some(number)).map_err(cannot)?;
                 }
             }
-            Err(Error::NoTiles { .. }) => {}
-            Err(why) => {
-                folder.set_aside(DESCRIPTION).map_err(cannot)?;
-                note(&format!("{why}; it was set aside in `{TILES}/{BAD}` and written again"));
+            Err(Error::NoTiles { .. }) => store.refuse_whole_strangers()?,
+            Err(Error::BadDescription { why, .. }) => {
+                store.refuse_whole_strangers()?;
+                let why = clipped(&why, SAID);
+                folder.expel(DESCRIPTION, &format!("{why}; it is written again"), note)?;
             }
+            Err(why) => return Err(why),
         }
         let path = directory.join(TILES).join(DESCRIPTION);
         // Another process that holds the claim writes the same.
@@ -280,18 +285,38 @@ impl Store {
     /// Sets files aside that have the form of a tile's name and are no tile of this sweep.
     ///
     /// # Errors
-    /// When the directory cannot be read or written; when one is a good tile of this sweep all the same.
+    /// When the directory cannot be read or written; when one is a whole tile of this sweep, cut otherwise.
     pub fn expel_strangers(&self, note: Note) -> Result<()> {
-        let folder = self.folder();
-        let strangers = folder.tiles()?.into_iter().filter(|name| self.number(name).is_none());
-        let kept = folder.ending(SOME)?.into_iter().filter(|name| self.number_of_some(name).is_none());
-        strangers.chain(kept).try_for_each(|name| {
-            let bytes = folder.bytes(&name).ok().flatten().unwrap_or_default();
-            if sweep_in(&bytes) == Some(self.description.id) && instances_in(&bytes).is_some() {
-                return Err(Error::OtherCut { path: folder.path(&name) });
+        self.strangers()?.into_iter().try_for_each(|name| {
+            if self.whole(&name) == Some(self.description.id) {
+                return Err(Error::OtherCut { path: self.folder().path(&name) });
             }
-            folder.expel(&name, "it is no tile of this sweep", note)
+            self.folder().expel(&name, "it is no tile of this sweep", note)
         })
+    }
+
+    /// Refuses a directory without a description in which somebody has computed another sweep.
+    fn refuse_whole_strangers(&self) -> Result<()> {
+        self.strangers()?.into_iter().try_for_each(|name| match self.whole(&name) {
+            Some(sweep) if sweep != self.description.id => {
+                Err(Error::StrangeTile { path: self.folder().path(&name) })
+            }
+            _ => Ok(()),
+        })
+    }
+
+    /// The names of files that have the form of a tile's name and are no tile of this sweep.
+    fn strangers(&self) -> Result<Vec<String>> {
+        let folder = self.folder();
+        let tiles = folder.tiles()?.into_iter().filter(|name| self.number(name).is_none());
+        let kept = folder.ending(SOME)?.into_iter().filter(|name| self.number_of_some(name).is_none());
+        Ok(tiles.chain(kept).collect())
+    }
+
+    /// The sweep of a whole tile; `None` of what is none.
+    fn whole(&self, name: &str) -> Option<Id> {
+        let bytes = self.folder().bytes(name).ok().flatten()?;
+        instances_in(&bytes).and(sweep_in(&bytes))
     }
 
     /// Removes what a process that was killed has left of a file that is there by now.

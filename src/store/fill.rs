@@ -108,9 +108,11 @@ impl Filling<'_, '_> {
         while !open.is_empty() {
             let mut busy = Vec::new();
             let mut rest = open.as_slice();
-            while let (false, group) = (self.is_cancelled(), self.next_group(&mut rest, &mut busy)?)
-                && !group.is_empty()
-            {
+            while !self.is_cancelled() {
+                let group = self.next_group(&mut rest, &mut busy)?;
+                if group.is_empty() {
+                    break;
+                }
                 self.compute(group)?;
                 if self.filled.stopped.is_some() {
                     return Ok(());
@@ -139,11 +141,12 @@ impl Filling<'_, '_> {
     /// Claims the next tiles of `rest` that nobody has and that follow one another, as many as keep the engine busy; those
     /// that other processes have go to `busy`. Empty at the end.
     fn next_group(&self, rest: &mut &[usize], busy: &mut Vec<usize>) -> Result<Vec<(usize, Claim)>> {
-        let enough = self.solver.busy_with();
+        let tile = self.store.description.tiling.tile;
+        let enough = self.solver.busy_with(tile);
         let mut group: Vec<(usize, Claim)> = Vec::new();
         while let Some((number, others)) = rest.split_first() {
             let follows = group.last().is_none_or(|(last, _)| last + 1 == *number);
-            if !follows || group.len() * self.store.description.tiling.tile >= enough {
+            if !follows || group.len() * tile >= enough {
                 break;
             }
             *rest = others;

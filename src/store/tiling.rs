@@ -5,8 +5,8 @@ use std::ops::Range;
 /// Most instances of a tile: some 3 MB of eigenvalues, 14 MB with response.
 pub const TILE: usize = 65_536;
 
-/// Fewest, however much they cost: they fill the lanes of some cores.
-pub const LEAST: usize = 64;
+/// Fewest, however much they cost: they fill the lanes of one core's widest register.
+pub const LEAST: usize = 16;
 
 /// The tiles of a sweep; their bounds depend on nothing else, so that threads, processes and machines agree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

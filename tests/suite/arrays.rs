@@ -7,7 +7,7 @@ use std::path::Path;
 
 use serde_json::Value as Json;
 
-use crate::cli::squealmap;
+use crate::cli::{squealmap, unwrapped};
 use crate::netcdf_file::netcdf;
 use crate::resume::{SWEEP, with};
 
@@ -162,7 +162,8 @@ fn zarr_holds_what_the_table_holds() {
 fn missing_tiles_are_not_computed_in_every_format() {
     let directory = with(SWEEP);
     squealmap(directory.path(), &[&RUN[..], &["--shard", "1/3"]].concat());
-    for format in ["csv", "zarr", "netcdf"] {
+    let out = directory.path().join("out/s");
+    for (format, ending) in [("csv", "csv"), ("zarr", "zarr"), ("netcdf", "nc")] {
         let ended = squealmap(directory.path(), &["export", "out/s", "--format", format]);
         assert_eq!(ended.code, Some(2));
         assert_eq!(
@@ -172,6 +173,15 @@ fn missing_tiles_are_not_computed_in_every_format() {
         let ended = squealmap(directory.path(), &["export", "out/s", "--format", format, "--partial"]);
         assert_eq!(ended.code, Some(0), "{}", ended.err);
         assert_eq!(ended.err, "3 of 10 tiles are there; the rest is `not_computed`\n");
+        // Not where the whole map would stand, which a manifest may call complete; nor by name.
+        let whole = format!("out/s/map.{ending}");
+        assert!(!directory.path().join(&whole).exists());
+        let named = ["export", "out/s", "--format", format, "--partial", "--output", &whole];
+        let ended = squealmap(directory.path(), &named);
+        assert_eq!(ended.code, Some(2), "{}", ended.out);
+        assert!(unwrapped(&ended.err).contains("is where the whole map belongs"), "{}", ended.err);
+        assert!(!directory.path().join(&whole).exists());
+        std::fs::rename(out.join(format!("partial.{ending}")), directory.path().join(whole)).unwrap();
     }
     let status = &table(directory.path())["status"];
     assert_eq!(status.iter().filter(|status| *status == "not_computed").count(), 300 - 3 * 32);

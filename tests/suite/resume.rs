@@ -201,7 +201,7 @@ fn a_broken_description_is_written_again() {
     std::fs::write(&path, &good[..good.len() / 2]).unwrap();
     let ended = squealmap(directory.path(), &RUN);
     assert_eq!(ended.code, Some(0), "{}", ended.err);
-    assert!(ended.err.contains("cannot read `out/s/tiles/sweep.json`: "), "{}", ended.err);
+    assert!(ended.err.contains("`out/s/tiles/sweep.json` is set aside in `tiles/bad`: EOF"), "{}", ended.err);
     assert!(ended.out.starts_with("all 300 instances were computed before"), "{}", ended.out);
     assert!(std::fs::read(&path).unwrap() == good && tiles(directory.path()) == before);
 }

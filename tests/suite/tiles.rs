@@ -13,7 +13,7 @@ use squealmap::outcome::{Outcome, Status};
 use squealmap::spec::{Analysis, Spec, Starts};
 use squealmap::starts::{Basin, Others};
 use squealmap::store::columns::{decode, width};
-use squealmap::store::description::Description;
+use squealmap::store::description::{Description, Unread};
 use squealmap::store::grid_json::{self, from_json, to_json};
 use squealmap::store::identity::{Id, identity, kind};
 use squealmap::store::tile::{Fault, Label};
@@ -358,7 +358,8 @@ fn a_description_comes_back() {
         let changed = String::from_utf8(made.to_bytes())
             .unwrap()
             .replace("\"steps_per_period\": 60", "\"steps_per_period\": 6");
-        assert!(Description::from_bytes(changed.as_bytes()).unwrap_err().contains("changed"));
+        let refused = Description::from_bytes(changed.as_bytes()).unwrap_err();
+        assert!(matches!(&refused, Unread::Bad(why) if why.contains("changed")), "{refused:?}");
     }
 }
 

@@ -13,7 +13,7 @@ use squealmap::store::claim::Claim;
 use squealmap::store::cut::tile_of;
 use squealmap::store::directory::Store;
 
-use crate::cli::squealmap;
+use crate::cli::{squealmap, unwrapped};
 use crate::killed::{RUN as SLOW, done, sweep as slow};
 use crate::resume::{COMPLETE, SWEEP, names, tiles, with};
 
@@ -169,14 +169,14 @@ fn a_changed_description_is_named_and_moves_no_tile() {
         {
             let refused = squealmap(directory.path(), command);
             assert_eq!(refused.code, Some(2), "{command:?}: {}", refused.out);
-            let said = crate::cli::unwrapped(&refused.err);
+            let said = unwrapped(&refused.err);
             assert!(said.contains("it was changed: its content does not have its checksum"), "{said}");
         }
         assert!(tiles(directory.path()) == good, "no tile is moved");
         // Cut in another size, as far as this command knows: nothing is touched.
         let other = squealmap(directory.path(), &["run", "s.toml", "--backend", "cpu", "--tile", "50"]);
         assert_eq!(other.code, Some(2), "{}", other.out);
-        assert!(crate::cli::unwrapped(&other.err).contains("is a good tile of this sweep"), "{}", other.err);
+        assert!(unwrapped(&other.err).contains("is a good tile of this sweep"), "{}", other.err);
         assert!(tiles(directory.path()) == good, "no tile is moved");
         std::fs::write(&path, text).unwrap();
         assert_eq!(squealmap(directory.path(), &RUN).code, Some(0));
@@ -197,9 +197,93 @@ fn a_description_of_the_first_format_is_read() {
     assert_eq!(merged.code, Some(0), "{}", merged.err);
     old["format"] = 3.into();
     std::fs::write(&path, old.to_string()).unwrap();
-    let refused = squealmap(directory.path(), &["merge", "out/s"]);
-    assert_eq!(refused.code, Some(2), "{}", refused.out);
-    assert!(crate::cli::unwrapped(&refused.err).contains("its format is 3 instead of 2"), "{}", refused.err);
+    old["entry_of_tomorrow"] = true.into();
+    std::fs::write(&path, old.to_string()).unwrap();
+    let good = tiles(directory.path());
+    for command in [&["merge", "out/s"][..], &RUN, &["verify", "out/s", "--repair"], &["status", "out/s"]] {
+        let refused = squealmap(directory.path(), command);
+        assert_eq!(refused.code, Some(2), "{command:?}: {}", refused.out);
+        let said = unwrapped(&refused.err);
+        assert!(said.contains("sweep.json`: its format is 3, which this version"), "{command:?}: {said}");
+        assert_eq!(std::fs::read(&path).unwrap(), old.to_string().into_bytes(), "{command:?}");
+    }
+    assert!(tiles(directory.path()) == good, "no tile is moved");
+}
+
+/// Whoever computed tiles keeps them, whatever became of the file beside them that describes them.
+#[test]
+fn tiles_without_their_description_are_not_taken_for_rubbish() {
+    let other = SWEEP.replace("mu_s = 0.4", "mu_s = 0.5");
+    for spoil in [None, Some("{")] {
+        let directory = with(SWEEP);
+        squealmap(directory.path(), &RUN);
+        let (good, csv) = (tiles(directory.path()), read(directory.path(), "map.csv"));
+        let path = directory.path().join("out/s/tiles/sweep.json");
+        match spoil {
+            None => std::fs::remove_file(&path).unwrap(),
+            Some(text) => std::fs::write(&path, text).unwrap(),
+        }
+        std::fs::write(directory.path().join("s.toml"), &other).unwrap();
+        let refused = squealmap(directory.path(), &RUN);
+        assert_eq!(refused.code, Some(2), "{}", refused.out);
+        assert!(unwrapped(&refused.err).contains("is a good tile of another sweep"), "{}", refused.err);
+        assert!(tiles(directory.path()) == good && read(directory.path(), "map.csv") == csv);
+        // What reads the directory says how the description is healed, and that is true.
+        if spoil.is_some() {
+            let said = squealmap(directory.path(), &["verify", "out/s", "--repair"]);
+            assert!(unwrapped(&said.err).contains("run its sweep file once more"), "{}", said.err);
+        }
+        std::fs::write(directory.path().join("s.toml"), SWEEP).unwrap();
+        let healed = squealmap(directory.path(), &RUN);
+        assert_eq!(healed.code, Some(0), "{}", healed.err);
+        assert!(healed.out.contains("nothing is left to do"), "{}", healed.out);
+        assert_eq!(squealmap(directory.path(), &["verify", "out/s"]).code, Some(0));
+        assert!(tiles(directory.path()) == good && read(directory.path(), "map.csv") == csv);
+    }
+}
+
+/// A run that is stopped early in a directory that has lost tiles leaves the results of before, which have more.
+#[test]
+fn fuller_results_stay() {
+    let undisturbed = with(&slow());
+    assert_eq!(squealmap(undisturbed.path(), &SLOW).code, Some(0));
+    let directory = undisturbed;
+    let (csv, all) = (read(directory.path(), "map.csv"), tiles(directory.path()));
+    for name in all.keys().skip(10) {
+        std::fs::remove_file(directory.path().join("out/s/tiles").join(name)).unwrap();
+    }
+    let said = squealmap(directory.path(), &["verify", "out/s"]);
+    let first_missing = all.keys().filter(|name| name.to_string_lossy().ends_with(".tile")).nth(10).unwrap();
+    assert!(
+        said.out.contains(&format!("missing      `out/s/tiles/{}`\n", first_missing.display())),
+        "{}",
+        said.out
+    );
+    let child = begin(directory.path(), &SLOW);
+    while done(directory.path()) < 15 {
+        sleep(Duration::from_micros(200));
+    }
+    send(&child, "INT");
+    let output = child.wait_with_output().unwrap();
+    let err = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(130), "{err}");
+    assert!(unwrapped(&err).contains("have more instances than the tiles there; they stay"), "{err}");
+    assert!(read(directory.path(), "map.csv") == csv);
+    assert_eq!(squealmap(directory.path(), &SLOW).code, Some(0));
+    assert!(read(directory.path(), "map.csv") == csv && tiles(directory.path()) == all);
+}
+
+/// A manifest of which a part is missing has a sentence; found by fuzzing.
+#[test]
+fn a_manifest_without_its_analysis_is_named() {
+    let directory = with(SWEEP);
+    squealmap(directory.path(), &RUN);
+    let mut damaged = manifest(directory.path());
+    damaged["spec"].as_object_mut().unwrap().remove("analysis").unwrap();
+    std::fs::write(directory.path().join("out/s/manifest.json"), damaged.to_string()).unwrap();
+    let said = squealmap(directory.path(), &["plot", "out/s"]);
+    assert_eq!(said.code, Some(2), "{}{}", said.out, said.err);
+    assert!(unwrapped(&said.err).contains("has no `analysis` in `spec`"), "{}", said.err);
 }
 
 #[test]
@@ -265,7 +349,7 @@ fn a_tile_is_some_seconds_of_work_whatever_an_instance_costs() {
         box_displacement_from = 0\nbox_displacement_to = 0.01\n[response]\nsettle = \"auto\"\n"),
         256
     );
-    assert_eq!(of("[response]\nsettle = \"1e6 periods\"\n"), 64);
+    assert_eq!(of("[response]\nsettle = \"1e6 periods\"\n"), 16);
 }
 
 /// A run that is stopped keeps what it has of a tile, and the next one goes on from there: nothing that was done is lost,
@@ -321,11 +405,7 @@ fn a_link_in_place_of_a_file_in_work_is_not_followed() {
     std::os::unix::fs::symlink(&mine, format!("{}.part", tile.display())).unwrap();
     let ended = squealmap(directory.path(), &RUN);
     assert_eq!(ended.code, Some(1), "{}{}", ended.out, ended.err);
-    assert!(
-        crate::cli::unwrapped(&ended.err).contains("it is a link or no file; remove it"),
-        "{}",
-        ended.err
-    );
+    assert!(unwrapped(&ended.err).contains(".tile.part` is a link or no file; remove it"), "{}", ended.err);
     assert_eq!(std::fs::read_to_string(&mine).unwrap(), "mine");
 }
 
