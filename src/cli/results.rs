@@ -194,6 +194,13 @@ pub(crate) fn faults(store: &Store) -> Vec<String> {
     if manifest.is_null() {
         return vec![format!("`{MANIFEST}` is not there or no document")];
     }
+    if manifest.get("checksum").is_none() && manifest.get("files").is_none() {
+        return vec![format!(
+            "`{MANIFEST}`: it is of a version that wrote no checksums, so that the results cannot be judged; \
+             `squealmap merge {}` writes them again from the tiles",
+            store.directory.display()
+        )];
+    }
     let mut faults = Vec::new();
     let mut expect = |holds: bool, why: &str| {
         if !holds {

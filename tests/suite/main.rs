@@ -16,6 +16,7 @@ mod common;
 mod crossings;
 mod curves;
 mod direct;
+mod earlier;
 mod engines;
 mod events;
 mod exact;
