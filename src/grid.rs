@@ -41,6 +41,11 @@ pub fn spaced([from, to]: [f64; 2], points: usize, log: bool, index: usize) -> f
     } else {
         from + index as f64 * ((to - from) / last)
     };
+    // What rounding leaves of a zero, as in −0.05 … 0.1 with 61 points, is none: any other value is a step away from it.
+    let most = from.abs().max(to.abs());
+    if !log && value.abs() <= 4.0 * f64::EPSILON * most {
+        return 0.0;
+    }
     value.clamp(from.min(to), from.max(to))
 }
 

@@ -4,6 +4,7 @@ use std::io::{IsTerminal, Write};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
+use console::Term;
 use indicatif::{ProgressBar, ProgressStyle};
 
 /// Plain lines are printed each time another of this many parts is done …
@@ -11,6 +12,12 @@ const LINES: usize = 10;
 
 /// … but not in this first time, s: a short sweep needs no news.
 const QUIET: f64 = 1.0;
+
+/// Columns that the words beside the bar take.
+const WORDS: usize = 56;
+
+/// Columns of the longest bar.
+const BAR: usize = 32;
 
 /// Counts finished instances.
 #[derive(Debug)]
@@ -25,9 +32,13 @@ impl Progress {
     /// Starts counting to `total` instances.
     pub(crate) fn new(total: usize) -> Progress {
         let bar = std::io::stderr().is_terminal().then(|| {
-            let style = ProgressStyle::with_template(
-                "{bar:32} {pos} of {len} instances, {per_sec:.0} instances/s, {eta} left",
-            );
+            let columns = usize::from(Term::stderr().size().1);
+            // The words are clipped where they do not fit: a line that wraps is drawn again and again.
+            let template = match columns.saturating_sub(WORDS).min(BAR) {
+                0..8 => "{wide_msg}".to_owned(),
+                bar => format!("{{bar:{bar}}} {{wide_msg}}"),
+            };
+            let style = ProgressStyle::with_template(&template);
             ProgressBar::new(total as u64).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
         });
         Progress { total, done: AtomicUsize::new(0), began: Instant::now(), bar }
@@ -38,7 +49,10 @@ impl Progress {
         let before = self.done.fetch_add(count, Ordering::Relaxed);
         let done = before + count;
         match &self.bar {
-            Some(bar) => bar.inc(count as u64),
+            Some(bar) => {
+                bar.set_message(self.words(done));
+                bar.inc(count as u64);
+            }
             None if self.part(before) < self.part(done) && done < self.total => self.line(done),
             None => {}
         }
@@ -57,18 +71,16 @@ impl Progress {
     }
 
     fn line(&self, done: usize) {
-        let elapsed = self.began.elapsed().as_secs_f64();
-        if elapsed < QUIET {
-            return;
+        if self.began.elapsed().as_secs_f64() >= QUIET {
+            let _ = writeln!(std::io::stderr().lock(), "{}", self.words(done));
         }
-        let rate = done as f64 / elapsed;
-        let left = (self.total - done) as f64 / rate;
-        let _ = writeln!(
-            std::io::stderr().lock(),
-            "{done} of {} instances, {rate:.0} instances/s, {} left",
-            self.total,
-            seconds(left)
-        );
+    }
+
+    /// How far it has come, the most wanted first.
+    fn words(&self, done: usize) -> String {
+        let rate = done as f64 / self.began.elapsed().as_secs_f64().max(f64::MIN_POSITIVE);
+        let left = seconds(self.total.saturating_sub(done) as f64 / rate);
+        format!("{done} of {} instances, {left} left, {rate:.0} instances/s", self.total)
     }
 }
 

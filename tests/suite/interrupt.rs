@@ -43,7 +43,7 @@ fn what_is_done_is_written() {
     let mut child = start(directory.path(), &["run", "long.toml", "--backend", "cpu", "--threads", "2"]);
     let mut err = BufReader::new(child.stderr.take().unwrap());
     let mut said = String::new();
-    while !said.contains(" instances/s, ") {
+    while !said.contains(" left, ") {
         assert_ne!(err.read_line(&mut said).unwrap(), 0, "it ended before its first line: {said}");
     }
     interrupt(&child);

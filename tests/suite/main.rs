@@ -91,6 +91,7 @@ mod submit;
 mod sweeps;
 mod swings;
 mod synthetic;
+mod terminal;
 mod tikz;
 mod tile_cost;
 mod tiles;

@@ -109,6 +109,21 @@ fn axis_ends_are_exact_and_steps_are_index_times_step() {
 }
 
 #[test]
+fn a_zero_on_an_axis_is_zero() {
+    let theta =
+        |of: &str| axis(&format!("mu_d = 0.2\n[axes]\ntheta = {{ {of} }}\n[belt]\nbelt_velocity = 1\n"));
+    // The 21st of 61 values from −0.05 to 0.1 is zero; by rounding it was 6.9e-18.
+    for of in ["from = -0.05, to = 0.1, points = 61", "from = 0.1, to = -0.05, points = 61"] {
+        let values = theta(of);
+        let zeros = values.iter().filter(|value| **value == 0.0 && value.is_sign_positive());
+        assert_eq!(zeros.count(), 1, "{of}");
+        assert!(values.iter().all(|value| *value == 0.0 || value.abs() > 0.0024), "{of}");
+    }
+    // A small value that is meant is a step away from zero, and stays.
+    assert_eq!(theta("from = 0.0, to = 1e-12, points = 3")[1], 5e-13);
+}
+
+#[test]
 fn log_axis_has_equal_ratios_and_exact_ends() {
     let values = axis(
         "[axes]\nk2 = { from = 1e3, to = 1e9, points = 7, scale = \"log\" }\nmu_d = { values = [0.1] }\n\
