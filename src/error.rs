@@ -366,6 +366,18 @@ pub enum Error {
         /// Its format.
         found: u32,
     },
+    /// A refined directory that does not say what it was refined from.
+    #[error(
+        "`{}` does not hold what it was refined from: `refine.json` does not say it, nor one file alone in `parts`; run \
+         `squealmap refine SWEEP.toml -o {}` again with its sweep file and options: good parts of this version are not \
+         computed again",
+        path.display(),
+        path.display()
+    )]
+    NoRefinement {
+        /// The directory.
+        path: PathBuf,
+    },
     /// Whole tiles of a sweep under other names than this run gives them.
     #[error(
         "`{}` is a good tile of this sweep, cut into tiles of another size; nothing was changed: give the same `--tile` as \
@@ -997,6 +1009,7 @@ impl Error {
             | Error::PartialAsWhole { .. }
             | Error::OtherSweep { .. }
             | Error::OtherVersion { .. }
+            | Error::NoRefinement { .. }
             | Error::OtherCut { .. }
             | Error::StrangeTile { .. }
             | Error::OtherFormat { .. }

@@ -7,6 +7,10 @@ use serde_json::Value as Json;
 use crate::error::{Error, Result};
 use crate::export::heading::Heading;
 use crate::export::manifest::Sum;
+use crate::store::seal::is_intact;
+
+/// What puts damaged results right.
+const HEALED: &str = "run the same command again, or `squealmap verify --repair`, which writes it anew";
 
 /// What is wrong with a file, as the end of a sentence.
 pub(super) type Why<T> = std::result::Result<T, String>;
@@ -36,13 +40,25 @@ impl Folder<'_> {
         serde_json::from_str(&self.text(file)?).map_err(|why| self.bad(file, why.to_string()))
     }
 
-    /// A file of which a document may say length and checksum; one that has others is refused.
-    pub(super) fn named(self, file: &str, document: &Json) -> Result<Vec<u8>> {
+    /// The same of one that may have a checksum of its own; one that was changed is refused.
+    pub(super) fn sealed(self, file: &str) -> Result<Json> {
+        let document = self.json(file)?;
+        // Whichever of the two a change has hit, the other is there.
+        let is_sealed = ["files", "checksum"].iter().any(|key| document.get(key).is_some());
+        if is_sealed && !is_intact(&self.bytes(file)?) {
+            let why = format!("it was changed: its content does not have its checksum; {HEALED}");
+            return Err(self.bad(file, why));
+        }
+        Ok(document)
+    }
+
+    /// A file of which the document `of` may say length and checksum; one that has others is refused.
+    pub(super) fn named(self, file: &str, of: &str, document: &Json) -> Result<Vec<u8>> {
         let bytes = self.bytes(file)?;
         match Sum::in_manifest(document, file) {
             Some(sum) if sum != Sum::of(&bytes) => {
-                let why = "it is not the file that manifest.json names: its checksum is another one; run the same command \
-                           again, or `squealmap verify --repair`, which writes it anew";
+                let why =
+                    format!("it is not the file that {of} names: its checksum is another one; {HEALED}");
                 Err(self.bad(file, why))
             }
             _ => Ok(bytes),

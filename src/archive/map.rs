@@ -59,8 +59,8 @@ impl Archive {
     pub fn read(directory: &Path) -> Result<Archive> {
         let folder = Folder(directory);
         let manifest = folder.json(FILES[0])?;
-        let table =
-            Table::read(&folder.named(FILES[1], &manifest)?).map_err(|why| folder.bad(FILES[1], why))?;
+        let table = Table::read(&folder.named(FILES[1], FILES[0], &manifest)?)
+            .map_err(|why| folder.bad(FILES[1], why))?;
         numbers_are_numbers(&manifest, &table).map_err(|why| folder.bad(FILES[1], why))?;
         let spec = spec(&manifest, &table).map_err(|why| folder.bad(FILES[0], why))?;
         let mut records = records(&table).map_err(|why| folder.bad(FILES[1], why))?;

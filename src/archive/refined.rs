@@ -17,6 +17,7 @@ use crate::map::Computation;
 use crate::refine::{Refined, Settings, refine};
 use crate::spec::{Analysis, Spec, Starts};
 use crate::store::grid_json;
+use crate::store::refinement::settings;
 
 /// The files that are read.
 pub(super) const FILES: [&str; 2] = ["points.csv", "refine.json"];
@@ -39,9 +40,11 @@ impl Lines {
 
 /// Reads the points and follows the lines again: the same points are asked for as by the command.
 pub(super) fn read(folder: Folder<'_>) -> Result<Lines> {
-    let document = folder.json(FILES[1])?;
+    let document = folder.sealed(FILES[1])?;
     let (spec, settings) = sweep(&document).map_err(|why| folder.bad(FILES[1], why))?;
-    let known = labels(&folder.table(FILES[0])?).map_err(|why| folder.bad(FILES[0], why))?;
+    let points = folder.named(FILES[0], FILES[1], &document)?;
+    let known =
+        Table::read(&points).and_then(|table| labels(&table)).map_err(|why| folder.bad(FILES[0], why))?;
     let refined = refine(&spec.grid, settings, &mut |instances| {
         let label = |instance: &usize| {
             let missing = || format!("has no instance {instance}, which the lines of `refine.json` lead to");
@@ -65,14 +68,7 @@ fn sweep(document: &Json) -> Why<(Spec, Settings)> {
         checked: false,
         starts: if document["both_starts"] == true { Starts::Both } else { Starts::One },
     };
-    let count = |value: &Json, name: &str| value.as_u64().ok_or_else(|| format!("has no count `{name}`"));
-    #[expect(clippy::cast_possible_truncation, reason = "counts that the command took from a usize")]
-    let settings = Settings {
-        coarse: count(&document["coarse_cells_per_side"], "coarse_cells_per_side")? as usize,
-        sample: count(&document["sample"]["asked_for"], "asked_for")? as usize,
-        seed: count(&document["sample"]["seed"], "seed")?,
-    };
-    Ok((drawn_spec(text(&document["title"]), analysis, grid), settings))
+    Ok((drawn_spec(text(&document["title"]), analysis, grid), settings(document)?))
 }
 
 /// The label of every instance that was computed.

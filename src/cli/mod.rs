@@ -20,6 +20,7 @@ mod plot_beside;
 mod plot_map;
 mod progress;
 mod refine;
+mod refined;
 mod report;
 mod results;
 mod run;

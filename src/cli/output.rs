@@ -80,21 +80,36 @@ impl Output {
     ) -> Result<Vec<PathBuf>> {
         let mut written = Vec::with_capacity(files.len() + drafts.len());
         for (name, bytes) in files {
-            let path = self.directory.join(name);
-            let mut claim = claim(&path)?;
-            claim.emptied().and_then(|file| file.write_all(bytes)).map_err(|why| cannot(&path, &why))?;
-            written.push(claim);
+            written.push(filled(&self.directory.join(name), bytes)?);
         }
         written.extend(drafts.into_iter().map(|Draft(claim)| claim));
-        let mut paths = Vec::with_capacity(written.len());
-        for claim in written {
-            let path = claim.path().to_owned();
-            claim.publish().map_err(|why| cannot(&path, &why))?;
-            paths.push(path);
-        }
+        let paths = publish(written)?;
         self.made.clear();
         Ok(paths)
     }
+}
+
+/// Puts files in their places, one after the other; returns these.
+fn publish(files: Vec<Claim>) -> Result<Vec<PathBuf>> {
+    let publish = |claim: Claim| {
+        let path = claim.path().to_owned();
+        claim.publish().map_err(|why| cannot(&path, &why)).map(|()| path)
+    };
+    files.into_iter().map(publish).collect()
+}
+
+/// The same of files of which `last` says that the others are there: the one before goes first, and the new one comes
+/// last. A file that must not stand beside them goes, too.
+pub(crate) fn publish_with(last: Claim, mut files: Vec<Claim>, stale: Option<&Path>) -> Result<Vec<PathBuf>> {
+    let before = last.path();
+    disk::remove_if_there(before).and_then(|()| disk::lasting(before)).map_err(|why| cannot(before, &why))?;
+    if let Some(stale) = stale {
+        disk::remove_if_there(stale).map_err(|why| cannot(stale, &why))?;
+    }
+    files.push(last);
+    let mut paths = publish(files)?;
+    paths.sort();
+    Ok(paths)
 }
 
 impl Drop for Output {
@@ -137,6 +152,19 @@ pub(crate) fn claim(path: &Path) -> Result<Claim> {
             None => thread::sleep(PATIENCE / 100),
         }
     }
+}
+
+/// A claim on a file, with its bytes in it.
+pub(crate) fn filled(path: &Path, bytes: &[u8]) -> Result<Claim> {
+    let mut claim = claim(path)?;
+    fill(&mut claim, bytes)?;
+    Ok(claim)
+}
+
+/// Writes the bytes of a file that was claimed.
+pub(crate) fn fill(claim: &mut Claim, bytes: &[u8]) -> Result<()> {
+    let written = claim.emptied().and_then(|file| file.write_all(bytes));
+    written.map_err(|why| cannot(claim.path(), &why))
 }
 
 /// The error of a table that cannot be written: with its path, and what the system says.

@@ -1,38 +1,35 @@
 //! `squealmap refine`: the lines of a large map from few of its instances.
 
-use std::io::BufWriter;
+use std::io::{BufWriter, Write};
+use std::path::Path;
 use std::process::ExitCode;
 use std::sync::atomic::AtomicBool;
 
 use clap::Args;
 use squealmap::accuracy::sample::subset;
 use squealmap::backend::solver::Solver;
-use squealmap::export::boundary_lines::refined_lines;
+use squealmap::disk::Handle;
 use squealmap::export::csv::MapCsv;
-use squealmap::export::look::{AGAIN, Look};
-use squealmap::export::refined::{document, figure};
+use squealmap::export::manifest::Sum;
 use squealmap::label::Label;
 use squealmap::refine::{COARSE, Refined, Settings, planes_of, refine};
 use squealmap::spec::{Spec, Starts};
 use squealmap::store::cut::tile_of;
 use squealmap::store::description::Description;
 use squealmap::store::parts::Parts;
+use squealmap::store::refinement::Refinement;
 use squealmap::store::space;
 use squealmap::{Error, Result};
 
 use crate::cli::engine::EngineArgs;
 use crate::cli::output::{Output, cannot, cannot_table, claim, list};
 use crate::cli::progress::Progress;
+use crate::cli::refined::{Checked, Ended, FILES};
 use crate::cli::run::at_least_one;
 use crate::cli::signal::stop_at_signal;
 use crate::cli::summary::summary;
-use crate::cli::{Files, INTERRUPTED, note, png_of, print};
-
-/// How the lines were found.
-pub(crate) const DOCUMENT: &str = "refine.json";
-
-/// What is written; the table as it comes, the others at the end.
-const FILES: [&str; 5] = ["points.csv", "boundaries.csv", DOCUMENT, "refined.png", "refined.svg"];
+use crate::cli::summed::Summed;
+use crate::cli::{Files, INTERRUPTED, note, print};
 
 /// Arguments of `refine`.
 #[derive(Debug, Args)]
@@ -97,74 +94,112 @@ impl Refining<'_> {
             spec.analysis.starts = Starts::One;
         }
         planes_of(&spec.grid)?;
-        let part_size = self.part.unwrap_or_else(|| tile_of(&spec));
         let output = Output::prepare(self.files.directory()?, &FILES)?;
         let options = self.engine.options(cancel, &note);
         let mut solver = Solver::new(&spec, &options)?;
-        let description = Description::new(&spec, solver.computations(), part_size);
-        let table_path = output.directory().join(FILES[0]);
-        let mut table = claim(&table_path)?;
-        let file = BufWriter::new(table.emptied().map_err(|why| cannot(&table_path, &why))?);
-        let mut rows =
-            MapCsv::new(description.sheet(), file).map_err(|why| cannot_table(&table_path, why))?;
-        let parts = Parts::begin(output.directory(), &description)?;
-        let table_full = |why: Error| cannot_table(&table_path, why);
-        let mut fresh = 0;
-        let mut compute = |instances: &[usize]| {
-            let progress = Progress::new(instances.len());
-            let mut labels = Vec::with_capacity(instances.len());
-            for block in instances.chunks(part_size) {
-                let part = parts.records(block, &note, &mut || {
-                    space::verify_parts(output.directory(), spec.analysis, block.len())?;
-                    let mut sweep = subset(&spec, block);
-                    sweep.analysis.starts = spec.analysis.starts;
-                    let made = solver.records_of(&sweep, 0..block.len(), &|count| progress.add(count))?;
-                    made.stopped.map_or(Ok(made.records), |why| Err(why.error(0, block.len())))
-                })?;
-                if part.found {
-                    progress.add(block.len());
-                } else {
-                    fresh += block.len();
-                }
-                rows.add_some(block, &part.records).map_err(table_full)?;
-                labels.extend(part.records.iter().map(Label::from));
-            }
-            progress.finish();
-            Ok(labels)
-        };
-        let refined = refine(&spec.grid, settings, &mut compute);
-        if refined.is_err() {
-            parts.remove_if_empty();
+        let part = self.part.unwrap_or_else(|| tile_of(&spec));
+        let description = Description::new(&spec, solver.computations(), part);
+        follow(&output, &spec, &mut solver, &Refinement { description, settings })
+    }
+}
+
+/// Follows the lines of a sweep and writes the results, unless they are there.
+pub(crate) fn follow(
+    output: &Output,
+    spec: &Spec,
+    solver: &mut Solver,
+    asked: &Refinement,
+) -> Result<ExitCode> {
+    let directory = output.directory();
+    if Checked::read(directory)?.is_some_and(|checked| checked.is_current(asked)) {
+        let directory = directory.display();
+        print(&format!(
+            "all that the lines need was computed before; nothing is left to do in {directory}\n"
+        ));
+        return Ok(ExitCode::SUCCESS);
+    }
+    let table_path = directory.join(FILES[0]);
+    let mut table = claim(&table_path)?;
+    let file = BufWriter::new(table.emptied().map_err(|why| cannot(&table_path, &why))?);
+    let rows = MapCsv::new(asked.description.sheet(), Summed::new(file))
+        .map_err(|why| cannot_table(&table_path, why))?;
+    let parts = Parts::begin(directory, asked)?;
+    let used = Vec::new();
+    let mut work = Work { spec, solver, parts: &parts, directory, table: &table_path, rows, fresh: 0, used };
+    let part = asked.description.tiling.tile;
+    let refined = refine(&spec.grid, asked.settings, &mut |instances| work.compute(instances, part));
+    if refined.is_err() {
+        parts.remove_if_empty();
+    }
+    if let Err(Error::Cancelled { .. }) = refined {
+        note(&stopped(work.fresh));
+        return Ok(ExitCode::from(INTERRUPTED));
+    }
+    let refined = refined?;
+    let fresh = work.fresh;
+    let (used, table_sum) = work.end()?;
+    let ended = Ended { spec, asked, refined: &refined, parts: used, table, table_sum };
+    let (paths, tally) = ended.write(directory)?;
+    print(&report(&refined, fresh, &summary(spec.analysis, &tally)));
+    print(&list(&paths));
+    if parts.strangers()? > 0 {
+        note("parts of other sweeps, programs or engines stand in `parts` too; they may be removed");
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// A refinement on its way.
+struct Work<'a, 's> {
+    spec: &'a Spec,
+    solver: &'a mut Solver<'s>,
+    parts: &'a Parts,
+    directory: &'a Path,
+    /// The path of the table of points.
+    table: &'a Path,
+    rows: MapCsv<'a, Summed<BufWriter<&'a mut Handle>>>,
+    /// Instances that were computed now.
+    fresh: usize,
+    /// The parts by name and checksum, in the order of use.
+    used: Vec<(String, String)>,
+}
+
+impl Work<'_, '_> {
+    /// The labels of some instances, in parts of so many.
+    fn compute(&mut self, instances: &[usize], size: usize) -> Result<Vec<Label>> {
+        let progress = Progress::new(instances.len());
+        let mut labels = Vec::with_capacity(instances.len());
+        for block in instances.chunks(size) {
+            self.part(block, &progress, &mut labels)?;
         }
-        if let Err(Error::Cancelled { .. }) = refined {
-            note(&stopped(fresh));
-            return Ok(ExitCode::from(INTERRUPTED));
+        progress.finish();
+        Ok(labels)
+    }
+
+    fn part(&mut self, block: &[usize], progress: &Progress, labels: &mut Vec<Label>) -> Result<()> {
+        let Work { spec, solver, .. } = self;
+        let part = self.parts.records(block, &note, &mut || {
+            space::verify_parts(self.directory, spec.analysis, block.len())?;
+            let mut sweep = subset(spec, block);
+            sweep.analysis.starts = spec.analysis.starts;
+            let made = solver.records_of(&sweep, 0..block.len(), &|count| progress.add(count))?;
+            made.stopped.map_or(Ok(made.records), |why| Err(why.error(0, block.len())))
+        })?;
+        if part.found {
+            progress.add(block.len());
+        } else {
+            self.fresh += block.len();
         }
-        let refined = refined?;
-        rows.finish().into_inner().map_err(|why| cannot(&table_path, why.error()))?;
-        let sheet = description.sheet();
-        let figure = figure(sheet, &refined);
-        let command = format!(
-            "squealmap refine, from {} computed instances; drawn again by: {AGAIN}",
-            refined.computed
-        );
-        let svg = figure.look(&Look { command: Some(command), ..Look::default() });
-        let files = [
-            (FILES[1], refined_lines(&spec, &refined)?),
-            (FILES[2], document(sheet, &refined, settings)?),
-            (FILES[3], png_of(&svg)?),
-            (FILES[4], svg.into_bytes()),
-        ];
-        let mut paths = output.write(&files)?;
-        table.publish().map_err(|why| cannot(&table_path, &why))?;
-        paths.push(table_path);
-        paths.sort();
-        print(&report(&refined, fresh, &summary(spec.analysis, figure.tally())));
-        print(&list(&paths));
-        if parts.strangers()? > 0 {
-            note("parts of other sweeps, programs or engines stand in `parts` too; they may be removed");
-        }
-        Ok(ExitCode::SUCCESS)
+        self.rows.add_some(block, &part.records).map_err(|why| cannot_table(self.table, why))?;
+        labels.extend(part.records.iter().map(Label::from));
+        self.used.push((part.name, part.checksum));
+        Ok(())
+    }
+
+    /// The parts, and length and checksum of the table.
+    fn end(self) -> Result<(Vec<(String, String)>, Sum)> {
+        let mut rows = self.rows.finish();
+        rows.flush().map_err(|why| cannot(self.table, &why))?;
+        Ok((self.used, rows.sum()))
     }
 }
 

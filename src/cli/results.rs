@@ -1,13 +1,12 @@
 //! `map.csv`, figures and manifest of a directory of tiles, read tile by tile.
 
-use std::io::{self, Read, Write};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::Duration;
 
 use squealmap::Result;
-use squealmap::disk::{self, Handle, How};
+use squealmap::disk;
 use squealmap::export::csv::MapCsv;
 use squealmap::export::figure::MapFigure;
 use squealmap::export::manifest::{self, OfTiles, Run, Sum};
@@ -18,8 +17,8 @@ use squealmap::store::directory::{Fingerprint, Store};
 use squealmap::store::seal::is_intact;
 use squealmap::store::space::MOST_ROWS;
 
-use crate::cli::output::{cannot, cannot_table, claim};
-use crate::cli::summed::Summed;
+use crate::cli::output::{cannot, cannot_table, claim, fill, filled, publish_with};
+use crate::cli::summed::{Summed, unlike};
 use crate::cli::{note, png_of};
 
 /// What is written.
@@ -30,9 +29,6 @@ const MANIFEST: &str = "manifest.json";
 
 /// Between two looks at results that another process writes.
 const WAIT: Duration = Duration::from_millis(50);
-
-/// Bytes of a file that are read at a time to be summed.
-const BLOCK: usize = 1 << 16;
 
 /// What came of writing results.
 pub(crate) enum Results {
@@ -102,12 +98,10 @@ pub(crate) fn write(store: &Store, run: &Run, cancel: &AtomicBool) -> Result<Res
         return Ok(Results::Fuller { tally });
     }
     let svg = figure.svg();
-    let mut files: Vec<(PathBuf, Claim)> = Vec::new();
+    let mut files: Vec<Claim> = Vec::new();
     let mut sums: Vec<(&'static str, Sum)> = Vec::new();
     for (name, bytes) in [(FILES[2], png_of(&svg)?), (FILES[3], svg.into_bytes())] {
-        let mut file = claim(&path(name))?;
-        fill(&mut file, &bytes).map_err(|why| cannot(&path(name), &why))?;
-        files.push((path(name), file));
+        files.push(filled(&path(name), &bytes)?);
         sums.push((name, Sum::of(&bytes)));
     }
     sums.splice(0..0, table_sum.map(|sum| (FILES[0], sum)));
@@ -118,29 +112,18 @@ pub(crate) fn write(store: &Store, run: &Run, cancel: &AtomicBool) -> Result<Res
     };
     let run = Run { tiles: Some(of_tiles), ..run.clone() };
     let text = manifest::manifest(sheet, &description.resolved, &tally, &run)?;
-    let manifest_path = path(MANIFEST);
-    fill(&mut manifest_file, &text).map_err(|why| cannot(&manifest_path, &why))?;
-    // The manifest says that the others are there: the one before goes first, and the new one comes last.
-    disk::remove_if_there(&manifest_path)
-        .and_then(|()| disk::lasting(&manifest_path))
-        .map_err(|why| cannot(&manifest_path, &why))?;
+    fill(&mut manifest_file, &text)?;
     if table.is_none() {
         note(&format!(
             "no {} of more than {MOST_ROWS} rows is written; `squealmap export {} --format csv` does",
             FILES[0],
             store.directory.display()
         ));
-        // One of before must not stand beside these results.
-        disk::remove_if_there(&csv_path).map_err(|why| cannot(&csv_path, &why))?;
     }
-    files.extend(table.map(|table| (csv_path, table)));
-    files.push((manifest_path, manifest_file));
-    let mut paths = Vec::new();
-    for (path, file) in files {
-        file.publish().map_err(|why| cannot(&path, &why))?;
-        paths.push(path);
-    }
-    paths.sort();
+    // One of before must not stand beside these results.
+    let stale = table.is_none().then_some(csv_path.as_path());
+    files.extend(table);
+    let paths = publish_with(manifest_file, files, stale)?;
     Ok(Results::Written { paths, tally })
 }
 
@@ -180,8 +163,8 @@ fn instances_there(store: &Store) -> Option<usize> {
     let manifest: serde_json::Value = serde_json::from_slice(&bytes).ok()?;
     let is_of_this = manifest["sweep_id"] == store.description.id.to_string();
     let is_there = |name: &&str| {
-        let named = Sum::in_manifest(&manifest, name);
-        named.is_none_or(|named| sum(&store.directory.join(name)).is_ok_and(|found| found == named))
+        Sum::in_manifest(&manifest, name).is_none()
+            || unlike(&store.directory, name, MANIFEST, &manifest).is_none()
     };
     let computed = usize::try_from(manifest["computation"]["computed"].as_u64()?).ok()?;
     (is_of_this && FILES.iter().all(is_there)).then_some(computed)
@@ -217,33 +200,7 @@ pub(crate) fn faults(store: &Store) -> Vec<String> {
     expect(of_all, "it is not of the tiles that are there");
     let tables = if description.tiling.instances <= MOST_ROWS { &FILES[..] } else { &FILES[1..] };
     for name in tables.iter().filter(|name| **name != MANIFEST) {
-        let named = Sum::in_manifest(&manifest, name);
-        match sum(&store.directory.join(name)) {
-            Ok(found) if Some(&found) == named.as_ref() => {}
-            Ok(_) => faults.push(format!(
-                "`{name}` is not the file that `{MANIFEST}` names: its checksum is another one"
-            )),
-            Err(why) => faults.push(format!("`{name}` cannot be read: {why}")),
-        }
+        faults.extend(unlike(&store.directory, name, MANIFEST, &manifest));
     }
     faults
-}
-
-/// Length and checksum of a file, which is not held in memory.
-fn sum(path: &std::path::Path) -> io::Result<Sum> {
-    let mut file = Handle::open(path, How::Read)?;
-    let mut summed = Summed::new(io::sink());
-    let mut block = vec![0; BLOCK];
-    loop {
-        match file.read(&mut block) {
-            Ok(0) => return Ok(summed.sum()),
-            Ok(count) => summed.write_all(&block[..count])?,
-            Err(why) if why.kind() == io::ErrorKind::Interrupted => {}
-            Err(why) => return Err(why),
-        }
-    }
-}
-
-fn fill(claim: &mut Claim, bytes: &[u8]) -> io::Result<()> {
-    claim.emptied()?.write_all(bytes)
 }

@@ -11,7 +11,7 @@ use squealmap::{Error, Result};
 
 use crate::cli::print;
 use crate::cli::progress::seconds;
-use crate::cli::refine::DOCUMENT;
+use crate::cli::refined::DOCUMENT;
 
 /// Arguments of `status`.
 #[derive(Debug, Args)]
@@ -45,8 +45,9 @@ impl StatusCommand {
 
     /// How far a refinement has come; `None` where there is none.
     fn refinement(&self) -> Option<String> {
-        let [parts, instances, bad] = Parts::found(&self.directory).ok().flatten()?;
-        let bad = if bad > 0 { format!(", {bad} bad") } else { String::new() };
+        let found = Parts::found(&self.directory).ok().flatten()?;
+        let (parts, instances) = (found.good.len(), found.instances);
+        let bad = if found.bad.is_empty() { String::new() } else { format!(", {} bad", found.bad.len()) };
         let end = if self.directory.join(DOCUMENT).is_file() {
             "its results are written"
         } else {

@@ -3,11 +3,13 @@
 use std::fmt::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
+use std::sync::atomic::AtomicBool;
 
 use clap::Args;
 use squealmap::backend::choice::{Backend, Options};
 use squealmap::backend::solver::Solver;
 use squealmap::kernel::source::Precision;
+use squealmap::spec::Spec;
 use squealmap::store::description::Description;
 use squealmap::store::directory::Store;
 use squealmap::store::parts::Parts;
@@ -15,7 +17,10 @@ use squealmap::store::status::Status;
 use squealmap::{Error, Result};
 
 use crate::cli::note;
+use crate::cli::output::Output;
 use crate::cli::print;
+use crate::cli::refine::follow;
+use crate::cli::refined::{Checked, FILES};
 use crate::cli::results::faults;
 use crate::cli::run::run;
 use crate::cli::signal::stop_at_signal;
@@ -26,9 +31,10 @@ const NAMED: usize = 10;
 /// Arguments of `verify`.
 #[derive(Debug, Args)]
 pub(crate) struct Verify {
-    /// Output directory of a run
+    /// Output directory of a run or a refinement
     directory: PathBuf,
-    /// Set bad tiles aside, compute what is missing and write the results again, by the engine that computed the others
+    /// Set bad tiles and parts aside, compute what is missing and write the results again, by the engine that computed the
+    /// others
     #[arg(long)]
     repair: bool,
     /// Worker threads of a repair, 1 to 1024 [default: one per core]
@@ -38,17 +44,35 @@ pub(crate) struct Verify {
 
 impl Verify {
     pub(crate) fn execute(self) -> Result<ExitCode> {
+        let refined = Checked::read(&self.directory)?;
         let store = match Store::open(&self.directory) {
-            Err(no_tiles @ Error::NoTiles { .. }) => return self.parts().ok_or(no_tiles),
-            other => other?,
+            Err(Error::NoTiles { .. }) if refined.is_some() => None,
+            other => Some(other?),
         };
         if self.repair {
-            return self.repair(&store);
+            return self.repair(store, refined);
         }
-        let status = Status::new(&store, true)?;
+        let mut text = String::new();
+        let of_tiles = store.map_or(Ok(true), |store| self.of_tiles(&store, &mut text))?;
+        let of_parts = refined.as_ref().is_none_or(|checked| of_parts(checked, &mut text));
+        print(&text);
+        if of_tiles && of_parts {
+            return Ok(ExitCode::SUCCESS);
+        }
+        match refined.filter(|_| !of_parts).map(|checked| checked.asked(&self.directory).map(drop)) {
+            Some(Err(why)) => note(&why.to_string()),
+            _ => {
+                note(&format!("run the same command with --repair to put {} right", self.directory.display()));
+            }
+        }
+        Ok(ExitCode::FAILURE)
+    }
+
+    /// Says how the tiles are and what was made of them; whether all is good.
+    fn of_tiles(&self, store: &Store, text: &mut String) -> Result<bool> {
+        let status = Status::new(store, true)?;
         let bad_kept = store.bad_kept()?;
         let total = store.description.tiling.count();
-        let mut text = String::new();
         let _ = writeln!(text, "description  good");
         let _ = writeln!(
             text,
@@ -67,11 +91,10 @@ impl Verify {
         for (path, fault) in status.bad.iter().chain(&bad_kept) {
             let _ = writeln!(text, "bad          `{path}`: {fault}");
         }
-        let faults = if self.has_results() { faults(&store) } else { Vec::new() };
+        let faults = if self.has_results() { faults(store) } else { Vec::new() };
         for fault in &faults {
             let _ = writeln!(text, "bad          {fault}");
         }
-        let is_good = status.bad.is_empty() && bad_kept.is_empty();
         // A run that was stopped says so itself: its results are no fault.
         let results = match (self.has_results(), faults.as_slice()) {
             (false, _) => "none are written",
@@ -79,12 +102,7 @@ impl Verify {
             (true, _) => "not those of all tiles as they are",
         };
         let _ = writeln!(text, "results      {results}");
-        print(&text);
-        if is_good && faults.is_empty() {
-            return Ok(ExitCode::SUCCESS);
-        }
-        note(&format!("run the same command with --repair to put {} right", self.directory.display()));
-        Ok(ExitCode::FAILURE)
+        Ok(status.bad.is_empty() && bad_kept.is_empty() && faults.is_empty())
     }
 
     /// Whether a run has written results.
@@ -92,23 +110,37 @@ impl Verify {
         ["manifest.json", "map.csv"].iter().any(|name| self.directory.join(name).exists())
     }
 
-    /// The parts of a refinement; `None` where there are none.
-    fn parts(&self) -> Option<ExitCode> {
-        let [parts, instances, bad] = Parts::found(&self.directory).ok().flatten()?;
-        print(&format!("parts        {parts} of {instances} instances are there and good, {bad} bad\n"));
-        if bad == 0 {
-            return Some(ExitCode::SUCCESS);
+    /// What `run` and `refine` do with a directory whose sweep file is at hand.
+    fn repair(&self, store: Option<Store>, refined: Option<Checked>) -> Result<ExitCode> {
+        let cancel = stop_at_signal()?;
+        if let Some(store) = store {
+            let ended = self
+                .again(&store.description, &cancel, |_, solver| run(&store, solver, &cancel, None, None))?;
+            if ended != ExitCode::SUCCESS {
+                return Ok(ended);
+            }
         }
-        note("run the command that refined it again: bad parts are set aside and computed anew");
-        Some(ExitCode::FAILURE)
+        let Some(checked) = refined else { return Ok(ExitCode::SUCCESS) };
+        let asked = checked.asked(&self.directory)?;
+        let ended = self.again(&asked.description, &cancel, |spec, solver| {
+            follow(&Output::prepare(self.directory.clone(), &FILES)?, spec, solver, asked)
+        })?;
+        if ended == ExitCode::SUCCESS {
+            Parts::expel_damaged(&self.directory, &note)?;
+        }
+        Ok(ended)
     }
 
-    /// What `run` does with a directory whose sweep file is at hand.
-    fn repair(&self, store: &Store) -> Result<ExitCode> {
-        let cancel = stop_at_signal()?;
+    /// Does something with the sweep of a description and what computed it.
+    fn again(
+        &self,
+        description: &Description,
+        cancel: &AtomicBool,
+        work: impl FnOnce(&Spec, &mut Solver) -> Result<ExitCode>,
+    ) -> Result<ExitCode> {
         let other = || Error::OtherVersion { path: self.directory.clone() };
-        let spec = store.description.spec().ok_or_else(other)?;
-        let [linear, response] = &store.description.computations;
+        let spec = description.spec().ok_or_else(other)?;
+        let [linear, response] = &description.computations;
         let made = response.as_ref().or(linear.as_ref()).ok_or_else(other)?;
         let options = Options {
             backend: Backend::of_name(&made.backend).ok_or_else(other)?,
@@ -116,15 +148,32 @@ impl Verify {
                 .into_iter()
                 .find(|one| one.to_string() == made.precision),
             strict: made.strict == Some(true),
-            cancel: Some(&cancel),
+            cancel: Some(cancel),
             note: Some(&note),
             ..Options::default()
         };
         let mut solver = Solver::new(&spec, &options)?;
-        let description = Description::new(&spec, solver.computations(), store.description.tiling.tile);
-        if description.id != store.description.id {
+        let now = Description::new(&spec, solver.computations(), description.tiling.tile);
+        if now.id != description.id {
             return Err(other());
         }
-        run(store, &mut solver, &cancel, None, None)
+        work(&spec, &mut solver)
     }
+}
+
+/// Says how the parts of a refinement are and what was made of them; whether all is good.
+fn of_parts(checked: &Checked, text: &mut String) -> bool {
+    let Checked { found, has_results, faults, .. } = checked;
+    let (parts, instances, bad) = (found.good.len(), found.instances, found.bad.len());
+    let _ = writeln!(text, "parts        {parts} of {instances} instances are there and good, {bad} bad");
+    for fault in faults {
+        let _ = writeln!(text, "bad          {fault}");
+    }
+    let results = match (has_results, faults.as_slice()) {
+        (false, _) => "none are written",
+        (true, []) => "good, and those of the parts that `refine.json` names",
+        (true, _) => "not known to be those of the parts as they are",
+    };
+    let _ = writeln!(text, "results      {results}");
+    faults.is_empty()
 }

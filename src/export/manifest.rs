@@ -137,12 +137,16 @@ pub fn manifest(sheet: Sheet, resolved: &Value, tally: &Tally, run: &Run) -> Res
         manifest["sweep_id"] = json!(sweep_id);
         manifest["tiles"] =
             json!(checksum.as_ref().map(|(count, sum)| json!({ "count": count, "blake3": sum })));
-        let sums = files
-            .iter()
-            .map(|(name, sum)| ((*name).to_owned(), json!({ "bytes": sum.bytes, "blake3": sum.blake3 })));
-        manifest["files"] = Value::Object(sums.collect());
+        manifest["files"] = sums(files);
     }
     pretty(&manifest).map(sealed)
+}
+
+/// What a manifest says of files, see [`Sum::in_manifest`].
+pub(super) fn sums(files: &[(&'static str, Sum)]) -> Value {
+    let sum =
+        |(name, sum): &(&str, Sum)| ((*name).to_owned(), json!({ "bytes": sum.bytes, "blake3": sum.blake3 }));
+    files.iter().map(sum).collect()
 }
 
 /// What a table does not say of its figure, with the program that wrote both: UTF-8 JSON, indented.
@@ -156,7 +160,7 @@ pub(super) fn described(entries: &Value) -> Result<Vec<u8>> {
 }
 
 /// A document as bytes, indented.
-fn pretty(document: &Value) -> Result<Vec<u8>> {
+pub(super) fn pretty(document: &Value) -> Result<Vec<u8>> {
     let mut bytes = serde_json::to_vec_pretty(document).map_err(Error::WriteManifest)?;
     bytes.push(b'\n');
     Ok(bytes)

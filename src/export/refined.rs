@@ -3,14 +3,16 @@
 use serde_json::{Value as Json, json};
 
 use super::figure::MapFigure;
-use super::manifest::{COMMIT, VERSION};
+use super::manifest::{COMMIT, Sum, VERSION, pretty, sums};
 use super::sheet::Sheet;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::grid::{Axis, Grid};
 use crate::map::{Computation, Record};
-use crate::refine::{Refined, Settings};
+use crate::refine::Refined;
 use crate::spec::Starts;
 use crate::store::grid_json;
+use crate::store::refinement::Refinement;
+use crate::store::seal::sealed;
 
 /// Labels that become records at a time.
 const BLOCK: usize = 1 << 16;
@@ -26,11 +28,37 @@ pub fn figure<'a>(sheet: Sheet<'a>, refined: &Refined) -> MapFigure<'a> {
     figure
 }
 
-/// The document.
+/// What the results of a refinement are of, and the files beside the document.
+#[derive(Clone, Debug, Default)]
+pub struct OfParts {
+    /// Every part by its name with its checksum, in the order of use.
+    pub parts: Vec<(String, String)>,
+    /// Every file with its length and BLAKE3 checksum.
+    pub files: Vec<(&'static str, Sum)>,
+}
+
+impl OfParts {
+    /// The parts that a document names; `None` where it names none.
+    #[must_use]
+    pub fn parts_in(document: &Json) -> Option<Vec<(String, String)>> {
+        let part = |(name, sum): (&String, &Json)| Some((name.clone(), sum.as_str()?.to_owned()));
+        document.get("parts")?.as_object()?.iter().map(part).collect()
+    }
+}
+
+/// Whether a document is of a version that named neither files nor parts in it.
+#[must_use]
+pub fn is_without_sums(document: &Json) -> bool {
+    let has = |key: &str| document.get(key).is_some();
+    has("coarse_cells_per_side") && !["files", "parts", "checksum"].into_iter().any(has)
+}
+
+/// The document, with a checksum of its own.
 ///
 /// # Errors
 /// When a number cannot be written.
-pub fn document(sheet: Sheet, refined: &Refined, settings: Settings) -> Result<Vec<u8>> {
+pub fn document(asked: &Refinement, refined: &Refined, of: &OfParts) -> Result<Vec<u8>> {
+    let sheet = asked.description.sheet();
     let instances = refined.labels.len();
     let axes: &[Axis] = if let Grid::Axes(axes) = sheet.grid { axes } else { &[] };
     let name = |i: usize| axes[i].key.name();
@@ -43,7 +71,7 @@ pub fn document(sheet: Sheet, refined: &Refined, settings: Settings) -> Result<V
         })
         .collect();
     let engine = |computation: Option<&Computation>| computation.map(ToString::to_string);
-    let document = json!({
+    let mut document = json!({
         "program": { "version": VERSION, "git_commit": COMMIT },
         "title": sheet.title,
         "linear": engine(sheet.linear),
@@ -58,16 +86,15 @@ pub fn document(sheet: Sheet, refined: &Refined, settings: Settings) -> Result<V
         "instances": instances,
         "computed": refined.computed,
         "share_computed": refined.computed as f64 / instances as f64,
-        "coarse_cells_per_side": settings.coarse,
-        "sample": {
-            "seed": settings.seed,
-            "asked_for": settings.sample,
-            "instances": refined.sampled,
-            "with_another_label": refined.missed,
-            "share_at_most_95_percent": refined.missed_at_most(),
-        },
     });
-    let mut bytes = serde_json::to_vec_pretty(&document).map_err(Error::WriteManifest)?;
-    bytes.push(b'\n');
-    Ok(bytes)
+    let parts = of.parts.iter().map(|(name, sum)| (name.clone(), json!(sum))).collect::<Json>();
+    if let (Json::Object(all), Json::Object(asked)) = (&mut document, asked.to_json()) {
+        all.extend(asked);
+    }
+    document["sample"]["instances"] = json!(refined.sampled);
+    document["sample"]["with_another_label"] = json!(refined.missed);
+    document["sample"]["share_at_most_95_percent"] = json!(refined.missed_at_most());
+    document["parts"] = parts;
+    document["files"] = sums(&of.files);
+    pretty(&document).map(sealed)
 }

@@ -121,8 +121,22 @@ impl Description {
     /// # Errors
     /// What `out` gives.
     pub fn write(&self, out: impl io::Write) -> io::Result<()> {
+        let mut out = Sealing::new(out);
+        serde_json::to_writer_pretty(&mut out, &self.document())?;
+        out.write_all(b"\n")?;
+        out.finish()
+    }
+
+    /// The same as an entry of another document, which has a checksum of its own.
+    #[must_use]
+    pub fn to_json(&self) -> Json {
+        // None of its keys is anything but text.
+        serde_json::to_value(self.document()).unwrap_or_default()
+    }
+
+    fn document(&self) -> Document<Whole<'_>> {
         let [linear, response] = self.computations.clone();
-        let document = Document {
+        Document {
             format: FORMAT,
             sweep_id: self.id.to_string(),
             title: self.title.clone(),
@@ -132,11 +146,7 @@ impl Description {
             accuracy: self.accuracy.clone(),
             identity: Whole { json: &self.identity, rows: rows(&self.grid), sorted: false },
             checksum: None,
-        };
-        let mut out = Sealing::new(out);
-        serde_json::to_writer_pretty(&mut out, &document)?;
-        out.write_all(b"\n")?;
-        out.finish()
+        }
     }
 
     /// Reads the file.
@@ -155,6 +165,21 @@ impl Description {
         let document: Document<Parted> = serde_json::from_slice(bytes).map_err(|why| why.to_string())?;
         if document.format == FORMAT && !is_intact(bytes) {
             return Err("it was changed: its content does not have its checksum".to_owned());
+        }
+        Description::described(document)
+    }
+
+    /// Reads the entry of another document.
+    ///
+    /// # Errors
+    /// What is wrong with it, as the end of a sentence.
+    pub fn from_json(json: &Json) -> Result<Description, String> {
+        Description::described(Document::deserialize(json).map_err(|why| why.to_string())?)
+    }
+
+    fn described(document: Document<Parted>) -> Result<Description, String> {
+        if !READ.contains(&document.format) {
+            return Err(format!("its format is {}, which this version does not know", document.format));
         }
         let Parted { json: identity, rows } = document.identity;
         let id = Id::with_rows(&identity, rows.as_ref());

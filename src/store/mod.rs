@@ -15,7 +15,7 @@
 //! - `folder.rs`: files of a folder, what is set aside.
 //! - [`directory`]: the tiles of a directory.
 //! - [`fill`]: computes what is missing.
-//! - [`parts`]: pieces of a sweep whose order shows only on the way.
+//! - [`parts`]: pieces of a sweep whose order shows only on the way; [`refinement`]: what asks for them.
 //! - [`reuse`]: what another directory has of it.
 //! - [`shard`]: a share of the tiles.
 //! - [`status`], [`merge`](mod@merge): how far a directory has come; several directories in one.
@@ -33,6 +33,7 @@ pub mod grid_json;
 pub mod identity;
 pub mod merge;
 pub mod parts;
+pub mod refinement;
 pub mod reuse;
 pub mod seal;
 pub mod shard;

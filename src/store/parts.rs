@@ -2,15 +2,18 @@
 //!
 //! A part is a tile ([`super::tile`]) whose sweep is the hash of the sweep's id and of the very instances in it, so
 //! that it is found again whatever else was computed, and never taken for other instances. Parts of other sweeps may
-//! stand beside it.
+//! stand beside it. What asked last for those of a sweep ([`super::refinement`]) stands there too, under the start of
+//! its id.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use super::claim::Claim;
 use super::description::Description;
 use super::folder::{Folder, Note, TILE};
 use super::identity::Id;
-use super::tile::{Label, instances_in};
+use super::refinement::Refinement;
+use super::tile::{Checksum, Fault, Label, checksum_in, fault_in, instances_in};
 use crate::disk::{self, door};
 use crate::error::{Error, Result};
 use crate::map::Record;
@@ -21,6 +24,9 @@ pub const PARTS: &str = "parts";
 
 /// Digits of the sweep's id in the name of a part.
 const DIGITS: usize = 8;
+
+/// The end of the name of what asked for parts.
+const ASKED: &str = ".json";
 
 /// The parts of a sweep in an output directory.
 #[derive(Debug)]
@@ -38,18 +44,70 @@ pub struct Part {
     pub records: Vec<Record>,
     /// Whether they were there before.
     pub found: bool,
+    /// The name of its file.
+    pub name: String,
+    /// Its checksum.
+    pub checksum: String,
+}
+
+/// What is in the folder of parts, of whatever sweep.
+#[derive(Debug, Default)]
+pub struct Found {
+    /// The checksum of every good part by its name.
+    pub good: BTreeMap<String, String>,
+    /// How many instances they have.
+    pub instances: usize,
+    /// What is wrong with the others.
+    pub bad: Vec<(String, Fault)>,
+    /// What asked for them, or what is wrong with the file that should say it.
+    pub asked: Vec<(String, std::result::Result<Refinement, String>)>,
+}
+
+impl Found {
+    /// What is in its place and damaged, as sentences.
+    #[must_use]
+    pub fn damaged(&self) -> Vec<String> {
+        let said = |name: &str, why: &dyn std::fmt::Display| format!("`{PARTS}/{name}`: {why}");
+        let parts = self.bad.iter().map(|(name, fault)| said(name, fault));
+        let asked = self.asked.iter().filter_map(|(name, one)| Some(said(name, one.as_ref().err()?)));
+        parts.chain(asked).collect()
+    }
+
+    /// What is not there of what `document` names, or another than it names, as sentences: parts by name and checksum,
+    /// and what asked for them.
+    #[must_use]
+    pub fn lacking(&self, document: &str, named: &[(String, String)], asked: &Refinement) -> Vec<String> {
+        let damaged = |name: &str| self.bad.iter().any(|(bad, _)| bad == name);
+        let fault = |(name, checksum): &(String, String)| match self.good.get(name) {
+            Some(found) if found == checksum => None,
+            Some(_) => Some(format!("`{PARTS}/{name}` is another part than `{document}` names")),
+            None if damaged(name) => None,
+            None => Some(format!("`{PARTS}/{name}`, which `{document}` names, is not there")),
+        };
+        let asker = name_of(&asked.description);
+        let without_asker = !self.asked.iter().any(|(name, _)| *name == asker);
+        let asker = without_asker
+            .then(|| format!("`{PARTS}/{asker}`, which says of what the parts are, is not there"));
+        named.iter().filter_map(fault).chain(asker).collect()
+    }
 }
 
 impl Parts {
-    /// The parts of a sweep in a directory, which may hold some already.
+    /// The parts of a sweep in a directory, which may hold some already; what asks for them is kept beside them.
     ///
     /// # Errors
     /// When it cannot be written.
-    pub fn begin(directory: &Path, description: &Description) -> Result<Parts> {
+    pub fn begin(directory: &Path, asked: &Refinement) -> Result<Parts> {
         let folder = Folder::new(directory, PARTS);
         folder.make()?;
         folder.clean()?;
-        let Description { id, kind, analysis, .. } = description;
+        let (path, bytes) = (folder.path(&name_of(&asked.description)), asked.to_bytes());
+        if disk::read(&path).ok().as_ref() != Some(&bytes) {
+            let claim = Claim::take(&path).map_err(|why| folder.refused(&why))?;
+            // Another process that holds the claim asks for the same sweep.
+            claim.map_or(Ok(()), |claim| claim.write(&bytes)).map_err(|why| folder.refused(&why))?;
+        }
+        let Description { id, kind, analysis, .. } = &asked.description;
         Ok(Parts { folder, id: *id, kind: kind.clone(), analysis: *analysis })
     }
 
@@ -67,38 +125,72 @@ impl Parts {
         let label = self.label(instances);
         let name = self.name(&label);
         match self.folder.read(&name, &label) {
-            Ok(Some(tile)) => return Ok(Part { records: tile.records, found: true }),
+            Ok(Some(tile)) => {
+                return Ok(Part {
+                    records: tile.records,
+                    found: true,
+                    name,
+                    checksum: digits(&tile.checksum),
+                });
+            }
             Ok(None) => {}
             Err(fault) => self.folder.expel(&name, &format!("{fault}; it is computed again"), note)?,
         }
         let records = compute()?;
         let path = self.folder.path(&name);
         let cannot = |why: std::io::Error| Error::WritePart { path: path.clone(), why: why.to_string() };
+        let bytes = label.write(&records);
         // Another process that holds the claim writes the same.
         if let Some(claim) = Claim::take(&path).map_err(cannot)? {
-            claim.write(&label.write(&records)).map_err(cannot)?;
+            claim.write(&bytes).map_err(cannot)?;
         }
-        Ok(Part { records, found: false })
+        let checksum = digits(&checksum_in(&bytes).unwrap_or_default());
+        Ok(Part { records, found: false, name, checksum })
     }
 
-    /// How many good parts a directory has, of whatever sweep, how many instances they have, and how many are bad; `None`
-    /// where there is no folder of parts.
+    /// What the folder of parts of a directory holds, every part read; `None` where there is none.
     ///
     /// # Errors
     /// When the folder cannot be read.
-    pub fn found(directory: &Path) -> Result<Option<[usize; 3]>> {
+    pub fn found(directory: &Path) -> Result<Option<Found>> {
         let folder = Folder::new(directory, PARTS);
         if !folder.path("").is_dir() {
             return Ok(None);
         }
-        let mut found = [0; 3];
+        let read = |name: &str| {
+            disk::read(&folder.path(name)).map_err(|why| Fault::Unreadable { why: why.to_string() })
+        };
+        let mut found = Found::default();
         for name in folder.tiles()? {
-            match instances_in(&disk::read(&folder.path(&name)).unwrap_or_default()) {
-                Some(instances) => found = [found[0] + 1, found[1] + instances, found[2]],
-                None => found[2] += 1,
+            match read(&name).and_then(|bytes| fault_in(&bytes).map_or(Ok(bytes), Err)) {
+                Ok(bytes) => {
+                    found.instances += instances_in(&bytes).unwrap_or_default();
+                    found.good.insert(name, digits(&checksum_in(&bytes).unwrap_or_default()));
+                }
+                Err(fault) => found.bad.push((name, fault)),
             }
         }
+        for name in folder.ending(ASKED)? {
+            let bytes = read(&name).map_err(|fault| fault.to_string());
+            found.asked.push((name, bytes.and_then(|bytes| Refinement::from_bytes(&bytes))));
+        }
         Ok(Some(found))
+    }
+
+    /// Sets everything aside that is damaged, of whatever sweep, and names it.
+    ///
+    /// # Errors
+    /// When it cannot be.
+    pub fn expel_damaged(directory: &Path, note: Note) -> Result<()> {
+        let folder = Folder::new(directory, PARTS);
+        let Some(found) = Parts::found(directory)? else { return Ok(()) };
+        for (name, fault) in &found.bad {
+            folder.expel(name, &fault.to_string(), note)?;
+        }
+        for (name, asked) in found.asked {
+            asked.map_or_else(|why| folder.expel(&name, &why, note), |_| Ok(()))?;
+        }
+        Ok(())
     }
 
     /// How many parts of other sweeps, programs and engines stand beside these.
@@ -106,14 +198,19 @@ impl Parts {
     /// # Errors
     /// When the folder cannot be read.
     pub fn strangers(&self) -> Result<usize> {
-        let own = &self.id.to_string()[..DIGITS];
-        Ok(self.folder.tiles()?.iter().filter(|name| !name.starts_with(own)).count())
+        let own = start_of(self.id);
+        Ok(self.folder.tiles()?.iter().filter(|name| !name.starts_with(&own)).count())
     }
 
-    /// Removes the folder when nothing is in it, so that a run of which nothing came leaves nothing.
+    /// Removes the folder when no part is in it, so that a run of which nothing came leaves nothing.
     pub fn remove_if_empty(&self) {
-        // Fails, as it should, when there is something in it.
-        let _ = door().remove_folder(&self.folder.path(""));
+        let own = format!("{}{ASKED}", start_of(self.id));
+        let Ok(names) = door().names(&self.folder.path("")) else { return };
+        if names.iter().all(|name| *name == *own) {
+            // Fails, as it should, when another process has begun a part in between.
+            let _ = door().remove(&self.folder.path(&own));
+            let _ = door().remove_folder(&self.folder.path(""));
+        }
     }
 
     /// What the part of these instances says of itself.
@@ -132,6 +229,21 @@ impl Parts {
     }
 
     fn name(&self, label: &Label) -> String {
-        format!("{}-{}{TILE}", &self.id.to_string()[..DIGITS], label.key())
+        format!("{}-{}{TILE}", start_of(self.id), label.key())
     }
+}
+
+/// What the names of all that belongs to a sweep start with.
+fn start_of(id: Id) -> String {
+    id.to_string()[..DIGITS].to_owned()
+}
+
+/// The name of what asked for the parts of a sweep.
+fn name_of(description: &Description) -> String {
+    format!("{}{ASKED}", start_of(description.id))
+}
+
+/// A checksum as documents have it.
+fn digits(checksum: &Checksum) -> String {
+    Id(*checksum).to_string()
 }

@@ -59,6 +59,17 @@ pub fn instances_in(bytes: &[u8]) -> Option<usize> {
     usize::try_from(end?.checked_sub(first?)?).ok().filter(|_| is_whole)
 }
 
+/// What is wrong with a tile of whatever sweep; `None` of a good one.
+#[must_use]
+pub fn fault_in(bytes: &[u8]) -> Option<Fault> {
+    match instances_in(bytes) {
+        Some(_) => None,
+        None if bytes.is_empty() => Some(Fault::Empty),
+        None if !bytes.starts_with(MAGIC) => Some(Fault::Format),
+        None => Some(Fault::Checksum),
+    }
+}
+
 /// The sweep that a tile says it belongs to; `None` of what is no tile.
 #[must_use]
 pub fn sweep_in(bytes: &[u8]) -> Option<Id> {

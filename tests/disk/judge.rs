@@ -94,6 +94,14 @@ fn lie(left: &Files, before: &Files, end: &Files) -> Option<String> {
                 }
             }
         }
+        // A document of before that did not fit then is none of its lies.
+        let was_unlike = || before.get(path) == Some(bytes) && unlike(path, bytes, before).is_some();
+        if name.ends_with("refine.json")
+            && !was_unlike()
+            && let Some(why) = unlike(path, bytes, left)
+        {
+            return Some(why);
+        }
         // The metadata of a group say that all of it is there.
         if name.ends_with(".zarr/zarr.json") && !is_half {
             let group = path.parent().unwrap();
@@ -108,6 +116,30 @@ fn lie(left: &Files, before: &Files, end: &Files) -> Option<String> {
         }
     }
     None
+}
+
+/// Why files and parts beside a `refine.json` are not those that it names.
+fn unlike(path: &Path, bytes: &[u8], left: &Files) -> Option<String> {
+    let document: serde_json::Value = serde_json::from_slice(bytes).unwrap_or_default();
+    let (Some(files), Some(parts)) = (document["files"].as_object(), document["parts"].as_object()) else {
+        return Some("`refine.json` names no files or no parts".to_owned());
+    };
+    let folder = path.parent().unwrap();
+    let file = |(name, said): (&String, &serde_json::Value)| {
+        let found = left.get(&folder.join(name));
+        let is_named = found.is_some_and(|found| {
+            said["bytes"] == found.len() && said["blake3"] == blake3::hash(found).to_hex().as_str()
+        });
+        (!is_named).then(|| format!("`{name}` is not the file that `refine.json` names"))
+    };
+    // A part ends with its checksum and 8 bytes more.
+    let part = |(name, said): (&String, &serde_json::Value)| {
+        let found = left.get(&folder.join("parts").join(name));
+        let content = found.and_then(|found| found.get(..found.len().checked_sub(40)?));
+        let is_named = content.is_some_and(|content| *said == blake3::hash(content).to_hex().as_str());
+        (!is_named).then(|| format!("`{name}` is not the part that `refine.json` names"))
+    };
+    files.iter().find_map(file).or_else(|| parts.iter().find_map(part))
 }
 
 /// Whether two directories hold the same.
@@ -212,6 +244,32 @@ fn lies_are_seen() -> Result<(), String> {
             None => drop(left.remove(Path::new(path))),
         }
         if lie(&left, &none, &end).is_none() || difference(&left, &end).is_none() {
+            return Err(format!("`{path}` as {bytes:?} was not seen"));
+        }
+    }
+    let none_named = unlike(Path::new("out/s/refine.json"), b"{}", &none);
+    if none_named.is_none() {
+        return Err("a `refine.json` that names nothing was not seen".to_owned());
+    }
+    let sum = |bytes: &str| blake3::hash(bytes.as_bytes()).to_hex().to_string();
+    let document = serde_json::json!({
+        "files": { "points.csv": { "bytes": 3, "blake3": sum("a,b") } }, "parts": { "1.tile": sum("part") },
+    });
+    let part = format!("part{}", "-".repeat(40));
+    let refined = of(&[
+        ("out/s/points.csv", "a,b"),
+        ("out/s/parts/1.tile", &part),
+        ("out/s/refine.json", &document.to_string()),
+    ]);
+    assert_eq!(lie(&refined, &none, &refined), None);
+    // Each is what it was before: only what the document says of it does not fit.
+    for (path, bytes) in
+        [("out/s/points.csv", "a,c"), ("out/s/parts/1.tile", "tarp"), ("out/s/points.csv", "a,")]
+    {
+        let mut left = refined.clone();
+        left.insert(path.into(), bytes.as_bytes().to_vec());
+        let before = of(&[(path, bytes)]);
+        if lie(&left, &before, &refined).is_none() {
             return Err(format!("`{path}` as {bytes:?} was not seen"));
         }
     }

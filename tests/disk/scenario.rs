@@ -30,6 +30,10 @@ pub(crate) enum Scenario {
     Repair,
     /// The lines of a map.
     Refine,
+    /// Those of one that was refined otherwise.
+    RefineAgain,
+    /// A refined map whose table was damaged.
+    RefineRepair,
     /// Two halves brought together.
     Merge,
     /// Tiles as other formats.
@@ -44,12 +48,14 @@ pub(crate) enum Scenario {
 }
 
 impl Scenario {
-    pub(crate) const ALL: [Scenario; 13] = [
+    pub(crate) const ALL: [Scenario; 15] = [
         Scenario::Run,
         Scenario::Resume,
         Scenario::Large,
         Scenario::Repair,
         Scenario::Refine,
+        Scenario::RefineAgain,
+        Scenario::RefineRepair,
         Scenario::Merge,
         Scenario::Csv,
         Scenario::Zarr,
@@ -69,10 +75,8 @@ impl Scenario {
         match self {
             Scenario::Run | Scenario::Resume => RUN,
             Scenario::Large => "run large.toml --backend cpu --tile 6500 --threads 1 -o out/s",
-            Scenario::Repair => "verify out/s --repair --threads 1",
-            Scenario::Refine => {
-                "refine s.toml --backend cpu --coarse 4 --sample 4 --tile 8 --threads 1 -o out/s"
-            }
+            Scenario::Repair | Scenario::RefineRepair => "verify out/s --repair --threads 1",
+            Scenario::Refine | Scenario::RefineAgain => REFINE,
             Scenario::Merge => "merge out/s part0 part1",
             Scenario::Csv => "export out/s --format csv -o out/s/copy.csv",
             Scenario::Zarr | Scenario::ZarrAgain => "export out/s --format zarr",
@@ -92,6 +96,10 @@ impl Scenario {
                 "run s.toml --backend cpu --tile 10 --shard 0/2 -o part0",
                 "run s.toml --backend cpu --tile 10 --shard 1/2 -o part1",
             ],
+            Scenario::RefineAgain => {
+                &["refine s.toml --backend cpu --coarse 2 --sample 0 --tile 8 --threads 1 -o out/s"]
+            }
+            Scenario::RefineRepair => &[REFINE],
             Scenario::Zarr => &[RUN_SMALL],
             Scenario::ZarrAgain => &[RUN_SMALL, "export out/s --format zarr"],
             Scenario::Repair | Scenario::Csv | Scenario::Netcdf | Scenario::Parquet | Scenario::Plot => {
@@ -109,8 +117,13 @@ impl Scenario {
             let ended = call(directory, command, Fault::None, 0);
             assert!(ended.status.success(), "{command}: {}", String::from_utf8_lossy(&ended.stderr));
         }
-        if self == Scenario::Repair {
-            let table = directory.join("out/s/map.csv");
+        let damaged = match self {
+            Scenario::Repair => Some("out/s/map.csv"),
+            Scenario::RefineRepair => Some("out/s/points.csv"),
+            _ => None,
+        };
+        if let Some(table) = damaged {
+            let table = directory.join(table);
             let bytes = std::fs::read(&table).unwrap();
             std::fs::write(&table, &bytes[..bytes.len() / 2]).unwrap();
         }
@@ -118,6 +131,8 @@ impl Scenario {
 }
 
 const RUN_SMALL: &str = "run small.toml --backend cpu --tile 10 --threads 1 -o out/s";
+
+const REFINE: &str = "refine s.toml --backend cpu --coarse 4 --sample 4 --tile 8 --threads 1 -o out/s";
 
 const RUN: &str = "run s.toml --backend cpu --tile 10 --threads 1";
 

@@ -13,6 +13,7 @@ use squealmap::export::figure::map_svg;
 use squealmap::export::heading::Heading;
 use squealmap::export::look::Look;
 use squealmap::export::paper::{Growing, Shown, Slowdown};
+use squealmap::export::refined::OfParts;
 use squealmap::export::sheet::Sheet;
 use squealmap::export::spectrogram::spectrogram_nc;
 use squealmap::export::{csv, hysteresis, identify, manifest, modes, refined, trace, tradeoff};
@@ -26,6 +27,8 @@ use squealmap::model::contact::ContactState;
 use squealmap::outcome::{Outcome, Status};
 use squealmap::paper::{Figure, PhaseTrial, Settings, Stretch, Study, Trial, Witness};
 use squealmap::refine;
+use squealmap::store::description::Description;
+use squealmap::store::refinement::Refinement;
 use squealmap::trace::{Trace, TraceRow};
 use tempfile::TempDir;
 
@@ -99,7 +102,11 @@ fn a_refined_map() -> Piece {
     .unwrap();
     assert!(found.computed < sweep.grid.len() / 2);
     let svg = refined::figure(sheet, &found).look(&Look::default());
-    piece(Kind::Refined, svg, [points.finish(), refined::document(sheet, &found, settings).unwrap()])
+    let points = points.finish();
+    let of = OfParts { files: vec![("points.csv", manifest::Sum::of(&points))], ..OfParts::default() };
+    let description = Description::new(&sweep, engine.clone().map(Some), 1 << 16);
+    let document = refined::document(&Refinement { description, settings }, &found, &of).unwrap();
+    piece(Kind::Refined, svg, [points, document])
 }
 
 /// A growing oscillation with its spectrogram.

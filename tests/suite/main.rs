@@ -68,6 +68,7 @@ mod promise;
 mod properties;
 mod refine;
 mod refine_parts;
+mod refine_whole;
 mod regimes;
 mod response;
 mod resume;

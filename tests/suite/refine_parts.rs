@@ -12,31 +12,32 @@ use tempfile::TempDir;
 use crate::cli::{squealmap, unwrapped};
 
 /// A plane with response, long enough to be killed in.
-const SWEEP: &str = "[friction]\nlaw = \"bilinear\"\nknee_velocity = 5.0\n[axes]\n\
+pub(crate) const SWEEP: &str = "[friction]\nlaw = \"bilinear\"\nknee_velocity = 5.0\n[axes]\n\
     mu_s = { from = 0.0, to = 0.6, points = 65 }\nmu_d = { from = 0.0, to = 0.6, points = 65 }\n\
     [belt]\nbelt_velocity = 3.0\n[response]\nsettle = \"20 periods\"\nmeasure = \"20 periods\"\n";
 
 /// The same asked for by the sweep itself.
 const SECTION: &str = "[refine]\ncoarse = 8\nsample = 100\nseed = 7\n";
 
-const REFINE: [&str; 10] =
+pub(crate) const REFINE: [&str; 10] =
     ["refine", "s.toml", "--coarse", "8", "--sample", "100", "--seed", "7", "--backend", "cpu"];
 
-const FILES: [&str; 5] = ["boundaries.csv", "points.csv", "refine.json", "refined.png", "refined.svg"];
+pub(crate) const FILES: [&str; 5] =
+    ["boundaries.csv", "points.csv", "refine.json", "refined.png", "refined.svg"];
 
-fn with(sweep: &str) -> TempDir {
+pub(crate) fn with(sweep: &str) -> TempDir {
     let directory = tempfile::tempdir().unwrap();
     std::fs::write(directory.path().join("s.toml"), sweep).unwrap();
     directory
 }
 
 /// Parts of so few instances that there are many.
-fn arguments<'a>(base: &[&'a str]) -> Vec<&'a str> {
+pub(crate) fn arguments<'a>(base: &[&'a str]) -> Vec<&'a str> {
     [base, &["--tile", "30", "--threads", "1"]].concat()
 }
 
 /// Refines without disturbance.
-fn undisturbed() -> TempDir {
+pub(crate) fn undisturbed() -> TempDir {
     let directory = with(SWEEP);
     let ended = squealmap(directory.path(), &arguments(&REFINE));
     assert_eq!(ended.code, Some(0), "{}", ended.err);
@@ -44,7 +45,7 @@ fn undisturbed() -> TempDir {
 }
 
 /// Names and bytes of the parts, sorted.
-fn parts(directory: &Path) -> Vec<(PathBuf, Vec<u8>)> {
+pub(crate) fn parts(directory: &Path) -> Vec<(PathBuf, Vec<u8>)> {
     let Ok(entries) = std::fs::read_dir(directory.join("out/s/parts")) else { return Vec::new() };
     let paths = entries.flatten().map(|entry| entry.path());
     let mut paths: Vec<PathBuf> =
@@ -54,7 +55,7 @@ fn parts(directory: &Path) -> Vec<(PathBuf, Vec<u8>)> {
     paths.into_iter().map(|path| (name(&path), std::fs::read(&path).unwrap())).collect()
 }
 
-fn results(directory: &Path) -> Vec<Vec<u8>> {
+pub(crate) fn results(directory: &Path) -> Vec<Vec<u8>> {
     FILES.iter().map(|name| std::fs::read(directory.join("out/s").join(name)).unwrap()).collect()
 }
 
@@ -108,6 +109,13 @@ fn what_is_there_is_not_computed_again() {
         let line = out.lines().next().unwrap().replace(',', " ");
         line.split_whitespace().filter_map(|word| word.parse().ok()).collect()
     };
+    let written =
+        || std::fs::metadata(directory.path().join("out/s/refine.json")).unwrap().modified().unwrap();
+    let first = written();
+    let ended = squealmap(directory.path(), &arguments(&REFINE));
+    assert!(ended.out.ends_with("nothing is left to do in out/s\n"), "{}", ended.out);
+    assert_eq!(written(), first, "nothing is written either");
+    std::fs::remove_file(directory.path().join("out/s/refined.svg")).unwrap();
     let ended = squealmap(directory.path(), &arguments(&REFINE));
     let [all, _, old] = computed(&ended.out)[..3] else { panic!("{}", ended.out) };
     assert_eq!(all, old, "{}", ended.out);
@@ -187,6 +195,9 @@ fn a_full_disk_at_the_end_leaves_the_results_of_before() {
     assert_eq!(output.status.code(), Some(1), "{err}");
     assert!(err.contains("cannot write `out/s/"), "{err}");
     assert!(results(directory.path()) == before, "{err}");
+    // They are still what they say, though another refinement was asked for since.
+    let said = squealmap(directory.path(), &["verify", "out/s"]);
+    assert_eq!(said.code, Some(0), "{}", said.out);
 }
 
 #[test]
@@ -219,7 +230,12 @@ fn a_sweep_asks_for_it_itself() {
     assert_eq!(ended.code, Some(0), "{}", ended.err);
     let document = |directory: &str| -> serde_json::Value {
         let bytes = std::fs::read(asked.path().join(directory).join("refine.json")).unwrap();
-        serde_json::from_slice(&bytes).unwrap()
+        let mut document: serde_json::Value = serde_json::from_slice(&bytes).unwrap();
+        // How it was cut into parts is no matter of the results.
+        for key in ["parts", "checksum", "sweep"] {
+            assert!(document.as_object_mut().unwrap().remove(key).is_some(), "{key}");
+        }
+        document
     };
     assert_eq!(document("again"), document("out/s"));
     let options = ["refine", "s.toml", "--backend", "cpu", "--coarse", "16", "-o", "finer"];
