@@ -62,7 +62,10 @@ impl Verify {
         match refined.filter(|_| !of_parts).map(|checked| checked.asked(&self.directory).map(drop)) {
             Some(Err(why)) => note(&why.to_string()),
             _ => {
-                note(&format!("run the same command with --repair to put {} right", self.directory.display()));
+                note(&format!(
+                    "run the same command with --repair to put {} right",
+                    self.directory.display()
+                ));
             }
         }
         Ok(ExitCode::FAILURE)
