@@ -32,8 +32,11 @@ fn askers(directory: &Path) -> Vec<PathBuf> {
     entries.filter(|path| path.extension().is_some_and(|end| end == "json")).collect()
 }
 
+/// Results, parts and what asked for them.
+type All = (Vec<Vec<u8>>, Vec<(PathBuf, Vec<u8>)>, Vec<Vec<u8>>);
+
 /// All that has to be the same whatever has happened.
-fn all(directory: &Path) -> (Vec<Vec<u8>>, Vec<(PathBuf, Vec<u8>)>, Vec<Vec<u8>>) {
+fn all(directory: &Path) -> All {
     let askers = askers(directory).into_iter().map(|path| std::fs::read(path).unwrap()).collect();
     (results(directory), parts(directory), askers)
 }
