@@ -13,8 +13,8 @@ const LINES: usize = 10;
 /// … but not in this first time, s: a short sweep needs no news.
 const QUIET: f64 = 1.0;
 
-/// Columns that the words beside the bar take.
-const WORDS: usize = 56;
+/// Columns that the words beside the bar take at most, besides the two counts: the longest time, a rate of eight digits.
+const WORDS: usize = " of  instances, 5399 h 59 min left, 12345678 instances/s ".len();
 
 /// Columns of the longest bar.
 const BAR: usize = 32;
@@ -33,8 +33,9 @@ impl Progress {
     pub(crate) fn new(total: usize) -> Progress {
         let bar = std::io::stderr().is_terminal().then(|| {
             let columns = usize::from(Term::stderr().size().1);
+            let words = WORDS + 2 * total.to_string().len();
             // The words are clipped where they do not fit: a line that wraps is drawn again and again.
-            let template = match columns.saturating_sub(WORDS).min(BAR) {
+            let template = match columns.saturating_sub(words).min(BAR) {
                 0..8 => "{wide_msg}".to_owned(),
                 bar => format!("{{bar:{bar}}} {{wide_msg}}"),
             };

@@ -51,7 +51,7 @@ fn progress_fits_its_line() {
     for (columns, words) in [(40, " left"), (80, " instances/s"), (200, " instances/s")] {
         let lines = drawn(columns);
         let progress: Vec<&String> = lines.iter().filter(|line| line.contains(" instances, ")).collect();
-        assert!(progress.len() > 2, "{columns}: {lines:?}");
+        assert!(!progress.is_empty(), "{columns}: {lines:?}");
         for line in progress {
             assert!(line.chars().count() <= columns, "{columns}: {line}");
             assert!(line.contains(words) && line.matches("/s").count() <= 1, "{columns}: {line}");
