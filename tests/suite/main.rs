@@ -47,6 +47,7 @@ mod kernels;
 #[cfg(unix)]
 mod killed;
 mod label;
+mod layers;
 mod leaves;
 mod limits;
 mod linear;
