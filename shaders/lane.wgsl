@@ -58,11 +58,16 @@ fn iterate(tolerance: real) {
     }
     let piece = piece_of(lane.piece);
     expand(lane.body, lane.contact, piece, belt.velocity, belt.acceleration);
+    var on_law = NO_KINK;
     if lane.contact <= REVERSE {
         let q = friction(piece, sigma(), sv[0], scene.v0 - sv[0]).q;
         if real(1.0) + scene.kappa * q <= real(0.0) {
             lane.status = STATUS_PAINLEVE;
             return;
+        }
+        on_law = piece.rate;
+        if LAW != LAW_PIECES {
+            on_law = longest_in_layer(piece, q, sv[0], sv[1]);
         }
     }
     let remaining = lane.rest * segment.step;
@@ -70,11 +75,7 @@ fn iterate(tolerance: real) {
     var longest = real(0.0);
     // Shorter steps leave a position where it is.
     if allowed * allowed >= EPSILON {
-        var within = allowed;
-        if LAW == LAW_PIECES && lane.contact <= REVERSE {
-            within = min(within, piece.rate);
-        }
-        longest = step_length(min(remaining, within), tolerance);
+        longest = step_length(min(min(remaining, allowed), on_law), tolerance);
     }
     if longest <= real(0.0) {
         lane.status = select(STATUS_NON_FINITE, STATUS_STEP_TOO_LARGE, body_is_finite());

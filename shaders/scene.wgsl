@@ -106,17 +106,29 @@ fn friction(piece: Piece, sigma: real, v: real, lag: real) -> Friction {
         return Friction(q, select(q - scene.mu0, piece.offset - piece.slope * lag, forward));
     }
     if LAW == LAW_EXPONENTIAL {
-        let change = exp_m1(select(piece.rate * v, piece.rate * lag, forward));
-        if forward {
-            return Friction(piece.at_zero + piece.offset + piece.offset * change, piece.offset * change);
-        }
-        let q = -(piece.at_zero + piece.slope + piece.slope * change);
-        return Friction(q, q - scene.mu0);
+        let ahead = piece.rate * lag;
+        let near = forward && ahead <= FAR;
+        let base = select(piece.slope, piece.offset, near);
+        let less = base * exp_m1(select(-(piece.rate * max(sigma * v, real(0.0))), ahead, near));
+        let q = sigma * (piece.at_zero + (base + less));
+        return Friction(q, select(q - scene.mu0, less, near));
     }
     let reciprocal = real(1.0) / (real(1.0) + piece.rate * sigma * v);
     let q = sigma * piece.at_zero * reciprocal;
     let less = piece.at_zero * piece.rate * lag * reciprocal * piece.offset;
     return Friction(q, select(q - scene.mu0, less, forward));
+}
+
+fn longest_in_layer(piece: Piece, q: real, v: real, acceleration: real) -> real {
+    let narrowing = real(1.0) / (real(1.0) + piece.rate * abs(v));
+    var sloped = abs(q) * narrowing;
+    if LAW == LAW_EXPONENTIAL {
+        sloped = abs(abs(q) - piece.at_zero);
+    }
+    let across = input(INPUT_LAYER, instance);
+    let along = input(INPUT_LAYER + 1u, instance);
+    let inverse = piece.rate * (abs(acceleration) * narrowing * across + sloped * along);
+    return real(1.0) / max(inverse, real(1.0) / NO_KINK);
 }
 
 fn mu(speed: real) -> real {

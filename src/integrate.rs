@@ -3,6 +3,8 @@
 //! Time always advances: a step ends at an event or at its full length, and events that do not advance
 //! time are counted; too many end the instance with [`Status::EventLimit`].
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use crate::method::pace::{Turns, stands_still};
 use crate::method::roots::Crossing;
 use crate::method::taylor::{
@@ -11,6 +13,7 @@ use crate::method::taylor::{
 use crate::method::{Method, rk4};
 use crate::model::contact::{Contact, ContactState};
 use crate::model::equilibrium::Scaled;
+use crate::model::friction::Piece;
 use crate::outcome::Status;
 use crate::response::MOST_STEPS;
 
@@ -27,6 +30,15 @@ pub const MAX_HALVINGS: i32 = 24;
 /// Most steps within one period `2π/ω0`; stiffer instances end with [`Status::StepTooLarge`], on every engine.
 /// Five times the finest setting of a sweep.
 pub const MAX_STEPS_PER_PERIOD: u32 = 500_000;
+
+/// Events without time between them from which on rest and release take turns.
+const RELEASED_AGAIN: u32 = 4;
+
+/// Roundings of the static loads that a force may be off by.
+pub const ROUNDINGS: f64 = 8.0;
+
+/// Steps after which a wish to stop is looked for: some milliseconds.
+const STEPS_BETWEEN_LOOKS: u64 = 1024;
 
 /// Where `M11` vanishes the acceleration of slip diverges like the inverse root of the time left, and no
 /// step is short enough to get there: an end within this many of the finest steps before it is Painlevé's.
@@ -50,10 +62,16 @@ pub struct Resolution {
 }
 
 impl Resolution {
+    /// How far a step may turn.
+    fn turns(&self) -> Turns {
+        let tolerance = if self.method == Method::Taylor { self.tolerance } else { f64::INFINITY };
+        Turns::new(self.order, tolerance)
+    }
+
     /// The longest step of slip, reversed slip, stick and flight.
     fn longest(&self, model: &Scaled) -> [f64; 4] {
         let mut longest = match self.method {
-            Method::Taylor => Turns::new(self.order, self.tolerance).longest_steps(&model.fastest),
+            Method::Taylor => self.turns().longest_steps(&model.fastest),
             Method::LocatedRk4 | Method::FixedStep => [self.nominal_step; 4],
         };
         if self.method == Method::LocatedRk4 {
@@ -130,6 +148,9 @@ enum Disarmed {
 pub struct Integrator<'a> {
     model: &'a Scaled,
     resolution: Resolution,
+    /// Set to stop early.
+    cancel: Option<&'a AtomicBool>,
+    turns: Turns,
     /// The longest step of each contact state.
     longest: [f64; 4],
     state: State,
@@ -158,6 +179,8 @@ impl<'a> Integrator<'a> {
         let mut integrator = Integrator {
             model,
             resolution,
+            cancel: None,
+            turns: resolution.turns(),
             longest: resolution.longest(model),
             state,
             contact: Contact::Free,
@@ -171,6 +194,11 @@ impl<'a> Integrator<'a> {
         };
         integrator.enter_contact(belt)?;
         Ok(integrator)
+    }
+
+    /// Lets it end with [`Status::NotComputed`] soon after `cancel` is set: a run may have minutes of steps.
+    pub fn stop_at(&mut self, cancel: &'a AtomicBool) {
+        self.cancel = Some(cancel);
     }
 
     /// The time simulated so far.
@@ -251,7 +279,8 @@ impl<'a> Integrator<'a> {
         if stands_still(allowed, f64::EPSILON) || self.is_unstable(allowed) {
             return Err(Status::StepTooLarge);
         }
-        let full = self.resolution.nominal_step.min(allowed).min(longest);
+        let full =
+            self.resolution.nominal_step.min(allowed).min(self.longest_on_law(&expansion)).min(longest);
         let step = match self.resolution.method {
             Method::Taylor => expansion.step(full, self.resolution.tolerance, MAX_HALVINGS),
             Method::LocatedRk4 | Method::FixedStep => Some(full),
@@ -284,6 +313,23 @@ impl<'a> Integrator<'a> {
     fn is_unstable(&self, step: f64) -> bool {
         let fastest = self.model.fastest[self.contact.state() as usize];
         self.resolution.method != Method::Taylor && step * fastest > rk4::STABLE
+    }
+
+    /// The longest step that the law allows where the motion is on it.
+    fn longest_on_law(&self, expansion: &Expansion) -> f64 {
+        let Contact::Slip { sigma, piece } = self.contact else { return f64::INFINITY };
+        let law = self.model.law.pieces[piece];
+        if let Piece::Linear { slope, .. } = law {
+            // What is left on a rising piece of a mode that holds the motion is no more than the tolerance, here next to
+            // nothing. Halving finds no step for a falling one from far above.
+            let falls = slope < 0.0;
+            return if falls { self.turns.longest_step_on(self.model, piece) } else { f64::INFINITY };
+        }
+        let [v, acceleration] = expansion.relative_motion();
+        let speed = (sigma * v).max(0.0);
+        // A law without a layer has no slope either.
+        let sloped = (law.slope(speed) / self.model.law.rate().max(f64::MIN_POSITIVE)).abs();
+        1.0 / self.turns.layer().pace(self.model, [acceleration.abs(), sloped], speed)
     }
 
     /// `M11` at the start of a step in slip and its rate of change; 1 and 0 in the other contact states.
@@ -333,6 +379,11 @@ impl<'a> Integrator<'a> {
                     (law.kinks[piece - 1], Watched::LowerKink, Disarmed::LowerKink)
                 };
                 speed[0] = at_start - lower;
+                let again = self.disarmed == Disarmed::Rest && self.events_at_once >= RELEASED_AGAIN;
+                if again && speed[1].abs() <= self.rounding(expansion) {
+                    // Released on the edge of the cone and turned back by a rounding: which way it goes is told by what follows.
+                    speed[1] = 0.0;
+                }
                 if !visit(watched, &speed[..order], self.disarmed == disarmed) {
                     return;
                 }
@@ -362,6 +413,13 @@ impl<'a> Integrator<'a> {
         }
     }
 
+    /// What the acceleration at rest may be off by: roundings of the forces on the edge of the cone.
+    fn rounding(&self, expansion: &Expansion) -> f64 {
+        let (tangential, normal) = expansion.forces(0.0);
+        let size = self.model.n0 * (1.0 + self.model.law.mu_stick) + tangential.abs() + normal.abs();
+        ROUNDINGS * f64::EPSILON * size
+    }
+
     /// Counts steps and events and stops an instance where either piles up.
     fn count(&mut self, taken: f64, event: bool) -> Result<(), Status> {
         if self.time >= self.period_end {
@@ -370,6 +428,10 @@ impl<'a> Integrator<'a> {
             self.steps_in_period = 0;
         }
         self.steps_in_period += 1;
+        let looks = self.steps.is_multiple_of(STEPS_BETWEEN_LOOKS);
+        if looks && self.cancel.is_some_and(|cancel| cancel.load(Ordering::Relaxed)) {
+            return Err(Status::NotComputed);
+        }
         if self.steps_in_period > MAX_STEPS_PER_PERIOD || self.steps > u64::from(MOST_STEPS) {
             return Err(Status::StepTooLarge);
         }

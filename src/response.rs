@@ -1,6 +1,7 @@
 //! The transient of one instance: start, settle, measure, outcome in SI units.
 
 use std::f64::consts::TAU;
+use std::sync::atomic::AtomicBool;
 
 use num_complex::Complex64;
 
@@ -176,6 +177,17 @@ impl Scene {
             && (ramp.duration == 0.0 || size(&((ramp.end - ramp.start) / ramp.duration)))
     }
 
+    /// The status an integration ended with, as it is told. On a piece too narrow for an arithmetic a speed may lie beyond its
+    /// ends, and friction with it beyond all that the law has: where that alone makes `M11` vanish, nothing is Painlevé's.
+    #[must_use]
+    pub fn told(&self, status: Status) -> Status {
+        if status == Status::Painleve && !self.model.may_be_painleve() {
+            Status::StepTooLarge
+        } else {
+            status
+        }
+    }
+
     /// The belt at the time `t` (scaled).
     #[must_use]
     pub fn belt(&self, t: f64) -> BeltMotion {
@@ -263,8 +275,14 @@ impl Scene {
 /// Integrates one instance.
 #[must_use]
 pub fn respond(instance: &Instance, plan: &Plan) -> Outcome {
+    respond_until(instance, plan, &AtomicBool::new(false))
+}
+
+/// The same, which ends with [`Status::NotComputed`] soon after `cancel` is set.
+#[must_use]
+pub fn respond_until(instance: &Instance, plan: &Plan, cancel: &AtomicBool) -> Outcome {
     match Scene::planned(instance, plan) {
-        Ok(scene) => respond_in(&scene, instance, plan).0,
+        Ok(scene) => respond_in_until(&scene, instance, plan, cancel).0,
         Err(status) => Outcome { status, ..Outcome::default() },
     }
 }
@@ -272,15 +290,25 @@ pub fn respond(instance: &Instance, plan: &Plan) -> Outcome {
 /// Integrates one instance from the start of its scene; gives the state at the end too, where it came to its end.
 #[must_use]
 pub fn respond_in(scene: &Scene, instance: &Instance, plan: &Plan) -> (Outcome, Option<State>) {
+    respond_in_until(scene, instance, plan, &AtomicBool::new(false))
+}
+
+fn respond_in_until(
+    scene: &Scene,
+    instance: &Instance,
+    plan: &Plan,
+    cancel: &AtomicBool,
+) -> (Outcome, Option<State>) {
     let mut integrator = match scene.integrator(plan) {
         Ok(integrator) => integrator,
-        Err(status) => return (Outcome { status, ..Outcome::default() }, None),
+        Err(status) => return (Outcome { status: scene.told(status), ..Outcome::default() }, None),
     };
+    integrator.stop_at(cancel);
     match measure(scene, &mut integrator, plan, Settling::new(instance, scene, plan)) {
         Ok(outcome) => (outcome, Some(integrator.state())),
         Err(status) => {
             let (simulated_time, steps) = (scene.seconds(integrator.time(), plan), integrator.steps());
-            (Outcome { status, simulated_time, steps, ..Outcome::default() }, None)
+            (Outcome { status: scene.told(status), simulated_time, steps, ..Outcome::default() }, None)
         }
     }
 }

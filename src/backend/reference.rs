@@ -16,7 +16,7 @@ use crate::map::{Computation, Record};
 use crate::method::Method;
 use crate::method::taylor::REFERENCE_ORDER;
 use crate::outcome::Status;
-use crate::response::{Plan, respond};
+use crate::response::{Plan, respond_until};
 use crate::spec::Spec;
 
 /// The name of the backend in a manifest.
@@ -57,10 +57,10 @@ pub fn in_f64(backend: &str, method: String) -> Computation {
 }
 
 /// Computes the instances `range` of a sweep by a method; `progress` gets the number newly finished. Once `cancel` is set no
-/// instance is begun; those under way are finished.
+/// instance is begun; those under way, which may have minutes to go, are dropped.
 ///
 /// # Errors
-/// When `cancel` was set before any instance was begun.
+/// When `cancel` was set before any instance was finished.
 pub fn records(
     spec: &Spec,
     range: Range<usize>,
@@ -76,8 +76,10 @@ pub fn records(
             if cancel.load(Ordering::Relaxed) {
                 return Record::NOT_COMPUTED;
             }
-            let record = record_with(spec, index, &plan);
-            progress(1);
+            let record = record_until(spec, index, &plan, cancel);
+            if record.status != Status::NotComputed {
+                progress(1);
+            }
             record
         })
         .collect();
@@ -95,6 +97,11 @@ pub fn record(spec: &Spec, index: usize) -> Record {
 /// Computes instance `index` of a sweep by another plan than the sweep's own.
 #[must_use]
 pub fn record_with(spec: &Spec, index: usize, plan: &Plan) -> Record {
+    record_until(spec, index, plan, &AtomicBool::new(false))
+}
+
+/// The same, or none soon after `cancel` is set.
+fn record_until(spec: &Spec, index: usize, plan: &Plan, cancel: &AtomicBool) -> Record {
     let instance = spec.instance(index);
     let prepared = prepare(&instance);
     let mut record = begun(&instance, &prepared);
@@ -103,7 +110,11 @@ pub fn record_with(spec: &Spec, index: usize, plan: &Plan) -> Record {
         (record.kind, record.linear) = (kind, linear);
     }
     if spec.analysis.response {
-        take_response(&mut record, &instance, kind, &respond(&instance, plan));
+        let outcome = respond_until(&instance, plan, cancel);
+        if outcome.status == Status::NotComputed {
+            return Record::NOT_COMPUTED;
+        }
+        take_response(&mut record, &instance, kind, &outcome);
     }
     record
 }

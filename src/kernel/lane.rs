@@ -16,20 +16,19 @@ use super::crossing::{NEVER, first_crossing};
 use super::observe::{Moment, Phase, Sums};
 use super::scalar::Real;
 use super::scene::{
-    EVENTS_AT_ONCE, FIRST_HALF, Law, OPEN_HALF, SECOND_HALF, SEGMENTS, SETTLE, Scene, Segment, Segments,
+    EVENTS_AT_ONCE, FIRST_HALF, Law, NO_KINK, OPEN_HALF, SECOND_HALF, SEGMENTS, SETTLE, Scene, Segment,
+    Segments,
 };
 use super::series::{
     Body, Expansion, FREE, ORDER, REVERSE, SLIP, STICK, Series, evaluate, expand, largest, step_length,
 };
-use crate::integrate::{MAX_EVENTS_PER_PERIOD, MAX_STEPS_PER_PERIOD};
+use crate::integrate::{MAX_EVENTS_PER_PERIOD, MAX_STEPS_PER_PERIOD, ROUNDINGS};
 use crate::outcome::Status;
 use crate::response::MOST_STEPS;
 
 /// Steps whose sums are added up before they join the others.
 pub const STEPS_PER_SUM: u32 = 16;
 
-/// Roundings of the static loads that a force may be off by.
-pub const ROUNDINGS: f64 = 8.0;
 /// What may be left of a step before it counts as done: this many roundings of what was left.
 pub const LEAST_REST: f64 = 8.0;
 
@@ -120,11 +119,16 @@ impl<S: Real> Lane<S> {
         }
         let piece = &scene.pieces[self.state.piece as usize];
         let e = expand(scene, &self.state.body, self.state.contact, piece, belt.velocity, belt.acceleration);
+        let mut on_law = S::from_f64(NO_KINK);
         if self.state.contact <= REVERSE {
             let q = scene.friction(piece, self.sigma(), e.v[0], scene.v0 - e.v[0]).0;
             if S::ONE + scene.kappa * q <= S::ZERO {
                 self.state.status = Status::Painleve;
                 return;
+            }
+            on_law = piece.rate;
+            if scene.law != Law::Pieces {
+                on_law = scene.longest_in_layer(piece, q, e.v[0], e.v[1]);
             }
         }
         let remaining = self.rest * segment.step;
@@ -132,11 +136,7 @@ impl<S: Real> Lane<S> {
         let mut longest = S::ZERO;
         // Shorter steps leave a position where it is.
         if allowed * allowed >= S::EPSILON {
-            let mut within = allowed;
-            if scene.law == Law::Pieces && self.state.contact <= REVERSE {
-                within = within.min(piece.rate);
-            }
-            longest = step_length(&e, remaining.min(within), tolerance);
+            longest = step_length(&e, remaining.min(allowed).min(on_law), tolerance);
         }
         if longest <= S::ZERO {
             self.state.status = if self.body_is_finite() { Status::StepTooLarge } else { Status::NonFinite };

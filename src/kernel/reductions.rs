@@ -56,7 +56,7 @@ impl Reductions {
     #[must_use]
     pub fn outcome(&self, scene: &Scene, plan: &Plan, end: &End) -> Outcome {
         let units = &scene.units;
-        let mut outcome = Outcome { status: end.status, steps: end.steps, ..Outcome::default() };
+        let mut outcome = Outcome { status: scene.told(end.status), steps: end.steps, ..Outcome::default() };
         if end.status != Status::Ok {
             outcome.simulated_time = end.time * units.time;
             return outcome;

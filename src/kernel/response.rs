@@ -15,9 +15,9 @@ use super::scene::{
 use super::source::{Constant, Field, Kernel};
 use super::windows::Windows;
 use super::{contact, crossing, series};
-use crate::integrate::{MAX_EVENTS_PER_PERIOD, MAX_STEPS_PER_PERIOD};
+use crate::integrate::{MAX_EVENTS_PER_PERIOD, MAX_STEPS_PER_PERIOD, ROUNDINGS};
 use crate::method::pace::Turns;
-use crate::model::friction::LawKind;
+use crate::model::friction::{FAR, LawKind};
 use crate::outcome::Outcome;
 use crate::response::{MOST_STEPS, Plan, Scene};
 use crate::spec::Instance;
@@ -123,6 +123,7 @@ pub const fn kernel<const PIECES: usize>() -> Kernel {
                 Field::many("start", 4),
                 Field::one("slowest_rebound"),
                 Field::many("longest", 4),
+                Field::many("layer", 2),
                 Field::many("segments", SEGMENTS * SEGMENT_WORDS),
                 Field::many("pieces", PIECES * PIECE_WORDS),
             ]
@@ -143,6 +144,8 @@ pub const fn kernel<const PIECES: usize>() -> Kernel {
                 ("FIRST_HALF", Constant::U32(FIRST_HALF)),
                 ("SECOND_HALF", Constant::U32(SECOND_HALF)),
                 ("OPEN_HALF", Constant::U32(OPEN_HALF)),
+                ("FAR", Constant::Real(FAR)),
+                ("NO_KINK", Constant::Real(scene::NO_KINK)),
                 ("EXP_DEGREE", Constant::U32(scene::EXP_DEGREE as u32)),
                 ("ORDER", Constant::U32(series::ORDER as u32)),
                 ("SERIES", Constant::U32(series::ORDER as u32 + 1)),
@@ -162,7 +165,7 @@ pub const fn kernel<const PIECES: usize>() -> Kernel {
                 ("NODE_2", Constant::Real(observe::NODES[2])),
                 ("BISECTIONS", Constant::U32(observe::BISECTIONS as u32)),
                 ("TAU", Constant::Real(TAU)),
-                ("ROUNDINGS", Constant::Real(lane::ROUNDINGS)),
+                ("ROUNDINGS", Constant::Real(ROUNDINGS)),
                 ("HELD_FROM", Constant::U32(contact::HELD_FROM)),
                 ("LEAST_REST", Constant::Real(lane::LEAST_REST)),
                 ("STEPS_PER_SUM", Constant::U32(lane::STEPS_PER_SUM)),

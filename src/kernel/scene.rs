@@ -15,7 +15,7 @@ use super::series::ORDER;
 use crate::integrate::MAX_EVENTS_AT_ONCE;
 use crate::method::pace::Turns;
 use crate::model::equilibrium::Scaled;
-use crate::model::friction::Piece as LawPiece;
+use crate::model::friction::{FAR, Piece as LawPiece};
 
 /// The form of the friction law a kernel is built for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -86,7 +86,7 @@ pub type Segments = [[f64; SEGMENT_WORDS]; SEGMENTS];
 pub const NO_KINK: f64 = 1e30;
 
 /// Words before the segments; the pieces come last.
-pub const SCENE_WORDS: usize = 28;
+pub const SCENE_WORDS: usize = 30;
 /// Words of a piece.
 pub const PIECE_WORDS: usize = 5;
 /// Words of a segment.
@@ -139,6 +139,8 @@ pub struct Scene<S> {
     pub slowest_rebound: S,
     /// The longest step of each contact state.
     pub longest: [S; 4],
+    /// How far a step of a curved law may go, see [`crate::method::pace::Layer::inverses`].
+    pub layer: [S; 2],
     /// The pieces of the law.
     pub pieces: SmallVec<[Piece<S>; 2]>,
     /// The segments.
@@ -169,6 +171,7 @@ fn head(model: &Scaled, v0: f64, start: [f64; 4]) -> [f64; SCENE_WORDS] {
     let mu_s = model.law.mu_stick;
     let [x, w, vx, vw] = start;
     let [slip, reverse, stick, free] = TURNS.longest_steps(&model.fastest).map(|step| step.min(NO_KINK));
+    let [across, along] = TURNS.layer().inverses(model);
     [
         model.s,
         model.c,
@@ -198,6 +201,8 @@ fn head(model: &Scaled, v0: f64, start: [f64; 4]) -> [f64; SCENE_WORDS] {
         reverse,
         stick,
         free,
+        across,
+        along,
     ]
 }
 
@@ -280,6 +285,7 @@ impl<S: Real> Scene<S> {
             start: [w(19), w(20), w(21), w(22)],
             slowest_rebound: w(23),
             longest: [w(24), w(25), w(26), w(27)],
+            layer: [w(28), w(29)],
             pieces: SmallVec::new(),
             segments: [nothing; SEGMENTS],
         }
@@ -295,13 +301,13 @@ impl<S: Real> Scene<S> {
                 (q, if forward { piece.offset - piece.slope * lag } else { q - self.mu0 })
             }
             Law::Exponential => {
-                let change = exp_m1(if forward { piece.rate * lag } else { piece.rate * v });
-                if forward {
-                    (piece.at_zero + piece.offset + piece.offset * change, piece.offset * change)
-                } else {
-                    let q = -(piece.at_zero + piece.slope + piece.slope * change);
-                    (q, q - self.mu0)
-                }
+                // From the equilibrium, without cancellation, or from rest, where that is too far down.
+                let ahead = piece.rate * lag;
+                let near = forward && ahead <= S::from_f64(FAR);
+                let base = if near { piece.offset } else { piece.slope };
+                let less = base * exp_m1(if near { ahead } else { -(piece.rate * (sigma * v).max(S::ZERO)) });
+                let q = sigma * (piece.at_zero + (base + less));
+                (q, if near { less } else { q - self.mu0 })
             }
             Law::Rational => {
                 let reciprocal = S::ONE / (S::ONE + piece.rate * sigma * v);
@@ -310,6 +316,16 @@ impl<S: Real> Scene<S> {
                 (q, if forward { less } else { q - self.mu0 })
             }
         }
+    }
+
+    /// The longest step of a curved law at a relative velocity and its rate of change, see [`crate::method::pace::Layer`].
+    #[must_use]
+    pub fn longest_in_layer(&self, piece: &Piece<S>, q: S, v: S, acceleration: S) -> S {
+        let narrowing = S::ONE / (S::ONE + piece.rate * v.abs());
+        let sloped =
+            if self.law == Law::Exponential { (q.abs() - piece.at_zero).abs() } else { q.abs() * narrowing };
+        let inverse = piece.rate * (acceleration.abs() * narrowing * self.layer[0] + sloped * self.layer[1]);
+        S::ONE / inverse.max(S::from_f64(1.0 / NO_KINK))
     }
 
     /// μ at the speed `|v|`, whatever its piece.

@@ -1,7 +1,8 @@
 //! The longest step that a Taylor series of some order may take of a mode, whether the motion shows it or not.
 
 use crate::model::equilibrium::Scaled;
-use crate::model::fastest::{Fastest, fastest_beyond};
+use crate::model::fastest::{Fastest, HARDER, fastest_beyond};
+use crate::model::friction::Piece;
 
 /// Beyond this many radians of an undamped mode a step of even order makes it grow: the first excess over 1 of the
 /// step's amplification lies at 2.02 for order 8, 1.86 for order 12 and 2.11 for order 16.
@@ -36,6 +37,36 @@ pub struct Turns {
     contact: f64,
     slow: f64,
     flight: f64,
+    layer: Layer,
+}
+
+/// How far a step of slip may go on a curved law, near whose rest friction may change within a layer of speeds so thin that
+/// no bound on positions sees it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Layer {
+    /// Towards the pole of a rational law, a part of the way there: the terms of the highest degree are the tolerance.
+    pole: f64,
+    /// Of what an exponential decays by on the way, and of the growth or decay that the slope of any law makes.
+    turn: f64,
+}
+
+impl Layer {
+    /// The inverse of the longest step: `relative` is the rate of change of the relative velocity, `sloped` the slope of the
+    /// law in units of its rate, both as magnitudes.
+    #[must_use]
+    pub fn pace(&self, model: &Scaled, [relative, sloped]: [f64; 2], speed: f64) -> f64 {
+        let [across, along] = self.inverses(model);
+        let rate = model.law.rate();
+        rate * (relative / (1.0 + rate * speed) * across + sloped * along)
+    }
+
+    /// What both are multiplied by.
+    #[must_use]
+    pub fn inverses(&self, model: &Scaled) -> [f64; 2] {
+        let across =
+            if matches!(model.law.pieces[0], Piece::Rational { .. }) { self.pole } else { self.turn };
+        [1.0 / across, HARDER * model.n0 / self.turn]
+    }
 }
 
 impl Turns {
@@ -43,7 +74,9 @@ impl Turns {
     #[must_use]
     pub fn new(order: usize, tolerance: f64) -> Turns {
         if !tolerance.is_finite() {
-            return Turns { tolerance, contact: f64::INFINITY, slow: f64::INFINITY, flight: f64::INFINITY };
+            let endless = f64::INFINITY;
+            let layer = Layer { pole: endless, turn: endless };
+            return Turns { tolerance, contact: endless, slow: endless, flight: endless, layer };
         }
         let (kept, part) =
             if damps(order) { (KEPT_DAMPED, KEPT_OF_TOLERANCE_DAMPED) } else { (KEPT, KEPT_OF_TOLERANCE) };
@@ -52,7 +85,14 @@ impl Turns {
             contact: turn(order, tolerance.min(kept)),
             slow: turn(order, tolerance.min(kept.max(tolerance * part))),
             flight: turn(order, tolerance),
+            layer: Layer { pole: tolerance.powf(1.0 / order as f64), turn: turn(order, tolerance) },
         }
+    }
+
+    /// How far a step may go on a curved law.
+    #[must_use]
+    pub fn layer(&self) -> Layer {
+        self.layer
     }
 
     /// The longest step of slip on a piece of the law, infinite where that of slip is enough.

@@ -13,6 +13,9 @@ use super::{Param, Params};
 use crate::outcome::Status;
 use crate::spec::Instance;
 
+/// In single precision `M11` may vanish this much early.
+const PAINLEVE_ROUNDING: f64 = 1e-5;
+
 /// The SI value of each dimensionless unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Units {
@@ -161,6 +164,12 @@ impl Scaled {
             impact_friction: instance.impact_friction,
             fastest: fastest(params, units, equilibrium),
         }
+    }
+
+    /// Whether friction may make `M11` vanish, at whatever speed: `|κ| μ ≥ 1`.
+    #[must_use]
+    pub fn may_be_painleve(&self) -> bool {
+        self.kappa.abs() * self.law.highest() >= 1.0 - PAINLEVE_ROUNDING
     }
 
     /// `σ μ(v) − μ0` in slip on a piece of the law, with the belt faster than at the equilibrium by `ahead` and the body

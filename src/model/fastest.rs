@@ -12,7 +12,7 @@ use crate::model::{Param, Params};
 pub type Fastest = [f64; 4];
 
 /// The normal force and the inertia of slip change on the way; the rate of a piece may rise with them by this factor.
-const HARDER: f64 = 2.0;
+pub const HARDER: f64 = 2.0;
 
 /// The part of its rate that counts of a piece that drives the motion away. The motion shows it, and the truncation of its
 /// series shortens the step; a series over ten thousand times of such a step only tells nothing at all.

@@ -113,6 +113,10 @@ pub enum Piece {
     },
 }
 
+/// A change of an exponential by more than this many of its decay velocities is no small one: the difference of its values
+/// at both ends has all its digits. What is left of it here, `exp(−40)`, is no part of any friction.
+pub const FAR: f64 = 40.0;
+
 impl Piece {
     /// μ at the speed `speed ≥ 0`.
     #[must_use]
@@ -129,6 +133,10 @@ impl Piece {
     pub fn change(self, speed: f64, change: f64) -> f64 {
         match self {
             Piece::Linear { slope, .. } => slope * change,
+            // Far down the exponential its foot is 0 and the ratio infinite, whose product is no number.
+            Piece::Exponential { height, rate, .. } if -rate * change > FAR => {
+                height * ((-rate * (speed + change)).exp() - (-rate * speed).exp())
+            }
             Piece::Exponential { height, rate, .. } => {
                 height * (-rate * speed).exp() * (-rate * change).exp_m1()
             }
@@ -200,6 +208,28 @@ impl PieceChain {
         }
     }
 
+    /// The largest μ at any speed.
+    #[must_use]
+    pub fn highest(&self) -> f64 {
+        let lower_ends = std::iter::once(&0.0).chain(&self.kinks);
+        let ends = self.pieces.iter().zip(lower_ends).map(|(piece, lower)| match piece {
+            // A straight piece ends where the next one begins, the last one is level.
+            Piece::Linear { .. } | Piece::Rational { .. } => piece.mu(*lower),
+            Piece::Exponential { floor, .. } => piece.mu(*lower).max(*floor),
+        });
+        ends.fold(self.mu_stick, f64::max)
+    }
+
+    /// The inverse of the speed within which a curved law changes near rest; 0 of straight pieces.
+    #[must_use]
+    pub fn rate(&self) -> f64 {
+        match self.pieces[0] {
+            Piece::Linear { .. } => 0.0,
+            Piece::Exponential { rate, .. } => rate,
+            Piece::Rational { decay, .. } => decay,
+        }
+    }
+
     /// μ in slip at the speed `speed ≥ 0`.
     #[must_use]
     pub fn mu(&self, speed: f64) -> f64 {
@@ -243,7 +273,10 @@ impl FrictionLaw {
                 Piece::Linear { at_zero: *mu_d, slope: 0.0 }
             }
             FrictionLaw::Exponential { mu_s, mu_d, stribeck_velocity } => {
-                Piece::Exponential { floor: *mu_d, height: mu_s - mu_d, rate: 1.0 / stribeck_velocity }
+                let height = mu_s - mu_d;
+                // What does not change has no layer that a step would have to resolve.
+                let rate = if height == 0.0 { 0.0 } else { 1.0 / stribeck_velocity };
+                Piece::Exponential { floor: *mu_d, height, rate }
             }
             FrictionLaw::Rational { mu_s, decay } => Piece::Rational { at_zero: *mu_s, decay: *decay },
             FrictionLaw::Table(table) => table.piece(table.velocity.partition_point(|&v| v <= speed)),

@@ -125,7 +125,7 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Block<S, T, K> {
         for word in self.scene.iter_mut().chain(&mut self.piece).chain(&mut self.p).chain(&mut self.v) {
             word.set(lane, T::ZERO);
         }
-        for constant in [N0, CONE, CONE + 1, LONGEST, LONGEST + 1, LONGEST + 2] {
+        for constant in [N0, CONE, CONE + 1, LONGEST, LONGEST + 1, LONGEST + 2, LONGEST + 3] {
             self.scene[constant].set(lane, T::ONE);
         }
         self.belt.set(lane, T::ZERO);
@@ -226,7 +226,8 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Block<S, T, K> {
     /// The longest step of the present contact states.
     #[inline(always)]
     pub fn longest(&self) -> Vector<S, T, K> {
-        let closed = self.reverse().select(self.scene[LONGEST + 1], self.scene[LONGEST]);
+        let slides = self.reverse().select(self.scene[LONGEST + 1], self.scene[LONGEST]);
+        let closed = self.slip().select(slides, self.scene[LONGEST + 3]);
         self.free().select(self.scene[LONGEST + 2], closed)
     }
 

@@ -41,19 +41,21 @@ pub const CONE: usize = 38;
 pub const STIFFNESS: usize = 40;
 /// `1/det` of the mass matrix of `(x2, y2)`.
 pub const INV_DET: usize = 41;
-/// The longest step of slip and stick, of reversed slip, of free flight.
+/// The longest step of slip, of reversed slip, of free flight, of stick.
 pub const LONGEST: usize = 42;
 /// `m2 + m1 s²`.
-pub const NORMAL_MASS: usize = 45;
+pub const NORMAL_MASS: usize = 46;
 /// Newton restitution.
-pub const RESTITUTION: usize = 46;
+pub const RESTITUTION: usize = 47;
 /// 1 with a Coulomb impulse, else 0.
-pub const IMPACT_FRICTION: usize = 47;
+pub const IMPACT_FRICTION: usize = 48;
 /// Of the free oscillation of the single mass: decay rate, angular frequency and its inverse, the inverse of the stiffness,
 /// and by how much of a turn a velocity is less than a quarter ahead of its position. All 0 where it does not swing.
-pub const SWING: usize = 48;
+pub const SWING: usize = 49;
+/// How far a step of a curved law may go, see [`crate::method::pace::Layer::inverses`].
+pub const LAYER: usize = 54;
 /// How many there are.
-pub const CONSTANTS: usize = 53;
+pub const CONSTANTS: usize = 56;
 
 /// Those that steps in closed form need.
 pub const SWING_WORDS: [usize; 12] =
@@ -96,11 +98,12 @@ pub fn constants<T: Real>(model: &Scaled, turns: &Turns) -> [T; CONSTANTS] {
     put(STIFFNESS, &[model.k1 + model.k2]);
     put(INV_DET, &[inv_det]);
     let [slip, reverse, stick, free] = turns.longest_steps(&model.fastest);
-    put(LONGEST, &[slip.min(stick), reverse.min(stick), free].map(|step| step.min(NO_KINK)));
+    put(LONGEST, &[slip, reverse, free, stick].map(|step| step.min(NO_KINK)));
     put(NORMAL_MASS, &[model.normal_mass]);
     put(RESTITUTION, &[model.restitution]);
     put(IMPACT_FRICTION, &[f64::from(u8::from(model.impact_friction))]);
     put(SWING, &swing(r[0], r[3]));
+    put(LAYER, &turns.layer().inverses(model));
     all
 }
 

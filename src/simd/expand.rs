@@ -7,9 +7,10 @@
 use pulp::Simd;
 
 use super::block::{AT_ZERO, Block, OFFSET, RATE, SLOPE};
-use super::constants::{FALL, FLIGHT_X, FLIGHT_Y, H, KAPPA, MU0, N0, R, V0, W};
+use super::constants::{FALL, FLIGHT_X, FLIGHT_Y, H, KAPPA, LAYER, MU0, N0, R, V0, W};
 use super::vector::{Mask, Scalar, Vector};
 use crate::kernel::scene::Law;
+use crate::model::friction::FAR;
 
 /// The form of the laws of a pass, as [`Law`] has it.
 pub const PIECES: bool = false;
@@ -64,15 +65,40 @@ pub fn friction<S: Simd, T: Scalar<S>, const K: usize, const LAW: bool>(
     let (q, less) = if LAW == PIECES {
         (slope.fma(v, sigma * at_zero), slope.fnma(lag, offset))
     } else if b.law == Law::Exponential {
-        let change = exp_m1(rate * forward.select(lag, v));
-        let less = offset * change;
-        let backward = -(at_zero + slope.fma(change, slope));
-        (forward.select(at_zero + offset + less, backward), less)
+        let ahead = rate * lag;
+        let near = forward.and(ahead.at_most(one.like(FAR)));
+        let base = near.select(offset, slope);
+        let change = exp_m1(near.select(ahead, -(rate * (sigma * v).max(v.like(0.0)))));
+        let less = base * change;
+        let q = sigma * (at_zero + (base + less));
+        return [q, near.select(less, q - b.scene[MU0])];
     } else {
         let reciprocal = one / (rate * sigma).fma(v, one);
         (sigma * at_zero * reciprocal, at_zero * rate * lag * reciprocal * offset)
     };
     [q, forward.select(less, q - b.scene[MU0])]
+}
+
+/// The inverse of the longest step of a curved law, see [`crate::method::pace::Layer`].
+#[inline(always)]
+fn layer<S: Simd, T: Scalar<S>, const K: usize, const MOTION: u8>(
+    b: &Block<S, T, K>,
+    [q0, q0_less]: [Vector<S, T, K>; 2],
+    inertia: Vector<S, T, K>,
+    speed: Vector<S, T, K>,
+) -> Vector<S, T, K> {
+    let (zero, one) = (speed.like(0.0), speed.like(1.0));
+    let form = |at: usize| {
+        let sum = b.scene[at].fma(b.p[0], b.scene[at + 3] * b.v[0]);
+        if MOTION == SINGLE { sum } else { b.scene[at + 2].fma(b.p[2], b.scene[at + 5].fma(b.v[2], sum)) }
+    };
+    let force = q0.fma(form(W), q0_less.fma(b.scene[N0], -form(R)));
+    let acceleration = (b.drive - force / inertia).abs();
+    let rate = b.piece[RATE];
+    let narrowing = one / rate.fma(speed.max(zero), one);
+    let sloped =
+        if b.law == Law::Exponential { (q0.abs() - b.piece[AT_ZERO]).abs() } else { q0.abs() * narrowing };
+    rate * (acceleration * narrowing).fma(b.scene[LAYER], sloped * b.scene[LAYER + 1])
 }
 
 /// `exp(x) − 1`, see [`crate::kernel::scene::exp_m1`].
@@ -184,6 +210,12 @@ pub fn expand<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: 
     let [q0, q0_less] = friction::<S, T, K, LAW>(b, sigma, relative, lag);
     let inertia = slip.select(b.scene[KAPPA].fma(q0, one), one);
     let ill_posed = inertia.not_positive();
+    let h = if LAW == CURVED {
+        let inverse = layer::<S, T, K, MOTION>(b, [q0, q0_less], inertia, sigma * relative);
+        slip.select(h.min(one / inverse), h)
+    } else {
+        h
+    };
     let per_step = one / (inertia * h);
     let reciprocal = per_step * h;
     let forms = forms::<S, T, K, MOTION>(b, h, [q0, q0_less], reciprocal);

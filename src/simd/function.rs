@@ -11,8 +11,8 @@ use super::expand::{Expansion, SINGLE};
 use super::functions::Functions;
 use super::reach::largest;
 use super::vector::{Mask, Scalar, Vector};
+use crate::integrate::ROUNDINGS;
 use crate::kernel::crossing::HIGHEST_ORDER;
-use crate::kernel::lane::ROUNDINGS;
 
 /// What event functions and their derivatives may be off by at the beginning of a step.
 pub struct Rounding<S: Simd, T: Scalar<S>, const K: usize> {

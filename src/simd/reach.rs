@@ -14,8 +14,9 @@ pub const LONGER: f64 = 1.4;
 const MARGIN: f64 = 0.9;
 /// One that would end before this part of it is expanded over less.
 const FAR: f64 = 0.5;
-/// One that would end before this part of it ends the run.
-const SHORTEST: f64 = 1e-7;
+/// One that would end before this part of it ends the run: the eighth power asks for far too little where the terms grow
+/// with the fourteenth, and a step of a part in millions is asked for where friction changes as fast.
+const SHORTEST: f64 = 1e-15;
 
 /// What a step's last terms allow.
 pub struct Reach<S: Simd, T: Scalar<S>, const K: usize> {

@@ -48,6 +48,7 @@ mod kernels;
 #[cfg(unix)]
 mod killed;
 mod label;
+mod layers;
 mod leaves;
 mod limits;
 mod linear;

@@ -44,6 +44,14 @@ What holds for all of them:
   256 steps, and a stretch that is longer than a period may have the steps of all its periods in one of them, at most 2^23.
 - **So is a friction table.** On a short piece that rises steeply, sliding is held by a rate of the slope times the normal force, which the
   engine of the CPU and the kernels resolve; where 500 000 steps per period are not enough it is `step_too_large`.
+- **Thin layers take steps of their own.** Near rest an exponential or a rational law changes within `v_0` or `1/δ`, which no bound on
+  positions sees. A step goes no further than its series holds there, on every engine, and layers of 1e-8 of the velocities
+  are those of the reference in f64. In f32 they end early below some 1e-6 of them, and are computed again in f64; kernels that
+  come to their end at that width may be off by percents. Where in addition `M11` all but vanishes on the way, the engines may differ.
+- **Painlevé's is what the law can do.** Where a row is narrower than an arithmetic resolves, friction is evaluated beyond its ends;
+  `M11 ≤ 0` of a friction that the law has nowhere is `step_too_large`.
+- **At a limit statuses may differ.** Each engine has its own steps: `event_limit`, `step_too_large` and `ok` part where an instance needs
+  some three quarters of a bound or more on one of them, and where speeds that matter are less than 1e-14 of others.
 - **What is at rest is at rest.** Amplitudes below 1e-18 of `F_ext/k2` are 0 in f32: a motion that has died out that far
   is told as none.
 - **On the edge rounding decides.** A single mass without any damping and with `mu_d = 0` slips from one edge of the stick cone
