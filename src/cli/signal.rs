@@ -5,8 +5,8 @@ use std::sync::atomic::AtomicBool;
 
 use squealmap::{Error, Result};
 
-/// A flag that Ctrl-C sets, and SIGTERM; a command then ends between two instances or dispatches. Set before anything is
-/// made on the disk; a second Ctrl-C changes nothing, so that no file is left half written.
+/// A flag that Ctrl-C sets, and SIGTERM; a command then ends between two instances or dispatches, the reference within an
+/// instance too. Set before anything is made on the disk; a second Ctrl-C changes nothing, so that no file is left half written.
 pub(crate) fn stop_at_signal() -> Result<Arc<AtomicBool>> {
     let cancel = Arc::new(AtomicBool::new(false));
     listen(&cancel).map_err(|why| Error::Signal { why })?;

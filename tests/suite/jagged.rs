@@ -66,10 +66,13 @@ fn every_engine_comes_through_a_jagged_table() {
         Plan { settle: Duration::Periods(20.0), measure: Duration::Periods(10.0), ..plan(0.0, 1.0, 12) };
     let instances = jagged(48);
     for engine in Engine::ALL {
-        let made = engine.run_all(&instances, &plan);
+        // The twins of the kernels step one instance after the other, to the limit of a period where it is too steep.
+        let twin = matches!(engine, Engine::KernelF64 | Engine::KernelF32);
+        let instances = if twin { &instances[..12] } else { &instances[..] };
+        let made = engine.run_all(instances, &plan);
         // Single precision as a sweep has it.
         let again = matches!(engine, Engine::CpuF32 | Engine::KernelF32);
-        let made = if again { in_f64_too(&instances, &plan, made) } else { made };
+        let made = if again { in_f64_too(instances, &plan, made) } else { made };
         let unexpected = |(k, one): &(usize, &Outcome)| match one.status {
             Status::Ok => false,
             Status::StepTooLarge => !is_too_steep(&instances[*k], engine),
