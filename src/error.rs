@@ -310,7 +310,7 @@ pub enum Error {
     },
     /// A table of measured accuracies that is none.
     #[error(
-        "cannot read `{}`: {}; remove it, or measure again with `squealmap tradeoff`",
+        "cannot read `{}`: {}; mend it, or remove it and measure again with `squealmap tradeoff`",
         path.display(),
         clipped(why, SAID)
     )]

@@ -10,7 +10,7 @@ use crate::export::manifest::Sum;
 use crate::store::seal::is_intact;
 
 /// What puts damaged results right.
-const HEALED: &str = "run the same command again, or `squealmap verify --repair`, which writes it anew";
+const HEALED: &str = "`squealmap verify --repair` writes it anew";
 
 /// What is wrong with a file, as the end of a sentence.
 pub(super) type Why<T> = std::result::Result<T, String>;

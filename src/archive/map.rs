@@ -58,7 +58,7 @@ impl Archive {
     /// When a file is missing or is not what a run writes.
     pub fn read(directory: &Path) -> Result<Archive> {
         let folder = Folder(directory);
-        let manifest = folder.json(FILES[0])?;
+        let manifest = folder.sealed(FILES[0])?;
         let table = Table::read(&folder.named(FILES[1], FILES[0], &manifest)?)
             .map_err(|why| folder.bad(FILES[1], why))?;
         numbers_are_numbers(&manifest, &table).map_err(|why| folder.bad(FILES[1], why))?;

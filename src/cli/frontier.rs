@@ -33,13 +33,14 @@ pub(crate) fn of(spec: &Spec) -> Frontier {
     measured.filter(|frontier| frontier.covers(spec)).unwrap_or_else(|| Frontier::shipped().clone())
 }
 
-/// Whether a table can be written, told before hours are spent on measuring it.
+/// Whether a table can be written and the rows in it kept, told before hours are spent on measuring more.
 pub(crate) fn writable(asked: Option<&Path>) -> Result<()> {
     let Some(path) = asked.map(Path::to_owned).or_else(place) else { return Ok(()) };
     if let Some(parent) = path.parent() {
         disk::make_all(parent).map_err(|why| cannot(&path, &why))?;
     }
-    claim(&path).map(drop)
+    let _claim = claim(&path)?;
+    read(&path).map(drop)
 }
 
 /// Puts the rows of a measurement in place of those of the same scene; returns where, if anywhere.
@@ -48,15 +49,15 @@ pub(crate) fn store(asked: Option<PathBuf>, rows: &[Row]) -> Result<Option<PathB
         note("this system has no cache directory: give --store FILE to keep the table for `run --accuracy`");
         return Ok(None);
     };
-    // A table that cannot be read is measured anew, row by row.
-    let mut all = read(&path).unwrap_or_default();
-    all.retain(|row| rows.iter().all(|new| new.scene != row.scene));
-    all.extend_from_slice(rows);
-    let bytes = to_csv(&all)?;
     if let Some(parent) = path.parent() {
         disk::make_all(parent).map_err(|why| cannot(&path, &why))?;
     }
-    claim(&path)?.write(&bytes).map_err(|why| cannot(&path, &why))?;
+    // Held while it is read, lest the rows of another process are lost.
+    let claim = claim(&path)?;
+    let mut all = read(&path)?;
+    all.retain(|row| rows.iter().all(|new| new.scene != row.scene));
+    all.extend_from_slice(rows);
+    claim.write(&to_csv(&all)?).map_err(|why| cannot(&path, &why))?;
     Ok(Some(path))
 }
 

@@ -73,7 +73,7 @@ impl Merge {
                 print(&format!("{heading}; the results are those of all of them\n"));
                 ExitCode::SUCCESS
             }
-            Results::Written { paths, tally } => {
+            Results::Written { paths, tally, .. } => {
                 let counts = summary(target.description.analysis, &tally);
                 print(&format!("{heading}\n\n{counts}\n{}", list(&paths)));
                 ExitCode::SUCCESS

@@ -33,7 +33,7 @@ const WAIT: Duration = Duration::from_millis(50);
 /// What came of writing results.
 pub(crate) enum Results {
     /// They are written.
-    Written { paths: Vec<PathBuf>, tally: Tally },
+    Written { paths: Vec<PathBuf>, tally: Tally, complete: bool },
     /// They were there already, or another process has just written them.
     Current,
     /// A tile is bad or not there: nothing was written.
@@ -94,7 +94,14 @@ pub(crate) fn write(store: &Store, run: &Run, cancel: &AtomicBool) -> Result<Res
     }
     let table_sum = rows.map(|rows| rows.finish().sum());
     let tally = figure.tally().clone();
-    if run.stopped.is_some() && instances_there(store) > Some(tally.computed()) {
+    let of_tiles = OfTiles {
+        sweep_id: description.id.to_string(),
+        checksum: fingerprint.map(|fingerprint| (tiling.count(), fingerprint.finish().to_string())),
+        files: Vec::new(),
+    };
+    let mut run = Run { tiles: Some(of_tiles), ..run.clone() };
+    let complete = run.is_complete(&tally);
+    if run.stopped.is_some() && there(store) > Some((complete, tally.computed())) {
         return Ok(Results::Fuller { tally });
     }
     let svg = figure.svg();
@@ -105,12 +112,9 @@ pub(crate) fn write(store: &Store, run: &Run, cancel: &AtomicBool) -> Result<Res
         sums.push((name, Sum::of(&bytes)));
     }
     sums.splice(0..0, table_sum.map(|sum| (FILES[0], sum)));
-    let of_tiles = OfTiles {
-        sweep_id: description.id.to_string(),
-        checksum: fingerprint.map(|fingerprint| (tiling.count(), fingerprint.finish().to_string())),
-        files: sums,
-    };
-    let run = Run { tiles: Some(of_tiles), ..run.clone() };
+    if let Some(tiles) = &mut run.tiles {
+        tiles.files = sums;
+    }
     let text = manifest::manifest(sheet, &description.resolved, &tally, &run)?;
     fill(&mut manifest_file, &text)?;
     if table.is_none() {
@@ -124,7 +128,7 @@ pub(crate) fn write(store: &Store, run: &Run, cancel: &AtomicBool) -> Result<Res
     let stale = table.is_none().then_some(csv_path.as_path());
     files.extend(table);
     let paths = publish_with(manifest_file, files, stale)?;
-    Ok(Results::Written { paths, tally })
+    Ok(Results::Written { paths, tally, complete })
 }
 
 /// What came of asking for the right to write results.
@@ -157,8 +161,9 @@ fn claim_or_current(store: &Store, run: &Run, cancel: &AtomicBool) -> Result<Cla
     }
 }
 
-/// The instances that the results of this sweep which are there were computed of; `None` where there are none that are whole.
-fn instances_there(store: &Store) -> Option<usize> {
+/// Whether the results of this sweep which are there are complete, and the instances they have; `None` where there are none
+/// that are whole.
+fn there(store: &Store) -> Option<(bool, usize)> {
     let bytes = disk::read(&store.directory.join(MANIFEST)).ok().filter(|bytes| is_intact(bytes))?;
     let manifest: serde_json::Value = serde_json::from_slice(&bytes).ok()?;
     let is_of_this = manifest["sweep_id"] == store.description.id.to_string();
@@ -167,7 +172,7 @@ fn instances_there(store: &Store) -> Option<usize> {
             || unlike(&store.directory, name, MANIFEST, &manifest).is_none()
     };
     let computed = usize::try_from(manifest["computation"]["computed"].as_u64()?).ok()?;
-    (is_of_this && FILES.iter().all(is_there)).then_some(computed)
+    (is_of_this && FILES.iter().all(is_there)).then_some((manifest["complete"] == true, computed))
 }
 
 /// Why the results are not those of all tiles of this sweep as they are now, a sentence each; none where they are.

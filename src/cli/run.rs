@@ -207,12 +207,12 @@ pub(crate) fn run(
                 let stopped = filled.stopped.as_ref().unwrap_or(&Stopped::Cancelled);
                 return Ok(ended(stopped, &tally, "kept"));
             }
-            Results::Written { paths, tally } => {
+            Results::Written { paths, tally, complete } => {
                 store.remove_if_empty();
                 print(&report(&run, store, &tally, &paths));
                 // Complete is what was written, whatever stopped the run in its last moment.
                 return Ok(match &filled.stopped {
-                    Some(why) if tally.computed() < total => ended(why, &tally, "wrote"),
+                    Some(why) if !complete => ended(why, &tally, "wrote"),
                     _ => ExitCode::SUCCESS,
                 });
             }
@@ -301,12 +301,18 @@ fn ended(stopped: &Stopped, tally: &Tally, did: &str) -> ExitCode {
             1
         }
     };
-    note(&format!(
-        "stopped after {} of {} instances; {did} what is done, the others are `not_computed`; \
-         run the same command again to compute the rest",
-        tally.computed(),
-        tally.total()
-    ));
+    let (computed, total) = (tally.computed(), tally.total());
+    note(&if computed < total {
+        format!(
+            "stopped after {computed} of {total} instances; {did} what is done, the others are `not_computed`; \
+             run the same command again to compute the rest"
+        )
+    } else {
+        format!(
+            "stopped before the checks of {total} instances were done; {did} what was computed; run the same command again \
+             to check it"
+        )
+    });
     ExitCode::from(code)
 }
 

@@ -45,22 +45,16 @@ pub fn remove_if_there(path: &Path) -> io::Result<()> {
     }
 }
 
-/// Removes a folder that may be there, with all that is in it; links in it are removed and not followed.
+/// Removes a folder that may be there, with all that is in it; links, it may be one itself, are removed and not followed.
 ///
 /// # Errors
 /// When something cannot be removed.
 pub fn remove_all(path: &Path) -> io::Result<()> {
-    let names = match retried(|| door().names(path)) {
-        Err(why) if why.kind() == ErrorKind::NotFound => return Ok(()),
-        other => other?,
-    };
-    for name in names {
-        let inside = path.join(name);
-        if inside.symlink_metadata().is_ok_and(|found| found.is_dir()) {
-            remove_all(&inside)?;
-        } else {
-            remove_if_there(&inside)?;
-        }
+    if !path.symlink_metadata().is_ok_and(|found| found.is_dir()) {
+        return remove_if_there(path);
+    }
+    for name in retried(|| door().names(path))? {
+        remove_all(&path.join(name))?;
     }
     retried(|| door().remove_folder(path))
 }

@@ -77,6 +77,19 @@ pub struct Run {
     pub accuracy: Option<Chosen>,
 }
 
+impl Run {
+    /// Whether these are the results of all instances with their checks, which a run that is stopped may not have come to:
+    /// where tiles are kept, whether all are there.
+    #[must_use]
+    pub fn is_complete(&self, tally: &Tally) -> bool {
+        let checked = match &self.tiles {
+            Some(tiles) => tiles.checksum.is_some(),
+            None => self.stopped.is_none(),
+        };
+        checked && tally.computed() == tally.total()
+    }
+}
+
 /// The manifest of a map: UTF-8 JSON, indented.
 ///
 /// # Errors
@@ -101,6 +114,7 @@ pub fn manifest_json(map: &Map) -> Result<Vec<u8>> {
 /// When it cannot be written as JSON.
 pub fn manifest(sheet: Sheet, resolved: &Value, tally: &Tally, run: &Run) -> Result<Vec<u8>> {
     let seconds = run.elapsed.as_secs_f64();
+    let complete = run.is_complete(tally);
     let columns: Vec<Value> = columns(sheet.grid, sheet.analysis)
         .iter()
         .map(|column| json!({ "name": column.name, "unit": column.unit, "meaning": column.meaning }))
@@ -108,14 +122,14 @@ pub fn manifest(sheet: Sheet, resolved: &Value, tally: &Tally, run: &Run) -> Res
     let mut manifest = json!({
         "title": sheet.title,
         "program": { "name": env!("CARGO_PKG_NAME"), "version": VERSION, "git_commit": COMMIT },
-        "complete": tally.computed() == tally.total(),
+        "complete": complete,
         "computation": {
             "linear": sheet.linear,
             "response": sheet.response,
             "threads": run.threads,
             "instances": tally.total(),
             "computed": tally.computed(),
-            "stopped": run.stopped,
+            "stopped": run.stopped.as_ref().filter(|_| !complete),
             "elapsed_seconds": seconds,
             "instances_per_second": (seconds > 0.0).then(|| run.computed as f64 / seconds),
         },

@@ -17,7 +17,7 @@ use squealmap::method::Method;
 use squealmap::outcome::{Outcome, Status};
 use squealmap::spec::Spec;
 
-use crate::cli::squealmap;
+use crate::cli::{squealmap, unwrapped};
 use crate::resume::with;
 
 /// A settled oscillation whose four quantities are `value`, the halves of its window 2 % of it apart.
@@ -357,6 +357,14 @@ fn tradeoff_writes_its_files_and_keeps_its_table() {
     std::fs::write(directory.path().join("table.csv"), to_csv(&table).unwrap()).unwrap();
     assert_eq!(run("40", "table.csv").code, Some(0));
     assert_eq!(from_csv(&read("table.csv")).unwrap().len(), rows.len() + 1);
+    // One that cannot be read is not replaced, and that is told before anything is measured.
+    let damaged = [&to_csv(&table).unwrap()[..], b"a line too many\n"].concat();
+    std::fs::write(directory.path().join("damaged.csv"), &damaged).unwrap();
+    std::fs::remove_dir_all(directory.path().join("t")).unwrap();
+    let ended = run("40", "damaged.csv");
+    assert_eq!(ended.code, Some(2), "{}", ended.err);
+    assert!(unwrapped(&ended.err).contains("damaged.csv`: "), "{}", ended.err);
+    assert!(read("damaged.csv") == damaged && !directory.path().join("t").exists());
     // What too few were judged for is for the eye alone.
     std::fs::write(directory.path().join("s.toml"), MAP).unwrap();
     let ended = run("16", "few.csv");

@@ -273,12 +273,84 @@ fn fuller_results_stay() {
     assert!(read(directory.path(), "map.csv") == csv && tiles(directory.path()) == all);
 }
 
+/// Where all instances are computed and their checks are not, the results are not yet those of the sweep.
+#[test]
+fn a_stop_during_the_checks_is_not_complete() {
+    // One instance of few steps, which is checked with many.
+    let directory = with(
+        "analysis = [\"response\"]\n[friction]\nlaw = \"exponential\"\nmu_s = 0.5\nmu_d = 0.2\nstribeck_velocity = 1\n\
+         [belt]\nbelt_velocity = 2\n[response]\nsettle = \"20000 periods\"\nmeasure = \"10 periods\"\nsteps_per_period = 3\n",
+    );
+    let run = ["run", "s.toml", "--backend", "cpu", "--precision", "f32", "--threads", "1"];
+    let mut delay = Duration::from_millis(40);
+    let said = loop {
+        let mut child = begin(directory.path(), &run);
+        sleep(delay);
+        assert!(child.try_wait().unwrap().is_none(), "it ended before {delay:?}: no stop met the checks");
+        send(&child, "TERM");
+        let output = child.wait_with_output().unwrap();
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        if directory.path().join("out/s/manifest.json").exists() {
+            assert_eq!(output.status.code(), Some(130), "{said}");
+            break said;
+        }
+        delay = delay * 5 / 4;
+    };
+    assert!(unwrapped(&said).contains("stopped before the checks of 1 instances were done"), "{said}");
+    let stopped = manifest(directory.path());
+    assert_eq!(
+        (&stopped["complete"], &stopped["computation"]["computed"]),
+        (&Json::from(false), &Json::from(1))
+    );
+    assert_eq!(squealmap(directory.path(), &run).code, Some(0));
+    let whole = manifest(directory.path());
+    assert_eq!((&whole["complete"], &whole["computation"]["stopped"]), (&Json::from(true), &Json::Null));
+    assert_ne!(whole["tiles"], stopped["tiles"]);
+}
+
+/// A figure is drawn of the description that the run has written, or not at all.
+#[test]
+fn plot_refuses_a_changed_manifest() {
+    let directory = with(SWEEP);
+    squealmap(directory.path(), &RUN);
+    let path = directory.path().join("out/s/manifest.json");
+    let text = std::fs::read_to_string(&path).unwrap();
+    let changed = text.replacen("\"title\": \"T", "\"title\": \"t", 1);
+    assert_ne!(changed, text);
+    std::fs::write(&path, changed).unwrap();
+    let said = squealmap(directory.path(), &["plot", "out/s"]);
+    assert_eq!(said.code, Some(2), "{}{}", said.out, said.err);
+    assert!(unwrapped(&said.err).contains("its content does not have its checksum"), "{}", said.err);
+}
+
+/// What an export is written to beside its name may be a link: it goes, and what it points to stays.
+#[cfg(unix)]
+#[test]
+fn an_export_leaves_what_links_point_to() {
+    let directory = with(SWEEP);
+    squealmap(directory.path(), &RUN);
+    let mine = directory.path().join("mine");
+    std::fs::create_dir(&mine).unwrap();
+    std::fs::write(mine.join("zarr.json"), "mine").unwrap();
+    for name in ["map.zarr.part", "map.zarr.old", "map.zarr"] {
+        std::os::unix::fs::symlink(&mine, directory.path().join("out/s").join(name)).unwrap();
+    }
+    let ended = squealmap(directory.path(), &["export", "out/s", "--format", "zarr"]);
+    assert_eq!(ended.code, Some(0), "{}{}", ended.out, ended.err);
+    assert_eq!(std::fs::read_to_string(mine.join("zarr.json")).unwrap(), "mine");
+    assert!(directory.path().join("out/s/map.zarr").symlink_metadata().unwrap().is_dir());
+    assert_eq!(names(directory.path()).iter().filter(|name| name.contains("zarr")).count(), 1);
+}
+
 /// A manifest of which a part is missing has a sentence; found by fuzzing.
 #[test]
 fn a_manifest_without_its_analysis_is_named() {
     let directory = with(SWEEP);
     squealmap(directory.path(), &RUN);
     let mut damaged = manifest(directory.path());
+    for of_the_whole in ["files", "checksum"] {
+        damaged.as_object_mut().unwrap().remove(of_the_whole).unwrap();
+    }
     damaged["spec"].as_object_mut().unwrap().remove("analysis").unwrap();
     std::fs::write(directory.path().join("out/s/manifest.json"), damaged.to_string()).unwrap();
     let said = squealmap(directory.path(), &["plot", "out/s"]);
