@@ -91,7 +91,7 @@ pub mod trace;
 
 pub use error::{Error, Result};
 
-/// The README's library example is compiled and run.
+/// The example of `docs/library.md` is compiled and run.
 #[cfg(doctest)]
-#[doc = include_str!("../README.md")]
-struct Readme;
+#[doc = include_str!("../docs/library.md")]
+struct LibraryPage;

@@ -67,6 +67,7 @@ mod plot_notes;
 mod print;
 mod promise;
 mod properties;
+mod readme;
 mod refine;
 mod refine_parts;
 mod refine_whole;

@@ -34,7 +34,7 @@ fn axis(text: &str) -> Vec<f64> {
 }
 
 #[test]
-fn paper_map_is_the_example_of_the_readme() {
+fn paper_map_is_the_map_of_the_readme() {
     let spec = Spec::read(&sweeps().join("paper_map.toml")).unwrap();
     assert_eq!(spec.grid.len(), 8405);
     assert_eq!(spec.title, "Stability map of the two-mass belt model");
