@@ -322,9 +322,10 @@ pub enum Error {
     },
     /// A directory with tiles of another sweep.
     #[error(
-        "`{}` holds {done} of {total} tiles of another sweep, program version or engine; choose another directory \
+        "`{}` holds {done} of {total} tiles{} of another sweep, program version or engine; choose another directory \
          with -o, or remove `tiles` in it",
-        path.display()
+        path.display(),
+        and_kept(*kept)
     )]
     OtherSweep {
         /// The directory.
@@ -333,6 +334,8 @@ pub enum Error {
         done: usize,
         /// All tiles of that sweep.
         total: usize,
+        /// Instances of tiles that were stopped on their way.
+        kept: usize,
     },
     /// A directory that cannot be put right by this program.
     #[error(
@@ -395,6 +398,18 @@ pub enum Error {
     )]
     WritePart {
         /// The part.
+        path: PathBuf,
+        /// What the system says.
+        why: String,
+    },
+    /// A file of an output directory that this process cannot read, and that may be good.
+    #[error(
+        "cannot read `{}`: {why}; it may be good and is left as it is; let this user read it, or raise the limits on memory \
+         and open files, and run the same command again",
+        path.display()
+    )]
+    Denied {
+        /// The file.
         path: PathBuf,
         /// What the system says.
         why: String,
@@ -1052,3 +1067,8 @@ impl Error {
 
 /// The crate's result.
 pub type Result<T> = std::result::Result<T, Error>;
+
+/// What stopped runs have kept beside whole tiles, within a sentence.
+fn and_kept(instances: usize) -> String {
+    if instances == 0 { String::new() } else { format!(" and {instances} instances of others") }
+}

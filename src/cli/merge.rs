@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 use std::process::ExitCode;
+use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use clap::Args;
@@ -41,10 +42,13 @@ impl Merge {
         target.clean()?;
         let mut brought = 0;
         for source in &sources {
-            brought += merge(&target, source, &note)?;
+            brought += merge(&target, source, &cancel, &note)?;
         }
         let count = target.description.tiling.count();
-        let lacking = missing(&target, 0..count)?.len();
+        let lacking = missing(&target, (0..count).take_while(|_| !cancel.load(Ordering::Relaxed)))?.len();
+        if cancel.load(Ordering::Relaxed) {
+            return Ok(stopped());
+        }
         let heading = format!("{brought} tiles brought, {} of {count} are there", count - lacking);
         if lacking > 0 {
             print(&format!("{heading}\n"));
@@ -65,6 +69,7 @@ impl Merge {
                 note("a tile went bad or was removed while it was read; run the same command again");
                 ExitCode::FAILURE
             }
+            Results::GivenUp => stopped(),
             Results::Stopped | Results::Fuller { .. } => {
                 note("stopped; another process is writing the results");
                 ExitCode::from(INTERRUPTED)
@@ -80,4 +85,12 @@ impl Merge {
             }
         })
     }
+}
+
+/// Says what becomes of a merge that was stopped, and gives the exit code.
+fn stopped() -> ExitCode {
+    note(
+        "stopped; the tiles that were brought stay, and no results are written; run the same command again to go on",
+    );
+    ExitCode::from(INTERRUPTED)
 }

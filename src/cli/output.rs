@@ -67,7 +67,8 @@ impl Output {
         Ok(Draft(claim))
     }
 
-    /// Writes all files or none: first under temporary names, then renamed. Returns their paths.
+    /// Writes all files or none: first under temporary names, then renamed; those of before go first, so that a crash between
+    /// two names leaves no figure of one call beside the table of another. Returns their paths.
     pub(crate) fn write(self, files: &[(&str, Vec<u8>)]) -> Result<Vec<PathBuf>> {
         self.write_beside(files, Vec::new())
     }
@@ -83,6 +84,11 @@ impl Output {
             written.push(filled(&self.directory.join(name), bytes)?);
         }
         written.extend(drafts.into_iter().map(|Draft(claim)| claim));
+        // The first takes the place of its own.
+        let mut others: Vec<&Path> = written.iter().skip(1).map(Claim::path).collect();
+        others.iter().try_for_each(|path| gone(path))?;
+        others.dedup_by_key(|path| path.parent());
+        others.into_iter().try_for_each(lasting)?;
         let paths = publish(written)?;
         self.made.clear();
         Ok(paths)
@@ -102,14 +108,23 @@ fn publish(files: Vec<Claim>) -> Result<Vec<PathBuf>> {
 /// last. A file that must not stand beside them goes, too.
 pub(crate) fn publish_with(last: Claim, mut files: Vec<Claim>, stale: Option<&Path>) -> Result<Vec<PathBuf>> {
     let before = last.path();
-    disk::remove_if_there(before).and_then(|()| disk::lasting(before)).map_err(|why| cannot(before, &why))?;
-    if let Some(stale) = stale {
-        disk::remove_if_there(stale).map_err(|why| cannot(stale, &why))?;
-    }
+    gone(before)?;
+    lasting(before)?;
+    stale.map_or(Ok(()), gone)?;
     files.push(last);
     let mut paths = publish(files)?;
     paths.sort();
     Ok(paths)
+}
+
+/// Removes a file that must not stand beside others that come.
+fn gone(path: &Path) -> Result<()> {
+    disk::remove_if_there(path).map_err(|why| cannot(path, &why))
+}
+
+/// Waits until it is so after a crash, too.
+fn lasting(path: &Path) -> Result<()> {
+    disk::lasting(path).map_err(|why| cannot(path, &why))
 }
 
 impl Drop for Output {

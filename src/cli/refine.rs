@@ -16,7 +16,7 @@ use squealmap::refine::{COARSE, Refined, Settings, planes_of, refine};
 use squealmap::spec::{Spec, Starts};
 use squealmap::store::cut::tile_of;
 use squealmap::store::description::Description;
-use squealmap::store::parts::Parts;
+use squealmap::store::parts::{PARTS, Parts};
 use squealmap::store::refinement::Refinement;
 use squealmap::store::space;
 use squealmap::{Error, Result};
@@ -138,6 +138,12 @@ pub(crate) fn follow(
     let refined = refined?;
     let fresh = work.fresh;
     let (used, table_sum) = work.end()?;
+    // Results are of the parts that they name: what is gone is computed again before they are written.
+    if let Some((gone, _)) = used.iter().find(|(name, checksum)| !parts.has(name, checksum)) {
+        note(&format!("`{PARTS}/{gone}` was removed or changed meanwhile; it is computed again"));
+        drop(table);
+        return follow(output, spec, solver, asked);
+    }
     let ended = Ended { spec, asked, refined: &refined, parts: used, table, table_sum };
     let (paths, tally) = ended.write(directory)?;
     print(&report(&refined, fresh, &summary(spec.analysis, &tally)));

@@ -40,6 +40,8 @@ pub(crate) enum Results {
     Lacking,
     /// Another process was writing them when this one was to stop.
     Stopped,
+    /// This process was to stop while it read the tiles of a complete sweep: nothing was written.
+    GivenUp,
     /// A run that was stopped has fewer instances than the results that are there, which stay.
     Fuller { tally: Tally },
 }
@@ -70,6 +72,10 @@ pub(crate) fn write(store: &Store, run: &Run, cancel: &AtomicBool) -> Result<Res
     };
     let mut fingerprint = Some(Fingerprint::default());
     for number in 0..tiling.count() {
+        // Of a run that was stopped what is done is written.
+        if run.stopped.is_none() && cancel.load(Ordering::Relaxed) {
+            return Ok(Results::GivenUp);
+        }
         let bounds = tiling.bounds(number);
         let Ok(tile) = store.read_tile(number) else { return Ok(Results::Lacking) };
         if tile.is_none() && run.stopped.is_none() {

@@ -200,6 +200,13 @@ pub(crate) fn run(
                 ));
                 return Ok(ExitCode::from(INTERRUPTED));
             }
+            Results::GivenUp => {
+                note(&format!(
+                    "stopped while the results were written; all tiles are in {directory}; run the same command again to \
+                     write the results"
+                ));
+                return Ok(ExitCode::from(INTERRUPTED));
+            }
             Results::Fuller { tally } => {
                 note(&format!(
                     "the results in {directory} have more instances than the tiles there; they stay"

@@ -108,6 +108,16 @@ fn read_once(path: &Path) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
+/// Whether a file could not be read for a reason of this process, which may not or has too little room, and not of the file.
+#[must_use]
+pub fn is_of_reader(why: &io::Error) -> bool {
+    #[cfg(unix)]
+    let out_of_files = matches!(why.raw_os_error(), Some(libc::EMFILE | libc::ENFILE));
+    #[cfg(not(unix))]
+    let out_of_files = false;
+    out_of_files || matches!(why.kind(), ErrorKind::PermissionDenied | ErrorKind::OutOfMemory)
+}
+
 /// Whether an open file is the one at a path.
 ///
 /// # Errors

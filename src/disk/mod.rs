@@ -8,7 +8,7 @@ mod file;
 mod folders;
 mod system;
 
-pub use file::{Handle, is_at, read};
+pub use file::{Handle, is_at, is_of_reader, read};
 pub use folders::{lasting, make_all, remove_all, remove_if_there};
 pub use system::{Disk, How, System};
 

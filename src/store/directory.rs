@@ -1,6 +1,6 @@
 //! The tiles of an output directory.
 
-use std::io::{self, ErrorKind, Read, Seek, SeekFrom};
+use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
 use super::claim::Claim;
@@ -9,8 +9,8 @@ use super::direct::Room;
 pub use super::folder::Note;
 use super::folder::{Folder, SOME, TILE, Tile};
 use super::identity::Id;
-use super::tile::{Checksum, FOOTER, Fault, checksum_in, instances_in, sweep_in};
-use crate::disk::{self, Handle, How, door};
+use super::tile::{Checksum, Fault, instances_in, sweep_in};
+use crate::disk::{self, door};
 use crate::error::{Error, Result, SAID};
 use crate::map::Record;
 use crate::outcome::Status;
@@ -41,6 +41,7 @@ impl Store {
             Err(why) if why.kind() == ErrorKind::NotFound => {
                 return Err(Error::NoTiles { path: directory.to_owned() });
             }
+            Err(why) if disk::is_of_reader(&why) => return Err(Error::Denied { path, why: why.to_string() }),
             other => {
                 other.map_err(|why| Error::BadDescription { path: path.clone(), why: why.to_string() })?
             }
@@ -71,13 +72,12 @@ impl Store {
             }
             Ok(other) => {
                 let (done, total) = (other.done()?, other.description.tiling.count());
-                if total > 1 && done > 0 {
-                    return Err(Error::OtherSweep { path: directory.to_owned(), done, total });
+                let kept = other.kept_instances()?;
+                if total > 1 && done + kept > 0 {
+                    return Err(Error::OtherSweep { path: directory.to_owned(), done, total, kept });
                 }
-                for number in 0..total.min(1) {
-                    disk::remove_if_there(&other.path(number)).map_err(cannot)?;
-                    disk::remove_if_there(&other.path_of_some(number)).map_err(cannot)?;
-                }
+                disk::remove_if_there(&other.path(0)).map_err(cannot)?;
+                disk::remove_if_there(&other.path_of_some(0)).map_err(cannot)?;
             }
             Err(Error::NoTiles { .. }) => store.refuse_whole_strangers()?,
             Err(Error::BadDescription { why, .. }) => {
@@ -185,11 +185,7 @@ impl Store {
     pub fn kept(&self, number: usize, note: Note) -> Result<Option<Vec<Record>>> {
         match self.read_some(number) {
             Ok(found) => Ok(found),
-            Err(fault) => {
-                let what = format!("{fault}; it is computed again");
-                self.folder().expel(&self.name_of_some(number), &what, note)?;
-                Ok(None)
-            }
+            Err(fault) => self.folder().expel_bad(&self.name_of_some(number), fault, note).map(|()| None),
         }
     }
 
@@ -253,11 +249,7 @@ impl Store {
     pub fn fingerprint(&self) -> Option<Id> {
         let mut all = Fingerprint::default();
         for number in 0..self.description.tiling.count() {
-            let mut end = [0; FOOTER];
-            let mut file = Handle::open(&self.path(number), How::Read).ok()?;
-            file.seek(SeekFrom::End(-i64::try_from(FOOTER).ok()?)).ok()?;
-            file.read_exact(&mut end).ok()?;
-            all.add(&checksum_in(&end)?);
+            all.add(&self.folder().checksum(&self.name(number))?);
         }
         Some(all.finish())
     }
@@ -274,11 +266,7 @@ impl Store {
         let Some(_claim) = self.claim(number)? else { return Ok(false) };
         match self.read(number) {
             Ok(found) => Ok(found.is_some()),
-            Err(fault) => {
-                let what = format!("{fault}; it is computed again");
-                self.folder().expel(&self.name(number), &what, note)?;
-                Ok(false)
-            }
+            Err(fault) => self.folder().expel_bad(&self.name(number), fault, note).map(|()| false),
         }
     }
 
@@ -288,7 +276,7 @@ impl Store {
     /// When the directory cannot be read or written; when one is a whole tile of this sweep, cut otherwise.
     pub fn expel_strangers(&self, note: Note) -> Result<()> {
         self.strangers()?.into_iter().try_for_each(|name| {
-            if self.whole(&name) == Some(self.description.id) {
+            if self.whole(&name)? == Some(self.description.id) {
                 return Err(Error::OtherCut { path: self.folder().path(&name) });
             }
             self.folder().expel(&name, "it is no tile of this sweep", note)
@@ -297,7 +285,7 @@ impl Store {
 
     /// Refuses a directory without a description in which somebody has computed another sweep.
     fn refuse_whole_strangers(&self) -> Result<()> {
-        self.strangers()?.into_iter().try_for_each(|name| match self.whole(&name) {
+        self.strangers()?.into_iter().try_for_each(|name| match self.whole(&name)? {
             Some(sweep) if sweep != self.description.id => {
                 Err(Error::StrangeTile { path: self.folder().path(&name) })
             }
@@ -314,9 +302,9 @@ impl Store {
     }
 
     /// The sweep of a whole tile; `None` of what is none.
-    fn whole(&self, name: &str) -> Option<Id> {
-        let bytes = self.folder().bytes(name).ok().flatten()?;
-        instances_in(&bytes).and(sweep_in(&bytes))
+    fn whole(&self, name: &str) -> Result<Option<Id>> {
+        let bytes = self.folder().seen(name)?.ok().flatten();
+        Ok(bytes.and_then(|bytes| instances_in(&bytes).and(sweep_in(&bytes))))
     }
 
     /// Removes what a process that was killed has left of a file that is there by now.

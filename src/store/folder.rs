@@ -1,11 +1,11 @@
 //! A folder of tiles inside an output directory: what is in it, what is set aside.
 
-use std::io::{self, ErrorKind};
+use std::io::{self, ErrorKind, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
 use super::claim::{Claim, PART};
-use super::tile::{Checksum, Fault, Label, checksum_in};
-use crate::disk::{self, door};
+use super::tile::{Checksum, FOOTER, Fault, Label, checksum_in};
+use crate::disk::{self, Handle, How, door};
 use crate::error::{Error, Result};
 use crate::map::Record;
 
@@ -61,12 +61,44 @@ impl Folder {
         label.read(&bytes).map(|records| Some(Tile { records, checksum }))
     }
 
+    /// The checksum of a tile, of which only the end is read; `None` of what is none or is not there.
+    pub(super) fn checksum(&self, name: &str) -> Option<Checksum> {
+        let mut end = [0; FOOTER];
+        let mut file = Handle::open(&self.path(name), How::Read).ok()?;
+        file.seek(SeekFrom::End(-i64::try_from(FOOTER).ok()?)).ok()?;
+        file.read_exact(&mut end).ok()?;
+        checksum_in(&end)
+    }
+
     /// The bytes of a file; `None` when it is not there.
     pub(super) fn bytes(&self, name: &str) -> std::result::Result<Option<Vec<u8>>, Fault> {
         match disk::read(&self.path(name)) {
             Ok(bytes) => Ok(Some(bytes)),
             Err(why) if why.kind() == ErrorKind::NotFound => Ok(None),
+            Err(why) if disk::is_of_reader(&why) => Err(Fault::Denied { why: why.to_string() }),
             Err(why) => Err(Fault::Unreadable { why: why.to_string() }),
+        }
+    }
+
+    /// The same, where it is an error that this process cannot read the file: nothing is known of it then.
+    ///
+    /// # Errors
+    /// See above.
+    pub(super) fn seen(&self, name: &str) -> Result<std::result::Result<Option<Vec<u8>>, Fault>> {
+        match self.bytes(name) {
+            Err(Fault::Denied { why }) => Err(Error::Denied { path: self.path(name), why }),
+            other => Ok(other),
+        }
+    }
+
+    /// Sets a tile aside that is bad and will be computed again.
+    ///
+    /// # Errors
+    /// When it cannot be; when it may be good, as this process cannot read it.
+    pub(super) fn expel_bad(&self, name: &str, fault: Fault, note: Note) -> Result<()> {
+        match fault {
+            Fault::Denied { why } => Err(Error::Denied { path: self.path(name), why }),
+            fault => self.expel(name, &format!("{fault}; it is computed again"), note),
         }
     }
 

@@ -1,14 +1,17 @@
 //! Tiles of one sweep from several directories in one of them.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use super::direct::Room;
 use super::directory::{Note, Store};
 use crate::error::{Error, Result};
 
-/// Brings the tiles of `source` into `target` that are not there; returns how many. Doing it again changes nothing.
+/// Brings the tiles of `source` into `target` that are not there, until `cancel` is set; returns how many. Doing it again
+/// changes nothing.
 ///
 /// # Errors
 /// When the directories are of different sweeps, or a tile cannot be written.
-pub fn merge(target: &Store, source: &Store, note: Note) -> Result<usize> {
+pub fn merge(target: &Store, source: &Store, cancel: &AtomicBool, note: Note) -> Result<usize> {
     if !target.is_same(source) {
         return Err(Error::OtherMerge {
             target: target.directory.clone(),
@@ -18,6 +21,9 @@ pub fn merge(target: &Store, source: &Store, note: Note) -> Result<usize> {
     let mut brought = 0;
     let mut room = Room::default();
     for number in source.numbers()? {
+        if cancel.load(Ordering::Relaxed) {
+            break;
+        }
         if target.verify(number, note)? {
             continue;
         }

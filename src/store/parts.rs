@@ -134,7 +134,7 @@ impl Parts {
                 });
             }
             Ok(None) => {}
-            Err(fault) => self.folder.expel(&name, &format!("{fault}; it is computed again"), note)?,
+            Err(fault) => self.folder.expel_bad(&name, fault, note)?,
         }
         let records = compute()?;
         let path = self.folder.path(&name);
@@ -148,21 +148,27 @@ impl Parts {
         Ok(Part { records, found: false, name, checksum })
     }
 
+    /// Whether a part that results are of is still there, of which only the end is read.
+    #[must_use]
+    pub fn has(&self, name: &str, checksum: &str) -> bool {
+        self.folder.checksum(name).is_some_and(|found| digits(&found) == checksum)
+    }
+
     /// What the folder of parts of a directory holds, every part read; `None` where there is none.
     ///
     /// # Errors
-    /// When the folder cannot be read.
+    /// When the folder cannot be read, or this process cannot read a file in it.
     pub fn found(directory: &Path) -> Result<Option<Found>> {
         let folder = Folder::new(directory, PARTS);
         if !folder.path("").is_dir() {
             return Ok(None);
         }
-        let read = |name: &str| {
-            disk::read(&folder.path(name)).map_err(|why| Fault::Unreadable { why: why.to_string() })
-        };
+        // What is gone by now was not there.
+        let read = |name: &str| folder.seen(name).map(std::result::Result::transpose);
         let mut found = Found::default();
         for name in folder.tiles()? {
-            match read(&name).and_then(|bytes| fault_in(&bytes).map_or(Ok(bytes), Err)) {
+            let Some(bytes) = read(&name)? else { continue };
+            match bytes.and_then(|bytes| fault_in(&bytes).map_or(Ok(bytes), Err)) {
                 Ok(bytes) => {
                     found.instances += instances_in(&bytes).unwrap_or_default();
                     found.good.insert(name, digits(&checksum_in(&bytes).unwrap_or_default()));
@@ -171,7 +177,8 @@ impl Parts {
             }
         }
         for name in folder.ending(ASKED)? {
-            let bytes = read(&name).map_err(|fault| fault.to_string());
+            let Some(bytes) = read(&name)? else { continue };
+            let bytes = bytes.map_err(|fault| fault.to_string());
             found.asked.push((name, bytes.and_then(|bytes| Refinement::from_bytes(&bytes))));
         }
         Ok(Some(found))

@@ -115,6 +115,12 @@ pub enum Fault {
     /// A tile says that it is whole, and is not.
     #[error("it holds instances that were not computed")]
     Uncomputed,
+    /// This process cannot read it; it may be good.
+    #[error("this process cannot read it: {why}")]
+    Denied {
+        /// What the system says.
+        why: String,
+    },
     /// It cannot be read.
     #[error("it cannot be read: {why}")]
     Unreadable {

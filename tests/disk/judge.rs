@@ -61,6 +61,19 @@ fn lie(left: &Files, before: &Files, end: &Files) -> Option<String> {
         let [one, two] = [left.get(path), of.get(path)].map(|bytes| bytes.map(|bytes| lasting(path, bytes)));
         one.is_some() && one == two
     };
+    // Files of a trace are those of one call.
+    let only = |of: &Files, other: &Files| {
+        let is_only =
+            |path: &&PathBuf| is_of_trace(path) && same(path, of) && of.get(*path) != other.get(*path);
+        left.keys().find(is_only)
+    };
+    if let (Some(now), Some(then)) = (only(end, before), only(before, end)) {
+        return Some(format!(
+            "`{}` of this call stands beside `{}` of another",
+            now.display(),
+            then.display()
+        ));
+    }
     for (path, bytes) in left {
         let name = path.to_string_lossy();
         if name.contains("/bad/") {
@@ -116,6 +129,10 @@ fn lie(left: &Files, before: &Files, end: &Files) -> Option<String> {
         }
     }
     None
+}
+
+fn is_of_trace(path: &Path) -> bool {
+    path.file_stem().is_some_and(|stem| stem == "trace")
 }
 
 /// Why files and parts beside a `refine.json` are not those that it names.
@@ -246,6 +263,12 @@ fn lies_are_seen() -> Result<(), String> {
         if lie(&left, &none, &end).is_none() || difference(&left, &end).is_none() {
             return Err(format!("`{path}` as {bytes:?} was not seen"));
         }
+    }
+    let [then, mixed, now] = [["a", "a"], ["b", "a"], ["b", "b"]]
+        .map(|[table, figure]| of(&[("out/s/trace.csv", table), ("out/s/trace.svg", figure)]));
+    assert_eq!(lie(&now, &then, &now), None);
+    if lie(&mixed, &then, &now).is_none() {
+        return Err("a figure beside the table of another trace was not seen".to_owned());
     }
     let none_named = unlike(Path::new("out/s/refine.json"), b"{}", &none);
     if none_named.is_none() {

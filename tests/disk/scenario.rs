@@ -45,10 +45,12 @@ pub(crate) enum Scenario {
     /// Figures.
     Plot,
     Trace,
+    /// Of another instance than the one before.
+    TraceAgain,
 }
 
 impl Scenario {
-    pub(crate) const ALL: [Scenario; 15] = [
+    pub(crate) const ALL: [Scenario; 16] = [
         Scenario::Run,
         Scenario::Resume,
         Scenario::Large,
@@ -64,6 +66,7 @@ impl Scenario {
         Scenario::Parquet,
         Scenario::Plot,
         Scenario::Trace,
+        Scenario::TraceAgain,
     ];
 
     pub(crate) fn name(self) -> String {
@@ -83,7 +86,7 @@ impl Scenario {
             Scenario::Netcdf => "export out/s --format netcdf",
             Scenario::Parquet => "export out/s --format parquet",
             Scenario::Plot => "plot out/s",
-            Scenario::Trace => "trace s.toml --at mu_d=0.2,belt_velocity=3 -o out/s",
+            Scenario::Trace | Scenario::TraceAgain => "trace s.toml --at mu_d=0.2,belt_velocity=3 -o out/s",
         }
     }
 
@@ -100,6 +103,7 @@ impl Scenario {
                 &["refine s.toml --backend cpu --coarse 2 --sample 0 --tile 8 --threads 1 -o out/s"]
             }
             Scenario::RefineRepair => &[REFINE],
+            Scenario::TraceAgain => &["trace s.toml --at mu_d=0.3,belt_velocity=1 -o out/s"],
             Scenario::Zarr => &[RUN_SMALL],
             Scenario::ZarrAgain => &[RUN_SMALL, "export out/s --format zarr"],
             Scenario::Repair | Scenario::Csv | Scenario::Netcdf | Scenario::Parquet | Scenario::Plot => {

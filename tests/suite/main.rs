@@ -50,6 +50,7 @@ mod killed;
 mod label;
 mod layers;
 mod leaves;
+mod left_alone;
 mod limits;
 mod linear;
 mod methods;

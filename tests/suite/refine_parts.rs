@@ -102,6 +102,29 @@ fn killed_anywhere_it_goes_on_to_the_same_bytes() {
 }
 
 #[test]
+fn a_part_that_vanishes_meanwhile_is_computed_again() {
+    let whole = undisturbed();
+    let wanted = parts(whole.path());
+    let directory = with(SWEEP);
+    let mut command = Command::new(env!("CARGO_BIN_EXE_squealmap"));
+    command.args(arguments(&REFINE)).current_dir(directory.path());
+    let mut child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+    while parts(directory.path()).len() < 5 {
+        assert!(child.try_wait().unwrap().is_none(), "it ended before a part was deleted");
+        sleep(Duration::from_micros(300));
+    }
+    let gone = parts(directory.path()).remove(0).0;
+    std::fs::remove_file(directory.path().join("out/s/parts").join(&gone)).unwrap();
+    let output = child.wait_with_output().unwrap();
+    let err = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "{err}");
+    assert!(err.contains("was removed or changed meanwhile; it is computed again"), "{err}");
+    let verified = squealmap(directory.path(), &["verify", "out/s"]);
+    assert_eq!(verified.code, Some(0), "{}", verified.out);
+    assert!(parts(directory.path()) == wanted && results(directory.path()) == results(whole.path()));
+}
+
+#[test]
 fn what_is_there_is_not_computed_again() {
     let directory = undisturbed();
     let before = results(directory.path());
