@@ -860,16 +860,6 @@ pub enum Error {
         /// What the library says.
         why: String,
     },
-    /// A growth of the paper's figures that does not grow.
-    #[error(
-        "nothing grows under {case} (status `{status}`); the shipped sweep of the figure is not the paper's"
-    )]
-    PaperGrowth {
-        /// The friction case in words.
-        case: &'static str,
-        /// How the transient ended.
-        status: &'static str,
-    },
     /// A sweep on which no accuracy can be measured.
     #[error("accuracy is measured on settled oscillations, but {what}")]
     NothingToJudge {

@@ -230,8 +230,7 @@ fn configurations(software: bool) -> (Vec<Configuration>, Vec<String>) {
     for precision in both {
         match Adapter::best(precision, None) {
             Ok(adapter) if adapter.is_software() && !software => left_out.push(format!(
-                "{} in {precision}: software on the CPU, slower than the CPU engine at every accuracy; `--software` \
-                 measures it",
+                "{} in {precision}: software on the CPU; `--software` measures it",
                 adapter.describe()
             )),
             Ok(adapter) => all.extend(GPU_STEPS.map(|steps_per_period| Configuration {

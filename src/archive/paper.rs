@@ -88,15 +88,15 @@ fn columns(table: &Table, ramp: &Slowdown) -> Why<Vec<Stretch>> {
 }
 
 fn growth(table: &Table, document: &Json) -> Why<Shown> {
-    let rows = table.numbers([GROWTH[1], GROWTH[2], GROWTH[3]])?;
+    let rows = table.numbers([GROWTH[1], GROWTH[2], GROWTH[3], GROWTH[4]])?;
     let case = |case: &Json| {
         let name = text(&case["figure"]);
+        let range = |name: &str| (!case[name].is_null()).then(|| pair(&case[name])).transpose();
         let of_case = table.rows.iter().zip(&rows).filter(|(row, _)| table.cell(row, GROWTH[0]) == name);
         Ok(Growing {
             words: text(&case["mechanism"]),
             friction: [number(case, "mu_s")?, number(case, "mu_d")?],
-            frequency: number(case, "frequency")?,
-            phases: [number(case, "phase_eigenvector")?, number(case, "phase_measured")?],
+            phases: range("phase_measured")?.zip(range("phase_eigenvector")?).map(|(a, b)| [a, b]),
             samples: of_case.map(|(_, sample)| *sample).collect(),
         })
     };

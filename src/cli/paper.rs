@@ -29,7 +29,7 @@ pub(crate) struct PaperCommand {
     /// Only these figures, separated by commas, and no paper.md, which needs them all
     #[arg(long, value_delimiter = ',', value_name = "FIGURE,...", value_parser = figures())]
     only: Vec<Figure>,
-    /// Duration of the ramp of Figures 4 to 6, 0.5 to 100 s [default: 10]
+    /// Duration of the ramp of Figures 4 to 7, 0.5 to 100 s [default: 10]
     #[arg(long, value_name = "S", value_parser = ramp_duration)]
     ramp_duration: Option<f64>,
     /// Displacement at the start of that ramp, 1e-9 to 0.01 m [default: 1e-4]

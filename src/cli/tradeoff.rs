@@ -1,5 +1,6 @@
 //! `squealmap tradeoff`: speed against error of every engine on a sweep.
 
+use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -20,6 +21,10 @@ const FILES: [&str; 4] = ["tradeoff.csv", "tradeoff.json", "tradeoff.png", "trad
 /// Settled oscillations below which a sweep is measured for the eye alone.
 const FEWEST_JUDGED: usize = 20;
 
+/// Instances that are judged, and the seed of their draw, unless the options say otherwise.
+const SAMPLE: u32 = 512;
+const SEED: u64 = 1;
+
 /// Arguments of `tradeoff`.
 #[derive(Debug, Args)]
 pub(crate) struct Tradeoff {
@@ -30,10 +35,10 @@ pub(crate) struct Tradeoff {
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
     /// Instances that are judged, 16 to 100000, of all types and regimes, more near the borders between them
-    #[arg(long, value_name = "N", default_value_t = 512, value_parser = clap::value_parser!(u32).range(16..=100_000))]
+    #[arg(long, value_name = "N", default_value_t = SAMPLE, value_parser = clap::value_parser!(u32).range(16..=100_000))]
     sample: u32,
     /// Another seed draws another sample
-    #[arg(long, value_name = "S", default_value_t = 1)]
+    #[arg(long, value_name = "S", default_value_t = SEED)]
     seed: u64,
     /// Worker threads, 1 to 1024 [default: one per core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
@@ -47,7 +52,7 @@ pub(crate) struct Tradeoff {
     /// Leave that table as it is
     #[arg(long)]
     no_store: bool,
-    /// Measure a software GPU too: slower than the CPU engine at every accuracy, so that `run` never chooses it
+    /// Measure a software GPU too, which `run` never chooses
     #[arg(long, requires = "no_store")]
     software: bool,
 }
@@ -106,14 +111,38 @@ impl Tradeoff {
                 ));
             }
             if !rows.is_empty() {
-                paths.extend(frontier::store(self.store, &rows)?);
+                paths.extend(frontier::store(self.store.clone(), &rows)?);
             }
         }
         if let Some(report) = &self.report {
-            paths.extend(write_report(report, &all)?);
+            paths.extend(write_report(report, &all, &self.command())?);
         }
         print(&list(&paths));
         Ok(())
+    }
+
+    /// The command that measures the same again.
+    fn command(&self) -> String {
+        let mut command = "squealmap tradeoff".to_owned();
+        for sweep in &self.sweeps {
+            let _ = write!(command, " {}", sweep.display());
+        }
+        let mut option = |name: &str, value: Option<String>| {
+            if let Some(value) = value {
+                let _ = write!(command, " {name}{value}");
+            }
+        };
+        let path = |path: &Option<PathBuf>| path.as_ref().map(|path| format!(" {}", path.display()));
+        let flag = |set: bool| set.then(String::new);
+        option("--output", path(&self.output));
+        option("--sample", (self.sample != SAMPLE).then(|| format!(" {}", self.sample)));
+        option("--seed", (self.seed != SEED).then(|| format!(" {}", self.seed)));
+        option("--threads", self.threads.map(|threads| format!(" {threads}")));
+        option("--software", flag(self.software));
+        option("--report", path(&self.report));
+        option("--store", path(&self.store));
+        option("--no-store", flag(self.no_store));
+        command
     }
 }
 
@@ -133,7 +162,7 @@ fn write(output: Output, spec: &Spec, stem: String, measured: Measurement) -> Re
 }
 
 /// Writes the report, and the figures into a directory of its name.
-fn write_report(report: &Path, all: &[Done]) -> Result<Vec<PathBuf>> {
+fn write_report(report: &Path, all: &[Done], command: &str) -> Result<Vec<PathBuf>> {
     let name = report.file_name().unwrap_or(report.as_os_str()).to_string_lossy().into_owned();
     let figures = report.file_stem().unwrap_or(report.as_os_str()).to_string_lossy().into_owned();
     let figure = |done: &Done| format!("{figures}/{}.png", done.stem);
@@ -141,7 +170,7 @@ fn write_report(report: &Path, all: &[Done]) -> Result<Vec<PathBuf>> {
         .iter()
         .map(|done| Section { title: &done.title, figure: figure(done), measured: &done.measured })
         .collect();
-    let text = tradeoff::to_markdown(&sections).into_bytes();
+    let text = tradeoff::to_markdown(&sections, command).into_bytes();
     let drawn: Vec<(String, Vec<u8>)> = all.iter().map(|done| (figure(done), done.png.clone())).collect();
     let mut files: Vec<(&str, Vec<u8>)> = vec![(&name, text)];
     files.extend(drawn.iter().map(|(name, png)| (name.as_str(), png.clone())));

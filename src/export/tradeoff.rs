@@ -119,93 +119,27 @@ pub struct Section<'a> {
     pub measured: &'a Measurement,
 }
 
-/// The begin of a report.
-const INTRODUCTION: &str = "# Speed against error
-
-Made by one command, on the machine whose numbers it shows:
-
-    squealmap tradeoff sweeps/accuracy/*.toml -o out/accuracy --report docs/accuracy.md --store src/accuracy/default.csv
-
-Every engine of the machine computes a sample of each sweep: of every status, type and regime that a cheap run finds some
-instances, more near the borders between them, each weighed by the number of instances it stands for. The truth is
-the reference at 24 steps per period. Errors are relative; `worst` is the worst of `x2_std`, `ax_rms`, `ay_rms` and
-`response_frequency` of an instance, p95 what 95 % of the settled oscillations are within. Chaotic motions and those that
-have not settled differ between any two methods: they are counted and compared by their labels only. The scatter of
-the truth is the difference of the two halves of its own window.
-
-`run --accuracy` takes the fastest row whose p95 is within half of what is asked for: another sweep has other instances.
-Before it computes the sweep it tries that row on 192 or more of the sweep's own instances, against the CPU engine in f64
-with fine steps; as long as more than 2.5 % of the settled oscillations among them break what is asked for (and the truth's
-own scatter), it goes on to the next more accurate row. Far from the sweeps below the table alone is not enough: with
-m2 = 2 g at an angle of 0.3 its first choice keeps 1e-3 in 91 % of the oscillations, what the trial takes in 97 %.
-The same command without `--store` measures any sweep on any machine and keeps the rows in the user's cache directory
-(`accuracy.csv`); they then come before the table that is shipped, which is the one below. A software GPU is left out, since
-the CPU engine is faster at every accuracy: [accuracy_software.md](accuracy_software.md) has its numbers.
-
-Whether that is kept on sweeps that were not measured here (a rational law with rebounding impacts, a belt ramp, an
-exponential law run until it is settled) is a test: `cargo test --release --test suite promise -- --nocapture` computes all
-of their instances, and those of two sweeps far from the table's, by `--accuracy 1e-3` and by the reference. At least 95 % of the settled oscillations must be within
-1e-3 and the truth's own scatter, and at least 80 % of the oscillations settled. With `--include-ignored` it also compares the error
-that a map of 14 400 instances states of itself with the error of every instance: within a factor of 2.
-
-## What a map says of itself
-
-Every run with a response computes a few instances again, chosen by their index alone, so that threads, tiles, shards and a
-run that goes on give the same bytes. 3 % of the time go to the CPU engine in f64 with at least 16 steps per period (some
-1 % of the instances of a run in f32), 1 % to the reference (some 3 in 10 000). Their numbers follow from the speeds below, not
-from a clock. With that budget the reference alone could say little of a map below a million instances, so the first draw
-gives the quantiles and the second the independent witness. Of the instances near a border between labels only those
-that were drawn take the finer result; to have all of them in f64 takes a run in f64.
-
-Measured: 129 600 instances of the first sweep below (140 periods) at `standard` take 5.32 s of a processor instead of 5.15 s
-with `--no-check`, the mean of three runs each, on a machine with other work: 3 %.
-
-## What it is compared with
-
-Two more methods are measured and drawn, to compare with; `--accuracy` never takes them. `located RK4` takes Runge–Kutta
-steps of order 4, half as long in flight, in the reference's place: its dense output of degree 5 goes the way of the Taylor
-series through the same location of events, transitions and observables. `fixed step` takes the same steps at one length and
-changes the contact state only where they end, as codes with a fixed step do; the source paper's has 294 in a period.
-They are slow: only every eighth instance of the sample is judged, and their speed is taken from few.
-
-Measured on a whole sample of the bilinear law's sweep, p95 and instances per second of a processor: `located RK4` 1.6e-3 and 168 with 20 steps,
-7.9e-5 and 88 with 40, 2.8e-7 and 21 with 160; `fixed step` 2.9e-2 and 53 with 80 steps, 7.4e-3 and 14 with 294. At 12 steps
-the reference has 3.6e-9 and 179, the CPU engine in f32 with 6 has 3.3e-5 and 10 280. So for 1e-4 the engine is 120 times as
-fast as RK4 one instance at a time, and the reference, at the speed that RK4 has for 1.6e-3, is five orders better: a step of
-RK4 costs two thirds of one of the reference, since events and observables of a step cost the same. Without location more
-steps are of little use: what twice as many make 15 times smaller with it they halve without. Under the exponential law (160
-instances of the sweep) it is the same: 6.3e-5 with 40 steps of RK4, 7.1e-3 with a fixed step and 294.
-
-What f32 loses is to a third the bound on truncation and not at all the state that is carried on. On the shipped map,
-settled oscillations, p50 / p95 / p99 of the worst: 8.7e-7 / 2.4e-6 / 3.5e-6. In f64 with the bound of f32 it is 1.6e-7 /
-8.6e-7 / 1.9e-6, with the constants of the instances rounded to f32 as well 5.4e-7 / 1.3e-6 / 2.2e-6. Positions and
-velocities in f32 with their lost parts carried along (compensated sums) leave it at 8.7e-7 / 2.3e-6 / 3.5e-6, at the same
-speed: the engine does without.
-
-## What is chosen
-
-Instances per second of a processor (with a GPU among them: of wall time), and the error that 95 % are within.
-
-";
-
-/// The begin of a report with a software GPU.
-const WITH_SOFTWARE: &str = "# Speed against error with a software GPU
-
-Made by
-
-    squealmap tradeoff sweeps/accuracy/pieces.toml --software --no-store --report docs/accuracy_software.md
-
-as [accuracy.md](accuracy.md) says; all rows of the GPU are shown, efficient or not.
-
-Instances per second of wall time, and the error that 95 % are within.
-
-";
-
-/// The report on some sweeps: Markdown.
+/// The begin of a report: what made it and how its tables are read. It holds no result.
 #[must_use]
-pub fn to_markdown(sections: &[Section]) -> String {
-    let software = sections.iter().any(|section| section.measured.settings.software);
-    let mut text = if software { WITH_SOFTWARE } else { INTRODUCTION }.to_owned();
+pub fn head(command: &str) -> String {
+    format!(
+        "# Speed against error\n\n\
+         Made by one command, on the machine whose numbers it shows; do not edit:\n\n    {command}\n\n\
+         Every engine that the command measures computes a sample of each sweep: of every status, type and regime some \
+         instances, more near the borders between them, each weighed by the number of instances it stands for. The truth is the \
+         reference at {TRUTH_STEPS} steps per period. Errors are relative; `worst` is the worst of `x2_std`, `ax_rms`, `ay_rms` \
+         and `response_frequency` of an instance, p95 what 95 % of the settled oscillations are within. Chaotic motions and \
+         those that have not settled differ between any two methods: they are compared by their labels alone. The scatter of \
+         the truth is the difference of the two halves of its own window.\n\n\
+         ## The fastest for each accuracy\n\n\
+         Instances per second of a processor (with a GPU among them: of wall time), and the error that 95 % are within.\n\n"
+    )
+}
+
+/// The report on some sweeps, made by a command: Markdown.
+#[must_use]
+pub fn to_markdown(sections: &[Section], command: &str) -> String {
+    let mut text = head(command);
     text += "| scene | ";
     let bounds = NAMES.into_iter().filter_map(|(name, level)| match level {
         Level::Within(bound) => Some((name, bound)),

@@ -4,9 +4,12 @@ use crate::error::Result;
 use crate::grid::{Axis, AxisKey, Grid, Value};
 use crate::model::Param;
 use crate::paper::accelerations::disturbance;
-use crate::paper::{Case, Growth, Phase, PhaseCase, PhaseTrial, Stretch, Study, Trial};
+use crate::paper::{Case, LIMITS, PhaseCase, PhaseTrial, Stretch, Study, Trial, Window};
 use crate::spec::Spec;
 use crate::{export::modes::follow, linear};
+
+/// Belt velocity, m/s, below which the size of the limit cycle is no longer in proportion to it: the belt comes to rest.
+pub(super) const SLOWEST: f64 = 1.0;
 
 /// What the claims ask of a ramp.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,6 +32,12 @@ impl RampFacts {
     pub fn peaks(&self) -> [f64; 2] {
         let of = |k: usize| self.parts.iter().map(|part| part.peaks()[k]).fold(0.0, f64::max);
         [of(0), of(1)]
+    }
+
+    /// Whether the vibration has grown: see [`Limits::growth`](crate::paper::Limits::growth).
+    #[must_use]
+    pub fn grown(&self) -> bool {
+        self.largest().1 >= LIMITS.growth * self.disturbance
     }
 
     /// The position and value of the largest `|ẍ2|` among the parts.
@@ -55,8 +64,8 @@ pub struct Evidence {
     /// By how much `|ÿ1|` swells and fades in the limit cycle of Figure 4: of the cycles' peaks, each over the belt
     /// velocity, with which the limit cycle shrinks, half the range over the mean of its ends.
     pub swell: Option<f64>,
-    /// Figures 7a and 7b.
-    pub phases: [Phase; 2],
+    /// The windows of Figures 7a and 7b.
+    pub phases: [Vec<Window>; 2],
     /// Other ramps and kicks.
     pub trials: Vec<Trial>,
     /// The phase method on trial.
@@ -76,7 +85,8 @@ impl Evidence {
         let falling = study.sweep(Case::NegativeSlope);
         let critical_velocity = critical_velocity(&falling)?;
         let [slope, coupling, both] = Case::ALL.map(|case| facts(study, case));
-        let [first, second] = PhaseCase::ALL.map(|case| Growth::compute(case).map(|growth| growth.phase));
+        let [first, second] =
+            PhaseCase::ALL.map(|case| study.growth(case).map(|growth| growth.windows.clone()));
         let slope = slope?;
         let swell = swell(&slope, &study.ramp(Case::NegativeSlope)?.cycles);
         Ok(Evidence {
@@ -119,8 +129,6 @@ fn critical_velocity(spec: &Spec) -> Result<Option<f64>> {
 /// Half the range of the cycles' peaks over the belt velocity, over the mean of its ends; in the limit cycle, which
 /// lasts from the largest `|ẍ2|` on.
 fn swell(ramp: &RampFacts, cycles: &[(f64, f64)]) -> Option<f64> {
-    /// Belt velocity, m/s, below which the two are no longer in proportion: the belt comes to rest.
-    const SLOWEST: f64 = 1.0;
     let (top, _) = ramp.largest();
     let begin = ramp.parts.get(top)?.velocity[1];
     let inside = cycles.iter().filter(|(_, velocity)| (SLOWEST..=begin).contains(velocity));

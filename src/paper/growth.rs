@@ -1,14 +1,26 @@
-//! Figure 7: both accelerations while one mode grows, up to its first event.
+//! Figure 7: both accelerations while a vibration grows on the ramp, and the phase between them.
+
+use num_complex::Complex64;
 
 use crate::error::{Error, Result};
-use crate::linear::{Linear, analyse};
-use crate::model::Param;
+use crate::linear::analyse;
+use crate::model::contact::ContactState;
+use crate::model::equilibrium::Units;
+use crate::model::{Param, Params};
+use crate::outcome::Status;
+use crate::paper::LIMITS;
+use crate::paper::accelerations::disturbance;
 use crate::paper::sweeps::{FIGURE_7A, FIGURE_7B};
 use crate::spec::{Instance, Spec};
-use crate::trace::trace;
+use crate::trace::{TraceRow, trace};
 
 /// Samples per period.
 const SAMPLES: u32 = 40;
+/// Cycles of a window. The transform of a Hann window of so many has its first zeros two lines off: what the negative
+/// frequency adds is nothing, and growth within the window is the same for both signals.
+const CYCLES: usize = 4;
+/// Periods that are shown of a ramp on which nothing has grown.
+const SHOWN_PERIODS: f64 = 60.0;
 
 /// A friction case of the paper's study of the phase.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,63 +54,64 @@ impl PhaseCase {
     }
 }
 
-/// Phase of `ÿ1` against `ẍ2` and growth rate, once from the eigenvector and once from the signals.
+/// A few cycles of the growing vibration.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Phase {
-    /// From the eigenvector, degrees.
-    pub eigenvector: f64,
-    /// From the signals before the first event, degrees.
+pub struct Window {
+    /// Its begin and end, s.
+    pub time: [f64; 2],
+    /// The belt velocity in its middle, m/s.
+    pub velocity: f64,
+    /// Size of `ẍ2` at the frequency of the cycles, m/s².
+    pub amplitude: f64,
+    /// Phase of `ÿ1` against `ẍ2` at that frequency, degrees in (−180, 180].
     pub measured: f64,
-    /// Largest real part of the eigenvalues, 1/s.
-    pub growth_rate: f64,
-    /// The growth rate of the signals before the first event, 1/s.
-    pub growth_rate_measured: f64,
+    /// The same of the most unstable eigenvector, were the belt to keep its velocity; `None` where it has none.
+    pub eigenvector: Option<f64>,
 }
 
-/// One growing oscillation.
+/// A vibration that grows on a ramp.
 #[derive(Clone, Debug)]
 pub struct Growth {
     /// The friction case.
     pub case: PhaseCase,
-    /// The instance.
+    /// The instance at the begin of the ramp.
     pub instance: Instance,
-    /// Its eigenvalue analysis.
-    pub linear: Linear,
-    /// The phases.
-    pub phase: Phase,
-    /// Time (s), `ẍ2` and `ÿ1` (m/s²) up to the first event.
-    pub samples: Vec<[f64; 3]>,
+    /// The windows, each a cycle after the one before, from where the vibration has grown to where the first event of the
+    /// contact ends it; empty where it does not come so far.
+    pub windows: Vec<Window>,
+    /// Time (s), belt velocity (m/s), `ẍ2` and `ÿ1` (m/s²) of what the windows cover, else of the last periods.
+    pub samples: Vec<[f64; 4]>,
 }
 
 impl Growth {
-    /// Computes a case.
+    /// Computes a case from its sweep, a ramp.
     ///
     /// # Errors
-    /// When nothing grows, which the shipped sweeps exclude.
-    pub fn compute(case: PhaseCase) -> Result<Growth> {
-        let spec = case.sweep();
+    /// When the integration ends before the ramp does.
+    pub fn compute(case: PhaseCase, spec: &Spec) -> Result<Growth> {
         let instance = spec.instance(0);
-        let computed = trace(&spec, &instance, SAMPLES);
-        let (outcome, rows) = (&computed.outcome, &computed.rows);
-        let linear = analyse(&instance).1;
-        let phase = linear.and_then(|linear| {
-            Some(Phase {
-                eigenvector: linear.phase?,
-                measured: outcome.phase_measured?,
-                growth_rate: linear.growth_rate,
-                growth_rate_measured: outcome.growth_rate_measured?,
-            })
-        });
-        let (Some(linear), Some(phase)) = (linear, phase) else {
-            return Err(Error::PaperGrowth { case: case.words(), status: outcome.status.name() });
-        };
-        // At an event there are two samples of one instant.
-        let event = rows.windows(2).position(|pair| pair[0].t >= pair[1].t);
-        let samples = rows[..event.map_or(rows.len(), |event| event + 1)]
-            .iter()
-            .map(|row| [row.t, row.acceleration[0], row.acceleration[2]])
-            .collect();
-        Ok(Growth { case, instance, linear, phase, samples })
+        let computed = trace(spec, &instance, SAMPLES);
+        if computed.outcome.status != Status::Ok {
+            let [duration, kick] =
+                [Param::RampDuration, Param::StartDisplacement].map(|param| instance.params.require(param));
+            let status = computed.outcome.status.name();
+            return Err(Error::PaperRamp { case: case.words(), duration, kick, status });
+        }
+        // Crossings of the knee are a part of the growth; stick, reversed slip and flight end it.
+        let slides = |row: &TraceRow| row.state == ContactState::Slip;
+        let end = computed.rows.iter().position(|row| !slides(row)).unwrap_or(computed.rows.len());
+        let rows = &computed.rows[..end];
+        let grown = LIMITS.growth * disturbance(&instance.params);
+        let windows: Vec<Window> = windows(rows, &instance).collect();
+        let begin = windows.iter().rposition(|window| window.amplitude < grown).map_or(0, |last| last + 1);
+        let windows = windows[begin..].to_vec();
+        let last = rows.last().map_or(0.0, |row| row.t);
+        let shown = SHOWN_PERIODS * Units::new(&instance.params).period();
+        let from = windows.first().map_or(last - shown, |window| window.time[0]);
+        let sample =
+            |row: &TraceRow| [row.t, belt(&instance.params, row.t), row.acceleration[0], row.acceleration[2]];
+        let samples = rows.iter().filter(|row| row.t >= from).map(sample).collect();
+        Ok(Growth { case, instance, windows, samples })
     }
 
     /// `μ_s` and `μ_d`.
@@ -106,4 +119,47 @@ impl Growth {
     pub fn friction(&self) -> [f64; 2] {
         [Param::MuS, Param::MuD].map(|param| self.instance.params.require(param))
     }
+}
+
+/// The belt velocity at a time of a ramp, m/s.
+fn belt(params: &Params, t: f64) -> f64 {
+    let [from, to, duration] =
+        [Param::BeltVelocity, Param::BeltVelocityEnd, Param::RampDuration].map(|param| params.require(param));
+    from + (to - from) * (t / duration).min(1.0)
+}
+
+/// Every window of [`CYCLES`] cycles, from one upward zero crossing of `ẋ2` to another.
+fn windows<'a>(rows: &'a [TraceRow], instance: &'a Instance) -> impl Iterator<Item = Window> + 'a {
+    let upward = |k: &usize| rows[*k - 1].velocity[0] <= 0.0 && rows[*k].velocity[0] > 0.0;
+    let crossings: Vec<usize> = (1..rows.len()).filter(upward).collect();
+    let ends: Vec<[usize; 2]> = crossings.windows(CYCLES + 1).map(|span| [span[0], span[CYCLES]]).collect();
+    ends.into_iter().map(move |[first, last]| {
+        let inside = &rows[first..=last];
+        let time = [rows[first].t, rows[last].t];
+        let [tangential, normal] = [0, 2].map(|k| line(inside, time, |row| row.acceleration[k]));
+        let velocity = belt(&instance.params, 0.5 * (time[0] + time[1]));
+        let mut frozen = instance.clone();
+        frozen.params.set(Param::BeltVelocity, velocity);
+        Window {
+            time,
+            velocity,
+            amplitude: tangential.norm(),
+            measured: (normal / tangential).arg().to_degrees(),
+            eigenvector: analyse(&frozen).1.and_then(|linear| linear.phase),
+        }
+    })
+}
+
+/// The component of a signal at the frequency of the cycles, under a Hann window; its mean is off.
+fn line(rows: &[TraceRow], [from, to]: [f64; 2], signal: impl Fn(&TraceRow) -> f64) -> Complex64 {
+    let hann = |row: &TraceRow| 1.0 - (std::f64::consts::TAU * (row.t - from) / (to - from)).cos();
+    // Samples are not equidistant: events have some of their own.
+    let integral = |value: &dyn Fn(&TraceRow) -> Complex64| {
+        let trapeze = |pair: &[TraceRow]| 0.5 * (pair[1].t - pair[0].t) * (value(&pair[0]) + value(&pair[1]));
+        rows.windows(2).map(trapeze).sum::<Complex64>() / (to - from)
+    };
+    let mean = integral(&|row| (hann(row) * signal(row)).into()).re;
+    let omega = std::f64::consts::TAU * CYCLES as f64 / (to - from);
+    let turned = |row: &TraceRow| Complex64::from_polar(1.0, -omega * (row.t - from));
+    2.0 * integral(&|row| hann(row) * (signal(row) - mean) * turned(row))
 }

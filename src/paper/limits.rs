@@ -23,6 +23,10 @@ pub struct Limits {
     pub steady: f64,
     /// A limit cycle has shrunk when it falls below this part of its largest acceleration.
     pub shrunk: f64,
+    /// A course is a straight line from this coefficient of determination on.
+    pub straight: f64,
+    /// A zone in which an amplitude is almost stable, within [`Limits::steady`], takes this share of the ramp.
+    pub zone: f64,
     /// Free flight counts from this share of the time on: that of the regimes.
     pub detached: f64,
     /// A vibration beats when the largest accelerations of its cycles swell and fade by this part of their mean.
@@ -33,8 +37,8 @@ pub struct Limits {
     pub in_phase: f64,
     /// In quadrature: at most this far from 90°, lagging or leading.
     pub quadrature: f64,
-    /// Nearer to quadrature than to being in phase: from this angle on.
-    pub nearer_quadrature: f64,
+    /// A threshold separates two mechanisms when it is right on this share of the instances of each.
+    pub separates: f64,
 }
 
 /// The limits in use.
@@ -47,12 +51,14 @@ pub const LIMITS: Limits = Limits {
     growth: 10.0,
     steady: 1.05,
     shrunk: 0.5,
+    straight: 0.99,
+    zone: 0.25,
     detached: THRESHOLDS.state_counts,
     beat: 0.1,
     similar: 1.25,
     in_phase: 22.5,
     quadrature: 22.5,
-    nearer_quadrature: 45.0,
+    separates: 0.95,
 };
 
 impl Limits {

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | the shipped sweeps behind the figures | `sweeps.rs` |
 //! | a ramp, reduced to what pictures show | `ramp.rs` |
-//! | growth before the first event | `growth.rs` |
+//! | growth on a ramp and the phase in it | `growth.rs` |
 //! | other ramps and kicks | `accelerations.rs` |
 //! | the phase as a fingerprint of the mechanism | `phase.rs` |
 //! | what is computed, once each and when first asked for | `study.rs` |
@@ -24,7 +24,7 @@ mod sweeps;
 pub use accelerations::Trial;
 pub use claims::{Claim, Verdict, claims};
 pub use evidence::{Evidence, RampFacts};
-pub use growth::{Growth, Phase, PhaseCase};
+pub use growth::{Growth, PhaseCase, Window};
 pub use limits::{LIMITS, Limits};
 pub use phase::{CUSTOMARY, PhaseTrial, Score, Source, Witness};
 pub use ramp::{Ramp, Stretch};
@@ -82,11 +82,27 @@ impl Figure {
             Figure::Figure4 => "Figure 4: ramp under a negative slope",
             Figure::Figure5 => "Figure 5: ramp under mode coupling",
             Figure::Figure6 => "Figure 6: ramp under both",
-            Figure::Figure7 => "Figure 7: accelerations during exponential growth",
+            Figure::Figure7 => "Figure 7: accelerations while the vibration grows",
             Figure::Accelerations => "Beyond the paper: other ramps and kicks",
             Figure::Phase => "Beyond the paper: the phase method on trial",
         }
     }
+}
+
+/// A range of angles for words: `−16.3 to −11.1°`, `−56.4°` where both ends are the same.
+#[must_use]
+pub fn degrees([low, high]: [f64; 2]) -> String {
+    let [low, high] = [low, high].map(|angle| format!("{angle:.1}"));
+    let range = if low == high { high } else { format!("{low} to {high}") };
+    format!("{range}°").replace('-', "−")
+}
+
+/// The lowest and the highest of some values; `None` of none.
+#[must_use]
+pub(crate) fn extremes(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
+    values.fold(None, |range: Option<[f64; 2]>, x| {
+        Some(range.map_or([x, x], |[low, high]| [low.min(x), high.max(x)]))
+    })
 }
 
 /// A length in mm for words, free of the rounding of the product.

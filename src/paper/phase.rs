@@ -119,6 +119,13 @@ impl PhaseTrial {
         Ok(PhaseTrial { witnesses: map.records.iter().enumerate().map(witness).collect() })
     }
 
+    /// The instances that the paper considers: friction does not rise with the velocity, `μ_s ≥ μ_d`.
+    #[must_use]
+    pub fn falling(&self) -> PhaseTrial {
+        let falls = |witness: &&Witness| witness.friction[0] >= witness.friction[1];
+        PhaseTrial { witnesses: self.witnesses.iter().filter(falls).copied().collect() }
+    }
+
     /// How a threshold does; `None` when the trial lacks one of the mechanisms.
     #[must_use]
     pub fn score(&self, source: Source, threshold: f64) -> Option<Score> {

@@ -128,7 +128,8 @@ fn reduce(rows: &[TraceRow], [from, to]: [f64; 2]) -> Stretch {
             let end = rows.get(first + k + 1).map_or(to, |next| next.t.min(to));
             (end - inside[k].t.max(from)).max(0.0)
         };
-        let all = (0..inside.len()).filter(|k| inside[*k].state == state).map(time).sum::<f64>();
+        // Not a sum: that of nothing is −0.
+        let all = (0..inside.len()).filter(|k| inside[*k].state == state).map(time).fold(0.0, |a, b| a + b);
         (all / (to - from)).clamp(0.0, 1.0)
     };
     Stretch {

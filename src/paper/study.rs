@@ -7,6 +7,7 @@ use crate::export::modes::{Modes, follow};
 use crate::linear;
 use crate::model::Param;
 use crate::paper::accelerations::{self, Trial};
+use crate::paper::growth::{Growth, PhaseCase};
 use crate::paper::phase::PhaseTrial;
 use crate::paper::ramp::Ramp;
 use crate::paper::sweeps::{Case, FIGURE_2};
@@ -15,7 +16,7 @@ use crate::spec::{Instance, Spec};
 /// What the paper leaves open.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Settings {
-    /// Duration of the ramp of Figures 4 to 6, s; `None`: as shipped.
+    /// Duration of the ramp of Figures 4 to 7, s; `None`: as shipped.
     pub ramp_duration: Option<f64>,
     /// Displacement at the start of that ramp, m; `None`: as shipped.
     pub kick: Option<f64>,
@@ -26,6 +27,7 @@ pub struct Settings {
 pub struct Study {
     settings: Settings,
     ramps: [OnceLock<Ramp>; 3],
+    growths: [OnceLock<Growth>; 2],
     trials: OnceLock<Vec<Trial>>,
     phases: OnceLock<PhaseTrial>,
 }
@@ -34,7 +36,13 @@ impl Study {
     /// A study with these settings; computes nothing yet.
     #[must_use]
     pub fn new(settings: Settings) -> Study {
-        Study { settings, ramps: Default::default(), trials: OnceLock::new(), phases: OnceLock::new() }
+        Study {
+            settings,
+            ramps: Default::default(),
+            growths: Default::default(),
+            trials: OnceLock::new(),
+            phases: OnceLock::new(),
+        }
     }
 
     /// The sweep of Figure 2 and its modes.
@@ -50,7 +58,11 @@ impl Study {
     /// The sweep of a case's ramp: the shipped one with the settings.
     #[must_use]
     pub fn sweep(&self, case: Case) -> Spec {
-        let mut spec = case.ramp();
+        self.settled(case.ramp())
+    }
+
+    /// A ramp with the settings in the place of what is shipped.
+    fn settled(&self, mut spec: Spec) -> Spec {
         let open = [
             (Param::RampDuration, self.settings.ramp_duration),
             (Param::StartDisplacement, self.settings.kick),
@@ -74,6 +86,19 @@ impl Study {
         }
         let ramp = Ramp::compute(case, &self.sweep(case))?;
         Ok(place.get_or_init(|| ramp))
+    }
+
+    /// The growth of a case of Figure 7, computed when first asked for.
+    ///
+    /// # Errors
+    /// When the integration ends before the ramp does.
+    pub fn growth(&self, case: PhaseCase) -> Result<&Growth> {
+        let place = &self.growths[case as usize];
+        if let Some(growth) = place.get() {
+            return Ok(growth);
+        }
+        let growth = Growth::compute(case, &self.settled(case.sweep()))?;
+        Ok(place.get_or_init(|| growth))
     }
 
     /// Other ramps and kicks, computed when first asked for; the settings do not change them.

@@ -325,7 +325,8 @@ fn tradeoff_writes_its_files_and_keeps_its_table() {
          settle = \"200 periods\"\nmeasure = \"20 periods\"\n",
     );
     let run = |sample: &str, table: &str| {
-        let arguments = ["tradeoff", "s.toml", "--sample", sample, "-o", "t", "--store", table];
+        let arguments =
+            ["tradeoff", "s.toml", "--sample", sample, "-o", "t", "--store", table, "--report", "report.md"];
         squealmap(directory.path(), &arguments)
     };
     let ended = run("40", "table.csv");
@@ -343,6 +344,11 @@ fn tradeoff_writes_its_files_and_keeps_its_table() {
     assert!(error("fixed step", 160) > 10.0 * error("located RK4", 160));
     assert!(error("located RK4", 20) > 10.0 * error("located RK4", 80));
     assert_eq!(from_csv(&read("table.csv")).unwrap(), rows);
+    // The report names what makes it again.
+    let report = String::from_utf8(read("report.md")).unwrap();
+    let command = "squealmap tradeoff s.toml --output t --sample 40 --report report.md --store table.csv";
+    assert!(report.contains(&format!("\n    {command}\n")), "{report}");
+    assert!(directory.path().join("report/s.png").is_file());
     let json: serde_json::Value = serde_json::from_slice(&read("t/tradeoff.json")).unwrap();
     assert_eq!(json["scene"], "pieces, fixed time");
     assert_eq!(json["configurations"].as_array().map(Vec::len), Some(rows.len()));

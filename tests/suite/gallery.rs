@@ -290,11 +290,12 @@ fn growths() -> Vec<Growing> {
         let sample = |k: u32| {
             let t = f64::from(k) / 400.0;
             let (size, angle) = ((4.0 * t).exp(), TAU * 16.0 * t);
-            [t, size * angle.sin(), 0.2 * size * (angle - lag).sin()]
+            [t, 5.0 - 2.0 * t, size * angle.sin(), 0.2 * size * (angle - lag).sin()]
         };
-        let phases = [-lag.to_degrees(), -lag.to_degrees() + 0.3];
         let samples = (0..200).map(sample).collect();
-        Growing { words: words.to_owned(), friction, frequency: 16.0, phases, samples }
+        let lag = lag.to_degrees();
+        let phases = (lag < 50.0).then_some([[-lag - 2.0, -lag + 1.0], [-lag, -lag + 0.3]]);
+        Growing { words: words.to_owned(), friction, phases, samples }
     };
     vec![growing("negative slope", [0.07, 0.02], 0.2), growing("mode coupling", [0.8, 0.8], 1.0)]
 }

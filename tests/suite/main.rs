@@ -73,6 +73,7 @@ mod refine;
 mod refine_parts;
 mod refine_whole;
 mod regimes;
+mod report_numbers;
 mod response;
 mod resume;
 mod reuse;

@@ -1,4 +1,4 @@
-//! Figure 7: both accelerations during exponential growth, whole and a few periods close up.
+//! Figure 7: both accelerations while a vibration grows on the ramp, whole and a few periods close up.
 
 use serde_json::{Value as Json, json};
 
@@ -16,7 +16,7 @@ use crate::export::svg::{Anchor, Style, Svg};
 use crate::export::text::Text;
 use crate::grid::{AxisKey, Value};
 use crate::model::Param;
-use crate::paper::{Growth, PhaseCase};
+use crate::paper::{Growth, LIMITS, PhaseCase, Study, Window, degrees, extremes};
 
 /// Height of the whole growth, and of the close-up, points.
 const HEIGHT: f64 = 105.0;
@@ -28,19 +28,19 @@ const COLUMN_GAP: f64 = 34.0;
 const RIGHT: f64 = 8.0;
 /// Margin above and below curves, as a fraction of the panel.
 const HEADROOM: f64 = 0.07;
-/// Periods of the close-up, the last before the first event.
-const PERIODS: f64 = 3.0;
+/// Periods of the close-up, the last of the growth.
+const PERIODS: usize = 3;
 /// From the lower end of one case to the one below, points.
 const BETWEEN: f64 = 52.0;
 /// On narrower pages the cases do not fit side by side, points.
 const NARROW: f64 = 420.0;
 /// Heading of picture and document.
-pub(super) const HEADING: &str = "Accelerations during exponential growth, up to the first event";
+pub(super) const HEADING: &str = "Accelerations while the vibration grows, the belt slowing down";
 
 /// The names of the cases in the table.
 const NAMES: [&str; 2] = ["7a", "7b"];
 /// The columns of the table.
-pub(crate) const COLUMNS: [&str; 4] = ["figure", "t", "ax2", "ay1"];
+pub(crate) const COLUMNS: [&str; 5] = ["figure", "t", "belt_velocity", "ax2", "ay1"];
 
 /// A growing oscillation as the picture shows it.
 #[derive(Clone, Debug)]
@@ -49,29 +49,29 @@ pub struct Growing {
     pub words: String,
     /// `μ_s` and `μ_d`.
     pub friction: [f64; 2],
-    /// Frequency of its mode, Hz.
-    pub frequency: f64,
-    /// Phase of `ÿ1` against `ẍ2` from the eigenvector and from the signals, degrees.
-    pub phases: [f64; 2],
-    /// Time (s), `ẍ2` and `ÿ1` (m/s²) up to the first event.
-    pub samples: Vec<[f64; 3]>,
+    /// Lowest and highest phase of `ÿ1` against `ẍ2`, measured and of the eigenvectors, degrees; `None` where the vibration
+    /// does not grow.
+    pub phases: Option<[[f64; 2]; 2]>,
+    /// Time (s), belt velocity (m/s), `ẍ2` and `ÿ1` (m/s²).
+    pub samples: Vec<[f64; 4]>,
 }
 
-impl From<Growth> for Growing {
-    fn from(growth: Growth) -> Growing {
+impl From<&Growth> for Growing {
+    fn from(growth: &Growth) -> Growing {
+        let range = |phase: fn(&Window) -> Option<f64>| extremes(growth.windows.iter().filter_map(phase));
+        let measured = range(|window| Some(window.measured));
         Growing {
             words: growth.case.words().to_owned(),
             friction: growth.friction(),
-            frequency: growth.linear.frequency,
-            phases: [growth.phase.eigenvector, growth.phase.measured],
-            samples: growth.samples,
+            phases: measured.zip(range(|window| window.eigenvector)).map(|(measured, mode)| [measured, mode]),
+            samples: growth.samples.clone(),
         }
     }
 }
 
 /// Both cases.
-pub(super) fn compute() -> Result<Vec<Growing>> {
-    PhaseCase::ALL.into_iter().map(|case| Growth::compute(case).map(Growing::from)).collect()
+pub(super) fn compute(study: &Study) -> Result<Vec<Growing>> {
+    PhaseCase::ALL.into_iter().map(|case| study.growth(case).map(Growing::from)).collect()
 }
 
 /// The names of cases and what the table does not hold of each.
@@ -82,9 +82,8 @@ pub(super) fn to_json(growths: &[Growing]) -> Json {
             "mechanism": growth.words,
             "mu_s": growth.friction[0],
             "mu_d": growth.friction[1],
-            "frequency": growth.frequency,
-            "phase_eigenvector": growth.phases[0],
-            "phase_measured": growth.phases[1],
+            "phase_measured": growth.phases.map(|phases| phases[0]),
+            "phase_eigenvector": growth.phases.map(|phases| phases[1]),
         })
     };
     json!({ "title": HEADING, "cases": growths.iter().zip(NAMES).map(case).collect::<Vec<_>>() })
@@ -134,8 +133,8 @@ fn draw(growths: &[Growing], look: &Look<'_>, height: f64) -> (Svg, [f64; 2]) {
         let (column, row) = (number % columns, number / columns);
         let x = left + column as f64 * (width + COLUMN_GAP);
         let top = y + row as f64 * (2.0 * height + GAP + BETWEEN);
-        let letter = Text::from(["(a) ", "(b) "][number % 2]);
-        svg.text(x, top - 4.0, &letter.then(caption(growth)), Style::new(LABEL_SIZE, Anchor::Start));
+        let words = caption(["(a) ", "(b) "][number % 2], growth, width + RIGHT);
+        svg.text(x, top - 4.0, &words, Style::new(LABEL_SIZE, Anchor::Start));
         panels(&mut svg, growth, [x, top], [width, height]);
         if column == 0 {
             labels(&mut svg, top, height, exponent);
@@ -147,7 +146,7 @@ fn draw(growths: &[Growing], look: &Look<'_>, height: f64) -> (Svg, [f64; 2]) {
 
 /// Scales of the whole growth and of the close-up.
 fn scales(growth: &Growing) -> [Scale; 2] {
-    let all = growth.samples.iter().flat_map(|[_, x, y]| [*x, *y]);
+    let all = growth.samples.iter().flat_map(|[.., x, y]| [*x, *y]);
     let close = Scale::Linear { low: -1.0, high: 1.0 };
     [Scale::spanning(all).widened(HEADROOM), close.widened(HEADROOM)]
 }
@@ -156,16 +155,16 @@ fn scales(growth: &Growing) -> [Scale; 2] {
 fn panels(svg: &mut Svg, growth: &Growing, [x, top]: [f64; 2], [width, height]: [f64; 2]) {
     let scales = scales(growth);
     let close = close_up(growth);
-    let largest = [1, 2].map(|k| close.iter().map(|sample| sample[k].abs()).fold(0.0, f64::max));
+    let largest = [2, 3].map(|k| close.iter().map(|sample| sample[k].abs()).fold(0.0, f64::max));
     let tops = [top, top + height + GAP];
     svg.text(x, tops[1] - 4.0, &phases(growth, width + RIGHT), Style::new(LABEL_SIZE, Anchor::Start));
-    for (row, samples) in [&growth.samples, close].into_iter().enumerate() {
+    for (row, samples) in [growth.samples.as_slice(), close].into_iter().enumerate() {
         let frame = Frame { x, y: tops[row], width, height };
         let time = Scale::spanning(samples.iter().map(|sample| sample[0]));
         let plot = Plot { frame, x: &time, y: &scales[row] };
         for (k, stroke) in [FIRST, SECOND].into_iter().enumerate() {
             let unit = if row == 0 { 1.0 } else { largest[k] };
-            plot.curve(svg, samples.iter().map(|sample| (sample[0], sample[k + 1] / unit)), stroke);
+            plot.curve(svg, samples.iter().map(|sample| (sample[0], sample[k + 2] / unit)), stroke);
         }
         frame.border(svg);
         frame.x_ticks(svg, &time.ticks(5), true);
@@ -188,27 +187,32 @@ fn labels(svg: &mut Svg, top: f64, height: f64, exponent: i32) {
 }
 
 /// The last periods.
-fn close_up(growth: &Growing) -> &[[f64; 3]] {
+fn close_up(growth: &Growing) -> &[[f64; 4]] {
     let samples = growth.samples.as_slice();
-    let end = samples.last().map_or(0.0, |sample| sample[0]);
-    let start = end - PERIODS / growth.frequency;
-    &samples[samples.partition_point(|sample| sample[0] < start)..]
+    let crossings = (1..samples.len()).rev().filter(|k| samples[k - 1][2] <= 0.0 && samples[*k][2] > 0.0);
+    // From a rise of the tangential acceleration on: one more would be a part of a period too many.
+    &samples[crossings.take(PERIODS).last().unwrap_or(0)..]
 }
 
-/// `negative slope, μ_s = 0.07, μ_d = 0.02`.
-fn caption(growth: &Growing) -> Text {
+/// `(a) negative slope, μ_s = 0.07, μ_d = 0.02, V = 4.27 to 3.34 m/s`; shorter where there is less room, points.
+fn caption(letter: &str, growth: &Growing, room: f64) -> Text {
     let [mu_s, mu_d] = growth.friction;
     let value = |param, number| setting(AxisKey::Param(param), &Value::Number(number));
-    let words = Text::from(growth.words.as_str()).plain(", ").then(value(Param::MuS, mu_s));
-    words.plain(", ").then(value(Param::MuD, mu_d))
+    let words = Text::from(letter).plain(&growth.words).plain(", ").then(value(Param::MuS, mu_s));
+    let words = words.plain(", ").then(value(Param::MuD, mu_d));
+    let [Some(first), Some(last)] = [growth.samples.first(), growth.samples.last()] else { return words };
+    let velocity = format!(" = {:.2} to {:.2} m/s", first[1], last[1]);
+    let long = words.clone().plain(", ").symbol("V").plain(&velocity);
+    if long.width(LABEL_SIZE, false) <= room { long } else { words }
 }
 
-/// `ÿ_1 against ẍ_2: −13.1° (eigenvector), −13.1° (measured)`; shorter where there is less room, points.
+/// `ÿ_1 against ẍ_2: −16.3 to −11.1°, modes: −13.0 to −12.8°`; shorter where there is less room, points.
 fn phases(growth: &Growing, room: f64) -> Text {
-    let degrees = |phase: f64| format!("{phase:.1}°").replace('-', "−");
-    let [eigenvector, measured] = growth.phases.map(degrees);
-    let pair = Text::default().symbol("ÿ_1").plain(" against ").symbol("ẍ_2");
-    let text = |mode: &str| pair.clone().plain(&format!(": {eigenvector} ({mode}), {measured} (measured)"));
-    let long = text("eigenvector");
-    if long.width(LABEL_SIZE, false) <= room { long } else { text("mode") }
+    let Some([measured, eigenvector]) = growth.phases else {
+        return Text::from(format!("Not grown: below {} times what disturbs it", LIMITS.growth));
+    };
+    let short =
+        Text::default().symbol("ÿ_1").plain(" against ").symbol("ẍ_2").plain(": ").plain(&degrees(measured));
+    let long = short.clone().plain(", modes: ").plain(&degrees(eigenvector));
+    if long.width(LABEL_SIZE, false) <= room { long } else { short }
 }

@@ -80,7 +80,7 @@ impl Shown {
             Figure::Figure4 => Shown::Ramp(Slowdown::compute(study, Case::NegativeSlope)?),
             Figure::Figure5 => Shown::Ramp(Slowdown::compute(study, Case::ModeCoupling)?),
             Figure::Figure6 => Shown::Ramp(Slowdown::compute(study, Case::Both)?),
-            Figure::Figure7 => Shown::Growth(growth::compute()?),
+            Figure::Figure7 => Shown::Growth(growth::compute(study)?),
             Figure::Accelerations => Shown::Accelerations(study.trials().to_vec()),
             Figure::Phase => Shown::Phase(study.phase_trial()?.clone()),
         })

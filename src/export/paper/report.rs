@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use crate::classify::InstabilityType;
 use crate::export::figure::program;
 use crate::paper::{
-    CUSTOMARY, Evidence, Figure, LIMITS, Phase, PhaseTrial, Score, Source, Verdict, claims, millimetres,
+    CUSTOMARY, Evidence, Figure, LIMITS, PhaseTrial, Score, Source, Verdict, claims, millimetres,
 };
 
 /// The report in Markdown; `directory` is where the pictures stand, seen from the report, and `command` what made it.
@@ -23,7 +23,7 @@ pub fn report(evidence: &Evidence, directory: &str, command: &str) -> String {
          varies both. Made by\n\n\
          ```sh\n{command}\n```\n\n\
          with {} in f64 by the reference method; do not edit. The sweeps are in `sweeps/paper/` of the sources \
-         and built into the program.\n\n## Claims\n\n| figure | the paper | found | verdict |\n|---|---|---|---|\n",
+         and built into the program.\n\n## Claims\n\n| where | the paper | found | verdict |\n|---|---|---|---|\n",
         ramp.duration,
         millimetres(ramp.kick),
         program(),
@@ -58,20 +58,25 @@ fn limits() -> String {
     format!(
         "Verdicts are decided from the numbers: the critical friction may differ by {}, the frequency by {} Hz, the critical \
          velocity by {} m/s from the knee of the law; a vibration has grown at {} times the acceleration of the kick and of \
-         the belt, does not grow below {} times what it was, has shrunk below {} of its largest; detachment counts from \
+         the belt, does not grow below {} times what it was, has shrunk below {} of its largest; a course is a straight line \
+         from R² = {} on; an almost stable zone stays within {:.0} % over {} of the ramp; detachment counts from \
          {} % of the time on; a beat from ±{:.0} %; amplitudes are similar within a factor of {}; in phase is within {}°, in \
-         quadrature within {}° of 90°.\n",
+         quadrature within {}° of 90°; a phase tells two mechanisms when it is right on {} % of each.\n",
         LIMITS.critical_friction_within,
         LIMITS.coalescence_frequency_within,
         LIMITS.critical_velocity_within,
         LIMITS.growth,
         LIMITS.steady,
         LIMITS.shrunk,
+        LIMITS.straight,
+        100.0 * (LIMITS.steady - 1.0),
+        LIMITS.zone,
         100.0 * LIMITS.detached,
         100.0 * LIMITS.beat,
         LIMITS.similar,
         LIMITS.in_phase,
         LIMITS.quadrature,
+        100.0 * LIMITS.separates,
     )
 }
 
@@ -84,24 +89,13 @@ fn caption(figure: Figure, evidence: &Evidence) -> String {
              ÿ1 at {ay:.0} m/s²."
         )
     };
-    let growth = |phase: &Phase| {
-        let [eigenvalue, measured] = [phase.growth_rate, phase.growth_rate_measured];
-        format!("growth {eigenvalue:.3} 1/s from the eigenvalue, {measured:.3} 1/s measured")
-    };
     match figure {
         Figure::Figure2 => "Constant friction: the frequencies merge, and from there on one mode grows.".to_owned(),
         Figure::Figure3 => "The laws of Figures 4, 5 and 6.".to_owned(),
         Figure::Figure4 => ramp(0),
         Figure::Figure5 => ramp(1),
         Figure::Figure6 => ramp(2),
-        Figure::Figure7 => {
-            let [slope, coupling] = &evidence.phases;
-            format!(
-                "The start is on the growing mode, at a hundredth of the amplitude of its first event. (a) {}; (b) {}.",
-                growth(slope),
-                growth(coupling)
-            )
-        }
+        Figure::Figure7 => growth(evidence),
         Figure::Accelerations => {
             "Are accelerations largest where both mechanisms act? (a, b) Figure 6 over the larger of Figures 4 and 5, \
              (c) Figure 4 over Figure 5."
@@ -111,17 +105,46 @@ fn caption(figure: Figure, evidence: &Evidence) -> String {
     }
 }
 
+/// How the phases of Figure 7 are measured.
+fn growth(evidence: &Evidence) -> String {
+    let times = |k: usize| match (evidence.phases[k].first(), evidence.phases[k].last()) {
+        (Some(first), Some(last)) => format!("from {:.2} to {:.2} s", first.time[0], last.time[1]),
+        _ => "nowhere".to_owned(),
+    };
+    format!(
+        "The ramp and the kick of Figures 4 to 6. Shown and measured is what lies between {} times the acceleration of the kick \
+         and of the belt, below which a second mode beats with the one that grows, and the first stick, reversed slip or \
+         flight: (a) {}, (b) {}. The phase is that at the frequency of the vibration, in windows of four cycles, each a \
+         cycle after the one before. The modes are the eigenvectors of a belt that keeps the velocity of the window.",
+        LIMITS.growth,
+        times(0),
+        times(1)
+    )
+}
+
 /// What the trial of the phase found.
 fn phase(trial: &PhaseTrial) -> String {
     let mut text = format!(
         "Each of the {} instances starts on its most unstable mode and runs until it is settled. Attributed are the \
          eigenvalues: negative slope, mode coupling, coexistence (either alone would do), interaction (neither alone). A \
          phase from the threshold on is called mode coupling. Thresholds are judged on instances with one mechanism alone, by \
-         the mean of both shares of right verdicts, which is 0.5 by chance.\n\n\
-         | phase of the | negative slope | mode coupling | coexistence | interaction | right at {CUSTOMARY}° (slope / coupling) \
-         | best threshold | right there (slope / coupling) |\n|---|---|---|---|---|---|---|---|\n",
+         the mean of both shares of right verdicts, which is 0.5 by chance. The paper considers friction that does not rise \
+         with the velocity alone, μ_s ≥ μ_d.\n\n\
+         | friction | phase of the | negative slope | mode coupling | coexistence | interaction | right at {CUSTOMARY}° (slope / coupling) \
+         | best threshold | right there (slope / coupling) |\n|---|---|---|---|---|---|---|---|---|\n",
         trial.witnesses.len()
     );
+    spreads(&mut text, "μ_s ≥ μ_d", &trial.falling());
+    spreads(&mut text, "any", trial);
+    text.push_str(
+        "\nMedian, 5th to 95th percentile of the magnitude, and number of instances. The phase of a mode depends on its \
+         eigenvalue alone, whatever drives it.",
+    );
+    text
+}
+
+/// The rows of the table for some of the instances.
+fn spreads(text: &mut String, friction: &str, trial: &PhaseTrial) {
     let kinds = [
         InstabilityType::NegativeSlope,
         InstabilityType::ModeCoupling,
@@ -129,7 +152,7 @@ fn phase(trial: &PhaseTrial) -> String {
         InstabilityType::Interaction,
     ];
     for source in Source::ALL {
-        let _ = write!(text, "| {} |", source.words());
+        let _ = write!(text, "| {friction} | {} |", source.words());
         for kind in kinds {
             let spread = trial.spread(source, kind).map_or_else(
                 || "none".to_owned(),
@@ -148,9 +171,4 @@ fn phase(trial: &PhaseTrial) -> String {
         let at_customary = shares(trial.score(source, CUSTOMARY));
         let _ = writeln!(text, " {at_customary} | {threshold} | {} |", shares(best));
     }
-    text.push_str(
-        "\nMedian, 5th to 95th percentile of the magnitude, and number of instances. The phase of a mode depends on its \
-         eigenvalue alone, whatever drives it.",
-    );
-    text
 }
