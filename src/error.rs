@@ -539,7 +539,7 @@ pub enum Error {
     NoModesOfTuples,
     /// `modes` finds nothing to show.
     #[error(
-        "no instance of the sweep has modes: none has a sliding equilibrium on a moving belt; give at least one a `belt_velocity` above 0 (and, where theta < 0, less friction)"
+        "no instance of the sweep has modes: none has a sliding equilibrium on a moving belt; give at least one a `belt_velocity` above 0 (and, where theta < 0, less friction; with the law `constant`, `mu_s` of at least `mu_d`)"
     )]
     NoModes,
     /// A sweep file whose name names no directory.

@@ -26,13 +26,15 @@ const MOST_OF_A_SAMPLE: u32 = 50_000;
 const COPIES: usize = 16;
 
 /// The cost of a sweep.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Estimate {
     /// Instances that were measured.
     pub sampled: usize,
     /// Those of them that were not followed to their end, as their steps are too many: what they took is scaled up by the
     /// time they came to. A run that goes on as it began takes that, one that becomes stiffer more.
     pub cut_short: usize,
+    /// How those of them ended that came to no end: not at their own, and not as their steps were too many to measure.
+    pub failed: Vec<Status>,
     /// Steps of the whole sweep.
     pub steps: f64,
     /// Time of one thread for the whole sweep.
@@ -46,6 +48,7 @@ pub fn estimate(spec: &Spec) -> Estimate {
     let samples = SAMPLES.min(instances);
     let began = Instant::now();
     let (mut sampled, mut cut_short) = (0, 0);
+    let mut failed = Vec::new();
     let (mut steps, mut time) = (0.0, Duration::ZERO);
     while sampled < samples && (sampled == 0 || began.elapsed() < BUDGET) {
         let index = sample(spread(sampled, samples), samples, instances);
@@ -73,6 +76,7 @@ pub fn estimate(spec: &Spec) -> Estimate {
             let outcome = outcomes.first().copied().unwrap_or_default();
             let reached = reached(&outcome, &copies[0], &plan);
             cut_short += usize::from(reached < 1.0);
+            failed.extend((reached >= 1.0 && outcome.status != Status::Ok).then_some(outcome.status));
             // Other starts cost about as much as the small one; no run has more steps than it may.
             let taken = outcome.steps.max(1) as f64;
             let more = (1.0 / (share * reached)).min(f64::from(MOST_STEPS) / taken).max(1.0);
@@ -83,7 +87,7 @@ pub fn estimate(spec: &Spec) -> Estimate {
         sampled += 1;
     }
     let scale = instances as f64 / sampled.max(1) as f64;
-    Estimate { sampled, cut_short, steps: steps * scale, cpu_time: time.mul_f64(scale) }
+    Estimate { sampled, cut_short, failed, steps: steps * scale, cpu_time: time.mul_f64(scale) }
 }
 
 /// The part of a plan's time that a sample came to before its steps were counted out; 1 where they were not.

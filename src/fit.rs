@@ -10,6 +10,10 @@
 //!
 //! and a material is linear in temperature between its rows, so all rows follow from one linear least-squares problem
 //! with hat functions of temperature. The velocity is either given or found by minimising the residual over it.
+//!
+//! - `errors.rs`: standard errors of what is found.
+
+mod errors;
 
 use nalgebra::{DMatrix, DVector};
 
@@ -43,8 +47,18 @@ pub struct Fit {
     pub temperature: Vec<f64>,
     /// The columns of the material: a parameter with its value in every row.
     pub columns: Vec<(Param, Vec<f64>)>,
-    /// Root mean square of what the law leaves of the friction coefficients.
+    /// Standard errors of the columns, in their order: for independent errors of friction that are alike at all points.
+    /// `None` for a velocity that was given, and for all columns where the points do not tell ([`Fit::open`], or as many values as points).
+    pub errors: Vec<Option<Vec<f64>>>,
+    /// Measured less fitted friction, in the order of the points.
+    pub residuals: Vec<f64>,
+    /// Root mean square of the residuals.
     pub residual: f64,
+    /// Standard deviation of the friction coefficients about the law: the residuals for as many points as there are more than
+    /// values. `None` where there are no more.
+    pub deviation: Option<f64>,
+    /// Whether the law's velocity was looked for and the points do not bound it: the fastest one fits as well.
+    pub open: bool,
     /// Points used.
     pub points: usize,
 }
@@ -134,28 +148,67 @@ pub fn fit(
     }
     let problem = Problem { points, law, temperatures, params };
     let fastest = points.iter().map(|point| point.velocity.abs()).fold(0.0, f64::max);
-    let velocity = match (law, velocity) {
-        (LawKind::Constant, _) => 1.0,
-        (_, Some(velocity)) => velocity,
-        (_, None) => problem.best_velocity(fastest),
+    let (velocity, is_found) = match (law, velocity) {
+        (LawKind::Constant, _) => (1.0, false),
+        (_, Some(velocity)) => (velocity, false),
+        (_, None) => (problem.best_velocity(fastest), true),
     };
-    let (solution, residual) = problem.solve(velocity)?;
-    let mut columns: Vec<(Param, Vec<f64>)> = Vec::new();
+    let solution = problem.solve(velocity)?;
+    let residuals = problem.residuals(&solution, velocity);
+    let squares = sum_of_squares(&residuals);
+    let free = points.len().checked_sub(unknowns + usize::from(is_found)).filter(|free| *free > 0);
+    let variance = free.map(|free| squares / free as f64);
+    let open = is_found && !problem.bounds(fastest, squares, variance.unwrap_or_default());
+    let errors = variance
+        .filter(|_| !open)
+        .and_then(|variance| errors::standard_errors(&problem, &solution, (velocity, is_found), variance));
+    let error_of = |unknown: usize| errors.as_ref().map(|errors| errors[unknown]);
+    let rows = 0..temperatures.len();
+    let (mut columns, mut errors_of_columns) = (Vec::new(), Vec::new());
     for (k, param) in params.iter().enumerate() {
-        let values: Vec<f64> = (0..temperatures.len()).map(|row| solution[row * params.len() + k]).collect();
+        let place = |row: usize| row * params.len() + k;
+        let values: Vec<f64> = rows.clone().map(|row| solution[place(row)]).collect();
         if let Some((row, value)) = values.iter().enumerate().find(|(_, value)| **value < 0.0) {
             let (param, temperature) = (param.info().name, temperatures[row]);
             return Err(FitFault::Negative { param, value: *value, temperature });
         }
         columns.push((*param, values));
+        errors_of_columns.push(rows.clone().map(|row| error_of(place(row))).collect());
     }
     let constant = match law {
         LawKind::Bilinear => Some(Param::KneeVelocity),
         LawKind::Exponential => Some(Param::StribeckVelocity),
         _ => None,
     };
-    columns.extend(constant.map(|param| (param, vec![velocity; temperatures.len()])));
-    Ok(Fit { law, temperature: temperatures.to_vec(), columns, residual, points: points.len() })
+    if let Some(param) = constant {
+        columns.push((param, vec![velocity; temperatures.len()]));
+        let error = is_found.then(|| error_of(unknowns)).flatten();
+        errors_of_columns.push(rows.map(|_| error).collect());
+    }
+    Ok(Fit {
+        law,
+        temperature: temperatures.to_vec(),
+        columns,
+        errors: errors_of_columns,
+        residual: (squares / points.len() as f64).sqrt(),
+        deviation: variance.map(f64::sqrt),
+        residuals,
+        open,
+        points: points.len(),
+    })
+}
+
+/// The lowest and the highest value of points.
+#[must_use]
+pub fn range(points: &[Point], of: impl Fn(&Point) -> f64) -> [f64; 2] {
+    points
+        .iter()
+        .map(of)
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)])
+}
+
+fn sum_of_squares(residuals: &[f64]) -> f64 {
+    residuals.iter().map(|residual| residual * residual).sum()
 }
 
 /// A fit with its law's velocity open.
@@ -187,22 +240,46 @@ impl Problem<'_> {
         [(lower, 1.0 - part), (upper, part)]
     }
 
-    /// Values of all rows and the root mean square residual.
-    fn solve(&self, velocity: f64) -> Result<(DVector<f64>, f64), FitFault> {
+    /// What each value of the rows counts for in the friction of a point; those that count for something.
+    fn weights(&self, point: &Point, velocity: f64) -> Vec<(usize, f64)> {
         let kinds = self.params.len();
-        let unknowns = kinds * self.temperatures.len();
+        let parts = self.parts(point.velocity.abs(), velocity);
+        let rows = self.rows(point.temperature);
+        rows.into_iter()
+            .flat_map(|(row, share)| (0..kinds).map(move |k| (row * kinds + k, share * parts[k])))
+            .filter(|(_, weight)| *weight != 0.0)
+            .collect()
+    }
+
+    /// Measured less fitted friction of every point.
+    fn residuals(&self, solution: &DVector<f64>, velocity: f64) -> Vec<f64> {
+        let fitted = |point: &Point| -> f64 {
+            self.weights(point, velocity).iter().map(|(i, weight)| weight * solution[*i]).sum()
+        };
+        self.points.iter().map(|point| point.friction - fitted(point)).collect()
+    }
+
+    /// Whether the points bound the law's velocity: whether the one of the fastest point fits them worse than the best one
+    /// (with a sum of `squares`) by more than errors of this variance make likely.
+    fn bounds(&self, fastest: f64, squares: f64, variance: f64) -> bool {
+        /// Two standard deviations: the sum of squares rises by their square times the variance.
+        const LIKELY: f64 = 4.0;
+        self.squares(fastest) - squares > LIKELY * variance
+    }
+
+    /// The sum of squares that a velocity leaves; infinite where the points do not determine the values.
+    fn squares(&self, velocity: f64) -> f64 {
+        self.solve(velocity)
+            .map_or(f64::INFINITY, |solution| sum_of_squares(&self.residuals(&solution, velocity)))
+    }
+
+    /// Values of all rows.
+    fn solve(&self, velocity: f64) -> Result<DVector<f64>, FitFault> {
+        let unknowns = self.params.len() * self.temperatures.len();
         let mut normal = DMatrix::<f64>::zeros(unknowns, unknowns);
         let mut right = DVector::<f64>::zeros(unknowns);
-        let weights = |point: &Point| -> Vec<(usize, f64)> {
-            let parts = self.parts(point.velocity.abs(), velocity);
-            let rows = self.rows(point.temperature);
-            rows.into_iter()
-                .flat_map(|(row, share)| (0..kinds).map(move |k| (row * kinds + k, share * parts[k])))
-                .filter(|(_, weight)| *weight != 0.0)
-                .collect()
-        };
         for point in self.points {
-            let weights = weights(point);
+            let weights = self.weights(point, velocity);
             for &(i, a) in &weights {
                 right[i] += a * point.friction;
                 for &(j, b) in &weights {
@@ -218,16 +295,7 @@ impl Problem<'_> {
             return Err(self.undetermined(eigen.eigenvectors.column(least).icamax()));
         }
         let solution = normal.cholesky().map(|factors| factors.solve(&right));
-        let solution = solution.ok_or_else(|| self.undetermined(0))?;
-        let squares: f64 = self
-            .points
-            .iter()
-            .map(|point| {
-                let model: f64 = weights(point).iter().map(|(i, a)| a * solution[*i]).sum();
-                (model - point.friction).powi(2)
-            })
-            .sum();
-        Ok((solution, (squares / self.points.len() as f64).sqrt()))
+        solution.ok_or_else(|| self.undetermined(0))
     }
 
     /// The value that the points leave most open.
@@ -253,7 +321,7 @@ impl Problem<'_> {
         const SLOWEST: f64 = 1e-3;
         /// 1/golden ratio.
         const GOLDEN: f64 = 0.618_033_988_749_894_8;
-        let residual = |log: f64| self.solve(log.exp()).map_or(f64::INFINITY, |(_, residual)| residual);
+        let residual = |log: f64| self.squares(log.exp());
         let top = fastest.max(f64::MIN_POSITIVE).ln();
         let step = -SLOWEST.ln() / TRIALS as f64;
         let trials = (0..=TRIALS).map(|k| top - k as f64 * step);

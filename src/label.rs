@@ -149,6 +149,13 @@ impl Tally {
         }
     }
 
+    /// Counts some labels.
+    pub fn add_labels(&mut self, labels: &[Label]) {
+        for label in labels {
+            *self.counts.entry(*label).or_default() += 1;
+        }
+    }
+
     /// Counts instances that were not computed.
     pub fn add_missing(&mut self, count: usize) {
         *self.counts.entry(Label::NOT_COMPUTED).or_default() += count;

@@ -1,4 +1,4 @@
-//! Text of a file within a sentence: short, and without what a terminal would obey.
+//! Text and numbers of a file within a sentence: short, and without what a terminal would obey.
 
 /// The most characters that a sentence quotes of a name or a value; the place beside it says where the rest stands.
 const LONGEST: usize = 40;
@@ -32,6 +32,12 @@ pub fn one_line(text: &str) -> String {
         }
     }
     line
+}
+
+/// A number as a sentence says it: six digits, and no more than it has.
+#[must_use]
+pub fn rounded(value: f64) -> f64 {
+    format!("{value:.5e}").parse().unwrap_or(value)
 }
 
 /// Whether a terminal or a page would obey the character and not show it: controls, and marks that turn the direction of

@@ -24,6 +24,7 @@ use crate::map::Record;
 use crate::model::Param;
 use crate::model::equilibrium::Equilibrium;
 use crate::outcome::{Outcome, Status};
+use crate::response::{Plan, Scene};
 use crate::settle::Ending;
 use crate::spec::{Instance, Spec};
 
@@ -51,6 +52,20 @@ pub(crate) fn begun(instance: &Instance, prepared: &Preparation) -> Record {
         },
     };
     Record { status, ..Record::default() }
+}
+
+/// Why an instance has no result, where its law, its equilibrium, its numbers or the length of its run say so before anything is
+/// computed.
+#[must_use]
+pub fn refused(spec: &Spec, instance: &Instance) -> Option<Status> {
+    if spec.analysis.response {
+        return Scene::planned(instance, &Plan::new(spec)).err();
+    }
+    match linear::prepare(instance) {
+        Err(None) => Some(begun(instance, &Err(None)).status),
+        // A type is all that is asked for.
+        _ => None,
+    }
 }
 
 /// The type of the equilibrium of an instance: that of its record, where the sweep has the linear analysis.

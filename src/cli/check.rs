@@ -2,19 +2,25 @@
 
 use std::fmt::Write;
 use std::path::PathBuf;
+use std::process::ExitCode;
 
 use clap::Args;
+use rayon::prelude::*;
 use squealmap::Result;
-use squealmap::estimate::estimate;
+use squealmap::backend::refused;
+use squealmap::estimate::{Estimate, estimate};
 use squealmap::grid::{Axis, AxisKey, Grid, Value};
+use squealmap::model::Param;
+use squealmap::outcome::Status;
 use squealmap::refine::{Settings, planes_of};
 use squealmap::spec::{Spec, StartKind, Starts};
 use squealmap::store::cut::tile_of;
 use squealmap::store::space::{MOST_ROWS, Need, bytes};
 use squealmap::store::tiling::Tiling;
 
-use crate::cli::print;
+use crate::cli::failed::{nothing, told};
 use crate::cli::progress::seconds;
+use crate::cli::{note, print};
 
 /// Arguments of `check`.
 #[derive(Debug, Args)]
@@ -24,7 +30,7 @@ pub(crate) struct Check {
 }
 
 impl Check {
-    pub(crate) fn execute(self) -> Result<()> {
+    pub(crate) fn execute(self) -> Result<ExitCode> {
         let spec = Spec::read(&self.sweep)?;
         if spec.refine.is_some() {
             planes_of(&spec.grid)?;
@@ -36,10 +42,44 @@ impl Check {
             describe(&spec)
         );
         print(&text);
+        print(&materials(&spec));
         print(&disk(&spec));
-        print(&cost(&spec));
-        Ok(())
+        let estimate = estimate(&spec);
+        print(&cost(&spec, &estimate));
+        if let Some(why) = hopeless(&spec) {
+            note(&format!("error: {why}"));
+            return Ok(ExitCode::FAILURE);
+        }
+        if let Some(why) = doubtful(&estimate) {
+            note(&format!("warning: {why}"));
+        }
+        Ok(ExitCode::SUCCESS)
     }
+}
+
+/// That no instance of the sweep has a result, where that can be told without computing any.
+fn hopeless(spec: &Spec) -> Option<String> {
+    let why = |index: usize| refused(spec, &spec.instance(index));
+    let all = 0..spec.grid.len();
+    // Ends at the first one that may have a result: mostly at once.
+    if all.clone().into_par_iter().any(|index| why(index).is_none()) {
+        return None;
+    }
+    let found: Vec<Status> = all.filter_map(why).collect();
+    Some(nothing(|status| count(&found, status)))
+}
+
+fn count(found: &[Status], wanted: Status) -> u64 {
+    found.iter().filter(|status| **status == wanted).count() as u64
+}
+
+/// That none of the instances that were measured came to its end.
+fn doubtful(estimate: &Estimate) -> Option<String> {
+    let Estimate { sampled, failed, .. } = estimate;
+    (failed.len() == *sampled).then(|| {
+        let told = told(|status| count(failed, status));
+        format!("none of the {sampled} instance(s) that were measured has a result: {told}")
+    })
 }
 
 /// Title, analyses and what varies.
@@ -93,6 +133,39 @@ fn describe(spec: &Spec) -> String {
     text
 }
 
+/// The temperatures of each material, and how many of the sweep it does not have.
+fn materials(spec: &Spec) -> String {
+    let number = |value: &Value| if let Value::Number(number) = value { Some(*number) } else { None };
+    let is_temperature = |key: &AxisKey| *key == AxisKey::Param(Param::Temperature);
+    let varied: Vec<f64> = match &spec.grid {
+        Grid::Axes(axes) => {
+            let axis = axes.iter().find(|axis| is_temperature(&axis.key));
+            axis.map_or(Vec::new(), |axis| axis.values.iter().filter_map(number).collect())
+        }
+        Grid::Tuples { keys, rows } => keys
+            .iter()
+            .position(is_temperature)
+            .map_or(Vec::new(), |column| rows.iter().filter_map(|row| number(&row[column])).collect()),
+    };
+    let temperatures =
+        if varied.is_empty() { spec.base.get(Param::Temperature).into_iter().collect() } else { varied };
+    let mut text = String::new();
+    for material in spec.material.iter().chain(&spec.materials) {
+        let (low, high) = material.temperatures();
+        let _ = write!(text, "material  {}: {low} to {high} °C", material.name);
+        let beyond = temperatures.iter().filter(|value| !(low..=high).contains(*value)).count();
+        if beyond > 0 {
+            let of = temperatures.len();
+            let _ = write!(
+                text,
+                "; {beyond} of {of} temperature(s) of the sweep lie outside and take the nearest row"
+            );
+        }
+        text.push('\n');
+    }
+    text
+}
+
 /// The time before the measuring window.
 fn settle(spec: &Spec) -> String {
     match spec.settle_limit {
@@ -134,8 +207,7 @@ fn disk(spec: &Spec) -> String {
 }
 
 /// What the sweep would cost, measured on a few of its instances.
-fn cost(spec: &Spec) -> String {
-    let estimate = estimate(spec);
+fn cost(spec: &Spec, estimate: &Estimate) -> String {
     let threads = rayon::current_num_threads();
     let total = estimate.cpu_time.as_secs_f64();
     let steps =

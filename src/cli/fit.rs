@@ -3,18 +3,19 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use squealmap::export::material::material_csv;
-use squealmap::fit::{Point, fit};
+use squealmap::export::material::{material_csv, residuals_csv};
+use squealmap::fit::{Fit, Point, fit, range};
 use squealmap::identify::{Channel, FrictionColumn, Settings, read_points};
 use squealmap::model::friction::LawKind;
+use squealmap::quote::rounded;
 use squealmap::{Error, Result};
 
 use crate::cli::identify::{finite, positive};
 use crate::cli::output::{Output, list};
-use crate::cli::{print, stem};
+use crate::cli::{note, print, stem};
 
 /// What is written.
-const FILE: &str = "material.csv";
+const FILES: [&str; 2] = ["material.csv", "residuals.csv"];
 /// Rows of a material when none are asked for.
 const ROWS: u16 = 5;
 
@@ -89,19 +90,69 @@ impl FitCommand {
         };
         let fitted = fit(&points, law, &rows, self.law_velocity)
             .map_err(|fault| Error::Fit { name: name.clone(), fault })?;
-        let text = material_csv(&fitted, &name);
-        let output = Output::prepare(directory, &[FILE])?;
-        let paths = output.write(&[(FILE, text.clone().into_bytes())])?;
-        let usage = format!("[friction]\nlaw = \"{}\"\nmaterial = \"{FILE}\"\n", law.name());
-        print(&format!("{text}{}in a sweep file:\n{usage}", list(&paths)));
+        let text = material_csv(&fitted, &points, &name);
+        let output = Output::prepare(directory, &FILES)?;
+        let residuals = residuals_csv(&fitted, &points)?;
+        let paths = output.write(&[(FILES[0], text.clone().into_bytes()), (FILES[1], residuals)])?;
+        let usage = format!("[friction]\nlaw = \"{}\"\nmaterial = \"{}\"\n", law.name(), FILES[0]);
+        print(&format!(
+            "{text}{}{}in a sweep file beside {}:\n{usage}",
+            largest(&fitted, &points),
+            list(&paths),
+            FILES[0]
+        ));
+        warnings(&fitted, &points).iter().for_each(|warning| note(&format!("warning: {warning}")));
         Ok(())
     }
 }
 
+/// Where the law is farthest from a point.
+fn largest(fitted: &Fit, points: &[Point]) -> String {
+    let of = points.iter().zip(&fitted.residuals);
+    of.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs())).map_or(String::new(), |(point, residual)| {
+        format!("largest residual {residual:.2e}, at {} m/s and {} °C\n", point.velocity, point.temperature)
+    })
+}
+
+/// What of the material the points do not say.
+fn warnings(fitted: &Fit, points: &[Point]) -> Vec<String> {
+    let mut warnings = Vec::new();
+    let [low, high] = range(points, |point| point.temperature);
+    let measured = format!("{} to {} °C", rounded(low), rounded(high));
+    let beyond = fitted.temperature.iter().filter(|row| !(low..=high).contains(*row));
+    let beyond: Vec<String> = beyond.map(f64::to_string).collect();
+    // A single row holds at every temperature.
+    if !beyond.is_empty() && fitted.temperature.len() > 1 {
+        warnings.push(format!(
+            "the points are from {measured}, so that the row(s) at {} °C are extrapolated; measure there, or ask for rows \
+             inside with --temperatures",
+            beyond.join(", ")
+        ));
+    }
+    let (first, last) = (fitted.temperature[0], fitted.temperature[fitted.temperature.len() - 1]);
+    let outside = points.iter().filter(|point| !(first..=last).contains(&point.temperature)).count();
+    if outside > 0 {
+        let rows = if first < last { format!("{first} to {last}") } else { first.to_string() };
+        warnings.push(format!(
+            "{outside} of {} points lie outside the rows of {rows} °C and count for the nearest row; ask for rows from {measured} \
+             with --temperatures, or leave these points out",
+            points.len()
+        ));
+    }
+    if let (true, Some((param, values))) = (fitted.open, fitted.columns.last()) {
+        warnings.push(format!(
+            "the points do not bound `{}`: {:.3} m/s fits best, but the fastest of them as well, so that there are no standard \
+             errors; measure faster, give it with --law-velocity, or choose another --law",
+            param.info().name,
+            values[0]
+        ));
+    }
+    warnings
+}
+
 /// Evenly spaced temperatures over the points; one where they do not differ.
 fn rows(points: &[Point]) -> Vec<f64> {
-    let low = points.iter().map(|point| point.temperature).fold(f64::INFINITY, f64::min);
-    let high = points.iter().map(|point| point.temperature).fold(f64::NEG_INFINITY, f64::max);
+    let [low, high] = range(points, |point| point.temperature);
     if low < high {
         let last = ROWS - 1;
         (0..=last)

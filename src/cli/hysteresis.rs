@@ -1,6 +1,7 @@
 //! `squealmap trace --sweep-up-down`: a motion followed while a parameter rises and falls.
 
 use std::path::PathBuf;
+use std::process::ExitCode;
 
 use squealmap::export::heading::Heading;
 use squealmap::export::hysteresis as export;
@@ -8,12 +9,14 @@ use squealmap::export::look::Look;
 use squealmap::grid::spaced;
 use squealmap::hysteresis::{Direction, Hysteresis};
 use squealmap::model::{Param, Section};
+use squealmap::outcome::Status;
 use squealmap::response::Plan;
 use squealmap::spec::Spec;
 use squealmap::{Error, Result};
 
+use crate::cli::failed::told;
 use crate::cli::output::{Output, list};
-use crate::cli::{png_of, print};
+use crate::cli::{note, png_of, print};
 
 /// What is written.
 const FILES: [&str; 4] = ["hysteresis.csv", "hysteresis.json", "hysteresis.png", "hysteresis.svg"];
@@ -66,7 +69,13 @@ impl Range {
 }
 
 /// Follows the instance `at` over the range and writes both branches.
-pub(crate) fn execute(spec: &Spec, directory: PathBuf, at: &str, range: &Range, points: u32) -> Result<()> {
+pub(crate) fn execute(
+    spec: &Spec,
+    directory: PathBuf,
+    at: &str,
+    range: &Range,
+    points: u32,
+) -> Result<ExitCode> {
     let name = range.param.info().name;
     let instance = |value: f64| {
         let comma = if at.trim().is_empty() { "" } else { "," };
@@ -103,11 +112,12 @@ pub(crate) fn execute(spec: &Spec, directory: PathBuf, at: &str, range: &Range, 
         };
         format!("{name} {}: {ends}{cycles}\n", direction.name())
     });
-    let unsettled = Direction::ALL
-        .iter()
-        .flat_map(|direction| found.branch(*direction))
-        .filter(|record| record.settled != Some(true))
-        .count();
+    let records = || Direction::ALL.iter().flat_map(|direction| found.branch(*direction));
+    let unsettled = records().filter(|record| record.settled == Some(false)).count();
+    let of = |status: Status| records().filter(|record| record.status == status).count() as u64;
+    let total = 2 * found.values.len();
+    let failed = total as u64 - of(Status::Ok);
+    let told = told(of);
     let apart: Vec<String> =
         found.apart().iter().map(|[a, b]| format!("{} to {}", shown(*a), shown(*b))).collect();
     let apart = if apart.is_empty() {
@@ -124,10 +134,19 @@ pub(crate) fn execute(spec: &Spec, directory: PathBuf, at: &str, range: &Range, 
     };
     let warning = match unsettled {
         0 => String::new(),
-        some => format!("{some} of {} values had not settled\n", 2 * found.values.len()),
+        some => format!("{some} of {total} values had not settled\n"),
     };
-    print(&format!("{}{apart}{hint}{warning}{}", branches.concat(), list(&paths)));
-    Ok(())
+    let failures = match failed {
+        0 => String::new(),
+        some => format!("{some} of {total} values have no result: {told}\n"),
+    };
+    if failed == total as u64 {
+        print(&list(&paths));
+        note(&format!("error: no value has a result: {told}"));
+        return Ok(ExitCode::FAILURE);
+    }
+    print(&format!("{}{apart}{hint}{warning}{failures}{}", branches.concat(), list(&paths)));
+    Ok(ExitCode::SUCCESS)
 }
 
 /// A value without the rounding of its place on an axis.

@@ -11,7 +11,8 @@ use squealmap::export::look::Look;
 use squealmap::export::spectrogram::spectrogram_nc;
 use squealmap::files;
 use squealmap::identify::{
-    DAMPING_RATIO, INCLINATION, Identification, LARGEST_FRICTION, OVERLAP, Settings, WINDOW, identify,
+    DAMPING_RATIO, INCLINATION, Identification, LARGEST_FRICTION, OVERLAP, RATES, Settings, TimeUnit, WINDOW,
+    identify,
 };
 use squealmap::quote::one_line;
 
@@ -30,11 +31,14 @@ pub(crate) struct Identify {
     /// Output directory [default: out/<name of the file>]
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// Column of time, s [default: t]
+    /// Column of time [default: t or time, with a unit or without: `t_ms`, `Time (ms)`]
     #[arg(long, value_name = "COLUMN")]
     time: Option<String>,
-    /// Samples per second, Hz, instead of a column of time
-    #[arg(long, value_name = "HZ", value_parser = positive)]
+    /// Unit of the column of time: s, ms, us, ns, min or h [default: that of its header, or s]
+    #[arg(long, value_name = "UNIT", value_parser = time_unit)]
+    time_unit: Option<TimeUnit>,
+    /// Samples per second instead of a column of time: 51200, 51200Hz or 51.2kHz
+    #[arg(long, value_name = "HZ", value_parser = rate)]
     rate: Option<f64>,
     /// Column of the tangential acceleration, m/s² [default: ax2]
     #[arg(long, value_name = "COLUMN")]
@@ -115,6 +119,7 @@ impl Identify {
     fn settings(self) -> Settings {
         Settings {
             time: self.time,
+            time_unit: self.time_unit,
             rate: self.rate,
             columns: [
                 self.tangential_acceleration,
@@ -180,6 +185,32 @@ pub(super) fn finite(text: &str) -> std::result::Result<f64, String> {
 
 pub(super) fn positive(text: &str) -> std::result::Result<f64, String> {
     number(text, |x| x > 0.0, "a finite number greater than 0")
+}
+
+/// A unit of time.
+fn time_unit(text: &str) -> std::result::Result<TimeUnit, String> {
+    let names = TimeUnit::ALL.map(TimeUnit::name).join(", ");
+    TimeUnit::parse(text).ok_or_else(|| format!("must be one of {names}"))
+}
+
+/// A rate in Hz; one without a unit has to be that of a sensor.
+fn rate(text: &str) -> std::result::Result<f64, String> {
+    /// Units of a rate with what they are in Hz; `hz` is the end of the others.
+    const UNITS: [(&str, f64); 3] = [("khz", 1e3), ("mhz", 1e6), ("hz", 1.0)];
+    let lower = text.to_lowercase();
+    let with_unit = UNITS.iter().find_map(|(unit, hertz)| Some((lower.strip_suffix(unit)?, hertz)));
+    if let Some((value, hertz)) = with_unit {
+        return positive(value.trim()).map(|value| value * hertz);
+    }
+    let value = positive(text)?;
+    let [slowest, fastest] = RATES;
+    if (slowest..=fastest).contains(&value) {
+        return Ok(value);
+    }
+    Err(format!(
+        "sensors of vibrations have {slowest} to {fastest} samples per second; say its unit: --rate {value}kHz, or --rate {value}Hz if \
+         they are so many"
+    ))
 }
 
 fn ratio(text: &str) -> std::result::Result<f64, String> {

@@ -11,8 +11,9 @@ use squealmap::store::directory::Store;
 use squealmap::store::merge::merge;
 use squealmap::{Error, Result};
 
+use crate::cli::failed::judged;
 use crate::cli::output::list;
-use crate::cli::results::{self, Results};
+use crate::cli::results::{self, MANIFEST, Results};
 use crate::cli::run::missing;
 use crate::cli::signal::stop_at_signal;
 use crate::cli::summary::summary;
@@ -64,7 +65,7 @@ impl Merge {
             tiles: None,
             accuracy: target.description.accuracy.clone(),
         };
-        Ok(match results::write(&target, &run, &cancel)? {
+        let code = match results::write(&target, &run, &cancel)? {
             Results::Lacking => {
                 note("a tile went bad or was removed while it was read; run the same command again");
                 ExitCode::FAILURE
@@ -83,7 +84,8 @@ impl Merge {
                 print(&format!("{heading}\n\n{counts}\n{}", list(&paths)));
                 ExitCode::SUCCESS
             }
-        })
+        };
+        Ok(judged(code, &target.directory, MANIFEST))
     }
 }
 

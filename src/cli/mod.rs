@@ -7,6 +7,7 @@ mod check;
 mod engine;
 mod excerpt;
 mod export;
+mod failed;
 mod fit;
 mod frontier;
 mod hysteresis;
@@ -161,14 +162,14 @@ impl Command {
             Command::Merge(command) => return command.execute(),
             Command::Refine(command) => return command.execute(),
             Command::Verify(command) => return command.execute(),
+            Command::Check(command) => return command.execute(),
+            Command::Trace(command) => return command.execute(),
             Command::Submit(command) => command.execute()?,
             Command::Status(command) => command.execute()?,
             Command::Export(command) => command.execute()?,
             Command::Adapters => adapters::execute(),
-            Command::Check(command) => command.execute()?,
             Command::Modes(command) => command.execute()?,
             Command::Plot(command) => command.execute()?,
-            Command::Trace(command) => command.execute()?,
             Command::Identify(command) => command.execute()?,
             Command::Paper(command) => command.execute()?,
             Command::Tradeoff(command) => command.execute()?,

@@ -11,9 +11,9 @@ use squealmap::backend::solver::Solver;
 use squealmap::disk::Handle;
 use squealmap::export::csv::MapCsv;
 use squealmap::export::manifest::Sum;
-use squealmap::label::Label;
+use squealmap::label::{Label, Tally};
 use squealmap::refine::{COARSE, Refined, Settings, planes_of, refine};
-use squealmap::spec::{Spec, Starts};
+use squealmap::spec::{Analysis, Spec, Starts};
 use squealmap::store::cut::tile_of;
 use squealmap::store::description::Description;
 use squealmap::store::parts::{PARTS, Parts};
@@ -22,12 +22,13 @@ use squealmap::store::space;
 use squealmap::{Error, Result};
 
 use crate::cli::engine::EngineArgs;
+use crate::cli::failed::judged;
 use crate::cli::output::{Output, cannot, cannot_table, claim, list};
 use crate::cli::progress::Progress;
-use crate::cli::refined::{Checked, Ended, FILES};
+use crate::cli::refined::{Checked, DOCUMENT, Ended, FILES};
 use crate::cli::run::at_least_one;
 use crate::cli::signal::stop_at_signal;
-use crate::cli::summary::summary;
+use crate::cli::summary::{classes, summary};
 use crate::cli::summed::Summed;
 use crate::cli::{Files, INTERRUPTED, note, print};
 
@@ -99,7 +100,8 @@ impl Refining<'_> {
         let mut solver = Solver::new(&spec, &options)?;
         let part = self.part.unwrap_or_else(|| tile_of(&spec));
         let description = Description::new(&spec, solver.computations(), part);
-        follow(&output, &spec, &mut solver, &Refinement { description, settings })
+        let code = follow(&output, &spec, &mut solver, &Refinement { description, settings })?;
+        Ok(judged(code, output.directory(), DOCUMENT))
     }
 }
 
@@ -125,7 +127,9 @@ pub(crate) fn follow(
         .map_err(|why| cannot_table(&table_path, why))?;
     let parts = Parts::begin(directory, asked)?;
     let used = Vec::new();
-    let mut work = Work { spec, solver, parts: &parts, directory, table: &table_path, rows, fresh: 0, used };
+    let tally = Tally::default();
+    let mut work =
+        Work { spec, solver, parts: &parts, directory, table: &table_path, rows, fresh: 0, tally, used };
     let part = asked.description.tiling.tile;
     let refined = refine(&spec.grid, asked.settings, &mut |instances| work.compute(instances, part));
     if refined.is_err() {
@@ -136,7 +140,7 @@ pub(crate) fn follow(
         return Ok(ExitCode::from(INTERRUPTED));
     }
     let refined = refined?;
-    let fresh = work.fresh;
+    let (fresh, computed) = (work.fresh, work.tally.clone());
     let (used, table_sum) = work.end()?;
     // Results are of the parts that they name: what is gone is computed again before they are written.
     if let Some((gone, _)) = used.iter().find(|(name, checksum)| !parts.has(name, checksum)) {
@@ -146,7 +150,7 @@ pub(crate) fn follow(
     }
     let ended = Ended { spec, asked, refined: &refined, parts: used, table, table_sum };
     let (paths, tally) = ended.write(directory)?;
-    print(&report(&refined, fresh, &summary(spec.analysis, &tally)));
+    print(&report(&refined, fresh, spec.analysis, [&computed, &tally]));
     print(&list(&paths));
     if parts.strangers()? > 0 {
         note("parts of other sweeps, programs or engines stand in `parts` too; they may be removed");
@@ -165,6 +169,8 @@ struct Work<'a, 's> {
     rows: MapCsv<'a, Summed<BufWriter<&'a mut Handle>>>,
     /// Instances that were computed now.
     fresh: usize,
+    /// All that were computed, now or before.
+    tally: Tally,
     /// The parts by name and checksum, in the order of use.
     used: Vec<(String, String)>,
 }
@@ -197,6 +203,7 @@ impl Work<'_, '_> {
         }
         self.rows.add_some(block, &part.records).map_err(|why| cannot_table(self.table, why))?;
         labels.extend(part.records.iter().map(Label::from));
+        self.tally.add(&part.records);
         self.used.push((part.name, part.checksum));
         Ok(())
     }
@@ -220,8 +227,9 @@ fn stopped(fresh: usize) -> String {
     )
 }
 
-/// What was computed, `fresh` of it now, what came out, and what may be missed.
-fn report(refined: &Refined, fresh: usize, summary: &str) -> String {
+/// What was computed, `fresh` of it now, what came out of that, what the lines say of all, and what may be missed.
+fn report(refined: &Refined, fresh: usize, analysis: Analysis, [computed, all]: [&Tally; 2]) -> String {
+    let summary = summary(analysis, computed);
     let instances = refined.labels.len();
     let share = 100.0 * refined.computed as f64 / instances as f64;
     let before = match refined.computed - fresh {
@@ -244,7 +252,10 @@ fn report(refined: &Refined, fresh: usize, summary: &str) -> String {
         },
     );
     format!(
-        "computed {} of {instances} instances ({share:.2} %){before}; {missed}\n\n{summary}\n",
-        refined.computed
+        "computed {} of {instances} instances ({share:.2} %){before}; {missed}\n\nwhat was computed, most of it near \
+         lines:\n{summary}\nthe whole map by its lines, {instances} instances, of which those that were not computed have the \
+         label of the cell around them:\n{}\n",
+        refined.computed,
+        classes(analysis, all)
     )
 }

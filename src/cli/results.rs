@@ -25,7 +25,7 @@ use crate::cli::{note, png_of};
 pub(crate) const FILES: [&str; 4] = ["map.csv", MANIFEST, "map.png", "map.svg"];
 
 /// What says that the others are there.
-const MANIFEST: &str = "manifest.json";
+pub(crate) const MANIFEST: &str = "manifest.json";
 
 /// Between two looks at results that another process writes.
 const WAIT: Duration = Duration::from_millis(50);

@@ -25,10 +25,11 @@ use squealmap::{Error, Result};
 
 use crate::cli::accuracy::{AccuracyArgs, say};
 use crate::cli::engine::{BackendName, EngineArgs};
+use crate::cli::failed::judged;
 use crate::cli::output::{Output, list};
 use crate::cli::progress::{Progress, seconds};
 use crate::cli::refine::Refining;
-use crate::cli::results::{self, FILES, Results};
+use crate::cli::results::{self, FILES, MANIFEST, Results};
 use crate::cli::signal::stop_at_signal;
 use crate::cli::summary::summary;
 use crate::cli::{Files, INTERRUPTED, note, print};
@@ -115,7 +116,9 @@ impl Run {
         if ended.is_err() {
             store.remove_if_empty();
         }
-        ended
+        let code = ended?;
+        // A part of a sweep may lie where nothing has a result.
+        Ok(if self.shard.is_none() { judged(code, &store.directory, MANIFEST) } else { code })
     }
 
     /// Refuses what a refined sweep does not have.

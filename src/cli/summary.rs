@@ -10,8 +10,13 @@ use squealmap::spec::{Analysis, Starts};
 /// What stands where an analysis gave nothing.
 const NONE: &str = "-";
 
-/// The table of counts: one row per type, one column per regime, only those that occur among what was computed.
+/// The table of classes, and what else there is to say of what was computed.
 pub(crate) fn summary(analysis: Analysis, tally: &Tally) -> String {
+    classes(analysis, tally) + &remarks(analysis, tally)
+}
+
+/// The table of counts: one row per type, one column per regime, only those that occur among what was computed.
+pub(crate) fn classes(analysis: Analysis, tally: &Tally) -> String {
     let types: Vec<&str> = InstabilityType::ALL.iter().map(|kind| kind.name()).chain([NONE]).collect();
     let regimes: Vec<&str> = Regime::ALL.iter().map(|regime| regime.name()).chain([NONE]).collect();
     let computed = |label: Label| label.status() != Status::NotComputed;
@@ -27,6 +32,12 @@ pub(crate) fn summary(analysis: Analysis, tally: &Tally) -> String {
     } else {
         cross(&mut text, &count, ("regime", &regimes, &regime), (&[], &|_| ""));
     }
+    text
+}
+
+/// Failures, what has not settled, what several starts gave, and what checks found.
+fn remarks(analysis: Analysis, tally: &Tally) -> String {
+    let mut text = String::new();
     if tally.count(|label| label.status() != Status::Ok) > 0 {
         let statuses: Vec<&str> = Status::IN_MAP.iter().map(|status| status.name()).collect();
         text.push('\n');
@@ -38,7 +49,8 @@ pub(crate) fn summary(analysis: Analysis, tally: &Tally) -> String {
         let _ = writeln!(text, "\n{unsettled} of {} instances had not settled", tally.computed());
     }
     if analysis.starts != Starts::One {
-        let verdict = |wanted: Option<bool>| count(&|label| label.bistable() == wanted);
+        let computed = |label: Label| label.status() != Status::NotComputed;
+        let verdict = |wanted| tally.count(|label| computed(label) && label.bistable() == wanted);
         let _ = writeln!(
             text,
             "\n{} of {} instances are bistable: starts end differently ({} without a verdict)",

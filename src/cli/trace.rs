@@ -1,5 +1,8 @@
 //! `squealmap trace`: one instance in full.
 
+use std::f64::consts::TAU;
+use std::process::ExitCode;
+
 use clap::Args;
 use squealmap::backend;
 use squealmap::export::heading::Heading;
@@ -8,15 +11,17 @@ use squealmap::export::signals::signals_csv;
 use squealmap::export::trace as export;
 use squealmap::model::Param;
 use squealmap::outcome::Status;
+use squealmap::quote::rounded;
 use squealmap::response::Plan;
 use squealmap::signals::{Recording, record};
-use squealmap::spec::Spec;
+use squealmap::spec::{Instance, Spec};
 use squealmap::trace::trace;
 use squealmap::{Result, linear};
 
+use crate::cli::failed::remedy;
 use crate::cli::hysteresis::{self, Range};
 use crate::cli::output::{Output, list};
-use crate::cli::{Files, png_of, print};
+use crate::cli::{Files, note, png_of, print};
 
 /// What is written.
 const FILES: [&str; 4] = ["trace.csv", "trace.json", "trace.png", "trace.svg"];
@@ -47,7 +52,7 @@ pub(crate) struct TraceCommand {
 }
 
 impl TraceCommand {
-    pub(crate) fn execute(self) -> Result<()> {
+    pub(crate) fn execute(self) -> Result<ExitCode> {
         let spec = Spec::read(&self.files.sweep)?;
         if let Some(range) = &self.sweep_up_down {
             return hysteresis::execute(&spec, self.files.directory()?, &self.at, range, self.points);
@@ -85,11 +90,37 @@ impl TraceCommand {
         let outcome = &trace.outcome;
         print(&format!(
             "{end}: {} s in {} steps, {} rows\n{}",
-            outcome.simulated_time,
+            rounded(outcome.simulated_time),
             outcome.steps,
             trace.rows.len(),
             list(&paths)
         ));
-        Ok(())
+        if let Some(why) = self.rate.and_then(|rate| too_slow(rate, &instance)) {
+            note(&format!("warning: {why}"));
+        }
+        if outcome.status == Status::Ok {
+            return Ok(ExitCode::SUCCESS);
+        }
+        note(&format!(
+            "error: the instance has no result: `{}`{}",
+            outcome.status.name(),
+            remedy(outcome.status)
+        ));
+        Ok(ExitCode::FAILURE)
     }
+}
+
+/// That a rate (Hz) is below twice the highest frequency of the modes of an instance, and which one is not.
+fn too_slow(rate: u32, instance: &Instance) -> Option<String> {
+    /// Samples per period of what is recorded well.
+    const ENOUGH: f64 = 20.0;
+    let modes = linear::eigenvalues(instance)?;
+    let highest = modes.iter().map(|mode| mode.im.abs() / TAU).fold(0.0, f64::max);
+    (f64::from(rate) < 2.0 * highest).then(|| {
+        format!(
+            "--rate {rate} is below twice {highest:.1} Hz, the highest frequency of the modes, so that {SIGNALS} shows the motion at \
+             a frequency it does not have; give --rate {:.0} or more",
+            (ENOUGH * highest).ceil()
+        )
+    })
 }

@@ -54,6 +54,8 @@ pub(super) struct Block<'a> {
     pub(super) grid: &'a Grid,
     /// The counts of all instances, also of those that no panel shows.
     pub(super) tally: &'a Tally,
+    /// Those that were computed, where the others have a label all the same.
+    pub(super) computed: Option<&'a Tally>,
     pub(super) panels: &'a Panels,
     pub(super) content: Content<'a>,
     /// The starts of every instance.
@@ -159,7 +161,8 @@ impl Block<'_> {
             Content::Classes { colouring, hatched } => (colouring, hatched),
             _ => (Colouring::Regime, false),
         };
-        let legend = Legend::new(self.tally, colouring, hatched, panels.scatter.is_none());
+        let of = (self.tally, self.computed);
+        let legend = Legend::new(of, colouring, hatched, panels.scatter.is_none());
         // Under the panels, or from the outer edge where that saves a line.
         let wide = legend.draw(None, x, bottom, width) < legend.draw(None, x + left, bottom, width - left);
         let indent = if wide { 0.0 } else { left };

@@ -72,6 +72,8 @@ pub struct MapFigure<'a> {
     tally: Tally,
     /// The same of the large start, where there is one.
     large: Option<(Panels, Tally)>,
+    /// The instances that were computed, where the others have a label all the same.
+    computed: Option<Tally>,
 }
 
 impl<'a> MapFigure<'a> {
@@ -83,7 +85,13 @@ impl<'a> MapFigure<'a> {
         let panels = if boxed { panels.with_basins() } else { panels };
         let both = sheet.analysis.starts == Starts::Both;
         let large = both.then(|| (Panels::new(sheet.grid), Tally::default()));
-        MapFigure { sheet, panels, tally: Tally::default(), large }
+        MapFigure { sheet, panels, tally: Tally::default(), large, computed: None }
+    }
+
+    /// Says that only these instances were computed: the others have the labels of their surroundings.
+    #[must_use]
+    pub fn of_computed(self, computed: Tally) -> MapFigure<'a> {
+        MapFigure { computed: Some(computed), ..self }
     }
 
     /// Takes the records from instance `first` on; every instance has to come once, here or in
@@ -132,7 +140,7 @@ fn from_large_start(record: &Record) -> Record {
 }
 
 fn draw(figure: &MapFigure<'_>, look: &Look<'_>) -> String {
-    let MapFigure { sheet, panels, tally, large } = figure;
+    let MapFigure { sheet, panels, tally, large, computed: some } = figure;
     let mut contents =
         if look.contents.is_empty() { computed(sheet.analysis, false) } else { look.contents.clone() };
     // A map of labels alone, as that of `refine`, has none of a large start.
@@ -153,7 +161,7 @@ fn draw(figure: &MapFigure<'_>, look: &Look<'_>) -> String {
     let (svg, size) = compose(figure, look, (&contents, layout, false), width);
     let title = look.title(sheet.title);
     let name = if title.is_empty() { "Stability map" } else { title };
-    let metadata = provenance(*sheet, tally) + &look.made_by();
+    let metadata = provenance(*sheet, tally.total(), some.as_ref().unwrap_or(tally)) + &look.made_by();
     svg.finish_enlarged(look.enlarged, size, name, &metadata)
 }
 
@@ -164,7 +172,7 @@ fn compose(
     (contents, layout, measured): (&[Content<'_>], Layout, bool),
     width: f64,
 ) -> (Svg, [f64; 2]) {
-    let MapFigure { sheet, panels, tally, large } = figure;
+    let MapFigure { sheet, panels, tally, large, computed } = figure;
     let inner = width - 2.0 * MARGIN;
     let mut svg = Svg::new();
     define_patterns(&mut svg);
@@ -186,6 +194,7 @@ fn compose(
         blocks.push(Block {
             grid: sheet.grid,
             tally,
+            computed: computed.as_ref(),
             panels,
             content: *content,
             starts,
@@ -214,7 +223,11 @@ fn compose(
         }
     }
     y += tallest;
-    if let Some(note) = &panels.note {
+    let of_some = computed.as_ref().map(|some| {
+        let (some, all) = (some.total(), tally.total());
+        format!("{some} of {all} instances were computed; the others have the label of the cell around them.")
+    });
+    for note in panels.note.iter().chain(&of_some) {
         for line in wrap(note, inner, LABEL_SIZE, false) {
             y += LABEL_SIZE + 3.0;
             svg.text(MARGIN, y, &Text::from(line), Style::new(LABEL_SIZE, Anchor::Start));
@@ -234,7 +247,7 @@ pub(super) fn title(svg: &mut Svg, text: &str, width: f64) -> f64 {
 }
 
 /// What made the picture; nothing that differs between two runs of the same sweep.
-fn provenance(sheet: Sheet, tally: &Tally) -> String {
+fn provenance(sheet: Sheet, total: usize, tally: &Tally) -> String {
     let part = |name: &str, computation: Option<&Computation>| {
         computation.map(|computation| format!("; {name} {computation}")).unwrap_or_default()
     };
@@ -243,8 +256,8 @@ fn provenance(sheet: Sheet, tally: &Tally) -> String {
         program(),
         part("linear", sheet.linear),
         part("response", sheet.response),
-        tally.total(),
-        if tally.computed() < tally.total() {
+        total,
+        if tally.computed() < total {
             format!(", {} of them computed", tally.computed())
         } else {
             String::new()

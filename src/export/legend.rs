@@ -32,8 +32,14 @@ enum Swatch {
 pub(super) struct Legend(Vec<(Swatch, Text)>);
 
 impl Legend {
-    /// The legend of a sweep with these counts under a colouring.
-    pub(super) fn new(tally: &Tally, colouring: Colouring, hatched: bool, cells: bool) -> Legend {
+    /// The legend of a sweep with these counts under a colouring; the second are those of what was computed, where the
+    /// others have a label all the same.
+    pub(super) fn new(
+        (tally, computed): (&Tally, Option<&Tally>),
+        colouring: Colouring,
+        hatched: bool,
+        cells: bool,
+    ) -> Legend {
         let total = tally.total();
         let share = |n: usize| share(n, total);
         let class = |label: Label| colouring.class(label);
@@ -49,9 +55,13 @@ impl Legend {
             }
         }
         if colouring == Colouring::Regime {
-            let n = tally.count(|label| label.settled() == Some(false));
+            // No line follows what has settled: of what was not computed it is not known.
+            let known = computed.unwrap_or(tally);
+            let n = known.count(|label| label.settled() == Some(false));
             if n > 0 {
-                entries.push((Swatch::Unsettled, Text::from(format!("unsettled {}", share(n)))));
+                let of = computed.map_or(String::new(), |some| format!(" of {} computed", some.total()));
+                let text = format!("unsettled {}{of}", self::share(n, known.total()));
+                entries.push((Swatch::Unsettled, Text::from(text)));
             }
         }
         let missing = tally.count(|label| not_computed(label, colouring));

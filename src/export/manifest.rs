@@ -181,7 +181,7 @@ pub(super) fn pretty(document: &Value) -> Result<Vec<u8>> {
 }
 
 /// How many instances have each type, regime and status; names that do not occur are left out.
-fn counts(analysis: Analysis, tally: &Tally) -> Value {
+pub(super) fn counts(analysis: Analysis, tally: &Tally) -> Value {
     let count = |selects: &dyn Fn(Label) -> bool| tally.count(selects);
     let mut result = Object::new();
     if analysis.linear {

@@ -3,7 +3,7 @@
 use serde_json::{Value as Json, json};
 
 use super::figure::MapFigure;
-use super::manifest::{COMMIT, Sum, VERSION, pretty, sums};
+use super::manifest::{COMMIT, Sum, VERSION, counts, pretty, sums};
 use super::sheet::Sheet;
 use crate::error::Result;
 use crate::grid::{Axis, Grid};
@@ -17,10 +17,13 @@ use crate::store::seal::sealed;
 /// Labels that become records at a time.
 const BLOCK: usize = 1 << 16;
 
-/// The figure of all labels.
+/// The figure of all labels, which says how many of them were computed.
 #[must_use]
 pub fn figure<'a>(sheet: Sheet<'a>, refined: &Refined) -> MapFigure<'a> {
     let mut figure = MapFigure::new(sheet);
+    if refined.computed < refined.labels.len() {
+        figure = figure.of_computed(refined.tally.clone());
+    }
     for (block, labels) in refined.labels.chunks(BLOCK).enumerate() {
         let records: Vec<Record> = labels.iter().map(|label| Record::from(*label)).collect();
         figure.add(block * BLOCK, &records);
@@ -86,6 +89,7 @@ pub fn document(asked: &Refinement, refined: &Refined, of: &OfParts) -> Result<V
         "instances": instances,
         "computed": refined.computed,
         "share_computed": refined.computed as f64 / instances as f64,
+        "counts": counts(sheet.analysis, &refined.tally),
     });
     let parts = of.parts.iter().map(|(name, sum)| (name.clone(), json!(sum))).collect::<Json>();
     if let (Json::Object(all), Json::Object(asked)) = (&mut document, asked.to_json()) {

@@ -161,7 +161,7 @@ fn analyse(
 
 /// What limits the analysis.
 fn notes(survey: &Survey) -> Vec<String> {
-    let mut notes = Vec::new();
+    let mut notes: Vec<String> = survey.remark.iter().cloned().collect();
     for channel in &survey.constant {
         let column = &survey.names[*channel as usize];
         notes.push(format!("column `{column}` ({}) is constant", channel.words()));

@@ -1,5 +1,7 @@
 //! What is wrong with a file of signals: such a file is named and not analysed.
 
+use super::survey::RATES;
+
 /// Why signals are not analysed: which column, where, and what to do.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -148,7 +150,7 @@ pub enum Fault {
     },
     /// A rate that is not that of the column of time.
     #[error(
-        "--rate is {given} Hz but column `{column}` holds {found:.6} samples per second; leave out --rate, or give the column another name in the header if it is no time in seconds"
+        "--rate is {given} Hz but column `{column}` holds {found:.6} samples per second{because}; leave out --rate, say the unit of the column with --time-unit, or give it another name in the header if it is no time"
     )]
     Contradicted {
         /// The rate given, Hz.
@@ -157,6 +159,22 @@ pub enum Fault {
         column: String,
         /// The rate by it, Hz.
         found: f64,
+        /// The unit of time that would make both one, with a leading semicolon, or nothing.
+        because: String,
+    },
+    /// A column of time without a unit that has a rate of no sensor.
+    #[error(
+        "column `{column}` holds {rate} samples per second if it is in seconds, but sensors of vibrations have {} to {}; say its unit with {units}, or with --time-unit s if they are so many, or give the rate with --rate",
+        RATES[0],
+        RATES[1]
+    )]
+    DoubtfulTime {
+        /// The column of time.
+        column: String,
+        /// The rate in seconds, Hz.
+        rate: f64,
+        /// Options that say a unit with which the rate is usual.
+        units: String,
     },
     /// A delay between channels that no recorder has.
     #[error(

@@ -2,7 +2,7 @@
 //!
 //! | stage | file |
 //! |---|---|
-//! | columns, CSV → rows | `channel.rs`, `settings.rs`, `read.rs` |
+//! | columns, units of time, CSV → rows | `channel.rs`, `unit.rs`, `settings.rs`, `read.rs` |
 //! | is the file fit for analysis: gaps, outliers, clipping, swapped columns | `survey.rs`, `pace.rs`, `range.rs`, `outlier.rs`, `fault.rs` |
 //! | windows: frequency, growth, cross-spectra | `window.rs`, `cross.rs`, `spectrum.rs` |
 //! | episodes of growth; one mode fitted to the samples of each | `runs.rs`, `episode.rs`, `spans.rs`, `sharpen.rs`, `mode.rs`, `shape.rs`, `course.rs` |
@@ -44,6 +44,7 @@ mod spectrogram;
 mod spectrum;
 mod still;
 mod survey;
+mod unit;
 mod verdict;
 mod window;
 
@@ -59,6 +60,7 @@ pub use points::{FrictionColumn, read_points};
 pub use reading::Reading;
 pub use settings::{DAMPING_RATIO, INCLINATION, LARGEST_FRICTION, OVERLAP, Settings, WINDOW};
 pub use spectrogram::Spectrogram;
-pub use survey::{LEAST_PER_PERIOD, LEAST_SAMPLES};
+pub use survey::{LEAST_PER_PERIOD, LEAST_SAMPLES, RATES};
+pub use unit::TimeUnit;
 pub use verdict::{CONFIDENT, Kind, Verdict};
 pub use window::Window;

@@ -9,6 +9,10 @@ use super::settings::Settings;
 use crate::error::{Error, Result};
 use crate::fit::Point;
 
+/// The options that say where the friction coefficient comes from.
+const FORCE_OR_FRICTION: &str =
+    "--tangential-force, or the column of the friction coefficient with --friction";
+
 /// Where the friction coefficient comes from.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FrictionColumn {
@@ -53,7 +57,13 @@ fn points(
         }
         FrictionColumn::Forces => needed.extend([Channel::TangentialForce, Channel::NormalForce]),
     }
-    let mut table = Table::open_with(input, &settings, &needed, false)?;
+    let mut table = Table::open_with(input, &settings, &needed, false).map_err(|fault| match fault {
+        // A table of friction coefficients has no forces at all.
+        Fault::NoColumn { words, name, header, flag } if flag == Channel::TangentialForce.flag() => {
+            Fault::NoColumn { words, name, header, flag: FORCE_OR_FRICTION }
+        }
+        fault => fault,
+    })?;
     let mut points = Vec::new();
     while let Some(Row { line, values, .. }) = table.next()? {
         let value = |channel: Channel| values[channel as usize];

@@ -9,6 +9,7 @@ use csv::ByteRecord;
 use super::channel::{Channel, PerChannel};
 use super::fault::Fault;
 use super::settings::Settings;
+use super::unit::{TimeUnit, is_time, named};
 use crate::quote::{clipped, quoted};
 
 /// Bytes read at a time.
@@ -36,6 +37,8 @@ pub(super) struct Table {
     record: ByteRecord,
     header: Vec<String>,
     time: Option<usize>,
+    /// The unit of time that was said outright, and that of the header.
+    units: [Option<TimeUnit>; 2],
     /// Whether the column of time gives the rate; else it may contradict the one given.
     believed: bool,
     /// Whether a comma is what separates the fields.
@@ -97,7 +100,10 @@ impl Table {
             *column = found;
         }
         shared(&header, &columns)?;
-        let time = find(&header, settings.time.as_deref().unwrap_or(TIME));
+        let time = match &settings.time {
+            Some(name) => find(&header, name),
+            None => find(&header, TIME).or_else(|| header.iter().position(|name| is_time(name))),
+        };
         if timed && time.is_none() && (settings.rate.is_none() || settings.time.is_some()) {
             return Err(Fault::NoColumn {
                 words: "time",
@@ -111,10 +117,11 @@ impl Table {
         if let Some(found) = time.filter(|_| believed) {
             once(&header, &header[found], "time", "--time")?;
         }
+        let units = [settings.time_unit, time.and_then(|found| named(&header[found]).1)];
         let by_commas = separator == b',';
         let (record, marks) = (ByteRecord::new(), Marks::default());
         since.set(0);
-        Ok(Table { reader, since, record, header, time, believed, by_commas, marks, columns })
+        Ok(Table { reader, since, record, header, time, units, believed, by_commas, marks, columns })
     }
 
     /// The next row; `None` at the end of the file.
@@ -144,7 +151,8 @@ impl Table {
                 *value = self.number(column, line)?;
             }
         }
-        let time = self.time.map(|column| self.number(column, line));
+        let unit = self.time_unit().unwrap_or(TimeUnit::Second).seconds();
+        let time = self.time.map(|column| self.number(column, line).map(|time| time * unit));
         // Beside a given rate any text may stand for the time.
         let time = if self.believed { time.transpose()? } else { time.and_then(Result::ok) };
         Ok(Some(Row { line, time, values }))
@@ -178,6 +186,23 @@ impl Table {
     /// The column of a channel, empty when the file has none.
     pub(super) fn name(&self, channel: Channel) -> String {
         self.columns[channel as usize].map(|column| quoted(&self.header[column])).unwrap_or_default()
+    }
+
+    /// The unit of the column of time, where it is known.
+    pub(super) fn time_unit(&self) -> Option<TimeUnit> {
+        self.units[0].or(self.units[1])
+    }
+
+    /// What is to be said of the unit of time: that it is no second, or not the one of the header.
+    pub(super) fn remark_on_unit(&self) -> Option<String> {
+        let (name, unit) = (self.time.map(|_| self.time_name())?, self.time_unit()?);
+        match self.units {
+            [Some(said), Some(header)] if said != header => Some(format!(
+                "column `{name}` is read as --time-unit {} says, not as its header does",
+                said.name()
+            )),
+            _ => (unit != TimeUnit::Second).then(|| format!("column `{name}` is read in {}", unit.name())),
+        }
     }
 
     /// The column of time.

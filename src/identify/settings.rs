@@ -1,6 +1,7 @@
 //! What a user may choose.
 
 use super::channel::{Channel, PerChannel};
+use super::unit::TimeUnit;
 
 /// Window of the spectrogram, s: that of the source paper.
 pub const WINDOW: f64 = 0.01;
@@ -24,8 +25,10 @@ pub const LARGEST_FRICTION: f64 = 1.0;
 /// The choices of an analysis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
-    /// The column of time (s); `None`: `t` where the file has it, unless a rate is given.
+    /// The column of time; `None`: `t` or `time`, with a unit or without, where the file has it.
     pub time: Option<String>,
+    /// Its unit; `None`: that of its header, or else seconds, which are asked about where no sensor is so slow or fast.
+    pub time_unit: Option<TimeUnit>,
     /// Samples per second (Hz); where the file has a column of time, that must not contradict it.
     pub rate: Option<f64>,
     /// The columns in the order of [`Channel::ALL`]; `None`: the default name, if the file has it.
@@ -52,6 +55,7 @@ impl Default for Settings {
     fn default() -> Settings {
         Settings {
             time: None,
+            time_unit: None,
             rate: None,
             columns: PerChannel::default(),
             skew: 0.0,

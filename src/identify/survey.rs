@@ -9,12 +9,17 @@ use super::read::Table;
 use super::settings::Settings;
 use super::spectrum::{Spectra, hann, noise_floor, refine};
 use super::still::{Stand, Stillness};
+use super::unit::TimeUnit;
 use super::window::Geometry;
+use crate::quote::rounded;
 
 /// Fewest samples of a record: below this there is no spectrum to speak of.
 pub const LEAST_SAMPLES: u64 = 64;
 /// Samples per period below which phases of noisy signals mean nothing (2 is the limit of sampling).
 pub const LEAST_PER_PERIOD: f64 = 2.5;
+/// The slowest and the fastest rate of sensors of vibrations, Hz. What a column of time without a unit says beyond them is asked
+/// about: squeal at 51.2 kHz with its time in milliseconds would be 51.2 Hz.
+pub const RATES: [f64; 2] = [1e3, 1e6];
 /// Samples of a segment of the mean spectrum: 0.3 s at 200 kHz.
 const SEGMENT: usize = 1 << 16;
 /// Bins that slow drift of the whole record reaches.
@@ -45,6 +50,8 @@ pub(super) struct Survey {
     pub(super) frequency: Option<f64>,
     /// The strongest oscillation of all frequencies, Hz, where a band is given that does not hold it.
     pub(super) outside: Option<f64>,
+    /// What is to be said of the unit of time.
+    pub(super) remark: Option<String>,
     /// Velocity and temperature that stand still.
     pub(super) constant: Vec<Channel>,
     /// Vibrating channels that stand still for a while.
@@ -105,10 +112,19 @@ pub(super) fn survey(mut table: Table, settings: &Settings) -> Result<Survey, Fa
     if !(rate.is_finite() && rate > 0.0) {
         return Err(Fault::NoRate { rate });
     }
+    if settings.rate.is_none() && table.time_unit().is_none() && !is_usual(rate) {
+        return Err(doubtful(table.time_name(), rate));
+    }
     if let Some((given, [first, last])) = settings.rate.zip(times) {
         let found = (samples - 1) as f64 / (last - first);
-        if found.is_finite() && found > 0.0 && (found / given - 1.0).abs() > SAME_RATE {
-            return Err(Fault::Contradicted { given, column: table.time_name(), found });
+        if found.is_finite() && found > 0.0 && !is_same(found, given) {
+            let unit = TimeUnit::ALL.into_iter().find(|unit| is_same(found / unit.seconds(), given));
+            return Err(Fault::Contradicted {
+                given,
+                column: table.time_name(),
+                found,
+                because: in_unit(unit),
+            });
         }
     }
     let names = Channel::ALL.map(|channel| table.name(channel));
@@ -141,7 +157,32 @@ pub(super) fn survey(mut table: Table, settings: &Settings) -> Result<Survey, Fa
     let least = frequency.map_or(f64::INFINITY, |frequency| STILL * rate / frequency);
     let still = Channel::ALL.into_iter().zip(stills).filter(|(channel, _)| channel.vibrates());
     let still = still.filter_map(|(channel, still)| Some((channel, still.finish(least)?))).collect();
-    Ok(Survey { samples, start, rate, names, has, frequency, outside, constant, still })
+    let remark = table.remark_on_unit();
+    Ok(Survey { samples, start, rate, names, has, frequency, outside, remark, constant, still })
+}
+
+/// Whether sensors of vibrations are sampled at this rate (Hz), or nearly.
+fn is_usual(rate: f64) -> bool {
+    (RATES[0] * (1.0 - SAME_RATE)..=RATES[1] * (1.0 + SAME_RATE)).contains(&rate)
+}
+
+fn is_same(found: f64, given: f64) -> bool {
+    (found / given - 1.0).abs() <= SAME_RATE
+}
+
+/// Asks about a column of time that would have this rate (Hz) in seconds.
+fn doubtful(column: String, rate: f64) -> Fault {
+    let usual = TimeUnit::ALL.into_iter().filter(|unit| is_usual(rate / unit.seconds()));
+    let units: Vec<String> = usual
+        .map(|unit| format!("--time-unit {} ({} Hz)", unit.name(), rounded(rate / unit.seconds())))
+        .collect();
+    let units = if units.is_empty() { "--time-unit".to_owned() } else { units.join(" or ") };
+    Fault::DoubtfulTime { column, rate: rounded(rate), units }
+}
+
+/// That a unit of time makes two rates one, as the end of a sentence.
+fn in_unit(unit: Option<TimeUnit>) -> String {
+    unit.map_or(String::new(), |unit| format!("; in {0} both are one: --time-unit {0}", unit.name()))
 }
 
 /// Refuses delays longer than a period of the oscillation (Hz): over these its amplitude changes, too.

@@ -19,7 +19,7 @@ use rayon::prelude::*;
 use crate::accuracy::draw::spread;
 use crate::error::{Error, Result};
 use crate::grid::Grid;
-use crate::label::Label;
+use crate::label::{Label, Tally};
 use crate::sweep::MOST_IN_MEMORY;
 
 use cell::Cell;
@@ -55,6 +55,8 @@ pub struct Refined {
     pub labels: Vec<Label>,
     /// How many were computed.
     pub computed: usize,
+    /// How many of these have which label.
+    pub tally: Tally,
     /// How many of them were drawn.
     pub sampled: usize,
     /// How many of these had another label than the cell around them.
@@ -98,7 +100,7 @@ pub fn planes_of(grid: &Grid) -> Result<Planes> {
 pub fn refine(grid: &Grid, settings: Settings, compute: &mut Compute) -> Result<Refined> {
     let planes = planes_of(grid)?;
     let instances = grid.len();
-    let mut map = Known { labels: vec![Label::NOT_COMPUTED; instances], computed: 0 };
+    let mut map = Known { labels: vec![Label::NOT_COMPUTED; instances], tally: Tally::default() };
     let mut cells: Vec<Cell> =
         (0..planes.count()).flat_map(|plane| Cell::coarse(&planes, plane, settings.coarse)).collect();
     map.compute(corners(&planes, &cells), compute)?;
@@ -116,14 +118,16 @@ pub fn refine(grid: &Grid, settings: Settings, compute: &mut Compute) -> Result<
     drop(guessed);
     divide(&planes, &mut cells, &mut map, compute)?;
     let labels = filled(&planes, &cells, &map);
-    Ok(Refined { planes, labels, computed: map.computed, sampled: drawn.len(), missed })
+    let tally = map.tally;
+    Ok(Refined { planes, labels, computed: tally.total(), tally, sampled: drawn.len(), missed })
 }
 
 /// Labels of computed instances.
 struct Known {
     /// Those of all instances; [`Label::NOT_COMPUTED`] for the others.
     labels: Vec<Label>,
-    computed: usize,
+    /// The computed ones, counted.
+    tally: Tally,
 }
 
 impl Known {
@@ -139,10 +143,11 @@ impl Known {
         if wanted.is_empty() {
             return Ok(());
         }
-        for (index, label) in wanted.iter().zip(compute(&wanted)?) {
+        let labels = compute(&wanted)?;
+        self.tally.add_labels(&labels);
+        for (index, label) in wanted.iter().zip(labels) {
             self.labels[*index] = label;
         }
-        self.computed += wanted.len();
         Ok(())
     }
 }

@@ -105,7 +105,7 @@ fn a_sweep_reads_the_material() {
     let read = read_points(input, "points.csv", &Settings::default(), &friction, None).unwrap();
     let found = fit(&read, LawKind::Bilinear, &PAD.map(|row| row[0]), None).unwrap();
     let directory = tempfile::tempdir().unwrap();
-    std::fs::write(directory.path().join("material.csv"), material_csv(&found, "points.csv")).unwrap();
+    std::fs::write(directory.path().join("material.csv"), material_csv(&found, &read, "points.csv")).unwrap();
     let sweep = "[friction]\nlaw = \"bilinear\"\nmaterial = \"material.csv\"\n[axes]\n\
                  temperature = { values = [200.0, 400.0] }\nbelt_velocity = { values = [3.0] }\n";
     let spec = Spec::parse(sweep, "sweep.toml", directory.path()).unwrap();
