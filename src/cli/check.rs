@@ -13,6 +13,7 @@ use squealmap::store::cut::tile_of;
 use squealmap::store::space::{MOST_ROWS, Need, bytes};
 use squealmap::store::tiling::Tiling;
 
+use crate::cli::onset::onset;
 use crate::cli::print;
 use crate::cli::progress::seconds;
 
@@ -38,6 +39,9 @@ impl Check {
         print(&text);
         print(&disk(&spec));
         print(&cost(&spec));
+        if let Some(onset) = onset(&spec) {
+            print(&format!("grows     {onset}\n"));
+        }
         Ok(())
     }
 }

@@ -22,6 +22,7 @@ use squealmap::store::space;
 use squealmap::{Error, Result};
 
 use crate::cli::engine::EngineArgs;
+use crate::cli::onset::onset_of;
 use crate::cli::output::{Output, cannot, cannot_table, claim, list};
 use crate::cli::progress::Progress;
 use crate::cli::refined::{Checked, Ended, FILES};
@@ -140,7 +141,8 @@ pub(crate) fn follow(
     let (used, table_sum) = work.end()?;
     let ended = Ended { spec, asked, refined: &refined, parts: used, table, table_sum };
     let (paths, tally) = ended.write(directory)?;
-    print(&report(&refined, fresh, &summary(spec.analysis, &tally)));
+    let counts = summary(spec.analysis, &tally) + &onset_of(spec, &tally);
+    print(&report(&refined, fresh, &counts));
     print(&list(&paths));
     if parts.strangers()? > 0 {
         note("parts of other sweeps, programs or engines stand in `parts` too; they may be removed");

@@ -29,13 +29,14 @@ pub(super) const LIMIT: [&str; 2] = [
 ];
 
 /// One hatching per class after the first, in a square of 4 points; they differ in direction and density.
-const HATCHES: [&str; 6] = [
+const HATCHES: [&str; 7] = [
     "M-1 1L1 -1M0 4L4 0M3 5L5 3",
     "M-1 3L1 5M0 0L4 4M3 -1L5 1",
     "M0 2H4",
     "M2 0V4",
     "M0 2H4M2 0V4",
     "M0 0L4 4M4 0L0 4",
+    "M0 1H2M2 3H4",
 ];
 
 /// Hatchings, defined once per figure.

@@ -57,6 +57,7 @@ mod modes_figure;
 mod netcdf_file;
 mod no_driver;
 mod no_threads;
+mod not_yet_grown;
 mod observables;
 mod page;
 mod paper;
