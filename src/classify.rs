@@ -26,7 +26,12 @@ pub enum InstabilityType {
 const _: () = {
     let mut place = 0;
     while place < InstabilityType::ALL.len() {
-        assert!(InstabilityType::ALL[place] as usize == place && Regime::ALL[place] as usize == place);
+        assert!(InstabilityType::ALL[place] as usize == place);
+        place += 1;
+    }
+    let mut place = 0;
+    while place < Regime::ALL.len() {
+        assert!(Regime::ALL[place] as usize == place);
         place += 1;
     }
 };
@@ -56,6 +61,18 @@ impl InstabilityType {
             InstabilityType::Interaction => "interaction",
         }
     }
+
+    /// Whether there is a sliding equilibrium and a small motion about it grows.
+    #[must_use]
+    pub fn is_unstable(self) -> bool {
+        match self {
+            InstabilityType::NegativeSlope
+            | InstabilityType::ModeCoupling
+            | InstabilityType::Coexistence
+            | InstabilityType::Interaction => true,
+            InstabilityType::Stable | InstabilityType::Sticking | InstabilityType::Divergence => false,
+        }
+    }
 }
 
 /// What the system does in the measuring window.
@@ -76,11 +93,13 @@ pub enum Regime {
     DetachingStickSlip,
     /// Stick throughout.
     Stuck,
+    /// Still about an unstable equilibrium, without an event or small: what it grows into has not been seen.
+    NotYetGrown,
 }
 
 impl Regime {
     /// Every regime, in the order of legends and summaries.
-    pub const ALL: [Regime; 7] = [
+    pub const ALL: [Regime; 8] = [
         Regime::Equilibrium,
         Regime::Slip,
         Regime::StickSlip,
@@ -88,6 +107,7 @@ impl Regime {
         Regime::Detaching,
         Regime::DetachingStickSlip,
         Regime::Stuck,
+        Regime::NotYetGrown,
     ];
 
     /// The name in `map.csv`.
@@ -101,6 +121,7 @@ impl Regime {
             Regime::Detaching => "detaching",
             Regime::DetachingStickSlip => "detaching_stick_slip",
             Regime::Stuck => "stuck",
+            Regime::NotYetGrown => "not_yet_grown",
         }
     }
 }
@@ -127,6 +148,9 @@ pub struct Thresholds {
     /// Two oscillations from two starts are two cycles: standard deviation of `x2` or rms of `ÿ1` apart by more than this
     /// fraction of the larger. Well above what settled halves may differ by, and below the steps between branches.
     pub apart: f64,
+    /// A motion about an unstable equilibrium that does not grow any more has had the time to grow by this factor: then
+    /// its unstable mode is more than a part too small to be seen.
+    pub outgrown: f64,
 }
 
 /// The thresholds in use.
@@ -137,6 +161,7 @@ pub const THRESHOLDS: Thresholds = Thresholds {
     small_growth: 1.01,
     settled: 0.01,
     apart: 0.05,
+    outgrown: 1000.0,
 };
 
 /// The regime of a completed outcome at the belt velocity `belt_velocity` (m/s), and whether it is settled.
@@ -168,8 +193,46 @@ pub fn regime(outcome: &Outcome, belt_velocity: f64, stable: bool) -> (Regime, b
     } else {
         Regime::Slip
     };
-    let agree = |[a, b]: [f64; 2]| (a - b).abs() <= limits.settled * a.max(b);
-    let settled =
-        regime == Regime::Equilibrium || (agree(outcome.x2_std_halves) && agree(outcome.ay_rms_halves));
-    (regime, settled)
+    (regime, regime == Regime::Equilibrium || halves_agree(outcome))
+}
+
+/// Whether the halves of the window agree in the standard deviation of `x2` and the rms of `ÿ1`.
+fn halves_agree(outcome: &Outcome) -> bool {
+    let agree = |[a, b]: [f64; 2]| (a - b).abs() <= THRESHOLDS.settled * a.max(b);
+    agree(outcome.x2_std_halves) && agree(outcome.ay_rms_halves)
+}
+
+/// The regime of a completed outcome about an unstable equilibrium of this growth rate (1/s), of which [`regime`] makes
+/// `found`. Where it has met no event, and where it is small, it grows: it is an oscillation of its own only when it stays
+/// as large as it is although its growth rate would have it grow.
+#[must_use]
+pub fn about_unstable(
+    outcome: &Outcome,
+    belt_velocity: f64,
+    growth_rate: f64,
+    found: (Regime, bool),
+) -> (Regime, bool) {
+    match found.0 {
+        Regime::Slip if outcome.met_event => found,
+        Regime::Slip | Regime::Equilibrium if has_stopped_growing(outcome, belt_velocity, growth_rate) => {
+            (Regime::Slip, found.1)
+        }
+        Regime::Slip | Regime::Equilibrium => (Regime::NotYetGrown, false),
+        _ => found,
+    }
+}
+
+/// Whether a motion about an unstable equilibrium has come to an amplitude that it keeps: the halves of the window agree
+/// where its growth rate (1/s) would have set them apart, after a time in which its unstable mode has outgrown all others.
+/// A small motion without any event is linear: nothing stops its growth.
+#[must_use]
+pub fn has_stopped_growing(outcome: &Outcome, belt_velocity: f64, growth_rate: f64) -> bool {
+    let limits = THRESHOLDS;
+    let [_, speed] = outcome.speed_rms_halves;
+    let linear = speed < limits.small_speed * belt_velocity && !outcome.met_event;
+    speed > 0.0
+        && !linear
+        && halves_agree(outcome)
+        && (0.5 * growth_rate * outcome.window).exp_m1() > limits.apart
+        && growth_rate * outcome.simulated_time > limits.outgrown.ln()
 }

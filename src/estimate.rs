@@ -102,7 +102,7 @@ fn reached(outcome: &Outcome, instance: &Instance, plan: &Plan) -> f64 {
 
 /// An instance of part `part` of `parts` equal parts of the grid; where in the part follows the golden
 /// ratio, so that no axis is always met at the same value.
-fn sample(part: usize, parts: usize, instances: usize) -> usize {
+pub(crate) fn sample(part: usize, parts: usize, instances: usize) -> usize {
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
     let position = (part as f64 + (part as f64 * GOLDEN).fract()) / parts as f64;
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a fraction of a usize")]

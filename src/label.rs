@@ -149,11 +149,9 @@ impl Tally {
         }
     }
 
-    /// Counts some labels.
-    pub fn add_labels(&mut self, labels: &[Label]) {
-        for label in labels {
-            *self.counts.entry(*label).or_default() += 1;
-        }
+    /// Counts one label.
+    pub fn add_label(&mut self, label: Label) {
+        *self.counts.entry(label).or_default() += 1;
     }
 
     /// Counts instances that were not computed.

@@ -73,6 +73,7 @@ pub mod map;
 pub mod method;
 pub mod model;
 pub mod observe;
+pub mod onset;
 pub mod outcome;
 pub mod paper;
 pub mod place;

@@ -129,13 +129,28 @@ pub fn leading_mode(instance: &Instance) -> Option<(Complex64, Complex64)> {
     let equilibrium = sliding(instance)?;
     let slope_damping = equilibrium.slope * equilibrium.normal_force;
     if system.s == 0.0 {
-        let (mass, damping) = (system.m1 + system.m2, system.c1 + slope_damping);
-        let half = Complex64::new(-0.5 * damping / mass, 0.0);
-        let lambda = half + (half * half - system.k1 / mass).sqrt();
-        return Some((lambda, Complex64::ZERO));
+        return Some((single_mass(instance)?[0], Complex64::ZERO));
     }
     let lambda = rightmost(&quartic::roots(system.polynomial(equilibrium.mu, slope_damping)));
     Some((lambda, mode_ratio(system.normal(), system.s, lambda)))
+}
+
+/// The two eigenvalues (1/s) of the tangential motion alone, at θ = 0; the one of larger imaginary part first.
+#[must_use]
+pub fn single_mass(instance: &Instance) -> Option<[Complex64; 2]> {
+    let system = Sliding::new(instance);
+    let equilibrium = sliding(instance)?;
+    let (mass, damping) = (system.m1 + system.m2, system.c1 + equilibrium.slope * equilibrium.normal_force);
+    let half = Complex64::new(-0.5 * damping / mass, 0.0);
+    let root = (half * half - system.k1 / mass).sqrt();
+    Some([half + root, half - root])
+}
+
+/// The four eigenvalues (1/s), each with the `y1/x2` of its mode; of use where θ is not 0.
+#[must_use]
+pub fn modes(instance: &Instance) -> Option<[(Complex64, Complex64); 4]> {
+    let system = Sliding::new(instance);
+    Some(eigenvalues(instance)?.map(|lambda| (lambda, mode_ratio(system.normal(), system.s, lambda))))
 }
 
 /// The three characteristic polynomials of one sliding equilibrium (powers 0 to 4) and what the mode ratio needs.

@@ -305,6 +305,12 @@ impl Growth {
         Growth { closed: true, time, sum, product }
     }
 
+    /// Whether an event has come.
+    #[must_use]
+    pub fn met_event(&self) -> bool {
+        self.closed
+    }
+
     /// Covariance of two samples.
     fn covariance(&self, i: usize, j: usize) -> f64 {
         self.product[i][j] / self.time - self.sum[i] / self.time * (self.sum[j] / self.time)

@@ -140,6 +140,11 @@ pub struct Outcome {
     pub x2_std_halves: [f64; 2],
     /// Rms of `ÿ1` in the two halves, m/s².
     pub ay_rms_halves: [f64; 2],
+    /// Length of the measuring window, s.
+    pub window: f64,
+    /// Whether the run met an event, from its start to its end: rest on the belt, a kink of the friction law, the end of
+    /// stick, lift-off, an impact.
+    pub met_event: bool,
     /// How a run until settled ended.
     pub ending: Option<Ending>,
     /// The start of its last window, s: what came before was needed to settle.

@@ -111,6 +111,17 @@ impl Ramp {
     }
 }
 
+/// The velocity of the belt of an instance at the time `time` (s), m/s.
+#[must_use]
+pub fn belt_velocity(params: &Params, time: f64) -> f64 {
+    let start = params.require(Param::BeltVelocity);
+    match (params.get(Param::BeltVelocityEnd), params.get(Param::RampDuration)) {
+        (Some(end), Some(duration)) if time < duration => start + (end - start) * (time / duration),
+        (Some(end), Some(_)) => end,
+        _ => start,
+    }
+}
+
 /// An instance ready to be integrated.
 #[derive(Clone, Debug)]
 pub struct Scene {
@@ -378,13 +389,15 @@ fn report_window(outcome: &mut Outcome, scene: &Scene, window: &Window) {
     outcome.stick = Some(all.stick / all.time);
     outcome.free = Some(all.free / all.time);
     outcome.reverse = Some(all.reverse / all.time);
-    outcome.impacts_per_second = Some(window.impacts as f64 / (all.time * units.time));
+    outcome.window = all.time * units.time;
+    outcome.impacts_per_second = Some(window.impacts as f64 / outcome.window);
     outcome.speed_rms_halves = window.halves.map(|half| rms(half.speed, half.time) * units.velocity);
     outcome.x2_std_halves = window.halves.map(|half| half.x_std() * units.length);
     outcome.ay_rms_halves = window.halves.map(|half| rms(half.ay, half.time) * units.acceleration);
 }
 
 fn report_growth(outcome: &mut Outcome, scene: &Scene, growth: &Growth) {
+    outcome.met_event = growth.met_event();
     if let Some(fit) = growth.result() {
         outcome.growth_rate_measured = Some(fit.growth_rate / scene.units.time);
         outcome.frequency_measured = Some(fit.angular_frequency / TAU / scene.units.time);

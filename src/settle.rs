@@ -56,6 +56,8 @@ pub struct Settling {
     half: f64,
     belt_velocity: f64,
     stable: bool,
+    /// The growth rate (1/s) of an unstable equilibrium.
+    growth_rate: Option<f64>,
     /// How long a linear motion may grow before it decays; `None` when it does not.
     wait: Option<f64>,
     piecewise_linear: bool,
@@ -74,13 +76,16 @@ impl Settling {
         let modes: Vec<Complex64> =
             linear::eigenvalues(instance).into_iter().flatten().map(|z| z * time).collect();
         let beat = beat(&modes);
+        let (kind, linear) = linear::analyse(instance);
+        let unstable = kind.is_some_and(InstabilityType::is_unstable);
         Some(Settling {
             limit,
             half: beat.clamp(asked, LONGEST_HALF * asked),
             wait: time_constant(&modes).map(|time| beat.min(TIME_CONSTANTS * time)),
             reached: [scene.scaled(plan.settle), 0.0],
             belt_velocity: instance.params.require(Param::BeltVelocity),
-            stable: linear::analyse(instance).0 == Some(InstabilityType::Stable),
+            stable: kind == Some(InstabilityType::Stable),
+            growth_rate: linear.map(|linear| linear.growth_rate).filter(|_| unstable),
             piecewise_linear: !matches!(instance.law.kind(), LawKind::Exponential | LawKind::Rational),
             before: None,
         })
@@ -113,11 +118,14 @@ impl Settling {
         if linear && decays.is_some_and(|wait| quiet >= wait) {
             return Some(Ending::Decays);
         }
-        // What has met no event yet grows or decays as its eigenvalues say, however slowly.
-        let moves = if events || !self.piecewise_linear {
-            regime != Regime::Equilibrium && (events || self.stable)
-        } else {
-            self.stable && decays.is_none()
+        // What has met no event yet grows or decays as its eigenvalues say, however slowly, unless it is seen to have
+        // stopped growing.
+        let moves = match self.growth_rate {
+            Some(rate) if !events || regime == Regime::Equilibrium => {
+                classify::has_stopped_growing(outcome, self.belt_velocity, rate)
+            }
+            _ if events || !self.piecewise_linear => regime != Regime::Equilibrium && (events || self.stable),
+            _ => self.stable && decays.is_none(),
         };
         if let Some(before) = before
             && moves

@@ -36,7 +36,7 @@ pub(crate) fn mode(instance: &Instance, units: &Units, model: &Scaled) -> State 
 
 /// The amplitude of `ẋ2` at which a motion on a mode, its growth within a period aside, first meets an event:
 /// the belt velocity, a kink of the friction law, or the normal force of the equilibrium.
-fn first_event(model: &Scaled, belt: f64, lambda: Complex64, ratio: Complex64) -> f64 {
+pub(crate) fn first_event(model: &Scaled, belt: f64, lambda: Complex64, ratio: Complex64) -> f64 {
     // Of the mode with a velocity of 1: x2 = 1/λ, y1 = r/λ, ẍ2 = λ.
     let (x, y, v, w) = (1.0 / lambda, ratio / lambda, Complex64::ONE, ratio);
     let normal_spring = model.k2 * (x * model.s - y) + model.c2 * (v * model.s - w);

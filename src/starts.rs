@@ -61,6 +61,7 @@ impl Attractor {
         match record.regime? {
             Regime::Equilibrium => (kind == Some(InstabilityType::Stable)).then_some(Attractor::Equilibrium),
             Regime::Stuck => Some(Attractor::Stuck),
+            Regime::NotYetGrown => None,
             _ => Some(Attractor::Oscillation),
         }
     }

@@ -63,7 +63,8 @@ pub fn is_settled_oscillation(record: &Record) -> bool {
 /// Whether the record is that of an oscillation.
 #[must_use]
 pub fn oscillates(record: &Record) -> bool {
-    record.regime.is_some_and(|regime| !matches!(regime, Regime::Equilibrium | Regime::Stuck))
+    let rests = |regime| matches!(regime, Regime::Equilibrium | Regime::Stuck | Regime::NotYetGrown);
+    record.regime.is_some_and(|regime| !rests(regime))
 }
 
 /// How much the halves of a record's own window differ in the deviation of `x2` and the rms of `ÿ1`, the larger

@@ -24,7 +24,7 @@ use crate::map::Record;
 use crate::model::Param;
 use crate::model::equilibrium::Equilibrium;
 use crate::outcome::{Outcome, Status};
-use crate::response::{Plan, Scene};
+use crate::response::{Plan, Scene, belt_velocity};
 use crate::settle::Ending;
 use crate::spec::{Instance, Spec};
 
@@ -32,12 +32,28 @@ use crate::spec::{Instance, Spec};
 #[must_use]
 pub fn regime(instance: &Instance, kind: Option<InstabilityType>, outcome: &Outcome) -> (Regime, bool) {
     let velocity = instance.params.require(Param::BeltVelocity);
+    let at_end = after_ramp(instance, outcome.simulated_time);
+    let kind = at_end.as_ref().map_or(kind, |instance| linear::analyse(instance).0);
     let (regime, settled) = classify::regime(outcome, velocity, kind == Some(InstabilityType::Stable));
-    match outcome.ending {
+    let found = match outcome.ending {
         None => (regime, settled),
         Some(Ending::Decays) => (Regime::Equilibrium, true),
         Some(ending) => (regime, ending == Ending::Settled),
+    };
+    if !kind.is_some_and(InstabilityType::is_unstable) {
+        return found;
     }
+    let (_, linear) = linear::analyse(at_end.as_ref().unwrap_or(instance));
+    linear.map_or(found, |linear| classify::about_unstable(outcome, velocity, linear.growth_rate, found))
+}
+
+/// The instance on the belt as it is at the time `time` (s), where it has a ramp: what a motion then
+/// decays to or grows from is the equilibrium of that velocity.
+fn after_ramp(instance: &Instance, time: f64) -> Option<Instance> {
+    instance.params.get(Param::RampDuration)?;
+    let mut moved = instance.clone();
+    moved.params.set(Param::BeltVelocity, belt_velocity(&instance.params, time));
+    Some(moved)
 }
 
 /// The record of an instance before any analysis: `ok`, or why it has no equilibrium or none in numbers; `prepared` are its

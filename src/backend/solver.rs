@@ -59,6 +59,12 @@ impl<'a> Solver<'a> {
         Ok(Solver { spec, options, on })
     }
 
+    /// The sweep.
+    #[must_use]
+    pub fn spec(&self) -> &Spec {
+        self.spec
+    }
+
     /// Where and how the eigenvalue analysis and the response are computed; `None` where not asked for.
     #[must_use]
     pub fn computations(&self) -> [Option<Computation>; 2] {

@@ -19,6 +19,7 @@ use squealmap::store::space::{MOST_ROWS, Need, bytes};
 use squealmap::store::tiling::Tiling;
 
 use crate::cli::failed::{nothing, told};
+use crate::cli::onset::onset;
 use crate::cli::progress::seconds;
 use crate::cli::{note, print};
 
@@ -52,6 +53,9 @@ impl Check {
         }
         if let Some(why) = doubtful(&estimate) {
             note(&format!("warning: {why}"));
+        }
+        if let Some(onset) = onset(&spec) {
+            print(&format!("grows     {onset}\n"));
         }
         Ok(ExitCode::SUCCESS)
     }

@@ -14,6 +14,7 @@ mod hysteresis;
 mod identify;
 mod merge;
 mod modes;
+mod onset;
 mod output;
 mod paper;
 mod plot;

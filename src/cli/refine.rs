@@ -23,6 +23,7 @@ use squealmap::{Error, Result};
 
 use crate::cli::engine::EngineArgs;
 use crate::cli::failed::judged;
+use crate::cli::onset::onset_of;
 use crate::cli::output::{Output, cannot, cannot_table, claim, list};
 use crate::cli::progress::Progress;
 use crate::cli::refined::{Checked, DOCUMENT, Ended, FILES};
@@ -151,6 +152,7 @@ pub(crate) fn follow(
     let ended = Ended { spec, asked, refined: &refined, parts: used, table, table_sum };
     let (paths, tally) = ended.write(directory)?;
     print(&report(&refined, fresh, spec.analysis, [&computed, &tally]));
+    print(&onset_of(spec, &computed));
     print(&list(&paths));
     if parts.strangers()? > 0 {
         note("parts of other sweeps, programs or engines stand in `parts` too; they may be removed");

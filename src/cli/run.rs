@@ -26,6 +26,7 @@ use squealmap::{Error, Result};
 use crate::cli::accuracy::{AccuracyArgs, say};
 use crate::cli::engine::{BackendName, EngineArgs};
 use crate::cli::failed::judged;
+use crate::cli::onset::onset_of;
 use crate::cli::output::{Output, list};
 use crate::cli::progress::{Progress, seconds};
 use crate::cli::refine::Refining;
@@ -219,7 +220,8 @@ pub(crate) fn run(
             }
             Results::Written { paths, tally, complete } => {
                 store.remove_if_empty();
-                print(&report(&run, store, &tally, &paths));
+                let onset = onset_of(solver.spec(), &tally);
+                print(&report(&run, store, &tally, &onset, &paths));
                 // Complete is what was written, whatever stopped the run in its last moment.
                 return Ok(match &filled.stopped {
                     Some(why) if !complete => ended(why, &tally, "wrote"),
@@ -270,7 +272,7 @@ pub(crate) fn missing(store: &Store, tiles: impl Iterator<Item = usize>) -> Resu
 }
 
 /// What was computed, what came out, and the files.
-fn report(run: &manifest::Run, store: &Store, tally: &Tally, paths: &[PathBuf]) -> String {
+fn report(run: &manifest::Run, store: &Store, tally: &Tally, onset: &str, paths: &[PathBuf]) -> String {
     let total = store.description.tiling.instances;
     let reused = run.reused.as_ref().map_or(0, |(instances, _)| *instances);
     let before = tally.computed().saturating_sub(run.computed + reused);
@@ -280,7 +282,7 @@ fn report(run: &manifest::Run, store: &Store, tally: &Tally, paths: &[PathBuf]) 
     let before = if before > 0 { format!("; {before} were there before") } else { String::new() };
     let reused = if run.reused.is_some() { format!("; {reused} were taken over") } else { String::new() };
     format!(
-        "{}{of} instances in {} on {} thread(s), {rate:.0} instances/s{before}{reused}\n\n{}{}\n{}",
+        "{}{of} instances in {} on {} thread(s), {rate:.0} instances/s{before}{reused}\n\n{}{onset}{}\n{}",
         run.computed,
         seconds(elapsed),
         run.threads,

@@ -11,6 +11,7 @@ use super::panels::{Panel, Panels};
 use super::picture_axis::PictureAxis;
 use super::points;
 use super::quantity::{self, Field};
+use super::sides::Sides;
 use super::svg::{Svg, number};
 use crate::classify::InstabilityType;
 use crate::grid::Grid;
@@ -29,13 +30,14 @@ pub(super) const LIMIT: [&str; 2] = [
 ];
 
 /// One hatching per class after the first, in a square of 4 points; they differ in direction and density.
-const HATCHES: [&str; 6] = [
+const HATCHES: [&str; 7] = [
     "M-1 1L1 -1M0 4L4 0M3 5L5 3",
     "M-1 3L1 5M0 0L4 4M3 -1L5 1",
     "M0 2H4",
     "M2 0V4",
     "M0 2H4M2 0V4",
     "M0 0L4 4M4 0L0 4",
+    "M0 1H2M2 3H4",
 ];
 
 /// Hatchings, defined once per figure.
@@ -170,6 +172,7 @@ fn draw_cells(
     for stroke in LIMIT {
         svg.path(&limit, stroke);
     }
+    Sides::draw(svg, panels, frame);
 }
 
 /// Whether the sliding equilibrium is stable.

@@ -35,7 +35,7 @@ pub const TYPES: [Class; 7] = [
 ];
 
 /// The classes of [`Regime::ALL`](crate::classify::Regime::ALL), in that order.
-pub const REGIMES: [Class; 7] = [
+pub const REGIMES: [Class; 8] = [
     Class { name: "equilibrium", label: "equilibrium", fill: PALE, dark: false },
     Class { name: "slip", label: "slip", fill: "#BDD965", dark: false },
     Class { name: "stick_slip", label: "stick–slip", fill: "#45B89B", dark: false },
@@ -43,6 +43,7 @@ pub const REGIMES: [Class; 7] = [
     Class { name: "detaching", label: "detaching", fill: "#A03785", dark: true },
     Class { name: "detaching_stick_slip", label: "detaching stick–slip", fill: "#6B1237", dark: true },
     Class { name: "stuck", label: "stuck", fill: "#0A0A0A", dark: true },
+    Class { name: "not_yet_grown", label: "not yet grown", fill: "#F8D2FF", dark: false },
 ];
 
 /// Whether several starts end differently.

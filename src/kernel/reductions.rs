@@ -31,6 +31,8 @@ pub struct Reductions {
     pub phase: [[f64; 2]; 2],
     /// Time before the first event, sums of `x v a b` and their products, upper triangle by rows.
     pub growth: [f64; GROWTH],
+    /// Whether there was an event in the whole run.
+    pub met_event: bool,
 }
 
 /// How a run ended.
@@ -85,7 +87,8 @@ impl Reductions {
         outcome.stick = Some(all[10] / all[0]);
         outcome.free = Some(all[11] / all[0]);
         outcome.reverse = Some(all[12] / all[0]);
-        outcome.impacts_per_second = Some(f64::from(self.impacts) / (all[0] * units.time));
+        outcome.window = all[0] * units.time;
+        outcome.impacts_per_second = Some(f64::from(self.impacts) / outcome.window);
         outcome.speed_rms_halves = halves.map(|s| rms(&s, 7) * units.velocity);
         outcome.x2_std_halves = halves.map(|s| std(&s, 1) * units.length);
         outcome.ay_rms_halves = halves.map(|s| rms(&s, 6) * units.acceleration);
@@ -96,6 +99,7 @@ impl Reductions {
             outcome.phase_cycle =
                 (ratio.is_finite() && ratio.norm_sqr() > 0.0).then(|| ratio.arg().to_degrees());
         }
+        outcome.met_event = self.met_event;
         if let Some(fit) = growth_fit(&self.growth) {
             outcome.growth_rate_measured = Some(fit.growth_rate / units.time);
             outcome.frequency_measured = Some(fit.angular_frequency / std::f64::consts::TAU / units.time);

@@ -315,6 +315,7 @@ pub fn reductions<S: Real>(segments: &Segments, lane: &Lane<S>) -> (Reductions, 
         last: moment(&sums.last),
         phase: [lane.phase.x, lane.phase.y].map(|part| part.map(Real::to_f64)),
         growth: sums.growth.map(Real::to_f64),
+        met_event: sums.growth_closed,
     };
     let end = End {
         status: lane.state.status,

@@ -57,6 +57,7 @@ impl Windows {
                 self.add_growth(&seen.growth, lane.sums.growth_closed);
             }
             seen.growth = self.growth;
+            seen.met_event = !self.growing;
         }
         let outcome = seen.outcome(scene, &self.plan, &end);
         let settling = match &mut self.settling {

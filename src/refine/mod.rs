@@ -144,7 +144,7 @@ impl Known {
             return Ok(());
         }
         let labels = compute(&wanted)?;
-        self.tally.add_labels(&labels);
+        labels.iter().for_each(|label| self.tally.add_label(*label));
         for (index, label) in wanted.iter().zip(labels) {
             self.labels[*index] = label;
         }

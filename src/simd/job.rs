@@ -332,6 +332,7 @@ impl<T: Real> Job<T> {
         let (status, time) =
             if status == Status::Unwritten { (Status::Ok, end) } else { (status, self.time) };
         let outcome = self.seen.outcome(&self.scene, plan, &End { status, steps: self.steps, time });
+        let outcome = Outcome { met_event: !self.growing, ..outcome };
         match self.ending {
             Some(ending) => outcome.ended(ending, self.marks[0] * self.scene.units.time),
             None => outcome,

@@ -230,7 +230,8 @@ fn flush<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>, lane: 
             *total += word.get(lane).to_f64();
         }
     }
-    job.growing &= sums.growing.get(lane) > T::ZERO;
+    // The second pass tells nothing new, and does not look for it.
+    job.growing &= all.part == Part::Phase || sums.growing.get(lane) > T::ZERO;
     if all.part == Part::Window && job.in_window() {
         let half = job.half();
         job.quiet &= sums.quiet.get(lane) > T::ZERO;

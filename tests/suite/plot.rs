@@ -296,7 +296,7 @@ fn the_basins_of_a_box_have_a_block_of_their_own() {
 fn the_regime_from_a_large_start_has_a_block_of_its_own() {
     let axes = vec![span(Param::MuS, 0.0, 0.6, 6), span(Param::MuD, 0.0, 0.6, 6)];
     let mut map = map(Grid::Axes(axes), |k, _| {
-        let large = record(Kind::Stable, Regime::ALL[k % 7], k % 3 > 0);
+        let large = record(Kind::Stable, Regime::ALL[k % 8], k % 3 > 0);
         let others = Some(Others::Large(Box::new(Record { kind: None, linear: None, ..large })));
         Record { others, ..record(Kind::Stable, Regime::Slip, true) }
     });

@@ -29,6 +29,7 @@ fn thresholds_are_those_of_the_documentation() {
         small_growth: 1.01,
         settled: 0.01,
         apart: 0.05,
+        outgrown: 1000.0,
     };
     assert_eq!(THRESHOLDS, documented);
 }
