@@ -5,6 +5,7 @@ mod accuracy;
 mod adapters;
 mod check;
 mod engine;
+mod environment;
 mod excerpt;
 mod export;
 mod fit;
@@ -180,6 +181,7 @@ impl Command {
 
 /// Parses, executes, reports an error and gives the exit code.
 pub(crate) fn main() -> ExitCode {
+    environment::look_for_no_display();
     match Cli::parse().execute() {
         Ok(code) => code,
         Err(error) => {

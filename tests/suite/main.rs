@@ -52,6 +52,7 @@ mod layers;
 mod leaves;
 mod limits;
 mod linear;
+mod loader;
 mod methods;
 mod modes_figure;
 mod netcdf_file;
