@@ -4,6 +4,7 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use clap::Args;
+use serde_json::json;
 use squealmap::Result;
 use squealmap::estimate::estimate;
 use squealmap::grid::{Axis, AxisKey, Grid, Value};
@@ -13,8 +14,8 @@ use squealmap::store::cut::tile_of;
 use squealmap::store::space::{MOST_ROWS, Need, bytes};
 use squealmap::store::tiling::Tiling;
 
-use crate::cli::print;
 use crate::cli::progress::seconds;
+use crate::cli::{print, talk};
 
 /// Arguments of `check`.
 #[derive(Debug, Args)]
@@ -36,6 +37,11 @@ impl Check {
             describe(&spec)
         );
         print(&text);
+        talk::tell("valid", true);
+        talk::tell("title", spec.title.clone());
+        talk::tell("instances", spec.grid.len());
+        talk::tell("analysis", json!({ "linear": spec.analysis.linear, "response": spec.analysis.response }));
+        talk::tell("varies", spec.grid.keys().iter().map(|key| key.name()).collect::<Vec<_>>());
         print(&disk(&spec));
         print(&cost(&spec));
         Ok(())
@@ -126,6 +132,7 @@ fn describe_axis(axis: &Axis) -> String {
 fn disk(spec: &Spec) -> String {
     let tiling = Tiling { instances: spec.grid.len(), tile: tile_of(spec) };
     let need = Need::new(tiling, spec.analysis);
+    talk::tell("disk_bytes", json!({ "tiles": need.tiles, "table": need.table }));
     let table = need.table.map_or_else(
         || format!("no map.csv by itself, of more than {MOST_ROWS} rows"),
         |table| format!("{} of map.csv", bytes(table)),
@@ -138,6 +145,10 @@ fn cost(spec: &Spec) -> String {
     let estimate = estimate(spec);
     let threads = rayon::current_num_threads();
     let total = estimate.cpu_time.as_secs_f64();
+    talk::tell(
+        "cost",
+        json!({ "cpu_seconds": total, "threads": threads, "steps": estimate.steps, "sampled": estimate.sampled }),
+    );
     let steps =
         if spec.analysis.response { format!("{:.1e} steps, ", estimate.steps) } else { String::new() };
     let [about, cut_short] = match estimate.cut_short {

@@ -9,6 +9,7 @@ use super::direct::Room;
 pub use super::folder::Note;
 use super::folder::{Folder, SOME, TILE, Tile};
 use super::identity::Id;
+use super::occupant::Occupant;
 use super::tile::{Checksum, FOOTER, Fault, checksum_in, instances_in, sweep_in};
 use crate::disk::{self, Handle, How, door};
 use crate::error::{Error, Result, SAID};
@@ -72,7 +73,9 @@ impl Store {
             Ok(other) => {
                 let (done, total) = (other.done()?, other.description.tiling.count());
                 if total > 1 && done > 0 {
-                    return Err(Error::OtherSweep { path: directory.to_owned(), done, total });
+                    let there =
+                        Occupant::of_run(directory)?.map(|there| there.to_string()).unwrap_or_default();
+                    return Err(Error::OtherSweep { path: directory.to_owned(), there });
                 }
                 for number in 0..total.min(1) {
                     disk::remove_if_there(&other.path(number)).map_err(cannot)?;
@@ -292,6 +295,17 @@ impl Store {
                 return Err(Error::OtherCut { path: self.folder().path(&name) });
             }
             self.folder().expel(&name, "it is no tile of this sweep", note)
+        })
+    }
+
+    /// Removes whole tiles of other sweeps, and what was kept of them.
+    ///
+    /// # Errors
+    /// When the directory cannot be read or written.
+    pub fn remove_strangers(&self) -> Result<()> {
+        let folder = self.folder();
+        self.strangers()?.into_iter().try_for_each(|name| {
+            disk::remove_if_there(&folder.path(&name)).map_err(|why| folder.refused(&why))
         })
     }
 
