@@ -205,7 +205,9 @@ pub enum Error {
         limit: usize,
     },
     /// A row with another number of fields than the header.
-    #[error("{at}: the row has {fields} field(s) but the header has {columns}; give one field per column")]
+    #[error(
+        "{at}: the row has {fields} field(s) but the header has {columns}; give one field per column{because}"
+    )]
     RaggedRow {
         /// Where.
         at: Place,
@@ -213,6 +215,8 @@ pub enum Error {
         fields: usize,
         /// Columns of the header.
         columns: usize,
+        /// What may be the reason, as the end of the sentence.
+        because: &'static str,
     },
     /// A column that has to rise strictly does not.
     #[error("{at}: `{column}` is {value} after {previous} but must rise from row to row; sort the rows")]
@@ -322,20 +326,43 @@ pub enum Error {
     },
     /// A directory with tiles of another sweep.
     #[error(
-        "`{}` holds {done} of {total} tiles{} of another sweep, program version or engine; choose another directory \
-         with -o, or remove `tiles` in it",
-        path.display(),
-        and_kept(*kept)
+        "`{}` holds the results of another sweep, program version or engine: {there}; choose another directory with -o, \
+         or replace them with --force",
+        path.display()
     )]
     OtherSweep {
         /// The directory.
         path: PathBuf,
-        /// Its tiles.
-        done: usize,
-        /// All tiles of that sweep.
-        total: usize,
-        /// Instances of tiles that were stopped on their way.
-        kept: usize,
+        /// What is there.
+        there: String,
+    },
+    /// A file that `init` would write, and does not.
+    #[error("`{}` is there already; name another one with -o", path.display())]
+    FileThere {
+        /// The file.
+        path: PathBuf,
+    },
+    /// No instance of a sweep has this number.
+    #[error("--instance {number}: the sweep has {instances} instances, numbered from 0 to {}", instances - 1)]
+    NoInstance {
+        /// What was asked for.
+        number: usize,
+        /// How many there are, at least one.
+        instances: usize,
+    },
+    /// A directory with what was made from another input file.
+    #[error(
+        "`{}` holds `{name}` made from `{}`; choose another directory with -o, or replace it with --force",
+        path.display(),
+        from.display()
+    )]
+    OtherInput {
+        /// The directory.
+        path: PathBuf,
+        /// The file that would be replaced.
+        name: &'static str,
+        /// The other input file.
+        from: PathBuf,
     },
     /// A directory that cannot be put right by this program.
     #[error(
@@ -847,12 +874,12 @@ pub enum Error {
         option: &'static str,
     },
     /// A quantity that a map does not have.
-    #[error("the map has no quantity `{name}`; it has {names}; choose one with --quantity")]
+    #[error("the map has no quantity `{name}`; {advice}")]
     NoSuchQuantity {
         /// What was asked for.
         name: String,
-        /// What there is.
-        names: String,
+        /// The nearest name, or all of them.
+        advice: String,
     },
     /// A PDF that cannot be made.
     #[error("the figure could not be written as PDF: {why}")]
@@ -1013,6 +1040,9 @@ impl Error {
             | Error::BadFrontier { .. }
             | Error::PartialAsWhole { .. }
             | Error::OtherSweep { .. }
+            | Error::OtherInput { .. }
+            | Error::FileThere { .. }
+            | Error::NoInstance { .. }
             | Error::OtherVersion { .. }
             | Error::NoRefinement { .. }
             | Error::OtherCut { .. }
@@ -1057,8 +1087,3 @@ impl Error {
 
 /// The crate's result.
 pub type Result<T> = std::result::Result<T, Error>;
-
-/// What stopped runs have kept beside whole tiles, within a sentence.
-fn and_kept(instances: usize) -> String {
-    if instances == 0 { String::new() } else { format!(" and {instances} instances of others") }
-}

@@ -30,18 +30,43 @@ pub fn open(path: &Path) -> Result<File, String> {
 /// # Errors
 /// What is wrong with it, as the end of a sentence.
 pub fn text(path: &Path, most: u64) -> Result<String, String> {
+    String::from_utf8(bytes(path, most)?).map_err(|_| "it is no text in UTF-8; save it as UTF-8".to_owned())
+}
+
+/// The same of a table, which many programs still write in Latin-1.
+///
+/// # Errors
+/// What is wrong with it, as the end of a sentence.
+pub fn table(path: &Path, most: u64) -> Result<String, String> {
+    let bytes = bytes(path, most)?;
+    // Of text in UTF-16, or none at all, every other byte may be 0.
+    if bytes.contains(&0) {
+        return Err("it is no text in UTF-8; save it as CSV in UTF-8".to_owned());
+    }
+    Ok(decoded(bytes))
+}
+
+/// Text in UTF-8, or else in Latin-1, of which every byte is a character.
+#[must_use]
+pub fn decoded(bytes: Vec<u8>) -> String {
+    String::from_utf8(bytes)
+        .unwrap_or_else(|bytes| bytes.as_bytes().iter().map(|byte| char::from(*byte)).collect())
+}
+
+/// The bytes of a file of at most `most` bytes.
+fn bytes(path: &Path, most: u64) -> Result<Vec<u8>, String> {
     let file = open(path)?;
     let size = file.metadata().map_err(|why| why.to_string())?.len();
     if size > most {
         return Err(too_long(&format!("{size} bytes"), most));
     }
-    let mut text = String::with_capacity(usize::try_from(size).unwrap_or(0));
+    let mut bytes = Vec::with_capacity(usize::try_from(size).unwrap_or(0));
     // A file may grow, and those of /proc say nothing of their length.
-    let read = file.take(most + 1).read_to_string(&mut text).map_err(|why| why.to_string())?;
+    let read = file.take(most + 1).read_to_end(&mut bytes).map_err(|why| why.to_string())?;
     if read as u64 > most {
         return Err(too_long("more", most));
     }
-    Ok(text)
+    Ok(bytes)
 }
 
 fn too_long(size: &str, most: u64) -> String {

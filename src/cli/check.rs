@@ -6,6 +6,7 @@ use std::process::ExitCode;
 
 use clap::Args;
 use rayon::prelude::*;
+use serde_json::json;
 use squealmap::Result;
 use squealmap::backend::refused;
 use squealmap::estimate::{Estimate, estimate};
@@ -21,7 +22,7 @@ use squealmap::store::tiling::Tiling;
 use crate::cli::failed::{nothing, told};
 use crate::cli::onset::onset;
 use crate::cli::progress::seconds;
-use crate::cli::{note, print};
+use crate::cli::{note, print, talk};
 
 /// Arguments of `check`.
 #[derive(Debug, Args)]
@@ -43,6 +44,11 @@ impl Check {
             describe(&spec)
         );
         print(&text);
+        talk::tell("valid", true);
+        talk::tell("title", spec.title.clone());
+        talk::tell("instances", spec.grid.len());
+        talk::tell("analysis", json!({ "linear": spec.analysis.linear, "response": spec.analysis.response }));
+        talk::tell("varies", spec.grid.keys().iter().map(|key| key.name()).collect::<Vec<_>>());
         print(&materials(&spec));
         print(&disk(&spec));
         let estimate = estimate(&spec);
@@ -203,6 +209,7 @@ fn describe_axis(axis: &Axis) -> String {
 fn disk(spec: &Spec) -> String {
     let tiling = Tiling { instances: spec.grid.len(), tile: tile_of(spec) };
     let need = Need::new(tiling, spec.analysis);
+    talk::tell("disk_bytes", json!({ "tiles": need.tiles, "table": need.table }));
     let table = need.table.map_or_else(
         || format!("no map.csv by itself, of more than {MOST_ROWS} rows"),
         |table| format!("{} of map.csv", bytes(table)),
@@ -214,6 +221,10 @@ fn disk(spec: &Spec) -> String {
 fn cost(spec: &Spec, estimate: &Estimate) -> String {
     let threads = rayon::current_num_threads();
     let total = estimate.cpu_time.as_secs_f64();
+    talk::tell(
+        "cost",
+        json!({ "cpu_seconds": total, "threads": threads, "steps": estimate.steps, "sampled": estimate.sampled }),
+    );
     let steps =
         if spec.analysis.response { format!("{:.1e} steps, ", estimate.steps) } else { String::new() };
     let [about, cut_short] = match estimate.cut_short {

@@ -76,6 +76,9 @@ impl Export {
         if lacking > 0 && is_same(&path, &whole) {
             return Err(Error::PartialAsWhole { path });
         }
+        if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+            disk::make_all(folder).map_err(|why| cannot(&path, &why))?;
+        }
         let mut tiles = Tiles { store: &store, partial: lacking > 0, last: None };
         match self.format {
             Format::Csv => csv(&mut tiles, &path)?,

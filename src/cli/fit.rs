@@ -10,9 +10,10 @@ use squealmap::model::friction::LawKind;
 use squealmap::quote::rounded;
 use squealmap::{Error, Result};
 
+use crate::cli::home::prepare_beside;
 use crate::cli::identify::{finite, positive};
-use crate::cli::output::{Output, list};
-use crate::cli::{note, print, stem};
+use crate::cli::output::list;
+use crate::cli::{note, print};
 
 /// What is written.
 const FILES: [&str; 2] = ["material.csv", "residuals.csv"];
@@ -60,17 +61,13 @@ pub(crate) struct FitCommand {
     #[arg(long, value_name = "C", allow_negative_numbers = true, value_parser = finite)]
     at_temperature: Option<f64>,
     /// Temperatures of the rows, °C, rising [default: 5 from the lowest to the highest]
-    #[arg(long, value_name = "C,C,...", value_delimiter = ',', allow_negative_numbers = true, value_parser = finite)]
+    #[arg(long, value_name = "C,C,...", value_delimiter = ',', allow_hyphen_values = true, value_parser = finite)]
     temperatures: Vec<f64>,
 }
 
 impl FitCommand {
     pub(crate) fn execute(self) -> Result<()> {
         let name = self.points.display().to_string();
-        let directory = match self.output {
-            Some(directory) => directory,
-            None => PathBuf::from("out").join(stem(&self.points)?),
-        };
         let mut settings = Settings::default();
         settings.columns[Channel::TangentialForce as usize] = self.tangential_force;
         settings.columns[Channel::NormalForce as usize] = self.normal_force;
@@ -91,7 +88,7 @@ impl FitCommand {
         let fitted = fit(&points, law, &rows, self.law_velocity)
             .map_err(|fault| Error::Fit { name: name.clone(), fault })?;
         let text = material_csv(&fitted, &points, &name);
-        let output = Output::prepare(directory, &FILES)?;
+        let output = prepare_beside(&self.points, self.output.as_deref(), &FILES)?;
         let residuals = residuals_csv(&fitted, &points)?;
         let paths = output.write(&[(FILES[0], text.clone().into_bytes()), (FILES[1], residuals)])?;
         let usage = format!("[friction]\nlaw = \"{}\"\nmaterial = \"{}\"\n", law.name(), FILES[0]);

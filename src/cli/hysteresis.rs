@@ -1,6 +1,5 @@
 //! `squealmap trace --sweep-up-down`: a motion followed while a parameter rises and falls.
 
-use std::path::PathBuf;
 use std::process::ExitCode;
 
 use squealmap::export::heading::Heading;
@@ -8,15 +7,16 @@ use squealmap::export::hysteresis as export;
 use squealmap::export::look::Look;
 use squealmap::grid::spaced;
 use squealmap::hysteresis::{Direction, Hysteresis};
-use squealmap::model::{Param, Section};
+use squealmap::model::{PARAMS, Param, Section};
 use squealmap::outcome::Status;
 use squealmap::response::Plan;
 use squealmap::spec::Spec;
+use squealmap::spec::names::advice;
 use squealmap::{Error, Result};
 
 use crate::cli::failed::told;
-use crate::cli::output::{Output, list};
-use crate::cli::{note, png_of, print};
+use crate::cli::output::list;
+use crate::cli::{Files, note, png_of, print};
 
 /// What is written.
 const FILES: [&str; 4] = ["hysteresis.csv", "hysteresis.json", "hysteresis.png", "hysteresis.svg"];
@@ -36,7 +36,9 @@ impl Range {
         let (name, range) = text.split_once('=').ok_or_else(syntax)?;
         let (from, to) = range.split_once("..").ok_or_else(syntax)?;
         let param = Param::from_name(name.trim()).ok_or_else(|| {
-            format!("`{}` is no parameter of a sweep file with numbers as values", name.trim())
+            let names: Vec<&str> = PARAMS.iter().map(|row| row.name).collect();
+            let (name, advice) = (name.trim(), advice(name.trim(), &names));
+            format!("`{name}` is no parameter of a sweep file with numbers as values; {advice}")
         })?;
         if param.info().section == Section::Start
             || [Param::BeltVelocityEnd, Param::RampDuration].contains(&param)
@@ -71,7 +73,7 @@ impl Range {
 /// Follows the instance `at` over the range and writes both branches.
 pub(crate) fn execute(
     spec: &Spec,
-    directory: PathBuf,
+    files: &Files,
     at: &str,
     range: &Range,
     points: u32,
@@ -85,7 +87,7 @@ pub(crate) fn execute(
     if let Some(duration) = ramp {
         return Err(Error::FollowsRamp { duration });
     }
-    let output = Output::prepare(directory, &FILES)?;
+    let output = files.prepare_beside(&FILES)?;
     let found = Hysteresis::follow(range.param, range.values(points), &Plan::new(spec), instance)?;
     let heading = Heading::new(&spec.title, at);
     let svg = export::hysteresis_svg(&found, &heading, &Look::default());

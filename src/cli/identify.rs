@@ -16,8 +16,9 @@ use squealmap::identify::{
 };
 use squealmap::quote::one_line;
 
-use crate::cli::output::{Output, list};
-use crate::cli::{png_of, print, stem};
+use crate::cli::home::prepare_beside;
+use crate::cli::output::list;
+use crate::cli::{png_of, print};
 
 /// What is written.
 const FILES: [&str; 6] =
@@ -88,13 +89,10 @@ impl Identify {
     pub(crate) fn execute(self) -> Result<()> {
         let name = self.signals.display().to_string();
         let heading = one_line(&self.signals.file_stem().unwrap_or_default().to_string_lossy());
-        let directory = match &self.output {
-            Some(directory) => directory.clone(),
-            None => PathBuf::from("out").join(stem(&self.signals)?),
-        };
+        let asked = self.output.clone();
         let path = self.signals.clone();
         let settings = self.settings();
-        let output = Output::prepare(directory, &FILES)?;
+        let output = prepare_beside(&path, asked.as_deref(), &FILES)?;
         // Read up to three times, which a pipe cannot be.
         let open =
             || files::open(&path).map(|file| Box::new(file) as Box<dyn Read>).map_err(std::io::Error::other);

@@ -9,10 +9,12 @@ use clap::Args;
 use squealmap::export::manifest::Run;
 use squealmap::store::directory::Store;
 use squealmap::store::merge::merge;
+use squealmap::store::origin;
 use squealmap::{Error, Result};
 
 use crate::cli::failed::judged;
-use crate::cli::output::list;
+use crate::cli::home::Replace;
+use crate::cli::output::{cannot, list};
 use crate::cli::results::{self, MANIFEST, Results};
 use crate::cli::run::missing;
 use crate::cli::signal::stop_at_signal;
@@ -27,15 +29,30 @@ pub(crate) struct Merge {
     /// Output directories of runs of the same sweep
     #[arg(value_name = "DIR")]
     sources: Vec<PathBuf>,
+    #[command(flatten)]
+    replace: Replace,
 }
 
 impl Merge {
+    /// Begins a target for the tiles of a source, made from what that was made from.
+    fn begin(&self, source: &Store) -> Result<Store> {
+        let input = origin::of(&source.directory);
+        self.replace.tiles(&self.target, input.as_deref(), &source.description)?;
+        let store = Store::begin(&self.target, source.description.clone(), &note)?;
+        if let Some(input) = input {
+            let path = self.target.join(origin::SOURCE);
+            origin::record(&self.target, &input).map_err(|why| cannot(&path, &why))?;
+        }
+        Ok(store)
+    }
+
     pub(crate) fn execute(self) -> Result<ExitCode> {
         let cancel = stop_at_signal()?;
         let sources = self.sources.iter().map(|path| Store::open(path)).collect::<Result<Vec<_>>>()?;
         let target = match (Store::open(&self.target), sources.first()) {
-            (Err(Error::NoTiles { .. }), Some(source)) => {
-                Store::begin(&self.target, source.description.clone(), &note)?
+            (Err(Error::NoTiles { .. }), Some(source)) => self.begin(source)?,
+            (Ok(other), Some(source)) if self.replace.force && !other.is_same(source) => {
+                self.begin(source)?
             }
             (opened, _) => opened?,
         };
@@ -65,7 +82,9 @@ impl Merge {
             tiles: None,
             accuracy: target.description.accuracy.clone(),
         };
-        let code = match results::write(&target, &run, &cancel)? {
+        let ended = results::write(&target, &run, &cancel)?;
+        results::tell(&target.directory);
+        let code = match ended {
             Results::Lacking => {
                 note("a tile went bad or was removed while it was read; run the same command again");
                 ExitCode::FAILURE

@@ -5,13 +5,17 @@ mod accuracy;
 mod adapters;
 mod check;
 mod engine;
+mod environment;
 mod excerpt;
 mod export;
 mod failed;
 mod fit;
 mod frontier;
+mod home;
 mod hysteresis;
 mod identify;
+mod init;
+mod keys;
 mod merge;
 mod modes;
 mod onset;
@@ -27,23 +31,27 @@ mod report;
 mod results;
 mod run;
 mod scheduler;
+mod shell;
 mod signal;
 mod status;
 mod submit;
 mod summary;
 mod summed;
+mod talk;
 mod threads;
 mod trace;
 mod tradeoff;
 mod verify;
 
 use std::ffi::OsStr;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Arg, Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use squealmap::Result;
+
+use crate::cli::output::Output;
+use crate::cli::talk::{Manner, note, print};
 
 /// Stability maps of friction-induced vibration: for which friction, temperature and belt velocity does a
 /// brake contact become unstable, by which mechanism, and what does it then do?
@@ -52,6 +60,8 @@ use squealmap::Result;
 struct Cli {
     #[command(subcommand)]
     command: Command,
+    #[command(flatten)]
+    manner: Manner,
 }
 
 #[derive(Debug, Subcommand)]
@@ -70,6 +80,10 @@ enum Command {
     Merge(merge::Merge),
     /// Write the tiles of a directory as CSV, Zarr v3, NetCDF or Parquet, at any time
     Export(export::Export),
+    /// Write a commented sweep file to begin with: map, temperature, bistable, basin, hysteresis, single-mass, tuples, trace
+    Init(init::Init),
+    /// Every key of a sweep file with its unit, meaning, default and range
+    Keys(keys::KeysCommand),
     /// List the GPUs of this machine: names, drivers, limits and features
     Adapters,
     /// Validate a sweep, say what it would compute and measure what it would cost; writes nothing
@@ -88,6 +102,10 @@ enum Command {
     Tradeoff(tradeoff::Tradeoff),
     /// A material file for sweeps from measured velocity, friction and temperature
     Fit(fit::FitCommand),
+    /// What a shell needs to complete commands and options, on standard output
+    Completions(shell::Completions),
+    /// Pages for `man`, one for the program and one for each command
+    Man(shell::ManPages),
 }
 
 /// The exit code after Ctrl-C or SIGTERM: 128 and the number of the signal, as shells have it.
@@ -98,15 +116,25 @@ const INTERRUPTED: u8 = 130;
 struct Files {
     /// Sweep file (TOML)
     sweep: PathBuf,
-    /// Output directory [default: out/<name of the sweep file>]
+    /// Output directory [default: out/<name of the sweep file>, with a number where another file of this name has that]
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
 }
 
 impl Files {
-    /// The output directory, by default `out/<file stem>`.
+    /// The output directory, see [`home::directory`].
     fn directory(&self) -> Result<PathBuf> {
-        self.output.clone().map_or_else(|| Ok(PathBuf::from("out").join(stem(&self.sweep)?)), Ok)
+        home::directory(&self.sweep, self.output.as_deref())
+    }
+
+    /// The output directory ready for `files`.
+    fn prepare(&self, files: &[&str]) -> Result<Output> {
+        home::prepare(&self.sweep, self.output.as_deref(), files)
+    }
+
+    /// The same for what takes seconds, see [`home::prepare_beside`].
+    fn prepare_beside(&self, files: &[&str]) -> Result<Output> {
+        home::prepare_beside(&self.sweep, self.output.as_deref(), files)
     }
 }
 
@@ -144,7 +172,14 @@ impl Command {
             Command::Run(command) => Workers::Of(command.threads()),
             Command::Refine(command) => Workers::Of(command.engine.threads),
             Command::Verify(command) => Workers::Of(command.threads),
-            Command::Submit(_) | Command::Status(_) | Command::Adapters | Command::Fit(_) => Workers::None,
+            Command::Submit(_)
+            | Command::Status(_)
+            | Command::Init(_)
+            | Command::Keys(_)
+            | Command::Adapters
+            | Command::Fit(_)
+            | Command::Completions(_)
+            | Command::Man(_) => Workers::None,
             Command::Merge(_)
             | Command::Export(_)
             | Command::Check(_)
@@ -175,6 +210,10 @@ impl Command {
             Command::Paper(command) => command.execute()?,
             Command::Tradeoff(command) => command.execute()?,
             Command::Fit(command) => command.execute()?,
+            Command::Init(command) => command.execute()?,
+            Command::Keys(command) => command.execute()?,
+            Command::Completions(command) => command.execute(),
+            Command::Man(command) => command.execute()?,
         }
         Ok(ExitCode::SUCCESS)
     }
@@ -182,23 +221,36 @@ impl Command {
 
 /// Parses, executes, reports an error and gives the exit code.
 pub(crate) fn main() -> ExitCode {
-    match Cli::parse().execute() {
-        Ok(code) => code,
-        Err(error) => {
-            report::report(&error);
-            ExitCode::from(match error {
-                squealmap::Error::Cancelled { .. } => INTERRUPTED,
-                error if error.is_bad_input() => 2,
-                _ => 1,
-            })
+    environment::look_for_no_display();
+    let parsed = definition().try_get_matches().and_then(|found| Ok((Cli::from_arg_matches(&found)?, found)));
+    let (cli, found) = match parsed {
+        Ok(parsed) => parsed,
+        Err(said) => {
+            let code = u8::try_from(said.exit_code()).map_or(ExitCode::FAILURE, ExitCode::from);
+            return talk::after_help(said.print(), code);
         }
-    }
+    };
+    talk::begin(cli.manner);
+    let code = cli.execute().unwrap_or_else(|error| {
+        report::report(&error);
+        talk::tell("error", error.to_string());
+        ExitCode::from(match error {
+            squealmap::Error::Cancelled { .. } => INTERRUPTED,
+            error if error.is_bad_input() => 2,
+            _ => 1,
+        })
+    });
+    talk::end(found.subcommand_name().unwrap_or_default(), code)
 }
 
-/// Prints a result; a reader that has gone away is no error.
-fn print(text: &str) {
-    let mut out = std::io::stdout().lock();
-    let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+/// The commands and their options; every option that takes a value takes a negative number, too, and says itself what is wrong
+/// with it.
+fn definition() -> clap::Command {
+    let option = |arg: Arg| {
+        let takes_one = arg.get_action().takes_values() && !arg.is_positional();
+        if takes_one && !arg.is_allow_hyphen_values_set() { arg.allow_negative_numbers(true) } else { arg }
+    };
+    Cli::command().mut_subcommands(|command| command.mut_args(option))
 }
 
 /// The PNG of a figure of a command, with a note where its font lacks a character.
@@ -219,9 +271,4 @@ fn tell_missing(svg: &str) -> Result<()> {
         ));
     }
     Ok(())
-}
-
-/// A remark beside the result, on standard error.
-fn note(text: &str) {
-    let _ = writeln!(std::io::stderr().lock(), "{text}");
 }

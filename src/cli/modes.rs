@@ -6,7 +6,7 @@ use squealmap::export::look::Look;
 use squealmap::export::modes;
 use squealmap::spec::Spec;
 
-use crate::cli::output::{Output, list};
+use crate::cli::output::list;
 use crate::cli::{Files, png_of, print};
 
 /// What is written.
@@ -22,7 +22,7 @@ pub(crate) struct Modes {
 impl Modes {
     pub(crate) fn execute(self) -> Result<()> {
         let spec = Spec::read(&self.files.sweep)?;
-        let output = Output::prepare(self.files.directory()?, &FILES)?;
+        let output = self.files.prepare_beside(&FILES)?;
         let found = modes::modes_of(&spec)?;
         let svg = modes::draw(&spec, &found, &Look::default());
         let files = [

@@ -7,7 +7,10 @@ use std::time::{Duration, Instant};
 
 use squealmap::disk::{self, Handle, door};
 use squealmap::store::claim::Claim;
+use squealmap::store::origin;
 use squealmap::{Error, Result};
+
+use crate::cli::talk;
 
 /// What is claimed where no file is to come.
 const PROBE: &str = ".squealmap";
@@ -18,6 +21,8 @@ pub(crate) struct Output {
     directory: PathBuf,
     /// Directories made for it, deepest first; removed again when nothing comes of the run.
     made: Vec<PathBuf>,
+    /// What stood in it when its source was noted for the first time; that goes, too, when nothing comes of the run.
+    beside: Option<usize>,
 }
 
 impl Output {
@@ -25,7 +30,7 @@ impl Output {
     /// in each, which it gives up: what a run that is killed in this moment leaves, the next one uses. Refuses one where a
     /// directory stands in place of one of the `files` to come.
     pub(crate) fn prepare(directory: PathBuf, files: &[&str]) -> Result<Output> {
-        let mut output = Output { directory, made: Vec::new() };
+        let mut output = Output { directory, made: Vec::new(), beside: None };
         let probes = if files.is_empty() { &[PROBE][..] } else { files };
         let mut proven: Vec<PathBuf> = Vec::new();
         for name in probes {
@@ -54,9 +59,28 @@ impl Output {
         &self.directory
     }
 
+    /// Notes in the directory from which input file its results are made.
+    pub(crate) fn made_from(&mut self, input: &Path) -> Result<()> {
+        if origin::is_of(&self.directory, input) {
+            return Ok(());
+        }
+        let is_first = origin::written(&self.directory).is_none();
+        let beside = self.entries();
+        origin::record(&self.directory, input)
+            .map_err(|why| cannot(&self.directory.join(origin::SOURCE), &why))?;
+        self.beside = is_first.then_some(beside);
+        Ok(())
+    }
+
+    /// How many entries the directory has.
+    fn entries(&self) -> usize {
+        door().names(&self.directory).map_or(0, |names| names.len())
+    }
+
     /// The directory, which stays even if nothing is written into it here.
     pub(crate) fn keep(mut self) -> PathBuf {
         self.made.clear();
+        self.beside = None;
         std::mem::take(&mut self.directory)
     }
 
@@ -91,6 +115,7 @@ impl Output {
         others.into_iter().try_for_each(lasting)?;
         let paths = publish(written)?;
         self.made.clear();
+        self.beside = None;
         Ok(paths)
     }
 }
@@ -129,6 +154,9 @@ fn lasting(path: &Path) -> Result<()> {
 
 impl Drop for Output {
     fn drop(&mut self) {
+        if self.beside.is_some_and(|before| self.entries() <= before + 1) {
+            let _ = disk::remove_if_there(&self.directory.join(origin::SOURCE));
+        }
         for directory in &self.made {
             // Fails, as it should, when there is something in it.
             let _ = door().remove_folder(directory);
@@ -147,8 +175,9 @@ impl Draft {
     }
 }
 
-/// The list of written files for the end of a command.
+/// The list of written files for the end of a command, in words and for `--json`.
 pub(crate) fn list(paths: &[PathBuf]) -> String {
+    talk::tell_files(paths.iter().map(|path| path.display().to_string()));
     paths.iter().fold(String::new(), |text, path| text + "wrote " + &path.display().to_string() + "\n")
 }
 

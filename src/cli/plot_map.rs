@@ -12,6 +12,7 @@ use squealmap::export::palette::Colouring;
 use squealmap::export::tikz::map_tikz;
 use squealmap::grid::{Grid, Value};
 use squealmap::spec::Starts;
+use squealmap::spec::names::advice;
 use squealmap::{Error, Result};
 
 use crate::cli::identify::finite;
@@ -314,5 +315,5 @@ fn unknown(archive: &Archive, name: &str, classes: bool) -> Error {
         }
     }
     names.extend(ALIASES.iter().map(|(alias, _)| *alias).filter(|alias| column(archive, alias).is_some()));
-    Error::NoSuchQuantity { name: name.to_owned(), names: names.join(", ") }
+    Error::NoSuchQuantity { name: name.to_owned(), advice: advice(name, &names) }
 }

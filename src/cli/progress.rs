@@ -7,6 +7,8 @@ use std::time::Instant;
 use console::Term;
 use indicatif::{ProgressBar, ProgressStyle};
 
+use crate::cli::talk;
+
 /// Plain lines are printed each time another of this many parts is done …
 const LINES: usize = 10;
 
@@ -31,7 +33,7 @@ pub(crate) struct Progress {
 impl Progress {
     /// Starts counting to `total` instances.
     pub(crate) fn new(total: usize) -> Progress {
-        let bar = std::io::stderr().is_terminal().then(|| {
+        let bar = (std::io::stderr().is_terminal() && !talk::is_quiet()).then(|| {
             let columns = usize::from(Term::stderr().size().1);
             let words = WORDS + 2 * total.to_string().len();
             // The words are clipped where they do not fit: a line that wraps is drawn again and again.
@@ -72,7 +74,7 @@ impl Progress {
     }
 
     fn line(&self, done: usize) {
-        if self.began.elapsed().as_secs_f64() >= QUIET {
+        if self.began.elapsed().as_secs_f64() >= QUIET && !talk::is_quiet() {
             let _ = writeln!(std::io::stderr().lock(), "{}", self.words(done));
         }
     }

@@ -6,6 +6,7 @@ use std::process::ExitCode;
 use std::sync::atomic::AtomicBool;
 
 use clap::Args;
+use serde_json::json;
 use squealmap::accuracy::sample::subset;
 use squealmap::backend::solver::Solver;
 use squealmap::disk::Handle;
@@ -23,6 +24,7 @@ use squealmap::{Error, Result};
 
 use crate::cli::engine::EngineArgs;
 use crate::cli::failed::judged;
+use crate::cli::home::Replace;
 use crate::cli::onset::onset_of;
 use crate::cli::output::{Output, cannot, cannot_table, claim, list};
 use crate::cli::progress::Progress;
@@ -31,7 +33,7 @@ use crate::cli::run::at_least_one;
 use crate::cli::signal::stop_at_signal;
 use crate::cli::summary::{classes, summary};
 use crate::cli::summed::Summed;
-use crate::cli::{Files, INTERRUPTED, note, print};
+use crate::cli::{Files, INTERRUPTED, note, print, talk};
 
 /// Arguments of `refine`.
 #[derive(Debug, Args)]
@@ -50,6 +52,8 @@ pub(crate) struct RefineCommand {
     seed: Option<u64>,
     #[command(flatten)]
     pub(crate) engine: EngineArgs,
+    #[command(flatten)]
+    replace: Replace,
     /// Instances of a part: for tests, which have no time for large ones
     #[arg(long, hide = true, value_parser = at_least_one)]
     tile: Option<usize>,
@@ -65,7 +69,8 @@ impl RefineCommand {
             sample: self.sample.map_or(given.sample, |sample| sample as usize),
             seed: self.seed.unwrap_or(given.seed),
         };
-        let refining = Refining { files: &self.files, engine: &self.engine, part: self.tile };
+        let refining =
+            Refining { files: &self.files, engine: &self.engine, replace: self.replace, part: self.tile };
         refining.execute(spec, settings, &cancel)
     }
 }
@@ -77,6 +82,8 @@ pub(crate) struct Refining<'a> {
     pub(crate) files: &'a Files,
     /// What computes.
     pub(crate) engine: &'a EngineArgs,
+    /// What it may replace.
+    pub(crate) replace: Replace,
     /// Most instances of a part.
     pub(crate) part: Option<usize>,
 }
@@ -96,11 +103,13 @@ impl Refining<'_> {
             spec.analysis.starts = Starts::One;
         }
         planes_of(&spec.grid)?;
-        let output = Output::prepare(self.files.directory()?, &FILES)?;
+        let mut output = self.files.prepare(&FILES)?;
         let options = self.engine.options(cancel, &note);
         let mut solver = Solver::new(&spec, &options)?;
         let part = self.part.unwrap_or_else(|| tile_of(&spec));
         let description = Description::new(&spec, solver.computations(), part);
+        self.replace.refinement(output.directory(), &self.files.sweep, &description)?;
+        output.made_from(&self.files.sweep)?;
         let code = follow(&output, &spec, &mut solver, &Refinement { description, settings })?;
         Ok(judged(code, output.directory(), DOCUMENT))
     }
@@ -115,6 +124,8 @@ pub(crate) fn follow(
 ) -> Result<ExitCode> {
     let directory = output.directory();
     if Checked::read(directory)?.is_some_and(|checked| checked.is_current(asked)) {
+        talk::tell("directory", directory.display().to_string());
+        talk::tell("complete", true);
         let directory = directory.display();
         print(&format!(
             "all that the lines need was computed before; nothing is left to do in {directory}\n"
@@ -151,6 +162,7 @@ pub(crate) fn follow(
     }
     let ended = Ended { spec, asked, refined: &refined, parts: used, table, table_sum };
     let (paths, tally) = ended.write(directory)?;
+    tell(directory, &refined, fresh);
     print(&report(&refined, fresh, spec.analysis, [&computed, &tally]));
     print(&onset_of(spec, &computed));
     print(&list(&paths));
@@ -180,6 +192,7 @@ struct Work<'a, 's> {
 impl Work<'_, '_> {
     /// The labels of some instances, in parts of so many.
     fn compute(&mut self, instances: &[usize], size: usize) -> Result<Vec<Label>> {
+        talk::detail(&format!("{} more instances", instances.len()));
         let progress = Progress::new(instances.len());
         let mut labels = Vec::with_capacity(instances.len());
         for block in instances.chunks(size) {
@@ -216,6 +229,20 @@ impl Work<'_, '_> {
         rows.flush().map_err(|why| cannot(self.table, &why))?;
         Ok((self.used, rows.sum()))
     }
+}
+
+/// The same as [`report`] for scripts.
+fn tell(directory: &Path, refined: &Refined, fresh: usize) {
+    talk::tell("directory", directory.display().to_string());
+    talk::tell("instances", refined.labels.len());
+    talk::tell("computed", refined.computed);
+    talk::tell("computed_now", fresh);
+    let (sampled, missed) = (refined.sampled, refined.missed);
+    talk::tell(
+        "sample",
+        json!({ "drawn": sampled, "missed": missed, "missed_at_most": refined.missed_at_most() }),
+    );
+    talk::tell("complete", true);
 }
 
 /// What becomes of a refinement that was stopped.

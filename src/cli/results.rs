@@ -1,6 +1,6 @@
 //! `map.csv`, figures and manifest of a directory of tiles, read tile by tile.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::Duration;
@@ -19,7 +19,7 @@ use squealmap::store::space::MOST_ROWS;
 
 use crate::cli::output::{cannot, cannot_table, claim, fill, filled, publish_with};
 use crate::cli::summed::{Summed, unlike};
-use crate::cli::{note, png_of};
+use crate::cli::{note, png_of, talk};
 
 /// What is written.
 pub(crate) const FILES: [&str; 4] = ["map.csv", MANIFEST, "map.png", "map.svg"];
@@ -179,6 +179,16 @@ fn there(store: &Store) -> Option<(bool, usize)> {
     };
     let computed = usize::try_from(manifest["computation"]["computed"].as_u64()?).ok()?;
     (is_of_this && FILES.iter().all(is_there)).then_some((manifest["complete"] == true, computed))
+}
+
+/// What the manifest of a directory says, for `--json`.
+pub(crate) fn tell(directory: &Path) {
+    let bytes = disk::read(&directory.join(MANIFEST)).unwrap_or_default();
+    let manifest: serde_json::Value = serde_json::from_slice(&bytes).unwrap_or_default();
+    talk::tell("directory", directory.display().to_string());
+    for key in ["title", "sweep_id", "complete", "computation", "counts", "checks"] {
+        talk::tell(key, manifest[key].clone());
+    }
 }
 
 /// Why the results are not those of all tiles of this sweep as they are now, a sentence each; none where they are.

@@ -3,9 +3,10 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::atomic::AtomicBool;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use clap::Args;
+use serde_json::json;
 use squealmap::accuracy::level::Level;
 use squealmap::accuracy::trial::first_that_keeps;
 use squealmap::backend::choice::Options;
@@ -26,14 +27,15 @@ use squealmap::{Error, Result};
 use crate::cli::accuracy::{AccuracyArgs, say};
 use crate::cli::engine::{BackendName, EngineArgs};
 use crate::cli::failed::judged;
+use crate::cli::home::Replace;
 use crate::cli::onset::onset_of;
-use crate::cli::output::{Output, list};
+use crate::cli::output::list;
 use crate::cli::progress::{Progress, seconds};
 use crate::cli::refine::Refining;
 use crate::cli::results::{self, FILES, MANIFEST, Results};
 use crate::cli::signal::stop_at_signal;
 use crate::cli::summary::summary;
-use crate::cli::{Files, INTERRUPTED, note, print};
+use crate::cli::{Files, INTERRUPTED, note, print, talk};
 
 /// Arguments of `run`.
 #[derive(Debug, Args)]
@@ -54,6 +56,8 @@ pub(crate) struct Run {
     /// Output directory of a run of this sweep with other values of the axes: instances of both are taken over
     #[arg(long, value_name = "DIR")]
     reuse: Option<PathBuf>,
+    #[command(flatten)]
+    replace: Replace,
     /// Instances of a tile: for tests, which have no time for large ones
     #[arg(long, hide = true, value_parser = at_least_one)]
     tile: Option<usize>,
@@ -80,6 +84,11 @@ impl Run {
         self.reuse.is_some()
     }
 
+    /// What it may replace.
+    pub(crate) fn replace(&self) -> Replace {
+        self.replace
+    }
+
     /// The accuracy that was asked for.
     pub(crate) fn accuracy(&self) -> Option<Level> {
         self.accuracy.accuracy
@@ -91,11 +100,12 @@ impl Run {
         spec.analysis.checked &= !self.no_check;
         if let Some(settings) = spec.refine {
             self.can_refine()?;
-            let refining = Refining { files: &self.files, engine: &self.engine, part: self.tile };
+            let refining =
+                Refining { files: &self.files, engine: &self.engine, replace: self.replace, part: self.tile };
             return refining.execute(spec, settings, &cancel);
         }
         let ranked = self.accuracy.ranked(&spec, &self.engine)?;
-        let output = Output::prepare(self.files.directory()?, &FILES)?;
+        let mut output = self.files.prepare(&FILES)?;
         let options = self.engine.options(&cancel, &note);
         let choice = ranked.map(|ranked| first_that_keeps(ranked, &spec, &options)).transpose()?;
         let options = match &choice {
@@ -112,6 +122,8 @@ impl Run {
         let reuse = self.reuse.as_ref();
         let reuse =
             reuse.map(|directory| Reuse::new(directory, &description, output.directory())).transpose()?;
+        self.replace.tiles(output.directory(), Some(&self.files.sweep), &description)?;
+        output.made_from(&self.files.sweep)?;
         let store = Store::begin(output.directory(), description, &note)?;
         let ended = run(&store, &mut solver, &cancel, self.shard, reuse.as_ref());
         if ended.is_err() {
@@ -150,6 +162,14 @@ pub(crate) fn run(
     let mut elapsed = Duration::ZERO;
     store.expel_strangers(&note)?;
     store.clean()?;
+    talk::detail(&format!(
+        "sweep {}: {} tile(s) of up to {} instances on {} thread(s), into {}",
+        store.description.id,
+        tiling.count(),
+        tiling.tile,
+        rayon::current_num_threads(),
+        store.directory.display()
+    ));
     loop {
         let missing = missing(store, shard.unwrap_or(Shard { number: 0, of: 1 }).tiles(tiling.count()))?;
         let lacking: usize = missing.iter().map(|number| tiling.bounds(*number).len()).sum();
@@ -164,6 +184,13 @@ pub(crate) fn run(
         if let Some(shard) = shard {
             return Ok(shard_done(store, shard, &filled));
         }
+        talk::detail(&format!(
+            "{} tile(s) to do, {} instances computed and {} taken over in {}",
+            missing.len(),
+            filled.computed,
+            filled.reused,
+            seconds(filled.elapsed.as_secs_f64())
+        ));
         computed += filled.computed;
         reused += filled.reused;
         elapsed += filled.elapsed;
@@ -183,7 +210,11 @@ pub(crate) fn run(
             accuracy: store.description.accuracy.clone(),
         };
         let directory = store.directory.display();
-        match results::write(store, &run, cancel)? {
+        let began = Instant::now();
+        let written = results::write(store, &run, cancel)?;
+        talk::detail(&format!("results looked at and written in {}", seconds(began.elapsed().as_secs_f64())));
+        results::tell(&store.directory);
+        match written {
             // What is bad is set aside, and what is not there is computed.
             Results::Lacking => {}
             Results::Current => {
@@ -236,6 +267,9 @@ pub(crate) fn run(
 fn shard_done(store: &Store, shard: Shard, filled: &Filled) -> ExitCode {
     let (done, total) = (store.done().unwrap_or_default(), store.description.tiling.count());
     let directory = store.directory.display();
+    talk::tell("directory", directory.to_string());
+    talk::tell("tiles", json!({ "total": total, "done": done }));
+    talk::tell("computed", filled.computed);
     print(&format!(
         "{} instances of shard {shard} in {}; {done} of {total} tiles are in {directory}{}\n",
         filled.computed,

@@ -2,16 +2,20 @@
 
 use std::fmt::Write;
 use std::path::PathBuf;
+use std::thread;
+use std::time::Duration;
 
 use clap::Args;
+use console::Term;
+use serde_json::json;
 use squealmap::store::directory::Store;
 use squealmap::store::parts::Parts;
 use squealmap::store::status::Status;
 use squealmap::{Error, Result};
 
-use crate::cli::print;
 use crate::cli::progress::seconds;
 use crate::cli::refined::DOCUMENT;
+use crate::cli::{print, talk};
 
 /// Arguments of `status`.
 #[derive(Debug, Args)]
@@ -21,17 +25,44 @@ pub(crate) struct StatusCommand {
     /// Read every tile and compare its checksum, instead of its length alone
     #[arg(long)]
     verify: bool,
+    /// Say it again every so many seconds until all is done [default: 2]; with --json once, at the end
+    #[arg(long, value_name = "S", num_args = 0..=1, require_equals = true, default_missing_value = "2",
+          value_parser = clap::value_parser!(u64).range(1..=86_400))]
+    watch: Option<u64>,
 }
 
 impl StatusCommand {
     pub(crate) fn execute(self) -> Result<()> {
-        let text = match Store::open(&self.directory) {
-            Ok(store) => describe(&store, &Status::new(&store, self.verify)?) + self.hint(),
-            Err(no_tiles @ Error::NoTiles { .. }) => self.refinement().ok_or(no_tiles)?,
-            Err(why) => return Err(why),
-        };
-        print(&text);
-        Ok(())
+        loop {
+            let (text, is_done) = match Store::open(&self.directory) {
+                Ok(store) => {
+                    let status = Status::new(&store, self.verify)?;
+                    tell(&store, &status);
+                    let is_done = status.done == store.description.tiling.count();
+                    (describe(&store, &status) + self.hint(), is_done)
+                }
+                // Parts say what is done, and nothing how much is to come, until the results are there.
+                Err(no_tiles @ Error::NoTiles { .. }) => {
+                    (self.refinement().ok_or(no_tiles)?, self.directory.join(DOCUMENT).is_file())
+                }
+                Err(why) => return Err(why),
+            };
+            let Some(seconds) = self.watch else {
+                print(&text);
+                return Ok(());
+            };
+            let terminal = Term::stdout();
+            let _ = if terminal.is_term() { terminal.clear_screen() } else { Ok(()) };
+            print(&text);
+            // Nobody reads on.
+            if is_done || talk::has_failed() {
+                return Ok(());
+            }
+            thread::sleep(Duration::from_secs(seconds));
+            if !terminal.is_term() {
+                print("\n");
+            }
+        }
     }
 
     /// What was not looked at.
@@ -47,6 +78,9 @@ impl StatusCommand {
     fn refinement(&self) -> Option<String> {
         let found = Parts::found(&self.directory).ok().flatten()?;
         let (parts, instances) = (found.good.len(), found.instances);
+        talk::tell("parts", parts);
+        talk::tell("instances", json!({ "done": instances }));
+        talk::tell("complete", self.directory.join(DOCUMENT).is_file());
         let bad = if found.bad.is_empty() { String::new() } else { format!(", {} bad", found.bad.len()) };
         let end = if self.directory.join(DOCUMENT).is_file() {
             "its results are written"
@@ -55,6 +89,23 @@ impl StatusCommand {
         };
         Some(format!("refinement  {parts} part(s) of {instances} instances are done{bad}; {end}\n"))
     }
+}
+
+/// The same for scripts.
+fn tell(store: &Store, status: &Status) {
+    let description = &store.description;
+    let (tiles, total) = (description.tiling.count(), description.tiling.instances);
+    let bad: Vec<&String> = status.bad.iter().map(|(path, _)| path).collect();
+    talk::tell("title", description.title.clone());
+    talk::tell("sweep_id", description.id.to_string());
+    talk::tell(
+        "tiles",
+        json!({ "total": tiles, "done": status.done, "in_work": status.in_work, "bad": bad, "set_aside": status.set_aside }),
+    );
+    talk::tell("instances", json!({ "total": total, "done": status.instances, "kept": status.kept }));
+    talk::tell("instances_per_second", status.rate);
+    talk::tell("seconds_left", status.left(total).map(|left| left.as_secs_f64()));
+    talk::tell("complete", status.done == tiles);
 }
 
 fn describe(store: &Store, status: &Status) -> String {

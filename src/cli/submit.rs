@@ -87,6 +87,8 @@ impl Submit {
             print(&jobs.by_hand());
             return Ok(());
         }
+        // A task that is refused on its node is seen too late.
+        tail.run.replace().file(&self.files.directory()?, &self.files.sweep, "tiles")?;
         let logs = Output::prepare(self.files.directory()?.join(LOGS), &[])?;
         let (array, merge) = submit(&jobs, logs.directory())?;
         let kept = logs.keep();

@@ -9,6 +9,7 @@ use squealmap::export::heading::Heading;
 use squealmap::export::look::Look;
 use squealmap::export::signals::signals_csv;
 use squealmap::export::trace as export;
+use squealmap::grid::{AxisKey, Value};
 use squealmap::model::Param;
 use squealmap::outcome::Status;
 use squealmap::quote::rounded;
@@ -16,11 +17,11 @@ use squealmap::response::Plan;
 use squealmap::signals::{Recording, record};
 use squealmap::spec::{Instance, Spec};
 use squealmap::trace::trace;
-use squealmap::{Result, linear};
+use squealmap::{Error, Result, linear};
 
 use crate::cli::failed::remedy;
 use crate::cli::hysteresis::{self, Range};
-use crate::cli::output::{Output, list};
+use crate::cli::output::list;
 use crate::cli::{Files, note, png_of, print};
 
 /// What is written.
@@ -36,6 +37,9 @@ pub(crate) struct TraceCommand {
     /// The instance: every parameter that the sweep varies, and any other; values may lie off the grid
     #[arg(long, value_name = "NAME=VALUE,...", default_value = "", hide_default_value = true)]
     at: String,
+    /// The same by its number in map.csv, the first is 0
+    #[arg(long, value_name = "N", conflicts_with_all = ["at", "sweep_up_down"])]
+    instance: Option<usize>,
     /// Rows per period 2π/ω0, 1 to 10000, besides the events
     #[arg(long, value_name = "N", default_value_t = 50, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     samples_per_period: u32,
@@ -55,14 +59,17 @@ impl TraceCommand {
     pub(crate) fn execute(self) -> Result<ExitCode> {
         let spec = Spec::read(&self.files.sweep)?;
         if let Some(range) = &self.sweep_up_down {
-            return hysteresis::execute(&spec, self.files.directory()?, &self.at, range, self.points);
+            return hysteresis::execute(&spec, &self.files, &self.at, range, self.points);
         }
-        let instance = spec.instance_at(&self.at)?;
+        let (instance, at) = match self.instance {
+            None => (spec.instance_at(&self.at)?, self.at.clone()),
+            Some(number) => numbered(&spec, number)?,
+        };
         let names: &[&str] =
             if self.rate.is_some() { &[FILES[0], FILES[1], FILES[2], FILES[3], SIGNALS] } else { &FILES };
-        let output = Output::prepare(self.files.directory()?, names)?;
+        let output = self.files.prepare_beside(names)?;
         let trace = trace(&spec, &instance, self.samples_per_period);
-        let heading = Heading::new(&spec.title, &self.at);
+        let heading = Heading::new(&spec.title, &at);
         let svg = export::trace_svg(&trace, &heading, &Look::default())?;
         let mut files = vec![
             (FILES[0], export::trace_csv(&trace)?),
@@ -88,6 +95,9 @@ impl TraceCommand {
             failed => failed.name(),
         };
         let outcome = &trace.outcome;
+        if self.instance.is_some() {
+            print(&format!("at {at}\n"));
+        }
         print(&format!(
             "{end}: {} s in {} steps, {} rows\n{}",
             rounded(outcome.simulated_time),
@@ -123,4 +133,16 @@ fn too_slow(rate: u32, instance: &Instance) -> Option<String> {
             (ENOUGH * highest).ceil()
         )
     })
+}
+
+/// Instance `number` of a sweep, and its values as `--at` takes them.
+fn numbered(spec: &Spec, number: usize) -> Result<(Instance, String)> {
+    let instances = spec.grid.len();
+    if number >= instances {
+        return Err(Error::NoInstance { number, instances });
+    }
+    let pair = |(key, value): (AxisKey, &Value)| format!("{}={value}", key.name());
+    let pairs: Vec<String> =
+        spec.grid.keys().into_iter().zip(spec.grid.coordinates(number)).map(pair).collect();
+    Ok((spec.instance(number), pairs.join(",")))
 }

@@ -12,6 +12,7 @@ use squealmap::export::tradeoff::{self, Section};
 use squealmap::spec::Spec;
 use squealmap::{Error, Result};
 
+use crate::cli::home::{Replace, prepare};
 use crate::cli::output::{Output, list};
 use crate::cli::{frontier, note, png_of, print, stem as own_name};
 
@@ -55,6 +56,8 @@ pub(crate) struct Tradeoff {
     /// Measure a software GPU too, which `run` never chooses
     #[arg(long, requires = "no_store")]
     software: bool,
+    #[command(flatten)]
+    replace: Replace,
 }
 
 /// What came of a sweep.
@@ -85,12 +88,13 @@ impl Tradeoff {
         let mut all = Vec::new();
         for (path, spec) in self.sweeps.iter().zip(&specs) {
             let stem = own_name(path)?;
-            let directory = match &self.output {
-                None => Path::new("out").join(stem),
-                Some(output) if self.sweeps.len() > 1 => output.join(stem),
-                Some(output) => output.clone(),
-            };
-            let output = Output::prepare(directory, &FILES)?;
+            let asked = self.output.as_ref().map(|output| match specs.len() {
+                1 => output.clone(),
+                _ => output.join(stem),
+            });
+            let mut output = prepare(path, asked.as_deref(), &FILES)?;
+            self.replace.file(output.directory(), path, FILES[0])?;
+            output.made_from(path)?;
             let measured = measure(spec, settings, &Options::default(), &note)?;
             let stem = stem.to_string_lossy().into_owned();
             let (done, paths) = write(output, spec, stem, measured)?;
@@ -99,20 +103,17 @@ impl Tradeoff {
             all.push(done);
         }
         let mut paths = Vec::new();
-        if !self.no_store {
-            let told = |done: &&Done| done.measured.truth.judged >= FEWEST_JUDGED;
-            let rows: Vec<Row> =
-                all.iter().filter(told).flat_map(|done| done.measured.rows.clone()).collect();
-            for done in all.iter().filter(|done| !told(done)) {
-                note(&format!(
-                    "`{}`: {} settled oscillations have no 95th percentile, and `run --accuracy` will not choose by them; \
-                     take a larger --sample",
-                    done.stem, done.measured.truth.judged
-                ));
-            }
-            if !rows.is_empty() {
-                paths.extend(frontier::store(self.store.clone(), &rows)?);
-            }
+        let told = |done: &&Done| done.measured.truth.judged >= FEWEST_JUDGED;
+        for done in all.iter().filter(|done| !told(done)) {
+            note(&format!(
+                "`{}`: judged from {} settled oscillation(s), too few for a 95th percentile, so that `run --accuracy` will not \
+                 choose by them; take a larger --sample, or a longer `settle`",
+                done.stem, done.measured.truth.judged
+            ));
+        }
+        let rows: Vec<Row> = all.iter().filter(told).flat_map(|done| done.measured.rows.clone()).collect();
+        if !self.no_store && !rows.is_empty() {
+            paths.extend(frontier::store(self.store.clone(), &rows)?);
         }
         if let Some(report) = &self.report {
             paths.extend(write_report(report, &all, &self.command())?);

@@ -6,6 +6,7 @@ use std::process::ExitCode;
 use std::sync::atomic::AtomicBool;
 
 use clap::Args;
+use serde_json::json;
 use squealmap::backend::choice::{Backend, Options};
 use squealmap::backend::solver::Solver;
 use squealmap::kernel::source::Precision;
@@ -24,6 +25,7 @@ use crate::cli::refined::{Checked, FILES};
 use crate::cli::results::faults;
 use crate::cli::run::run;
 use crate::cli::signal::stop_at_signal;
+use crate::cli::talk;
 
 /// Missing tiles that are named.
 const NAMED: usize = 10;
@@ -56,6 +58,7 @@ impl Verify {
         let of_tiles = store.map_or(Ok(true), |store| self.of_tiles(&store, &mut text))?;
         let of_parts = refined.as_ref().is_none_or(|checked| of_parts(checked, &mut text));
         print(&text);
+        talk::tell("good", of_tiles && of_parts);
         if of_tiles && of_parts {
             return Ok(ExitCode::SUCCESS);
         }
@@ -91,10 +94,14 @@ impl Verify {
         if let more @ 1.. = lacking.count().saturating_sub(NAMED) {
             let _ = writeln!(text, "missing      {more} more");
         }
+        let bad: Vec<String> =
+            status.bad.iter().chain(&bad_kept).map(|(path, fault)| format!("`{path}`: {fault}")).collect();
+        talk::tell("tiles", json!({ "total": total, "good": status.done, "bad": bad }));
         for (path, fault) in status.bad.iter().chain(&bad_kept) {
             let _ = writeln!(text, "bad          `{path}`: {fault}");
         }
         let faults = if self.has_results() { faults(store) } else { Vec::new() };
+        talk::tell("results", json!({ "written": self.has_results(), "faults": faults }));
         for fault in &faults {
             let _ = writeln!(text, "bad          {fault}");
         }
@@ -167,6 +174,11 @@ impl Verify {
 /// Says how the parts of a refinement are and what was made of them; whether all is good.
 fn of_parts(checked: &Checked, text: &mut String) -> bool {
     let Checked { found, has_results, faults, .. } = checked;
+    talk::tell(
+        "parts",
+        json!({ "good": found.good.len(), "bad": found.bad.len(), "instances": found.instances }),
+    );
+    talk::tell("faults", faults.clone());
     let (parts, instances, bad) = (found.good.len(), found.instances, found.bad.len());
     let _ = writeln!(text, "parts        {parts} of {instances} instances are there and good, {bad} bad");
     for fault in faults {

@@ -7,6 +7,7 @@ use crate::archive::NumberColumn;
 use crate::error::{Error, Result};
 use crate::grid::{Axis, AxisKey, Grid, Value};
 use crate::map::Map;
+use crate::spec::names::advice;
 
 use super::cut_figure::MOST_CURVES;
 pub use super::cut_figure::{cut_svg, left_out};
@@ -117,9 +118,11 @@ impl Cut {
 fn find(axes: &[Axis], text: &str) -> std::result::Result<(usize, usize), String> {
     let (name, asked) = text.split_once('=').ok_or("write name=value, such as mu_d=0.3")?;
     let (name, asked) = (name.trim(), asked.trim());
-    let names = || axes.iter().map(|axis| axis.key.name()).collect::<Vec<_>>().join(", ");
     let place = axes.iter().position(|axis| axis.key.name() == name);
-    let place = place.ok_or_else(|| format!("the map has no axis `{name}`; it has {}", names()))?;
+    let place = place.ok_or_else(|| {
+        let names: Vec<&str> = axes.iter().map(|axis| axis.key.name()).collect();
+        format!("the map has no axis `{name}`; {}", advice(name, &names))
+    })?;
     let is = |value: &Value| match (value, asked.parse::<f64>()) {
         (Value::Number(x), Ok(y)) => (x - y).abs() <= SAME * x.abs().max(y.abs()),
         (Value::Text(text), _) => text.as_str() == asked,

@@ -10,6 +10,7 @@ use super::channel::{Channel, PerChannel};
 use super::fault::Fault;
 use super::settings::Settings;
 use super::unit::{TimeUnit, is_time, named};
+use crate::files::decoded;
 use crate::quote::{clipped, quoted};
 
 /// Bytes read at a time.
@@ -78,9 +79,12 @@ impl Table {
             .trim(csv::Trim::All)
             .flexible(true)
             .from_reader(input);
-        let headers = reader.headers().map_err(|why| Fault::Unreadable { why: why.to_string() })?;
-        let header: Vec<String> =
-            headers.iter().map(|name| name.trim_start_matches('\u{feff}').to_owned()).collect();
+        let headers = reader.byte_headers().map_err(|why| Fault::Unreadable { why: why.to_string() })?;
+        // A header in Latin-1 has the names that its program wrote, as `°C`.
+        let header: Vec<String> = headers
+            .iter()
+            .map(|name| decoded(name.to_vec()).trim().trim_start_matches('\u{feff}').to_owned())
+            .collect();
         let mut columns = PerChannel::default();
         for (channel, column) in Channel::ALL.into_iter().zip(&mut columns) {
             let named = settings.columns[channel as usize].as_deref();
@@ -126,14 +130,13 @@ impl Table {
 
     /// The next row; `None` at the end of the file.
     pub(super) fn next(&mut self) -> Result<Option<Row>, Fault> {
-        let more = self
-            .reader
-            .read_byte_record(&mut self.record)
-            .map_err(|why| Fault::Unreadable { why: why.to_string() })?;
-        if !more {
+        let is_first = self.record.is_empty();
+        if !self.read()? {
             return Ok(None);
         }
-        self.since.set(0);
+        if is_first && self.is_units() && !self.read()? {
+            return Ok(None);
+        }
         let line = self.record.position().map_or(0, csv::Position::line);
         if self.record.len() != self.header.len() {
             let (fields, columns) = (self.record.len(), self.header.len());
@@ -156,6 +159,21 @@ impl Table {
         // Beside a given rate any text may stand for the time.
         let time = if self.believed { time.transpose()? } else { time.and_then(Result::ok) };
         Ok(Some(Row { line, time, values }))
+    }
+
+    /// Reads the next row as it is; whether there is one.
+    fn read(&mut self) -> Result<bool, Fault> {
+        let more = self.reader.read_byte_record(&mut self.record);
+        let more = more.map_err(|why| Fault::Unreadable { why: why.to_string() })?;
+        self.since.set(0);
+        Ok(more)
+    }
+
+    /// Whether the row has text, and in no field a number: the units of the columns.
+    fn is_units(&self) -> bool {
+        let is_number =
+            |field: &[u8]| String::from_utf8_lossy(field).replacen(',', ".", 1).parse::<f64>().is_ok();
+        self.record.iter().any(|field| !field.is_empty()) && !self.record.iter().any(is_number)
     }
 
     /// A finite number with a point or a comma before its decimals; one file has one of the two.

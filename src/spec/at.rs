@@ -5,9 +5,9 @@ use crate::grid::{AxisKey, Grid, Value};
 use crate::model::friction::LawKind;
 use crate::model::{Param, Params};
 use crate::spec::check::{MATERIAL_LAWS, covered, unused, used_by_laws};
+use crate::spec::keys::is_fixed;
 use crate::spec::names::{advice, list};
 use crate::spec::start::Kind;
-use crate::spec::varied::FIXED;
 use crate::spec::{Instance, Spec, law};
 
 /// The name of the argument in messages.
@@ -70,7 +70,7 @@ impl At<'_> {
             what,
             name: name.to_owned(),
             within: "in the pairs".to_owned(),
-            advice: if FIXED.contains(&name) && what == "parameter" {
+            advice: if is_fixed(name) && what == "parameter" {
                 "this key holds for the whole sweep and is set in the sweep file".to_owned()
             } else {
                 advice(name, candidates)

@@ -8,7 +8,7 @@ use crate::spec::Duration;
 use crate::spec::document::{Node, out_of_range, string};
 
 /// Longest duration in seconds or periods: a typing error is refused, no study is.
-const LONGEST: f64 = 1e9;
+pub(super) const LONGEST: f64 = 1e9;
 
 /// Reads a duration; only that of `settle` may be 0.
 pub(super) fn duration(source: &Source, node: &Node, label: &str, settle: bool) -> Result<Duration> {

@@ -12,7 +12,8 @@ const SUGGEST: f64 = 0.7;
 pub(super) const LONGEST_NAME: usize = 100;
 
 /// The candidate most similar to `name`, if any is similar; the shorter one when two are equally so.
-pub(super) fn nearest<'a>(name: &str, candidates: &[&'a str]) -> Option<&'a str> {
+#[must_use]
+pub fn nearest<'a>(name: &str, candidates: &[&'a str]) -> Option<&'a str> {
     // What is far longer than every name is like none of them, and comparing it would take its length squared.
     if name.len() > LONGEST_NAME {
         return None;
@@ -29,7 +30,8 @@ pub(super) fn nearest<'a>(name: &str, candidates: &[&'a str]) -> Option<&'a str>
 }
 
 /// "did you mean", or the list of what there is.
-pub(super) fn advice(name: &str, candidates: &[&str]) -> String {
+#[must_use]
+pub fn advice(name: &str, candidates: &[&str]) -> String {
     match nearest(name, candidates) {
         Some(candidate) => format!("did you mean `{candidate}`?"),
         None if candidates.is_empty() => "there is none to choose from".to_owned(),

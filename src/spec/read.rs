@@ -12,7 +12,8 @@ use crate::place::Source;
 use crate::spec::check::Check;
 use crate::spec::document::{entries, string};
 use crate::spec::files::Files;
-use crate::spec::sections::{Sections, TOP_LEVEL, section_of, unknown_key};
+use crate::spec::keys::top_level;
+use crate::spec::sections::{Sections, section_of, unknown_key};
 use crate::spec::varied::Varied;
 use crate::spec::{
     AUTO_MEASURE, Analysis, Duration, FIRST_SETTLE, MAX_SWEEP_BYTES, MEASURE, Pass, SETTLE, SETTLE_LIMIT,
@@ -52,7 +53,7 @@ impl Spec {
                 ("refine", _) => sections.refine(&source, entry)?,
                 ("axes", _) => axes = Some(entry),
                 ("points", _) => points = Some(entry),
-                _ => return Err(unknown_key(&source, entry, "", &TOP_LEVEL)),
+                _ => return Err(unknown_key(&source, entry, "", &top_level())),
             }
         }
         let varied = match (axes, points) {

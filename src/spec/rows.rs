@@ -1,6 +1,7 @@
-//! Files of rows: a header and comma-separated fields, each with its place.
+//! Files of rows: a header and fields, each with its place.
 //!
-//! Blank lines and lines that begin with `#` are skipped, a field may stand in double quotes, and line
+//! Fields are separated by commas or, where the header has none, by semicolons or tabs; a comma then stands before decimals. A
+//! row of units below the header of numbers is passed over. Blank lines and lines that begin with `#` are skipped, a field may stand in double quotes, and line
 //! ends and a byte order mark of any system are understood.
 
 use std::borrow::Cow;
@@ -16,7 +17,7 @@ use crate::spec::names::{LONGEST_NAME, list, nearest, unknown};
 use crate::spec::{MAX_ROWS, MAX_TABLE_ROWS};
 
 /// What a file of rows is for.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Role {
     Points,
     Table,
@@ -62,6 +63,8 @@ pub(super) struct Rows {
     pub(super) source: Source,
     /// The header, its names without quotes.
     pub(super) header: Vec<Field<'static>>,
+    /// What separates the fields.
+    separator: u8,
     /// Where the first row begins.
     body: usize,
     count: usize,
@@ -79,7 +82,7 @@ impl Rows {
         base_dir: &Path,
     ) -> Result<Rows> {
         let path = base_dir.join(name);
-        let text = match files::text(&path, role.most_bytes()) {
+        let text = match files::table(&path, role.most_bytes()) {
             Ok(text) => text,
             Err(why) => return Err(Error::ReadNamed { at: sweep.place(span), role: role.name(), path, why }),
         };
@@ -96,7 +99,11 @@ impl Rows {
             );
             return Err(Error::ReadNamed { at: sweep.place(span), role: role.name(), path, why });
         }
-        let rows = Rows::parse(source)?;
+        let mut rows = Rows::parse(source)?;
+        // Points may have columns of names alone.
+        if role != Role::Points {
+            rows.pass_over_units();
+        }
         if rows.count > role.most_rows() {
             let (count, most) = (rows.count, role.most_rows());
             let why = format!("it has {count} rows but at most {most} are allowed; take fewer");
@@ -107,13 +114,14 @@ impl Rows {
 
     /// Finds header and rows of a text.
     pub(super) fn parse(source: Source) -> Result<Rows> {
+        let separator = separator(&source);
         let mut lines = Lines { text: &source.text, start: 0 };
         let Some(line) = lines.next() else {
             let at = source.place(0..0);
             return Err(Error::Empty { at, what: "the file".to_owned(), least: "a header and one row" });
         };
         let mut fields = Vec::new();
-        split(&source, line, &mut fields)?;
+        split(&source, line, separator, &mut fields)?;
         let header: Vec<Field<'static>> = fields
             .iter()
             .map(|field| Field { text: field.text.clone().into_owned().into(), span: field.span.clone() })
@@ -121,10 +129,16 @@ impl Rows {
         let body = lines.start;
         let mut count = 0;
         for line in lines {
-            split(&source, line.clone(), &mut fields)?;
+            split(&source, line.clone(), separator, &mut fields)?;
             if fields.len() != header.len() {
                 let (fields, columns) = (fields.len(), header.len());
-                return Err(Error::RaggedRow { at: source.place(line), fields, columns });
+                // `100,0,5` under `temperature,mu_d`.
+                let because = if separator == b',' && fields > columns {
+                    "; where these are decimal commas, separate the fields with semicolons"
+                } else {
+                    ""
+                };
+                return Err(Error::RaggedRow { at: source.place(line), fields, columns, because });
             }
             count += 1;
         }
@@ -134,7 +148,22 @@ impl Rows {
             return Err(Error::NoRows { at: source.place(span) });
         }
         drop(fields);
-        Ok(Rows { source, header, body, count })
+        Ok(Rows { source, header, separator, body, count })
+    }
+
+    /// Leaves out a first row without any number, where others follow it: the units of the columns.
+    fn pass_over_units(&mut self) {
+        let mut lines = Lines { text: &self.source.text, start: self.body };
+        let mut fields = Vec::new();
+        let Some(line) = lines.next().filter(|_| self.count > 1) else { return };
+        let is_units = split(&self.source, line, self.separator, &mut fields).is_ok()
+            && fields.iter().any(|field| !field.text.is_empty())
+            && fields.iter().all(|field| field.text.replacen(',', ".", 1).parse::<f64>().is_err());
+        let body = lines.start;
+        drop(fields);
+        if is_units {
+            (self.body, self.count) = (body, self.count - 1);
+        }
     }
 
     /// The number of rows.
@@ -146,7 +175,7 @@ impl Rows {
     pub(super) fn each(&self, mut take: impl FnMut(usize, &[Field]) -> Result<()>) -> Result<()> {
         let mut fields = Vec::with_capacity(self.header.len());
         for (number, line) in (Lines { text: &self.source.text, start: self.body }).enumerate() {
-            split(&self.source, line, &mut fields)?;
+            split(&self.source, line, self.separator, &mut fields)?;
             take(number, &fields)?;
         }
         Ok(())
@@ -156,7 +185,7 @@ impl Rows {
     pub(super) fn span(&self, row: usize, column: usize) -> Range<usize> {
         let line = Lines { text: &self.source.text, start: self.body }.nth(row).unwrap_or(0..0);
         let mut fields = Vec::new();
-        match split(&self.source, line.clone(), &mut fields) {
+        match split(&self.source, line.clone(), self.separator, &mut fields) {
             Ok(()) => fields.get(column).map_or(line, |field| field.span.clone()),
             Err(_) => line,
         }
@@ -200,7 +229,8 @@ impl Rows {
     pub(super) fn number(&self, field: &Field, name: &str, range: model::Range) -> Result<f64> {
         let at = || self.source.place(field.span.clone());
         let key = || format!("column `{name}`");
-        let Ok(value) = field.text.parse::<f64>() else {
+        let decimals = if self.separator == b',' { None } else { Some(field.text.replacen(',', ".", 1)) };
+        let Ok(value) = decimals.as_deref().unwrap_or(&field.text).parse::<f64>() else {
             let found = if field.text.is_empty() {
                 "an empty cell".to_owned()
             } else {
@@ -236,11 +266,18 @@ impl Rows {
 fn stranger(source: &Source, columns: &[&str]) -> Option<String> {
     let line = Lines { text: &source.text, start: 0 }.next()?;
     let mut fields = Vec::new();
-    split(source, line, &mut fields).ok()?;
+    split(source, line, separator(source), &mut fields).ok()?;
     let is_word = |text: &str| text.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '-' | ' '));
     let foreign = fields.iter().all(|field| nearest(&field.text, columns).is_none())
         && !fields.iter().all(|field| is_word(&field.text) && field.text.len() <= LONGEST_NAME);
     foreign.then(|| quoted(&fields[0].text))
+}
+
+/// What separates the fields: a comma where the header has one, else a semicolon or a tab.
+fn separator(source: &Source) -> u8 {
+    let header = Lines { text: &source.text, start: 0 }.next().unwrap_or(0..0);
+    let header = source.written(header);
+    [b',', b';', b'\t'].into_iter().find(|byte| header.as_bytes().contains(byte)).unwrap_or(b',')
 }
 
 /// The lines of a text that hold something, without blanks at their ends: neither blank nor a comment.
@@ -268,7 +305,12 @@ impl Iterator for Lines<'_> {
 }
 
 /// Splits one line into fields.
-fn split<'a>(source: &'a Source, line: Range<usize>, fields: &mut Vec<Field<'a>>) -> Result<()> {
+fn split<'a>(
+    source: &'a Source,
+    line: Range<usize>,
+    separator: u8,
+    fields: &mut Vec<Field<'a>>,
+) -> Result<()> {
     let text = source.written(line.clone());
     fields.clear();
     let mut start = 0;
@@ -276,7 +318,7 @@ fn split<'a>(source: &'a Source, line: Range<usize>, fields: &mut Vec<Field<'a>>
     for (at, byte) in text.bytes().enumerate() {
         match byte {
             b'"' => in_quotes = !in_quotes,
-            b',' if !in_quotes => {
+            byte if byte == separator && !in_quotes => {
                 fields.push(field(text, start..at, line.start));
                 start = at + 1;
             }

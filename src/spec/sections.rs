@@ -5,7 +5,7 @@ use std::ops::Range;
 use crate::error::{Error, Result};
 use crate::model::friction::LawKind;
 use crate::model::material::Outside;
-use crate::model::{PARAMS, Param, Params, Section};
+use crate::model::{Param, Params, Section};
 use crate::place::Source;
 use crate::quote::is_obeyed;
 use crate::refine::{COARSE, Settings};
@@ -13,13 +13,14 @@ use crate::spec::document::{
     Entry, Node, array, boolean, choice, entries, integer, number, out_of_range, string, table,
 };
 use crate::spec::duration::duration;
+use crate::spec::keys::{home, names_of};
 use crate::spec::law;
 use crate::spec::names::unknown;
 use crate::spec::start::{BOX_SAMPLES, Kind, SAMPLES_RANGE};
 use crate::spec::{Analysis, Duration, STEPS_PER_PERIOD, Starts};
 
 /// Fewest and most steps per period that may be asked for.
-const STEPS_RANGE: (usize, usize) = (3, 100_000);
+pub(super) const STEPS_RANGE: (usize, usize) = (3, 100_000);
 
 /// Most instances that a refined map draws, as many as any sweep in memory has.
 const MOST_SAMPLED: usize = u32::MAX as usize;
@@ -213,7 +214,7 @@ impl Sections {
                 self.base.set(param, number(source, node, &label, param.info().range)?);
                 param.info().name
             }
-            _ => return Err(unknown_key(source, entry, section.name(), &keys(section))),
+            _ => return Err(unknown_key(source, entry, section.name(), &names_of(section.name()))),
         };
         self.given.push(Given { name, section, span });
         Ok(())
@@ -221,7 +222,6 @@ impl Sections {
 
     /// `[response]`.
     pub(super) fn response(&mut self, source: &Source, entry: Entry) -> Result<()> {
-        const KEYS: [&str; 5] = ["settle", "settle_limit", "measure", "steps_per_period", "check"];
         let expected = "a table, written as a line [response] above its keys";
         for entry in entries(table(source, entry.node, "`response`", expected)?) {
             let label = format!("`{}` in [response]", entry.key);
@@ -239,7 +239,7 @@ impl Sections {
                     self.steps_given = Some(entry.node.span());
                     self.steps_per_period = u32::try_from(steps).expect("the range of steps fits u32");
                 }
-                _ => return Err(unknown_key(source, entry, "response", &KEYS)),
+                _ => return Err(unknown_key(source, entry, "response", &names_of("response"))),
             }
         }
         Ok(())
@@ -247,7 +247,6 @@ impl Sections {
 
     /// `[refine]`.
     pub(super) fn refine(&mut self, source: &Source, entry: Entry) -> Result<()> {
-        const KEYS: [&str; 3] = ["coarse", "sample", "seed"];
         let mut settings = Settings::default();
         let expected = "a table, written as a line [refine] above its keys";
         for entry in entries(table(source, entry.node, "`refine`", expected)?) {
@@ -256,7 +255,7 @@ impl Sections {
                 "coarse" => settings.coarse = integer(source, entry.node, &label, COARSE.0, COARSE.1)?,
                 "sample" => settings.sample = integer(source, entry.node, &label, 0, MOST_SAMPLED)?,
                 "seed" => settings.seed = integer(source, entry.node, &label, 0, MOST_SEED)? as u64,
-                _ => return Err(unknown_key(source, entry, "refine", &KEYS)),
+                _ => return Err(unknown_key(source, entry, "refine", &names_of("refine"))),
             }
         }
         self.refine = Some(settings);
@@ -267,30 +266,6 @@ impl Sections {
 /// Whether a duration is left to the run.
 fn is_auto(node: &Node) -> bool {
     node.get_ref().as_str() == Some("auto")
-}
-
-/// The keys of a section.
-fn keys(section: Section) -> Vec<&'static str> {
-    let special: &[&str] = match section {
-        Section::Model => &["impact_friction"],
-        Section::Friction => &["law", "table", "material", "outside"],
-        Section::Belt => &[],
-        Section::Start => &["kind", "box_samples"],
-    };
-    let numeric = PARAMS.iter().filter(|row| row.section == section).map(|row| row.name);
-    special.iter().copied().chain(numeric).collect()
-}
-
-/// The section that does have the key, if there is one.
-fn home(key: &str) -> Option<&'static str> {
-    match key {
-        "settle" | "settle_limit" | "measure" | "steps_per_period" | "check" => Some("response"),
-        "coarse" | "sample" | "seed" => Some("refine"),
-        _ => [Section::Model, Section::Friction, Section::Belt, Section::Start]
-            .into_iter()
-            .find(|&section| keys(section).contains(&key))
-            .map(Section::name),
-    }
 }
 
 /// The error of an unknown key of a section or of the top level (an empty section name).
@@ -312,10 +287,6 @@ pub(super) fn unknown_key(source: &Source, entry: Entry, section: &str, known: &
 pub(super) fn law_value(source: &Source, span: Range<usize>, name: &str, within: &str) -> Result<LawKind> {
     law::from_name(name).ok_or_else(|| unknown(source, span, "law", name, within, &law::names()))
 }
-
-/// The keys of the top level.
-pub(super) const TOP_LEVEL: [&str; 10] =
-    ["title", "analysis", "points", "model", "friction", "belt", "axes", "start", "response", "refine"];
 
 /// The section of a top-level key.
 pub(super) fn section_of(key: &str) -> Option<Section> {

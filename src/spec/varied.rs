@@ -9,24 +9,10 @@ use crate::place::{Place, Source};
 use crate::spec::MAX_INSTANCES;
 use crate::spec::axis::axis;
 use crate::spec::document::{Entry, entries, table};
+use crate::spec::keys::is_fixed;
 use crate::spec::names::advice;
 use crate::spec::rows::{Role, Rows};
 use crate::spec::sections::law_value;
-
-/// Keys of a sweep file that cannot vary.
-pub(super) const FIXED: [&str; 11] = [
-    "impact_friction",
-    "table",
-    "outside",
-    "kind",
-    "box_samples",
-    "settle",
-    "settle_limit",
-    "measure",
-    "steps_per_period",
-    "title",
-    "analysis",
-];
 
 /// The grid and where everything of it stands.
 #[derive(Debug)]
@@ -161,7 +147,7 @@ fn too_many(source: &Source, entry: Entry, count: u128) -> Error {
 
 fn unknown_axis(source: &Source, entry: Entry) -> Error {
     let names: Vec<&str> = AxisKey::names().collect();
-    let advice = if FIXED.contains(&entry.key) {
+    let advice = if is_fixed(entry.key) {
         "this key holds for the whole sweep and cannot vary".to_owned()
     } else {
         advice(entry.key, &names)

@@ -9,6 +9,7 @@ use super::direct::Room;
 pub use super::folder::Note;
 use super::folder::{Folder, SOME, TILE, Tile};
 use super::identity::Id;
+use super::occupant::Occupant;
 use super::tile::{Checksum, Fault, instances_in, sweep_in};
 use crate::disk::{self, door};
 use crate::error::{Error, Result, SAID};
@@ -74,7 +75,9 @@ impl Store {
                 let (done, total) = (other.done()?, other.description.tiling.count());
                 let kept = other.kept_instances()?;
                 if total > 1 && done + kept > 0 {
-                    return Err(Error::OtherSweep { path: directory.to_owned(), done, total, kept });
+                    let there =
+                        Occupant::of_run(directory)?.map(|there| there.to_string()).unwrap_or_default();
+                    return Err(Error::OtherSweep { path: directory.to_owned(), there });
                 }
                 disk::remove_if_there(&other.path(0)).map_err(cannot)?;
                 disk::remove_if_there(&other.path_of_some(0)).map_err(cannot)?;
@@ -280,6 +283,17 @@ impl Store {
                 return Err(Error::OtherCut { path: self.folder().path(&name) });
             }
             self.folder().expel(&name, "it is no tile of this sweep", note)
+        })
+    }
+
+    /// Removes whole tiles of other sweeps, and what was kept of them.
+    ///
+    /// # Errors
+    /// When the directory cannot be read or written.
+    pub fn remove_strangers(&self) -> Result<()> {
+        let folder = self.folder();
+        self.strangers()?.into_iter().try_for_each(|name| {
+            disk::remove_if_there(&folder.path(&name)).map_err(|why| folder.refused(&why))
         })
     }
 

@@ -19,6 +19,7 @@
 //! - [`reuse`]: what another directory has of it.
 //! - [`shard`]: a share of the tiles.
 //! - [`status`], [`merge`](mod@merge): how far a directory has come; several directories in one.
+//! - [`origin`], [`occupant`]: from which input file a directory was made, and whose results it holds.
 //! - [`space`]: what it takes of the disk.
 
 pub mod claim;
@@ -32,6 +33,8 @@ mod folder;
 pub mod grid_json;
 pub mod identity;
 pub mod merge;
+pub mod occupant;
+pub mod origin;
 pub mod parts;
 pub mod refinement;
 pub mod reuse;

@@ -375,7 +375,7 @@ fn tradeoff_writes_its_files_and_keeps_its_table() {
     std::fs::write(directory.path().join("s.toml"), MAP).unwrap();
     let ended = run("16", "few.csv");
     assert_eq!(ended.code, Some(0), "{}", ended.err);
-    assert!(ended.err.contains("settled oscillations have no 95th percentile"), "{}", ended.err);
+    assert!(ended.err.contains("settled oscillation(s), too few for a 95th percentile"), "{}", ended.err);
     assert!(!directory.path().join("few.csv").exists());
 }
 

@@ -70,7 +70,7 @@ fn run_writes_all_files_and_counts() {
     let directory = with_sweep("");
     let ended = squealmap(directory.path(), &["run", "small.toml", "--threads", "2"]);
     assert_eq!(ended.code, Some(0), "{}", ended.err);
-    let files = ["manifest.json", "map.csv", "map.png", "map.svg", "tiles", "tiles/sweep.json"];
+    let files = ["manifest.json", "map.csv", "map.png", "map.svg", "source.txt", "tiles", "tiles/sweep.json"];
     let mut found = tree(directory.path());
     let tile = found.iter().position(|path| path.to_string_lossy().ends_with(".tile")).unwrap();
     assert!(found.remove(tile).starts_with("out/small/tiles"));
@@ -386,7 +386,7 @@ fn plot_draws_a_run_again() {
     );
     let before = tree(directory.path());
     for (arguments, words) in [
-        (["out/small", "--quantity=colour"], "no quantity `colour`; it has type, regime, growth_rate"),
+        (["out/small", "--quantity=colour"], "no quantity `colour`; choose from type, regime, growth_rate"),
         (["out/small", "--width=20mm"], "a width in millimetres from 60 to 400"),
         (["out", "--hatch"], "there is nothing to draw in `out`: looked for manifest.json and map.csv"),
     ] {

@@ -72,7 +72,7 @@ fn what_is_done_is_written() {
     let mut names: Vec<_> =
         std::fs::read_dir(&results).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     names.sort();
-    assert_eq!(names, ["manifest.json", "map.csv", "map.png", "map.svg", "tiles"]);
+    assert_eq!(names, ["manifest.json", "map.csv", "map.png", "map.svg", "source.txt", "tiles"]);
     let csv = std::fs::read_to_string(results.join("map.csv")).unwrap();
     assert_eq!(csv.lines().count(), 1 + POINTS);
     assert_eq!(csv.lines().filter(|line| line.ends_with(",not_computed")).count(), POINTS - done);

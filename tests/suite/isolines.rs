@@ -242,7 +242,7 @@ fn what_is_no_cut_is_refused() {
     let (map, _) = quantity(vec![span(Param::MuS, 0.0, 0.6, 7), span(Param::MuD, 0.0, 0.6, 7)], |_| None);
     for (cut, words) in [
         ("mu_d", "write name=value"),
-        ("theta=1", "the map has no axis `theta`; it has mu_s, mu_d"),
+        ("theta=1", "the map has no axis `theta`; choose from mu_s"),
         ("mu_d=0.22", "`mu_d` has no value 0.22; take one of its own, 0.2 or 0.3"),
         ("mu_d=0.2,mu_s=0.1", "no axis of numbers is left"),
     ] {

@@ -114,8 +114,8 @@ fn what_another_sweep_has_kept_is_not_given_up() {
     let ended = squealmap(top, &["run", "other.toml", "--backend", "cpu", "--tile", "32", "-o", "out/s"]);
     assert_eq!(ended.code, Some(2), "{}{}", ended.out, ended.err);
     let said = unwrapped(&ended.err);
-    assert!(said.contains("`out/s` holds 0 of 2 tiles and "), "{said}");
-    assert!(said.contains(" instances of others of another sweep, program version or engine"), "{said}");
+    assert!(said.contains("`out/s` holds the results of another sweep, program version or engine"), "{said}");
+    assert!(said.contains("0 of 2 tiles, ") && said.contains(" instances kept of others"), "{said}");
     assert_eq!(files.iter().map(|path| fs::read(path).unwrap()).collect::<Vec<_>>(), bytes);
     assert!(fs::read(top.join("out/s/map.csv")).unwrap() == csv);
 }

@@ -53,8 +53,8 @@ pub(crate) fn names(directory: &Path) -> Vec<String> {
     names
 }
 
-pub(crate) const COMPLETE: [&str; 6] =
-    ["manifest.json", "map.csv", "map.png", "map.svg", "sweep.json", "tiles"];
+pub(crate) const COMPLETE: [&str; 7] =
+    ["manifest.json", "map.csv", "map.png", "map.svg", "source.txt", "sweep.json", "tiles"];
 
 fn read(directory: &Path, name: &str) -> Vec<u8> {
     std::fs::read(directory.join("out/s").join(name)).unwrap()
@@ -170,8 +170,8 @@ fn a_directory_of_another_sweep_is_refused() {
         assert_eq!(ended.code, Some(2), "{}", ended.out);
         assert!(
             ended.err.ends_with(
-                "error: `out/s` holds 10 of 10 tiles of another sweep, program version or engine; choose another \
-                 directory with -o, or remove `tiles` in it\n"
+                "error: `out/s` holds the results of another sweep, program version or engine: \"Tiles\", 300 instances, \
+                 10 of 10 tiles, cpu f64, from `s.toml`; choose another directory with -o, or replace them with --force\n"
             ),
             "{}",
             ended.err

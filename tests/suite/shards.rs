@@ -80,7 +80,7 @@ fn shards_of_one_directory_and_of_several_make_the_whole() {
     let directory = with(SWEEP);
     let ended = shard(directory.path(), "0/2", "out/s");
     assert!(ended.code == Some(0) && ended.out.contains("; 5 of 10 tiles are in out/s\n"), "{}", ended.out);
-    assert_eq!(names(directory.path()), ["sweep.json", "tiles"], "a shard writes no results");
+    assert_eq!(names(directory.path()), ["source.txt", "sweep.json", "tiles"], "a shard writes no results");
     let status = squealmap(directory.path(), &["status", "out/s"]);
     for line in [
         "title      Tiles\n",

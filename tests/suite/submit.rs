@@ -296,7 +296,11 @@ fn near_its_time_limit_a_task_ends_with_its_tiles_and_is_queued_again() {
     assert!(err.contains("the time limit is near; the task goes on in a new one"), "{err}");
     assert_eq!(read_to_string(fakes.path().join("scontrol.calls")).unwrap(), "requeue 97\n");
     assert!((5..300).contains(&there(directory.path(), ".tile")));
-    assert_eq!(names(directory.path()), ["slurm", "sweep.json", "tiles"], "nothing half-written is left");
+    assert_eq!(
+        names(directory.path()),
+        ["slurm", "source.txt", "sweep.json", "tiles"],
+        "nothing half-written is left"
+    );
 }
 
 #[test]

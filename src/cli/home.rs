@@ -1,0 +1,128 @@
+//! The directory of the results of an input file: which one it is by default, and whose results it may already hold.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use squealmap::store::description::Description;
+use squealmap::store::directory::{Store, TILES};
+use squealmap::store::occupant::Occupant;
+use squealmap::store::origin;
+use squealmap::{Error, Result};
+
+use crate::cli::output::Output;
+use crate::cli::{note, stem};
+
+/// Where the directories of results are by default.
+const OUT: &str = "out";
+
+/// The output directory of an input file: the one asked for, else `out/NAME` of `NAME.toml`; where that holds what was made
+/// from another file of this name, `out/NAME-2`, and so on. The same file finds its own again.
+pub(crate) fn directory(input: &Path, asked: Option<&Path>) -> Result<PathBuf> {
+    if let Some(asked) = asked {
+        return Ok(asked.to_owned());
+    }
+    let first = Path::new(OUT).join(stem(input)?);
+    let Ok(input) = input.canonicalize() else { return Ok(first) };
+    let mut directory = first.clone();
+    let mut number = 1;
+    while origin::of(&directory).is_some_and(|other| other != input) {
+        number += 1;
+        let mut name = first.as_os_str().to_owned();
+        name.push(format!("-{number}"));
+        directory = name.into();
+    }
+    Ok(directory)
+}
+
+/// Makes that directory ready for `files`, and says where another file of the same name has the first.
+pub(crate) fn prepare(input: &Path, asked: Option<&Path>, files: &[&str]) -> Result<Output> {
+    let directory = directory(input, asked)?;
+    if asked.is_none() {
+        let first = Path::new(OUT).join(stem(input)?);
+        if let Some(other) = origin::of(&first).filter(|_| directory != first) {
+            let (first, other) = (first.display(), short(&other));
+            note(&format!(
+                "`{first}` is of `{}`; the results go to `{}`",
+                other.display(),
+                directory.display()
+            ));
+        }
+    }
+    Output::prepare(directory, files)
+}
+
+/// The same for results that take seconds: they replace others of their names, and the directory stays whose it was.
+pub(crate) fn prepare_beside(input: &Path, asked: Option<&Path>, files: &[&str]) -> Result<Output> {
+    let mut output = prepare(input, asked, files)?;
+    if origin::written(output.directory()).is_none() {
+        output.made_from(input)?;
+    }
+    Ok(output)
+}
+
+/// A path as seen from here, where it is below.
+fn short(path: &Path) -> PathBuf {
+    let here = std::env::current_dir().and_then(|here| here.canonicalize()).unwrap_or_default();
+    path.strip_prefix(here).unwrap_or(path).to_owned()
+}
+
+/// What may be replaced.
+#[derive(Clone, Copy, Debug, Default, Args)]
+pub(crate) struct Replace {
+    /// Replace the results of another sweep that are in the output directory
+    #[arg(long)]
+    pub(crate) force: bool,
+}
+
+impl Replace {
+    /// Makes room for the tiles and results of a sweep. What the same sweep file gave before it was changed gives way if it is
+    /// a single tile, which is made again in seconds; other results only if that was asked for.
+    pub(crate) fn tiles(
+        self,
+        directory: &Path,
+        input: Option<&Path>,
+        description: &Description,
+    ) -> Result<()> {
+        let Some(there) = Occupant::of_run(directory)? else { return Ok(()) };
+        let is_cut_alike = there.tiles.is_none_or(|(_, total)| total == description.tiling.count());
+        if there.sweep == description.id.to_string() && is_cut_alike {
+            return Ok(());
+        }
+        let is_own = input.is_some_and(|input| origin::is_of(directory, input));
+        self.decide(directory, &there, is_own && there.is_cheap())?;
+        if self.force && directory.join(TILES).is_dir() {
+            Store { directory: directory.to_owned(), description: description.clone() }.remove_strangers()?;
+        }
+        Ok(())
+    }
+
+    /// The same for the results of a refinement, whose parts stay in any case.
+    pub(crate) fn refinement(self, directory: &Path, input: &Path, description: &Description) -> Result<()> {
+        match Occupant::of_refinement(directory) {
+            Some(there) if there.sweep != description.id.to_string() => {
+                self.decide(directory, &there, origin::is_of(directory, input))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// The same for the file `name`, which takes minutes.
+    pub(crate) fn file(self, directory: &Path, input: &Path, name: &'static str) -> Result<()> {
+        match origin::of(directory) {
+            Some(from)
+                if !self.force && directory.join(name).exists() && !origin::is_of(directory, input) =>
+            {
+                Err(Error::OtherInput { path: directory.to_owned(), name, from: short(&from) })
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn decide(self, directory: &Path, there: &Occupant, gives_way: bool) -> Result<()> {
+        if !self.force && !gives_way {
+            return Err(Error::OtherSweep { path: directory.to_owned(), there: there.to_string() });
+        }
+        note(&format!("replaces what is in `{}`: {there}", directory.display()));
+        Ok(())
+    }
+}

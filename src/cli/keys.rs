@@ -1,0 +1,119 @@
+//! `squealmap keys`: every key of a sweep file, from the one table.
+
+use std::fmt::Write;
+
+use clap::Args;
+use serde_json::{Value as Json, json};
+use squealmap::Result;
+use squealmap::spec::keys::{Key, SECTIONS, all, named};
+
+use crate::cli::{print, talk};
+
+/// Arguments of `keys`.
+#[derive(Debug, Args)]
+pub(crate) struct KeysCommand {
+    /// One key, or all of a section [default: every key]
+    name: Option<String>,
+    /// As tables in Markdown, of which docs/sweeps.md is made
+    #[arg(long, conflicts_with = "name")]
+    markdown: bool,
+}
+
+impl KeysCommand {
+    pub(crate) fn execute(self) -> Result<()> {
+        let keys = self.name.as_deref().map_or_else(|| Ok(all()), named)?;
+        talk::tell("keys", keys.iter().map(to_json).collect::<Json>());
+        print(&match keys.as_slice() {
+            [one] => card(one),
+            _ if self.markdown => by_section(&keys, markdown),
+            _ => {
+                by_section(&keys, listed)
+                    + "\n`squealmap keys NAME` says all of one; `[axes]` may vary what it says varies\n"
+            }
+        });
+        Ok(())
+    }
+}
+
+/// Section by section, those that have keys.
+fn by_section(keys: &[Key], write: fn(&str, &str, &[&Key]) -> String) -> String {
+    let section = |(name, about): &(&str, &str)| {
+        let of: Vec<&Key> = keys.iter().filter(|key| key.section == *name).collect();
+        (!of.is_empty()).then(|| write(name, about, &of))
+    };
+    SECTIONS.iter().filter_map(section).collect::<Vec<_>>().join("\n")
+}
+
+/// `[model]` as it is called in words.
+fn heading(section: &str) -> String {
+    if section.is_empty() { "top level".to_owned() } else { format!("[{section}]") }
+}
+
+/// The default in words.
+fn default(key: &Key) -> &str {
+    key.default.as_deref().unwrap_or("none")
+}
+
+/// A line of name, unit and meaning for each key.
+fn listed(section: &str, about: &str, keys: &[&Key]) -> String {
+    let width = |of: fn(&Key) -> &str| keys.iter().map(|key| of(key).chars().count()).max().unwrap_or(0);
+    let (names, units, defaults) = (width(|key| key.name), width(|key| key.unit), width(default));
+    let mut text = format!("{}: {about}\n", heading(section));
+    for key in keys {
+        let (name, unit, default) = (key.name, key.unit, default(key));
+        let _ = writeln!(text, "  {name:names$}  {unit:units$}  {default:defaults$}  {}", key.meaning);
+    }
+    text
+}
+
+/// All of one key.
+fn card(key: &Key) -> String {
+    let rows = [
+        ("meaning", key.meaning),
+        ("unit", if key.unit.is_empty() { "none" } else { key.unit }),
+        ("default", default(key)),
+        ("range", key.range.as_str()),
+        ("read by", if key.read_by.is_empty() { "every sweep" } else { key.read_by.as_str() }),
+        ("varies", if key.varies { "yes, in [axes] or as a column of `points`" } else { "no" }),
+    ];
+    let mut text = format!("{}, {}\n", key.name, heading(key.section));
+    for (name, value) in rows {
+        let _ = writeln!(text, "  {name:7}  {value}");
+    }
+    text
+}
+
+/// The same as a table.
+fn markdown(section: &str, about: &str, keys: &[&Key]) -> String {
+    let heading = if section.is_empty() { "Top level".to_owned() } else { format!("`[{section}]`") };
+    let mut text = format!("### {heading}: {about}\n\n");
+    text += "| key | unit | meaning | default | range | read by | varies |\n|---|---|---|---|---|---|---|\n";
+    for key in keys {
+        let default = key.default.as_ref().map_or_else(String::new, |value| format!("`{value}`"));
+        let name = format!("`{}`", key.name);
+        let cells = [
+            name.as_str(),
+            key.unit,
+            key.meaning,
+            default.as_str(),
+            key.range.as_str(),
+            key.read_by.as_str(),
+            if key.varies { "yes" } else { "" },
+        ];
+        let _ = writeln!(text, "| {} |", cells.join(" | "));
+    }
+    text
+}
+
+fn to_json(key: &Key) -> Json {
+    json!({
+        "section": key.section,
+        "name": key.name,
+        "unit": key.unit,
+        "meaning": key.meaning,
+        "default": key.default,
+        "range": key.range,
+        "read_by": key.read_by,
+        "varies": key.varies,
+    })
+}
