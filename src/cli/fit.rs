@@ -98,7 +98,9 @@ impl FitCommand {
             list(&paths),
             FILES[0]
         ));
-        warnings(&fitted, &points).iter().for_each(|warning| note(&format!("warning: {warning}")));
+        for warning in warnings(&fitted, &points) {
+            note(&format!("warning: {warning}"));
+        }
         Ok(())
     }
 }

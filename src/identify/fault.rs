@@ -76,6 +76,18 @@ pub enum Fault {
         /// What stands there.
         text: String,
     },
+    /// A column of time without numbers.
+    #[error(
+        "line {line}: column `{column}` for time holds `{text}`, which is no finite number; name another column with --time, or give the rate with --rate"
+    )]
+    NotATime {
+        /// Line, from 1.
+        line: u64,
+        /// The column.
+        column: String,
+        /// What stands there.
+        text: String,
+    },
     /// Decimal points and decimal commas in one file, or commas between thousands.
     #[error(
         "line {line}: column `{column}` holds `{text}`, but of points and commas the file has both before decimals; write all numbers with a decimal point and without marks between thousands"

@@ -42,6 +42,8 @@ pub(super) struct Table {
     units: [Option<TimeUnit>; 2],
     /// Whether the column of time gives the rate; else it may contradict the one given.
     believed: bool,
+    /// Whether a row was read.
+    begun: bool,
     /// Whether a comma is what separates the fields.
     by_commas: bool,
     marks: Marks,
@@ -125,7 +127,19 @@ impl Table {
         let by_commas = separator == b',';
         let (record, marks) = (ByteRecord::new(), Marks::default());
         since.set(0);
-        Ok(Table { reader, since, record, header, time, units, believed, by_commas, marks, columns })
+        Ok(Table {
+            reader,
+            since,
+            record,
+            header,
+            time,
+            units,
+            believed,
+            begun: false,
+            by_commas,
+            marks,
+            columns,
+        })
     }
 
     /// The next row; `None` at the end of the file.
@@ -157,7 +171,12 @@ impl Table {
         let unit = self.time_unit().unwrap_or(TimeUnit::Second).seconds();
         let time = self.time.map(|column| self.number(column, line).map(|time| time * unit));
         // Beside a given rate any text may stand for the time.
-        let time = if self.believed { time.transpose()? } else { time.and_then(Result::ok) };
+        let time = if self.believed {
+            time.transpose().map_err(|fault| if self.begun { fault } else { no_time(fault) })?
+        } else {
+            time.and_then(Result::ok)
+        };
+        self.begun = true;
         Ok(Some(Row { line, time, values }))
     }
 
@@ -226,6 +245,14 @@ impl Table {
     /// The column of time.
     pub(super) fn time_name(&self) -> String {
         self.time.map(|column| quoted(&self.header[column])).unwrap_or_default()
+    }
+}
+
+/// What is wrong with a column of time that holds no numbers from its first row on, as one of times of day.
+fn no_time(fault: Fault) -> Fault {
+    match fault {
+        Fault::NotANumber { line, column, text } => Fault::NotATime { line, column, text },
+        fault => fault,
     }
 }
 

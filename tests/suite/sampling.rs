@@ -125,6 +125,20 @@ fn a_given_rate_that_no_sensor_has_is_asked_about() {
     is_asked(path, &ended, &["51.2", "--time-unit ms"]);
 }
 
+/// Times of day are no numbers: what to do is not to cut the record.
+#[test]
+fn times_of_day_are_told_what_to_be_read_by() {
+    let directory = tempfile::tempdir().unwrap();
+    let path = directory.path();
+    let (header, rows) =
+        table("Time", 1.0).split_once('\n').map(|(a, b)| (a.to_owned(), b.to_owned())).unwrap();
+    let with_clock = |row: &str| format!("12:30:00,{}\n", row.split_once(',').unwrap().1);
+    let signals = header + "\n" + &rows.lines().map(with_clock).collect::<String>();
+    let ended = identify(path, &signals, &[]);
+    is_asked(path, &ended, &["`Time`", "`12:30:00`", "--time", "--rate"]);
+    is_right(path, &identify(path, &signals, &["--rate", "51200"]), "a rate beside");
+}
+
 #[test]
 fn a_trace_sampled_too_slowly_says_what_would_do() {
     let directory = tempfile::tempdir().unwrap();
