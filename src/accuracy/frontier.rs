@@ -12,7 +12,7 @@ use std::sync::LazyLock;
 
 use serde::{Deserialize, Serialize};
 
-/// What is compiled in: `squealmap tradeoff` on the sweeps of `sweeps/accuracy`, see docs/accuracy_measured.md.
+/// What is compiled in: `squealmap tradeoff` on the sweeps of `sweeps/accuracy`, see `docs/accuracy_measured.md`.
 const SHIPPED: &str = include_str!("default.csv");
 
 /// What was measured must be so many times better than what is asked for: another sweep of the same kind has other

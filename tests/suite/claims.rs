@@ -255,6 +255,16 @@ fn a_stable_zone_of_one_acceleration_is_said_to_be_of_that_one() {
 }
 
 #[test]
+fn a_course_that_ends_with_its_largest_is_no_line() {
+    let mut evidence = faithful();
+    evidence.ramps[1] = ramp(|v| (1000.0 / (0.1 + v), 1.0, 0.2));
+    let found = claim(&evidence, "almost stable zone").found;
+    assert!(found.contains("ẍ2 is largest at the end of the ramp") && !found.contains("NaN"), "{found}");
+    assert!(found.contains("ÿ1 falls to 100 %") && found.contains("R² = 1.0000"), "{found}");
+    assert_eq!(verdict(&evidence, "almost stable zone"), Verdict::NotReproduced);
+}
+
+#[test]
 fn a_phase_that_tells_the_mechanism_in_the_limit_cycle_alone_is_said_to() {
     let mut evidence = faithful();
     evidence.phase_trial = trial_of_phase([4, 9], [0, 10]);

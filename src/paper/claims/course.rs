@@ -8,8 +8,8 @@ use crate::paper::{LIMITS, extremes};
 struct Course {
     /// The last size over the largest.
     last: f64,
-    /// Coefficient of determination of the straight line over the belt velocity.
-    straight: f64,
+    /// Coefficient of determination of the straight line over the belt velocity; `None` of too few parts.
+    straight: Option<f64>,
     /// The belt velocity over which the size stays almost the same, at most, m/s.
     zone: f64,
 }
@@ -40,29 +40,40 @@ impl Course {
 
     /// Whether it is what the paper describes, on a ramp over so much belt velocity.
     fn as_described(&self, over: f64) -> bool {
-        self.straight < LIMITS.straight && self.zone >= LIMITS.zone * over && self.last <= LIMITS.shrunk
+        self.straight.is_some_and(|r| r < LIMITS.straight)
+            && self.zone >= LIMITS.zone * over
+            && self.last <= LIMITS.shrunk
     }
 
     fn words(&self, symbol: &str) -> String {
+        let Some(straight) = self.straight else {
+            return format!("{symbol} is largest at the end of the ramp");
+        };
         format!(
             "{symbol} falls to {:.0} % of its largest and stays within {:.0} % over {:.2} m/s at most; a straight line \
              over V has R² = {:.4}",
             100.0 * self.last,
             100.0 * (LIMITS.steady - 1.0),
             self.zone,
-            self.straight
+            straight
         )
     }
 }
 
-/// The coefficient of determination of a straight line through points: the square of their correlation.
-fn determination(points: &[[f64; 2]]) -> f64 {
+/// The coefficient of determination of a straight line through points: the square of their correlation. One through two
+/// points says nothing.
+fn determination(points: &[[f64; 2]]) -> Option<f64> {
+    if points.len() < 3 {
+        return None;
+    }
     let mean = |k: usize| points.iter().map(|point| point[k]).sum::<f64>() / points.len() as f64;
     let middle = [mean(0), mean(1)];
     let moment = |i: usize, j: usize| {
         points.iter().map(|point| (point[i] - middle[i]) * (point[j] - middle[j])).sum::<f64>()
     };
-    moment(0, 1).powi(2) / (moment(0, 0) * moment(1, 1))
+    // Sizes that are all the same are on a line.
+    let spread = moment(0, 0) * moment(1, 1);
+    Some(if spread > 0.0 { moment(0, 1).powi(2) / spread } else { 1.0 })
 }
 
 pub(super) fn stable_zone(evidence: &Evidence) -> Claim {
