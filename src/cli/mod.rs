@@ -4,6 +4,7 @@
 mod accuracy;
 mod adapters;
 mod check;
+mod compare;
 mod engine;
 mod excerpt;
 mod export;
@@ -76,6 +77,8 @@ enum Command {
     Modes(modes::Modes),
     /// The figure of a command again from its directory, for print: plot.svg, plot.pdf, plot.png
     Plot(plot::Plot),
+    /// Two result directories of the same grid, and where they differ: compare.csv, compare.json, compare.svg, compare.png
+    Compare(compare::Compare),
     /// One instance in full, as a time series: trace.csv, trace.json, trace.svg, trace.png
     Trace(trace::TraceCommand),
     /// What measured signals say: identify.json, identify.svg, identify.png, windows.csv
@@ -148,6 +151,7 @@ impl Command {
             | Command::Check(_)
             | Command::Modes(_)
             | Command::Plot(_)
+            | Command::Compare(_)
             | Command::Trace(_)
             | Command::Identify(_)
             | Command::Paper(_)
@@ -168,6 +172,7 @@ impl Command {
             Command::Check(command) => command.execute()?,
             Command::Modes(command) => command.execute()?,
             Command::Plot(command) => command.execute()?,
+            Command::Compare(command) => command.execute()?,
             Command::Trace(command) => command.execute()?,
             Command::Identify(command) => command.execute()?,
             Command::Paper(command) => command.execute()?,

@@ -29,7 +29,7 @@ pub(super) fn nearest<'a>(name: &str, candidates: &[&'a str]) -> Option<&'a str>
 }
 
 /// "did you mean", or the list of what there is.
-pub(super) fn advice(name: &str, candidates: &[&str]) -> String {
+pub(crate) fn advice(name: &str, candidates: &[&str]) -> String {
     match nearest(name, candidates) {
         Some(candidate) => format!("did you mean `{candidate}`?"),
         None if candidates.is_empty() => "there is none to choose from".to_owned(),
