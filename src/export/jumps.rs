@@ -59,7 +59,8 @@ mod tests {
         for start in [0.0, 0.01, 0.5, 0.99] {
             let of = |k: i32| f64::from(k) - 2.0 - start;
             let values: Vec<f64> = (0..8).map(|k| of(k).max(0.0).sqrt()).collect();
-            let is_same = |place: usize| (values[place] > 0.0) == (values.get(place + 1) > Some(&0.0));
+            let is_same =
+                |place: usize| (values.get(place) > Some(&0.0)) == (values.get(place + 1) > Some(&0.0));
             assert_eq!(stepped(&curve(&values), 2.5, is_same).len(), 8, "{start}");
         }
         // What is undefined stays a gap.
