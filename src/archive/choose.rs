@@ -101,7 +101,7 @@ fn nearest(axis: &Axis, numbers: &[f64], wanted: f64) -> Option<usize> {
     if (low..=high).contains(&wanted) || is_same(axis, numbers, numbers[place], wanted) {
         return Some(place);
     }
-    let others = numbers.iter().filter(|x| **x != numbers[place]);
+    let others = numbers.iter().filter(|x| x.to_bits() != numbers[place].to_bits());
     let step = others.map(|x| (on_axis(*x) - on_axis(numbers[place])).abs()).fold(f64::INFINITY, f64::min);
     (step.is_finite() && apart(numbers[place]) <= 0.5 * step).then_some(place)
 }

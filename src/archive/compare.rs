@@ -108,7 +108,7 @@ fn relative(a: f64, b: f64, angle: bool) -> f64 {
         return ((a - b + HALF).rem_euclid(2.0 * HALF) - HALF).abs() / HALF;
     }
     let largest = a.abs().max(b.abs());
-    if a == b || largest == 0.0 { 0.0 } else { (a / largest - b / largest).abs() }
+    if a.to_bits() == b.to_bits() || largest == 0.0 { 0.0 } else { (a / largest - b / largest).abs() }
 }
 
 /// What is found of two maps.
