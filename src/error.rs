@@ -849,6 +849,24 @@ pub enum Error {
         /// Why there is none, and what to write.
         why: String,
     },
+    /// A part of a map that it does not have.
+    #[error("--select {select}: {why}")]
+    Select {
+        /// What was asked for.
+        select: String,
+        /// Why there is none, and what to write.
+        why: String,
+    },
+    /// Two maps that cannot be compared.
+    #[error("`{}` and `{}` cannot be compared: {why}; give two directories of the same grid", first.display(), second.display())]
+    NotComparable {
+        /// The first directory.
+        first: PathBuf,
+        /// The second.
+        second: PathBuf,
+        /// What differs.
+        why: String,
+    },
     /// A map that is no source for LaTeX.
     #[error("--tikz writes the classes of a map, but {why}; leave --tikz out")]
     Tikz {
@@ -1028,6 +1046,8 @@ impl Error {
             | Error::TooNarrow { .. }
             | Error::TooTall { .. }
             | Error::Cut { .. }
+            | Error::Select { .. }
+            | Error::NotComparable { .. }
             | Error::NoIsolines { .. }
             | Error::NoAreas { .. }
             | Error::Tikz { .. }

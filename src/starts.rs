@@ -113,6 +113,12 @@ impl Basin {
         (self.total() > 0).then(|| f64::from(count) / f64::from(self.total()))
     }
 
+    /// The standard error of such a fraction, `sqrt(p (1 − p)/n)`; undefined of none.
+    #[must_use]
+    pub fn standard_error(self, count: u32) -> Option<f64> {
+        self.fraction(count).map(|part| (part * (1.0 - part) / f64::from(self.total())).sqrt())
+    }
+
     /// Whether both sliding and oscillation were met; `None` where only one was and some starts ended elsewhere or failed.
     #[must_use]
     pub fn is_bistable(self) -> Option<bool> {

@@ -71,13 +71,7 @@ impl Range {
 }
 
 /// Follows the instance `at` over the range and writes both branches.
-pub(crate) fn execute(
-    spec: &Spec,
-    files: &Files,
-    at: &str,
-    range: &Range,
-    points: u32,
-) -> Result<ExitCode> {
+pub(crate) fn execute(spec: &Spec, files: &Files, at: &str, range: &Range, points: u32) -> Result<ExitCode> {
     let name = range.param.info().name;
     let instance = |value: f64| {
         let comma = if at.trim().is_empty() { "" } else { "," };

@@ -4,6 +4,7 @@
 mod accuracy;
 mod adapters;
 mod check;
+mod compare;
 mod engine;
 mod environment;
 mod excerpt;
@@ -92,6 +93,8 @@ enum Command {
     Modes(modes::Modes),
     /// The figure of a command again from its directory, for print: plot.svg, plot.pdf, plot.png
     Plot(plot::Plot),
+    /// Two result directories of the same grid, and where they differ: compare.csv, compare.json, compare.svg, compare.png
+    Compare(compare::Compare),
     /// One instance in full, as a time series: trace.csv, trace.json, trace.svg, trace.png
     Trace(trace::TraceCommand),
     /// What measured signals say: identify.json, identify.svg, identify.png, windows.csv
@@ -185,6 +188,7 @@ impl Command {
             | Command::Check(_)
             | Command::Modes(_)
             | Command::Plot(_)
+            | Command::Compare(_)
             | Command::Trace(_)
             | Command::Identify(_)
             | Command::Paper(_)
@@ -206,6 +210,7 @@ impl Command {
             Command::Adapters => adapters::execute(),
             Command::Modes(command) => command.execute()?,
             Command::Plot(command) => command.execute()?,
+            Command::Compare(command) => command.execute()?,
             Command::Identify(command) => command.execute()?,
             Command::Paper(command) => command.execute()?,
             Command::Tradeoff(command) => command.execute()?,

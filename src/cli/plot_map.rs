@@ -1,7 +1,8 @@
 //! What `squealmap plot` can show of a map: classes, quantities with lines of equal value, and cuts.
 
 use clap::Args;
-use squealmap::archive::{Archive, NumberColumn};
+use squealmap::archive::{Archive, NumberColumn, Taken};
+use squealmap::cluster::slurm::quote;
 use squealmap::export::boundary_lines::boundary_lines;
 use squealmap::export::columns::Cell;
 use squealmap::export::cut::{Cut, cut_csv, cut_svg, left_out};
@@ -54,6 +55,9 @@ pub(crate) struct OfMaps {
     /// `stick_fraction` or any column of numbers in map.csv [default: type and regime, as far as computed]
     #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
     quantity: Vec<String>,
+    /// Of a map, only the instances that have these values of its axes (or the nearest): numbers, laws, materials
+    #[arg(long, value_name = "NAME=VALUE,...")]
+    select: Option<String>,
     /// Of a map, types by hatching too, not by colour alone
     #[arg(long)]
     hatch: bool,
@@ -63,7 +67,7 @@ pub(crate) struct OfMaps {
     /// Of a map, lines at about so many round values of each quantity, 1 to 30
     #[arg(long, value_name = "N", conflicts_with = "isolines", value_parser = clap::value_parser!(u8).range(1..=30))]
     levels: Option<u8>,
-    /// Of a map, curves instead, where axes have these values: along the longest of the others, one for each value of the
+    /// Of a map, curves instead, where axes have these values, or the nearest: along the longest of the others, one for each value of the
     /// shortest (or of an axis that is named several times), a panel for each of what is left; cut.csv has them too
     #[arg(long, value_name = "NAME=VALUE,...", conflicts_with_all = ["hatch", "isolines", "levels", "tikz"])]
     cut: Option<String>,
@@ -77,6 +81,7 @@ impl OfMaps {
     pub(crate) fn given(&self) -> Option<&'static str> {
         let all = [
             ("--quantity", !self.quantity.is_empty()),
+            ("--select", self.select.is_some()),
             ("--hatch", self.hatch),
             ("--isolines", !self.isolines.is_empty()),
             ("--levels", self.levels.is_some()),
@@ -93,6 +98,9 @@ impl OfMaps {
         if !self.quantity.is_empty() {
             add("--quantity", &self.quantity.join(","));
         }
+        if let Some(select) = &self.select {
+            add("--select", &quote(select));
+        }
         if !self.isolines.is_empty() {
             add("--isolines", &self.isolines.iter().map(f64::to_string).collect::<Vec<_>>().join(","));
         }
@@ -100,7 +108,7 @@ impl OfMaps {
             add("--levels", &levels.to_string());
         }
         if let Some(cut) = &self.cut {
-            add("--cut", cut);
+            add("--cut", &quote(cut));
         }
         for (option, given) in [(" --hatch", self.hatch), (" --tikz", self.tikz)] {
             command += if given { option } else { "" };
@@ -134,6 +142,14 @@ impl OfMaps {
 
     /// The figure and the tables.
     pub(crate) fn draw(&self, archive: &Archive, look: Look<'_>) -> Result<(String, Tables)> {
+        let Some(select) = &self.select else { return self.draw_all(archive, look) };
+        let (part, taken) = archive.slice(select)?;
+        tell_taken("--select", &taken);
+        self.draw_all(&part, look)
+    }
+
+    /// The same of the instances that were selected.
+    fn draw_all(&self, archive: &Archive, look: Look<'_>) -> Result<(String, Tables)> {
         if let Some(cut) = &self.cut {
             return self.draw_cut(archive, cut, &look);
         }
@@ -171,26 +187,29 @@ impl OfMaps {
         Ok((figure::look_svg(&archive.map, &look)?, tables))
     }
 
-    /// The values at which each content has lines.
+    /// The values at which each content has lines: those of numbers alone, of which there has to be one.
     fn levels_of(&self, contents: &[Content<'_>]) -> Result<Vec<Vec<f64>>> {
         let Some(option) = self.lines() else { return Ok(vec![Vec::new(); contents.len()]) };
+        if !contents.iter().any(|content| matches!(content, Content::Quantity { .. })) {
+            let name = contents.first().map_or("", |content| match content {
+                Content::Classes { colouring, .. } => colouring.name(),
+                Content::LargeRegime => LARGE_REGIME,
+                _ => "",
+            });
+            return Err(Error::NoIsolines { option, name: name.to_owned() });
+        }
         let of = |content: &Content<'_>| match (content, self.levels) {
-            (Content::Quantity { column, .. }, Some(most)) => Ok(round_levels(column, usize::from(most))),
-            (Content::Quantity { .. }, None) => Ok(self.isolines.clone()),
-            // What is shown without being named.
-            (Content::Basin, _) => Ok(Vec::new()),
-            (Content::LargeRegime, _) if self.quantity.is_empty() => Ok(Vec::new()),
-            (Content::LargeRegime, _) => Err(Error::NoIsolines { option, name: LARGE_REGIME.to_owned() }),
-            (Content::Classes { colouring, .. }, _) => {
-                Err(Error::NoIsolines { option, name: colouring.name().to_owned() })
-            }
+            (Content::Quantity { column, .. }, Some(most)) => round_levels(column, usize::from(most)),
+            (Content::Quantity { .. }, None) => self.isolines.clone(),
+            _ => Vec::new(),
         };
-        contents.iter().map(of).collect()
+        Ok(contents.iter().map(of).collect())
     }
 
     fn draw_cut(&self, archive: &Archive, at: &str, look: &Look<'_>) -> Result<(String, Tables)> {
         let spec = &archive.map.spec;
         let cut = Cut::new(&spec.grid, at)?;
+        tell_taken("--cut", &cut.taken);
         let mut quantities: Vec<&NumberColumn> = Vec::new();
         for name in &self.quantity {
             if is_class(archive, name) {
@@ -214,6 +233,13 @@ impl OfMaps {
         }
         let table = cut_csv(&archive.map, &cut, &quantities)?;
         Ok((cut_svg(&archive.map, &cut, &quantities, look), vec![(CUT, table)]))
+    }
+}
+
+/// Says which values stand for those that an axis does not have.
+fn tell_taken(option: &str, taken: &[Taken]) {
+    for one in taken {
+        note(&format!("{option}: {one}"));
     }
 }
 

@@ -1,5 +1,6 @@
 //! One block of a figure: heading, a grid of panels with shared axes, legend.
 
+use super::beside::{gap_across, parted};
 use super::cells;
 use super::curve_block::{self, is_curve};
 use super::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room};
@@ -11,7 +12,6 @@ use super::palette::Colouring;
 use super::panels::Panels;
 use super::picture_axis::Direction;
 use super::quantity::{self, Field};
-use super::scale::Tick;
 use super::sides::Sides;
 use super::svg::{Anchor, Style, Svg};
 use super::text::Text;
@@ -21,8 +21,6 @@ use crate::spec::Starts;
 
 /// Between panels of a row, points; more, up to the second, where their labels would touch.
 const GAP_ACROSS: [f64; 2] = [7.0, 15.0];
-/// Least room between the labels of two panels, points.
-const TICK_GAP: f64 = 3.0;
 /// Between rows of panels, points.
 const GAP_DOWN: f64 = 7.0;
 /// Height of a line of text, points.
@@ -43,6 +41,8 @@ const COLUMNS: usize = 5;
 const TALLEST: f64 = 213.0;
 /// Heading, axis and legend of a block take about this much, points.
 const AROUND: f64 = 72.0;
+/// The panel of a curve is no flatter than this part of its usual height.
+const FLATTEST_CURVE: f64 = 0.4;
 /// Axis and letter of a block with a curve take about this much, points.
 const CURVE_AROUND: f64 = 26.0;
 /// Height of a picture without a vertical axis, points.
@@ -51,6 +51,7 @@ const STRIP: f64 = 24.0;
 const NAMED_ROW: f64 = 18.0;
 
 /// One block to draw.
+#[derive(Clone, Copy)]
 pub(super) struct Block<'a> {
     pub(super) grid: &'a Grid,
     /// The counts of all instances, also of those that no panel shows.
@@ -68,6 +69,8 @@ pub(super) struct Block<'a> {
     pub(super) letter: Option<usize>,
     /// What stands left of panels at least, points: those of curves and strips that stand one below the other begin together.
     pub(super) least_left: f64,
+    /// Lines of headings beyond the first, of the one in its row that has most.
+    pub(super) more_lines: usize,
     /// Whether the height alone is asked for: nothing is drawn into the panels.
     pub(super) measured: bool,
 }
@@ -86,17 +89,14 @@ impl Block<'_> {
         if let Some(letter) = self.letter {
             let label = Text::from(letters::letter(letter));
             svg.text(x, y + LABEL_SIZE, &label, heading);
-            words += label.width(LABEL_SIZE, true) + 4.0;
+            words += letters::width(letter);
         }
         heading.bold = false;
         let field = Field::of(self.content, panels);
-        let name = match (self.content, &field) {
-            (Content::Classes { colouring, .. }, _) => Text::from(colouring.heading(self.starts)),
-            (Content::LargeRegime, _) => Text::from("Regime from the large start (time integration)"),
-            (_, field) => field.as_ref().map(Field::heading).unwrap_or_default(),
-        };
-        svg.text(words, y + LABEL_SIZE, &name, heading);
-        let top = y + LABEL_SIZE + 6.0;
+        for (number, line) in self.heading(width).iter().enumerate() {
+            svg.text(words, y + LABEL_SIZE + number as f64 * LINE, line, heading);
+        }
+        let top = y + LABEL_SIZE + self.more_lines as f64 * LINE + 6.0;
 
         let count = panels.all.len();
         let columns = self.columns(width);
@@ -105,7 +105,7 @@ impl Block<'_> {
         // The labels of the vertical axis need its height, which needs the width they leave: start from a guess.
         let mut left = LEFT;
         let mut size = self.panel_size(width - left - RIGHT, columns, GAP_ACROSS[0]);
-        let gap = gap_across(&panels.x.ticks(size[0], Direction::Horizontal, TICK_SIZE), size[0]);
+        let gap = gap_across(&panels.x.ticks(size[0], Direction::Horizontal, TICK_SIZE), size[0], GAP_ACROSS);
         for _ in 0..2 {
             size = self.panel_size(width - left - RIGHT, columns, gap);
             left = self.left_room(size[1]);
@@ -116,7 +116,7 @@ impl Block<'_> {
         let pitch = lines * LINE + panel_height + GAP_DOWN + below;
         let x_ticks = panels.x.ticks(panel_width, Direction::Horizontal, TICK_SIZE);
         // The last label of a panel must not run into the first of the next.
-        let inner_ticks = parted(&x_ticks, panel_width, gap);
+        let inner_ticks = parted(&panels.x, panel_width, gap);
         let y_ticks = panels.y.as_ref().map(|axis| axis.ticks(panel_height, Direction::Vertical, TICK_SIZE));
         for (number, panel) in panels.all.iter().enumerate() {
             let (row, column) = (number / columns, number % columns);
@@ -172,10 +172,27 @@ impl Block<'_> {
         bottom + legend.draw(Some(svg), x + indent, bottom, width - indent) - y
     }
 
+    /// What stands above the panels, in lines of a block of this width; a curve has its words beside it.
+    fn heading(&self, width: f64) -> Vec<Text> {
+        let room = width - self.letter.map_or(0.0, letters::width);
+        let lines = |words: &str| Text::from(words).wrapped(room, LABEL_SIZE);
+        match self.content {
+            content if is_curve(content, self.panels) => Vec::new(),
+            Content::Classes { colouring, .. } => lines(colouring.heading(self.starts)),
+            Content::LargeRegime => lines("Regime from the large start (time integration)"),
+            content => Field::of(content, self.panels).map_or_else(Vec::new, |field| field.heading(room)),
+        }
+    }
+
+    /// The lines of the heading beyond the first.
+    pub(super) fn lines_beyond_one(&self, width: f64) -> usize {
+        self.heading(width).len().saturating_sub(1)
+    }
+
     /// The height of the panel of a curve.
     fn curve_height(&self) -> f64 {
         let room = self.layout.page / self.blocks as f64 - CURVE_AROUND;
-        room.clamp(self.layout.flattest * curve_block::HEIGHT, curve_block::HEIGHT)
+        room.clamp(self.layout.flattest.max(FLATTEST_CURVE) * curve_block::HEIGHT, curve_block::HEIGHT)
     }
 
     /// What a block of one panel without a picture takes left of it, points.
@@ -198,11 +215,19 @@ impl Block<'_> {
             |least: f64| ((width - LEFT - RIGHT + GAP_ACROSS[0]) / (least + GAP_ACROSS[0])).max(1.0) as usize;
         let [most, preferred] = [MOST_COLUMNS, COLUMNS].map(|columns| columns.min(fit(NARROWEST)));
         let usual = match self.panels.columns {
-            Some(columns) if (2..=most).contains(&columns) => columns,
+            // As many as a row of the table has, or as fit: of a slide they may be crowded.
+            Some(columns) if (2..=fit(CROWDED).min(MOST_COLUMNS)).contains(&columns) => columns,
             _ if count <= most => count,
             _ => count.div_ceil(count.div_ceil(preferred)),
         };
-        (usual + self.layout.more_columns).min(fit(CROWDED).max(usual)).min(count)
+        // A table of panels stays one: with other columns its rows would be broken.
+        let more = if self.is_table() && !self.layout.broken { 0 } else { self.layout.more_columns };
+        (usual + more).min(fit(CROWDED).max(usual)).min(count)
+    }
+
+    /// Whether rows and columns of panels are the values of two axes.
+    fn is_table(&self) -> bool {
+        self.panels.columns.is_some_and(|columns| (2..self.panels.all.len()).contains(&columns))
     }
 
     fn panel_size(&self, width: f64, columns: usize, gap: f64) -> [f64; 2] {
@@ -228,30 +253,4 @@ impl Block<'_> {
             Some(axis) => LABEL_SIZE + 6.0 + y_tick_room(&axis.ticks(height, Direction::Vertical, TICK_SIZE)),
         }
     }
-}
-
-/// How far the ticks of a panel let the next one stand from it.
-fn gap_across(ticks: &[Tick], width: f64) -> f64 {
-    let [least, most] = GAP_ACROSS;
-    let wanted = least - room_between(ticks, width, least);
-    if wanted > most { least } else { wanted.max(least) }
-}
-
-/// What is left between the words of the last tick of a panel and those of the first of the next, points; less than 0
-/// where they touch.
-fn room_between(ticks: &[Tick], width: f64, gap: f64) -> f64 {
-    let [first, .., last] = ticks else { return 0.0 };
-    let words = [first, last].map(|tick| 0.5 * tick.label.width(TICK_SIZE, false)).iter().sum::<f64>();
-    (1.0 - last.at + first.at) * width + gap - words - TICK_GAP
-}
-
-/// The ticks of a panel with another one beside it: without the words of the last where they would touch its first.
-fn parted(ticks: &[Tick], width: f64, gap: f64) -> Vec<Tick> {
-    /// Panels that became a little narrower keep their labels.
-    const SLACK: f64 = 0.5;
-    let mut parted = ticks.to_vec();
-    if let (true, Some(end)) = (room_between(ticks, width, gap) < -SLACK, parted.last_mut()) {
-        end.label = Text::default();
-    }
-    parted
 }

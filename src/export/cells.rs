@@ -102,7 +102,7 @@ pub(super) fn draw(
         quantity::draw(svg, grid, panels, panel, &field, frame);
     }
     let (colouring, hatched) = match content {
-        Content::Basin => return,
+        Content::Basin | Content::Named { .. } => return,
         Content::LargeRegime => (Colouring::Regime, false),
         Content::Quantity { column, levels } => {
             return isolines::draw(svg, panels, panel, (column, levels), frame);

@@ -3,17 +3,14 @@
 use super::columns::Cell;
 use super::csv::Table;
 use super::trust;
-use crate::archive::NumberColumn;
+use crate::archive::choose::choose_all;
+use crate::archive::{NumberColumn, Taken};
 use crate::error::{Error, Result};
 use crate::grid::{Axis, AxisKey, Grid, Value};
 use crate::map::Map;
-use crate::spec::names::advice;
 
 use super::cut_figure::MOST_CURVES;
 pub use super::cut_figure::{cut_svg, left_out};
-
-/// Two values are the same where they differ by no more than this part of them: rounding of a step times an index.
-const SAME: f64 = 1e-9;
 
 /// One curve: the instances along the axis, in rising order of its values.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,16 +41,19 @@ pub struct Cut {
     pub held: Vec<(AxisKey, Value)>,
     /// The panels; one where no axis is left for more.
     pub panels: Vec<CutPanel>,
+    /// What stands for a value that an axis does not have.
+    pub taken: Vec<Taken>,
 }
 
 impl Cut {
-    /// Cuts a grid of axes where some of them have these values, such as `mu_d=0.3,belt_velocity=3`; an axis that is named
+    /// Cuts a grid of axes where some of them have these values, or the nearest that they have, such as
+    /// `mu_d=0.3,belt_velocity=3`; an axis that is named
     /// several times, as in `mu_d=0.1,mu_d=0.2`, has a curve for each. Of the axes that are not named the numeric one of
     /// most values is that of the curves, the shortest of the rest has a curve for each of its values, and what is beyond
     /// has panels.
     ///
     /// # Errors
-    /// When the grid has no such axis or value, no axis of numbers is left, or more values of an axis are named than a
+    /// When the grid has no such axis, a value is outside it, no axis of numbers is left, or more values of an axis are named than a
     /// panel can show curves.
     pub fn new(grid: &Grid, at: &str) -> Result<Cut> {
         let refused = |why: String| Error::Cut { cut: at.to_owned(), why };
@@ -63,12 +63,13 @@ impl Cut {
         // The indices that are asked for of each axis; none: it is free.
         let mut asked: Vec<Vec<usize>> =
             axes.iter().map(|axis| if axis.values.len() == 1 { vec![0] } else { Vec::new() }).collect();
-        for one in at.split(',') {
-            let (place, index) = find(axes, one.trim()).map_err(refused)?;
-            if !asked[place].contains(&index) {
-                asked[place].push(index);
+        let choices = choose_all(axes, at).map_err(refused)?;
+        for choice in &choices {
+            if !asked[choice.axis].contains(&choice.value) {
+                asked[choice.axis].push(choice.value);
             }
         }
+        let taken = choices.into_iter().filter_map(|choice| choice.taken).collect();
         let mut free: Vec<usize> = (0..axes.len()).filter(|i| asked[*i].is_empty()).collect();
         free.sort_by_key(|i| axes[*i].values.len());
         let numeric = |i: &usize| matches!(axes[*i].key, AxisKey::Param(_));
@@ -110,50 +111,8 @@ impl Cut {
                     .collect(),
             })
             .collect();
-        Ok(Cut { axis: axes[along].clone(), held, panels })
+        Ok(Cut { axis: axes[along].clone(), held, panels, taken })
     }
-}
-
-/// The axis and the index of a value, both as written: `mu_d=0.3`.
-fn find(axes: &[Axis], text: &str) -> std::result::Result<(usize, usize), String> {
-    let (name, asked) = text.split_once('=').ok_or("write name=value, such as mu_d=0.3")?;
-    let (name, asked) = (name.trim(), asked.trim());
-    let place = axes.iter().position(|axis| axis.key.name() == name);
-    let place = place.ok_or_else(|| {
-        let names: Vec<&str> = axes.iter().map(|axis| axis.key.name()).collect();
-        format!("the map has no axis `{name}`; {}", advice(name, &names))
-    })?;
-    let is = |value: &Value| match (value, asked.parse::<f64>()) {
-        (Value::Number(x), Ok(y)) => (x - y).abs() <= SAME * x.abs().max(y.abs()),
-        (Value::Text(text), _) => text.as_str() == asked,
-        _ => false,
-    };
-    let index = axes[place].values.iter().position(is);
-    let index = index.ok_or_else(|| {
-        format!("`{name}` has no value {asked}; take one of its own, {}", nearest(&axes[place], asked))
-    })?;
-    Ok((place, index))
-}
-
-/// The values of an axis next to one that it does not have, or all of its names.
-fn nearest(axis: &Axis, asked: &str) -> String {
-    /// That many are enough to see the spacing.
-    const SHOWN: usize = 2;
-    let mut values = axis.values.clone();
-    if let Ok(asked) = asked.parse::<f64>() {
-        let apart = |value: &Value| match value {
-            Value::Number(x) => (x - asked).abs(),
-            Value::Text(_) => f64::INFINITY,
-        };
-        values.sort_by(|a, b| apart(a).total_cmp(&apart(b)));
-        values.truncate(SHOWN);
-    }
-    // Without the rounding of a step times an index.
-    let shown = |value: &Value| match value {
-        Value::Number(x) => format!("{x:.11e}").parse().unwrap_or(*x).to_string(),
-        Value::Text(text) => text.to_string(),
-    };
-    values.iter().map(shown).collect::<Vec<_>>().join(" or ")
 }
 
 fn setting(axes: &[Axis], place: usize, index: usize) -> (AxisKey, Value) {

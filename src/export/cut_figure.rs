@@ -1,23 +1,27 @@
 //! The figure of a cut: a row of panels for each quantity, a curve for each value of the further axis.
 
+use super::beside::{most_panels, parted};
 use super::cut::{Curve, Cut, CutPanel};
 use super::cyclic;
 use super::figure::{DOUBLE_COLUMN, MARGIN, SINGLE_COLUMN};
-use super::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_count, y_tick_room};
+use super::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room, y_ticks};
 use super::heading::Heading;
+use super::jumps::stepped;
 use super::key::{self, Sample};
 use super::letters;
 use super::look::Look;
 use super::marks::{MARK, UNSETTLED, open_marks};
 use super::panels::{selection, setting};
 use super::picture_axis::{Direction, PictureAxis};
-use super::plot::{FIRST, Plot, SECOND, THIRD};
+use super::plot::{FIRST, Plot, SECOND, THIRD, ZERO};
+use super::quantity::has_sign;
 use super::scale::{Scale, Tick};
 use super::svg::{Anchor, Style, Svg};
 use super::text::Text;
 use super::trust;
 use super::words;
 use crate::archive::NumberColumn;
+use crate::label::Label;
 use crate::map::Map;
 
 /// The axis of positions.
@@ -34,10 +38,6 @@ const RIGHT: f64 = 8.0;
 const HEADROOM: f64 = 0.08;
 /// Height of a line of a panel's title, points.
 const LINE: f64 = 10.0;
-/// Side by side no more panels than this; the table holds all.
-const MOST_PANELS: usize = 4;
-/// Panels are no narrower than this, points.
-const NARROWEST: f64 = 90.0;
 /// So many curves of a panel can be told apart.
 pub(super) const MOST_CURVES: usize = 6;
 /// Curves that differ in colour, in lightness and in their dashes; of more values an even selection is shown.
@@ -73,13 +73,6 @@ fn page(cut: &Cut, look: &Look<'_>) -> f64 {
     look.points().unwrap_or(if cut.panels.len() > 1 { DOUBLE_COLUMN } else { SINGLE_COLUMN })
 }
 
-/// How many panels stand side by side on a page of this width.
-fn most_panels(page: f64) -> usize {
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive count")]
-    let fit = ((page - 2.0 * MARGIN) / NARROWEST).max(1.0) as usize;
-    MOST_PANELS.min(fit)
-}
-
 /// The picture and its size, with panels of this height.
 fn draw(map: &Map, cut: &Cut, quantities: &[&NumberColumn], look: &Look<'_>, height: f64) -> (Svg, [f64; 2]) {
     let page = page(cut, look);
@@ -94,7 +87,7 @@ fn draw(map: &Map, cut: &Cut, quantities: &[&NumberColumn], look: &Look<'_>, hei
     let scales: Vec<Scale> = quantities.iter().map(|column| scale(column, &panels, &curves, &x)).collect();
     let ticks = |(scale, column): (&Scale, &&NumberColumn)| {
         let quarters = if column.is_angle() { cyclic::ticks(scale) } else { None };
-        quarters.unwrap_or_else(|| scale.ticks(y_tick_count(height)))
+        quarters.unwrap_or_else(|| y_ticks(scale, height))
     };
     let ticks: Vec<Vec<Tick>> = scales.iter().zip(quantities).map(ticks).collect();
     let left = MARGIN + LABEL_SIZE + 6.0 + ticks.iter().map(|ticks| y_tick_room(ticks)).fold(0.0, f64::max);
@@ -116,6 +109,8 @@ fn draw(map: &Map, cut: &Cut, quantities: &[&NumberColumn], look: &Look<'_>, hei
     y += lines * LINE + 2.0;
     let axis = PictureAxis::cells(&cut.axis).edge_to_edge(&x);
     let x_ticks = axis.ticks(width, Direction::Horizontal, TICK_SIZE);
+    // The last label of a panel must not run into the first of the next.
+    let inner_ticks = parted(&axis, width, GAP_ACROSS);
     for (number, panel) in panels.iter().enumerate() {
         let from = left + number as f64 * (width + GAP_ACROSS);
         for (line, (key, value)) in panel.of.iter().rev().enumerate() {
@@ -126,17 +121,21 @@ fn draw(map: &Map, cut: &Cut, quantities: &[&NumberColumn], look: &Look<'_>, hei
         for (row, column) in quantities.iter().enumerate() {
             let frame = Frame { x: from, y: y + row as f64 * (height + GAP), width, height };
             let plot = Plot { frame, x: &POSITION, y: &scales[row] };
+            if has_sign(column) && (0.0..=1.0).contains(&scales[row].position(0.0)) {
+                plot.curve(&mut svg, [(0.0, 0.0), (1.0, 0.0)], ZERO);
+            }
             for (curve, stroke) in curves.iter().zip(STROKES) {
                 let curve = &panel.curves[*curve];
                 let points = points(column, curve, &x);
                 let doubtful = points.iter().zip(&curve.instances);
                 let doubtful = doubtful.filter(|(_, instance)| unsettled(column, **instance));
                 let doubtful = doubtful.map(|(point, _)| *point);
-                plot.curve(&mut svg, drawn(column, &points), stroke);
+                plot.curve(&mut svg, drawn(map, column, curve, &points, &scales[row]), stroke);
                 open_marks(&mut svg, &plot, doubtful, stroke);
             }
             frame.border(&mut svg);
-            frame.x_ticks(&mut svg, &x_ticks, row + 1 == quantities.len());
+            let ticks_below = if number + 1 < panels.len() { &inner_ticks } else { &x_ticks };
+            frame.x_ticks(&mut svg, ticks_below, row + 1 == quantities.len());
             frame.y_ticks(&mut svg, &ticks[row], number == 0);
         }
     }
@@ -168,15 +167,36 @@ fn points(column: &NumberColumn, curve: &Curve, x: &Scale) -> Vec<(f64, f64)> {
     curve.x.iter().zip(&curve.instances).map(of).collect()
 }
 
-/// The same as they are drawn: those of angles go on at the other side of ±180°.
-fn drawn(column: &NumberColumn, points: &[(f64, f64)]) -> Vec<(f64, f64)> {
-    if column.is_angle() { cyclic::parted(points) } else { points.to_vec() }
+/// The same as they are drawn: those of angles go on at the other side of ±180°, and jumps between classes are steps.
+fn drawn(
+    map: &Map,
+    column: &NumberColumn,
+    curve: &Curve,
+    points: &[(f64, f64)],
+    scale: &Scale,
+) -> Vec<(f64, f64)> {
+    if column.is_angle() {
+        return cyclic::parted(points);
+    }
+    let class = |place: usize| curve.instances.get(place).and_then(|instance| class(map, column, *instance));
+    stepped(points, scale.value(1.0) - scale.value(0.0), |place| class(place) == class(place + 1))
+}
+
+/// What an instance is labelled, of the start that a column is of.
+fn class(map: &Map, column: &NumberColumn, instance: usize) -> Option<Label> {
+    let record = map.records.get(instance)?;
+    let record = if trust::is_of_large_start(column) { record.large()? } else { record };
+    Some(Label::from(record).class())
 }
 
 /// The scale of a quantity over all that is shown.
 fn scale(column: &NumberColumn, panels: &[&CutPanel], curves: &[usize], x: &Scale) -> Scale {
     let shown = panels.iter().flat_map(|panel| curves.iter().map(|curve| &panel.curves[*curve]));
-    let values = shown.flat_map(|curve| drawn(column, &points(column, curve, x)));
+    let values = shown.flat_map(|curve| {
+        let points = points(column, curve, x);
+        // Angles reach ±180° where they go on at the other side.
+        if column.is_angle() { cyclic::parted(&points) } else { points }
+    });
     Scale::spanning(values.map(|(_, value)| value)).widened(HEADROOM)
 }
 

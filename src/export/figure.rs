@@ -28,8 +28,14 @@ pub const DOUBLE_COLUMN: f64 = 180.0 * MM;
 pub const SINGLE_COLUMN: f64 = 88.0 * MM;
 /// White margin around everything, points.
 pub(super) const MARGIN: f64 = 4.0;
-/// Between blocks, points.
-const BLOCK_GAP: f64 = 16.0;
+/// Between blocks side by side, points.
+const GAP_ACROSS: f64 = 16.0;
+/// Blocks side by side are as wide as this, points, in pairs ...
+const HALF: f64 = 0.6 * SINGLE_COLUMN - 0.5 * GAP_ACROSS;
+/// ... and where there are three in a row; more only where a page has no other room.
+const THIRD: f64 = 120.0;
+/// No block is narrower than this, points.
+const NARROWEST: f64 = 88.0;
 
 /// The stability map as an SVG document: double column width, single column when it is one picture only.
 ///
@@ -151,18 +157,36 @@ fn draw(figure: &MapFigure<'_>, look: &Look<'_>) -> String {
     let width = look.points().unwrap_or(usual);
     let inner = width - 2.0 * MARGIN;
     // Blocks of one picture stand side by side; strips of one axis do so only in pairs.
-    let pair = contents.len() == 2 || (contents.len() > 2 && panels.y.is_some());
-    let usual = Layout::usual(one_panel && pair && inner > SINGLE_COLUMN * 1.2);
+    let row = contents.len() == 2 || (contents.len() > 2 && panels.y.is_some());
+    let usual = Layout::usual(if one_panel && row { across(contents.len(), inner) } else { 1 });
     let layout = look.tallest().map_or(usual, |tallest| {
-        let pairs = contents.len() > 1 && inner > SINGLE_COLUMN * 1.2;
         let height = |layout| compose(figure, look, (&contents, layout, true), width).1[1];
-        Layout::fitting(usual, pairs, tallest, height)
+        Layout::fitting(usual, most_across(contents.len(), inner), tallest, height)
     });
     let (svg, size) = compose(figure, look, (&contents, layout, false), width);
     let title = look.title(sheet.title);
     let name = if title.is_empty() { "Stability map" } else { title };
     let metadata = provenance(*sheet, tally.total(), some.as_ref().unwrap_or(tally)) + &look.made_by();
     svg.finish_enlarged(look.enlarged, size, name, &metadata)
+}
+
+/// How many of some blocks have room side by side in this width, points.
+fn most_across(blocks: usize, inner: f64) -> usize {
+    let least = |count: usize| if count == 2 { HALF } else { NARROWEST };
+    let fits = |count: &usize| block_width(inner, *count) >= least(*count);
+    (2..=blocks).filter(fits).max().unwrap_or(1)
+}
+
+/// How many of them stand side by side: two or three, whichever leaves less of the last row empty.
+fn across(blocks: usize, inner: f64) -> usize {
+    let fits = |count: &usize| block_width(inner, *count) >= if *count == 2 { HALF } else { THIRD };
+    let empty = |count: &usize| (count - blocks % count) % count;
+    [2, 3].into_iter().filter(fits).min_by_key(empty).unwrap_or(1)
+}
+
+/// The width of so many blocks side by side, points.
+fn block_width(inner: f64, count: usize) -> f64 {
+    (inner - (count - 1) as f64 * GAP_ACROSS) / count as f64
 }
 
 /// The picture in a layout and its size; one that is measured only has empty panels.
@@ -177,12 +201,11 @@ fn compose(
     let mut svg = Svg::new();
     define_patterns(&mut svg);
     let mut y = MARGIN + title(&mut svg, look.title(sheet.title), inner);
-    let across = if layout.beside { 0.5 * (inner - BLOCK_GAP) } else { inner };
-    let mut tallest: f64 = 0.0;
+    let across = block_width(inner, layout.across);
     let mut blocks = Vec::with_capacity(contents.len());
     for (number, content) in contents.iter().enumerate() {
         let letter = (contents.len() > 1).then_some(number);
-        let stacked = if layout.beside { contents.len().div_ceil(2) } else { contents.len() };
+        let stacked = contents.len().div_ceil(layout.across);
         let starts = sheet.analysis.starts;
         let (panels, tally) = match (content, large) {
             (Content::LargeRegime, Some((panels, tally))) => (panels, tally),
@@ -202,27 +225,20 @@ fn compose(
             layout,
             letter,
             least_left: 0.0,
+            more_lines: 0,
             measured,
         });
     }
     let least_left = blocks.iter().map(Block::left).fold(0.0, f64::max);
-    for (number, block) in blocks.into_iter().enumerate() {
-        let block = Block { least_left, ..block };
-        if layout.beside {
-            let column = number % 2;
-            if column == 0 && number > 0 {
-                y += tallest + BLOCK_GAP;
-                tallest = 0.0;
-            }
-            let x = MARGIN + column as f64 * (across + BLOCK_GAP);
-            tallest = tallest.max(block.draw(&mut svg, x, y, across));
-        } else {
-            let gap = if number == 0 { 0.0 } else { BLOCK_GAP };
-            y += gap;
-            y += block.draw(&mut svg, MARGIN, y, across);
-        }
+    for (row, blocks) in blocks.chunks(layout.across).enumerate() {
+        y += if row == 0 { 0.0 } else { layout.gap };
+        let more_lines = blocks.iter().map(|block| block.lines_beyond_one(across)).max().unwrap_or(0);
+        let heights = blocks.iter().enumerate().map(|(column, block)| {
+            let x = MARGIN + column as f64 * (across + GAP_ACROSS);
+            Block { least_left, more_lines, ..*block }.draw(&mut svg, x, y, across)
+        });
+        y += heights.fold(0.0, f64::max);
     }
-    y += tallest;
     let of_some = computed.as_ref().map(|some| {
         let (some, all) = (some.total(), tally.total());
         format!("{some} of {all} instances were computed; the others have the label of the cell around them.")

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::scale::Tick;
+use super::scale::{Scale, Tick};
 use super::svg::{Anchor, Style, Svg, number};
 
 /// Size of tick labels, points.
@@ -99,6 +99,23 @@ pub(super) fn y_tick_count(height: f64) -> usize {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to few")]
     let count = (height / EACH).clamp(2.0, 5.0) as usize;
     count
+}
+
+/// The ticks of a vertical axis of this length: two or more where they fit, as one is no scale.
+pub(super) fn y_ticks(scale: &Scale, height: f64) -> Vec<Tick> {
+    let most = y_tick_count(height);
+    let fits =
+        |ticks: &[Tick]| ticks.windows(2).all(|pair| (pair[1].at - pair[0].at) * height >= TICK_SIZE + 1.0);
+    let usual = scale.ticks(most);
+    if usual.len() > 1 {
+        return usual;
+    }
+    let finer = (most + 1..=3 * most).map(|most| scale.ticks(most));
+    let some = finer.flat_map(|ticks| {
+        (1..ticks.len()).map(move |stride| ticks.iter().step_by(stride).cloned().collect::<Vec<_>>())
+    });
+    let mut some = some.filter(|ticks| ticks.len() > 1 && fits(ticks));
+    some.next().unwrap_or(usual)
 }
 
 /// Room below a frame for ticks and their labels.

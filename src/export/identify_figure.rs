@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::json;
 
 use super::figure::{DOUBLE_COLUMN, MARGIN, title};
-use super::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_count, y_tick_room};
+use super::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room, y_ticks};
 use super::key;
 use super::letters;
 use super::look::Look;
@@ -126,7 +126,7 @@ fn draw(found: &Shown, pictures: &[String; 2], look: &Look<'_>, heights: [f64; 4
     let values = found.accelerations.iter().flatten().flatten().copied();
     let acceleration = Scale::spanning(values).widened(HEADROOM);
     let scales = [&friction, &acceleration, &frequency, &frequency];
-    let ticks: [_; 4] = std::array::from_fn(|k| scales[k].ticks(y_tick_count(heights[k])));
+    let ticks: [_; 4] = std::array::from_fn(|k| y_ticks(&scales[k], heights[k]));
     let room = ticks.iter().map(|ticks| y_tick_room(ticks)).fold(0.0, f64::max);
     let left = MARGIN + LABEL_SIZE + 6.0 + room;
     let width = page - left - RIGHT;

@@ -45,6 +45,10 @@ pub(super) enum Sample<'a> {
     Mark(f64, &'a str),
     /// Crosses of this radius, points, one in each stroke.
     Crosses(f64, &'a [&'a str]),
+    /// An upright bar.
+    Bar(&'a str),
+    /// Nothing: words by themselves.
+    Nothing,
 }
 
 impl Sample<'_> {
@@ -61,17 +65,23 @@ impl Sample<'_> {
                     svg.path(&cross((middle, y), radius), stroke);
                 }
             }
+            Sample::Bar(stroke) => {
+                let middle = x + 0.5 * AREA;
+                svg.path(&polyline([(middle, base), (middle, base - 0.75 * size)]), stroke);
+            }
+            Sample::Nothing => {}
         }
     }
 
     fn width(self) -> f64 {
         match self {
             Sample::Line(_) => SAMPLE,
-            Sample::Area(_) => AREA,
+            Sample::Area(_) | Sample::Bar(_) => AREA,
             Sample::Mark(radius, _) => 2.0 * radius,
             Sample::Crosses(radius, strokes) => {
                 radius * (2.0 + CROSS_PITCH * (strokes.len().max(1) - 1) as f64)
             }
+            Sample::Nothing => -WORD_GAP,
         }
     }
 }
@@ -87,14 +97,20 @@ pub(super) fn rows(
     let line = size + LINE_GAP;
     let (mut left, mut height) = (x, if entries.is_empty() { 0.0 } else { line });
     for (words, sample) in entries {
-        let room = sample.width() + WORD_GAP + words.width(size, false);
+        let lines = words.wrapped(width - sample.width() - WORD_GAP, size);
+        let words = lines.iter().map(|words| words.width(size, false)).fold(0.0, f64::max);
+        let room = sample.width() + WORD_GAP + words;
         if left > x && left + room > x + width {
             left = x;
             height += line;
         }
         let base = y + height - LINE_GAP;
         sample.draw(svg, left, base, size);
-        svg.text(left + sample.width() + WORD_GAP, base, words, Style::new(size, Anchor::Start));
+        for (number, words) in lines.iter().enumerate() {
+            let base = base + number as f64 * line;
+            svg.text(left + sample.width() + WORD_GAP, base, words, Style::new(size, Anchor::Start));
+        }
+        height += lines.len().saturating_sub(1) as f64 * line;
         left += room + ENTRY_GAP;
     }
     height

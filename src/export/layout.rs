@@ -9,16 +9,24 @@ const FLATTEST: f64 = 0.25;
 /// ... and never lower than what a reader needs, points: two labels on the axis beside it, and cells that can be seen. What
 /// is lower does not fit its page.
 const LOWEST: f64 = 22.0;
+/// Between blocks, points, ...
+const GAP: f64 = 16.0;
+/// ... and where they would not fit the page otherwise.
+const NEAR: f64 = 8.0;
 /// So many more columns of panels than usual are tried.
 const MORE_COLUMNS: usize = 4;
 
 /// An arrangement.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Layout {
-    /// Whether blocks stand side by side in pairs.
-    pub(super) beside: bool,
+    /// How many blocks stand side by side.
+    pub(super) across: usize,
+    /// Between blocks, points.
+    pub(super) gap: f64,
     /// How many more columns of panels a block has than usual.
     pub(super) more_columns: usize,
+    /// Whether a table of panels, a row for each value of an axis, may have other columns too.
+    pub(super) broken: bool,
     /// The least height of a panel, as a part of its width.
     pub(super) flattest: f64,
     /// The height that the blocks should take together, points.
@@ -32,25 +40,37 @@ impl Layout {
     }
 
     /// The usual one.
-    pub(super) fn usual(beside: bool) -> Layout {
-        Layout { beside, more_columns: 0, flattest: FLAT, page: PAGE }
+    pub(super) fn usual(across: usize) -> Layout {
+        Layout { across, gap: GAP, more_columns: 0, broken: false, flattest: FLAT, page: PAGE }
     }
 
-    /// The first that is no taller than a page, points: with more columns of panels, with blocks side by side where that
-    /// is possible, with flatter panels; failing that the last. `height` measures a figure.
+    /// The first that is no taller than a page, points: with more columns of panels, with up to so many blocks side by
+    /// side, with flatter panels, with blocks nearer to one another, with broken tables of panels; failing that the last.
+    /// `height` measures a figure.
     pub(super) fn fitting(
         usual: Layout,
-        pairs: bool,
+        most_across: usize,
         tallest: f64,
         height: impl Fn(Layout) -> f64,
     ) -> Layout {
         let usual = Layout { page: usual.page.min(tallest), ..usual };
-        let besides: Vec<bool> = if pairs && !usual.beside { vec![false, true] } else { vec![usual.beside] };
-        let all = [FLAT, FLATTEST].into_iter().flat_map(|flattest| {
-            besides.iter().flat_map(move |beside| {
+        // Three and more blocks side by side are narrow: only where pairs do not do.
+        let [pairs, more] = [2, usize::MAX].map(|most| most.min(most_across).max(usual.across));
+        let stages = [
+            (FLAT, GAP, pairs, false),
+            (FLATTEST, GAP, pairs, false),
+            (FLATTEST, NEAR, pairs, false),
+            (FLAT, NEAR, more, false),
+            (FLATTEST, NEAR, more, false),
+            (FLATTEST, NEAR, pairs, true),
+        ];
+        let all = stages.into_iter().flat_map(|(flattest, gap, most, broken)| {
+            (usual.across..=most).flat_map(move |across| {
                 (0..=MORE_COLUMNS).map(move |more_columns| Layout {
-                    beside: *beside,
+                    across,
+                    gap,
                     more_columns,
+                    broken,
                     flattest,
                     ..usual
                 })
@@ -83,7 +103,7 @@ mod tests {
     #[test]
     fn panels_stay_readable() {
         for flattest in [FLAT, FLATTEST] {
-            let layout = Layout { flattest, ..Layout::usual(false) };
+            let layout = Layout { flattest, ..Layout::usual(1) };
             for width in [10.0, 44.0, 64.0, 120.0, 400.0] {
                 let least = layout.least_height(width);
                 assert!(
@@ -97,12 +117,12 @@ mod tests {
     /// Panels of a part of their width, in rows: what is tried first is what changes least.
     #[test]
     fn what_changes_least_comes_first() {
-        let usual = Layout::usual(false);
+        let usual = Layout::usual(1);
         let of = |tallest: f64| {
-            Layout::fitting(usual, true, tallest, |layout| {
+            Layout::fitting(usual, 2, tallest, |layout| {
                 let columns = (2 + layout.more_columns).min(4) as f64;
-                let width = if layout.beside { 100.0 } else { 200.0 } / columns;
-                let blocks = if layout.beside { 1.0 } else { 2.0 };
+                let width = 200.0 / layout.across as f64 / columns;
+                let blocks = (2 / layout.across) as f64;
                 let rows = (4.0 / columns).ceil();
                 let panel = (layout.page / blocks / rows).clamp(layout.least_height(width), width);
                 blocks * rows * panel + 20.0
@@ -110,9 +130,10 @@ mod tests {
         };
         assert_eq!(of(420.0), Layout { page: 420.0, ..usual });
         assert!(of(300.0).page < usual.page && of(300.0).more_columns == 0, "flatter first");
-        assert_eq!((of(200.0).beside, of(200.0).more_columns), (false, 1));
-        assert_eq!((of(150.0).beside, of(150.0).more_columns), (false, 2));
-        assert_eq!((of(75.0).beside, of(75.0).flattest.to_bits()), (true, FLAT.to_bits()));
+        assert_eq!((of(200.0).across, of(200.0).more_columns), (1, 1));
+        assert_eq!((of(150.0).across, of(150.0).more_columns), (1, 2));
+        assert_eq!((of(75.0).across, of(75.0).flattest.to_bits()), (2, FLAT.to_bits()));
         assert_eq!(of(30.0).flattest.to_bits(), FLATTEST.to_bits());
+        assert!(!of(75.0).broken && of(75.0).gap > of(5.0).gap && of(5.0).broken);
     }
 }

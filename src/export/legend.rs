@@ -98,21 +98,26 @@ impl Legend {
         Legend(entries)
     }
 
-    /// Draws it from `(x, y)` downwards into a width and returns its height; `svg` is `None` to measure only.
+    /// Draws it from `(x, y)` downwards into a width and returns its height; `svg` is `None` to measure only. Words that are
+    /// wider go on in the next line.
     pub(super) fn draw(&self, mut svg: Option<&mut Svg>, x: f64, y: f64, width: f64) -> f64 {
         let (mut left, mut line) = (x, 0.0);
         for (swatch, text) in &self.0 {
-            let entry = SWATCH[0] + WORD_GAP + text.width(LABEL_SIZE, false);
+            let before = SWATCH[0] + WORD_GAP;
+            let lines = text.wrapped(width - before, LABEL_SIZE);
+            let entry = before + lines.iter().map(|text| text.width(LABEL_SIZE, false)).fold(0.0, f64::max);
             if left > x && left + entry > x + width {
                 left = x;
                 line += 1.0;
             }
             if let Some(svg) = svg.as_deref_mut() {
-                let top = y + line * LINE;
-                draw_swatch(svg, swatch, left, top);
-                let base = top + SWATCH[1] - 1.0;
-                svg.text(left + SWATCH[0] + WORD_GAP, base, text, Style::new(LABEL_SIZE, Anchor::Start));
+                draw_swatch(svg, swatch, left, y + line * LINE);
+                for (number, text) in lines.iter().enumerate() {
+                    let base = y + (line + number as f64) * LINE + SWATCH[1] - 1.0;
+                    svg.text(left + before, base, text, Style::new(LABEL_SIZE, Anchor::Start));
+                }
             }
+            line += lines.len().saturating_sub(1) as f64;
             left += entry + ENTRY_GAP;
         }
         if self.0.is_empty() { 0.0 } else { line * LINE + SWATCH[1] + 2.0 }

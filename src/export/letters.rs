@@ -6,16 +6,24 @@ use super::svg::{Anchor, Style, Svg};
 use super::text::Text;
 
 /// Height of a bracket above the base line, in ems.
-const ASCENT: f64 = 0.73;
+pub(super) const ASCENT: f64 = 0.73;
 /// What a letter takes of the height of a panel, points.
 const HEIGHT: f64 = LABEL_SIZE + 3.0;
 /// Behind a letter on top of curves.
 const PLATE: &str = r##"fill="#FFFFFF" fill-opacity="0.85""##;
 
+/// Between a letter and the words after it, points.
+const GAP: f64 = 4.0;
+
 /// `(a)` of the first.
 pub(super) fn letter(number: usize) -> String {
     let letter = (b'a'..=b'z').nth(number % 26).map_or('a', char::from);
     format!("({letter})")
+}
+
+/// What a letter takes before words, points.
+pub(super) fn width(number: usize) -> f64 {
+    Text::from(letter(number)).width(LABEL_SIZE, true) + GAP
 }
 
 /// Draws a letter with its upper left corner there.

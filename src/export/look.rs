@@ -86,6 +86,15 @@ pub enum Content<'a> {
         /// Values at which lines of equal value are drawn, none where empty.
         levels: &'a [f64],
     },
+    /// Numbers that stand for names: 0 for the first.
+    Named {
+        /// One of an instance.
+        column: &'a NumberColumn,
+        /// What stands above it.
+        heading: &'a str,
+        /// The names and their fills.
+        names: &'a [(&'a str, &'a str)],
+    },
     /// The regime from the large start of two, by colour.
     LargeRegime,
     /// The fraction of the starts of a box that end in a settled oscillation, by lightness, with a bar.

@@ -9,11 +9,13 @@
 //! from measured signals, [`paper`] the figures of the source paper.
 
 pub mod arrays;
+mod beside;
 mod block;
 pub mod boundaries;
 pub mod boundary_lines;
 mod cells;
 pub mod columns;
+pub mod compare;
 pub mod csv;
 mod curve_block;
 pub mod cut;
@@ -28,6 +30,7 @@ mod hysteresis_figure;
 pub mod identify;
 mod identify_figure;
 pub mod isolines;
+mod jumps;
 mod key;
 mod layout;
 mod legend;
@@ -58,6 +61,7 @@ pub mod sheet;
 mod sides;
 pub mod signals;
 pub mod spectrogram;
+mod starts_block;
 pub mod svg;
 mod tex;
 pub mod text;

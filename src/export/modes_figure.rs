@@ -1,14 +1,15 @@
 //! The two-panel figure of the modes: frequency above, growth rate below, as Figure 2 of the paper.
 
+use super::beside::{most_panels, parted};
 use super::figure::{DOUBLE_COLUMN, MARGIN, SINGLE_COLUMN, title};
-use super::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_count, y_tick_room};
+use super::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room, y_ticks};
 use super::key;
 use super::letters;
 use super::look::Look;
 use super::modes::{Branch, Mode, Modes, modes_of};
-use super::panels::setting;
+use super::panels::{selection, setting};
 use super::picture_axis::{Direction, PictureAxis};
-use super::plot::{CRITICAL, FIRST, Plot, SECOND};
+use super::plot::{CRITICAL, FIRST, Plot, SECOND, ZERO};
 use super::scale::{Scale, value_label};
 use super::svg::{Anchor, Style, Svg, polyline};
 use super::text::Text;
@@ -16,8 +17,6 @@ use crate::error::Result;
 use crate::grid::{AxisKey, Grid};
 use crate::spec::Spec;
 
-/// Side by side no more branches than this; the table holds all.
-const MOST_BRANCHES: usize = 4;
 /// Height of a panel, points.
 const HEIGHT: f64 = 120.0;
 /// Between the two panels, points.
@@ -30,8 +29,6 @@ const RIGHT: f64 = 8.0;
 const HEADROOM: f64 = 0.08;
 /// Height of a line of text, points.
 const LINE: f64 = 10.0;
-/// The line of zero growth.
-const ZERO: &str = r##"fill="none" stroke="#777777" stroke-width="0.5""##;
 
 /// The figure of a sweep's eigenvalues as an SVG document: single column width for one branch.
 ///
@@ -52,9 +49,9 @@ pub fn draw(spec: &Spec, modes: &Modes, look: &Look<'_>) -> String {
 
 /// The picture and its size, with panels of this height.
 fn page(spec: &Spec, modes: &Modes, look: &Look<'_>, height: f64) -> (Svg, [f64; 2]) {
-    let shown = &modes.branches[..modes.branches.len().min(MOST_BRANCHES)];
-    let usual = if shown.len() > 1 { DOUBLE_COLUMN } else { SINGLE_COLUMN };
+    let usual = if modes.branches.len() > 1 { DOUBLE_COLUMN } else { SINGLE_COLUMN };
     let width = look.points().unwrap_or(usual);
+    let shown = shown(modes, most_panels(width));
     let mut svg = Svg::new();
     let mut y = MARGIN + title(&mut svg, look.title(&spec.title), width - 2.0 * MARGIN);
     let axis = match &spec.grid {
@@ -66,7 +63,7 @@ fn page(spec: &Spec, modes: &Modes, look: &Look<'_>, height: f64) -> (Svg, [f64;
     let frequency = Scale::spanning(all().map(Mode::frequency)).widened(HEADROOM);
     let growth = Scale::spanning(all().map(Mode::growth_rate).chain([0.0])).widened(HEADROOM);
     let scales = [frequency, growth];
-    let ticks = scales.each_ref().map(|scale| scale.ticks(y_tick_count(height)));
+    let ticks = scales.each_ref().map(|scale| y_ticks(scale, height));
     let room = ticks.iter().map(|ticks| y_tick_room(ticks)).fold(0.0, f64::max);
     let left = MARGIN + LABEL_SIZE + 6.0 + room;
     let columns = shown.len().max(1) as f64;
@@ -81,6 +78,8 @@ fn page(spec: &Spec, modes: &Modes, look: &Look<'_>, height: f64) -> (Svg, [f64;
     y += mark_room;
     let axis = axis.edge_to_edge(&x);
     let x_ticks = axis.ticks(across, Direction::Horizontal, TICK_SIZE);
+    // The last label of a panel must not run into the first of the next.
+    let inner_ticks = parted(&axis, across, GAP_ACROSS);
     for (number, branch) in shown.iter().enumerate() {
         let from = left + number as f64 * (across + GAP_ACROSS);
         for (line, text) in titles[number].iter().rev().enumerate() {
@@ -92,7 +91,8 @@ fn page(spec: &Spec, modes: &Modes, look: &Look<'_>, height: f64) -> (Svg, [f64;
             let plot = Plot { frame, x: &x, y: scale };
             curves(&mut svg, &plot, branch, row == 1);
             frame.border(&mut svg);
-            frame.x_ticks(&mut svg, &x_ticks, row == 1);
+            let ticks_below = if number + 1 < shown.len() { &inner_ticks } else { &x_ticks };
+            frame.x_ticks(&mut svg, ticks_below, row == 1);
             frame.y_ticks(&mut svg, &ticks[row], number == 0);
         }
         let frame = Frame { x: from, y, width: across, height: 2.0 * height + GAP };
@@ -107,10 +107,17 @@ fn page(spec: &Spec, modes: &Modes, look: &Look<'_>, height: f64) -> (Svg, [f64;
     svg.text(left + 0.5 * whole, y, &axis.label(whole, LABEL_SIZE), Style::new(LABEL_SIZE, Anchor::Middle));
     if shown.len() < modes.branches.len() {
         y += LABEL_SIZE + 6.0;
-        let note = format!("{} of {} shown; the table holds all.", shown.len(), modes.branches.len());
+        let note = format!("{} of {} panels shown; the table holds all.", shown.len(), modes.branches.len());
         svg.text(MARGIN, y, &Text::from(note), Style::new(LABEL_SIZE, Anchor::Start));
     }
     (svg, [width, y + MARGIN + 2.0])
+}
+
+/// An even selection of at most so many branches, of those that have modes.
+fn shown(modes: &Modes, most: usize) -> Vec<&Branch> {
+    let with_modes = |branch: &&Branch| branch.modes.iter().any(Option::is_some);
+    let all: Vec<&Branch> = modes.branches.iter().filter(with_modes).collect();
+    selection(all.len(), most).map(|number| all[number]).collect()
 }
 
 /// The values of the further axes of a branch.

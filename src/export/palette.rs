@@ -48,7 +48,7 @@ pub const REGIMES: [Class; 8] = [
 
 /// Whether several starts end differently.
 pub const BISTABILITY: [Class; 3] = [
-    Class { name: "monostable", label: "one attractor", fill: PALE, dark: false },
+    Class { name: "monostable", label: "one end met", fill: PALE, dark: false },
     Class { name: "no_verdict", label: "no verdict", fill: "#A9B4BA", dark: false },
     Class { name: "bistable", label: "bistable", fill: "#A5480F", dark: true },
 ];

@@ -10,6 +10,7 @@ use super::text::Text;
 use crate::grid::{Axis, AxisKey, Grid, Rows, Value};
 use crate::label::Label;
 use crate::map::Record;
+use crate::starts::Basin;
 
 /// More panels than this do not fit a page; the figure then shows an even selection and says so.
 const MOST_PANELS: usize = 40;
@@ -51,8 +52,8 @@ pub(super) struct Panels {
     pub(super) instances: Vec<usize>,
     /// The label of each.
     pub(super) labels: Vec<Label>,
-    /// The fraction of starts that end in an oscillation of each, NaN where it is undefined; empty where a sweep has none.
-    pub(super) basins: Vec<f64>,
+    /// Where the starts of each have ended, where they are drawn from a box; empty where a sweep has no box.
+    pub(super) basins: Vec<Option<Basin>>,
     /// The places in `instances` in the order of the grid.
     order: Vec<u32>,
     /// The number of values of the fastest further axis, when there are two or more such axes.
@@ -92,7 +93,7 @@ impl Panels {
 
     /// The same for a sweep with starts from a box, of which the fractions are shown too.
     pub(super) fn with_basins(self) -> Panels {
-        Panels { basins: vec![f64::NAN; self.instances.len()], ..self }
+        Panels { basins: vec![None; self.instances.len()], ..self }
     }
 
     /// Takes the labels, and the fractions, of the records from instance `first` on.
@@ -103,8 +104,8 @@ impl Panels {
             match records.get(self.instances[place] - first) {
                 Some(record) => {
                     self.labels[place] = Label::from(record);
-                    if let (Some(fraction), Some(basin)) = (self.basins.get_mut(place), record.basin()) {
-                        *fraction = basin.fraction(basin.oscillation).unwrap_or(f64::NAN);
+                    if let Some(basin) = self.basins.get_mut(place) {
+                        *basin = record.basin();
                     }
                 }
                 None => break,
@@ -227,7 +228,7 @@ impl Thinned {
 /// An even selection of at most `most` of `total`, first and last included.
 pub(super) fn selection(total: usize, most: usize) -> impl Iterator<Item = usize> {
     let shown = total.min(most);
-    (0..shown).map(move |i| if shown < total { i * (total - 1) / (shown - 1) } else { i })
+    (0..shown).map(move |i| if shown < total { i * (total - 1) / (shown - 1).max(1) } else { i })
 }
 
 /// `V = 3 m/s`, or the name of a law or material.

@@ -17,6 +17,9 @@ pub(super) const THIRD: &str = r##"fill="none" stroke="#4F7F4F" stroke-width="1.
 /// The mark at a critical value.
 pub(super) const CRITICAL: &str =
     r##"fill="none" stroke="#000000" stroke-width="0.6" stroke-dasharray="1.2 1.4""##;
+/// The line of zero, of what has a sign.
+pub(super) const ZERO: &str = r##"fill="none" stroke="#777777" stroke-width="0.5""##;
+
 /// A frame with what its sides mean.
 pub(super) struct Plot<'a> {
     pub(super) frame: Frame,

@@ -10,13 +10,14 @@ use super::look::Content;
 use super::panels::{Panel, Panels};
 use super::points::{self, Marks, NOT_COMPUTED, contrast, positions};
 use super::raster;
-use super::scale::{Scale, axis_unit};
+use super::scale::{Scale, Tick, ZERO, axis_unit};
 use super::svg::{Anchor, Style, Svg, polyline};
 use super::text::Text;
 use super::trust;
 use super::words;
 use crate::archive::NumberColumn;
 use crate::grid::Grid;
+use crate::starts::Basin;
 
 /// Steps of lightness: more than the eye tells apart, few enough for small files.
 const STEPS: usize = 48;
@@ -36,18 +37,21 @@ const MARKS: [&str; 2] = [
 ];
 /// What the bar of a fraction of starts says.
 const STARTS: &str = "fraction of starts";
+/// A side of zero that reaches less far than this part of the other is rounding.
+const ROUNDING: f64 = 1e-9;
 
 /// What a block shows: values of the places of its panels, and words.
 pub(super) struct Field<'a> {
-    heading: Text,
     /// Whose values they are, where they stand in a column.
     column: Option<&'a NumberColumn>,
     /// Beside the bar; empty where the heading says it all.
-    label: &'static str,
+    label: &'a str,
     scale: Scale,
-    tones: Tones,
+    tones: Tones<'a>,
     /// Where lines of equal value are drawn.
     levels: &'a [f64],
+    /// Where the starts of every place have ended; empty where the values are not of starts.
+    basins: &'a [Option<Basin>],
     /// How many values are undefined.
     undefined: usize,
     /// The value of a place in [`Panels::instances`].
@@ -63,13 +67,14 @@ impl<'a> Field<'a> {
             Content::Classes { .. } | Content::LargeRegime => None,
             Content::Quantity { column, levels } => {
                 let value = |place: usize| column.values.get(panels.instances[place]).copied().flatten();
+                let (scale, tones) = shade(column);
                 Some(Field {
-                    heading: words::label(column, 0, f64::INFINITY, LABEL_SIZE),
                     column: Some(column),
-                    label: if column.name.starts_with("basin_") { STARTS } else { "" },
-                    scale: if column.is_angle() { cyclic::scale() } else { scale(column) },
-                    tones: if column.is_angle() { Tones::Circle } else { Tones::Lightness },
+                    label: if is_fraction(column) { STARTS } else { "" },
+                    scale,
+                    tones,
                     levels,
+                    basins: &[],
                     undefined: column.values.iter().filter(|value| value.is_none()).count(),
                     value: Box::new(value),
                     unsettled: if trust::is_of_the_window(column) {
@@ -79,20 +84,35 @@ impl<'a> Field<'a> {
                     },
                 })
             }
-            Content::Basin => {
-                let value =
-                    |place: usize| panels.basins.get(place).copied().filter(|fraction| fraction.is_finite());
+            Content::Named { column, heading, names } => {
+                let value = |place: usize| column.values.get(panels.instances[place]).copied().flatten();
                 Some(Field {
-                    heading: Text::from("Starts in a box that end in a settled oscillation"),
+                    column: None,
+                    label: heading,
+                    scale: FRACTION,
+                    tones: Tones::Named(names),
+                    levels: &[],
+                    basins: &[],
+                    undefined: column.values.iter().filter(|value| value.is_none()).count(),
+                    value: Box::new(value),
+                    unsettled: Box::new(|_| false),
+                })
+            }
+            Content::Basin => {
+                let basin = |place: usize| panels.basins.get(place).copied().flatten();
+                let value = move |place: usize| basin(place).and_then(|one| one.fraction(one.oscillation));
+                Some(Field {
                     column: None,
                     label: STARTS,
-                    scale: Scale::Linear { low: 0.0, high: 1.0 },
+                    scale: FRACTION,
                     tones: Tones::Lightness,
                     levels: &[],
+                    basins: &panels.basins,
                     undefined: (0..panels.instances.len()).filter(|place| value(*place).is_none()).count(),
                     value: Box::new(value),
-                    // Starts that have not settled are counted apart.
-                    unsettled: Box::new(|_| false),
+                    unsettled: Box::new(move |place| {
+                        basin(place).is_some_and(|one| one.other + one.failed > 0)
+                    }),
                 })
             }
         }
@@ -101,6 +121,21 @@ impl<'a> Field<'a> {
     /// Whether a place has a value that is not to be trusted.
     pub(super) fn is_doubtful(&self, place: usize) -> bool {
         (self.unsettled)(place) && (self.value)(place).is_some()
+    }
+
+    /// Where the starts of every place have ended; empty where the values are not of starts.
+    pub(super) fn basins(&self) -> &'a [Option<Basin>] {
+        self.basins
+    }
+
+    /// The scale on which its values stand by themselves; `None` for one around them.
+    pub(super) fn own_scale(&self) -> Option<Scale> {
+        (!self.basins.is_empty() || self.column.is_some_and(is_fraction)).then_some(FRACTION)
+    }
+
+    /// Whether its values grow or decay, by their sign.
+    pub(super) fn has_sign(&self) -> bool {
+        self.column.is_some_and(has_sign)
     }
 
     /// Whether the values are angles.
@@ -119,9 +154,53 @@ impl<'a> Field<'a> {
         self.column.map_or_else(|| Text::from(words::capital(self.label)), of)
     }
 
-    /// What stands above the block.
-    pub(super) fn heading(&self) -> Text {
-        self.heading.clone()
+    /// What stands above the block, in lines of this width, points.
+    pub(super) fn heading(&self, room: f64) -> Vec<Text> {
+        if let Some(column) = self.column {
+            return words::label(column, 0, room, LABEL_SIZE).wrapped(room, LABEL_SIZE);
+        }
+        if self.basins.is_empty() {
+            return Text::from(self.label).wrapped(room, LABEL_SIZE);
+        }
+        let starts = starts(self.basins);
+        let words = format!("Starts that end in a settled oscillation, of {starts} drawn from a box");
+        Text::from(words).wrapped(room, LABEL_SIZE)
+    }
+}
+
+/// The scale of a fraction.
+const FRACTION: Scale = Scale::Linear { low: 0.0, high: 1.0 };
+
+/// How many starts an instance has.
+fn starts(basins: &[Option<Basin>]) -> u32 {
+    basins.iter().flatten().map(|basin| basin.total()).max().unwrap_or(0)
+}
+
+/// Whether a column is a fraction of the starts from a box.
+fn is_fraction(column: &NumberColumn) -> bool {
+    column.name.starts_with("basin_")
+}
+
+/// Whether the sign of a column says what happens: growth or decay.
+pub(super) fn has_sign(column: &NumberColumn) -> bool {
+    column.name.starts_with("growth_rate")
+}
+
+/// The scale of the colours of a quantity, and the colours.
+fn shade(column: &NumberColumn) -> (Scale, Tones<'static>) {
+    if column.is_angle() {
+        return (cyclic::scale(), Tones::Circle);
+    }
+    if is_fraction(column) {
+        return (FRACTION, Tones::Lightness);
+    }
+    match scale(column) {
+        Scale::Linear { low, high }
+            if has_sign(column) && -low > ROUNDING * high && high > ROUNDING * -low && low < 0.0 =>
+        {
+            (Scale::Signed { low, high }, Tones::Sign)
+        }
+        scale => (scale, Tones::Lightness),
     }
 }
 
@@ -137,24 +216,49 @@ pub(super) fn exponent(quantity: &NumberColumn) -> i32 {
 
 /// How values become colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Tones {
+enum Tones<'a> {
     /// The larger the darker.
     Lightness,
+    /// The same, in another hue below 0 than above.
+    Sign,
     /// Angles around a circle.
     Circle,
+    /// Names and their fills.
+    Named(&'a [(&'a str, &'a str)]),
 }
 
-impl Tones {
+/// Below 0, from the lowest value to 0: lighter than what is above.
+const BELOW: [[f32; 3]; 2] = [[255.0, 250.0, 235.0], [243.0, 214.0, 145.0]];
+/// How light what is just above 0 is, of the colours of [`Tones::Lightness`].
+const ABOVE: f32 = 0.25;
+/// The first step that is not below 0.
+const FIRST_ABOVE: usize = 18;
+const _: () = assert!(FIRST_ABOVE as f64 == ZERO * STEPS as f64, "a step begins at 0");
+
+impl Tones<'_> {
     /// The number of steps.
     fn steps(self) -> usize {
-        if self == Tones::Circle { cyclic::STEPS } else { STEPS }
+        match self {
+            Tones::Lightness | Tones::Sign => STEPS,
+            Tones::Circle => cyclic::STEPS,
+            Tones::Named(names) => names.len(),
+        }
     }
 
     /// The fill of a step.
     fn fill(self, step: usize) -> String {
         match self {
             Tones::Lightness => raster::fill(step as f32 / (STEPS - 1) as f32),
+            Tones::Sign if step < FIRST_ABOVE => {
+                let part = step as f32 / (FIRST_ABOVE - 1) as f32;
+                raster::between(BELOW, part)
+            }
+            Tones::Sign => {
+                let part = (step - FIRST_ABOVE) as f32 / (STEPS - 1 - FIRST_ABOVE) as f32;
+                raster::fill(ABOVE + (1.0 - ABOVE) * part)
+            }
             Tones::Circle => cyclic::fill(step).to_owned(),
+            Tones::Named(names) => names.get(step).map_or(FAILED_FILL, |(_, fill)| fill).to_owned(),
         }
     }
 
@@ -162,10 +266,11 @@ impl Tones {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to the steps")]
     fn step(self, value: f64, scale: &Scale) -> usize {
         match self {
-            Tones::Lightness => {
+            Tones::Lightness | Tones::Sign => {
                 (scale.position(value) * STEPS as f64).clamp(0.0, (STEPS - 1) as f64) as usize
             }
             Tones::Circle => cyclic::step(value),
+            Tones::Named(_) => value.max(0.0) as usize,
         }
     }
 
@@ -173,8 +278,10 @@ impl Tones {
     fn is_dark(self, step: usize) -> bool {
         match self {
             Tones::Lightness => 2 * step > STEPS,
+            Tones::Sign => step > STEPS / 2 + STEPS / 8,
             // Light around the middle, dark around both ends.
             Tones::Circle => !(STEPS / 4..3 * STEPS / 4).contains(&step),
+            Tones::Named(_) => false,
         }
     }
 }
@@ -249,7 +356,7 @@ fn draw_small_points(
     svg: &mut Svg,
     undefined: &[[f64; 2]],
     defined: &[([f64; 2], usize, bool)],
-    tones: Tones,
+    tones: Tones<'_>,
     radius: f64,
 ) {
     Marks { radius, class: "undefined" }.backslashes(svg, undefined, NOT_COMPUTED);
@@ -282,14 +389,76 @@ fn remarks(field: &Field<'_>, panels: &Panels) -> Vec<(Text, Sample<'static>)> {
         entries.push((Text::from(format!("undefined ({})", field.undefined)), Sample::Area(UNDEFINED)));
     }
     let doubtful = (0..panels.instances.len()).filter(|place| field.is_doubtful(*place)).count();
-    if doubtful > 0 {
+    if !field.basins.is_empty() {
+        entries.extend(of_starts(field.basins, doubtful));
+    } else if doubtful > 0 {
         entries.push((Text::from(format!("not settled ({doubtful})")), Sample::Area(DOTTED)));
     }
     entries
 }
 
+/// The names in place of a bar, as far as they occur.
+fn named(
+    field: &Field<'_>,
+    names: &[(&str, &str)],
+    panels: &Panels,
+    svg: &mut Svg,
+    [x, y]: [f64; 2],
+    width: f64,
+) -> f64 {
+    let is = |place: usize, number: usize| {
+        field.value(place).is_some_and(|value| field.tones.step(value, &field.scale) == number)
+    };
+    let counted = names.iter().enumerate().map(|(number, (words, fill))| {
+        let count = (0..panels.instances.len()).filter(|place| is(*place, number)).count();
+        (count, words, format!(r##"fill="{fill}" stroke="#000000" stroke-width="0.4""##))
+    });
+    let counted: Vec<_> = counted.filter(|(count, ..)| *count > 0).collect();
+    let mut entries: Vec<(Text, Sample<'_>)> = counted
+        .iter()
+        .map(|(count, words, fill)| (Text::from(format!("{words} ({count})")), Sample::Area(fill)))
+        .collect();
+    entries.extend(remarks(field, panels));
+    key::rows(svg, [x, y], width, LABEL_SIZE, &entries)
+}
+
+/// How far fractions of starts can be trusted: their standard error, and the starts that are in none of them.
+fn of_starts(basins: &[Option<Basin>], doubtful: usize) -> Vec<(Text, Sample<'static>)> {
+    let sum = |of: fn(&Basin) -> u32| basins.iter().flatten().map(|basin| u64::from(of(basin))).sum::<u64>();
+    let all = sum(|basin| basin.total()).max(1);
+    let share = |count: u64| format!("{:.1} %", 100.0 * count as f64 / all as f64);
+    let largest = basins.iter().flatten().filter_map(|basin| basin.standard_error(basin.oscillation));
+    let largest = largest.fold(0.0, f64::max);
+    let error = Text::from(format!("standard error at most {largest:.2}"));
+    let mut entries = vec![(error, Sample::Nothing)];
+    if doubtful > 0 {
+        let (other, failed) = (share(sum(|basin| basin.other)), share(sum(|basin| basin.failed)));
+        let words = format!(
+            "with other ends ({doubtful}); of all starts {other} stuck or not settled, {failed} failed"
+        );
+        entries.push((Text::from(words), Sample::Area(DOTTED)));
+    }
+    entries
+}
+
+/// The ticks of a bar of this length, as many as have room for their words.
+fn bar_ticks(scale: &Scale, width: f64) -> Vec<Tick> {
+    /// Least room between two, points.
+    const GAP: f64 = 3.0;
+    let fits = |ticks: &Vec<Tick>| {
+        ticks.windows(2).all(|pair| {
+            let words = [&pair[0], &pair[1]].map(|tick| 0.5 * tick.label.width(TICK_SIZE, false));
+            (pair[1].at - pair[0].at) * width >= words[0] + words[1] + GAP
+        })
+    };
+    (2..=6).rev().map(|most| scale.ticks(most)).find(fits).unwrap_or_else(|| scale.ticks(2))
+}
+
 /// Draws the bar from `(x, y)` downwards, what hatching and dots mean below it, and returns their height.
 pub(super) fn bar(field: &Field<'_>, panels: &Panels, svg: &mut Svg, [x, y]: [f64; 2], width: f64) -> f64 {
+    if let Tones::Named(names) = field.tones {
+        return named(field, names, panels, svg, [x, y], width);
+    }
     let power =
         if field.scale.exponent() == 0 { Text::default() } else { axis_unit("", field.scale.exponent()) };
     let beside = power.plain(field.label);
@@ -315,7 +484,7 @@ pub(super) fn bar(field: &Field<'_>, panels: &Panels, svg: &mut Svg, [x, y]: [f6
     }
     frame.border(svg);
     let ticks = if field.is_angle() { cyclic::ticks(&field.scale) } else { None };
-    frame.x_ticks(svg, &ticks.unwrap_or_else(|| field.scale.ticks(6)), true);
+    frame.x_ticks(svg, &ticks.unwrap_or_else(|| bar_ticks(&field.scale, frame.width)), true);
     svg.text(x + frame.width + 3.0, y + BAR - 1.0, &beside, Style::new(TICK_SIZE, Anchor::Start));
     let height = BAR + x_tick_room() + 3.0;
     height + key::rows(svg, [x, y + height], width, TICK_SIZE, &remarks(field, panels))

@@ -14,6 +14,13 @@ const COLOURS: [[f32; 3]; 5] = [
     [10.0, 14.0, 44.0],
 ];
 
+/// A fill on the way from one colour to another.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between two of 0..255")]
+pub(super) fn between([from, to]: [[f32; 3]; 2], part: f32) -> String {
+    let [r, g, b]: [u8; 3] = std::array::from_fn(|k| (from[k] + (to[k] - from[k]) * part).round() as u8);
+    format!("#{r:02X}{g:02X}{b:02X}")
+}
+
 /// The colour of a value; values outside 0..1 take the nearest end, NaN the lower one.
 #[expect(
     clippy::cast_possible_truncation,

@@ -19,9 +19,20 @@ pub enum Scale {
         /// Value at position 1.
         high: f64,
     },
+    /// Proportional between a negative end and 0, and by itself between 0 and a positive end: what is small on one side is
+    /// seen beside what is large on the other.
+    Signed {
+        /// Value at position 0.
+        low: f64,
+        /// Value at position 1.
+        high: f64,
+    },
     /// Names in equal steps.
     Names(Vec<String>),
 }
+
+/// The position of 0 on a signed scale.
+pub(super) const ZERO: f64 = 0.375;
 
 /// One tick.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,6 +71,9 @@ impl Scale {
                 let factor = (high / low).powf(fraction);
                 Scale::Log { low: low / factor, high: high * factor }
             }
+            Scale::Signed { low, high } => {
+                Scale::Signed { low: low * (1.0 + fraction), high: high * (1.0 + fraction) }
+            }
             Scale::Names(names) => Scale::Names(names),
         }
     }
@@ -70,6 +84,8 @@ impl Scale {
         match self {
             Scale::Linear { low, high } => (value - low) / (high - low),
             Scale::Log { low, high } => (value / low).ln() / (high / low).ln(),
+            Scale::Signed { low, .. } if value < 0.0 => ZERO * (1.0 - value / low),
+            Scale::Signed { high, .. } => ZERO + (1.0 - ZERO) * value / high,
             Scale::Names(names) => (value + 0.5) / names.len() as f64,
         }
     }
@@ -80,6 +96,8 @@ impl Scale {
         match self {
             Scale::Linear { low, high } => low + (high - low) * position,
             Scale::Log { low, high } => low * (high / low).powf(position),
+            Scale::Signed { low, .. } if position < ZERO => low * (1.0 - position / ZERO),
+            Scale::Signed { high, .. } => high * (position - ZERO) / (1.0 - ZERO),
             Scale::Names(names) => position * names.len() as f64 - 0.5,
         }
     }
@@ -89,7 +107,7 @@ impl Scale {
     pub fn exponent(&self) -> i32 {
         /// Largest magnitudes written out in full.
         const PLAIN: std::ops::Range<f64> = 1e-2..1e4;
-        let Scale::Linear { low, high } = self else { return 0 };
+        let (Scale::Linear { low, high } | Scale::Signed { low, high }) = self else { return 0 };
         let largest = low.abs().max(high.abs());
         if PLAIN.contains(&largest) { 0 } else { decade(largest) }
     }
@@ -106,12 +124,26 @@ impl Scale {
                     .collect()
             }
             Scale::Log { low, high } => self.log_ticks(*low, *high, most),
+            Scale::Signed { low, high } => self.signed_ticks(*low, *high, most),
             Scale::Names(names) => names
                 .iter()
                 .enumerate()
                 .map(|(i, name)| Tick { at: self.position(i as f64), label: Text::from(name.as_str()) })
                 .collect(),
         }
+    }
+
+    /// Ticks of both sides, the lowest of the negative one and 0 in any case.
+    fn signed_ticks(&self, low: f64, high: f64, most: usize) -> Vec<Tick> {
+        /// From so many on the negative side has a second tick.
+        const MANY: usize = 6;
+        let unit = 10_f64.powi(self.exponent());
+        let tick = |(value, label): (f64, Text)| Tick { at: snapped(self.position(value * unit)), label };
+        let negative = linear_ticks(low / unit, 0.0, 2).into_iter().filter(|(value, _)| *value < 0.0);
+        let negative = negative.take(if most < MANY { 1 } else { 2 });
+        let positive = linear_ticks(0.0, high / unit, most.saturating_sub(2));
+        // Of the other side they may be parts of a unit.
+        negative.map(|(value, _)| (value, value_label(value))).chain(positive).map(tick).collect()
     }
 
     fn log_ticks(&self, low: f64, high: f64, most: usize) -> Vec<Tick> {

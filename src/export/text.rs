@@ -107,6 +107,28 @@ impl Text {
         self.0.iter().map(span_width).sum::<f64>() * factor
     }
 
+    /// The text in lines of a width, each as many words as fit; a word that does not is a line.
+    pub(super) fn wrapped(&self, width: f64, size: f64) -> Vec<Text> {
+        let mut words = vec![Text::default()];
+        for span in &self.0 {
+            for (number, part) in span.text.split(' ').enumerate() {
+                let word = if number == 0 { words.pop().unwrap_or_default() } else { Text::default() };
+                words.push(word.span(part, span.italic, span.script));
+            }
+        }
+        let mut lines: Vec<Text> = Vec::new();
+        for word in words {
+            let longer = lines.last().map(|line| line.clone().plain(" ").then(word.clone()));
+            if let Some(longer) = longer.filter(|line| line.width(size, false) <= width) {
+                lines.pop();
+                lines.push(longer);
+            } else {
+                lines.push(word);
+            }
+        }
+        lines
+    }
+
     /// The text as LaTeX writes it, symbols and scripts in formulas.
     pub(super) fn tex(&self) -> String {
         let mut out = String::new();

@@ -62,7 +62,9 @@ pub fn map_tikz(map: &Map, look: &Look<'_>) -> Result<String> {
         match content {
             Content::Classes { colouring, .. } => colourings.push(colouring),
             Content::Basin | Content::LargeRegime => {}
-            Content::Quantity { .. } => return refused("quantities are drawn as SVG, PDF and PNG only"),
+            Content::Quantity { .. } | Content::Named { .. } => {
+                return refused("quantities are drawn as SVG, PDF and PNG only");
+            }
         }
     }
     let mut out = format!("% {}\n", super::figure::program() + &look.made_by().replace('\n', " "));
@@ -115,7 +117,7 @@ fn block(out: &mut String, panels: &Panels, y: &PictureAxis, colouring: Colourin
             axis.label(side, LABEL_SIZE).tex()
         );
         match &axis.scale {
-            Scale::Linear { .. } => {}
+            Scale::Linear { .. } | Scale::Signed { .. } => {}
             Scale::Log { .. } => {
                 let _ = writeln!(out, "  {letter}mode=log,");
             }

@@ -1,7 +1,7 @@
 //! The figure of a trajectory: stacked panels on one time axis, shaded by contact state.
 
 use super::figure::{DOUBLE_COLUMN, MARGIN};
-use super::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_count, y_tick_room};
+use super::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room, y_ticks};
 use super::heading::Heading;
 use super::key::{self, Sample};
 use super::letters;
@@ -95,7 +95,7 @@ fn draw(trace: &Trace, heading: &Heading, look: &Look<'_>, panel: f64) -> (Svg, 
         let values = curves.iter().flat_map(|curve| trace.rows.iter().map(curve.value));
         Scale::spanning(values).widened(HEADROOM)
     });
-    let ticks = scales.each_ref().map(|scale| scale.ticks(y_tick_count(panel)));
+    let ticks = scales.each_ref().map(|scale| y_ticks(scale, panel));
     let room = ticks.iter().map(|ticks| y_tick_room(ticks)).fold(0.0, f64::max);
     let left = MARGIN + LABEL_SIZE + 6.0 + room;
     y = legend(&mut svg, trace, [left, y], page - left - RIGHT);

@@ -1,7 +1,7 @@
 //! The work-precision diagram: instances per second against error, the efficient frontier as a line.
 
 use super::figure::{MARGIN, SINGLE_COLUMN, title};
-use super::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_count, y_tick_room};
+use super::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room, y_ticks};
 use super::key::{self, Sample};
 use super::look::Look;
 use super::plot::Plot;
@@ -68,7 +68,7 @@ fn draw(heading: &str, rows: &[Row], look: &Look<'_>, height: f64) -> (Svg, [f64
     let mut y = MARGIN + title(&mut svg, heading, page - 2.0 * MARGIN);
     let x_scale = logarithmic(shown.iter().map(|row| error(row)).chain(bounds.iter().copied()));
     let y_scale = logarithmic(shown.iter().map(|row| pace(row)));
-    let y_ticks = y_scale.ticks(y_tick_count(height));
+    let y_ticks = y_ticks(&y_scale, height);
     let left = MARGIN + LABEL_SIZE + 6.0 + y_tick_room(&y_ticks);
     let width = page - left - RIGHT;
     let occurring = MARKS.iter().filter(|mark| shown.iter().any(|row| is(row, mark)));

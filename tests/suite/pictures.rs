@@ -21,8 +21,8 @@ fn read(piece: &Piece) -> Picture {
     Picture::read(piece.directory.path(), piece.kind).unwrap()
 }
 
-/// The texts of a document that do not lie on its page, with their boxes in points of the drawing.
-pub(crate) fn outside(svg: &str) -> Vec<String> {
+/// A document as it is drawn, its texts with their fonts.
+fn tree(svg: &str) -> Tree {
     let mut fonts = fontdb::Database::new();
     for font in ["Regular", "Italic", "Bold"] {
         let path = format!("{}/assets/fonts/LiberationSans-{font}.ttf", env!("CARGO_MANIFEST_DIR"));
@@ -31,20 +31,30 @@ pub(crate) fn outside(svg: &str) -> Vec<String> {
     fonts.set_sans_serif_family("Liberation Sans");
     let family = "Liberation Sans".to_owned();
     let options = Options { fontdb: Arc::new(fonts), font_family: family, ..Options::default() };
-    let tree = Tree::from_str(svg, &options).unwrap();
+    Tree::from_str(svg, &options).unwrap()
+}
+
+/// The texts of a document and their boxes: left, upper, right and lower end, points of the document.
+pub(crate) fn boxes(svg: &str) -> Vec<(String, [f32; 4])> {
     let mut found = Vec::new();
-    texts(tree.root(), &mut |node| {
-        let area = node.abs_stroke_bounding_box();
-        let inside = area.left() >= 0.0
-            && area.top() >= 0.0
-            && area.right() <= tree.size().width()
-            && area.bottom() <= tree.size().height();
-        if let (false, Node::Text(text)) = (inside, node) {
+    texts(tree(svg).root(), &mut |node| {
+        if let Node::Text(text) = node {
+            let area = node.abs_stroke_bounding_box();
             let words: String = text.chunks().iter().map(|chunk| chunk.text().to_owned()).collect();
-            found.push(format!("`{words}` at {area:?} of {:?}", tree.size()));
+            found.push((words, [area.left(), area.top(), area.right(), area.bottom()]));
         }
     });
     found
+}
+
+/// The texts of a document that do not lie on its page, with their boxes.
+pub(crate) fn outside(svg: &str) -> Vec<String> {
+    let page = tree(svg).size();
+    let is_inside = |[left, top, right, bottom]: &[f32; 4]| {
+        *left >= 0.0 && *top >= 0.0 && *right <= page.width() && *bottom <= page.height()
+    };
+    let all = boxes(svg).into_iter().filter(|(_, area)| !is_inside(area));
+    all.map(|(words, area)| format!("`{words}` at {area:?} of {page:?}")).collect()
 }
 
 /// The sizes of sub- and superscripts, points as drawn.

@@ -34,7 +34,7 @@ fn sweep() -> Map {
 }
 
 /// The directory that a run would leave.
-fn directory(map: &Map) -> TempDir {
+pub(crate) fn directory(map: &Map) -> TempDir {
     let directory = tempfile::tempdir().unwrap();
     std::fs::write(directory.path().join("map.csv"), csv::map_csv(map).unwrap()).unwrap();
     std::fs::write(directory.path().join("manifest.json"), manifest::manifest_json(map).unwrap()).unwrap();

@@ -135,6 +135,11 @@ fn the_regime_of_the_large_start_can_be_asked_for() {
     assert!(unwrapped(&ended.err).contains("regime_large,"), "{}", ended.err);
     let ended = plot(directory.path(), &["--quantity=regime_large", "--isolines=1"]);
     assert!(unwrapped(&ended.err).contains("which `regime_large` has none of"), "{}", ended.err);
+    // Beside a quantity that has numbers the lines are that one's.
+    let ended = plot(directory.path(), &["--quantity=regime_large,type,growth", "--isolines=0"]);
+    assert_eq!(ended.code, Some(0), "{}", ended.err);
+    let lines = std::fs::read_to_string(directory.path().join("out/small/isolines.csv")).unwrap();
+    assert!(lines.lines().skip(1).all(|line| line.contains(",growth_rate,0,")), "{lines}");
 }
 
 /// A table that ends early at the end of a line is not drawn.
