@@ -149,6 +149,11 @@ impl Tally {
         }
     }
 
+    /// Counts one label.
+    pub fn add_label(&mut self, label: Label) {
+        *self.counts.entry(label).or_default() += 1;
+    }
+
     /// Counts instances that were not computed.
     pub fn add_missing(&mut self, count: usize) {
         *self.counts.entry(Label::NOT_COMPUTED).or_default() += count;

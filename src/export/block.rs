@@ -12,6 +12,7 @@ use super::panels::Panels;
 use super::picture_axis::Direction;
 use super::quantity::{self, Field};
 use super::scale::Tick;
+use super::sides::Sides;
 use super::svg::{Anchor, Style, Svg};
 use super::text::Text;
 use crate::grid::Grid;
@@ -159,7 +160,9 @@ impl Block<'_> {
             Content::Classes { colouring, hatched } => (colouring, hatched),
             _ => (Colouring::Regime, false),
         };
-        let legend = Legend::new(self.tally, colouring, hatched, panels.scatter.is_none());
+        let sides = Sides::of(self.grid, panels);
+        let cells = panels.scatter.is_none();
+        let legend = Legend::new(self.tally, sides.as_ref(), colouring, [hatched, cells]);
         // Under the panels, or from the outer edge where that saves a line.
         let wide = legend.draw(None, x, bottom, width) < legend.draw(None, x + left, bottom, width - left);
         let indent = if wide { 0.0 } else { left };

@@ -11,6 +11,7 @@ use super::panels::{Panel, Panels};
 use super::picture_axis::PictureAxis;
 use super::points;
 use super::quantity::{self, Field};
+use super::sides::Sides;
 use super::svg::{Svg, number};
 use crate::classify::InstabilityType;
 use crate::grid::Grid;
@@ -171,6 +172,7 @@ fn draw_cells(
     for stroke in LIMIT {
         svg.path(&limit, stroke);
     }
+    Sides::draw(svg, panels, frame);
 }
 
 /// Whether the sliding equilibrium is stable.

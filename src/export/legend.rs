@@ -3,6 +3,7 @@
 use super::cells::{FAILED_FILL, LIMIT, hatch, is_stable, not_computed, unsettled_fill};
 use super::frame::LABEL_SIZE;
 use super::palette::Colouring;
+use super::sides::{self, Sides};
 use super::svg::{Anchor, Style, Svg, number};
 use super::text::Text;
 use crate::label::{Label, Tally};
@@ -17,7 +18,7 @@ const ENTRY_GAP: f64 = 13.0;
 /// Between base lines, points.
 const LINE: f64 = 12.0;
 /// Up to this many instances the legend counts; above it gives percentages.
-const COUNTED: usize = 200;
+pub(super) const COUNTED: usize = 200;
 
 /// What stands beside the words.
 enum Swatch {
@@ -26,37 +27,45 @@ enum Swatch {
     Failed,
     NotComputed,
     Limit,
+    Equal,
 }
 
 /// The entries of a legend in order.
 pub(super) struct Legend(Vec<(Swatch, Text)>);
 
 impl Legend {
-    /// The legend of a sweep with these counts under a colouring.
-    pub(super) fn new(tally: &Tally, colouring: Colouring, hatched: bool, cells: bool) -> Legend {
-        let total = tally.total();
-        let share = |n: usize| share(n, total);
+    /// The legend of a sweep with these counts under a colouring; of a picture with two sides, it has a share of each.
+    pub(super) fn new(
+        tally: &Tally,
+        sides: Option<&Sides>,
+        colouring: Colouring,
+        [hatched, cells]: [bool; 2],
+    ) -> Legend {
+        let share = |selects: &dyn Fn(Label) -> bool| match sides {
+            None => share(tally.count(selects), tally.total()),
+            Some(Sides(sides)) => shares(sides.each_ref().map(|side| [side.count(selects), side.total()])),
+        };
         let class = |label: Label| colouring.class(label);
         let mut entries = Vec::new();
         for (k, look) in colouring.classes().iter().enumerate() {
-            let n = tally.count(|label| class(label) == Some(k));
-            if n > 0 {
+            let of_class = |label: Label| class(label) == Some(k);
+            if tally.count(of_class) > 0 {
                 let hatch = hatch(k, look.dark).filter(|_| hatched && cells);
                 entries.push((
                     Swatch::Fill(look.fill, hatch),
-                    Text::from(format!("{} {}", look.label, share(n))),
+                    Text::from(format!("{} {}", look.label, share(&of_class))),
                 ));
             }
         }
         if colouring == Colouring::Regime {
-            let n = tally.count(|label| label.settled() == Some(false));
-            if n > 0 {
-                entries.push((Swatch::Unsettled, Text::from(format!("unsettled {}", share(n)))));
+            let unsettled = |label: Label| label.settled() == Some(false);
+            if tally.count(unsettled) > 0 {
+                entries.push((Swatch::Unsettled, Text::from(format!("unsettled {}", share(&unsettled)))));
             }
         }
-        let missing = tally.count(|label| not_computed(label, colouring));
-        let failed = tally.count(|label| class(label).is_none()) - missing;
-        if failed > 0 {
+        let missing = |label: Label| not_computed(label, colouring);
+        let failed = |label: Label| class(label).is_none() && !missing(label);
+        if tally.count(failed) > 0 {
             let of = |status: Status| tally.count(|label| label.status() == status && class(label).is_none());
             let reasons: Vec<&str> = Status::ALL
                 .into_iter()
@@ -65,14 +74,17 @@ impl Legend {
                 .collect();
             let reasons =
                 if reasons.is_empty() { String::new() } else { format!(": {}", reasons.join(", ")) };
-            entries.push((Swatch::Failed, Text::from(format!("no result{reasons} {}", share(failed)))));
+            entries.push((Swatch::Failed, Text::from(format!("no result{reasons} {}", share(&failed)))));
         }
-        if missing > 0 {
-            entries.push((Swatch::NotComputed, Text::from(format!("not computed {}", share(missing)))));
+        if tally.count(missing) > 0 {
+            entries.push((Swatch::NotComputed, Text::from(format!("not computed {}", share(&missing)))));
         }
         let stable = |wanted| tally.count(|label| label.kind().map(is_stable) == Some(wanted)) > 0;
         if colouring != Colouring::Type && cells && stable(true) && stable(false) {
             entries.push((Swatch::Limit, Text::from("limit of linear stability")));
+        }
+        if sides.is_some() {
+            entries.push((Swatch::Equal, Sides::words()));
         }
         Legend(entries)
     }
@@ -117,9 +129,9 @@ fn draw_swatch(svg: &mut Svg, swatch: &Swatch, x: f64, y: f64) {
             svg.rect(area, &format!(r#"fill="{FAILED_FILL}""#));
             svg.rect(area, r#"fill="url(#not-computed)""#);
         }
-        Swatch::Limit => {
+        Swatch::Limit | Swatch::Equal => {
             let line = format!("M{} {}h{}", number(x), number(y + 0.5 * SWATCH[1]), number(SWATCH[0]));
-            svg.path(&line, LIMIT[1]);
+            svg.path(&line, if matches!(swatch, Swatch::Limit) { LIMIT[1] } else { sides::STROKES[1] });
             return;
         }
     }
@@ -140,10 +152,21 @@ fn reason(status: Status) -> &'static str {
     }
 }
 
+/// Smaller shares, in percent, would print as 0.0 %.
+const LEAST: f64 = 0.05;
+
 /// `(n = 3)` of few instances, `12.3 %` of many.
 fn share(n: usize, total: usize) -> String {
-    /// Smaller shares would print as 0.0 %.
-    const LEAST: f64 = 0.05;
     let percent = 100.0 * n as f64 / total.max(1) as f64;
     if total <= COUNTED || percent < LEAST { format!("(n = {n})") } else { format!("{percent:.1} %") }
+}
+
+/// `12.3 | 0 %` of two sides, each of its own instances.
+fn shares(sides: [[usize; 2]; 2]) -> String {
+    let [one, other] = sides.map(|[n, total]| match 100.0 * n as f64 / total.max(1) as f64 {
+        _ if n == 0 => "0".to_owned(),
+        percent if percent < LEAST => format!("< {}", 2.0 * LEAST),
+        percent => format!("{percent:.1}"),
+    });
+    format!("{one} | {other} %")
 }

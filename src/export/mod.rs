@@ -55,6 +55,7 @@ mod raster;
 pub mod refined;
 pub mod scale;
 pub mod sheet;
+mod sides;
 pub mod signals;
 pub mod spectrogram;
 pub mod svg;

@@ -255,6 +255,7 @@ fn any_chunk() -> Result<(), Failed> {
 fn cancelled() -> Result<(), Failed> {
     let mut spec = paper_map_of(4)?;
     (spec.settle, spec.measure) = (Duration::Periods(10.0), Duration::Periods(10.0));
+    spec.settle_limit = None;
     let whole = on_gpu(&spec, Precision::F32, None)?;
     let cancel = AtomicBool::new(false);
     let options = Options { backend: Backend::Gpu, cancel: Some(&cancel), ..Options::default() };

@@ -78,6 +78,7 @@ mod reuse;
 mod scattered;
 mod settle;
 mod shards;
+mod sides;
 mod simd;
 mod single;
 mod snapshots;
