@@ -213,13 +213,20 @@ pub fn about_unstable(
     found: (Regime, bool),
 ) -> (Regime, bool) {
     match found.0 {
-        Regime::Slip if outcome.met_event => found,
+        Regime::Slip if outcome.met_event && outcome.speed_rms_halves[1] >= small_speed(belt_velocity) => {
+            found
+        }
         Regime::Slip | Regime::Equilibrium if has_stopped_growing(outcome, belt_velocity, growth_rate) => {
             (Regime::Slip, found.1)
         }
         Regime::Slip | Regime::Equilibrium => (Regime::NotYetGrown, false),
         _ => found,
     }
+}
+
+/// The speed (m/s) below which a motion is small.
+fn small_speed(belt_velocity: f64) -> f64 {
+    THRESHOLDS.small_speed * belt_velocity
 }
 
 /// Whether a motion about an unstable equilibrium has come to an amplitude that it keeps: the halves of the window agree
@@ -229,7 +236,7 @@ pub fn about_unstable(
 pub fn has_stopped_growing(outcome: &Outcome, belt_velocity: f64, growth_rate: f64) -> bool {
     let limits = THRESHOLDS;
     let [_, speed] = outcome.speed_rms_halves;
-    let linear = speed < limits.small_speed * belt_velocity && !outcome.met_event;
+    let linear = speed < small_speed(belt_velocity) && !outcome.met_event;
     speed > 0.0
         && !linear
         && halves_agree(outcome)

@@ -43,7 +43,7 @@ pub const REGIMES: [Class; 8] = [
     Class { name: "detaching", label: "detaching", fill: "#A03785", dark: true },
     Class { name: "detaching_stick_slip", label: "detaching stick–slip", fill: "#6B1237", dark: true },
     Class { name: "stuck", label: "stuck", fill: "#0A0A0A", dark: true },
-    Class { name: "not_yet_grown", label: "not yet grown", fill: "#F8D2FF", dark: false },
+    Class { name: "not_yet_grown", label: "not yet grown", fill: "#FBD2FF", dark: false },
 ];
 
 /// Whether several starts end differently.

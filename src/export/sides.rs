@@ -14,8 +14,8 @@ use crate::model::Param;
 
 /// The light line and the dark one on it: drawn over classes of any colour.
 pub(super) const STROKES: [&str; 2] = [
-    r##"fill="none" stroke="#FFFFFF" stroke-width="2""##,
-    r##"class="equal_coefficients" fill="none" stroke="#000000" stroke-width="0.9""##,
+    r##"fill="none" stroke="#FFFFFF" stroke-width="1.5""##,
+    r##"class="equal_coefficients" fill="none" stroke="#000000" stroke-width="0.6""##,
 ];
 
 /// The instances with μ_s ≥ μ_d and those below, counted.

@@ -363,7 +363,7 @@ fn colours_survive_colour_blindness_and_grey_print() {
         };
         // What has not yet grown is hatched wherever it is drawn, which tells it where its lightness hardly does.
         apart(&mut classes.iter().filter(|class| class.name != Regime::NotYetGrown.name()), LEAST_STEP);
-        apart(&mut classes.iter(), 0.5 * LEAST_DIFFERENCE);
+        apart(&mut classes.iter(), 0.5 * LEAST_STEP);
     };
     check(&TYPES);
     check(&REGIMES);

@@ -149,6 +149,8 @@ fn both_sides_of_what_stops_growing() {
         (outcome([0.01; 2], same, true), 0.1, Regime::Equilibrium, (Regime::Slip, true)),
         (outcome([0.01; 2], same, true), 0.01, Regime::Equilibrium, (Regime::NotYetGrown, false)),
         (outcome([0.0; 2], same, true), 0.1, Regime::Equilibrium, (Regime::NotYetGrown, false)),
+        // After an event it may be small again, and grows from there.
+        (outcome([0.009, 0.0095], same, true), 0.01, Regime::Slip, (Regime::NotYetGrown, false)),
         // What has met an event and is large is what it is.
         (outcome(same, same, true), 0.01, Regime::Slip, (Regime::Slip, true)),
         (outcome(same, same, true), 0.01, Regime::StickSlip, (Regime::StickSlip, true)),
@@ -199,7 +201,8 @@ fn on_a_ramp_the_equilibrium_of_its_end_counts() {
     };
     assert_eq!(ramp(5.5, 5.2), (Kind::Stable, (Regime::Equilibrium, true)));
     assert_eq!(ramp(4.5, 4.0), (Kind::NegativeSlope, (Regime::NotYetGrown, false)));
-    // Unstable at the start, stable at the end.
+    // The belt passes the knee, which is an event; the motion stays small. Unstable only at the start, and only at the end.
+    assert_eq!(ramp(5.2, 4.0), (Kind::Stable, (Regime::NotYetGrown, false)));
     assert_eq!(ramp(4.0, 5.2), (Kind::NegativeSlope, (Regime::Equilibrium, true)));
 }
 
