@@ -1,0 +1,84 @@
+//! Loads: pressure on faces, forces on nodes, displacements that are prescribed.
+
+use super::{Model, Numbering};
+use crate::Error;
+use crate::elements::{face_rule, face_shape};
+use crate::mesh::FaceRef;
+
+/// Loads of a static step.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Loads {
+    /// Faces and the pressure (Pa) that pushes them inwards.
+    pub pressure: Vec<(Vec<FaceRef>, f64)>,
+    /// Nodes and forces, N.
+    pub forces: Vec<(usize, [f64; 3])>,
+}
+
+/// Forces on all nodes, N, without those that prescribed displacements make.
+#[must_use]
+pub fn nodal_forces(model: &Model, loads: &Loads) -> Vec<[f64; 3]> {
+    let mut forces = vec![[0.0; 3]; model.mesh.nodes.len()];
+    for (node, force) in &loads.forces {
+        (0..3).for_each(|i| forces[*node][i] += force[i]);
+    }
+    for (faces, pressure) in &loads.pressure {
+        for face in model.mesh.resolve(faces) {
+            for (at, weight) in face_rule(face.kind) {
+                let (value, gradient) = face_shape(face.kind, at);
+                let mut tangents = [[0.0; 3]; 2];
+                for (node, d) in face.nodes.iter().zip(&gradient) {
+                    for i in 0..3 {
+                        tangents[0][i] += d[0] * model.mesh.nodes[*node][i];
+                        tangents[1][i] += d[1] * model.mesh.nodes[*node][i];
+                    }
+                }
+                // Outwards, as long as the area per area of the reference face.
+                let area = cross(tangents[0], tangents[1]);
+                for (node, n) in face.nodes.iter().zip(&value) {
+                    (0..3).for_each(|i| forces[*node][i] -= pressure * weight * n * area[i]);
+                }
+            }
+        }
+    }
+    forces
+}
+
+/// The right-hand side Zᵀ (f − K g) in N, and n·(f − K g) of each contact point's slave node.
+///
+/// # Errors
+/// Bad elements.
+pub fn load_vector(
+    model: &Model,
+    numbering: &Numbering,
+    loads: &Loads,
+) -> Result<(Vec<f64>, Vec<f64>), Error> {
+    let mut forces: Vec<f64> = nodal_forces(model, loads).into_iter().flatten().collect();
+    if numbering.given.iter().any(|g| *g != 0.0) {
+        for (element, kind, material, nodes) in model.mesh.elements() {
+            let (matrices, _) = model.element(element, kind, material, nodes)?;
+            let dofs: Vec<usize> =
+                nodes.iter().flat_map(|node| [0, 1, 2].map(|axis| 3 * node + axis)).collect();
+            for (i, dof) in dofs.iter().enumerate() {
+                let row = &matrices.stiffness[i * dofs.len()..(i + 1) * dofs.len()];
+                forces[*dof] -= row.iter().zip(&dofs).map(|(k, j)| k * numbering.given[*j]).sum::<f64>();
+            }
+        }
+    }
+    let mut unknowns = vec![0.0; numbering.unknowns];
+    for (row, force) in numbering.rows.iter().zip(&forces) {
+        row.iter().for_each(|(i, f)| unknowns[*i] += f * force);
+    }
+    let mut normal = vec![0.0; model.contact.len()];
+    for (sum, point) in normal.iter_mut().zip(&model.contact) {
+        for node in
+            (0..model.mesh.nodes.len()).filter(|n| numbering.leader[*n] == numbering.leader[point.slave])
+        {
+            *sum += (0..3).map(|i| point.normal[i] * forces[3 * node + i]).sum::<f64>();
+        }
+    }
+    Ok((unknowns, normal))
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}

@@ -1,0 +1,24 @@
+//! Complex eigenvalues of elastic bodies in sliding contact, by finite elements.
+//!
+//! The folders are the way of the data:
+//!
+//! | stage | module |
+//! |---|---|
+//! | nodes, elements, sets; structured blocks | [`mesh`] |
+//! | constants of a material | [`material`] |
+//! | shape functions, quadrature, stiffness and mass of one element | [`elements`] |
+//! | supports, numbering, sparse matrices, loads | [`assembly`] |
+//! | sliding and bonded surfaces | [`contact`] |
+//! | real modes, projection, complex eigenvalues, coalescence | [`modes`] |
+//!
+//! Units are SI throughout: m, kg, s, N, Pa. The theory stands in `docs/fem.md`.
+
+pub mod assembly;
+pub mod contact;
+pub mod elements;
+pub mod error;
+pub mod material;
+pub mod mesh;
+pub mod modes;
+
+pub use error::Error;
