@@ -9,6 +9,7 @@
 //! | shape functions, quadrature, stiffness and mass of one element | [`elements`] |
 //! | supports, numbering, sparse matrices, loads | [`assembly`] |
 //! | sliding and bonded surfaces | [`contact`] |
+//! | a load, which points stay in contact, normal forces | [`statics`] |
 //! | real modes, projection, complex eigenvalues, coalescence | [`modes`] |
 //!
 //! Units are SI throughout: m, kg, s, N, Pa. The theory stands in `docs/fem.md`.
@@ -20,5 +21,6 @@ pub mod error;
 pub mod material;
 pub mod mesh;
 pub mod modes;
+pub mod statics;
 
 pub use error::Error;

@@ -43,6 +43,22 @@ pub fn nodal_forces(model: &Model, loads: &Loads) -> Vec<[f64; 3]> {
     forces
 }
 
+/// The forces K u (N) that hold the nodes of the elements in displacements u (m): loads, reactions and contact forces.
+///
+/// # Errors
+/// Bad elements.
+pub fn internal_forces(model: &Model, displacement: &[[f64; 3]]) -> Result<Vec<[f64; 3]>, Error> {
+    let mut forces = vec![[0.0; 3]; model.mesh.nodes.len()];
+    for (element, kind, material, nodes) in model.mesh.elements() {
+        let (matrices, _) = model.element(element, kind, material, nodes)?;
+        let moved: Vec<f64> = nodes.iter().flat_map(|node| displacement[*node]).collect();
+        for (i, row) in matrices.stiffness.chunks_exact(moved.len()).enumerate() {
+            forces[nodes[i / 3]][i % 3] += row.iter().zip(&moved).map(|(k, u)| k * u).sum::<f64>();
+        }
+    }
+    Ok(forces)
+}
+
 /// The right-hand side Zᵀ (f − K g) in N, and n·(f − K g) of each contact point's slave node.
 ///
 /// # Errors
@@ -54,15 +70,9 @@ pub fn load_vector(
 ) -> Result<(Vec<f64>, Vec<f64>), Error> {
     let mut forces: Vec<f64> = nodal_forces(model, loads).into_iter().flatten().collect();
     if numbering.given.iter().any(|g| *g != 0.0) {
-        for (element, kind, material, nodes) in model.mesh.elements() {
-            let (matrices, _) = model.element(element, kind, material, nodes)?;
-            let dofs: Vec<usize> =
-                nodes.iter().flat_map(|node| [0, 1, 2].map(|axis| 3 * node + axis)).collect();
-            for (i, dof) in dofs.iter().enumerate() {
-                let row = &matrices.stiffness[i * dofs.len()..(i + 1) * dofs.len()];
-                forces[*dof] -= row.iter().zip(&dofs).map(|(k, j)| k * numbering.given[*j]).sum::<f64>();
-            }
-        }
+        let given: Vec<[f64; 3]> = numbering.given.chunks_exact(3).map(|g| [g[0], g[1], g[2]]).collect();
+        let held = internal_forces(model, &given)?;
+        forces.iter_mut().zip(held.iter().flatten()).for_each(|(f, k)| *f -= k);
     }
     let mut unknowns = vec![0.0; numbering.unknowns];
     for (row, force) in numbering.rows.iter().zip(&forces) {

@@ -11,7 +11,7 @@ mod sparse;
 mod supports;
 
 pub use build::{Model, assemble};
-pub use loads::{Loads, load_vector, nodal_forces};
+pub use loads::{Loads, internal_forces, load_vector, nodal_forces};
 pub use numbering::Numbering;
 pub use pencil::Pencil;
 pub use sparse::{Pattern, Rows, Symmetric};

@@ -2,7 +2,7 @@
 
 use super::{Rows, Symmetric};
 
-/// P(λ, μ) = λ² (M + μ Sᵀ M_n) + λ (C + μ Sᵀ C_n + Sᵀ diag(c) S) + (K + μ Sᵀ K_n).
+/// P(λ, μ) = λ² (M + μ Sᵀ M_n) + λ (C + μ Sᵀ C_n + Sᵀ D S) + (K + μ Sᵀ K_n).
 ///
 /// K, M, C are symmetric: the bodies with tied normal displacements. A row of S is the slip of a contact point as a function of
 /// the unknowns; a row of K_n, M_n, C_n is the normal force there (`docs/fem.md`).
@@ -43,15 +43,15 @@ impl Pencil {
         self.with_friction(&self.mass, &self.normal_mass, mu, x)
     }
 
-    /// (C + μ Sᵀ C_n + Sᵀ diag(slope) S) x, with the damping `slope` (N s/m) of each contact point.
+    /// (C + μ Sᵀ C_n + Sᵀ D S) x, with the damping D = `slope` (N s/m) between contact points; no rows where friction has no slope.
     #[must_use]
-    pub fn damping_times(&self, mu: f64, slope: &[f64], x: &[f64]) -> Vec<f64> {
+    pub fn damping_times(&self, mu: f64, slope: &Rows, x: &[f64]) -> Vec<f64> {
         let mut y = match &self.damping {
             Some(damping) => self.with_friction(damping, &self.normal_damping, mu, x),
             None => vec![0.0; x.len()],
         };
-        if !slope.is_empty() {
-            let force: Vec<f64> = self.slip.times(x).iter().zip(slope).map(|(s, c)| s * c).collect();
+        if !slope.rows.is_empty() {
+            let force = slope.times(&self.slip.times(x));
             self.slip.add_transposed(&force, &mut y);
         }
         y

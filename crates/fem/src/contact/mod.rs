@@ -1,8 +1,10 @@
 //! Surfaces in contact: sliding points and bonded pairs.
 
 mod matching;
+mod surface;
 
 pub use matching::{bonded, periodic, sliding, sliding_on_rigid};
+pub use surface::{Surface, pressures};
 
 /// A point of sliding contact: the normal displacement of a slave node is tied, and friction acts on its slip.
 ///

@@ -64,9 +64,10 @@ impl Basis {
         Self { symmetric: [on(&pencil.stiffness), on(&pencil.mass), damping], friction, slip, vectors }
     }
 
-    /// The projected problem at a coefficient of friction. `slope` is the damping (N s/m) of each contact point, empty for none.
+    /// The projected problem at a coefficient of friction. `slope` is the damping (N s/m) between contact points, without rows
+    /// where friction has no slope.
     #[must_use]
-    pub fn at(&self, mu: f64, slope: &[f64]) -> Small {
+    pub fn at(&self, mu: f64, slope: &Rows) -> Small {
         let sum = |i: usize| {
             let mut sum = self.symmetric[i].clone();
             for column in 0..sum.ncols() {
@@ -77,10 +78,8 @@ impl Basis {
             sum
         };
         let mut damping = sum(2);
-        if !slope.is_empty() {
-            let scaled =
-                Mat::from_fn(self.slip.nrows(), self.slip.ncols(), |i, j| slope[i] * self.slip[(i, j)]);
-            damping += self.slip.transpose() * scaled;
+        if !slope.rows.is_empty() {
+            damping += self.slip.transpose() * rows_times(slope, &self.slip);
         }
         let damped = damping.norm_max() > 0.0;
         Small { stiffness: sum(0), mass: sum(1), damping: damped.then_some(damping) }

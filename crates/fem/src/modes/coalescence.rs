@@ -9,7 +9,7 @@ use faer::{Mat, c64};
 
 use super::{Basis, Factor, Pair, dense};
 use crate::Error;
-use crate::assembly::Pencil;
+use crate::assembly::{Pencil, Rows};
 
 /// Two undamped modes that have become one.
 #[derive(Debug, Clone)]
@@ -50,7 +50,7 @@ pub fn coalescence_small(basis: &Basis, mu: f64, pair: &Pair) -> Result<Coalesce
     let (mut theta, mut mu) = (1.0, mu);
     let mut border = [real_part(&pair.vector), real_part(&pair.vector)];
     for _ in 0..STEPS {
-        let small = basis.at(mu, &[]);
+        let small = basis.at(mu, &Rows::default());
         let (k, m) = (&small.stiffness, &small.mass);
         let p = Mat::from_fn(size, size, |i, j| k[(i, j)] / unit - theta * m[(i, j)]);
         let p_mu = Mat::from_fn(size, size, |i, j| friction_k[(i, j)] / unit - theta * friction_m[(i, j)]);
@@ -171,7 +171,7 @@ pub fn coalescence(
 pub fn first_unstable(
     basis: &Basis,
     mus: &[f64],
-    slope: &[f64],
+    slope: &Rows,
     below: f64,
     growth: f64,
 ) -> Result<Option<(usize, Pair)>, Error> {

@@ -4,10 +4,10 @@ use faer::{Mat, c64};
 
 use super::{Basis, Factor, Pair, dense};
 use crate::Error;
-use crate::assembly::Pencil;
+use crate::assembly::{Pencil, Rows};
 
 /// P(λ, μ) x as real and imaginary part.
-fn defect(pencil: &Pencil, mu: f64, slope: &[f64], lambda: c64, x: &[Vec<f64>; 2]) -> [Vec<f64>; 2] {
+fn defect(pencil: &Pencil, mu: f64, slope: &Rows, lambda: c64, x: &[Vec<f64>; 2]) -> [Vec<f64>; 2] {
     let squared = lambda * lambda;
     let mut defect = [0, 1].map(|part| pencil.stiffness_times(mu, &x[part]));
     let mut add = |factor: c64, image: [Vec<f64>; 2]| {
@@ -18,7 +18,7 @@ fn defect(pencil: &Pencil, mu: f64, slope: &[f64], lambda: c64, x: &[Vec<f64>; 2
         }
     };
     add(squared, [0, 1].map(|part| pencil.mass_times(mu, &x[part])));
-    if pencil.damping.is_some() || !slope.is_empty() {
+    if pencil.damping.is_some() || !slope.rows.is_empty() {
         add(lambda, [0, 1].map(|part| pencil.damping_times(mu, slope, &x[part])));
     }
     defect
@@ -41,7 +41,7 @@ pub fn residuals(
     factor: &Factor,
     basis: &Basis,
     mu: f64,
-    slope: &[f64],
+    slope: &Rows,
     pairs: &[Pair],
 ) -> (Mat<f64>, Vec<f64>) {
     let size = pencil.size();
@@ -91,7 +91,7 @@ pub fn refine(
     factor: &Factor,
     basis: &mut Basis,
     mus: &[f64],
-    slope: &[f64],
+    slope: &Rows,
     count: usize,
     bound: f64,
     rounds: usize,

@@ -1,6 +1,6 @@
 //! A pin on a block: numbers of an independent program.
 
-use squealmap_fem::assembly::assemble;
+use squealmap_fem::assembly::{Rows, assemble};
 use squealmap_fem::elements::Kind;
 use squealmap_fem::modes::{
     Basis, Factor, Ordering, coalescence, count_below, first_unstable, lowest, near, pairs, refine, residuals,
@@ -33,11 +33,12 @@ fn two_modes_coalesce_where_they_should() {
     let factor = Factor::new(&ordering, &pencil.stiffness, &pencil.mass, 0.0).expect("a factor");
     let modes = lowest(&pencil, &factor, 20).expect("real modes");
     let mut basis = Basis::new(&pencil, &modes.shapes);
-    let worst = refine(&pencil, &factor, &mut basis, &[0.2, 0.4], &[], 8, 1e-8, 20).expect("a space");
+    let worst =
+        refine(&pencil, &factor, &mut basis, &[0.2, 0.4], &Rows::default(), 8, 1e-8, 20).expect("a space");
     println!("{} vectors, residual {worst:e}", basis.vectors.ncols());
     assert!(worst < 1e-8);
-    let found = pairs(&basis.at(0.4, &[])).expect("complex modes");
-    let (_, residual) = residuals(&pencil, &factor, &basis, 0.4, &[], &found[..8]);
+    let found = pairs(&basis.at(0.4, &Rows::default())).expect("complex modes");
+    let (_, residual) = residuals(&pencil, &factor, &basis, 0.4, &Rows::default(), &found[..8]);
     assert!(residual.iter().all(|r| *r < 1e-8), "{residual:?}");
     let unstable = found.iter().find(|p| p.growth() > 1.0).expect("flutter");
     println!("{} Hz, {} 1/s", unstable.frequency(), unstable.growth());
@@ -52,7 +53,8 @@ fn two_modes_coalesce_where_they_should() {
     );
 
     let mus: Vec<f64> = (0..=8).map(|i| 0.05 * f64::from(i)).collect();
-    let (_, start) = first_unstable(&basis, &mus, &[], 7e4, 1.0).expect("eigenvalues").expect("flutter");
+    let (_, start) =
+        first_unstable(&basis, &mus, &Rows::default(), 7e4, 1.0).expect("eigenvalues").expect("flutter");
     let critical = coalescence(&pencil, &factor, &mut basis, 0.4, &start).expect("a coalescence");
     println!("mu_c {} at {} Hz, last step {:e}", critical.mu, critical.frequency(), critical.step);
     assert!((critical.mu - 0.38838).abs() < 6e-6);
