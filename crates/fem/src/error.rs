@@ -6,8 +6,8 @@
 pub enum Error {
     /// An element is turned inside out or has no volume.
     #[error(
-        "element {element} ({kind}) has a Jacobian determinant of {determinant:e} at a point of integration, which \
-         must be above 0: order its nodes as the format asks, or mesh that place again"
+        "element {element} ({kind}) has a Jacobian determinant of {determinant:e} at a corner or a point of \
+         integration, which must be above 0: order its nodes as the format asks, or mesh that place again"
     )]
     Inverted {
         /// Index of the element in the mesh, from 0.
@@ -45,8 +45,8 @@ pub enum Error {
     },
     /// Parts that nothing joins.
     #[error(
-        "the mesh falls into {count} parts that neither nodes, ties nor contact join, the smallest of {elements} elements: \
-         bond it, give it supports of its own, or leave it out"
+        "parts of the mesh hang on nothing, {count} in all, the smallest of {elements} elements: bond them by nodes or contact, \
+         support them, or leave them out"
     )]
     Unconnected {
         /// Number of parts without any support.

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::{Numbering, Pattern, Pencil, Rows, Supports, Symmetric};
+use super::{Numbering, Pattern, Pencil, Rows, Supports, Symmetric, check_joined};
 use crate::Error;
 use crate::contact::Point;
 use crate::elements::{Kind, Matrices, matrices};
@@ -57,10 +57,11 @@ type NormalRow = BTreeMap<usize, [f64; 3]>;
 /// Numbers the unknowns and sums up the matrices.
 ///
 /// # Errors
-/// Bad elements, contradicting supports, a missing material.
+/// Bad elements, contradicting supports, a missing material, parts that nothing holds.
 pub fn assemble(model: &Model) -> Result<(Numbering, Pencil), Error> {
     mesh::check(&model.mesh)?;
     let numbering = Numbering::new(&model.mesh, &model.supports, &model.contact)?;
+    check_joined(model, &numbering)?;
     let groups: Vec<Vec<usize>> =
         model.mesh.elements().map(|(_, _, _, nodes)| unknowns_of(&numbering, nodes)).collect();
     let pattern = Arc::new(Pattern::of(numbering.unknowns, &groups));

@@ -4,6 +4,7 @@
 //! unknowns. Supports, bonded nodes and tied normal displacements are all rows of Z.
 
 mod build;
+mod joined;
 mod loads;
 mod numbering;
 mod pencil;
@@ -11,6 +12,7 @@ mod sparse;
 mod supports;
 
 pub use build::{Model, assemble};
+pub use joined::check_joined;
 pub use loads::{Loads, internal_forces, load_vector, nodal_forces};
 pub use numbering::Numbering;
 pub use pencil::Pencil;

@@ -1,9 +1,11 @@
 //! Surfaces in contact: sliding points and bonded pairs.
 
 mod matching;
+mod mortar;
 mod surface;
 
 pub use matching::{bonded, periodic, sliding, sliding_on_rigid};
+pub use mortar::mortar;
 pub use surface::{Surface, pressures};
 
 /// A point of sliding contact: the normal displacement of a slave node is tied, and friction acts on its slip.

@@ -75,12 +75,14 @@ fn tetrahedron() -> Vec<Point> {
     rule
 }
 
-fn wedge() -> Vec<Point> {
-    let mut rule = Vec::with_capacity(27);
-    for (z, c) in gauss(3) {
-        rule.extend(triangle().iter().map(|p| Point { at: [p.at[0], p.at[1], z], weight: p.weight * c }));
-    }
-    rule
+fn wedge(triangle: &[Point]) -> Vec<Point> {
+    let along = |(z, c): (f64, f64)| {
+        triangle
+            .iter()
+            .map(move |p| Point { at: [p.at[0], p.at[1], z], weight: p.weight * c })
+            .collect::<Vec<_>>()
+    };
+    gauss(3).into_iter().flat_map(along).collect()
 }
 
 /// The points at which the stiffness of an element is integrated.
@@ -96,7 +98,11 @@ pub fn stiffness_rule(kind: Kind) -> Vec<Point> {
             let weight = 1.0 / 24.0;
             [[b, b, b], [a, b, b], [b, a, b], [b, b, a]].map(|at| Point { at, weight }).to_vec()
         }
-        Kind::Wedge15 => wedge(),
+        // Nine points, as Abaqus and CalculiX take for C3D15.
+        Kind::Wedge15 => {
+            let (a, b, weight) = (2.0 / 3.0, 1.0 / 6.0, 1.0 / 6.0);
+            wedge(&[[b, b], [a, b], [b, a]].map(|[x, y]| Point { at: [x, y, 0.0], weight }))
+        }
     }
 }
 
@@ -108,7 +114,7 @@ pub fn mass_rule(kind: Kind) -> Vec<Point> {
         Kind::Hex8 => brick(2),
         Kind::Hex20 | Kind::Hex20Reduced => brick(3),
         Kind::Tet4 | Kind::Tet10 => tetrahedron(),
-        Kind::Wedge15 => wedge(),
+        Kind::Wedge15 => wedge(&triangle()),
     }
 }
 

@@ -9,7 +9,7 @@ use crate::material::inverse3;
 ///
 /// # Errors
 /// The first element that names a missing node, names one twice, has a wrong number of nodes, or whose Jacobian determinant is
-/// not positive at a point of integration; a place that is no number; a mesh without elements.
+/// not positive at a corner or a point of integration; a place that is no number; a mesh without elements.
 pub fn check(mesh: &Mesh) -> Result<(), Error> {
     if mesh.elements().next().is_none() {
         return Err(Error::Mesh { what: "the mesh has no solid element: give it at least one".to_owned() });
@@ -29,8 +29,10 @@ pub fn check(mesh: &Mesh) -> Result<(), Error> {
             return Err(wrong(format!("names node {} twice", node.1)));
         }
         let places: Vec<[f64; 3]> = nodes.iter().map(|node| mesh.nodes[*node]).collect();
-        for point in stiffness_rule(kind).iter().chain(&mass_rule(kind)) {
-            let (_, determinant) = inverse3(&jacobian(&places, &shape(kind, point.at).gradient));
+        // Corners, too: swapped nodes of a quadratic element can leave the points of integration as they should be.
+        let corners = kind.reference().into_iter().take(kind.corners());
+        for at in corners.chain(stiffness_rule(kind).iter().chain(&mass_rule(kind)).map(|point| point.at)) {
+            let (_, determinant) = inverse3(&jacobian(&places, &shape(kind, at).gradient));
             if !(determinant > 0.0) {
                 return Err(Error::Inverted { element, kind: kind.name(), determinant });
             }
