@@ -145,8 +145,9 @@ fn gmres(b: &[f64], apply: impl Fn(&[f64]) -> Vec<f64>) -> Result<Vec<f64>, Erro
     }
     let mut basis = vec![b.iter().map(|x| x / beta).collect::<Vec<f64>>()];
     // Columns of the Hessenberg matrix, turned to a triangle by rotations; the right-hand side with them.
-    let (mut triangle, mut turns, mut rhs): (Vec<Vec<f64>>, Vec<(f64, f64)>, Vec<f64>) =
-        (Vec::new(), Vec::new(), vec![beta]);
+    let mut triangle: Vec<Vec<f64>> = Vec::new();
+    let mut turns: Vec<(f64, f64)> = Vec::new();
+    let mut rhs = vec![beta];
     for step in 0..b.len() {
         let mut w = apply(&basis[step]);
         let mut column = vec![0.0; step + 1];
@@ -177,7 +178,9 @@ fn gmres(b: &[f64], apply: impl Fn(&[f64]) -> Vec<f64>) -> Result<Vec<f64>, Erro
             }
             return Ok((0..b.len()).map(|i| y.iter().zip(&basis).map(|(y, v)| y * v[i]).sum()).collect());
         }
-        w.iter_mut().for_each(|w| *w /= next);
+        for w in &mut w {
+            *w /= next;
+        }
         basis.push(w);
     }
     Err(Error::Solver {

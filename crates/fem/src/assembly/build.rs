@@ -67,7 +67,7 @@ pub fn assemble(model: &Model) -> Result<(Numbering, Pencil), Error> {
     let pattern = Arc::new(Pattern::of(numbering.unknowns, &groups));
     let mut stiffness = Symmetric::zero(pattern.clone());
     let mut mass = Symmetric::zero(pattern.clone());
-    let damped = model.materials.iter().any(|m| m.rayleigh != [0.0; 2]);
+    let damped = model.materials.iter().any(|m| m.rayleigh.iter().any(|c| c.abs() > 0.0));
     let mut damping = damped.then(|| Symmetric::zero(pattern.clone()));
 
     // Contact points by the leader of their slave node.

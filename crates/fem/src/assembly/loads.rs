@@ -76,7 +76,9 @@ pub fn load_vector(
     }
     let mut unknowns = vec![0.0; numbering.unknowns];
     for (row, force) in numbering.rows.iter().zip(&forces) {
-        row.iter().for_each(|(i, f)| unknowns[*i] += f * force);
+        for (i, f) in row {
+            unknowns[*i] += f * force;
+        }
     }
     let mut normal = vec![0.0; model.contact.len()];
     for (sum, point) in normal.iter_mut().zip(&model.contact) {

@@ -37,20 +37,22 @@ impl Numbering {
         let leader = leaders(mesh.nodes.len(), &supports.same);
         let mut used = vec![false; mesh.nodes.len()];
         for (_, _, _, nodes) in mesh.elements() {
-            nodes.iter().for_each(|node| used[leader[*node]] = true);
+            for node in nodes {
+                used[leader[*node]] = true;
+            }
         }
         let mut fate: Vec<Option<Fate>> = vec![None; 3 * mesh.nodes.len()];
         for ((node, axis), displacement) in &supports.prescribed {
             let dof = 3 * leader[*node] + axis;
-            if let Some(Fate::Given(other)) = &fate[dof] {
-                if other != displacement {
-                    let name = ["x", "y", "z"][*axis];
-                    let what = format!(
-                        "node {node} is to move by {displacement} m along {name}, a node bonded to it by {other} m: \
-                         prescribe one of both"
-                    );
-                    return Err(Error::Support { what });
-                }
+            if let Some(Fate::Given(other)) = &fate[dof]
+                && (other - displacement).abs() > 0.0
+            {
+                let name = ["x", "y", "z"][*axis];
+                let what = format!(
+                    "node {node} is to move by {displacement} m along {name}, a node bonded to it by {other} m: \
+                     prescribe one of both"
+                );
+                return Err(Error::Support { what });
             }
             fate[dof] = Some(Fate::Given(*displacement));
         }

@@ -25,7 +25,9 @@ impl Pattern {
         let mut column = Vec::new();
         for touching in &touching {
             column.clear();
-            touching.iter().for_each(|i| column.extend_from_slice(&groups[*i]));
+            for i in touching {
+                column.extend_from_slice(&groups[*i]);
+            }
             column.sort_unstable();
             column.dedup();
             row.extend_from_slice(&column);

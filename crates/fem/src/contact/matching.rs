@@ -17,6 +17,10 @@ fn pairs(
     shift: [f64; 3],
 ) -> Result<Vec<(usize, usize)>, Error> {
     let near = mesh.extent() * SAME_PLACE;
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "places over a millionth of the size of the mesh fit easily"
+    )]
     let cell = |x: [f64; 3]| x.map(|c| (c / (4.0 * near)).round() as i64);
     let mut places: HashMap<[i64; 3], Vec<usize>> = HashMap::new();
     for master in masters {

@@ -16,6 +16,10 @@ use crate::elements::{FaceKind, face_rule, face_shape};
 use crate::mesh::{Face, FaceRef, Mesh};
 
 type Plane = [f64; 2];
+/// Entries of a matrix by two nodes.
+type Entries = BTreeMap<(usize, usize), f64>;
+/// A slave with its masters and their weights.
+type Weighted = (usize, Vec<(usize, f64)>);
 
 /// A face in the coordinates of the surface.
 struct Flat {
@@ -52,8 +56,8 @@ pub fn mortar(
     };
     let (slaves, masters) = (flat(&slave_faces), flat(&master_faces));
     // D and G by node numbers.
-    let mut d: BTreeMap<(usize, usize), f64> = BTreeMap::new();
-    let mut g: BTreeMap<(usize, usize), f64> = BTreeMap::new();
+    let mut d: Entries = BTreeMap::new();
+    let mut g: Entries = BTreeMap::new();
     for slave in &slaves {
         for master in masters.iter().filter(|m| slave.near(m)) {
             let overlap = clip(&slave.corners, &master.corners);
@@ -68,10 +72,7 @@ pub fn mortar(
 }
 
 /// D⁻¹ G, row by row.
-fn weights(
-    d: &BTreeMap<(usize, usize), f64>,
-    g: &BTreeMap<(usize, usize), f64>,
-) -> Result<Vec<(usize, Vec<(usize, f64)>)>, Error> {
+fn weights(d: &Entries, g: &Entries) -> Result<Vec<Weighted>, Error> {
     /// A slave node that shares less than this part of the largest area only touches the other surface's edge.
     const TOUCHES: f64 = 1e-9;
     /// Weights below this are what rounding makes of zero.
@@ -87,8 +88,7 @@ fn weights(
             "the two surfaces of a contact share no area: move them together, or name other faces".to_owned();
         return Err(Error::Contact { what });
     }
-    let entry =
-        |of: &BTreeMap<(usize, usize), f64>, a: usize, b: usize| of.get(&(a, b)).copied().unwrap_or(0.0);
+    let entry = |of: &Entries, a: usize, b: usize| of.get(&(a, b)).copied().unwrap_or(0.0);
     let left = Mat::from_fn(rows.len(), rows.len(), |i, j| entry(d, rows[i], rows[j]));
     let right = Mat::from_fn(rows.len(), columns.len(), |i, j| entry(g, rows[i], columns[j]));
     let solved = left.partial_piv_lu().solve(&right);
@@ -199,13 +199,7 @@ fn clip(polygon: &[Plane], window: &[Plane]) -> Vec<Plane> {
 }
 
 /// Adds the integrals over one triangle of an overlap.
-fn integrate(
-    slave: &Flat,
-    master: &Flat,
-    [a, b, c]: [Plane; 3],
-    d: &mut BTreeMap<(usize, usize), f64>,
-    g: &mut BTreeMap<(usize, usize), f64>,
-) {
+fn integrate(slave: &Flat, master: &Flat, [a, b, c]: [Plane; 3], d: &mut Entries, g: &mut Entries) {
     let twice = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
     if !(twice > 0.0) {
         return;

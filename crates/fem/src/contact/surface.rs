@@ -3,7 +3,7 @@
 //! The forces that a uniform pressure makes on the nodes of a quadratic face have both signs (a corner of Quad8 is pulled): what is
 //! pressed and what is pulled is not seen on them.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap, HashSet};
 
 use super::Point;
 use crate::assembly::{Numbering, Rows};
@@ -37,7 +37,7 @@ impl Surface {
     /// become forces, with f = p0 μ'(V) the damping (N s/m) that a slope of friction makes.
     #[must_use]
     pub fn matrix(&self, field: &[f64]) -> Rows {
-        let mut sums: Vec<std::collections::BTreeMap<usize, f64>> = vec![Default::default(); field.len()];
+        let mut sums: Vec<BTreeMap<usize, f64>> = vec![BTreeMap::new(); field.len()];
         for face in &self.faces {
             let at: Vec<Option<usize>> =
                 face.nodes.iter().map(|node| self.index.get(&self.leader[*node]).copied()).collect();
@@ -75,7 +75,7 @@ impl Surface {
         let point = |node: usize| self.index.get(&self.leader[node]).copied();
         let mut pressing = forces.to_vec();
         // An edge inside the surface is met twice.
-        let mut met = std::collections::HashSet::new();
+        let mut met = HashSet::new();
         for face in &self.faces {
             let corners = face.kind.corners();
             for (i, middle) in face.nodes[corners..].iter().enumerate() {

@@ -133,7 +133,7 @@ impl Kind {
         let mut nodes = corners.to_vec();
         if self.quadratic() {
             for [a, b] in self.edges() {
-                nodes.push([0, 1, 2].map(|i| (corners[*a][i] + corners[*b][i]) / 2.0));
+                nodes.push([0, 1, 2].map(|i| f64::midpoint(corners[*a][i], corners[*b][i])));
             }
         }
         nodes

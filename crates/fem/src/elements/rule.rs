@@ -34,7 +34,7 @@ fn gauss(points: usize) -> Vec<(f64, f64)> {
 
 /// The same on 0 to 1.
 fn gauss_unit(points: usize) -> Vec<(f64, f64)> {
-    gauss(points).into_iter().map(|(x, w)| ((1.0 + x) / 2.0, w / 2.0)).collect()
+    gauss(points).into_iter().map(|(x, w)| (f64::midpoint(1.0, x), w / 2.0)).collect()
 }
 
 fn brick(points: usize) -> Vec<Point> {

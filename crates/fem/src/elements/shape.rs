@@ -89,7 +89,7 @@ fn wedge15(at: [f64; 3]) -> Shape {
     let (mut value, mut gradient) = (Vec::with_capacity(15), Vec::with_capacity(15));
     for s in [-1.0, 1.0] {
         for i in 0..3 {
-            let end = (1.0 + s * z) / 2.0;
+            let end = f64::midpoint(1.0, s * z);
             value.push(l[i] * (2.0 * l[i] - 1.0) * end - l[i] * bubble / 2.0);
             let d = (4.0 * l[i] - 1.0) * end - bubble / 2.0;
             gradient.push([

@@ -81,11 +81,15 @@ impl Mesh {
             self.groups.push(group);
         }
         for (name, mut nodes) in other.node_sets {
-            nodes.iter_mut().for_each(|node| *node += first_node);
+            for node in &mut nodes {
+                *node += first_node;
+            }
             self.node_sets.insert(format!("{prefix}{name}"), nodes);
         }
         for (name, mut faces) in other.face_sets {
-            faces.iter_mut().for_each(|face| face.element += first_element);
+            for face in &mut faces {
+                face.element += first_element;
+            }
             self.face_sets.insert(format!("{prefix}{name}"), faces);
         }
     }

@@ -92,7 +92,9 @@ fn damped(small: &Small, damping: &Mat<f64>) -> Result<Vec<Pair>, Error> {
 
 fn unit(vector: impl Iterator<Item = c64>) -> Vec<c64> {
     let mut vector: Vec<c64> = vector.collect();
-    let norm = vector.iter().map(|x| x.norm_sqr()).sum::<f64>().sqrt();
-    vector.iter_mut().for_each(|x| *x /= norm);
+    let norm = vector.iter().map(c64::norm_sqr).sum::<f64>().sqrt();
+    for x in &mut vector {
+        *x /= norm;
+    }
     vector
 }

@@ -11,6 +11,17 @@ use super::real::column;
 use crate::Error;
 use crate::assembly::Pencil;
 
+/// A complex mode of the full problem.
+#[derive(Debug, Clone)]
+pub struct Near {
+    /// λ, 1/s, with a frequency that is not negative.
+    pub lambda: c64,
+    /// ‖(K(μ) − σ M(μ))⁻¹ (K(μ) + λ² M(μ)) x‖ over |−λ² − σ|, as the iteration knows it.
+    pub residual: f64,
+    /// Real and imaginary part of x.
+    pub shape: [Vec<f64>; 2],
+}
+
 /// An operator (K(μ) − σ M(μ))⁻¹.
 struct Inverse<'a> {
     pencil: &'a Pencil,
@@ -27,7 +38,9 @@ impl<'a> Inverse<'a> {
         let points = pencil.slip.rows.len();
         let mut responses = Mat::zeros(pencil.size(), points);
         for (j, row) in pencil.slip.rows.iter().enumerate() {
-            row.iter().for_each(|(i, v)| responses[(*i, j)] = *v);
+            for (i, v) in row {
+                responses[(*i, j)] = *v;
+            }
         }
         factor.solve(responses.as_mut());
         let mut small = Mat::<f64>::identity(points, points);
@@ -55,18 +68,11 @@ fn normal(pencil: &Pencil, shift: f64, x: &[f64]) -> Vec<f64> {
     k.iter().zip(m).map(|(k, m)| k - shift * m).collect()
 }
 
-/// The eigenvalues λ of the full undamped problem whose −λ² are nearest to the factor's shift, nearest first, with the estimate of
-/// each residual ‖(K(μ) − σ M(μ))⁻¹ (K(μ) + λ² M(μ)) x‖ over |−λ² − σ|. Of conjugates the one that grows comes first.
+/// The modes of the full undamped problem whose −λ² are nearest to the factor's shift, nearest first.
 ///
 /// # Errors
-/// Where fewer than `count` converge to `bound`.
-pub fn near(
-    pencil: &Pencil,
-    factor: &Factor,
-    mu: f64,
-    count: usize,
-    bound: f64,
-) -> Result<Vec<(c64, f64)>, Error> {
+/// Where fewer than `count` converge to a residual of `bound`.
+pub fn near(pencil: &Pencil, factor: &Factor, mu: f64, count: usize, bound: f64) -> Result<Vec<Near>, Error> {
     let size = pencil.size();
     let most = size.min(8 * count + 200);
     let inverse = Inverse::new(pencil, factor, mu);
@@ -96,19 +102,23 @@ pub fn near(
             let mut order: Vec<usize> = (0..done).filter(|k| eigen.S()[*k].norm() > 0.0).collect();
             order.sort_by(|a, b| eigen.S()[*b].norm().total_cmp(&eigen.S()[*a].norm()));
             order.truncate(count);
-            let found: Vec<(c64, f64)> = order
-                .iter()
-                .map(|k| {
-                    let nu = eigen.S()[*k];
-                    let length = (0..done).map(|i| eigen.U()[(i, *k)].norm_sqr()).sum::<f64>().sqrt();
-                    let residual = next * eigen.U()[(done - 1, *k)].norm() / length / nu.norm();
-                    let root = (c64::new(factor.shift, 0.0) + c64::new(1.0, 0.0) / nu).sqrt();
-                    (c64::new(-root.im, root.re), residual)
-                })
-                .collect();
-            let worst = found.iter().map(|(_, residual)| *residual).fold(0.0, f64::max);
-            if found.len() == count && worst <= bound {
-                return Ok(found);
+            let residual = |k: usize| {
+                let length = (0..done).map(|i| eigen.U()[(i, k)].norm_sqr()).sum::<f64>().sqrt();
+                next * eigen.U()[(done - 1, k)].norm() / length / eigen.S()[k].norm()
+            };
+            let worst = order.iter().map(|k| residual(*k)).fold(0.0, f64::max);
+            if order.len() == count && worst <= bound {
+                let mode = |k: &usize| {
+                    let root = (factor.shift + eigen.S()[*k].inv()).sqrt();
+                    let part = |of: fn(c64) -> f64| {
+                        (0..size)
+                            .map(|i| (0..done).map(|j| of(eigen.U()[(j, *k)]) * vectors[j][i]).sum())
+                            .collect::<Vec<f64>>()
+                    };
+                    let shape = [part(|z| z.re), part(|z| z.im)];
+                    Near { lambda: c64::new(-root.im, root.re), residual: residual(*k), shape }
+                };
+                return Ok(order.iter().map(mode).collect());
             }
             if last {
                 let what = format!(
@@ -119,7 +129,9 @@ pub fn near(
                 return Err(Error::Solver { what });
             }
         }
-        w.iter_mut().for_each(|w| *w /= next);
+        for w in &mut w {
+            *w /= next;
+        }
         vectors.push(w);
     }
 }

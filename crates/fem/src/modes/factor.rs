@@ -10,7 +10,7 @@ use faer::sparse::linalg::cholesky::{
     factorize_symbolic_cholesky, supernodal::SupernodalLdltRef,
 };
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
-use faer::{Conj, MatMut, Par, Side};
+use faer::{Conj, MatMut, Par, Side, Spec};
 
 use crate::Error;
 use crate::assembly::{Pattern, Symmetric};
@@ -71,10 +71,12 @@ impl Factor {
         mass: &Symmetric,
         shift: f64,
     ) -> Result<Self, Error> {
+        /// Below this fraction of the largest pivot, the smallest is what rounding leaves of zero.
+        const ZERO: f64 = 1e-14;
         let matrix = stiffness.plus(-shift, mass);
         let parallel = faer::get_global_parallelism();
         let mut values = vec![0.0; ordering.entries()];
-        let scratch = ordering.0.factorize_numeric_ldlt_scratch::<f64>(parallel, Default::default());
+        let scratch = ordering.0.factorize_numeric_ldlt_scratch::<f64>(parallel, Spec::default());
         let view = SparseColMatRef::new(symbolic(&matrix.pattern), &matrix.values);
         ordering
             .0
@@ -85,7 +87,7 @@ impl Factor {
                 LdltRegularization::default(),
                 parallel,
                 MemStack::new(&mut MemBuffer::new(scratch)),
-                Default::default(),
+                Spec::default(),
             )
             .map_err(|_| singular(shift))?;
         let mut factor = Self { ordering: ordering.clone(), values, shift, below: 0 };
@@ -96,8 +98,6 @@ impl Factor {
             largest = largest.max(d.abs());
             below += usize::from(d < 0.0);
         });
-        /// Below this fraction of the largest pivot, the smallest is what rounding leaves of zero.
-        const ZERO: f64 = 1e-14;
         if !(least > ZERO * largest) {
             return Err(singular(shift));
         }

@@ -25,7 +25,8 @@ fn defect(pencil: &Pencil, mu: f64, slope: &Rows, lambda: c64, x: &[Vec<f64>; 2]
 }
 
 /// A vector of the basis' coordinates as real and imaginary part of all unknowns.
-fn lift(basis: &Basis, vector: &[c64]) -> [Vec<f64>; 2] {
+#[must_use]
+pub fn lift(basis: &Basis, vector: &[c64]) -> [Vec<f64>; 2] {
     let parts = Mat::from_fn(vector.len(), 2, |i, j| if j == 0 { vector[i].re } else { vector[i].im });
     let lifted = &basis.vectors * parts;
     [0, 1].map(|part| lifted.col(part).iter().copied().collect())

@@ -156,7 +156,7 @@ pub fn abaqus(text: &str) -> Result<Deck, Error> {
                 }
             }
             "SOLID SECTION" => {
-                sections.push((card.parameter("ELSET")?, card.parameter("MATERIAL")?, card.line))
+                sections.push((card.parameter("ELSET")?, card.parameter("MATERIAL")?, card.line));
             }
             "TIE" => deck.ties.extend(card.data.iter().filter_map(|(_, words)| match words.as_slice() {
                 [slave, master, ..] => Some((slave.to_uppercase(), master.to_uppercase())),

@@ -36,6 +36,19 @@ fn flat(kind: u64) -> Option<(usize, usize)> {
 /// A line, triangle, … that belongs to named groups: nodes, number of corners, names.
 type Marked = (Vec<u64>, usize, Vec<String>);
 
+/// What has been read so far.
+#[derive(Default)]
+struct Found {
+    /// Names of physical groups by dimension and tag.
+    names: HashMap<(usize, u64), String>,
+    /// Physical groups of each entity of a format 4 file.
+    entities: HashMap<(usize, u64), Vec<u64>>,
+    raw: Raw,
+    /// Solid elements and their physical groups.
+    groups: Vec<(usize, Vec<u64>)>,
+    marked: Vec<Marked>,
+}
+
 /// Lines of a file with their numbers.
 struct Lines<'a> {
     rest: Box<dyn Iterator<Item = (usize, &'a str)> + 'a>,
@@ -73,12 +86,7 @@ pub fn gmsh(text: &str) -> Result<Mesh, Error> {
     let lines =
         text.lines().enumerate().map(|(i, line)| (i + 1, line.trim())).filter(|(_, line)| !line.is_empty());
     let mut lines = Lines { rest: Box::new(lines), line: 1 };
-    let mut names: HashMap<(usize, u64), String> = HashMap::new();
-    // Physical groups of each entity of a format 4 file.
-    let mut entities: HashMap<(usize, u64), Vec<u64>> = HashMap::new();
-    let mut raw = Raw::default();
-    let mut groups: Vec<(usize, Vec<u64>)> = Vec::new();
-    let mut marked: Vec<Marked> = Vec::new();
+    let mut found = Found::default();
     let mut version = 0.0;
     while let Some((line, section)) = lines.rest.next() {
         lines.line = line;
@@ -102,61 +110,19 @@ pub fn gmsh(text: &str) -> Result<Mesh, Error> {
                 for _ in 0..lines.word::<usize>(&words, 0, "count")? {
                     let words = lines.next("a name")?;
                     let (dim, tag) = (lines.word(&words, 0, "dimension")?, lines.word(&words, 1, "tag")?);
-                    names.insert((dim, tag), words[2..].join(" ").trim_matches('"').to_owned());
+                    found.names.insert((dim, tag), words[2..].join(" ").trim_matches('"').to_owned());
                 }
             }
-            "$Entities" => read_entities(&mut lines, &mut entities)?,
-            "$Nodes" if version >= 4.0 => read_nodes4(&mut lines, &mut raw)?,
+            "$Entities" => read_entities(&mut lines, &mut found.entities)?,
+            "$Nodes" if version >= 4.0 => read_nodes4(&mut lines, &mut found.raw)?,
             "$Nodes" => {
                 let words = lines.next("a count")?;
                 for _ in 0..lines.word::<usize>(&words, 0, "count")? {
                     let words = lines.next("a node")?;
-                    raw.nodes.push((lines.word(&words, 0, "number")?, place(&lines, &words, 1)?));
+                    found.raw.nodes.push((lines.word(&words, 0, "number")?, place(&lines, &words, 1)?));
                 }
             }
-            "$Elements" => {
-                let words = lines.next("a count")?;
-                let blocks: usize = lines.word(&words, 0, "count")?;
-                for _ in 0..blocks {
-                    let words = lines.next("an element")?;
-                    if version >= 4.0 {
-                        let (dim, tag) = (lines.word(&words, 0, "dimension")?, lines.word(&words, 1, "tag")?);
-                        let (kind, count) =
-                            (lines.word(&words, 2, "type")?, lines.word::<usize>(&words, 3, "count")?);
-                        let physical = entities.get(&(dim, tag)).cloned().unwrap_or_default();
-                        for _ in 0..count {
-                            let words = lines.next("an element")?;
-                            element(
-                                &lines,
-                                &words,
-                                1,
-                                kind,
-                                &physical,
-                                &names,
-                                &mut raw,
-                                &mut groups,
-                                &mut marked,
-                            )?;
-                        }
-                    } else {
-                        let (kind, tags) =
-                            (lines.word(&words, 1, "type")?, lines.word::<usize>(&words, 2, "count")?);
-                        let physical: Vec<u64> =
-                            if tags > 0 { vec![lines.word(&words, 3, "tag")?] } else { Vec::new() };
-                        element(
-                            &lines,
-                            &words,
-                            3 + tags,
-                            kind,
-                            &physical,
-                            &names,
-                            &mut raw,
-                            &mut groups,
-                            &mut marked,
-                        )?;
-                    }
-                }
-            }
+            "$Elements" => read_elements(&mut lines, version, &mut found)?,
             _ => {}
         }
     }
@@ -166,14 +132,14 @@ pub fn gmsh(text: &str) -> Result<Mesh, Error> {
             what: "this is no mesh of Gmsh: it has no $MeshFormat".to_owned(),
         });
     }
-    let mut tags: Vec<u64> = groups.iter().flat_map(|(_, tags)| tags.clone()).collect();
+    let mut tags: Vec<u64> = found.groups.iter().flat_map(|(_, tags)| tags.clone()).collect();
     tags.sort_unstable();
     tags.dedup();
-    for (index, own) in &groups {
-        raw.elements[*index].material =
+    for (index, own) in &found.groups {
+        found.raw.elements[*index].material =
             own.first().and_then(|t| tags.iter().position(|u| u == t)).unwrap_or(0);
     }
-    finish(raw, &marked)
+    finish(found.raw, &found.marked)
 }
 
 fn place(lines: &Lines<'_>, words: &[&str], from: usize) -> Result<[f64; 3], Error> {
@@ -215,39 +181,55 @@ fn read_nodes4(lines: &mut Lines<'_>, raw: &mut Raw) -> Result<(), Error> {
     Ok(())
 }
 
-#[expect(clippy::too_many_arguments, reason = "one line of a file, what is known of it, and where it goes")]
+fn read_elements(lines: &mut Lines<'_>, version: f64, found: &mut Found) -> Result<(), Error> {
+    let words = lines.next("a count")?;
+    for _ in 0..lines.word::<usize>(&words, 0, "count")? {
+        let words = lines.next("an element")?;
+        if version >= 4.0 {
+            let (dim, tag) = (lines.word(&words, 0, "dimension")?, lines.word(&words, 1, "tag")?);
+            let (kind, count) = (lines.word(&words, 2, "type")?, lines.word::<usize>(&words, 3, "count")?);
+            let physical = found.entities.get(&(dim, tag)).cloned().unwrap_or_default();
+            for _ in 0..count {
+                let words = lines.next("an element")?;
+                element(lines, &words, 1, kind, &physical, found)?;
+            }
+        } else {
+            let (kind, tags) = (lines.word(&words, 1, "type")?, lines.word::<usize>(&words, 2, "count")?);
+            let physical: Vec<u64> = if tags > 0 { vec![lines.word(&words, 3, "tag")?] } else { Vec::new() };
+            element(lines, &words, tags.saturating_add(3), kind, &physical, found)?;
+        }
+    }
+    Ok(())
+}
+
+/// Takes in an element whose nodes begin at a word of its line.
 fn element(
     lines: &Lines<'_>,
     words: &[&str],
     from: usize,
     kind: u64,
     physical: &[u64],
-    names: &HashMap<(usize, u64), String>,
-    raw: &mut Raw,
-    groups: &mut Vec<(usize, Vec<u64>)>,
-    marked: &mut Vec<Marked>,
+    found: &mut Found,
 ) -> Result<(), Error> {
     let nodes = |count: usize| -> Result<Vec<u64>, Error> {
-        (0..count).map(|i| lines.word(words, from + i, "node")).collect()
+        (0..count).map(|i| lines.word(words, from.saturating_add(i), "node")).collect()
     };
     if let Some((kind, order)) = solid(kind) {
         let nodes = nodes(order.len())?;
-        let nodes = order.iter().map(|i| nodes[*i]).collect();
-        groups.push((raw.elements.len(), physical.to_vec()));
+        let nodes: Vec<u64> = order.iter().map(|i| nodes[*i]).collect();
+        let named: Vec<String> =
+            physical.iter().filter_map(|tag| found.names.get(&(3, *tag)).cloned()).collect();
+        // No corners: a set of nodes only.
+        found.marked.push((nodes.clone(), 0, named));
+        found.groups.push((found.raw.elements.len(), physical.to_vec()));
         let number = lines.word(words, 0, "number")?;
-        raw.elements.push(RawElement { number, kind, nodes, material: 0, line: lines.line });
-        let named = physical.iter().filter_map(|tag| names.get(&(3, *tag)).cloned()).collect::<Vec<_>>();
-        if !named.is_empty() {
-            let nodes = raw.elements[raw.elements.len() - 1].nodes.clone();
-            // No corners: a set of nodes only.
-            marked.push((nodes, 0, named));
-        }
+        found.raw.elements.push(RawElement { number, kind, nodes, material: 0, line: lines.line });
         return Ok(());
     }
     let Some((count, corners)) = flat(kind) else {
         return Err(lines.wrong(format!(
-            "elements of type {kind} are not known here: mesh with tetrahedra (types 4, 11), bricks (5, 17) or wedges of 15 nodes \
-             (18); Mesh.SecondOrderIncomplete = 1 makes bricks of 20 nodes"
+            "elements of type {kind} are not known here: mesh with tetrahedra (types 4, 11), bricks (5, 17) or wedges of \
+             15 nodes (18); Mesh.SecondOrderIncomplete = 1 makes bricks of 20 nodes"
         )));
     };
     let dim = match corners {
@@ -257,9 +239,10 @@ fn element(
     };
     let name = |tag: &u64| {
         let kinds = ["point", "curve", "surface"];
-        names.get(&(dim, *tag)).cloned().unwrap_or_else(|| format!("{} {tag}", kinds[dim]))
+        found.names.get(&(dim, *tag)).cloned().unwrap_or_else(|| format!("{} {tag}", kinds[dim]))
     };
-    marked.push((nodes(count)?, corners, physical.iter().filter(|tag| **tag != 0).map(name).collect()));
+    let named = physical.iter().filter(|tag| **tag != 0).map(name).collect();
+    found.marked.push((nodes(count)?, corners, named));
     Ok(())
 }
 

@@ -25,7 +25,9 @@ fn bad_elements_are_named() {
     inverted.groups[0].elements[3].swap(0, 1);
     assert!(sentence(inverted).starts_with("element 3 (Hex20) has a Jacobian determinant of -"));
     let mut flat = block(Kind::Tet4);
-    flat.nodes.iter_mut().for_each(|x| x[2] = 0.0);
+    for x in &mut flat.nodes {
+        x[2] = 0.0;
+    }
     assert!(sentence(flat).starts_with("element 0 (Tet4) has a Jacobian determinant of 0e0 at"));
     let mut missing = block(Kind::Hex8);
     missing.groups[0].elements[1][2] = 99;
@@ -49,7 +51,9 @@ fn bad_elements_are_named() {
 fn parts_that_hang_on_nothing_are_counted() {
     let mut mesh = block(Kind::Hex8);
     let mut other = block(Kind::Tet4);
-    other.nodes.iter_mut().for_each(|x| x[0] += 5.0);
+    for x in &mut other.nodes {
+        x[0] += 5.0;
+    }
     mesh.add(other, "other.", 0);
     let mut model = Model { mesh, materials: vec![steel()], ..Model::default() };
     let side = model.mesh.node_set("x0").expect("a side").to_vec();
@@ -112,7 +116,7 @@ fn sets_supports_and_contacts_are_checked() {
         .expect_err("apart")
         .to_string();
     assert!(error.starts_with("the surfaces of a contact lie up to 2.5e-2 m apart"), "{error}");
-    let beside = model.mesh.faces_where(|x| x[2] == 0.01 && x[0] < 0.01 + 1e-9);
+    let beside = model.mesh.faces_where(|x| (x[2] - 0.01).abs() < 1e-9 && x[0] < 0.01 + 1e-9);
     let error =
         mortar(&model.mesh, faces("pin.z0"), &beside, up, along).map(drop).expect_err("beside").to_string();
     assert!(error.starts_with("the two surfaces of a contact share no area"), "{error}");

@@ -1,5 +1,6 @@
 //! Single elements against closed forms.
 
+use faer::linalg::solvers::Solve;
 use faer::{Mat, Side};
 use squealmap_fem::elements::{Kind, face_rule, face_shape, mass_rule, matrices, shape, stiffness_rule};
 use squealmap_fem::material::{Material, Orthotropic};
@@ -154,7 +155,6 @@ fn a_constant_strain_has_its_energy() {
             [0.0, 0.0, 0.0, 0.0, 0.0, 1.0 / gzx],
         ][i][j]
     };
-    use faer::linalg::solvers::Solve;
     let stress = Mat::from_fn(6, 6, s).partial_piv_lu().solve(Mat::from_fn(6, 1, |i, _| strain[i]));
     let density: f64 = (0..6).map(|i| strain[i] * stress[(i, 0)]).sum();
     for kind in KINDS {

@@ -22,60 +22,60 @@ const CALCULIX: [(Kind, &str, [[f64; 3]; 4]); 6] = [
         Kind::Hex20,
         bar!("hex20.inp"),
         [
-            [-9.262374e-06, -6.089530e-05, -1.697663e-05],
-            [-1.081073e-05, -1.130732e-04, -2.345695e-05],
-            [2.051261e-05, -1.318723e-04, 3.811724e-05],
-            [1.261063e-05, -6.122727e-05, 1.879462e-05],
+            [-9.262_374e-6, -6.089_530e-5, -1.697_663e-5],
+            [-1.081_073e-5, -1.130_732e-4, -2.345_695e-5],
+            [2.051_261e-5, -1.318_723e-4, 3.811_724e-5],
+            [1.261_063e-5, -6.122_727e-5, 1.879_462e-5],
         ],
     ),
     (
         Kind::Hex20Reduced,
         bar!("hex20r.inp"),
         [
-            [-8.056116e-06, -6.067661e-05, -1.605339e-05],
-            [-6.010618e-06, -1.055801e-04, -2.156196e-05],
-            [2.488488e-05, -1.455126e-04, 4.337294e-05],
-            [1.494373e-05, -6.143243e-05, 1.954265e-05],
+            [-8.056_116e-6, -6.067_661e-5, -1.605_339e-5],
+            [-6.010_618e-6, -1.055_801e-4, -2.156_196e-5],
+            [2.488_488e-5, -1.455_126e-4, 4.337_294e-5],
+            [1.494_373e-5, -6.143_243e-5, 1.954_265e-5],
         ],
     ),
     (
         Kind::Hex8,
         bar!("hex8.inp"),
         [
-            [-9.472536e-06, -2.258298e-05, -6.851054e-06],
-            [-1.140892e-05, -7.117787e-05, -1.334303e-05],
-            [1.463917e-05, -7.594836e-05, 1.966942e-05],
-            [1.132678e-05, -2.273681e-05, 8.126067e-06],
+            [-9.472_536e-6, -2.258_298e-5, -6.851_054e-6],
+            [-1.140_892e-5, -7.117_787e-5, -1.334_303e-5],
+            [1.463_917e-5, -7.594_836e-5, 1.966_942e-5],
+            [1.132_678e-5, -2.273_681e-5, 8.126_067e-6],
         ],
     ),
     (
         Kind::Tet10,
         bar!("tet10.inp"),
         [
-            [-9.825698e-06, -6.084736e-05, -1.723999e-05],
-            [-1.082657e-05, -1.130042e-04, -2.259337e-05],
-            [1.486353e-05, -1.197353e-04, 3.077031e-05],
-            [1.312303e-05, -6.120111e-05, 1.911374e-05],
+            [-9.825_698e-6, -6.084_736e-5, -1.723_999e-5],
+            [-1.082_657e-5, -1.130_042e-4, -2.259_337e-5],
+            [1.486_353e-5, -1.197_353e-4, 3.077_031e-5],
+            [1.312_303e-5, -6.120_111e-5, 1.911_374e-5],
         ],
     ),
     (
         Kind::Tet4,
         bar!("tet4.inp"),
         [
-            [4.830206e-06, -1.882238e-05, -1.228584e-06],
-            [4.734193e-06, -2.120768e-05, -4.785253e-06],
-            [5.860622e-06, -2.126662e-05, 3.182783e-06],
-            [6.073792e-06, -1.880055e-05, 6.574385e-06],
+            [4.830_206e-6, -1.882_238e-5, -1.228_584e-6],
+            [4.734_193e-6, -2.120_768e-5, -4.785_253e-6],
+            [5.860_622e-6, -2.126_662e-5, 3.182_783e-6],
+            [6.073_792e-6, -1.880_055e-5, 6.574_385e-6],
         ],
     ),
     (
         Kind::Wedge15,
         bar!("wedge15.inp"),
         [
-            [-7.828318e-06, -6.118558e-05, -1.638530e-05],
-            [-1.135058e-05, -1.145268e-04, -2.329311e-05],
-            [1.809069e-05, -1.266088e-04, 3.555427e-05],
-            [1.206904e-05, -6.094356e-05, 1.799176e-05],
+            [-7.828_318e-6, -6.118_558e-5, -1.638_530e-5],
+            [-1.135_058e-5, -1.145_268e-4, -2.329_311e-5],
+            [1.809_069e-5, -1.266_088e-4, 3.555_427e-5],
+            [1.206_904e-5, -6.094_356e-5, 1.799_176e-5],
         ],
     ),
 ];
@@ -99,7 +99,9 @@ const GMSH: [(Kind, &str); 5] = [
 fn bar(text: &str) -> Model {
     let deck = abaqus(text).expect("a file of CalculiX");
     let mut model = Model { mesh: deck.mesh, materials: deck.materials, ..Model::default() };
-    deck.supports.iter().for_each(|(node, axis, u)| model.supports.prescribe(&[*node], *axis, *u));
+    for (node, axis, u) in &deck.supports {
+        model.supports.prescribe(&[*node], *axis, *u);
+    }
     model
 }
 
@@ -140,8 +142,8 @@ fn calculix_computes_the_same_frequencies() {
     }
 }
 
-fn corners_and_all(mesh: &Mesh) -> Vec<Vec<[i64; 3]>> {
-    let place = |node: &usize| mesh.nodes[*node].map(|x| (x * 1e9).round() as i64);
+fn corners_and_all(mesh: &Mesh) -> Vec<Vec<String>> {
+    let place = |node: &usize| format!("{:.9?}", mesh.nodes[*node].map(|x| x + 0.0));
     mesh.elements().map(|(_, _, _, nodes)| nodes.iter().map(place).collect()).collect()
 }
 
@@ -186,7 +188,7 @@ fn surfaces_sets_and_ties_are_read() {
     assert_eq!(deck.ignored, ["STEP"]);
     // ν12, ν13, ν23 and G12, G13, G23: the shear stiffnesses xy, yz, zx are G12, G23, G13.
     let shear = [3, 4, 5].map(|i| deck.materials[0].stiffness[i][i]);
-    assert_eq!(shear, [3e9, 1.5e9, 2e9]);
+    assert_eq!(format!("{shear:?}"), "[3000000000.0, 1500000000.0, 2000000000.0]");
 }
 
 #[test]
@@ -287,6 +289,6 @@ fn vtk_files_hold_the_mesh_and_the_fields() {
         mesh.elements().flat_map(|(_, _, _, n)| n.iter().map(|i| *i as f64)).collect();
     assert_eq!(numbers("connectivity"), connectivity);
     // VTK_QUADRATIC_WEDGE.
-    assert!(numbers("types").iter().all(|t| *t == 26.0));
+    assert!(numbers("types").iter().all(|t| (t - 26.0).abs() < 0.5));
     assert_eq!(numbers("offsets").last().copied(), Some(connectivity.len() as f64));
 }

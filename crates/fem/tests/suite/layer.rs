@@ -3,7 +3,7 @@
 use faer::c64;
 use squealmap_fem::assembly::assemble;
 use squealmap_fem::elements::Kind;
-use squealmap_fem::modes::{Factor, Ordering, near};
+use squealmap_fem::modes::{Factor, Near, Ordering, near};
 
 use crate::cases::{layer, plane_waves};
 
@@ -38,8 +38,8 @@ fn nearest(kind: Kind, n: usize, mu: f64, exact: c64) -> c64 {
     let shift = -(exact * exact).re;
     let factor = Factor::new(&ordering, &pencil.stiffness, &pencil.mass, shift).expect("a factor");
     let found = near(&pencil, &factor, mu, 6, 1e-10).expect("complex modes");
-    let close = |a: &&(c64, f64), b: &&(c64, f64)| (a.0 - exact).norm().total_cmp(&(b.0 - exact).norm());
-    found.iter().min_by(close).expect("some").0
+    let apart = |mode: &Near| (mode.lambda - exact).norm();
+    found.iter().min_by(|a, b| apart(a).total_cmp(&apart(b))).expect("some").lambda
 }
 
 /// The errors fall by two to the power of twice the degree of the elements' polynomials when their size halves.

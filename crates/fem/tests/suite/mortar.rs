@@ -112,7 +112,9 @@ fn friction_is_in_equilibrium() {
     for (point, n) in settled.model.contact.iter().zip(&settled.forces) {
         for (i, force) in [-mu * n, 0.0, *n].into_iter().enumerate() {
             wanted[point.slave][i] += force;
-            point.masters.iter().for_each(|(master, w)| wanted[*master][i] -= w * force);
+            for (master, w) in &point.masters {
+                wanted[*master][i] -= w * force;
+            }
         }
     }
     let total: f64 = settled.forces.iter().sum();

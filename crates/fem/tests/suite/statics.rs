@@ -54,7 +54,9 @@ fn forces_are_in_equilibrium_and_friction_is_mu_n() {
         let force = [-mu * n, 0.0, *n];
         for i in 0..3 {
             wanted[point.slave][i] += force[i];
-            point.masters.iter().for_each(|(master, w)| wanted[*master][i] -= w * force[i]);
+            for (master, w) in &point.masters {
+                wanted[*master][i] -= w * force[i];
+            }
         }
     }
     let total: f64 = settled.forces.iter().sum();

@@ -32,22 +32,22 @@ fn determinant(waves: f64, mu: f64, omega2: c64) -> c64 {
         [i * k * cp, i * k * sp, q2 * sq, cq],
         [p2 * sp, cp, -i * k * cq, -i * k * sq],
     ];
-    determinant_of(rows.map(|row| row.to_vec()).to_vec())
+    determinant_of(&rows.map(|row| row.to_vec()))
 }
 
 /// By Laplace's expansion.
-fn determinant_of(rows: Vec<Vec<c64>>) -> c64 {
+fn determinant_of(rows: &[Vec<c64>]) -> c64 {
     if rows.len() == 1 {
         return rows[0][0];
     }
     let mut sum = c64::new(0.0, 0.0);
     for column in 0..rows.len() {
-        let minor = rows[1..]
+        let minor: Vec<Vec<c64>> = rows[1..]
             .iter()
             .map(|row| row.iter().enumerate().filter(|(j, _)| *j != column).map(|(_, x)| *x).collect())
             .collect();
         let sign = if column % 2 == 0 { 1.0 } else { -1.0 };
-        sum += sign * rows[0][column] * determinant_of(minor);
+        sum += sign * rows[0][column] * determinant_of(&minor);
     }
     sum
 }
@@ -59,7 +59,7 @@ fn root(waves: f64, mu: f64, start: c64) -> c64 {
     for _ in 0..200 {
         let fb = determinant(waves, mu, b);
         let step = fb * (b - a) / (fb - fa);
-        if !(step.norm() > 1e-14 * b.norm()) {
+        if step.norm() <= 1e-14 * b.norm() {
             break;
         }
         (a, fa) = (b, fb);
