@@ -1,13 +1,13 @@
 //! The tables of `docs/fem.md`: what this program computes against what is exact or published.
 //!
 //!     cargo run --release -p squealmap-fem --example numbers
+//!
+//! With numbers behind it, the refined pin only, with elements of 5 mm over each of them.
 
 #![allow(clippy::doc_markdown, reason = "symbols of equations, such as μ_c or K_n, are no code")]
 
 #[path = "../tests/suite/cases/mod.rs"]
 mod cases;
-
-use std::time::Instant;
 
 use faer::c64;
 use squealmap_fem::Error;
@@ -18,9 +18,21 @@ use squealmap_fem::modes::{
 };
 
 fn main() -> Result<(), Error> {
+    let sizes: Vec<usize> = std::env::args().skip(1).filter_map(|word| word.parse().ok()).collect();
+    if !sizes.is_empty() {
+        return pin_refined(&sizes);
+    }
     layer()?;
     pin()?;
-    pin_refined()
+    pin_refined(&[1, 2, 4])
+}
+
+/// Seconds that all cores have worked for this program, where Linux tells.
+fn work() -> f64 {
+    // Fields 14 and 15 of proc(5) in ticks of 10 ms, counted after the name in parentheses.
+    let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
+    let fields = stat.rsplit(')').next().unwrap_or_default().split_whitespace().skip(11).take(2);
+    fields.filter_map(|ticks| ticks.parse::<f64>().ok()).sum::<f64>() / 100.0
 }
 
 fn hz(lambda: c64) -> f64 {
@@ -32,6 +44,13 @@ fn factorised(model: &Model, shift: f64) -> Result<(Pencil, Ordering, Factor), E
     let ordering = Ordering::new(&pencil.stiffness.pattern)?;
     let factor = Factor::new(&ordering, &pencil.stiffness, &pencil.mass, shift)?;
     Ok((pencil, ordering, factor))
+}
+
+/// The most memory that this program has had so far, GB, where Linux tells.
+fn memory() -> f64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:")).unwrap_or_default();
+    peak.split_whitespace().next().and_then(|kb| kb.parse::<f64>().ok()).unwrap_or_default() / 1e6
 }
 
 /// Errors of the layer's eigenvalues, and by which power of the size of the elements they fall.
@@ -108,22 +127,22 @@ fn pin() -> Result<(), Error> {
 }
 
 /// The same with smaller elements: what it costs, and where μ_c goes.
-fn pin_refined() -> Result<(), Error> {
+fn pin_refined(sizes: &[usize]) -> Result<(), Error> {
     println!(
-        "\n| elements of | unknowns | contact points | entries of L | assembly and factor, s | 20 modes, s | space, s | μ_c | Hz |"
+        "\n| elements of | unknowns | contact points | entries of L | matrices and factor, s | 20 modes, s | space, s | μ_c, s | memory, GB | \
+         μ_c | Hz |\n|---|---|---|---|---|---|---|---|---|---|---|"
     );
-    println!("|---|---|---|---|---|---|---|---|---|");
-    for n in [1, 2, 4] {
-        let start = Instant::now();
-        let (pencil, ordering, factor) = factorised(&cases::pin::model(Kind::Hex20, n)?, 0.0)?;
-        let assembled = start.elapsed().as_secs_f64();
+    for n in sizes {
+        let mut clock = vec![work()];
+        let (pencil, ordering, factor) = factorised(&cases::pin::model(Kind::Hex20, *n)?, 0.0)?;
+        clock.push(work());
         let modes = lowest(&pencil, &factor, 20)?;
-        let real = start.elapsed().as_secs_f64() - assembled;
+        clock.push(work());
         let mut basis = Basis::new(&pencil, &modes.shapes);
         let none = Rows::default();
         let mus: Vec<f64> = (0..=24).map(|i| 0.025 * f64::from(i)).collect();
         refine(&pencil, &factor, &mut basis, &[0.15, 0.3, 0.45], &none, 8, 1e-4, 10)?;
-        let space = start.elapsed().as_secs_f64() - assembled - real;
+        clock.push(work());
         let critical = match first_unstable(&basis, &mus, &none, 7e4, 10.0)? {
             Some((i, pair)) => {
                 let found = coalescence(&pencil, &factor, &mut basis, mus[i], &pair)?;
@@ -131,12 +150,16 @@ fn pin_refined() -> Result<(), Error> {
             }
             None => "none up to 0.6 | ".to_owned(),
         };
+        clock.push(work());
+        let seconds: Vec<String> = clock.windows(2).map(|w| format!("{:.2}", w[1] - w[0])).collect();
         println!(
-            "| {} mm | {} | {} | {:.1e} | {assembled:.2} | {real:.2} | {space:.2} | {critical} |",
-            5.0 / n as f64,
+            "| {:.3} mm | {} | {} | {:.1e} | {} | {:.2} | {critical} |",
+            5.0 / *n as f64,
             pencil.size(),
             pencil.slip.rows.len(),
-            ordering.entries() as f64
+            ordering.entries() as f64,
+            seconds.join(" | "),
+            memory()
         );
     }
     Ok(())

@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use rayon::prelude::*;
+
 /// Where a symmetric matrix has entries, both triangles, column by column.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pattern {
@@ -70,9 +72,15 @@ impl Symmetric {
     /// A x.
     #[must_use]
     pub fn times(&self, x: &[f64]) -> Vec<f64> {
+        /// Rows that are worth another thread.
+        const SHARE: usize = 1000;
         let Pattern { start, row } = &*self.pattern;
         // Symmetric: the entries of column i are those of row i.
-        (0..x.len()).map(|i| (start[i]..start[i + 1]).map(|k| self.values[k] * x[row[k]]).sum()).collect()
+        (0..x.len())
+            .into_par_iter()
+            .with_min_len(SHARE)
+            .map(|i| (start[i]..start[i + 1]).map(|k| self.values[k] * x[row[k]]).sum())
+            .collect()
     }
 
     /// A + scale · B, of one pattern.

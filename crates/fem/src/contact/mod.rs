@@ -2,10 +2,12 @@
 
 mod matching;
 mod mortar;
+mod rotation;
 mod surface;
 
 pub use matching::{bonded, periodic, sliding, sliding_on_rigid};
 pub use mortar::mortar;
+pub use rotation::rotating;
 pub use surface::{Surface, pressures};
 
 /// A point of sliding contact: the normal displacement of a slave node is tied, and friction acts on its slip.

@@ -12,10 +12,12 @@ pub struct Basis {
     pub vectors: Mat<f64>,
     /// Vᵀ K V, Vᵀ M V and Vᵀ C V, without friction.
     symmetric: [Mat<f64>; 3],
-    /// (S V)ᵀ (K_n V) and so on: what one unit of μ adds.
-    friction: [Mat<f64>; 3],
     /// S V: the slip of each contact point.
     slip: Mat<f64>,
+    /// K_n V, M_n V and C_n V: the normal force at each contact point.
+    normal: [Mat<f64>; 3],
+    /// (S V)ᵀ (K_n V) and so on: what one unit of μ adds.
+    friction: [Mat<f64>; 3],
 }
 
 /// A small dense problem λ² M + λ C + K.
@@ -33,35 +35,51 @@ impl Basis {
     /// The space of these vectors; those that depend on others are dropped.
     #[must_use]
     pub fn new(pencil: &Pencil, vectors: &Mat<f64>) -> Self {
-        let mut basis = Mat::zeros(pencil.size(), 0);
-        append(&mut basis, &pencil.mass, vectors);
-        Self::project(pencil, basis)
+        let empty = || Mat::zeros(0, 0);
+        let rows = || Mat::zeros(pencil.slip.rows.len(), 0);
+        let mut basis = Self {
+            vectors: Mat::zeros(pencil.size(), 0),
+            symmetric: [empty(), empty(), empty()],
+            slip: rows(),
+            normal: [rows(), rows(), rows()],
+            friction: [empty(), empty(), empty()],
+        };
+        basis.extend(pencil, vectors);
+        basis
     }
 
     /// The space with more vectors. Gives how many were new.
     pub fn extend(&mut self, pencil: &Pencil, vectors: &Mat<f64>) -> usize {
-        let mut basis = std::mem::replace(&mut self.vectors, Mat::zeros(0, 0));
-        let before = basis.ncols();
-        append(&mut basis, &pencil.mass, vectors);
-        *self = Self::project(pencil, basis);
-        self.vectors.ncols() - before
-    }
-
-    fn project(pencil: &Pencil, vectors: Mat<f64>) -> Self {
-        let on = |matrix: &Symmetric| {
-            let projected = vectors.transpose() * times(matrix, &vectors);
-            // Symmetric to the last bit: at μ = 0 every eigenvalue is real.
-            Mat::from_fn(projected.nrows(), projected.ncols(), |i, j| {
-                f64::midpoint(projected[(i, j)], projected[(j, i)])
-            })
-        };
-        let empty = || Mat::zeros(vectors.ncols(), vectors.ncols());
-        let damping = pencil.damping.as_ref().map_or_else(empty, on);
-        let slip = rows_times(&pencil.slip, &vectors);
-        let normal = |rows: &Rows| slip.transpose() * rows_times(rows, &vectors);
-        let friction =
-            [normal(&pencil.normal_stiffness), normal(&pencil.normal_mass), normal(&pencil.normal_damping)];
-        Self { symmetric: [on(&pencil.stiffness), on(&pencil.mass), damping], friction, slip, vectors }
+        let before = self.vectors.ncols();
+        append(&mut self.vectors, &pencil.mass, vectors);
+        let new = self.vectors.subcols(before, self.vectors.ncols() - before).to_owned();
+        let matrices = [Some(&pencil.stiffness), Some(&pencil.mass), pencil.damping.as_ref()];
+        for (projected, matrix) in self.symmetric.iter_mut().zip(matrices) {
+            let Some(matrix) = matrix else {
+                *projected = Mat::zeros(self.vectors.ncols(), self.vectors.ncols());
+                continue;
+            };
+            let columns = self.vectors.transpose() * times(matrix, &new);
+            *projected = Mat::from_fn(self.vectors.ncols(), self.vectors.ncols(), |i, j| {
+                match (i.checked_sub(before), j.checked_sub(before)) {
+                    (None, None) => projected[(i, j)],
+                    (None, Some(j)) => columns[(i, j)],
+                    (Some(i), None) => columns[(j, i)],
+                    // Symmetric to the last bit: at μ = 0 every eigenvalue is real.
+                    (Some(k), Some(l)) => f64::midpoint(columns[(i, l)], columns[(j, k)]),
+                }
+            });
+        }
+        widen(&mut self.slip, &rows_times(&pencil.slip, &new));
+        for (normal, rows) in self.normal.iter_mut().zip([
+            &pencil.normal_stiffness,
+            &pencil.normal_mass,
+            &pencil.normal_damping,
+        ]) {
+            widen(normal, &rows_times(rows, &new));
+        }
+        self.friction = [0, 1, 2].map(|i| self.slip.transpose() * &self.normal[i]);
+        new.ncols()
     }
 
     /// The projected problem at a coefficient of friction. `slope` is the damping (N s/m) between contact points, without rows
@@ -102,6 +120,12 @@ fn rows_times(rows: &Rows, vectors: &Mat<f64>) -> Mat<f64> {
     images
 }
 
+/// Puts columns beside those of a matrix.
+fn widen(matrix: &mut Mat<f64>, columns: &Mat<f64>) {
+    let before = matrix.ncols();
+    matrix.resize_with(columns.nrows(), before + columns.ncols(), |i, j| columns[(i, j - before)]);
+}
+
 /// Appends vectors to an M-orthonormal basis, by Gram and Schmidt, twice.
 pub(super) fn append(basis: &mut Mat<f64>, mass: &Symmetric, vectors: &Mat<f64>) {
     /// What is left of a vector of the space after rounding.
@@ -109,24 +133,22 @@ pub(super) fn append(basis: &mut Mat<f64>, mass: &Symmetric, vectors: &Mat<f64>)
     let size = vectors.nrows();
     for j in 0..vectors.ncols() {
         let mut v = column(vectors, j);
-        let before = norm(mass, &v);
-        if !(before > 0.0) || basis.ncols() >= size {
-            continue;
-        }
+        let mut lengths = Vec::with_capacity(3);
         // The second time takes away what rounding has left the first time.
         for _ in 0..2 {
             let image = faer::Col::from_iter(mass.times(&v));
-            let known = &*basis * (basis.transpose() * image);
+            let squared: f64 = image.iter().zip(&v).map(|(a, b)| a * b).sum();
+            let inside = basis.transpose() * &image;
+            let known = &*basis * &inside;
             v.iter_mut().zip(known.iter()).for_each(|(v, k)| *v -= k);
+            lengths.push(squared.max(0.0).sqrt());
+            // By Pythagoras.
+            lengths.push((squared - inside.squared_norm_l2()).max(0.0).sqrt());
         }
-        let after = norm(mass, &v);
-        if after > DEPENDENT * before {
+        let (before, after) = (lengths[0], lengths[3]);
+        if after > DEPENDENT * before && basis.ncols() < size {
             let from = basis.ncols();
             basis.resize_with(size, from + 1, |i, _| v[i] / after);
         }
     }
-}
-
-fn norm(mass: &Symmetric, v: &[f64]) -> f64 {
-    mass.times(v).iter().zip(v).map(|(a, b)| a * b).sum::<f64>().max(0.0).sqrt()
 }

@@ -1,7 +1,7 @@
 //! Surfaces whose nodes do not match.
 
 use squealmap_fem::assembly::{Loads, Model, Supports, internal_forces};
-use squealmap_fem::contact::mortar;
+use squealmap_fem::contact::{mortar, rotating};
 use squealmap_fem::elements::Kind;
 use squealmap_fem::mesh::Block;
 use squealmap_fem::statics::settle;
@@ -143,4 +143,26 @@ fn matching_nodes_are_tied_one_by_one() {
             assert!((weight - expected).abs() < 1e-11, "{point:?}");
         }
     }
+}
+
+/// On a disc the slaves slide along circles about its axis; a wrong axis leaves the surface.
+#[test]
+fn a_disc_turns_about_its_axis() {
+    let model = stack(Kind::Hex8, Kind::Hex8);
+    let (origin, axis) = ([0.9, -0.5, 7.0], [0.0, 0.0, 3.0]);
+    let points = rotating(&model.mesh, model.contact.clone(), origin, axis).expect("a disc");
+    for point in &points {
+        let x = model.mesh.nodes[point.slave];
+        let r = [x[0] - origin[0], x[1] - origin[1]];
+        let length = r[0].hypot(r[1]);
+        let exact = [-r[1] / length, r[0] / length, 0.0];
+        assert!((0..3).all(|i| (point.direction[i] - exact[i]).abs() < 1e-12), "{point:?}");
+    }
+    let error = rotating(&model.mesh, model.contact.clone(), origin, [1.0, 0.0, 0.0]).map(drop);
+    assert!(
+        error
+            .expect_err("a wrong axis")
+            .to_string()
+            .starts_with("the direction of sliding leaves the surface")
+    );
 }
