@@ -20,6 +20,8 @@ pub struct Coalescence {
     pub omega2: f64,
     /// How far the last step of Newton moved μ.
     pub step: f64,
+    /// Number of steps.
+    pub steps: usize,
     /// Right and left vector in the coordinates of the basis.
     pub vectors: [Vec<f64>; 2],
 }
@@ -49,7 +51,7 @@ pub fn coalescence_small(basis: &Basis, mu: f64, pair: &Pair) -> Result<Coalesce
     let unit = -(pair.lambda * pair.lambda).re;
     let (mut theta, mut mu) = (1.0, mu);
     let mut border = [real_part(&pair.vector), real_part(&pair.vector)];
-    for _ in 0..STEPS {
+    for steps in 1..=STEPS {
         let small = basis.at(mu, &Rows::default());
         let (k, m) = (&small.stiffness, &small.mass);
         let p = Mat::from_fn(size, size, |i, j| k[(i, j)] / unit - theta * m[(i, j)]);
@@ -97,7 +99,7 @@ pub fn coalescence_small(basis: &Basis, mu: f64, pair: &Pair) -> Result<Coalesce
         }
         border = [normed(&x), normed(&y)];
         if d_mu.abs() <= STEP && d_theta.abs() <= STEP {
-            return Ok(Coalescence { mu, omega2: theta * unit, step: d_mu.abs(), vectors: border });
+            return Ok(Coalescence { mu, omega2: theta * unit, step: d_mu.abs(), steps, vectors: border });
         }
     }
     let what =

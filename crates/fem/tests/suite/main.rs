@@ -13,5 +13,6 @@ mod layer;
 mod mortar;
 mod patch;
 mod pin;
+mod real;
 mod statics;
 mod sweep;

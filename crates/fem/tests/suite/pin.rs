@@ -1,9 +1,11 @@
 //! A pin on a block: numbers of an independent program.
 
+use faer::c64;
 use squealmap_fem::assembly::{Rows, assemble};
 use squealmap_fem::elements::Kind;
 use squealmap_fem::modes::{
-    Basis, Factor, Ordering, coalescence, count_below, first_unstable, lowest, near, pairs, refine, residuals,
+    Basis, Factor, Ordering, Pair, coalescence, coalescence_small, count_below, first_unstable, lowest, near,
+    pairs, refine, residuals,
 };
 
 use crate::cases::pin;
@@ -50,15 +52,31 @@ fn two_modes_coalesce_where_they_should() {
     let direct = near(&pencil, &shifted, 0.4, 4, 1e-10).expect("complex modes");
     assert!(direct.iter().any(|mode| (mode.lambda - unstable.lambda).norm() < 1e-6 * unstable.lambda.norm()));
 
+    let start_basis = Basis::new(&pencil, &basis.vectors);
     let mus: Vec<f64> = (0..=8).map(|i| 0.05 * f64::from(i)).collect();
     let (_, start) =
         first_unstable(&basis, &mus, &Rows::default(), 7e4, 1.0).expect("eigenvalues").expect("flutter");
     let critical = coalescence(&pencil, &factor, &mut basis, 0.4, &start).expect("a coalescence");
     println!("mu_c {} at {} Hz, last step {:e}", critical.mu, critical.frequency(), critical.step);
     assert!((critical.mu - 0.38838).abs() < 6e-6);
+    // Newton's method doubles the digits in each step, if its derivatives are right.
+    let again = Pair { lambda: c64::new(0.0, critical.omega2.sqrt()), vector: unstable.vector.clone() };
+    let on = coalescence_small(&start_basis, critical.mu + 1e-3, &again).expect("a coalescence");
+    assert!(on.steps <= 5, "{} steps", on.steps);
+    // A space that knows nothing of friction yet comes to the same.
+    let mut raw = Basis::new(&pencil, &modes.shapes);
+    let pair = first_pair(&raw);
+    let same = coalescence(&pencil, &factor, &mut raw, 0.4, &pair).expect("a coalescence");
+    assert!((same.mu - critical.mu).abs() < 1e-8, "{} {}", same.mu, critical.mu);
     // Just below both are real, just above they are not.
     for (mu, grows) in [(critical.mu - 1e-6, false), (critical.mu + 1e-6, true)] {
         let near_it = near(&pencil, &shifted, mu, 4, 1e-10).expect("complex modes");
         assert_eq!(near_it.iter().any(|mode| mode.lambda.re > 0.1), grows, "{mu}");
     }
+}
+
+/// The first pair that grows on a basis, from where on any does.
+fn first_pair(basis: &Basis) -> Pair {
+    let mus: Vec<f64> = (0..=60).map(|i| 0.01 * f64::from(i)).collect();
+    first_unstable(basis, &mus, &Rows::default(), 7e4, 1.0).expect("eigenvalues").expect("flutter").1
 }
