@@ -99,6 +99,38 @@ fn what_is_pulled_opens() {
     }
 }
 
+/// Whatever pushes and pulls it from above, nowhere is it pulled from below, nowhere does it overlap the plane: what has opened in one
+/// round has to close in another.
+#[test]
+fn what_has_opened_closes_again() {
+    let mut model = on_plane(Kind::Hex8, [6.0, 1.0, 0.5], [24, 2, 2]);
+    for (axis, name) in ["x0", "y0"].into_iter().enumerate() {
+        let side = model.mesh.node_set(name).expect("a side").to_vec();
+        model.supports.prescribe(&side, axis, 0.0);
+    }
+    let slaves = model.mesh.face_set("z0").expect("a side").to_vec();
+    let mut number = 7_u32;
+    for _ in 0..8 {
+        let pressure = (0..12)
+            .map(|i| {
+                let from = 0.5 * f64::from(i);
+                number = number.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+                let faces = model
+                    .mesh
+                    .faces_where(|x| x[2] > 0.5 - 1e-9 && x[0] > from - 1e-9 && x[0] < from + 0.5 + 1e-9);
+                (faces, 1e6 * (f64::from(number >> 16) / 65_536.0 * 5.0 - 2.0))
+            })
+            .collect();
+        let settled =
+            settle(&model, &slaves, &Loads { pressure, ..Loads::default() }, 0.0).expect("a settled block");
+        let total: f64 = settled.forces.iter().sum();
+        assert!(settled.forces.iter().all(|n| *n >= -1e-6 * total), "{:?}", settled.forces);
+        let gaps: Vec<f64> = settled.open.iter().map(|p| settled.displacement[p.slave][2]).collect();
+        let widest = gaps.iter().copied().fold(0.0, f64::max);
+        assert!(gaps.iter().all(|gap| *gap >= -1e-6 * widest), "{gaps:?}");
+    }
+}
+
 #[test]
 fn a_block_that_is_pulled_off_is_an_error() {
     let mut model = on_plane(Kind::Hex8, [1.0, 1.0, 1.0], [2, 2, 2]);
