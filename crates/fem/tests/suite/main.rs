@@ -16,3 +16,4 @@ mod pin;
 mod real;
 mod statics;
 mod sweep;
+mod two_masses;
