@@ -1,0 +1,154 @@
+//! The matrices of all elements, summed up.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use super::{Numbering, Pattern, Pencil, Rows, Supports, Symmetric, check_joined};
+use crate::Error;
+use crate::contact::Point;
+use crate::elements::{Kind, Matrices, matrices};
+use crate::material::Material;
+use crate::mesh::{self, Mesh};
+
+/// All that the matrices are made of.
+#[derive(Debug, Clone, Default)]
+pub struct Model {
+    /// Nodes and elements.
+    pub mesh: Mesh,
+    /// Materials, by the groups' indices.
+    pub materials: Vec<Material>,
+    /// Supports and bonds.
+    pub supports: Supports,
+    /// Points of sliding contact.
+    pub contact: Vec<Point>,
+}
+
+impl Model {
+    /// The matrices of one element.
+    ///
+    /// # Errors
+    /// Where the element is inverted or its material is missing.
+    pub(crate) fn element(
+        &self,
+        element: usize,
+        kind: Kind,
+        material: usize,
+        nodes: &[usize],
+    ) -> Result<(Matrices, &Material), Error> {
+        let material = self.materials.get(material).ok_or_else(|| Error::Mesh {
+            what: format!(
+                "element {element} is of material {material}, but there are only {}",
+                self.materials.len()
+            ),
+        })?;
+        let places: Vec<[f64; 3]> = nodes.iter().map(|node| self.mesh.nodes[*node]).collect();
+        let matrices = matrices(kind, &places, material).map_err(|determinant| Error::Inverted {
+            element,
+            kind: kind.name(),
+            determinant,
+        })?;
+        Ok((matrices, material))
+    }
+}
+
+/// One row of normal forces while it is summed up: stiffness, mass and damping by column.
+type NormalRow = BTreeMap<usize, [f64; 3]>;
+
+/// Numbers the unknowns and sums up the matrices.
+///
+/// # Errors
+/// Bad elements, contradicting supports, a missing material, parts that nothing holds.
+pub fn assemble(model: &Model) -> Result<(Numbering, Pencil), Error> {
+    mesh::check(&model.mesh)?;
+    let numbering = Numbering::new(&model.mesh, &model.supports, &model.contact)?;
+    check_joined(model, &numbering)?;
+    let groups: Vec<Vec<usize>> =
+        model.mesh.elements().map(|(_, _, _, nodes)| unknowns_of(&numbering, nodes)).collect();
+    let pattern = Arc::new(Pattern::of(numbering.unknowns, &groups));
+    let mut stiffness = Symmetric::zero(pattern.clone());
+    let mut mass = Symmetric::zero(pattern.clone());
+    let damped = model.materials.iter().any(|m| m.rayleigh.iter().any(|c| c.abs() > 0.0));
+    let mut damping = damped.then(|| Symmetric::zero(pattern.clone()));
+
+    // Contact points by the leader of their slave node.
+    let mut points: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for (i, point) in model.contact.iter().enumerate() {
+        points.entry(numbering.leader[point.slave]).or_default().push(i);
+    }
+    let mut normal: Vec<NormalRow> = vec![NormalRow::new(); model.contact.len()];
+
+    for (element, kind, material, nodes) in model.mesh.elements() {
+        let (matrices, material) = model.element(element, kind, material, nodes)?;
+        let size = 3 * nodes.len();
+        let [alpha, beta] = material.rayleigh;
+        let rows: Vec<&[(usize, f64)]> =
+            (0..size).map(|i| numbering.rows[3 * nodes[i / 3] + i % 3].as_slice()).collect();
+        for j in 0..size {
+            for (column, fj) in rows[j] {
+                let from = pattern.start[*column];
+                let entries = &pattern.row[from..pattern.start[*column + 1]];
+                for i in 0..size {
+                    for (row, fi) in rows[i] {
+                        let at = from + entries.partition_point(|r| r < row);
+                        let (k, m) = (matrices.stiffness[i * size + j], matrices.mass[i * size + j]);
+                        stiffness.values[at] += fi * fj * k;
+                        mass.values[at] += fi * fj * m;
+                        if let Some(damping) = &mut damping {
+                            damping.values[at] += fi * fj * (alpha * m + beta * k);
+                        }
+                    }
+                }
+            }
+        }
+        for (a, node) in nodes.iter().enumerate() {
+            for index in points.get(&numbering.leader[*node]).into_iter().flatten() {
+                let n = model.contact[*index].normal;
+                for (j, row) in rows.iter().enumerate() {
+                    let along =
+                        |matrix: &[f64]| (0..3).map(|i| n[i] * matrix[(3 * a + i) * size + j]).sum::<f64>();
+                    let (k, m) = (along(&matrices.stiffness), along(&matrices.mass));
+                    for (column, f) in *row {
+                        let sums = normal[*index].entry(*column).or_default();
+                        for (sum, part) in sums.iter_mut().zip([k, m, alpha * m + beta * k]) {
+                            *sum += f * part;
+                        }
+                    }
+                }
+            }
+        }
+    }
+    let rows = |which: usize| Rows {
+        rows: normal.iter().map(|row| row.iter().map(|(i, v)| (*i, v[which])).collect()).collect(),
+    };
+    let (normal_stiffness, normal_mass, normal_damping) = (rows(0), rows(1), rows(2));
+    let slip = slip(&numbering, &model.contact);
+    Ok((numbering, Pencil { stiffness, mass, damping, slip, normal_stiffness, normal_mass, normal_damping }))
+}
+
+/// The unknowns that move the nodes of an element, each once.
+fn unknowns_of(numbering: &Numbering, nodes: &[usize]) -> Vec<usize> {
+    let mut unknowns: Vec<usize> = nodes
+        .iter()
+        .flat_map(|node| (0..3).flat_map(move |axis| numbering.rows[3 * node + axis].iter().map(|(i, _)| *i)))
+        .collect();
+    unknowns.sort_unstable();
+    unknowns.dedup();
+    unknowns
+}
+
+/// S: t·(u_s − Σ w u_m) of each contact point.
+fn slip(numbering: &Numbering, contact: &[Point]) -> Rows {
+    let row = |point: &Point| {
+        let mut sums: BTreeMap<usize, f64> = BTreeMap::new();
+        let sides = std::iter::once((point.slave, 1.0)).chain(point.masters.iter().map(|(m, w)| (*m, -w)));
+        for (node, weight) in sides {
+            for axis in 0..3 {
+                for (unknown, f) in &numbering.rows[3 * node + axis] {
+                    *sums.entry(*unknown).or_default() += weight * point.direction[axis] * f;
+                }
+            }
+        }
+        sums.into_iter().filter(|(_, v)| *v != 0.0).collect()
+    };
+    Rows { rows: contact.iter().map(row).collect() }
+}

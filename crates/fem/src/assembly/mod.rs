@@ -1,0 +1,20 @@
+//! From a mesh, supports and contact to sparse matrices.
+//!
+//! The displacements are u = Z q + g: q are the unknowns, g what is prescribed, and the rows of Z say how a node moves with the
+//! unknowns. Supports, bonded nodes and tied normal displacements are all rows of Z.
+
+mod build;
+mod joined;
+mod loads;
+mod numbering;
+mod pencil;
+mod sparse;
+mod supports;
+
+pub use build::{Model, assemble};
+pub use joined::check_joined;
+pub use loads::{Loads, internal_forces, load_vector, nodal_forces};
+pub use numbering::Numbering;
+pub use pencil::Pencil;
+pub use sparse::{Pattern, Rows, Symmetric};
+pub use supports::Supports;

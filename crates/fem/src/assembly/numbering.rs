@@ -1,0 +1,167 @@
+//! The rows of Z: how each degree of freedom of the mesh moves with the unknowns.
+
+use std::collections::HashSet;
+
+use super::Supports;
+use crate::Error;
+use crate::contact::Point;
+use crate::mesh::Mesh;
+
+/// u = Z q + g.
+#[derive(Debug, Clone)]
+pub struct Numbering {
+    /// The node that each node moves with: itself where nothing bonds it.
+    pub leader: Vec<usize>,
+    /// Row of Z of degree of freedom 3 node + axis: unknowns and their factors.
+    pub rows: Vec<Vec<(usize, f64)>>,
+    /// g, m.
+    pub given: Vec<f64>,
+    /// Number of unknowns.
+    pub unknowns: usize,
+}
+
+/// What becomes of a degree of freedom of a leading node.
+#[derive(Clone)]
+enum Fate {
+    Free(usize),
+    Given(f64),
+    Follows(Vec<(usize, f64)>),
+}
+
+impl Numbering {
+    /// Numbers the unknowns of a mesh.
+    ///
+    /// # Errors
+    /// Supports that contradict each other or a contact; a node that is slave of one contact and master of another.
+    pub fn new(mesh: &Mesh, supports: &Supports, contact: &[Point]) -> Result<Self, Error> {
+        let leader = leaders(mesh.nodes.len(), &supports.same);
+        let mut used = vec![false; mesh.nodes.len()];
+        for (_, _, _, nodes) in mesh.elements() {
+            for node in nodes {
+                used[leader[*node]] = true;
+            }
+        }
+        let mut fate: Vec<Option<Fate>> = vec![None; 3 * mesh.nodes.len()];
+        for ((node, axis), displacement) in &supports.prescribed {
+            let dof = 3 * leader[*node] + axis;
+            if let Some(Fate::Given(other)) = &fate[dof]
+                && (other - displacement).abs() > 0.0
+            {
+                let name = ["x", "y", "z"][*axis];
+                let what = format!(
+                    "node {node} is to move by {displacement} m along {name}, a node bonded to it by {other} m: \
+                     prescribe one of both"
+                );
+                return Err(Error::Support { what });
+            }
+            fate[dof] = Some(Fate::Given(*displacement));
+        }
+        let masters: HashSet<usize> =
+            contact.iter().flat_map(|p| p.masters.iter().map(|(node, _)| leader[*node])).collect();
+        for point in contact {
+            if masters.contains(&leader[point.slave]) {
+                let what = format!(
+                    "node {} slides on one surface and carries another: let its body be the master of both",
+                    point.slave
+                );
+                return Err(Error::Contact { what });
+            }
+            let (dof, terms) = follow(point, &leader, &fate)?;
+            fate[dof] = Some(Fate::Follows(terms));
+        }
+        let mut unknowns = 0;
+        for (dof, fate) in fate.iter_mut().enumerate() {
+            // Nodes that no element uses have no stiffness.
+            if !used[dof / 3] {
+                *fate = Some(Fate::Given(0.0));
+            } else if fate.is_none() {
+                *fate = Some(Fate::Free(unknowns));
+                unknowns += 1;
+            }
+        }
+        let fate: Vec<Fate> = fate.into_iter().flatten().collect();
+        let (mut rows, mut given) = (Vec::with_capacity(fate.len()), Vec::with_capacity(fate.len()));
+        for dof in 0..fate.len() {
+            let (row, g) = expand(3 * leader[dof / 3] + dof % 3, &fate);
+            rows.push(row);
+            given.push(g);
+        }
+        Ok(Self { leader, rows, given, unknowns })
+    }
+
+    /// The displacements of all nodes for some unknowns, without what is prescribed.
+    #[must_use]
+    pub fn spread(&self, q: &[f64]) -> Vec<[f64; 3]> {
+        let at = |dof: usize| self.rows[dof].iter().map(|(i, f)| f * q[*i]).sum();
+        (0..self.leader.len()).map(|node| [at(3 * node), at(3 * node + 1), at(3 * node + 2)]).collect()
+    }
+}
+
+/// Each node's leader: the smallest node of those bonded with it.
+fn leaders(nodes: usize, same: &[(usize, usize)]) -> Vec<usize> {
+    fn top(leader: &mut [usize], mut node: usize) -> usize {
+        while leader[node] != node {
+            leader[node] = leader[leader[node]];
+            node = leader[node];
+        }
+        node
+    }
+    let mut leader: Vec<usize> = (0..nodes).collect();
+    for (a, b) in same {
+        let (a, b) = (top(&mut leader, *a), top(&mut leader, *b));
+        leader[a.max(b)] = a.min(b);
+    }
+    (0..nodes).map(|node| top(&mut leader, node)).collect()
+}
+
+/// The tied normal displacement n·u_s = Σ w n·u_m, solved for the degree of freedom of the slave that n points along most.
+fn follow(
+    point: &Point,
+    leader: &[usize],
+    fate: &[Option<Fate>],
+) -> Result<(usize, Vec<(usize, f64)>), Error> {
+    let slave = leader[point.slave];
+    let axis = (0..3).max_by(|a, b| point.normal[*a].abs().total_cmp(&point.normal[*b].abs())).unwrap_or(0);
+    for i in 0..3 {
+        if point.normal[i].abs() > 1e-12 && fate[3 * slave + i].is_some() {
+            let what = format!(
+                "node {} is in sliding contact, but its motion along {} is already given by a support, a bond or another \
+                 contact: leave the node out of one of them",
+                point.slave,
+                ["x", "y", "z"][i]
+            );
+            return Err(Error::Support { what });
+        }
+    }
+    let mut terms = Vec::new();
+    let scale = 1.0 / point.normal[axis];
+    for i in 0..3 {
+        if i != axis && point.normal[i] != 0.0 {
+            terms.push((3 * slave + i, -point.normal[i] * scale));
+        }
+        for (master, weight) in &point.masters {
+            if point.normal[i] != 0.0 && *weight != 0.0 {
+                terms.push((3 * leader[*master] + i, weight * point.normal[i] * scale));
+            }
+        }
+    }
+    Ok((3 * slave + axis, terms))
+}
+
+/// A degree of freedom in terms of unknowns. What it follows is free or given: slaves carry nothing.
+fn expand(dof: usize, fate: &[Fate]) -> (Vec<(usize, f64)>, f64) {
+    let (mut row, mut given): (Vec<(usize, f64)>, f64) = (Vec::new(), 0.0);
+    let own = [(dof, 1.0)];
+    let terms = if let Fate::Follows(terms) = &fate[dof] { terms.as_slice() } else { &own };
+    for (other, factor) in terms {
+        match &fate[*other] {
+            Fate::Free(unknown) => match row.iter_mut().find(|(known, _)| known == unknown) {
+                Some((_, sum)) => *sum += factor,
+                None => row.push((*unknown, *factor)),
+            },
+            Fate::Given(value) => given += factor * value,
+            Fate::Follows(_) => {}
+        }
+    }
+    (row, given)
+}

@@ -1,0 +1,124 @@
+//! Surfaces whose nodes lie at the same places.
+
+use std::collections::HashMap;
+
+use super::Point;
+use crate::Error;
+use crate::mesh::Mesh;
+
+/// How far apart two nodes may lie that are one place, over the size of the mesh: what coordinates written with few digits lose.
+const SAME_PLACE: f64 = 1e-6;
+
+/// Pairs each slave node with the master node at its place plus a shift (m).
+fn pairs(
+    mesh: &Mesh,
+    slaves: &[usize],
+    masters: &[usize],
+    shift: [f64; 3],
+) -> Result<Vec<(usize, usize)>, Error> {
+    let near = mesh.extent() * SAME_PLACE;
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "places over a millionth of the size of the mesh fit easily"
+    )]
+    let cell = |x: [f64; 3]| x.map(|c| (c / (4.0 * near)).round() as i64);
+    let mut places: HashMap<[i64; 3], Vec<usize>> = HashMap::new();
+    for master in masters {
+        places.entry(cell(mesh.nodes[*master])).or_default().push(*master);
+    }
+    let mut pairs = Vec::with_capacity(slaves.len());
+    for slave in slaves {
+        let x = [0, 1, 2].map(|i| mesh.nodes[*slave][i] + shift[i]);
+        let [a, b, c] = cell(x);
+        let around =
+            (-1..=1).flat_map(|i| (-1..=1).flat_map(move |j| (-1..=1).map(move |k| [a + i, b + j, c + k])));
+        let found = around.filter_map(|key| places.get(&key)).flatten().find(|master| {
+            let y = mesh.nodes[**master];
+            (0..3).map(|i| (x[i] - y[i]).powi(2)).sum::<f64>().sqrt() <= near
+        });
+        let Some(master) = found else {
+            let what = format!(
+                "node {slave} of the contact at ({}, {}, {}) m has no partner on the other surface within {near:e} m: the \
+                 surfaces do not match or do not meet",
+                x[0], x[1], x[2]
+            );
+            return Err(Error::Contact { what });
+        };
+        pairs.push((*slave, *master));
+    }
+    Ok(pairs)
+}
+
+/// Bonds two surfaces with matching nodes: pairs for [`crate::assembly::Supports::bond`].
+///
+/// # Errors
+/// A node of the first surface without a partner on the second.
+pub fn bonded(mesh: &Mesh, first: &[usize], second: &[usize]) -> Result<Vec<(usize, usize)>, Error> {
+    pairs(mesh, first, second, [0.0; 3])
+}
+
+/// Makes a body periodic: each node of the first surface moves as the node of the second that lies `shift` (m) from it.
+///
+/// # Errors
+/// A node of the first surface without a partner on the second.
+pub fn periodic(
+    mesh: &Mesh,
+    first: &[usize],
+    second: &[usize],
+    shift: [f64; 3],
+) -> Result<Vec<(usize, usize)>, Error> {
+    pairs(mesh, first, second, shift)
+}
+
+/// Sliding contact of two flat surfaces with matching nodes. `normal` points from the masters to the slaves, the slaves slide along
+/// `direction`.
+///
+/// # Errors
+/// A slave without a partner, directions that are zero or not across each other.
+pub fn sliding(
+    mesh: &Mesh,
+    slaves: &[usize],
+    masters: &[usize],
+    normal: [f64; 3],
+    direction: [f64; 3],
+) -> Result<Vec<Point>, Error> {
+    let (normal, direction) = axes(normal, direction)?;
+    let point = |(slave, master)| Point { slave, masters: vec![(master, 1.0)], normal, direction };
+    Ok(pairs(mesh, slaves, masters, [0.0; 3])?.into_iter().map(point).collect())
+}
+
+/// Sliding contact on a rigid plane.
+///
+/// # Errors
+/// Directions that are zero or not across each other.
+pub fn sliding_on_rigid(
+    slaves: &[usize],
+    normal: [f64; 3],
+    direction: [f64; 3],
+) -> Result<Vec<Point>, Error> {
+    let (normal, direction) = axes(normal, direction)?;
+    Ok(slaves.iter().map(|slave| Point { slave: *slave, masters: Vec::new(), normal, direction }).collect())
+}
+
+/// Both as unit vectors.
+pub(super) fn axes(normal: [f64; 3], direction: [f64; 3]) -> Result<([f64; 3], [f64; 3]), Error> {
+    /// A direction may leave the surface by this much, as an angle: more is a mistake.
+    const ACROSS: f64 = 1e-6;
+    let unit = |v: [f64; 3]| {
+        let length = v.iter().map(|c| c * c).sum::<f64>().sqrt();
+        v.map(|c| c / length)
+    };
+    let (n, t) = (unit(normal), unit(direction));
+    let dot: f64 = (0..3).map(|i| n[i] * t[i]).sum();
+    if dot.is_nan() {
+        let what = "the normal of a contact or its direction of sliding is zero: give it a length".to_owned();
+        return Err(Error::Contact { what });
+    }
+    if dot.abs() > ACROSS {
+        let what = format!(
+            "the direction of sliding leaves the surface: it is {dot:e} along the normal, it must be across it"
+        );
+        return Err(Error::Contact { what });
+    }
+    Ok((n, unit([0, 1, 2].map(|i| t[i] - dot * n[i]))))
+}

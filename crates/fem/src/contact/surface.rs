@@ -1,0 +1,131 @@
+//! Fields on the sliding surface: pressures from forces, damping from pressures.
+//!
+//! The forces that a uniform pressure makes on the nodes of a quadratic face have both signs (a corner of Quad8 is pulled): what is
+//! pressed and what is pulled is not seen on them.
+
+use std::collections::{BTreeMap, HashMap, HashSet};
+
+use super::Point;
+use crate::assembly::{Numbering, Rows};
+use crate::elements::{face_rule, face_shape};
+use crate::mesh::{Face, FaceRef, Mesh};
+
+/// The slaves' side of a contact.
+#[derive(Debug, Clone)]
+pub struct Surface {
+    faces: Vec<Face>,
+    /// Index of the contact point of each leading node.
+    index: HashMap<usize, usize>,
+    leader: Vec<usize>,
+    places: Vec<[f64; 3]>,
+}
+
+impl Surface {
+    /// The faces of the slaves, and the contact points on them.
+    #[must_use]
+    pub fn new(mesh: &Mesh, numbering: &Numbering, faces: &[FaceRef], points: &[Point]) -> Self {
+        let index = points.iter().enumerate().map(|(i, p)| (numbering.leader[p.slave], i)).collect();
+        Self {
+            faces: mesh.resolve(faces),
+            index,
+            leader: numbering.leader.clone(),
+            places: mesh.nodes.clone(),
+        }
+    }
+
+    /// ∫ f N_a N_b dA between contact points, of a field f by its values at the contact points: with f = 1 the areas by which pressures
+    /// become forces, with f = p0 μ'(V) the damping (N s/m) that a slope of friction makes.
+    #[must_use]
+    pub fn matrix(&self, field: &[f64]) -> Rows {
+        let mut sums: Vec<BTreeMap<usize, f64>> = vec![BTreeMap::new(); field.len()];
+        for face in &self.faces {
+            let at: Vec<Option<usize>> =
+                face.nodes.iter().map(|node| self.index.get(&self.leader[*node]).copied()).collect();
+            for (place, weight) in face_rule(face.kind) {
+                let (value, gradient) = face_shape(face.kind, place);
+                let mut tangents = [[0.0; 3]; 2];
+                for (node, d) in face.nodes.iter().zip(&gradient) {
+                    for i in 0..3 {
+                        tangents[0][i] += d[0] * self.places[*node][i];
+                        tangents[1][i] += d[1] * self.places[*node][i];
+                    }
+                }
+                let [a, b] = tangents;
+                let dot = |a: [f64; 3], b: [f64; 3]| (0..3).map(|i| a[i] * b[i]).sum::<f64>();
+                let area = (dot(a, a) * dot(b, b) - dot(a, b).powi(2)).max(0.0).sqrt();
+                let f: f64 = at.iter().zip(&value).filter_map(|(p, n)| p.map(|p| n * field[p])).sum();
+                for (p, np) in at.iter().zip(&value).filter_map(|(p, n)| p.map(|p| (p, n))) {
+                    for (q, nq) in at.iter().zip(&value).filter_map(|(q, n)| q.map(|q| (q, n))) {
+                        *sums[p].entry(q).or_default() += weight * area * f * np * nq;
+                    }
+                }
+            }
+        }
+        Rows { rows: sums.into_iter().map(|row| row.into_iter().collect()).collect() }
+    }
+}
+
+impl Surface {
+    /// What presses each contact point, N, from the forces on the nodes: corners of quadratic faces take over a fifth of the forces
+    /// in the middles of their edges, by which a uniform pressure presses everywhere (Popp, Wohlmuth, Gee and Wall, Dual quadratic
+    /// mortar finite element methods for 3D finite deformation contact, SIAM J. Sci. Comput. 34, 2012).
+    #[must_use]
+    pub fn pressing(&self, forces: &[f64]) -> Vec<f64> {
+        const SHARE: f64 = 0.2;
+        let point = |node: usize| self.index.get(&self.leader[node]).copied();
+        let mut pressing = forces.to_vec();
+        // An edge inside the surface is met twice.
+        let mut met = HashSet::new();
+        for face in &self.faces {
+            let corners = face.kind.corners();
+            for (i, middle) in face.nodes[corners..].iter().enumerate() {
+                let Some(middle) = point(*middle) else { continue };
+                if !met.insert(middle) {
+                    continue;
+                }
+                for corner in [face.nodes[i], face.nodes[(i + 1) % corners]] {
+                    pressing[middle] -= SHARE * forces[middle];
+                    if let Some(corner) = point(corner) {
+                        pressing[corner] += SHARE * forces[middle];
+                    }
+                }
+            }
+        }
+        pressing
+    }
+}
+
+/// The pressures (Pa) at contact points that make these normal forces (N), by conjugate gradients on the matrix of areas.
+#[must_use]
+pub fn pressures(areas: &Rows, forces: &[f64]) -> Vec<f64> {
+    /// The matrix of areas has a condition of some tens: rounding is reached long before.
+    const STEPS: usize = 500;
+    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    let diagonal: Vec<f64> = areas
+        .rows
+        .iter()
+        .enumerate()
+        .map(|(i, row)| row.iter().find(|(j, _)| *j == i).map_or(1.0, |(_, a)| *a))
+        .collect();
+    let scaled = |r: &[f64]| -> Vec<f64> { r.iter().zip(&diagonal).map(|(r, d)| r / d).collect() };
+    let mut x = vec![0.0; forces.len()];
+    let mut r = forces.to_vec();
+    let mut z = scaled(&r);
+    let mut p = z.clone();
+    let mut rho = dot(&r, &z);
+    let end = 1e-30 * rho;
+    for _ in 0..STEPS {
+        if !(rho > end) {
+            break;
+        }
+        let image = areas.times(&p);
+        let step = rho / dot(&p, &image);
+        x.iter_mut().zip(&p).for_each(|(x, p)| *x += step * p);
+        r.iter_mut().zip(&image).for_each(|(r, i)| *r -= step * i);
+        z = scaled(&r);
+        let next = dot(&r, &z);
+        p.iter_mut().zip(&z).for_each(|(p, z)| *p = z + next / rho * *p);
+        rho = next;
+    }
+    x
+}

@@ -1,0 +1,89 @@
+//! What can be wrong with a model, as sentences.
+
+/// Why a model cannot be solved. Each variant's sentence names the thing, its value and what to do.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// An element is turned inside out or has no volume.
+    #[error(
+        "element {element} ({kind}) has a Jacobian determinant of {determinant:e} at a corner or a point of \
+         integration, which must be above 0: order its nodes as the format asks, or mesh that place again"
+    )]
+    Inverted {
+        /// Index of the element in the mesh, from 0.
+        element: usize,
+        /// Name of its kind.
+        kind: &'static str,
+        /// The determinant, m³.
+        determinant: f64,
+    },
+    /// An element names a node that is not there, or has the wrong number of them.
+    #[error("element {element} ({kind}) {what}")]
+    Connectivity {
+        /// Index of the element in the mesh, from 0.
+        element: usize,
+        /// Name of its kind.
+        kind: &'static str,
+        /// What is wrong.
+        what: String,
+    },
+    /// Constants of a material that no stable solid has.
+    #[error("material {name}: {what}")]
+    Material {
+        /// Name of the material.
+        name: String,
+        /// The constant, its value and its limit.
+        what: String,
+    },
+    /// A set that the mesh does not have.
+    #[error("the mesh has no set \"{name}\"; it has {known}")]
+    MissingSet {
+        /// The name asked for.
+        name: String,
+        /// Names that there are.
+        known: String,
+    },
+    /// Parts that nothing joins.
+    #[error(
+        "parts of the mesh hang on nothing, {count} in all, the smallest of {elements} elements: bond them by nodes or contact, \
+         support them, or leave them out"
+    )]
+    Unconnected {
+        /// Number of parts without any support.
+        count: usize,
+        /// Elements in the smallest one.
+        elements: usize,
+    },
+    /// Sizes or counts that make no mesh.
+    #[error("{what}")]
+    Mesh {
+        /// A sentence with the value and its limit.
+        what: String,
+    },
+    /// Surfaces that do not match where they have to.
+    #[error("{what}")]
+    Contact {
+        /// A sentence with the value and its limit.
+        what: String,
+    },
+    /// Supports that contradict one another or are not enough.
+    #[error("{what}")]
+    Support {
+        /// A sentence with the value and its limit.
+        what: String,
+    },
+    /// A factorisation or an iteration that did not come to an end.
+    #[error("{what}")]
+    Solver {
+        /// A sentence with the value and its limit.
+        what: String,
+    },
+    /// A file that cannot be read as a mesh.
+    #[error("line {line}: {what}")]
+    File {
+        /// Line of the file, from 1.
+        line: usize,
+        /// A sentence with the value and its limit.
+        what: String,
+    },
+}

@@ -1,0 +1,154 @@
+//! The projected problem: the pencil on the space that some vectors span.
+
+use faer::Mat;
+
+use super::real::{column, times};
+use crate::assembly::{Pencil, Rows, Symmetric};
+
+/// Vectors that are orthonormal in M, and the pencil on their space.
+#[derive(Debug)]
+pub struct Basis {
+    /// V as columns.
+    pub vectors: Mat<f64>,
+    /// Vᵀ K V, Vᵀ M V and Vᵀ C V, without friction.
+    symmetric: [Mat<f64>; 3],
+    /// S V: the slip of each contact point.
+    slip: Mat<f64>,
+    /// K_n V, M_n V and C_n V: the normal force at each contact point.
+    normal: [Mat<f64>; 3],
+    /// (S V)ᵀ (K_n V) and so on: what one unit of μ adds.
+    friction: [Mat<f64>; 3],
+}
+
+/// A small dense problem λ² M + λ C + K.
+#[derive(Debug, Clone)]
+pub struct Small {
+    /// K.
+    pub stiffness: Mat<f64>,
+    /// M.
+    pub mass: Mat<f64>,
+    /// C; `None` where nothing damps.
+    pub damping: Option<Mat<f64>>,
+}
+
+impl Basis {
+    /// The space of these vectors; those that depend on others are dropped.
+    #[must_use]
+    pub fn new(pencil: &Pencil, vectors: &Mat<f64>) -> Self {
+        let empty = || Mat::zeros(0, 0);
+        let rows = || Mat::zeros(pencil.slip.rows.len(), 0);
+        let mut basis = Self {
+            vectors: Mat::zeros(pencil.size(), 0),
+            symmetric: [empty(), empty(), empty()],
+            slip: rows(),
+            normal: [rows(), rows(), rows()],
+            friction: [empty(), empty(), empty()],
+        };
+        basis.extend(pencil, vectors);
+        basis
+    }
+
+    /// The space with more vectors. Gives how many were new.
+    pub fn extend(&mut self, pencil: &Pencil, vectors: &Mat<f64>) -> usize {
+        let before = self.vectors.ncols();
+        append(&mut self.vectors, &pencil.mass, vectors);
+        let new = self.vectors.subcols(before, self.vectors.ncols() - before).to_owned();
+        let matrices = [Some(&pencil.stiffness), Some(&pencil.mass), pencil.damping.as_ref()];
+        for (projected, matrix) in self.symmetric.iter_mut().zip(matrices) {
+            let Some(matrix) = matrix else {
+                *projected = Mat::zeros(self.vectors.ncols(), self.vectors.ncols());
+                continue;
+            };
+            let columns = self.vectors.transpose() * times(matrix, &new);
+            *projected = Mat::from_fn(self.vectors.ncols(), self.vectors.ncols(), |i, j| {
+                match (i.checked_sub(before), j.checked_sub(before)) {
+                    (None, None) => projected[(i, j)],
+                    (None, Some(j)) => columns[(i, j)],
+                    (Some(i), None) => columns[(j, i)],
+                    // Symmetric to the last bit: at μ = 0 every eigenvalue is real.
+                    (Some(k), Some(l)) => f64::midpoint(columns[(i, l)], columns[(j, k)]),
+                }
+            });
+        }
+        widen(&mut self.slip, &rows_times(&pencil.slip, &new));
+        for (normal, rows) in self.normal.iter_mut().zip([
+            &pencil.normal_stiffness,
+            &pencil.normal_mass,
+            &pencil.normal_damping,
+        ]) {
+            widen(normal, &rows_times(rows, &new));
+        }
+        self.friction = [0, 1, 2].map(|i| self.slip.transpose() * &self.normal[i]);
+        new.ncols()
+    }
+
+    /// The projected problem at a coefficient of friction. `slope` is the damping (N s/m) between contact points, without rows
+    /// where friction has no slope.
+    #[must_use]
+    pub fn at(&self, mu: f64, slope: &Rows) -> Small {
+        let sum = |i: usize| {
+            let mut sum = self.symmetric[i].clone();
+            for column in 0..sum.ncols() {
+                for row in 0..sum.nrows() {
+                    sum[(row, column)] += mu * self.friction[i][(row, column)];
+                }
+            }
+            sum
+        };
+        let mut damping = sum(2);
+        if !slope.rows.is_empty() {
+            damping += self.slip.transpose() * rows_times(slope, &self.slip);
+        }
+        let damped = damping.norm_max() > 0.0;
+        Small { stiffness: sum(0), mass: sum(1), damping: damped.then_some(damping) }
+    }
+
+    /// What one unit of μ adds to stiffness and mass.
+    #[must_use]
+    pub fn per_friction(&self) -> (&Mat<f64>, &Mat<f64>) {
+        (&self.friction[0], &self.friction[1])
+    }
+}
+
+fn rows_times(rows: &Rows, vectors: &Mat<f64>) -> Mat<f64> {
+    let mut images = Mat::zeros(rows.rows.len(), vectors.ncols());
+    for j in 0..vectors.ncols() {
+        for (i, value) in rows.times(&column(vectors, j)).into_iter().enumerate() {
+            images[(i, j)] = value;
+        }
+    }
+    images
+}
+
+/// Puts columns beside those of a matrix.
+fn widen(matrix: &mut Mat<f64>, columns: &Mat<f64>) {
+    let before = matrix.ncols();
+    matrix.resize_with(columns.nrows(), before + columns.ncols(), |i, j| columns[(i, j - before)]);
+}
+
+/// Appends vectors to an M-orthonormal basis, by Gram and Schmidt, twice.
+pub(super) fn append(basis: &mut Mat<f64>, mass: &Symmetric, vectors: &Mat<f64>) {
+    /// What is left of a vector of the space after rounding.
+    const DEPENDENT: f64 = 1e-10;
+    let size = vectors.nrows();
+    for j in 0..vectors.ncols() {
+        let mut v = column(vectors, j);
+        let mut lengths = Vec::with_capacity(3);
+        // The second time takes away what rounding has left the first time.
+        for _ in 0..2 {
+            let image = faer::Col::from_iter(mass.times(&v));
+            let squared: f64 = image.iter().zip(&v).map(|(a, b)| a * b).sum();
+            let inside = basis.transpose() * &image;
+            let known = &*basis * &inside;
+            v.iter_mut().zip(known.iter()).for_each(|(v, k)| *v -= k);
+            lengths.push(squared.max(0.0).sqrt());
+            // By Pythagoras.
+            lengths.push((squared - inside.squared_norm_l2()).max(0.0).sqrt());
+        }
+        let (before, after) = (lengths[0], lengths[3]);
+        if after > DEPENDENT * before && basis.ncols() < size {
+            let from = basis.ncols();
+            basis.resize_with(size, from + 1, |i, _| v[i] / after);
+        }
+    }
+}

@@ -1,0 +1,100 @@
+//! Complex eigenvalues of a small dense problem.
+
+use faer::Mat;
+use faer::c64;
+use faer::linalg::solvers::Solve;
+
+use super::Small;
+use crate::Error;
+
+/// An eigenvalue and its vector.
+#[derive(Debug, Clone)]
+pub struct Pair {
+    /// λ, 1/s: growth rate and angular frequency. Of each pair of conjugates the one with a frequency that is not negative.
+    pub lambda: c64,
+    /// x in the coordinates of the basis, xᴴ x = 1.
+    pub vector: Vec<c64>,
+}
+
+impl Pair {
+    /// Frequency, Hz.
+    #[must_use]
+    pub fn frequency(&self) -> f64 {
+        self.lambda.im / std::f64::consts::TAU
+    }
+
+    /// Growth rate, 1/s.
+    #[must_use]
+    pub fn growth(&self) -> f64 {
+        self.lambda.re
+    }
+}
+
+/// All pairs of (λ² M + λ C + K) x = 0 with a frequency of 0 or more, rising with the frequency.
+///
+/// # Errors
+/// Where the iteration for the eigenvalues does not converge.
+pub fn pairs(small: &Small) -> Result<Vec<Pair>, Error> {
+    let mut pairs = match &small.damping {
+        None => undamped(small)?,
+        Some(damping) => damped(small, damping)?,
+    };
+    pairs.sort_by(|a, b| {
+        (a.lambda.im, a.lambda.re)
+            .partial_cmp(&(b.lambda.im, b.lambda.re))
+            .unwrap_or(std::cmp::Ordering::Equal)
+    });
+    Ok(pairs)
+}
+
+fn failed(size: usize) -> Error {
+    Error::Solver {
+        what: format!(
+            "the eigenvalues of a matrix of {size} rows did not converge: check the model's numbers"
+        ),
+    }
+}
+
+/// θ of M⁻¹ K x = θ x; λ = i √θ.
+fn undamped(small: &Small) -> Result<Vec<Pair>, Error> {
+    let size = small.mass.nrows();
+    let matrix = small.mass.partial_piv_lu().solve(&small.stiffness);
+    let eigen = matrix.eigen().map_err(|_| failed(size))?;
+    let pair = |k: usize| {
+        let root = eigen.S()[k].sqrt();
+        let lambda = c64::new(-root.im, root.re);
+        // Without a frequency the one of both that grows is the one to know of.
+        let lambda = if lambda.im == 0.0 { c64::new(lambda.re.abs(), 0.0) } else { lambda };
+        Pair { lambda, vector: unit((0..size).map(|i| eigen.U()[(i, k)])) }
+    };
+    Ok((0..size).map(pair).collect())
+}
+
+/// λ of the companion matrix [0 1; −M⁻¹K −M⁻¹C], in a unit of time in which both blocks are of one size.
+fn damped(small: &Small, damping: &Mat<f64>) -> Result<Vec<Pair>, Error> {
+    let size = small.mass.nrows();
+    let lu = small.mass.partial_piv_lu();
+    let (stiffness, damping) = (lu.solve(&small.stiffness), lu.solve(damping));
+    let unit_of_time = stiffness.norm_max().sqrt();
+    let companion = Mat::from_fn(2 * size, 2 * size, |i, j| match (i < size, j < size) {
+        (true, true) => 0.0,
+        (true, false) => f64::from(u8::from(i + size == j)),
+        (false, true) => -stiffness[(i - size, j)] / (unit_of_time * unit_of_time),
+        (false, false) => -damping[(i - size, j - size)] / unit_of_time,
+    });
+    let eigen = companion.eigen().map_err(|_| failed(2 * size))?;
+    let pair = |k: usize| Pair {
+        lambda: eigen.S()[k] * unit_of_time,
+        vector: unit((0..size).map(|i| eigen.U()[(i, k)])),
+    };
+    Ok((0..2 * size).filter(|k| eigen.S()[*k].im >= 0.0).map(pair).collect())
+}
+
+fn unit(vector: impl Iterator<Item = c64>) -> Vec<c64> {
+    let mut vector: Vec<c64> = vector.collect();
+    let norm = vector.iter().map(c64::norm_sqr).sum::<f64>().sqrt();
+    for x in &mut vector {
+        *x /= norm;
+    }
+    vector
+}

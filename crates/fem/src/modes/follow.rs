@@ -1,0 +1,49 @@
+//! Modes followed by their shapes while friction rises.
+
+use faer::c64;
+
+use super::Pair;
+
+/// One mode along the values of μ.
+#[derive(Debug, Clone)]
+pub struct Branch {
+    /// The pair at each value of μ, by its place in the pairs of that value.
+    pub at: Vec<usize>,
+}
+
+/// |xᴴ y|² of two unit vectors: 1 for the same shape, 0 for shapes that have nothing in common in M.
+#[must_use]
+pub fn likeness(x: &[c64], y: &[c64]) -> f64 {
+    x.iter().zip(y).map(|(a, b)| a.conj() * b).sum::<c64>().norm_sqr()
+}
+
+/// Follows the `count` first pairs of the first value of μ through all values. Each pair belongs to one mode at most; the most alike
+/// are joined first. Where shapes do not decide, as after two have coalesced, the nearer eigenvalue does.
+#[must_use]
+pub fn follow(steps: &[Vec<Pair>], count: usize) -> Vec<Branch> {
+    let Some(first) = steps.first() else { return Vec::new() };
+    let mut branches: Vec<Branch> = (0..count.min(first.len())).map(|k| Branch { at: vec![k] }).collect();
+    for step in steps.windows(2) {
+        let [before, after] = step else { continue };
+        let mut offers = Vec::with_capacity(branches.len() * after.len());
+        for (b, branch) in branches.iter().enumerate() {
+            let old = &before[branch.at[branch.at.len() - 1]];
+            for (k, new) in after.iter().enumerate() {
+                let apart = (new.lambda - old.lambda).norm() / old.lambda.norm().max(f64::MIN_POSITIVE);
+                offers.push((likeness(&old.vector, &new.vector) - apart, b, k));
+            }
+        }
+        offers.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let (mut served, mut taken) = (vec![None; branches.len()], vec![false; after.len()]);
+        for (_, b, k) in offers {
+            if served[b].is_none() && !taken[k] {
+                served[b] = Some(k);
+                taken[k] = true;
+            }
+        }
+        for (branch, k) in branches.iter_mut().zip(served) {
+            branch.at.push(k.unwrap_or(branch.at[branch.at.len() - 1]));
+        }
+    }
+    branches
+}

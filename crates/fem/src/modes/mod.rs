@@ -1,0 +1,19 @@
+//! Real modes, the projected problem with friction, complex modes, and where two of them coalesce.
+
+mod basis;
+mod coalescence;
+mod dense;
+mod direct;
+mod factor;
+mod follow;
+mod real;
+mod residual;
+
+pub use basis::{Basis, Small};
+pub use coalescence::{Coalescence, coalescence, coalescence_small, first_unstable};
+pub use dense::{Pair, pairs};
+pub use direct::{Near, near};
+pub use factor::{Factor, Ordering};
+pub use follow::{Branch, follow, likeness};
+pub use real::{RealModes, count_below, lowest};
+pub use residual::{lift, refine, residuals};

@@ -1,0 +1,5 @@
+//! What other programs read.
+
+mod vtu;
+
+pub use vtu::{Field, vtu};

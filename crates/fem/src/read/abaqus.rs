@@ -1,0 +1,373 @@
+//! The `.inp` files of Abaqus and CalculiX: mesh, sets, surfaces, materials, ties and supports.
+
+use std::collections::BTreeMap;
+
+use super::raw::{Built, Raw, RawElement, number};
+use crate::Error;
+use crate::elements::Kind;
+use crate::material::{Material, Orthotropic};
+use crate::mesh::{FaceRef, Mesh};
+
+/// What a file says.
+#[derive(Debug, Clone, Default)]
+pub struct Deck {
+    /// Nodes, elements, sets of nodes and surfaces, with names in capitals. A surface made of nodes is a set of nodes.
+    pub mesh: Mesh,
+    /// Materials in the order of the file; elements without a section are of the first.
+    pub materials: Vec<Material>,
+    /// Pairs of surfaces that are tied: slave, master.
+    pub ties: Vec<(String, String)>,
+    /// Supports: node, axis, displacement (m).
+    pub supports: Vec<(usize, usize, f64)>,
+    /// Keywords that were left out, each once.
+    pub ignored: Vec<String>,
+}
+
+/// A keyword line with the lines of data after it.
+struct Card<'a> {
+    line: usize,
+    name: String,
+    parameters: BTreeMap<String, String>,
+    data: Vec<(usize, Vec<&'a str>)>,
+}
+
+impl Card<'_> {
+    fn parameter(&self, name: &str) -> Result<String, Error> {
+        self.parameters.get(name).cloned().ok_or_else(|| Error::File {
+            line: self.line,
+            what: format!("*{} has no {name}=: give it one", self.name),
+        })
+    }
+
+    /// All entries as numbers.
+    fn values(&self) -> Result<Vec<f64>, Error> {
+        self.data
+            .iter()
+            .flat_map(|(line, words)| {
+                words.iter().filter(|w| !w.is_empty()).map(|w| number(w, *line, "number"))
+            })
+            .collect()
+    }
+}
+
+fn cards(text: &str) -> Vec<Card<'_>> {
+    let mut cards: Vec<Card<'_>> = Vec::new();
+    for (i, line) in text.lines().enumerate() {
+        let line = line.trim();
+        if line.is_empty() || line.starts_with("**") {
+            continue;
+        }
+        if let Some(keyword) = line.strip_prefix('*') {
+            let mut words = keyword.split(',').map(|w| w.trim().to_uppercase());
+            let name = words.next().unwrap_or_default();
+            let parameter = |w: String| {
+                let (key, value) = w.split_once('=').unwrap_or((&w, ""));
+                (key.trim().to_owned(), value.trim().to_owned())
+            };
+            cards.push(Card {
+                line: i + 1,
+                name,
+                parameters: words.map(parameter).collect(),
+                data: Vec::new(),
+            });
+        } else if let Some(card) = cards.last_mut() {
+            card.data.push((i + 1, line.split(',').map(str::trim).collect()));
+        }
+    }
+    cards
+}
+
+fn kind_of(name: &str, line: usize) -> Result<Kind, Error> {
+    match name {
+        "C3D8" => Ok(Kind::Hex8),
+        "C3D20" => Ok(Kind::Hex20),
+        "C3D20R" => Ok(Kind::Hex20Reduced),
+        "C3D4" => Ok(Kind::Tet4),
+        "C3D10" => Ok(Kind::Tet10),
+        "C3D15" => Ok(Kind::Wedge15),
+        _ => Err(Error::File {
+            line,
+            what: format!(
+                "elements of TYPE={name} are not known here: C3D4, C3D8, C3D10, C3D15, C3D20 and C3D20R are"
+            ),
+        }),
+    }
+}
+
+/// Lines and surfaces, which a mesh generator writes beside the solids.
+fn flat(card: &Card<'_>) -> bool {
+    let kind = card.parameters.get("TYPE").map_or("", String::as_str);
+    ["T3D", "B3", "CPS", "CPE", "M3D", "S3", "S4", "S6", "S8", "STRI"]
+        .iter()
+        .any(|start| kind.starts_with(start))
+}
+
+/// The sets of a file, by numbers, names in capitals.
+type Sets = BTreeMap<String, Vec<u64>>;
+
+/// Reads a file.
+///
+/// # Errors
+/// What is no number, unknown kinds of elements, sets and nodes that are not there, *INCLUDE.
+pub fn abaqus(text: &str) -> Result<Deck, Error> {
+    let cards = cards(text);
+    let mut deck = Deck::default();
+    let (mut raw, mut node_sets, mut element_sets) = (Raw::default(), Sets::new(), Sets::new());
+    let mut names: Vec<String> = Vec::new();
+    let mut open: Option<(String, usize, Vec<f64>, bool, f64)> = None;
+    let mut sections: Vec<(String, String, usize)> = Vec::new();
+    for card in &cards {
+        let is_material = matches!(card.name.as_str(), "ELASTIC" | "DENSITY");
+        if !is_material
+            && !matches!(card.name.as_str(), "EXPANSION" | "CONDUCTIVITY" | "SPECIFIC HEAT" | "DAMPING")
+        {
+            close(&mut open, &mut deck.materials, &mut names)?;
+        }
+        match card.name.as_str() {
+            "NODE" => read_nodes(card, &mut raw, &mut node_sets)?,
+            "ELEMENT" if flat(card) => {
+                let kind = format!("ELEMENT, TYPE={}", card.parameter("TYPE")?);
+                if !deck.ignored.contains(&kind) {
+                    deck.ignored.push(kind);
+                }
+            }
+            "ELEMENT" => read_elements(card, &mut raw, &mut element_sets)?,
+            "NSET" => read_set(card, &card.parameter("NSET")?, &mut node_sets)?,
+            "ELSET" => read_set(card, &card.parameter("ELSET")?, &mut element_sets)?,
+            "MATERIAL" => open = Some((card.parameter("NAME")?, card.line, Vec::new(), false, 0.0)),
+            "ELASTIC" => {
+                if let Some((_, _, elastic, orthotropic, _)) = &mut open {
+                    *orthotropic = match card.parameters.get("TYPE").map(String::as_str) {
+                        None | Some("ISO" | "ISOTROPIC") => false,
+                        Some("ENGINEERING CONSTANTS") => true,
+                        Some(other) => {
+                            let what = format!(
+                                "*ELASTIC, TYPE={other} is not known here: ISO and ENGINEERING CONSTANTS are"
+                            );
+                            return Err(Error::File { line: card.line, what });
+                        }
+                    };
+                    *elastic = card.values()?;
+                }
+            }
+            "DENSITY" => {
+                if let Some((.., density)) = &mut open {
+                    *density = card.values()?.first().copied().unwrap_or_default();
+                }
+            }
+            "SOLID SECTION" => {
+                sections.push((card.parameter("ELSET")?, card.parameter("MATERIAL")?, card.line));
+            }
+            "TIE" => deck.ties.extend(card.data.iter().filter_map(|(_, words)| match words.as_slice() {
+                [slave, master, ..] => Some((slave.to_uppercase(), master.to_uppercase())),
+                _ => None,
+            })),
+            "INCLUDE" => {
+                let what = "*INCLUDE is not followed: put the file's lines here".to_owned();
+                return Err(Error::File { line: card.line, what });
+            }
+            "SURFACE" | "BOUNDARY" | "HEADING" => {}
+            other if !deck.ignored.iter().any(|known| known == other) => deck.ignored.push(other.to_owned()),
+            _ => {}
+        }
+    }
+    close(&mut open, &mut deck.materials, &mut names)?;
+    for (set, material, line) in &sections {
+        let index = names.iter().position(|n| n == material).ok_or_else(|| Error::File {
+            line: *line,
+            what: format!("the section names material {material}, but there are: {}", names.join(", ")),
+        })?;
+        let members = known(set, &element_sets, *line)?;
+        let members: std::collections::HashSet<u64> = members.iter().copied().collect();
+        raw.elements.iter_mut().filter(|e| members.contains(&e.number)).for_each(|e| e.material = index);
+    }
+    let mut built = raw.build()?;
+    for (name, numbers) in &node_sets {
+        let mut nodes: Vec<usize> = numbers.iter().filter_map(|n| built.node.get(n).copied()).collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        built.mesh.node_sets.insert(name.clone(), nodes);
+    }
+    for card in &cards {
+        match card.name.as_str() {
+            "SURFACE" => read_surface(card, &mut built, &node_sets, &element_sets)?,
+            "BOUNDARY" => read_supports(card, &built, &mut deck.supports)?,
+            _ => {}
+        }
+    }
+    deck.mesh = built.mesh;
+    Ok(deck)
+}
+
+fn known<'a>(set: &str, sets: &'a Sets, line: usize) -> Result<&'a Vec<u64>, Error> {
+    sets.get(set).ok_or_else(|| Error::File {
+        line,
+        what: format!(
+            "there is no set {set}; there are: {}",
+            sets.keys().cloned().collect::<Vec<_>>().join(", ")
+        ),
+    })
+}
+
+fn read_nodes(card: &Card<'_>, raw: &mut Raw, sets: &mut Sets) -> Result<(), Error> {
+    for (line, words) in &card.data {
+        let at = |i: usize| words.get(i).map_or(Ok(0.0), |w| number(w, *line, "coordinate"));
+        let index: u64 = number(words[0], *line, "number of a node")?;
+        raw.nodes.push((index, [at(1)?, at(2)?, at(3)?]));
+        if let Some(set) = card.parameters.get("NSET") {
+            sets.entry(set.clone()).or_default().push(index);
+        }
+    }
+    Ok(())
+}
+
+/// An element may go on over several lines: it ends with its last node.
+fn read_elements(card: &Card<'_>, raw: &mut Raw, sets: &mut Sets) -> Result<(), Error> {
+    let kind = kind_of(&card.parameter("TYPE")?, card.line)?;
+    let mut words: Vec<u64> = Vec::new();
+    for (line, data) in &card.data {
+        for word in data.iter().filter(|w| !w.is_empty()) {
+            words.push(number(word, *line, "number of a node")?);
+        }
+        if words.len() > kind.nodes() + 1 {
+            let what = format!("an element of {} nodes ({}) has more", kind.nodes(), kind.name());
+            return Err(Error::File { line: *line, what });
+        }
+        if words.len() == kind.nodes() + 1 {
+            let nodes = words.split_off(1);
+            let index = words[0];
+            words.clear();
+            raw.elements.push(RawElement { number: index, kind, nodes, material: 0, line: *line });
+            if let Some(set) = card.parameters.get("ELSET") {
+                sets.entry(set.clone()).or_default().push(index);
+            }
+        }
+    }
+    if words.is_empty() {
+        return Ok(());
+    }
+    let what =
+        format!("the last element has {} nodes, {} needs {}", words.len() - 1, kind.name(), kind.nodes());
+    Err(Error::File { line: card.data.last().map_or(card.line, |d| d.0), what })
+}
+
+fn read_set(card: &Card<'_>, name: &str, sets: &mut Sets) -> Result<(), Error> {
+    let mut members = Vec::new();
+    for (line, words) in &card.data {
+        let words: Vec<&str> = words.iter().copied().filter(|w| !w.is_empty()).collect();
+        if card.parameters.contains_key("GENERATE") {
+            let at = |i: usize| words.get(i).map_or(Ok(1), |w| number::<u64>(w, *line, "number"));
+            let (first, last, step) = (at(0)?, at(1)?, at(2)?.max(1));
+            members.extend((first..=last).step_by(usize::try_from(step).unwrap_or(usize::MAX)));
+            continue;
+        }
+        for word in words {
+            // A set may take in others by name.
+            match word.parse() {
+                Ok(member) => members.push(member),
+                Err(_) => members.extend(known(&word.to_uppercase(), sets, *line)?),
+            }
+        }
+    }
+    sets.entry(name.to_owned()).or_default().extend(members);
+    Ok(())
+}
+
+fn read_surface(
+    card: &Card<'_>,
+    built: &mut Built,
+    node_sets: &Sets,
+    element_sets: &Sets,
+) -> Result<(), Error> {
+    let name = card.parameter("NAME")?;
+    let of_nodes = card.parameters.get("TYPE").is_some_and(|t| t == "NODE");
+    let (mut nodes, mut faces) = (Vec::new(), Vec::new());
+    let faces_of: Vec<usize> = built.mesh.elements().map(|(_, kind, ..)| kind.face_corners().len()).collect();
+    for (line, words) in &card.data {
+        let sets = if of_nodes { node_sets } else { element_sets };
+        let members = match words[0].parse() {
+            Ok(member) => vec![member],
+            Err(_) => known(&words[0].to_uppercase(), sets, *line)?.clone(),
+        };
+        if of_nodes {
+            nodes.extend(members.iter().filter_map(|n| built.node.get(n).copied()));
+            continue;
+        }
+        let label = words.get(1).copied().unwrap_or_default().to_uppercase();
+        let face: usize = number(label.trim_start_matches('S'), *line, "face, which are S1 to S6")?;
+        for member in members {
+            let element = *built.element.get(&member).ok_or_else(|| Error::File {
+                line: *line,
+                what: format!("surface {name} names element {member}, which the file does not have"),
+            })?;
+            if face == 0 || face > faces_of[element] {
+                let what =
+                    format!("element {member} has no face {label}: it has S1 to S{}", faces_of[element]);
+                return Err(Error::File { line: *line, what });
+            }
+            faces.push(FaceRef { element, face: face - 1 });
+        }
+    }
+    if of_nodes {
+        nodes.sort_unstable();
+        nodes.dedup();
+    } else {
+        nodes = built.mesh.face_nodes(&faces);
+        built.mesh.face_sets.insert(name.clone(), faces);
+    }
+    built.mesh.node_sets.insert(name, nodes);
+    Ok(())
+}
+
+fn read_supports(
+    card: &Card<'_>,
+    built: &Built,
+    supports: &mut Vec<(usize, usize, f64)>,
+) -> Result<(), Error> {
+    for (line, words) in &card.data {
+        let nodes = match words[0].parse() {
+            Ok(index) => built.node.get(&index).map(|i| vec![*i]).ok_or_else(|| Error::File {
+                line: *line,
+                what: format!("the support names node {index}, which the file does not have"),
+            })?,
+            Err(_) => built.mesh.node_set(&words[0].to_uppercase())?.to_vec(),
+        };
+        let at = |i: usize| words.get(i).copied().filter(|w| !w.is_empty());
+        let first: usize = number(at(1).unwrap_or_default(), *line, "direction 1, 2 or 3")?;
+        let last = at(2).map_or(Ok(first), |w| number::<usize>(w, *line, "direction 1, 2 or 3"))?;
+        let value = at(3).map_or(Ok(0.0), |w| number(w, *line, "displacement"))?;
+        for axis in first.max(1)..=last.min(3) {
+            supports.extend(nodes.iter().map(|node| (*node, axis - 1, value)));
+        }
+    }
+    Ok(())
+}
+
+/// Ends a material.
+fn close(
+    open: &mut Option<(String, usize, Vec<f64>, bool, f64)>,
+    materials: &mut Vec<Material>,
+    names: &mut Vec<String>,
+) -> Result<(), Error> {
+    let Some((name, line, elastic, orthotropic, density)) = open.take() else { return Ok(()) };
+    let material = match (orthotropic, elastic.as_slice()) {
+        (false, [young, poisson, ..]) => Material::isotropic(&name, *young, *poisson, density)?,
+        // E1, E2, E3, ν12, ν13, ν23, G12, G13, G23.
+        (true, [e1, e2, e3, n12, n13, n23, g12, g13, g23, ..]) => {
+            let constants = Orthotropic {
+                young: [*e1, *e2, *e3],
+                poisson: [*n12, *n23, *n13],
+                shear: [*g12, *g23, *g13],
+            };
+            Material::orthotropic(&name, constants, density)?
+        }
+        (orthotropic, found) => {
+            let needed = if orthotropic { 9 } else { 2 };
+            let what = format!("material {name} has {} elastic constants, it needs {needed}", found.len());
+            return Err(Error::File { line, what });
+        }
+    };
+    materials.push(material);
+    names.push(name);
+    Ok(())
+}

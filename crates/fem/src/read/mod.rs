@@ -1,0 +1,8 @@
+//! Meshes of other programs: Gmsh's `.msh` (2 and 4.1, text) and the `.inp` of Abaqus and CalculiX.
+
+mod abaqus;
+mod gmsh;
+mod raw;
+
+pub use abaqus::{Deck, abaqus};
+pub use gmsh::gmsh;

@@ -1,0 +1,189 @@
+//! The static step: a load presses the bodies together while they slide; what gapes is left out.
+
+use faer::Mat;
+
+use crate::Error;
+use crate::assembly::{Loads, Model, Numbering, Pencil, assemble, load_vector};
+use crate::contact::{Point, Surface, pressures};
+use crate::mesh::FaceRef;
+use crate::modes::{Factor, Ordering};
+
+/// Bodies at rest under a load, in steady sliding.
+#[derive(Debug)]
+pub struct Settled {
+    /// The model with the contact points that are pressed.
+    pub model: Model,
+    /// Its numbering and matrices.
+    pub numbering: Numbering,
+    /// Its matrices.
+    pub pencil: Pencil,
+    /// Displacements of all nodes, m.
+    pub displacement: Vec<[f64; 3]>,
+    /// Normal force N0 of each pressed point, N.
+    pub forces: Vec<f64>,
+    /// Pressure at each pressed point, Pa.
+    pub pressures: Vec<f64>,
+    /// The slaves' side.
+    pub surface: Surface,
+    /// Contact points that gape.
+    pub open: Vec<Point>,
+}
+
+/// Solves (K + μ Sᵀ K_n) q = f + μ Sᵀ f_n, takes out the points that are pulled, puts back those that overlap, until none is left of
+/// either. `faces` are those of the slaves.
+///
+/// # Errors
+/// A body that can move without a force; a contact of which nothing stays pressed; no end to opening and closing.
+pub fn settle(model: &Model, faces: &[FaceRef], loads: &Loads, mu: f64) -> Result<Settled, Error> {
+    /// Each round moves the edge of the pressed area by an element or so.
+    const ROUNDS: usize = 60;
+    /// What rounding makes of zero, over the largest force or gap.
+    const ZERO: f64 = 1e-9;
+    let all = &model.contact;
+    let mut pressed: Vec<bool> = vec![true; all.len()];
+    for _ in 0..ROUNDS {
+        let mut now = model.clone();
+        now.contact = all.iter().zip(&pressed).filter(|(_, on)| **on).map(|(p, _)| p.clone()).collect();
+        if now.contact.is_empty() && !all.is_empty() {
+            let what =
+                "nothing of the contact stays pressed: check the load's direction and the contact's normal"
+                    .to_owned();
+            return Err(Error::Contact { what });
+        }
+        let (numbering, pencil) = assemble(&now)?;
+        let (displacement, forces) = slide(&now, &numbering, &pencil, loads, mu)?;
+        let surface = Surface::new(&now.mesh, &numbering, faces, &now.contact);
+        let areas = surface.matrix(&vec![1.0; forces.len()]);
+        let pressures = pressures(&areas, &forces);
+        let pressing = surface.pressing(&forces);
+        let largest = pressing.iter().copied().fold(0.0, f64::max);
+        let gaps: Vec<f64> = all.iter().map(|point| gap(point, &displacement)).collect();
+        let widest = gaps.iter().copied().fold(0.0, |a: f64, b| a.max(b.abs()));
+        let mut changed = false;
+        let mut index = 0;
+        for (i, on) in pressed.iter_mut().enumerate() {
+            let stays = if *on {
+                index += 1;
+                pressing[index - 1] >= -ZERO * largest
+            } else {
+                gaps[i] < -ZERO * widest
+            };
+            changed |= stays != *on;
+            *on = stays;
+        }
+        if !changed {
+            let open = all.iter().zip(&pressed).filter(|(_, on)| !**on).map(|(p, _)| p.clone()).collect();
+            return Ok(Settled {
+                model: now,
+                numbering,
+                pencil,
+                displacement,
+                forces,
+                pressures,
+                surface,
+                open,
+            });
+        }
+    }
+    let what = format!(
+        "the contact still opens and closes after {ROUNDS} rounds: mesh its edge finer, or raise the load"
+    );
+    Err(Error::Contact { what })
+}
+
+/// n·(u_s − Σ w u_m), m.
+fn gap(point: &Point, displacement: &[[f64; 3]]) -> f64 {
+    let along = |node: usize| (0..3).map(|i| point.normal[i] * displacement[node][i]).sum::<f64>();
+    along(point.slave) - point.masters.iter().map(|(master, w)| w * along(*master)).sum::<f64>()
+}
+
+/// Displacements and normal forces of one set of pressed points.
+fn slide(
+    model: &Model,
+    numbering: &Numbering,
+    pencil: &Pencil,
+    loads: &Loads,
+    mu: f64,
+) -> Result<(Vec<[f64; 3]>, Vec<f64>), Error> {
+    let (load, normal_load) = load_vector(model, numbering, loads)?;
+    let ordering = Ordering::new(&pencil.stiffness.pattern)?;
+    let factor = Factor::new(&ordering, &pencil.stiffness, &pencil.mass, 0.0)?;
+    let respond = |force: &[f64]| -> Vec<f64> {
+        let mut q = Mat::from_fn(force.len(), 1, |i, _| force[i]);
+        factor.solve(q.as_mut());
+        q.col(0).iter().copied().collect()
+    };
+    // The normal forces are K_n q − f_n with K q = f − μ Sᵀ N: a linear system for N alone.
+    let normal = |q: &[f64]| -> Vec<f64> { pencil.normal_stiffness.times(q) };
+    let without: Vec<f64> = normal(&respond(&load)).iter().zip(&normal_load).map(|(k, f)| k - f).collect();
+    let forces = if mu == 0.0 {
+        without
+    } else {
+        gmres(&without, |n| {
+            let mut friction = vec![0.0; load.len()];
+            pencil.slip.add_transposed(n, &mut friction);
+            normal(&respond(&friction)).iter().zip(n).map(|(k, n)| n + mu * k).collect()
+        })?
+    };
+    let mut total = load;
+    let friction: Vec<f64> = forces.iter().map(|n| -mu * n).collect();
+    pencil.slip.add_transposed(&friction, &mut total);
+    let mut displacement = numbering.spread(&respond(&total));
+    for (node, u) in displacement.iter_mut().enumerate() {
+        (0..3).for_each(|i| u[i] += numbering.given[3 * node + i]);
+    }
+    Ok((displacement, forces))
+}
+
+/// Solves A x = b by GMRES without restarts: friction makes few directions.
+fn gmres(b: &[f64], apply: impl Fn(&[f64]) -> Vec<f64>) -> Result<Vec<f64>, Error> {
+    const SMALL: f64 = 1e-12;
+    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    let beta = dot(b, b).sqrt();
+    if beta == 0.0 {
+        return Ok(b.to_vec());
+    }
+    let mut basis = vec![b.iter().map(|x| x / beta).collect::<Vec<f64>>()];
+    // Columns of the Hessenberg matrix, turned to a triangle by rotations; the right-hand side with them.
+    let mut triangle: Vec<Vec<f64>> = Vec::new();
+    let mut turns: Vec<(f64, f64)> = Vec::new();
+    let mut rhs = vec![beta];
+    for step in 0..b.len() {
+        let mut w = apply(&basis[step]);
+        let mut column = vec![0.0; step + 1];
+        for _ in 0..2 {
+            for (h, v) in column.iter_mut().zip(&basis) {
+                let part = dot(v, &w);
+                *h += part;
+                w.iter_mut().zip(v).for_each(|(w, v)| *w -= part * v);
+            }
+        }
+        let next = dot(&w, &w).sqrt();
+        for (i, (c, s)) in turns.iter().enumerate() {
+            (column[i], column[i + 1]) =
+                (c * column[i] + s * column[i + 1], c * column[i + 1] - s * column[i]);
+        }
+        let length = column[step].hypot(next);
+        let (c, s) = (column[step] / length, next / length);
+        column[step] = length;
+        turns.push((c, s));
+        triangle.push(column);
+        rhs.push(-s * rhs[step]);
+        rhs[step] *= c;
+        if rhs[step + 1].abs() <= SMALL * beta || step + 1 == b.len() {
+            let mut y = rhs[..=step].to_vec();
+            for i in (0..=step).rev() {
+                let known: f64 = (i + 1..=step).map(|j| triangle[j][i] * y[j]).sum();
+                y[i] = (y[i] - known) / triangle[i][i];
+            }
+            return Ok((0..b.len()).map(|i| y.iter().zip(&basis).map(|(y, v)| y * v[i]).sum()).collect());
+        }
+        for w in &mut w {
+            *w /= next;
+        }
+        basis.push(w);
+    }
+    Err(Error::Solver {
+        what: "the normal forces did not converge: friction is too high for steady sliding".to_owned(),
+    })
+}

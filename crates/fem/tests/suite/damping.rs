@@ -1,0 +1,75 @@
+//! Damping of materials and of a slope of friction, against closed forms.
+
+use faer::c64;
+use squealmap_fem::assembly::{Rows, assemble};
+use squealmap_fem::contact::Surface;
+use squealmap_fem::elements::Kind;
+use squealmap_fem::modes::{Basis, Factor, Ordering, lowest, pairs, refine, residuals};
+
+use crate::cases::{layer, pin};
+
+/// With C = α M + β K each undamped θ = −λ² becomes the roots of λ² + (α + β θ) λ + θ = 0, also with friction: C has its row of
+/// friction as M and K have theirs.
+#[test]
+fn rayleigh_damping_shifts_each_eigenvalue_as_it_should() {
+    let (alpha, beta) = (300.0, 2e-8);
+    let mu = 0.4;
+    let solve = |damped: bool| {
+        let mut model = pin::model(Kind::Hex20, 1).expect("the pin");
+        if damped {
+            model.materials = model.materials.into_iter().map(|m| m.damped(alpha, beta)).collect();
+        }
+        let (_, pencil) = assemble(&model).expect("matrices");
+        let ordering = Ordering::new(&pencil.stiffness.pattern).expect("an order");
+        let factor = Factor::new(&ordering, &pencil.stiffness, &pencil.mass, 0.0).expect("a factor");
+        let modes = lowest(&pencil, &factor, 20).expect("real modes");
+        let mut basis = Basis::new(&pencil, &modes.shapes);
+        let none = Rows::default();
+        let worst = refine(&pencil, &factor, &mut basis, &[mu], &none, 7, 1e-8, 20).expect("a space");
+        assert!(worst < 1e-8, "{worst:e}");
+        let mut found = pairs(&basis.at(mu, &none)).expect("complex modes");
+        found.truncate(7);
+        found.into_iter().map(|p| p.lambda).collect::<Vec<c64>>()
+    };
+    let damped = solve(true);
+    for undamped in solve(false) {
+        let theta = -(undamped * undamped);
+        let half = (alpha + beta * theta) / 2.0;
+        let roots = [1.0, -1.0].map(|sign| sign * (half * half - theta).sqrt() - half);
+        let close = |a: c64| damped.iter().map(|b| (a - b).norm()).fold(f64::INFINITY, f64::min) / a.norm();
+        let best = roots.into_iter().filter(|r| r.im > 0.0).map(close).fold(f64::INFINITY, f64::min);
+        assert!(best < 1e-7, "{undamped}: {best:e}");
+    }
+}
+
+/// A layer in uniform shear, clamped above, with a damping of c per area below: λ = c_s/h (−ln((Z + c)/(Z − c))/2 + iπ/2) with
+/// Z = ρ c_s. A falling friction is a negative c.
+#[test]
+fn a_slope_of_friction_damps_as_it_should() {
+    let (height, shear, density) = (0.01, 210e9 / 2.6, 7800.0);
+    let speed = f64::sqrt(shear / density);
+    let impedance = density * speed;
+    let (numbering_model, n) = (layer::model(Kind::Hex20, 6).expect("the layer"), 6.0_f64);
+    let (numbering, pencil) = assemble(&numbering_model).expect("matrices");
+    let faces = numbering_model.mesh.face_set("y0").expect("a side");
+    let surface = Surface::new(&numbering_model.mesh, &numbering, faces, &numbering_model.contact);
+    let ordering = Ordering::new(&pencil.stiffness.pattern).expect("an order");
+    let factor = Factor::new(&ordering, &pencil.stiffness, &pencil.mass, 0.0).expect("a factor");
+    let modes = lowest(&pencil, &factor, 12).expect("real modes");
+    for part in [0.1, -0.1] {
+        let damping = part * impedance;
+        let slope = surface.matrix(&vec![damping; numbering_model.contact.len()]);
+        let mut basis = Basis::new(&pencil, &modes.shapes);
+        let worst = refine(&pencil, &factor, &mut basis, &[0.0], &slope, 2, 1e-9, 40).expect("a space");
+        let found = pairs(&basis.at(0.0, &slope)).expect("complex modes");
+        let (_, residual) = residuals(&pencil, &factor, &basis, 0.0, &slope, &found[..2]);
+        assert!(worst < 1e-9 && residual.iter().all(|r| *r < 1e-9), "{worst:e} {residual:?}");
+        let decay = -0.5 * ((1.0 + part) / (1.0 - part)).ln();
+        let exact = speed / height * c64::new(decay, std::f64::consts::FRAC_PI_2);
+        let error =
+            found.iter().map(|p| (p.lambda - exact).norm()).fold(f64::INFINITY, f64::min) / exact.norm();
+        // Quadratic elements: (k h)⁴/1440.
+        let expected = (std::f64::consts::FRAC_PI_2 / n).powi(4) / 1440.0;
+        assert!(error < 1.5 * expected, "{part}: {error:e}, not {expected:e}");
+    }
+}

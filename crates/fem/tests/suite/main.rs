@@ -1,0 +1,19 @@
+//! One integration binary, one module per topic.
+
+#![allow(clippy::doc_markdown, reason = "symbols of equations, such as μ_c or K_n, are no code")]
+#![allow(clippy::needless_range_loop, reason = "indices of directions and nodes are those of the formulas")]
+#![allow(clippy::neg_cmp_op_on_partial_ord, reason = "what is no number takes the branch of what is wrong")]
+
+mod bad_input;
+mod cases;
+mod damping;
+mod elements;
+mod files;
+mod layer;
+mod mortar;
+mod patch;
+mod pin;
+mod real;
+mod statics;
+mod sweep;
+mod two_masses;

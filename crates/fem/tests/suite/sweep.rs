@@ -1,0 +1,67 @@
+//! Modes followed over friction.
+
+use faer::c64;
+use squealmap_fem::assembly::{Rows, assemble};
+use squealmap_fem::elements::Kind;
+use squealmap_fem::modes::{Basis, Factor, Ordering, Pair, follow, lowest, refine};
+use squealmap_fem::sweep::{Range, sweep};
+
+use crate::cases::pin;
+
+/// Two modes whose frequencies cross keep their shapes, and so their branches; sorted by frequency they would change places.
+#[test]
+fn modes_that_cross_keep_their_branches() {
+    let (one, zero) = (c64::new(1.0, 0.0), c64::new(0.0, 0.0));
+    let step = |i: f64| {
+        let mut pairs = vec![
+            Pair { lambda: c64::new(0.0, 10.0 + i), vector: vec![one, zero] },
+            Pair { lambda: c64::new(0.0, 14.5 - i), vector: vec![zero, one] },
+        ];
+        pairs.sort_by(|a, b| a.lambda.im.total_cmp(&b.lambda.im));
+        pairs
+    };
+    let steps: Vec<Vec<Pair>> = (0..6).map(|i| step(f64::from(i))).collect();
+    let branches = follow(&steps, 2);
+    for (i, pairs) in steps.iter().enumerate() {
+        assert!((pairs[branches[0].at[i]].lambda.im - (10.0 + i as f64)).abs() < 1e-12);
+        assert!((pairs[branches[1].at[i]].lambda.im - (14.5 - i as f64)).abs() < 1e-12);
+    }
+}
+
+/// A space that is too small gives way to the direct solution, which is what a good space gives.
+#[test]
+fn bad_projections_are_computed_directly() {
+    let (_, pencil) = assemble(&pin::model(Kind::Hex20, 1).expect("the pin")).expect("matrices");
+    let ordering = Ordering::new(&pencil.stiffness.pattern).expect("an order");
+    let factor = Factor::new(&ordering, &pencil.stiffness, &pencil.mass, 0.0).expect("a factor");
+    let modes = lowest(&pencil, &factor, 12).expect("real modes");
+    let none = Rows::default();
+    let mus: Vec<f64> = (0..=10).map(|i| 0.05 * f64::from(i)).collect();
+    let range = Range { mus: &mus, slope: &none, count: 7, bound: 1e-7 };
+    let small = Basis::new(&pencil, &modes.shapes);
+    let direct = sweep(&pencil, &ordering, &factor, &small, range).expect("a sweep");
+    let mut large = Basis::new(&pencil, &modes.shapes);
+    refine(&pencil, &factor, &mut large, &[0.1, 0.3, 0.5], &none, 8, 1e-9, 30).expect("a space");
+    let projected = sweep(&pencil, &ordering, &factor, &large, range).expect("a sweep");
+    assert!(direct.iter().flat_map(|m| &m.states).filter(|s| s.direct).count() > 30);
+    let (mut grows, mut checked) = (0, 0);
+    for (a, b) in direct.iter().zip(&projected) {
+        for (a, b) in a.states.iter().zip(&b.states) {
+            assert!(a.residual <= 1e-7 && b.residual <= 1e-7, "{a:?} {b:?}");
+            // Of a pair with two signs of growth either may be found first.
+            let apart = (a.lambda - b.lambda).norm().min((a.lambda + b.lambda.conj()).norm());
+            assert!(apart < 1e-6 * b.lambda.norm(), "{a:?} {b:?}");
+            grows += usize::from(b.lambda.re > 1.0);
+            checked += 1;
+        }
+    }
+    assert_eq!(checked, 77);
+    // From μ_c = 0.388 on one mode grows.
+    assert_eq!(grows, 3);
+    // Each mode moves smoothly.
+    for mode in &projected {
+        for pair in mode.states.windows(2) {
+            assert!((pair[1].lambda.im / pair[0].lambda.im - 1.0).abs() < 0.01, "{mode:?}");
+        }
+    }
+}
