@@ -93,6 +93,11 @@ impl Block<'_> {
             (Content::LargeRegime, _) => Text::from("Regime from the large start (time integration)"),
             (_, field) => field.as_ref().map(Field::heading).unwrap_or_default(),
         };
+        let sides = Sides::of(self.grid, panels).filter(|_| field.is_none());
+        // Beside the heading what the shares are of takes no line of its own.
+        let said = name.clone().plain("; ").then(Sides::heading());
+        let is_said = sides.is_some() && words - x + said.width(LABEL_SIZE, false) <= width;
+        let name = if is_said { said } else { name };
         svg.text(words, y + LABEL_SIZE, &name, heading);
         let top = y + LABEL_SIZE + 6.0;
 
@@ -160,9 +165,9 @@ impl Block<'_> {
             Content::Classes { colouring, hatched } => (colouring, hatched),
             _ => (Colouring::Regime, false),
         };
-        let sides = Sides::of(self.grid, panels);
         let cells = panels.scatter.is_none();
-        let legend = Legend::new(self.tally, sides.as_ref(), colouring, [hatched, cells]);
+        let sides = sides.as_ref().map(|sides| (sides, is_said));
+        let legend = Legend::new(self.tally, sides, colouring, [hatched, cells]);
         // Under the panels, or from the outer edge where that saves a line.
         let wide = legend.draw(None, x, bottom, width) < legend.draw(None, x + left, bottom, width - left);
         let indent = if wide { 0.0 } else { left };
