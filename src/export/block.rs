@@ -93,7 +93,18 @@ impl Block<'_> {
         }
         heading.bold = false;
         let field = Field::of(self.content, panels);
-        for (number, line) in self.heading(width).iter().enumerate() {
+        let sides = Sides::of(self.grid, panels).filter(|_| field.is_none());
+        let mut lines = self.heading(width);
+        // Beside the heading what the shares are of takes no line of its own.
+        let mut is_said = false;
+        if let (Some(_), [line]) = (&sides, lines.as_mut_slice()) {
+            let said = line.clone().plain("; ").then(Sides::heading());
+            is_said = words - x + said.width(LABEL_SIZE, false) <= width;
+            if is_said {
+                *line = said;
+            }
+        }
+        for (number, line) in lines.iter().enumerate() {
             svg.text(words, y + LABEL_SIZE + number as f64 * LINE, line, heading);
         }
         let top = y + LABEL_SIZE + self.more_lines as f64 * LINE + 6.0;
@@ -162,10 +173,9 @@ impl Block<'_> {
             Content::Classes { colouring, hatched } => (colouring, hatched),
             _ => (Colouring::Regime, false),
         };
-        let sides = Sides::of(self.grid, panels);
         let cells = panels.scatter.is_none();
-        let of = (self.tally, self.computed);
-        let legend = Legend::new(of, sides.as_ref(), colouring, [hatched, cells]);
+        let sides = sides.as_ref().map(|sides| (sides, is_said));
+        let legend = Legend::new((self.tally, self.computed), sides, colouring, [hatched, cells]);
         // Under the panels, or from the outer edge where that saves a line.
         let wide = legend.draw(None, x, bottom, width) < legend.draw(None, x + left, bottom, width - left);
         let indent = if wide { 0.0 } else { left };

@@ -35,16 +35,19 @@ pub(super) struct Legend(Vec<(Swatch, Text)>);
 
 impl Legend {
     /// The legend of a sweep with these counts under a colouring; the second are those of what was computed, where the
-    /// others have a label all the same. Of a picture with two sides it has a share of each.
+    /// others have a label all the same. Of a picture with two sides it has a share of each, and says so unless that stands
+    /// elsewhere.
     pub(super) fn new(
         (tally, computed): (&Tally, Option<&Tally>),
-        sides: Option<&Sides>,
+        sides: Option<(&Sides, bool)>,
         colouring: Colouring,
         [hatched, cells]: [bool; 2],
     ) -> Legend {
         let share = |selects: &dyn Fn(Label) -> bool| match sides {
             None => share(tally.count(selects), tally.total()),
-            Some(Sides(sides)) => shares(sides.each_ref().map(|side| [side.count(selects), side.total()])),
+            Some((Sides(sides), _)) => {
+                shares(sides.each_ref().map(|side| [side.count(selects), side.total()]))
+            }
         };
         let class = |label: Label| colouring.class(label);
         let mut entries = Vec::new();
@@ -92,7 +95,7 @@ impl Legend {
         if colouring != Colouring::Type && cells && stable(true) && stable(false) {
             entries.push((Swatch::Limit, Text::from("limit of linear stability")));
         }
-        if sides.is_some() {
+        if matches!(sides, Some((_, false))) {
             entries.push((Swatch::Equal, Sides::words()));
         }
         Legend(entries)

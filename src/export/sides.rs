@@ -32,10 +32,14 @@ impl Sides {
         Some(Sides(sides))
     }
 
-    /// What the shares of a legend are of.
+    /// What the shares of a legend are of: short, for the narrowest figure.
     pub(super) fn words() -> Text {
-        let relation = |sign: &str| Text::default().symbol("μ_s").plain(sign).symbol("μ_d");
-        relation(" = ").plain("; shares of ").then(relation(" ≥ ")).plain(" | of ").then(relation(" < "))
+        relation(" ≥ ").plain(" | ").then(relation(" < "))
+    }
+
+    /// The same beside a heading.
+    pub(super) fn heading() -> Text {
+        Text::from("line ").then(relation(" = ")).plain(", shares of ").then(Sides::words())
     }
 
     /// Draws the line into a panel.
@@ -50,6 +54,11 @@ impl Sides {
             svg.path(&line, stroke);
         }
     }
+}
+
+/// μ_s and μ_d with a sign between them.
+fn relation(sign: &str) -> Text {
+    Text::default().symbol("μ_s").plain(sign).symbol("μ_d")
 }
 
 /// The values between which the line crosses a picture over both coefficients, of more instances than a legend counts.

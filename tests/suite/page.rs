@@ -91,8 +91,7 @@ fn maps_fit_the_page() {
     /// The least height of a panel, points: two labels of 7 pt beside it, and half a line between and around them.
     const READABLE: f64 = 22.0;
     let velocities = |count: u32| -> Vec<f64> { (0..count).map(|k| 0.5 + 0.25 * f64::from(k)).collect() };
-    for (count, on_slide, elsewhere) in
-        [(1, true, true), (3, true, true), (5, false, true), (12, false, true)]
+    for (count, on_slide, elsewhere) in [(1, true, true), (3, true, true), (5, true, true), (12, false, true)]
     {
         let axes = vec![
             span(Param::MuS, 0.0, 0.6, 21),

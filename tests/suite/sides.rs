@@ -40,7 +40,7 @@ fn shares_are_of_each_side_of_the_line() {
         assert!(svg.contains(&words), "{words}");
     }
     assert!(svg.contains(">slip 100.0 | 100.0 %<"), "of its own side");
-    // From corner to corner of both pictures, where the axes are the same, and in the legends.
+    // From corner to corner of both pictures, where the axes are the same; headings this long stand in the legends.
     let picture = draw(&svg, "equal_coefficients");
     assert_eq!(svg.matches("class=\"equal_coefficients\"").count(), 4);
     for frame in frames(&svg) {
