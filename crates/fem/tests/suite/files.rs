@@ -80,8 +80,8 @@ const CALCULIX: [(Kind, &str, [[f64; 3]; 4]); 6] = [
     ),
 ];
 
-/// The first six frequencies (Hz) that CalculiX computes of the kinds whose mass it integrates exactly. It takes fewer points for the
-/// others; C3D20R has motions without mass there.
+/// The first six frequencies (Hz) that CalculiX computes of kinds whose mass it integrates exactly. For C3D20R, C3D10 and C3D4 it takes
+/// the few points of the stiffness, which leaves motions without mass.
 const FREQUENCIES: [(Kind, [f64; 6]); 2] = [
     (Kind::Hex20, [9_276.910, 15_103.88, 22_258.48, 43_710.21, 44_142.12, 50_178.12]),
     (Kind::Hex8, [12_245.66, 16_935.11, 24_143.24, 46_726.02, 61_927.87, 63_295.05]),
@@ -207,6 +207,10 @@ fn a_bad_file_is_a_sentence_with_its_line() {
         (
             &format!("{node}*ELEMENT, TYPE=C3D4\n1,1,2\n"),
             "line 4: the last element has 2 nodes, Tet4 needs 4",
+        ),
+        (
+            "*NSET, NSET=A, GENERATE\n1, 99999999999999\n",
+            "line 2: the set would have 99999999999999 members, at most 100000000 are possible: check the range",
         ),
         ("*INCLUDE, INPUT=a.inp\n", "line 1: *INCLUDE is not followed: put the file's lines here"),
         ("*NSET, NSET=A\nB\n", "line 2: there is no set B; there are: "),
