@@ -3,11 +3,15 @@
 use squealmap_fem::Error;
 use squealmap_fem::assembly::{Loads, Model, assemble};
 use squealmap_fem::elements::Kind;
+use squealmap_fem::material::{Material, Orthotropic};
 use squealmap_fem::mesh::Mesh;
 use squealmap_fem::modes::{Factor, Ordering, lowest};
-use squealmap_fem::output::{Field, vtu};
+use squealmap_fem::output::{Field, inp, vtu};
 use squealmap_fem::read::{abaqus, gmsh};
 use squealmap_fem::statics::settle;
+
+use crate::cases::pin;
+use crate::elements::KINDS;
 
 macro_rules! bar {
     ($name:literal) => {
@@ -236,6 +240,33 @@ fn a_bad_file_is_a_sentence_with_its_line() {
         matches!(&error, Error::File { line: 5, what } if what.starts_with("elements of type 12 are not known here")),
         "{error}"
     );
+}
+
+/// What is written for CalculiX is read as the same mesh, material and supports; each contact point is an equation.
+#[test]
+fn files_for_calculix_hold_the_model() {
+    let constants =
+        Orthotropic { young: [12e9, 9e9, 3e9], poisson: [0.25, 0.2, 0.3], shear: [3e9, 1.5e9, 2e9] };
+    let lining = Material::orthotropic("lining", constants, 2500.0).expect("stable constants");
+    for kind in KINDS {
+        let mut model = pin::model(kind, 1).expect("the pin");
+        model.materials = vec![lining.clone()];
+        let text = inp(&model, 10);
+        let deck = abaqus(&text).expect("a file of our own");
+        assert_eq!(corners_and_all(&deck.mesh), corners_and_all(&model.mesh), "{}", kind.name());
+        for (a, b) in deck.materials[0].stiffness.iter().flatten().zip(lining.stiffness.iter().flatten()) {
+            assert!((a - b).abs() < 1e-10 * 12e9, "{a} {b}");
+        }
+        let supports: Vec<(usize, usize)> =
+            deck.supports.iter().map(|(node, axis, _)| (*node, *axis)).collect();
+        assert_eq!(supports, model.supports.prescribed.keys().copied().collect::<Vec<_>>());
+        assert_eq!(text.matches("*EQUATION").count(), model.contact.len());
+        assert!(
+            text.lines()
+                .flat_map(|line| line.split(','))
+                .all(|word| word.starts_with('*') || word.trim().len() <= 20 || word.contains('='))
+        );
+    }
 }
 
 /// Every prefix of a file, and every line without one of its words, is read or is a sentence.
