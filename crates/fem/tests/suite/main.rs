@@ -6,6 +6,7 @@
 
 mod bad_input;
 mod cases;
+mod contact;
 mod damping;
 mod elements;
 mod files;
