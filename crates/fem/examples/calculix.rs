@@ -1,7 +1,7 @@
 //! The pin on the block for CalculiX: writes its `.inp` file and prints the ten lowest frequencies that this program finds at μ = 0.
 //!
-//!     cargo run --release -p squealmap-fem --example calculix -- /tmp/pin.inp 1
-//!     ccx -i /tmp/pin        # the ten frequencies of /tmp/pin.dat are to be the same
+//!     cargo run --release -p squealmap-fem --example calculix -- pin.inp 1
+//!     ccx -i pin        # the ten frequencies of pin.dat are to be the same
 
 #![allow(clippy::doc_markdown, reason = "CalculiX and symbols of equations are no code")]
 
