@@ -13,6 +13,7 @@ mod files;
 mod layer;
 mod mortar;
 mod patch;
+mod penalty;
 mod pin;
 mod real;
 mod statics;
