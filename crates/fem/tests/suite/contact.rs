@@ -27,7 +27,7 @@ fn bonded_blocks_are_one() {
                 .expect("a block")
         };
         let mut whole = Model { mesh: block(0.0, 0.05, 5), materials: vec![steel()], ..Model::default() };
-        whole.supports.clamp(&whole.mesh.node_set("z0").expect("a side").to_vec());
+        whole.supports.clamp(whole.mesh.node_set("z0").expect("a side"));
         let mut parts = Model { mesh: block(0.0, 0.02, 2), materials: vec![steel()], ..Model::default() };
         parts.mesh.add(block(0.02, 0.03, 3), "up.", 0);
         let set = |name| parts.mesh.node_set(name).expect("a side").to_vec();
