@@ -19,7 +19,7 @@ fn name(kind: Kind) -> &'static str {
 }
 
 /// The model as a file that asks for its lowest real modes. Bonds and tied normal displacements become equations; friction has no place
-/// in it. Materials are written with nine elastic constants each.
+/// in it, and a contact stiffness is written as tied. Materials are written with nine elastic constants each.
 ///
 /// Numbers have 13 digits: CalculiX reads no more than twenty characters of one.
 #[must_use]
