@@ -82,7 +82,9 @@ fn directly(
 ) -> Result<State, Error> {
     /// Enough to have both of a pair and its neighbours.
     const NEIGHBOURS: usize = 6;
-    let shift = -(guess * guess).re;
+    /// So far beside the guess, as a mode that friction does not change is one of K − σ M, too, which would be singular.
+    const BESIDE: f64 = 1e-5;
+    let shift = -(guess * guess).re * (1.0 - BESIDE);
     let factor = Factor::new(ordering, &pencil.stiffness, &pencil.mass, shift)?;
     let found = near(pencil, &factor, mu, NEIGHBOURS.min(pencil.size()), bound)?;
     let images = [0, 1].map(|part| pencil.mass.times(&shape[part]));

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use super::penalty::{Penalty, Springs};
 use super::{Numbering, Pattern, Pencil, Rows, Supports, Symmetric, check_joined};
 use crate::Error;
 use crate::contact::Point;
@@ -21,6 +22,8 @@ pub struct Model {
     pub supports: Supports,
     /// Points of sliding contact.
     pub contact: Vec<Point>,
+    /// A contact stiffness, where normal displacements are not to be tied.
+    pub penalty: Option<Penalty>,
 }
 
 impl Model {
@@ -60,10 +63,13 @@ type NormalRow = BTreeMap<usize, [f64; 3]>;
 /// Bad elements, contradicting supports, a missing material, parts that nothing holds.
 pub fn assemble(model: &Model) -> Result<(Numbering, Pencil), Error> {
     mesh::check(&model.mesh)?;
-    let numbering = Numbering::new(&model.mesh, &model.supports, &model.contact)?;
+    let tied: &[Point] = if model.penalty.is_some() { &[] } else { &model.contact };
+    let numbering = Numbering::new(&model.mesh, &model.supports, tied)?;
     check_joined(model, &numbering)?;
-    let groups: Vec<Vec<usize>> =
+    let springs = model.penalty.as_ref().map(|p| Springs::new(model, &numbering, p)).transpose()?;
+    let mut groups: Vec<Vec<usize>> =
         model.mesh.elements().map(|(_, _, _, nodes)| unknowns_of(&numbering, nodes)).collect();
+    groups.extend(springs.iter().flat_map(Springs::groups));
     let pattern = Arc::new(Pattern::of(numbering.unknowns, &groups));
     let mut stiffness = Symmetric::zero(pattern.clone());
     let mut mass = Symmetric::zero(pattern.clone());
@@ -72,7 +78,7 @@ pub fn assemble(model: &Model) -> Result<(Numbering, Pencil), Error> {
 
     // Contact points by the leader of their slave node.
     let mut points: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-    for (i, point) in model.contact.iter().enumerate() {
+    for (i, point) in tied.iter().enumerate() {
         points.entry(numbering.leader[point.slave]).or_default().push(i);
     }
     let mut normal: Vec<NormalRow> = vec![NormalRow::new(); model.contact.len()];
@@ -120,8 +126,12 @@ pub fn assemble(model: &Model) -> Result<(Numbering, Pencil), Error> {
     let rows = |which: usize| Rows {
         rows: normal.iter().map(|row| row.iter().map(|(i, v)| (*i, v[which])).collect()).collect(),
     };
-    let (normal_stiffness, normal_mass, normal_damping) = (rows(0), rows(1), rows(2));
-    let slip = slip(&numbering, &model.contact);
+    let (mut normal_stiffness, normal_mass, normal_damping) = (rows(0), rows(1), rows(2));
+    if let Some(springs) = springs {
+        springs.add_to(&mut stiffness);
+        normal_stiffness = springs.normal;
+    }
+    let slip = along(&numbering, &model.contact, |point| point.direction);
     Ok((numbering, Pencil { stiffness, mass, damping, slip, normal_stiffness, normal_mass, normal_damping }))
 }
 
@@ -136,19 +146,31 @@ fn unknowns_of(numbering: &Numbering, nodes: &[usize]) -> Vec<usize> {
     unknowns
 }
 
-/// S: t·(u_s − Σ w u_m) of each contact point.
-fn slip(numbering: &Numbering, contact: &[Point]) -> Rows {
+/// v·(u_s − Σ w u_m) of each contact point along a direction v of it: S for the direction of sliding.
+pub(super) fn along(
+    numbering: &Numbering,
+    contact: &[Point],
+    direction: impl Fn(&Point) -> [f64; 3],
+) -> Rows {
     let row = |point: &Point| {
-        let mut sums: BTreeMap<usize, f64> = BTreeMap::new();
+        let v = direction(point);
         let sides = std::iter::once((point.slave, 1.0)).chain(point.masters.iter().map(|(m, w)| (*m, -w)));
-        for (node, weight) in sides {
-            for axis in 0..3 {
-                for (unknown, f) in &numbering.rows[3 * node + axis] {
-                    *sums.entry(*unknown).or_default() += weight * point.direction[axis] * f;
-                }
-            }
-        }
-        sums.into_iter().filter(|(_, v)| *v != 0.0).collect()
+        weighted(
+            sides.flat_map(|(node, w)| {
+                (0..3).map(move |axis| (w * v[axis], &numbering.rows[3 * node + axis]))
+            }),
+        )
     };
     Rows { rows: contact.iter().map(row).collect() }
+}
+
+/// The sum of some rows, each with a factor.
+pub(super) fn weighted<'a>(rows: impl Iterator<Item = (f64, &'a Vec<(usize, f64)>)>) -> Vec<(usize, f64)> {
+    let mut sums: BTreeMap<usize, f64> = BTreeMap::new();
+    for (factor, row) in rows {
+        for (unknown, f) in row {
+            *sums.entry(*unknown).or_default() += factor * f;
+        }
+    }
+    sums.into_iter().filter(|(_, v)| v.abs() > 0.0).collect()
 }

@@ -81,7 +81,9 @@ pub fn load_vector(
         }
     }
     let mut normal = vec![0.0; model.contact.len()];
-    for (sum, point) in normal.iter_mut().zip(&model.contact) {
+    // The force of a contact stiffness is that of its overlap alone.
+    let tied: &[_] = if model.penalty.is_some() { &[] } else { &model.contact };
+    for (sum, point) in normal.iter_mut().zip(tied) {
         for node in
             (0..model.mesh.nodes.len()).filter(|n| numbering.leader[*n] == numbering.leader[point.slave])
         {

@@ -34,6 +34,7 @@ impl Numbering {
     /// # Errors
     /// Supports that contradict each other or a contact; a node that is slave of one contact and master of another.
     pub fn new(mesh: &Mesh, supports: &Supports, contact: &[Point]) -> Result<Self, Error> {
+        known(mesh, supports, contact)?;
         let leader = leaders(mesh.nodes.len(), &supports.same);
         let mut used = vec![false; mesh.nodes.len()];
         for (_, _, _, nodes) in mesh.elements() {
@@ -95,6 +96,24 @@ impl Numbering {
         let at = |dof: usize| self.rows[dof].iter().map(|(i, f)| f * q[*i]).sum();
         (0..self.leader.len()).map(|node| [at(3 * node), at(3 * node + 1), at(3 * node + 2)]).collect()
     }
+}
+
+/// Checks that supports and contacts name nodes and axes that there are.
+fn known(mesh: &Mesh, supports: &Supports, contact: &[Point]) -> Result<(), Error> {
+    let count = mesh.nodes.len();
+    let named = supports.prescribed.keys().map(|(node, _)| *node);
+    let bonded = supports.same.iter().flat_map(|(a, b)| [*a, *b]);
+    let touching =
+        contact.iter().flat_map(|p| std::iter::once(p.slave).chain(p.masters.iter().map(|(m, _)| *m)));
+    if let Some(node) = named.chain(bonded).chain(touching).find(|node| *node >= count) {
+        let what = format!("a support, bond or contact names node {node}, but there are only {count}");
+        return Err(Error::Support { what });
+    }
+    if let Some((node, axis)) = supports.prescribed.keys().find(|(_, axis)| *axis > 2) {
+        let what = format!("node {node} is supported along axis {axis}, but axes are 0, 1 and 2");
+        return Err(Error::Support { what });
+    }
+    Ok(())
 }
 
 /// Each node's leader: the smallest node of those bonded with it.

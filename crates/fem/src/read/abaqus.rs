@@ -252,12 +252,21 @@ fn read_elements(card: &Card<'_>, raw: &mut Raw, sets: &mut Sets) -> Result<(), 
 }
 
 fn read_set(card: &Card<'_>, name: &str, sets: &mut Sets) -> Result<(), Error> {
+    /// No mesh has more nodes than this, and a set of them still fits into memory.
+    const MOST: u64 = 100_000_000;
     let mut members = Vec::new();
     for (line, words) in &card.data {
         let words: Vec<&str> = words.iter().copied().filter(|w| !w.is_empty()).collect();
         if card.parameters.contains_key("GENERATE") {
             let at = |i: usize| words.get(i).map_or(Ok(1), |w| number::<u64>(w, *line, "number"));
             let (first, last, step) = (at(0)?, at(1)?, at(2)?.max(1));
+            let count = last.saturating_sub(first) / step + 1;
+            if count > MOST {
+                let what = format!(
+                    "the set would have {count} members, at most {MOST} are possible: check the range"
+                );
+                return Err(Error::File { line: *line, what });
+            }
             members.extend((first..=last).step_by(usize::try_from(step).unwrap_or(usize::MAX)));
             continue;
         }

@@ -125,6 +125,14 @@ fn sets_supports_and_contacts_are_checked() {
     clamped.supports.clamp(set("pin.z0"));
     let error = assemble(&clamped).map(drop).expect_err("clamped and sliding").to_string();
     assert!(error.contains("is in sliding contact, but its motion along z is already given"), "{error}");
+    let mut nowhere = model.clone();
+    nowhere.supports.bond([(0, 5000)]);
+    let error = assemble(&nowhere).map(drop).expect_err("no such node").to_string();
+    assert!(error.starts_with("a support, bond or contact names node 5000, but there are only"), "{error}");
+    let mut axis = model.clone();
+    axis.supports.prescribe(&[3], 3, 0.0);
+    let error = assemble(&axis).map(drop).expect_err("no such axis").to_string();
+    assert_eq!(error, "node 3 is supported along axis 3, but axes are 0, 1 and 2");
     let mut bonded = model.clone();
     bonded.supports.bond([(set("z0")[0], set("x1")[0])]);
     bonded.supports.prescribe(&[set("x1")[0]], 2, 1e-3);

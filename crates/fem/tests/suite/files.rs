@@ -3,11 +3,15 @@
 use squealmap_fem::Error;
 use squealmap_fem::assembly::{Loads, Model, assemble};
 use squealmap_fem::elements::Kind;
+use squealmap_fem::material::{Material, Orthotropic};
 use squealmap_fem::mesh::Mesh;
 use squealmap_fem::modes::{Factor, Ordering, lowest};
-use squealmap_fem::output::{Field, vtu};
+use squealmap_fem::output::{Field, inp, vtu};
 use squealmap_fem::read::{abaqus, gmsh};
 use squealmap_fem::statics::settle;
+
+use crate::cases::pin;
+use crate::elements::KINDS;
 
 macro_rules! bar {
     ($name:literal) => {
@@ -80,8 +84,8 @@ const CALCULIX: [(Kind, &str, [[f64; 3]; 4]); 6] = [
     ),
 ];
 
-/// The first six frequencies (Hz) that CalculiX computes of the kinds whose mass it integrates exactly. It takes fewer points for the
-/// others; C3D20R has motions without mass there.
+/// The first six frequencies (Hz) that CalculiX computes of kinds whose mass it integrates exactly. For C3D20R, C3D10 and C3D4 it takes
+/// the few points of the stiffness, which leaves motions without mass.
 const FREQUENCIES: [(Kind, [f64; 6]); 2] = [
     (Kind::Hex20, [9_276.910, 15_103.88, 22_258.48, 43_710.21, 44_142.12, 50_178.12]),
     (Kind::Hex8, [12_245.66, 16_935.11, 24_143.24, 46_726.02, 61_927.87, 63_295.05]),
@@ -139,6 +143,22 @@ fn calculix_computes_the_same_frequencies() {
         for (a, b) in ours.iter().zip(theirs) {
             assert!((a - b).abs() <= 6e-7 * b, "{}: {ours:?}, not {theirs:?}", kind.name());
         }
+    }
+}
+
+/// The bar of Hex20 once more, of a material with three different axes: first six frequencies of CalculiX, Hz.
+#[test]
+fn calculix_computes_the_same_frequencies_of_an_orthotropic_bar() {
+    const THEIRS: [f64; 6] = [1_067.335, 1_876.552, 3_277.474, 5_186.5, 5_471.235, 6_961.706];
+    let steel = "*ELASTIC\n210e9, 0.3";
+    assert!(bar!("hex20.inp").contains(steel));
+    let lining = "*ELASTIC, TYPE=ENGINEERING CONSTANTS\n12e9, 9e9, 3e9, 0.25, 0.3, 0.2, 3e9, 2e9,\n1.5e9";
+    let (_, pencil) = assemble(&bar(&bar!("hex20.inp").replace(steel, lining))).expect("a sound model");
+    let ordering = Ordering::new(&pencil.stiffness.pattern).expect("an order");
+    let factor = Factor::new(&ordering, &pencil.stiffness, &pencil.mass, 0.0).expect("a factor");
+    let ours = lowest(&pencil, &factor, 6).expect("real modes").frequencies();
+    for (a, b) in ours.iter().zip(THEIRS) {
+        assert!((a - b).abs() <= 6e-7 * b, "{ours:?}, not {THEIRS:?}");
     }
 }
 
@@ -208,6 +228,10 @@ fn a_bad_file_is_a_sentence_with_its_line() {
             &format!("{node}*ELEMENT, TYPE=C3D4\n1,1,2\n"),
             "line 4: the last element has 2 nodes, Tet4 needs 4",
         ),
+        (
+            "*NSET, NSET=A, GENERATE\n1, 99999999999999\n",
+            "line 2: the set would have 99999999999999 members, at most 100000000 are possible: check the range",
+        ),
         ("*INCLUDE, INPUT=a.inp\n", "line 1: *INCLUDE is not followed: put the file's lines here"),
         ("*NSET, NSET=A\nB\n", "line 2: there is no set B; there are: "),
         ("*MATERIAL, NAME=M\n*ELASTIC\n1e9\n", "line 1: material M has 1 elastic constants, it needs 2"),
@@ -232,6 +256,33 @@ fn a_bad_file_is_a_sentence_with_its_line() {
         matches!(&error, Error::File { line: 5, what } if what.starts_with("elements of type 12 are not known here")),
         "{error}"
     );
+}
+
+/// What is written for CalculiX is read as the same mesh, material and supports; each contact point is an equation.
+#[test]
+fn files_for_calculix_hold_the_model() {
+    let constants =
+        Orthotropic { young: [12e9, 9e9, 3e9], poisson: [0.25, 0.2, 0.3], shear: [3e9, 1.5e9, 2e9] };
+    let lining = Material::orthotropic("lining", constants, 2500.0).expect("stable constants");
+    for kind in KINDS {
+        let mut model = pin::model(kind, 1).expect("the pin");
+        model.materials = vec![lining.clone()];
+        let text = inp(&model, 10);
+        let deck = abaqus(&text).expect("a file of our own");
+        assert_eq!(corners_and_all(&deck.mesh), corners_and_all(&model.mesh), "{}", kind.name());
+        for (a, b) in deck.materials[0].stiffness.iter().flatten().zip(lining.stiffness.iter().flatten()) {
+            assert!((a - b).abs() < 1e-10 * 12e9, "{a} {b}");
+        }
+        let supports: Vec<(usize, usize)> =
+            deck.supports.iter().map(|(node, axis, _)| (*node, *axis)).collect();
+        assert_eq!(supports, model.supports.prescribed.keys().copied().collect::<Vec<_>>());
+        assert_eq!(text.matches("*EQUATION").count(), model.contact.len());
+        assert!(
+            text.lines()
+                .flat_map(|line| line.split(','))
+                .all(|word| word.starts_with('*') || word.trim().len() <= 20 || word.contains('='))
+        );
+    }
 }
 
 /// Every prefix of a file, and every line without one of its words, is read or is a sentence.

@@ -1,9 +1,9 @@
 //! The clamped layer on a moving plane, whose eigenvalues are known exactly.
 
 use faer::c64;
-use squealmap_fem::assembly::assemble;
+use squealmap_fem::assembly::{Rows, assemble};
 use squealmap_fem::elements::Kind;
-use squealmap_fem::modes::{Factor, Near, Ordering, near};
+use squealmap_fem::modes::{Basis, Factor, Near, Ordering, lowest, near, pairs, refine};
 
 use crate::cases::{layer, plane_waves};
 
@@ -64,6 +64,32 @@ fn elements_converge_to_the_exact_eigenvalues() {
                 }
             }
         }
+    }
+}
+
+/// Friction is strong here, and no real mode has shear on the plane: the projection still comes to the eigenvalues of the full problem,
+/// with less than a hundred vectors.
+#[test]
+fn the_projection_comes_to_the_full_problem() {
+    let mu = 0.3;
+    let (_, pencil) = assemble(&layer::model(Kind::Hex20, 6).expect("the layer")).expect("matrices");
+    let ordering = Ordering::new(&pencil.stiffness.pattern).expect("an order");
+    let factor = Factor::new(&ordering, &pencil.stiffness, &pencil.mass, 0.0).expect("a factor");
+    let modes = lowest(&pencil, &factor, 24).expect("real modes");
+    let mut basis = Basis::new(&pencil, &modes.shapes);
+    let none = Rows::default();
+    let before = refine(&pencil, &factor, &mut basis, &[mu], &none, 8, 1e-8, 0).expect("residuals");
+    let after = refine(&pencil, &factor, &mut basis, &[mu], &none, 8, 1e-8, 30).expect("a space");
+    assert!(before > 1e-2 && after <= 1e-8, "{before:e} {after:e}");
+    assert!(basis.vectors.ncols() < 100, "{} vectors", basis.vectors.ncols());
+    let found = pairs(&basis.at(mu, &none)).expect("complex modes");
+    for pair in &found[..8] {
+        // Beside it, as waves that friction does not change are modes of K − σ M, too.
+        let shift = -(pair.lambda * pair.lambda).re * (1.0 - 1e-5);
+        let shifted = Factor::new(&ordering, &pencil.stiffness, &pencil.mass, shift).expect("a factor");
+        let full = near(&pencil, &shifted, mu, 4, 1e-11).expect("complex modes");
+        let error = full.iter().map(|f| (f.lambda - pair.lambda).norm()).fold(f64::INFINITY, f64::min);
+        assert!(error < 1e-9 * pair.lambda.norm(), "{}: {error:e}", pair.lambda);
     }
 }
 

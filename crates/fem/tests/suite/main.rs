@@ -6,12 +6,14 @@
 
 mod bad_input;
 mod cases;
+mod contact;
 mod damping;
 mod elements;
 mod files;
 mod layer;
 mod mortar;
 mod patch;
+mod penalty;
 mod pin;
 mod real;
 mod statics;

@@ -75,7 +75,7 @@ fn a_constant_pressure_passes_through() {
         for (axis, name) in [(0, "x0"), (1, "y0"), (2, "z0"), (0, "up.x0"), (1, "up.y0")] {
             supports.prescribe(mesh.node_set(name).expect("a side"), axis, 0.0);
         }
-        let model = Model { mesh, materials: vec![steel()], contact, supports };
+        let model = Model { mesh, materials: vec![steel()], contact, supports, ..Model::default() };
         let loads = Loads { pressure: vec![(top, 1e6)], ..Loads::default() };
         let settled = settle(&model, &slaves, &loads, 0.0).expect("settled blocks");
         for (x, u) in model.mesh.nodes.iter().zip(&settled.displacement) {
