@@ -1,4 +1,4 @@
-//! The line μ_s = μ_d of a picture over both coefficients. On its one side friction falls with the speed, as that of brakes
+//! The line `μ_s = μ_d` of a picture over both coefficients. On its one side friction falls with the speed, as that of brakes
 //! does; on the other it rises, which few materials do: shares of the whole picture would mix the two.
 
 use super::frame::Frame;
@@ -18,7 +18,7 @@ pub(super) const STROKES: [&str; 2] = [
     r##"class="equal_coefficients" fill="none" stroke="#000000" stroke-width="0.6""##,
 ];
 
-/// The instances with μ_s ≥ μ_d and those below, counted.
+/// The instances with `μ_s ≥ μ_d` and those below, counted.
 pub(super) struct Sides(pub(super) [Tally; 2]);
 
 impl Sides {
@@ -56,7 +56,7 @@ impl Sides {
     }
 }
 
-/// μ_s and μ_d with a sign between them.
+/// `μ_s` and `μ_d` with a sign between them.
 fn relation(sign: &str) -> Text {
     Text::default().symbol("μ_s").plain(sign).symbol("μ_d")
 }
@@ -76,7 +76,7 @@ fn across(panels: &Panels) -> Option<[f64; 2]> {
     (from < to).then_some([from, to])
 }
 
-/// Whether friction rises with the speed: μ_s < μ_d.
+/// Whether friction rises with the speed: `μ_s < μ_d`.
 fn rises(grid: &Grid, instance: usize) -> bool {
     let mut coefficients = [0.0; 2];
     grid.each(instance, |key, value| {

@@ -1,4 +1,4 @@
-//! The line μ_s = μ_d of a map over both coefficients, and shares of both its sides.
+//! The line `μ_s = μ_d` of a map over both coefficients, and shares of both its sides.
 
 use std::path::Path;
 
@@ -13,7 +13,7 @@ use squealmap::sweep;
 use crate::figure::{colour, draw, frames};
 use crate::synthetic::{map, number, record, span};
 
-/// Stable from μ_s = 0.3 on, whatever μ_d.
+/// Stable from `μ_s = 0.3` on, whatever `μ_d`.
 fn drawn(axes: Vec<Axis>) -> String {
     let map = map(Grid::Axes(axes), |_, at| {
         let kind = if number(at[0]) >= 0.3 - 1e-9 { Kind::Stable } else { Kind::ModeCoupling };
