@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::{Archive, NumberColumn};
 use crate::classify::{InstabilityType, Regime};
-use crate::grid::{Axis, Grid, Value};
+use crate::grid::{Axis, AxisKey, Grid, Value};
 use crate::map::Record;
 use crate::outcome::Status;
 
@@ -161,7 +161,7 @@ impl Comparison {
 /// Whether two grids hold the same instances in the same order; otherwise what differs first.
 fn same_grid(first: &Grid, second: &Grid) -> Result<(), String> {
     let names = |grid: &Grid| {
-        let names: Vec<&str> = grid.keys().into_iter().map(|key| key.name()).collect();
+        let names: Vec<&str> = grid.keys().into_iter().map(AxisKey::name).collect();
         if names.is_empty() { "nothing".to_owned() } else { names.join(", ") }
     };
     if first.keys() != second.keys() {

@@ -126,7 +126,7 @@ fn draw(found: &Shown, pictures: &[String; 2], look: &Look<'_>, heights: [f64; 4
     let values = found.accelerations.iter().flatten().flatten().copied();
     let acceleration = Scale::spanning(values).widened(HEADROOM);
     let scales = [&friction, &acceleration, &frequency, &frequency];
-    let ticks: [_; 4] = std::array::from_fn(|k| y_ticks(&scales[k], heights[k]));
+    let ticks: [_; 4] = std::array::from_fn(|k| y_ticks(scales[k], heights[k]));
     let room = ticks.iter().map(|ticks| y_tick_room(ticks)).fold(0.0, f64::max);
     let left = MARGIN + LABEL_SIZE + 6.0 + room;
     let width = page - left - RIGHT;

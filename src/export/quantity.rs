@@ -233,7 +233,7 @@ const BELOW: [[f32; 3]; 2] = [[255.0, 250.0, 235.0], [243.0, 214.0, 145.0]];
 const ABOVE: f32 = 0.25;
 /// The first step that is not below 0.
 const FIRST_ABOVE: usize = 18;
-const _: () = assert!(FIRST_ABOVE as f64 == ZERO * STEPS as f64, "a step begins at 0");
+const _: () = assert!((FIRST_ABOVE as f64 - ZERO * STEPS as f64).abs() < 1e-9, "a step begins at 0");
 
 impl Tones<'_> {
     /// The number of steps.

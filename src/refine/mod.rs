@@ -144,8 +144,8 @@ impl Known {
             return Ok(());
         }
         let labels = compute(&wanted)?;
-        labels.iter().for_each(|label| self.tally.add_label(*label));
         for (index, label) in wanted.iter().zip(labels) {
+            self.tally.add_label(label);
             self.labels[*index] = label;
         }
         Ok(())
