@@ -162,14 +162,7 @@ pub(crate) fn run(
     let mut elapsed = Duration::ZERO;
     store.expel_strangers(&note)?;
     store.clean()?;
-    talk::detail(&format!(
-        "sweep {}: {} tile(s) of up to {} instances on {} thread(s), into {}",
-        store.description.id,
-        tiling.count(),
-        tiling.tile,
-        rayon::current_num_threads(),
-        store.directory.display()
-    ));
+    tell_begin(store);
     loop {
         let missing = missing(store, shard.unwrap_or(Shard { number: 0, of: 1 }).tiles(tiling.count()))?;
         let lacking: usize = missing.iter().map(|number| tiling.bounds(*number).len()).sum();
@@ -261,6 +254,19 @@ pub(crate) fn run(
             }
         }
     }
+}
+
+/// With `--verbose`: what is to be computed, and where.
+fn tell_begin(store: &Store) {
+    let tiling = store.description.tiling;
+    talk::detail(&format!(
+        "sweep {}: {} tile(s) of up to {} instances on {} thread(s), into {}",
+        store.description.id,
+        tiling.count(),
+        tiling.tile,
+        rayon::current_num_threads(),
+        store.directory.display()
+    ));
 }
 
 /// Says how far a shard and the sweep have come, and gives the exit code.
