@@ -151,7 +151,7 @@ const CONTRADICTIONS: &[Plant] = &[
     ("tells a negative slope", |e| e.phase_trial = trial_of_phase([0, 9], [0, 9])),
     ("tells a negative slope", |e| e.phase_trial.witnesses.clear()),
     ("tells a negative slope", |e| {
-        e.phase_trial.witnesses.iter_mut().for_each(|one| one.friction = [0.1, 0.2])
+        e.phase_trial.witnesses.iter_mut().for_each(|one| one.friction = [0.1, 0.2]);
     }),
 ];
 

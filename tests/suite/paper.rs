@@ -210,7 +210,7 @@ fn a_ramp_of_a_user_is_judged_as_those_of_the_map() {
             [trial.duration, trial.kick].map(f64::to_bits) == [duration, kick].map(f64::to_bits)
         };
         let trial = evidence.trials.iter().find(is_this).unwrap();
-        let all_grown = evidence.ramps.iter().all(|ramp| ramp.grown());
+        let all_grown = evidence.ramps.iter().all(squealmap::paper::RampFacts::grown);
         assert_eq!(all_grown, LIMITS.grown(trial), "{duration} {kick}");
         for (ramp, peaks) in evidence.ramps.iter().zip(trial.peaks) {
             close("the same ramp", ramp.peaks()[0], peaks.unwrap()[0], 2e-3);
