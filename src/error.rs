@@ -278,7 +278,7 @@ pub enum Error {
         example: String,
     },
     /// An output directory that cannot be created or written.
-    #[error("cannot write to the output directory `{}`: {why}; choose another with -o", path.display())]
+    #[error("cannot write to the output directory `{}`: {why}; choose another one", path.display())]
     OutputDirectory {
         /// The directory.
         path: PathBuf,
@@ -782,7 +782,7 @@ pub enum Error {
     },
     /// A file of a directory that is not as its command writes it.
     #[error(
-        "cannot read `{}`: {}; `plot` takes an output directory as its command wrote it: run that again",
+        "cannot read `{}`: {}; an output directory is needed as its command wrote it: run that again",
         path.display(),
         clipped(why, SAID)
     )]

@@ -207,7 +207,7 @@ fn describe_axis(axis: &Axis) -> String {
 
 /// What the sweep would take of the disk.
 fn disk(spec: &Spec) -> String {
-    let tiling = Tiling { instances: spec.grid.len(), tile: tile_of(spec) };
+    let tiling = Tiling { instances: spec.grid.len(), tile: tile_of(spec, false) };
     let need = Need::new(tiling, spec.analysis);
     talk::tell("disk_bytes", json!({ "tiles": need.tiles, "table": need.table }));
     let table = need.table.map_or_else(

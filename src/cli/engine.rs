@@ -32,7 +32,7 @@ pub(crate) struct EngineArgs {
 }
 
 /// The values of `--backend`.
-#[derive(Clone, Copy, Debug, Default, ValueEnum)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum BackendName {
     #[default]
     Auto,

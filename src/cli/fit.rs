@@ -17,8 +17,12 @@ use crate::cli::{note, print};
 
 /// What is written.
 const FILES: [&str; 2] = ["material.csv", "residuals.csv"];
-/// Rows of a material when none are asked for.
+/// Rows of a material over temperatures that are not repeated.
 const ROWS: u16 = 5;
+/// As many temperatures of a campaign are rows of its material, each with as many points or more: a law has up to three
+/// parameters, and their errors need some more.
+const MOST_MEASURED: usize = 20;
+const ENOUGH_POINTS: usize = 6;
 
 /// The laws that can be fitted.
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -60,7 +64,7 @@ pub(crate) struct FitCommand {
     /// The temperature of all points, °C, instead of a column
     #[arg(long, value_name = "C", allow_negative_numbers = true, value_parser = finite)]
     at_temperature: Option<f64>,
-    /// Temperatures of the rows, °C, rising [default: 5 from the lowest to the highest]
+    /// Temperatures of the rows, °C, rising [default: those of the points, or 5 from the lowest to the highest where they hardly repeat]
     #[arg(long, value_name = "C,C,...", value_delimiter = ',', allow_hyphen_values = true, value_parser = finite)]
     temperatures: Vec<f64>,
 }
@@ -149,8 +153,15 @@ fn warnings(fitted: &Fit, points: &[Point]) -> Vec<String> {
     warnings
 }
 
-/// Evenly spaced temperatures over the points; one where they do not differ.
+/// The temperatures of the points where these are few with enough points each; else evenly spaced ones over them.
 fn rows(points: &[Point]) -> Vec<f64> {
+    let mut measured: Vec<f64> = points.iter().map(|point| point.temperature).collect();
+    measured.sort_by(f64::total_cmp);
+    let groups: Vec<usize> = measured.chunk_by(|a, b| a == b).map(<[f64]>::len).collect();
+    measured.dedup();
+    if measured.len() <= MOST_MEASURED && groups.iter().all(|points| *points >= ENOUGH_POINTS) {
+        return measured;
+    }
     let [low, high] = range(points, |point| point.temperature);
     if low < high {
         let last = ROWS - 1;

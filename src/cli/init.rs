@@ -88,14 +88,18 @@ pub(crate) struct Init {
     /// What the sweep shows
     #[arg(value_enum, default_value_t)]
     preset: Preset,
-    /// Sweep file to be written [default: <PRESET>.toml]
+    /// Sweep file to be written, or a folder for it [default: <PRESET>.toml]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 }
 
 impl Init {
     pub(crate) fn execute(self) -> Result<()> {
-        let path = self.output.unwrap_or_else(|| format!("{}.toml", self.preset.name()).into());
+        let name = format!("{}.toml", self.preset.name());
+        let path = match self.output {
+            Some(folder) if folder.is_dir() => folder.join(name),
+            asked => asked.unwrap_or_else(|| name.into()),
+        };
         let Some(name) = path.file_name().map(|name| name.to_string_lossy().into_owned()) else {
             return Err(Error::NoStem { path });
         };

@@ -7,7 +7,7 @@ use serde_json::{Value as Json, json};
 use squealmap::Result;
 use squealmap::spec::keys::{Key, SECTIONS, all, named};
 
-use crate::cli::{print, talk};
+use crate::cli::talk;
 
 /// Arguments of `keys`.
 #[derive(Debug, Args)]
@@ -23,7 +23,7 @@ impl KeysCommand {
     pub(crate) fn execute(self) -> Result<()> {
         let keys = self.name.as_deref().map_or_else(|| Ok(all()), named)?;
         talk::tell("keys", keys.iter().map(to_json).collect::<Json>());
-        print(&match keys.as_slice() {
+        talk::product(&match keys.as_slice() {
             [one] => card(one),
             _ if self.markdown => by_section(&keys, markdown),
             _ => {

@@ -22,7 +22,7 @@ use squealmap::store::refinement::Refinement;
 use squealmap::store::space;
 use squealmap::{Error, Result};
 
-use crate::cli::engine::EngineArgs;
+use crate::cli::engine::{BackendName, EngineArgs};
 use crate::cli::failed::judged;
 use crate::cli::home::Replace;
 use crate::cli::onset::onset_of;
@@ -106,7 +106,7 @@ impl Refining<'_> {
         let mut output = self.files.prepare(&FILES)?;
         let options = self.engine.options(cancel, &note);
         let mut solver = Solver::new(&spec, &options)?;
-        let part = self.part.unwrap_or_else(|| tile_of(&spec));
+        let part = self.part.unwrap_or_else(|| tile_of(&spec, self.engine.backend == BackendName::Reference));
         let description = Description::new(&spec, solver.computations(), part);
         self.replace.refinement(output.directory(), &self.files.sweep, &description)?;
         output.made_from(&self.files.sweep)?;

@@ -66,7 +66,11 @@ pub(crate) struct Run {
 impl Run {
     /// Instances of a tile of a sweep.
     pub(crate) fn tile(&self, spec: &Spec) -> usize {
-        self.tile.unwrap_or_else(|| tile_of(spec))
+        self.tile.unwrap_or_else(|| {
+            let by_reference = self.engine.backend == BackendName::Reference
+                || self.accuracy.accuracy == Some(Level::Reference);
+            tile_of(spec, by_reference)
+        })
     }
 
     /// Worker threads that were asked for.

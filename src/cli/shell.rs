@@ -8,7 +8,7 @@ use clap_mangen::Man;
 use squealmap::Result;
 
 use crate::cli::output::{Output, cannot, list};
-use crate::cli::{definition, print};
+use crate::cli::{definition, print, talk};
 
 /// The name of the program.
 const NAME: &str = "squealmap";
@@ -25,7 +25,7 @@ impl Completions {
     pub(crate) fn execute(self) {
         let mut text = Vec::new();
         clap_complete::generate(self.shell, &mut definition(), NAME, &mut text);
-        print(&String::from_utf8_lossy(&text));
+        talk::product(&String::from_utf8_lossy(&text));
     }
 }
 

@@ -69,6 +69,11 @@ pub(crate) fn print(text: &str) {
     }
 }
 
+/// Prints what a command is there for and writes nowhere else: also where nothing is to be said.
+pub(crate) fn product(text: &str) {
+    if manner().json { print(text) } else { out(text) }
+}
+
 /// Writes to standard output; a reader that has gone away is no error, a full disk is one at the end.
 fn out(text: &str) {
     let mut out = std::io::stdout().lock();

@@ -98,12 +98,14 @@ impl Range {
 
 impl std::fmt::Display for Range {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        // Powers of ten that are no sizes of anything need few digits.
+        let shown = |value: &f64| if value.abs() < 1e7 { format!("{value}") } else { format!("{value:e}") };
         match self {
             Range::Positive => write!(f, "a finite number greater than 0"),
             Range::NonNegative => write!(f, "a finite number not below 0"),
             Range::Finite => write!(f, "a finite number"),
-            Range::Open(low, high) => write!(f, "strictly between {low} and {high}"),
-            Range::Closed(low, high) => write!(f, "between {low} and {high}"),
+            Range::Open(low, high) => write!(f, "strictly between {} and {}", shown(low), shown(high)),
+            Range::Closed(low, high) => write!(f, "between {} and {}", shown(low), shown(high)),
         }
     }
 }

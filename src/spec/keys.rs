@@ -38,11 +38,14 @@ pub const SECTIONS: [(&str, &str); 8] = [
     ("model", "masses, springs, dampers and the geometry of the contact"),
     ("friction", "the friction law and its parameters"),
     ("belt", "the velocity of the belt"),
-    ("axes", "what varies"),
+    (AXES, "what varies"),
     ("start", "where the motion starts"),
     ("response", "how long the motion is followed, and how finely"),
     ("refine", "only the lines of a map are computed"),
 ];
+
+/// The section of what varies, which has no keys of its own.
+const AXES: &str = "axes";
 
 /// A key with a value that is no number of the model.
 struct Row {
@@ -272,20 +275,24 @@ fn readers(param: Param) -> String {
     if param == Param::Temperature { "a `material`".to_owned() } else { String::new() }
 }
 
-/// What `name` names: a key, or a section with all its keys.
+/// What `name` names: a key, `section.key`, or a section with all its keys; of `axes` all that may vary.
 ///
 /// # Errors
 /// For a name that is neither, with the nearest.
 pub fn named(name: &str) -> Result<Vec<Key>> {
     let all = all();
     let wanted = name.trim().trim_start_matches('[').trim_end_matches(']');
-    let found: Vec<Key> = all.iter().filter(|key| key.name == wanted).cloned().collect();
+    let is = |key: &Key| match wanted.split_once('.') {
+        Some((section, name)) => key.section == section && key.name == name,
+        None => key.name == wanted || (wanted == AXES && key.varies),
+    };
+    let found: Vec<Key> = all.iter().filter(|key| is(key)).cloned().collect();
     let found = if found.is_empty() && !wanted.is_empty() { of_section(wanted).collect() } else { found };
     if !found.is_empty() {
         return Ok(found);
     }
     let names = all.iter().map(|key| key.name).chain(SECTIONS.iter().map(|(name, _)| *name));
-    let names: Vec<&str> = names.filter(|name| !["", "axes"].contains(name)).collect();
+    let names: Vec<&str> = names.filter(|name| !name.is_empty()).collect();
     Err(Error::Unknown {
         at: Place::argument("keys", name, 0..name.len()),
         what: "key",

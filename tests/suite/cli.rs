@@ -171,7 +171,7 @@ fn a_directory_in_the_place_of_a_file_is_refused_before_the_run() {
         assert_eq!(ended.code, Some(2), "{}", ended.err);
         let expected = format!(
             "error: cannot write to the output directory `full`: `{file}`, a file to be written there, \
-             is a directory; choose another with -o\n"
+             is a directory; choose another one\n"
         );
         assert_eq!(ended.err, expected);
         assert_eq!(tree(&directory.path().join("full")), [PathBuf::from(file)]);

@@ -36,6 +36,34 @@ fn command(directory: &Path, arguments: &[&str]) -> (String, String) {
     (ended.out, unwrapped(&ended.err))
 }
 
+/// A campaign at three temperatures has three rows: between them nothing was measured.
+#[test]
+fn repeated_temperatures_are_the_rows() {
+    let directory = tempfile::tempdir().unwrap();
+    let mut text = "V,mu,temperature\n".to_owned();
+    for (temperature, mu_s) in [(300, 0.5), (100, 0.4), (200, 0.45)] {
+        for velocity in (1..=28).map(|k| 0.25 * f64::from(k)) {
+            let mu = mu_s - 0.1 * (velocity / 5.0).min(1.0);
+            writeln!(text, "{velocity},{mu},{temperature}").unwrap();
+        }
+    }
+    std::fs::write(directory.path().join("p.csv"), text).unwrap();
+    let (_, said) = command(directory.path(), &[]);
+    assert_eq!(said, "");
+    let material = std::fs::read_to_string(directory.path().join("out/material.csv")).unwrap();
+    let rows: Vec<Vec<f64>> = material
+        .lines()
+        .filter(|line| line.starts_with(|c: char| c.is_ascii_digit()))
+        .map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect())
+        .collect();
+    assert_eq!(rows.len(), 3, "{material}");
+    for (row, [temperature, mu_s]) in rows.iter().zip([[100.0, 0.4], [200.0, 0.45], [300.0, 0.5]]) {
+        close("temperature", row[0], temperature, 1e-12);
+        close("mu_s", row[1], mu_s, 1e-4);
+        close("mu_d", row[2], mu_s - 0.1, 1e-4);
+    }
+}
+
 #[test]
 fn rows_beyond_the_measured_temperatures_are_told() {
     let directory = tempfile::tempdir().unwrap();

@@ -164,6 +164,11 @@ fn keys_are_found_by_name_and_section() {
     let wrong = keys(&["stribek_velocity"]);
     assert_eq!(wrong.code, Some(2), "{}", wrong.out);
     assert!(unwrapped(&wrong.err).contains("did you mean `stribeck_velocity`?"), "{}", wrong.err);
+    let dotted = keys(&["friction.knee_velocity"]);
+    assert_eq!(dotted.out, one.out);
+    let varied = keys(&["axes"]);
+    assert!(varied.out.contains("\n  mu_s ") && varied.out.contains("\n  law "), "{}", varied.out);
+    assert!(!varied.out.contains("steps_per_period"), "{}", varied.out);
     let all = keys(&[]);
     assert!(all.out.lines().count() > PARAMS.len(), "{}", all.out);
     assert!(all.out.lines().all(|line| line.chars().count() <= 180), "{}", all.out);

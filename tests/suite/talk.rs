@@ -89,6 +89,10 @@ fn quiet_says_nothing_but_errors() {
     let ended = squealmap(here, &["run", "small.toml", "--quiet", "-o", "other"]);
     assert_eq!((ended.code, ended.out.as_str(), ended.err.as_str()), (Some(0), "", ""));
     assert!(here.join("other/map.csv").is_file());
+    // What a command is there for is no word beside it.
+    for command in [&["completions", "bash"][..], &["keys"]] {
+        assert!(!squealmap(here, &[command, &["--quiet"]].concat()).out.is_empty(), "{command:?}");
+    }
     let ended = squealmap(here, &["--quiet", "run", "nowhere.toml"]);
     assert_eq!((ended.code, ended.out.as_str()), (Some(2), ""));
     assert!(ended.err.starts_with("error: "), "{}", ended.err);

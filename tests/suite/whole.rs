@@ -412,19 +412,25 @@ fn what_waits_heeds_a_signal_and_says_what_it_waits_for() {
 
 #[test]
 fn a_tile_is_some_seconds_of_work_whatever_an_instance_costs() {
-    let of = |rest: &str| {
+    let by = |by_reference: bool, rest: &str| {
         let text = format!(
             "[friction]\nmu_s = 0.4\n[axes]\nmu_d = {{ from = 0, to = 0.4, points = 99 }}\n[belt]\nbelt_velocity = 3\n{rest}"
         );
-        tile_of(&Spec::parse(&text, "s.toml", ".".as_ref()).unwrap())
+        tile_of(&Spec::parse(&text, "s.toml", ".".as_ref()).unwrap(), by_reference)
     };
-    assert_eq!(of("[response]\nsettle = \"6 s\"\nmeasure = \"3 s\"\n"), 65_536);
-    assert_eq!(of("[response]\nsettle = \"600 periods\"\nmeasure = \"300 periods\"\n"), 32_768);
-    // 201 starts of 348 periods with 3 to 4 steps each: 2.1e5 to 2.8e5 steps, of which 1.2e8 hold 420 to 570.
+    let of = |rest: &str| by(false, rest);
+    // 900 periods of 12 steps each: 1.2e8 steps hold 11 111 of them.
+    let periods = "[response]\nsettle = \"600 periods\"\nmeasure = \"300 periods\"\n";
+    assert_eq!(of(periods), 8192);
+    // With 3 and with 1000 steps: 44 444 and 133. The reference takes 16 times as long: 694 with 12 steps.
+    assert_eq!(of(&format!("{periods}steps_per_period = 3\n")), 32_768);
+    assert_eq!(of(&format!("{periods}steps_per_period = 1000\n")), 128);
+    assert_eq!(by(true, periods), 512);
+    // 201 starts of 348 periods with 12 steps each: 8.4e5 steps, of which 1.2e8 hold 143.
     assert_eq!(
         of("[start]\nkind = \"box\"\nbox_samples = 200\nbox_velocity_from = -1\nbox_velocity_to = 1\n\
         box_displacement_from = 0\nbox_displacement_to = 0.01\n[response]\nsettle = \"auto\"\n"),
-        256
+        128
     );
     assert_eq!(of("[response]\nsettle = \"1e6 periods\"\n"), 16);
 }
