@@ -39,11 +39,15 @@ impl Merge {
         let input = origin::of(&source.directory);
         self.replace.tiles(&self.target, input.as_deref(), &source.description)?;
         let store = Store::begin(&self.target, source.description.clone(), &note)?;
-        if let Some(input) = input {
-            let path = self.target.join(origin::SOURCE);
-            origin::record(&self.target, &input).map_err(|why| cannot(&path, &why))?;
-        }
+        self.made_from(source)?;
         Ok(store)
+    }
+
+    /// Notes in the target what a source was made from.
+    fn made_from(&self, source: &Store) -> Result<()> {
+        let Some(input) = origin::of(&source.directory) else { return Ok(()) };
+        let path = self.target.join(origin::SOURCE);
+        origin::record(&self.target, &input).map_err(|why| cannot(&path, &why))
     }
 
     pub(crate) fn execute(self) -> Result<ExitCode> {
@@ -56,6 +60,10 @@ impl Merge {
             }
             (opened, _) => opened?,
         };
+        // A merge that ended before it could note that.
+        if let (None, Some(source)) = (origin::written(&self.target), sources.first()) {
+            self.made_from(source)?;
+        }
         target.expel_strangers(&note)?;
         target.clean()?;
         let mut brought = 0;

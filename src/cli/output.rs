@@ -68,13 +68,13 @@ impl Output {
         let beside = self.entries();
         origin::record(&self.directory, input)
             .map_err(|why| cannot(&self.directory.join(origin::SOURCE), &why))?;
-        self.beside = is_first.then_some(beside);
+        self.beside = beside.filter(|_| is_first);
         Ok(())
     }
 
-    /// How many entries the directory has.
-    fn entries(&self) -> usize {
-        door().names(&self.directory).map_or(0, |names| names.len())
+    /// How many entries the directory has; `None` where it cannot be read.
+    fn entries(&self) -> Option<usize> {
+        door().names(&self.directory).ok().map(|names| names.len())
     }
 
     /// The directory, which stays even if nothing is written into it here.
@@ -154,7 +154,8 @@ fn lasting(path: &Path) -> Result<()> {
 
 impl Drop for Output {
     fn drop(&mut self) {
-        if self.beside.is_some_and(|before| self.entries() <= before + 1) {
+        let counts = self.beside.zip(self.entries());
+        if counts.is_some_and(|(before, now)| now <= before + 1) {
             let _ = disk::remove_if_there(&self.directory.join(origin::SOURCE));
         }
         for directory in &self.made {
