@@ -157,7 +157,7 @@ fn warnings(fitted: &Fit, points: &[Point]) -> Vec<String> {
 fn rows(points: &[Point]) -> Vec<f64> {
     let mut measured: Vec<f64> = points.iter().map(|point| point.temperature).collect();
     measured.sort_by(f64::total_cmp);
-    let groups: Vec<usize> = measured.chunk_by(|a, b| a == b).map(<[f64]>::len).collect();
+    let groups: Vec<usize> = measured.chunk_by(|a, b| a.total_cmp(b).is_eq()).map(<[f64]>::len).collect();
     measured.dedup();
     if measured.len() <= MOST_MEASURED && groups.iter().all(|points| *points >= ENOUGH_POINTS) {
         return measured;
