@@ -33,17 +33,19 @@ use crate::spec::{Instance, Spec};
 pub fn regime(instance: &Instance, kind: Option<InstabilityType>, outcome: &Outcome) -> (Regime, bool) {
     let velocity = instance.params.require(Param::BeltVelocity);
     let at_end = after_ramp(instance, outcome.simulated_time);
-    let kind = at_end.as_ref().map_or(kind, |instance| linear::analyse(instance).0);
+    let (kind, known) = at_end.map_or((kind, None), |instance| linear::analyse(&instance));
     let (regime, settled) = classify::regime(outcome, velocity, kind == Some(InstabilityType::Stable));
     let found = match outcome.ending {
         None => (regime, settled),
         Some(Ending::Decays) => (Regime::Equilibrium, true),
         Some(ending) => (regime, ending == Ending::Settled),
     };
-    if !kind.is_some_and(InstabilityType::is_unstable) {
+    // What sticks, reverses or lifts off has shown what it does, whatever grew: it needs no eigenvalues.
+    let is_open = matches!(found.0, Regime::Slip | Regime::Equilibrium);
+    if !is_open || !kind.is_some_and(InstabilityType::is_unstable) {
         return found;
     }
-    let (_, linear) = linear::analyse(at_end.as_ref().unwrap_or(instance));
+    let linear = known.or_else(|| linear::analyse(instance).1);
     linear.map_or(found, |linear| classify::about_unstable(outcome, velocity, linear.growth_rate, found))
 }
 

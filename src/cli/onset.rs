@@ -13,8 +13,10 @@ const AND_SETTLES: f64 = 1.5;
 
 /// The sentence, with a line of its own, where instances of a sweep have not yet grown.
 pub(crate) fn onset_of(spec: &Spec, tally: &Tally) -> String {
-    let young = tally.count(|label| label.regime() == Some(Regime::NotYetGrown));
-    onset(spec).filter(|_| young > 0).map_or_else(String::new, |onset| format!("{onset}\n"))
+    if tally.count(|label| label.regime() == Some(Regime::NotYetGrown)) == 0 {
+        return String::new();
+    }
+    onset(spec).map_or_else(String::new, |onset| format!("{onset}\n"))
 }
 
 /// What the unstable instances of a sweep need until they show what they do; `None` where they have it.
