@@ -6,15 +6,17 @@ use std::hint::black_box;
 use std::sync::atomic::AtomicBool;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use squealmap::backend::cpu::outcomes;
-use squealmap::integrate::STEP_TOLERANCE;
-use squealmap::linear::analyse;
-use squealmap::method::Method;
-use squealmap::method::taylor::REFERENCE_ORDER;
+use squealmap::engine::lanes::outcomes::outcomes;
+use squealmap::engine::method::Method;
+use squealmap::engine::method::taylor::REFERENCE_ORDER;
+use squealmap::engine::plan::Plan;
+use squealmap::engine::plan::STEP_TOLERANCE;
+use squealmap::engine::plan::{Duration, StartKind};
+use squealmap::engine::reference::respond::respond;
 use squealmap::model::friction::FrictionLaw;
+use squealmap::model::instance::Instance;
+use squealmap::model::linear::analyse;
 use squealmap::model::{Param, Params};
-use squealmap::response::{Plan, respond};
-use squealmap::spec::{Duration, Instance, StartKind};
 
 /// The paper's model over a grid of `side`² friction coefficients at 3 m/s.
 fn plane(side: usize) -> Vec<Instance> {

@@ -11,13 +11,13 @@ use std::error::Error;
 use std::fmt::Write;
 use std::time::SystemTime;
 
-use squealmap::backend::choice::{Backend, Options};
-use squealmap::backend::gpu::adapter::Adapter;
-use squealmap::export::manifest::{COMMIT, VERSION};
-use squealmap::kernel::source::Precision;
-use squealmap::map::Map;
-use squealmap::spec::Spec;
-use squealmap::sweep;
+use squealmap::engine::choice::{Backend, Options};
+use squealmap::engine::gpu::adapter::Adapter;
+use squealmap::engine::kernel::source::Precision;
+use squealmap::sweep::map::Map;
+use squealmap::sweep::run as sweep;
+use squealmap::sweep::spec::Spec;
+use squealmap::version::{COMMIT, VERSION};
 
 use differences::Differences;
 

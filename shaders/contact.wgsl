@@ -1,4 +1,4 @@
-// Twin: src/kernel/contact.rs
+// Twin: src/engine/kernel/contact.rs
 // What an event does to the contact of one instance.
 
 struct Belt {

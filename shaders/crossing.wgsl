@@ -1,4 +1,4 @@
-// Twin: src/kernel/crossing.rs
+// Twin: src/engine/kernel/crossing.rs
 // The first downward crossing of an event function inside a step.
 
 // The event function under test, and its coefficients scaled to the step.

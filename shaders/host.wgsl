@@ -1,4 +1,4 @@
-// Twin: src/kernel/source.rs
+// Twin: src/engine/kernel/source.rs
 // The contract between host and kernels. Words are word-major: word w of instance i at w * count + i.
 
 struct Settings {

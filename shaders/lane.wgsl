@@ -1,4 +1,4 @@
-// Twin: src/kernel/lane.rs
+// Twin: src/engine/kernel/lane.rs
 // One instance advanced by iterations, one step or part of a step each.
 
 struct Located {

@@ -1,4 +1,4 @@
-// Twin: src/kernel/linear.rs
+// Twin: src/engine/kernel/linear.rs
 // Eigenvalues of one sliding equilibrium and their attribution; the formulas stand in the twin.
 
 struct Quartic {

@@ -1,4 +1,4 @@
-// Twin: src/kernel/observe.rs
+// Twin: src/engine/kernel/observe.rs
 // Running reductions of one lane. Sums since the last flush are private; totals live in the state buffer.
 
 struct Moment {

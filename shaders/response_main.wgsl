@@ -1,4 +1,4 @@
-// Twin: src/kernel/record.rs
+// Twin: src/engine/kernel/record.rs
 // A lane between dispatches, and the entry point: settings.iterations steps of every running lane.
 
 fn load_lane() {

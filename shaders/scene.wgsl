@@ -1,4 +1,4 @@
-// Twin: src/kernel/scene.rs
+// Twin: src/engine/kernel/scene.rs
 // One instance: its words, its friction law, its segments. The words stay in the input buffer; those of
 // the equations are read once per dispatch.
 

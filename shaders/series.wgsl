@@ -1,4 +1,4 @@
-// Twin: src/kernel/series.rs
+// Twin: src/engine/kernel/series.rs
 // The Taylor series of the motion on one contact state; order and equations stand in the twin.
 
 struct Body {

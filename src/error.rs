@@ -2,11 +2,8 @@
 
 use std::path::PathBuf;
 
-use crate::fit::FitFault;
-use crate::identify::Fault;
-pub use crate::place::Place;
-use crate::quote::{clipped, one_line, quoted};
-use crate::store::tile::Fault as TileFault;
+pub use squealmap_input::place::Place;
+use squealmap_input::quote::{clipped, one_line, quoted};
 
 /// The most characters of what a parser says, which may quote the input.
 pub const SAID: usize = 300;
@@ -14,7 +11,7 @@ pub const SAID: usize = 300;
 /// The most characters of what is wrong with a file of signals; the names in its header are many.
 const FAULT: usize = 1200;
 
-/// Why a run failed. Instances that fail are data (see [`crate::outcome::Status`]), not errors.
+/// Why a run failed. Instances that fail are data (see [`crate::model::status::Status`]), not errors.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -447,7 +444,7 @@ pub enum Error {
         /// The tile.
         path: PathBuf,
         /// What is wrong with it.
-        fault: TileFault,
+        fault: Box<dyn std::error::Error + Send + Sync>,
     },
     /// An export of a sweep that is not complete.
     #[error(
@@ -543,17 +540,9 @@ pub enum Error {
     /// The manifest could not be written.
     #[error("the manifest could not be written")]
     WriteManifest(#[source] serde_json::Error),
-    /// A figure is not a picture that can be drawn.
-    #[error("the figure could not be read as SVG")]
-    ReadSvg(#[source] resvg::usvg::Error),
-    /// A figure is too large for an image, or its encoding failed.
-    #[error("a picture of {width} × {height} pixels could not be made; plot fewer panels or points")]
-    Rasterize {
-        /// Width in pixels.
-        width: u32,
-        /// Height in pixels.
-        height: u32,
-    },
+    /// A document that could not be drawn.
+    #[error(transparent)]
+    Figure(#[from] squealmap_figure::Error),
     /// `modes` needs a numeric axis with at least two values.
     #[error(
         "modes needs an axis of numbers with at least 2 values, and [axes] has none; add one, e.g. mu_d = {{ from = 0.0, to = 0.6, points = 601 }}"
@@ -755,7 +744,7 @@ pub enum Error {
         /// The file as the user wrote it.
         name: String,
         /// Which column, where, and what to do.
-        fault: Box<Fault>,
+        fault: Box<squealmap_identify::Fault>,
     },
     /// Measured friction that does not determine a material.
     #[error("{name}: {}", clipped(&fault.to_string(), FAULT))]
@@ -763,7 +752,7 @@ pub enum Error {
         /// The file as the user wrote it.
         name: String,
         /// Which value, and what to do.
-        fault: FitFault,
+        fault: Box<dyn std::error::Error + Send + Sync>,
     },
     /// A ramp of the paper's figures that does not come to its end.
     #[error(
@@ -899,12 +888,6 @@ pub enum Error {
         /// The nearest name, or all of them.
         advice: String,
     },
-    /// A PDF that cannot be made.
-    #[error("the figure could not be written as PDF: {why}")]
-    Pdf {
-        /// What the library says.
-        why: String,
-    },
     /// A sweep on which no accuracy can be measured.
     #[error("accuracy is measured on settled oscillations, but {what}")]
     NothingToJudge {
@@ -1004,6 +987,12 @@ pub enum Error {
         /// What the system says.
         why: String,
     },
+}
+
+impl From<squealmap_identify::Unfit> for Error {
+    fn from(unfit: squealmap_identify::Unfit) -> Error {
+        Error::Signals { name: unfit.name, fault: unfit.fault }
+    }
 }
 
 impl Error {

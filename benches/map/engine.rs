@@ -4,16 +4,18 @@ use std::sync::atomic::AtomicBool;
 
 use clap::ValueEnum;
 use rayon::prelude::*;
-use squealmap::backend::cpu;
-use squealmap::backend::gpu::adapter::Adapter;
-use squealmap::kernel::response::{TOLERANCE, respond as twin};
-use squealmap::kernel::series;
-use squealmap::kernel::source::Precision;
-use squealmap::method::taylor::REFERENCE_ORDER;
-use squealmap::outcome::{Outcome, Status};
-use squealmap::response::{Plan, respond};
-use squealmap::simd::{Lanes, ORDER, tolerance};
-use squealmap::spec::Instance;
+use squealmap::engine::gpu::adapter::Adapter;
+use squealmap::engine::kernel::response::{TOLERANCE, respond as twin};
+use squealmap::engine::kernel::series;
+use squealmap::engine::kernel::source::Precision;
+use squealmap::engine::lanes::outcomes::outcomes;
+use squealmap::engine::lanes::{Lanes, ORDER, tolerance};
+use squealmap::engine::method::taylor::REFERENCE_ORDER;
+use squealmap::engine::outcome::Outcome;
+use squealmap::engine::plan::Plan;
+use squealmap::engine::reference::respond::respond;
+use squealmap::model::instance::Instance;
+use squealmap::model::status::Status;
 
 use crate::gpu;
 use crate::work::{Work, plan, reference_plan};
@@ -128,7 +130,7 @@ impl Case {
 }
 
 fn lanes<T: Lanes>(instances: &[Instance], plan: &Plan) -> Vec<Outcome> {
-    cpu::outcomes::<T>(instances, plan, &AtomicBool::new(false)).expect("nobody stops it")
+    outcomes::<T>(instances, plan, &AtomicBool::new(false)).expect("nobody stops it")
 }
 
 /// A map in batches on all threads; only what is asked for is kept of it.

@@ -1,4 +1,4 @@
-//! Flops of a step, counted on the scalar twin of the method (`src/kernel/series.rs`): what one lane cannot do
+//! Flops of a step, counted on the scalar twin of the method (`src/engine/kernel/series.rs`): what one lane cannot do
 //! without. Not counted: redone and shortened steps, masked lanes, the look-out for events and their search,
 //! transitions, observables, the bound on the truncation, minima, maxima and comparisons.
 //!

@@ -1,9 +1,9 @@
 //! A map on the best adapter, end to end: scenes, transfers, kernel, outcomes.
 
-use squealmap::backend::choice::{Backend, Options};
-use squealmap::backend::gpu::adapter::{Adapter, Description};
-use squealmap::kernel::source::Precision;
-use squealmap::sweep;
+use squealmap::engine::choice::{Backend, Options};
+use squealmap::engine::gpu::adapter::{Adapter, Description};
+use squealmap::engine::kernel::source::Precision;
+use squealmap::sweep::run as sweep;
 
 use crate::engine::Output;
 use crate::work::Work;

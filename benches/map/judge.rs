@@ -1,11 +1,12 @@
 //! How far the results of an engine are from those of the reference at twice its resolution.
 
 use rayon::prelude::*;
-use squealmap::backend::regime;
-use squealmap::classify::Regime;
-use squealmap::linear;
-use squealmap::outcome::{Outcome, Status};
-use squealmap::response::respond;
+use squealmap::engine::judged::regime;
+use squealmap::engine::outcome::Outcome;
+use squealmap::engine::reference::respond::respond;
+use squealmap::engine::regime::Regime;
+use squealmap::model::linear;
+use squealmap::model::status::Status;
 
 use crate::work::{Work, reference_plan};
 

@@ -3,8 +3,8 @@
 use std::fs::read_to_string;
 use std::time::{SystemTime, UNIX_EPOCH};
 
-use squealmap::export::manifest::COMMIT;
-use squealmap::kernel::source::Precision;
+use squealmap::engine::kernel::source::Precision;
+use squealmap::version::COMMIT;
 
 use crate::peak::Peak;
 

@@ -16,9 +16,9 @@ mod work;
 use std::error::Error;
 
 use clap::Parser;
-use squealmap::backend::gpu::adapter::Adapter;
-use squealmap::kernel::source::Precision;
-use squealmap::spec::STEPS_PER_PERIOD;
+use squealmap::engine::gpu::adapter::Adapter;
+use squealmap::engine::kernel::source::Precision;
+use squealmap::sweep::spec::STEPS_PER_PERIOD;
 
 use clock::{Clock, Elapsed, peak_memory};
 use engine::{Case, Engine};

@@ -1,7 +1,7 @@
 //! What a run measures.
 
 use clap::Parser;
-use squealmap::kernel::source::Precision;
+use squealmap::engine::kernel::source::Precision;
 
 use crate::engine::Engine;
 

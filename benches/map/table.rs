@@ -2,8 +2,8 @@
 
 use std::fmt::{Display, Formatter, Result};
 
-use squealmap::kernel::source::Precision;
-use squealmap::map::Record;
+use squealmap::engine::kernel::source::Precision;
+use squealmap::engine::record::Record;
 
 use crate::engine::Engine;
 use crate::machine::Machine;

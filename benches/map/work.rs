@@ -1,13 +1,15 @@
 //! The map of the benchmarks: what is computed, by what plan, and a sample of it for the judge.
 
-use squealmap::grid::{AxisKey, Grid, Value};
-use squealmap::integrate::STEP_TOLERANCE;
-use squealmap::method::Method;
-use squealmap::method::taylor::REFERENCE_ORDER;
+use squealmap::engine::method::Method;
+use squealmap::engine::method::taylor::REFERENCE_ORDER;
+use squealmap::engine::plan::Plan;
+use squealmap::engine::plan::STEP_TOLERANCE;
+use squealmap::engine::plan::{Duration, StartKind};
 use squealmap::model::friction::FrictionLaw;
+use squealmap::model::instance::Instance;
 use squealmap::model::{Param, Params};
-use squealmap::response::Plan;
-use squealmap::spec::{Duration, Instance, Spec, StartKind};
+use squealmap::sweep::grid::{AxisKey, Grid, Value};
+use squealmap::sweep::spec::Spec;
 
 /// Belt velocities, m/s.
 const VELOCITIES: [f64; 4] = [0.5, 1.0, 3.0, 6.0];

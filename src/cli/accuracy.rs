@@ -1,13 +1,14 @@
 //! `--accuracy`: what may compute a sweep as accurately as is asked for.
 
 use clap::Args;
-use squealmap::accuracy::configuration::{self, Configuration};
-use squealmap::accuracy::frontier::{Choice, Chosen};
-use squealmap::accuracy::level::Level;
-use squealmap::backend::choice::Backend;
-use squealmap::backend::gpu::adapter::Adapter;
-use squealmap::kernel::source::Precision;
-use squealmap::spec::Spec;
+use squealmap::engine::choice::Backend;
+use squealmap::engine::gpu::adapter::Adapter;
+use squealmap::engine::kernel::source::Precision;
+use squealmap::sweep::accuracy::configuration;
+use squealmap::sweep::accuracy::configuration::Configuration;
+use squealmap::sweep::accuracy::frontier::{Choice, Chosen};
+use squealmap::sweep::accuracy::level::Level;
+use squealmap::sweep::spec::Spec;
 use squealmap::{Error, Result};
 
 use crate::cli::engine::{BackendName, EngineArgs};

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use squealmap::backend::gpu::adapter::{Adapter, Description, MISSING_DRIVER};
+use squealmap::engine::gpu::adapter::{Adapter, Description, MISSING_DRIVER};
 
 use crate::cli::print;
 

@@ -4,9 +4,9 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use clap::Args;
-use squealmap::archive::Archive;
-use squealmap::archive::compare::{Comparison, Differences, Labels};
-use squealmap::export::compare::{document, figure, table};
+use squealmap::results::figure::compare::{document, figure, table};
+use squealmap::results::read::Archive;
+use squealmap::results::read::compare::{Comparison, Differences, Labels};
 use squealmap::{Error, Result};
 
 use crate::cli::output::{Output, list};

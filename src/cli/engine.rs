@@ -3,8 +3,8 @@
 use std::sync::atomic::AtomicBool;
 
 use clap::{Args, ValueEnum};
-use squealmap::backend::choice::{Backend, Options};
-use squealmap::kernel::source::Precision;
+use squealmap::engine::choice::{Backend, Options};
+use squealmap::engine::kernel::source::Precision;
 use squealmap::store::directory::Note;
 
 /// Arguments that choose an engine.

@@ -3,8 +3,8 @@
 use std::ops::Range;
 
 use miette::{MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanContents};
-use squealmap::error::Place;
-use squealmap::quote::{is_obeyed, one_line};
+use squealmap_input::place::Place;
+use squealmap_input::quote::{is_obeyed, one_line};
 
 /// Characters of a line that are shown …
 const WIDTH: usize = 120;

@@ -5,13 +5,14 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
-use squealmap::disk::{self, Handle, How, door};
-use squealmap::export::csv::MapCsv;
-use squealmap::export::netcdf::NetCdf;
-use squealmap::export::parquet::MapParquet;
-use squealmap::export::zarr::{METADATA, Zarr};
-use squealmap::map::Record;
-use squealmap::outcome::Status;
+use squealmap::disk;
+use squealmap::disk::{Handle, How, door};
+use squealmap::engine::record::Record;
+use squealmap::model::status::Status;
+use squealmap::results::csv::MapCsv;
+use squealmap::results::netcdf::NetCdf;
+use squealmap::results::parquet::MapParquet;
+use squealmap::results::zarr::{METADATA, Zarr};
 use squealmap::store::directory::Store;
 use squealmap::{Error, Result};
 
@@ -117,7 +118,7 @@ impl Tiles<'_> {
         if self.last.as_ref().is_none_or(|(last, _)| *last != number) {
             let found = self.store.read(number).map_err(|fault| {
                 let path = self.store.path(number);
-                Error::BadTile { path, fault }
+                Error::BadTile { path, fault: fault.into() }
             })?;
             let found = match found {
                 None if self.partial => self.store.kept(number, &note)?,

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 use serde_json::Value as Json;
 use squealmap::disk;
-use squealmap::outcome::Status;
+use squealmap::model::status::Status;
 
 use crate::cli::note;
 

@@ -3,12 +3,12 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use squealmap::export::material::{material_csv, residuals_csv};
-use squealmap::fit::{Fit, Point, fit, range};
-use squealmap::identify::{Channel, FrictionColumn, Settings, read_points};
 use squealmap::model::friction::LawKind;
-use squealmap::quote::rounded;
+use squealmap::study::fit::squares::{Fit, Point, fit, range};
+use squealmap::study::fit::table::{material_csv, residuals_csv};
 use squealmap::{Error, Result};
+use squealmap_identify::{Channel, FrictionColumn, Settings, read_points};
+use squealmap_input::quote::rounded;
 
 use crate::cli::home::prepare_beside;
 use crate::cli::identify::{finite, positive};
@@ -78,9 +78,9 @@ impl FitCommand {
         settings.columns[Channel::Velocity as usize] = self.velocity;
         settings.columns[Channel::Temperature as usize] = self.temperature;
         let friction = self.friction.map_or(FrictionColumn::Forces, FrictionColumn::Named);
-        let input = squealmap::files::open(&self.points).map_err(|why| Error::Signals {
+        let input = squealmap_input::files::open(&self.points).map_err(|why| Error::Signals {
             name: name.clone(),
-            fault: Box::new(squealmap::identify::Fault::Unreadable { why }),
+            fault: Box::new(squealmap_identify::Fault::Unreadable { why }),
         })?;
         let points = read_points(Box::new(input), &name, &settings, &friction, self.at_temperature)?;
         let rows = if self.temperatures.is_empty() { rows(&points) } else { self.temperatures };
@@ -90,7 +90,7 @@ impl FitCommand {
             Law::Constant => LawKind::Constant,
         };
         let fitted = fit(&points, law, &rows, self.law_velocity)
-            .map_err(|fault| Error::Fit { name: name.clone(), fault })?;
+            .map_err(|fault| Error::Fit { name: name.clone(), fault: fault.into() })?;
         let text = material_csv(&fitted, &points, &name);
         let output = prepare_beside(&self.points, self.output.as_deref(), &FILES)?;
         let residuals = residuals_csv(&fitted, &points)?;

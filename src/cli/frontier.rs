@@ -3,10 +3,10 @@
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use squealmap::accuracy::frontier::Frontier;
-use squealmap::accuracy::row::{Row, from_csv, to_csv};
 use squealmap::disk;
-use squealmap::spec::Spec;
+use squealmap::sweep::accuracy::frontier::Frontier;
+use squealmap::sweep::accuracy::row::{Row, from_csv, to_csv};
+use squealmap::sweep::spec::Spec;
 use squealmap::{Error, Result};
 
 use crate::cli::note;

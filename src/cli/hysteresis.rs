@@ -2,16 +2,16 @@
 
 use std::process::ExitCode;
 
-use squealmap::export::heading::Heading;
-use squealmap::export::hysteresis as export;
-use squealmap::export::look::Look;
-use squealmap::grid::spaced;
-use squealmap::hysteresis::{Direction, Hysteresis};
+use squealmap::engine::plan::Plan;
+use squealmap::model::status::Status;
 use squealmap::model::{PARAMS, Param, Section};
-use squealmap::outcome::Status;
-use squealmap::response::Plan;
-use squealmap::spec::Spec;
-use squealmap::spec::names::advice;
+use squealmap::results::figure::heading::Heading;
+use squealmap::results::figure::look::Look;
+use squealmap::study::hysteresis::follow::{Direction, Hysteresis};
+use squealmap::study::hysteresis::table as export;
+use squealmap::sweep::grid::spaced;
+use squealmap::sweep::spec::Spec;
+use squealmap::sweep::spec::names::advice;
 use squealmap::{Error, Result};
 
 use crate::cli::failed::told;

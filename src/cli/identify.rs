@@ -6,15 +6,16 @@ use std::path::PathBuf;
 
 use clap::Args;
 use squealmap::Result;
-use squealmap::export::identify::{self as export, Shown, WindowsCsv};
-use squealmap::export::look::Look;
-use squealmap::export::spectrogram::spectrogram_nc;
-use squealmap::files;
-use squealmap::identify::{
+use squealmap::results::figure::look::Look;
+use squealmap::study::identify::report as export;
+use squealmap::study::identify::report::{Shown, WindowsCsv};
+use squealmap::study::identify::spectrogram::spectrogram_nc;
+use squealmap_identify::{
     DAMPING_RATIO, INCLINATION, Identification, LARGEST_FRICTION, OVERLAP, RATES, Settings, TimeUnit, WINDOW,
     identify,
 };
-use squealmap::quote::one_line;
+use squealmap_input::files;
+use squealmap_input::quote::one_line;
 
 use crate::cli::home::prepare_beside;
 use crate::cli::output::list;

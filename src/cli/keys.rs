@@ -5,7 +5,7 @@ use std::fmt::Write;
 use clap::Args;
 use serde_json::{Value as Json, json};
 use squealmap::Result;
-use squealmap::spec::keys::{Key, SECTIONS, all, named};
+use squealmap::sweep::spec::keys::{Key, SECTIONS, all, named};
 
 use crate::cli::talk;
 

@@ -6,7 +6,7 @@ use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use clap::Args;
-use squealmap::export::manifest::Run;
+use squealmap::results::manifest::Run;
 use squealmap::store::directory::Store;
 use squealmap::store::merge::merge;
 use squealmap::store::origin;
@@ -15,7 +15,8 @@ use squealmap::{Error, Result};
 use crate::cli::failed::judged;
 use crate::cli::home::Replace;
 use crate::cli::output::{cannot, list};
-use crate::cli::results::{self, MANIFEST, Results};
+use crate::cli::results;
+use crate::cli::results::{MANIFEST, Results};
 use crate::cli::run::missing;
 use crate::cli::signal::stop_at_signal;
 use crate::cli::summary::summary;

@@ -261,12 +261,12 @@ fn definition() -> clap::Command {
 /// The PNG of a figure of a command, with a note where its font lacks a character.
 fn png_of(svg: &str) -> Result<Vec<u8>> {
     tell_missing(svg)?;
-    squealmap::export::png::render(svg)
+    Ok(squealmap_figure::png::render(svg)?)
 }
 
 /// Says which characters of a figure its font lacks.
 fn tell_missing(svg: &str) -> Result<()> {
-    let missing = squealmap::export::glyphs::missing(svg)?;
+    let missing = squealmap_figure::glyphs::missing(svg)?;
     let shown: Vec<String> = missing.iter().map(|c| format!("`{c}` (U+{:04X})", u32::from(*c))).collect();
     if !shown.is_empty() {
         note(&format!(

@@ -2,9 +2,9 @@
 
 use clap::Args;
 use squealmap::Result;
-use squealmap::export::look::Look;
-use squealmap::export::modes;
-use squealmap::spec::Spec;
+use squealmap::results::figure::look::Look;
+use squealmap::study::modes::follow as modes;
+use squealmap::sweep::spec::Spec;
 
 use crate::cli::output::list;
 use crate::cli::{Files, png_of, print};

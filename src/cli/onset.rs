@@ -1,9 +1,9 @@
 //! Which time to settle would do, in a sentence.
 
-use squealmap::classify::Regime;
-use squealmap::label::Tally;
-use squealmap::onset::{Onsets, onsets};
-use squealmap::spec::Spec;
+use squealmap::engine::regime::Regime;
+use squealmap::sweep::label::Tally;
+use squealmap::sweep::onset::{Onsets, onsets};
+use squealmap::sweep::spec::Spec;
 
 use crate::cli::progress::seconds;
 

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use squealmap::disk::{self, Handle, door};
+use squealmap::disk;
+use squealmap::disk::{Handle, door};
 use squealmap::store::claim::Claim;
 use squealmap::store::origin;
 use squealmap::{Error, Result};

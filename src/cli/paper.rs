@@ -6,8 +6,8 @@ use std::path::PathBuf;
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use squealmap::Result;
-use squealmap::export::paper as export;
-use squealmap::paper::{Claim, Evidence, Figure, Settings, Study, claims};
+use squealmap::study::paper::figures as export;
+use squealmap::study::paper::{Claim, Evidence, Figure, Settings, Study, claims};
 
 use crate::cli::identify::number;
 use crate::cli::output::{Output, list};

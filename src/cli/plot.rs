@@ -4,11 +4,12 @@ use std::path::PathBuf;
 
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use squealmap::archive::{Kind, Picture};
 use squealmap::cluster::slurm::quote;
-use squealmap::export::look::{Journal, Look, WIDTHS};
-use squealmap::export::{pdf, png};
+use squealmap::results::figure::look::{Journal, Look, WIDTHS};
+use squealmap::study::{Kind, Picture};
+use squealmap::version::program;
 use squealmap::{Error, Result};
+use squealmap_figure::{pdf, png};
 
 use crate::cli::identify::number;
 use crate::cli::output::{Output, list};
@@ -88,7 +89,7 @@ impl Plot {
         let directory = output.directory().to_owned();
         let svg = plot_beside::with_tables(svg, &files);
         tell_missing(&svg)?;
-        files.push((FILES[0], pdf::render(&svg, title, &provenance)?));
+        files.push((FILES[0], pdf::render(&svg, title, &provenance, &program())?));
         files.push((FILES[1], png::render_described(&svg, title, &provenance)?));
         files.push((FILES[2], svg.into_bytes()));
         print(&list(&output.write(&files)?));

@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use squealmap::disk::{self, door};
+use squealmap::disk;
+use squealmap::disk::door;
 
 use crate::cli::note;
 use crate::cli::plot_map::{TABLES, Tables};

@@ -1,19 +1,20 @@
 //! What `squealmap plot` can show of a map: classes, quantities with lines of equal value, and cuts.
 
 use clap::Args;
-use squealmap::archive::{Archive, NumberColumn, Taken};
 use squealmap::cluster::slurm::quote;
-use squealmap::export::boundary_lines::boundary_lines;
-use squealmap::export::columns::Cell;
-use squealmap::export::cut::{Cut, cut_csv, cut_svg, left_out};
-use squealmap::export::figure;
-use squealmap::export::isolines::{isoline_table, round_levels};
-use squealmap::export::look::{Content, Look};
-use squealmap::export::palette::Colouring;
-use squealmap::export::tikz::map_tikz;
-use squealmap::grid::{Grid, Value};
-use squealmap::spec::Starts;
-use squealmap::spec::names::advice;
+use squealmap::results::boundary_lines::boundary_lines;
+use squealmap::results::columns::Cell;
+use squealmap::results::cut::{Cut, cut_csv, cut_svg, left_out};
+use squealmap::results::figure::isolines::{isoline_table, round_levels};
+use squealmap::results::figure::look::{Content, Look};
+use squealmap::results::figure::map as figure;
+use squealmap::results::figure::palette::Colouring;
+use squealmap::results::figure::tikz::map_tikz;
+use squealmap::results::number::NumberColumn;
+use squealmap::results::read::{Archive, Taken};
+use squealmap::sweep::grid::{Grid, Value};
+use squealmap::sweep::spec::Starts;
+use squealmap::sweep::spec::names::advice;
 use squealmap::{Error, Result};
 
 use crate::cli::identify::finite;

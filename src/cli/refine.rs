@@ -7,19 +7,20 @@ use std::sync::atomic::AtomicBool;
 
 use clap::Args;
 use serde_json::json;
-use squealmap::accuracy::sample::subset;
-use squealmap::backend::solver::Solver;
 use squealmap::disk::Handle;
-use squealmap::export::csv::MapCsv;
-use squealmap::export::manifest::Sum;
-use squealmap::label::{Label, Tally};
-use squealmap::refine::{COARSE, Refined, Settings, planes_of, refine};
-use squealmap::spec::{Analysis, Spec, Starts};
+use squealmap::results::csv::MapCsv;
+use squealmap::results::manifest::Sum;
 use squealmap::store::cut::tile_of;
 use squealmap::store::description::Description;
 use squealmap::store::parts::{PARTS, Parts};
 use squealmap::store::refinement::Refinement;
 use squealmap::store::space;
+use squealmap::sweep::accuracy::sample::subset;
+use squealmap::sweep::label::{Label, Tally};
+use squealmap::sweep::refine::{Refined, planes_of, refine};
+use squealmap::sweep::solver::Solver;
+use squealmap::sweep::spec::refine::{COARSE, Settings};
+use squealmap::sweep::spec::{Analysis, Spec, Starts};
 use squealmap::{Error, Result};
 
 use crate::cli::engine::{BackendName, EngineArgs};

@@ -4,17 +4,17 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value as Json;
 use squealmap::disk;
-use squealmap::export::boundary_lines::refined_lines;
-use squealmap::export::look::{AGAIN, Look};
-use squealmap::export::manifest::Sum;
-use squealmap::export::refined::{OfParts, document, figure, is_without_sums};
-use squealmap::label::Tally;
-use squealmap::refine::Refined;
-use squealmap::spec::Spec;
+use squealmap::results::boundary_lines::refined_lines;
+use squealmap::results::figure::look::{AGAIN, Look};
+use squealmap::results::manifest::Sum;
+use squealmap::results::refined::{OfParts, document, figure, is_without_sums};
 use squealmap::store::claim::Claim;
 use squealmap::store::parts::{Found, PARTS, Parts};
 use squealmap::store::refinement::Refinement;
 use squealmap::store::seal::is_intact;
+use squealmap::sweep::label::Tally;
+use squealmap::sweep::refine::Refined;
+use squealmap::sweep::spec::Spec;
 use squealmap::{Error, Result};
 
 use crate::cli::output::{claim, fill, filled, publish_with};

@@ -6,7 +6,7 @@ use std::io::{IsTerminal, Write as _};
 
 use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, SourceCode};
 use squealmap::Error;
-use squealmap::error::Place;
+use squealmap_input::place::Place;
 
 use crate::cli::excerpt::Excerpt;
 

@@ -7,15 +7,16 @@ use std::time::Duration;
 
 use squealmap::Result;
 use squealmap::disk;
-use squealmap::export::csv::MapCsv;
-use squealmap::export::figure::MapFigure;
-use squealmap::export::manifest::{self, OfTiles, Run, Sum};
-use squealmap::label::Tally;
-use squealmap::map::Record;
+use squealmap::engine::record::Record;
+use squealmap::results::csv::MapCsv;
+use squealmap::results::figure::map::MapFigure;
+use squealmap::results::manifest;
+use squealmap::results::manifest::{OfTiles, Run, Sum};
 use squealmap::store::claim::Claim;
 use squealmap::store::directory::{Fingerprint, Store};
 use squealmap::store::seal::is_intact;
 use squealmap::store::space::MOST_ROWS;
+use squealmap::sweep::label::Tally;
 
 use crate::cli::output::{cannot, cannot_table, claim, fill, filled, publish_with};
 use crate::cli::summed::{Summed, unlike};

@@ -4,12 +4,12 @@ use std::ffi::OsString;
 use std::path::Path;
 
 use clap::{Args, Parser};
-use squealmap::accuracy::level::Level;
 use squealmap::cluster::slurm::{DEFAULT_MAX_ARRAY_SIZE, Jobs, LOGS, job_number, max_array_size};
 use squealmap::cluster::tasks::{Means, tasks};
-use squealmap::estimate::estimate;
-use squealmap::spec::Spec;
 use squealmap::store::tiling::Tiling;
+use squealmap::sweep::accuracy::level::Level;
+use squealmap::sweep::estimate::estimate;
+use squealmap::sweep::spec::Spec;
 use squealmap::{Error, Result};
 
 use crate::cli::engine::BackendName;

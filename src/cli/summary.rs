@@ -2,10 +2,11 @@
 
 use std::fmt::Write;
 
-use squealmap::classify::{InstabilityType, Regime};
-use squealmap::label::{Label, Tally};
-use squealmap::outcome::Status;
-use squealmap::spec::{Analysis, Starts};
+use squealmap::engine::regime::Regime;
+use squealmap::model::kind::InstabilityType;
+use squealmap::model::status::Status;
+use squealmap::sweep::label::{Label, Tally};
+use squealmap::sweep::spec::{Analysis, Starts};
 
 /// What stands where an analysis gave nothing.
 const NONE: &str = "-";

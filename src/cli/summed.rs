@@ -4,7 +4,7 @@ use std::io::{self, Read, Write};
 use std::path::Path;
 
 use squealmap::disk::{Handle, How};
-use squealmap::export::manifest::Sum;
+use squealmap::results::manifest::Sum;
 
 /// Bytes of a file that are read at a time to be summed.
 const BLOCK: usize = 1 << 16;

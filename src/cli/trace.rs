@@ -4,23 +4,26 @@ use std::f64::consts::TAU;
 use std::process::ExitCode;
 
 use clap::Args;
-use squealmap::backend;
-use squealmap::export::heading::Heading;
-use squealmap::export::look::Look;
-use squealmap::export::signals::signals_csv;
-use squealmap::export::trace as export;
-use squealmap::grid::{AxisKey, Value};
+use squealmap::engine::judged;
+use squealmap::engine::plan::Plan;
 use squealmap::model::Param;
-use squealmap::outcome::Status;
-use squealmap::quote::rounded;
-use squealmap::response::Plan;
-use squealmap::signals::{Recording, record};
-use squealmap::spec::{Instance, Spec};
-use squealmap::trace::trace;
-use squealmap::{Error, Result, linear};
+use squealmap::model::instance::Instance;
+use squealmap::model::linear;
+use squealmap::model::status::Status;
+use squealmap::results::figure::heading::Heading;
+use squealmap::results::figure::look::Look;
+use squealmap::study::signals::sensors::{Recording, record};
+use squealmap::study::signals::table::signals_csv;
+use squealmap::study::trace::run::trace;
+use squealmap::study::trace::table as export;
+use squealmap::sweep::grid::{AxisKey, Value};
+use squealmap::sweep::spec::Spec;
+use squealmap::{Error, Result};
+use squealmap_input::quote::rounded;
 
 use crate::cli::failed::remedy;
-use crate::cli::hysteresis::{self, Range};
+use crate::cli::hysteresis;
+use crate::cli::hysteresis::Range;
 use crate::cli::output::list;
 use crate::cli::{Files, note, png_of, print};
 
@@ -91,7 +94,7 @@ impl TraceCommand {
         let paths = output.write(&files)?;
         let (kind, _) = linear::analyse(&instance);
         let end = match trace.outcome.status {
-            Status::Ok => backend::regime(&instance, kind, &trace.outcome).0.name(),
+            Status::Ok => judged::regime(&instance, kind, &trace.outcome).0.name(),
             failed => failed.name(),
         };
         let outcome = &trace.outcome;

@@ -4,12 +4,13 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use squealmap::accuracy::measure::{Measurement, Settings, measure};
-use squealmap::accuracy::row::{Row, to_csv};
-use squealmap::backend::choice::Options;
-use squealmap::export::look::Look;
-use squealmap::export::tradeoff::{self, Section};
-use squealmap::spec::Spec;
+use squealmap::engine::choice::Options;
+use squealmap::results::figure::look::Look;
+use squealmap::study::tradeoff::report as tradeoff;
+use squealmap::study::tradeoff::report::Section;
+use squealmap::sweep::accuracy::measure::{Measurement, Settings, measure};
+use squealmap::sweep::accuracy::row::{Row, to_csv};
+use squealmap::sweep::spec::Spec;
 use squealmap::{Error, Result};
 
 use crate::cli::home::{Replace, prepare};

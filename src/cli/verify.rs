@@ -7,14 +7,14 @@ use std::sync::atomic::AtomicBool;
 
 use clap::Args;
 use serde_json::json;
-use squealmap::backend::choice::{Backend, Options};
-use squealmap::backend::solver::Solver;
-use squealmap::kernel::source::Precision;
-use squealmap::spec::Spec;
+use squealmap::engine::choice::{Backend, Options};
+use squealmap::engine::kernel::source::Precision;
 use squealmap::store::description::Description;
 use squealmap::store::directory::Store;
 use squealmap::store::parts::Parts;
 use squealmap::store::status::Status;
+use squealmap::sweep::solver::Solver;
+use squealmap::sweep::spec::Spec;
 use squealmap::{Error, Result};
 
 use crate::cli::note;

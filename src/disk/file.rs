@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use same_file::Handle as Same;
 
-use super::{How, door};
+use crate::disk::{How, door};
 
 /// An open file, read and written through the door.
 #[derive(Debug)]

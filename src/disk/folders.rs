@@ -3,8 +3,8 @@
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
-use super::door;
-use super::file::retried;
+use crate::disk::door;
+use crate::disk::file::retried;
 
 /// Makes a folder and those above it where they are not there, so that they last; gives those that were made, the
 /// deepest first.

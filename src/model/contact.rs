@@ -30,9 +30,9 @@ impl ContactState {
     }
 }
 
-use super::belt::Springs;
-use super::equilibrium::Scaled;
-use crate::outcome::Status;
+use crate::model::belt::Springs;
+use crate::model::equilibrium::Scaled;
+use crate::model::status::Status;
 
 /// A rebound slower than this, in units of `ω0 F_ext/k2`, closes the contact.
 pub const SLOWEST_REBOUND: f64 = 1e-6;

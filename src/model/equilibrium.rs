@@ -7,11 +7,11 @@
 //! ω0² = k1 c²/(m2 + m1 c²)      N0 = F_ext/(c + μ0 s)      k1 c x2 = F_ext (μ0 c − s)/(c + μ0 s)
 //! ```
 
-use super::fastest::{Fastest, fastest};
-use super::friction::PieceChain;
-use super::{Param, Params};
-use crate::outcome::Status;
-use crate::spec::Instance;
+use crate::model::fastest::{Fastest, fastest};
+use crate::model::friction::PieceChain;
+use crate::model::instance::Instance;
+use crate::model::status::Status;
+use crate::model::{Param, Params};
 
 /// In single precision `M11` may vanish this much early.
 const PAINLEVE_ROUNDING: f64 = 1e-5;

@@ -4,7 +4,7 @@
 //! does not see it; a step too long for it raises it from the rounding to that bound all the same, and in an
 //! acceleration the square of its frequency counts.
 
-use super::equilibrium::{Equilibrium, Scaled, Units};
+use crate::model::equilibrium::{Equilibrium, Scaled, Units};
 use crate::model::{Param, Params};
 
 /// Magnitudes of the largest eigenvalue of slip, reversed slip, stick and free flight, scaled; infinite where the

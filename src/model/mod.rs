@@ -8,7 +8,11 @@ pub mod contact;
 pub mod equilibrium;
 pub mod fastest;
 pub mod friction;
+pub mod instance;
+pub mod kind;
+pub mod linear;
 pub mod material;
+pub mod status;
 
 /// A numeric parameter of an instance; its row in [`PARAMS`] gives name, unit, default and range.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

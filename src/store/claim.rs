@@ -7,8 +7,10 @@ use std::fs::TryLockError;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use super::direct::{self, Room};
-use crate::disk::{self, Handle, How, door};
+use crate::disk;
+use crate::disk::{Handle, How, door};
+use crate::store::direct;
+use crate::store::direct::Room;
 
 /// The end of the name of a file that is being written.
 pub const PART: &str = ".part";

@@ -6,13 +6,15 @@
 
 use std::borrow::Borrow;
 
-use crate::accuracy::check::{By, Check};
-use crate::classify::{InstabilityType, Regime};
-use crate::label::Label;
-use crate::linear::Linear;
-use crate::map::Record;
-use crate::outcome::{Outcome, Status};
-use crate::spec::Analysis;
+use crate::engine::outcome::Outcome;
+use crate::engine::record::Record;
+use crate::engine::record::{By, Check};
+use crate::engine::regime::Regime;
+use crate::model::kind::InstabilityType;
+use crate::model::linear::Linear;
+use crate::model::status::Status;
+use crate::sweep::label::Label;
+use crate::sweep::spec::Analysis;
 
 /// Columns of bytes.
 const LABELS: usize = 4;

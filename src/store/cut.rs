@@ -4,13 +4,14 @@
 //! costly instances has few of them. The number follows from the sweep alone, by a count of steps and not by a clock, so
 //! that every process, machine and run cuts a sweep alike.
 
-use crate::method::pace::Turns;
-use crate::response::{Plan, Scene};
-use crate::simd::{ORDER, tolerance};
-use crate::spec::Spec;
+use crate::engine::lanes::{ORDER, tolerance};
+use crate::engine::method::pace::Turns;
+use crate::engine::plan::Plan;
+use crate::engine::scene::Scene;
+use crate::sweep::spec::Spec;
 
-use super::tiling::{LEAST, TILE};
-use crate::kernel::source::Precision;
+use crate::engine::kernel::source::Precision;
+use crate::store::tiling::{LEAST, TILE};
 
 /// Steps of a tile: one core takes some seconds for them in f32, twice that in f64.
 const STEPS: f64 = 1.2e8;

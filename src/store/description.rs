@@ -5,17 +5,17 @@ use std::io::{self, Write};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value as Json, json};
 
-use super::grid_json::{Parted, Whole, from_json, rows};
-use super::identity::{GRID, Id, PHYSICS, identity, kind};
-use super::seal::{Sealing, is_intact};
-use super::tile::Label;
-use super::tiling::Tiling;
-use crate::accuracy::frontier::Chosen;
-use crate::export::sheet::Sheet;
-use crate::grid::Grid;
-use crate::map::Computation;
-use crate::spec::{Analysis, Spec, Starts};
-use crate::starts;
+use crate::engine::computation::Computation;
+use crate::store::grid_json::{Parted, Whole, from_json, rows};
+use crate::store::identity::{GRID, Id, PHYSICS, identity, kind};
+use crate::store::seal::{Sealing, is_intact};
+use crate::store::tile::Label;
+use crate::store::tiling::Tiling;
+use crate::sweep::accuracy::frontier::Chosen;
+use crate::sweep::grid::Grid;
+use crate::sweep::sheet::Sheet;
+use crate::sweep::spec::start;
+use crate::sweep::spec::{Analysis, Spec, Starts};
 
 /// The version of the format.
 const FORMAT: u32 = 2;
@@ -192,7 +192,7 @@ impl Description {
         let [linear, response] = computations.each_ref().map(Option::is_some);
         let until_settled = response && physics["response"]["settle"] == "auto";
         let checked = response && physics["response"]["check"] == true;
-        let starts = if response { starts::from_json(&physics["start"]) } else { Starts::One };
+        let starts = if response { start::from_json(&physics["start"]) } else { Starts::One };
         let analysis = Analysis { linear, response, until_settled, checked, starts };
         let tiling = Tiling { instances: grid.len(), tile: document.tile };
         let resolved = resolved(&document.title, physics, &grid);
@@ -258,7 +258,7 @@ fn resolved(title: &str, physics: Json, grid: &Grid) -> Json {
     if let Json::Object(entries) = physics {
         for (key, value) in entries {
             if key == GRID {
-                let (key, value) = crate::spec::resolved_grid(grid);
+                let (key, value) = crate::sweep::spec::resolved_grid(grid);
                 resolved.insert(key.to_owned(), value);
             } else {
                 resolved.insert(key, value);

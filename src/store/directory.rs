@@ -3,19 +3,20 @@
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
-use super::claim::Claim;
-use super::description::{Description, Unread};
-use super::direct::Room;
-pub use super::folder::Note;
-use super::folder::{Folder, SOME, TILE, Tile};
-use super::identity::Id;
-use super::occupant::Occupant;
-use super::tile::{Checksum, Fault, instances_in, sweep_in};
-use crate::disk::{self, door};
+use crate::disk;
+use crate::disk::door;
+use crate::engine::record::Record;
 use crate::error::{Error, Result, SAID};
-use crate::map::Record;
-use crate::outcome::Status;
-use crate::quote::clipped;
+use crate::model::status::Status;
+use crate::store::claim::Claim;
+use crate::store::description::{Description, Unread};
+use crate::store::direct::Room;
+pub use crate::store::folder::Note;
+use crate::store::folder::{Folder, SOME, TILE, Tile};
+use crate::store::identity::Id;
+use crate::store::occupant::Occupant;
+use crate::store::tile::{Checksum, Fault, instances_in, sweep_in};
+use squealmap_input::quote::clipped;
 
 /// The directory of the tiles inside the output directory.
 pub const TILES: &str = "tiles";

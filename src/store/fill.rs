@@ -5,15 +5,16 @@ use std::sync::mpsc::{Receiver, sync_channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::claim::Claim;
-use super::direct::Room;
-use super::directory::{Note, Store};
-use super::reuse::Reuse;
-use crate::backend::solver::Solver;
+use crate::engine::computation::Stopped;
+use crate::engine::record::Record;
 use crate::error::{Error, Result};
-use crate::map::{Record, Stopped};
-use crate::outcome::Status;
-use crate::spec::Starts;
+use crate::model::status::Status;
+use crate::store::claim::Claim;
+use crate::store::direct::Room;
+use crate::store::directory::{Note, Store};
+use crate::store::reuse::Reuse;
+use crate::sweep::solver::Solver;
+use crate::sweep::spec::Starts;
 
 /// Between two looks at a tile that another process computes.
 const WAIT: Duration = Duration::from_millis(50);

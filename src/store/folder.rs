@@ -3,11 +3,12 @@
 use std::io::{self, ErrorKind, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
-use super::claim::{Claim, PART};
-use super::tile::{Checksum, FOOTER, Fault, Label, checksum_in};
-use crate::disk::{self, Handle, How, door};
+use crate::disk;
+use crate::disk::{Handle, How, door};
+use crate::engine::record::Record;
 use crate::error::{Error, Result};
-use crate::map::Record;
+use crate::store::claim::{Claim, PART};
+use crate::store::tile::{Checksum, FOOTER, Fault, Label, checksum_in};
 
 /// Where tiles go that are not what they should be.
 pub(super) const BAD: &str = "bad";

@@ -8,8 +8,8 @@ use serde::ser::{SerializeMap, SerializeSeq};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::{Map as Object, Value as Json, json};
 
-use super::identity::{GRID, PHYSICS};
-use crate::grid::{Axis, AxisKey, Grid, Names, Rows, Value};
+use crate::store::identity::{GRID, PHYSICS};
+use crate::sweep::grid::{Axis, AxisKey, Grid, Names, Rows, Value};
 
 /// The key of the rows.
 const ROWS: &str = "rows";

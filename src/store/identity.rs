@@ -5,11 +5,11 @@ use std::io::{BufWriter, Write};
 
 use serde_json::{Map as Object, Value as Json, json};
 
-use super::grid_json::{Whole, to_json};
-use crate::export::manifest::{COMMIT, VERSION};
-use crate::grid::Rows;
-use crate::map::Computation;
-use crate::spec::Spec;
+use crate::engine::computation::Computation;
+use crate::store::grid_json::{Whole, to_json};
+use crate::sweep::grid::Rows;
+use crate::sweep::spec::Spec;
+use crate::version::{COMMIT, VERSION};
 
 /// The key of the grid.
 pub const GRID: &str = "grid";

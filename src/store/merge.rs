@@ -2,9 +2,9 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::direct::Room;
-use super::directory::{Note, Store};
 use crate::error::{Error, Result};
+use crate::store::direct::Room;
+use crate::store::directory::{Note, Store};
 
 /// Brings the tiles of `source` into `target` that are not there, until `cancel` is set; returns how many. Doing it again
 /// changes nothing.

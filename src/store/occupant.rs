@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value as Json;
 
-use super::directory::Store;
-use super::origin;
 use crate::disk;
 use crate::error::{Error, Result};
+use crate::store::directory::Store;
+use crate::store::origin;
 
 /// The results, or the tiles, of a sweep in a directory.
 #[derive(Clone, Debug, PartialEq, Eq)]

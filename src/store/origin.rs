@@ -6,8 +6,8 @@ use std::ffi::OsString;
 use std::io;
 use std::path::{Component, Path, PathBuf};
 
-use super::claim::Claim;
 use crate::disk;
+use crate::store::claim::Claim;
 
 /// The name of the file.
 pub const SOURCE: &str = "source.txt";

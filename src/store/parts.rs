@@ -1,23 +1,24 @@
 //! What is computed of a sweep piece by piece, where each piece follows from the ones before: the folder `parts/`.
 //!
-//! A part is a tile ([`super::tile`]) whose sweep is the hash of the sweep's id and of the very instances in it, so
+//! A part is a tile ([`crate::store::tile`]) whose sweep is the hash of the sweep's id and of the very instances in it, so
 //! that it is found again whatever else was computed, and never taken for other instances. Parts of other sweeps may
-//! stand beside it. What asked last for those of a sweep ([`super::refinement`]) stands there too, under the start of
+//! stand beside it. What asked last for those of a sweep ([`crate::store::refinement`]) stands there too, under the start of
 //! its id.
 
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use super::claim::Claim;
-use super::description::Description;
-use super::folder::{Folder, Note, TILE};
-use super::identity::Id;
-use super::refinement::Refinement;
-use super::tile::{Checksum, Fault, Label, checksum_in, fault_in, instances_in};
-use crate::disk::{self, door};
+use crate::disk;
+use crate::disk::door;
+use crate::engine::record::Record;
 use crate::error::{Error, Result};
-use crate::map::Record;
-use crate::spec::Analysis;
+use crate::store::claim::Claim;
+use crate::store::description::Description;
+use crate::store::folder::{Folder, Note, TILE};
+use crate::store::identity::Id;
+use crate::store::refinement::Refinement;
+use crate::store::tile::{Checksum, Fault, Label, checksum_in, fault_in, instances_in};
+use crate::sweep::spec::Analysis;
 
 /// The folder of the parts inside the output directory.
 pub const PARTS: &str = "parts";

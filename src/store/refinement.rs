@@ -5,9 +5,9 @@
 
 use serde_json::{Value as Json, json};
 
-use super::description::Description;
-use super::seal::{is_intact, sealed};
-use crate::refine::Settings;
+use crate::store::description::Description;
+use crate::store::seal::{is_intact, sealed};
+use crate::sweep::spec::refine::Settings;
 
 /// The key of the sweep.
 const SWEEP: &str = "sweep";

@@ -11,12 +11,12 @@ use std::path::Path;
 
 use same_file::is_same_file;
 
-use super::description::Description;
-use super::directory::{Note, Store};
+use crate::engine::record::Record;
 use crate::error::{Error, Result};
-use crate::grid::{Axis, Grid, Value};
-use crate::map::Record;
-use crate::spec::Starts;
+use crate::store::description::Description;
+use crate::store::directory::{Note, Store};
+use crate::sweep::grid::{Axis, Grid, Value};
+use crate::sweep::spec::Starts;
 
 /// Another directory, seen from a sweep.
 #[derive(Debug)]

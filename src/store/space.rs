@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use super::description::Description;
-use super::tiling::{TILE, Tiling};
 use crate::error::{Error, Result};
-use crate::spec::{Analysis, Starts};
+use crate::store::description::Description;
+use crate::store::tiling::{TILE, Tiling};
+use crate::sweep::spec::{Analysis, Starts};
 
 /// Sweeps of more instances get no `map.csv` by themselves: nothing that reads tables reads these.
 pub const MOST_ROWS: usize = 20_000_000;
@@ -35,7 +35,7 @@ impl Need {
     /// The need of a sweep, cut like this.
     #[must_use]
     pub fn new(tiling: Tiling, analysis: Analysis) -> Need {
-        let width = super::starts::width(analysis) as u64;
+        let width = crate::store::starts::width(analysis) as u64;
         let instances = tiling.instances as u64;
         let around = 120 * tiling.count() as u64;
         let others = match analysis.starts {

@@ -1,15 +1,15 @@
-//! Records of several starts as columns: those of the small start as of any sweep ([`super::columns`]), then a byte for
+//! Records of several starts as columns: those of the small start as of any sweep ([`crate::store::columns`]), then a byte for
 //! `bistable` and what the other starts gave: the columns of the large one, or four counts of a box (u32).
 //!
 //! A sweep of one start has its own columns and not a byte more.
 
 use std::borrow::Cow;
 
-use super::columns;
-use crate::map::Record;
-use crate::outcome::Status;
-use crate::spec::{Analysis, Starts};
-use crate::starts::{Basin, Others};
+use crate::engine::record::Record;
+use crate::engine::record::{Basin, Others};
+use crate::model::status::Status;
+use crate::store::columns;
+use crate::sweep::spec::{Analysis, Starts};
 
 /// Bytes of the counts of a box.
 const COUNTS: usize = 16;

@@ -2,12 +2,12 @@
 
 use std::time::{Duration, SystemTime};
 
-use super::claim::PART;
-use super::directory::{Store, TILES};
-use super::folder::BAD;
-use super::tile::Fault;
 use crate::disk::{Handle, How, door};
 use crate::error::{Error, Result};
+use crate::store::claim::PART;
+use crate::store::directory::{Store, TILES};
+use crate::store::folder::BAD;
+use crate::store::tile::Fault;
 
 /// The rate is that of so many of the last tiles.
 const RECENT: usize = 64;

@@ -8,7 +8,7 @@
 //! | 16 | the engine in words, padded with zeros |
 //! | 4 | 1 eigenvalue analysis, 2 response, u32 |
 //! | 4 | zero |
-//! | … | the columns, see [`super::columns`] and [`super::starts`] |
+//! | … | the columns, see [`crate::store::columns`] and [`crate::store::starts`] |
 //! | 32 | BLAKE3 of everything before |
 //! | 8 | `SQMTEND1` |
 //!
@@ -17,11 +17,11 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
-use super::identity::Id;
-use super::starts::{decode, encode, width};
-use crate::map::Record;
-use crate::outcome::Status;
-use crate::spec::Analysis;
+use crate::engine::record::Record;
+use crate::model::status::Status;
+use crate::store::identity::Id;
+use crate::store::starts::{decode, encode, width};
+use crate::sweep::spec::Analysis;
 
 const MAGIC: &[u8; 8] = b"SQMTILE1";
 const END: &[u8; 8] = b"SQMTEND1";
@@ -38,7 +38,7 @@ pub type Checksum = [u8; CHECKSUM];
 pub struct Label {
     /// The sweep.
     pub sweep: Id,
-    /// The engine, see [`super::identity::kind`]; at most 16 bytes count.
+    /// The engine, see [`crate::store::identity::kind`]; at most 16 bytes count.
     pub kind: String,
     /// What was computed.
     pub analysis: Analysis,

@@ -2,10 +2,11 @@
 
 use std::fmt;
 
-use squealmap::grid::Value;
-use squealmap::map::Map;
+use squealmap::engine::outcome::Outcome;
 use squealmap::model::Param;
-use squealmap::outcome::{Outcome, Status};
+use squealmap::model::status::Status;
+use squealmap::sweep::grid::Value;
+use squealmap::sweep::map::Map;
 
 /// How a map differs from that of the reference.
 pub(crate) struct Differences {

@@ -2,10 +2,10 @@
 
 use libtest_mimic::Failed;
 use squealmap::Error;
-use squealmap::backend::gpu::kernel::Compiled;
-use squealmap::backend::gpu::run::{ChunkResult, Drive, run};
-use squealmap::kernel::linear::KERNEL;
-use squealmap::kernel::source::Precision;
+use squealmap::engine::gpu::kernel::Compiled;
+use squealmap::engine::gpu::run::{ChunkResult, Drive, run};
+use squealmap::engine::kernel::linear::KERNEL;
+use squealmap::engine::kernel::source::Precision;
 
 use crate::Case;
 use crate::words::{compare, device, drive, inputs, on_cpu};

@@ -3,14 +3,14 @@
 use std::ops::Range;
 
 use libtest_mimic::Failed;
-use squealmap::backend::choice::{Backend, Options};
-use squealmap::backend::gpu::chunks::{Batch, Session};
-use squealmap::kernel::linear::KERNEL;
-use squealmap::kernel::scalar::Real;
-use squealmap::kernel::source::Precision;
-use squealmap::map::Map;
-use squealmap::spec::Spec;
-use squealmap::sweep;
+use squealmap::engine::choice::{Backend, Options};
+use squealmap::engine::gpu::chunks::{Batch, Session};
+use squealmap::engine::kernel::linear::KERNEL;
+use squealmap::engine::kernel::scalar::Real;
+use squealmap::engine::kernel::source::Precision;
+use squealmap::sweep::map::Map;
+use squealmap::sweep::run as sweep;
+use squealmap::sweep::spec::Spec;
 
 use crate::Case;
 use crate::words::{compare, device, differing, drive, inputs, on_cpu, on_gpu};
@@ -80,7 +80,7 @@ fn paper_map() -> Result<(), Failed> {
     assert!(linear.adapter.is_some());
     let mut worst = 0.0_f64;
     for (index, record) in map.records.iter().enumerate() {
-        let (kind, expected) = squealmap::linear::analyse(&map.spec.instance(index));
+        let (kind, expected) = squealmap::model::linear::analyse(&map.spec.instance(index));
         assert_eq!(record.kind, kind, "instance {index}");
         if let (Some(actual), Some(expected)) = (record.linear, expected) {
             let size = expected.growth_rate.hypot(std::f64::consts::TAU * expected.frequency);

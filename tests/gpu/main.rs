@@ -21,7 +21,7 @@ mod whole_range;
 mod words;
 
 use libtest_mimic::{Arguments, Failed, Trial};
-use squealmap::backend::gpu::adapter::Adapter;
+use squealmap::engine::gpu::adapter::Adapter;
 
 /// The variable that turns a missing adapter into a failure.
 const REQUIRE: &str = "SQUEALMAP_REQUIRE_GPU";

@@ -1,10 +1,10 @@
 //! Single functions of the kernel on the GPU against their twins, through probe entry points.
 
 use libtest_mimic::Failed;
-use squealmap::backend::gpu::kernel::Compiled;
-use squealmap::backend::gpu::run::run;
-use squealmap::kernel::linear::{KERNEL, Quartic, factors, quadratic, rightmost, split};
-use squealmap::kernel::source::Precision;
+use squealmap::engine::gpu::kernel::Compiled;
+use squealmap::engine::gpu::run::run;
+use squealmap::engine::kernel::linear::{KERNEL, Quartic, factors, quadratic, rightmost, split};
+use squealmap::engine::kernel::source::Precision;
 
 use crate::Case;
 use crate::words::{device, drive, inputs};

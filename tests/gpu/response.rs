@@ -2,22 +2,28 @@
 
 use libtest_mimic::Failed;
 use squealmap::Error;
-use squealmap::backend::gpu::kernel::Compiled;
-use squealmap::backend::gpu::response::read_lane;
-use squealmap::backend::gpu::run::{Drive, run};
-use squealmap::integrate::STEP_TOLERANCE;
-use squealmap::kernel::lane::Lane;
-use squealmap::kernel::record::write;
-use squealmap::kernel::response::{TOLERANCE, choices, kernel, reductions, segments, words as packed_words};
-use squealmap::kernel::scene::{Law, Scene as Words};
-use squealmap::kernel::source::{Kernel, Precision, SETTING_WORDS, first_word, words};
-use squealmap::method::Method;
-use squealmap::method::taylor::REFERENCE_ORDER;
+use squealmap::engine::gpu::kernel::Compiled;
+use squealmap::engine::gpu::response::read_lane;
+use squealmap::engine::gpu::run::{Drive, run};
+use squealmap::engine::kernel::lane::Lane;
+use squealmap::engine::kernel::record::write;
+use squealmap::engine::kernel::response::{
+    TOLERANCE, choices, kernel, reductions, segments, words as packed_words,
+};
+use squealmap::engine::kernel::scene::{Law, Scene as Words};
+use squealmap::engine::kernel::source::{Kernel, Precision, SETTING_WORDS, first_word, words};
+use squealmap::engine::method::Method;
+use squealmap::engine::method::taylor::REFERENCE_ORDER;
+use squealmap::engine::outcome::Outcome;
+use squealmap::engine::plan::Plan;
+use squealmap::engine::plan::STEP_TOLERANCE;
+use squealmap::engine::plan::{Duration, StartKind};
+use squealmap::engine::reference::respond::respond;
+use squealmap::engine::scene::Scene;
 use squealmap::model::friction::FrictionLaw;
+use squealmap::model::instance::Instance;
+use squealmap::model::status::Status;
 use squealmap::model::{Param, Params};
-use squealmap::outcome::{Outcome, Status};
-use squealmap::response::{Plan, Scene, respond};
-use squealmap::spec::{Duration, Instance, StartKind};
 
 use crate::Case;
 use crate::words::{device, drive};

@@ -1,19 +1,19 @@
 //! Single functions of the response kernel on the GPU against their twins, through probe entry points.
 
 use libtest_mimic::Failed;
-use squealmap::backend::gpu::device::Arithmetic;
-use squealmap::backend::gpu::kernel::Compiled;
-use squealmap::backend::gpu::run::run;
-use squealmap::kernel::crossing::{deflated, first_crossing, lower_bound};
-use squealmap::kernel::lane::Lane;
-use squealmap::kernel::observe::{maximum, rotate};
-use squealmap::kernel::response::{choices, kernel, law_of, segments, words};
-use squealmap::kernel::scene::{Law, Scene as Words, exp_m1};
-use squealmap::kernel::series::{
+use squealmap::engine::gpu::device::Arithmetic;
+use squealmap::engine::gpu::kernel::Compiled;
+use squealmap::engine::gpu::run::run;
+use squealmap::engine::kernel::crossing::{deflated, first_crossing, lower_bound};
+use squealmap::engine::kernel::lane::Lane;
+use squealmap::engine::kernel::observe::{maximum, rotate};
+use squealmap::engine::kernel::response::{choices, kernel, law_of, segments, words};
+use squealmap::engine::kernel::scene::{Law, Scene as Words, exp_m1};
+use squealmap::engine::kernel::series::{
     Body, Expansion, FREE, ORDER, REVERSE, SLIP, STICK, evaluate, expand, step_length, value,
 };
-use squealmap::kernel::source::{Kernel, Precision};
-use squealmap::response::Scene;
+use squealmap::engine::kernel::source::{Kernel, Precision};
+use squealmap::engine::scene::Scene;
 
 use crate::Case;
 use crate::instances::Uniform;
@@ -134,7 +134,7 @@ fn probe(call: &str, twin: fn(&Words<f32>, f32, &Body<f32>) -> Vec<f32>) -> Resu
          {call}\nfinish(instance, STATUS_OK);\n}}\n"
     );
     let strict = device(Arithmetic { precision: Precision::F32, strict: true });
-    let exact = strict.as_ref().is_ok_and(squealmap::backend::gpu::device::Device::is_software);
+    let exact = strict.as_ref().is_ok_and(squealmap::engine::gpu::device::Device::is_software);
     let device = if exact { strict? } else { device(Precision::F32)? };
     let mut files = KERNEL.files.to_vec();
     files.pop();

@@ -5,10 +5,12 @@ use std::process::{Command, Output};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use libtest_mimic::Failed;
-use squealmap::backend::choice::{Backend, Options};
-use squealmap::map::{Record, Stopped};
-use squealmap::spec::Spec;
-use squealmap::{Error, export, sweep};
+use squealmap::engine::choice::{Backend, Options};
+use squealmap::engine::computation::Stopped;
+use squealmap::engine::record::Record;
+use squealmap::sweep::run as sweep;
+use squealmap::sweep::spec::Spec;
+use squealmap::{Error, results as export};
 
 use crate::Case;
 
@@ -192,7 +194,7 @@ fn cancelled() -> Result<(), Failed> {
     assert_eq!(csv.lines().filter(|line| line.ends_with(",not_computed")).count(), total - 3 * CHUNK);
     let manifest: serde_json::Value = serde_json::from_slice(&export::manifest::manifest_json(&map)?)?;
     assert_eq!((&manifest["complete"], &manifest["computation"]["computed"]), (&false.into(), &3000.into()));
-    export::figure::map_svg(&map)?;
+    export::figure::map::map_svg(&map)?;
     // Before the first chunk there is nothing.
     match sweep::run(spec, &options, &|_| {}) {
         Err(Error::Cancelled { done: 0, total: of }) if of == total => Ok(()),

@@ -1,11 +1,12 @@
 //! Instances with several starts on the GPU: every start ends as with the reference, whatever the chunks.
 
 use libtest_mimic::Failed;
-use squealmap::backend::choice::{Backend, Options};
-use squealmap::kernel::source::Precision;
-use squealmap::map::{Map, Record};
-use squealmap::spec::Spec;
-use squealmap::sweep;
+use squealmap::engine::choice::{Backend, Options};
+use squealmap::engine::kernel::source::Precision;
+use squealmap::engine::record::Record;
+use squealmap::sweep::map::Map;
+use squealmap::sweep::run as sweep;
+use squealmap::sweep::spec::Spec;
 
 use crate::Case;
 

@@ -3,17 +3,20 @@
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use libtest_mimic::Failed;
-use squealmap::backend::choice::{Backend, Options};
-use squealmap::backend::gpu::adapter::Adapter;
-use squealmap::backend::gpu::response::software_chunk;
-use squealmap::kernel::response::{TOLERANCE, respond};
-use squealmap::kernel::source::Precision;
-use squealmap::map::{Map, Record, Stopped};
+use squealmap::engine::choice::{Backend, Options};
+use squealmap::engine::computation::Stopped;
+use squealmap::engine::gpu::adapter::Adapter;
+use squealmap::engine::gpu::response::software_chunk;
+use squealmap::engine::kernel::response::{TOLERANCE, respond};
+use squealmap::engine::kernel::source::Precision;
+use squealmap::engine::plan::Duration;
+use squealmap::engine::plan::Plan;
+use squealmap::engine::record::Record;
 use squealmap::model::Param;
-use squealmap::outcome::Status;
-use squealmap::response::Plan;
-use squealmap::spec::{Duration, Spec};
-use squealmap::sweep;
+use squealmap::model::status::Status;
+use squealmap::sweep::map::Map;
+use squealmap::sweep::run as sweep;
+use squealmap::sweep::spec::Spec;
 
 use crate::Case;
 use crate::differences::Differences;
@@ -330,7 +333,7 @@ fn two_million_steps() -> Result<(), Failed> {
     for (index, record) in map.records.iter().enumerate() {
         let outcome = record.outcome.as_deref().ok_or("no outcome")?;
         let scene =
-            squealmap::response::Scene::new(&spec.instance(index), spec.start).map_err(Status::name)?;
+            squealmap::engine::scene::Scene::new(&spec.instance(index), spec.start).map_err(Status::name)?;
         let asked = scene.scaled(spec.settle) + scene.scaled(spec.measure);
         let asked = asked * scene.units.time;
         println!(

@@ -3,15 +3,15 @@
 use std::sync::atomic::AtomicBool;
 
 use libtest_mimic::Failed;
-use squealmap::backend::gpu::adapter::Adapter;
-use squealmap::backend::gpu::device::{Arithmetic, Device};
-use squealmap::backend::gpu::kernel::Compiled;
-use squealmap::backend::gpu::run::{ChunkResult, Drive, check, run};
-use squealmap::kernel::linear::{FLAGS, KERNEL, STATE, analyse};
-use squealmap::kernel::scalar::Real;
-use squealmap::kernel::source::{SETTING_WORDS, words};
-use squealmap::kernel::words::{INPUT_WORDS, Words};
-use squealmap::linear::prepare;
+use squealmap::engine::gpu::adapter::Adapter;
+use squealmap::engine::gpu::device::{Arithmetic, Device};
+use squealmap::engine::gpu::kernel::Compiled;
+use squealmap::engine::gpu::run::{ChunkResult, Drive, check, run};
+use squealmap::engine::kernel::linear::{FLAGS, KERNEL, STATE, analyse};
+use squealmap::engine::kernel::scalar::Real;
+use squealmap::engine::kernel::source::{SETTING_WORDS, words};
+use squealmap::engine::kernel::words::{INPUT_WORDS, Words};
+use squealmap::model::linear::prepare;
 
 use crate::instances::random;
 

@@ -2,20 +2,22 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
-use squealmap::accuracy::configuration::{Configuration, scenes};
-use squealmap::accuracy::errors::{Judge, quantile, relative};
-use squealmap::accuracy::frontier::{Frontier, MARGIN, mark};
-use squealmap::accuracy::level::Level;
-use squealmap::accuracy::row::{Rate, Row, from_csv, to_csv};
-use squealmap::accuracy::sample::{Sample, subset};
-use squealmap::backend::choice::{Backend, Options};
-use squealmap::classify::{InstabilityType, Regime};
-use squealmap::export::tradeoff::fastest;
-use squealmap::kernel::source::Precision;
-use squealmap::map::Record;
-use squealmap::method::Method;
-use squealmap::outcome::{Outcome, Status};
-use squealmap::spec::Spec;
+use squealmap::engine::choice::{Backend, Options};
+use squealmap::engine::kernel::source::Precision;
+use squealmap::engine::method::Method;
+use squealmap::engine::outcome::Outcome;
+use squealmap::engine::record::Record;
+use squealmap::engine::regime::Regime;
+use squealmap::model::kind::InstabilityType;
+use squealmap::model::status::Status;
+use squealmap::study::tradeoff::report::fastest;
+use squealmap::sweep::accuracy::configuration::{Configuration, scenes};
+use squealmap::sweep::accuracy::errors::{Judge, quantile, relative};
+use squealmap::sweep::accuracy::frontier::{Frontier, MARGIN, mark};
+use squealmap::sweep::accuracy::level::Level;
+use squealmap::sweep::accuracy::row::{Rate, Row, from_csv, to_csv};
+use squealmap::sweep::accuracy::sample::{Sample, subset};
+use squealmap::sweep::spec::Spec;
 
 use crate::cli::{squealmap, unwrapped};
 use crate::resume::with;
@@ -109,7 +111,7 @@ fn numbers_are_compared_only_where_the_truth_is_a_settled_oscillation() {
     let judge = Judge::new(truth.clone(), vec![1.0; 4]);
     let records: Vec<Record> = [1.01, 5.0, 5.0, 5.0].map(oscillation).to_vec();
     about(judge.errors(&records).worst[2], 0.01);
-    about(judge.share(squealmap::accuracy::errors::is_settled_oscillation), 0.25);
+    about(judge.share(squealmap::sweep::accuracy::errors::is_settled_oscillation), 0.25);
     about(judge.errors(&records).regimes, 0.5);
 }
 
@@ -260,7 +262,7 @@ fn tables_are_read_as_they_were_written_and_others_are_not() {
 fn the_shipped_table_serves_every_scene_and_level() {
     let shipped = Frontier::shipped();
     for name in ["bilinear", "exponential", "rational"] {
-        for settle_limit in [None, Some(squealmap::spec::SETTLE_LIMIT)] {
+        for settle_limit in [None, Some(squealmap::sweep::spec::SETTLE_LIMIT)] {
             let spec = Spec { settle_limit, ..law(name) };
             assert!(shipped.covers(&spec), "{:?}", scenes(&spec));
             for level in ["draft", "standard", "paper", "reference", "2e-5"] {
@@ -295,7 +297,8 @@ fn a_sample_has_every_type_and_stands_for_the_whole_sweep() {
     assert!((sample.weights.iter().sum::<f64>() - 675.0).abs() < 1e-6);
     assert!(sample.weights.iter().all(|weight| *weight >= 1.0));
     // Every candidate is an instance here: what any instance is, one of the sample is.
-    let kinds: Vec<_> = (0..675).map(|index| squealmap::linear::analyse(&spec.instance(index)).0).collect();
+    let kinds: Vec<_> =
+        (0..675).map(|index| squealmap::model::linear::analyse(&spec.instance(index)).0).collect();
     for kind in &kinds {
         assert!(sample.indices.iter().any(|index| kinds[*index] == *kind), "{kind:?}");
     }

@@ -2,13 +2,13 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
-use squealmap::archive::NumberColumn;
-use squealmap::export::cut::{Cut, cut_svg};
-use squealmap::export::figure::look_svg;
-use squealmap::export::look::{Content, Look};
-use squealmap::grid::Grid;
-use squealmap::map::Map;
 use squealmap::model::Param;
+use squealmap::results::cut::{Cut, cut_svg};
+use squealmap::results::figure::look::{Content, Look};
+use squealmap::results::figure::map::look_svg;
+use squealmap::results::number::NumberColumn;
+use squealmap::sweep::grid::Grid;
+use squealmap::sweep::map::Map;
 
 use crate::colour::{DICHROMACIES, lab};
 use crate::curves::places;

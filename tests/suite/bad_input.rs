@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use squealmap::spec::Spec;
+use squealmap::sweep::spec::Spec;
 
 const VALID: &str = "[friction]\nmu_s = 0.4\nmu_d = 0.3\n[belt]\nbelt_velocity = 3\n";
 

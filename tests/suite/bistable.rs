@@ -7,14 +7,17 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use crate::common::close;
 use crate::synthetic::record;
 use squealmap::Error;
-use squealmap::backend::choice::{Backend, Options};
-use squealmap::backend::solver::Solver;
-use squealmap::classify::{InstabilityType, Regime};
-use squealmap::kernel::source::Precision;
-use squealmap::map::{Record, Stopped};
-use squealmap::outcome::{Outcome, Status};
-use squealmap::spec::Spec;
-use squealmap::starts::{Attractor, Basin, differ};
+use squealmap::engine::choice::{Backend, Options};
+use squealmap::engine::computation::Stopped;
+use squealmap::engine::kernel::source::Precision;
+use squealmap::engine::outcome::Outcome;
+use squealmap::engine::record::Record;
+use squealmap::engine::record::{Attractor, Basin, differ};
+use squealmap::engine::regime::Regime;
+use squealmap::model::kind::InstabilityType;
+use squealmap::model::status::Status;
+use squealmap::sweep::solver::Solver;
+use squealmap::sweep::spec::Spec;
 
 /// The single mass on a belt with m = k = N = 1.
 pub(crate) const SINGLE: &str =

@@ -2,14 +2,15 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
-use squealmap::backend::choice::{Backend, Options};
-use squealmap::classify::{InstabilityType, Regime};
-use squealmap::export::csv::map_csv;
-use squealmap::export::figure::map_svg;
-use squealmap::map::Record;
-use squealmap::spec::{Analysis, Starts};
-use squealmap::starts::{Basin, Others};
+use squealmap::engine::choice::{Backend, Options};
+use squealmap::engine::record::Record;
+use squealmap::engine::record::{Basin, Others};
+use squealmap::engine::regime::Regime;
+use squealmap::model::kind::InstabilityType;
+use squealmap::results::csv::map_csv;
+use squealmap::results::figure::map::map_svg;
 use squealmap::store::{columns, starts};
+use squealmap::sweep::spec::{Analysis, Starts};
 
 use crate::bistable::{SINGLE, oscillation, parse};
 use crate::cli::squealmap;
@@ -82,7 +83,7 @@ fn the_program_keeps_all_starts_through_tiles_and_shards() {
         let ended = run(&directory, &[]);
         assert!(ended.out.contains(" of 22 instances are bistable"), "{}", ended.out);
         let options = Options { backend: Backend::Cpu, ..Options::default() };
-        let map = squealmap::sweep::run(parse(&sweep), &options, &|_| {}).unwrap();
+        let map = squealmap::sweep::run::run(parse(&sweep), &options, &|_| {}).unwrap();
         let table = map_csv(&map).unwrap();
         assert!(read(&directory, "map.csv") == table);
         assert!(read(&directory, "map.svg") == map_svg(&map).unwrap().into_bytes());

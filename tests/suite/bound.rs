@@ -3,11 +3,11 @@
 use std::f64::consts::TAU;
 
 use num_complex::Complex64;
-use squealmap::identify::{CAUSE, alone};
-use squealmap::linear::{Linear, leading_mode};
 use squealmap::model::Param;
 use squealmap::model::equilibrium::Equilibrium;
-use squealmap::spec::Instance;
+use squealmap::model::instance::Instance;
+use squealmap::model::linear::{Linear, leading_mode};
+use squealmap_identify::{CAUSE, alone};
 
 /// The velocity at which the bilinear law of the strokes has its kink, m/s.
 const KNEE: f64 = 5.0;

@@ -4,15 +4,19 @@ use std::sync::atomic::AtomicBool;
 
 use crate::common::{constant, instance, paper, plan};
 use crate::engines::Engine;
-use squealmap::backend::cpu::outcomes_on;
-use squealmap::estimate::estimate;
-use squealmap::integrate::MAX_STEPS_PER_PERIOD;
+use squealmap::engine::lanes::Lanes;
+use squealmap::engine::lanes::march::Terms;
+use squealmap::engine::lanes::outcomes::outcomes_on;
+use squealmap::engine::outcome::Outcome;
+use squealmap::engine::plan::Duration;
+use squealmap::engine::plan::Plan;
+use squealmap::engine::reference::integrate::MAX_STEPS_PER_PERIOD;
+use squealmap::engine::scene::MOST_STEPS;
 use squealmap::model::Param;
-use squealmap::outcome::{Outcome, Status};
-use squealmap::response::{MOST_STEPS, Plan};
-use squealmap::simd::Lanes;
-use squealmap::simd::lanes::Terms;
-use squealmap::spec::{Duration, Instance, Spec};
+use squealmap::model::instance::Instance;
+use squealmap::model::status::Status;
+use squealmap::sweep::estimate::estimate;
+use squealmap::sweep::spec::Spec;
 
 /// Dampers that stop a motion within a millionth of a period: millions of steps of it.
 fn stiff() -> Instance {

@@ -2,17 +2,19 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
-use squealmap::accuracy::check::{By, Check, Counts, finer};
-use squealmap::accuracy::checks::Checks;
-use squealmap::accuracy::configuration::Configuration;
-use squealmap::accuracy::errors::{is_settled_oscillation, worst};
-use squealmap::accuracy::frontier::Frontier;
-use squealmap::accuracy::sample::{records, subset};
-use squealmap::backend::choice::{Backend, Options};
-use squealmap::kernel::source::Precision;
-use squealmap::map::{Map, Record};
-use squealmap::spec::Spec;
-use squealmap::sweep;
+use squealmap::engine::choice::{Backend, Options};
+use squealmap::engine::kernel::source::Precision;
+use squealmap::engine::record::Record;
+use squealmap::engine::record::{By, Check};
+use squealmap::sweep::accuracy::check::{Counts, finer};
+use squealmap::sweep::accuracy::configuration::Configuration;
+use squealmap::sweep::accuracy::errors::{is_settled_oscillation, worst};
+use squealmap::sweep::accuracy::frontier::Frontier;
+use squealmap::sweep::accuracy::sample::{records, subset};
+use squealmap::sweep::checks::Checks;
+use squealmap::sweep::map::Map;
+use squealmap::sweep::run as sweep;
+use squealmap::sweep::spec::Spec;
 
 use crate::cli::squealmap;
 use crate::resume::with;

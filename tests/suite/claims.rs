@@ -1,7 +1,7 @@
 //! The paper's claims: verdicts follow from the numbers. Results that contradict a claim change its verdict.
 
-use squealmap::classify::InstabilityType;
-use squealmap::paper::{
+use squealmap::model::kind::InstabilityType;
+use squealmap::study::paper::{
     Claim, Evidence, LIMITS, PhaseTrial, RampFacts, Stretch, Trial, Verdict, Window, Witness, claims,
 };
 

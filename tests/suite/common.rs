@@ -1,12 +1,13 @@
 //! Instances built by hand.
 
-use squealmap::integrate::STEP_TOLERANCE;
-use squealmap::method::Method;
-use squealmap::method::taylor::REFERENCE_ORDER;
+use squealmap::engine::method::Method;
+use squealmap::engine::method::taylor::REFERENCE_ORDER;
+use squealmap::engine::plan::Plan;
+use squealmap::engine::plan::STEP_TOLERANCE;
+use squealmap::engine::plan::{Duration, StartKind};
 use squealmap::model::friction::FrictionLaw;
+use squealmap::model::instance::Instance;
 use squealmap::model::{Param, Params};
-use squealmap::response::Plan;
-use squealmap::spec::{Duration, Instance, StartKind};
 
 /// Table 1 with the given values and law.
 pub(crate) fn instance(law: FrictionLaw, values: &[(Param, f64)]) -> Instance {

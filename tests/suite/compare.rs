@@ -4,10 +4,12 @@
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
 use serde_json::{Value as Json, json};
-use squealmap::classify::{InstabilityType as Kind, Regime};
-use squealmap::grid::{Axis, AxisKey, Grid, Value};
-use squealmap::map::{Map, Record};
+use squealmap::engine::record::Record;
+use squealmap::engine::regime::Regime;
 use squealmap::model::Param;
+use squealmap::model::kind::InstabilityType as Kind;
+use squealmap::sweep::grid::{Axis, AxisKey, Grid, Value};
+use squealmap::sweep::map::Map;
 use tempfile::TempDir;
 
 use crate::cli::{squealmap, tree, unwrapped};

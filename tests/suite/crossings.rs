@@ -3,7 +3,7 @@
 use nalgebra::Vector4;
 use squealmap::model::Param;
 use squealmap::model::equilibrium::Units;
-use squealmap::spec::Instance;
+use squealmap::model::instance::Instance;
 
 use crate::common::{close, constant, instance};
 use crate::engines::Engine;

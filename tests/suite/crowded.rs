@@ -6,17 +6,19 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use squealmap::archive::NumberColumn;
-use squealmap::classify::{InstabilityType as Kind, Regime};
-use squealmap::export::cut::{Cut, cut_svg};
-use squealmap::export::figure::{computed, look_svg};
-use squealmap::export::look::{Content, Journal, Look};
-use squealmap::export::modes::{draw as draw_modes, modes_of};
-use squealmap::grid::{Axis, Grid};
-use squealmap::map::{Map, Record};
+use squealmap::engine::record::Record;
+use squealmap::engine::record::{Basin, Others};
+use squealmap::engine::regime::Regime;
 use squealmap::model::Param;
-use squealmap::spec::{Spec, Starts};
-use squealmap::starts::{Basin, Others};
+use squealmap::model::kind::InstabilityType as Kind;
+use squealmap::results::cut::{Cut, cut_svg};
+use squealmap::results::figure::look::{Content, Journal, Look};
+use squealmap::results::figure::map::{computed, look_svg};
+use squealmap::results::number::NumberColumn;
+use squealmap::study::modes::follow::{draw as draw_modes, modes_of};
+use squealmap::sweep::grid::{Axis, Grid};
+use squealmap::sweep::map::Map;
+use squealmap::sweep::spec::{Spec, Starts};
 
 use crate::figure::{draw, frames};
 use crate::pictures::{boxes, outside};

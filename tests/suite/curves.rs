@@ -3,15 +3,15 @@
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
 use squealmap::Error;
-use squealmap::archive::NumberColumn;
-use squealmap::export::cut::Cut;
-use squealmap::export::figure::look_svg;
-use squealmap::export::isolines::isoline_table;
-use squealmap::export::look::{Content, Look};
-use squealmap::export::marching::{isolines, lines_of_angle};
-use squealmap::export::palette::Colouring;
-use squealmap::grid::{AxisKey, Grid, Value};
 use squealmap::model::Param;
+use squealmap::results::cut::Cut;
+use squealmap::results::figure::isolines::isoline_table;
+use squealmap::results::figure::look::{Content, Look};
+use squealmap::results::figure::map::look_svg;
+use squealmap::results::figure::palette::Colouring;
+use squealmap::results::number::NumberColumn;
+use squealmap::sweep::grid::{AxisKey, Grid, Value};
+use squealmap_figure::marching::{isolines, lines_of_angle};
 
 use crate::common::near;
 use crate::figure::{draw, frames};
@@ -94,7 +94,7 @@ fn a_cut_at_several_values_has_a_curve_for_each() {
     let sweep = map(Grid::Axes(axes), |_, _| paper_like(0.1, 0.1, 1.0));
     let grid = &sweep.spec.grid;
     let of = |cut: &Cut| -> Vec<Vec<Value>> {
-        let curves = |panel: &squealmap::export::cut::CutPanel| {
+        let curves = |panel: &squealmap::results::cut::CutPanel| {
             panel
                 .curves
                 .iter()

@@ -5,7 +5,8 @@
 use std::path::Path;
 
 use squealmap::store::claim::Claim;
-use squealmap::store::direct::{self, LEAST, Room};
+use squealmap::store::direct;
+use squealmap::store::direct::{LEAST, Room};
 
 /// Bytes that differ from block to block.
 fn pattern(len: usize) -> Vec<u8> {

@@ -2,12 +2,13 @@
 
 use std::sync::atomic::AtomicBool;
 
-use squealmap::backend::cpu::outcomes;
-use squealmap::kernel::response;
-use squealmap::outcome::Outcome;
-use squealmap::response::{Plan, respond};
-use squealmap::simd::Lanes;
-use squealmap::spec::Instance;
+use squealmap::engine::kernel::response;
+use squealmap::engine::lanes::Lanes;
+use squealmap::engine::lanes::outcomes::outcomes;
+use squealmap::engine::outcome::Outcome;
+use squealmap::engine::plan::Plan;
+use squealmap::engine::reference::respond::respond;
+use squealmap::model::instance::Instance;
 
 /// What computes a transient, in which precision.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,13 +1,15 @@
 //! Event times against exact sums, and the single mass on a belt against its closed forms.
 
 use crate::common::{close, constant, instance, near, paper, plan};
-use squealmap::integrate::{Event, Observer, Step};
-use squealmap::method::Method;
-use squealmap::method::taylor::{BeltMotion, State};
+use squealmap::engine::method::Method;
+use squealmap::engine::method::taylor::{BeltMotion, State};
+use squealmap::engine::plan::Plan;
+use squealmap::engine::plan::StartKind;
+use squealmap::engine::reference::integrate::{Event, Observer, Step};
+use squealmap::engine::scene::Scene;
 use squealmap::model::friction::FrictionLaw;
+use squealmap::model::instance::Instance;
 use squealmap::model::{Param, Params};
-use squealmap::response::{Plan, Scene};
-use squealmap::spec::{Instance, StartKind};
 
 /// Every event with its time (s) and the motion just before it, and the extremes of `x2` (m) at step ends.
 pub(crate) struct Log {
@@ -172,7 +174,7 @@ fn basin_of_sliding_of_bstab() {
 
 #[test]
 fn exponential_equilibrium_loses_stability_at_its_velocity() {
-    use squealmap::linear::analyse;
+    use squealmap::model::linear::analyse;
     let growth = |velocity| analyse(&bstab(velocity, 0.0, 0.0)).1.expect("an equilibrium").growth_rate;
     let (mut low, mut high) = (1.0, 1.3);
     for _ in 0..60 {
@@ -193,7 +195,7 @@ fn free_flight_in_closed_form() {
         let scene = Scene::new(&instance, StartKind::Kick).expect("an equilibrium");
         // y1 = y2 = 0: the spring is unstretched, one static deflection above the equilibrium.
         let start = State { position: [0.0, 0.0, 1.0], velocity: [0.0, 0.0, u0 / scene.units.velocity] };
-        let resolution = squealmap::integrate::Resolution {
+        let resolution = squealmap::engine::reference::integrate::Resolution {
             method: Method::Taylor,
             order: 14,
             nominal_step: std::f64::consts::TAU / 24.0,
@@ -201,7 +203,8 @@ fn free_flight_in_closed_form() {
         };
         let belt = BeltMotion { velocity: 1.0 / scene.units.velocity, acceleration: 0.0 };
         let mut integrator =
-            squealmap::integrate::Integrator::new(&scene.model, resolution, start, belt).expect("a start");
+            squealmap::engine::reference::integrate::Integrator::new(&scene.model, resolution, start, belt)
+                .expect("a start");
         let mut log = Log {
             unit: scene.units,
             x2_eq: 0.0,

@@ -7,7 +7,7 @@
 
 use nalgebra::{Matrix4, Vector4};
 use squealmap::model::Param;
-use squealmap::spec::Instance;
+use squealmap::model::instance::Instance;
 
 /// What a window shows of the motion; SI units.
 #[derive(Clone, Copy, Debug)]

@@ -1,14 +1,17 @@
 //! `map.csv` and `manifest.json` of maps made by hand.
 
 use squealmap::Error;
-use squealmap::classify::{InstabilityType, Regime};
-use squealmap::export::csv::map_csv;
-use squealmap::export::manifest::manifest_json;
-use squealmap::grid::{AxisKey, Grid, Value};
-use squealmap::linear::Linear;
-use squealmap::map::{Map, Record};
+use squealmap::engine::outcome::Outcome;
+use squealmap::engine::record::Record;
+use squealmap::engine::regime::Regime;
 use squealmap::model::Param;
-use squealmap::outcome::{Outcome, Status};
+use squealmap::model::kind::InstabilityType;
+use squealmap::model::linear::Linear;
+use squealmap::model::status::Status;
+use squealmap::results::csv::map_csv;
+use squealmap::results::manifest::manifest_json;
+use squealmap::sweep::grid::{AxisKey, Grid, Value};
+use squealmap::sweep::map::Map;
 
 use crate::synthetic::{axis, failed, map, record};
 
@@ -56,7 +59,8 @@ fn an_analysis_not_asked_for_has_no_columns() {
     let linear =
         "instance,mu_s,mu_d,type,growth_rate,frequency,phase,growth_rate_flat,growth_rate_frozen,status";
     assert_eq!(header.join(","), linear);
-    sweep.spec.analysis = squealmap::spec::Analysis { linear: false, response: true, ..sweep.spec.analysis };
+    sweep.spec.analysis =
+        squealmap::sweep::spec::Analysis { linear: false, response: true, ..sweep.spec.analysis };
     let (header, _) = parse(&map_csv(&sweep).expect("a complete map"));
     assert_eq!(header[3], "regime");
     assert!(!header.contains(&"growth_rate".to_owned()));

@@ -2,13 +2,16 @@
 
 use crate::common::{bilinear, close, constant, instance, near, paper, plan};
 use crate::engines::Engine;
-use squealmap::classify::{Regime, regime};
-use squealmap::linear::analyse;
+use squealmap::engine::outcome::Outcome;
+use squealmap::engine::plan::Plan;
+use squealmap::engine::plan::StartKind;
+use squealmap::engine::reference::respond::respond;
+use squealmap::engine::regime::{Regime, regime};
 use squealmap::model::Param;
 use squealmap::model::friction::{FrictionLaw, MuTable};
-use squealmap::outcome::{Outcome, Status};
-use squealmap::response::{Plan, respond};
-use squealmap::spec::{Instance, StartKind};
+use squealmap::model::instance::Instance;
+use squealmap::model::linear::analyse;
+use squealmap::model::status::Status;
 
 fn run(instance: &Instance) -> Outcome {
     respond(instance, &plan(0.5, 0.5, 12))

@@ -1,10 +1,11 @@
 //! The fastest mode of each contact state against eigenvalues by nalgebra and closed forms; no step passes it.
 
 use nalgebra::Schur;
-use squealmap::method::pace::{Turns, longest_turn};
+use squealmap::engine::method::pace::{Turns, longest_turn};
+use squealmap::engine::plan::StartKind;
+use squealmap::engine::scene::Scene;
 use squealmap::model::Param;
-use squealmap::response::Scene;
-use squealmap::spec::{Instance, StartKind};
+use squealmap::model::instance::Instance;
 
 use crate::common::{close, constant, instance};
 use crate::exact;

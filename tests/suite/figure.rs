@@ -2,15 +2,17 @@
 
 use resvg::tiny_skia::Pixmap;
 use squealmap::Error;
-use squealmap::classify::{InstabilityType as Kind, Regime};
-use squealmap::export::boundaries::{borders, outlines};
-use squealmap::export::figure::map_svg;
-use squealmap::export::palette::{BISTABILITY, Class, REGIMES, TYPES};
-use squealmap::export::png;
-use squealmap::grid::{Axis, AxisKey, Grid, Value};
-use squealmap::map::{Map, Record};
+use squealmap::engine::record::Record;
+use squealmap::engine::regime::Regime;
 use squealmap::model::Param;
-use squealmap::outcome::Status;
+use squealmap::model::kind::InstabilityType as Kind;
+use squealmap::model::status::Status;
+use squealmap::results::figure::map::map_svg;
+use squealmap::results::figure::palette::{BISTABILITY, Class, REGIMES, TYPES};
+use squealmap::sweep::grid::{Axis, AxisKey, Grid, Value};
+use squealmap::sweep::map::Map;
+use squealmap_figure::boundaries::{borders, outlines};
+use squealmap_figure::png;
 
 use crate::colour::{DICHROMACIES, delta_e, lab, rgb};
 use crate::synthetic::{axis, failed, map, number, paper_like, record, span};
@@ -334,7 +336,7 @@ fn the_png_says_300_dots_per_inch() {
     assert_eq!((picture.width(), picture.height()), (300, 300));
     assert_eq!(&bytes[37..41], b"pHYs");
     assert_eq!(&bytes[41..50], &[0, 0, 0x2E, 0x23, 0, 0, 0x2E, 0x23, 1]);
-    assert!(matches!(png::render("not a picture"), Err(Error::ReadSvg(_))));
+    assert!(matches!(png::render("not a picture"), Err(squealmap_figure::Error::ReadSvg(_))));
 }
 
 #[test]

@@ -4,18 +4,18 @@ use pulp::Simd;
 
 use crate::common::plan;
 use crate::instances::{Uniform, moving};
-use squealmap::method::pace::Turns;
+use squealmap::engine::lanes::ORDER;
+use squealmap::engine::lanes::block::{Block, FIRST, SECOND, THIRD};
+use squealmap::engine::lanes::events::first_event;
+use squealmap::engine::lanes::expand::{CLOSED, Expansion, PIECES, expand};
+use squealmap::engine::lanes::functions::{Functions, functions};
+use squealmap::engine::lanes::job::Job;
+use squealmap::engine::lanes::reach::reach;
+use squealmap::engine::lanes::vector::{Scalar, Vector};
+use squealmap::engine::method::pace::Turns;
+use squealmap::engine::scene::Scene;
 use squealmap::model::friction::FrictionLaw;
-use squealmap::response::Scene;
-use squealmap::simd::ORDER;
-use squealmap::simd::block::{Block, FIRST, SECOND, THIRD};
-use squealmap::simd::events::first_event;
-use squealmap::simd::expand::{CLOSED, Expansion, PIECES, expand};
-use squealmap::simd::functions::{Functions, functions};
-use squealmap::simd::job::Job;
-use squealmap::simd::reach::reach;
-use squealmap::simd::vector::{Scalar, Vector};
-use squealmap::spec::Instance;
+use squealmap::model::instance::Instance;
 
 /// Coefficients of the series of a position.
 pub(crate) const N: usize = ORDER + 1;

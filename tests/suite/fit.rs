@@ -5,12 +5,12 @@
 use std::fmt::Write as _;
 use std::io::{Cursor, Read};
 
-use squealmap::export::material::material_csv;
-use squealmap::fit::{FitFault, Point, fit};
-use squealmap::identify::{FrictionColumn, Settings, read_points};
 use squealmap::model::Param;
 use squealmap::model::friction::LawKind;
-use squealmap::spec::Spec;
+use squealmap::study::fit::squares::{FitFault, Point, fit};
+use squealmap::study::fit::table::material_csv;
+use squealmap::sweep::spec::Spec;
+use squealmap_identify::{FrictionColumn, Settings, read_points};
 
 use crate::common::near;
 use crate::strokes::Random;

@@ -5,8 +5,8 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use squealmap::fit::{Fit, Point, fit};
 use squealmap::model::friction::LawKind;
+use squealmap::study::fit::squares::{Fit, Point, fit};
 
 use crate::cli::{squealmap, unwrapped};
 use crate::common::close;

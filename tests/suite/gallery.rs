@@ -5,31 +5,39 @@
 use std::f64::consts::TAU;
 
 use num_complex::Complex64;
-use squealmap::accuracy::row::{Row, from_csv, to_csv};
-use squealmap::archive::Kind;
-use squealmap::backend::reference;
-use squealmap::classify::{InstabilityType, Regime};
-use squealmap::export::figure::map_svg;
-use squealmap::export::heading::Heading;
-use squealmap::export::look::Look;
-use squealmap::export::paper::{Growing, Shown, Slowdown};
-use squealmap::export::refined::OfParts;
-use squealmap::export::sheet::Sheet;
-use squealmap::export::spectrogram::spectrogram_nc;
-use squealmap::export::{csv, hysteresis, identify, manifest, modes, refined, trace, tradeoff};
-use squealmap::grid::Grid;
-use squealmap::hysteresis::Hysteresis;
-use squealmap::identify::Spectrogram;
-use squealmap::label::Label;
-use squealmap::map::Record;
+use squealmap::engine::outcome::Outcome;
+use squealmap::engine::record::Record;
+use squealmap::engine::reference::records as reference;
+use squealmap::engine::regime::Regime;
 use squealmap::model::Param;
 use squealmap::model::contact::ContactState;
-use squealmap::outcome::{Outcome, Status};
-use squealmap::paper::{Figure, PhaseTrial, Settings, Stretch, Study, Trial, Witness};
-use squealmap::refine;
+use squealmap::model::kind::InstabilityType;
+use squealmap::model::status::Status;
+use squealmap::results::figure::heading::Heading;
+use squealmap::results::figure::look::Look;
+use squealmap::results::figure::map::map_svg;
+use squealmap::results::refined::OfParts;
+use squealmap::results::{csv, manifest, refined};
 use squealmap::store::description::Description;
 use squealmap::store::refinement::Refinement;
-use squealmap::trace::{Trace, TraceRow};
+use squealmap::study::Kind;
+use squealmap::study::hysteresis::follow::Hysteresis;
+use squealmap::study::hysteresis::table as hysteresis;
+use squealmap::study::identify::report as identify;
+use squealmap::study::identify::spectrogram::spectrogram_nc;
+use squealmap::study::modes::follow as modes;
+use squealmap::study::paper::figures::{Growing, Shown, Slowdown};
+use squealmap::study::paper::{Figure, PhaseTrial, Settings, Stretch, Study, Trial, Witness};
+use squealmap::study::trace::run::{Trace, TraceRow};
+use squealmap::study::trace::table as trace;
+use squealmap::study::tradeoff::report as tradeoff;
+use squealmap::sweep::accuracy::row::{Row, from_csv, to_csv};
+use squealmap::sweep::grid::Grid;
+use squealmap::sweep::label::Label;
+use squealmap::sweep::refine;
+use squealmap::sweep::sheet::Sheet;
+use squealmap::sweep::spec::refine::Settings as Refining;
+use squealmap_identify::Spectrogram;
 use tempfile::TempDir;
 
 use crate::synthetic::{axis, map, number, paper_like, record, span, spec};
@@ -91,7 +99,7 @@ fn a_refined_map() -> Piece {
     let engine = [computation("closed form"), computation("rk4")];
     let sheet = Sheet::new(&sweep, engine.each_ref().map(Some));
     let mut points = csv::MapCsv::new(sheet, Vec::new()).unwrap();
-    let settings = refine::Settings { coarse: 8, sample: 50, seed: 3 };
+    let settings = Refining { coarse: 8, sample: 50, seed: 3 };
     let found = refine::refine(&sweep.grid, settings, &mut |instances| {
         let at = |index: &usize| sweep.grid.coordinates(*index).into_iter().map(number).collect::<Vec<_>>();
         let records: Vec<Record> =
@@ -194,7 +202,7 @@ fn a_hysteresis() -> Piece {
 fn some_modes() -> Piece {
     let axes = vec![span(Param::MuD, 0.0, 0.5, 11), axis(Param::BeltVelocity, &[1.0, 2.5])];
     let sweep = spec(Grid::Axes(axes));
-    let two = |spec: &squealmap::spec::Spec, index: usize| {
+    let two = |spec: &squealmap::sweep::spec::Spec, index: usize| {
         let at = spec.grid.coordinates(index);
         let (mu, v) = (number(at[0]), number(at[1]));
         let apart = 0.3 * v - mu;

@@ -3,15 +3,15 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
-use squealmap::archive::NumberColumn;
-use squealmap::export::cut::{Cut, cut_svg};
-use squealmap::export::figure::look_svg;
-use squealmap::export::look::{Content, Look};
-use squealmap::export::palette::Colouring;
-use squealmap::export::tikz::map_tikz;
-use squealmap::grid::Grid;
-use squealmap::map::Map;
 use squealmap::model::Param;
+use squealmap::results::cut::{Cut, cut_svg};
+use squealmap::results::figure::look::{Content, Look};
+use squealmap::results::figure::map::look_svg;
+use squealmap::results::figure::palette::Colouring;
+use squealmap::results::figure::tikz::map_tikz;
+use squealmap::results::number::NumberColumn;
+use squealmap::sweep::grid::Grid;
+use squealmap::sweep::map::Map;
 
 use crate::synthetic::{axis, map, number, paper_like, span};
 

@@ -7,16 +7,18 @@ use crate::cli::squealmap;
 use crate::resume::with;
 use crate::synthetic::record;
 use squealmap::Error;
-use squealmap::classify::{InstabilityType, Regime};
-use squealmap::export::heading::Heading;
-use squealmap::export::hysteresis::hysteresis_svg;
-use squealmap::export::look::Look;
-use squealmap::hysteresis::{Direction, Hysteresis};
-use squealmap::map::Record;
+use squealmap::engine::outcome::Outcome;
+use squealmap::engine::plan::Plan;
+use squealmap::engine::record::Record;
+use squealmap::engine::regime::Regime;
 use squealmap::model::Param;
-use squealmap::outcome::{Outcome, Status};
-use squealmap::response::Plan;
-use squealmap::spec::Spec;
+use squealmap::model::kind::InstabilityType;
+use squealmap::model::status::Status;
+use squealmap::results::figure::heading::Heading;
+use squealmap::results::figure::look::Look;
+use squealmap::study::hysteresis::follow::{Direction, Hysteresis};
+use squealmap::study::hysteresis::table::hysteresis_svg;
+use squealmap::sweep::spec::Spec;
 
 /// The single mass on a belt with m = k = N = 1 and c = 0.1: the law is to follow.
 const SINGLE: &str =

@@ -6,19 +6,19 @@ use std::fmt::Write as _;
 use std::io::{Cursor, Read};
 
 use squealmap::Error;
-use squealmap::classify::InstabilityType;
-use squealmap::export::signals::signals_csv;
-use squealmap::identify::{Fault, INCLINATION, Identification, Kind, Settings, alone, identify};
-use squealmap::linear;
 use squealmap::model::Param;
-use squealmap::signals::{Recording, Sample, record};
+use squealmap::model::kind::InstabilityType;
+use squealmap::model::linear;
+use squealmap::study::signals::sensors::{Recording, Sample, record};
+use squealmap::study::signals::table::signals_csv;
+use squealmap_identify::{Fault, INCLINATION, Identification, Kind, Settings, alone, identify};
 
 use crate::common::{near, paper, plan};
 use crate::strokes::{FIELDS, Field, Random, Wanted, add_noise, stroke};
 
 pub(crate) fn run(bytes: &[u8], settings: &Settings) -> Result<Identification, Error> {
     let open = || Ok(Box::new(Cursor::new(bytes.to_vec())) as Box<dyn Read>);
-    identify(open, "signals.csv", settings, &mut |_, _| ())
+    Ok(identify(open, "signals.csv", settings, &mut |_, _| ())?)
 }
 
 pub(crate) fn csv(samples: &[Sample]) -> Vec<u8> {

@@ -3,9 +3,9 @@
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
 use squealmap::Error;
-use squealmap::identify::{Fault, Kind, Settings};
 use squealmap::model::Param;
-use squealmap::signals::{Recording, Sample, record};
+use squealmap::study::signals::sensors::{Recording, Sample, record};
+use squealmap_identify::{Fault, Kind, Settings};
 
 use crate::common::plan;
 use crate::identify::{csv, run};

@@ -4,8 +4,8 @@
 
 use std::f64::consts::TAU;
 
-use squealmap::identify::{Identification, Kind, Measured, Settings};
-use squealmap::signals::Sample;
+use squealmap::study::signals::sensors::Sample;
+use squealmap_identify::{Identification, Kind, Measured, Settings};
 
 use crate::common::near;
 use crate::identify::{csv, run};

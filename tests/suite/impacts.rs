@@ -6,17 +6,17 @@ use pulp::{Arch, Simd, WithSimd};
 
 use crate::common::plan;
 use crate::instances::{Uniform, moving};
-use squealmap::kernel::series::FREE;
-use squealmap::method::pace::Turns;
+use squealmap::engine::kernel::series::FREE;
+use squealmap::engine::lanes::ORDER;
+use squealmap::engine::lanes::block::Block;
+use squealmap::engine::lanes::impacts::impact;
+use squealmap::engine::lanes::job::Job;
+use squealmap::engine::lanes::vector::{Scalar, Vector};
+use squealmap::engine::method::pace::Turns;
+use squealmap::engine::scene::Scene;
 use squealmap::model::Param;
 use squealmap::model::friction::FrictionLaw;
-use squealmap::response::Scene;
-use squealmap::simd::ORDER;
-use squealmap::simd::block::Block;
-use squealmap::simd::impacts::impact;
-use squealmap::simd::job::Job;
-use squealmap::simd::vector::{Scalar, Vector};
-use squealmap::spec::Instance;
+use squealmap::model::instance::Instance;
 
 /// Velocities of the body and of the belt, scaled.
 #[derive(Clone, Copy)]

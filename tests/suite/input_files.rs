@@ -5,7 +5,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use squealmap::spec::{MAX_ROWS, MAX_SWEEP_BYTES, MAX_TABLE_ROWS, Spec};
+use squealmap::sweep::spec::{MAX_ROWS, MAX_SWEEP_BYTES, MAX_TABLE_ROWS, Spec};
 use tempfile::TempDir;
 
 use crate::cli::{squealmap, unwrapped};
@@ -104,7 +104,7 @@ fn limits_of_size_are_told() {
 #[test]
 fn rows_of_points_take_little_memory() {
     // Two numbers of 16 bytes a row, one vector of them.
-    assert_eq!(size_of::<squealmap::grid::Value>(), 16);
+    assert_eq!(size_of::<squealmap::sweep::grid::Value>(), 16);
     const { assert!(MAX_ROWS <= 20_000_000) };
     let directory = with(&[("s.toml", "points = \"p.csv\"\n[friction]\nlaw=\"rational\"\ndecay=0.1\n")]);
     let mut rows = "mu_s,belt_velocity\n".to_owned();
@@ -113,7 +113,7 @@ fn rows_of_points_take_little_memory() {
     }
     std::fs::write(directory.path().join("p.csv"), rows).unwrap();
     let spec = Spec::read(&directory.path().join("s.toml")).unwrap();
-    assert_eq!(spec.grid.coordinates(99_999)[0], &squealmap::grid::Value::Number(0.99999));
+    assert_eq!(spec.grid.coordinates(99_999)[0], &squealmap::sweep::grid::Value::Number(0.99999));
     // A copy shares them.
     let copy = spec.grid.clone();
     assert!(std::ptr::eq(copy.coordinates(7)[0], spec.grid.coordinates(7)[0]));

@@ -1,8 +1,8 @@
 //! Random instances over wide ranges of every parameter, the same ones in every run.
 
 use squealmap::model::friction::FrictionLaw;
+use squealmap::model::instance::Instance;
 use squealmap::model::{Param, Params};
-use squealmap::spec::Instance;
 
 /// A small generator of uniform numbers in [0, 1): the upper bits of a linear congruence modulo 2^64.
 pub(crate) struct Uniform(pub(crate) u64);

@@ -3,13 +3,16 @@
 use std::sync::atomic::AtomicBool;
 
 use pulp::Arch;
-use squealmap::backend::cpu::{outcomes_on, response, rounding};
-use squealmap::kernel::source::Precision;
-use squealmap::outcome::{Outcome, Status};
-use squealmap::response::Plan;
-use squealmap::simd::Lanes;
-use squealmap::simd::lanes::Terms;
-use squealmap::spec::{Duration, Instance, StartKind};
+use squealmap::engine::kernel::source::Precision;
+use squealmap::engine::lanes::Lanes;
+use squealmap::engine::lanes::march::Terms;
+use squealmap::engine::lanes::outcomes::outcomes_on;
+use squealmap::engine::lanes::records::{response, rounding};
+use squealmap::engine::outcome::Outcome;
+use squealmap::engine::plan::Plan;
+use squealmap::engine::plan::{Duration, StartKind};
+use squealmap::model::instance::Instance;
+use squealmap::model::status::Status;
 
 use crate::common::plan;
 use crate::kernel_response::periods;

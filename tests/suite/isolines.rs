@@ -3,15 +3,15 @@
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
 use squealmap::Error;
-use squealmap::archive::NumberColumn;
-use squealmap::export::cut::{Cut, cut_csv, cut_svg};
-use squealmap::export::figure::look_svg;
-use squealmap::export::isolines::{isoline_table, round_levels};
-use squealmap::export::look::{Content, Look};
-use squealmap::export::marching::isolines;
-use squealmap::grid::{Axis, AxisKey, Grid, Value};
-use squealmap::map::Map;
 use squealmap::model::Param;
+use squealmap::results::cut::{Cut, cut_csv, cut_svg};
+use squealmap::results::figure::isolines::{isoline_table, round_levels};
+use squealmap::results::figure::look::{Content, Look};
+use squealmap::results::figure::map::look_svg;
+use squealmap::results::number::NumberColumn;
+use squealmap::sweep::grid::{Axis, AxisKey, Grid, Value};
+use squealmap::sweep::map::Map;
+use squealmap_figure::marching::isolines;
 
 use crate::common::near;
 use crate::figure::draw;

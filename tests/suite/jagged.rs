@@ -8,14 +8,17 @@ use std::sync::atomic::AtomicBool;
 use crate::common::{instance, plan};
 use crate::engines::Engine;
 use crate::instances::Uniform;
-use squealmap::backend::again::outcomes_again;
-use squealmap::integrate::MAX_STEPS_PER_PERIOD;
+use squealmap::engine::lanes::again::outcomes_again;
+use squealmap::engine::outcome::Outcome;
+use squealmap::engine::plan::Plan;
+use squealmap::engine::plan::{Duration, StartKind};
+use squealmap::engine::reference::integrate::MAX_STEPS_PER_PERIOD;
+use squealmap::engine::scene::Scene;
 use squealmap::model::Param;
 use squealmap::model::fastest::fastest_beyond;
 use squealmap::model::friction::{FrictionLaw, MuTable};
-use squealmap::outcome::{Outcome, Status};
-use squealmap::response::{Plan, Scene};
-use squealmap::spec::{Duration, Instance, StartKind};
+use squealmap::model::instance::Instance;
+use squealmap::model::status::Status;
 
 /// A table of 200 rows up to `top` m/s, every μ between 0 and 1.
 fn table(u: &mut Uniform, top: f64) -> FrictionLaw {

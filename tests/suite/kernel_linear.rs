@@ -1,11 +1,12 @@
 //! The linear kernel's twin against the reference: how good are f32 and f64 in its formulation?
 
-use squealmap::classify::InstabilityType;
-use squealmap::kernel::linear::analyse as twin;
-use squealmap::kernel::scalar::Real;
-use squealmap::kernel::words::Words;
-use squealmap::linear::{Linear, analyse, prepare};
-use squealmap::spec::{Instance, Spec};
+use squealmap::engine::kernel::linear::analyse as twin;
+use squealmap::engine::kernel::scalar::Real;
+use squealmap::engine::kernel::words::Words;
+use squealmap::model::instance::Instance;
+use squealmap::model::kind::InstabilityType;
+use squealmap::model::linear::{Linear, analyse, prepare};
+use squealmap::sweep::spec::Spec;
 
 use crate::instances::random;
 

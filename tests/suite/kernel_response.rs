@@ -1,13 +1,17 @@
 //! The twin of the response kernel against the reference: is the method right, and is f32 enough?
 
 use crate::common::{bilinear, near, paper, plan};
-use squealmap::classify::regime;
-use squealmap::kernel::response::{respond as twin, segments};
+use squealmap::engine::kernel::response::{respond as twin, segments};
+use squealmap::engine::outcome::Outcome;
+use squealmap::engine::plan::Duration;
+use squealmap::engine::plan::Plan;
+use squealmap::engine::reference::respond::respond;
+use squealmap::engine::regime::regime;
+use squealmap::engine::scene::Scene;
 use squealmap::model::Param;
 use squealmap::model::friction::FrictionLaw;
-use squealmap::outcome::{Outcome, Status};
-use squealmap::response::{Plan, Scene, respond};
-use squealmap::spec::{Duration, Instance};
+use squealmap::model::instance::Instance;
+use squealmap::model::status::Status;
 
 /// Bound on the truncation of the kernel's steps, in use for f32.
 const TOLERANCE: f64 = 2e-4;

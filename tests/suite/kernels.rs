@@ -3,9 +3,11 @@
 use naga::back::{hlsl, msl, spv};
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{AddressSpace, Module, Scalar, ScalarKind, StorageAccess, TypeInner};
-use squealmap::kernel::scene::Law;
-use squealmap::kernel::source::{BINDINGS, Constant, Kernel, Precision, Settings, WORKGROUP_SIZE, words};
-use squealmap::kernel::{linear, response, source};
+use squealmap::engine::kernel::scene::Law;
+use squealmap::engine::kernel::source::{
+    BINDINGS, Constant, Kernel, Precision, Settings, WORKGROUP_SIZE, words,
+};
+use squealmap::engine::kernel::{linear, response, source};
 
 /// A Rust file and its WGSL twin, with the functions that only one of them needs.
 struct Twin {
@@ -202,7 +204,7 @@ fn functions<'a>(text: &'a str, without: &[&str]) -> Vec<&'a str> {
 #[test]
 fn twins_have_the_same_functions_in_the_same_order() {
     for Twin { name, rust_only, wgsl_only } in TWINS {
-        let paths = [format!("src/kernel/{name}.rs"), format!("shaders/{name}.wgsl")];
+        let paths = [format!("src/engine/kernel/{name}.rs"), format!("shaders/{name}.wgsl")];
         let [rust, wgsl] = paths.clone().map(|path| std::fs::read_to_string(path).expect("a twin"));
         let [ours, theirs] = [functions(&rust, rust_only), functions(&wgsl, wgsl_only)];
         assert_eq!(ours, theirs, "{name}");

@@ -1,13 +1,14 @@
 //! Labels in two bytes, their counts, and figures that hold labels only.
 
-use squealmap::classify::{InstabilityType, Regime};
-use squealmap::export::figure::map_svg;
-use squealmap::grid::Grid;
-use squealmap::label::{Label, Tally};
-use squealmap::map::Record;
+use squealmap::engine::record::Record;
+use squealmap::engine::record::{Basin, Others};
+use squealmap::engine::regime::Regime;
 use squealmap::model::Param;
-use squealmap::outcome::Status;
-use squealmap::starts::{Basin, Others};
+use squealmap::model::kind::InstabilityType;
+use squealmap::model::status::Status;
+use squealmap::results::figure::map::map_svg;
+use squealmap::sweep::grid::Grid;
+use squealmap::sweep::label::{Label, Tally};
 
 use crate::figure::{colour, draw, frames};
 use crate::synthetic::{failed, map, number, record, span};

@@ -7,16 +7,20 @@ use std::time::{Duration as Time, Instant};
 
 use crate::common::{close, instance, near, plan};
 use crate::engines::Engine;
-use squealmap::backend::again::outcomes_again;
-use squealmap::kernel::response::without_segments;
-use squealmap::kernel::scalar::Real;
-use squealmap::kernel::scene::Scene as Words;
-use squealmap::method::pace::Turns;
+use squealmap::engine::kernel::response::without_segments;
+use squealmap::engine::kernel::scalar::Real;
+use squealmap::engine::kernel::scene::Scene as Words;
+use squealmap::engine::lanes::again::outcomes_again;
+use squealmap::engine::method::pace::Turns;
+use squealmap::engine::outcome::Outcome;
+use squealmap::engine::plan::Plan;
+use squealmap::engine::plan::{Duration, StartKind};
+use squealmap::engine::reference::respond::respond_until;
+use squealmap::engine::scene::Scene;
 use squealmap::model::Param;
 use squealmap::model::friction::{FrictionLaw, Piece};
-use squealmap::outcome::{Outcome, Status};
-use squealmap::response::{Plan, Scene, respond_until};
-use squealmap::spec::{Duration, Instance, StartKind};
+use squealmap::model::instance::Instance;
+use squealmap::model::status::Status;
 
 const TABLE_1: [Param; 11] = [
     Param::M1,

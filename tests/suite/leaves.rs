@@ -5,10 +5,10 @@ use pulp::{Arch, Simd, WithSimd};
 
 use crate::first_events::{Body, N, job, steps};
 use crate::instances::Uniform;
-use squealmap::kernel::contact::NOTHING;
-use squealmap::kernel::series::{REVERSE, SLIP};
-use squealmap::simd::block::{FIRST, LOWER, SECOND, THIRD, UPPER};
-use squealmap::simd::constants::LONGEST;
+use squealmap::engine::kernel::contact::NOTHING;
+use squealmap::engine::kernel::series::{REVERSE, SLIP};
+use squealmap::engine::lanes::block::{FIRST, LOWER, SECOND, THIRD, UPPER};
+use squealmap::engine::lanes::constants::LONGEST;
 
 /// Samples of the dense search.
 const DENSE: usize = 1000;

@@ -1,9 +1,9 @@
 //! Eigenvalues: the figures of physics.md section 6 and a Schur oracle.
 
 use crate::common::{close, constant, instance, near, paper};
-use squealmap::classify::InstabilityType;
-use squealmap::linear::analyse;
 use squealmap::model::Param;
+use squealmap::model::kind::InstabilityType;
+use squealmap::model::linear::analyse;
 
 #[test]
 fn table_of_the_paper_to_1e_6() {

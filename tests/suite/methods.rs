@@ -6,16 +6,21 @@ use crate::common::{close, constant, instance, near, paper, plan};
 use crate::events::{log, period, single_mass};
 use crate::exact;
 use nalgebra::Vector4;
-use squealmap::integrate::{Event, Integrator, Observer, Resolution, Step};
-use squealmap::method::taylor::{BeltMotion, Expansion, Motion, State};
-use squealmap::method::{Method, fixed, rk4, roots::Crossing};
+use squealmap::engine::method::roots::Crossing;
+use squealmap::engine::method::taylor::{BeltMotion, Expansion, Motion, State};
+use squealmap::engine::method::{Method, fixed, rk4};
+use squealmap::engine::outcome::Outcome;
+use squealmap::engine::plan::Plan;
+use squealmap::engine::plan::{Duration, StartKind};
+use squealmap::engine::reference::integrate::{Event, Integrator, Observer, Resolution, Step};
+use squealmap::engine::reference::respond::respond;
+use squealmap::engine::scene::Scene;
 use squealmap::model::Param;
 use squealmap::model::contact::Contact;
 use squealmap::model::equilibrium::Scaled;
 use squealmap::model::friction::FrictionLaw;
-use squealmap::outcome::{Outcome, Status};
-use squealmap::response::{Plan, Scene, respond};
-use squealmap::spec::{Duration, Instance, StartKind};
+use squealmap::model::instance::Instance;
+use squealmap::model::status::Status;
 
 /// By how many powers of two an error falls when steps are halved, from the first of some errors to the last.
 fn order(errors: &[f64]) -> f64 {

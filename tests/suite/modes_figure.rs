@@ -2,10 +2,10 @@
 
 use num_complex::Complex64;
 use squealmap::Error;
-use squealmap::export::look::Look;
-use squealmap::export::modes::{draw, follow, modes_csv, modes_svg};
-use squealmap::linear::eigenvalues;
-use squealmap::spec::Spec;
+use squealmap::model::linear::eigenvalues;
+use squealmap::results::figure::look::Look;
+use squealmap::study::modes::follow::{draw, follow, modes_csv, modes_svg};
+use squealmap::sweep::spec::Spec;
 
 use crate::figure::draw as render;
 

@@ -6,8 +6,8 @@ use std::fs;
 use std::path::Path;
 
 use squealmap::model::PARAMS;
-use squealmap::spec::Spec;
-use squealmap::spec::keys::{SECTIONS, all};
+use squealmap::sweep::spec::Spec;
+use squealmap::sweep::spec::keys::{SECTIONS, all};
 
 use crate::cli::{squealmap, tree, unwrapped};
 

@@ -8,22 +8,26 @@ use crate::cli::{squealmap, unwrapped};
 use crate::common::{bilinear, instance, paper, plan};
 use crate::engines::Engine;
 use crate::synthetic::{map, record, span};
-use squealmap::accuracy::errors::oscillates;
-use squealmap::backend::choice::Options;
-use squealmap::backend::regime;
-use squealmap::classify::{InstabilityType as Kind, Regime, about_unstable};
-use squealmap::export::figure::map_svg;
-use squealmap::grid::Grid;
-use squealmap::linear::analyse;
-use squealmap::map::Map;
+use squealmap::engine::choice::Options;
+use squealmap::engine::judged::regime;
+use squealmap::engine::outcome::Outcome;
+use squealmap::engine::plan::Plan;
+use squealmap::engine::plan::{Duration, StartKind};
+use squealmap::engine::record::{Attractor, Basin, differ};
+use squealmap::engine::regime::{Regime, about_unstable};
 use squealmap::model::Param;
 use squealmap::model::friction::FrictionLaw;
-use squealmap::onset::time_to_first_event;
-use squealmap::outcome::{Outcome, Status};
-use squealmap::response::Plan;
-use squealmap::spec::{AUTO_MEASURE, Duration, FIRST_SETTLE, Instance, Spec, StartKind};
-use squealmap::starts::{Attractor, Basin, differ};
-use squealmap::sweep;
+use squealmap::model::instance::Instance;
+use squealmap::model::kind::InstabilityType as Kind;
+use squealmap::model::linear::analyse;
+use squealmap::model::status::Status;
+use squealmap::results::figure::map::map_svg;
+use squealmap::sweep::accuracy::errors::oscillates;
+use squealmap::sweep::grid::Grid;
+use squealmap::sweep::map::Map;
+use squealmap::sweep::onset::time_to_first_event;
+use squealmap::sweep::run as sweep;
+use squealmap::sweep::spec::{AUTO_MEASURE, FIRST_SETTLE, Spec};
 
 fn kicked(mu_s: f64, mu_d: f64, velocity: f64, kick: f64) -> Instance {
     instance(bilinear(mu_s, mu_d), &[(Param::BeltVelocity, velocity), (Param::StartVelocity, kick)])
@@ -261,7 +265,9 @@ fn a_run_until_settled_has_the_classes_of_a_long_one_but_for_what_it_says_is_uns
     ]
     .map(swept);
     let count = |map: &Map, selects: &dyn Fn(Regime, bool) -> bool| {
-        let one = |record: &&squealmap::map::Record| selects(record.regime.unwrap(), record.settled.unwrap());
+        let one = |record: &&squealmap::engine::record::Record| {
+            selects(record.regime.unwrap(), record.settled.unwrap())
+        };
         map.records.iter().filter(one).count()
     };
     for map in [&short, &auto, &long] {

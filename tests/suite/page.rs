@@ -3,15 +3,15 @@
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
 use squealmap::Error;
-use squealmap::archive::{Kind, Picture};
-use squealmap::export::cut::{Cut, cut_svg};
-use squealmap::export::figure::look_svg;
-use squealmap::export::look::{Content, Journal, Look};
-use squealmap::export::palette::Colouring;
-use squealmap::export::scale::Scale;
-use squealmap::export::tikz::map_tikz;
-use squealmap::grid::{Axis, Grid};
 use squealmap::model::Param;
+use squealmap::results::cut::{Cut, cut_svg};
+use squealmap::results::figure::look::{Content, Journal, Look};
+use squealmap::results::figure::map::look_svg;
+use squealmap::results::figure::palette::Colouring;
+use squealmap::results::figure::tikz::map_tikz;
+use squealmap::study::{Kind, Picture};
+use squealmap::sweep::grid::{Axis, Grid};
+use squealmap_figure::scale::Scale;
 
 use crate::cli::squealmap;
 use crate::figure::{draw, frames};
@@ -160,7 +160,7 @@ fn the_last_tick_has_its_label() {
             assert_eq!(svg.matches(last).count(), 5 + vertical, "{points} values, {width} mm");
         }
         let cut = Cut::new(&map.spec.grid, "belt_velocity=3,mu_d=0.3").unwrap();
-        let column = squealmap::archive::NumberColumn {
+        let column = squealmap::results::number::NumberColumn {
             name: "growth_rate".to_owned(),
             unit: "1/s".to_owned(),
             meaning: String::new(),

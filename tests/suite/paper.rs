@@ -5,13 +5,13 @@
 use std::path::Path;
 
 use resvg::tiny_skia::{Pixmap, PremultipliedColorU8};
-use squealmap::classify::InstabilityType;
-use squealmap::export::paper::{Drawn, draw, report};
-use squealmap::export::png;
-use squealmap::paper::{
+use squealmap::model::kind::InstabilityType;
+use squealmap::study::paper::figures::{Drawn, draw, report};
+use squealmap::study::paper::{
     Case, Evidence, Figure, LIMITS, PhaseCase, PhaseTrial, Settings, Source, Study, Trial, Verdict, Window,
     Witness, claims,
 };
+use squealmap_figure::png;
 
 use crate::common::{close, near};
 use crate::figure::draw as render;
@@ -210,7 +210,7 @@ fn a_ramp_of_a_user_is_judged_as_those_of_the_map() {
             [trial.duration, trial.kick].map(f64::to_bits) == [duration, kick].map(f64::to_bits)
         };
         let trial = evidence.trials.iter().find(is_this).unwrap();
-        let all_grown = evidence.ramps.iter().all(squealmap::paper::RampFacts::grown);
+        let all_grown = evidence.ramps.iter().all(squealmap::study::paper::RampFacts::grown);
         assert_eq!(all_grown, LIMITS.grown(trial), "{duration} {kick}");
         for (ramp, peaks) in evidence.ramps.iter().zip(trial.peaks) {
             close("the same ramp", ramp.peaks()[0], peaks.unwrap()[0], 2e-3);

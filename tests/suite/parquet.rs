@@ -10,7 +10,7 @@ use parquet::file::metadata::RowGroupMetaData;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 use serde_json::Value as Json;
-use squealmap::export::columns::{Cell, Content, columns};
+use squealmap::results::columns::{Cell, Content, columns};
 use squealmap::store::directory::Store;
 
 use crate::cli::squealmap;

@@ -7,9 +7,10 @@ use std::sync::Arc;
 
 use resvg::usvg::{Node, Options, Tree, fontdb};
 use squealmap::Error;
-use squealmap::archive::{Kind, Picture};
-use squealmap::export::look::{Journal, Look};
-use squealmap::export::{pdf, png};
+use squealmap::results::figure::look::{Journal, Look};
+use squealmap::study::{Kind, Picture};
+use squealmap::version::program;
+use squealmap_figure::{pdf, png};
 
 use crate::cli::squealmap;
 use crate::common::near;
@@ -223,7 +224,7 @@ fn every_figure_has_the_size_of_its_journal() {
                 width,
                 25.4 / 300.0,
             );
-            let found = page(&pdf::render(&svg, picture.title(), "a command").unwrap());
+            let found = page(&pdf::render(&svg, picture.title(), "a command", &program()).unwrap());
             for (found, stated) in found.into_iter().zip([width, height]) {
                 near(&format!("{kind}, {name}: PDF"), found, stated, 0.02);
             }

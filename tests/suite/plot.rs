@@ -3,18 +3,22 @@
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
 use squealmap::Error;
-use squealmap::archive::Archive;
-use squealmap::classify::{InstabilityType as Kind, Regime};
-use squealmap::export::boundary_lines::boundary_lines;
-use squealmap::export::figure::{computed, look_svg, map_svg};
-use squealmap::export::look::{Content, Journal, Look};
-use squealmap::export::palette::TYPES;
-use squealmap::export::{csv, manifest, pdf, png};
-use squealmap::grid::{Axis, AxisKey, Grid, Value};
-use squealmap::map::{Map, Record};
+use squealmap::engine::record::Record;
+use squealmap::engine::record::{Basin, Others};
+use squealmap::engine::regime::Regime;
 use squealmap::model::Param;
-use squealmap::spec::Starts;
-use squealmap::starts::{Basin, Others};
+use squealmap::model::kind::InstabilityType as Kind;
+use squealmap::results::boundary_lines::boundary_lines;
+use squealmap::results::figure::look::{Content, Journal, Look};
+use squealmap::results::figure::map::{computed, look_svg, map_svg};
+use squealmap::results::figure::palette::TYPES;
+use squealmap::results::read::Archive;
+use squealmap::results::{csv, manifest};
+use squealmap::sweep::grid::{Axis, AxisKey, Grid, Value};
+use squealmap::sweep::map::Map;
+use squealmap::sweep::spec::Starts;
+use squealmap::version::program;
+use squealmap_figure::{pdf, png};
 use tempfile::TempDir;
 
 use crate::cli::squealmap;
@@ -130,7 +134,7 @@ fn every_format_has_the_width_that_was_asked_for() {
         let picture = draw(&svg, &format!("plot_{name}"));
         near("PNG", f64::from(picture.width()) / 300.0 * 25.4, width, 25.4 / 300.0);
         // The page of the PDF, in points, as a reader of the file finds it.
-        let bytes = pdf::render(&svg, "A title", "squealmap plot somewhere").unwrap();
+        let bytes = pdf::render(&svg, "A title", "squealmap plot somewhere", &program()).unwrap();
         let text = String::from_utf8_lossy(&bytes);
         for (found, stated) in page(&bytes).into_iter().zip([width, height]) {
             near("PDF", found, stated, 0.02);
@@ -250,14 +254,17 @@ fn the_metadata_names_the_command() {
     let svg = look_svg(&map, &Look { command: Some(command.clone()), ..Look::default() }).unwrap();
     let metadata = svg.lines().find(|line| line.starts_with("<metadata>")).unwrap();
     assert!(metadata.contains(&command) && metadata.contains("reference f64"), "{metadata}");
-    let bytes = pdf::render(&svg, "Title of a map", &command).unwrap();
+    let bytes = pdf::render(&svg, "Title of a map", &command, &program()).unwrap();
     let text = String::from_utf8_lossy(&bytes);
     assert!(
         text.contains("Title of a map") && text.contains("--journal slide"),
         "in the metadata of the PDF"
     );
     assert!(png::render(&svg).is_ok());
-    assert!(matches!(pdf::render("no picture", "", ""), Err(Error::ReadSvg(_))));
+    assert!(matches!(
+        pdf::render("no picture", "", "", &program()),
+        Err(squealmap_figure::Error::ReadSvg(_))
+    ));
 }
 
 #[test]

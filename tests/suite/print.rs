@@ -3,14 +3,15 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
-use squealmap::archive::{NumberColumn, Picture};
-use squealmap::export::figure::look_svg;
-use squealmap::export::glyphs::missing;
-use squealmap::export::look::{Content, Journal, Look};
-use squealmap::export::palette::Colouring;
-use squealmap::grid::{AxisKey, Grid, Value};
-use squealmap::map::Map;
 use squealmap::model::Param;
+use squealmap::results::figure::look::{Content, Journal, Look};
+use squealmap::results::figure::map::look_svg;
+use squealmap::results::figure::palette::Colouring;
+use squealmap::results::number::NumberColumn;
+use squealmap::study::Picture;
+use squealmap::sweep::grid::{AxisKey, Grid, Value};
+use squealmap::sweep::map::Map;
+use squealmap_figure::glyphs::missing;
 
 use crate::angles::attribute;
 use crate::figure::{draw, frames};

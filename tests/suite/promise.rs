@@ -3,18 +3,19 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
-use squealmap::accuracy::configuration::Configuration;
-use squealmap::accuracy::errors::{is_settled_oscillation, oscillates, scatter, worst};
-use squealmap::accuracy::frontier::{Choice, Frontier};
-use squealmap::accuracy::level::Level;
-use squealmap::accuracy::sample::{records, subset};
-use squealmap::accuracy::trial::first_that_keeps;
-use squealmap::backend::choice::{Backend, Options};
-use squealmap::kernel::source::Precision;
-use squealmap::label::Tally;
-use squealmap::map::{Map, Record};
-use squealmap::spec::Spec;
-use squealmap::sweep;
+use squealmap::engine::choice::{Backend, Options};
+use squealmap::engine::kernel::source::Precision;
+use squealmap::engine::record::Record;
+use squealmap::sweep::accuracy::configuration::Configuration;
+use squealmap::sweep::accuracy::errors::{is_settled_oscillation, oscillates, scatter, worst};
+use squealmap::sweep::accuracy::frontier::{Choice, Frontier};
+use squealmap::sweep::accuracy::level::Level;
+use squealmap::sweep::accuracy::sample::{records, subset};
+use squealmap::sweep::accuracy::trial::first_that_keeps;
+use squealmap::sweep::label::Tally;
+use squealmap::sweep::map::Map;
+use squealmap::sweep::run as sweep;
+use squealmap::sweep::spec::Spec;
 
 /// The rational law with another geometry and impacts that rebound.
 const RATIONAL: &str = "[model]\ntheta = 0.03\nrestitution = 0.4\nm1 = 3.0\n[friction]\nlaw = \"rational\"\n[axes]\n\

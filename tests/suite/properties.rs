@@ -4,17 +4,20 @@ use nalgebra::linalg::balancing::balance_parlett_reinsch;
 use nalgebra::{Matrix4, Schur};
 use num_complex::Complex64;
 use proptest::prelude::*;
-use squealmap::integrate::{Observer, Resolution, Step};
-use squealmap::linear::eigenvalues;
-use squealmap::method::Method;
-use squealmap::method::roots::{Crossing, first_crossing};
-use squealmap::method::taylor::{BeltMotion, Expansion, State};
+use squealmap::engine::method::Method;
+use squealmap::engine::method::roots::{Crossing, first_crossing};
+use squealmap::engine::method::taylor::{BeltMotion, Expansion, State};
+use squealmap::engine::plan::Plan;
+use squealmap::engine::plan::StartKind;
+use squealmap::engine::reference::integrate::{Observer, Resolution, Step};
+use squealmap::engine::reference::respond::respond;
+use squealmap::engine::scene::Scene;
 use squealmap::model::contact::Contact;
 use squealmap::model::friction::FrictionLaw;
+use squealmap::model::instance::Instance;
+use squealmap::model::linear::eigenvalues;
+use squealmap::model::status::Status;
 use squealmap::model::{Param, Params};
-use squealmap::outcome::Status;
-use squealmap::response::{Plan, Scene, respond};
-use squealmap::spec::{Instance, StartKind};
 
 use crate::common::{bilinear, close, constant, instance, paper, plan};
 
@@ -193,7 +196,7 @@ proptest! {
         let resolution = Resolution { method: Method::Taylor, order: 16, nominal_step: 0.5, tolerance: 1e-11 };
         let belt = scene.belt(0.0);
         let mut integrator =
-            squealmap::integrate::Integrator::new(&scene.model, resolution, start, belt).expect("a start");
+            squealmap::engine::reference::integrate::Integrator::new(&scene.model, resolution, start, belt).expect("a start");
         let mut watch = EnergyWatch {
             scene: &scene,
             states: vec![Contact::Slip { sigma: 1.0, piece: 0 }, Contact::Slip { sigma: -1.0, piece: 0 }, Contact::Free],
@@ -214,7 +217,7 @@ proptest! {
         let start = State { position: [0.0; 3], velocity: [kick, 0.0, 0.3 * kick] };
         let resolution = Resolution { method: Method::Taylor, order: 16, nominal_step: 0.5, tolerance: 1e-11 };
         let belt = BeltMotion { velocity: 0.0, acceleration: 0.0 };
-        let Ok(mut integrator) = squealmap::integrate::Integrator::new(&scene.model, resolution, start, belt) else {
+        let Ok(mut integrator) = squealmap::engine::reference::integrate::Integrator::new(&scene.model, resolution, start, belt) else {
             return Ok(());
         };
         let mut watch = EnergyWatch {
@@ -254,9 +257,9 @@ proptest! {
             (_, law) => law,
         };
         let plan = Plan {
-            settle: squealmap::spec::Duration::Periods(10.0),
+            settle: squealmap::engine::plan::Duration::Periods(10.0),
             settle_limit: None,
-            measure: squealmap::spec::Duration::Periods(10.0),
+            measure: squealmap::engine::plan::Duration::Periods(10.0),
             ..plan(0.0, 1.0, 12)
         };
         let requested = 20.0 * squealmap::model::equilibrium::Units::new(&instance.params).period();

@@ -5,10 +5,11 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use squealmap::backend::choice::{Backend, Options};
-use squealmap::classify::{InstabilityType, Regime};
+use squealmap::engine::choice::{Backend, Options};
+use squealmap::engine::regime::Regime;
 use squealmap::model::Param;
-use squealmap::spec::Spec;
+use squealmap::model::kind::InstabilityType;
+use squealmap::sweep::spec::Spec;
 
 /// A newcomer reads the README to its end.
 const MOST_WORDS: usize = 1200;
@@ -35,7 +36,7 @@ fn the_first_map_shows_what_the_readme_says() {
     assert_eq!(sweep.lines().count(), 6, "{sweep}");
     let spec = Spec::parse(sweep, "first.toml", root()).unwrap_or_else(|error| panic!("{error}"));
     let options = Options { backend: Backend::Cpu, ..Options::default() };
-    let map = squealmap::sweep::run(spec, &options, &|_| {}).unwrap();
+    let map = squealmap::sweep::run::run(spec, &options, &|_| {}).unwrap();
     let mut types = BTreeSet::new();
     for (index, record) in map.records.iter().enumerate() {
         let params = map.spec.instance(index).params;

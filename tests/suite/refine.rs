@@ -2,17 +2,19 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
-use squealmap::accuracy::sample::subset;
-use squealmap::backend::choice::{Backend, Options};
-use squealmap::backend::solver::Solver;
-use squealmap::classify::{InstabilityType, Regime};
-use squealmap::grid::{Axis, AxisKey, Grid, Value};
-use squealmap::label::Label;
-use squealmap::map::Record;
+use squealmap::engine::choice::{Backend, Options};
+use squealmap::engine::record::Record;
+use squealmap::engine::regime::Regime;
 use squealmap::model::Param;
-use squealmap::outcome::Status;
-use squealmap::refine::{Refined, Settings, refine};
-use squealmap::spec::Spec;
+use squealmap::model::kind::InstabilityType;
+use squealmap::model::status::Status;
+use squealmap::sweep::accuracy::sample::subset;
+use squealmap::sweep::grid::{Axis, AxisKey, Grid, Value};
+use squealmap::sweep::label::Label;
+use squealmap::sweep::refine::{Refined, refine};
+use squealmap::sweep::solver::Solver;
+use squealmap::sweep::spec::Spec;
+use squealmap::sweep::spec::refine::Settings;
 
 use crate::cli::squealmap;
 

@@ -1,7 +1,8 @@
 //! Every branch of the classification, and both sides of every threshold.
 
-use squealmap::classify::{Regime, THRESHOLDS, Thresholds, regime};
-use squealmap::outcome::{Outcome, Status};
+use squealmap::engine::outcome::Outcome;
+use squealmap::engine::regime::{Regime, THRESHOLDS, Thresholds, regime};
+use squealmap::model::status::Status;
 
 /// A completed outcome with the given fractions of stick, flight and reversed slip, and speeds of the halves.
 fn outcome(stick: f64, free: f64, reverse: f64, speeds: [f64; 2]) -> Outcome {

@@ -6,11 +6,11 @@ use std::collections::HashSet;
 use std::path::Path;
 
 use serde_json::Value as Json;
-use squealmap::accuracy::level::{Level, NAMES};
-use squealmap::accuracy::measure::{CHECK_STEPS, Measurement, Settings, TRUTH_STEPS, measure};
-use squealmap::backend::choice::Options;
-use squealmap::export::tradeoff::{Section, head, to_json, to_markdown};
-use squealmap::spec::Spec;
+use squealmap::engine::choice::Options;
+use squealmap::study::tradeoff::report::{Section, head, to_json, to_markdown};
+use squealmap::sweep::accuracy::level::{Level, NAMES};
+use squealmap::sweep::accuracy::measure::{CHECK_STEPS, Measurement, Settings, TRUTH_STEPS, measure};
+use squealmap::sweep::spec::Spec;
 
 /// What made the reports of these tests.
 const COMMAND: &str = "squealmap tradeoff s.toml --report r.md";

@@ -1,12 +1,15 @@
 //! Steady responses: the table of physics.md section 6, bistability, branches, growth before the first event.
 
 use crate::common::{close, near, paper, plan};
-use squealmap::classify::{Regime, regime};
-use squealmap::linear::analyse;
+use squealmap::engine::outcome::Outcome;
+use squealmap::engine::plan::Plan;
+use squealmap::engine::plan::{Duration, StartKind};
+use squealmap::engine::reference::respond::respond;
+use squealmap::engine::regime::{Regime, regime};
 use squealmap::model::Param;
-use squealmap::outcome::{Outcome, Status};
-use squealmap::response::{Plan, respond};
-use squealmap::spec::{Duration, Instance, StartKind};
+use squealmap::model::instance::Instance;
+use squealmap::model::linear::analyse;
+use squealmap::model::status::Status;
 
 /// The physics table is given to three to five digits; 0.3 % plus half a unit of its last digit.
 const OBSERVABLE: f64 = 3e-3;

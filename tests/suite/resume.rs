@@ -6,11 +6,11 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use squealmap::backend::choice::{Backend, Options};
-use squealmap::export::csv::map_csv;
-use squealmap::export::figure::map_svg;
-use squealmap::spec::Spec;
-use squealmap::sweep;
+use squealmap::engine::choice::{Backend, Options};
+use squealmap::results::csv::map_csv;
+use squealmap::results::figure::map::map_svg;
+use squealmap::sweep::run as sweep;
+use squealmap::sweep::spec::Spec;
 use tempfile::TempDir;
 
 use crate::cli::squealmap;

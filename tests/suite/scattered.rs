@@ -2,14 +2,16 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
-use squealmap::archive::NumberColumn;
-use squealmap::classify::{InstabilityType as Kind, Regime};
-use squealmap::export::figure::{look_svg, map_svg};
-use squealmap::export::look::{Content, Look};
-use squealmap::grid::{AxisKey, Grid, Value};
-use squealmap::map::{Map, Record};
+use squealmap::engine::record::Record;
+use squealmap::engine::regime::Regime;
 use squealmap::model::Param;
-use squealmap::outcome::Status;
+use squealmap::model::kind::InstabilityType as Kind;
+use squealmap::model::status::Status;
+use squealmap::results::figure::look::{Content, Look};
+use squealmap::results::figure::map::{look_svg, map_svg};
+use squealmap::results::number::NumberColumn;
+use squealmap::sweep::grid::{AxisKey, Grid, Value};
+use squealmap::sweep::map::Map;
 
 use crate::cli::squealmap;
 use crate::common::near;

@@ -2,12 +2,13 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
-use squealmap::archive::Archive;
-use squealmap::classify::{InstabilityType as Kind, Regime};
-use squealmap::export::cut::Cut;
-use squealmap::grid::{Axis, AxisKey, Grid, Value};
-use squealmap::map::Map;
+use squealmap::engine::regime::Regime;
 use squealmap::model::Param;
+use squealmap::model::kind::InstabilityType as Kind;
+use squealmap::results::cut::Cut;
+use squealmap::results::read::Archive;
+use squealmap::sweep::grid::{Axis, AxisKey, Grid, Value};
+use squealmap::sweep::map::Map;
 
 use crate::cli::{squealmap, unwrapped};
 use crate::plot::directory;

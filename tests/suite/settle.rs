@@ -3,19 +3,25 @@
 use std::sync::atomic::AtomicBool;
 
 use crate::common::{close, near, paper, plan};
-use squealmap::backend::cpu::outcomes;
-use squealmap::backend::regime;
-use squealmap::classify::Regime;
-use squealmap::kernel::response::respond as twin;
-use squealmap::linear::{analyse, eigenvalues};
+use squealmap::engine::judged::regime;
+use squealmap::engine::kernel::response::respond as twin;
+use squealmap::engine::lanes::Lanes;
+use squealmap::engine::lanes::outcomes::outcomes;
+use squealmap::engine::outcome::Ending;
+use squealmap::engine::outcome::Outcome;
+use squealmap::engine::plan::Duration;
+use squealmap::engine::plan::Plan;
+use squealmap::engine::reference::respond::respond;
+use squealmap::engine::regime::Regime;
+use squealmap::engine::scene::Scene;
+use squealmap::engine::settling::Settling;
 use squealmap::model::Param;
 use squealmap::model::equilibrium::Units;
 use squealmap::model::friction::FrictionLaw;
-use squealmap::outcome::{Outcome, Status};
-use squealmap::response::{Plan, Scene, respond};
-use squealmap::settle::{Ending, Settling};
-use squealmap::simd::Lanes;
-use squealmap::spec::{AUTO_MEASURE, Duration, FIRST_SETTLE, Instance};
+use squealmap::model::instance::Instance;
+use squealmap::model::linear::{analyse, eigenvalues};
+use squealmap::model::status::Status;
+use squealmap::sweep::spec::{AUTO_MEASURE, FIRST_SETTLE};
 
 /// A run until settled, windows of 48 periods, for at most `limit` periods.
 fn until_settled(limit: f64) -> Plan {

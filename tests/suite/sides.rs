@@ -2,13 +2,14 @@
 
 use std::path::Path;
 
-use squealmap::backend::choice::Options;
-use squealmap::classify::{InstabilityType as Kind, Regime};
-use squealmap::export::figure::map_svg;
-use squealmap::grid::{Axis, Grid};
+use squealmap::engine::choice::Options;
+use squealmap::engine::regime::Regime;
 use squealmap::model::Param;
-use squealmap::spec::Spec;
-use squealmap::sweep;
+use squealmap::model::kind::InstabilityType as Kind;
+use squealmap::results::figure::map::map_svg;
+use squealmap::sweep::grid::{Axis, Grid};
+use squealmap::sweep::run as sweep;
+use squealmap::sweep::spec::Spec;
 
 use crate::figure::{colour, draw, frames};
 use crate::synthetic::{map, number, record, span};

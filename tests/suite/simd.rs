@@ -7,14 +7,18 @@ use crate::common::{bilinear, close, paper, plan};
 use crate::events::single_mass;
 use crate::instances::{Uniform, moving};
 use crate::kernel_response::{compare, periods};
-use squealmap::backend::again::outcomes_again;
-use squealmap::backend::cpu::outcomes;
+use squealmap::engine::lanes::Lanes;
+use squealmap::engine::lanes::again::outcomes_again;
+use squealmap::engine::lanes::outcomes::outcomes;
+use squealmap::engine::outcome::Outcome;
+use squealmap::engine::plan::Duration;
+use squealmap::engine::plan::Plan;
+use squealmap::engine::reference::respond::respond;
+use squealmap::engine::scene::Scene;
 use squealmap::model::Param;
 use squealmap::model::friction::FrictionLaw;
-use squealmap::outcome::{Outcome, Status};
-use squealmap::response::{Plan, Scene, respond};
-use squealmap::simd::Lanes;
-use squealmap::spec::{Duration, Instance};
+use squealmap::model::instance::Instance;
+use squealmap::model::status::Status;
 
 /// Instances of every law, some with a ramp, impacts with and without restitution, springs leaning both ways.
 pub(crate) fn of_every_law(count: usize) -> Vec<Instance> {

@@ -4,13 +4,15 @@ use std::sync::atomic::AtomicBool;
 
 use crate::common::{instance, plan};
 use crate::instances::Uniform;
-use squealmap::backend::cpu::outcomes;
+use squealmap::engine::lanes::Lanes;
+use squealmap::engine::lanes::outcomes::outcomes;
+use squealmap::engine::outcome::Outcome;
+use squealmap::engine::plan::Duration;
+use squealmap::engine::plan::Plan;
 use squealmap::model::Param;
 use squealmap::model::friction::FrictionLaw;
-use squealmap::outcome::{Outcome, Status};
-use squealmap::response::Plan;
-use squealmap::simd::Lanes;
-use squealmap::spec::{Duration, Instance};
+use squealmap::model::instance::Instance;
+use squealmap::model::status::Status;
 
 /// Single masses with bilinear and constant laws, some with a ramp, inclined by `theta`.
 fn instances(theta: f64) -> Vec<Instance> {

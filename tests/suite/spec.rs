@@ -6,10 +6,11 @@
 use std::path::Path;
 
 use proptest::prelude::*;
-use squealmap::grid::{Grid, Value};
+use squealmap::engine::plan::{Duration, StartKind};
 use squealmap::model::Param;
 use squealmap::model::friction::{FrictionLaw, LawKind};
-use squealmap::spec::{Duration, Spec, StartKind, Starts};
+use squealmap::sweep::grid::{Grid, Value};
+use squealmap::sweep::spec::{Spec, Starts};
 
 fn sweeps() -> &'static Path {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/sweeps"))

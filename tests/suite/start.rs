@@ -2,8 +2,8 @@
 
 use crate::common::near;
 use squealmap::model::Param;
-use squealmap::spec::Spec;
-use squealmap::trace::trace;
+use squealmap::study::trace::run::trace;
+use squealmap::sweep::spec::Spec;
 
 const FRACTION: f64 = 0.5;
 

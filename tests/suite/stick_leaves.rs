@@ -5,10 +5,10 @@ use pulp::{Arch, Simd, WithSimd};
 
 use crate::first_events::{Body, job, steps};
 use crate::instances::Uniform;
-use squealmap::kernel::series::STICK;
+use squealmap::engine::kernel::series::STICK;
+use squealmap::engine::lanes::block::{SECOND, THIRD};
+use squealmap::engine::lanes::constants::R;
 use squealmap::model::equilibrium::Scaled;
-use squealmap::simd::block::{SECOND, THIRD};
-use squealmap::simd::constants::R;
 
 /// Short steps of the other integration.
 const SHORT: usize = 2000;

@@ -2,8 +2,8 @@
 
 use num_complex::Complex64;
 
-use squealmap::simd::spectrum::{COMPONENTS, MOMENTS};
-use squealmap::simd::stretches::Stretches;
+use squealmap::engine::lanes::spectrum::{COMPONENTS, MOMENTS};
+use squealmap::engine::lanes::stretches::Stretches;
 
 const OMEGA: f64 = 1.3;
 const START: f64 = 2.0;

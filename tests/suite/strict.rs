@@ -3,8 +3,8 @@
 use std::collections::{HashMap, HashSet};
 
 use naga::valid::{Capabilities, ValidationFlags, Validator};
-use squealmap::kernel::source::Precision;
-use squealmap::kernel::spirv::{Strict, decorated, written};
+use squealmap::engine::kernel::source::Precision;
+use squealmap::engine::kernel::spirv::{Strict, decorated, written};
 
 use crate::kernels::KERNELS;
 

@@ -5,7 +5,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use squealmap::identify::{Identification, Kind, Measured, Settings};
+use squealmap_identify::{Identification, Kind, Measured, Settings};
 
 use crate::bound::{decidable, phase_bound};
 use crate::identify::{csv, run};

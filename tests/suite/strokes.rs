@@ -6,13 +6,14 @@
 
 use std::f64::consts::TAU;
 
-use squealmap::classify::InstabilityType;
-use squealmap::identify::CAUSE;
-use squealmap::linear::{self, Linear};
 use squealmap::model::Param;
-use squealmap::outcome::Status;
-use squealmap::signals::{Recording, Sample, record};
-use squealmap::spec::Instance;
+use squealmap::model::instance::Instance;
+use squealmap::model::kind::InstabilityType;
+use squealmap::model::linear;
+use squealmap::model::linear::Linear;
+use squealmap::model::status::Status;
+use squealmap::study::signals::sensors::{Recording, Sample, record};
+use squealmap_identify::CAUSE;
 
 use crate::common::{bilinear, instance, plan};
 

@@ -4,15 +4,15 @@
 
 use std::path::Path;
 
-use squealmap::backend::choice::Options;
-use squealmap::classify::InstabilityType;
-use squealmap::grid::{Axis, Grid, Value};
-use squealmap::map::Map;
+use squealmap::engine::choice::Options;
 use squealmap::model::Param;
 use squealmap::model::friction::FrictionLaw;
-use squealmap::outcome::Status;
-use squealmap::spec::Spec;
-use squealmap::sweep;
+use squealmap::model::kind::InstabilityType;
+use squealmap::model::status::Status;
+use squealmap::sweep::grid::{Axis, Grid, Value};
+use squealmap::sweep::map::Map;
+use squealmap::sweep::run as sweep;
+use squealmap::sweep::spec::Spec;
 
 fn read(name: &str) -> Spec {
     let sweeps = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/sweeps"));

@@ -7,14 +7,17 @@ use std::sync::atomic::AtomicBool;
 use crate::common::{close, instance, plan};
 use crate::engines::Engine;
 use crate::instances::Uniform;
-use squealmap::backend::cpu::outcomes;
-use squealmap::method::Method;
+use squealmap::engine::lanes::Lanes;
+use squealmap::engine::lanes::outcomes::outcomes;
+use squealmap::engine::method::Method;
+use squealmap::engine::outcome::Outcome;
+use squealmap::engine::plan::Duration;
+use squealmap::engine::plan::Plan;
+use squealmap::engine::reference::respond::respond;
 use squealmap::model::Param;
 use squealmap::model::friction::FrictionLaw;
-use squealmap::outcome::{Outcome, Status};
-use squealmap::response::{Plan, respond};
-use squealmap::simd::Lanes;
-use squealmap::spec::{Duration, Instance};
+use squealmap::model::instance::Instance;
+use squealmap::model::status::Status;
 
 const COUNT: usize = 300;
 

@@ -2,15 +2,20 @@
 
 use std::time::Duration;
 
-use squealmap::backend::reference;
-use squealmap::classify::{InstabilityType, Regime};
-use squealmap::grid::{Axis, AxisKey, Grid, Value};
-use squealmap::linear::Linear;
-use squealmap::map::{Map, Provenance, Record};
+use squealmap::engine::outcome::Outcome;
+use squealmap::engine::plan::Duration as Time;
+use squealmap::engine::plan::StartKind;
+use squealmap::engine::record::Record;
+use squealmap::engine::reference::records as reference;
+use squealmap::engine::regime::Regime;
 use squealmap::model::friction::LawKind;
+use squealmap::model::kind::InstabilityType;
+use squealmap::model::linear::Linear;
+use squealmap::model::status::Status;
 use squealmap::model::{Param, Params};
-use squealmap::outcome::{Outcome, Status};
-use squealmap::spec::{self, Analysis, Pass, Spec, StartKind, Starts};
+use squealmap::sweep::grid::{Axis, AxisKey, Grid, Value};
+use squealmap::sweep::map::{Map, Provenance};
+use squealmap::sweep::spec::{Analysis, Pass, Spec, Starts};
 
 /// A numeric axis.
 pub(crate) fn axis(param: Param, values: &[f64]) -> Axis {
@@ -44,9 +49,9 @@ pub(crate) fn spec(grid: Grid) -> Spec {
         grid,
         start: StartKind::Kick,
         pass: Pass::Own,
-        settle: spec::Duration::Seconds(6.0),
+        settle: Time::Seconds(6.0),
         settle_limit: None,
-        measure: spec::Duration::Seconds(3.0),
+        measure: Time::Seconds(3.0),
         steps_per_period: 60,
         steps_given: None,
         refine: None,

@@ -3,12 +3,13 @@
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
 use squealmap::Error;
-use squealmap::classify::{InstabilityType as Kind, Regime};
-use squealmap::export::look::Look;
-use squealmap::export::tikz::map_tikz;
-use squealmap::grid::{Axis, AxisKey, Grid, Value};
-use squealmap::map::Map;
+use squealmap::engine::regime::Regime;
 use squealmap::model::Param;
+use squealmap::model::kind::InstabilityType as Kind;
+use squealmap::results::figure::look::Look;
+use squealmap::results::figure::tikz::map_tikz;
+use squealmap::sweep::grid::{Axis, AxisKey, Grid, Value};
+use squealmap::sweep::map::Map;
 
 use crate::common::near;
 use crate::synthetic::{axis, map, number, paper_like, record, span};

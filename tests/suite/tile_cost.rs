@@ -5,14 +5,14 @@
 use std::sync::atomic::AtomicBool;
 
 use crate::common::close;
-use squealmap::backend::choice::{Backend, Options};
-use squealmap::backend::solver::Solver;
-use squealmap::kernel::source::Precision;
-use squealmap::spec::Spec;
+use squealmap::engine::choice::{Backend, Options};
+use squealmap::engine::kernel::source::Precision;
 use squealmap::store::description::Description;
 use squealmap::store::directory::Store;
 use squealmap::store::fill::{Watch, fill};
 use squealmap::store::tiling::TILE;
+use squealmap::sweep::solver::Solver;
+use squealmap::sweep::spec::Spec;
 
 /// A sweep of both friction coefficients at four belt velocities, as the benchmarks have it.
 fn sweep(analysis: &str, points: [usize; 2], response: &str) -> String {

@@ -2,22 +2,26 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
-use squealmap::accuracy::check::{By, Check};
-use squealmap::backend::reference;
-use squealmap::classify::{InstabilityType, Regime};
-use squealmap::grid::{Axis, AxisKey, Grid, Value};
-use squealmap::linear::Linear;
-use squealmap::map::{Computation, Record};
+use squealmap::engine::computation::Computation;
+use squealmap::engine::outcome::Outcome;
+use squealmap::engine::record::Record;
+use squealmap::engine::record::{Basin, Others};
+use squealmap::engine::record::{By, Check};
+use squealmap::engine::reference::records as reference;
+use squealmap::engine::regime::Regime;
 use squealmap::model::Param;
-use squealmap::outcome::{Outcome, Status};
-use squealmap::spec::{Analysis, Spec, Starts};
-use squealmap::starts::{Basin, Others};
+use squealmap::model::kind::InstabilityType;
+use squealmap::model::linear::Linear;
+use squealmap::model::status::Status;
 use squealmap::store::columns::{decode, width};
 use squealmap::store::description::{Description, Unread};
-use squealmap::store::grid_json::{self, from_json, to_json};
+use squealmap::store::grid_json;
+use squealmap::store::grid_json::{from_json, to_json};
 use squealmap::store::identity::{Id, identity, kind};
 use squealmap::store::tile::{Fault, Label};
 use squealmap::store::tiling::Tiling;
+use squealmap::sweep::grid::{Axis, AxisKey, Grid, Value};
+use squealmap::sweep::spec::{Analysis, Spec, Starts};
 
 use crate::synthetic::{axis, failed, record, span, spec};
 

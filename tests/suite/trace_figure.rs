@@ -1,11 +1,12 @@
 //! The table and the figure of a trajectory.
 
-use squealmap::export::heading::Heading;
-use squealmap::export::look::Look;
-use squealmap::export::trace::{trace_csv, trace_svg};
+use squealmap::engine::outcome::Outcome;
 use squealmap::model::contact::ContactState;
-use squealmap::outcome::{Outcome, Status};
-use squealmap::trace::{Trace, TraceRow};
+use squealmap::model::status::Status;
+use squealmap::results::figure::heading::Heading;
+use squealmap::results::figure::look::Look;
+use squealmap::study::trace::run::{Trace, TraceRow};
+use squealmap::study::trace::table::{trace_csv, trace_svg};
 
 use crate::colour::rgb;
 use crate::figure::{colour, draw, frames};

@@ -2,16 +2,18 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
-use squealmap::archive::NumberColumn;
-use squealmap::classify::{InstabilityType as Kind, Regime};
-use squealmap::export::cut::{Cut, cut_csv, cut_svg};
-use squealmap::export::figure::look_svg;
-use squealmap::export::look::{Content, Look};
-use squealmap::grid::{AxisKey, Grid, Value};
-use squealmap::map::{Map, Record};
+use squealmap::engine::record::Others;
+use squealmap::engine::record::Record;
+use squealmap::engine::regime::Regime;
 use squealmap::model::Param;
-use squealmap::spec::Starts;
-use squealmap::starts::Others;
+use squealmap::model::kind::InstabilityType as Kind;
+use squealmap::results::cut::{Cut, cut_csv, cut_svg};
+use squealmap::results::figure::look::{Content, Look};
+use squealmap::results::figure::map::look_svg;
+use squealmap::results::number::NumberColumn;
+use squealmap::sweep::grid::{AxisKey, Grid, Value};
+use squealmap::sweep::map::Map;
+use squealmap::sweep::spec::Starts;
 
 use crate::figure::{colour, draw, frames};
 use crate::synthetic::{axis, map, record, span};

@@ -1,6 +1,7 @@
 //! What no outcome may be, whatever its instance.
 
-use squealmap::outcome::{Outcome, Status};
+use squealmap::engine::outcome::Outcome;
+use squealmap::model::status::Status;
 
 /// What is wrong with an outcome.
 pub(crate) fn defect(outcome: &Outcome) -> Option<String> {

@@ -12,12 +12,15 @@ use std::time::{Duration, Instant};
 
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestError, TestRunner};
-use squealmap::backend::reference;
-use squealmap::linear::Linear;
-use squealmap::method::Method;
-use squealmap::outcome::{Outcome, Status};
-use squealmap::response::{Plan, Scene, respond};
-use squealmap::spec::Spec;
+use squealmap::engine::method::Method;
+use squealmap::engine::outcome::Outcome;
+use squealmap::engine::plan::Plan;
+use squealmap::engine::reference::records as reference;
+use squealmap::engine::reference::respond::respond;
+use squealmap::engine::scene::Scene;
+use squealmap::model::linear::Linear;
+use squealmap::model::status::Status;
+use squealmap::sweep::spec::Spec;
 
 use crate::engines::Engine;
 use defect::defect;

@@ -1,7 +1,8 @@
 //! How far an engine is from what is expected of a scene.
 
-use squealmap::outcome::{Outcome, Status};
-use squealmap::response::Plan;
+use squealmap::engine::outcome::Outcome;
+use squealmap::engine::plan::Plan;
+use squealmap::model::status::Status;
 
 use super::scene::{Expected, Number, Scene};
 use crate::engines::Engine;

@@ -6,7 +6,8 @@ mod measure;
 pub(crate) mod scene;
 mod table;
 
-use squealmap::outcome::{Outcome, Status};
+use squealmap::engine::outcome::Outcome;
+use squealmap::model::status::Status;
 
 use crate::engines::Engine;
 use document::{ROOM, Row, agrees, is_same, render};
@@ -170,7 +171,7 @@ fn as_many_steps_as_a_run_may_have() {
         ],
     );
     let Expected::Numbers(numbers) = &scene.expected else { panic!("numbers are expected") };
-    let plan = scene::periods(f64::from(squealmap::response::MOST_STEPS) / 12.0 - 2.0, 1.0, 12);
+    let plan = scene::periods(f64::from(squealmap::engine::scene::MOST_STEPS) / 12.0 - 2.0, 1.0, 12);
     let outcome = Engine::CpuF64.run(&scene.instance, &plan);
     println!("{:e}", error(&outcome, &numbers[..1]));
     assert!(error(&outcome, &numbers[..1]) < 1e-3);

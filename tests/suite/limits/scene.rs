@@ -3,12 +3,14 @@
 use std::f64::consts::TAU;
 
 use nalgebra::Vector4;
+use squealmap::engine::outcome::Outcome;
+use squealmap::engine::plan::Duration;
+use squealmap::engine::plan::Plan;
 use squealmap::model::Param;
 use squealmap::model::equilibrium::Units;
 use squealmap::model::friction::FrictionLaw;
-use squealmap::outcome::{Outcome, Status};
-use squealmap::response::Plan;
-use squealmap::spec::{Duration, Instance};
+use squealmap::model::instance::Instance;
+use squealmap::model::status::Status;
 
 use crate::common::{instance, plan};
 use crate::exact;

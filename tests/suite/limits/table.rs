@@ -2,7 +2,7 @@
 
 use squealmap::model::Param;
 use squealmap::model::friction::FrictionLaw;
-use squealmap::outcome::Status;
+use squealmap::model::status::Status;
 
 use super::scene::{Group, Scene, as_reference, ends, periods, sliding, sliding_under, stick_slip};
 use crate::common::{bilinear, constant};

@@ -1,0 +1,191 @@
+//! The spine: survey the file, read it again window by window, find episodes, read these again, conclude.
+
+use std::io::Read;
+
+use crate::channel::{Channel, PerChannel};
+use crate::conclude::{Friction, Looked, conclude};
+use crate::envelope::Envelope;
+use crate::episode::{Episode, Recorded, swapped};
+use crate::fault::{Fault, Unfit};
+use crate::overview::Overview;
+use crate::read::Table;
+use crate::reading::{Reading, reading};
+use crate::runs::Runs;
+use crate::settings::Settings;
+use crate::spans::{Known, sharpened};
+use crate::spectrogram::{Builder, Spectrogram};
+use crate::survey::{Survey, survey};
+use crate::verdict::Verdict;
+use crate::window::{Analyser, Window};
+
+/// Everything found in a file of signals.
+#[derive(Clone, Debug)]
+pub struct Identification {
+    /// Samples of the record.
+    pub samples: u64,
+    /// Samples per second, Hz.
+    pub rate: f64,
+    /// Start and end of the record, s.
+    pub time: [f64; 2],
+    /// The column of each channel, in the order of [`Channel::ALL`]; empty where the file has none.
+    pub columns: [String; Channel::ALL.len()],
+    /// The strongest oscillation of the record, Hz; `None`: none stands out.
+    pub frequency: Option<f64>,
+    /// Number of windows.
+    pub windows: usize,
+    /// The growing oscillations in order of time.
+    pub episodes: Vec<Episode>,
+    /// Slope of the mean friction coefficient against the mean velocity of the quiet windows.
+    pub slope: Option<Friction>,
+    /// The verdict on the record.
+    pub verdict: Verdict,
+    /// Remarks: what limits the analysis.
+    pub notes: Vec<String>,
+    /// The spectrogram of the tangential acceleration.
+    pub spectrogram: Spectrogram,
+    /// Tangential and normal acceleration for a picture.
+    pub envelopes: [Envelope; 2],
+    /// Mean friction coefficient of the windows for a picture, over [`Identification::friction_time`].
+    pub friction: Envelope,
+    /// Start of the first and end of the last window, s.
+    pub friction_time: [f64; 2],
+}
+
+/// Analyses the signals that `open` reads (called up to three times: the file is read anew and never held), named `name` in
+/// messages. `each` is given every window in order of time, with what it says by itself; none is kept.
+///
+/// # Errors
+/// When the file cannot be read or is not fit for analysis: which column, where, what to do.
+pub fn identify(
+    mut open: impl FnMut() -> std::io::Result<Box<dyn Read>>,
+    name: &str,
+    settings: &Settings,
+    each: &mut dyn FnMut(&Window, &Reading),
+) -> Result<Identification, Unfit> {
+    let mut table = || -> Result<Table, Fault> {
+        let input = open().map_err(|why| Fault::Unreadable { why: why.to_string() })?;
+        Table::open(input, settings)
+    };
+    let named = |fault| Unfit { name: name.to_owned(), fault: Box::new(fault) };
+    let survey = table().and_then(|table| survey(table, settings)).map_err(named)?;
+    let (samples, too_short) = (survey.samples, survey.too_short());
+    let looked = Looked { samples, too_short, band: settings.band, outside: survey.outside };
+    let (mut found, overview) =
+        table().and_then(|table| analyse(table, &survey, settings, each)).map_err(named)?;
+    if let Some(geometry) = survey.windows().filter(|_| !found.episodes.is_empty()) {
+        let Survey { rate, start, .. } = survey;
+        let known = Known { recorded: recorded(&survey), settings, geometry, rate, start };
+        table().and_then(|table| sharpened(table, &mut found.episodes, &known)).map_err(named)?;
+    }
+    found.verdict = conclude(&overview, &found.episodes, &looked);
+    Ok(found)
+}
+
+fn recorded(survey: &Survey) -> Recorded {
+    let has = |channel: Channel| survey.has[channel as usize];
+    Recorded {
+        normal_acceleration: has(Channel::NormalAcceleration),
+        forces: has(Channel::TangentialForce) && has(Channel::NormalForce),
+    }
+}
+
+/// The second reading.
+fn analyse(
+    mut table: Table,
+    survey: &Survey,
+    settings: &Settings,
+    each: &mut dyn FnMut(&Window, &Reading),
+) -> Result<(Identification, Overview), Fault> {
+    let Survey { samples, start, rate, .. } = *survey;
+    let recorded = recorded(survey);
+    let fits = survey.windows();
+    let mut analyser = fits.map(|geometry| Analyser::new(geometry, rate, survey.has, settings.band));
+    let mut spectrogram = Builder::new(settings, samples, rate, start, survey.frequency);
+    let mut envelopes = [Envelope::new(samples), Envelope::new(samples)];
+    let mut waiting = PerChannel::<Vec<f64>>::default();
+    let count = fits.map_or(0, |geometry| (samples - geometry.window as u64) / geometry.hop as u64 + 1);
+    let mut friction = Envelope::new(count);
+    let mut runs = Runs::new(recorded, settings);
+    let mut overview = Overview::new(recorded);
+    let mut from: u64 = 0;
+    while let Some(row) = table.next()? {
+        let tangential = row.values[Channel::TangentialAcceleration as usize];
+        spectrogram.take(tangential);
+        envelopes[0].take(tangential);
+        if recorded.normal_acceleration {
+            envelopes[1].take(row.values[Channel::NormalAcceleration as usize]);
+        }
+        let (Some(analyser), Some(geometry)) = (&mut analyser, fits) else { continue };
+        waiting.iter_mut().zip(row.values).for_each(|(waiting, value)| waiting.push(value));
+        if waiting[0].len() == geometry.window {
+            let at = start + from as f64 / rate;
+            let window = analyser.window(at, &waiting.each_ref().map(Vec::as_slice));
+            each(&window, &reading(&window, recorded, settings));
+            runs.take(&window);
+            overview.take(&window);
+            if let Some(mu) = window.friction {
+                friction.take(mu);
+            }
+            for waiting in &mut waiting {
+                waiting.drain(..geometry.hop);
+            }
+            from += geometry.hop as u64;
+        }
+    }
+    let episodes = runs.finish();
+    if let Some(time) = swapped(&episodes, recorded) {
+        let name = |channel: Channel| survey.names[channel as usize].clone();
+        let [tangential, normal] = [Channel::TangentialAcceleration, Channel::NormalAcceleration].map(name);
+        return Err(Fault::SwappedAccelerations { tangential, normal, time });
+    }
+    let found = Identification {
+        samples,
+        rate,
+        time: [start, start + samples as f64 / rate],
+        frequency: survey.frequency,
+        // Concluded when the episodes are known in full.
+        verdict: Verdict::undecided("not concluded"),
+        slope: overview.quasi_static_slope(&episodes),
+        notes: notes(survey),
+        columns: survey.names.clone(),
+        windows: overview.windows,
+        episodes,
+        spectrogram: spectrogram.finish(),
+        envelopes,
+        friction,
+        friction_time: overview.time,
+    };
+    Ok((found, overview))
+}
+
+/// What limits the analysis.
+fn notes(survey: &Survey) -> Vec<String> {
+    let mut notes: Vec<String> = survey.remark.iter().cloned().collect();
+    for channel in &survey.constant {
+        let column = &survey.names[*channel as usize];
+        notes.push(format!("column `{column}` ({}) is constant", channel.words()));
+    }
+    for (channel, stand) in &survey.still {
+        notes.push(format!(
+            "column `{}` ({}) stands still at {} for {} samples from {:.6} s on: a dropout, unless everything rests there; cut the \
+             record before it",
+            survey.names[*channel as usize],
+            channel.words(),
+            stand.value,
+            stand.count,
+            survey.start + stand.first as f64 / survey.rate
+        ));
+    }
+    for channel in Channel::ALL.into_iter().filter(|channel| !survey.has[*channel as usize]) {
+        let limits = match channel {
+            Channel::NormalAcceleration => ": no phase between the accelerations",
+            Channel::TangentialForce | Channel::NormalForce => {
+                ": no friction coefficient and no cause of an instability"
+            }
+            Channel::Velocity => ": no slope of the mean friction coefficient",
+            _ => continue,
+        };
+        notes.push(format!("{} is not recorded{limits}; name it with {}", channel.words(), channel.flag()));
+    }
+    notes
+}

@@ -1,0 +1,349 @@
+//! What is wrong with a file of signals: such a file is named and not analysed.
+
+use crate::survey::RATES;
+
+/// Why signals are not analysed: which column, where, and what to do.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Fault {
+    /// The file cannot be read.
+    #[error("cannot be read: {why}; give a CSV file with a header")]
+    Unreadable {
+        /// What the system says.
+        why: String,
+    },
+    /// A named column that is not there.
+    #[error("there is no column `{name}` for {words}; the header has {header}; name one with {flag}")]
+    NoColumn {
+        /// The quantity.
+        words: &'static str,
+        /// The column looked for.
+        name: String,
+        /// What the header holds.
+        header: String,
+        /// The option that names it.
+        flag: &'static str,
+    },
+    /// A column that is asked for and stands twice in the header.
+    #[error(
+        "column `{name}` for {words} stands {count} times in the header; give each column a name of its own, or name another with {flag}"
+    )]
+    Ambiguous {
+        /// The quantity.
+        words: &'static str,
+        /// The column.
+        name: String,
+        /// How often it stands there.
+        count: usize,
+        /// The option that names it.
+        flag: &'static str,
+    },
+    /// Two quantities from one column.
+    #[error("column `{name}` is named for {first} and for {second}; name another with {flag}")]
+    SharedColumn {
+        /// The column.
+        name: String,
+        /// One quantity.
+        first: &'static str,
+        /// The other.
+        second: &'static str,
+        /// The option of the second.
+        flag: &'static str,
+    },
+    /// A row with another number of fields than the header.
+    #[error(
+        "line {line}: the row has {fields} field(s) but the header has {columns}; give one field per column{because}"
+    )]
+    Ragged {
+        /// Line, from 1.
+        line: u64,
+        /// Its fields.
+        fields: usize,
+        /// Those of the header.
+        columns: usize,
+        /// What it looks like, with a leading semicolon, or nothing.
+        because: &'static str,
+    },
+    /// An empty field, NaN, infinity or text.
+    #[error(
+        "line {line}: column `{column}` holds `{text}`, which is no finite number; cut the record before or after it"
+    )]
+    NotANumber {
+        /// Line, from 1.
+        line: u64,
+        /// The column.
+        column: String,
+        /// What stands there.
+        text: String,
+    },
+    /// A column of time without numbers.
+    #[error(
+        "line {line}: column `{column}` for time holds `{text}`, which is no finite number; name another column with --time, or give the rate with --rate"
+    )]
+    NotATime {
+        /// Line, from 1.
+        line: u64,
+        /// The column.
+        column: String,
+        /// What stands there.
+        text: String,
+    },
+    /// Decimal points and decimal commas in one file, or commas between thousands.
+    #[error(
+        "line {line}: column `{column}` holds `{text}`, but of points and commas the file has both before decimals; write all numbers with a decimal point and without marks between thousands"
+    )]
+    TwoMarks {
+        /// Line, from 1.
+        line: u64,
+        /// The column.
+        column: String,
+        /// What stands there.
+        text: String,
+    },
+    /// Time that stands still or runs backwards.
+    #[error(
+        "line {line}: column `{column}` is {time} s after {previous} s but must rise; sort the rows, name another column with --time, or give --rate"
+    )]
+    NotRising {
+        /// Line, from 1.
+        line: u64,
+        /// The column.
+        column: String,
+        /// The time, s.
+        time: f64,
+        /// The one before, s.
+        previous: f64,
+    },
+    /// A normal force that is not positive, where a friction coefficient is wanted.
+    #[error(
+        "line {line}: column `{column}` is {value} N, without contact there is no friction coefficient; leave such rows out"
+    )]
+    NoContact {
+        /// Line, from 1.
+        line: u64,
+        /// The column.
+        column: String,
+        /// Its value, N.
+        value: f64,
+    },
+    /// Missing samples.
+    #[error(
+        "line {line}: a gap of {missing} sample(s) in column `{column}` before {time} s; cut the record there and give one part"
+    )]
+    Gap {
+        /// Line, from 1.
+        line: u64,
+        /// The column of time.
+        column: String,
+        /// Samples that are missing.
+        missing: u64,
+        /// The time after the gap, s.
+        time: f64,
+    },
+    /// Samples that are not evenly spaced.
+    #[error(
+        "line {line}: column `{column}` steps by {step} s where {usual} s is usual; give evenly spaced samples (`squealmap trace --rate HZ` writes them)"
+    )]
+    Uneven {
+        /// Line, from 1.
+        line: u64,
+        /// The column of time.
+        column: String,
+        /// The step, s.
+        step: f64,
+        /// The usual step, s.
+        usual: f64,
+    },
+    /// A rate that is no rate.
+    #[error("the sampling rate is {rate} Hz but must be a finite number greater than 0; set --rate")]
+    NoRate {
+        /// The rate.
+        rate: f64,
+    },
+    /// A rate that is not that of the column of time.
+    #[error(
+        "--rate is {given} Hz but column `{column}` holds {found:.6} samples per second{because}; leave out --rate, say the unit of the column with --time-unit, or give it another name in the header if it is no time"
+    )]
+    Contradicted {
+        /// The rate given, Hz.
+        given: f64,
+        /// The column of time.
+        column: String,
+        /// The rate by it, Hz.
+        found: f64,
+        /// The unit of time that would make both one, with a leading semicolon, or nothing.
+        because: String,
+    },
+    /// A column of time without a unit that has a rate of no sensor.
+    #[error(
+        "column `{column}` holds {rate} samples per second if it is in seconds, but sensors of vibrations have {} to {}; say its unit with {units}, or with --time-unit s if they are so many, or give the rate with --rate",
+        RATES[0],
+        RATES[1]
+    )]
+    DoubtfulTime {
+        /// The column of time.
+        column: String,
+        /// The rate in seconds, Hz.
+        rate: f64,
+        /// Options that say a unit with which the rate is usual.
+        units: String,
+    },
+    /// A delay between channels that no recorder has.
+    #[error(
+        "{flag} is {delay} s but must be at most one period of the oscillation at {frequency:.1} Hz, {period:.3e} s; give the delay in seconds, or shift the channels by whole samples before"
+    )]
+    TooLate {
+        /// The option.
+        flag: &'static str,
+        /// The delay, s.
+        delay: f64,
+        /// The strongest oscillation, Hz.
+        frequency: f64,
+        /// Its period, s.
+        period: f64,
+    },
+    /// Too few samples.
+    #[error("the record has {samples} sample(s) but at least {least} are needed{because}; record longer")]
+    TooShort {
+        /// Its samples.
+        samples: u64,
+        /// The least.
+        least: u64,
+        /// For what, with a leading comma, or nothing.
+        because: String,
+    },
+    /// A channel that does not move.
+    #[error(
+        "column `{column}` ({words}) is constant at {value}; check the sensor, or name another column with {flag}"
+    )]
+    Constant {
+        /// The column.
+        column: String,
+        /// The quantity.
+        words: &'static str,
+        /// Its value.
+        value: f64,
+        /// The option that names it.
+        flag: &'static str,
+    },
+    /// A channel cut off at its end of range.
+    #[error(
+        "column `{column}` ({words}) is clipped at {value} ({runs} times, first at {time} s); record with a larger range, or cut the record before"
+    )]
+    Clipped {
+        /// The column.
+        column: String,
+        /// The quantity.
+        words: &'static str,
+        /// Where it is cut off.
+        value: f64,
+        /// How often.
+        runs: u64,
+        /// When first, s from the start of the record.
+        time: f64,
+    },
+    /// Values that no vibration has.
+    #[error(
+        "column `{column}` ({words}) holds {count} value(s) far outside all around them (first {value} at {time} s), as a dropout or a logger's mark for a missing value; cut the record before or after them, or replace them by the mean of their neighbours"
+    )]
+    Outliers {
+        /// The column.
+        column: String,
+        /// The quantity.
+        words: &'static str,
+        /// The first of them.
+        value: f64,
+        /// How many samples.
+        count: u64,
+        /// When first, s.
+        time: f64,
+    },
+    /// A friction coefficient that no brake has.
+    #[error(
+        "T/N of columns `{tangential}` and `{normal}` is {friction:.3}, above {largest}: they look swapped; exchange --tangential-force and --normal-force, or allow it with --largest-friction"
+    )]
+    SwappedForces {
+        /// The column of the tangential force.
+        tangential: String,
+        /// The column of the normal force.
+        normal: String,
+        /// Their ratio.
+        friction: f64,
+        /// The largest one believed.
+        largest: f64,
+    },
+    /// A normal force that does not press.
+    #[error(
+        "column `{column}` (the normal force) has mean {mean:.4} and standard deviation {deviation:.4}: it presses on nothing, so it looks swapped or of the wrong sign; name another with --normal-force"
+    )]
+    NotPressing {
+        /// The column.
+        column: String,
+        /// Its mean, N.
+        mean: f64,
+        /// Its standard deviation, N.
+        deviation: f64,
+    },
+    /// A friction force against the motion.
+    #[error(
+        "T/N of columns `{tangential}` and `{normal}` is {friction:.3}: the friction force has the wrong sign; change the sign of one column"
+    )]
+    NegativeFriction {
+        /// The column of the tangential force.
+        tangential: String,
+        /// The column of the normal force.
+        normal: String,
+        /// Their ratio.
+        friction: f64,
+    },
+    /// An acceleration that looks like a force.
+    #[error(
+        "column `{column}` ({words}) has mean {mean:.4} and standard deviation {deviation:.4}: that is a force or an offset, no vibration; name another column with {flag} or subtract its mean"
+    )]
+    Offset {
+        /// The column.
+        column: String,
+        /// The quantity.
+        words: &'static str,
+        /// Its mean.
+        mean: f64,
+        /// Its standard deviation.
+        deviation: f64,
+        /// The option that names it.
+        flag: &'static str,
+    },
+    /// Accelerations that contradict the forces unless they are swapped.
+    #[error(
+        "at {time:.6} s the friction force feeds the motion of column `{normal}` but not that of `{tangential}`: they look swapped (or skewed); exchange --tangential-acceleration and --normal-acceleration, or set --skew"
+    )]
+    SwappedAccelerations {
+        /// The column of the tangential acceleration.
+        tangential: String,
+        /// The column of the normal acceleration.
+        normal: String,
+        /// When, s.
+        time: f64,
+    },
+    /// An oscillation too fast for the sampling.
+    #[error(
+        "the oscillation at {frequency:.1} Hz has {samples:.2} samples per period but needs at least {least}; sample faster or look below it with --band"
+    )]
+    TooFast {
+        /// Its frequency, Hz.
+        frequency: f64,
+        /// Samples per period.
+        samples: f64,
+        /// The least.
+        least: f64,
+    },
+}
+
+/// A file of signals that is not fit for analysis.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{name}: {fault}")]
+pub struct Unfit {
+    /// The file as the user wrote it.
+    pub name: String,
+    /// Which column, where, and what to do.
+    pub fault: Box<Fault>,
+}

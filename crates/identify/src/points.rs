@@ -1,0 +1,95 @@
+//! A file of velocity, friction and temperature → points to fit a material to.
+
+use std::io::Read;
+
+use crate::channel::Channel;
+use crate::fault::{Fault, Unfit};
+use crate::read::{Row, Table};
+use crate::settings::Settings;
+
+/// One measured point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Point {
+    /// Sliding velocity, m/s; its sign does not matter.
+    pub velocity: f64,
+    /// Friction coefficient.
+    pub friction: f64,
+    /// Temperature, °C.
+    pub temperature: f64,
+}
+
+/// The options that say where the friction coefficient comes from.
+const FORCE_OR_FRICTION: &str =
+    "--tangential-force, or the column of the friction coefficient with --friction";
+
+/// Where the friction coefficient comes from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum FrictionColumn {
+    /// A column of its own.
+    Named(String),
+    /// The ratio of both forces.
+    Forces,
+}
+
+/// Reads points from a CSV file with the columns of `settings` for velocity, temperature and both forces; its name in
+/// messages is `name`. Without a column of temperature every point has `temperature` (°C).
+///
+/// # Errors
+/// When it is not fit for that: which column, where, what to do.
+pub fn read_points(
+    input: Box<dyn Read>,
+    name: &str,
+    settings: &Settings,
+    friction: &FrictionColumn,
+    temperature: Option<f64>,
+) -> Result<Vec<Point>, Unfit> {
+    points(input, settings, friction, temperature)
+        .map_err(|fault| Unfit { name: name.to_owned(), fault: Box::new(fault) })
+}
+
+fn points(
+    input: Box<dyn Read>,
+    settings: &Settings,
+    friction: &FrictionColumn,
+    temperature: Option<f64>,
+) -> Result<Vec<Point>, Fault> {
+    let mut settings = settings.clone();
+    let mut needed = vec![Channel::Velocity];
+    if temperature.is_none() {
+        needed.push(Channel::Temperature);
+    }
+    match friction {
+        // The friction coefficient takes the place of a force that is then not needed.
+        FrictionColumn::Named(column) => {
+            settings.columns[Channel::TangentialForce as usize] = Some(column.clone());
+            settings.columns[Channel::NormalForce as usize] = None;
+        }
+        FrictionColumn::Forces => needed.extend([Channel::TangentialForce, Channel::NormalForce]),
+    }
+    let mut table = Table::open_with(input, &settings, &needed, false).map_err(|fault| match fault {
+        // A table of friction coefficients has no forces at all.
+        Fault::NoColumn { words, name, header, flag } if flag == Channel::TangentialForce.flag() => {
+            Fault::NoColumn { words, name, header, flag: FORCE_OR_FRICTION }
+        }
+        fault => fault,
+    })?;
+    let mut points = Vec::new();
+    while let Some(Row { line, values, .. }) = table.next()? {
+        let value = |channel: Channel| values[channel as usize];
+        let (tangential, normal) = (value(Channel::TangentialForce), value(Channel::NormalForce));
+        let friction = match friction {
+            FrictionColumn::Named(_) => tangential,
+            FrictionColumn::Forces if normal > 0.0 => tangential / normal,
+            FrictionColumn::Forces => {
+                let column = table.name(Channel::NormalForce);
+                return Err(Fault::NoContact { line, column, value: normal });
+            }
+        };
+        points.push(Point {
+            velocity: value(Channel::Velocity),
+            friction,
+            temperature: temperature.unwrap_or(value(Channel::Temperature)),
+        });
+    }
+    Ok(points)
+}

@@ -1,0 +1,71 @@
+//! What a user may choose.
+
+use crate::channel::{Channel, PerChannel};
+use crate::unit::TimeUnit;
+
+/// Window of the spectrogram, s: that of the source paper.
+pub const WINDOW: f64 = 0.01;
+
+/// Overlap of the windows of the spectrogram: that of the source paper.
+pub const OVERLAP: f64 = 0.98;
+
+/// Largest damping ratio that the structure may have when nothing is known about it. Whether the slope, or
+/// mode coupling, *alone* would destabilise depends on the damping, which a growing oscillation does not show. Lightly
+/// damped discs ring with less (Table 1 of the source paper: 0.01 %); assemblies may have more, which an impact test
+/// shows.
+pub const DAMPING_RATIO: f64 = 0.002;
+
+/// Largest inclination of the structure to the contact when nothing is known about it, rad: twice that of Table 1 of the source
+/// paper. It couples the two directions beside friction, without any power, by `tan θ/μ` of what friction does.
+pub const INCLINATION: f64 = 0.02;
+
+/// Friction coefficients above this do not occur in brakes: the force columns are swapped.
+pub const LARGEST_FRICTION: f64 = 1.0;
+
+/// The choices of an analysis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Settings {
+    /// The column of time; `None`: `t` or `time`, with a unit or without, where the file has it.
+    pub time: Option<String>,
+    /// Its unit; `None`: that of its header, or else seconds, which are asked about where no sensor is so slow or fast.
+    pub time_unit: Option<TimeUnit>,
+    /// Samples per second (Hz); where the file has a column of time, that must not contradict it.
+    pub rate: Option<f64>,
+    /// The columns in the order of [`Channel::ALL`]; `None`: the default name, if the file has it.
+    pub columns: [Option<String>; Channel::ALL.len()],
+    /// Delay of the normal acceleration behind the tangential one, s, which is taken out; at most one period.
+    pub skew: f64,
+    /// Delay of the forces behind the tangential acceleration, s, which is taken out; at most one period.
+    pub force_skew: f64,
+    /// Largest damping ratio of the structure without friction.
+    pub damping_ratio: f64,
+    /// Largest inclination of the structure to the contact, rad.
+    pub inclination: f64,
+    /// Frequencies in which to look for the oscillation, Hz; `None`: all.
+    pub band: Option<[f64; 2]>,
+    /// Window of the spectrogram, s.
+    pub window: f64,
+    /// Overlap of its windows, below 1.
+    pub overlap: f64,
+    /// Largest friction coefficient that is believed.
+    pub largest_friction: f64,
+}
+
+impl Default for Settings {
+    fn default() -> Settings {
+        Settings {
+            time: None,
+            time_unit: None,
+            rate: None,
+            columns: PerChannel::default(),
+            skew: 0.0,
+            force_skew: 0.0,
+            damping_ratio: DAMPING_RATIO,
+            inclination: INCLINATION,
+            band: None,
+            window: WINDOW,
+            overlap: OVERLAP,
+            largest_friction: LARGEST_FRICTION,
+        }
+    }
+}

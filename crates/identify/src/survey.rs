@@ -1,0 +1,299 @@
+//! The first reading of a file: is it fit for analysis, and where is its oscillation?
+
+use crate::channel::{Channel, PerChannel};
+use crate::fault::Fault;
+use crate::outlier::Watch;
+use crate::pace::Pace;
+use crate::range::Range;
+use crate::read::Table;
+use crate::settings::Settings;
+use crate::spectrum::{Spectra, hann, noise_floor, refine};
+use crate::still::{Stand, Stillness};
+use crate::unit::TimeUnit;
+use crate::window::Geometry;
+use squealmap_input::quote::rounded;
+
+/// Fewest samples of a record: below this there is no spectrum to speak of.
+pub const LEAST_SAMPLES: u64 = 64;
+/// Samples per period below which phases of noisy signals mean nothing (2 is the limit of sampling).
+pub const LEAST_PER_PERIOD: f64 = 2.5;
+/// The slowest and the fastest rate of sensors of vibrations, Hz. What a column of time without a unit says beyond them is asked
+/// about: squeal at 51.2 kHz with its time in milliseconds would be 51.2 Hz.
+pub const RATES: [f64; 2] = [1e3, 1e6];
+/// Samples of a segment of the mean spectrum: 0.3 s at 200 kHz.
+const SEGMENT: usize = 1 << 16;
+/// Bins that slow drift of the whole record reaches.
+const DRIFT_BINS: usize = 4;
+/// A peak of a spectrum stands out when it exceeds its noise by the logarithm of the number of bins, which the highest
+/// bin of noise alone reaches, and this much more (chance 1 in 1000).
+const STANDS_OUT: f64 = 7.0;
+/// Periods of the oscillation for which nothing that sticks or flies stands still.
+const STILL: f64 = 3.0;
+/// A given rate and the column of time may differ by this part: times printed with few digits.
+const SAME_RATE: f64 = 0.01;
+/// A normal force whose standard deviation exceeds its mean does not press.
+const PRESSES: f64 = 1.0;
+/// An acceleration whose mean exceeds its standard deviation this many times is none.
+const OFFSET: f64 = 3.0;
+
+/// What the first reading found.
+#[derive(Clone, Debug)]
+pub(super) struct Survey {
+    pub(super) samples: u64,
+    /// The time of the first sample, s.
+    pub(super) start: f64,
+    /// Samples per second, Hz.
+    pub(super) rate: f64,
+    pub(super) names: PerChannel<String>,
+    pub(super) has: PerChannel<bool>,
+    /// The strongest oscillation of the tangential acceleration, Hz; `None`: none stands out of the noise.
+    pub(super) frequency: Option<f64>,
+    /// The strongest oscillation of all frequencies, Hz, where a band is given that does not hold it.
+    pub(super) outside: Option<f64>,
+    /// What is to be said of the unit of time.
+    pub(super) remark: Option<String>,
+    /// Velocity and temperature that stand still.
+    pub(super) constant: Vec<Channel>,
+    /// Vibrating channels that stand still for a while.
+    pub(super) still: Vec<(Channel, Stand)>,
+}
+
+impl Survey {
+    /// Windows of the record; `None` where no oscillation stands out or there is less than one window of it.
+    pub(super) fn windows(&self) -> Option<Geometry> {
+        self.geometry().filter(|geometry| geometry.window as u64 <= self.samples)
+    }
+
+    fn geometry(&self) -> Option<Geometry> {
+        self.frequency.map(|frequency| Geometry::new(self.rate / frequency))
+    }
+
+    /// Whether there is an oscillation, but not one window of it.
+    pub(super) fn too_short(&self) -> bool {
+        self.geometry().is_some_and(|geometry| geometry.window as u64 > self.samples)
+    }
+}
+
+/// Reads a whole file once.
+pub(super) fn survey(mut table: Table, settings: &Settings) -> Result<Survey, Fault> {
+    let mut pace = settings.rate.is_none().then(|| Pace::new(table.time_name()));
+    let mut ranges = PerChannel::<Range>::default();
+    let mut stills = PerChannel::<Stillness>::default();
+    let mut watches = PerChannel::<Watch>::default();
+    let mut spectrum = MeanSpectrum::default();
+    let mut samples = 0;
+    let mut times = None::<[f64; 2]>;
+    while let Some(row) = table.next()? {
+        if let (Some(pace), Some(time)) = (&mut pace, row.time) {
+            pace.row(row.line, time)?;
+        }
+        if let Some(time) = row.time {
+            times = Some([times.map_or(time, |[first, _]| first), time]);
+        }
+        for (range, value) in ranges.iter_mut().zip(row.values) {
+            range.take(value);
+        }
+        for (watch, value) in watches.iter_mut().zip(row.values) {
+            watch.take(value);
+        }
+        for (still, value) in stills.iter_mut().zip(row.values) {
+            still.take(value);
+        }
+        spectrum.take(row.values[Channel::TangentialAcceleration as usize]);
+        samples += 1;
+    }
+    if samples < LEAST_SAMPLES {
+        return Err(Fault::TooShort { samples, least: LEAST_SAMPLES, because: String::new() });
+    }
+    let (start, rate) = match pace {
+        Some(pace) => pace.finish()?,
+        None => (0.0, settings.rate.unwrap_or_default()),
+    };
+    if !(rate.is_finite() && rate > 0.0) {
+        return Err(Fault::NoRate { rate });
+    }
+    if settings.rate.is_none() && table.time_unit().is_none() && !is_usual(rate) {
+        return Err(doubtful(table.time_name(), rate));
+    }
+    if let Some((given, [first, last])) = settings.rate.zip(times) {
+        let found = (samples - 1) as f64 / (last - first);
+        if found.is_finite() && found > 0.0 && !is_same(found, given) {
+            let unit = TimeUnit::ALL.into_iter().find(|unit| is_same(found / unit.seconds(), given));
+            return Err(Fault::Contradicted {
+                given,
+                column: table.time_name(),
+                found,
+                because: in_unit(unit),
+            });
+        }
+    }
+    let names = Channel::ALL.map(|channel| table.name(channel));
+    let has = Channel::ALL.map(|channel| table.has(channel));
+    // Outliers first: they make a channel look offset or swapped.
+    for (channel, watch) in Channel::ALL.into_iter().zip(watches) {
+        if let Some(found) = watch.finish() {
+            let (column, words) = (names[channel as usize].clone(), channel.words());
+            let time = start + found.first as f64 / rate;
+            return Err(Fault::Outliers { column, words, value: found.value, count: found.count, time });
+        }
+    }
+    let mut constant = Vec::new();
+    for channel in Channel::ALL.into_iter().filter(|channel| table.has(*channel)) {
+        if judge(channel, &ranges[channel as usize], &names[channel as usize], rate)? {
+            constant.push(channel);
+        }
+    }
+    forces(&table, &ranges, settings)?;
+    let frequency = spectrum.peak(rate, settings.band);
+    let strongest = settings.band.and_then(|band| spectrum.peak(rate, None).map(|found| (band, found)));
+    let outside =
+        strongest.filter(|([low, high], found)| !(low..=high).contains(&found)).map(|(_, found)| found);
+    if let Some(frequency) = frequency.filter(|f| rate / f < LEAST_PER_PERIOD) {
+        return Err(Fault::TooFast { frequency, samples: rate / frequency, least: LEAST_PER_PERIOD });
+    }
+    if let Some(frequency) = frequency {
+        late(settings, frequency)?;
+    }
+    let least = frequency.map_or(f64::INFINITY, |frequency| STILL * rate / frequency);
+    let still = Channel::ALL.into_iter().zip(stills).filter(|(channel, _)| channel.vibrates());
+    let still = still.filter_map(|(channel, still)| Some((channel, still.finish(least)?))).collect();
+    let remark = table.remark_on_unit();
+    Ok(Survey { samples, start, rate, names, has, frequency, outside, remark, constant, still })
+}
+
+/// Whether sensors of vibrations are sampled at this rate (Hz), or nearly.
+fn is_usual(rate: f64) -> bool {
+    (RATES[0] * (1.0 - SAME_RATE)..=RATES[1] * (1.0 + SAME_RATE)).contains(&rate)
+}
+
+fn is_same(found: f64, given: f64) -> bool {
+    (found / given - 1.0).abs() <= SAME_RATE
+}
+
+/// Asks about a column of time that would have this rate (Hz) in seconds.
+fn doubtful(column: String, rate: f64) -> Fault {
+    let usual = TimeUnit::ALL.into_iter().filter(|unit| is_usual(rate / unit.seconds()));
+    let units: Vec<String> = usual
+        .map(|unit| format!("--time-unit {} ({} Hz)", unit.name(), rounded(rate / unit.seconds())))
+        .collect();
+    let units = if units.is_empty() { "--time-unit".to_owned() } else { units.join(" or ") };
+    Fault::DoubtfulTime { column, rate: rounded(rate), units }
+}
+
+/// That a unit of time makes two rates one, as the end of a sentence.
+fn in_unit(unit: Option<TimeUnit>) -> String {
+    unit.map_or(String::new(), |unit| format!("; in {0} both are one: --time-unit {0}", unit.name()))
+}
+
+/// Refuses delays longer than a period of the oscillation (Hz): over these its amplitude changes, too.
+fn late(settings: &Settings, frequency: f64) -> Result<(), Fault> {
+    let period = 1.0 / frequency;
+    for (flag, delay) in [("--skew", settings.skew), ("--force-skew", settings.force_skew)] {
+        if delay.abs() > period {
+            return Err(Fault::TooLate { flag, delay, frequency, period });
+        }
+    }
+    Ok(())
+}
+
+/// Refuses a channel that is constant, cut off or no vibration; `true` for one that may stand still, and does.
+fn judge(channel: Channel, range: &Range, name: &str, rate: f64) -> Result<bool, Fault> {
+    let (column, words, flag) = (name.to_owned(), channel.words(), channel.flag());
+    if range.is_constant() {
+        // A drag test at one velocity and one temperature is a good test.
+        return if channel.vibrates() {
+            Err(Fault::Constant { column, words, value: range.mean(), flag })
+        } else {
+            Ok(true)
+        };
+    }
+    if let Some(clipping) = range.clipping().filter(|_| channel.vibrates()) {
+        let time = clipping.first as f64 / rate;
+        return Err(Fault::Clipped { column, words, value: clipping.value, runs: clipping.runs, time });
+    }
+    let acceleration = matches!(channel, Channel::TangentialAcceleration | Channel::NormalAcceleration);
+    let (mean, deviation) = (range.mean(), range.deviation());
+    if acceleration && mean.abs() > OFFSET * deviation {
+        return Err(Fault::Offset { column, words, mean, deviation, flag });
+    }
+    Ok(false)
+}
+
+/// Refuses forces that are swapped or of the wrong sign.
+fn forces(table: &Table, ranges: &PerChannel<Range>, settings: &Settings) -> Result<(), Fault> {
+    let of = |channel: Channel| ranges[channel as usize];
+    let (tangential, normal) = (of(Channel::TangentialForce), of(Channel::NormalForce));
+    if !table.has(Channel::NormalForce) {
+        return Ok(());
+    }
+    if normal.mean() < PRESSES * normal.deviation() {
+        return Err(Fault::NotPressing {
+            column: table.name(Channel::NormalForce),
+            mean: normal.mean(),
+            deviation: normal.deviation(),
+        });
+    }
+    if !table.has(Channel::TangentialForce) {
+        return Ok(());
+    }
+    let friction = tangential.mean() / normal.mean();
+    let (tangential, normal) = (table.name(Channel::TangentialForce), table.name(Channel::NormalForce));
+    if friction > settings.largest_friction {
+        return Err(Fault::SwappedForces {
+            tangential,
+            normal,
+            friction,
+            largest: settings.largest_friction,
+        });
+    }
+    if friction < 0.0 {
+        return Err(Fault::NegativeFriction { tangential, normal, friction });
+    }
+    Ok(())
+}
+
+/// The mean power spectrum of a signal of any length: segments that overlap by half, and what remains.
+#[derive(Default)]
+struct MeanSpectrum {
+    waiting: Vec<f64>,
+    sum: Vec<f64>,
+    spectra: Option<Spectra>,
+    power: Vec<f64>,
+}
+
+impl MeanSpectrum {
+    fn take(&mut self, value: f64) {
+        self.waiting.push(value);
+        if self.waiting.len() == SEGMENT {
+            let spectra = self.spectra.get_or_insert_with(|| Spectra::new(hann(SEGMENT)));
+            spectra.power(&self.waiting, &mut self.power);
+            if self.sum.is_empty() {
+                self.sum.clone_from(&self.power);
+            } else {
+                self.sum.iter_mut().zip(&self.power).for_each(|(sum, power)| *sum += power);
+            }
+            self.waiting.drain(..SEGMENT / 2);
+        }
+    }
+
+    /// The frequency of the highest bin inside the band, Hz; `None` when it does not stand out.
+    fn peak(&mut self, rate: f64, band: Option<[f64; 2]>) -> Option<f64> {
+        let mut length = SEGMENT;
+        if self.spectra.is_none() {
+            // A record shorter than a segment: no taper, as a growing oscillation is strongest at its end.
+            length = self.waiting.len();
+            Spectra::new(vec![1.0; length]).power(&self.waiting, &mut self.sum);
+        }
+        let width = rate / length as f64;
+        let inside = |k: usize| {
+            let frequency = k as f64 * width;
+            band.is_none_or(|[low, high]| (low..=high).contains(&frequency))
+        };
+        let bins = (DRIFT_BINS..self.sum.len()).filter(|k| inside(*k));
+        let highest = bins.max_by(|a, b| self.sum[*a].total_cmp(&self.sum[*b]))?;
+        let position = refine(&self.sum, highest);
+        let chance = (self.sum.len() as f64).ln() + STANDS_OUT;
+        let stands_out = self.sum[highest] > chance * noise_floor(&self.sum, position);
+        stands_out.then_some(position * width)
+    }
+}

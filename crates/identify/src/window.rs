@@ -1,0 +1,246 @@
+//! One window: frequency, growth, distortion and cross-spectra.
+
+use std::f64::consts::TAU;
+
+use num_complex::Complex64;
+
+use crate::channel::{Channel, PerChannel};
+use crate::cross::{INDEPENDENT, Measured, Sums};
+use crate::spectrum::{Spectra, detrend, hann, noise_floor, refine};
+
+/// Periods of the dominant oscillation in a block: the fewest whose main lobe stays clear of drift.
+const BLOCK_PERIODS: f64 = 4.0;
+/// Blocks overlap by three quarters.
+const BLOCK_HOPS: usize = 4;
+/// Blocks of a window: 12 periods, in which an oscillation of Table 1 grows by a factor of 2 to 16.
+const BLOCKS: usize = 9;
+/// Fewest samples of a block.
+const LEAST_BLOCK: usize = 12;
+/// Windows start this many block hops apart.
+const WINDOW_HOPS: usize = 3;
+/// Windows that hold the same block.
+pub(super) const SHARED: f64 = BLOCKS as f64 / WINDOW_HOPS as f64;
+/// Bins of a window that slow drift reaches.
+const DRIFT_BINS: usize = 3;
+
+/// Lengths in samples.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Geometry {
+    block: usize,
+    block_hop: usize,
+    pub(super) window: usize,
+    pub(super) hop: usize,
+}
+
+impl Geometry {
+    /// Windows for an oscillation of `period` samples.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a positive number of samples"
+    )]
+    pub(super) fn new(period: f64) -> Geometry {
+        let block = ((BLOCK_PERIODS * period).round() as usize).max(LEAST_BLOCK);
+        let block_hop = (block / BLOCK_HOPS).max(1);
+        let window = block + (BLOCKS - 1) * block_hop;
+        Geometry { block, block_hop, window, hop: WINDOW_HOPS * block_hop }
+    }
+}
+
+/// What one window holds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Window {
+    /// Start and end, s.
+    pub time: [f64; 2],
+    /// Mean friction coefficient `ΣT/ΣN`.
+    pub friction: Option<f64>,
+    /// Mean normal force, N.
+    pub normal_force: Option<f64>,
+    /// Mean velocity, m/s.
+    pub velocity: Option<f64>,
+    /// Mean temperature, °C.
+    pub temperature: Option<f64>,
+    /// Root mean square of the tangential acceleration without its trend, m/s².
+    pub rms: f64,
+    /// Dominant frequency of the tangential acceleration, Hz.
+    pub frequency: f64,
+    /// Its power over that of the noise beside it.
+    pub signal_to_noise: f64,
+    /// Growth rate of the envelope, 1/s.
+    pub growth: Measured,
+    /// Amplitude of the second and third harmonic relative to the fundamental, noise taken off.
+    pub distortion: f64,
+    pub(super) sums: Sums,
+}
+
+/// Analyses windows of one length; keeps its buffers.
+pub(super) struct Analyser {
+    geometry: Geometry,
+    rate: f64,
+    has: PerChannel<bool>,
+    band: Option<[f64; 2]>,
+    spectra: Spectra,
+    taper: Vec<f64>,
+    power: Vec<f64>,
+    /// `x, y, n, t, u`, trends removed.
+    signals: [Vec<f64>; 5],
+}
+
+impl Analyser {
+    pub(super) fn new(
+        geometry: Geometry,
+        rate: f64,
+        has: PerChannel<bool>,
+        band: Option<[f64; 2]>,
+    ) -> Analyser {
+        Analyser {
+            geometry,
+            rate,
+            has,
+            band,
+            spectra: Spectra::new(hann(geometry.window)),
+            taper: hann(geometry.block),
+            power: Vec::new(),
+            signals: Default::default(),
+        }
+    }
+
+    /// Analyses one window: one slice per channel, each as long as [`Geometry::window`].
+    pub(super) fn window(&mut self, start: f64, channels: &PerChannel<&[f64]>) -> Window {
+        let mean = |channel: Channel| {
+            let values = channels[channel as usize];
+            self.has[channel as usize].then(|| values.iter().sum::<f64>() / values.len() as f64)
+        };
+        let normal_force = mean(Channel::NormalForce);
+        let friction =
+            mean(Channel::TangentialForce).zip(normal_force).map(|(tangential, normal)| tangential / normal);
+        let (velocity, temperature) = (mean(Channel::Velocity), mean(Channel::Temperature));
+        self.load(channels, friction.unwrap_or(0.0));
+        let rms = (self.signals[0].iter().map(|a| a * a).sum::<f64>() / self.geometry.window as f64).sqrt();
+        let (bin, mut distortion, x_noise) = self.peak();
+        let frequency = bin * self.rate / self.geometry.window as f64;
+        // Block and window are tapered alike, so noise powers go with their lengths.
+        let shorter = self.geometry.block as f64 / self.geometry.window as f64;
+        let mut noise = [x_noise; 4];
+        for (noise, signal) in noise[1..].iter_mut().zip([1, 2, 4]) {
+            self.spectra.power(&self.signals[signal], &mut self.power);
+            *noise = noise_floor(&self.power, bin);
+        }
+        if self.has[Channel::TangentialForce as usize] {
+            self.spectra.power(&self.signals[3], &mut self.power);
+            let floor = noise_floor(&self.power, bin);
+            distortion = distortion.max(harmonics(&self.power, bin, floor));
+        }
+        let (sums, growth, frequency) = self.blocks(frequency, noise.map(|power| power * shorter));
+        Window {
+            time: [start, start + self.geometry.window as f64 / self.rate],
+            friction,
+            normal_force,
+            velocity,
+            temperature,
+            rms,
+            frequency,
+            signal_to_noise: sums.signal_to_noise(),
+            growth,
+            distortion,
+            sums,
+        }
+    }
+
+    fn load(&mut self, channels: &PerChannel<&[f64]>, friction: f64) {
+        let of = |channel: Channel| channels[channel as usize];
+        let (tangential, normal) = (of(Channel::TangentialForce), of(Channel::NormalForce));
+        let vibrating =
+            [of(Channel::TangentialAcceleration), of(Channel::NormalAcceleration), normal, tangential];
+        for (signal, values) in self.signals.iter_mut().zip(vibrating) {
+            signal.clear();
+            signal.extend_from_slice(values);
+        }
+        self.signals[4].clear();
+        self.signals[4].extend(tangential.iter().zip(normal).map(|(t, n)| t - friction * n));
+        self.signals.iter_mut().for_each(|signal| detrend(signal));
+    }
+
+    /// Position of the dominant peak of the tangential acceleration (bins), its distortion and its noise.
+    fn peak(&mut self) -> (f64, f64, f64) {
+        self.spectra.power(&self.signals[0], &mut self.power);
+        let width = self.rate / self.geometry.window as f64;
+        let inside =
+            |k: usize| self.band.is_none_or(|[low, high]| (low..=high).contains(&(k as f64 * width)));
+        let bins = (DRIFT_BINS..self.power.len()).filter(|k| inside(*k));
+        let highest = bins.max_by(|a, b| self.power[*a].total_cmp(&self.power[*b])).unwrap_or(DRIFT_BINS);
+        let bin = refine(&self.power, highest);
+        let floor = noise_floor(&self.power, bin);
+        (bin, harmonics(&self.power, bin, floor), floor)
+    }
+
+    /// Complex amplitudes of every block at `frequency` (Hz), the growth rate of their magnitude, and the frequency again
+    /// (Hz), from the phase that they gain: the peak of a spectrum is biased by up to 0.02 bins, 0.2 %.
+    fn blocks(&self, frequency: f64, noise: [f64; 4]) -> (Sums, Measured, f64) {
+        let Geometry { block, block_hop, .. } = self.geometry;
+        let turn = Complex64::cis(-TAU * frequency / self.rate);
+        let mut sums = Sums::default();
+        let mut amplitudes = [(0.0, 0.0); BLOCKS];
+        let (mut before, mut gained) = (Complex64::ZERO, Complex64::ZERO);
+        let hop = block_hop as f64 / self.rate;
+        for (number, amplitude) in amplitudes.iter_mut().enumerate() {
+            let from = number * block_hop;
+            let mut totals = [Complex64::ZERO; 5];
+            let mut phasor = Complex64::ONE;
+            for (k, weight) in self.taper.iter().enumerate() {
+                let factor = phasor * weight;
+                for (total, signal) in totals.iter_mut().zip(&self.signals) {
+                    *total += factor * signal[from + k];
+                }
+                phasor *= turn;
+            }
+            sums.block(totals, noise);
+            gained += totals[0] * before.conj();
+            before = totals[0];
+            let middle = (from as f64 + 0.5 * block as f64) / self.rate;
+            *amplitude = (middle, totals[0].norm_sqr());
+        }
+        let ahead = (gained * Complex64::cis(-TAU * frequency * hop)).arg() / (TAU * hop);
+        (sums, growth(&amplitudes, noise[0]), frequency + ahead)
+    }
+}
+
+/// Amplitude of the second and third harmonic relative to the fundamental at `bin`, the noise taken off.
+fn harmonics(power: &[f64], bin: f64, floor: f64) -> f64 {
+    /// The highest of three bins of noise and twice that for its scatter.
+    const ALLOWED: f64 = 4.0;
+    let top = |position: f64| {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a bin is not negative")]
+        let k = position.round() as usize;
+        let near = k.saturating_sub(1)..=k + 1;
+        near.filter_map(|k| power.get(k)).fold(0.0, |top: f64, p| top.max(*p))
+    };
+    let above: f64 = [2.0, 3.0].into_iter().map(|h| (top(h * bin) - ALLOWED * floor).max(0.0)).sum();
+    let fundamental = top(bin);
+    if fundamental > 0.0 { (above / fundamental).sqrt() } else { 0.0 }
+}
+
+/// Slope of `ln |X|` over time by least squares; blocks below the noise count less.
+fn growth(blocks: &[(f64, f64)], noise: f64) -> Measured {
+    const UNKNOWN: Measured = Measured { value: 0.0, error: f64::INFINITY };
+    // The noise adds its mean to |X|²; time, ln|X|, weight and variance of ln|X| of what is above it.
+    let points: Vec<[f64; 4]> = blocks
+        .iter()
+        .map(|(t, power)| (t, power - noise))
+        .filter(|(_, power)| *power > 0.0)
+        .map(|(t, power)| [*t, 0.5 * power.ln(), power / (power + noise), 0.5 * noise / power])
+        .collect();
+    let total: f64 = points.iter().map(|[_, _, w, _]| w).sum();
+    let t0 = points.iter().map(|[t, _, w, _]| w * t).sum::<f64>() / total;
+    let l0 = points.iter().map(|[_, l, w, _]| w * l).sum::<f64>() / total;
+    let spread: f64 = points.iter().map(|[t, _, w, _]| w * (t - t0).powi(2)).sum();
+    if points.len() < 3 || spread.is_nan() || spread <= 0.0 {
+        return UNKNOWN;
+    }
+    let value = points.iter().map(|[t, l, w, _]| w * (t - t0) * (l - l0)).sum::<f64>() / spread;
+    let residual: f64 = points.iter().map(|[t, l, w, _]| w * (l - l0 - value * (t - t0)).powi(2)).sum();
+    let by_scatter = residual / (points.len() as f64 * INDEPENDENT - 2.0).max(1.0) / spread;
+    let by_noise: f64 = points.iter().map(|[t, _, w, v]| v * (w * (t - t0)).powi(2)).sum::<f64>()
+        / (spread * spread * INDEPENDENT);
+    Measured { value, error: (by_scatter + by_noise).sqrt() }
+}

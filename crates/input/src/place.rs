@@ -1,0 +1,117 @@
+//! Where in a text an error stands.
+
+use std::fmt;
+use std::ops::Range;
+use std::sync::Arc;
+
+use crate::quote::one_line;
+
+/// A text that errors can point into: the sweep file, or a file that it names.
+#[derive(Clone, Debug)]
+pub struct Source {
+    /// The path as the user wrote it.
+    pub name: String,
+    /// The whole text, without a byte order mark, lone carriage returns as line feeds.
+    pub text: Arc<str>,
+}
+
+impl Source {
+    /// A text and the name that errors give it.
+    pub fn new(name: impl Into<String>, text: &str) -> Source {
+        Source { name: name.into(), text: line_ends(text.strip_prefix('\u{feff}').unwrap_or(text)) }
+    }
+
+    /// The place of a byte range of the text.
+    pub fn place(&self, span: Range<usize>) -> Place {
+        let end = self.text.len();
+        let mut start = span.start.min(end);
+        while !self.text.is_char_boundary(start) {
+            start -= 1;
+        }
+        let before = &self.text[..start];
+        let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+        Place(Box::new(Spot {
+            source: self.name.clone(),
+            text: Arc::clone(&self.text),
+            span: start..span.end.clamp(start, end),
+            position: Some((
+                before.bytes().filter(|&byte| byte == b'\n').count() + 1,
+                before[line_start..].chars().count() + 1,
+            )),
+        }))
+    }
+
+    /// What stands in a byte range, as written.
+    pub fn written(&self, span: Range<usize>) -> &str {
+        self.text.get(span).unwrap_or_default()
+    }
+}
+
+/// The text with every lone carriage return as a line feed: byte for byte, so that places stay what they are.
+fn line_ends(text: &str) -> Arc<str> {
+    if !text.contains('\r') {
+        return Arc::from(text);
+    }
+    let mut rest = text.chars().peekable();
+    let mut ended = String::with_capacity(text.len());
+    while let Some(c) = rest.next() {
+        let lone = c == '\r' && rest.peek() != Some(&'\n');
+        ended.push(if lone { '\n' } else { c });
+    }
+    Arc::from(ended)
+}
+
+/// A place in a file (or in an argument): what an error message begins with and what is underlined.
+///
+/// Displays as `path:line:column`, both counted from 1, the column in characters.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Place(Box<Spot>);
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Spot {
+    source: String,
+    text: Arc<str>,
+    span: Range<usize>,
+    position: Option<(usize, usize)>,
+}
+
+impl Place {
+    /// A place in a command-line argument.
+    pub fn argument(name: &str, text: &str, span: Range<usize>) -> Place {
+        Place(Box::new(Spot { source: name.to_owned(), text: Arc::from(text), span, position: None }))
+    }
+
+    /// The path as the user wrote it, or the name of the argument.
+    #[must_use]
+    pub fn source(&self) -> &str {
+        &self.0.source
+    }
+
+    /// The whole text.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        &self.0.text
+    }
+
+    /// The byte range to underline.
+    #[must_use]
+    pub fn span(&self) -> Range<usize> {
+        self.0.span.clone()
+    }
+
+    /// Line and column of the start, from 1; `None` in an argument.
+    #[must_use]
+    pub fn position(&self) -> Option<(usize, usize)> {
+        self.0.position
+    }
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let source = one_line(&self.0.source);
+        match self.0.position {
+            Some((line, column)) => write!(f, "{source}:{line}:{column}"),
+            None => f.write_str(&source),
+        }
+    }
+}

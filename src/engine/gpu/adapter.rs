@@ -1,0 +1,144 @@
+//! Which adapters there are, what they can do, and which one is taken.
+
+use std::fmt;
+
+use crate::engine::gpu::device::Arithmetic;
+use crate::engine::kernel::source::Precision;
+use crate::error::{Error, Result};
+
+/// The APIs in use; with GL, "no Vulkan" would silently become a slow software device.
+const BACKENDS: wgpu::Backends =
+    wgpu::Backends::VULKAN.union(wgpu::Backends::METAL).union(wgpu::Backends::DX12);
+
+/// What to install where no adapter is found.
+pub const MISSING_DRIVER: &str = if cfg!(target_os = "linux") {
+    "install the Vulkan loader and a driver (Debian and Ubuntu: libvulkan1, and mesa-vulkan-drivers or the vendor's driver)"
+} else if cfg!(target_os = "macos") {
+    "Metal needs macOS 10.13 or newer on a Mac with a supported GPU"
+} else {
+    "install the graphics driver of the vendor, with Vulkan or DX12"
+};
+
+/// An adapter that wgpu found.
+#[derive(Clone, Debug)]
+pub struct Adapter {
+    pub(super) raw: wgpu::Adapter,
+}
+
+/// What an adapter is and can do.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Description {
+    /// The name the driver gives it.
+    pub name: String,
+    /// `vulkan`, `metal` or `dx12`.
+    pub api: String,
+    /// `discrete GPU`, `integrated GPU`, `virtual GPU`, `software`, `other`.
+    pub device_type: &'static str,
+    /// Driver and its version.
+    pub driver: String,
+    /// Whether it computes in f64.
+    pub f64: bool,
+    /// Whether it can round every operation by itself: through Vulkan, which takes SPIR-V as it is.
+    pub strict: bool,
+    /// Most bytes of one storage binding.
+    pub max_binding: u64,
+    /// Most bytes of one buffer.
+    pub max_buffer: u64,
+    /// Most workgroups in one dimension.
+    pub max_workgroups: u32,
+}
+
+impl fmt::Display for Description {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} ({}, {}, {})", self.name, self.device_type, self.api, self.driver)
+    }
+}
+
+impl Adapter {
+    /// Every adapter of this machine, in the order of the system.
+    #[must_use]
+    pub fn all() -> Vec<Adapter> {
+        let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
+        descriptor.backends = BACKENDS;
+        descriptor.flags = wgpu::InstanceFlags::empty();
+        let instance = wgpu::Instance::new(descriptor);
+        let found = pollster::block_on(instance.enumerate_adapters(BACKENDS));
+        found.into_iter().map(|raw| Adapter { raw }).collect()
+    }
+
+    /// The best adapter: discrete before integrated, virtual, other and software; the first among equals.
+    /// With `name` only adapters whose name contains it, in any case.
+    ///
+    /// # Errors
+    /// When there is none, or none that has the arithmetic.
+    pub fn best(arithmetic: impl Into<Arithmetic>, name: Option<&str>) -> Result<Adapter> {
+        let Arithmetic { precision, strict } = arithmetic.into();
+        let mut all = Adapter::all();
+        if all.is_empty() {
+            return Err(Error::NoAdapter { remedy: MISSING_DRIVER });
+        }
+        if let Some(name) = name {
+            let names: Vec<String> = all.iter().map(|adapter| adapter.describe().name).collect();
+            all.retain(|adapter| adapter.describe().name.to_lowercase().contains(&name.to_lowercase()));
+            if all.is_empty() {
+                return Err(Error::NoSuchAdapter { name: name.to_owned(), names: names.join(", ") });
+            }
+        }
+        all.sort_by_key(Adapter::rank);
+        let without = all[0].describe().to_string();
+        all.retain(|adapter| precision == Precision::F32 || adapter.describe().f64);
+        if all.is_empty() {
+            return Err(Error::NoF64 { adapter: without });
+        }
+        let without = all[0].describe().to_string();
+        all.into_iter()
+            .find(|adapter| !strict || adapter.describe().strict)
+            .ok_or(Error::NoStrict { adapter: without })
+    }
+
+    /// Whether it is a program on the CPU.
+    #[must_use]
+    pub fn is_software(&self) -> bool {
+        self.raw.get_info().device_type == wgpu::DeviceType::Cpu
+    }
+
+    /// Whether it is a program on the CPU, or does not say what it is.
+    #[must_use]
+    pub fn may_be_software(&self) -> bool {
+        matches!(self.raw.get_info().device_type, wgpu::DeviceType::Cpu | wgpu::DeviceType::Other)
+    }
+
+    fn rank(&self) -> u32 {
+        match self.raw.get_info().device_type {
+            wgpu::DeviceType::DiscreteGpu => 0,
+            wgpu::DeviceType::IntegratedGpu => 1,
+            wgpu::DeviceType::VirtualGpu => 2,
+            wgpu::DeviceType::Other => 3,
+            wgpu::DeviceType::Cpu => 4,
+        }
+    }
+
+    /// What it is and can do.
+    #[must_use]
+    pub fn describe(&self) -> Description {
+        let (info, limits, features) = (self.raw.get_info(), self.raw.limits(), self.raw.features());
+        Description {
+            name: info.name,
+            api: info.backend.to_string(),
+            device_type: match info.device_type {
+                wgpu::DeviceType::DiscreteGpu => "discrete GPU",
+                wgpu::DeviceType::IntegratedGpu => "integrated GPU",
+                wgpu::DeviceType::VirtualGpu => "virtual GPU",
+                wgpu::DeviceType::Cpu => "software",
+                wgpu::DeviceType::Other => "other",
+            },
+            driver: format!("{} {}", info.driver, info.driver_info).trim().to_owned(),
+            f64: features.contains(wgpu::Features::SHADER_F64),
+            strict: info.backend == wgpu::Backend::Vulkan
+                && features.contains(wgpu::Features::PASSTHROUGH_SHADERS),
+            max_binding: limits.max_storage_buffer_binding_size,
+            max_buffer: limits.max_buffer_size,
+            max_workgroups: limits.max_compute_workgroups_per_dimension,
+        }
+    }
+}

@@ -1,0 +1,96 @@
+//! What is made of an outcome: its regime, and the record of its instance.
+
+use crate::engine::instances::Instances;
+use crate::engine::outcome::Ending;
+use crate::engine::outcome::Outcome;
+use crate::engine::record::Record;
+use crate::engine::regime as classify;
+use crate::engine::regime::Regime;
+use crate::engine::scene::{Scene, belt_velocity};
+use crate::model::Param;
+use crate::model::equilibrium::Equilibrium;
+use crate::model::instance::Instance;
+use crate::model::kind::InstabilityType;
+use crate::model::linear;
+use crate::model::linear::Preparation;
+use crate::model::status::Status;
+
+/// The regime of a completed outcome, and whether it is settled; `kind` is the type of its equilibrium.
+#[must_use]
+pub fn regime(instance: &Instance, kind: Option<InstabilityType>, outcome: &Outcome) -> (Regime, bool) {
+    let velocity = instance.params.require(Param::BeltVelocity);
+    let at_end = after_ramp(instance, outcome.simulated_time);
+    let (kind, known) = at_end.map_or((kind, None), |instance| linear::analyse(&instance));
+    let (regime, settled) = classify::regime(outcome, velocity, kind == Some(InstabilityType::Stable));
+    let found = match outcome.ending {
+        None => (regime, settled),
+        Some(Ending::Decays) => (Regime::Equilibrium, true),
+        Some(ending) => (regime, ending == Ending::Settled),
+    };
+    // What sticks, reverses or lifts off has shown what it does, whatever grew: it needs no eigenvalues.
+    let is_open = matches!(found.0, Regime::Slip | Regime::Equilibrium);
+    if !is_open || !kind.is_some_and(InstabilityType::is_unstable) {
+        return found;
+    }
+    let linear = known.or_else(|| linear::analyse(instance).1);
+    linear.map_or(found, |linear| classify::about_unstable(outcome, velocity, linear.growth_rate, found))
+}
+
+/// The instance on the belt as it is at the time `time` (s), where it has a ramp: what a motion then
+/// decays to or grows from is the equilibrium of that velocity.
+fn after_ramp(instance: &Instance, time: f64) -> Option<Instance> {
+    instance.params.get(Param::RampDuration)?;
+    let mut moved = instance.clone();
+    moved.params.set(Param::BeltVelocity, belt_velocity(&instance.params, time));
+    Some(moved)
+}
+
+/// The record of an instance before any analysis: `ok`, or why it has no equilibrium or none in numbers; `prepared` are its
+/// polynomials.
+pub fn begun(instance: &Instance, prepared: &Preparation) -> Record {
+    let status = match prepared {
+        Ok(_) => Status::Ok,
+        Err(kind) => match Equilibrium::new(instance) {
+            Err(status) => status,
+            Ok(_) if kind.is_none() => Status::NonFinite,
+            Ok(_) => Status::Ok,
+        },
+    };
+    Record { status, ..Record::default() }
+}
+
+/// Why an instance has no result, where its law, its equilibrium, its numbers or the length of its run say so before anything is
+/// computed.
+#[must_use]
+pub fn refused(spec: &dyn Instances, instance: &Instance) -> Option<Status> {
+    if spec.response() {
+        return Scene::planned(instance, &spec.plan()).err();
+    }
+    match linear::prepare(instance) {
+        Err(None) => Some(begun(instance, &Err(None)).status),
+        // A type is all that is asked for.
+        _ => None,
+    }
+}
+
+/// The type of the equilibrium of an instance: that of its record, where the sweep has the linear analysis.
+#[must_use]
+pub fn kind_of(spec: &dyn Instances, instance: &Instance, record: &Record) -> Option<InstabilityType> {
+    if spec.linear() { record.kind } else { linear::analyse(instance).0 }
+}
+
+/// Puts a response into the record of its instance; `kind` is the type of its equilibrium.
+pub fn take_response(
+    record: &mut Record,
+    instance: &Instance,
+    kind: Option<InstabilityType>,
+    outcome: &Outcome,
+) {
+    record.status = outcome.status;
+    if outcome.status == Status::Ok {
+        let (regime, settled) = regime(instance, kind, outcome);
+        record.regime = Some(regime);
+        record.settled = Some(settled);
+    }
+    record.outcome = Some(Box::new(*outcome));
+}

@@ -1,0 +1,330 @@
+//! An instance into a kernel's words, and a lane's records into an outcome (host only).
+
+#![expect(clippy::cast_possible_truncation, reason = "small constants become words of a kernel")]
+
+use std::f64::consts::TAU;
+
+use crate::engine::kernel::lane;
+use crate::engine::kernel::lane::Lane;
+use crate::engine::kernel::observe;
+use crate::engine::kernel::observe::SUMS;
+use crate::engine::kernel::reductions::{End, Reductions};
+use crate::engine::kernel::scalar::Real;
+use crate::engine::kernel::scene;
+use crate::engine::kernel::scene::{
+    FIRST_HALF, Law, OPEN_HALF, PIECE_WORDS, SECOND_HALF, SEGMENT_WORDS, SEGMENTS, SETTLE, Scene as Words,
+    Segments,
+};
+use crate::engine::kernel::source::{Constant, Field, Kernel};
+use crate::engine::kernel::windows::Windows;
+use crate::engine::kernel::{contact, crossing, series};
+use crate::engine::method::pace::Turns;
+use crate::engine::outcome::Outcome;
+use crate::engine::plan::Plan;
+use crate::engine::reference::integrate::{MAX_EVENTS_PER_PERIOD, MAX_STEPS_PER_PERIOD, ROUNDINGS};
+use crate::engine::scene::{MOST_STEPS, Scene};
+use crate::model::friction::{FAR, LawKind};
+use crate::model::instance::Instance;
+
+/// Most pieces of a friction law in a kernel: the rows of the longest table.
+pub const MOST_PIECES: usize = 1024;
+
+/// The smallest kernel that holds laws of `pieces` pieces, and how many it holds; `None` above
+/// [`MOST_PIECES`].
+#[must_use]
+pub fn kernel_for(pieces: usize) -> Option<&'static (Kernel, usize)> {
+    static KERNELS: [(Kernel, usize); 7] = [
+        (KERNEL, 1),
+        (kernel::<2>(), 2),
+        (kernel::<4>(), 4),
+        (kernel::<16>(), 16),
+        (kernel::<64>(), 64),
+        (kernel::<256>(), 256),
+        (kernel::<MOST_PIECES>(), MOST_PIECES),
+    ];
+    KERNELS.iter().find(|(_, holds)| pieces <= *holds)
+}
+
+/// What is carried of a lane between dispatches.
+const STATE: &[Field] = &[
+    Field::many("body", 6),
+    Field::one("rest"),
+    Field::many("block", SUMS),
+    Field::many("total", 2 * SUMS),
+    Field::many("peaks", 3),
+    Field::one("previous"),
+    Field::one("first"),
+    Field::one("last"),
+    Field::many("growth", 15),
+    Field::many("phase", 7),
+    Field::many("snapshot", 6),
+];
+
+/// Its counters and switches.
+const FLAGS: &[Field] = &[
+    Field::one("status"),
+    Field::one("steps"),
+    Field::one("started"),
+    Field::one("segment"),
+    Field::one("index"),
+    Field::one("contact"),
+    Field::one("piece"),
+    Field::one("disarmed"),
+    Field::one("at_once"),
+    Field::one("counted"),
+    Field::one("parts"),
+    Field::one("second_pass"),
+    Field::one("half"),
+    Field::one("has_previous"),
+    Field::one("impacts"),
+    Field::one("crossings"),
+    Field::one("growth_closed"),
+    Field::many("first", 2),
+    Field::many("last", 2),
+    Field::many("snapshot", 3),
+];
+
+/// What is the same for all instances.
+const SETTINGS: &[Field] = &[Field::one("tolerance")];
+
+/// The response kernel for laws of one piece.
+pub const KERNEL: Kernel = kernel::<1>();
+
+/// The response kernel for laws of up to `PIECES` pieces.
+#[must_use]
+pub const fn kernel<const PIECES: usize>() -> Kernel {
+    Kernel {
+        name: "response",
+        files: &[
+            ("shaders/scene.wgsl", include_str!("../../../shaders/scene.wgsl")),
+            ("shaders/series.wgsl", include_str!("../../../shaders/series.wgsl")),
+            ("shaders/crossing.wgsl", include_str!("../../../shaders/crossing.wgsl")),
+            ("shaders/observe.wgsl", include_str!("../../../shaders/observe.wgsl")),
+            ("shaders/contact.wgsl", include_str!("../../../shaders/contact.wgsl")),
+            ("shaders/lane.wgsl", include_str!("../../../shaders/lane.wgsl")),
+            ("shaders/response_main.wgsl", include_str!("../../../shaders/response_main.wgsl")),
+        ],
+        inputs: const {
+            &[
+                Field::one("sin"),
+                Field::one("cos"),
+                Field::one("inv_m1"),
+                Field::one("k1"),
+                Field::one("k2"),
+                Field::one("c1"),
+                Field::one("c2"),
+                Field::one("kappa"),
+                Field::one("inv_det"),
+                Field::one("normal_mass"),
+                Field::one("n0"),
+                Field::one("t0"),
+                Field::one("mu0"),
+                Field::one("v0"),
+                Field::one("mu_stick"),
+                Field::many("cone", 2),
+                Field::one("restitution"),
+                Field::one("impact_friction"),
+                Field::many("start", 4),
+                Field::one("slowest_rebound"),
+                Field::many("longest", 4),
+                Field::many("layer", 2),
+                Field::many("segments", SEGMENTS * SEGMENT_WORDS),
+                Field::many("pieces", PIECES * PIECE_WORDS),
+            ]
+        },
+        state: STATE,
+        flags: FLAGS,
+        settings: SETTINGS,
+        constants: const {
+            &[
+                ("LAW_PIECES", Constant::U32(Law::Pieces as u32)),
+                ("LAW_EXPONENTIAL", Constant::U32(Law::Exponential as u32)),
+                ("LAW_RATIONAL", Constant::U32(Law::Rational as u32)),
+                ("PIECES", Constant::U32(PIECES as u32)),
+                ("PIECE_WORDS", Constant::U32(PIECE_WORDS as u32)),
+                ("SEGMENTS", Constant::U32(SEGMENTS as u32)),
+                ("SEGMENT_WORDS", Constant::U32(SEGMENT_WORDS as u32)),
+                ("SETTLE", Constant::U32(SETTLE)),
+                ("FIRST_HALF", Constant::U32(FIRST_HALF)),
+                ("SECOND_HALF", Constant::U32(SECOND_HALF)),
+                ("OPEN_HALF", Constant::U32(OPEN_HALF)),
+                ("FAR", Constant::Real(FAR)),
+                ("NO_KINK", Constant::Real(scene::NO_KINK)),
+                ("EXP_DEGREE", Constant::U32(scene::EXP_DEGREE as u32)),
+                ("ORDER", Constant::U32(series::ORDER as u32)),
+                ("SERIES", Constant::U32(series::ORDER as u32 + 1)),
+                ("MAX_HALVINGS", Constant::U32(series::MAX_HALVINGS as u32)),
+                ("SLIP", Constant::U32(series::SLIP)),
+                ("REVERSE", Constant::U32(series::REVERSE)),
+                ("STICK", Constant::U32(series::STICK)),
+                ("FREE", Constant::U32(series::FREE)),
+                ("SAMPLES", Constant::U32(crossing::SAMPLES as u32)),
+                ("SOLVER_ITERATIONS", Constant::U32(crossing::SOLVER_ITERATIONS as u32)),
+                ("HIGHEST_ORDER", Constant::U32(crossing::HIGHEST_ORDER as u32)),
+                ("NEVER", Constant::Real(crossing::NEVER)),
+                ("DIP", Constant::Real(crossing::DIP)),
+                ("DIP_ITERATIONS", Constant::U32(crossing::DIP_ITERATIONS as u32)),
+                ("SUMS", Constant::U32(SUMS as u32)),
+                ("NODE_0", Constant::Real(observe::NODES[0])),
+                ("NODE_2", Constant::Real(observe::NODES[2])),
+                ("BISECTIONS", Constant::U32(observe::BISECTIONS as u32)),
+                ("TAU", Constant::Real(TAU)),
+                ("ROUNDINGS", Constant::Real(ROUNDINGS)),
+                ("HELD_FROM", Constant::U32(contact::HELD_FROM)),
+                ("LEAST_REST", Constant::Real(lane::LEAST_REST)),
+                ("STEPS_PER_SUM", Constant::U32(lane::STEPS_PER_SUM)),
+                ("MOST_STEPS", Constant::U32(MOST_STEPS)),
+                ("MAX_STEPS_PER_PERIOD", Constant::U32(MAX_STEPS_PER_PERIOD)),
+                ("MAX_EVENTS_PER_PERIOD", Constant::U32(MAX_EVENTS_PER_PERIOD)),
+                ("EVENTS_AT_ONCE", Constant::U32(scene::EVENTS_AT_ONCE)),
+                ("NOTHING", Constant::U32(contact::NOTHING)),
+                ("REST", Constant::U32(contact::REST)),
+                ("LOWER_KINK", Constant::U32(contact::LOWER_KINK)),
+                ("UPPER_KINK", Constant::U32(contact::UPPER_KINK)),
+                ("LIFT_OFF", Constant::U32(contact::LIFT_OFF)),
+                ("CONE_FORWARD", Constant::U32(contact::CONE_FORWARD)),
+                ("CONE_BACKWARD", Constant::U32(contact::CONE_BACKWARD)),
+                ("GAP", Constant::U32(contact::GAP)),
+            ]
+        },
+        loops_per_step: LOOPS_PER_STEP + SEARCHES_PER_STEP * (PIECES as u32 - 1),
+    }
+}
+
+/// Bound on the truncation of a step, relative to the motion: with 12 steps per period the amplitudes are
+/// those of the reference to 1.5e-4 at the 99th percentile.
+pub const TOLERANCE: f32 = 2e-4;
+
+/// Most loop iterations of one step, every loop at its longest, without the searches for a piece of the law.
+const LOOPS_PER_STEP: u32 = 1900;
+
+/// Most searches for a piece in one step, each over all pieces: an impact looks for that before it and that
+/// after it.
+const SEARCHES_PER_STEP: u32 = 2;
+
+/// What a scene selects: the form of its law, and whether its belt has a ramp.
+#[must_use]
+pub const fn choices(law: Law, ramp: bool) -> [(&'static str, Constant); 2] {
+    [("LAW", Constant::U32(law as u32)), ("RAMP", Constant::Bool(ramp))]
+}
+
+/// The form of the law of an instance.
+#[must_use]
+pub fn law_of(kind: LawKind) -> Law {
+    match kind {
+        LawKind::Constant | LawKind::Bilinear | LawKind::Table => Law::Pieces,
+        LawKind::Exponential => Law::Exponential,
+        LawKind::Rational => Law::Rational,
+    }
+}
+
+/// The segments of a run: settle and both halves of the window, cut where a ramp ends.
+#[must_use]
+pub fn segments(scene: &Scene, plan: &Plan) -> Segments {
+    let half = 0.5 * scene.scaled(plan.measure);
+    cut(scene, plan, [(SETTLE, scene.scaled(plan.settle)), (FIRST_HALF, half), (SECOND_HALF, half)])
+}
+
+/// The segments of one window of a run until settled, without a second pass.
+#[must_use]
+pub fn window_segments(scene: &Scene, plan: &Plan, settle: f64, half: f64) -> Segments {
+    cut(scene, plan, [(SETTLE, settle), (FIRST_HALF, half), (OPEN_HALF, half)])
+}
+
+/// A ramp that has less than this part of its time to go is over.
+const END_ROUNDING: f64 = 1e-14;
+
+fn cut(scene: &Scene, plan: &Plan, parts: [(u32, f64); 3]) -> Segments {
+    let nominal = TAU / f64::from(plan.steps_per_period);
+    let mut segments = [[0.0; SEGMENT_WORDS]; SEGMENTS];
+    let mut used = 0;
+    let mut time = 0.0;
+    for (part, length) in parts {
+        let mut rest = length;
+        while rest > 0.0 {
+            let (mut belt, mut holds) = scene.belt_from(time);
+            if holds <= END_ROUNDING * time {
+                // The sum of the parts falls short of the end of the ramp by its rounding: a segment of nothing, for which
+                // there is no room.
+                time *= 1.0 + END_ROUNDING;
+                (belt, holds) = scene.belt_from(time);
+            }
+            let duration = rest.min(holds);
+            let steps = (duration / nominal).ceil().max(1.0);
+            segments[used] = [steps, duration / steps, belt.velocity, belt.acceleration, f64::from(part)];
+            used += 1;
+            time += duration;
+            rest -= duration;
+        }
+    }
+    segments
+}
+
+/// The words of an instance for kernels built for `pieces` pieces.
+#[must_use]
+pub fn words(scene: &Scene, segments: &Segments, pieces: usize) -> Vec<f64> {
+    scene::words(&scene.model, scene.belt(0.0).velocity, start(scene), segments, pieces)
+}
+
+/// An instance as the kernel's twin has it, without segments, for steps that may turn so far.
+#[must_use]
+pub fn without_segments<S: Real>(law: LawKind, scene: &Scene, turns: &Turns) -> Words<S> {
+    Words::of(law_of(law), &scene.model, scene.belt(0.0).velocity, start(scene), turns)
+}
+
+/// `x2`, `y1`, `ẋ2`, `ẏ1` at the start.
+fn start(scene: &Scene) -> [f64; 4] {
+    let start = scene.start();
+    [start.position[0], start.position[2], start.velocity[0], start.velocity[2]]
+}
+
+/// Integrates one instance with the twin of the kernel.
+#[must_use]
+pub fn respond<S: Real>(instance: &Instance, plan: &Plan, tolerance: f64) -> Outcome {
+    let scene = match Scene::planned(instance, plan) {
+        Ok(scene) => scene,
+        Err(status) => return Outcome { status, ..Outcome::default() },
+    };
+    let pieces = scene.model.law.pieces.len();
+    let mut windows = Windows::new(instance, &scene, plan);
+    let mut lane: Option<Lane<S>> = None;
+    loop {
+        let packed = words(&scene, &windows.segments, pieces);
+        let words: Words<S> = Words::read(law_of(instance.law.kind()), pieces, &packed);
+        let lane = lane.get_or_insert_with(|| Lane::new(&words));
+        lane.run(&words, S::from_f64(tolerance));
+        if let Some(outcome) = windows.take(&scene, lane) {
+            return outcome;
+        }
+    }
+}
+
+/// What a finished lane has reduced, and how it ended; times from the beginning of the segments.
+#[must_use]
+pub fn reductions<S: Real>(segments: &Segments, lane: &Lane<S>) -> (Reductions, End) {
+    let time = |segment: u32, index: u32, fraction: f64| -> f64 {
+        let before: f64 = segments[..(segment as usize).min(SEGMENTS)].iter().map(|s| s[0] * s[1]).sum();
+        let step = segments.get(segment as usize).map_or(0.0, |s| s[1]);
+        before + (f64::from(index) + fraction) * step
+    };
+    let moment = |m: &observe::Moment<S>| time(m.segment, m.index, m.fraction.to_f64());
+    let sums = &lane.sums;
+    let reductions = Reductions {
+        origin: [lane.snapshot.body.p[0], lane.snapshot.body.p[2]].map(Real::to_f64),
+        halves: sums.total.map(|half| half.map(Real::to_f64)),
+        peaks: sums.peaks.map(Real::to_f64),
+        impacts: sums.impacts,
+        crossings: u64::from(sums.crossings),
+        first: moment(&sums.first),
+        last: moment(&sums.last),
+        phase: [lane.phase.x, lane.phase.y].map(|part| part.map(Real::to_f64)),
+        growth: sums.growth.map(Real::to_f64),
+        met_event: sums.growth_closed,
+    };
+    let end = End {
+        status: lane.state.status,
+        steps: u64::from(lane.iterations),
+        time: time(lane.segment, lane.index, 0.0),
+    };
+    (reductions, end)
+}

@@ -1,0 +1,369 @@
+//! Twin: shaders/scene.wgsl
+//!
+//! What one instance hands to a kernel, word by word.
+//!
+//! The host computes every word in f64 and narrows it once. Differences of nearly equal numbers (friction
+//! against that of the equilibrium, the stick cone at the equilibrium) are formed there.
+
+use std::sync::LazyLock;
+
+use smallvec::SmallVec;
+
+use crate::engine::kernel::response::TOLERANCE;
+use crate::engine::kernel::scalar::Real;
+use crate::engine::kernel::series::ORDER;
+use crate::engine::method::pace::Turns;
+use crate::engine::reference::integrate::MAX_EVENTS_AT_ONCE;
+use crate::model::equilibrium::Scaled;
+use crate::model::friction::{FAR, Piece as LawPiece};
+
+/// The form of the friction law a kernel is built for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[repr(u32)]
+pub enum Law {
+    /// Straight pieces: `constant`, `bilinear`, `table`.
+    Pieces,
+    /// `exponential`.
+    Exponential,
+    /// `rational`.
+    Rational,
+}
+
+/// One piece of the friction law.
+#[derive(Clone, Copy, Debug)]
+pub struct Piece<S> {
+    /// μ continued to `|v| = 0`; μ at infinity for `exponential`.
+    pub at_zero: S,
+    /// `dμ/d|v|`.
+    pub slope: S,
+    /// Decay rate of `exponential` and `rational`; the longest step of slip on a straight piece.
+    pub rate: S,
+    /// μ of this piece at the initial belt velocity less μ of the equilibrium; of `exponential`: its
+    /// height there.
+    pub offset: S,
+    /// Upper end in `|v|`; [`NO_KINK`] for the last piece.
+    pub kink: S,
+}
+
+impl<S: Real> Piece<S> {
+    fn read(words: &[f64]) -> Piece<S> {
+        let w = |i: usize| S::from_f64(words[i]);
+        Piece { at_zero: w(0), slope: w(1), rate: w(2), offset: w(3), kink: w(4) }
+    }
+}
+
+/// A stretch of constant belt acceleration and step inside one part of the run.
+#[derive(Clone, Copy, Debug)]
+pub struct Segment<S> {
+    /// Steps; 0 for an unused segment.
+    pub steps: S,
+    /// Length of a step.
+    pub step: S,
+    /// Belt velocity at its start.
+    pub velocity: S,
+    /// Belt acceleration.
+    pub acceleration: S,
+    /// [`SETTLE`], [`FIRST_HALF`], [`SECOND_HALF`] or [`OPEN_HALF`].
+    pub part: S,
+}
+
+/// Before the measuring window.
+pub const SETTLE: u32 = 0;
+/// First half of the window.
+pub const FIRST_HALF: u32 = 1;
+/// Second half of the window.
+pub const SECOND_HALF: u32 = 2;
+/// Second half of a window that is not passed a second time.
+pub const OPEN_HALF: u32 = 3;
+
+/// Segments per instance: a ramp may end inside any part.
+pub const SEGMENTS: usize = 4;
+
+/// The words of the segments of an instance, in the order of [`Segment`].
+pub type Segments = [[f64; SEGMENT_WORDS]; SEGMENTS];
+
+/// A kink no speed reaches.
+pub const NO_KINK: f64 = 1e30;
+
+/// Words before the segments; the pieces come last.
+pub const SCENE_WORDS: usize = 30;
+/// Words of a piece.
+pub const PIECE_WORDS: usize = 5;
+/// Words of a segment.
+pub const SEGMENT_WORDS: usize = 5;
+
+/// One instance as a kernel sees it.
+#[derive(Clone, Debug)]
+pub struct Scene<S> {
+    /// Form of the friction law.
+    pub law: Law,
+    /// `sin θ`.
+    pub s: S,
+    /// `cos θ`.
+    pub c: S,
+    /// `1/m1`.
+    pub inv_m1: S,
+    /// Stiffness and damping.
+    pub k1: S,
+    /// Normal stiffness.
+    pub k2: S,
+    /// Tangential damping.
+    pub c1: S,
+    /// Normal damping.
+    pub c2: S,
+    /// `κ = m1 s c`.
+    pub kappa: S,
+    /// `1/det` of the mass matrix of `(x2, y2)`.
+    pub inv_det: S,
+    /// `m2 + m1 s²`.
+    pub normal_mass: S,
+    /// Normal force of the equilibrium.
+    pub n0: S,
+    /// Tangential force of the equilibrium.
+    pub t0: S,
+    /// μ of the equilibrium.
+    pub mu0: S,
+    /// Belt velocity of the equilibrium.
+    pub v0: S,
+    /// Limit of stick.
+    pub mu_stick: S,
+    /// `(μ_s − μ0) N0` and `(μ_s + μ0) N0`: the margins of the stick cone at the equilibrium.
+    pub cone: [S; 2],
+    /// Newton restitution.
+    pub restitution: S,
+    /// 1 with a Coulomb impulse, else 0.
+    pub impact_friction: S,
+    /// Start: `x2`, `y1`, `ẋ2`, `ẏ1`.
+    pub start: [S; 4],
+    /// Smallest rebound.
+    pub slowest_rebound: S,
+    /// The longest step of each contact state.
+    pub longest: [S; 4],
+    /// How far a step of a curved law may go, see [`crate::engine::method::pace::Layer::inverses`].
+    pub layer: [S; 2],
+    /// The pieces of the law.
+    pub pieces: SmallVec<[Piece<S>; 2]>,
+    /// The segments.
+    pub segments: [Segment<S>; SEGMENTS],
+}
+
+/// Events at one instant before an instance is given up; the same as in the reference.
+pub const EVENTS_AT_ONCE: u32 = MAX_EVENTS_AT_ONCE;
+
+/// What a step of the kernel may turn.
+static TURNS: LazyLock<Turns> = LazyLock::new(|| Turns::new(ORDER, f64::from(TOLERANCE)));
+
+/// The words of an instance in f64, in the order of the kernel's input buffer.
+#[must_use]
+pub fn words(model: &Scaled, v0: f64, start: [f64; 4], segments: &Segments, pieces: usize) -> Vec<f64> {
+    let last = model.law.pieces.len() - 1;
+    let mut words = Vec::with_capacity(SCENE_WORDS + SEGMENTS * SEGMENT_WORDS + pieces * PIECE_WORDS);
+    words.extend(head(model, v0, start));
+    words.extend(segments.as_flattened());
+    // What there is room for beyond the last is the last.
+    words.extend((0..pieces).flat_map(|index| piece(model, v0, index.min(last), &TURNS)));
+    words
+}
+
+/// Those before the segments.
+fn head(model: &Scaled, v0: f64, start: [f64; 4]) -> [f64; SCENE_WORDS] {
+    let (mu0, n0) = (model.mu0, model.n0);
+    let mu_s = model.law.mu_stick;
+    let [x, w, vx, vw] = start;
+    let [slip, reverse, stick, free] = TURNS.longest_steps(&model.fastest).map(|step| step.min(NO_KINK));
+    let [across, along] = TURNS.layer().inverses(model);
+    [
+        model.s,
+        model.c,
+        1.0 / model.m1,
+        model.k1,
+        model.k2,
+        model.c1,
+        model.c2,
+        model.kappa,
+        1.0 / model.det,
+        model.normal_mass,
+        n0,
+        mu0 * n0,
+        mu0,
+        v0,
+        mu_s,
+        (mu_s - mu0) * n0,
+        (mu_s + mu0) * n0,
+        model.restitution,
+        f64::from(u8::from(model.impact_friction)),
+        x,
+        w,
+        vx,
+        vw,
+        crate::model::contact::SLOWEST_REBOUND,
+        slip,
+        reverse,
+        stick,
+        free,
+        across,
+        along,
+    ]
+}
+
+/// Those of a piece of the law, on which a step may turn so far.
+fn piece(model: &Scaled, v0: f64, index: usize, turns: &Turns) -> [f64; PIECE_WORDS] {
+    let kink = model.law.kinks.get(index).copied().unwrap_or(NO_KINK);
+    match model.law.pieces[index] {
+        LawPiece::Linear { at_zero, slope } => {
+            let longest = turns.longest_step_on(model, index).min(NO_KINK);
+            [at_zero, slope, longest, at_zero + slope * v0 - model.mu0, kink]
+        }
+        LawPiece::Exponential { floor, height, rate } => {
+            [floor, height, rate, height * (-rate * v0).exp(), kink]
+        }
+        LawPiece::Rational { at_zero, decay } => [at_zero, 0.0, decay, 1.0 / (1.0 + decay * v0), kink],
+    }
+}
+
+impl<S: Real> Scene<S> {
+    /// Reads the words of an instance.
+    #[must_use]
+    pub fn read(law: Law, pieces: usize, words: &[f64]) -> Scene<S> {
+        let w = |i: usize| S::from_f64(words[i]);
+        let segment = |i: usize| {
+            let at = SCENE_WORDS + i * SEGMENT_WORDS;
+            Segment {
+                steps: w(at),
+                step: w(at + 1),
+                velocity: w(at + 2),
+                acceleration: w(at + 3),
+                part: w(at + 4),
+            }
+        };
+        let piece = |i: usize| {
+            let at = SCENE_WORDS + SEGMENTS * SEGMENT_WORDS + i * PIECE_WORDS;
+            Piece::read(&words[at..at + PIECE_WORDS])
+        };
+        let pieces = (0..pieces).map(piece).collect();
+        Scene { pieces, segments: std::array::from_fn(segment), ..Scene::read_head(law, words) }
+    }
+
+    /// An instance without segments, by its law's own pieces, whose steps may turn so far.
+    #[must_use]
+    pub fn of(law: Law, model: &Scaled, v0: f64, start: [f64; 4], turns: &Turns) -> Scene<S> {
+        let piece = |index: usize| Piece::read(&piece(model, v0, index, turns));
+        let pieces = (0..model.law.pieces.len()).map(piece).collect();
+        Scene { pieces, ..Scene::read_head(law, &head(model, v0, start)) }
+    }
+
+    /// What stands before the segments.
+    fn read_head(law: Law, words: &[f64]) -> Scene<S> {
+        let w = |i: usize| S::from_f64(words[i]);
+        let nothing = Segment {
+            steps: S::ZERO,
+            step: S::ZERO,
+            velocity: S::ZERO,
+            acceleration: S::ZERO,
+            part: S::ZERO,
+        };
+        Scene {
+            law,
+            s: w(0),
+            c: w(1),
+            inv_m1: w(2),
+            k1: w(3),
+            k2: w(4),
+            c1: w(5),
+            c2: w(6),
+            kappa: w(7),
+            inv_det: w(8),
+            normal_mass: w(9),
+            n0: w(10),
+            t0: w(11),
+            mu0: w(12),
+            v0: w(13),
+            mu_stick: w(14),
+            cone: [w(15), w(16)],
+            restitution: w(17),
+            impact_friction: w(18),
+            start: [w(19), w(20), w(21), w(22)],
+            slowest_rebound: w(23),
+            longest: [w(24), w(25), w(26), w(27)],
+            layer: [w(28), w(29)],
+            pieces: SmallVec::new(),
+            segments: [nothing; SEGMENTS],
+        }
+    }
+
+    /// `q = σ μ` and `q − μ0` at the relative velocity `v`; `lag = V0 − v`, known without cancellation.
+    #[must_use]
+    pub fn friction(&self, piece: &Piece<S>, sigma: S, v: S, lag: S) -> (S, S) {
+        let forward = sigma > S::ZERO;
+        match self.law {
+            Law::Pieces => {
+                let q = sigma * piece.at_zero + piece.slope * v;
+                (q, if forward { piece.offset - piece.slope * lag } else { q - self.mu0 })
+            }
+            Law::Exponential => {
+                // From the equilibrium, without cancellation, or from rest, where that is too far down.
+                let ahead = piece.rate * lag;
+                let near = forward && ahead <= S::from_f64(FAR);
+                let base = if near { piece.offset } else { piece.slope };
+                let less = base * exp_m1(if near { ahead } else { -(piece.rate * (sigma * v).max(S::ZERO)) });
+                let q = sigma * (piece.at_zero + (base + less));
+                (q, if near { less } else { q - self.mu0 })
+            }
+            Law::Rational => {
+                let reciprocal = S::ONE / (S::ONE + piece.rate * sigma * v);
+                let q = sigma * piece.at_zero * reciprocal;
+                let less = piece.at_zero * piece.rate * lag * reciprocal * piece.offset;
+                (q, if forward { less } else { q - self.mu0 })
+            }
+        }
+    }
+
+    /// The longest step of a curved law at a relative velocity and its rate of change, see [`crate::engine::method::pace::Layer`].
+    #[must_use]
+    pub fn longest_in_layer(&self, piece: &Piece<S>, q: S, v: S, acceleration: S) -> S {
+        let narrowing = S::ONE / (S::ONE + piece.rate * v.abs());
+        let sloped =
+            if self.law == Law::Exponential { (q.abs() - piece.at_zero).abs() } else { q.abs() * narrowing };
+        let inverse = piece.rate * (acceleration.abs() * narrowing * self.layer[0] + sloped * self.layer[1]);
+        S::ONE / inverse.max(S::from_f64(1.0 / NO_KINK))
+    }
+
+    /// μ at the speed `|v|`, whatever its piece.
+    #[must_use]
+    pub fn mu(&self, speed: S) -> S {
+        self.friction(&self.pieces[self.piece_at(speed)], S::ONE, speed, self.v0 - speed).0
+    }
+
+    /// The piece at a speed.
+    #[must_use]
+    pub fn piece_at(&self, speed: S) -> usize {
+        let mut index = 0;
+        while index + 1 < self.pieces.len() && speed >= self.pieces[index].kink {
+            index += 1;
+        }
+        index
+    }
+}
+
+/// `exp(x) − 1` for `x` in [−80, 80]: a series for `|x| ≤ 1/2`, doubled by `(1 + e)² − 1 = e (2 + e)`.
+#[must_use]
+pub fn exp_m1<S: Real>(x: S) -> S {
+    let mut y = x.max(S::from_f64(-80.0)).min(S::from_f64(80.0));
+    let mut doublings = 0;
+    while y.abs() > S::from_f64(0.5) {
+        y *= S::from_f64(0.5);
+        doublings += 1;
+    }
+    let mut sum = S::ONE;
+    for k in (2..=EXP_DEGREE).rev() {
+        sum = S::ONE + y * sum / S::from_f64(f64::from(k));
+    }
+    let mut e = y * sum;
+    for _ in 0..doublings {
+        e *= S::from_f64(2.0) + e;
+    }
+    e
+}
+
+/// Degree of the exponential's series: below 1e-17 at 1/2.
+pub const EXP_DEGREE: u8 = 14;

@@ -1,0 +1,243 @@
+//! The contract between host and kernels; twin of `shaders/host.wgsl`.
+//!
+//! All bindings are in group 0. Words are stored word-major: word `w` of instance `i` at `w * count + i`.
+//!
+//! | binding | name | type | what |
+//! |---|---|---|---|
+//! | 0 | `settings` | uniform `Settings` | counts, and numbers that a compiler cannot know |
+//! | 1 | `inputs` | `array<real>`, read only | the words of each instance |
+//! | 2 | `state` | `array<real>` | what is carried between dispatches, and results |
+//! | 3 | `flags` | `array<u32>` | word 0: status, 0 is unwritten; word 1: steps done |
+//! | 4 | `progress` | `array<atomic<u32>>` | word 0: instances that are finished |
+//!
+//! No number is typed on both sides: where a word stands, codes and constants reach WGSL as a header made
+//! from the tables here.
+
+use std::fmt::{self, Write};
+
+use serde::Serialize;
+
+use crate::model::status::Status;
+
+/// Invocations of a workgroup.
+pub const WORKGROUP_SIZE: u32 = 64;
+
+/// Kernel-specific 32-bit words of the settings.
+pub const SETTING_WORDS: usize = 4 * SETTING_VECTORS as usize;
+
+/// Vectors of four words that hold them.
+pub const SETTING_VECTORS: u32 = 4;
+
+/// Words of `progress`.
+pub const PROGRESS_WORDS: usize = 4;
+
+/// The flag word that holds the status: 0 is unwritten, others as [`Status`].
+pub const FLAG_STATUS: usize = 0;
+
+/// The flag word that counts the steps of the kernel.
+pub const FLAG_STEPS: usize = 1;
+
+/// Names of the bindings of group 0, by their number.
+pub const BINDINGS: [&str; 5] = ["settings", "inputs", "state", "flags", "progress"];
+
+/// The declarations that every kernel begins with.
+pub const HOST: (&str, &str) = ("shaders/host.wgsl", include_str!("../../../shaders/host.wgsl"));
+
+/// The scalar of a computation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Precision {
+    /// 32 bits: any GPU.
+    F32,
+    /// 64 bits: the CPU, and adapters with the feature `SHADER_F64`.
+    F64,
+}
+
+impl Precision {
+    /// The name in WGSL, manifests and arguments.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Precision::F32 => "f32",
+            Precision::F64 => "f64",
+        }
+    }
+
+    /// Bytes of one scalar.
+    #[must_use]
+    pub fn bytes(self) -> usize {
+        match self {
+            Precision::F32 => 4,
+            Precision::F64 => 8,
+        }
+    }
+}
+
+impl fmt::Display for Precision {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// The head of the settings: `Settings` in WGSL, without the kernel-specific words that follow it.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct Settings {
+    /// Instances of the chunk.
+    pub count: u32,
+    /// Steps an invocation takes at most in this dispatch.
+    pub iterations: u32,
+    /// Index of the chunk's first instance, lower 32 bits.
+    pub offset: u32,
+    /// 0 that a compiler cannot know: XOR with it keeps a sum from being reassociated.
+    pub zero: u32,
+    /// 0.0 that a compiler cannot know.
+    pub zero_real: f32,
+    /// 1.0 that a compiler cannot know: a product with it keeps a sum from being reassociated.
+    pub one_real: f32,
+    /// Nothing yet.
+    pub spare: [u32; 2],
+    /// What the kernel's own settings say.
+    pub words: [u32; SETTING_WORDS],
+}
+
+impl Settings {
+    /// The settings of one dispatch.
+    #[must_use]
+    pub fn new(count: u32, iterations: u32, offset: u32, words: [u32; SETTING_WORDS]) -> Settings {
+        Settings { count, iterations, offset, zero: 0, zero_real: 0.0, one_real: 1.0, spare: [0; 2], words }
+    }
+}
+
+/// A named run of words.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Field {
+    /// Its name; WGSL knows its first word by the upper-case name behind a prefix.
+    pub name: &'static str,
+    /// Its words.
+    pub words: usize,
+}
+
+impl Field {
+    /// One word.
+    #[must_use]
+    pub const fn one(name: &'static str) -> Field {
+        Field { name, words: 1 }
+    }
+
+    /// Several words.
+    #[must_use]
+    pub const fn many(name: &'static str, words: usize) -> Field {
+        Field { name, words }
+    }
+}
+
+/// The words of a list of fields.
+#[must_use]
+pub const fn words(fields: &[Field]) -> usize {
+    let mut sum = 0;
+    let mut k = 0;
+    while k < fields.len() {
+        sum += fields[k].words;
+        k += 1;
+    }
+    sum
+}
+
+/// The first word of a field; the number of all words when there is no such field.
+#[must_use]
+pub fn first_word(fields: &[Field], name: &str) -> usize {
+    fields.iter().take_while(|field| field.name != name).map(|field| field.words).sum()
+}
+
+/// A constant of the header.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Constant {
+    /// `const NAME: u32`.
+    U32(u32),
+    /// `const NAME: real`.
+    Real(f64),
+    /// `const NAME: bool`, for what a scene selects.
+    Bool(bool),
+}
+
+/// A compute kernel: its WGSL files and its words.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Kernel {
+    /// Its name in errors and logs.
+    pub name: &'static str,
+    /// Path and text of each WGSL file behind [`HOST`], in order. The last one holds the entry point `main`.
+    pub files: &'static [(&'static str, &'static str)],
+    /// Fields of `inputs`, `INPUT_…` in WGSL.
+    pub inputs: &'static [Field],
+    /// Fields of `state`, `STATE_…` in WGSL.
+    pub state: &'static [Field],
+    /// Fields of `flags`, `FLAG_…` in WGSL; the first two are `status` and `steps`.
+    pub flags: &'static [Field],
+    /// Kernel-specific fields of the settings, `SETTING_…` in WGSL.
+    pub settings: &'static [Field],
+    /// Constants by name.
+    pub constants: &'static [(&'static str, Constant)],
+    /// Most loop iterations that one step may cost, for the limit of a dispatch.
+    pub loops_per_step: u32,
+}
+
+impl Kernel {
+    /// The WGSL text for one scalar; `choices` are further constants, e.g. what a scene selects.
+    #[must_use]
+    pub fn source(&self, precision: Precision, choices: &[(&str, Constant)]) -> String {
+        self.source_with(precision, choices, self.files)
+    }
+
+    /// As [`Kernel::source`], with other files behind the header: a probe of single functions.
+    #[must_use]
+    pub fn source_with(
+        &self,
+        precision: Precision,
+        choices: &[(&str, Constant)],
+        files: &[(&str, &str)],
+    ) -> String {
+        let mut text = header(precision);
+        for (prefix, fields) in
+            [("INPUT", self.inputs), ("STATE", self.state), ("FLAG", self.flags), ("SETTING", self.settings)]
+        {
+            let mut first = 0;
+            for field in fields {
+                constant(&mut text, &format!("{prefix}_{}", field.name.to_uppercase()), Constant::U32(first));
+                first += u32::try_from(field.words).unwrap_or(u32::MAX);
+            }
+        }
+        for (name, value) in self.constants.iter().chain(choices) {
+            constant(&mut text, name, *value);
+        }
+        for (path, file) in std::iter::once(&HOST).chain(files) {
+            let _ = write!(text, "\n// {path}\n{file}");
+        }
+        text
+    }
+}
+
+/// What every kernel's header says: the scalar, its epsilon, sizes and status codes.
+fn header(precision: Precision) -> String {
+    let mut text = format!("alias real = {precision};\n");
+    let epsilon = match precision {
+        Precision::F32 => f64::from(f32::EPSILON),
+        Precision::F64 => f64::EPSILON,
+    };
+    constant(&mut text, "EPSILON", Constant::Real(epsilon));
+    constant(&mut text, "WORKGROUP_SIZE", Constant::U32(WORKGROUP_SIZE));
+    constant(&mut text, "SETTING_VECTORS", Constant::U32(SETTING_VECTORS));
+    for status in std::iter::once(Status::Unwritten).chain(Status::ALL) {
+        let name = format!("STATUS_{}", status.name().to_uppercase());
+        constant(&mut text, &name, Constant::U32(status as u32));
+    }
+    text
+}
+
+fn constant(text: &mut String, name: &str, value: Constant) {
+    let _ = match value {
+        Constant::U32(value) => writeln!(text, "const {name}: u32 = {value}u;"),
+        Constant::Real(value) => writeln!(text, "const {name}: real = {value:?};"),
+        Constant::Bool(value) => writeln!(text, "const {name}: bool = {value};"),
+    };
+}

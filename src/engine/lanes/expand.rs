@@ -1,0 +1,423 @@
+//! The Taylor series of the motion in every lane, over the lane's own step.
+//!
+//! The recurrence of [`crate::engine::kernel::series`] with time in steps: coefficients carry the powers of the step,
+//! forces are times its square, so that everything that follows is a polynomial on [0, 1]. Terms that are
+//! known early are summed first: a degree waits for three of its products, not for all.
+
+use pulp::Simd;
+
+use crate::engine::kernel::scene::Law;
+use crate::engine::lanes::block::{AT_ZERO, Block, OFFSET, RATE, SLOPE};
+use crate::engine::lanes::constants::{FALL, FLIGHT_X, FLIGHT_Y, H, KAPPA, LAYER, MU0, N0, R, V0, W};
+use crate::engine::lanes::vector::{Mask, Scalar, Vector};
+use crate::model::friction::FAR;
+
+/// The form of the laws of a pass, as [`Law`] has it.
+pub const PIECES: bool = false;
+/// Either of the two others; which one is known when it runs.
+pub const CURVED: bool = true;
+
+/// Motion of `x2` alone: θ = 0 and `y1` at rest, so that the normal force is that of the equilibrium.
+pub const SINGLE: u8 = 0;
+/// No lane flies: `y2` is 0.
+pub const CLOSED: u8 = 1;
+/// Some lane may fly.
+pub const FLIGHT: u8 = 2;
+
+/// Series of one step; `N` coefficients of the positions.
+#[derive(Clone, Copy, Debug)]
+pub struct Expansion<S: Simd, T: Scalar<S>, const K: usize, const N: usize> {
+    /// `x2 y2 y1`.
+    pub p: [[Vector<S, T, K>; N]; 3],
+    /// Their derivatives: `k` times the coefficient of degree `k`, at `k`.
+    pub v: [[Vector<S, T, K>; N]; 3],
+    /// Accelerations of `x2` and `y1`.
+    pub a: [[Vector<S, T, K>; N]; 2],
+    /// Normal force.
+    pub n: [Vector<S, T, K>; N],
+    /// The step.
+    pub step: Vector<S, T, K>,
+    /// `1/step`.
+    pub rate: Vector<S, T, K>,
+}
+
+impl<S: Simd, T: Scalar<S>, const K: usize, const N: usize> Expansion<S, T, K, N> {
+    /// No motion.
+    #[inline(always)]
+    pub fn new(simd: S) -> Self {
+        let zero = Vector::constant(simd, 0.0);
+        let series = [zero; N];
+        Expansion { p: [series; 3], v: [series; 3], a: [series; 2], n: series, step: zero, rate: zero }
+    }
+}
+
+/// `q = σ μ` and `q − μ0` at the relative velocity `v`, see [`crate::engine::kernel::scene::Scene::friction`].
+#[inline(always)]
+pub fn friction<S: Simd, T: Scalar<S>, const K: usize, const LAW: bool>(
+    b: &Block<S, T, K>,
+    sigma: Vector<S, T, K>,
+    v: Vector<S, T, K>,
+    lag: Vector<S, T, K>,
+) -> [Vector<S, T, K>; 2] {
+    let one = v.like(1.0);
+    let forward = one.at_most(sigma);
+    let (at_zero, slope, rate, offset) = (b.piece[AT_ZERO], b.piece[SLOPE], b.piece[RATE], b.piece[OFFSET]);
+    let (q, less) = if LAW == PIECES {
+        (slope.fma(v, sigma * at_zero), slope.fnma(lag, offset))
+    } else if b.law == Law::Exponential {
+        let ahead = rate * lag;
+        let near = forward.and(ahead.at_most(one.like(FAR)));
+        let base = near.select(offset, slope);
+        let change = exp_m1(near.select(ahead, -(rate * (sigma * v).max(v.like(0.0)))));
+        let less = base * change;
+        let q = sigma * (at_zero + (base + less));
+        return [q, near.select(less, q - b.scene[MU0])];
+    } else {
+        let reciprocal = one / (rate * sigma).fma(v, one);
+        (sigma * at_zero * reciprocal, at_zero * rate * lag * reciprocal * offset)
+    };
+    [q, forward.select(less, q - b.scene[MU0])]
+}
+
+/// The inverse of the longest step of a curved law, see [`crate::engine::method::pace::Layer`].
+#[inline(always)]
+fn layer<S: Simd, T: Scalar<S>, const K: usize, const MOTION: u8>(
+    b: &Block<S, T, K>,
+    [q0, q0_less]: [Vector<S, T, K>; 2],
+    inertia: Vector<S, T, K>,
+    speed: Vector<S, T, K>,
+) -> Vector<S, T, K> {
+    let (zero, one) = (speed.like(0.0), speed.like(1.0));
+    let form = |at: usize| {
+        let sum = b.scene[at].fma(b.p[0], b.scene[at + 3] * b.v[0]);
+        if MOTION == SINGLE { sum } else { b.scene[at + 2].fma(b.p[2], b.scene[at + 5].fma(b.v[2], sum)) }
+    };
+    let force = q0.fma(form(W), q0_less.fma(b.scene[N0], -form(R)));
+    let acceleration = (b.drive - force / inertia).abs();
+    let rate = b.piece[RATE];
+    let narrowing = one / rate.fma(speed.max(zero), one);
+    let sloped =
+        if b.law == Law::Exponential { (q0.abs() - b.piece[AT_ZERO]).abs() } else { q0.abs() * narrowing };
+    rate * (acceleration * narrowing).fma(b.scene[LAYER], sloped * b.scene[LAYER + 1])
+}
+
+/// `exp(x) − 1`, see [`crate::engine::kernel::scene::exp_m1`].
+#[inline(always)]
+pub fn exp_m1<S: Simd, T: Scalar<S>, const K: usize>(x: Vector<S, T, K>) -> Vector<S, T, K> {
+    const DOUBLINGS: usize = 8;
+    let x = x.max(x.like(-80.0)).min(x.like(80.0));
+    let large = x.like(0.5).less(x.abs());
+    let doubled = large.any();
+    let y = if doubled { large.select(x * x.like(1.0 / 256.0), x) } else { x };
+    let mut sum = x.like(1.0);
+    let mut k = crate::engine::kernel::scene::EXP_DEGREE;
+    while k >= 2 {
+        sum = (y * y.like(1.0 / f64::from(k))).fma(sum, y.like(1.0));
+        k -= 1;
+    }
+    let mut e = y * sum;
+    if doubled {
+        let small = e;
+        for _ in 0..DOUBLINGS {
+            e = e * (e + e.like(2.0));
+        }
+        e = large.select(e, small);
+    }
+    e
+}
+
+/// What the accelerations and the normal force are made of over a step, times its square: coefficients of the
+/// coordinates and of their velocities (the power of the step is in them), and constants.
+#[derive(Clone, Copy)]
+struct Forms<S: Simd, T: Scalar<S>, const K: usize> {
+    /// Acceleration of `x2`, friction by the curvature of its law aside.
+    ax: [Vector<S, T, K>; 6],
+    /// Acceleration of `y2`.
+    ay: [Vector<S, T, K>; 6],
+    /// Acceleration of `y1`.
+    aw: [Vector<S, T, K>; 6],
+    /// Normal force, without `−κ ẍ2`.
+    normal: [Vector<S, T, K>; 6],
+    /// Constant part of `ax`.
+    push: Vector<S, T, K>,
+    /// Constant part of `ay`.
+    fall: Vector<S, T, K>,
+    /// Constant part of `normal`.
+    load: Vector<S, T, K>,
+    /// `κ`, 0 in flight.
+    kappa: Vector<S, T, K>,
+}
+
+/// The forms of every lane's contact state; `reciprocal` is `1/(1 + κ q0)`.
+#[inline(always)]
+fn forms<S: Simd, T: Scalar<S>, const K: usize, const MOTION: u8>(
+    b: &Block<S, T, K>,
+    h: Vector<S, T, K>,
+    [q0, q0_less]: [Vector<S, T, K>; 2],
+    reciprocal: Vector<S, T, K>,
+) -> Forms<S, T, K> {
+    let zero = h.like(0.0);
+    let (slip, free) = (b.slip(), b.free());
+    let square = h * h;
+    let (scale, scale_damper) = (slip.select(reciprocal * square, zero), slip.select(reciprocal * h, zero));
+    let mut ax = [zero; 6];
+    let mut ay = [zero; 6];
+    let mut aw = [zero; 6];
+    let mut normal = [zero; 6];
+    for i in 0..6 {
+        if MOTION != FLIGHT && (i == 1 || i == 4) || MOTION == SINGLE && i % 3 > 0 {
+            continue;
+        }
+        let (power, scaled) = if i < 3 { (square, scale) } else { (h, scale_damper) };
+        ax[i] = (q0.fma(b.scene[W + i], -b.scene[R + i])) * scaled;
+        if MOTION != SINGLE {
+            aw[i] = b.scene[H + i] * power;
+            normal[i] = b.scene[W + i] * power;
+        }
+        if MOTION == FLIGHT {
+            ax[i] = free.select(b.scene[FLIGHT_X + i] * power, ax[i]);
+            ay[i] = (b.scene[FLIGHT_Y + i] * power).only(free);
+            normal[i] = free.select(zero, normal[i]);
+        }
+    }
+    let mut push = slip.select(q0_less * b.scene[N0] * scale, b.drive * square);
+    let mut load = b.scene[N0] * square;
+    let mut kappa = b.scene[KAPPA];
+    let mut fall = zero;
+    if MOTION == FLIGHT {
+        push = free.select(b.scene[FALL] * square, push);
+        fall = (b.scene[FALL + 1] * square).only(free);
+        load = free.select(zero, load);
+        kappa = free.select(zero, kappa);
+    }
+    Forms { ax, ay, aw, normal, push, fall, load, kappa }
+}
+
+/// Expands the motion over the step `h`; returns the lanes whose contact forces are not unique. Series of what
+/// does not move are left alone.
+#[inline(always)]
+pub fn expand<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool, const MOTION: u8>(
+    b: &Block<S, T, K>,
+    h: Vector<S, T, K>,
+    e: &mut Expansion<S, T, K, N>,
+) -> Mask<S, T, K> {
+    let (zero, one) = (h.like(0.0), h.like(1.0));
+    let slip = b.slip();
+    let sigma = b.sigma();
+    let velocity = b.v[0];
+    let relative = b.belt - velocity;
+    let lag = velocity - (b.belt - b.scene[V0]);
+    let [q0, q0_less] = friction::<S, T, K, LAW>(b, sigma, relative, lag);
+    let inertia = slip.select(b.scene[KAPPA].fma(q0, one), one);
+    let ill_posed = inertia.not_positive();
+    let h = if LAW == CURVED {
+        let inverse = layer::<S, T, K, MOTION>(b, [q0, q0_less], inertia, sigma * relative);
+        slip.select(h.min(one / inverse), h)
+    } else {
+        h
+    };
+    let per_step = one / (inertia * h);
+    let reciprocal = per_step * h;
+    let forms = forms::<S, T, K, MOTION>(b, h, [q0, q0_less], reciprocal);
+    let drive = b.drive * (h * h);
+    // q_k = −slope · (relative velocity)_k, with 1/(1 + κ q0) folded in.
+    let stiffening = slip.select(-(b.piece[SLOPE] * per_step), zero);
+    // Without a slope q is constant.
+    let sloped = LAW == CURVED || zero.less(stiffening.abs()).any();
+
+    let Expansion { p, v, .. } = e;
+    for i in 0..3 {
+        if MOTION == FLIGHT || i == 0 || i == 2 && MOTION != SINGLE {
+            p[i][0] = b.p[i];
+            v[i][1] = b.v[i] * h;
+            p[i][1] = v[i][1];
+        }
+    }
+    let mut friction = Friction { q: [zero; N], law: [zero; N] };
+    if LAW == CURVED && b.law == Law::Exponential {
+        friction.law[0] = sigma.fma(q0, -b.piece[AT_ZERO]);
+    } else if LAW == CURVED {
+        friction.law[0] = q0;
+    }
+    let known = Known {
+        forms,
+        stiffening,
+        drive,
+        sloped,
+        reciprocal,
+        rate: per_step * inertia,
+        sigma,
+        relative,
+        slip,
+    };
+    let mut course = Course { drag: zero, back: zero, force_before: zero };
+    const { assert!(N <= 17, "a degree is missing below") };
+    macro_rules! degrees {
+        ($($k:literal)*) => {
+            $(if $k < N - 2 {
+                degree::<S, T, K, N, LAW, MOTION>($k, b, &known, e, &mut friction, &mut course);
+            })*
+        };
+    }
+    if const { LAW == PIECES } {
+        // Written out, with every constant and every place known.
+        degrees!(0 1 2 3 4 5 6 7 8 9 10 11 12 13 14);
+    } else {
+        // Of a curved law each degree is a sum of all before: a loop, which compiles in a fraction of the time.
+        for k in 0..N - 2 {
+            degree::<S, T, K, N, LAW, MOTION>(k, b, &known, e, &mut friction, &mut course);
+        }
+    }
+    e.step = h;
+    e.rate = known.rate;
+    ill_posed
+}
+
+/// What all degrees of a step share.
+#[derive(Clone, Copy)]
+struct Known<S: Simd, T: Scalar<S>, const K: usize> {
+    forms: Forms<S, T, K>,
+    /// `q_k` of a straight law is this times the velocity of degree `k`.
+    stiffening: Vector<S, T, K>,
+    /// The belt's acceleration, times the square of the step.
+    drive: Vector<S, T, K>,
+    /// Whether `q` is not constant.
+    sloped: bool,
+    /// `1/(1 + κ q0)`.
+    reciprocal: Vector<S, T, K>,
+    /// `1/step`.
+    rate: Vector<S, T, K>,
+    sigma: Vector<S, T, K>,
+    /// The relative velocity at the beginning.
+    relative: Vector<S, T, K>,
+    slip: Mask<S, T, K>,
+}
+
+/// The series of the friction law.
+struct Friction<S: Simd, T: Scalar<S>, const K: usize, const N: usize> {
+    /// `q`, with the inverse of the inertia.
+    q: [Vector<S, T, K>; N],
+    /// What the recurrence of a curved law carries.
+    law: [Vector<S, T, K>; N],
+}
+
+/// Of straight laws: what a degree of the accelerations takes from the one before it, so that it waits for little else.
+struct Course<S: Simd, T: Scalar<S>, const K: usize> {
+    drag: Vector<S, T, K>,
+    back: Vector<S, T, K>,
+    force_before: Vector<S, T, K>,
+}
+
+/// The accelerations of degree `k`, and what of the motion follows from them.
+#[inline(always)]
+fn degree<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool, const MOTION: u8>(
+    k: usize,
+    b: &Block<S, T, K>,
+    known: &Known<S, T, K>,
+    e: &mut Expansion<S, T, K, N>,
+    friction: &mut Friction<S, T, K, N>,
+    course: &mut Course<S, T, K>,
+) {
+    let Known { forms, stiffening, drive, sloped, reciprocal, rate, sigma, relative, slip } = *known;
+    let Forms { ax, ay, aw, normal, push, fall, load, kappa } = forms;
+    let (zero, one) = (drive.like(0.0), drive.like(1.0));
+    let Expansion { p, v, a, n, .. } = e;
+    let Friction { q, law } = friction;
+    let waits_less = LAW == PIECES && k > 1;
+    let (mut x, mut y, mut w, mut force) = (ax[0] * p[0][k], zero, zero, zero);
+    if MOTION != SINGLE {
+        x = ax[0].fma(p[0][k], ax[2] * p[2][k]);
+        w = aw[0].fma(p[0][k], aw[2] * p[2][k]);
+        force = normal[0].fma(p[0][k], normal[2] * p[2][k]);
+    }
+    if k == 0 {
+        x += push;
+        y += fall;
+        force += load;
+    }
+    if MOTION == FLIGHT {
+        x = ax[1].fma(p[1][k], x);
+        w = aw[1].fma(p[1][k], w);
+        y = ay[0].fma(p[0][k], ay[1].fma(p[1][k], ay[2].fma(p[2][k], y)));
+        y = ay[3].fma(v[0][k + 1], ay[4].fma(v[1][k + 1], ay[5].fma(v[2][k + 1], y)));
+        x = ax[4].fma(v[1][k + 1], x);
+        w = aw[4].fma(v[1][k + 1], w);
+    }
+    if MOTION != SINGLE && sloped {
+        for j in 2..k {
+            x = q[j].fma(n[k - j], x);
+        }
+    }
+    let part = zero.like(1.0 / k.max(1) as f64);
+    if waits_less {
+        if MOTION != SINGLE {
+            x = q[1].fma(course.force_before, x);
+            x = ax[5].fma(v[2][k + 1], x);
+            w = aw[5].fma(v[2][k + 1], w);
+            w = aw[3].fma(v[0][k + 1], w);
+        }
+        x = course.drag.fma(part, course.back).fma(a[0][k - 1], x);
+    } else {
+        if MOTION != SINGLE {
+            x = ax[5].fma(v[2][k + 1], x);
+            w = aw[5].fma(v[2][k + 1], w);
+            w = aw[3].fma(v[0][k + 1], w);
+        }
+        x = ax[3].fma(v[0][k + 1], x);
+        if k > 0 {
+            x = q[k].fma(n[0], x);
+        }
+        if MOTION != SINGLE && k > 1 {
+            x = q[1].fma(n[k - 1], x);
+        }
+    }
+    if MOTION != SINGLE {
+        force = normal[5].fma(v[2][k + 1], force);
+        force = normal[3].fma(v[0][k + 1], force);
+        a[1][k] = w;
+    }
+    if MOTION != SINGLE || k == 0 {
+        n[k] = kappa.fnma(x, force);
+    }
+    course.force_before = force;
+    a[0][k] = x;
+    let once = zero.like(1.0 / (k + 1) as f64);
+    let twice = zero.like(1.0 / ((k + 1) * (k + 2)) as f64);
+    v[0][k + 2] = x * once;
+    p[0][k + 2] = x * twice;
+    if MOTION != SINGLE {
+        v[2][k + 2] = w * once;
+        p[2][k + 2] = w * twice;
+    }
+    if MOTION == FLIGHT {
+        v[1][k + 2] = y * once;
+        p[1][k + 2] = y * twice;
+    }
+    // The relative velocity of degree k + 1, times the step.
+    let slower = if k == 0 { v[0][2] - drive } else { v[0][k + 2] };
+    if LAW == PIECES {
+        q[k + 1] = stiffening * slower;
+        if k == 0 {
+            course.drag = stiffening.fma(n[0], ax[3]);
+        }
+        if k == 0 && MOTION != SINGLE {
+            course.back = -(q[1] * kappa);
+        }
+    } else {
+        // Kept as the relative velocity times the degree or not, as its law needs it.
+        let mut sum = zero;
+        law[k + 1] = zero;
+        for j in 1..=k + 1 {
+            let along = if j == 1 { drive - v[0][2] } else { -v[0][j + 1] } * rate;
+            let along = if b.law == Law::Exponential { along * drive.like(j as f64) } else { along };
+            sum = along.fma(law[k + 1 - j], sum);
+        }
+        if b.law == Law::Exponential {
+            law[k + 1] = -(sigma * b.piece[RATE] * sum) * once;
+            q[k + 1] = (sigma * law[k + 1] * reciprocal).only(slip);
+        } else {
+            law[k + 1] = -(b.piece[RATE] * sigma * sum) / (b.piece[RATE] * sigma).fma(relative, one);
+            q[k + 1] = (law[k + 1] * reciprocal).only(slip);
+        }
+    }
+}

@@ -1,0 +1,349 @@
+//! One instance between passes: where it is, and what it has seen.
+
+use std::f64::consts::TAU;
+
+use crate::engine::kernel::contact::{Belt, GAP, State, UPPER_KINK};
+use crate::engine::kernel::reductions::{End, Reductions};
+use crate::engine::kernel::response::without_segments;
+use crate::engine::kernel::scalar::Real;
+use crate::engine::kernel::scene::{Law, Scene as Words};
+use crate::engine::kernel::series::FREE;
+use crate::engine::lanes::constants::{CONSTANTS, SWING, constants};
+use crate::engine::lanes::count::Count;
+use crate::engine::lanes::stretches::Stretches;
+use crate::engine::method::pace::Turns;
+use crate::engine::outcome::Ending;
+use crate::engine::outcome::Outcome;
+use crate::engine::plan::Plan;
+use crate::engine::scene::Scene;
+use crate::engine::settling::Settling;
+use crate::model::instance::Instance;
+use crate::model::status::Status;
+
+/// Steps of a stretch of the window: short sums keep their digits, and a lane is looked at between stretches.
+pub const STRETCH: f64 = 80.0;
+
+/// Steps of a stretch between the first event and the window, whose sums are only a guess at the frequency.
+pub const LONG_STRETCH: f64 = 256.0;
+
+/// Steps of the last of them.
+const LAST_STRETCH: f64 = 48.0;
+
+/// Periods `2π/ω0` of a stretch of the single mass in closed form, whose steps are whole swings.
+const SWINGS: f64 = 100.0;
+
+/// Length of [`Part::Approach`]: ten periods.
+const APPROACH: f64 = 10.0 * TAU;
+
+/// Relative error of a Fourier component from a guess of its frequency, in units of the bound on the truncation
+/// of a step: 0.006 degrees for 1e-5.
+const PHASE_ERROR: f64 = 10.0;
+
+/// Steps of the first stretch of a window, whose guess of the frequency is the worst.
+const FIRST_STRETCH: f64 = 32.0;
+
+/// The parts of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// Up to the first event: growth, frequency and phase are measured.
+    Growth,
+    /// Some periods more, which show what the instance does: see [`Job::habit`].
+    Approach,
+    /// The rest of the time before the window.
+    Settle,
+    /// The window; of what swings all of the run.
+    Window,
+    /// The window once more, from the first to the last crossing.
+    Phase,
+}
+
+impl Part {
+    /// All, in the order of a run.
+    pub const ALL: [Part; 5] = [Part::Growth, Part::Approach, Part::Settle, Part::Window, Part::Phase];
+}
+
+/// An instance on its way.
+#[derive(Clone, Debug)]
+pub struct Job<T> {
+    /// The instance ready to be integrated.
+    pub scene: Scene,
+    /// The same as the kernel's twin has it.
+    pub words: Words<T>,
+    /// The same as the steps have it.
+    pub constants: [T; CONSTANTS],
+    /// Body, contact and status.
+    pub state: State<T>,
+    /// Time reached at the last boundary of a stretch.
+    pub time: f64,
+    /// End of the present stretch.
+    pub until: f64,
+    /// Whether the first event is still to come.
+    pub growing: bool,
+    /// Whether the present stretch has sums of growth.
+    pub sums_growth: bool,
+    /// What it did in the last part: the highest code of its contact states, and whether it had events. Instances of one habit
+    /// go on side by side, as a step does what any of its lanes needs.
+    pub habit: (u32, bool),
+    /// End of [`Part::Approach`].
+    approached: f64,
+    /// `x2` and `y1` at the start of the window.
+    pub origin: [T; 2],
+    /// What it has reduced.
+    pub seen: Reductions,
+    /// `ẋ2` at the end of the last step of the window.
+    pub previous: T,
+    /// The Fourier components of the window, stretch by stretch.
+    pub stretches: Stretches,
+    /// Angular frequency of the response as far as it is known before the window.
+    pub guess: Option<f64>,
+    /// Steps.
+    pub steps: u64,
+    /// Steps and events of the present period.
+    pub count: Count,
+    /// Times of the end of the settling, of the first half of the window and of the window.
+    pub marks: [f64; 3],
+    /// Whether no event has fallen into the window.
+    pub quiet: bool,
+    settling: Option<Box<Settling>>,
+    ending: Option<Ending>,
+    /// The state at the start of the window.
+    snapshot: Option<State<T>>,
+}
+
+impl<T: Real> Job<T> {
+    /// The start of an instance, whose steps may turn so far.
+    #[must_use]
+    pub fn new(instance: &Instance, scene: Scene, plan: &Plan, turns: &Turns) -> Job<T> {
+        let words: Words<T> = without_segments(instance.law.kind(), &scene, turns);
+        let settling = Settling::new(instance, &scene, plan).map(Box::new);
+        let asked = 0.5 * scene.scaled(plan.measure);
+        let half = settling.as_ref().map_or(asked, |settling| settling.half(None));
+        let belt = scene.belt(0.0);
+        let belt =
+            Belt { velocity: T::from_f64(belt.velocity), acceleration: T::from_f64(belt.acceleration) };
+        let scene_settle = scene.scaled(plan.settle);
+        Job {
+            constants: constants(&scene.model, turns),
+            scene,
+            state: State::new(&words, belt),
+            words,
+            time: 0.0,
+            until: 0.0,
+            growing: true,
+            sums_growth: false,
+            habit: (0, false),
+            approached: 0.0,
+            origin: [T::ZERO; 2],
+            seen: Reductions::default(),
+            previous: T::ZERO,
+            stretches: Stretches::default(),
+            guess: None,
+            steps: 0,
+            count: Count::default(),
+            marks: window(scene_settle, half),
+            quiet: true,
+            settling,
+            ending: None,
+            snapshot: None,
+        }
+    }
+
+    /// The form of its law.
+    #[must_use]
+    pub fn law(&self) -> Law {
+        self.words.law
+    }
+
+    /// Whether `x2` alone moves: without an inclination nothing pushes `y1`, and the contact stays closed.
+    #[must_use]
+    pub fn is_single(&self) -> bool {
+        let body = &self.state.body;
+        let rest = [body.p[1], body.p[2], body.v[1], body.v[2]].iter().all(|value| *value == T::ZERO);
+        rest && self.scene.model.s == 0.0 && self.state.contact != FREE
+    }
+
+    /// Whether its motion between two events has a closed form that [`crate::engine::lanes::swing`] knows, if it is a single mass: constant
+    /// friction, a belt of one velocity, weak damping.
+    #[must_use]
+    pub fn swings(&self) -> bool {
+        let pieces = &self.words.pieces;
+        let constant = pieces.len() == 1 && pieces[0].slope == T::ZERO;
+        constant && self.scene.belt(0.0).acceleration == 0.0 && self.constants[SWING + 1] > T::ZERO
+    }
+
+    /// Whether a part of the run has anything to do. Among none but single masses (`single`) growth is measured on the way to
+    /// the window.
+    pub fn enter(&mut self, part: Part, tolerance: f64, single: bool) -> bool {
+        if self.state.status != Status::Unwritten {
+            return false;
+        }
+        self.habit = (0, false);
+        match part {
+            Part::Growth => self.growing && self.time < self.marks[0] && !single,
+            Part::Approach => {
+                self.approached = self.marks[0].min(self.time + APPROACH);
+                self.time < self.marks[0] && !single
+            }
+            Part::Settle => self.time < self.marks[0],
+            Part::Window => self.time < self.marks[2],
+            Part::Phase => {
+                let Some(snapshot) = self.snapshot.take() else { return false };
+                // The single mass has no phase.
+                if self.seen.crossings < 2 || self.seen.last <= self.seen.first || self.is_single() {
+                    return false;
+                }
+                if let Some(phase) = self.components(PHASE_ERROR * tolerance) {
+                    self.seen.phase = phase;
+                    return false;
+                }
+                self.state.return_to(&snapshot);
+                self.time = self.marks[0];
+                true
+            }
+        }
+    }
+
+    /// Whether the window has begun.
+    #[must_use]
+    pub fn in_window(&self) -> bool {
+        self.time >= self.marks[0]
+    }
+
+    /// Remembers the start of the window, where it has begun and that has not been done.
+    pub fn open_window(&mut self) {
+        if self.snapshot.is_none() && self.in_window() {
+            self.quiet = true;
+            self.previous = T::ZERO;
+            self.origin = [self.state.body.p[0], self.state.body.p[2]];
+            self.seen.origin = self.origin.map(T::to_f64);
+            self.snapshot = Some(self.state);
+        }
+    }
+
+    /// The angular frequency between the first and the last crossing of the window.
+    #[must_use]
+    pub fn omega(&self) -> f64 {
+        TAU * (self.seen.crossings - 1) as f64 / (self.seen.last - self.seen.first)
+    }
+
+    /// The same as far as it is known on the way.
+    fn known_omega(&self) -> Option<f64> {
+        if self.seen.crossings > 2 { Some(self.omega()) } else { self.guess }
+    }
+
+    /// The same, or `ω0`.
+    #[must_use]
+    pub fn guessed_omega(&self) -> f64 {
+        self.known_omega().unwrap_or(1.0)
+    }
+
+    /// The Fourier components of the window from its stretches, if they are good enough.
+    fn components(&self, bound: f64) -> Option<[[f64; 2]; 2]> {
+        let all = |i: usize| self.seen.halves[0][i] + self.seen.halves[1][i];
+        let rms = [all(5), all(6)].map(|square| (square / all(0)).sqrt());
+        self.stretches.components(self.omega(), self.seen.first, rms, bound)
+    }
+
+    /// The half of the window the present stretch lies in.
+    #[must_use]
+    pub fn half(&self) -> usize {
+        usize::from(self.time >= self.marks[1])
+    }
+
+    /// The next stretch of a part: its length and its longest step; `None` at the end of the part. What `swings` is stepped
+    /// in closed form.
+    pub fn stretch(&mut self, part: Part, steps_per_period: u32, swings: bool) -> Option<[f64; 2]> {
+        let goals: &[f64] = match part {
+            Part::Growth | Part::Settle => &self.marks[..1],
+            Part::Approach => &[self.approached],
+            Part::Window => &self.marks,
+            Part::Phase => &[self.seen.first, self.seen.last],
+        };
+        let goal = *goals.iter().find(|goal| self.time < **goal)?;
+        let (_, holds) = self.scene.belt_from(self.time);
+        let end = if holds < goal - self.time { self.time + holds } else { goal };
+        let nominal = TAU / f64::from(steps_per_period);
+        let length = end - self.time;
+        let whole = (length / nominal - 1e-6).ceil().max(1.0);
+        let step = length / whole;
+        let most = match part {
+            // What grows is sampled in steps as short as those of a series.
+            _ if swings && !self.growing => SWINGS * f64::from(steps_per_period),
+            Part::Window if !self.is_single() => {
+                STRETCH.min(FIRST_STRETCH * (1 + self.stretches.len()) as f64)
+            }
+            // Sums of growth, as in the window.
+            Part::Settle if self.growing => STRETCH,
+            // The last one guesses the frequency: it is late, and not too short.
+            Part::Settle if whole > LAST_STRETCH => LONG_STRETCH.min(whole - LAST_STRETCH),
+            Part::Approach | Part::Settle => LONG_STRETCH,
+            _ => STRETCH,
+        };
+        if whole <= most {
+            self.until = end;
+            return Some([length, step]);
+        }
+        self.until = self.time + most * step;
+        Some([most * step, step])
+    }
+
+    /// Carries out an event; `exhausted` when there have been too many.
+    pub fn event(&mut self, event: u32, exhausted: bool, in_window: bool, belt: Belt<T>) {
+        self.growing = false;
+        if exhausted {
+            self.state.status = Status::EventLimit;
+            return;
+        }
+        if event == UPPER_KINK && self.state.piece as usize + 1 >= self.words.pieces.len() {
+            // A speed beyond all kinks, where there is none.
+            self.state.status = Status::NonFinite;
+            return;
+        }
+        self.state.transition(&self.words, event, belt);
+        if in_window && event == GAP {
+            self.seen.impacts += 1;
+        }
+    }
+
+    /// Judges the window of a run until settled; true when another one follows.
+    pub fn goes_on(&mut self, plan: &Plan) -> bool {
+        if self.state.status != Status::Unwritten || self.ending.is_some() || self.settling.is_none() {
+            return false;
+        }
+        let outcome = self.outcome(plan);
+        let guess = self.known_omega();
+        let frequency = self.seen.frequency();
+        let Some(settling) = &mut self.settling else { return false };
+        self.ending = settling.judge(&outcome, !self.quiet, self.marks[2]);
+        if self.ending.is_some() || outcome.status != Status::Ok {
+            return false;
+        }
+        self.marks = window(self.marks[2], settling.half(frequency));
+        self.guess = guess;
+        self.seen = Reductions { growth: self.seen.growth, ..Reductions::default() };
+        self.stretches = Stretches::default();
+        self.snapshot = None;
+        true
+    }
+
+    /// The outcome of a job that has passed all parts.
+    #[must_use]
+    pub fn outcome(&self, plan: &Plan) -> Outcome {
+        let end = self.marks[2];
+        let status = self.state.status;
+        // The second pass goes over the window again and ends before its end.
+        let (status, time) =
+            if status == Status::Unwritten { (Status::Ok, end) } else { (status, self.time) };
+        let outcome = self.seen.outcome(&self.scene, plan, &End { status, steps: self.steps, time });
+        let outcome = Outcome { met_event: !self.growing, ..outcome };
+        match self.ending {
+            Some(ending) => outcome.ended(ending, self.marks[0] * self.scene.units.time),
+            None => outcome,
+        }
+    }
+}
+
+/// The times of a window's start, middle and end.
+fn window(start: f64, half: f64) -> [f64; 3] {
+    [start, start + half, start + half + half]
+}

@@ -1,0 +1,332 @@
+//! Running reductions of every lane over its present stretch; a stretch ends in the job's sums in f64.
+//!
+//! The definitions are those of [`crate::engine::kernel::observe`].
+
+use pulp::Simd;
+
+use crate::engine::kernel::observe::{NODES, SAMPLE_TIMES, SUMS, WEIGHTS};
+use crate::engine::kernel::reductions::GROWTH;
+use crate::engine::kernel::source::Precision;
+use crate::engine::lanes::block::Block;
+use crate::engine::lanes::constants::{N0, R, T0, W};
+use crate::engine::lanes::expand::{Expansion, SINGLE};
+use crate::engine::lanes::polynomial::{soon_to, value_soon};
+use crate::engine::lanes::spectrum::{Nodes, Spectrum, moving, seen};
+use crate::engine::lanes::swing_cycle::Cycle;
+use crate::engine::lanes::vector::{Mask, Scalar, Vector};
+
+/// Reductions of the present stretches.
+#[derive(Clone, Copy, Debug)]
+pub struct Sums<S: Simd, T: Scalar<S>, const K: usize> {
+    /// The sums of [`crate::engine::kernel::observe::Sums::block`].
+    pub window: [Vector<S, T, K>; SUMS],
+    /// `x2` and `y1` at the start of the window, from which its sums count.
+    pub origin: [Vector<S, T, K>; 2],
+    /// Largest `|ẍ2|`, `|ÿ1|`, `N`.
+    pub peaks: [Vector<S, T, K>; 3],
+    /// `ẋ2` at the end of the step before.
+    pub previous: Vector<S, T, K>,
+    /// Upward crossings of `ẋ2`.
+    pub crossings: Vector<S, T, K>,
+    /// Time of the first crossing since the stretch began.
+    pub first: Vector<S, T, K>,
+    /// Time of the last.
+    pub last: Vector<S, T, K>,
+    /// Impacts.
+    pub impacts: Vector<S, T, K>,
+    /// 1 as long as the stretch has no event.
+    pub quiet: Vector<S, T, K>,
+    /// The last cycle of what is followed in closed form.
+    pub cycle: Cycle<S, T, K>,
+    /// Time since the stretch began.
+    pub time: Vector<S, T, K>,
+    /// Sums before the first event.
+    pub growth: [Vector<S, T, K>; GROWTH],
+    /// 1 until the first event.
+    pub growing: Vector<S, T, K>,
+    /// Fourier components at a guessed frequency.
+    pub spectrum: Spectrum<S, T, K>,
+    /// Angular frequency of the second pass.
+    pub omega: Vector<S, T, K>,
+    /// `exp(−iωt)`.
+    pub carrier: [Vector<S, T, K>; 2],
+    /// Fourier components of `ẍ2` and `ÿ1`.
+    pub phase: [Vector<S, T, K>; 4],
+}
+
+impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
+    /// Nothing yet.
+    #[inline(always)]
+    pub fn new(simd: S) -> Self {
+        let zero = Vector::constant(simd, 0.0);
+        Sums {
+            window: [zero; SUMS],
+            origin: [zero; 2],
+            peaks: [zero; 3],
+            previous: zero,
+            crossings: zero,
+            first: zero,
+            last: zero,
+            impacts: zero,
+            quiet: zero,
+            cycle: Cycle::new(simd),
+            time: zero,
+            growth: [zero; GROWTH],
+            growing: zero,
+            spectrum: Spectrum::new(simd),
+            omega: zero,
+            carrier: [zero; 2],
+            phase: [zero; 4],
+        }
+    }
+
+    /// Adds the part of the step up to `at` to the window. Returns `ẋ2` at the nodes.
+    #[inline(always)]
+    pub fn observe_window<const N: usize, const MOTION: u8>(
+        &mut self,
+        b: &Block<S, T, K>,
+        e: &Expansion<S, T, K, N>,
+        nodes: &Nodes<S, T, K>,
+        at: Vector<S, T, K>,
+    ) -> [Vector<S, T, K>; 3] {
+        let zero = at.like(0.0);
+        let tau = at * e.step;
+        let mut velocities = [zero; 3];
+        let free = b.free();
+        self.window[0] += tau;
+        self.window[10] += tau.only(b.stick());
+        self.window[11] += tau.only(free);
+        self.window[12] += tau.only(b.reverse());
+        let rate_square = e.rate * e.rate;
+        let (flying, t0) = (free.any(), free.select(zero, b.scene[T0]));
+        let moving = moving(MOTION);
+        let mut samples = [[zero; 5]; 3];
+        for i in 0..5 {
+            let t = at * at.like(SAMPLE_TIMES[i]);
+            let mut accelerations = [zero; 2];
+            // A closure here would not be inlined: the arithmetic in it would be calls.
+            for j in 0..moving {
+                accelerations[j] = match i {
+                    0 => e.a[j][0] * rate_square,
+                    4 => soon_to(&e.a[j], 0, N - 3, at) * rate_square,
+                    _ => nodes[i - 1][j],
+                };
+            }
+            let [ax, ay] = accelerations;
+            samples[0][i] = ax.abs();
+            samples[1][i] = ay.abs();
+            if i == 0 || i == 4 {
+                if MOTION != SINGLE {
+                    let n = if i == 0 { e.n[0] } else { soon_to(&e.n, 0, N - 3, t) };
+                    // In flight the series is that of the gap.
+                    samples[2][i] = free.select(zero, n * rate_square);
+                }
+                continue;
+            }
+            let degree = seen(N - 1, i - 1);
+            let (x, vx) = (soon_to(&e.p[0], 0, degree, t), soon_to(&e.v[0], 1, degree, t) * e.rate);
+            velocities[i - 1] = vx;
+            let (mut w, mut vw) = (zero, zero);
+            if MOTION != SINGLE {
+                (w, vw) = (soon_to(&e.p[2], 0, degree, t), soon_to(&e.v[2], 1, degree, t) * e.rate);
+            }
+            // Those of lanes in contact, whose y2 is 0.
+            let mut forces = [zero; 2];
+            for (force, c) in [(0, R), (1, W)] {
+                if MOTION == SINGLE {
+                    forces[force] = b.scene[c + 3].fma(vx, b.scene[c] * x);
+                    continue;
+                }
+                let mut sum = b.scene[c].fma(x, b.scene[c + 2] * w);
+                sum = b.scene[c + 3].fma(vx, b.scene[c + 5].fma(vw, sum));
+                forces[force] = sum;
+            }
+            let mut normal =
+                b.scene[crate::engine::lanes::constants::KAPPA].fnma(ax, forces[1] + b.scene[N0]);
+            let mut tangential = forces[0] + ax + t0;
+            if flying {
+                normal = free.select(zero, normal);
+                tangential = free.select(zero, tangential);
+            }
+            samples[2][i] = normal;
+            let weight = tau * at.like(WEIGHTS[i - 1]);
+            let sums = &mut self.window;
+            let dx = x - self.origin[0];
+            sums[1] = weight.fma(dx, sums[1]);
+            sums[2] = weight.fma(dx * dx, sums[2]);
+            sums[5] = weight.fma(ax * ax, sums[5]);
+            if MOTION == SINGLE {
+                sums[7] = weight.fma(vx * vx, sums[7]);
+            } else {
+                let dw = w - self.origin[1];
+                sums[3] = weight.fma(dw, sums[3]);
+                sums[4] = weight.fma(dw * dw, sums[4]);
+                sums[6] = weight.fma(ay * ay, sums[6]);
+                sums[7] = weight.fma(vx.fma(vx, vw * vw), sums[7]);
+            }
+            sums[8] = weight.fma(tangential, sums[8]);
+            sums[9] = weight.fma(normal, sums[9]);
+        }
+        self.peaks[0] = self.peaks[0].max(maximum(&samples[0]));
+        if MOTION == SINGLE {
+            self.peaks[2] = self.peaks[2].max(b.scene[N0]);
+        } else {
+            self.peaks[1] = self.peaks[1].max(maximum(&samples[1]));
+            self.peaks[2] = self.peaks[2].max(maximum(&samples[2]));
+        }
+        velocities
+    }
+
+    /// Counts upward crossings of `ẋ2` from end to end of the steps, on straight lines: a guess at the frequency.
+    #[inline(always)]
+    pub fn guess_crossings(&mut self, before: Vector<S, T, K>, after: Vector<S, T, K>, tau: Vector<S, T, K>) {
+        let zero = tau.like(0.0);
+        let jumped = self.previous.less(zero).and(zero.at_most(before));
+        let rises = before.less(zero).and(zero.at_most(after)).and(zero.less(tau));
+        let crossed = jumped.or(rises);
+        if crossed.any() {
+            let part = rises.select(before / (before - after).min(tau.like(-1e-30)), zero);
+            self.note(crossed, part * tau);
+        }
+        self.previous = after;
+    }
+
+    /// Notes one upward crossing of some lanes, this long after the step began.
+    #[inline(always)]
+    pub fn note(&mut self, crossed: Mask<S, T, K>, after: Vector<S, T, K>) {
+        let moment = self.time + after;
+        let is_first = crossed.and(self.crossings.not_positive());
+        let (first, last) = (is_first.select(moment, self.first), crossed.select(moment, self.last));
+        self.first.put(first);
+        self.last.put(last);
+        self.crossings += after.like(1.0).only(crossed);
+    }
+
+    /// Adds a step before the first event; `x` and `vx` are position and velocity at its end.
+    #[inline(always)]
+    pub fn observe_growth<const N: usize, const MOTION: u8>(
+        &mut self,
+        e: &Expansion<S, T, K, N>,
+        at: Vector<S, T, K>,
+        x: Vector<S, T, K>,
+        vx: Vector<S, T, K>,
+    ) {
+        let rate_square = e.rate * e.rate;
+        let mut sample = [x, vx, soon_to(&e.a[0], 0, N - 3, at) * rate_square, at.like(0.0)];
+        if MOTION != SINGLE {
+            sample[3] = soon_to(&e.a[1], 0, N - 3, at) * rate_square;
+        }
+        self.add_growth::<MOTION>(at * e.step, &sample);
+    }
+
+    /// Adds `x2`, its velocity, its acceleration and that of `y1` for a time `tau` to the lanes that grow.
+    #[inline(always)]
+    pub fn add_growth<const MOTION: u8>(&mut self, tau: Vector<S, T, K>, sample: &[Vector<S, T, K>; 4]) {
+        let tau = tau * self.growing;
+        self.growth[0] += tau;
+        let mut word = 5;
+        for i in 0..4 {
+            if MOTION == SINGLE && i == 3 {
+                break;
+            }
+            let weighted = tau * sample[i];
+            self.growth[1 + i] += weighted;
+            for j in i..4 {
+                if MOTION != SINGLE || j < 3 {
+                    self.growth[word] = weighted.fma(sample[j], self.growth[word]);
+                }
+                word += 1;
+            }
+        }
+    }
+
+    /// Adds the part of the step up to `at` to the Fourier components.
+    #[inline(always)]
+    pub fn observe_phase<const N: usize>(&mut self, e: &Expansion<S, T, K, N>, at: Vector<S, T, K>) {
+        let rate_square = e.rate * e.rate;
+        let tau = at * e.step;
+        let angle = self.omega * tau;
+        let (outer, inner) =
+            (rotation(angle * at.like(NODES[0])), rotation(angle * at.like(NODES[1] - NODES[0])));
+        let mut carrier = self.carrier;
+        for i in 0..3 {
+            carrier = turn(carrier, if i == 0 { outer } else { inner });
+            let t = at * at.like(NODES[i]);
+            let weight = tau * rate_square * at.like(WEIGHTS[i]);
+            let (ax, ay) = (soon_to(&e.a[0], 0, N - 3, t) * weight, soon_to(&e.a[1], 0, N - 3, t) * weight);
+            self.phase[0] = ax.fma(carrier[0], self.phase[0]);
+            self.phase[1] = ax.fma(carrier[1], self.phase[1]);
+            self.phase[2] = ay.fma(carrier[0], self.phase[2]);
+            self.phase[3] = ay.fma(carrier[1], self.phase[3]);
+        }
+        self.carrier = turn(carrier, outer);
+    }
+}
+
+/// What a velocity `Σ v_k t^(k − 1)`, whose coefficients carry their degree, has changed by since the start of the step. One
+/// that is carried on by it takes no part in the scaling by a step and back, whose rounding, the same in every step of one
+/// length, would let it grow or decay.
+#[inline(always)]
+pub fn change<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
+    v: &[Vector<S, T, K>; N],
+    t: Vector<S, T, K>,
+) -> Vector<S, T, K> {
+    value_soon(v, 2, t) * t
+}
+
+/// The maximum of a smooth function from its samples, see [`crate::engine::kernel::observe::maximum`].
+#[inline(always)]
+fn maximum<S: Simd, T: Scalar<S>, const K: usize>(values: &[Vector<S, T, K>; 5]) -> Vector<S, T, K> {
+    let zero = values[0].like(0.0);
+    let mut top = values[0];
+    // The slopes to both sides of the top, the way to the sample before and the inverse of that between its neighbours.
+    let mut left = zero;
+    let mut right = zero;
+    let mut before = zero;
+    let mut per_width = zero;
+    for i in 1..4 {
+        let higher = top.less(values[i]);
+        let widths = [SAMPLE_TIMES[i] - SAMPLE_TIMES[i - 1], SAMPLE_TIMES[i + 1] - SAMPLE_TIMES[i]];
+        top = higher.select(values[i], top);
+        left = higher.select((values[i] - values[i - 1]) * zero.like(1.0 / widths[0]), left);
+        right = higher.select((values[i + 1] - values[i]) * zero.like(1.0 / widths[1]), right);
+        before = higher.select(zero.like(widths[0]), before);
+        per_width = higher.select(zero.like(1.0 / (widths[0] + widths[1])), per_width);
+    }
+    // Inside, the slopes differ; the tangent is that of the parabola through three samples. At an end there is none.
+    let curvature = (right - left) * per_width;
+    let tangent = curvature.fma(before, left);
+    let inside = values[4].at_most(top);
+    let bent = curvature.less(zero).and(inside);
+    let rise = tangent * tangent / bent.select(curvature * zero.like(-4.0), zero.like(1.0));
+    bent.select(top + rise, top.max(values[4]))
+}
+
+/// `cos φ` and `sin φ` for moderate angles.
+#[inline(always)]
+pub fn rotation<S: Simd, T: Scalar<S>, const K: usize>(angle: Vector<S, T, K>) -> [Vector<S, T, K>; 2] {
+    let one = angle.like(1.0);
+    let square = angle * angle;
+    let mut cosine = one;
+    let mut sine = one;
+    let mut k = match T::PRECISION {
+        Precision::F32 => 6,
+        Precision::F64 => 10,
+    };
+    while k >= 1 {
+        let n = f64::from(2 * k);
+        cosine = (square * one.like(1.0 / (n * (n - 1.0)))).fnma(cosine, one);
+        sine = (square * one.like(1.0 / (n * (n + 1.0)))).fnma(sine, one);
+        k -= 1;
+    }
+    [cosine, sine * angle]
+}
+
+/// `z exp(−iφ)`.
+#[inline(always)]
+pub fn turn<S: Simd, T: Scalar<S>, const K: usize>(
+    z: [Vector<S, T, K>; 2],
+    by: [Vector<S, T, K>; 2],
+) -> [Vector<S, T, K>; 2] {
+    [z[0].fma(by[0], z[1] * by[1]), z[1].fma(by[0], -(z[0] * by[1]))]
+}

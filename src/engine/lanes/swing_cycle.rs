@@ -1,0 +1,79 @@
+//! The stick-slip cycle of the single mass on a belt of one velocity, of which only one is followed in a stretch: whatever came
+//! before, stick ends in the same state but for rounding, at the limit of friction and with the velocity of the belt. From there
+//! on the motion repeats itself, and whole cycles up to the end of the stretch are added at once.
+//!
+//! Slip ends `2 μ_d N` inside the limit of stick. Without any dynamic friction and damping it ends on it, and rounding decides every
+//! time whether the body sticks or slips back: what slips back tells nothing of the next cycle.
+
+use pulp::Simd;
+
+use crate::engine::kernel::observe::SUMS;
+use crate::engine::lanes::block::Block;
+use crate::engine::lanes::observe::Sums;
+use crate::engine::lanes::vector::{Mask, Scalar, Vector};
+
+/// A slip from the end of stick turns by more than half a turn of an angular frequency of about 1; what is shorter is chatter.
+const SHORTEST: f64 = 1.0;
+
+/// [`Cycle::since`] before the first end of stick.
+pub const NEVER: f64 = -1.0;
+
+/// What the lanes had at the last end of stick of their stretches.
+#[derive(Clone, Copy, Debug)]
+pub struct Cycle<S: Simd, T: Scalar<S>, const K: usize> {
+    /// Time since the stretch began; negative before the first.
+    pub since: Vector<S, T, K>,
+    /// The sums of the window.
+    window: [Vector<S, T, K>; SUMS],
+    /// Upward crossings of `ẋ2`.
+    crossings: Vector<S, T, K>,
+}
+
+impl<S: Simd, T: Scalar<S>, const K: usize> Cycle<S, T, K> {
+    /// Nothing yet.
+    #[inline(always)]
+    pub fn new(simd: S) -> Self {
+        let zero = Vector::constant(simd, 0.0);
+        Cycle { since: zero.like(NEVER), window: [zero; SUMS], crossings: zero }
+    }
+
+    /// Forgets the cycles of lanes that slip back.
+    #[inline(always)]
+    pub fn slips_back(&mut self, reverse: Mask<S, T, K>) {
+        if reverse.any() {
+            self.since = reverse.select(self.since.like(NEVER), self.since);
+        }
+    }
+}
+
+impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
+    /// Where stick has come to its end for the second time (`slips`), adds the whole cycles that are left of the stretch;
+    /// where for the first, remembers it. `window`: whether the sums of the window count.
+    #[inline(always)]
+    pub fn add_cycles(&mut self, b: &mut Block<S, T, K>, slips: Mask<S, T, K>, window: bool) {
+        let zero = b.left.like(0.0);
+        let period = self.time - self.cycle.since;
+        let known = slips.and(zero.at_most(self.cycle.since)).and(zero.like(SHORTEST).less(period));
+        let cycles = (b.left / known.select(period, zero.like(1.0))).floor().only(known);
+        let skipped = cycles * period;
+        if window {
+            for i in 0..SUMS {
+                let once = self.window[i] - self.cycle.window[i];
+                let whole = known.select(cycles.fma(once, self.window[i]), self.window[i]);
+                self.window[i].put(whole);
+                self.cycle.window[i].put(slips.select(whole, self.cycle.window[i]));
+            }
+        }
+        // One that has none keeps its last.
+        let rises = self.crossings - self.cycle.crossings;
+        let last = known.and(zero.less(rises)).select(self.last + skipped, self.last);
+        self.last.put(last);
+        self.crossings += cycles * rises;
+        let crossings = slips.select(self.crossings, self.cycle.crossings);
+        self.cycle.crossings.put(crossings);
+        self.time += skipped;
+        b.left = (b.left - skipped).max(zero);
+        let since = slips.select(self.time, self.cycle.since);
+        self.cycle.since.put(since);
+    }
+}

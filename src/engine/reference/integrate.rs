@@ -1,0 +1,528 @@
+//! One instance from start to outcome: smooth steps between located events.
+//!
+//! Time always advances: a step ends at an event or at its full length, and events that do not advance
+//! time are counted; too many end the instance with [`Status::EventLimit`].
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use crate::engine::method::pace::{Turns, stands_still};
+use crate::engine::method::roots::Crossing;
+use crate::engine::method::taylor::{
+    BeltMotion, Expansion, MAX_ORDER, Motion, NORMAL, RELATIVE, Series, State, TANGENTIAL, X2,
+};
+use crate::engine::method::{Method, rk4};
+use crate::engine::scene::MOST_STEPS;
+use crate::model::contact::{Contact, ContactState};
+use crate::model::equilibrium::Scaled;
+use crate::model::friction::Piece;
+use crate::model::status::Status;
+
+/// Most events at one and the same instant.
+pub const MAX_EVENTS_AT_ONCE: u32 = 64;
+
+/// Most events within one period `2π/ω0`: above the bounces of a Zeno sequence at `e = 0.999`, so that
+/// only chatter without end is stopped.
+pub const MAX_EVENTS_PER_PERIOD: u32 = 20_000;
+
+/// Most halvings of the nominal step, enough for the boundary layers of extreme starts.
+pub const MAX_HALVINGS: i32 = 24;
+
+/// Most steps within one period `2π/ω0`; stiffer instances end with [`Status::StepTooLarge`], on every engine.
+/// Five times the finest setting of a sweep.
+pub const MAX_STEPS_PER_PERIOD: u32 = 500_000;
+
+/// Events without time between them from which on rest and release take turns.
+const RELEASED_AGAIN: u32 = 4;
+
+/// Roundings of the static loads that a force may be off by.
+pub const ROUNDINGS: f64 = 8.0;
+
+/// Steps after which a wish to stop is looked for: some milliseconds.
+const STEPS_BETWEEN_LOOKS: u64 = 1024;
+
+/// Where `M11` vanishes the acceleration of slip diverges like the inverse root of the time left, and no
+/// step is short enough to get there: an end within this many of the finest steps before it is Painlevé's.
+pub const PAINLEVE_APPROACHED: f64 = 50.0;
+
+/// How finely to integrate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Resolution {
+    /// How a step is taken.
+    pub method: Method,
+    /// Order of the position series, 4 to [`MAX_ORDER`]; of a Taylor series only.
+    pub order: usize,
+    /// Largest step, in units of `1/ω0`.
+    pub nominal_step: f64,
+    /// Bound on the last two terms of the series; infinite for steps of fixed length. Of a Taylor series only.
+    pub tolerance: f64,
+}
+
+impl Resolution {
+    /// How far a step may turn.
+    fn turns(&self) -> Turns {
+        let tolerance = if self.method == Method::Taylor { self.tolerance } else { f64::INFINITY };
+        Turns::new(self.order, tolerance)
+    }
+
+    /// The longest step of slip, reversed slip, stick and flight.
+    fn longest(&self, model: &Scaled) -> [f64; 4] {
+        let mut longest = match self.method {
+            Method::Taylor => self.turns().longest_steps(&model.fastest),
+            Method::LocatedRk4 | Method::FixedStep => [self.nominal_step; 4],
+        };
+        if self.method == Method::LocatedRk4 {
+            longest[ContactState::Free as usize] *= rk4::IN_FLIGHT;
+        }
+        longest
+    }
+}
+
+/// One accepted step: the series holds from `start` for `duration`.
+#[derive(Clone, Copy, Debug)]
+pub struct Step<'a> {
+    /// The motion.
+    pub expansion: &'a Expansion,
+    /// Time at the start of the step.
+    pub start: f64,
+    /// Length of the step.
+    pub duration: f64,
+    /// The belt at the start of the step.
+    pub belt: BeltMotion,
+    /// The motion at the end of the step, before the event that ended it.
+    pub end: Motion,
+}
+
+/// What ended a step early.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Event {
+    /// The relative velocity reached 0.
+    Rest,
+    /// The relative velocity reached a kink of the friction law.
+    Kink,
+    /// The normal force fell to 0.
+    LiftOff,
+    /// The tangential force left the stick cone.
+    StickLimit,
+    /// The gap closed; with the energy gain of the impact.
+    Impact {
+        /// Whether the impact gained energy.
+        gained_energy: bool,
+    },
+}
+
+/// Watches the steps and events of an integration.
+pub trait Observer {
+    /// Called for every step, in order of time.
+    fn step(&mut self, step: &Step);
+    /// Called for every event, after the step that it ended.
+    fn event(&mut self, _event: Event) {}
+}
+
+impl<A: Observer, B: Observer> Observer for (&mut A, &mut B) {
+    fn step(&mut self, step: &Step) {
+        self.0.step(step);
+        self.1.step(step);
+    }
+    fn event(&mut self, event: Event) {
+        self.0.event(event);
+        self.1.event(event);
+    }
+}
+
+/// An event function that begins at zero because it started the present contact state.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Disarmed {
+    Nothing,
+    Rest,
+    LowerKink,
+    UpperKink,
+    Gap,
+}
+
+/// The running integration of one instance.
+#[derive(Clone, Debug)]
+pub struct Integrator<'a> {
+    model: &'a Scaled,
+    resolution: Resolution,
+    /// Set to stop early.
+    cancel: Option<&'a AtomicBool>,
+    turns: Turns,
+    /// The longest step of each contact state.
+    longest: [f64; 4],
+    state: State,
+    contact: Contact,
+    disarmed: Disarmed,
+    time: f64,
+    steps: u64,
+    events_at_once: u32,
+    events_in_period: u32,
+    steps_in_period: u32,
+    period_end: f64,
+}
+
+impl<'a> Integrator<'a> {
+    /// Starts at `state` (deviations from the equilibrium, `y2 = ẏ2 = 0`) on the belt `belt`.
+    ///
+    /// # Errors
+    /// [`Status::Painleve`] when the first slip has `M11 ≤ 0`.
+    pub fn new(
+        model: &'a Scaled,
+        resolution: Resolution,
+        state: State,
+        belt: BeltMotion,
+    ) -> Result<Self, Status> {
+        debug_assert!((4..=MAX_ORDER).contains(&resolution.order));
+        let mut integrator = Integrator {
+            model,
+            resolution,
+            cancel: None,
+            turns: resolution.turns(),
+            longest: resolution.longest(model),
+            state,
+            contact: Contact::Free,
+            disarmed: Disarmed::Nothing,
+            time: 0.0,
+            steps: 0,
+            events_at_once: 0,
+            events_in_period: 0,
+            steps_in_period: 0,
+            period_end: std::f64::consts::TAU,
+        };
+        integrator.enter_contact(belt)?;
+        Ok(integrator)
+    }
+
+    /// Lets it end with [`Status::NotComputed`] soon after `cancel` is set: a run may have minutes of steps.
+    pub fn stop_at(&mut self, cancel: &'a AtomicBool) {
+        self.cancel = Some(cancel);
+    }
+
+    /// The time simulated so far.
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// The steps taken so far.
+    #[must_use]
+    pub fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// The present state.
+    #[must_use]
+    pub fn state(&self) -> State {
+        self.state
+    }
+
+    /// The present contact state.
+    #[must_use]
+    pub fn contact(&self) -> Contact {
+        self.contact
+    }
+
+    /// Integrates for exactly `duration` with the belt moving as `belt` says at the start.
+    ///
+    /// # Errors
+    /// The status that ends the instance before its time.
+    pub fn advance(
+        &mut self,
+        duration: f64,
+        belt: BeltMotion,
+        observer: &mut impl Observer,
+    ) -> Result<(), Status> {
+        let began = self.time;
+        let mut local = 0.0;
+        while local < duration {
+            let now = BeltMotion { velocity: belt.velocity + belt.acceleration * local, ..belt };
+            if self.contact == Contact::Stick {
+                self.state.velocity[0] = now.velocity;
+            }
+            let (taken, crossing) = self.one_step(duration - local, now, observer)?;
+            local = if taken < duration - local { local + taken } else { duration };
+            self.time = began + local;
+            self.count(taken, crossing.is_some())?;
+            if let Some(crossing) = crossing {
+                let then = BeltMotion { velocity: belt.velocity + belt.acceleration * local, ..belt };
+                let event = self.transition(crossing, then)?;
+                observer.event(event);
+            }
+        }
+        Ok(())
+    }
+
+    /// One step of at most `longest`; the time taken and the event that ended it.
+    fn one_step(
+        &mut self,
+        longest: f64,
+        belt: BeltMotion,
+        observer: &mut impl Observer,
+    ) -> Result<(f64, Option<Watched>), Status> {
+        let allowed = self.longest[self.contact.state() as usize];
+        let expansion = match self.resolution.method {
+            Method::Taylor => {
+                Expansion::new(self.model, self.resolution.order, &self.state, self.contact, belt)
+            }
+            // Of a step in full: divided by the rest of a stretch, however short, its output would be rounding.
+            Method::LocatedRk4 | Method::FixedStep => {
+                rk4::expand(self.model, &self.state, self.contact, belt, allowed)
+            }
+        };
+        let (inertia, inertia_rate) = self.slip_inertia(&expansion);
+        if inertia <= 0.0 {
+            return Err(Status::Painleve);
+        }
+        if stands_still(allowed, f64::EPSILON) || self.is_unstable(allowed) {
+            return Err(Status::StepTooLarge);
+        }
+        let full =
+            self.resolution.nominal_step.min(allowed).min(self.longest_on_law(&expansion)).min(longest);
+        let step = match self.resolution.method {
+            Method::Taylor => expansion.step(full, self.resolution.tolerance, MAX_HALVINGS),
+            Method::LocatedRk4 | Method::FixedStep => Some(full),
+        };
+        let step = step.ok_or_else(|| {
+            let finest = self.resolution.nominal_step * 0.5_f64.powi(MAX_HALVINGS);
+            if !self.state.is_finite() {
+                Status::NonFinite
+            } else if inertia < -inertia_rate * finest * PAINLEVE_APPROACHED {
+                Status::Painleve
+            } else {
+                Status::StepTooLarge
+            }
+        })?;
+        let (taken, crossing) = self.first_event(&expansion, step);
+        self.steps += 1;
+        let end = expansion.motion(taken);
+        if !end.state.is_finite() {
+            return Err(Status::NonFinite);
+        }
+        if taken > 0.0 {
+            observer.step(&Step { expansion: &expansion, start: self.time, duration: taken, belt, end });
+            self.state = end.state;
+            self.disarmed = Disarmed::Nothing;
+        }
+        Ok((taken, crossing))
+    }
+
+    /// Whether a step of fixed length is too long for the fastest mode of the present contact state.
+    fn is_unstable(&self, step: f64) -> bool {
+        let fastest = self.model.fastest[self.contact.state() as usize];
+        self.resolution.method != Method::Taylor && step * fastest > rk4::STABLE
+    }
+
+    /// The longest step that the law allows where the motion is on it.
+    fn longest_on_law(&self, expansion: &Expansion) -> f64 {
+        let Contact::Slip { sigma, piece } = self.contact else { return f64::INFINITY };
+        let law = self.model.law.pieces[piece];
+        if let Piece::Linear { slope, .. } = law {
+            // What is left on a rising piece of a mode that holds the motion is no more than the tolerance, here next to
+            // nothing. Halving finds no step for a falling one from far above.
+            let falls = slope < 0.0;
+            return if falls { self.turns.longest_step_on(self.model, piece) } else { f64::INFINITY };
+        }
+        let [v, acceleration] = expansion.relative_motion();
+        let speed = (sigma * v).max(0.0);
+        // A law without a layer has no slope either.
+        let sloped = (law.slope(speed) / self.model.law.rate().max(f64::MIN_POSITIVE)).abs();
+        1.0 / self.turns.layer().pace(self.model, [acceleration.abs(), sloped], speed)
+    }
+
+    /// `M11` at the start of a step in slip and its rate of change; 1 and 0 in the other contact states.
+    fn slip_inertia(&self, expansion: &Expansion) -> (f64, f64) {
+        match self.contact {
+            Contact::Slip { sigma, piece } => {
+                let law = self.model.law.pieces[piece];
+                let [v, acceleration] = expansion.relative_motion();
+                let q = sigma * law.mu(sigma * v);
+                (self.model.slip_inertia(q), self.model.kappa * law.slope(sigma * v) * acceleration)
+            }
+            _ => (1.0, 0.0),
+        }
+    }
+
+    /// The first event within `step`, or the whole step.
+    fn first_event(&self, expansion: &Expansion, step: f64) -> (f64, Option<Watched>) {
+        let mut taken = step;
+        let mut found = None;
+        let first_crossing = self.resolution.method.finder();
+        self.watch(expansion, |watched, series, from_zero| {
+            match first_crossing(series, taken, from_zero) {
+                Crossing::Never => {}
+                Crossing::Immediate => (taken, found) = (0.0, Some(watched)),
+                Crossing::At(tau) => (taken, found) = (tau, Some(watched)),
+            }
+            taken > 0.0
+        });
+        (taken, found)
+    }
+
+    /// Hands every event function of the present contact state to `visit` until it returns false.
+    fn watch(&self, expansion: &Expansion, mut visit: impl FnMut(Watched, &[f64], bool) -> bool) {
+        let order = expansion.order;
+        let forces = order - 1;
+        match self.contact {
+            Contact::Slip { sigma, piece } => {
+                let law = &self.model.law;
+                if !visit(Watched::LiftOff, &expansion.contact(NORMAL)[..forces], false) {
+                    return;
+                }
+                let mut speed: Series = expansion.contact(RELATIVE).map(|v| sigma * v);
+                let at_start = speed[0];
+                let (lower, watched, disarmed) = if piece == 0 {
+                    (0.0, Watched::Rest, Disarmed::Rest)
+                } else {
+                    (law.kinks[piece - 1], Watched::LowerKink, Disarmed::LowerKink)
+                };
+                speed[0] = at_start - lower;
+                let again = self.disarmed == Disarmed::Rest && self.events_at_once >= RELEASED_AGAIN;
+                if again && speed[1].abs() <= self.rounding(expansion) {
+                    // Released on the edge of the cone and turned back by a rounding: which way it goes is told by what follows.
+                    speed[1] = 0.0;
+                }
+                if !visit(watched, &speed[..order], self.disarmed == disarmed) {
+                    return;
+                }
+                if let Some(upper) = law.kinks.get(piece) {
+                    speed = speed.map(|v| -v);
+                    speed[0] = upper - at_start;
+                    visit(Watched::UpperKink, &speed[..order], self.disarmed == Disarmed::UpperKink);
+                }
+            }
+            Contact::Stick => {
+                let mu = self.model.law.mu_stick;
+                let (normal, tangential) = (expansion.contact(NORMAL), expansion.contact(TANGENTIAL));
+                let springs = self.model.springs(self.state.position, self.state.velocity);
+                let at_start = self.model.cone_margins(springs, expansion.acceleration(X2)[0]);
+                for (sigma, at_start) in [1.0, -1.0].into_iter().zip(at_start) {
+                    let mut margin: Series = std::array::from_fn(|k| mu * normal[k] - sigma * tangential[k]);
+                    margin[0] = at_start;
+                    if !visit(Watched::StickLimit { sigma }, &margin[..forces], false) {
+                        return;
+                    }
+                }
+                visit(Watched::LiftOff, &normal[..forces], false);
+            }
+            Contact::Free => {
+                visit(Watched::Gap, &expansion.gap()[..=order], self.disarmed == Disarmed::Gap);
+            }
+        }
+    }
+
+    /// What the acceleration at rest may be off by: roundings of the forces on the edge of the cone.
+    fn rounding(&self, expansion: &Expansion) -> f64 {
+        let (tangential, normal) = expansion.forces(0.0);
+        let size = self.model.n0 * (1.0 + self.model.law.mu_stick) + tangential.abs() + normal.abs();
+        ROUNDINGS * f64::EPSILON * size
+    }
+
+    /// Counts steps and events and stops an instance where either piles up.
+    fn count(&mut self, taken: f64, event: bool) -> Result<(), Status> {
+        if self.time >= self.period_end {
+            self.period_end = self.time + std::f64::consts::TAU;
+            self.events_in_period = 0;
+            self.steps_in_period = 0;
+        }
+        self.steps_in_period += 1;
+        let looks = self.steps.is_multiple_of(STEPS_BETWEEN_LOOKS);
+        if looks && self.cancel.is_some_and(|cancel| cancel.load(Ordering::Relaxed)) {
+            return Err(Status::NotComputed);
+        }
+        if self.steps_in_period > MAX_STEPS_PER_PERIOD || self.steps > u64::from(MOST_STEPS) {
+            return Err(Status::StepTooLarge);
+        }
+        if event {
+            self.events_at_once = if taken > 0.0 { 0 } else { self.events_at_once + 1 };
+            self.events_in_period += 1;
+        }
+        if self.events_at_once > MAX_EVENTS_AT_ONCE || self.events_in_period > MAX_EVENTS_PER_PERIOD {
+            return Err(Status::EventLimit);
+        }
+        Ok(())
+    }
+
+    /// Carries out the transition that belongs to an event at the present state.
+    fn transition(&mut self, crossing: Watched, belt: BeltMotion) -> Result<Event, Status> {
+        match (crossing, self.contact) {
+            (Watched::LowerKink | Watched::UpperKink, Contact::Slip { sigma, piece }) => {
+                let (piece, disarmed) = if crossing == Watched::LowerKink {
+                    (piece - 1, Disarmed::UpperKink)
+                } else {
+                    (piece + 1, Disarmed::LowerKink)
+                };
+                self.contact = Contact::Slip { sigma, piece };
+                self.disarmed = disarmed;
+                Ok(Event::Kink)
+            }
+            (Watched::Rest, _) => {
+                self.rest(belt)?;
+                Ok(Event::Rest)
+            }
+            (Watched::StickLimit { sigma }, _) => {
+                let springs = self.model.springs(self.state.position, self.state.velocity);
+                let contact = self.model.slip_or_free(springs, sigma, 0.0)?;
+                self.enter(contact, true);
+                Ok(Event::StickLimit)
+            }
+            (Watched::Gap, _) => {
+                self.state.position[1] = 0.0;
+                let [vx, vy, _] = self.state.velocity;
+                let impact = self.model.impact(vx, vy.min(0.0), belt.velocity)?;
+                self.state.velocity[0] = impact.vx;
+                self.state.velocity[1] = impact.vy;
+                if impact.vy > 0.0 {
+                    self.enter(Contact::Free, false);
+                } else {
+                    self.enter_contact(belt)?;
+                }
+                Ok(Event::Impact { gained_energy: impact.gained_energy })
+            }
+            (Watched::LiftOff | Watched::LowerKink | Watched::UpperKink, _) => {
+                self.enter(Contact::Free, false);
+                Ok(Event::LiftOff)
+            }
+        }
+    }
+
+    /// Decides the contact state of a closed contact from the present velocities.
+    fn enter_contact(&mut self, belt: BeltMotion) -> Result<(), Status> {
+        let relative = belt.velocity - self.state.velocity[0];
+        if relative == 0.0 {
+            return self.rest(belt);
+        }
+        let springs = self.model.springs(self.state.position, self.state.velocity);
+        let contact = self.model.slip_or_free(springs, relative.signum(), relative.abs())?;
+        self.enter(contact, false);
+        Ok(())
+    }
+
+    /// Decides the contact state at zero relative velocity.
+    fn rest(&mut self, belt: BeltMotion) -> Result<(), Status> {
+        self.state.velocity[0] = belt.velocity;
+        let springs = self.model.springs(self.state.position, self.state.velocity);
+        let contact = self.model.contact_at_rest(springs, belt.acceleration)?;
+        self.enter(contact, true);
+        Ok(())
+    }
+
+    /// Enters a contact state; `at_rest` when the relative velocity is zero.
+    fn enter(&mut self, contact: Contact, at_rest: bool) {
+        self.contact = contact;
+        self.disarmed = match contact {
+            Contact::Slip { .. } if at_rest => Disarmed::Rest,
+            Contact::Free => Disarmed::Gap,
+            _ => Disarmed::Nothing,
+        };
+    }
+}
+
+/// The event functions; each is positive inside its contact state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Watched {
+    Rest,
+    LowerKink,
+    UpperKink,
+    LiftOff,
+    StickLimit { sigma: f64 },
+    Gap,
+}

@@ -1,0 +1,206 @@
+//! An instance ready to be integrated: scaled, about its equilibrium, at its start.
+
+use std::f64::consts::TAU;
+
+use crate::engine::method::taylor::{BeltMotion, State};
+use crate::engine::plan::{Duration, Plan, StartKind};
+use crate::engine::start::{kick, mode};
+use crate::model::equilibrium::{Equilibrium, Scaled, Units};
+use crate::model::instance::Instance;
+use crate::model::status::Status;
+use crate::model::{Param, Params};
+
+impl Plan {
+    /// The plan cut to at most `periods` of the instance, and the share of its time that is left; of a run until
+    /// settled the longest it may be.
+    #[must_use]
+    pub fn shortened(&self, instance: &Instance, periods: f64) -> (Plan, f64) {
+        if let Some(limit) = self.settle_limit {
+            return Plan { settle: limit, settle_limit: None, ..*self }.shortened(instance, periods);
+        }
+        let Ok(scene) = Scene::new(instance, self.start) else { return (*self, 1.0) };
+        let [settle, measure] = [self.settle, self.measure].map(|part| scene.scaled(part) / TAU);
+        let share = (periods / (settle + measure)).min(1.0);
+        if share >= 1.0 {
+            return (*self, 1.0);
+        }
+        let cut = |part: f64| Duration::Periods(part * share);
+        (Plan { settle: cut(settle), measure: cut(measure), ..*self }, share)
+    }
+}
+
+/// Most steps of a run: 1.4 million periods with 12 steps each, a minute or two of one core. All that f32 counts, in
+/// which an amplitude drifts by percents over that many; the same on every engine.
+pub const MOST_STEPS: u32 = 1 << 24;
+
+/// The largest scaled number of an instance, and the inverse of the smallest: the squares of such numbers are finite,
+/// and products of them above zero, in f32 too.
+pub const LARGEST: f64 = 1e18;
+
+/// The largest unit of a scaled number, SI, and the inverse of the smallest.
+const LARGEST_UNIT: f64 = 1e200;
+
+/// The belt velocity over time, scaled: linear from the first value to the last, then constant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ramp {
+    start: f64,
+    end: f64,
+    duration: f64,
+}
+
+impl Ramp {
+    fn new(params: &Params, units: &Units) -> Ramp {
+        let start = params.require(Param::BeltVelocity);
+        let end = params.get(Param::BeltVelocityEnd).unwrap_or(start);
+        let duration = params.get(Param::RampDuration).unwrap_or(0.0);
+        Ramp { start: start / units.velocity, end: end / units.velocity, duration: duration / units.time }
+    }
+
+    /// The belt at the time `t`, and how long it goes on like that.
+    fn at(&self, t: f64) -> (BeltMotion, f64) {
+        if t < self.duration {
+            let acceleration = (self.end - self.start) / self.duration;
+            (BeltMotion { velocity: self.start + acceleration * t, acceleration }, self.duration - t)
+        } else {
+            (BeltMotion { velocity: self.end, acceleration: 0.0 }, f64::INFINITY)
+        }
+    }
+}
+
+/// The velocity of the belt of an instance at the time `time` (s), m/s.
+#[must_use]
+pub fn belt_velocity(params: &Params, time: f64) -> f64 {
+    let start = params.require(Param::BeltVelocity);
+    match (params.get(Param::BeltVelocityEnd), params.get(Param::RampDuration)) {
+        (Some(end), Some(duration)) if time < duration => start + (end - start) * (time / duration),
+        (Some(end), Some(_)) => end,
+        _ => start,
+    }
+}
+
+/// An instance ready to be integrated.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// SI values of the scaled units.
+    pub units: Units,
+    /// The sliding equilibrium.
+    pub equilibrium: Equilibrium,
+    /// The dimensionless model around it.
+    pub model: Scaled,
+    ramp: Ramp,
+    start: State,
+}
+
+impl Scene {
+    /// Prepares an instance.
+    ///
+    /// # Errors
+    /// The status of an instance that cannot start: ill-posed law, no equilibrium.
+    pub fn new(instance: &Instance, start: StartKind) -> Result<Scene, Status> {
+        let equilibrium = Equilibrium::new(instance)?;
+        let units = Units::new(&instance.params);
+        let model = Scaled::new(instance, &units, &equilibrium);
+        let ramp = Ramp::new(&instance.params, &units);
+        let start = match start {
+            StartKind::Kick => kick(&instance.params, &units),
+            StartKind::Mode => mode(instance, &units, &model),
+        };
+        Ok(Scene { units, equilibrium, model, ramp, start })
+    }
+
+    /// Prepares an instance for a run as `plan` has it.
+    ///
+    /// # Errors
+    /// As [`Scene::new`]; [`Status::NonFinite`] for scaled numbers beyond [`LARGEST`], [`Status::StepTooLarge`] for a run
+    /// that has more than [`MOST_STEPS`] even if none is cut short.
+    pub fn planned(instance: &Instance, plan: &Plan) -> Result<Scene, Status> {
+        let scene = Scene::new(instance, plan.start)?;
+        if !scene.is_representable() {
+            return Err(Status::NonFinite);
+        }
+        let periods = (scene.scaled(plan.settle) + scene.scaled(plan.measure)) / TAU;
+        let countable = periods * f64::from(plan.steps_per_period) <= f64::from(MOST_STEPS);
+        if countable { Ok(scene) } else { Err(Status::StepTooLarge) }
+    }
+
+    /// Whether no scaled number is beyond [`LARGEST`], or so small that its inverse is.
+    fn is_representable(&self) -> bool {
+        let (model, ramp, start) = (&self.model, &self.ramp, &self.start);
+        let (size, rate) = (|value: &f64| value.abs() <= LARGEST, |value: &f64| value.abs() >= 1.0 / LARGEST);
+        let positive = [model.m1, model.k1, model.k2, model.det, model.n0, model.c];
+        let others = [model.c1, model.c2, model.mu0, model.law.mu_stick, ramp.start, ramp.end];
+        let mut pieces = model.law.pieces.iter().map(|piece| piece.largest());
+        let Units { time, length, velocity, acceleration, force } = self.units;
+        // What they are multiplied by stays a number, too.
+        let units = [time, length, velocity, acceleration, force];
+        let in_range = |value: &f64| (1.0 / LARGEST_UNIT..=LARGEST_UNIT).contains(value);
+        let equilibrium = [self.equilibrium.x2, self.equilibrium.y1];
+        units.iter().all(in_range)
+            && equilibrium.iter().all(|value| value.abs() <= LARGEST_UNIT)
+            && positive.iter().all(|value| size(value) && rate(value))
+            && others.iter().chain(&model.law.kinks).chain(&start.position).chain(&start.velocity).all(size)
+            && pieces.all(|value| size(&value))
+            && [ramp.start, ramp.end].iter().all(|value| *value == 0.0 || rate(value))
+            && (ramp.duration == 0.0 || size(&((ramp.end - ramp.start) / ramp.duration)))
+    }
+
+    /// The status an integration ended with, as it is told. On a piece too narrow for an arithmetic a speed may lie beyond its
+    /// ends, and friction with it beyond all that the law has: where that alone makes `M11` vanish, nothing is Painlevé's.
+    #[must_use]
+    pub fn told(&self, status: Status) -> Status {
+        if status == Status::Painleve && !self.model.may_be_painleve() {
+            Status::StepTooLarge
+        } else {
+            status
+        }
+    }
+
+    /// The belt at the time `t` (scaled).
+    #[must_use]
+    pub fn belt(&self, t: f64) -> BeltMotion {
+        self.ramp.at(t).0
+    }
+
+    /// The belt from the time `t` (scaled) on, and how long it goes on like that.
+    #[must_use]
+    pub fn belt_from(&self, t: f64) -> (BeltMotion, f64) {
+        self.ramp.at(t)
+    }
+
+    /// The state at the start.
+    #[must_use]
+    pub fn start(&self) -> State {
+        self.start
+    }
+
+    /// The same from another start.
+    #[must_use]
+    pub fn started(self, start: State) -> Scene {
+        Scene { start, ..self }
+    }
+
+    /// The SI value of the simulated time `time`: in full when it is exactly the time the plan asks for.
+    #[must_use]
+    pub fn seconds(&self, time: f64, plan: &Plan) -> f64 {
+        if plan.settle_limit.is_some() {
+            return time * self.units.time;
+        }
+        let si = |duration| match duration {
+            Duration::Seconds(seconds) => seconds,
+            other => self.scaled(other) * self.units.time,
+        };
+        let half = 0.5 * self.scaled(plan.measure);
+        let asked = self.scaled(plan.settle) + half + half;
+        (si(plan.settle) + si(plan.measure)) * (time / asked)
+    }
+
+    /// A length of time of the plan in units of `1/ω0`.
+    #[must_use]
+    pub fn scaled(&self, duration: Duration) -> f64 {
+        match duration {
+            Duration::Seconds(seconds) => seconds / self.units.time,
+            Duration::Periods(periods) => periods * TAU,
+            Duration::Ramp => self.ramp.duration,
+        }
+    }
+}

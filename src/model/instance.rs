@@ -1,0 +1,15 @@
+//! One instance of the model.
+
+use crate::model::Params;
+use crate::model::friction::FrictionLaw;
+
+/// Everything that defines one instance.
+#[derive(Clone, Debug)]
+pub struct Instance {
+    /// Its numeric parameters.
+    pub params: Params,
+    /// Its friction law, materials resolved.
+    pub law: FrictionLaw,
+    /// Whether impacts carry a Coulomb impulse.
+    pub impact_friction: bool,
+}

@@ -1,0 +1,257 @@
+//! Complex eigenvalue analysis and attribution: independent of method, observe and classify.
+//!
+//! With `μ0 = μ(V)` the characteristic polynomial of the sliding equilibrium is
+//!
+//! ```text
+//! A(λ) B(λ) + s (μ0 c − s) (c2 λ + k2)²
+//! A = (m2 + m1 c² + μ0 m1 c s) λ² + [C11 + μ'(V) N0] λ + K11     B = m1 λ² + c2 λ + k2
+//! C11, K11 = (c1, k1) c (c + μ0 s) + (c2, k2) s (s − μ0 c)
+//! ```
+//!
+//! (the paper's matrices (4), its normal degree of freedom eliminated). Attribution removes one mechanism
+//! at a time at the same equilibrium: the slope (`μ' = 0`), or the feedback of the normal force (`μ0 = 0`
+//! in the matrices, the slope kept at the frozen `N0`).
+
+use std::f64::consts::TAU;
+
+use num_complex::Complex64;
+
+use crate::engine::method::quartic;
+use crate::model::Param;
+use crate::model::equilibrium::Equilibrium;
+use crate::model::instance::Instance;
+use crate::model::kind::{InstabilityType, UNSTABLE_ABOVE};
+
+/// Eigenvalue analysis of one sliding equilibrium.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Linear {
+    /// Largest real part of the eigenvalues, both mechanisms present, 1/s.
+    pub growth_rate: f64,
+    /// Its imaginary part over 2π, Hz.
+    pub frequency: f64,
+    /// Phase of `ÿ1` against `ẍ2` in that mode, degrees in (−180, 180]; `None` at θ = 0 and for real eigenvalues.
+    pub phase: Option<f64>,
+    /// Growth rate with the slope set to 0 (mode coupling alone), 1/s.
+    pub growth_rate_flat: f64,
+    /// Growth rate with the normal force frozen (negative slope alone), 1/s.
+    pub growth_rate_frozen: f64,
+}
+
+/// The coefficients of the characteristic polynomial; SI units.
+struct Sliding {
+    m1: f64,
+    m2: f64,
+    k1: f64,
+    k2: f64,
+    c1: f64,
+    c2: f64,
+    s: f64,
+    c: f64,
+}
+
+impl Sliding {
+    fn new(instance: &Instance) -> Sliding {
+        let value = |param| instance.params.require(param);
+        let (s, c) = value(Param::Theta).sin_cos();
+        Sliding {
+            m1: value(Param::M1),
+            m2: value(Param::M2),
+            k1: value(Param::K1),
+            k2: value(Param::K2),
+            c1: value(Param::C1),
+            c2: value(Param::C2),
+            s,
+            c,
+        }
+    }
+
+    /// Powers 0 to 4 for the friction coefficient `mu` in the matrices and the damping `slope_damping = μ' N0`.
+    fn polynomial(&self, mu: f64, slope_damping: f64) -> [f64; 5] {
+        let Sliding { m1, m2, k1, k2, c1, c2, s, c } = *self;
+        let (along, across) = (c * (c + mu * s), s * (s - mu * c));
+        let a = [
+            k1 * along + k2 * across,
+            c1 * along + c2 * across + slope_damping,
+            m2 + m1 * c * c + mu * m1 * c * s,
+        ];
+        let b = [k2, c2, m1];
+        [
+            a[0] * b[0] - across * k2 * k2,
+            a[0] * b[1] + a[1] * b[0] - across * 2.0 * c2 * k2,
+            a[0] * b[2] + a[1] * b[1] + a[2] * b[0] - across * c2 * c2,
+            a[1] * b[2] + a[2] * b[1],
+            a[2] * b[2],
+        ]
+    }
+
+    /// `k2, c2, m1`: the polynomial of the normal mode, powers 0 to 2.
+    fn normal(&self) -> [f64; 3] {
+        [self.k2, self.c2, self.m1]
+    }
+}
+
+/// `y1/x2` of the mode with the eigenvalue `lambda`, which it depends on alone: [`Sliding::normal`] and `sin θ`.
+fn mode_ratio([k2, c2, m1]: [f64; 3], s: f64, lambda: Complex64) -> Complex64 {
+    let spring = c2 * lambda + k2;
+    spring * s / (m1 * lambda * lambda + spring)
+}
+
+/// The eigenvalue of largest real part; of a pair the one with positive imaginary part.
+fn rightmost(eigenvalues: &[Complex64; 4]) -> Complex64 {
+    let key = |z: &Complex64| (z.re, z.im);
+    let first = eigenvalues[0];
+    eigenvalues[1..].iter().fold(first, |best, z| if key(z) > key(&best) { *z } else { best })
+}
+
+fn is_unstable(lambda: Complex64) -> bool {
+    lambda.re > 0.0 && lambda.re * lambda.re > UNSTABLE_ABOVE * UNSTABLE_ABOVE * lambda.norm_sqr()
+}
+
+/// The four eigenvalues of the sliding equilibrium, 1/s; `None` where there is no belt motion or no equilibrium.
+#[must_use]
+pub fn eigenvalues(instance: &Instance) -> Option<[Complex64; 4]> {
+    let equilibrium = sliding(instance)?;
+    let slope_damping = equilibrium.slope * equilibrium.normal_force;
+    Some(quartic::roots(Sliding::new(instance).polynomial(equilibrium.mu, slope_damping)))
+}
+
+/// The equilibrium of a belt that moves.
+fn sliding(instance: &Instance) -> Option<Equilibrium> {
+    (instance.params.require(Param::BeltVelocity) > 0.0).then(|| Equilibrium::new(instance).ok()).flatten()
+}
+
+/// The most unstable mode with a tangential part: its eigenvalue (1/s) and `y1/x2`.
+///
+/// At θ = 0 the normal mode is decoupled and cannot be excited by the belt.
+#[must_use]
+pub fn leading_mode(instance: &Instance) -> Option<(Complex64, Complex64)> {
+    let system = Sliding::new(instance);
+    let equilibrium = sliding(instance)?;
+    let slope_damping = equilibrium.slope * equilibrium.normal_force;
+    if system.s == 0.0 {
+        return Some((single_mass(instance)?[0], Complex64::ZERO));
+    }
+    let lambda = rightmost(&quartic::roots(system.polynomial(equilibrium.mu, slope_damping)));
+    Some((lambda, mode_ratio(system.normal(), system.s, lambda)))
+}
+
+/// The two eigenvalues (1/s) of the tangential motion alone, at θ = 0; the one of larger imaginary part first.
+#[must_use]
+pub fn single_mass(instance: &Instance) -> Option<[Complex64; 2]> {
+    let system = Sliding::new(instance);
+    let equilibrium = sliding(instance)?;
+    let (mass, damping) = (system.m1 + system.m2, system.c1 + equilibrium.slope * equilibrium.normal_force);
+    let half = Complex64::new(-0.5 * damping / mass, 0.0);
+    let root = (half * half - system.k1 / mass).sqrt();
+    Some([half + root, half - root])
+}
+
+/// The four eigenvalues (1/s), each with the `y1/x2` of its mode; of use where θ is not 0.
+#[must_use]
+pub fn modes(instance: &Instance) -> Option<[(Complex64, Complex64); 4]> {
+    let system = Sliding::new(instance);
+    Some(eigenvalues(instance)?.map(|lambda| (lambda, mode_ratio(system.normal(), system.s, lambda))))
+}
+
+/// The three characteristic polynomials of one sliding equilibrium (powers 0 to 4) and what the mode ratio needs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Prepared {
+    /// Both mechanisms.
+    pub full: [f64; 5],
+    /// The slope set to 0.
+    pub flat: [f64; 5],
+    /// The normal force frozen.
+    pub frozen: [f64; 5],
+    /// `k2, c2, m1`: the polynomial of the normal mode, powers 0 to 2.
+    pub normal: [f64; 3],
+    /// `sin θ`.
+    pub s: f64,
+}
+
+/// The smallest leading coefficient of a polynomial: it is divided by.
+const LEAST: f64 = 1e-290;
+
+/// The largest coefficient in units of the mean root: products of seven are finite, and beyond it the roots are too far
+/// apart for the closed form.
+const LARGEST: f64 = 1e40;
+
+/// Whether the roots of a polynomial can be told in numbers.
+fn is_solvable(polynomial: &[f64; 5]) -> bool {
+    let [constant, .., leading] = *polynomial;
+    let scale = (constant / leading).abs().sqrt().sqrt();
+    let mut power = leading.abs();
+    let coefficients = polynomial.iter().rev().all(|coefficient| {
+        let in_range = coefficient.is_finite() && coefficient.abs() <= LARGEST * power;
+        power *= scale;
+        in_range
+    });
+    leading.abs() >= LEAST && scale.is_finite() && power.is_finite() && coefficients
+}
+
+/// The polynomials to solve, or the type of an instance without any: at rest, under divergence, or `None` for an ill-posed
+/// friction law, and where the coefficients are beyond the range of numbers.
+pub type Preparation = Result<Prepared, Option<InstabilityType>>;
+
+/// The polynomials of an instance.
+///
+/// # Errors
+/// The type, see [`Preparation`].
+pub fn prepare(instance: &Instance) -> Preparation {
+    if !instance.law.is_valid() {
+        return Err(None);
+    }
+    if instance.params.require(Param::BeltVelocity) == 0.0 {
+        return Err(Some(InstabilityType::Sticking));
+    }
+    let equilibrium = sliding(instance).ok_or(Some(InstabilityType::Divergence))?;
+    let system = Sliding::new(instance);
+    let slope_damping = equilibrium.slope * equilibrium.normal_force;
+    let prepared = Prepared {
+        full: system.polynomial(equilibrium.mu, slope_damping),
+        flat: system.polynomial(equilibrium.mu, 0.0),
+        frozen: system.polynomial(0.0, slope_damping),
+        normal: system.normal(),
+        s: system.s,
+    };
+    let solvable = [&prepared.full, &prepared.flat, &prepared.frozen].into_iter().all(is_solvable);
+    solvable.then_some(prepared).ok_or(None)
+}
+
+/// Type of instability and the eigenvalue analysis behind it (`None` at rest and under divergence); both
+/// `None` for an ill-posed friction law.
+#[must_use]
+pub fn analyse(instance: &Instance) -> (Option<InstabilityType>, Option<Linear>) {
+    solve(&prepare(instance))
+}
+
+/// The same from what [`prepare`] has made.
+#[must_use]
+pub fn solve(prepared: &Preparation) -> (Option<InstabilityType>, Option<Linear>) {
+    let prepared = match prepared {
+        Ok(prepared) => prepared,
+        Err(kind) => return (*kind, None),
+    };
+    let leading = |polynomial| rightmost(&quartic::roots(polynomial));
+    let full = leading(prepared.full);
+    #[expect(clippy::float_cmp, reason = "the same polynomial, bit by bit")]
+    let without = |polynomial| if polynomial == prepared.full { full } else { leading(polynomial) };
+    let (flat, frozen) = (without(prepared.flat), without(prepared.frozen));
+    let kind = match (is_unstable(full), is_unstable(flat), is_unstable(frozen)) {
+        (false, _, _) => InstabilityType::Stable,
+        (true, false, true) => InstabilityType::NegativeSlope,
+        (true, true, false) => InstabilityType::ModeCoupling,
+        (true, true, true) => InstabilityType::Coexistence,
+        (true, false, false) => InstabilityType::Interaction,
+    };
+    let phase = (full.im != 0.0 && prepared.s != 0.0)
+        .then(|| mode_ratio(prepared.normal, prepared.s, full).arg().to_degrees())
+        .filter(|phase| phase.is_finite());
+    let linear = Linear {
+        growth_rate: full.re,
+        frequency: full.im / TAU,
+        phase,
+        growth_rate_flat: flat.re,
+        growth_rate_frozen: frozen.re,
+    };
+    (Some(kind), Some(linear))
+}

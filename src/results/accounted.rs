@@ -1,0 +1,24 @@
+//! Whether a map is whole.
+
+use crate::engine::record::Record;
+use crate::error::{Error, Result};
+use crate::model::status::Status;
+use crate::sweep::map::Map;
+
+/// A map with a missing or an unwritten record is an error, never a row or a picture; so is one that lacks
+/// instances without having been stopped.
+pub(crate) fn accounted(map: &Map) -> Result<()> {
+    let expected = map.spec.grid.len();
+    if map.records.len() != expected {
+        return Err(Error::Incomplete { records: map.records.len(), instances: expected });
+    }
+    let unaccounted = |record: &Record| match record.status {
+        Status::Unwritten => true,
+        Status::NotComputed => map.stopped.is_none(),
+        _ => false,
+    };
+    match map.records.iter().position(unaccounted) {
+        Some(instance) => Err(Error::Unwritten { instance }),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,23 @@
+//! The figure of a map: types and regimes by colour, quantities by lightness, curves, lines, and the same for LaTeX.
+
+pub mod beside;
+pub mod block;
+pub mod cells;
+pub mod compare;
+pub mod curve_block;
+pub mod cut_figure;
+pub mod heading;
+pub mod isolines;
+pub mod legend;
+pub mod look;
+pub mod map;
+pub mod page;
+pub mod palette;
+pub mod panels;
+pub mod picture_axis;
+pub mod points;
+pub mod quantity;
+pub mod sides;
+pub mod starts_block;
+pub mod tikz;
+pub mod words;

@@ -1,0 +1,139 @@
+//! A directory as a reader sees it: its files, tables of text, and errors that name the file.
+
+use std::path::Path;
+
+use serde_json::Value as Json;
+
+use crate::error::{Error, Result};
+use crate::results::figure::heading::Heading;
+use crate::results::manifest::Sum;
+use crate::store::seal::is_intact;
+
+/// What puts damaged results right.
+const HEALED: &str = "`squealmap verify --repair` writes it anew";
+
+/// What is wrong with a file, as the end of a sentence.
+pub(crate) type Why<T> = std::result::Result<T, String>;
+
+/// A directory that a command has written.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Folder<'a>(pub(crate) &'a Path);
+
+impl Folder<'_> {
+    /// The error of one of its files.
+    pub(crate) fn bad(self, file: &str, why: impl Into<String>) -> Error {
+        Error::Archive { path: self.0.join(file), why: why.into() }
+    }
+
+    /// The text of a file.
+    pub(crate) fn text(self, file: &str) -> Result<String> {
+        String::from_utf8(self.bytes(file)?).map_err(|_| self.bad(file, "it is no UTF-8 text"))
+    }
+
+    /// The bytes of a file.
+    pub(crate) fn bytes(self, file: &str) -> Result<Vec<u8>> {
+        crate::disk::read(&self.0.join(file)).map_err(|why| self.bad(file, why.to_string()))
+    }
+
+    /// A file of JSON.
+    pub(crate) fn json(self, file: &str) -> Result<Json> {
+        serde_json::from_str(&self.text(file)?).map_err(|why| self.bad(file, why.to_string()))
+    }
+
+    /// The same of one that may have a checksum of its own; one that was changed is refused.
+    pub(crate) fn sealed(self, file: &str) -> Result<Json> {
+        let document = self.json(file)?;
+        // Whichever of the two a change has hit, the other is there.
+        let is_sealed = ["files", "checksum"].iter().any(|key| document.get(key).is_some());
+        if is_sealed && !is_intact(&self.bytes(file)?) {
+            let why = format!("it was changed: its content does not have its checksum; {HEALED}");
+            return Err(self.bad(file, why));
+        }
+        Ok(document)
+    }
+
+    /// A file of which the document `of` may say length and checksum; one that has others is refused.
+    pub(crate) fn named(self, file: &str, of: &str, document: &Json) -> Result<Vec<u8>> {
+        let bytes = self.bytes(file)?;
+        match Sum::in_manifest(document, file) {
+            Some(sum) if sum != Sum::of(&bytes) => {
+                let why =
+                    format!("it is not the file that {of} names: its checksum is another one; {HEALED}");
+                Err(self.bad(file, why))
+            }
+            _ => Ok(bytes),
+        }
+    }
+
+    /// A table.
+    pub(crate) fn table(self, file: &str) -> Result<Table> {
+        Table::read(self.text(file)?.as_bytes()).map_err(|why| self.bad(file, why))
+    }
+}
+
+/// A table as text.
+pub(crate) struct Table {
+    pub(crate) header: Vec<String>,
+    pub(crate) rows: Vec<csv::StringRecord>,
+}
+
+impl Table {
+    pub(crate) fn read(text: &[u8]) -> Why<Table> {
+        let mut reader = csv::Reader::from_reader(text);
+        let header = reader.headers().map_err(|why| why.to_string())?.iter().map(str::to_owned).collect();
+        let rows: std::result::Result<_, _> = reader.records().collect();
+        Ok(Table { header, rows: rows.map_err(|why| why.to_string())? })
+    }
+
+    pub(crate) fn find(&self, name: &str) -> Option<usize> {
+        self.header.iter().position(|header| header == name)
+    }
+
+    /// The place of a column that has to be there.
+    pub(crate) fn column(&self, name: &str) -> Why<usize> {
+        self.find(name).ok_or_else(|| format!("has no column `{name}`"))
+    }
+
+    /// The cell of a column that may be missing; empty then.
+    pub(crate) fn cell<'a>(&self, row: &'a csv::StringRecord, name: &str) -> &'a str {
+        self.find(name).and_then(|k| row.get(k)).unwrap_or_default()
+    }
+
+    /// The numbers of some columns, row by row; an empty cell, which is an undefined value, is NaN.
+    pub(crate) fn numbers<const N: usize>(&self, names: [&str; N]) -> Why<Vec<[f64; N]>> {
+        let mut places = [0; N];
+        for (place, name) in places.iter_mut().zip(names) {
+            *place = self.column(name)?;
+        }
+        let row = |(line, row): (usize, &csv::StringRecord)| {
+            let mut numbers = [f64::NAN; N];
+            for ((number, place), name) in numbers.iter_mut().zip(places).zip(names) {
+                let cell = row.get(place).unwrap_or_default();
+                if !cell.is_empty() {
+                    *number = cell
+                        .parse()
+                        .map_err(|_| format!("row {}: `{name}` is `{cell}`, no number", line + 1))?;
+                }
+            }
+            Ok(numbers)
+        };
+        self.rows.iter().enumerate().map(row).collect()
+    }
+}
+
+/// A text of a document; empty where there is none.
+pub(crate) fn text(value: &Json) -> String {
+    value.as_str().unwrap_or_default().to_owned()
+}
+
+/// The program that a document says it was written by: version, and commit where known.
+pub(crate) fn program(document: &Json) -> String {
+    let program = &document["program"];
+    let commit = program["git_commit"].as_str().map(|commit| format!(" ({commit})"));
+    format!("squealmap {}{}", text(&program["version"]), commit.unwrap_or_default())
+}
+
+/// The heading of a document.
+pub(crate) fn heading(document: &Json) -> Why<Heading> {
+    Heading::from_json(document).ok_or_else(|| "has no `title`".to_owned())
+}

@@ -1,0 +1,51 @@
+//! Branches of a parameter that rises and falls, as a table; their figure is in `hysteresis_figure.rs`.
+
+use serde_json::json;
+
+use crate::error::Result;
+use crate::results::columns::{Cell, Column, columns};
+use crate::results::csv::Table;
+use crate::results::figure::heading::Heading;
+use crate::results::manifest::described;
+use crate::study::hysteresis::follow::{Direction, Hysteresis};
+use crate::sweep::spec::{Analysis, Spec, Starts};
+
+pub use crate::study::hysteresis::figure::hysteresis_svg;
+
+/// The table of both branches, row by row as they were gone: the branch, the value, and the columns of a map.
+///
+/// # Errors
+/// When the table cannot be written.
+pub fn hysteresis_csv(spec: &Spec, hysteresis: &Hysteresis) -> Result<Vec<u8>> {
+    let analysis = Analysis {
+        linear: true,
+        response: true,
+        until_settled: spec.settle_limit.is_some(),
+        checked: false,
+        starts: Starts::One,
+    };
+    let grid = hysteresis.grid();
+    // The index of an instance says nothing here.
+    let columns: Vec<Column> = columns(&grid, analysis).into_iter().skip(1).collect();
+    let mut table = Table::new(std::iter::once("branch").chain(columns.iter().map(|column| column.name)))?;
+    for direction in Direction::ALL {
+        let branch = direction.name().to_owned();
+        for at in direction.order(hysteresis.values.len()) {
+            let (coordinates, record) = (grid.coordinates(at), &hysteresis.branch(direction)[at]);
+            let cell = |column: &Column| -> Cell { column.cell(at, &coordinates, record) };
+            let cells = columns.iter().map(|column| cell(column).to_string());
+            table.row(std::iter::once(branch.clone()).chain(cells))?;
+        }
+    }
+    table.finish()
+}
+
+/// What the figure needs beside the table, as JSON: the heading, and which parameter was followed.
+///
+/// # Errors
+/// When it cannot be written.
+pub fn document(hysteresis: &Hysteresis, heading: &Heading) -> Result<Vec<u8>> {
+    let mut document = heading.to_json();
+    document["parameter"] = json!(hysteresis.param.info().name);
+    described(&document)
+}

@@ -1,0 +1,256 @@
+//! `modes`: the eigenvalues along an axis, as a table; its figure is in `modes_figure.rs`.
+
+use num_complex::Complex64;
+use serde_json::json;
+
+use crate::error::{Error, Result};
+use crate::results::columns::Cell;
+use crate::results::csv::Table;
+use crate::results::manifest::described;
+use crate::store::grid_json;
+use crate::sweep::grid::{Axis, AxisKey, Grid, Value};
+use crate::sweep::spec::Spec;
+
+pub use crate::study::modes::figure::{draw, modes_svg};
+
+/// One mode at one point: an eigenvalue pair.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mode {
+    /// The member with the larger real part, or with the positive imaginary part, 1/s.
+    pub value: Complex64,
+    /// The faster decaying member of a real (overdamped) pair, 1/s.
+    pub fast: Option<f64>,
+}
+
+impl Mode {
+    /// Frequency, Hz; 0 for a real pair.
+    #[must_use]
+    pub fn frequency(&self) -> f64 {
+        self.value.im / std::f64::consts::TAU
+    }
+
+    /// Real part, 1/s.
+    #[must_use]
+    pub fn growth_rate(&self) -> f64 {
+        self.value.re
+    }
+}
+
+/// The modes along the axis for one combination of the further axes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Branch {
+    /// The index of the combination's first instance.
+    pub first: usize,
+    /// The instances in rising order of the axis.
+    pub instances: Vec<usize>,
+    /// The axis value of each.
+    pub values: Vec<f64>,
+    /// The two modes of each; `None` where no equilibrium or no analysis is defined.
+    pub modes: Vec<Option<[Mode; 2]>>,
+    /// Axis values at which the largest growth rate changes sign, in rising order.
+    pub critical: Vec<f64>,
+}
+
+/// The eigenvalues of a sweep along its first numeric axis of at least two values.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Modes {
+    /// The position of that axis.
+    pub axis: usize,
+    /// One branch per combination of the further axes.
+    pub branches: Vec<Branch>,
+}
+
+/// Gives the eigenvalues of an instance of a sweep, 1/s.
+pub type Eigenvalues<'a> = &'a dyn Fn(&Spec, usize) -> Option<[Complex64; 4]>;
+
+/// Follows the modes of a sweep.
+///
+/// # Errors
+/// When the sweep has no axis of numbers with at least two values, or no instance with modes.
+pub fn follow(spec: &Spec, eigenvalues: Eigenvalues<'_>) -> Result<Modes> {
+    let Grid::Axes(axes) = &spec.grid else { return Err(Error::NoModesOfTuples) };
+    let Modes { axis, mut branches } = along(axes)?;
+    for branch in &mut branches {
+        let raw: Vec<_> = branch.instances.iter().map(|index| eigenvalues(spec, *index).map(pairs)).collect();
+        let growth: Vec<_> = raw.iter().map(|pair| pair.map(largest)).collect();
+        let between = |x: f64| {
+            eigenvalues(&single(spec, axes, axis, branch.first, x), 0).map(|values| largest(pairs(values)))
+        };
+        branch.critical = critical_values(&branch.values, &growth, &between);
+        branch.modes = connect(&raw);
+    }
+    if branches.iter().all(|branch| branch.modes.iter().all(Option::is_none)) {
+        return Err(Error::NoModes);
+    }
+    Ok(Modes { axis, branches })
+}
+
+/// The branches of axes, without modes.
+///
+/// # Errors
+/// When none is of numbers with at least two values.
+pub(crate) fn along(axes: &[Axis]) -> Result<Modes> {
+    let axis = axes
+        .iter()
+        .position(|axis| matches!(axis.key, AxisKey::Param(_)) && axis.values.len() > 1)
+        .ok_or(Error::NoModesAxis)?;
+    let stride: usize = axes[axis + 1..].iter().map(|axis| axis.values.len()).product();
+    let length = axes[axis].values.len();
+    let total = axes.iter().map(|axis| axis.values.len()).product();
+    let order = rising(&axes[axis]);
+    let branch = |first: usize| Branch {
+        first,
+        instances: order.iter().map(|(i, _)| first + i * stride).collect(),
+        values: order.iter().map(|(_, x)| *x).collect(),
+        modes: Vec::new(),
+        critical: Vec::new(),
+    };
+    let firsts = (0..total).filter(|index: &usize| (index / stride).is_multiple_of(length));
+    Ok(Modes { axis, branches: firsts.map(branch).collect() })
+}
+
+/// The modes of a sweep by its own eigenvalues.
+///
+/// # Errors
+/// Those of [`follow`].
+pub fn modes_of(spec: &Spec) -> Result<Modes> {
+    follow(spec, &eigenvalues)
+}
+
+/// The growth rate of the less stable mode.
+fn largest(modes: [Mode; 2]) -> f64 {
+    modes[0].growth_rate().max(modes[1].growth_rate())
+}
+
+/// A sweep of one instance: that with index `first`, but with the value `x` on `axis`.
+fn single(spec: &Spec, axes: &[Axis], axis: usize, first: usize, x: f64) -> Spec {
+    let mut axes = axes.to_vec();
+    for (axis, value) in axes.iter_mut().zip(spec.grid.coordinates(first)) {
+        axis.values = vec![value.clone()];
+    }
+    axes[axis].values = vec![Value::Number(x)];
+    Spec { grid: Grid::Axes(axes), ..spec.clone() }
+}
+
+/// Where the growth rate changes sign, by bisection between neighbouring values.
+fn critical_values(values: &[f64], growth: &[Option<f64>], at: &dyn Fn(f64) -> Option<f64>) -> Vec<f64> {
+    /// Halvings: enough to leave only rounding.
+    const HALVINGS: usize = 52;
+    let changes = (1..values.len()).filter(|i| match (growth[i - 1], growth[*i]) {
+        (Some(before), Some(after)) => (before > 0.0) != (after > 0.0),
+        _ => false,
+    });
+    let bisect = |i: usize| {
+        let rising = growth[i].is_some_and(|g| g > 0.0);
+        let (mut low, mut high) = (values[i - 1], values[i]);
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            if at(middle).is_some_and(|g| g > 0.0) == rising { high = middle } else { low = middle }
+        }
+        0.5 * (low + high)
+    };
+    changes.map(bisect).collect()
+}
+
+/// Index and value of an axis' numbers in rising order.
+fn rising(axis: &Axis) -> Vec<(usize, f64)> {
+    let number = |value: &Value| match value {
+        Value::Number(x) => *x,
+        Value::Text(_) => f64::NAN,
+    };
+    let mut order: Vec<(usize, f64)> =
+        axis.values.iter().enumerate().map(|(i, value)| (i, number(value))).collect();
+    order.sort_by(|a, b| a.1.total_cmp(&b.1));
+    order
+}
+
+/// The two modes of four eigenvalues: complex ones by their conjugates, real ones by size; rising frequency.
+fn pairs(eigenvalues: [Complex64; 4]) -> [Mode; 2] {
+    let mut complex: Vec<Mode> =
+        eigenvalues.iter().filter(|z| z.im > 0.0).map(|z| Mode { value: *z, fast: None }).collect();
+    let mut real: Vec<f64> = eigenvalues.iter().filter(|z| z.im == 0.0).map(|z| z.re).collect();
+    real.sort_by(|a, b| b.total_cmp(a));
+    let overdamped =
+        real.chunks(2).map(|pair| Mode { value: Complex64::new(pair[0], 0.0), fast: pair.get(1).copied() });
+    complex.extend(overdamped);
+    complex.sort_by(|a, b| a.value.im.total_cmp(&b.value.im).then(b.value.re.total_cmp(&a.value.re)));
+    let missing = Mode { value: Complex64::new(f64::NAN, f64::NAN), fast: None };
+    [complex.first().copied().unwrap_or(missing), complex.get(1).copied().unwrap_or(missing)]
+}
+
+/// Names the modes so that each stays as close as possible to itself along the axis.
+fn connect(raw: &[Option<[Mode; 2]>]) -> Vec<Option<[Mode; 2]>> {
+    let mut last: Option<[Mode; 2]> = None;
+    raw.iter()
+        .map(|point| {
+            let [a, b] = (*point)?;
+            let distance = |one: Mode, other: Mode| (one.value - other.value).norm();
+            let swap =
+                last.is_some_and(|[p, q]| distance(p, b) + distance(q, a) < distance(p, a) + distance(q, b));
+            last = Some(if swap { [b, a] } else { [a, b] });
+            last
+        })
+        .collect()
+}
+
+/// The table of a sweep's eigenvalues in the order of its instances: the swept parameters, then of both modes
+/// the frequency (Hz), the growth rate (1/s) and, where a mode is overdamped, its faster decay (1/s).
+///
+/// # Errors
+/// When the sweep has no axis of numbers with at least two values, or no instance with modes.
+pub fn modes_csv(spec: &Spec) -> Result<Vec<u8>> {
+    table(spec, &modes_of(spec)?)
+}
+
+/// The columns of the two modes in `modes.csv`.
+pub const COLUMNS: [&str; 6] = [
+    "frequency_1",
+    "growth_rate_1",
+    "growth_rate_1_fast",
+    "frequency_2",
+    "growth_rate_2",
+    "growth_rate_2_fast",
+];
+
+/// The table of modes that were followed.
+///
+/// # Errors
+/// When the table cannot be written.
+pub fn table(spec: &Spec, modes: &Modes) -> Result<Vec<u8>> {
+    let names = spec.grid.keys().into_iter().map(AxisKey::name);
+    let mut rows: Vec<(usize, Option<[Mode; 2]>)> = modes
+        .branches
+        .iter()
+        .flat_map(|branch| branch.instances.iter().copied().zip(branch.modes.iter().copied()))
+        .collect();
+    rows.sort_by_key(|(index, _)| *index);
+    let mut table = Table::new(std::iter::once("instance").chain(names).chain(COLUMNS))?;
+    for (index, pair) in rows {
+        let swept = spec.grid.coordinates(index).into_iter().map(|value| Cell::from(value).to_string());
+        let mode = |k: usize| {
+            let mode = pair.map(|pair| pair[k]);
+            [mode.map(|m| m.frequency()), mode.map(|m| m.growth_rate()), mode.and_then(|m| m.fast)]
+        };
+        let cells = mode(0).into_iter().chain(mode(1)).map(|x| Cell::from(x).to_string());
+        table.row(std::iter::once(index.to_string()).chain(swept).chain(cells))?;
+    }
+    table.finish()
+}
+
+/// What the figure needs beside the table, as JSON: title and axes of the sweep, and the critical values of each branch.
+///
+/// # Errors
+/// When it cannot be written.
+pub fn document(spec: &Spec, modes: &Modes) -> Result<Vec<u8>> {
+    let critical: Vec<&[f64]> = modes.branches.iter().map(|branch| branch.critical.as_slice()).collect();
+    described(&json!({
+        "title": spec.title,
+        "grid": grid_json::to_json(&spec.grid),
+        "critical": critical,
+    }))
+}
+
+/// The eigenvalues of an instance, 1/s.
+pub(crate) fn eigenvalues(spec: &Spec, index: usize) -> Option<[Complex64; 4]> {
+    crate::model::linear::eigenvalues(&spec.instance(index))
+}

@@ -1,0 +1,5 @@
+//! Eigenvalues along an axis.
+
+pub mod figure;
+pub mod follow;
+pub mod read;

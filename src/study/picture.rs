@@ -1,0 +1,124 @@
+//! One figure read back, ready to be drawn at any width.
+
+use std::path::Path;
+
+use crate::error::Result;
+use crate::results::figure::heading::Heading;
+use crate::results::figure::look::Look;
+use crate::results::figure::map::look_svg;
+use crate::results::read::folder::{Folder, program};
+use crate::results::read::refined::Lines;
+use crate::results::read::{Archive, refined};
+use crate::study::Kind;
+use crate::study::hysteresis::follow::Hysteresis;
+use crate::study::hysteresis::read as hysteresis;
+use crate::study::hysteresis::table::hysteresis_svg;
+use crate::study::identify::read as identify;
+use crate::study::identify::report as identify_figure;
+use crate::study::modes::follow::{Modes, draw};
+use crate::study::modes::read as modes;
+use crate::study::paper::figures::Shown;
+use crate::study::paper::read as paper;
+use crate::study::trace::read as trace;
+use crate::study::trace::run::Trace;
+use crate::study::trace::table::trace_svg;
+use crate::study::tradeoff::read as tradeoff;
+use crate::study::tradeoff::report::figure;
+use crate::sweep::accuracy::row::Row;
+use crate::sweep::spec::Spec;
+
+/// What a figure shows.
+#[derive(Clone, Debug)]
+enum Content {
+    Map(Box<Archive>),
+    Refined(Box<Lines>),
+    Trace(Box<Trace>, Heading),
+    Hysteresis(Hysteresis, Heading),
+    Modes(Box<Spec>, Modes),
+    Tradeoff(String, Vec<Row>),
+    Identify(Box<identify_figure::Shown>),
+    Paper(Shown),
+}
+
+/// A figure read back from the directory of its command.
+#[derive(Clone, Debug)]
+pub struct Picture {
+    content: Content,
+    /// The program that computed it: version, and commit where known.
+    pub program: String,
+}
+
+impl Picture {
+    /// Reads what a figure is drawn from.
+    ///
+    /// # Errors
+    /// When a file is missing or is not what the command writes.
+    pub fn read(directory: &Path, kind: Kind) -> Result<Picture> {
+        let folder = Folder(directory);
+        let content = match kind {
+            Kind::Map => Content::Map(Box::new(Archive::read(directory)?)),
+            Kind::Refined => Content::Refined(Box::new(refined::read(folder)?)),
+            Kind::Trace => {
+                let (trace, heading) = trace::read(folder)?;
+                Content::Trace(Box::new(trace), heading)
+            }
+            Kind::Hysteresis => {
+                let (hysteresis, heading) = hysteresis::read(folder)?;
+                Content::Hysteresis(hysteresis, heading)
+            }
+            Kind::Modes => {
+                let (spec, modes) = modes::read(folder, kind.files())?;
+                Content::Modes(Box::new(spec), modes)
+            }
+            Kind::Tradeoff => {
+                let (title, rows) = tradeoff::read(folder)?;
+                Content::Tradeoff(title, rows)
+            }
+            Kind::Identify => Content::Identify(Box::new(identify::read(folder)?)),
+            Kind::Paper(figure) => Content::Paper(paper::read(folder, figure, kind.files())?),
+        };
+        let document = kind.files().into_iter().find(|file| file.rsplit('.').next() == Some("json"));
+        let program = program(&document.map_or(Ok(serde_json::Value::Null), |file| folder.json(file))?);
+        Ok(Picture { content, program })
+    }
+
+    /// The map, of which quantities and lines can be asked for too.
+    #[must_use]
+    pub fn map(&self) -> Option<&Archive> {
+        match &self.content {
+            Content::Map(archive) => Some(archive),
+            _ => None,
+        }
+    }
+
+    /// The title of the sweep; may be empty.
+    #[must_use]
+    pub fn title(&self) -> &str {
+        match &self.content {
+            Content::Map(archive) => &archive.map.spec.title,
+            Content::Refined(lines) => &lines.spec.title,
+            Content::Trace(_, heading) | Content::Hysteresis(_, heading) => &heading.title,
+            Content::Modes(spec, _) => &spec.title,
+            Content::Tradeoff(title, _) => title,
+            Content::Identify(shown) => &shown.title,
+            Content::Paper(shown) => shown.title(),
+        }
+    }
+
+    /// The figure as an SVG document: at the default look the same as the command's own.
+    ///
+    /// # Errors
+    /// When an instance of a map was never computed, and not because the run was stopped.
+    pub fn svg(&self, look: &Look<'_>) -> Result<String> {
+        match &self.content {
+            Content::Map(archive) => look_svg(&archive.map, look),
+            Content::Refined(lines) => Ok(lines.svg(look)),
+            Content::Trace(trace, heading) => trace_svg(trace, heading, look),
+            Content::Hysteresis(hysteresis, heading) => Ok(hysteresis_svg(hysteresis, heading, look)),
+            Content::Modes(spec, modes) => Ok(draw(spec, modes, look)),
+            Content::Tradeoff(title, rows) => Ok(figure(title, rows, look)),
+            Content::Identify(shown) => identify_figure::identify_svg(shown, look),
+            Content::Paper(shown) => Ok(shown.svg(look)),
+        }
+    }
+}

@@ -1,0 +1,4 @@
+//! An instance as sensors record it.
+
+pub mod sensors;
+pub mod table;

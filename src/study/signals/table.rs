@@ -1,0 +1,36 @@
+//! `signals.csv`: the recording of an instance, as `squealmap identify` reads it.
+
+use crate::error::Result;
+use crate::results::columns::Cell;
+use crate::results::csv::Table;
+use crate::study::signals::sensors::Sample;
+use squealmap_identify::Channel;
+
+/// The table of a recording: time and the channels under the names `identify` expects, and the temperature
+/// (°C) where the instance has one.
+///
+/// # Errors
+/// When the table cannot be written.
+pub fn signals_csv(samples: &[Sample], temperature: Option<f64>) -> Result<Vec<u8>> {
+    let channels = [
+        Channel::TangentialAcceleration,
+        Channel::NormalAcceleration,
+        Channel::TangentialForce,
+        Channel::NormalForce,
+        Channel::Velocity,
+    ];
+    let names = std::iter::once("t").chain(channels.map(Channel::default_column));
+    let mut table = Table::new(names.chain(temperature.map(|_| Channel::Temperature.default_column())))?;
+    for sample in samples {
+        let numbers = [
+            sample.t,
+            sample.tangential_acceleration,
+            sample.normal_acceleration,
+            sample.tangential_force,
+            sample.normal_force,
+            sample.belt_velocity,
+        ];
+        table.row(numbers.into_iter().chain(temperature).map(|x| Cell::from(x).to_string()))?;
+    }
+    table.finish()
+}

@@ -1,0 +1,143 @@
+//! Results checked while a sweep is computed: a few instances, drawn by their index alone, are computed again.
+//!
+//! Most of them by the CPU engine in f64 with fine steps, which costs only some times the run itself; fewer by the
+//! reference, which shares no code with the engines but costs some fifty times as much. Their errors are written
+//! beside them. Those of the first kind that are near a border between two labels take the finer result.
+
+use std::ops::Range;
+use std::sync::atomic::AtomicBool;
+
+use crate::engine::choice::Backend;
+use crate::engine::computation::Stopped;
+use crate::engine::kernel::source::Precision;
+use crate::engine::lanes::records as cpu;
+use crate::engine::method::Method;
+use crate::engine::record::{By, Check, Record};
+use crate::engine::reference::records as reference;
+use crate::error::Result;
+use crate::model::status::Status;
+use crate::sweep::accuracy::boundary::is_near;
+use crate::sweep::accuracy::configuration::Configuration;
+use crate::sweep::accuracy::errors::{is_settled_oscillation, worst};
+use crate::sweep::accuracy::frontier::Frontier;
+use crate::sweep::accuracy::sample::subset;
+use crate::sweep::draw::spread;
+use crate::sweep::label::Label;
+use crate::sweep::spec::Spec;
+
+/// Parts of the run time that the two kinds of checks may take, together below 5 %.
+const FINE_SHARE: f64 = 0.03;
+const REFERENCE_SHARE: f64 = 0.01;
+
+/// What a GPU computes per second is not known beforehand: a fast one, so that its checks, which the CPU makes, stay
+/// below their share on any.
+const GPU_PER_SECOND: f64 = 5e6;
+
+/// Seeds of the two draws.
+const FINE_SEED: u64 = 0x5153_4645;
+const REFERENCE_SEED: u64 = 0x5153_5245;
+
+/// The least steps per period of the finer result; its truncation is then a thousandth of what f32 rounds.
+const FINE_STEPS: u32 = 16;
+
+/// Steps per period of the reference.
+const REFERENCE_STEPS: u32 = 12;
+
+/// How many instances of a sweep are checked: by the engine that computes it and their number alone.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Counts {
+    /// By the CPU engine.
+    pub fine: usize,
+    /// By the reference.
+    pub reference: usize,
+}
+
+/// The finer configuration that checks results of `configuration`.
+#[must_use]
+pub fn finer(configuration: &Configuration) -> Configuration {
+    let steps = match configuration.precision {
+        Precision::F32 => FINE_STEPS,
+        Precision::F64 => FINE_STEPS.max(configuration.steps_per_period.saturating_mul(2)),
+    };
+    Configuration::cpu(Precision::F64, steps)
+}
+
+impl Counts {
+    /// Those of a sweep of `total` instances; none where the reference computes it, or what is compared with it.
+    #[must_use]
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a part of the total")]
+    pub fn new(configuration: &Configuration, total: usize) -> Counts {
+        if configuration.backend.method().is_some() {
+            return Counts { fine: 0, reference: 0 };
+        }
+        let shipped = Frontier::shipped();
+        let rate = |configuration: &Configuration| shipped.cpu_rate(configuration);
+        let engine = if configuration.backend == Backend::Gpu { GPU_PER_SECOND } else { rate(configuration) };
+        let part = |share: f64, judge: &Configuration| share * rate(judge) / engine * total as f64;
+        Counts {
+            // One at least: a map says something of its error however small it is.
+            fine: part(FINE_SHARE, &finer(configuration)).ceil() as usize,
+            reference: part(REFERENCE_SHARE, &Configuration::reference(REFERENCE_STEPS)).floor() as usize,
+        }
+    }
+}
+
+/// Checks the records of the instances `range`, which `configuration` has computed; gives why it stopped, if it did.
+///
+/// # Errors
+/// When a check fails for another reason than that the run is cancelled.
+pub fn check(
+    spec: &Spec,
+    range: Range<usize>,
+    configuration: &Configuration,
+    records: &mut [Record],
+    cancel: &AtomicBool,
+) -> Result<Option<Stopped>> {
+    let (first, total) = (range.start, spec.grid.len());
+    let counts = Counts::new(configuration, total);
+    let draws = [
+        (By::Fine, finer(configuration), spread(FINE_SEED, counts.fine, total, range.clone())),
+        (
+            By::Reference,
+            Configuration::reference(REFERENCE_STEPS),
+            spread(REFERENCE_SEED, counts.reference, total, range),
+        ),
+    ];
+    for (by, judge, indices) in draws {
+        if indices.is_empty() {
+            continue;
+        }
+        let sweep = judge.sweep(&subset(spec, &indices));
+        let all = 0..indices.len();
+        let computed = match by {
+            By::Fine => cpu::records(&sweep, all, judge.precision, cancel, &|_| {}),
+            By::Reference => reference::records(&sweep, all, Method::Taylor, cancel, &|_| {}),
+        };
+        let judged = match computed {
+            Ok(judged) if judged.stopped.is_none() => judged.records,
+            Ok(judged) => return Ok(judged.stopped),
+            Err(why) => return Stopped::try_from(why).map(Some),
+        };
+        for (index, truth) in indices.into_iter().zip(judged) {
+            let record = &mut records[index - first];
+            // Finer steps may be more than a run may have, which says nothing of the coarser ones.
+            if truth.status == Status::StepTooLarge && record.status == Status::Ok {
+                continue;
+            }
+            // What was drawn twice keeps the first check, which may have taken the finer result.
+            if record.check.is_none() {
+                *record = judge_one(record, &truth, by);
+            }
+        }
+    }
+    Ok(None)
+}
+
+/// The record with what its check found; near a border it is the true one.
+fn judge_one(record: &Record, truth: &Record, by: By) -> Record {
+    let label = |record: &Record| Label::from(record).class();
+    let taken = by == By::Fine && (is_near(record) || is_near(truth));
+    let error = is_settled_oscillation(truth).then(|| worst(record, truth));
+    let check = Check { by, taken, changed: label(record) != label(truth), error };
+    Record { check: Some(check), ..if taken { truth } else { record }.clone() }
+}

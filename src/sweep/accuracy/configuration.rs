@@ -1,0 +1,129 @@
+//! An engine with its arithmetic and steps per period: one way to compute a sweep.
+
+use std::fmt;
+
+use crate::engine::choice::{Backend, Options};
+use crate::engine::gpu;
+use crate::engine::kernel::source::Precision;
+use crate::engine::lanes::records as cpu;
+use crate::engine::method::Method;
+use crate::engine::reference::records as reference;
+use crate::model::friction::LawKind;
+use crate::sweep::grid::{AxisKey, Grid, Value};
+use crate::sweep::spec::Spec;
+
+/// One way to compute a sweep.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Configuration {
+    /// The backend, never [`Backend::Auto`].
+    pub backend: Backend,
+    /// The adapter of a GPU.
+    pub adapter: Option<String>,
+    /// The scalar.
+    pub precision: Precision,
+    /// Largest step: this many per period `2π/ω0`.
+    pub steps_per_period: u32,
+}
+
+impl Configuration {
+    /// The reference with so many steps per period.
+    #[must_use]
+    pub fn reference(steps_per_period: u32) -> Configuration {
+        Configuration::scalar(Method::Taylor, steps_per_period)
+    }
+
+    /// One instance at a time by a method: the reference, or one to compare with.
+    #[must_use]
+    pub fn scalar(method: Method, steps_per_period: u32) -> Configuration {
+        let backend = match method {
+            Method::Taylor => Backend::Reference,
+            Method::LocatedRk4 => Backend::LocatedRk4,
+            Method::FixedStep => Backend::FixedStep,
+        };
+        Configuration { backend, adapter: None, precision: Precision::F64, steps_per_period }
+    }
+
+    /// The CPU engine.
+    #[must_use]
+    pub fn cpu(precision: Precision, steps_per_period: u32) -> Configuration {
+        Configuration { backend: Backend::Cpu, adapter: None, precision, steps_per_period }
+    }
+
+    /// The options that compute like this, everything else as in `options`.
+    #[must_use]
+    pub fn options<'a>(&'a self, options: &Options<'a>) -> Options<'a> {
+        let adapter = self.adapter.as_deref();
+        Options { backend: self.backend, precision: Some(self.precision), adapter, ..*options }
+    }
+
+    /// The sweep with the steps of this.
+    #[must_use]
+    pub fn sweep(&self, spec: &Spec) -> Spec {
+        Spec { steps_per_period: self.steps_per_period, ..spec.clone() }
+    }
+}
+
+impl fmt::Display for Configuration {
+    /// `cpu f32, 5 steps per period`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} {}", name(self.backend), self.precision)?;
+        if let Some(adapter) = &self.adapter {
+            write!(f, " on {adapter}")?;
+        }
+        write!(f, ", {} steps per period", self.steps_per_period)
+    }
+}
+
+/// The name of a backend in tables, and on the command line of those that are there.
+#[must_use]
+pub fn name(backend: Backend) -> &'static str {
+    match backend {
+        Backend::Auto => "auto",
+        Backend::Gpu => gpu::NAME,
+        Backend::Cpu => cpu::NAME,
+        Backend::Reference => reference::NAME,
+        Backend::LocatedRk4 => reference::name(Method::LocatedRk4),
+        Backend::FixedStep => reference::name(Method::FixedStep),
+    }
+}
+
+/// The backend of a name.
+#[must_use]
+pub fn named(text: &str) -> Option<Backend> {
+    [Backend::Gpu, Backend::Cpu, Backend::Reference, Backend::LocatedRk4, Backend::FixedStep]
+        .into_iter()
+        .find(|backend| name(*backend) == text)
+}
+
+/// The kinds of scenes of a sweep, on which speed and error depend most: the form of the friction law, and whether
+/// an instance runs for a fixed time or until it is settled. Sorted, each once.
+#[must_use]
+pub fn scenes(spec: &Spec) -> Vec<String> {
+    let form = |kind: LawKind| match kind {
+        LawKind::Exponential => "exponential",
+        LawKind::Rational => "rational",
+        _ => "pieces",
+    };
+    let swept: Vec<&Value> = match &spec.grid {
+        Grid::Axes(axes) => {
+            axes.iter().filter(|axis| axis.key == AxisKey::Law).flat_map(|axis| &axis.values).collect()
+        }
+        Grid::Tuples { keys, rows } => match keys.iter().position(|key| *key == AxisKey::Law) {
+            Some(column) => rows.iter().map(|row| &row[column]).collect(),
+            None => Vec::new(),
+        },
+    };
+    let kind_of = |value: &Value| {
+        LawKind::ALL
+            .into_iter()
+            .find(|kind| matches!(value, Value::Text(name) if name.as_str() == kind.name()))
+    };
+    let mut forms: Vec<&str> = swept.into_iter().filter_map(kind_of).map(form).collect();
+    if forms.is_empty() {
+        forms.push(form(spec.law));
+    }
+    forms.sort_unstable();
+    forms.dedup();
+    let ending = if spec.settle_limit.is_some() { "until settled" } else { "fixed time" };
+    forms.into_iter().map(|form| format!("{form}, {ending}")).collect()
+}

@@ -1,0 +1,27 @@
+//! A sweep: which instances, what is asked of them, and the records of all.
+//!
+//! | question | where |
+//! |---|---|
+//! | sweep file (TOML) → validated sweep | [`spec`] |
+//! | axes, index ↔ coordinates | [`grid`] |
+//! | the chosen engine, range after range, with several starts and checks | [`solver`], `several.rs`, [`accuracy`] |
+//! | the whole in memory | [`run`](mod@run), [`map`], [`sheet`] |
+//! | labels of an instance, counted | [`label`], [`checks`] |
+//! | the lines of a map from few instances | [`refine`] |
+//! | what it would cost, and how long a start takes to show what it does | [`estimate`](mod@estimate), [`onset`] |
+//! | numbers that depend on a seed and an index alone | [`draw`] |
+
+pub mod accuracy;
+pub mod checks;
+pub mod draw;
+pub mod estimate;
+pub mod grid;
+pub mod label;
+pub mod map;
+pub mod onset;
+pub mod refine;
+pub mod run;
+pub mod several;
+pub mod sheet;
+pub mod solver;
+pub mod spec;

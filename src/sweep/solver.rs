@@ -1,0 +1,287 @@
+//! The engine that was chosen for a sweep, computing one range of instances after the other.
+
+use std::fmt;
+use std::ops::Range;
+
+use crate::engine::choice::{Backend, Engine, Options, choose};
+use crate::engine::computation::{Computation, Stopped};
+use crate::engine::computed::Computed;
+use crate::engine::gpu;
+use crate::engine::gpu::chunks::Session;
+use crate::engine::kernel::source::Precision;
+use crate::engine::lanes::records as cpu;
+use crate::engine::method::Method;
+use crate::engine::record::Record;
+use crate::engine::reference::records as reference;
+use crate::error::{Error, Result};
+use crate::sweep::accuracy::check::check;
+use crate::sweep::accuracy::configuration::Configuration;
+use crate::sweep::accuracy::sample::subset;
+use crate::sweep::several as starts;
+use crate::sweep::spec::{Analysis, Spec, Starts};
+
+/// Starts that a CPU takes at a time of instances with several: some batches for each core, and less than a second's work of
+/// cheap ones, which a stop would lose.
+const BLOCK: usize = 2048;
+
+/// The least that a GPU takes, which takes a range at once.
+const GPU_BLOCK: usize = 65_536;
+
+/// What computes a sweep.
+pub struct Solver<'a> {
+    spec: &'a Spec,
+    options: &'a Options<'a>,
+    on: On,
+}
+
+/// An engine with what it keeps between ranges.
+#[derive(Debug)]
+enum On {
+    Cpu(Precision),
+    Reference(Method),
+    /// The kernels stay compiled.
+    Gpu(Session),
+}
+
+impl fmt::Debug for Solver<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Solver").field("on", &self.on).finish_non_exhaustive()
+    }
+}
+
+impl<'a> Solver<'a> {
+    /// Chooses the engine, see [`choose`].
+    ///
+    /// # Errors
+    /// Those of [`choose`].
+    pub fn new(spec: &'a Spec, options: &'a Options<'a>) -> Result<Solver<'a>> {
+        let on = match choose(options, spec)? {
+            Engine::Cpu(precision) => On::Cpu(precision),
+            Engine::Reference(method) => On::Reference(method),
+            Engine::Gpu(device) => On::Gpu(Session::new(device)),
+        };
+        Ok(Solver { spec, options, on })
+    }
+
+    /// The sweep.
+    #[must_use]
+    pub fn spec(&self) -> &Spec {
+        self.spec
+    }
+
+    /// Where and how the eigenvalue analysis and the response are computed; `None` where not asked for.
+    #[must_use]
+    pub fn computations(&self) -> [Option<Computation>; 2] {
+        let Analysis { linear, response, .. } = self.spec.analysis;
+        let [of_linear, of_response] = match &self.on {
+            On::Cpu(precision) => {
+                [reference::linear(cpu::NAME), cpu::response(*precision, self.spec.steps_per_period)]
+            }
+            On::Reference(method) => {
+                [reference::linear(reference::name(*method)), reference::response(*method)]
+            }
+            On::Gpu(session) => {
+                let device = session.device();
+                [gpu::linear::method(), gpu::response::method(device.precision())].map(|method| Computation {
+                    backend: gpu::NAME.to_owned(),
+                    precision: device.precision().to_string(),
+                    method,
+                    adapter: Some(device.describe().to_string()),
+                    strict: Some(device.strict()),
+                })
+            }
+        };
+        [linear.then_some(of_linear), response.then_some(of_response)]
+    }
+
+    /// The records of the instances `range`, in order; the CPU's part runs on the rayon pool it is called in.
+    /// `progress` gets the number of newly finished instances. A run that is cancelled or fails on its way
+    /// gives what is done, see [`Computed::stopped`]. With `checked` in the analysis some are computed again, see
+    /// [`mod@crate::sweep::accuracy::check`].
+    ///
+    /// # Errors
+    /// When the engine fails or is cancelled before any instance of the range is done, or a result is in doubt.
+    pub fn records(&mut self, range: Range<usize>, progress: &(dyn Fn(usize) + Sync)) -> Result<Computed> {
+        self.records_of(self.spec, range, progress)
+    }
+
+    /// The same of another sweep, which asks for the same analysis.
+    ///
+    /// # Errors
+    /// Those of [`Solver::records`].
+    pub fn records_of(
+        &mut self,
+        spec: &Spec,
+        range: Range<usize>,
+        progress: &(dyn Fn(usize) + Sync),
+    ) -> Result<Computed> {
+        if spec.analysis.starts == Starts::One {
+            return self.once(spec, range, progress);
+        }
+        let block = if let On::Gpu(_) = &self.on { range.len().max(GPU_BLOCK) } else { BLOCK };
+        let mut once = |spec: &Spec, range: Range<usize>, progress: &(dyn Fn(usize) + Sync)| {
+            self.once(spec, range, progress)
+        };
+        starts::records(spec, range, block, &mut once, progress)
+    }
+
+    /// The records of instances with one start each.
+    fn once(
+        &mut self,
+        spec: &Spec,
+        range: Range<usize>,
+        progress: &(dyn Fn(usize) + Sync),
+    ) -> Result<Computed> {
+        let cancel = self.options.cancel();
+        let all = range.clone();
+        let mut computed = match &mut self.on {
+            On::Cpu(precision) => cpu::records(spec, range, *precision, cancel, progress),
+            On::Reference(method) => reference::records(spec, range, *method, cancel, progress),
+            On::Gpu(session) => on_gpu(spec, range, session, self.options, progress),
+        }?;
+        if spec.analysis.checks() && computed.stopped.is_none() {
+            computed.stopped = check(spec, all, &self.configuration(), &mut computed.records, cancel)?;
+        }
+        Ok(computed)
+    }
+
+    /// Instances that keep it busy, at least: ranges of fewer leave cores or lanes without work. Of instances so dear that a
+    /// tile has few, a core takes no more than a tile at a time, lest a stop loses many.
+    #[must_use]
+    pub fn busy_with(&self, tile: usize) -> usize {
+        match &self.on {
+            On::Cpu(_) => cpu::BUSY.min(tile) * rayon::current_num_threads(),
+            On::Reference(_) => rayon::current_num_threads(),
+            On::Gpu(_) => GPU_BLOCK.div_ceil(self.spec.analysis.starts.count()),
+        }
+    }
+
+    /// The records of the instances `range` where some are `known`: of one start each as this engine makes them, before
+    /// any check, of several starts with their checks. Only the others are computed.
+    ///
+    /// # Errors
+    /// Those of [`Solver::records`].
+    pub fn records_beside(
+        &mut self,
+        range: Range<usize>,
+        known: &[Option<Record>],
+        progress: &(dyn Fn(usize) + Sync),
+    ) -> Result<Computed> {
+        let lacking = known.iter().filter(|known| known.is_none()).count();
+        if lacking == range.len() {
+            return self.records(range, progress);
+        }
+        progress(range.len() - lacking);
+        if self.spec.analysis.starts == Starts::One {
+            self.one_start_beside(range, known, progress)
+        } else {
+            self.several_starts_beside(range, known, progress)
+        }
+    }
+
+    /// The lacking instances as a sweep of their own; then checks as of all.
+    fn one_start_beside(
+        &mut self,
+        range: Range<usize>,
+        known: &[Option<Record>],
+        progress: &(dyn Fn(usize) + Sync),
+    ) -> Result<Computed> {
+        let spec = self.spec;
+        let lacking: Vec<usize> =
+            range.clone().zip(known).filter(|(_, known)| known.is_none()).map(|(index, _)| index).collect();
+        let fresh = if lacking.is_empty() {
+            Computed { records: Vec::new(), stopped: None }
+        } else {
+            self.records_of(&subset(spec, &lacking), 0..lacking.len(), progress)?
+        };
+        let mut records = fresh.records.into_iter();
+        let merged = known
+            .iter()
+            .map(|known| known.clone().or_else(|| records.next()).unwrap_or(Record::NOT_COMPUTED));
+        let mut computed = Computed { records: merged.collect(), stopped: fresh.stopped };
+        if spec.analysis.checks() && computed.stopped.is_none() {
+            let cancel = self.options.cancel();
+            computed.stopped = check(spec, range, &self.configuration(), &mut computed.records, cancel)?;
+        }
+        Ok(computed)
+    }
+
+    /// The lacking instances stretch by stretch: where other starts lie depends on the number of an instance.
+    fn several_starts_beside(
+        &mut self,
+        range: Range<usize>,
+        known: &[Option<Record>],
+        progress: &(dyn Fn(usize) + Sync),
+    ) -> Result<Computed> {
+        let mut computed = Computed { records: Vec::with_capacity(range.len()), stopped: None };
+        for stretch in known.chunk_by(|one, next| one.is_some() == next.is_some()) {
+            let first = range.start + computed.records.len();
+            if stretch[0].is_some() || computed.stopped.is_some() {
+                let records = stretch.iter().map(|known| known.clone().unwrap_or(Record::NOT_COMPUTED));
+                computed.records.extend(records);
+                continue;
+            }
+            match self.records(first..first + stretch.len(), progress) {
+                Ok(part) => {
+                    computed.records.extend(part.records);
+                    computed.stopped = part.stopped;
+                }
+                Err(why) => {
+                    computed.stopped = Some(Stopped::try_from(why)?);
+                    computed.records.resize(first - range.start + stretch.len(), Record::NOT_COMPUTED);
+                }
+            }
+        }
+        Ok(computed)
+    }
+
+    /// What computes, as one of the configurations that accuracy is measured of.
+    fn configuration(&self) -> Configuration {
+        let steps = self.spec.steps_per_period;
+        match &self.on {
+            On::Cpu(precision) => Configuration::cpu(*precision, steps),
+            On::Reference(method) => Configuration::scalar(*method, steps),
+            On::Gpu(session) => Configuration {
+                backend: Backend::Gpu,
+                adapter: None,
+                precision: session.device().precision(),
+                steps_per_period: steps,
+            },
+        }
+    }
+}
+
+/// The records of a range from a GPU; only the last analysis counts as progress, and only what has all of
+/// them is done.
+fn on_gpu(
+    spec: &Spec,
+    range: Range<usize>,
+    session: &mut Session,
+    options: &Options,
+    progress: &(dyn Fn(usize) + Sync),
+) -> Result<Computed> {
+    let Analysis { linear, response, .. } = spec.analysis;
+    let (first, total) = (range.start, range.len());
+    let mut records = Vec::with_capacity(total);
+    let mut ended = Ok(());
+    if linear {
+        let progress = if response { &|_: usize| {} } else { progress };
+        ended = gpu::linear::append(spec, range, session, options, progress, &mut records)
+            .map_err(|why| counted_from(first, why));
+    }
+    if response {
+        ended?;
+        records.resize(total, Record::default());
+        ended = gpu::response::complete(spec, first, session, options, progress, &mut records)
+            .map_err(|why| counted_from(first, why));
+    }
+    Computed::new(records, total, ended)
+}
+
+/// An error of a range that starts at `first`, its instance counted from the start of the sweep.
+fn counted_from(first: usize, why: Error) -> Error {
+    match why {
+        Error::Unwritten { instance } => Error::Unwritten { instance: first + instance },
+        other => other,
+    }
+}

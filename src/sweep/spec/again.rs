@@ -1,0 +1,104 @@
+//! A sweep from its resolved form, so that a directory can be completed without its sweep file.
+
+use std::sync::Arc;
+
+use serde_json::Value as Json;
+
+use crate::engine::plan::Duration;
+use crate::model::friction::{LawKind, MuTable};
+use crate::model::material::{Material, Outside};
+use crate::model::{Param, Params};
+use crate::sweep::grid::Grid;
+use crate::sweep::spec::start::Kind;
+use crate::sweep::spec::{Analysis, FIRST_SETTLE, Pass, Spec};
+
+impl Spec {
+    /// The sweep whose [`Spec::resolved`] form this is; `None` where an entry is none that it writes. Whether it is the
+    /// same in all that counts, its identity tells.
+    pub(crate) fn from_resolved(
+        resolved: &Json,
+        title: &str,
+        analysis: Analysis,
+        grid: Grid,
+    ) -> Option<Spec> {
+        let mut base = Params::default();
+        for section in ["model", "friction", "belt", "start"] {
+            for (name, value) in resolved.get(section)?.as_object()? {
+                if let (Some(param), Some(value)) = (Param::from_name(name), value.as_f64()) {
+                    base.set(param, value);
+                }
+            }
+        }
+        let friction = &resolved["friction"];
+        let law = friction.get("law").map_or(Some(LawKind::Bilinear), |name| law(name.as_str()?))?;
+        let materials = match friction.get("materials") {
+            None => Vec::new(),
+            Some(all) => all.as_array()?.iter().map(material).collect::<Option<_>>()?,
+        };
+        let response = resolved.get("response")?;
+        let duration = |key: &str| Duration::from_words(response.get(key)?.as_str()?);
+        let (settle, settle_limit) = match response.get("settle")?.as_str()? {
+            "auto" => (FIRST_SETTLE, Some(duration("settle_limit")?)),
+            _ => (duration("settle")?, None),
+        };
+        let kind = resolved["start"]["kind"].as_str()?;
+        let (_, kind) = Kind::ALL.into_iter().find(|(name, _)| *name == kind)?;
+        Some(Spec {
+            title: title.to_owned(),
+            analysis,
+            base,
+            impact_friction: resolved["model"]["impact_friction"].as_bool()?,
+            law,
+            material: match friction.get("material") {
+                None => None,
+                Some(rows) => Some(material(rows)?),
+            },
+            materials,
+            table: match friction.get("table") {
+                None => None,
+                Some(rows) => Some(table(rows)?),
+            },
+            grid,
+            start: kind.transient(),
+            pass: Pass::Own,
+            settle,
+            settle_limit,
+            measure: duration("measure")?,
+            steps_per_period: u32::try_from(response.get("steps_per_period")?.as_u64()?).ok()?,
+            steps_given: None,
+            refine: None,
+        })
+    }
+}
+
+fn law(name: &str) -> Option<LawKind> {
+    LawKind::ALL.into_iter().find(|law| law.name() == name)
+}
+
+fn numbers(values: &Json) -> Option<Vec<f64>> {
+    values.as_array()?.iter().map(Json::as_f64).collect()
+}
+
+fn table(table: &Json) -> Option<Arc<MuTable>> {
+    Some(Arc::new(MuTable { velocity: numbers(table.get("velocity")?)?, mu: numbers(table.get("mu")?)? }))
+}
+
+fn material(rows: &Json) -> Option<Arc<Material>> {
+    let rows = rows.as_object()?;
+    let mut columns = Vec::new();
+    for (name, values) in rows {
+        if let Some(param) = Param::from_name(name).filter(|_| name != "temperature") {
+            columns.push((param, numbers(values)?));
+        }
+    }
+    Some(Arc::new(Material {
+        name: rows.get("name")?.as_str()?.to_owned(),
+        temperature: numbers(rows.get("temperature")?)?,
+        columns,
+        outside: match rows.get("outside")?.as_str()? {
+            "error" => Outside::Error,
+            "clamp" => Outside::Clamp,
+            _ => return None,
+        },
+    }))
+}

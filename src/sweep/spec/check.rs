@@ -1,0 +1,323 @@
+//! What must hold between keys: nothing twice, nothing without effect, nothing missing.
+
+use std::sync::Arc;
+
+use crate::error::{Error, Result};
+use crate::model::friction::LawKind;
+use crate::model::material::Material;
+use crate::model::{Param, Section};
+use crate::sweep::grid::{AxisKey, Grid, Value};
+use crate::sweep::spec::files::Files;
+use crate::sweep::spec::law;
+use crate::sweep::spec::law::LAW_PARAMS;
+use crate::sweep::spec::sections::Sections;
+use crate::sweep::spec::start::{AMPLITUDES, BOUNDS, Kind};
+use crate::sweep::spec::varied::Varied;
+use squealmap_input::place::Place;
+use squealmap_input::place::Source;
+use squealmap_input::quote::list;
+use squealmap_input::quote::quoted;
+
+/// The laws that a material serves.
+pub(super) const MATERIAL_LAWS: [&str; 4] = ["constant", "bilinear", "exponential", "rational"];
+
+/// Everything read, before it is known to fit together.
+pub(super) struct Check<'a> {
+    pub(super) sweep: &'a Source,
+    pub(super) sections: &'a Sections,
+    pub(super) varied: &'a Varied,
+    pub(super) files: &'a Files,
+}
+
+impl Check<'_> {
+    /// Runs every check; the first that fails is the error.
+    pub(super) fn all(&self) -> Result<()> {
+        self.nothing_twice()?;
+        let laws = self.laws();
+        self.law_parameters_have_effect(&laws)?;
+        self.materials_have_effect(&laws)?;
+        self.materials_stand_alone()?;
+        self.start_has_effect()?;
+        self.ramp_is_whole()?;
+        self.belt_moves()?;
+        self.settling_has_effect()?;
+        self.every_case()
+    }
+
+    /// Where a parameter is given, in a section or varied, and how messages call it.
+    fn stands(&self, key: AxisKey) -> Option<(Place, String)> {
+        if let Some(span) = self.varied.find(key) {
+            return Some((self.varied.source.place(span), self.varied.label(key)));
+        }
+        self.sections.find(key.name()).map(|given| (self.sweep.place(given.span.clone()), given.label()))
+    }
+
+    fn param(&self, param: Param) -> Option<(Place, String)> {
+        self.stands(AxisKey::Param(param))
+    }
+
+    /// Every law that some instance has.
+    fn laws(&self) -> Vec<LawKind> {
+        match self.varied.find(AxisKey::Law) {
+            Some(_) => {
+                self.varied.names(AxisKey::Law).iter().filter_map(|(name, _)| law::from_name(name)).collect()
+            }
+            None => vec![self.sections.law],
+        }
+    }
+
+    fn nothing_twice(&self) -> Result<()> {
+        for (key, span) in &self.varied.keys {
+            if let Some(given) = self.sections.find(key.name()) {
+                return Err(Error::Conflict {
+                    at: self.varied.source.place(span.clone()),
+                    key: self.varied.label(*key),
+                    other: given.label(),
+                });
+            }
+        }
+        Ok(())
+    }
+
+    fn law_parameters_have_effect(&self, laws: &[LawKind]) -> Result<()> {
+        for param in LAW_PARAMS {
+            if !laws.iter().any(|&kind| law::uses(kind).contains(&param))
+                && let Some((at, key)) = self.param(param)
+            {
+                return Err(unused(at, key, used_by_laws(&law::users(param))));
+            }
+        }
+        if !laws.contains(&LawKind::Table)
+            && let Some(given) = self.sections.find("table")
+        {
+            let at = self.sweep.place(given.span.clone());
+            return Err(unused(at, given.label(), used_by_laws(&["table"])));
+        }
+        Ok(())
+    }
+
+    fn materials_have_effect(&self, laws: &[LawKind]) -> Result<()> {
+        if self.files.all_materials().next().is_none() {
+            let outside = || {
+                let given = self.sections.find("outside")?;
+                Some((self.sweep.place(given.span.clone()), given.label()))
+            };
+            if let Some((at, key)) = self.param(Param::Temperature).or_else(outside) {
+                return Err(unused(at, key, "a `material`".to_owned()));
+            }
+        } else if laws.iter().all(|&kind| kind == LawKind::Table)
+            && let Some((at, key)) = self.stands(AxisKey::Material)
+        {
+            return Err(unused(at, key, used_by_laws(&MATERIAL_LAWS)));
+        }
+        Ok(())
+    }
+
+    /// A law parameter comes from a material or from the sweep, never from both.
+    fn materials_stand_alone(&self) -> Result<()> {
+        for param in LAW_PARAMS {
+            let friction = matches!(param, Param::MuS | Param::MuD);
+            if let Some(material) = self.files.all_materials().find(|one| friction || one.gives(param))
+                && let Some((at, key)) = self.param(param)
+            {
+                let other = format!("material `{}`, which is to give it", material.name);
+                return Err(Error::Conflict { at, key, other });
+            }
+        }
+        Ok(())
+    }
+
+    fn start_has_effect(&self) -> Result<()> {
+        let by_event = self.param(Param::StartEventFraction).is_some();
+        let kind = self.sections.start;
+        for param in AMPLITUDES {
+            if let (Some((at, key)), Some(user)) = (self.param(param), kind.reader(param, by_event)) {
+                return Err(unused(at, key, user.to_owned()));
+            }
+        }
+        if let (Kind::Both | Kind::Box, false) = (kind, self.sections.analysis.response)
+            && let Some(given) = self.sections.find("kind")
+        {
+            let key = format!("`kind = \"{}\"` in [start]", kind.name());
+            return Err(unused(
+                self.sweep.place(given.span.clone()),
+                key,
+                "\"response\" in `analysis`".to_owned(),
+            ));
+        }
+        if kind != Kind::Box
+            && let Some(given) = self.sections.find("box_samples")
+        {
+            let at = self.sweep.place(given.span.clone());
+            return Err(unused(at, given.label(), "kind = \"box\" in [start]".to_owned()));
+        }
+        let unbound = BOUNDS.into_iter().find(|bound| kind == Kind::Box && self.param(*bound).is_none());
+        unbound.map_or(Ok(()), |bound| {
+            Err(self.missing(bound, "kind = \"box\" in [start] draws starts between its bounds".to_owned()))
+        })
+    }
+
+    /// A ramp has an end and a duration.
+    fn ramp_is_whole(&self) -> Result<()> {
+        let pair = [Param::BeltVelocityEnd, Param::RampDuration];
+        for (given, other) in [(pair[0], pair[1]), (pair[1], pair[0])] {
+            if let (Some((at, key)), None) = (self.param(given), self.param(other)) {
+                return Err(Error::Missing {
+                    at,
+                    key: other.info().name,
+                    needed_by: format!("{key} describes a ramp"),
+                    remedy: "give both or none".to_owned(),
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// A run until settled needs a belt that goes on as it is; its limit needs such a run.
+    fn settling_has_effect(&self) -> Result<()> {
+        let auto = "settle = \"auto\" in [response]";
+        match (&self.sections.auto, &self.sections.settle_limit) {
+            (None, Some((_, span))) => {
+                let key = "`settle_limit` in [response]".to_owned();
+                Err(unused(self.sweep.place(span.clone()), key, auto.to_owned()))
+            }
+            (Some(span), _) => match self.param(Param::RampDuration) {
+                Some((_, ramp)) => Err(Error::Conflict {
+                    at: self.sweep.place(span.clone()),
+                    key: auto.to_owned(),
+                    other: format!("{ramp}, during which nothing settles"),
+                }),
+                None => Ok(()),
+            },
+            (None, None) => Ok(()),
+        }
+    }
+
+    fn belt_moves(&self) -> Result<()> {
+        match self.param(Param::BeltVelocity) {
+            Some(_) => Ok(()),
+            None => Err(self.missing(Param::BeltVelocity, "every instance has a belt velocity".to_owned())),
+        }
+    }
+
+    fn missing(&self, param: Param, needed_by: String) -> Error {
+        let section: Section = param.info().section;
+        Error::Missing {
+            at: self.sweep.place(self.sections.header(section)),
+            key: param.info().name,
+            needed_by,
+            remedy: format!("give it in [{}] or vary it", section.name()),
+        }
+    }
+
+    /// Law, material and temperature of every instance fit together.
+    fn every_case(&self) -> Result<()> {
+        let position = |key| self.varied.position(key);
+        let temperature = position(AxisKey::Param(Param::Temperature));
+        match &self.varied.grid {
+            // All combinations occur, so laws, materials and temperatures can be checked by themselves.
+            Grid::Axes(axes) => {
+                let materials: Vec<Option<&Arc<Material>>> = match position(AxisKey::Material) {
+                    Some(_) => self.files.materials.iter().map(Some).collect(),
+                    None => vec![self.files.material.as_ref()],
+                };
+                for material in materials {
+                    for kind in self.laws() {
+                        self.law_is_complete(kind, material)?;
+                    }
+                    match temperature {
+                        Some(axis) => {
+                            for (index, value) in axes[axis].values.iter().enumerate() {
+                                covered(material, value, || self.varied.value_place(axis, index))?;
+                            }
+                        }
+                        None => self.base_temperature(material)?,
+                    }
+                }
+            }
+            Grid::Tuples { rows, .. } => {
+                let (law, material) = (position(AxisKey::Law), position(AxisKey::Material));
+                for (index, row) in rows.iter().enumerate() {
+                    let material = match material.map(|column| &row[column]) {
+                        Some(Value::Text(name)) => self.files.materials.iter().find(|one| one.name == **name),
+                        _ => self.files.material.as_ref(),
+                    };
+                    let kind = match law.map(|column| &row[column]) {
+                        Some(Value::Text(name)) => law::from_name(name).unwrap_or(self.sections.law),
+                        _ => self.sections.law,
+                    };
+                    self.law_is_complete(kind, material)?;
+                    match temperature {
+                        Some(column) => {
+                            covered(material, &row[column], || self.varied.value_place(column, index))?;
+                        }
+                        None => self.base_temperature(material)?,
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn law_is_complete(&self, kind: LawKind, material: Option<&Arc<Material>>) -> Result<()> {
+        let has = |param: Param| {
+            self.sections.base.get(param).is_some()
+                || self.varied.find(AxisKey::Param(param)).is_some()
+                || material.is_some_and(|material| material.gives(param))
+        };
+        if let Some(param) = law::missing(kind, has) {
+            let needed_by = format!("law `{}` needs it", kind.name());
+            return Err(match material {
+                Some(material) => Error::Missing {
+                    at: self.sweep.place(self.sections.header(Section::Friction)),
+                    key: param.info().name,
+                    needed_by,
+                    remedy: format!("give material `{}` such a column", quoted(&material.name)),
+                },
+                None => self.missing(param, needed_by),
+            });
+        }
+        if kind == LawKind::Table && self.files.table.is_none() {
+            return Err(Error::Missing {
+                at: self.sweep.place(self.sections.header(Section::Friction)),
+                key: "table",
+                needed_by: "law `table` needs it".to_owned(),
+                remedy: "write table = \"mu.csv\" in [friction]".to_owned(),
+            });
+        }
+        Ok(())
+    }
+
+    fn base_temperature(&self, material: Option<&Arc<Material>>) -> Result<()> {
+        let Some(one) = material else { return Ok(()) };
+        let Some(temperature) = self.sections.base.get(Param::Temperature) else {
+            let needed_by = format!("material `{}` is read at a temperature", one.name);
+            return Err(self.missing(Param::Temperature, needed_by));
+        };
+        let span = self.sections.find("temperature").map_or(0..0, |given| given.span.clone());
+        covered(material, &Value::Number(temperature), || self.sweep.place(span.clone()))
+    }
+}
+
+/// Refuses a temperature outside a material that is not clamped.
+pub(super) fn covered(
+    material: Option<&Arc<Material>>,
+    temperature: &Value,
+    at: impl Fn() -> Place,
+) -> Result<()> {
+    let (Some(material), &Value::Number(value)) = (material, temperature) else { return Ok(()) };
+    if material.covers(value) {
+        return Ok(());
+    }
+    let (low, high) = material.temperatures();
+    Err(Error::OutsideMaterial { at: at(), value, material: material.name.clone(), low, high })
+}
+
+pub(super) fn unused(at: Place, key: String, used_by: String) -> Error {
+    Error::Unused { at, key, used_by }
+}
+
+pub(super) fn used_by_laws(laws: &[&str]) -> String {
+    let noun = if laws.len() == 1 { "law" } else { "laws" };
+    format!("the {noun} {}", list(laws))
+}

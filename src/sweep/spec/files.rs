@@ -1,0 +1,137 @@
+//! The files a sweep file names for friction: materials and tables of μ(v).
+
+use std::path::Path;
+use std::sync::Arc;
+
+use crate::error::{Error, Result};
+use crate::model::friction::MuTable;
+use crate::model::material::{Material, Outside};
+use crate::model::{Param, Range};
+use crate::sweep::grid::AxisKey;
+use crate::sweep::spec::law::LAW_PARAMS;
+use crate::sweep::spec::rows::{Role, Rows};
+use crate::sweep::spec::sections::Sections;
+use crate::sweep::spec::varied::Varied;
+use squealmap_input::place::Source;
+
+/// What was read from the files.
+#[derive(Debug)]
+pub(super) struct Files {
+    pub(super) table: Option<Arc<MuTable>>,
+    /// The material of `[friction]`.
+    pub(super) material: Option<Arc<Material>>,
+    /// The materials of an axis or column.
+    pub(super) materials: Vec<Arc<Material>>,
+}
+
+impl Files {
+    /// Reads every file that the sweep names.
+    pub(super) fn read(
+        sweep: &Source,
+        base_dir: &Path,
+        sections: &Sections,
+        varied: &Varied,
+    ) -> Result<Files> {
+        let table =
+            sections.table.as_ref().map(|(name, span)| read_table(sweep, span.clone(), name, base_dir));
+        let material = sections
+            .material
+            .as_ref()
+            .map(|(name, span)| read_material(sweep, span.clone(), name, base_dir, sections.outside));
+        let materials = varied
+            .names(AxisKey::Material)
+            .into_iter()
+            .map(|(name, span)| read_material(&varied.source, span, name, base_dir, sections.outside))
+            .collect::<Result<_>>()?;
+        Ok(Files { table: table.transpose()?, material: material.transpose()?, materials })
+    }
+
+    /// Every material of the sweep.
+    pub(super) fn all_materials(&self) -> impl Iterator<Item = &Arc<Material>> {
+        self.material.iter().chain(&self.materials)
+    }
+}
+
+/// Reads a material: `temperature` and columns of law parameters.
+fn read_material(
+    source: &Source,
+    span: std::ops::Range<usize>,
+    name: &str,
+    base_dir: &Path,
+    outside: Outside,
+) -> Result<Arc<Material>> {
+    let known: Vec<Param> = std::iter::once(Param::Temperature).chain(LAW_PARAMS).collect();
+    let names: Vec<&str> = known.iter().map(|param| param.info().name).collect();
+    let file = Rows::read(source, span, Role::Material, &names, name, base_dir)?;
+    let params = file.columns(&names, |text| Param::from_name(text).filter(|param| known.contains(param)))?;
+    let mut temperature = None;
+    let mut columns = Vec::new();
+    for (index, &param) in params.iter().enumerate() {
+        let values = column(&file, index, param)?;
+        if param == Param::Temperature {
+            file.rising("temperature", index, &values)?;
+            temperature = Some(values);
+        } else {
+            columns.push((param, values));
+        }
+    }
+    let temperature = temperature.ok_or_else(|| no_column(&file, "temperature", "a material"))?;
+    Ok(Arc::new(Material { name: name.to_owned(), temperature, columns, outside }))
+}
+
+/// Reads a table of friction against velocity: `velocity`, `mu`.
+fn read_table(
+    source: &Source,
+    span: std::ops::Range<usize>,
+    name: &str,
+    base_dir: &Path,
+) -> Result<Arc<MuTable>> {
+    const NAMES: [&str; 2] = ["velocity", "mu"];
+    let file = Rows::read(source, span, Role::Table, &NAMES, name, base_dir)?;
+    let columns = file.columns(&NAMES, |text| NAMES.iter().position(|name| *name == text))?;
+    let mut values = [None, None];
+    for (index, &which) in columns.iter().enumerate() {
+        let numbers = file.numbers(index, NAMES[which], Range::NonNegative)?;
+        if which == 0 {
+            file.rising("velocity", index, &numbers)?;
+            if numbers[0] > 0.0 {
+                return Err(Error::OutOfRange {
+                    at: file.source.place(file.span(0, index)),
+                    key: "the first `velocity`".to_owned(),
+                    value: numbers[0].to_string(),
+                    limit: "0, where the table gives the limit of stick".to_owned(),
+                });
+            }
+        }
+        values[which] = Some(numbers);
+    }
+    if file.len() < 2 {
+        let at = file.source.place(file.span(0, 0));
+        return Err(Error::OutOfRange {
+            at,
+            key: "the number of rows of a friction table".to_owned(),
+            value: file.len().to_string(),
+            limit: "at least 2; for one value choose law = \"constant\"".to_owned(),
+        });
+    }
+    let [velocity, mu] = values;
+    let velocity = velocity.ok_or_else(|| no_column(&file, "velocity", "a friction table"))?;
+    let mu = mu.ok_or_else(|| no_column(&file, "mu", "a friction table"))?;
+    Ok(Arc::new(MuTable { velocity, mu }))
+}
+
+fn column(file: &Rows, index: usize, param: Param) -> Result<Vec<f64>> {
+    let info = param.info();
+    file.numbers(index, info.name, info.range)
+}
+
+fn no_column(file: &Rows, key: &'static str, what: &str) -> Error {
+    let start = file.header.first().map_or(0, |field| field.span.start);
+    let end = file.header.last().map_or(0, |field| field.span.end);
+    Error::Missing {
+        at: file.source.place(start..end),
+        key,
+        needed_by: format!("{what} has such a column"),
+        remedy: "add it to the header and to every row".to_owned(),
+    }
+}

@@ -1,0 +1,163 @@
+//! What a sweep varies: the `[axes]` table or the tuples of `points`, with the place of every value.
+
+use std::ops::Range;
+use std::path::Path;
+
+use crate::error::{Error, Result};
+use crate::sweep::grid;
+use crate::sweep::grid::{Axis, AxisKey, Grid, Names, Value};
+use crate::sweep::spec::MAX_INSTANCES;
+use crate::sweep::spec::axis::axis;
+use crate::sweep::spec::document::{Entry, entries, table};
+use crate::sweep::spec::keys::is_fixed;
+use crate::sweep::spec::names::advice;
+use crate::sweep::spec::rows::{Role, Rows};
+use crate::sweep::spec::sections::law_value;
+use squealmap_input::place::{Place, Source};
+
+/// The grid and where everything of it stands.
+#[derive(Debug)]
+pub(super) struct Varied {
+    pub(super) grid: Grid,
+    /// The file that the spans belong to: the sweep file, or the one of the tuples.
+    pub(super) source: Source,
+    /// Where each key of the grid stands.
+    pub(super) keys: Vec<(AxisKey, Range<usize>)>,
+    /// Where each value of an axis stands: `[axis][value]` (a single place when the values are from `from` to `to`).
+    spans: Vec<Vec<Range<usize>>>,
+    /// The file of tuples, which is asked where a value stands.
+    file: Option<Rows>,
+}
+
+impl Varied {
+    /// A single instance.
+    pub(super) fn nothing(source: &Source) -> Varied {
+        let grid = Grid::Axes(Vec::new());
+        Varied { grid, source: source.clone(), keys: Vec::new(), spans: Vec::new(), file: None }
+    }
+
+    /// Reads `[axes]`.
+    pub(super) fn axes(source: &Source, entry: Entry) -> Result<Varied> {
+        let mut varied = Varied::nothing(source);
+        let mut axes: Vec<Axis> = Vec::new();
+        let expected = "a table, written as a line [axes] above its axes";
+        let mut count: u128 = 1;
+        for entry in entries(table(source, entry.node, "`axes`", expected)?) {
+            let Some(key) = AxisKey::from_name(entry.key) else {
+                return Err(unknown_axis(source, entry));
+            };
+            // Checked before the values are made: a product that is too large costs no memory.
+            let (axis, spans) = axis(source, key, entry.node, &mut |points| {
+                count = count.saturating_mul(points as u128);
+                if count > MAX_INSTANCES as u128 { Err(too_many(source, entry, count)) } else { Ok(()) }
+            })?;
+            axes.push(axis);
+            varied.keys.push((key, entry.key_span()));
+            varied.spans.push(spans);
+        }
+        varied.grid = Grid::Axes(axes);
+        Ok(varied)
+    }
+
+    /// Reads the file of tuples named `name`.
+    pub(super) fn tuples(sweep: &Source, span: Range<usize>, name: &str, base_dir: &Path) -> Result<Varied> {
+        let names: Vec<&str> = AxisKey::names().collect();
+        let file = Rows::read(sweep, span, Role::Points, &names, name, base_dir)?;
+        let keys = file.columns(&names, AxisKey::from_name)?;
+        let mut names = Names::default();
+        let mut values = Vec::with_capacity(file.len() * keys.len());
+        file.each(|_, fields| {
+            for (&key, field) in keys.iter().zip(fields) {
+                values.push(match key {
+                    AxisKey::Param(param) => {
+                        Value::Number(file.number(field, key.name(), param.info().range)?)
+                    }
+                    AxisKey::Law => {
+                        law_value(&file.source, field.span.clone(), &field.text, "in column `law`")?;
+                        names.value(&field.text)
+                    }
+                    AxisKey::Material => names.value(&field.text),
+                });
+            }
+            Ok(())
+        })?;
+        let rows = grid::Rows::new(keys.len(), file.len(), values);
+        Ok(Varied {
+            keys: keys.iter().copied().zip(file.header.iter().map(|field| field.span.clone())).collect(),
+            grid: Grid::Tuples { keys, rows },
+            spans: Vec::new(),
+            source: file.source.clone(),
+            file: Some(file),
+        })
+    }
+
+    /// How messages name a key of the grid.
+    pub(super) fn label(&self, key: AxisKey) -> String {
+        match self.grid {
+            Grid::Axes(_) => format!("axis `{}`", key.name()),
+            Grid::Tuples { .. } => format!("column `{}`", key.name()),
+        }
+    }
+
+    /// Where a key stands, if it varies.
+    pub(super) fn find(&self, key: AxisKey) -> Option<Range<usize>> {
+        self.keys.iter().find(|(varied, _)| *varied == key).map(|(_, span)| span.clone())
+    }
+
+    /// The place of a value, see [`Varied::value_span`].
+    pub(super) fn value_place(&self, key: usize, value: usize) -> Place {
+        self.source.place(self.value_span(key, value))
+    }
+
+    /// Where a value of axis or column `key` (by position) stands; `value` counts values or rows.
+    fn value_span(&self, key: usize, value: usize) -> Range<usize> {
+        match &self.file {
+            None => self.spans[key].get(value).or_else(|| self.spans[key].last()).cloned().unwrap_or(0..0),
+            Some(file) => file.span(value, key),
+        }
+    }
+
+    /// The position of a key among the axes or columns.
+    pub(super) fn position(&self, key: AxisKey) -> Option<usize> {
+        self.keys.iter().position(|(varied, _)| *varied == key)
+    }
+
+    /// The distinct names of the key `law` or `material` with the place of their first use.
+    pub(super) fn names(&self, key: AxisKey) -> Vec<(&str, Range<usize>)> {
+        let Some(at) = self.position(key) else { return Vec::new() };
+        let values: Box<dyn Iterator<Item = &Value>> = match &self.grid {
+            Grid::Axes(axes) => Box::new(axes[at].values.iter()),
+            Grid::Tuples { rows, .. } => Box::new(rows.iter().map(move |row| &row[at])),
+        };
+        let mut first: Vec<(&str, usize)> = Vec::new();
+        for (index, value) in values.enumerate() {
+            if let Value::Text(name) = value
+                && !first.iter().any(|(known, _)| *known == name.as_str())
+            {
+                first.push((name, index));
+            }
+        }
+        first.into_iter().map(|(name, index)| (name, self.value_span(at, index))).collect()
+    }
+}
+
+fn too_many(source: &Source, entry: Entry, count: u128) -> Error {
+    let more = if count == u128::MAX { "more than 10^38".to_owned() } else { format!("at least {count}") };
+    Error::TooMany { at: source.place(entry.node.span()), count: more, limit: MAX_INSTANCES }
+}
+
+fn unknown_axis(source: &Source, entry: Entry) -> Error {
+    let names: Vec<&str> = AxisKey::names().collect();
+    let advice = if is_fixed(entry.key) {
+        "this key holds for the whole sweep and cannot vary".to_owned()
+    } else {
+        advice(entry.key, &names)
+    };
+    Error::Unknown {
+        at: source.place(entry.key_span()),
+        what: "axis",
+        name: entry.key.to_owned(),
+        within: "in [axes]".to_owned(),
+        advice,
+    }
+}
