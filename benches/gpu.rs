@@ -11,9 +11,10 @@ use std::error::Error;
 use std::fmt::Write;
 use std::time::SystemTime;
 
-use squealmap::engine::choice::{Backend, Options};
+use squealmap::engine::backend::Backend;
 use squealmap::engine::gpu::adapter::Adapter;
-use squealmap::engine::kernel::source::Precision;
+use squealmap::engine::options::Options;
+use squealmap::engine::precision::Precision;
 use squealmap::sweep::map::Map;
 use squealmap::sweep::run as sweep;
 use squealmap::sweep::spec::Spec;

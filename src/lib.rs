@@ -15,7 +15,7 @@
 //! | [`study`] | eigenvalues along an axis, traces, hysteresis, speed against error, fits, measured signals, the source paper |
 //!
 //! ```
-//! use squealmap::engine::choice::Options;
+//! use squealmap::engine::options::Options;
 //! use squealmap::model::kind::InstabilityType;
 //! use squealmap::results::csv;
 //! use squealmap::sweep::{run, spec::Spec};

@@ -2,23 +2,23 @@
 
 use std::sync::atomic::AtomicBool;
 
+use crate::gpu;
+use crate::work::{Work, plan, reference_plan};
 use clap::ValueEnum;
 use rayon::prelude::*;
 use squealmap::engine::gpu::adapter::Adapter;
-use squealmap::engine::kernel::response::{TOLERANCE, respond as twin};
-use squealmap::engine::kernel::series;
-use squealmap::engine::kernel::source::Precision;
+use squealmap::engine::kernel::response::respond as twin;
+use squealmap::engine::kernel::steps;
+use squealmap::engine::kernel::steps::TOLERANCE;
 use squealmap::engine::lanes::outcomes::outcomes;
 use squealmap::engine::lanes::{Lanes, ORDER, tolerance};
 use squealmap::engine::method::taylor::REFERENCE_ORDER;
 use squealmap::engine::outcome::Outcome;
 use squealmap::engine::plan::Plan;
+use squealmap::engine::precision::Precision;
 use squealmap::engine::reference::respond::respond;
 use squealmap::model::instance::Instance;
 use squealmap::model::status::Status;
-
-use crate::gpu;
-use crate::work::{Work, plan, reference_plan};
 
 /// Most instances of a batch on the CPU, and fewest: those of a sweep.
 const MOST: usize = 1024;
@@ -77,7 +77,7 @@ impl Case {
         match self.engine {
             Engine::Reference => REFERENCE_ORDER,
             Engine::Scalar | Engine::Simd => ORDER,
-            Engine::Twin | Engine::Gpu => series::ORDER,
+            Engine::Twin | Engine::Gpu => steps::ORDER,
         }
     }
 

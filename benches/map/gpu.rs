@@ -1,12 +1,12 @@
 //! A map on the best adapter, end to end: scenes, transfers, kernel, outcomes.
 
-use squealmap::engine::choice::{Backend, Options};
-use squealmap::engine::gpu::adapter::{Adapter, Description};
-use squealmap::engine::kernel::source::Precision;
-use squealmap::sweep::run as sweep;
-
 use crate::engine::Output;
 use crate::work::Work;
+use squealmap::engine::backend::Backend;
+use squealmap::engine::gpu::adapter::{Adapter, Description};
+use squealmap::engine::options::Options;
+use squealmap::engine::precision::Precision;
+use squealmap::sweep::run as sweep;
 
 /// Most instances on a software adapter: a driver on the CPU computes some hundred a second.
 pub(crate) const MOST_ON_SOFTWARE: usize = 1100;

@@ -1,5 +1,6 @@
 //! How far the results of an engine are from those of the reference at twice its resolution.
 
+use crate::work::{Work, reference_plan};
 use rayon::prelude::*;
 use squealmap::engine::judged::regime;
 use squealmap::engine::outcome::Outcome;
@@ -7,8 +8,6 @@ use squealmap::engine::reference::respond::respond;
 use squealmap::engine::regime::Regime;
 use squealmap::model::linear;
 use squealmap::model::status::Status;
-
-use crate::work::{Work, reference_plan};
 
 /// Steps per period of the judge: twice those of a sweep.
 const STEPS: u32 = 24;

@@ -3,10 +3,9 @@
 use std::fs::read_to_string;
 use std::time::{SystemTime, UNIX_EPOCH};
 
-use squealmap::engine::kernel::source::Precision;
-use squealmap::version::COMMIT;
-
 use crate::peak::Peak;
+use squealmap::engine::precision::Precision;
+use squealmap::version::COMMIT;
 
 /// Features of a CPU that matter here, as Linux names them.
 const FEATURES: [&str; 6] = ["sse2", "avx2", "fma", "avx512f", "neon", "asimd"];

@@ -17,7 +17,7 @@ use std::error::Error;
 
 use clap::Parser;
 use squealmap::engine::gpu::adapter::Adapter;
-use squealmap::engine::kernel::source::Precision;
+use squealmap::engine::precision::Precision;
 use squealmap::sweep::spec::STEPS_PER_PERIOD;
 
 use clock::{Clock, Elapsed, peak_memory};

@@ -1,9 +1,8 @@
 //! What a run measures.
 
-use clap::Parser;
-use squealmap::engine::kernel::source::Precision;
-
 use crate::engine::Engine;
+use clap::Parser;
+use squealmap::engine::precision::Precision;
 
 /// Measures maps of growing size on every engine: speed, share of the FMA peak, error; prints Markdown and keeps
 /// the rows under `benches/results/`.

@@ -7,7 +7,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use pulp::{Arch, Simd, WithSimd};
-use squealmap::engine::kernel::source::Precision;
+use squealmap::engine::precision::Precision;
 
 /// Accumulators that keep every multiplier busy: more than latency times ports of any CPU of today (4 × 2), and
 /// as many as leave two of 16 registers for the factors.

@@ -2,12 +2,11 @@
 
 use std::fmt::{Display, Formatter, Result};
 
-use squealmap::engine::kernel::source::Precision;
-use squealmap::engine::record::Record;
-
 use crate::engine::Engine;
 use crate::machine::Machine;
 use crate::row::Row;
+use squealmap::engine::precision::Precision;
+use squealmap::engine::record::Record;
 
 /// Everything that is printed: a table of each map, the cost over their size.
 pub(crate) struct Tables<'a> {

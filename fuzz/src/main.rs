@@ -8,13 +8,13 @@ use std::sync::{LazyLock, OnceLock};
 
 use libfuzzer_sys::fuzz_target;
 use serde_json::Value as Json;
-use squealmap::study::{Kind, Picture};
-use squealmap_identify::{FrictionColumn, Settings, identify, read_points};
 use squealmap::engine::record::Record;
-use squealmap::sweep::spec::{Analysis, Spec, Starts};
 use squealmap::store::description::Description;
 use squealmap::store::identity::Id;
 use squealmap::store::tile::{Label, instances_in};
+use squealmap::study::{Kind, Picture};
+use squealmap::sweep::spec::{Analysis, Spec, Starts};
+use squealmap_identify::{FrictionColumn, Settings, identify, read_points};
 use tempfile::TempDir;
 
 /// A reader and the bytes it is given.

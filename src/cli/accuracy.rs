@@ -1,18 +1,17 @@
 //! `--accuracy`: what may compute a sweep as accurately as is asked for.
 
+use crate::cli::engine::{BackendName, EngineArgs};
+use crate::cli::frontier;
+use crate::cli::talk::note;
 use clap::Args;
-use squealmap::engine::choice::Backend;
+use squealmap::engine::backend::Backend;
 use squealmap::engine::gpu::adapter::Adapter;
-use squealmap::engine::kernel::source::Precision;
-use squealmap::sweep::accuracy::configuration;
+use squealmap::engine::precision::Precision;
 use squealmap::sweep::accuracy::configuration::Configuration;
 use squealmap::sweep::accuracy::frontier::{Choice, Chosen};
 use squealmap::sweep::accuracy::level::Level;
 use squealmap::sweep::spec::Spec;
 use squealmap::{Error, Result};
-
-use crate::cli::engine::{BackendName, EngineArgs};
-use crate::cli::{frontier, note};
 
 /// The argument.
 #[derive(Debug, Args)]
@@ -46,7 +45,7 @@ impl AccuracyArgs {
             asked => Some(Backend::from(asked)),
         };
         if let (Level::Reference, Some(other @ (Backend::Gpu | Backend::Cpu))) = (level, backend) {
-            return Err(beside(format!("--backend {}", configuration::name(other))));
+            return Err(beside(format!("--backend {}", other.name())));
         }
         if !spec.analysis.response {
             note("--accuracy has nothing to choose: this sweep asks for no response");

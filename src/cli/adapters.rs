@@ -2,9 +2,8 @@
 
 use std::fmt::Write;
 
+use crate::cli::talk::print;
 use squealmap::engine::gpu::adapter::{Adapter, Description, MISSING_DRIVER};
-
-use crate::cli::print;
 
 /// Lists every adapter, or says what to install.
 pub(crate) fn execute() {

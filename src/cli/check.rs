@@ -4,6 +4,11 @@ use std::fmt::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use crate::cli::failed::{nothing, told};
+use crate::cli::onset::onset;
+use crate::cli::progress::seconds;
+use crate::cli::talk;
+use crate::cli::talk::{note, print};
 use clap::Args;
 use rayon::prelude::*;
 use serde_json::json;
@@ -20,11 +25,6 @@ use squealmap::sweep::grid::{Axis, AxisKey, Grid, Value};
 use squealmap::sweep::refine::planes_of;
 use squealmap::sweep::spec::refine::Settings;
 use squealmap::sweep::spec::{Spec, Starts};
-
-use crate::cli::failed::{nothing, told};
-use crate::cli::onset::onset;
-use crate::cli::progress::seconds;
-use crate::cli::{note, print, talk};
 
 /// Arguments of `check`.
 #[derive(Debug, Args)]

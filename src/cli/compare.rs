@@ -3,14 +3,14 @@
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
+use crate::cli::output::{Output, list};
+use crate::cli::pictures::png_of;
+use crate::cli::talk::print;
 use clap::Args;
-use squealmap::results::figure::compare::{document, figure, table};
+use squealmap::results::comparison::{document, figure, table};
 use squealmap::results::read::Archive;
 use squealmap::results::read::compare::{Comparison, Differences, Labels};
 use squealmap::{Error, Result};
-
-use crate::cli::output::{Output, list};
-use crate::cli::{png_of, print};
 
 /// What is written.
 const FILES: [&str; 4] = ["compare.csv", "compare.json", "compare.png", "compare.svg"];

@@ -3,8 +3,9 @@
 use std::sync::atomic::AtomicBool;
 
 use clap::{Args, ValueEnum};
-use squealmap::engine::choice::{Backend, Options};
-use squealmap::engine::kernel::source::Precision;
+use squealmap::engine::backend::Backend;
+use squealmap::engine::options::Options;
+use squealmap::engine::precision::Precision;
 use squealmap::store::directory::Note;
 
 /// Arguments that choose an engine.

@@ -4,11 +4,10 @@
 use std::path::Path;
 use std::process::ExitCode;
 
+use crate::cli::talk::note;
 use serde_json::Value as Json;
 use squealmap::disk;
 use squealmap::model::status::Status;
-
-use crate::cli::note;
 
 /// The exit code of results that were written well: 1, with a sentence, where the document beside them counts no result.
 pub(crate) fn judged(code: ExitCode, directory: &Path, document: &str) -> ExitCode {

@@ -2,18 +2,17 @@
 
 use std::path::PathBuf;
 
+use crate::cli::home::prepare_beside;
+use crate::cli::numbers::{finite, positive};
+use crate::cli::output::list;
+use crate::cli::talk::{note, print};
 use clap::{Args, ValueEnum};
 use squealmap::model::friction::LawKind;
-use squealmap::study::fit::squares::{Fit, Point, fit, range};
 use squealmap::study::fit::table::{material_csv, residuals_csv};
+use squealmap::study::fit::{Fit, fit, range};
 use squealmap::{Error, Result};
-use squealmap_identify::{Channel, FrictionColumn, Settings, read_points};
+use squealmap_identify::{Channel, FrictionColumn, Point, Settings, read_points};
 use squealmap_input::quote::rounded;
-
-use crate::cli::home::prepare_beside;
-use crate::cli::identify::{finite, positive};
-use crate::cli::output::list;
-use crate::cli::{note, print};
 
 /// What is written.
 const FILES: [&str; 2] = ["material.csv", "residuals.csv"];

@@ -3,14 +3,12 @@
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use squealmap::disk;
+use crate::cli::output::{cannot, claim};
+use crate::cli::talk::note;
 use squealmap::sweep::accuracy::frontier::Frontier;
 use squealmap::sweep::accuracy::row::{Row, from_csv, to_csv};
 use squealmap::sweep::spec::Spec;
-use squealmap::{Error, Result};
-
-use crate::cli::note;
-use crate::cli::output::{cannot, claim};
+use squealmap::{Error, Result, disk};
 
 /// The name of the table.
 const TABLE: &str = "accuracy.csv";

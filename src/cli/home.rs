@@ -1,16 +1,15 @@
 //! The directory of the results of an input file: which one it is by default, and whose results it may already hold.
 
-use std::path::{Path, PathBuf};
-
+use crate::cli::output::Output;
+use crate::cli::talk::note;
 use clap::Args;
 use squealmap::store::description::Description;
 use squealmap::store::directory::{Store, TILES};
 use squealmap::store::occupant::Occupant;
 use squealmap::store::origin;
 use squealmap::{Error, Result};
-
-use crate::cli::output::Output;
-use crate::cli::{note, stem};
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
 
 /// Where the directories of results are by default.
 const OUT: &str = "out";
@@ -125,4 +124,14 @@ impl Replace {
         note(&format!("replaces what is in `{}`: {there}", directory.display()));
         Ok(())
     }
+}
+
+/// The name of a file without its ending, for a directory of its own.
+pub(super) fn stem(path: &Path) -> Result<&OsStr> {
+    let stem = path.file_stem().unwrap_or_default();
+    // `..toml` and `...toml` are files, but what remains of their names is no directory of their own.
+    if stem.is_empty() || stem == "." || stem == ".." {
+        return Err(squealmap::Error::NoStem { path: path.to_owned() });
+    }
+    Ok(stem)
 }

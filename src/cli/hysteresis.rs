@@ -2,6 +2,11 @@
 
 use std::process::ExitCode;
 
+use crate::cli::failed::told;
+use crate::cli::files::Files;
+use crate::cli::output::list;
+use crate::cli::pictures::png_of;
+use crate::cli::talk::{note, print};
 use squealmap::engine::plan::Plan;
 use squealmap::model::status::Status;
 use squealmap::model::{PARAMS, Param, Section};
@@ -13,10 +18,6 @@ use squealmap::sweep::grid::spaced;
 use squealmap::sweep::spec::Spec;
 use squealmap::sweep::spec::names::advice;
 use squealmap::{Error, Result};
-
-use crate::cli::failed::told;
-use crate::cli::output::list;
-use crate::cli::{Files, note, png_of, print};
 
 /// What is written.
 const FILES: [&str; 4] = ["hysteresis.csv", "hysteresis.json", "hysteresis.png", "hysteresis.svg"];

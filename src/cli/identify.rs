@@ -1,10 +1,10 @@
 //! `squealmap identify`: what measured signals say.
 
-use std::fmt::Write;
-use std::io::Read;
-use std::path::PathBuf;
-
-use clap::Args;
+use crate::cli::home::prepare_beside;
+use crate::cli::numbers::{finite, number, positive};
+use crate::cli::output::list;
+use crate::cli::pictures::png_of;
+use crate::cli::talk::print;
 use squealmap::Result;
 use squealmap::results::figure::look::Look;
 use squealmap::study::identify::report as export;
@@ -16,10 +16,11 @@ use squealmap_identify::{
 };
 use squealmap_input::files;
 use squealmap_input::quote::one_line;
+use std::fmt::Write;
+use std::io::Read;
+use std::path::PathBuf;
 
-use crate::cli::home::prepare_beside;
-use crate::cli::output::list;
-use crate::cli::{png_of, print};
+use clap::Args;
 
 /// What is written.
 const FILES: [&str; 6] =
@@ -167,23 +168,6 @@ fn summary(found: &Identification) -> String {
         let _ = writeln!(text, "note: {note}");
     }
     text
-}
-
-pub(super) fn number(
-    text: &str,
-    legal: impl Fn(f64) -> bool,
-    words: &str,
-) -> std::result::Result<f64, String> {
-    let value: f64 = text.parse().map_err(|_| format!("must be {words}"))?;
-    if value.is_finite() && legal(value) { Ok(value) } else { Err(format!("must be {words}")) }
-}
-
-pub(super) fn finite(text: &str) -> std::result::Result<f64, String> {
-    number(text, |_| true, "a finite number")
-}
-
-pub(super) fn positive(text: &str) -> std::result::Result<f64, String> {
-    number(text, |x| x > 0.0, "a finite number greater than 0")
 }
 
 /// A unit of time.

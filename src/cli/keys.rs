@@ -2,12 +2,11 @@
 
 use std::fmt::Write;
 
+use crate::cli::talk;
 use clap::Args;
 use serde_json::{Value as Json, json};
 use squealmap::Result;
 use squealmap::sweep::spec::keys::{Key, SECTIONS, all, named};
-
-use crate::cli::talk;
 
 /// Arguments of `keys`.
 #[derive(Debug, Args)]

@@ -5,22 +5,21 @@ use std::process::ExitCode;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
 
-use clap::Args;
-use squealmap::results::manifest::Run;
-use squealmap::store::directory::Store;
-use squealmap::store::merge::merge;
-use squealmap::store::origin;
-use squealmap::{Error, Result};
-
 use crate::cli::failed::judged;
 use crate::cli::home::Replace;
 use crate::cli::output::{cannot, list};
 use crate::cli::results;
 use crate::cli::results::{MANIFEST, Results};
 use crate::cli::run::missing;
-use crate::cli::signal::stop_at_signal;
+use crate::cli::signal::{INTERRUPTED, stop_at_signal};
 use crate::cli::summary::summary;
-use crate::cli::{INTERRUPTED, note, print};
+use crate::cli::talk::{note, print};
+use clap::Args;
+use squealmap::results::manifest::Run;
+use squealmap::store::directory::Store;
+use squealmap::store::merge::merge;
+use squealmap::store::origin;
+use squealmap::{Error, Result};
 
 /// Arguments of `merge`.
 #[derive(Debug, Args)]

@@ -10,6 +10,7 @@ mod environment;
 mod excerpt;
 mod export;
 mod failed;
+mod files;
 mod fit;
 mod frontier;
 mod home;
@@ -19,9 +20,11 @@ mod init;
 mod keys;
 mod merge;
 mod modes;
+mod numbers;
 mod onset;
 mod output;
 mod paper;
+mod pictures;
 mod plot;
 mod plot_beside;
 mod plot_map;
@@ -44,15 +47,12 @@ mod trace;
 mod tradeoff;
 mod verify;
 
-use std::ffi::OsStr;
-use std::path::{Path, PathBuf};
+use crate::cli::signal::INTERRUPTED;
+use crate::cli::talk::Manner;
+use squealmap::Result;
 use std::process::ExitCode;
 
-use clap::{Arg, Args, CommandFactory, FromArgMatches, Parser, Subcommand};
-use squealmap::Result;
-
-use crate::cli::output::Output;
-use crate::cli::talk::{Manner, note, print};
+use clap::{Arg, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 /// Stability maps of friction-induced vibration: for which friction, temperature and belt velocity does a
 /// brake contact become unstable, by which mechanism, and what does it then do?
@@ -109,46 +109,6 @@ enum Command {
     Completions(shell::Completions),
     /// Pages for `man`, one for the program and one for each command
     Man(shell::ManPages),
-}
-
-/// The exit code after Ctrl-C or SIGTERM: 128 and the number of the signal, as shells have it.
-const INTERRUPTED: u8 = 130;
-
-/// The sweep file and where its results go.
-#[derive(Debug, Args)]
-struct Files {
-    /// Sweep file (TOML)
-    sweep: PathBuf,
-    /// Output directory [default: out/<name of the sweep file>, with a number where another file of this name has that]
-    #[arg(short, long, value_name = "DIR")]
-    output: Option<PathBuf>,
-}
-
-impl Files {
-    /// The output directory, see [`home::directory`].
-    fn directory(&self) -> Result<PathBuf> {
-        home::directory(&self.sweep, self.output.as_deref())
-    }
-
-    /// The output directory ready for `files`.
-    fn prepare(&self, files: &[&str]) -> Result<Output> {
-        home::prepare(&self.sweep, self.output.as_deref(), files)
-    }
-
-    /// The same for what takes seconds, see [`home::prepare_beside`].
-    fn prepare_beside(&self, files: &[&str]) -> Result<Output> {
-        home::prepare_beside(&self.sweep, self.output.as_deref(), files)
-    }
-}
-
-/// The name of a file without its ending, for a directory of its own.
-fn stem(path: &Path) -> Result<&OsStr> {
-    let stem = path.file_stem().unwrap_or_default();
-    // `..toml` and `...toml` are files, but what remains of their names is no directory of their own.
-    if stem.is_empty() || stem == "." || stem == ".." {
-        return Err(squealmap::Error::NoStem { path: path.to_owned() });
-    }
-    Ok(stem)
 }
 
 impl Cli {
@@ -217,8 +177,8 @@ impl Command {
             Command::Fit(command) => command.execute()?,
             Command::Init(command) => command.execute()?,
             Command::Keys(command) => command.execute()?,
-            Command::Completions(command) => command.execute(),
-            Command::Man(command) => command.execute()?,
+            Command::Completions(command) => command.execute(definition()),
+            Command::Man(command) => command.execute(definition())?,
         }
         Ok(ExitCode::SUCCESS)
     }
@@ -256,24 +216,4 @@ fn definition() -> clap::Command {
         if takes_one && !arg.is_allow_hyphen_values_set() { arg.allow_negative_numbers(true) } else { arg }
     };
     Cli::command().mut_subcommands(|command| command.mut_args(option))
-}
-
-/// The PNG of a figure of a command, with a note where its font lacks a character.
-fn png_of(svg: &str) -> Result<Vec<u8>> {
-    tell_missing(svg)?;
-    Ok(squealmap_figure::png::render(svg)?)
-}
-
-/// Says which characters of a figure its font lacks.
-fn tell_missing(svg: &str) -> Result<()> {
-    let missing = squealmap_figure::glyphs::missing(svg)?;
-    let shown: Vec<String> = missing.iter().map(|c| format!("`{c}` (U+{:04X})", u32::from(*c))).collect();
-    if !shown.is_empty() {
-        note(&format!(
-            "the font of the figures, Liberation Sans, has no {}: boxes stand there in PNG and PDF; write the title or name \
-             without it",
-            shown.join(", ")
-        ));
-    }
-    Ok(())
 }

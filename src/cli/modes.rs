@@ -1,13 +1,14 @@
 //! `squealmap modes`: eigenvalues against an axis.
 
+use crate::cli::files::Files;
+use crate::cli::output::list;
+use crate::cli::pictures::png_of;
+use crate::cli::talk::print;
 use clap::Args;
 use squealmap::Result;
 use squealmap::results::figure::look::Look;
 use squealmap::study::modes::follow as modes;
 use squealmap::sweep::spec::Spec;
-
-use crate::cli::output::list;
-use crate::cli::{Files, png_of, print};
 
 /// What is written.
 const FILES: [&str; 4] = ["modes.csv", "modes.json", "modes.png", "modes.svg"];

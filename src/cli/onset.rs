@@ -1,11 +1,10 @@
 //! Which time to settle would do, in a sentence.
 
+use crate::cli::progress::seconds;
 use squealmap::engine::regime::Regime;
 use squealmap::sweep::label::Tally;
 use squealmap::sweep::onset::{Onsets, onsets};
 use squealmap::sweep::spec::Spec;
-
-use crate::cli::progress::seconds;
 
 /// From the start to the window in which a motion has settled, in the time to its first event: of a map of 65 x 65 instances of
 /// an exponential law this left 26 unsettled, 20 of them beyond the 99 %.

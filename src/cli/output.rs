@@ -5,13 +5,11 @@ use std::path::{Path, PathBuf};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use squealmap::disk;
+use crate::cli::talk;
 use squealmap::disk::{Handle, door};
 use squealmap::store::claim::Claim;
 use squealmap::store::origin;
-use squealmap::{Error, Result};
-
-use crate::cli::talk;
+use squealmap::{Error, Result, disk};
 
 /// What is claimed where no file is to come.
 const PROBE: &str = ".squealmap";

@@ -2,6 +2,12 @@
 
 use std::path::PathBuf;
 
+use crate::cli::numbers::number;
+use crate::cli::output::{Output, list};
+use crate::cli::pictures::tell_missing;
+use crate::cli::plot_beside;
+use crate::cli::plot_map::OfMaps;
+use crate::cli::talk::{note, print};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use squealmap::cluster::slurm::quote;
@@ -10,11 +16,6 @@ use squealmap::study::{Kind, Picture};
 use squealmap::version::program;
 use squealmap::{Error, Result};
 use squealmap_figure::{pdf, png};
-
-use crate::cli::identify::number;
-use crate::cli::output::{Output, list};
-use crate::cli::plot_map::OfMaps;
-use crate::cli::{note, plot_beside, print, tell_missing};
 
 /// What is written of every figure.
 const FILES: [&str; 3] = ["plot.pdf", "plot.png", "plot.svg"];

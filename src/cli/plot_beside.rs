@@ -2,11 +2,10 @@
 
 use std::path::Path;
 
+use crate::cli::plot_map::{TABLES, Tables};
+use crate::cli::talk::note;
 use squealmap::disk;
 use squealmap::disk::door;
-
-use crate::cli::note;
-use crate::cli::plot_map::{TABLES, Tables};
 
 /// What comes before the list of tables in the metadata of a picture.
 const BESIDE: &str = "; beside it: ";

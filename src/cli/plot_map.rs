@@ -1,5 +1,7 @@
 //! What `squealmap plot` can show of a map: classes, quantities with lines of equal value, and cuts.
 
+use crate::cli::numbers::finite;
+use crate::cli::talk::note;
 use clap::Args;
 use squealmap::cluster::slurm::quote;
 use squealmap::results::boundary_lines::boundary_lines;
@@ -16,9 +18,6 @@ use squealmap::sweep::grid::{Grid, Value};
 use squealmap::sweep::spec::Starts;
 use squealmap::sweep::spec::names::advice;
 use squealmap::{Error, Result};
-
-use crate::cli::identify::finite;
-use crate::cli::note;
 
 /// The lines between classes.
 const BOUNDARIES: &str = "boundaries.csv";

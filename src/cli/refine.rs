@@ -5,6 +5,20 @@ use std::path::Path;
 use std::process::ExitCode;
 use std::sync::atomic::AtomicBool;
 
+use crate::cli::engine::{BackendName, EngineArgs};
+use crate::cli::failed::judged;
+use crate::cli::files::Files;
+use crate::cli::home::Replace;
+use crate::cli::numbers::at_least_one;
+use crate::cli::onset::onset_of;
+use crate::cli::output::{Output, cannot, cannot_table, claim, list};
+use crate::cli::progress::Progress;
+use crate::cli::refined::{Checked, DOCUMENT, Ended, FILES};
+use crate::cli::signal::{INTERRUPTED, stop_at_signal};
+use crate::cli::summary::{classes, summary};
+use crate::cli::summed::Summed;
+use crate::cli::talk;
+use crate::cli::talk::{note, print};
 use clap::Args;
 use serde_json::json;
 use squealmap::disk::Handle;
@@ -22,19 +36,6 @@ use squealmap::sweep::solver::Solver;
 use squealmap::sweep::spec::refine::{COARSE, Settings};
 use squealmap::sweep::spec::{Analysis, Spec, Starts};
 use squealmap::{Error, Result};
-
-use crate::cli::engine::{BackendName, EngineArgs};
-use crate::cli::failed::judged;
-use crate::cli::home::Replace;
-use crate::cli::onset::onset_of;
-use crate::cli::output::{Output, cannot, cannot_table, claim, list};
-use crate::cli::progress::Progress;
-use crate::cli::refined::{Checked, DOCUMENT, Ended, FILES};
-use crate::cli::run::at_least_one;
-use crate::cli::signal::stop_at_signal;
-use crate::cli::summary::{classes, summary};
-use crate::cli::summed::Summed;
-use crate::cli::{Files, INTERRUPTED, note, print, talk};
 
 /// Arguments of `refine`.
 #[derive(Debug, Args)]

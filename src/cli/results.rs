@@ -5,8 +5,11 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::Duration;
 
-use squealmap::Result;
-use squealmap::disk;
+use crate::cli::output::{cannot, cannot_table, claim, fill, filled, publish_with};
+use crate::cli::pictures::png_of;
+use crate::cli::summed::{Summed, unlike};
+use crate::cli::talk;
+use crate::cli::talk::note;
 use squealmap::engine::record::Record;
 use squealmap::results::csv::MapCsv;
 use squealmap::results::figure::map::MapFigure;
@@ -17,10 +20,7 @@ use squealmap::store::directory::{Fingerprint, Store};
 use squealmap::store::seal::is_intact;
 use squealmap::store::space::MOST_ROWS;
 use squealmap::sweep::label::Tally;
-
-use crate::cli::output::{cannot, cannot_table, claim, fill, filled, publish_with};
-use crate::cli::summed::{Summed, unlike};
-use crate::cli::{note, png_of, talk};
+use squealmap::{Result, disk};
 
 /// What is written.
 pub(crate) const FILES: [&str; 4] = ["map.csv", MANIFEST, "map.png", "map.svg"];

@@ -1,14 +1,22 @@
 //! `squealmap run`: a whole sweep.
 
-use std::path::PathBuf;
-use std::process::ExitCode;
-use std::sync::atomic::AtomicBool;
-use std::time::{Duration, Instant};
-
-use clap::Args;
-use serde_json::json;
-use squealmap::engine::choice::Options;
+use crate::cli::accuracy::{AccuracyArgs, say};
+use crate::cli::engine::{BackendName, EngineArgs};
+use crate::cli::failed::judged;
+use crate::cli::files::Files;
+use crate::cli::home::Replace;
+use crate::cli::numbers::at_least_one;
+use crate::cli::onset::onset_of;
+use crate::cli::output::list;
+use crate::cli::progress::{Progress, seconds};
+use crate::cli::refine::Refining;
+use crate::cli::results::{FILES, MANIFEST, Results};
+use crate::cli::signal::{INTERRUPTED, stop_at_signal};
+use crate::cli::summary::summary;
+use crate::cli::talk::{note, print};
+use crate::cli::{results, talk};
 use squealmap::engine::computation::Stopped;
+use squealmap::engine::options::Options;
 use squealmap::results::manifest;
 use squealmap::store::cut::tile_of;
 use squealmap::store::description::Description;
@@ -23,20 +31,13 @@ use squealmap::sweep::label::Tally;
 use squealmap::sweep::solver::Solver;
 use squealmap::sweep::spec::Spec;
 use squealmap::{Error, Result};
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::sync::atomic::AtomicBool;
+use std::time::{Duration, Instant};
 
-use crate::cli::accuracy::{AccuracyArgs, say};
-use crate::cli::engine::{BackendName, EngineArgs};
-use crate::cli::failed::judged;
-use crate::cli::home::Replace;
-use crate::cli::onset::onset_of;
-use crate::cli::output::list;
-use crate::cli::progress::{Progress, seconds};
-use crate::cli::refine::Refining;
-use crate::cli::results;
-use crate::cli::results::{FILES, MANIFEST, Results};
-use crate::cli::signal::stop_at_signal;
-use crate::cli::summary::summary;
-use crate::cli::{Files, INTERRUPTED, note, print, talk};
+use clap::Args;
+use serde_json::json;
 
 /// Arguments of `run`.
 #[derive(Debug, Args)]
@@ -376,12 +377,4 @@ fn ended(stopped: &Stopped, tally: &Tally, did: &str) -> ExitCode {
 /// A share of the tiles.
 fn shard(text: &str) -> std::result::Result<Shard, String> {
     Shard::parse(text, &|name| std::env::var(name).ok())
-}
-
-/// A number of instances.
-pub(crate) fn at_least_one(text: &str) -> std::result::Result<usize, String> {
-    match text.parse() {
-        Ok(number) if number > 0 => Ok(number),
-        _ => Err("must be a whole number from 1 on".to_owned()),
-    }
 }

@@ -2,13 +2,13 @@
 
 use std::path::PathBuf;
 
+use crate::cli::output::{Output, cannot, list};
+use crate::cli::talk;
+use crate::cli::talk::print;
 use clap::Args;
 use clap_complete::Shell;
 use clap_mangen::Man;
 use squealmap::Result;
-
-use crate::cli::output::{Output, cannot, list};
-use crate::cli::{definition, print, talk};
 
 /// The name of the program.
 const NAME: &str = "squealmap";
@@ -22,9 +22,9 @@ pub(crate) struct Completions {
 }
 
 impl Completions {
-    pub(crate) fn execute(self) {
+    pub(crate) fn execute(self, mut definition: clap::Command) {
         let mut text = Vec::new();
-        clap_complete::generate(self.shell, &mut definition(), NAME, &mut text);
+        clap_complete::generate(self.shell, &mut definition, NAME, &mut text);
         talk::product(&String::from_utf8_lossy(&text));
     }
 }
@@ -38,8 +38,7 @@ pub(crate) struct ManPages {
 }
 
 impl ManPages {
-    pub(crate) fn execute(self) -> Result<()> {
-        let mut all = definition();
+    pub(crate) fn execute(self, mut all: clap::Command) -> Result<()> {
         all.build();
         let mut pages = vec![(format!("{NAME}.1"), all.clone())];
         for command in all.get_subcommands().filter(|command| !command.is_hide_set()) {

@@ -1,9 +1,8 @@
 //! Ctrl-C, and the signal by which schedulers end a process.
 
+use squealmap::{Error, Result};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
-
-use squealmap::{Error, Result};
 
 /// A flag that Ctrl-C sets, and SIGTERM; a command then ends between two instances or dispatches, the reference within an
 /// instance too. Set before anything is made on the disk; a second Ctrl-C changes nothing, so that no file is left half written.
@@ -30,3 +29,6 @@ fn listen(cancel: &Arc<AtomicBool>) -> std::result::Result<(), String> {
     ctrlc::set_handler(move || flag.store(true, std::sync::atomic::Ordering::Relaxed))
         .map_err(|why| why.to_string())
 }
+
+/// The exit code after Ctrl-C or SIGTERM: 128 and the number of the signal, as shells have it.
+pub(super) const INTERRUPTED: u8 = 130;

@@ -5,6 +5,10 @@ use std::path::PathBuf;
 use std::thread;
 use std::time::Duration;
 
+use crate::cli::progress::seconds;
+use crate::cli::refined::DOCUMENT;
+use crate::cli::talk;
+use crate::cli::talk::print;
 use clap::Args;
 use console::Term;
 use serde_json::json;
@@ -12,10 +16,6 @@ use squealmap::store::directory::Store;
 use squealmap::store::parts::Parts;
 use squealmap::store::status::Status;
 use squealmap::{Error, Result};
-
-use crate::cli::progress::seconds;
-use crate::cli::refined::DOCUMENT;
-use crate::cli::{print, talk};
 
 /// Arguments of `status`.
 #[derive(Debug, Args)]

@@ -3,6 +3,12 @@
 use std::ffi::OsString;
 use std::path::Path;
 
+use crate::cli::engine::BackendName;
+use crate::cli::files::Files;
+use crate::cli::output::Output;
+use crate::cli::run::Run;
+use crate::cli::scheduler::call;
+use crate::cli::talk::{note, print};
 use clap::{Args, Parser};
 use squealmap::cluster::slurm::{DEFAULT_MAX_ARRAY_SIZE, Jobs, LOGS, job_number, max_array_size};
 use squealmap::cluster::tasks::{Means, tasks};
@@ -11,12 +17,6 @@ use squealmap::sweep::accuracy::level::Level;
 use squealmap::sweep::estimate::estimate;
 use squealmap::sweep::spec::Spec;
 use squealmap::{Error, Result};
-
-use crate::cli::engine::BackendName;
-use crate::cli::output::Output;
-use crate::cli::run::Run;
-use crate::cli::scheduler::call;
-use crate::cli::{Files, note, print};
 
 /// Arguments of `submit`.
 #[derive(Debug, Args)]

@@ -1,9 +1,8 @@
 //! The worker threads of a command: built once, before it begins, so that no part of it starts threads that may be refused.
 
+use crate::cli::talk::note;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use squealmap::{Error, Result};
-
-use crate::cli::note;
 
 /// The pool that a command runs in: as many threads as asked for or, where nothing is said, one per core. Of these as
 /// many as the system gives, by halves; where it gives none the program's own thread computes.

@@ -3,13 +3,19 @@
 use std::f64::consts::TAU;
 use std::process::ExitCode;
 
+use crate::cli::failed::remedy;
+use crate::cli::files::Files;
+use crate::cli::hysteresis;
+use crate::cli::hysteresis::Range;
+use crate::cli::output::list;
+use crate::cli::pictures::png_of;
+use crate::cli::talk::{note, print};
 use clap::Args;
 use squealmap::engine::judged;
 use squealmap::engine::plan::Plan;
-use squealmap::model::Param;
 use squealmap::model::instance::Instance;
-use squealmap::model::linear;
 use squealmap::model::status::Status;
+use squealmap::model::{Param, linear};
 use squealmap::results::figure::heading::Heading;
 use squealmap::results::figure::look::Look;
 use squealmap::study::signals::sensors::{Recording, record};
@@ -20,12 +26,6 @@ use squealmap::sweep::grid::{AxisKey, Value};
 use squealmap::sweep::spec::Spec;
 use squealmap::{Error, Result};
 use squealmap_input::quote::rounded;
-
-use crate::cli::failed::remedy;
-use crate::cli::hysteresis;
-use crate::cli::hysteresis::Range;
-use crate::cli::output::list;
-use crate::cli::{Files, note, png_of, print};
 
 /// What is written.
 const FILES: [&str; 4] = ["trace.csv", "trace.json", "trace.png", "trace.svg"];

@@ -3,8 +3,13 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
+use crate::cli::frontier;
+use crate::cli::home::{Replace, prepare, stem as own_name};
+use crate::cli::output::{Output, list};
+use crate::cli::pictures::png_of;
+use crate::cli::talk::{note, print};
 use clap::Args;
-use squealmap::engine::choice::Options;
+use squealmap::engine::options::Options;
 use squealmap::results::figure::look::Look;
 use squealmap::study::tradeoff::report as tradeoff;
 use squealmap::study::tradeoff::report::Section;
@@ -12,10 +17,6 @@ use squealmap::sweep::accuracy::measure::{Measurement, Settings, measure};
 use squealmap::sweep::accuracy::row::{Row, to_csv};
 use squealmap::sweep::spec::Spec;
 use squealmap::{Error, Result};
-
-use crate::cli::home::{Replace, prepare};
-use crate::cli::output::{Output, list};
-use crate::cli::{frontier, note, png_of, print, stem as own_name};
 
 /// What is written.
 const FILES: [&str; 4] = ["tradeoff.csv", "tradeoff.json", "tradeoff.png", "tradeoff.svg"];

@@ -5,10 +5,19 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::atomic::AtomicBool;
 
+use crate::cli::output::Output;
+use crate::cli::refine::follow;
+use crate::cli::refined::{Checked, FILES};
+use crate::cli::results::faults;
+use crate::cli::run::run;
+use crate::cli::signal::stop_at_signal;
+use crate::cli::talk;
+use crate::cli::talk::{note, print};
 use clap::Args;
 use serde_json::json;
-use squealmap::engine::choice::{Backend, Options};
-use squealmap::engine::kernel::source::Precision;
+use squealmap::engine::backend::Backend;
+use squealmap::engine::options::Options;
+use squealmap::engine::precision::Precision;
 use squealmap::store::description::Description;
 use squealmap::store::directory::Store;
 use squealmap::store::parts::Parts;
@@ -16,16 +25,6 @@ use squealmap::store::status::Status;
 use squealmap::sweep::solver::Solver;
 use squealmap::sweep::spec::Spec;
 use squealmap::{Error, Result};
-
-use crate::cli::note;
-use crate::cli::output::Output;
-use crate::cli::print;
-use crate::cli::refine::follow;
-use crate::cli::refined::{Checked, FILES};
-use crate::cli::results::faults;
-use crate::cli::run::run;
-use crate::cli::signal::stop_at_signal;
-use crate::cli::talk;
 
 /// Missing tiles that are named.
 const NAMED: usize = 10;

@@ -1,6 +1,6 @@
 //! Why `auto` takes no GPU, and whether the CPU engine may then compute what was asked for.
 
-use crate::engine::choice::Options;
+use crate::engine::options::Options;
 use crate::error::{Error, Result};
 use squealmap_input::quote::list;
 

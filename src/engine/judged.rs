@@ -1,19 +1,17 @@
 //! What is made of an outcome: its regime, and the record of its instance.
 
 use crate::engine::instances::Instances;
-use crate::engine::outcome::Ending;
-use crate::engine::outcome::Outcome;
+use crate::engine::outcome::{Ending, Outcome};
 use crate::engine::record::Record;
 use crate::engine::regime as classify;
 use crate::engine::regime::Regime;
 use crate::engine::scene::{Scene, belt_velocity};
-use crate::model::Param;
 use crate::model::equilibrium::Equilibrium;
 use crate::model::instance::Instance;
 use crate::model::kind::InstabilityType;
-use crate::model::linear;
 use crate::model::linear::Preparation;
 use crate::model::status::Status;
+use crate::model::{Param, linear};
 
 /// The regime of a completed outcome, and whether it is settled; `kind` is the type of its equilibrium.
 #[must_use]

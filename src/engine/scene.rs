@@ -5,8 +5,9 @@ use std::f64::consts::TAU;
 use crate::engine::method::taylor::{BeltMotion, State};
 use crate::engine::plan::{Duration, Plan, StartKind};
 use crate::engine::start::{kick, mode};
-use crate::model::equilibrium::{Equilibrium, Scaled, Units};
+use crate::model::equilibrium::{Equilibrium, Units};
 use crate::model::instance::Instance;
+use crate::model::scaled::Scaled;
 use crate::model::status::Status;
 use crate::model::{Param, Params};
 

@@ -13,11 +13,10 @@ use crate::engine::plan::Plan;
 use crate::engine::regime as classify;
 use crate::engine::regime::{Regime, THRESHOLDS};
 use crate::engine::scene::Scene;
-use crate::model::Param;
 use crate::model::friction::LawKind;
 use crate::model::instance::Instance;
 use crate::model::kind::InstabilityType;
-use crate::model::linear;
+use crate::model::{Param, linear};
 
 /// The longest half of a window, in the halves that were asked for: near coalescence the beat is endless.
 const LONGEST_HALF: f64 = 4.0;

@@ -3,10 +3,10 @@
 use num_complex::Complex64;
 
 use crate::engine::method::taylor::State;
-use crate::model::equilibrium::{Scaled, Units};
+use crate::model::equilibrium::Units;
 use crate::model::instance::Instance;
-use crate::model::linear;
-use crate::model::{Param, Params};
+use crate::model::scaled::Scaled;
+use crate::model::{Param, Params, linear};
 
 /// The sliding equilibrium plus `start_velocity` and `start_displacement`.
 pub(crate) fn kick(params: &Params, units: &Units) -> State {

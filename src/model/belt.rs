@@ -9,7 +9,7 @@
 //! (masses in units of `m2 + m1 c²`). The spring forces are linear in the state, so the same function
 //! serves a state and every Taylor coefficient of one.
 
-use crate::model::equilibrium::Scaled;
+use crate::model::scaled::Scaled;
 
 /// Spring and damper forces, or one of their Taylor coefficients, as deviations from the equilibrium.
 #[derive(Clone, Copy, Debug, PartialEq)]

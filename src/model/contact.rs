@@ -31,7 +31,7 @@ impl ContactState {
 }
 
 use crate::model::belt::Springs;
-use crate::model::equilibrium::Scaled;
+use crate::model::scaled::Scaled;
 use crate::model::status::Status;
 
 /// A rebound slower than this, in units of `ω0 F_ext/k2`, closes the contact.

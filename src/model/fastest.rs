@@ -4,37 +4,12 @@
 //! does not see it; a step too long for it raises it from the rounding to that bound all the same, and in an
 //! acceleration the square of its frequency counts.
 
-use crate::model::equilibrium::{Equilibrium, Scaled, Units};
+use crate::model::equilibrium::{Equilibrium, Units};
 use crate::model::{Param, Params};
 
 /// Magnitudes of the largest eigenvalue of slip, reversed slip, stick and free flight, scaled; infinite where the
 /// dynamics is not unique, 0 where nothing moves.
 pub type Fastest = [f64; 4];
-
-/// The normal force and the inertia of slip change on the way; the rate of a piece may rise with them by this factor.
-pub const HARDER: f64 = 2.0;
-
-/// The part of its rate that counts of a piece that drives the motion away. The motion shows it, and the truncation of its
-/// series shortens the step; a series over ten thousand times of such a step only tells nothing at all.
-const SHOWN: f64 = 1.0 / 16.0;
-
-/// How fast slip is on a piece of the law, beyond what [`Fastest`] counts; 0 where that is enough.
-///
-/// Friction that rises more steeply than at the equilibrium holds the motion where it is. Such a mode dies out within a
-/// step that is too long for it, but in a series of that length it does not: what is left of it is raised, and the motion
-/// no longer ends at the kinks of the piece.
-#[must_use]
-pub fn fastest_beyond(model: &Scaled, piece: usize) -> f64 {
-    let law = &model.law;
-    let (here, known) = (law.slope_of(piece), law.slope_of(law.index(model.v0)).max(0.0));
-    if here < 0.0 {
-        -SHOWN * here * model.n0
-    } else if here > known {
-        HARDER * (here - known) * model.n0
-    } else {
-        0.0
-    }
-}
 
 /// Two coupled oscillators or one: accelerations per displacement and per velocity, rows of `x2` and `y1`.
 struct Modes {

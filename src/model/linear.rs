@@ -16,11 +16,10 @@ use std::f64::consts::TAU;
 
 use num_complex::Complex64;
 
-use crate::engine::method::quartic;
-use crate::model::Param;
 use crate::model::equilibrium::Equilibrium;
 use crate::model::instance::Instance;
 use crate::model::kind::{InstabilityType, UNSTABLE_ABOVE};
+use crate::model::{Param, quartic};
 
 /// Eigenvalue analysis of one sliding equilibrium.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -12,6 +12,8 @@ pub mod instance;
 pub mod kind;
 pub mod linear;
 pub mod material;
+pub mod quartic;
+pub mod scaled;
 pub mod status;
 
 /// A numeric parameter of an instance; its row in [`PARAMS`] gives name, unit, default and range.

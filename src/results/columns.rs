@@ -1,8 +1,6 @@
 //! The one table of output columns: order, names, units, meanings and values.
 
-use crate::engine::record::Basin;
-use crate::engine::record::Record;
-use crate::engine::record::{By, Check};
+use crate::engine::record::{Basin, By, Check, Record};
 use crate::engine::regime::Regime;
 use crate::model::kind::InstabilityType;
 use crate::sweep::grid::{AxisKey, Grid, Value};

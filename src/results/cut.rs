@@ -1,16 +1,14 @@
 //! A cut through a map: quantities along one axis, a curve for each value of another; the figure is in `cut_figure.rs`.
 
 use crate::error::{Error, Result};
+use crate::results::choose::{Taken, choose_all};
 use crate::results::columns::Cell;
 use crate::results::csv::Table;
 use crate::results::number::NumberColumn;
-use crate::results::read::Taken;
-use crate::results::read::choose::choose_all;
 use crate::results::trust;
 use crate::sweep::grid::{Axis, AxisKey, Grid, Value};
 use crate::sweep::map::Map;
 
-use crate::results::figure::cut_figure::MOST_CURVES;
 pub use crate::results::figure::cut_figure::{cut_svg, left_out};
 
 /// One curve: the instances along the axis, in rising order of its values.
@@ -191,3 +189,6 @@ pub fn cut_csv(map: &Map, cut: &Cut, quantities: &[&NumberColumn]) -> Result<Vec
     }
     table.finish()
 }
+
+/// So many curves of a panel can be told apart.
+pub const MOST_CURVES: usize = 6;

@@ -8,7 +8,9 @@
 pub mod accounted;
 pub mod arrays;
 pub mod boundary_lines;
+pub mod choose;
 pub mod columns;
+pub mod comparison;
 pub mod csv;
 pub mod cut;
 pub mod figure;

@@ -7,8 +7,7 @@
 use std::borrow::Borrow;
 
 use crate::engine::outcome::Outcome;
-use crate::engine::record::Record;
-use crate::engine::record::{By, Check};
+use crate::engine::record::{By, Check, Record};
 use crate::engine::regime::Regime;
 use crate::model::kind::InstabilityType;
 use crate::model::linear::Linear;

@@ -7,11 +7,10 @@
 use crate::engine::lanes::{ORDER, tolerance};
 use crate::engine::method::pace::Turns;
 use crate::engine::plan::Plan;
+use crate::engine::precision::Precision;
 use crate::engine::scene::Scene;
-use crate::sweep::spec::Spec;
-
-use crate::engine::kernel::source::Precision;
 use crate::store::tiling::{LEAST, TILE};
+use crate::sweep::spec::Spec;
 
 /// Steps of a tile: one core takes some seconds for them in f32, twice that in f64.
 const STEPS: f64 = 1.2e8;

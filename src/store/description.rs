@@ -6,16 +6,15 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Value as Json, json};
 
 use crate::engine::computation::Computation;
-use crate::store::grid_json::{Parted, Whole, from_json, rows};
-use crate::store::identity::{GRID, Id, PHYSICS, identity, kind};
+use crate::store::grid_json::{GRID, PHYSICS, Parted, Whole, from_json, rows};
+use crate::store::identity::{Id, identity, kind};
 use crate::store::seal::{Sealing, is_intact};
 use crate::store::tile::Label;
 use crate::store::tiling::Tiling;
 use crate::sweep::accuracy::frontier::Chosen;
 use crate::sweep::grid::Grid;
 use crate::sweep::sheet::Sheet;
-use crate::sweep::spec::start;
-use crate::sweep::spec::{Analysis, Spec, Starts};
+use crate::sweep::spec::{Analysis, Spec, Starts, start};
 
 /// The version of the format.
 const FORMAT: u32 = 2;

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::disk;
 use crate::disk::door;
 use crate::engine::record::Record;
-use crate::error::{Error, Result, SAID};
+use crate::error::{Error, Result};
 use crate::model::status::Status;
 use crate::store::claim::Claim;
 use crate::store::description::{Description, Unread};
@@ -14,9 +14,7 @@ use crate::store::direct::Room;
 pub use crate::store::folder::Note;
 use crate::store::folder::{Folder, SOME, TILE, Tile};
 use crate::store::identity::Id;
-use crate::store::occupant::Occupant;
 use crate::store::tile::{Checksum, Fault, instances_in, sweep_in};
-use squealmap_input::quote::clipped;
 
 /// The directory of the tiles inside the output directory.
 pub const TILES: &str = "tiles";
@@ -53,53 +51,6 @@ impl Store {
             Unread::Bad(why) => Error::BadDescription { path, why },
         })?;
         Ok(Store { directory: directory.to_owned(), description })
-    }
-
-    /// Opens a directory for the tiles of a sweep; it may hold some of them already. A sweep of a single tile
-    /// that stands there gives way: it is cheap to compute again.
-    ///
-    /// # Errors
-    /// When it holds whole tiles of another sweep, or a description of another version, or cannot be written.
-    pub fn begin(directory: &Path, description: Description, note: Note) -> Result<Store> {
-        let folder = Folder::new(directory, TILES);
-        folder.make()?;
-        let cannot = |why: io::Error| folder.refused(&why);
-        let store = Store { directory: directory.to_owned(), description };
-        match Store::open(directory) {
-            Ok(other) if store.is_same(&other) => {
-                if other.description.is_written_as(&store.description) {
-                    return Ok(store);
-                }
-                // The same tiles with another title, or of a version that had no checksum here.
-            }
-            Ok(other) => {
-                let (done, total) = (other.done()?, other.description.tiling.count());
-                let kept = other.kept_instances()?;
-                if total > 1 && done + kept > 0 {
-                    let there =
-                        Occupant::of_run(directory)?.map(|there| there.to_string()).unwrap_or_default();
-                    return Err(Error::OtherSweep { path: directory.to_owned(), there });
-                }
-                disk::remove_if_there(&other.path(0)).map_err(cannot)?;
-                disk::remove_if_there(&other.path_of_some(0)).map_err(cannot)?;
-            }
-            Err(Error::NoTiles { .. }) => store.refuse_whole_strangers()?,
-            Err(Error::BadDescription { why, .. }) => {
-                store.refuse_whole_strangers()?;
-                let why = clipped(&why, SAID);
-                folder.expel(DESCRIPTION, &format!("{why}; it is written again"), note)?;
-            }
-            Err(why) => return Err(why),
-        }
-        let path = directory.join(TILES).join(DESCRIPTION);
-        // Another process that holds the claim writes the same.
-        if let Some(mut claim) = Claim::take(&path).map_err(cannot)? {
-            let mut file = io::BufWriter::new(claim.emptied().map_err(cannot)?);
-            store.description.write(&mut file).and_then(|()| io::Write::flush(&mut file)).map_err(cannot)?;
-            drop(file);
-            claim.publish().map_err(cannot)?;
-        }
-        Ok(store)
     }
 
     /// Whether two stores have the same tiles.
@@ -298,18 +249,8 @@ impl Store {
         })
     }
 
-    /// Refuses a directory without a description in which somebody has computed another sweep.
-    fn refuse_whole_strangers(&self) -> Result<()> {
-        self.strangers()?.into_iter().try_for_each(|name| match self.whole(&name)? {
-            Some(sweep) if sweep != self.description.id => {
-                Err(Error::StrangeTile { path: self.folder().path(&name) })
-            }
-            _ => Ok(()),
-        })
-    }
-
     /// The names of files that have the form of a tile's name and are no tile of this sweep.
-    fn strangers(&self) -> Result<Vec<String>> {
+    pub(super) fn strangers(&self) -> Result<Vec<String>> {
         let folder = self.folder();
         let tiles = folder.tiles()?.into_iter().filter(|name| self.number(name).is_none());
         let kept = folder.ending(SOME)?.into_iter().filter(|name| self.number_of_some(name).is_none());
@@ -317,7 +258,7 @@ impl Store {
     }
 
     /// The sweep of a whole tile; `None` of what is none.
-    fn whole(&self, name: &str) -> Result<Option<Id>> {
+    pub(super) fn whole(&self, name: &str) -> Result<Option<Id>> {
         let bytes = self.folder().seen(name)?.ok().flatten();
         Ok(bytes.and_then(|bytes| instances_in(&bytes).and(sweep_in(&bytes))))
     }
@@ -379,7 +320,7 @@ impl Store {
     }
 
     /// Where its tiles are.
-    fn folder(&self) -> Folder {
+    pub(super) fn folder(&self) -> Folder {
         Folder::new(&self.directory, TILES)
     }
 }

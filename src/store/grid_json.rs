@@ -3,13 +3,11 @@
 //! The rows of a file of points are many: as JSON values they would take ten times their memory. They stand beside the JSON,
 //! which holds `null` in their place; they are written and read one by one.
 
+use crate::sweep::grid::{Axis, AxisKey, Grid, Names, Rows, Value};
 use serde::de::{DeserializeSeed, Error as _, MapAccess, SeqAccess, Visitor};
 use serde::ser::{SerializeMap, SerializeSeq};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::{Map as Object, Value as Json, json};
-
-use crate::store::identity::{GRID, PHYSICS};
-use crate::sweep::grid::{Axis, AxisKey, Grid, Names, Rows, Value};
 
 /// The key of the rows.
 const ROWS: &str = "rows";
@@ -289,3 +287,9 @@ impl Visitor<'_> for ReadValue<'_> {
         Ok(self.names.value(name))
     }
 }
+
+/// The key of the grid.
+pub const GRID: &str = "grid";
+
+/// The key of the physics.
+pub const PHYSICS: &str = "physics";

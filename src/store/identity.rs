@@ -1,21 +1,14 @@
 //! Which sweep a tile belongs to: everything that its numbers depend on, in one canonical text, and its hash.
 
+use crate::engine::computation::Computation;
+use crate::store::grid_json::{GRID, PHYSICS, Whole, to_json};
+use crate::sweep::grid::Rows;
+use crate::sweep::spec::Spec;
+use crate::version::{COMMIT, VERSION};
 use std::fmt;
 use std::io::{BufWriter, Write};
 
 use serde_json::{Map as Object, Value as Json, json};
-
-use crate::engine::computation::Computation;
-use crate::store::grid_json::{Whole, to_json};
-use crate::sweep::grid::Rows;
-use crate::sweep::spec::Spec;
-use crate::version::{COMMIT, VERSION};
-
-/// The key of the grid.
-pub const GRID: &str = "grid";
-
-/// The key of the physics.
-pub const PHYSICS: &str = "physics";
 
 /// BLAKE3 of a canonical text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -22,6 +22,7 @@
 //! - [`origin`], [`occupant`]: from which input file a directory was made, and whose results it holds.
 //! - [`space`]: what it takes of the disk.
 
+mod begin;
 pub mod claim;
 pub mod columns;
 pub mod cut;

@@ -5,8 +5,7 @@
 
 use std::borrow::Cow;
 
-use crate::engine::record::Record;
-use crate::engine::record::{Basin, Others};
+use crate::engine::record::{Basin, Others, Record};
 use crate::model::status::Status;
 use crate::store::columns;
 use crate::sweep::spec::{Analysis, Starts};

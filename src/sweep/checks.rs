@@ -4,8 +4,7 @@ use std::collections::BTreeMap;
 
 use serde_json::{Value as Json, json};
 
-use crate::engine::record::By;
-use crate::engine::record::Record;
+use crate::engine::record::{By, Record};
 
 /// Bins of a decade: a quantile is known to 12 %.
 const BINS: f64 = 20.0;

@@ -14,9 +14,8 @@ use crate::engine::method::taylor::State;
 use crate::engine::plan::{Duration, StartKind};
 use crate::engine::scene::Scene;
 use crate::engine::start::first_event;
-use crate::model::Param;
 use crate::model::instance::Instance;
-use crate::model::linear;
+use crate::model::{Param, linear};
 use crate::sweep::estimate::sample;
 use crate::sweep::spec::Spec;
 

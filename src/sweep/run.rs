@@ -2,8 +2,8 @@
 
 use std::time::Instant;
 
-use crate::engine::choice::Options;
 use crate::engine::computed::Computed;
+use crate::engine::options::Options;
 use crate::error::{Error, Result};
 use crate::sweep::map::{Map, Provenance};
 use crate::sweep::solver::Solver;

@@ -3,49 +3,29 @@
 use std::fmt;
 use std::ops::Range;
 
-use crate::engine::choice::{Backend, Engine, Options, choose};
+use crate::engine::Engine;
+use crate::engine::choice::choose;
 use crate::engine::computation::{Computation, Stopped};
 use crate::engine::computed::Computed;
-use crate::engine::gpu;
-use crate::engine::gpu::chunks::Session;
-use crate::engine::kernel::source::Precision;
-use crate::engine::lanes::records as cpu;
-use crate::engine::method::Method;
+use crate::engine::options::Options;
 use crate::engine::record::Record;
-use crate::engine::reference::records as reference;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::sweep::accuracy::check::check;
 use crate::sweep::accuracy::configuration::Configuration;
 use crate::sweep::accuracy::sample::subset;
-use crate::sweep::several as starts;
+use crate::sweep::several;
 use crate::sweep::spec::{Analysis, Spec, Starts};
-
-/// Starts that a CPU takes at a time of instances with several: some batches for each core, and less than a second's work of
-/// cheap ones, which a stop would lose.
-const BLOCK: usize = 2048;
-
-/// The least that a GPU takes, which takes a range at once.
-const GPU_BLOCK: usize = 65_536;
 
 /// What computes a sweep.
 pub struct Solver<'a> {
     spec: &'a Spec,
     options: &'a Options<'a>,
-    on: On,
-}
-
-/// An engine with what it keeps between ranges.
-#[derive(Debug)]
-enum On {
-    Cpu(Precision),
-    Reference(Method),
-    /// The kernels stay compiled.
-    Gpu(Session),
+    engine: Box<dyn Engine>,
 }
 
 impl fmt::Debug for Solver<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Solver").field("on", &self.on).finish_non_exhaustive()
+        f.debug_struct("Solver").field("engine", &self.engine).finish_non_exhaustive()
     }
 }
 
@@ -55,12 +35,7 @@ impl<'a> Solver<'a> {
     /// # Errors
     /// Those of [`choose`].
     pub fn new(spec: &'a Spec, options: &'a Options<'a>) -> Result<Solver<'a>> {
-        let on = match choose(options, spec)? {
-            Engine::Cpu(precision) => On::Cpu(precision),
-            Engine::Reference(method) => On::Reference(method),
-            Engine::Gpu(device) => On::Gpu(Session::new(device)),
-        };
-        Ok(Solver { spec, options, on })
+        Ok(Solver { spec, options, engine: choose(options, spec)? })
     }
 
     /// The sweep.
@@ -73,24 +48,7 @@ impl<'a> Solver<'a> {
     #[must_use]
     pub fn computations(&self) -> [Option<Computation>; 2] {
         let Analysis { linear, response, .. } = self.spec.analysis;
-        let [of_linear, of_response] = match &self.on {
-            On::Cpu(precision) => {
-                [reference::linear(cpu::NAME), cpu::response(*precision, self.spec.steps_per_period)]
-            }
-            On::Reference(method) => {
-                [reference::linear(reference::name(*method)), reference::response(*method)]
-            }
-            On::Gpu(session) => {
-                let device = session.device();
-                [gpu::linear::method(), gpu::response::method(device.precision())].map(|method| Computation {
-                    backend: gpu::NAME.to_owned(),
-                    precision: device.precision().to_string(),
-                    method,
-                    adapter: Some(device.describe().to_string()),
-                    strict: Some(device.strict()),
-                })
-            }
-        };
+        let [of_linear, of_response] = self.engine.computations(self.spec.steps_per_period);
         [linear.then_some(of_linear), response.then_some(of_response)]
     }
 
@@ -118,11 +76,11 @@ impl<'a> Solver<'a> {
         if spec.analysis.starts == Starts::One {
             return self.once(spec, range, progress);
         }
-        let block = if let On::Gpu(_) = &self.on { range.len().max(GPU_BLOCK) } else { BLOCK };
+        let block = self.engine.at_once(range.len());
         let mut once = |spec: &Spec, range: Range<usize>, progress: &(dyn Fn(usize) + Sync)| {
             self.once(spec, range, progress)
         };
-        starts::records(spec, range, block, &mut once, progress)
+        several::records(spec, range, block, &mut once, progress)
     }
 
     /// The records of instances with one start each.
@@ -134,11 +92,7 @@ impl<'a> Solver<'a> {
     ) -> Result<Computed> {
         let cancel = self.options.cancel();
         let all = range.clone();
-        let mut computed = match &mut self.on {
-            On::Cpu(precision) => cpu::records(spec, range, *precision, cancel, progress),
-            On::Reference(method) => reference::records(spec, range, *method, cancel, progress),
-            On::Gpu(session) => on_gpu(spec, range, session, self.options, progress),
-        }?;
+        let mut computed = self.engine.records(spec, range, cancel, progress)?;
         if spec.analysis.checks() && computed.stopped.is_none() {
             computed.stopped = check(spec, all, &self.configuration(), &mut computed.records, cancel)?;
         }
@@ -149,11 +103,7 @@ impl<'a> Solver<'a> {
     /// tile has few, a core takes no more than a tile at a time, lest a stop loses many.
     #[must_use]
     pub fn busy_with(&self, tile: usize) -> usize {
-        match &self.on {
-            On::Cpu(_) => cpu::BUSY.min(tile) * rayon::current_num_threads(),
-            On::Reference(_) => rayon::current_num_threads(),
-            On::Gpu(_) => GPU_BLOCK.div_ceil(self.spec.analysis.starts.count()),
-        }
+        self.engine.busy_with(tile, self.spec.analysis.starts.count())
     }
 
     /// The records of the instances `range` where some are `known`: of one start each as this engine makes them, before
@@ -237,51 +187,6 @@ impl<'a> Solver<'a> {
 
     /// What computes, as one of the configurations that accuracy is measured of.
     fn configuration(&self) -> Configuration {
-        let steps = self.spec.steps_per_period;
-        match &self.on {
-            On::Cpu(precision) => Configuration::cpu(*precision, steps),
-            On::Reference(method) => Configuration::scalar(*method, steps),
-            On::Gpu(session) => Configuration {
-                backend: Backend::Gpu,
-                adapter: None,
-                precision: session.device().precision(),
-                steps_per_period: steps,
-            },
-        }
-    }
-}
-
-/// The records of a range from a GPU; only the last analysis counts as progress, and only what has all of
-/// them is done.
-fn on_gpu(
-    spec: &Spec,
-    range: Range<usize>,
-    session: &mut Session,
-    options: &Options,
-    progress: &(dyn Fn(usize) + Sync),
-) -> Result<Computed> {
-    let Analysis { linear, response, .. } = spec.analysis;
-    let (first, total) = (range.start, range.len());
-    let mut records = Vec::with_capacity(total);
-    let mut ended = Ok(());
-    if linear {
-        let progress = if response { &|_: usize| {} } else { progress };
-        ended = gpu::linear::append(spec, range, session, options, progress, &mut records)
-            .map_err(|why| counted_from(first, why));
-    }
-    if response {
-        ended?;
-        records.resize(total, Record::default());
-        ended = gpu::response::complete(spec, first, session, options, progress, &mut records)
-            .map_err(|why| counted_from(first, why));
-    }
-    Computed::new(records, total, ended)
-}
-
-/// An error of a range that starts at `first`, its instance counted from the start of the sweep.
-fn counted_from(first: usize, why: Error) -> Error {
-    match why {
-        Error::Unwritten { instance } => Error::Unwritten { instance: first + instance },
-        other => other,
+        Configuration::of(self.engine.as_ref(), self.spec.steps_per_period)
     }
 }

@@ -1,14 +1,13 @@
 //! Planted faults: every comparer and check has to notice.
 
+use crate::Case;
+use crate::words::{compare, device, drive, inputs, on_cpu};
 use libtest_mimic::Failed;
 use squealmap::Error;
 use squealmap::engine::gpu::kernel::Compiled;
 use squealmap::engine::gpu::run::{ChunkResult, Drive, run};
 use squealmap::engine::kernel::linear::KERNEL;
-use squealmap::engine::kernel::source::Precision;
-
-use crate::Case;
-use crate::words::{compare, device, drive, inputs, on_cpu};
+use squealmap::engine::precision::Precision;
 
 /// Instances of a fault.
 const COUNT: usize = 500;

@@ -5,23 +5,23 @@
 
 use std::time::{Duration, Instant};
 
+use crate::Case;
+use crate::defect::defect;
+use crate::whole_range::parts;
 use libtest_mimic::Failed;
 use proptest::strategy::{Strategy, ValueTree};
 use proptest::test_runner::TestRunner;
-use squealmap::engine::choice::{Backend, Options};
-use squealmap::engine::kernel::source::Precision;
+use squealmap::engine::backend::Backend;
+use squealmap::engine::options::Options;
 use squealmap::engine::outcome::Outcome;
 use squealmap::engine::plan::Plan;
+use squealmap::engine::precision::Precision;
 use squealmap::engine::scene::Scene;
 use squealmap::model::Param;
 use squealmap::model::status::Status;
 use squealmap::sweep::grid::{AxisKey, Grid, Value};
 use squealmap::sweep::run as sweep;
 use squealmap::sweep::spec::Spec;
-
-use crate::Case;
-use crate::defect::defect;
-use crate::whole_range::parts;
 
 pub(crate) const CASES: &[Case] = &[
     ("fuzz::no_instance_is_at_a_loss_on_an_adapter", no_instance_is_at_a_loss),

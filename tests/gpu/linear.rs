@@ -2,18 +2,18 @@
 
 use std::ops::Range;
 
+use crate::Case;
+use crate::words::{compare, device, differing, drive, inputs, on_cpu, on_gpu};
 use libtest_mimic::Failed;
-use squealmap::engine::choice::{Backend, Options};
+use squealmap::engine::backend::Backend;
 use squealmap::engine::gpu::chunks::{Batch, Session};
 use squealmap::engine::kernel::linear::KERNEL;
 use squealmap::engine::kernel::scalar::Real;
-use squealmap::engine::kernel::source::Precision;
+use squealmap::engine::options::Options;
+use squealmap::engine::precision::Precision;
 use squealmap::sweep::map::Map;
 use squealmap::sweep::run as sweep;
 use squealmap::sweep::spec::Spec;
-
-use crate::Case;
-use crate::words::{compare, device, differing, drive, inputs, on_cpu, on_gpu};
 
 /// Instances of a comparison.
 const COUNT: usize = 65_536;

@@ -1,13 +1,12 @@
 //! Single functions of the kernel on the GPU against their twins, through probe entry points.
 
+use crate::Case;
+use crate::words::{device, drive, inputs};
 use libtest_mimic::Failed;
 use squealmap::engine::gpu::kernel::Compiled;
 use squealmap::engine::gpu::run::run;
 use squealmap::engine::kernel::linear::{KERNEL, Quartic, factors, quadratic, rightmost, split};
-use squealmap::engine::kernel::source::Precision;
-
-use crate::Case;
-use crate::words::{device, drive, inputs};
+use squealmap::engine::precision::Precision;
 
 /// Instances of a probe.
 const COUNT: usize = 20_000;

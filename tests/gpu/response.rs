@@ -1,5 +1,7 @@
 //! The response kernel: GPU against its twin and against the reference.
 
+use crate::Case;
+use crate::words::{device, drive};
 use libtest_mimic::Failed;
 use squealmap::Error;
 use squealmap::engine::gpu::kernel::Compiled;
@@ -7,26 +9,23 @@ use squealmap::engine::gpu::response::read_lane;
 use squealmap::engine::gpu::run::{Drive, run};
 use squealmap::engine::kernel::lane::Lane;
 use squealmap::engine::kernel::record::write;
-use squealmap::engine::kernel::response::{
-    TOLERANCE, choices, kernel, reductions, segments, words as packed_words,
-};
+use squealmap::engine::kernel::response::{choices, kernel, words as packed_words};
 use squealmap::engine::kernel::scene::{Law, Scene as Words};
-use squealmap::engine::kernel::source::{Kernel, Precision, SETTING_WORDS, first_word, words};
+use squealmap::engine::kernel::segments::segments;
+use squealmap::engine::kernel::source::{Kernel, SETTING_WORDS, first_word, words};
+use squealmap::engine::kernel::steps::TOLERANCE;
+use squealmap::engine::kernel::windows::reductions;
 use squealmap::engine::method::Method;
 use squealmap::engine::method::taylor::REFERENCE_ORDER;
 use squealmap::engine::outcome::Outcome;
-use squealmap::engine::plan::Plan;
-use squealmap::engine::plan::STEP_TOLERANCE;
-use squealmap::engine::plan::{Duration, StartKind};
+use squealmap::engine::plan::{Duration, Plan, STEP_TOLERANCE, StartKind};
+use squealmap::engine::precision::Precision;
 use squealmap::engine::reference::respond::respond;
 use squealmap::engine::scene::Scene;
 use squealmap::model::friction::FrictionLaw;
 use squealmap::model::instance::Instance;
 use squealmap::model::status::Status;
 use squealmap::model::{Param, Params};
-
-use crate::Case;
-use crate::words::{device, drive};
 
 pub(crate) const CASES: &[Case] = &[
     ("response::f32_equals_its_twin_over_short_runs", short_runs),

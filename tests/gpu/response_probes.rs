@@ -1,25 +1,27 @@
 //! Single functions of the response kernel on the GPU against their twins, through probe entry points.
 
-use libtest_mimic::Failed;
-use squealmap::engine::gpu::device::Arithmetic;
-use squealmap::engine::gpu::kernel::Compiled;
-use squealmap::engine::gpu::run::run;
-use squealmap::engine::kernel::crossing::{deflated, first_crossing, lower_bound};
-use squealmap::engine::kernel::lane::Lane;
-use squealmap::engine::kernel::observe::{maximum, rotate};
-use squealmap::engine::kernel::response::{choices, kernel, law_of, segments, words};
-use squealmap::engine::kernel::scene::{Law, Scene as Words, exp_m1};
-use squealmap::engine::kernel::series::{
-    Body, Expansion, FREE, ORDER, REVERSE, SLIP, STICK, evaluate, expand, step_length, value,
-};
-use squealmap::engine::kernel::source::{Kernel, Precision};
-use squealmap::engine::scene::Scene;
-
 use crate::Case;
 use crate::instances::Uniform;
 use crate::response::plan;
 use crate::strict::instance;
 use crate::words::{device, drive};
+use libtest_mimic::Failed;
+use squealmap::engine::gpu::arithmetic::Arithmetic;
+use squealmap::engine::gpu::kernel::Compiled;
+use squealmap::engine::gpu::run::run;
+use squealmap::engine::kernel::crossing::{deflated, first_crossing, lower_bound};
+use squealmap::engine::kernel::lane::Lane;
+use squealmap::engine::kernel::observe::{maximum, rotate};
+use squealmap::engine::kernel::response::{choices, kernel, law_of, words};
+use squealmap::engine::kernel::scene::{Law, Scene as Words, exp_m1};
+use squealmap::engine::kernel::segments::segments;
+use squealmap::engine::kernel::series::{
+    Body, Expansion, FREE, REVERSE, SLIP, STICK, evaluate, expand, step_length, value,
+};
+use squealmap::engine::kernel::source::Kernel;
+use squealmap::engine::kernel::steps::ORDER;
+use squealmap::engine::precision::Precision;
+use squealmap::engine::scene::Scene;
 
 /// Instances of a probe, of each form of law.
 const COUNT: usize = 4000;

@@ -4,15 +4,15 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
+use crate::Case;
 use libtest_mimic::Failed;
-use squealmap::engine::choice::{Backend, Options};
+use squealmap::engine::backend::Backend;
 use squealmap::engine::computation::Stopped;
+use squealmap::engine::options::Options;
 use squealmap::engine::record::Record;
 use squealmap::sweep::run as sweep;
 use squealmap::sweep::spec::Spec;
 use squealmap::{Error, results as export};
-
-use crate::Case;
 
 pub(crate) const CASES: &[Case] = &[
     ("runs::adapters_are_listed", adapters),

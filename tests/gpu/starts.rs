@@ -1,14 +1,14 @@
 //! Instances with several starts on the GPU: every start ends as with the reference, whatever the chunks.
 
+use crate::Case;
 use libtest_mimic::Failed;
-use squealmap::engine::choice::{Backend, Options};
-use squealmap::engine::kernel::source::Precision;
+use squealmap::engine::backend::Backend;
+use squealmap::engine::options::Options;
+use squealmap::engine::precision::Precision;
 use squealmap::engine::record::Record;
 use squealmap::sweep::map::Map;
 use squealmap::sweep::run as sweep;
 use squealmap::sweep::spec::Spec;
-
-use crate::Case;
 
 pub(crate) const CASES: &[Case] = &[("starts::all_starts_end_as_with_the_reference", all_starts)];
 

@@ -3,28 +3,31 @@
 
 use std::time::Instant;
 
+use crate::Case;
+use crate::instances::{Uniform, moving};
+use crate::response::plan;
+use crate::words::{device, drive, inputs, on_cpu};
 use libtest_mimic::Failed;
 use rayon::prelude::*;
-use squealmap::engine::gpu::device::{Arithmetic, Device};
+use squealmap::engine::gpu::arithmetic::Arithmetic;
+use squealmap::engine::gpu::device::Device;
 use squealmap::engine::gpu::kernel::Compiled;
 use squealmap::engine::gpu::run::{ChunkResult, Drive, run};
 use squealmap::engine::kernel::lane::Lane;
 use squealmap::engine::kernel::record::write;
-use squealmap::engine::kernel::response::{TOLERANCE, choices, kernel, segments, words};
+use squealmap::engine::kernel::response::{choices, kernel, words};
 use squealmap::engine::kernel::scalar::Real;
 use squealmap::engine::kernel::scene::{Law, Scene as Words};
-use squealmap::engine::kernel::source::{Constant, FLAG_STEPS, Kernel, Precision, SETTING_WORDS};
+use squealmap::engine::kernel::segments::segments;
+use squealmap::engine::kernel::source::{Constant, FLAG_STEPS, Kernel, SETTING_WORDS};
+use squealmap::engine::kernel::steps::TOLERANCE;
 use squealmap::engine::kernel::{linear, source};
+use squealmap::engine::precision::Precision;
 use squealmap::engine::scene::Scene;
 use squealmap::model::Param;
 use squealmap::model::friction::FrictionLaw;
 use squealmap::model::instance::Instance;
 use squealmap::model::status::Status;
-
-use crate::Case;
-use crate::instances::{Uniform, moving};
-use crate::response::plan;
-use crate::words::{device, drive, inputs, on_cpu};
 
 /// Instances of a comparison.
 const COUNT: usize = 65_536;

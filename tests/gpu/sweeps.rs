@@ -2,24 +2,24 @@
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
+use crate::Case;
+use crate::differences::Differences;
 use libtest_mimic::Failed;
-use squealmap::engine::choice::{Backend, Options};
+use squealmap::engine::backend::Backend;
 use squealmap::engine::computation::Stopped;
 use squealmap::engine::gpu::adapter::Adapter;
 use squealmap::engine::gpu::response::software_chunk;
-use squealmap::engine::kernel::response::{TOLERANCE, respond};
-use squealmap::engine::kernel::source::Precision;
-use squealmap::engine::plan::Duration;
-use squealmap::engine::plan::Plan;
+use squealmap::engine::kernel::response::respond;
+use squealmap::engine::kernel::steps::TOLERANCE;
+use squealmap::engine::options::Options;
+use squealmap::engine::plan::{Duration, Plan};
+use squealmap::engine::precision::Precision;
 use squealmap::engine::record::Record;
 use squealmap::model::Param;
 use squealmap::model::status::Status;
 use squealmap::sweep::map::Map;
 use squealmap::sweep::run as sweep;
 use squealmap::sweep::spec::Spec;
-
-use crate::Case;
-use crate::differences::Differences;
 
 pub(crate) const CASES: &[Case] = &[
     ("sweeps::a_coarse_paper_map_is_that_of_the_reference", coarse_paper_map),

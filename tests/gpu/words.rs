@@ -2,9 +2,11 @@
 
 use std::sync::atomic::AtomicBool;
 
+use crate::instances::random;
 use libtest_mimic::Failed;
 use squealmap::engine::gpu::adapter::Adapter;
-use squealmap::engine::gpu::device::{Arithmetic, Device};
+use squealmap::engine::gpu::arithmetic::Arithmetic;
+use squealmap::engine::gpu::device::Device;
 use squealmap::engine::gpu::kernel::Compiled;
 use squealmap::engine::gpu::run::{ChunkResult, Drive, check, run};
 use squealmap::engine::kernel::linear::{FLAGS, KERNEL, STATE, analyse};
@@ -12,8 +14,6 @@ use squealmap::engine::kernel::scalar::Real;
 use squealmap::engine::kernel::source::{SETTING_WORDS, words};
 use squealmap::engine::kernel::words::{INPUT_WORDS, Words};
 use squealmap::model::linear::prepare;
-
-use crate::instances::random;
 
 static NEVER: AtomicBool = AtomicBool::new(false);
 

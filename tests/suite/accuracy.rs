@@ -2,10 +2,13 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
-use squealmap::engine::choice::{Backend, Options};
-use squealmap::engine::kernel::source::Precision;
+use crate::cli::{squealmap, unwrapped};
+use crate::resume::with;
+use squealmap::engine::backend::Backend;
 use squealmap::engine::method::Method;
+use squealmap::engine::options::Options;
 use squealmap::engine::outcome::Outcome;
+use squealmap::engine::precision::Precision;
 use squealmap::engine::record::Record;
 use squealmap::engine::regime::Regime;
 use squealmap::model::kind::InstabilityType;
@@ -18,9 +21,6 @@ use squealmap::sweep::accuracy::level::Level;
 use squealmap::sweep::accuracy::row::{Rate, Row, from_csv, to_csv};
 use squealmap::sweep::accuracy::sample::{Sample, subset};
 use squealmap::sweep::spec::Spec;
-
-use crate::cli::{squealmap, unwrapped};
-use crate::resume::with;
 
 /// A settled oscillation whose four quantities are `value`, the halves of its window 2 % of it apart.
 fn oscillation(value: f64) -> Record {

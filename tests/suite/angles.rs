@@ -2,6 +2,10 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
+use crate::colour::{DICHROMACIES, lab};
+use crate::curves::places;
+use crate::figure::{draw, frames};
+use crate::synthetic::{axis, map, paper_like, span};
 use squealmap::model::Param;
 use squealmap::results::cut::{Cut, cut_svg};
 use squealmap::results::figure::look::{Content, Look};
@@ -9,11 +13,6 @@ use squealmap::results::figure::map::look_svg;
 use squealmap::results::number::NumberColumn;
 use squealmap::sweep::grid::Grid;
 use squealmap::sweep::map::Map;
-
-use crate::colour::{DICHROMACIES, lab};
-use crate::curves::places;
-use crate::figure::{draw, frames};
-use crate::synthetic::{axis, map, paper_like, span};
 
 /// The value of an attribute of an element.
 pub(crate) fn attribute<'a>(element: &'a str, name: &str) -> Option<&'a str> {

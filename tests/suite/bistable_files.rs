@@ -2,20 +2,19 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
-use squealmap::engine::choice::{Backend, Options};
-use squealmap::engine::record::Record;
-use squealmap::engine::record::{Basin, Others};
+use crate::bistable::{SINGLE, oscillation, parse};
+use crate::cli::squealmap;
+use crate::resume::{tiles, with};
+use crate::synthetic::record;
+use squealmap::engine::backend::Backend;
+use squealmap::engine::options::Options;
+use squealmap::engine::record::{Basin, Others, Record};
 use squealmap::engine::regime::Regime;
 use squealmap::model::kind::InstabilityType;
 use squealmap::results::csv::map_csv;
 use squealmap::results::figure::map::map_svg;
 use squealmap::store::{columns, starts};
 use squealmap::sweep::spec::{Analysis, Starts};
-
-use crate::bistable::{SINGLE, oscillation, parse};
-use crate::cli::squealmap;
-use crate::resume::{tiles, with};
-use crate::synthetic::record;
 
 /// Tiles keep what other starts gave; a sweep of one start has not a byte more than before.
 #[test]

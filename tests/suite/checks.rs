@@ -2,12 +2,14 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
-use squealmap::engine::choice::{Backend, Options};
-use squealmap::engine::kernel::source::Precision;
-use squealmap::engine::record::Record;
-use squealmap::engine::record::{By, Check};
-use squealmap::sweep::accuracy::check::{Counts, finer};
-use squealmap::sweep::accuracy::configuration::Configuration;
+use crate::cli::squealmap;
+use crate::resume::with;
+use squealmap::engine::backend::Backend;
+use squealmap::engine::options::Options;
+use squealmap::engine::precision::Precision;
+use squealmap::engine::record::{By, Check, Record};
+use squealmap::sweep::accuracy::check::Counts;
+use squealmap::sweep::accuracy::configuration::{Configuration, finer};
 use squealmap::sweep::accuracy::errors::{is_settled_oscillation, worst};
 use squealmap::sweep::accuracy::frontier::Frontier;
 use squealmap::sweep::accuracy::sample::{records, subset};
@@ -15,9 +17,6 @@ use squealmap::sweep::checks::Checks;
 use squealmap::sweep::map::Map;
 use squealmap::sweep::run as sweep;
 use squealmap::sweep::spec::Spec;
-
-use crate::cli::squealmap;
-use crate::resume::with;
 
 /// 2400 instances of all types, many of them near a border.
 const SWEEP: &str = "[friction]\n[axes]\nmu_s = { from = 0.0, to = 0.6, points = 20 }\n\

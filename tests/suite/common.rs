@@ -2,9 +2,7 @@
 
 use squealmap::engine::method::Method;
 use squealmap::engine::method::taylor::REFERENCE_ORDER;
-use squealmap::engine::plan::Plan;
-use squealmap::engine::plan::STEP_TOLERANCE;
-use squealmap::engine::plan::{Duration, StartKind};
+use squealmap::engine::plan::{Duration, Plan, STEP_TOLERANCE, StartKind};
 use squealmap::model::friction::FrictionLaw;
 use squealmap::model::instance::Instance;
 use squealmap::model::{Param, Params};

@@ -3,6 +3,12 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
+use crate::cli::{squealmap, tree, unwrapped};
+use crate::common::near;
+use crate::figure::{draw, frames};
+use crate::pictures::outside;
+use crate::plot::directory;
+use crate::synthetic::{axis, map, record, span};
 use serde_json::{Value as Json, json};
 use squealmap::engine::record::Record;
 use squealmap::engine::regime::Regime;
@@ -11,13 +17,6 @@ use squealmap::model::kind::InstabilityType as Kind;
 use squealmap::sweep::grid::{Axis, AxisKey, Grid, Value};
 use squealmap::sweep::map::Map;
 use tempfile::TempDir;
-
-use crate::cli::{squealmap, tree, unwrapped};
-use crate::common::near;
-use crate::figure::{draw, frames};
-use crate::pictures::outside;
-use crate::plot::directory;
-use crate::synthetic::{axis, map, record, span};
 
 fn grid() -> Grid {
     Grid::Axes(vec![span(Param::MuS, 0.0, 0.6, 10), span(Param::MuD, 0.0, 0.6, 10)])

@@ -1,14 +1,13 @@
 //! `response_frequency` counts every upward zero crossing of `ẋ2`: two modes beat, and some wiggles only just cross.
 
-use nalgebra::Vector4;
-use squealmap::model::Param;
-use squealmap::model::equilibrium::Units;
-use squealmap::model::instance::Instance;
-
 use crate::common::{close, constant, instance};
 use crate::engines::Engine;
 use crate::exact::{Crossings, crossings, sliding};
 use crate::limits::scene::periods;
+use nalgebra::Vector4;
+use squealmap::model::Param;
+use squealmap::model::equilibrium::Units;
+use squealmap::model::instance::Instance;
 
 /// Periods before the window and in it.
 const LENGTH: f64 = 150.0;

@@ -6,8 +6,11 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use squealmap::engine::record::Record;
-use squealmap::engine::record::{Basin, Others};
+use crate::figure::{draw, frames};
+use crate::pictures::{boxes, outside};
+use crate::plot::size;
+use crate::synthetic::{axis, map, number, paper_like, record, span};
+use squealmap::engine::record::{Basin, Others, Record};
 use squealmap::engine::regime::Regime;
 use squealmap::model::Param;
 use squealmap::model::kind::InstabilityType as Kind;
@@ -19,11 +22,6 @@ use squealmap::study::modes::follow::{draw as draw_modes, modes_of};
 use squealmap::sweep::grid::{Axis, Grid};
 use squealmap::sweep::map::Map;
 use squealmap::sweep::spec::{Spec, Starts};
-
-use crate::figure::{draw, frames};
-use crate::pictures::{boxes, outside};
-use crate::plot::size;
-use crate::synthetic::{axis, map, number, paper_like, record, span};
 
 /// Pairs of words of a document that lie on one another.
 fn touching(svg: &str) -> Vec<String> {

@@ -2,6 +2,10 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
+use crate::common::near;
+use crate::figure::{draw, frames};
+use crate::pictures::outside;
+use crate::synthetic::{axis, map, number, paper_like, span};
 use squealmap::Error;
 use squealmap::model::Param;
 use squealmap::results::cut::Cut;
@@ -12,11 +16,6 @@ use squealmap::results::figure::palette::Colouring;
 use squealmap::results::number::NumberColumn;
 use squealmap::sweep::grid::{AxisKey, Grid, Value};
 use squealmap_figure::marching::{isolines, lines_of_angle};
-
-use crate::common::near;
-use crate::figure::{draw, frames};
-use crate::pictures::outside;
-use crate::synthetic::{axis, map, number, paper_like, span};
 
 fn column(name: &str, unit: &str, values: Vec<Option<f64>>) -> NumberColumn {
     NumberColumn { name: name.to_owned(), unit: unit.to_owned(), meaning: String::new(), values }

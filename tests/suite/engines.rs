@@ -3,6 +3,7 @@
 use std::sync::atomic::AtomicBool;
 
 use squealmap::engine::kernel::response;
+use squealmap::engine::kernel::steps::TOLERANCE;
 use squealmap::engine::lanes::Lanes;
 use squealmap::engine::lanes::outcomes::outcomes;
 use squealmap::engine::outcome::Outcome;
@@ -38,7 +39,7 @@ impl Engine {
 
     /// The transients of some instances.
     pub(crate) fn run_all(self, instances: &[Instance], plan: &Plan) -> Vec<Outcome> {
-        let tolerance = f64::from(response::TOLERANCE);
+        let tolerance = f64::from(TOLERANCE);
         match self {
             Engine::Reference => instances.iter().map(|one| respond(one, plan)).collect(),
             Engine::CpuF64 => lanes::<f64>(instances, plan),

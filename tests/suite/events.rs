@@ -3,8 +3,7 @@
 use crate::common::{close, constant, instance, near, paper, plan};
 use squealmap::engine::method::Method;
 use squealmap::engine::method::taylor::{BeltMotion, State};
-use squealmap::engine::plan::Plan;
-use squealmap::engine::plan::StartKind;
+use squealmap::engine::plan::{Plan, StartKind};
 use squealmap::engine::reference::integrate::{Event, Observer, Step};
 use squealmap::engine::scene::Scene;
 use squealmap::model::friction::FrictionLaw;

@@ -1,5 +1,6 @@
 //! `map.csv` and `manifest.json` of maps made by hand.
 
+use crate::synthetic::{axis, failed, map, record};
 use squealmap::Error;
 use squealmap::engine::outcome::Outcome;
 use squealmap::engine::record::Record;
@@ -12,8 +13,6 @@ use squealmap::results::csv::map_csv;
 use squealmap::results::manifest::manifest_json;
 use squealmap::sweep::grid::{AxisKey, Grid, Value};
 use squealmap::sweep::map::Map;
-
-use crate::synthetic::{axis, failed, map, record};
 
 const HEADER: &str = "instance,mu_s,mu_d,type,growth_rate,frequency,phase,growth_rate_flat,growth_rate_frozen,\
 regime,x2_mean,x2_std,y1_mean,y1_std,ax_rms,ay_rms,ax_peak,ay_peak,friction_mean,n_peak,response_frequency,\

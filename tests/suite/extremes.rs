@@ -3,8 +3,7 @@
 use crate::common::{bilinear, close, constant, instance, near, paper, plan};
 use crate::engines::Engine;
 use squealmap::engine::outcome::Outcome;
-use squealmap::engine::plan::Plan;
-use squealmap::engine::plan::StartKind;
+use squealmap::engine::plan::{Plan, StartKind};
 use squealmap::engine::reference::respond::respond;
 use squealmap::engine::regime::{Regime, regime};
 use squealmap::model::Param;

@@ -1,15 +1,14 @@
 //! The fastest mode of each contact state against eigenvalues by nalgebra and closed forms; no step passes it.
 
+use crate::common::{close, constant, instance};
+use crate::exact;
+use crate::instances::random;
 use nalgebra::Schur;
 use squealmap::engine::method::pace::{Turns, longest_turn};
 use squealmap::engine::plan::StartKind;
 use squealmap::engine::scene::Scene;
 use squealmap::model::Param;
 use squealmap::model::instance::Instance;
-
-use crate::common::{close, constant, instance};
-use crate::exact;
-use crate::instances::random;
 
 /// The fastest modes of slip, reversed slip, stick and flight, 1/s.
 fn fastest(instance: &Instance) -> [f64; 4] {

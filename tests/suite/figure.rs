@@ -1,5 +1,7 @@
 //! `map.svg` and its PNG: what is drawn where, and that nothing makes it crash.
 
+use crate::colour::{DICHROMACIES, delta_e, lab, rgb};
+use crate::synthetic::{axis, failed, map, number, paper_like, record, span};
 use resvg::tiny_skia::Pixmap;
 use squealmap::Error;
 use squealmap::engine::record::Record;
@@ -13,9 +15,6 @@ use squealmap::sweep::grid::{Axis, AxisKey, Grid, Value};
 use squealmap::sweep::map::Map;
 use squealmap_figure::boundaries::{borders, outlines};
 use squealmap_figure::png;
-
-use crate::colour::{DICHROMACIES, delta_e, lab, rgb};
-use crate::synthetic::{axis, failed, map, number, paper_like, record, span};
 
 /// Renders a figure; with `SQUEALMAP_GALLERY` set to a directory, also leaves the picture there to be looked at.
 pub(crate) fn draw(svg: &str, name: &str) -> Pixmap {

@@ -5,15 +5,15 @@
 use std::fmt::Write as _;
 use std::io::{Cursor, Read};
 
-use squealmap::model::Param;
-use squealmap::model::friction::LawKind;
-use squealmap::study::fit::squares::{FitFault, Point, fit};
-use squealmap::study::fit::table::material_csv;
-use squealmap::sweep::spec::Spec;
-use squealmap_identify::{FrictionColumn, Settings, read_points};
-
 use crate::common::near;
 use crate::strokes::Random;
+use squealmap::model::Param;
+use squealmap::model::friction::LawKind;
+use squealmap::study::fit::table::material_csv;
+use squealmap::study::fit::{FitFault, fit};
+use squealmap::sweep::spec::Spec;
+use squealmap_identify::Point;
+use squealmap_identify::{FrictionColumn, Settings, read_points};
 
 /// `sweeps/pad.csv`: rows of temperature, `mu_s`, `mu_d`; linear in between, knee at 5 m/s.
 const PAD: [[f64; 3]; 3] = [[100.0, 0.10, 0.10], [300.0, 0.16, 0.12], [500.0, 0.32, 0.24]];

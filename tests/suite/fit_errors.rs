@@ -5,12 +5,12 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use squealmap::model::friction::LawKind;
-use squealmap::study::fit::squares::{Fit, Point, fit};
-
 use crate::cli::{squealmap, unwrapped};
 use crate::common::close;
 use crate::strokes::Random;
+use squealmap::model::friction::LawKind;
+use squealmap::study::fit::{Fit, fit};
+use squealmap_identify::Point;
 
 /// Points of a bilinear law, 0.4 at rest and 0.3 from 5 m/s on, at temperatures from 100 to 300 °C, with noise.
 fn write_points(directory: &Path, noise: f64) -> Vec<[f64; 3]> {

@@ -4,7 +4,9 @@
 
 use std::f64::consts::TAU;
 
+use crate::synthetic::{axis, map, number, paper_like, record, span, spec};
 use num_complex::Complex64;
+use squealmap::engine::backend::Backend;
 use squealmap::engine::outcome::Outcome;
 use squealmap::engine::record::Record;
 use squealmap::engine::reference::records as reference;
@@ -39,8 +41,6 @@ use squealmap::sweep::sheet::Sheet;
 use squealmap::sweep::spec::refine::Settings as Refining;
 use squealmap_identify::Spectrogram;
 use tempfile::TempDir;
-
-use crate::synthetic::{axis, map, number, paper_like, record, span, spec};
 
 /// A figure and the directory that it can be drawn from.
 pub(crate) struct Piece {
@@ -95,7 +95,7 @@ fn a_refined_map() -> Piece {
     ];
     let mut sweep = spec(Grid::Axes(axes));
     "Few points".clone_into(&mut sweep.title);
-    let computation = |method: &str| reference::in_f64(reference::NAME, method.to_owned());
+    let computation = |method: &str| reference::in_f64(Backend::Reference, method.to_owned());
     let engine = [computation("closed form"), computation("rk4")];
     let sheet = Sheet::new(&sweep, engine.each_ref().map(Some));
     let mut points = csv::MapCsv::new(sheet, Vec::new()).unwrap();

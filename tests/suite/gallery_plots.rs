@@ -3,6 +3,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
+use crate::synthetic::{axis, map, number, paper_like, span};
 use squealmap::model::Param;
 use squealmap::results::cut::{Cut, cut_svg};
 use squealmap::results::figure::look::{Content, Look};
@@ -12,8 +13,6 @@ use squealmap::results::figure::tikz::map_tikz;
 use squealmap::results::number::NumberColumn;
 use squealmap::sweep::grid::Grid;
 use squealmap::sweep::map::Map;
-
-use crate::synthetic::{axis, map, number, paper_like, span};
 
 /// Names of files and what they hold.
 pub(crate) fn plots() -> Vec<(&'static str, String)> {

@@ -5,16 +5,14 @@
 use std::fmt::Write as _;
 use std::io::{Cursor, Read};
 
+use crate::common::{near, paper, plan};
+use crate::strokes::{FIELDS, Field, Random, Wanted, add_noise, stroke};
 use squealmap::Error;
-use squealmap::model::Param;
 use squealmap::model::kind::InstabilityType;
-use squealmap::model::linear;
+use squealmap::model::{Param, linear};
 use squealmap::study::signals::sensors::{Recording, Sample, record};
 use squealmap::study::signals::table::signals_csv;
 use squealmap_identify::{Fault, INCLINATION, Identification, Kind, Settings, alone, identify};
-
-use crate::common::{near, paper, plan};
-use crate::strokes::{FIELDS, Field, Random, Wanted, add_noise, stroke};
 
 pub(crate) fn run(bytes: &[u8], settings: &Settings) -> Result<Identification, Error> {
     let open = || Ok(Box::new(Cursor::new(bytes.to_vec())) as Box<dyn Read>);

@@ -2,15 +2,14 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
-use squealmap::Error;
-use squealmap::model::Param;
-use squealmap::study::signals::sensors::{Recording, Sample, record};
-use squealmap_identify::{Fault, Kind, Settings};
-
 use crate::common::plan;
 use crate::identify::{csv, run};
 use crate::identify_growth::saturating;
 use crate::strokes::{FIELDS, Random, Wanted, add_noise, draw, stroke};
+use squealmap::Error;
+use squealmap::model::Param;
+use squealmap::study::signals::sensors::{Recording, Sample, record};
+use squealmap_identify::{Fault, Kind, Settings};
 
 /// Rate of the strokes, Hz.
 const RATE: f64 = 51.2e3;

@@ -4,12 +4,11 @@
 
 use std::f64::consts::TAU;
 
-use squealmap::study::signals::sensors::Sample;
-use squealmap_identify::{Identification, Kind, Measured, Settings};
-
 use crate::common::near;
 use crate::identify::{csv, run};
 use crate::strokes::{Random, add_noise};
+use squealmap::study::signals::sensors::Sample;
+use squealmap_identify::{Identification, Kind, Measured, Settings};
 
 /// An oscillation of one mode: amplitude (m/s²) over time (s), growth rate (1/s) for the phase of the velocity, forces in
 /// proportion, all of its power from the normal force.

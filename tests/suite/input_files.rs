@@ -5,10 +5,9 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
+use crate::cli::{squealmap, unwrapped};
 use squealmap::sweep::spec::{MAX_ROWS, MAX_SWEEP_BYTES, MAX_TABLE_ROWS, Spec};
 use tempfile::TempDir;
-
-use crate::cli::{squealmap, unwrapped};
 
 /// A sweep with a table of friction and what a test adds.
 const TABLE: &str = "[friction]\nlaw = \"table\"\ntable = \"t.csv\"\n[belt]\nbelt_velocity = 1\n";

@@ -2,21 +2,19 @@
 
 use std::sync::atomic::AtomicBool;
 
+use crate::common::plan;
+use crate::kernel_response::periods;
+use crate::simd::{of_every_law, single_masses};
 use pulp::Arch;
-use squealmap::engine::kernel::source::Precision;
 use squealmap::engine::lanes::Lanes;
 use squealmap::engine::lanes::march::Terms;
 use squealmap::engine::lanes::outcomes::outcomes_on;
 use squealmap::engine::lanes::records::{response, rounding};
 use squealmap::engine::outcome::Outcome;
-use squealmap::engine::plan::Plan;
-use squealmap::engine::plan::{Duration, StartKind};
+use squealmap::engine::plan::{Duration, Plan, StartKind};
+use squealmap::engine::precision::Precision;
 use squealmap::model::instance::Instance;
 use squealmap::model::status::Status;
-
-use crate::common::plan;
-use crate::kernel_response::periods;
-use crate::simd::{of_every_law, single_masses};
 
 /// Every instruction set that this program may be run with, `None` where the machine has none.
 fn levels() -> Vec<(&'static str, Option<Arch>)> {

@@ -2,6 +2,10 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
+use crate::common::near;
+use crate::figure::draw;
+use crate::pictures::outside;
+use crate::synthetic::{axis, map, number, paper_like, span};
 use squealmap::Error;
 use squealmap::model::Param;
 use squealmap::results::cut::{Cut, cut_csv, cut_svg};
@@ -12,11 +16,6 @@ use squealmap::results::number::NumberColumn;
 use squealmap::sweep::grid::{Axis, AxisKey, Grid, Value};
 use squealmap::sweep::map::Map;
 use squealmap_figure::marching::isolines;
-
-use crate::common::near;
-use crate::figure::draw;
-use crate::pictures::outside;
-use crate::synthetic::{axis, map, number, paper_like, span};
 
 /// A map of these axes, and a quantity that is a function of their values.
 fn quantity(axes: Vec<Axis>, of: impl Fn(&[f64]) -> Option<f64>) -> (Map, NumberColumn) {

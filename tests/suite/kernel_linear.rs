@@ -1,5 +1,6 @@
 //! The linear kernel's twin against the reference: how good are f32 and f64 in its formulation?
 
+use crate::instances::random;
 use squealmap::engine::kernel::linear::analyse as twin;
 use squealmap::engine::kernel::scalar::Real;
 use squealmap::engine::kernel::words::Words;
@@ -7,8 +8,6 @@ use squealmap::model::instance::Instance;
 use squealmap::model::kind::InstabilityType;
 use squealmap::model::linear::{Linear, analyse, prepare};
 use squealmap::sweep::spec::Spec;
-
-use crate::instances::random;
 
 /// Random instances, over wide ranges of every parameter.
 const RANDOM: usize = 100_000;

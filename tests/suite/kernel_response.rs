@@ -1,10 +1,10 @@
 //! The twin of the response kernel against the reference: is the method right, and is f32 enough?
 
 use crate::common::{bilinear, near, paper, plan};
-use squealmap::engine::kernel::response::{respond as twin, segments};
+use squealmap::engine::kernel::response::respond as twin;
+use squealmap::engine::kernel::segments::segments;
 use squealmap::engine::outcome::Outcome;
-use squealmap::engine::plan::Duration;
-use squealmap::engine::plan::Plan;
+use squealmap::engine::plan::{Duration, Plan};
 use squealmap::engine::reference::respond::respond;
 use squealmap::engine::regime::regime;
 use squealmap::engine::scene::Scene;

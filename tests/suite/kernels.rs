@@ -4,10 +4,9 @@ use naga::back::{hlsl, msl, spv};
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{AddressSpace, Module, Scalar, ScalarKind, StorageAccess, TypeInner};
 use squealmap::engine::kernel::scene::Law;
-use squealmap::engine::kernel::source::{
-    BINDINGS, Constant, Kernel, Precision, Settings, WORKGROUP_SIZE, words,
-};
+use squealmap::engine::kernel::source::{BINDINGS, Constant, Kernel, Settings, WORKGROUP_SIZE, words};
 use squealmap::engine::kernel::{linear, response, source};
+use squealmap::engine::precision::Precision;
 
 /// A Rust file and its WGSL twin, with the functions that only one of them needs.
 struct Twin {

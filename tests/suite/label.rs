@@ -1,7 +1,8 @@
 //! Labels in two bytes, their counts, and figures that hold labels only.
 
-use squealmap::engine::record::Record;
-use squealmap::engine::record::{Basin, Others};
+use crate::figure::{colour, draw, frames};
+use crate::synthetic::{failed, map, number, record, span};
+use squealmap::engine::record::{Basin, Others, Record};
 use squealmap::engine::regime::Regime;
 use squealmap::model::Param;
 use squealmap::model::kind::InstabilityType;
@@ -9,9 +10,6 @@ use squealmap::model::status::Status;
 use squealmap::results::figure::map::map_svg;
 use squealmap::sweep::grid::Grid;
 use squealmap::sweep::label::{Label, Tally};
-
-use crate::figure::{colour, draw, frames};
-use crate::synthetic::{failed, map, number, record, span};
 
 /// Every combination of what a label holds.
 fn all() -> Vec<Record> {

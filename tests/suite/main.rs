@@ -30,6 +30,7 @@ mod figure;
 mod first_events;
 mod fit;
 mod fit_errors;
+mod floors;
 mod fuzz;
 mod gallery;
 mod gallery_plots;

@@ -10,16 +10,15 @@ use squealmap::engine::method::roots::Crossing;
 use squealmap::engine::method::taylor::{BeltMotion, Expansion, Motion, State};
 use squealmap::engine::method::{Method, fixed, rk4};
 use squealmap::engine::outcome::Outcome;
-use squealmap::engine::plan::Plan;
-use squealmap::engine::plan::{Duration, StartKind};
+use squealmap::engine::plan::{Duration, Plan, StartKind};
 use squealmap::engine::reference::integrate::{Event, Integrator, Observer, Resolution, Step};
 use squealmap::engine::reference::respond::respond;
 use squealmap::engine::scene::Scene;
 use squealmap::model::Param;
 use squealmap::model::contact::Contact;
-use squealmap::model::equilibrium::Scaled;
 use squealmap::model::friction::FrictionLaw;
 use squealmap::model::instance::Instance;
+use squealmap::model::scaled::Scaled;
 use squealmap::model::status::Status;
 
 /// By how many powers of two an error falls when steps are halved, from the first of some errors to the last.

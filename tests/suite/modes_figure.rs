@@ -1,13 +1,12 @@
 //! The eigenvalues along an axis: followed, marked, written and drawn.
 
+use crate::figure::draw as render;
 use num_complex::Complex64;
 use squealmap::Error;
 use squealmap::model::linear::eigenvalues;
 use squealmap::results::figure::look::Look;
 use squealmap::study::modes::follow::{draw, follow, modes_csv, modes_svg};
 use squealmap::sweep::spec::Spec;
-
-use crate::figure::draw as render;
 
 fn sweep(sections: &str, axes: &str) -> Spec {
     let text = format!("analysis = [\"linear\"]\n{sections}\n[axes]\n{axes}\n");

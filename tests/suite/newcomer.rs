@@ -5,11 +5,10 @@
 use std::fs;
 use std::path::Path;
 
+use crate::cli::{squealmap, tree, unwrapped};
 use squealmap::model::PARAMS;
 use squealmap::sweep::spec::Spec;
 use squealmap::sweep::spec::keys::{SECTIONS, all};
-
-use crate::cli::{squealmap, tree, unwrapped};
 
 /// Presets with the files that they write.
 const PRESETS: [(&str, &[&str]); 8] = [

@@ -7,16 +7,15 @@ use std::sync::Arc;
 use crate::common::{bilinear, close, constant, instance, near, plan};
 use squealmap::engine::method::taylor::{BeltMotion, Expansion, State};
 use squealmap::engine::outcome::Outcome;
-use squealmap::engine::plan::Plan;
-use squealmap::engine::plan::StartKind;
+use squealmap::engine::plan::{Plan, StartKind};
 use squealmap::engine::reference::respond::respond;
 use squealmap::engine::scene::Scene;
 use squealmap::model::Param;
 use squealmap::model::belt::Springs;
 use squealmap::model::contact::{Contact, SLOWEST_REBOUND};
-use squealmap::model::equilibrium::Scaled;
 use squealmap::model::friction::{FrictionLaw, MuTable};
 use squealmap::model::instance::Instance;
+use squealmap::model::scaled::Scaled;
 use squealmap::model::status::Status;
 use squealmap::sweep::spec::Spec;
 

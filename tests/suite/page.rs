@@ -2,6 +2,12 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
+use crate::cli::squealmap;
+use crate::figure::{draw, frames};
+use crate::gallery::all;
+use crate::pictures::outside;
+use crate::plot::size;
+use crate::synthetic::{axis, map, number, paper_like, span};
 use squealmap::Error;
 use squealmap::model::Param;
 use squealmap::results::cut::{Cut, cut_svg};
@@ -12,13 +18,6 @@ use squealmap::results::figure::tikz::map_tikz;
 use squealmap::study::{Kind, Picture};
 use squealmap::sweep::grid::{Axis, Grid};
 use squealmap_figure::scale::Scale;
-
-use crate::cli::squealmap;
-use crate::figure::{draw, frames};
-use crate::gallery::all;
-use crate::pictures::outside;
-use crate::plot::size;
-use crate::synthetic::{axis, map, number, paper_like, span};
 
 /// The letters of a figure that stand by themselves, from the first on.
 fn letters(svg: &str) -> usize {

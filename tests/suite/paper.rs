@@ -4,6 +4,8 @@
 
 use std::path::Path;
 
+use crate::common::{close, near};
+use crate::figure::draw as render;
 use resvg::tiny_skia::{Pixmap, PremultipliedColorU8};
 use squealmap::model::kind::InstabilityType;
 use squealmap::study::paper::figures::{Drawn, draw, report};
@@ -12,9 +14,6 @@ use squealmap::study::paper::{
     Witness, claims,
 };
 use squealmap_figure::png;
-
-use crate::common::{close, near};
-use crate::figure::draw as render;
 
 /// A figure, looked through by the picture library.
 fn figure(figure: Figure) -> Drawn {

@@ -6,15 +6,14 @@ use std::collections::BTreeSet;
 use std::fs::File;
 use std::path::Path;
 
+use crate::cli::squealmap;
+use crate::resume::{SWEEP, with};
 use parquet::file::metadata::RowGroupMetaData;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 use serde_json::Value as Json;
 use squealmap::results::columns::{Cell, Content, columns};
 use squealmap::store::directory::Store;
-
-use crate::cli::squealmap;
-use crate::resume::{SWEEP, with};
 
 /// A sweep with a law on an axis, computed in tiles of 32.
 fn computed() -> tempfile::TempDir {

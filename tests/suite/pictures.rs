@@ -5,18 +5,17 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use crate::cli::squealmap;
+use crate::common::near;
+use crate::figure::draw;
+use crate::gallery::{Piece, all};
+use crate::plot::{page, size, text_sizes};
 use resvg::usvg::{Node, Options, Tree, fontdb};
 use squealmap::Error;
 use squealmap::results::figure::look::{Journal, Look};
 use squealmap::study::{Kind, Picture};
 use squealmap::version::program;
 use squealmap_figure::{pdf, png};
-
-use crate::cli::squealmap;
-use crate::common::near;
-use crate::figure::draw;
-use crate::gallery::{Piece, all};
-use crate::plot::{page, size, text_sizes};
 
 fn read(piece: &Piece) -> Picture {
     Picture::read(piece.directory.path(), piece.kind).unwrap()

@@ -2,9 +2,13 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
+use crate::cli::squealmap;
+use crate::colour::{DICHROMACIES, delta_e, lab, rgb};
+use crate::common::near;
+use crate::figure::{colour, draw, frames};
+use crate::synthetic::{axis, map, number, paper_like, record, span};
 use squealmap::Error;
-use squealmap::engine::record::Record;
-use squealmap::engine::record::{Basin, Others};
+use squealmap::engine::record::{Basin, Others, Record};
 use squealmap::engine::regime::Regime;
 use squealmap::model::Param;
 use squealmap::model::kind::InstabilityType as Kind;
@@ -20,12 +24,6 @@ use squealmap::sweep::spec::Starts;
 use squealmap::version::program;
 use squealmap_figure::{pdf, png};
 use tempfile::TempDir;
-
-use crate::cli::squealmap;
-use crate::colour::{DICHROMACIES, delta_e, lab, rgb};
-use crate::common::near;
-use crate::figure::{colour, draw, frames};
-use crate::synthetic::{axis, map, number, paper_like, record, span};
 
 /// A map like the paper's, of five velocities.
 fn sweep() -> Map {

@@ -3,8 +3,9 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
-use squealmap::engine::choice::{Backend, Options};
-use squealmap::engine::kernel::source::Precision;
+use squealmap::engine::backend::Backend;
+use squealmap::engine::options::Options;
+use squealmap::engine::precision::Precision;
 use squealmap::engine::record::Record;
 use squealmap::sweep::accuracy::configuration::Configuration;
 use squealmap::sweep::accuracy::errors::{is_settled_oscillation, oscillates, scatter, worst};

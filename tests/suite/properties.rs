@@ -1,5 +1,6 @@
 //! Properties over random parameters: Schur oracle, roots, energy, order.
 
+use crate::common::{bilinear, close, constant, instance, paper, plan};
 use nalgebra::linalg::balancing::balance_parlett_reinsch;
 use nalgebra::{Matrix4, Schur};
 use num_complex::Complex64;
@@ -7,8 +8,7 @@ use proptest::prelude::*;
 use squealmap::engine::method::Method;
 use squealmap::engine::method::roots::{Crossing, first_crossing};
 use squealmap::engine::method::taylor::{BeltMotion, Expansion, State};
-use squealmap::engine::plan::Plan;
-use squealmap::engine::plan::StartKind;
+use squealmap::engine::plan::{Plan, StartKind};
 use squealmap::engine::reference::integrate::{Observer, Resolution, Step};
 use squealmap::engine::reference::respond::respond;
 use squealmap::engine::scene::Scene;
@@ -18,8 +18,6 @@ use squealmap::model::instance::Instance;
 use squealmap::model::linear::eigenvalues;
 use squealmap::model::status::Status;
 use squealmap::model::{Param, Params};
-
-use crate::common::{bilinear, close, constant, instance, paper, plan};
 
 fn value(params: &Params, param: Param) -> f64 {
     params.get(param).expect("a value")

@@ -5,7 +5,8 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use squealmap::engine::choice::{Backend, Options};
+use squealmap::engine::backend::Backend;
+use squealmap::engine::options::Options;
 use squealmap::engine::regime::Regime;
 use squealmap::model::Param;
 use squealmap::model::kind::InstabilityType;

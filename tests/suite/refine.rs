@@ -2,7 +2,9 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
-use squealmap::engine::choice::{Backend, Options};
+use crate::cli::squealmap;
+use squealmap::engine::backend::Backend;
+use squealmap::engine::options::Options;
 use squealmap::engine::record::Record;
 use squealmap::engine::regime::Regime;
 use squealmap::model::Param;
@@ -15,8 +17,6 @@ use squealmap::sweep::refine::{Refined, refine};
 use squealmap::sweep::solver::Solver;
 use squealmap::sweep::spec::Spec;
 use squealmap::sweep::spec::refine::Settings;
-
-use crate::cli::squealmap;
 
 const SETTINGS: Settings = Settings { coarse: 16, sample: 0, seed: 1 };
 

@@ -6,7 +6,7 @@ use std::collections::HashSet;
 use std::path::Path;
 
 use serde_json::Value as Json;
-use squealmap::engine::choice::Options;
+use squealmap::engine::options::Options;
 use squealmap::study::tradeoff::report::{Section, head, to_json, to_markdown};
 use squealmap::sweep::accuracy::level::{Level, NAMES};
 use squealmap::sweep::accuracy::measure::{CHECK_STEPS, Measurement, Settings, TRUTH_STEPS, measure};

@@ -2,8 +2,7 @@
 
 use crate::common::{close, near, paper, plan};
 use squealmap::engine::outcome::Outcome;
-use squealmap::engine::plan::Plan;
-use squealmap::engine::plan::{Duration, StartKind};
+use squealmap::engine::plan::{Duration, Plan, StartKind};
 use squealmap::engine::reference::respond::respond;
 use squealmap::engine::regime::{Regime, regime};
 use squealmap::model::Param;

@@ -6,14 +6,14 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use squealmap::engine::choice::{Backend, Options};
+use crate::cli::squealmap;
+use squealmap::engine::backend::Backend;
+use squealmap::engine::options::Options;
 use squealmap::results::csv::map_csv;
 use squealmap::results::figure::map::map_svg;
 use squealmap::sweep::run as sweep;
 use squealmap::sweep::spec::Spec;
 use tempfile::TempDir;
-
-use crate::cli::squealmap;
 
 /// 15 × 20 instances.
 pub(crate) const SWEEP: &str = "title = \"Tiles\"\n[friction]\nmu_s = 0.4\n[axes]\n\

@@ -6,13 +6,12 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
+use crate::cli::{Ended, squealmap, unwrapped};
+use crate::resume::{names, tiles, with};
 use serde_json::Value as Json;
 use squealmap::store::direct::Room;
 use squealmap::store::directory::Store;
 use tempfile::TempDir;
-
-use crate::cli::{Ended, squealmap, unwrapped};
-use crate::resume::{names, tiles, with};
 
 /// 4 × 8 instances, or what a test makes of the axes.
 const SWEEP: &str = "title = \"Reuse\"\n[friction]\nmu_s = 0.4\n[axes]\nmu_d = { values = [0.1, 0.2, 0.3, 0.35] }\n\

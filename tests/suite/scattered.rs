@@ -2,6 +2,10 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
+use crate::cli::squealmap;
+use crate::common::near;
+use crate::figure::{colour, draw, frames};
+use crate::synthetic::{failed, map, record};
 use squealmap::engine::record::Record;
 use squealmap::engine::regime::Regime;
 use squealmap::model::Param;
@@ -12,11 +16,6 @@ use squealmap::results::figure::map::{look_svg, map_svg};
 use squealmap::results::number::NumberColumn;
 use squealmap::sweep::grid::{AxisKey, Grid, Value};
 use squealmap::sweep::map::Map;
-
-use crate::cli::squealmap;
-use crate::common::near;
-use crate::figure::{colour, draw, frames};
-use crate::synthetic::{failed, map, record};
 
 /// Points along an edge of a panel that is full of them.
 const SIDE: usize = 80;

@@ -2,6 +2,9 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
+use crate::cli::{squealmap, unwrapped};
+use crate::plot::directory;
+use crate::synthetic::{axis, map, number, record, span};
 use squealmap::engine::regime::Regime;
 use squealmap::model::Param;
 use squealmap::model::kind::InstabilityType as Kind;
@@ -9,10 +12,6 @@ use squealmap::results::cut::Cut;
 use squealmap::results::read::Archive;
 use squealmap::sweep::grid::{Axis, AxisKey, Grid, Value};
 use squealmap::sweep::map::Map;
-
-use crate::cli::{squealmap, unwrapped};
-use crate::plot::directory;
-use crate::synthetic::{axis, map, number, record, span};
 
 /// Two laws by three angles, of which the middle one is a zero that rounding has left, by seven frictions; the growth of an
 /// instance is its number.

@@ -5,10 +5,9 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use squealmap::store::shard::Shard;
-
 use crate::cli::squealmap;
 use crate::resume::{COMPLETE, SWEEP, names, tiles, with};
+use squealmap::store::shard::Shard;
 
 fn parse(text: &str, variables: &[(&str, &str)]) -> Result<(usize, usize), String> {
     let variables: BTreeMap<&str, &str> = variables.iter().copied().collect();

@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use squealmap::engine::choice::Options;
+use crate::figure::{colour, draw, frames};
+use crate::synthetic::{map, number, record, span};
+use squealmap::engine::options::Options;
 use squealmap::engine::regime::Regime;
 use squealmap::model::Param;
 use squealmap::model::kind::InstabilityType as Kind;
@@ -10,9 +12,6 @@ use squealmap::results::figure::map::map_svg;
 use squealmap::sweep::grid::{Axis, Grid};
 use squealmap::sweep::run as sweep;
 use squealmap::sweep::spec::Spec;
-
-use crate::figure::{colour, draw, frames};
-use crate::synthetic::{map, number, record, span};
 
 /// Stable from `μ_s = 0.3` on, whatever `μ_d`.
 fn drawn(axes: Vec<Axis>) -> String {

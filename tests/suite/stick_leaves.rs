@@ -8,7 +8,7 @@ use crate::instances::Uniform;
 use squealmap::engine::kernel::series::STICK;
 use squealmap::engine::lanes::block::{SECOND, THIRD};
 use squealmap::engine::lanes::constants::R;
-use squealmap::model::equilibrium::Scaled;
+use squealmap::model::scaled::Scaled;
 
 /// Short steps of the other integration.
 const SHORT: usize = 2000;

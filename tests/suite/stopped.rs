@@ -2,15 +2,19 @@
 
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
+use crate::colour::rgb;
+use crate::figure::{colour, draw, frames};
+use crate::synthetic::{failed, map, record, span};
 use squealmap::Error;
-use squealmap::engine::choice::{Backend, Options};
+use squealmap::engine::backend::Backend;
 use squealmap::engine::computation::Stopped;
 use squealmap::engine::computed::Computed;
 use squealmap::engine::gpu::run::{ChunkResult, check};
 use squealmap::engine::kernel::lane::Lane;
 use squealmap::engine::kernel::record::{read, write};
-use squealmap::engine::kernel::source::Precision;
 use squealmap::engine::kernel::{linear, response};
+use squealmap::engine::options::Options;
+use squealmap::engine::precision::Precision;
 use squealmap::engine::record::Record;
 use squealmap::engine::regime::Regime;
 use squealmap::model::Param;
@@ -23,10 +27,6 @@ use squealmap::sweep::grid::{AxisKey, Grid, Value};
 use squealmap::sweep::map::Map;
 use squealmap::sweep::run as sweep;
 use squealmap::sweep::spec::Spec;
-
-use crate::colour::rgb;
-use crate::figure::{colour, draw, frames};
-use crate::synthetic::{failed, map, record, span};
 
 /// Instances of the sweep.
 const TOTAL: usize = 300;

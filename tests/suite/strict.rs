@@ -2,11 +2,10 @@
 
 use std::collections::{HashMap, HashSet};
 
-use naga::valid::{Capabilities, ValidationFlags, Validator};
-use squealmap::engine::kernel::source::Precision;
-use squealmap::engine::kernel::spirv::{Strict, decorated, written};
-
 use crate::kernels::KERNELS;
+use naga::valid::{Capabilities, ValidationFlags, Validator};
+use squealmap::engine::kernel::spirv::{Strict, decorated, written};
+use squealmap::engine::precision::Precision;
 
 /// The numbers of SPIR-V's specification, typed here again so that the pass cannot vouch for itself.
 const EXT_INST_IMPORT: u32 = 11;

@@ -5,11 +5,10 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use squealmap_identify::{Identification, Kind, Measured, Settings};
-
 use crate::bound::{decidable, phase_bound};
 use crate::identify::{csv, run};
 use crate::strokes::{Random, Stroke, Wanted, add_noise, stroke};
+use squealmap_identify::{Identification, Kind, Measured, Settings};
 
 /// The seed of the table: strokes, noise and skews follow from it.
 const SEED: u64 = 1;

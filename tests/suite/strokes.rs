@@ -6,16 +6,14 @@
 
 use std::f64::consts::TAU;
 
-use squealmap::model::Param;
+use crate::common::{bilinear, instance, plan};
 use squealmap::model::instance::Instance;
 use squealmap::model::kind::InstabilityType;
-use squealmap::model::linear;
 use squealmap::model::linear::Linear;
 use squealmap::model::status::Status;
+use squealmap::model::{Param, linear};
 use squealmap::study::signals::sensors::{Recording, Sample, record};
 use squealmap_identify::CAUSE;
-
-use crate::common::{bilinear, instance, plan};
 
 /// Frequency of Table 1 between its uncoupled modes, Hz.
 const TABLE_1: f64 = 33.6;

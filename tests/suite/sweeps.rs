@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use squealmap::engine::choice::Options;
+use squealmap::engine::options::Options;
 use squealmap::model::Param;
 use squealmap::model::friction::FrictionLaw;
 use squealmap::model::kind::InstabilityType;

@@ -2,9 +2,9 @@
 
 use std::time::Duration;
 
+use squealmap::engine::backend::Backend;
 use squealmap::engine::outcome::Outcome;
-use squealmap::engine::plan::Duration as Time;
-use squealmap::engine::plan::StartKind;
+use squealmap::engine::plan::{Duration as Time, StartKind};
 use squealmap::engine::record::Record;
 use squealmap::engine::reference::records as reference;
 use squealmap::engine::regime::Regime;
@@ -62,8 +62,8 @@ pub(crate) fn spec(grid: Grid) -> Spec {
 pub(crate) fn map(grid: Grid, record: impl Fn(usize, &[&Value]) -> Record) -> Map {
     let records = (0..grid.len()).map(|i| record(i, &grid.coordinates(i))).collect();
     let provenance = Provenance {
-        linear: Some(reference::in_f64(reference::NAME, "closed form".to_owned())),
-        response: Some(reference::in_f64(reference::NAME, "rk4".to_owned())),
+        linear: Some(reference::in_f64(Backend::Reference, "closed form".to_owned())),
+        response: Some(reference::in_f64(Backend::Reference, "rk4".to_owned())),
         threads: 2,
         elapsed: Duration::from_millis(2500),
     };

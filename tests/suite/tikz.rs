@@ -2,6 +2,8 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
+use crate::common::near;
+use crate::synthetic::{axis, map, number, paper_like, record, span};
 use squealmap::Error;
 use squealmap::engine::regime::Regime;
 use squealmap::model::Param;
@@ -10,9 +12,6 @@ use squealmap::results::figure::look::Look;
 use squealmap::results::figure::tikz::map_tikz;
 use squealmap::sweep::grid::{Axis, AxisKey, Grid, Value};
 use squealmap::sweep::map::Map;
-
-use crate::common::near;
-use crate::synthetic::{axis, map, number, paper_like, record, span};
 
 /// A map like the paper's, of three velocities.
 fn sweep() -> Map {

@@ -5,8 +5,9 @@
 use std::sync::atomic::AtomicBool;
 
 use crate::common::close;
-use squealmap::engine::choice::{Backend, Options};
-use squealmap::engine::kernel::source::Precision;
+use squealmap::engine::backend::Backend;
+use squealmap::engine::options::Options;
+use squealmap::engine::precision::Precision;
 use squealmap::store::description::Description;
 use squealmap::store::directory::Store;
 use squealmap::store::fill::{Watch, fill};

@@ -2,11 +2,11 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
+use crate::synthetic::{axis, failed, record, span, spec};
+use squealmap::engine::backend::Backend;
 use squealmap::engine::computation::Computation;
 use squealmap::engine::outcome::Outcome;
-use squealmap::engine::record::Record;
-use squealmap::engine::record::{Basin, Others};
-use squealmap::engine::record::{By, Check};
+use squealmap::engine::record::{Basin, By, Check, Others, Record};
 use squealmap::engine::reference::records as reference;
 use squealmap::engine::regime::Regime;
 use squealmap::model::Param;
@@ -22,8 +22,6 @@ use squealmap::store::tile::{Fault, Label};
 use squealmap::store::tiling::Tiling;
 use squealmap::sweep::grid::{Axis, AxisKey, Grid, Value};
 use squealmap::sweep::spec::{Analysis, Spec, Starts};
-
-use crate::synthetic::{axis, failed, record, span, spec};
 
 const BOTH: Analysis =
     Analysis { linear: true, response: true, until_settled: false, checked: false, starts: Starts::One };
@@ -284,8 +282,10 @@ fn rows_beside_the_json_have_the_id_and_the_text_of_rows_in_it() {
 }
 
 fn computed(precision: &str) -> [Option<Computation>; 2] {
-    let made =
-        Computation { precision: precision.to_owned(), ..reference::in_f64("cpu", "method".to_owned()) };
+    let made = Computation {
+        precision: precision.to_owned(),
+        ..reference::in_f64(Backend::Cpu, "method".to_owned())
+    };
     [Some(made.clone()), Some(made)]
 }
 

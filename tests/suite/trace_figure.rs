@@ -1,5 +1,7 @@
 //! The table and the figure of a trajectory.
 
+use crate::colour::rgb;
+use crate::figure::{colour, draw, frames};
 use squealmap::engine::outcome::Outcome;
 use squealmap::model::contact::ContactState;
 use squealmap::model::status::Status;
@@ -7,9 +9,6 @@ use squealmap::results::figure::heading::Heading;
 use squealmap::results::figure::look::Look;
 use squealmap::study::trace::run::{Trace, TraceRow};
 use squealmap::study::trace::table::{trace_csv, trace_svg};
-
-use crate::colour::rgb;
-use crate::figure::{colour, draw, frames};
 
 /// A sine of 34 Hz that sticks in the second half.
 fn trajectory(samples: usize, seconds: f64, frequency: Option<f64>) -> Trace {

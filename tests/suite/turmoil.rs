@@ -8,12 +8,11 @@ use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-use squealmap::store::claim::Claim;
-use tempfile::TempDir;
-
 use crate::cli::squealmap;
 use crate::killed::{RUN, sweep};
 use crate::resume::with;
+use squealmap::store::claim::Claim;
+use tempfile::TempDir;
 
 /// What the results of an undisturbed run are.
 struct Wanted {

@@ -2,8 +2,9 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
-use squealmap::engine::record::Others;
-use squealmap::engine::record::Record;
+use crate::figure::{colour, draw, frames};
+use crate::synthetic::{axis, map, record, span};
+use squealmap::engine::record::{Others, Record};
 use squealmap::engine::regime::Regime;
 use squealmap::model::Param;
 use squealmap::model::kind::InstabilityType as Kind;
@@ -14,9 +15,6 @@ use squealmap::results::number::NumberColumn;
 use squealmap::sweep::grid::{AxisKey, Grid, Value};
 use squealmap::sweep::map::Map;
 use squealmap::sweep::spec::Starts;
-
-use crate::figure::{colour, draw, frames};
-use crate::synthetic::{axis, map, record, span};
 
 /// A column with the number of the instance as its value.
 fn column(name: &str, instances: usize) -> NumberColumn {

@@ -7,15 +7,14 @@ use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
+use crate::cli::{squealmap, unwrapped};
+use crate::killed::{RUN as SLOW, done, sweep as slow};
+use crate::resume::{COMPLETE, SWEEP, names, tiles, with};
 use serde_json::Value as Json;
 use squealmap::store::claim::Claim;
 use squealmap::store::cut::tile_of;
 use squealmap::store::directory::Store;
 use squealmap::sweep::spec::Spec;
-
-use crate::cli::{squealmap, unwrapped};
-use crate::killed::{RUN as SLOW, done, sweep as slow};
-use crate::resume::{COMPLETE, SWEEP, names, tiles, with};
 
 /// 10 tiles of 32 instances.
 const RUN: [&str; 6] = ["run", "s.toml", "--backend", "cpu", "--tile", "32"];

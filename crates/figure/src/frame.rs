@@ -3,7 +3,8 @@
 use std::fmt::Write as _;
 
 use crate::scale::{Scale, Tick};
-use crate::svg::{Anchor, Style, Svg, number};
+use crate::svg::{Anchor, Style, Svg};
+use crate::words::number;
 
 /// Size of tick labels, points.
 pub const TICK_SIZE: f64 = 7.0;

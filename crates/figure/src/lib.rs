@@ -20,5 +20,6 @@ pub mod scale;
 pub mod svg;
 pub mod tex;
 pub mod text;
+pub mod words;
 
 pub use error::{Error, Result};

@@ -1,8 +1,8 @@
 //! A small SVG writer: lengths in points, fixed number formatting, so the same picture is the same text.
 
-use std::fmt::Write as _;
-
 use crate::text::{FONT_FAMILY, Text};
+use crate::words::{escape, number};
+use std::fmt::Write as _;
 
 /// Points per millimetre.
 pub const MM: f64 = 72.0 / 25.4;
@@ -159,32 +159,6 @@ impl Svg {
             body = self.body,
         )
     }
-}
-
-/// A coordinate with at most two decimals: 1/100 point is a tenth of the finest printer dot.
-#[must_use]
-pub fn number(x: f64) -> String {
-    let text = format!("{x:.2}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
-    if text == "-0" { "0".to_owned() } else { text.to_owned() }
-}
-
-/// Text with the characters that mean something in XML replaced, and those XML forbids left out.
-#[must_use]
-pub fn escape(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => out.push_str("&amp;"),
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '"' => out.push_str("&quot;"),
-            '\n' | '\t' => out.push(' '),
-            c if c.is_control() || matches!(c, '\u{FFFE}' | '\u{FFFF}') => {}
-            c => out.push(c),
-        }
-    }
-    out
 }
 
 /// A polyline as path data; the points are `(x, y)` in points.

@@ -3,8 +3,8 @@
 use std::fmt::Write as _;
 
 use crate::glyphs;
-use crate::svg::{escape, number};
 use crate::tex::{escaped, formula};
+use crate::words::{escape, number};
 
 /// The families of every text: metric-compatible, the last embedded for PNG.
 pub const FONT_FAMILY: &str = "Arial, Helvetica, Liberation Sans, sans-serif";

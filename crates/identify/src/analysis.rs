@@ -3,11 +3,11 @@
 use std::io::Read;
 
 use crate::channel::{Channel, PerChannel};
-use crate::conclude::{Friction, Looked, conclude};
+use crate::conclude::{Looked, conclude};
 use crate::envelope::Envelope;
 use crate::episode::{Episode, Recorded, swapped};
 use crate::fault::{Fault, Unfit};
-use crate::overview::Overview;
+use crate::overview::{Friction, Overview};
 use crate::read::Table;
 use crate::reading::{Reading, reading};
 use crate::runs::Runs;

@@ -1,7 +1,6 @@
 //! From windows and episodes to the verdict on a record.
 
 use crate::attribution::normal_below;
-use crate::cross::Measured;
 use crate::episode::Episode;
 use crate::overview::Overview;
 use crate::verdict::{Kind, Verdict};
@@ -20,15 +19,6 @@ const BEATING: f64 = 0.2;
 const LEAST_QUIET: u64 = 2048;
 /// Without any oscillation the signals support stability, but a record may be too short or too quiet.
 const QUIET_CONFIDENCE: f64 = 0.95;
-
-/// Mean friction against mean velocity.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Friction {
-    /// `dμ/dV`, s/m.
-    pub slope: Measured,
-    /// Lowest and highest velocity, m/s.
-    pub velocity: [f64; 2],
-}
 
 /// Where an oscillation was looked for.
 #[derive(Clone, Copy, Debug)]

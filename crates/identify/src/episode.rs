@@ -2,7 +2,6 @@
 
 use crate::cross::{INDEPENDENT, Measured, Sums};
 use crate::feedback::{Feedback, Skews, folded};
-use crate::runs::Brief;
 use crate::settings::Settings;
 use crate::verdict::{Setting, Verdict, judge};
 use crate::window::{SHARED, Window};
@@ -363,4 +362,15 @@ pub(super) fn swapped(episodes: &[Episode], recorded: Recorded) -> Option<f64> {
         factors[0] < NOTHING - error && factors[1] > SOMETHING + error
     };
     episodes.iter().find(swapped).map(|episode| episode.time[0])
+}
+
+/// What a beat is told by.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Brief {
+    /// Power of the tangential acceleration at the dominant frequency.
+    pub(super) power: f32,
+    /// Harmonics relative to the fundamental.
+    pub(super) distortion: f32,
+    /// Whether an oscillation stands out of the noise.
+    pub(super) loud: bool,
 }

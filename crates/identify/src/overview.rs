@@ -1,6 +1,5 @@
 //! What a record says as a whole, gathered window by window.
 
-use crate::conclude::Friction;
 use crate::cross::{INDEPENDENT, Measured};
 use crate::episode::{Episode, LOUD, Recorded, is_linear};
 use crate::line::Line;
@@ -118,4 +117,13 @@ fn clarity(window: &Window, recorded: Recorded) -> f64 {
         (false, true) => acceleration,
         (true, true) => force.max(acceleration),
     }
+}
+
+/// Mean friction against mean velocity.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Friction {
+    /// `dμ/dV`, s/m.
+    pub slope: Measured,
+    /// Lowest and highest velocity, m/s.
+    pub velocity: [f64; 2],
 }

@@ -1,19 +1,9 @@
 //! Windows as they come → episodes: only those of the run under way are kept, and two numbers of every other.
 
+use crate::episode::Brief;
 use crate::episode::{Episode, LASTING, LOUD, Recorded, SAME, beats, episode, grows, preceded};
 use crate::settings::Settings;
 use crate::window::Window;
-
-/// What a beat is told by.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Brief {
-    /// Power of the tangential acceleration at the dominant frequency.
-    pub(super) power: f32,
-    /// Harmonics relative to the fundamental.
-    pub(super) distortion: f32,
-    /// Whether an oscillation stands out of the noise.
-    pub(super) loud: bool,
-}
 
 /// Gathers windows in a row in which one oscillation grows.
 pub(super) struct Runs<'a> {

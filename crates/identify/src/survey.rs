@@ -1,7 +1,7 @@
 //! The first reading of a file: is it fit for analysis, and where is its oscillation?
 
 use crate::channel::{Channel, PerChannel};
-use crate::fault::Fault;
+use crate::fault::{Fault, RATES};
 use crate::outlier::Watch;
 use crate::pace::Pace;
 use crate::range::Range;
@@ -17,9 +17,6 @@ use squealmap_input::quote::rounded;
 pub const LEAST_SAMPLES: u64 = 64;
 /// Samples per period below which phases of noisy signals mean nothing (2 is the limit of sampling).
 pub const LEAST_PER_PERIOD: f64 = 2.5;
-/// The slowest and the fastest rate of sensors of vibrations, Hz. What a column of time without a unit says beyond them is asked
-/// about: squeal at 51.2 kHz with its time in milliseconds would be 51.2 Hz.
-pub const RATES: [f64; 2] = [1e3, 1e6];
 /// Samples of a segment of the mean spectrum: 0.3 s at 200 kHz.
 const SEGMENT: usize = 1 << 16;
 /// Bins that slow drift of the whole record reaches.

@@ -2,8 +2,8 @@
 
 use std::fmt;
 
-use crate::engine::gpu::device::Arithmetic;
-use crate::engine::kernel::source::Precision;
+use crate::engine::gpu::arithmetic::Arithmetic;
+use crate::engine::precision::Precision;
 use crate::error::{Error, Result};
 
 /// The APIs in use; with GL, "no Vulkan" would silently become a slow software device.

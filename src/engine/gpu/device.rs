@@ -1,34 +1,18 @@
 //! An open device: error scopes, waiting with a limit, device lost.
 
+use crate::engine::gpu::adapter::{Adapter, Description};
+use crate::engine::gpu::arithmetic::Arithmetic;
+use crate::engine::precision::Precision;
+use crate::error::{Error, Result};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
-
-use crate::engine::gpu::adapter::{Adapter, Description};
-use crate::engine::kernel::source::Precision;
-use crate::error::{Error, Result};
 
 /// A submission that takes longer has hung: dispatches are cut to a tenth of a second.
 const PATIENCE: Duration = Duration::from_mins(1);
 /// The same on a processor, which compiles a kernel within its first submission (half a minute) and shares its cores with
 /// whatever else runs.
 const SOFTWARE_PATIENCE: Duration = Duration::from_mins(10);
-
-/// What a device computes in.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Arithmetic {
-    /// The scalar.
-    pub precision: Precision,
-    /// Whether every operation is rounded by itself, as on the CPU, at the price of some speed.
-    pub strict: bool,
-}
-
-impl From<Precision> for Arithmetic {
-    /// Not strict.
-    fn from(precision: Precision) -> Arithmetic {
-        Arithmetic { precision, strict: false }
-    }
-}
 
 /// An open device and its queue; clones are the same device.
 #[derive(Clone, Debug)]

@@ -4,20 +4,21 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use crate::engine::choice::Options;
 use crate::engine::gpu::chunks::{Batch, Session};
 use crate::engine::gpu::run::{ChunkResult, Drive};
 use crate::engine::instances::Instances;
 use crate::engine::judged::begun;
 use crate::engine::kernel::linear::KERNEL;
 use crate::engine::kernel::scalar::Real;
-use crate::engine::kernel::source::{FLAG_STATUS, FLAG_STEPS, Precision, SETTING_WORDS};
+use crate::engine::kernel::source::{FLAG_STATUS, FLAG_STEPS, SETTING_WORDS};
 use crate::engine::kernel::words::{INPUT_WORDS, STATE_WORDS, Words};
+use crate::engine::precision::Precision;
 use crate::engine::record::Record;
 use crate::error::{Error, Result};
 use crate::model::kind::InstabilityType;
 use crate::model::linear::prepare;
 use crate::model::status::Status;
+use std::sync::atomic::AtomicBool;
 
 /// The flag word of the type.
 const FLAG_TYPE: usize = 2;
@@ -39,14 +40,14 @@ pub fn method() -> String {
 pub fn append(
     spec: &dyn Instances,
     range: Range<usize>,
-    session: &mut Session,
-    options: &Options,
+    (session, chunk): (&mut Session, Option<usize>),
+    cancel: &AtomicBool,
     progress: &(dyn Fn(usize) + Sync),
     records: &mut Vec<Record>,
 ) -> Result<()> {
     match session.device().precision() {
-        Precision::F32 => append_in::<f32>(spec, range, session, options, progress, records),
-        Precision::F64 => append_in::<f64>(spec, range, session, options, progress, records),
+        Precision::F32 => append_in::<f32>(spec, range, (session, chunk), cancel, progress, records),
+        Precision::F64 => append_in::<f64>(spec, range, (session, chunk), cancel, progress, records),
     }
 }
 
@@ -56,18 +57,18 @@ type Known = (Record, Option<Words>);
 fn append_in<R: Real>(
     spec: &dyn Instances,
     range: Range<usize>,
-    session: &mut Session,
-    options: &Options,
+    (session, chunk): (&mut Session, Option<usize>),
+    cancel: &AtomicBool,
     progress: &(dyn Fn(usize) + Sync),
     records: &mut Vec<Record>,
 ) -> Result<()> {
-    let chunk = options.chunk.unwrap_or(usize::MAX).min(session.chunk_size::<R>(&KERNEL));
+    let chunk = chunk.unwrap_or(usize::MAX).min(session.chunk_size::<R>(&KERNEL));
     let drive = Drive {
         offset: 0,
         settings: [0; SETTING_WORDS],
         steps: None,
         most_dispatches: MOST_DISPATCHES,
-        cancel: options.cancel(),
+        cancel: cancel,
         counts: true,
         progress,
     };

@@ -10,13 +10,12 @@
 //! - [`response`]: the time integration of a sweep.
 
 pub mod adapter;
+pub mod arithmetic;
 pub mod chunks;
 pub mod device;
 pub mod kernel;
 pub mod linear;
+pub mod records;
 pub mod response;
 pub mod run;
 pub mod strict;
-
-/// The name of the backend in a manifest.
-pub const NAME: &str = "gpu";

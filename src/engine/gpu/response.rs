@@ -7,29 +7,29 @@ use std::thread::available_parallelism;
 
 use rayon::prelude::*;
 
-use crate::engine::choice::Options;
 use crate::engine::gpu::chunks::{Batch, Session};
 use crate::engine::gpu::run::{ChunkResult, Drive};
 use crate::engine::instances::Instances;
 use crate::engine::judged::{kind_of, take_response};
 use crate::engine::kernel::lane::Lane;
-use crate::engine::kernel::record;
-use crate::engine::kernel::response::{KERNEL, MOST_PIECES, TOLERANCE, choices, kernel_for, law_of, words};
+use crate::engine::kernel::response::{KERNEL, MOST_PIECES, choices, kernel_for, law_of, words};
 use crate::engine::kernel::scalar::Real;
 use crate::engine::kernel::scene::{Law, Segments};
-use crate::engine::kernel::series::ORDER;
-use crate::engine::kernel::source;
-use crate::engine::kernel::source::{FLAG_STATUS, Precision, SETTING_WORDS, WORKGROUP_SIZE};
+use crate::engine::kernel::source::{FLAG_STATUS, SETTING_WORDS, WORKGROUP_SIZE};
+use crate::engine::kernel::steps::{ORDER, TOLERANCE};
 use crate::engine::kernel::windows::Windows;
+use crate::engine::kernel::{record, source};
 use crate::engine::lanes::again;
 use crate::engine::lanes::again::records_again;
 use crate::engine::outcome::Outcome;
 use crate::engine::plan::Plan;
+use crate::engine::precision::Precision;
 use crate::engine::record::Record;
 use crate::engine::scene::Scene;
 use crate::error::{Error, Result};
 use crate::model::instance::Instance;
 use crate::model::status::Status;
+use std::sync::atomic::AtomicBool;
 
 /// The method in a manifest.
 #[must_use]
@@ -60,18 +60,18 @@ pub fn check(spec: &dyn Instances) -> Result<()> {
 pub fn complete(
     spec: &dyn Instances,
     first: usize,
-    session: &mut Session,
-    options: &Options,
+    (session, chunk): (&mut Session, Option<usize>),
+    cancel: &AtomicBool,
     progress: &(dyn Fn(usize) + Sync),
     records: &mut [Record],
 ) -> Result<()> {
     match session.device().precision() {
         Precision::F32 => {
-            let ended = complete_in::<f32>(spec, first, session, options, progress, records);
-            records_again(spec, first, records, options.cancel());
+            let ended = complete_in::<f32>(spec, first, (session, chunk), cancel, progress, records);
+            records_again(spec, first, records, cancel);
             ended
         }
-        Precision::F64 => complete_in::<f64>(spec, first, session, options, progress, records),
+        Precision::F64 => complete_in::<f64>(spec, first, (session, chunk), cancel, progress, records),
     }
 }
 
@@ -84,10 +84,10 @@ pub fn software_chunk() -> usize {
 }
 
 /// Most instances of one chunk.
-fn chunk_size<R: Real>(spec: &dyn Instances, session: &Session, options: &Options) -> usize {
+fn chunk_size<R: Real>(spec: &dyn Instances, session: &Session, chunk: Option<usize>) -> usize {
     let largest = kernel_for(spec.pieces()).map_or(&KERNEL, |(kernel, _)| kernel);
     let kept = if session.device().is_software() { software_chunk() } else { usize::MAX };
-    options.chunk.unwrap_or(usize::MAX).min(kept).min(session.chunk_size::<R>(largest))
+    chunk.unwrap_or(usize::MAX).min(kept).min(session.chunk_size::<R>(largest))
 }
 
 /// What selects a kernel.
@@ -101,13 +101,13 @@ struct Form {
 fn complete_in<R: Real>(
     spec: &dyn Instances,
     first: usize,
-    session: &mut Session,
-    options: &Options,
+    (session, chunk): (&mut Session, Option<usize>),
+    cancel: &AtomicBool,
     progress: &(dyn Fn(usize) + Sync),
     records: &mut [Record],
 ) -> Result<()> {
     let plan = spec.plan();
-    let chunk = chunk_size::<R>(spec, session, options);
+    let chunk = chunk_size::<R>(spec, session, chunk);
     let mut settings = [0; SETTING_WORDS];
     settings[0] = TOLERANCE.to_bits();
     let drive = Drive {
@@ -116,7 +116,7 @@ fn complete_in<R: Real>(
         steps: None,
         // Every lane ends by itself: its steps, their parts and its events are counted.
         most_dispatches: u64::MAX,
-        cancel: options.cancel(),
+        cancel: cancel,
         // A lane ends with every window.
         counts: plan.settle_limit.is_none(),
         progress,

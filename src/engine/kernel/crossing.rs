@@ -7,7 +7,8 @@
 #![expect(clippy::needless_range_loop, reason = "the loops are those of the WGSL twin")]
 
 use crate::engine::kernel::scalar::Real;
-use crate::engine::kernel::series::{ORDER, Series};
+use crate::engine::kernel::series::Series;
+use crate::engine::kernel::steps::ORDER;
 
 /// Samples of an event function inside a step that the bound does not clear.
 pub const SAMPLES: usize = 8;

@@ -20,8 +20,9 @@ use crate::engine::kernel::scene::{
     Segments,
 };
 use crate::engine::kernel::series::{
-    Body, Expansion, FREE, ORDER, REVERSE, SLIP, STICK, Series, evaluate, expand, largest, step_length,
+    Body, Expansion, FREE, REVERSE, SLIP, STICK, Series, evaluate, expand, largest, step_length,
 };
+use crate::engine::kernel::steps::ORDER;
 use crate::engine::reference::integrate::{MAX_EVENTS_PER_PERIOD, MAX_STEPS_PER_PERIOD, ROUNDINGS};
 use crate::engine::scene::MOST_STEPS;
 use crate::model::status::Status;

@@ -2,22 +2,16 @@
 
 #![expect(clippy::cast_possible_truncation, reason = "small constants become words of a kernel")]
 
-use std::f64::consts::TAU;
-
-use crate::engine::kernel::lane;
 use crate::engine::kernel::lane::Lane;
-use crate::engine::kernel::observe;
 use crate::engine::kernel::observe::SUMS;
-use crate::engine::kernel::reductions::{End, Reductions};
 use crate::engine::kernel::scalar::Real;
-use crate::engine::kernel::scene;
 use crate::engine::kernel::scene::{
     FIRST_HALF, Law, OPEN_HALF, PIECE_WORDS, SECOND_HALF, SEGMENT_WORDS, SEGMENTS, SETTLE, Scene as Words,
     Segments,
 };
 use crate::engine::kernel::source::{Constant, Field, Kernel};
 use crate::engine::kernel::windows::Windows;
-use crate::engine::kernel::{contact, crossing, series};
+use crate::engine::kernel::{contact, crossing, lane, observe, scene, series, steps};
 use crate::engine::method::pace::Turns;
 use crate::engine::outcome::Outcome;
 use crate::engine::plan::Plan;
@@ -25,6 +19,7 @@ use crate::engine::reference::integrate::{MAX_EVENTS_PER_PERIOD, MAX_STEPS_PER_P
 use crate::engine::scene::{MOST_STEPS, Scene};
 use crate::model::friction::{FAR, LawKind};
 use crate::model::instance::Instance;
+use std::f64::consts::TAU;
 
 /// Most pieces of a friction law in a kernel: the rows of the longest table.
 pub const MOST_PIECES: usize = 1024;
@@ -151,8 +146,8 @@ pub const fn kernel<const PIECES: usize>() -> Kernel {
                 ("FAR", Constant::Real(FAR)),
                 ("NO_KINK", Constant::Real(scene::NO_KINK)),
                 ("EXP_DEGREE", Constant::U32(scene::EXP_DEGREE as u32)),
-                ("ORDER", Constant::U32(series::ORDER as u32)),
-                ("SERIES", Constant::U32(series::ORDER as u32 + 1)),
+                ("ORDER", Constant::U32(steps::ORDER as u32)),
+                ("SERIES", Constant::U32(steps::ORDER as u32 + 1)),
                 ("MAX_HALVINGS", Constant::U32(series::MAX_HALVINGS as u32)),
                 ("SLIP", Constant::U32(series::SLIP)),
                 ("REVERSE", Constant::U32(series::REVERSE)),
@@ -191,10 +186,6 @@ pub const fn kernel<const PIECES: usize>() -> Kernel {
     }
 }
 
-/// Bound on the truncation of a step, relative to the motion: with 12 steps per period the amplitudes are
-/// those of the reference to 1.5e-4 at the 99th percentile.
-pub const TOLERANCE: f32 = 2e-4;
-
 /// Most loop iterations of one step, every loop at its longest, without the searches for a piece of the law.
 const LOOPS_PER_STEP: u32 = 1900;
 
@@ -216,48 +207,6 @@ pub fn law_of(kind: LawKind) -> Law {
         LawKind::Exponential => Law::Exponential,
         LawKind::Rational => Law::Rational,
     }
-}
-
-/// The segments of a run: settle and both halves of the window, cut where a ramp ends.
-#[must_use]
-pub fn segments(scene: &Scene, plan: &Plan) -> Segments {
-    let half = 0.5 * scene.scaled(plan.measure);
-    cut(scene, plan, [(SETTLE, scene.scaled(plan.settle)), (FIRST_HALF, half), (SECOND_HALF, half)])
-}
-
-/// The segments of one window of a run until settled, without a second pass.
-#[must_use]
-pub fn window_segments(scene: &Scene, plan: &Plan, settle: f64, half: f64) -> Segments {
-    cut(scene, plan, [(SETTLE, settle), (FIRST_HALF, half), (OPEN_HALF, half)])
-}
-
-/// A ramp that has less than this part of its time to go is over.
-const END_ROUNDING: f64 = 1e-14;
-
-fn cut(scene: &Scene, plan: &Plan, parts: [(u32, f64); 3]) -> Segments {
-    let nominal = TAU / f64::from(plan.steps_per_period);
-    let mut segments = [[0.0; SEGMENT_WORDS]; SEGMENTS];
-    let mut used = 0;
-    let mut time = 0.0;
-    for (part, length) in parts {
-        let mut rest = length;
-        while rest > 0.0 {
-            let (mut belt, mut holds) = scene.belt_from(time);
-            if holds <= END_ROUNDING * time {
-                // The sum of the parts falls short of the end of the ramp by its rounding: a segment of nothing, for which
-                // there is no room.
-                time *= 1.0 + END_ROUNDING;
-                (belt, holds) = scene.belt_from(time);
-            }
-            let duration = rest.min(holds);
-            let steps = (duration / nominal).ceil().max(1.0);
-            segments[used] = [steps, duration / steps, belt.velocity, belt.acceleration, f64::from(part)];
-            used += 1;
-            time += duration;
-            rest -= duration;
-        }
-    }
-    segments
 }
 
 /// The words of an instance for kernels built for `pieces` pieces.
@@ -297,34 +246,4 @@ pub fn respond<S: Real>(instance: &Instance, plan: &Plan, tolerance: f64) -> Out
             return outcome;
         }
     }
-}
-
-/// What a finished lane has reduced, and how it ended; times from the beginning of the segments.
-#[must_use]
-pub fn reductions<S: Real>(segments: &Segments, lane: &Lane<S>) -> (Reductions, End) {
-    let time = |segment: u32, index: u32, fraction: f64| -> f64 {
-        let before: f64 = segments[..(segment as usize).min(SEGMENTS)].iter().map(|s| s[0] * s[1]).sum();
-        let step = segments.get(segment as usize).map_or(0.0, |s| s[1]);
-        before + (f64::from(index) + fraction) * step
-    };
-    let moment = |m: &observe::Moment<S>| time(m.segment, m.index, m.fraction.to_f64());
-    let sums = &lane.sums;
-    let reductions = Reductions {
-        origin: [lane.snapshot.body.p[0], lane.snapshot.body.p[2]].map(Real::to_f64),
-        halves: sums.total.map(|half| half.map(Real::to_f64)),
-        peaks: sums.peaks.map(Real::to_f64),
-        impacts: sums.impacts,
-        crossings: u64::from(sums.crossings),
-        first: moment(&sums.first),
-        last: moment(&sums.last),
-        phase: [lane.phase.x, lane.phase.y].map(|part| part.map(Real::to_f64)),
-        growth: sums.growth.map(Real::to_f64),
-        met_event: sums.growth_closed,
-    };
-    let end = End {
-        status: lane.state.status,
-        steps: u64::from(lane.iterations),
-        time: time(lane.segment, lane.index, 0.0),
-    };
-    (reductions, end)
 }

@@ -6,7 +6,7 @@
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
-use crate::engine::kernel::source::Precision;
+use crate::engine::precision::Precision;
 
 /// A scalar of the kernels, `real` in WGSL.
 pub trait Real:

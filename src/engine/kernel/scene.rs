@@ -9,13 +9,12 @@ use std::sync::LazyLock;
 
 use smallvec::SmallVec;
 
-use crate::engine::kernel::response::TOLERANCE;
 use crate::engine::kernel::scalar::Real;
-use crate::engine::kernel::series::ORDER;
+use crate::engine::kernel::steps::{ORDER, TOLERANCE};
 use crate::engine::method::pace::Turns;
 use crate::engine::reference::integrate::MAX_EVENTS_AT_ONCE;
-use crate::model::equilibrium::Scaled;
 use crate::model::friction::{FAR, Piece as LawPiece};
+use crate::model::scaled::Scaled;
 
 /// The form of the friction law a kernel is built for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

@@ -9,9 +9,7 @@
 
 use crate::engine::kernel::scalar::Real;
 use crate::engine::kernel::scene::{Law, Piece, Scene};
-
-/// Order of the position series.
-pub const ORDER: usize = 8;
+use crate::engine::kernel::steps::ORDER;
 
 /// Coefficients by degree.
 pub type Series<S> = [S; ORDER + 1];

@@ -13,11 +13,9 @@
 //! No number is typed on both sides: where a word stands, codes and constants reach WGSL as a header made
 //! from the tables here.
 
-use std::fmt::{self, Write};
-
-use serde::Serialize;
-
+use crate::engine::precision::Precision;
 use crate::model::status::Status;
+use std::fmt::Write;
 
 /// Invocations of a workgroup.
 pub const WORKGROUP_SIZE: u32 = 64;
@@ -42,42 +40,6 @@ pub const BINDINGS: [&str; 5] = ["settings", "inputs", "state", "flags", "progre
 
 /// The declarations that every kernel begins with.
 pub const HOST: (&str, &str) = ("shaders/host.wgsl", include_str!("../../../shaders/host.wgsl"));
-
-/// The scalar of a computation.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Precision {
-    /// 32 bits: any GPU.
-    F32,
-    /// 64 bits: the CPU, and adapters with the feature `SHADER_F64`.
-    F64,
-}
-
-impl Precision {
-    /// The name in WGSL, manifests and arguments.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Precision::F32 => "f32",
-            Precision::F64 => "f64",
-        }
-    }
-
-    /// Bytes of one scalar.
-    #[must_use]
-    pub fn bytes(self) -> usize {
-        match self {
-            Precision::F32 => 4,
-            Precision::F64 => 8,
-        }
-    }
-}
-
-impl fmt::Display for Precision {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
-    }
-}
 
 /// The head of the settings: `Settings` in WGSL, without the kernel-specific words that follow it.
 #[repr(C)]

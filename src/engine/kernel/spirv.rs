@@ -12,7 +12,8 @@ use naga::proc::{BoundsCheckPolicies, BoundsCheckPolicy};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use spirv::{Decoration, Op};
 
-use crate::engine::kernel::source::{BINDINGS, Precision};
+use crate::engine::kernel::source::BINDINGS;
+use crate::engine::precision::Precision;
 
 /// Words before the first instruction.
 const HEADER: usize = 5;

@@ -4,13 +4,13 @@
 //! one before has left, and makes the second pass over the last of them only.
 
 use crate::engine::kernel::lane::Lane;
+use crate::engine::kernel::observe;
 use crate::engine::kernel::observe::{Phase, Sums};
-use crate::engine::kernel::reductions::{End, GROWTH};
-use crate::engine::kernel::response::{reductions, segments, window_segments};
+use crate::engine::kernel::reductions::{End, GROWTH, Reductions};
 use crate::engine::kernel::scalar::Real;
-use crate::engine::kernel::scene::{SECOND_HALF, Segments};
-use crate::engine::outcome::Ending;
-use crate::engine::outcome::Outcome;
+use crate::engine::kernel::scene::{SECOND_HALF, SEGMENTS, Segments};
+use crate::engine::kernel::segments::{segments, window_segments};
+use crate::engine::outcome::{Ending, Outcome};
 use crate::engine::plan::Plan;
 use crate::engine::scene::Scene;
 use crate::engine::settling::Settling;
@@ -120,4 +120,34 @@ impl<S: Real> Lane<S> {
         let steps = segments[self.segment as usize][0] as u32;
         self.index = steps;
     }
+}
+
+/// What a finished lane has reduced, and how it ended; times from the beginning of the segments.
+#[must_use]
+pub fn reductions<S: Real>(segments: &Segments, lane: &Lane<S>) -> (Reductions, End) {
+    let time = |segment: u32, index: u32, fraction: f64| -> f64 {
+        let before: f64 = segments[..(segment as usize).min(SEGMENTS)].iter().map(|s| s[0] * s[1]).sum();
+        let step = segments.get(segment as usize).map_or(0.0, |s| s[1]);
+        before + (f64::from(index) + fraction) * step
+    };
+    let moment = |m: &observe::Moment<S>| time(m.segment, m.index, m.fraction.to_f64());
+    let sums = &lane.sums;
+    let reductions = Reductions {
+        origin: [lane.snapshot.body.p[0], lane.snapshot.body.p[2]].map(Real::to_f64),
+        halves: sums.total.map(|half| half.map(Real::to_f64)),
+        peaks: sums.peaks.map(Real::to_f64),
+        impacts: sums.impacts,
+        crossings: u64::from(sums.crossings),
+        first: moment(&sums.first),
+        last: moment(&sums.last),
+        phase: [lane.phase.x, lane.phase.y].map(|part| part.map(Real::to_f64)),
+        growth: sums.growth.map(Real::to_f64),
+        met_event: sums.growth_closed,
+    };
+    let end = End {
+        status: lane.state.status,
+        steps: u64::from(lane.iterations),
+        time: time(lane.segment, lane.index, 0.0),
+    };
+    (reductions, end)
 }

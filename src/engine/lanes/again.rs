@@ -9,10 +9,10 @@ use rayon::prelude::*;
 
 use crate::engine::instances::Instances;
 use crate::engine::judged::{kind_of, take_response};
-use crate::engine::kernel::source::Precision;
 use crate::engine::lanes::outcomes::outcomes;
 use crate::engine::outcome::Outcome;
 use crate::engine::plan::Plan;
+use crate::engine::precision::Precision;
 use crate::engine::record::Record;
 use crate::model::instance::Instance;
 

@@ -1,12 +1,10 @@
 //! Angles and their cosines in every lane.
 
+use crate::engine::lanes::vector::{Scalar, Vector};
+use crate::engine::precision::Precision;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use pulp::Simd;
-
-use crate::engine::kernel::source::Precision;
-use crate::engine::lanes::observe::rotation;
-use crate::engine::lanes::vector::{Scalar, Vector};
 
 /// `arctan x / x` on [0, 1] by powers of `x²`, off by 2e-8 at most: Abramowitz and Stegun, 4.4.49.
 const ARCTAN: [f64; 9] = [
@@ -90,4 +88,33 @@ pub fn folded<S: Simd, T: Scalar<S>, const K: usize>(angle: Vector<S, T, K>, per
     let period = angle.like(period);
     let angle = angle.not_positive().select(angle + period, angle);
     period.less(angle).select(angle - period, angle)
+}
+
+/// `cos φ` and `sin φ` for moderate angles.
+#[inline(always)]
+pub fn rotation<S: Simd, T: Scalar<S>, const K: usize>(angle: Vector<S, T, K>) -> [Vector<S, T, K>; 2] {
+    let one = angle.like(1.0);
+    let square = angle * angle;
+    let mut cosine = one;
+    let mut sine = one;
+    let mut k = match T::PRECISION {
+        Precision::F32 => 6,
+        Precision::F64 => 10,
+    };
+    while k >= 1 {
+        let n = f64::from(2 * k);
+        cosine = (square * one.like(1.0 / (n * (n - 1.0)))).fnma(cosine, one);
+        sine = (square * one.like(1.0 / (n * (n + 1.0)))).fnma(sine, one);
+        k -= 1;
+    }
+    [cosine, sine * angle]
+}
+
+/// `z exp(−iφ)`.
+#[inline(always)]
+pub fn turn<S: Simd, T: Scalar<S>, const K: usize>(
+    z: [Vector<S, T, K>; 2],
+    by: [Vector<S, T, K>; 2],
+) -> [Vector<S, T, K>; 2] {
+    [z[0].fma(by[0], z[1] * by[1]), z[1].fma(by[0], -(z[0] * by[1]))]
 }

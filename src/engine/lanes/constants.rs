@@ -3,7 +3,7 @@
 use crate::engine::kernel::scalar::Real;
 use crate::engine::kernel::scene::NO_KINK;
 use crate::engine::method::pace::Turns;
-use crate::model::equilibrium::Scaled;
+use crate::model::scaled::Scaled;
 
 /// The largest decay rate of a mass that swings, in units of its angular frequency.
 const MOST_DECAY: f64 = 0.3;

@@ -6,10 +6,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use pulp::{Arch, Simd};
 
 use crate::engine::lanes::block::{Block, event_of};
+use crate::engine::lanes::cycle::NEVER;
 use crate::engine::lanes::job::{Job, Part};
 use crate::engine::lanes::observe::Sums;
 use crate::engine::lanes::spectrum::{COMPONENTS, Spectrum};
-use crate::engine::lanes::swing_cycle::NEVER;
 use crate::engine::lanes::vector::{Scalar, Vector};
 use crate::engine::plan::Plan;
 use crate::engine::scene::MOST_STEPS;

@@ -18,9 +18,11 @@
 pub mod again;
 pub mod angle;
 pub mod block;
+pub mod carry;
 pub mod constants;
 pub mod count;
 pub mod crossings;
+pub mod cycle;
 pub mod events;
 pub mod expand;
 pub mod function;
@@ -50,7 +52,7 @@ use pulp::{Simd, WithSimd};
 
 use crate::engine::kernel::scalar::Real;
 use crate::engine::kernel::scene::Law;
-use crate::engine::kernel::source::Precision;
+use crate::engine::precision::Precision;
 use job::{Job, Part};
 use march::Settings;
 use pass::pass;

@@ -2,18 +2,17 @@
 //!
 //! The definitions are those of [`crate::engine::kernel::observe`].
 
-use pulp::Simd;
-
 use crate::engine::kernel::observe::{NODES, SAMPLE_TIMES, SUMS, WEIGHTS};
 use crate::engine::kernel::reductions::GROWTH;
-use crate::engine::kernel::source::Precision;
+use crate::engine::lanes::angle::{rotation, turn};
 use crate::engine::lanes::block::Block;
 use crate::engine::lanes::constants::{N0, R, T0, W};
+use crate::engine::lanes::cycle::Cycle;
 use crate::engine::lanes::expand::{Expansion, SINGLE};
 use crate::engine::lanes::polynomial::{soon_to, value_soon};
 use crate::engine::lanes::spectrum::{Nodes, Spectrum, moving, seen};
-use crate::engine::lanes::swing_cycle::Cycle;
 use crate::engine::lanes::vector::{Mask, Scalar, Vector};
+use pulp::Simd;
 
 /// Reductions of the present stretches.
 #[derive(Clone, Copy, Debug)]
@@ -300,33 +299,4 @@ fn maximum<S: Simd, T: Scalar<S>, const K: usize>(values: &[Vector<S, T, K>; 5])
     let bent = curvature.less(zero).and(inside);
     let rise = tangent * tangent / bent.select(curvature * zero.like(-4.0), zero.like(1.0));
     bent.select(top + rise, top.max(values[4]))
-}
-
-/// `cos φ` and `sin φ` for moderate angles.
-#[inline(always)]
-pub fn rotation<S: Simd, T: Scalar<S>, const K: usize>(angle: Vector<S, T, K>) -> [Vector<S, T, K>; 2] {
-    let one = angle.like(1.0);
-    let square = angle * angle;
-    let mut cosine = one;
-    let mut sine = one;
-    let mut k = match T::PRECISION {
-        Precision::F32 => 6,
-        Precision::F64 => 10,
-    };
-    while k >= 1 {
-        let n = f64::from(2 * k);
-        cosine = (square * one.like(1.0 / (n * (n - 1.0)))).fnma(cosine, one);
-        sine = (square * one.like(1.0 / (n * (n + 1.0)))).fnma(sine, one);
-        k -= 1;
-    }
-    [cosine, sine * angle]
-}
-
-/// `z exp(−iφ)`.
-#[inline(always)]
-pub fn turn<S: Simd, T: Scalar<S>, const K: usize>(
-    z: [Vector<S, T, K>; 2],
-    by: [Vector<S, T, K>; 2],
-) -> [Vector<S, T, K>; 2] {
-    [z[0].fma(by[0], z[1] * by[1]), z[1].fma(by[0], -(z[0] * by[1]))]
 }

@@ -1,24 +1,23 @@
 //! One part of the run for many instances, step by step.
 
-use std::f64::consts::TAU;
-use std::ops::Not;
-
-use pulp::{NullaryFnOnce, Simd};
-
 use crate::engine::lanes::block::{Block, RATE};
+use crate::engine::lanes::carry::carry_out;
 use crate::engine::lanes::crossings::{Track, cross_upwards};
 use crate::engine::lanes::events::first_event;
 use crate::engine::lanes::expand::{CLOSED, Expansion, FLIGHT, PIECES, SINGLE, expand};
 use crate::engine::lanes::functions::{Functions, functions};
 use crate::engine::lanes::job::{Job, Part};
-use crate::engine::lanes::march::{Lanes, Settings, fail, visit};
+use crate::engine::lanes::march::{Lanes, Settings, fail};
 use crate::engine::lanes::observe::change;
 use crate::engine::lanes::polynomial::value_soon;
 use crate::engine::lanes::reach::{LONGER, reach};
 use crate::engine::lanes::spectrum::accelerations;
 use crate::engine::lanes::swing_step::swing_step;
-use crate::engine::lanes::transitions::transitions;
 use crate::engine::lanes::vector::{Scalar, Vector};
+use std::f64::consts::TAU;
+use std::ops::Not;
+
+use pulp::{NullaryFnOnce, Simd};
 
 /// Steps of the single mass that one of them may take while it sticks to a belt of one velocity: its motion is a straight
 /// line, which every formula here is exact for, but for the turn of the Fourier sums' carriers, good up to a whole one.
@@ -184,40 +183,4 @@ fn step<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool, 
     b.pace = possible.less(h).select(possible, reach.roomy.select(pace * one.like(LONGER), pace));
     b.steps += one;
     carry_out::<S, T, K, LAW, MOTION>(all, event, at);
-}
-
-/// Carries out the events at the end of a step, `at` behind its beginning, and looks after the lanes that need it.
-#[inline(always)]
-pub fn carry_out<S: Simd, T: Scalar<S>, const K: usize, const LAW: bool, const MOTION: u8>(
-    all: &mut Lanes<S, T, K>,
-    event: Vector<S, T, K>,
-    at: Vector<S, T, K>,
-) {
-    let (b, sums) = (&mut all.block, &mut all.sums);
-    let (zero, one) = (at.like(0.0), at.like(1.0));
-    let mut look = b.left.not_positive();
-    let happened = zero.less(event);
-    let mut pending = zero;
-    if happened.any() {
-        let (growing, quiet) = (happened.select(zero, sums.growing), happened.select(zero, sums.quiet));
-        sums.growing.put(growing);
-        sums.quiet.put(quiet);
-        // What comes down to the velocity of the belt has not gone below it, which matters where that is 0.
-        let previous = happened.and(b.reverse()).select(sums.previous.max(b.belt), sums.previous);
-        sums.previous.put(previous);
-        let hits = b.free().and(happened);
-        let rare = if all.part == Part::Growth {
-            happened
-        } else {
-            transitions::<S, T, K, LAW, MOTION>(b, event, at)
-        };
-        if MOTION == FLIGHT && all.part == Part::Window {
-            sums.impacts += one.only(hits.and(rare.not()));
-        }
-        pending = rare.select(event, zero);
-        look = look.or(rare);
-    }
-    if look.any() {
-        visit::<S, T, K>(all, &look.select(one, zero), &pending);
-    }
 }

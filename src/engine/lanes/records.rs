@@ -8,25 +8,27 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use pulp::Arch;
 use rayon::prelude::*;
 
+use crate::engine::Engine;
+use crate::engine::backend::Backend;
 use crate::engine::computation::Computation;
 use crate::engine::computed::Computed;
 use crate::engine::instances::Instances;
 use crate::engine::judged::{begun, take_response};
-use crate::engine::kernel::source::Precision;
-use crate::engine::lanes::again;
 use crate::engine::lanes::again::outcomes_again;
 use crate::engine::lanes::outcomes::outcomes;
-use crate::engine::lanes::{ORDER, tolerance};
+use crate::engine::lanes::{ORDER, again, tolerance};
 use crate::engine::plan::Plan;
+use crate::engine::precision::Precision;
 use crate::engine::record::Record;
+use crate::engine::reference::records::linear;
 use crate::error::{Error, Result};
 use crate::model::instance::Instance;
 use crate::model::kind::InstabilityType;
-use crate::model::linear;
+use crate::model::linear as eigenvalues;
 use crate::model::status::Status;
 
-/// The name of the backend in a manifest.
-pub const NAME: &str = "cpu";
+/// Starts that are taken at a time of instances with several.
+const BLOCK: usize = 2048;
 
 /// Most instances of a batch: many per lane, so that few lanes rest at its end, and not more than a core's cache holds
 /// (1.5 MiB).
@@ -43,7 +45,7 @@ pub(crate) const BUSY: usize = 2 * FEWEST;
 pub fn response(precision: Precision, steps_per_period: u32) -> Computation {
     let bound = tolerance(precision, steps_per_period);
     Computation {
-        backend: NAME.to_owned(),
+        backend: Backend::Cpu.name().to_owned(),
         precision: precision.to_string(),
         method: format!(
             "Taylor series of order {ORDER}, truncation below {bound:.1e}, events located in the step, single masses \
@@ -62,6 +64,42 @@ pub fn response(precision: Precision, steps_per_period: u32) -> Computation {
 pub fn rounding(instructions: Arch) -> &'static str {
     // Elsewhere than on x86 every machine can, but for those without any vector registers.
     if matches!(instructions, Arch::Scalar) { ", products rounded before they are added" } else { "" }
+}
+
+/// The CPU engine in a precision.
+#[derive(Clone, Copy, Debug)]
+pub struct Cpu(pub Precision);
+
+impl Engine for Cpu {
+    fn backend(&self) -> Backend {
+        Backend::Cpu
+    }
+
+    fn precision(&self) -> Precision {
+        self.0
+    }
+
+    fn computations(&self, steps_per_period: u32) -> [Computation; 2] {
+        [linear(Backend::Cpu), response(self.0, steps_per_period)]
+    }
+
+    fn records(
+        &mut self,
+        instances: &dyn Instances,
+        range: Range<usize>,
+        cancel: &AtomicBool,
+        progress: &(dyn Fn(usize) + Sync),
+    ) -> Result<Computed> {
+        records(instances, range, self.0, cancel, progress)
+    }
+
+    fn busy_with(&self, tile: usize, _: usize) -> usize {
+        BUSY.min(tile) * rayon::current_num_threads()
+    }
+
+    fn at_once(&self, _: usize) -> usize {
+        BLOCK
+    }
 }
 
 /// Computes the instances `range` of a sweep; `progress` gets the number newly finished. Once `cancel` is set no
@@ -114,9 +152,9 @@ pub fn batch(
     let (mut records, kinds): (Vec<Record>, Vec<Option<InstabilityType>>) = instances
         .iter()
         .map(|instance| {
-            let prepared = linear::prepare(instance);
+            let prepared = eigenvalues::prepare(instance);
             let mut record = begun(instance, &prepared);
-            let (kind, linear) = linear::solve(&prepared);
+            let (kind, linear) = eigenvalues::solve(&prepared);
             if spec.linear() {
                 (record.kind, record.linear) = (kind, linear);
             }

@@ -6,9 +6,9 @@ use std::ops::Not;
 use pulp::Simd;
 
 use crate::engine::kernel::crossing::{DIP, DIP_ITERATIONS, SAMPLES, SOLVER_ITERATIONS};
-use crate::engine::kernel::source::Precision;
 use crate::engine::lanes::polynomial::{at_one, soon_to, value_and_slope, value_slope_and_bend, value_soon};
 use crate::engine::lanes::vector::{Mask, Scalar, Vector};
+use crate::engine::precision::Precision;
 
 /// The least part of the way between two samples at which a root is looked for first.
 const LEAST: f64 = 1e-3;

@@ -11,8 +11,8 @@ use std::f64::consts::TAU;
 use pulp::Simd;
 
 use crate::engine::kernel::observe::{NODES, WEIGHTS};
+use crate::engine::lanes::angle::{rotation, turn};
 use crate::engine::lanes::expand::{Expansion, SINGLE};
-use crate::engine::lanes::observe::{rotation, turn};
 use crate::engine::lanes::polynomial::soon_to;
 use crate::engine::lanes::vector::{Mask, Scalar, Vector};
 

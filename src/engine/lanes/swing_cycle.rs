@@ -10,41 +10,10 @@ use pulp::Simd;
 use crate::engine::kernel::observe::SUMS;
 use crate::engine::lanes::block::Block;
 use crate::engine::lanes::observe::Sums;
-use crate::engine::lanes::vector::{Mask, Scalar, Vector};
+use crate::engine::lanes::vector::{Mask, Scalar};
 
 /// A slip from the end of stick turns by more than half a turn of an angular frequency of about 1; what is shorter is chatter.
 const SHORTEST: f64 = 1.0;
-
-/// [`Cycle::since`] before the first end of stick.
-pub const NEVER: f64 = -1.0;
-
-/// What the lanes had at the last end of stick of their stretches.
-#[derive(Clone, Copy, Debug)]
-pub struct Cycle<S: Simd, T: Scalar<S>, const K: usize> {
-    /// Time since the stretch began; negative before the first.
-    pub since: Vector<S, T, K>,
-    /// The sums of the window.
-    window: [Vector<S, T, K>; SUMS],
-    /// Upward crossings of `ẋ2`.
-    crossings: Vector<S, T, K>,
-}
-
-impl<S: Simd, T: Scalar<S>, const K: usize> Cycle<S, T, K> {
-    /// Nothing yet.
-    #[inline(always)]
-    pub fn new(simd: S) -> Self {
-        let zero = Vector::constant(simd, 0.0);
-        Cycle { since: zero.like(NEVER), window: [zero; SUMS], crossings: zero }
-    }
-
-    /// Forgets the cycles of lanes that slip back.
-    #[inline(always)]
-    pub fn slips_back(&mut self, reverse: Mask<S, T, K>) {
-        if reverse.any() {
-            self.since = reverse.select(self.since.like(NEVER), self.since);
-        }
-    }
-}
 
 impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
     /// Where stick has come to its end for the second time (`slips`), adds the whole cycles that are left of the stretch;

@@ -4,11 +4,11 @@ use std::ops::Not;
 
 use pulp::Simd;
 
+use crate::engine::lanes::carry::carry_out;
 use crate::engine::lanes::constants::R;
 use crate::engine::lanes::expand::{PIECES, SINGLE};
 use crate::engine::lanes::job::Part;
 use crate::engine::lanes::march::{Lanes, fail};
-use crate::engine::lanes::pass::carry_out;
 use crate::engine::lanes::swing::Swing;
 use crate::engine::lanes::vector::Scalar;
 

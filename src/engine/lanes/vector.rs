@@ -10,7 +10,7 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Not, Sub};
 use pulp::Simd;
 
 use crate::engine::kernel::scalar::Real;
-use crate::engine::kernel::source::Precision;
+use crate::engine::precision::Precision;
 
 /// A scalar with its register and comparison mask under an instruction set.
 pub trait Scalar<S: Simd>: Real {

@@ -9,7 +9,6 @@
 
 pub mod fixed;
 pub mod pace;
-pub mod quartic;
 pub mod rk4;
 pub mod roots;
 pub mod taylor;

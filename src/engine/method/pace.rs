@@ -1,8 +1,8 @@
 //! The longest step that a Taylor series of some order may take of a mode, whether the motion shows it or not.
 
-use crate::model::equilibrium::Scaled;
-use crate::model::fastest::{Fastest, HARDER, fastest_beyond};
+use crate::model::fastest::Fastest;
 use crate::model::friction::Piece;
+use crate::model::scaled::Scaled;
 
 /// Beyond this many radians of an undamped mode a step of even order makes it grow: the first excess over 1 of the
 /// step's amplification lies at 2.02 for order 8, 1.86 for order 12 and 2.11 for order 16.
@@ -146,4 +146,29 @@ const RAISED: f64 = 2000.0;
 #[must_use]
 pub fn stands_still(longest: f64, epsilon: f64) -> bool {
     longest * longest < epsilon
+}
+
+/// The normal force and the inertia of slip change on the way; the rate of a piece may rise with them by this factor.
+pub const HARDER: f64 = 2.0;
+
+/// The part of its rate that counts of a piece that drives the motion away. The motion shows it, and the truncation of its
+/// series shortens the step; a series over ten thousand times of such a step only tells nothing at all.
+const SHOWN: f64 = 1.0 / 16.0;
+
+/// How fast slip is on a piece of the law, beyond what [`Fastest`] counts; 0 where that is enough.
+///
+/// Friction that rises more steeply than at the equilibrium holds the motion where it is. Such a mode dies out within a
+/// step that is too long for it, but in a series of that length it does not: what is left of it is raised, and the motion
+/// no longer ends at the kinks of the piece.
+#[must_use]
+pub fn fastest_beyond(model: &Scaled, piece: usize) -> f64 {
+    let law = &model.law;
+    let (here, known) = (law.slope_of(piece), law.slope_of(law.index(model.v0)).max(0.0));
+    if here < 0.0 {
+        -SHOWN * here * model.n0
+    } else if here > known {
+        HARDER * (here - known) * model.n0
+    } else {
+        0.0
+    }
 }

@@ -13,7 +13,7 @@
 
 use crate::engine::method::taylor::{BeltMotion, Coefficients, Expansion, State, X2};
 use crate::model::contact::Contact;
-use crate::model::equilibrium::Scaled;
+use crate::model::scaled::Scaled;
 
 /// Order of the series that holds the dense output: its forces, which go to degree `order − 2`, depend on positions
 /// of degree 5 without a rest.

@@ -13,8 +13,8 @@
 
 use crate::model::belt::Springs;
 use crate::model::contact::Contact;
-use crate::model::equilibrium::Scaled;
 use crate::model::friction::Piece;
+use crate::model::scaled::Scaled;
 
 /// The largest order of the position series.
 pub const MAX_ORDER: usize = 16;

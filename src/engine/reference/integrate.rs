@@ -13,8 +13,8 @@ use crate::engine::method::taylor::{
 use crate::engine::method::{Method, rk4};
 use crate::engine::scene::MOST_STEPS;
 use crate::model::contact::{Contact, ContactState};
-use crate::model::equilibrium::Scaled;
 use crate::model::friction::Piece;
+use crate::model::scaled::Scaled;
 use crate::model::status::Status;
 
 /// Most events at one and the same instant.

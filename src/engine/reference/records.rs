@@ -7,37 +7,29 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use rayon::prelude::*;
 
+use crate::engine::Engine;
+use crate::engine::backend::Backend;
 use crate::engine::computation::Computation;
 use crate::engine::computed::Computed;
 use crate::engine::instances::Instances;
 use crate::engine::judged::{begun, take_response};
-use crate::engine::kernel::source::Precision;
 use crate::engine::method::Method;
 use crate::engine::method::taylor::REFERENCE_ORDER;
 use crate::engine::plan::Plan;
+use crate::engine::precision::Precision;
 use crate::engine::record::Record;
 use crate::engine::reference::respond::respond_until;
 use crate::error::{Error, Result};
 use crate::model::linear::{prepare, solve};
 use crate::model::status::Status;
 
-/// The name of the backend in a manifest.
-pub const NAME: &str = "reference";
+/// Starts that are taken at a time of instances with several.
+const BLOCK: usize = 2048;
 
 /// The eigenvalue analysis on the CPU in a manifest.
 #[must_use]
-pub fn linear(backend: &str) -> Computation {
+pub fn linear(backend: Backend) -> Computation {
     in_f64(backend, "closed form of the quartic, polished".to_owned())
-}
-
-/// The name of a method in tables and manifests; that of the reference's own is [`NAME`].
-#[must_use]
-pub fn name(method: Method) -> &'static str {
-    match method {
-        Method::Taylor => NAME,
-        Method::LocatedRk4 => "located RK4",
-        Method::FixedStep => "fixed step",
-    }
 }
 
 /// The response by a method in a manifest.
@@ -48,14 +40,50 @@ pub fn response(method: Method) -> Computation {
         Method::LocatedRk4 => "Runge–Kutta of order 4, events located in the step".to_owned(),
         Method::FixedStep => "Runge–Kutta of order 4, events at the ends of steps".to_owned(),
     };
-    in_f64(name(method), in_words)
+    in_f64(Backend::of_method(method), in_words)
 }
 
 /// A method of a backend in f64.
 #[must_use]
-pub fn in_f64(backend: &str, method: String) -> Computation {
+pub fn in_f64(backend: Backend, method: String) -> Computation {
     let precision = Precision::F64.to_string();
-    Computation { backend: backend.to_owned(), precision, method, adapter: None, strict: None }
+    Computation { backend: backend.name().to_owned(), precision, method, adapter: None, strict: None }
+}
+
+/// One instance at a time in f64 by a method: the reference, or one to compare with.
+#[derive(Clone, Copy, Debug)]
+pub struct Scalar(pub Method);
+
+impl Engine for Scalar {
+    fn backend(&self) -> Backend {
+        Backend::of_method(self.0)
+    }
+
+    fn precision(&self) -> Precision {
+        Precision::F64
+    }
+
+    fn computations(&self, _: u32) -> [Computation; 2] {
+        [linear(self.backend()), response(self.0)]
+    }
+
+    fn records(
+        &mut self,
+        instances: &dyn Instances,
+        range: Range<usize>,
+        cancel: &AtomicBool,
+        progress: &(dyn Fn(usize) + Sync),
+    ) -> Result<Computed> {
+        records(instances, range, self.0, cancel, progress)
+    }
+
+    fn busy_with(&self, _: usize, _: usize) -> usize {
+        rayon::current_num_threads()
+    }
+
+    fn at_once(&self, _: usize) -> usize {
+        BLOCK
+    }
 }
 
 /// Computes the instances `range` of a sweep by a method; `progress` gets the number newly finished. Once `cancel` is set no

@@ -1,17 +1,15 @@
 //! One block of a figure: heading, a grid of panels with shared axes, legend.
 
 use crate::results::figure::beside::{gap_across, parted};
-use crate::results::figure::cells;
-use crate::results::figure::curve_block;
 use crate::results::figure::curve_block::is_curve;
 use crate::results::figure::legend::Legend;
 use crate::results::figure::look::Content;
 use crate::results::figure::palette::Colouring;
 use crate::results::figure::panels::Panels;
 use crate::results::figure::picture_axis::Direction;
-use crate::results::figure::quantity;
 use crate::results::figure::quantity::Field;
 use crate::results::figure::sides::Sides;
+use crate::results::figure::{cells, curve_block, quantity};
 use crate::sweep::grid::Grid;
 use crate::sweep::label::Tally;
 use crate::sweep::spec::Starts;

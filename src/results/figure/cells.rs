@@ -1,95 +1,22 @@
 //! The content of a panel: cells or points in the colour of their class, with hatching and border lines.
 
-use std::fmt::Write as _;
-
-use crate::model::kind::InstabilityType;
-use crate::model::status::Status;
-use crate::results::figure::isolines;
+use crate::results::figure::fills::{
+    FAILED_FILL, LIMIT, hatch, is_stable, not_computed, unsettled, unsettled_fill,
+};
 use crate::results::figure::look::Content;
+use crate::results::figure::outline::{corner, shape, steps};
 use crate::results::figure::palette::Colouring;
 use crate::results::figure::panels::{Panel, Panels};
-use crate::results::figure::picture_axis::PictureAxis;
-use crate::results::figure::points;
-use crate::results::figure::quantity;
 use crate::results::figure::quantity::Field;
 use crate::results::figure::sides::Sides;
+use crate::results::figure::{isolines, points, quantity};
 use crate::sweep::grid::Grid;
-use crate::sweep::label::Label;
 use squealmap_figure::boundaries::{Vertex, borders, outlines};
 use squealmap_figure::frame::Frame;
-use squealmap_figure::svg::{Svg, number};
+use squealmap_figure::svg::Svg;
 
-/// Fill of cells without a result, or not computed.
-pub(crate) const FAILED_FILL: &str = "#FFFFFF";
 /// Border lines between classes.
 const BORDER: &str = r##"fill="none" stroke="#000000" stroke-width="0.5" stroke-linejoin="round""##;
-/// The light line and the dashes on it of the linear stability limit: as wide as each other, so that no region beside it is
-/// hidden.
-pub(crate) const LIMIT: [&str; 2] = [
-    r##"fill="none" stroke="#FFFFFF" stroke-width="0.75" stroke-linejoin="round""##,
-    r##"fill="none" stroke="#000000" stroke-width="0.75" stroke-dasharray="2.2 1.2" stroke-linejoin="round""##,
-];
-
-/// One hatching per class after the first, in a square of 4 points; they differ in direction and density.
-const HATCHES: [&str; 7] = [
-    "M-1 1L1 -1M0 4L4 0M3 5L5 3",
-    "M-1 3L1 5M0 0L4 4M3 -1L5 1",
-    "M0 2H4",
-    "M2 0V4",
-    "M0 2H4M2 0V4",
-    "M0 0L4 4M4 0L0 4",
-    "M0 1H2M2 3H4",
-];
-
-/// Hatchings, defined once per figure.
-pub(crate) fn define_patterns(svg: &mut Svg) {
-    for (id, colour) in [("unsettled-on-light", "#000000"), ("unsettled-on-dark", "#FFFFFF")] {
-        svg.define(&format!(
-            r#"<pattern id="{id}" patternUnits="userSpaceOnUse" width="2.4" height="2.4"><path d="M-0.6 0.6L0.6 -0.6M0 2.4L2.4 0M1.8 3L3 1.8" stroke="{colour}" stroke-width="0.45"/></pattern>"#
-        ));
-    }
-    for (tone, colour) in [("light", "#000000"), ("dark", "#FFFFFF")] {
-        svg.define(&format!(
-            r#"<pattern id="dots-on-{tone}" patternUnits="userSpaceOnUse" width="3" height="3"><path d="M0.75 0.75h0.01M2.25 2.25h0.01" stroke="{colour}" stroke-width="0.8" stroke-linecap="round"/></pattern>"#
-        ));
-    }
-    for (k, lines) in HATCHES.iter().enumerate() {
-        for (tone, colour) in [("light", "#000000"), ("dark", "#FFFFFF")] {
-            svg.define(&format!(
-                r#"<pattern id="hatch-{k}-{tone}" patternUnits="userSpaceOnUse" width="4" height="4"><path d="{lines}" fill="none" stroke="{colour}" stroke-width="0.4"/></pattern>"#
-            ));
-        }
-    }
-    svg.define(
-        r##"<pattern id="not-computed" patternUnits="userSpaceOnUse" width="4" height="4"><path d="M-1 3L1 5M0 0L4 4M3 -1L5 1" stroke="#B4B4B4" stroke-width="0.4"/></pattern>"##,
-    );
-    svg.define(
-        r##"<pattern id="failed" patternUnits="userSpaceOnUse" width="3" height="3"><path d="M0 0L3 3M3 0L0 3" stroke="#C00000" stroke-width="0.5"/></pattern>"##,
-    );
-}
-
-/// The hatching of the class with this position; the first class has none.
-pub(crate) fn hatch(class: usize, dark: bool) -> Option<String> {
-    let number = class.checked_sub(1).filter(|number| *number < HATCHES.len())?;
-    let tone = if dark { "dark" } else { "light" };
-    Some(format!(r#"class="hatch" fill="url(#hatch-{number}-{tone})" fill-rule="evenodd""#))
-}
-
-/// The pattern that marks an unsettled instance of a class.
-pub(crate) fn unsettled_fill(dark: bool) -> &'static str {
-    if dark { r#"fill="url(#unsettled-on-dark)""# } else { r#"fill="url(#unsettled-on-light)""# }
-}
-
-/// Whether hatching applies: only the response settles.
-pub(crate) fn unsettled(label: Label, colouring: Colouring) -> bool {
-    colouring == Colouring::Regime && label.settled() == Some(false)
-}
-
-/// Whether a stopped run did not come to what a colouring shows of an instance.
-pub(crate) fn not_computed(label: Label, colouring: Colouring) -> bool {
-    label.status() == Status::NotComputed && colouring.class(label).is_none()
-}
-
 /// Draws the content of a panel into its frame.
 pub(crate) fn draw(
     svg: &mut Svg,
@@ -174,42 +101,4 @@ fn draw_cells(
         svg.path(&limit, stroke);
     }
     Sides::draw(svg, panels, frame);
-}
-
-/// Whether the sliding equilibrium is stable.
-pub(crate) fn is_stable(kind: InstabilityType) -> bool {
-    kind == InstabilityType::Stable
-}
-
-/// Columns and rows of a panel of cells; `None` for one without any.
-pub(crate) fn shape(panels: &Panels, panel: &Panel) -> Option<[usize; 2]> {
-    let shape = [panels.x.len(), panels.y.as_ref().map_or(1, PictureAxis::len)];
-    let cells = panel.cells.len();
-    (cells > 0 && shape[0] * shape[1] == cells).then_some(shape)
-}
-
-/// A corner between cells, points.
-pub(crate) fn corner(panels: &Panels, frame: &Frame, (i, j): Vertex) -> (f64, f64) {
-    let up = panels.y.as_ref().map_or([0.0, 1.0][j.min(1)], |y| y.edges[j]);
-    (frame.across(panels.x.edges[i]), frame.up(up))
-}
-
-/// Path data along cell edges: horizontal and vertical steps only.
-pub(crate) fn steps(path: &[Vertex], at: &impl Fn(Vertex) -> (f64, f64), closed: bool) -> String {
-    let mut data = String::new();
-    let mut before: Option<Vertex> = None;
-    let points = if closed { &path[..path.len().saturating_sub(1)] } else { path };
-    for vertex in points {
-        let (x, y) = at(*vertex);
-        let _ = match before {
-            None => write!(data, "M{} {}", number(x), number(y)),
-            Some(last) if last.1 == vertex.1 => write!(data, "H{}", number(x)),
-            Some(_) => write!(data, "V{}", number(y)),
-        };
-        before = Some(*vertex);
-    }
-    if closed {
-        data.push('Z');
-    }
-    data
 }

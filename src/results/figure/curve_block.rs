@@ -5,16 +5,14 @@ use crate::results::figure::panels::Panels;
 use crate::results::figure::picture_axis::Direction;
 use crate::results::figure::quantity::Field;
 use crate::results::figure::starts_block;
-use squealmap_figure::cyclic;
 use squealmap_figure::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room, y_ticks};
 use squealmap_figure::jumps::stepped;
-use squealmap_figure::key;
 use squealmap_figure::key::Sample;
-use squealmap_figure::letters;
 use squealmap_figure::marks::{MARK, UNSETTLED, open_marks};
 use squealmap_figure::plot::{FIRST, Plot, ZERO};
 use squealmap_figure::scale::{Scale, Tick};
 use squealmap_figure::svg::{Anchor, Style, Svg};
+use squealmap_figure::{cyclic, key, letters};
 
 /// Height of the panel, points.
 pub(crate) const HEIGHT: f64 = 110.0;

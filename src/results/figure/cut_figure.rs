@@ -1,6 +1,6 @@
 //! The figure of a cut: a row of panels for each quantity, a curve for each value of the further axis.
 
-use crate::results::cut::{Curve, Cut, CutPanel};
+use crate::results::cut::{Curve, Cut, CutPanel, MOST_CURVES};
 use crate::results::figure::beside::{most_panels, parted};
 use crate::results::figure::heading::Heading;
 use crate::results::figure::look::Look;
@@ -12,18 +12,16 @@ use crate::results::number::NumberColumn;
 use crate::results::trust;
 use crate::sweep::label::Label;
 use crate::sweep::map::Map;
-use squealmap_figure::cyclic;
 use squealmap_figure::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room, y_ticks};
 use squealmap_figure::jumps::stepped;
-use squealmap_figure::key;
 use squealmap_figure::key::Sample;
-use squealmap_figure::letters;
 use squealmap_figure::marks::{MARK, UNSETTLED, open_marks};
 use squealmap_figure::page::{DOUBLE_COLUMN, MARGIN, SINGLE_COLUMN};
 use squealmap_figure::plot::{FIRST, Plot, SECOND, THIRD, ZERO};
 use squealmap_figure::scale::{Scale, Tick};
 use squealmap_figure::svg::{Anchor, Style, Svg};
 use squealmap_figure::text::Text;
+use squealmap_figure::{cyclic, key, letters};
 
 /// The axis of positions.
 const POSITION: Scale = Scale::Linear { low: 0.0, high: 1.0 };
@@ -39,8 +37,6 @@ const RIGHT: f64 = 8.0;
 const HEADROOM: f64 = 0.08;
 /// Height of a line of a panel's title, points.
 const LINE: f64 = 10.0;
-/// So many curves of a panel can be told apart.
-pub(crate) const MOST_CURVES: usize = 6;
 /// Curves that differ in colour, in lightness and in their dashes; of more values an even selection is shown.
 const STROKES: [&str; MOST_CURVES] = [
     FIRST,

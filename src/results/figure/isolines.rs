@@ -3,7 +3,7 @@
 use crate::error::Result;
 use crate::results::columns::Cell;
 use crate::results::csv::Table;
-use crate::results::figure::cells::shape;
+use crate::results::figure::outline::shape;
 use crate::results::figure::panels::{Panel, Panels};
 use crate::results::figure::quantity;
 use crate::results::number::NumberColumn;

@@ -1,14 +1,15 @@
 //! The legend of a block: only what occurs, with shares or counts.
 
 use crate::model::status::Status;
-use crate::results::figure::cells::{FAILED_FILL, LIMIT, hatch, is_stable, not_computed, unsettled_fill};
+use crate::results::figure::fills::{FAILED_FILL, LIMIT, hatch, is_stable, not_computed, unsettled_fill};
 use crate::results::figure::palette::Colouring;
 use crate::results::figure::sides;
-use crate::results::figure::sides::Sides;
+use crate::results::figure::sides::{COUNTED, Sides};
 use crate::sweep::label::{Label, Tally};
 use squealmap_figure::frame::LABEL_SIZE;
-use squealmap_figure::svg::{Anchor, Style, Svg, number};
+use squealmap_figure::svg::{Anchor, Style, Svg};
 use squealmap_figure::text::Text;
+use squealmap_figure::words::number;
 
 /// Width and height of a swatch, points.
 const SWATCH: [f64; 2] = [12.0, 7.5];
@@ -18,9 +19,6 @@ const WORD_GAP: f64 = 3.5;
 const ENTRY_GAP: f64 = 13.0;
 /// Between base lines, points.
 const LINE: f64 = 12.0;
-/// Up to this many instances the legend counts; above it gives percentages.
-pub(crate) const COUNTED: usize = 200;
-
 /// What stands beside the words.
 enum Swatch {
     Fill(&'static str, Option<String>),

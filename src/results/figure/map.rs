@@ -9,7 +9,7 @@ use crate::engine::record::Record;
 use crate::error::Result;
 use crate::results::accounted::accounted;
 use crate::results::figure::block::Block;
-use crate::results::figure::cells::define_patterns;
+use crate::results::figure::fills::define_patterns;
 use crate::results::figure::look::{Content, Look};
 use crate::results::figure::palette::Colouring;
 use crate::results::figure::panels::Panels;

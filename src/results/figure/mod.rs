@@ -3,14 +3,15 @@
 pub mod beside;
 pub mod block;
 pub mod cells;
-pub mod compare;
 pub mod curve_block;
 pub mod cut_figure;
+pub mod fills;
 pub mod heading;
 pub mod isolines;
 pub mod legend;
 pub mod look;
 pub mod map;
+pub mod outline;
 pub mod page;
 pub mod palette;
 pub mod panels;

@@ -4,8 +4,7 @@ use std::cmp::Ordering;
 use std::collections::HashSet;
 use std::ops::Range;
 
-use crate::engine::record::Basin;
-use crate::engine::record::Record;
+use crate::engine::record::{Basin, Record};
 use crate::results::figure::picture_axis::PictureAxis;
 use crate::sweep::grid::{Axis, AxisKey, Grid, Rows, Value};
 use crate::sweep::label::Label;

@@ -3,13 +3,14 @@
 use std::cmp::Reverse;
 use std::fmt::Write as _;
 
-use crate::results::figure::cells::{FAILED_FILL, not_computed, unsettled, unsettled_fill};
+use crate::results::figure::fills::{FAILED_FILL, not_computed, unsettled, unsettled_fill};
 use crate::results::figure::palette::{Class, Colouring, PALE};
 use crate::results::figure::panels::{Panel, Panels, Scatter};
 use crate::sweep::grid::Grid;
 use crate::sweep::label::Label;
 use squealmap_figure::frame::Frame;
-use squealmap_figure::svg::{Svg, number};
+use squealmap_figure::svg::Svg;
+use squealmap_figure::words::number;
 
 /// Colours of crosses and of hatching.
 const FAILED: &str = "#C00000";

@@ -2,24 +2,22 @@
 //! much.
 
 use crate::engine::record::Basin;
-use crate::results::figure::cells::{FAILED_FILL, corner, shape, steps};
+use crate::results::figure::fills::FAILED_FILL;
 use crate::results::figure::look::Content;
+use crate::results::figure::outline::{corner, shape, steps};
 use crate::results::figure::panels::{Panel, Panels};
-use crate::results::figure::points;
 use crate::results::figure::points::{Marks, NOT_COMPUTED, contrast, positions};
-use crate::results::figure::words;
+use crate::results::figure::{points, words};
 use crate::results::number::NumberColumn;
 use crate::results::trust;
 use crate::sweep::grid::Grid;
 use squealmap_figure::boundaries::{Vertex, outlines};
-use squealmap_figure::cyclic;
 use squealmap_figure::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room};
-use squealmap_figure::key;
 use squealmap_figure::key::Sample;
-use squealmap_figure::raster;
 use squealmap_figure::scale::{Scale, Tick, ZERO, axis_unit};
 use squealmap_figure::svg::{Anchor, Style, Svg, polyline};
 use squealmap_figure::text::Text;
+use squealmap_figure::{cyclic, key, raster};
 
 /// Steps of lightness: more than the eye tells apart, few enough for small files.
 const STEPS: usize = 48;

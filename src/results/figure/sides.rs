@@ -2,15 +2,15 @@
 //! does; on the other it rises, which few materials do: shares of the whole picture would mix the two.
 
 use crate::model::Param;
-use crate::results::figure::legend::COUNTED;
 use crate::results::figure::panels::Panels;
 use crate::results::figure::picture_axis::PictureAxis;
 use crate::sweep::grid::{AxisKey, Grid, Value};
 use crate::sweep::label::Tally;
 use squealmap_figure::frame::Frame;
 use squealmap_figure::scale::Scale;
-use squealmap_figure::svg::{Svg, number};
+use squealmap_figure::svg::Svg;
 use squealmap_figure::text::Text;
+use squealmap_figure::words::number;
 
 /// The light line and the dark one on it: drawn over classes of any colour.
 pub(crate) const STROKES: [&str; 2] = [
@@ -90,3 +90,6 @@ fn rises(grid: &Grid, instance: usize) -> bool {
     });
     coefficients[0] < coefficients[1]
 }
+
+/// Up to this many instances the legend counts; above it gives percentages.
+pub const COUNTED: usize = 200;

@@ -8,8 +8,9 @@ use crate::results::figure::panels::Panels;
 use squealmap_figure::jumps::stepped;
 use squealmap_figure::key::Sample;
 use squealmap_figure::plot::{FIRST, Plot, SECOND, THIRD};
-use squealmap_figure::svg::{Svg, number};
+use squealmap_figure::svg::Svg;
 use squealmap_figure::text::Text;
+use squealmap_figure::words::number;
 
 /// One standard error up and down.
 const ERROR: &str = r##"class="error" fill="none" stroke="#1F3F8F" stroke-width="0.6""##;

@@ -5,9 +5,10 @@
 use std::fmt::Write as _;
 
 use crate::error::{Error, Result};
-use crate::results::figure::cells::{shape, unsettled};
+use crate::results::figure::fills::unsettled;
 use crate::results::figure::look::{Content, Look};
 use crate::results::figure::map::computed;
+use crate::results::figure::outline::shape;
 use crate::results::figure::palette::Colouring;
 use crate::results::figure::panels::{Panel, Panels};
 use crate::results::figure::picture_axis::PictureAxis;

@@ -6,8 +6,7 @@ use serde_json::Value as Json;
 
 use crate::engine::computation::{Computation, Stopped};
 use crate::engine::plan::{Duration, StartKind};
-use crate::engine::record::Record;
-use crate::engine::record::{Basin, Others};
+use crate::engine::record::{Basin, Others, Record};
 use crate::engine::regime::Regime;
 use crate::error::Result;
 use crate::model::Params;
@@ -18,8 +17,7 @@ use crate::results::number::NumberColumn;
 use crate::results::read::folder::{Folder, Table, Why, program, text};
 use crate::sweep::grid::{Axis, AxisKey, Grid, Value};
 use crate::sweep::map::{Map, Provenance};
-use crate::sweep::spec::start;
-use crate::sweep::spec::{Analysis, Pass, STEPS_PER_PERIOD, Spec, Starts};
+use crate::sweep::spec::{Analysis, Pass, STEPS_PER_PERIOD, Spec, Starts, start};
 
 /// The files of a map that are read.
 pub(crate) const FILES: [&str; 2] = ["manifest.json", "map.csv"];

@@ -1,9 +1,8 @@
 //! What `run` and `refine` have written, read back: enough to draw the figure again, and the columns of the table.
 
-pub use choose::Taken;
+pub use crate::results::choose::Taken;
 pub use map::Archive;
 
-pub mod choose;
 pub mod compare;
 pub mod folder;
 pub mod map;

@@ -1,9 +1,9 @@
 //! A part of a map: the instances that have some values of its axes.
 
 use crate::error::{Error, Result};
+use crate::results::choose::{Taken, axes, choose_all};
 use crate::results::number::NumberColumn;
 use crate::results::read::Archive;
-use crate::results::read::choose::{Taken, axes, choose_all};
 use crate::sweep::grid::{Axis, Grid, Value};
 use crate::sweep::map::Map;
 use crate::sweep::spec::Spec;

@@ -12,7 +12,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::model::friction::LawKind;
-use crate::study::fit::squares::{DETERMINED, Problem};
+use crate::study::fit::problem::{DETERMINED, Problem};
 
 /// Standard errors of the values of a solution in its order, and last, where it was found, of the velocity (m/s);
 /// `variance` is that of the friction coefficients. `None` where the points do not determine all of them together.

@@ -1,7 +1,10 @@
 //! Measured friction → a material.
 
-pub use squares::*;
-
-pub mod errors;
-pub mod squares;
+mod errors;
+mod fault;
+mod problem;
+mod squares;
 pub mod table;
+
+pub use fault::FitFault;
+pub use squares::{Fit, fit, range};

@@ -12,19 +12,13 @@
 //! with hat functions of temperature. The velocity is either given or found by minimising the residual over it.
 //!
 
-use nalgebra::{DMatrix, DVector};
-
 use crate::model::Param;
 use crate::model::friction::LawKind;
 use crate::study::fit::errors;
-pub use squealmap_identify::Point;
+use crate::study::fit::fault::FitFault;
+use crate::study::fit::problem::{Problem, sum_of_squares};
 
-/// Condition of the normal equations above which a row of the material is not determined by the data.
-pub(super) const DETERMINED: f64 = 1e-9;
-/// Values of the law's velocity that are tried before the best one is refined, even in the logarithm.
-const TRIALS: usize = 40;
-/// Refinements by the golden section: to 1e-7 of the interval.
-const REFINEMENTS: usize = 34;
+pub(super) use squealmap_identify::Point;
 
 /// A fitted material.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,66 +43,6 @@ pub struct Fit {
     pub open: bool,
     /// Points used.
     pub points: usize,
-}
-
-/// Why there is no fit.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum FitFault {
-    /// Fewer points than unknowns.
-    #[error(
-        "{points} point(s) do not determine {unknowns} value(s); measure more, or ask for fewer rows with --temperatures"
-    )]
-    TooFew {
-        /// Points.
-        points: usize,
-        /// Values to find.
-        unknowns: usize,
-    },
-    /// Rows that do not rise.
-    #[error(
-        "the temperatures of the rows are {first} and then {second} °C but must rise; sort --temperatures"
-    )]
-    NotRising {
-        /// One temperature, °C.
-        first: f64,
-        /// The next, °C.
-        second: f64,
-    },
-    /// Points that do not tell the parameters apart.
-    #[error(
-        "the points near {temperature} °C do not determine `{param}`: they cover velocities from {low} to {high} m/s; measure more velocities there, choose --law constant, or other --temperatures"
-    )]
-    Undetermined {
-        /// The row, °C.
-        temperature: f64,
-        /// The parameter.
-        param: &'static str,
-        /// Lowest velocity near it, m/s.
-        low: f64,
-        /// Highest velocity near it, m/s.
-        high: f64,
-    },
-    /// A law that cannot be fitted this way.
-    #[error(
-        "the law `{law}` is not linear in its coefficients; choose bilinear, exponential or constant with --law"
-    )]
-    Law {
-        /// Its name.
-        law: &'static str,
-    },
-    /// A negative friction coefficient.
-    #[error(
-        "`{param}` would be {value:.4} at {temperature} °C, but friction coefficients are not negative; choose another law, or other --temperatures"
-    )]
-    Negative {
-        /// The parameter.
-        param: &'static str,
-        /// Its value.
-        value: f64,
-        /// The row, °C.
-        temperature: f64,
-    },
 }
 
 /// Fits `law` with rows at `temperatures` (°C, rising; points outside count to the nearest row) and the law's velocity
@@ -193,132 +127,4 @@ pub fn range(points: &[Point], of: impl Fn(&Point) -> f64) -> [f64; 2] {
         .iter()
         .map(of)
         .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)])
-}
-
-fn sum_of_squares(residuals: &[f64]) -> f64 {
-    residuals.iter().map(|residual| residual * residual).sum()
-}
-
-/// A fit with its law's velocity open.
-pub(super) struct Problem<'a> {
-    pub(super) points: &'a [Point],
-    pub(super) law: LawKind,
-    temperatures: &'a [f64],
-    params: &'a [Param],
-}
-
-impl Problem<'_> {
-    /// The parts of `μ_s` and `μ_d` (or of `μ_d` alone) at a velocity.
-    fn parts(&self, speed: f64, velocity: f64) -> [f64; 2] {
-        let w = match self.law {
-            LawKind::Bilinear => (speed / velocity).min(1.0),
-            LawKind::Exponential => 1.0 - (-speed / velocity).exp(),
-            _ => return [1.0, 0.0],
-        };
-        [1.0 - w, w]
-    }
-
-    /// The rows on either side of a temperature with their shares.
-    pub(super) fn rows(&self, temperature: f64) -> [(usize, f64); 2] {
-        let upper =
-            self.temperatures.partition_point(|&row| row < temperature).min(self.temperatures.len() - 1);
-        let lower = upper.saturating_sub(1);
-        let (t0, t1) = (self.temperatures[lower], self.temperatures[upper]);
-        let part = if t1 > t0 { ((temperature - t0) / (t1 - t0)).clamp(0.0, 1.0) } else { 1.0 };
-        [(lower, 1.0 - part), (upper, part)]
-    }
-
-    /// What each value of the rows counts for in the friction of a point; those that count for something.
-    pub(super) fn weights(&self, point: &Point, velocity: f64) -> Vec<(usize, f64)> {
-        let kinds = self.params.len();
-        let parts = self.parts(point.velocity.abs(), velocity);
-        let rows = self.rows(point.temperature);
-        rows.into_iter()
-            .flat_map(|(row, share)| (0..kinds).map(move |k| (row * kinds + k, share * parts[k])))
-            .filter(|(_, weight)| *weight != 0.0)
-            .collect()
-    }
-
-    /// Measured less fitted friction of every point.
-    fn residuals(&self, solution: &DVector<f64>, velocity: f64) -> Vec<f64> {
-        let fitted = |point: &Point| -> f64 {
-            self.weights(point, velocity).iter().map(|(i, weight)| weight * solution[*i]).sum()
-        };
-        self.points.iter().map(|point| point.friction - fitted(point)).collect()
-    }
-
-    /// Whether the points bound the law's velocity: whether the one of the fastest point fits them worse than the best one
-    /// (with a sum of `squares`) by more than errors of this variance make likely.
-    fn bounds(&self, fastest: f64, squares: f64, variance: f64) -> bool {
-        /// Two standard deviations: the sum of squares rises by their square times the variance.
-        const LIKELY: f64 = 4.0;
-        self.squares(fastest) - squares > LIKELY * variance
-    }
-
-    /// The sum of squares that a velocity leaves; infinite where the points do not determine the values.
-    fn squares(&self, velocity: f64) -> f64 {
-        self.solve(velocity)
-            .map_or(f64::INFINITY, |solution| sum_of_squares(&self.residuals(&solution, velocity)))
-    }
-
-    /// Values of all rows.
-    fn solve(&self, velocity: f64) -> Result<DVector<f64>, FitFault> {
-        let unknowns = self.params.len() * self.temperatures.len();
-        let mut normal = DMatrix::<f64>::zeros(unknowns, unknowns);
-        let mut right = DVector::<f64>::zeros(unknowns);
-        for point in self.points {
-            let weights = self.weights(point, velocity);
-            for &(i, a) in &weights {
-                right[i] += a * point.friction;
-                for &(j, b) in &weights {
-                    normal[(i, j)] += a * b;
-                }
-            }
-        }
-        let eigen = normal.clone().symmetric_eigen();
-        let largest = eigen.eigenvalues.max();
-        let least = eigen.eigenvalues.imin();
-        if eigen.eigenvalues[least].partial_cmp(&(DETERMINED * largest)) != Some(std::cmp::Ordering::Greater)
-        {
-            return Err(self.undetermined(eigen.eigenvectors.column(least).icamax()));
-        }
-        let solution = normal.cholesky().map(|factors| factors.solve(&right));
-        solution.ok_or_else(|| self.undetermined(0))
-    }
-
-    /// The value that the points leave most open.
-    fn undetermined(&self, index: usize) -> FitFault {
-        let (row, param) = (index / self.params.len(), self.params[index % self.params.len()]);
-        let near = self.points.iter().filter(|point| {
-            self.rows(point.temperature).into_iter().any(|(near, share)| near == row && share > 0.0)
-        });
-        let speeds = near.map(|point| point.velocity.abs());
-        let (low, high) =
-            speeds.fold((f64::INFINITY, 0.0), |(low, high): (f64, f64), v| (low.min(v), high.max(v)));
-        FitFault::Undetermined {
-            temperature: self.temperatures[row],
-            param: param.info().name,
-            low: if low.is_finite() { low } else { 0.0 },
-            high,
-        }
-    }
-
-    /// The velocity of the law with the least residual, up to the fastest point (m/s).
-    fn best_velocity(&self, fastest: f64) -> f64 {
-        /// The slowest velocity tried, relative to the fastest point.
-        const SLOWEST: f64 = 1e-3;
-        /// 1/golden ratio.
-        const GOLDEN: f64 = 0.618_033_988_749_894_8;
-        let residual = |log: f64| self.squares(log.exp());
-        let top = fastest.max(f64::MIN_POSITIVE).ln();
-        let step = -SLOWEST.ln() / TRIALS as f64;
-        let trials = (0..=TRIALS).map(|k| top - k as f64 * step);
-        let best = trials.min_by(|a, b| residual(*a).total_cmp(&residual(*b))).unwrap_or(top);
-        let (mut low, mut high) = (best - step, (best + step).min(top));
-        for _ in 0..REFINEMENTS {
-            let (a, b) = (high - GOLDEN * (high - low), low + GOLDEN * (high - low));
-            if residual(a) <= residual(b) { high = b } else { low = a }
-        }
-        (0.5 * (low + high)).exp()
-    }
 }

@@ -4,7 +4,8 @@ use std::fmt::Write as _;
 
 use crate::error::{Error, Result};
 use crate::results::columns::Cell;
-use crate::study::fit::squares::{Fit, Point};
+use crate::study::fit::Fit;
+use squealmap_identify::Point;
 use squealmap_input::quote::rounded;
 
 /// The columns of the residuals, SI units, temperature in °C.
@@ -70,7 +71,7 @@ fn standard_errors(fit: &Fit) -> String {
 
 /// `100 to 500`, or `20` where all are alike.
 fn span(points: &[Point], of: impl Fn(&Point) -> f64) -> String {
-    let [low, high] = crate::study::fit::squares::range(points, of);
+    let [low, high] = crate::study::fit::range(points, of);
     let [low, high] = [low, high].map(rounded);
     if low < high { format!("{low} to {high}") } else { low.to_string() }
 }

@@ -2,8 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::engine::record::Attractor;
-use crate::engine::record::Record;
+use crate::engine::record::{Attractor, Record};
 use crate::model::kind::InstabilityType;
 use crate::results::figure::heading::Heading;
 use crate::results::figure::look::Look;
@@ -16,8 +15,9 @@ use squealmap_figure::key::Sample;
 use squealmap_figure::page::{MARGIN, SINGLE_COLUMN};
 use squealmap_figure::plot::{FIRST, Plot, SECOND};
 use squealmap_figure::scale::{Scale, axis_unit};
-use squealmap_figure::svg::{Anchor, Style, Svg, number};
+use squealmap_figure::svg::{Anchor, Style, Svg};
 use squealmap_figure::text::Text;
+use squealmap_figure::words::number;
 
 /// Height of the panel, points.
 const HEIGHT: f64 = 150.0;

@@ -8,13 +8,11 @@ use crate::engine::judged::{begun, take_response};
 use crate::engine::method::taylor::State;
 use crate::engine::outcome::Outcome;
 use crate::engine::plan::Plan;
-use crate::engine::record::Record;
-use crate::engine::record::{Attractor, apart, differ};
+use crate::engine::record::{Attractor, Record, apart, differ};
 use crate::engine::reference::respond::respond_in;
 use crate::engine::scene::Scene;
-use crate::model::Param;
 use crate::model::instance::Instance;
-use crate::model::linear;
+use crate::model::{Param, linear};
 use crate::sweep::grid::{Axis, AxisKey, Grid, Value};
 
 /// A branch jumps from one cycle to another where its amplitude changes so many times as fast as beside it.

@@ -7,15 +7,14 @@ use crate::error::{Error, Result};
 use crate::results::figure::look::Look;
 use crate::version::{COMMIT, VERSION};
 use squealmap_figure::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room, y_ticks};
-use squealmap_figure::key;
-use squealmap_figure::letters;
 use squealmap_figure::page::{DOUBLE_COLUMN, MARGIN, title};
 use squealmap_figure::plot::Plot;
-use squealmap_figure::raster;
 use squealmap_figure::raster::data_uri;
 use squealmap_figure::scale::{Scale, axis_unit};
-use squealmap_figure::svg::{Anchor, Style, Svg, number};
+use squealmap_figure::svg::{Anchor, Style, Svg};
 use squealmap_figure::text::{Text, wrap};
+use squealmap_figure::words::number;
+use squealmap_figure::{key, letters, raster};
 use squealmap_identify::{Identification, Kind, Spectrogram};
 
 /// Heights of friction, acceleration and each spectrogram, points.

@@ -9,13 +9,12 @@ use crate::study::modes::follow::{Branch, Mode, Modes, modes_of};
 use crate::sweep::grid::{AxisKey, Grid};
 use crate::sweep::spec::Spec;
 use squealmap_figure::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room, y_ticks};
-use squealmap_figure::key;
-use squealmap_figure::letters;
 use squealmap_figure::page::{DOUBLE_COLUMN, MARGIN, SINGLE_COLUMN, title};
 use squealmap_figure::plot::{CRITICAL, FIRST, Plot, SECOND, ZERO};
 use squealmap_figure::scale::{Scale, value_label};
 use squealmap_figure::svg::{Anchor, Style, Svg, polyline};
 use squealmap_figure::text::Text;
+use squealmap_figure::{key, letters};
 
 /// Height of a panel, points.
 const HEIGHT: f64 = 120.0;

@@ -1,7 +1,8 @@
 //! The phase method on trial: does a threshold on the phase tell mode coupling from a negative slope?
 
-use crate::engine::choice::{Backend, Options};
-use crate::engine::kernel::source::Precision;
+use crate::engine::backend::Backend;
+use crate::engine::options::Options;
+use crate::engine::precision::Precision;
 use crate::engine::record::Record;
 use crate::engine::regime::Regime;
 use crate::error::Result;

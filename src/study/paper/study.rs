@@ -3,9 +3,8 @@
 use std::sync::OnceLock;
 
 use crate::error::Result;
-use crate::model::Param;
 use crate::model::instance::Instance;
-use crate::model::linear;
+use crate::model::{Param, linear};
 use crate::study::modes::follow::{Modes, follow};
 use crate::study::paper::accelerations;
 use crate::study::paper::accelerations::Trial;

@@ -6,14 +6,13 @@ use crate::results::figure::heading::Heading;
 use crate::results::figure::look::Look;
 use crate::study::trace::run::{Trace, TraceRow};
 use squealmap_figure::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room, y_ticks};
-use squealmap_figure::key;
 use squealmap_figure::key::Sample;
-use squealmap_figure::letters;
 use squealmap_figure::page::{DOUBLE_COLUMN, MARGIN};
 use squealmap_figure::plot::Plot;
 use squealmap_figure::scale::{Scale, axis_unit};
 use squealmap_figure::svg::{Anchor, Style, Svg};
 use squealmap_figure::text::Text;
+use squealmap_figure::{key, letters};
 
 /// Height of a panel, points.
 const HEIGHT: f64 = 88.0;

@@ -1,7 +1,13 @@
 //! One instance in full: the sampled trajectory.
 
 use crate::engine::outcome::Outcome;
+use crate::engine::plan::Plan;
+use crate::engine::reference::integrate::{Event, Observer, Step};
+use crate::engine::reference::respond::respond;
+use crate::engine::scene::Scene;
 use crate::model::contact::ContactState;
+use crate::model::instance::Instance;
+use crate::sweep::spec::Spec;
 
 /// One sample of a trajectory, SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,13 +38,6 @@ pub struct Trace {
 }
 
 use std::f64::consts::TAU;
-
-use crate::engine::plan::Plan;
-use crate::engine::reference::integrate::{Event, Observer, Step};
-use crate::engine::reference::respond::respond;
-use crate::engine::scene::Scene;
-use crate::model::instance::Instance;
-use crate::sweep::spec::Spec;
 
 /// Integrates one instance and samples it `samples_per_period` times per `2π/ω0`, and on both sides of every event.
 ///

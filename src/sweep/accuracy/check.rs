@@ -4,12 +4,8 @@
 //! reference, which shares no code with the engines but costs some fifty times as much. Their errors are written
 //! beside them. Those of the first kind that are near a border between two labels take the finer result.
 
-use std::ops::Range;
-use std::sync::atomic::AtomicBool;
-
-use crate::engine::choice::Backend;
+use crate::engine::backend::Backend;
 use crate::engine::computation::Stopped;
-use crate::engine::kernel::source::Precision;
 use crate::engine::lanes::records as cpu;
 use crate::engine::method::Method;
 use crate::engine::record::{By, Check, Record};
@@ -17,13 +13,15 @@ use crate::engine::reference::records as reference;
 use crate::error::Result;
 use crate::model::status::Status;
 use crate::sweep::accuracy::boundary::is_near;
-use crate::sweep::accuracy::configuration::Configuration;
+use crate::sweep::accuracy::configuration::{Configuration, finer};
 use crate::sweep::accuracy::errors::{is_settled_oscillation, worst};
 use crate::sweep::accuracy::frontier::Frontier;
 use crate::sweep::accuracy::sample::subset;
 use crate::sweep::draw::spread;
 use crate::sweep::label::Label;
 use crate::sweep::spec::Spec;
+use std::ops::Range;
+use std::sync::atomic::AtomicBool;
 
 /// Parts of the run time that the two kinds of checks may take, together below 5 %.
 const FINE_SHARE: f64 = 0.03;
@@ -37,9 +35,6 @@ const GPU_PER_SECOND: f64 = 5e6;
 const FINE_SEED: u64 = 0x5153_4645;
 const REFERENCE_SEED: u64 = 0x5153_5245;
 
-/// The least steps per period of the finer result; its truncation is then a thousandth of what f32 rounds.
-const FINE_STEPS: u32 = 16;
-
 /// Steps per period of the reference.
 const REFERENCE_STEPS: u32 = 12;
 
@@ -50,16 +45,6 @@ pub struct Counts {
     pub fine: usize,
     /// By the reference.
     pub reference: usize,
-}
-
-/// The finer configuration that checks results of `configuration`.
-#[must_use]
-pub fn finer(configuration: &Configuration) -> Configuration {
-    let steps = match configuration.precision {
-        Precision::F32 => FINE_STEPS,
-        Precision::F64 => FINE_STEPS.max(configuration.steps_per_period.saturating_mul(2)),
-    };
-    Configuration::cpu(Precision::F64, steps)
 }
 
 impl Counts {

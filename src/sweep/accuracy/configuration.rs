@@ -1,16 +1,14 @@
 //! An engine with its arithmetic and steps per period: one way to compute a sweep.
 
-use std::fmt;
-
-use crate::engine::choice::{Backend, Options};
-use crate::engine::gpu;
-use crate::engine::kernel::source::Precision;
-use crate::engine::lanes::records as cpu;
+use crate::engine::Engine;
+use crate::engine::backend::Backend;
 use crate::engine::method::Method;
-use crate::engine::reference::records as reference;
+use crate::engine::options::Options;
+use crate::engine::precision::Precision;
 use crate::model::friction::LawKind;
 use crate::sweep::grid::{AxisKey, Grid, Value};
 use crate::sweep::spec::Spec;
+use std::fmt;
 
 /// One way to compute a sweep.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,11 +33,7 @@ impl Configuration {
     /// One instance at a time by a method: the reference, or one to compare with.
     #[must_use]
     pub fn scalar(method: Method, steps_per_period: u32) -> Configuration {
-        let backend = match method {
-            Method::Taylor => Backend::Reference,
-            Method::LocatedRk4 => Backend::LocatedRk4,
-            Method::FixedStep => Backend::FixedStep,
-        };
+        let backend = Backend::of_method(method);
         Configuration { backend, adapter: None, precision: Precision::F64, steps_per_period }
     }
 
@@ -47,6 +41,17 @@ impl Configuration {
     #[must_use]
     pub fn cpu(precision: Precision, steps_per_period: u32) -> Configuration {
         Configuration { backend: Backend::Cpu, adapter: None, precision, steps_per_period }
+    }
+
+    /// What an engine computes with so many steps per period.
+    #[must_use]
+    pub fn of(engine: &dyn Engine, steps_per_period: u32) -> Configuration {
+        Configuration {
+            backend: engine.backend(),
+            adapter: None,
+            precision: engine.precision(),
+            steps_per_period,
+        }
     }
 
     /// The options that compute like this, everything else as in `options`.
@@ -66,33 +71,12 @@ impl Configuration {
 impl fmt::Display for Configuration {
     /// `cpu f32, 5 steps per period`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} {}", name(self.backend), self.precision)?;
+        write!(f, "{} {}", self.backend.name(), self.precision)?;
         if let Some(adapter) = &self.adapter {
             write!(f, " on {adapter}")?;
         }
         write!(f, ", {} steps per period", self.steps_per_period)
     }
-}
-
-/// The name of a backend in tables, and on the command line of those that are there.
-#[must_use]
-pub fn name(backend: Backend) -> &'static str {
-    match backend {
-        Backend::Auto => "auto",
-        Backend::Gpu => gpu::NAME,
-        Backend::Cpu => cpu::NAME,
-        Backend::Reference => reference::NAME,
-        Backend::LocatedRk4 => reference::name(Method::LocatedRk4),
-        Backend::FixedStep => reference::name(Method::FixedStep),
-    }
-}
-
-/// The backend of a name.
-#[must_use]
-pub fn named(text: &str) -> Option<Backend> {
-    [Backend::Gpu, Backend::Cpu, Backend::Reference, Backend::LocatedRk4, Backend::FixedStep]
-        .into_iter()
-        .find(|backend| name(*backend) == text)
 }
 
 /// The kinds of scenes of a sweep, on which speed and error depend most: the form of the friction law, and whether
@@ -127,3 +111,16 @@ pub fn scenes(spec: &Spec) -> Vec<String> {
     let ending = if spec.settle_limit.is_some() { "until settled" } else { "fixed time" };
     forms.into_iter().map(|form| format!("{form}, {ending}")).collect()
 }
+
+/// The finer configuration that checks results of `configuration`.
+#[must_use]
+pub fn finer(configuration: &Configuration) -> Configuration {
+    let steps = match configuration.precision {
+        Precision::F32 => FINE_STEPS,
+        Precision::F64 => FINE_STEPS.max(configuration.steps_per_period.saturating_mul(2)),
+    };
+    Configuration::cpu(Precision::F64, steps)
+}
+
+/// The least steps per period of the finer result; its truncation is then a thousandth of what f32 rounds.
+const FINE_STEPS: u32 = 16;

@@ -1,11 +1,11 @@
 //! The cheapest configuration for an error, from what was measured.
 
-use crate::engine::choice::Backend;
+use crate::engine::backend::Backend;
 use crate::error::{Error, Result};
-use crate::sweep::accuracy::configuration::{Configuration, named, scenes};
+use crate::sweep::accuracy::configuration::{Configuration, scenes};
 use crate::sweep::accuracy::level::Level;
 use crate::sweep::accuracy::row::{Row, from_csv, pace};
-use crate::sweep::accuracy::trial::Trial;
+use crate::sweep::accuracy::tried::Trial;
 use crate::sweep::spec::Spec;
 
 use std::sync::LazyLock;
@@ -22,7 +22,7 @@ pub const MARGIN: f64 = 2.0;
 /// Whether a row is of a method that is there to be compared with: it is never chosen.
 #[must_use]
 pub fn is_comparison(row: &Row) -> bool {
-    named(&row.backend).is_some_and(Backend::is_comparison)
+    Backend::of_name(&row.backend).is_some_and(Backend::is_comparison)
 }
 
 /// Marks the efficient ones among the rows of each scene that may be chosen: no other is as accurate and as fast.

@@ -2,10 +2,12 @@
 
 use rayon::ThreadPoolBuilder;
 
-use crate::engine::choice::{Backend, Options};
+use crate::engine::backend::Backend;
+use crate::engine::choice::choose;
 use crate::engine::gpu::adapter::Adapter;
-use crate::engine::kernel::source::Precision;
 use crate::engine::method::Method;
+use crate::engine::options::Options;
+use crate::engine::precision::Precision;
 use crate::engine::record::Record;
 use crate::error::{Error, Result};
 use crate::model::status::Status;
@@ -16,7 +18,6 @@ use crate::sweep::accuracy::frontier::mark;
 use crate::sweep::accuracy::row::{Rate, Row};
 use crate::sweep::accuracy::sample::{Sample, records, subset};
 use crate::sweep::draw::spread;
-use crate::sweep::solver::Solver;
 use crate::sweep::spec::Spec;
 
 /// Steps per period of the truth: twice those of a sweep.
@@ -255,11 +256,11 @@ fn speed(
 ) -> Result<[f64; 2]> {
     let spec = configuration.sweep(timed);
     let options = Options { note: None, ..configuration.options(options) };
-    let mut solver = Solver::new(&spec, &options)?;
+    let mut engine = choose(&options, &spec)?;
     let clock = Clock::start();
     let mut computed = 0;
     while computed == 0 || clock.wall() < SHORTEST_TIMING || clock.worked() <= 0.0 {
-        if let Some(why) = solver.records(0..instances, &|_| {})?.stopped {
+        if let Some(why) = engine.records(&spec, 0..instances, options.cancel(), &|_| {})?.stopped {
             return Err(why.error(0, instances));
         }
         computed += instances;

@@ -24,3 +24,4 @@ pub mod measure;
 pub mod row;
 pub mod sample;
 pub mod trial;
+pub mod tried;

@@ -2,9 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::engine::kernel::source::Precision;
+use crate::engine::backend::Backend;
+use crate::engine::precision::Precision;
 use crate::error::{Error, Result};
-use crate::sweep::accuracy::configuration::{Configuration, name, named};
+use crate::sweep::accuracy::configuration::Configuration;
 use crate::sweep::accuracy::errors::Errors;
 
 /// Cost and error of a configuration on one kind of scene. Errors are relative (`stick`: absolute), quantiles over
@@ -113,7 +114,7 @@ impl Row {
         let (worst, stick) = (errors.worst, errors.stick);
         Row {
             scene: scene.to_owned(),
-            backend: name(configuration.backend).to_owned(),
+            backend: configuration.backend.name().to_owned(),
             adapter: configuration.adapter.clone(),
             precision: configuration.precision.to_string(),
             steps_per_period: configuration.steps_per_period,
@@ -151,7 +152,7 @@ impl Row {
         let precision =
             [Precision::F32, Precision::F64].into_iter().find(|one| one.name() == self.precision)?;
         Some(Configuration {
-            backend: named(&self.backend)?,
+            backend: Backend::of_name(&self.backend)?,
             adapter: self.adapter.clone(),
             precision,
             steps_per_period: self.steps_per_period,

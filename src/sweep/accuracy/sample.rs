@@ -3,8 +3,9 @@
 
 use std::collections::BTreeMap;
 
-use crate::engine::choice::Options;
-use crate::engine::kernel::source::Precision;
+use crate::engine::choice::choose;
+use crate::engine::options::Options;
+use crate::engine::precision::Precision;
 use crate::engine::record::Record;
 use crate::error::Result;
 use crate::sweep::accuracy::boundary::is_near;
@@ -12,7 +13,6 @@ use crate::sweep::accuracy::configuration::Configuration;
 use crate::sweep::draw::{mixed, spread};
 use crate::sweep::grid::Grid;
 use crate::sweep::label::Label;
-use crate::sweep::solver::Solver;
 use crate::sweep::spec::{Analysis, Spec, Starts};
 
 /// Candidates for each instance of the sample: what is rarer than one in so many may be missed.
@@ -135,7 +135,7 @@ pub fn records(configuration: &Configuration, spec: &Spec, options: &Options) ->
     let spec = configuration.sweep(spec);
     let options = Options { note: None, ..configuration.options(options) };
     let total = spec.grid.len();
-    let computed = Solver::new(&spec, &options)?.records(0..total, &|_| {})?;
+    let computed = choose(&options, &spec)?.records(&spec, 0..total, options.cancel(), &|_| {})?;
     match computed.stopped {
         None => Ok(computed.records),
         Some(why) => Err(why.error(0, total)),

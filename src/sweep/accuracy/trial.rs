@@ -3,16 +3,14 @@
 //! The table that a choice is made from was measured on other sweeps. Parameters far from theirs make other errors, and
 //! only the sweep itself can tell.
 
-use serde::{Deserialize, Serialize};
-
-use crate::engine::choice::Options;
+use crate::engine::options::Options;
 use crate::engine::record::Record;
 use crate::error::Result;
-use crate::sweep::accuracy::check::finer;
-use crate::sweep::accuracy::configuration::Configuration;
+use crate::sweep::accuracy::configuration::{Configuration, finer};
 use crate::sweep::accuracy::errors::{is_settled_oscillation, quantile, scatter, worst};
 use crate::sweep::accuracy::frontier::Choice;
 use crate::sweep::accuracy::sample::{records, subset};
+use crate::sweep::accuracy::tried::Trial;
 use crate::sweep::draw::spread;
 use crate::sweep::spec::Spec;
 
@@ -28,58 +26,8 @@ const MOST_PART: f64 = 0.02;
 const FEWEST: usize = 20;
 const ENOUGH: usize = 100;
 
-/// The part of the oscillations of a trial that may break the bound, half of what the promise allows: several choices are
-/// tried on one sample, of which none is to pass by luck. What breaks the bound in 10 % of all cases passes a trial of 100
-/// oscillations one time in 500, one of 40 one time in 70.
-const BROKEN: f64 = 0.025;
-
 /// Seed of the draw.
 const SEED: u64 = 0x5153_5452;
-
-/// What a configuration did on some instances of a sweep.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
-pub struct Trial {
-    /// Instances.
-    pub instances: usize,
-    /// Settled oscillations among them.
-    pub settled_oscillations: usize,
-    /// The relative error beyond the truth's own scatter that 95 % of them keep; `None` of fewer than 20.
-    pub p95: Option<f64>,
-    /// How many of them break the bound.
-    pub broken: usize,
-}
-
-impl Trial {
-    /// Whether the bound was kept, as far as so few can tell.
-    #[must_use]
-    pub fn passed(&self) -> bool {
-        self.broken as f64 <= (BROKEN * self.settled_oscillations as f64 - 0.5).max(0.0)
-    }
-
-    /// What it says to a user.
-    #[must_use]
-    pub fn sentence(&self, bound: f64) -> String {
-        let Trial { instances, settled_oscillations: settled, p95, .. } = *self;
-        let sample =
-            format!("tried on {instances} instances of this sweep, {settled} of them settled oscillations");
-        let found = match p95 {
-            Some(p95) if p95 > 0.0 => format!("95 % within {p95:.1e} beyond their own scatter"),
-            Some(_) => "95 % within their own scatter".to_owned(),
-            None if self.passed() => {
-                return format!("{sample}: too few to tell whether it keeps {bound:e} here");
-            }
-            None => "too few for a 95th percentile".to_owned(),
-        };
-        if self.passed() {
-            return format!("{sample}: {found}");
-        }
-        format!(
-            "warning: {sample}: {found}, but {} break {bound:e}, more than half of what may, and nothing measured is more \
-             accurate; the checks in the summary say what the whole sweep has",
-            self.broken
-        )
-    }
-}
 
 /// The first of some choices, each more accurate than the one before, that keeps its bound on instances of the sweep; the
 /// last where none does. Of a choice without a bound nothing is tried.

@@ -21,8 +21,8 @@ use crate::sweep::draw::spread;
 use crate::sweep::grid::Grid;
 use crate::sweep::label::{Label, Tally};
 use crate::sweep::run::MOST_IN_MEMORY;
-
 use crate::sweep::spec::refine::Settings;
+
 use cell::Cell;
 pub use planes::Planes;
 

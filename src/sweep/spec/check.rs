@@ -13,10 +13,8 @@ use crate::sweep::spec::law::LAW_PARAMS;
 use crate::sweep::spec::sections::Sections;
 use crate::sweep::spec::start::{AMPLITUDES, BOUNDS, Kind};
 use crate::sweep::spec::varied::Varied;
-use squealmap_input::place::Place;
-use squealmap_input::place::Source;
-use squealmap_input::quote::list;
-use squealmap_input::quote::quoted;
+use squealmap_input::place::{Place, Source};
+use squealmap_input::quote::{list, quoted};
 
 /// The laws that a material serves.
 pub(super) const MATERIAL_LAWS: [&str; 4] = ["constant", "bilinear", "exponential", "rational"];

@@ -4,13 +4,11 @@
 use crate::error::{Error, Result};
 use crate::model::{PARAMS, Param, ParamInfo};
 use crate::sweep::spec::duration::LONGEST;
-use crate::sweep::spec::law;
 use crate::sweep::spec::law::LAW_PARAMS;
 use crate::sweep::spec::names::advice;
 use crate::sweep::spec::refine::{COARSE, Settings};
-use crate::sweep::spec::sections::STEPS_RANGE;
 use crate::sweep::spec::start::{AMPLITUDES, BOX_SAMPLES, Kind, SAMPLES_RANGE};
-use crate::sweep::spec::{MEASURE, SETTLE, SETTLE_LIMIT, STEPS_PER_PERIOD};
+use crate::sweep::spec::{MEASURE, SETTLE, SETTLE_LIMIT, STEPS_PER_PERIOD, law};
 use squealmap_input::place::Place;
 use squealmap_input::quote::list;
 
@@ -340,3 +338,6 @@ fn whole((least, most): (usize, usize)) -> String {
 fn time() -> String {
     format!("a time above 0 and at most {LONGEST:e}, such as \"6 s\" or \"200 periods\"")
 }
+
+/// Fewest and most steps per period that may be asked for.
+pub(super) const STEPS_RANGE: (usize, usize) = (3, 100_000);

@@ -15,8 +15,7 @@ use crate::sweep::spec::{MAX_ROWS, MAX_TABLE_ROWS};
 use squealmap_input::files;
 use squealmap_input::files::MIB;
 use squealmap_input::place::Source;
-use squealmap_input::quote::list;
-use squealmap_input::quote::{is_obeyed, quoted};
+use squealmap_input::quote::{is_obeyed, list, quoted};
 
 /// What a file of rows is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,7 +1,5 @@
 //! The sections of a sweep file, key by key; what concerns several keys is in `check`.
 
-use std::ops::Range;
-
 use crate::engine::plan::Duration;
 use crate::error::{Error, Result};
 use crate::model::friction::LawKind;
@@ -11,17 +9,14 @@ use crate::sweep::spec::document::{
     Entry, Node, array, boolean, choice, entries, integer, number, out_of_range, string, table,
 };
 use crate::sweep::spec::duration::duration;
-use crate::sweep::spec::keys::{home, names_of};
-use crate::sweep::spec::law;
+use crate::sweep::spec::keys::{STEPS_RANGE, home, names_of};
 use crate::sweep::spec::names::unknown;
 use crate::sweep::spec::refine::{COARSE, Settings};
 use crate::sweep::spec::start::{BOX_SAMPLES, Kind, SAMPLES_RANGE};
-use crate::sweep::spec::{Analysis, STEPS_PER_PERIOD, Starts};
+use crate::sweep::spec::{Analysis, STEPS_PER_PERIOD, Starts, law};
 use squealmap_input::place::Source;
 use squealmap_input::quote::is_obeyed;
-
-/// Fewest and most steps per period that may be asked for.
-pub(super) const STEPS_RANGE: (usize, usize) = (3, 100_000);
+use std::ops::Range;
 
 /// Most instances that a refined map draws, as many as any sweep in memory has.
 const MOST_SAMPLED: usize = u32::MAX as usize;

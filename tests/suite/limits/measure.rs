@@ -1,11 +1,10 @@
 //! How far an engine is from what is expected of a scene.
 
+use super::scene::{Expected, Number, Scene};
+use crate::engines::Engine;
 use squealmap::engine::outcome::Outcome;
 use squealmap::engine::plan::Plan;
 use squealmap::model::status::Status;
-
-use super::scene::{Expected, Number, Scene};
-use crate::engines::Engine;
 
 /// What an engine made of a scene.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,18 +2,16 @@
 
 use std::f64::consts::TAU;
 
+use crate::common::{instance, plan};
+use crate::exact;
 use nalgebra::Vector4;
 use squealmap::engine::outcome::Outcome;
-use squealmap::engine::plan::Duration;
-use squealmap::engine::plan::Plan;
+use squealmap::engine::plan::{Duration, Plan};
 use squealmap::model::Param;
 use squealmap::model::equilibrium::Units;
 use squealmap::model::friction::FrictionLaw;
 use squealmap::model::instance::Instance;
 use squealmap::model::status::Status;
-
-use crate::common::{instance, plan};
-use crate::exact;
 
 /// A number of an outcome; undefined where the outcome has none.
 pub(crate) type Number = fn(&Outcome) -> Option<f64>;

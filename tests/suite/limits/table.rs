@@ -1,11 +1,10 @@
 //! The scenes: every parameter from one end of its range to the other.
 
+use super::scene::{Group, Scene, as_reference, ends, periods, sliding, sliding_under, stick_slip};
+use crate::common::{bilinear, constant};
 use squealmap::model::Param;
 use squealmap::model::friction::FrictionLaw;
 use squealmap::model::status::Status;
-
-use super::scene::{Group, Scene, as_reference, ends, periods, sliding, sliding_under, stick_slip};
-use crate::common::{bilinear, constant};
 
 /// Undamped coalescence of Table 1, the root of its closed form.
 const COALESCENCE: f64 = 0.226_361_594_06;

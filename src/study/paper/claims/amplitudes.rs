@@ -1,6 +1,6 @@
 //! Claims that compare the ramps with each other: Figures 4 to 6.
 
-use crate::study::paper::claims::{Claim, Verdict};
+use crate::study::paper::claims::claim::{Claim, Verdict};
 use crate::study::paper::evidence::{Evidence, RampFacts};
 use crate::study::paper::{Case, LIMITS, Trial, millimetres};
 

@@ -1,6 +1,6 @@
 //! How the size of a vibration follows the belt velocity once it has grown: Figure 5.
 
-use crate::study::paper::claims::{Claim, Verdict, not_grown};
+use crate::study::paper::claims::claim::{Claim, Verdict, not_grown};
 use crate::study::paper::evidence::{Evidence, RampFacts};
 use crate::study::paper::{LIMITS, extremes};
 

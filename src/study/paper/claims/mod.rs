@@ -3,52 +3,15 @@
 //! Verdicts are decided here from [`Evidence`] and [`LIMITS`]; none is written down.
 
 mod amplitudes;
+mod claim;
 mod course;
 mod phase;
 mod ramps;
 
 use crate::study::paper::LIMITS;
-use crate::study::paper::evidence::{Evidence, RampFacts};
-
-/// What became of a claim.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Verdict {
-    /// It holds.
-    Reproduced,
-    /// It holds, but not as the paper has it: under this condition.
-    Under(String),
-    /// It does not hold.
-    NotReproduced,
-}
-
-impl Verdict {
-    fn of(holds: bool) -> Verdict {
-        if holds { Verdict::Reproduced } else { Verdict::NotReproduced }
-    }
-
-    /// In words, without the condition.
-    #[must_use]
-    pub fn words(&self) -> &'static str {
-        match self {
-            Verdict::Reproduced => "reproduced",
-            Verdict::Under(_) => "reproduced under a stated condition",
-            Verdict::NotReproduced => "not reproduced",
-        }
-    }
-}
-
-/// One claim.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Claim {
-    /// The figure or section it belongs to.
-    pub figure: &'static str,
-    /// What the paper says, as it is read here.
-    pub says: &'static str,
-    /// What was found, with the numbers.
-    pub found: String,
-    /// What became of it.
-    pub verdict: Verdict,
-}
+use crate::study::paper::evidence::Evidence;
+pub use claim::{Claim, Verdict};
+use claim::{near, or_none};
 
 /// All claims in the order of the figures.
 #[must_use]
@@ -67,15 +30,6 @@ pub fn claims(evidence: &Evidence) -> Vec<Claim> {
         phase::in_quadrature(evidence),
         phase::separates(evidence),
     ]
-}
-
-/// `x` with `digits` decimals, or a dash.
-fn or_none(value: Option<f64>, digits: usize) -> String {
-    value.map_or_else(|| "none".to_owned(), |x| format!("{x:.digits$}"))
-}
-
-fn near(value: Option<f64>, target: f64, within: f64) -> bool {
-    value.is_some_and(|x| (x - target).abs() <= within)
 }
 
 fn critical_friction(evidence: &Evidence) -> Claim {
@@ -97,13 +51,4 @@ fn coalescence_frequency(evidence: &Evidence) -> Claim {
         found: format!("{} Hz at the critical friction", or_none(found, 2)),
         verdict: Verdict::of(near(found, LIMITS.coalescence_frequency, within)),
     }
-}
-
-/// What is found where a vibration has not grown.
-fn not_grown(ramp: &RampFacts) -> String {
-    format!(
-        "on this ramp the vibration does not grow: ẍ2 stays within {:.1} m/s², {:.1} times what disturbs it",
-        ramp.largest().1,
-        ramp.largest().1 / ramp.disturbance
-    )
 }

@@ -1,6 +1,6 @@
 //! Claims on the phase of the two accelerations: Figure 7 and section 2.4.
 
-use crate::study::paper::claims::{Claim, Verdict};
+use crate::study::paper::claims::claim::{Claim, Verdict};
 use crate::study::paper::evidence::Evidence;
 use crate::study::paper::{CUSTOMARY, LIMITS, Score, Source, Window, degrees, extremes};
 

@@ -1,7 +1,7 @@
 //! Claims on single ramps: Figures 4 and 5.
 
 use crate::study::paper::LIMITS;
-use crate::study::paper::claims::{Claim, Verdict, near, not_grown, or_none};
+use crate::study::paper::claims::claim::{Claim, Verdict, near, not_grown, or_none};
 use crate::study::paper::evidence::{Evidence, SLOWEST};
 
 pub(super) fn stable_until_critical_velocity(evidence: &Evidence) -> Claim {

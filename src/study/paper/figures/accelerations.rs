@@ -6,7 +6,7 @@ use crate::error::Result;
 use crate::results::columns::Cell;
 use crate::results::csv::Table;
 use crate::results::figure::look::Look;
-use crate::study::paper::figures::distinct;
+use crate::study::paper::figures::distinct::distinct;
 use crate::study::paper::{LIMITS, Trial};
 use squealmap_figure::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room};
 use squealmap_figure::page::{DOUBLE_COLUMN, MARGIN, title};

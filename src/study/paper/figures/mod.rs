@@ -1,6 +1,7 @@
 //! `paper`: the figures of the source paper as pictures and tables.
 
 mod accelerations;
+mod distinct;
 mod growth;
 mod laws;
 mod phase;
@@ -150,12 +151,4 @@ impl Shown {
 pub fn draw(figure: Figure, study: &Study) -> Result<Drawn> {
     let shown = Shown::compute(figure, study)?;
     Ok(Drawn { svg: shown.svg(&Look::default()), csv: shown.csv()?, json: shown.document()? })
-}
-
-/// The distinct values, rising.
-fn distinct(values: impl Iterator<Item = f64>) -> Vec<f64> {
-    let mut values: Vec<f64> = values.collect();
-    values.sort_by(f64::total_cmp);
-    values.dedup();
-    values
 }

@@ -5,21 +5,20 @@ use crate::model::Param;
 use crate::model::kind::InstabilityType;
 use crate::results::columns::Cell;
 use crate::results::csv::Table;
-use crate::results::figure::cells::define_patterns;
+use crate::results::figure::fills::define_patterns;
 use crate::results::figure::look::Look;
 use crate::results::figure::panels::setting;
-use crate::study::paper::figures::distinct;
+use crate::study::paper::figures::distinct::distinct;
 use crate::study::paper::{CUSTOMARY, PhaseTrial, Source, Witness};
 use crate::sweep::grid::{AxisKey, Value};
 use squealmap_figure::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_count, y_tick_room};
-use squealmap_figure::key;
 use squealmap_figure::key::Sample;
 use squealmap_figure::page::{DOUBLE_COLUMN, MARGIN, title};
 use squealmap_figure::plot::{CRITICAL, FIRST, Plot, SECOND, THIRD};
-use squealmap_figure::raster;
 use squealmap_figure::scale::Scale;
 use squealmap_figure::svg::{Anchor, Style, Svg};
 use squealmap_figure::text::{Text, wrap};
+use squealmap_figure::{key, raster};
 
 /// Between panels, points.
 const GAP: f64 = 8.0;

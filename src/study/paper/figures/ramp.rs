@@ -9,13 +9,12 @@ use crate::results::csv::Table;
 use crate::results::figure::look::Look;
 use crate::study::paper::{Case, Stretch, Study, millimetres};
 use squealmap_figure::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_count, y_tick_room};
-use squealmap_figure::key;
-use squealmap_figure::letters;
 use squealmap_figure::page::{DOUBLE_COLUMN, MARGIN, title};
 use squealmap_figure::plot::{CRITICAL, Plot};
 use squealmap_figure::scale::{Scale, Tick, axis_unit, value_label};
 use squealmap_figure::svg::{Anchor, Style, Svg, polyline};
 use squealmap_figure::text::Text;
+use squealmap_figure::{key, letters};
 
 /// Heights of the panels, points.
 const HEIGHTS: [f64; 3] = [96.0, 96.0, 46.0];

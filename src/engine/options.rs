@@ -1,0 +1,40 @@
+//! How a sweep is to be computed.
+
+use std::sync::atomic::AtomicBool;
+
+use crate::engine::backend::Backend;
+use crate::engine::precision::Precision;
+
+/// How a sweep is to be computed.
+#[derive(Clone, Copy, Default)]
+pub struct Options<'a> {
+    /// The backend.
+    pub backend: Backend,
+    /// The scalar; `None`: f64 on the CPU, f32 on a GPU. f32 is an error for the reference.
+    pub precision: Option<Precision>,
+    /// Whether a GPU rounds every operation by itself: where it also divides exactly and keeps denormals, results
+    /// are those of the kernel's twin in every bit. An error where the CPU engine would compute.
+    pub strict: bool,
+    /// An error unless a hardware GPU computes.
+    pub require_gpu: bool,
+    /// Only adapters whose name contains this, in any case. An error where the CPU engine would compute, or
+    /// when it is blank.
+    pub adapter: Option<&'a str>,
+    /// Most instances of one chunk on a GPU; results do not depend on it.
+    pub chunk: Option<usize>,
+    /// Set to stop early.
+    pub cancel: Option<&'a AtomicBool>,
+    /// Gets one line: what computes, and why.
+    pub note: Option<&'a (dyn Fn(&str) + Sync)>,
+}
+
+/// The flag of a run that nobody cancels.
+static NEVER: AtomicBool = AtomicBool::new(false);
+
+impl<'a> Options<'a> {
+    /// Set when the run is to stop.
+    #[must_use]
+    pub fn cancel(&self) -> &'a AtomicBool {
+        self.cancel.unwrap_or(&NEVER)
+    }
+}

@@ -1,0 +1,61 @@
+//! Why there is no fit.
+
+/// Why there is no fit.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum FitFault {
+    /// Fewer points than unknowns.
+    #[error(
+        "{points} point(s) do not determine {unknowns} value(s); measure more, or ask for fewer rows with --temperatures"
+    )]
+    TooFew {
+        /// Points.
+        points: usize,
+        /// Values to find.
+        unknowns: usize,
+    },
+    /// Rows that do not rise.
+    #[error(
+        "the temperatures of the rows are {first} and then {second} °C but must rise; sort --temperatures"
+    )]
+    NotRising {
+        /// One temperature, °C.
+        first: f64,
+        /// The next, °C.
+        second: f64,
+    },
+    /// Points that do not tell the parameters apart.
+    #[error(
+        "the points near {temperature} °C do not determine `{param}`: they cover velocities from {low} to {high} m/s; measure more velocities there, choose --law constant, or other --temperatures"
+    )]
+    Undetermined {
+        /// The row, °C.
+        temperature: f64,
+        /// The parameter.
+        param: &'static str,
+        /// Lowest velocity near it, m/s.
+        low: f64,
+        /// Highest velocity near it, m/s.
+        high: f64,
+    },
+    /// A law that cannot be fitted this way.
+    #[error(
+        "the law `{law}` is not linear in its coefficients; choose bilinear, exponential or constant with --law"
+    )]
+    Law {
+        /// Its name.
+        law: &'static str,
+    },
+    /// A negative friction coefficient.
+    #[error(
+        "`{param}` would be {value:.4} at {temperature} °C, but friction coefficients are not negative; choose another law, or other --temperatures"
+    )]
+    Negative {
+        /// The parameter.
+        param: &'static str,
+        /// Its value.
+        value: f64,
+        /// The row, °C.
+        temperature: f64,
+    },
+}
