@@ -1,6 +1,7 @@
 //! `--accuracy`: what may compute a sweep as accurately as is asked for.
 
 use crate::cli::engine::{BackendName, EngineArgs};
+use crate::cli::error::{Error, Result};
 use crate::cli::frontier;
 use crate::cli::talk::note;
 use clap::Args;
@@ -11,7 +12,6 @@ use squealmap::sweep::accuracy::configuration::Configuration;
 use squealmap::sweep::accuracy::frontier::{Choice, Chosen};
 use squealmap::sweep::accuracy::level::Level;
 use squealmap::sweep::spec::Spec;
-use squealmap::{Error, Result};
 
 /// The argument.
 #[derive(Debug, Args)]
@@ -34,7 +34,7 @@ impl AccuracyArgs {
         if let Some(at) = &spec.steps_given {
             let key = "`steps_per_period` in [response]".to_owned();
             let other = format!("--accuracy {level}, which chooses it");
-            return Err(Error::Conflict { at: at.clone(), key, other });
+            return Err(squealmap::sweep::error::Error::Conflict { at: at.clone(), key, other }.into());
         }
         if let Some(precision) = engine.precision {
             return Err(beside(format!("--precision {}", Precision::from(precision))));
@@ -53,7 +53,7 @@ impl AccuracyArgs {
         }
         let allowed =
             |one: &Configuration| backend.is_none_or(|backend| backend == one.backend) && is_here(one);
-        frontier::of(spec).ranked(level, spec, &allowed).map(Some)
+        Ok(frontier::of(spec).ranked(level, spec, &allowed).map(Some)?)
     }
 }
 

@@ -4,6 +4,7 @@ use std::fmt::Write;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use crate::cli::error::Result;
 use crate::cli::failed::{nothing, told};
 use crate::cli::onset::onset;
 use crate::cli::progress::seconds;
@@ -12,7 +13,6 @@ use crate::cli::talk::{note, print};
 use clap::Args;
 use rayon::prelude::*;
 use serde_json::json;
-use squealmap::Result;
 use squealmap::engine::judged::refused;
 use squealmap::engine::plan::StartKind;
 use squealmap::model::Param;

@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
+use crate::cli::error::{Error, Result};
 use crate::cli::output::{Output, list};
 use crate::cli::pictures::png_of;
 use crate::cli::talk::print;
@@ -10,7 +11,6 @@ use clap::Args;
 use squealmap::results::comparison::{document, figure, table};
 use squealmap::results::read::Archive;
 use squealmap::results::read::compare::{Comparison, Differences, Labels};
-use squealmap::{Error, Result};
 
 /// What is written.
 const FILES: [&str; 4] = ["compare.csv", "compare.json", "compare.png", "compare.svg"];

@@ -4,10 +4,12 @@ use std::io::{self, Seek, SeekFrom, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
+use crate::cli::error::{Error, Result};
 use crate::cli::output::{cannot, cannot_table, claim, list};
 use crate::cli::run::missing;
 use crate::cli::talk::{note, print};
 use clap::{Args, ValueEnum};
+use squealmap::disk;
 use squealmap::disk::{Handle, How, door};
 use squealmap::engine::record::Record;
 use squealmap::model::status::Status;
@@ -16,7 +18,6 @@ use squealmap::results::netcdf::NetCdf;
 use squealmap::results::parquet::MapParquet;
 use squealmap::results::zarr::{METADATA, Zarr};
 use squealmap::store::directory::Store;
-use squealmap::{Error, Result, disk};
 
 /// Arguments of `export`.
 #[derive(Debug, Args)]

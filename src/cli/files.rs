@@ -1,9 +1,9 @@
 //! The sweep file and where its results go.
 
+use crate::cli::error::Result;
 use crate::cli::home::{directory, prepare, prepare_beside};
 use crate::cli::output::Output;
 use clap::Args;
-use squealmap::Result;
 use std::path::PathBuf;
 
 /// The sweep file and where its results go.

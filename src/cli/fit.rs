@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use crate::cli::error::{Error, Result};
 use crate::cli::home::prepare_beside;
 use crate::cli::numbers::{finite, positive};
 use crate::cli::output::list;
@@ -10,7 +11,6 @@ use clap::{Args, ValueEnum};
 use squealmap::model::friction::LawKind;
 use squealmap::study::fit::table::{material_csv, residuals_csv};
 use squealmap::study::fit::{Fit, fit, range};
-use squealmap::{Error, Result};
 use squealmap_identify::{Channel, FrictionColumn, Point, Settings, read_points};
 use squealmap_input::quote::rounded;
 

@@ -3,12 +3,13 @@
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
+use crate::cli::error::{Error, Result};
 use crate::cli::output::{cannot, claim};
 use crate::cli::talk::note;
+use squealmap::disk;
 use squealmap::sweep::accuracy::frontier::Frontier;
 use squealmap::sweep::accuracy::row::{Row, from_csv, to_csv};
 use squealmap::sweep::spec::Spec;
-use squealmap::{Error, Result, disk};
 
 /// The name of the table.
 const TABLE: &str = "accuracy.csv";

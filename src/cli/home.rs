@@ -1,5 +1,6 @@
 //! The directory of the results of an input file: which one it is by default, and whose results it may already hold.
 
+use crate::cli::error::{Error, Result};
 use crate::cli::output::Output;
 use crate::cli::talk::note;
 use clap::Args;
@@ -7,7 +8,6 @@ use squealmap::store::description::Description;
 use squealmap::store::directory::{Store, TILES};
 use squealmap::store::occupant::Occupant;
 use squealmap::store::origin;
-use squealmap::{Error, Result};
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
@@ -119,7 +119,11 @@ impl Replace {
 
     fn decide(self, directory: &Path, there: &Occupant, gives_way: bool) -> Result<()> {
         if !self.force && !gives_way {
-            return Err(Error::OtherSweep { path: directory.to_owned(), there: there.to_string() });
+            return Err(squealmap::store::error::Error::OtherSweep {
+                path: directory.to_owned(),
+                there: there.to_string(),
+            }
+            .into());
         }
         note(&format!("replaces what is in `{}`: {there}", directory.display()));
         Ok(())
@@ -131,7 +135,7 @@ pub(super) fn stem(path: &Path) -> Result<&OsStr> {
     let stem = path.file_stem().unwrap_or_default();
     // `..toml` and `...toml` are files, but what remains of their names is no directory of their own.
     if stem.is_empty() || stem == "." || stem == ".." {
-        return Err(squealmap::Error::NoStem { path: path.to_owned() });
+        return Err(Error::NoStem { path: path.to_owned() });
     }
     Ok(stem)
 }

@@ -2,6 +2,7 @@
 
 use std::process::ExitCode;
 
+use crate::cli::error::{Error, Result};
 use crate::cli::failed::told;
 use crate::cli::files::Files;
 use crate::cli::output::list;
@@ -17,7 +18,6 @@ use squealmap::study::hysteresis::table as export;
 use squealmap::sweep::grid::spaced;
 use squealmap::sweep::spec::Spec;
 use squealmap::sweep::spec::names::advice;
-use squealmap::{Error, Result};
 
 /// What is written.
 const FILES: [&str; 4] = ["hysteresis.csv", "hysteresis.json", "hysteresis.png", "hysteresis.svg"];

@@ -1,11 +1,11 @@
 //! `squealmap identify`: what measured signals say.
 
+use crate::cli::error::Result;
 use crate::cli::home::prepare_beside;
 use crate::cli::numbers::{finite, number, positive};
 use crate::cli::output::list;
 use crate::cli::pictures::png_of;
 use crate::cli::talk::print;
-use squealmap::Result;
 use squealmap::results::figure::look::Look;
 use squealmap::study::identify::report as export;
 use squealmap::study::identify::report::{Shown, WindowsCsv};

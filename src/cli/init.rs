@@ -2,10 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::cli::error::{Error, Result};
 use crate::cli::output::{Output, list};
 use crate::cli::talk::print;
 use clap::{Args, ValueEnum};
-use squealmap::{Error, Result};
 
 /// A sweep to begin with.
 #[derive(Clone, Copy, Debug, Default, ValueEnum)]

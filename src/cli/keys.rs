@@ -2,10 +2,10 @@
 
 use std::fmt::Write;
 
+use crate::cli::error::Result;
 use crate::cli::talk;
 use clap::Args;
 use serde_json::{Value as Json, json};
-use squealmap::Result;
 use squealmap::sweep::spec::keys::{Key, SECTIONS, all, named};
 
 /// Arguments of `keys`.

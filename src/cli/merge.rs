@@ -5,6 +5,7 @@ use std::process::ExitCode;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
 
+use crate::cli::error::Result;
 use crate::cli::failed::judged;
 use crate::cli::home::Replace;
 use crate::cli::output::{cannot, list};
@@ -19,7 +20,6 @@ use squealmap::results::manifest::Run;
 use squealmap::store::directory::Store;
 use squealmap::store::merge::merge;
 use squealmap::store::origin;
-use squealmap::{Error, Result};
 
 /// Arguments of `merge`.
 #[derive(Debug, Args)]
@@ -52,9 +52,9 @@ impl Merge {
 
     pub(crate) fn execute(self) -> Result<ExitCode> {
         let cancel = stop_at_signal()?;
-        let sources = self.sources.iter().map(|path| Store::open(path)).collect::<Result<Vec<_>>>()?;
+        let sources = self.sources.iter().map(|path| Ok(Store::open(path)?)).collect::<Result<Vec<_>>>()?;
         let target = match (Store::open(&self.target), sources.first()) {
-            (Err(Error::NoTiles { .. }), Some(source)) => self.begin(source)?,
+            (Err(squealmap::store::error::Error::NoTiles { .. }), Some(source)) => self.begin(source)?,
             (Ok(other), Some(source)) if self.replace.force && !other.is_same(source) => {
                 self.begin(source)?
             }

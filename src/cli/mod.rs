@@ -7,6 +7,7 @@ mod check;
 mod compare;
 mod engine;
 mod environment;
+mod error;
 mod excerpt;
 mod export;
 mod failed;
@@ -47,9 +48,9 @@ mod trace;
 mod tradeoff;
 mod verify;
 
+use crate::cli::error::Result;
 use crate::cli::signal::INTERRUPTED;
 use crate::cli::talk::Manner;
-use squealmap::Result;
 use std::process::ExitCode;
 
 use clap::{Arg, CommandFactory, FromArgMatches, Parser, Subcommand};
@@ -200,7 +201,7 @@ pub(crate) fn main() -> ExitCode {
         report::report(&error);
         talk::tell("error", error.to_string());
         ExitCode::from(match error {
-            squealmap::Error::Cancelled { .. } => INTERRUPTED,
+            error if error.is_cancelled() => INTERRUPTED,
             error if error.is_bad_input() => 2,
             _ => 1,
         })

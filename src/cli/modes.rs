@@ -1,11 +1,11 @@
 //! `squealmap modes`: eigenvalues against an axis.
 
+use crate::cli::error::Result;
 use crate::cli::files::Files;
 use crate::cli::output::list;
 use crate::cli::pictures::png_of;
 use crate::cli::talk::print;
 use clap::Args;
-use squealmap::Result;
 use squealmap::results::figure::look::Look;
 use squealmap::study::modes::follow as modes;
 use squealmap::sweep::spec::Spec;

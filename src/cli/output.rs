@@ -1,15 +1,18 @@
 //! The output directory: proven writable before the run, filled at once after it.
 
+use squealmap::results::error as results;
+use squealmap::store::error as store;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use crate::cli::error::{Error, Result};
 use crate::cli::talk;
+use squealmap::disk;
 use squealmap::disk::{Handle, door};
 use squealmap::store::claim::Claim;
 use squealmap::store::origin;
-use squealmap::{Error, Result, disk};
 
 /// What is claimed where no file is to come.
 const PROBE: &str = ".squealmap";
@@ -38,9 +41,10 @@ impl Output {
             if proven.contains(&folder) {
                 continue;
             }
-            let made = disk::make_all(&folder)
-                .and_then(|made| Claim::take(&path).map(|_| made))
-                .map_err(|why| Error::OutputDirectory { path: folder.clone(), why: why.to_string() })?;
+            let made =
+                disk::make_all(&folder).and_then(|made| Claim::take(&path).map(|_| made)).map_err(|why| {
+                    store::Error::OutputDirectory { path: folder.clone(), why: why.to_string() }
+                })?;
             output.made.splice(0..0, made);
             proven.push(folder);
         }
@@ -48,7 +52,7 @@ impl Output {
             None => Ok(output),
             Some(name) => {
                 let why = format!("`{name}`, a file to be written there, is a directory");
-                Err(Error::OutputDirectory { path: output.directory.clone(), why })
+                Err(store::Error::OutputDirectory { path: output.directory.clone(), why }.into())
             }
         }
     }
@@ -212,11 +216,11 @@ pub(crate) fn fill(claim: &mut Claim, bytes: &[u8]) -> Result<()> {
 }
 
 /// The error of a table that cannot be written: with its path, and what the system says.
-pub(crate) fn cannot_table(path: &Path, why: Error) -> Error {
+pub(crate) fn cannot_table(path: &Path, why: results::Error) -> Error {
     match why {
-        Error::WriteTable(why) => cannot(path, &io::Error::other(why)),
-        Error::WriteParquet(why) => cannot(path, &io::Error::other(why)),
-        other => other,
+        results::Error::WriteTable(why) => cannot(path, &io::Error::other(why)),
+        results::Error::WriteParquet(why) => cannot(path, &io::Error::other(why)),
+        other => other.into(),
     }
 }
 

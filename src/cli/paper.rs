@@ -3,12 +3,12 @@
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
+use crate::cli::error::Result;
 use crate::cli::numbers::number;
 use crate::cli::output::{Output, list};
 use crate::cli::talk::print;
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use squealmap::Result;
 use squealmap::study::paper::{Claim, Evidence, Figure, Settings, Study, claims, figures as export};
 
 /// The report.

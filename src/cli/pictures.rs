@@ -1,7 +1,7 @@
 //! A figure of a command as PNG.
 
+use crate::cli::error::Result;
 use crate::cli::talk::note;
-use squealmap::Result;
 
 /// The PNG of a figure of a command, with a note where its font lacks a character.
 pub(super) fn png_of(svg: &str) -> Result<Vec<u8>> {

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use crate::cli::error::{Error, Result};
 use crate::cli::numbers::number;
 use crate::cli::output::{Output, list};
 use crate::cli::pictures::tell_missing;
@@ -14,7 +15,6 @@ use squealmap::cluster::slurm::quote;
 use squealmap::results::figure::look::{Journal, Look, WIDTHS};
 use squealmap::study::{Kind, Picture};
 use squealmap::version::program;
-use squealmap::{Error, Result};
 use squealmap_figure::{pdf, png};
 
 /// What is written of every figure.

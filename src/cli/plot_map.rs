@@ -1,5 +1,6 @@
 //! What `squealmap plot` can show of a map: classes, quantities with lines of equal value, and cuts.
 
+use crate::cli::error::{Error, Result};
 use crate::cli::numbers::finite;
 use crate::cli::talk::note;
 use clap::Args;
@@ -17,7 +18,6 @@ use squealmap::results::read::{Archive, Taken};
 use squealmap::sweep::grid::{Grid, Value};
 use squealmap::sweep::spec::Starts;
 use squealmap::sweep::spec::names::advice;
-use squealmap::{Error, Result};
 
 /// The lines between classes.
 const BOUNDARIES: &str = "boundaries.csv";
@@ -214,7 +214,7 @@ impl OfMaps {
         for name in &self.quantity {
             if is_class(archive, name) {
                 let why = format!("curves are of numbers, which `{name}` is not; leave it out, or --cut");
-                return Err(Error::Cut { cut: at.to_owned(), why });
+                return Err(squealmap::results::error::Error::Cut { cut: at.to_owned(), why }.into());
             }
             quantities.push(column(archive, name).ok_or_else(|| unknown(archive, name, false))?);
         }

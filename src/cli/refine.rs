@@ -6,6 +6,7 @@ use std::process::ExitCode;
 use std::sync::atomic::AtomicBool;
 
 use crate::cli::engine::{BackendName, EngineArgs};
+use crate::cli::error::{Error, Result};
 use crate::cli::failed::judged;
 use crate::cli::files::Files;
 use crate::cli::home::Replace;
@@ -35,7 +36,6 @@ use squealmap::sweep::refine::{Refined, planes_of, refine};
 use squealmap::sweep::solver::Solver;
 use squealmap::sweep::spec::refine::{COARSE, Settings};
 use squealmap::sweep::spec::{Analysis, Spec, Starts};
-use squealmap::{Error, Result};
 
 /// Arguments of `refine`.
 #[derive(Debug, Args)]
@@ -149,7 +149,7 @@ pub(crate) fn follow(
     if refined.is_err() {
         parts.remove_if_empty();
     }
-    if let Err(Error::Cancelled { .. }) = refined {
+    if refined.as_ref().is_err_and(Error::is_cancelled) {
         note(&stopped(work.fresh));
         return Ok(ExitCode::from(INTERRUPTED));
     }
@@ -211,7 +211,7 @@ impl Work<'_, '_> {
             let mut sweep = subset(spec, block);
             sweep.analysis.starts = spec.analysis.starts;
             let made = solver.records_of(&sweep, 0..block.len(), &|count| progress.add(count))?;
-            made.stopped.map_or(Ok(made.records), |why| Err(why.error(0, block.len())))
+            made.stopped.map_or(Ok(made.records), |why| Err(why.error(0, block.len()).into()))
         })?;
         if part.found {
             progress.add(block.len());

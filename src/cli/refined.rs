@@ -2,10 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::cli::error::{Error, Result};
 use crate::cli::output::{claim, fill, filled, publish_with};
 use crate::cli::pictures::png_of;
 use crate::cli::summed::unlike;
 use serde_json::Value as Json;
+use squealmap::disk;
 use squealmap::results::boundary_lines::refined_lines;
 use squealmap::results::figure::look::{AGAIN, Look};
 use squealmap::results::manifest::Sum;
@@ -17,7 +19,6 @@ use squealmap::store::seal::is_intact;
 use squealmap::sweep::label::Tally;
 use squealmap::sweep::refine::Refined;
 use squealmap::sweep::spec::Spec;
-use squealmap::{Error, Result, disk};
 
 /// How the lines were found; what says that the others are there.
 pub(crate) const DOCUMENT: &str = "refine.json";

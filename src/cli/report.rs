@@ -4,9 +4,9 @@ use std::error::Error as _;
 use std::fmt::{self, Write as _};
 use std::io::{IsTerminal, Write as _};
 
+use crate::cli::error::Error;
 use crate::cli::excerpt::Excerpt;
 use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, SourceCode};
-use squealmap::Error;
 use squealmap_input::place::Place;
 
 /// Prints the error, its causes and the place in the input that it is about.

@@ -5,11 +5,13 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::Duration;
 
+use crate::cli::error::Result;
 use crate::cli::output::{cannot, cannot_table, claim, fill, filled, publish_with};
 use crate::cli::pictures::png_of;
 use crate::cli::summed::{Summed, unlike};
 use crate::cli::talk;
 use crate::cli::talk::note;
+use squealmap::disk;
 use squealmap::engine::record::Record;
 use squealmap::results::csv::MapCsv;
 use squealmap::results::figure::map::MapFigure;
@@ -20,7 +22,6 @@ use squealmap::store::directory::{Fingerprint, Store};
 use squealmap::store::seal::is_intact;
 use squealmap::store::space::MOST_ROWS;
 use squealmap::sweep::label::Tally;
-use squealmap::{Result, disk};
 
 /// What is written.
 pub(crate) const FILES: [&str; 4] = ["map.csv", MANIFEST, "map.png", "map.svg"];
@@ -62,7 +63,7 @@ pub(crate) fn write(store: &Store, run: &Run, cancel: &AtomicBool) -> Result<Res
     let tiling = description.tiling;
     let mut figure = MapFigure::new(sheet);
     let csv_path = path(FILES[0]);
-    let table_full = |why: squealmap::Error| cannot_table(&csv_path, why);
+    let table_full = |why: squealmap::results::error::Error| cannot_table(&csv_path, why);
     let mut table = if tiling.instances <= MOST_ROWS { Some(claim(&csv_path)?) } else { None };
     let mut rows = match &mut table {
         Some(table) => {

@@ -2,6 +2,7 @@
 
 use crate::cli::accuracy::{AccuracyArgs, say};
 use crate::cli::engine::{BackendName, EngineArgs};
+use crate::cli::error::{Error, Result};
 use crate::cli::failed::judged;
 use crate::cli::files::Files;
 use crate::cli::home::Replace;
@@ -30,7 +31,6 @@ use squealmap::sweep::accuracy::trial::first_that_keeps;
 use squealmap::sweep::label::Tally;
 use squealmap::sweep::solver::Solver;
 use squealmap::sweep::spec::Spec;
-use squealmap::{Error, Result};
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::atomic::AtomicBool;
@@ -197,7 +197,7 @@ pub(crate) fn run(
             && store.done()? == 0
             && store.kept_instances()? == 0
         {
-            return Err(why.clone().error(0, total));
+            return Err(why.clone().error(0, total).into());
         }
         let run = manifest::Run {
             threads: rayon::current_num_threads(),

@@ -4,7 +4,7 @@ use std::io::{ErrorKind, Write};
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use squealmap::{Error, Result};
+use crate::cli::error::{Error, Result};
 
 /// Calls `program` in `directory` with a text as its input; returns what it prints.
 ///

@@ -2,13 +2,13 @@
 
 use std::path::PathBuf;
 
+use crate::cli::error::Result;
 use crate::cli::output::{Output, cannot, list};
 use crate::cli::talk;
 use crate::cli::talk::print;
 use clap::Args;
 use clap_complete::Shell;
 use clap_mangen::Man;
-use squealmap::Result;
 
 /// The name of the program.
 const NAME: &str = "squealmap";

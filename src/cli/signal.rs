@@ -1,6 +1,6 @@
 //! Ctrl-C, and the signal by which schedulers end a process.
 
-use squealmap::{Error, Result};
+use crate::cli::error::{Error, Result};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use std::thread;
 use std::time::Duration;
 
+use crate::cli::error::Result;
 use crate::cli::progress::seconds;
 use crate::cli::refined::DOCUMENT;
 use crate::cli::talk;
@@ -15,7 +16,6 @@ use serde_json::json;
 use squealmap::store::directory::Store;
 use squealmap::store::parts::Parts;
 use squealmap::store::status::Status;
-use squealmap::{Error, Result};
 
 /// Arguments of `status`.
 #[derive(Debug, Args)]
@@ -42,10 +42,10 @@ impl StatusCommand {
                     (describe(&store, &status) + self.hint(), is_done)
                 }
                 // Parts say what is done, and nothing how much is to come, until the results are there.
-                Err(no_tiles @ Error::NoTiles { .. }) => {
+                Err(no_tiles @ squealmap::store::error::Error::NoTiles { .. }) => {
                     (self.refinement().ok_or(no_tiles)?, self.directory.join(DOCUMENT).is_file())
                 }
-                Err(why) => return Err(why),
+                Err(why) => return Err(why.into()),
             };
             let Some(seconds) = self.watch else {
                 print(&text);

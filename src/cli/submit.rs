@@ -4,6 +4,7 @@ use std::ffi::OsString;
 use std::path::Path;
 
 use crate::cli::engine::BackendName;
+use crate::cli::error::{Error, Result};
 use crate::cli::files::Files;
 use crate::cli::output::Output;
 use crate::cli::run::Run;
@@ -16,7 +17,6 @@ use squealmap::store::tiling::Tiling;
 use squealmap::sweep::accuracy::level::Level;
 use squealmap::sweep::estimate::estimate;
 use squealmap::sweep::spec::Spec;
-use squealmap::{Error, Result};
 
 /// Arguments of `submit`.
 #[derive(Debug, Args)]

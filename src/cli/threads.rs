@@ -1,8 +1,8 @@
 //! The worker threads of a command: built once, before it begins, so that no part of it starts threads that may be refused.
 
+use crate::cli::error::Result;
 use crate::cli::talk::note;
 use rayon::{ThreadPool, ThreadPoolBuilder};
-use squealmap::{Error, Result};
 
 /// The pool that a command runs in: as many threads as asked for or, where nothing is said, one per core. Of these as
 /// many as the system gives, by halves; where it gives none the program's own thread computes.
@@ -11,7 +11,7 @@ use squealmap::{Error, Result};
 /// When as many as asked for cannot be started.
 pub(crate) fn pool(asked: Option<u16>) -> Result<ThreadPool> {
     if let Some(threads) = asked.map(usize::from) {
-        return started(threads).map_err(|why| Error::Threads { threads, why });
+        return Ok(started(threads).map_err(|why| squealmap::sweep::error::Error::Threads { threads, why })?);
     }
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let refused = match started(cores) {
@@ -26,9 +26,10 @@ pub(crate) fn pool(asked: Option<u16>) -> Result<ThreadPool> {
             let given = format!("{} started", pool.current_num_threads());
             (pool, given)
         }
-        None => {
-            (own().map_err(|why| Error::Threads { threads: 1, why })?, "the program's own is used".to_owned())
-        }
+        None => (
+            own().map_err(|why| squealmap::sweep::error::Error::Threads { threads: 1, why })?,
+            "the program's own is used".to_owned(),
+        ),
     };
     note(&format!(
         "{cores} worker thread(s) cannot be started: {refused}; {given}; raise the limits on threads and memory \

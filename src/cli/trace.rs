@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 use std::process::ExitCode;
 
+use crate::cli::error::{Error, Result};
 use crate::cli::failed::remedy;
 use crate::cli::files::Files;
 use crate::cli::hysteresis;
@@ -24,7 +25,6 @@ use squealmap::study::trace::run::trace;
 use squealmap::study::trace::table as export;
 use squealmap::sweep::grid::{AxisKey, Value};
 use squealmap::sweep::spec::Spec;
-use squealmap::{Error, Result};
 use squealmap_input::quote::rounded;
 
 /// What is written.

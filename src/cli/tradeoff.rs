@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
+use crate::cli::error::{Error, Result};
 use crate::cli::frontier;
 use crate::cli::home::{Replace, prepare, stem as own_name};
 use crate::cli::output::{Output, list};
@@ -16,7 +17,6 @@ use squealmap::study::tradeoff::report::Section;
 use squealmap::sweep::accuracy::measure::{Measurement, Settings, measure};
 use squealmap::sweep::accuracy::row::{Row, to_csv};
 use squealmap::sweep::spec::Spec;
-use squealmap::{Error, Result};
 
 /// What is written.
 const FILES: [&str; 4] = ["tradeoff.csv", "tradeoff.json", "tradeoff.png", "tradeoff.svg"];
@@ -73,7 +73,7 @@ struct Done {
 impl Tradeoff {
     pub(crate) fn execute(self) -> Result<()> {
         // A mistake in the last sweep is told before the first is measured.
-        let specs = self.sweeps.iter().map(|path| Spec::read(path)).collect::<Result<Vec<_>>>()?;
+        let specs = self.sweeps.iter().map(|path| Ok(Spec::read(path)?)).collect::<Result<Vec<_>>>()?;
         let names: Vec<_> = self.sweeps.iter().map(|path| own_name(path)).collect::<Result<_>>()?;
         if let Some(twice) = (1..names.len()).find(|at| names[..*at].contains(&names[*at])) {
             return Err(Error::SameName { name: names[twice].to_string_lossy().into_owned() });

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::atomic::AtomicBool;
 
+use crate::cli::error::{Error, Result};
 use crate::cli::output::Output;
 use crate::cli::refine::follow;
 use crate::cli::refined::{Checked, FILES};
@@ -24,7 +25,6 @@ use squealmap::store::parts::Parts;
 use squealmap::store::status::Status;
 use squealmap::sweep::solver::Solver;
 use squealmap::sweep::spec::Spec;
-use squealmap::{Error, Result};
 
 /// Missing tiles that are named.
 const NAMED: usize = 10;
@@ -47,7 +47,7 @@ impl Verify {
     pub(crate) fn execute(self) -> Result<ExitCode> {
         let refined = Checked::read(&self.directory)?;
         let store = match Store::open(&self.directory) {
-            Err(Error::NoTiles { .. }) if refined.is_some() => None,
+            Err(squealmap::store::error::Error::NoTiles { .. }) if refined.is_some() => None,
             other => Some(other?),
         };
         if self.repair {

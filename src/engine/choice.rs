@@ -2,6 +2,7 @@
 
 use crate::engine::Engine;
 use crate::engine::backend::Backend;
+use crate::engine::error::{Error, Result};
 use crate::engine::fallback::NoGpu;
 use crate::engine::gpu::adapter::Adapter;
 use crate::engine::gpu::arithmetic::Arithmetic;
@@ -14,7 +15,6 @@ use crate::engine::method::Method;
 use crate::engine::options::Options;
 use crate::engine::precision::Precision;
 use crate::engine::reference::records::Scalar;
-use crate::error::{Error, Result};
 
 /// Chooses the engine of a sweep and says why to `options.note`.
 ///

@@ -1,8 +1,8 @@
 //! The records of a sweep: all of them, or what was done when it stopped.
 
 use crate::engine::computation::Stopped;
+use crate::engine::error::Result;
 use crate::engine::record::Record;
-use crate::error::Result;
 use crate::model::status::Status;
 
 /// What an engine made of a sweep: one record per instance, in the order of the grid.

@@ -1,7 +1,7 @@
 //! Why `auto` takes no GPU, and whether the CPU engine may then compute what was asked for.
 
+use crate::engine::error::{Error, Result};
 use crate::engine::options::Options;
-use crate::error::{Error, Result};
 use squealmap_input::quote::list;
 
 /// Why there is no GPU to take.

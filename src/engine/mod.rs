@@ -17,6 +17,7 @@ pub mod backend;
 pub mod choice;
 pub mod computation;
 pub mod computed;
+pub mod error;
 mod fallback;
 pub mod gpu;
 pub mod instances;
@@ -42,9 +43,9 @@ use std::sync::atomic::AtomicBool;
 use crate::engine::backend::Backend;
 use crate::engine::computation::Computation;
 use crate::engine::computed::Computed;
+use crate::engine::error::Result;
 use crate::engine::instances::Instances;
 use crate::engine::precision::Precision;
-use crate::error::Result;
 
 /// What computes many instances: one start each, without any check.
 pub trait Engine: fmt::Debug + Send {

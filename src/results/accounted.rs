@@ -1,8 +1,8 @@
 //! Whether a map is whole.
 
 use crate::engine::record::Record;
-use crate::error::{Error, Result};
 use crate::model::status::Status;
+use crate::results::error::{Error, Result};
 use crate::sweep::map::Map;
 
 /// A map with a missing or an unwritten record is an error, never a row or a picture; so is one that lacks
@@ -18,7 +18,7 @@ pub(crate) fn accounted(map: &Map) -> Result<()> {
         _ => false,
     };
     match map.records.iter().position(unaccounted) {
-        Some(instance) => Err(Error::Unwritten { instance }),
+        Some(instance) => Err(crate::engine::error::Error::Unwritten { instance }.into()),
         None => Ok(()),
     }
 }

@@ -1,8 +1,8 @@
 //! The lines between classes as a table, for pgfplots and MATLAB.
 
-use crate::error::Result;
 use crate::results::columns::Cell;
 use crate::results::csv::Table;
+use crate::results::error::Result;
 use crate::results::figure::palette::Colouring;
 use crate::results::figure::panels::Panels;
 use crate::results::figure::picture_axis::PictureAxis;

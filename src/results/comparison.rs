@@ -3,9 +3,9 @@
 
 use serde_json::{Value as Json, json};
 
-use crate::error::Result;
 use crate::results::columns::Cell;
 use crate::results::csv::Table;
+use crate::results::error::Result;
 use crate::results::figure::look::{Content, Look};
 use crate::results::figure::map::look_svg;
 use crate::results::manifest::described;

@@ -5,9 +5,9 @@ use std::io::Write;
 use rayon::prelude::*;
 
 use crate::engine::record::Record;
-use crate::error::{Error, Result};
 use crate::results::accounted::accounted;
 use crate::results::columns::{Column, columns};
+use crate::results::error::{Error, Result};
 use crate::sweep::grid::Grid;
 use crate::sweep::map::Map;
 use crate::sweep::sheet::Sheet;
@@ -96,7 +96,7 @@ fn rows(
 }
 
 fn written(result: std::io::Result<()>) -> Result<()> {
-    result.map_err(|why| Error::WriteTable(why.into()))
+    Ok(result.map_err(|why| Error::WriteTable(why.into()))?)
 }
 
 /// A table in memory.
@@ -110,10 +110,10 @@ impl Table {
     }
 
     pub(crate) fn row(&mut self, cells: impl Iterator<Item = String>) -> Result<()> {
-        self.0.write_record(cells.map(String::into_bytes)).map_err(Error::WriteTable)
+        Ok(self.0.write_record(cells.map(String::into_bytes)).map_err(Error::WriteTable)?)
     }
 
     pub(crate) fn finish(self) -> Result<Vec<u8>> {
-        self.0.into_inner().map_err(|error| Error::WriteTable(error.into_error().into()))
+        Ok(self.0.into_inner().map_err(|error| Error::WriteTable(error.into_error().into()))?)
     }
 }

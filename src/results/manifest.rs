@@ -5,11 +5,11 @@ use std::time::Duration;
 use serde_json::{Map as Object, Value, json};
 
 use crate::engine::regime::Regime;
-use crate::error::{Error, Result};
 use crate::model::kind::InstabilityType;
 use crate::model::status::Status;
 use crate::results::accounted::accounted;
 use crate::results::columns::columns;
+use crate::results::error::{Error, Result};
 use crate::store::seal::sealed;
 use crate::sweep::accuracy::frontier::Chosen;
 use crate::sweep::label::{Label, Tally};

@@ -13,6 +13,7 @@ pub mod columns;
 pub mod comparison;
 pub mod csv;
 pub mod cut;
+pub mod error;
 pub mod figure;
 pub mod manifest;
 pub mod netcdf;

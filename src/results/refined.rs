@@ -4,7 +4,7 @@ use serde_json::{Value as Json, json};
 
 use crate::engine::computation::Computation;
 use crate::engine::record::Record;
-use crate::error::Result;
+use crate::results::error::Result;
 use crate::results::figure::map::MapFigure;
 use crate::results::manifest::{Sum, counts, pretty, sums};
 use crate::store::grid_json;

@@ -4,12 +4,13 @@ use std::io;
 use std::path::Path;
 
 use crate::disk;
-use crate::error::{Error, Result, SAID};
 use crate::store::claim::Claim;
 use crate::store::description::Description;
 use crate::store::directory::{DESCRIPTION, Note, Store, TILES};
+use crate::store::error::{Error, Result};
 use crate::store::folder::Folder;
 use crate::store::occupant::Occupant;
+use squealmap_input::quote::SAID;
 use squealmap_input::quote::clipped;
 
 impl Store {

@@ -7,11 +7,11 @@ use std::time::{Duration, Instant};
 
 use crate::engine::computation::Stopped;
 use crate::engine::record::Record;
-use crate::error::{Error, Result};
 use crate::model::status::Status;
 use crate::store::claim::Claim;
 use crate::store::direct::Room;
 use crate::store::directory::{Note, Store};
+use crate::store::error::Result;
 use crate::store::reuse::Reuse;
 use crate::sweep::solver::Solver;
 use crate::sweep::spec::Starts;
@@ -73,7 +73,7 @@ pub fn fill(
             return fill(&mut |(claim, number, records)| store.write(claim, number, records, &mut room));
         };
         // The writer has ended with an error, which is reported in place of this.
-        let ended = |_| Error::Cancelled { done: 0, total: 0 };
+        let ended = |_| crate::engine::error::Error::Cancelled { done: 0, total: 0 }.into();
         let filled = fill(&mut |tile| sender.send(tile).map_err(ended));
         drop(sender);
         // An error of the writer is the cause of one of the computation.

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use crate::disk;
 use crate::disk::{Handle, How, door};
 use crate::engine::record::Record;
-use crate::error::{Error, Result};
 use crate::store::claim::{Claim, PART};
+use crate::store::error::{Error, Result};
 use crate::store::tile::{Checksum, FOOTER, Fault, Label, checksum_in};
 
 /// Where tiles go that are not what they should be.

@@ -2,9 +2,9 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use crate::error::{Error, Result};
 use crate::store::direct::Room;
 use crate::store::directory::{Note, Store};
+use crate::store::error::{Error, Result};
 
 /// Brings the tiles of `source` into `target` that are not there, until `cancel` is set; returns how many. Doing it again
 /// changes nothing.

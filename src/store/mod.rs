@@ -29,6 +29,7 @@ pub mod cut;
 pub mod description;
 pub mod direct;
 pub mod directory;
+pub mod error;
 pub mod fill;
 mod folder;
 pub mod grid_json;

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use serde_json::Value as Json;
 
 use crate::disk;
-use crate::error::{Error, Result};
 use crate::store::directory::Store;
+use crate::store::error::{Error, Result};
 use crate::store::origin;
 
 /// The results, or the tiles, of a sweep in a directory.

@@ -12,9 +12,9 @@ use std::path::Path;
 use same_file::is_same_file;
 
 use crate::engine::record::Record;
-use crate::error::{Error, Result};
 use crate::store::description::Description;
 use crate::store::directory::{Note, Store};
+use crate::store::error::{Error, Result};
 use crate::sweep::grid::{Axis, Grid, Value};
 use crate::sweep::spec::Starts;
 

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use crate::error::{Error, Result};
 use crate::store::description::Description;
+use crate::store::error::{Error, Result};
 use crate::store::tiling::{TILE, Tiling};
 use crate::sweep::spec::{Analysis, Starts};
 

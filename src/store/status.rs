@@ -3,9 +3,9 @@
 use std::time::{Duration, SystemTime};
 
 use crate::disk::{Handle, How, door};
-use crate::error::{Error, Result};
 use crate::store::claim::PART;
 use crate::store::directory::{Store, TILES};
+use crate::store::error::{Error, Result};
 use crate::store::folder::BAD;
 use crate::store::tile::Fault;
 

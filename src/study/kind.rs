@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use crate::error::{Error, Result};
 use crate::results::figure::look::WIDTHS;
 use crate::results::read::{map, refined};
+use crate::study::error::{Error, Result};
 use crate::study::hysteresis::read as hysteresis;
 use crate::study::identify::read as identify;
 use crate::study::modes::read as modes;

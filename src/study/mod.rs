@@ -7,6 +7,7 @@
 pub use kind::Kind;
 pub use picture::Picture;
 
+pub mod error;
 pub mod fit;
 pub mod hysteresis;
 pub mod identify;

@@ -2,7 +2,6 @@
 
 use std::path::Path;
 
-use crate::error::Result;
 use crate::results::figure::heading::Heading;
 use crate::results::figure::look::Look;
 use crate::results::figure::map::look_svg;
@@ -10,6 +9,7 @@ use crate::results::read::folder::{Folder, program};
 use crate::results::read::refined::Lines;
 use crate::results::read::{Archive, refined};
 use crate::study::Kind;
+use crate::study::error::Result;
 use crate::study::hysteresis::follow::Hysteresis;
 use crate::study::hysteresis::read as hysteresis;
 use crate::study::hysteresis::table::hysteresis_svg;
@@ -110,7 +110,7 @@ impl Picture {
     /// When an instance of a map was never computed, and not because the run was stopped.
     pub fn svg(&self, look: &Look<'_>) -> Result<String> {
         match &self.content {
-            Content::Map(archive) => look_svg(&archive.map, look),
+            Content::Map(archive) => Ok(look_svg(&archive.map, look)?),
             Content::Refined(lines) => Ok(lines.svg(look)),
             Content::Trace(trace, heading) => trace_svg(trace, heading, look),
             Content::Hysteresis(hysteresis, heading) => Ok(hysteresis_svg(hysteresis, heading, look)),

@@ -14,6 +14,7 @@
 pub mod accuracy;
 pub mod checks;
 pub mod draw;
+pub mod error;
 pub mod estimate;
 pub mod grid;
 pub mod label;

@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use crate::engine::computed::Computed;
 use crate::engine::options::Options;
-use crate::error::{Error, Result};
+use crate::sweep::error::{Error, Result};
 use crate::sweep::map::{Map, Provenance};
 use crate::sweep::solver::Solver;
 use crate::sweep::spec::Spec;

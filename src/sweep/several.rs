@@ -6,8 +6,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::engine::computation::Stopped;
 use crate::engine::computed::Computed;
+use crate::engine::error::{Error, Result};
 use crate::engine::record::{Basin, Others, Record, differ};
-use crate::error::{Error, Result};
 use crate::model::kind::InstabilityType;
 use crate::model::status::Status;
 use crate::model::{Param, Params, linear};

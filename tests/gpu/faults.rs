@@ -3,7 +3,7 @@
 use crate::Case;
 use crate::words::{compare, device, drive, inputs, on_cpu};
 use libtest_mimic::Failed;
-use squealmap::Error;
+use squealmap::engine::error::Error;
 use squealmap::engine::gpu::kernel::Compiled;
 use squealmap::engine::gpu::run::{ChunkResult, Drive, run};
 use squealmap::engine::kernel::linear::KERNEL;
@@ -50,7 +50,7 @@ fn caught(fault: fn(&mut ChunkResult<f32>)) -> Result<(), Failed> {
 }
 
 /// Runs the kernel with another entry point.
-fn with_main(body: &str) -> Result<squealmap::Result<ChunkResult<f32>>, Failed> {
+fn with_main(body: &str) -> Result<squealmap::engine::error::Result<ChunkResult<f32>>, Failed> {
     let main = format!(
         "@compute @workgroup_size(WORKGROUP_SIZE)\nfn main(@builtin(global_invocation_id) id: vec3<u32>) {{\n\
          let i = id.x;\nif i >= settings.count {{ return; }}\n{body}\n}}\n"

@@ -3,7 +3,7 @@
 use crate::Case;
 use crate::words::{device, drive};
 use libtest_mimic::Failed;
-use squealmap::Error;
+use squealmap::engine::error::Error;
 use squealmap::engine::gpu::kernel::Compiled;
 use squealmap::engine::gpu::response::read_lane;
 use squealmap::engine::gpu::run::{Drive, run};
@@ -137,7 +137,7 @@ fn outcome_from(
     index: usize,
     state: &[f32],
     flags: &[u32],
-) -> squealmap::Result<Outcome> {
+) -> squealmap::engine::error::Result<Outcome> {
     let segments = segments(scene, plan);
     let (seen, end) = reductions(&segments, &read_lane(&segments, index, state, flags)?);
     Ok(seen.outcome(scene, plan, &end))

@@ -8,11 +8,12 @@ use crate::Case;
 use libtest_mimic::Failed;
 use squealmap::engine::backend::Backend;
 use squealmap::engine::computation::Stopped;
+use squealmap::engine::error::Error;
 use squealmap::engine::options::Options;
 use squealmap::engine::record::Record;
+use squealmap::results as export;
 use squealmap::sweep::run as sweep;
 use squealmap::sweep::spec::Spec;
-use squealmap::{Error, results as export};
 
 pub(crate) const CASES: &[Case] = &[
     ("runs::adapters_are_listed", adapters),
@@ -197,7 +198,11 @@ fn cancelled() -> Result<(), Failed> {
     export::figure::map::map_svg(&map)?;
     // Before the first chunk there is nothing.
     match sweep::run(spec, &options, &|_| {}) {
-        Err(Error::Cancelled { done: 0, total: of }) if of == total => Ok(()),
+        Err(squealmap::sweep::error::Error::OfEngine(Error::Cancelled { done: 0, total: of }))
+            if of == total =>
+        {
+            Ok(())
+        }
         other => Err(format!("{:?}", other.map(|map| map.computed())).into()),
     }
 }

@@ -6,9 +6,9 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use crate::common::close;
 use crate::synthetic::record;
-use squealmap::Error;
 use squealmap::engine::backend::Backend;
 use squealmap::engine::computation::Stopped;
+use squealmap::engine::error::Error;
 use squealmap::engine::options::Options;
 use squealmap::engine::outcome::Outcome;
 use squealmap::engine::precision::Precision;

@@ -6,13 +6,13 @@ use std::path::Path;
 /// The floors of `src`, from below; of two on one floor neither knows the other.
 const FLOORS: [&[&str]; 9] = [
     &["disk", "version"],
-    &["error"],
     &["model"],
     &["engine"],
     &["sweep"],
     &["store", "cluster"],
     &["results"],
     &["study"],
+    &["error"],
     &["cli"],
 ];
 

@@ -100,7 +100,7 @@ fn a_refined_map() -> Piece {
     let sheet = Sheet::new(&sweep, engine.each_ref().map(Some));
     let mut points = csv::MapCsv::new(sheet, Vec::new()).unwrap();
     let settings = Refining { coarse: 8, sample: 50, seed: 3 };
-    let found = refine::refine(&sweep.grid, settings, &mut |instances| {
+    let found = refine::refine::<squealmap::results::error::Error>(&sweep.grid, settings, &mut |instances| {
         let at = |index: &usize| sweep.grid.coordinates(*index).into_iter().map(number).collect::<Vec<_>>();
         let records: Vec<Record> =
             instances.iter().map(at).map(|at| paper_like(at[0], at[1], at[2])).collect();

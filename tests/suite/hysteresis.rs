@@ -6,7 +6,6 @@ use crate::bistable::highest_velocity_of_the_cycle;
 use crate::cli::squealmap;
 use crate::resume::with;
 use crate::synthetic::record;
-use squealmap::Error;
 use squealmap::engine::outcome::Outcome;
 use squealmap::engine::plan::Plan;
 use squealmap::engine::record::Record;
@@ -18,6 +17,7 @@ use squealmap::results::figure::heading::Heading;
 use squealmap::results::figure::look::Look;
 use squealmap::study::hysteresis::follow::{Direction, Hysteresis};
 use squealmap::study::hysteresis::table::hysteresis_svg;
+use squealmap::sweep::error::Error;
 use squealmap::sweep::spec::Spec;
 
 /// The single mass on a belt with m = k = N = 1 and c = 0.1: the law is to follow.

@@ -7,16 +7,16 @@ use std::io::{Cursor, Read};
 
 use crate::common::{near, paper, plan};
 use crate::strokes::{FIELDS, Field, Random, Wanted, add_noise, stroke};
-use squealmap::Error;
 use squealmap::model::kind::InstabilityType;
 use squealmap::model::{Param, linear};
 use squealmap::study::signals::sensors::{Recording, Sample, record};
 use squealmap::study::signals::table::signals_csv;
+use squealmap_identify::Unfit;
 use squealmap_identify::{Fault, INCLINATION, Identification, Kind, Settings, alone, identify};
 
-pub(crate) fn run(bytes: &[u8], settings: &Settings) -> Result<Identification, Error> {
+pub(crate) fn run(bytes: &[u8], settings: &Settings) -> Result<Identification, Unfit> {
     let open = || Ok(Box::new(Cursor::new(bytes.to_vec())) as Box<dyn Read>);
-    Ok(identify(open, "signals.csv", settings, &mut |_, _| ())?)
+    identify(open, "signals.csv", settings, &mut |_, _| ())
 }
 
 pub(crate) fn csv(samples: &[Sample]) -> Vec<u8> {
@@ -94,7 +94,7 @@ fn clean() -> Vec<Sample> {
 
 fn fault(bytes: &[u8]) -> Fault {
     match run(bytes, &Settings::default()) {
-        Err(Error::Signals { fault, .. }) => *fault,
+        Err(Unfit { fault, .. }) => *fault,
         other => panic!("analysed: {:?}", other.map(|found| found.verdict)),
     }
 }

@@ -6,9 +6,9 @@ use crate::common::plan;
 use crate::identify::{csv, run};
 use crate::identify_growth::saturating;
 use crate::strokes::{FIELDS, Random, Wanted, add_noise, draw, stroke};
-use squealmap::Error;
 use squealmap::model::Param;
 use squealmap::study::signals::sensors::{Recording, Sample, record};
+use squealmap_identify::Unfit;
 use squealmap_identify::{Fault, Kind, Settings};
 
 /// Rate of the strokes, Hz.
@@ -28,8 +28,7 @@ fn outliers(q: usize, at: &[f64], change: impl Fn(f64) -> f64) -> Result<Kind, F
     }
     match run(&csv(&samples), &Settings::default()) {
         Ok(found) => Ok(found.verdict.kind),
-        Err(Error::Signals { fault, .. }) => Err(*fault),
-        Err(other) => panic!("{other}"),
+        Err(Unfit { fault, .. }) => Err(*fault),
     }
 }
 
@@ -69,7 +68,7 @@ fn a_mark_in_a_channel_that_stands_still_is_named() {
     }
     let found = run(&csv(&samples), &Settings::default());
     assert!(
-        matches!(&found, Err(Error::Signals { fault, .. }) if matches!(&**fault, Fault::Outliers { column, .. } if column == "V"))
+        matches!(&found, Err(Unfit { fault, .. }) if matches!(&**fault, Fault::Outliers { column, .. } if column == "V"))
     );
     samples[100].belt_velocity = 3.01;
     assert!(run(&csv(&samples), &Settings::default()).is_ok());
@@ -83,7 +82,7 @@ fn smaller_outliers_are_never_confidently_wrong() {
     let _ = add_noise(&mut clean, 40.0, &mut random);
     let kind = |samples: &[Sample]| match run(&csv(samples), &Settings::default()) {
         Ok(found) => Some(found.verdict.kind),
-        Err(Error::Signals { fault, .. }) if matches!(*fault, Fault::Outliers { .. }) => None,
+        Err(Unfit { fault, .. }) if matches!(*fault, Fault::Outliers { .. }) => None,
         Err(other) => panic!("{other}"),
     };
     assert_eq!(kind(&clean), Some(Kind::ModeCoupling));
@@ -141,8 +140,7 @@ fn refused(header: &str, settings: &Settings) -> Option<Fault> {
     let table = String::from_utf8(csv(&samples)).unwrap().replacen("t,ax2,ay1,T,N,V", header, 1);
     match run(table.as_bytes(), settings) {
         Ok(_) => None,
-        Err(Error::Signals { fault, .. }) => Some(*fault),
-        Err(other) => panic!("{other}"),
+        Err(Unfit { fault, .. }) => Some(*fault),
     }
 }
 

@@ -2,9 +2,9 @@
 
 use crate::figure::draw as render;
 use num_complex::Complex64;
-use squealmap::Error;
 use squealmap::model::linear::eigenvalues;
 use squealmap::results::figure::look::Look;
+use squealmap::study::error::Error;
 use squealmap::study::modes::follow::{draw, follow, modes_csv, modes_svg};
 use squealmap::sweep::spec::Spec;
 

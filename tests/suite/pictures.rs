@@ -11,8 +11,8 @@ use crate::figure::draw;
 use crate::gallery::{Piece, all};
 use crate::plot::{page, size, text_sizes};
 use resvg::usvg::{Node, Options, Tree, fontdb};
-use squealmap::Error;
 use squealmap::results::figure::look::{Journal, Look};
+use squealmap::study::error::Error;
 use squealmap::study::{Kind, Picture};
 use squealmap::version::program;
 use squealmap_figure::{pdf, png};
@@ -140,7 +140,8 @@ fn another_number_is_another_picture() {
         match Picture::read(piece.directory.path(), piece.kind) {
             Ok(picture) => assert!(picture.svg(&Look::default()).unwrap() != piece.svg, "{name}"),
             // Both branches of a hysteresis have to have the same values.
-            Err(Error::Archive { .. }) if piece.kind == Kind::Hysteresis => {}
+            Err(Error::OfResults(squealmap::results::error::Error::Archive { .. }))
+                if piece.kind == Kind::Hysteresis => {}
             Err(why) => panic!("{name}: {why}"),
         }
         // What is no number, or no label, is named with its file.

@@ -11,6 +11,7 @@ use squealmap::model::Param;
 use squealmap::model::kind::InstabilityType;
 use squealmap::model::status::Status;
 use squealmap::sweep::accuracy::sample::subset;
+use squealmap::sweep::error::Error;
 use squealmap::sweep::grid::{Axis, AxisKey, Grid, Value};
 use squealmap::sweep::label::Label;
 use squealmap::sweep::refine::{Refined, refine};
@@ -43,7 +44,7 @@ fn drawn(grid: &Grid, settings: Settings, inside: impl Fn([f64; 3]) -> bool) -> 
         Record { status: Status::Ok, kind: Some(kind), ..Record::default() }
     };
     let mut computed = 0;
-    let refined = refine(grid, settings, &mut |instances| {
+    let refined = refine::<Error>(grid, settings, &mut |instances| {
         assert!(instances.windows(2).all(|pair| pair[0] < pair[1]), "each once, in the order of the grid");
         computed += instances.len();
         Ok(instances.iter().map(|index| Label::from(&label(*index))).collect())
@@ -85,7 +86,7 @@ fn what_has_not_settled_is_told_of_every_instance() {
         *x > 100.0
     };
     let mut known = Vec::new();
-    let refined = refine(&grid, SETTINGS, &mut |instances| {
+    let refined = refine::<Error>(&grid, SETTINGS, &mut |instances| {
         known.extend_from_slice(instances);
         let record = |index: &usize| Record {
             status: Status::Ok,
@@ -141,7 +142,7 @@ fn paper(points: u32, analysis: &str, share: usize) -> (Refined, usize) {
     let options = Options { backend: Backend::Cpu, ..Options::default() };
     let mut solver = Solver::new(&spec, &options).unwrap();
     let settings = Settings { coarse: 32, sample: 1000, seed: 1 };
-    let refined = refine(&spec.grid, settings, &mut |instances| {
+    let refined = refine::<Error>(&spec.grid, settings, &mut |instances| {
         let made = solver.records_of(&subset(&spec, instances), 0..instances.len(), &|_| ())?;
         Ok(made.records.iter().map(Label::from).collect())
     })

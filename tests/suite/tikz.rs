@@ -4,10 +4,10 @@
 
 use crate::common::near;
 use crate::synthetic::{axis, map, number, paper_like, record, span};
-use squealmap::Error;
 use squealmap::engine::regime::Regime;
 use squealmap::model::Param;
 use squealmap::model::kind::InstabilityType as Kind;
+use squealmap::results::error::Error;
 use squealmap::results::figure::look::Look;
 use squealmap::results::figure::tikz::map_tikz;
 use squealmap::sweep::grid::{Axis, AxisKey, Grid, Value};

@@ -3,6 +3,9 @@
 /// The most characters that a sentence quotes of a name or a value; the place beside it says where the rest stands.
 const LONGEST: usize = 40;
 
+/// The most characters of what a parser says, which may quote the input.
+pub const SAID: usize = 300;
+
 /// A name or a value as a sentence quotes it: on one line, control characters by their escapes, and no more than 40 characters.
 #[must_use]
 pub fn quoted(text: &str) -> String {

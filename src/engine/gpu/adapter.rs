@@ -2,9 +2,9 @@
 
 use std::fmt;
 
+use crate::engine::error::{Error, Result};
 use crate::engine::gpu::arithmetic::Arithmetic;
 use crate::engine::precision::Precision;
-use crate::error::{Error, Result};
 
 /// The APIs in use; with GL, "no Vulkan" would silently become a slow software device.
 const BACKENDS: wgpu::Backends =

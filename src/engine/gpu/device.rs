@@ -1,9 +1,9 @@
 //! An open device: error scopes, waiting with a limit, device lost.
 
+use crate::engine::error::{Error, Result};
 use crate::engine::gpu::adapter::{Adapter, Description};
 use crate::engine::gpu::arithmetic::Arithmetic;
 use crate::engine::precision::Precision;
-use crate::error::{Error, Result};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;

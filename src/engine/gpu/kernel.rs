@@ -2,11 +2,11 @@
 
 use std::num::NonZeroU64;
 
+use crate::engine::error::{Error, Result};
 use crate::engine::gpu::device::Device;
 use crate::engine::gpu::strict;
 use crate::engine::kernel::source::{BINDINGS, Constant, Kernel, Settings, words};
 use crate::engine::kernel::spirv::Strict;
-use crate::error::{Error, Result};
 
 /// A kernel ready to be dispatched.
 #[derive(Debug)]

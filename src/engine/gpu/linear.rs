@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
+use crate::engine::error::{Error, Result};
 use crate::engine::gpu::chunks::{Batch, Session};
 use crate::engine::gpu::run::{ChunkResult, Drive};
 use crate::engine::instances::Instances;
@@ -14,7 +15,6 @@ use crate::engine::kernel::source::{FLAG_STATUS, FLAG_STEPS, SETTING_WORDS};
 use crate::engine::kernel::words::{INPUT_WORDS, STATE_WORDS, Words};
 use crate::engine::precision::Precision;
 use crate::engine::record::Record;
-use crate::error::{Error, Result};
 use crate::model::kind::InstabilityType;
 use crate::model::linear::prepare;
 use crate::model::status::Status;

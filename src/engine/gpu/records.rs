@@ -7,13 +7,13 @@ use crate::engine::Engine;
 use crate::engine::backend::Backend;
 use crate::engine::computation::Computation;
 use crate::engine::computed::Computed;
+use crate::engine::error::{Error, Result};
 use crate::engine::gpu::chunks::Session;
 use crate::engine::gpu::device::Device;
 use crate::engine::gpu::{linear, response};
 use crate::engine::instances::Instances;
 use crate::engine::precision::Precision;
 use crate::engine::record::Record;
-use crate::error::{Error, Result};
 
 /// The least that a GPU takes, which takes a range at once.
 const BLOCK: usize = 65_536;

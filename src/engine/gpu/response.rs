@@ -7,6 +7,7 @@ use std::thread::available_parallelism;
 
 use rayon::prelude::*;
 
+use crate::engine::error::{Error, Result};
 use crate::engine::gpu::chunks::{Batch, Session};
 use crate::engine::gpu::run::{ChunkResult, Drive};
 use crate::engine::instances::Instances;
@@ -26,7 +27,6 @@ use crate::engine::plan::Plan;
 use crate::engine::precision::Precision;
 use crate::engine::record::Record;
 use crate::engine::scene::Scene;
-use crate::error::{Error, Result};
 use crate::model::instance::Instance;
 use crate::model::status::Status;
 use std::sync::atomic::AtomicBool;

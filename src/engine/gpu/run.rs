@@ -3,13 +3,13 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
+use crate::engine::error::{Error, Result};
 use crate::engine::gpu::device::Device;
 use crate::engine::gpu::kernel::Compiled;
 use crate::engine::kernel::scalar::Real;
 use crate::engine::kernel::source::{
     FLAG_STATUS, Kernel, PROGRESS_WORDS, SETTING_WORDS, Settings, WORKGROUP_SIZE, words,
 };
-use crate::error::{Error, Result};
 use crate::model::status::Status;
 
 /// Most loop iterations of an invocation in one dispatch: a software driver silently stops at 65 535, the

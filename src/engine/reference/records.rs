@@ -11,6 +11,7 @@ use crate::engine::Engine;
 use crate::engine::backend::Backend;
 use crate::engine::computation::Computation;
 use crate::engine::computed::Computed;
+use crate::engine::error::{Error, Result};
 use crate::engine::instances::Instances;
 use crate::engine::judged::{begun, take_response};
 use crate::engine::method::Method;
@@ -19,7 +20,6 @@ use crate::engine::plan::Plan;
 use crate::engine::precision::Precision;
 use crate::engine::record::Record;
 use crate::engine::reference::respond::respond_until;
-use crate::error::{Error, Result};
 use crate::model::linear::{prepare, solve};
 use crate::model::status::Status;
 

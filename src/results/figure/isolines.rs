@@ -1,8 +1,8 @@
 //! Lines of equal value on the panels of a quantity, with their values on them, and the same lines as a table.
 
-use crate::error::Result;
 use crate::results::columns::Cell;
 use crate::results::csv::Table;
+use crate::results::error::Result;
 use crate::results::figure::outline::shape;
 use crate::results::figure::panels::{Panel, Panels};
 use crate::results::figure::quantity;

@@ -6,8 +6,8 @@
 
 use crate::engine::computation::Computation;
 use crate::engine::record::Record;
-use crate::error::Result;
 use crate::results::accounted::accounted;
+use crate::results::error::Result;
 use crate::results::figure::block::Block;
 use crate::results::figure::fills::define_patterns;
 use crate::results::figure::look::{Content, Look};

@@ -1,6 +1,6 @@
 //! The page that a figure has to fit: how tall it may be, and panels that become flatter where they would not.
 
-use crate::error::{Error, Result};
+use crate::results::error::{Error, Result};
 use crate::results::figure::look::Look;
 use squealmap_figure::svg::{MM, Svg};
 

@@ -4,7 +4,7 @@
 
 use std::fmt::Write as _;
 
-use crate::error::{Error, Result};
+use crate::results::error::{Error, Result};
 use crate::results::figure::fills::unsettled;
 use crate::results::figure::look::{Content, Look};
 use crate::results::figure::map::computed;

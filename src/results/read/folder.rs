@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde_json::Value as Json;
 
-use crate::error::{Error, Result};
+use crate::results::error::{Error, Result};
 use crate::results::figure::heading::Heading;
 use crate::results::manifest::Sum;
 use crate::store::seal::is_intact;

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use serde_json::Value as Json;
 
 use crate::engine::computation::Computation;
-use crate::error::Result;
+use crate::results::error::Result;
 use crate::results::figure::look::Look;
 use crate::results::read::folder::{Folder, Table, Why, text};
 use crate::results::read::map::{computation, drawn_spec, record};

@@ -1,7 +1,7 @@
 //! A part of a map: the instances that have some values of its axes.
 
-use crate::error::{Error, Result};
 use crate::results::choose::{Taken, axes, choose_all};
+use crate::results::error::{Error, Result};
 use crate::results::number::NumberColumn;
 use crate::results::read::Archive;
 use crate::sweep::grid::{Axis, Grid, Value};

@@ -4,11 +4,11 @@ use serde_json::Value as Json;
 
 use crate::engine::outcome::Outcome;
 use crate::engine::record::Record;
-use crate::error::Result;
 use crate::model::Param;
 use crate::results::figure::heading::Heading;
 use crate::results::read::folder::{Folder, Table, Why, heading, text};
 use crate::results::read::map;
+use crate::study::error::Result;
 use crate::study::hysteresis::follow::{Direction, Hysteresis};
 
 /// The files that are read.

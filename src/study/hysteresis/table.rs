@@ -2,11 +2,11 @@
 
 use serde_json::json;
 
-use crate::error::Result;
 use crate::results::columns::{Cell, Column, columns};
 use crate::results::csv::Table;
 use crate::results::figure::heading::Heading;
 use crate::results::manifest::described;
+use crate::study::error::Result;
 use crate::study::hysteresis::follow::{Direction, Hysteresis};
 use crate::sweep::spec::{Analysis, Spec, Starts};
 
@@ -37,7 +37,7 @@ pub fn hysteresis_csv(spec: &Spec, hysteresis: &Hysteresis) -> Result<Vec<u8>> {
             table.row(std::iter::once(branch.clone()).chain(cells))?;
         }
     }
-    table.finish()
+    Ok(table.finish()?)
 }
 
 /// What the figure needs beside the table, as JSON: the heading, and which parameter was followed.
@@ -47,5 +47,5 @@ pub fn hysteresis_csv(spec: &Spec, hysteresis: &Hysteresis) -> Result<Vec<u8>> {
 pub fn document(hysteresis: &Hysteresis, heading: &Heading) -> Result<Vec<u8>> {
     let mut document = heading.to_json();
     document["parameter"] = json!(hysteresis.param.info().name);
-    described(&document)
+    Ok(described(&document)?)
 }

@@ -3,8 +3,8 @@
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 
-use crate::error::{Error, Result};
 use crate::results::figure::look::Look;
+use crate::study::error::Result;
 use crate::version::{COMMIT, VERSION};
 use squealmap_figure::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room, y_ticks};
 use squealmap_figure::page::{DOUBLE_COLUMN, MARGIN, title};
@@ -87,7 +87,7 @@ impl Shown {
     pub fn document(&self) -> Result<Vec<u8>> {
         let program = json!({ "version": VERSION, "git_commit": COMMIT });
         let mut bytes = serde_json::to_vec(&json!({ "program": program, "figure": self }))
-            .map_err(Error::WriteManifest)?;
+            .map_err(crate::results::error::Error::WriteManifest)?;
         bytes.push(b'\n');
         Ok(bytes)
     }

@@ -1,7 +1,7 @@
 //! `figure.json` and `spectrogram.nc`: the figure of measured signals read back.
 
-use crate::error::Result;
 use crate::results::read::folder::Folder;
+use crate::study::error::Result;
 use crate::study::identify::report::Shown;
 use crate::study::identify::spectrogram::filled_from;
 

@@ -1,10 +1,10 @@
 //! The two-panel figure of the modes: frequency above, growth rate below, as Figure 2 of the paper.
 
-use crate::error::Result;
 use crate::results::figure::beside::{most_panels, parted};
 use crate::results::figure::look::Look;
 use crate::results::figure::panels::{selection, setting};
 use crate::results::figure::picture_axis::{Direction, PictureAxis};
+use crate::study::error::Result;
 use crate::study::modes::follow::{Branch, Mode, Modes, modes_of};
 use crate::sweep::grid::{AxisKey, Grid};
 use crate::sweep::spec::Spec;

@@ -3,11 +3,11 @@
 use num_complex::Complex64;
 use serde_json::json;
 
-use crate::error::{Error, Result};
 use crate::results::columns::Cell;
 use crate::results::csv::Table;
 use crate::results::manifest::described;
 use crate::store::grid_json;
+use crate::study::error::{Error, Result};
 use crate::sweep::grid::{Axis, AxisKey, Grid, Value};
 use crate::sweep::spec::Spec;
 
@@ -234,7 +234,7 @@ pub fn table(spec: &Spec, modes: &Modes) -> Result<Vec<u8>> {
         let cells = mode(0).into_iter().chain(mode(1)).map(|x| Cell::from(x).to_string());
         table.row(std::iter::once(index.to_string()).chain(swept).chain(cells))?;
     }
-    table.finish()
+    Ok(table.finish()?)
 }
 
 /// What the figure needs beside the table, as JSON: title and axes of the sweep, and the critical values of each branch.
@@ -243,11 +243,11 @@ pub fn table(spec: &Spec, modes: &Modes) -> Result<Vec<u8>> {
 /// When it cannot be written.
 pub fn document(spec: &Spec, modes: &Modes) -> Result<Vec<u8>> {
     let critical: Vec<&[f64]> = modes.branches.iter().map(|branch| branch.critical.as_slice()).collect();
-    described(&json!({
+    Ok(described(&json!({
         "title": spec.title,
         "grid": grid_json::to_json(&spec.grid),
         "critical": critical,
-    }))
+    }))?)
 }
 
 /// The eigenvalues of an instance, 1/s.

@@ -5,10 +5,10 @@ use std::f64::consts::TAU;
 use num_complex::Complex64;
 use serde_json::Value as Json;
 
-use crate::error::Result;
 use crate::results::read::folder::{Folder, Table, Why, text};
 use crate::results::read::map::drawn_spec;
 use crate::store::grid_json;
+use crate::study::error::Result;
 use crate::study::modes::follow::{COLUMNS, Mode, Modes, along};
 use crate::sweep::grid::Grid;
 use crate::sweep::spec::{Analysis, Spec, Starts};

@@ -1,7 +1,7 @@
 //! The numbers on which the claims are decided, and nothing else.
 
-use crate::error::Result;
 use crate::model::{Param, linear};
+use crate::study::error::Result;
 use crate::study::modes::follow::follow;
 use crate::study::paper::accelerations::disturbance;
 use crate::study::paper::{Case, LIMITS, PhaseCase, PhaseTrial, Stretch, Study, Trial, Window};

@@ -2,13 +2,13 @@
 
 use num_complex::Complex64;
 
-use crate::error::{Error, Result};
 use crate::model::contact::ContactState;
 use crate::model::equilibrium::Units;
 use crate::model::instance::Instance;
 use crate::model::linear::analyse;
 use crate::model::status::Status;
 use crate::model::{Param, Params};
+use crate::study::error::{Error, Result};
 use crate::study::paper::LIMITS;
 use crate::study::paper::accelerations::disturbance;
 use crate::study::paper::sweeps::{FIGURE_7A, FIGURE_7B};

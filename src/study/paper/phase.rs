@@ -5,9 +5,9 @@ use crate::engine::options::Options;
 use crate::engine::precision::Precision;
 use crate::engine::record::Record;
 use crate::engine::regime::Regime;
-use crate::error::Result;
 use crate::model::Param;
 use crate::model::kind::InstabilityType;
+use crate::study::error::Result;
 use crate::study::paper::sweeps::PHASE;
 use crate::sweep::run as sweep;
 

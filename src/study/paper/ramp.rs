@@ -1,11 +1,11 @@
 //! A ramp of the belt down to rest: accelerations and contact states, reduced to what a picture shows.
 
 use crate::engine::outcome::Outcome;
-use crate::error::{Error, Result};
 use crate::model::Param;
 use crate::model::contact::ContactState;
 use crate::model::equilibrium::Units;
 use crate::model::status::Status;
+use crate::study::error::{Error, Result};
 use crate::study::paper::Case;
 use crate::study::trace::run::{TraceRow, trace};
 use crate::sweep::spec::Spec;

@@ -2,9 +2,9 @@
 
 use serde_json::Value as Json;
 
-use crate::error::Result;
 use crate::model::kind::InstabilityType;
 use crate::results::read::folder::{Folder, Table, Why, text};
+use crate::study::error::Result;
 use crate::study::modes::read as modes;
 use crate::study::paper::figures::{
     ACCELERATIONS, GROWTH, Growing, LAWS, Laws, PHASE, RAMP, Shown, Slowdown,
@@ -21,10 +21,10 @@ pub(crate) fn read(folder: Folder<'_>, figure: Figure, files: [&str; 2]) -> Resu
     let document = folder.json(files[1])?;
     let of_table = |why: String| folder.bad(files[0], why);
     match figure {
-        Figure::Figure3 => laws(&table).map_err(of_table),
-        Figure::Figure7 => growth(&table, &document).map_err(of_table),
-        Figure::Accelerations => accelerations(&table, &document).map_err(of_table),
-        Figure::Phase => phase(&table).map_err(of_table),
+        Figure::Figure3 => Ok(laws(&table).map_err(of_table)?),
+        Figure::Figure7 => Ok(growth(&table, &document).map_err(of_table)?),
+        Figure::Accelerations => Ok(accelerations(&table, &document).map_err(of_table)?),
+        Figure::Phase => Ok(phase(&table).map_err(of_table)?),
         _ => {
             let mut ramp = ramp(&document).map_err(|why| folder.bad(files[1], why))?;
             ramp.columns = columns(&table, &ramp).map_err(of_table)?;

@@ -2,9 +2,9 @@
 
 use std::sync::OnceLock;
 
-use crate::error::Result;
 use crate::model::instance::Instance;
 use crate::model::{Param, linear};
+use crate::study::error::Result;
 use crate::study::modes::follow::{Modes, follow};
 use crate::study::paper::accelerations;
 use crate::study::paper::accelerations::Trial;

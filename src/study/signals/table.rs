@@ -1,8 +1,8 @@
 //! `signals.csv`: the recording of an instance, as `squealmap identify` reads it.
 
-use crate::error::Result;
 use crate::results::columns::Cell;
 use crate::results::csv::Table;
+use crate::study::error::Result;
 use crate::study::signals::sensors::Sample;
 use squealmap_identify::Channel;
 
@@ -32,5 +32,5 @@ pub fn signals_csv(samples: &[Sample], temperature: Option<f64>) -> Result<Vec<u
         ];
         table.row(numbers.into_iter().chain(temperature).map(|x| Cell::from(x).to_string()))?;
     }
-    table.finish()
+    Ok(table.finish()?)
 }

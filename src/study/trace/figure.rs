@@ -1,9 +1,9 @@
 //! The figure of a trajectory: stacked panels on one time axis, shaded by contact state.
 
-use crate::error::Result;
 use crate::model::contact::ContactState;
 use crate::results::figure::heading::Heading;
 use crate::results::figure::look::Look;
+use crate::study::error::Result;
 use crate::study::trace::run::{Trace, TraceRow};
 use squealmap_figure::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room, y_ticks};
 use squealmap_figure::key::Sample;

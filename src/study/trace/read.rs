@@ -1,10 +1,10 @@
 //! `trace.csv` and `trace.json`: a trajectory read back.
 
 use crate::engine::outcome::Outcome;
-use crate::error::Result;
 use crate::model::contact::ContactState;
 use crate::results::figure::heading::Heading;
 use crate::results::read::folder::{Folder, Table, Why, heading};
+use crate::study::error::Result;
 use crate::study::trace::run::{Trace, TraceRow};
 use crate::study::trace::table::COLUMNS;
 
@@ -21,7 +21,7 @@ pub(crate) fn read(folder: Folder<'_>) -> Result<(Trace, Heading)> {
     // A table that was cut short at the end of a line looks whole; directories of before have no number of rows.
     if let Some(all) = document["rows"].as_u64().filter(|all| *all != rows.len() as u64) {
         let why = format!("has {} rows, but `{}` says {all}", rows.len(), FILES[1]);
-        return Err(folder.bad(FILES[0], why));
+        return Err(folder.bad(FILES[0], why).into());
     }
     let response_frequency = document["response_frequency"].as_f64();
     Ok((Trace { rows, outcome: Outcome { response_frequency, ..Outcome::default() } }, heading))

@@ -2,10 +2,10 @@
 
 use serde_json::json;
 
-use crate::error::Result;
 use crate::results::csv::Table;
 use crate::results::figure::heading::Heading;
 use crate::results::manifest::described;
+use crate::study::error::Result;
 use crate::study::trace::run::{Trace, TraceRow};
 
 pub use crate::study::trace::figure::trace_svg;
@@ -24,7 +24,7 @@ pub fn trace_csv(trace: &Trace) -> Result<Vec<u8>> {
         let cells = numbers(row).map(|x| crate::results::columns::Cell::from(x).to_string());
         table.row(cells.into_iter().chain(std::iter::once(row.state.name().to_owned())))?;
     }
-    table.finish()
+    Ok(table.finish()?)
 }
 
 /// What the figure needs beside the table, as JSON: the heading, the frequency of the response, Hz, and
@@ -36,7 +36,7 @@ pub fn document(trace: &Trace, heading: &Heading) -> Result<Vec<u8>> {
     let mut document = heading.to_json();
     document["response_frequency"] = json!(trace.outcome.response_frequency);
     document["rows"] = json!(trace.rows.len());
-    described(&document)
+    Ok(described(&document)?)
 }
 
 /// The numbers of a sample in the order of [`COLUMNS`].

@@ -5,8 +5,8 @@ use std::fmt::Write as _;
 use serde_json::{Value as Json, json};
 
 use crate::engine::regime::Regime;
-use crate::error::{Error, Result};
 use crate::model::kind::InstabilityType;
+use crate::study::error::Result;
 use crate::sweep::accuracy::frontier::{MARGIN, is_comparison};
 use crate::sweep::accuracy::level::{Level, NAMES};
 use crate::sweep::accuracy::measure::{CHECK_STEPS, Measurement, TRUTH_STEPS};
@@ -54,7 +54,8 @@ pub fn to_json(title: &str, measured: &Measurement) -> Result<Vec<u8>> {
         "configurations": measured.rows.iter().map(finite).collect::<Vec<_>>(),
         "left_out": measured.left_out,
     });
-    let mut bytes = serde_json::to_vec_pretty(&document).map_err(Error::WriteManifest)?;
+    let mut bytes =
+        serde_json::to_vec_pretty(&document).map_err(crate::results::error::Error::WriteManifest)?;
     bytes.push(b'\n');
     Ok(bytes)
 }

@@ -6,11 +6,11 @@
 
 use crate::engine::backend::Backend;
 use crate::engine::computation::Stopped;
+use crate::engine::error::Result;
 use crate::engine::lanes::records as cpu;
 use crate::engine::method::Method;
 use crate::engine::record::{By, Check, Record};
 use crate::engine::reference::records as reference;
-use crate::error::Result;
 use crate::model::status::Status;
 use crate::sweep::accuracy::boundary::is_near;
 use crate::sweep::accuracy::configuration::{Configuration, finer};

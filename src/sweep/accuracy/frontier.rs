@@ -1,11 +1,11 @@
 //! The cheapest configuration for an error, from what was measured.
 
 use crate::engine::backend::Backend;
-use crate::error::{Error, Result};
 use crate::sweep::accuracy::configuration::{Configuration, scenes};
 use crate::sweep::accuracy::level::Level;
 use crate::sweep::accuracy::row::{Row, from_csv, pace};
 use crate::sweep::accuracy::tried::Trial;
+use crate::sweep::error::{Error, Result};
 use crate::sweep::spec::Spec;
 
 use std::sync::LazyLock;

@@ -9,7 +9,6 @@ use crate::engine::method::Method;
 use crate::engine::options::Options;
 use crate::engine::precision::Precision;
 use crate::engine::record::Record;
-use crate::error::{Error, Result};
 use crate::model::status::Status;
 use crate::sweep::accuracy::clock::Clock;
 use crate::sweep::accuracy::configuration::{Configuration, scenes};
@@ -18,6 +17,7 @@ use crate::sweep::accuracy::frontier::mark;
 use crate::sweep::accuracy::row::{Rate, Row};
 use crate::sweep::accuracy::sample::{Sample, records, subset};
 use crate::sweep::draw::spread;
+use crate::sweep::error::{Error, Result};
 use crate::sweep::spec::Spec;
 
 /// Steps per period of the truth: twice those of a sweep.
@@ -261,7 +261,7 @@ fn speed(
     let mut computed = 0;
     while computed == 0 || clock.wall() < SHORTEST_TIMING || clock.worked() <= 0.0 {
         if let Some(why) = engine.records(&spec, 0..instances, options.cancel(), &|_| {})?.stopped {
-            return Err(why.error(0, instances));
+            return Err(why.error(0, instances).into());
         }
         computed += instances;
     }

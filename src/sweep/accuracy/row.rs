@@ -4,9 +4,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::engine::backend::Backend;
 use crate::engine::precision::Precision;
-use crate::error::{Error, Result};
 use crate::sweep::accuracy::configuration::Configuration;
 use crate::sweep::accuracy::errors::Errors;
+use crate::sweep::error::{Error, Result};
 
 /// Cost and error of a configuration on one kind of scene. Errors are relative (`stick`: absolute), quantiles over
 /// the settled oscillations of a sample; labels are shares of all instances.

@@ -7,10 +7,10 @@ use crate::engine::choice::choose;
 use crate::engine::options::Options;
 use crate::engine::precision::Precision;
 use crate::engine::record::Record;
-use crate::error::Result;
 use crate::sweep::accuracy::boundary::is_near;
 use crate::sweep::accuracy::configuration::Configuration;
 use crate::sweep::draw::{mixed, spread};
+use crate::sweep::error::Result;
 use crate::sweep::grid::Grid;
 use crate::sweep::label::Label;
 use crate::sweep::spec::{Analysis, Spec, Starts};
@@ -138,7 +138,7 @@ pub fn records(configuration: &Configuration, spec: &Spec, options: &Options) ->
     let computed = choose(&options, &spec)?.records(&spec, 0..total, options.cancel(), &|_| {})?;
     match computed.stopped {
         None => Ok(computed.records),
-        Some(why) => Err(why.error(0, total)),
+        Some(why) => Err(why.error(0, total).into()),
     }
 }
 

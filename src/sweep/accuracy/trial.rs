@@ -5,13 +5,13 @@
 
 use crate::engine::options::Options;
 use crate::engine::record::Record;
-use crate::error::Result;
 use crate::sweep::accuracy::configuration::{Configuration, finer};
 use crate::sweep::accuracy::errors::{is_settled_oscillation, quantile, scatter, worst};
 use crate::sweep::accuracy::frontier::Choice;
 use crate::sweep::accuracy::sample::{records, subset};
 use crate::sweep::accuracy::tried::Trial;
 use crate::sweep::draw::spread;
+use crate::sweep::error::Result;
 use crate::sweep::spec::Spec;
 
 /// Instances of the first draw; each further one has four times as many.

@@ -16,8 +16,8 @@ mod planes;
 
 use rayon::prelude::*;
 
-use crate::error::{Error, Result};
 use crate::sweep::draw::spread;
+use crate::sweep::error::{Error, Result};
 use crate::sweep::grid::Grid;
 use crate::sweep::label::{Label, Tally};
 use crate::sweep::run::MOST_IN_MEMORY;
@@ -60,7 +60,7 @@ impl Refined {
 }
 
 /// What computes some instances: their labels in the same order, or why there are none.
-pub type Compute<'a> = dyn FnMut(&[usize]) -> Result<Vec<Label>> + 'a;
+pub type Compute<'a, E> = dyn FnMut(&[usize]) -> std::result::Result<Vec<Label>, E> + 'a;
 
 /// The planes of a grid that can be refined.
 ///
@@ -78,7 +78,11 @@ pub fn planes_of(grid: &Grid) -> Result<Planes> {
 ///
 /// # Errors
 /// Those of [`planes_of`] and of `compute`.
-pub fn refine(grid: &Grid, settings: Settings, compute: &mut Compute) -> Result<Refined> {
+pub fn refine<E: From<Error>>(
+    grid: &Grid,
+    settings: Settings,
+    compute: &mut Compute<'_, E>,
+) -> std::result::Result<Refined, E> {
     let planes = planes_of(grid)?;
     let instances = grid.len();
     let mut map = Known { labels: vec![Label::NOT_COMPUTED; instances], tally: Tally::default() };
@@ -117,7 +121,11 @@ impl Known {
     }
 
     /// Computes those of some instances that are not known.
-    fn compute(&mut self, mut wanted: Vec<usize>, compute: &mut Compute) -> Result<()> {
+    fn compute<E>(
+        &mut self,
+        mut wanted: Vec<usize>,
+        compute: &mut Compute<'_, E>,
+    ) -> std::result::Result<(), E> {
         wanted.retain(|index| !self.is_known(*index));
         wanted.par_sort_unstable();
         wanted.dedup();
@@ -138,7 +146,12 @@ fn corners(planes: &Planes, cells: &[Cell]) -> Vec<usize> {
 }
 
 /// Divides cells with different labels until none is left that can be.
-fn divide(planes: &Planes, cells: &mut Vec<Cell>, map: &mut Known, compute: &mut Compute) -> Result<()> {
+fn divide<E>(
+    planes: &Planes,
+    cells: &mut Vec<Cell>,
+    map: &mut Known,
+    compute: &mut Compute<'_, E>,
+) -> std::result::Result<(), E> {
     loop {
         let mixed: Vec<bool> =
             cells.par_iter().map(|cell| cell.can_be_divided() && is_mixed(planes, cell, map)).collect();

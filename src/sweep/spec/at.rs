@@ -1,9 +1,9 @@
 //! One instance by the values of its parameters: `mu_s=0.4,mu_d=0.3,belt_velocity=3`.
 
-use crate::error::{Error, Result};
 use crate::model::friction::LawKind;
 use crate::model::instance::Instance;
 use crate::model::{Param, Params};
+use crate::sweep::error::{Error, Result};
 use crate::sweep::grid::{AxisKey, Grid, Value};
 use crate::sweep::spec::check::{MATERIAL_LAWS, covered, unused, used_by_laws};
 use crate::sweep::spec::keys::is_fixed;

@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use toml::de::DeTable;
 
-use crate::error::{Error, Result};
 use crate::model::Param;
+use crate::sweep::error::{Error, Result};
 use crate::sweep::grid::{Axis, AxisKey, Value, spaced};
 use crate::sweep::spec::MAX_VALUES;
 use crate::sweep::spec::document::{

@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use crate::error::{Error, Result};
 use crate::model::friction::LawKind;
 use crate::model::material::Material;
 use crate::model::{Param, Section};
+use crate::sweep::error::{Error, Result};
 use crate::sweep::grid::{AxisKey, Grid, Value};
 use crate::sweep::spec::files::Files;
 use crate::sweep::spec::law;

@@ -5,8 +5,8 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};
 
-use crate::error::{Error, Result};
 use crate::model;
+use crate::sweep::error::{Error, Result};
 use crate::sweep::spec::names::unknown;
 use squealmap_input::place::Source;
 use squealmap_input::quote::quoted;

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use crate::engine::plan::Duration;
-use crate::error::Result;
+use crate::sweep::error::Result;
 use crate::sweep::spec::document::{Node, out_of_range, string};
 use squealmap_input::place::Source;
 

@@ -3,10 +3,10 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use crate::error::{Error, Result};
 use crate::model::friction::MuTable;
 use crate::model::material::{Material, Outside};
 use crate::model::{Param, Range};
+use crate::sweep::error::{Error, Result};
 use crate::sweep::grid::AxisKey;
 use crate::sweep::spec::law::LAW_PARAMS;
 use crate::sweep::spec::rows::{Role, Rows};

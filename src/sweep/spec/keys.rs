@@ -1,8 +1,8 @@
 //! Every key of a sweep file: its section, unit, meaning, default and range. What is numeric comes from [`PARAMS`]; the others
 //! have their rows here.
 
-use crate::error::{Error, Result};
 use crate::model::{PARAMS, Param, ParamInfo};
+use crate::sweep::error::{Error, Result};
 use crate::sweep::spec::duration::LONGEST;
 use crate::sweep::spec::law::LAW_PARAMS;
 use crate::sweep::spec::names::advice;

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::error::Error;
+use crate::sweep::error::Error;
 use squealmap_input::place::Source;
 use squealmap_input::quote::list;
 

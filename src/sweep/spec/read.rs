@@ -5,8 +5,8 @@ use std::path::Path;
 use toml::de::DeTable;
 
 use crate::engine::plan::Duration;
-use crate::error::{Error, Result};
 use crate::model::Param;
+use crate::sweep::error::{Error, Result};
 use crate::sweep::grid::AxisKey;
 use crate::sweep::spec::check::Check;
 use crate::sweep::spec::document::{entries, string};

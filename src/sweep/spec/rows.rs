@@ -8,8 +8,8 @@ use std::borrow::Cow;
 use std::ops::Range;
 use std::path::Path;
 
-use crate::error::{Error, Result};
 use crate::model;
+use crate::sweep::error::{Error, Result};
 use crate::sweep::spec::names::{LONGEST_NAME, nearest, unknown};
 use crate::sweep::spec::{MAX_ROWS, MAX_TABLE_ROWS};
 use squealmap_input::files;

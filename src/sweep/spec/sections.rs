@@ -1,10 +1,10 @@
 //! The sections of a sweep file, key by key; what concerns several keys is in `check`.
 
 use crate::engine::plan::Duration;
-use crate::error::{Error, Result};
 use crate::model::friction::LawKind;
 use crate::model::material::Outside;
 use crate::model::{Param, Params, Section};
+use crate::sweep::error::{Error, Result};
 use crate::sweep::spec::document::{
     Entry, Node, array, boolean, choice, entries, integer, number, out_of_range, string, table,
 };

@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::path::Path;
 
-use crate::error::{Error, Result};
+use crate::sweep::error::{Error, Result};
 use crate::sweep::grid;
 use crate::sweep::grid::{Axis, AxisKey, Grid, Names, Value};
 use crate::sweep::spec::MAX_INSTANCES;

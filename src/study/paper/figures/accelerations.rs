@@ -2,10 +2,10 @@
 
 use serde_json::{Value as Json, json};
 
-use crate::error::Result;
 use crate::results::columns::Cell;
 use crate::results::csv::Table;
 use crate::results::figure::look::Look;
+use crate::study::error::Result;
 use crate::study::paper::figures::distinct::distinct;
 use crate::study::paper::{LIMITS, Trial};
 use squealmap_figure::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room};
@@ -70,7 +70,7 @@ pub(super) fn table(trials: &[Trial]) -> Result<Vec<u8>> {
         let numbers = [Some(trial.duration), Some(trial.kick)].into_iter().chain(peaks);
         table.row(numbers.map(|x| Cell::from(x).to_string()))?;
     }
-    table.finish()
+    Ok(table.finish()?)
 }
 
 /// What the table does not hold: what disturbs the equilibrium in each row, m/s².

@@ -2,12 +2,12 @@
 
 use serde_json::{Value as Json, json};
 
-use crate::error::Result;
 use crate::model::Param;
 use crate::results::columns::Cell;
 use crate::results::csv::Table;
 use crate::results::figure::look::Look;
 use crate::results::figure::panels::setting;
+use crate::study::error::Result;
 use crate::study::paper::{Growth, LIMITS, PhaseCase, Study, Window, degrees, extremes};
 use crate::sweep::grid::{AxisKey, Value};
 use squealmap_figure::frame::{Frame, LABEL_SIZE, x_tick_room, y_tick_count, y_tick_room};
@@ -97,7 +97,7 @@ pub(super) fn table(growths: &[Growing]) -> Result<Vec<u8>> {
             table.row(std::iter::once(name.to_owned()).chain(numbers))?;
         }
     }
-    table.finish()
+    Ok(table.finish()?)
 }
 
 /// Both cases side by side, double column width unless the look says otherwise; one below the other on a narrow page.

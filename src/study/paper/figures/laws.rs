@@ -1,10 +1,10 @@
 //! Figure 3: the friction laws of the three ramps.
 
-use crate::error::Result;
 use crate::model::Param;
 use crate::results::columns::Cell;
 use crate::results::csv::Table;
 use crate::results::figure::look::Look;
+use crate::study::error::Result;
 use crate::study::paper::{Case, Study};
 use squealmap_figure::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_count, y_tick_room};
 use squealmap_figure::key;
@@ -52,7 +52,7 @@ impl Laws {
         for row in &self.rows {
             table.row(row.iter().map(|x| Cell::from(*x).to_string()))?;
         }
-        table.finish()
+        Ok(table.finish()?)
     }
 
     /// Friction against the relative velocity, single column width unless the look says otherwise.

@@ -10,9 +10,9 @@ mod report;
 
 use serde_json::json;
 
-use crate::error::Result;
 use crate::results::figure::look::Look;
 use crate::results::manifest::described;
+use crate::study::error::Result;
 use crate::study::modes::follow as modes;
 use crate::study::modes::follow::Modes;
 use crate::study::paper::{Case, Figure, PhaseTrial, Study, Trial};
@@ -136,10 +136,10 @@ impl Shown {
     pub fn document(&self) -> Result<Vec<u8>> {
         match self {
             Shown::Modes(spec, found) => modes::document(spec, found),
-            Shown::Ramp(ramp) => described(&ramp.to_json()),
-            Shown::Growth(growths) => described(&growth::to_json(growths)),
-            Shown::Accelerations(trials) => described(&accelerations::to_json(trials)),
-            Shown::Laws(_) | Shown::Phase(_) => described(&json!({ "title": self.title() })),
+            Shown::Ramp(ramp) => Ok(described(&ramp.to_json())?),
+            Shown::Growth(growths) => Ok(described(&growth::to_json(growths))?),
+            Shown::Accelerations(trials) => Ok(described(&accelerations::to_json(trials))?),
+            Shown::Laws(_) | Shown::Phase(_) => Ok(described(&json!({ "title": self.title() }))?),
         }
     }
 }

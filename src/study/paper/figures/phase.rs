@@ -1,6 +1,5 @@
 //! The phase method on trial: maps of the phase and of its verdict, and how thresholds do.
 
-use crate::error::Result;
 use crate::model::Param;
 use crate::model::kind::InstabilityType;
 use crate::results::columns::Cell;
@@ -8,6 +7,7 @@ use crate::results::csv::Table;
 use crate::results::figure::fills::define_patterns;
 use crate::results::figure::look::Look;
 use crate::results::figure::panels::setting;
+use crate::study::error::Result;
 use crate::study::paper::figures::distinct::distinct;
 use crate::study::paper::{CUSTOMARY, PhaseTrial, Source, Witness};
 use crate::sweep::grid::{AxisKey, Value};
@@ -70,7 +70,7 @@ pub(super) fn table(trial: &PhaseTrial) -> Result<Vec<u8>> {
         let phases = witness.phases.map(|phase| phase.map(number).unwrap_or_default());
         table.row(numbers.into_iter().chain([kind]).chain(phases))?;
     }
-    table.finish()
+    Ok(table.finish()?)
 }
 
 /// The fill of a phase.

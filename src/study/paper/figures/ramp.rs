@@ -2,11 +2,11 @@
 
 use serde_json::{Value as Json, json};
 
-use crate::error::Result;
 use crate::model::Param;
 use crate::results::columns::Cell;
 use crate::results::csv::Table;
 use crate::results::figure::look::Look;
+use crate::study::error::Result;
 use crate::study::paper::{Case, Stretch, Study, millimetres};
 use squealmap_figure::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_count, y_tick_room};
 use squealmap_figure::page::{DOUBLE_COLUMN, MARGIN, title};
@@ -98,7 +98,7 @@ pub(super) fn table(ramp: &Slowdown) -> Result<Vec<u8>> {
         let numbers = [t, belt, ax[0], ax[1], ay[0], ay[1], column.stick, column.free];
         table.row(numbers.into_iter().map(|x| Cell::from(x).to_string()))?;
     }
-    table.finish()
+    Ok(table.finish()?)
 }
 
 /// Time and belt velocity in the middle of a stretch.

@@ -1,0 +1,120 @@
+//! Why a study has no result.
+
+use squealmap_input::place::Place;
+use std::path::PathBuf;
+
+/// Why a study has no result. Every message is one sentence: where, the key, the value, the limit, what to do.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// `modes` needs a numeric axis with at least two values.
+    #[error(
+        "modes needs an axis of numbers with at least 2 values, and [axes] has none; add one, e.g. mu_d = {{ from = 0.0, to = 0.6, points = 601 }}"
+    )]
+    NoModesAxis,
+    /// `modes` needs axes, not tuples.
+    #[error(
+        "modes needs an axis of numbers with at least 2 values, and this sweep lists its instances in a file of `points`; give [axes] in its place, e.g. mu_d = {{ from = 0.0, to = 0.6, points = 601 }}"
+    )]
+    NoModesOfTuples,
+    /// `modes` finds nothing to show.
+    #[error(
+        "no instance of the sweep has modes: none has a sliding equilibrium on a moving belt; give at least one a `belt_velocity` above 0 (and, where theta < 0, less friction; with the law `constant`, `mu_s` of at least `mu_d`)"
+    )]
+    NoModes,
+    /// A ramp of the paper's figures that does not come to its end.
+    #[error(
+        "the ramp under {case} of {duration} s with a kick of {kick} m ended early with status `{status}`; \
+         choose another --ramp-duration or --kick"
+    )]
+    PaperRamp {
+        /// The friction case in words.
+        case: &'static str,
+        /// Duration of the ramp, s.
+        duration: f64,
+        /// Displacement at its start, m.
+        kick: f64,
+        /// How it ended.
+        status: &'static str,
+    },
+    /// What is to be drawn is no directory.
+    #[error("`{}` {why}; give `plot` the output directory of a command", path.display())]
+    NoDirectoryToPlot {
+        /// The path.
+        path: PathBuf,
+        /// What it is instead.
+        why: &'static str,
+    },
+    /// A directory without a figure.
+    #[error(
+        "there is nothing to draw in `{}`: looked for {wanted}; give `plot` the output directory of one of these commands",
+        path.display()
+    )]
+    NothingToPlot {
+        /// The directory.
+        path: PathBuf,
+        /// The files that were looked for.
+        wanted: String,
+    },
+    /// What the floor below says.
+    #[error(transparent)]
+    OfResults(#[from] crate::results::error::Error),
+}
+
+impl From<crate::store::error::Error> for Error {
+    fn from(why: crate::store::error::Error) -> Error {
+        Error::OfResults(why.into())
+    }
+}
+
+impl From<crate::sweep::error::Error> for Error {
+    fn from(why: crate::sweep::error::Error) -> Error {
+        Error::OfResults(why.into())
+    }
+}
+
+impl From<crate::engine::error::Error> for Error {
+    fn from(why: crate::engine::error::Error) -> Error {
+        Error::OfResults(why.into())
+    }
+}
+
+impl From<squealmap_figure::Error> for Error {
+    fn from(why: squealmap_figure::Error) -> Error {
+        Error::OfResults(why.into())
+    }
+}
+
+impl Error {
+    /// The place in the input that the error is about, for underlining it.
+    #[must_use]
+    pub fn place(&self) -> Option<&Place> {
+        match self {
+            Error::OfResults(why) => why.place(),
+            _ => None,
+        }
+    }
+
+    /// Whether a run was stopped from outside.
+    #[must_use]
+    pub fn is_cancelled(&self) -> bool {
+        matches!(self, Error::OfResults(why) if why.is_cancelled())
+    }
+
+    /// Whether the input (file, arguments, output directory) is at fault, as opposed to the run.
+    #[must_use]
+    pub fn is_bad_input(&self) -> bool {
+        match self {
+            Error::NoModesAxis
+            | Error::NoModesOfTuples
+            | Error::NoModes
+            | Error::PaperRamp { .. }
+            | Error::NoDirectoryToPlot { .. }
+            | Error::NothingToPlot { .. } => true,
+            Error::OfResults(why) => why.is_bad_input(),
+        }
+    }
+}
+
+/// The result of this floor.
+pub type Result<T> = std::result::Result<T, Error>;
