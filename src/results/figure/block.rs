@@ -2,14 +2,14 @@
 
 use crate::results::figure::beside::{gap_across, parted};
 use crate::results::figure::curve_block::is_curve;
+use crate::results::figure::field::Field;
 use crate::results::figure::legend::Legend;
 use crate::results::figure::look::Content;
 use crate::results::figure::palette::Colouring;
 use crate::results::figure::panels::Panels;
 use crate::results::figure::picture_axis::Direction;
-use crate::results::figure::quantity::Field;
 use crate::results::figure::sides::Sides;
-use crate::results::figure::{cells, curve_block, quantity};
+use crate::results::figure::{cells, colour_bar, curve_block};
 use crate::sweep::grid::Grid;
 use crate::sweep::label::Tally;
 use crate::sweep::spec::Starts;
@@ -167,7 +167,7 @@ impl Block<'_> {
         }
         bottom += 9.0;
         if let Some(field) = field {
-            return bottom + quantity::bar(&field, panels, svg, [x + left, bottom], width - left) - y;
+            return bottom + colour_bar::draw(&field, panels, svg, [x + left, bottom], width - left) - y;
         }
         let (colouring, hatched) = match self.content {
             Content::Classes { colouring, hatched } => (colouring, hatched),

@@ -1,9 +1,9 @@
 //! A quantity of a sweep with one axis of numbers: a curve along it, as a block of a map's figure.
 
+use crate::results::figure::field::Field;
 use crate::results::figure::look::Content;
 use crate::results::figure::panels::Panels;
 use crate::results::figure::picture_axis::Direction;
-use crate::results::figure::quantity::Field;
 use crate::results::figure::starts_block;
 use squealmap_figure::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room, y_ticks};
 use squealmap_figure::jumps::stepped;

@@ -2,11 +2,11 @@
 
 use crate::results::cut::{Curve, Cut, CutPanel, MOST_CURVES};
 use crate::results::figure::beside::{most_panels, parted};
+use crate::results::figure::field::has_sign;
 use crate::results::figure::heading::Heading;
 use crate::results::figure::look::Look;
 use crate::results::figure::panels::{selection, setting};
 use crate::results::figure::picture_axis::{Direction, PictureAxis};
-use crate::results::figure::quantity::has_sign;
 use crate::results::figure::words;
 use crate::results::number::NumberColumn;
 use crate::results::trust;

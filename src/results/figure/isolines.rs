@@ -3,9 +3,9 @@
 use crate::results::columns::Cell;
 use crate::results::csv::Table;
 use crate::results::error::Result;
+use crate::results::figure::field;
 use crate::results::figure::outline::shape;
 use crate::results::figure::panels::{Panel, Panels};
-use crate::results::figure::quantity;
 use crate::results::number::NumberColumn;
 use crate::sweep::map::Map;
 use squealmap_figure::frame::{Frame, TICK_SIZE};
@@ -53,7 +53,7 @@ pub(crate) fn draw(
     }
     let mut taken: Vec<Area> = Vec::new();
     // In the notation of the bar, which may have a power of ten beside it.
-    let unit = 10_f64.powi(quantity::exponent(column));
+    let unit = 10_f64.powi(field::exponent(column));
     for (level, line) in &lines {
         let label = value_label(level / unit);
         let others: Vec<Drawn<'_>> = lines
@@ -242,7 +242,7 @@ fn parts_of_a_turn(scale: &Scale, most: usize) -> Vec<f64> {
 pub fn round_levels(column: &NumberColumn, most: usize) -> Vec<f64> {
     /// Digits of a round value: what is beyond is rounding.
     const DIGITS: usize = 9;
-    let scale = quantity::scale(column);
+    let scale = field::scale(column);
     if column.is_angle() {
         return parts_of_a_turn(&scale, most);
     }

@@ -3,8 +3,10 @@
 pub mod beside;
 pub mod block;
 pub mod cells;
+pub mod colour_bar;
 pub mod curve_block;
 pub mod cut_figure;
+pub mod field;
 pub mod fills;
 pub mod heading;
 pub mod isolines;
@@ -21,4 +23,5 @@ pub mod quantity;
 pub mod sides;
 pub mod starts_block;
 pub mod tikz;
+pub mod tones;
 pub mod words;
