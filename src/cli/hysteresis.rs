@@ -19,7 +19,7 @@ use squealmap::sweep::grid::spaced;
 use squealmap::sweep::spec::Spec;
 use squealmap::sweep::spec::names::advice;
 
-/// What is written.
+/// The files that are written.
 const FILES: [&str; 4] = ["hysteresis.csv", "hysteresis.json", "hysteresis.png", "hysteresis.svg"];
 
 /// A parameter and its lowest and highest value.
@@ -64,7 +64,7 @@ impl Range {
         }
     }
 
-    /// So many values with equal steps, both ends exact.
+    /// The values of the sweep: `points` of them with equal steps and exact ends.
     fn values(&self, points: u32) -> Vec<f64> {
         let points = points as usize;
         (0..points).map(|at| spaced([self.from, self.to], points, false, at)).collect()

@@ -22,7 +22,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-/// What is written.
+/// The files that are written.
 const FILES: [&str; 6] =
     ["figure.json", "identify.json", "identify.png", "identify.svg", "spectrogram.nc", "windows.csv"];
 

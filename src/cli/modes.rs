@@ -10,7 +10,7 @@ use squealmap::results::figure::look::Look;
 use squealmap::study::modes::follow as modes;
 use squealmap::sweep::spec::Spec;
 
-/// What is written.
+/// The files that are written.
 const FILES: [&str; 4] = ["modes.csv", "modes.json", "modes.png", "modes.svg"];
 
 /// Arguments of `modes`.

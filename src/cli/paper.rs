@@ -15,7 +15,7 @@ use squealmap::study::paper::{Claim, Evidence, Figure, Settings, Study, claims, 
 const REPORT: &str = "paper.md";
 /// The directory of the figures, inside the output directory.
 const FIGURES: &str = "paper";
-/// What is written of a figure.
+/// The extensions of the files that are written for a figure.
 const EXTENSIONS: [&str; 4] = ["png", "svg", "csv", "json"];
 
 /// Arguments of `paper`.

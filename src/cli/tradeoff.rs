@@ -18,7 +18,7 @@ use squealmap::sweep::accuracy::measure::{Measurement, Settings, measure};
 use squealmap::sweep::accuracy::row::{Row, to_csv};
 use squealmap::sweep::spec::Spec;
 
-/// What is written.
+/// The files that are written.
 const FILES: [&str; 4] = ["tradeoff.csv", "tradeoff.json", "tradeoff.png", "tradeoff.svg"];
 
 /// Settled oscillations below which a sweep is measured for the eye alone.
@@ -62,7 +62,7 @@ pub(crate) struct Tradeoff {
     replace: Replace,
 }
 
-/// What came of a sweep.
+/// The result of a sweep.
 struct Done {
     stem: String,
     title: String,

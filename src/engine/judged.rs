@@ -1,4 +1,4 @@
-//! What is made of an outcome: its regime, and the record of its instance.
+//! From an outcome to the record of its instance, with its regime.
 
 use crate::engine::instances::Instances;
 use crate::engine::outcome::{Ending, Outcome};
@@ -43,8 +43,8 @@ fn after_ramp(instance: &Instance, time: f64) -> Option<Instance> {
     Some(moved)
 }
 
-/// The record of an instance before any analysis: `ok`, or why it has no equilibrium or none in numbers; `prepared` are its
-/// polynomials.
+/// The record of an instance before any analysis: its status is `ok`, or says why there is no equilibrium, or none that is
+/// finite. `prepared` are the polynomials of the instance.
 pub fn begun(instance: &Instance, prepared: &Preparation) -> Record {
     let status = match prepared {
         Ok(_) => Status::Ok,
@@ -57,8 +57,8 @@ pub fn begun(instance: &Instance, prepared: &Preparation) -> Record {
     Record { status, ..Record::default() }
 }
 
-/// Why an instance has no result, where its law, its equilibrium, its numbers or the length of its run say so before anything is
-/// computed.
+/// Why an instance has no result, where that is known before anything is computed: from its law, its equilibrium, the size
+/// of its numbers or the length of its run.
 #[must_use]
 pub fn refused(spec: &dyn Instances, instance: &Instance) -> Option<Status> {
     if spec.response() {

@@ -71,8 +71,9 @@ pub trait Engine: fmt::Debug + Send {
         progress: &(dyn Fn(usize) + Sync),
     ) -> Result<Computed>;
 
-    /// Instances of `starts` starts each that keep it busy, at least: ranges of fewer leave cores or lanes without work. Of
-    /// instances so dear that a tile has few, a core takes no more than a tile at a time, lest a stop loses many.
+    /// The least number of instances, of `starts` starts each, that keeps it busy: with fewer, cores or lanes are left
+    /// without work. Where instances are so costly that a tile has few, a core takes no more than a tile at a time, so that
+    /// a stop does not lose many.
     fn busy_with(&self, tile: usize, starts: usize) -> usize;
 
     /// Starts that it takes at a time of `instances` with several: some batches for each core, and less than a second's

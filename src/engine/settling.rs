@@ -31,8 +31,8 @@ const DECAYS_BELOW: f64 = -1e-6;
 /// What decays without any event is left to its eigenvalues after this many of its time constants, or a beat.
 const TIME_CONSTANTS: f64 = 3.0;
 
-/// Settled: the deviation of `x2` and the rms of `ÿ1` of three halves in a row agree within this fraction, half
-/// of what [`classify::THRESHOLDS`] asks of one window; and so much may still be to come.
+/// A motion has settled when the deviation of `x2` and the rms of `ÿ1` in three halves in a row agree within this fraction,
+/// and no more than that is still to come. It is half of what [`classify::THRESHOLDS`] asks of one window.
 pub const AGREE: f64 = 0.005;
 
 /// A change of this fraction is no trend, whichever way it goes.
@@ -126,8 +126,8 @@ impl Settling {
     }
 }
 
-/// Whether three values in a row, as far apart as the windows, are those of something settled: the last change
-/// is small, and so is all that follows when it is a step of a geometric approach.
+/// Whether three values in a row, one from each window, are settled: the last change is small, and so are all later ones
+/// together if the changes fall like a geometric series.
 fn has_settled([a, b, c]: [f64; 3]) -> bool {
     let (size, bound) = (b.max(c), AGREE * b.max(c));
     let [before, last] = [b - a, c - b];

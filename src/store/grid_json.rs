@@ -133,7 +133,7 @@ impl Serialize for WrittenRow<'_> {
     }
 }
 
-/// What is read of an identity: its JSON without the rows, and these.
+/// An identity as it is read: its JSON without the rows, and the rows.
 #[derive(Debug)]
 pub(super) struct Parted {
     pub(super) json: Json,

@@ -1,4 +1,4 @@
-//! What is not a sweep of instances: each with its table, its figure, and what reads it back.
+//! Studies: computations that are no sweep of instances. Each has its table, its figure, and a reader of both.
 //!
 //! [`modes`] follows eigenvalues, [`trace`] one instance over time, [`hysteresis`] a cycle along a parameter, [`tradeoff`] speed
 //! against error, [`fit`] measured friction, [`identify`] measured signals, [`signals`] an instance as sensors record it, [`paper`] the source

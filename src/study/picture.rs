@@ -81,7 +81,7 @@ impl Picture {
         Ok(Picture { content, program })
     }
 
-    /// The map, of which quantities and lines can be asked for too.
+    /// The map, if it is one: quantities and lines can be asked for then.
     #[must_use]
     pub fn map(&self) -> Option<&Archive> {
         match &self.content {

@@ -25,7 +25,8 @@ impl std::fmt::Display for Value {
     }
 }
 
-/// Value `index` of so many from end to end: equal steps, of logarithms if `log`; both ends exact.
+/// Value `index` of `points` values between two ends, which are met exactly. Steps are equal, or those of the logarithms are
+/// if `log`.
 #[must_use]
 pub fn spaced([from, to]: [f64; 2], points: usize, log: bool, index: usize) -> f64 {
     if index == 0 {
@@ -178,7 +179,7 @@ impl FromIterator<Vec<Value>> for Rows {
     }
 }
 
-/// Names of which each is kept once.
+/// Names, each kept once.
 #[derive(Debug, Default)]
 pub(crate) struct Names(Vec<Arc<String>>);
 

@@ -1,4 +1,4 @@
-//! What is wrong with a file of signals: such a file is named and not analysed.
+//! The faults of files of signals. A file with a fault is named and not analysed.
 
 /// Why signals are not analysed: which column, where, and what to do.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -43,7 +43,7 @@ pub enum Fault {
         name: String,
         /// One quantity.
         first: &'static str,
-        /// The other.
+        /// The other column.
         second: &'static str,
         /// The option of the second.
         flag: &'static str,
@@ -57,7 +57,7 @@ pub enum Fault {
         line: u64,
         /// Its fields.
         fields: usize,
-        /// Those of the header.
+        /// The number of columns in the header.
         columns: usize,
         /// What it looks like, with a leading semicolon, or nothing.
         because: &'static str,

@@ -24,7 +24,7 @@ const MARKS: [&str; 2] = [
     r##"class="level" fill="none" stroke="#000000" stroke-width="0.6""##,
 ];
 
-/// Draws the bar from `(x, y)` downwards, what hatching and dots mean below it, and returns their height.
+/// Draws the bar from `(x, y)` downwards, and below it what hatching and dots mean. Returns the height of both.
 pub(crate) fn draw(field: &Field<'_>, panels: &Panels, svg: &mut Svg, [x, y]: [f64; 2], width: f64) -> f64 {
     if let Tones::Named(names) = field.tones {
         return named(field, names, panels, svg, [x, y], width);

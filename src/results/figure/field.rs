@@ -12,18 +12,18 @@ use squealmap_figure::frame::LABEL_SIZE;
 use squealmap_figure::scale::Scale;
 use squealmap_figure::text::Text;
 
-/// What the bar of a fraction of starts says.
+/// The words of the bar for a fraction of starts.
 const STARTS: &str = "fraction of starts";
 /// A side of zero that reaches less far than this part of the other is rounding.
 const ROUNDING: f64 = 1e-9;
 /// The scale of a fraction.
 const FRACTION: Scale = Scale::Linear { low: 0.0, high: 1.0 };
 
-/// What a block shows: values of the places of its panels, and words.
+/// The numbers that a block shows: a value for every place of its panels, with scale, colours and words.
 pub(crate) struct Field<'a> {
-    /// Whose values they are, where they stand in a column.
+    /// The column that the values come from; `None` where they come from none.
     column: Option<&'a NumberColumn>,
-    /// Beside the bar; empty where the heading says it all.
+    /// The words beside the bar; empty where the heading says enough.
     pub(super) label: &'a str,
     pub(super) scale: Scale,
     pub(super) tones: Tones<'a>,
@@ -133,7 +133,7 @@ impl<'a> Field<'a> {
         self.column.map_or_else(|| Text::from(words::capital(self.label)), of)
     }
 
-    /// What stands above the block, in lines of this width, points.
+    /// The heading above the block, as lines of this width, points.
     pub(crate) fn heading(&self, room: f64) -> Vec<Text> {
         if let Some(column) = self.column {
             return words::label(column, 0, room, LABEL_SIZE).wrapped(room, LABEL_SIZE);

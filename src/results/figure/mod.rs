@@ -1,4 +1,5 @@
-//! The figure of a map: types and regimes by colour, quantities by lightness, curves, lines, and the same for LaTeX.
+//! The figure of a map: types and regimes by colour, quantities by lightness, curves and lines of equal value; and the
+//! figure as a source for LaTeX.
 
 pub mod beside;
 pub mod block;

@@ -1,5 +1,5 @@
-//! The line `μ_s = μ_d` of a picture over both coefficients. On its one side friction falls with the speed, as that of brakes
-//! does; on the other it rises, which few materials do: shares of the whole picture would mix the two.
+//! The line `μ_s = μ_d` in a picture over both coefficients. On one side of it friction falls with the speed, as that of
+//! brakes does; on the other it rises, which few materials do. Shares of the whole picture would mix the two.
 
 use crate::model::Param;
 use crate::results::figure::panels::Panels;
@@ -37,7 +37,7 @@ impl Sides {
         relation(" ≥ ").plain(" | ").then(relation(" < "))
     }
 
-    /// The same beside a heading.
+    /// What the shares of a legend are of, in the words of a heading, with the line named.
     pub(crate) fn heading() -> Text {
         Text::from("line ").then(relation(" = ")).plain(", shares of ").then(Sides::words())
     }

@@ -1,4 +1,4 @@
-//! `identify`: the table of windows and the report; the figure is in `identify_figure.rs`.
+//! `identify`: the table of windows and the report; the figure is in `figure.rs`.
 
 use std::io::Write;
 

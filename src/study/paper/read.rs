@@ -54,7 +54,7 @@ fn pair(json: &Json) -> Why<[f64; 2]> {
     }
 }
 
-/// A stretch of which time and velocity are known.
+/// A stretch with its time and its velocity, and nothing else.
 fn stretch((time, velocity): ([f64; 2], [f64; 2])) -> Stretch {
     Stretch { time, velocity, tangential: [0.0; 2], normal: [0.0; 2], stick: 0.0, free: 0.0 }
 }

@@ -276,10 +276,11 @@ fn readers(param: Param) -> String {
     if param == Param::Temperature { "a `material`".to_owned() } else { String::new() }
 }
 
-/// What `name` names: a key, `section.key`, or a section with all its keys; of `axes` all that may vary.
+/// The keys that `name` stands for: a key, `section.key`, or a section with all its keys. `axes` stands for all keys that
+/// may vary.
 ///
 /// # Errors
-/// For a name that is neither, with the nearest.
+/// When there is no such key or section; the sentence names the nearest.
 pub fn named(name: &str) -> Result<Vec<Key>> {
     let all = all();
     let wanted = name.trim().trim_start_matches('[').trim_end_matches(']');

@@ -42,7 +42,7 @@ pub const MAX_SWEEP_BYTES: u64 = 4 * squealmap_input::files::MIB;
 /// Most rows of a file of points, which stand in memory: those of the longest `map.csv` that is written by itself.
 pub const MAX_ROWS: usize = 20_000_000;
 
-/// Most rows of a friction table or a material, all of which an instance may look through.
+/// Most rows of a friction table or a material: an instance may have to look through all of them.
 pub const MAX_TABLE_ROWS: usize = 65_536;
 
 /// Most values of an axis, which stand in memory.
@@ -93,7 +93,7 @@ impl Analysis {
 /// How many starts every instance has.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Starts {
-    /// One, as [`crate::engine::plan::StartKind`] says.
+    /// One start, as [`crate::engine::plan::StartKind`] says.
     #[default]
     One,
     /// Two: the kick, and a large start with `large_velocity` and `large_displacement`.
@@ -117,10 +117,10 @@ impl Starts {
 /// Which of its starts an instance is computed from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Pass {
-    /// The one of [`crate::engine::plan::StartKind`].
+    /// The start of [`crate::engine::plan::StartKind`].
     #[default]
     Own,
-    /// The large one of [`Starts::Both`].
+    /// The large start of [`Starts::Both`].
     Large,
 }
 
@@ -159,7 +159,7 @@ pub struct Spec {
     pub steps_per_period: u32,
     /// Where the sweep gives them, if it does.
     pub steps_given: Option<Place>,
-    /// How its map is refined; `None`: every instance is computed.
+    /// How its map is refined; `None` where every instance is computed.
     pub refine: Option<Settings>,
 }
 
