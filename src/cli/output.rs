@@ -1,7 +1,6 @@
 //! The output directory: proven writable before the run, filled at once after it.
 
-use squealmap::results::error as results;
-use squealmap::store::error as store;
+use squealmap::{results, store};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::thread;
@@ -44,7 +43,7 @@ impl Output {
             }
             let made =
                 disk::make_all(&folder).and_then(|made| Claim::take(&path).map(|_| made)).map_err(|why| {
-                    store::Error::OutputDirectory { path: folder.clone(), why: why.to_string() }
+                    store::error::Error::OutputDirectory { path: folder.clone(), why: why.to_string() }
                 })?;
             output.made.splice(0..0, made);
             proven.push(folder);
@@ -53,7 +52,7 @@ impl Output {
             None => Ok(output),
             Some(name) => {
                 let why = format!("`{name}`, a file to be written there, is a directory");
-                Err(store::Error::OutputDirectory { path: output.directory.clone(), why }.into())
+                Err(store::error::Error::OutputDirectory { path: output.directory.clone(), why }.into())
             }
         }
     }
@@ -218,10 +217,10 @@ pub(crate) fn fill(claim: &mut Claim, bytes: &[u8]) -> Result<()> {
 }
 
 /// The error of a table that cannot be written: with its path, and what the system says.
-pub(crate) fn cannot_table(path: &Path, why: results::Error) -> Error {
+pub(crate) fn cannot_table(path: &Path, why: results::error::Error) -> Error {
     match why {
-        results::Error::WriteTable(why) => cannot(path, &io::Error::other(why)),
-        results::Error::WriteParquet(why) => cannot(path, &io::Error::other(why)),
+        results::error::Error::WriteTable(why) => cannot(path, &io::Error::other(why)),
+        results::error::Error::WriteParquet(why) => cannot(path, &io::Error::other(why)),
         other => other.into(),
     }
 }

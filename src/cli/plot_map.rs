@@ -10,7 +10,7 @@ use squealmap::results::columns::Cell;
 use squealmap::results::cut::{Cut, cut_csv, cut_svg, left_out};
 use squealmap::results::figure::isolines::{isoline_table, round_levels};
 use squealmap::results::figure::look::{Content, Look};
-use squealmap::results::figure::map as figure;
+use squealmap::results::figure::map;
 use squealmap::results::figure::palette::Colouring;
 use squealmap::results::figure::tikz::map_tikz;
 use squealmap::results::number::NumberColumn;
@@ -161,7 +161,7 @@ impl OfMaps {
             contents.push(content(archive, name, self.hatch)?);
         }
         if contents.is_empty() {
-            contents = figure::computed(archive.map.spec.analysis, self.hatch);
+            contents = map::computed(archive.map.spec.analysis, self.hatch);
         }
         let mut tables = vec![(BOUNDARIES, boundary_lines(&archive.map)?)];
         let levels = self.levels_of(&contents)?;
@@ -184,7 +184,7 @@ impl OfMaps {
         if self.tikz {
             tables.push((TIKZ, map_tikz(&archive.map, &look)?.into_bytes()));
         }
-        Ok((figure::look_svg(&archive.map, &look)?, tables))
+        Ok((map::look_svg(&archive.map, &look)?, tables))
     }
 
     /// The values at which each content has lines. Only contents of numbers have any, and there has to be one such content.

@@ -22,7 +22,7 @@ use squealmap::results::figure::look::Look;
 use squealmap::study::signals::sensors::{Recording, record};
 use squealmap::study::signals::table::signals_csv;
 use squealmap::study::trace::run::trace;
-use squealmap::study::trace::table as export;
+use squealmap::study::trace::table::{document, trace_csv, trace_svg};
 use squealmap::sweep::grid::{AxisKey, Value};
 use squealmap::sweep::spec::Spec;
 use squealmap_input::quote::rounded;
@@ -73,10 +73,10 @@ impl TraceCommand {
         let output = self.files.prepare_beside(names)?;
         let trace = trace(&spec, &instance, self.samples_per_period);
         let heading = Heading::new(&spec.title, &at);
-        let svg = export::trace_svg(&trace, &heading, &Look::default())?;
+        let svg = trace_svg(&trace, &heading, &Look::default())?;
         let mut files = vec![
-            (FILES[0], export::trace_csv(&trace)?),
-            (FILES[1], export::document(&trace, &heading)?),
+            (FILES[0], trace_csv(&trace)?),
+            (FILES[1], document(&trace, &heading)?),
             (FILES[2], png_of(&svg)?),
             (FILES[3], svg.into_bytes()),
         ];

@@ -3,6 +3,9 @@
 //! A test can put a disk in its place that fails, tears or forgets at the n-th operation ([`put_in_place`]). What every
 //! writer owes the disk (retries, no links followed, names that last) stands here once. A test of the sources sees to it
 //! that nobody else writes. Files that a user names as input are read elsewhere.
+//!
+//! - `system.rs`: the operations of a disk, and the system's own disk.
+//! - `file.rs`, `folders.rs`: one open file; folders made and removed.
 
 mod file;
 mod folders;

@@ -3,8 +3,7 @@
 use crate::engine::instances::Instances;
 use crate::engine::outcome::{Ending, Outcome};
 use crate::engine::record::Record;
-use crate::engine::regime as classify;
-use crate::engine::regime::Regime;
+use crate::engine::regime::{self, Regime};
 use crate::engine::scene::{Scene, belt_velocity};
 use crate::model::equilibrium::Equilibrium;
 use crate::model::instance::Instance;
@@ -19,7 +18,7 @@ pub fn regime(instance: &Instance, kind: Option<InstabilityType>, outcome: &Outc
     let velocity = instance.params.require(Param::BeltVelocity);
     let at_end = after_ramp(instance, outcome.simulated_time);
     let (kind, known) = at_end.map_or((kind, None), |instance| linear::analyse(&instance));
-    let (regime, settled) = classify::regime(outcome, velocity, kind == Some(InstabilityType::Stable));
+    let (regime, settled) = regime::regime(outcome, velocity, kind == Some(InstabilityType::Stable));
     let found = match outcome.ending {
         None => (regime, settled),
         Some(Ending::Decays) => (Regime::Equilibrium, true),
@@ -31,7 +30,7 @@ pub fn regime(instance: &Instance, kind: Option<InstabilityType>, outcome: &Outc
         return found;
     }
     let linear = known.or_else(|| linear::analyse(instance).1);
-    linear.map_or(found, |linear| classify::about_unstable(outcome, velocity, linear.growth_rate, found))
+    linear.map_or(found, |linear| regime::about_unstable(outcome, velocity, linear.growth_rate, found))
 }
 
 /// The instance on the belt as it is at the time `time` (s), where it has a ramp: what a motion then

@@ -2,6 +2,15 @@
 //!
 //! This file holds the parameters. The table [`PARAMS`] drives the TOML keys, the axes, the CSV columns, the range checks
 //! and the axis labels of figures. Units are SI, temperatures in °C.
+//!
+//! | question | where |
+//! |---|---|
+//! | one instance: values and friction law | [`instance`], [`friction`], [`material`] |
+//! | its sliding equilibrium, and the scaled model around that | [`equilibrium`], [`scaled`] |
+//! | equations of motion, contact states, impacts | [`belt`], [`contact`] |
+//! | eigenvalues and their attribution, types of instability | [`linear`], [`quartic`], [`kind`] |
+//! | the fastest mode of each contact state | [`fastest`] |
+//! | how an instance ends | [`status`] |
 
 pub mod belt;
 pub mod contact;

@@ -11,6 +11,9 @@ use crate::sweep::map::Map;
 
 pub use crate::results::figure::cut_figure::{cut_svg, left_out};
 
+/// The most curves of a panel that can be told apart.
+pub const MOST_CURVES: usize = 6;
+
 /// One curve: the instances along the axis, in rising order of its values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
@@ -188,6 +191,3 @@ pub fn cut_csv(map: &Map, cut: &Cut, quantities: &[&NumberColumn]) -> Result<Vec
     }
     table.finish()
 }
-
-/// The most curves of a panel that can be told apart.
-pub const MOST_CURVES: usize = 6;

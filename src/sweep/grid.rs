@@ -5,6 +5,9 @@ use std::sync::Arc;
 
 use crate::model::{PARAMS, Param};
 
+/// Names beyond these are not shared: looking them up would cost more than they.
+const SHARED_NAMES: usize = 256;
+
 /// One coordinate of an instance.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
@@ -196,9 +199,6 @@ impl Names {
         Value::Text(name)
     }
 }
-
-/// Names beyond these are not shared: looking them up would cost more than they.
-const SHARED_NAMES: usize = 256;
 
 impl Grid {
     /// The number of instances; `None` when the product overflows `usize`.

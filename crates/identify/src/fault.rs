@@ -1,5 +1,9 @@
 //! The faults of files of signals. A file with a fault is named and not analysed.
 
+/// The slowest and the fastest rate of sensors of vibrations, Hz. What a column of time without a unit says beyond them is asked
+/// about: squeal at 51.2 kHz with its time in milliseconds would be 51.2 Hz.
+pub const RATES: [f64; 2] = [1e3, 1e6];
+
 /// Why signals are not analysed: which column, where, and what to do.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -345,7 +349,3 @@ pub struct Unfit {
     /// Which column, where, and what to do.
     pub fault: Box<Fault>,
 }
-
-/// The slowest and the fastest rate of sensors of vibrations, Hz. What a column of time without a unit says beyond them is asked
-/// about: squeal at 51.2 kHz with its time in milliseconds would be 51.2 Hz.
-pub const RATES: [f64; 2] = [1e3, 1e6];

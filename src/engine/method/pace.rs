@@ -30,6 +30,18 @@ const KEPT_OF_TOLERANCE_DAMPED: f64 = 1e-2;
 /// The fastest mode to which [`KEPT_OF_TOLERANCE`] applies, by `ω0`.
 const SLOW: f64 = 2.0;
 
+/// A mode that holds slip on a piece of the law may be raised to the tolerance of a position; for a velocity that is the
+/// tolerance times the rate of the mode. A piece that is this many times as wide does not notice. Of 180 jagged tables one
+/// does at 400 times.
+const RAISED: f64 = 2000.0;
+
+/// The normal force and the inertia of slip change on the way; the rate of a piece may rise with them by this factor.
+pub const HARDER: f64 = 2.0;
+
+/// Of a piece that drives the motion away only this part of its rate counts. The motion itself shows that it is driven, and
+/// the truncation of its series shortens the step. But a series over ten thousand times the right step tells nothing at all.
+const SHOWN: f64 = 1.0 / 16.0;
+
 /// How far a mode may turn within a step, radians. The bounds are [`STABLE`] or [`SEEN`], and the last term of the mode's
 /// own series, `(|λ| h)^n/n!`: it stays below a tolerance, and in contact below [`KEPT`] as well.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -140,22 +152,11 @@ fn damps(order: usize) -> bool {
     order % 4 == 1
 }
 
-/// What is left of a mode that holds slip on a piece of the law may be raised to the tolerance of a position, which is that
-/// times its rate of a velocity. Pieces this many times as wide do not notice: of 180 jagged tables one does at 400.
-const RAISED: f64 = 2000.0;
-
 /// Whether steps are so short that a scalar of that rounding stands still: `x + ẍ h²` is `x`.
 #[must_use]
 pub fn stands_still(longest: f64, epsilon: f64) -> bool {
     longest * longest < epsilon
 }
-
-/// The normal force and the inertia of slip change on the way; the rate of a piece may rise with them by this factor.
-pub const HARDER: f64 = 2.0;
-
-/// The part of its rate that counts of a piece that drives the motion away. The motion shows it, and the truncation of its
-/// series shortens the step; a series over ten thousand times of such a step only tells nothing at all.
-const SHOWN: f64 = 1.0 / 16.0;
 
 /// How fast the fastest mode of slip is on a piece of the law, where it is faster than [`Fastest`] counts; 0 where it is
 /// not.

@@ -18,6 +18,9 @@ pub(crate) const STROKES: [&str; 2] = [
     r##"class="equal_coefficients" fill="none" stroke="#000000" stroke-width="0.6""##,
 ];
 
+/// Up to this many instances the legend counts; above it gives percentages.
+pub const COUNTED: usize = 200;
+
 /// The instances with `μ_s ≥ μ_d` and those below, counted.
 pub(crate) struct Sides(pub(crate) [Tally; 2]);
 
@@ -90,6 +93,3 @@ fn rises(grid: &Grid, instance: usize) -> bool {
     });
     coefficients[0] < coefficients[1]
 }
-
-/// Up to this many instances the legend counts; above it gives percentages.
-pub const COUNTED: usize = 200;

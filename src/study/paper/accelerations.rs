@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use crate::engine::reference::records as reference;
+use crate::engine::reference::records::record;
 use crate::model::equilibrium::Units;
 use crate::model::{Param, Params};
 use crate::study::paper::sweeps::{ACCELERATIONS, Case};
@@ -66,7 +66,7 @@ pub(super) fn trials() -> Vec<Trial> {
     let computed: Vec<Option<[f64; 2]>> = wanted
         .par_iter()
         .map(|(index, ..)| {
-            let outcome = reference::record(&spec, *index).outcome?;
+            let outcome = record(&spec, *index).outcome?;
             Some([outcome.ax_peak?, outcome.ay_peak?])
         })
         .collect();

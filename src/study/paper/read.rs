@@ -5,7 +5,7 @@ use serde_json::Value as Json;
 use crate::model::kind::InstabilityType;
 use crate::results::read::folder::{Folder, Table, Why, text};
 use crate::study::error::Result;
-use crate::study::modes::read as modes;
+use crate::study::modes;
 use crate::study::paper::figures::{
     ACCELERATIONS, GROWTH, Growing, LAWS, Laws, PHASE, RAMP, Shown, Slowdown,
 };
@@ -14,7 +14,7 @@ use crate::study::paper::{Figure, PhaseTrial, Stretch, Trial, Witness};
 /// Reads a figure from its table and document.
 pub(crate) fn read(folder: Folder<'_>, figure: Figure, files: [&str; 2]) -> Result<Shown> {
     if figure == Figure::Figure2 {
-        let (spec, modes) = modes::read(folder, files)?;
+        let (spec, modes) = modes::read::read(folder, files)?;
         return Ok(Shown::Modes(Box::new(spec), modes));
     }
     let table = folder.table(files[0])?;

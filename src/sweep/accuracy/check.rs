@@ -7,10 +7,9 @@
 use crate::engine::backend::Backend;
 use crate::engine::computation::Stopped;
 use crate::engine::error::Result;
-use crate::engine::lanes::records as cpu;
 use crate::engine::method::Method;
 use crate::engine::record::{By, Check, Record};
-use crate::engine::reference::records as reference;
+use crate::engine::{lanes, reference};
 use crate::model::status::Status;
 use crate::sweep::accuracy::boundary::is_near;
 use crate::sweep::accuracy::configuration::{Configuration, finer};
@@ -96,8 +95,8 @@ pub fn check(
         let sweep = judge.sweep(&subset(spec, &indices));
         let all = 0..indices.len();
         let computed = match by {
-            By::Fine => cpu::records(&sweep, all, judge.precision, cancel, &|_| {}),
-            By::Reference => reference::records(&sweep, all, Method::Taylor, cancel, &|_| {}),
+            By::Fine => lanes::records::records(&sweep, all, judge.precision, cancel, &|_| {}),
+            By::Reference => reference::records::records(&sweep, all, Method::Taylor, cancel, &|_| {}),
         };
         let judged = match computed {
             Ok(judged) if judged.stopped.is_none() => judged.records,

@@ -2,6 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
+/// The part of the oscillations of a trial that may break the bound. It is half of what the promise allows, because several
+/// choices are tried on one sample and none should pass by luck. A choice that breaks the bound in 10 % of all cases passes
+/// a trial of 100 oscillations one time in 500, and a trial of 40 one time in 70.
+const BROKEN: f64 = 0.025;
+
 /// How a configuration did on some instances of a sweep.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
 pub struct Trial {
@@ -46,8 +51,3 @@ impl Trial {
         )
     }
 }
-
-/// The part of the oscillations of a trial that may break the bound. It is half of what the promise allows, because several
-/// choices are tried on one sample and none should pass by luck. A choice that breaks the bound in 10 % of all cases passes
-/// a trial of 100 oscillations one time in 500, and a trial of 40 one time in 70.
-const BROKEN: f64 = 0.025;

@@ -12,6 +12,12 @@ use crate::sweep::spec::{MEASURE, SETTLE, SETTLE_LIMIT, STEPS_PER_PERIOD, law};
 use squealmap_input::place::Place;
 use squealmap_input::quote::list;
 
+/// The section of what varies, which has no keys of its own.
+const AXES: &str = "axes";
+
+/// Fewest and most steps per period that may be asked for.
+pub(super) const STEPS_RANGE: (usize, usize) = (3, 100_000);
+
 /// A key of a sweep file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Key {
@@ -44,9 +50,6 @@ pub const SECTIONS: [(&str, &str); 8] = [
     ("response", "how long the motion is followed, and how finely"),
     ("refine", "only the lines of a map are computed"),
 ];
-
-/// The section of what varies, which has no keys of its own.
-const AXES: &str = "axes";
 
 /// A key with a value that is no number of the model.
 struct Row {
@@ -339,6 +342,3 @@ fn whole((least, most): (usize, usize)) -> String {
 fn time() -> String {
     format!("a time above 0 and at most {LONGEST:e}, such as \"6 s\" or \"200 periods\"")
 }
-
-/// Fewest and most steps per period that may be asked for.
-pub(super) const STEPS_RANGE: (usize, usize) = (3, 100_000);

@@ -1,4 +1,15 @@
-//! TOML → validated spec; the only file that reads TOML.
+//! A sweep file (TOML) as a validated sweep. Only this folder reads TOML.
+//!
+//! | question | where |
+//! |---|---|
+//! | text → sweep | `read.rs`, `document.rs`, `duration.rs` |
+//! | its sections, key by key | `sections.rs`, `law.rs`, `start.rs`, [`refine`] |
+//! | what varies | `axis.rs`, `varied.rs` |
+//! | files that it names | `files.rs`, `rows.rs` |
+//! | what must hold between keys | `check.rs`, [`names`] |
+//! | every key, for people | [`keys`] |
+//! | one instance of it | `instance.rs`, `at.rs` |
+//! | written out in full, and read from that again | `resolved.rs`, `again.rs` |
 
 mod again;
 mod at;
