@@ -16,7 +16,7 @@ use squealmap::engine::gpu::adapter::Adapter;
 use squealmap::engine::options::Options;
 use squealmap::engine::precision::Precision;
 use squealmap::sweep::map::Map;
-use squealmap::sweep::run as sweep;
+use squealmap::sweep::run;
 use squealmap::sweep::spec::Spec;
 use squealmap::version::{COMMIT, VERSION};
 
@@ -41,7 +41,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     let run = |backend, precision, strict| {
         let options = Options { backend, precision, strict, ..Options::default() };
-        sweep::run(spec.clone(), &options, &|_| {})
+        run::run(spec.clone(), &options, &|_| {})
     };
     let reference = run(Backend::Reference, None, false)?;
     writeln!(log, "\nreference, f64 on {} threads: {}", reference.provenance.threads, rate(&reference))?;

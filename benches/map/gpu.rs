@@ -6,7 +6,7 @@ use squealmap::engine::backend::Backend;
 use squealmap::engine::gpu::adapter::{Adapter, Description};
 use squealmap::engine::options::Options;
 use squealmap::engine::precision::Precision;
-use squealmap::sweep::run as sweep;
+use squealmap::sweep::run;
 
 /// Most instances on a software adapter: a driver on the CPU computes some hundred a second.
 pub(crate) const MOST_ON_SOFTWARE: usize = 1100;
@@ -43,7 +43,7 @@ pub(crate) fn run(
         adapter: wanted.as_deref(),
         ..Options::default()
     };
-    let map = sweep::run(spec, &options, &|_| {})?;
+    let map = run::run(spec, &options, &|_| {})?;
     let mut output = Output::default();
     for (index, record) in map.records.iter().enumerate() {
         output.count(index, &record.outcome.as_deref().copied().unwrap_or_default());

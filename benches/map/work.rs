@@ -25,6 +25,11 @@ const KICK: f64 = 0.3;
 const SETTLE: f64 = 100.0;
 const MEASURE: f64 = 40.0;
 
+/// Knuth's linear congruential generator, and where it begins.
+const MULTIPLIER: u64 = 6_364_136_223_846_793_005;
+const INCREMENT: u64 = 1_442_695_040_888_963_407;
+const SEED: u64 = 20_261_121;
+
 /// The paper's model with `side`² friction coefficients (`mu_s` × `mu_d`) at four belt velocities, the velocity
 /// varying slowest.
 #[derive(Clone, Copy, Debug)]
@@ -95,11 +100,6 @@ impl Work {
             .collect()
     }
 }
-
-/// Knuth's linear congruential generator, and where it begins.
-const MULTIPLIER: u64 = 6_364_136_223_846_793_005;
-const INCREMENT: u64 = 1_442_695_040_888_963_407;
-const SEED: u64 = 20_261_121;
 
 /// The run of every instance, at `steps_per_period` by a series of `order` whose truncation is bounded.
 pub(crate) fn plan(steps_per_period: u32, order: usize, tolerance: f64) -> Plan {

@@ -14,7 +14,7 @@ use squealmap::results::read::compare::{Comparison, Differences, Labels};
 
 /// What is written.
 const FILES: [&str; 4] = ["compare.csv", "compare.json", "compare.png", "compare.svg"];
-/// So many pairs of labels are printed; the table has all.
+/// The most pairs of labels that are printed; the table has all.
 const PAIRS: usize = 8;
 
 /// Arguments of `compare`.
@@ -54,7 +54,7 @@ impl Compare {
     }
 }
 
-/// What differs, in words and two tables.
+/// The differences in words and two tables.
 fn summary(found: &Comparison) -> String {
     let [computed, total] = found.computed;
     let mut text = String::new();

@@ -1,4 +1,4 @@
-//! What computes: the options that every command with an engine has.
+//! The options that choose an engine; every command with one has them.
 
 use std::sync::atomic::AtomicBool;
 

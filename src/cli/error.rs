@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use squealmap_input::place::Place;
 use squealmap_input::quote::{SAID, clipped, one_line};
 
-/// The most characters of what is wrong with a file of signals; the names in its header are many.
+/// The most characters of a sentence about a file of signals, which may name all columns of its header.
 const FAULT: usize = 1200;
 
 /// Why a command failed.

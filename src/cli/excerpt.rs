@@ -6,10 +6,10 @@ use miette::{MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanConten
 use squealmap_input::place::Place;
 use squealmap_input::quote::{is_obeyed, one_line};
 
-/// Characters of a line that are shown …
+/// The most characters of a line that are shown.
 const WIDTH: usize = 120;
 
-/// … of which so many stand before the place.
+/// How many of these characters stand before the place.
 const BEFORE: usize = 60;
 
 /// Lines of a place that are shown.

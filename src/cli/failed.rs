@@ -1,5 +1,5 @@
-//! Sweeps of which no instance has a result, and traces of one that has none: what failed is data and is written, and a
-//! sentence and the exit code tell.
+//! Sweeps in which no instance has a result, and traces of an instance without one. Failures are data and are written; a
+//! sentence and the exit code say that there is nothing else.
 
 use std::path::Path;
 use std::process::ExitCode;
@@ -22,7 +22,7 @@ pub(crate) fn judged(code: ExitCode, directory: &Path, document: &str) -> ExitCo
     }
 }
 
-/// That nothing has a result and why, where these counts of types, regimes and statuses say so.
+/// A sentence that nothing has a result, and why; `None` where the counts of types, regimes and statuses show a result.
 fn sentence(counts: &Json) -> Option<String> {
     let statuses = counts["status"].as_object()?;
     // A type is all that a linear analysis is asked for, and divergence is one.
@@ -33,7 +33,7 @@ fn sentence(counts: &Json) -> Option<String> {
     (!open && !statuses.is_empty()).then(|| nothing(count))
 }
 
-/// That nothing has a result and why: how many instances have which status.
+/// A sentence that nothing has a result, and why: how many instances have which status.
 pub(crate) fn nothing(count: impl Fn(Status) -> u64) -> String {
     format!("no instance has a result: {}", told(count))
 }

@@ -27,7 +27,7 @@ impl Files {
         prepare(&self.sweep, self.output.as_deref(), files)
     }
 
-    /// The same for what takes seconds, see [`prepare_beside`].
+    /// The output directory ready for `files` that are made in seconds, see [`prepare_beside`].
     pub(crate) fn prepare_beside(&self, files: &[&str]) -> Result<Output> {
         prepare_beside(&self.sweep, self.output.as_deref(), files)
     }

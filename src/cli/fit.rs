@@ -14,7 +14,7 @@ use squealmap::study::fit::{Fit, fit, range};
 use squealmap_identify::{Channel, FrictionColumn, Point, Settings, read_points};
 use squealmap_input::quote::rounded;
 
-/// What is written.
+/// The files that are written.
 const FILES: [&str; 2] = ["material.csv", "residuals.csv"];
 /// Rows of a material over temperatures that are not repeated.
 const ROWS: u16 = 5;
@@ -116,7 +116,7 @@ fn largest(fitted: &Fit, points: &[Point]) -> String {
     })
 }
 
-/// What of the material the points do not say.
+/// Warnings about parts of the material that the points do not determine.
 fn warnings(fitted: &Fit, points: &[Point]) -> Vec<String> {
     let mut warnings = Vec::new();
     let [low, high] = range(points, |point| point.temperature);

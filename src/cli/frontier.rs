@@ -19,8 +19,8 @@ fn place() -> Option<PathBuf> {
     Some(dirs::cache_dir()?.join(env!("CARGO_PKG_NAME")).join(TABLE))
 }
 
-/// What a choice for this sweep is made from: what was measured on this machine where that covers the sweep, else
-/// what is shipped.
+/// The measurements that a choice for this sweep is made from: those of this machine if they cover the sweep, or else those
+/// that are shipped.
 pub(crate) fn of(spec: &Spec) -> Frontier {
     let measured = place().and_then(|path| match read(&path) {
         Ok(rows) => Some(Frontier::measured(rows, format!("`{}`", path.display()))),
@@ -42,7 +42,7 @@ pub(crate) fn writable(asked: Option<&Path>) -> Result<()> {
     read(&path).map(drop)
 }
 
-/// Puts the rows of a measurement in place of those of the same scene; returns where, if anywhere.
+/// Puts the rows of a measurement in the place of older ones of the same scene. Returns the file, if there is one to write.
 pub(crate) fn store(asked: Option<PathBuf>, rows: &[Row]) -> Result<Option<PathBuf>> {
     let Some(path) = asked.or_else(place) else {
         note("this system has no cache directory: give --store FILE to keep the table for `run --accuracy`");

@@ -14,8 +14,8 @@ use std::path::{Path, PathBuf};
 /// Where the directories of results are by default.
 const OUT: &str = "out";
 
-/// The output directory of an input file: the one asked for, else `out/NAME` of `NAME.toml`; where that holds what was made
-/// from another file of this name, `out/NAME-2`, and so on. The same file finds its own again.
+/// The output directory of an input file: the one asked for, or else `out/NAME` for `NAME.toml`. Where that holds results of
+/// another file of this name, it is `out/NAME-2`, and so on. An input file finds its own directory again.
 pub(crate) fn directory(input: &Path, asked: Option<&Path>) -> Result<PathBuf> {
     if let Some(asked) = asked {
         return Ok(asked.to_owned());
@@ -50,7 +50,8 @@ pub(crate) fn prepare(input: &Path, asked: Option<&Path>, files: &[&str]) -> Res
     Output::prepare(directory, files)
 }
 
-/// The same for results that take seconds: they replace others of their names, and the directory stays whose it was.
+/// Makes the directory ready for `files` that are made in seconds. They replace others of their names, and the directory
+/// goes on belonging to the input file that it was made from.
 pub(crate) fn prepare_beside(input: &Path, asked: Option<&Path>, files: &[&str]) -> Result<Output> {
     let mut output = prepare(input, asked, files)?;
     if origin::written(output.directory()).is_none() {
@@ -65,7 +66,7 @@ fn short(path: &Path) -> PathBuf {
     path.strip_prefix(here).unwrap_or(path).to_owned()
 }
 
-/// What may be replaced.
+/// Says what may be replaced.
 #[derive(Clone, Copy, Debug, Default, Args)]
 pub(crate) struct Replace {
     /// Replace the results of another sweep that are in the output directory
@@ -95,7 +96,7 @@ impl Replace {
         Ok(())
     }
 
-    /// The same for the results of a refinement, whose parts stay in any case.
+    /// Makes room for the results of a refinement. The parts that are there stay in any case.
     pub(crate) fn refinement(self, directory: &Path, input: &Path, description: &Description) -> Result<()> {
         match Occupant::of_refinement(directory) {
             Some(there) if there.sweep != description.id.to_string() => {
@@ -105,7 +106,8 @@ impl Replace {
         }
     }
 
-    /// The same for the file `name`, which takes minutes.
+    /// Makes room for the file `name`, which takes minutes to make: one of another input file is replaced only if that was
+    /// asked for.
     pub(crate) fn file(self, directory: &Path, input: &Path, name: &'static str) -> Result<()> {
         match origin::of(directory) {
             Some(from)

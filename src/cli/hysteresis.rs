@@ -14,12 +14,12 @@ use squealmap::model::{PARAMS, Param, Section};
 use squealmap::results::figure::heading::Heading;
 use squealmap::results::figure::look::Look;
 use squealmap::study::hysteresis::follow::{Direction, Hysteresis};
-use squealmap::study::hysteresis::table as export;
+use squealmap::study::hysteresis::table::{document, hysteresis_csv, hysteresis_svg};
 use squealmap::sweep::grid::spaced;
 use squealmap::sweep::spec::Spec;
 use squealmap::sweep::spec::names::advice;
 
-/// What is written.
+/// The files that are written.
 const FILES: [&str; 4] = ["hysteresis.csv", "hysteresis.json", "hysteresis.png", "hysteresis.svg"];
 
 /// A parameter and its lowest and highest value.
@@ -64,7 +64,7 @@ impl Range {
         }
     }
 
-    /// So many values with equal steps, both ends exact.
+    /// The values of the sweep: `points` of them with equal steps and exact ends.
     fn values(&self, points: u32) -> Vec<f64> {
         let points = points as usize;
         (0..points).map(|at| spaced([self.from, self.to], points, false, at)).collect()
@@ -85,10 +85,10 @@ pub(crate) fn execute(spec: &Spec, files: &Files, at: &str, range: &Range, point
     let output = files.prepare_beside(&FILES)?;
     let found = Hysteresis::follow(range.param, range.values(points), &Plan::new(spec), instance)?;
     let heading = Heading::new(&spec.title, at);
-    let svg = export::hysteresis_svg(&found, &heading, &Look::default());
+    let svg = hysteresis_svg(&found, &heading, &Look::default());
     let files = [
-        (FILES[0], export::hysteresis_csv(spec, &found)?),
-        (FILES[1], export::document(&found, &heading)?),
+        (FILES[0], hysteresis_csv(spec, &found)?),
+        (FILES[1], document(&found, &heading)?),
         (FILES[2], png_of(&svg)?),
         (FILES[3], svg.into_bytes()),
     ];

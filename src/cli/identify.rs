@@ -7,7 +7,7 @@ use crate::cli::output::list;
 use crate::cli::pictures::png_of;
 use crate::cli::talk::print;
 use squealmap::results::figure::look::Look;
-use squealmap::study::identify::report as export;
+use squealmap::study::identify::report;
 use squealmap::study::identify::report::{Shown, WindowsCsv};
 use squealmap::study::identify::spectrogram::spectrogram_nc;
 use squealmap_identify::{
@@ -22,7 +22,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-/// What is written.
+/// The files that are written.
 const FILES: [&str; 6] =
     ["figure.json", "identify.json", "identify.png", "identify.svg", "spectrogram.nc", "windows.csv"];
 
@@ -103,10 +103,10 @@ impl Identify {
         let found = identify(open, &name, &settings, &mut |window, reading| table.add(window, reading))?;
         table.finish()?;
         let shown = Shown::new(&found, &heading);
-        let svg = export::identify_svg(&shown, &Look::default())?;
+        let svg = report::identify_svg(&shown, &Look::default())?;
         let files = [
             (FILES[0], shown.document()?),
-            (FILES[1], export::report_json(&found, &name)?),
+            (FILES[1], report::report_json(&found, &name)?),
             (FILES[2], png_of(&svg)?),
             (FILES[3], svg.into_bytes()),
             (FILES[4], spectrogram_nc(&found.spectrogram, &heading)),

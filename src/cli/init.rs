@@ -66,7 +66,7 @@ impl Preset {
         self.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned())
     }
 
-    /// What is done with the sweep, after its name has been put in place of `SWEEP`.
+    /// The command that does something with the sweep; `SWEEP` stands for its name.
     fn command(self) -> &'static str {
         match self {
             Preset::Hysteresis => "squealmap trace SWEEP --sweep-up-down belt_velocity=0.8..2.1 --points 53",

@@ -65,7 +65,7 @@ fn listed(section: &str, about: &str, keys: &[&Key]) -> String {
     text
 }
 
-/// All of one key.
+/// All that is known of one key, line by line.
 fn card(key: &Key) -> String {
     let rows = [
         ("meaning", key.meaning),
@@ -82,7 +82,7 @@ fn card(key: &Key) -> String {
     text
 }
 
-/// The same as a table.
+/// The keys of a section as a table in Markdown.
 fn markdown(section: &str, about: &str, keys: &[&Key]) -> String {
     let heading = if section.is_empty() { "Top level".to_owned() } else { format!("`[{section}]`") };
     let mut text = format!("### {heading}: {about}\n\n");

@@ -1,4 +1,4 @@
-//! Which time to settle would do, in a sentence.
+//! A sentence about the time to settle that a sweep needs.
 
 use crate::cli::progress::seconds;
 use squealmap::engine::regime::Regime;
@@ -18,7 +18,8 @@ pub(crate) fn onset_of(spec: &Spec, tally: &Tally) -> String {
     onset(spec).map_or_else(String::new, |onset| format!("{onset}\n"))
 }
 
-/// What the unstable instances of a sweep need until they show what they do; `None` where they have it.
+/// A sentence about the time that the unstable instances of a sweep need to show what they do; `None` where the sweep gives
+/// it to them.
 pub(crate) fn onset(spec: &Spec) -> Option<String> {
     if !spec.analysis.response {
         return None;

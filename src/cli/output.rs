@@ -1,7 +1,6 @@
 //! The output directory: proven writable before the run, filled at once after it.
 
-use squealmap::results::error as results;
-use squealmap::store::error as store;
+use squealmap::{results, store};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::thread;
@@ -14,7 +13,7 @@ use squealmap::disk::{Handle, door};
 use squealmap::store::claim::Claim;
 use squealmap::store::origin;
 
-/// What is claimed where no file is to come.
+/// The file that is claimed where no other is to be written.
 const PROBE: &str = ".squealmap";
 
 /// An output directory that exists and can be written.
@@ -23,14 +22,15 @@ pub(crate) struct Output {
     directory: PathBuf,
     /// Directories made for it, deepest first; removed again when nothing comes of the run.
     made: Vec<PathBuf>,
-    /// What stood in it when its source was noted for the first time; that goes, too, when nothing comes of the run.
+    /// How many entries it had when its source was noted for the first time. The note goes, too, when nothing comes of the
+    /// run.
     beside: Option<usize>,
 }
 
 impl Output {
-    /// Makes the directory where it does not exist, and those that the names of `files` have in them, and claims a file
-    /// in each, which it gives up: what a run that is killed in this moment leaves, the next one uses. Refuses one where a
-    /// directory stands in place of one of the `files` to come.
+    /// Makes the directory, with the folders that the names of `files` contain, and claims a file in each to see that it can
+    /// be written. The claims are given up again; what a run that is killed in this moment leaves of them, the next one
+    /// uses. Refuses a directory that stands in the place of one of `files`.
     pub(crate) fn prepare(directory: PathBuf, files: &[&str]) -> Result<Output> {
         let mut output = Output { directory, made: Vec::new(), beside: None };
         let probes = if files.is_empty() { &[PROBE][..] } else { files };
@@ -43,7 +43,7 @@ impl Output {
             }
             let made =
                 disk::make_all(&folder).and_then(|made| Claim::take(&path).map(|_| made)).map_err(|why| {
-                    store::Error::OutputDirectory { path: folder.clone(), why: why.to_string() }
+                    store::error::Error::OutputDirectory { path: folder.clone(), why: why.to_string() }
                 })?;
             output.made.splice(0..0, made);
             proven.push(folder);
@@ -52,7 +52,7 @@ impl Output {
             None => Ok(output),
             Some(name) => {
                 let why = format!("`{name}`, a file to be written there, is a directory");
-                Err(store::Error::OutputDirectory { path: output.directory.clone(), why }.into())
+                Err(store::error::Error::OutputDirectory { path: output.directory.clone(), why }.into())
             }
         }
     }
@@ -87,20 +87,21 @@ impl Output {
         std::mem::take(&mut self.directory)
     }
 
-    /// A file of the directory that is written as its content comes, for [`Output::write_beside`].
+    /// Opens a file of the directory that is written piece by piece and then handed to [`Output::write_beside`].
     pub(crate) fn draft(&self, name: &str) -> Result<Draft> {
         let mut claim = claim(&self.directory.join(name))?;
         claim.emptied().map_err(|why| cannot(&self.directory.join(name), &why))?;
         Ok(Draft(claim))
     }
 
-    /// Writes all files or none: first under temporary names, then renamed; those of before go first, so that a crash between
-    /// two names leaves no figure of one call beside the table of another. Returns their paths.
+    /// Writes all files or none: first under temporary names, then renamed. Older files of these names are removed first, so
+    /// that after a crash no figure of one call stands beside the table of another. Returns their paths.
     pub(crate) fn write(self, files: &[(&str, Vec<u8>)]) -> Result<Vec<PathBuf>> {
         self.write_beside(files, Vec::new())
     }
 
-    /// The same with files that have been written already.
+    /// Writes `files`, and puts the `drafts`, which have been written already, in their places with them: all or none, as
+    /// [`Output::write`] does.
     pub(crate) fn write_beside(
         mut self,
         files: &[(&str, Vec<u8>)],
@@ -132,8 +133,8 @@ fn publish(files: Vec<Claim>) -> Result<Vec<PathBuf>> {
     files.into_iter().map(publish).collect()
 }
 
-/// The same of files of which `last` says that the others are there: the one before goes first, and the new one comes
-/// last. A file that must not stand beside them goes, too.
+/// Puts files in their places and then `last`, whose being there says that the others are complete. The older file of its
+/// name is removed before the first of them comes, and so is `stale`, which must not stand beside them. Returns the paths.
 pub(crate) fn publish_with(last: Claim, mut files: Vec<Claim>, stale: Option<&Path>) -> Result<Vec<PathBuf>> {
     let before = last.path();
     gone(before)?;
@@ -216,10 +217,10 @@ pub(crate) fn fill(claim: &mut Claim, bytes: &[u8]) -> Result<()> {
 }
 
 /// The error of a table that cannot be written: with its path, and what the system says.
-pub(crate) fn cannot_table(path: &Path, why: results::Error) -> Error {
+pub(crate) fn cannot_table(path: &Path, why: results::error::Error) -> Error {
     match why {
-        results::Error::WriteTable(why) => cannot(path, &io::Error::other(why)),
-        results::Error::WriteParquet(why) => cannot(path, &io::Error::other(why)),
+        results::error::Error::WriteTable(why) => cannot(path, &io::Error::other(why)),
+        results::error::Error::WriteParquet(why) => cannot(path, &io::Error::other(why)),
         other => other.into(),
     }
 }

@@ -9,13 +9,13 @@ use crate::cli::output::{Output, list};
 use crate::cli::talk::print;
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use squealmap::study::paper::{Claim, Evidence, Figure, Settings, Study, claims, figures as export};
+use squealmap::study::paper::{Claim, Evidence, Figure, Settings, Study, claims, figures};
 
 /// The report.
 const REPORT: &str = "paper.md";
 /// The directory of the figures, inside the output directory.
 const FIGURES: &str = "paper";
-/// What is written of a figure.
+/// The extensions of the files that are written for a figure.
 const EXTENSIONS: [&str; 4] = ["png", "svg", "csv", "json"];
 
 /// Arguments of `paper`.
@@ -50,13 +50,13 @@ impl PaperCommand {
         let study = Study::new(Settings { ramp_duration: self.ramp_duration, kick: self.kick });
         let mut files = Vec::new();
         for figure in figures {
-            let drawn = export::draw(figure, &study)?.files()?;
+            let drawn = figures::draw(figure, &study)?.files()?;
             files.extend(drawn.map(|(extension, bytes)| (path(figure, extension), bytes)));
         }
         if report.is_some() {
             let evidence = Evidence::gather(&study)?;
             print(&verdicts(&evidence));
-            let text = export::report(&evidence, FIGURES, &command);
+            let text = figures::report(&evidence, FIGURES, &command);
             files.push((REPORT.to_owned(), text.into_bytes()));
         }
         let files: Vec<(&str, Vec<u8>)> =

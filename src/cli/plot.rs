@@ -17,10 +17,10 @@ use squealmap::study::{Kind, Picture};
 use squealmap::version::program;
 use squealmap_figure::{pdf, png};
 
-/// What is written of every figure.
+/// The files that are written for every figure.
 const FILES: [&str; 3] = ["plot.pdf", "plot.png", "plot.svg"];
 
-/// What makes a figure lower.
+/// Ways to make a figure lower.
 const OF_A_MAP: &str =
     "take a wider journal or --width, name fewer with --quantity, or show part of the map with --cut";
 const OF_OTHERS: &str = "take another --journal, or --width, which sets no height";

@@ -1,4 +1,4 @@
-//! What stands beside a picture: the picture says which tables belong to it, and those of the picture before go with it.
+//! The tables beside a picture. A picture says which tables belong to it, and those of an older picture are removed with it.
 
 use std::path::Path;
 
@@ -7,11 +7,11 @@ use crate::cli::talk::note;
 use squealmap::disk;
 use squealmap::disk::door;
 
-/// What comes before the list of tables in the metadata of a picture.
+/// The words before the list of tables in the metadata of a picture.
 const BESIDE: &str = "; beside it: ";
 /// The end of the metadata.
 const END: &str = "</metadata>";
-/// So many characters of a checksum tell two tables apart.
+/// The characters of a checksum that are enough to tell two tables apart.
 const CHECKSUM: usize = 16;
 
 /// A picture whose metadata name the tables beside it, each with the beginning of its BLAKE3 checksum.
@@ -33,8 +33,8 @@ pub(crate) struct Stale {
     unchanged: bool,
 }
 
-/// The tables of a directory that `written`, the names of what is going to be written, are without; its picture is that
-/// of before.
+/// The tables in a directory that are not among `written`, the files that are going to be written. `picture`, the older
+/// picture, says how they were when it was made: each is unchanged since or not.
 pub(crate) fn stale(directory: &Path, picture: &str, written: &[&str]) -> Vec<Stale> {
     let before = disk::read(&directory.join(picture)).unwrap_or_default();
     let before = String::from_utf8_lossy(&before);

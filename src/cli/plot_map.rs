@@ -1,4 +1,4 @@
-//! What `squealmap plot` can show of a map: classes, quantities with lines of equal value, and cuts.
+//! `squealmap plot` of a map: classes, quantities with lines of equal value, and cuts.
 
 use crate::cli::error::{Error, Result};
 use crate::cli::numbers::finite;
@@ -10,7 +10,7 @@ use squealmap::results::columns::Cell;
 use squealmap::results::cut::{Cut, cut_csv, cut_svg, left_out};
 use squealmap::results::figure::isolines::{isoline_table, round_levels};
 use squealmap::results::figure::look::{Content, Look};
-use squealmap::results::figure::map as figure;
+use squealmap::results::figure::map;
 use squealmap::results::figure::palette::Colouring;
 use squealmap::results::figure::tikz::map_tikz;
 use squealmap::results::number::NumberColumn;
@@ -42,7 +42,7 @@ const ALIASES: [(&str, &str); 4] = [
     ("cycle_frequency", "response_frequency"),
 ];
 
-/// What a cut shows where nothing is asked for, as far as it was computed.
+/// The quantities of a cut where none is asked for, as far as they were computed.
 const OF_A_CUT: [&str; 2] = ["growth_rate", "x2_std"];
 
 /// Names and bytes of the tables beside a figure.
@@ -148,7 +148,7 @@ impl OfMaps {
         self.draw_all(&part, look)
     }
 
-    /// The same of the instances that were selected.
+    /// The figure and the tables of all instances of `archive`, which holds only those that were selected.
     fn draw_all(&self, archive: &Archive, look: Look<'_>) -> Result<(String, Tables)> {
         if let Some(cut) = &self.cut {
             return self.draw_cut(archive, cut, &look);
@@ -161,7 +161,7 @@ impl OfMaps {
             contents.push(content(archive, name, self.hatch)?);
         }
         if contents.is_empty() {
-            contents = figure::computed(archive.map.spec.analysis, self.hatch);
+            contents = map::computed(archive.map.spec.analysis, self.hatch);
         }
         let mut tables = vec![(BOUNDARIES, boundary_lines(&archive.map)?)];
         let levels = self.levels_of(&contents)?;
@@ -184,10 +184,10 @@ impl OfMaps {
         if self.tikz {
             tables.push((TIKZ, map_tikz(&archive.map, &look)?.into_bytes()));
         }
-        Ok((figure::look_svg(&archive.map, &look)?, tables))
+        Ok((map::look_svg(&archive.map, &look)?, tables))
     }
 
-    /// The values at which each content has lines: those of numbers alone, of which there has to be one.
+    /// The values at which each content has lines. Only contents of numbers have any, and there has to be one such content.
     fn levels_of(&self, contents: &[Content<'_>]) -> Result<Vec<Vec<f64>>> {
         let Some(option) = self.lines() else { return Ok(vec![Vec::new(); contents.len()]) };
         if !contents.iter().any(|content| matches!(content, Content::Quantity { .. })) {
@@ -312,7 +312,7 @@ fn is_large_regime(archive: &Archive, name: &str) -> bool {
     analysis.response && analysis.starts == Starts::Both && name == LARGE_REGIME
 }
 
-/// What a name asks for.
+/// The content that a name asks for.
 fn content<'a>(archive: &'a Archive, name: &str, hatched: bool) -> Result<Content<'a>> {
     let asked = archive.map.spec.analysis;
     if let Some(colouring) = Colouring::of(asked).find(|colouring| colouring.name() == name) {

@@ -83,9 +83,9 @@ impl RefineCommand {
 pub(crate) struct Refining<'a> {
     /// The sweep file and where its results go.
     pub(crate) files: &'a Files,
-    /// What computes.
+    /// The options that choose an engine.
     pub(crate) engine: &'a EngineArgs,
-    /// What it may replace.
+    /// The options that say what may be replaced.
     pub(crate) replace: Replace,
     /// Most instances of a part.
     pub(crate) part: Option<usize>,
@@ -186,7 +186,7 @@ struct Work<'a, 's> {
     rows: MapCsv<'a, Summed<BufWriter<&'a mut Handle>>>,
     /// Instances that were computed now.
     fresh: usize,
-    /// All that were computed, now or before.
+    /// The labels of all computed instances, now or before, counted.
     tally: Tally,
     /// The parts by name and checksum, in the order of use.
     used: Vec<(String, String)>,
@@ -234,7 +234,7 @@ impl Work<'_, '_> {
     }
 }
 
-/// The same as [`report`] for scripts.
+/// Tells scripts what [`report`] tells people.
 fn tell(directory: &Path, refined: &Refined, fresh: usize) {
     talk::tell("directory", directory.display().to_string());
     talk::tell("instances", refined.labels.len());
@@ -248,7 +248,7 @@ fn tell(directory: &Path, refined: &Refined, fresh: usize) {
     talk::tell("complete", true);
 }
 
-/// What becomes of a refinement that was stopped.
+/// A sentence about a refinement that was stopped, and how it goes on.
 fn stopped(fresh: usize) -> String {
     if fresh == 0 {
         return "stopped before another part was done; run the same command again to go on".to_owned();
@@ -259,7 +259,8 @@ fn stopped(fresh: usize) -> String {
     )
 }
 
-/// What was computed, `fresh` of it now, what came out of that, what the lines say of all, and what may be missed.
+/// The report for people: how many instances were computed (`fresh` of them now) and with which results, what the lines say
+/// of all instances, and how much may be missed.
 fn report(refined: &Refined, fresh: usize, analysis: Analysis, [computed, all]: [&Tally; 2]) -> String {
     let summary = summary(analysis, computed);
     let instances = refined.labels.len();

@@ -23,7 +23,7 @@ use squealmap::sweep::spec::Spec;
 /// How the lines were found; what says that the others are there.
 pub(crate) const DOCUMENT: &str = "refine.json";
 
-/// What is written; the table as it comes, the others at the end.
+/// The files that are written: the table while instances come, the others at the end.
 pub(crate) const FILES: [&str; 5] = ["points.csv", "boundaries.csv", DOCUMENT, "refined.png", "refined.svg"];
 
 /// The files that the document names.
@@ -60,13 +60,13 @@ impl Ended<'_> {
     }
 }
 
-/// What is in a refined directory.
+/// The content of a refined directory.
 pub(crate) struct Checked {
     /// Its parts.
     pub(crate) found: Found,
     /// Whether results are there, or some of them.
     pub(crate) has_results: bool,
-    /// What is wrong, a sentence each.
+    /// A sentence for everything that is wrong.
     pub(crate) faults: Vec<String>,
     /// The refinement that the results are of, where `refine.json` is as it was written.
     of: Option<Refinement>,

@@ -23,16 +23,16 @@ use squealmap::store::seal::is_intact;
 use squealmap::store::space::MOST_ROWS;
 use squealmap::sweep::label::Tally;
 
-/// What is written.
+/// The files that are written.
 pub(crate) const FILES: [&str; 4] = ["map.csv", MANIFEST, "map.png", "map.svg"];
 
-/// What says that the others are there.
+/// The file whose being there says that the others are complete.
 pub(crate) const MANIFEST: &str = "manifest.json";
 
 /// Between two looks at results that another process writes.
 const WAIT: Duration = Duration::from_millis(50);
 
-/// What came of writing results.
+/// The result of writing results.
 pub(crate) enum Results {
     /// They are written.
     Written { paths: Vec<PathBuf>, tally: Tally, complete: bool },
@@ -48,9 +48,9 @@ pub(crate) enum Results {
     Fuller { tally: Tally },
 }
 
-/// Writes all files or none: first under temporary names, then renamed; the manifest, which is the claim on all
-/// of them, last. Where `run` was stopped, tiles may be missing: what is kept of them stands in their place, and the rest is
-/// `not_computed`.
+/// Writes all files or none: first under temporary names, then renamed. The manifest, which is the claim on all of them,
+/// comes last. Where `run` was stopped, tiles may be missing. Records that were kept of such a tile stand in its place, and
+/// the rest is `not_computed`.
 pub(crate) fn write(store: &Store, run: &Run, cancel: &AtomicBool) -> Result<Results> {
     let path = |name: &str| store.directory.join(name);
     let mut manifest_file = match claim_or_current(store, run, cancel)? {
@@ -139,7 +139,7 @@ pub(crate) fn write(store: &Store, run: &Run, cancel: &AtomicBool) -> Result<Res
     Ok(Results::Written { paths, tally, complete })
 }
 
-/// What came of asking for the right to write results.
+/// The result of asking for the right to write results.
 enum Claimed {
     Claim(Claim),
     Current,
@@ -183,7 +183,7 @@ fn there(store: &Store) -> Option<(bool, usize)> {
     (is_of_this && FILES.iter().all(is_there)).then_some((manifest["complete"] == true, computed))
 }
 
-/// What the manifest of a directory says, for `--json`.
+/// Tells scripts what the manifest of a directory says.
 pub(crate) fn tell(directory: &Path) {
     let bytes = disk::read(&directory.join(MANIFEST)).unwrap_or_default();
     let manifest: serde_json::Value = serde_json::from_slice(&bytes).unwrap_or_default();

@@ -91,7 +91,7 @@ impl Run {
         self.reuse.is_some()
     }
 
-    /// What it may replace.
+    /// The options that say what may be replaced.
     pub(crate) fn replace(&self) -> Replace {
         self.replace
     }
@@ -155,7 +155,7 @@ impl Run {
     }
 }
 
-/// Computes what is missing and writes the results of all.
+/// Computes the tiles that are missing, and writes the results of all.
 pub(crate) fn run(
     store: &Store,
     solver: &mut Solver,
@@ -306,7 +306,7 @@ fn shard_done(store: &Store, shard: Shard, filled: &Filled) -> ExitCode {
     }
 }
 
-/// Those of some tiles that are not there; bad ones are set aside and named.
+/// Which of some tiles are not there. Bad ones are set aside and named, and count as missing.
 pub(crate) fn missing(store: &Store, tiles: impl Iterator<Item = usize>) -> Result<Vec<usize>> {
     let there = store.numbers()?;
     let mut missing = Vec::new();
@@ -318,7 +318,7 @@ pub(crate) fn missing(store: &Store, tiles: impl Iterator<Item = usize>) -> Resu
     Ok(missing)
 }
 
-/// What was computed, what came out, and the files.
+/// The report: how much was computed, the results, and the files.
 fn report(run: &manifest::Run, store: &Store, tally: &Tally, onset: &str, paths: &[PathBuf]) -> String {
     let total = store.description.tiling.instances;
     let reused = run.reused.as_ref().map_or(0, |(instances, _)| *instances);
@@ -351,7 +351,7 @@ fn missed(run: &manifest::Run, tally: &Tally) -> String {
     }
 }
 
-/// Says that a sweep is not complete and what was done with what is, and gives the exit code.
+/// Says that a sweep is not complete, and what was done with the part that is; gives the exit code.
 fn ended(stopped: &Stopped, tally: &Tally, did: &str) -> ExitCode {
     let code = match stopped {
         Stopped::Cancelled => INTERRUPTED,

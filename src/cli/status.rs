@@ -65,7 +65,7 @@ impl StatusCommand {
         }
     }
 
-    /// What was not looked at.
+    /// A line about the checks that were left out.
     fn hint(&self) -> &'static str {
         if self.verify {
             ""
@@ -91,7 +91,7 @@ impl StatusCommand {
     }
 }
 
-/// The same for scripts.
+/// Tells scripts how far a run has come.
 fn tell(store: &Store, status: &Status) {
     let description = &store.description;
     let (tiles, total) = (description.tiling.count(), description.tiling.instances);

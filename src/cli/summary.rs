@@ -1,4 +1,4 @@
-//! What came out of a sweep, counted: regimes against types, and statuses when any is not `ok`.
+//! The results of a sweep, counted: regimes against types, and statuses when any is not `ok`.
 
 use std::fmt::Write;
 
@@ -8,7 +8,7 @@ use squealmap::model::status::Status;
 use squealmap::sweep::label::{Label, Tally};
 use squealmap::sweep::spec::{Analysis, Starts};
 
-/// What stands where an analysis gave nothing.
+/// The word where an analysis gave nothing.
 const NONE: &str = "-";
 
 /// The table of classes, and what else there is to say of what was computed.

@@ -45,7 +45,7 @@ impl<W: Write> Summed<W> {
         Summed { out, bytes: 0, hasher: blake3::Hasher::new() }
     }
 
-    /// Of all that was written.
+    /// The length and the checksum of everything that was written.
     pub(crate) fn sum(&self) -> Sum {
         Sum { bytes: self.bytes, blake3: self.hasher.finalize().to_hex().to_string() }
     }

@@ -22,14 +22,14 @@ use squealmap::results::figure::look::Look;
 use squealmap::study::signals::sensors::{Recording, record};
 use squealmap::study::signals::table::signals_csv;
 use squealmap::study::trace::run::trace;
-use squealmap::study::trace::table as export;
+use squealmap::study::trace::table::{document, trace_csv, trace_svg};
 use squealmap::sweep::grid::{AxisKey, Value};
 use squealmap::sweep::spec::Spec;
 use squealmap_input::quote::rounded;
 
-/// What is written.
+/// The files that are written.
 const FILES: [&str; 4] = ["trace.csv", "trace.json", "trace.png", "trace.svg"];
-/// What `--rate` adds.
+/// The file that `--rate` adds.
 const SIGNALS: &str = "signals.csv";
 
 /// Arguments of `trace`.
@@ -40,7 +40,7 @@ pub(crate) struct TraceCommand {
     /// The instance: every parameter that the sweep varies, and any other; values may lie off the grid
     #[arg(long, value_name = "NAME=VALUE,...", default_value = "", hide_default_value = true)]
     at: String,
-    /// The same by its number in map.csv, the first is 0
+    /// The instance by its number in map.csv, where the first is 0
     #[arg(long, value_name = "N", conflicts_with_all = ["at", "sweep_up_down"])]
     instance: Option<usize>,
     /// Rows per period 2π/ω0, 1 to 10000, besides the events
@@ -73,10 +73,10 @@ impl TraceCommand {
         let output = self.files.prepare_beside(names)?;
         let trace = trace(&spec, &instance, self.samples_per_period);
         let heading = Heading::new(&spec.title, &at);
-        let svg = export::trace_svg(&trace, &heading, &Look::default())?;
+        let svg = trace_svg(&trace, &heading, &Look::default())?;
         let mut files = vec![
-            (FILES[0], export::trace_csv(&trace)?),
-            (FILES[1], export::document(&trace, &heading)?),
+            (FILES[0], trace_csv(&trace)?),
+            (FILES[1], document(&trace, &heading)?),
             (FILES[2], png_of(&svg)?),
             (FILES[3], svg.into_bytes()),
         ];
@@ -123,9 +123,10 @@ impl TraceCommand {
     }
 }
 
-/// That a rate (Hz) is below twice the highest frequency of the modes of an instance, and which one is not.
+/// A sentence that a rate (Hz) is below twice the highest frequency of an instance's modes, with a rate that would do;
+/// `None` where it is high enough.
 fn too_slow(rate: u32, instance: &Instance) -> Option<String> {
-    /// Samples per period of what is recorded well.
+    /// Samples per period from which on an oscillation is recorded well.
     const ENOUGH: f64 = 20.0;
     let modes = linear::eigenvalues(instance)?;
     let highest = modes.iter().map(|mode| mode.im.abs() / TAU).fold(0.0, f64::max);

@@ -5,20 +5,19 @@ use std::path::{Path, PathBuf};
 
 use crate::cli::error::{Error, Result};
 use crate::cli::frontier;
-use crate::cli::home::{Replace, prepare, stem as own_name};
+use crate::cli::home::{Replace, prepare, stem};
 use crate::cli::output::{Output, list};
 use crate::cli::pictures::png_of;
 use crate::cli::talk::{note, print};
 use clap::Args;
 use squealmap::engine::options::Options;
 use squealmap::results::figure::look::Look;
-use squealmap::study::tradeoff::report as tradeoff;
-use squealmap::study::tradeoff::report::Section;
+use squealmap::study::tradeoff::report::{self, Section};
 use squealmap::sweep::accuracy::measure::{Measurement, Settings, measure};
 use squealmap::sweep::accuracy::row::{Row, to_csv};
 use squealmap::sweep::spec::Spec;
 
-/// What is written.
+/// The files that are written.
 const FILES: [&str; 4] = ["tradeoff.csv", "tradeoff.json", "tradeoff.png", "tradeoff.svg"];
 
 /// Settled oscillations below which a sweep is measured for the eye alone.
@@ -62,7 +61,7 @@ pub(crate) struct Tradeoff {
     replace: Replace,
 }
 
-/// What came of a sweep.
+/// The result of a sweep.
 struct Done {
     stem: String,
     title: String,
@@ -74,7 +73,7 @@ impl Tradeoff {
     pub(crate) fn execute(self) -> Result<()> {
         // A mistake in the last sweep is told before the first is measured.
         let specs = self.sweeps.iter().map(|path| Ok(Spec::read(path)?)).collect::<Result<Vec<_>>>()?;
-        let names: Vec<_> = self.sweeps.iter().map(|path| own_name(path)).collect::<Result<_>>()?;
+        let names: Vec<_> = self.sweeps.iter().map(|path| stem(path)).collect::<Result<_>>()?;
         if let Some(twice) = (1..names.len()).find(|at| names[..*at].contains(&names[*at])) {
             return Err(Error::SameName { name: names[twice].to_string_lossy().into_owned() });
         }
@@ -89,7 +88,7 @@ impl Tradeoff {
         };
         let mut all = Vec::new();
         for (path, spec) in self.sweeps.iter().zip(&specs) {
-            let stem = own_name(path)?;
+            let stem = stem(path)?;
             let asked = self.output.as_ref().map(|output| match specs.len() {
                 1 => output.clone(),
                 _ => output.join(stem),
@@ -100,7 +99,7 @@ impl Tradeoff {
             let measured = measure(spec, settings, &Options::default(), &note)?;
             let stem = stem.to_string_lossy().into_owned();
             let (done, paths) = write(output, spec, stem, measured)?;
-            print(&tradeoff::summary(&done.measured));
+            print(&report::summary(&done.measured));
             print(&list(&paths));
             all.push(done);
         }
@@ -152,11 +151,11 @@ impl Tradeoff {
 /// Writes table, summary and figure of a sweep.
 fn write(output: Output, spec: &Spec, stem: String, measured: Measurement) -> Result<(Done, Vec<PathBuf>)> {
     let title = if spec.title.is_empty() { "Speed against error".to_owned() } else { spec.title.clone() };
-    let svg = tradeoff::figure(&spec.title, &measured.rows, &Look::default());
+    let svg = report::figure(&spec.title, &measured.rows, &Look::default());
     let png = png_of(&svg)?;
     let files = [
         (FILES[0], to_csv(&measured.rows)?),
-        (FILES[1], tradeoff::to_json(&spec.title, &measured)?),
+        (FILES[1], report::to_json(&spec.title, &measured)?),
         (FILES[2], png.clone()),
         (FILES[3], svg.into_bytes()),
     ];
@@ -173,7 +172,7 @@ fn write_report(report: &Path, all: &[Done], command: &str) -> Result<Vec<PathBu
         .iter()
         .map(|done| Section { title: &done.title, figure: figure(done), measured: &done.measured })
         .collect();
-    let text = tradeoff::to_markdown(&sections, command).into_bytes();
+    let text = report::to_markdown(&sections, command).into_bytes();
     let drawn: Vec<(String, Vec<u8>)> = all.iter().map(|done| (figure(done), done.png.clone())).collect();
     let mut files: Vec<(&str, Vec<u8>)> = vec![(&name, text)];
     files.extend(drawn.iter().map(|(name, png)| (name.as_str(), png.clone())));

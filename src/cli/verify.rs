@@ -119,7 +119,7 @@ impl Verify {
         ["manifest.json", "map.csv"].iter().any(|name| self.directory.join(name).exists())
     }
 
-    /// What `run` and `refine` do with a directory whose sweep file is at hand.
+    /// Repairs a directory as `run` and `refine` would, which have the sweep file at hand.
     fn repair(&self, store: Option<Store>, refined: Option<Checked>) -> Result<ExitCode> {
         let cancel = stop_at_signal()?;
         if let Some(store) = store {

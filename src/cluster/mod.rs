@@ -1,4 +1,7 @@
-//! A sweep as jobs of a cluster: how many shares, and the scripts that compute and join them.
+//! A sweep as jobs of a cluster.
+//!
+//! - [`tasks`]: into how many tasks a sweep is cut.
+//! - [`slurm`]: the scripts that compute and join them.
 
 pub mod slurm;
 pub mod tasks;

@@ -5,7 +5,8 @@
 
 use std::fmt::Write;
 
-/// What Slurm calls the largest array unless its administrator says otherwise; the largest index is one less.
+/// Slurm's limit on the size of an array, `MaxArraySize`, unless its administrator sets another. The largest index is one
+/// less.
 pub const DEFAULT_MAX_ARRAY_SIZE: usize = 1001;
 
 /// Where the logs go, in the output directory.
@@ -15,7 +16,7 @@ pub const LOGS: &str = "slurm";
 /// between batches of at most a few seconds.
 const AHEAD: u32 = 60;
 
-/// What a task runs, below the words that are its own.
+/// The script of a task, below the lines that are its own.
 const ARRAY: &str = include_str!("array.sh");
 
 /// A sweep as two jobs.
@@ -70,7 +71,7 @@ impl Jobs {
         arguments
     }
 
-    /// Those of them that are known before the array is submitted.
+    /// The arguments of the merge job that are known before the array is submitted.
     fn merge_alone(&self) -> Vec<String> {
         let mut arguments = self.arguments(&format!("{}-merge", self.name), "%j_merge.log");
         arguments.push("--kill-on-invalid-dep=yes".to_owned());
@@ -78,7 +79,7 @@ impl Jobs {
         arguments
     }
 
-    /// What both have in common: a task whose node fails is started again, and its log goes on.
+    /// The arguments that both jobs have. A task whose node fails is started again, and its log goes on.
     fn arguments(&self, name: &str, log: &str) -> Vec<String> {
         let mut arguments: Vec<String> =
             ["--parsable", "--requeue", "--nodes=1", "--ntasks=1", "--open-mode=append"]

@@ -10,7 +10,7 @@ const TASK: Duration = Duration::from_mins(10);
 /// needed and each is short, where it is too high there are fewer and each is long.
 const CORES_OF_A_GPU: f64 = 64.0;
 
-/// What one task computes with.
+/// The means that one task computes with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Means {
     /// Cores of the processor.

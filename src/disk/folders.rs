@@ -45,7 +45,8 @@ pub fn remove_if_there(path: &Path) -> io::Result<()> {
     }
 }
 
-/// Removes a folder that may be there, with all that is in it; links, it may be one itself, are removed and not followed.
+/// Removes a folder, if it is there, with everything in it. Links are removed and not followed, also where the folder itself
+/// is one.
 ///
 /// # Errors
 /// When something cannot be removed.

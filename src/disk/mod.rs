@@ -1,8 +1,11 @@
 //! The one door to the disk: all that the program keeps is written, and read back, through one small trait.
 //!
-//! So a test puts a disk in its place that fails, tears or forgets at the n-th operation ([`put_in_place`]); and what
-//! every writer owes the disk (retries, no links followed, names that last) stands here once. A test of the sources holds
-//! all others to it. What a user names as input is read elsewhere.
+//! A test can put a disk in its place that fails, tears or forgets at the n-th operation ([`put_in_place`]). What every
+//! writer owes the disk (retries, no links followed, names that last) stands here once. A test of the sources sees to it
+//! that nobody else writes. Files that a user names as input are read elsewhere.
+//!
+//! - `system.rs`: the operations of a disk, and the system's own disk.
+//! - `file.rs`, `folders.rs`: one open file; folders made and removed.
 
 mod file;
 mod folders;

@@ -1,11 +1,11 @@
-//! What is asked of a disk, and the system's own.
+//! The operations of a disk, and the system's own disk.
 
 use std::ffi::OsString;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Read, Write};
 use std::path::Path;
 
-/// What a file is opened for.
+/// The purpose that a file is opened for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum How {
     /// To be read; a file of the system's that is not read to an end (a pipe, a device) is refused.

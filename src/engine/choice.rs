@@ -39,7 +39,7 @@ pub fn choose(options: &Options, spec: &dyn Instances) -> Result<Box<dyn Engine>
     Ok(engine)
 }
 
-/// An open device as an engine, and what is said of it.
+/// An open device as an engine, and the words about it.
 fn on_gpu((device, why): (Device, String), options: &Options) -> (Box<dyn Engine>, String, String) {
     let strict = if device.strict() { "strict " } else { "" };
     let on = format!("on {} in {strict}{}", device.describe(), device.precision());

@@ -33,7 +33,7 @@ impl TryFrom<Error> for Stopped {
 }
 
 impl Stopped {
-    /// The error of a run that ended like this with `done` of `total` instances, where what is done is not kept.
+    /// The error of a run that ended like this with `done` of `total` instances, where those that are done are not kept.
     #[must_use]
     pub fn error(self, done: usize, total: usize) -> Error {
         match self {

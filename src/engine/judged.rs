@@ -1,10 +1,9 @@
-//! What is made of an outcome: its regime, and the record of its instance.
+//! From an outcome to the record of its instance, with its regime.
 
 use crate::engine::instances::Instances;
 use crate::engine::outcome::{Ending, Outcome};
 use crate::engine::record::Record;
-use crate::engine::regime as classify;
-use crate::engine::regime::Regime;
+use crate::engine::regime::{self, Regime};
 use crate::engine::scene::{Scene, belt_velocity};
 use crate::model::equilibrium::Equilibrium;
 use crate::model::instance::Instance;
@@ -19,7 +18,7 @@ pub fn regime(instance: &Instance, kind: Option<InstabilityType>, outcome: &Outc
     let velocity = instance.params.require(Param::BeltVelocity);
     let at_end = after_ramp(instance, outcome.simulated_time);
     let (kind, known) = at_end.map_or((kind, None), |instance| linear::analyse(&instance));
-    let (regime, settled) = classify::regime(outcome, velocity, kind == Some(InstabilityType::Stable));
+    let (regime, settled) = regime::regime(outcome, velocity, kind == Some(InstabilityType::Stable));
     let found = match outcome.ending {
         None => (regime, settled),
         Some(Ending::Decays) => (Regime::Equilibrium, true),
@@ -31,7 +30,7 @@ pub fn regime(instance: &Instance, kind: Option<InstabilityType>, outcome: &Outc
         return found;
     }
     let linear = known.or_else(|| linear::analyse(instance).1);
-    linear.map_or(found, |linear| classify::about_unstable(outcome, velocity, linear.growth_rate, found))
+    linear.map_or(found, |linear| regime::about_unstable(outcome, velocity, linear.growth_rate, found))
 }
 
 /// The instance on the belt as it is at the time `time` (s), where it has a ramp: what a motion then
@@ -43,8 +42,8 @@ fn after_ramp(instance: &Instance, time: f64) -> Option<Instance> {
     Some(moved)
 }
 
-/// The record of an instance before any analysis: `ok`, or why it has no equilibrium or none in numbers; `prepared` are its
-/// polynomials.
+/// The record of an instance before any analysis: its status is `ok`, or says why there is no equilibrium, or none that is
+/// finite. `prepared` are the polynomials of the instance.
 pub fn begun(instance: &Instance, prepared: &Preparation) -> Record {
     let status = match prepared {
         Ok(_) => Status::Ok,
@@ -57,8 +56,8 @@ pub fn begun(instance: &Instance, prepared: &Preparation) -> Record {
     Record { status, ..Record::default() }
 }
 
-/// Why an instance has no result, where its law, its equilibrium, its numbers or the length of its run say so before anything is
-/// computed.
+/// Why an instance has no result, where that is known before anything is computed: from its law, its equilibrium, the size
+/// of its numbers or the length of its run.
 #[must_use]
 pub fn refused(spec: &dyn Instances, instance: &Instance) -> Option<Status> {
     if spec.response() {

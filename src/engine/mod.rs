@@ -1,17 +1,19 @@
-//! Instances integrated: what becomes of each, by the reference, in vector registers, or on a GPU.
+//! Instances integrated: the engines, and everything that they have in common.
 //!
 //! | question | where |
 //! |---|---|
 //! | what an engine is, and what it is given | [`Engine`], [`instances`], [`plan`] |
 //! | one instance scaled, at its start | [`scene`], `start.rs` |
 //! | what it did, and until when it is followed | [`outcome`], [`regime`], [`settling`] |
-//! | the record of an instance | [`record`], [`judged`], [`computation`], [`computed`] |
+//! | the record of an instance | [`record`], [`judged`] |
+//! | where and how a sweep was computed, and its records | [`computation`], [`computed`] |
 //! | one step, events inside it | [`method`] |
 //! | the f64 reference, which judges the others | [`reference`](mod@reference) |
 //! | the twins of the compute kernels | [`kernel`] |
 //! | vector registers of all cores | [`lanes`] |
 //! | compute kernels through wgpu | [`gpu`] |
-//! | which of them computes, in which precision, and why | [`choice`], [`options`], [`backend`], `fallback.rs` |
+//! | which of them computes, in which precision, and why | [`choice`], [`options`], [`backend`], [`precision`], `fallback.rs` |
+//! | why none computes, or one stopped | [`error`] |
 
 pub mod backend;
 pub mod choice;
@@ -71,8 +73,9 @@ pub trait Engine: fmt::Debug + Send {
         progress: &(dyn Fn(usize) + Sync),
     ) -> Result<Computed>;
 
-    /// Instances of `starts` starts each that keep it busy, at least: ranges of fewer leave cores or lanes without work. Of
-    /// instances so dear that a tile has few, a core takes no more than a tile at a time, lest a stop loses many.
+    /// The least number of instances, of `starts` starts each, that keeps it busy: with fewer, cores or lanes are left
+    /// without work. Where instances are so costly that a tile has few, a core takes no more than a tile at a time, so that
+    /// a stop does not lose many.
     fn busy_with(&self, tile: usize, starts: usize) -> usize;
 
     /// Starts that it takes at a time of `instances` with several: some batches for each core, and less than a second's

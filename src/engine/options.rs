@@ -10,7 +10,7 @@ use crate::engine::precision::Precision;
 pub struct Options<'a> {
     /// The backend.
     pub backend: Backend,
-    /// The scalar; `None`: f64 on the CPU, f32 on a GPU. f32 is an error for the reference.
+    /// The scalar; `None` for f64 on the CPU and f32 on a GPU. The reference refuses f32.
     pub precision: Option<Precision>,
     /// Whether a GPU rounds every operation by itself: where it also divides exactly and keeps denormals, results
     /// are those of the kernel's twin in every bit. An error where the CPU engine would compute.

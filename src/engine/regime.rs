@@ -135,9 +135,9 @@ fn halves_agree(outcome: &Outcome) -> bool {
     agree(outcome.x2_std_halves) && agree(outcome.ay_rms_halves)
 }
 
-/// The regime of a completed outcome about an unstable equilibrium of this growth rate (1/s), of which [`regime`] makes
-/// `found`. Where it has met no event, and where it is small, it grows: it is an oscillation of its own only when it stays
-/// as large as it is although its growth rate would have it grow.
+/// The regime of a completed outcome about an unstable equilibrium with this growth rate (1/s). `found` is what [`regime`]
+/// makes of the outcome alone. A motion that has met no event, or is small, may only be growing: it is an oscillation of its
+/// own when it keeps its size although its growth rate would have it grow.
 #[must_use]
 pub fn about_unstable(
     outcome: &Outcome,
@@ -162,9 +162,9 @@ fn small_speed(belt_velocity: f64) -> f64 {
     THRESHOLDS.small_speed * belt_velocity
 }
 
-/// Whether a motion about an unstable equilibrium has come to an amplitude that it keeps: the halves of the window agree
-/// where its growth rate (1/s) would have set them apart, after a time in which its unstable mode has outgrown all others.
-/// A small motion without any event is linear: nothing stops its growth.
+/// Whether a motion about an unstable equilibrium has come to an amplitude that it keeps. It has when the halves of the
+/// window agree although its growth rate (1/s) would have set them apart, after a time in which its unstable mode has
+/// outgrown all others. A small motion without any event is linear: nothing stops its growth.
 #[must_use]
 pub fn has_stopped_growing(outcome: &Outcome, belt_velocity: f64, growth_rate: f64) -> bool {
     let limits = THRESHOLDS;

@@ -34,8 +34,8 @@ impl Plan {
 /// which an amplitude drifts by percents over that many; the same on every engine.
 pub const MOST_STEPS: u32 = 1 << 24;
 
-/// The largest scaled number of an instance, and the inverse of the smallest: the squares of such numbers are finite,
-/// and products of them above zero, in f32 too.
+/// The largest scaled number that an instance may have; its inverse is the smallest. The squares of such numbers are finite
+/// and their products above zero, in f32 too.
 pub const LARGEST: f64 = 1e18;
 
 /// The largest unit of a scaled number, SI, and the inverse of the smallest.
@@ -174,7 +174,7 @@ impl Scene {
         self.start
     }
 
-    /// The same from another start.
+    /// This scene with another start.
     #[must_use]
     pub fn started(self, start: State) -> Scene {
         Scene { start, ..self }

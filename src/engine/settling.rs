@@ -10,8 +10,7 @@ use num_complex::Complex64;
 
 use crate::engine::outcome::{Ending, Outcome};
 use crate::engine::plan::Plan;
-use crate::engine::regime as classify;
-use crate::engine::regime::{Regime, THRESHOLDS};
+use crate::engine::regime::{self, Regime, THRESHOLDS};
 use crate::engine::scene::Scene;
 use crate::model::friction::LawKind;
 use crate::model::instance::Instance;
@@ -31,8 +30,8 @@ const DECAYS_BELOW: f64 = -1e-6;
 /// What decays without any event is left to its eigenvalues after this many of its time constants, or a beat.
 const TIME_CONSTANTS: f64 = 3.0;
 
-/// Settled: the deviation of `x2` and the rms of `ÿ1` of three halves in a row agree within this fraction, half
-/// of what [`classify::THRESHOLDS`] asks of one window; and so much may still be to come.
+/// A motion has settled when the deviation of `x2` and the rms of `ÿ1` in three halves in a row agree within this fraction,
+/// and no more than that is still to come. It is half of what [`regime::THRESHOLDS`] asks of one window.
 pub const AGREE: f64 = 0.005;
 
 /// A change of this fraction is no trend, whichever way it goes.
@@ -91,7 +90,7 @@ impl Settling {
 
     /// Judges a window that ended at `end`; `events` says whether any fell into it. `None`: another one follows.
     pub fn judge(&mut self, outcome: &Outcome, events: bool, end: f64) -> Option<Ending> {
-        let (regime, _) = classify::regime(outcome, self.belt_velocity, self.stable);
+        let (regime, _) = regime::regime(outcome, self.belt_velocity, self.stable);
         let halves = [outcome.x2_std_halves, outcome.ay_rms_halves];
         let before = self.before.replace(halves.map(|[_, last]| last));
         let [first, second] = outcome.speed_rms_halves;
@@ -111,7 +110,7 @@ impl Settling {
         // stopped growing.
         let moves = match self.growth_rate {
             Some(rate) if !events || regime == Regime::Equilibrium => {
-                classify::has_stopped_growing(outcome, self.belt_velocity, rate)
+                regime::has_stopped_growing(outcome, self.belt_velocity, rate)
             }
             _ if events || !self.piecewise_linear => regime != Regime::Equilibrium && (events || self.stable),
             _ => self.stable && decays.is_none(),
@@ -126,8 +125,8 @@ impl Settling {
     }
 }
 
-/// Whether three values in a row, as far apart as the windows, are those of something settled: the last change
-/// is small, and so is all that follows when it is a step of a geometric approach.
+/// Whether three values in a row, one from each window, are settled: the last change is small, and so are all later ones
+/// together if the changes fall like a geometric series.
 fn has_settled([a, b, c]: [f64; 3]) -> bool {
     let (size, bound) = (b.max(c), AGREE * b.max(c));
     let [before, last] = [b - a, c - b];

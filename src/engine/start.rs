@@ -34,8 +34,8 @@ pub(crate) fn mode(instance: &Instance, units: &Units, model: &Scaled) -> State 
     state
 }
 
-/// The amplitude of `ẋ2` at which a motion on a mode, its growth within a period aside, first meets an event:
-/// the belt velocity, a kink of the friction law, or the normal force of the equilibrium.
+/// The amplitude of `ẋ2` at which a motion on a mode first meets an event: the belt velocity, a kink of the friction law, or
+/// the normal force of the equilibrium. The growth within a period is left out.
 pub(crate) fn first_event(model: &Scaled, belt: f64, lambda: Complex64, ratio: Complex64) -> f64 {
     // Of the mode with a velocity of 1: x2 = 1/λ, y1 = r/λ, ẍ2 = λ.
     let (x, y, v, w) = (1.0 / lambda, ratio / lambda, Complex64::ONE, ratio);

@@ -1,8 +1,8 @@
-//! How fast the quickest mode of each contact state is: what a step has to resolve, seen or not.
+//! How fast the quickest mode of each contact state is. A step has to resolve it even where it is hardly excited.
 //!
-//! A mode that is hardly excited is no part of a motion's size, so that a bound on the truncation of the motion
-//! does not see it; a step too long for it raises it from the rounding to that bound all the same, and in an
-//! acceleration the square of its frequency counts.
+//! A bound on the truncation of the motion does not see such a mode, since it adds nothing to the motion's size. But a step
+//! that is too long for the mode lets it grow from rounding errors up to that bound, and in an acceleration it counts with
+//! the square of its frequency.
 
 use crate::model::equilibrium::{Equilibrium, Units};
 use crate::model::{Param, Params};

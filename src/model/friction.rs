@@ -113,8 +113,8 @@ pub enum Piece {
     },
 }
 
-/// A change of an exponential by more than this many of its decay velocities is no small one: the difference of its values
-/// at both ends has all its digits. What is left of it here, `exp(−40)`, is no part of any friction.
+/// Between two speeds that are more than this many decay velocities apart, the difference of an exponential's values keeps
+/// all its digits. At that distance `exp(−40)` is left of it, which no friction notices.
 pub const FAR: f64 = 40.0;
 
 impl Piece {
@@ -158,7 +158,7 @@ impl Piece {
         if (a + b + c).is_nan() { f64::NAN } else { a.abs().max(b.abs()).max(c.abs()) }
     }
 
-    /// The same piece as a function of `|v|/velocity_unit`.
+    /// This piece as a function of `|v|/velocity_unit` instead of `|v|`.
     #[must_use]
     pub fn scaled(self, velocity_unit: f64) -> Piece {
         match self {

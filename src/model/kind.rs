@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-/// Unstable: `Re λ` above this fraction of `|λ|`; below it rounding decides.
+/// A mode is unstable when `Re λ` is above this fraction of `|λ|`; below it rounding would decide.
 pub const UNSTABLE_ABOVE: f64 = 1e-9;
 
 /// Type of instability by complex eigenvalue analysis and attribution (`physics`: one mechanism removed at a time).

@@ -89,7 +89,7 @@ impl Sliding {
     }
 }
 
-/// `y1/x2` of the mode with the eigenvalue `lambda`, which it depends on alone: [`Sliding::normal`] and `sin θ`.
+/// `y1/x2` of the mode with the eigenvalue `lambda`. Besides that it depends on [`Sliding::normal`] and `sin θ` only.
 fn mode_ratio([k2, c2, m1]: [f64; 3], s: f64, lambda: Complex64) -> Complex64 {
     let spring = c2 * lambda + k2;
     spring * s / (m1 * lambda * lambda + spring)
@@ -187,14 +187,14 @@ fn is_solvable(polynomial: &[f64; 5]) -> bool {
     leading.abs() >= LEAST && scale.is_finite() && power.is_finite() && coefficients
 }
 
-/// The polynomials to solve, or the type of an instance without any: at rest, under divergence, or `None` for an ill-posed
-/// friction law, and where the coefficients are beyond the range of numbers.
+/// The polynomials to solve, or why there are none: the type of an instance that is at rest or diverges. It is `None` where
+/// the friction law is ill-posed or a coefficient is beyond the range of numbers.
 pub type Preparation = Result<Prepared, Option<InstabilityType>>;
 
 /// The polynomials of an instance.
 ///
 /// # Errors
-/// The type, see [`Preparation`].
+/// The type of an instance without polynomials, see [`Preparation`].
 pub fn prepare(instance: &Instance) -> Preparation {
     if !instance.law.is_valid() {
         return Err(None);
@@ -223,7 +223,8 @@ pub fn analyse(instance: &Instance) -> (Option<InstabilityType>, Option<Linear>)
     solve(&prepare(instance))
 }
 
-/// The same from what [`prepare`] has made.
+/// Type of instability and the eigenvalue analysis behind it, as [`analyse`] gives them, from polynomials that are there
+/// already.
 #[must_use]
 pub fn solve(prepared: &Preparation) -> (Option<InstabilityType>, Option<Linear>) {
     let prepared = match prepared {

@@ -1,7 +1,16 @@
-//! What the equations are: the parameters of the two-mass belt model, one table for all uses.
+//! The two-mass belt model: its parameters, its equations, its contact and its eigenvalues.
 //!
-//! The table [`PARAMS`] drives the TOML keys, the axes, the CSV columns, the range checks and the
-//! axis labels of figures. SI units throughout, temperature in °C.
+//! This file holds the parameters. The table [`PARAMS`] drives the TOML keys, the axes, the CSV columns, the range checks
+//! and the axis labels of figures. Units are SI, temperatures in °C.
+//!
+//! | question | where |
+//! |---|---|
+//! | one instance: values and friction law | [`instance`], [`friction`], [`material`] |
+//! | its sliding equilibrium, and the scaled model around that | [`equilibrium`], [`scaled`] |
+//! | equations of motion, contact states, impacts | [`belt`], [`contact`] |
+//! | eigenvalues and their attribution, types of instability | [`linear`], [`quartic`], [`kind`] |
+//! | the fastest mode of each contact state | [`fastest`] |
+//! | how an instance ends | [`status`] |
 
 pub mod belt;
 pub mod contact;
@@ -129,7 +138,7 @@ pub struct ParamInfo {
     pub unit: &'static str,
     /// Where it stands in a sweep file.
     pub section: Section,
-    /// The value of an omitted key; `None`: required where used, or absent.
+    /// The value of an omitted key. With `None` the key has to be given wherever it is used.
     pub default: Option<f64>,
     /// Legal values.
     pub range: Range,

@@ -15,7 +15,7 @@ use crate::sweep::sheet::Sheet;
 /// The dimension of tuples, and of a sweep without axes.
 pub const INSTANCE: &str = "instance";
 
-/// What the numbers of a variable are.
+/// The kind of numbers that a variable holds.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Kind {
     /// Numbers in the unit of the variable; undefined ones are NaN.
@@ -69,9 +69,9 @@ pub struct Arrays {
 /// The values of some instances.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Values {
-    /// Of [`Kind::Numbers`].
+    /// Values of a variable of [`Kind::Numbers`].
     Numbers(Vec<f64>),
-    /// Of [`Kind::Codes`].
+    /// Values of a variable of [`Kind::Codes`].
     Codes(Vec<i8>),
 }
 

@@ -37,7 +37,8 @@ pub fn boundary_lines(map: &Map) -> Result<Vec<u8>> {
     lines.table.finish()
 }
 
-/// The same of a refined map, at the full resolution of its grid; panels are planes.
+/// The boundary lines of a refined map, in the form of [`boundary_lines`], at the full resolution of its grid. Its panels
+/// are the planes of the grid.
 ///
 /// # Errors
 /// When the table cannot be written.

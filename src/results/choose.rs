@@ -32,11 +32,12 @@ pub(crate) struct Choice {
     pub(crate) axis: usize,
     /// The place of the value on it.
     pub(crate) value: usize,
-    /// What to tell where it is not the one that was asked for.
+    /// The value that was taken instead, where the axis does not have the one that was asked for.
     pub(crate) taken: Option<Taken>,
 }
 
-/// What varies in a grid, and between which values: of a list of instances those that its columns have, rising.
+/// The axes of a grid with their values. In a list of instances every column is an axis with the values that occur in it,
+/// rising.
 pub(crate) fn axes(grid: &Grid) -> Vec<Axis> {
     match grid {
         Grid::Axes(axes) => axes.clone(),

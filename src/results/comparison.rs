@@ -1,5 +1,5 @@
-//! What the comparison of two maps writes: a table of every instance, a document of the sums, and a figure of where they
-//! differ.
+//! The files of a comparison of two maps: a table of every instance, a document with the sums, and a figure that shows where
+//! they differ.
 
 use serde_json::{Value as Json, json};
 
@@ -20,9 +20,9 @@ const DIFFER: [(&str, &str); 4] = [
     ("another regime", "#D98B2B"),
     ("both", "#3B1F5B"),
 ];
-/// The columns of which the figure shows the differences, as far as both maps have them.
+/// The columns whose differences the figure shows, as far as both maps have them.
 const SHOWN: [&str; 2] = ["growth_rate", "x2_std"];
-/// What is equal to the last bit has this difference in the figure, where its logarithm is drawn.
+/// The difference that values equal to the last bit have in the figure, which draws its logarithm.
 const LEAST: f64 = 1e-16;
 
 /// The table: a row per instance with its swept values, both of each label, and the relative difference of each number.

@@ -11,6 +11,9 @@ use crate::sweep::map::Map;
 
 pub use crate::results::figure::cut_figure::{cut_svg, left_out};
 
+/// The most curves of a panel that can be told apart.
+pub const MOST_CURVES: usize = 6;
+
 /// One curve: the instances along the axis, in rising order of its values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
@@ -40,16 +43,15 @@ pub struct Cut {
     pub held: Vec<(AxisKey, Value)>,
     /// The panels; one where no axis is left for more.
     pub panels: Vec<CutPanel>,
-    /// What stands for a value that an axis does not have.
+    /// The values that were taken for those that an axis does not have.
     pub taken: Vec<Taken>,
 }
 
 impl Cut {
-    /// Cuts a grid of axes where some of them have these values, or the nearest that they have, such as
-    /// `mu_d=0.3,belt_velocity=3`; an axis that is named
-    /// several times, as in `mu_d=0.1,mu_d=0.2`, has a curve for each. Of the axes that are not named the numeric one of
-    /// most values is that of the curves, the shortest of the rest has a curve for each of its values, and what is beyond
-    /// has panels.
+    /// Cuts a grid of axes where some of them have given values, or the nearest that they have, such as
+    /// `mu_d=0.3,belt_velocity=3`. An axis that is named several times, as in `mu_d=0.1,mu_d=0.2`, has a curve for each
+    /// value. Of the axes that are not named, curves run along the numeric one with the most values; the shortest of the
+    /// others has a curve for each of its values, and any further one a panel for each.
     ///
     /// # Errors
     /// When the grid has no such axis, a value is outside it, no axis of numbers is left, or more values of an axis are named than a
@@ -152,9 +154,9 @@ fn curve(axes: &[Axis], along: usize, of: Option<(AxisKey, Value)>, at: &[usize]
     Curve { of, x, instances }
 }
 
-/// The cut as a table: the numbers of panel and curve (from 1), every swept value, and the quantities, after one of a
-/// measuring window a column of the same name with `_settled` at its end (1, or 0 where the value is not that of a settled
-/// response); a row per instance.
+/// The cut as a table with a row per instance: the numbers of panel and curve (from 1), every swept value, and the
+/// quantities. A quantity of the measuring window is followed by a column of its name with `_settled` at the end: 1, or 0
+/// where the response has not settled.
 ///
 /// # Errors
 /// When the table cannot be written.
@@ -189,6 +191,3 @@ pub fn cut_csv(map: &Map, cut: &Cut, quantities: &[&NumberColumn]) -> Result<Vec
     }
     table.finish()
 }
-
-/// So many curves of a panel can be told apart.
-pub const MOST_CURVES: usize = 6;

@@ -52,7 +52,7 @@ pub enum Error {
         /// Why there is none.
         why: &'static str,
     },
-    /// The same as Parquet.
+    /// The table as a Parquet file cannot be written.
     #[error("the Parquet file could not be written")]
     WriteParquet(#[source] parquet::errors::ParquetError),
     /// A cut that a map does not have.

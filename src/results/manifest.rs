@@ -1,4 +1,4 @@
-//! `manifest.json`: what was computed, by what, with which result, and what the columns mean.
+//! `manifest.json`: what was computed, by which program and engine, with which result, and what the columns mean.
 
 use std::time::Duration;
 
@@ -23,8 +23,8 @@ use crate::version::{COMMIT, VERSION};
 pub struct OfTiles {
     /// The identity of the sweep.
     pub sweep_id: String,
-    /// How many tiles it has, and the checksum of all ([`crate::store::directory::Fingerprint`]); `None` where some are
-    /// not there.
+    /// The number of its tiles and the checksum of all ([`crate::store::directory::Fingerprint`]); `None` where some tiles
+    /// are missing.
     pub checksum: Option<(usize, String)>,
     /// Every file with its length and BLAKE3 checksum.
     pub files: Vec<(&'static str, Sum)>,

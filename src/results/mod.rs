@@ -1,9 +1,21 @@
-//! Map → bytes, and a map read back.
+//! A map as bytes, and a map read back.
 //!
-//! Every writer returns bytes (or text) in full precision and base units; none opens a file. [`columns`] is the table of output
-//! columns; [`csv`] and [`manifest`] write `map.csv` and `manifest.json`, [`zarr`] and [`netcdf`] the labelled [`arrays`] of a
-//! sweep, part by part, [`parquet`] its table, [`boundary_lines`] its lines, [`cut`] curves through it. [`figure`] draws it and
-//! [`read`] reads it back.
+//! Every writer returns bytes (or text) in full precision and base units; none opens a file.
+//!
+//! | question | where |
+//! |---|---|
+//! | the table of output columns | [`columns`] |
+//! | `map.csv` and `manifest.json` | [`csv`], [`manifest`] |
+//! | Zarr and NetCDF, part by part; Parquet | [`arrays`], [`zarr`], [`netcdf`], [`parquet`] |
+//! | lines between classes as a table | [`boundary_lines`] |
+//! | curves through a map | [`cut`] |
+//! | `refine.json` and its figure | [`refined`] |
+//! | the figure of a map | [`figure`] |
+//! | a map read back | [`read`], [`number`] |
+//! | the files of a comparison of two maps | [`comparison`] |
+//! | values of axes as users name them | [`choose`] |
+//! | whether a map is whole, and which of its numbers to trust | [`accounted`], [`trust`] |
+//! | why results cannot be written, drawn or read | [`error`] |
 
 pub mod accounted;
 pub mod arrays;

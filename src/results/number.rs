@@ -14,7 +14,7 @@ pub struct NumberColumn {
 }
 
 impl NumberColumn {
-    /// Whether its values are angles in degrees, of which −180 and 180 are one.
+    /// Whether its values are angles in degrees: −180 and 180 are the same angle then.
     #[must_use]
     pub fn is_angle(&self) -> bool {
         self.unit == "deg"

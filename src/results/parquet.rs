@@ -113,7 +113,7 @@ fn metadata(sheet: Sheet, columns: &[Column]) -> Vec<KeyValue> {
     .collect()
 }
 
-/// The values of one column, without those that are undefined, and 1 for each row that has one, else 0.
+/// One column of some rows: its defined values, and for each row 1 if it has one, or else 0.
 struct Part {
     values: Values,
     defined: Vec<i16>,

@@ -3,7 +3,7 @@
 use crate::engine::record::Record;
 use crate::results::number::NumberColumn;
 
-/// Quantities of the measuring window. What is read before it, or of the run as a whole, is not among them.
+/// Quantities of the measuring window, without those of the time before it or of the run as a whole.
 const OF_THE_WINDOW: [&str; 16] = [
     "x2_mean",
     "x2_std",

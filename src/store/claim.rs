@@ -1,4 +1,4 @@
-//! A file that one process at a time writes, and that appears under its name complete or not at all.
+//! A file that only one process at a time writes. It appears under its name complete or not at all.
 //!
 //! The temporary file is the claim: whoever holds the system's lock on it may write it. Such a lock ends with its
 //! process, however that ends, and what is left of the file is written over by the next one.

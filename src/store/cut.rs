@@ -1,8 +1,8 @@
 //! How many instances a tile has: as many as make some seconds of work of one core.
 //!
-//! What is lost with a process that is killed is the tiles in its work, and processes share a sweep by tiles: so a tile of
-//! costly instances has few of them. The number follows from the sweep alone, by a count of steps and not by a clock, so
-//! that every process, machine and run cuts a sweep alike.
+//! A process that is killed loses the tiles that it works on, and processes share a sweep by tiles. So a tile of costly
+//! instances has few of them. The number follows from the sweep alone, by a count of steps and not by a clock: every
+//! process, machine and run cuts a sweep alike.
 
 use crate::engine::lanes::{ORDER, tolerance};
 use crate::engine::method::pace::Turns;
@@ -24,7 +24,8 @@ const UNTIL_SETTLED: f64 = 300.0;
 /// Instances that are looked at, spread over the sweep.
 const SAMPLES: usize = 32;
 
-/// Instances of a tile of a sweep, of which the reference takes longer: a power of two from [`LEAST`] to [`TILE`].
+/// How many instances a tile of a sweep has: a power of two from [`LEAST`] to [`TILE`]. The reference, which takes longer,
+/// has fewer.
 #[must_use]
 pub fn tile_of(spec: &Spec, by_reference: bool) -> usize {
     if !spec.analysis.response {

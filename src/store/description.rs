@@ -51,13 +51,13 @@ pub struct Description {
 /// Why bytes are no description.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Unread {
-    /// Of a format that this version does not know.
+    /// The file has a format that this version does not know.
     Format(u32),
-    /// What is wrong, as the end of a sentence.
+    /// Something else is wrong with the file; the text is the end of a sentence.
     Bad(String),
 }
 
-/// What every format has.
+/// The part of the file that every format has.
 #[derive(Deserialize)]
 struct Versioned {
     format: u32,
@@ -100,13 +100,13 @@ impl Description {
         }
     }
 
-    /// Whether the file of this says what the file of another one of the same tiles does.
+    /// Whether its file reads like that of another description of the same tiles.
     #[must_use]
     pub fn is_written_as(&self, other: &Description) -> bool {
         (self.format, &self.title, &self.accuracy) == (other.format, &other.title, &other.accuracy)
     }
 
-    /// The file.
+    /// The bytes of its file.
     #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {
         let mut bytes = Vec::new();
@@ -126,7 +126,7 @@ impl Description {
         out.finish()
     }
 
-    /// The same as an entry of another document, which has a checksum of its own.
+    /// The description as an entry of another document, without a checksum of its own.
     #[must_use]
     pub fn to_json(&self) -> Json {
         // None of its keys is anything but text.

@@ -43,7 +43,7 @@ impl Room {
         &self.bytes[self.first..self.first + self.len]
     }
 
-    /// The same, and what fills up the last block.
+    /// The bytes that it was last taken for, filled up to whole blocks.
     fn blocks(&self) -> &[u8] {
         &self.bytes[self.first..self.first + self.len.next_multiple_of(BLOCK)]
     }

@@ -18,7 +18,7 @@ use crate::store::tile::{Checksum, Fault, instances_in, sweep_in};
 
 /// The directory of the tiles inside the output directory.
 pub const TILES: &str = "tiles";
-/// What they are.
+/// The name of the file that describes the tiles.
 pub const DESCRIPTION: &str = "sweep.json";
 
 /// An output directory with tiles.
@@ -26,7 +26,7 @@ pub const DESCRIPTION: &str = "sweep.json";
 pub struct Store {
     /// The output directory.
     pub directory: PathBuf,
-    /// What its tiles are.
+    /// Describes its tiles.
     pub description: Description,
 }
 
@@ -72,7 +72,7 @@ impl Store {
         self.folder().path(&self.name(number))
     }
 
-    /// The path of what is done of tile `number` while it is not there.
+    /// The path of the file that keeps the records of tile `number` while the tile is not complete.
     #[must_use]
     pub fn path_of_some(&self, number: usize) -> PathBuf {
         self.folder().path(&self.name_of_some(number))
@@ -104,8 +104,8 @@ impl Store {
         Ok(())
     }
 
-    /// Keeps what is done of a tile that was claimed and is stopped on its way; what is not done is
-    /// [`Record::NOT_COMPUTED`]. What was kept before stays where nothing has come in its place.
+    /// Keeps the records of a tile that was claimed and is stopped before it is complete. Those that were not computed are
+    /// [`Record::NOT_COMPUTED`]; for them the records of an earlier stop stay.
     ///
     /// # Errors
     /// When the disk is full, read-only or gone.
@@ -124,7 +124,7 @@ impl Store {
         }
     }
 
-    /// What a stopped run has kept of tile `number`; `None` where there is nothing.
+    /// The records that a stopped run has kept of tile `number`; `None` where there are none.
     ///
     /// # Errors
     /// What is wrong with it.
@@ -133,7 +133,8 @@ impl Store {
         bytes.map(|bytes| self.description.tile(number).read_some(&bytes)).transpose()
     }
 
-    /// The same; what is bad is set aside and named.
+    /// The records that a stopped run has kept of tile `number`; `None` where there are none. A bad file is set aside and
+    /// named.
     ///
     /// # Errors
     /// When it is bad and cannot be set aside.
@@ -144,7 +145,7 @@ impl Store {
         }
     }
 
-    /// What is wrong with what stopped runs have kept, by its path.
+    /// The bad ones among the files that stopped runs have kept: the path of each, and what is wrong with it.
     ///
     /// # Errors
     /// When the directory cannot be read.
@@ -183,7 +184,7 @@ impl Store {
         }
     }
 
-    /// The bytes of tile `number`, checked, as records; `None` when it is not there.
+    /// The records of tile `number`, checked; `None` when it is not there.
     ///
     /// # Errors
     /// What is wrong with it.
@@ -191,7 +192,7 @@ impl Store {
         Ok(self.read_tile(number)?.map(|tile| tile.records))
     }
 
-    /// The same with the checksum of the tile.
+    /// Tile `number`, checked: its records and its checksum; `None` when it is not there.
     ///
     /// # Errors
     /// What is wrong with it.
@@ -199,7 +200,7 @@ impl Store {
         self.folder().read(&self.name(number), &self.description.tile(number))
     }
 
-    /// The checksum of all its tiles as they are now, of which only the ends are read; `None` when one is not there.
+    /// The checksum of all its tiles as they are now, from the ends of their files alone; `None` when one is not there.
     #[must_use]
     pub fn fingerprint(&self) -> Option<Id> {
         let mut all = Fingerprint::default();
@@ -257,7 +258,7 @@ impl Store {
         Ok(tiles.chain(kept).collect())
     }
 
-    /// The sweep of a whole tile; `None` of what is none.
+    /// The sweep that a whole tile belongs to; `None` when there is no whole tile of this name.
     pub(super) fn whole(&self, name: &str) -> Result<Option<Id>> {
         let bytes = self.folder().seen(name)?.ok().flatten();
         Ok(bytes.and_then(|bytes| instances_in(&bytes).and(sweep_in(&bytes))))
@@ -297,7 +298,7 @@ impl Store {
         Ok(numbers)
     }
 
-    /// Removes an empty store, so that a run of which nothing came leaves nothing.
+    /// Removes an empty store, so that a run without a result leaves nothing behind.
     pub fn remove_if_empty(&self) {
         let tiles = self.directory.join(TILES);
         let Ok(names) = door().names(&tiles) else { return };
@@ -314,7 +315,7 @@ impl Store {
         (number < self.description.tiling.count() && self.name(number) == name).then_some(number)
     }
 
-    /// The same of what was kept of a tile.
+    /// The number of the tile that a file of this name keeps some records of; `None` when it is none of this sweep.
     fn number_of_some(&self, name: &str) -> Option<usize> {
         self.number(&format!("{}{TILE}", name.strip_suffix(SOME)?))
     }

@@ -113,7 +113,7 @@ pub enum Error {
         /// The other one.
         source_dir: PathBuf,
     },
-    /// A directory of which nothing can be reused.
+    /// A directory that nothing can be reused from.
     #[error("--reuse `{}`: {why}, or remove --reuse", path.display())]
     OtherReuse {
         /// The directory.

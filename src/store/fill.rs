@@ -19,7 +19,7 @@ use crate::sweep::spec::Starts;
 /// Between two looks at a tile that another process computes.
 const WAIT: Duration = Duration::from_millis(50);
 
-/// What came of filling a directory.
+/// The result of filling a directory.
 #[derive(Debug, Default)]
 pub struct Filled {
     /// Instances that were computed here, those of tiles that were stopped on their way included.
@@ -39,7 +39,7 @@ pub struct Watch<'a> {
     pub cancel: &'a AtomicBool,
     /// Gets the number of newly finished instances.
     pub progress: &'a (dyn Fn(usize) + Sync),
-    /// Gets a sentence about every bad tile, and about what is waited for.
+    /// Gets a sentence about every bad tile, and about anything that is waited for.
     pub note: Note<'a>,
 }
 
@@ -161,7 +161,7 @@ impl Filling<'_, '_> {
         Ok(group)
     }
 
-    /// Computes the tiles of a group, and sends them to be written; where that is stopped, keeps what is done.
+    /// Computes the tiles of a group and sends them to be written. Where that is stopped, keeps the records that are done.
     fn compute(&mut self, group: Vec<(usize, Claim)>) -> Result<()> {
         let tiling = self.store.description.tiling;
         let bounds = |number: usize| tiling.bounds(number);
@@ -197,8 +197,8 @@ impl Filling<'_, '_> {
         Ok(())
     }
 
-    /// Adds what is known of the instances of a tile, from a stopped run or another sweep; gives how many instances it has,
-    /// and how many of them are another sweep's.
+    /// Adds the records of a tile's instances that are known from a stopped run or another sweep. Gives how many instances
+    /// the tile has, and how many records are another sweep's.
     fn known(&self, number: usize, known: &mut Vec<Option<Record>>) -> Result<[usize; 2]> {
         let description = &self.store.description;
         let bounds = description.tiling.bounds(number);

@@ -1,4 +1,4 @@
-//! A folder of tiles inside an output directory: what is in it, what is set aside.
+//! A folder of tiles inside an output directory: which tiles are in it, and which are set aside.
 
 use std::io::{self, ErrorKind, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
@@ -14,10 +14,10 @@ use crate::store::tile::{Checksum, FOOTER, Fault, Label, checksum_in};
 pub(super) const BAD: &str = "bad";
 /// The end of the name of a tile.
 pub(super) const TILE: &str = ".tile";
-/// The end of the name of what is done of a tile that was stopped on its way.
+/// The end of the name of a file with the records of a tile that was stopped before it was complete.
 pub(super) const SOME: &str = ".some";
 
-/// What gets one sentence for the user.
+/// Gets one sentence at a time for the user.
 pub type Note<'a> = &'a (dyn Fn(&str) + Sync);
 
 /// A tile that was read and is good.
@@ -62,7 +62,7 @@ impl Folder {
         label.read(&bytes).map(|records| Some(Tile { records, checksum }))
     }
 
-    /// The checksum of a tile, of which only the end is read; `None` of what is none or is not there.
+    /// The checksum of a tile, read from the end of its file alone; `None` when there is no such tile.
     pub(super) fn checksum(&self, name: &str) -> Option<Checksum> {
         let mut end = [0; FOOTER];
         let mut file = Handle::open(&self.path(name), How::Read).ok()?;
@@ -81,10 +81,11 @@ impl Folder {
         }
     }
 
-    /// The same, where it is an error that this process cannot read the file: nothing is known of it then.
+    /// The bytes of a file, or what is wrong with it. That this process may not read the file is an error: nothing is known
+    /// of the file then.
     ///
     /// # Errors
-    /// See above.
+    /// When this process may not read the file.
     pub(super) fn seen(&self, name: &str) -> Result<std::result::Result<Option<Vec<u8>>, Fault>> {
         match self.bytes(name) {
             Err(Fault::Denied { why }) => Err(Error::Denied { path: self.path(name), why }),

@@ -9,6 +9,12 @@ use serde::ser::{SerializeMap, SerializeSeq};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::{Map as Object, Value as Json, json};
 
+/// The key of the grid.
+pub const GRID: &str = "grid";
+
+/// The key of the physics.
+pub const PHYSICS: &str = "physics";
+
 /// The key of the rows.
 const ROWS: &str = "rows";
 
@@ -133,7 +139,7 @@ impl Serialize for WrittenRow<'_> {
     }
 }
 
-/// What is read of an identity: its JSON without the rows, and these.
+/// An identity as it is read: its JSON without the rows, and the rows.
 #[derive(Debug)]
 pub(super) struct Parted {
     pub(super) json: Json,
@@ -287,9 +293,3 @@ impl Visitor<'_> for ReadValue<'_> {
         Ok(self.names.value(name))
     }
 }
-
-/// The key of the grid.
-pub const GRID: &str = "grid";
-
-/// The key of the physics.
-pub const PHYSICS: &str = "physics";

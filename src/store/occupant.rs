@@ -44,7 +44,8 @@ impl Occupant {
         }))
     }
 
-    /// What `run` and `merge` have left in a directory: tiles or, where these are gone, results.
+    /// The results that `run` and `merge` have left in a directory: tiles or, where these are gone, the files made from
+    /// them.
     ///
     /// # Errors
     /// When the directory cannot be read.
@@ -67,7 +68,7 @@ impl Occupant {
         Ok(Some(Occupant::of_results(directory, &manifest, &manifest["computation"]["instances"])))
     }
 
-    /// What `refine` has left in a directory; its parts stay whatever becomes of its results.
+    /// The results that `refine` has left in a directory. Its parts stay whatever becomes of its results.
     #[must_use]
     pub fn of_refinement(directory: &Path) -> Option<Occupant> {
         let refined = document(&directory.join("refine.json"))?;

@@ -20,7 +20,8 @@ pub fn written(directory: &Path) -> Option<PathBuf> {
     Some(directory.join(path))
 }
 
-/// The same, where that file still is there: its real path.
+/// The real path of the input file that `directory` was made from; `None` where it names none, or that file is no longer
+/// there.
 #[must_use]
 pub fn of(directory: &Path) -> Option<PathBuf> {
     written(directory)?.canonicalize().ok()

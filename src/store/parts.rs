@@ -1,9 +1,10 @@
-//! What is computed of a sweep piece by piece, where each piece follows from the ones before: the folder `parts/`.
+//! The folder `parts/`: records of a sweep that is computed piece by piece, each piece chosen from the results of those
+//! before.
 //!
-//! A part is a tile ([`crate::store::tile`]) whose sweep is the hash of the sweep's id and of the very instances in it, so
-//! that it is found again whatever else was computed, and never taken for other instances. Parts of other sweeps may
-//! stand beside it. What asked last for those of a sweep ([`crate::store::refinement`]) stands there too, under the start of
-//! its id.
+//! A part is a tile ([`crate::store::tile`]). In the place of a sweep it names the hash of the sweep's id and of the very
+//! instances in it. So it is found again whatever else was computed, and is never taken for other instances. Parts of other
+//! sweeps may stand beside it. The refinement that last asked for the parts of a sweep ([`crate::store::refinement`]) stands
+//! there, too, under the start of the sweep's id.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -51,21 +52,21 @@ pub struct Part {
     pub checksum: String,
 }
 
-/// What is in the folder of parts, of whatever sweep.
+/// The content of the folder of parts, of all sweeps.
 #[derive(Debug, Default)]
 pub struct Found {
     /// The checksum of every good part by its name.
     pub good: BTreeMap<String, String>,
     /// How many instances they have.
     pub instances: usize,
-    /// What is wrong with the others.
+    /// The names of the bad parts, and what is wrong with each.
     pub bad: Vec<(String, Fault)>,
-    /// What asked for them, or what is wrong with the file that should say it.
+    /// The refinements that asked for them, each with its name, or what is wrong with its file.
     pub asked: Vec<(String, std::result::Result<Refinement, String>)>,
 }
 
 impl Found {
-    /// What is in its place and damaged, as sentences.
+    /// Sentences about everything that is in its place but damaged.
     #[must_use]
     pub fn damaged(&self) -> Vec<String> {
         let said = |name: &str, why: &dyn std::fmt::Display| format!("`{PARTS}/{name}`: {why}");
@@ -74,8 +75,8 @@ impl Found {
         parts.chain(asked).collect()
     }
 
-    /// What is not there of what `document` names, or another than it names, as sentences: parts by name and checksum,
-    /// and what asked for them.
+    /// Sentences about everything that `document` names and that is missing or changed: parts by name and checksum, and the
+    /// refinement that asked for them.
     #[must_use]
     pub fn lacking(&self, document: &str, named: &[(String, String)], asked: &Refinement) -> Vec<String> {
         let damaged = |name: &str| self.bad.iter().any(|(bad, _)| bad == name);
@@ -149,7 +150,7 @@ impl Parts {
         Ok(Part { records, found: false, name, checksum })
     }
 
-    /// Whether a part that results are of is still there, of which only the end is read.
+    /// Whether a part is still there with this checksum; only the end of its file is read.
     #[must_use]
     pub fn has(&self, name: &str, checksum: &str) -> bool {
         self.folder.checksum(name).is_some_and(|found| digits(&found) == checksum)
@@ -210,7 +211,7 @@ impl Parts {
         Ok(self.folder.tiles()?.iter().filter(|name| !name.starts_with(&own)).count())
     }
 
-    /// Removes the folder when no part is in it, so that a run of which nothing came leaves nothing.
+    /// Removes the folder when no part is in it, so that a run without a result leaves nothing behind.
     pub fn remove_if_empty(&self) {
         let own = format!("{}{ASKED}", start_of(self.id));
         let Ok(names) = door().names(&self.folder.path("")) else { return };
@@ -221,7 +222,7 @@ impl Parts {
         }
     }
 
-    /// What the part of these instances says of itself.
+    /// The label of the part with these instances.
     fn label(&self, instances: &[usize]) -> Label {
         let mut hasher = blake3::Hasher::new();
         hasher.update(&self.id.0);
@@ -241,7 +242,7 @@ impl Parts {
     }
 }
 
-/// What the names of all that belongs to a sweep start with.
+/// The start of the names of all files that belong to a sweep.
 fn start_of(id: Id) -> String {
     id.to_string()[..DIGITS].to_owned()
 }

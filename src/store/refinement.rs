@@ -1,7 +1,7 @@
 //! A refinement as it was asked for, so that it can be done again without its sweep file.
 //!
-//! It stands in two places, of which either is enough: in `refine.json`, which says what the results are, and beside the
-//! parts from the moment that the first is computed.
+//! It stands in two places, and either is enough: in `refine.json`, which says what the results are, and beside the parts as
+//! soon as the first of them is computed.
 
 use serde_json::{Value as Json, json};
 
@@ -62,7 +62,7 @@ impl Refinement {
         Refinement::from_json(&document)
     }
 
-    /// Whether both ask for the same, of the same program and engine.
+    /// Whether both ask for the same refinement by the same program and engine.
     #[must_use]
     pub fn is_same(&self, other: &Refinement) -> bool {
         self.to_json() == other.to_json()

@@ -1,9 +1,10 @@
-//! Records of another directory that are those of the same instances here, so that a sweep whose axes were moved or
-//! refined computes only what is new.
+//! Records that are taken from another directory for the same instances here. So a sweep whose axes were moved or refined
+//! computes only its new instances.
 //!
-//! An instance is the same when every value of its axes is, in every bit, and everything else that its numbers depend
-//! on: the physics, the program, the engine, the settings. Which instances are checked follows from the grid, so checks
-//! are made anew: a record is taken as the engine made it, and not at all where a check has put a finer one in its place.
+//! Two instances are the same when the values on all axes agree to the last bit, and so does everything else that their
+//! numbers depend on: physics, program, engine and settings. Which instances are checked follows from the grid, so checks
+//! are made anew. A record is taken as the engine made it; where a check has put a finer one in its place, it is not taken
+//! at all.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -29,7 +30,7 @@ pub struct Reuse {
 }
 
 impl Reuse {
-    /// What `directory` has of the sweep `description`, whose tiles go to `output`.
+    /// The records in `directory` that the sweep `description` can take; its tiles go to `output`.
     ///
     /// # Errors
     /// When it has no tiles, or differs in more than the values of axes.

@@ -4,7 +4,7 @@
 
 use std::io::{self, Write};
 
-/// What a sealed file ends with beside the 64 hexadecimal digits of BLAKE3.
+/// A sealed file ends with this, the 64 hexadecimal digits of its BLAKE3 checksum, and [`AFTER`].
 const BEFORE: &[u8] = b",\n  \"checksum\": \"";
 const AFTER: &[u8] = b"\"\n}\n";
 const DIGITS: usize = 64;

@@ -2,8 +2,8 @@
 
 use std::fmt;
 
-/// Where a launcher says which of its tasks this is: the variables of the number, of the first number, of the step
-/// and of how many there are.
+/// The environment variables in which a launcher says which of its tasks this is: its number, the first number, the step,
+/// and how many tasks there are.
 struct Launcher {
     number: &'static str,
     first: &'static str,
@@ -40,9 +40,9 @@ const fn alone(number: &'static str, of: &'static str) -> Launcher {
 /// A share of the tiles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shard {
-    /// Which, below `of`.
+    /// The number of the share, below `of`.
     pub number: usize,
-    /// Of how many, at least 1.
+    /// The number of shares, at least 1.
     pub of: usize,
 }
 

@@ -1,4 +1,4 @@
-//! What a sweep takes of the disk, and what is free.
+//! How much of the disk a sweep takes, and how much is free.
 
 use std::path::Path;
 
@@ -10,10 +10,10 @@ use crate::sweep::spec::{Analysis, Starts};
 /// Sweeps of more instances get no `map.csv` by themselves: nothing that reads tables reads these.
 pub const MOST_ROWS: usize = 20_000_000;
 
-/// Bytes of a row of `map.csv`, on the large side: eigenvalues, response, and what is in every row.
+/// Bytes of a row of `map.csv`, generously: for eigenvalues, for the response, and for the columns that every row has.
 const ROW: [u64; 3] = [130, 430, 40];
 
-/// The same of what the starts of a box gave.
+/// Bytes of a row for the counts of starts from a box.
 const BASIN: u64 = 64;
 
 /// Bytes of figures, manifest and description, on the large side.
@@ -22,7 +22,7 @@ const AROUND: u64 = 32 << 20;
 /// Bytes that are left free for others.
 const RESERVE: u64 = 64 << 20;
 
-/// What a sweep takes of the disk, bytes.
+/// Room on the disk that a sweep needs, bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Need {
     /// All tiles.

@@ -1,5 +1,6 @@
-//! Records of several starts as columns: those of the small start as of any sweep ([`crate::store::columns`]), then a byte for
-//! `bistable` and what the other starts gave: the columns of the large one, or four counts of a box (u32).
+//! Records of several starts as columns. Those of the small start come first, as in any sweep ([`crate::store::columns`]). A
+//! byte for `bistable` follows, and then the results of the other starts: the columns of the large one, or the four counts
+//! of a box (u32).
 //!
 //! A sweep of one start has its own columns and not a byte more.
 
@@ -16,7 +17,7 @@ const COUNTS: usize = 16;
 /// Codes of `bistable`.
 const CODES: [Option<bool>; 3] = [None, Some(false), Some(true)];
 
-/// What is kept of the small start, and of the large one.
+/// The analyses whose columns are kept of the small start and of the large one.
 fn parts(analysis: Analysis) -> [Analysis; 2] {
     let small = Analysis { starts: Starts::One, ..analysis };
     [small, Analysis { linear: false, ..small }]

@@ -17,13 +17,13 @@ const RECENT: usize = 64;
 pub struct Status {
     /// Tiles that are there, of their full length.
     pub done: usize,
-    /// Their instances.
+    /// The instances of these tiles.
     pub instances: usize,
     /// Instances beside them that stopped runs have kept.
     pub kept: usize,
     /// Tiles that processes are computing.
     pub in_work: usize,
-    /// What was set aside.
+    /// How many files were set aside.
     pub set_aside: usize,
     /// Bad tiles that are still in their place, with what is wrong.
     pub bad: Vec<(String, Fault)>,

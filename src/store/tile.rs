@@ -38,7 +38,7 @@ pub type Checksum = [u8; CHECKSUM];
 pub struct Label {
     /// The sweep.
     pub sweep: Id,
-    /// The engine, see [`crate::store::identity::kind`]; at most 16 bytes count.
+    /// The engine, see [`crate::store::identity::kind`]; its first 16 bytes count.
     pub kind: String,
     /// What was computed.
     pub analysis: Analysis,
@@ -46,7 +46,7 @@ pub struct Label {
     pub bounds: Range<usize>,
 }
 
-/// How many instances a tile says that it has, whichever it is; `None` of what is no tile or has another checksum.
+/// How many instances a tile of any sweep says that it has; `None` when the bytes are no tile or do not have its checksum.
 #[must_use]
 pub fn instances_in(bytes: &[u8]) -> Option<usize> {
     let (content, footer) = bytes.split_at_checked(bytes.len().checked_sub(FOOTER)?)?;
@@ -59,7 +59,7 @@ pub fn instances_in(bytes: &[u8]) -> Option<usize> {
     usize::try_from(end?.checked_sub(first?)?).ok().filter(|_| is_whole)
 }
 
-/// What is wrong with a tile of whatever sweep; `None` of a good one.
+/// What is wrong with a tile of any sweep; `None` for a good one.
 #[must_use]
 pub fn fault_in(bytes: &[u8]) -> Option<Fault> {
     match instances_in(bytes) {
@@ -70,13 +70,13 @@ pub fn fault_in(bytes: &[u8]) -> Option<Fault> {
     }
 }
 
-/// The sweep that a tile says it belongs to; `None` of what is no tile.
+/// The sweep that a tile says it belongs to; `None` when the bytes are no tile.
 #[must_use]
 pub fn sweep_in(bytes: &[u8]) -> Option<Id> {
     bytes.strip_prefix(MAGIC)?.first_chunk().copied().map(Id)
 }
 
-/// The checksum that a tile of whatever sweep ends with; `None` of what is too short for one.
+/// The checksum at the end of a tile of any sweep; `None` when the bytes are too few for one.
 #[must_use]
 pub fn checksum_in(end: &[u8]) -> Option<Checksum> {
     let footer = &end[end.len().checked_sub(FOOTER)?..];
@@ -174,7 +174,7 @@ impl Label {
     /// The bytes of the tile with these records.
     ///
     /// # Panics
-    /// When they are not as many as its instances.
+    /// When there are not as many records as instances.
     #[must_use]
     pub fn write(&self, records: &[Record]) -> Vec<u8> {
         let mut bytes = vec![0; self.size()];
@@ -182,10 +182,10 @@ impl Label {
         bytes
     }
 
-    /// The same into room of its size.
+    /// Writes the tile with these records into `bytes`.
     ///
     /// # Panics
-    /// When they are not as many as its instances, or `bytes` not as many as its [`Label::size`].
+    /// When there are not as many records as instances, or not as many `bytes` as its [`Label::size`].
     pub fn write_into(&self, records: Cow<[Record]>, bytes: &mut [u8]) {
         let (content, footer) = bytes.split_at_mut(self.size() - FOOTER);
         content[..HEADER].copy_from_slice(&self.header());
@@ -204,7 +204,8 @@ impl Label {
         whole.then_some(records).ok_or(Fault::Uncomputed)
     }
 
-    /// The same of a tile that was stopped on its way: some of its records are [`Record::NOT_COMPUTED`].
+    /// The records of a tile that may have been stopped before it was complete: some of them are [`Record::NOT_COMPUTED`]
+    /// then.
     ///
     /// # Errors
     /// What is wrong with it: nothing of such a tile is used.

@@ -5,12 +5,8 @@ use std::path::Path;
 use crate::results::figure::look::WIDTHS;
 use crate::results::read::{map, refined};
 use crate::study::error::{Error, Result};
-use crate::study::hysteresis::read as hysteresis;
-use crate::study::identify::read as identify;
-use crate::study::modes::read as modes;
 use crate::study::paper::Figure;
-use crate::study::trace::read as trace;
-use crate::study::tradeoff::read as tradeoff;
+use crate::study::{hysteresis, identify, modes, trace, tradeoff};
 
 /// A figure of a command that can be drawn from its directory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -74,11 +70,11 @@ impl Kind {
         match self {
             Kind::Map => map::FILES,
             Kind::Refined => refined::FILES,
-            Kind::Trace => trace::FILES,
-            Kind::Hysteresis => hysteresis::FILES,
-            Kind::Modes => modes::FILES,
-            Kind::Tradeoff => tradeoff::FILES,
-            Kind::Identify => identify::FILES,
+            Kind::Trace => trace::read::FILES,
+            Kind::Hysteresis => hysteresis::read::FILES,
+            Kind::Modes => modes::read::FILES,
+            Kind::Tradeoff => tradeoff::read::FILES,
+            Kind::Identify => identify::read::FILES,
             Kind::Paper(Figure::Figure2) => ["figure2.csv", "figure2.json"],
             Kind::Paper(Figure::Figure3) => ["figure3.csv", "figure3.json"],
             Kind::Paper(Figure::Figure4) => ["figure4.csv", "figure4.json"],

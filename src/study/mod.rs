@@ -1,8 +1,18 @@
-//! What is not a sweep of instances: each with its table, its figure, and what reads it back.
+//! Studies: computations that are no sweep of instances. Each has its table, its figure, and a reader of both.
 //!
-//! [`modes`] follows eigenvalues, [`trace`] one instance over time, [`hysteresis`] a cycle along a parameter, [`tradeoff`] speed
-//! against error, [`fit`] measured friction, [`identify`] measured signals, [`signals`] an instance as sensors record it, [`paper`] the source
-//! paper. `kind.rs` and `picture.rs` draw the figure of any directory again.
+//! | study | where |
+//! |---|---|
+//! | eigenvalues along an axis | [`modes`] |
+//! | one instance over time | [`trace`] |
+//! | a cycle while a parameter rises and falls | [`hysteresis`] |
+//! | speed against error | [`tradeoff`] |
+//! | measured friction as a material | [`fit`] |
+//! | measured signals | [`identify`] |
+//! | an instance as sensors record it | [`signals`] |
+//! | the source paper | [`paper`] |
+//!
+//! [`kind`] says which figures a directory holds, [`picture`] draws them again, and [`error`] says why a study has no
+//! result.
 
 pub use kind::Kind;
 pub use picture::Picture;

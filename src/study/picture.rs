@@ -8,21 +8,15 @@ use crate::results::figure::map::look_svg;
 use crate::results::read::folder::{Folder, program};
 use crate::results::read::refined::Lines;
 use crate::results::read::{Archive, refined};
-use crate::study::Kind;
 use crate::study::error::Result;
 use crate::study::hysteresis::follow::Hysteresis;
-use crate::study::hysteresis::read as hysteresis;
 use crate::study::hysteresis::table::hysteresis_svg;
-use crate::study::identify::{read as identify, report as identify_figure};
 use crate::study::modes::follow::{Modes, draw};
-use crate::study::modes::read as modes;
 use crate::study::paper::figures::Shown;
-use crate::study::paper::read as paper;
-use crate::study::trace::read as trace;
 use crate::study::trace::run::Trace;
 use crate::study::trace::table::trace_svg;
-use crate::study::tradeoff::read as tradeoff;
 use crate::study::tradeoff::report::figure;
+use crate::study::{Kind, hysteresis, identify, modes, paper, trace, tradeoff};
 use crate::sweep::accuracy::row::Row;
 use crate::sweep::spec::Spec;
 
@@ -35,7 +29,7 @@ enum Content {
     Hysteresis(Hysteresis, Heading),
     Modes(Box<Spec>, Modes),
     Tradeoff(String, Vec<Row>),
-    Identify(Box<identify_figure::Shown>),
+    Identify(Box<identify::report::Shown>),
     Paper(Shown),
 }
 
@@ -58,30 +52,30 @@ impl Picture {
             Kind::Map => Content::Map(Box::new(Archive::read(directory)?)),
             Kind::Refined => Content::Refined(Box::new(refined::read(folder)?)),
             Kind::Trace => {
-                let (trace, heading) = trace::read(folder)?;
+                let (trace, heading) = trace::read::read(folder)?;
                 Content::Trace(Box::new(trace), heading)
             }
             Kind::Hysteresis => {
-                let (hysteresis, heading) = hysteresis::read(folder)?;
+                let (hysteresis, heading) = hysteresis::read::read(folder)?;
                 Content::Hysteresis(hysteresis, heading)
             }
             Kind::Modes => {
-                let (spec, modes) = modes::read(folder, kind.files())?;
+                let (spec, modes) = modes::read::read(folder, kind.files())?;
                 Content::Modes(Box::new(spec), modes)
             }
             Kind::Tradeoff => {
-                let (title, rows) = tradeoff::read(folder)?;
+                let (title, rows) = tradeoff::read::read(folder)?;
                 Content::Tradeoff(title, rows)
             }
-            Kind::Identify => Content::Identify(Box::new(identify::read(folder)?)),
-            Kind::Paper(figure) => Content::Paper(paper::read(folder, figure, kind.files())?),
+            Kind::Identify => Content::Identify(Box::new(identify::read::read(folder)?)),
+            Kind::Paper(figure) => Content::Paper(paper::read::read(folder, figure, kind.files())?),
         };
         let document = kind.files().into_iter().find(|file| file.rsplit('.').next() == Some("json"));
         let program = program(&document.map_or(Ok(serde_json::Value::Null), |file| folder.json(file))?);
         Ok(Picture { content, program })
     }
 
-    /// The map, of which quantities and lines can be asked for too.
+    /// The map, if it is one: quantities and lines can be asked for then.
     #[must_use]
     pub fn map(&self) -> Option<&Archive> {
         match &self.content {
@@ -104,7 +98,7 @@ impl Picture {
         }
     }
 
-    /// The figure as an SVG document: at the default look the same as the command's own.
+    /// The figure as an SVG document: at the default look it is that of the command itself.
     ///
     /// # Errors
     /// When an instance of a map was never computed, and not because the run was stopped.
@@ -116,7 +110,7 @@ impl Picture {
             Content::Hysteresis(hysteresis, heading) => Ok(hysteresis_svg(hysteresis, heading, look)),
             Content::Modes(spec, modes) => Ok(draw(spec, modes, look)),
             Content::Tradeoff(title, rows) => Ok(figure(title, rows, look)),
-            Content::Identify(shown) => identify_figure::identify_svg(shown, look),
+            Content::Identify(shown) => identify::report::identify_svg(shown, look),
             Content::Paper(shown) => Ok(shown.svg(look)),
         }
     }

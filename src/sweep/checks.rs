@@ -16,13 +16,13 @@ const INFINITE: i32 = i32::MAX;
 /// What the checks by one judge found.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Found {
-    /// Instances.
+    /// Instances that were checked.
     pub checked: usize,
-    /// Those with another type, regime or status.
+    /// Checked instances with another type, regime or status.
     pub changed: usize,
-    /// Those near a border between labels, whose record is the finer one.
+    /// Checked instances near a border between labels: their record is the finer one.
     pub taken: usize,
-    /// Those of them with another label.
+    /// How many of these have another label in the finer record.
     pub taken_changed: usize,
     /// How many errors fall into each part of a decade.
     errors: BTreeMap<i32, usize>,
@@ -35,7 +35,7 @@ impl Found {
         self.errors.values().sum()
     }
 
-    /// [`Found::quantile`], where the settled oscillations are enough for it: at least one of them is to lie above.
+    /// [`Found::quantile`], or `None` where there are too few settled oscillations for it: at least one has to lie above.
     #[must_use]
     pub fn known_quantile(&self, share: f64) -> Option<f64> {
         self.quantile(share).filter(|_| (1.0 - share) * self.settled() as f64 >= 1.0 - 1e-9)
@@ -87,9 +87,9 @@ impl Found {
 /// What the checks of a sweep found.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Checks {
-    /// By the CPU engine in f64 with fine steps.
+    /// The checks by the CPU engine in f64 with fine steps.
     pub fine: Found,
-    /// By the reference.
+    /// The checks by the reference.
     pub reference: Found,
 }
 
@@ -109,7 +109,7 @@ impl Checks {
         self.fine.checked + self.reference.checked == 0
     }
 
-    /// As a manifest shows them; null when nothing was checked.
+    /// The checks as a manifest shows them; null when nothing was checked.
     #[must_use]
     pub fn to_json(&self) -> Json {
         if self.is_empty() {
@@ -121,7 +121,7 @@ impl Checks {
         ])
     }
 
-    /// As a summary shows them: a line for each judge that checked any.
+    /// The checks as a summary shows them: a line for each judge that checked any instance.
     #[must_use]
     pub fn summary(&self) -> String {
         let line = |found: &Found, judge: &str| {

@@ -1,5 +1,5 @@
-//! Numbers that look random and depend on a seed and an index alone: what is drawn by them is the same on every
-//! machine, for any number of threads, tiles and shards.
+//! Numbers that look random but depend on a seed and an index alone. So a draw gives the same on every machine, and for any
+//! number of threads, tiles and shards.
 
 use std::ops::Range;
 
@@ -12,8 +12,9 @@ pub fn mixed(seed: u64, index: u64) -> u64 {
     z ^ (z >> 31)
 }
 
-/// One instance of each of `count` equal parts of `total`, those inside `range`, rising. Every instance has the
-/// same chance, no part is missed, and whatever the ranges are, together they draw the same instances.
+/// Draws one instance from each of `count` equal parts of `total`, and gives those inside `range` in rising order. Every
+/// instance has the same chance, and no part is missed. However the whole is cut into ranges, together they draw the same
+/// instances.
 #[must_use]
 #[expect(clippy::cast_possible_truncation, reason = "counts and offsets below the total")]
 pub fn spread(seed: u64, count: usize, total: usize, range: Range<usize>) -> Vec<usize> {

@@ -1,4 +1,4 @@
-//! What a sweep would cost, measured on a few of its instances.
+//! The cost of a sweep before it is run, measured on a few of its instances.
 
 use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
@@ -33,10 +33,11 @@ const COPIES: usize = 16;
 pub struct Estimate {
     /// Instances that were measured.
     pub sampled: usize,
-    /// Those of them that were not followed to their end, as their steps are too many: what they took is scaled up by the
-    /// time they came to. A run that goes on as it began takes that, one that becomes stiffer more.
+    /// Measured instances that were not followed to their end, since that would take too many steps. What they took is
+    /// scaled up by the time that they came to: right for a run that goes on as it began, too little for one that becomes
+    /// stiffer.
     pub cut_short: usize,
-    /// How those of them ended that came to no end: not at their own, and not as their steps were too many to measure.
+    /// How measured instances failed: those that ended early for another reason than too many steps to measure.
     pub failed: Vec<Status>,
     /// Steps of the whole sweep.
     pub steps: f64,

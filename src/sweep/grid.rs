@@ -5,6 +5,9 @@ use std::sync::Arc;
 
 use crate::model::{PARAMS, Param};
 
+/// Names beyond these are not shared: looking them up would cost more than they.
+const SHARED_NAMES: usize = 256;
+
 /// One coordinate of an instance.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
@@ -25,7 +28,8 @@ impl std::fmt::Display for Value {
     }
 }
 
-/// Value `index` of so many from end to end: equal steps, of logarithms if `log`; both ends exact.
+/// Value `index` of `points` values between two ends, which are met exactly. Steps are equal, or those of the logarithms are
+/// if `log`.
 #[must_use]
 pub fn spaced([from, to]: [f64; 2], points: usize, log: bool, index: usize) -> f64 {
     if index == 0 {
@@ -178,7 +182,7 @@ impl FromIterator<Vec<Value>> for Rows {
     }
 }
 
-/// Names of which each is kept once.
+/// Names, each kept once.
 #[derive(Debug, Default)]
 pub(crate) struct Names(Vec<Arc<String>>);
 
@@ -195,9 +199,6 @@ impl Names {
         Value::Text(name)
     }
 }
-
-/// Names beyond these are not shared: looking them up would cost more than they.
-const SHARED_NAMES: usize = 256;
 
 impl Grid {
     /// The number of instances; `None` when the product overflows `usize`.

@@ -27,7 +27,7 @@ pub struct Map {
     pub spec: Spec,
     /// One record per instance.
     pub records: Vec<Record>,
-    /// Why some records are [`Status::NotComputed`]; `None` when none is.
+    /// Why some records are [`Status::NotComputed`]; `None` when all were computed.
     pub stopped: Option<Stopped>,
     /// Where and how.
     pub provenance: Provenance,

@@ -10,6 +10,7 @@
 //! | the lines of a map from few instances | [`refine`] |
 //! | what it would cost, and how long a start takes to show what it does | [`estimate`](mod@estimate), [`onset`] |
 //! | numbers that depend on a seed and an index alone | [`draw`] |
+//! | why a sweep is refused or does not come to its end | [`error`] |
 
 pub mod accuracy;
 pub mod checks;

@@ -27,11 +27,11 @@ const LOOKED_AT: usize = 4096;
 pub struct Onsets {
     /// Instances that were looked at, spread over the grid.
     pub looked_at: usize,
-    /// Those of them that are unstable and do not start at rest.
+    /// Looked-at instances that are unstable and do not start at rest.
     pub growing: usize,
-    /// Those of these that the sweep ends before their first event.
+    /// Growing instances whose run ends before their first event.
     pub late: usize,
-    /// Those that are unstable and start at rest: nothing grows.
+    /// Looked-at instances that are unstable but start at rest, so that nothing grows.
     pub at_rest: usize,
     /// The time (s) that 99 % of the growing ones need.
     pub most: f64,
@@ -39,7 +39,7 @@ pub struct Onsets {
     pub longest: f64,
 }
 
-/// The onsets of a sweep with a response, from the start of [`Spec::start`]. None on a ramp, whose equilibrium moves.
+/// The onsets of a sweep with a response, from the start of [`Spec::start`]. `None` on a ramp, whose equilibrium moves.
 #[must_use]
 pub fn onsets(spec: &Spec) -> Option<Onsets> {
     let instances = spec.grid.len();
@@ -74,8 +74,8 @@ fn lasts(spec: &Spec, instance: &Instance) -> Option<f64> {
     Some(end * scene.units.time)
 }
 
-/// The time (s) after which an instance meets its first event by linear theory: infinite from rest, 0 where the start is
-/// beyond it; `None` where it is stable, has no equilibrium, or its mode is none of numbers.
+/// The time (s) after which an instance meets its first event by linear theory. It is infinite from rest, and 0 where the
+/// start is beyond an event. `None` where the instance is stable, has no equilibrium, or has a mode that is not finite.
 #[must_use]
 pub fn time_to_first_event(instance: &Instance, start: StartKind) -> Option<f64> {
     linear::analyse(instance).0.filter(|kind| kind.is_unstable())?;

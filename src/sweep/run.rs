@@ -12,8 +12,8 @@ use crate::sweep::spec::Spec;
 /// Most instances of a sweep in memory; the records of more would not fit a usual machine.
 pub const MOST_IN_MEMORY: usize = 100_000_000;
 
-/// Computes a sweep in memory; the CPU's part runs on the rayon pool it is called in. `progress` gets the number
-/// of newly finished instances. A run that is cancelled or fails on its way gives what is done, see
+/// Computes a sweep in memory. The CPU's part runs on the rayon pool that it is called in. `progress` gets the number of
+/// newly finished instances. A run that is cancelled or fails on its way gives the records that are done, see
 /// [`Map::stopped`]. [`crate::store`] computes sweeps of any size tile by tile into a directory.
 ///
 /// # Errors

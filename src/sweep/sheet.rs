@@ -1,4 +1,4 @@
-//! What an export says about a sweep beside its records.
+//! A sheet: everything that an export says about a sweep besides its records.
 
 use crate::engine::computation::Computation;
 use crate::sweep::grid::Grid;

@@ -63,7 +63,7 @@ impl<'a> Solver<'a> {
         self.records_of(self.spec, range, progress)
     }
 
-    /// The same of another sweep, which asks for the same analysis.
+    /// The records of the instances `range` of another sweep, which asks for the same analysis; see [`Solver::records`].
     ///
     /// # Errors
     /// Those of [`Solver::records`].
@@ -99,8 +99,9 @@ impl<'a> Solver<'a> {
         Ok(computed)
     }
 
-    /// Instances that keep it busy, at least: ranges of fewer leave cores or lanes without work. Of instances so dear that a
-    /// tile has few, a core takes no more than a tile at a time, lest a stop loses many.
+    /// The least number of instances that keeps the engine busy: with fewer, cores or lanes are left without work. Where
+    /// instances are so costly that a tile has few, a core takes no more than a tile at a time, so that a stop does not lose
+    /// many.
     #[must_use]
     pub fn busy_with(&self, tile: usize) -> usize {
         self.engine.busy_with(tile, self.spec.analysis.starts.count())
@@ -185,7 +186,7 @@ impl<'a> Solver<'a> {
         Ok(computed)
     }
 
-    /// What computes, as one of the configurations that accuracy is measured of.
+    /// The engine with its settings, as one of the configurations whose accuracy is measured.
     fn configuration(&self) -> Configuration {
         Configuration::of(self.engine.as_ref(), self.spec.steps_per_period)
     }

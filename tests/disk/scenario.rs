@@ -17,6 +17,12 @@ const LARGE: &str = "title = \"Large\"\nanalysis = [\"linear\"]\n[friction]\nmu_
 const SMALL: &str = "title = \"Small\"\nanalysis = [\"linear\"]\n[friction]\nmu_s = 0.4\n[axes]\n\
     mu_d = { from = 0.1, to = 0.4, points = 4 }\nbelt_velocity = { from = 1, to = 8, points = 5 }\n";
 
+const RUN: &str = "run s.toml --backend cpu --tile 10 --threads 1";
+
+const RUN_SMALL: &str = "run small.toml --backend cpu --tile 10 --threads 1 -o out/s";
+
+const REFINE: &str = "refine s.toml --backend cpu --coarse 4 --sample 4 --tile 8 --threads 1 -o out/s";
+
 /// A command whose disk fails.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Scenario {
@@ -133,12 +139,6 @@ impl Scenario {
         }
     }
 }
-
-const RUN_SMALL: &str = "run small.toml --backend cpu --tile 10 --threads 1 -o out/s";
-
-const REFINE: &str = "refine s.toml --backend cpu --coarse 4 --sample 4 --tile 8 --threads 1 -o out/s";
-
-const RUN: &str = "run s.toml --backend cpu --tile 10 --threads 1";
 
 /// Calls the program in a directory, with a fault at an operation of its disk.
 pub(crate) fn call(directory: &Path, command: &str, fault: Fault, at: u64) -> Output {

@@ -20,7 +20,7 @@ use squealmap::engine::scene::Scene;
 use squealmap::model::Param;
 use squealmap::model::status::Status;
 use squealmap::sweep::grid::{AxisKey, Grid, Value};
-use squealmap::sweep::run as sweep;
+use squealmap::sweep::run;
 use squealmap::sweep::spec::Spec;
 
 pub(crate) const CASES: &[Case] = &[
@@ -111,7 +111,7 @@ fn no_instance_is_at_a_loss() -> Result<(), Failed> {
         let (text, spec) = random(&mut runner)?;
         let options =
             Options { backend: Backend::Gpu, precision: Some(Precision::F32), ..Options::default() };
-        let map = sweep::run(spec, &options, &|_| {}).map_err(|why| format!("{why}:\n{text}"))?;
+        let map = run::run(spec, &options, &|_| {}).map_err(|why| format!("{why}:\n{text}"))?;
         for (index, record) in map.records.iter().enumerate() {
             let outcome = record.outcome.as_deref().copied().unwrap_or_default();
             let found = if record.status == Status::Ok || record.outcome.is_some() {

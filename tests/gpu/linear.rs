@@ -12,7 +12,7 @@ use squealmap::engine::kernel::scalar::Real;
 use squealmap::engine::options::Options;
 use squealmap::engine::precision::Precision;
 use squealmap::sweep::map::Map;
-use squealmap::sweep::run as sweep;
+use squealmap::sweep::run;
 use squealmap::sweep::spec::Spec;
 
 /// Instances of a comparison.
@@ -60,7 +60,7 @@ fn sweep_of(chunk: Option<usize>) -> Result<Map, Failed> {
     let mut spec = Spec::read("sweeps/paper_map.toml".as_ref())?;
     spec.analysis.response = false;
     let options = Options { backend: Backend::Gpu, chunk, ..Options::default() };
-    Ok(sweep::run(spec, &options, &|_| {})?)
+    Ok(run::run(spec, &options, &|_| {})?)
 }
 
 fn any_chunk() -> Result<(), Failed> {

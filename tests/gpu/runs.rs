@@ -11,8 +11,8 @@ use squealmap::engine::computation::Stopped;
 use squealmap::engine::error::Error;
 use squealmap::engine::options::Options;
 use squealmap::engine::record::Record;
-use squealmap::results as export;
-use squealmap::sweep::run as sweep;
+use squealmap::results;
+use squealmap::sweep::run;
 use squealmap::sweep::spec::Spec;
 
 pub(crate) const CASES: &[Case] = &[
@@ -179,10 +179,10 @@ fn cancelled() -> Result<(), Failed> {
     let (cancel, done) = (AtomicBool::new(false), AtomicUsize::new(0));
     let options =
         Options { backend: Backend::Gpu, chunk: Some(CHUNK), cancel: Some(&cancel), ..Options::default() };
-    let whole = sweep::run(spec.clone(), &options, &|_| {})?;
+    let whole = run::run(spec.clone(), &options, &|_| {})?;
     assert_eq!((whole.computed(), &whole.stopped), (total, &None));
     // In the third chunk; what it had finished by then is done to its end.
-    let map = sweep::run(spec.clone(), &options, &|count| {
+    let map = run::run(spec.clone(), &options, &|count| {
         if done.fetch_add(count, Ordering::Relaxed) + count > 2 * CHUNK {
             cancel.store(true, Ordering::Relaxed);
         }
@@ -190,14 +190,14 @@ fn cancelled() -> Result<(), Failed> {
     assert_eq!((map.computed(), &map.stopped), (3 * CHUNK, &Some(Stopped::Cancelled)));
     assert_eq!(map.records[..3 * CHUNK], whole.records[..3 * CHUNK]);
     assert!(map.records[3 * CHUNK..].iter().all(|record| *record == Record::NOT_COMPUTED));
-    let csv = String::from_utf8(export::csv::map_csv(&map)?)?;
+    let csv = String::from_utf8(results::csv::map_csv(&map)?)?;
     assert_eq!(csv.lines().count(), 1 + total);
     assert_eq!(csv.lines().filter(|line| line.ends_with(",not_computed")).count(), total - 3 * CHUNK);
-    let manifest: serde_json::Value = serde_json::from_slice(&export::manifest::manifest_json(&map)?)?;
+    let manifest: serde_json::Value = serde_json::from_slice(&results::manifest::manifest_json(&map)?)?;
     assert_eq!((&manifest["complete"], &manifest["computation"]["computed"]), (&false.into(), &3000.into()));
-    export::figure::map::map_svg(&map)?;
+    results::figure::map::map_svg(&map)?;
     // Before the first chunk there is nothing.
-    match sweep::run(spec, &options, &|_| {}) {
+    match run::run(spec, &options, &|_| {}) {
         Err(squealmap::sweep::error::Error::OfEngine(Error::Cancelled { done: 0, total: of }))
             if of == total =>
         {

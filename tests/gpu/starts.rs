@@ -7,13 +7,13 @@ use squealmap::engine::options::Options;
 use squealmap::engine::precision::Precision;
 use squealmap::engine::record::Record;
 use squealmap::sweep::map::Map;
-use squealmap::sweep::run as sweep;
+use squealmap::sweep::run;
 use squealmap::sweep::spec::Spec;
 
 pub(crate) const CASES: &[Case] = &[("starts::all_starts_end_as_with_the_reference", all_starts)];
 
 fn run(spec: &Spec, options: Options) -> Result<Map, Failed> {
-    Ok(sweep::run(spec.clone(), &options, &|_| {})?)
+    Ok(run::run(spec.clone(), &options, &|_| {})?)
 }
 
 /// Where all starts of a record have ended.

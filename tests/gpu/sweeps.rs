@@ -18,7 +18,7 @@ use squealmap::engine::record::Record;
 use squealmap::model::Param;
 use squealmap::model::status::Status;
 use squealmap::sweep::map::Map;
-use squealmap::sweep::run as sweep;
+use squealmap::sweep::run;
 use squealmap::sweep::spec::Spec;
 
 pub(crate) const CASES: &[Case] = &[
@@ -46,11 +46,11 @@ pub(crate) const F64: &[Case] = &[("sweeps::f64_is_that_of_its_twin", in_f64)];
 
 fn on_gpu(spec: &Spec, precision: Precision, chunk: Option<usize>) -> Result<Map, Failed> {
     let options = Options { backend: Backend::Gpu, precision: Some(precision), chunk, ..Options::default() };
-    Ok(sweep::run(spec.clone(), &options, &|_| {})?)
+    Ok(run::run(spec.clone(), &options, &|_| {})?)
 }
 
 fn on_cpu(spec: &Spec) -> Result<Map, Failed> {
-    Ok(sweep::run(spec.clone(), &Options { backend: Backend::Reference, ..Options::default() }, &|_| {})?)
+    Ok(run::run(spec.clone(), &Options { backend: Backend::Reference, ..Options::default() }, &|_| {})?)
 }
 
 /// At least 99.5 % of the labels equal, amplitudes within the median and the 99th percentile.
@@ -263,7 +263,7 @@ fn cancelled() -> Result<(), Failed> {
     let cancel = AtomicBool::new(false);
     let options = Options { backend: Backend::Gpu, cancel: Some(&cancel), ..Options::default() };
     // Instances with fewer events end in earlier dispatches of the one chunk.
-    let map = sweep::run(spec, &options, &|_| cancel.store(true, Ordering::Relaxed))?;
+    let map = run::run(spec, &options, &|_| cancel.store(true, Ordering::Relaxed))?;
     let computed = map.computed();
     println!("{computed} of {} instances were finished", map.records.len());
     assert_eq!(map.stopped, Some(Stopped::Cancelled));
@@ -294,7 +294,7 @@ fn keeps_chunks() -> Result<(), Failed> {
         ..Options::default()
     };
     // In the second chunk, whatever part of it is finished by then.
-    let map = sweep::run(spec, &options, &|count| {
+    let map = run::run(spec, &options, &|count| {
         if done.fetch_add(count, Ordering::Relaxed) + count > chunk {
             cancel.store(true, Ordering::Relaxed);
         }

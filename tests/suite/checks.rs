@@ -15,7 +15,7 @@ use squealmap::sweep::accuracy::frontier::Frontier;
 use squealmap::sweep::accuracy::sample::{records, subset};
 use squealmap::sweep::checks::Checks;
 use squealmap::sweep::map::Map;
-use squealmap::sweep::run as sweep;
+use squealmap::sweep::run;
 use squealmap::sweep::spec::Spec;
 
 /// 2400 instances of all types, many of them near a border.
@@ -29,7 +29,7 @@ fn spec() -> Spec {
 
 fn run(spec: Spec, backend: Backend, precision: Precision) -> Map {
     let options = Options { backend, precision: Some(precision), ..Options::default() };
-    sweep::run(spec, &options, &|_| {}).unwrap()
+    run::run(spec, &options, &|_| {}).unwrap()
 }
 
 /// The coarsest run in f32, whose errors are far above those of its judges.

@@ -9,7 +9,7 @@ use num_complex::Complex64;
 use squealmap::engine::backend::Backend;
 use squealmap::engine::outcome::Outcome;
 use squealmap::engine::record::Record;
-use squealmap::engine::reference::records as reference;
+use squealmap::engine::reference::records::in_f64;
 use squealmap::engine::regime::Regime;
 use squealmap::model::Param;
 use squealmap::model::contact::ContactState;
@@ -24,15 +24,11 @@ use squealmap::store::description::Description;
 use squealmap::store::refinement::Refinement;
 use squealmap::study::Kind;
 use squealmap::study::hysteresis::follow::Hysteresis;
-use squealmap::study::hysteresis::table as hysteresis;
-use squealmap::study::identify::report as identify;
 use squealmap::study::identify::spectrogram::spectrogram_nc;
-use squealmap::study::modes::follow as modes;
 use squealmap::study::paper::figures::{Growing, Shown, Slowdown};
 use squealmap::study::paper::{Figure, PhaseTrial, Settings, Stretch, Study, Trial, Witness};
 use squealmap::study::trace::run::{Trace, TraceRow};
-use squealmap::study::trace::table as trace;
-use squealmap::study::tradeoff::report as tradeoff;
+use squealmap::study::{hysteresis, identify, modes, trace, tradeoff};
 use squealmap::sweep::accuracy::row::{Row, from_csv, to_csv};
 use squealmap::sweep::grid::Grid;
 use squealmap::sweep::label::Label;
@@ -95,7 +91,7 @@ fn a_refined_map() -> Piece {
     ];
     let mut sweep = spec(Grid::Axes(axes));
     "Few points".clone_into(&mut sweep.title);
-    let computation = |method: &str| reference::in_f64(Backend::Reference, method.to_owned());
+    let computation = |method: &str| in_f64(Backend::Reference, method.to_owned());
     let engine = [computation("closed form"), computation("rk4")];
     let sheet = Sheet::new(&sweep, engine.each_ref().map(Some));
     let mut points = csv::MapCsv::new(sheet, Vec::new()).unwrap();
@@ -139,7 +135,7 @@ fn an_identification() -> Piece {
         let swing = size * (0.06 * f64::from(k)).exp().min(8.0);
         [-swing, 0.9 * swing]
     };
-    let shown = identify::Shown {
+    let shown = identify::report::Shown {
         title: "A stroke".to_owned(),
         verdict: "Verdict: mode coupling (confidence 0.97)".to_owned(),
         time: [0.0, 2.0],
@@ -149,7 +145,7 @@ fn an_identification() -> Piece {
         episodes: vec![[0.2, 1.1]],
         spectrogram,
     };
-    let svg = identify::identify_svg(&shown, &Look::default()).unwrap();
+    let svg = identify::report::identify_svg(&shown, &Look::default()).unwrap();
     piece(Kind::Identify, svg, [spectrogram_nc(&shown.spectrogram, &shown.title), shown.document().unwrap()])
 }
 
@@ -172,8 +168,12 @@ fn a_trace() -> Piece {
     let outcome = Outcome { status: Status::Ok, response_frequency: Some(FREQUENCY), ..Outcome::default() };
     let found = Trace { rows: (0..300).map(row).collect(), outcome };
     let heading = Heading::new("A sine", "mu_s=0.4, mu_d = 0.3,law=bilinear,belt_velocity=3,k1=2e6");
-    let svg = trace::trace_svg(&found, &heading, &Look::default()).unwrap();
-    piece(Kind::Trace, svg, [trace::trace_csv(&found).unwrap(), trace::document(&found, &heading).unwrap()])
+    let svg = trace::table::trace_svg(&found, &heading, &Look::default()).unwrap();
+    piece(
+        Kind::Trace,
+        svg,
+        [trace::table::trace_csv(&found).unwrap(), trace::table::document(&found, &heading).unwrap()],
+    )
 }
 
 /// A cycle that lives from one half of the range to two thirds beside a stable equilibrium.
@@ -190,10 +190,10 @@ fn a_hysteresis() -> Piece {
     let found = Hysteresis { param: Param::MuS, up: branch(9), down: branch(6), values };
     let heading = Heading::new("A loop", "belt_velocity=1.5");
     let sweep = spec(found.grid());
-    let svg = hysteresis::hysteresis_svg(&found, &heading, &Look::default());
+    let svg = hysteresis::table::hysteresis_svg(&found, &heading, &Look::default());
     let files = [
-        hysteresis::hysteresis_csv(&sweep, &found).unwrap(),
-        hysteresis::document(&found, &heading).unwrap(),
+        hysteresis::table::hysteresis_csv(&sweep, &found).unwrap(),
+        hysteresis::table::document(&found, &heading).unwrap(),
     ];
     piece(Kind::Hysteresis, svg, files)
 }
@@ -211,9 +211,10 @@ fn some_modes() -> Piece {
             .map(|(side, sign)| Complex64::new(sign * 40.0 * growth - 0.5, 200.0 - side * 60.0 * split));
         Some([a, a.conj(), b, b.conj()])
     };
-    let found = modes::follow(&sweep, &two).unwrap();
-    let svg = modes::draw(&sweep, &found, &Look::default());
-    let files = [modes::table(&sweep, &found).unwrap(), modes::document(&sweep, &found).unwrap()];
+    let found = modes::follow::follow(&sweep, &two).unwrap();
+    let svg = modes::follow::draw(&sweep, &found, &Look::default());
+    let files =
+        [modes::follow::table(&sweep, &found).unwrap(), modes::follow::document(&sweep, &found).unwrap()];
     piece(Kind::Modes, svg, files)
 }
 
@@ -243,7 +244,7 @@ fn a_tradeoff() -> Piece {
     let table = to_csv(&rows).unwrap();
     assert_eq!(from_csv(&table).unwrap(), rows, "every number comes back");
     let document = serde_json::json!({ "title": "Speed", "program": { "version": "0.1.0" } });
-    let svg = tradeoff::figure("Speed", &rows, &Look::default());
+    let svg = tradeoff::report::figure("Speed", &rows, &Look::default());
     piece(Kind::Tradeoff, svg, [table, document.to_string().into_bytes()])
 }
 

@@ -25,7 +25,7 @@ use squealmap::sweep::accuracy::errors::oscillates;
 use squealmap::sweep::grid::Grid;
 use squealmap::sweep::map::Map;
 use squealmap::sweep::onset::time_to_first_event;
-use squealmap::sweep::run as sweep;
+use squealmap::sweep::run;
 use squealmap::sweep::spec::{AUTO_MEASURE, FIRST_SETTLE, Spec};
 
 fn kicked(mu_s: f64, mu_d: f64, velocity: f64, kick: f64) -> Instance {
@@ -252,7 +252,7 @@ const SLOW: &str = "\
 
 fn swept(settle: &str) -> Map {
     let spec = Spec::parse(&format!("{SLOW}check = false\n{settle}"), "s.toml", Path::new(".")).unwrap();
-    sweep::run(spec, &Options::default(), &|_| {}).unwrap()
+    run::run(spec, &Options::default(), &|_| {}).unwrap()
 }
 
 #[test]

@@ -19,6 +19,9 @@ use squealmap::model::scaled::Scaled;
 use squealmap::model::status::Status;
 use squealmap::sweep::spec::Spec;
 
+/// Steps per period from which on the peak of a harmonic is good to 1e-6.
+const PEAK_STEPS: u32 = 12;
+
 fn complete(instance: &Instance, plan: &Plan) -> Outcome {
     let outcome = respond(instance, plan);
     assert_eq!(outcome.status, Status::Ok);
@@ -242,9 +245,6 @@ fn a_harmonic_in_closed_form() {
         assert_eq!(outcome.phase_cycle, None, "y1 does not move");
     }
 }
-
-/// Steps per period from which on the peak of a harmonic is good to 1e-6.
-const PEAK_STEPS: u32 = 12;
 
 /// On a belt at rest friction opposes the motion: over one period its mean is 0, over half of one μ.
 #[test]

@@ -15,7 +15,7 @@ use squealmap::sweep::accuracy::sample::{records, subset};
 use squealmap::sweep::accuracy::trial::first_that_keeps;
 use squealmap::sweep::label::Tally;
 use squealmap::sweep::map::Map;
-use squealmap::sweep::run as sweep;
+use squealmap::sweep::run;
 use squealmap::sweep::spec::Spec;
 
 /// The rational law with another geometry and impacts that rebound.
@@ -65,7 +65,7 @@ fn computed(text: &str) -> (Map, Vec<Record>) {
     eprintln!("{}: {}", choice.chosen.configuration, choice.chosen.why);
     let options = choice.configuration.options(&Options::default());
     eprintln!("{}", choice.chosen.trial.unwrap().sentence(1e-3));
-    let map = sweep::run(choice.configuration.sweep(&spec), &options, &|_| {}).unwrap();
+    let map = run::run(choice.configuration.sweep(&spec), &options, &|_| {}).unwrap();
     let mut unchecked = spec;
     unchecked.analysis.checked = false;
     let truth = records(&Configuration::reference(24), &unchecked, &Options::default()).unwrap();

@@ -11,7 +11,7 @@ use squealmap::engine::backend::Backend;
 use squealmap::engine::options::Options;
 use squealmap::results::csv::map_csv;
 use squealmap::results::figure::map::map_svg;
-use squealmap::sweep::run as sweep;
+use squealmap::sweep::run;
 use squealmap::sweep::spec::Spec;
 use tempfile::TempDir;
 
@@ -72,7 +72,7 @@ fn tiles_change_nothing_of_the_results() {
     // The library, in memory, without any tile.
     let spec = Spec::parse(SWEEP, "s.toml", ".".as_ref()).unwrap();
     let options = Options { backend: Backend::Cpu, ..Options::default() };
-    let map = sweep::run(spec, &options, &|_| {}).unwrap();
+    let map = run::run(spec, &options, &|_| {}).unwrap();
     assert!(read(directory.path(), "map.csv") == map_csv(&map).unwrap(), "map.csv differs");
     assert!(read(directory.path(), "map.svg") == map_svg(&map).unwrap().into_bytes(), "map.svg differs");
     let manifest: serde_json::Value =

@@ -10,7 +10,7 @@ use squealmap::model::Param;
 use squealmap::model::kind::InstabilityType as Kind;
 use squealmap::results::figure::map::map_svg;
 use squealmap::sweep::grid::{Axis, Grid};
-use squealmap::sweep::run as sweep;
+use squealmap::sweep::run;
 use squealmap::sweep::spec::Spec;
 
 /// Stable from `μ_s = 0.3` on, whatever `μ_d`.
@@ -68,7 +68,7 @@ fn the_shipped_map_is_settled() {
     let text = std::fs::read_to_string("sweeps/paper_map.toml").expect("the shipped map");
     let text = text.replace("points = 41", "points = 11");
     let spec = Spec::parse(&text, "paper_map.toml", Path::new(".")).expect("a valid sweep");
-    let map = sweep::run(spec, &Options::default(), &|_| {}).expect("a map");
+    let map = run::run(spec, &Options::default(), &|_| {}).expect("a map");
     let [mut falling, mut rising] = [[0, 0]; 2];
     for (index, record) in map.records.iter().enumerate() {
         let params = map.spec.instance(index).params;

@@ -25,7 +25,7 @@ use squealmap::results::figure::map::map_svg;
 use squealmap::results::manifest::manifest_json;
 use squealmap::sweep::grid::{AxisKey, Grid, Value};
 use squealmap::sweep::map::Map;
-use squealmap::sweep::run as sweep;
+use squealmap::sweep::run;
 use squealmap::sweep::spec::Spec;
 
 /// Instances of the sweep.
@@ -48,7 +48,7 @@ fn cancelled(backend: Backend, after: usize, threads: usize) -> squealmap::sweep
         }
     };
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
-    pool.install(|| sweep::run(spec(), &options, &progress))
+    pool.install(|| run::run(spec(), &options, &progress))
 }
 
 /// `status` and all other cells of every row.

@@ -11,7 +11,7 @@ use squealmap::model::kind::InstabilityType;
 use squealmap::model::status::Status;
 use squealmap::sweep::grid::{Axis, Grid, Value};
 use squealmap::sweep::map::Map;
-use squealmap::sweep::run as sweep;
+use squealmap::sweep::run;
 use squealmap::sweep::spec::Spec;
 
 fn read(name: &str) -> Spec {
@@ -33,7 +33,7 @@ fn thin(mut spec: Spec) -> Spec {
 
 /// Runs a sweep; every record is computed, complete and `ok`.
 fn run(spec: Spec) -> Map {
-    let map = sweep::run(spec, &Options::default(), &|_| {}).unwrap();
+    let map = run::run(spec, &Options::default(), &|_| {}).unwrap();
     assert_eq!(map.records.len(), map.spec.grid.len());
     for (index, record) in map.records.iter().enumerate() {
         assert_eq!(record.status, Status::Ok, "instance {index}");

@@ -6,7 +6,7 @@ use squealmap::engine::backend::Backend;
 use squealmap::engine::outcome::Outcome;
 use squealmap::engine::plan::{Duration as Time, StartKind};
 use squealmap::engine::record::Record;
-use squealmap::engine::reference::records as reference;
+use squealmap::engine::reference::records::in_f64;
 use squealmap::engine::regime::Regime;
 use squealmap::model::friction::LawKind;
 use squealmap::model::kind::InstabilityType;
@@ -62,8 +62,8 @@ pub(crate) fn spec(grid: Grid) -> Spec {
 pub(crate) fn map(grid: Grid, record: impl Fn(usize, &[&Value]) -> Record) -> Map {
     let records = (0..grid.len()).map(|i| record(i, &grid.coordinates(i))).collect();
     let provenance = Provenance {
-        linear: Some(reference::in_f64(Backend::Reference, "closed form".to_owned())),
-        response: Some(reference::in_f64(Backend::Reference, "rk4".to_owned())),
+        linear: Some(in_f64(Backend::Reference, "closed form".to_owned())),
+        response: Some(in_f64(Backend::Reference, "rk4".to_owned())),
         threads: 2,
         elapsed: Duration::from_millis(2500),
     };

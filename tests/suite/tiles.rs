@@ -7,7 +7,7 @@ use squealmap::engine::backend::Backend;
 use squealmap::engine::computation::Computation;
 use squealmap::engine::outcome::Outcome;
 use squealmap::engine::record::{Basin, By, Check, Others, Record};
-use squealmap::engine::reference::records as reference;
+use squealmap::engine::reference::records::in_f64;
 use squealmap::engine::regime::Regime;
 use squealmap::model::Param;
 use squealmap::model::kind::InstabilityType;
@@ -282,10 +282,7 @@ fn rows_beside_the_json_have_the_id_and_the_text_of_rows_in_it() {
 }
 
 fn computed(precision: &str) -> [Option<Computation>; 2] {
-    let made = Computation {
-        precision: precision.to_owned(),
-        ..reference::in_f64(Backend::Cpu, "method".to_owned())
-    };
+    let made = Computation { precision: precision.to_owned(), ..in_f64(Backend::Cpu, "method".to_owned()) };
     [Some(made.clone()), Some(made)]
 }
 

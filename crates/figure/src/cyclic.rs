@@ -42,7 +42,8 @@ pub fn scale() -> Scale {
     Scale::Linear { low: -HALF, high: HALF }
 }
 
-/// Ticks at quarters of a turn, of an axis that reaches over more than half of one; `None`: any round values will do.
+/// Ticks at quarters of a turn, for an axis that reaches over more than half a turn. `None` for a shorter one, where any
+/// round values will do.
 pub fn ticks(scale: &Scale) -> Option<Vec<Tick>> {
     const QUARTERS: [f64; 5] = [-HALF, -0.5 * HALF, 0.0, 0.5 * HALF, HALF];
     let reach = scale.value(1.0) - scale.value(0.0);

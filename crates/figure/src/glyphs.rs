@@ -1,5 +1,5 @@
-//! What the embedded font says of characters: how wide they are, and which it does not have; boxes stand in their place in
-//! PNG and PDF.
+//! What the embedded font knows of characters: how wide they are, and which ones it does not have. In PNG and PDF a box
+//! stands in the place of such a character.
 
 use ttf_parser::Face;
 
@@ -16,7 +16,8 @@ pub fn width(words: &str, size: f64, bold: bool) -> f64 {
     words.chars().map(advance).sum::<f64>() * size
 }
 
-/// Those without a glyph among the words of an SVG document of this program, each once, in the order in which they come.
+/// The characters without a glyph in the words of an SVG document of this program, each once, in the order in which they
+/// come.
 ///
 /// # Errors
 /// When the embedded fonts cannot be read.

@@ -1,10 +1,10 @@
-//! Jumps in curves: where an instance and its neighbour belong to different classes and their values are further apart than
-//! those around them, the curve has a step halfway between them, as a border has in a map, not a slope.
+//! Jumps in curves. Where two neighbouring instances belong to different classes, and their values are further apart than
+//! those around them, the curve has a step halfway between them, as a border has in a map, instead of a slope.
 
 /// A step is a jump from this multiple of the steps beside it on. A square root that starts between two instances, as the
 /// amplitude beyond a Hopf bifurcation, has 2.4 at most.
 const RATIO: f64 = 3.0;
-/// And from this part of what the curves of a panel reach over.
+/// A jump is also at least this part of the range of all curves of a panel.
 const LEAST: f64 = 0.05;
 
 /// The points of a curve with a step in place of every jump. `same` says of a place whether it and the next one are of one

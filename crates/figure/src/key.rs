@@ -1,4 +1,4 @@
-//! Which line is which: samples with words in a row, or in as many as a width asks for.
+//! Keys of figures, which say which line is which: samples with words, in one row or in as many as a width asks for.
 
 use crate::svg::{Anchor, Style, Svg, polyline};
 use crate::text::Text;
@@ -34,7 +34,7 @@ pub fn cross((x, y): (f64, f64), radius: f64) -> String {
     [-radius, radius].map(|tilt| polyline([(x - radius, y - tilt), (x + radius, y + tilt)])).concat()
 }
 
-/// What stands before the words of an entry.
+/// The sample before the words of an entry.
 #[derive(Clone, Copy, Debug)]
 pub enum Sample<'a> {
     /// A line.

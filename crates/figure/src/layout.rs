@@ -13,7 +13,7 @@ const LOWEST: f64 = 22.0;
 const GAP: f64 = 16.0;
 /// ... and where they would not fit the page otherwise.
 const NEAR: f64 = 8.0;
-/// So many more columns of panels than usual are tried.
+/// How many more columns of panels than usual are tried.
 const MORE_COLUMNS: usize = 4;
 
 /// An arrangement.
@@ -44,8 +44,8 @@ impl Layout {
         Layout { across, gap: GAP, more_columns: 0, broken: false, flattest: FLAT, page: PAGE }
     }
 
-    /// The first that is no taller than a page, points: with more columns of panels, with up to so many blocks side by
-    /// side, with flatter panels, with blocks nearer to one another, with broken tables of panels; failing that the last.
+    /// The first layout that is no taller than a page, points. Tried are more columns of panels, up to so many blocks side
+    /// by side, flatter panels, blocks nearer to one another, and broken tables of panels. Where none fits, it is the last.
     /// `height` measures a figure.
     pub fn fitting(
         usual: Layout,

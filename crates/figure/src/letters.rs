@@ -1,4 +1,4 @@
-//! What stands left of panels that stand one below the other: their letters, and the labels of their vertical axes.
+//! The words left of panels that stand one below the other: their letters, and the labels of their vertical axes.
 
 use crate::frame::{Frame, LABEL_SIZE};
 use crate::page::MARGIN;
@@ -7,7 +7,7 @@ use crate::text::Text;
 
 /// Height of a bracket above the base line, in ems.
 pub const ASCENT: f64 = 0.73;
-/// What a letter takes of the height of a panel, points.
+/// The height that a letter takes of a panel, points.
 const HEIGHT: f64 = LABEL_SIZE + 3.0;
 /// Behind a letter on top of curves.
 const PLATE: &str = r##"fill="#FFFFFF" fill-opacity="0.85""##;
@@ -21,7 +21,7 @@ pub fn letter(number: usize) -> String {
     format!("({letter})")
 }
 
-/// What a letter takes before words, points.
+/// The width that a letter takes before words, points.
 pub fn width(number: usize) -> f64 {
     Text::from(letter(number)).width(LABEL_SIZE, true) + GAP
 }
@@ -32,13 +32,13 @@ pub fn draw_at(svg: &mut Svg, number: usize, [x, y]: [f64; 2]) {
     svg.text(x, y + ASCENT * LABEL_SIZE, &Text::from(letter(number)), style);
 }
 
-/// What a letter leaves to the label of a vertical axis of this length, points.
+/// The room that a letter leaves to the label of a vertical axis of this length, points.
 pub fn room(height: f64, rows: usize) -> f64 {
     if rows > 1 { height - HEIGHT } else { height }
 }
 
-/// Draws the letter of a row of panels, of so many, and the first of some labels that has room, from the left margin on; a
-/// figure of one row has no letters. Where a panel is too flat for both, the letter stands in its first frame.
+/// Draws the letter of a row of panels, and the first of `labels` that has room beside it, from the left margin on. A figure
+/// of one row has no letters. Where a panel is too flat for both, the letter stands in its first frame.
 pub fn side(svg: &mut Svg, (number, rows): (usize, usize), frame: &Frame, labels: &[Text]) {
     let fits = |room: f64| labels.iter().find(|label| label.width(LABEL_SIZE, false) <= room);
     let left = room(frame.height, rows);

@@ -43,7 +43,8 @@ pub fn isolines(
     squares(size, level, value, |_| true)
 }
 
-/// The same, only in squares whose corners, from the lower left one anticlockwise, are smooth.
+/// The lines of a level as [`isolines`] gives them, but only through squares that `smooth` accepts. It gets the values at
+/// the four corners, anticlockwise from the lower left one.
 fn squares(
     [columns, rows]: [usize; 2],
     level: f64,
@@ -78,7 +79,7 @@ fn squares(
     chains(joined).into_iter().map(|chain| chain.into_iter().map(place).collect()).collect()
 }
 
-/// Which sides of a square a level joins, its corners given from the lower left one anticlockwise.
+/// The pairs of sides of a square that a level joins. The corners are given anticlockwise from the lower left one.
 fn segments(corners: [f64; 4], level: f64) -> Vec<[usize; 2]> {
     let above = corners.map(|value| value >= level);
     // A side is crossed where its ends differ.
@@ -98,7 +99,7 @@ fn segments(corners: [f64; 4], level: f64) -> Vec<[usize; 2]> {
     }
 }
 
-/// Joins edges to lines: open ones from their ends first, then what is closed.
+/// Joins edges to lines: first the open ones, from their ends, then the closed ones.
 fn chains(mut joined: BTreeMap<Edge, Vec<Edge>>) -> Vec<Vec<Edge>> {
     let ends: Vec<Edge> =
         joined.iter().filter(|(_, others)| others.len() == 1).map(|(edge, _)| *edge).collect();

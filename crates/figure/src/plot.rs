@@ -23,9 +23,9 @@ pub const ZERO: &str = r##"fill="none" stroke="#777777" stroke-width="0.5""##;
 pub struct Plot<'a> {
     /// The frame.
     pub frame: Frame,
-    /// What lies across.
+    /// The scale of the horizontal axis.
     pub x: &'a Scale,
-    /// What goes up.
+    /// The scale of the vertical axis.
     pub y: &'a Scale,
 }
 

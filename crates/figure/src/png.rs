@@ -32,7 +32,7 @@ pub fn render(svg: &str) -> Result<Vec<u8>> {
     Ok(with_chunks(&image(svg)?, &[resolution()]))
 }
 
-/// The same with a title and what made it as texts, which image viewers show.
+/// The PNG of an SVG document as [`render`] makes it, with its title and its provenance as texts that image viewers show.
 ///
 /// # Errors
 /// When the document is not SVG, or too large for an image.

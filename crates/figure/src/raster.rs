@@ -38,7 +38,7 @@ pub fn colour(value: f32) -> [u8; 3] {
     })
 }
 
-/// The same as the fill of a vector drawing.
+/// The colour of a value as the fill of a vector drawing, `#RRGGBB`.
 pub fn fill(value: f32) -> String {
     let [r, g, b] = colour(value);
     format!("#{r:02X}{g:02X}{b:02X}")

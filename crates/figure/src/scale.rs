@@ -2,7 +2,7 @@
 
 use crate::text::Text;
 
-/// What a position on an axis means.
+/// A scale: which value stands at which position on an axis.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Scale {
     /// Proportional between two ends.
@@ -19,8 +19,8 @@ pub enum Scale {
         /// Value at position 1.
         high: f64,
     },
-    /// Proportional between a negative end and 0, and by itself between 0 and a positive end: what is small on one side is
-    /// seen beside what is large on the other.
+    /// Proportional from a negative end to 0, and separately from 0 to a positive end. So small values on one side are seen
+    /// beside large ones on the other.
     Signed {
         /// Value at position 0.
         low: f64,
@@ -39,7 +39,7 @@ pub const ZERO: f64 = 0.375;
 pub struct Tick {
     /// Position, 0 to 1.
     pub at: f64,
-    /// What stands beside it.
+    /// The label beside it.
     pub label: Text,
 }
 
@@ -59,7 +59,7 @@ impl Scale {
         }
     }
 
-    /// The same with a margin at both ends, as a fraction of the length.
+    /// This scale with a margin at both ends, as a fraction of its length.
     #[must_use]
     pub fn widened(self, fraction: f64) -> Scale {
         match self {

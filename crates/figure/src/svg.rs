@@ -23,7 +23,7 @@ pub enum Anchor {
 pub struct Style {
     /// Size in points.
     pub size: f64,
-    /// What the given point is.
+    /// Which point of the text the given point is.
     pub anchor: Anchor,
     /// Bold letters.
     pub bold: bool,
@@ -38,13 +38,13 @@ impl Style {
         Style { size, anchor, bold: false, upwards: false }
     }
 
-    /// The same in bold.
+    /// This style in bold.
     #[must_use]
     pub fn bold(self) -> Style {
         Style { bold: true, ..self }
     }
 
-    /// The same reading from bottom to top.
+    /// This style reading from bottom to top.
     #[must_use]
     pub fn upwards(self) -> Style {
         Style { upwards: true, ..self }

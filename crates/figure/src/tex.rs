@@ -26,7 +26,7 @@ pub fn escaped(text: &str) -> String {
     out
 }
 
-/// What stands inside a formula.
+/// A text as it stands inside a formula.
 pub fn formula(text: &str) -> String {
     text.chars()
         .map(|c| match in_math(c) {

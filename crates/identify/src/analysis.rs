@@ -29,7 +29,7 @@ pub struct Identification {
     pub time: [f64; 2],
     /// The column of each channel, in the order of [`Channel::ALL`]; empty where the file has none.
     pub columns: [String; Channel::ALL.len()],
-    /// The strongest oscillation of the record, Hz; `None`: none stands out.
+    /// The strongest oscillation of the record, Hz; `None` where none stands out.
     pub frequency: Option<f64>,
     /// Number of windows.
     pub windows: usize,
@@ -158,7 +158,7 @@ fn analyse(
     Ok((found, overview))
 }
 
-/// What limits the analysis.
+/// Sentences about everything that limits the analysis.
 fn notes(survey: &Survey) -> Vec<String> {
     let mut notes: Vec<String> = survey.remark.iter().cloned().collect();
     for channel in &survey.constant {

@@ -60,7 +60,7 @@ const FINE: &[(f64, f64)] = &[
     (2.0, 0.0540),
     (3.0, 0.0044),
 ];
-/// The same for single windows, of which a record may have a million: by Gauss and Hermite.
+/// Points and weights for single windows, by Gauss and Hermite: few, since a record may have a million windows.
 const COARSE: &[(f64, f64)] = &[(-1.732_050_8, 1.0 / 6.0), (0.0, 2.0 / 3.0), (1.732_050_8, 1.0 / 6.0)];
 /// Values of each damping from 0 to its bound, both included, and pairs of them.
 const DAMPINGS: usize = 3;
@@ -71,7 +71,7 @@ const CASES: usize = PAIRS * TILTS;
 /// Share of the observed growth from which on a mechanism counts as a cause.
 pub const CAUSE: f64 = 0.1;
 
-/// What a growing oscillation can be.
+/// The cause that a growing oscillation can have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Cause {
     /// The oscillation does not grow.
@@ -93,7 +93,7 @@ impl Cause {
         [Cause::None, Cause::Slope, Cause::Coupling, Cause::Both, Cause::Interaction, Cause::Contradiction];
 }
 
-/// What a growing oscillation does not show.
+/// Bounds on quantities that a growing oscillation does not show.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Bounds {
     /// Largest damping, 1/s.
@@ -112,7 +112,7 @@ impl Probabilities {
         self.0.iter().map(|of| of[cause as usize]).sum::<f64>() / CASES as f64
     }
 
-    /// The least over the cases: what is sure.
+    /// The least probability of a cause over all cases: so much is sure.
     pub(super) fn least(&self, cause: Cause) -> f64 {
         self.0.iter().map(|of| of[cause as usize]).fold(1.0, f64::min)
     }
@@ -130,7 +130,7 @@ pub fn alone(growth: f64, share: f64, psi: f64, [d_x, d_y]: [f64; 2]) -> [f64; 2
     [coupled - 0.5 * (d_x + d_y), (1.0 - share) * p - d_x]
 }
 
-/// The probabilities; `fine`: 29 times the work.
+/// The probabilities; with `fine` at 29 times the work.
 pub(super) fn probabilities(feedback: &Feedback, bounds: &Bounds, fine: bool) -> Probabilities {
     let nodes = if fine { FINE } else { COARSE };
     let (normal, normal_error) = feedback.normal;
@@ -168,8 +168,8 @@ pub(super) fn probabilities(feedback: &Feedback, bounds: &Bounds, fine: bool) ->
     found
 }
 
-/// The angle by which the forces turn `ν_n` and `ν_s` because they are late, rad: what is known beforehand, and, where
-/// there is a slope, what it shows.
+/// The angle by which the forces turn `ν_n` and `ν_s` because they are late, rad. It is known beforehand within bounds;
+/// where there is a slope, that shows more of it.
 fn lateness(feedback: &Feedback) -> Measured {
     let Some(off) = feedback.asynchrony() else { return Measured { value: 0.0, error: FORCE_PHASE } };
     let (angle, error) = (off.value.to_radians(), off.error.to_radians().hypot(ANGLE_ALLOWANCE));

@@ -9,7 +9,7 @@ use crate::verdict::{Kind, Verdict};
 const CLEAR: f64 = 3.0;
 /// An oscillation that has lost this factor since it was loudest has decayed.
 const DECAYED: f64 = 0.5;
-/// The same where every window is linear.
+/// That factor where every window is linear.
 const DECAYED_LINEAR: f64 = 0.85;
 /// The loudest window of a decaying oscillation lies in this first part of the record.
 const EARLY: f64 = 0.5;
@@ -27,7 +27,7 @@ pub(super) struct Looked {
     pub(super) samples: u64,
     /// Whether there is an oscillation, but not one window of it.
     pub(super) too_short: bool,
-    /// The frequencies asked for, Hz; `None`: all.
+    /// The frequencies asked for, Hz; `None` for all.
     pub(super) band: Option<[f64; 2]>,
     /// The strongest oscillation of the record where these do not hold it, Hz.
     pub(super) outside: Option<f64>,

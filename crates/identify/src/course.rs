@@ -21,7 +21,7 @@ const MOVED: f64 = 0.003;
 /// … unless twice the logarithm of the likelihood of others is larger by less than this: noise alone may reach 10 here.
 const CLEAR: f64 = 20.0;
 
-/// What the samples in which windows saw growth tell as a whole.
+/// The results from all samples in which windows saw growth.
 pub(super) struct Course {
     /// Why it is none; `None` where it is an exponential that may saturate.
     pub(super) driven: Option<&'static str>,

@@ -25,7 +25,7 @@ const NONLINEAR_FRICTION: f64 = 0.005;
 const NOISIER: f64 = 8.0;
 /// Windows this strong, relative to the strongest, can be those in which friction departs.
 const STRONG: f64 = 0.1;
-/// Fewest windows of an episode of which strong ones may be left out.
+/// The fewest windows of an episode for strong ones to be left out of it.
 const LEAST_KEPT: usize = 3;
 /// Windows of one episode have frequencies within this of each other, relative.
 pub(super) const SAME: f64 = 0.05;
@@ -70,16 +70,16 @@ pub struct Episode {
     pub slope: Option<Measured>,
     /// Largest distortion of its windows.
     pub distortion: f64,
-    /// What caused it.
+    /// The mechanism that caused it.
     pub verdict: Verdict,
     pub(super) feedback: Feedback,
-    /// What keeps it undecided whatever the feedback: two modes, or one that changes.
+    /// Whether it has two modes, or one that changes: that keeps it undecided whatever the feedback.
     pub(super) wanders: bool,
     /// Whether the oscillation was there before it grew.
     pub(super) preceded: bool,
 }
 
-/// What the file records.
+/// Says what the file records.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Recorded {
     pub(super) normal_acceleration: bool,
@@ -125,8 +125,8 @@ pub(super) fn beats(briefs: &[Brief], first: usize, length: usize) -> bool {
     before.any(|brief| brief.power > again) || after.any(|brief| brief.power < again)
 }
 
-/// Whether an oscillation was nearly as strong before the windows that grow at this rate (1/s), from `first` on, as in the
-/// first of them: two e-foldings before, or at the beginning of the record.
+/// Whether an oscillation was there before window `first`, from which on it grows at this rate (1/s): whether it was nearly
+/// as strong two e-foldings earlier, or at the beginning of the record.
 pub(super) fn preceded(briefs: &[Brief], first: usize, window: &Window, growth: f64) -> bool {
     /// Windows that far apart share no sample.
     const APART: usize = 4;
@@ -214,8 +214,8 @@ impl Episode {
     }
 }
 
-/// How many windows of a run are still linear: from the first strong one on whose friction departs from that of all
-/// before, or whose growth falls, the windows, which weigh most, are left out.
+/// How many windows of a run are still linear. They end at the first strong window whose friction departs from that of all
+/// windows before, and at the first whose growth falls: it and all later ones are left out, although they weigh most.
 fn linear(run: &[Window]) -> usize {
     let strongest = run.iter().map(|window| window.sums.xx).fold(0.0, f64::max);
     let mut before = Sums::default();
@@ -364,7 +364,7 @@ pub(super) fn swapped(episodes: &[Episode], recorded: Recorded) -> Option<f64> {
     episodes.iter().find(swapped).map(|episode| episode.time[0])
 }
 
-/// What a beat is told by.
+/// The little that is kept of a window to recognise a beat.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Brief {
     /// Power of the tangential acceleration at the dominant frequency.

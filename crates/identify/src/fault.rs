@@ -1,4 +1,8 @@
-//! What is wrong with a file of signals: such a file is named and not analysed.
+//! The faults of files of signals. A file with a fault is named and not analysed.
+
+/// The slowest and the fastest rate of sensors of vibrations, Hz. What a column of time without a unit says beyond them is asked
+/// about: squeal at 51.2 kHz with its time in milliseconds would be 51.2 Hz.
+pub const RATES: [f64; 2] = [1e3, 1e6];
 
 /// Why signals are not analysed: which column, where, and what to do.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -43,7 +47,7 @@ pub enum Fault {
         name: String,
         /// One quantity.
         first: &'static str,
-        /// The other.
+        /// The other column.
         second: &'static str,
         /// The option of the second.
         flag: &'static str,
@@ -57,7 +61,7 @@ pub enum Fault {
         line: u64,
         /// Its fields.
         fields: usize,
-        /// Those of the header.
+        /// The number of columns in the header.
         columns: usize,
         /// What it looks like, with a leading semicolon, or nothing.
         because: &'static str,
@@ -345,7 +349,3 @@ pub struct Unfit {
     /// Which column, where, and what to do.
     pub fault: Box<Fault>,
 }
-
-/// The slowest and the fastest rate of sensors of vibrations, Hz. What a column of time without a unit says beyond them is asked
-/// about: squeal at 51.2 kHz with its time in milliseconds would be 51.2 Hz.
-pub const RATES: [f64; 2] = [1e3, 1e6];

@@ -31,7 +31,7 @@ const LEAST_PER_UNKNOWN: usize = 3;
 /// samples, and a trace of the second mode is in them (measured on synthetic strokes, docs/identify.md).
 const CHOSEN: f64 = 1.2;
 
-/// What is fitted to every channel, one column each; `AMPLITUDE` and the next one are those of the oscillation.
+/// The columns that are fitted to every channel. `AMPLITUDE` and the next one are those of the oscillation.
 const AMPLITUDE: usize = 2;
 const COLUMNS: usize = 7;
 
@@ -44,7 +44,7 @@ pub(super) struct Fitted {
     pub(super) error: f64,
     /// Mean at the last sample, without what the motion adds.
     pub(super) mean: f64,
-    /// Standard deviation of what is left over.
+    /// Standard deviation of the samples from the fit.
     pub(super) noise: f64,
 }
 
@@ -59,7 +59,7 @@ pub(super) struct Mode {
     pub(super) omega: f64,
     /// The channels in the order given.
     pub(super) channels: Vec<Fitted>,
-    /// What is left over, channel by channel.
+    /// The samples less the fit, channel by channel.
     pub(super) residuals: Vec<DVector<f64>>,
 }
 
@@ -84,7 +84,7 @@ impl Mode {
         None
     }
 
-    /// The same of a given course.
+    /// The mode with a given course, fitted to the samples.
     pub(super) fn held(channels: &[&[f64]], rate: f64, shape: Shape) -> Option<Mode> {
         linearised(&vectors(channels)?, rate, shape).map(|(mode, ..)| mode)
     }
@@ -113,7 +113,8 @@ fn vectors(channels: &[&[f64]]) -> Option<Vec<DVector<f64>>> {
     enough.then(|| channels.iter().map(|q| DVector::from_column_slice(q)).collect())
 }
 
-/// What is linear once the course is given: one column each of the unknowns and of the parameters' effects.
+/// The linear part of the fit once the course is given: one column for each unknown, and one for the effect of each
+/// parameter.
 struct Columns {
     matrix: DMatrix<f64>,
     /// What a change of each parameter adds: `Re(A z')` and `−Im(A z')` side by side.

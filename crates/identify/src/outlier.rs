@@ -136,7 +136,7 @@ impl Watch {
 }
 
 impl Level {
-    /// Of a channel that hardly moves: its most frequent value, which is its scatter, too.
+    /// The level of a channel that hardly moves: its most frequent value, which is its scatter, too.
     fn still(block: &[Held]) -> Option<Level> {
         let most = block.iter().max_by_key(|held| held.count)?;
         let scatter = most.value.abs();

@@ -1,4 +1,4 @@
-//! What a record says as a whole, gathered window by window.
+//! An overview of a whole record, gathered window by window.
 
 use crate::cross::{INDEPENDENT, Measured};
 use crate::episode::{Episode, LOUD, Recorded, is_linear};

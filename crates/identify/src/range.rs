@@ -2,7 +2,7 @@
 
 /// Equal samples in a row that look cut off: at a smooth peak two may be equal by rounding.
 const RUN: u64 = 3;
-/// Runs at the same extreme value that are no chance.
+/// From this many runs at one extreme value on they are no chance.
 const RUNS: u64 = 3;
 /// A smooth peak leaves its highest value by far less than the signal's mean step, a cut one by about it.
 const ABRUPT: f64 = 0.25;

@@ -230,7 +230,7 @@ impl Table {
         self.units[0].or(self.units[1])
     }
 
-    /// What is to be said of the unit of time: that it is no second, or not the one of the header.
+    /// A sentence about the unit of time, where it is not the second or not the one of the header.
     pub(super) fn remark_on_unit(&self) -> Option<String> {
         let (name, unit) = (self.time.map(|_| self.time_name())?, self.time_unit()?);
         match self.units {
@@ -248,7 +248,7 @@ impl Table {
     }
 }
 
-/// What is wrong with a column of time that holds no numbers from its first row on, as one of times of day.
+/// The fault of a column of time that holds no numbers from its first row on, such as times of day.
 fn no_time(fault: Fault) -> Fault {
     match fault {
         Fault::NotANumber { line, column, text } => Fault::NotATime { line, column, text },

@@ -10,7 +10,7 @@ use crate::window::Window;
 /// Standard errors by which a window must decay to be called stable.
 const DECAYS: f64 = 3.0;
 
-/// What one window says.
+/// The result of one window.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reading {
     /// Phase of the normal against the tangential acceleration, degrees, negative when the normal one lags.

@@ -1,4 +1,4 @@
-//! What a user may choose.
+//! The settings of an analysis.
 
 use crate::channel::{Channel, PerChannel};
 use crate::unit::TimeUnit;
@@ -25,13 +25,14 @@ pub const LARGEST_FRICTION: f64 = 1.0;
 /// The choices of an analysis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
-    /// The column of time; `None`: `t` or `time`, with a unit or without, where the file has it.
+    /// The column of time; `None` for `t` or `time`, with a unit or without, where the file has it.
     pub time: Option<String>,
-    /// Its unit; `None`: that of its header, or else seconds, which are asked about where no sensor is so slow or fast.
+    /// The unit of time; `None` for that of the header, or else seconds. Where no sensor is so slow or so fast, seconds are
+    /// asked about.
     pub time_unit: Option<TimeUnit>,
     /// Samples per second (Hz); where the file has a column of time, that must not contradict it.
     pub rate: Option<f64>,
-    /// The columns in the order of [`Channel::ALL`]; `None`: the default name, if the file has it.
+    /// The columns in the order of [`Channel::ALL`]; `None` for the default name, if the file has it.
     pub columns: [Option<String>; Channel::ALL.len()],
     /// Delay of the normal acceleration behind the tangential one, s, which is taken out; at most one period.
     pub skew: f64,
@@ -41,7 +42,7 @@ pub struct Settings {
     pub damping_ratio: f64,
     /// Largest inclination of the structure to the contact, rad.
     pub inclination: f64,
-    /// Frequencies in which to look for the oscillation, Hz; `None`: all.
+    /// Frequencies in which to look for the oscillation, Hz; `None` for all.
     pub band: Option<[f64; 2]>,
     /// Window of the spectrogram, s.
     pub window: f64,

@@ -86,7 +86,7 @@ impl Shape {
         }
     }
 
-    /// What may be an instability, as a fit that ends at `tau` (s) sees it.
+    /// The shape of a possible instability as a fit that ends at `tau` (s) sees it.
     pub(super) fn seen_from(self, tau: f64) -> Shape {
         match self {
             Shape::Saturating([growth, omega, kappa, eta]) => {

@@ -64,7 +64,7 @@ impl Span {
     }
 }
 
-/// What all samples of a growth tell.
+/// The results of a fit to all samples of a growth.
 pub(super) struct Sharpened {
     /// The exponential that fits.
     pub(super) mode: Mode,

@@ -23,10 +23,10 @@ const FITTED: [Channel; 4] = [
 /// E-foldings by which linear growth tells whether it is driven.
 const ENOUGH: f64 = 1.5;
 
-/// The same where the oscillation was there before.
+/// That number of e-foldings where the oscillation was there before.
 const FIFTYFOLD: f64 = 4.0;
 
-/// What the other readings know of the record.
+/// The knowledge of the record from its other readings.
 pub(super) struct Known<'a> {
     pub(super) recorded: Recorded,
     pub(super) settings: &'a Settings,
@@ -86,7 +86,7 @@ impl Known<'_> {
         FITTED.into_iter().filter(recorded).collect()
     }
 
-    /// Which samples an episode needs: as many before its end as are fitted, and where its growth may end after it.
+    /// The samples that an episode needs: those before its end that are fitted, and those after it where its growth may end.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -142,7 +142,7 @@ impl Known<'_> {
         }
     }
 
-    /// Judges an episode anew by what is known better.
+    /// Judges an episode anew with a better known feedback and distortion.
     fn judged(&self, episode: &mut Episode, feedback: Feedback, distortion: f64) {
         let setting = Setting {
             forces: self.recorded.forces,

@@ -33,7 +33,7 @@ const PRESSES: f64 = 1.0;
 /// An acceleration whose mean exceeds its standard deviation this many times is none.
 const OFFSET: f64 = 3.0;
 
-/// What the first reading found.
+/// The result of the first reading.
 #[derive(Clone, Debug)]
 pub(super) struct Survey {
     pub(super) samples: u64,
@@ -43,11 +43,11 @@ pub(super) struct Survey {
     pub(super) rate: f64,
     pub(super) names: PerChannel<String>,
     pub(super) has: PerChannel<bool>,
-    /// The strongest oscillation of the tangential acceleration, Hz; `None`: none stands out of the noise.
+    /// The strongest oscillation of the tangential acceleration, Hz; `None` where none stands out of the noise.
     pub(super) frequency: Option<f64>,
     /// The strongest oscillation of all frequencies, Hz, where a band is given that does not hold it.
     pub(super) outside: Option<f64>,
-    /// What is to be said of the unit of time.
+    /// A sentence about the unit of time, if one is needed.
     pub(super) remark: Option<String>,
     /// Velocity and temperature that stand still.
     pub(super) constant: Vec<Channel>,
@@ -177,7 +177,7 @@ fn doubtful(column: String, rate: f64) -> Fault {
     Fault::DoubtfulTime { column, rate: rounded(rate), units }
 }
 
-/// That a unit of time makes two rates one, as the end of a sentence.
+/// The end of a sentence that says in which unit of time two rates would agree.
 fn in_unit(unit: Option<TimeUnit>) -> String {
     unit.map_or(String::new(), |unit| format!("; in {0} both are one: --time-unit {0}", unit.name()))
 }

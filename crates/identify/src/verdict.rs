@@ -12,7 +12,7 @@ const UNEXPLAINED: f64 = 0.2;
 /// Degrees by which channels may disagree before they are called skewed.
 const IN_STEP: f64 = 15.0;
 
-/// What caused an oscillation.
+/// The cause of an oscillation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {
@@ -61,7 +61,7 @@ impl Kind {
 /// A verdict.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Verdict {
-    /// What it says.
+    /// The kind that it names.
     pub kind: Kind,
     /// 0 to 1: probability of the leading kind, lowered by incoherence and non-linearity. Of an undecided
     /// verdict: that of the kind it leans to.
@@ -73,7 +73,7 @@ pub struct Verdict {
 }
 
 impl Verdict {
-    /// The confidence for two decimals: what is below [`CONFIDENT`] does not round up to it.
+    /// The confidence to two decimals. A value below [`CONFIDENT`] is not rounded up to it.
     #[must_use]
     pub fn shown_confidence(&self) -> f64 {
         if self.confidence < CONFIDENT { self.confidence.min(CONFIDENT - 0.01) } else { self.confidence }
@@ -85,7 +85,7 @@ impl Verdict {
     }
 }
 
-/// What is known beside the feedback.
+/// The facts that are known besides the feedback.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Setting {
     /// Whether both forces are recorded.
@@ -152,7 +152,7 @@ pub(super) fn judge(feedback: &Feedback, setting: &Setting) -> Verdict {
     Verdict { kind: decided.unwrap_or(Kind::Undecided), confidence, leaning: kind, reasons }
 }
 
-/// The most probable kind (`None`: what is none of the kinds) and how sure it is.
+/// The most probable kind (`None` where it is none of them) and how sure it is.
 fn leading(likely: &Probabilities) -> (Option<Kind>, f64) {
     let by_mean = |a: &Cause, b: &Cause| likely.mean(*a).total_cmp(&likely.mean(*b));
     let cause = Cause::ALL.into_iter().max_by(by_mean).unwrap_or(Cause::None);
@@ -166,7 +166,7 @@ fn leading(likely: &Probabilities) -> (Option<Kind>, f64) {
     (kind, likely.least(cause))
 }
 
-/// What the signals show, and where the probability lies when no kind has enough of it.
+/// Sentences about what the signals show, and about the probabilities when no kind has enough of it.
 fn evidence(feedback: &Feedback, decided: bool, likely: &Probabilities) -> String {
     let share = feedback.share();
     let mut text = format!(

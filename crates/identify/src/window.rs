@@ -47,7 +47,7 @@ impl Geometry {
     }
 }
 
-/// What one window holds.
+/// The results of one window.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Window {
     /// Start and end, s.

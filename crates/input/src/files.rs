@@ -33,7 +33,7 @@ pub fn text(path: &Path, most: u64) -> Result<String, String> {
     String::from_utf8(bytes(path, most)?).map_err(|_| "it is no text in UTF-8; save it as UTF-8".to_owned())
 }
 
-/// The same of a table, which many programs still write in Latin-1.
+/// The text of a table of at most `most` bytes. Many programs still write tables in Latin-1, so that is read as well.
 ///
 /// # Errors
 /// What is wrong with it, as the end of a sentence.
@@ -46,7 +46,7 @@ pub fn table(path: &Path, most: u64) -> Result<String, String> {
     Ok(decoded(bytes))
 }
 
-/// Text in UTF-8, or else in Latin-1, of which every byte is a character.
+/// The text of bytes in UTF-8, or else in Latin-1, where every byte is a character.
 #[must_use]
 pub fn decoded(bytes: Vec<u8>) -> String {
     String::from_utf8(bytes)

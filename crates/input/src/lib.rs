@@ -1,4 +1,4 @@
-//! What a user wrote: files, places in them, and how a sentence quotes them.
+//! The input of a user: files, places in them, and quotations from them in sentences.
 
 pub mod files;
 pub mod place;

@@ -41,7 +41,7 @@ impl Source {
         }))
     }
 
-    /// What stands in a byte range, as written.
+    /// The text in a byte range, as it is written.
     pub fn written(&self, span: Range<usize>) -> &str {
         self.text.get(span).unwrap_or_default()
     }

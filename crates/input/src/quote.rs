@@ -12,7 +12,7 @@ pub fn quoted(text: &str) -> String {
     clipped(text, LONGEST)
 }
 
-/// The same with at most `most` characters of the text.
+/// A text as a sentence quotes it, see [`quoted`], with at most `most` characters.
 #[must_use]
 pub fn clipped(text: &str, most: usize) -> String {
     let end = text.char_indices().nth(most).map_or(text.len(), |(end, _)| end);
@@ -23,7 +23,7 @@ pub fn clipped(text: &str, most: usize) -> String {
     line
 }
 
-/// The whole text on one line, control characters by their escapes: for paths, of which no part may be missing.
+/// The whole text on one line, with control characters by their escapes: for paths, which may not be shortened.
 #[must_use]
 pub fn one_line(text: &str) -> String {
     let mut line = String::with_capacity(text.len());

@@ -10,8 +10,8 @@ use crate::engine::gpu::run::{ChunkResult, Drive, resume};
 use crate::engine::kernel::scalar::Real;
 use crate::engine::kernel::source::{Constant, Kernel, WORKGROUP_SIZE, words};
 
-/// Most bytes of a chunk's inputs and results, however large an adapter's buffers: with what is made from
-/// them, some 1 GiB on the host.
+/// Most bytes of a chunk's inputs and results, however large an adapter's buffers are. With everything that is made from
+/// them this is about 1 GiB on the host.
 pub const MOST_BYTES: usize = 256 << 20;
 
 /// Constants that a scene selects.
@@ -74,9 +74,9 @@ impl Session {
 
     /// Runs `total` instances in chunks of at most `chunk`.
     ///
-    /// `prepare` makes the batches of a range, of as many instances as it likes; `accept` gets the range, whether
-    /// it has got it before, and each batch's memory and result, also of a chunk that was cancelled on its way. It
-    /// returns the batches that are to follow for the same range: none when that is done.
+    /// `prepare` makes the batches of a range, of as many instances as it likes. `accept` gets the range, whether it has got
+    /// it before, and each batch's memory and result, also of a chunk that was cancelled on its way. It returns the batches
+    /// that follow for the same range, and none when the range is done.
     ///
     /// # Errors
     /// Those of [`resume`]; a device lost for the second time.

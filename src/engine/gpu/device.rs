@@ -8,10 +8,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-/// A submission that takes longer has hung: dispatches are cut to a tenth of a second.
+/// How long a submission may take; one that takes longer has hung. Dispatches are cut to a tenth of a second.
 const PATIENCE: Duration = Duration::from_mins(1);
-/// The same on a processor, which compiles a kernel within its first submission (half a minute) and shares its cores with
-/// whatever else runs.
+/// How long a submission may take where a processor stands in for the GPU. It compiles a kernel within its first submission,
+/// which takes half a minute, and shares its cores with whatever else runs.
 const SOFTWARE_PATIENCE: Duration = Duration::from_mins(10);
 
 /// An open device and its queue; clones are the same device.

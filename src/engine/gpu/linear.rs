@@ -51,7 +51,7 @@ pub fn append(
     }
 }
 
-/// What is known of an instance before the kernel: a record, and its words where it needs the kernel.
+/// An instance before the kernel: its record so far, and its words where it needs the kernel.
 type Known = (Record, Option<Words>);
 
 fn append_in<R: Real>(

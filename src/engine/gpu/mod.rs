@@ -1,6 +1,7 @@
 //! Many instances on a GPU through wgpu: Vulkan, Metal or DX12, never GL.
 //!
 //! - [`adapter`]: which adapters there are, what they can do, which one is taken.
+//! - [`arithmetic`]: the scalar of a device, and how it rounds.
 //! - [`device`]: an open device: error scopes, waiting with a limit, device lost.
 //! - [`kernel`]: a kernel compiled for a device and a scalar.
 //! - [`strict`]: a kernel in which every operation is rounded by itself.
@@ -8,6 +9,7 @@
 //! - [`chunks`]: a whole sweep chunk by chunk; a lost device is opened again once.
 //! - [`linear`]: the eigenvalue analysis of a sweep.
 //! - [`response`]: the time integration of a sweep.
+//! - [`records`]: a GPU as an engine: both of them, one after the other.
 
 pub mod adapter;
 pub mod arithmetic;

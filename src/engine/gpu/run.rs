@@ -12,8 +12,8 @@ use crate::engine::kernel::source::{
 };
 use crate::model::status::Status;
 
-/// Most loop iterations of an invocation in one dispatch: a software driver silently stops at 65 535, the
-/// iterations of all loops together; on hardware only the loop over the steps counts.
+/// Most loop iterations of an invocation in one dispatch. A software driver silently stops after 65 535 iterations of all
+/// loops together; on hardware only the loop over the steps counts.
 pub const MAX_LOOPS: u32 = 60_000;
 
 /// A dispatch aims at this time: long enough to cost nothing, short enough for every watchdog and for Ctrl-C.
@@ -32,7 +32,7 @@ pub struct Drive<'a> {
     pub offset: usize,
     /// Kernel-specific words of the settings.
     pub settings: [u32; SETTING_WORDS],
-    /// Steps of a dispatch, fixed; `None`: adapted to its time.
+    /// Steps of a dispatch; `None` where they adapt to the time that it takes.
     pub steps: Option<u32>,
     /// Most dispatches; more mean that the kernel does not come to an end.
     pub most_dispatches: u64,

@@ -73,10 +73,10 @@ pub fn lowest<S: Real>(b: &Series<S>, degree: usize, from: usize, sample: S, cur
 /// The time of the first downward crossing of `Σ g_k τ^k` in `(0, step]`, 0 when it is negative from the
 /// start, [`NEVER`] when it stays positive.
 ///
-/// With `from_zero` it begins at zero by construction, and its first coefficients, which physics makes
-/// non-negative, count as zero when they are negative by no more than `rounding`, an absolute bound. A
-/// function below zero by no more than `near` begins there too, and falls at once if its slope is negative;
-/// one above zero has its crossing ahead, however near.
+/// With `from_zero` the function begins at zero by construction. Physics makes its first coefficients non-negative, so they
+/// count as zero when they are negative by no more than `rounding`, an absolute bound. A function below zero by no more than
+/// `near` begins there too, and falls at once if its slope is negative. For a function above zero the crossing lies ahead,
+/// however near.
 #[must_use]
 pub fn first_crossing<S: Real>(
     g: &Series<S>,

@@ -38,7 +38,7 @@ pub const LEAST_REST: f64 = 8.0;
 pub struct Lane<S> {
     /// Body, contact and status.
     pub state: State<S>,
-    /// What is left of the present step, as a fraction of it.
+    /// The rest of the present step, as a fraction of the step.
     pub rest: S,
     /// Observables.
     pub sums: Sums<S>,

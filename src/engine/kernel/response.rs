@@ -40,7 +40,7 @@ pub fn kernel_for(pieces: usize) -> Option<&'static (Kernel, usize)> {
     KERNELS.iter().find(|(_, holds)| pieces <= *holds)
 }
 
-/// What is carried of a lane between dispatches.
+/// The state of a lane that is kept between dispatches.
 const STATE: &[Field] = &[
     Field::many("body", 6),
     Field::one("rest"),
@@ -79,7 +79,7 @@ const FLAGS: &[Field] = &[
     Field::many("snapshot", 3),
 ];
 
-/// What is the same for all instances.
+/// The settings that all instances share.
 const SETTINGS: &[Field] = &[Field::one("tolerance")];
 
 /// The response kernel for laws of one piece.

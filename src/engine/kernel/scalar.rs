@@ -35,7 +35,7 @@ pub trait Real:
 
     /// The nearest number: the only narrowing there is.
     fn from_f64(value: f64) -> Self;
-    /// The same number.
+    /// This number in f64, exactly.
     fn to_f64(self) -> f64;
     /// The square root.
     #[must_use]

@@ -37,8 +37,8 @@ pub struct Piece<S> {
     pub slope: S,
     /// Decay rate of `exponential` and `rational`; the longest step of slip on a straight piece.
     pub rate: S,
-    /// μ of this piece at the initial belt velocity less μ of the equilibrium; of `exponential`: its
-    /// height there.
+    /// μ of this piece at the initial belt velocity less μ of the equilibrium. For `exponential` it is the height of the
+    /// exponential at that velocity.
     pub offset: S,
     /// Upper end in `|v|`; [`NO_KINK`] for the last piece.
     pub kink: S,
@@ -164,7 +164,7 @@ pub fn words(model: &Scaled, v0: f64, start: [f64; 4], segments: &Segments, piec
     words
 }
 
-/// Those before the segments.
+/// The words of a scene before its segments.
 fn head(model: &Scaled, v0: f64, start: [f64; 4]) -> [f64; SCENE_WORDS] {
     let (mu0, n0) = (model.mu0, model.n0);
     let mu_s = model.law.mu_stick;
@@ -205,7 +205,7 @@ fn head(model: &Scaled, v0: f64, start: [f64; 4]) -> [f64; SCENE_WORDS] {
     ]
 }
 
-/// Those of a piece of the law, on which a step may turn so far.
+/// The words of a piece of the law; `turns` says how far a mode may turn within a step.
 fn piece(model: &Scaled, v0: f64, index: usize, turns: &Turns) -> [f64; PIECE_WORDS] {
     let kink = model.law.kinks.get(index).copied().unwrap_or(NO_KINK);
     match model.law.pieces[index] {

@@ -19,7 +19,7 @@ const ARCTAN: [f64; 9] = [
     0.002_866_225_7,
 ];
 
-/// `arccos x / √(1 − x)` on [0, 1], off by 7e-5 at most: the same, 4.4.45.
+/// `arccos x / √(1 − x)` on [0, 1], off by 7e-5 at most: Abramowitz and Stegun, 4.4.45.
 const ARCCOS: [f64; 4] = [1.570_728_8, -0.212_114_4, 0.074_261_0, -0.018_729_3];
 
 /// `Σ c_k x^k` of constants.

@@ -32,7 +32,7 @@ pub const LOWER: usize = 4;
 /// Upper end in `|v|`.
 pub const UPPER: usize = 5;
 
-/// [`Block::many`] of a law of one piece.
+/// The value of [`Block::many`] for a law of one piece.
 pub const ONE_PIECE: f64 = 0.5;
 
 /// What a lane that rests has left, time, steps and events: more than it comes to.
@@ -75,7 +75,7 @@ pub struct Block<S: Simd, T: Scalar<S>, const K: usize> {
     pub many: Vector<S, T, K>,
     /// Steps of the present stretch.
     pub steps: Vector<S, T, K>,
-    /// The most of them, see [`crate::engine::lanes::count`].
+    /// The most steps, see [`crate::engine::lanes::count`].
     pub most_steps: Vector<S, T, K>,
     /// Events of the present stretch.
     pub counted: Vector<S, T, K>,

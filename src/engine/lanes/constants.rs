@@ -54,10 +54,10 @@ pub const IMPACT_FRICTION: usize = 48;
 pub const SWING: usize = 49;
 /// How far a step of a curved law may go, see [`crate::engine::method::pace::Layer::inverses`].
 pub const LAYER: usize = 54;
-/// How many there are.
+/// The number of constants of an instance.
 pub const CONSTANTS: usize = 56;
 
-/// Those that steps in closed form need.
+/// The constants that steps in closed form need.
 pub const SWING_WORDS: [usize; 12] =
     [R, R + 3, N0, T0, MU0, CONE, CONE + 1, SWING, SWING + 1, SWING + 2, SWING + 3, SWING + 4];
 

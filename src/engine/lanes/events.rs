@@ -17,8 +17,7 @@ use crate::engine::lanes::vector::{Scalar, Vector};
 /// The span of a function that may rise as far as it will: no number of a lane comes near.
 const NO_SPAN: f64 = 1e30;
 
-/// Where in the step each lane's first event is, 1 when there is none, and the event function it belongs to,
-/// 0 for none.
+/// Where each lane's first event is in the step (1 when there is none), and which event function it belongs to (0 for none).
 ///
 /// Of two event functions that fall in one step the one with the earlier estimate comes first.
 #[inline(always)]

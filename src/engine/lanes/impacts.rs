@@ -1,4 +1,4 @@
-//! What an impact does, in all lanes at once, for laws of at most two straight pieces.
+//! Impacts in all lanes at once, for laws of at most two straight pieces.
 //!
 //! The rules are those of [`crate::engine::kernel::contact`] and [`crate::model::contact`].
 

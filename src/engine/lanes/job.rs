@@ -46,7 +46,7 @@ const FIRST_STRETCH: f64 = 32.0;
 pub enum Part {
     /// Up to the first event: growth, frequency and phase are measured.
     Growth,
-    /// Some periods more, which show what the instance does: see [`Job::habit`].
+    /// Some further periods, which show what the instance does: see [`Job::habit`].
     Approach,
     /// The rest of the time before the window.
     Settle,
@@ -66,9 +66,9 @@ impl Part {
 pub struct Job<T> {
     /// The instance ready to be integrated.
     pub scene: Scene,
-    /// The same as the kernel's twin has it.
+    /// The instance in the form that the kernel's twin takes.
     pub words: Words<T>,
-    /// The same as the steps have it.
+    /// The instance as the constants that the steps in vector registers take.
     pub constants: [T; CONSTANTS],
     /// Body, contact and status.
     pub state: State<T>,
@@ -225,12 +225,13 @@ impl<T: Real> Job<T> {
         TAU * (self.seen.crossings - 1) as f64 / (self.seen.last - self.seen.first)
     }
 
-    /// The same as far as it is known on the way.
+    /// That angular frequency while the window is still open: from its crossings so far, or guessed; `None` before there is
+    /// a guess.
     fn known_omega(&self) -> Option<f64> {
         if self.seen.crossings > 2 { Some(self.omega()) } else { self.guess }
     }
 
-    /// The same, or `ω0`.
+    /// That angular frequency as far as it is known now, or else `ω0`, which is 1 in scaled time.
     #[must_use]
     pub fn guessed_omega(&self) -> f64 {
         self.known_omega().unwrap_or(1.0)

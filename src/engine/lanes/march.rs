@@ -43,7 +43,7 @@ pub struct Settings<'a> {
     pub tolerance: f64,
     /// Most steps of an instance, and the instruction set.
     pub terms: Terms,
-    /// Set to stop early; what is under way is then of no use.
+    /// Set to stop early; results that are under way are lost then.
     pub cancel: &'a AtomicBool,
 }
 

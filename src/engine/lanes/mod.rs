@@ -3,6 +3,17 @@
 //! The method is that of the kernels: Taylor series over the step, events located inside it. Lanes are
 //! asynchronous: each has its own instance, time, step and contact state, and none waits for another. A run
 //! is cut into parts, each stepped by code that does only what its part needs.
+//!
+//! | question | where |
+//! |---|---|
+//! | a sweep on all cores; some instances of it; those that need double precision | [`records`], [`outcomes`], [`again`] |
+//! | one instance between passes | [`job`] |
+//! | one part of the run: which lanes, step by step | [`march`], [`pass`](mod@pass), [`block`], [`count`] |
+//! | numbers in lanes | [`vector`], [`polynomial`], [`angle`], [`constants`] |
+//! | a step: its series, its length | [`expand`], [`reach`] |
+//! | its first event, and what that does | [`functions`], [`function`], [`root`], [`events`], [`carry`], [`transitions`], [`impacts`] |
+//! | what is seen on the way | [`observe`], [`crossings`], [`spectrum`], [`stretches`] |
+//! | the single mass in closed form | [`swing`], [`swing_step`], [`swing_sums`], [`swing_cycle`], [`cycle`] |
 
 #![expect(
     clippy::inline_always,

@@ -262,9 +262,9 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
     }
 }
 
-/// What a velocity `Σ v_k t^(k − 1)`, whose coefficients carry their degree, has changed by since the start of the step. One
-/// that is carried on by it takes no part in the scaling by a step and back, whose rounding, the same in every step of one
-/// length, would let it grow or decay.
+/// The change of a velocity `Σ v_k t^(k − 1)`, whose coefficients carry their degree, since the start of the step. A
+/// velocity that is carried on by its change is not scaled by a step and back. The rounding of that scaling is the same in
+/// every step of one length and would let a motion grow or decay.
 #[inline(always)]
 pub fn change<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
     v: &[Vector<S, T, K>; N],

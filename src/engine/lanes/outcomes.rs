@@ -20,7 +20,7 @@ pub fn outcomes<T: Lanes>(instances: &[Instance], plan: &Plan, cancel: &AtomicBo
     outcomes_on::<T>(instances, plan, Terms::default(), cancel)
 }
 
-/// The same on other terms.
+/// The transients of some instances, integrated on other terms than the default; `None` when `cancel` is set on the way.
 #[must_use]
 pub fn outcomes_on<T: Lanes>(
     instances: &[Instance],

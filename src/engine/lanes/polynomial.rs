@@ -4,7 +4,8 @@ use pulp::Simd;
 
 use crate::engine::lanes::vector::{Scalar, Vector};
 
-/// `Σ b_k t^(k − first)` from a degree on, even and odd ones at a time: sooner there than by a chain.
+/// `Σ b_k t^(k − first)` over all degrees from `first` on. Even and odd ones are summed side by side, which takes less time
+/// than one chain of all.
 #[inline(always)]
 pub fn value_soon<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
     b: &[Vector<S, T, K>; N],
@@ -14,7 +15,7 @@ pub fn value_soon<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
     soon_to(b, first, N - 1, t)
 }
 
-/// The same up to a degree above the first.
+/// `Σ b_k t^(k − first)` over the degrees from `first` to `degree`, which is above it; see [`value_soon`].
 #[inline(always)]
 pub fn soon_to<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
     b: &[Vector<S, T, K>; N],

@@ -24,7 +24,7 @@ use crate::engine::record::Record;
 use crate::engine::reference::records::linear;
 use crate::model::instance::Instance;
 use crate::model::kind::InstabilityType;
-use crate::model::linear as eigenvalues;
+use crate::model::linear::{prepare, solve};
 use crate::model::status::Status;
 
 /// Starts that are taken at a time of instances with several.
@@ -152,9 +152,9 @@ pub fn batch(
     let (mut records, kinds): (Vec<Record>, Vec<Option<InstabilityType>>) = instances
         .iter()
         .map(|instance| {
-            let prepared = eigenvalues::prepare(instance);
+            let prepared = prepare(instance);
             let mut record = begun(instance, &prepared);
-            let (kind, linear) = eigenvalues::solve(&prepared);
+            let (kind, linear) = solve(&prepared);
             if spec.linear() {
                 (record.kind, record.linear) = (kind, linear);
             }

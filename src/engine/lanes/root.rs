@@ -37,7 +37,8 @@ fn within<S: Simd, T: Scalar<S>, const K: usize, const SPAN: bool>(
     if SPAN { value.min(span - value) } else { value }
 }
 
-/// A walk over the samples of a function from the last to the first: what is kept last is the first crossing.
+/// A walk over the samples of a function from the last to the first, so that the crossing that it keeps in the end is the
+/// first.
 struct Walk<S: Simd, T: Scalar<S>, const K: usize> {
     /// The present sample, and the function there.
     t: Vector<S, T, K>,
@@ -50,8 +51,8 @@ struct Walk<S: Simd, T: Scalar<S>, const K: usize> {
     at_high: Vector<S, T, K>,
     at_low: Vector<S, T, K>,
     behind: Vector<S, T, K>,
-    /// The largest second difference less the way to the nearer end over [`DIP`], up to the first crossing: if negative the
-    /// function dips out nowhere between samples; and the same but for the first sample.
+    /// The largest second difference less the way to the nearer end over [`DIP`], up to the first crossing. If it is
+    /// negative, the function dips out nowhere between samples. Besides that, the same number without the first sample.
     depth: Vector<S, T, K>,
     depth_before: Vector<S, T, K>,
     /// How much of the present sample is in that.

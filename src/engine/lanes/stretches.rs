@@ -22,9 +22,9 @@ struct Stretch {
 /// The stretches of a window up to the last crossing.
 #[derive(Clone, Debug, Default)]
 pub struct Stretches {
-    /// Those that are summed to their ends.
+    /// Stretches that are summed to their ends.
     whole: Vec<Stretch>,
-    /// That of the last crossing, up to it, and how many come before it.
+    /// The stretch with the last crossing, summed up to it, and how many stretches come before it.
     last: Option<(usize, Stretch)>,
     /// Whether there were more than are kept.
     overflown: bool,

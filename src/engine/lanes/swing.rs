@@ -128,8 +128,8 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Swing<S, T, K> {
         (state, decayed)
     }
 
-    /// The next event, at most `left` ahead; without one the end of the step, which is that of `left` or where the
-    /// sliding speed is least, whatever is sooner. Lanes that are `short` take no longer steps than that.
+    /// The next event, at most `left` ahead. Without one it is the end of the step: the end of `left` or the place where the
+    /// sliding speed is least, whichever comes first. Lanes that are `short` take no longer steps than that.
     #[inline(always)]
     pub fn reach(&self, b: &Block<S, T, K>, short: Mask<S, T, K>) -> Reached<S, T, K> {
         let (zero, one) = (b.left.like(0.0), b.left.like(1.0));

@@ -1,6 +1,6 @@
-//! The stick-slip cycle of the single mass on a belt of one velocity, of which only one is followed in a stretch: whatever came
-//! before, stick ends in the same state but for rounding, at the limit of friction and with the velocity of the belt. From there
-//! on the motion repeats itself, and whole cycles up to the end of the stretch are added at once.
+//! The stick-slip cycle of the single mass on a belt of one velocity. Only one cycle is followed in a stretch: whatever came
+//! before, stick ends in the same state but for rounding, at the limit of friction and with the velocity of the belt. From
+//! there on the motion repeats itself, and whole cycles up to the end of the stretch are added at once.
 //!
 //! Slip ends `2 μ_d N` inside the limit of stick. Without any dynamic friction and damping it ends on it, and rounding decides every
 //! time whether the body sticks or slips back: what slips back tells nothing of the next cycle.
@@ -12,7 +12,7 @@ use crate::engine::lanes::block::Block;
 use crate::engine::lanes::observe::Sums;
 use crate::engine::lanes::vector::{Mask, Scalar};
 
-/// A slip from the end of stick turns by more than half a turn of an angular frequency of about 1; what is shorter is chatter.
+/// A slip from the end of stick takes longer than half a turn at an angular frequency of about 1. A shorter one is chatter.
 const SHORTEST: f64 = 1.0;
 
 impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {

@@ -1,6 +1,6 @@
-//! What most events do, in all lanes at once: rest, stick, slip, kinks, lift-off and impacts.
+//! The effects of most events in all lanes at once: rest, stick, slip, kinks, lift-off and impacts.
 //!
-//! The rules are those of [`crate::engine::kernel::contact`]; what is rare is left to it, lane by lane.
+//! The rules are those of [`crate::engine::kernel::contact`]. Rare events are left to it, lane by lane.
 
 use std::ops::Not;
 
@@ -108,13 +108,13 @@ pub fn transitions<S: Simd, T: Scalar<S>, const K: usize, const LAW: bool, const
 
 /// Lanes that fall onto the belt.
 struct Landing<S: Simd, T: Scalar<S>, const K: usize> {
-    /// They rest on it.
+    /// Lanes that come to rest on it.
     at_rest: Mask<S, T, K>,
-    /// They slide.
+    /// Lanes that slide.
     moving: Mask<S, T, K>,
-    /// Those of them that the belt overtakes.
+    /// Lanes that slide and that the belt overtakes.
     forward: Mask<S, T, K>,
-    /// They fly on.
+    /// Lanes that fly on.
     rebounds: Mask<S, T, K>,
     /// A body that lands again and again without time between is held: the force is zero within rounding.
     held: Mask<S, T, K>,

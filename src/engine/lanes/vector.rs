@@ -21,7 +21,7 @@ pub trait Scalar<S: Simd>: Real {
     /// Lanes of a register.
     const LANES: usize;
 
-    /// The same value in every lane.
+    /// A register with `value` in every lane.
     fn splat(simd: S, value: Self) -> Self::Register;
     /// `a + b`.
     fn add(simd: S, a: Self::Register, b: Self::Register) -> Self::Register;
@@ -219,19 +219,19 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Vector<S, T, K> {
     /// Lanes.
     pub const LANES: usize = T::LANES * K;
 
-    /// The same value in every lane.
+    /// A vector with `value` in every lane.
     #[inline(always)]
     pub fn splat(simd: S, value: T) -> Self {
         Vector { simd, registers: [T::splat(simd, value); K] }
     }
 
-    /// A constant in every lane.
+    /// A vector with `value` in every lane, rounded to the scalar.
     #[inline(always)]
     pub fn constant(simd: S, value: f64) -> Self {
         Vector::splat(simd, T::from_f64(value))
     }
 
-    /// The same value as `self` has in no lane: `value` in every one.
+    /// A vector with `value` in every lane, for the instruction set that `self` is made for.
     #[inline(always)]
     #[must_use]
     pub fn like(self, value: f64) -> Self {

@@ -4,7 +4,6 @@
 //! - [`rk4`]: the classical Runge–Kutta step with dense output, for comparison.
 //! - [`fixed`]: events seen at the ends of steps only, for comparison.
 //! - [`pace`]: the longest step that resolves every mode of a contact state.
-//! - [`quartic`]: the eigenvalues of two degrees of freedom in closed form.
 //! - [`roots`]: the first crossing of a polynomial event function inside a step.
 
 pub mod fixed;

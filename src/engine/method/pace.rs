@@ -12,25 +12,38 @@ pub const STABLE: f64 = 1.8;
 /// what it does.
 pub const SEEN: f64 = 2.35;
 
-/// In contact, which may last for the whole of a run, the last term of a mode's own series may be this part of it: what
-/// rings unseen is still there at the end. A step takes less from it, a tenth of that at even orders.
+/// In contact, the last term of a mode's own series may be this part of the mode. Contact may last for the whole run, and
+/// what rings unseen is still there at its end. A step takes less than the last term from the mode: a tenth of it at even
+/// orders.
 pub const KEPT: f64 = 5e-7;
 
-/// The same at order 13, whose steps take half of it.
+/// [`KEPT`] at order 13, whose steps take half of the last term from the mode.
 const KEPT_DAMPED: f64 = 1e-7;
 
-/// Where the tolerance is coarse, it may be this part of that, for modes that do not ring more often within a run than the
-/// motion: up to [`SLOW`] times `ω0`.
+/// Where the tolerance is coarse, the last term may be this part of the tolerance instead. That holds for modes that do not
+/// ring more often within a run than the motion does: up to [`SLOW`] times `ω0`.
 const KEPT_OF_TOLERANCE: f64 = 2.5e-3;
 
-/// The same at order 13.
+/// [`KEPT_OF_TOLERANCE`] at order 13.
 const KEPT_OF_TOLERANCE_DAMPED: f64 = 1e-2;
 
-/// See [`KEPT_OF_TOLERANCE`].
+/// The fastest mode to which [`KEPT_OF_TOLERANCE`] applies, by `ω0`.
 const SLOW: f64 = 2.0;
 
-/// How far a mode may turn within a step, radians: not by more than [`STABLE`] or [`SEEN`], nor so far that the last term
-/// of its own series, `(|λ| h)^n/n!`, is above a tolerance (in contact: nor above [`KEPT`]).
+/// A mode that holds slip on a piece of the law may be raised to the tolerance of a position; for a velocity that is the
+/// tolerance times the rate of the mode. A piece that is this many times as wide does not notice. Of 180 jagged tables one
+/// does at 400 times.
+const RAISED: f64 = 2000.0;
+
+/// The normal force and the inertia of slip change on the way; the rate of a piece may rise with them by this factor.
+pub const HARDER: f64 = 2.0;
+
+/// Of a piece that drives the motion away only this part of its rate counts. The motion itself shows that it is driven, and
+/// the truncation of its series shortens the step. But a series over ten thousand times the right step tells nothing at all.
+const SHOWN: f64 = 1.0 / 16.0;
+
+/// How far a mode may turn within a step, radians. The bounds are [`STABLE`] or [`SEEN`], and the last term of the mode's
+/// own series, `(|λ| h)^n/n!`: it stays below a tolerance, and in contact below [`KEPT`] as well.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Turns {
     tolerance: f64,
@@ -46,7 +59,8 @@ pub struct Turns {
 pub struct Layer {
     /// Towards the pole of a rational law, a part of the way there: the terms of the highest degree are the tolerance.
     pole: f64,
-    /// Of what an exponential decays by on the way, and of the growth or decay that the slope of any law makes.
+    /// The largest exponent of a step: by which an exponential decays on the way, or by which the slope of any law lets the
+    /// motion grow or decay.
     turn: f64,
 }
 
@@ -60,7 +74,7 @@ impl Layer {
         rate * (relative / (1.0 + rate * speed) * across + sloped * along)
     }
 
-    /// What both are multiplied by.
+    /// The factors of both in [`Layer::pace`].
     #[must_use]
     pub fn inverses(&self, model: &Scaled) -> [f64; 2] {
         let across =
@@ -70,7 +84,7 @@ impl Layer {
 }
 
 impl Turns {
-    /// Of series of an order; an infinite tolerance asks for steps of fixed length, which end where they end.
+    /// The bounds for series of an order. An infinite tolerance asks for steps of fixed length, which nothing here shortens.
     #[must_use]
     pub fn new(order: usize, tolerance: f64) -> Turns {
         if !tolerance.is_finite() {
@@ -138,28 +152,18 @@ fn damps(order: usize) -> bool {
     order % 4 == 1
 }
 
-/// What is left of a mode that holds slip on a piece of the law may be raised to the tolerance of a position, which is that
-/// times its rate of a velocity. Pieces this many times as wide do not notice: of 180 jagged tables one does at 400.
-const RAISED: f64 = 2000.0;
-
 /// Whether steps are so short that a scalar of that rounding stands still: `x + ẍ h²` is `x`.
 #[must_use]
 pub fn stands_still(longest: f64, epsilon: f64) -> bool {
     longest * longest < epsilon
 }
 
-/// The normal force and the inertia of slip change on the way; the rate of a piece may rise with them by this factor.
-pub const HARDER: f64 = 2.0;
-
-/// The part of its rate that counts of a piece that drives the motion away. The motion shows it, and the truncation of its
-/// series shortens the step; a series over ten thousand times of such a step only tells nothing at all.
-const SHOWN: f64 = 1.0 / 16.0;
-
-/// How fast slip is on a piece of the law, beyond what [`Fastest`] counts; 0 where that is enough.
+/// How fast the fastest mode of slip is on a piece of the law, where it is faster than [`Fastest`] counts; 0 where it is
+/// not.
 ///
-/// Friction that rises more steeply than at the equilibrium holds the motion where it is. Such a mode dies out within a
-/// step that is too long for it, but in a series of that length it does not: what is left of it is raised, and the motion
-/// no longer ends at the kinks of the piece.
+/// Friction that rises more steeply than at the equilibrium holds the motion where it is. Such a mode dies out within a step
+/// that is too long for it, but a series of that length raises the remains of the mode, and the motion no longer ends at the
+/// kinks of the piece.
 #[must_use]
 pub fn fastest_beyond(model: &Scaled, piece: usize) -> f64 {
     let law = &model.law;

@@ -23,8 +23,8 @@ const ORDER: usize = 7;
 /// parameters.
 pub const IN_FLIGHT: f64 = 0.5;
 
-/// Beyond this many radians of a mode, or this many of its time constants, a step makes it grow instead of ring down:
-/// 2.828 without damping, 2.785 where it does not oscillate.
+/// A step over more than this many radians of a mode, or this many of its time constants, makes the mode grow instead of
+/// ring down. The exact bounds are 2.828 without damping, and 2.785 where the mode does not oscillate.
 pub const STABLE: f64 = 2.78;
 
 /// The accelerations of `(x2, y2, y1)` on a contact state.

@@ -1,4 +1,9 @@
-//! The f64 reference, one instance at a time: the way in is [`records`](mod@records), the arithmetic is [`integrate`].
+//! The f64 reference, one instance at a time.
+//!
+//! - [`records`](mod@records): a sweep on all cores.
+//! - [`respond`](mod@respond): one instance: start, settle, measure, outcome.
+//! - [`integrate`]: smooth steps between located events.
+//! - [`observe`]: sums and extremes of one trajectory.
 
 pub mod integrate;
 pub mod observe;

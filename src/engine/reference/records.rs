@@ -130,7 +130,7 @@ pub fn record_with(spec: &dyn Instances, index: usize, plan: &Plan) -> Record {
     record_until(spec, index, plan, &AtomicBool::new(false))
 }
 
-/// The same, or none soon after `cancel` is set.
+/// Computes instance `index` of a sweep by a plan. Soon after `cancel` is set it gives up, with [`Status::NotComputed`].
 fn record_until(spec: &dyn Instances, index: usize, plan: &Plan, cancel: &AtomicBool) -> Record {
     let instance = spec.instance(index);
     let prepared = prepare(&instance);

@@ -57,7 +57,7 @@ pub fn respond(instance: &Instance, plan: &Plan) -> Outcome {
     respond_until(instance, plan, &AtomicBool::new(false))
 }
 
-/// The same, which ends with [`Status::NotComputed`] soon after `cancel` is set.
+/// Integrates one instance. Soon after `cancel` is set it gives up, with [`Status::NotComputed`].
 #[must_use]
 pub fn respond_until(instance: &Instance, plan: &Plan, cancel: &AtomicBool) -> Outcome {
     match Scene::planned(instance, plan) {

@@ -28,8 +28,8 @@ pub(crate) fn gap_across(ticks: &[Tick], width: f64, [least, most]: [f64; 2]) ->
     if wanted > most { least } else { wanted.max(least) }
 }
 
-/// What is left between the words of the last tick of a panel and those of the first of the next, points; less than 0
-/// where they touch.
+/// Room between the words of the last tick of a panel and those of the first tick of the next, points. It is negative where
+/// they would overlap.
 fn room_between(ticks: &[Tick], width: f64, gap: f64) -> f64 {
     let [first, .., last] = ticks else { return 0.0 };
     let words = [first, last].map(|tick| 0.5 * tick.label.width(TICK_SIZE, false)).iter().sum::<f64>();
@@ -39,7 +39,7 @@ fn room_between(ticks: &[Tick], width: f64, gap: f64) -> f64 {
 /// The ticks of a panel of this width with another one at a gap beside it: without the words of the last where they would
 /// touch its first. Two with words remain where any two have room: one is no scale.
 pub(crate) fn parted(axis: &PictureAxis, width: f64, gap: f64) -> Vec<Tick> {
-    /// So many ticks are tried.
+    /// The numbers of ticks that are tried.
     const TRIED: std::ops::RangeInclusive<usize> = 3..=8;
     let mut ticks = axis.ticks(width, Direction::Horizontal, TICK_SIZE);
     if room_between(&ticks, width, gap) >= -SLACK {
@@ -61,7 +61,7 @@ pub(crate) fn parted(axis: &PictureAxis, width: f64, gap: f64) -> Vec<Tick> {
     ticks
 }
 
-/// What is left between the words of two ticks of a panel, points.
+/// Room between the words of two neighbouring ticks of a panel, points.
 fn room_within(pair: &[Tick], width: f64) -> f64 {
     let [first, last] = pair else { return 0.0 };
     let words = [first, last].map(|tick| 0.5 * tick.label.width(TICK_SIZE, false)).iter().sum::<f64>();

@@ -2,14 +2,14 @@
 
 use crate::results::figure::beside::{gap_across, parted};
 use crate::results::figure::curve_block::is_curve;
+use crate::results::figure::field::Field;
 use crate::results::figure::legend::Legend;
 use crate::results::figure::look::Content;
 use crate::results::figure::palette::Colouring;
 use crate::results::figure::panels::Panels;
 use crate::results::figure::picture_axis::Direction;
-use crate::results::figure::quantity::Field;
 use crate::results::figure::sides::Sides;
-use crate::results::figure::{cells, curve_block, quantity};
+use crate::results::figure::{cells, colour_bar, curve_block};
 use crate::sweep::grid::Grid;
 use crate::sweep::label::Tally;
 use crate::sweep::spec::Starts;
@@ -56,7 +56,8 @@ pub(crate) struct Block<'a> {
     pub(crate) grid: &'a Grid,
     /// The counts of all instances, also of those that no panel shows.
     pub(crate) tally: &'a Tally,
-    /// Those that were computed, where the others have a label all the same.
+    /// The counts of computed instances alone; `None` where every instance was computed. In a refined map the others have
+    /// labels, too.
     pub(crate) computed: Option<&'a Tally>,
     pub(crate) panels: &'a Panels,
     pub(crate) content: Content<'a>,
@@ -67,7 +68,7 @@ pub(crate) struct Block<'a> {
     pub(crate) layout: Layout,
     /// The number of the letter before the heading, when there are several blocks.
     pub(crate) letter: Option<usize>,
-    /// What stands left of panels at least, points: those of curves and strips that stand one below the other begin together.
+    /// The least room left of the panels, points. Panels of curves and strips that stand one below the other begin together.
     pub(crate) least_left: f64,
     /// Lines of headings beyond the first, of the one in its row that has most.
     pub(crate) more_lines: usize,
@@ -167,7 +168,7 @@ impl Block<'_> {
         }
         bottom += 9.0;
         if let Some(field) = field {
-            return bottom + quantity::bar(&field, panels, svg, [x + left, bottom], width - left) - y;
+            return bottom + colour_bar::draw(&field, panels, svg, [x + left, bottom], width - left) - y;
         }
         let (colouring, hatched) = match self.content {
             Content::Classes { colouring, hatched } => (colouring, hatched),
@@ -182,7 +183,7 @@ impl Block<'_> {
         bottom + legend.draw(Some(svg), x + indent, bottom, width - indent) - y
     }
 
-    /// What stands above the panels, in lines of a block of this width; a curve has its words beside it.
+    /// The heading above the panels, as lines for a block of this width. A curve has its words beside it and no heading.
     fn heading(&self, width: f64) -> Vec<Text> {
         let room = width - self.letter.map_or(0.0, letters::width);
         let lines = |words: &str| Text::from(words).wrapped(room, LABEL_SIZE);
@@ -205,7 +206,7 @@ impl Block<'_> {
         room.clamp(self.layout.flattest.max(FLATTEST_CURVE) * curve_block::HEIGHT, curve_block::HEIGHT)
     }
 
-    /// What a block of one panel without a picture takes left of it, points.
+    /// The room that a block of one panel without a picture takes left of it, points.
     pub(crate) fn left(&self) -> f64 {
         if is_curve(self.content, self.panels) {
             curve_block::left(self.content, self.panels, self.curve_height())

@@ -1,5 +1,6 @@
 //! The content of a panel: cells or points in the colour of their class, with hatching and border lines.
 
+use crate::results::figure::field::Field;
 use crate::results::figure::fills::{
     FAILED_FILL, LIMIT, hatch, is_stable, not_computed, unsettled, unsettled_fill,
 };
@@ -7,7 +8,6 @@ use crate::results::figure::look::Content;
 use crate::results::figure::outline::{corner, shape, steps};
 use crate::results::figure::palette::Colouring;
 use crate::results::figure::panels::{Panel, Panels};
-use crate::results::figure::quantity::Field;
 use crate::results::figure::sides::Sides;
 use crate::results::figure::{isolines, points, quantity};
 use crate::sweep::grid::Grid;

@@ -1,9 +1,9 @@
 //! A quantity of a sweep with one axis of numbers: a curve along it, as a block of a map's figure.
 
+use crate::results::figure::field::Field;
 use crate::results::figure::look::Content;
 use crate::results::figure::panels::Panels;
 use crate::results::figure::picture_axis::Direction;
-use crate::results::figure::quantity::Field;
 use crate::results::figure::starts_block;
 use squealmap_figure::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room, y_ticks};
 use squealmap_figure::jumps::stepped;
@@ -61,7 +61,7 @@ fn ticks(field: &Field<'_>, scale: &Scale, height: f64) -> Vec<Tick> {
     quarters.unwrap_or_else(|| y_ticks(scale, height))
 }
 
-/// What stands left of a panel of this height, points.
+/// The room for words left of a panel of this height, points.
 pub(crate) fn left(content: Content<'_>, panels: &Panels, height: f64) -> f64 {
     Field::of(content, panels).map_or(0.0, |field| {
         let (_, scale) = curve(&field, panels);
@@ -69,8 +69,8 @@ pub(crate) fn left(content: Content<'_>, panels: &Panels, height: f64) -> f64 {
     })
 }
 
-/// Draws it with the upper left corner at `[x, y]`, in a width, with a panel of this height and `left` points before it;
-/// returns the height of the block.
+/// Draws the block with its upper left corner at `[x, y]`, in a given width, with a panel of a given height that stands
+/// `left` points from the left. Returns the height of the block.
 pub(crate) fn draw(
     svg: &mut Svg,
     panels: &Panels,

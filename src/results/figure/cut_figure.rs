@@ -2,11 +2,11 @@
 
 use crate::results::cut::{Curve, Cut, CutPanel, MOST_CURVES};
 use crate::results::figure::beside::{most_panels, parted};
+use crate::results::figure::field::has_sign;
 use crate::results::figure::heading::Heading;
 use crate::results::figure::look::Look;
 use crate::results::figure::panels::{selection, setting};
 use crate::results::figure::picture_axis::{Direction, PictureAxis};
-use crate::results::figure::quantity::has_sign;
 use crate::results::figure::words;
 use crate::results::number::NumberColumn;
 use crate::results::trust;
@@ -57,7 +57,8 @@ pub fn cut_svg(map: &Map, cut: &Cut, quantities: &[&NumberColumn], look: &Look<'
     look.fitted(name, panels, |part| draw(map, cut, quantities, look, part * HEIGHT))
 }
 
-/// Of what a cut has more than its figure shows: how many are shown, of how many, and what they are. The table has all.
+/// The panels or curves of which a cut has more than its figure shows: how many are shown, of how many, and what they are
+/// called. The table has all.
 #[must_use]
 pub fn left_out(cut: &Cut, look: &Look<'_>) -> Vec<(usize, usize, &'static str)> {
     let curves = cut.panels.first().map_or(0, |panel| panel.curves.len());
@@ -164,7 +165,8 @@ fn points(column: &NumberColumn, curve: &Curve, x: &Scale) -> Vec<(f64, f64)> {
     curve.x.iter().zip(&curve.instances).map(of).collect()
 }
 
-/// The same as they are drawn: those of angles go on at the other side of ±180°, and jumps between classes are steps.
+/// The points of a curve as they are drawn: angles go on at the other side of ±180°, and a jump from one class to another is
+/// a step.
 fn drawn(
     map: &Map,
     column: &NumberColumn,
@@ -179,7 +181,7 @@ fn drawn(
     stepped(points, scale.value(1.0) - scale.value(0.0), |place| class(place) == class(place + 1))
 }
 
-/// What an instance is labelled, of the start that a column is of.
+/// The class of an instance, from the start that a column belongs to.
 fn class(map: &Map, column: &NumberColumn, instance: usize) -> Option<Label> {
     let record = map.records.get(instance)?;
     let record = if trust::is_of_large_start(column) { record.large()? } else { record };
@@ -206,7 +208,7 @@ fn along(cut: &Cut) -> Scale {
     }
 }
 
-/// Which curve is which; returns the height it takes.
+/// Draws the legend, which says which curve is which. Returns its height.
 fn legend(
     svg: &mut Svg,
     panel: &CutPanel,

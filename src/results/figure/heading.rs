@@ -1,4 +1,5 @@
-//! What stands above a figure of one instance: the title of its sweep, and what was asked for in the paper's symbols.
+//! The heading of a figure of one instance: the title of its sweep, and the settings that were asked for, in the paper's
+//! symbols.
 
 use serde_json::{Value as Json, json};
 
@@ -18,7 +19,7 @@ const LINE: f64 = 11.0;
 pub struct Heading {
     /// The title of the sweep; may be empty.
     pub title: String,
-    /// What was asked for.
+    /// The settings that were asked for.
     pub settings: Vec<(AxisKey, Value)>,
 }
 

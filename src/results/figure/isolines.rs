@@ -3,9 +3,9 @@
 use crate::results::columns::Cell;
 use crate::results::csv::Table;
 use crate::results::error::Result;
+use crate::results::figure::field;
 use crate::results::figure::outline::shape;
 use crate::results::figure::panels::{Panel, Panels};
-use crate::results::figure::quantity;
 use crate::results::number::NumberColumn;
 use crate::sweep::map::Map;
 use squealmap_figure::frame::{Frame, TICK_SIZE};
@@ -21,12 +21,13 @@ const STROKES: [&str; 2] = [
 ];
 /// Behind a label.
 const PLATE: &str = r##"fill="#FFFFFF" fill-opacity="0.8""##;
-/// Between a label and what is around it, points.
+/// Free room around a label, points.
 const ROOM: f64 = 1.5;
 
 /// Lines that reach no further than this, in cells, go around a single instance: the grid does not resolve them.
 const SHORTEST: f64 = 1.0;
-/// Values this near a level, as a part of the largest of the quantity, are that level: rounding of what is computed.
+/// Values that are this near a level, relative to the largest of the quantity, count as the level itself: the difference is
+/// rounding.
 const FLAT: f64 = 1e-9;
 
 /// A line on the page, points.
@@ -53,7 +54,7 @@ pub(crate) fn draw(
     }
     let mut taken: Vec<Area> = Vec::new();
     // In the notation of the bar, which may have a power of ten beside it.
-    let unit = 10_f64.powi(quantity::exponent(column));
+    let unit = 10_f64.powi(field::exponent(column));
     for (level, line) in &lines {
         let label = value_label(level / unit);
         let others: Vec<Drawn<'_>> = lines
@@ -71,8 +72,8 @@ pub(crate) fn draw(
     }
 }
 
-/// Where the label of a line goes: as near its middle as the frame, other labels and, if anyhow, other lines let it;
-/// nowhere on a short line.
+/// Where the label of a line goes: as near the middle of the line as the frame and other labels let it, and off other lines
+/// where that is possible. A short line has no label.
 fn place(
     line: &[(f64, f64)],
     label: &Text,
@@ -240,9 +241,9 @@ fn parts_of_a_turn(scale: &Scale, most: usize) -> Vec<f64> {
 /// About so many round values between the lowest and the highest of a quantity.
 #[must_use]
 pub fn round_levels(column: &NumberColumn, most: usize) -> Vec<f64> {
-    /// Digits of a round value: what is beyond is rounding.
+    /// Digits of a round value; further ones are rounding.
     const DIGITS: usize = 9;
-    let scale = quantity::scale(column);
+    let scale = field::scale(column);
     if column.is_angle() {
         return parts_of_a_turn(&scale, most);
     }

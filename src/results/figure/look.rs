@@ -9,7 +9,7 @@ use squealmap_figure::svg::{MM, Svg};
 /// Least and most width of a figure, mm: narrower ones do not hold their labels, wider ones fit no page.
 pub const WIDTHS: [f64; 2] = [60.0, 400.0];
 
-/// What draws the picture of a command again.
+/// The command that draws a picture again.
 pub const AGAIN: &str = "squealmap plot DIR, with DIR the directory of this file";
 
 /// Widths that journals and talks ask for.
@@ -26,7 +26,7 @@ pub enum Journal {
 }
 
 impl Journal {
-    /// All of them.
+    /// All journals and talks.
     pub const ALL: [Journal; 4] =
         [Journal::Elsevier1Col, Journal::Elsevier2Col, Journal::Nature1Col, Journal::Slide];
 
@@ -74,7 +74,7 @@ impl Journal {
 pub enum Content<'a> {
     /// Classes by colour.
     Classes {
-        /// Which.
+        /// Which classes.
         colouring: Colouring,
         /// Whether each has its own hatching on top.
         hatched: bool,
@@ -90,7 +90,7 @@ pub enum Content<'a> {
     Named {
         /// One of an instance.
         column: &'a NumberColumn,
-        /// What stands above it.
+        /// The heading above it.
         heading: &'a str,
         /// The names and their fills.
         names: &'a [(&'a str, &'a str)],
@@ -120,15 +120,17 @@ impl<'a> Content<'a> {
 /// A look at a figure.
 #[derive(Clone, Debug)]
 pub struct Look<'a> {
-    /// Width of the figure, mm; `None`: one or two columns, whichever its panels need.
+    /// Width of the figure, mm. With `None` it is one or two columns wide, whichever its panels need.
     pub width: Option<f64>,
-    /// The most height that the figure may have, mm: panels become flatter, or stand beside one another; `None`: any.
+    /// The most height that the figure may have, mm; `None` for any. To keep to it, panels become flatter or stand beside
+    /// one another.
     pub height: Option<f64>,
-    /// What stands above the figure instead of the title of the sweep; empty: nothing.
+    /// Stands above the figure instead of the title of the sweep. An empty text leaves the title out.
     pub title: Option<String>,
     /// How much larger than in print everything is.
     pub enlarged: f64,
-    /// Of a map, the blocks from top to bottom; empty: what was computed. Other figures have none.
+    /// The blocks of a map from top to bottom. Where it is empty, they are those that were computed. Other figures have
+    /// none.
     pub contents: Vec<Content<'a>>,
     /// The command that makes the picture again, for its metadata.
     pub command: Option<String>,
@@ -148,13 +150,13 @@ impl Look<'_> {
         Look { width, height, enlarged: journal.enlarged(), ..Look::default() }
     }
 
-    /// What stands above the figure: what was asked for, or its own title.
+    /// The title of the figure: the one that was asked for, or its own.
     #[must_use]
     pub fn title<'a>(&'a self, own: &'a str) -> &'a str {
         self.title.as_deref().unwrap_or(own)
     }
 
-    /// The same of a heading with settings, which stay.
+    /// The heading of the figure: with the title that was asked for, or its own, and with its own settings.
     pub(crate) fn headed(&self, own: &Heading) -> Heading {
         Heading { title: self.title(&own.title).to_owned(), settings: own.settings.clone() }
     }

@@ -73,9 +73,10 @@ pub struct MapFigure<'a> {
     sheet: Sheet<'a>,
     panels: Panels,
     tally: Tally,
-    /// The same of the large start, where there is one.
+    /// Panels and counts of the large start, where there is one.
     large: Option<(Panels, Tally)>,
-    /// The instances that were computed, where the others have a label all the same.
+    /// The counts of computed instances alone; `None` where every instance was computed. In a refined map the others have
+    /// labels, too.
     computed: Option<Tally>,
 }
 
@@ -249,7 +250,7 @@ fn compose(
     (svg, [width, y + MARGIN])
 }
 
-/// What made the picture; nothing that differs between two runs of the same sweep.
+/// The program and the sweep that made the picture, without anything that differs between two runs of one sweep.
 fn provenance(sheet: Sheet, total: usize, tally: &Tally) -> String {
     let part = |name: &str, computation: Option<&Computation>| {
         computation.map(|computation| format!("; {name} {computation}")).unwrap_or_default()

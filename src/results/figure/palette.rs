@@ -7,7 +7,7 @@
 use crate::sweep::label::Label;
 use crate::sweep::spec::{Analysis, Starts};
 
-/// The colour of what is at rest, hardly told from white paper.
+/// The colour of instances at rest, hardly darker than white paper.
 pub const PALE: &str = "#F2F2EE";
 
 /// How one class is drawn.
@@ -56,16 +56,16 @@ pub const BISTABILITY: [Class; 3] = [
 /// What a block of panels colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Colouring {
-    /// By [`InstabilityType`](crate::model::kind::InstabilityType).
+    /// Colours by [`InstabilityType`](crate::model::kind::InstabilityType).
     Type,
-    /// By [`Regime`](crate::engine::regime::Regime).
+    /// Colours by [`Regime`](crate::engine::regime::Regime).
     Regime,
-    /// By whether several starts end differently.
+    /// Colours by whether several starts end differently.
     Bistability,
 }
 
 impl Colouring {
-    /// What of an analysis is coloured, in the order of figures.
+    /// The colourings of an analysis, in the order of a figure's blocks.
     pub fn of(analysis: Analysis) -> impl Iterator<Item = Colouring> {
         let asked = [
             (Colouring::Type, analysis.linear),
@@ -106,7 +106,7 @@ impl Colouring {
         }
     }
 
-    /// The position of a label's class in [`Colouring::classes`]; `None`: there is no result.
+    /// The position of a label's class in [`Colouring::classes`]; `None` where there is no result.
     #[must_use]
     pub fn class(self, label: Label) -> Option<usize> {
         match self {

@@ -29,7 +29,7 @@ pub(crate) struct Panel {
     pub(crate) cells: Range<usize>,
 }
 
-/// What panels of scattered points know of them.
+/// The scattered points of panels: which columns they stand by, and how dense they are.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Scatter {
     /// Their column for x.
@@ -90,7 +90,7 @@ impl Panels {
         Panels { x, y: None, all, instances, labels, basins, order, columns: None, scatter: None, note: None }
     }
 
-    /// The same for a sweep with starts from a box, of which the fractions are shown too.
+    /// The panels of a sweep with starts from a box: they keep the fractions of starts, too.
     pub(crate) fn with_basins(self) -> Panels {
         Panels { basins: vec![None; self.instances.len()], ..self }
     }
@@ -121,8 +121,8 @@ fn numeric(key: AxisKey) -> bool {
 /// Numeric axes of more values than this come before shorter ones: those make panels.
 const FEW_VALUES: usize = 7;
 
-/// The axes of the picture: the first two numeric ones that vary, those of many values before those of few; failing
-/// that a named one, failing that any.
+/// The axes of the picture: the first two numeric ones that vary, those with many values before those with few. Where there
+/// are not two, an axis of names takes the place, or else any.
 fn choose(axes: &[Axis]) -> (Option<usize>, Option<usize>) {
     let varying = |i: &usize| axes[*i].values.len() > 1;
     let all = || 0..axes.len();

@@ -102,7 +102,7 @@ impl PictureAxis {
         PictureAxis { key: Some(key), scale, edges: Vec::new(), order: Vec::new(), values }
     }
 
-    /// The same quantity for curves, which end at their first and last value, not half a cell beyond.
+    /// This axis for curves: it ends at the first and the last value, not half a cell beyond them.
     pub(crate) fn edge_to_edge(self, scale: &Scale) -> PictureAxis {
         PictureAxis { scale: scale.clone(), ..self }
     }
@@ -119,7 +119,7 @@ impl PictureAxis {
         }
     }
 
-    /// What the axis shows; `None`: nothing in particular.
+    /// The parameter that the axis shows, if it shows one.
     pub(crate) fn key(&self) -> Option<AxisKey> {
         self.key
     }

@@ -76,8 +76,8 @@ pub(crate) fn draw(
     }
 }
 
-/// Draws points too small for outlines: those that were not computed, then class by class, the rarest last, and on top of
-/// them those without one.
+/// Draws points that are too small for outlines: first those that were not computed, then class by class with the rarest
+/// last, and on top of them those without a class.
 fn draw_dense(
     svg: &mut Svg,
     missing: &[[f64; 2]],
@@ -124,7 +124,7 @@ pub(crate) fn contrast(dark: bool) -> &'static str {
     if dark { "#FFFFFF" } else { "#000000" }
 }
 
-/// How small points are drawn, of which there are many: without outlines.
+/// How many small points are drawn: without outlines.
 #[derive(Clone, Copy)]
 pub(crate) struct Marks {
     pub(crate) radius: f64,
@@ -154,7 +154,8 @@ impl Marks {
         self.diagonals(svg, at, colour, ["-", ""]);
     }
 
-    /// Strokes through places; the signs are those of their heights: to where they start, from there to where they end.
+    /// Draws diagonal strokes through places. `before` is the sign of the height from a place to the start of its stroke,
+    /// `along` the sign of the height from there to its end.
     fn diagonals(self, svg: &mut Svg, at: &[[f64; 2]], colour: &str, [before, along]: [&str; 2]) {
         let [arm, all] = [0.6 * self.radius, 1.2 * self.radius].map(number);
         let shape = format!("m-{arm} {before}{arm}l{all} {along}{all}");
@@ -168,7 +169,7 @@ impl Marks {
         self.draw(svg, at, &Stroke { colour, width: STROKE * self.radius, shape: &shape });
     }
 
-    /// The same stroke at every place.
+    /// Draws one stroke at every place.
     fn draw(self, svg: &mut Svg, at: &[[f64; 2]], stroke: &Stroke<'_>) {
         let (class, Stroke { colour, shape, .. }) = (self.class, stroke);
         let width = number(stroke.width);

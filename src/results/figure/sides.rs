@@ -1,5 +1,5 @@
-//! The line `μ_s = μ_d` of a picture over both coefficients. On its one side friction falls with the speed, as that of brakes
-//! does; on the other it rises, which few materials do: shares of the whole picture would mix the two.
+//! The line `μ_s = μ_d` in a picture over both coefficients. On one side of it friction falls with the speed, as that of
+//! brakes does; on the other it rises, which few materials do. Shares of the whole picture would mix the two.
 
 use crate::model::Param;
 use crate::results::figure::panels::Panels;
@@ -17,6 +17,9 @@ pub(crate) const STROKES: [&str; 2] = [
     r##"fill="none" stroke="#FFFFFF" stroke-width="1.5""##,
     r##"class="equal_coefficients" fill="none" stroke="#000000" stroke-width="0.6""##,
 ];
+
+/// Up to this many instances the legend counts; above it gives percentages.
+pub const COUNTED: usize = 200;
 
 /// The instances with `μ_s ≥ μ_d` and those below, counted.
 pub(crate) struct Sides(pub(crate) [Tally; 2]);
@@ -37,7 +40,7 @@ impl Sides {
         relation(" ≥ ").plain(" | ").then(relation(" < "))
     }
 
-    /// The same beside a heading.
+    /// What the shares of a legend are of, in the words of a heading, with the line named.
     pub(crate) fn heading() -> Text {
         Text::from("line ").then(relation(" = ")).plain(", shares of ").then(Sides::words())
     }
@@ -90,6 +93,3 @@ fn rises(grid: &Grid, instance: usize) -> bool {
     });
     coefficients[0] < coefficients[1]
 }
-
-/// Up to this many instances the legend counts; above it gives percentages.
-pub const COUNTED: usize = 200;

@@ -85,7 +85,7 @@ impl Differences {
         Differences { name: first.name.clone(), relative, alone }
     }
 
-    /// How many instances have a number in both maps, and how many of these the same to the last bit.
+    /// How many instances have a number in both maps, and for how many of these the two numbers are equal to the last bit.
     #[must_use]
     pub fn compared(&self) -> [usize; 2] {
         let defined = || self.relative.iter().flatten();
@@ -113,7 +113,7 @@ fn relative(a: f64, b: f64, angle: bool) -> f64 {
     if a.to_bits() == b.to_bits() || largest == 0.0 { 0.0 } else { (a / largest - b / largest).abs() }
 }
 
-/// What is found of two maps.
+/// How two maps compare.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comparison {
     /// How many instances were computed in both, of all.

@@ -12,7 +12,7 @@ use crate::store::seal::is_intact;
 /// What puts damaged results right.
 const HEALED: &str = "`squealmap verify --repair` writes it anew";
 
-/// What is wrong with a file, as the end of a sentence.
+/// A result, or what is wrong with a file as the end of a sentence.
 pub(crate) type Why<T> = std::result::Result<T, String>;
 
 /// A directory that a command has written.
@@ -40,7 +40,7 @@ impl Folder<'_> {
         serde_json::from_str(&self.text(file)?).map_err(|why| self.bad(file, why.to_string()))
     }
 
-    /// The same of one that may have a checksum of its own; one that was changed is refused.
+    /// A file of JSON that may have a checksum of its own. A file that was changed since is refused.
     pub(crate) fn sealed(self, file: &str) -> Result<Json> {
         let document = self.json(file)?;
         // Whichever of the two a change has hit, the other is there.
@@ -52,7 +52,7 @@ impl Folder<'_> {
         Ok(document)
     }
 
-    /// A file of which the document `of` may say length and checksum; one that has others is refused.
+    /// The bytes of a file. Where the document `of` says its length and checksum, a file with others is refused.
     pub(crate) fn named(self, file: &str, of: &str, document: &Json) -> Result<Vec<u8>> {
         let bytes = self.bytes(file)?;
         match Sum::in_manifest(document, file) {

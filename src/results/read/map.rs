@@ -25,8 +25,8 @@ pub(crate) const FILES: [&str; 2] = ["manifest.json", "map.csv"];
 /// A map read back.
 #[derive(Clone, Debug)]
 pub struct Archive {
-    /// The map. Of its sweep title, analysis and grid are read, of its records type, regime, status and whether they
-    /// are settled; the rest stands at defaults, which no figure reads.
+    /// The map. Only what figures need is read: title, analysis and grid of its sweep; type, regime, status and `settled` of
+    /// its records. Everything else has its default value.
     pub map: Map,
     /// What `map.csv` holds besides the instance, the swept values and names.
     pub columns: Vec<NumberColumn>,
@@ -94,7 +94,7 @@ fn spec(manifest: &Json, table: &Table) -> Why<Spec> {
     Ok(drawn_spec(text(&manifest["title"]), analysis, grid))
 }
 
-/// A sweep of which a figure is drawn: what it does not read stands at defaults.
+/// A sweep with the parts that a figure reads; everything else has its default value.
 pub(crate) fn drawn_spec(title: String, analysis: Analysis, grid: Grid) -> Spec {
     Spec {
         title,

@@ -23,7 +23,7 @@ use crate::sweep::spec::{Analysis, Spec, Starts};
 /// The files that are read.
 pub(crate) const FILES: [&str; 2] = ["points.csv", "refine.json"];
 
-/// A refined map and its sweep, of which title, analysis and grid are read.
+/// A refined map and its sweep. Only title, analysis and grid of the sweep are read.
 #[derive(Clone, Debug)]
 pub(crate) struct Lines {
     pub(crate) spec: Spec,

@@ -9,7 +9,7 @@ use crate::sweep::map::Map;
 use crate::sweep::spec::Spec;
 
 impl Archive {
-    /// The instances whose axes have these values, such as `law=bilinear,theta=0.01`, and what was taken for a value that
+    /// The instances whose axes have given values, such as `law=bilinear,theta=0.01`, and what was taken for each value that
     /// an axis does not have. An axis that is named several times keeps each of these values.
     ///
     /// # Errors

@@ -14,8 +14,8 @@ use nalgebra::{DMatrix, DVector};
 use crate::model::friction::LawKind;
 use crate::study::fit::problem::{DETERMINED, Problem};
 
-/// Standard errors of the values of a solution in its order, and last, where it was found, of the velocity (m/s);
-/// `variance` is that of the friction coefficients. `None` where the points do not determine all of them together.
+/// Standard errors of the values of a solution, in their order, followed by that of the velocity (m/s) where it was found.
+/// `variance` is that of the friction coefficients. `None` where the points do not determine all values together.
 pub(super) fn standard_errors(
     problem: &Problem,
     solution: &DVector<f64>,

@@ -9,6 +9,12 @@ use squealmap_identify::Point;
 /// Condition of the normal equations above which a row of the material is not determined by the data.
 pub(super) const DETERMINED: f64 = 1e-9;
 
+/// Values of the law's velocity that are tried before the best one is refined, even in the logarithm.
+const TRIALS: usize = 40;
+
+/// Refinements by the golden section: to 1e-7 of the interval.
+const REFINEMENTS: usize = 34;
+
 /// A fit with its law's velocity open.
 pub(super) struct Problem<'a> {
     pub(super) points: &'a [Point],
@@ -132,12 +138,6 @@ impl Problem<'_> {
         (0.5 * (low + high)).exp()
     }
 }
-
-/// Values of the law's velocity that are tried before the best one is refined, even in the logarithm.
-const TRIALS: usize = 40;
-
-/// Refinements by the golden section: to 1e-7 of the interval.
-const REFINEMENTS: usize = 34;
 
 pub(super) fn sum_of_squares(residuals: &[f64]) -> f64 {
     residuals.iter().map(|residual| residual * residual).sum()

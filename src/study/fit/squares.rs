@@ -29,8 +29,9 @@ pub struct Fit {
     pub temperature: Vec<f64>,
     /// The columns of the material: a parameter with its value in every row.
     pub columns: Vec<(Param, Vec<f64>)>,
-    /// Standard errors of the columns, in their order: for independent errors of friction that are alike at all points.
-    /// `None` for a velocity that was given, and for all columns where the points do not tell ([`Fit::open`], or as many values as points).
+    /// Standard errors of the columns, in their order, if the errors of friction are independent and alike at all points.
+    /// `None` for a velocity that was given. `None` for all columns where the points do not tell: with [`Fit::open`], or
+    /// with as many values as points.
     pub errors: Vec<Option<Vec<f64>>>,
     /// Measured less fitted friction, in the order of the points.
     pub residuals: Vec<f64>,

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use crate::results::columns::Cell;
-use crate::results::error::Error as Below;
+use crate::results::error::Error;
 use crate::study::error::Result;
 use crate::study::fit::Fit;
 use squealmap_identify::Point;
@@ -83,11 +83,11 @@ fn span(points: &[Point], of: impl Fn(&Point) -> f64) -> String {
 /// When a row cannot be written.
 pub fn residuals_csv(fit: &Fit, points: &[Point]) -> Result<Vec<u8>> {
     let mut writer = csv::Writer::from_writer(Vec::new());
-    writer.write_record(RESIDUALS).map_err(Below::WriteTable)?;
+    writer.write_record(RESIDUALS).map_err(Error::WriteTable)?;
     for (point, residual) in points.iter().zip(&fit.residuals) {
         let Point { velocity, temperature, friction } = *point;
         let row = [velocity, temperature, friction, friction - residual, *residual];
-        writer.write_record(row.map(|value| Cell::from(value).to_string())).map_err(Below::WriteTable)?;
+        writer.write_record(row.map(|value| Cell::from(value).to_string())).map_err(Error::WriteTable)?;
     }
-    Ok(writer.into_inner().map_err(|why| Below::WriteTable(why.into_error().into()))?)
+    Ok(writer.into_inner().map_err(|why| Error::WriteTable(why.into_error().into()))?)
 }

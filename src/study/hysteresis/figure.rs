@@ -139,7 +139,7 @@ fn axis(axis: &Axis, x: &Scale) -> PictureAxis {
     PictureAxis::cells(axis).edge_to_edge(x)
 }
 
-/// What is drawn of a record, m: 0 at the equilibrium, of which a run sees the beginning of the decay only.
+/// The amplitude of a record in the figure, m. It is 0 at the equilibrium: a run sees only the beginning of the decay there.
 fn amplitude(record: &Record) -> f64 {
     if Attractor::of(record, record.kind) == Some(Attractor::Equilibrium) {
         return 0.0;

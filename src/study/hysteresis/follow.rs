@@ -105,9 +105,10 @@ impl Hysteresis {
         jumps.map(|pair| [pair[0].0, pair[1].0]).collect()
     }
 
-    /// The values between which a branch goes from one cycle to another, in the order in which it comes to them: both ends
-    /// are oscillations whose standard deviations of `x2` are those of two cycles ([`crate::engine::regime::THRESHOLDS`]), and it changes so many
-    /// times as fast as beside it ([`SHARP`]). A rise that is steep over less than a step of the parameter looks the same.
+    /// The pairs of neighbouring values between which a branch jumps from one cycle to another, in the order of the branch.
+    /// Both values are oscillations whose standard deviations of `x2` are too far apart for one cycle
+    /// ([`crate::engine::regime::THRESHOLDS`]), and the change is several times as fast as beside it ([`SHARP`]). A rise
+    /// that is steep over less than a step of the parameter looks like a jump.
     #[must_use]
     pub fn jumps_of_amplitude(&self, direction: Direction) -> Vec<[f64; 2]> {
         let end = |at: usize| {
@@ -169,7 +170,7 @@ impl Hysteresis {
     }
 }
 
-/// A state in SI units: what is left of a motion when the scales of the next instance are others.
+/// A motion in SI units, so that it can go on in the next instance, which has other scales.
 #[derive(Clone, Copy, Debug)]
 struct Motion {
     position: [f64; 3],
@@ -195,8 +196,8 @@ impl Motion {
     }
 }
 
-/// One value: its record, and where it has ended. After an equilibrium, of which a run sees the beginning of the decay
-/// only, and after a failure the next value starts afresh.
+/// Computes one value: its record, and the motion that the next value starts from. There is none after a failure, and none
+/// after an equilibrium, where a run sees only the beginning of the decay: the next value starts afresh then.
 fn step(instance: &Instance, plan: &Plan, from: Option<Motion>) -> (Record, Option<Motion>) {
     let prepared = linear::prepare(instance);
     let mut record = begun(instance, &prepared);

@@ -1,4 +1,4 @@
-//! Branches of a parameter that rises and falls, as a table; their figure is in `hysteresis_figure.rs`.
+//! Branches of a parameter that rises and falls, as a table; their figure is in `figure.rs`.
 
 use serde_json::json;
 

@@ -29,7 +29,7 @@ const BAR: [f64; 2] = [8.0, 6.0];
 const HEADROOM: f64 = 0.07;
 /// Ticks of the time axis.
 const TICKS: usize = 9;
-/// Those of a panel narrower than this, points.
+/// Ticks of the time axis of a panel that is narrower than `NARROW`, points.
 const FEW_TICKS: usize = 5;
 const NARROW: f64 = 250.0;
 /// The lower end of the scale of levels, dB: a careful measurement resolves about that much.
@@ -51,12 +51,12 @@ pub struct Shown {
     pub verdict: String,
     /// Start and end of the record, s.
     pub time: [f64; 2],
-    /// Lowest and highest value of each column, side by side over the record, of tangential and normal acceleration, m/s²;
-    /// empty where not recorded.
+    /// Tangential and normal acceleration, m/s²: the record is cut into columns side by side, and each has its lowest and
+    /// highest value. Empty where not recorded.
     pub accelerations: [Vec<[f64; 2]>; 2],
-    /// Start and end of what is known of the friction, s.
+    /// Start and end of the time over which the friction is known, s.
     pub friction_time: [f64; 2],
-    /// The same of the friction coefficient.
+    /// The friction coefficient: lowest and highest value of each column, over that time.
     pub friction: Vec<[f64; 2]>,
     /// Start and end of every episode of growth, s.
     pub episodes: Vec<[f64; 2]>,

@@ -1,11 +1,11 @@
-//! `identify`: the table of windows and the report; the figure is in `identify_figure.rs`.
+//! `identify`: the table of windows and the report; the figure is in `figure.rs`.
 
 use std::io::Write;
 
 use serde_json::{Value, json};
 
 use crate::results::columns::Cell;
-use crate::results::error::Error as Below;
+use crate::results::error::Error;
 use crate::study::error::Result;
 use crate::version::{COMMIT, VERSION};
 use squealmap_identify::{Channel, Episode, Identification, Measured, Reading, Verdict, Window};
@@ -53,7 +53,7 @@ impl<W: Write> WindowsCsv<W> {
     /// When it cannot be written.
     pub fn new(out: W) -> Result<WindowsCsv<W>> {
         let mut writer = csv::Writer::from_writer(out);
-        writer.write_record(COLUMNS).map_err(Below::WriteTable)?;
+        writer.write_record(COLUMNS).map_err(Error::WriteTable)?;
         Ok(WindowsCsv { writer, written: Ok(()) })
     }
 
@@ -61,7 +61,7 @@ impl<W: Write> WindowsCsv<W> {
     pub fn add(&mut self, window: &Window, reading: &Reading) {
         if self.written.is_ok() {
             self.written =
-                self.writer.write_record(row(window, reading)).map_err(|why| Below::WriteTable(why).into());
+                self.writer.write_record(row(window, reading)).map_err(|why| Error::WriteTable(why).into());
         }
     }
 
@@ -71,7 +71,7 @@ impl<W: Write> WindowsCsv<W> {
     /// When a row could not be written.
     pub fn finish(self) -> Result<W> {
         self.written?;
-        Ok(self.writer.into_inner().map_err(|error| Below::WriteTable(error.into_error().into()))?)
+        Ok(self.writer.into_inner().map_err(|error| Error::WriteTable(error.into_error().into()))?)
     }
 }
 
@@ -141,7 +141,7 @@ pub fn report_json(found: &Identification, name: &str) -> Result<Vec<u8>> {
         "units": "SI; phases in degrees, negative when the normal acceleration lags; temperature in °C",
     });
     let mut bytes =
-        serde_json::to_vec_pretty(&report).map_err(crate::results::error::Error::WriteManifest)?;
+        serde_json::to_vec_pretty(&report).map_err(Error::WriteManifest)?;
     bytes.push(b'\n');
     Ok(bytes)
 }

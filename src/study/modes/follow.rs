@@ -1,4 +1,4 @@
-//! `modes`: the eigenvalues along an axis, as a table; its figure is in `modes_figure.rs`.
+//! `modes`: the eigenvalues along an axis, as a table; the figure is in `figure.rs`.
 
 use num_complex::Complex64;
 use serde_json::json;

@@ -1,4 +1,7 @@
 //! Eigenvalues along an axis.
+//!
+//! - [`follow`]: both modes from value to value, and their table.
+//! - [`figure`]: their figure; [`read`]: both read back.
 
 pub mod figure;
 pub mod follow;

@@ -16,7 +16,7 @@ use crate::sweep::spec::{Analysis, Spec, Starts};
 /// The files that are read.
 pub(crate) const FILES: [&str; 2] = ["modes.csv", "modes.json"];
 
-/// The modes in a table and a document, and their sweep, of which title and grid are read.
+/// The modes in a table and a document, and their sweep. Only title and grid of the sweep are read.
 pub(crate) fn read(folder: Folder<'_>, files: [&str; 2]) -> Result<(Spec, Modes)> {
     let table = folder.table(files[0])?;
     let document = folder.json(files[1])?;

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use crate::engine::reference::records as reference;
+use crate::engine::reference::records::record;
 use crate::model::equilibrium::Units;
 use crate::model::{Param, Params};
 use crate::study::paper::sweeps::{ACCELERATIONS, Case};
@@ -15,8 +15,8 @@ pub struct Trial {
     pub duration: f64,
     /// Displacement at their start, m.
     pub kick: f64,
-    /// What disturbs the equilibrium, m/s²: the larger of the acceleration of a free oscillation with the displacement
-    /// of the kick, `ω0² x`, and that of the belt.
+    /// The disturbance of the equilibrium, m/s²: the acceleration of the belt or that of a free oscillation with the
+    /// displacement of the kick, `ω0² x`, whichever is larger.
     pub disturbance: f64,
     /// Largest `|ẍ2|` and `|ÿ1|` of each case, in the order of [`Case::ALL`], m/s²; `None` for a ramp that failed.
     pub peaks: [Option<[f64; 2]>; 3],
@@ -66,7 +66,7 @@ pub(super) fn trials() -> Vec<Trial> {
     let computed: Vec<Option<[f64; 2]>> = wanted
         .par_iter()
         .map(|(index, ..)| {
-            let outcome = reference::record(&spec, *index).outcome?;
+            let outcome = record(&spec, *index).outcome?;
             Some([outcome.ax_peak?, outcome.ay_peak?])
         })
         .collect();

@@ -61,8 +61,9 @@ pub struct Evidence {
     pub knee_velocity: f64,
     /// The ramps of Figures 4, 5 and 6.
     pub ramps: [RampFacts; 3],
-    /// By how much `|ÿ1|` swells and fades in the limit cycle of Figure 4: of the cycles' peaks, each over the belt
-    /// velocity, with which the limit cycle shrinks, half the range over the mean of its ends.
+    /// By how much `|ÿ1|` swells and fades in the limit cycle of Figure 4. The peak of each cycle is divided by the belt
+    /// velocity, with which the limit cycle shrinks; this is half the range of these numbers over the mean of their two
+    /// ends.
     pub swell: Option<f64>,
     /// The windows of Figures 7a and 7b.
     pub phases: [Vec<Window>; 2],
@@ -73,7 +74,7 @@ pub struct Evidence {
 }
 
 impl Evidence {
-    /// Computes what is not computed yet.
+    /// Computes everything that is not there yet.
     ///
     /// # Errors
     /// When a ramp ends early.

@@ -66,7 +66,8 @@ pub struct Window {
     pub amplitude: f64,
     /// Phase of `ÿ1` against `ẍ2` at that frequency, degrees in (−180, 180].
     pub measured: f64,
-    /// The same of the most unstable eigenvector, were the belt to keep its velocity; `None` where it has none.
+    /// Phase of `ÿ1` against `ẍ2` in the most unstable eigenvector for this belt velocity, degrees in (−180, 180]; `None`
+    /// where there is no such eigenvector.
     pub eigenvector: Option<f64>,
 }
 

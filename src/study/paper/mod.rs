@@ -9,7 +9,9 @@
 //! | the phase as a fingerprint of the mechanism | `phase.rs` |
 //! | what is computed, once each and when first asked for | `study.rs` |
 //! | the numbers the claims ask for | `evidence.rs` |
-//! | thresholds, verdicts | `limits.rs`, `claims.rs` |
+//! | thresholds, verdicts | `limits.rs`, `claims/` |
+//! | pictures, tables and `paper.md` | [`figures`] |
+//! | these read back | `read.rs` |
 
 mod accelerations;
 mod claims;

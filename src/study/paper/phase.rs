@@ -9,7 +9,7 @@ use crate::model::Param;
 use crate::model::kind::InstabilityType;
 use crate::study::error::Result;
 use crate::study::paper::sweeps::PHASE;
-use crate::sweep::run as sweep;
+use crate::sweep::run;
 
 /// Where a phase is taken from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -107,7 +107,7 @@ impl PhaseTrial {
             Options { backend: Backend::Cpu, precision: Some(Precision::F64), ..Options::default() };
         let mut spec = PHASE.spec();
         spec.analysis.checked = false;
-        let map = sweep::run(spec, &options, &|_| ())?;
+        let map = run::run(spec, &options, &|_| ())?;
         let witness = |(index, record): (usize, &Record)| {
             let params = map.spec.instance(index).params;
             let value = |param| params.require(param);

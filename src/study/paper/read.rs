@@ -5,7 +5,7 @@ use serde_json::Value as Json;
 use crate::model::kind::InstabilityType;
 use crate::results::read::folder::{Folder, Table, Why, text};
 use crate::study::error::Result;
-use crate::study::modes::read as modes;
+use crate::study::modes;
 use crate::study::paper::figures::{
     ACCELERATIONS, GROWTH, Growing, LAWS, Laws, PHASE, RAMP, Shown, Slowdown,
 };
@@ -14,7 +14,7 @@ use crate::study::paper::{Figure, PhaseTrial, Stretch, Trial, Witness};
 /// Reads a figure from its table and document.
 pub(crate) fn read(folder: Folder<'_>, figure: Figure, files: [&str; 2]) -> Result<Shown> {
     if figure == Figure::Figure2 {
-        let (spec, modes) = modes::read(folder, files)?;
+        let (spec, modes) = modes::read::read(folder, files)?;
         return Ok(Shown::Modes(Box::new(spec), modes));
     }
     let table = folder.table(files[0])?;
@@ -54,7 +54,7 @@ fn pair(json: &Json) -> Why<[f64; 2]> {
     }
 }
 
-/// A stretch of which time and velocity are known.
+/// A stretch with its time and its velocity, and nothing else.
 fn stretch((time, velocity): ([f64; 2], [f64; 2])) -> Stretch {
     Stretch { time, velocity, tangential: [0.0; 2], normal: [0.0; 2], stick: 0.0, free: 0.0 }
 }

@@ -1,4 +1,7 @@
 //! An instance as sensors record it.
+//!
+//! - [`sensors`]: the sampled channels.
+//! - [`table`]: their table, `signals.csv`.
 
 pub mod sensors;
 pub mod table;

@@ -1,4 +1,4 @@
-//! What sensors on one instance would record: channels sampled at one rate, each with its own delay.
+//! Signals as sensors on one instance would record them: channels sampled at one rate, each with its own delay.
 //!
 //! Samples are taken from the series of the integration, exactly at their instants; a trajectory
 //! ([`crate::study::trace::run`]) has rows at events too, which no data logger has.

@@ -1,5 +1,7 @@
 //! One instance in full: the sampled trajectory.
 
+use std::f64::consts::TAU;
+
 use crate::engine::outcome::Outcome;
 use crate::engine::plan::Plan;
 use crate::engine::reference::integrate::{Event, Observer, Step};
@@ -36,8 +38,6 @@ pub struct Trace {
     /// The observables, as a map would hold them.
     pub outcome: Outcome,
 }
-
-use std::f64::consts::TAU;
 
 /// Integrates one instance and samples it `samples_per_period` times per `2π/ω0`, and on both sides of every event.
 ///

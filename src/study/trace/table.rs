@@ -1,4 +1,4 @@
-//! `trace`: one instance in full, as a table; its figure is in `trace_figure.rs`.
+//! `trace`: one instance in full, as a table; the figure is in `figure.rs`.
 
 use serde_json::json;
 
@@ -27,8 +27,8 @@ pub fn trace_csv(trace: &Trace) -> Result<Vec<u8>> {
     Ok(table.finish()?)
 }
 
-/// What the figure needs beside the table, as JSON: the heading, the frequency of the response, Hz, and
-/// the number of its rows.
+/// What the figure needs besides the table, as JSON: the heading, the frequency of the response (Hz), and the number of rows
+/// of the table.
 ///
 /// # Errors
 /// When it cannot be written.

@@ -24,7 +24,7 @@ const RADIUS: f64 = 1.9;
 const LINE: f64 = 11.0;
 /// Margin around the marks, as a fraction of the panel: the number above the topmost has room in it.
 const HEADROOM: f64 = 0.08;
-/// Errors below are drawn here: what is exact has no logarithm.
+/// Errors below this are drawn here, since an error of 0 has no logarithm.
 const LEAST: f64 = 1e-16;
 /// The frontier.
 const FRONTIER: &str = r##"fill="none" stroke="#000000" stroke-width="0.7""##;

@@ -72,7 +72,7 @@ fn stratum(stratum: &Stratum) -> Json {
     })
 }
 
-/// A row; what is infinite is null.
+/// A row as JSON; infinite numbers are null.
 fn finite(row: &Row) -> Json {
     serde_json::to_value(row).unwrap_or_default()
 }

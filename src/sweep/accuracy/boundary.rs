@@ -14,8 +14,8 @@ const FRACTION: f64 = 2.0;
 /// A ratio of the halves of the window within this distance of its threshold is near it.
 const RATIO: f64 = 2e-3;
 
-/// Whether a record that was just computed is near the border of its type, regime, `settled` or status. Those of
-/// regime and `settled` need the halves of the window, which records read back from tiles do not have.
+/// Whether a record that was just computed is near the border of its type, regime, `settled` or status. For regime and
+/// `settled` the halves of the window are needed, which records read back from tiles do not have.
 #[must_use]
 pub fn is_near(record: &Record) -> bool {
     near_stability(record) || near_regime(record)

@@ -1,16 +1,15 @@
 //! Results checked while a sweep is computed: a few instances, drawn by their index alone, are computed again.
 //!
-//! Most of them by the CPU engine in f64 with fine steps, which costs only some times the run itself; fewer by the
-//! reference, which shares no code with the engines but costs some fifty times as much. Their errors are written
-//! beside them. Those of the first kind that are near a border between two labels take the finer result.
+//! Most of them are computed by the CPU engine in f64 with fine steps, which costs a few times the run itself. Fewer are
+//! computed by the reference, which shares no code with the engines but costs about fifty times as much. The errors are
+//! written beside the results. Instances of the first kind that are near a border between two labels take the finer result.
 
 use crate::engine::backend::Backend;
 use crate::engine::computation::Stopped;
 use crate::engine::error::Result;
-use crate::engine::lanes::records as cpu;
 use crate::engine::method::Method;
 use crate::engine::record::{By, Check, Record};
-use crate::engine::reference::records as reference;
+use crate::engine::{lanes, reference};
 use crate::model::status::Status;
 use crate::sweep::accuracy::boundary::is_near;
 use crate::sweep::accuracy::configuration::{Configuration, finer};
@@ -27,8 +26,8 @@ use std::sync::atomic::AtomicBool;
 const FINE_SHARE: f64 = 0.03;
 const REFERENCE_SHARE: f64 = 0.01;
 
-/// What a GPU computes per second is not known beforehand: a fast one, so that its checks, which the CPU makes, stay
-/// below their share on any.
+/// Instances that a fast GPU computes per second. The speed of a GPU is not known beforehand; with a fast one assumed, the
+/// checks, which the CPU makes, stay below their share on any.
 const GPU_PER_SECOND: f64 = 5e6;
 
 /// Seeds of the two draws.
@@ -41,14 +40,15 @@ const REFERENCE_STEPS: u32 = 12;
 /// How many instances of a sweep are checked: by the engine that computes it and their number alone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Counts {
-    /// By the CPU engine.
+    /// How many are checked by the CPU engine.
     pub fine: usize,
-    /// By the reference.
+    /// How many are checked by the reference.
     pub reference: usize,
 }
 
 impl Counts {
-    /// Those of a sweep of `total` instances; none where the reference computes it, or what is compared with it.
+    /// The counts for a sweep of `total` instances. None are checked where the reference computes the sweep, or a method
+    /// that is only there to be compared with it.
     #[must_use]
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a part of the total")]
     pub fn new(configuration: &Configuration, total: usize) -> Counts {
@@ -95,8 +95,8 @@ pub fn check(
         let sweep = judge.sweep(&subset(spec, &indices));
         let all = 0..indices.len();
         let computed = match by {
-            By::Fine => cpu::records(&sweep, all, judge.precision, cancel, &|_| {}),
-            By::Reference => reference::records(&sweep, all, Method::Taylor, cancel, &|_| {}),
+            By::Fine => lanes::records::records(&sweep, all, judge.precision, cancel, &|_| {}),
+            By::Reference => reference::records::records(&sweep, all, Method::Taylor, cancel, &|_| {}),
         };
         let judged = match computed {
             Ok(judged) if judged.stopped.is_none() => judged.records,

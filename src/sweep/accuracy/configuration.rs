@@ -10,6 +10,9 @@ use crate::sweep::grid::{AxisKey, Grid, Value};
 use crate::sweep::spec::Spec;
 use std::fmt;
 
+/// The least steps per period of the finer result; its truncation is then a thousandth of what f32 rounds.
+const FINE_STEPS: u32 = 16;
+
 /// One way to compute a sweep.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Configuration {
@@ -121,6 +124,3 @@ pub fn finer(configuration: &Configuration) -> Configuration {
     };
     Configuration::cpu(Precision::F64, steps)
 }
-
-/// The least steps per period of the finer result; its truncation is then a thousandth of what f32 rounds.
-const FINE_STEPS: u32 = 16;

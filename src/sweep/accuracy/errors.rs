@@ -1,7 +1,7 @@
 //! How far results are from the truth, instance by instance and as quantiles.
 //!
-//! Chaotic and grazing motions, and those that are still on their way, differ between any two methods by what the
-//! last digits make of them: numbers are compared where the truth is a settled oscillation, labels everywhere.
+//! Motions that are chaotic, grazing or not settled depend on the last digits, so that any two methods differ in them.
+//! Therefore numbers are compared only where the truth is a settled oscillation, labels everywhere.
 
 use crate::engine::outcome::Outcome;
 use crate::engine::record::Record;

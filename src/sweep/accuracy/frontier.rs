@@ -12,11 +12,12 @@ use std::sync::LazyLock;
 
 use serde::{Deserialize, Serialize};
 
-/// What is compiled in: `squealmap tradeoff` on the sweeps of `sweeps/accuracy`, see `docs/accuracy_measured.md`.
+/// The measurements that are compiled in: `squealmap tradeoff` on the sweeps of `sweeps/accuracy`, see
+/// `docs/accuracy_measured.md`.
 const SHIPPED: &str = include_str!("default.csv");
 
-/// What was measured must be so many times better than what is asked for: another sweep of the same kind has other
-/// instances.
+/// A measured error must be so many times smaller than the bound that is asked for, since another sweep of the same kind has
+/// other instances.
 pub const MARGIN: f64 = 2.0;
 
 /// Whether a row is of a method that is there to be compared with: it is never chosen.
@@ -58,11 +59,11 @@ pub struct Frontier {
 pub struct Choice {
     /// The configuration.
     pub configuration: Configuration,
-    /// What a manifest says of it.
+    /// The choice in the words of a manifest.
     pub chosen: Chosen,
 }
 
-/// What was chosen for an accuracy, in words.
+/// The configuration that was chosen for an accuracy, in words.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 pub struct Chosen {
     /// The accuracy that was asked for.
@@ -76,7 +77,7 @@ pub struct Chosen {
     pub why: String,
     /// The relative error that was asked for; `None` of the reference.
     pub bound: Option<f64>,
-    /// What it did on the sweep itself; `None` of the reference, which judges.
+    /// How it did on the sweep itself; `None` for the reference, which judges.
     pub trial: Option<Trial>,
 }
 
@@ -93,10 +94,10 @@ impl Choice {
 }
 
 impl Frontier {
-    /// What is compiled in.
+    /// The measurements that are compiled in.
     ///
     /// # Panics
-    /// When the table in the program is none, which a test excludes.
+    /// When the table in the program cannot be read, which a test excludes.
     #[must_use]
     pub fn shipped() -> &'static Frontier {
         // Read once: every tile asks for it.
@@ -152,8 +153,8 @@ impl Frontier {
         Ok(self.ranked(level, spec, allowed)?.remove(0))
     }
 
-    /// What [`Frontier::choose`] gives and what comes after it, should that fail on the sweep itself: each slower and
-    /// more accurate than the one before. One at least.
+    /// The choice of [`Frontier::choose`], followed by those to take should it fail on the sweep itself. Each is slower and
+    /// more accurate than the one before. There is at least one.
     ///
     /// # Errors
     /// When nothing measured is accurate enough.

@@ -2,8 +2,8 @@
 
 use std::fmt;
 
-/// An accuracy: a bound on the relative error of `x2_std`, `ax_rms`, `ay_rms` and `response_frequency` that 95 % of the
-/// settled oscillations keep, or the reference.
+/// An accuracy that can be asked for: the reference, or a bound on the relative errors of `x2_std`, `ax_rms`, `ay_rms` and
+/// `response_frequency` that 95 % of the settled oscillations keep.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Level {
     /// A bound on the relative error.

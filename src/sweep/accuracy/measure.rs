@@ -43,19 +43,19 @@ const COMPARED: [(Method, &[u32]); 2] =
 /// Instances that speed is measured on: enough to fill the lanes many times over.
 const TIMED: usize = 1024;
 
-/// Those of the reference and what is compared with it, which take one at a time.
+/// Instances that the speed of the reference, and of methods compared with it, is measured on: they take one at a time.
 const TIMED_REFERENCE: usize = 64;
 
-/// Those of what is only there to be compared with, timed in one round: slow, and never chosen. For the same reason only
-/// one of so many instances of the sample is judged.
+/// Instances that methods only there for comparison are timed on, in one round: they are slow and never chosen. For the same
+/// reason they are judged on only one of so many instances of the sample.
 const TIMED_COMPARED: usize = 8;
 const ONE_COMPARED_OF: usize = 8;
 
 /// A speed is taken over so many seconds at least: clocks count the work of a thread in slices.
 const SHORTEST_TIMING: f64 = 0.02;
 
-/// Rounds of which the fastest counts; in each every configuration has its turn, so that none of them meets the other
-/// work of the machine alone.
+/// Rounds of timing; the fastest counts. In each round every configuration has its turn, so that other work on the machine
+/// does not hit one of them alone.
 const ROUNDS: usize = 2;
 
 /// What to measure.
@@ -71,7 +71,7 @@ pub struct Settings {
     pub software: bool,
 }
 
-/// What is said of the truth.
+/// How good the records are that errors are measured against.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Truth {
     /// Settled oscillations on which it was compared with twice its steps.
@@ -90,7 +90,7 @@ pub struct Truth {
     pub failed: f64,
 }
 
-/// What came of it.
+/// The result of a measurement.
 #[derive(Clone, Debug)]
 pub struct Measurement {
     /// The kind of scene; several of a sweep with several laws stand together.
@@ -103,7 +103,7 @@ pub struct Measurement {
     pub truth: Truth,
     /// One row per configuration.
     pub rows: Vec<Row>,
-    /// What was left out, and why.
+    /// Sentences about configurations that were left out, and why.
     pub left_out: Vec<String>,
 }
 
@@ -217,7 +217,7 @@ fn of_truth(judge: &Judge, judged: &Spec, options: &Options) -> Result<Truth> {
     })
 }
 
-/// Every configuration of this machine, and what is left out.
+/// Every configuration that this machine can run, and sentences about those that are left out.
 fn configurations(software: bool) -> (Vec<Configuration>, Vec<String>) {
     let both = [Precision::F32, Precision::F64];
     let mut all = vec![Configuration::reference(REFERENCE_STEPS)];

@@ -10,7 +10,7 @@
 //! - [`row`]: what was measured, as a table.
 //! - [`frontier`]: the cheapest configuration for an error.
 //! - [`level`]: the accuracy that is asked for.
-//! - [`trial`]: what was chosen tried on some of the sweep's own instances.
+//! - [`trial`]: the choice tried on some of the sweep's own instances; [`tried`]: the result.
 //! - [`check`](mod@check): a few instances of every map computed again, and what that found.
 
 pub mod boundary;

@@ -1,4 +1,4 @@
-//! What was measured of a configuration, as one row of a table: `tradeoff.csv`, and the file that choices come from.
+//! The measurement of one configuration as a row of a table: of `tradeoff.csv`, and of the file that choices come from.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,8 +8,8 @@ use crate::sweep::accuracy::configuration::Configuration;
 use crate::sweep::accuracy::errors::Errors;
 use crate::sweep::error::{Error, Result};
 
-/// Cost and error of a configuration on one kind of scene. Errors are relative (`stick`: absolute), quantiles over
-/// the settled oscillations of a sample; labels are shares of all instances.
+/// Cost and error of a configuration on one kind of scene. Errors are relative (those of `stick` absolute) and quantiles
+/// over the settled oscillations of a sample; labels are shares of all instances.
 #[derive(Clone, Debug, PartialEq, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Row {
@@ -57,7 +57,7 @@ pub struct Row {
     pub worst_p95: f64,
     /// 99th percentile.
     pub worst_p99: f64,
-    /// What the worst is beyond the truth's own scatter, 95th percentile.
+    /// The worst of the errors beyond the truth's own scatter, 95th percentile.
     pub beyond_scatter_p95: f64,
     /// Absolute error of the fraction of time in stick.
     pub stick_p50: f64,
@@ -75,8 +75,8 @@ pub struct Row {
     pub frontier: bool,
 }
 
-/// How fast a row counts: per second of a processor, which other work on the machine does not change much; where some
-/// row has a GPU, per second of wall time for all.
+/// The speed by which rows are compared: per second of a processor, which other work on the machine hardly changes; or per
+/// second of wall time for all of them, where some row has a GPU.
 #[must_use]
 pub fn pace<'a>(rows: impl Iterator<Item = &'a Row>) -> fn(&Row) -> f64 {
     let mut all = true;
@@ -89,14 +89,14 @@ pub fn pace<'a>(rows: impl Iterator<Item = &'a Row>) -> fn(&Row) -> f64 {
 /// Instances per second.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rate {
-    /// Of one thread; none on a GPU.
+    /// Instances per second of one thread; `None` on a GPU.
     pub per_cpu_second: Option<f64>,
-    /// Of all threads.
+    /// Instances per second of all threads.
     pub per_second: f64,
 }
 
 impl Rate {
-    /// Takes what is faster.
+    /// Takes the faster of the two for each speed.
     pub fn improve(&mut self, other: Rate) {
         self.per_second = self.per_second.max(other.per_second);
         // None is less than any number.

@@ -1,5 +1,5 @@
-//! A stratified sample of a sweep's own instances: of every type, regime and status some, more near the borders
-//! between them, each with the number of instances it stands for.
+//! A stratified sample of a sweep's own instances: some of every type, regime and status, and more near the borders between
+//! them. Each comes with the number of instances that it stands for.
 
 use std::collections::BTreeMap;
 
@@ -15,7 +15,7 @@ use crate::sweep::grid::Grid;
 use crate::sweep::label::Label;
 use crate::sweep::spec::{Analysis, Spec, Starts};
 
-/// Candidates for each instance of the sample: what is rarer than one in so many may be missed.
+/// Candidates for each instance of the sample. A class that is rarer than one in so many may be missed.
 const CANDIDATES: usize = 16;
 
 /// Most candidates.
@@ -27,7 +27,7 @@ const CHEAP: (Precision, u32) = (Precision::F32, 5);
 /// An instance near a border counts as so many when the sample is shared out.
 const NEAR: f64 = 3.0;
 
-/// Of every stratum at least so many, where it has them: a share of the sample divided by the strata.
+/// This share of the sample is divided evenly by the strata, so that each has at least its part where it has as many.
 const EVEN: f64 = 0.4;
 
 /// A stratum: what its instances have in common, how many candidates and instances of the sample it has.

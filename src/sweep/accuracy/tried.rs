@@ -1,8 +1,13 @@
-//! What a trial found.
+//! A trial: how a configuration does on some instances of a sweep, and whether it keeps a bound.
 
 use serde::{Deserialize, Serialize};
 
-/// What a configuration did on some instances of a sweep.
+/// The part of the oscillations of a trial that may break the bound. It is half of what the promise allows, because several
+/// choices are tried on one sample and none should pass by luck. A choice that breaks the bound in 10 % of all cases passes
+/// a trial of 100 oscillations one time in 500, and a trial of 40 one time in 70.
+const BROKEN: f64 = 0.025;
+
+/// How a configuration did on some instances of a sweep.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize, Serialize)]
 pub struct Trial {
     /// Instances.
@@ -22,7 +27,7 @@ impl Trial {
         self.broken as f64 <= (BROKEN * self.settled_oscillations as f64 - 0.5).max(0.0)
     }
 
-    /// What it says to a user.
+    /// The result as a sentence for the user.
     #[must_use]
     pub fn sentence(&self, bound: f64) -> String {
         let Trial { instances, settled_oscillations: settled, p95, .. } = *self;
@@ -46,8 +51,3 @@ impl Trial {
         )
     }
 }
-
-/// The part of the oscillations of a trial that may break the bound, half of what the promise allows: several choices are
-/// tried on one sample, of which none is to pass by luck. What breaks the bound in 10 % of all cases passes a trial of 100
-/// oscillations one time in 500, one of 40 one time in 70.
-const BROKEN: f64 = 0.025;

@@ -1,12 +1,11 @@
 //! The lines of a large map from few of its instances.
 //!
-//! A coarse part of the grid is computed first; then only cells whose computed points do not all have the same type,
-//! regime and status are divided, again and again, down to the grid itself. What lies inside the others takes the
-//! label of their corners.
+//! A coarse part of the grid is computed first. Then only cells whose computed points differ in type, regime or status are
+//! divided, again and again, down to the grid itself. Points inside the other cells take the label of the corners.
 //!
-//! A line that crosses two edges of a cell is followed into it, since the neighbour computes points on their common
-//! edge. Missed is what no computed point shows: a region that lies inside one coarse cell. A random sample of what
-//! was not computed says how much of the map that may be; what it finds is divided too.
+//! A line that crosses two edges of a cell is followed into it, since the neighbour computes points on their common edge. A
+//! region that lies inside one coarse cell is missed: no computed point shows it. A random sample of instances that were not
+//! computed says how much of the map that may be, and cells where it finds another label are divided, too.
 //!
 //! - `planes.rs`: the planes of a grid, and which instance a point is.
 //! - `cell.rs`: a cell, its points, its parts.
@@ -31,8 +30,8 @@ pub use planes::Planes;
 pub struct Refined {
     /// The planes of the grid.
     pub planes: Planes,
-    /// The label of every instance, computed or taken from the cell around it; whether it is settled, which no line
-    /// follows, is then that of the cell's nearest corner.
+    /// The label of every instance, computed or taken from the cell around it. No line follows whether an instance is
+    /// settled; an instance that was not computed takes that from the cell's nearest corner.
     pub labels: Vec<Label>,
     /// How many were computed.
     pub computed: usize,
@@ -49,7 +48,7 @@ impl Refined {
     /// confidence (Wilson's score); before what the sample found was mended. `None` without a sample.
     #[must_use]
     pub fn missed_at_most(&self) -> Option<f64> {
-        /// Of the normal distribution, one-sided.
+        /// The one-sided 95 % quantile of the normal distribution.
         const Z: f64 = 1.645;
         let n = self.sampled as f64;
         let share = self.missed as f64 / n;
@@ -59,7 +58,7 @@ impl Refined {
     }
 }
 
-/// What computes some instances: their labels in the same order, or why there are none.
+/// Computes some instances: gives their labels in the same order, or why there are none.
 pub type Compute<'a, E> = dyn FnMut(&[usize]) -> std::result::Result<Vec<Label>, E> + 'a;
 
 /// The planes of a grid that can be refined.
@@ -109,9 +108,9 @@ pub fn refine<E: From<Error>>(
 
 /// Labels of computed instances.
 struct Known {
-    /// Those of all instances; [`Label::NOT_COMPUTED`] for the others.
+    /// One label for every instance; [`Label::NOT_COMPUTED`] for those that were not computed.
     labels: Vec<Label>,
-    /// The computed ones, counted.
+    /// The labels of computed instances, counted.
     tally: Tally,
 }
 

@@ -13,8 +13,8 @@ use crate::sweep::spec::start::Kind;
 use crate::sweep::spec::{Analysis, FIRST_SETTLE, Pass, Spec};
 
 impl Spec {
-    /// The sweep whose [`Spec::resolved`] form this is; `None` where an entry is none that it writes. Whether it is the
-    /// same in all that counts, its identity tells.
+    /// The sweep whose [`Spec::resolved`] form this is; `None` where an entry is none that [`Spec::resolved`] writes.
+    /// Whether the two sweeps give the same results is told by their identities.
     pub(crate) fn from_resolved(
         resolved: &Json,
         title: &str,

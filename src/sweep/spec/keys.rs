@@ -12,6 +12,12 @@ use crate::sweep::spec::{MEASURE, SETTLE, SETTLE_LIMIT, STEPS_PER_PERIOD, law};
 use squealmap_input::place::Place;
 use squealmap_input::quote::list;
 
+/// The section of what varies, which has no keys of its own.
+const AXES: &str = "axes";
+
+/// Fewest and most steps per period that may be asked for.
+pub(super) const STEPS_RANGE: (usize, usize) = (3, 100_000);
+
 /// A key of a sweep file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Key {
@@ -44,9 +50,6 @@ pub const SECTIONS: [(&str, &str); 8] = [
     ("response", "how long the motion is followed, and how finely"),
     ("refine", "only the lines of a map are computed"),
 ];
-
-/// The section of what varies, which has no keys of its own.
-const AXES: &str = "axes";
 
 /// A key with a value that is no number of the model.
 struct Row {
@@ -276,10 +279,11 @@ fn readers(param: Param) -> String {
     if param == Param::Temperature { "a `material`".to_owned() } else { String::new() }
 }
 
-/// What `name` names: a key, `section.key`, or a section with all its keys; of `axes` all that may vary.
+/// The keys that `name` stands for: a key, `section.key`, or a section with all its keys. `axes` stands for all keys that
+/// may vary.
 ///
 /// # Errors
-/// For a name that is neither, with the nearest.
+/// When there is no such key or section; the sentence names the nearest.
 pub fn named(name: &str) -> Result<Vec<Key>> {
     let all = all();
     let wanted = name.trim().trim_start_matches('[').trim_end_matches(']');
@@ -338,6 +342,3 @@ fn whole((least, most): (usize, usize)) -> String {
 fn time() -> String {
     format!("a time above 0 and at most {LONGEST:e}, such as \"6 s\" or \"200 periods\"")
 }
-
-/// Fewest and most steps per period that may be asked for.
-pub(super) const STEPS_RANGE: (usize, usize) = (3, 100_000);

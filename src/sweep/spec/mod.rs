@@ -1,4 +1,15 @@
-//! TOML → validated spec; the only file that reads TOML.
+//! A sweep file (TOML) as a validated sweep. Only this folder reads TOML.
+//!
+//! | question | where |
+//! |---|---|
+//! | text → sweep | `read.rs`, `document.rs`, `duration.rs` |
+//! | its sections, key by key | `sections.rs`, `law.rs`, `start.rs`, [`refine`] |
+//! | what varies | `axis.rs`, `varied.rs` |
+//! | files that it names | `files.rs`, `rows.rs` |
+//! | what must hold between keys | `check.rs`, [`names`] |
+//! | every key, for people | [`keys`] |
+//! | one instance of it | `instance.rs`, `at.rs` |
+//! | written out in full, and read from that again | `resolved.rs`, `again.rs` |
 
 mod again;
 mod at;
@@ -42,7 +53,7 @@ pub const MAX_SWEEP_BYTES: u64 = 4 * squealmap_input::files::MIB;
 /// Most rows of a file of points, which stand in memory: those of the longest `map.csv` that is written by itself.
 pub const MAX_ROWS: usize = 20_000_000;
 
-/// Most rows of a friction table or a material, all of which an instance may look through.
+/// Most rows of a friction table or a material: an instance may have to look through all of them.
 pub const MAX_TABLE_ROWS: usize = 65_536;
 
 /// Most values of an axis, which stand in memory.
@@ -93,7 +104,7 @@ impl Analysis {
 /// How many starts every instance has.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Starts {
-    /// One, as [`crate::engine::plan::StartKind`] says.
+    /// One start, as [`crate::engine::plan::StartKind`] says.
     #[default]
     One,
     /// Two: the kick, and a large start with `large_velocity` and `large_displacement`.
@@ -117,10 +128,10 @@ impl Starts {
 /// Which of its starts an instance is computed from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Pass {
-    /// The one of [`crate::engine::plan::StartKind`].
+    /// The start of [`crate::engine::plan::StartKind`].
     #[default]
     Own,
-    /// The large one of [`Starts::Both`].
+    /// The large start of [`Starts::Both`].
     Large,
 }
 
@@ -159,7 +170,7 @@ pub struct Spec {
     pub steps_per_period: u32,
     /// Where the sweep gives them, if it does.
     pub steps_given: Option<Place>,
-    /// How its map is refined; `None`: every instance is computed.
+    /// How its map is refined; `None` where every instance is computed.
     pub refine: Option<Settings>,
 }
 

@@ -5,7 +5,7 @@
 pub struct Settings {
     /// Cells along each side of a plane to begin with.
     pub coarse: usize,
-    /// Instances that are not computed for a line, drawn to see what is missed.
+    /// How many instances that no line asks for are drawn, to see how much is missed.
     pub sample: usize,
     /// Seed of the drawing.
     pub seed: u64,

@@ -64,7 +64,7 @@ pub(super) struct Rows {
     pub(super) source: Source,
     /// The header, its names without quotes.
     pub(super) header: Vec<Field<'static>>,
-    /// What separates the fields.
+    /// The separator of the fields.
     separator: u8,
     /// Where the first row begins.
     body: usize,
@@ -72,8 +72,8 @@ pub(super) struct Rows {
 }
 
 impl Rows {
-    /// Reads the file `name` (relative to `base_dir`), which stands at `span` of `sweep`. One whose header has no column
-    /// like those of `columns` is another file, of which no more than the first name is told.
+    /// Reads the file `name` (relative to `base_dir`), which stands at `span` of `sweep`. Where its header has no name like
+    /// those of `columns`, it is some other file, and the error tells no more of it than its first name.
     pub(super) fn read(
         sweep: &Source,
         span: Range<usize>,
@@ -274,7 +274,7 @@ fn stranger(source: &Source, columns: &[&str]) -> Option<String> {
     foreign.then(|| quoted(&fields[0].text))
 }
 
-/// What separates the fields: a comma where the header has one, else a semicolon or a tab.
+/// The separator of the fields: a comma where the header has one, or else a semicolon or a tab.
 fn separator(source: &Source) -> u8 {
     let header = Lines { text: &source.text, start: 0 }.next().unwrap_or(0..0);
     let header = source.written(header);

@@ -77,7 +77,8 @@ impl Kind {
         }
     }
 
-    /// What would read an amplitude that this kind does not read; `by_event` when `start_event_fraction` is given.
+    /// The key or kind that would read an amplitude that this kind does not read. `by_event` says whether
+    /// `start_event_fraction` is given.
     pub(super) fn reader(self, param: Param, by_event: bool) -> Option<&'static str> {
         let unread = |reads: &[Kind], reader: &'static str| (!reads.contains(&self)).then_some(reader);
         match param {

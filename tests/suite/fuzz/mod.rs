@@ -15,7 +15,7 @@ use proptest::test_runner::{Config, TestError, TestRunner};
 use squealmap::engine::method::Method;
 use squealmap::engine::outcome::Outcome;
 use squealmap::engine::plan::Plan;
-use squealmap::engine::reference::records as reference;
+use squealmap::engine::reference::records::record;
 use squealmap::engine::reference::respond::respond;
 use squealmap::engine::scene::Scene;
 use squealmap::model::linear::Linear;
@@ -117,7 +117,7 @@ fn no_engine_is_at_a_loss() {
             return Ok(());
         }
         *case.lock().expect("the watch does not panic") = (Instant::now(), text.clone());
-        let record = reference::record(&spec, 0);
+        let record = record(&spec, 0);
         prop_assert!(
             record.linear.as_ref().is_none_or(is_finite),
             "{:?} is {:?}",

@@ -1,6 +1,11 @@
 //! What the paper claims of the lumped model, and whether the results bear it out.
 //!
 //! Verdicts are decided here from [`Evidence`] and [`LIMITS`]; none is written down.
+//!
+//! - `claim.rs`: a claim and its verdict.
+//! - `ramps.rs`, `amplitudes.rs`: claims on single ramps, and on ramps compared with each other.
+//! - `course.rs`: claims on the size of a vibration along a ramp.
+//! - `phase.rs`: claims on the phase of the two accelerations.
 
 mod amplitudes;
 mod claim;

@@ -1,4 +1,9 @@
 //! `paper`: the figures of the source paper as pictures and tables.
+//!
+//! - `laws.rs`: Figure 3; `ramp.rs`: Figures 4 to 6; `growth.rs`: Figure 7.
+//! - `phase.rs`, `accelerations.rs`: the phase method on trial, and other ramps and kicks.
+//! - `report.rs`: `paper.md`.
+//! - `distinct.rs`: values without repeats.
 
 mod accelerations;
 mod distinct;
@@ -13,8 +18,7 @@ use serde_json::json;
 use crate::results::figure::look::Look;
 use crate::results::manifest::described;
 use crate::study::error::Result;
-use crate::study::modes::follow as modes;
-use crate::study::modes::follow::Modes;
+use crate::study::modes::follow::{self, Modes};
 use crate::study::paper::{Case, Figure, PhaseTrial, Study, Trial};
 use crate::sweep::spec::Spec;
 use squealmap_figure::png;
@@ -105,7 +109,7 @@ impl Shown {
     #[must_use]
     pub fn svg(&self, look: &Look<'_>) -> String {
         match self {
-            Shown::Modes(spec, found) => modes::draw(spec, found, look),
+            Shown::Modes(spec, found) => follow::draw(spec, found, look),
             Shown::Laws(laws) => laws.picture(look),
             Shown::Ramp(ramp) => ramp::picture(ramp, look),
             Shown::Growth(growths) => growth::picture(growths, look),
@@ -120,7 +124,7 @@ impl Shown {
     /// When the table cannot be written.
     pub fn csv(&self) -> Result<Vec<u8>> {
         match self {
-            Shown::Modes(spec, found) => modes::table(spec, found),
+            Shown::Modes(spec, found) => follow::table(spec, found),
             Shown::Laws(laws) => laws.table(),
             Shown::Ramp(ramp) => ramp::table(ramp),
             Shown::Growth(growths) => growth::table(growths),
@@ -135,7 +139,7 @@ impl Shown {
     /// When it cannot be written.
     pub fn document(&self) -> Result<Vec<u8>> {
         match self {
-            Shown::Modes(spec, found) => modes::document(spec, found),
+            Shown::Modes(spec, found) => follow::document(spec, found),
             Shown::Ramp(ramp) => Ok(described(&ramp.to_json())?),
             Shown::Growth(growths) => Ok(described(&growth::to_json(growths))?),
             Shown::Accelerations(trials) => Ok(described(&accelerations::to_json(trials))?),

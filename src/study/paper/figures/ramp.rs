@@ -55,7 +55,7 @@ pub struct Slowdown {
     pub velocity: [f64; 2],
     /// The ramp in stretches of a period each.
     pub columns: Vec<Stretch>,
-    /// The ramp in wider stretches, of which the shares are shown.
+    /// The ramp in wider stretches, whose shares are shown.
     pub parts: Vec<Stretch>,
 }
 
