@@ -99,6 +99,9 @@ fn segment_of(index: u32) -> Segment {
     );
 }
 
+// The functions below have a branch for each form: the last one stands without a condition.
+const_assert LAW == LAW_PIECES || LAW == LAW_EXPONENTIAL || LAW == LAW_RATIONAL;
+
 fn friction(piece: Piece, sigma: real, v: real, lag: real) -> Friction {
     let forward = sigma > real(0.0);
     if LAW == LAW_PIECES {

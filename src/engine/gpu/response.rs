@@ -13,9 +13,9 @@ use crate::engine::gpu::run::{ChunkResult, Drive};
 use crate::engine::instances::Instances;
 use crate::engine::judged::{kind_of, take_response};
 use crate::engine::kernel::lane::Lane;
-use crate::engine::kernel::response::{KERNEL, MOST_PIECES, choices, kernel_for, law_of, words};
+use crate::engine::kernel::response::{KERNEL, MOST_PIECES, choices, kernel_for, words};
 use crate::engine::kernel::scalar::Real;
-use crate::engine::kernel::scene::{Law, Segments};
+use crate::engine::kernel::scene::Segments;
 use crate::engine::kernel::source::{FLAG_STATUS, SETTING_WORDS, WORKGROUP_SIZE};
 use crate::engine::kernel::steps::{ORDER, TOLERANCE};
 use crate::engine::kernel::windows::Windows;
@@ -28,6 +28,7 @@ use crate::engine::precision::Precision;
 use crate::engine::record::Record;
 use crate::engine::scene::Scene;
 use crate::model::instance::Instance;
+use crate::model::piece::LawForm;
 use crate::model::status::Status;
 use std::sync::atomic::AtomicBool;
 
@@ -93,7 +94,7 @@ fn chunk_size<R: Real>(spec: &dyn Instances, session: &Session, chunk: Option<us
 /// What selects a kernel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Form {
-    law: Law,
+    law: LawForm,
     pieces: usize,
     ramp: bool,
 }
@@ -229,7 +230,7 @@ fn ready<R: Real>(
     let &(_, pieces) = kernel_for(scene.model.law.pieces.len())?;
     let ramp = segments.iter().any(|segment| segment[3] != 0.0);
     let inputs = words(scene, segments, pieces).into_iter().map(R::from_f64).collect();
-    Some((Form { law: law_of(instance.law.kind()), pieces, ramp }, Ready { running, inputs, before }))
+    Some((Form { law: instance.law.kind().form(), pieces, ramp }, Ready { running, inputs, before }))
 }
 
 /// The instances of a chunk that share a kernel.

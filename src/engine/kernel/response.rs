@@ -6,7 +6,7 @@ use crate::engine::kernel::lane::Lane;
 use crate::engine::kernel::observe::SUMS;
 use crate::engine::kernel::scalar::Real;
 use crate::engine::kernel::scene::{
-    FIRST_HALF, Law, OPEN_HALF, PIECE_WORDS, SECOND_HALF, SEGMENT_WORDS, SEGMENTS, SETTLE, Scene as Words,
+    FIRST_HALF, OPEN_HALF, PIECE_WORDS, SECOND_HALF, SEGMENT_WORDS, SEGMENTS, SETTLE, Scene as Words,
     Segments,
 };
 use crate::engine::kernel::source::{Constant, Field, Kernel};
@@ -17,8 +17,8 @@ use crate::engine::outcome::Outcome;
 use crate::engine::plan::Plan;
 use crate::engine::reference::integrate::{MAX_EVENTS_PER_PERIOD, MAX_STEPS_PER_PERIOD, ROUNDINGS};
 use crate::engine::scene::{MOST_STEPS, Scene};
-use crate::model::friction::{FAR, LawKind};
 use crate::model::instance::Instance;
+use crate::model::piece::{FAR, LawForm};
 use std::f64::consts::TAU;
 
 /// Most pieces of a friction law in a kernel: the rows of the longest table.
@@ -132,9 +132,9 @@ pub const fn kernel<const PIECES: usize>() -> Kernel {
         settings: SETTINGS,
         constants: const {
             &[
-                ("LAW_PIECES", Constant::U32(Law::Pieces as u32)),
-                ("LAW_EXPONENTIAL", Constant::U32(Law::Exponential as u32)),
-                ("LAW_RATIONAL", Constant::U32(Law::Rational as u32)),
+                ("LAW_PIECES", Constant::U32(LawForm::Pieces as u32)),
+                ("LAW_EXPONENTIAL", Constant::U32(LawForm::Exponential as u32)),
+                ("LAW_RATIONAL", Constant::U32(LawForm::Rational as u32)),
                 ("PIECES", Constant::U32(PIECES as u32)),
                 ("PIECE_WORDS", Constant::U32(PIECE_WORDS as u32)),
                 ("SEGMENTS", Constant::U32(SEGMENTS as u32)),
@@ -195,18 +195,8 @@ const SEARCHES_PER_STEP: u32 = 2;
 
 /// What a scene selects: the form of its law, and whether its belt has a ramp.
 #[must_use]
-pub const fn choices(law: Law, ramp: bool) -> [(&'static str, Constant); 2] {
+pub const fn choices(law: LawForm, ramp: bool) -> [(&'static str, Constant); 2] {
     [("LAW", Constant::U32(law as u32)), ("RAMP", Constant::Bool(ramp))]
-}
-
-/// The form of the law of an instance.
-#[must_use]
-pub fn law_of(kind: LawKind) -> Law {
-    match kind {
-        LawKind::Constant | LawKind::Bilinear | LawKind::Table => Law::Pieces,
-        LawKind::Exponential => Law::Exponential,
-        LawKind::Rational => Law::Rational,
-    }
 }
 
 /// The words of an instance for kernels built for `pieces` pieces.
@@ -217,8 +207,8 @@ pub fn words(scene: &Scene, segments: &Segments, pieces: usize) -> Vec<f64> {
 
 /// An instance as the kernel's twin has it, without segments, for steps that may turn so far.
 #[must_use]
-pub fn without_segments<S: Real>(law: LawKind, scene: &Scene, turns: &Turns) -> Words<S> {
-    Words::of(law_of(law), &scene.model, scene.belt(0.0).velocity, start(scene), turns)
+pub fn without_segments<S: Real>(law: LawForm, scene: &Scene, turns: &Turns) -> Words<S> {
+    Words::of(law, &scene.model, scene.belt(0.0).velocity, start(scene), turns)
 }
 
 /// `x2`, `y1`, `ẋ2`, `ẏ1` at the start.
@@ -239,7 +229,7 @@ pub fn respond<S: Real>(instance: &Instance, plan: &Plan, tolerance: f64) -> Out
     let mut lane: Option<Lane<S>> = None;
     loop {
         let packed = words(&scene, &windows.segments, pieces);
-        let words: Words<S> = Words::read(law_of(instance.law.kind()), pieces, &packed);
+        let words: Words<S> = Words::read(instance.law.kind().form(), pieces, &packed);
         let lane = lane.get_or_insert_with(|| Lane::new(&words));
         lane.run(&words, S::from_f64(tolerance));
         if let Some(outcome) = windows.take(&scene, lane) {

@@ -13,20 +13,8 @@ use crate::engine::kernel::scalar::Real;
 use crate::engine::kernel::steps::{ORDER, TOLERANCE};
 use crate::engine::method::pace::Turns;
 use crate::engine::reference::integrate::MAX_EVENTS_AT_ONCE;
-use crate::model::friction::{FAR, Piece as LawPiece};
+use crate::model::piece::{FAR, LawForm, Piece as LawPiece};
 use crate::model::scaled::Scaled;
-
-/// The form of the friction law a kernel is built for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-#[repr(u32)]
-pub enum Law {
-    /// Straight pieces: `constant`, `bilinear`, `table`.
-    Pieces,
-    /// `exponential`.
-    Exponential,
-    /// `rational`.
-    Rational,
-}
 
 /// One piece of the friction law.
 #[derive(Clone, Copy, Debug)]
@@ -95,7 +83,7 @@ pub const SEGMENT_WORDS: usize = 5;
 #[derive(Clone, Debug)]
 pub struct Scene<S> {
     /// Form of the friction law.
-    pub law: Law,
+    pub law: LawForm,
     /// `sin θ`.
     pub s: S,
     /// `cos θ`.
@@ -223,7 +211,7 @@ fn piece(model: &Scaled, v0: f64, index: usize, turns: &Turns) -> [f64; PIECE_WO
 impl<S: Real> Scene<S> {
     /// Reads the words of an instance.
     #[must_use]
-    pub fn read(law: Law, pieces: usize, words: &[f64]) -> Scene<S> {
+    pub fn read(law: LawForm, pieces: usize, words: &[f64]) -> Scene<S> {
         let w = |i: usize| S::from_f64(words[i]);
         let segment = |i: usize| {
             let at = SCENE_WORDS + i * SEGMENT_WORDS;
@@ -245,14 +233,14 @@ impl<S: Real> Scene<S> {
 
     /// An instance without segments, by its law's own pieces, whose steps may turn so far.
     #[must_use]
-    pub fn of(law: Law, model: &Scaled, v0: f64, start: [f64; 4], turns: &Turns) -> Scene<S> {
+    pub fn of(law: LawForm, model: &Scaled, v0: f64, start: [f64; 4], turns: &Turns) -> Scene<S> {
         let piece = |index: usize| Piece::read(&piece(model, v0, index, turns));
         let pieces = (0..model.law.pieces.len()).map(piece).collect();
         Scene { pieces, ..Scene::read_head(law, &head(model, v0, start)) }
     }
 
     /// What stands before the segments.
-    fn read_head(law: Law, words: &[f64]) -> Scene<S> {
+    fn read_head(law: LawForm, words: &[f64]) -> Scene<S> {
         let w = |i: usize| S::from_f64(words[i]);
         let nothing = Segment {
             steps: S::ZERO,
@@ -295,11 +283,11 @@ impl<S: Real> Scene<S> {
     pub fn friction(&self, piece: &Piece<S>, sigma: S, v: S, lag: S) -> (S, S) {
         let forward = sigma > S::ZERO;
         match self.law {
-            Law::Pieces => {
+            LawForm::Pieces => {
                 let q = sigma * piece.at_zero + piece.slope * v;
                 (q, if forward { piece.offset - piece.slope * lag } else { q - self.mu0 })
             }
-            Law::Exponential => {
+            LawForm::Exponential => {
                 // From the equilibrium, without cancellation, or from rest, where that is too far down.
                 let ahead = piece.rate * lag;
                 let near = forward && ahead <= S::from_f64(FAR);
@@ -308,7 +296,7 @@ impl<S: Real> Scene<S> {
                 let q = sigma * (piece.at_zero + (base + less));
                 (q, if near { less } else { q - self.mu0 })
             }
-            Law::Rational => {
+            LawForm::Rational => {
                 let reciprocal = S::ONE / (S::ONE + piece.rate * sigma * v);
                 let q = sigma * piece.at_zero * reciprocal;
                 let less = piece.at_zero * piece.rate * lag * reciprocal * piece.offset;
@@ -321,8 +309,10 @@ impl<S: Real> Scene<S> {
     #[must_use]
     pub fn longest_in_layer(&self, piece: &Piece<S>, q: S, v: S, acceleration: S) -> S {
         let narrowing = S::ONE / (S::ONE + piece.rate * v.abs());
-        let sloped =
-            if self.law == Law::Exponential { (q.abs() - piece.at_zero).abs() } else { q.abs() * narrowing };
+        let sloped = match self.law {
+            LawForm::Exponential => (q.abs() - piece.at_zero).abs(),
+            LawForm::Pieces | LawForm::Rational => q.abs() * narrowing,
+        };
         let inverse = piece.rate * (acceleration.abs() * narrowing * self.layer[0] + sloped * self.layer[1]);
         S::ONE / inverse.max(S::from_f64(1.0 / NO_KINK))
     }

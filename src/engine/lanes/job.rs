@@ -6,7 +6,7 @@ use crate::engine::kernel::contact::{Belt, GAP, State, UPPER_KINK};
 use crate::engine::kernel::reductions::{End, Reductions};
 use crate::engine::kernel::response::without_segments;
 use crate::engine::kernel::scalar::Real;
-use crate::engine::kernel::scene::{Law, Scene as Words};
+use crate::engine::kernel::scene::Scene as Words;
 use crate::engine::kernel::series::FREE;
 use crate::engine::lanes::constants::{CONSTANTS, SWING, constants};
 use crate::engine::lanes::count::Count;
@@ -17,6 +17,7 @@ use crate::engine::plan::Plan;
 use crate::engine::scene::Scene;
 use crate::engine::settling::Settling;
 use crate::model::instance::Instance;
+use crate::model::piece::LawForm;
 use crate::model::status::Status;
 
 /// Steps of a stretch of the window: short sums keep their digits, and a lane is looked at between stretches.
@@ -113,7 +114,7 @@ impl<T: Real> Job<T> {
     /// The start of an instance, whose steps may turn so far.
     #[must_use]
     pub fn new(instance: &Instance, scene: Scene, plan: &Plan, turns: &Turns) -> Job<T> {
-        let words: Words<T> = without_segments(instance.law.kind(), &scene, turns);
+        let words: Words<T> = without_segments(instance.law.kind().form(), &scene, turns);
         let settling = Settling::new(instance, &scene, plan).map(Box::new);
         let asked = 0.5 * scene.scaled(plan.measure);
         let half = settling.as_ref().map_or(asked, |settling| settling.half(None));
@@ -149,7 +150,7 @@ impl<T: Real> Job<T> {
 
     /// The form of its law.
     #[must_use]
-    pub fn law(&self) -> Law {
+    pub fn law(&self) -> LawForm {
         self.words.law
     }
 

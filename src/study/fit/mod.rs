@@ -3,6 +3,7 @@
 mod errors;
 mod fault;
 mod problem;
+mod shape;
 mod squares;
 pub mod table;
 
