@@ -9,11 +9,13 @@ use crate::response::plan;
 use crate::words::{device, drive, inputs, on_cpu};
 use libtest_mimic::Failed;
 use rayon::prelude::*;
+use squealmap::engine::fields;
 use squealmap::engine::gpu::arithmetic::Arithmetic;
 use squealmap::engine::gpu::device::Device;
 use squealmap::engine::gpu::kernel::Compiled;
 use squealmap::engine::gpu::run::{ChunkResult, Drive, run};
 use squealmap::engine::kernel::lane::Lane;
+use squealmap::engine::kernel::linear;
 use squealmap::engine::kernel::record::write;
 use squealmap::engine::kernel::response::{choices, kernel, words};
 use squealmap::engine::kernel::scalar::Real;
@@ -21,7 +23,6 @@ use squealmap::engine::kernel::scene::Scene as Words;
 use squealmap::engine::kernel::segments::segments;
 use squealmap::engine::kernel::source::{Constant, FLAG_STEPS, Kernel, SETTING_WORDS};
 use squealmap::engine::kernel::steps::TOLERANCE;
-use squealmap::engine::kernel::{linear, source};
 use squealmap::engine::precision::Precision;
 use squealmap::engine::scene::Scene;
 use squealmap::model::Param;
@@ -85,7 +86,7 @@ fn differing<R: Real>(
     actual: &ChunkResult<R>,
     expected: &ChunkResult<R>,
 ) -> Result<(usize, String), Failed> {
-    let count = expected.flags.len() / source::words(kernel.flags);
+    let count = expected.flags.len() / fields::words(kernel.flags);
     if (actual.state.len(), actual.flags.len()) != (expected.state.len(), expected.flags.len()) {
         return Err("results of different sizes".into());
     }
@@ -145,7 +146,7 @@ fn compared<R: Real>(
         for group in groups {
             let actual = on_gpu(&device, kernel, &text, &group.inputs)?;
             let (count, what) = differing(kernel, &actual, &group.twin)?;
-            instances += group.twin.flags.len() / source::words(kernel.flags);
+            instances += group.twin.flags.len() / fields::words(kernel.flags);
             different += count;
             first += &what;
         }
@@ -223,7 +224,7 @@ fn by_twin<R: Real>(law: LawForm, count: usize, instances: impl Iterator<Item = 
 
 /// Runs as word-major inputs and results.
 fn group<R: Real>(runs: &[&Run<R>]) -> Group<R> {
-    let [inputs, state, flags] = [RESPONSE.inputs, RESPONSE.state, RESPONSE.flags].map(source::words);
+    let [inputs, state, flags] = [RESPONSE.inputs, RESPONSE.state, RESPONSE.flags].map(fields::words);
     Group {
         inputs: (0..inputs)
             .flat_map(|word| runs.iter().map(move |one| R::from_f64(one.words[word])))
@@ -253,7 +254,7 @@ fn equals<R: Real>(runs: &[Run<R>], law: LawForm, ramp: bool, modes: &[bool]) ->
 /// How the twins end, and how many saw what: the comparison is worth what the instances do.
 fn variety<R>(runs: &[Run<R>]) -> String {
     let many = |name: &str, holds: fn(u32) -> bool| {
-        let word = source::first_word(RESPONSE.flags, name);
+        let word = fields::first_word(RESPONSE.flags, name);
         runs.iter().filter(|one| holds(one.flags[word])).count()
     };
     format!(

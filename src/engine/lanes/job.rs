@@ -16,6 +16,7 @@ use crate::engine::outcome::{Ending, Outcome};
 use crate::engine::plan::Plan;
 use crate::engine::scene::Scene;
 use crate::engine::settling::Settling;
+use crate::engine::sums::sum;
 use crate::model::instance::Instance;
 use crate::model::piece::LawForm;
 use crate::model::status::Status;
@@ -240,7 +241,7 @@ impl<T: Real> Job<T> {
     /// The Fourier components of the window from its stretches, if they are good enough.
     fn components(&self, bound: f64) -> Option<[[f64; 2]; 2]> {
         let all = |i: usize| self.seen.halves[0][i] + self.seen.halves[1][i];
-        let rms = [all(5), all(6)].map(|square| (square / all(0)).sqrt());
+        let rms = [all(sum::AX), all(sum::AY)].map(|square| (square / all(sum::TIME)).sqrt());
         self.stretches.components(self.omega(), self.seen.first, rms, bound)
     }
 
