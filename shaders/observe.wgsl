@@ -9,7 +9,7 @@ struct Moment {
 
 struct Sums {
     half: u32,
-    peaks: array<real, 3>,
+    peaks: array<real, PEAK_WORDS>,
     previous: real,
     has_previous: u32,
     impacts: u32,
@@ -27,22 +27,23 @@ struct Phase {
 }
 
 var<private> sums: Sums;
-var<private> block: array<real, SUMS>;
-var<private> growth: array<real, 15>;
+var<private> block: array<real, SUM_WORDS>;
+var<private> growth: array<real, GROWTH_WORDS>;
 var<private> phase: Phase;
 
 fn sample_time(i: u32) -> real {
-    var times = array<real, 5>(real(0.0), NODE_0, real(0.5), NODE_2, real(1.0));
+    var times = array<real, STEP_SAMPLES>(real(0.0), NODE_0, NODE_1, NODE_2, real(1.0));
     return times[i];
 }
 
 fn node_weight(i: u32) -> real {
-    return select(real(5.0 / 18.0), real(8.0 / 18.0), i == 1u);
+    var weights = array<real, NODES>(WEIGHT_0, WEIGHT_1, WEIGHT_2);
+    return weights[i];
 }
 
 fn flush() {
-    for (var i = 0u; i < SUMS; i++) {
-        let word = STATE_TOTAL + sums.half * SUMS + i;
+    for (var i = 0u; i < SUM_WORDS; i++) {
+        let word = STATE_TOTAL + sums.half * SUM_WORDS + i;
         store(word, instance, load(word, instance) + block[i]);
         block[i] = real(0.0);
     }
@@ -50,21 +51,21 @@ fn flush() {
 
 fn observe_window(origin: vec2<real>, t0: real, contact: u32, part: u32, at: Moment, step: real, tau: real) {
     sums.half = select(1u, 0u, part == FIRST_HALF);
-    block[0] += tau;
+    block[SUM_TIME] += tau;
     if contact == STICK {
-        block[10] += tau;
+        block[SUM_STICK] += tau;
     } else if contact == FREE {
-        block[11] += tau;
+        block[SUM_FREE] += tau;
     } else if contact == REVERSE {
-        block[12] += tau;
+        block[SUM_REVERSE] += tau;
     }
     let closed = select(t0, real(0.0), contact == FREE);
-    var ax: array<real, 5>;
-    var ay: array<real, 5>;
-    var normal: array<real, 5>;
-    var velocity: array<real, 5>;
-    var acceleration: array<real, 5>;
-    for (var i = 0u; i < 5u; i++) {
+    var ax: array<real, STEP_SAMPLES>;
+    var ay: array<real, STEP_SAMPLES>;
+    var normal: array<real, STEP_SAMPLES>;
+    var velocity: array<real, STEP_SAMPLES>;
+    var acceleration: array<real, STEP_SAMPLES>;
+    for (var i = 0u; i < STEP_SAMPLES; i++) {
         let t = sample_time(i) * tau;
         let x = evaluate(&sx, t);
         let w = evaluate(&sw, t);
@@ -73,30 +74,30 @@ fn observe_window(origin: vec2<real>, t0: real, contact: u32, part: u32, at: Mom
         ax[i] = abs(x.a);
         ay[i] = abs(w.a);
         normal[i] = value(&sn, t);
-        if i > 0u && i < 4u {
+        if i > 0u && i + 1u < STEP_SAMPLES {
             let weight = node_weight(i - 1u) * tau;
             let dx = x.p - origin.x;
             let dw = w.p - origin.y;
-            block[1] += weight * dx;
-            block[2] += weight * (dx * dx);
-            block[3] += weight * dw;
-            block[4] += weight * (dw * dw);
-            block[5] += weight * (x.a * x.a);
-            block[6] += weight * (w.a * w.a);
-            block[7] += weight * (x.v * x.v + w.v * w.v);
-            block[8] += weight * (value(&st, t) + closed);
-            block[9] += weight * normal[i];
+            block[SUM_X] += weight * dx;
+            block[SUM_XX] += weight * (dx * dx);
+            block[SUM_Y] += weight * dw;
+            block[SUM_YY] += weight * (dw * dw);
+            block[SUM_AX] += weight * (x.a * x.a);
+            block[SUM_AY] += weight * (w.a * w.a);
+            block[SUM_SPEED] += weight * (x.v * x.v + w.v * w.v);
+            block[SUM_TANGENTIAL] += weight * (value(&st, t) + closed);
+            block[SUM_NORMAL] += weight * normal[i];
         }
     }
-    sums.peaks[0] = max(sums.peaks[0], maximum(ax));
-    sums.peaks[1] = max(sums.peaks[1], maximum(ay));
-    sums.peaks[2] = max(sums.peaks[2], maximum(normal));
+    sums.peaks[PEAK_AX] = max(sums.peaks[PEAK_AX], maximum(ax));
+    sums.peaks[PEAK_AY] = max(sums.peaks[PEAK_AY], maximum(ay));
+    sums.peaks[PEAK_NORMAL] = max(sums.peaks[PEAK_NORMAL], maximum(normal));
     cross_upwards(velocity, acceleration, at, step, tau);
 }
 
 fn cross_upwards(
-    velocity_in: array<real, 5>,
-    acceleration_in: array<real, 5>,
+    velocity_in: array<real, STEP_SAMPLES>,
+    acceleration_in: array<real, STEP_SAMPLES>,
     at: Moment,
     step: real,
     tau: real,
@@ -106,7 +107,7 @@ fn cross_upwards(
     if sums.has_previous == 1u && sums.previous < real(0.0) && velocity[0] >= real(0.0) {
         note(at);
     }
-    for (var i = 0u; i < 4u; i++) {
+    for (var i = 0u; i + 1u < STEP_SAMPLES; i++) {
         var low = sample_time(i) * tau;
         var high = sample_time(i + 1u) * tau;
         let below = velocity[i] < real(0.0);
@@ -140,7 +141,7 @@ fn cross_upwards(
         }
         note(Moment(at.segment, at.index, at.fraction + high / step));
     }
-    sums.previous = velocity[4];
+    sums.previous = velocity[STEP_SAMPLES - 1u];
     sums.has_previous = 1u;
 }
 
@@ -158,12 +159,12 @@ fn observe_growth(tau: real) {
     }
     let x = evaluate(&sx, tau);
     let w = evaluate(&sw, tau);
-    var sample = array<real, 4>(x.p, x.v, x.a, w.a);
-    growth[0] += tau;
-    var word = 5u;
-    for (var i = 0u; i < 4u; i++) {
-        growth[1u + i] += tau * sample[i];
-        for (var j = i; j < 4u; j++) {
+    var sample = array<real, GROWTH_SAMPLED>(x.p, x.v, x.a, w.a);
+    growth[GROWTH_TIME] += tau;
+    var word = GROWTH_PRODUCTS;
+    for (var i = 0u; i < GROWTH_SAMPLED; i++) {
+        growth[GROWTH_SAMPLES + i] += tau * sample[i];
+        for (var j = i; j < GROWTH_SAMPLED; j++) {
             growth[word] += tau * (sample[i] * sample[j]);
             word += 1u;
         }
@@ -184,15 +185,15 @@ fn turn(from_in: real, to_in: real, positive: bool) -> real {
     return high;
 }
 
-fn maximum(values_in: array<real, 5>) -> real {
+fn maximum(values_in: array<real, STEP_SAMPLES>) -> real {
     var values = values_in;
     var top = 0u;
-    for (var i = 1u; i < 5u; i++) {
+    for (var i = 1u; i < STEP_SAMPLES; i++) {
         if values[i] > values[top] {
             top = i;
         }
     }
-    if top == 0u || top == 4u {
+    if top == 0u || top == STEP_SAMPLES - 1u {
         return values[top];
     }
     let left = (values[top] - values[top - 1u]) / (sample_time(top) - sample_time(top - 1u));
@@ -223,7 +224,7 @@ fn observe_phase(at: Moment, step: real, tau: real) {
     if span <= real(0.0) {
         return;
     }
-    for (var i = 0u; i < 3u; i++) {
+    for (var i = 0u; i < NODES; i++) {
         let along = sample_time(i + 1u) * span;
         let weight = node_weight(i) * span;
         let carrier = rotate(phase.carrier, phase.omega * along);
@@ -264,7 +265,7 @@ fn rotate(z: vec2<real>, angle: real) -> vec2<real> {
     let square = angle * angle;
     var cosine = real(1.0);
     var sine = real(1.0);
-    for (var k = 7u; k >= 1u; k--) {
+    for (var k = ROTATION_TERMS; k >= 1u; k--) {
         let n = real(2u * k);
         cosine = real(1.0) - square * cosine / (n * (n - real(1.0)));
         sine = real(1.0) - square * sine / (n * (n + real(1.0)));

@@ -8,10 +8,10 @@ fn load_lane() {
         sums.peaks[i] = load(STATE_PEAKS + i, instance);
     }
     lane.rest = load(STATE_REST, instance);
-    for (var i = 0u; i < SUMS; i++) {
+    for (var i = 0u; i < SUM_WORDS; i++) {
         block[i] = load(STATE_BLOCK + i, instance);
     }
-    for (var i = 0u; i < 15u; i++) {
+    for (var i = 0u; i < GROWTH_WORDS; i++) {
         growth[i] = load(STATE_GROWTH + i, instance);
     }
     sums.previous = load(STATE_PREVIOUS, instance);
@@ -21,10 +21,10 @@ fn load_lane() {
     sums.last = Moment(
         flag(FLAG_LAST, instance), flag(FLAG_LAST + 1u, instance), load(STATE_LAST, instance),
     );
-    phase.omega = load(STATE_PHASE, instance);
-    phase.carrier = vec2<real>(load(STATE_PHASE + 1u, instance), load(STATE_PHASE + 2u, instance));
-    phase.x = vec2<real>(load(STATE_PHASE + 3u, instance), load(STATE_PHASE + 4u, instance));
-    phase.y = vec2<real>(load(STATE_PHASE + 5u, instance), load(STATE_PHASE + 6u, instance));
+    phase.omega = load(STATE_PHASE + PHASE_OMEGA, instance);
+    phase.carrier = vec2<real>(load(STATE_PHASE + PHASE_CARRIER, instance), load(STATE_PHASE + PHASE_CARRIER + 1u, instance));
+    phase.x = vec2<real>(load(STATE_PHASE + PHASE_X, instance), load(STATE_PHASE + PHASE_X + 1u, instance));
+    phase.y = vec2<real>(load(STATE_PHASE + PHASE_Y, instance), load(STATE_PHASE + PHASE_Y + 1u, instance));
     lane.status = STATUS_UNWRITTEN;
     lane.iterations = flag(FLAG_STEPS, instance);
     lane.segment = flag(FLAG_SEGMENT, instance);
@@ -50,10 +50,10 @@ fn store_lane() {
         store(STATE_PEAKS + i, instance, sums.peaks[i]);
     }
     store(STATE_REST, instance, lane.rest);
-    for (var i = 0u; i < SUMS; i++) {
+    for (var i = 0u; i < SUM_WORDS; i++) {
         store(STATE_BLOCK + i, instance, block[i]);
     }
-    for (var i = 0u; i < 15u; i++) {
+    for (var i = 0u; i < GROWTH_WORDS; i++) {
         store(STATE_GROWTH + i, instance, growth[i]);
     }
     store(STATE_PREVIOUS, instance, sums.previous);
@@ -63,13 +63,13 @@ fn store_lane() {
     set_flag(FLAG_LAST, instance, sums.last.segment);
     set_flag(FLAG_LAST + 1u, instance, sums.last.index);
     store(STATE_LAST, instance, sums.last.fraction);
-    store(STATE_PHASE, instance, phase.omega);
-    store(STATE_PHASE + 1u, instance, phase.carrier.x);
-    store(STATE_PHASE + 2u, instance, phase.carrier.y);
-    store(STATE_PHASE + 3u, instance, phase.x.x);
-    store(STATE_PHASE + 4u, instance, phase.x.y);
-    store(STATE_PHASE + 5u, instance, phase.y.x);
-    store(STATE_PHASE + 6u, instance, phase.y.y);
+    store(STATE_PHASE + PHASE_OMEGA, instance, phase.omega);
+    store(STATE_PHASE + PHASE_CARRIER, instance, phase.carrier.x);
+    store(STATE_PHASE + PHASE_CARRIER + 1u, instance, phase.carrier.y);
+    store(STATE_PHASE + PHASE_X, instance, phase.x.x);
+    store(STATE_PHASE + PHASE_X + 1u, instance, phase.x.y);
+    store(STATE_PHASE + PHASE_Y, instance, phase.y.x);
+    store(STATE_PHASE + PHASE_Y + 1u, instance, phase.y.y);
     set_flag(FLAG_STEPS, instance, lane.iterations);
     set_flag(FLAG_SEGMENT, instance, lane.segment);
     set_flag(FLAG_INDEX, instance, lane.index);

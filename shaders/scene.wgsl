@@ -76,11 +76,11 @@ fn read_scene() {
 fn piece_of(index: u32) -> Piece {
     let word = INPUT_PIECES + index * PIECE_WORDS;
     return Piece(
-        input(word, instance),
-        input(word + 1u, instance),
-        input(word + 2u, instance),
-        input(word + 3u, instance),
-        input(word + 4u, instance),
+        input(word + PIECE_AT_ZERO, instance),
+        input(word + PIECE_SLOPE, instance),
+        input(word + PIECE_RATE, instance),
+        input(word + PIECE_OFFSET, instance),
+        input(word + PIECE_KINK, instance),
     );
 }
 
@@ -88,16 +88,19 @@ fn segment_of(index: u32) -> Segment {
     let word = INPUT_SEGMENTS + index * SEGMENT_WORDS;
     var acceleration = real(0.0);
     if RAMP {
-        acceleration = input(word + 3u, instance);
+        acceleration = input(word + SEGMENT_ACCELERATION, instance);
     }
     return Segment(
-        input(word, instance),
-        input(word + 1u, instance),
-        input(word + 2u, instance),
+        input(word + SEGMENT_STEPS, instance),
+        input(word + SEGMENT_STEP, instance),
+        input(word + SEGMENT_VELOCITY, instance),
         acceleration,
-        input(word + 4u, instance),
+        input(word + SEGMENT_PART, instance),
     );
 }
+
+// The functions below have a branch for each form: the last one stands without a condition.
+const_assert LAW == LAW_PIECES || LAW == LAW_EXPONENTIAL || LAW == LAW_RATIONAL;
 
 fn friction(piece: Piece, sigma: real, v: real, lag: real) -> Friction {
     let forward = sigma > real(0.0);
@@ -141,7 +144,7 @@ fn piece_at(speed: real) -> u32 {
         if index + 1u >= PIECES {
             break;
         }
-        if speed < input(INPUT_PIECES + index * PIECE_WORDS + 4u, instance) {
+        if speed < input(INPUT_PIECES + index * PIECE_WORDS + PIECE_KINK, instance) {
             break;
         }
         index += 1u;

@@ -102,6 +102,9 @@ fn expand_slip(sigma: real, piece: Piece, belt_velocity: real, belt_acceleration
     }
 }
 
+// A branch for each form: the last one stands without a condition.
+const_assert LAW == LAW_PIECES || LAW == LAW_EXPONENTIAL || LAW == LAW_RATIONAL;
+
 fn friction_term(piece: Piece, sigma: real, k: u32) -> real {
     if LAW == LAW_PIECES {
         return piece.slope * sv[k];

@@ -21,6 +21,7 @@ pub mod computation;
 pub mod computed;
 pub mod error;
 mod fallback;
+pub mod fields;
 pub mod gpu;
 pub mod instances;
 pub mod judged;
@@ -37,6 +38,7 @@ pub mod regime;
 pub mod scene;
 pub mod settling;
 pub(crate) mod start;
+pub mod sums;
 
 use std::fmt;
 use std::ops::Range;

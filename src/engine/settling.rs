@@ -12,7 +12,6 @@ use crate::engine::outcome::{Ending, Outcome};
 use crate::engine::plan::Plan;
 use crate::engine::regime::{self, Regime, THRESHOLDS};
 use crate::engine::scene::Scene;
-use crate::model::friction::LawKind;
 use crate::model::instance::Instance;
 use crate::model::kind::InstabilityType;
 use crate::model::{Param, linear};
@@ -74,7 +73,7 @@ impl Settling {
             belt_velocity: instance.params.require(Param::BeltVelocity),
             stable: kind == Some(InstabilityType::Stable),
             growth_rate: linear.map(|linear| linear.growth_rate).filter(|_| unstable),
-            piecewise_linear: !matches!(instance.law.kind(), LawKind::Exponential | LawKind::Rational),
+            piecewise_linear: instance.law.kind().form().is_straight(),
             before: None,
         })
     }

@@ -1,38 +1,120 @@
 //! Friction laws: μ(|v|) and its slope, both from the same piece of the law.
 //!
-//! A law is a chain of smooth pieces in `|v|`. Between two kinks a trajectory stays on one piece, which
-//! the integrator continues analytically; crossing a kink is an event. At a kink the slope is that of
-//! the larger `|v|`.
+//! A law is a chain of smooth pieces in `|v|`, see [`crate::model::piece`]. All that a law is to the rest of the program stands
+//! here: its row in the table, and a match on every law for what a row cannot say. A law that lacks one does not compile.
 
+use std::cmp::Ordering;
 use std::sync::Arc;
 
-use smallvec::SmallVec;
+use crate::model::piece::{LawForm, Piece, PieceChain};
+use crate::model::{PARAMS, Param, Params};
 
-/// Which law; the parameters of each are in [`FrictionLaw`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[expect(missing_docs, reason = "the variants are the names of the laws in FrictionLaw")]
-pub enum LawKind {
-    Constant,
-    Bilinear,
-    Exponential,
-    Rational,
-    Table,
+macro_rules! laws {
+    ($($kind:ident $name:literal $form:ident [$($needs:ident)*] [$($takes:ident)*];)*) => {
+        /// Which law; the parameters of each are in [`FrictionLaw`].
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        #[expect(missing_docs, reason = "the variants are the names of the laws in FrictionLaw")]
+        pub enum LawKind {
+            $($kind,)*
+        }
+
+        impl LawKind {
+            /// Every law.
+            pub const ALL: [LawKind; [$($name),*].len()] = [$(LawKind::$kind),*];
+
+            /// The name in a sweep file.
+            #[must_use]
+            pub fn name(self) -> &'static str {
+                match self { $(LawKind::$kind => $name,)* }
+            }
+
+            /// The form of its pieces.
+            #[must_use]
+            pub fn form(self) -> LawForm {
+                match self { $(LawKind::$kind => LawForm::$form,)* }
+            }
+
+            /// The parameters that it cannot do without.
+            #[must_use]
+            pub fn needs(self) -> &'static [Param] {
+                match self { $(LawKind::$kind => &[$(Param::$needs),*],)* }
+            }
+
+            /// The parameters that it takes where they are given.
+            #[must_use]
+            pub fn takes(self) -> &'static [Param] {
+                match self { $(LawKind::$kind => &[$(Param::$takes),*],)* }
+            }
+        }
+    };
+}
+
+// Name in a sweep file, form of the pieces, parameters that it needs, parameters that it takes where they are given.
+laws! {
+    Constant "constant" Pieces [MuD] [MuS];
+    Bilinear "bilinear" Pieces [MuS MuD KneeVelocity] [];
+    Exponential "exponential" Exponential [MuS MuD StribeckVelocity] [];
+    Rational "rational" Rational [MuS Decay] [];
+    Table "table" Pieces [] [];
 }
 
 impl LawKind {
-    /// Every law.
-    pub const ALL: [LawKind; 5] =
-        [LawKind::Constant, LawKind::Bilinear, LawKind::Exponential, LawKind::Rational, LawKind::Table];
-
-    /// The name in a sweep file.
+    /// The law with this name.
     #[must_use]
-    pub fn name(self) -> &'static str {
+    pub fn from_name(name: &str) -> Option<LawKind> {
+        LawKind::ALL.into_iter().find(|kind| kind.name() == name)
+    }
+
+    /// Whether it reads `param`.
+    #[must_use]
+    pub fn reads(self, param: Param) -> bool {
+        self.needs().contains(&param) || self.takes().contains(&param)
+    }
+
+    /// Every parameter of some law: what a material may give.
+    pub fn params() -> impl Iterator<Item = Param> {
+        PARAMS
+            .iter()
+            .map(|row| row.param)
+            .filter(|param| LawKind::ALL.into_iter().any(|kind| kind.reads(*param)))
+    }
+
+    /// Whether it is read from a table, and not made of parameters.
+    #[must_use]
+    pub fn reads_table(self) -> bool {
         match self {
-            LawKind::Constant => "constant",
-            LawKind::Bilinear => "bilinear",
-            LawKind::Exponential => "exponential",
-            LawKind::Rational => "rational",
-            LawKind::Table => "table",
+            LawKind::Table => true,
+            LawKind::Constant | LawKind::Bilinear | LawKind::Exponential | LawKind::Rational => false,
+        }
+    }
+
+    /// The law with these parameters; the constant one has `μ_s = μ_d` where only `μ_d` is given.
+    ///
+    /// # Panics
+    /// When a parameter or the table is missing, which validation excludes.
+    #[must_use]
+    pub fn with(self, params: &Params, table: Option<&Arc<MuTable>>) -> FrictionLaw {
+        let mu_s = || params.require(Param::MuS);
+        let mu_d = || params.require(Param::MuD);
+        match self {
+            LawKind::Constant => {
+                let mu_d = mu_d();
+                FrictionLaw::Constant { mu_s: params.get(Param::MuS).unwrap_or(mu_d), mu_d }
+            }
+            LawKind::Bilinear => FrictionLaw::Bilinear {
+                mu_s: mu_s(),
+                mu_d: mu_d(),
+                knee_velocity: params.require(Param::KneeVelocity),
+            },
+            LawKind::Exponential => FrictionLaw::Exponential {
+                mu_s: mu_s(),
+                mu_d: mu_d(),
+                stribeck_velocity: params.require(Param::StribeckVelocity),
+            },
+            LawKind::Rational => FrictionLaw::Rational { mu_s: mu_s(), decay: params.require(Param::Decay) },
+            LawKind::Table => {
+                FrictionLaw::Table(Arc::clone(table.expect("the law `table` was validated to have its file")))
+            }
         }
     }
 }
@@ -85,164 +167,6 @@ pub enum FrictionLaw {
     Table(Arc<MuTable>),
 }
 
-/// One smooth piece of a law, a function of the speed `|v|`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Piece {
-    /// `μ = at_zero + slope |v|`.
-    Linear {
-        /// The piece continued to `|v| = 0`.
-        at_zero: f64,
-        /// `dμ/d|v|`.
-        slope: f64,
-    },
-    /// `μ = floor + height exp(−rate |v|)`.
-    Exponential {
-        /// μ at infinity.
-        floor: f64,
-        /// μ(0) − μ(∞).
-        height: f64,
-        /// `1/v0`.
-        rate: f64,
-    },
-    /// `μ = at_zero/(1 + decay |v|)`.
-    Rational {
-        /// μ at rest.
-        at_zero: f64,
-        /// δ.
-        decay: f64,
-    },
-}
-
-/// Between two speeds that are more than this many decay velocities apart, the difference of an exponential's values keeps
-/// all its digits. At that distance `exp(−40)` is left of it, which no friction notices.
-pub const FAR: f64 = 40.0;
-
-impl Piece {
-    /// μ at the speed `speed ≥ 0`.
-    #[must_use]
-    pub fn mu(self, speed: f64) -> f64 {
-        match self {
-            Piece::Linear { at_zero, slope } => at_zero + slope * speed,
-            Piece::Exponential { floor, height, rate } => floor + height * (-rate * speed).exp(),
-            Piece::Rational { at_zero, decay } => at_zero / (1.0 + decay * speed),
-        }
-    }
-
-    /// `μ(speed + change) − μ(speed)`, to the last digits of however small a change.
-    #[must_use]
-    pub fn change(self, speed: f64, change: f64) -> f64 {
-        match self {
-            Piece::Linear { slope, .. } => slope * change,
-            // Far down the exponential its foot is 0 and the ratio infinite, whose product is no number.
-            Piece::Exponential { height, rate, .. } if -rate * change > FAR => {
-                height * ((-rate * (speed + change)).exp() - (-rate * speed).exp())
-            }
-            Piece::Exponential { height, rate, .. } => {
-                height * (-rate * speed).exp() * (-rate * change).exp_m1()
-            }
-            Piece::Rational { at_zero, decay } => {
-                -at_zero * decay * change / ((1.0 + decay * speed) * (1.0 + decay * (speed + change)))
-            }
-        }
-    }
-
-    /// The largest of its numbers.
-    #[must_use]
-    pub fn largest(self) -> f64 {
-        let [a, b, c] = match self {
-            Piece::Linear { at_zero, slope } => [at_zero, slope, 0.0],
-            Piece::Exponential { floor, height, rate } => [floor, height, rate],
-            Piece::Rational { at_zero, decay } => [at_zero, decay, 0.0],
-        };
-        // A NaN is not to be lost in a maximum.
-        if (a + b + c).is_nan() { f64::NAN } else { a.abs().max(b.abs()).max(c.abs()) }
-    }
-
-    /// This piece as a function of `|v|/velocity_unit` instead of `|v|`.
-    #[must_use]
-    pub fn scaled(self, velocity_unit: f64) -> Piece {
-        match self {
-            Piece::Linear { at_zero, slope } => Piece::Linear { at_zero, slope: slope * velocity_unit },
-            Piece::Exponential { floor, height, rate } => {
-                Piece::Exponential { floor, height, rate: rate * velocity_unit }
-            }
-            Piece::Rational { at_zero, decay } => Piece::Rational { at_zero, decay: decay * velocity_unit },
-        }
-    }
-
-    /// `dμ/d|v|` at the speed `speed ≥ 0`.
-    #[must_use]
-    pub fn slope(self, speed: f64) -> f64 {
-        match self {
-            Piece::Linear { slope, .. } => slope,
-            Piece::Exponential { height, rate, .. } => -rate * height * (-rate * speed).exp(),
-            Piece::Rational { at_zero, decay } => -decay * at_zero / (1.0 + decay * speed).powi(2),
-        }
-    }
-}
-
-/// A law as a chain of pieces: piece `i` holds for speeds from `kinks[i - 1]` to `kinks[i]`.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PieceChain {
-    /// The pieces, from `|v| = 0` on; at least one.
-    pub pieces: SmallVec<[Piece; 2]>,
-    /// The speeds between the pieces, rising; one fewer than pieces.
-    pub kinks: SmallVec<[f64; 1]>,
-    /// Limit of stick: `|T| ≤ mu_stick N`.
-    pub mu_stick: f64,
-}
-
-impl PieceChain {
-    /// The index of the piece at `speed`; at a kink that of the larger speed.
-    #[must_use]
-    pub fn index(&self, speed: f64) -> usize {
-        self.kinks.partition_point(|&kink| kink <= speed)
-    }
-
-    /// `dμ/d|v|` of a straight piece, 0 of others.
-    #[must_use]
-    pub fn slope_of(&self, piece: usize) -> f64 {
-        match self.pieces[piece] {
-            Piece::Linear { slope, .. } => slope,
-            Piece::Exponential { .. } | Piece::Rational { .. } => 0.0,
-        }
-    }
-
-    /// The largest μ at any speed.
-    #[must_use]
-    pub fn highest(&self) -> f64 {
-        let lower_ends = std::iter::once(&0.0).chain(&self.kinks);
-        let ends = self.pieces.iter().zip(lower_ends).map(|(piece, lower)| match piece {
-            // A straight piece ends where the next one begins, the last one is level.
-            Piece::Linear { .. } | Piece::Rational { .. } => piece.mu(*lower),
-            Piece::Exponential { floor, .. } => piece.mu(*lower).max(*floor),
-        });
-        ends.fold(self.mu_stick, f64::max)
-    }
-
-    /// The inverse of the speed within which a curved law changes near rest; 0 of straight pieces.
-    #[must_use]
-    pub fn rate(&self) -> f64 {
-        match self.pieces[0] {
-            Piece::Linear { .. } => 0.0,
-            Piece::Exponential { rate, .. } => rate,
-            Piece::Rational { decay, .. } => decay,
-        }
-    }
-
-    /// μ in slip at the speed `speed ≥ 0`.
-    #[must_use]
-    pub fn mu(&self, speed: f64) -> f64 {
-        self.pieces[self.index(speed)].mu(speed)
-    }
-
-    /// `dμ/d|v|` at the speed `speed ≥ 0`.
-    #[must_use]
-    pub fn slope(&self, speed: f64) -> f64 {
-        self.pieces[self.index(speed)].slope(speed)
-    }
-}
-
 impl FrictionLaw {
     /// Which law this is.
     #[must_use]
@@ -259,7 +183,13 @@ impl FrictionLaw {
     /// Whether the law is well-posed. `constant` with `μ_s < μ_d` leaves stick and re-sticks at once.
     #[must_use]
     pub fn is_valid(&self) -> bool {
-        !matches!(self, FrictionLaw::Constant { mu_s, mu_d } if mu_s < mu_d)
+        match self {
+            FrictionLaw::Constant { mu_s, mu_d } => mu_s.partial_cmp(mu_d) != Some(Ordering::Less),
+            FrictionLaw::Bilinear { .. }
+            | FrictionLaw::Exponential { .. }
+            | FrictionLaw::Rational { .. }
+            | FrictionLaw::Table(_) => true,
+        }
     }
 
     /// The piece of the law at the speed `speed ≥ 0` (m/s); at a kink that of the larger speed.
@@ -302,7 +232,10 @@ impl FrictionLaw {
                 std::slice::from_ref(knee_velocity)
             }
             FrictionLaw::Table(table) => &table.velocity[1..],
-            _ => &[],
+            FrictionLaw::Constant { .. }
+            | FrictionLaw::Bilinear { .. }
+            | FrictionLaw::Exponential { .. }
+            | FrictionLaw::Rational { .. } => &[],
         }
     }
 

@@ -21,6 +21,7 @@ pub mod instance;
 pub mod kind;
 pub mod linear;
 pub mod material;
+pub mod piece;
 pub mod quartic;
 pub mod scaled;
 pub mod status;

@@ -3,8 +3,8 @@
 use crate::model::Param;
 use crate::model::equilibrium::{Equilibrium, Units, sliding_mass};
 use crate::model::fastest::{Fastest, fastest};
-use crate::model::friction::PieceChain;
 use crate::model::instance::Instance;
+use crate::model::piece::PieceChain;
 
 /// The dimensionless model: everything the equations of motion hold.
 #[derive(Clone, Debug, PartialEq)]

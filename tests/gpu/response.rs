@@ -4,15 +4,16 @@ use crate::Case;
 use crate::words::{device, drive};
 use libtest_mimic::Failed;
 use squealmap::engine::error::Error;
+use squealmap::engine::fields::{first_word, words};
 use squealmap::engine::gpu::kernel::Compiled;
 use squealmap::engine::gpu::response::read_lane;
 use squealmap::engine::gpu::run::{Drive, run};
 use squealmap::engine::kernel::lane::Lane;
 use squealmap::engine::kernel::record::write;
 use squealmap::engine::kernel::response::{choices, kernel, words as packed_words};
-use squealmap::engine::kernel::scene::{Law, Scene as Words};
+use squealmap::engine::kernel::scene::Scene as Words;
 use squealmap::engine::kernel::segments::segments;
-use squealmap::engine::kernel::source::{Kernel, SETTING_WORDS, first_word, words};
+use squealmap::engine::kernel::source::{Kernel, SETTING_WORDS};
 use squealmap::engine::kernel::steps::TOLERANCE;
 use squealmap::engine::kernel::windows::reductions;
 use squealmap::engine::method::Method;
@@ -24,6 +25,7 @@ use squealmap::engine::reference::respond::respond;
 use squealmap::engine::scene::Scene;
 use squealmap::model::friction::FrictionLaw;
 use squealmap::model::instance::Instance;
+use squealmap::model::piece::LawForm;
 use squealmap::model::status::Status;
 use squealmap::model::{Param, Params};
 
@@ -71,7 +73,7 @@ pub(crate) fn plan(settle: f64, measure: f64) -> Plan {
 /// The words of every instance's lane after the run, on the GPU, and the scenes they belong to.
 #[expect(clippy::type_complexity, reason = "state and flags of each instance")]
 fn on_gpu(plan: &Plan, steps: Option<u32>) -> Result<Vec<(Scene, Words<f32>, Vec<f32>, Vec<u32>)>, Failed> {
-    with_source(plan, steps, &KERNEL.source(Precision::F32, &choices(Law::Pieces, false)))
+    with_source(plan, steps, &KERNEL.source(Precision::F32, &choices(LawForm::Pieces, false)))
 }
 
 /// As [`on_gpu`], with another text of the kernel.
@@ -101,7 +103,7 @@ fn with_source(
         .map(|(i, scene)| {
             let state = (0..words(KERNEL.state)).map(|word| result.state[word * count + i]).collect();
             let flags = (0..words(KERNEL.flags)).map(|word| result.flags[word * count + i]).collect();
-            (scene, Words::read(Law::Pieces, PIECES, &packed[i]), state, flags)
+            (scene, Words::read(LawForm::Pieces, PIECES, &packed[i]), state, flags)
         })
         .collect())
 }
@@ -215,7 +217,7 @@ fn refused() -> Result<(), Failed> {
 /// A kernel that calls every lane finished after ten steps.
 fn stops_early() -> Result<(), Failed> {
     let plan = plan(2.0, 2.0);
-    let source = KERNEL.source(Precision::F32, &choices(Law::Pieces, false));
+    let source = KERNEL.source(Precision::F32, &choices(LawForm::Pieces, false));
     let early = source.replace(
         "            iterate(tolerance);\n",
         "            iterate(tolerance);\n            if lane.iterations > 10u { lane.status = STATUS_OK; }\n",

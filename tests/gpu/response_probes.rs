@@ -12,8 +12,8 @@ use squealmap::engine::gpu::run::run;
 use squealmap::engine::kernel::crossing::{deflated, first_crossing, lower_bound};
 use squealmap::engine::kernel::lane::Lane;
 use squealmap::engine::kernel::observe::{maximum, rotate};
-use squealmap::engine::kernel::response::{choices, kernel, law_of, words};
-use squealmap::engine::kernel::scene::{Law, Scene as Words, exp_m1};
+use squealmap::engine::kernel::response::{choices, kernel, words};
+use squealmap::engine::kernel::scene::{Scene as Words, exp_m1};
 use squealmap::engine::kernel::segments::segments;
 use squealmap::engine::kernel::series::{
     Body, Expansion, FREE, REVERSE, SLIP, STICK, evaluate, expand, step_length, value,
@@ -22,6 +22,7 @@ use squealmap::engine::kernel::source::Kernel;
 use squealmap::engine::kernel::steps::ORDER;
 use squealmap::engine::precision::Precision;
 use squealmap::engine::scene::Scene;
+use squealmap::model::piece::LawForm;
 
 /// Instances of a probe, of each form of law.
 const COUNT: usize = 4000;
@@ -141,7 +142,7 @@ fn probe(call: &str, twin: fn(&Words<f32>, f32, &Body<f32>) -> Vec<f32>) -> Resu
     let mut files = KERNEL.files.to_vec();
     files.pop();
     files.push(("probe", main.as_str()));
-    for law in [Law::Pieces, Law::Exponential, Law::Rational] {
+    for law in LawForm::ALL {
         let packed = instances(law);
         #[expect(clippy::cast_possible_truncation, reason = "the narrowing of the host")]
         let inputs: Vec<f32> =
@@ -172,11 +173,11 @@ fn probe(call: &str, twin: fn(&Words<f32>, f32, &Body<f32>) -> Vec<f32>) -> Resu
 }
 
 /// The words of random instances of a form of law.
-fn instances(law: Law) -> Vec<Vec<f64>> {
+fn instances(law: LawForm) -> Vec<Vec<f64>> {
     let plan = plan(1.0, 1.0);
     let mut u = Uniform(23);
     std::iter::repeat_with(|| instance(&mut u, law))
-        .inspect(|one| assert_eq!(law_of(one.law.kind()), law))
+        .inspect(|one| assert_eq!(one.law.kind().form(), law))
         .filter_map(|one| Scene::new(&one, plan.start).ok())
         .map(|scene| words(&scene, &segments(&scene, &plan), PIECES))
         .take(COUNT)

@@ -9,24 +9,26 @@ use crate::response::plan;
 use crate::words::{device, drive, inputs, on_cpu};
 use libtest_mimic::Failed;
 use rayon::prelude::*;
+use squealmap::engine::fields;
 use squealmap::engine::gpu::arithmetic::Arithmetic;
 use squealmap::engine::gpu::device::Device;
 use squealmap::engine::gpu::kernel::Compiled;
 use squealmap::engine::gpu::run::{ChunkResult, Drive, run};
 use squealmap::engine::kernel::lane::Lane;
+use squealmap::engine::kernel::linear;
 use squealmap::engine::kernel::record::write;
 use squealmap::engine::kernel::response::{choices, kernel, words};
 use squealmap::engine::kernel::scalar::Real;
-use squealmap::engine::kernel::scene::{Law, Scene as Words};
+use squealmap::engine::kernel::scene::Scene as Words;
 use squealmap::engine::kernel::segments::segments;
 use squealmap::engine::kernel::source::{Constant, FLAG_STEPS, Kernel, SETTING_WORDS};
 use squealmap::engine::kernel::steps::TOLERANCE;
-use squealmap::engine::kernel::{linear, source};
 use squealmap::engine::precision::Precision;
 use squealmap::engine::scene::Scene;
 use squealmap::model::Param;
 use squealmap::model::friction::FrictionLaw;
 use squealmap::model::instance::Instance;
+use squealmap::model::piece::LawForm;
 use squealmap::model::status::Status;
 
 /// Instances of a comparison.
@@ -47,17 +49,17 @@ const RESPONSE: Kernel = kernel::<PIECES>();
 pub(crate) const CASES: &[Case] = &[
     ("strict::linear_equals_its_twin_in_every_bit", linear_equals::<f32>),
     ("strict::pieces_equal_their_twin_in_every_bit", || {
-        response_equals::<f32>(Law::Pieces, COUNT, &[false, true])
+        response_equals::<f32>(LawForm::Pieces, COUNT, &[false, true])
     }),
     ("strict::exponential_equals_its_twin_in_every_bit", || {
-        response_equals::<f32>(Law::Exponential, COUNT, &[true])
+        response_equals::<f32>(LawForm::Exponential, COUNT, &[true])
     }),
     ("strict::rational_equals_its_twin_in_every_bit", || {
-        response_equals::<f32>(Law::Rational, COUNT, &[true])
+        response_equals::<f32>(LawForm::Rational, COUNT, &[true])
     }),
     ("strict::belts_without_a_ramp_equal_their_twin_in_every_bit", || {
         // Their kernel is built without one; the others hold both.
-        let forms = [Law::Pieces, Law::Exponential, Law::Rational];
+        let forms = LawForm::ALL;
         forms.into_iter().try_for_each(|law| equals(&without_ramp::<f32>(law, FEW), law, false, &[true]))
     }),
     ("strict::one_changed_operation_is_noticed", changed_operation),
@@ -68,13 +70,13 @@ pub(crate) const CASES: &[Case] = &[
 pub(crate) const F64: &[Case] = &[
     ("strict::linear_in_f64_equals_its_twin_in_every_bit", linear_equals::<f64>),
     ("strict::pieces_in_f64_equal_their_twin_in_every_bit", || {
-        response_equals::<f64>(Law::Pieces, FEW, &[false, true])
+        response_equals::<f64>(LawForm::Pieces, FEW, &[false, true])
     }),
     ("strict::exponential_in_f64_equals_its_twin_in_every_bit", || {
-        response_equals::<f64>(Law::Exponential, FEW, &[true])
+        response_equals::<f64>(LawForm::Exponential, FEW, &[true])
     }),
     ("strict::rational_in_f64_equals_its_twin_in_every_bit", || {
-        response_equals::<f64>(Law::Rational, FEW, &[true])
+        response_equals::<f64>(LawForm::Rational, FEW, &[true])
     }),
 ];
 
@@ -84,7 +86,7 @@ fn differing<R: Real>(
     actual: &ChunkResult<R>,
     expected: &ChunkResult<R>,
 ) -> Result<(usize, String), Failed> {
-    let count = expected.flags.len() / source::words(kernel.flags);
+    let count = expected.flags.len() / fields::words(kernel.flags);
     if (actual.state.len(), actual.flags.len()) != (expected.state.len(), expected.flags.len()) {
         return Err("results of different sizes".into());
     }
@@ -144,7 +146,7 @@ fn compared<R: Real>(
         for group in groups {
             let actual = on_gpu(&device, kernel, &text, &group.inputs)?;
             let (count, what) = differing(kernel, &actual, &group.twin)?;
-            instances += group.twin.flags.len() / source::words(kernel.flags);
+            instances += group.twin.flags.len() / fields::words(kernel.flags);
             different += count;
             first += &what;
         }
@@ -169,13 +171,13 @@ fn linear_equals<R: Real>() -> Result<(), Failed> {
 }
 
 /// A random instance of a law.
-pub(crate) fn instance(u: &mut Uniform, law: Law) -> Instance {
+pub(crate) fn instance(u: &mut Uniform, law: LawForm) -> Instance {
     let params = moving(u);
     let (mu_s, mu_d, scale) = (0.9 * u.next(), 0.9 * u.next(), u.log(0.1, 10.0));
     let law = match law {
-        Law::Pieces => FrictionLaw::Bilinear { mu_s, mu_d, knee_velocity: scale },
-        Law::Exponential => FrictionLaw::Exponential { mu_s, mu_d, stribeck_velocity: scale },
-        Law::Rational => FrictionLaw::Rational { mu_s, decay: scale },
+        LawForm::Pieces => FrictionLaw::Bilinear { mu_s, mu_d, knee_velocity: scale },
+        LawForm::Exponential => FrictionLaw::Exponential { mu_s, mu_d, stribeck_velocity: scale },
+        LawForm::Rational => FrictionLaw::Rational { mu_s, decay: scale },
     };
     Instance { params, law, impact_friction: u.next() < 0.5 }
 }
@@ -188,20 +190,20 @@ struct Run<R> {
 }
 
 /// Random instances that can be integrated, run by the twin.
-fn runs<R: Real>(law: Law, count: usize) -> Vec<Run<R>> {
+fn runs<R: Real>(law: LawForm, count: usize) -> Vec<Run<R>> {
     let mut u = Uniform(11);
     by_twin(law, count, std::iter::repeat_with(|| instance(&mut u, law)))
 }
 
 /// The same without those whose belt has a ramp.
-fn without_ramp<R: Real>(law: Law, count: usize) -> Vec<Run<R>> {
+fn without_ramp<R: Real>(law: LawForm, count: usize) -> Vec<Run<R>> {
     let mut u = Uniform(12);
     let steady = |one: &Instance| one.params.get(Param::RampDuration).is_none();
     by_twin(law, count, std::iter::repeat_with(|| instance(&mut u, law)).filter(steady))
 }
 
 /// As many of `instances` as can be integrated, run by the twin.
-fn by_twin<R: Real>(law: Law, count: usize, instances: impl Iterator<Item = Instance>) -> Vec<Run<R>> {
+fn by_twin<R: Real>(law: LawForm, count: usize, instances: impl Iterator<Item = Instance>) -> Vec<Run<R>> {
     let plan = plan(0.5, 1.5);
     let words: Vec<Vec<f64>> = instances
         .filter_map(|one| Scene::new(&one, plan.start).ok())
@@ -222,7 +224,7 @@ fn by_twin<R: Real>(law: Law, count: usize, instances: impl Iterator<Item = Inst
 
 /// Runs as word-major inputs and results.
 fn group<R: Real>(runs: &[&Run<R>]) -> Group<R> {
-    let [inputs, state, flags] = [RESPONSE.inputs, RESPONSE.state, RESPONSE.flags].map(source::words);
+    let [inputs, state, flags] = [RESPONSE.inputs, RESPONSE.state, RESPONSE.flags].map(fields::words);
     Group {
         inputs: (0..inputs)
             .flat_map(|word| runs.iter().map(move |one| R::from_f64(one.words[word])))
@@ -235,11 +237,11 @@ fn group<R: Real>(runs: &[&Run<R>]) -> Group<R> {
     }
 }
 
-fn response_equals<R: Real>(law: Law, count: usize, modes: &[bool]) -> Result<(), Failed> {
+fn response_equals<R: Real>(law: LawForm, count: usize, modes: &[bool]) -> Result<(), Failed> {
     equals(&runs::<R>(law, count), law, true, modes)
 }
 
-fn equals<R: Real>(runs: &[Run<R>], law: Law, ramp: bool, modes: &[bool]) -> Result<(), Failed> {
+fn equals<R: Real>(runs: &[Run<R>], law: LawForm, ramp: bool, modes: &[bool]) -> Result<(), Failed> {
     println!("{law:?}: {}", variety(runs));
     // Those that chatter take many times the steps: all others would wait for them.
     let (long, short): (Vec<&Run<R>>, Vec<&Run<R>>) =
@@ -252,7 +254,7 @@ fn equals<R: Real>(runs: &[Run<R>], law: Law, ramp: bool, modes: &[bool]) -> Res
 /// How the twins end, and how many saw what: the comparison is worth what the instances do.
 fn variety<R>(runs: &[Run<R>]) -> String {
     let many = |name: &str, holds: fn(u32) -> bool| {
-        let word = source::first_word(RESPONSE.flags, name);
+        let word = fields::first_word(RESPONSE.flags, name);
         runs.iter().filter(|one| holds(one.flags[word])).count()
     };
     format!(
@@ -282,7 +284,7 @@ fn noticed(text: &str, group: &Group<f32>) -> Result<(), Failed> {
 }
 
 fn text() -> String {
-    RESPONSE.source(Precision::F32, &choices(Law::Pieces, true))
+    RESPONSE.source(Precision::F32, &choices(LawForm::Pieces, true))
 }
 
 fn changed_operation() -> Result<(), Failed> {
@@ -291,11 +293,11 @@ fn changed_operation() -> Result<(), Failed> {
     if changed == text() {
         return Err("nothing was changed".into());
     }
-    noticed(&changed, &group(&runs(Law::Pieces, FEW).iter().collect::<Vec<_>>()))
+    noticed(&changed, &group(&runs(LawForm::Pieces, FEW).iter().collect::<Vec<_>>()))
 }
 
 fn changed_scene() -> Result<(), Failed> {
-    let mut group = group(&runs::<f32>(Law::Pieces, FEW).iter().collect::<Vec<_>>());
+    let mut group = group(&runs::<f32>(LawForm::Pieces, FEW).iter().collect::<Vec<_>>());
     // k2 of instance 77.
     let word = &mut group.inputs[4 * FEW + 77];
     *word = word.next_up();

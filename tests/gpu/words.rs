@@ -4,6 +4,7 @@ use std::sync::atomic::AtomicBool;
 
 use crate::instances::random;
 use libtest_mimic::Failed;
+use squealmap::engine::fields::words;
 use squealmap::engine::gpu::adapter::Adapter;
 use squealmap::engine::gpu::arithmetic::Arithmetic;
 use squealmap::engine::gpu::device::Device;
@@ -11,7 +12,7 @@ use squealmap::engine::gpu::kernel::Compiled;
 use squealmap::engine::gpu::run::{ChunkResult, Drive, check, run};
 use squealmap::engine::kernel::linear::{FLAGS, KERNEL, STATE, analyse};
 use squealmap::engine::kernel::scalar::Real;
-use squealmap::engine::kernel::source::{SETTING_WORDS, words};
+use squealmap::engine::kernel::source::SETTING_WORDS;
 use squealmap::engine::kernel::words::{INPUT_WORDS, Words};
 use squealmap::model::linear::prepare;
 

@@ -17,8 +17,9 @@ use squealmap::engine::plan::{Duration, Plan, StartKind};
 use squealmap::engine::reference::respond::respond_until;
 use squealmap::engine::scene::Scene;
 use squealmap::model::Param;
-use squealmap::model::friction::{FrictionLaw, Piece};
+use squealmap::model::friction::FrictionLaw;
 use squealmap::model::instance::Instance;
+use squealmap::model::piece::Piece;
 use squealmap::model::status::Status;
 
 const TABLE_1: [Param; 11] = [
@@ -215,7 +216,7 @@ fn a_layer_of_any_width_is_that_of_the_reference() {
 fn friction_of<T: Real>(instance: &Instance, speed: f64) -> f64 {
     let scene = Scene::new(instance, StartKind::Kick).expect("an equilibrium");
     let turns = Turns::new(13, 1e-6);
-    let words: Words<T> = without_segments(instance.law.kind(), &scene, &turns);
+    let words: Words<T> = without_segments(instance.law.kind().form(), &scene, &turns);
     words.mu(T::from_f64(speed / scene.units.velocity)).to_f64()
 }
 

@@ -4,11 +4,12 @@ use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::engine::error::{Error, Result};
+use crate::engine::fields::words;
 use crate::engine::gpu::device::Device;
 use crate::engine::gpu::kernel::Compiled;
 use crate::engine::gpu::run::{ChunkResult, Drive, resume};
 use crate::engine::kernel::scalar::Real;
-use crate::engine::kernel::source::{Constant, Kernel, WORKGROUP_SIZE, words};
+use crate::engine::kernel::source::{Constant, Kernel, WORKGROUP_SIZE};
 
 /// Most bytes of a chunk's inputs and results, however large an adapter's buffers are. With everything that is made from
 /// them this is about 1 GiB on the host.

@@ -3,9 +3,10 @@
 use std::num::NonZeroU64;
 
 use crate::engine::error::{Error, Result};
+use crate::engine::fields::words;
 use crate::engine::gpu::device::Device;
 use crate::engine::gpu::strict;
-use crate::engine::kernel::source::{BINDINGS, Constant, Kernel, Settings, words};
+use crate::engine::kernel::source::{BINDINGS, Constant, Kernel, Settings};
 use crate::engine::kernel::spirv::Strict;
 
 /// A kernel ready to be dispatched.

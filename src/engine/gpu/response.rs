@@ -8,18 +8,19 @@ use std::thread::available_parallelism;
 use rayon::prelude::*;
 
 use crate::engine::error::{Error, Result};
+use crate::engine::fields;
 use crate::engine::gpu::chunks::{Batch, Session};
 use crate::engine::gpu::run::{ChunkResult, Drive};
 use crate::engine::instances::Instances;
 use crate::engine::judged::{kind_of, take_response};
 use crate::engine::kernel::lane::Lane;
-use crate::engine::kernel::response::{KERNEL, MOST_PIECES, choices, kernel_for, law_of, words};
+use crate::engine::kernel::record;
+use crate::engine::kernel::response::{KERNEL, MOST_PIECES, choices, kernel_for, words};
 use crate::engine::kernel::scalar::Real;
-use crate::engine::kernel::scene::{Law, Segments};
+use crate::engine::kernel::scene::Segments;
 use crate::engine::kernel::source::{FLAG_STATUS, SETTING_WORDS, WORKGROUP_SIZE};
 use crate::engine::kernel::steps::{ORDER, TOLERANCE};
 use crate::engine::kernel::windows::Windows;
-use crate::engine::kernel::{record, source};
 use crate::engine::lanes::again;
 use crate::engine::lanes::again::records_again;
 use crate::engine::outcome::Outcome;
@@ -28,6 +29,7 @@ use crate::engine::precision::Precision;
 use crate::engine::record::Record;
 use crate::engine::scene::Scene;
 use crate::model::instance::Instance;
+use crate::model::piece::LawForm;
 use crate::model::status::Status;
 use std::sync::atomic::AtomicBool;
 
@@ -93,7 +95,7 @@ fn chunk_size<R: Real>(spec: &dyn Instances, session: &Session, chunk: Option<us
 /// What selects a kernel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Form {
-    law: Law,
+    law: LawForm,
     pieces: usize,
     ramp: bool,
 }
@@ -229,17 +231,17 @@ fn ready<R: Real>(
     let &(_, pieces) = kernel_for(scene.model.law.pieces.len())?;
     let ramp = segments.iter().any(|segment| segment[3] != 0.0);
     let inputs = words(scene, segments, pieces).into_iter().map(R::from_f64).collect();
-    Some((Form { law: law_of(instance.law.kind()), pieces, ramp }, Ready { running, inputs, before }))
+    Some((Form { law: instance.law.kind().form(), pieces, ramp }, Ready { running, inputs, before }))
 }
 
 /// The instances of a chunk that share a kernel.
 fn batch<R: Real>(form: Form, ready: Vec<Ready<R>>) -> Batch<R, Vec<Running>> {
     let kernel = kernel_for(form.pieces).map_or(KERNEL, |(kernel, _)| *kernel);
-    let inputs = word_major(source::words(kernel.inputs), ready.len(), |row| &ready[row].inputs);
+    let inputs = word_major(fields::words(kernel.inputs), ready.len(), |row| &ready[row].inputs);
     let before = ready.iter().map(|one| one.before.as_ref()).collect::<Option<Vec<_>>>().map(|before| {
         (
-            word_major(source::words(kernel.state), before.len(), |row| &before[row].0),
-            word_major(source::words(kernel.flags), before.len(), |row| &before[row].1),
+            word_major(fields::words(kernel.state), before.len(), |row| &before[row].0),
+            word_major(fields::words(kernel.flags), before.len(), |row| &before[row].1),
         )
     });
     let memory = ready.into_iter().map(|one| one.running).collect();
@@ -264,8 +266,8 @@ fn word_major<'a, T: bytemuck::Pod + Send + Sync>(
 /// State and flags of lane `lane` of `count`.
 fn lane_words<R: Real>(result: &ChunkResult<R>, lane: usize, count: usize) -> (Vec<R>, Vec<u32>) {
     let of_lane = |word: usize| word * count + lane;
-    let state = (0..source::words(KERNEL.state)).map(|word| result.state[of_lane(word)]).collect();
-    let flags = (0..source::words(KERNEL.flags)).map(|word| result.flags[of_lane(word)]).collect();
+    let state = (0..fields::words(KERNEL.state)).map(|word| result.state[of_lane(word)]).collect();
+    let flags = (0..fields::words(KERNEL.flags)).map(|word| result.flags[of_lane(word)]).collect();
     (state, flags)
 }
 

@@ -4,11 +4,12 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use crate::engine::error::{Error, Result};
+use crate::engine::fields::words;
 use crate::engine::gpu::device::Device;
 use crate::engine::gpu::kernel::Compiled;
 use crate::engine::kernel::scalar::Real;
 use crate::engine::kernel::source::{
-    FLAG_STATUS, Kernel, PROGRESS_WORDS, SETTING_WORDS, Settings, WORKGROUP_SIZE, words,
+    FLAG_STATUS, Kernel, PROGRESS_WORDS, SETTING_WORDS, Settings, WORKGROUP_SIZE,
 };
 use crate::model::status::Status;
 

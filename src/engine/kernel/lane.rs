@@ -16,8 +16,7 @@ use crate::engine::kernel::crossing::{NEVER, first_crossing};
 use crate::engine::kernel::observe::{Moment, Phase, Sums};
 use crate::engine::kernel::scalar::Real;
 use crate::engine::kernel::scene::{
-    EVENTS_AT_ONCE, FIRST_HALF, Law, NO_KINK, OPEN_HALF, SECOND_HALF, SEGMENTS, SETTLE, Scene, Segment,
-    Segments,
+    EVENTS_AT_ONCE, FIRST_HALF, NO_KINK, OPEN_HALF, SECOND_HALF, SEGMENTS, SETTLE, Scene, Segment, Segments,
 };
 use crate::engine::kernel::series::{
     Body, Expansion, FREE, REVERSE, SLIP, STICK, Series, evaluate, expand, largest, step_length,
@@ -128,7 +127,7 @@ impl<S: Real> Lane<S> {
                 return;
             }
             on_law = piece.rate;
-            if scene.law != Law::Pieces {
+            if !scene.law.is_straight() {
                 on_law = scene.longest_in_layer(piece, q, e.v[0], e.v[1]);
             }
         }

@@ -15,8 +15,9 @@
 //! coalescence of the undamped modes. The host computes `P`, `g`, `P c − 2g` and `e` in f64 and narrows them
 //! once; the growth rate, which is small beside the frequency, is then a difference of small numbers only.
 
+use crate::engine::fields::Field;
 use crate::engine::kernel::scalar::Real;
-use crate::engine::kernel::source::{Constant, Field, Kernel};
+use crate::engine::kernel::source::{Constant, Kernel};
 use crate::model::kind::{InstabilityType, UNSTABLE_ABOVE};
 use crate::model::status::Status;
 
@@ -40,6 +41,7 @@ pub const KERNEL: Kernel = Kernel {
     state: &STATE,
     flags: &FLAGS,
     settings: &[],
+    tables: &[],
     constants: &[
         ("MAX_STEPS", Constant::U32(MAX_STEPS)),
         ("NEGLIGIBLE_EPSILONS", Constant::Real(NEGLIGIBLE_EPSILONS)),

@@ -32,5 +32,6 @@ pub mod series;
 pub mod source;
 pub mod spirv;
 pub mod steps;
+pub mod table;
 pub mod windows;
 pub mod words;

@@ -7,14 +7,18 @@
 use crate::engine::kernel::scalar::Real;
 use crate::engine::kernel::scene::{FIRST_HALF, SEGMENTS, Scene, Segment};
 use crate::engine::kernel::series::{Expansion, FREE, REVERSE, STICK, evaluate, value};
+use crate::engine::sums::{growth, peak, sum};
 
 /// Nodes of the three-point Gauss–Legendre rule on `[0, 1]`.
 pub const NODES: [f64; 3] = [0.112_701_665_379_258_31, 0.5, 0.887_298_334_620_741_7];
 /// Its weights.
 pub const WEIGHTS: [f64; 3] = [5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0];
 
-/// Sums of a half window: time, x, xx, y, yy, ax², ay², speed², T, N, stick, free, reverse.
-pub const SUMS: usize = 13;
+/// Samples of a step: its start, the nodes, its end.
+pub const STEP_SAMPLES: usize = NODES.len() + 2;
+
+/// Terms of the series of sine and cosine.
+pub const ROTATION_TERMS: usize = 7;
 
 /// A time on the grid of steps: segment, whole steps of it, fraction of the next.
 #[derive(Clone, Copy, Debug)]
@@ -39,13 +43,13 @@ impl<S: Real> Moment<S> {
 #[derive(Clone, Debug)]
 pub struct Sums<S> {
     /// Sums since the last flush: short sums keep their digits in f32.
-    pub block: [S; SUMS],
+    pub block: [S; sum::WORDS],
     /// Sums of both halves.
-    pub total: [[S; SUMS]; 2],
+    pub total: [[S; sum::WORDS]; 2],
     /// The half the block belongs to.
     pub half: u32,
-    /// Largest `|ẍ2|`, `|ÿ1|`, `N`.
-    pub peaks: [S; 3],
+    /// Largest values, see [`peak`].
+    pub peaks: [S; peak::WORDS],
     /// `ẋ2` at the end of the last step of the window.
     pub previous: S,
     /// Whether there is such a step.
@@ -60,8 +64,8 @@ pub struct Sums<S> {
     pub last: Moment<S>,
     /// Whether the first event has come.
     pub growth_closed: bool,
-    /// Time before the first event, sums of x, v, a, b and their products, upper triangle by rows.
-    pub growth: [S; 15],
+    /// Sums before the first event, see [`growth`].
+    pub growth: [S; growth::WORDS],
 }
 
 impl<S: Real> Sums<S> {
@@ -69,10 +73,10 @@ impl<S: Real> Sums<S> {
     #[must_use]
     pub fn new() -> Self {
         Sums {
-            block: [S::ZERO; SUMS],
-            total: [[S::ZERO; SUMS]; 2],
+            block: [S::ZERO; sum::WORDS],
+            total: [[S::ZERO; sum::WORDS]; 2],
             half: 0,
-            peaks: [S::ZERO; 3],
+            peaks: [S::ZERO; peak::WORDS],
             previous: S::ZERO,
             has_previous: false,
             impacts: 0,
@@ -80,13 +84,13 @@ impl<S: Real> Sums<S> {
             first: Moment::start(),
             last: Moment::start(),
             growth_closed: false,
-            growth: [S::ZERO; 15],
+            growth: [S::ZERO; growth::WORDS],
         }
     }
 
     /// Adds the block to its half.
     pub fn flush(&mut self) {
-        for i in 0..SUMS {
+        for i in 0..sum::WORDS {
             self.total[self.half as usize][i] += self.block[i];
             self.block[i] = S::ZERO;
         }
@@ -116,21 +120,21 @@ impl<S: Real> Sums<S> {
         tau: S,
     ) {
         self.half = u32::from(part != FIRST_HALF);
-        self.block[0] += tau;
+        self.block[sum::TIME] += tau;
         if contact == STICK {
-            self.block[10] += tau;
+            self.block[sum::STICK] += tau;
         } else if contact == FREE {
-            self.block[11] += tau;
+            self.block[sum::FREE] += tau;
         } else if contact == REVERSE {
-            self.block[12] += tau;
+            self.block[sum::REVERSE] += tau;
         }
         let closed = if contact == FREE { S::ZERO } else { t0 };
-        let mut ax = [S::ZERO; 5];
-        let mut ay = [S::ZERO; 5];
-        let mut normal = [S::ZERO; 5];
-        let mut velocity = [S::ZERO; 5];
-        let mut acceleration = [S::ZERO; 5];
-        for i in 0..5 {
+        let mut ax = [S::ZERO; STEP_SAMPLES];
+        let mut ay = [S::ZERO; STEP_SAMPLES];
+        let mut normal = [S::ZERO; STEP_SAMPLES];
+        let mut velocity = [S::ZERO; STEP_SAMPLES];
+        let mut acceleration = [S::ZERO; STEP_SAMPLES];
+        for i in 0..STEP_SAMPLES {
             let t = S::from_f64(SAMPLE_TIMES[i]) * tau;
             let (x, w) = (evaluate(&e.x, t), evaluate(&e.w, t));
             velocity[i] = x[1];
@@ -138,24 +142,24 @@ impl<S: Real> Sums<S> {
             ax[i] = x[2].abs();
             ay[i] = w[2].abs();
             normal[i] = value(&e.n, t);
-            if i > 0 && i < 4 {
+            if i > 0 && i < STEP_SAMPLES - 1 {
                 let weight = S::from_f64(WEIGHTS[i - 1]) * tau;
                 let dx = x[0] - origin[0];
                 let dw = w[0] - origin[1];
-                self.block[1] += weight * dx;
-                self.block[2] += weight * (dx * dx);
-                self.block[3] += weight * dw;
-                self.block[4] += weight * (dw * dw);
-                self.block[5] += weight * (x[2] * x[2]);
-                self.block[6] += weight * (w[2] * w[2]);
-                self.block[7] += weight * (x[1] * x[1] + w[1] * w[1]);
-                self.block[8] += weight * (value(&e.t, t) + closed);
-                self.block[9] += weight * normal[i];
+                self.block[sum::X] += weight * dx;
+                self.block[sum::XX] += weight * (dx * dx);
+                self.block[sum::Y] += weight * dw;
+                self.block[sum::YY] += weight * (dw * dw);
+                self.block[sum::AX] += weight * (x[2] * x[2]);
+                self.block[sum::AY] += weight * (w[2] * w[2]);
+                self.block[sum::SPEED] += weight * (x[1] * x[1] + w[1] * w[1]);
+                self.block[sum::TANGENTIAL] += weight * (value(&e.t, t) + closed);
+                self.block[sum::NORMAL] += weight * normal[i];
             }
         }
-        self.peaks[0] = self.peaks[0].max(maximum(&ax));
-        self.peaks[1] = self.peaks[1].max(maximum(&ay));
-        self.peaks[2] = self.peaks[2].max(maximum(&normal));
+        self.peaks[peak::AX] = self.peaks[peak::AX].max(maximum(&ax));
+        self.peaks[peak::AY] = self.peaks[peak::AY].max(maximum(&ay));
+        self.peaks[peak::NORMAL] = self.peaks[peak::NORMAL].max(maximum(&normal));
         self.cross_upwards(e, &velocity, &acceleration, at, step, tau);
     }
 
@@ -164,8 +168,8 @@ impl<S: Real> Sums<S> {
     fn cross_upwards(
         &mut self,
         e: &Expansion<S>,
-        velocity: &[S; 5],
-        acceleration: &[S; 5],
+        velocity: &[S; STEP_SAMPLES],
+        acceleration: &[S; STEP_SAMPLES],
         at: Moment<S>,
         step: S,
         tau: S,
@@ -173,7 +177,7 @@ impl<S: Real> Sums<S> {
         if self.has_previous && self.previous < S::ZERO && velocity[0] >= S::ZERO {
             self.note(at);
         }
-        for i in 0..4 {
+        for i in 0..STEP_SAMPLES - 1 {
             let mut low = S::from_f64(SAMPLE_TIMES[i]) * tau;
             let mut high = S::from_f64(SAMPLE_TIMES[i + 1]) * tau;
             let below = velocity[i] < S::ZERO;
@@ -207,7 +211,7 @@ impl<S: Real> Sums<S> {
             }
             self.note(Moment { fraction: at.fraction + high / step, ..at });
         }
-        self.previous = velocity[4];
+        self.previous = velocity[STEP_SAMPLES - 1];
         self.has_previous = true;
     }
 
@@ -227,11 +231,11 @@ impl<S: Real> Sums<S> {
         }
         let (x, w) = (evaluate(&e.x, tau), evaluate(&e.w, tau));
         let sample = [x[0], x[1], x[2], w[2]];
-        self.growth[0] += tau;
-        let mut word = 5;
-        for i in 0..4 {
-            self.growth[1 + i] += tau * sample[i];
-            for j in i..4 {
+        self.growth[growth::TIME] += tau;
+        let mut word = growth::PRODUCTS;
+        for i in 0..growth::SAMPLED {
+            self.growth[growth::SAMPLES + i] += tau * sample[i];
+            for j in i..growth::SAMPLED {
                 self.growth[word] += tau * (sample[i] * sample[j]);
                 word += 1;
             }
@@ -264,17 +268,17 @@ fn turn<S: Real>(e: &Expansion<S>, from: S, to: S, positive: bool) -> S {
 }
 
 /// Times of the samples of a step: its start, the nodes, its end.
-pub const SAMPLE_TIMES: [f64; 5] = [0.0, NODES[0], NODES[1], NODES[2], 1.0];
+pub const SAMPLE_TIMES: [f64; STEP_SAMPLES] = [0.0, NODES[0], NODES[1], NODES[2], 1.0];
 
 /// The maximum of a smooth function from its samples, as [`crate::engine::reference::observe`] finds it.
-pub fn maximum<S: Real>(values: &[S; 5]) -> S {
+pub fn maximum<S: Real>(values: &[S; STEP_SAMPLES]) -> S {
     let mut top = 0;
-    for i in 1..5 {
+    for i in 1..STEP_SAMPLES {
         if values[i] > values[top] {
             top = i;
         }
     }
-    if top == 0 || top == 4 {
+    if top == 0 || top == STEP_SAMPLES - 1 {
         return values[top];
     }
     let time = |i: usize| S::from_f64(SAMPLE_TIMES[i]);
@@ -330,7 +334,7 @@ impl<S: Real> Phase<S> {
         if span <= S::ZERO {
             return;
         }
-        for i in 0..3 {
+        for i in 0..NODES.len() {
             let along = S::from_f64(NODES[i]) * span;
             let weight = S::from_f64(WEIGHTS[i]) * span;
             let [c, s] = rotate(self.carrier, self.omega * along);
@@ -383,8 +387,8 @@ pub fn rotate<S: Real>([c, s]: [S; 2], angle: S) -> [S; 2] {
     let square = angle * angle;
     let mut cosine = S::ONE;
     let mut sine = S::ONE;
-    for k in (1..=7).rev() {
-        let n = f64::from(2 * k);
+    for k in (1..=ROTATION_TERMS).rev() {
+        let n = (2 * k) as f64;
         cosine = S::ONE - square * cosine / S::from_f64(n * (n - 1.0));
         sine = S::ONE - square * sine / S::from_f64(n * (n + 1.0));
     }

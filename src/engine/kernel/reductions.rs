@@ -2,25 +2,22 @@
 
 use num_complex::Complex64;
 
-use crate::engine::kernel::observe::SUMS;
 use crate::engine::outcome::Outcome;
 use crate::engine::plan::Plan;
 use crate::engine::reference::observe::{Growth, GrowthFit};
 use crate::engine::scene::Scene;
+use crate::engine::sums::{growth, peak, sum};
 use crate::model::status::Status;
-
-/// Words of the growth window.
-pub const GROWTH: usize = 15;
 
 /// Reductions of one run, scaled, deviations from the equilibrium.
 #[derive(Clone, Debug, Default)]
 pub struct Reductions {
     /// `x2` and `y1` from which the sums of positions count.
     pub origin: [f64; 2],
-    /// The sums of [`crate::engine::kernel::observe::Sums::block`] over both halves of the window.
-    pub halves: [[f64; SUMS]; 2],
-    /// Largest `|ẍ2|`, `|ÿ1|`, `N`.
-    pub peaks: [f64; 3],
+    /// The sums of both halves of the window, see [`sum`].
+    pub halves: [[f64; sum::WORDS]; 2],
+    /// Largest values, see [`peak`].
+    pub peaks: [f64; peak::WORDS],
     /// Impacts in the window.
     pub impacts: u32,
     /// Upward crossings of `ẋ2`.
@@ -31,8 +28,8 @@ pub struct Reductions {
     pub last: f64,
     /// Fourier components of `ẍ2` and `ÿ1` between the two, real and imaginary.
     pub phase: [[f64; 2]; 2],
-    /// Time before the first event, sums of `x v a b` and their products, upper triangle by rows.
-    pub growth: [f64; GROWTH],
+    /// Sums before the first event, see [`growth`].
+    pub growth: [f64; growth::WORDS],
     /// Whether there was an event in the whole run.
     pub met_event: bool,
 }
@@ -72,28 +69,32 @@ impl Reductions {
             return outcome;
         }
         let halves = self.halves;
-        let all: [f64; SUMS] = std::array::from_fn(|i| halves[0][i] + halves[1][i]);
-        let std = |s: &[f64; SUMS], i: usize| (s[i + 1] / s[0] - (s[i] / s[0]).powi(2)).max(0.0).sqrt();
-        let rms = |s: &[f64; SUMS], i: usize| (s[i] / s[0]).sqrt();
-        outcome.x2_mean = Some(scene.equilibrium.x2 + (self.origin[0] + all[1] / all[0]) * units.length);
-        outcome.x2_std = Some(std(&all, 1) * units.length);
-        outcome.y1_mean = Some(scene.equilibrium.y1 + (self.origin[1] + all[3] / all[0]) * units.length);
-        outcome.y1_std = Some(std(&all, 3) * units.length);
-        outcome.ax_rms = Some(rms(&all, 5) * units.acceleration);
-        outcome.ay_rms = Some(rms(&all, 6) * units.acceleration);
-        outcome.ax_peak = Some(self.peaks[0] * units.acceleration);
-        outcome.ay_peak = Some(self.peaks[1] * units.acceleration);
-        let friction = all[8] / all[9];
-        outcome.friction_mean = (all[9] > 0.0 && friction.is_finite()).then_some(friction);
-        outcome.n_peak = Some(self.peaks[2] * units.force);
-        outcome.stick = Some(all[10] / all[0]);
-        outcome.free = Some(all[11] / all[0]);
-        outcome.reverse = Some(all[12] / all[0]);
-        outcome.window = all[0] * units.time;
+        let all: [f64; sum::WORDS] = std::array::from_fn(|i| halves[0][i] + halves[1][i]);
+        let std = |s: &[f64; sum::WORDS], i: usize, ii: usize| {
+            (s[ii] / s[sum::TIME] - (s[i] / s[sum::TIME]).powi(2)).max(0.0).sqrt()
+        };
+        let rms = |s: &[f64; sum::WORDS], i: usize| (s[i] / s[sum::TIME]).sqrt();
+        outcome.x2_mean =
+            Some(scene.equilibrium.x2 + (self.origin[0] + all[sum::X] / all[sum::TIME]) * units.length);
+        outcome.x2_std = Some(std(&all, sum::X, sum::XX) * units.length);
+        outcome.y1_mean =
+            Some(scene.equilibrium.y1 + (self.origin[1] + all[sum::Y] / all[sum::TIME]) * units.length);
+        outcome.y1_std = Some(std(&all, sum::Y, sum::YY) * units.length);
+        outcome.ax_rms = Some(rms(&all, sum::AX) * units.acceleration);
+        outcome.ay_rms = Some(rms(&all, sum::AY) * units.acceleration);
+        outcome.ax_peak = Some(self.peaks[peak::AX] * units.acceleration);
+        outcome.ay_peak = Some(self.peaks[peak::AY] * units.acceleration);
+        let friction = all[sum::TANGENTIAL] / all[sum::NORMAL];
+        outcome.friction_mean = (all[sum::NORMAL] > 0.0 && friction.is_finite()).then_some(friction);
+        outcome.n_peak = Some(self.peaks[peak::NORMAL] * units.force);
+        outcome.stick = Some(all[sum::STICK] / all[sum::TIME]);
+        outcome.free = Some(all[sum::FREE] / all[sum::TIME]);
+        outcome.reverse = Some(all[sum::REVERSE] / all[sum::TIME]);
+        outcome.window = all[sum::TIME] * units.time;
         outcome.impacts_per_second = Some(f64::from(self.impacts) / outcome.window);
-        outcome.speed_rms_halves = halves.map(|s| rms(&s, 7) * units.velocity);
-        outcome.x2_std_halves = halves.map(|s| std(&s, 1) * units.length);
-        outcome.ay_rms_halves = halves.map(|s| rms(&s, 6) * units.acceleration);
+        outcome.speed_rms_halves = halves.map(|s| rms(&s, sum::SPEED) * units.velocity);
+        outcome.x2_std_halves = halves.map(|s| std(&s, sum::X, sum::XX) * units.length);
+        outcome.ay_rms_halves = halves.map(|s| rms(&s, sum::AY) * units.acceleration);
         if let Some(frequency) = self.frequency() {
             outcome.response_frequency = Some(frequency / units.time);
             let [x, y] = self.phase.map(|z| Complex64::new(z[0], z[1]));
@@ -112,12 +113,14 @@ impl Reductions {
 }
 
 /// The fit of the growth window from its sums.
-fn growth_fit(words: &[f64; GROWTH]) -> Option<GrowthFit> {
+fn growth_fit(words: &[f64; growth::WORDS]) -> Option<GrowthFit> {
     let mut product = [[0.0; 5]; 5];
     for (word, (i, j)) in (1..5).flat_map(|i| (i..5).map(move |j| (i, j))).enumerate() {
-        product[i][j] = words[5 + word];
-        product[j][i] = words[5 + word];
+        product[i][j] = words[growth::PRODUCTS + word];
+        product[j][i] = words[growth::PRODUCTS + word];
     }
-    let sum = [words[0], words[1], words[2], words[3], words[4]];
-    Growth::from_sums(words[0], sum, product).result()
+    let time = words[growth::TIME];
+    let samples = &words[growth::SAMPLES..growth::PRODUCTS];
+    let sum = [time, samples[0], samples[1], samples[2], samples[3]];
+    Growth::from_sums(time, sum, product).result()
 }

@@ -2,14 +2,14 @@
 
 #![expect(clippy::cast_possible_truncation, reason = "small constants become words of a kernel")]
 
+use crate::engine::fields::Field;
 use crate::engine::kernel::lane::Lane;
-use crate::engine::kernel::observe::SUMS;
 use crate::engine::kernel::scalar::Real;
 use crate::engine::kernel::scene::{
-    FIRST_HALF, Law, OPEN_HALF, PIECE_WORDS, SECOND_HALF, SEGMENT_WORDS, SEGMENTS, SETTLE, Scene as Words,
-    Segments,
+    FIRST_HALF, OPEN_HALF, SECOND_HALF, SEGMENTS, SETTLE, Scene as Words, Segments,
 };
-use crate::engine::kernel::source::{Constant, Field, Kernel};
+use crate::engine::kernel::source::{Constant, Kernel};
+use crate::engine::kernel::table::{flag, head, piece, segment, state};
 use crate::engine::kernel::windows::Windows;
 use crate::engine::kernel::{contact, crossing, lane, observe, scene, series, steps};
 use crate::engine::method::pace::Turns;
@@ -17,8 +17,9 @@ use crate::engine::outcome::Outcome;
 use crate::engine::plan::Plan;
 use crate::engine::reference::integrate::{MAX_EVENTS_PER_PERIOD, MAX_STEPS_PER_PERIOD, ROUNDINGS};
 use crate::engine::scene::{MOST_STEPS, Scene};
-use crate::model::friction::{FAR, LawKind};
+use crate::engine::sums::{growth, peak, phase, sum};
 use crate::model::instance::Instance;
+use crate::model::piece::{FAR, LawForm};
 use std::f64::consts::TAU;
 
 /// Most pieces of a friction law in a kernel: the rows of the longest table.
@@ -40,45 +41,6 @@ pub fn kernel_for(pieces: usize) -> Option<&'static (Kernel, usize)> {
     KERNELS.iter().find(|(_, holds)| pieces <= *holds)
 }
 
-/// The state of a lane that is kept between dispatches.
-const STATE: &[Field] = &[
-    Field::many("body", 6),
-    Field::one("rest"),
-    Field::many("block", SUMS),
-    Field::many("total", 2 * SUMS),
-    Field::many("peaks", 3),
-    Field::one("previous"),
-    Field::one("first"),
-    Field::one("last"),
-    Field::many("growth", 15),
-    Field::many("phase", 7),
-    Field::many("snapshot", 6),
-];
-
-/// Its counters and switches.
-const FLAGS: &[Field] = &[
-    Field::one("status"),
-    Field::one("steps"),
-    Field::one("started"),
-    Field::one("segment"),
-    Field::one("index"),
-    Field::one("contact"),
-    Field::one("piece"),
-    Field::one("disarmed"),
-    Field::one("at_once"),
-    Field::one("counted"),
-    Field::one("parts"),
-    Field::one("second_pass"),
-    Field::one("half"),
-    Field::one("has_previous"),
-    Field::one("impacts"),
-    Field::one("crossings"),
-    Field::one("growth_closed"),
-    Field::many("first", 2),
-    Field::many("last", 2),
-    Field::many("snapshot", 3),
-];
-
 /// The settings that all instances share.
 const SETTINGS: &[Field] = &[Field::one("tolerance")];
 
@@ -99,46 +61,25 @@ pub const fn kernel<const PIECES: usize>() -> Kernel {
             ("shaders/lane.wgsl", include_str!("../../../shaders/lane.wgsl")),
             ("shaders/response_main.wgsl", include_str!("../../../shaders/response_main.wgsl")),
         ],
-        inputs: const {
-            &[
-                Field::one("sin"),
-                Field::one("cos"),
-                Field::one("inv_m1"),
-                Field::one("k1"),
-                Field::one("k2"),
-                Field::one("c1"),
-                Field::one("c2"),
-                Field::one("kappa"),
-                Field::one("inv_det"),
-                Field::one("normal_mass"),
-                Field::one("n0"),
-                Field::one("t0"),
-                Field::one("mu0"),
-                Field::one("v0"),
-                Field::one("mu_stick"),
-                Field::many("cone", 2),
-                Field::one("restitution"),
-                Field::one("impact_friction"),
-                Field::many("start", 4),
-                Field::one("slowest_rebound"),
-                Field::many("longest", 4),
-                Field::many("layer", 2),
-                Field::many("segments", SEGMENTS * SEGMENT_WORDS),
-                Field::many("pieces", PIECES * PIECE_WORDS),
-            ]
-        },
-        state: STATE,
-        flags: FLAGS,
+        inputs: const { &inputs::<PIECES>() },
+        state: &state::FIELDS,
+        flags: &flag::FIELDS,
         settings: SETTINGS,
+        tables: &[
+            ("SUM", &sum::FIELDS),
+            ("PEAK", &peak::FIELDS),
+            ("GROWTH", &growth::FIELDS),
+            ("PHASE", &phase::FIELDS),
+            ("SEGMENT", &segment::FIELDS),
+            ("PIECE", &piece::FIELDS),
+        ],
         constants: const {
             &[
-                ("LAW_PIECES", Constant::U32(Law::Pieces as u32)),
-                ("LAW_EXPONENTIAL", Constant::U32(Law::Exponential as u32)),
-                ("LAW_RATIONAL", Constant::U32(Law::Rational as u32)),
+                ("LAW_PIECES", Constant::U32(LawForm::Pieces as u32)),
+                ("LAW_EXPONENTIAL", Constant::U32(LawForm::Exponential as u32)),
+                ("LAW_RATIONAL", Constant::U32(LawForm::Rational as u32)),
                 ("PIECES", Constant::U32(PIECES as u32)),
-                ("PIECE_WORDS", Constant::U32(PIECE_WORDS as u32)),
                 ("SEGMENTS", Constant::U32(SEGMENTS as u32)),
-                ("SEGMENT_WORDS", Constant::U32(SEGMENT_WORDS as u32)),
                 ("SETTLE", Constant::U32(SETTLE)),
                 ("FIRST_HALF", Constant::U32(FIRST_HALF)),
                 ("SECOND_HALF", Constant::U32(SECOND_HALF)),
@@ -159,9 +100,16 @@ pub const fn kernel<const PIECES: usize>() -> Kernel {
                 ("NEVER", Constant::Real(crossing::NEVER)),
                 ("DIP", Constant::Real(crossing::DIP)),
                 ("DIP_ITERATIONS", Constant::U32(crossing::DIP_ITERATIONS as u32)),
-                ("SUMS", Constant::U32(SUMS as u32)),
+                ("NODES", Constant::U32(observe::NODES.len() as u32)),
                 ("NODE_0", Constant::Real(observe::NODES[0])),
+                ("NODE_1", Constant::Real(observe::NODES[1])),
                 ("NODE_2", Constant::Real(observe::NODES[2])),
+                ("WEIGHT_0", Constant::Real(observe::WEIGHTS[0])),
+                ("WEIGHT_1", Constant::Real(observe::WEIGHTS[1])),
+                ("WEIGHT_2", Constant::Real(observe::WEIGHTS[2])),
+                ("STEP_SAMPLES", Constant::U32(observe::STEP_SAMPLES as u32)),
+                ("GROWTH_SAMPLED", Constant::U32(growth::SAMPLED as u32)),
+                ("ROTATION_TERMS", Constant::U32(observe::ROTATION_TERMS as u32)),
                 ("BISECTIONS", Constant::U32(observe::BISECTIONS as u32)),
                 ("TAU", Constant::Real(TAU)),
                 ("ROUNDINGS", Constant::Real(ROUNDINGS)),
@@ -186,6 +134,19 @@ pub const fn kernel<const PIECES: usize>() -> Kernel {
     }
 }
 
+/// The words of an instance of a kernel for laws of up to `PIECES` pieces.
+const fn inputs<const PIECES: usize>() -> [Field; head::FIELDS.len() + 2] {
+    let mut all = [Field::one(""); head::FIELDS.len() + 2];
+    let mut k = 0;
+    while k < head::FIELDS.len() {
+        all[k] = head::FIELDS[k];
+        k += 1;
+    }
+    all[k] = Field::many("segments", SEGMENTS * segment::WORDS);
+    all[k + 1] = Field::many("pieces", PIECES * piece::WORDS);
+    all
+}
+
 /// Most loop iterations of one step, every loop at its longest, without the searches for a piece of the law.
 const LOOPS_PER_STEP: u32 = 1900;
 
@@ -195,18 +156,8 @@ const SEARCHES_PER_STEP: u32 = 2;
 
 /// What a scene selects: the form of its law, and whether its belt has a ramp.
 #[must_use]
-pub const fn choices(law: Law, ramp: bool) -> [(&'static str, Constant); 2] {
+pub const fn choices(law: LawForm, ramp: bool) -> [(&'static str, Constant); 2] {
     [("LAW", Constant::U32(law as u32)), ("RAMP", Constant::Bool(ramp))]
-}
-
-/// The form of the law of an instance.
-#[must_use]
-pub fn law_of(kind: LawKind) -> Law {
-    match kind {
-        LawKind::Constant | LawKind::Bilinear | LawKind::Table => Law::Pieces,
-        LawKind::Exponential => Law::Exponential,
-        LawKind::Rational => Law::Rational,
-    }
 }
 
 /// The words of an instance for kernels built for `pieces` pieces.
@@ -217,8 +168,8 @@ pub fn words(scene: &Scene, segments: &Segments, pieces: usize) -> Vec<f64> {
 
 /// An instance as the kernel's twin has it, without segments, for steps that may turn so far.
 #[must_use]
-pub fn without_segments<S: Real>(law: LawKind, scene: &Scene, turns: &Turns) -> Words<S> {
-    Words::of(law_of(law), &scene.model, scene.belt(0.0).velocity, start(scene), turns)
+pub fn without_segments<S: Real>(law: LawForm, scene: &Scene, turns: &Turns) -> Words<S> {
+    Words::of(law, &scene.model, scene.belt(0.0).velocity, start(scene), turns)
 }
 
 /// `x2`, `y1`, `ẋ2`, `ẏ1` at the start.
@@ -239,7 +190,7 @@ pub fn respond<S: Real>(instance: &Instance, plan: &Plan, tolerance: f64) -> Out
     let mut lane: Option<Lane<S>> = None;
     loop {
         let packed = words(&scene, &windows.segments, pieces);
-        let words: Words<S> = Words::read(law_of(instance.law.kind()), pieces, &packed);
+        let words: Words<S> = Words::read(instance.law.kind().form(), pieces, &packed);
         let lane = lane.get_or_insert_with(|| Lane::new(&words));
         lane.run(&words, S::from_f64(tolerance));
         if let Some(outcome) = windows.take(&scene, lane) {

@@ -11,22 +11,11 @@ use smallvec::SmallVec;
 
 use crate::engine::kernel::scalar::Real;
 use crate::engine::kernel::steps::{ORDER, TOLERANCE};
+use crate::engine::kernel::table::{head, piece, segment};
 use crate::engine::method::pace::Turns;
 use crate::engine::reference::integrate::MAX_EVENTS_AT_ONCE;
-use crate::model::friction::{FAR, Piece as LawPiece};
+use crate::model::piece::{FAR, LawForm, Piece as LawPiece};
 use crate::model::scaled::Scaled;
-
-/// The form of the friction law a kernel is built for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-#[repr(u32)]
-pub enum Law {
-    /// Straight pieces: `constant`, `bilinear`, `table`.
-    Pieces,
-    /// `exponential`.
-    Exponential,
-    /// `rational`.
-    Rational,
-}
 
 /// One piece of the friction law.
 #[derive(Clone, Copy, Debug)]
@@ -37,8 +26,8 @@ pub struct Piece<S> {
     pub slope: S,
     /// Decay rate of `exponential` and `rational`; the longest step of slip on a straight piece.
     pub rate: S,
-    /// μ of this piece at the initial belt velocity less μ of the equilibrium. For `exponential` it is the height of the
-    /// exponential at that velocity.
+    /// μ of this piece at the initial belt velocity less μ of the equilibrium; of `exponential`: its
+    /// height there.
     pub offset: S,
     /// Upper end in `|v|`; [`NO_KINK`] for the last piece.
     pub kink: S,
@@ -47,7 +36,25 @@ pub struct Piece<S> {
 impl<S: Real> Piece<S> {
     fn read(words: &[f64]) -> Piece<S> {
         let w = |i: usize| S::from_f64(words[i]);
-        Piece { at_zero: w(0), slope: w(1), rate: w(2), offset: w(3), kink: w(4) }
+        Piece {
+            at_zero: w(piece::AT_ZERO),
+            slope: w(piece::SLOPE),
+            rate: w(piece::RATE),
+            offset: w(piece::OFFSET),
+            kink: w(piece::KINK),
+        }
+    }
+}
+
+impl Piece<f64> {
+    fn words(self) -> [f64; piece::WORDS] {
+        let mut words = [0.0; piece::WORDS];
+        words[piece::AT_ZERO] = self.at_zero;
+        words[piece::SLOPE] = self.slope;
+        words[piece::RATE] = self.rate;
+        words[piece::OFFSET] = self.offset;
+        words[piece::KINK] = self.kink;
+        words
     }
 }
 
@@ -79,23 +86,16 @@ pub const OPEN_HALF: u32 = 3;
 pub const SEGMENTS: usize = 4;
 
 /// The words of the segments of an instance, in the order of [`Segment`].
-pub type Segments = [[f64; SEGMENT_WORDS]; SEGMENTS];
+pub type Segments = [[f64; segment::WORDS]; SEGMENTS];
 
 /// A kink no speed reaches.
 pub const NO_KINK: f64 = 1e30;
-
-/// Words before the segments; the pieces come last.
-pub const SCENE_WORDS: usize = 30;
-/// Words of a piece.
-pub const PIECE_WORDS: usize = 5;
-/// Words of a segment.
-pub const SEGMENT_WORDS: usize = 5;
 
 /// One instance as a kernel sees it.
 #[derive(Clone, Debug)]
 pub struct Scene<S> {
     /// Form of the friction law.
-    pub law: Law,
+    pub law: LawForm,
     /// `sin θ`.
     pub s: S,
     /// `cos θ`.
@@ -156,88 +156,80 @@ static TURNS: LazyLock<Turns> = LazyLock::new(|| Turns::new(ORDER, f64::from(TOL
 #[must_use]
 pub fn words(model: &Scaled, v0: f64, start: [f64; 4], segments: &Segments, pieces: usize) -> Vec<f64> {
     let last = model.law.pieces.len() - 1;
-    let mut words = Vec::with_capacity(SCENE_WORDS + SEGMENTS * SEGMENT_WORDS + pieces * PIECE_WORDS);
-    words.extend(head(model, v0, start));
+    let mut words = Vec::with_capacity(head::WORDS + SEGMENTS * segment::WORDS + pieces * piece::WORDS);
+    words.extend(head_of(model, v0, start));
     words.extend(segments.as_flattened());
     // What there is room for beyond the last is the last.
-    words.extend((0..pieces).flat_map(|index| piece(model, v0, index.min(last), &TURNS)));
+    words.extend((0..pieces).flat_map(|index| piece_of(model, v0, index.min(last), &TURNS).words()));
     words
 }
 
 /// The words of a scene before its segments.
-fn head(model: &Scaled, v0: f64, start: [f64; 4]) -> [f64; SCENE_WORDS] {
+fn head_of(model: &Scaled, v0: f64, start: [f64; 4]) -> [f64; head::WORDS] {
     let (mu0, n0) = (model.mu0, model.n0);
     let mu_s = model.law.mu_stick;
-    let [x, w, vx, vw] = start;
-    let [slip, reverse, stick, free] = TURNS.longest_steps(&model.fastest).map(|step| step.min(NO_KINK));
-    let [across, along] = TURNS.layer().inverses(model);
-    [
-        model.s,
-        model.c,
-        1.0 / model.m1,
-        model.k1,
-        model.k2,
-        model.c1,
-        model.c2,
-        model.kappa,
-        1.0 / model.det,
-        model.normal_mass,
-        n0,
-        mu0 * n0,
-        mu0,
-        v0,
-        mu_s,
-        (mu_s - mu0) * n0,
-        (mu_s + mu0) * n0,
-        model.restitution,
-        f64::from(u8::from(model.impact_friction)),
-        x,
-        w,
-        vx,
-        vw,
-        crate::model::contact::SLOWEST_REBOUND,
-        slip,
-        reverse,
-        stick,
-        free,
-        across,
-        along,
-    ]
+    let mut words = [0.0; head::WORDS];
+    let mut put = |first: usize, values: &[f64]| words[first..first + values.len()].copy_from_slice(values);
+    put(head::SIN, &[model.s]);
+    put(head::COS, &[model.c]);
+    put(head::INV_M1, &[1.0 / model.m1]);
+    put(head::K1, &[model.k1]);
+    put(head::K2, &[model.k2]);
+    put(head::C1, &[model.c1]);
+    put(head::C2, &[model.c2]);
+    put(head::KAPPA, &[model.kappa]);
+    put(head::INV_DET, &[1.0 / model.det]);
+    put(head::NORMAL_MASS, &[model.normal_mass]);
+    put(head::N0, &[n0]);
+    put(head::T0, &[mu0 * n0]);
+    put(head::MU0, &[mu0]);
+    put(head::V0, &[v0]);
+    put(head::MU_STICK, &[mu_s]);
+    put(head::CONE, &[(mu_s - mu0) * n0, (mu_s + mu0) * n0]);
+    put(head::RESTITUTION, &[model.restitution]);
+    put(head::IMPACT_FRICTION, &[f64::from(u8::from(model.impact_friction))]);
+    put(head::START, &start);
+    put(head::SLOWEST_REBOUND, &[crate::model::contact::SLOWEST_REBOUND]);
+    put(head::LONGEST, &TURNS.longest_steps(&model.fastest).map(|step| step.min(NO_KINK)));
+    put(head::LAYER, &TURNS.layer().inverses(model));
+    words
 }
 
 /// The words of a piece of the law; `turns` says how far a mode may turn within a step.
-fn piece(model: &Scaled, v0: f64, index: usize, turns: &Turns) -> [f64; PIECE_WORDS] {
+fn piece_of(model: &Scaled, v0: f64, index: usize, turns: &Turns) -> Piece<f64> {
     let kink = model.law.kinks.get(index).copied().unwrap_or(NO_KINK);
     match model.law.pieces[index] {
         LawPiece::Linear { at_zero, slope } => {
             let longest = turns.longest_step_on(model, index).min(NO_KINK);
-            [at_zero, slope, longest, at_zero + slope * v0 - model.mu0, kink]
+            Piece { at_zero, slope, rate: longest, offset: at_zero + slope * v0 - model.mu0, kink }
         }
         LawPiece::Exponential { floor, height, rate } => {
-            [floor, height, rate, height * (-rate * v0).exp(), kink]
+            Piece { at_zero: floor, slope: height, rate, offset: height * (-rate * v0).exp(), kink }
         }
-        LawPiece::Rational { at_zero, decay } => [at_zero, 0.0, decay, 1.0 / (1.0 + decay * v0), kink],
+        LawPiece::Rational { at_zero, decay } => {
+            Piece { at_zero, slope: 0.0, rate: decay, offset: 1.0 / (1.0 + decay * v0), kink }
+        }
     }
 }
 
 impl<S: Real> Scene<S> {
     /// Reads the words of an instance.
     #[must_use]
-    pub fn read(law: Law, pieces: usize, words: &[f64]) -> Scene<S> {
+    pub fn read(law: LawForm, pieces: usize, words: &[f64]) -> Scene<S> {
         let w = |i: usize| S::from_f64(words[i]);
         let segment = |i: usize| {
-            let at = SCENE_WORDS + i * SEGMENT_WORDS;
+            let at = head::WORDS + i * segment::WORDS;
             Segment {
-                steps: w(at),
-                step: w(at + 1),
-                velocity: w(at + 2),
-                acceleration: w(at + 3),
-                part: w(at + 4),
+                steps: w(at + segment::STEPS),
+                step: w(at + segment::STEP),
+                velocity: w(at + segment::VELOCITY),
+                acceleration: w(at + segment::ACCELERATION),
+                part: w(at + segment::PART),
             }
         };
         let piece = |i: usize| {
-            let at = SCENE_WORDS + SEGMENTS * SEGMENT_WORDS + i * PIECE_WORDS;
-            Piece::read(&words[at..at + PIECE_WORDS])
+            let at = head::WORDS + SEGMENTS * segment::WORDS + i * piece::WORDS;
+            Piece::read(&words[at..at + piece::WORDS])
         };
         let pieces = (0..pieces).map(piece).collect();
         Scene { pieces, segments: std::array::from_fn(segment), ..Scene::read_head(law, words) }
@@ -245,14 +237,14 @@ impl<S: Real> Scene<S> {
 
     /// An instance without segments, by its law's own pieces, whose steps may turn so far.
     #[must_use]
-    pub fn of(law: Law, model: &Scaled, v0: f64, start: [f64; 4], turns: &Turns) -> Scene<S> {
-        let piece = |index: usize| Piece::read(&piece(model, v0, index, turns));
+    pub fn of(law: LawForm, model: &Scaled, v0: f64, start: [f64; 4], turns: &Turns) -> Scene<S> {
+        let piece = |index: usize| Piece::read(&piece_of(model, v0, index, turns).words());
         let pieces = (0..model.law.pieces.len()).map(piece).collect();
-        Scene { pieces, ..Scene::read_head(law, &head(model, v0, start)) }
+        Scene { pieces, ..Scene::read_head(law, &head_of(model, v0, start)) }
     }
 
     /// What stands before the segments.
-    fn read_head(law: Law, words: &[f64]) -> Scene<S> {
+    fn read_head(law: LawForm, words: &[f64]) -> Scene<S> {
         let w = |i: usize| S::from_f64(words[i]);
         let nothing = Segment {
             steps: S::ZERO,
@@ -263,28 +255,28 @@ impl<S: Real> Scene<S> {
         };
         Scene {
             law,
-            s: w(0),
-            c: w(1),
-            inv_m1: w(2),
-            k1: w(3),
-            k2: w(4),
-            c1: w(5),
-            c2: w(6),
-            kappa: w(7),
-            inv_det: w(8),
-            normal_mass: w(9),
-            n0: w(10),
-            t0: w(11),
-            mu0: w(12),
-            v0: w(13),
-            mu_stick: w(14),
-            cone: [w(15), w(16)],
-            restitution: w(17),
-            impact_friction: w(18),
-            start: [w(19), w(20), w(21), w(22)],
-            slowest_rebound: w(23),
-            longest: [w(24), w(25), w(26), w(27)],
-            layer: [w(28), w(29)],
+            s: w(head::SIN),
+            c: w(head::COS),
+            inv_m1: w(head::INV_M1),
+            k1: w(head::K1),
+            k2: w(head::K2),
+            c1: w(head::C1),
+            c2: w(head::C2),
+            kappa: w(head::KAPPA),
+            inv_det: w(head::INV_DET),
+            normal_mass: w(head::NORMAL_MASS),
+            n0: w(head::N0),
+            t0: w(head::T0),
+            mu0: w(head::MU0),
+            v0: w(head::V0),
+            mu_stick: w(head::MU_STICK),
+            cone: std::array::from_fn(|i| w(head::CONE + i)),
+            restitution: w(head::RESTITUTION),
+            impact_friction: w(head::IMPACT_FRICTION),
+            start: std::array::from_fn(|i| w(head::START + i)),
+            slowest_rebound: w(head::SLOWEST_REBOUND),
+            longest: std::array::from_fn(|i| w(head::LONGEST + i)),
+            layer: std::array::from_fn(|i| w(head::LAYER + i)),
             pieces: SmallVec::new(),
             segments: [nothing; SEGMENTS],
         }
@@ -295,11 +287,11 @@ impl<S: Real> Scene<S> {
     pub fn friction(&self, piece: &Piece<S>, sigma: S, v: S, lag: S) -> (S, S) {
         let forward = sigma > S::ZERO;
         match self.law {
-            Law::Pieces => {
+            LawForm::Pieces => {
                 let q = sigma * piece.at_zero + piece.slope * v;
                 (q, if forward { piece.offset - piece.slope * lag } else { q - self.mu0 })
             }
-            Law::Exponential => {
+            LawForm::Exponential => {
                 // From the equilibrium, without cancellation, or from rest, where that is too far down.
                 let ahead = piece.rate * lag;
                 let near = forward && ahead <= S::from_f64(FAR);
@@ -308,7 +300,7 @@ impl<S: Real> Scene<S> {
                 let q = sigma * (piece.at_zero + (base + less));
                 (q, if near { less } else { q - self.mu0 })
             }
-            Law::Rational => {
+            LawForm::Rational => {
                 let reciprocal = S::ONE / (S::ONE + piece.rate * sigma * v);
                 let q = sigma * piece.at_zero * reciprocal;
                 let less = piece.at_zero * piece.rate * lag * reciprocal * piece.offset;
@@ -321,8 +313,10 @@ impl<S: Real> Scene<S> {
     #[must_use]
     pub fn longest_in_layer(&self, piece: &Piece<S>, q: S, v: S, acceleration: S) -> S {
         let narrowing = S::ONE / (S::ONE + piece.rate * v.abs());
-        let sloped =
-            if self.law == Law::Exponential { (q.abs() - piece.at_zero).abs() } else { q.abs() * narrowing };
+        let sloped = match self.law {
+            LawForm::Exponential => (q.abs() - piece.at_zero).abs(),
+            LawForm::Pieces | LawForm::Rational => q.abs() * narrowing,
+        };
         let inverse = piece.rate * (acceleration.abs() * narrowing * self.layer[0] + sloped * self.layer[1]);
         S::ONE / inverse.max(S::from_f64(1.0 / NO_KINK))
     }

@@ -1,8 +1,7 @@
 //! A run cut into the segments of a kernel.
 
-use crate::engine::kernel::scene::{
-    FIRST_HALF, OPEN_HALF, SECOND_HALF, SEGMENT_WORDS, SEGMENTS, SETTLE, Segments,
-};
+use crate::engine::kernel::scene::{FIRST_HALF, OPEN_HALF, SECOND_HALF, SEGMENTS, SETTLE, Segments};
+use crate::engine::kernel::table::segment;
 use crate::engine::plan::Plan;
 use crate::engine::scene::Scene;
 use std::f64::consts::TAU;
@@ -25,7 +24,7 @@ const END_ROUNDING: f64 = 1e-14;
 
 fn cut(scene: &Scene, plan: &Plan, parts: [(u32, f64); 3]) -> Segments {
     let nominal = TAU / f64::from(plan.steps_per_period);
-    let mut segments = [[0.0; SEGMENT_WORDS]; SEGMENTS];
+    let mut segments = [[0.0; segment::WORDS]; SEGMENTS];
     let mut used = 0;
     let mut time = 0.0;
     for (part, length) in parts {
@@ -40,7 +39,12 @@ fn cut(scene: &Scene, plan: &Plan, parts: [(u32, f64); 3]) -> Segments {
             }
             let duration = rest.min(holds);
             let steps = (duration / nominal).ceil().max(1.0);
-            segments[used] = [steps, duration / steps, belt.velocity, belt.acceleration, f64::from(part)];
+            let words = &mut segments[used];
+            words[segment::STEPS] = steps;
+            words[segment::STEP] = duration / steps;
+            words[segment::VELOCITY] = belt.velocity;
+            words[segment::ACCELERATION] = belt.acceleration;
+            words[segment::PART] = f64::from(part);
             used += 1;
             time += duration;
             rest -= duration;

@@ -8,8 +8,9 @@
 #![expect(clippy::needless_range_loop, reason = "the loops are those of the WGSL twin")]
 
 use crate::engine::kernel::scalar::Real;
-use crate::engine::kernel::scene::{Law, Piece, Scene};
+use crate::engine::kernel::scene::{Piece, Scene};
 use crate::engine::kernel::steps::ORDER;
+use crate::model::piece::LawForm;
 
 /// Coefficients by degree.
 pub type Series<S> = [S; ORDER + 1];
@@ -111,8 +112,9 @@ fn expand_slip<S: Real>(
     let lag = e.x[1] - (belt_velocity - scene.v0);
     let (q0, q0_less_mu0) = scene.friction(piece, sigma, e.v[0], lag);
     q[0] = q0;
-    if scene.law == Law::Exponential {
-        decay[0] = sigma * q0 - piece.at_zero;
+    match scene.law {
+        LawForm::Exponential => decay[0] = sigma * q0 - piece.at_zero,
+        LawForm::Pieces | LawForm::Rational => {}
     }
     let reciprocal_inertia = S::ONE / (S::ONE + scene.kappa * q0);
     for k in 0..=ORDER - 2 {
@@ -147,8 +149,8 @@ fn friction_term<S: Real>(
     k: usize,
 ) -> S {
     match scene.law {
-        Law::Pieces => piece.slope * v[k],
-        Law::Exponential => {
+        LawForm::Pieces => piece.slope * v[k],
+        LawForm::Exponential => {
             let mut sum = S::ZERO;
             for j in 1..=k {
                 sum += S::from_f64(j as f64) * v[j] * decay[k - j];
@@ -156,7 +158,7 @@ fn friction_term<S: Real>(
             decay[k] = -(sigma * piece.rate * sum) / S::from_f64(k as f64);
             sigma * decay[k]
         }
-        Law::Rational => {
+        LawForm::Rational => {
             let mut sum = S::ZERO;
             for j in 1..=k {
                 sum += v[j] * q[k - j];

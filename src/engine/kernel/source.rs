@@ -13,6 +13,7 @@
 //! No number is typed on both sides: where a word stands, codes and constants reach WGSL as a header made
 //! from the tables here.
 
+use crate::engine::fields::{Field, words};
 use crate::engine::precision::Precision;
 use crate::model::status::Status;
 use std::fmt::Write;
@@ -71,47 +72,6 @@ impl Settings {
     }
 }
 
-/// A named run of words.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Field {
-    /// Its name; WGSL knows its first word by the upper-case name behind a prefix.
-    pub name: &'static str,
-    /// Its words.
-    pub words: usize,
-}
-
-impl Field {
-    /// One word.
-    #[must_use]
-    pub const fn one(name: &'static str) -> Field {
-        Field { name, words: 1 }
-    }
-
-    /// Several words.
-    #[must_use]
-    pub const fn many(name: &'static str, words: usize) -> Field {
-        Field { name, words }
-    }
-}
-
-/// The words of a list of fields.
-#[must_use]
-pub const fn words(fields: &[Field]) -> usize {
-    let mut sum = 0;
-    let mut k = 0;
-    while k < fields.len() {
-        sum += fields[k].words;
-        k += 1;
-    }
-    sum
-}
-
-/// The first word of a field; the number of all words when there is no such field.
-#[must_use]
-pub fn first_word(fields: &[Field], name: &str) -> usize {
-    fields.iter().take_while(|field| field.name != name).map(|field| field.words).sum()
-}
-
 /// A constant of the header.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Constant {
@@ -121,6 +81,13 @@ pub enum Constant {
     Real(f64),
     /// `const NAME: bool`, for what a scene selects.
     Bool(bool),
+}
+
+impl Constant {
+    /// A number of words, or the place of one.
+    fn count(count: usize) -> Constant {
+        Constant::U32(u32::try_from(count).unwrap_or(u32::MAX))
+    }
 }
 
 /// A compute kernel: its WGSL files and its words.
@@ -138,6 +105,8 @@ pub struct Kernel {
     pub flags: &'static [Field],
     /// Kernel-specific fields of the settings, `SETTING_…` in WGSL.
     pub settings: &'static [Field],
+    /// Runs of named words that stand inside others or beside them, by prefix: `PREFIX_…` in WGSL, and `PREFIX_WORDS`.
+    pub tables: &'static [(&'static str, &'static [Field])],
     /// Constants by name.
     pub constants: &'static [(&'static str, Constant)],
     /// Most loop iterations that one step may cost, for the limit of a dispatch.
@@ -163,11 +132,11 @@ impl Kernel {
         for (prefix, fields) in
             [("INPUT", self.inputs), ("STATE", self.state), ("FLAG", self.flags), ("SETTING", self.settings)]
         {
-            let mut first = 0;
-            for field in fields {
-                constant(&mut text, &format!("{prefix}_{}", field.name.to_uppercase()), Constant::U32(first));
-                first += u32::try_from(field.words).unwrap_or(u32::MAX);
-            }
+            places(&mut text, prefix, fields);
+        }
+        for (prefix, fields) in self.tables {
+            places(&mut text, prefix, fields);
+            constant(&mut text, &format!("{prefix}_WORDS"), Constant::count(words(fields)));
         }
         for (name, value) in self.constants.iter().chain(choices) {
             constant(&mut text, name, *value);
@@ -194,6 +163,15 @@ fn header(precision: Precision) -> String {
         constant(&mut text, &name, Constant::U32(status as u32));
     }
     text
+}
+
+/// The first words of fields.
+fn places(text: &mut String, prefix: &str, fields: &[Field]) {
+    let mut first = 0;
+    for field in fields {
+        constant(text, &format!("{prefix}_{}", field.name.to_uppercase()), Constant::count(first));
+        first += field.words;
+    }
 }
 
 fn constant(text: &mut String, name: &str, value: Constant) {

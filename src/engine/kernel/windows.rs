@@ -6,14 +6,16 @@
 use crate::engine::kernel::lane::Lane;
 use crate::engine::kernel::observe;
 use crate::engine::kernel::observe::{Phase, Sums};
-use crate::engine::kernel::reductions::{End, GROWTH, Reductions};
+use crate::engine::kernel::reductions::{End, Reductions};
 use crate::engine::kernel::scalar::Real;
 use crate::engine::kernel::scene::{SECOND_HALF, SEGMENTS, Segments};
 use crate::engine::kernel::segments::{segments, window_segments};
+use crate::engine::kernel::table::segment;
 use crate::engine::outcome::{Ending, Outcome};
 use crate::engine::plan::Plan;
 use crate::engine::scene::Scene;
 use crate::engine::settling::Settling;
+use crate::engine::sums::growth;
 use crate::model::instance::Instance;
 use crate::model::status::Status;
 
@@ -27,7 +29,7 @@ pub struct Windows {
     ending: Option<Ending>,
     /// Time at the beginning of the segments, and of the window in them.
     start: [f64; 2],
-    growth: [f64; GROWTH],
+    growth: [f64; growth::WORDS],
     growing: bool,
 }
 
@@ -46,7 +48,7 @@ impl Windows {
             settling,
             ending: None,
             start: [0.0, scene.scaled(plan.settle)],
-            growth: [0.0; GROWTH],
+            growth: [0.0; growth::WORDS],
             growing: true,
         }
     }
@@ -72,8 +74,8 @@ impl Windows {
         }
         if let Some(ending) = settling.judge(&outcome, lane.sums.growth_closed, end.time) {
             self.ending = Some(ending);
-            for [.., part] in &mut self.segments {
-                *part = part.min(f64::from(SECOND_HALF));
+            for words in &mut self.segments {
+                words[segment::PART] = words[segment::PART].min(f64::from(SECOND_HALF));
             }
             lane.back_to_the_end(&self.segments);
         } else {
@@ -86,7 +88,7 @@ impl Windows {
     }
 
     /// Adds the growth of a window as long as no event has come.
-    fn add_growth(&mut self, growth: &[f64; GROWTH], closed: bool) {
+    fn add_growth(&mut self, growth: &[f64; growth::WORDS], closed: bool) {
         if self.growing {
             for (total, word) in self.growth.iter_mut().zip(growth) {
                 *total += word;
@@ -117,7 +119,7 @@ impl<S: Real> Lane<S> {
             clippy::cast_sign_loss,
             reason = "a whole number of steps"
         )]
-        let steps = segments[self.segment as usize][0] as u32;
+        let steps = segments[self.segment as usize][segment::STEPS] as u32;
         self.index = steps;
     }
 }
@@ -126,8 +128,11 @@ impl<S: Real> Lane<S> {
 #[must_use]
 pub fn reductions<S: Real>(segments: &Segments, lane: &Lane<S>) -> (Reductions, End) {
     let time = |segment: u32, index: u32, fraction: f64| -> f64 {
-        let before: f64 = segments[..(segment as usize).min(SEGMENTS)].iter().map(|s| s[0] * s[1]).sum();
-        let step = segments.get(segment as usize).map_or(0.0, |s| s[1]);
+        let before: f64 = segments[..(segment as usize).min(SEGMENTS)]
+            .iter()
+            .map(|s| s[segment::STEPS] * s[segment::STEP])
+            .sum();
+        let step = segments.get(segment as usize).map_or(0.0, |s| s[segment::STEP]);
         before + (f64::from(index) + fraction) * step
     };
     let moment = |m: &observe::Moment<S>| time(m.segment, m.index, m.fraction.to_f64());

@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use crate::engine::fields::words;
 use crate::engine::kernel::linear::{STATE, code};
-use crate::engine::kernel::source::words;
 use crate::model::kind::InstabilityType;
 use crate::model::linear::{Linear, Prepared};
 

@@ -7,10 +7,11 @@ use pulp::Simd;
 use crate::engine::kernel::contact::{
     Belt, CONE_BACKWARD, CONE_FORWARD, GAP, LIFT_OFF, LOWER_KINK, NOTHING, REST, State, UPPER_KINK,
 };
-use crate::engine::kernel::scene::{EVENTS_AT_ONCE, Law, Scene};
+use crate::engine::kernel::scene::{EVENTS_AT_ONCE, Scene};
 use crate::engine::kernel::series::{Body, FREE, REVERSE, SLIP, STICK};
 use crate::engine::lanes::constants::{CONE, CONSTANTS, LONGEST, N0, SWING_WORDS, V0};
 use crate::engine::lanes::vector::{Mask, Scalar, Vector};
+use crate::model::piece::LawForm;
 
 /// The event function a lane's normal force or gap belongs to.
 pub const FIRST: u32 = 1;
@@ -44,7 +45,7 @@ pub struct Block<S: Simd, T: Scalar<S>, const K: usize> {
     /// The instruction set.
     pub simd: S,
     /// The form of every lane's law.
-    pub law: Law,
+    pub law: LawForm,
     /// Constants of the scenes, see [`crate::engine::lanes::constants`].
     pub scene: [Vector<S, T, K>; CONSTANTS],
     /// The present piece of the law.
@@ -88,7 +89,7 @@ pub struct Block<S: Simd, T: Scalar<S>, const K: usize> {
 impl<S: Simd, T: Scalar<S>, const K: usize> Block<S, T, K> {
     /// Lanes that rest: they stick to a belt at rest, and no force acts.
     #[inline(always)]
-    pub fn idle(simd: S, law: Law) -> Self {
+    pub fn idle(simd: S, law: LawForm) -> Self {
         let zero = Vector::constant(simd, 0.0);
         let mut block = Block {
             simd,

@@ -1,7 +1,7 @@
 //! What the lanes had at the last end of stick, to which whole cycles are added.
 
-use crate::engine::kernel::observe::SUMS;
 use crate::engine::lanes::vector::{Mask, Scalar, Vector};
+use crate::engine::sums::sum;
 use pulp::Simd;
 
 /// [`Cycle::since`] before the first end of stick.
@@ -13,7 +13,7 @@ pub struct Cycle<S: Simd, T: Scalar<S>, const K: usize> {
     /// Time since the stretch began; negative before the first.
     pub since: Vector<S, T, K>,
     /// The sums of the window.
-    pub(super) window: [Vector<S, T, K>; SUMS],
+    pub(super) window: [Vector<S, T, K>; sum::WORDS],
     /// Upward crossings of `ẋ2`.
     pub(super) crossings: Vector<S, T, K>,
 }
@@ -23,7 +23,7 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Cycle<S, T, K> {
     #[inline(always)]
     pub fn new(simd: S) -> Self {
         let zero = Vector::constant(simd, 0.0);
-        Cycle { since: zero.like(NEVER), window: [zero; SUMS], crossings: zero }
+        Cycle { since: zero.like(NEVER), window: [zero; sum::WORDS], crossings: zero }
     }
 
     /// Forgets the cycles of lanes that slip back.

@@ -6,15 +6,14 @@
 
 use pulp::Simd;
 
-use crate::engine::kernel::scene::Law;
 use crate::engine::lanes::block::{AT_ZERO, Block, OFFSET, RATE, SLOPE};
 use crate::engine::lanes::constants::{FALL, FLIGHT_X, FLIGHT_Y, H, KAPPA, LAYER, MU0, N0, R, V0, W};
 use crate::engine::lanes::vector::{Mask, Scalar, Vector};
-use crate::model::friction::FAR;
+use crate::model::piece::{FAR, LawForm};
 
-/// The form of the laws of a pass, as [`Law`] has it.
+/// The laws of a pass are straight pieces.
 pub const PIECES: bool = false;
-/// Either of the two others; which one is known when it runs.
+/// They have one of the curved forms; which one is known when it runs.
 pub const CURVED: bool = true;
 
 /// Motion of `x2` alone: θ = 0 and `y1` at rest, so that the normal force is that of the equilibrium.
@@ -64,17 +63,22 @@ pub fn friction<S: Simd, T: Scalar<S>, const K: usize, const LAW: bool>(
     let (at_zero, slope, rate, offset) = (b.piece[AT_ZERO], b.piece[SLOPE], b.piece[RATE], b.piece[OFFSET]);
     let (q, less) = if LAW == PIECES {
         (slope.fma(v, sigma * at_zero), slope.fnma(lag, offset))
-    } else if b.law == Law::Exponential {
-        let ahead = rate * lag;
-        let near = forward.and(ahead.at_most(one.like(FAR)));
-        let base = near.select(offset, slope);
-        let change = exp_m1(near.select(ahead, -(rate * (sigma * v).max(v.like(0.0)))));
-        let less = base * change;
-        let q = sigma * (at_zero + (base + less));
-        return [q, near.select(less, q - b.scene[MU0])];
     } else {
-        let reciprocal = one / (rate * sigma).fma(v, one);
-        (sigma * at_zero * reciprocal, at_zero * rate * lag * reciprocal * offset)
+        match b.law {
+            LawForm::Exponential => {
+                let ahead = rate * lag;
+                let near = forward.and(ahead.at_most(one.like(FAR)));
+                let base = near.select(offset, slope);
+                let change = exp_m1(near.select(ahead, -(rate * (sigma * v).max(v.like(0.0)))));
+                let less = base * change;
+                let q = sigma * (at_zero + (base + less));
+                return [q, near.select(less, q - b.scene[MU0])];
+            }
+            LawForm::Pieces | LawForm::Rational => {
+                let reciprocal = one / (rate * sigma).fma(v, one);
+                (sigma * at_zero * reciprocal, at_zero * rate * lag * reciprocal * offset)
+            }
+        }
     };
     [q, forward.select(less, q - b.scene[MU0])]
 }
@@ -96,8 +100,10 @@ fn layer<S: Simd, T: Scalar<S>, const K: usize, const MOTION: u8>(
     let acceleration = (b.drive - force / inertia).abs();
     let rate = b.piece[RATE];
     let narrowing = one / rate.fma(speed.max(zero), one);
-    let sloped =
-        if b.law == Law::Exponential { (q0.abs() - b.piece[AT_ZERO]).abs() } else { q0.abs() * narrowing };
+    let sloped = match b.law {
+        LawForm::Exponential => (q0.abs() - b.piece[AT_ZERO]).abs(),
+        LawForm::Pieces | LawForm::Rational => q0.abs() * narrowing,
+    };
     rate * (acceleration * narrowing).fma(b.scene[LAYER], sloped * b.scene[LAYER + 1])
 }
 
@@ -234,10 +240,11 @@ pub fn expand<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: 
         }
     }
     let mut friction = Friction { q: [zero; N], law: [zero; N] };
-    if LAW == CURVED && b.law == Law::Exponential {
-        friction.law[0] = sigma.fma(q0, -b.piece[AT_ZERO]);
-    } else if LAW == CURVED {
-        friction.law[0] = q0;
+    if LAW == CURVED {
+        friction.law[0] = match b.law {
+            LawForm::Exponential => sigma.fma(q0, -b.piece[AT_ZERO]),
+            LawForm::Pieces | LawForm::Rational => q0,
+        };
     }
     let known = Known {
         forms,
@@ -409,15 +416,21 @@ fn degree<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool
         law[k + 1] = zero;
         for j in 1..=k + 1 {
             let along = if j == 1 { drive - v[0][2] } else { -v[0][j + 1] } * rate;
-            let along = if b.law == Law::Exponential { along * drive.like(j as f64) } else { along };
+            let along = match b.law {
+                LawForm::Exponential => along * drive.like(j as f64),
+                LawForm::Pieces | LawForm::Rational => along,
+            };
             sum = along.fma(law[k + 1 - j], sum);
         }
-        if b.law == Law::Exponential {
-            law[k + 1] = -(sigma * b.piece[RATE] * sum) * once;
-            q[k + 1] = (sigma * law[k + 1] * reciprocal).only(slip);
-        } else {
-            law[k + 1] = -(b.piece[RATE] * sigma * sum) / (b.piece[RATE] * sigma).fma(relative, one);
-            q[k + 1] = (law[k + 1] * reciprocal).only(slip);
+        match b.law {
+            LawForm::Exponential => {
+                law[k + 1] = -(sigma * b.piece[RATE] * sum) * once;
+                q[k + 1] = (sigma * law[k + 1] * reciprocal).only(slip);
+            }
+            LawForm::Pieces | LawForm::Rational => {
+                law[k + 1] = -(b.piece[RATE] * sigma * sum) / (b.piece[RATE] * sigma).fma(relative, one);
+                q[k + 1] = (law[k + 1] * reciprocal).only(slip);
+            }
         }
     }
 }

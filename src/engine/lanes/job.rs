@@ -6,7 +6,7 @@ use crate::engine::kernel::contact::{Belt, GAP, State, UPPER_KINK};
 use crate::engine::kernel::reductions::{End, Reductions};
 use crate::engine::kernel::response::without_segments;
 use crate::engine::kernel::scalar::Real;
-use crate::engine::kernel::scene::{Law, Scene as Words};
+use crate::engine::kernel::scene::Scene as Words;
 use crate::engine::kernel::series::FREE;
 use crate::engine::lanes::constants::{CONSTANTS, SWING, constants};
 use crate::engine::lanes::count::Count;
@@ -16,7 +16,9 @@ use crate::engine::outcome::{Ending, Outcome};
 use crate::engine::plan::Plan;
 use crate::engine::scene::Scene;
 use crate::engine::settling::Settling;
+use crate::engine::sums::sum;
 use crate::model::instance::Instance;
+use crate::model::piece::LawForm;
 use crate::model::status::Status;
 
 /// Steps of a stretch of the window: short sums keep their digits, and a lane is looked at between stretches.
@@ -113,7 +115,7 @@ impl<T: Real> Job<T> {
     /// The start of an instance, whose steps may turn so far.
     #[must_use]
     pub fn new(instance: &Instance, scene: Scene, plan: &Plan, turns: &Turns) -> Job<T> {
-        let words: Words<T> = without_segments(instance.law.kind(), &scene, turns);
+        let words: Words<T> = without_segments(instance.law.kind().form(), &scene, turns);
         let settling = Settling::new(instance, &scene, plan).map(Box::new);
         let asked = 0.5 * scene.scaled(plan.measure);
         let half = settling.as_ref().map_or(asked, |settling| settling.half(None));
@@ -149,7 +151,7 @@ impl<T: Real> Job<T> {
 
     /// The form of its law.
     #[must_use]
-    pub fn law(&self) -> Law {
+    pub fn law(&self) -> LawForm {
         self.words.law
     }
 
@@ -240,7 +242,7 @@ impl<T: Real> Job<T> {
     /// The Fourier components of the window from its stretches, if they are good enough.
     fn components(&self, bound: f64) -> Option<[[f64; 2]; 2]> {
         let all = |i: usize| self.seen.halves[0][i] + self.seen.halves[1][i];
-        let rms = [all(5), all(6)].map(|square| (square / all(0)).sqrt());
+        let rms = [all(sum::AX), all(sum::AY)].map(|square| (square / all(sum::TIME)).sqrt());
         self.stretches.components(self.omega(), self.seen.first, rms, bound)
     }
 

@@ -62,8 +62,8 @@ use std::sync::atomic::Ordering;
 use pulp::{Simd, WithSimd};
 
 use crate::engine::kernel::scalar::Real;
-use crate::engine::kernel::scene::Law;
 use crate::engine::precision::Precision;
+use crate::model::piece::LawForm;
 use job::{Job, Part};
 use march::Settings;
 use pass::pass;
@@ -99,7 +99,7 @@ macro_rules! lanes {
             fn run(jobs: &mut [Job<Self>], settings: Settings) {
                 match jobs.first().map(Job::law) {
                     None => {}
-                    Some(Law::Pieces) => settings.terms.instructions.dispatch(Parts::<
+                    Some(LawForm::Pieces) => settings.terms.instructions.dispatch(Parts::<
                         '_,
                         $scalar,
                         { ORDER + 1 },
@@ -108,15 +108,10 @@ macro_rules! lanes {
                         jobs,
                         settings,
                     }),
-                    Some(_) => settings.terms.instructions.dispatch(Parts::<
-                        '_,
-                        $scalar,
-                        { ORDER + 1 },
-                        { expand::CURVED },
-                    > {
-                        jobs,
-                        settings,
-                    }),
+                    Some(LawForm::Exponential | LawForm::Rational) => settings
+                        .terms
+                        .instructions
+                        .dispatch(Parts::<'_, $scalar, { ORDER + 1 }, { expand::CURVED }> { jobs, settings }),
                 }
             }
         }

@@ -2,8 +2,7 @@
 //!
 //! The definitions are those of [`crate::engine::kernel::observe`].
 
-use crate::engine::kernel::observe::{NODES, SAMPLE_TIMES, SUMS, WEIGHTS};
-use crate::engine::kernel::reductions::GROWTH;
+use crate::engine::kernel::observe::{NODES, SAMPLE_TIMES, WEIGHTS};
 use crate::engine::lanes::angle::{rotation, turn};
 use crate::engine::lanes::block::Block;
 use crate::engine::lanes::constants::{N0, R, T0, W};
@@ -12,17 +11,18 @@ use crate::engine::lanes::expand::{Expansion, SINGLE};
 use crate::engine::lanes::polynomial::{soon_to, value_soon};
 use crate::engine::lanes::spectrum::{Nodes, Spectrum, moving, seen};
 use crate::engine::lanes::vector::{Mask, Scalar, Vector};
+use crate::engine::sums::{growth, peak, sum};
 use pulp::Simd;
 
 /// Reductions of the present stretches.
 #[derive(Clone, Copy, Debug)]
 pub struct Sums<S: Simd, T: Scalar<S>, const K: usize> {
-    /// The sums of [`crate::engine::kernel::observe::Sums::block`].
-    pub window: [Vector<S, T, K>; SUMS],
+    /// Sums of the window, see [`sum`].
+    pub window: [Vector<S, T, K>; sum::WORDS],
     /// `x2` and `y1` at the start of the window, from which its sums count.
     pub origin: [Vector<S, T, K>; 2],
-    /// Largest `|ẍ2|`, `|ÿ1|`, `N`.
-    pub peaks: [Vector<S, T, K>; 3],
+    /// Largest values, see [`peak`].
+    pub peaks: [Vector<S, T, K>; peak::WORDS],
     /// `ẋ2` at the end of the step before.
     pub previous: Vector<S, T, K>,
     /// Upward crossings of `ẋ2`.
@@ -40,7 +40,7 @@ pub struct Sums<S: Simd, T: Scalar<S>, const K: usize> {
     /// Time since the stretch began.
     pub time: Vector<S, T, K>,
     /// Sums before the first event.
-    pub growth: [Vector<S, T, K>; GROWTH],
+    pub growth: [Vector<S, T, K>; growth::WORDS],
     /// 1 until the first event.
     pub growing: Vector<S, T, K>,
     /// Fourier components at a guessed frequency.
@@ -59,9 +59,9 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
     pub fn new(simd: S) -> Self {
         let zero = Vector::constant(simd, 0.0);
         Sums {
-            window: [zero; SUMS],
+            window: [zero; sum::WORDS],
             origin: [zero; 2],
-            peaks: [zero; 3],
+            peaks: [zero; peak::WORDS],
             previous: zero,
             crossings: zero,
             first: zero,
@@ -70,7 +70,7 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
             quiet: zero,
             cycle: Cycle::new(simd),
             time: zero,
-            growth: [zero; GROWTH],
+            growth: [zero; growth::WORDS],
             growing: zero,
             spectrum: Spectrum::new(simd),
             omega: zero,
@@ -92,10 +92,10 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
         let tau = at * e.step;
         let mut velocities = [zero; 3];
         let free = b.free();
-        self.window[0] += tau;
-        self.window[10] += tau.only(b.stick());
-        self.window[11] += tau.only(free);
-        self.window[12] += tau.only(b.reverse());
+        self.window[sum::TIME] += tau;
+        self.window[sum::STICK] += tau.only(b.stick());
+        self.window[sum::FREE] += tau.only(free);
+        self.window[sum::REVERSE] += tau.only(b.reverse());
         let rate_square = e.rate * e.rate;
         let (flying, t0) = (free.any(), free.select(zero, b.scene[T0]));
         let moving = moving(MOTION);
@@ -151,27 +151,27 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
             let weight = tau * at.like(WEIGHTS[i - 1]);
             let sums = &mut self.window;
             let dx = x - self.origin[0];
-            sums[1] = weight.fma(dx, sums[1]);
-            sums[2] = weight.fma(dx * dx, sums[2]);
-            sums[5] = weight.fma(ax * ax, sums[5]);
+            sums[sum::X] = weight.fma(dx, sums[sum::X]);
+            sums[sum::XX] = weight.fma(dx * dx, sums[sum::XX]);
+            sums[sum::AX] = weight.fma(ax * ax, sums[sum::AX]);
             if MOTION == SINGLE {
-                sums[7] = weight.fma(vx * vx, sums[7]);
+                sums[sum::SPEED] = weight.fma(vx * vx, sums[sum::SPEED]);
             } else {
                 let dw = w - self.origin[1];
-                sums[3] = weight.fma(dw, sums[3]);
-                sums[4] = weight.fma(dw * dw, sums[4]);
-                sums[6] = weight.fma(ay * ay, sums[6]);
-                sums[7] = weight.fma(vx.fma(vx, vw * vw), sums[7]);
+                sums[sum::Y] = weight.fma(dw, sums[sum::Y]);
+                sums[sum::YY] = weight.fma(dw * dw, sums[sum::YY]);
+                sums[sum::AY] = weight.fma(ay * ay, sums[sum::AY]);
+                sums[sum::SPEED] = weight.fma(vx.fma(vx, vw * vw), sums[sum::SPEED]);
             }
-            sums[8] = weight.fma(tangential, sums[8]);
-            sums[9] = weight.fma(normal, sums[9]);
+            sums[sum::TANGENTIAL] = weight.fma(tangential, sums[sum::TANGENTIAL]);
+            sums[sum::NORMAL] = weight.fma(normal, sums[sum::NORMAL]);
         }
-        self.peaks[0] = self.peaks[0].max(maximum(&samples[0]));
+        self.peaks[peak::AX] = self.peaks[peak::AX].max(maximum(&samples[0]));
         if MOTION == SINGLE {
-            self.peaks[2] = self.peaks[2].max(b.scene[N0]);
+            self.peaks[peak::NORMAL] = self.peaks[peak::NORMAL].max(b.scene[N0]);
         } else {
-            self.peaks[1] = self.peaks[1].max(maximum(&samples[1]));
-            self.peaks[2] = self.peaks[2].max(maximum(&samples[2]));
+            self.peaks[peak::AY] = self.peaks[peak::AY].max(maximum(&samples[1]));
+            self.peaks[peak::NORMAL] = self.peaks[peak::NORMAL].max(maximum(&samples[2]));
         }
         velocities
     }
@@ -222,15 +222,15 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
     #[inline(always)]
     pub fn add_growth<const MOTION: u8>(&mut self, tau: Vector<S, T, K>, sample: &[Vector<S, T, K>; 4]) {
         let tau = tau * self.growing;
-        self.growth[0] += tau;
-        let mut word = 5;
-        for i in 0..4 {
+        self.growth[growth::TIME] += tau;
+        let mut word = growth::PRODUCTS;
+        for i in 0..growth::SAMPLED {
             if MOTION == SINGLE && i == 3 {
                 break;
             }
             let weighted = tau * sample[i];
-            self.growth[1 + i] += weighted;
-            for j in i..4 {
+            self.growth[growth::SAMPLES + i] += weighted;
+            for j in i..growth::SAMPLED {
                 if MOTION != SINGLE || j < 3 {
                     self.growth[word] = weighted.fma(sample[j], self.growth[word]);
                 }

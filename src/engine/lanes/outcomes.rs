@@ -2,8 +2,6 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use crate::engine::kernel::response::law_of;
-use crate::engine::kernel::scene::Law;
 use crate::engine::lanes::job::Job;
 use crate::engine::lanes::march::{Settings, Terms};
 use crate::engine::lanes::{Lanes, ORDER, tolerance};
@@ -13,6 +11,7 @@ use crate::engine::plan::Plan;
 use crate::engine::scene::Scene;
 use crate::model::Param;
 use crate::model::instance::Instance;
+use crate::model::piece::LawForm;
 
 /// The transients of some instances; `None` when `cancel` is set on the way.
 #[must_use]
@@ -34,12 +33,9 @@ pub fn outcomes_on<T: Lanes>(
     let mut outcomes = vec![Outcome::default(); instances.len()];
     let upright = |instance: &Instance| instance.params.require(Param::Theta) == 0.0;
     // What steps together has a law of one form; the single mass is stepped by less code.
-    for (form, single) in
-        [(Law::Pieces, true), (Law::Pieces, false), (Law::Exponential, false), (Law::Rational, false)]
-    {
+    for (form, single) in LawForm::ALL.into_iter().flat_map(|form| [(form, true), (form, false)]) {
         let here = |instance: &Instance| {
-            let same = law_of(instance.law.kind()) == form;
-            same && (form != Law::Pieces || upright(instance) == single)
+            instance.law.kind().form() == form && (form.is_straight() && upright(instance)) == single
         };
         let mut indices: Vec<usize> = (0..instances.len()).filter(|index| here(&instances[*index])).collect();
         let mut jobs = Vec::<Job<T>>::with_capacity(indices.len());

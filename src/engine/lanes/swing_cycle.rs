@@ -7,10 +7,10 @@
 
 use pulp::Simd;
 
-use crate::engine::kernel::observe::SUMS;
 use crate::engine::lanes::block::Block;
 use crate::engine::lanes::observe::Sums;
 use crate::engine::lanes::vector::{Mask, Scalar};
+use crate::engine::sums::sum;
 
 /// A slip from the end of stick takes longer than half a turn at an angular frequency of about 1. A shorter one is chatter.
 const SHORTEST: f64 = 1.0;
@@ -26,7 +26,7 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
         let cycles = (b.left / known.select(period, zero.like(1.0))).floor().only(known);
         let skipped = cycles * period;
         if window {
-            for i in 0..SUMS {
+            for i in 0..sum::WORDS {
                 let once = self.window[i] - self.cycle.window[i];
                 let whole = known.select(cycles.fma(once, self.window[i]), self.window[i]);
                 self.window[i].put(whole);

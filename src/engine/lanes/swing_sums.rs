@@ -14,6 +14,7 @@ use crate::engine::lanes::constants::{N0, R, T0};
 use crate::engine::lanes::observe::Sums;
 use crate::engine::lanes::swing::{Reached, Swing};
 use crate::engine::lanes::vector::{Scalar, Vector};
+use crate::engine::sums::{peak, sum};
 
 impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
     /// Adds a step to the window.
@@ -43,18 +44,18 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
         positions = sticks.select(tau * start.fma(start + way, third * way * way), positions);
         let friction = (motion.force + b.scene[T0]) * tau;
         let on_belt = (b.scene[R] * half * way).fma(tau, friction);
-        self.window[0] += tau;
-        self.window[1] += position;
-        self.window[2] += positions;
-        self.window[5] += acceleration.only(sticks.not());
-        self.window[7] += sticks.select(b.belt * way, speed);
-        self.window[8] += sticks.select(on_belt, friction);
-        self.window[9] += b.scene[N0] * tau;
-        self.window[10] += tau.only(sticks);
-        self.window[12] += tau.only(b.reverse());
+        self.window[sum::TIME] += tau;
+        self.window[sum::X] += position;
+        self.window[sum::XX] += positions;
+        self.window[sum::AX] += acceleration.only(sticks.not());
+        self.window[sum::SPEED] += sticks.select(b.belt * way, speed);
+        self.window[sum::TANGENTIAL] += sticks.select(on_belt, friction);
+        self.window[sum::NORMAL] += b.scene[N0] * tau;
+        self.window[sum::STICK] += tau.only(sticks);
+        self.window[sum::REVERSE] += tau.only(b.reverse());
         let largest = motion.largest_acceleration(tau).max(a0.abs()).max(a1.abs());
-        self.peaks[0] = self.peaks[0].max(largest.only(sticks.not()));
-        self.peaks[2] = self.peaks[2].max(b.scene[N0]);
+        self.peaks[peak::AX] = self.peaks[peak::AX].max(largest.only(sticks.not()));
+        self.peaks[peak::NORMAL] = self.peaks[peak::NORMAL].max(b.scene[N0]);
     }
 }
 

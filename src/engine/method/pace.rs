@@ -1,7 +1,7 @@
 //! The longest step that a Taylor series of some order may take of a mode, whether the motion shows it or not.
 
 use crate::model::fastest::Fastest;
-use crate::model::friction::Piece;
+use crate::model::piece::LawForm;
 use crate::model::scaled::Scaled;
 
 /// Beyond this many radians of an undamped mode a step of even order makes it grow: the first excess over 1 of the
@@ -77,8 +77,10 @@ impl Layer {
     /// The factors of both in [`Layer::pace`].
     #[must_use]
     pub fn inverses(&self, model: &Scaled) -> [f64; 2] {
-        let across =
-            if matches!(model.law.pieces[0], Piece::Rational { .. }) { self.pole } else { self.turn };
+        let across = match model.law.form() {
+            LawForm::Rational => self.pole,
+            LawForm::Pieces | LawForm::Exponential => self.turn,
+        };
         [1.0 / across, HARDER * model.n0 / self.turn]
     }
 }

@@ -13,7 +13,7 @@
 
 use crate::model::belt::Springs;
 use crate::model::contact::Contact;
-use crate::model::friction::Piece;
+use crate::model::piece::Piece;
 use crate::model::scaled::Scaled;
 
 /// The largest order of the position series.
@@ -321,9 +321,13 @@ impl FrictionSeries {
         };
         series.q[0] = sigma * piece.mu(speed);
         match piece {
-            Piece::Linear { slope: 0.0, .. } => series.degree = 0,
+            Piece::Linear { slope, .. } => {
+                if slope == 0.0 {
+                    series.degree = 0;
+                }
+            }
             Piece::Exponential { rate, .. } => series.decay[0] = (-rate * speed).exp(),
-            _ => {}
+            Piece::Rational { .. } => {}
         }
         series
     }

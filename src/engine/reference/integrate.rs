@@ -13,7 +13,6 @@ use crate::engine::method::taylor::{
 use crate::engine::method::{Method, rk4};
 use crate::engine::scene::MOST_STEPS;
 use crate::model::contact::{Contact, ContactState};
-use crate::model::friction::Piece;
 use crate::model::scaled::Scaled;
 use crate::model::status::Status;
 
@@ -315,10 +314,10 @@ impl<'a> Integrator<'a> {
     fn longest_on_law(&self, expansion: &Expansion) -> f64 {
         let Contact::Slip { sigma, piece } = self.contact else { return f64::INFINITY };
         let law = self.model.law.pieces[piece];
-        if let Piece::Linear { slope, .. } = law {
+        if law.form().is_straight() {
             // What is left on a rising piece of a mode that holds the motion is no more than the tolerance, here next to
             // nothing. Halving finds no step for a falling one from far above.
-            let falls = slope < 0.0;
+            let falls = law.slope(0.0) < 0.0;
             return if falls { self.turns.longest_step_on(self.model, piece) } else { f64::INFINITY };
         }
         let [v, acceleration] = expansion.relative_motion();

@@ -11,7 +11,6 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::model::friction::LawKind;
 use crate::study::fit::problem::{DETERMINED, Problem};
 
 /// Standard errors of the values of a solution, in their order, followed by that of the velocity (m/s) where it was found.
@@ -27,7 +26,7 @@ pub(super) fn standard_errors(
     for point in problem.points {
         let mut derivatives = problem.weights(point, velocity);
         if is_found {
-            let change = shift(problem.law, point.velocity.abs(), velocity);
+            let change = problem.part.map_or(0.0, |part| part.shift(point.velocity.abs(), velocity));
             let fall = |(row, share): (usize, f64)| share * (solution[2 * row + 1] - solution[2 * row]);
             let by_velocity = problem.rows(point.temperature).into_iter().map(fall).sum::<f64>() * change;
             derivatives.push((solution.len(), by_velocity));
@@ -46,15 +45,4 @@ pub(super) fn standard_errors(
     }
     let inverse = scaled.cholesky()?.inverse();
     Some((0..values).map(|i| (variance * inverse[(i, i)]).sqrt() / size[i]).collect())
-}
-
-/// How the part of `μ_d` changes with the velocity of the law, s/m.
-fn shift(law: LawKind, speed: f64, velocity: f64) -> f64 {
-    let part = speed / velocity;
-    match law {
-        LawKind::Bilinear if part < 1.0 => -part / velocity,
-        LawKind::Exponential => -part / velocity * (-part).exp(),
-        // At and beyond the knee; the others have no velocity that is found.
-        LawKind::Bilinear | LawKind::Constant | LawKind::Rational | LawKind::Table => 0.0,
-    }
 }

@@ -8,6 +8,7 @@
 mod errors;
 mod fault;
 mod problem;
+mod shape;
 mod squares;
 pub mod table;
 

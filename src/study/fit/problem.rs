@@ -1,8 +1,8 @@
 //! Points as a linear problem.
 
 use crate::model::Param;
-use crate::model::friction::LawKind;
 use crate::study::fit::fault::FitFault;
+use crate::study::fit::shape::Part;
 use nalgebra::{DMatrix, DVector};
 use squealmap_identify::Point;
 
@@ -18,7 +18,8 @@ const REFINEMENTS: usize = 34;
 /// A fit with its law's velocity open.
 pub(super) struct Problem<'a> {
     pub(super) points: &'a [Point],
-    pub(super) law: LawKind,
+    /// The part of `μ_d`; `None` where it is all.
+    pub(super) part: Option<Part>,
     pub(super) temperatures: &'a [f64],
     pub(super) params: &'a [Param],
 }
@@ -26,11 +27,8 @@ pub(super) struct Problem<'a> {
 impl Problem<'_> {
     /// The parts of `μ_s` and `μ_d` (or of `μ_d` alone) at a velocity.
     fn parts(&self, speed: f64, velocity: f64) -> [f64; 2] {
-        let w = match self.law {
-            LawKind::Bilinear => (speed / velocity).min(1.0),
-            LawKind::Exponential => 1.0 - (-speed / velocity).exp(),
-            _ => return [1.0, 0.0],
-        };
+        let Some(part) = self.part else { return [1.0, 0.0] };
+        let w = part.at(speed, velocity);
         [1.0 - w, w]
     }
 

@@ -17,6 +17,7 @@ use crate::model::friction::LawKind;
 use crate::study::fit::errors;
 use crate::study::fit::fault::FitFault;
 use crate::study::fit::problem::{Problem, sum_of_squares};
+use crate::study::fit::shape::Shape;
 
 pub(super) use squealmap_identify::Point;
 
@@ -57,10 +58,10 @@ pub fn fit(
     temperatures: &[f64],
     velocity: Option<f64>,
 ) -> Result<Fit, FitFault> {
-    let params: &[Param] = match law {
-        LawKind::Constant => &[Param::MuD],
-        LawKind::Bilinear | LawKind::Exponential => &[Param::MuS, Param::MuD],
-        LawKind::Rational | LawKind::Table => return Err(FitFault::Law { law: law.name() }),
+    let (params, part): (&[Param], _) = match Shape::of(law) {
+        Shape::Level => (&[Param::MuD], None),
+        Shape::Falling(part, velocity) => (&[Param::MuS, Param::MuD], Some((part, velocity))),
+        Shape::Other => return Err(FitFault::Law { law: law.name() }),
     };
     if let Some(pair) = temperatures.windows(2).find(|pair| pair[0] >= pair[1]) {
         return Err(FitFault::NotRising { first: pair[0], second: pair[1] });
@@ -69,12 +70,12 @@ pub fn fit(
     if points.len() < unknowns || unknowns == 0 {
         return Err(FitFault::TooFew { points: points.len(), unknowns });
     }
-    let problem = Problem { points, law, temperatures, params };
+    let problem = Problem { points, part: part.map(|(part, _)| part), temperatures, params };
     let fastest = points.iter().map(|point| point.velocity.abs()).fold(0.0, f64::max);
-    let (velocity, is_found) = match (law, velocity) {
-        (LawKind::Constant, _) => (1.0, false),
-        (_, Some(velocity)) => (velocity, false),
-        (_, None) => (problem.best_velocity(fastest), true),
+    let (velocity, is_found) = match (part, velocity) {
+        (None, _) => (1.0, false),
+        (Some(_), Some(velocity)) => (velocity, false),
+        (Some(_), None) => (problem.best_velocity(fastest), true),
     };
     let solution = problem.solve(velocity)?;
     let residuals = problem.residuals(&solution, velocity);
@@ -98,12 +99,7 @@ pub fn fit(
         columns.push((*param, values));
         errors_of_columns.push(rows.clone().map(|row| error_of(place(row))).collect());
     }
-    let constant = match law {
-        LawKind::Bilinear => Some(Param::KneeVelocity),
-        LawKind::Exponential => Some(Param::StribeckVelocity),
-        _ => None,
-    };
-    if let Some(param) = constant {
+    if let Some((_, param)) = part {
         columns.push((param, vec![velocity; temperatures.len()]));
         let error = is_found.then(|| error_of(unknowns)).flatten();
         errors_of_columns.push(rows.map(|_| error).collect());

@@ -86,11 +86,7 @@ impl fmt::Display for Configuration {
 /// an instance runs for a fixed time or until it is settled. Sorted, each once.
 #[must_use]
 pub fn scenes(spec: &Spec) -> Vec<String> {
-    let form = |kind: LawKind| match kind {
-        LawKind::Exponential => "exponential",
-        LawKind::Rational => "rational",
-        _ => "pieces",
-    };
+    let form = |kind: LawKind| kind.form().name();
     let swept: Vec<&Value> = match &spec.grid {
         Grid::Axes(axes) => {
             axes.iter().filter(|axis| axis.key == AxisKey::Law).flat_map(|axis| &axis.values).collect()
@@ -100,10 +96,9 @@ pub fn scenes(spec: &Spec) -> Vec<String> {
             None => Vec::new(),
         },
     };
-    let kind_of = |value: &Value| {
-        LawKind::ALL
-            .into_iter()
-            .find(|kind| matches!(value, Value::Text(name) if name.as_str() == kind.name()))
+    let kind_of = |value: &Value| match value {
+        Value::Text(name) => LawKind::from_name(name),
+        Value::Number(_) => None,
     };
     let mut forms: Vec<&str> = swept.into_iter().filter_map(kind_of).map(form).collect();
     if forms.is_empty() {

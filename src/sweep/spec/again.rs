@@ -30,7 +30,8 @@ impl Spec {
             }
         }
         let friction = &resolved["friction"];
-        let law = friction.get("law").map_or(Some(LawKind::Bilinear), |name| law(name.as_str()?))?;
+        let law =
+            friction.get("law").map_or(Some(LawKind::Bilinear), |name| LawKind::from_name(name.as_str()?))?;
         let materials = match friction.get("materials") {
             None => Vec::new(),
             Some(all) => all.as_array()?.iter().map(material).collect::<Option<_>>()?,
@@ -69,10 +70,6 @@ impl Spec {
             refine: None,
         })
     }
-}
-
-fn law(name: &str) -> Option<LawKind> {
-    LawKind::ALL.into_iter().find(|law| law.name() == name)
 }
 
 fn numbers(values: &Json) -> Option<Vec<f64>> {

@@ -5,7 +5,7 @@ use crate::model::instance::Instance;
 use crate::model::{Param, Params};
 use crate::sweep::error::{Error, Result};
 use crate::sweep::grid::{AxisKey, Grid, Value};
-use crate::sweep::spec::check::{MATERIAL_LAWS, covered, unused, used_by_laws};
+use crate::sweep::spec::check::{covered, unused, used_by_laws};
 use crate::sweep::spec::keys::is_fixed;
 use crate::sweep::spec::names::advice;
 use crate::sweep::spec::start::Kind;
@@ -108,7 +108,8 @@ impl At<'_> {
                 self.params.set(param, number);
             }
             AxisKey::Law => {
-                self.law = law::from_name(value).ok_or_else(|| unknown(self, "law", value, &law::names()))?;
+                self.law =
+                    LawKind::from_name(value).ok_or_else(|| unknown(self, "law", value, &law::names()))?;
             }
             AxisKey::Material => {
                 let found = spec.material_named(value).cloned();
@@ -140,9 +141,8 @@ impl At<'_> {
             }
         }
         if let Some(material) = &self.material {
-            let given = law::LAW_PARAMS
-                .into_iter()
-                .find(|&param| material.gives(param) && self.names(AxisKey::Param(param)));
+            let given =
+                LawKind::params().find(|&param| material.gives(param) && self.names(AxisKey::Param(param)));
             if let Some(param) = given {
                 let key = format!("`{}`", param.info().name);
                 let other = format!("material `{}`, which is to give it", material.name);
@@ -161,11 +161,11 @@ impl At<'_> {
         if let Some(param) = law::missing(self.law, has) {
             return Err(self.missing(param.info().name, format!("law `{}` needs it", self.law.name())));
         }
-        if self.law == LawKind::Table && spec.table.is_none() {
+        if self.law.reads_table() && spec.table.is_none() {
             return Err(Error::Missing {
                 at: self.everything(),
                 key: "table",
-                needed_by: "law `table` needs it".to_owned(),
+                needed_by: format!("law `{}` needs it", self.law.name()),
                 remedy: "name the file in [friction] of the sweep file".to_owned(),
             });
         }
@@ -178,14 +178,14 @@ impl At<'_> {
         let by_event = self.params.get(Param::StartEventFraction).is_some();
         for (key, at) in self.named.iter().filter(|(key, _)| !varied.contains(key)) {
             let used_by = match key {
-                AxisKey::Param(param) if law::LAW_PARAMS.contains(param) => {
-                    (!law::uses(self.law).contains(param)).then(|| used_by_laws(&law::users(*param)))
+                AxisKey::Param(param) if LawKind::params().any(|one| one == *param) => {
+                    (!self.law.reads(*param)).then(|| used_by_laws(&law::users(*param)))
                 }
                 AxisKey::Param(Param::Temperature) => {
                     self.material.is_none().then(|| "a `material`".to_owned())
                 }
                 AxisKey::Param(param) => Kind::of(spec).reader(*param, by_event).map(str::to_owned),
-                AxisKey::Material => (self.law == LawKind::Table).then(|| used_by_laws(&MATERIAL_LAWS)),
+                AxisKey::Material => self.law.reads_table().then(|| used_by_laws(&law::of_material())),
                 AxisKey::Law => None,
             };
             if let Some(used_by) = used_by {

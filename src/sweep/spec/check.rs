@@ -9,15 +9,11 @@ use crate::sweep::error::{Error, Result};
 use crate::sweep::grid::{AxisKey, Grid, Value};
 use crate::sweep::spec::files::Files;
 use crate::sweep::spec::law;
-use crate::sweep::spec::law::LAW_PARAMS;
 use crate::sweep::spec::sections::Sections;
 use crate::sweep::spec::start::{AMPLITUDES, BOUNDS, Kind};
 use crate::sweep::spec::varied::Varied;
 use squealmap_input::place::{Place, Source};
 use squealmap_input::quote::{list, quoted};
-
-/// The laws that a material serves.
-pub(super) const MATERIAL_LAWS: [&str; 4] = ["constant", "bilinear", "exponential", "rational"];
 
 /// Everything read, before it is known to fit together.
 pub(super) struct Check<'a> {
@@ -57,9 +53,12 @@ impl Check<'_> {
     /// Every law that some instance has.
     fn laws(&self) -> Vec<LawKind> {
         match self.varied.find(AxisKey::Law) {
-            Some(_) => {
-                self.varied.names(AxisKey::Law).iter().filter_map(|(name, _)| law::from_name(name)).collect()
-            }
+            Some(_) => self
+                .varied
+                .names(AxisKey::Law)
+                .iter()
+                .filter_map(|(name, _)| LawKind::from_name(name))
+                .collect(),
             None => vec![self.sections.law],
         }
     }
@@ -78,18 +77,18 @@ impl Check<'_> {
     }
 
     fn law_parameters_have_effect(&self, laws: &[LawKind]) -> Result<()> {
-        for param in LAW_PARAMS {
-            if !laws.iter().any(|&kind| law::uses(kind).contains(&param))
+        for param in LawKind::params() {
+            if !laws.iter().any(|&kind| kind.reads(param))
                 && let Some((at, key)) = self.param(param)
             {
                 return Err(unused(at, key, used_by_laws(&law::users(param))));
             }
         }
-        if !laws.contains(&LawKind::Table)
+        if !laws.iter().any(|kind| kind.reads_table())
             && let Some(given) = self.sections.find("table")
         {
             let at = self.sweep.place(given.span.clone());
-            return Err(unused(at, given.label(), used_by_laws(&["table"])));
+            return Err(unused(at, given.label(), used_by_laws(&law::of_table())));
         }
         Ok(())
     }
@@ -103,17 +102,17 @@ impl Check<'_> {
             if let Some((at, key)) = self.param(Param::Temperature).or_else(outside) {
                 return Err(unused(at, key, "a `material`".to_owned()));
             }
-        } else if laws.iter().all(|&kind| kind == LawKind::Table)
+        } else if laws.iter().all(|kind| kind.reads_table())
             && let Some((at, key)) = self.stands(AxisKey::Material)
         {
-            return Err(unused(at, key, used_by_laws(&MATERIAL_LAWS)));
+            return Err(unused(at, key, used_by_laws(&law::of_material())));
         }
         Ok(())
     }
 
     /// A law parameter comes from a material or from the sweep, never from both.
     fn materials_stand_alone(&self) -> Result<()> {
-        for param in LAW_PARAMS {
+        for param in LawKind::params() {
             let friction = matches!(param, Param::MuS | Param::MuD);
             if let Some(material) = self.files.all_materials().find(|one| friction || one.gives(param))
                 && let Some((at, key)) = self.param(param)
@@ -241,7 +240,7 @@ impl Check<'_> {
                         _ => self.files.material.as_ref(),
                     };
                     let kind = match law.map(|column| &row[column]) {
-                        Some(Value::Text(name)) => law::from_name(name).unwrap_or(self.sections.law),
+                        Some(Value::Text(name)) => LawKind::from_name(name).unwrap_or(self.sections.law),
                         _ => self.sections.law,
                     };
                     self.law_is_complete(kind, material)?;
@@ -275,11 +274,11 @@ impl Check<'_> {
                 None => self.missing(param, needed_by),
             });
         }
-        if kind == LawKind::Table && self.files.table.is_none() {
+        if kind.reads_table() && self.files.table.is_none() {
             return Err(Error::Missing {
                 at: self.sweep.place(self.sections.header(Section::Friction)),
                 key: "table",
-                needed_by: "law `table` needs it".to_owned(),
+                needed_by: format!("law `{}` needs it", kind.name()),
                 remedy: "write table = \"mu.csv\" in [friction]".to_owned(),
             });
         }

@@ -3,12 +3,11 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use crate::model::friction::MuTable;
+use crate::model::friction::{LawKind, MuTable};
 use crate::model::material::{Material, Outside};
 use crate::model::{Param, Range};
 use crate::sweep::error::{Error, Result};
 use crate::sweep::grid::AxisKey;
-use crate::sweep::spec::law::LAW_PARAMS;
 use crate::sweep::spec::rows::{Role, Rows};
 use crate::sweep::spec::sections::Sections;
 use crate::sweep::spec::varied::Varied;
@@ -60,7 +59,7 @@ fn read_material(
     base_dir: &Path,
     outside: Outside,
 ) -> Result<Arc<Material>> {
-    let known: Vec<Param> = std::iter::once(Param::Temperature).chain(LAW_PARAMS).collect();
+    let known: Vec<Param> = std::iter::once(Param::Temperature).chain(LawKind::params()).collect();
     let names: Vec<&str> = known.iter().map(|param| param.info().name).collect();
     let file = Rows::read(source, span, Role::Material, &names, name, base_dir)?;
     let params = file.columns(&names, |text| Param::from_name(text).filter(|param| known.contains(param)))?;

@@ -7,7 +7,7 @@ use crate::model::instance::Instance;
 use crate::model::material::Material;
 use crate::model::{Param, Params};
 use crate::sweep::grid::{AxisKey, Value};
-use crate::sweep::spec::{Spec, law, start};
+use crate::sweep::spec::{Spec, start};
 
 impl Spec {
     /// Instance `index` of the grid, material resolved at the instance's temperature.
@@ -21,7 +21,7 @@ impl Spec {
         let mut material = self.material.as_ref();
         self.grid.each(index, |key, value| match (key, value) {
             (AxisKey::Param(param), Value::Number(number)) => params.set(param, *number),
-            (AxisKey::Law, Value::Text(name)) => kind = law::from_name(name).unwrap_or(kind),
+            (AxisKey::Law, Value::Text(name)) => kind = LawKind::from_name(name).unwrap_or(kind),
             (AxisKey::Material, Value::Text(name)) => material = self.material_named(name),
             // Validation gives numbers to parameters and names to the other keys.
             _ => {}
@@ -47,7 +47,7 @@ impl Spec {
                 params.set(param, value);
             }
         }
-        let law = law::build(kind, &params, self.table.as_ref());
+        let law = kind.with(&params, self.table.as_ref());
         Instance { params, law, impact_friction: self.impact_friction }
     }
 }

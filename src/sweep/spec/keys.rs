@@ -1,10 +1,10 @@
 //! Every key of a sweep file: its section, unit, meaning, default and range. What is numeric comes from [`PARAMS`]; the others
 //! have their rows here.
 
+use crate::model::friction::LawKind;
 use crate::model::{PARAMS, Param, ParamInfo};
 use crate::sweep::error::{Error, Result};
 use crate::sweep::spec::duration::LONGEST;
-use crate::sweep::spec::law::LAW_PARAMS;
 use crate::sweep::spec::names::advice;
 use crate::sweep::spec::refine::{COARSE, Settings};
 use crate::sweep::spec::start::{AMPLITUDES, BOX_SAMPLES, Kind, SAMPLES_RANGE};
@@ -269,7 +269,7 @@ fn readers(param: Param) -> String {
         let names: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
         format!("{what} {}", list(&names.iter().map(String::as_str).collect::<Vec<_>>()))
     };
-    if LAW_PARAMS.contains(&param) {
+    if LawKind::params().any(|one| one == param) {
         return named("law", &law::users(param));
     }
     if AMPLITUDES.contains(&param) {

@@ -281,7 +281,7 @@ pub(super) fn unknown_key(source: &Source, entry: Entry, section: &str, known: &
 
 /// A law's name as a value of an axis or a column.
 pub(super) fn law_value(source: &Source, span: Range<usize>, name: &str, within: &str) -> Result<LawKind> {
-    law::from_name(name).ok_or_else(|| unknown(source, span, "law", name, within, &law::names()))
+    LawKind::from_name(name).ok_or_else(|| unknown(source, span, "law", name, within, &law::names()))
 }
 
 /// The section of a top-level key.
