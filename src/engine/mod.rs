@@ -19,6 +19,10 @@ pub mod computation;
 pub mod computed;
 pub mod error;
 mod fallback;
+#[cfg(feature = "gpu")]
+pub mod gpu;
+#[cfg(not(feature = "gpu"))]
+#[path = "no_gpu.rs"]
 pub mod gpu;
 pub mod instances;
 pub mod judged;

@@ -9,6 +9,7 @@ use crate::results::trust;
 use crate::sweep::grid::{Axis, AxisKey, Grid, Value};
 use crate::sweep::map::Map;
 
+#[cfg(feature = "figures")]
 pub use crate::results::figure::cut_figure::{cut_svg, left_out};
 
 /// One curve: the instances along the axis, in rising order of its values.

@@ -1,5 +1,7 @@
 //! Eigenvalues along an axis.
 
+#[cfg(feature = "figures")]
 pub mod figure;
 pub mod follow;
+#[cfg(feature = "figures")]
 pub mod read;
