@@ -41,6 +41,11 @@
 //! # Ok::<(), squealmap::Error>(())
 //! ```
 
+#![cfg_attr(
+    not(all(feature = "figures", feature = "gpu", feature = "identify")),
+    allow(dead_code, reason = "fewer features leave unused what only the others call")
+)]
+
 pub mod cluster;
 pub mod disk;
 pub mod engine;

@@ -4,11 +4,7 @@ use crate::engine::Engine;
 use crate::engine::backend::Backend;
 use crate::engine::error::{Error, Result};
 use crate::engine::fallback::NoGpu;
-use crate::engine::gpu::adapter::Adapter;
-use crate::engine::gpu::arithmetic::Arithmetic;
-use crate::engine::gpu::device::Device;
-use crate::engine::gpu::records::Gpu;
-use crate::engine::gpu::response;
+use crate::engine::gpu::open;
 use crate::engine::instances::Instances;
 use crate::engine::lanes::records::Cpu;
 use crate::engine::method::Method;
@@ -26,7 +22,7 @@ pub fn choose(options: &Options, spec: &dyn Instances) -> Result<Box<dyn Engine>
         return Err(Error::EmptyAdapter { name: name.to_owned() });
     }
     let (engine, on, why): (Box<dyn Engine>, String, String) = match options.backend {
-        Backend::Gpu => on_gpu(gpu(options, spec)?, options),
+        Backend::Gpu => open::asked(options, spec)?,
         Backend::Auto => auto(options, spec)?,
         _ => {
             let (engine, on) = cpu(options)?;
@@ -37,13 +33,6 @@ pub fn choose(options: &Options, spec: &dyn Instances) -> Result<Box<dyn Engine>
         note(&format!("computing {on}: {why}"));
     }
     Ok(engine)
-}
-
-/// An open device as an engine, and the words about it.
-fn on_gpu((device, why): (Device, String), options: &Options) -> (Box<dyn Engine>, String, String) {
-    let strict = if device.strict() { "strict " } else { "" };
-    let on = format!("on {} in {strict}{}", device.describe(), device.precision());
-    (Box::new(Gpu::new(device, options.chunk)), on, why)
 }
 
 fn cpu(options: &Options) -> Result<(Box<dyn Engine>, String)> {
@@ -70,33 +59,9 @@ fn cpu(options: &Options) -> Result<(Box<dyn Engine>, String)> {
     Ok((Box::new(Scalar(method)), on))
 }
 
-/// What a GPU computes in.
-fn arithmetic(options: &Options) -> Arithmetic {
-    Arithmetic { precision: options.precision.unwrap_or(Precision::F32), strict: options.strict }
-}
-
-fn gpu(options: &Options, spec: &dyn Instances) -> Result<(Device, String)> {
-    response::check(spec).map_err(|why| {
-        // Its advice, the CPU engine, would be refused next.
-        let asked = ["--backend gpu", "--require-gpu"].map(str::to_owned);
-        if options.require_gpu { NoGpu::Failed(why).refusal(&asked, true) } else { why }
-    })?;
-    let asked = arithmetic(options);
-    let adapter = Adapter::best(asked, options.adapter)?;
-    if options.require_gpu && adapter.is_software() {
-        return Err(Error::NoHardware { instead: adapter.describe().to_string() });
-    }
-    let why = if adapter.is_software() {
-        "the best adapter there is, but it is software on the CPU and slower than --backend cpu"
-    } else {
-        "as asked for"
-    };
-    Ok((Device::open(&adapter, asked)?, why.to_owned()))
-}
-
 fn auto(options: &Options, spec: &dyn Instances) -> Result<(Box<dyn Engine>, String, String)> {
-    let no_gpu = match hardware(options, spec) {
-        Ok(device) => return Ok(on_gpu((device, "the best GPU of this machine".to_owned()), options)),
+    let no_gpu = match open::hardware(options, spec) {
+        Ok((engine, on)) => return Ok((engine, on, "the best GPU of this machine".to_owned())),
         // A name that is nowhere is a slip of the pen, not a machine without a GPU.
         Err(NoGpu::Failed(why @ Error::NoSuchAdapter { .. })) => return Err(why),
         Err(no_gpu) => no_gpu,
@@ -104,15 +69,4 @@ fn auto(options: &Options, spec: &dyn Instances) -> Result<(Box<dyn Engine>, Str
     no_gpu.allows_cpu(options)?;
     let precision = options.precision.unwrap_or(Precision::F64);
     Ok((Box::new(Cpu(precision)), format!("on the CPU in {precision}"), no_gpu.note()))
-}
-
-/// The best hardware GPU, open.
-fn hardware(options: &Options, spec: &dyn Instances) -> std::result::Result<Device, NoGpu> {
-    response::check(spec).map_err(NoGpu::Failed)?;
-    let asked = arithmetic(options);
-    let adapter = Adapter::best(asked, options.adapter).map_err(NoGpu::Failed)?;
-    if adapter.is_software() {
-        return Err(NoGpu::Software(adapter.describe().to_string()));
-    }
-    Device::open(&adapter, asked).map_err(NoGpu::Failed)
 }

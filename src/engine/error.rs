@@ -4,6 +4,9 @@
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
+    /// A GPU is asked of a crate that is built without it.
+    #[error("this is built without the feature `gpu`; build it with that, or use --backend cpu")]
+    WithoutGpu,
     /// No adapter at all.
     #[error(
         "no GPU was found: no adapter answers through Vulkan, Metal or DX12; {remedy}, or use --backend cpu"
@@ -186,7 +189,8 @@ impl Error {
     #[must_use]
     pub fn is_bad_input(&self) -> bool {
         match self {
-            Error::NoAdapter { .. }
+            Error::WithoutGpu
+            | Error::NoAdapter { .. }
             | Error::NoSuchAdapter { .. }
             | Error::NoF64 { .. }
             | Error::NoStrict { .. }

@@ -50,6 +50,9 @@ impl NoGpu {
                     "take it all the same with --backend gpu"
                 },
             ),
+            NoGpu::Failed(Error::WithoutGpu) => {
+                parts("this is built without the feature `gpu`".to_owned(), "build it with that")
+            }
             NoGpu::Failed(Error::NoAdapter { remedy }) => {
                 parts("no adapter answers through Vulkan, Metal or DX12".to_owned(), remedy)
             }

@@ -22,6 +22,10 @@ pub mod computed;
 pub mod error;
 mod fallback;
 pub mod fields;
+#[cfg(feature = "gpu")]
+pub mod gpu;
+#[cfg(not(feature = "gpu"))]
+#[path = "no_gpu.rs"]
 pub mod gpu;
 pub mod instances;
 pub mod judged;

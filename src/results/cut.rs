@@ -9,6 +9,7 @@ use crate::results::trust;
 use crate::sweep::grid::{Axis, AxisKey, Grid, Value};
 use crate::sweep::map::Map;
 
+#[cfg(feature = "figures")]
 pub use crate::results::figure::cut_figure::{cut_svg, left_out};
 
 /// The most curves of a panel that can be told apart.

@@ -53,6 +53,7 @@ pub enum Error {
         why: &'static str,
     },
     /// The table as a Parquet file cannot be written.
+    #[cfg(feature = "parquet")]
     #[error("the Parquet file could not be written")]
     WriteParquet(#[source] parquet::errors::ParquetError),
     /// A cut that a map does not have.
@@ -67,6 +68,7 @@ pub enum Error {
     #[error("the manifest could not be written")]
     WriteManifest(#[source] serde_json::Error),
     /// A document that could not be drawn.
+    #[cfg(feature = "figures")]
     #[error(transparent)]
     Figure(#[from] squealmap_figure::Error),
     /// A table could not be written.

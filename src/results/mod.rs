@@ -19,19 +19,25 @@
 
 pub mod accounted;
 pub mod arrays;
+#[cfg(feature = "figures")]
 pub mod boundary_lines;
 pub mod choose;
 pub mod columns;
+#[cfg(feature = "figures")]
 pub mod comparison;
 pub mod csv;
 pub mod cut;
 pub mod error;
+#[cfg(feature = "figures")]
 pub mod figure;
 pub mod manifest;
 pub mod netcdf;
 pub mod number;
+#[cfg(feature = "parquet")]
 pub mod parquet;
+#[cfg(feature = "figures")]
 pub mod read;
+#[cfg(feature = "figures")]
 pub mod refined;
 pub mod trust;
 pub mod zarr;

@@ -79,6 +79,7 @@ impl From<crate::engine::error::Error> for Error {
     }
 }
 
+#[cfg(feature = "figures")]
 impl From<squealmap_figure::Error> for Error {
     fn from(why: squealmap_figure::Error) -> Error {
         Error::OfResults(why.into())

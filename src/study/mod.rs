@@ -14,17 +14,25 @@
 //! [`kind`] says which figures a directory holds, [`picture`] draws them again, and [`error`] says why a study has no
 //! result.
 
+#[cfg(all(feature = "figures", feature = "identify"))]
 pub use kind::Kind;
+#[cfg(all(feature = "figures", feature = "identify"))]
 pub use picture::Picture;
 
 pub mod error;
+#[cfg(feature = "identify")]
 pub mod fit;
 pub mod hysteresis;
+#[cfg(all(feature = "figures", feature = "identify"))]
 pub mod identify;
+#[cfg(all(feature = "figures", feature = "identify"))]
 pub mod kind;
 pub mod modes;
+#[cfg(feature = "figures")]
 pub mod paper;
+#[cfg(all(feature = "figures", feature = "identify"))]
 pub mod picture;
 pub mod signals;
 pub mod trace;
+#[cfg(feature = "figures")]
 pub mod tradeoff;

@@ -4,6 +4,7 @@
 //! - [`arithmetic`]: the scalar of a device, and how it rounds.
 //! - [`device`]: an open device: error scopes, waiting with a limit, device lost.
 //! - [`kernel`]: a kernel compiled for a device and a scalar.
+//! - `open.rs`: the one that a sweep is to be computed on, as an engine.
 //! - [`strict`]: a kernel in which every operation is rounded by itself.
 //! - [`run`]: one chunk of instances through a kernel, dispatch by dispatch.
 //! - [`chunks`]: a whole sweep chunk by chunk; a lost device is opened again once.
@@ -17,6 +18,7 @@ pub mod chunks;
 pub mod device;
 pub mod kernel;
 pub mod linear;
+pub(crate) mod open;
 pub mod records;
 pub mod response;
 pub mod run;

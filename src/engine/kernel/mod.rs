@@ -30,6 +30,7 @@ pub mod scene;
 pub mod segments;
 pub mod series;
 pub mod source;
+#[cfg(feature = "gpu")]
 pub mod spirv;
 pub mod steps;
 pub mod table;

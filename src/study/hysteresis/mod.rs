@@ -4,7 +4,10 @@
 //! - [`table`], [`figure`]: their files.
 //! - [`read`]: these read back.
 
+#[cfg(feature = "figures")]
 pub mod figure;
 pub mod follow;
+#[cfg(feature = "figures")]
 pub mod read;
+#[cfg(feature = "figures")]
 pub mod table;

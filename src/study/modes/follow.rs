@@ -11,6 +11,7 @@ use crate::study::error::{Error, Result};
 use crate::sweep::grid::{Axis, AxisKey, Grid, Value};
 use crate::sweep::spec::Spec;
 
+#[cfg(feature = "figures")]
 pub use crate::study::modes::figure::{draw, modes_svg};
 
 /// One mode at one point: an eigenvalue pair.

@@ -4,4 +4,5 @@
 //! - [`table`]: their table, `signals.csv`.
 
 pub mod sensors;
+#[cfg(feature = "identify")]
 pub mod table;
