@@ -5,7 +5,7 @@
 //! | stage | module |
 //! |---|---|
 //! | files of Gmsh, Abaqus and CalculiX | [`read`] |
-//! | nodes, elements, sets; structured blocks | [`mesh`] |
+//! | nodes, elements, sets; structured blocks, rings, cylinders | [`mesh`] |
 //! | constants of a material | [`material`] |
 //! | shape functions, quadrature, stiffness and mass of one element | [`elements`] |
 //! | supports, numbering, sparse matrices, loads | [`assembly`] |

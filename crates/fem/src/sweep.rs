@@ -4,7 +4,7 @@ use faer::c64;
 
 use crate::Error;
 use crate::assembly::{Pencil, Rows};
-use crate::modes::{Basis, Factor, Near, Ordering, follow, lift, near, pairs, residuals};
+use crate::modes::{Basis, Factor, Judge, Near, Ordering, follow, lift, near, pairs};
 
 /// A mode at one coefficient of friction.
 #[derive(Debug, Clone, Copy)]
@@ -55,10 +55,11 @@ pub fn sweep(
     let branches = follow(&steps, range.count);
     let undamped = pencil.damping.is_none() && range.slope.rows.is_empty();
     let mut modes = vec![Mode { states: Vec::with_capacity(range.mus.len()) }; branches.len()];
+    let judge = Judge::new(pencil, factor, basis, range.slope)?;
     for (i, mu) in range.mus.iter().enumerate() {
-        let own: Vec<_> = branches.iter().map(|branch| steps[i][branch.at[i]].clone()).collect();
-        let (_, residual) = residuals(pencil, factor, basis, *mu, range.slope, &own);
-        for ((mode, pair), residual) in modes.iter_mut().zip(&own).zip(residual) {
+        for (mode, branch) in modes.iter_mut().zip(&branches) {
+            let pair = &steps[i][branch.at[i]];
+            let residual = judge.residual(*mu, pair);
             let projected = State { lambda: pair.lambda, residual, direct: false };
             let state = if residual > range.bound && undamped {
                 directly(pencil, ordering, *mu, pair.lambda, &lift(basis, &pair.vector), range.bound)?

@@ -97,10 +97,26 @@ impl Basis {
         };
         let mut damping = sum(2);
         if !slope.rows.is_empty() {
-            damping += self.slip.transpose() * rows_times(slope, &self.slip);
+            damping += self.slip.transpose() * self.damped(slope);
         }
         let damped = damping.norm_max() > 0.0;
         Small { stiffness: sum(0), mass: sum(1), damping: damped.then_some(damping) }
+    }
+
+    /// Vᵀ (K − σ M) V.
+    pub(super) fn energy(&self, shift: f64) -> Mat<f64> {
+        let [stiffness, mass, _] = &self.symmetric;
+        Mat::from_fn(mass.nrows(), mass.ncols(), |i, j| stiffness[(i, j)] - shift * mass[(i, j)])
+    }
+
+    /// K_n V, M_n V and C_n V.
+    pub(super) fn normal(&self) -> &[Mat<f64>; 3] {
+        &self.normal
+    }
+
+    /// D S V.
+    pub(super) fn damped(&self, slope: &Rows) -> Mat<f64> {
+        rows_times(slope, &self.slip)
     }
 
     /// What one unit of μ adds to stiffness and mass.

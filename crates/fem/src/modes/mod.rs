@@ -4,8 +4,10 @@ mod basis;
 mod coalescence;
 mod dense;
 mod direct;
+mod dissection;
 mod factor;
 mod follow;
+mod judge;
 mod real;
 mod residual;
 
@@ -15,5 +17,6 @@ pub use dense::{Pair, pairs};
 pub use direct::{Near, near};
 pub use factor::{Factor, Ordering};
 pub use follow::{Branch, follow, likeness};
+pub use judge::Judge;
 pub use real::{RealModes, count_below, lowest};
 pub use residual::{lift, refine, residuals};

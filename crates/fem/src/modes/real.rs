@@ -51,11 +51,7 @@ pub fn lowest(pencil: &Pencil, factor: &Factor, count: usize) -> Result<RealMode
     loop {
         let from = projected.len();
         let width = basis.ncols() - from;
-        block = Mat::zeros(size, width);
-        for j in 0..width {
-            let image = pencil.mass.times(&column(&basis, from + j));
-            (0..size).for_each(|i| block[(i, j)] = image[i]);
-        }
+        block = times(&pencil.mass, &basis.subcols(from, width).to_owned());
         factor.solve(block.as_mut());
         let images = times(&pencil.mass, &block);
         let known = basis.transpose() * &images;
@@ -160,12 +156,21 @@ pub(super) fn column(matrix: &Mat<f64>, j: usize) -> Vec<f64> {
     matrix.col(j).iter().copied().collect()
 }
 
-/// A X for a sparse A.
+/// A X for a sparse A, several columns at a time: the entries of A come from memory once for all of them.
 pub(super) fn times(matrix: &Symmetric, columns: &Mat<f64>) -> Mat<f64> {
+    /// Columns at a time.
+    const WIDTH: usize = 8;
     let mut images = Mat::zeros(columns.nrows(), columns.ncols());
-    for j in 0..columns.ncols() {
-        let image = matrix.times(&column(columns, j));
-        (0..image.len()).for_each(|i| images[(i, j)] = image[i]);
+    for from in (0..columns.ncols()).step_by(WIDTH) {
+        let width = WIDTH.min(columns.ncols() - from);
+        let mut x = vec![[0.0; WIDTH]; columns.nrows()];
+        for j in 0..width {
+            x.iter_mut().zip(columns.col(from + j).iter()).for_each(|(x, c)| x[j] = *c);
+        }
+        let y = matrix.times_rows(&x);
+        for j in 0..width {
+            images.col_mut(from + j).iter_mut().zip(&y).for_each(|(image, y)| *image = y[j]);
+        }
     }
     images
 }

@@ -7,11 +7,13 @@
 mod bad_input;
 mod cases;
 mod contact;
+mod cylinder;
 mod damping;
 mod elements;
 mod files;
 mod layer;
 mod mortar;
+mod order;
 mod patch;
 mod penalty;
 mod pin;
