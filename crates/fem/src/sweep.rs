@@ -4,7 +4,7 @@ use faer::c64;
 
 use crate::Error;
 use crate::assembly::{Pencil, Rows};
-use crate::modes::{Basis, Factor, Judge, Near, Ordering, follow, lift, near, pairs};
+use crate::modes::{Basis, Factor, Judge, Near, Ordering, follow, lift, near, nearby, pairs};
 
 /// A mode at one coefficient of friction.
 #[derive(Debug, Clone, Copy)]
@@ -33,8 +33,7 @@ pub struct Range<'a> {
     pub slope: &'a Rows,
     /// Number of modes, from the lowest on.
     pub count: usize,
-    /// The largest residual that is good enough. Where the projected problem has a larger one and nothing damps, the mode is computed
-    /// directly.
+    /// The largest residual that is good enough. Where the projected problem has a larger one, the mode is computed directly.
     pub bound: f64,
 }
 
@@ -61,10 +60,15 @@ pub fn sweep(
             let pair = &steps[i][branch.at[i]];
             let residual = judge.residual(*mu, pair);
             let projected = State { lambda: pair.lambda, residual, direct: false };
-            let state = if residual > range.bound && undamped {
+            let state = if residual <= range.bound {
+                projected
+            } else if undamped {
                 directly(pencil, ordering, *mu, pair.lambda, &lift(basis, &pair.vector), range.bound)?
             } else {
-                projected
+                let (mut basis, slope) = (basis.clone(), range.slope);
+                let (pair, residual) =
+                    nearby(pencil, ordering, factor, &mut basis, *mu, slope, pair, range.bound)?;
+                State { lambda: pair.lambda, residual, direct: true }
             };
             mode.states.push(state);
         }

@@ -6,7 +6,7 @@ use super::real::{column, times};
 use crate::assembly::{Pencil, Rows, Symmetric};
 
 /// Vectors that are orthonormal in M, and the pencil on their space.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Basis {
     /// V as columns.
     pub vectors: Mat<f64>,

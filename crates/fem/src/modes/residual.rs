@@ -49,18 +49,25 @@ fn defects(pencil: &Pencil, mu: f64, slope: &Rows, pairs: &[Pair], shapes: &Mat<
 }
 
 /// What pairs of the projected problem leave of the full one, as pairs of columns, real and imaginary part.
-struct Left {
+pub(super) struct Left {
     /// r = P x.
-    forces: Mat<f64>,
+    pub(super) forces: Mat<f64>,
     /// (K − σ M)⁻¹ r.
-    corrections: Mat<f64>,
+    pub(super) corrections: Mat<f64>,
     /// xᴴ (K − σ M) x of each pair.
     energies: Vec<f64>,
     /// Of each pair.
-    residual: Vec<f64>,
+    pub(super) residual: Vec<f64>,
 }
 
-fn left(pencil: &Pencil, factor: &Factor, basis: &Basis, mu: f64, slope: &Rows, pairs: &[Pair]) -> Left {
+pub(super) fn left(
+    pencil: &Pencil,
+    factor: &Factor,
+    basis: &Basis,
+    mu: f64,
+    slope: &Rows,
+    pairs: &[Pair],
+) -> Left {
     let parts = Mat::from_fn(basis.vectors.ncols(), 2 * pairs.len(), |i, j| {
         let x = pairs[j / 2].vector[i];
         if j % 2 == 0 { x.re } else { x.im }

@@ -19,5 +19,6 @@ mod penalty;
 mod pin;
 mod real;
 mod statics;
+mod stressed;
 mod sweep;
 mod two_masses;

@@ -99,3 +99,40 @@ fn the_judge_knows_the_residuals() {
         }
     }
 }
+
+/// The same with damping: each undamped θ = −λ² becomes the roots of λ² + (α + β θ) λ + θ = 0, also in a space that is too small.
+#[test]
+fn bad_projections_of_damped_modes_are_computed_directly() {
+    let (alpha, beta) = (300.0, 2e-8);
+    let mut model = pin::model(Kind::Hex20, 1).expect("the pin");
+    let none = Rows::default();
+    let mus = [0.1, 0.3, 0.5];
+    let [undamped, damped] = [0.0, 1.0].map(|on| {
+        let materials = model.materials.clone();
+        model.materials = materials.into_iter().map(|m| m.damped(on * alpha, on * beta)).collect();
+        let (_, pencil) = assemble(&model).expect("matrices");
+        let ordering = Ordering::new(&pencil.stiffness.pattern).expect("an order");
+        let factor = Factor::new(&ordering, &pencil.stiffness, &pencil.mass, 0.0).expect("a factor");
+        let basis = Basis::new(&pencil, &lowest(&pencil, &factor, 12).expect("real modes").shapes);
+        let range = Range { mus: &mus, slope: &none, count: 7, bound: 1e-8 };
+        sweep(&pencil, &ordering, &factor, &basis, range).expect("a sweep")
+    });
+    for i in 0..mus.len() {
+        for mode in &undamped {
+            let theta = -(mode.states[i].lambda * mode.states[i].lambda);
+            let half = (alpha + beta * theta) / 2.0;
+            let root = (half * half - theta).sqrt();
+            let close = |a: c64| {
+                let states = damped.iter().map(|mode| mode.states[i]);
+                let apart = states.map(|state| (state.lambda - a).norm()).fold(f64::INFINITY, f64::min);
+                apart / a.norm()
+            };
+            let best = [root - half, -root - half].into_iter().filter(|r| r.im > 0.0).map(close);
+            let best = best.fold(f64::INFINITY, f64::min);
+            assert!(best < 1e-6, "{theta} at {}: {best:e}", mus[i]);
+        }
+    }
+    let states: Vec<_> = damped.iter().flat_map(|mode| &mode.states).collect();
+    assert!(states.iter().all(|state| state.residual <= 1e-8));
+    assert!(states.iter().filter(|state| state.direct).count() > 15);
+}
