@@ -19,7 +19,7 @@ pub use coalescence::{Coalescence, coalescence, coalescence_small, first_unstabl
 pub use dense::{Pair, pairs};
 pub use direct::{Near, near};
 pub use factor::{Factor, Ordering};
-pub use follow::{Branch, follow, likeness};
+pub use follow::{Branch, follow, follow_by, likeness};
 pub use judge::Judge;
 pub use nearby::nearby;
 pub use real::{RealModes, count_below, lowest};

@@ -22,3 +22,4 @@ mod statics;
 mod stressed;
 mod sweep;
 mod two_masses;
+mod vary;
