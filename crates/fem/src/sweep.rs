@@ -52,7 +52,7 @@ pub fn sweep(
         range.mus.iter().map(|mu| pairs(&basis.at(*mu, range.slope))).collect();
     let steps = steps?;
     let branches = follow(&steps, range.count);
-    let undamped = pencil.damping.is_none() && range.slope.rows.is_empty();
+    let undamped = !pencil.is_damped() && range.slope.rows.is_empty();
     let mut modes = vec![Mode { states: Vec::with_capacity(range.mus.len()) }; branches.len()];
     let judge = Judge::new(pencil, factor, basis, range.slope)?;
     for (i, mu) in range.mus.iter().enumerate() {

@@ -143,7 +143,19 @@ pub fn assemble(model: &Model) -> Result<(Numbering, Pencil), Error> {
         normal_stiffness = springs.normal;
     }
     let slip = along(&numbering, &model.contact, |point| point.direction);
-    Ok((numbering, Pencil { stiffness, mass, damping, slip, normal_stiffness, normal_mass, normal_damping }))
+    Ok((
+        numbering,
+        Pencil {
+            stiffness,
+            mass,
+            damping,
+            modal: Vec::new(),
+            slip,
+            normal_stiffness,
+            normal_mass,
+            normal_damping,
+        },
+    ))
 }
 
 /// The unknowns that move the nodes of an element, each once.

@@ -2,6 +2,7 @@
 
 use faer::Mat;
 
+use super::modal::{add, damping_columns};
 use super::real::{column, times};
 use crate::assembly::{Pencil, Rows, Symmetric};
 
@@ -53,13 +54,17 @@ impl Basis {
         let before = self.vectors.ncols();
         append(&mut self.vectors, &pencil.mass, vectors);
         let new = self.vectors.subcols(before, self.vectors.ncols() - before).to_owned();
-        let matrices = [Some(&pencil.stiffness), Some(&pencil.mass), pencil.damping.as_ref()];
-        for (projected, matrix) in self.symmetric.iter_mut().zip(matrices) {
-            let Some(matrix) = matrix else {
+        let images = [
+            Some(times(&pencil.stiffness, &new)),
+            Some(times(&pencil.mass, &new)),
+            damping_columns(pencil, &new),
+        ];
+        for (projected, image) in self.symmetric.iter_mut().zip(images) {
+            let Some(image) = image else {
                 *projected = Mat::zeros(self.vectors.ncols(), self.vectors.ncols());
                 continue;
             };
-            let columns = self.vectors.transpose() * times(matrix, &new);
+            let columns = self.vectors.transpose() * image;
             *projected = Mat::from_fn(self.vectors.ncols(), self.vectors.ncols(), |i, j| {
                 match (i.checked_sub(before), j.checked_sub(before)) {
                     (None, None) => projected[(i, j)],
@@ -71,12 +76,12 @@ impl Basis {
             });
         }
         widen(&mut self.slip, &rows_times(&pencil.slip, &new));
-        for (normal, rows) in self.normal.iter_mut().zip([
-            &pencil.normal_stiffness,
-            &pencil.normal_mass,
-            &pencil.normal_damping,
-        ]) {
-            widen(normal, &rows_times(rows, &new));
+        let [stiffness, mass, mut damping] =
+            [&pencil.normal_stiffness, &pencil.normal_mass, &pencil.normal_damping]
+                .map(|rows| rows_times(rows, &new));
+        add(&mut damping, pencil, &new, |modal| &modal.normal);
+        for (normal, columns) in self.normal.iter_mut().zip([stiffness, mass, damping]) {
+            widen(normal, &columns);
         }
         self.friction = [0, 1, 2].map(|i| self.slip.transpose() * &self.normal[i]);
         new.ncols()

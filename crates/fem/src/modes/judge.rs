@@ -7,6 +7,7 @@
 use faer::linalg::solvers::Solve;
 use faer::{Mat, MatRef, Side, c64};
 
+use super::modal::damping_columns;
 use super::real::times;
 use super::{Basis, Factor, Pair};
 use crate::Error;
@@ -57,9 +58,9 @@ impl Judge {
                 forces.push(spread(normal.as_ref()));
             }
         }
-        if let Some(damping) = &pencil.damping {
+        if let Some(damping) = damping_columns(pencil, vectors) {
             terms.push(term(1, false));
-            forces.push(times(damping, vectors));
+            forces.push(damping);
         }
         if !slope.rows.is_empty() {
             terms.push(term(1, false));

@@ -17,7 +17,7 @@ pub fn lift(basis: &Basis, vector: &[c64]) -> [Vec<f64>; 2] {
 
 /// P(λ, μ) x of some pairs whose shapes are given as pairs of columns, real and imaginary part.
 fn defects(pencil: &Pencil, mu: f64, slope: &Rows, pairs: &[Pair], shapes: &Mat<f64>) -> Mat<f64> {
-    let damped = pencil.damping.is_some() || !slope.rows.is_empty();
+    let damped = pencil.is_damped() || !slope.rows.is_empty();
     let mut sum = times(&pencil.stiffness, shapes);
     let mass = times(&pencil.mass, shapes);
     for (k, pair) in pairs.iter().enumerate() {
@@ -73,8 +73,14 @@ pub(super) fn left(
         if j % 2 == 0 { x.re } else { x.im }
     });
     let forces = defects(pencil, mu, slope, pairs, &(&basis.vectors * &parts));
-    let mut corrections = forces.clone();
-    factor.solve(corrections.as_mut());
+    // Shapes of stable modes without damping are real: nothing is left of their imaginary parts.
+    let some: Vec<usize> = (0..forces.ncols()).filter(|j| forces.col(*j).norm_max() > 0.0).collect();
+    let mut solved = Mat::from_fn(forces.nrows(), some.len(), |i, j| forces[(i, some[j])]);
+    factor.solve(solved.as_mut());
+    let mut corrections = Mat::zeros(forces.nrows(), forces.ncols());
+    for (j, from) in some.iter().zip(solved.col_iter()) {
+        corrections.col_mut(*j).copy_from(from);
+    }
     let energy = basis.energy(factor.shift);
     let energies: Vec<f64> = (0..pairs.len())
         .map(|k| (2 * k..2 * k + 2).map(|j| parts.col(j).transpose() * &energy * parts.col(j)).sum())

@@ -20,6 +20,7 @@ fn pencil() -> Pencil {
         stiffness: matrix([K[0], K[1], K[1], K[2]]),
         mass: matrix([1.0, 0.0, 0.0, 1.0]),
         damping: None,
+        modal: Vec::new(),
         slip: row([1.0, 0.0]),
         normal_stiffness: row(K_N),
         normal_mass: row(M_N),

@@ -51,6 +51,10 @@ fn stiffness_moves_all_modes_alike() {
     let factors = [1.0, 1.5, 4.0];
     let modes = vary(&setup, Parameter::Stiffness(0), &factors, 7, 1e-8).expect("modes");
     assert_eq!(modes.len(), 7);
+    let plain = vary(&setup, Parameter::Friction, &[0.45], 7, 1e-8).expect("modes");
+    for (a, b) in modes.iter().zip(&plain) {
+        assert!((a.states[0].lambda - b.states[0].lambda).norm() < 1e-9 * b.states[0].lambda.norm());
+    }
     assert!(modes.iter().any(|mode| mode.states[0].lambda.re > 100.0));
     for mode in &modes {
         for (state, factor) in mode.states.iter().zip(factors) {
