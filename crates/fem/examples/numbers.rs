@@ -7,8 +7,12 @@
 #![allow(clippy::doc_markdown, reason = "symbols of equations, such as μ_c or K_n, are no code")]
 
 #[path = "../tests/suite/cases/mod.rs"]
+#[expect(dead_code, reason = "two of the models are used here")]
 mod cases;
+#[expect(dead_code, reason = "of the costs those of this program are used here")]
+mod cost;
 
+use cost::{memory, work};
 use faer::c64;
 use squealmap_fem::Error;
 use squealmap_fem::assembly::{Model, Pencil, Rows, assemble};
@@ -27,30 +31,15 @@ fn main() -> Result<(), Error> {
     pin_refined(&[1, 2, 4])
 }
 
-/// Seconds that all cores have worked for this program, where Linux tells.
-fn work() -> f64 {
-    // Fields 14 and 15 of proc(5) in ticks of 10 ms, counted after the name in parentheses.
-    let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
-    let fields = stat.rsplit(')').next().unwrap_or_default().split_whitespace().skip(11).take(2);
-    fields.filter_map(|ticks| ticks.parse::<f64>().ok()).sum::<f64>() / 100.0
-}
-
 fn hz(lambda: c64) -> f64 {
     lambda.im / std::f64::consts::TAU
 }
 
 fn factorised(model: &Model, shift: f64) -> Result<(Pencil, Ordering, Factor), Error> {
-    let (_, pencil) = assemble(model)?;
-    let ordering = Ordering::new(&pencil.stiffness.pattern)?;
+    let (numbering, pencil) = assemble(model)?;
+    let ordering = Ordering::best(&pencil.stiffness.pattern, &numbering.places(&model.mesh))?;
     let factor = Factor::new(&ordering, &pencil.stiffness, &pencil.mass, shift)?;
     Ok((pencil, ordering, factor))
-}
-
-/// The most memory that this program has had so far, GB, where Linux tells.
-fn memory() -> f64 {
-    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
-    let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:")).unwrap_or_default();
-    peak.split_whitespace().next().and_then(|kb| kb.parse::<f64>().ok()).unwrap_or_default() / 1e6
 }
 
 /// Errors of the layer's eigenvalues, and by which power of the size of the elements they fall.

@@ -5,7 +5,7 @@
 //! | stage | module |
 //! |---|---|
 //! | files of Gmsh, Abaqus and CalculiX | [`read`] |
-//! | nodes, elements, sets; structured blocks | [`mesh`] |
+//! | nodes, elements, sets; structured blocks, rings, cylinders | [`mesh`] |
 //! | constants of a material | [`material`] |
 //! | shape functions, quadrature, stiffness and mass of one element | [`elements`] |
 //! | supports, numbering, sparse matrices, loads | [`assembly`] |
@@ -13,6 +13,7 @@
 //! | a load, which points stay in contact, normal forces | [`statics`] |
 //! | real modes, projection, complex eigenvalues, coalescence | [`modes`] |
 //! | many coefficients of friction | [`sweep`] |
+//! | any other parameter | [`vary`] |
 //! | what ParaView reads | [`output`] |
 //!
 //! A pin that slides on a clamped block, and the growth of its modes at one coefficient of friction:
@@ -66,5 +67,6 @@ pub mod output;
 pub mod read;
 pub mod statics;
 pub mod sweep;
+pub mod vary;
 
 pub use error::Error;

@@ -28,6 +28,15 @@ pub struct Orthotropic {
     pub shear: [f64; 3],
 }
 
+/// Elastic constants as tables of them have them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Constants {
+    /// Young's modulus (Pa) and Poisson's ratio.
+    Isotropic(f64, f64),
+    /// Those of three axes.
+    Orthotropic(Orthotropic),
+}
+
 impl Material {
     /// The same in every direction: Young's modulus in Pa, Poisson's ratio, density in kg/m³.
     ///
@@ -79,6 +88,42 @@ impl Material {
             stiffness[i + 3][i + 3] = shear[i];
         }
         Ok(Self { name: name.to_owned(), stiffness, density, rayleigh: [0.0; 2] })
+    }
+
+    /// At a temperature (°C) by a table of rising temperatures: each constant on the straight line between two rows, that of the first or
+    /// last row outside.
+    ///
+    /// # Errors
+    /// A table without rows, temperatures that do not rise, isotropic and orthotropic rows in one table, constants of no stable solid.
+    pub fn at(name: &str, celsius: f64, table: &[(f64, Constants)], density: f64) -> Result<Self, Error> {
+        if let Some(rows) = table.windows(2).find(|rows| !(rows[1].0 > rows[0].0)) {
+            let what =
+                format!("{} °C follows {} °C: temperatures of a table must rise", rows[1].0, rows[0].0);
+            return Err(bad(name, what));
+        }
+        let [Some(first), Some(last)] = [table.first(), table.last()] else {
+            return Err(bad(name, "the table has no row, it needs at least 1".to_owned()));
+        };
+        let at = celsius.clamp(first.0, last.0);
+        let above = table.partition_point(|row| row.0 < at);
+        let (low, high) = (&table[above.saturating_sub(1)], &table[above]);
+        let part = if high.0 > low.0 { (at - low.0) / (high.0 - low.0) } else { 0.0 };
+        let between = |a: f64, b: f64| a + part * (b - a);
+        let each = |a: [f64; 3], b: [f64; 3]| [0, 1, 2].map(|i| between(a[i], b[i]));
+        match (low.1, high.1) {
+            (Constants::Isotropic(young, poisson), Constants::Isotropic(other, ratio)) => {
+                Self::isotropic(name, between(young, other), between(poisson, ratio), density)
+            }
+            (Constants::Orthotropic(a), Constants::Orthotropic(b)) => {
+                let constants = Orthotropic {
+                    young: each(a.young, b.young),
+                    poisson: each(a.poisson, b.poisson),
+                    shear: each(a.shear, b.shear),
+                };
+                Self::orthotropic(name, constants, density)
+            }
+            _ => Err(bad(name, "a table has isotropic and orthotropic rows: use one kind".to_owned())),
+        }
     }
 
     /// The same material with Rayleigh damping: α in 1/s, β in s.

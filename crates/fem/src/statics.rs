@@ -29,6 +29,17 @@ pub struct Settled {
     pub open: Vec<Point>,
 }
 
+impl Settled {
+    /// The matrices with the geometric stiffness of the bodies' stress: what it changes is for the caller to compare.
+    ///
+    /// # Errors
+    /// Bad elements.
+    pub fn stiffened(&self) -> Result<Pencil, Error> {
+        let stressed = Some(self.displacement.clone());
+        Ok(assemble(&Model { stressed, ..self.model.clone() })?.1)
+    }
+}
+
 /// Solves (K + μ Sᵀ K_n) q = f + μ Sᵀ f_n, takes out the points that are pulled, puts back those that overlap, until none is left of
 /// either. `faces` are those of the slaves.
 ///

@@ -4,7 +4,7 @@ use faer::c64;
 
 use crate::Error;
 use crate::assembly::{Pencil, Rows};
-use crate::modes::{Basis, Factor, Near, Ordering, follow, lift, near, pairs, residuals};
+use crate::modes::{Basis, Factor, Judge, Near, Ordering, follow, lift, near, nearby, pairs};
 
 /// A mode at one coefficient of friction.
 #[derive(Debug, Clone, Copy)]
@@ -33,8 +33,7 @@ pub struct Range<'a> {
     pub slope: &'a Rows,
     /// Number of modes, from the lowest on.
     pub count: usize,
-    /// The largest residual that is good enough. Where the projected problem has a larger one and nothing damps, the mode is computed
-    /// directly.
+    /// The largest residual that is good enough. Where the projected problem has a larger one, the mode is computed directly.
     pub bound: f64,
 }
 
@@ -53,17 +52,23 @@ pub fn sweep(
         range.mus.iter().map(|mu| pairs(&basis.at(*mu, range.slope))).collect();
     let steps = steps?;
     let branches = follow(&steps, range.count);
-    let undamped = pencil.damping.is_none() && range.slope.rows.is_empty();
+    let undamped = !pencil.is_damped() && range.slope.rows.is_empty();
     let mut modes = vec![Mode { states: Vec::with_capacity(range.mus.len()) }; branches.len()];
+    let judge = Judge::new(pencil, factor, basis, range.slope)?;
     for (i, mu) in range.mus.iter().enumerate() {
-        let own: Vec<_> = branches.iter().map(|branch| steps[i][branch.at[i]].clone()).collect();
-        let (_, residual) = residuals(pencil, factor, basis, *mu, range.slope, &own);
-        for ((mode, pair), residual) in modes.iter_mut().zip(&own).zip(residual) {
+        for (mode, branch) in modes.iter_mut().zip(&branches) {
+            let pair = &steps[i][branch.at[i]];
+            let residual = judge.residual(*mu, pair);
             let projected = State { lambda: pair.lambda, residual, direct: false };
-            let state = if residual > range.bound && undamped {
+            let state = if residual <= range.bound {
+                projected
+            } else if undamped {
                 directly(pencil, ordering, *mu, pair.lambda, &lift(basis, &pair.vector), range.bound)?
             } else {
-                projected
+                let (mut basis, slope) = (basis.clone(), range.slope);
+                let (pair, residual) =
+                    nearby(pencil, ordering, factor, &mut basis, *mu, slope, pair, range.bound)?;
+                State { lambda: pair.lambda, residual, direct: true }
             };
             mode.states.push(state);
         }

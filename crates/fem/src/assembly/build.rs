@@ -7,7 +7,7 @@ use super::penalty::{Penalty, Springs};
 use super::{Numbering, Pattern, Pencil, Rows, Supports, Symmetric, check_joined};
 use crate::Error;
 use crate::contact::Point;
-use crate::elements::{Kind, Matrices, matrices};
+use crate::elements::{Kind, Matrices, add_geometric, matrices};
 use crate::material::Material;
 use crate::mesh::{self, Mesh};
 
@@ -24,6 +24,9 @@ pub struct Model {
     pub contact: Vec<Point>,
     /// A contact stiffness, where normal displacements are not to be tied.
     pub penalty: Option<Penalty>,
+    /// Displacements (m) of all nodes whose stress stiffens the bodies: those of a static step. That is the stiffness of the elements
+    /// only: how the contact's normals turn is left out.
+    pub stressed: Option<Vec<[f64; 3]>>,
 }
 
 impl Model {
@@ -45,11 +48,12 @@ impl Model {
             ),
         })?;
         let places: Vec<[f64; 3]> = nodes.iter().map(|node| self.mesh.nodes[*node]).collect();
-        let matrices = matrices(kind, &places, material).map_err(|determinant| Error::Inverted {
-            element,
-            kind: kind.name(),
-            determinant,
-        })?;
+        let inverted = |determinant| Error::Inverted { element, kind: kind.name(), determinant };
+        let mut matrices = matrices(kind, &places, material).map_err(inverted)?;
+        if let Some(moved) = &self.stressed {
+            let moved: Vec<[f64; 3]> = nodes.iter().map(|node| moved[*node]).collect();
+            add_geometric(&mut matrices.stiffness, kind, &places, material, &moved).map_err(inverted)?;
+        }
         Ok((matrices, material))
     }
 }
@@ -63,6 +67,13 @@ type NormalRow = BTreeMap<usize, [f64; 3]>;
 /// Bad elements, contradicting supports, a missing material, parts that nothing holds.
 pub fn assemble(model: &Model) -> Result<(Numbering, Pencil), Error> {
     mesh::check(&model.mesh)?;
+    if let Some(moved) = model.stressed.as_ref().filter(|moved| moved.len() != model.mesh.nodes.len()) {
+        let (given, nodes) = (moved.len(), model.mesh.nodes.len());
+        let what = format!(
+            "{given} displacements are given to stiffen the bodies, one for each of {nodes} nodes is needed"
+        );
+        return Err(Error::Mesh { what });
+    }
     let tied: &[Point] = if model.penalty.is_some() { &[] } else { &model.contact };
     let numbering = Numbering::new(&model.mesh, &model.supports, tied)?;
     check_joined(model, &numbering)?;
@@ -132,7 +143,19 @@ pub fn assemble(model: &Model) -> Result<(Numbering, Pencil), Error> {
         normal_stiffness = springs.normal;
     }
     let slip = along(&numbering, &model.contact, |point| point.direction);
-    Ok((numbering, Pencil { stiffness, mass, damping, slip, normal_stiffness, normal_mass, normal_damping }))
+    Ok((
+        numbering,
+        Pencil {
+            stiffness,
+            mass,
+            damping,
+            modal: Vec::new(),
+            slip,
+            normal_stiffness,
+            normal_mass,
+            normal_damping,
+        },
+    ))
 }
 
 /// The unknowns that move the nodes of an element, each once.

@@ -17,6 +17,6 @@ pub use joined::check_joined;
 pub use loads::{Loads, internal_forces, load_vector, nodal_forces};
 pub use numbering::Numbering;
 pub use penalty::Penalty;
-pub use pencil::Pencil;
+pub use pencil::{Modal, Pencil};
 pub use sparse::{Pattern, Rows, Symmetric};
 pub use supports::Supports;

@@ -90,6 +90,18 @@ impl Numbering {
         Ok(Self { leader, rows, given, unknowns })
     }
 
+    /// Where each unknown lies: at the node that moves with it alone.
+    #[must_use]
+    pub fn places(&self, mesh: &Mesh) -> Vec<[f64; 3]> {
+        let mut places = vec![[0.0; 3]; self.unknowns];
+        for (dof, row) in self.rows.iter().enumerate().rev() {
+            if let [(unknown, 1.0)] = row.as_slice() {
+                places[*unknown] = mesh.nodes[dof / 3];
+            }
+        }
+        places
+    }
+
     /// The displacements of all nodes for some unknowns, without what is prescribed.
     #[must_use]
     pub fn spread(&self, q: &[f64]) -> Vec<[f64; 3]> {

@@ -2,6 +2,17 @@
 
 use super::{Rows, Symmetric};
 
+/// The damping of one real mode φ: f (M φ)(M φ)ᵀ.
+#[derive(Debug, Clone)]
+pub struct Modal {
+    /// f = 2 ζ ω, 1/s.
+    pub factor: f64,
+    /// M φ.
+    pub image: Vec<f64>,
+    /// M_n φ.
+    pub normal: Vec<f64>,
+}
+
 /// P(λ, μ) = λ² (M + μ Sᵀ M_n) + λ (C + μ Sᵀ C_n + Sᵀ D S) + (K + μ Sᵀ K_n).
 ///
 /// K, M, C are symmetric: the bodies with tied normal displacements. A row of S is the slip of a contact point as a function of
@@ -12,8 +23,10 @@ pub struct Pencil {
     pub stiffness: Symmetric,
     /// M, kg.
     pub mass: Symmetric,
-    /// C, N s/m; `None` where nothing damps.
+    /// C of the materials, N s/m; `None` where they do not damp.
     pub damping: Option<Symmetric>,
+    /// What is damped mode by mode, a part of C.
+    pub modal: Vec<Modal>,
     /// S.
     pub slip: Rows,
     /// K_n.
@@ -29,6 +42,12 @@ impl Pencil {
     #[must_use]
     pub fn size(&self) -> usize {
         self.stiffness.pattern.size()
+    }
+
+    /// Whether materials or modes damp.
+    #[must_use]
+    pub fn is_damped(&self) -> bool {
+        self.damping.is_some() || !self.modal.is_empty()
     }
 
     /// (K + μ Sᵀ K_n) x.
@@ -50,6 +69,12 @@ impl Pencil {
             Some(damping) => self.with_friction(damping, &self.normal_damping, mu, x),
             None => vec![0.0; x.len()],
         };
+        for modal in &self.modal {
+            let part = modal.factor * modal.image.iter().zip(x).map(|(m, x)| m * x).sum::<f64>();
+            y.iter_mut().zip(&modal.image).for_each(|(y, m)| *y += part * m);
+            let force: Vec<f64> = modal.normal.iter().map(|n| mu * part * n).collect();
+            self.slip.add_transposed(&force, &mut y);
+        }
         if !slope.rows.is_empty() {
             let force = slope.times(&self.slip.times(x));
             self.slip.add_transposed(&force, &mut y);

@@ -72,15 +72,26 @@ impl Symmetric {
     /// A x.
     #[must_use]
     pub fn times(&self, x: &[f64]) -> Vec<f64> {
+        let one: Vec<[f64; 1]> = x.iter().map(|x| [*x]).collect();
+        self.times_rows(&one).into_iter().map(|[y]| y).collect()
+    }
+
+    /// A X for a few columns, each row of X together.
+    #[must_use]
+    pub fn times_rows<const N: usize>(&self, x: &[[f64; N]]) -> Vec<[f64; N]> {
         /// Rows that are worth another thread.
         const SHARE: usize = 1000;
         let Pattern { start, row } = &*self.pattern;
         // Symmetric: the entries of column i are those of row i.
-        (0..x.len())
-            .into_par_iter()
-            .with_min_len(SHARE)
-            .map(|i| (start[i]..start[i + 1]).map(|k| self.values[k] * x[row[k]]).sum())
-            .collect()
+        let line = |i: usize| {
+            let mut sum = [0.0; N];
+            for k in start[i]..start[i + 1] {
+                let (value, x) = (self.values[k], &x[row[k]]);
+                (0..N).for_each(|j| sum[j] += value * x[j]);
+            }
+            sum
+        };
+        (0..x.len()).into_par_iter().with_min_len(SHARE).map(line).collect()
     }
 
     /// A + scale · B, of one pattern.

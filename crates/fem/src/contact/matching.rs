@@ -1,13 +1,8 @@
 //! Surfaces whose nodes lie at the same places.
 
-use std::collections::HashMap;
-
 use super::Point;
 use crate::Error;
-use crate::mesh::Mesh;
-
-/// How far apart two nodes may lie that are one place, over the size of the mesh: what coordinates written with few digits lose.
-const SAME_PLACE: f64 = 1e-6;
+use crate::mesh::{Mesh, Places};
 
 /// Pairs each slave node with the master node at its place plus a shift (m).
 fn pairs(
@@ -16,27 +11,13 @@ fn pairs(
     masters: &[usize],
     shift: [f64; 3],
 ) -> Result<Vec<(usize, usize)>, Error> {
-    let near = mesh.extent() * SAME_PLACE;
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "places over a millionth of the size of the mesh fit easily"
-    )]
-    let cell = |x: [f64; 3]| x.map(|c| (c / (4.0 * near)).round() as i64);
-    let mut places: HashMap<[i64; 3], Vec<usize>> = HashMap::new();
-    for master in masters {
-        places.entry(cell(mesh.nodes[*master])).or_default().push(*master);
-    }
+    let mut places = Places::new(mesh.extent());
+    masters.iter().for_each(|master| places.insert(*master, mesh.nodes[*master]));
+    let near = places.near;
     let mut pairs = Vec::with_capacity(slaves.len());
     for slave in slaves {
         let x = [0, 1, 2].map(|i| mesh.nodes[*slave][i] + shift[i]);
-        let [a, b, c] = cell(x);
-        let around =
-            (-1..=1).flat_map(|i| (-1..=1).flat_map(move |j| (-1..=1).map(move |k| [a + i, b + j, c + k])));
-        let found = around.filter_map(|key| places.get(&key)).flatten().find(|master| {
-            let y = mesh.nodes[**master];
-            (0..3).map(|i| (x[i] - y[i]).powi(2)).sum::<f64>().sqrt() <= near
-        });
-        let Some(master) = found else {
+        let Some(master) = places.at(x) else {
             let what = format!(
                 "node {slave} of the contact at ({}, {}, {}) m has no partner on the other surface within {near:e} m: the \
                  surfaces do not match or do not meet",
@@ -44,7 +25,7 @@ fn pairs(
             );
             return Err(Error::Contact { what });
         };
-        pairs.push((*slave, *master));
+        pairs.push((*slave, master));
     }
     Ok(pairs)
 }

@@ -60,6 +60,53 @@ fn positive(determinant: f64) -> Result<f64, f64> {
     if determinant > 0.0 { Ok(determinant) } else { Err(determinant) }
 }
 
+/// ∂N/∂x of each node at a place in the reference element, and the determinant of the Jacobian there.
+fn slopes(kind: Kind, nodes: &[[f64; 3]], at: [f64; 3]) -> Result<(Vec<[f64; 3]>, f64), f64> {
+    let gradient = shape(kind, at).gradient;
+    let (inverse, determinant) = inverse3(&jacobian(nodes, &gradient));
+    // ∂N/∂x_i = Σ_j (J⁻¹)_ij ∂N/∂ξ_j
+    let slope =
+        |d: &[f64; 3]| [0, 1, 2].map(|i| inverse[i][0] * d[0] + inverse[i][1] * d[1] + inverse[i][2] * d[2]);
+    Ok((gradient.iter().map(slope).collect(), positive(determinant)?))
+}
+
+/// Adds ∫ ∇N_aᵀ σ ∇N_b dV to each direction, where σ is the stress that displacements (m) of the nodes make: a tension stiffens, as in a
+/// string, a compression softens.
+///
+/// # Errors
+/// The determinant of the Jacobian, where it is not positive at a point of integration.
+pub(crate) fn add_geometric(
+    stiffness: &mut [f64],
+    kind: Kind,
+    nodes: &[[f64; 3]],
+    material: &Material,
+    displacement: &[[f64; 3]],
+) -> Result<(), f64> {
+    let size = 3 * nodes.len();
+    for point in stiffness_rule(kind) {
+        let (slopes, determinant) = slopes(kind, nodes, point.at)?;
+        let mut strain = [0.0; 6];
+        for (slope, u) in slopes.iter().zip(displacement) {
+            for (part, u) in strains(*slope).iter().zip(u) {
+                strain.iter_mut().zip(part).for_each(|(sum, e)| *sum += e * u);
+            }
+        }
+        let [xx, yy, zz, xy, yz, zx] =
+            material.stiffness.map(|row| row.iter().zip(&strain).map(|(c, e)| c * e).sum::<f64>());
+        let stress = [[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]];
+        for (a, da) in slopes.iter().enumerate() {
+            for (b, db) in slopes.iter().enumerate() {
+                let along = |row: &[f64; 3]| row.iter().zip(db).map(|(s, d)| s * d).sum::<f64>();
+                let work: f64 = stress.iter().zip(da).map(|(row, d)| d * along(row)).sum();
+                for i in 0..3 {
+                    stiffness[(3 * a + i) * size + 3 * b + i] += point.weight * determinant * work;
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
 /// Adds the upper blocks of one point: K_ab += B_aᵀ D B_b |J| w for a ≤ b.
 fn add_stiffness(
     stiffness: &mut [f64],
@@ -69,14 +116,8 @@ fn add_stiffness(
     point: Point,
 ) -> Result<(), f64> {
     let size = 3 * nodes.len();
-    let gradient = shape(kind, point.at).gradient;
-    let (inverse, determinant) = inverse3(&jacobian(nodes, &gradient));
-    let scale = positive(determinant)? * point.weight;
-    // ∂N/∂x_i = Σ_j (J⁻¹)_ij ∂N/∂ξ_j
-    let slopes: Vec<[f64; 3]> = gradient
-        .iter()
-        .map(|d| [0, 1, 2].map(|i| inverse[i][0] * d[0] + inverse[i][1] * d[1] + inverse[i][2] * d[2]))
-        .collect();
+    let (slopes, determinant) = slopes(kind, nodes, point.at)?;
+    let scale = determinant * point.weight;
     for (b, db) in slopes.iter().enumerate() {
         let strain = strains(*db);
         // D B_b: the stress per displacement of node b along each direction.

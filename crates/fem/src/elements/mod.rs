@@ -14,4 +14,4 @@ pub use matrices::{Matrices, matrices};
 pub use rule::{Point, face_rule, mass_rule, stiffness_rule};
 pub use shape::{Shape, shape};
 
-pub(crate) use matrices::jacobian;
+pub(crate) use matrices::{add_geometric, jacobian};

@@ -1,11 +1,15 @@
 //! Nodes, elements and named sets.
 
 mod block;
+mod cylinder;
 mod faces;
+mod places;
 mod sound;
 
 pub use block::{Block, Grading};
+pub use cylinder::{Cylinder, Ring};
 pub use faces::{Face, FaceRef};
+pub(crate) use places::Places;
 pub use sound::check;
 
 use std::collections::BTreeMap;

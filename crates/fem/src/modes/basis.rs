@@ -2,11 +2,12 @@
 
 use faer::Mat;
 
+use super::modal::{add, damping_columns};
 use super::real::{column, times};
 use crate::assembly::{Pencil, Rows, Symmetric};
 
 /// Vectors that are orthonormal in M, and the pencil on their space.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Basis {
     /// V as columns.
     pub vectors: Mat<f64>,
@@ -53,13 +54,17 @@ impl Basis {
         let before = self.vectors.ncols();
         append(&mut self.vectors, &pencil.mass, vectors);
         let new = self.vectors.subcols(before, self.vectors.ncols() - before).to_owned();
-        let matrices = [Some(&pencil.stiffness), Some(&pencil.mass), pencil.damping.as_ref()];
-        for (projected, matrix) in self.symmetric.iter_mut().zip(matrices) {
-            let Some(matrix) = matrix else {
+        let images = [
+            Some(times(&pencil.stiffness, &new)),
+            Some(times(&pencil.mass, &new)),
+            damping_columns(pencil, &new),
+        ];
+        for (projected, image) in self.symmetric.iter_mut().zip(images) {
+            let Some(image) = image else {
                 *projected = Mat::zeros(self.vectors.ncols(), self.vectors.ncols());
                 continue;
             };
-            let columns = self.vectors.transpose() * times(matrix, &new);
+            let columns = self.vectors.transpose() * image;
             *projected = Mat::from_fn(self.vectors.ncols(), self.vectors.ncols(), |i, j| {
                 match (i.checked_sub(before), j.checked_sub(before)) {
                     (None, None) => projected[(i, j)],
@@ -71,12 +76,12 @@ impl Basis {
             });
         }
         widen(&mut self.slip, &rows_times(&pencil.slip, &new));
-        for (normal, rows) in self.normal.iter_mut().zip([
-            &pencil.normal_stiffness,
-            &pencil.normal_mass,
-            &pencil.normal_damping,
-        ]) {
-            widen(normal, &rows_times(rows, &new));
+        let [stiffness, mass, mut damping] =
+            [&pencil.normal_stiffness, &pencil.normal_mass, &pencil.normal_damping]
+                .map(|rows| rows_times(rows, &new));
+        add(&mut damping, pencil, &new, |modal| &modal.normal);
+        for (normal, columns) in self.normal.iter_mut().zip([stiffness, mass, damping]) {
+            widen(normal, &columns);
         }
         self.friction = [0, 1, 2].map(|i| self.slip.transpose() * &self.normal[i]);
         new.ncols()
@@ -97,10 +102,26 @@ impl Basis {
         };
         let mut damping = sum(2);
         if !slope.rows.is_empty() {
-            damping += self.slip.transpose() * rows_times(slope, &self.slip);
+            damping += self.slip.transpose() * self.damped(slope);
         }
         let damped = damping.norm_max() > 0.0;
         Small { stiffness: sum(0), mass: sum(1), damping: damped.then_some(damping) }
+    }
+
+    /// Vᵀ (K − σ M) V.
+    pub(super) fn energy(&self, shift: f64) -> Mat<f64> {
+        let [stiffness, mass, _] = &self.symmetric;
+        Mat::from_fn(mass.nrows(), mass.ncols(), |i, j| stiffness[(i, j)] - shift * mass[(i, j)])
+    }
+
+    /// K_n V, M_n V and C_n V.
+    pub(super) fn normal(&self) -> &[Mat<f64>; 3] {
+        &self.normal
+    }
+
+    /// D S V.
+    pub(super) fn damped(&self, slope: &Rows) -> Mat<f64> {
+        rows_times(slope, &self.slip)
     }
 
     /// What one unit of μ adds to stiffness and mass.

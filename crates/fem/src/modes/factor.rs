@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::ldlt::factor::LdltRegularization;
+use faer::perm::PermRef;
 use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, LdltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
@@ -12,6 +13,7 @@ use faer::sparse::linalg::cholesky::{
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par, Side, Spec};
 
+use super::dissection::dissected;
 use crate::Error;
 use crate::assembly::{Pattern, Symmetric};
 
@@ -36,17 +38,58 @@ fn symbolic(pattern: &Pattern) -> SymbolicSparseColMatRef<'_, usize> {
 }
 
 impl Ordering {
-    /// Approximate minimum degree.
+    /// Approximate minimum degree: good for thin bodies, and where nothing is known of the places.
     ///
     /// # Errors
     /// Where the memory is not enough.
     pub fn new(pattern: &Pattern) -> Result<Self, Error> {
+        Self::by(pattern, SymmetricOrdering::Amd)
+    }
+
+    /// Nested dissection by the places (m) of the unknowns, as [`crate::assembly::Numbering::places`] knows them: good for thick bodies.
+    ///
+    /// # Errors
+    /// Where the memory is not enough.
+    pub fn dissected(pattern: &Pattern, places: &[[f64; 3]]) -> Result<Self, Error> {
+        Self::given(pattern, &dissected(pattern, places))
+    }
+
+    /// The one of both that makes fewer entries: a factorisation takes much longer than to find both.
+    ///
+    /// # Errors
+    /// Where the memory is not enough.
+    pub fn best(pattern: &Pattern, places: &[[f64; 3]]) -> Result<Self, Error> {
+        let (one, other) = rayon::join(|| Self::new(pattern), || Self::dissected(pattern, places));
+        let (one, other) = (one?, other?);
+        Ok(if one.entries() <= other.entries() { one } else { other })
+    }
+
+    /// The unknowns in an order of elimination that is given.
+    ///
+    /// # Errors
+    /// An order that does not name each unknown once; memory that is not enough.
+    pub fn given(pattern: &Pattern, order: &[usize]) -> Result<Self, Error> {
+        let size = pattern.size();
+        let mut inverse = vec![size; size];
+        for (i, unknown) in order.iter().enumerate() {
+            if *unknown < size {
+                inverse[*unknown] = i;
+            }
+        }
+        if order.len() != size || inverse.contains(&size) {
+            let what = format!("an order of elimination must name each of the {size} unknowns once");
+            return Err(Error::Solver { what });
+        }
+        Self::by(pattern, SymmetricOrdering::Custom(PermRef::new_checked(order, &inverse, size)))
+    }
+
+    fn by(pattern: &Pattern, order: SymmetricOrdering<'_, usize>) -> Result<Self, Error> {
         // Elasticity has dense blocks, always: one kind of factor is enough.
         let parameters = CholeskySymbolicParams {
             supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
             ..Default::default()
         };
-        factorize_symbolic_cholesky(symbolic(pattern), Side::Lower, SymmetricOrdering::Amd, parameters)
+        factorize_symbolic_cholesky(symbolic(pattern), Side::Lower, order, parameters)
             .map(|found| Self(Arc::new(found)))
             .map_err(|error| Error::Solver {
                 what: format!("no order of elimination for {} unknowns: {error}", pattern.size()),

@@ -21,16 +21,30 @@ pub fn likeness(x: &[c64], y: &[c64]) -> f64 {
 /// are joined first. Where shapes do not decide, as after two have coalesced, the nearer eigenvalue does.
 #[must_use]
 pub fn follow(steps: &[Vec<Pair>], count: usize) -> Vec<Branch> {
+    let lambdas: Vec<Vec<c64>> =
+        steps.iter().map(|pairs| pairs.iter().map(|pair| pair.lambda).collect()).collect();
+    follow_by(&lambdas, count, |step, old, new| {
+        likeness(&steps[step][old].vector, &steps[step + 1][new].vector)
+    })
+}
+
+/// The same with a likeness of its own: of a mode of a step, by its place there, and one of the next step.
+#[must_use]
+pub fn follow_by(
+    steps: &[Vec<c64>],
+    count: usize,
+    alike: impl Fn(usize, usize, usize) -> f64,
+) -> Vec<Branch> {
     let Some(first) = steps.first() else { return Vec::new() };
     let mut branches: Vec<Branch> = (0..count.min(first.len())).map(|k| Branch { at: vec![k] }).collect();
-    for step in steps.windows(2) {
+    for (i, step) in steps.windows(2).enumerate() {
         let [before, after] = step else { continue };
         let mut offers = Vec::with_capacity(branches.len() * after.len());
         for (b, branch) in branches.iter().enumerate() {
-            let old = &before[branch.at[branch.at.len() - 1]];
+            let at = branch.at[branch.at.len() - 1];
             for (k, new) in after.iter().enumerate() {
-                let apart = (new.lambda - old.lambda).norm() / old.lambda.norm().max(f64::MIN_POSITIVE);
-                offers.push((likeness(&old.vector, &new.vector) - apart, b, k));
+                let apart = (new - before[at]).norm() / before[at].norm().max(f64::MIN_POSITIVE);
+                offers.push((alike(i, at, k) - apart, b, k));
             }
         }
         offers.sort_by(|a, b| b.0.total_cmp(&a.0));

@@ -1,19 +1,28 @@
 //! Real modes, the projected problem with friction, complex modes, and where two of them coalesce.
 
+mod attribution;
 mod basis;
 mod coalescence;
 mod dense;
 mod direct;
+mod dissection;
 mod factor;
 mod follow;
+mod judge;
+mod modal;
+mod nearby;
 mod real;
 mod residual;
 
+pub use attribution::{Alone, alone};
 pub use basis::{Basis, Small};
 pub use coalescence::{Coalescence, coalescence, coalescence_small, first_unstable};
 pub use dense::{Pair, pairs};
 pub use direct::{Near, near};
 pub use factor::{Factor, Ordering};
-pub use follow::{Branch, follow, likeness};
+pub use follow::{Branch, follow, follow_by, likeness};
+pub use judge::Judge;
+pub use modal::{damp, loss_ratios};
+pub use nearby::nearby;
 pub use real::{RealModes, count_below, lowest};
 pub use residual::{lift, refine, residuals};

@@ -1,8 +1,9 @@
 //! The lowest real modes by shift-invert block Lanczos.
 
-use faer::{Mat, Side};
+use faer::Mat;
 
 use super::basis::append;
+use super::dense::symmetric;
 use super::{Factor, Ordering};
 use crate::Error;
 use crate::assembly::{Pencil, Symmetric};
@@ -51,11 +52,7 @@ pub fn lowest(pencil: &Pencil, factor: &Factor, count: usize) -> Result<RealMode
     loop {
         let from = projected.len();
         let width = basis.ncols() - from;
-        block = Mat::zeros(size, width);
-        for j in 0..width {
-            let image = pencil.mass.times(&column(&basis, from + j));
-            (0..size).for_each(|i| block[(i, j)] = image[i]);
-        }
+        block = times(&pencil.mass, &basis.subcols(from, width).to_owned());
         factor.solve(block.as_mut());
         let images = times(&pencil.mass, &block);
         let known = basis.transpose() * &images;
@@ -72,32 +69,25 @@ pub fn lowest(pencil: &Pencil, factor: &Factor, count: usize) -> Result<RealMode
             continue;
         }
         let t = Mat::from_fn(done, done, |i, j| projected[i.max(j)][i.min(j)]);
-        let eigen = t.self_adjoint_eigen(Side::Lower).map_err(|_| not_converged(count, done))?;
+        let (values, vectors) = symmetric(&t)?;
         // The part of the image of a Ritz vector that leaves the space.
         let new = basis.subcols(done, basis.ncols() - done);
         let leaves = new.transpose() * &images;
         let mut order: Vec<usize> = (0..done).collect();
         // 1/(ω² − σ) from the largest on is ω² from the lowest on.
-        order.sort_by(|a, b| eigen.S()[*b].total_cmp(&eigen.S()[*a]));
+        order.sort_by(|a, b| values[*b].total_cmp(&values[*a]));
         order.truncate(count);
         let converged = order.iter().all(|k| {
-            let tail = eigen.U().get(from..done, *k).to_owned();
-            (&leaves * tail).norm_l2() <= CONVERGED * eigen.S()[*k].abs()
+            let tail = vectors.get(from..done, *k).to_owned();
+            (&leaves * tail).norm_l2() <= CONVERGED * values[*k].abs()
         });
         if (converged && order.len() == count) || exhausted {
-            let chosen = Mat::from_fn(done, order.len(), |i, j| eigen.U()[(i, order[j])]);
+            let chosen = Mat::from_fn(done, order.len(), |i, j| vectors[(i, order[j])]);
             let shapes = basis.subcols(0, done) * chosen;
-            let omega2 = order.iter().map(|k| factor.shift + 1.0 / eigen.S()[*k]).collect();
+            let omega2 = order.iter().map(|k| factor.shift + 1.0 / values[*k]).collect();
             return checked(pencil, factor, omega2, shapes, count);
         }
     }
-}
-
-fn not_converged(count: usize, vectors: usize) -> Error {
-    let what = format!(
-        "{count} real modes did not converge with {vectors} Lanczos vectors: ask for fewer, or move the shift"
-    );
-    Error::Solver { what }
 }
 
 /// Residuals of the full problem, none of which may be large.
@@ -160,12 +150,21 @@ pub(super) fn column(matrix: &Mat<f64>, j: usize) -> Vec<f64> {
     matrix.col(j).iter().copied().collect()
 }
 
-/// A X for a sparse A.
+/// A X for a sparse A, several columns at a time: the entries of A come from memory once for all of them.
 pub(super) fn times(matrix: &Symmetric, columns: &Mat<f64>) -> Mat<f64> {
+    /// Columns at a time.
+    const WIDTH: usize = 8;
     let mut images = Mat::zeros(columns.nrows(), columns.ncols());
-    for j in 0..columns.ncols() {
-        let image = matrix.times(&column(columns, j));
-        (0..image.len()).for_each(|i| images[(i, j)] = image[i]);
+    for from in (0..columns.ncols()).step_by(WIDTH) {
+        let width = WIDTH.min(columns.ncols() - from);
+        let mut x = vec![[0.0; WIDTH]; columns.nrows()];
+        for j in 0..width {
+            x.iter_mut().zip(columns.col(from + j).iter()).for_each(|(x, c)| x[j] = *c);
+        }
+        let y = matrix.times_rows(&x);
+        for j in 0..width {
+            images.col_mut(from + j).iter_mut().zip(&y).for_each(|(image, y)| *image = y[j]);
+        }
     }
     images
 }

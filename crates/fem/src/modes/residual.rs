@@ -1,28 +1,11 @@
 //! How well a pair of the projected problem solves the full one, and a better space where it does not.
 
-use faer::{Mat, c64};
+use faer::{Mat, Side, c64};
 
+use super::real::{column, times};
 use super::{Basis, Factor, Pair, dense};
 use crate::Error;
 use crate::assembly::{Pencil, Rows};
-
-/// P(λ, μ) x as real and imaginary part.
-fn defect(pencil: &Pencil, mu: f64, slope: &Rows, lambda: c64, x: &[Vec<f64>; 2]) -> [Vec<f64>; 2] {
-    let squared = lambda * lambda;
-    let mut defect = [0, 1].map(|part| pencil.stiffness_times(mu, &x[part]));
-    let mut add = |factor: c64, image: [Vec<f64>; 2]| {
-        for i in 0..image[0].len() {
-            let value = factor * c64::new(image[0][i], image[1][i]);
-            defect[0][i] += value.re;
-            defect[1][i] += value.im;
-        }
-    };
-    add(squared, [0, 1].map(|part| pencil.mass_times(mu, &x[part])));
-    if pencil.damping.is_some() || !slope.rows.is_empty() {
-        add(lambda, [0, 1].map(|part| pencil.damping_times(mu, slope, &x[part])));
-    }
-    defect
-}
 
 /// A vector of the basis' coordinates as real and imaginary part of all unknowns.
 #[must_use]
@@ -32,34 +15,76 @@ pub fn lift(basis: &Basis, vector: &[c64]) -> [Vec<f64>; 2] {
     [0, 1].map(|part| lifted.col(part).iter().copied().collect())
 }
 
-/// The corrections (K − σ M)⁻¹ P x of some pairs, as pairs of columns, and the residual of each pair.
-///
-/// The residual is √(rᴴ (K − σ M)⁻¹ r / xᴴ (K − σ M) x): the energy of the forces r that are left over against that of the
-/// shape. It does not depend on the mesh or the units. σ must lie below all eigenvalues.
-#[must_use]
-pub fn residuals(
+/// P(λ, μ) x of some pairs whose shapes are given as pairs of columns, real and imaginary part.
+fn defects(pencil: &Pencil, mu: f64, slope: &Rows, pairs: &[Pair], shapes: &Mat<f64>) -> Mat<f64> {
+    let damped = pencil.is_damped() || !slope.rows.is_empty();
+    let mut sum = times(&pencil.stiffness, shapes);
+    let mass = times(&pencil.mass, shapes);
+    for (k, pair) in pairs.iter().enumerate() {
+        let x = [0, 1].map(|part| column(shapes, 2 * k + part));
+        let mut add = |factor: c64, image: [Vec<f64>; 2]| {
+            for i in 0..image[0].len() {
+                let value = factor * c64::new(image[0][i], image[1][i]);
+                sum[(i, 2 * k)] += value.re;
+                sum[(i, 2 * k + 1)] += value.im;
+            }
+        };
+        let squared = pair.lambda * pair.lambda;
+        add(squared, [0, 1].map(|part| column(&mass, 2 * k + part)));
+        if mu != 0.0 {
+            let friction = |normal: &Rows, part: usize| {
+                let force: Vec<f64> = normal.times(&x[part]).iter().map(|n| mu * n).collect();
+                let mut image = vec![0.0; x[part].len()];
+                pencil.slip.add_transposed(&force, &mut image);
+                image
+            };
+            add(c64::new(1.0, 0.0), [0, 1].map(|part| friction(&pencil.normal_stiffness, part)));
+            add(squared, [0, 1].map(|part| friction(&pencil.normal_mass, part)));
+        }
+        if damped {
+            add(pair.lambda, [0, 1].map(|part| pencil.damping_times(mu, slope, &x[part])));
+        }
+    }
+    sum
+}
+
+/// What pairs of the projected problem leave of the full one, as pairs of columns, real and imaginary part.
+pub(super) struct Left {
+    /// r = P x.
+    pub(super) forces: Mat<f64>,
+    /// (K − σ M)⁻¹ r.
+    pub(super) corrections: Mat<f64>,
+    /// xᴴ (K − σ M) x of each pair.
+    energies: Vec<f64>,
+    /// Of each pair.
+    pub(super) residual: Vec<f64>,
+}
+
+pub(super) fn left(
     pencil: &Pencil,
     factor: &Factor,
     basis: &Basis,
     mu: f64,
     slope: &Rows,
     pairs: &[Pair],
-) -> (Mat<f64>, Vec<f64>) {
-    let size = pencil.size();
-    let mut corrections = Mat::zeros(size, 2 * pairs.len());
-    let mut energies = Vec::with_capacity(pairs.len());
-    for (k, pair) in pairs.iter().enumerate() {
-        let x = lift(basis, &pair.vector);
-        let r = defect(pencil, mu, slope, pair.lambda, &x);
-        for part in 0..2 {
-            (0..size).for_each(|i| corrections[(i, 2 * k + part)] = r[part][i]);
-        }
-        let energy =
-            |x: &Vec<f64>| dot(x, &pencil.stiffness.times(x)) - factor.shift * dot(x, &pencil.mass.times(x));
-        energies.push(energy(&x[0]) + energy(&x[1]));
+) -> Left {
+    let parts = Mat::from_fn(basis.vectors.ncols(), 2 * pairs.len(), |i, j| {
+        let x = pairs[j / 2].vector[i];
+        if j % 2 == 0 { x.re } else { x.im }
+    });
+    let forces = defects(pencil, mu, slope, pairs, &(&basis.vectors * &parts));
+    // Shapes of stable modes without damping are real: nothing is left of their imaginary parts.
+    let some: Vec<usize> = (0..forces.ncols()).filter(|j| forces.col(*j).norm_max() > 0.0).collect();
+    let mut solved = Mat::from_fn(forces.nrows(), some.len(), |i, j| forces[(i, some[j])]);
+    factor.solve(solved.as_mut());
+    let mut corrections = Mat::zeros(forces.nrows(), forces.ncols());
+    for (j, from) in some.iter().zip(solved.col_iter()) {
+        corrections.col_mut(*j).copy_from(from);
     }
-    let forces = corrections.clone();
-    factor.solve(corrections.as_mut());
+    let energy = basis.energy(factor.shift);
+    let energies: Vec<f64> = (0..pairs.len())
+        .map(|k| (2 * k..2 * k + 2).map(|j| parts.col(j).transpose() * &energy * parts.col(j)).sum())
+        .collect();
     let residual = energies
         .iter()
         .enumerate()
@@ -68,11 +93,64 @@ pub fn residuals(
             (left.max(0.0) / energy).sqrt()
         })
         .collect();
-    (corrections, residual)
+    Left { forces, corrections, energies, residual }
 }
 
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
+/// The residual of some pairs: √(rᴴ (K − σ M)⁻¹ r / xᴴ (K − σ M) x), the energy of the forces r that are left over against that of
+/// the shape. It does not depend on the mesh or the units. σ must lie below all eigenvalues.
+#[must_use]
+pub fn residuals(
+    pencil: &Pencil,
+    factor: &Factor,
+    basis: &Basis,
+    mu: f64,
+    slope: &Rows,
+    pairs: &[Pair],
+) -> Vec<f64> {
+    left(pencil, factor, basis, mu, slope, pairs).residual
+}
+
+/// Columns that span the corrections of the pairs with a residual above a bound: those directions whose part in them is above half the
+/// bound.
+struct Corrections {
+    forces: Vec<Vec<f64>>,
+    corrections: Vec<Vec<f64>>,
+}
+
+impl Corrections {
+    fn add(&mut self, left: &Left, bound: f64) {
+        for (k, _) in left.residual.iter().enumerate().filter(|(_, residual)| **residual > bound) {
+            // As long as the residual, in energy.
+            let scale = 1.0 / left.energies[k].sqrt();
+            for j in 2 * k..2 * k + 2 {
+                let scaled = |of: &Mat<f64>| of.col(j).iter().map(|x| scale * x).collect();
+                self.forces.push(scaled(&left.forces));
+                self.corrections.push(scaled(&left.corrections));
+            }
+        }
+    }
+
+    /// One mode at several μ lacks much the same: the corrections of all have few directions.
+    fn directions(&self, bound: f64) -> Result<Mat<f64>, Error> {
+        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let count = self.corrections.len();
+        let energy = Mat::from_fn(count, count, |i, j| {
+            let (i, j) = (i.max(j), i.min(j));
+            dot(&self.corrections[i], &self.forces[j])
+        });
+        let failed =
+            |_| Error::Solver { what: "the corrections of the projected modes are no numbers".to_owned() };
+        let eigen = energy.self_adjoint_eigen(Side::Lower).map_err(failed)?;
+        let kept: Vec<usize> = (0..count).filter(|k| eigen.S()[*k] > (bound / 2.0).powi(2)).collect();
+        let mut directions = Mat::zeros(self.corrections.first().map_or(0, Vec::len), kept.len());
+        for (j, k) in kept.iter().rev().enumerate() {
+            for (i, correction) in self.corrections.iter().enumerate() {
+                let weight = eigen.U()[(i, *k)];
+                directions.col_mut(j).iter_mut().zip(correction).for_each(|(d, c)| *d += weight * c);
+            }
+        }
+        Ok(directions)
+    }
 }
 
 /// Enlarges the basis by corrections until the `count` lowest pairs at each of some μ have a residual of at most `bound`, or for
@@ -99,23 +177,18 @@ pub fn refine(
 ) -> Result<f64, Error> {
     for round in 0.. {
         let mut worst = 0.0_f64;
-        let mut columns: Vec<Vec<f64>> = Vec::new();
+        let mut found = Corrections { forces: Vec::new(), corrections: Vec::new() };
         for mu in mus {
             let mut pairs = dense::pairs(&basis.at(*mu, slope))?;
             pairs.truncate(count);
-            let (corrections, residual) = residuals(pencil, factor, basis, *mu, slope, &pairs);
-            for (k, residual) in residual.iter().enumerate() {
-                worst = worst.max(*residual);
-                if *residual > bound {
-                    columns.extend((2 * k..2 * k + 2).map(|j| super::real::column(&corrections, j)));
-                }
-            }
+            let left = left(pencil, factor, basis, *mu, slope, &pairs);
+            worst = left.residual.iter().copied().fold(worst, f64::max);
+            found.add(&left, bound);
         }
-        if columns.is_empty() || round == rounds {
+        if found.corrections.is_empty() || round == rounds {
             return Ok(worst);
         }
-        let new = basis.extend(pencil, &Mat::from_fn(pencil.size(), columns.len(), |i, j| columns[j][i]));
-        if new == 0 {
+        if basis.extend(pencil, &found.directions(bound)?) == 0 {
             return Ok(worst);
         }
     }

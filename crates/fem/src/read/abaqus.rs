@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::raw::{Built, Raw, RawElement, number};
 use crate::Error;
 use crate::elements::Kind;
-use crate::material::{Material, Orthotropic};
+use crate::material::{Constants, Material, Orthotropic};
 use crate::mesh::{FaceRef, Mesh};
 
 /// What a file says.
@@ -105,11 +105,23 @@ fn flat(card: &Card<'_>) -> bool {
 /// The sets of a file, by numbers, names in capitals.
 type Sets = BTreeMap<String, Vec<u64>>;
 
-/// Reads a file.
+/// Reads a file. Of constants for several temperatures those of the first line count.
 ///
 /// # Errors
 /// What is no number, unknown kinds of elements, sets and nodes that are not there, *INCLUDE.
 pub fn abaqus(text: &str) -> Result<Deck, Error> {
+    read(text, f64::NEG_INFINITY)
+}
+
+/// Reads a file, with the constants of its materials at a temperature (°C) by their tables.
+///
+/// # Errors
+/// As [`abaqus`], and temperatures of a table that do not rise.
+pub fn abaqus_at(text: &str, celsius: f64) -> Result<Deck, Error> {
+    read(text, celsius)
+}
+
+fn read(text: &str, celsius: f64) -> Result<Deck, Error> {
     let cards = cards(text);
     let mut deck = Deck::default();
     let (mut raw, mut node_sets, mut element_sets) = (Raw::default(), Sets::new(), Sets::new());
@@ -121,7 +133,7 @@ pub fn abaqus(text: &str) -> Result<Deck, Error> {
         if !is_material
             && !matches!(card.name.as_str(), "EXPANSION" | "CONDUCTIVITY" | "SPECIFIC HEAT" | "DAMPING")
         {
-            close(&mut open, &mut deck.materials, &mut names)?;
+            close(&mut open, celsius, &mut deck.materials, &mut names)?;
         }
         match card.name.as_str() {
             "NODE" => read_nodes(card, &mut raw, &mut node_sets)?,
@@ -171,7 +183,7 @@ pub fn abaqus(text: &str) -> Result<Deck, Error> {
             _ => {}
         }
     }
-    close(&mut open, &mut deck.materials, &mut names)?;
+    close(&mut open, celsius, &mut deck.materials, &mut names)?;
     for (set, material, line) in &sections {
         let index = names.iter().position(|n| n == material).ok_or_else(|| Error::File {
             line: *line,
@@ -355,28 +367,37 @@ fn read_supports(
 /// Ends a material.
 fn close(
     open: &mut Option<(String, usize, Vec<f64>, bool, f64)>,
+    celsius: f64,
     materials: &mut Vec<Material>,
     names: &mut Vec<String>,
 ) -> Result<(), Error> {
     let Some((name, line, elastic, orthotropic, density)) = open.take() else { return Ok(()) };
-    let material = match (orthotropic, elastic.as_slice()) {
-        (false, [young, poisson, ..]) => Material::isotropic(&name, *young, *poisson, density)?,
-        // E1, E2, E3, ν12, ν13, ν23, G12, G13, G23.
-        (true, [e1, e2, e3, n12, n13, n23, g12, g13, g23, ..]) => {
-            let constants = Orthotropic {
+    let needed = if orthotropic { 9 } else { 2 };
+    if elastic.len() < needed {
+        let what = format!("material {name} has {} elastic constants, it needs {needed}", elastic.len());
+        return Err(Error::File { line, what });
+    }
+    if elastic.len() > needed && !elastic.len().is_multiple_of(needed + 1) {
+        let what = format!(
+            "the table of material {name} has {} numbers, but each of its rows needs {needed} and a temperature",
+            elastic.len()
+        );
+        return Err(Error::File { line, what });
+    }
+    let row = |row: &[f64]| {
+        let constants = match row {
+            // E1, E2, E3, ν12, ν13, ν23, G12, G13, G23.
+            [e1, e2, e3, n12, n13, n23, g12, g13, g23, ..] => Constants::Orthotropic(Orthotropic {
                 young: [*e1, *e2, *e3],
                 poisson: [*n12, *n23, *n13],
                 shear: [*g12, *g23, *g13],
-            };
-            Material::orthotropic(&name, constants, density)?
-        }
-        (orthotropic, found) => {
-            let needed = if orthotropic { 9 } else { 2 };
-            let what = format!("material {name} has {} elastic constants, it needs {needed}", found.len());
-            return Err(Error::File { line, what });
-        }
+            }),
+            _ => Constants::Isotropic(row[0], row[1]),
+        };
+        (row.get(needed).copied().unwrap_or_default(), constants)
     };
-    materials.push(material);
+    let table: Vec<_> = elastic.chunks(needed + 1).map(row).collect();
+    materials.push(Material::at(&name, celsius, &table, density)?);
     names.push(name);
     Ok(())
 }

@@ -4,5 +4,5 @@ mod abaqus;
 mod gmsh;
 mod raw;
 
-pub use abaqus::{Deck, abaqus};
+pub use abaqus::{Deck, abaqus, abaqus_at};
 pub use gmsh::gmsh;

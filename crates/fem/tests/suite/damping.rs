@@ -4,7 +4,9 @@ use faer::c64;
 use squealmap_fem::assembly::{Rows, assemble};
 use squealmap_fem::contact::Surface;
 use squealmap_fem::elements::Kind;
-use squealmap_fem::modes::{Basis, Factor, Ordering, lowest, pairs, refine, residuals};
+use squealmap_fem::modes::{
+    Basis, Factor, Judge, Ordering, damp, loss_ratios, lowest, pairs, refine, residuals,
+};
 
 use crate::cases::{layer, pin};
 
@@ -62,7 +64,7 @@ fn a_slope_of_friction_damps_as_it_should() {
         let mut basis = Basis::new(&pencil, &modes.shapes);
         let worst = refine(&pencil, &factor, &mut basis, &[0.0], &slope, 2, 1e-9, 40).expect("a space");
         let found = pairs(&basis.at(0.0, &slope)).expect("complex modes");
-        let (_, residual) = residuals(&pencil, &factor, &basis, 0.0, &slope, &found[..2]);
+        let residual = residuals(&pencil, &factor, &basis, 0.0, &slope, &found[..2]);
         assert!(worst < 1e-9 && residual.iter().all(|r| *r < 1e-9), "{worst:e} {residual:?}");
         let decay = -0.5 * ((1.0 + part) / (1.0 - part)).ln();
         let exact = speed / height * c64::new(decay, std::f64::consts::FRAC_PI_2);
@@ -72,4 +74,88 @@ fn a_slope_of_friction_damps_as_it_should() {
         let expected = (std::f64::consts::FRAC_PI_2 / n).powi(4) / 1440.0;
         assert!(error < 1.5 * expected, "{part}: {error:e}, not {expected:e}");
     }
+}
+
+/// With ζ = (α/ω + β ω)/2 for every mode that a coarse pin has, damping mode by mode is Rayleigh's: that of the mass with friction, too, as
+/// its forces act on the nodes as inertia does.
+#[test]
+fn damped_modes_together_are_a_damped_material() {
+    let plain = pin::model(Kind::Hex8, 1).expect("the pin");
+    let none = Rows::default();
+    let solve = |[alpha, beta, mu]: [f64; 3], modal: bool| {
+        let mut model = plain.clone();
+        if !modal {
+            model.materials = model.materials.into_iter().map(|m| m.damped(alpha, beta)).collect();
+        }
+        let (_, mut pencil) = assemble(&model).expect("matrices");
+        let ordering = Ordering::new(&pencil.stiffness.pattern).expect("an order");
+        let factor = Factor::new(&ordering, &pencil.stiffness, &pencil.mass, 0.0).expect("a factor");
+        let modes = lowest(&pencil, &factor, pencil.size()).expect("all modes");
+        if modal {
+            let ratio = |w: &f64| 0.5 * (alpha / w.sqrt() + beta * w.sqrt());
+            damp(&mut pencil, &modes, &modes.omega2.iter().map(ratio).collect::<Vec<f64>>()).expect("ratios");
+        }
+        let basis = Basis::new(&pencil, &modes.shapes);
+        let found = pairs(&basis.at(mu, &none)).expect("complex modes");
+        let residual = residuals(&pencil, &factor, &basis, mu, &none, &found[..10]);
+        let judge = Judge::new(&pencil, &factor, &basis, &none).expect("a judge");
+        assert!(residual.iter().all(|r| *r < 1e-8), "{residual:?}");
+        assert!(found[..10].iter().all(|pair| judge.residual(mu, pair) < 1e-6));
+        found.into_iter().map(|pair| pair.lambda).collect::<Vec<c64>>()
+    };
+    for case in [[3e3, 2e-7, 0.0], [3e3, 0.0, 0.4]] {
+        let (expected, found) = (solve(case, false), solve(case, true));
+        assert_eq!(expected.len(), found.len());
+        // Of two that have coalesced either may come first.
+        for a in &expected {
+            let apart = found.iter().map(|b| (a - b).norm()).fold(f64::INFINITY, f64::min);
+            assert!(apart < 1e-7 * a.norm(), "{case:?}: {a} by {apart:e}");
+        }
+        assert!(case[2] > 0.0 || found.iter().all(|lambda| lambda.re < 0.0));
+    }
+    let (_, mut pencil) = assemble(&plain).expect("matrices");
+    let ordering = Ordering::new(&pencil.stiffness.pattern).expect("an order");
+    let factor = Factor::new(&ordering, &pencil.stiffness, &pencil.mass, 0.0).expect("a factor");
+    let modes = lowest(&pencil, &factor, 2).expect("modes");
+    for (ratios, words) in [(vec![0.01; 3], "3 damping ratios are given for 2"), (vec![f64::NAN], "is NaN")] {
+        let error = damp(&mut pencil, &modes, &ratios).expect_err("no damping").to_string();
+        assert!(error.contains(words), "{error}");
+    }
+}
+
+/// A material's share of the strain energy is twice the relative change of a frequency by a relative change of its stiffness.
+#[test]
+fn loss_factors_count_by_the_share_of_energy() {
+    let mut model = pin::model(Kind::Hex20, 1).expect("the pin");
+    model.materials.push(model.materials[0].clone());
+    model.mesh.groups[1].material = 1;
+    let solve = |model: &_| {
+        let (numbering, pencil) = assemble(model).expect("matrices");
+        let ordering = Ordering::new(&pencil.stiffness.pattern).expect("an order");
+        let factor = Factor::new(&ordering, &pencil.stiffness, &pencil.mass, 0.0).expect("a factor");
+        (numbering, lowest(&pencil, &factor, 5).expect("real modes"))
+    };
+    let (numbering, modes) = solve(&model);
+    let loss = [0.02, 0.3];
+    let ratios = loss_ratios(&model, &numbering, &modes, &loss).expect("ratios");
+    let changed = |sign: f64, material: usize| {
+        let mut model = model.clone();
+        for modulus in model.materials[material].stiffness.iter_mut().flatten() {
+            *modulus *= 1.0 + sign * 1e-4;
+        }
+        solve(&model).1.frequencies()
+    };
+    for (k, ratio) in ratios.iter().enumerate() {
+        let share = |material| {
+            let [up, down] = [1.0, -1.0].map(|sign| changed(sign, material)[k]);
+            2.0 * (up / down).ln() / 2e-4
+        };
+        let shares = [share(0), share(1)];
+        let expected = 0.5 * (loss[0] * shares[0] + loss[1] * shares[1]);
+        println!("{shares:?}: {ratio}, {expected}");
+        assert!((shares[0] + shares[1] - 1.0).abs() < 1e-6);
+        assert!((ratio / expected - 1.0).abs() < 1e-5, "{ratio} {expected}");
+    }
+    let error = loss_ratios(&model, &numbering, &modes, &[0.1]).expect_err("one of two").to_string();
+    assert!(error.contains("1 loss factors are given for 2 materials"), "{error}");
 }

@@ -49,7 +49,7 @@ fn two_modes_coalesce_where_they_should() {
     println!("{} vectors, residual {worst:e}", basis.vectors.ncols());
     assert!(worst < 1e-8);
     let found = pairs(&basis.at(0.4, &Rows::default())).expect("complex modes");
-    let (_, residual) = residuals(&pencil, &factor, &basis, 0.4, &Rows::default(), &found[..8]);
+    let residual = residuals(&pencil, &factor, &basis, 0.4, &Rows::default(), &found[..8]);
     assert!(residual.iter().all(|r| *r < 1e-8), "{residual:?}");
     let unstable = found.iter().find(|p| p.growth() > 1.0).expect("flutter");
     println!("{} Hz, {} 1/s", unstable.frequency(), unstable.growth());

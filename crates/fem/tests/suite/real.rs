@@ -1,5 +1,6 @@
 //! Real modes where frequencies are equal, against closed forms.
 
+use faer::linalg::solvers::Solve;
 use squealmap_fem::assembly::{Model, assemble};
 use squealmap_fem::elements::Kind;
 use squealmap_fem::mesh::{Block, Grading};
@@ -69,4 +70,21 @@ fn a_graded_bar_has_its_frequencies() {
         let error = found / exact - 1.0;
         assert!(error > 0.0 && error < wave.powi(4) / 1440.0, "{found} Hz, not {exact} Hz: {error:e}");
     }
+}
+
+/// All modes that a model has, up to the last: the ω² sum to the trace of M⁻¹ K, here of 252 unknowns.
+#[test]
+fn every_mode_is_found() {
+    let (_, pencil) = assemble(&crate::cases::pin::model(Kind::Hex8, 1).expect("the pin")).expect("matrices");
+    let size = pencil.size();
+    let ordering = Ordering::new(&pencil.stiffness.pattern).expect("an order");
+    let factor = Factor::new(&ordering, &pencil.stiffness, &pencil.mass, 0.0).expect("a factor");
+    let modes = lowest(&pencil, &factor, size).expect("all modes");
+    let dense = |matrix: &squealmap_fem::assembly::Symmetric| {
+        faer::Mat::from_fn(size, size, |i, j| matrix.pattern.find(i, j).map_or(0.0, |at| matrix.values[at]))
+    };
+    let solved = dense(&pencil.mass).partial_piv_lu().solve(&dense(&pencil.stiffness));
+    let trace: f64 = (0..size).map(|i| solved[(i, i)]).sum();
+    let sum: f64 = modes.omega2.iter().sum();
+    assert!((sum / trace - 1.0).abs() < 1e-9, "{sum} {trace}");
 }

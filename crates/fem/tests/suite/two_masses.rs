@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use faer::{Mat, c64};
 use squealmap_fem::assembly::{Pattern, Pencil, Rows, Symmetric};
-use squealmap_fem::modes::{Basis, Pair, coalescence_small, pairs};
+use squealmap_fem::modes::{Alone, Basis, Pair, alone, coalescence_small, pairs};
 
 const K: [f64; 3] = [2.0, 0.4, 3.0];
 /// Rows of the normal force: stiffness and mass.
@@ -20,6 +20,7 @@ fn pencil() -> Pencil {
         stiffness: matrix([K[0], K[1], K[1], K[2]]),
         mass: matrix([1.0, 0.0, 0.0, 1.0]),
         damping: None,
+        modal: Vec::new(),
         slip: row([1.0, 0.0]),
         normal_stiffness: row(K_N),
         normal_mass: row(M_N),
@@ -71,4 +72,31 @@ fn the_coalescence_is_the_root_of_the_discriminant() {
     assert!((found.mu - below).abs() < 1e-12, "{} {below}", found.mu);
     assert!((found.omega2 + b / (2.0 * a)).abs() < 1e-11, "{}", found.omega2);
     assert!(found.steps <= 5, "{} steps", found.steps);
+}
+
+/// λ with one mechanism alone are roots of the determinant without the other, and those of the same mode: nearer to it than the other mode's.
+#[test]
+fn each_mechanism_alone_has_its_determinant() {
+    let (mu, fall) = (0.2, -0.15);
+    let slope = Rows { rows: vec![vec![(0, fall)]] };
+    let basis = Basis::new(&pencil(), &Mat::identity(2, 2));
+    let modes = pairs(&basis.at(mu, &slope)).expect("eigenvalues");
+    assert_eq!(modes.len(), 2);
+    let determinant = |lambda: c64, mu: f64, fall: f64| {
+        let entry = |m: f64, c: f64, k: f64| lambda * lambda * m + lambda * c + k;
+        entry(1.0 + mu * M_N[0], fall, K[0] + mu * K_N[0]) * entry(1.0, 0.0, K[2])
+            - entry(mu * M_N[1], 0.0, K[1] + mu * K_N[1]) * entry(0.0, 0.0, K[1])
+    };
+    let found = alone(&basis, mu, &slope, &modes).expect("eigenvalues");
+    for (i, (mode, Alone { flat, frozen })) in modes.iter().zip(&found).enumerate() {
+        println!("{}: flat {flat}, frozen {frozen}", mode.lambda);
+        assert!(determinant(*flat, mu, 0.0).norm() < 1e-13, "{flat}");
+        assert!(determinant(*frozen, 0.0, fall).norm() < 1e-13, "{frozen}");
+        let other = modes[1 - i].lambda;
+        for lambda in [flat, frozen] {
+            assert!((lambda - mode.lambda).norm() < (lambda - other).norm(), "{lambda} {}", mode.lambda);
+        }
+        // Falling friction makes both grow; without it nothing does below the coalescence.
+        assert!(frozen.re > 1e-3 && flat.re.abs() < 1e-13);
+    }
 }

@@ -1,5 +1,6 @@
 //! The models whose eigenvalues are known.
 
+pub(crate) mod brake;
 pub(crate) mod layer;
 pub(crate) mod pin;
 pub(crate) mod plane_waves;

@@ -1,0 +1,162 @@
+//! A disc brake with 100 coefficients of friction: time and memory against the number of unknowns.
+//!
+//!     cargo run --release -p squealmap-fem --example brake
+//!
+//! One size is given as its elements along the radius, around and along the axis, as `14,120,2`. With `order` before it, the ways to order the
+//! elimination are compared, that of METIS (Debian package metis) where it is installed.
+
+#![allow(clippy::doc_markdown, reason = "METIS and symbols of equations are no code")]
+
+#[path = "../tests/suite/cases/mod.rs"]
+#[expect(dead_code, reason = "one of the models is used here")]
+mod cases;
+#[expect(dead_code, reason = "of the costs those of this program are used here")]
+mod cost;
+
+use std::process::Command;
+use std::time::Instant;
+
+use cost::{memory, work};
+use squealmap_fem::assembly::{Pencil, Rows, assemble};
+use squealmap_fem::elements::Kind;
+use squealmap_fem::modes::{Basis, Factor, Ordering, lowest, refine};
+use squealmap_fem::sweep::{Range, sweep};
+
+type Failure = Box<dyn std::error::Error>;
+
+fn main() -> Result<(), Failure> {
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    let orders = words.first().is_some_and(|word| word == "order");
+    let sizes = &words[usize::from(orders)..];
+    match sizes {
+        [size] => {
+            let cells: Vec<usize> = size.split(',').map(str::parse).collect::<Result<_, _>>()?;
+            let cells = cells.try_into().map_err(|_| "give three numbers of elements, as 14,120,2")?;
+            if orders { compare(cells) } else { run(cells) }
+        }
+        _ => {
+            println!(
+                "| elements | unknowns | contact points | entries of L | matrices, s | order and factor, s | 40 modes, s | space, s | \
+                 100 μ, s | work of all cores, s | wall, s | memory, GB | vectors | largest residual | unstable from μ | Hz |\n\
+                 |---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|"
+            );
+            // Each in a program of its own: the memory is the most that a program has had.
+            for size in ["7,60,2", "14,120,2", "14,120,4", "21,132,4"] {
+                let status = Command::new(std::env::current_exe()?).arg(size).status()?;
+                if !status.success() {
+                    return Err(format!("the brake of {size} elements failed").into());
+                }
+            }
+            Ok(())
+        }
+    }
+}
+
+/// One row of the table.
+fn run(cells: [usize; 3]) -> Result<(), Failure> {
+    let start = Instant::now();
+    let mut clock = vec![work()];
+    let model = cases::brake::model(Kind::Hex20, cells)?;
+    let (numbering, pencil) = assemble(&model)?;
+    clock.push(work());
+    let ordering = Ordering::best(&pencil.stiffness.pattern, &numbering.places(&model.mesh))?;
+    let factor = Factor::new(&ordering, &pencil.stiffness, &pencil.mass, 0.0)?;
+    clock.push(work());
+    let modes = lowest(&pencil, &factor, 40)?;
+    clock.push(work());
+    let mut basis = Basis::new(&pencil, &modes.shapes);
+    let none = Rows::default();
+    refine(&pencil, &factor, &mut basis, &[0.3, 0.6, 0.9], &none, 30, 1e-4, 10)?;
+    clock.push(work());
+    let mus: Vec<f64> = (0..100).map(|i| 0.01 * f64::from(i)).collect();
+    let range = Range { mus: &mus, slope: &none, count: 30, bound: 1e-3 };
+    let modes = sweep(&pencil, &ordering, &factor, &basis, range)?;
+    clock.push(work());
+    let states = || modes.iter().flat_map(|mode| mode.states.iter());
+    let worst = states().map(|state| state.residual).fold(0.0, f64::max);
+    let first = (0..mus.len()).find_map(|i| {
+        let grows = modes.iter().map(|mode| mode.states[i].lambda).find(|lambda| lambda.re > 1.0);
+        grows.map(|lambda| format!("{:.2} | {:.1}", mus[i], lambda.im / std::f64::consts::TAU))
+    });
+    let seconds: Vec<String> = clock.windows(2).map(|w| format!("{:.1}", w[1] - w[0])).collect();
+    println!(
+        "| {} × {} × {} | {} | {} | {:.2e} | {} | {:.1} | {:.1} | {:.2} | {} | {worst:.1e} | {} |",
+        cells[0],
+        cells[1],
+        cells[2],
+        pencil.size(),
+        pencil.slip.rows.len(),
+        ordering.entries() as f64,
+        seconds.join(" | "),
+        clock[clock.len() - 1] - clock[0],
+        start.elapsed().as_secs_f64(),
+        memory(),
+        basis.vectors.ncols(),
+        first.unwrap_or("none | ".to_owned())
+    );
+    Ok(())
+}
+
+/// What each order of elimination costs.
+fn compare(cells: [usize; 3]) -> Result<(), Failure> {
+    let model = if cells[2] == 0 {
+        cases::pin::model(Kind::Hex20, cells[0])?
+    } else {
+        cases::brake::model(Kind::Hex20, cells)?
+    };
+    let (numbering, pencil) = assemble(&model)?;
+    let pattern = &pencil.stiffness.pattern;
+    println!(
+        "{} unknowns\n\n| order | entries of L | order, s | factor, s |\n|---|---|---|---|",
+        pencil.size()
+    );
+    let before = Instant::now();
+    let row = |name: &str, ordering: Ordering, order: f64| -> Result<(), Failure> {
+        let before = work();
+        Factor::new(&ordering, &pencil.stiffness, &pencil.mass, 0.0)?;
+        let entries = ordering.entries() as f64;
+        println!("| {name} | {entries:.2e} | {order:.1} | {:.1} |", work() - before);
+        Ok(())
+    };
+    let ordering = Ordering::dissected(pattern, &numbering.places(&model.mesh))?;
+    row("nested dissection by places", ordering, before.elapsed().as_secs_f64())?;
+    let before = Instant::now();
+    match metis(&pencil)? {
+        Some(order) => {
+            let ordering = Ordering::given(pattern, &order)?;
+            row("METIS (ndmetis)", ordering, before.elapsed().as_secs_f64())?;
+        }
+        None => println!("| METIS | ndmetis is not installed (Debian package metis) | | |"),
+    }
+    let before = Instant::now();
+    let ordering = Ordering::new(pattern)?;
+    row("minimum degree (faer)", ordering, before.elapsed().as_secs_f64())
+}
+
+/// The order of METIS's program, `None` where it is not installed.
+fn metis(pencil: &Pencil) -> Result<Option<Vec<usize>>, Failure> {
+    let pattern = &pencil.stiffness.pattern;
+    let size = pattern.size();
+    let file = std::env::temp_dir().join(format!("squealmap-{}.graph", std::process::id()));
+    let mut text = format!("{size} {}\n", (pattern.row.len() - size) / 2);
+    for i in 0..size {
+        for j in pattern.row[pattern.start[i]..pattern.start[i + 1]].iter().filter(|j| **j != i) {
+            text.push_str(&format!("{} ", j + 1));
+        }
+        text.push('\n');
+    }
+    std::fs::write(&file, text)?;
+    let ran = Command::new("ndmetis").arg(&file).output();
+    std::fs::remove_file(&file)?;
+    let Ok(ran) = ran else { return Ok(None) };
+    if !ran.status.success() {
+        return Err(format!("ndmetis: {}", String::from_utf8_lossy(&ran.stderr)).into());
+    }
+    let ordered = file.with_extension("graph.iperm");
+    let mut order = vec![0; size];
+    for (i, line) in std::fs::read_to_string(&ordered)?.lines().enumerate() {
+        order[line.trim().parse::<usize>()?] = i;
+    }
+    std::fs::remove_file(ordered)?;
+    Ok(Some(order))
+}
