@@ -4,7 +4,9 @@
 //! |---|---|
 //! | what an engine is, and what it is given | [`Engine`], [`instances`], [`plan`] |
 //! | one instance scaled, at its start | [`scene`], `start.rs` |
-//! | what it did, and until when it is followed | [`outcome`], [`regime`], [`settling`] |
+//! | what an engine sums up, and what it did | [`sums`], [`growth`](mod@growth), [`reductions`], [`outcome`], [`regime`] |
+//! | until when it is followed | [`measuring`], [`settling`] |
+//! | the words of a kernel | [`fields`], [`kernel::table`] |
 //! | the record of an instance | [`record`], [`judged`], [`computation`], [`computed`] |
 //! | one step, events inside it | [`method`] |
 //! | the f64 reference, which judges the others | [`reference`](mod@reference) |
@@ -21,16 +23,19 @@ pub mod error;
 mod fallback;
 pub mod fields;
 pub mod gpu;
+pub mod growth;
 pub mod instances;
 pub mod judged;
 pub mod kernel;
 pub mod lanes;
+pub mod measuring;
 pub mod method;
 pub mod options;
 pub mod outcome;
 pub mod plan;
 pub mod precision;
 pub mod record;
+pub mod reductions;
 pub mod reference;
 pub mod regime;
 pub mod scene;

@@ -236,7 +236,7 @@ fn flush<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>, lane: 
     if all.part == Part::Window && job.in_window() {
         let half = job.half();
         job.quiet &= sums.quiet.get(lane) > T::ZERO;
-        job.seen.impacts += sums.impacts.get(lane).to_f64() as u32;
+        job.seen.impacts += sums.impacts.get(lane).to_f64() as u64;
         for (total, word) in job.seen.halves[half].iter_mut().zip(&sums.window) {
             *total += word.get(lane).to_f64();
         }
