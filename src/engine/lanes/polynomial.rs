@@ -6,22 +6,22 @@ use crate::engine::lanes::vector::{Scalar, Vector};
 
 /// `Σ b_k t^(k − first)` from a degree on, even and odd ones at a time: sooner there than by a chain.
 #[inline(always)]
-pub fn value_soon<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
-    b: &[Vector<S, T, K>; N],
+pub fn value_soon<S: Simd, T: Scalar<S>, const N: usize>(
+    b: &[Vector<S, T>; N],
     first: usize,
-    t: Vector<S, T, K>,
-) -> Vector<S, T, K> {
+    t: Vector<S, T>,
+) -> Vector<S, T> {
     soon_to(b, first, N - 1, t)
 }
 
 /// The same up to a degree above the first.
 #[inline(always)]
-pub fn soon_to<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
-    b: &[Vector<S, T, K>; N],
+pub fn soon_to<S: Simd, T: Scalar<S>, const N: usize>(
+    b: &[Vector<S, T>; N],
     first: usize,
     degree: usize,
-    t: Vector<S, T, K>,
-) -> Vector<S, T, K> {
+    t: Vector<S, T>,
+) -> Vector<S, T> {
     let square = t * t;
     let [mut lower, mut upper] = [b[degree - 1], b[degree]];
     let mut k = degree - 1;
@@ -41,9 +41,7 @@ pub fn soon_to<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
 
 /// `Σ b_k` and `Σ k b_k`: value and slope at 1.
 #[inline(always)]
-pub fn at_one<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
-    b: &[Vector<S, T, K>; N],
-) -> [Vector<S, T, K>; 2] {
+pub fn at_one<S: Simd, T: Scalar<S>, const N: usize>(b: &[Vector<S, T>; N]) -> [Vector<S, T>; 2] {
     // Four sums at a time, which do not wait for each other.
     let mut sums = [b[0], b[1], b[2], b[3]];
     let mut slopes = [b[0].like(0.0), b[1], b[2] + b[2], b[3] * b[3].like(3.0)];
@@ -56,10 +54,10 @@ pub fn at_one<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
 
 /// `Σ b_k t^k` and its derivative.
 #[inline(always)]
-pub fn value_and_slope<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
-    b: &[Vector<S, T, K>; N],
-    t: Vector<S, T, K>,
-) -> [Vector<S, T, K>; 2] {
+pub fn value_and_slope<S: Simd, T: Scalar<S>, const N: usize>(
+    b: &[Vector<S, T>; N],
+    t: Vector<S, T>,
+) -> [Vector<S, T>; 2] {
     let mut sum = b[N - 1];
     let mut slope = sum.like(0.0);
     for k in (0..N - 1).rev() {
@@ -71,10 +69,10 @@ pub fn value_and_slope<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
 
 /// `Σ b_k t^k` and its first two derivatives, even and odd degrees at a time: sooner there than by a chain.
 #[inline(always)]
-pub fn value_slope_and_bend<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
-    b: &[Vector<S, T, K>; N],
-    t: Vector<S, T, K>,
-) -> [Vector<S, T, K>; 3] {
+pub fn value_slope_and_bend<S: Simd, T: Scalar<S>, const N: usize>(
+    b: &[Vector<S, T>; N],
+    t: Vector<S, T>,
+) -> [Vector<S, T>; 3] {
     // E(s) + t O(s) with s = t², each with its derivatives by s.
     let square = t * t;
     let zero = t.like(0.0);
