@@ -4,7 +4,9 @@
 //! |---|---|
 //! | what an engine is, and what it is given | [`Engine`], [`instances`], [`plan`] |
 //! | one instance scaled, at its start | [`scene`], `start.rs` |
-//! | what it did, and until when it is followed | [`outcome`], [`regime`], [`settling`] |
+//! | what an engine sums up, and what it did | [`sums`], [`growth`](mod@growth), [`reductions`], [`outcome`], [`regime`] |
+//! | until when it is followed | [`measuring`], [`settling`] |
+//! | the words of a kernel | [`fields`], [`kernel::table`] |
 //! | the record of an instance | [`record`], [`judged`] |
 //! | where and how a sweep was computed, and its records | [`computation`], [`computed`] |
 //! | one step, events inside it | [`method`] |
@@ -27,16 +29,19 @@ pub mod gpu;
 #[cfg(not(feature = "gpu"))]
 #[path = "no_gpu.rs"]
 pub mod gpu;
+pub mod growth;
 pub mod instances;
 pub mod judged;
 pub mod kernel;
 pub mod lanes;
+pub mod measuring;
 pub mod method;
 pub mod options;
 pub mod outcome;
 pub mod plan;
 pub mod precision;
 pub mod record;
+pub mod reductions;
 pub mod reference;
 pub mod regime;
 pub mod scene;

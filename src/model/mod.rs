@@ -16,6 +16,7 @@ pub mod belt;
 pub mod contact;
 pub mod equilibrium;
 pub mod fastest;
+pub mod forms;
 pub mod friction;
 pub mod instance;
 pub mod kind;

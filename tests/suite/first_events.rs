@@ -42,14 +42,14 @@ pub(crate) fn job(u: &mut Uniform, tolerance: f64) -> Option<Job<f64>> {
 
 /// A step of as many bodies as there are lanes.
 pub(crate) struct Step<S: Simd> {
-    pub(crate) block: Block<S, f64, 1>,
-    pub(crate) e: Expansion<S, f64, 1, N>,
+    pub(crate) block: Block<S, f64>,
+    pub(crate) e: Expansion<S, f64, N>,
     /// The series of the normal force.
-    pub(crate) normal: [Vector<S, f64, 1>; N],
+    pub(crate) normal: [Vector<S, f64>; N],
     /// How far the series are good.
-    pub(crate) until: Vector<S, f64, 1>,
-    at: Vector<S, f64, 1>,
-    event: Vector<S, f64, 1>,
+    pub(crate) until: Vector<S, f64>,
+    at: Vector<S, f64>,
+    event: Vector<S, f64>,
 }
 
 impl<S: Simd> Step<S> {
@@ -70,7 +70,7 @@ pub(crate) fn steps<S: Simd>(
 ) {
     let tolerance = Vector::splat(simd, tolerance);
     for bodies in bodies.chunks(<f64 as Scalar<S>>::LANES) {
-        let mut block: Block<S, f64, 1> = Block::idle(simd, bodies[0].job.law());
+        let mut block: Block<S, f64> = Block::idle(simd, bodies[0].job.law());
         let mut steps = Vector::splat(simd, 1.0);
         for (lane, body) in bodies.iter().enumerate() {
             block.load_scene(lane, &body.job.constants, &body.job.words);
@@ -80,13 +80,13 @@ pub(crate) fn steps<S: Simd>(
             block.disarmed.set(lane, f64::from(body.disarmed));
             steps.set(lane, body.step);
         }
-        let mut e = Expansion::<S, f64, 1, N>::new(simd);
-        let mut g = Functions::<S, f64, 1, N>::new(simd);
-        assert!(!expand::<S, f64, 1, N, PIECES, CLOSED>(&block, steps, &mut e).any());
-        let until = reach::<S, f64, 1, N, CLOSED>(&mut e, tolerance).end;
+        let mut e = Expansion::<S, f64, N>::new(simd);
+        let mut g = Functions::<S, f64, N>::new(simd);
+        assert!(!expand::<S, f64, N, PIECES, CLOSED>(&block, steps, &mut e).any());
+        let until = reach::<S, f64, N, CLOSED>(&mut e, tolerance).end;
         let normal = e.n;
-        functions::<S, f64, 1, N, CLOSED>(&block, &mut e, &mut g);
-        let [at, event] = first_event::<S, f64, 1, N, CLOSED>(&block, &e, &g, tolerance);
+        functions::<S, f64, N, CLOSED>(&block, &mut e, &mut g);
+        let [at, event] = first_event::<S, f64, N, CLOSED>(&block, &e, &g, tolerance);
         look(&Step { block, e, normal, until, at, event }, bodies);
     }
 }

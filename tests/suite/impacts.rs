@@ -36,7 +36,7 @@ impl WithSimd for &mut InLanes<'_> {
     type Output = ();
     fn with_simd<S: Simd>(self, simd: S) {
         for jobs in self.jobs.chunks(<f64 as Scalar<S>>::LANES) {
-            let mut block: Block<S, f64, 1> = Block::idle(simd, jobs[0].0.law());
+            let mut block: Block<S, f64> = Block::idle(simd, jobs[0].0.law());
             for (lane, (job, moment)) in jobs.iter().enumerate() {
                 let mut state = job.state;
                 state.contact = FREE;

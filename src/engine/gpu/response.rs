@@ -20,6 +20,7 @@ use crate::engine::kernel::scalar::Real;
 use crate::engine::kernel::scene::Segments;
 use crate::engine::kernel::source::{FLAG_STATUS, SETTING_WORDS, WORKGROUP_SIZE};
 use crate::engine::kernel::steps::{ORDER, TOLERANCE};
+use crate::engine::kernel::table::segment;
 use crate::engine::kernel::windows::Windows;
 use crate::engine::lanes::again;
 use crate::engine::lanes::again::records_again;
@@ -229,7 +230,7 @@ fn ready<R: Real>(
     before: Option<(Vec<R>, Vec<u32>)>,
 ) -> Option<(Form, Ready<R>)> {
     let &(_, pieces) = kernel_for(scene.model.law.pieces.len())?;
-    let ramp = segments.iter().any(|segment| segment[3] != 0.0);
+    let ramp = segments.iter().any(|words| words[segment::ACCELERATION] != 0.0);
     let inputs = words(scene, segments, pieces).into_iter().map(R::from_f64).collect();
     Some((Form { law: instance.law.kind().form(), pieces, ramp }, Ready { running, inputs, before }))
 }
@@ -313,7 +314,7 @@ fn end<R: Real>(
 pub fn read_lane<R: Real>(segments: &Segments, index: usize, state: &[R], flags: &[u32]) -> Result<Lane<R>> {
     let lane = record::read(state, flags).ok_or(Error::Unwritten { instance: index })?;
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "whole numbers of steps")]
-    let wanted: usize = segments.iter().map(|segment| segment[0] as usize).sum();
+    let wanted: usize = segments.iter().map(|words| words[segment::STEPS] as usize).sum();
     let found = lane.iterations as usize;
     if lane.state.status == Status::Ok && (found < wanted || !lane.is_at_end(segments)) {
         return Err(Error::Miscounted { kernel: KERNEL.name, found, wanted });

@@ -23,7 +23,6 @@ pub mod lane;
 pub mod linear;
 pub mod observe;
 pub mod record;
-pub mod reductions;
 pub mod response;
 pub mod scalar;
 pub mod scene;

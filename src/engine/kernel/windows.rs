@@ -6,15 +6,15 @@
 use crate::engine::kernel::lane::Lane;
 use crate::engine::kernel::observe;
 use crate::engine::kernel::observe::{Phase, Sums};
-use crate::engine::kernel::reductions::{End, Reductions};
 use crate::engine::kernel::scalar::Real;
 use crate::engine::kernel::scene::{SECOND_HALF, SEGMENTS, Segments};
 use crate::engine::kernel::segments::{segments, window_segments};
 use crate::engine::kernel::table::segment;
-use crate::engine::outcome::{Ending, Outcome};
+use crate::engine::measuring::Measuring;
+use crate::engine::outcome::Outcome;
 use crate::engine::plan::Plan;
+use crate::engine::reductions::{End, Reductions};
 use crate::engine::scene::Scene;
-use crate::engine::settling::Settling;
 use crate::engine::sums::growth;
 use crate::model::instance::Instance;
 use crate::model::status::Status;
@@ -25,10 +25,9 @@ pub struct Windows {
     /// What the kernel is to run next.
     pub segments: Segments,
     plan: Plan,
-    settling: Option<Settling>,
-    ending: Option<Ending>,
-    /// Time at the beginning of the segments, and of the window in them.
-    start: [f64; 2],
+    measuring: Measuring,
+    /// Time at the beginning of the segments.
+    start: f64,
     growth: [f64; growth::WORDS],
     growing: bool,
 }
@@ -37,52 +36,39 @@ impl Windows {
     /// The first window of an instance.
     #[must_use]
     pub fn new(instance: &Instance, scene: &Scene, plan: &Plan) -> Windows {
-        let settling = Settling::new(instance, scene, plan);
-        let segments = match &settling {
-            None => segments(scene, plan),
-            Some(settling) => window_segments(scene, plan, scene.scaled(plan.settle), settling.half(None)),
+        let measuring = Measuring::new(instance, scene, plan);
+        let segments = if measuring.until_settled() {
+            window_segments(scene, plan, measuring.start(), measuring.half())
+        } else {
+            segments(scene, plan)
         };
-        Windows {
-            segments,
-            plan: *plan,
-            settling,
-            ending: None,
-            start: [0.0, scene.scaled(plan.settle)],
-            growth: [0.0; growth::WORDS],
-            growing: true,
-        }
+        Windows { segments, plan: *plan, measuring, start: 0.0, growth: [0.0; growth::WORDS], growing: true }
     }
 
     /// Takes what a lane has come to. `None`: it is to be run again, from what it is now, over the new segments.
     pub fn take<S: Real>(&mut self, scene: &Scene, lane: &mut Lane<S>) -> Option<Outcome> {
         let (mut seen, end) = reductions(&self.segments, lane);
-        let end = End { time: self.start[0] + end.time, ..end };
-        if self.settling.is_some() {
-            if self.ending.is_none() {
+        let end = End { time: self.start + end.time, ..end };
+        if self.measuring.until_settled() {
+            if !self.measuring.is_over() {
                 self.add_growth(&seen.growth, lane.sums.growth_closed);
             }
             seen.growth = self.growth;
             seen.met_event = !self.growing;
         }
         let outcome = seen.outcome(scene, &self.plan, &end);
-        let settling = match &mut self.settling {
-            Some(settling) if outcome.status == Status::Ok => settling,
-            _ => return Some(outcome),
-        };
-        if let Some(ending) = self.ending {
-            return Some(outcome.ended(ending, self.start[1] * scene.units.time));
+        if outcome.status != Status::Ok || !self.measuring.until_settled() || self.measuring.is_over() {
+            return Some(self.measuring.told(outcome, scene));
         }
-        if let Some(ending) = settling.judge(&outcome, lane.sums.growth_closed, end.time) {
-            self.ending = Some(ending);
+        if self.measuring.goes_on(&outcome, seen.frequency(), lane.sums.growth_closed, end.time) {
+            self.start = end.time;
+            self.segments = window_segments(scene, &self.plan, 0.0, self.measuring.half());
+            lane.next_window();
+        } else {
             for words in &mut self.segments {
                 words[segment::PART] = words[segment::PART].min(f64::from(SECOND_HALF));
             }
             lane.back_to_the_end(&self.segments);
-        } else {
-            let half = settling.half(seen.frequency());
-            self.start = [end.time; 2];
-            self.segments = window_segments(scene, &self.plan, 0.0, half);
-            lane.next_window();
         }
         None
     }
@@ -141,7 +127,7 @@ pub fn reductions<S: Real>(segments: &Segments, lane: &Lane<S>) -> (Reductions, 
         origin: [lane.snapshot.body.p[0], lane.snapshot.body.p[2]].map(Real::to_f64),
         halves: sums.total.map(|half| half.map(Real::to_f64)),
         peaks: sums.peaks.map(Real::to_f64),
-        impacts: sums.impacts,
+        impacts: u64::from(sums.impacts),
         crossings: u64::from(sums.crossings),
         first: moment(&sums.first),
         last: moment(&sums.last),

@@ -24,10 +24,10 @@ const ARCCOS: [f64; 4] = [1.570_728_8, -0.212_114_4, 0.074_261_0, -0.018_729_3];
 
 /// `Σ c_k x^k` of constants.
 #[inline(always)]
-fn polynomial<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
+fn polynomial<S: Simd, T: Scalar<S>, const N: usize>(
     coefficients: &[f64; N],
-    x: Vector<S, T, K>,
-) -> Vector<S, T, K> {
+    x: Vector<S, T>,
+) -> Vector<S, T> {
     let mut sum = x.like(coefficients[N - 1]);
     for k in (0..N - 1).rev() {
         sum = sum.fma(x, x.like(coefficients[k]));
@@ -37,9 +37,7 @@ fn polynomial<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
 
 /// The angle of a vector of cosine and sine, of whatever length, in `(−π, π]`; 0 of none.
 #[inline(always)]
-pub fn angle_of<S: Simd, T: Scalar<S>, const K: usize>(
-    [cosine, sine]: [Vector<S, T, K>; 2],
-) -> Vector<S, T, K> {
+pub fn angle_of<S: Simd, T: Scalar<S>>([cosine, sine]: [Vector<S, T>; 2]) -> Vector<S, T> {
     let zero = cosine.like(0.0);
     let (wide, high) = (cosine.abs(), sine.abs());
     let (small, large) = (wide.min(high), wide.max(high));
@@ -58,7 +56,7 @@ pub fn angle_of<S: Simd, T: Scalar<S>, const K: usize>(
 
 /// About the angle of a cosine, in `[0, π]`: off by 1e-4 at most.
 #[inline(always)]
-pub fn about_arccos<S: Simd, T: Scalar<S>, const K: usize>(cosine: Vector<S, T, K>) -> Vector<S, T, K> {
+pub fn about_arccos<S: Simd, T: Scalar<S>>(cosine: Vector<S, T>) -> Vector<S, T> {
     let one = cosine.like(1.0);
     let x = cosine.abs().min(one);
     let angle = polynomial(&ARCCOS, x) * (one - x).sqrt();
@@ -68,9 +66,7 @@ pub fn about_arccos<S: Simd, T: Scalar<S>, const K: usize>(cosine: Vector<S, T, 
 /// `cos φ` and `sin φ` of angles up to a turn and a little more, and what the length of the two is short of 1 by their
 /// rounding: the same in every step of one length, it would let a motion grow or decay.
 #[inline(always)]
-pub fn far_rotation<S: Simd, T: Scalar<S>, const K: usize>(
-    angle: Vector<S, T, K>,
-) -> ([Vector<S, T, K>; 2], Vector<S, T, K>) {
+pub fn far_rotation<S: Simd, T: Scalar<S>>(angle: Vector<S, T>) -> ([Vector<S, T>; 2], Vector<S, T>) {
     let [mut c, mut s] = rotation(angle * angle.like(0.25));
     for _ in 0..2 {
         (c, s) = ((c - s) * (c + s), (c + c) * s);
@@ -84,7 +80,7 @@ pub fn far_rotation<S: Simd, T: Scalar<S>, const K: usize>(
 
 /// An angle brought into `(0, period]` from one period beside it.
 #[inline(always)]
-pub fn folded<S: Simd, T: Scalar<S>, const K: usize>(angle: Vector<S, T, K>, period: f64) -> Vector<S, T, K> {
+pub fn folded<S: Simd, T: Scalar<S>>(angle: Vector<S, T>, period: f64) -> Vector<S, T> {
     let period = angle.like(period);
     let angle = angle.not_positive().select(angle + period, angle);
     period.less(angle).select(angle - period, angle)
@@ -92,7 +88,7 @@ pub fn folded<S: Simd, T: Scalar<S>, const K: usize>(angle: Vector<S, T, K>, per
 
 /// `cos φ` and `sin φ` for moderate angles.
 #[inline(always)]
-pub fn rotation<S: Simd, T: Scalar<S>, const K: usize>(angle: Vector<S, T, K>) -> [Vector<S, T, K>; 2] {
+pub fn rotation<S: Simd, T: Scalar<S>>(angle: Vector<S, T>) -> [Vector<S, T>; 2] {
     let one = angle.like(1.0);
     let square = angle * angle;
     let mut cosine = one;
@@ -112,9 +108,6 @@ pub fn rotation<S: Simd, T: Scalar<S>, const K: usize>(angle: Vector<S, T, K>) -
 
 /// `z exp(−iφ)`.
 #[inline(always)]
-pub fn turn<S: Simd, T: Scalar<S>, const K: usize>(
-    z: [Vector<S, T, K>; 2],
-    by: [Vector<S, T, K>; 2],
-) -> [Vector<S, T, K>; 2] {
+pub fn turn<S: Simd, T: Scalar<S>>(z: [Vector<S, T>; 2], by: [Vector<S, T>; 2]) -> [Vector<S, T>; 2] {
     [z[0].fma(by[0], z[1] * by[1]), z[1].fma(by[0], -(z[0] * by[1]))]
 }

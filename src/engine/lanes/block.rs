@@ -41,52 +41,52 @@ const ENDLESS: f64 = 1e30;
 
 /// Lanes in step order of their fields.
 #[derive(Clone, Copy, Debug)]
-pub struct Block<S: Simd, T: Scalar<S>, const K: usize> {
+pub struct Block<S: Simd, T: Scalar<S>> {
     /// The instruction set.
     pub simd: S,
     /// The form of every lane's law.
     pub law: LawForm,
     /// Constants of the scenes, see [`crate::engine::lanes::constants`].
-    pub scene: [Vector<S, T, K>; CONSTANTS],
+    pub scene: [Vector<S, T>; CONSTANTS],
     /// The present piece of the law.
-    pub piece: [Vector<S, T, K>; 6],
+    pub piece: [Vector<S, T>; 6],
     /// Positions `x2 y2 y1`, deviations from the equilibrium.
-    pub p: [Vector<S, T, K>; 3],
+    pub p: [Vector<S, T>; 3],
     /// Velocities.
-    pub v: [Vector<S, T, K>; 3],
+    pub v: [Vector<S, T>; 3],
     /// Belt velocity.
-    pub belt: Vector<S, T, K>,
+    pub belt: Vector<S, T>,
     /// Belt acceleration.
-    pub drive: Vector<S, T, K>,
+    pub drive: Vector<S, T>,
     /// Time left in the present stretch.
-    pub left: Vector<S, T, K>,
+    pub left: Vector<S, T>,
     /// The longest step.
-    pub step: Vector<S, T, K>,
+    pub step: Vector<S, T>,
     /// The longest step that the last one lets expect.
-    pub pace: Vector<S, T, K>,
+    pub pace: Vector<S, T>,
     /// Contact state.
-    pub contact: Vector<S, T, K>,
+    pub contact: Vector<S, T>,
     /// The highest code of the contact states of the present stretch.
-    pub reached: Vector<S, T, K>,
+    pub reached: Vector<S, T>,
     /// The event function that begins at zero.
-    pub disarmed: Vector<S, T, K>,
+    pub disarmed: Vector<S, T>,
     /// The other piece of a law of two.
-    pub other: [Vector<S, T, K>; 6],
+    pub other: [Vector<S, T>; 6],
     /// 1 for laws of more pieces, [`ONE_PIECE`] for those of one, which have no kink to cross.
-    pub many: Vector<S, T, K>,
+    pub many: Vector<S, T>,
     /// Steps of the present stretch.
-    pub steps: Vector<S, T, K>,
+    pub steps: Vector<S, T>,
     /// The most steps, see [`crate::engine::lanes::count`].
-    pub most_steps: Vector<S, T, K>,
+    pub most_steps: Vector<S, T>,
     /// Events of the present stretch.
-    pub counted: Vector<S, T, K>,
+    pub counted: Vector<S, T>,
     /// The most of them.
-    pub most_events: Vector<S, T, K>,
+    pub most_events: Vector<S, T>,
     /// Events without time between them.
-    pub at_once: Vector<S, T, K>,
+    pub at_once: Vector<S, T>,
 }
 
-impl<S: Simd, T: Scalar<S>, const K: usize> Block<S, T, K> {
+impl<S: Simd, T: Scalar<S>> Block<S, T> {
     /// Lanes that rest: they stick to a belt at rest, and no force acts.
     #[inline(always)]
     pub fn idle(simd: S, law: LawForm) -> Self {
@@ -114,7 +114,7 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Block<S, T, K> {
             most_events: zero,
             at_once: zero,
         };
-        for lane in 0..Vector::<S, T, K>::LANES {
+        for lane in 0..Vector::<S, T>::LANES {
             block.rest(lane);
         }
         block
@@ -198,7 +198,7 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Block<S, T, K> {
             p: [self.p[0].get(index), self.p[1].get(index), self.p[2].get(index)],
             v: [self.v[0].get(index), self.v[1].get(index), self.v[2].get(index)],
         };
-        let number = |vector: &Vector<S, T, K>| vector.get(index).to_f64() as u32;
+        let number = |vector: &Vector<S, T>| vector.get(index).to_f64() as u32;
         state.contact = number(&self.contact);
         state.at_once = number(&self.at_once);
         if self.piece[LOWER].get(index) <= T::ZERO {
@@ -226,7 +226,7 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Block<S, T, K> {
 
     /// The longest step of the present contact states.
     #[inline(always)]
-    pub fn longest(&self) -> Vector<S, T, K> {
+    pub fn longest(&self) -> Vector<S, T> {
         let slides = self.reverse().select(self.scene[LONGEST + 1], self.scene[LONGEST]);
         let closed = self.slip().select(slides, self.scene[LONGEST + 3]);
         self.free().select(self.scene[LONGEST + 2], closed)
@@ -234,44 +234,44 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Block<S, T, K> {
 
     /// Lanes in contact state `code` or one before it.
     #[inline(always)]
-    pub fn up_to(&self, code: u32) -> Mask<S, T, K> {
+    pub fn up_to(&self, code: u32) -> Mask<S, T> {
         self.contact.at_most(self.contact.like(f64::from(code)))
     }
 
     /// Lanes that slip.
     #[inline(always)]
-    pub fn slip(&self) -> Mask<S, T, K> {
+    pub fn slip(&self) -> Mask<S, T> {
         self.up_to(REVERSE)
     }
 
     /// Lanes that overtake their belts.
     #[inline(always)]
-    pub fn reverse(&self) -> Mask<S, T, K> {
+    pub fn reverse(&self) -> Mask<S, T> {
         self.slip().and(self.up_to(SLIP).not())
     }
 
     /// Lanes that stick.
     #[inline(always)]
-    pub fn stick(&self) -> Mask<S, T, K> {
+    pub fn stick(&self) -> Mask<S, T> {
         self.up_to(REVERSE).not().and(self.up_to(STICK))
     }
 
     /// Lanes that fly.
     #[inline(always)]
-    pub fn free(&self) -> Mask<S, T, K> {
+    pub fn free(&self) -> Mask<S, T> {
         self.up_to(STICK).not()
     }
 
     /// `σ` of lanes that slip.
     #[inline(always)]
-    pub fn sigma(&self) -> Vector<S, T, K> {
+    pub fn sigma(&self) -> Vector<S, T> {
         self.up_to(SLIP).select(self.contact.like(1.0), self.contact.like(-1.0))
     }
 }
 
 /// Loads one piece of a law.
-fn load_piece<S: Simd, T: Scalar<S>, const K: usize>(
-    words: &mut [Vector<S, T, K>; 6],
+fn load_piece<S: Simd, T: Scalar<S>>(
+    words: &mut [Vector<S, T>; 6],
     lane: usize,
     scene: &Scene<T>,
     index: usize,

@@ -10,10 +10,10 @@ use std::ops::Not;
 
 /// Carries out the events at the end of a step, `at` behind its beginning, and looks after the lanes that need it.
 #[inline(always)]
-pub fn carry_out<S: Simd, T: Scalar<S>, const K: usize, const LAW: bool, const MOTION: u8>(
-    all: &mut Lanes<S, T, K>,
-    event: Vector<S, T, K>,
-    at: Vector<S, T, K>,
+pub fn carry_out<S: Simd, T: Scalar<S>, const LAW: bool, const MOTION: u8>(
+    all: &mut Lanes<S, T>,
+    event: Vector<S, T>,
+    at: Vector<S, T>,
 ) {
     let (b, sums) = (&mut all.block, &mut all.sums);
     let (zero, one) = (at.like(0.0), at.like(1.0));
@@ -28,11 +28,8 @@ pub fn carry_out<S: Simd, T: Scalar<S>, const K: usize, const LAW: bool, const M
         let previous = happened.and(b.reverse()).select(sums.previous.max(b.belt), sums.previous);
         sums.previous.put(previous);
         let hits = b.free().and(happened);
-        let rare = if all.part == Part::Growth {
-            happened
-        } else {
-            transitions::<S, T, K, LAW, MOTION>(b, event, at)
-        };
+        let rare =
+            if all.part == Part::Growth { happened } else { transitions::<S, T, LAW, MOTION>(b, event, at) };
         if MOTION == FLIGHT && all.part == Part::Window {
             sums.impacts += one.only(hits.and(rare.not()));
         }
@@ -40,6 +37,6 @@ pub fn carry_out<S: Simd, T: Scalar<S>, const K: usize, const LAW: bool, const M
         look = look.or(rare);
     }
     if look.any() {
-        visit::<S, T, K>(all, &look.select(one, zero), &pending);
+        visit::<S, T>(all, &look.select(one, zero), &pending);
     }
 }

@@ -8,10 +8,7 @@ use crate::model::scaled::Scaled;
 /// The largest decay rate of a mass that swings, in units of its angular frequency.
 const MOST_DECAY: f64 = 0.3;
 
-/// A linear form of the state: coefficients of `x2 y2 y1` and of their velocities.
-pub type Form = [f64; 6];
-
-/// `R`, the tangential spring force.
+/// `R`, the tangential spring force: coefficients of `x2 y2 y1` and of their velocities, as in the forms below.
 pub const R: usize = 0;
 /// `W`, the normal spring force.
 pub const W: usize = 6;
@@ -64,18 +61,7 @@ pub const SWING_WORDS: [usize; 12] =
 /// The constants of a scene whose steps may `turn` that far.
 #[must_use]
 pub fn constants<T: Real>(model: &Scaled, turns: &Turns) -> [T; CONSTANTS] {
-    let (s, c) = (model.s, model.c);
-    // h = k2 (x s + y c − w) and g = k1 (x c − y s), likewise with the dampers.
-    let form = |cosine: f64, sine: f64| -> Form {
-        let part = |g: f64, h: f64| [sine * h * s + cosine * g * c, sine * h * c - cosine * g * s, -sine * h];
-        let ([x, y, w], [vx, vy, vw]) = (part(model.k1, model.k2), part(model.c1, model.c2));
-        [x, y, w, vx, vy, vw]
-    };
-    let (r, w, h) = (form(c, s), form(-s, c), form(0.0, 1.0));
-    let inv_det = 1.0 / model.det;
-    let combine = |on_r: f64, on_w: f64| -> Form { std::array::from_fn(|i| on_r * r[i] + on_w * w[i]) };
-    let tangential = [-model.normal_mass * inv_det, -model.kappa * inv_det];
-    let normal = [-model.kappa * inv_det, -inv_det];
+    let rows = model.rows();
     let (n0, t0) = (model.n0, model.mu0 * model.n0);
     let mut all = [T::ZERO; CONSTANTS];
     let mut put = |at: usize, values: &[f64]| {
@@ -83,12 +69,14 @@ pub fn constants<T: Real>(model: &Scaled, turns: &Turns) -> [T; CONSTANTS] {
             *word = T::from_f64(*value);
         }
     };
-    put(R, &r);
-    put(W, &w);
-    put(H, &h.map(|value| value / model.m1));
-    put(FLIGHT_X, &combine(tangential[0], tangential[1]));
-    put(FLIGHT_Y, &combine(normal[0], normal[1]));
-    put(FALL, &[tangential[0] * t0 + tangential[1] * n0, normal[0] * t0 + normal[1] * n0]);
+    let [along, away] = &rows.flight;
+    for (at, form) in
+        [(R, &rows.tangential), (W, &rows.normal), (H, &rows.beyond), (FLIGHT_X, along), (FLIGHT_Y, away)]
+    {
+        put(at, &form.positions);
+        put(at + form.positions.len(), &form.velocities);
+    }
+    put(FALL, &rows.fall);
     put(KAPPA, &[model.kappa]);
     put(N0, &[n0]);
     put(T0, &[t0]);
@@ -96,13 +84,13 @@ pub fn constants<T: Real>(model: &Scaled, turns: &Turns) -> [T; CONSTANTS] {
     put(MU_STICK, &[model.law.mu_stick]);
     put(CONE, &[(model.law.mu_stick - model.mu0) * n0, (model.law.mu_stick + model.mu0) * n0]);
     put(STIFFNESS, &[model.k1 + model.k2]);
-    put(INV_DET, &[inv_det]);
+    put(INV_DET, &[1.0 / model.det]);
     let [slip, reverse, stick, free] = turns.longest_steps(&model.fastest);
     put(LONGEST, &[slip, reverse, free, stick].map(|step| step.min(NO_KINK)));
     put(NORMAL_MASS, &[model.normal_mass]);
     put(RESTITUTION, &[model.restitution]);
     put(IMPACT_FRICTION, &[f64::from(u8::from(model.impact_friction))]);
-    put(SWING, &swing(r[0], r[3]));
+    put(SWING, &swing(rows.tangential.positions[0], rows.tangential.velocities[0]));
     put(LAYER, &turns.layer().inverses(model));
     all
 }

@@ -16,21 +16,21 @@ const REFINEMENTS: usize = 3;
 
 /// `ẋ2` and `ẍ2` at the samples of a step, [`SAMPLE_TIMES`].
 #[derive(Clone, Copy, Debug)]
-pub struct Track<S: Simd, T: Scalar<S>, const K: usize> {
-    velocity: [Vector<S, T, K>; 5],
-    acceleration: [Vector<S, T, K>; 5],
+pub struct Track<S: Simd, T: Scalar<S>> {
+    velocity: [Vector<S, T>; 5],
+    acceleration: [Vector<S, T>; 5],
 }
 
-impl<S: Simd, T: Scalar<S>, const K: usize> Track<S, T, K> {
+impl<S: Simd, T: Scalar<S>> Track<S, T> {
     /// From `ẋ2` at both ends and at the nodes, and the accelerations at the nodes.
     #[inline(always)]
     pub fn new<const N: usize>(
-        e: &Expansion<S, T, K, N>,
-        at: Vector<S, T, K>,
-        before: Vector<S, T, K>,
-        after: Vector<S, T, K>,
-        velocities: [Vector<S, T, K>; 3],
-        nodes: &Nodes<S, T, K>,
+        e: &Expansion<S, T, N>,
+        at: Vector<S, T>,
+        before: Vector<S, T>,
+        after: Vector<S, T>,
+        velocities: [Vector<S, T>; 3],
+        nodes: &Nodes<S, T>,
     ) -> Self {
         let [v1, v2, v3] = velocities;
         let rate_square = e.rate * e.rate;
@@ -43,14 +43,14 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Track<S, T, K> {
 
     /// The lanes that rise over zero from one sample to the next.
     #[inline(always)]
-    fn rises(&self, i: usize) -> Mask<S, T, K> {
+    fn rises(&self, i: usize) -> Mask<S, T> {
         let zero = self.velocity[i].like(0.0);
         self.velocity[i].less(zero).and(zero.at_most(self.velocity[i + 1]))
     }
 
     /// The lanes with an extremum towards zero between two samples on the same side of it.
     #[inline(always)]
-    fn turns(&self, i: usize) -> Mask<S, T, K> {
+    fn turns(&self, i: usize) -> Mask<S, T> {
         let zero = self.velocity[i].like(0.0);
         let [v, w] = [self.velocity[i], self.velocity[i + 1]];
         let [a, b] = [self.acceleration[i], self.acceleration[i + 1]];
@@ -62,13 +62,13 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Track<S, T, K> {
 
 /// Where a lane crosses upwards: between two fractions of the step.
 #[derive(Clone, Copy, Debug)]
-struct Bracket<S: Simd, T: Scalar<S>, const K: usize> {
-    low: Vector<S, T, K>,
-    high: Vector<S, T, K>,
+struct Bracket<S: Simd, T: Scalar<S>> {
+    low: Vector<S, T>,
+    high: Vector<S, T>,
     /// `ẋ2` at both.
-    velocity: [Vector<S, T, K>; 2],
+    velocity: [Vector<S, T>; 2],
     /// `ẍ2` at both.
-    acceleration: [Vector<S, T, K>; 2],
+    acceleration: [Vector<S, T>; 2],
 }
 
 /// Notes the upward crossings of `ẋ2` up to `at` in the order of their times.
@@ -76,11 +76,11 @@ struct Bracket<S: Simd, T: Scalar<S>, const K: usize> {
 /// They are those of [`crate::engine::kernel::observe`]: a jump to the first sample, rises from one sample to the next, and one
 /// side of an extremum that reaches over zero between two samples of the same sign.
 #[inline(always)]
-pub fn cross_upwards<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const MOTION: u8>(
-    sums: &mut Sums<S, T, K>,
-    e: &Expansion<S, T, K, N>,
-    track: &Track<S, T, K>,
-    at: Vector<S, T, K>,
+pub fn cross_upwards<S: Simd, T: Scalar<S>, const N: usize, const MOTION: u8>(
+    sums: &mut Sums<S, T>,
+    e: &Expansion<S, T, N>,
+    track: &Track<S, T>,
+    at: Vector<S, T>,
 ) {
     let zero = at.like(0.0);
     let jumped = sums.previous.less(zero).and(zero.at_most(track.velocity[0]));
@@ -121,7 +121,7 @@ pub fn cross_upwards<S: Simd, T: Scalar<S>, const K: usize, const N: usize, cons
             again = again.or(*crosses);
             crossed = crossed.or(here);
         }
-        take::<S, T, K, N, MOTION>(sums, e, &next, crossed);
+        take::<S, T, N, MOTION>(sums, e, &next, crossed);
         if !again.any() {
             return;
         }
@@ -131,11 +131,11 @@ pub fn cross_upwards<S: Simd, T: Scalar<S>, const K: usize, const N: usize, cons
 /// Notes a crossing of some lanes: exactly where the sums of the window begin or may end, that is the first one and what
 /// may be the last.
 #[inline(always)]
-fn take<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const MOTION: u8>(
-    sums: &mut Sums<S, T, K>,
-    e: &Expansion<S, T, K, N>,
-    bracket: &Bracket<S, T, K>,
-    crossed: Mask<S, T, K>,
+fn take<S: Simd, T: Scalar<S>, const N: usize, const MOTION: u8>(
+    sums: &mut Sums<S, T>,
+    e: &Expansion<S, T, N>,
+    bracket: &Bracket<S, T>,
+    crossed: Mask<S, T>,
 ) {
     let mut t = bracket.guess(e);
     let (zero, one) = (t.like(0.0), t.like(1.0));
@@ -158,11 +158,11 @@ fn take<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const MOTION: u8>
 
 /// The one bracket in some lanes, the other in the rest.
 #[inline(always)]
-fn choose<S: Simd, T: Scalar<S>, const K: usize>(
-    mask: Mask<S, T, K>,
-    one: &Bracket<S, T, K>,
-    other: &Bracket<S, T, K>,
-) -> Bracket<S, T, K> {
+fn choose<S: Simd, T: Scalar<S>>(
+    mask: Mask<S, T>,
+    one: &Bracket<S, T>,
+    other: &Bracket<S, T>,
+) -> Bracket<S, T> {
     Bracket {
         low: mask.select(one.low, other.low),
         high: mask.select(one.high, other.high),
@@ -177,10 +177,10 @@ fn choose<S: Simd, T: Scalar<S>, const K: usize>(
     }
 }
 
-impl<S: Simd, T: Scalar<S>, const K: usize> Bracket<S, T, K> {
+impl<S: Simd, T: Scalar<S>> Bracket<S, T> {
     /// Where the cubic through velocities and accelerations crosses, by a step of Newton's method from the straight line.
     #[inline(always)]
-    fn guess<const N: usize>(&self, e: &Expansion<S, T, K, N>) -> Vector<S, T, K> {
+    fn guess<const N: usize>(&self, e: &Expansion<S, T, N>) -> Vector<S, T> {
         let ([v, w], one) = (self.velocity, self.low.like(1.0));
         let zero = self.low.like(0.0);
         let span = self.high - self.low;
@@ -201,12 +201,12 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Bracket<S, T, K> {
 /// Lanes whose velocity turns towards zero between two samples and reaches over it; their bracket becomes the side of the
 /// extremum that rises.
 #[inline(always)]
-fn turn_over<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
-    e: &Expansion<S, T, K, N>,
-    track: &Track<S, T, K>,
+fn turn_over<S: Simd, T: Scalar<S>, const N: usize>(
+    e: &Expansion<S, T, N>,
+    track: &Track<S, T>,
     i: usize,
-    bracket: &mut Bracket<S, T, K>,
-) -> Mask<S, T, K> {
+    bracket: &mut Bracket<S, T>,
+) -> Mask<S, T> {
     let turns = track.turns(i);
     if !turns.any() {
         return turns;

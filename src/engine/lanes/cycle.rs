@@ -9,16 +9,16 @@ pub const NEVER: f64 = -1.0;
 
 /// What the lanes had at the last end of stick of their stretches.
 #[derive(Clone, Copy, Debug)]
-pub struct Cycle<S: Simd, T: Scalar<S>, const K: usize> {
+pub struct Cycle<S: Simd, T: Scalar<S>> {
     /// Time since the stretch began; negative before the first.
-    pub since: Vector<S, T, K>,
+    pub since: Vector<S, T>,
     /// The sums of the window.
-    pub(super) window: [Vector<S, T, K>; sum::WORDS],
+    pub(super) window: [Vector<S, T>; sum::WORDS],
     /// Upward crossings of `ẋ2`.
-    pub(super) crossings: Vector<S, T, K>,
+    pub(super) crossings: Vector<S, T>,
 }
 
-impl<S: Simd, T: Scalar<S>, const K: usize> Cycle<S, T, K> {
+impl<S: Simd, T: Scalar<S>> Cycle<S, T> {
     /// Nothing yet.
     #[inline(always)]
     pub fn new(simd: S) -> Self {
@@ -28,7 +28,7 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Cycle<S, T, K> {
 
     /// Forgets the cycles of lanes that slip back.
     #[inline(always)]
-    pub fn slips_back(&mut self, reverse: Mask<S, T, K>) {
+    pub fn slips_back(&mut self, reverse: Mask<S, T>) {
         if reverse.any() {
             self.since = reverse.select(self.since.like(NEVER), self.since);
         }

@@ -21,12 +21,12 @@ const NO_SPAN: f64 = 1e30;
 ///
 /// Of two event functions that fall in one step the one with the earlier estimate comes first.
 #[inline(always)]
-pub fn first_event<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const MOTION: u8>(
-    b: &Block<S, T, K>,
-    e: &Expansion<S, T, K, N>,
-    g: &Functions<S, T, K, N>,
-    tolerance: Vector<S, T, K>,
-) -> [Vector<S, T, K>; 2] {
+pub fn first_event<S: Simd, T: Scalar<S>, const N: usize, const MOTION: u8>(
+    b: &Block<S, T>,
+    e: &Expansion<S, T, N>,
+    g: &Functions<S, T, N>,
+    tolerance: Vector<S, T>,
+) -> [Vector<S, T>; 2] {
     let zero = e.step.like(0.0);
     let one = e.step.like(1.0);
     let second = e.step.like(f64::from(SECOND));
@@ -36,7 +36,7 @@ pub fn first_event<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const 
         b.disarmed.less(third).and(second.at_most(b.disarmed)),
         third.at_most(b.disarmed),
     ];
-    let falls = may_fall::<S, T, K, N, MOTION>(b, e, g);
+    let falls = may_fall::<S, T, N, MOTION>(b, e, g);
     let mut open = [from_zero[0].or(falls[0]), from_zero[1].or(falls[1]), from_zero[2].or(falls[2])];
     let mut pending = open[0].or(open[1]).or(open[2]);
     if !pending.any() {
@@ -93,9 +93,9 @@ pub fn first_event<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const 
         let found = if pair.any() {
             let span = pair.select(g.start[1] + g.start[2], one.like(NO_SPAN));
             let lead = begins.select(lead, lead.min(span - lead));
-            bracket::<S, T, K, N, true>(&c, has_root, lead, span)
+            bracket::<S, T, N, true>(&c, has_root, lead, span)
         } else {
-            bracket::<S, T, K, N, false>(&c, has_root, lead, one)
+            bracket::<S, T, N, false>(&c, has_root, lead, one)
         };
         let earlier = live.and(found.estimate.less(best.estimate)).and(found.estimate.at_most(one));
         let other = here[1].select(g.start[2], g.start[1]);

@@ -25,22 +25,22 @@ pub const FLIGHT: u8 = 2;
 
 /// Series of one step; `N` coefficients of the positions.
 #[derive(Clone, Copy, Debug)]
-pub struct Expansion<S: Simd, T: Scalar<S>, const K: usize, const N: usize> {
+pub struct Expansion<S: Simd, T: Scalar<S>, const N: usize> {
     /// `x2 y2 y1`.
-    pub p: [[Vector<S, T, K>; N]; 3],
+    pub p: [[Vector<S, T>; N]; 3],
     /// Their derivatives: `k` times the coefficient of degree `k`, at `k`.
-    pub v: [[Vector<S, T, K>; N]; 3],
+    pub v: [[Vector<S, T>; N]; 3],
     /// Accelerations of `x2` and `y1`.
-    pub a: [[Vector<S, T, K>; N]; 2],
+    pub a: [[Vector<S, T>; N]; 2],
     /// Normal force.
-    pub n: [Vector<S, T, K>; N],
+    pub n: [Vector<S, T>; N],
     /// The step.
-    pub step: Vector<S, T, K>,
+    pub step: Vector<S, T>,
     /// `1/step`.
-    pub rate: Vector<S, T, K>,
+    pub rate: Vector<S, T>,
 }
 
-impl<S: Simd, T: Scalar<S>, const K: usize, const N: usize> Expansion<S, T, K, N> {
+impl<S: Simd, T: Scalar<S>, const N: usize> Expansion<S, T, N> {
     /// No motion.
     #[inline(always)]
     pub fn new(simd: S) -> Self {
@@ -52,12 +52,12 @@ impl<S: Simd, T: Scalar<S>, const K: usize, const N: usize> Expansion<S, T, K, N
 
 /// `q = σ μ` and `q − μ0` at the relative velocity `v`, see [`crate::engine::kernel::scene::Scene::friction`].
 #[inline(always)]
-pub fn friction<S: Simd, T: Scalar<S>, const K: usize, const LAW: bool>(
-    b: &Block<S, T, K>,
-    sigma: Vector<S, T, K>,
-    v: Vector<S, T, K>,
-    lag: Vector<S, T, K>,
-) -> [Vector<S, T, K>; 2] {
+pub fn friction<S: Simd, T: Scalar<S>, const LAW: bool>(
+    b: &Block<S, T>,
+    sigma: Vector<S, T>,
+    v: Vector<S, T>,
+    lag: Vector<S, T>,
+) -> [Vector<S, T>; 2] {
     let one = v.like(1.0);
     let forward = one.at_most(sigma);
     let (at_zero, slope, rate, offset) = (b.piece[AT_ZERO], b.piece[SLOPE], b.piece[RATE], b.piece[OFFSET]);
@@ -85,12 +85,12 @@ pub fn friction<S: Simd, T: Scalar<S>, const K: usize, const LAW: bool>(
 
 /// The inverse of the longest step of a curved law, see [`crate::engine::method::pace::Layer`].
 #[inline(always)]
-fn layer<S: Simd, T: Scalar<S>, const K: usize, const MOTION: u8>(
-    b: &Block<S, T, K>,
-    [q0, q0_less]: [Vector<S, T, K>; 2],
-    inertia: Vector<S, T, K>,
-    speed: Vector<S, T, K>,
-) -> Vector<S, T, K> {
+fn layer<S: Simd, T: Scalar<S>, const MOTION: u8>(
+    b: &Block<S, T>,
+    [q0, q0_less]: [Vector<S, T>; 2],
+    inertia: Vector<S, T>,
+    speed: Vector<S, T>,
+) -> Vector<S, T> {
     let (zero, one) = (speed.like(0.0), speed.like(1.0));
     let form = |at: usize| {
         let sum = b.scene[at].fma(b.p[0], b.scene[at + 3] * b.v[0]);
@@ -109,7 +109,7 @@ fn layer<S: Simd, T: Scalar<S>, const K: usize, const MOTION: u8>(
 
 /// `exp(x) − 1`, see [`crate::engine::kernel::scene::exp_m1`].
 #[inline(always)]
-pub fn exp_m1<S: Simd, T: Scalar<S>, const K: usize>(x: Vector<S, T, K>) -> Vector<S, T, K> {
+pub fn exp_m1<S: Simd, T: Scalar<S>>(x: Vector<S, T>) -> Vector<S, T> {
     const DOUBLINGS: usize = 8;
     let x = x.max(x.like(-80.0)).min(x.like(80.0));
     let large = x.like(0.5).less(x.abs());
@@ -135,33 +135,33 @@ pub fn exp_m1<S: Simd, T: Scalar<S>, const K: usize>(x: Vector<S, T, K>) -> Vect
 /// What the accelerations and the normal force are made of over a step, times its square: coefficients of the
 /// coordinates and of their velocities (the power of the step is in them), and constants.
 #[derive(Clone, Copy)]
-struct Forms<S: Simd, T: Scalar<S>, const K: usize> {
+struct Forms<S: Simd, T: Scalar<S>> {
     /// Acceleration of `x2`, friction by the curvature of its law aside.
-    ax: [Vector<S, T, K>; 6],
+    ax: [Vector<S, T>; 6],
     /// Acceleration of `y2`.
-    ay: [Vector<S, T, K>; 6],
+    ay: [Vector<S, T>; 6],
     /// Acceleration of `y1`.
-    aw: [Vector<S, T, K>; 6],
+    aw: [Vector<S, T>; 6],
     /// Normal force, without `−κ ẍ2`.
-    normal: [Vector<S, T, K>; 6],
+    normal: [Vector<S, T>; 6],
     /// Constant part of `ax`.
-    push: Vector<S, T, K>,
+    push: Vector<S, T>,
     /// Constant part of `ay`.
-    fall: Vector<S, T, K>,
+    fall: Vector<S, T>,
     /// Constant part of `normal`.
-    load: Vector<S, T, K>,
+    load: Vector<S, T>,
     /// `κ`, 0 in flight.
-    kappa: Vector<S, T, K>,
+    kappa: Vector<S, T>,
 }
 
 /// The forms of every lane's contact state; `reciprocal` is `1/(1 + κ q0)`.
 #[inline(always)]
-fn forms<S: Simd, T: Scalar<S>, const K: usize, const MOTION: u8>(
-    b: &Block<S, T, K>,
-    h: Vector<S, T, K>,
-    [q0, q0_less]: [Vector<S, T, K>; 2],
-    reciprocal: Vector<S, T, K>,
-) -> Forms<S, T, K> {
+fn forms<S: Simd, T: Scalar<S>, const MOTION: u8>(
+    b: &Block<S, T>,
+    h: Vector<S, T>,
+    [q0, q0_less]: [Vector<S, T>; 2],
+    reciprocal: Vector<S, T>,
+) -> Forms<S, T> {
     let zero = h.like(0.0);
     let (slip, free) = (b.slip(), b.free());
     let square = h * h;
@@ -202,29 +202,29 @@ fn forms<S: Simd, T: Scalar<S>, const K: usize, const MOTION: u8>(
 /// Expands the motion over the step `h`; returns the lanes whose contact forces are not unique. Series of what
 /// does not move are left alone.
 #[inline(always)]
-pub fn expand<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool, const MOTION: u8>(
-    b: &Block<S, T, K>,
-    h: Vector<S, T, K>,
-    e: &mut Expansion<S, T, K, N>,
-) -> Mask<S, T, K> {
+pub fn expand<S: Simd, T: Scalar<S>, const N: usize, const LAW: bool, const MOTION: u8>(
+    b: &Block<S, T>,
+    h: Vector<S, T>,
+    e: &mut Expansion<S, T, N>,
+) -> Mask<S, T> {
     let (zero, one) = (h.like(0.0), h.like(1.0));
     let slip = b.slip();
     let sigma = b.sigma();
     let velocity = b.v[0];
     let relative = b.belt - velocity;
     let lag = velocity - (b.belt - b.scene[V0]);
-    let [q0, q0_less] = friction::<S, T, K, LAW>(b, sigma, relative, lag);
+    let [q0, q0_less] = friction::<S, T, LAW>(b, sigma, relative, lag);
     let inertia = slip.select(b.scene[KAPPA].fma(q0, one), one);
     let ill_posed = inertia.not_positive();
     let h = if LAW == CURVED {
-        let inverse = layer::<S, T, K, MOTION>(b, [q0, q0_less], inertia, sigma * relative);
+        let inverse = layer::<S, T, MOTION>(b, [q0, q0_less], inertia, sigma * relative);
         slip.select(h.min(one / inverse), h)
     } else {
         h
     };
     let per_step = one / (inertia * h);
     let reciprocal = per_step * h;
-    let forms = forms::<S, T, K, MOTION>(b, h, [q0, q0_less], reciprocal);
+    let forms = forms::<S, T, MOTION>(b, h, [q0, q0_less], reciprocal);
     let drive = b.drive * (h * h);
     // q_k = −slope · (relative velocity)_k, with 1/(1 + κ q0) folded in.
     let stiffening = slip.select(-(b.piece[SLOPE] * per_step), zero);
@@ -262,7 +262,7 @@ pub fn expand<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: 
     macro_rules! degrees {
         ($($k:literal)*) => {
             $(if $k < N - 2 {
-                degree::<S, T, K, N, LAW, MOTION>($k, b, &known, e, &mut friction, &mut course);
+                degree::<S, T, N, LAW, MOTION>($k, b, &known, e, &mut friction, &mut course);
             })*
         };
     }
@@ -272,7 +272,7 @@ pub fn expand<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: 
     } else {
         // Of a curved law each degree is a sum of all before: a loop, which compiles in a fraction of the time.
         for k in 0..N - 2 {
-            degree::<S, T, K, N, LAW, MOTION>(k, b, &known, e, &mut friction, &mut course);
+            degree::<S, T, N, LAW, MOTION>(k, b, &known, e, &mut friction, &mut course);
         }
     }
     e.step = h;
@@ -282,48 +282,48 @@ pub fn expand<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: 
 
 /// What all degrees of a step share.
 #[derive(Clone, Copy)]
-struct Known<S: Simd, T: Scalar<S>, const K: usize> {
-    forms: Forms<S, T, K>,
+struct Known<S: Simd, T: Scalar<S>> {
+    forms: Forms<S, T>,
     /// `q_k` of a straight law is this times the velocity of degree `k`.
-    stiffening: Vector<S, T, K>,
+    stiffening: Vector<S, T>,
     /// The belt's acceleration, times the square of the step.
-    drive: Vector<S, T, K>,
+    drive: Vector<S, T>,
     /// Whether `q` is not constant.
     sloped: bool,
     /// `1/(1 + κ q0)`.
-    reciprocal: Vector<S, T, K>,
+    reciprocal: Vector<S, T>,
     /// `1/step`.
-    rate: Vector<S, T, K>,
-    sigma: Vector<S, T, K>,
+    rate: Vector<S, T>,
+    sigma: Vector<S, T>,
     /// The relative velocity at the beginning.
-    relative: Vector<S, T, K>,
-    slip: Mask<S, T, K>,
+    relative: Vector<S, T>,
+    slip: Mask<S, T>,
 }
 
 /// The series of the friction law.
-struct Friction<S: Simd, T: Scalar<S>, const K: usize, const N: usize> {
+struct Friction<S: Simd, T: Scalar<S>, const N: usize> {
     /// `q`, with the inverse of the inertia.
-    q: [Vector<S, T, K>; N],
+    q: [Vector<S, T>; N],
     /// What the recurrence of a curved law carries.
-    law: [Vector<S, T, K>; N],
+    law: [Vector<S, T>; N],
 }
 
 /// Of straight laws: what a degree of the accelerations takes from the one before it, so that it waits for little else.
-struct Course<S: Simd, T: Scalar<S>, const K: usize> {
-    drag: Vector<S, T, K>,
-    back: Vector<S, T, K>,
-    force_before: Vector<S, T, K>,
+struct Course<S: Simd, T: Scalar<S>> {
+    drag: Vector<S, T>,
+    back: Vector<S, T>,
+    force_before: Vector<S, T>,
 }
 
 /// The accelerations of degree `k`, and what of the motion follows from them.
 #[inline(always)]
-fn degree<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool, const MOTION: u8>(
+fn degree<S: Simd, T: Scalar<S>, const N: usize, const LAW: bool, const MOTION: u8>(
     k: usize,
-    b: &Block<S, T, K>,
-    known: &Known<S, T, K>,
-    e: &mut Expansion<S, T, K, N>,
-    friction: &mut Friction<S, T, K, N>,
-    course: &mut Course<S, T, K>,
+    b: &Block<S, T>,
+    known: &Known<S, T>,
+    e: &mut Expansion<S, T, N>,
+    friction: &mut Friction<S, T, N>,
+    course: &mut Course<S, T>,
 ) {
     let Known { forms, stiffening, drive, sloped, reciprocal, rate, sigma, relative, slip } = *known;
     let Forms { ax, ay, aw, normal, push, fall, load, kappa } = forms;

@@ -15,26 +15,26 @@ use crate::engine::lanes::vector::{Mask, Scalar, Vector};
 use crate::engine::reference::integrate::ROUNDINGS;
 
 /// What event functions and their derivatives may be off by at the beginning of a step.
-pub struct Rounding<S: Simd, T: Scalar<S>, const K: usize> {
+pub struct Rounding<S: Simd, T: Scalar<S>> {
     /// A force.
-    pub force: Vector<S, T, K>,
+    pub force: Vector<S, T>,
     /// A sliding speed.
-    pub speed: Vector<S, T, K>,
+    pub speed: Vector<S, T>,
     /// What opens the gap.
-    gap: Vector<S, T, K>,
+    gap: Vector<S, T>,
 }
 
-impl<S: Simd, T: Scalar<S>, const K: usize> Rounding<S, T, K> {
+impl<S: Simd, T: Scalar<S>> Rounding<S, T> {
     /// Forces are off by the truncation of the motion and the rounding of the static loads.
     #[inline(always)]
     pub fn new<const N: usize, const MOTION: u8>(
-        b: &Block<S, T, K>,
-        e: &Expansion<S, T, K, N>,
-        tolerance: Vector<S, T, K>,
+        b: &Block<S, T>,
+        e: &Expansion<S, T, N>,
+        tolerance: Vector<S, T>,
     ) -> Self {
         let one = e.step.like(1.0);
-        let slower = largest::<S, T, K, N, MOTION>(e, 2).fma(e.rate, largest::<S, T, K, N, MOTION>(e, 1));
-        let motion = slower.fma(e.rate, largest::<S, T, K, N, MOTION>(e, 0));
+        let slower = largest::<S, T, N, MOTION>(e, 2).fma(e.rate, largest::<S, T, N, MOTION>(e, 1));
+        let motion = slower.fma(e.rate, largest::<S, T, N, MOTION>(e, 0));
         let loads = (b.scene[MU_STICK] + one) * b.scene[N0] + e.n[0].abs() * (e.rate * e.rate);
         let rounding = Vector::splat(b.simd, T::EPSILON) * e.step.like(ROUNDINGS);
         let band = rounding.fma(loads, tolerance * b.scene[STIFFNESS] * motion);
@@ -43,32 +43,32 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Rounding<S, T, K> {
 
     /// The event function of lanes that slide or fly, or that of a force.
     #[inline(always)]
-    fn of(&self, b: &Block<S, T, K>, of_force: Mask<S, T, K>) -> Vector<S, T, K> {
+    fn of(&self, b: &Block<S, T>, of_force: Mask<S, T>) -> Vector<S, T> {
         of_force.select(self.force, b.slip().select(self.speed, self.gap))
     }
 }
 
 /// An event function of every lane, without its root of some order at zero.
-pub struct Function<S: Simd, T: Scalar<S>, const K: usize> {
+pub struct Function<S: Simd, T: Scalar<S>> {
     /// Its value at the beginning.
-    pub start: Vector<S, T, K>,
+    pub start: Vector<S, T>,
     /// How much of the normal force is in it, see [`Functions`].
-    pub share: Vector<S, T, K>,
+    pub share: Vector<S, T>,
     /// How much of the second series.
-    pub sign: Vector<S, T, K>,
+    pub sign: Vector<S, T>,
     /// The order of its root at zero, which does not count: coefficients below it are taken to be 0.
-    pub order: Vector<S, T, K>,
+    pub order: Vector<S, T>,
 }
 
-impl<S: Simd, T: Scalar<S>, const K: usize> Function<S, T, K> {
+impl<S: Simd, T: Scalar<S>> Function<S, T> {
     /// A coefficient above degree 0.
     #[inline(always)]
     pub fn coefficient<const N: usize, const MOTION: u8>(
         &self,
-        e: &Expansion<S, T, K, N>,
-        g: &Functions<S, T, K, N>,
+        e: &Expansion<S, T, N>,
+        g: &Functions<S, T, N>,
         degree: usize,
-    ) -> Vector<S, T, K> {
+    ) -> Vector<S, T> {
         let force = if MOTION == SINGLE { e.step.like(0.0) } else { self.share * e.n[degree] };
         if degree < N - 1 { self.sign.fma(g.second[degree], force) } else { force }
     }
@@ -79,13 +79,13 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Function<S, T, K> {
     #[inline(always)]
     pub fn deflate<const N: usize, const MOTION: u8>(
         &mut self,
-        b: &Block<S, T, K>,
-        e: &Expansion<S, T, K, N>,
-        g: &Functions<S, T, K, N>,
-        rounding: &Rounding<S, T, K>,
-        [begins, low, of_force]: [Mask<S, T, K>; 3],
-        live: &mut Mask<S, T, K>,
-    ) -> Vector<S, T, K> {
+        b: &Block<S, T>,
+        e: &Expansion<S, T, N>,
+        g: &Functions<S, T, N>,
+        rounding: &Rounding<S, T>,
+        [begins, low, of_force]: [Mask<S, T>; 3],
+        live: &mut Mask<S, T>,
+    ) -> Vector<S, T> {
         let (zero, one) = (self.start.like(0.0), self.start.like(1.0));
         let mut deflate = begins.or(low.and((-rounding.force).at_most(self.start)));
         let mut lead = self.start;
@@ -109,9 +109,9 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Function<S, T, K> {
     #[inline(always)]
     pub fn series<const N: usize, const MOTION: u8>(
         &self,
-        e: &Expansion<S, T, K, N>,
-        g: &Functions<S, T, K, N>,
-        c: &mut [Vector<S, T, K>; N],
+        e: &Expansion<S, T, N>,
+        g: &Functions<S, T, N>,
+        c: &mut [Vector<S, T>; N],
     ) {
         c[0] = self.start;
         for degree in 1..N {

@@ -12,17 +12,17 @@ use crate::engine::lanes::vector::{Mask, Scalar, Vector};
 /// The event functions of a step. Each is `m n_k + s d_k` for `k > 0`, with the series `n` of the normal force
 /// (of the gap for lanes that fly) and one more; the rest differs from lane to lane.
 #[derive(Clone, Copy, Debug)]
-pub struct Functions<S: Simd, T: Scalar<S>, const K: usize, const N: usize> {
+pub struct Functions<S: Simd, T: Scalar<S>, const N: usize> {
     /// Their values at the beginning, in the order of [`crate::engine::lanes::block::FIRST`] to
     /// [`crate::engine::lanes::block::THIRD`].
-    pub start: [Vector<S, T, K>; 3],
+    pub start: [Vector<S, T>; 3],
     /// The second series, from degree 1 on: sliding speed in slip, less the tangential force in stick.
-    pub second: [Vector<S, T, K>; N],
+    pub second: [Vector<S, T>; N],
     /// `m` of the second and third function: the limit of stick for lanes that stick.
-    pub share: Vector<S, T, K>,
+    pub share: Vector<S, T>,
 }
 
-impl<S: Simd, T: Scalar<S>, const K: usize, const N: usize> Functions<S, T, K, N> {
+impl<S: Simd, T: Scalar<S>, const N: usize> Functions<S, T, N> {
     /// No function.
     #[inline(always)]
     pub fn new(simd: S) -> Self {
@@ -33,10 +33,10 @@ impl<S: Simd, T: Scalar<S>, const K: usize, const N: usize> Functions<S, T, K, N
 
 /// The event functions; the series of the normal force becomes that of the gap in lanes that fly.
 #[inline(always)]
-pub fn functions<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const MOTION: u8>(
-    b: &Block<S, T, K>,
-    e: &mut Expansion<S, T, K, N>,
-    g: &mut Functions<S, T, K, N>,
+pub fn functions<S: Simd, T: Scalar<S>, const N: usize, const MOTION: u8>(
+    b: &Block<S, T>,
+    e: &mut Expansion<S, T, N>,
+    g: &mut Functions<S, T, N>,
 ) {
     let zero = e.step.like(0.0);
     let sticks = b.stick();
@@ -109,10 +109,10 @@ const BOUNDED: usize = 6;
 
 /// The Bernstein coefficients on [0, 1] of `Σ b_(before + k) t^k` for k from 1 to [`BOUNDED`], but for the first, which is 0.
 #[inline(always)]
-fn bernstein<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
-    b: &[Vector<S, T, K>; N],
+fn bernstein<S: Simd, T: Scalar<S>, const N: usize>(
+    b: &[Vector<S, T>; N],
     before: usize,
-) -> [Vector<S, T, K>; BOUNDED] {
+) -> [Vector<S, T>; BOUNDED] {
     let like = |number: f64| b[0].like(number);
     let [b1, b2, b3] = [b[before + 1], b[before + 2], b[before + 3]];
     let [b4, b5, b6] = [b[before + 4], b[before + 5], b[before + 6]];
@@ -129,11 +129,11 @@ fn bernstein<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
 
 /// The sum of the magnitudes that [`bernstein`] leaves.
 #[inline(always)]
-fn tail<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
-    b: &[Vector<S, T, K>; N],
+fn tail<S: Simd, T: Scalar<S>, const N: usize>(
+    b: &[Vector<S, T>; N],
     before: usize,
     end: usize,
-) -> Vector<S, T, K> {
+) -> Vector<S, T> {
     let first = before + BOUNDED + 1;
     let mut rest = [b[first].abs(), b[first + 1].abs()];
     for k in first + 2..end {
@@ -144,7 +144,7 @@ fn tail<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
 
 /// The least and the largest of some numbers and 0.
 #[inline(always)]
-fn extremes<S: Simd, T: Scalar<S>, const K: usize>(b: &[Vector<S, T, K>; BOUNDED]) -> [Vector<S, T, K>; 2] {
+fn extremes<S: Simd, T: Scalar<S>>(b: &[Vector<S, T>; BOUNDED]) -> [Vector<S, T>; 2] {
     let zero = b[0].like(0.0);
     [
         b[0].min(b[1]).min(b[2].min(b[3])).min(b[4].min(b[5]).min(zero)),
@@ -154,11 +154,11 @@ fn extremes<S: Simd, T: Scalar<S>, const K: usize>(b: &[Vector<S, T, K>; BOUNDED
 
 /// Lanes in which each event function may fall to zero in the step.
 #[inline(always)]
-pub fn may_fall<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const MOTION: u8>(
-    b: &Block<S, T, K>,
-    e: &Expansion<S, T, K, N>,
-    g: &Functions<S, T, K, N>,
-) -> [Mask<S, T, K>; 3] {
+pub fn may_fall<S: Simd, T: Scalar<S>, const N: usize, const MOTION: u8>(
+    b: &Block<S, T>,
+    e: &Expansion<S, T, N>,
+    g: &Functions<S, T, N>,
+) -> [Mask<S, T>; 3] {
     let zero = e.step.like(0.0);
     let mut rest = tail(&g.second, 0, N - 1);
     let (mut first, mut of_force) = (e.n[0], [zero; BOUNDED]);
@@ -193,11 +193,11 @@ pub fn may_fall<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const MOT
 /// come back to it: whether its series without that root may fall to zero. A first coefficient that is not below zero by
 /// more than `bound` is taken for zero, as [`crate::engine::lanes::function::Function::deflate`] does.
 #[inline(always)]
-pub fn may_return<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
-    g: &Functions<S, T, K, N>,
-    upper: Mask<S, T, K>,
-    bound: Vector<S, T, K>,
-) -> Mask<S, T, K> {
+pub fn may_return<S: Simd, T: Scalar<S>, const N: usize>(
+    g: &Functions<S, T, N>,
+    upper: Mask<S, T>,
+    bound: Vector<S, T>,
+) -> Mask<S, T> {
     // c₁ + t h(t), where h is bounded.
     let c = &g.second;
     let [least, most] = extremes(&bernstein(c, 2));

@@ -12,19 +12,16 @@ use crate::engine::lanes::vector::{Mask, Scalar, Vector};
 use crate::model::contact::SLOWEST_REBOUND;
 
 /// A law at the speed `|v|` of every lane.
-pub struct AtSpeed<S: Simd, T: Scalar<S>, const K: usize> {
+pub struct AtSpeed<S: Simd, T: Scalar<S>> {
     /// μ.
-    pub mu: Vector<S, T, K>,
+    pub mu: Vector<S, T>,
     /// Lanes whose piece is not the present one.
-    pub elsewhere: Mask<S, T, K>,
+    pub elsewhere: Mask<S, T>,
 }
 
 /// μ at a speed, whatever its piece.
 #[inline(always)]
-pub fn at_speed<S: Simd, T: Scalar<S>, const K: usize>(
-    b: &Block<S, T, K>,
-    speed: Vector<S, T, K>,
-) -> AtSpeed<S, T, K> {
+pub fn at_speed<S: Simd, T: Scalar<S>>(b: &Block<S, T>, speed: Vector<S, T>) -> AtSpeed<S, T> {
     let is_lower = b.piece[LOWER].not_positive();
     let kink = is_lower.select(b.piece[UPPER], b.piece[LOWER]);
     let above = kink.at_most(speed);
@@ -34,18 +31,18 @@ pub fn at_speed<S: Simd, T: Scalar<S>, const K: usize>(
 }
 
 /// What an impact leaves.
-pub struct Impact<S: Simd, T: Scalar<S>, const K: usize> {
+pub struct Impact<S: Simd, T: Scalar<S>> {
     /// `ẋ2` afterwards.
-    pub tangential: Vector<S, T, K>,
+    pub tangential: Vector<S, T>,
     /// `ẏ2` afterwards.
-    pub rebound: Vector<S, T, K>,
+    pub rebound: Vector<S, T>,
     /// Lanes whose impulses are not unique.
-    pub ill_posed: Mask<S, T, K>,
+    pub ill_posed: Mask<S, T>,
 }
 
 /// Newton's impact with friction inside its cone, of every lane's present velocity.
 #[inline(always)]
-pub fn impact<S: Simd, T: Scalar<S>, const K: usize>(b: &Block<S, T, K>) -> Impact<S, T, K> {
+pub fn impact<S: Simd, T: Scalar<S>>(b: &Block<S, T>) -> Impact<S, T> {
     let (zero, one) = (b.left.like(0.0), b.left.like(1.0));
     let (kappa, normal_mass) = (b.scene[KAPPA], b.scene[NORMAL_MASS]);
     let vy = b.v[1].min(zero);

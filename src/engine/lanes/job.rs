@@ -3,7 +3,6 @@
 use std::f64::consts::TAU;
 
 use crate::engine::kernel::contact::{Belt, GAP, State, UPPER_KINK};
-use crate::engine::kernel::reductions::{End, Reductions};
 use crate::engine::kernel::response::without_segments;
 use crate::engine::kernel::scalar::Real;
 use crate::engine::kernel::scene::Scene as Words;
@@ -11,11 +10,12 @@ use crate::engine::kernel::series::FREE;
 use crate::engine::lanes::constants::{CONSTANTS, SWING, constants};
 use crate::engine::lanes::count::Count;
 use crate::engine::lanes::stretches::Stretches;
+use crate::engine::measuring::Measuring;
 use crate::engine::method::pace::Turns;
-use crate::engine::outcome::{Ending, Outcome};
+use crate::engine::outcome::Outcome;
 use crate::engine::plan::Plan;
+use crate::engine::reductions::{End, Reductions};
 use crate::engine::scene::Scene;
-use crate::engine::settling::Settling;
 use crate::engine::sums::sum;
 use crate::model::instance::Instance;
 use crate::model::piece::LawForm;
@@ -105,8 +105,7 @@ pub struct Job<T> {
     pub marks: [f64; 3],
     /// Whether no event has fallen into the window.
     pub quiet: bool,
-    settling: Option<Box<Settling>>,
-    ending: Option<Ending>,
+    measuring: Measuring,
     /// The state at the start of the window.
     snapshot: Option<State<T>>,
 }
@@ -116,13 +115,10 @@ impl<T: Real> Job<T> {
     #[must_use]
     pub fn new(instance: &Instance, scene: Scene, plan: &Plan, turns: &Turns) -> Job<T> {
         let words: Words<T> = without_segments(instance.law.kind().form(), &scene, turns);
-        let settling = Settling::new(instance, &scene, plan).map(Box::new);
-        let asked = 0.5 * scene.scaled(plan.measure);
-        let half = settling.as_ref().map_or(asked, |settling| settling.half(None));
+        let measuring = Measuring::new(instance, &scene, plan);
         let belt = scene.belt(0.0);
         let belt =
             Belt { velocity: T::from_f64(belt.velocity), acceleration: T::from_f64(belt.acceleration) };
-        let scene_settle = scene.scaled(plan.settle);
         Job {
             constants: constants(&scene.model, turns),
             scene,
@@ -141,10 +137,9 @@ impl<T: Real> Job<T> {
             guess: None,
             steps: 0,
             count: Count::default(),
-            marks: window(scene_settle, half),
+            marks: window(&measuring),
             quiet: true,
-            settling,
-            ending: None,
+            measuring,
             snapshot: None,
         }
     }
@@ -309,18 +304,19 @@ impl<T: Real> Job<T> {
 
     /// Judges the window of a run until settled; true when another one follows.
     pub fn goes_on(&mut self, plan: &Plan) -> bool {
-        if self.state.status != Status::Unwritten || self.ending.is_some() || self.settling.is_none() {
+        if self.state.status != Status::Unwritten
+            || !self.measuring.until_settled()
+            || self.measuring.is_over()
+        {
             return false;
         }
         let outcome = self.outcome(plan);
         let guess = self.known_omega();
         let frequency = self.seen.frequency();
-        let Some(settling) = &mut self.settling else { return false };
-        self.ending = settling.judge(&outcome, !self.quiet, self.marks[2]);
-        if self.ending.is_some() || outcome.status != Status::Ok {
+        if !self.measuring.goes_on(&outcome, frequency, !self.quiet, self.marks[2]) {
             return false;
         }
-        self.marks = window(self.marks[2], settling.half(frequency));
+        self.marks = window(&self.measuring);
         self.guess = guess;
         self.seen = Reductions { growth: self.seen.growth, ..Reductions::default() };
         self.stretches = Stretches::default();
@@ -337,15 +333,12 @@ impl<T: Real> Job<T> {
         let (status, time) =
             if status == Status::Unwritten { (Status::Ok, end) } else { (status, self.time) };
         let outcome = self.seen.outcome(&self.scene, plan, &End { status, steps: self.steps, time });
-        let outcome = Outcome { met_event: !self.growing, ..outcome };
-        match self.ending {
-            Some(ending) => outcome.ended(ending, self.marks[0] * self.scene.units.time),
-            None => outcome,
-        }
+        self.measuring.told(Outcome { met_event: !self.growing, ..outcome }, &self.scene)
     }
 }
 
 /// The times of a window's start, middle and end.
-fn window(start: f64, half: f64) -> [f64; 3] {
+fn window(measuring: &Measuring) -> [f64; 3] {
+    let (start, half) = (measuring.start(), measuring.half());
     [start, start + half, start + half + half]
 }

@@ -48,11 +48,11 @@ pub struct Settings<'a> {
 }
 
 /// Lanes and the instances they work on.
-pub struct Lanes<'a, S: Simd, T: Scalar<S>, const K: usize> {
+pub struct Lanes<'a, S: Simd, T: Scalar<S>> {
     /// What the steps need of them.
-    pub block: Block<S, T, K>,
+    pub block: Block<S, T>,
     /// What they reduce.
-    pub sums: Sums<S, T, K>,
+    pub sums: Sums<S, T>,
     /// The instances.
     pub jobs: &'a mut [Job<T>],
     /// Whether they are all single masses with straight laws.
@@ -73,10 +73,10 @@ pub struct Lanes<'a, S: Simd, T: Scalar<S>, const K: usize> {
     turns: u32,
 }
 
-impl<'a, S: Simd, T: Scalar<S>, const K: usize> Lanes<'a, S, T, K> {
+impl<'a, S: Simd, T: Scalar<S>> Lanes<'a, S, T> {
     /// Lanes with the first instances of an order; they all have laws of the form of the block.
     pub fn new(
-        block: Block<S, T, K>,
+        block: Block<S, T>,
         jobs: &'a mut [Job<T>],
         [single, swings]: [bool; 2],
         order: Vec<usize>,
@@ -84,7 +84,7 @@ impl<'a, S: Simd, T: Scalar<S>, const K: usize> Lanes<'a, S, T, K> {
         settings: Settings<'a>,
     ) -> Self {
         let sums = Sums::new(block.simd);
-        let of_lane = vec![usize::MAX; Vector::<S, T, K>::LANES];
+        let of_lane = vec![usize::MAX; Vector::<S, T>::LANES];
         let mut all = Lanes {
             block,
             sums,
@@ -99,8 +99,8 @@ impl<'a, S: Simd, T: Scalar<S>, const K: usize> Lanes<'a, S, T, K> {
             settings,
             turns: 0,
         };
-        for lane in 0..Vector::<S, T, K>::LANES {
-            refill::<S, T, K>(&mut all, lane);
+        for lane in 0..Vector::<S, T>::LANES {
+            refill::<S, T>(&mut all, lane);
         }
         all
     }
@@ -119,7 +119,7 @@ impl<'a, S: Simd, T: Scalar<S>, const K: usize> Lanes<'a, S, T, K> {
 }
 
 /// Gives a lane its next instance, or lets it rest.
-fn refill<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>, lane: usize) {
+fn refill<S: Simd, T: Scalar<S>>(all: &mut Lanes<S, T>, lane: usize) {
     if all.of_lane[lane] != usize::MAX {
         all.of_lane[lane] = usize::MAX;
         all.running -= 1;
@@ -138,7 +138,7 @@ fn refill<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>, lane:
         } else {
             all.block.load_scene(lane, &job.constants, &job.words);
         }
-        if begin::<S, T, K>(all, lane) {
+        if begin::<S, T>(all, lane) {
             return;
         }
         all.of_lane[lane] = usize::MAX;
@@ -149,7 +149,7 @@ fn refill<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>, lane:
 }
 
 /// Begins the next stretch of a lane; false at the end of the part.
-fn begin<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>, lane: usize) -> bool {
+fn begin<S: Simd, T: Scalar<S>>(all: &mut Lanes<S, T>, lane: usize) -> bool {
     let sees_growth = all.sees_growth();
     let job = &mut all.jobs[all.of_lane[lane]];
     if all.part == Part::Window {
@@ -221,7 +221,7 @@ fn begin<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>, lane: 
 }
 
 /// Adds what a stretch has summed to the job.
-fn flush<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>, lane: usize) {
+fn flush<S: Simd, T: Scalar<S>>(all: &mut Lanes<S, T>, lane: usize) {
     let job = &mut all.jobs[all.of_lane[lane]];
     let sums = &all.sums;
     let contact = all.block.reached.get(lane).to_f64() as u32;
@@ -236,7 +236,7 @@ fn flush<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>, lane: 
     if all.part == Part::Window && job.in_window() {
         let half = job.half();
         job.quiet &= sums.quiet.get(lane) > T::ZERO;
-        job.seen.impacts += sums.impacts.get(lane).to_f64() as u32;
+        job.seen.impacts += sums.impacts.get(lane).to_f64() as u64;
         for (total, word) in job.seen.halves[half].iter_mut().zip(&sums.window) {
             *total += word.get(lane).to_f64();
         }
@@ -273,14 +273,14 @@ fn flush<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>, lane: 
 }
 
 /// Adds the Fourier sums of a stretch to the job; `crossed` says whether it has a crossing.
-fn keep_spectrum<S: Simd, T: Scalar<S>, const K: usize>(
+fn keep_spectrum<S: Simd, T: Scalar<S>>(
     job: &mut Job<T>,
-    spectrum: &Spectrum<S, T, K>,
+    spectrum: &Spectrum<S, T>,
     lane: usize,
     crossed: bool,
 ) {
     let half = 0.5 * (job.until - job.time);
-    let words = |words: &[Vector<S, T, K>; COMPONENTS]| {
+    let words = |words: &[Vector<S, T>; COMPONENTS]| {
         let mut values = [0.0; COMPONENTS];
         for (value, word) in values.iter_mut().zip(words) {
             *value = word.get(lane).to_f64();
@@ -300,12 +300,8 @@ fn keep_spectrum<S: Simd, T: Scalar<S>, const K: usize>(
 
 /// Looks after lanes that are at the end of their stretch or have an event that is still to be carried out.
 #[inline(never)]
-pub fn visit<S: Simd, T: Scalar<S>, const K: usize>(
-    all: &mut Lanes<S, T, K>,
-    look: &Vector<S, T, K>,
-    event: &Vector<S, T, K>,
-) {
-    for lane in 0..Vector::<S, T, K>::LANES {
+pub fn visit<S: Simd, T: Scalar<S>>(all: &mut Lanes<S, T>, look: &Vector<S, T>, event: &Vector<S, T>) {
+    for lane in 0..Vector::<S, T>::LANES {
         if look.as_slice()[lane] <= T::ZERO {
             continue;
         }
@@ -326,20 +322,20 @@ pub fn visit<S: Simd, T: Scalar<S>, const K: usize>(
         let ended = all.part == Part::Growth && function > 0;
         if ended || job.state.status != Status::Unwritten {
             let reached = (job.until - left.to_f64()).max(job.time);
-            flush::<S, T, K>(all, lane);
+            flush::<S, T>(all, lane);
             all.jobs[index].time = reached;
-            refill::<S, T, K>(all, lane);
+            refill::<S, T>(all, lane);
         } else if left > T::ZERO {
             all.block.load_state(lane, &job.state, &job.words);
         } else {
-            flush::<S, T, K>(all, lane);
+            flush::<S, T>(all, lane);
             let job = &mut all.jobs[index];
             job.time = job.until;
             if !job.state.is_finite() {
                 job.state.status = Status::NonFinite;
             }
-            if job.state.status != Status::Unwritten || !begin::<S, T, K>(all, lane) {
-                refill::<S, T, K>(all, lane);
+            if job.state.status != Status::Unwritten || !begin::<S, T>(all, lane) {
+                refill::<S, T>(all, lane);
             }
         }
     }
@@ -347,12 +343,8 @@ pub fn visit<S: Simd, T: Scalar<S>, const K: usize>(
 
 /// Ends the lanes that cannot go on.
 #[inline(never)]
-pub fn fail<S: Simd, T: Scalar<S>, const K: usize>(
-    all: &mut Lanes<S, T, K>,
-    failed: Vector<S, T, K>,
-    ill_posed: Vector<S, T, K>,
-) {
-    for lane in 0..Vector::<S, T, K>::LANES {
+pub fn fail<S: Simd, T: Scalar<S>>(all: &mut Lanes<S, T>, failed: Vector<S, T>, ill_posed: Vector<S, T>) {
+    for lane in 0..Vector::<S, T>::LANES {
         if failed.get(lane) <= T::ZERO {
             continue;
         }
@@ -368,8 +360,8 @@ pub fn fail<S: Simd, T: Scalar<S>, const K: usize>(
             _ => Status::StepTooLarge,
         };
         let reached = (job.until - all.block.left.get(lane).to_f64()).max(job.time);
-        flush::<S, T, K>(all, lane);
+        flush::<S, T>(all, lane);
         all.jobs[all.of_lane[lane]].time = reached;
-        refill::<S, T, K>(all, lane);
+        refill::<S, T>(all, lane);
     }
 }

@@ -69,9 +69,6 @@ use march::Settings;
 use pass::pass;
 use vector::Scalar;
 
-/// Registers of a vector.
-pub const REGISTERS: usize = 1;
-
 /// Order of the Taylor series: one of those whose steps damp an undamped mode whatever their length.
 pub const ORDER: usize = 13;
 
@@ -146,7 +143,7 @@ impl<T: Real, const N: usize, const LAW: bool> Parts<'_, T, N, LAW> {
         let single = LAW == expand::PIECES && jobs.iter().all(Job::is_single);
         let mut parts = Part::ALL.into_iter().peekable();
         while let Some(part) = parts.peek().copied() {
-            pass::<S, T, REGISTERS, N, LAW>(simd, jobs, part, single, settings);
+            pass::<S, T, N, LAW>(simd, jobs, part, single, settings);
             if settings.cancel.load(Ordering::Relaxed) {
                 return;
             }

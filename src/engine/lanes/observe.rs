@@ -16,44 +16,44 @@ use pulp::Simd;
 
 /// Reductions of the present stretches.
 #[derive(Clone, Copy, Debug)]
-pub struct Sums<S: Simd, T: Scalar<S>, const K: usize> {
+pub struct Sums<S: Simd, T: Scalar<S>> {
     /// Sums of the window, see [`sum`].
-    pub window: [Vector<S, T, K>; sum::WORDS],
+    pub window: [Vector<S, T>; sum::WORDS],
     /// `x2` and `y1` at the start of the window, from which its sums count.
-    pub origin: [Vector<S, T, K>; 2],
+    pub origin: [Vector<S, T>; 2],
     /// Largest values, see [`peak`].
-    pub peaks: [Vector<S, T, K>; peak::WORDS],
+    pub peaks: [Vector<S, T>; peak::WORDS],
     /// `ẋ2` at the end of the step before.
-    pub previous: Vector<S, T, K>,
+    pub previous: Vector<S, T>,
     /// Upward crossings of `ẋ2`.
-    pub crossings: Vector<S, T, K>,
+    pub crossings: Vector<S, T>,
     /// Time of the first crossing since the stretch began.
-    pub first: Vector<S, T, K>,
+    pub first: Vector<S, T>,
     /// Time of the last.
-    pub last: Vector<S, T, K>,
+    pub last: Vector<S, T>,
     /// Impacts.
-    pub impacts: Vector<S, T, K>,
+    pub impacts: Vector<S, T>,
     /// 1 as long as the stretch has no event.
-    pub quiet: Vector<S, T, K>,
+    pub quiet: Vector<S, T>,
     /// The last cycle of what is followed in closed form.
-    pub cycle: Cycle<S, T, K>,
+    pub cycle: Cycle<S, T>,
     /// Time since the stretch began.
-    pub time: Vector<S, T, K>,
+    pub time: Vector<S, T>,
     /// Sums before the first event.
-    pub growth: [Vector<S, T, K>; growth::WORDS],
+    pub growth: [Vector<S, T>; growth::WORDS],
     /// 1 until the first event.
-    pub growing: Vector<S, T, K>,
+    pub growing: Vector<S, T>,
     /// Fourier components at a guessed frequency.
-    pub spectrum: Spectrum<S, T, K>,
+    pub spectrum: Spectrum<S, T>,
     /// Angular frequency of the second pass.
-    pub omega: Vector<S, T, K>,
+    pub omega: Vector<S, T>,
     /// `exp(−iωt)`.
-    pub carrier: [Vector<S, T, K>; 2],
+    pub carrier: [Vector<S, T>; 2],
     /// Fourier components of `ẍ2` and `ÿ1`.
-    pub phase: [Vector<S, T, K>; 4],
+    pub phase: [Vector<S, T>; 4],
 }
 
-impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
+impl<S: Simd, T: Scalar<S>> Sums<S, T> {
     /// Nothing yet.
     #[inline(always)]
     pub fn new(simd: S) -> Self {
@@ -83,11 +83,11 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
     #[inline(always)]
     pub fn observe_window<const N: usize, const MOTION: u8>(
         &mut self,
-        b: &Block<S, T, K>,
-        e: &Expansion<S, T, K, N>,
-        nodes: &Nodes<S, T, K>,
-        at: Vector<S, T, K>,
-    ) -> [Vector<S, T, K>; 3] {
+        b: &Block<S, T>,
+        e: &Expansion<S, T, N>,
+        nodes: &Nodes<S, T>,
+        at: Vector<S, T>,
+    ) -> [Vector<S, T>; 3] {
         let zero = at.like(0.0);
         let tau = at * e.step;
         let mut velocities = [zero; 3];
@@ -178,7 +178,7 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
 
     /// Counts upward crossings of `ẋ2` from end to end of the steps, on straight lines: a guess at the frequency.
     #[inline(always)]
-    pub fn guess_crossings(&mut self, before: Vector<S, T, K>, after: Vector<S, T, K>, tau: Vector<S, T, K>) {
+    pub fn guess_crossings(&mut self, before: Vector<S, T>, after: Vector<S, T>, tau: Vector<S, T>) {
         let zero = tau.like(0.0);
         let jumped = self.previous.less(zero).and(zero.at_most(before));
         let rises = before.less(zero).and(zero.at_most(after)).and(zero.less(tau));
@@ -192,7 +192,7 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
 
     /// Notes one upward crossing of some lanes, this long after the step began.
     #[inline(always)]
-    pub fn note(&mut self, crossed: Mask<S, T, K>, after: Vector<S, T, K>) {
+    pub fn note(&mut self, crossed: Mask<S, T>, after: Vector<S, T>) {
         let moment = self.time + after;
         let is_first = crossed.and(self.crossings.not_positive());
         let (first, last) = (is_first.select(moment, self.first), crossed.select(moment, self.last));
@@ -205,10 +205,10 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
     #[inline(always)]
     pub fn observe_growth<const N: usize, const MOTION: u8>(
         &mut self,
-        e: &Expansion<S, T, K, N>,
-        at: Vector<S, T, K>,
-        x: Vector<S, T, K>,
-        vx: Vector<S, T, K>,
+        e: &Expansion<S, T, N>,
+        at: Vector<S, T>,
+        x: Vector<S, T>,
+        vx: Vector<S, T>,
     ) {
         let rate_square = e.rate * e.rate;
         let mut sample = [x, vx, soon_to(&e.a[0], 0, N - 3, at) * rate_square, at.like(0.0)];
@@ -220,7 +220,7 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
 
     /// Adds `x2`, its velocity, its acceleration and that of `y1` for a time `tau` to the lanes that grow.
     #[inline(always)]
-    pub fn add_growth<const MOTION: u8>(&mut self, tau: Vector<S, T, K>, sample: &[Vector<S, T, K>; 4]) {
+    pub fn add_growth<const MOTION: u8>(&mut self, tau: Vector<S, T>, sample: &[Vector<S, T>; 4]) {
         let tau = tau * self.growing;
         self.growth[growth::TIME] += tau;
         let mut word = growth::PRODUCTS;
@@ -241,7 +241,7 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
 
     /// Adds the part of the step up to `at` to the Fourier components.
     #[inline(always)]
-    pub fn observe_phase<const N: usize>(&mut self, e: &Expansion<S, T, K, N>, at: Vector<S, T, K>) {
+    pub fn observe_phase<const N: usize>(&mut self, e: &Expansion<S, T, N>, at: Vector<S, T>) {
         let rate_square = e.rate * e.rate;
         let tau = at * e.step;
         let angle = self.omega * tau;
@@ -266,16 +266,13 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
 /// velocity that is carried on by its change is not scaled by a step and back. The rounding of that scaling is the same in
 /// every step of one length and would let a motion grow or decay.
 #[inline(always)]
-pub fn change<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
-    v: &[Vector<S, T, K>; N],
-    t: Vector<S, T, K>,
-) -> Vector<S, T, K> {
+pub fn change<S: Simd, T: Scalar<S>, const N: usize>(v: &[Vector<S, T>; N], t: Vector<S, T>) -> Vector<S, T> {
     value_soon(v, 2, t) * t
 }
 
 /// The maximum of a smooth function from its samples, see [`crate::engine::kernel::observe::maximum`].
 #[inline(always)]
-fn maximum<S: Simd, T: Scalar<S>, const K: usize>(values: &[Vector<S, T, K>; 5]) -> Vector<S, T, K> {
+fn maximum<S: Simd, T: Scalar<S>>(values: &[Vector<S, T>; 5]) -> Vector<S, T> {
     let zero = values[0].like(0.0);
     let mut top = values[0];
     // The slopes to both sides of the top, the way to the sample before and the inverse of that between its neighbours.

@@ -25,7 +25,7 @@ const STICK_STEPS: f64 = 4.0;
 
 /// Runs one part of all instances that have one; `single` says whether they are all single masses.
 #[inline(always)]
-pub fn pass<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool>(
+pub fn pass<S: Simd, T: Scalar<S>, const N: usize, const LAW: bool>(
     simd: S,
     jobs: &mut [Job<T>],
     part: Part,
@@ -43,7 +43,7 @@ pub fn pass<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bo
     if const { LAW == PIECES } && part == Part::Window && !swings.is_empty() {
         let mut all = Lanes::new(block, jobs, [single, true], swings, part, settings);
         while all.go_on() {
-            simd.vectorize(Swings::<S, T, K> { all: &mut all });
+            simd.vectorize(Swings::<S, T> { all: &mut all });
         }
     }
     if steps.is_empty() {
@@ -56,56 +56,55 @@ pub fn pass<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bo
         // A function of its own for each motion: one body of all of them takes the compiler far longer.
         let (all, e, g) = (&mut all, &mut e, &mut g);
         if const { LAW == PIECES } && single {
-            simd.vectorize(Step::<S, T, K, N, LAW, SINGLE> { all, e, g, tolerance });
+            simd.vectorize(Step::<S, T, N, LAW, SINGLE> { all, e, g, tolerance });
         } else if all.block.free().any() {
-            simd.vectorize(Step::<S, T, K, N, LAW, FLIGHT> { all, e, g, tolerance });
+            simd.vectorize(Step::<S, T, N, LAW, FLIGHT> { all, e, g, tolerance });
         } else {
-            simd.vectorize(Step::<S, T, K, N, LAW, CLOSED> { all, e, g, tolerance });
+            simd.vectorize(Step::<S, T, N, LAW, CLOSED> { all, e, g, tolerance });
         }
     }
 }
 
 /// One step of every lane in closed form.
-struct Swings<'a, 'b, S: Simd, T: Scalar<S>, const K: usize> {
-    all: &'a mut Lanes<'b, S, T, K>,
+struct Swings<'a, 'b, S: Simd, T: Scalar<S>> {
+    all: &'a mut Lanes<'b, S, T>,
 }
 
-impl<S: Simd, T: Scalar<S>, const K: usize> NullaryFnOnce for Swings<'_, '_, S, T, K> {
+impl<S: Simd, T: Scalar<S>> NullaryFnOnce for Swings<'_, '_, S, T> {
     type Output = ();
 
     #[inline(always)]
     fn call(self) {
-        swing_step::<S, T, K>(self.all);
+        swing_step::<S, T>(self.all);
     }
 }
 
 /// One step of every lane.
-struct Step<'a, 'b, S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool, const MOTION: u8>
-{
-    all: &'a mut Lanes<'b, S, T, K>,
-    e: &'a mut Expansion<S, T, K, N>,
-    g: &'a mut Functions<S, T, K, N>,
-    tolerance: Vector<S, T, K>,
+struct Step<'a, 'b, S: Simd, T: Scalar<S>, const N: usize, const LAW: bool, const MOTION: u8> {
+    all: &'a mut Lanes<'b, S, T>,
+    e: &'a mut Expansion<S, T, N>,
+    g: &'a mut Functions<S, T, N>,
+    tolerance: Vector<S, T>,
 }
 
-impl<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool, const MOTION: u8> NullaryFnOnce
-    for Step<'_, '_, S, T, K, N, LAW, MOTION>
+impl<S: Simd, T: Scalar<S>, const N: usize, const LAW: bool, const MOTION: u8> NullaryFnOnce
+    for Step<'_, '_, S, T, N, LAW, MOTION>
 {
     type Output = ();
 
     #[inline(always)]
     fn call(self) {
-        step::<S, T, K, N, LAW, MOTION>(self.all, self.e, self.g, self.tolerance);
+        step::<S, T, N, LAW, MOTION>(self.all, self.e, self.g, self.tolerance);
     }
 }
 
 /// One step of every lane, up to its first event.
 #[inline(always)]
-fn step<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool, const MOTION: u8>(
-    all: &mut Lanes<S, T, K>,
-    e: &mut Expansion<S, T, K, N>,
-    g: &mut Functions<S, T, K, N>,
-    tolerance: Vector<S, T, K>,
+fn step<S: Simd, T: Scalar<S>, const N: usize, const LAW: bool, const MOTION: u8>(
+    all: &mut Lanes<S, T>,
+    e: &mut Expansion<S, T, N>,
+    g: &mut Functions<S, T, N>,
+    tolerance: Vector<S, T>,
 ) {
     let b = &mut all.block;
     let zero = b.left.like(0.0);
@@ -124,18 +123,18 @@ fn step<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool, 
     }
     let last = b.left.at_most(pace * one.like(1.0 + 1e-3));
     let h = last.select(b.left, pace);
-    let ill_posed = expand::<S, T, K, N, LAW, MOTION>(b, h, e);
-    let reach = reach::<S, T, K, N, MOTION>(e, tolerance);
+    let ill_posed = expand::<S, T, N, LAW, MOTION>(b, h, e);
+    let reach = reach::<S, T, N, MOTION>(e, tolerance);
     // Steps so short that a period does not end, or so many that the run does not.
     let failed = reach.failed.or(ill_posed).or(b.most_steps.less(b.steps));
     // Steps so short that a position stays where it is.
     let failed = failed.or((allowed * allowed).less(Vector::splat(b.simd, T::EPSILON)));
     if failed.any() {
-        fail::<S, T, K>(all, failed.select(one, zero), ill_posed.select(one, zero));
+        fail::<S, T>(all, failed.select(one, zero), ill_posed.select(one, zero));
         return;
     }
-    functions::<S, T, K, N, MOTION>(b, e, g);
-    let [at, event] = first_event::<S, T, K, N, MOTION>(b, e, g, tolerance);
+    functions::<S, T, N, MOTION>(b, e, g);
+    let [at, event] = first_event::<S, T, N, MOTION>(b, e, g, tolerance);
     let (at, event) = (at.min(reach.end), event.only(at.at_most(reach.end)));
     let (x, vx) = (value_soon(&e.p[0], 0, at), change(&e.v[0], at).fma(e.rate, b.v[0]));
     let sums = &mut all.sums;
@@ -148,10 +147,10 @@ fn step<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool, 
             sums.observe_growth::<N, MOTION>(e, at, x, vx);
         }
     } else if all.part == Part::Window {
-        let nodes = accelerations::<S, T, K, N, MOTION>(e, at);
+        let nodes = accelerations::<S, T, N, MOTION>(e, at);
         let velocities = sums.observe_window::<N, MOTION>(b, e, &nodes, at);
         let track = Track::new(e, at, b.v[0], vx, velocities, &nodes);
-        cross_upwards::<S, T, K, N, MOTION>(sums, e, &track, at);
+        cross_upwards::<S, T, N, MOTION>(sums, e, &track, at);
         if MOTION != SINGLE {
             sums.spectrum.observe::<N, MOTION>(e, &nodes, at, sums.time);
         }
@@ -182,5 +181,5 @@ fn step<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: bool, 
     let possible = reach.end * e.step;
     b.pace = possible.less(h).select(possible, reach.roomy.select(pace * one.like(LONGER), pace));
     b.steps += one;
-    carry_out::<S, T, K, LAW, MOTION>(all, event, at);
+    carry_out::<S, T, LAW, MOTION>(all, event, at);
 }

@@ -7,22 +7,22 @@ use crate::engine::lanes::vector::{Scalar, Vector};
 /// `Σ b_k t^(k − first)` over all degrees from `first` on. Even and odd ones are summed side by side, which takes less time
 /// than one chain of all.
 #[inline(always)]
-pub fn value_soon<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
-    b: &[Vector<S, T, K>; N],
+pub fn value_soon<S: Simd, T: Scalar<S>, const N: usize>(
+    b: &[Vector<S, T>; N],
     first: usize,
-    t: Vector<S, T, K>,
-) -> Vector<S, T, K> {
+    t: Vector<S, T>,
+) -> Vector<S, T> {
     soon_to(b, first, N - 1, t)
 }
 
 /// `Σ b_k t^(k − first)` over the degrees from `first` to `degree`, which is above it; see [`value_soon`].
 #[inline(always)]
-pub fn soon_to<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
-    b: &[Vector<S, T, K>; N],
+pub fn soon_to<S: Simd, T: Scalar<S>, const N: usize>(
+    b: &[Vector<S, T>; N],
     first: usize,
     degree: usize,
-    t: Vector<S, T, K>,
-) -> Vector<S, T, K> {
+    t: Vector<S, T>,
+) -> Vector<S, T> {
     let square = t * t;
     let [mut lower, mut upper] = [b[degree - 1], b[degree]];
     let mut k = degree - 1;
@@ -42,9 +42,7 @@ pub fn soon_to<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
 
 /// `Σ b_k` and `Σ k b_k`: value and slope at 1.
 #[inline(always)]
-pub fn at_one<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
-    b: &[Vector<S, T, K>; N],
-) -> [Vector<S, T, K>; 2] {
+pub fn at_one<S: Simd, T: Scalar<S>, const N: usize>(b: &[Vector<S, T>; N]) -> [Vector<S, T>; 2] {
     // Four sums at a time, which do not wait for each other.
     let mut sums = [b[0], b[1], b[2], b[3]];
     let mut slopes = [b[0].like(0.0), b[1], b[2] + b[2], b[3] * b[3].like(3.0)];
@@ -57,10 +55,10 @@ pub fn at_one<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
 
 /// `Σ b_k t^k` and its derivative.
 #[inline(always)]
-pub fn value_and_slope<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
-    b: &[Vector<S, T, K>; N],
-    t: Vector<S, T, K>,
-) -> [Vector<S, T, K>; 2] {
+pub fn value_and_slope<S: Simd, T: Scalar<S>, const N: usize>(
+    b: &[Vector<S, T>; N],
+    t: Vector<S, T>,
+) -> [Vector<S, T>; 2] {
     let mut sum = b[N - 1];
     let mut slope = sum.like(0.0);
     for k in (0..N - 1).rev() {
@@ -72,10 +70,10 @@ pub fn value_and_slope<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
 
 /// `Σ b_k t^k` and its first two derivatives, even and odd degrees at a time: sooner there than by a chain.
 #[inline(always)]
-pub fn value_slope_and_bend<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
-    b: &[Vector<S, T, K>; N],
-    t: Vector<S, T, K>,
-) -> [Vector<S, T, K>; 3] {
+pub fn value_slope_and_bend<S: Simd, T: Scalar<S>, const N: usize>(
+    b: &[Vector<S, T>; N],
+    t: Vector<S, T>,
+) -> [Vector<S, T>; 3] {
     // E(s) + t O(s) with s = t², each with its derivatives by s.
     let square = t * t;
     let zero = t.like(0.0);

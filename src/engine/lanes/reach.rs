@@ -19,30 +19,30 @@ const FAR: f64 = 0.5;
 const SHORTEST: f64 = 1e-15;
 
 /// What a step's last terms allow.
-pub struct Reach<S: Simd, T: Scalar<S>, const K: usize> {
+pub struct Reach<S: Simd, T: Scalar<S>> {
     /// How far into the step its series can be trusted, 1 for all of it.
-    pub end: Vector<S, T, K>,
+    pub end: Vector<S, T>,
     /// Lanes that would have to take steps too short to go on.
-    pub failed: Mask<S, T, K>,
+    pub failed: Mask<S, T>,
     /// Lanes that had room for a longer step.
-    pub roomy: Mask<S, T, K>,
+    pub roomy: Mask<S, T>,
 }
 
 /// How far the series are within the tolerance. A step that is far too long is made shorter, so that what
 /// looks for events has its samples where they count.
 #[inline(always)]
-pub fn reach<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const MOTION: u8>(
-    e: &mut Expansion<S, T, K, N>,
-    tolerance: Vector<S, T, K>,
-) -> Reach<S, T, K> {
+pub fn reach<S: Simd, T: Scalar<S>, const N: usize, const MOTION: u8>(
+    e: &mut Expansion<S, T, N>,
+    tolerance: Vector<S, T>,
+) -> Reach<S, T> {
     let one = e.step.like(1.0);
     let (l0, l1, l2) = (
-        largest::<S, T, K, N, MOTION>(e, 0),
-        largest::<S, T, K, N, MOTION>(e, 1),
-        largest::<S, T, K, N, MOTION>(e, 2),
+        largest::<S, T, N, MOTION>(e, 0),
+        largest::<S, T, N, MOTION>(e, 1),
+        largest::<S, T, N, MOTION>(e, 2),
     );
     let (last_but_one, very_last) =
-        (largest::<S, T, K, N, MOTION>(e, N - 2), largest::<S, T, K, N, MOTION>(e, N - 1));
+        (largest::<S, T, N, MOTION>(e, N - 2), largest::<S, T, N, MOTION>(e, N - 1));
     let bound = tolerance * l0.max(l1).max(l2);
     let growth = (2..N).fold(1.0, |power, _| power * LONGER);
     let roomy = (last_but_one.max(very_last * one.like(LONGER)) * one.like(growth)).at_most(bound);
@@ -79,10 +79,10 @@ pub fn reach<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const MOTION
 
 /// The largest magnitude of the positions' coefficients of degree `k`.
 #[inline(always)]
-pub fn largest<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const MOTION: u8>(
-    e: &Expansion<S, T, K, N>,
+pub fn largest<S: Simd, T: Scalar<S>, const N: usize, const MOTION: u8>(
+    e: &Expansion<S, T, N>,
     k: usize,
-) -> Vector<S, T, K> {
+) -> Vector<S, T> {
     match MOTION {
         SINGLE => e.p[0][k].abs(),
         FLIGHT => e.p[0][k].abs().max(e.p[2][k].abs()).max(e.p[1][k].abs()),

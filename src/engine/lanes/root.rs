@@ -17,58 +17,55 @@ const LEAST: f64 = 1e-3;
 pub const SLACK: f64 = 1e-4;
 
 /// Where an event function falls below zero, or rises beyond its span.
-pub struct Bracket<S: Simd, T: Scalar<S>, const K: usize> {
+pub struct Bracket<S: Simd, T: Scalar<S>> {
     /// A place where it is still positive, within [`SLACK`].
-    pub low: Vector<S, T, K>,
+    pub low: Vector<S, T>,
     /// A place where it no longer is, likewise.
-    pub high: Vector<S, T, K>,
+    pub high: Vector<S, T>,
     /// Between them on the parabola through one sample more; 0 when it is not positive from the start, 2 when it stays positive.
-    pub estimate: Vector<S, T, K>,
+    pub estimate: Vector<S, T>,
     /// Lanes whose function rises beyond its span there.
-    pub beyond: Mask<S, T, K>,
+    pub beyond: Mask<S, T>,
 }
 
 /// The distance of a value to the nearer end of `[0, span]`, negative outside; the value itself without a span.
 #[inline(always)]
-fn within<S: Simd, T: Scalar<S>, const K: usize, const SPAN: bool>(
-    value: Vector<S, T, K>,
-    span: Vector<S, T, K>,
-) -> Vector<S, T, K> {
+fn within<S: Simd, T: Scalar<S>, const SPAN: bool>(value: Vector<S, T>, span: Vector<S, T>) -> Vector<S, T> {
     if SPAN { value.min(span - value) } else { value }
 }
 
 /// A walk over the samples of a function from the last to the first, so that the crossing that it keeps in the end is the
 /// first.
-struct Walk<S: Simd, T: Scalar<S>, const K: usize> {
+struct Walk<S: Simd, T: Scalar<S>> {
     /// The present sample, and the function there.
-    t: Vector<S, T, K>,
-    value: Vector<S, T, K>,
-    inside: Vector<S, T, K>,
+    t: Vector<S, T>,
+    value: Vector<S, T>,
+    inside: Vector<S, T>,
     /// The function at the sample after it.
-    value_after: Vector<S, T, K>,
+    value_after: Vector<S, T>,
     /// The first sample outside, 2 for none, and the function there, one before and one after.
-    high: Vector<S, T, K>,
-    at_high: Vector<S, T, K>,
-    at_low: Vector<S, T, K>,
-    behind: Vector<S, T, K>,
+    high: Vector<S, T>,
+    at_high: Vector<S, T>,
+    at_low: Vector<S, T>,
+    behind: Vector<S, T>,
     /// The largest second difference less the way to the nearer end over [`DIP`], up to the first crossing. If it is
     /// negative, the function dips out nowhere between samples. Besides that, the same number without the first sample.
-    depth: Vector<S, T, K>,
-    depth_before: Vector<S, T, K>,
+    depth: Vector<S, T>,
+    depth_before: Vector<S, T>,
     /// How much of the present sample is in that.
-    weight: Vector<S, T, K>,
+    weight: Vector<S, T>,
 }
 
-impl<S: Simd, T: Scalar<S>, const K: usize> Walk<S, T, K> {
+impl<S: Simd, T: Scalar<S>> Walk<S, T> {
     /// On to the sample before, where the function has this value.
     #[inline(always)]
-    fn back<const SPAN: bool>(&mut self, value: Vector<S, T, K>, span: Vector<S, T, K>) {
+    fn back<const SPAN: bool>(&mut self, value: Vector<S, T>, span: Vector<S, T>) {
         let down = self.inside.not_positive();
         self.high = down.select(self.t, self.high);
         self.at_high = down.select(self.value, self.at_high);
         self.at_low = down.select(value, self.at_low);
         self.behind = down.select(self.value_after, self.behind);
-        let inside = within::<S, T, K, SPAN>(value, span);
+        let inside = within::<S, T, SPAN>(value, span);
         self.depth_before = self.depth;
         let around = value + self.value_after;
         let bent = if SPAN {
@@ -95,12 +92,12 @@ const fn weight(span: bool, part: f64) -> f64 {
 /// the first coefficient that counts (the distance to the nearer end where it is the value at the start), `has_root` says
 /// that it is not the first.
 #[inline(always)]
-pub fn bracket<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const SPAN: bool>(
-    c: &[Vector<S, T, K>; N],
-    has_root: Mask<S, T, K>,
-    lead: Vector<S, T, K>,
-    span: Vector<S, T, K>,
-) -> Bracket<S, T, K> {
+pub fn bracket<S: Simd, T: Scalar<S>, const N: usize, const SPAN: bool>(
+    c: &[Vector<S, T>; N],
+    has_root: Mask<S, T>,
+    lead: Vector<S, T>,
+    span: Vector<S, T>,
+) -> Bracket<S, T> {
     let (zero, one, never, half) = (lead.like(0.0), lead.like(1.0), lead.like(2.0), lead.like(0.5));
     let width = lead.like(1.0 / SAMPLES as f64);
     let [last, slope] = at_one(c);
@@ -108,7 +105,7 @@ pub fn bracket<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const SPAN
     let mut walk = Walk {
         t: one,
         value: last,
-        inside: within::<S, T, K, SPAN>(last, span),
+        inside: within::<S, T, SPAN>(last, span),
         value_after: last + ahead,
         high: never,
         at_high: zero,
@@ -166,7 +163,7 @@ pub fn bracket<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const SPAN
     let mut estimate = crosses.select(width.fma(part, low), never);
     let may_dip = zero.at_most(depth).and(width.less(high)).and(gone.not());
     if may_dip.any() {
-        let [sample, curvature] = dips::<S, T, K, SPAN>(&samples, ahead, falls, has_root, span);
+        let [sample, curvature] = dips::<S, T, SPAN>(&samples, ahead, falls, has_root, span);
         let dips = sample.less(high).and(may_dip);
         if dips.any() {
             let side = if SPAN { middle.less(value_soon(c, 0, sample)).select(-width, width) } else { width };
@@ -180,7 +177,7 @@ pub fn bracket<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const SPAN
                     .min(one);
             }
             let deepest = value_soon(c, 0, t);
-            let below = dips.and(within::<S, T, K, SPAN>(deepest, span).not_positive());
+            let below = dips.and(within::<S, T, SPAN>(deepest, span).not_positive());
             low = below.select((sample - width).max(zero), low);
             high = below.select(t, high);
             estimate = below.select((low + t) * half, estimate);
@@ -195,13 +192,13 @@ pub fn bracket<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const SPAN
 /// The first sample near which a function may dip out of its span, 2 for none, and its second difference there, towards
 /// the nearer end.
 #[inline(always)]
-fn dips<S: Simd, T: Scalar<S>, const K: usize, const SPAN: bool>(
-    samples: &[Vector<S, T, K>; SAMPLES + 1],
-    ahead: Vector<S, T, K>,
-    falls: Vector<S, T, K>,
-    has_root: Mask<S, T, K>,
-    span: Vector<S, T, K>,
-) -> [Vector<S, T, K>; 2] {
+fn dips<S: Simd, T: Scalar<S>, const SPAN: bool>(
+    samples: &[Vector<S, T>; SAMPLES + 1],
+    ahead: Vector<S, T>,
+    falls: Vector<S, T>,
+    has_root: Mask<S, T>,
+    span: Vector<S, T>,
+) -> [Vector<S, T>; 2] {
     let (zero, two, dip) = (falls.like(0.0), falls.like(2.0), falls.like(DIP));
     let (mut sample, mut curvature) = (two, falls.like(1.0));
     // Nearest to its end in the middle, or at the end of the step on its way back: it may dip out in between.
@@ -214,7 +211,7 @@ fn dips<S: Simd, T: Scalar<S>, const K: usize, const SPAN: bool>(
             (before, after) = (upper.select(-before, before), upper.select(-after, after));
         }
         let bent = if i == 0 || i == SAMPLES { two * (before + after) } else { before + after };
-        let close = within::<S, T, K, SPAN>(here, span).at_most(bent * dip);
+        let close = within::<S, T, SPAN>(here, span).at_most(bent * dip);
         let mut nearest = zero.less(before).and(close);
         nearest = nearest.and(if i == 0 { zero.at_most(after) } else { zero.less(after) });
         if i == 0 {
@@ -229,11 +226,11 @@ fn dips<S: Simd, T: Scalar<S>, const K: usize, const SPAN: bool>(
 /// The root in a bracket by Halley's method that stays inside, for the function without its root of some order at
 /// zero.
 #[inline(always)]
-pub fn refine<S: Simd, T: Scalar<S>, const K: usize, const N: usize>(
-    c: &[Vector<S, T, K>; N],
-    order: Vector<S, T, K>,
-    bracket: &Bracket<S, T, K>,
-) -> Vector<S, T, K> {
+pub fn refine<S: Simd, T: Scalar<S>, const N: usize>(
+    c: &[Vector<S, T>; N],
+    order: Vector<S, T>,
+    bracket: &Bracket<S, T>,
+) -> Vector<S, T> {
     let zero = c[0].like(0.0);
     // A sample may be judged by what its degrees leave out.
     let slack = zero.like(SLACK);

@@ -26,27 +26,27 @@ const CLOSING: f64 = 1.5;
 
 /// The sums of the present stretches.
 #[derive(Clone, Copy, Debug)]
-pub struct Spectrum<S: Simd, T: Scalar<S>, const K: usize> {
+pub struct Spectrum<S: Simd, T: Scalar<S>> {
     /// The guess.
-    pub omega: Vector<S, T, K>,
+    pub omega: Vector<S, T>,
     /// `exp(−iω′(t − t_m))`.
-    pub carrier: [Vector<S, T, K>; 2],
+    pub carrier: [Vector<S, T>; 2],
     /// `1/T`.
-    pub scale: Vector<S, T, K>,
+    pub scale: Vector<S, T>,
     /// 1 from the first crossing on.
-    pub begun: Vector<S, T, K>,
+    pub begun: Vector<S, T>,
     /// The time of the stretch from which crossings are noted.
-    pub closing: Vector<S, T, K>,
+    pub closing: Vector<S, T>,
     /// 1 when the last crossing has been.
-    pub fresh: Vector<S, T, K>,
+    pub fresh: Vector<S, T>,
     /// Sums up to now.
-    pub sums: [Vector<S, T, K>; COMPONENTS],
+    pub sums: [Vector<S, T>; COMPONENTS],
     /// Sums up to the last crossing that was noted.
-    pub noted: [Vector<S, T, K>; COMPONENTS],
+    pub noted: [Vector<S, T>; COMPONENTS],
 }
 
 /// `ẍ2` and `ÿ1` at the nodes of a step.
-pub type Nodes<S, T, const K: usize> = [[Vector<S, T, K>; 2]; 3];
+pub type Nodes<S, T> = [[Vector<S, T>; 2]; 3];
 
 /// How many of `x2` and `y1` move.
 #[must_use]
@@ -64,10 +64,10 @@ pub const fn seen(highest: usize, node: usize) -> usize {
 
 /// The accelerations at the nodes of the step up to `at`.
 #[inline(always)]
-pub fn accelerations<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const MOTION: u8>(
-    e: &Expansion<S, T, K, N>,
-    at: Vector<S, T, K>,
-) -> Nodes<S, T, K> {
+pub fn accelerations<S: Simd, T: Scalar<S>, const N: usize, const MOTION: u8>(
+    e: &Expansion<S, T, N>,
+    at: Vector<S, T>,
+) -> Nodes<S, T> {
     let rate_square = e.rate * e.rate;
     let mut nodes = [[at.like(0.0); 2]; 3];
     for i in 0..3 {
@@ -80,12 +80,12 @@ pub fn accelerations<S: Simd, T: Scalar<S>, const K: usize, const N: usize, cons
 }
 
 /// The sums of a part of a step, and the carrier at its end.
-struct Part<S: Simd, T: Scalar<S>, const K: usize> {
-    sums: [Vector<S, T, K>; COMPONENTS],
-    carrier: [Vector<S, T, K>; 2],
+struct Part<S: Simd, T: Scalar<S>> {
+    sums: [Vector<S, T>; COMPONENTS],
+    carrier: [Vector<S, T>; 2],
 }
 
-impl<S: Simd, T: Scalar<S>, const K: usize> Spectrum<S, T, K> {
+impl<S: Simd, T: Scalar<S>> Spectrum<S, T> {
     /// Nothing yet.
     #[inline(always)]
     pub fn new(simd: S) -> Self {
@@ -127,11 +127,11 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Spectrum<S, T, K> {
     #[inline(always)]
     fn part<const N: usize, const MOTION: u8>(
         &self,
-        e: &Expansion<S, T, K, N>,
-        accelerations: &Nodes<S, T, K>,
-        at: Vector<S, T, K>,
-        time: Vector<S, T, K>,
-    ) -> Part<S, T, K> {
+        e: &Expansion<S, T, N>,
+        accelerations: &Nodes<S, T>,
+        at: Vector<S, T>,
+        time: Vector<S, T>,
+    ) -> Part<S, T> {
         let tau = at * e.step;
         let angle = self.omega * tau;
         let outer = rotation(angle * at.like(NODES[0]));
@@ -162,10 +162,10 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Spectrum<S, T, K> {
     #[inline(always)]
     pub fn note<const N: usize, const MOTION: u8>(
         &mut self,
-        e: &Expansion<S, T, K, N>,
-        time: Vector<S, T, K>,
-        crossed: Mask<S, T, K>,
-        moment: Vector<S, T, K>,
+        e: &Expansion<S, T, N>,
+        time: Vector<S, T>,
+        crossed: Mask<S, T>,
+        moment: Vector<S, T>,
     ) {
         let one = moment.like(1.0);
         if MOTION == SINGLE {
@@ -173,7 +173,7 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Spectrum<S, T, K> {
             self.begun = crossed.select(one, self.begun);
             return;
         }
-        let nodes = accelerations::<S, T, K, N, MOTION>(e, moment);
+        let nodes = accelerations::<S, T, N, MOTION>(e, moment);
         let before = self.part::<N, MOTION>(e, &nodes, moment, time).sums;
         let zero = moment.like(0.0);
         let begun = zero.less(self.begun);
@@ -192,10 +192,10 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Spectrum<S, T, K> {
     #[inline(always)]
     pub fn observe<const N: usize, const MOTION: u8>(
         &mut self,
-        e: &Expansion<S, T, K, N>,
-        nodes: &Nodes<S, T, K>,
-        at: Vector<S, T, K>,
-        time: Vector<S, T, K>,
+        e: &Expansion<S, T, N>,
+        nodes: &Nodes<S, T>,
+        at: Vector<S, T>,
+        time: Vector<S, T>,
     ) {
         let whole = self.part::<N, MOTION>(e, nodes, at, time);
         let begun = at.like(0.0).less(self.begun);

@@ -22,52 +22,52 @@ const UNSURE: f64 = 0.5;
 
 /// The motion of every lane from its present state on.
 #[derive(Clone, Copy, Debug)]
-pub struct Swing<S: Simd, T: Scalar<S>, const K: usize> {
+pub struct Swing<S: Simd, T: Scalar<S>> {
     /// Lanes that stick.
-    pub sticks: Mask<S, T, K>,
+    pub sticks: Mask<S, T>,
     /// The point about which the others swing.
-    pub centre: Vector<S, T, K>,
+    pub centre: Vector<S, T>,
     /// Distance from it, velocity and acceleration at the beginning.
-    pub begin: [Vector<S, T, K>; 3],
+    pub begin: [Vector<S, T>; 3],
     /// What turns with the sine in each, where that turns with the cosine.
-    pub sine: [Vector<S, T, K>; 3],
+    pub sine: [Vector<S, T>; 3],
     /// Friction less that of the equilibrium, or what the spring and the damper take of it.
-    pub force: Vector<S, T, K>,
+    pub force: Vector<S, T>,
     /// `σ`.
-    pub sigma: Vector<S, T, K>,
+    pub sigma: Vector<S, T>,
     /// The angle by which `σ` times the acceleration is behind its maximum, in `(−π, π]`.
-    pub phase: Vector<S, T, K>,
+    pub phase: Vector<S, T>,
     /// The constants of [`SWING`].
-    pub decay: Vector<S, T, K>,
+    pub decay: Vector<S, T>,
     /// Angular frequency.
-    pub omega: Vector<S, T, K>,
+    pub omega: Vector<S, T>,
     /// Its inverse.
-    pub per_omega: Vector<S, T, K>,
+    pub per_omega: Vector<S, T>,
     /// The inverse of the stiffness.
-    pub per_stiffness: Vector<S, T, K>,
+    pub per_stiffness: Vector<S, T>,
     /// By how much of a turn a velocity is less than a quarter ahead of its position.
-    pub lag: Vector<S, T, K>,
+    pub lag: Vector<S, T>,
     /// Whether any lane is damped.
     damped: bool,
 }
 
 /// Where a step ends.
 #[derive(Clone, Copy, Debug)]
-pub struct Reached<S: Simd, T: Scalar<S>, const K: usize> {
+pub struct Reached<S: Simd, T: Scalar<S>> {
     /// Its length.
-    pub tau: Vector<S, T, K>,
+    pub tau: Vector<S, T>,
     /// `exp(−δτ) − 1`.
-    pub decayed: Vector<S, T, K>,
+    pub decayed: Vector<S, T>,
     /// Distance from the centre of the swing and velocity; those that stick have no such distance.
-    pub state: [Vector<S, T, K>; 2],
+    pub state: [Vector<S, T>; 2],
     /// The event function that ends it, 0 for none.
-    pub event: Vector<S, T, K>,
+    pub event: Vector<S, T>,
 }
 
-impl<S: Simd, T: Scalar<S>, const K: usize> Swing<S, T, K> {
+impl<S: Simd, T: Scalar<S>> Swing<S, T> {
     /// From the states of all lanes, whose sticking ones move as their belts do.
     #[inline(always)]
-    pub fn new(b: &Block<S, T, K>) -> Self {
+    pub fn new(b: &Block<S, T>) -> Self {
         let (sticks, sigma) = (b.stick(), b.sigma());
         let forward = sigma.like(0.0).less(sigma);
         let (decay, omega, per_omega) = (b.scene[SWING], b.scene[SWING + 1], b.scene[SWING + 2]);
@@ -103,20 +103,20 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Swing<S, T, K> {
 
     /// The largest value that the derivative `n` would have at its first extremum, had nothing decayed since the beginning.
     #[inline(always)]
-    pub fn largest(&self, n: usize) -> Vector<S, T, K> {
+    pub fn largest(&self, n: usize) -> Vector<S, T> {
         let square = self.begin[n].fma(self.begin[n], self.sine[n] * self.sine[n]);
         self.omega * (square * self.per_stiffness).sqrt()
     }
 
     /// `exp(−δt) − 1`.
     #[inline(always)]
-    pub fn decayed(&self, t: Vector<S, T, K>) -> Vector<S, T, K> {
+    pub fn decayed(&self, t: Vector<S, T>) -> Vector<S, T> {
         if self.damped { exp_m1(t.like(0.0) - self.decay * t) } else { t.like(0.0) }
     }
 
     /// Distance from the centre and velocity at `t`, and what [`Swing::decayed`] is there.
     #[inline(always)]
-    fn at(&self, t: Vector<S, T, K>) -> ([Vector<S, T, K>; 2], Vector<S, T, K>) {
+    fn at(&self, t: Vector<S, T>) -> ([Vector<S, T>; 2], Vector<S, T>) {
         let ([cosine, sine], short) = far_rotation(self.omega * t);
         let decayed = self.decayed(t);
         let rest = decayed + short;
@@ -131,7 +131,7 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Swing<S, T, K> {
     /// The next event, at most `left` ahead. Without one it is the end of the step: the end of `left` or the place where the
     /// sliding speed is least, whichever comes first. Lanes that are `short` take no longer steps than that.
     #[inline(always)]
-    pub fn reach(&self, b: &Block<S, T, K>, short: Mask<S, T, K>) -> Reached<S, T, K> {
+    pub fn reach(&self, b: &Block<S, T>, short: Mask<S, T>) -> Reached<S, T> {
         let (zero, one) = (b.left.like(0.0), b.left.like(1.0));
         let sticks = self.sticks;
         // The belt carries the body to the edge of the cone.
@@ -172,11 +172,11 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Swing<S, T, K> {
     #[inline(always)]
     fn rest(
         &self,
-        b: &Block<S, T, K>,
-        live: Mask<S, T, K>,
-        [mut low, mut high]: [Vector<S, T, K>; 2],
-        least: Vector<S, T, K>,
-    ) -> (Vector<S, T, K>, Vector<S, T, K>, Vector<S, T, K>) {
+        b: &Block<S, T>,
+        live: Mask<S, T>,
+        [mut low, mut high]: [Vector<S, T>; 2],
+        least: Vector<S, T>,
+    ) -> (Vector<S, T>, Vector<S, T>, Vector<S, T>) {
         let (zero, one, two) = (low.like(0.0), low.like(1.0), low.like(2.0));
         // As if the amplitude stayed what it is at the end, where the velocity is `cos(lag)` of it and hardly changes.
         let amplitude = self.largest(1);
@@ -227,7 +227,7 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Swing<S, T, K> {
 
     /// Lanes whose velocity rises over zero on the way to `end`, and when.
     #[inline(always)]
-    pub fn rises(&self, end: &Reached<S, T, K>) -> (Mask<S, T, K>, Vector<S, T, K>) {
+    pub fn rises(&self, end: &Reached<S, T>) -> (Mask<S, T>, Vector<S, T>) {
         let zero = end.tau.like(0.0);
         let unsure = zero.like(UNSURE);
         let half = zero.less(self.sigma).select(zero, zero.like(PI));

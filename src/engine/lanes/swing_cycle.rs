@@ -15,11 +15,11 @@ use crate::engine::sums::sum;
 /// A slip from the end of stick takes longer than half a turn at an angular frequency of about 1. A shorter one is chatter.
 const SHORTEST: f64 = 1.0;
 
-impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
+impl<S: Simd, T: Scalar<S>> Sums<S, T> {
     /// Where stick has come to its end for the second time (`slips`), adds the whole cycles that are left of the stretch;
     /// where for the first, remembers it. `window`: whether the sums of the window count.
     #[inline(always)]
-    pub fn add_cycles(&mut self, b: &mut Block<S, T, K>, slips: Mask<S, T, K>, window: bool) {
+    pub fn add_cycles(&mut self, b: &mut Block<S, T>, slips: Mask<S, T>, window: bool) {
         let zero = b.left.like(0.0);
         let period = self.time - self.cycle.since;
         let known = slips.and(zero.at_most(self.cycle.since)).and(zero.like(SHORTEST).less(period));

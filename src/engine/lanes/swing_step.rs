@@ -14,7 +14,7 @@ use crate::engine::lanes::vector::Scalar;
 
 /// One step of every lane.
 #[inline(always)]
-pub fn swing_step<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K>) {
+pub fn swing_step<S: Simd, T: Scalar<S>>(all: &mut Lanes<S, T>) {
     let (b, sums) = (&mut all.block, &mut all.sums);
     let (zero, one) = (b.left.like(0.0), b.left.like(1.0));
     let velocity = b.stick().select(b.belt, b.v[0]);
@@ -22,7 +22,7 @@ pub fn swing_step<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K
     b.reached = b.reached.max(b.contact);
     let failed = b.most_steps.less(b.steps);
     if failed.any() {
-        fail::<S, T, K>(all, failed.select(one, zero), zero);
+        fail::<S, T>(all, failed.select(one, zero), zero);
         return;
     }
     let motion = Swing::new(b);
@@ -60,5 +60,5 @@ pub fn swing_step<S: Simd, T: Scalar<S>, const K: usize>(all: &mut Lanes<S, T, K
     if slips.any() {
         sums.add_cycles(b, slips, all.part == Part::Window);
     }
-    carry_out::<S, T, K, PIECES, SINGLE>(all, end.event, tau);
+    carry_out::<S, T, PIECES, SINGLE>(all, end.event, tau);
 }

@@ -16,10 +16,10 @@ use crate::engine::lanes::swing::{Reached, Swing};
 use crate::engine::lanes::vector::{Scalar, Vector};
 use crate::engine::sums::{peak, sum};
 
-impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
+impl<S: Simd, T: Scalar<S>> Sums<S, T> {
     /// Adds a step to the window.
     #[inline(always)]
-    pub fn observe_swing(&mut self, b: &Block<S, T, K>, motion: &Swing<S, T, K>, end: &Reached<S, T, K>) {
+    pub fn observe_swing(&mut self, b: &Block<S, T>, motion: &Swing<S, T>, end: &Reached<S, T>) {
         let (sticks, tau) = (motion.sticks, end.tau);
         let (zero, half) = (tau.like(0.0), tau.like(0.5));
         let damper = b.scene[R + 3];
@@ -62,12 +62,12 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Sums<S, T, K> {
 /// `∫p²` and `∫q²` over a step of what swings, `p`, and of its derivative `q`, from their values at both ends; `span` is the
 /// integral of the decay of their squares.
 #[inline(always)]
-fn squares<S: Simd, T: Scalar<S>, const K: usize>(
-    motion: &Swing<S, T, K>,
-    span: Vector<S, T, K>,
-    [p0, q0]: [Vector<S, T, K>; 2],
-    [p1, q1]: [Vector<S, T, K>; 2],
-) -> [Vector<S, T, K>; 2] {
+fn squares<S: Simd, T: Scalar<S>>(
+    motion: &Swing<S, T>,
+    span: Vector<S, T>,
+    [p0, q0]: [Vector<S, T>; 2],
+    [p1, q1]: [Vector<S, T>; 2],
+) -> [Vector<S, T>; 2] {
     let half = span.like(0.5);
     let (turning, across) = (motion.decay.fma(p0, q0), motion.omega * p0);
     let energy = turning.fma(turning, across * across) * span;
@@ -81,10 +81,10 @@ fn squares<S: Simd, T: Scalar<S>, const K: usize>(
     [p.only(p.less(zero).not()), q.only(q.less(zero).not())]
 }
 
-impl<S: Simd, T: Scalar<S>, const K: usize> Swing<S, T, K> {
+impl<S: Simd, T: Scalar<S>> Swing<S, T> {
     /// The first extremum of the acceleration within `tau`, which is the largest; 0 without one.
     #[inline(always)]
-    fn largest_acceleration(&self, tau: Vector<S, T, K>) -> Vector<S, T, K> {
+    fn largest_acceleration(&self, tau: Vector<S, T>) -> Vector<S, T> {
         let t = folded(folded(self.phase - self.lag, TAU), PI) * self.per_omega;
         let size = self.largest(2);
         self.decayed(t).fma(size, size).only(t.less(tau))

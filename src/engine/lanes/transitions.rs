@@ -17,7 +17,7 @@ use crate::engine::lanes::vector::{Mask, Scalar, Vector};
 
 /// A linear form of the state.
 #[inline(always)]
-fn form<S: Simd, T: Scalar<S>, const K: usize>(b: &Block<S, T, K>, at: usize) -> Vector<S, T, K> {
+fn form<S: Simd, T: Scalar<S>>(b: &Block<S, T>, at: usize) -> Vector<S, T> {
     let mut sum = b.scene[at].fma(b.p[0], b.scene[at + 2] * b.p[2]);
     sum = b.scene[at + 3].fma(b.v[0], sum);
     b.scene[at + 5].fma(b.v[2], sum)
@@ -25,17 +25,17 @@ fn form<S: Simd, T: Scalar<S>, const K: usize>(b: &Block<S, T, K>, at: usize) ->
 
 /// A code in every lane.
 #[inline(always)]
-fn code<S: Simd, T: Scalar<S>, const K: usize>(like: Vector<S, T, K>, code: u32) -> Vector<S, T, K> {
+fn code<S: Simd, T: Scalar<S>>(like: Vector<S, T>, code: u32) -> Vector<S, T> {
     like.like(f64::from(code))
 }
 
 /// Carries out the events of all lanes, `at` their places in the step; returns the lanes that are left to be looked at.
 #[inline(always)]
-pub fn transitions<S: Simd, T: Scalar<S>, const K: usize, const LAW: bool, const MOTION: u8>(
-    b: &mut Block<S, T, K>,
-    event: Vector<S, T, K>,
-    at: Vector<S, T, K>,
-) -> Mask<S, T, K> {
+pub fn transitions<S: Simd, T: Scalar<S>, const LAW: bool, const MOTION: u8>(
+    b: &mut Block<S, T>,
+    event: Vector<S, T>,
+    at: Vector<S, T>,
+) -> Mask<S, T> {
     let (zero, one) = (event.like(0.0), event.like(1.0));
     let happened = zero.less(event);
     let at_once = happened.select((b.at_once + one).only(at.not_positive()), b.at_once);
@@ -107,25 +107,25 @@ pub fn transitions<S: Simd, T: Scalar<S>, const K: usize, const LAW: bool, const
 }
 
 /// Lanes that fall onto the belt.
-struct Landing<S: Simd, T: Scalar<S>, const K: usize> {
+struct Landing<S: Simd, T: Scalar<S>> {
     /// Lanes that come to rest on it.
-    at_rest: Mask<S, T, K>,
+    at_rest: Mask<S, T>,
     /// Lanes that slide.
-    moving: Mask<S, T, K>,
+    moving: Mask<S, T>,
     /// Lanes that slide and that the belt overtakes.
-    forward: Mask<S, T, K>,
+    forward: Mask<S, T>,
     /// Lanes that fly on.
-    rebounds: Mask<S, T, K>,
+    rebounds: Mask<S, T>,
     /// A body that lands again and again without time between is held: the force is zero within rounding.
-    held: Mask<S, T, K>,
+    held: Mask<S, T>,
     /// They slide on the other piece of their law.
-    elsewhere: Mask<S, T, K>,
+    elsewhere: Mask<S, T>,
 }
 
-impl<S: Simd, T: Scalar<S>, const K: usize> Landing<S, T, K> {
+impl<S: Simd, T: Scalar<S>> Landing<S, T> {
     /// No lane lands.
     #[inline(always)]
-    fn nowhere(like: Vector<S, T, K>) -> Self {
+    fn nowhere(like: Vector<S, T>) -> Self {
         let none = like.like(0.0).less(like.like(0.0));
         Landing { at_rest: none, moving: none, forward: none, rebounds: none, held: none, elsewhere: none }
     }
@@ -133,11 +133,11 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Landing<S, T, K> {
 
 /// Carries out the impacts of the lanes `hits` but for those that are `rare`.
 #[inline(always)]
-fn land<S: Simd, T: Scalar<S>, const K: usize>(
-    b: &mut Block<S, T, K>,
-    hits: Mask<S, T, K>,
-    rare: &mut Mask<S, T, K>,
-) -> Landing<S, T, K> {
+fn land<S: Simd, T: Scalar<S>>(
+    b: &mut Block<S, T>,
+    hits: Mask<S, T>,
+    rare: &mut Mask<S, T>,
+) -> Landing<S, T> {
     let zero = b.left.like(0.0);
     let after = impact(b);
     let relative = b.belt - after.tangential;

@@ -1,7 +1,6 @@
-//! Vectors of lanes: `K` registers of the machine side by side.
+//! Vectors of lanes: one register of the machine.
 //!
-//! One register leaves the recurrences of a step waiting for their own results; two keep both multipliers
-//! busy. Every operation is inlined into the code that `pulp` compiles for the instruction set found at run
+//! Every operation is inlined into the code that `pulp` compiles for the instruction set found at run
 //! time.
 
 use std::fmt::Debug;
@@ -200,29 +199,29 @@ scalar!(
     first_true_m64s
 );
 
-/// `K` registers; aligned to cache lines, which the registers of `pulp` are not.
+/// A register; aligned to cache lines, which the registers of `pulp` are not.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(64))]
-pub struct Vector<S: Simd, T: Scalar<S>, const K: usize> {
+pub struct Vector<S: Simd, T: Scalar<S>> {
     simd: S,
-    registers: [T::Register; K],
+    register: T::Register,
 }
 
 /// A truth value per lane of a [`Vector`].
 #[derive(Clone, Copy, Debug)]
-pub struct Mask<S: Simd, T: Scalar<S>, const K: usize> {
+pub struct Mask<S: Simd, T: Scalar<S>> {
     simd: S,
-    bits: [T::Bits; K],
+    bits: T::Bits,
 }
 
-impl<S: Simd, T: Scalar<S>, const K: usize> Vector<S, T, K> {
+impl<S: Simd, T: Scalar<S>> Vector<S, T> {
     /// Lanes.
-    pub const LANES: usize = T::LANES * K;
+    pub const LANES: usize = T::LANES;
 
     /// A vector with `value` in every lane.
     #[inline(always)]
     pub fn splat(simd: S, value: T) -> Self {
-        Vector { simd, registers: [T::splat(simd, value); K] }
+        Vector { simd, register: T::splat(simd, value) }
     }
 
     /// A vector with `value` in every lane, rounded to the scalar.
@@ -253,104 +252,72 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Vector<S, T, K> {
     /// Sets the value of a lane.
     #[inline(always)]
     pub fn set(&mut self, lane: usize, value: T) {
-        bytemuck::cast_slice_mut::<T::Register, T>(&mut self.registers)[lane] = value;
+        bytemuck::cast_slice_mut::<T::Register, T>(std::slice::from_mut(&mut self.register))[lane] = value;
     }
 
     /// The lanes.
     #[inline(always)]
     pub fn as_slice(&self) -> &[T] {
-        bytemuck::cast_slice(&self.registers)
+        bytemuck::cast_slice(std::slice::from_ref(&self.register))
     }
 
     /// `self b + c`.
     #[inline(always)]
     #[must_use]
     pub fn fma(self, b: Self, c: Self) -> Self {
-        let mut registers = self.registers;
-        for k in 0..K {
-            registers[k] = T::fma(self.simd, self.registers[k], b.registers[k], c.registers[k]);
-        }
-        Vector { simd: self.simd, registers }
+        Vector { simd: self.simd, register: T::fma(self.simd, self.register, b.register, c.register) }
     }
 
     /// `c − self b`.
     #[inline(always)]
     #[must_use]
     pub fn fnma(self, b: Self, c: Self) -> Self {
-        let mut registers = self.registers;
-        for k in 0..K {
-            registers[k] = T::fnma(self.simd, self.registers[k], b.registers[k], c.registers[k]);
-        }
-        Vector { simd: self.simd, registers }
+        Vector { simd: self.simd, register: T::fnma(self.simd, self.register, b.register, c.register) }
     }
 
     /// The magnitude.
     #[inline(always)]
     #[must_use]
     pub fn abs(self) -> Self {
-        let mut registers = self.registers;
-        for k in 0..K {
-            registers[k] = <T as Scalar<S>>::abs(self.simd, self.registers[k]);
-        }
-        Vector { simd: self.simd, registers }
+        Vector { simd: self.simd, register: <T as Scalar<S>>::abs(self.simd, self.register) }
     }
 
     /// The square root.
     #[inline(always)]
     #[must_use]
     pub fn sqrt(self) -> Self {
-        let mut registers = self.registers;
-        for k in 0..K {
-            registers[k] = <T as Scalar<S>>::sqrt(self.simd, self.registers[k]);
-        }
-        Vector { simd: self.simd, registers }
+        Vector { simd: self.simd, register: <T as Scalar<S>>::sqrt(self.simd, self.register) }
     }
 
     /// The smaller of two.
     #[inline(always)]
     #[must_use]
     pub fn min(self, b: Self) -> Self {
-        let mut registers = self.registers;
-        for k in 0..K {
-            registers[k] = <T as Scalar<S>>::min(self.simd, self.registers[k], b.registers[k]);
-        }
-        Vector { simd: self.simd, registers }
+        Vector { simd: self.simd, register: <T as Scalar<S>>::min(self.simd, self.register, b.register) }
     }
 
     /// The larger of two.
     #[inline(always)]
     #[must_use]
     pub fn max(self, b: Self) -> Self {
-        let mut registers = self.registers;
-        for k in 0..K {
-            registers[k] = <T as Scalar<S>>::max(self.simd, self.registers[k], b.registers[k]);
-        }
-        Vector { simd: self.simd, registers }
+        Vector { simd: self.simd, register: <T as Scalar<S>>::max(self.simd, self.register, b.register) }
     }
 
     /// `self < b`.
     #[inline(always)]
-    pub fn less(self, b: Self) -> Mask<S, T, K> {
-        let mut bits = [T::less(self.simd, self.registers[0], b.registers[0]); K];
-        for k in 1..K {
-            bits[k] = T::less(self.simd, self.registers[k], b.registers[k]);
-        }
-        Mask { simd: self.simd, bits }
+    pub fn less(self, b: Self) -> Mask<S, T> {
+        Mask { simd: self.simd, bits: T::less(self.simd, self.register, b.register) }
     }
 
     /// `self ≤ b`.
     #[inline(always)]
-    pub fn at_most(self, b: Self) -> Mask<S, T, K> {
-        let mut bits = [T::at_most(self.simd, self.registers[0], b.registers[0]); K];
-        for k in 1..K {
-            bits[k] = T::at_most(self.simd, self.registers[k], b.registers[k]);
-        }
-        Mask { simd: self.simd, bits }
+    pub fn at_most(self, b: Self) -> Mask<S, T> {
+        Mask { simd: self.simd, bits: T::at_most(self.simd, self.register, b.register) }
     }
 
     /// `self ≤ 0`.
     #[inline(always)]
-    pub fn not_positive(self) -> Mask<S, T, K> {
+    pub fn not_positive(self) -> Mask<S, T> {
         self.at_most(self.like(0.0))
     }
 
@@ -382,67 +349,52 @@ impl<S: Simd, T: Scalar<S>, const K: usize> Vector<S, T, K> {
     /// `self` where the mask is set, else 0.
     #[inline(always)]
     #[must_use]
-    pub fn only(self, mask: Mask<S, T, K>) -> Self {
+    pub fn only(self, mask: Mask<S, T>) -> Self {
         mask.select(self, self.like(0.0))
     }
 }
 
-impl<S: Simd, T: Scalar<S>, const K: usize> Mask<S, T, K> {
+impl<S: Simd, T: Scalar<S>> Mask<S, T> {
     /// `yes` where set.
     #[inline(always)]
-    pub fn select(self, yes: Vector<S, T, K>, no: Vector<S, T, K>) -> Vector<S, T, K> {
-        let mut registers = no.registers;
-        for k in 0..K {
-            registers[k] =
-                <T as Scalar<S>>::select(self.simd, self.bits[k], yes.registers[k], no.registers[k]);
+    pub fn select(self, yes: Vector<S, T>, no: Vector<S, T>) -> Vector<S, T> {
+        Vector {
+            simd: self.simd,
+            register: <T as Scalar<S>>::select(self.simd, self.bits, yes.register, no.register),
         }
-        Vector { simd: self.simd, registers }
     }
 
     /// Both.
     #[inline(always)]
     #[must_use]
     pub fn and(self, b: Self) -> Self {
-        let mut bits = self.bits;
-        for k in 0..K {
-            bits[k] = T::and(self.simd, self.bits[k], b.bits[k]);
-        }
-        Mask { simd: self.simd, bits }
+        Mask { simd: self.simd, bits: T::and(self.simd, self.bits, b.bits) }
     }
 
     /// Either.
     #[inline(always)]
     #[must_use]
     pub fn or(self, b: Self) -> Self {
-        let mut bits = self.bits;
-        for k in 0..K {
-            bits[k] = T::or(self.simd, self.bits[k], b.bits[k]);
-        }
-        Mask { simd: self.simd, bits }
+        Mask { simd: self.simd, bits: T::or(self.simd, self.bits, b.bits) }
     }
 
     /// Whether any lane is set.
     #[inline(always)]
     pub fn any(self) -> bool {
-        let mut all = self.bits[0];
-        for k in 1..K {
-            all = T::or(self.simd, all, self.bits[k]);
-        }
-        T::any(self.simd, all)
+        T::any(self.simd, self.bits)
     }
 }
 
 macro_rules! operator {
     ($trait:ident, $method:ident) => {
-        impl<S: Simd, T: Scalar<S>, const K: usize> $trait for Vector<S, T, K> {
+        impl<S: Simd, T: Scalar<S>> $trait for Vector<S, T> {
             type Output = Self;
             #[inline(always)]
             fn $method(self, b: Self) -> Self {
-                let mut registers = self.registers;
-                for k in 0..K {
-                    registers[k] = <T as Scalar<S>>::$method(self.simd, self.registers[k], b.registers[k]);
+                Vector {
+                    simd: self.simd,
+                    register: <T as Scalar<S>>::$method(self.simd, self.register, b.register),
                 }
-                Vector { simd: self.simd, registers }
             }
         }
     };
@@ -453,33 +405,25 @@ operator!(Sub, sub);
 operator!(Mul, mul);
 operator!(Div, div);
 
-impl<S: Simd, T: Scalar<S>, const K: usize> Neg for Vector<S, T, K> {
+impl<S: Simd, T: Scalar<S>> Neg for Vector<S, T> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        let mut registers = self.registers;
-        for k in 0..K {
-            registers[k] = <T as Scalar<S>>::neg(self.simd, self.registers[k]);
-        }
-        Vector { simd: self.simd, registers }
+        Vector { simd: self.simd, register: <T as Scalar<S>>::neg(self.simd, self.register) }
     }
 }
 
-impl<S: Simd, T: Scalar<S>, const K: usize> AddAssign for Vector<S, T, K> {
+impl<S: Simd, T: Scalar<S>> AddAssign for Vector<S, T> {
     #[inline(always)]
     fn add_assign(&mut self, b: Self) {
         *self = *self + b;
     }
 }
 
-impl<S: Simd, T: Scalar<S>, const K: usize> Not for Mask<S, T, K> {
+impl<S: Simd, T: Scalar<S>> Not for Mask<S, T> {
     type Output = Self;
     #[inline(always)]
     fn not(self) -> Self {
-        let mut bits = self.bits;
-        for k in 0..K {
-            bits[k] = T::not(self.simd, self.bits[k]);
-        }
-        Mask { simd: self.simd, bits }
+        Mask { simd: self.simd, bits: T::not(self.simd, self.bits) }
     }
 }

@@ -5,7 +5,9 @@
 
 use crate::engine::method::roots::upward_crossings;
 use crate::engine::method::taylor::{Motion, NORMAL, X2, Y1, horner_with_derivatives};
+use crate::engine::reductions::Reductions;
 use crate::engine::reference::integrate::{Event, Observer, Step};
+use crate::engine::sums::{growth, peak, sum};
 use crate::model::contact::ContactState;
 use num_complex::Complex64;
 
@@ -18,94 +20,30 @@ const GAUSS: [(f64, f64); 4] = [
     (0.930_568_155_797_026_3, 0.173_927_422_568_726_93),
 ];
 
-/// Time-weighted sums over half of the measuring window.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Sums {
-    /// Time.
-    pub time: f64,
-    /// `∫x2`, from the window's origin.
-    pub x: f64,
-    /// `∫x2²`.
-    pub xx: f64,
-    /// `∫y1`, from the window's origin.
-    pub y: f64,
-    /// `∫y1²`.
-    pub yy: f64,
-    /// `∫ẍ2²`.
-    pub ax: f64,
-    /// `∫ÿ1²`.
-    pub ay: f64,
-    /// `∫(ẋ2² + ẏ1²)`.
-    pub speed: f64,
-    /// `∫T`.
-    pub tangential: f64,
-    /// `∫N`.
-    pub normal: f64,
-    /// Time in stick.
-    pub stick: f64,
-    /// Time in free flight.
-    pub free: f64,
-    /// Time in reversed slip.
-    pub reverse: f64,
-}
-
-impl Sums {
-    /// Both halves together.
-    #[must_use]
-    pub fn plus(self, other: Sums) -> Sums {
-        Sums {
-            time: self.time + other.time,
-            x: self.x + other.x,
-            xx: self.xx + other.xx,
-            y: self.y + other.y,
-            yy: self.yy + other.yy,
-            ax: self.ax + other.ax,
-            ay: self.ay + other.ay,
-            speed: self.speed + other.speed,
-            tangential: self.tangential + other.tangential,
-            normal: self.normal + other.normal,
-            stick: self.stick + other.stick,
-            free: self.free + other.free,
-            reverse: self.reverse + other.reverse,
-        }
+/// Adds a step to the sums of half of the measuring window.
+fn add(sums: &mut [f64; sum::WORDS], step: &Step, nodes: &[Sample; 4], origin: [f64; 2]) {
+    let duration = step.duration;
+    sums[sum::TIME] += duration;
+    match step.expansion.contact.state() {
+        ContactState::Slip => {}
+        ContactState::Reverse => sums[sum::REVERSE] += duration,
+        ContactState::Stick => sums[sum::STICK] += duration,
+        ContactState::Free => sums[sum::FREE] += duration,
     }
-
-    /// Standard deviation of `x2`.
-    #[must_use]
-    pub fn x_std(&self) -> f64 {
-        deviation(self.x / self.time, self.xx / self.time)
-    }
-
-    /// Standard deviation of `y1`.
-    #[must_use]
-    pub fn y_std(&self) -> f64 {
-        deviation(self.y / self.time, self.yy / self.time)
-    }
-
-    fn add(&mut self, step: &Step, nodes: &[Sample; 4], origin: [f64; 2]) {
-        let duration = step.duration;
-        self.time += duration;
-        match step.expansion.contact.state() {
-            ContactState::Slip => {}
-            ContactState::Reverse => self.reverse += duration,
-            ContactState::Stick => self.stick += duration,
-            ContactState::Free => self.free += duration,
-        }
-        for ((_, weight), sample) in GAUSS.iter().zip(nodes) {
-            let weight = weight * duration;
-            let Motion { state, acceleration: [ax, _, ay] } = sample.motion;
-            let (x, y) = (state.position[X2] - origin[0], state.position[Y1] - origin[1]);
-            let [vx, _, vy] = state.velocity;
-            self.x += weight * x;
-            self.xx += weight * x * x;
-            self.y += weight * y;
-            self.yy += weight * y * y;
-            self.ax += weight * ax * ax;
-            self.ay += weight * ay * ay;
-            self.speed += weight * (vx * vx + vy * vy);
-            self.tangential += weight * sample.forces.0;
-            self.normal += weight * sample.forces.1;
-        }
+    for ((_, weight), sample) in GAUSS.iter().zip(nodes) {
+        let weight = weight * duration;
+        let Motion { state, acceleration: [ax, _, ay] } = sample.motion;
+        let (x, y) = (state.position[X2] - origin[0], state.position[Y1] - origin[1]);
+        let [vx, _, vy] = state.velocity;
+        sums[sum::X] += weight * x;
+        sums[sum::XX] += weight * x * x;
+        sums[sum::Y] += weight * y;
+        sums[sum::YY] += weight * y * y;
+        sums[sum::AX] += weight * ax * ax;
+        sums[sum::AY] += weight * ay * ay;
+        sums[sum::SPEED] += weight * (vx * vx + vy * vy);
+        sums[sum::TANGENTIAL] += weight * sample.forces.0;
+        sums[sum::NORMAL] += weight * sample.forces.1;
     }
 }
 
@@ -165,23 +103,15 @@ fn raise(peak: &mut f64, series: &[f64], sign: f64, samples: [f64; 6], duration:
     *peak = peak.max(sign * horner_with_derivatives(series, tau)[0]);
 }
 
-fn deviation(mean: f64, mean_square: f64) -> f64 {
-    (mean_square - mean * mean).max(0.0).sqrt()
-}
-
 /// The measuring window.
 #[derive(Clone, Debug, Default)]
 pub struct Window {
-    /// Sums of the first and the second half.
-    pub halves: [Sums; 2],
+    /// Sums of the first and the second half, see [`sum`].
+    pub halves: [[f64; sum::WORDS]; 2],
     /// Which half is running.
     pub half: usize,
-    /// Largest `|ẍ2|`.
-    pub ax_peak: f64,
-    /// Largest `|ÿ1|`.
-    pub ay_peak: f64,
-    /// Largest `N`.
-    pub n_peak: f64,
+    /// Largest values, see [`peak`].
+    pub peaks: [f64; peak::WORDS],
     /// Events of any kind.
     pub events: u64,
     /// Impacts.
@@ -207,11 +137,21 @@ impl Window {
         self.crossings += 1;
     }
 
-    /// Crossings per time from the first to the last.
+    /// What it has reduced, with the growth before it; without the phase, for which it is passed once more.
     #[must_use]
-    pub fn response_frequency(&self) -> Option<f64> {
-        let span = self.last_crossing - self.first_crossing;
-        (self.crossings >= 2 && span > 0.0).then(|| (self.crossings - 1) as f64 / span)
+    pub fn reductions(&self, growth: &Growth) -> Reductions {
+        Reductions {
+            origin: self.origin.unwrap_or_default(),
+            halves: self.halves,
+            peaks: self.peaks,
+            impacts: self.impacts,
+            crossings: self.crossings,
+            first: self.first_crossing,
+            last: self.last_crossing,
+            phase: [[0.0; 2]; 2],
+            growth: growth.words(),
+            met_event: growth.met_event(),
+        }
     }
 
     fn count_crossings(&mut self, step: &Step) {
@@ -238,17 +178,19 @@ impl Observer for Window {
         let [_, ref nodes @ .., _] = samples;
         let start = samples[0].motion.state.position;
         let origin = *self.origin.get_or_insert([start[X2], start[Y1]]);
-        self.halves[self.half].add(step, nodes, origin);
+        add(&mut self.halves[self.half], step, nodes, origin);
         self.count_crossings(step);
         let (order, duration) = (step.expansion.order, step.duration);
-        for (axis, peak) in [(X2, &mut self.ax_peak), (Y1, &mut self.ay_peak)] {
+        for (axis, peak) in [(X2, peak::AX), (Y1, peak::AY)] {
             let series = step.expansion.acceleration(axis);
             let values = samples.map(|sample| sample.motion.acceleration[axis]);
+            let peak = &mut self.peaks[peak];
             raise(peak, &series[..order - 1], 1.0, values, duration);
             raise(peak, &series[..order - 1], -1.0, values, duration);
         }
         let normal = step.expansion.contact(NORMAL);
-        raise(&mut self.n_peak, &normal[..order - 1], 1.0, samples.map(|sample| sample.forces.1), duration);
+        let forces = samples.map(|sample| sample.forces.1);
+        raise(&mut self.peaks[peak::NORMAL], &normal[..order - 1], 1.0, forces, duration);
     }
 
     fn event(&mut self, event: Event) {
@@ -270,84 +212,24 @@ impl Observer for EnergyGains {
     }
 }
 
-/// A growth window shorter than this many periods `2π/ω0` says nothing.
-pub const SHORTEST_GROWTH_WINDOW: f64 = 1.0;
-
-/// Least squares on the samples before the first event, means removed:
-///
-/// ```text
-/// ẍ2 = 2σ ẋ2 − |λ|² (x2 − x2_eq)        ÿ1 = α ẍ2 + β ẋ2        φ = arg(α + β/λ)
-/// ```
+/// Sums over the time before the first event, see [`crate::engine::growth`].
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Growth {
     closed: bool,
-    time: f64,
-    /// Sums of 1, x, v, a, b (= ÿ1) and of their products, each weighted by the length of the step.
-    sum: [f64; 5],
-    product: [[f64; 5]; 5],
-}
-
-/// What the growth window measured, in scaled units.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct GrowthFit {
-    /// Real part of the eigenvalue.
-    pub growth_rate: f64,
-    /// Imaginary part of the eigenvalue.
-    pub angular_frequency: f64,
-    /// Phase of `ÿ1` against `ẍ2`, rad; `None` when `y1` does not follow.
-    pub phase: Option<f64>,
+    words: [f64; growth::WORDS],
 }
 
 impl Growth {
-    /// A window summed elsewhere: its length, the sums of `1, x, v, a, b` and of their products.
-    #[must_use]
-    pub fn from_sums(time: f64, sum: [f64; 5], product: [[f64; 5]; 5]) -> Growth {
-        Growth { closed: true, time, sum, product }
-    }
-
     /// Whether an event has come.
     #[must_use]
     pub fn met_event(&self) -> bool {
         self.closed
     }
 
-    /// Covariance of two samples.
-    fn covariance(&self, i: usize, j: usize) -> f64 {
-        self.product[i][j] / self.time - self.sum[i] / self.time * (self.sum[j] / self.time)
-    }
-
-    /// Solves `target = p u + q v` in the least-squares sense.
-    fn fit(&self, target: usize, u: usize, v: usize) -> Option<(f64, f64)> {
-        let (uu, uv, vv) = (self.covariance(u, u), self.covariance(u, v), self.covariance(v, v));
-        let (ut, vt) = (self.covariance(u, target), self.covariance(v, target));
-        let det = uu * vv - uv * uv;
-        let (p, q) = ((ut * vv - vt * uv) / det, (vt * uu - ut * uv) / det);
-        (det > 0.0 && p.is_finite() && q.is_finite()).then_some((p, q))
-    }
-
-    /// The fit, when the window is long enough and oscillates.
+    /// Its sums.
     #[must_use]
-    pub fn result(&self) -> Option<GrowthFit> {
-        const X: usize = 1;
-        const V: usize = 2;
-        const A: usize = 3;
-        const B: usize = 4;
-        if self.time < SHORTEST_GROWTH_WINDOW * std::f64::consts::TAU {
-            return None;
-        }
-        let (twice_growth, stiffness) = self.fit(A, V, X)?;
-        let growth_rate = 0.5 * twice_growth;
-        let square = -stiffness - growth_rate * growth_rate;
-        if !(square > 0.0 && square.is_finite() && growth_rate.is_finite()) {
-            return None;
-        }
-        let angular_frequency = square.sqrt();
-        let phase = self
-            .fit(B, A, V)
-            .map(|(alpha, beta)| (alpha + beta / Complex64::new(growth_rate, angular_frequency)).arg())
-            .filter(|phase| phase.is_finite());
-        let follows = self.covariance(B, B) > 0.0;
-        Some(GrowthFit { growth_rate, angular_frequency, phase: phase.filter(|_| follows) })
+    pub fn words(&self) -> [f64; growth::WORDS] {
+        self.words
     }
 }
 
@@ -357,13 +239,14 @@ impl Observer for Growth {
             return;
         }
         let Motion { state, acceleration } = step.end;
-        let sample = [1.0, state.position[0], state.velocity[0], acceleration[0], acceleration[2]];
-        self.time += step.duration;
-        for i in 0..5 {
-            self.sum[i] += step.duration * sample[i];
-            for j in i..5 {
-                self.product[i][j] += step.duration * sample[i] * sample[j];
-                self.product[j][i] = self.product[i][j];
+        let sample = [state.position[0], state.velocity[0], acceleration[0], acceleration[2]];
+        self.words[growth::TIME] += step.duration;
+        let mut product = growth::PRODUCTS;
+        for i in 0..growth::SAMPLED {
+            self.words[growth::SAMPLES + i] += step.duration * sample[i];
+            for j in i..growth::SAMPLED {
+                self.words[product] += step.duration * sample[i] * sample[j];
+                product += 1;
             }
         }
     }

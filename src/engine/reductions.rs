@@ -1,12 +1,12 @@
-//! What an engine has reduced of a run, into an outcome in SI units (host only).
+//! What an engine has reduced of a run, into an outcome in SI units: the one conversion for all engines.
 
 use num_complex::Complex64;
 
+use crate::engine::growth;
 use crate::engine::outcome::Outcome;
 use crate::engine::plan::Plan;
-use crate::engine::reference::observe::{Growth, GrowthFit};
 use crate::engine::scene::Scene;
-use crate::engine::sums::{growth, peak, sum};
+use crate::engine::sums::{growth as words, peak, sum};
 use crate::model::status::Status;
 
 /// Reductions of one run, scaled, deviations from the equilibrium.
@@ -19,7 +19,7 @@ pub struct Reductions {
     /// Largest values, see [`peak`].
     pub peaks: [f64; peak::WORDS],
     /// Impacts in the window.
-    pub impacts: u32,
+    pub impacts: u64,
     /// Upward crossings of `ẋ2`.
     pub crossings: u64,
     /// Time of the first.
@@ -28,8 +28,8 @@ pub struct Reductions {
     pub last: f64,
     /// Fourier components of `ẍ2` and `ÿ1` between the two, real and imaginary.
     pub phase: [[f64; 2]; 2],
-    /// Sums before the first event, see [`growth`].
-    pub growth: [f64; growth::WORDS],
+    /// Sums before the first event, see [`words`].
+    pub growth: [f64; words::WORDS],
     /// Whether there was an event in the whole run.
     pub met_event: bool,
 }
@@ -63,10 +63,10 @@ impl Reductions {
             return outcome;
         }
         outcome.simulated_time = scene.seconds(end.time, plan);
+        let blank = outcome;
         if !self.halves.iter().flatten().chain(&self.peaks).all(|value| value.is_finite()) {
             // A square beyond the scalar's range.
-            outcome.status = Status::NonFinite;
-            return outcome;
+            return Outcome { status: Status::NonFinite, ..blank };
         }
         let halves = self.halves;
         let all: [f64; sum::WORDS] = std::array::from_fn(|i| halves[0][i] + halves[1][i]);
@@ -91,7 +91,7 @@ impl Reductions {
         outcome.free = Some(all[sum::FREE] / all[sum::TIME]);
         outcome.reverse = Some(all[sum::REVERSE] / all[sum::TIME]);
         outcome.window = all[sum::TIME] * units.time;
-        outcome.impacts_per_second = Some(f64::from(self.impacts) / outcome.window);
+        outcome.impacts_per_second = Some(self.impacts as f64 / outcome.window);
         outcome.speed_rms_halves = halves.map(|s| rms(&s, sum::SPEED) * units.velocity);
         outcome.x2_std_halves = halves.map(|s| std(&s, sum::X, sum::XX) * units.length);
         outcome.ay_rms_halves = halves.map(|s| rms(&s, sum::AY) * units.acceleration);
@@ -100,27 +100,20 @@ impl Reductions {
             let [x, y] = self.phase.map(|z| Complex64::new(z[0], z[1]));
             let ratio = y / x;
             outcome.phase_cycle =
-                (ratio.is_finite() && ratio.norm_sqr() > 0.0).then(|| ratio.arg().to_degrees());
+                (ratio.is_finite() && ratio != Complex64::ZERO).then(|| ratio.arg().to_degrees());
         }
         outcome.met_event = self.met_event;
-        if let Some(fit) = growth_fit(&self.growth) {
+        if let Some(fit) = growth::fit(&self.growth) {
             outcome.growth_rate_measured = Some(fit.growth_rate / units.time);
             outcome.frequency_measured = Some(fit.angular_frequency / std::f64::consts::TAU / units.time);
             outcome.phase_measured = fit.phase.map(f64::to_degrees);
         }
+        let Outcome { x2_std, y1_std, ax_rms, ay_rms, ax_peak, ay_peak, .. } = outcome;
+        if ![x2_std, y1_std, ax_rms, ay_rms, ax_peak, ay_peak].iter().flatten().all(|value| value.is_finite())
+        {
+            // In SI units it is.
+            return Outcome { status: Status::NonFinite, ..blank };
+        }
         outcome
     }
-}
-
-/// The fit of the growth window from its sums.
-fn growth_fit(words: &[f64; growth::WORDS]) -> Option<GrowthFit> {
-    let mut product = [[0.0; 5]; 5];
-    for (word, (i, j)) in (1..5).flat_map(|i| (i..5).map(move |j| (i, j))).enumerate() {
-        product[i][j] = words[growth::PRODUCTS + word];
-        product[j][i] = words[growth::PRODUCTS + word];
-    }
-    let time = words[growth::TIME];
-    let samples = &words[growth::SAMPLES..growth::PRODUCTS];
-    let sum = [time, samples[0], samples[1], samples[2], samples[3]];
-    Growth::from_sums(time, sum, product).result()
 }
