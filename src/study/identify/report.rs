@@ -140,8 +140,7 @@ pub fn report_json(found: &Identification, name: &str) -> Result<Vec<u8>> {
         "notes": found.notes,
         "units": "SI; phases in degrees, negative when the normal acceleration lags; temperature in °C",
     });
-    let mut bytes =
-        serde_json::to_vec_pretty(&report).map_err(Error::WriteManifest)?;
+    let mut bytes = serde_json::to_vec_pretty(&report).map_err(Error::WriteManifest)?;
     bytes.push(b'\n');
     Ok(bytes)
 }
