@@ -1,4 +1,4 @@
-//! What computes a sweep: the CPU engine or a GPU, in which precision, and why.
+//! The choice of an engine for a sweep: which one, in which precision, and why.
 
 use crate::engine::Engine;
 use crate::engine::backend::Backend;
@@ -70,7 +70,7 @@ fn cpu(options: &Options) -> Result<(Box<dyn Engine>, String)> {
     Ok((Box::new(Scalar(method)), on))
 }
 
-/// What a GPU computes in.
+/// The arithmetic that a GPU is asked for.
 fn arithmetic(options: &Options) -> Arithmetic {
     Arithmetic { precision: options.precision.unwrap_or(Precision::F32), strict: options.strict }
 }

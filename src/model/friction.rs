@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use smallvec::SmallVec;
 
-/// Which law; the parameters of each are in [`FrictionLaw`].
+/// The kind of a friction law; the parameters of each are in [`FrictionLaw`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[expect(missing_docs, reason = "the variants are the names of the laws in FrictionLaw")]
 pub enum LawKind {
@@ -244,7 +244,7 @@ impl PieceChain {
 }
 
 impl FrictionLaw {
-    /// Which law this is.
+    /// The kind of this law.
     #[must_use]
     pub fn kind(&self) -> LawKind {
         match self {

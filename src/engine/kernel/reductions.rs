@@ -1,4 +1,4 @@
-//! What an engine has reduced of a run, into an outcome in SI units (host only).
+//! The sums that an engine has reduced a run to, and from them the outcome in SI units (host only).
 
 use num_complex::Complex64;
 

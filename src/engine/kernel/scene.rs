@@ -149,7 +149,7 @@ pub struct Scene<S> {
 /// Events at one instant before an instance is given up; the same as in the reference.
 pub const EVENTS_AT_ONCE: u32 = MAX_EVENTS_AT_ONCE;
 
-/// What a step of the kernel may turn.
+/// How far a mode may turn within a step of the kernel.
 static TURNS: LazyLock<Turns> = LazyLock::new(|| Turns::new(ORDER, f64::from(TOLERANCE)));
 
 /// The words of an instance in f64, in the order of the kernel's input buffer.
@@ -251,7 +251,7 @@ impl<S: Real> Scene<S> {
         Scene { pieces, ..Scene::read_head(law, &head(model, v0, start)) }
     }
 
-    /// What stands before the segments.
+    /// Reads the words before the segments.
     fn read_head(law: Law, words: &[f64]) -> Scene<S> {
         let w = |i: usize| S::from_f64(words[i]);
         let nothing = Segment {

@@ -273,7 +273,7 @@ pub fn expand<S: Simd, T: Scalar<S>, const K: usize, const N: usize, const LAW: 
     ill_posed
 }
 
-/// What all degrees of a step share.
+/// The numbers that all degrees of a step share.
 #[derive(Clone, Copy)]
 struct Known<S: Simd, T: Scalar<S>, const K: usize> {
     forms: Forms<S, T, K>,
@@ -297,11 +297,12 @@ struct Known<S: Simd, T: Scalar<S>, const K: usize> {
 struct Friction<S: Simd, T: Scalar<S>, const K: usize, const N: usize> {
     /// `q`, with the inverse of the inertia.
     q: [Vector<S, T, K>; N],
-    /// What the recurrence of a curved law carries.
+    /// The series that the recurrence of a curved law carries along.
     law: [Vector<S, T, K>; N],
 }
 
-/// Of straight laws: what a degree of the accelerations takes from the one before it, so that it waits for little else.
+/// For straight laws: the part of a degree of the accelerations that follows from the degree before it, so that it waits for
+/// little else.
 struct Course<S: Simd, T: Scalar<S>, const K: usize> {
     drag: Vector<S, T, K>,
     back: Vector<S, T, K>,

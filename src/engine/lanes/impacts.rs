@@ -33,7 +33,7 @@ pub fn at_speed<S: Simd, T: Scalar<S>, const K: usize>(
     AtSpeed { mu: word(SLOPE).fma(speed, word(AT_ZERO)), elsewhere }
 }
 
-/// What an impact leaves.
+/// The motion after an impact.
 pub struct Impact<S: Simd, T: Scalar<S>, const K: usize> {
     /// `ẋ2` afterwards.
     pub tangential: Vector<S, T, K>,

@@ -287,7 +287,7 @@ pub struct Growth {
     product: [[f64; 5]; 5],
 }
 
-/// What the growth window measured, in scaled units.
+/// The growth as measured in its window, in scaled units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GrowthFit {
     /// Real part of the eigenvalue.
