@@ -1,4 +1,4 @@
-//! What may compute.
+//! The engines by name, and the wish for one.
 
 use crate::engine::method::Method;
 
@@ -21,7 +21,7 @@ pub enum Backend {
 }
 
 impl Backend {
-    /// All that compute.
+    /// All engines, without `auto`.
     pub const ALL: [Backend; 5] =
         [Backend::Gpu, Backend::Cpu, Backend::Reference, Backend::LocatedRk4, Backend::FixedStep];
 
@@ -41,13 +41,13 @@ impl Backend {
         }
     }
 
-    /// The one of this name.
+    /// The backend of this name.
     #[must_use]
     pub fn of_name(name: &str) -> Option<Backend> {
         Backend::ALL.into_iter().find(|backend| backend.name() == name)
     }
 
-    /// The one that computes by a method, one instance at a time.
+    /// The backend that computes by a method, one instance at a time.
     #[must_use]
     pub fn of_method(method: Method) -> Backend {
         match method {

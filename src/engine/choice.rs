@@ -1,4 +1,4 @@
-//! What computes a sweep: the CPU engine or a GPU, in which precision, and why.
+//! The choice of an engine for a sweep: which one, in which precision, and why.
 
 use crate::engine::Engine;
 use crate::engine::backend::Backend;

@@ -11,7 +11,7 @@ use crate::engine::error::{Error, Result};
 pub enum Stopped {
     /// From outside, by Ctrl-C.
     Cancelled,
-    /// By a failure that says nothing against what was done before: what the device said.
+    /// By a failure, in the words of the device, that says nothing against the records that were done before.
     Failed(String),
 }
 

@@ -5,7 +5,7 @@ use crate::engine::error::Result;
 use crate::engine::record::Record;
 use crate::model::status::Status;
 
-/// What an engine made of a sweep: one record per instance, in the order of the grid.
+/// The records of a sweep as an engine made them: one per instance, in the order of the grid.
 #[derive(Debug)]
 pub struct Computed {
     /// The records; those that were not done are [`Record::NOT_COMPUTED`].

@@ -75,7 +75,7 @@ impl NoGpu {
     }
 }
 
-/// What was asked for that only a GPU can honour, as written on the command line.
+/// The options that only a GPU can honour, as they are written on the command line.
 fn only_on_gpu(options: &Options) -> Vec<String> {
     let mut asked = Vec::new();
     if options.strict {

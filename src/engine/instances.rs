@@ -1,4 +1,4 @@
-//! What an engine is given.
+//! The instances that are given to an engine.
 
 use crate::engine::plan::Plan;
 use crate::model::instance::Instance;

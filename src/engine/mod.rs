@@ -60,9 +60,9 @@ use crate::engine::error::Result;
 use crate::engine::instances::Instances;
 use crate::engine::precision::Precision;
 
-/// What computes many instances: one start each, without any check.
+/// An engine computes many instances from one start each, without any check.
 pub trait Engine: fmt::Debug + Send {
-    /// Which it is.
+    /// Its name.
     fn backend(&self) -> Backend;
 
     /// Its scalar.

@@ -1,4 +1,4 @@
-//! What the transient of one instance did.
+//! The outcome of the transient of one instance.
 
 use serde::Serialize;
 

@@ -1,4 +1,4 @@
-//! What was computed of one instance, by one start or several, and what its check found.
+//! The record of one instance: the results of one start or several, and of its check.
 
 use crate::engine::outcome::Outcome;
 use crate::engine::regime::{Regime, THRESHOLDS};
@@ -6,7 +6,7 @@ use crate::model::kind::InstabilityType;
 use crate::model::linear::Linear;
 use crate::model::status::Status;
 
-/// What was computed of one instance.
+/// The results of one instance.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Record {
     /// How it ended.
@@ -21,11 +21,11 @@ pub struct Record {
     pub settled: Option<bool>,
     /// The response, when asked for; apart, as a record without one is a quarter as large.
     pub outcome: Option<Box<Outcome>>,
-    /// What a check found, where the instance was checked.
+    /// The result of its check, where the instance was checked.
     pub check: Option<Check>,
     /// Whether several starts ended differently; `None` where there is one, or some have not settled.
     pub bistable: Option<bool>,
-    /// What other starts gave, where there are any.
+    /// The results of its other starts, where there are any.
     pub others: Option<Others>,
 }
 
@@ -59,7 +59,7 @@ impl Record {
         }
     }
 
-    /// What the starts of a box gave, where there are any.
+    /// The results of its starts from a box, where there are any.
     #[must_use]
     pub fn basin(&self) -> Option<Basin> {
         match &self.others {
@@ -69,7 +69,7 @@ impl Record {
     }
 }
 
-/// What an instance was checked by.
+/// The judge that checked an instance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum By {
     /// The CPU engine in f64 with fine steps.
@@ -78,10 +78,10 @@ pub enum By {
     Reference,
 }
 
-/// What the check of an instance found.
+/// The result of checking an instance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Check {
-    /// What it was checked by.
+    /// The judge.
     pub by: By,
     /// Whether it is near a border between two labels: its record is then the finer one.
     pub taken: bool,
@@ -92,7 +92,7 @@ pub struct Check {
     pub error: Option<f64>,
 }
 
-/// What an instance did from other starts than the small one.
+/// The results of an instance from other starts than the small one.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Others {
     /// From the large start; eigenvalues and type stand in the record of the small one.

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::engine::outcome::Outcome;
 
-/// What the system does in the measuring window.
+/// The kind of motion in the measuring window.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Regime {

@@ -26,7 +26,7 @@ const SHORTEST_HALF: f64 = 8.0;
 /// longer than anybody waits.
 const DECAYS_BELOW: f64 = -1e-6;
 
-/// What decays without any event is left to its eigenvalues after this many of its time constants, or a beat.
+/// A decay without any event is left to its eigenvalues after this many time constants, or after a beat.
 const TIME_CONSTANTS: f64 = 3.0;
 
 /// A motion has settled when the deviation of `x2` and the rms of `ÿ1` in three halves in a row agree within this fraction,

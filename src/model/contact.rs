@@ -14,7 +14,7 @@ pub enum ContactState {
 }
 
 impl ContactState {
-    /// All of them.
+    /// All contact states.
     pub const ALL: [ContactState; 4] =
         [ContactState::Slip, ContactState::Reverse, ContactState::Stick, ContactState::Free];
 
@@ -69,7 +69,7 @@ impl Contact {
     }
 }
 
-/// What an impact does to the velocities of `m2`.
+/// The velocities of `m2` after an impact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Impact {
     /// `ẋ2` after the impact.

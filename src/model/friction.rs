@@ -168,7 +168,7 @@ pub enum FrictionLaw {
 }
 
 impl FrictionLaw {
-    /// Which law this is.
+    /// The kind of this law.
     #[must_use]
     pub fn kind(&self) -> LawKind {
         match self {

@@ -2,7 +2,7 @@
 
 use crate::model::Param;
 
-/// What happens outside the range of temperatures of a material.
+/// How a material continues outside its range of temperatures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outside {
     /// An input error.
@@ -20,7 +20,7 @@ pub struct Material {
     pub temperature: Vec<f64>,
     /// Each law parameter with its value at every temperature.
     pub columns: Vec<(Param, Vec<f64>)>,
-    /// What happens outside.
+    /// How it continues outside.
     pub outside: Outside,
 }
 

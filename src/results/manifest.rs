@@ -40,13 +40,13 @@ pub struct Sum {
 }
 
 impl Sum {
-    /// Of some bytes.
+    /// The length and the checksum of some bytes.
     #[must_use]
     pub fn of(bytes: &[u8]) -> Sum {
         Sum { bytes: bytes.len() as u64, blake3: blake3::hash(bytes).to_hex().to_string() }
     }
 
-    /// What a manifest says of a file; `None` where it does not.
+    /// The sum that a manifest states for a file; `None` where it states none.
     #[must_use]
     pub fn in_manifest(manifest: &Value, file: &str) -> Option<Sum> {
         let entry = manifest.get("files")?.get(file)?;
@@ -54,7 +54,7 @@ impl Sum {
     }
 }
 
-/// What a manifest says of the run, beside the sweep and its counts.
+/// The part of a manifest about the run: everything besides the sweep and its counts.
 #[derive(Clone, Debug)]
 pub struct Run {
     /// Worker threads.
@@ -152,14 +152,14 @@ pub fn manifest(sheet: Sheet, resolved: &Value, tally: &Tally, run: &Run) -> Res
     pretty(&manifest).map(sealed)
 }
 
-/// What a manifest says of files, see [`Sum::in_manifest`].
+/// The entry of a manifest about files, which [`Sum::in_manifest`] reads.
 pub(crate) fn sums(files: &[(&'static str, Sum)]) -> Value {
     let sum =
         |(name, sum): &(&str, Sum)| ((*name).to_owned(), json!({ "bytes": sum.bytes, "blake3": sum.blake3 }));
     files.iter().map(sum).collect()
 }
 
-/// What a table does not say of its figure, with the program that wrote both: UTF-8 JSON, indented.
+/// The document beside a table: what its figure needs besides, and the program that wrote both. UTF-8 JSON, indented.
 pub(crate) fn described(entries: &Value) -> Result<Vec<u8>> {
     let mut document =
         json!({ "program": { "name": env!("CARGO_PKG_NAME"), "version": VERSION, "git_commit": COMMIT } });

@@ -95,7 +95,7 @@ fn schema(columns: &[Column]) -> std::result::Result<Arc<Type>, ParquetError> {
     Type::group_type_builder("map").with_fields(fields).build().map(Arc::new)
 }
 
-/// What the file says of itself.
+/// The metadata of the file.
 fn metadata(sheet: Sheet, columns: &[Column]) -> Vec<KeyValue> {
     let about = |what: fn(&Column) -> &'static str| {
         columns.iter().map(|column| (column.name, what(column))).collect::<BTreeMap<_, _>>()

@@ -33,7 +33,7 @@ pub fn figure<'a>(sheet: Sheet<'a>, refined: &Refined) -> MapFigure<'a> {
     figure
 }
 
-/// What the results of a refinement are of, and the files beside the document.
+/// The parts that the results of a refinement are made from, and the files beside the document.
 #[derive(Clone, Debug, Default)]
 pub struct OfParts {
     /// Every part by its name with its checksum, in the order of use.

@@ -37,7 +37,7 @@ pub enum Error {
         /// How it ended.
         status: &'static str,
     },
-    /// What is to be drawn is no directory.
+    /// The path that is to be drawn is no directory.
     #[error("`{}` {why}; give `plot` the output directory of a command", path.display())]
     NoDirectoryToPlot {
         /// The path.

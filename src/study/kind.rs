@@ -1,4 +1,4 @@
-//! Which figures there are, and which of them a directory holds.
+//! The kinds of figures, and which of them a directory holds.
 
 use std::path::Path;
 
@@ -30,7 +30,7 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// All of them; where a directory holds several, the first is drawn unless another is asked for.
+    /// All kinds. Where a directory holds several, the first of these is drawn unless another is asked for.
     pub const ALL: [Kind; 15] = [
         Kind::Map,
         Kind::Refined,

@@ -20,7 +20,7 @@ use crate::study::{Kind, hysteresis, identify, modes, paper, trace, tradeoff};
 use crate::sweep::accuracy::row::Row;
 use crate::sweep::spec::Spec;
 
-/// What a figure shows.
+/// The content of a figure.
 #[derive(Clone, Debug)]
 enum Content {
     Map(Box<Archive>),

@@ -79,19 +79,24 @@ fn grid(make: impl Fn(usize, usize) -> Record) -> Map {
 }
 
 #[test]
-fn the_paper_map() {
+fn the_paper_map_has_a_panel_for_each_velocity() {
     let mut sweep = three_axes(41, &[0.5, 1.0, 3.0, 4.9, 6.0]);
     sweep.spec.title = "Stability map of the two-mass belt model".to_owned();
-    figure(&sweep, "paper_map");
+    let (svg, _) = figure(&sweep, "paper_map");
+    assert_eq!(frames(&svg).len(), 2 * 5, "types and regimes");
+    assert!(svg.contains("Stability map of the two-mass belt model"));
+    for velocity in ["0.5", "1", "3", "4.9", "6"] {
+        assert_eq!(svg.matches(&format!(" = {velocity} m/s")).count(), 2, "{velocity} m/s");
+    }
 }
 
 #[test]
-fn one_velocity() {
+fn one_velocity_has_one_panel_for_each_analysis() {
     let sweep = three_axes(41, &[3.0]);
-    figure(&sweep, "one_velocity");
+    assert_eq!(frames(&figure(&sweep, "one_velocity").0).len(), 2, "types and regimes");
     let mut linear = sweep.clone();
     linear.spec.analysis.response = false;
-    figure(&linear, "one_velocity_linear");
+    assert_eq!(frames(&figure(&linear, "one_velocity_linear").0).len(), 1, "types alone");
 }
 
 #[test]
@@ -128,7 +133,19 @@ fn many_panels_are_thinned_and_it_says_so() {
 
 #[test]
 fn seven_panels_wrap_into_two_rows() {
-    figure(&three_axes(15, &[0.5, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0]), "seven");
+    let (svg, _) = figure(&three_axes(15, &[0.5, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0]), "seven");
+    let frames = frames(&svg);
+    assert_eq!(frames.len(), 2 * 7, "types and regimes");
+    for block in frames.chunks(7) {
+        let (first, second) = block.split_at(4);
+        let [top, below] = [first[0], second[0]].map(|[_, y, _, height]| [y, y + height]);
+        assert!(first.iter().all(|frame| frame[1] == top[0]), "{block:?}");
+        assert!(second.iter().all(|frame| frame[1] == below[0]), "{block:?}");
+        assert!(below[0] > top[1], "the second row stands below the first: {block:?}");
+        // From left to right, and the second row under the first.
+        assert!(first.windows(2).all(|pair| pair[0][0] + pair[0][2] < pair[1][0]), "{block:?}");
+        assert!(first.iter().zip(second).all(|(above, under)| above[0] == under[0]), "{block:?}");
+    }
 }
 
 #[test]

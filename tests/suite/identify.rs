@@ -3,25 +3,13 @@
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
 use std::fmt::Write as _;
-use std::io::{Cursor, Read};
 
 use crate::common::{near, paper, plan};
-use crate::strokes::{FIELDS, Field, Random, Wanted, add_noise, stroke};
+use crate::strokes::{FIELDS, Field, Random, Wanted, add_noise, csv, run, stroke};
 use squealmap::model::kind::InstabilityType;
 use squealmap::model::{Param, linear};
 use squealmap::study::signals::sensors::{Recording, Sample, record};
-use squealmap::study::signals::table::signals_csv;
-use squealmap_identify::Unfit;
-use squealmap_identify::{Fault, INCLINATION, Identification, Kind, Settings, alone, identify};
-
-pub(crate) fn run(bytes: &[u8], settings: &Settings) -> Result<Identification, Unfit> {
-    let open = || Ok(Box::new(Cursor::new(bytes.to_vec())) as Box<dyn Read>);
-    identify(open, "signals.csv", settings, &mut |_, _| ())
-}
-
-pub(crate) fn csv(samples: &[Sample]) -> Vec<u8> {
-    signals_csv(samples, None).unwrap()
-}
+use squealmap_identify::{Fault, INCLINATION, Kind, Settings, Unfit, alone};
 
 /// `identify` of the phase must not be right by luck: an unknown skew shows in full.
 #[test]

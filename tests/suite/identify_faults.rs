@@ -3,9 +3,9 @@
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
 use crate::common::plan;
-use crate::identify::{csv, run};
 use crate::identify_growth::saturating;
 use crate::strokes::{FIELDS, Random, Wanted, add_noise, draw, stroke};
+use crate::strokes::{csv, run};
 use squealmap::model::Param;
 use squealmap::study::signals::sensors::{Recording, Sample, record};
 use squealmap_identify::Unfit;

@@ -5,8 +5,8 @@
 use std::f64::consts::TAU;
 
 use crate::common::near;
-use crate::identify::{csv, run};
 use crate::strokes::{Random, add_noise};
+use crate::strokes::{csv, run};
 use squealmap::study::signals::sensors::Sample;
 use squealmap_identify::{Identification, Kind, Measured, Settings};
 

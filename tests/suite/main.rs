@@ -47,6 +47,7 @@ mod instructions;
 mod interrupt;
 mod isolines;
 mod jagged;
+mod judged;
 mod kernel_linear;
 mod kernel_response;
 mod kernels;

@@ -5,6 +5,7 @@
 //! eigenvalues; the analysis sees the file only.
 
 use std::f64::consts::TAU;
+use std::io::{Cursor, Read};
 
 use crate::common::{bilinear, instance, plan};
 use squealmap::model::instance::Instance;
@@ -13,7 +14,8 @@ use squealmap::model::linear::Linear;
 use squealmap::model::status::Status;
 use squealmap::model::{Param, linear};
 use squealmap::study::signals::sensors::{Recording, Sample, record};
-use squealmap_identify::CAUSE;
+use squealmap::study::signals::table::signals_csv;
+use squealmap_identify::{CAUSE, Identification, Settings, Unfit, identify};
 
 /// Frequency of Table 1 between its uncoupled modes, Hz.
 const TABLE_1: f64 = 33.6;
@@ -69,26 +71,6 @@ pub(crate) enum Wanted {
 }
 
 impl Wanted {
-    pub(crate) const ALL: [Wanted; 6] = [
-        Wanted::Stable,
-        Wanted::Slope,
-        Wanted::Coupling,
-        Wanted::Both,
-        Wanted::BothOneWeak,
-        Wanted::Interaction,
-    ];
-
-    pub(crate) fn words(self) -> &'static str {
-        match self {
-            Wanted::Stable => "stable",
-            Wanted::Slope => "negative slope",
-            Wanted::Coupling => "mode coupling",
-            Wanted::Both => "both",
-            Wanted::BothOneWeak => "both, one of them weak",
-            Wanted::Interaction => "only both together",
-        }
-    }
-
     /// The truth, from the eigenvalues.
     fn of(kind: InstabilityType, linear: &Linear) -> Option<Wanted> {
         let weaker = linear.growth_rate_flat.min(linear.growth_rate_frozen);
@@ -201,4 +183,15 @@ pub(crate) fn add_noise(samples: &mut [Sample], decibel: f64, random: &mut Rando
         }
         noise
     })
+}
+
+/// What `identify` finds in a file of signals.
+pub(crate) fn run(bytes: &[u8], settings: &Settings) -> Result<Identification, Unfit> {
+    let open = || Ok(Box::new(Cursor::new(bytes.to_vec())) as Box<dyn Read>);
+    identify(open, "signals.csv", settings, &mut |_, _| ())
+}
+
+/// The samples as a file of signals.
+pub(crate) fn csv(samples: &[Sample]) -> Vec<u8> {
+    signals_csv(samples, None).expect("memory takes any table")
 }

@@ -10,7 +10,7 @@ use crate::engine::precision::Precision;
 const BACKENDS: wgpu::Backends =
     wgpu::Backends::VULKAN.union(wgpu::Backends::METAL).union(wgpu::Backends::DX12);
 
-/// What to install where no adapter is found.
+/// Says what to install where no adapter is found.
 pub const MISSING_DRIVER: &str = if cfg!(target_os = "linux") {
     "install the Vulkan loader and a driver (Debian and Ubuntu: libvulkan1, and mesa-vulkan-drivers or the vendor's driver)"
 } else if cfg!(target_os = "macos") {
@@ -25,7 +25,7 @@ pub struct Adapter {
     pub(super) raw: wgpu::Adapter,
 }
 
-/// What an adapter is and can do.
+/// An adapter: its name, its kind, and its abilities.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Description {
     /// The name the driver gives it.
@@ -118,7 +118,7 @@ impl Adapter {
         }
     }
 
-    /// What it is and can do.
+    /// Its name, its kind, and its abilities.
     #[must_use]
     pub fn describe(&self) -> Description {
         let (info, limits, features) = (self.raw.get_info(), self.raw.limits(), self.raw.features());

@@ -1,8 +1,8 @@
-//! What a device computes in.
+//! The arithmetic of a device: its scalar, and how it rounds.
 
 use crate::engine::precision::Precision;
 
-/// What a device computes in.
+/// The arithmetic that a device is opened for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Arithmetic {
     /// The scalar.

@@ -23,13 +23,13 @@ pub type Choices = Vec<(&'static str, Constant)>;
 pub struct Batch<R, T> {
     /// The kernel.
     pub kernel: Kernel,
-    /// What the scene selects in it.
+    /// The parts of the kernel that the scenes select.
     pub choices: Choices,
     /// Word-major inputs; without any instance there is nothing to run, and nothing comes of it.
     pub inputs: Vec<R>,
     /// Word-major state and flags that its instances have come to before; `None` at their start.
     pub before: Option<(Vec<R>, Vec<u32>)>,
-    /// What belongs to them.
+    /// Something to remember with the batch until its results come.
     pub memory: T,
 }
 

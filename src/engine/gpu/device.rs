@@ -24,7 +24,7 @@ pub struct Device {
     lost: Arc<Lost>,
 }
 
-/// What the driver says when the device is lost, and errors outside any scope.
+/// The words of the driver when the device is lost, and errors outside any scope.
 #[derive(Debug, Default)]
 struct Lost {
     flag: AtomicBool,
@@ -105,7 +105,7 @@ impl Device {
         self.adapter.may_be_software()
     }
 
-    /// What it runs on.
+    /// The adapter that it runs on.
     #[must_use]
     pub fn describe(&self) -> Description {
         self.adapter.describe()

@@ -12,7 +12,7 @@ use crate::engine::kernel::spirv::Strict;
 /// A kernel ready to be dispatched.
 #[derive(Debug)]
 pub struct Compiled {
-    /// What it was compiled from.
+    /// The kernel that it was compiled from.
     pub kernel: Kernel,
     pub(super) pipeline: wgpu::ComputePipeline,
     pub(super) layout: wgpu::BindGroupLayout,

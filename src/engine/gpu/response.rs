@@ -93,7 +93,7 @@ fn chunk_size<R: Real>(spec: &dyn Instances, session: &Session, chunk: Option<us
     chunk.unwrap_or(usize::MAX).min(kept).min(session.chunk_size::<R>(largest))
 }
 
-/// What selects a kernel.
+/// The form of a scene, which selects the kernel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Form {
     law: LawForm,
@@ -201,7 +201,7 @@ struct Ready<R> {
     before: Option<(Vec<R>, Vec<u32>)>,
 }
 
-/// What came of an instance.
+/// How an instance ended.
 enum End<R> {
     /// Nothing: the run was cancelled before.
     NotComputed(usize),
@@ -272,7 +272,7 @@ fn lane_words<R: Real>(result: &ChunkResult<R>, lane: usize, count: usize) -> (V
     (state, flags)
 }
 
-/// What came of an instance, from the words of its lane.
+/// How an instance ended, from the words of its lane.
 ///
 /// # Errors
 /// Those of [`read_lane`].

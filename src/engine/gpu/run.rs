@@ -45,7 +45,7 @@ pub struct Drive<'a> {
     pub progress: &'a (dyn Fn(usize) + Sync),
 }
 
-/// What a chunk came to; words are word-major.
+/// The results of a chunk; words are word-major.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChunkResult<R> {
     /// The words of `state`.

@@ -29,7 +29,7 @@ use crate::model::status::Status;
 /// Steps whose sums are added up before they join the others.
 pub const STEPS_PER_SUM: u32 = 16;
 
-/// What may be left of a step before it counts as done: this many roundings of what was left.
+/// A step counts as done when no more than this many roundings of it are left.
 pub const LEAST_REST: f64 = 8.0;
 
 /// The running integration of one instance.

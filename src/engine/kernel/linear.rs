@@ -131,7 +131,7 @@ pub struct Root<R> {
     pub t: R,
 }
 
-/// What the kernel writes for one instance.
+/// The results that the kernel writes for one instance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Analysed<R> {
     /// The words of [`STATE`].

@@ -154,7 +154,7 @@ const LOOPS_PER_STEP: u32 = 1900;
 /// after it.
 const SEARCHES_PER_STEP: u32 = 2;
 
-/// What a scene selects: the form of its law, and whether its belt has a ramp.
+/// The parts of the kernel that a scene selects: the form of its law, and whether its belt has a ramp.
 #[must_use]
 pub const fn choices(law: LawForm, ramp: bool) -> [(&'static str, Constant); 2] {
     [("LAW", Constant::U32(law as u32)), ("RAMP", Constant::Bool(ramp))]

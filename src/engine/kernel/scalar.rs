@@ -24,7 +24,7 @@ pub trait Real:
     + SubAssign
     + MulAssign
 {
-    /// Which of the two it is.
+    /// Its precision: f32 or f64.
     const PRECISION: Precision;
     /// 0.
     const ZERO: Self;

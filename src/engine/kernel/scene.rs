@@ -149,7 +149,7 @@ pub struct Scene<S> {
 /// Events at one instant before an instance is given up; the same as in the reference.
 pub const EVENTS_AT_ONCE: u32 = MAX_EVENTS_AT_ONCE;
 
-/// What a step of the kernel may turn.
+/// How far a mode may turn within a step of the kernel.
 static TURNS: LazyLock<Turns> = LazyLock::new(|| Turns::new(ORDER, f64::from(TOLERANCE)));
 
 /// The words of an instance in f64, in the order of the kernel's input buffer.

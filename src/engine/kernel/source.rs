@@ -60,7 +60,7 @@ pub struct Settings {
     pub one_real: f32,
     /// Nothing yet.
     pub spare: [u32; 2],
-    /// What the kernel's own settings say.
+    /// The words of the kernel's own settings.
     pub words: [u32; SETTING_WORDS],
 }
 
@@ -148,7 +148,7 @@ impl Kernel {
     }
 }
 
-/// What every kernel's header says: the scalar, its epsilon, sizes and status codes.
+/// The header of every kernel: the scalar, its epsilon, sizes and status codes.
 fn header(precision: Precision) -> String {
     let mut text = format!("alias real = {precision};\n");
     let epsilon = match precision {

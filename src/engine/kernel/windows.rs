@@ -22,7 +22,7 @@ use crate::model::status::Status;
 /// The windows of one instance: one, or as many as it takes to settle.
 #[derive(Clone, Debug)]
 pub struct Windows {
-    /// What the kernel is to run next.
+    /// The segments that the kernel is to run next.
     pub segments: Segments,
     plan: Plan,
     measuring: Measuring,
@@ -110,7 +110,7 @@ impl<S: Real> Lane<S> {
     }
 }
 
-/// What a finished lane has reduced, and how it ended; times from the beginning of the segments.
+/// The sums of a finished lane, and how it ended. Times count from the beginning of the segments.
 #[must_use]
 pub fn reductions<S: Real>(segments: &Segments, lane: &Lane<S>) -> (Reductions, End) {
     let time = |segment: u32, index: u32, fraction: f64| -> f64 {

@@ -16,7 +16,7 @@ use crate::engine::precision::Precision;
 use crate::engine::record::Record;
 use crate::model::instance::Instance;
 
-/// What a method says of it.
+/// The words about it in the name of a method.
 #[must_use]
 pub fn note(precision: Precision) -> &'static str {
     match precision {

@@ -15,9 +15,9 @@ use crate::model::piece::LawForm;
 
 /// The event function a lane's normal force or gap belongs to.
 pub const FIRST: u32 = 1;
-/// That of rest, the lower kink and the forward side of the stick cone.
+/// The event function of rest, of the lower kink, and of the forward side of the stick cone.
 pub const SECOND: u32 = 2;
-/// That of the upper kink and the backward side of the stick cone.
+/// The event function of the upper kink, and of the backward side of the stick cone.
 pub const THIRD: u32 = 3;
 
 /// `μ` at zero, slope, rate, offset, lower and upper kink of a lane's piece of the law.
@@ -36,7 +36,7 @@ pub const UPPER: usize = 5;
 /// The value of [`Block::many`] for a law of one piece.
 pub const ONE_PIECE: f64 = 0.5;
 
-/// What a lane that rests has left, time, steps and events: more than it comes to.
+/// The time, steps and events that a resting lane has left: more than it can ever use.
 const ENDLESS: f64 = 1e30;
 
 /// Lanes in step order of their fields.

@@ -1,4 +1,4 @@
-//! What of a scene a step needs in every lane.
+//! The numbers of a scene that a step needs in every lane.
 
 use crate::engine::kernel::scalar::Real;
 use crate::engine::kernel::scene::NO_KINK;
@@ -95,7 +95,7 @@ pub fn constants<T: Real>(model: &Scaled, turns: &Turns) -> [T; CONSTANTS] {
     all
 }
 
-/// See [`SWING`], of a mass 1 with this stiffness and this damper.
+/// The constants at [`SWING`] for a mass of 1 with this stiffness and this damper.
 fn swing(stiffness: f64, damper: f64) -> [f64; 5] {
     let decay = 0.5 * damper;
     let square = stiffness - decay * decay;

@@ -1,5 +1,5 @@
-//! What a lane may take up to the end of its stretch: its steps and events are compared with that, and counted for the
-//! instance only there.
+//! The steps and events that a lane may take up to the end of its stretch. They are compared with that on the way, and
+//! counted for the instance only at the end.
 
 use std::f64::consts::TAU;
 

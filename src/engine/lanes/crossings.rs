@@ -156,7 +156,7 @@ fn take<S: Simd, T: Scalar<S>, const N: usize, const MOTION: u8>(
     sums.spectrum.fresh = crossed.select(one.only(counts), sums.spectrum.fresh);
 }
 
-/// The one bracket in some lanes, the other in the rest.
+/// One bracket in some lanes, and the other in the rest.
 #[inline(always)]
 fn choose<S: Simd, T: Scalar<S>>(
     mask: Mask<S, T>,

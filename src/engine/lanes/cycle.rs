@@ -1,13 +1,13 @@
-//! What the lanes had at the last end of stick, to which whole cycles are added.
+//! The state of the sums at the last end of stick, so that whole cycles can be added to it.
 
 use crate::engine::lanes::vector::{Mask, Scalar, Vector};
 use crate::engine::sums::sum;
 use pulp::Simd;
 
-/// [`Cycle::since`] before the first end of stick.
+/// The value of [`Cycle::since`] before the first end of stick.
 pub const NEVER: f64 = -1.0;
 
-/// What the lanes had at the last end of stick of their stretches.
+/// The sums of the lanes at the last end of stick in their stretches.
 #[derive(Clone, Copy, Debug)]
 pub struct Cycle<S: Simd, T: Scalar<S>> {
     /// Time since the stretch began; negative before the first.

@@ -280,7 +280,7 @@ pub fn expand<S: Simd, T: Scalar<S>, const N: usize, const LAW: bool, const MOTI
     ill_posed
 }
 
-/// What all degrees of a step share.
+/// The numbers that all degrees of a step share.
 #[derive(Clone, Copy)]
 struct Known<S: Simd, T: Scalar<S>> {
     forms: Forms<S, T>,
@@ -304,11 +304,12 @@ struct Known<S: Simd, T: Scalar<S>> {
 struct Friction<S: Simd, T: Scalar<S>, const N: usize> {
     /// `q`, with the inverse of the inertia.
     q: [Vector<S, T>; N],
-    /// What the recurrence of a curved law carries.
+    /// The series that the recurrence of a curved law carries along.
     law: [Vector<S, T>; N],
 }
 
-/// Of straight laws: what a degree of the accelerations takes from the one before it, so that it waits for little else.
+/// For straight laws: the part of a degree of the accelerations that follows from the degree before it, so that it waits for
+/// little else.
 struct Course<S: Simd, T: Scalar<S>> {
     drag: Vector<S, T>,
     back: Vector<S, T>,

@@ -14,13 +14,13 @@ use crate::engine::lanes::reach::largest;
 use crate::engine::lanes::vector::{Mask, Scalar, Vector};
 use crate::engine::reference::integrate::ROUNDINGS;
 
-/// What event functions and their derivatives may be off by at the beginning of a step.
+/// The rounding errors of event functions and their derivatives at the beginning of a step.
 pub struct Rounding<S: Simd, T: Scalar<S>> {
     /// A force.
     pub force: Vector<S, T>,
     /// A sliding speed.
     pub speed: Vector<S, T>,
-    /// What opens the gap.
+    /// An acceleration that opens the gap.
     gap: Vector<S, T>,
 }
 

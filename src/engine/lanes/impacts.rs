@@ -30,7 +30,7 @@ pub fn at_speed<S: Simd, T: Scalar<S>>(b: &Block<S, T>, speed: Vector<S, T>) -> 
     AtSpeed { mu: word(SLOPE).fma(speed, word(AT_ZERO)), elsewhere }
 }
 
-/// What an impact leaves.
+/// The motion after an impact.
 pub struct Impact<S: Simd, T: Scalar<S>> {
     /// `ẋ2` afterwards.
     pub tangential: Vector<S, T>,

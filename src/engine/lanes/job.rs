@@ -89,7 +89,7 @@ pub struct Job<T> {
     approached: f64,
     /// `x2` and `y1` at the start of the window.
     pub origin: [T; 2],
-    /// What it has reduced.
+    /// The sums of its run so far.
     pub seen: Reductions,
     /// `ẋ2` at the end of the last step of the window.
     pub previous: T,

@@ -28,13 +28,13 @@ pub struct Terms {
 }
 
 impl Default for Terms {
-    /// As many steps as a run may have, the widest registers of this machine.
+    /// As many steps as a run may have, in the widest registers of this machine.
     fn default() -> Terms {
         Terms { most_steps: MOST_STEPS, instructions: Arch::new() }
     }
 }
 
-/// What all instances of a pass share.
+/// The settings that all instances of a pass share.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings<'a> {
     /// How long they run, and in which steps.
@@ -49,9 +49,9 @@ pub struct Settings<'a> {
 
 /// Lanes and the instances they work on.
 pub struct Lanes<'a, S: Simd, T: Scalar<S>> {
-    /// What the steps need of them.
+    /// The state that the steps need.
     pub block: Block<S, T>,
-    /// What they reduce.
+    /// The sums of the lanes.
     pub sums: Sums<S, T>,
     /// The instances.
     pub jobs: &'a mut [Job<T>],

@@ -18,7 +18,7 @@ const FAR: f64 = 0.5;
 /// with the fourteenth, and a step of a part in millions is asked for where friction changes as fast.
 const SHORTEST: f64 = 1e-15;
 
-/// What a step's last terms allow.
+/// The length that the last terms of a step's series allow.
 pub struct Reach<S: Simd, T: Scalar<S>> {
     /// How far into the step its series can be trusted, 1 for all of it.
     pub end: Vector<S, T>,

@@ -13,7 +13,7 @@ use crate::engine::precision::Precision;
 /// The least part of the way between two samples at which a root is looked for first.
 const LEAST: f64 = 1e-3;
 
-/// By how much of the step a bracket may be off.
+/// The part of the step by which a bracket may be off.
 pub const SLACK: f64 = 1e-4;
 
 /// Where an event function falls below zero, or rises beyond its span.

@@ -28,7 +28,7 @@ pub enum Method {
 }
 
 impl Method {
-    /// What finds the first event of a step, see [`roots::first_crossing`].
+    /// The function that finds the first event of a step, see [`roots::first_crossing`].
     #[must_use]
     pub fn finder(self) -> fn(&[f64], f64, bool) -> Crossing {
         match self {

@@ -91,7 +91,7 @@ pub struct Step<'a> {
     pub end: Motion,
 }
 
-/// What ended a step early.
+/// The event that ended a step early.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Event {
     /// The relative velocity reached 0.
@@ -408,7 +408,7 @@ impl<'a> Integrator<'a> {
         }
     }
 
-    /// What the acceleration at rest may be off by: roundings of the forces on the edge of the cone.
+    /// The rounding error of the acceleration at rest, from the forces on the edge of the cone.
     fn rounding(&self, expansion: &Expansion) -> f64 {
         let (tangential, normal) = expansion.forces(0.0);
         let size = self.model.n0 * (1.0 + self.model.law.mu_stick) + tangential.abs() + normal.abs();

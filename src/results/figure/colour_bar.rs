@@ -98,7 +98,7 @@ fn named(
     key::rows(svg, [x, y], width, LABEL_SIZE, &entries)
 }
 
-/// What hatching and dots mean, as far as they occur.
+/// The entries that explain hatching and dots, as far as they occur.
 fn remarks(field: &Field<'_>, panels: &Panels) -> Vec<(Text, Sample<'static>)> {
     let mut entries = Vec::new();
     if field.undefined > 0 {

@@ -19,7 +19,7 @@ const WORD_GAP: f64 = 3.5;
 const ENTRY_GAP: f64 = 13.0;
 /// Between base lines, points.
 const LINE: f64 = 12.0;
-/// What stands beside the words.
+/// The sample beside the words of an entry.
 enum Swatch {
     Fill(&'static str, Option<String>),
     Unsettled,

@@ -69,7 +69,7 @@ impl Journal {
     }
 }
 
-/// What a block of panels shows.
+/// The content of a block of panels.
 #[derive(Clone, Copy, Debug)]
 pub enum Content<'a> {
     /// Classes by colour.

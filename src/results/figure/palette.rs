@@ -53,7 +53,7 @@ pub const BISTABILITY: [Class; 3] = [
     Class { name: "bistable", label: "bistable", fill: "#A5480F", dark: true },
 ];
 
-/// What a block of panels colours.
+/// The property by which a block of panels is coloured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Colouring {
     /// Colours by [`InstabilityType`](crate::model::kind::InstabilityType).

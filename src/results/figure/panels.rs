@@ -1,4 +1,4 @@
-//! Which instances stand in which panel: the picture's axes and the small multiples.
+//! The panels of a picture: its axes, and which instances stand in which panel.
 
 use std::cmp::Ordering;
 use std::collections::HashSet;
@@ -17,7 +17,7 @@ const MOST_PANELS: usize = 40;
 const MOST_TUPLE_PANELS: usize = 12;
 /// More cells than this no print resolves; the figure then shows an even selection of the values and says so.
 const MOST_CELLS: usize = 1 << 22;
-/// And no axis has more of them than this.
+/// The most values that an axis may have for that.
 const MOST_VALUES: usize = 1 << 12;
 
 /// One panel.
@@ -47,7 +47,7 @@ pub(crate) struct Panels {
     pub(crate) x: PictureAxis,
     pub(crate) y: Option<PictureAxis>,
     pub(crate) all: Vec<Panel>,
-    /// What is shown, panel after panel.
+    /// The instances that are shown, panel after panel.
     pub(crate) instances: Vec<usize>,
     /// The label of each.
     pub(crate) labels: Vec<Label>,
@@ -59,7 +59,7 @@ pub(crate) struct Panels {
     pub(crate) columns: Option<usize>,
     /// For scattered points.
     pub(crate) scatter: Option<Scatter>,
-    /// What a reader has to know.
+    /// A note that a reader has to know of.
     pub(crate) note: Option<String>,
 }
 

@@ -9,7 +9,7 @@ use squealmap_figure::text::Text;
 const TICK_GAP: f64 = 6.0;
 /// Tick labels of round values take about this much of a horizontal axis, points.
 const TICK_WIDTH: f64 = 26.0;
-/// And this much of a vertical one, points.
+/// The room that a tick needs on a vertical axis, points.
 const TICK_HEIGHT: f64 = 20.0;
 /// An axis of no more values than this has its ticks at the values themselves.
 const FEW_VALUES: usize = 7;

@@ -119,7 +119,7 @@ fn draw_dense(
     marks.crosses(svg, &failed, FAILED);
 }
 
-/// What is seen on a colour.
+/// The colour of marks that are seen on a dark or a light one.
 pub(crate) fn contrast(dark: bool) -> &'static str {
     if dark { "#FFFFFF" } else { "#000000" }
 }

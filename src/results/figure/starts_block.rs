@@ -14,7 +14,7 @@ use squealmap_figure::words::number;
 
 /// One standard error up and down.
 const ERROR: &str = r##"class="error" fill="none" stroke="#1F3F8F" stroke-width="0.6""##;
-/// What has failed.
+/// The stroke of starts that have failed.
 const FAILED: &str = r##"fill="none" stroke="#C00000" stroke-width="0.9" stroke-dasharray="6 1.4 1 1.4" stroke-linejoin="round""##;
 
 /// An end, its words and its stroke.
@@ -34,13 +34,13 @@ fn met(basins: &[Option<Basin>]) -> impl Iterator<Item = End> {
     kept.filter(|(kept, _)| *kept).map(|(_, end)| end).collect::<Vec<_>>().into_iter()
 }
 
-/// What stands above the curves.
+/// The heading above the curves.
 pub(crate) fn heading(basins: &[Option<Basin>]) -> Text {
     let starts = basins.iter().flatten().map(|basin| basin.total()).max().unwrap_or(0);
     Text::from(format!("Ends of {starts} starts drawn from a box"))
 }
 
-/// What the curves are; nothing where there are no starts.
+/// The entries that name the curves; none where there are no starts.
 pub(crate) fn entries(basins: &[Option<Basin>]) -> Vec<(Text, Sample<'static>)> {
     let all = met(basins).map(|(_, words, stroke)| (Text::from(words), Sample::Line(stroke)));
     let error = (Text::from("± standard error"), Sample::Bar(ERROR));

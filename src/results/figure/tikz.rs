@@ -27,7 +27,7 @@ use squealmap_figure::text::Text;
 const LEFT: f64 = 36.0;
 /// Between panels, points: room for half a tick label of each.
 const GAP: f64 = 16.0;
-/// What hatching means: no result, and a response that has not settled.
+/// The patterns of instances without a result, and of a response that has not settled.
 const FAILED: &str = "pattern=crosshatch, pattern color=red";
 const UNSETTLED: &str = "pattern=north east lines, pattern color=black!60";
 /// A row holds no more panels than this.
@@ -35,7 +35,7 @@ const COLUMNS: usize = 5;
 /// Panels are no larger than this, points.
 const LARGEST: f64 = 200.0;
 
-/// What stands before the panels.
+/// The source before the panels.
 const PREAMBLE: &str = r"\documentclass[border=2pt]{standalone}
 \usepackage[utf8]{inputenc}
 \usepackage[T1]{fontenc}
@@ -168,7 +168,7 @@ fn areas(out: &mut String, panels: &Panels, y: &PictureAxis, panel: &Panel, colo
     }
 }
 
-/// What the colours mean: the classes that occur.
+/// Writes the legend: the classes that occur, with their colours.
 fn legend(out: &mut String, panels: &Panels, colouring: Colouring, width: f64) {
     let occurs = |k: usize| panels.labels.iter().any(|label: &Label| colouring.class(*label) == Some(k));
     let classes = colouring.classes().iter().enumerate().filter(|(k, _)| occurs(*k));

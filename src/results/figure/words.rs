@@ -1,4 +1,4 @@
-//! What figures call the columns of a map.
+//! The names that figures give to the columns of a map.
 
 use crate::results::number::NumberColumn;
 use squealmap_figure::scale::axis_unit;

@@ -18,7 +18,7 @@ pub const QUANTILES: [f64; 4] = [0.5, 0.9, 0.99, 1.0];
 /// The name of a label and what a record has of it.
 type Named = (&'static str, fn(&Record) -> Option<&'static str>);
 
-/// What an instance is called, in the order of the table.
+/// The labels of an instance, in the order of the table.
 const LABELS: [Named; 6] = [
     ("status", |record| Some(record.status.name())),
     ("type", |record| record.kind.map(InstabilityType::name)),
@@ -33,7 +33,7 @@ const LABELS: [Named; 6] = [
 pub struct Labels {
     /// The column.
     pub name: &'static str,
-    /// Of each instance the two labels, empty where there is none; `None` where it was not computed in both.
+    /// The two labels of each instance, empty where it has none; `None` where it was not computed in both maps.
     pub pairs: Vec<Option<[&'static str; 2]>>,
 }
 
@@ -62,8 +62,8 @@ impl Labels {
 pub struct Differences {
     /// The column.
     pub name: String,
-    /// Of each instance the difference, as a part of the larger of both magnitudes, of an angle as a part of half a turn;
-    /// `None` where it is not defined in both.
+    /// The difference of each instance as a part of the larger of both magnitudes, or for angles as a part of half a turn;
+    /// `None` where the value is not defined in both maps.
     pub relative: Vec<Option<f64>>,
     /// How many instances have a number in one of the maps alone: in the first, in the second.
     pub alone: [usize; 2],

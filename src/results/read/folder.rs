@@ -9,7 +9,7 @@ use crate::results::figure::heading::Heading;
 use crate::results::manifest::Sum;
 use crate::store::seal::is_intact;
 
-/// What puts damaged results right.
+/// The end of a sentence that says how damaged results are put right.
 const HEALED: &str = "`squealmap verify --repair` writes it anew";
 
 /// A result, or what is wrong with a file as the end of a sentence.

@@ -28,7 +28,7 @@ pub struct Archive {
     /// The map. Only what figures need is read: title, analysis and grid of its sweep; type, regime, status and `settled` of
     /// its records. Everything else has its default value.
     pub map: Map,
-    /// What `map.csv` holds besides the instance, the swept values and names.
+    /// The numeric columns of `map.csv` without the instance and the swept values.
     pub columns: Vec<NumberColumn>,
     /// The program that computed it: version, and commit where known.
     pub program: String,
@@ -187,7 +187,7 @@ fn named<T: Copy>(all: &[T], name: fn(T) -> &'static str, column: &str, cell: &s
     found.map(Some).ok_or_else(|| format!("`{column}` is `{cell}`, which is none"))
 }
 
-/// What figures read of a record.
+/// The parts of a record that figures read.
 pub(crate) fn record(table: &Table, row: &csv::StringRecord) -> Why<Record> {
     let cell = |name: &str| table.cell(row, name);
     let status = cell("status");

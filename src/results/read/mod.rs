@@ -2,7 +2,7 @@
 //!
 //! - [`folder`]: the files of a directory, and errors that name them.
 //! - [`map`], [`refined`]: a map, and a refined map.
-//! - [`slice`]: a part of a map.
+//! - [`slice`](mod@slice): a part of a map.
 //! - [`compare`]: two maps of the same grid.
 
 pub use crate::results::choose::Taken;

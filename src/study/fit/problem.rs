@@ -42,7 +42,7 @@ impl Problem<'_> {
         [(lower, 1.0 - part), (upper, part)]
     }
 
-    /// What each value of the rows counts for in the friction of a point; those that count for something.
+    /// The weight of each value of the rows in the friction of a point, without those of weight 0.
     pub(super) fn weights(&self, point: &Point, velocity: f64) -> Vec<(usize, f64)> {
         let kinds = self.params.len();
         let parts = self.parts(point.velocity.abs(), velocity);

@@ -210,7 +210,7 @@ fn triangle(direction: Direction, (x, y): (f64, f64)) -> String {
     data
 }
 
-/// What is what; returns where the panel begins.
+/// Draws the legend. Returns where the panel begins.
 fn legend(svg: &mut Svg, hysteresis: &Hysteresis, [left, top]: [f64; 2], width: f64) -> f64 {
     let symbol = hysteresis.param.info().symbol;
     let branch = |words: &str| Text::default().symbol(symbol).plain(words);

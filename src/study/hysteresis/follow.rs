@@ -53,9 +53,9 @@ pub struct Hysteresis {
     pub param: Param,
     /// Its values, in the order of the way up.
     pub values: Vec<f64>,
-    /// What was found at each value on the way up.
+    /// The records on the way up, one for each value.
     pub up: Vec<Record>,
-    /// What was found at each value on the way down, in the order of `values` too.
+    /// The records on the way down, one for each value, in the order of `values` too.
     pub down: Vec<Record>,
 }
 

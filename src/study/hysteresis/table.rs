@@ -1,4 +1,4 @@
-//! Branches of a parameter that rises and falls, as a table; their figure is in `figure.rs`.
+//! The branches of a parameter that rises and falls, as a table; the figure is in `figure.rs`.
 
 use serde_json::json;
 
@@ -40,7 +40,7 @@ pub fn hysteresis_csv(spec: &Spec, hysteresis: &Hysteresis) -> Result<Vec<u8>> {
     Ok(table.finish()?)
 }
 
-/// What the figure needs beside the table, as JSON: the heading, and which parameter was followed.
+/// What the figure needs besides the table, as JSON: the heading, and which parameter was followed.
 ///
 /// # Errors
 /// When it cannot be written.

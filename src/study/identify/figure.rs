@@ -42,7 +42,7 @@ const STROKES: [&str; 2] = [
 /// Fill of episodes: light enough for curves on top.
 const EPISODE: &str = r##"fill="#F3E3B5""##;
 
-/// What the figure shows.
+/// Everything that the figure shows.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
 pub struct Shown {
     /// The heading; may be empty.
@@ -65,7 +65,7 @@ pub struct Shown {
 }
 
 impl Shown {
-    /// Of an identification.
+    /// The figure of an identification, with a heading.
     #[must_use]
     pub fn new(found: &Identification, title: &str) -> Shown {
         Shown {
@@ -221,7 +221,7 @@ fn curve(columns: &[[f64; 2]], [start, end]: [f64; 2]) -> impl Iterator<Item = (
     })
 }
 
-/// Which curve is which, and what is shaded.
+/// Draws the key, which says which curve is which, and what is shaded.
 fn key(svg: &mut Svg, found: &Shown, frame: &Frame) {
     const SAMPLE: f64 = 12.0;
     let base = frame.y - 4.0;

@@ -8,7 +8,7 @@ use crate::study::identify::spectrogram::filled_from;
 /// The files that are read.
 pub(crate) const FILES: [&str; 2] = ["spectrogram.nc", "figure.json"];
 
-/// What the figure shows.
+/// Reads everything that the figure shows.
 pub(crate) fn read(folder: Folder<'_>) -> Result<Shown> {
     let document = folder.json(FILES[1])?;
     let shown: Shown = serde_json::from_value(document["figure"].clone())

@@ -42,7 +42,7 @@ pub const COLUMNS: [&str; 22] = [
 #[derive(Debug)]
 pub struct WindowsCsv<W: Write> {
     writer: csv::Writer<W>,
-    /// What became of it so far.
+    /// Whether all rows so far were written.
     written: Result<()>,
 }
 
@@ -65,7 +65,7 @@ impl<W: Write> WindowsCsv<W> {
         }
     }
 
-    /// What was written to.
+    /// Ends the table and gives the writer back.
     ///
     /// # Errors
     /// When a row could not be written.

@@ -87,7 +87,7 @@ pub(super) fn trials() -> Vec<Trial> {
     trials
 }
 
-/// See [`Trial::disturbance`].
+/// The disturbance of the equilibrium by a ramp with these parameters, see [`Trial::disturbance`].
 pub(super) fn disturbance(params: &Params) -> f64 {
     let value = |param| params.require(param);
     let kick = value(Param::StartDisplacement) / Units::new(params).time.powi(2);
@@ -95,7 +95,7 @@ pub(super) fn disturbance(params: &Params) -> f64 {
     kick.max(belt.abs())
 }
 
-/// What tells the cases apart.
+/// The friction coefficients, which tell the cases apart.
 fn friction(params: &Params) -> [Option<f64>; 2] {
     [Param::MuS, Param::MuD].map(|param| params.get(param))
 }

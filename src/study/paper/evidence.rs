@@ -11,14 +11,14 @@ use crate::sweep::spec::Spec;
 /// Belt velocity, m/s, below which the size of the limit cycle is no longer in proportion to it: the belt comes to rest.
 pub(super) const SLOWEST: f64 = 1.0;
 
-/// What the claims ask of a ramp.
+/// The numbers of a ramp that claims are decided by.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RampFacts {
     /// Duration, s.
     pub duration: f64,
     /// Displacement at the start, m.
     pub kick: f64,
-    /// What disturbs the equilibrium, m/s²: as of [`Trial::disturbance`].
+    /// The disturbance of the equilibrium, m/s², see [`Trial::disturbance`].
     pub disturbance: f64,
     /// Root mean square of `ẍ2` over the ramp, m/s².
     pub ax_rms: f64,

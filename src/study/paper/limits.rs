@@ -3,7 +3,7 @@
 use crate::engine::regime::THRESHOLDS;
 use crate::study::paper::Trial;
 
-/// What the paper prints, and how near to it a result has to come.
+/// The numbers that the paper prints, and how near to them a result has to come.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
     /// The paper's critical friction coefficient of the constant law …

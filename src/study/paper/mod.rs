@@ -35,7 +35,7 @@ pub use ramp::{Ramp, Stretch};
 pub use study::{Settings, Study};
 pub use sweeps::Case;
 
-/// What the command draws.
+/// The figures that the command draws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[expect(missing_docs, reason = "the variants are the names of the figures")]
 pub enum Figure {

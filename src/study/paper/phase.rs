@@ -44,7 +44,7 @@ pub struct Witness {
     pub velocity: f64,
     /// Friction coefficients at rest and from the knee on.
     pub friction: [f64; 2],
-    /// What the eigenvalues attribute the instability to; `None` where nothing was computed.
+    /// The type of instability by the eigenvalues; `None` where nothing was computed.
     pub kind: Option<InstabilityType>,
     /// `|phase|` of `ÿ1` against `ẍ2` by every source, degrees; `None` where it is undefined, and for the limit cycle
     /// also where nothing vibrates or the vibration has not settled.

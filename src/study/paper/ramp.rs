@@ -114,7 +114,7 @@ impl Ramp {
     }
 }
 
-/// What the samples between two instants show; the last one before them belongs to them too.
+/// The samples between two instants, with the last one before them, reduced to one stretch of the picture.
 fn reduce(rows: &[TraceRow], [from, to]: [f64; 2]) -> Stretch {
     let first = rows.partition_point(|row| row.t <= from).saturating_sub(1);
     let last = rows.partition_point(|row| row.t <= to);

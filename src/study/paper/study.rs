@@ -1,4 +1,4 @@
-//! What the paper's figures show, computed.
+//! The content of the paper's figures, each computed once and when first asked for.
 
 use std::sync::OnceLock;
 
@@ -14,7 +14,7 @@ use crate::study::paper::ramp::Ramp;
 use crate::study::paper::sweeps::{Case, FIGURE_2};
 use crate::sweep::spec::Spec;
 
-/// What the paper leaves open.
+/// Settings that the paper leaves open.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Settings {
     /// Duration of the ramp of Figures 4 to 7, s; `None`: as shipped.

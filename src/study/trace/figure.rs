@@ -30,7 +30,7 @@ const COLUMN: f64 = 0.3;
 const COLUMN_GAP: f64 = 10.0;
 /// The last periods take this share of the width.
 const ZOOM_SHARE: f64 = 0.42;
-/// That many of them are shown ...
+/// So many of the last periods are shown ...
 const SHOWN_PERIODS: f64 = 4.0;
 /// ... when the run holds at least this many.
 const MANY_PERIODS: f64 = 12.0;
@@ -55,7 +55,7 @@ struct Curve {
     value: fn(&TraceRow) -> f64,
 }
 
-/// What the panels show, from top to bottom: curves and unit.
+/// The panels from top to bottom: their curves and their unit.
 const PANELS: [(&[Curve], &str); 4] = [
     (&[Curve { symbol: "x_2", value: |row| 1e3 * row.position[0] }], "mm"),
     (&[Curve { symbol: "ẋ_2", value: |row| row.velocity[0] }], "m/s"),

@@ -1,4 +1,4 @@
-//! What `squealmap tradeoff` writes: the table, its summary as JSON and the figure.
+//! The results of `squealmap tradeoff`: the table, its summary as JSON, and the figure.
 
 use std::fmt::Write as _;
 
@@ -117,7 +117,7 @@ pub struct Section<'a> {
     pub title: &'a str,
     /// The path of its figure, relative to the report.
     pub figure: String,
-    /// What was measured.
+    /// The measurement.
     pub measured: &'a Measurement,
 }
 
@@ -235,7 +235,7 @@ fn section_of(text: &mut String, section: &Section) {
     }
 }
 
-/// What a terminal shows: the fastest configuration for each of the named accuracies.
+/// The summary for a terminal: the fastest configuration for each of the named accuracies.
 #[must_use]
 pub fn summary(measured: &Measurement) -> String {
     let truth = &measured.truth;

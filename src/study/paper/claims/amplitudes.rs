@@ -9,7 +9,7 @@ fn alike(ratio: f64) -> bool {
     (1.0 / LIMITS.similar..=LIMITS.similar).contains(&ratio)
 }
 
-/// Which of these ramps' vibrations have not grown, as the end of a sentence; nothing where all have.
+/// The end of a sentence that names the ramps whose vibrations have not grown; empty where all have.
 fn small(evidence: &Evidence, cases: &[Case]) -> String {
     let small = cases.iter().filter(|case| !evidence.ramps[**case as usize].grown());
     let words: Vec<&str> = small.map(|case| case.words()).collect();

@@ -2,7 +2,7 @@
 
 use crate::study::paper::evidence::RampFacts;
 
-/// What became of a claim.
+/// The verdict on a claim.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Verdict {
     /// It holds.
@@ -34,11 +34,11 @@ impl Verdict {
 pub struct Claim {
     /// The figure or section it belongs to.
     pub figure: &'static str,
-    /// What the paper says, as it is read here.
+    /// The paper's claim, as it is read here.
     pub says: &'static str,
-    /// What was found, with the numbers.
+    /// The result here, with its numbers.
     pub found: String,
-    /// What became of it.
+    /// The verdict.
     pub verdict: Verdict,
 }
 
@@ -51,7 +51,7 @@ pub(super) fn near(value: Option<f64>, target: f64, within: f64) -> bool {
     value.is_some_and(|x| (x - target).abs() <= within)
 }
 
-/// What is found where a vibration has not grown.
+/// The result of a ramp whose vibration has not grown.
 pub(super) fn not_grown(ramp: &RampFacts) -> String {
     format!(
         "on this ramp the vibration does not grow: ẍ2 stays within {:.1} m/s², {:.1} times what disturbs it",

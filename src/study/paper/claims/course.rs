@@ -15,7 +15,7 @@ struct Course {
 }
 
 impl Course {
-    /// Of `ẍ2` (0) or `ÿ1` (1).
+    /// The course of the size of `ẍ2` (`which` is 0) or `ÿ1` (1).
     fn of(ramp: &RampFacts, which: usize) -> Course {
         let sizes: Vec<f64> = ramp.parts.iter().map(|part| part.peaks()[which]).collect();
         let largest = sizes.iter().copied().fold(0.0, f64::max);

@@ -35,14 +35,14 @@ const NARROW: f64 = 400.0;
 /// Heading of picture and document.
 pub(super) const HEADING: &str =
     "Largest accelerations during the ramp, as ratios, against its duration and the first kick";
-/// What the fills mean.
+/// The note that explains the fills.
 const NOTE: &str = "Orange: above 1. Blue: up to 1. Grey, in italics: not in every case has the vibration grown to ten \
     times the acceleration of the kick and of the belt, so that the ratio says little.";
 
 /// A ratio of a trial.
 type Ratio = fn(&Trial) -> Option<f64>;
 
-/// What the maps show.
+/// The titles of the maps, and the numbers that they show.
 const MAPS: [(&str, &str, Ratio); 3] = [
     ("(a) ", "both / larger of the two", |trial| trial.coexistence().map(|ratio| ratio[0])),
     ("(b) ", "both / larger of the two", |trial| trial.coexistence().map(|ratio| ratio[1])),
@@ -73,7 +73,7 @@ pub(super) fn table(trials: &[Trial]) -> Result<Vec<u8>> {
     Ok(table.finish()?)
 }
 
-/// What the table does not hold: what disturbs the equilibrium in each row, m/s².
+/// The document beside the table: the disturbance of the equilibrium in each row, m/s².
 pub(super) fn to_json(trials: &[Trial]) -> Json {
     let disturbances: Vec<f64> = trials.iter().map(|trial| trial.disturbance).collect();
     json!({ "title": HEADING, "disturbance": disturbances })

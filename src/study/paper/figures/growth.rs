@@ -175,7 +175,7 @@ fn panels(svg: &mut Svg, growth: &Growing, [x, top]: [f64; 2], [width, height]: 
     svg.text(x + 0.5 * width, base, &label, Style::new(LABEL_SIZE, Anchor::Middle));
 }
 
-/// What both panels of the first column show.
+/// The labels of both panels of the first column.
 fn labels(svg: &mut Svg, top: f64, height: f64, exponent: i32) {
     let labels =
         [Text::from("Acceleration").then(axis_unit("m/s^2", exponent)), Text::from("Each over its largest")];

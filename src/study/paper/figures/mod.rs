@@ -39,7 +39,7 @@ pub struct Drawn {
     pub svg: String,
     /// The numbers behind it.
     pub csv: Vec<u8>,
-    /// What the picture needs beside them, as JSON.
+    /// What the picture needs besides the table, as JSON.
     pub json: Vec<u8>,
 }
 
@@ -54,7 +54,7 @@ impl Drawn {
     }
 }
 
-/// What a figure shows, computed or read back.
+/// The content of a figure, computed or read back.
 #[derive(Clone, Debug)]
 pub enum Shown {
     /// Figure 2.
@@ -92,7 +92,7 @@ impl Shown {
         })
     }
 
-    /// What stands above the picture.
+    /// The title above the picture.
     #[must_use]
     pub fn title(&self) -> &str {
         match self {
@@ -133,7 +133,7 @@ impl Shown {
         }
     }
 
-    /// What the picture needs beside them, as JSON.
+    /// What the picture needs besides the table, as JSON.
     ///
     /// # Errors
     /// When it cannot be written.

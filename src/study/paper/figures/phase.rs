@@ -34,7 +34,7 @@ const STEPS: u32 = 45;
 const BAR_HEIGHT: f64 = 7.0;
 /// Width of the bar with its words, points.
 const BAR: f64 = 136.0;
-/// What the labels of the vertical axis take about, points.
+/// About the room that the labels of the vertical axis take, points.
 const MAPS_LEFT: f64 = 32.0;
 /// Least width of a map, points.
 const LEAST: f64 = 55.0;
@@ -48,7 +48,7 @@ const CURVES_HEADING: &str =
 pub(super) const HEADING: &str =
     "The phase method on trial: does the phase of normal against tangential acceleration tell the mechanism?";
 
-/// What a verdict at the customary threshold comes to; light to dark.
+/// The results that a verdict at the customary threshold can have, with their fills from light to dark.
 const VERDICTS: [(&str, &str); 5] = [
     ("#FFFFFF", "stable"),
     ("#DCDCDC", "both mechanisms, or neither alone"),
@@ -236,7 +236,7 @@ fn bar(svg: &mut Svg, x: f64, base: f64) {
     svg.text(x + 74.0, base, &words, Style::new(TICK_SIZE, Anchor::Start));
 }
 
-/// What the fills of the verdicts mean; returns where they end.
+/// Draws the legend of the verdicts' fills. Returns where it ends.
 fn legend(svg: &mut Svg, [left, top]: [f64; 2], width: f64) -> f64 {
     let fills = VERDICTS.map(|(fill, _)| format!(r##"fill="{fill}" stroke="#000000" stroke-width="0.4""##));
     let words = VERDICTS.iter().map(|(_, words)| Text::from(*words));

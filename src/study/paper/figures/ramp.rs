@@ -45,7 +45,7 @@ pub(crate) const COLUMNS: [&str; 8] =
 /// A ramp as its picture shows it.
 #[derive(Clone, Debug)]
 pub struct Slowdown {
-    /// What stands above it.
+    /// The heading above it.
     pub heading: String,
     /// The belt velocity from which on friction is constant, m/s; `None` where it is constant everywhere.
     pub knee: Option<f64>,
@@ -78,7 +78,7 @@ impl Slowdown {
         })
     }
 
-    /// What the table does not hold.
+    /// The document beside the table.
     pub(super) fn to_json(&self) -> Json {
         let shares: Vec<[f64; 2]> = self.parts.iter().map(|part| [part.stick, part.free]).collect();
         json!({

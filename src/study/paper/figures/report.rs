@@ -80,7 +80,7 @@ fn limits() -> String {
     )
 }
 
-/// What a figure shows, with its numbers.
+/// The caption of a figure, with its numbers.
 fn caption(figure: Figure, evidence: &Evidence) -> String {
     let ramp = |k: usize| {
         let [ax, ay] = evidence.ramps[k].peaks();
@@ -122,7 +122,7 @@ fn growth(evidence: &Evidence) -> String {
     )
 }
 
-/// What the trial of the phase found.
+/// The result of the trial of the phase.
 fn phase(trial: &PhaseTrial) -> String {
     let mut text = format!(
         "Each of the {} instances starts on its most unstable mode and runs until it is settled. Attributed are the \
