@@ -10,6 +10,7 @@ use crate::results::figure::points::{Marks, NOT_COMPUTED, contrast, positions};
 use crate::results::figure::{points, words};
 use crate::results::number::NumberColumn;
 use crate::results::trust;
+use crate::sweep::columns::Column;
 use crate::sweep::grid::Grid;
 use squealmap_figure::boundaries::{Vertex, outlines};
 use squealmap_figure::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room};
@@ -178,12 +179,12 @@ fn starts(basins: &[Option<Basin>]) -> u32 {
 
 /// Whether a column is a fraction of the starts from a box.
 fn is_fraction(column: &NumberColumn) -> bool {
-    column.name.starts_with("basin_")
+    column.row().is_some_and(Column::is_share)
 }
 
 /// Whether the sign of a column says what happens: growth or decay.
 pub(crate) fn has_sign(column: &NumberColumn) -> bool {
-    column.name.starts_with("growth_rate")
+    column.row().is_some_and(|row| row.has_sign)
 }
 
 /// The scale of the colours of a quantity, and the colours.
