@@ -1,4 +1,4 @@
-//! `squealmap keys`: every key of a sweep file, from the one table.
+//! `squealmap keys`: every key of a sweep file and every column of its results, each from its one table.
 
 use std::fmt::Write;
 
@@ -6,6 +6,7 @@ use crate::cli::error::Result;
 use crate::cli::talk;
 use clap::Args;
 use serde_json::{Value as Json, json};
+use squealmap::sweep::columns::{Column, Content, Values, computed};
 use squealmap::sweep::spec::keys::{Key, SECTIONS, all, named};
 
 /// Arguments of `keys`.
@@ -13,13 +14,23 @@ use squealmap::sweep::spec::keys::{Key, SECTIONS, all, named};
 pub(crate) struct KeysCommand {
     /// One key, or all of a section [default: every key]
     name: Option<String>,
-    /// As tables in Markdown, of which docs/sweeps.md is made
+    /// The columns of map.csv instead
+    #[arg(long, conflicts_with = "name")]
+    columns: bool,
+    /// As tables in Markdown, of which docs/sweeps.md and docs/columns.md are made
     #[arg(long, conflicts_with = "name")]
     markdown: bool,
 }
 
 impl KeysCommand {
     pub(crate) fn execute(self) -> Result<()> {
+        if self.columns {
+            // Those of the large start are the same once more.
+            let columns: Vec<&Column> = computed().filter(|column| !column.is_of_large_start).collect();
+            talk::tell("columns", columns.iter().map(|column| column_to_json(column)).collect::<Json>());
+            talk::product(&if self.markdown { column_table(&columns) } else { column_list(&columns) });
+            return Ok(());
+        }
         let keys = self.name.as_deref().map_or_else(|| Ok(all()), named)?;
         talk::tell("keys", keys.iter().map(to_json).collect::<Json>());
         talk::product(&match keys.as_slice() {
@@ -114,5 +125,51 @@ fn to_json(key: &Key) -> Json {
         "range": key.range,
         "read_by": key.read_by,
         "varies": key.varies,
+    })
+}
+
+/// What the cells of a column hold, in words.
+fn holds(column: &Column) -> String {
+    match column.values() {
+        Some(Values::Name(class)) => class.names().collect::<Vec<_>>().join(", "),
+        Some(Values::Flag(_)) => "0, 1".to_owned(),
+        _ if column.content() == Content::Count => "count".to_owned(),
+        _ => "number".to_owned(),
+    }
+}
+
+/// A line of name, unit, what asks for it and meaning for each column.
+fn column_list(columns: &[&Column]) -> String {
+    let width =
+        |of: fn(&Column) -> &str| columns.iter().map(|one| of(one).chars().count()).max().unwrap_or(0);
+    let widths = [width(|one| one.name), width(|one| one.unit), width(|one| one.group.asked_by())];
+    let mut text = String::new();
+    for column in columns {
+        let Column { name, unit, meaning, group, .. } = column;
+        let [names, units, groups] = widths;
+        let _ = writeln!(text, "{name:names$}  {unit:units$}  {:groups$}  {meaning}", group.asked_by());
+    }
+    text
+}
+
+/// The same as a table.
+fn column_table(columns: &[&Column]) -> String {
+    let mut text = "| column | unit | meaning | holds | with |\n|---|---|---|---|---|\n".to_owned();
+    for column in columns {
+        let Column { name, unit, meaning, group, .. } = column;
+        let (meaning, holds) = (meaning.replace('|', "\\|"), holds(column));
+        let _ = writeln!(text, "| `{name}` | {unit} | {meaning} | {holds} | {} |", group.asked_by());
+    }
+    text
+}
+
+fn column_to_json(column: &Column) -> Json {
+    json!({
+        "name": column.name,
+        "unit": column.unit,
+        "meaning": column.meaning,
+        "holds": holds(column),
+        "asked_by": column.group.asked_by(),
+        "of_the_window": column.is_of_the_window,
     })
 }

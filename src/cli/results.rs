@@ -11,12 +11,13 @@ use crate::cli::pictures::png_of;
 use crate::cli::summed::{Summed, unlike};
 use crate::cli::talk;
 use crate::cli::talk::note;
+use serde::Deserialize;
 use squealmap::disk;
 use squealmap::engine::record::Record;
 use squealmap::results::csv::MapCsv;
 use squealmap::results::figure::map::MapFigure;
 use squealmap::results::manifest;
-use squealmap::results::manifest::{OfTiles, Run, Sum};
+use squealmap::results::manifest::{Manifest, OfTiles, Run, Sum, Sums};
 use squealmap::store::claim::Claim;
 use squealmap::store::directory::{Fingerprint, Store};
 use squealmap::store::seal::is_intact;
@@ -105,7 +106,7 @@ pub(crate) fn write(store: &Store, run: &Run, cancel: &AtomicBool) -> Result<Res
     let of_tiles = OfTiles {
         sweep_id: description.id.to_string(),
         checksum: fingerprint.map(|fingerprint| (tiling.count(), fingerprint.finish().to_string())),
-        files: Vec::new(),
+        files: Sums::default(),
     };
     let mut run = Run { tiles: Some(of_tiles), ..run.clone() };
     let complete = run.is_complete(&tally);
@@ -121,7 +122,7 @@ pub(crate) fn write(store: &Store, run: &Run, cancel: &AtomicBool) -> Result<Res
     }
     sums.splice(0..0, table_sum.map(|sum| (FILES[0], sum)));
     if let Some(tiles) = &mut run.tiles {
-        tiles.files = sums;
+        tiles.files = sums.into_iter().collect();
     }
     let text = manifest::manifest(sheet, &description.resolved, &tally, &run)?;
     fill(&mut manifest_file, &text)?;
@@ -173,14 +174,14 @@ fn claim_or_current(store: &Store, run: &Run, cancel: &AtomicBool) -> Result<Cla
 /// that are whole.
 fn there(store: &Store) -> Option<(bool, usize)> {
     let bytes = disk::read(&store.directory.join(MANIFEST)).ok().filter(|bytes| is_intact(bytes))?;
-    let manifest: serde_json::Value = serde_json::from_slice(&bytes).ok()?;
-    let is_of_this = manifest["sweep_id"] == store.description.id.to_string();
+    let document: serde_json::Value = serde_json::from_slice(&bytes).ok()?;
+    let manifest = Manifest::deserialize(&document).ok()?;
+    let is_of_this = manifest.sweep_id.as_deref() == Some(store.description.id.to_string().as_str());
     let is_there = |name: &&str| {
-        Sum::in_manifest(&manifest, name).is_none()
-            || unlike(&store.directory, name, MANIFEST, &manifest).is_none()
+        Sum::in_manifest(&document, name).is_none()
+            || unlike(&store.directory, name, MANIFEST, &document).is_none()
     };
-    let computed = usize::try_from(manifest["computation"]["computed"].as_u64()?).ok()?;
-    (is_of_this && FILES.iter().all(is_there)).then_some((manifest["complete"] == true, computed))
+    (is_of_this && FILES.iter().all(is_there)).then_some((manifest.complete, manifest.computation.computed))
 }
 
 /// Tells scripts what the manifest of a directory says.
@@ -196,11 +197,11 @@ pub(crate) fn tell(directory: &Path) {
 /// Why the results are not those of all tiles of this sweep as they are now, a sentence each; none where they are.
 pub(crate) fn faults(store: &Store) -> Vec<String> {
     let bytes = disk::read(&store.directory.join(MANIFEST)).unwrap_or_default();
-    let manifest: serde_json::Value = serde_json::from_slice(&bytes).unwrap_or_default();
-    if manifest.is_null() {
+    let document: serde_json::Value = serde_json::from_slice(&bytes).unwrap_or_default();
+    let Ok(manifest) = Manifest::deserialize(&document) else {
         return vec![format!("`{MANIFEST}` is not there or no document")];
-    }
-    if manifest.get("checksum").is_none() && manifest.get("files").is_none() {
+    };
+    if manifest.checksum.is_none() && manifest.files.is_none() {
         return vec![format!(
             "`{MANIFEST}`: it is of a version that wrote no checksums, so that the results cannot be judged; \
              `squealmap merge {}` writes them again from the tiles",
@@ -215,15 +216,18 @@ pub(crate) fn faults(store: &Store) -> Vec<String> {
     };
     let description = &store.description;
     expect(is_intact(&bytes), "its content does not have its checksum");
-    expect(manifest["sweep_id"] == description.id.to_string(), "it is of another sweep, version or engine");
-    expect(manifest["title"] == description.title, "its title is another one");
-    expect(manifest["complete"] == true, "it says that the results are not complete");
+    expect(
+        manifest.sweep_id == Some(description.id.to_string()),
+        "it is of another sweep, version or engine",
+    );
+    expect(manifest.title == description.title, "its title is another one");
+    expect(manifest.complete, "it says that the results are not complete");
     let fingerprint = store.fingerprint().map(|id| id.to_string());
-    let of_all = fingerprint.is_some_and(|found| manifest["tiles"]["blake3"] == found);
+    let of_all = manifest.tiles.flatten().is_some_and(|tiles| Some(tiles.blake3) == fingerprint);
     expect(of_all, "it is not of the tiles that are there");
     let tables = if description.tiling.instances <= MOST_ROWS { &FILES[..] } else { &FILES[1..] };
     for name in tables.iter().filter(|name| **name != MANIFEST) {
-        faults.extend(unlike(&store.directory, name, MANIFEST, &manifest));
+        faults.extend(unlike(&store.directory, name, MANIFEST, &document));
     }
     faults
 }

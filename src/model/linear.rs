@@ -22,7 +22,7 @@ use crate::model::kind::{InstabilityType, UNSTABLE_ABOVE};
 use crate::model::{Param, quartic};
 
 /// Eigenvalue analysis of one sliding equilibrium.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Linear {
     /// Largest real part of the eigenvalues, both mechanisms present, 1/s.
     pub growth_rate: f64,

@@ -4,12 +4,8 @@
 //! code here, explained by `flag_values` and `flag_meanings` as in the CF conventions.
 
 use crate::engine::record::Record;
-use crate::engine::regime::Regime;
-use crate::model::kind::InstabilityType;
-use crate::model::status::Status;
-use crate::results::columns::{Cell, Column, columns};
+use crate::sweep::columns::{Cell, Class, Column, Values as Source, columns};
 use crate::sweep::grid::{Axis, AxisKey, Grid, Value};
-use crate::sweep::label::Label;
 use crate::sweep::sheet::Sheet;
 
 /// The dimension of tuples, and of a sweep without axes.
@@ -94,13 +90,9 @@ impl Arrays {
         };
         let variables = columns(sheet.grid, sheet.analysis)
             .into_iter()
-            .filter(Column::is_computed)
-            .map(|column| Variable {
-                name: column.name,
-                unit: unit(column.unit),
-                meaning: column.meaning,
-                kind: kind(column.quantity()),
-                column,
+            .filter_map(|column| {
+                let (name, unit, meaning) = (column.name, unit(column.unit), column.meaning);
+                Some(Variable { name, unit, meaning, kind: kind(column.values()?), column })
             })
             .collect();
         Arrays { dimensions, coordinates, variables }
@@ -111,9 +103,11 @@ impl Variable {
     /// Its values of some records.
     #[must_use]
     pub fn values(&self, records: &[Record]) -> Values {
-        match self.kind {
-            Kind::Numbers => Values::Numbers(records.iter().map(|record| self.number(record)).collect()),
-            Kind::Codes(_) => Values::Codes(records.iter().map(|record| self.code(record)).collect()),
+        match self.column.values().and_then(Source::class) {
+            None => Values::Numbers(records.iter().map(|record| self.number(record)).collect()),
+            Some(class) => {
+                Values::Codes(records.iter().map(|record| class.code(self.column.of(record))).collect())
+            }
         }
     }
 
@@ -124,19 +118,6 @@ impl Variable {
             Cell::Empty | Cell::Text(_) => f64::NAN,
         }
     }
-
-    fn code(&self, record: &Record) -> i8 {
-        let record = self.column.of(record);
-        let label = Label::from(record);
-        let after = |place: Option<usize>| place.map_or(0, |place| small(place + 1));
-        match self.column.quantity() {
-            "type" => after(label.kind_position()),
-            "regime" => after(label.regime_position()),
-            "settled" => label.settled().map_or(-1, i8::from),
-            "bistable" => label.bistable().map_or(-1, i8::from),
-            _ => small(record.status as usize),
-        }
-    }
 }
 
 /// A dimensionless unit has a name in formats of arrays.
@@ -144,30 +125,19 @@ fn unit(unit: &'static str) -> &'static str {
     if unit.is_empty() { "1" } else { unit }
 }
 
-fn small(number: usize) -> i8 {
-    i8::try_from(number).unwrap_or(i8::MAX)
-}
-
-/// The codes of a column of names.
-fn kind(name: &str) -> Kind {
-    let numbered = |names: &mut dyn Iterator<Item = &'static str>| {
-        let all = std::iter::once("undefined").chain(names);
-        Kind::Codes(all.enumerate().map(|(code, name)| (small(code), name.to_owned())).collect())
+/// What the numbers of a variable are; of yes and no, their codes are called so.
+fn kind(values: Source) -> Kind {
+    let codes = |class: &Class, names: &mut dyn Iterator<Item = (i8, &'static str)>| {
+        let undefined = class.undefined().map(|code| (code, "undefined"));
+        Kind::Codes(undefined.into_iter().chain(names).map(|(code, name)| (code, name.to_owned())).collect())
     };
-    match name {
-        "type" => numbered(&mut InstabilityType::ALL.iter().map(|kind| kind.name())),
-        "regime" => numbered(&mut Regime::ALL.iter().map(|regime| regime.name())),
-        "settled" | "bistable" => Kind::Codes([(-1, "undefined"), (0, "no"), (1, "yes")].map(named).to_vec()),
-        "status" => {
-            let codes = Status::IN_MAP.map(|status| named((small(status as usize), status.name())));
-            Kind::Codes(codes.to_vec())
+    match values {
+        Source::Name(class) => codes(class, &mut class.codes()),
+        Source::Flag(class) => {
+            codes(class, &mut class.codes().zip(["no", "yes"]).map(|((code, _), name)| (code, name)))
         }
-        _ => Kind::Numbers,
+        Source::Number(_) | Source::Count(_) | Source::Share(_) | Source::Summary(_) => Kind::Numbers,
     }
-}
-
-fn named((code, name): (i8, &str)) -> (i8, String) {
-    (code, name.to_owned())
 }
 
 /// The coordinate of an axis along a dimension.

@@ -1,11 +1,11 @@
 //! The lines between classes as a table, for pgfplots and MATLAB.
 
-use crate::results::columns::Cell;
 use crate::results::csv::Table;
 use crate::results::error::Result;
 use crate::results::figure::palette::Colouring;
 use crate::results::figure::panels::Panels;
 use crate::results::figure::picture_axis::PictureAxis;
+use crate::sweep::columns::Cell;
 use crate::sweep::grid::{AxisKey, Grid};
 use crate::sweep::label::Label;
 use crate::sweep::map::Map;

@@ -3,7 +3,6 @@
 
 use serde_json::{Value as Json, json};
 
-use crate::results::columns::Cell;
 use crate::results::csv::Table;
 use crate::results::error::Result;
 use crate::results::figure::look::{Content, Look};
@@ -12,6 +11,7 @@ use crate::results::manifest::described;
 use crate::results::number::NumberColumn;
 use crate::results::read::Archive;
 use crate::results::read::compare::{Comparison, Differences, Labels, QUANTILES};
+use crate::sweep::columns::Cell;
 
 /// The labels of the figure, and the fill of each: what differs of an instance.
 const DIFFER: [(&str, &str); 4] = [

@@ -6,8 +6,8 @@ use rayon::prelude::*;
 
 use crate::engine::record::Record;
 use crate::results::accounted::accounted;
-use crate::results::columns::{Column, columns};
 use crate::results::error::{Error, Result};
+use crate::sweep::columns::{Column, columns};
 use crate::sweep::grid::Grid;
 use crate::sweep::map::Map;
 use crate::sweep::sheet::Sheet;

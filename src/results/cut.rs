@@ -1,11 +1,11 @@
 //! A cut through a map: quantities along one axis, a curve for each value of another; the figure is in `cut_figure.rs`.
 
 use crate::results::choose::{Taken, choose_all};
-use crate::results::columns::Cell;
 use crate::results::csv::Table;
 use crate::results::error::{Error, Result};
 use crate::results::number::NumberColumn;
 use crate::results::trust;
+use crate::sweep::columns::Cell;
 use crate::sweep::grid::{Axis, AxisKey, Grid, Value};
 use crate::sweep::map::Map;
 

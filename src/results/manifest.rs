@@ -2,21 +2,157 @@
 
 use std::time::Duration;
 
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use serde_json::{Map as Object, Value, json};
 
+use crate::engine::computation::Computation;
 use crate::engine::regime::Regime;
 use crate::model::kind::InstabilityType;
 use crate::model::status::Status;
 use crate::results::accounted::accounted;
-use crate::results::columns::columns;
 use crate::results::error::{Error, Result};
 use crate::store::seal::sealed;
 use crate::sweep::accuracy::frontier::Chosen;
+use crate::sweep::columns::{Column, columns};
 use crate::sweep::label::{Label, Tally};
 use crate::sweep::map::Map;
 use crate::sweep::sheet::Sheet;
 use crate::sweep::spec::{Analysis, Starts};
 use crate::version::{COMMIT, VERSION};
+
+/// The document.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+#[serde(default)]
+pub struct Manifest {
+    /// Title of the sweep; may be empty.
+    pub title: String,
+    /// What wrote it.
+    pub program: Program,
+    /// Whether these are the results of all instances with their checks.
+    pub complete: bool,
+    /// Where, how and how far it was computed.
+    pub computation: Computed,
+    /// How many instances have which label, see [`counts`].
+    pub counts: Value,
+    /// Impacts that gained energy, of all instances; only the reference counts them.
+    pub energy_gaining_impacts: Option<u64>,
+    /// The sweep as it was resolved.
+    pub spec: Value,
+    /// The columns of `map.csv`.
+    pub columns: Vec<Explained>,
+    /// What the checks found, where there are any.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub checks: Option<Value>,
+    /// The identity of the sweep, where tiles are kept.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sweep_id: Option<String>,
+    /// The tiles, where they are kept; none where some are not there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tiles: Option<Option<Tiles>>,
+    /// The files beside it, where tiles are kept.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub files: Option<Sums>,
+    /// The checksum of all before it, which [`sealed`] writes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub checksum: Option<String>,
+}
+
+/// The program that wrote a document.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(default)]
+pub struct Program {
+    /// Its name; not every document has it.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub name: String,
+    /// Its version.
+    pub version: String,
+    /// The commit that it was built of, where known.
+    pub git_commit: Option<String>,
+}
+
+impl Program {
+    /// This one.
+    #[must_use]
+    pub fn this() -> Program {
+        let name = env!("CARGO_PKG_NAME").to_owned();
+        Program { name, version: VERSION.to_owned(), git_commit: COMMIT.map(str::to_owned) }
+    }
+
+    /// The one that a document says it was written by.
+    #[must_use]
+    pub fn of(document: &Value) -> Program {
+        Program::deserialize(&document["program"]).unwrap_or_default()
+    }
+}
+
+impl std::fmt::Display for Program {
+    /// Version, and commit where known.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} {}", env!("CARGO_PKG_NAME"), self.version)?;
+        self.git_commit.as_ref().map_or(Ok(()), |commit| write!(f, " ({commit})"))
+    }
+}
+
+/// Where, how and how far a sweep was computed.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+#[serde(default)]
+pub struct Computed {
+    /// The eigenvalue analysis, when asked for.
+    pub linear: Option<Computation>,
+    /// The response, when asked for.
+    pub response: Option<Computation>,
+    /// Worker threads.
+    pub threads: usize,
+    /// Instances of the sweep.
+    pub instances: usize,
+    /// Instances that were computed.
+    pub computed: usize,
+    /// Why some are missing; `None` when none is.
+    pub stopped: Option<String>,
+    /// Wall time, s.
+    pub elapsed_seconds: f64,
+    /// Instances that were computed in this time over this time, 1/s.
+    pub instances_per_second: Option<f64>,
+    /// The accuracy that was asked for and what was chosen for it, where one was.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub accuracy: Option<Chosen>,
+    /// What was taken over from another sweep, where something was.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reused: Option<Reused>,
+}
+
+/// What was taken over from another sweep.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(default)]
+pub struct Reused {
+    /// How many instances.
+    pub instances: usize,
+    /// The identity of that sweep.
+    pub from_sweep: String,
+}
+
+/// What a column of `map.csv` says.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(default)]
+pub struct Explained {
+    /// The header.
+    pub name: String,
+    /// The SI unit; empty when dimensionless or a name.
+    pub unit: String,
+    /// One line of explanation.
+    pub meaning: String,
+}
+
+/// All tiles of a sweep.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize, Serialize)]
+#[serde(default)]
+pub struct Tiles {
+    /// How many.
+    pub count: usize,
+    /// The checksum of all.
+    pub blake3: String,
+}
 
 /// The tiles that results are of, and the results beside the manifest.
 #[derive(Clone, Debug)]
@@ -27,11 +163,11 @@ pub struct OfTiles {
     /// are missing.
     pub checksum: Option<(usize, String)>,
     /// Every file with its length and BLAKE3 checksum.
-    pub files: Vec<(&'static str, Sum)>,
+    pub files: Sums,
 }
 
 /// Length and checksum of a file.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize, Serialize)]
 pub struct Sum {
     /// Bytes.
     pub bytes: u64,
@@ -49,8 +185,30 @@ impl Sum {
     /// The sum that a manifest states for a file; `None` where it states none.
     #[must_use]
     pub fn in_manifest(manifest: &Value, file: &str) -> Option<Sum> {
-        let entry = manifest.get("files")?.get(file)?;
-        Some(Sum { bytes: entry.get("bytes")?.as_u64()?, blake3: entry.get("blake3")?.as_str()?.to_owned() })
+        Sum::deserialize(manifest.get("files")?.get(file)?).ok()
+    }
+}
+
+/// Files with their lengths and checksums, in the order in which they were written.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Sums(pub Vec<(String, Sum)>);
+
+impl FromIterator<(&'static str, Sum)> for Sums {
+    fn from_iter<I: IntoIterator<Item = (&'static str, Sum)>>(files: I) -> Sums {
+        Sums(files.into_iter().map(|(name, sum)| (name.to_owned(), sum)).collect())
+    }
+}
+
+impl Serialize for Sums {
+    fn serialize<S: Serializer>(&self, out: S) -> std::result::Result<S::Ok, S::Error> {
+        out.collect_map(self.0.iter().map(|(name, sum)| (name, sum)))
+    }
+}
+
+impl<'de> Deserialize<'de> for Sums {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> std::result::Result<Sums, D::Error> {
+        let sum = |(name, sum): (String, Value)| Ok((name, Sum::deserialize(sum).map_err(D::Error::custom)?));
+        Object::deserialize(from)?.into_iter().map(sum).collect::<std::result::Result<_, _>>().map(Sums)
     }
 }
 
@@ -111,58 +269,46 @@ pub fn manifest_json(map: &Map) -> Result<Vec<u8>> {
 pub fn manifest(sheet: Sheet, resolved: &Value, tally: &Tally, run: &Run) -> Result<Vec<u8>> {
     let seconds = run.elapsed.as_secs_f64();
     let complete = run.is_complete(tally);
-    let columns: Vec<Value> = columns(sheet.grid, sheet.analysis)
-        .iter()
-        .map(|column| json!({ "name": column.name, "unit": column.unit, "meaning": column.meaning }))
-        .collect();
-    let mut manifest = json!({
-        "title": sheet.title,
-        "program": { "name": env!("CARGO_PKG_NAME"), "version": VERSION, "git_commit": COMMIT },
-        "complete": complete,
-        "computation": {
-            "linear": sheet.linear,
-            "response": sheet.response,
-            "threads": run.threads,
-            "instances": tally.total(),
-            "computed": tally.computed(),
-            "stopped": run.stopped.as_ref().filter(|_| !complete),
-            "elapsed_seconds": seconds,
-            "instances_per_second": (seconds > 0.0).then(|| run.computed as f64 / seconds),
-        },
-        "counts": counts(sheet.analysis, tally),
-        "energy_gaining_impacts": tally.energy_gaining_impacts(),
-        "spec": resolved,
-        "columns": columns,
-    });
-    if sheet.analysis.checks() {
-        manifest["checks"] = tally.checks().to_json();
-    }
-    if let Some(accuracy) = &run.accuracy {
-        manifest["computation"]["accuracy"] = json!(accuracy);
-    }
-    if let Some((instances, from)) = &run.reused {
-        manifest["computation"]["reused"] = json!({ "instances": instances, "from_sweep": from });
-    }
+    let explained = |column: Column| Explained {
+        name: column.name.to_owned(),
+        unit: column.unit.to_owned(),
+        meaning: column.meaning.to_owned(),
+    };
+    let computation = Computed {
+        linear: sheet.linear.cloned(),
+        response: sheet.response.cloned(),
+        threads: run.threads,
+        instances: tally.total(),
+        computed: tally.computed(),
+        stopped: run.stopped.clone().filter(|_| !complete),
+        elapsed_seconds: seconds,
+        instances_per_second: (seconds > 0.0).then(|| run.computed as f64 / seconds),
+        accuracy: run.accuracy.clone(),
+        reused: run.reused.clone().map(|(instances, from_sweep)| Reused { instances, from_sweep }),
+    };
+    let mut manifest = Manifest {
+        title: sheet.title.to_owned(),
+        program: Program::this(),
+        complete,
+        computation,
+        counts: counts(sheet.analysis, tally),
+        energy_gaining_impacts: tally.energy_gaining_impacts(),
+        spec: resolved.clone(),
+        columns: columns(sheet.grid, sheet.analysis).into_iter().map(explained).collect(),
+        checks: sheet.analysis.checks().then(|| tally.checks().to_json()),
+        ..Manifest::default()
+    };
     if let Some(OfTiles { sweep_id, checksum, files }) = &run.tiles {
-        manifest["sweep_id"] = json!(sweep_id);
-        manifest["tiles"] =
-            json!(checksum.as_ref().map(|(count, sum)| json!({ "count": count, "blake3": sum })));
-        manifest["files"] = sums(files);
+        manifest.sweep_id = Some(sweep_id.clone());
+        manifest.tiles = Some(checksum.clone().map(|(count, blake3)| Tiles { count, blake3 }));
+        manifest.files = Some(files.clone());
     }
     pretty(&manifest).map(sealed)
 }
 
-/// The entry of a manifest about files, which [`Sum::in_manifest`] reads.
-pub(crate) fn sums(files: &[(&'static str, Sum)]) -> Value {
-    let sum =
-        |(name, sum): &(&str, Sum)| ((*name).to_owned(), json!({ "bytes": sum.bytes, "blake3": sum.blake3 }));
-    files.iter().map(sum).collect()
-}
-
-/// The document beside a table: what its figure needs besides, and the program that wrote both. UTF-8 JSON, indented.
+/// What a table does not say of its figure, with the program that wrote both: UTF-8 JSON, indented.
 pub(crate) fn described(entries: &Value) -> Result<Vec<u8>> {
-    let mut document =
-        json!({ "program": { "name": env!("CARGO_PKG_NAME"), "version": VERSION, "git_commit": COMMIT } });
+    let mut document = json!({ "program": Program::this() });
     if let (Value::Object(all), Value::Object(entries)) = (&mut document, entries) {
         all.extend(entries.clone());
     }
@@ -170,7 +316,7 @@ pub(crate) fn described(entries: &Value) -> Result<Vec<u8>> {
 }
 
 /// A document as bytes, indented.
-pub(crate) fn pretty(document: &Value) -> Result<Vec<u8>> {
+pub(crate) fn pretty(document: &impl Serialize) -> Result<Vec<u8>> {
     let mut bytes = serde_json::to_vec_pretty(document).map_err(Error::WriteManifest)?;
     bytes.push(b'\n');
     Ok(bytes)

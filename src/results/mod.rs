@@ -4,7 +4,6 @@
 //!
 //! | question | where |
 //! |---|---|
-//! | the table of output columns | [`columns`] |
 //! | `map.csv` and `manifest.json` | [`csv`], [`manifest`] |
 //! | Zarr and NetCDF, part by part; Parquet | [`arrays`], [`zarr`], [`netcdf`], [`parquet`] |
 //! | lines between classes as a table | [`boundary_lines`] |
@@ -22,7 +21,6 @@ pub mod arrays;
 #[cfg(feature = "figures")]
 pub mod boundary_lines;
 pub mod choose;
-pub mod columns;
 #[cfg(feature = "figures")]
 pub mod comparison;
 pub mod csv;

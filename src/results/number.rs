@@ -1,5 +1,7 @@
 //! A column of a table, read back.
 
+use crate::sweep::columns::{Column, find};
+
 /// A column of numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NumberColumn {
@@ -14,7 +16,13 @@ pub struct NumberColumn {
 }
 
 impl NumberColumn {
-    /// Whether its values are angles in degrees: −180 and 180 are the same angle then.
+    /// Its row in the table of columns; `None` of a column that no map has.
+    #[must_use]
+    pub fn row(&self) -> Option<&'static Column> {
+        find(&self.name)
+    }
+
+    /// Whether its values are angles in degrees, of which −180 and 180 are one.
     #[must_use]
     pub fn is_angle(&self) -> bool {
         self.unit == "deg"

@@ -17,8 +17,8 @@ use parquet::schema::types::Type;
 use serde_json::json;
 
 use crate::engine::record::Record;
-use crate::results::columns::{Cell, Column, Content, columns};
 use crate::results::error::{Error, Result};
+use crate::sweep::columns::{Cell, Column, Content, columns};
 use crate::sweep::sheet::Sheet;
 use crate::version::VERSION;
 

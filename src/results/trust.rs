@@ -3,36 +3,14 @@
 use crate::engine::record::Record;
 use crate::results::number::NumberColumn;
 
-/// Quantities of the measuring window, without those of the time before it or of the run as a whole.
-const OF_THE_WINDOW: [&str; 16] = [
-    "x2_mean",
-    "x2_std",
-    "y1_mean",
-    "y1_std",
-    "ax_rms",
-    "ay_rms",
-    "ax_peak",
-    "ay_peak",
-    "friction_mean",
-    "n_peak",
-    "response_frequency",
-    "phase_cycle",
-    "stick",
-    "free",
-    "reverse",
-    "impacts_per_second",
-];
-/// The end of the name of a column of the large start.
-const LARGE: &str = "_large";
-
 /// Whether a column is one of the large start of two.
 pub(crate) fn is_of_large_start(column: &NumberColumn) -> bool {
-    column.name.ends_with(LARGE)
+    column.row().is_some_and(|row| row.is_of_large_start)
 }
 
 /// Whether the values of a column mean little where the response has not settled.
 pub(crate) fn is_of_the_window(column: &NumberColumn) -> bool {
-    OF_THE_WINDOW.contains(&column.name.strip_suffix(LARGE).unwrap_or(&column.name))
+    column.row().is_some_and(|row| row.is_of_the_window)
 }
 
 /// Whether the value of this record in a column is that of a response that has not settled.
@@ -48,7 +26,7 @@ pub(crate) fn is_unsettled(column: &NumberColumn, record: &Record) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::results::columns::{Content, Group, columns};
+    use crate::sweep::columns::{Content, Group, columns};
     use crate::sweep::grid::Grid;
     use crate::sweep::spec::{Analysis, Starts};
 
@@ -79,6 +57,6 @@ mod tests {
             assert_eq!(is_of_large_start(&column), one.name != one.quantity(), "{}", one.name);
             seen += 1;
         }
-        assert_eq!(seen, 2 * (OF_THE_WINDOW.len() + OTHERS.len()));
+        assert_eq!(seen, 2 * (16 + OTHERS.len()));
     }
 }

@@ -9,10 +9,8 @@ use std::borrow::Cow;
 use crate::engine::record::{Basin, Others, Record};
 use crate::model::status::Status;
 use crate::store::columns;
+use crate::sweep::columns::shares;
 use crate::sweep::spec::{Analysis, Starts};
-
-/// Bytes of the counts of a box.
-const COUNTS: usize = 16;
 
 /// Codes of `bistable`.
 const CODES: [Option<bool>; 3] = [None, Some(false), Some(true)];
@@ -23,6 +21,11 @@ fn parts(analysis: Analysis) -> [Analysis; 2] {
     [small, Analysis { linear: false, ..small }]
 }
 
+/// Bytes of the counts of a box.
+fn counts() -> usize {
+    4 * shares().count()
+}
+
 /// Bytes of one instance.
 #[must_use]
 pub fn width(analysis: Analysis) -> usize {
@@ -31,7 +34,7 @@ pub fn width(analysis: Analysis) -> usize {
         + match analysis.starts {
             Starts::One => 0,
             Starts::Both => 1 + columns::width(large),
-            Starts::Box(_) => 1 + COUNTS,
+            Starts::Box(_) => 1 + counts(),
         }
 }
 
@@ -59,10 +62,10 @@ pub fn encode(records: Cow<[Record]>, analysis: Analysis, bytes: &mut [u8]) {
         let of_large = |record: &Record| record.large().cloned().unwrap_or(Record::NOT_COMPUTED);
         columns::encode(records.iter().map(of_large), large, others);
     } else {
-        for (bytes, record) in others.chunks_exact_mut(COUNTS).zip(records) {
-            let Basin { equilibrium, oscillation, other, failed } = record.basin().unwrap_or_default();
-            for (four, count) in bytes.chunks_exact_mut(4).zip([equilibrium, oscillation, other, failed]) {
-                four.copy_from_slice(&count.to_le_bytes());
+        for (bytes, record) in others.chunks_exact_mut(counts()).zip(records) {
+            let mut basin = record.basin().unwrap_or_default();
+            for (four, share) in bytes.chunks_exact_mut(4).zip(shares()) {
+                four.copy_from_slice(&share(&mut basin).to_le_bytes());
             }
         }
     }
@@ -87,7 +90,7 @@ pub fn decode(bytes: &[u8], count: usize, analysis: Analysis) -> Option<Vec<Reco
         columns::decode(others, count, large)?.into_iter().map(computed).collect()
     } else {
         let counted = |basin: Basin| (basin.total() > 0).then_some(Others::Basin(basin));
-        others.chunks_exact(COUNTS).map(|bytes| basin(bytes).map(counted)).collect::<Option<_>>()?
+        others.chunks_exact(counts()).map(|bytes| basin(bytes).map(counted)).collect::<Option<_>>()?
     };
     for ((record, flag), others) in records.iter_mut().zip(flags).zip(others) {
         record.bistable = *CODES.get(usize::from(*flag))?;
@@ -98,9 +101,12 @@ pub fn decode(bytes: &[u8], count: usize, analysis: Analysis) -> Option<Vec<Reco
 
 /// The counts of a box; `None` of counts that no box has, beyond their sum.
 fn basin(bytes: &[u8]) -> Option<Basin> {
-    let mut counts = bytes.chunks_exact(4).map(|four| four.try_into().map_or(0, u32::from_le_bytes));
-    let mut next = || counts.next().unwrap_or(0);
-    let basin = Basin { equilibrium: next(), oscillation: next(), other: next(), failed: next() };
-    let all = [basin.equilibrium, basin.oscillation, basin.other, basin.failed];
-    all.into_iter().try_fold(0_u32, u32::checked_add).map(|_| basin)
+    let mut basin = Basin::default();
+    let mut total = 0_u32;
+    for (four, share) in bytes.chunks_exact(4).zip(shares()) {
+        let count = four.try_into().map_or(0, u32::from_le_bytes);
+        total = total.checked_add(count)?;
+        *share(&mut basin) = count;
+    }
+    Some(basin)
 }

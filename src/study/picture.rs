@@ -5,7 +5,8 @@ use std::path::Path;
 use crate::results::figure::heading::Heading;
 use crate::results::figure::look::Look;
 use crate::results::figure::map::look_svg;
-use crate::results::read::folder::{Folder, program};
+use crate::results::manifest::Program;
+use crate::results::read::folder::Folder;
 use crate::results::read::refined::Lines;
 use crate::results::read::{Archive, refined};
 use crate::study::error::Result;
@@ -71,7 +72,8 @@ impl Picture {
             Kind::Paper(figure) => Content::Paper(paper::read::read(folder, figure, kind.files())?),
         };
         let document = kind.files().into_iter().find(|file| file.rsplit('.').next() == Some("json"));
-        let program = program(&document.map_or(Ok(serde_json::Value::Null), |file| folder.json(file))?);
+        let document = document.map_or(Ok(serde_json::Value::Null), |file| folder.json(file))?;
+        let program = Program::of(&document).to_string();
         Ok(Picture { content, program })
     }
 

@@ -6,6 +6,7 @@
 //! | axes, index ↔ coordinates | [`grid`] |
 //! | the chosen engine, range after range, with several starts and checks | [`solver`], `several.rs`, [`accuracy`] |
 //! | the whole in memory | [`run`](mod@run), [`map`], [`sheet`] |
+//! | what is told of an instance, in tables, tiles and figures | [`columns`] |
 //! | labels of an instance, counted | [`label`], [`checks`] |
 //! | the lines of a map from few instances | [`refine`] |
 //! | what it would cost, and how long a start takes to show what it does | [`estimate`](mod@estimate), [`onset`] |
@@ -14,6 +15,7 @@
 
 pub mod accuracy;
 pub mod checks;
+pub mod columns;
 pub mod draw;
 pub mod error;
 pub mod estimate;

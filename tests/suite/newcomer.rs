@@ -7,6 +7,7 @@ use std::path::Path;
 
 use crate::cli::{squealmap, tree, unwrapped};
 use squealmap::model::PARAMS;
+use squealmap::sweep::columns::{Values, computed};
 use squealmap::sweep::spec::Spec;
 use squealmap::sweep::spec::keys::{SECTIONS, all};
 
@@ -171,6 +172,30 @@ fn keys_are_found_by_name_and_section() {
     let all = keys(&[]);
     assert!(all.out.lines().count() > PARAMS.len(), "{}", all.out);
     assert!(all.out.lines().all(|line| line.chars().count() <= 180), "{}", all.out);
+}
+
+#[test]
+fn the_page_on_columns_is_made_of_the_table() {
+    let here = tempfile::tempdir().unwrap();
+    let table = squealmap(here.path(), &["keys", "--columns", "--markdown"]).out;
+    let page = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/columns.md")).unwrap();
+    assert!(table.contains("| `x2_std` | m |"), "{table}");
+    assert!(
+        page.ends_with(&table),
+        "docs/columns.md is older than the table of columns; put the output of `squealmap keys --columns --markdown` at its \
+         end"
+    );
+    // Its sections explain every value of a class, in the order of the table, and no other.
+    for column in computed().filter(|column| !column.is_of_large_start) {
+        let Some(Values::Name(class)) = column.values() else { continue };
+        let section = page.split(&format!("\n| `{}` |", column.name)).nth(1).unwrap();
+        let rows = section.split("\n\n").next().unwrap().lines().skip(2);
+        let named: Vec<&str> = rows.map(|row| row.split('`').nth(1).unwrap()).collect();
+        assert_eq!(named, class.names().collect::<Vec<_>>(), "{}", column.name);
+    }
+    let listed = squealmap(here.path(), &["keys", "--columns"]).out;
+    assert_eq!(listed.lines().count() + 2, table.lines().count(), "{listed}");
+    assert_eq!(squealmap(here.path(), &["keys", "mu_s", "--columns"]).code, Some(2));
 }
 
 #[test]

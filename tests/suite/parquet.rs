@@ -12,8 +12,8 @@ use parquet::file::metadata::RowGroupMetaData;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 use serde_json::Value as Json;
-use squealmap::results::columns::{Cell, Content, columns};
 use squealmap::store::directory::Store;
+use squealmap::sweep::columns::{Cell, Content, columns};
 
 /// A sweep with a law on an axis, computed in tiles of 32.
 fn computed() -> tempfile::TempDir {

@@ -7,6 +7,7 @@ use crate::results::figure::tones::Tones;
 use crate::results::figure::words;
 use crate::results::number::NumberColumn;
 use crate::results::trust;
+use crate::sweep::columns::Column;
 use squealmap_figure::cyclic;
 use squealmap_figure::frame::LABEL_SIZE;
 use squealmap_figure::scale::Scale;
@@ -154,12 +155,12 @@ fn starts(basins: &[Option<Basin>]) -> u32 {
 
 /// Whether a column is a fraction of the starts from a box.
 fn is_fraction(column: &NumberColumn) -> bool {
-    column.name.starts_with("basin_")
+    column.row().is_some_and(Column::is_share)
 }
 
 /// Whether the sign of a column says what happens: growth or decay.
 pub(crate) fn has_sign(column: &NumberColumn) -> bool {
-    column.name.starts_with("growth_rate")
+    column.row().is_some_and(|row| row.has_sign)
 }
 
 /// The scale of the colours of a quantity, and the colours.

@@ -1,12 +1,12 @@
 //! Lines of equal value on the panels of a quantity, with their values on them, and the same lines as a table.
 
-use crate::results::columns::Cell;
 use crate::results::csv::Table;
 use crate::results::error::Result;
 use crate::results::figure::field;
 use crate::results::figure::outline::shape;
 use crate::results::figure::panels::{Panel, Panels};
 use crate::results::number::NumberColumn;
+use crate::sweep::columns::Cell;
 use crate::sweep::map::Map;
 use squealmap_figure::frame::{Frame, TICK_SIZE};
 use squealmap_figure::marching::{Place, isolines, lines_of_angle};

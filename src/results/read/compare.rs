@@ -2,12 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use crate::engine::record::Record;
-use crate::engine::regime::Regime;
-use crate::model::kind::InstabilityType;
 use crate::model::status::Status;
 use crate::results::number::NumberColumn;
 use crate::results::read::Archive;
+use crate::sweep::columns::{Class, Column, computed};
 use crate::sweep::grid::{Axis, AxisKey, Grid, Value};
 
 /// Swept values are the same where they differ by no more than this part of them, or of the length of their axis.
@@ -15,18 +13,15 @@ const SAME: f64 = 1e-9;
 /// The shares of the instances for which a difference is stated: half of them have no larger one, and so on.
 pub const QUANTILES: [f64; 4] = [0.5, 0.9, 0.99, 1.0];
 
-/// The name of a label and what a record has of it.
-type Named = (&'static str, fn(&Record) -> Option<&'static str>);
-
-/// The labels of an instance, in the order of the table.
-const LABELS: [Named; 6] = [
-    ("status", |record| Some(record.status.name())),
-    ("type", |record| record.kind.map(InstabilityType::name)),
-    ("regime", |record| record.regime.map(Regime::name)),
-    ("settled", |record| record.settled.map(|settled| if settled { "settled" } else { "unsettled" })),
-    ("bistable", |record| record.bistable.map(|bistable| if bistable { "bistable" } else { "monostable" })),
-    ("regime_large", |record| record.large()?.regime.map(Regime::name)),
-];
+/// What an instance is called, in the order of a comparison: the classes of the table, how it ended first, and the regime from
+/// the large start.
+fn labels() -> impl Iterator<Item = (&'static Column, &'static Class)> {
+    let classes = || computed().filter_map(|column| Some((column, column.values()?.class()?)));
+    let is_status = |(column, _): &(&Column, &Class)| column.quantity() == "status";
+    let own = move || classes().filter(|(column, _)| !column.is_of_large_start);
+    let large = classes().filter(|(column, _)| column.is_of_large_start && column.quantity() == "regime");
+    own().filter(is_status).chain(own().filter(move |one| !is_status(one))).chain(large)
+}
 
 /// One label of every instance in both maps.
 #[derive(Clone, Debug, PartialEq)]
@@ -140,10 +135,13 @@ impl Comparison {
         if computed == 0 {
             return Err("no instance was computed in both".to_owned());
         }
-        let labels = LABELS.into_iter().filter(|(_, of)| {
+        let of = |(column, class): (&'static Column, &'static Class)| {
+            (column.name, move |record| class.name(column.of(record)))
+        };
+        let known = labels().map(of).filter(|(_, of)| {
             [ours, theirs].into_iter().all(|records| records.iter().any(|record| of(record).is_some()))
         });
-        let labels = labels.map(|(name, of)| {
+        let known = known.map(|(name, of)| {
             let pair = |instance: usize| {
                 both(instance)
                     .then(|| [ours, theirs].map(|records| of(&records[instance]).unwrap_or_default()))
@@ -151,12 +149,12 @@ impl Comparison {
             Labels { name, pairs: (0..total).map(pair).collect() }
         });
         let columns =
-            first.columns.iter().filter(|column| !LABELS.iter().any(|(name, _)| *name == column.name));
+            first.columns.iter().filter(|column| !labels().any(|(label, _)| label.name == column.name));
         let columns = columns.filter_map(|column| {
             let other = second.columns.iter().find(|other| other.name == column.name)?;
             Some(Differences::new(column, other, both))
         });
-        Ok(Comparison { computed: [computed, total], labels: labels.collect(), columns: columns.collect() })
+        Ok(Comparison { computed: [computed, total], labels: known.collect(), columns: columns.collect() })
     }
 }
 

@@ -126,13 +126,6 @@ pub(crate) fn text(value: &Json) -> String {
     value.as_str().unwrap_or_default().to_owned()
 }
 
-/// The program that a document says it was written by: version, and commit where known.
-pub(crate) fn program(document: &Json) -> String {
-    let program = &document["program"];
-    let commit = program["git_commit"].as_str().map(|commit| format!(" ({commit})"));
-    format!("squealmap {}{}", text(&program["version"]), commit.unwrap_or_default())
-}
-
 /// The heading of a document.
 pub(crate) fn heading(document: &Json) -> Why<Heading> {
     Heading::from_json(document).ok_or_else(|| "has no `title`".to_owned())

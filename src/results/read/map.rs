@@ -2,19 +2,19 @@
 
 use std::path::Path;
 
+use serde::Deserialize;
 use serde_json::Value as Json;
 
-use crate::engine::computation::{Computation, Stopped};
+use crate::engine::computation::Stopped;
 use crate::engine::plan::{Duration, StartKind};
 use crate::engine::record::{Basin, Others, Record};
-use crate::engine::regime::Regime;
 use crate::model::Params;
 use crate::model::friction::LawKind;
-use crate::model::kind::InstabilityType;
-use crate::model::status::Status;
 use crate::results::error::Result;
+use crate::results::manifest::{Explained, Manifest};
 use crate::results::number::NumberColumn;
-use crate::results::read::folder::{Folder, Table, Why, program, text};
+use crate::results::read::folder::{Folder, Table, Why, text};
+use crate::sweep::columns::{Column, Values, computed, find};
 use crate::sweep::grid::{Axis, AxisKey, Grid, Value};
 use crate::sweep::map::{Map, Provenance};
 use crate::sweep::spec::{Analysis, Pass, STEPS_PER_PERIOD, Spec, Starts, start};
@@ -41,43 +41,47 @@ impl Archive {
     /// When a file is missing or is not what a run writes.
     pub fn read(directory: &Path) -> Result<Archive> {
         let folder = Folder(directory);
-        let manifest = folder.sealed(FILES[0])?;
-        let table = Table::read(&folder.named(FILES[1], FILES[0], &manifest)?)
+        let document = folder.sealed(FILES[0])?;
+        let manifest =
+            Manifest::deserialize(&document).map_err(|why| folder.bad(FILES[0], why.to_string()))?;
+        let table = Table::read(&folder.named(FILES[1], FILES[0], &document)?)
             .map_err(|why| folder.bad(FILES[1], why))?;
         numbers_are_numbers(&manifest, &table).map_err(|why| folder.bad(FILES[1], why))?;
         let spec = spec(&manifest, &table).map_err(|why| folder.bad(FILES[0], why))?;
         let mut records = records(&table).map_err(|why| folder.bad(FILES[1], why))?;
         // The rows of a list of instances are those of the table itself.
-        let listed = manifest["spec"]["points"]["rows"].as_u64();
+        let listed = manifest.spec["points"]["rows"].as_u64();
         let instances = listed.unwrap_or(spec.grid.len() as u64);
         if records.len() as u64 != instances {
             let why = format!("{} rows for {instances} instances", records.len());
             return Err(folder.bad(FILES[1], why));
         }
-        let stopped = manifest["computation"]["stopped"].as_str().map(|why| match why {
+        let stopped = manifest.computation.stopped.clone().map(|why| match why.as_str() {
             "cancelled" => Stopped::Cancelled,
-            why => Stopped::Failed(why.to_owned()),
+            _ => Stopped::Failed(why),
         });
         let provenance = Provenance {
-            linear: computation(&manifest["computation"]["linear"]),
-            response: computation(&manifest["computation"]["response"]),
+            linear: manifest.computation.linear.clone(),
+            response: manifest.computation.response.clone(),
             threads: 0,
             elapsed: std::time::Duration::ZERO,
         };
         let columns = columns(&manifest, &table, &spec).map_err(|why| folder.bad(FILES[1], why))?;
         match spec.analysis.starts {
             Starts::Box(starts) => take_basins(&mut records, &columns, starts),
-            Starts::Both => take_large(&mut records, &table),
+            Starts::Both => {
+                take_large(&mut records, &table).map_err(|why| folder.bad(FILES[1], why))?;
+            }
             Starts::One => {}
         }
-        let program = program(&manifest);
+        let program = manifest.program.to_string();
         Ok(Archive { map: Map { spec, records, stopped, provenance }, columns, program })
     }
 }
 
-fn spec(manifest: &Json, table: &Table) -> Why<Spec> {
-    let resolved = manifest["spec"].as_object().ok_or("has no `spec`")?;
-    let analysis = manifest["spec"]["analysis"].as_array().ok_or("has no `analysis` in `spec`")?;
+fn spec(manifest: &Manifest, table: &Table) -> Why<Spec> {
+    let resolved = manifest.spec.as_object().ok_or("has no `spec`")?;
+    let analysis = manifest.spec["analysis"].as_array().ok_or("has no `analysis` in `spec`")?;
     let asked = |name: &str| analysis.iter().any(|one| one == name);
     let grid = match (resolved.get("axes").and_then(Json::as_object), resolved.get("points")) {
         (Some(axes), _) => Grid::Axes(axes.iter().map(axis).collect::<std::result::Result<_, _>>()?),
@@ -89,9 +93,9 @@ fn spec(manifest: &Json, table: &Table) -> Why<Spec> {
         response: asked("response"),
         until_settled: resolved.get("response").is_some_and(|response| response["settle"] == "auto"),
         checked: resolved.get("response").is_some_and(|response| response["check"] == true),
-        starts: start::from_json(&manifest["spec"]["start"]),
+        starts: start::from_json(&manifest.spec["start"]),
     };
-    Ok(drawn_spec(text(&manifest["title"]), analysis, grid))
+    Ok(drawn_spec(manifest.title.clone(), analysis, grid))
 }
 
 /// A sweep with the parts that a figure reads; everything else has its default value.
@@ -147,8 +151,8 @@ fn tuples(points: &Json, table: &Table) -> Why<Grid> {
 }
 
 /// Whether the coordinates of listed instances are numbers, where they are parameters.
-fn numbers_are_numbers(manifest: &Json, table: &Table) -> Why<()> {
-    let names = manifest["spec"]["points"]["columns"].as_array().into_iter().flatten().map(text);
+fn numbers_are_numbers(manifest: &Manifest, table: &Table) -> Why<()> {
+    let names = manifest.spec["points"]["columns"].as_array().into_iter().flatten().map(text);
     for name in names.filter(|name| matches!(AxisKey::from_name(name), Some(AxisKey::Param(_)))) {
         let numbers = table.numbers([name.as_str()])?;
         if let Some(row) = numbers.iter().position(|[number]| !number.is_finite()) {
@@ -178,93 +182,84 @@ fn records(table: &Table) -> Why<Vec<Record>> {
     table.rows.iter().map(|row| record(table, row)).collect()
 }
 
-/// The entry of a list with the name in a cell; none of an empty cell.
-fn named<T: Copy>(all: &[T], name: fn(T) -> &'static str, column: &str, cell: &str) -> Why<Option<T>> {
-    if cell.is_empty() {
-        return Ok(None);
-    }
-    let found = all.iter().copied().find(|one| name(*one) == cell);
-    found.map(Some).ok_or_else(|| format!("`{column}` is `{cell}`, which is none"))
-}
-
-/// The parts of a record that figures read.
+/// What figures read of a record: its classes.
 pub(crate) fn record(table: &Table, row: &csv::StringRecord) -> Why<Record> {
-    let cell = |name: &str| table.cell(row, name);
-    let status = cell("status");
-    let status = Status::IN_MAP
-        .into_iter()
-        .find(|one| one.name() == status)
-        .ok_or_else(|| format!("`{status}` is no status"))?;
-    Ok(Record {
-        status,
-        kind: named(&InstabilityType::ALL, InstabilityType::name, "type", cell("type"))?,
-        regime: named(&Regime::ALL, Regime::name, "regime", cell("regime"))?,
-        settled: flag(cell("settled")),
-        bistable: flag(cell("bistable")),
-        ..Record::default()
-    })
+    classes(table, row, false)
 }
 
-/// Takes what became of the large start of every instance.
-fn take_large(records: &mut [Record], table: &Table) {
-    for (record, row) in records.iter_mut().zip(&table.rows) {
-        let cell = |name: &str| table.cell(row, name);
-        let status = Status::IN_MAP.into_iter().find(|one| one.name() == cell("status_large"));
-        let large = status.map(|status| Record {
-            status,
-            regime: Regime::ALL.into_iter().find(|regime| regime.name() == cell("regime_large")),
-            settled: flag(cell("settled_large")),
-            ..Record::default()
-        });
-        record.others = large.map(|large| Others::Large(Box::new(large)));
+/// The classes of an instance, or of its large start, from the cells of its row.
+fn classes(table: &Table, row: &csv::StringRecord, large: bool) -> Why<Record> {
+    let mut record = Record::default();
+    for column in computed().filter(|column| column.is_of_large_start == large) {
+        take_class(&mut record, column, table.cell(row, column.name))?;
     }
+    Ok(record)
 }
 
-/// Takes what became of so many starts of every instance from the columns of fractions.
+/// Takes the cell of a column of classes; what it does not say is left undefined.
+fn take_class(record: &mut Record, column: &Column, cell: &str) -> Why<()> {
+    let Some(values) = column.values() else { return Ok(()) };
+    match values {
+        Values::Name(class) => {
+            let found = class.names().position(|name| name == cell);
+            match (found, class.is_always_there()) {
+                (None, true) => return Err(format!("`{cell}` is no {}", column.quantity())),
+                (None, false) if !cell.is_empty() => {
+                    return Err(format!("`{}` is `{cell}`, which is none", column.name));
+                }
+                _ => class.put(record, found),
+            }
+        }
+        Values::Flag(class) => class.put(record, ["0", "1"].iter().position(|one| *one == cell)),
+        Values::Number(_) | Values::Count(_) | Values::Share(_) | Values::Summary(_) => {}
+    }
+    Ok(())
+}
+
+/// Takes what became of the large start of every instance, where the table says it.
+fn take_large(records: &mut [Record], table: &Table) -> Why<()> {
+    let is_of_large_start = |name: &String| find(name).is_some_and(|column| column.is_of_large_start);
+    if table.header.iter().any(is_of_large_start) {
+        for (record, row) in records.iter_mut().zip(&table.rows) {
+            record.others = Some(Others::Large(Box::new(classes(table, row, true)?)));
+        }
+    }
+    Ok(())
+}
+
+/// Takes what became of so many starts of every instance from the columns of their shares.
 fn take_basins(records: &mut [Record], columns: &[NumberColumn], starts: u32) {
+    let shares: Vec<_> = computed()
+        .filter(|column| !column.is_of_large_start)
+        .filter_map(|column| match column.values() {
+            Some(Values::Share(share)) => Some((columns.iter().find(|one| one.name == column.name), share)),
+            _ => None,
+        })
+        .collect();
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
         reason = "a fraction of a count is one"
     )]
-    let count = |name: &str, instance: usize| {
-        let column = columns.iter().find(|column| column.name == name)?;
-        Some((column.values.get(instance).copied().flatten()? * f64::from(starts)).round() as u32)
+    let basin = |instance: usize| {
+        let mut basin = Basin::default();
+        for (column, share) in &shares {
+            let part = column.and_then(|column| column.values.get(instance).copied().flatten())?;
+            *share(&mut basin) = (part * f64::from(starts)).round() as u32;
+        }
+        Some(basin)
     };
     for (instance, record) in records.iter_mut().enumerate() {
-        let counts = ["basin_equilibrium", "basin_oscillation", "basin_other", "basin_failed"]
-            .map(|name| count(name, instance));
-        if let [Some(equilibrium), Some(oscillation), Some(other), Some(failed)] = counts {
-            record.others = Some(Others::Basin(Basin { equilibrium, oscillation, other, failed }));
+        if let Some(basin) = basin(instance) {
+            record.others = Some(Others::Basin(basin));
         }
     }
 }
 
-/// A column of yes and no.
-fn flag(cell: &str) -> Option<bool> {
-    match cell {
-        "0" => Some(false),
-        "1" => Some(true),
-        _ => None,
-    }
-}
-
-pub(crate) fn computation(value: &Json) -> Option<Computation> {
-    value.is_object().then(|| Computation {
-        backend: text(&value["backend"]),
-        precision: text(&value["precision"]),
-        method: text(&value["method"]),
-        adapter: value["adapter"].as_str().map(str::to_owned),
-        strict: value["strict"].as_bool(),
-    })
-}
-
 /// The columns with a number in them that are not swept.
-fn columns(manifest: &Json, table: &Table, spec: &Spec) -> Why<Vec<NumberColumn>> {
+fn columns(manifest: &Manifest, table: &Table, spec: &Spec) -> Why<Vec<NumberColumn>> {
     let swept: Vec<&str> = spec.grid.keys().into_iter().map(AxisKey::name).collect();
-    let described = manifest["columns"].as_array().map(Vec::as_slice).unwrap_or_default();
-    let column = |column: &Json| {
-        let name = text(&column["name"]);
+    let column = |Explained { name, unit, meaning }: Explained| {
         if name == "instance" || swept.contains(&name.as_str()) {
             return Ok(None);
         }
@@ -282,8 +277,7 @@ fn columns(manifest: &Json, table: &Table, spec: &Spec) -> Why<Vec<NumberColumn>
         if let (Some((cell, _)), true) = (words, values.iter().any(Option::is_some)) {
             return Err(format!("`{name}` is `{cell}` in a row, no number"));
         }
-        let (unit, meaning) = (text(&column["unit"]), text(&column["meaning"]));
         Ok(values.iter().any(Option::is_some).then_some(NumberColumn { name, unit, meaning, values }))
     };
-    described.iter().filter_map(|one| column(one).transpose()).collect()
+    manifest.columns.iter().cloned().filter_map(|one| column(one).transpose()).collect()
 }

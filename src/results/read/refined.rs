@@ -3,21 +3,20 @@
 
 use std::collections::BTreeMap;
 
-use serde_json::Value as Json;
+use serde::Deserialize;
 
 use crate::engine::computation::Computation;
 use crate::results::error::Result;
 use crate::results::figure::look::Look;
-use crate::results::read::folder::{Folder, Table, Why, text};
-use crate::results::read::map::{computation, drawn_spec, record};
-use crate::results::refined::figure;
+use crate::results::read::folder::{Folder, Table, Why};
+use crate::results::read::map::{drawn_spec, record};
+use crate::results::refined::{Document, figure};
 use crate::store::grid_json;
 use crate::store::refinement::settings;
 use crate::sweep::grid::Grid;
 use crate::sweep::label::Label;
 use crate::sweep::refine::{Refined, refine};
 use crate::sweep::sheet::Sheet;
-use crate::sweep::spec::refine::Settings;
 use crate::sweep::spec::{Analysis, Spec, Starts};
 
 /// The files that are read.
@@ -41,9 +40,11 @@ impl Lines {
 
 /// Reads the points and follows the lines again: the same points are asked for as by the command.
 pub(crate) fn read(folder: Folder<'_>) -> Result<Lines> {
-    let document = folder.sealed(FILES[1])?;
-    let (spec, settings) = sweep(&document).map_err(|why| folder.bad(FILES[1], why))?;
-    let points = folder.named(FILES[0], FILES[1], &document)?;
+    let whole = folder.sealed(FILES[1])?;
+    let document = Document::deserialize(&whole).map_err(|why| folder.bad(FILES[1], why.to_string()))?;
+    let spec = sweep(&document).map_err(|why| folder.bad(FILES[1], why))?;
+    let settings = settings(&whole).map_err(|why| folder.bad(FILES[1], why))?;
+    let points = folder.named(FILES[0], FILES[1], &whole)?;
     let known =
         Table::read(&points).and_then(|table| labels(&table)).map_err(|why| folder.bad(FILES[0], why))?;
     let refined = refine(&spec.grid, settings, &mut |instances| {
@@ -53,23 +54,22 @@ pub(crate) fn read(folder: Folder<'_>) -> Result<Lines> {
         };
         instances.iter().map(label).collect()
     })?;
-    let computations = ["linear", "response"].map(|name| computation(&document["computation"][name]));
+    let computations = [document.computation.linear, document.computation.response];
     Ok(Lines { spec, computations, refined })
 }
 
-/// Title, analysis, grid, and how it was refined.
-fn sweep(document: &Json) -> Why<(Spec, Settings)> {
-    let grid = grid_json::from_json(&document["grid"], None).filter(|grid| matches!(grid, Grid::Axes(_)));
+/// Title, analysis and grid.
+fn sweep(document: &Document) -> Why<Spec> {
+    let grid = grid_json::from_json(&document.grid, None).filter(|grid| matches!(grid, Grid::Axes(_)));
     let grid = grid.ok_or_else(|| "has no `grid` of axes".to_owned())?;
-    let asked = |name: &str| document["analysis"][name] == true;
     let analysis = Analysis {
-        linear: asked("linear"),
-        response: asked("response"),
+        linear: document.analysis.linear,
+        response: document.analysis.response,
         until_settled: false,
         checked: false,
-        starts: if document["both_starts"] == true { Starts::Both } else { Starts::One },
+        starts: if document.both_starts { Starts::Both } else { Starts::One },
     };
-    Ok((drawn_spec(text(&document["title"]), analysis, grid), settings(document)?))
+    Ok(drawn_spec(document.title.clone(), analysis, grid))
 }
 
 /// The label of every instance that was computed.

@@ -2,10 +2,10 @@
 
 use std::fmt::Write as _;
 
-use crate::results::columns::Cell;
 use crate::results::error::Error;
 use crate::study::error::Result;
 use crate::study::fit::Fit;
+use crate::sweep::columns::Cell;
 use squealmap_identify::Point;
 use squealmap_input::quote::rounded;
 

@@ -2,12 +2,12 @@
 
 use serde_json::json;
 
-use crate::results::columns::{Cell, Column, columns};
 use crate::results::csv::Table;
 use crate::results::figure::heading::Heading;
 use crate::results::manifest::described;
 use crate::study::error::Result;
 use crate::study::hysteresis::follow::{Direction, Hysteresis};
+use crate::sweep::columns::{Cell, Column, columns};
 use crate::sweep::spec::{Analysis, Spec, Starts};
 
 pub use crate::study::hysteresis::figure::hysteresis_svg;

@@ -4,9 +4,9 @@ use std::io::Write;
 
 use serde_json::{Value, json};
 
-use crate::results::columns::Cell;
 use crate::results::error::Error;
 use crate::study::error::Result;
+use crate::sweep::columns::Cell;
 use crate::version::{COMMIT, VERSION};
 use squealmap_identify::{Channel, Episode, Identification, Measured, Reading, Verdict, Window};
 

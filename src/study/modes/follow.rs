@@ -3,11 +3,11 @@
 use num_complex::Complex64;
 use serde_json::json;
 
-use crate::results::columns::Cell;
 use crate::results::csv::Table;
 use crate::results::manifest::described;
 use crate::store::grid_json;
 use crate::study::error::{Error, Result};
+use crate::sweep::columns::Cell;
 use crate::sweep::grid::{Axis, AxisKey, Grid, Value};
 use crate::sweep::spec::Spec;
 

@@ -1,9 +1,9 @@
 //! `signals.csv`: the recording of an instance, as `squealmap identify` reads it.
 
-use crate::results::columns::Cell;
 use crate::results::csv::Table;
 use crate::study::error::Result;
 use crate::study::signals::sensors::Sample;
+use crate::sweep::columns::Cell;
 use squealmap_identify::Channel;
 
 /// The table of a recording: time and the channels under the names `identify` expects, and the temperature

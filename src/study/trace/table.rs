@@ -21,7 +21,7 @@ pub const COLUMNS: [&str; 13] =
 pub fn trace_csv(trace: &Trace) -> Result<Vec<u8>> {
     let mut table = Table::new(COLUMNS.into_iter())?;
     for row in &trace.rows {
-        let cells = numbers(row).map(|x| crate::results::columns::Cell::from(x).to_string());
+        let cells = numbers(row).map(|x| crate::sweep::columns::Cell::from(x).to_string());
         table.row(cells.into_iter().chain(std::iter::once(row.state.name().to_owned())))?;
     }
     Ok(table.finish()?)

@@ -1,32 +1,25 @@
 //! What no outcome may be, whatever its instance.
 
 use squealmap::engine::outcome::Outcome;
+use squealmap::engine::record::Record;
 use squealmap::model::status::Status;
+use squealmap::sweep::columns::{Group, Values, computed};
 
 /// What is wrong with an outcome.
 pub(crate) fn defect(outcome: &Outcome) -> Option<String> {
-    let numbers = [
-        ("x2_mean", outcome.x2_mean),
-        ("x2_std", outcome.x2_std),
-        ("y1_mean", outcome.y1_mean),
-        ("y1_std", outcome.y1_std),
-        ("ax_rms", outcome.ax_rms),
-        ("ay_rms", outcome.ay_rms),
-        ("ax_peak", outcome.ax_peak),
-        ("ay_peak", outcome.ay_peak),
-        ("friction_mean", outcome.friction_mean),
-        ("n_peak", outcome.n_peak),
-        ("response_frequency", outcome.response_frequency),
-        ("phase_cycle", outcome.phase_cycle),
-        ("growth_rate_measured", outcome.growth_rate_measured),
-        ("frequency_measured", outcome.frequency_measured),
-        ("phase_measured", outcome.phase_measured),
-        ("stick", outcome.stick),
-        ("free", outcome.free),
-        ("reverse", outcome.reverse),
-        ("impacts_per_second", outcome.impacts_per_second),
-        ("settling_time", outcome.settling_time),
-    ];
+    let record = Record { outcome: Some(Box::new(*outcome)), ..Record::default() };
+    // What every transient has, with whatever status, is looked at below.
+    let of_response = computed().filter(|column| {
+        let own = matches!(column.group, Group::Response | Group::Settling) && !column.is_of_large_start;
+        own && column.name != "simulated_time"
+    });
+    let numbers: Vec<(&str, Option<f64>)> = of_response
+        .filter_map(|column| match column.values() {
+            Some(Values::Number(place)) => Some((column.name, (place.get)(&record))),
+            _ => None,
+        })
+        .collect();
+    assert_eq!(numbers.iter().filter(|(name, _)| ["ay_peak", "settling_time"].contains(name)).count(), 2);
     let has = |name: &str| numbers.iter().any(|(other, number)| *other == name && number.is_some());
     match outcome.status {
         Status::Unwritten | Status::NotComputed => {

@@ -2,12 +2,12 @@
 
 use serde_json::{Value as Json, json};
 
-use crate::results::columns::Cell;
 use crate::results::csv::Table;
 use crate::results::figure::look::Look;
 use crate::study::error::Result;
 use crate::study::paper::figures::distinct::distinct;
 use crate::study::paper::{LIMITS, Trial};
+use crate::sweep::columns::Cell;
 use squealmap_figure::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room};
 use squealmap_figure::page::{DOUBLE_COLUMN, MARGIN, title};
 use squealmap_figure::scale::{Scale, Tick, value_label};

@@ -3,12 +3,12 @@
 use serde_json::{Value as Json, json};
 
 use crate::model::Param;
-use crate::results::columns::Cell;
 use crate::results::csv::Table;
 use crate::results::figure::look::Look;
 use crate::results::figure::panels::setting;
 use crate::study::error::Result;
 use crate::study::paper::{Growth, LIMITS, PhaseCase, Study, Window, degrees, extremes};
+use crate::sweep::columns::Cell;
 use crate::sweep::grid::{AxisKey, Value};
 use squealmap_figure::frame::{Frame, LABEL_SIZE, x_tick_room, y_tick_count, y_tick_room};
 use squealmap_figure::key;

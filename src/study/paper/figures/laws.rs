@@ -1,11 +1,11 @@
 //! Figure 3: the friction laws of the three ramps.
 
 use crate::model::Param;
-use crate::results::columns::Cell;
 use crate::results::csv::Table;
 use crate::results::figure::look::Look;
 use crate::study::error::Result;
 use crate::study::paper::{Case, Study};
+use crate::sweep::columns::Cell;
 use squealmap_figure::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_count, y_tick_room};
 use squealmap_figure::key;
 use squealmap_figure::key::Sample;

@@ -2,7 +2,6 @@
 
 use crate::model::Param;
 use crate::model::kind::InstabilityType;
-use crate::results::columns::Cell;
 use crate::results::csv::Table;
 use crate::results::figure::fills::define_patterns;
 use crate::results::figure::look::Look;
@@ -10,6 +9,7 @@ use crate::results::figure::panels::setting;
 use crate::study::error::Result;
 use crate::study::paper::figures::distinct::distinct;
 use crate::study::paper::{CUSTOMARY, PhaseTrial, Source, Witness};
+use crate::sweep::columns::Cell;
 use crate::sweep::grid::{AxisKey, Value};
 use squealmap_figure::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_count, y_tick_room};
 use squealmap_figure::key::Sample;

@@ -3,11 +3,11 @@
 use serde_json::{Value as Json, json};
 
 use crate::model::Param;
-use crate::results::columns::Cell;
 use crate::results::csv::Table;
 use crate::results::figure::look::Look;
 use crate::study::error::Result;
 use crate::study::paper::{Case, Stretch, Study, millimetres};
+use crate::sweep::columns::Cell;
 use squealmap_figure::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_count, y_tick_room};
 use squealmap_figure::page::{DOUBLE_COLUMN, MARGIN, title};
 use squealmap_figure::plot::{CRITICAL, Plot};
