@@ -3,6 +3,7 @@
 //! | question | where |
 //! |---|---|
 //! | sweep file (TOML) → validated sweep | [`spec`] |
+//! | the same built in code | [`build`] |
 //! | axes, index ↔ coordinates | [`grid`] |
 //! | the chosen engine, range after range, with several starts and checks | [`solver`], `several.rs`, [`accuracy`] |
 //! | the whole in memory | [`run`](mod@run), [`map`], [`sheet`] |
@@ -12,6 +13,7 @@
 //! | numbers that depend on a seed and an index alone | [`draw`] |
 
 pub mod accuracy;
+pub mod build;
 pub mod checks;
 pub mod draw;
 pub mod error;

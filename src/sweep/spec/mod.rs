@@ -1,9 +1,11 @@
-//! TOML → validated spec; the only file that reads TOML.
+//! TOML, or calls in code → validated spec; the only folder that reads TOML.
 
 mod again;
 mod at;
 mod axis;
+pub(crate) mod call;
 mod check;
+mod code;
 mod document;
 mod duration;
 mod files;
