@@ -6,7 +6,6 @@
 //! | floor | what stands there |
 //! |---|---|
 //! | [`squealmap_input`], [`squealmap_figure`], [`squealmap_identify`] | files of the user; figures for print; measured signals → verdict: crates of their own |
-//! | [`disk`] | the one door to the disk |
 //! | [`model`] | parameters, friction, equations, contact, eigenvalues |
 //! | [`engine`] | instances integrated: reference, vector registers, GPU |
 //! | [`sweep`] | sweep files, grids, labels, several starts, checks, refinement |
@@ -14,32 +13,28 @@
 //! | [`results`] | map → bytes, and a map read back |
 //! | [`study`] | eigenvalues along an axis, traces, hysteresis, speed against error, fits, measured signals, the source paper |
 //!
-//! ```
-//! use squealmap::engine::options::Options;
-//! use squealmap::model::kind::InstabilityType;
-//! use squealmap::results::csv;
-//! use squealmap::sweep::{run, spec::Spec};
+//! A sweep is built in code, or read from a TOML file with [`Spec::read`]; both give the same [`Spec`]. What most programs
+//! need stands here at the root.
 //!
-//! let text = r#"
-//!     title = "Three belt velocities"
-//!     [friction]
-//!     law = "bilinear"                 # mu_s at rest, mu_d from 5 m/s on
-//!     mu_s = 0.15
-//!     mu_d = 0.05
-//!     [axes]
-//!     belt_velocity = { values = [1.0, 3.0, 6.0] }
-//!     [response]
-//!     settle = "50 periods"
-//!     measure = "20 periods"
-//! "#;
-//! let spec = Spec::parse(text, "example.toml", ".".as_ref())?;
-//! let map = run::run(spec, &Options::default(), &|_finished| {})?;
-//! assert_eq!(map.records[1].kind, Some(InstabilityType::NegativeSlope));
-//! assert_eq!(map.records[2].kind, Some(InstabilityType::Stable));
-//! let table = csv::map_csv(&map)?;
-//! assert_eq!(table.iter().filter(|byte| **byte == b'\n').count(), 4);
+//! ```
+//! use squealmap::{FrictionLaw::Bilinear, Param, Settle, Sweep};
+//!
+//! let map = Sweep::two_mass()
+//!     .friction(Bilinear { mu_s: 0.15, mu_d: 0.05, knee_velocity: 5.0 })
+//!     .values(Param::BeltVelocity, [1.0, 3.0, 6.0])
+//!     .response(Settle::Auto)
+//!     .run()?;
+//! let [Some(slow), _, Some(fast)] = &map.names("type")?[..] else { panic!("three velocities") };
+//! assert_eq!([slow.as_str(), fast.as_str()], ["negative_slope", "stable"]);
+//! let amplitude = map.array("x2_std")?;
+//! assert_eq!(amplitude.shape(), [3]);
+//! assert!(amplitude.get(&[0]) > amplitude.get(&[2]));
 //! # Ok::<(), squealmap::Error>(())
 //! ```
+//!
+//! Features, all of them default: `gpu` (compute kernels through wgpu), `figures`, `identify` (measured signals and
+//! friction), `parquet`, and `cli`, what only the program needs. Without any there are the model, the engines of the CPU,
+//! sweeps, tiles, and tables as CSV, NetCDF and Zarr.
 
 #![cfg_attr(
     not(all(feature = "figures", feature = "gpu", feature = "identify")),
@@ -47,6 +42,7 @@
 )]
 
 pub mod cluster;
+#[doc(hidden)]
 pub mod disk;
 pub mod engine;
 pub mod error;
@@ -55,9 +51,38 @@ pub mod results;
 pub mod store;
 pub mod study;
 pub mod sweep;
+#[doc(hidden)]
 pub mod version;
 
+#[doc(inline)]
+pub use engine::backend::Backend;
+#[doc(inline)]
+pub use engine::options::Options;
+#[doc(inline)]
+pub use engine::plan::Duration;
+#[doc(inline)]
+pub use engine::record::Record;
+#[doc(inline)]
+pub use engine::regime::Regime;
 pub use error::{Error, Result};
+#[doc(inline)]
+pub use model::friction::{FrictionLaw, LawKind};
+#[doc(inline)]
+pub use model::instance::Instance;
+#[doc(inline)]
+pub use model::kind::InstabilityType;
+#[doc(inline)]
+pub use model::status::Status;
+#[doc(inline)]
+pub use model::{Param, Params};
+#[doc(inline)]
+pub use results::by_name::Array;
+#[doc(inline)]
+pub use sweep::build::{Settle, Start, Sweep};
+#[doc(inline)]
+pub use sweep::map::Map;
+#[doc(inline)]
+pub use sweep::spec::Spec;
 
 /// The example of `docs/library.md` is compiled and run.
 #[cfg(doctest)]

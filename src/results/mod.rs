@@ -12,6 +12,7 @@
 //! | the figure of a map | [`figure`] |
 //! | a map read back | [`read`], [`number`] |
 //! | the files of a comparison of two maps | [`comparison`] |
+//! | the columns of a map in memory, by name | [`by_name`] |
 //! | values of axes as users name them | [`choose`] |
 //! | whether a map is whole, and which of its numbers to trust | [`accounted`], [`trust`] |
 //! | why results cannot be written, drawn or read | [`error`] |
@@ -20,6 +21,7 @@ pub mod accounted;
 pub mod arrays;
 #[cfg(feature = "figures")]
 pub mod boundary_lines;
+pub mod by_name;
 pub mod choose;
 #[cfg(feature = "figures")]
 pub mod comparison;

@@ -3,6 +3,7 @@
 //! | question | where |
 //! |---|---|
 //! | sweep file (TOML) → validated sweep | [`spec`] |
+//! | the same built in code | [`build`] |
 //! | axes, index ↔ coordinates | [`grid`] |
 //! | the chosen engine, range after range, with several starts and checks | [`solver`], `several.rs`, [`accuracy`] |
 //! | the whole in memory | [`run`](mod@run), [`map`], [`sheet`] |
@@ -14,6 +15,7 @@
 //! | why a sweep is refused or does not come to its end | [`error`] |
 
 pub mod accuracy;
+pub mod build;
 pub mod checks;
 pub mod columns;
 pub mod draw;

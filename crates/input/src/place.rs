@@ -13,12 +13,21 @@ pub struct Source {
     pub name: String,
     /// The whole text, without a byte order mark, lone carriage returns as line feeds.
     pub text: Arc<str>,
+    /// Whether the text is no file: a place is then named by its line.
+    by_line: bool,
 }
 
 impl Source {
     /// A text and the name that errors give it.
     pub fn new(name: impl Into<String>, text: &str) -> Source {
-        Source { name: name.into(), text: line_ends(text.strip_prefix('\u{feff}').unwrap_or(text)) }
+        let text = line_ends(text.strip_prefix('\u{feff}').unwrap_or(text));
+        Source { name: name.into(), text, by_line: false }
+    }
+
+    /// The calls of a builder in code, one a line: an error names the call.
+    #[must_use]
+    pub fn calls(text: &str) -> Source {
+        Source { name: String::new(), text: line_ends(text), by_line: true }
     }
 
     /// The place of a byte range of the text.
@@ -30,6 +39,10 @@ impl Source {
         }
         let before = &self.text[..start];
         let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+        if self.by_line {
+            let line = self.text[line_start..].lines().next().unwrap_or_default();
+            return Place::argument(line, &self.text, start..span.end.clamp(start, end));
+        }
         Place(Box::new(Spot {
             source: self.name.clone(),
             text: Arc::clone(&self.text),

@@ -9,7 +9,7 @@ use crate::sweep::error::{Error, Result};
 use crate::sweep::grid::{Axis, AxisKey, Value, spaced};
 use crate::sweep::spec::MAX_VALUES;
 use crate::sweep::spec::document::{
-    Node, array, choice, entries, integer, number, out_of_range, string, table,
+    Node, array, choice, entries, integer, number, out_of_range_at, string, table,
 };
 use crate::sweep::spec::names::unknown;
 use crate::sweep::spec::sections::law_value;
@@ -116,11 +116,38 @@ fn range(
         None => false,
         Some(scale) => choice(source, scale, &label("scale"), "scale", &[("linear", false), ("log", true)])?,
     };
+    let at = [from_node.span(), to_node.span()];
+    spaced_axis(source, param, &Ends { from, to, points, log, whole: span, at }, admit)
+}
+
+/// The ends of an axis with the number of its points and its scale, and where they stand.
+pub(super) struct Ends {
+    pub(super) from: f64,
+    pub(super) to: f64,
+    pub(super) points: usize,
+    pub(super) log: bool,
+    /// Where the axis stands.
+    pub(super) whole: Range<usize>,
+    /// Where `from` and `to` stand.
+    pub(super) at: [Range<usize>; 2],
+}
+
+/// The axis between ends that are legal by themselves.
+pub(super) fn spaced_axis(
+    source: &Source,
+    param: Param,
+    ends: &Ends,
+    admit: &mut dyn FnMut(usize) -> Result<()>,
+) -> Result<(Axis, Vec<Range<usize>>)> {
+    let name = param.info().name;
+    let label = |key: &str| format!("`{key}` of axis `{name}`");
+    let &Ends { from, to, points, log, .. } = ends;
+    let [from_at, to_at] = &ends.at;
     if log {
-        for (key, value, node) in [("from", from, from_node), ("to", to, to_node)] {
+        for (key, value, at) in [("from", from, from_at), ("to", to, to_at)] {
             if value <= 0.0 {
                 let limit = "greater than 0 for scale = \"log\"";
-                return Err(out_of_range(source, node, &label(key), limit));
+                return Err(out_of_range_at(source, at.clone(), &label(key), limit));
             }
         }
     }
@@ -128,13 +155,14 @@ fn range(
     let equal = from == to;
     if equal != (points == 1) {
         let remedy = if equal { "give 1 point or different ends" } else { "give 2 points or more" };
-        return Err(Error::AxisEnds { at: source.place(span), axis: name, points, from, to, remedy });
+        let at = source.place(ends.whole.clone());
+        return Err(Error::AxisEnds { at, axis: name, points, from, to, remedy });
     }
     if !(to - from).is_finite() {
         let limit = "a finite distance away from `from`";
-        return Err(out_of_range(source, to_node, &label("to"), limit));
+        return Err(out_of_range_at(source, to_at.clone(), &label("to"), limit));
     }
     admit(points)?;
     let values = (0..points).map(|index| Value::Number(spaced([from, to], points, log, index))).collect();
-    Ok((Axis { key: AxisKey::Param(param), values, log }, vec![span]))
+    Ok((Axis { key: AxisKey::Param(param), values, log }, vec![ends.whole.clone()]))
 }

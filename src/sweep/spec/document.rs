@@ -71,12 +71,18 @@ pub(super) fn wrong_type(source: &Source, node: &Node, label: &str, expected: &s
 
 /// The error of a value outside its limits.
 pub(super) fn out_of_range(source: &Source, node: &Node, label: &str, limit: impl Into<String>) -> Error {
-    Error::OutOfRange {
-        at: source.place(node.span()),
-        key: label.to_owned(),
-        value: written(source, node.span()),
-        limit: limit.into(),
-    }
+    out_of_range_at(source, node.span(), label, limit)
+}
+
+/// The same of the value at `span`.
+pub(super) fn out_of_range_at(
+    source: &Source,
+    span: Range<usize>,
+    label: &str,
+    limit: impl Into<String>,
+) -> Error {
+    let (key, value) = (label.to_owned(), written(source, span.clone()));
+    Error::OutOfRange { at: source.place(span), key, value, limit: limit.into() }
 }
 
 /// A number inside `range`; integers are numbers too.

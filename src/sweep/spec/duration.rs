@@ -10,6 +10,12 @@ use squealmap_input::place::Source;
 /// Longest duration in seconds or periods: a typing error is refused, no study is.
 pub(super) const LONGEST: f64 = 1e9;
 
+/// Whether a duration may be so many seconds or periods; only that of `settle` may be 0.
+pub(super) fn is_legal(count: f64, settle: bool) -> bool {
+    let long_enough = if settle { count >= 0.0 } else { count > 0.0 };
+    long_enough && count <= LONGEST
+}
+
 /// Reads a duration; only that of `settle` may be 0.
 pub(super) fn duration(source: &Source, node: &Node, label: &str, settle: bool) -> Result<Duration> {
     let (expected, bound) = if settle {
@@ -25,8 +31,7 @@ pub(super) fn duration(source: &Source, node: &Node, label: &str, settle: bool) 
         return Err(bad());
     };
     let count: f64 = count.parse().map_err(|_| bad())?;
-    let long_enough = if settle { count >= 0.0 } else { count > 0.0 };
-    if !long_enough || count > LONGEST {
+    if !is_legal(count, settle) {
         return Err(bad());
     }
     match unit {

@@ -85,12 +85,18 @@ fn read_table(
     name: &str,
     base_dir: &Path,
 ) -> Result<Arc<MuTable>> {
-    const NAMES: [&str; 2] = ["velocity", "mu"];
-    let file = Rows::read(source, span, Role::Table, &NAMES, name, base_dir)?;
-    let columns = file.columns(&NAMES, |text| NAMES.iter().position(|name| *name == text))?;
+    table_of(&Rows::read(source, span, Role::Table, &TABLE, name, base_dir)?)
+}
+
+/// The columns of a table of friction.
+const TABLE: [&str; 2] = ["velocity", "mu"];
+
+/// The table of friction that some rows are.
+pub(super) fn table_of(file: &Rows) -> Result<Arc<MuTable>> {
+    let columns = file.columns(&TABLE, |text| TABLE.iter().position(|name| *name == text))?;
     let mut values = [None, None];
     for (index, &which) in columns.iter().enumerate() {
-        let numbers = file.numbers(index, NAMES[which], Range::NonNegative)?;
+        let numbers = file.numbers(index, TABLE[which], Range::NonNegative)?;
         if which == 0 {
             file.rising("velocity", index, &numbers)?;
             if numbers[0] > 0.0 {
@@ -114,8 +120,8 @@ fn read_table(
         });
     }
     let [velocity, mu] = values;
-    let velocity = velocity.ok_or_else(|| no_column(&file, "velocity", "a friction table"))?;
-    let mu = mu.ok_or_else(|| no_column(&file, "mu", "a friction table"))?;
+    let velocity = velocity.ok_or_else(|| no_column(file, "velocity", "a friction table"))?;
+    let mu = mu.ok_or_else(|| no_column(file, "mu", "a friction table"))?;
     Ok(Arc::new(MuTable { velocity, mu }))
 }
 

@@ -1,8 +1,9 @@
-//! A sweep file (TOML) as a validated sweep. Only this folder reads TOML.
+//! A sweep file (TOML), or calls in code, as a validated sweep. Only this folder reads TOML.
 //!
 //! | question | where |
 //! |---|---|
 //! | text → sweep | `read.rs`, `document.rs`, `duration.rs` |
+//! | calls → sweep | `call.rs`, `code.rs` |
 //! | its sections, key by key | `sections.rs`, `law.rs`, `start.rs`, [`refine`] |
 //! | what varies | `axis.rs`, `varied.rs` |
 //! | files that it names | `files.rs`, `rows.rs` |
@@ -14,7 +15,9 @@
 mod again;
 mod at;
 mod axis;
+pub(crate) mod call;
 mod check;
+mod code;
 mod document;
 mod duration;
 mod files;

@@ -1,11 +1,13 @@
 //! From the text of a sweep file to a [`Spec`].
 
 use std::path::Path;
+use std::sync::Arc;
 
 use toml::de::DeTable;
 
 use crate::engine::plan::Duration;
 use crate::model::Param;
+use crate::model::friction::MuTable;
 use crate::sweep::error::{Error, Result};
 use crate::sweep::grid::AxisKey;
 use crate::sweep::spec::check::Check;
@@ -68,8 +70,20 @@ impl Spec {
             }
             (None, None) => Varied::nothing(&source),
         };
-        let files = Files::read(&source, base_dir, &sections, &varied)?;
-        Check { sweep: &source, sections: &sections, varied: &varied, files: &files }.all()?;
+        Spec::of_parts(&source, base_dir, sections, varied, None)
+    }
+
+    /// What was read, or said in code, as a whole; `table` is the friction table that was given with its numbers.
+    pub(super) fn of_parts(
+        source: &Source,
+        base_dir: &Path,
+        sections: Sections,
+        varied: Varied,
+        table: Option<Arc<MuTable>>,
+    ) -> Result<Spec> {
+        let files = Files::read(source, base_dir, &sections, &varied)?;
+        let files = Files { table: files.table.or(table), ..files };
+        Check { sweep: source, sections: &sections, varied: &varied, files: &files }.all()?;
         let steps_given = sections.steps_given.clone().map(|span| source.place(span));
         Ok(Spec { steps_given, ..assemble(sections, varied, files) })
     }

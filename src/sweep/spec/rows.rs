@@ -113,6 +113,20 @@ impl Rows {
         Ok(rows)
     }
 
+    /// The rows of a text that was made of numbers given in code by the call `name`.
+    pub(super) fn given(name: &str, text: &str, role: Role) -> Result<Rows> {
+        let rows = Rows::parse(Source::new(name, text))?;
+        if rows.count > role.most_rows() {
+            return Err(Error::OutOfRange {
+                at: rows.source.place(0..0),
+                key: "the number of rows".to_owned(),
+                value: rows.count.to_string(),
+                limit: format!("at most {}", role.most_rows()),
+            });
+        }
+        Ok(rows)
+    }
+
     /// Finds header and rows of a text.
     pub(super) fn parse(source: Source) -> Result<Rows> {
         let separator = separator(&source);

@@ -6,7 +6,7 @@ use crate::model::material::Outside;
 use crate::model::{Param, Params, Section};
 use crate::sweep::error::{Error, Result};
 use crate::sweep::spec::document::{
-    Entry, Node, array, boolean, choice, entries, integer, number, out_of_range, string, table,
+    Entry, Node, array, boolean, choice, entries, integer, number, out_of_range_at, string, table,
 };
 use crate::sweep::spec::duration::duration;
 use crate::sweep::spec::keys::{STEPS_RANGE, home, names_of};
@@ -19,11 +19,11 @@ use squealmap_input::quote::is_obeyed;
 use std::ops::Range;
 
 /// Most instances that a refined map draws, as many as any sweep in memory has.
-const MOST_SAMPLED: usize = u32::MAX as usize;
+pub(super) const MOST_SAMPLED: usize = u32::MAX as usize;
 
 /// The largest seed that TOML holds.
 #[expect(clippy::cast_possible_truncation, reason = "the smaller of both limits where pointers have 32 bits")]
-const MOST_SEED: usize = i64::MAX as usize;
+pub(super) const MOST_SEED: usize = i64::MAX as usize;
 
 /// A key that stands in a section.
 #[derive(Clone, Debug)]
@@ -125,10 +125,7 @@ impl Sections {
     pub(super) fn top_level(&mut self, source: &Source, entry: Entry) -> Result<()> {
         if entry.key == "title" {
             let title = string(source, entry.node, "`title`", "a string")?;
-            if title.chars().any(is_obeyed) {
-                let limit = "one line of text without control characters";
-                return Err(out_of_range(source, entry.node, "`title`", limit));
-            }
+            legal_title(source, &entry.node.span(), title)?;
             title.clone_into(&mut self.title);
             return Ok(());
         }
@@ -257,6 +254,15 @@ impl Sections {
         self.refine = Some(settings);
         Ok(())
     }
+}
+
+/// Refuses a title that a terminal or a page would obey.
+pub(super) fn legal_title(source: &Source, span: &Range<usize>, title: &str) -> Result<()> {
+    if title.chars().any(is_obeyed) {
+        let limit = "one line of text without control characters";
+        return Err(out_of_range_at(source, span.clone(), "`title`", limit));
+    }
+    Ok(())
 }
 
 /// Whether a duration is left to the run.

@@ -39,30 +39,53 @@ impl Varied {
     /// Reads `[axes]`.
     pub(super) fn axes(source: &Source, entry: Entry) -> Result<Varied> {
         let mut varied = Varied::nothing(source);
-        let mut axes: Vec<Axis> = Vec::new();
         let expected = "a table, written as a line [axes] above its axes";
-        let mut count: u128 = 1;
         for entry in entries(table(source, entry.node, "`axes`", expected)?) {
             let Some(key) = AxisKey::from_name(entry.key) else {
                 return Err(unknown_axis(source, entry));
             };
-            // Checked before the values are made: a product that is too large costs no memory.
-            let (axis, spans) = axis(source, key, entry.node, &mut |points| {
-                count = count.saturating_mul(points as u128);
-                if count > MAX_INSTANCES as u128 { Err(too_many(source, entry, count)) } else { Ok(()) }
+            varied.add(source, key, &entry.key_span(), &entry.node.span(), |admit| {
+                axis(source, key, entry.node, admit)
             })?;
-            axes.push(axis);
-            varied.keys.push((key, entry.key_span()));
-            varied.spans.push(spans);
         }
-        varied.grid = Grid::Axes(axes);
         Ok(varied)
+    }
+
+    /// Adds an axis; `make` gives it with the places of its values, and tells their number before they are made.
+    pub(super) fn add(
+        &mut self,
+        source: &Source,
+        key: AxisKey,
+        at: &Range<usize>,
+        whole: &Range<usize>,
+        make: impl FnOnce(&mut dyn FnMut(usize) -> Result<()>) -> Result<(Axis, Vec<Range<usize>>)>,
+    ) -> Result<()> {
+        let Grid::Axes(axes) = &mut self.grid else { return Ok(()) };
+        if self.keys.iter().any(|(known, _)| *known == key) {
+            let (at, key) = (source.place(at.clone()), format!("axis `{}`", key.name()));
+            return Err(Error::Conflict { at, key, other: "an axis of the same name".to_owned() });
+        }
+        let so_far = axes.iter().fold(1_u128, |count, axis| count.saturating_mul(axis.values.len() as u128));
+        // Checked before the values are made: a product that is too large costs no memory.
+        let (axis, spans) = make(&mut |points| {
+            let count = so_far.saturating_mul(points as u128);
+            if count > MAX_INSTANCES as u128 { Err(too_many(source, whole.clone(), count)) } else { Ok(()) }
+        })?;
+        axes.push(axis);
+        self.keys.push((key, at.clone()));
+        self.spans.push(spans);
+        Ok(())
     }
 
     /// Reads the file of tuples named `name`.
     pub(super) fn tuples(sweep: &Source, span: Range<usize>, name: &str, base_dir: &Path) -> Result<Varied> {
         let names: Vec<&str> = AxisKey::names().collect();
-        let file = Rows::read(sweep, span, Role::Points, &names, name, base_dir)?;
+        Varied::of_rows(Rows::read(sweep, span, Role::Points, &names, name, base_dir)?)
+    }
+
+    /// The tuples of a table.
+    pub(super) fn of_rows(file: Rows) -> Result<Varied> {
+        let names: Vec<&str> = AxisKey::names().collect();
         let keys = file.columns(&names, AxisKey::from_name)?;
         let mut names = Names::default();
         let mut values = Vec::with_capacity(file.len() * keys.len());
@@ -89,6 +112,11 @@ impl Varied {
             source: file.source.clone(),
             file: Some(file),
         })
+    }
+
+    /// Whether its instances are listed one by one.
+    pub(super) fn is_tuples(&self) -> bool {
+        matches!(self.grid, Grid::Tuples { .. })
     }
 
     /// How messages name a key of the grid.
@@ -141,9 +169,9 @@ impl Varied {
     }
 }
 
-fn too_many(source: &Source, entry: Entry, count: u128) -> Error {
+fn too_many(source: &Source, span: Range<usize>, count: u128) -> Error {
     let more = if count == u128::MAX { "more than 10^38".to_owned() } else { format!("at least {count}") };
-    Error::TooMany { at: source.place(entry.node.span()), count: more, limit: MAX_INSTANCES }
+    Error::TooMany { at: source.place(span), count: more, limit: MAX_INSTANCES }
 }
 
 fn unknown_axis(source: &Source, entry: Entry) -> Error {
