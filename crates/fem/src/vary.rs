@@ -131,7 +131,9 @@ impl Setup {
             let parts = real.iter().flatten().zip(imaginary.iter().flatten());
             let mut shape: Vec<c64> = parts.map(|(re, im)| c64::new(*re, *im)).collect();
             let length = shape.iter().map(c64::norm_sqr).sum::<f64>().sqrt();
-            shape.iter_mut().for_each(|u| *u /= length);
+            for u in &mut shape {
+                *u /= length;
+            }
             station.shapes.push(shape);
             station.pairs.push((pair, residual));
         }
