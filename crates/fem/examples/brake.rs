@@ -3,7 +3,7 @@
 //!     cargo run --release -p squealmap-fem --example brake
 //!
 //! One size is given as its elements along the radius, around and along the axis, as `14,120,2`. With `order` before it, the ways to order the
-//! elimination are compared, that of METIS (Debian package metis) where it is installed.
+//! elimination are compared, that of METIS (Debian package metis) where it is installed; `order pin,4` does that for a pin on a block.
 
 #![allow(clippy::doc_markdown, reason = "METIS and symbols of equations are no code")]
 
@@ -13,11 +13,12 @@ mod cases;
 #[expect(dead_code, reason = "of the costs those of this program are used here")]
 mod cost;
 
+use std::fmt::Write as _;
 use std::process::Command;
 use std::time::Instant;
 
 use cost::{memory, work};
-use squealmap_fem::assembly::{Pencil, Rows, assemble};
+use squealmap_fem::assembly::{Model, Pencil, Rows, assemble};
 use squealmap_fem::elements::Kind;
 use squealmap_fem::modes::{Basis, Factor, Ordering, lowest, refine};
 use squealmap_fem::sweep::{Range, sweep};
@@ -26,14 +27,9 @@ type Failure = Box<dyn std::error::Error>;
 
 fn main() -> Result<(), Failure> {
     let words: Vec<String> = std::env::args().skip(1).collect();
-    let orders = words.first().is_some_and(|word| word == "order");
-    let sizes = &words[usize::from(orders)..];
-    match sizes {
-        [size] => {
-            let cells: Vec<usize> = size.split(',').map(str::parse).collect::<Result<_, _>>()?;
-            let cells = cells.try_into().map_err(|_| "give three numbers of elements, as 14,120,2")?;
-            if orders { compare(cells) } else { run(cells) }
-        }
+    match words.iter().map(String::as_str).collect::<Vec<_>>().as_slice() {
+        ["order", size] => compare(&of_size(size)?),
+        [size] => run(size),
         _ => {
             println!(
                 "| elements | unknowns | contact points | entries of L | matrices, s | order and factor, s | 40 modes, s | space, s | \
@@ -52,11 +48,21 @@ fn main() -> Result<(), Failure> {
     }
 }
 
+/// The brake by its numbers of elements, or the pin on the block by `pin,n` with elements of 5 mm over n.
+fn of_size(size: &str) -> Result<Model, Failure> {
+    if let Some(cut) = size.strip_prefix("pin,") {
+        return Ok(cases::pin::model(Kind::Hex20, cut.parse()?)?);
+    }
+    let cells: Vec<usize> = size.split(',').map(str::parse).collect::<Result<_, _>>()?;
+    let cells = cells.try_into().map_err(|_| "give three numbers of elements, as 14,120,2, or pin,4")?;
+    Ok(cases::brake::model(Kind::Hex20, cells)?)
+}
+
 /// One row of the table.
-fn run(cells: [usize; 3]) -> Result<(), Failure> {
+fn run(size: &str) -> Result<(), Failure> {
     let start = Instant::now();
     let mut clock = vec![work()];
-    let model = cases::brake::model(Kind::Hex20, cells)?;
+    let model = of_size(size)?;
     let (numbering, pencil) = assemble(&model)?;
     clock.push(work());
     let ordering = Ordering::best(&pencil.stiffness.pattern, &numbering.places(&model.mesh))?;
@@ -80,10 +86,8 @@ fn run(cells: [usize; 3]) -> Result<(), Failure> {
     });
     let seconds: Vec<String> = clock.windows(2).map(|w| format!("{:.1}", w[1] - w[0])).collect();
     println!(
-        "| {} × {} × {} | {} | {} | {:.2e} | {} | {:.1} | {:.1} | {:.2} | {} | {worst:.1e} | {} |",
-        cells[0],
-        cells[1],
-        cells[2],
+        "| {} | {} | {} | {:.2e} | {} | {:.1} | {:.1} | {:.2} | {} | {worst:.1e} | {} |",
+        size.replace(',', " × "),
         pencil.size(),
         pencil.slip.rows.len(),
         ordering.entries() as f64,
@@ -98,13 +102,8 @@ fn run(cells: [usize; 3]) -> Result<(), Failure> {
 }
 
 /// What each order of elimination costs.
-fn compare(cells: [usize; 3]) -> Result<(), Failure> {
-    let model = if cells[2] == 0 {
-        cases::pin::model(Kind::Hex20, cells[0])?
-    } else {
-        cases::brake::model(Kind::Hex20, cells)?
-    };
-    let (numbering, pencil) = assemble(&model)?;
+fn compare(model: &Model) -> Result<(), Failure> {
+    let (numbering, pencil) = assemble(model)?;
     let pattern = &pencil.stiffness.pattern;
     println!(
         "{} unknowns\n\n| order | entries of L | order, s | factor, s |\n|---|---|---|---|",
@@ -141,7 +140,7 @@ fn metis(pencil: &Pencil) -> Result<Option<Vec<usize>>, Failure> {
     let mut text = format!("{size} {}\n", (pattern.row.len() - size) / 2);
     for i in 0..size {
         for j in pattern.row[pattern.start[i]..pattern.start[i + 1]].iter().filter(|j| **j != i) {
-            text.push_str(&format!("{} ", j + 1));
+            write!(text, "{} ", j + 1)?;
         }
         text.push('\n');
     }

@@ -102,9 +102,9 @@ fn deck(model: &Model) -> Result<String, Failure> {
     }
     for (name, side) in [("BELOW", "z0"), ("ABOVE", "pin.z1")] {
         let _ = writeln!(text, "*NSET, NSET={name}");
-        model.mesh.node_set(side)?.iter().for_each(|node| {
+        for node in model.mesh.node_set(side)? {
             let _ = writeln!(text, "{},", node + 1);
-        });
+        }
     }
     let _ = write!(
         text,

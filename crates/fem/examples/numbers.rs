@@ -2,7 +2,7 @@
 //!
 //!     cargo run --release -p squealmap-fem --example numbers
 //!
-//! With numbers behind it, the refined pin only, with elements of 5 mm over each of them.
+//! With numbers behind it, the refined pin only, with elements of 5 mm over each of them; with `stressed`, the pressed pin only.
 
 #![allow(clippy::doc_markdown, reason = "symbols of equations, such as μ_c or K_n, are no code")]
 
@@ -15,19 +15,24 @@ mod cost;
 use cost::{memory, work};
 use faer::c64;
 use squealmap_fem::Error;
-use squealmap_fem::assembly::{Model, Pencil, Rows, assemble};
+use squealmap_fem::assembly::{Loads, Model, Pencil, Rows, assemble};
 use squealmap_fem::elements::Kind;
 use squealmap_fem::modes::{
     Basis, Factor, Ordering, coalescence, first_unstable, lowest, near, pairs, refine,
 };
+use squealmap_fem::statics::settle;
 
 fn main() -> Result<(), Error> {
     let sizes: Vec<usize> = std::env::args().skip(1).filter_map(|word| word.parse().ok()).collect();
+    if std::env::args().nth(1).is_some_and(|word| word == "stressed") {
+        return stressed();
+    }
     if !sizes.is_empty() {
         return pin_refined(&sizes);
     }
     layer()?;
     pin()?;
+    stressed()?;
     pin_refined(&[1, 2, 4])
 }
 
@@ -112,6 +117,44 @@ fn pin() -> Result<(), Error> {
         println!("| frequency at μ_c, Hz | | {:.4} |", critical.frequency());
     }
     println!("\n{} vectors in the basis; largest residual {worst:.1e}.", basis.vectors.ncols());
+    Ok(())
+}
+
+/// The pin pressed down by its clamped end: what the stress does to the modes.
+fn stressed() -> Result<(), Error> {
+    println!(
+        "\n| pressed by | mean pressure, MPa | stress stiffens | 5 lowest frequencies, Hz | μ_c | Hz |\n|---|---|---|---|---|---|"
+    );
+    for down in [1e-6, 1e-5] {
+        let mut model = cases::pin::model(Kind::Hex20, 1)?;
+        let top = model.mesh.node_set("pin.z1")?.to_vec();
+        model.supports.prescribe(&top, 2, -down);
+        let faces = model.mesh.face_set("pin.z0")?.to_vec();
+        let settled = settle(&model, &faces, &Loads::default(), 0.0)?;
+        let pressure = settled.forces.iter().sum::<f64>() / 1e-4;
+        for (name, pencil) in [("no", &settled.pencil), ("yes", &settled.stiffened()?)] {
+            let ordering = Ordering::new(&pencil.stiffness.pattern)?;
+            let factor = Factor::new(&ordering, &pencil.stiffness, &pencil.mass, 0.0)?;
+            let modes = lowest(pencil, &factor, 20)?;
+            let five: Vec<String> = modes.frequencies()[..5].iter().map(|f| format!("{f:.2}")).collect();
+            let mut basis = Basis::new(pencil, &modes.shapes);
+            let mus: Vec<f64> = (0..=12).map(|i| 0.05 * f64::from(i)).collect();
+            refine(pencil, &factor, &mut basis, &[0.2, 0.4], &Rows::default(), 8, 1e-8, 20)?;
+            let critical = match first_unstable(&basis, &mus, &Rows::default(), 7e4, 1.0)? {
+                Some((i, pair)) => {
+                    let found = coalescence(pencil, &factor, &mut basis, mus[i], &pair)?;
+                    format!("{:.6} | {:.2}", found.mu, found.frequency())
+                }
+                None => "none up to 0.6 | ".to_owned(),
+            };
+            println!(
+                "| {:.0} μm | {:.1} | {name} | {} | {critical} |",
+                1e6 * down,
+                pressure / 1e6,
+                five.join(", ")
+            );
+        }
+    }
     Ok(())
 }
 

@@ -117,7 +117,7 @@ fn slide(
     mu: f64,
 ) -> Result<(Vec<[f64; 3]>, Vec<f64>), Error> {
     let (load, normal_load) = load_vector(model, numbering, loads)?;
-    let ordering = Ordering::new(&pencil.stiffness.pattern)?;
+    let ordering = Ordering::best(&pencil.stiffness.pattern, &numbering.places(&model.mesh))?;
     let factor = Factor::new(&ordering, &pencil.stiffness, &pencil.mass, 0.0)?;
     let respond = |force: &[f64]| -> Vec<f64> {
         let mut q = Mat::from_fn(force.len(), 1, |i, _| force[i]);

@@ -1,4 +1,4 @@
-//! Modes over any parameter of a model: friction, its slope, contact stiffness, stiffness of a material, load.
+//! Modes over any parameter of a model: friction, its slope, contact stiffness, stiffness of a material, damping, load.
 //!
 //! Each value has matrices of its own where the parameter is in them. Modes are followed by their shapes on the nodes.
 
@@ -43,6 +43,8 @@ pub enum Parameter {
     Stiffness(usize),
     /// A factor of loads and prescribed displacements.
     Load,
+    /// A factor of the Rayleigh damping of all materials.
+    Damping,
 }
 
 /// Modes at one value.
@@ -77,6 +79,9 @@ impl Setup {
                     return Err(Error::Material { name: material.name.clone(), what });
                 }
                 material.stiffness.iter_mut().flatten().for_each(|modulus| *modulus *= value);
+            }
+            Parameter::Damping => {
+                setup.model.materials.iter_mut().flat_map(|m| &mut m.rayleigh).for_each(|c| *c *= value);
             }
             Parameter::Load => {
                 setup.loads.pressure.iter_mut().for_each(|(_, pressure)| *pressure *= value);
@@ -131,7 +136,9 @@ impl Setup {
             let parts = real.iter().flatten().zip(imaginary.iter().flatten());
             let mut shape: Vec<c64> = parts.map(|(re, im)| c64::new(*re, *im)).collect();
             let length = shape.iter().map(c64::norm_sqr).sum::<f64>().sqrt();
-            shape.iter_mut().for_each(|u| *u /= length);
+            for u in &mut shape {
+                *u /= length;
+            }
             station.shapes.push(shape);
             station.pairs.push((pair, residual));
         }

@@ -65,7 +65,7 @@ pub(crate) fn watched(command: &mut Command) -> Result<(String, Cost), Box<dyn s
     let text = output.join().unwrap_or_default();
     if !status.success() {
         let errors = errors.join().unwrap_or_default();
-        return Err(format!("{:?} failed: {errors}{text}", command.get_program()).into());
+        return Err(format!("{} failed: {errors}{text}", command.get_program().display()).into());
     }
     Ok((text, cost))
 }

@@ -12,7 +12,9 @@ fn pairs(
     shift: [f64; 3],
 ) -> Result<Vec<(usize, usize)>, Error> {
     let mut places = Places::new(mesh.extent());
-    masters.iter().for_each(|master| places.insert(*master, mesh.nodes[*master]));
+    for master in masters {
+        places.insert(*master, mesh.nodes[*master]);
+    }
     let near = places.near;
     let mut pairs = Vec::with_capacity(slaves.len());
     for slave in slaves {

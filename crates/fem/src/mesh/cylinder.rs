@@ -115,7 +115,9 @@ impl Cylinder {
             let [x, y] = bent(node[0], node[1]);
             *node = [x, y, node[2]];
         }
-        ["x0", "x1", "y0", "y1"].iter().for_each(|side| rename(&mut mesh, side, ""));
+        for side in ["x0", "x1", "y0", "y1"] {
+            rename(&mut mesh, side, "");
+        }
         for quarter in 0..4_u8 {
             let mut side = part(0.0, 1.0, [outside, core])?;
             let (sin, cos) = (f64::from(quarter) * FRAC_PI_2).sin_cos();

@@ -183,7 +183,9 @@ fn cover(neighbours: &[Vec<usize>], upper: &[bool]) -> Vec<bool> {
     }
     let mut reached = vec![false; count];
     let mut queue: VecDeque<usize> = below.iter().copied().filter(|i| mate[*i].is_none()).collect();
-    queue.iter().for_each(|i| reached[*i] = true);
+    for i in &queue {
+        reached[*i] = true;
+    }
     while let Some(i) = queue.pop_front() {
         for j in across(i) {
             if !reached[j] {

@@ -5,7 +5,7 @@
 //! has no part in V, and A V none at all.
 
 use faer::linalg::solvers::Solve;
-use faer::{Mat, MatRef, Side, c64};
+use faer::{Col, Mat, MatRef, Side, c64};
 
 use super::modal::damping_columns;
 use super::real::times;
@@ -43,7 +43,9 @@ impl Judge {
             let mut all = Mat::zeros(pencil.size(), size);
             for j in 0..size {
                 for (row, force) in pencil.slip.rows.iter().zip(forces.col(j).iter()) {
-                    row.iter().for_each(|(i, s)| all[(*i, j)] += s * force);
+                    for (i, s) in row {
+                        all[(*i, j)] += s * force;
+                    }
                 }
             }
             all
@@ -107,7 +109,7 @@ impl Judge {
         let form = |matrix: &Mat<f64>, vector: &[c64]| -> f64 {
             let parts: [fn(&c64) -> f64; 2] = [|x| x.re, |x| x.im];
             let part = |of: fn(&c64) -> f64| {
-                let x = faer::Col::from_iter(vector.iter().map(of));
+                let x: Col<f64> = vector.iter().map(of).collect();
                 x.transpose() * (matrix * &x)
             };
             parts.map(part).iter().sum()

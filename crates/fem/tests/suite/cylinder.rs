@@ -1,15 +1,17 @@
 //! Rings and cylinders: what they weigh, how they twist, how they slide about an axis.
 
+use std::collections::HashMap;
 use std::f64::consts::{PI, TAU};
 
-use squealmap_fem::assembly::{Loads, Model, assemble, internal_forces, nodal_forces};
+use faer::c64;
+use squealmap_fem::assembly::{Loads, Model, Rows, assemble, internal_forces, nodal_forces};
 use squealmap_fem::contact::{rotating, sliding_on_rigid};
 use squealmap_fem::elements::Kind;
 use squealmap_fem::mesh::{Cylinder, Mesh, Ring};
-use squealmap_fem::modes::{Factor, Ordering, lowest};
+use squealmap_fem::modes::{Basis, Factor, Ordering, lift, lowest, pairs, refine};
 use squealmap_fem::statics::settle;
 
-use crate::cases::steel;
+use crate::cases::{brake, steel};
 
 const HEIGHT: f64 = 0.03;
 const RADII: [f64; 2] = [0.01, 0.02];
@@ -165,5 +167,44 @@ fn friction_about_an_axis_has_its_moment() {
         let inner = if hollow { RADII[0] } else { 0.0 };
         let lever = 2.0 / 3.0 * (RADII[1].powi(3) - inner.powi(3)) / (RADII[1].powi(2) - inner.powi(2));
         assert!((moment / (mu * normal * lever) - 1.0).abs() < 0.05, "{moment} {normal} {lever}");
+    }
+}
+
+/// Linings on both sides of a disc are mirror images of each other, and so is their friction: each complex mode is even or odd in z.
+#[test]
+fn both_sides_of_a_disc_slide_alike() {
+    let mu = 0.5;
+    let model = brake::model(Kind::Hex8, [7, 36, 2]).expect("a brake");
+    let (numbering, pencil) = assemble(&model).expect("matrices");
+    let ordering =
+        Ordering::best(&pencil.stiffness.pattern, &numbering.places(&model.mesh)).expect("an order");
+    let factor = Factor::new(&ordering, &pencil.stiffness, &pencil.mass, 0.0).expect("a factor");
+    let mut basis = Basis::new(&pencil, &lowest(&pencil, &factor, 14).expect("real modes").shapes);
+    let none = Rows::default();
+    refine(&pencil, &factor, &mut basis, &[mu], &none, 8, 1e-7, 20).expect("a space");
+    let key = |x: [f64; 3]| x.map(|c| format!("{:.7}", c + 0.0));
+    let places: HashMap<_, _> = model.mesh.nodes.iter().enumerate().map(|(i, x)| (key(*x), i)).collect();
+    // The middle of the disc lies at 6 mm. Backs and linings have nodes of their own at the places where they meet: those of the last one count.
+    let mirror: Vec<usize> =
+        model.mesh.nodes.iter().map(|x| places[&key([x[0], x[1], 0.012 - x[2]])]).collect();
+    let found = pairs(&basis.at(mu, &none)).expect("complex modes");
+    for pair in &found[..8] {
+        let [re, im] = lift(&basis, &pair.vector).map(|part| numbering.spread(&part));
+        // Where surfaces slide, two nodes at one place move differently: left out, as the mirror knows one of them only.
+        let inner: Vec<usize> = (0..mirror.len()).filter(|n| mirror[mirror[*n]] == *n).collect();
+        let at = |node: usize, axis: usize| c64::new(re[node][axis], im[node][axis]);
+        let sum = |of: &dyn Fn(usize, usize) -> c64| -> c64 {
+            inner.iter().flat_map(|n| (0..3).map(move |axis| (*n, axis))).map(|(n, axis)| of(n, axis)).sum()
+        };
+        let sign = |axis| if axis == 2 { -1.0 } else { 1.0 };
+        let own = sum(&|n, axis| at(n, axis).conj() * at(n, axis));
+        let turned = sum(&|n, axis| at(n, axis).conj() * at(mirror[n], axis) * sign(axis));
+        let parity = turned / own;
+        println!("{:.1} Hz, {:.1} 1/s: {parity}", pair.frequency(), pair.growth());
+        assert!(
+            (parity.norm() - 1.0).abs() < 1e-6 && parity.im.abs() < 1e-6,
+            "{} Hz: {parity}",
+            pair.frequency()
+        );
     }
 }

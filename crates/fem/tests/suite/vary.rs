@@ -64,6 +64,30 @@ fn stiffness_moves_all_modes_alike() {
     }
 }
 
+/// With C = f α M each θ = −λ² of the undamped body becomes the roots of λ² + f α λ + θ = 0.
+#[test]
+fn damping_moves_each_mode_by_its_quadratic_equation() {
+    let alpha = 500.0;
+    let mut setup =
+        Setup { model: pin::model(Kind::Hex20, 1).expect("the pin"), mu: 0.3, ..Setup::default() };
+    for material in &mut setup.model.materials {
+        *material = material.clone().damped(alpha, 0.0);
+    }
+    let modes = vary(&setup, Parameter::Damping, &[0.0, 1.0, 6.0], 5, 1e-9).expect("modes");
+    for mode in &modes {
+        let theta = -(mode.states[0].lambda * mode.states[0].lambda).re;
+        for (state, factor) in mode.states.iter().zip([0.0, 1.0, 6.0]) {
+            let half: f64 = factor * alpha / 2.0;
+            let exact = c64::new(-half, (theta - half * half).sqrt());
+            assert!(
+                (state.lambda - exact).norm() < 1e-7 * exact.norm(),
+                "{factor}: {} {exact}",
+                state.lambda
+            );
+        }
+    }
+}
+
 /// A stiffer contact comes to the tied one as 1/k.
 #[test]
 fn contact_stiffness_comes_to_the_tied_contact() {

@@ -45,8 +45,9 @@ pub(crate) fn model(kind: Kind, [radial, around, axial]: [usize; 3]) -> Result<M
         let set = |part: &str, side: &str| mesh.node_set(&format!("{pad}{part}.{side}"));
         model.supports.prescribe(set(" back", outside)?, 2, 0.0);
         for end in ["a0", "a1"] {
-            (0..2)
-                .for_each(|axis| model.supports.prescribe(set(" back", end).unwrap_or_default(), axis, 0.0));
+            for axis in 0..2 {
+                model.supports.prescribe(set(" back", end)?, axis, 0.0);
+            }
         }
         model.supports.bond(bonded(mesh, set(" back", inside)?, set("", outside)?)?);
         let slaves = set("", inside)?;
