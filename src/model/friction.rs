@@ -168,6 +168,22 @@ pub enum FrictionLaw {
 }
 
 impl FrictionLaw {
+    /// Its parameters with their values; none of a table.
+    #[must_use]
+    pub fn parts(&self) -> Vec<(Param, f64)> {
+        match *self {
+            FrictionLaw::Constant { mu_s, mu_d } => vec![(Param::MuS, mu_s), (Param::MuD, mu_d)],
+            FrictionLaw::Bilinear { mu_s, mu_d, knee_velocity } => {
+                vec![(Param::MuS, mu_s), (Param::MuD, mu_d), (Param::KneeVelocity, knee_velocity)]
+            }
+            FrictionLaw::Exponential { mu_s, mu_d, stribeck_velocity } => {
+                vec![(Param::MuS, mu_s), (Param::MuD, mu_d), (Param::StribeckVelocity, stribeck_velocity)]
+            }
+            FrictionLaw::Rational { mu_s, decay } => vec![(Param::MuS, mu_s), (Param::Decay, decay)],
+            FrictionLaw::Table(_) => Vec::new(),
+        }
+    }
+
     /// The kind of this law.
     #[must_use]
     pub fn kind(&self) -> LawKind {

@@ -1,8 +1,8 @@
 //! A map's columns by name, as numbers per instance and as arrays over its axes.
 
 use crate::results::arrays::{Arrays, Coordinate};
-use crate::results::columns::{Cell, Column, Content, columns};
 use crate::results::error::Result;
+use crate::sweep::columns::{Cell, Column, Content, columns};
 use crate::sweep::error::Error;
 use crate::sweep::map::Map;
 use crate::sweep::sheet::Sheet;

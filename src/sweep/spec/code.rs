@@ -218,7 +218,7 @@ impl Code<'_> {
     fn friction(&mut self, friction: &FrictionLaw, whole: &Range<usize>) -> Result<()> {
         self.sections.law = friction.kind();
         self.give("law", Section::Friction, whole);
-        for (param, value) in law::parts(friction) {
+        for (param, value) in friction.parts() {
             let name = param.info().name;
             self.number(param, value, whole, format!("`{name}` in [friction]"))?;
             if self.varied.find(AxisKey::Param(param)).is_none() {

@@ -31,18 +31,3 @@ pub(super) fn of_table() -> Vec<&'static str> {
 fn named(is: impl Fn(LawKind) -> bool) -> Vec<&'static str> {
     LawKind::ALL.into_iter().filter(|kind| is(*kind)).map(LawKind::name).collect()
 }
-
-/// The parameters of a law with their values.
-pub(super) fn parts(law: &FrictionLaw) -> Vec<(Param, f64)> {
-    match *law {
-        FrictionLaw::Constant { mu_s, mu_d } => vec![(Param::MuS, mu_s), (Param::MuD, mu_d)],
-        FrictionLaw::Bilinear { mu_s, mu_d, knee_velocity } => {
-            vec![(Param::MuS, mu_s), (Param::MuD, mu_d), (Param::KneeVelocity, knee_velocity)]
-        }
-        FrictionLaw::Exponential { mu_s, mu_d, stribeck_velocity } => {
-            vec![(Param::MuS, mu_s), (Param::MuD, mu_d), (Param::StribeckVelocity, stribeck_velocity)]
-        }
-        FrictionLaw::Rational { mu_s, decay } => vec![(Param::MuS, mu_s), (Param::Decay, decay)],
-        FrictionLaw::Table(_) => Vec::new(),
-    }
-}
