@@ -21,7 +21,7 @@ use crate::sweep::spec::rows::{Role, Rows};
 use crate::sweep::spec::sections::{Given, MOST_SAMPLED, MOST_SEED, Sections, legal_title};
 use crate::sweep::spec::start::{Kind, SAMPLES_RANGE};
 use crate::sweep::spec::varied::Varied;
-use crate::sweep::spec::{MAX_VALUES, Spec, law};
+use crate::sweep::spec::{MAX_VALUES, Spec};
 use squealmap_input::place::Source;
 
 impl Spec {
