@@ -307,12 +307,14 @@ pub fn manifest(sheet: Sheet, resolved: &Value, tally: &Tally, run: &Run) -> Res
 }
 
 /// What a table does not say of its figure, with the program that wrote both: UTF-8 JSON, indented.
-pub(crate) fn described(entries: &Value) -> Result<Vec<u8>> {
-    let mut document = json!({ "program": Program::this() });
-    if let (Value::Object(all), Value::Object(entries)) = (&mut document, entries) {
-        all.extend(entries.clone());
+pub(crate) fn described(entries: &impl Serialize) -> Result<Vec<u8>> {
+    #[derive(Serialize)]
+    struct Described<'a, T> {
+        program: Program,
+        #[serde(flatten)]
+        entries: &'a T,
     }
-    pretty(&document)
+    pretty(&Described { program: Program::this(), entries })
 }
 
 /// A document as bytes, indented.

@@ -1,7 +1,7 @@
 //! The heading of a figure of one instance: the title of its sweep, and the settings that were asked for, in the paper's
 //! symbols.
 
-use serde_json::{Value as Json, json};
+use serde::{Deserialize, Serialize};
 
 use crate::results::figure::panels::setting;
 use crate::sweep::grid::{AxisKey, Value};
@@ -15,12 +15,57 @@ const GAP: f64 = 9.0;
 const LINE: f64 = 11.0;
 
 /// Title and settings.
-#[derive(Clone, Debug, Default, PartialEq)]
+///
+/// In a document `title`, and `at` with names and values in order.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
+#[serde(try_from = "Entries", into = "Entries")]
 pub struct Heading {
     /// The title of the sweep; may be empty.
     pub title: String,
     /// The settings that were asked for.
     pub settings: Vec<(AxisKey, Value)>,
+}
+
+/// A heading as it stands in a document.
+#[derive(Deserialize, Serialize)]
+struct Entries {
+    title: String,
+    #[serde(default)]
+    at: Vec<(String, Entry)>,
+}
+
+/// A value as it stands in a document.
+#[derive(Deserialize, Serialize)]
+#[serde(untagged)]
+enum Entry {
+    Number(f64),
+    Text(String),
+}
+
+impl From<Heading> for Entries {
+    fn from(heading: Heading) -> Entries {
+        let setting = |(key, value): (AxisKey, Value)| match value {
+            Value::Number(number) => (key.name().to_owned(), Entry::Number(number)),
+            Value::Text(text) => (key.name().to_owned(), Entry::Text(text.to_string())),
+        };
+        Entries { title: heading.title, at: heading.settings.into_iter().map(setting).collect() }
+    }
+}
+
+impl TryFrom<Entries> for Heading {
+    type Error = String;
+
+    fn try_from(entries: Entries) -> Result<Heading, String> {
+        let setting = |(name, value): (String, Entry)| {
+            let key = AxisKey::from_name(&name).ok_or_else(|| format!("`{name}` is no parameter"))?;
+            Ok(match value {
+                Entry::Number(number) => (key, Value::Number(number)),
+                Entry::Text(text) => (key, Value::Text(text.into())),
+            })
+        };
+        let settings = entries.at.into_iter().map(setting).collect::<Result<_, String>>()?;
+        Ok(Heading { title: entries.title, settings })
+    }
 }
 
 impl From<&str> for Heading {
@@ -40,33 +85,6 @@ impl Heading {
             Some((AxisKey::from_name(name.trim())?, value))
         });
         Heading { title: title.to_owned(), settings: settings.collect() }
-    }
-
-    /// The entries of a document: `title`, and `at` with names and values in order.
-    #[must_use]
-    pub fn to_json(&self) -> Json {
-        let setting = |(key, value): &(AxisKey, Value)| match value {
-            Value::Number(number) => json!([key.name(), number]),
-            Value::Text(text) => json!([key.name(), text.as_str()]),
-        };
-        json!({ "title": self.title, "at": self.settings.iter().map(setting).collect::<Vec<_>>() })
-    }
-
-    /// The heading of [`Heading::to_json`]; `None` when it is none.
-    #[must_use]
-    pub fn from_json(document: &Json) -> Option<Heading> {
-        let setting = |pair: &Json| {
-            let value = match &pair[1] {
-                Json::String(text) => Value::Text(text.clone().into()),
-                number => Value::Number(number.as_f64()?),
-            };
-            Some((AxisKey::from_name(pair[0].as_str()?)?, value))
-        };
-        let settings = document["at"].as_array().map_or(&[][..], Vec::as_slice).iter().map(setting);
-        Some(Heading {
-            title: document["title"].as_str()?.to_owned(),
-            settings: settings.collect::<Option<_>>()?,
-        })
     }
 
     /// The name of a document with this heading.

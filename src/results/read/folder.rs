@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
+use serde::de::DeserializeOwned;
 use serde_json::Value as Json;
 
 use crate::results::error::{Error, Result};
-use crate::results::figure::heading::Heading;
 use crate::results::manifest::Sum;
 use crate::store::seal::is_intact;
 
@@ -126,7 +126,7 @@ pub(crate) fn text(value: &Json) -> String {
     value.as_str().unwrap_or_default().to_owned()
 }
 
-/// The heading of a document.
-pub(crate) fn heading(document: &Json) -> Why<Heading> {
-    Heading::from_json(document).ok_or_else(|| "has no `title`".to_owned())
+/// A document with a heading.
+pub(crate) fn headed<T: DeserializeOwned>(document: Json) -> Why<T> {
+    serde_json::from_value(document).map_err(|_| "has no `title`".to_owned())
 }

@@ -1,15 +1,14 @@
 //! `hysteresis.csv` and `hysteresis.json`: both branches of a parameter read back.
 
-use serde_json::Value as Json;
-
 use crate::engine::outcome::Outcome;
 use crate::engine::record::Record;
 use crate::model::Param;
 use crate::results::figure::heading::Heading;
-use crate::results::read::folder::{Folder, Table, Why, heading, text};
+use crate::results::read::folder::{Folder, Table, Why, headed};
 use crate::results::read::map;
 use crate::study::error::Result;
 use crate::study::hysteresis::follow::{Direction, Hysteresis};
+use crate::study::hysteresis::table::Document;
 
 /// The files that are read.
 pub(crate) const FILES: [&str; 2] = ["hysteresis.csv", "hysteresis.json"];
@@ -17,16 +16,15 @@ pub(crate) const FILES: [&str; 2] = ["hysteresis.csv", "hysteresis.json"];
 /// Both branches and their heading; of the records type, regime, whether they are settled and `x2_std` are read.
 pub(crate) fn read(folder: Folder<'_>) -> Result<(Hysteresis, Heading)> {
     let table = folder.table(FILES[0])?;
-    let document = folder.json(FILES[1])?;
-    let heading = heading(&document).map_err(|why| folder.bad(FILES[1], why))?;
-    let param = param(&document).map_err(|why| folder.bad(FILES[1], why))?;
+    let document = headed(folder.json(FILES[1])?).map_err(|why| folder.bad(FILES[1], why))?;
+    let Document { heading, parameter } = document;
+    let param = param(&parameter).map_err(|why| folder.bad(FILES[1], why))?;
     let hysteresis = branches(&table, param).map_err(|why| folder.bad(FILES[0], why))?;
     Ok((hysteresis, heading))
 }
 
-fn param(document: &Json) -> Why<Param> {
-    let name = text(&document["parameter"]);
-    Param::from_name(&name).ok_or_else(|| format!("`parameter` is `{name}`, which is no parameter"))
+fn param(name: &str) -> Why<Param> {
+    Param::from_name(name).ok_or_else(|| format!("`parameter` is `{name}`, which is no parameter"))
 }
 
 fn branches(table: &Table, param: Param) -> Why<Hysteresis> {

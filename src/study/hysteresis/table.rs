@@ -1,6 +1,6 @@
 //! The branches of a parameter that rises and falls, as a table; the figure is in `figure.rs`.
 
-use serde_json::json;
+use serde::{Deserialize, Serialize};
 
 use crate::results::csv::Table;
 use crate::results::figure::heading::Heading;
@@ -40,12 +40,20 @@ pub fn hysteresis_csv(spec: &Spec, hysteresis: &Hysteresis) -> Result<Vec<u8>> {
     Ok(table.finish()?)
 }
 
-/// What the figure needs besides the table, as JSON: the heading, and which parameter was followed.
+/// What the figure needs beside the table: the heading, and which parameter was followed.
+#[derive(Deserialize, Serialize)]
+pub(crate) struct Document {
+    #[serde(flatten)]
+    pub(crate) heading: Heading,
+    #[serde(default)]
+    pub(crate) parameter: String,
+}
+
+/// This document as JSON.
 ///
 /// # Errors
 /// When it cannot be written.
 pub fn document(hysteresis: &Hysteresis, heading: &Heading) -> Result<Vec<u8>> {
-    let mut document = heading.to_json();
-    document["parameter"] = json!(hysteresis.param.info().name);
-    Ok(described(&document)?)
+    let parameter = hysteresis.param.info().name.to_owned();
+    Ok(described(&Document { heading: heading.clone(), parameter })?)
 }

@@ -1,7 +1,8 @@
 //! `modes`: the eigenvalues along an axis, as a table; the figure is in `figure.rs`.
 
 use num_complex::Complex64;
-use serde_json::json;
+use serde::{Deserialize, Serialize};
+use serde_json::Value as Json;
 
 use crate::results::csv::Table;
 use crate::results::manifest::described;
@@ -238,17 +239,23 @@ pub fn table(spec: &Spec, modes: &Modes) -> Result<Vec<u8>> {
     Ok(table.finish()?)
 }
 
-/// What the figure needs beside the table, as JSON: title and axes of the sweep, and the critical values of each branch.
+/// What the figure needs beside the table: title and axes of the sweep, and the critical values of each branch.
+#[derive(Default, Deserialize, Serialize)]
+#[serde(default)]
+pub(crate) struct Document {
+    pub(crate) title: String,
+    /// The grid, see [`grid_json`].
+    pub(crate) grid: Json,
+    pub(crate) critical: Vec<Vec<f64>>,
+}
+
+/// This document as JSON.
 ///
 /// # Errors
 /// When it cannot be written.
 pub fn document(spec: &Spec, modes: &Modes) -> Result<Vec<u8>> {
-    let critical: Vec<&[f64]> = modes.branches.iter().map(|branch| branch.critical.as_slice()).collect();
-    Ok(described(&json!({
-        "title": spec.title,
-        "grid": grid_json::to_json(&spec.grid),
-        "critical": critical,
-    }))?)
+    let critical = modes.branches.iter().map(|branch| branch.critical.clone()).collect();
+    Ok(described(&Document { title: spec.title.clone(), grid: grid_json::to_json(&spec.grid), critical })?)
 }
 
 /// The eigenvalues of an instance, 1/s.

@@ -3,13 +3,13 @@
 use std::f64::consts::TAU;
 
 use num_complex::Complex64;
-use serde_json::Value as Json;
+use serde::Deserialize;
 
-use crate::results::read::folder::{Folder, Table, Why, text};
+use crate::results::read::folder::{Folder, Table, Why};
 use crate::results::read::map::drawn_spec;
 use crate::store::grid_json;
 use crate::study::error::Result;
-use crate::study::modes::follow::{COLUMNS, Mode, Modes, along};
+use crate::study::modes::follow::{COLUMNS, Document, Mode, Modes, along};
 use crate::sweep::grid::Grid;
 use crate::sweep::spec::{Analysis, Spec, Starts};
 
@@ -19,19 +19,20 @@ pub(crate) const FILES: [&str; 2] = ["modes.csv", "modes.json"];
 /// The modes in a table and a document, and their sweep. Only title and grid of the sweep are read.
 pub(crate) fn read(folder: Folder<'_>, files: [&str; 2]) -> Result<(Spec, Modes)> {
     let table = folder.table(files[0])?;
-    let document = folder.json(files[1])?;
+    let document =
+        Document::deserialize(folder.json(files[1])?).map_err(|why| folder.bad(files[1], why.to_string()))?;
     let (spec, mut modes) = sweep(&document).map_err(|why| folder.bad(files[1], why))?;
     fill(&mut modes, &table, spec.grid.len()).map_err(|why| folder.bad(files[0], why))?;
     Ok((spec, modes))
 }
 
 /// Title, axes and critical values.
-fn sweep(document: &Json) -> Why<(Spec, Modes)> {
+fn sweep(document: &Document) -> Why<(Spec, Modes)> {
     let no_axes = || "has no `grid` with an axis of numbers".to_owned();
-    let grid = grid_json::from_json(&document["grid"], None).ok_or_else(no_axes)?;
+    let grid = grid_json::from_json(&document.grid, None).ok_or_else(no_axes)?;
     let Grid::Axes(axes) = &grid else { return Err(no_axes()) };
     let mut modes = along(axes).map_err(|_| no_axes())?;
-    let critical = document["critical"].as_array().map_or(&[][..], Vec::as_slice);
+    let critical = &document.critical;
     if critical.len() != modes.branches.len() {
         return Err(format!(
             "has critical values of {} branches, not {}",
@@ -40,12 +41,11 @@ fn sweep(document: &Json) -> Why<(Spec, Modes)> {
         ));
     }
     for (branch, values) in modes.branches.iter_mut().zip(critical) {
-        let values = values.as_array().map_or(&[][..], Vec::as_slice);
-        branch.critical = values.iter().filter_map(Json::as_f64).collect();
+        branch.critical.clone_from(values);
     }
     let analysis =
         Analysis { linear: true, response: false, until_settled: false, checked: false, starts: Starts::One };
-    Ok((drawn_spec(text(&document["title"]), analysis, grid), modes))
+    Ok((drawn_spec(document.title.clone(), analysis, grid), modes))
 }
 
 /// Takes the modes from their table, which has a row for every instance.

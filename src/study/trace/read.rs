@@ -3,10 +3,10 @@
 use crate::engine::outcome::Outcome;
 use crate::model::contact::ContactState;
 use crate::results::figure::heading::Heading;
-use crate::results::read::folder::{Folder, Table, Why, heading};
+use crate::results::read::folder::{Folder, Table, Why, headed};
 use crate::study::error::Result;
 use crate::study::trace::run::{Trace, TraceRow};
-use crate::study::trace::table::COLUMNS;
+use crate::study::trace::table::{COLUMNS, Document};
 
 /// The files that are read.
 pub(crate) const FILES: [&str; 2] = ["trace.csv", "trace.json"];
@@ -15,15 +15,14 @@ pub(crate) const FILES: [&str; 2] = ["trace.csv", "trace.json"];
 /// periods by.
 pub(crate) fn read(folder: Folder<'_>) -> Result<(Trace, Heading)> {
     let table = folder.table(FILES[0])?;
-    let document = folder.json(FILES[1])?;
-    let heading = heading(&document).map_err(|why| folder.bad(FILES[1], why))?;
+    let document = headed(folder.json(FILES[1])?).map_err(|why| folder.bad(FILES[1], why))?;
+    let Document { heading, response_frequency, rows: all } = document;
     let rows = rows(&table).map_err(|why| folder.bad(FILES[0], why))?;
-    // A table that was cut short at the end of a line looks whole; directories of before have no number of rows.
-    if let Some(all) = document["rows"].as_u64().filter(|all| *all != rows.len() as u64) {
+    // A table that was cut short at the end of a line looks whole.
+    if let Some(all) = all.filter(|all| *all != rows.len()) {
         let why = format!("has {} rows, but `{}` says {all}", rows.len(), FILES[1]);
         return Err(folder.bad(FILES[0], why).into());
     }
-    let response_frequency = document["response_frequency"].as_f64();
     Ok((Trace { rows, outcome: Outcome { response_frequency, ..Outcome::default() } }, heading))
 }
 

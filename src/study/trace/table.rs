@@ -1,6 +1,6 @@
 //! `trace`: one instance in full, as a table; the figure is in `figure.rs`.
 
-use serde_json::json;
+use serde::{Deserialize, Serialize};
 
 use crate::results::csv::Table;
 use crate::results::figure::heading::Heading;
@@ -27,16 +27,24 @@ pub fn trace_csv(trace: &Trace) -> Result<Vec<u8>> {
     Ok(table.finish()?)
 }
 
-/// What the figure needs besides the table, as JSON: the heading, the frequency of the response (Hz), and the number of rows
-/// of the table.
+/// What the figure needs beside the table.
+#[derive(Deserialize, Serialize)]
+pub(crate) struct Document {
+    #[serde(flatten)]
+    pub(crate) heading: Heading,
+    /// The frequency of the response, Hz.
+    pub(crate) response_frequency: Option<f64>,
+    /// The number of rows of the table; directories of before have none.
+    pub(crate) rows: Option<usize>,
+}
+
+/// This document as JSON.
 ///
 /// # Errors
 /// When it cannot be written.
 pub fn document(trace: &Trace, heading: &Heading) -> Result<Vec<u8>> {
-    let mut document = heading.to_json();
-    document["response_frequency"] = json!(trace.outcome.response_frequency);
-    document["rows"] = json!(trace.rows.len());
-    Ok(described(&document)?)
+    let (response_frequency, rows) = (trace.outcome.response_frequency, Some(trace.rows.len()));
+    Ok(described(&Document { heading: heading.clone(), response_frequency, rows })?)
 }
 
 /// The numbers of a sample in the order of [`COLUMNS`].
