@@ -2,7 +2,7 @@
 //!
 //!     cargo run --release -p squealmap-fem --example brake
 //!
-//! One size is given as its elements along the radius, around and along the axis, as `14,120,2`. With `order` before it, the ways to order the
+//! One size is given as its elements along the radius, around and along the axis, as `14,120,2`, and behind it other residuals than 1e-4. With `order` before it, the ways to order the
 //! elimination are compared, that of METIS (Debian package metis) where it is installed; `order pin,4` does that for a pin on a block.
 
 #![allow(clippy::doc_markdown, reason = "METIS and symbols of equations are no code")]
@@ -25,11 +25,15 @@ use squealmap_fem::sweep::{Range, sweep};
 
 type Failure = Box<dyn std::error::Error>;
 
+/// Residuals to which the space is refined at three coefficients of friction; between these they are allowed ten times as much.
+const BOUND: f64 = 1e-4;
+
 fn main() -> Result<(), Failure> {
     let words: Vec<String> = std::env::args().skip(1).collect();
     match words.iter().map(String::as_str).collect::<Vec<_>>().as_slice() {
         ["order", size] => compare(&of_size(size)?),
-        [size] => run(size),
+        [size] => run(size, BOUND),
+        [size, bound] => run(size, bound.parse()?),
         _ => {
             println!(
                 "| elements | unknowns | contact points | entries of L | matrices, s | order and factor, s | 40 modes, s | space, s | \
@@ -59,7 +63,7 @@ fn of_size(size: &str) -> Result<Model, Failure> {
 }
 
 /// One row of the table.
-fn run(size: &str) -> Result<(), Failure> {
+fn run(size: &str, bound: f64) -> Result<(), Failure> {
     let start = Instant::now();
     let mut clock = vec![work()];
     let model = of_size(size)?;
@@ -72,10 +76,10 @@ fn run(size: &str) -> Result<(), Failure> {
     clock.push(work());
     let mut basis = Basis::new(&pencil, &modes.shapes);
     let none = Rows::default();
-    refine(&pencil, &factor, &mut basis, &[0.3, 0.6, 0.9], &none, 30, 1e-4, 10)?;
+    refine(&pencil, &factor, &mut basis, &[0.3, 0.6, 0.9], &none, 30, bound, 20)?;
     clock.push(work());
     let mus: Vec<f64> = (0..100).map(|i| 0.01 * f64::from(i)).collect();
-    let range = Range { mus: &mus, slope: &none, count: 30, bound: 1e-3 };
+    let range = Range { mus: &mus, slope: &none, count: 30, bound: 10.0 * bound };
     let modes = sweep(&pencil, &ordering, &factor, &basis, range)?;
     clock.push(work());
     let states = || modes.iter().flat_map(|mode| mode.states.iter());

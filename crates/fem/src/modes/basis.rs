@@ -108,6 +108,12 @@ impl Basis {
         Small { stiffness: sum(0), mass: sum(1), damping: damped.then_some(damping) }
     }
 
+    /// What one unit of μ adds to stiffness and mass.
+    #[must_use]
+    pub fn per_friction(&self) -> (&Mat<f64>, &Mat<f64>) {
+        (&self.friction[0], &self.friction[1])
+    }
+
     /// Vᵀ (K − σ M) V.
     pub(super) fn energy(&self, shift: f64) -> Mat<f64> {
         let [stiffness, mass, _] = &self.symmetric;
@@ -122,12 +128,6 @@ impl Basis {
     /// D S V.
     pub(super) fn damped(&self, slope: &Rows) -> Mat<f64> {
         rows_times(slope, &self.slip)
-    }
-
-    /// What one unit of μ adds to stiffness and mass.
-    #[must_use]
-    pub fn per_friction(&self) -> (&Mat<f64>, &Mat<f64>) {
-        (&self.friction[0], &self.friction[1])
     }
 }
 
