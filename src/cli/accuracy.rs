@@ -1,13 +1,12 @@
 //! `--accuracy`: what may compute a sweep as accurately as is asked for.
 
-use crate::cli::engine::{BackendName, EngineArgs};
+use crate::cli::engine::EngineArgs;
 use crate::cli::error::{Error, Result};
 use crate::cli::frontier;
 use crate::cli::talk::note;
 use clap::Args;
 use squealmap::engine::backend::Backend;
 use squealmap::engine::gpu::adapter::Adapter;
-use squealmap::engine::precision::Precision;
 use squealmap::sweep::accuracy::configuration::Configuration;
 use squealmap::sweep::accuracy::frontier::{Choice, Chosen};
 use squealmap::sweep::accuracy::level::Level;
@@ -37,12 +36,12 @@ impl AccuracyArgs {
             return Err(squealmap::sweep::error::Error::Conflict { at: at.clone(), key, other }.into());
         }
         if let Some(precision) = engine.precision {
-            return Err(beside(format!("--precision {}", Precision::from(precision))));
+            return Err(beside(format!("--precision {}", precision)));
         }
         let only_gpu = engine.strict || engine.require_gpu || engine.adapter.is_some();
         let backend = match engine.backend {
-            BackendName::Auto => only_gpu.then_some(Backend::Gpu),
-            asked => Some(Backend::from(asked)),
+            Backend::Auto => only_gpu.then_some(Backend::Gpu),
+            asked => Some(asked),
         };
         if let (Level::Reference, Some(other @ (Backend::Gpu | Backend::Cpu))) = (level, backend) {
             return Err(beside(format!("--backend {}", other.name())));

@@ -2,7 +2,8 @@
 
 use std::sync::atomic::AtomicBool;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use squealmap::engine::backend::Backend;
 use squealmap::engine::options::Options;
 use squealmap::engine::precision::Precision;
@@ -16,11 +17,11 @@ pub(crate) struct EngineArgs {
     pub(crate) threads: Option<u16>,
     /// What computes: `auto` takes a hardware GPU where there is one, else the CPU; `reference` is the
     /// slow, accurate judge of the others
-    #[arg(long, value_enum, default_value_t)]
-    pub(crate) backend: BackendName,
+    #[arg(long, value_parser = named(Backend::OFFERED, Backend::name), default_value = Backend::default().name())]
+    pub(crate) backend: Backend,
     /// Arithmetic [default: f64 on the CPU, f32 on a GPU]
-    #[arg(long, value_enum)]
-    pub(crate) precision: Option<PrecisionName>,
+    #[arg(long, value_parser = named(Precision::ALL, Precision::name))]
+    pub(crate) precision: Option<Precision>,
     /// A GPU rounds every operation by itself, like the twin of its kernel on the CPU; needs Vulkan
     #[arg(long)]
     pub(crate) strict: bool,
@@ -32,49 +33,21 @@ pub(crate) struct EngineArgs {
     pub(crate) require_gpu: bool,
 }
 
-/// The values of `--backend`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub(crate) enum BackendName {
-    #[default]
-    Auto,
-    Gpu,
-    Cpu,
-    Reference,
-}
-
-/// The values of `--precision`.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub(crate) enum PrecisionName {
-    F32,
-    F64,
-}
-
-impl From<BackendName> for Backend {
-    fn from(name: BackendName) -> Backend {
-        match name {
-            BackendName::Auto => Backend::Auto,
-            BackendName::Gpu => Backend::Gpu,
-            BackendName::Cpu => Backend::Cpu,
-            BackendName::Reference => Backend::Reference,
-        }
-    }
-}
-
-impl From<PrecisionName> for Precision {
-    fn from(name: PrecisionName) -> Precision {
-        match name {
-            PrecisionName::F32 => Precision::F32,
-            PrecisionName::F64 => Precision::F64,
-        }
-    }
+/// One of some values by its name on the command line.
+fn named<T: Copy + Send + Sync + 'static, const N: usize>(
+    all: [T; N],
+    name: fn(T) -> &'static str,
+) -> impl TypedValueParser<Value = T> {
+    PossibleValuesParser::new(all.map(name))
+        .try_map(move |said| all.into_iter().find(|one| name(*one) == said).ok_or("no such value"))
 }
 
 impl EngineArgs {
     /// The engine that is asked for.
     pub(crate) fn options<'a>(&'a self, cancel: &'a AtomicBool, note: Note<'a>) -> Options<'a> {
         Options {
-            backend: self.backend.into(),
-            precision: self.precision.map(Precision::from),
+            backend: self.backend,
+            precision: self.precision,
             strict: self.strict,
             require_gpu: self.require_gpu,
             adapter: self.adapter.as_deref(),

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::ExitCode;
 use std::sync::atomic::AtomicBool;
 
-use crate::cli::engine::{BackendName, EngineArgs};
+use crate::cli::engine::EngineArgs;
 use crate::cli::error::{Error, Result};
 use crate::cli::failed::judged;
 use crate::cli::files::Files;
@@ -23,6 +23,7 @@ use crate::cli::talk::{note, print};
 use clap::Args;
 use serde_json::json;
 use squealmap::disk::Handle;
+use squealmap::engine::backend::Backend;
 use squealmap::results::csv::MapCsv;
 use squealmap::results::manifest::Sum;
 use squealmap::store::cut::tile_of;
@@ -108,7 +109,7 @@ impl Refining<'_> {
         let mut output = self.files.prepare(&FILES)?;
         let options = self.engine.options(cancel, &note);
         let mut solver = Solver::new(&spec, &options)?;
-        let part = self.part.unwrap_or_else(|| tile_of(&spec, self.engine.backend == BackendName::Reference));
+        let part = self.part.unwrap_or_else(|| tile_of(&spec, self.engine.backend == Backend::Reference));
         let description = Description::new(&spec, solver.computations(), part);
         self.replace.refinement(output.directory(), &self.files.sweep, &description)?;
         output.made_from(&self.files.sweep)?;

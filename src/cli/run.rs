@@ -1,7 +1,7 @@
 //! `squealmap run`: a whole sweep.
 
 use crate::cli::accuracy::{AccuracyArgs, say};
-use crate::cli::engine::{BackendName, EngineArgs};
+use crate::cli::engine::EngineArgs;
 use crate::cli::error::{Error, Result};
 use crate::cli::failed::judged;
 use crate::cli::files::Files;
@@ -16,6 +16,7 @@ use crate::cli::signal::{INTERRUPTED, stop_at_signal};
 use crate::cli::summary::summary;
 use crate::cli::talk::{note, print};
 use crate::cli::{results, talk};
+use squealmap::engine::backend::Backend;
 use squealmap::engine::computation::Stopped;
 use squealmap::engine::options::Options;
 use squealmap::results::manifest;
@@ -69,8 +70,8 @@ impl Run {
     /// Instances of a tile of a sweep.
     pub(crate) fn tile(&self, spec: &Spec) -> usize {
         self.tile.unwrap_or_else(|| {
-            let by_reference = self.engine.backend == BackendName::Reference
-                || self.accuracy.accuracy == Some(Level::Reference);
+            let by_reference =
+                self.engine.backend == Backend::Reference || self.accuracy.accuracy == Some(Level::Reference);
             tile_of(spec, by_reference)
         })
     }
@@ -81,7 +82,7 @@ impl Run {
     }
 
     /// The engine that was asked for.
-    pub(crate) fn backend(&self) -> BackendName {
+    pub(crate) fn backend(&self) -> Backend {
         self.engine.backend
     }
 

@@ -3,7 +3,6 @@
 use std::ffi::OsString;
 use std::path::Path;
 
-use crate::cli::engine::BackendName;
 use crate::cli::error::{Error, Result};
 use crate::cli::files::Files;
 use crate::cli::output::Output;
@@ -13,6 +12,7 @@ use crate::cli::talk::{note, print};
 use clap::{Args, Parser};
 use squealmap::cluster::slurm::{DEFAULT_MAX_ARRAY_SIZE, Jobs, LOGS, job_number, max_array_size};
 use squealmap::cluster::tasks::{Means, tasks};
+use squealmap::engine::backend::Backend;
 use squealmap::store::tiling::Tiling;
 use squealmap::sweep::accuracy::level::Level;
 use squealmap::sweep::estimate::estimate;
@@ -176,9 +176,9 @@ impl Submit {
     /// All tasks must take the same engine, whatever their nodes have: tiles of several never mix.
     fn engine(&self, run: &Run) -> impl Iterator<Item = &'static str> {
         let words: &[&str] = match (run.backend(), run.accuracy()) {
-            (BackendName::Auto, Some(Level::Reference)) => &[],
-            (BackendName::Auto, _) if self.gpus.is_some() => &["--backend=gpu"],
-            (BackendName::Auto, _) => &["--backend=cpu"],
+            (Backend::Auto, Some(Level::Reference)) => &[],
+            (Backend::Auto, _) if self.gpus.is_some() => &["--backend=gpu"],
+            (Backend::Auto, _) => &["--backend=cpu"],
             _ => &[],
         };
         words.iter().copied()

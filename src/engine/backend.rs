@@ -25,6 +25,9 @@ impl Backend {
     pub const ALL: [Backend; 5] =
         [Backend::Gpu, Backend::Cpu, Backend::Reference, Backend::LocatedRk4, Backend::FixedStep];
 
+    /// All that a user may ask for.
+    pub const OFFERED: [Backend; 4] = [Backend::Auto, Backend::Gpu, Backend::Cpu, Backend::Reference];
+
     /// The name in tables, manifests, and on the command line.
     #[must_use]
     pub fn name(self) -> &'static str {

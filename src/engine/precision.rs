@@ -14,6 +14,9 @@ pub enum Precision {
 }
 
 impl Precision {
+    /// Both.
+    pub const ALL: [Precision; 2] = [Precision::F32, Precision::F64];
+
     /// The name in WGSL, manifests and arguments.
     #[must_use]
     pub fn name(self) -> &'static str {

@@ -292,6 +292,7 @@ fn what_is_planted_is_found() {
             "use crate::model::linear;\n\n#[cfg(test)]\nmod tests {\n    use crate::study::trace;\n}",
         ),
         ("study/trace", "use crate::sweep::grid::Grid;"),
+        ("store/tile", "pub struct Tile;"),
     ];
     assert_eq!(upward(&house(&sound)), Vec::<String>::new());
     assert_eq!(circles(&house(&sound), "squealmap"), Vec::<String>::new());
