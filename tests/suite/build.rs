@@ -215,9 +215,9 @@ fn errors_are_those_of_files_at_the_place_of_a_call() {
             "[axes]\nc1 = { from = 0, to = 1, points = 0 }",
         ),
         (
-            sound().axis(Param::C1, 0.0..=1.0, 10_000_000).axis(Param::C2, 0.0..=1.0, 1_000_000),
+            sound().axis(Param::C1, 0.0..=1.0, 2_000_000).axis(Param::C2, 0.0..=1.0, 1_000_000),
             ".axis(Param::C2, 0..=1, 1000000)",
-            "[axes]\nc1 = { from = 0, to = 1, points = 10000000 }\nc2 = { from = 0, to = 1, points = 1000000 }",
+            "[axes]\nc1 = { from = 0, to = 1, points = 2000000 }\nc2 = { from = 0, to = 1, points = 1000000 }",
         ),
         (
             sound().values(Param::Theta, [0.0, 0.1, 2.0]),
@@ -250,7 +250,7 @@ fn errors_are_those_of_files_at_the_place_of_a_call() {
         };
         let of_file = Spec::parse(&text, "test.toml", sweeps()).unwrap_err();
         let said = of_file.to_string();
-        let sentence = said.splitn(2, ": ").nth(1).unwrap();
+        let sentence = said.split_once(": ").unwrap().1;
         let found = built.spec().unwrap_err();
         let numbers = |text: &str| text.replace("\\u0007", "\\u{7}").replace("\"a", "a").replace("b\"", "b");
         assert_eq!(numbers(&found.to_string()), numbers(&format!("{place}: {sentence}")), "{text}");

@@ -54,7 +54,9 @@ fn read(root: &Path) -> Texts {
 /// The text without comments and the tests at its end.
 fn code(text: &str) -> String {
     let body = text.split("\n#[cfg(test)]\nmod ").next().unwrap_or_default();
-    body.lines().map(|line| line.split("//").next().unwrap_or_default()).collect::<Vec<_>>().join("\n")
+    // What a feature brings stands on its floor all the same.
+    let lines = body.lines().filter(|line| !line.starts_with("#[cfg(feature"));
+    lines.map(|line| line.split("//").next().unwrap_or_default()).collect::<Vec<_>>().join("\n")
 }
 
 /// The paths of a tree of imports: `a::{b, c::{d, e}}` is three.

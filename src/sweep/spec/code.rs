@@ -7,10 +7,10 @@ use std::path::Path;
 use std::sync::Arc;
 
 use crate::engine::plan::Duration;
-use crate::model::friction::{FrictionLaw, MuTable};
+use crate::model::friction::{FrictionLaw, LawKind, MuTable};
 use crate::model::{Param, Section};
 use crate::sweep::error::{Error, Result};
-use crate::sweep::grid::{AxisKey, Value};
+use crate::sweep::grid::{Axis, AxisKey, Value};
 use crate::sweep::spec::axis::{Ends, spaced_axis};
 use crate::sweep::spec::call::{Call, Settle, Stands, Start, text};
 use crate::sweep::spec::duration::{LONGEST, is_legal};
@@ -126,7 +126,7 @@ impl Code<'_> {
         }
         self.varied.add(self.source, key, &stands.whole, &stands.whole, |admit| {
             admit(values.len())?;
-            let axis = crate::sweep::grid::Axis { key, values: values.to_vec(), log: false };
+            let axis = Axis { key, values: values.to_vec(), log: false };
             Ok((axis, vec![stands.whole.clone()]))
         })
     }
@@ -137,7 +137,7 @@ impl Code<'_> {
         let file = |file: &Path| (file.to_string_lossy().into_owned(), whole.clone());
         match call {
             Call::Title(title) => {
-                legal_title(self.source, whole, title)?;
+                legal_title(self.source, stands.arguments.first().unwrap_or(whole), title)?;
                 title.clone_into(&mut self.sections.title);
             }
             Call::WithoutEigenvalues | Call::WithoutResponse => self.without(call, whole)?,
@@ -158,7 +158,7 @@ impl Code<'_> {
                 self.give("law", Section::Friction, whole);
             }
             Call::FrictionTable(path) => {
-                self.sections.law = crate::model::friction::LawKind::Table;
+                self.sections.law = LawKind::Table;
                 (self.sections.table, self.table) = (Some(file(path)), None);
                 self.give("law", Section::Friction, whole);
                 self.give("table", Section::Friction, whole);
