@@ -14,6 +14,7 @@
 //! | real modes, projection, complex eigenvalues, coalescence | [`modes`] |
 //! | many coefficients of friction | [`sweep`] |
 //! | what ParaView reads | [`output`] |
+//! | all of this from a description in a file | [`study`] |
 //!
 //! A pin that slides on a clamped block, and the growth of its modes at one coefficient of friction:
 //!
@@ -65,6 +66,7 @@ pub mod modes;
 pub mod output;
 pub mod read;
 pub mod statics;
+pub mod study;
 pub mod sweep;
 
 pub use error::Error;

@@ -5,6 +5,7 @@
 #![allow(clippy::neg_cmp_op_on_partial_ord, reason = "what is no number takes the branch of what is wrong")]
 
 mod bad_input;
+mod bonds;
 mod cases;
 mod contact;
 mod damping;
@@ -17,5 +18,6 @@ mod penalty;
 mod pin;
 mod real;
 mod statics;
+mod study;
 mod sweep;
 mod two_masses;
