@@ -70,3 +70,4 @@ pub mod study;
 pub mod sweep;
 
 pub use error::Error;
+pub use faer::c64;

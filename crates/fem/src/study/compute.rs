@@ -5,6 +5,7 @@ use std::time::Instant;
 use faer::c64;
 
 use super::Study;
+use super::modal::{Modal, directions};
 use super::transitions::{Search, Transition, grows};
 use crate::Error;
 use crate::assembly::{Numbering, Pencil, Rows, assemble};
@@ -59,6 +60,8 @@ pub struct Outcome {
     pub transitions: Vec<Transition>,
     /// Shapes of modes.
     pub shapes: Vec<Shape>,
+    /// The projected problem, where it is asked for.
+    pub modal: Option<Modal>,
     /// Names of the steps and their seconds.
     pub seconds: Vec<(&'static str, f64)>,
 }
@@ -74,6 +77,12 @@ impl Outcome {
     #[must_use]
     pub fn grows(&self, mode: usize, index: usize) -> bool {
         grows(self.modes[mode].states[index].lambda, self.damped)
+    }
+
+    /// Whether it decays by more than rounding: where nothing damps, as the twin −λ̄ of a mode that grows.
+    #[must_use]
+    pub fn decays(&self, mode: usize, index: usize) -> bool {
+        grows(-self.modes[mode].states[index].lambda.conj(), false)
     }
 }
 
@@ -134,8 +143,9 @@ pub fn compute(study: &Study, say: &mut dyn FnMut(&str)) -> Result<Outcome, Erro
     let modes = clock.step("sweep over friction", || sweep(&pencil, &ordering, &factor, &basis, range))?;
     let search = Search { pencil: &pencil, factor: &factor, slope: &slope, mus: &study.mus, damped };
     let transitions = clock.step("critical friction", || search.all(&mut basis, &modes))?;
-    let wanted = wanted(study, &modes, &transitions);
+    let wanted = wanted(study, &modes, &transitions, damped);
     let shapes = clock.step("shapes", || shapes(&numbering, &basis, &slope, study, &modes, &wanted))?;
+    let modal = study.document.output.modal.then(|| modal(study, &basis, &slope, count)).transpose()?;
     Ok(Outcome {
         unknowns: pencil.size(),
         points: pencil.slip.rows.len(),
@@ -147,6 +157,7 @@ pub fn compute(study: &Study, say: &mut dyn FnMut(&str)) -> Result<Outcome, Erro
         damped,
         transitions,
         shapes,
+        modal,
         seconds: clock.seconds,
     })
 }
@@ -204,8 +215,9 @@ fn spread_over(mus: &[f64]) -> Vec<f64> {
     some.into_iter().map(|i| mus[i]).collect()
 }
 
-/// Which shapes are made: those asked for of all modes, else those of the modes with a transition at both ends of the range.
-fn wanted(study: &Study, modes: &[Mode], transitions: &[Transition]) -> Vec<(usize, usize)> {
+/// Which shapes are made: those asked for of all modes, else those of the modes with a transition, at the first coefficient of friction and
+/// at the last one at which one of them grows.
+fn wanted(study: &Study, modes: &[Mode], transitions: &[Transition], damped: bool) -> Vec<(usize, usize)> {
     let asked = &study.document.output.shapes_at;
     if !asked.is_empty() {
         let index = |mu: &f64| study.mus.iter().position(|known| (known - mu).abs() <= 1e-12);
@@ -219,8 +231,10 @@ fn wanted(study: &Study, modes: &[Mode], transitions: &[Transition]) -> Vec<(usi
     let mut concerned: Vec<usize> = transitions.iter().flat_map(|t| t.modes.iter().copied()).collect();
     concerned.sort_unstable();
     concerned.dedup();
-    let mut ends = vec![0, study.mus.len() - 1];
-    ends.dedup();
+    // Where any of them is unstable for the last time.
+    let unstable = |i: usize| concerned.iter().any(|mode| grows(modes[*mode].states[i].lambda, damped));
+    let mut ends = vec![0];
+    ends.extend((1..study.mus.len()).rfind(|i| unstable(*i)));
     ends.into_iter().flat_map(|i| concerned.iter().map(move |mode| (*mode, i))).collect()
 }
 
@@ -245,6 +259,18 @@ fn shapes(
         found.push(Shape { mu, mode: *mode, lambda: state.lambda, displacement: turned(raw.collect()) });
     }
     Ok(found)
+}
+
+/// The problem on the space of the lowest modes at all coefficients of friction.
+fn modal(study: &Study, basis: &Basis, slope: &Rows, count: usize) -> Result<Modal, Error> {
+    let mut all = Vec::new();
+    for mu in &study.mus {
+        all.extend(pairs(&basis.at(*mu, slope))?.into_iter().take(count));
+    }
+    let coordinates = directions(&all.iter().collect::<Vec<_>>())?;
+    let (symmetric, friction, slope) = basis.within(&coordinates, slope);
+    let mu = [study.mus[0], study.mus[study.mus.len() - 1]];
+    Ok(Modal { title: study.document.title.clone(), mu, modes: count, symmetric, friction, slope })
 }
 
 /// The same mode with a largest component of 1.

@@ -249,6 +249,8 @@ impl Default for Modes {
 pub struct Output {
     /// Coefficients of friction at which the shapes of all modes in the band are written; they are values of `friction.mu`.
     pub shapes_at: Vec<f64>,
+    /// Whether the projected problem is written, as `modes.toml`.
+    pub modal: bool,
 }
 
 impl Document {
@@ -257,10 +259,15 @@ impl Document {
     /// # Errors
     /// What is no TOML; keys that there are not or that are missing; values of a wrong kind.
     pub fn read(text: &str) -> Result<Self, Error> {
-        toml::from_str(text).map_err(|error| {
-            let at = error.span().map_or(0, |span| span.start.min(text.len()));
-            let line = text.as_bytes()[..at].iter().filter(|byte| **byte == b'\n').count() + 1;
-            Error::File { line, what: error.message().trim().replace('\n', "; ") }
-        })
+        parsed(text)
     }
+}
+
+/// A file of TOML; what is wrong with it as one line.
+pub(super) fn parsed<T: serde::de::DeserializeOwned>(text: &str) -> Result<T, Error> {
+    toml::from_str(text).map_err(|error| {
+        let at = error.span().map_or(0, |span| span.start.min(text.len()));
+        let line = text.as_bytes()[..at].iter().filter(|byte| **byte == b'\n').count() + 1;
+        Error::File { line, what: error.message().trim().replace('\n', "; ") }
+    })
 }

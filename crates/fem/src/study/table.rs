@@ -49,7 +49,8 @@ pub const COLUMNS: [Column; 8] = [
 ];
 
 /// Whether a mode lies in the band at any coefficient of friction.
-pub(super) fn in_band(study: &Study, mode: &Mode) -> bool {
+#[must_use]
+pub fn in_band(study: &Study, mode: &Mode) -> bool {
     let [low, high] = study.document.modes.band;
     mode.states.iter().any(|state| (low..=high).contains(&(state.lambda.im / std::f64::consts::TAU)))
 }
