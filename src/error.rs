@@ -26,6 +26,14 @@ pub enum Error {
         /// What the system says.
         why: String,
     },
+    /// A description of bodies in contact, or its model, cannot be computed.
+    #[error("`{}`: {}", one_line(&path.display().to_string()), clipped(why, SAID))]
+    Fem {
+        /// The description.
+        path: PathBuf,
+        /// What is wrong, as a sentence.
+        why: String,
+    },
     /// A file that the sweep file names cannot be read.
     #[error("{at}: cannot read the {role} file `{}`: {why}", one_line(&path.display().to_string()))]
     ReadNamed {
@@ -1037,6 +1045,7 @@ impl Error {
     pub fn is_bad_input(&self) -> bool {
         match self {
             Error::ReadSweep { .. }
+            | Error::Fem { .. }
             | Error::Signals { .. }
             | Error::Fit { .. }
             | Error::Archive { .. }

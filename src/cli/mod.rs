@@ -10,6 +10,7 @@ mod environment;
 mod excerpt;
 mod export;
 mod failed;
+mod fem;
 mod fit;
 mod frontier;
 mod home;
@@ -103,6 +104,8 @@ enum Command {
     Paper(paper::PaperCommand),
     /// Speed against error of every engine on a sweep: tradeoff.csv, tradeoff.json, tradeoff.svg, tradeoff.png
     Tradeoff(tradeoff::Tradeoff),
+    /// Bodies in sliding contact by finite elements, over friction: fem.csv, manifest.json, fem.svg, shapes.svg, shapes.vtu
+    Fem(fem::FemCommand),
     /// A material file for sweeps from measured velocity, friction and temperature
     Fit(fit::FitCommand),
     /// What a shell needs to complete commands and options, on standard output
@@ -191,6 +194,7 @@ impl Command {
             | Command::Compare(_)
             | Command::Trace(_)
             | Command::Identify(_)
+            | Command::Fem(_)
             | Command::Paper(_)
             | Command::Tradeoff(_) => Workers::Of(None),
         }
@@ -214,6 +218,7 @@ impl Command {
             Command::Identify(command) => command.execute()?,
             Command::Paper(command) => command.execute()?,
             Command::Tradeoff(command) => command.execute()?,
+            Command::Fem(command) => command.execute()?,
             Command::Fit(command) => command.execute()?,
             Command::Init(command) => command.execute()?,
             Command::Keys(command) => command.execute()?,

@@ -6,7 +6,7 @@
 //! equal value, [`cut`] curves through it, and [`tikz`] its source for LaTeX. [`heading`] stands above figures of one instance.
 //! [`zarr`] and [`netcdf`] write the labelled [`arrays`] of a sweep, part by part, [`parquet`] its table. [`modes`],
 //! [`trace`] and [`hysteresis`] serve the commands `modes` and `trace`, [`tradeoff`] speed against error, [`identify`], [`spectrogram`] and [`signals`] to and
-//! from measured signals, [`paper`] the figures of the source paper.
+//! from measured signals, [`paper`] the figures of the source paper, [`fem`] those of finite elements.
 
 pub mod arrays;
 mod beside;
@@ -21,6 +21,7 @@ mod curve_block;
 pub mod cut;
 mod cut_figure;
 mod cyclic;
+pub mod fem;
 pub mod figure;
 mod frame;
 pub mod glyphs;
