@@ -19,7 +19,7 @@ const HEIGHT: f64 = 130.0;
 /// Between the two panels, points.
 const GAP: f64 = 9.0;
 /// Right of the panels, points.
-const RIGHT: f64 = 8.0;
+const RIGHT: f64 = 10.0;
 /// Margin above and below curves, as a fraction of the panel.
 const HEADROOM: f64 = 0.06;
 /// Height of a line of text, points.

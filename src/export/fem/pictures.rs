@@ -23,6 +23,8 @@ const GAP: f64 = 8.0;
 const HEAD: f64 = 14.0;
 /// Height of the words below each picture, points.
 const FOOT: f64 = 22.0;
+/// The sine of a phase below which a mode is real: half a degree.
+const REAL: f64 = 0.009;
 /// The largest displacement of a mode, over the size of the mesh.
 const SWING: f64 = 0.07;
 /// Pieces of the surface are this long, over the size of the mesh, or one element: finer ones make large files.
@@ -144,25 +146,32 @@ fn both(study: &Study, shape: &Shape) -> [Picture; 2] {
         values.iter().copied().max_by(|a, b| a.norm().total_cmp(&b.norm())).unwrap_or_default()
     };
     let peaks = along.each_ref().map(peak);
-    let turned = (peaks[1].arg() - peaks[0].arg()).to_degrees();
+    // One of both may be zero: then there is no phase.
+    let turned =
+        if peaks.iter().all(|peak| peak.norm() > 0.0) { peaks[1].arg() - peaks[0].arg() } else { 0.0 };
+    // All of a real mode moves at one time.
+    let is_real = turned.sin().abs() < REAL;
     let names = ["along the sliding", "normal to the contact"];
     [0, 1].map(|side| {
         let peak = peaks[side];
         // Turned to where the peak is real.
-        let turn = if peak.norm() > 0.0 { peak.conj() / peak.norm() } else { c64::new(1.0, 0.0) };
+        let at = if is_real && peaks[0].norm() > 0.0 { peaks[0] } else { peak };
+        let turn = if at.norm() > 0.0 { at.conj() / at.norm() } else { c64::new(1.0, 0.0) };
         let moved: Vec<[f64; 3]> =
             shape.displacement.iter().map(|u| u.map(|z| (z * turn).re * SWING * size / largest)).collect();
         let values: Vec<f64> =
             along[side].iter().map(|z| (z * turn).re / peak.norm().max(f64::MIN_POSITIVE)).collect();
         let facets = facets(mesh, &moved, &values, &isometric(), PIECE * size);
         let share = Text::from(format!("largest {:.2}", peak.norm() / largest));
-        let share = if side == 0 { share } else { share.plain(&format!(", phase {}°", phase(turned))) };
+        let share =
+            if side == 0 || is_real { share } else { share.plain(&format!(", phase {}°", phase(turned))) };
         Picture { bounds: bounds(&facets), facets, words: [Text::from(names[side]), share] }
     })
 }
 
-/// An angle from −180 to 180°, as a whole number with a real minus sign.
-fn phase(degrees: f64) -> String {
+/// An angle (rad) from −180 to 180°, as a whole number with a real minus sign.
+fn phase(angle: f64) -> String {
+    let degrees = angle.to_degrees();
     let whole = (degrees - 360.0 * (degrees / 360.0).round()).round();
     format!("{:.0}", whole + 0.0).replace('-', "−")
 }

@@ -42,8 +42,8 @@ pub fn facets(mesh: &Mesh, displacement: &[[f64; 3]], values: &[f64], view: &Vie
     all.retain(|piece| area(&piece.corners) > 0.0);
     let front = Front::new(&all, size);
     let mut seen = Vec::with_capacity(all.len());
-    for piece in &all {
-        front.keep(piece.clone(), 0, &mut seen);
+    for (index, piece) in all.iter().enumerate() {
+        front.keep(piece.clone(), index, 0, &mut seen);
     }
     let mut seen: Vec<Facet> = seen.into_iter().map(Piece::facet).collect();
     seen.sort_by(|a, b| a.depth.total_cmp(&b.depth));
@@ -197,27 +197,29 @@ impl<'a> Front<'a> {
         Self { all, squares, size }
     }
 
-    /// Keeps what is seen of a piece: all, nothing, or some of its quarters.
-    fn keep(&self, piece: Piece, cuts: usize, seen: &mut Vec<Piece>) {
+    /// Keeps what is seen of a piece, cut from the one with this index: all, nothing, or some of its quarters.
+    fn keep(&self, piece: Piece, index: usize, cuts: usize, seen: &mut Vec<Piece>) {
         /// So far corners are drawn in: a corner itself lies on its neighbours.
         const INWARDS: f64 = 0.1;
         /// Pieces are cut so often; what is hidden in part then is all there or all gone.
         const CUTS: usize = 3;
         let middle = piece.middle();
         let inner = piece.corners.iter().map(|c| [0, 1, 2].map(|i| c[i] + INWARDS * (middle[i] - c[i])));
-        let covered = inner.filter(|place| self.covers(*place)).count();
-        let gone = self.covers(middle);
+        let covered = inner.filter(|place| self.covers(*place, index)).count();
+        let gone = self.covers(middle, index);
         match covered {
             0 if !gone => seen.push(piece),
             all if all == piece.corners.len() && gone => {}
-            _ if cuts < CUTS => piece.quarters().into_iter().for_each(|part| self.keep(part, cuts + 1, seen)),
+            _ if cuts < CUTS => {
+                piece.quarters().into_iter().for_each(|part| self.keep(part, index, cuts + 1, seen))
+            }
             _ if !gone => seen.push(piece),
             _ => {}
         }
     }
 
-    /// Whether something lies before a place.
-    fn covers(&self, place: [f64; 3]) -> bool {
+    /// Whether something lies before a place of a piece, which does not hide itself: bent, it is not its plane.
+    fn covers(&self, place: [f64; 3], index: usize) -> bool {
         /// Surfaces that touch do not hide each other; over the length of a piece.
         const TOUCHES: f64 = 1e-3;
         let at = [place[0], place[1]];
@@ -225,6 +227,7 @@ impl<'a> Front<'a> {
         let limit = place[2] + TOUCHES * self.size;
         near.into_iter()
             .flatten()
+            .filter(|i| **i != index)
             .map(|i| &self.all[*i])
             .any(|other| inside(&other.corners, at) && other.depth_at(at) > limit)
     }

@@ -106,6 +106,26 @@ fn a_piece_ends_where_something_stands_on_it() {
     assert!((plate - (whole - hidden)).abs() < 0.25 * hidden, "{plate} {}", whole - hidden);
 }
 
+/// A bent plate hides nothing of itself.
+#[test]
+fn a_bent_surface_has_no_holes() {
+    let plate = Block {
+        origin: [0.0; 3],
+        size: [4.0, 4.0, 0.5],
+        cells: [4, 4, 1].map(Into::into),
+        kind: Kind::Hex20,
+    };
+    let mesh = plate.mesh().expect("a plate");
+    // A saddle: no piece of its top is plane.
+    let bent: Vec<[f64; 3]> =
+        mesh.nodes.iter().map(|x| [0.0, 0.0, 0.05 * (x[0] - 2.0) * (x[1] - 2.0)]).collect();
+    let values = vec![0.0; mesh.nodes.len()];
+    // Bent sides are a little longer than 1.
+    let seen = facets(&mesh, &bent, &values, &isometric(), 1.1);
+    // The top and two sides.
+    assert_eq!(seen.len(), 16 + 4 + 4);
+}
+
 /// A displacement moves the pieces.
 #[test]
 fn pieces_move_with_the_nodes() {
