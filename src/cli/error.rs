@@ -11,6 +11,14 @@ const FAULT: usize = 1200;
 /// Why a command failed.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum Error {
+    /// A description of bodies in contact, or its model, cannot be computed.
+    #[error("`{}`: {}", one_line(&path.display().to_string()), clipped(why, SAID))]
+    Fem {
+        /// The description.
+        path: PathBuf,
+        /// What is wrong, as a sentence.
+        why: String,
+    },
     /// What the library says.
     #[error(transparent)]
     Library(#[from] squealmap::Error),
@@ -352,7 +360,8 @@ impl Error {
     pub(crate) fn is_bad_input(&self) -> bool {
         match self {
             Error::Library(why) => why.is_bad_input(),
-            Error::SameName { .. }
+            Error::Fem { .. }
+            | Error::SameName { .. }
             | Error::RefineBeside { .. }
             | Error::FollowsRamp { .. }
             | Error::PartialAsWhole { .. }

@@ -11,6 +11,7 @@ mod error;
 mod excerpt;
 mod export;
 mod failed;
+mod fem;
 mod files;
 mod fit;
 mod frontier;
@@ -104,6 +105,8 @@ enum Command {
     Paper(paper::PaperCommand),
     /// Speed against error of every engine on a sweep: tradeoff.csv, tradeoff.json, tradeoff.svg, tradeoff.png
     Tradeoff(tradeoff::Tradeoff),
+    /// Bodies in sliding contact by finite elements, over friction: fem.csv, manifest.json, fem.svg, shapes.svg, shapes.vtu
+    Fem(fem::FemCommand),
     /// A material file for sweeps from measured velocity, friction and temperature
     Fit(fit::FitCommand),
     /// What a shell needs to complete commands and options, on standard output
@@ -152,6 +155,7 @@ impl Command {
             | Command::Compare(_)
             | Command::Trace(_)
             | Command::Identify(_)
+            | Command::Fem(_)
             | Command::Paper(_)
             | Command::Tradeoff(_) => Workers::Of(None),
         }
@@ -175,6 +179,7 @@ impl Command {
             Command::Identify(command) => command.execute()?,
             Command::Paper(command) => command.execute()?,
             Command::Tradeoff(command) => command.execute()?,
+            Command::Fem(command) => command.execute()?,
             Command::Fit(command) => command.execute()?,
             Command::Init(command) => command.execute()?,
             Command::Keys(command) => command.execute()?,

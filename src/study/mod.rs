@@ -21,6 +21,8 @@ pub use picture::Picture;
 
 pub mod error;
 #[cfg(feature = "identify")]
+#[cfg(feature = "fem")]
+pub mod fem;
 pub mod fit;
 pub mod hysteresis;
 #[cfg(all(feature = "figures", feature = "identify"))]

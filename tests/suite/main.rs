@@ -29,6 +29,7 @@ mod export;
 mod extremes;
 mod failed_sweeps;
 mod fastest;
+mod fem;
 mod figure;
 mod first_events;
 mod fit;

@@ -78,7 +78,15 @@ pub enum Error {
         /// A sentence with the value and its limit.
         what: String,
     },
-    /// A file that cannot be read as a mesh.
+    /// A key of a description that has a value it cannot have, or what is wrong with the thing it describes.
+    #[error("{key}: {what}")]
+    Key {
+        /// The key, as `parts.pin.cells` or `loads[1].force`.
+        key: String,
+        /// A sentence with the value, its limit and what to do.
+        what: String,
+    },
+    /// A file that cannot be read.
     #[error("line {line}: {what}")]
     File {
         /// Line of the file, from 1.
@@ -86,4 +94,11 @@ pub enum Error {
         /// A sentence with the value and its limit.
         what: String,
     },
+}
+
+impl Error {
+    /// What is wrong with the thing that a key describes.
+    pub(crate) fn at(key: impl Into<String>, what: impl ToString) -> Self {
+        Self::Key { key: key.into(), what: what.to_string() }
+    }
 }

@@ -15,6 +15,7 @@
 //! | many coefficients of friction | [`sweep`] |
 //! | any other parameter | [`vary`] |
 //! | what ParaView reads | [`output`] |
+//! | all of this from a description in a file | [`study`] |
 //!
 //! A pin that slides on a clamped block, and the growth of its modes at one coefficient of friction:
 //!
@@ -66,7 +67,9 @@ pub mod modes;
 pub mod output;
 pub mod read;
 pub mod statics;
+pub mod study;
 pub mod sweep;
 pub mod vary;
 
 pub use error::Error;
+pub use faer::c64;

@@ -23,6 +23,9 @@ pub fn check_joined(model: &Model, numbering: &Numbering) -> Result<(), Error> {
     for point in &model.contact {
         join(&mut std::iter::once(point.slave).chain(point.masters.iter().map(|(node, _)| *node)));
     }
+    for tie in &model.supports.tied {
+        join(&mut std::iter::once(tie.slave).chain(tie.masters.iter().map(|(node, _)| *node)));
+    }
     let mut elements: std::collections::BTreeMap<usize, usize> = std::collections::BTreeMap::new();
     for (_, _, _, nodes) in model.mesh.elements() {
         *elements.entry(top(&mut part, numbering.leader[nodes[0]])).or_default() += 1;

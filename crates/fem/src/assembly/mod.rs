@@ -19,4 +19,4 @@ pub use numbering::Numbering;
 pub use penalty::Penalty;
 pub use pencil::{Modal, Pencil};
 pub use sparse::{Pattern, Rows, Symmetric};
-pub use supports::Supports;
+pub use supports::{Supports, Tie};

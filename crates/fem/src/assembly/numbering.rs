@@ -57,8 +57,27 @@ impl Numbering {
             }
             fate[dof] = Some(Fate::Given(*displacement));
         }
-        let masters: HashSet<usize> =
-            contact.iter().flat_map(|p| p.masters.iter().map(|(node, _)| leader[*node])).collect();
+        let masters: HashSet<usize> = contact
+            .iter()
+            .flat_map(|p| &p.masters)
+            .chain(supports.tied.iter().flat_map(|tie| &tie.masters))
+            .map(|(node, _)| leader[*node])
+            .collect();
+        for tie in &supports.tied {
+            let slave = leader[tie.slave];
+            if masters.contains(&slave) || (0..3).any(|axis| fate[3 * slave + axis].is_some()) {
+                let what = format!(
+                    "node {} is bonded to a surface, and supported, bonded to a second one or the master of a contact: leave \
+                     it out of all but one of them, or change the sides of the bond",
+                    tie.slave
+                );
+                return Err(Error::Support { what });
+            }
+            for axis in 0..3 {
+                let terms = tie.masters.iter().map(|(node, w)| (3 * leader[*node] + axis, *w)).collect();
+                fate[3 * slave + axis] = Some(Fate::Follows(terms));
+            }
+        }
         for point in contact {
             if masters.contains(&leader[point.slave]) {
                 let what = format!(
@@ -114,7 +133,11 @@ impl Numbering {
 fn known(mesh: &Mesh, supports: &Supports, contact: &[Point]) -> Result<(), Error> {
     let count = mesh.nodes.len();
     let named = supports.prescribed.keys().map(|(node, _)| *node);
-    let bonded = supports.same.iter().flat_map(|(a, b)| [*a, *b]);
+    let tied = supports
+        .tied
+        .iter()
+        .flat_map(|tie| std::iter::once(tie.slave).chain(tie.masters.iter().map(|(node, _)| *node)));
+    let bonded = supports.same.iter().flat_map(|(a, b)| [*a, *b]).chain(tied);
     let touching =
         contact.iter().flat_map(|p| std::iter::once(p.slave).chain(p.masters.iter().map(|(m, _)| *m)));
     if let Some(node) = named.chain(bonded).chain(touching).find(|node| *node >= count) {

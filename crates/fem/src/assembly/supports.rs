@@ -9,6 +9,17 @@ pub struct Supports {
     pub prescribed: BTreeMap<(usize, usize), f64>,
     /// Pairs of nodes that move as one: bonded surfaces with matching nodes, periodic boundaries.
     pub same: Vec<(usize, usize)>,
+    /// Nodes that move as the weighted mean of others: bonded surfaces whose nodes do not match.
+    pub tied: Vec<Tie>,
+}
+
+/// A node that moves as others do, in every direction.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tie {
+    /// The node.
+    pub slave: usize,
+    /// The others with their weights, which sum to 1.
+    pub masters: Vec<(usize, f64)>,
 }
 
 impl Supports {

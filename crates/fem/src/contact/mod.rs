@@ -1,12 +1,14 @@
 //! Surfaces in contact: sliding points and bonded pairs.
 
+mod interpolated;
 mod matching;
 mod mortar;
 mod rotation;
 mod surface;
 
+pub use interpolated::bonded_points;
 pub use matching::{bonded, periodic, sliding, sliding_on_rigid};
-pub use mortar::mortar;
+pub use mortar::{bonded_mortar, mortar};
 pub use rotation::rotating;
 pub use surface::{Surface, pressures};
 

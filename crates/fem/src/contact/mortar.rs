@@ -12,6 +12,7 @@ use faer::linalg::solvers::Solve;
 use super::Point;
 use super::matching::axes;
 use crate::Error;
+use crate::assembly::Tie;
 use crate::elements::{FaceKind, face_rule, face_shape};
 use crate::mesh::{Face, FaceRef, Mesh};
 
@@ -22,9 +23,9 @@ type Entries = BTreeMap<(usize, usize), f64>;
 type Weighted = (usize, Vec<(usize, f64)>);
 
 /// A face in the coordinates of the surface.
-struct Flat {
+pub(super) struct Flat {
     kind: FaceKind,
-    nodes: Vec<usize>,
+    pub(super) nodes: Vec<usize>,
     /// Places of all nodes.
     at: Vec<Plane>,
     /// Corners, counter-clockwise.
@@ -71,6 +72,32 @@ pub fn mortar(
     })
 }
 
+/// Bonds two flat surfaces whose nodes need not match, for [`crate::assembly::Supports::tied`].
+///
+/// # Errors
+/// Surfaces that do not lie in one plane, or share no area.
+pub fn bonded_mortar(
+    mesh: &Mesh,
+    slaves: &[FaceRef],
+    masters: &[FaceRef],
+    normal: [f64; 3],
+) -> Result<Vec<Tie>, Error> {
+    let points = mortar(mesh, slaves, masters, normal, across(normal)[0])?;
+    Ok(points.into_iter().map(|Point { slave, masters, .. }| Tie { slave, masters }).collect())
+}
+
+/// Two directions across a normal, unit vectors across each other where the normal is one.
+pub(super) fn across(normal: [f64; 3]) -> [[f64; 3]; 2] {
+    let least = (0..3).min_by(|a, b| normal[*a].abs().total_cmp(&normal[*b].abs())).unwrap_or(0);
+    // n × the axis that it points along least.
+    let (j, k) = ((least + 1) % 3, (least + 2) % 3);
+    let length = normal[j].hypot(normal[k]);
+    let mut first = [0.0; 3];
+    (first[j], first[k]) = (normal[k] / length, -normal[j] / length);
+    let [n, t] = [normal, first];
+    [t, [n[1] * t[2] - n[2] * t[1], n[2] * t[0] - n[0] * t[2], n[0] * t[1] - n[1] * t[0]]]
+}
+
 /// D⁻¹ G, row by row.
 fn weights(d: &Entries, g: &Entries) -> Result<Vec<Weighted>, Error> {
     /// A slave node that shares less than this part of the largest area only touches the other surface's edge.
@@ -99,7 +126,11 @@ fn weights(d: &Entries, g: &Entries) -> Result<Vec<Weighted>, Error> {
     Ok(rows.iter().enumerate().map(|(i, slave)| (*slave, row(i))).collect())
 }
 
-fn one_plane<'a>(mesh: &Mesh, normal: [f64; 3], faces: impl Iterator<Item = &'a Face>) -> Result<(), Error> {
+pub(super) fn one_plane<'a>(
+    mesh: &Mesh,
+    normal: [f64; 3],
+    faces: impl Iterator<Item = &'a Face>,
+) -> Result<(), Error> {
     /// How far surfaces may lie apart, over the size of the mesh.
     const FLAT: f64 = 1e-6;
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
@@ -120,7 +151,7 @@ fn one_plane<'a>(mesh: &Mesh, normal: [f64; 3], faces: impl Iterator<Item = &'a 
 }
 
 impl Flat {
-    fn new(mesh: &Mesh, face: &Face, along: [f64; 3], across: [f64; 3]) -> Self {
+    pub(super) fn new(mesh: &Mesh, face: &Face, along: [f64; 3], across: [f64; 3]) -> Self {
         let on = |node: &usize| {
             let x = mesh.nodes[*node];
             [along, across].map(|axis| (0..3).map(|i| axis[i] * x[i]).sum::<f64>())
@@ -140,8 +171,19 @@ impl Flat {
         (0..2).all(|i| self.low[i] < other.high[i] && other.low[i] < self.high[i])
     }
 
+    /// How far a place lies outside, m; below 0 inside. Edges are taken as straight.
+    pub(super) fn outside(&self, place: Plane) -> f64 {
+        let corners = &self.corners;
+        let beyond = |i: usize| {
+            let (a, b) = (corners[i], corners[(i + 1) % corners.len()]);
+            let (along, to) = ([b[0] - a[0], b[1] - a[1]], [place[0] - a[0], place[1] - a[1]]);
+            (along[1] * to[0] - along[0] * to[1]) / along[0].hypot(along[1])
+        };
+        (0..corners.len()).map(beyond).fold(f64::NEG_INFINITY, f64::max)
+    }
+
     /// Shape functions at a place, by Newton's method for its coordinates in the reference face.
-    fn shape_at(&self, place: Plane) -> Vec<f64> {
+    pub(super) fn shape_at(&self, place: Plane) -> Vec<f64> {
         const STEPS: usize = 30;
         let mut at = if self.kind.corners() == 3 { [1.0 / 3.0; 2] } else { [0.0; 2] };
         for _ in 0..STEPS {

@@ -108,6 +108,28 @@ impl Basis {
         Small { stiffness: sum(0), mass: sum(1), damping: damped.then_some(damping) }
     }
 
+    /// The problem on a space within this one, by coordinates as columns: K, M, C; what one unit of μ adds to each; what the damping
+    /// `slope` (N s/m) between contact points adds to C.
+    pub(crate) fn within(
+        &self,
+        coordinates: &Mat<f64>,
+        slope: &Rows,
+    ) -> ([Mat<f64>; 3], [Mat<f64>; 3], Mat<f64>) {
+        let project = |matrix: &Mat<f64>| coordinates.transpose() * matrix * coordinates;
+        // Symmetric to the last bit.
+        let both = |matrix: Mat<f64>| {
+            Mat::from_fn(matrix.nrows(), matrix.ncols(), |i, j| f64::midpoint(matrix[(i, j)], matrix[(j, i)]))
+        };
+        let symmetric = [0, 1, 2].map(|i| both(project(&self.symmetric[i])));
+        let friction = [0, 1, 2].map(|i| project(&self.friction[i]));
+        let damping = if slope.rows.is_empty() {
+            Mat::zeros(coordinates.ncols(), coordinates.ncols())
+        } else {
+            project(&(self.slip.transpose() * rows_times(slope, &self.slip)))
+        };
+        (symmetric, friction, damping)
+    }
+
     /// What one unit of μ adds to stiffness and mass.
     #[must_use]
     pub fn per_friction(&self) -> (&Mat<f64>, &Mat<f64>) {

@@ -64,6 +64,12 @@ pub fn inp(model: &Model, modes: usize) -> String {
     for (a, b) in &model.supports.same {
         (0..3).for_each(|axis| equation(&mut text, &[(*a, axis, 1.0), (*b, axis, -1.0)]));
     }
+    for tie in &model.supports.tied {
+        for axis in 0..3 {
+            let masters = tie.masters.iter().map(|(node, w)| (*node, axis, -w));
+            equation(&mut text, &std::iter::once((tie.slave, axis, 1.0)).chain(masters).collect::<Vec<_>>());
+        }
+    }
     for point in &model.contact {
         let mut terms: Vec<(usize, usize, f64)> = Vec::new();
         for i in 0..3 {

@@ -5,6 +5,7 @@
 #![allow(clippy::neg_cmp_op_on_partial_ord, reason = "what is no number takes the branch of what is wrong")]
 
 mod bad_input;
+mod bonds;
 mod cases;
 mod contact;
 mod cylinder;
@@ -12,14 +13,17 @@ mod damping;
 mod elements;
 mod files;
 mod layer;
+mod modal;
 mod mortar;
 mod order;
 mod patch;
 mod penalty;
+mod picture;
 mod pin;
 mod real;
 mod statics;
 mod stressed;
+mod study;
 mod sweep;
 mod two_masses;
 mod vary;

@@ -1,0 +1,185 @@
+//! From a description to a model.
+
+use super::document::{Bond, By, Document, Load, Sliding, Support};
+use super::parts::join;
+use super::surfaces::flat;
+use super::values::{check_friction, check_modes, coefficients};
+use crate::Error;
+use crate::assembly::{Loads, Model, Penalty, Supports};
+use crate::contact::{
+    Point, bonded, bonded_mortar, bonded_points, mortar, rotating, sliding, sliding_on_rigid,
+};
+use crate::mesh::{FaceRef, Mesh};
+
+/// A model and what is to be computed of it.
+#[derive(Debug, Clone)]
+pub struct Study {
+    /// The description.
+    pub document: Document,
+    /// Mesh, materials, supports, contact.
+    pub model: Model,
+    /// Name of each part with its numbers of nodes and elements.
+    pub parts: Vec<(String, usize, usize)>,
+    /// Faces of the slaves of all sliding surfaces.
+    pub faces: Vec<FaceRef>,
+    /// Loads of the static step.
+    pub loads: Loads,
+    /// Coefficients of friction, rising.
+    pub mus: Vec<f64>,
+    /// Whether the sliding surfaces have nodes at the same places, one by one.
+    pub matching: Vec<bool>,
+}
+
+impl Study {
+    /// Builds the model of a description; `file` gives the text behind a path of a mesh, or says why not.
+    ///
+    /// # Errors
+    /// The first value that cannot be, by its key; meshes, sets and surfaces that do not fit.
+    pub fn new(document: Document, file: &dyn Fn(&str) -> Result<String, String>) -> Result<Self, Error> {
+        let mus = coefficients(&document.friction.mu)?;
+        check_friction(&document.friction)?;
+        check_modes(&document.modes)?;
+        for (i, mu) in document.output.shapes_at.iter().enumerate() {
+            if !mus.iter().any(|known| (known - mu).abs() <= 1e-12) {
+                let what = format!("{mu} is not among the values of friction.mu: name one of them");
+                return Err(Error::at(format!("output.shapes_at[{i}]"), what));
+            }
+        }
+        let joined = join(&document.parts, &document.materials, file)?;
+        let mut model = Model { mesh: joined.mesh, materials: joined.materials, ..Model::default() };
+        model.supports = joined.supports;
+        let from_files =
+            joined.ties.into_iter().map(|(slaves, masters)| Bond { slaves, masters, by: By::default() });
+        for (i, support) in document.supports.iter().enumerate() {
+            hold(&mut model, &format!("supports[{i}]"), support)?;
+        }
+        for (i, bond) in document.bonds.iter().cloned().chain(from_files).enumerate() {
+            tie(&model.mesh, &mut model.supports, &format!("bonds[{i}]"), &bond)?;
+        }
+        if document.sliding.is_empty() {
+            return Err(Error::at(
+                "sliding",
+                "there is none: describe the surfaces that slide, as [[sliding]]",
+            ));
+        }
+        let (mut faces, mut matching) = (Vec::new(), Vec::new());
+        for (i, pair) in document.sliding.iter().enumerate() {
+            let (points, slaves, matches) = slide(&model.mesh, &format!("sliding[{i}]"), pair)?;
+            model.contact.extend(points);
+            faces.extend(slaves);
+            matching.push(matches);
+        }
+        if let Some(stiffness) = document.friction.contact_stiffness {
+            model.penalty = Some(Penalty { stiffness, faces: faces.clone() });
+        }
+        let mut loads = Loads::default();
+        for (i, load) in document.loads.iter().enumerate() {
+            loads.pressure.push(press(&model.mesh, &format!("loads[{i}]"), load)?);
+        }
+        let study = Self { document, model, parts: joined.sizes, faces, loads, mus, matching };
+        if study.document.friction.slope != 0.0 && !study.is_pressed() {
+            let what = "a slope acts on the pressure, but nothing presses the surfaces: give a load";
+            return Err(Error::at("friction.slope", what));
+        }
+        Ok(study)
+    }
+
+    /// Whether there is a static step to solve.
+    #[must_use]
+    pub fn is_pressed(&self) -> bool {
+        !self.loads.pressure.is_empty() || self.model.supports.prescribed.values().any(|u| *u != 0.0)
+    }
+}
+
+fn faces_of<'a>(mesh: &'a Mesh, key: &str, set: &str) -> Result<&'a [FaceRef], Error> {
+    mesh.face_set(set).map_err(|why| Error::at(key, why))
+}
+
+fn hold(model: &mut Model, key: &str, support: &Support) -> Result<(), Error> {
+    let Support { set, axes, displacement } = support;
+    let wrong = |key: String, what: String| Err(Error::at(key, what));
+    let nodes = model.mesh.node_set(set).map_err(|why| Error::at(format!("{key}.set"), why))?.to_vec();
+    if !displacement.is_finite() {
+        return wrong(format!("{key}.displacement"), format!("{displacement} m is no finite number"));
+    }
+    let indices: Option<Vec<usize>> = axes.chars().map(|axis| "xyz".find(axis)).collect();
+    let indices = indices.filter(|all| !all.is_empty());
+    let Some(indices) = indices else {
+        return wrong(
+            format!("{key}.axes"),
+            format!("\"{axes}\" names no axes, it must be of x, y and z, such as \"xy\""),
+        );
+    };
+    for axis in indices {
+        model.supports.prescribe(&nodes, axis, *displacement);
+    }
+    Ok(())
+}
+
+fn tie(mesh: &Mesh, supports: &mut Supports, key: &str, bond: &Bond) -> Result<(), Error> {
+    let slaves = faces_of(mesh, &format!("{key}.slaves"), &bond.slaves)?;
+    let masters = faces_of(mesh, &format!("{key}.masters"), &bond.masters)?;
+    if let Ok(pairs) = bonded(mesh, &mesh.face_nodes(slaves), &mesh.face_nodes(masters)) {
+        supports.bond(pairs);
+        return Ok(());
+    }
+    let (_, normal) = flat(mesh, slaves).map_err(|why| Error::at(format!("{key}.slaves"), why))?;
+    let ties = match bond.by {
+        By::Mortar => bonded_mortar(mesh, slaves, masters, normal),
+        By::Points => bonded_points(mesh, slaves, masters, normal),
+    };
+    supports.tied.extend(ties.map_err(|why| Error::at(key, why))?);
+    Ok(())
+}
+
+/// Points of contact, faces of the slaves, whether nodes match.
+fn slide(mesh: &Mesh, key: &str, pair: &Sliding) -> Result<(Vec<Point>, Vec<FaceRef>, bool), Error> {
+    let slaves = faces_of(mesh, &format!("{key}.slaves"), &pair.slaves)?;
+    let (_, outward) = flat(mesh, slaves).map_err(|why| Error::at(format!("{key}.slaves"), why))?;
+    let normal = outward.map(|c| -c);
+    // Where the axis says it, the direction of each point comes later.
+    let (direction, turn) = match (pair.direction, pair.axis, pair.origin) {
+        (Some(direction), None, None) => (direction, None),
+        (None, Some(axis), Some(origin)) => {
+            let least = (0..3).min_by(|a, b| normal[*a].abs().total_cmp(&normal[*b].abs())).unwrap_or(0);
+            let mut any = [0.0; 3];
+            any[least] = 1.0;
+            (std::array::from_fn(|i| any[i] - normal[least] * normal[i]), Some((axis, origin)))
+        }
+        _ => {
+            let what = "it needs either a direction, or an axis and its origin: give one of both";
+            return Err(Error::at(key, what));
+        }
+    };
+    let nodes = mesh.face_nodes(slaves);
+    let (points, matches) = if pair.masters == "rigid" {
+        (sliding_on_rigid(&nodes, normal, direction), true)
+    } else {
+        let masters = faces_of(mesh, &format!("{key}.masters"), &pair.masters)?;
+        match sliding(mesh, &nodes, &mesh.face_nodes(masters), normal, direction) {
+            Ok(points) => (Ok(points), true),
+            Err(_) => (mortar(mesh, slaves, masters, normal, direction), false),
+        }
+    };
+    let points = match turn {
+        None => points,
+        Some((axis, origin)) => points.and_then(|points| rotating(mesh, points, origin, axis)),
+    };
+    Ok((points.map_err(|why| Error::at(key, why))?, slaves.to_vec(), matches))
+}
+
+fn press(mesh: &Mesh, key: &str, load: &Load) -> Result<(Vec<FaceRef>, f64), Error> {
+    let faces = faces_of(mesh, &format!("{key}.set"), &load.set)?;
+    let pressure = match (load.pressure, load.force) {
+        (Some(pressure), None) => pressure,
+        (None, Some(force)) => {
+            let (area, _) = flat(mesh, faces).map_err(|why| Error::at(format!("{key}.set"), why))?;
+            force / area
+        }
+        _ => return Err(Error::at(key, "it needs either a pressure or a force: give one of both")),
+    };
+    if !pressure.is_finite() {
+        return Err(Error::at(key, format!("{pressure} Pa is no finite number")));
+    }
+    Ok((faces.to_vec(), pressure))
+}

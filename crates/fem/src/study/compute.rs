@@ -1,0 +1,283 @@
+//! The computation of a study, step by step.
+
+use std::time::Instant;
+
+use faer::c64;
+
+use super::Study;
+use super::modal::{Modal, directions};
+use super::transitions::{Search, Transition, grows};
+use crate::Error;
+use crate::assembly::{Numbering, Pencil, Rows, assemble};
+use crate::modes::{Basis, Factor, Ordering, RealModes, count_below, lift, lowest, pairs, refine};
+use crate::statics::settle;
+use crate::sweep::{Mode, Range, sweep};
+
+/// A complex mode on all nodes, turned so that its largest component is real and 1.
+#[derive(Debug, Clone)]
+pub struct Shape {
+    /// Coefficient of friction.
+    pub mu: f64,
+    /// The mode, counted from 0.
+    pub mode: usize,
+    /// Growth rate and angular frequency, 1/s.
+    pub lambda: c64,
+    /// Displacements of the nodes.
+    pub displacement: Vec<[c64; 3]>,
+}
+
+/// What the static step gives.
+#[derive(Debug, Clone)]
+pub struct Pressed {
+    /// Sum of the normal forces, N.
+    pub force: f64,
+    /// Contact points that gape and are left out.
+    pub open: usize,
+    /// Displacements of the nodes, m.
+    pub displacement: Vec<[f64; 3]>,
+}
+
+/// The results of a study.
+#[derive(Debug, Clone)]
+pub struct Outcome {
+    /// Number of unknowns.
+    pub unknowns: usize,
+    /// Points of contact that stay closed.
+    pub points: usize,
+    /// The static step, where anything presses.
+    pub pressed: Option<Pressed>,
+    /// Frequencies of all real modes without friction that were computed, Hz.
+    pub real: Vec<f64>,
+    /// Vectors of the space on which friction was solved.
+    pub vectors: usize,
+    /// Entries of the factor of the stiffness matrix.
+    pub entries: usize,
+    /// The modes that were asked for, over `Study::mus`.
+    pub modes: Vec<Mode>,
+    /// Whether anything damps.
+    pub damped: bool,
+    /// Where modes become unstable or stable.
+    pub transitions: Vec<Transition>,
+    /// Shapes of modes.
+    pub shapes: Vec<Shape>,
+    /// The projected problem, where it is asked for.
+    pub modal: Option<Modal>,
+    /// Names of the steps and their seconds.
+    pub seconds: Vec<(&'static str, f64)>,
+}
+
+impl Outcome {
+    /// The largest residual of all modes.
+    #[must_use]
+    pub fn residual(&self) -> f64 {
+        self.modes.iter().flat_map(|mode| &mode.states).map(|state| state.residual).fold(0.0, f64::max)
+    }
+
+    /// Whether a mode grows at the value of μ with this index.
+    #[must_use]
+    pub fn grows(&self, mode: usize, index: usize) -> bool {
+        grows(self.modes[mode].states[index].lambda, self.damped)
+    }
+
+    /// Whether it decays by more than rounding: where nothing damps, as the twin −λ̄ of a mode that grows.
+    #[must_use]
+    pub fn decays(&self, mode: usize, index: usize) -> bool {
+        grows(-self.modes[mode].states[index].lambda.conj(), false)
+    }
+}
+
+/// Seconds of each step, and what is said before it.
+struct Clock<'a> {
+    say: &'a mut dyn FnMut(&str),
+    since: Instant,
+    seconds: Vec<(&'static str, f64)>,
+}
+
+impl Clock<'_> {
+    fn step<T>(&mut self, name: &'static str, work: impl FnOnce() -> Result<T, Error>) -> Result<T, Error> {
+        (self.say)(name);
+        self.since = Instant::now();
+        let done = work();
+        self.seconds.push((name, self.since.elapsed().as_secs_f64()));
+        done
+    }
+}
+
+/// Computes a study; `say` is called with the name of each step when it begins.
+///
+/// # Errors
+/// A body that can move without a force, a contact that opens altogether, modes that do not converge or of which one is missing.
+pub fn compute(study: &Study, say: &mut dyn FnMut(&str)) -> Result<Outcome, Error> {
+    let mut clock = Clock { say, since: Instant::now(), seconds: Vec::new() };
+    let friction = &study.document.friction;
+    let (numbering, pencil, pressed, slope) = if study.is_pressed() {
+        let settled = clock
+            .step("static step", || settle(&study.model, &study.faces, &study.loads, friction.static_mu))?;
+        let slope = if friction.slope == 0.0 {
+            Rows::default()
+        } else {
+            let field: Vec<f64> = settled.pressures.iter().map(|p| p * friction.slope).collect();
+            settled.surface.matrix(&field)
+        };
+        let force = settled.forces.iter().sum();
+        let pressed = Pressed { force, open: settled.open.len(), displacement: settled.displacement };
+        (settled.numbering, settled.pencil, Some(pressed), slope)
+    } else {
+        let (numbering, pencil) = clock.step("matrices", || assemble(&study.model))?;
+        (numbering, pencil, None, Rows::default())
+    };
+    let damped = pencil.damping.is_some() || !slope.rows.is_empty();
+    let ordering = Ordering::best(&pencil.stiffness.pattern, &numbering.places(&study.model.mesh))?;
+    let factor = clock.step("factor", || Factor::new(&ordering, &pencil.stiffness, &pencil.mass, 0.0))?;
+    let asked = &study.document.modes;
+    let (real, count) =
+        clock.step("real modes", || real_modes(&pencil, &ordering, &factor, asked.count, asked.band[1]))?;
+    let frequencies = real.frequencies();
+    clock.step("count of modes", || complete(&pencil, &ordering, &frequencies, count))?;
+    let mut basis = Basis::new(&pencil, &real.shapes);
+    let some = spread_over(&study.mus);
+    clock.step("space for friction", || {
+        refine(&pencil, &factor, &mut basis, &some, &slope, count, 0.1 * asked.residual, ROUNDS).map(drop)
+    })?;
+    let range = Range { mus: &study.mus, slope: &slope, count, bound: asked.residual };
+    let modes = clock.step("sweep over friction", || sweep(&pencil, &ordering, &factor, &basis, range))?;
+    let search = Search { pencil: &pencil, factor: &factor, slope: &slope, mus: &study.mus, damped };
+    let transitions = clock.step("critical friction", || search.all(&mut basis, &modes))?;
+    let wanted = wanted(study, &modes, &transitions, damped);
+    let shapes = clock.step("shapes", || shapes(&numbering, &basis, &slope, study, &modes, &wanted))?;
+    let modal = study.document.output.modal.then(|| modal(study, &basis, &slope, count)).transpose()?;
+    Ok(Outcome {
+        unknowns: pencil.size(),
+        points: pencil.slip.rows.len(),
+        pressed,
+        real: frequencies,
+        vectors: basis.vectors.ncols(),
+        entries: ordering.entries(),
+        modes,
+        damped,
+        transitions,
+        shapes,
+        modal,
+        seconds: clock.seconds,
+    })
+}
+
+/// Rounds of corrections of the space; each takes an order of magnitude off the residuals.
+const ROUNDS: usize = 12;
+
+/// Real modes, more than are followed, and how many are followed: `count`, or as many as lie below a frequency (Hz).
+fn real_modes(
+    pencil: &Pencil,
+    ordering: &Ordering,
+    factor: &Factor,
+    count: usize,
+    highest: f64,
+) -> Result<(RealModes, usize), Error> {
+    /// The last modes that are followed couple with modes above them: so many more are in the space.
+    const MORE: usize = 8;
+    let size = pencil.size();
+    let count = if highest.is_finite() { count.min(count_below(pencil, ordering, highest)?) } else { count };
+    if count == 0 {
+        let what = format!("no mode lies below {highest} Hz: raise the end of the band");
+        return Err(Error::at("modes.band", what));
+    }
+    if count > size {
+        let what =
+            format!("{count} modes are asked for, but the model has {size} unknowns: ask for 1 to {size}");
+        return Err(Error::at("modes.count", what));
+    }
+    Ok((lowest(pencil, factor, (count + MORE).min(size))?, count))
+}
+
+/// Checks by Sylvester's law of inertia that no mode is missing among those that are followed.
+fn complete(pencil: &Pencil, ordering: &Ordering, frequencies: &[f64], count: usize) -> Result<(), Error> {
+    /// Two frequencies that are nearer than this are one for a shift between them.
+    const APART: f64 = 1e-7;
+    let gap = (count..frequencies.len()).find(|k| frequencies[*k] > frequencies[k - 1] * (1.0 + APART));
+    let Some(above) = gap else { return Ok(()) };
+    let found = count_below(pencil, ordering, f64::midpoint(frequencies[above - 1], frequencies[above]))?;
+    if found == above {
+        return Ok(());
+    }
+    let what = format!(
+        "{above} real modes were found below {} Hz, where there are {found}: ask for a few more or fewer modes",
+        frequencies[above]
+    );
+    Err(Error::Solver { what })
+}
+
+/// A few values over all, both ends among them: where the space is made good.
+fn spread_over(mus: &[f64]) -> Vec<f64> {
+    const FEW: usize = 5;
+    let last = mus.len() - 1;
+    let mut some: Vec<usize> = (0..FEW).map(|i| i * last / (FEW - 1)).collect();
+    some.dedup();
+    some.into_iter().map(|i| mus[i]).collect()
+}
+
+/// Which shapes are made: those asked for of all modes, else those of the modes with a transition, at the first coefficient of friction and
+/// at the last one at which one of them grows.
+fn wanted(study: &Study, modes: &[Mode], transitions: &[Transition], damped: bool) -> Vec<(usize, usize)> {
+    let asked = &study.document.output.shapes_at;
+    if !asked.is_empty() {
+        let index = |mu: &f64| study.mus.iter().position(|known| (known - mu).abs() <= 1e-12);
+        return asked
+            .iter()
+            .filter_map(index)
+            .flat_map(|i| (0..modes.len()).map(move |mode| (mode, i)))
+            .filter(|(mode, _)| super::table::in_band(study, &modes[*mode]))
+            .collect();
+    }
+    let mut concerned: Vec<usize> = transitions.iter().flat_map(|t| t.modes.iter().copied()).collect();
+    concerned.sort_unstable();
+    concerned.dedup();
+    // Where any of them is unstable for the last time.
+    let unstable = |i: usize| concerned.iter().any(|mode| grows(modes[*mode].states[i].lambda, damped));
+    let mut ends = vec![0];
+    ends.extend((1..study.mus.len()).rfind(|i| unstable(*i)));
+    ends.into_iter().flat_map(|i| concerned.iter().map(move |mode| (*mode, i))).collect()
+}
+
+fn shapes(
+    numbering: &Numbering,
+    basis: &Basis,
+    slope: &Rows,
+    study: &Study,
+    modes: &[Mode],
+    wanted: &[(usize, usize)],
+) -> Result<Vec<Shape>, Error> {
+    let mut found = Vec::with_capacity(wanted.len());
+    for (mode, i) in wanted {
+        let (mu, state) = (study.mus[*i], &modes[*mode].states[*i]);
+        let all = pairs(&basis.at(mu, slope))?;
+        let apart = |lambda: c64| (lambda - state.lambda).norm();
+        let Some(pair) = all.iter().min_by(|a, b| apart(a.lambda).total_cmp(&apart(b.lambda))) else {
+            continue;
+        };
+        let [real, imaginary] = lift(basis, &pair.vector).map(|part| numbering.spread(&part));
+        let raw = real.iter().zip(&imaginary).map(|(a, b)| [0, 1, 2].map(|i| c64::new(a[i], b[i])));
+        found.push(Shape { mu, mode: *mode, lambda: state.lambda, displacement: turned(raw.collect()) });
+    }
+    Ok(found)
+}
+
+/// The problem on the space of the lowest modes at all coefficients of friction.
+fn modal(study: &Study, basis: &Basis, slope: &Rows, count: usize) -> Result<Modal, Error> {
+    let mut all = Vec::new();
+    for mu in &study.mus {
+        all.extend(pairs(&basis.at(*mu, slope))?.into_iter().take(count));
+    }
+    let coordinates = directions(&all.iter().collect::<Vec<_>>())?;
+    let (symmetric, friction, slope) = basis.within(&coordinates, slope);
+    let mu = [study.mus[0], study.mus[study.mus.len() - 1]];
+    Ok(Modal { title: study.document.title.clone(), mu, modes: count, symmetric, friction, slope })
+}
+
+/// The same mode with a largest component of 1.
+fn turned(raw: Vec<[c64; 3]>) -> Vec<[c64; 3]> {
+    let largest = raw.iter().flatten().copied().max_by(|a, b| a.norm().total_cmp(&b.norm()));
+    match largest.filter(|z| z.norm() > 0.0) {
+        Some(largest) => raw.into_iter().map(|u| u.map(|z| z / largest)).collect(),
+        None => raw,
+    }
+}

@@ -1,0 +1,26 @@
+//! A whole study from a description in a file: model, coefficients of friction, results.
+//!
+//! [`document`] is the file, [`Study::new`] builds the model, [`estimate`] says what it would cost, [`compute`] computes it, and
+//! [`table`], [`manifest`] and [`shapes`] are its results as bytes. Nothing here opens a file.
+
+mod build;
+mod compute;
+pub mod document;
+mod estimate;
+mod manifest;
+mod modal;
+mod parts;
+mod shapes;
+mod surfaces;
+mod table;
+mod transitions;
+mod values;
+
+pub use build::Study;
+pub use compute::{Outcome, Pressed, Shape, compute};
+pub use estimate::{Estimate, estimate};
+pub use manifest::manifest;
+pub use modal::Modal;
+pub use shapes::shapes;
+pub use table::{COLUMNS, Column, in_band, table};
+pub use transitions::{Event, Transition};

@@ -1,0 +1,193 @@
+//! `modes.toml`: the projected problem as a small model of its own.
+//!
+//! With x in the coordinates of n vectors, λ² (M + μ M_f) x + λ (C + μ C_f + p μ' D) x + (K + μ K_f) x = 0, where p μ' stands for the
+//! slope dμ/dV over that of the study.
+
+use std::fmt::Write as _;
+
+use faer::{Mat, c64};
+use serde::Deserialize;
+
+use crate::Error;
+use crate::modes::{Pair, Small};
+
+/// The version of the format.
+const VERSION: u32 = 1;
+/// No more modes than this.
+const MOST: usize = 64;
+
+/// A projected problem.
+#[derive(Debug, Clone)]
+pub struct Modal {
+    /// What stands above figures.
+    pub title: String,
+    /// First and last coefficient of friction for which the vectors were chosen.
+    pub mu: [f64; 2],
+    /// Number of the lowest modes for which they were chosen.
+    pub modes: usize,
+    /// K, M and C.
+    pub symmetric: [Mat<f64>; 3],
+    /// K_f, M_f and C_f: what one unit of friction adds.
+    pub friction: [Mat<f64>; 3],
+    /// D: what the slope of the study adds to C; zero where it has none.
+    pub slope: Mat<f64>,
+}
+
+impl Modal {
+    /// Number of vectors.
+    #[must_use]
+    pub fn size(&self) -> usize {
+        self.symmetric[0].nrows()
+    }
+
+    /// The problem at a coefficient of friction, with this many times the slope of the study.
+    #[must_use]
+    pub fn at(&self, mu: f64, slope: f64) -> Small {
+        let sum = |i: usize| &self.symmetric[i] + faer::Scale(mu) * &self.friction[i];
+        let damping = sum(2) + faer::Scale(slope) * &self.slope;
+        let damped = damping.norm_max() > 0.0;
+        Small { stiffness: sum(0), mass: sum(1), damping: damped.then_some(damping) }
+    }
+
+    /// The file.
+    #[must_use]
+    pub fn write(&self) -> Vec<u8> {
+        let mut text = format!(
+            "# A projected problem of finite elements: lambda^2 (mass + mu mass_friction) + lambda (damping + mu damping_friction + slope\n\
+             # damping_slope) + (stiffness + mu stiffness_friction), in SI units and coordinates in which shapes have a mass of 1 kg.\n\
+             kind = \"modal\"\nversion = {VERSION}\ntitle = {}\nmu = [{:e}, {:e}]\nmodes = {}\n",
+            toml::Value::String(self.title.clone()),
+            self.mu[0],
+            self.mu[1],
+            self.modes
+        );
+        for (name, matrix) in NAMES.iter().zip(self.matrices()) {
+            let _ = writeln!(text, "{name} = [");
+            for i in 0..matrix.nrows() {
+                // The shortest digits that give the same number again.
+                let row: Vec<String> = (0..matrix.ncols()).map(|j| format!("{:e}", matrix[(i, j)])).collect();
+                let _ = writeln!(text, "    [{}],", row.join(", "));
+            }
+            text.push_str("]\n");
+        }
+        text.into_bytes()
+    }
+
+    fn matrices(&self) -> [&Mat<f64>; 7] {
+        let ([k, m, c], [kf, mf, cf]) = (&self.symmetric, &self.friction);
+        [k, m, c, kf, mf, cf, &self.slope]
+    }
+
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// What is no TOML or another kind or version of file; matrices that are not square, of different sizes, too large or with entries that
+    /// are no finite numbers; a stiffness or mass without friction that is not symmetric.
+    pub fn read(text: &str) -> Result<Self, Error> {
+        let file: File = super::document::parsed(text)?;
+        if file.kind != "modal" {
+            return Err(Error::at(
+                "kind",
+                format!("\"{}\" is another kind of file, it must be \"modal\"", file.kind),
+            ));
+        }
+        if file.version != VERSION {
+            return Err(Error::at(
+                "version",
+                format!("{} is not known, it must be {VERSION}: write the file again", file.version),
+            ));
+        }
+        let size = file.stiffness.len();
+        if size == 0 || size > MOST {
+            return Err(Error::at("stiffness", format!("there are {size} rows, it must be 1 to {MOST}")));
+        }
+        let rows = [
+            file.stiffness,
+            file.mass,
+            file.damping,
+            file.stiffness_friction,
+            file.mass_friction,
+            file.damping_friction,
+            file.damping_slope,
+        ];
+        let mut matrices = Vec::with_capacity(rows.len());
+        for (name, rows) in NAMES.iter().zip(rows) {
+            if let Some(wrong) =
+                std::iter::once(rows.len()).chain(rows.iter().map(Vec::len)).find(|n| *n != size)
+            {
+                let what = format!(
+                    "it has a row or column of {wrong} entries, where stiffness has {size}: all are square and as large"
+                );
+                return Err(Error::at(*name, what));
+            }
+            if let Some(x) = rows.iter().flatten().find(|x| !x.is_finite()) {
+                return Err(Error::at(*name, format!("{x} is no finite number")));
+            }
+            matrices.push(Mat::from_fn(size, size, |i, j| rows[i][j]));
+        }
+        for (name, matrix) in NAMES.iter().zip(&matrices[..3]) {
+            let apart = (matrix - matrix.transpose()).norm_max();
+            if apart > SYMMETRIC * matrix.norm_max() {
+                return Err(Error::at(
+                    *name,
+                    format!("it differs from its transpose by {apart:e}: without friction it is symmetric"),
+                ));
+            }
+        }
+        let Ok([k, m, c, kf, mf, cf, slope]) = <[Mat<f64>; 7]>::try_from(matrices) else {
+            return Err(Error::at("stiffness", "a matrix is missing"));
+        };
+        let (title, mu, modes) = (file.title, file.mu, file.modes);
+        Ok(Self { title, mu, modes, symmetric: [k, m, c], friction: [kf, mf, cf], slope })
+    }
+}
+
+/// Rounding of a symmetric matrix.
+const SYMMETRIC: f64 = 1e-12;
+
+/// The matrices' names, in the order of [`File`].
+const NAMES: [&str; 7] = [
+    "stiffness",
+    "mass",
+    "damping",
+    "stiffness_friction",
+    "mass_friction",
+    "damping_friction",
+    "damping_slope",
+];
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    kind: String,
+    version: u32,
+    title: String,
+    mu: [f64; 2],
+    modes: usize,
+    stiffness: Vec<Vec<f64>>,
+    mass: Vec<Vec<f64>>,
+    damping: Vec<Vec<f64>>,
+    stiffness_friction: Vec<Vec<f64>>,
+    mass_friction: Vec<Vec<f64>>,
+    damping_friction: Vec<Vec<f64>>,
+    damping_slope: Vec<Vec<f64>>,
+}
+
+/// At most so many directions, orthonormal, that hold vectors best: the first left singular vectors of their real and imaginary parts.
+///
+/// # Errors
+/// Where the singular values do not converge.
+pub(super) fn directions(vectors: &[&Pair]) -> Result<Mat<f64>, Error> {
+    /// Directions that hold less of the vectors than this are rounding.
+    const NOTHING: f64 = 1e-13;
+    let size = vectors.first().map_or(0, |pair| pair.vector.len());
+    let parts: [fn(&c64) -> f64; 2] = [|z| z.re, |z| z.im];
+    let columns = Mat::from_fn(size, 2 * vectors.len(), |i, j| parts[j % 2](&vectors[j / 2].vector[i]));
+    let svd = columns.svd().map_err(|_| Error::Solver {
+        what: format!("the singular values of {} shapes did not converge", vectors.len()),
+    })?;
+    let values = svd.S().column_vector();
+    let largest = if values.nrows() > 0 { values[0] } else { 0.0 };
+    let kept = values.iter().take(MOST).filter(|s| **s > NOTHING * largest).count();
+    Ok(svd.U().subcols(0, kept).to_owned())
+}

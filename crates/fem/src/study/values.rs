@@ -1,0 +1,96 @@
+//! Numbers of a description: whether they are what they can be.
+
+use super::document::{Friction, Modes, Values};
+use crate::Error;
+
+/// Coefficients of friction, rising.
+///
+/// # Errors
+/// What is no range and no list; values that fall, are negative or no numbers; too many.
+pub(super) fn coefficients(mu: &Values) -> Result<Vec<f64>, Error> {
+    /// A sweep of more values takes hours for curves that no print resolves.
+    const MOST: usize = 100_000;
+    let key = "friction.mu";
+    let values = match (mu.from, mu.to, mu.points, &mu.values) {
+        (Some(from), Some(to), Some(points), None) => {
+            if points < 2 || points > MOST {
+                return Err(Error::at(
+                    "friction.mu.points",
+                    format!("there are {points} points, a range has 2 to {MOST}"),
+                ));
+            }
+            let last = points - 1;
+            // Both ends exactly.
+            (0..points)
+                .map(|i| if i == last { to } else { from + (to - from) * i as f64 / last as f64 })
+                .collect()
+        }
+        (None, None, None, Some(values)) => values.clone(),
+        _ => {
+            let what = "it needs either from, to and points, or values: give one of both";
+            return Err(Error::at(key, what));
+        }
+    };
+    if values.is_empty() || values.len() > MOST {
+        return Err(Error::at(key, format!("there are {} values, there must be 1 to {MOST}", values.len())));
+    }
+    if let Some(mu) = values.iter().find(|mu| !(**mu >= 0.0 && mu.is_finite())) {
+        return Err(Error::at(
+            key,
+            format!(
+                "{mu} is no coefficient of friction, it must be 0 or more: turn the direction of sliding around instead"
+            ),
+        ));
+    }
+    if let Some(pair) = values.windows(2).find(|pair| !(pair[0] < pair[1])) {
+        return Err(Error::at(key, format!("{} follows {}: let the values rise", pair[1], pair[0])));
+    }
+    Ok(values)
+}
+
+/// Checks the other numbers of friction.
+pub(super) fn check_friction(friction: &Friction) -> Result<(), Error> {
+    if !friction.slope.is_finite() {
+        return Err(Error::at("friction.slope", format!("{} s/m is no finite number", friction.slope)));
+    }
+    if let Some(k) = friction.contact_stiffness
+        && !(k > 0.0 && k.is_finite())
+    {
+        let what = format!(
+            "{k} Pa/m is no stiffness, it must be above 0; leave it out for surfaces that do not overlap"
+        );
+        return Err(Error::at("friction.contact_stiffness", what));
+    }
+    if !(friction.static_mu >= 0.0 && friction.static_mu.is_finite()) {
+        return Err(Error::at("friction.static_mu", format!("{} must be 0 or more", friction.static_mu)));
+    }
+    Ok(())
+}
+
+/// Checks what modes are asked for.
+pub(super) fn check_modes(modes: &Modes) -> Result<(), Error> {
+    /// A projected problem of more modes is solved more slowly than its modes are worth.
+    const MOST: usize = 500;
+    /// Larger residuals are no modes.
+    const WORST: f64 = 1e-2;
+    if modes.count == 0 || modes.count > MOST {
+        return Err(Error::at(
+            "modes.count",
+            format!("{} modes are asked for, it must be 1 to {MOST}", modes.count),
+        ));
+    }
+    let [low, high] = modes.band;
+    if !(low >= 0.0 && low < high) {
+        return Err(Error::at(
+            "modes.band",
+            format!("the band is {low} to {high} Hz, it must rise from 0 or more: swap or correct its ends"),
+        ));
+    }
+    if !(modes.residual > 0.0 && modes.residual <= WORST) {
+        return Err(Error::at(
+            "modes.residual",
+            format!("the residual is {}, it must be above 0 and at most {WORST}", modes.residual),
+        ));
+    }
+    Ok(())
+}

@@ -1,0 +1,125 @@
+//! Projected problems as files.
+
+use faer::Mat;
+use squealmap_fem::modes::pairs;
+use squealmap_fem::study::document::Document;
+use squealmap_fem::study::{Modal, Study, compute};
+
+const PIN: &str = include_str!("study/pin.toml");
+
+fn modal(text: &str) -> (squealmap_fem::study::Outcome, Modal) {
+    let study = Study::new(Document::read(text).expect("TOML"), &|_| Err(String::new())).expect("a study");
+    let outcome = compute(&study, &mut |_| ()).expect("results");
+    let modal = outcome.modal.clone().expect("a projected problem");
+    (outcome, modal)
+}
+
+/// What is written is read again to the bit, and has the eigenvalues of the study.
+#[test]
+fn a_projected_problem_survives_its_file() {
+    // Damped, with a slope of friction under a load.
+    let pressed = PIN
+        .replace("points = 26 }", "points = 26 }\nslope = -0.02")
+        .replace("density = 7800", "density = 7800\nrayleigh = [10.0, 1e-9]")
+        .replace(
+            "set = \"pin.z1\"\n",
+            "set = \"pin.z1\"\naxes = \"xy\"\n\n[[loads]]\nset = \"pin.z1\"\nforce = 1700.0\n",
+        );
+    for text in [PIN.to_owned(), pressed] {
+        let (outcome, modal) = modal(&format!("{text}\n[output]\nmodal = true\n"));
+        assert!(modal.size() > 7 && modal.size() <= 64, "{}", modal.size());
+        let file = String::from_utf8(modal.write()).expect("UTF-8");
+        let again = Modal::read(&file).expect("the same problem");
+        assert_eq!((again.title.as_str(), again.mu, again.modes), ("Pin on a block", [0.0, 0.5], 7));
+        for (a, b) in
+            modal.symmetric.iter().chain(&modal.friction).zip(again.symmetric.iter().chain(&again.friction))
+        {
+            assert_eq!(a, b);
+        }
+        assert_eq!(modal.slope, again.slope);
+        assert_eq!(outcome.damped, modal.slope.norm_max() > 0.0);
+        for i in [0, 5, 13, 25] {
+            let mu = 0.02 * f64::from(i);
+            let found = pairs(&again.at(mu, 1.0)).expect("pairs");
+            for mode in &outcome.modes {
+                let lambda = mode.states[usize::try_from(i).expect("an index")].lambda;
+                let apart = found.iter().map(|p| (p.lambda - lambda).norm()).fold(f64::INFINITY, f64::min);
+                // Near the coalescence an eigenvalue moves by the root of what its matrix does.
+                assert!(apart < 1e-6 * lambda.norm(), "mu {mu}: {lambda} {apart:e}");
+            }
+        }
+    }
+}
+
+/// Two masses on a belt (Table 1 of the paper, without damping) as a file: the critical friction of the closed form.
+#[test]
+fn two_masses_can_be_written_as_a_file() {
+    let text = two_masses_file();
+    let modal = Modal::read(&text).expect("two masses");
+    let grows = |mu: f64| pairs(&modal.at(mu, 0.0)).expect("pairs").iter().any(|p| p.growth() > 1e-3);
+    let (mut low, mut high) = (0.1, 0.4);
+    assert!(!grows(low) && grows(high));
+    for _ in 0..40 {
+        let middle = f64::midpoint(low, high);
+        if grows(middle) { high = middle } else { low = middle }
+    }
+    assert!((low - 0.226_361_594).abs() < 1e-7, "{low}");
+    let merged = pairs(&modal.at(low, 0.0)).expect("pairs");
+    assert!((merged[0].frequency() - 33.954_934).abs() < 2e-2, "{}", merged[0].frequency());
+}
+
+#[test]
+fn bad_files_of_modes_are_named() {
+    let good = two_masses_file();
+    for (old, new, wanted) in [
+        ("kind = \"modal\"", "kind = \"map\"", "kind: \"map\" is another kind of file, it must be \"modal\""),
+        ("version = 1", "version = 2", "version: 2 is not known, it must be 1"),
+        ("mass = [[", "mass = [[1.0], [", "mass: it has a row or column of 3 entries, where stiffness has 2"),
+        (
+            "stiffness = [[",
+            "stiffness = [[nan, 0.0], [",
+            "stiffness: it has a row or column of 2 entries, where stiffness has 3",
+        ),
+        ("damping = [[0.0, 0.0]", "damping = [[0.0, 1.0]", "damping: it differs from its transpose by 1e0"),
+        ("damping_slope = [[0.0", "damping_slope = [[inf", "damping_slope: inf is no finite number"),
+        ("modes = 2", "modes = 2\nmasses = 2", "line 6: unknown field `masses`"),
+    ] {
+        assert!(good.contains(old), "{old}");
+        let error = Modal::read(&good.replacen(old, new, 1)).map(drop).expect_err(new).to_string();
+        assert!(error.starts_with(wanted), "{error}");
+    }
+    let large = Mat::<f64>::identity(65, 65);
+    let zero = || Mat::<f64>::zeros(65, 65);
+    let modal = Modal {
+        title: String::new(),
+        mu: [0.0, 1.0],
+        modes: 1,
+        symmetric: [large.clone(), large, zero()],
+        friction: [zero(), zero(), zero()],
+        slope: zero(),
+    };
+    let file = String::from_utf8(modal.write()).expect("UTF-8");
+    let error = Modal::read(&file).map(drop).expect_err("too large").to_string();
+    assert_eq!(error, "stiffness: there are 65 rows, it must be 1 to 64");
+}
+
+/// Masses, springs and angle of Table 1; N = c h − s (m1 c ẍ2 + c k1 x2) with h = k2 (s x2 − y1).
+fn two_masses_file() -> String {
+    let (m1, m2, k1, k2) = (2.12, 0.18, 100_000.0, 101_000.0);
+    let (s, c) = 0.01_f64.sin_cos();
+    let zero = "[[0.0, 0.0], [0.0, 0.0]]";
+    format!(
+        "kind = \"modal\"\nversion = 1\ntitle = \"Two masses\"\nmu = [0.0, 1.0]\nmodes = 2\n\
+         stiffness = [[{:e}, {:e}], [{:e}, {:e}]]\nmass = [[{:e}, 0.0], [0.0, {m1}]]\ndamping = {zero}\n\
+         stiffness_friction = [[{:e}, {:e}], [0.0, 0.0]]\nmass_friction = [[{:e}, 0.0], [0.0, 0.0]]\ndamping_friction = {zero}\n\
+         damping_slope = {zero}\n",
+        c * c * k1 + s * s * k2,
+        -s * k2,
+        -s * k2,
+        k2,
+        m2 + m1 * c * c,
+        s * c * (k1 - k2),
+        c * k2,
+        m1 * c * s
+    )
+}

@@ -1,0 +1,140 @@
+//! `squealmap fem`: bodies in sliding contact by finite elements.
+
+use std::path::{Path, PathBuf};
+
+use crate::cli::error::{Error, Result};
+use clap::Args;
+use serde_json::json;
+use squealmap::disk;
+use squealmap::results::figure::look::Look;
+use squealmap::store::space::bytes;
+use squealmap::study::fem::{curves_svg, pictures_svg};
+use squealmap_fem::study::document::Document;
+use squealmap_fem::study::{Outcome, Study, compute, estimate, manifest, shapes, table};
+
+use crate::cli::home::prepare_beside;
+use crate::cli::output::list;
+use crate::cli::pictures::png_of;
+use crate::cli::progress::seconds;
+use crate::cli::talk::{self, note, print};
+
+/// What is written; the figures where there is something to draw, the last where it is asked for.
+const FILES: [&str; 8] = [
+    "fem.csv",
+    "manifest.json",
+    "shapes.vtu",
+    "fem.svg",
+    "fem.png",
+    "shapes.svg",
+    "shapes.png",
+    "modes.toml",
+];
+
+/// Arguments of `fem`.
+#[derive(Debug, Args)]
+pub(crate) struct FemCommand {
+    /// Description of the bodies, their contact and the range of friction (TOML)
+    study: PathBuf,
+    /// Output directory [default: out/<name of the file>, with a number where another file of this name has that]
+    #[arg(short, long, visible_alias = "out", value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Say how many unknowns there are and what they would cost; compute and write nothing
+    #[arg(long)]
+    check: bool,
+}
+
+impl FemCommand {
+    pub(crate) fn execute(self) -> Result<()> {
+        let wrong = |why: squealmap_fem::Error| Error::Fem { path: self.study.clone(), why: why.to_string() };
+        let unreadable = |why: String| Error::Fem { path: self.study.clone(), why };
+        let text = text_of(&self.study).map_err(unreadable)?;
+        let beside = self.study.parent().unwrap_or(Path::new("")).to_owned();
+        let document = Document::read(&text).map_err(wrong)?;
+        let study = Study::new(document, &|path| text_of(&beside.join(path))).map_err(wrong)?;
+        if self.check {
+            return check(&study).map_err(wrong);
+        }
+        let output = prepare_beside(&self.study, self.output.as_deref(), &FILES)?;
+        let outcome = compute(&study, &mut |step| note(&format!("{step} ..."))).map_err(wrong)?;
+        print(&said(&study, &outcome));
+        let program = concat!(env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_VERSION"));
+        let mut files = vec![
+            (FILES[0], table(&study, &outcome)),
+            (FILES[1], manifest(&study, &outcome, &text, program)),
+            (FILES[2], shapes(&study, &outcome)),
+        ];
+        let look = Look::default();
+        let drawn = [curves_svg(&study, &outcome, &look), pictures_svg(&study, &outcome, &look)];
+        if let Some(modal) = &outcome.modal {
+            files.push((FILES[7], modal.write()));
+        }
+        for (svg, names) in drawn.into_iter().zip(FILES[3..7].chunks_exact(2)) {
+            if let Some(svg) = svg {
+                files.push((names[1], png_of(&svg)?));
+                files.push((names[0], svg.into_bytes()));
+            }
+        }
+        print(&list(&output.write(&files)?));
+        Ok(())
+    }
+}
+
+fn text_of(path: &Path) -> std::result::Result<String, String> {
+    let bytes = disk::read(path).map_err(|why| format!("cannot read `{}`: {why}", path.display()))?;
+    String::from_utf8(bytes).map_err(|_| format!("`{}` is no text in UTF-8", path.display()))
+}
+
+/// Size and cost.
+fn check(study: &Study) -> std::result::Result<(), squealmap_fem::Error> {
+    let cost = estimate(study)?;
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "bytes of a memory")]
+    let memory = cost.memory as u64;
+    print(&format!(
+        "nodes     {}\nelements  {}\nunknowns  {} (degrees of freedom that no support, bond or contact takes)\ncontact   {} points\nmemory    about {}\n\
+         time      about {} on two cores\n",
+        cost.nodes,
+        cost.elements,
+        cost.unknowns,
+        cost.points,
+        bytes(memory),
+        seconds(cost.seconds)
+    ));
+    talk::tell("valid", true);
+    talk::tell("unknowns", cost.unknowns);
+    talk::tell("contact_points", cost.points);
+    talk::tell("memory_bytes", memory);
+    talk::tell("seconds", cost.seconds);
+    Ok(())
+}
+
+/// What was found, in words.
+fn said(study: &Study, outcome: &Outcome) -> String {
+    let mut text = format!(
+        "{} unknowns, {} contact points, {} modes; largest residual {:.1e}\n",
+        outcome.unknowns,
+        outcome.points,
+        outcome.modes.len(),
+        outcome.residual()
+    );
+    if let Some(pressed) = outcome.pressed.as_ref() {
+        text += &format!("pressed with {:.4} N; {} points gape\n", pressed.force, pressed.open);
+    }
+    if let Some(k) = study.document.friction.contact_stiffness {
+        text += &format!("contact stiffness {k:e} Pa/m: mu_c depends on it\n");
+    }
+    for t in &outcome.transitions {
+        let modes: Vec<String> = t.modes.iter().map(|mode| (mode + 1).to_string()).collect();
+        let (event, modes) = (t.event.name(), modes.join(" and "));
+        text += &format!("{event} of mode {modes} at mu = {:.6}, {:.2} Hz\n", t.mu, t.frequency);
+    }
+    if outcome.transitions.is_empty() {
+        text += "no mode becomes unstable or stable in the range\n";
+    }
+    let transitions = outcome.transitions.iter().map(|t| {
+        json!({ "event": t.event.name(), "mu_c": t.mu, "frequency": t.frequency,
+                "modes": t.modes.iter().map(|mode| mode + 1).collect::<Vec<_>>() })
+    });
+    talk::tell("transitions", transitions.collect::<serde_json::Value>());
+    talk::tell("unknowns", outcome.unknowns);
+    text
+}

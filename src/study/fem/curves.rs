@@ -1,0 +1,197 @@
+//! `fem.svg`: frequencies and growth rates of all modes against friction, as Figure 16 of the paper.
+
+use squealmap_fem::c64;
+use squealmap_fem::study::{Event, Outcome, Study, in_band};
+use squealmap_fem::sweep::{Mode, State};
+
+use crate::results::figure::look::Look;
+use squealmap_figure::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room, y_ticks};
+use squealmap_figure::key;
+use squealmap_figure::letters;
+use squealmap_figure::page::{MARGIN, SINGLE_COLUMN, title};
+use squealmap_figure::plot::{CRITICAL, Plot, SECOND, ZERO};
+use squealmap_figure::scale::{Scale, axis_unit, value_label};
+use squealmap_figure::svg::{Anchor, Style, Svg, polyline};
+use squealmap_figure::text::Text;
+
+/// Height of a panel, points.
+const HEIGHT: f64 = 130.0;
+/// Between the two panels, points.
+const GAP: f64 = 9.0;
+/// Right of the panels, points.
+const RIGHT: f64 = 10.0;
+/// Margin above and below curves, as a fraction of the panel.
+const HEADROOM: f64 = 0.06;
+/// Height of a line of text, points.
+const LINE: f64 = 10.0;
+/// How many ticks the axis of friction has at most.
+const X_TICKS: usize = 7;
+/// A mode that neither grows nor decays.
+const STABLE: &str = r##"fill="none" stroke="#1F3F8F" stroke-width="0.7" stroke-linejoin="round""##;
+/// One that grows.
+const GROWS: &str = r##"fill="none" stroke="#D55E00" stroke-width="1.6" stroke-linejoin="round""##;
+
+/// The figure of a study as an SVG document, or nothing where there is one coefficient of friction only.
+#[must_use]
+pub fn curves_svg(study: &Study, outcome: &Outcome, look: &Look<'_>) -> Option<String> {
+    let name = look.title(&study.document.title);
+    let name = if name.is_empty() { "Modes against friction" } else { name };
+    (study.mus.len() > 1)
+        .then(|| look.fitted(name, 2.0 * HEIGHT, |part| page(study, outcome, look, part * HEIGHT)))
+}
+
+/// kHz.
+fn frequency(state: &State) -> f64 {
+    state.lambda.im / std::f64::consts::TAU / 1000.0
+}
+
+fn page(study: &Study, outcome: &Outcome, look: &Look<'_>, height: f64) -> (Svg, [f64; 2]) {
+    let width = look.points().unwrap_or(SINGLE_COLUMN);
+    let mut svg = Svg::new();
+    let mut y = MARGIN + title(&mut svg, look.title(&study.document.title), width - 2.0 * MARGIN);
+    let shown: Vec<(usize, &Mode)> =
+        outcome.modes.iter().enumerate().filter(|(_, mode)| in_band(study, mode)).collect();
+    let states = || shown.iter().flat_map(|(_, mode)| &mode.states);
+    let x = Scale::spanning(study.mus.iter().copied());
+    let frequencies = Scale::spanning(states().map(frequency)).widened(HEADROOM);
+    let growths = Scale::spanning(states().map(|s| s.lambda.re).chain([0.0])).widened(HEADROOM);
+    let scales = [frequencies, growths];
+    let ticks = scales.each_ref().map(|scale| y_ticks(scale, height));
+    let left = MARGIN + LABEL_SIZE + 6.0 + ticks.iter().map(|ticks| y_tick_room(ticks)).fold(0.0, f64::max);
+    let across = width - left - RIGHT;
+    let unstable = if outcome.damped { "unstable" } else { "unstable pair" };
+    let entries = [(Text::from("stable"), STABLE), (Text::from(unstable), GROWS)];
+    let entries = if outcome.damped || outcome.transitions.is_empty() {
+        entries.to_vec()
+    } else {
+        let [stable, grows] = entries;
+        vec![stable, grows, (Text::from("decaying twin"), SECOND)]
+    };
+    key::lines(&mut svg, left, y + LABEL_SIZE - 1.2, LABEL_SIZE, &entries);
+    y += LABEL_SIZE + 5.0;
+    let marks: Vec<f64> = outcome.transitions.iter().map(|transition| transition.mu).collect();
+    if !marks.is_empty() {
+        y += LINE;
+    }
+    let x_ticks = x.ticks(X_TICKS);
+    for (row, scale) in scales.iter().enumerate() {
+        let frame = Frame { x: left, y: y + row as f64 * (height + GAP), width: across, height };
+        let plot = Plot { frame, x: &x, y: scale };
+        if row == 1 {
+            plot.curve(&mut svg, [study.mus[0], study.mus[study.mus.len() - 1]].map(|mu| (mu, 0.0)), ZERO);
+        }
+        // What grows lies on top.
+        for (stroke, wanted) in [(STABLE, Course::Stable), (SECOND, Course::Decays), (GROWS, Course::Grows)] {
+            for (index, mode) in &shown {
+                let value = |state: &State| if row == 0 { frequency(state) } else { state.lambda.re };
+                plot.curve(&mut svg, along(study, outcome, *index, mode, wanted, value), stroke);
+            }
+        }
+        frame.border(&mut svg);
+        frame.x_ticks(&mut svg, &x_ticks, row == 1);
+        frame.y_ticks(&mut svg, &ticks[row], true);
+    }
+    let both = Frame { x: left, y, width: across, height: 2.0 * height + GAP };
+    critical(&mut svg, outcome, &x, &both);
+    let label =
+        |words: &str, unit: &str, scale: &Scale| Text::from(words).then(axis_unit(unit, scale.exponent()));
+    let labels = [label("Frequency", "kHz", &scales[0]), label("Growth rate", "1/s", &scales[1])];
+    for (row, words) in labels.into_iter().enumerate() {
+        let frame = Frame { x: left, y: y + row as f64 * (height + GAP), width: 0.0, height };
+        letters::side(&mut svg, (row, 2), &frame, &[words]);
+    }
+    y += 2.0 * height + GAP + x_tick_room() + LABEL_SIZE + 1.0;
+    let words = Text::from("Coefficient of friction ").symbol("μ");
+    svg.text(left + 0.5 * across, y, &words, Style::new(LABEL_SIZE, Anchor::Middle));
+    (svg, [width, y + MARGIN + 2.0])
+}
+
+/// What a mode does.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Course {
+    Stable,
+    Grows,
+    Decays,
+}
+
+/// The values of a mode where it takes this course, nothing where it takes another. A piece begins at the transition, not at the
+/// next value of friction.
+fn along<'a>(
+    study: &'a Study,
+    outcome: &'a Outcome,
+    index: usize,
+    mode: &'a Mode,
+    wanted: Course,
+    value: impl Fn(&State) -> f64 + 'a,
+) -> Vec<(f64, f64)> {
+    /// Pieces of a curve between a transition and the next value of friction.
+    const PIECES: usize = 16;
+    let course = |i: usize| {
+        if outcome.grows(index, i) {
+            Course::Grows
+        } else if !outcome.damped && outcome.decays(index, i) {
+            Course::Decays
+        } else {
+            Course::Stable
+        }
+    };
+    let mut points = Vec::new();
+    for i in 0..study.mus.len() {
+        let here = course(i) == wanted;
+        let own = |i: usize| (study.mus[i], value(&mode.states[i]));
+        points.push(if here { own(i) } else { (f64::NAN, f64::NAN) });
+        if i + 1 < study.mus.len() && course(i) != course(i + 1) {
+            let between = study.mus[i]..study.mus[i + 1];
+            let met =
+                outcome.transitions.iter().find(|t| t.modes.contains(&index) && between.contains(&t.mu));
+            if let Some(t) = met.filter(|_| here || course(i + 1) == wanted) {
+                let at = c64::new(0.0, std::f64::consts::TAU * t.frequency);
+                let known = if here { i } else { i + 1 };
+                let (from, lambda) = (study.mus[known], mode.states[known].lambda);
+                // Near a coalescence eigenvalues go with the root of the distance.
+                let power = if matches!(t.event, Event::Coalescence | Event::Separation) { 0.5 } else { 1.0 };
+                let between = |k: usize| {
+                    let part = k as f64 / PIECES as f64;
+                    let lambda = at + (lambda - at) * part.powf(power);
+                    (t.mu + (from - t.mu) * part, value(&State { lambda, ..mode.states[known] }))
+                };
+                if here {
+                    points.extend((0..PIECES).rev().map(between));
+                    points.push((f64::NAN, f64::NAN));
+                } else {
+                    points.extend((0..PIECES).map(between));
+                }
+            }
+        }
+    }
+    points
+}
+
+/// A line through both panels at each transition, with the critical friction above the first of each.
+fn critical(svg: &mut Svg, outcome: &Outcome, x: &Scale, frame: &Frame) {
+    /// Digits of a critical value: more than a plot resolves, enough to compare.
+    const DIGITS: usize = 3;
+    let mut free = f64::MIN;
+    for transition in &outcome.transitions {
+        let at = frame.across(x.position(transition.mu));
+        svg.path(&polyline([(at, frame.y), (at, frame.bottom())]), CRITICAL);
+        if !matches!(transition.event, Event::Coalescence | Event::Onset) {
+            continue;
+        }
+        let rounded = |value: f64| format!("{value:.DIGITS$e}").parse().unwrap_or(value);
+        let text = Text::default()
+            .symbol("μ_c")
+            .plain(" = ")
+            .then(value_label(rounded(transition.mu)))
+            .plain(", ")
+            .then(value_label(rounded(transition.frequency / 1000.0)))
+            .plain(" kHz");
+        let half = 0.5 * text.width(TICK_SIZE, false);
+        let middle = at.clamp(frame.x + half, (frame.x + frame.width - half).max(frame.x + half));
+        // Labels that would overlap are left out: the manifest has the values.
+        if middle - half > free {
+            svg.text(middle, frame.y - 3.0, &text, Style::new(TICK_SIZE, Anchor::Middle));
+            free = middle + half + 2.0;
+        }
+    }
+}

@@ -1,0 +1,265 @@
+//! `shapes.svg`: modes as deformed bodies, coloured by tangential and normal displacement, as Figure 17 of the paper.
+
+use squealmap_fem::c64;
+use squealmap_fem::output::{Facet, facets, isometric};
+use squealmap_fem::study::{Outcome, Shape, Study};
+
+use crate::results::figure::look::Look;
+use squealmap_figure::frame::{LABEL_SIZE, TICK_SIZE};
+use squealmap_figure::letters;
+use squealmap_figure::page::{DOUBLE_COLUMN, MARGIN, title};
+use squealmap_figure::raster::between;
+use squealmap_figure::scale::value_label;
+use squealmap_figure::svg::{Anchor, Style, Svg, polyline};
+use squealmap_figure::text::Text;
+use squealmap_figure::words::number;
+
+/// Height of a row of pictures, points: at most ...
+const TALLEST: f64 = 190.0;
+/// ... and at least, where another picture beside would make them smaller.
+const FLATTEST: f64 = 90.0;
+/// Between pictures, points.
+const GAP: f64 = 8.0;
+/// Height of the words above a pair of pictures, points.
+const HEAD: f64 = 14.0;
+/// Height of the words below each picture, points.
+const FOOT: f64 = 22.0;
+/// The sine of a phase below which a mode is real: half a degree.
+const REAL: f64 = 0.009;
+/// The largest displacement of a mode, over the size of the mesh.
+const SWING: f64 = 0.07;
+/// Pieces of the surface are this long, over the size of the mesh, or one element: finer ones make large files.
+const PIECE: f64 = 1.0 / 28.0;
+/// Shapes of a figure at most: one page.
+const MOST: usize = 6;
+/// The colours of −1, 0 and 1: dark on both sides, so that a grey print shows where a body stands still.
+const COLOURS: [[f32; 3]; 3] = [[31.0, 63.0, 143.0], [246.0, 246.0, 240.0], [213.0, 94.0, 0.0]];
+
+/// The pictures of a study's modes, or nothing where no shape was computed.
+#[must_use]
+pub fn pictures_svg(study: &Study, outcome: &Outcome, look: &Look<'_>) -> Option<String> {
+    let shown = shown(outcome);
+    let name = look.title(&study.document.title);
+    let name = if name.is_empty() { "Mode shapes" } else { name };
+    let pictures: Vec<[Picture; 2]> = shown.iter().map(|shape| both(study, shape)).collect();
+    (!shown.is_empty()).then(|| {
+        look.fitted(name, TALLEST, |part| page(study, outcome, &shown, &pictures, look, part * TALLEST))
+    })
+}
+
+/// The shapes of a figure: those of modes with a transition where there are such, and of an unstable pair the one that grows.
+fn shown(outcome: &Outcome) -> Vec<&Shape> {
+    let concerned = |shape: &&Shape| outcome.transitions.iter().any(|t| t.modes.contains(&shape.mode));
+    let of_transitions: Vec<&Shape> = outcome.shapes.iter().filter(concerned).collect();
+    let all = if of_transitions.is_empty() { outcome.shapes.iter().collect() } else { of_transitions };
+    // Beside the one that grows, its twin looks the same.
+    let decays = |shape: &Shape| !outcome.damped && shape.lambda.re < -1e-6 * shape.lambda.norm();
+    all.into_iter().filter(|shape| !decays(shape)).take(MOST).collect()
+}
+
+fn page(
+    study: &Study,
+    outcome: &Outcome,
+    shown: &[&Shape],
+    pictures: &[[Picture; 2]],
+    look: &Look<'_>,
+    tallest: f64,
+) -> (Svg, [f64; 2]) {
+    let width = look.points().unwrap_or(DOUBLE_COLUMN);
+    let mut svg = Svg::new();
+    let mut y = MARGIN + title(&mut svg, look.title(&study.document.title), width - 2.0 * MARGIN);
+    let whole = width - 2.0 * MARGIN;
+    let aspect = pictures.iter().flatten().map(Picture::aspect).fold(0.0, f64::max);
+    let columns = columns(shown.len(), aspect, whole);
+    let pair = (whole + GAP) / columns as f64 - GAP;
+    let column = (pair - GAP) / 2.0;
+    let height = (column / aspect).min(tallest);
+    for (row, shapes) in shown.chunks(columns).enumerate() {
+        for (place, shape) in shapes.iter().enumerate() {
+            let index = row * columns + place;
+            let x = MARGIN + place as f64 * (pair + GAP);
+            letters::draw_at(&mut svg, index, [x, y]);
+            let base = y + letters::ASCENT * LABEL_SIZE;
+            let from = x + letters::width(index);
+            svg.text(from, base, &caption(outcome, shape), Style::new(LABEL_SIZE, Anchor::Start));
+            for (side, picture) in pictures[index].iter().enumerate() {
+                let left = x + side as f64 * (column + GAP);
+                picture.paint(&mut svg, [left, y + HEAD, column, height]);
+                for (line, words) in picture.words.iter().enumerate() {
+                    let below = y + HEAD + height + TICK_SIZE + 2.0 + line as f64 * (TICK_SIZE + 2.0);
+                    svg.text(left + 0.5 * column, below, words, Style::new(TICK_SIZE, Anchor::Middle));
+                }
+            }
+        }
+        y += HEAD + height + FOOT + 4.0;
+    }
+    y = bar(&mut svg, [MARGIN, y + 2.0], whole);
+    (svg, [width, y + MARGIN])
+}
+
+/// How many pairs of pictures stand beside one another: as many as there are, as long as they do not become flatter than allowed.
+fn columns(count: usize, aspect: f64, width: f64) -> usize {
+    let tall = |columns: usize| {
+        let pair = (width + GAP) / columns as f64 - GAP;
+        (pair - GAP) / 2.0 / aspect >= FLATTEST
+    };
+    (1..=count).rev().find(|columns| tall(*columns)).unwrap_or(1)
+}
+
+/// Frequency, growth and friction of a shape.
+fn caption(outcome: &Outcome, shape: &Shape) -> Text {
+    let hertz = shape.lambda.im / std::f64::consts::TAU;
+    let rounded = |value: f64, digits: usize| format!("{value:.digits$}").parse().unwrap_or(value);
+    let text = Text::from(format!("mode {}, ", shape.mode + 1)).symbol("μ").plain(" = ");
+    let text = text
+        .then(value_label(shape.mu))
+        .plain(": ")
+        .then(value_label(rounded(hertz / 1000.0, 3)))
+        .plain(" kHz");
+    if outcome.damped || shape.lambda.re.abs() > 1e-6 * shape.lambda.norm() {
+        text.plain(", ").then(value_label(rounded(shape.lambda.re, 1))).plain(" 1/s")
+    } else {
+        text
+    }
+}
+
+/// One picture of a mode.
+struct Picture {
+    facets: Vec<Facet>,
+    /// Lower left and upper right corner, m.
+    bounds: [[f64; 2]; 2],
+    /// What stands below it.
+    words: [Text; 2],
+}
+
+/// Along the sliding and along the normal, each at the phase at which that displacement is largest.
+fn both(study: &Study, shape: &Shape) -> [Picture; 2] {
+    let mesh = &study.model.mesh;
+    let size = mesh.extent();
+    let contact = study.model.contact.first();
+    let axes = contact.map_or([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]], |point| [point.direction, point.normal]);
+    let length = |u: &[c64; 3]| u.iter().map(c64::norm_sqr).sum::<f64>().sqrt();
+    let largest = shape.displacement.iter().map(length).fold(0.0, f64::max);
+    let along = axes.map(|axis| {
+        shape.displacement.iter().map(|u| (0..3).map(|i| u[i] * axis[i]).sum()).collect::<Vec<c64>>()
+    });
+    let peak = |values: &Vec<c64>| {
+        values.iter().copied().max_by(|a, b| a.norm().total_cmp(&b.norm())).unwrap_or_default()
+    };
+    let peaks = along.each_ref().map(peak);
+    // One of both may be zero: then there is no phase.
+    let turned =
+        if peaks.iter().all(|peak| peak.norm() > 0.0) { peaks[1].arg() - peaks[0].arg() } else { 0.0 };
+    // All of a real mode moves at one time.
+    let is_real = turned.sin().abs() < REAL;
+    let names = ["along the sliding", "normal to the contact"];
+    [0, 1].map(|side| {
+        let peak = peaks[side];
+        // Turned to where the peak is real.
+        let at = if is_real && peaks[0].norm() > 0.0 { peaks[0] } else { peak };
+        let turn = if at.norm() > 0.0 { at.conj() / at.norm() } else { c64::new(1.0, 0.0) };
+        let moved: Vec<[f64; 3]> =
+            shape.displacement.iter().map(|u| u.map(|z| (z * turn).re * SWING * size / largest)).collect();
+        let values: Vec<f64> =
+            along[side].iter().map(|z| (z * turn).re / peak.norm().max(f64::MIN_POSITIVE)).collect();
+        let facets = facets(mesh, &moved, &values, &isometric(), PIECE * size);
+        let share = Text::from(format!("largest {:.2}", peak.norm() / largest));
+        let share =
+            if side == 0 || is_real { share } else { share.plain(&format!(", phase {}°", phase(turned))) };
+        Picture { bounds: bounds(&facets), facets, words: [Text::from(names[side]), share] }
+    })
+}
+
+/// An angle (rad) from −180 to 180°, as a whole number with a real minus sign.
+fn phase(angle: f64) -> String {
+    let degrees = angle.to_degrees();
+    let whole = (degrees - 360.0 * (degrees / 360.0).round()).round();
+    format!("{:.0}", whole + 0.0).replace('-', "−")
+}
+
+fn bounds(facets: &[Facet]) -> [[f64; 2]; 2] {
+    let fold = |f: fn(f64, f64) -> f64, from: f64| {
+        [0, 1].map(|i| facets.iter().flat_map(|facet| &facet.outline).map(|c| c[i]).fold(from, f))
+    };
+    [fold(f64::min, f64::INFINITY), fold(f64::max, f64::NEG_INFINITY)]
+}
+
+impl Picture {
+    /// Width over height.
+    fn aspect(&self) -> f64 {
+        let [low, high] = self.bounds;
+        (high[0] - low[0]) / (high[1] - low[1])
+    }
+
+    /// Paints it into a rectangle, as large as it fits.
+    fn paint(&self, svg: &mut Svg, [x, y, width, height]: [f64; 4]) {
+        let [low, high] = self.bounds;
+        let scale = (width / (high[0] - low[0])).min(height / (high[1] - low[1]));
+        let shift =
+            [x + 0.5 * (width - scale * (high[0] - low[0])), y + 0.5 * (height + scale * (high[1] - low[1]))];
+        let at = |c: &[f64; 2]| (shift[0] + scale * (c[0] - low[0]), shift[1] - scale * (c[1] - low[1]));
+        svg.open(r#"stroke-width="0.3" stroke-linejoin="round""#);
+        for facet in &self.facets {
+            let fill = fill(facet.value);
+            let outline = polyline(facet.outline.iter().map(at)) + "Z";
+            if facet.edges.iter().all(|edge| *edge) {
+                svg.path(&outline, &format!(r##"fill="{fill}" {EDGE}"##));
+                continue;
+            }
+            // The line of its own colour closes the seams between pieces.
+            svg.path(&outline, &format!(r#"fill="{fill}" stroke="{fill}""#));
+            let side = |i: usize| {
+                polyline([at(&facet.outline[i]), at(&facet.outline[(i + 1) % facet.outline.len()])])
+            };
+            let edges: String = (0..facet.outline.len()).filter(|i| facet.edges[*i]).map(side).collect();
+            svg.path(&edges, EDGE);
+        }
+        svg.close();
+    }
+}
+
+/// An edge of an element.
+const EDGE: &str = r##"stroke="#3A3A3A" stroke-width="0.12""##;
+
+/// The colour of a value from −1 to 1.
+fn fill(value: f64) -> String {
+    #[expect(clippy::cast_possible_truncation, reason = "a part of a colour")]
+    let part = value.clamp(-1.0, 1.0) as f32;
+    if part < 0.0 {
+        between([COLOURS[1], COLOURS[0]], -part)
+    } else {
+        between([COLOURS[1], COLOURS[2]], part)
+    }
+}
+
+/// The scale of colours below the pictures; returns its lower end.
+fn bar(svg: &mut Svg, [x, y]: [f64; 2], width: f64) -> f64 {
+    const LENGTH: f64 = 140.0;
+    const THICK: f64 = 6.0;
+    const STEPS: usize = 70;
+    let from = x + 0.5 * (width - LENGTH);
+    for step in 0..STEPS {
+        let part = (step as f64 + 0.5) / STEPS as f64;
+        let colour = fill(2.0 * part - 1.0);
+        let left = from + LENGTH * step as f64 / STEPS as f64;
+        svg.rect([left, y, LENGTH / STEPS as f64 + 0.2, THICK], &format!(r#"fill="{colour}""#));
+    }
+    svg.rect([from, y, LENGTH, THICK], r##"fill="none" stroke="#000000" stroke-width="0.5""##);
+    for (part, value) in [(0.0, -1.0), (0.5, 0.0), (1.0, 1.0)] {
+        let at = from + part * LENGTH;
+        svg.path(
+            &format!("M{} {}v2", number(at), number(y + THICK)),
+            r##"stroke="#000000" stroke-width="0.5""##,
+        );
+        svg.text(
+            at,
+            y + THICK + 4.0 + 0.716 * TICK_SIZE,
+            &value_label(value),
+            Style::new(TICK_SIZE, Anchor::Middle),
+        );
+    }
+    let words = Text::from("displacement over its largest; its largest is given over that of the mode");
+    let base = y + THICK + 6.0 + TICK_SIZE + LABEL_SIZE;
+    svg.text(from + 0.5 * LENGTH, base, &words, Style::new(LABEL_SIZE, Anchor::Middle));
+    base
+}
