@@ -157,15 +157,15 @@ static TURNS: LazyLock<Turns> = LazyLock::new(|| Turns::new(ORDER, f64::from(TOL
 pub fn words(model: &Scaled, v0: f64, start: [f64; 4], segments: &Segments, pieces: usize) -> Vec<f64> {
     let last = model.law.pieces.len() - 1;
     let mut words = Vec::with_capacity(head::WORDS + SEGMENTS * segment::WORDS + pieces * piece::WORDS);
-    words.extend(head_of(model, v0, start));
+    words.extend(head(model, v0, start));
     words.extend(segments.as_flattened());
     // What there is room for beyond the last is the last.
-    words.extend((0..pieces).flat_map(|index| piece_of(model, v0, index.min(last), &TURNS).words()));
+    words.extend((0..pieces).flat_map(|index| piece(model, v0, index.min(last), &TURNS).words()));
     words
 }
 
 /// The words of a scene before its segments.
-fn head_of(model: &Scaled, v0: f64, start: [f64; 4]) -> [f64; head::WORDS] {
+fn head(model: &Scaled, v0: f64, start: [f64; 4]) -> [f64; head::WORDS] {
     let (mu0, n0) = (model.mu0, model.n0);
     let mu_s = model.law.mu_stick;
     let mut words = [0.0; head::WORDS];
@@ -196,7 +196,7 @@ fn head_of(model: &Scaled, v0: f64, start: [f64; 4]) -> [f64; head::WORDS] {
 }
 
 /// The words of a piece of the law; `turns` says how far a mode may turn within a step.
-fn piece_of(model: &Scaled, v0: f64, index: usize, turns: &Turns) -> Piece<f64> {
+fn piece(model: &Scaled, v0: f64, index: usize, turns: &Turns) -> Piece<f64> {
     let kink = model.law.kinks.get(index).copied().unwrap_or(NO_KINK);
     match model.law.pieces[index] {
         LawPiece::Linear { at_zero, slope } => {
@@ -238,9 +238,9 @@ impl<S: Real> Scene<S> {
     /// An instance without segments, by its law's own pieces, whose steps may turn so far.
     #[must_use]
     pub fn of(law: LawForm, model: &Scaled, v0: f64, start: [f64; 4], turns: &Turns) -> Scene<S> {
-        let piece = |index: usize| Piece::read(&piece_of(model, v0, index, turns).words());
+        let piece = |index: usize| Piece::read(&piece(model, v0, index, turns).words());
         let pieces = (0..model.law.pieces.len()).map(piece).collect();
-        Scene { pieces, ..Scene::read_head(law, &head_of(model, v0, start)) }
+        Scene { pieces, ..Scene::read_head(law, &head(model, v0, start)) }
     }
 
     /// What stands before the segments.

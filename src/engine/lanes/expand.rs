@@ -326,9 +326,9 @@ fn degree<S: Simd, T: Scalar<S>, const N: usize, const LAW: bool, const MOTION: 
     friction: &mut Friction<S, T, N>,
     course: &mut Course<S, T>,
 ) {
-    let Known { forms, stiffening, drive, sloped, reciprocal, rate, sigma, relative, slip } = *known;
+    let Known { forms, stiffening, drive, sloped, .. } = *known;
     let Forms { ax, ay, aw, normal, push, fall, load, kappa } = forms;
-    let (zero, one) = (drive.like(0.0), drive.like(1.0));
+    let zero = drive.like(0.0);
     let Expansion { p, v, a, n, .. } = e;
     let Friction { q, law } = friction;
     let waits_less = LAW == PIECES && k > 1;
@@ -412,26 +412,41 @@ fn degree<S: Simd, T: Scalar<S>, const N: usize, const LAW: bool, const MOTION: 
             course.back = -(q[1] * kappa);
         }
     } else {
-        // Kept as the relative velocity times the degree or not, as its law needs it.
-        let mut sum = zero;
-        law[k + 1] = zero;
-        for j in 1..=k + 1 {
-            let along = if j == 1 { drive - v[0][2] } else { -v[0][j + 1] } * rate;
-            let along = match b.law {
-                LawForm::Exponential => along * drive.like(j as f64),
-                LawForm::Pieces | LawForm::Rational => along,
-            };
-            sum = along.fma(law[k + 1 - j], sum);
+        q[k + 1] = curved(k, b, known, &v[0], law);
+    }
+}
+
+/// What the recurrence of a curved law comes to at the degree `k + 1`, and its part of `q`; `v` is the series of the velocity.
+#[inline(always)]
+fn curved<S: Simd, T: Scalar<S>, const N: usize>(
+    k: usize,
+    b: &Block<S, T>,
+    known: &Known<S, T>,
+    v: &[Vector<S, T>; N],
+    law: &mut [Vector<S, T>; N],
+) -> Vector<S, T> {
+    let Known { drive, reciprocal, rate, sigma, relative, slip, .. } = *known;
+    let (zero, one) = (drive.like(0.0), drive.like(1.0));
+    let once = zero.like(1.0 / (k + 1) as f64);
+    // Kept as the relative velocity times the degree or not, as its law needs it.
+    let mut sum = zero;
+    law[k + 1] = zero;
+    for j in 1..=k + 1 {
+        let along = if j == 1 { drive - v[2] } else { -v[j + 1] } * rate;
+        let along = match b.law {
+            LawForm::Exponential => along * drive.like(j as f64),
+            LawForm::Pieces | LawForm::Rational => along,
+        };
+        sum = along.fma(law[k + 1 - j], sum);
+    }
+    match b.law {
+        LawForm::Exponential => {
+            law[k + 1] = -(sigma * b.piece[RATE] * sum) * once;
+            (sigma * law[k + 1] * reciprocal).only(slip)
         }
-        match b.law {
-            LawForm::Exponential => {
-                law[k + 1] = -(sigma * b.piece[RATE] * sum) * once;
-                q[k + 1] = (sigma * law[k + 1] * reciprocal).only(slip);
-            }
-            LawForm::Pieces | LawForm::Rational => {
-                law[k + 1] = -(b.piece[RATE] * sigma * sum) / (b.piece[RATE] * sigma).fma(relative, one);
-                q[k + 1] = (law[k + 1] * reciprocal).only(slip);
-            }
+        LawForm::Pieces | LawForm::Rational => {
+            law[k + 1] = -(b.piece[RATE] * sigma * sum) / (b.piece[RATE] * sigma).fma(relative, one);
+            (law[k + 1] * reciprocal).only(slip)
         }
     }
 }
