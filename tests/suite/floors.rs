@@ -290,6 +290,7 @@ fn what_is_planted_is_found() {
             "use crate::model::linear;\n\n#[cfg(test)]\nmod tests {\n    use crate::study::trace;\n}",
         ),
         ("study/trace", "use crate::sweep::grid::Grid;"),
+        ("store/tile", "pub struct Tile;"),
     ];
     assert_eq!(upward(&house(&sound)), Vec::<String>::new());
     assert_eq!(circles(&house(&sound), "squealmap"), Vec::<String>::new());
@@ -322,4 +323,50 @@ fn what_is_planted_is_found() {
     // A circle of two folders.
     let folders = [("store/one", "use crate::sweep::two;"), ("sweep/two", "use crate::store::one;")];
     assert_eq!(circles(&house(&folders), "squealmap").len(), 1);
+}
+
+/// The files of some folders, by their paths from the root.
+fn files(folders: &[&str]) -> BTreeMap<String, String> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut all = BTreeMap::new();
+    let mut left: Vec<_> = folders.iter().map(|folder| root.join(folder)).collect();
+    while let Some(path) = left.pop() {
+        if path.is_dir() {
+            left.extend(
+                std::fs::read_dir(&path).expect("a folder").map(|entry| entry.expect("an entry").path()),
+            );
+        } else if path.extension().is_some_and(|end| ["rs", "wgsl", "md"].iter().any(|one| end == *one)) {
+            let name = path.strip_prefix(root).expect("a path below").to_string_lossy().replace('\\', "/");
+            all.insert(name, std::fs::read_to_string(&path).expect("text"));
+        }
+    }
+    all
+}
+
+/// The source files that comments and pages name and that are not there.
+fn named_in_vain(files: &BTreeMap<String, String>) -> Vec<String> {
+    let is_part = |letter: char| letter.is_ascii_alphanumeric() || "_./-".contains(letter);
+    let mut wrong = Vec::new();
+    for (path, text) in files {
+        let is_page = Path::new(path).extension().is_some_and(|end| end == "md");
+        for line in text.lines().filter(|line| is_page || line.trim_start().starts_with("//")) {
+            let words = line.split(|letter| !is_part(letter)).map(|word| word.trim_start_matches(['.', '/']));
+            let sources = words
+                .filter(|word| Path::new(word).extension().is_some_and(|end| end == "rs" || end == "wgsl"));
+            let is_there =
+                |word: &&str| files.keys().any(|one| one == word || one.ends_with(&format!("/{word}")));
+            wrong.extend(sources.filter(|word| !is_there(word)).map(|word| format!("{path} names {word}")));
+        }
+    }
+    wrong
+}
+
+#[test]
+fn files_that_are_named_are_there() {
+    let all = files(&["src", "crates", "tests", "benches", "examples", "shaders", "docs"]);
+    assert!(all.len() > 400, "only {} files were seen", all.len());
+    assert_eq!(named_in_vain(&all), Vec::<String>::new());
+    let planted = |text: &str| BTreeMap::from([("src/a.rs".to_owned(), text.to_owned())]);
+    assert!(named_in_vain(&planted("//! As in `a.rs`.\nlet b = \"b.rs\";")).is_empty());
+    assert_eq!(named_in_vain(&planted("    // See src/b.rs, and `a.rs`.")), ["src/a.rs names src/b.rs"]);
 }
