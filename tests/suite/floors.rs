@@ -334,10 +334,12 @@ fn files(folders: &[&str]) -> BTreeMap<String, String> {
     let mut left: Vec<_> = folders.iter().map(|folder| root.join(folder)).collect();
     while let Some(path) = left.pop() {
         if path.is_dir() {
-            left.extend(std::fs::read_dir(&path).unwrap().map(|entry| entry.unwrap().path()));
+            left.extend(
+                std::fs::read_dir(&path).expect("a folder").map(|entry| entry.expect("an entry").path()),
+            );
         } else if path.extension().is_some_and(|end| ["rs", "wgsl", "md"].iter().any(|one| end == *one)) {
-            let name = path.strip_prefix(root).unwrap().to_str().unwrap().replace('\\', "/");
-            all.insert(name, std::fs::read_to_string(&path).unwrap());
+            let name = path.strip_prefix(root).expect("a path below").to_string_lossy().replace('\\', "/");
+            all.insert(name, std::fs::read_to_string(&path).expect("text"));
         }
     }
     all
@@ -351,8 +353,8 @@ fn named_in_vain(files: &BTreeMap<String, String>) -> Vec<String> {
         let is_page = Path::new(path).extension().is_some_and(|end| end == "md");
         for line in text.lines().filter(|line| is_page || line.trim_start().starts_with("//")) {
             let words = line.split(|letter| !is_part(letter)).map(|word| word.trim_start_matches(['.', '/']));
-            let sources =
-                words.filter(|word| word.len() > 3 && (word.ends_with(".rs") || word.ends_with(".wgsl")));
+            let sources = words
+                .filter(|word| Path::new(word).extension().is_some_and(|end| end == "rs" || end == "wgsl"));
             let is_there =
                 |word: &&str| files.keys().any(|one| one == word || one.ends_with(&format!("/{word}")));
             wrong.extend(sources.filter(|word| !is_there(word)).map(|word| format!("{path} names {word}")));
