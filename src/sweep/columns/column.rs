@@ -71,6 +71,7 @@ pub(super) enum Source {
 
 /// One output column.
 #[derive(Clone, Copy, Debug)]
+#[expect(clippy::struct_excessive_bools, reason = "each says one thing of a column, by itself")]
 pub struct Column {
     /// The header.
     pub name: &'static str,
