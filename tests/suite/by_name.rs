@@ -42,7 +42,7 @@ fn every_column_of_the_table_is_there_by_its_name() {
             for (found, written) in map.column(column.name).unwrap().into_iter().zip(&written) {
                 match written.parse::<f64>() {
                     Ok(written) => {
-                        assert!(found.to_bits() == written.to_bits() || found == 0.0, "{}", column.name)
+                        assert!(found.to_bits() == written.to_bits() || found == 0.0, "{}", column.name);
                     }
                     Err(_) => assert!(written.is_empty() && found.is_nan(), "{}: {written}", column.name),
                 }
