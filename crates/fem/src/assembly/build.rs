@@ -3,60 +3,11 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::penalty::{Penalty, Springs};
-use super::{Numbering, Pattern, Pencil, Rows, Supports, Symmetric, check_joined};
+use super::along::along;
+use super::springs::Springs;
+use super::{Model, Numbering, Pattern, Pencil, Point, Rows, Symmetric, check_joined};
 use crate::Error;
-use crate::contact::Point;
-use crate::elements::{Kind, Matrices, add_geometric, matrices};
-use crate::material::Material;
-use crate::mesh::{self, Mesh};
-
-/// All that the matrices are made of.
-#[derive(Debug, Clone, Default)]
-pub struct Model {
-    /// Nodes and elements.
-    pub mesh: Mesh,
-    /// Materials, by the groups' indices.
-    pub materials: Vec<Material>,
-    /// Supports and bonds.
-    pub supports: Supports,
-    /// Points of sliding contact.
-    pub contact: Vec<Point>,
-    /// A contact stiffness, where normal displacements are not to be tied.
-    pub penalty: Option<Penalty>,
-    /// Displacements (m) of all nodes whose stress stiffens the bodies: those of a static step. That is the stiffness of the elements
-    /// only: how the contact's normals turn is left out.
-    pub stressed: Option<Vec<[f64; 3]>>,
-}
-
-impl Model {
-    /// The matrices of one element.
-    ///
-    /// # Errors
-    /// Where the element is inverted or its material is missing.
-    pub(crate) fn element(
-        &self,
-        element: usize,
-        kind: Kind,
-        material: usize,
-        nodes: &[usize],
-    ) -> Result<(Matrices, &Material), Error> {
-        let material = self.materials.get(material).ok_or_else(|| Error::Mesh {
-            what: format!(
-                "element {element} is of material {material}, but there are only {}",
-                self.materials.len()
-            ),
-        })?;
-        let places: Vec<[f64; 3]> = nodes.iter().map(|node| self.mesh.nodes[*node]).collect();
-        let inverted = |determinant| Error::Inverted { element, kind: kind.name(), determinant };
-        let mut matrices = matrices(kind, &places, material).map_err(inverted)?;
-        if let Some(moved) = &self.stressed {
-            let moved: Vec<[f64; 3]> = nodes.iter().map(|node| moved[*node]).collect();
-            add_geometric(&mut matrices.stiffness, kind, &places, material, &moved).map_err(inverted)?;
-        }
-        Ok((matrices, material))
-    }
-}
+use crate::mesh::{self};
 
 /// One row of normal forces while it is summed up: stiffness, mass and damping by column.
 type NormalRow = BTreeMap<usize, [f64; 3]>;
@@ -167,33 +118,4 @@ fn unknowns_of(numbering: &Numbering, nodes: &[usize]) -> Vec<usize> {
     unknowns.sort_unstable();
     unknowns.dedup();
     unknowns
-}
-
-/// v·(u_s − Σ w u_m) of each contact point along a direction v of it: S for the direction of sliding.
-pub(super) fn along(
-    numbering: &Numbering,
-    contact: &[Point],
-    direction: impl Fn(&Point) -> [f64; 3],
-) -> Rows {
-    let row = |point: &Point| {
-        let v = direction(point);
-        let sides = std::iter::once((point.slave, 1.0)).chain(point.masters.iter().map(|(m, w)| (*m, -w)));
-        weighted(
-            sides.flat_map(|(node, w)| {
-                (0..3).map(move |axis| (w * v[axis], &numbering.rows[3 * node + axis]))
-            }),
-        )
-    };
-    Rows { rows: contact.iter().map(row).collect() }
-}
-
-/// The sum of some rows, each with a factor.
-pub(super) fn weighted<'a>(rows: impl Iterator<Item = (f64, &'a Vec<(usize, f64)>)>) -> Vec<(usize, f64)> {
-    let mut sums: BTreeMap<usize, f64> = BTreeMap::new();
-    for (factor, row) in rows {
-        for (unknown, f) in row {
-            *sums.entry(*unknown).or_default() += factor * f;
-        }
-    }
-    sums.into_iter().filter(|(_, v)| v.abs() > 0.0).collect()
 }

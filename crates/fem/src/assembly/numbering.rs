@@ -2,9 +2,9 @@
 
 use std::collections::HashSet;
 
+use super::Point;
 use super::Supports;
 use crate::Error;
-use crate::contact::Point;
 use crate::mesh::Mesh;
 
 /// u = Z q + g.

@@ -4,26 +4,9 @@ mod interpolated;
 mod matching;
 mod mortar;
 mod rotation;
-mod surface;
 
+pub use crate::assembly::{Point, Surface, pressures};
 pub use interpolated::bonded_points;
 pub use matching::{bonded, periodic, sliding, sliding_on_rigid};
 pub use mortar::{bonded_mortar, mortar};
 pub use rotation::rotating;
-pub use surface::{Surface, pressures};
-
-/// A point of sliding contact: the normal displacement of a slave node is tied, and friction acts on its slip.
-///
-/// The normal points from the master's side to the slave's: a compressive force pushes the slave along it. The slave slides
-/// along `direction` relative to the master, friction pulls it back.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Point {
-    /// The node whose normal displacement is tied.
-    pub slave: usize,
-    /// The nodes that it slides on and their weights, which sum to 1; none where it slides on a rigid surface.
-    pub masters: Vec<(usize, f64)>,
-    /// Unit vector.
-    pub normal: [f64; 3],
-    /// Unit vector across the normal.
-    pub direction: [f64; 3],
-}

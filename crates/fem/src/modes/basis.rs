@@ -1,10 +1,12 @@
 //! The projected problem: the pencil on the space that some vectors span.
 
+use super::Small;
+use super::columns::append;
 use faer::Mat;
 
+use super::columns::{column, times};
 use super::modal::{add, damping_columns};
-use super::real::{column, times};
-use crate::assembly::{Pencil, Rows, Symmetric};
+use crate::assembly::{Pencil, Rows};
 
 /// Vectors that are orthonormal in M, and the pencil on their space.
 #[derive(Debug, Clone)]
@@ -19,17 +21,6 @@ pub struct Basis {
     normal: [Mat<f64>; 3],
     /// (S V)ᵀ (K_n V) and so on: what one unit of μ adds.
     friction: [Mat<f64>; 3],
-}
-
-/// A small dense problem λ² M + λ C + K.
-#[derive(Debug, Clone)]
-pub struct Small {
-    /// K.
-    pub stiffness: Mat<f64>,
-    /// M.
-    pub mass: Mat<f64>,
-    /// C; `None` where nothing damps.
-    pub damping: Option<Mat<f64>>,
 }
 
 impl Basis {
@@ -167,31 +158,4 @@ fn rows_times(rows: &Rows, vectors: &Mat<f64>) -> Mat<f64> {
 fn widen(matrix: &mut Mat<f64>, columns: &Mat<f64>) {
     let before = matrix.ncols();
     matrix.resize_with(columns.nrows(), before + columns.ncols(), |i, j| columns[(i, j - before)]);
-}
-
-/// Appends vectors to an M-orthonormal basis, by Gram and Schmidt, twice.
-pub(super) fn append(basis: &mut Mat<f64>, mass: &Symmetric, vectors: &Mat<f64>) {
-    /// What is left of a vector of the space after rounding.
-    const DEPENDENT: f64 = 1e-10;
-    let size = vectors.nrows();
-    for j in 0..vectors.ncols() {
-        let mut v = column(vectors, j);
-        let mut lengths = Vec::with_capacity(3);
-        // The second time takes away what rounding has left the first time.
-        for _ in 0..2 {
-            let image = faer::Col::from_iter(mass.times(&v));
-            let squared: f64 = image.iter().zip(&v).map(|(a, b)| a * b).sum();
-            let inside = basis.transpose() * &image;
-            let known = &*basis * &inside;
-            v.iter_mut().zip(known.iter()).for_each(|(v, k)| *v -= k);
-            lengths.push(squared.max(0.0).sqrt());
-            // By Pythagoras.
-            lengths.push((squared - inside.squared_norm_l2()).max(0.0).sqrt());
-        }
-        let (before, after) = (lengths[0], lengths[3]);
-        if after > DEPENDENT * before && basis.ncols() < size {
-            let from = basis.ncols();
-            basis.resize_with(size, from + 1, |i, _| v[i] / after);
-        }
-    }
 }

@@ -126,7 +126,7 @@ pub fn coalescence(
         let size = pencil.size();
         let sides = Mat::from_fn(basis.vectors.ncols(), 2, |i, j| found.vectors[j][i]);
         let lifted = &basis.vectors * sides;
-        let [x, y] = [0, 1].map(|j| super::real::column(&lifted, j));
+        let [x, y] = [0, 1].map(|j| super::columns::column(&lifted, j));
         let minus = |a: Vec<f64>, b: Vec<f64>| -> Vec<f64> {
             a.into_iter().zip(b).map(|(a, b)| a - found.omega2 * b).collect()
         };

@@ -7,7 +7,7 @@ use faer::linalg::solvers::{PartialPivLu, Solve};
 use faer::{Mat, c64};
 
 use super::Factor;
-use super::real::column;
+use super::columns::column;
 use crate::Error;
 use crate::assembly::Pencil;
 

@@ -7,8 +7,8 @@
 use faer::linalg::solvers::Solve;
 use faer::{Col, Mat, MatRef, Side, c64};
 
+use super::columns::times;
 use super::modal::damping_columns;
-use super::real::times;
 use super::{Basis, Factor, Pair};
 use crate::Error;
 use crate::assembly::{Pencil, Rows};

@@ -3,6 +3,7 @@
 mod attribution;
 mod basis;
 mod coalescence;
+mod columns;
 mod dense;
 mod direct;
 mod dissection;
@@ -13,9 +14,10 @@ mod modal;
 mod nearby;
 mod real;
 mod residual;
+mod small;
 
 pub use attribution::{Alone, alone};
-pub use basis::{Basis, Small};
+pub use basis::Basis;
 pub use coalescence::{Coalescence, coalescence, coalescence_small, first_unstable};
 pub use dense::{Pair, pairs};
 pub use direct::{Near, near};
@@ -26,3 +28,4 @@ pub use modal::{damp, loss_ratios};
 pub use nearby::nearby;
 pub use real::{RealModes, count_below, lowest};
 pub use residual::{lift, refine, residuals};
+pub use small::Small;

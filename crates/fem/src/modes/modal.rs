@@ -3,7 +3,7 @@
 use faer::Mat;
 
 use super::RealModes;
-use super::real::{column, times};
+use super::columns::{column, times};
 use crate::Error;
 use crate::assembly::{Modal, Model, Numbering, Pencil};
 

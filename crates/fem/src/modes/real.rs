@@ -1,12 +1,13 @@
 //! The lowest real modes by shift-invert block Lanczos.
 
+use super::columns::times;
 use faer::Mat;
 
-use super::basis::append;
+use super::columns::append;
 use super::dense::symmetric;
 use super::{Factor, Ordering};
 use crate::Error;
-use crate::assembly::{Pencil, Symmetric};
+use crate::assembly::Pencil;
 
 /// Real modes of the symmetric problem K φ = ω² M φ.
 #[derive(Debug)]
@@ -143,28 +144,4 @@ fn start(size: usize) -> Mat<f64> {
         z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
         ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
     })
-}
-
-/// A column as a vector.
-pub(super) fn column(matrix: &Mat<f64>, j: usize) -> Vec<f64> {
-    matrix.col(j).iter().copied().collect()
-}
-
-/// A X for a sparse A, several columns at a time: the entries of A come from memory once for all of them.
-pub(super) fn times(matrix: &Symmetric, columns: &Mat<f64>) -> Mat<f64> {
-    /// Columns at a time.
-    const WIDTH: usize = 8;
-    let mut images = Mat::zeros(columns.nrows(), columns.ncols());
-    for from in (0..columns.ncols()).step_by(WIDTH) {
-        let width = WIDTH.min(columns.ncols() - from);
-        let mut x = vec![[0.0; WIDTH]; columns.nrows()];
-        for j in 0..width {
-            x.iter_mut().zip(columns.col(from + j).iter()).for_each(|(x, c)| x[j] = *c);
-        }
-        let y = matrix.times_rows(&x);
-        for j in 0..width {
-            images.col_mut(from + j).iter_mut().zip(&y).for_each(|(image, y)| *image = y[j]);
-        }
-    }
-    images
 }

@@ -2,7 +2,7 @@
 
 use faer::{Mat, Side, c64};
 
-use super::real::{column, times};
+use super::columns::{column, times};
 use super::{Basis, Factor, Pair, dense};
 use crate::Error;
 use crate::assembly::{Pencil, Rows};

@@ -225,7 +225,7 @@ fn wanted(study: &Study, modes: &[Mode], transitions: &[Transition], damped: boo
             .iter()
             .filter_map(index)
             .flat_map(|i| (0..modes.len()).map(move |mode| (mode, i)))
-            .filter(|(mode, _)| super::table::in_band(study, &modes[*mode]))
+            .filter(|(mode, _)| super::band::in_band(study, &modes[*mode]))
             .collect();
     }
     let mut concerned: Vec<usize> = transitions.iter().flat_map(|t| t.modes.iter().copied()).collect();

@@ -3,6 +3,7 @@
 //! [`document`] is the file, [`Study::new`] builds the model, [`estimate`] says what it would cost, [`compute`] computes it, and
 //! [`table`], [`manifest`] and [`shapes`] are its results as bytes. Nothing here opens a file.
 
+mod band;
 mod build;
 mod compute;
 pub mod document;
@@ -16,11 +17,12 @@ mod table;
 mod transitions;
 mod values;
 
+pub use band::in_band;
 pub use build::Study;
 pub use compute::{Outcome, Pressed, Shape, compute};
 pub use estimate::{Estimate, estimate};
 pub use manifest::manifest;
 pub use modal::Modal;
 pub use shapes::shapes;
-pub use table::{COLUMNS, Column, in_band, table};
+pub use table::{COLUMNS, Column, table};
 pub use transitions::{Event, Transition};

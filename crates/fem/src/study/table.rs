@@ -1,9 +1,9 @@
 //! `fem.csv`: one row per coefficient of friction and mode.
 
+use super::band::in_band;
 use std::fmt::Write as _;
 
 use super::{Outcome, Study};
-use crate::sweep::Mode;
 
 /// A column of the table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -47,13 +47,6 @@ pub const COLUMNS: [Column; 8] = [
         meaning: "1 where the projected problem was not good enough and the mode was computed on the full problem",
     },
 ];
-
-/// Whether a mode lies in the band at any coefficient of friction.
-#[must_use]
-pub fn in_band(study: &Study, mode: &Mode) -> bool {
-    let [low, high] = study.document.modes.band;
-    mode.states.iter().any(|state| (low..=high).contains(&(state.lambda.im / std::f64::consts::TAU)))
-}
 
 /// The table of all modes in the band, in full precision.
 #[must_use]

@@ -6,7 +6,7 @@
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 use super::Point;
-use crate::assembly::{Numbering, Rows};
+use super::{Numbering, Rows};
 use crate::elements::{face_rule, face_shape};
 use crate::mesh::{Face, FaceRef, Mesh};
 
