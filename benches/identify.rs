@@ -1,24 +1,24 @@
 //! How well `identify` does on 200 synthetic strokes, at every ratio of signal to noise and for other seeds: the tables of
 //! `docs/identify.md`, which `cargo bench --bench identify` writes anew between the marks of that page.
 
-#[path = "../tests/suite/bound.rs"]
-mod bound;
 #[expect(dead_code, reason = "the tests use the rest")]
 #[path = "../tests/suite/common.rs"]
 mod common;
 #[expect(dead_code, reason = "the tests use the rest")]
-#[path = "../tests/suite/judged.rs"]
-mod judged;
-#[path = "../tests/suite/strokes.rs"]
-mod strokes;
+#[path = "../tests/suite/study"]
+mod study {
+    pub(crate) mod bound;
+    pub(crate) mod judged;
+    pub(crate) mod strokes;
+}
 
 use std::error::Error;
 use std::fmt::Write as _;
 use std::path::Path;
 
-use judged::{GOOD, Judged, RATIOS, SEED, confident, phase_errors, table, within};
 use squealmap_identify::{Kind, Measured};
-use strokes::Wanted;
+use study::judged::{GOOD, Judged, RATIOS, SEED, confident, phase_errors, table, within};
+use study::strokes::Wanted;
 
 /// The page, and the marks around its tables.
 const PAGE: &str = "docs/identify.md";

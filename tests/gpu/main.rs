@@ -1,7 +1,7 @@
 //! Tests that need an adapter, software or not. Without one each is shown as ignored with the reason; with
 //! `SQUEALMAP_REQUIRE_GPU=1` each fails instead.
 
-#[path = "../suite/fuzz/defect.rs"]
+#[path = "../suite/engine/fuzz/defect.rs"]
 mod defect;
 mod differences;
 mod faults;
@@ -16,7 +16,7 @@ mod runs;
 mod starts;
 mod strict;
 mod sweeps;
-#[path = "../suite/fuzz/whole_range.rs"]
+#[path = "../suite/engine/fuzz/whole_range.rs"]
 mod whole_range;
 mod words;
 

@@ -1,0 +1,32 @@
+//! Engines: every one against closed forms, the reference and each other.
+
+pub(crate) mod bounded;
+pub(crate) mod crossings;
+pub(crate) mod events;
+pub(crate) mod exact;
+pub(crate) mod extremes;
+pub(crate) mod first_events;
+pub(crate) mod fuzz;
+pub(crate) mod impacts;
+pub(crate) mod instructions;
+pub(crate) mod jagged;
+pub(crate) mod kernel_linear;
+pub(crate) mod kernel_response;
+pub(crate) mod kernels;
+pub(crate) mod layers;
+pub(crate) mod leaves;
+pub(crate) mod limits;
+pub(crate) mod methods;
+pub(crate) mod not_yet_grown;
+pub(crate) mod observables;
+pub(crate) mod properties;
+pub(crate) mod regimes;
+pub(crate) mod response;
+pub(crate) mod settle;
+pub(crate) mod simd;
+pub(crate) mod single;
+pub(crate) mod start;
+pub(crate) mod stick_leaves;
+pub(crate) mod stretches;
+pub(crate) mod strict;
+pub(crate) mod swings;

@@ -1,0 +1,4 @@
+//! The model: eigenvalues and the speed of its modes.
+
+pub(crate) mod fastest;
+pub(crate) mod linear;

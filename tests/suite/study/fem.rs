@@ -1,0 +1,96 @@
+//! `squealmap fem`: a small study from its description to its files.
+
+use std::path::Path;
+use std::process::Command;
+
+/// A pin on a block; two of its modes coalesce.
+const PIN: &str = include_str!("../../../crates/fem/tests/suite/study/pin.toml");
+const FILES: [&str; 7] =
+    ["fem.csv", "manifest.json", "shapes.vtu", "fem.svg", "fem.png", "shapes.svg", "shapes.png"];
+
+fn squealmap(directory: &Path, arguments: &[&str]) -> (i32, String, String) {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_squealmap"));
+    let output = command.current_dir(directory).args(arguments).output().unwrap();
+    let [said, noted] = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
+    (output.status.code().unwrap(), said, noted)
+}
+
+#[test]
+fn a_study_gives_its_table_figures_and_shapes() {
+    let directory = tempfile::tempdir().unwrap();
+    let text = PIN.replace("points = 26", "points = 11") + "\n[output]\nmodal = true\n";
+    std::fs::write(directory.path().join("pin.toml"), text).unwrap();
+    let (code, said, noted) = squealmap(directory.path(), &["fem", "pin.toml", "--out", "here"]);
+    assert_eq!(code, 0, "{said}{noted}");
+    assert!(said.contains("coalescence of mode 6 and 7 at mu = 0.388379, 64169.16 Hz"), "{said}");
+    let here = directory.path().join("here");
+    let read = |name: &str| std::fs::read_to_string(here.join(name)).unwrap();
+    for name in FILES.iter().chain(&["modes.toml"]) {
+        assert!(here.join(name).is_file(), "{name}");
+    }
+    assert_eq!(read("fem.csv").lines().count(), 1 + 11 * 7);
+    let manifest: serde_json::Value = serde_json::from_str(&read("manifest.json")).unwrap();
+    assert!((manifest["transitions"][0]["mu_c"].as_f64().unwrap() - 0.38838).abs() < 6e-6);
+    let curves = read("fem.svg");
+    assert!(curves.contains("= 0.3884, 64.17 kHz"), "{}", &curves[..3000]);
+    // Two modes before they coalesce, and the one of both that grows.
+    let shapes = read("shapes.svg");
+    for letter in ["(a)", "(b)", "(c)"] {
+        assert!(shapes.contains(letter), "{letter}");
+    }
+    assert!(!shapes.contains("(d)"));
+    // Without friction a mode is real; the one that grows has a phase.
+    assert_eq!(shapes.matches(", phase ").count(), 1);
+}
+
+#[test]
+fn a_check_computes_nothing() {
+    let directory = tempfile::tempdir().unwrap();
+    std::fs::write(directory.path().join("pin.toml"), PIN).unwrap();
+    let (code, said, noted) = squealmap(directory.path(), &["fem", "pin.toml", "--check"]);
+    assert_eq!(code, 0, "{noted}");
+    assert!(said.contains("unknowns  873 (") && said.contains("contact   21 points"), "{said}");
+    assert_eq!(std::fs::read_dir(directory.path()).unwrap().count(), 1);
+}
+
+#[test]
+fn a_bad_description_is_one_sentence_and_writes_nothing() {
+    let directory = tempfile::tempdir().unwrap();
+    for (old, new, wanted) in [
+        (
+            "cells = [6, 2, 2]",
+            "cells = [0, 2, 2]",
+            "`pin.toml`: parts.block: the block has no element along x, it needs at least 1",
+        ),
+        (
+            "set = \"pin.z1\"",
+            "set = \"pin.top\"",
+            "`pin.toml`: supports[1].set: the mesh has no set \"pin.top\"",
+        ),
+        ("[modes]", "[modes", "`pin.toml`: line "),
+    ] {
+        std::fs::write(directory.path().join("pin.toml"), PIN.replace(old, new)).unwrap();
+        let (code, said, noted) = squealmap(directory.path(), &["fem", "pin.toml"]);
+        assert_eq!(code, 2, "{noted}");
+        assert!(said.is_empty(), "{said}");
+        let flat = noted.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(flat.contains(wanted), "{flat}\n{wanted}");
+        assert_eq!(std::fs::read_dir(directory.path()).unwrap().count(), 1);
+    }
+    let (code, _, noted) = squealmap(directory.path(), &["fem", "none.toml"]);
+    assert_eq!(code, 2, "{noted}");
+    assert!(noted.contains("cannot read"), "{noted}");
+}
+
+/// The shipped study is one that can be read; what it gives stands in docs/fem_paper.md.
+#[test]
+fn the_papers_model_is_as_large_as_it_says() {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let (code, said, noted) = squealmap(here, &["fem", "sweeps/fem/paper.toml", "--check"]);
+    assert_eq!(code, 0, "{noted}");
+    // Elements: 9 x 9 x 9 and 34 x 17 x 7, and six tetrahedra of each cell of the holders.
+    let elements = 729 + 4046 + 6 * (3 * 2 * 12 + 10 * 5 * 3);
+    assert!(said.contains(&format!("elements  {elements}\n")), "{said}");
+    // 19 x 19 − 9 x 9 nodes of the sliding face.
+    assert!(said.contains("contact   280 points"), "{said}");
+}

@@ -1,0 +1,114 @@
+//! Materials fitted to measured friction.
+
+#![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
+
+use std::fmt::Write as _;
+use std::io::{Cursor, Read};
+
+use crate::common::near;
+use crate::study::strokes::Random;
+use squealmap::model::Param;
+use squealmap::model::friction::LawKind;
+use squealmap::study::fit::table::material_csv;
+use squealmap::study::fit::{FitFault, fit};
+use squealmap::sweep::spec::Spec;
+use squealmap_identify::Point;
+use squealmap_identify::{FrictionColumn, Settings, read_points};
+
+/// `sweeps/pad.csv`: rows of temperature, `mu_s`, `mu_d`; linear in between, knee at 5 m/s.
+const PAD: [[f64; 3]; 3] = [[100.0, 0.10, 0.10], [300.0, 0.16, 0.12], [500.0, 0.32, 0.24]];
+
+fn pad(velocity: f64, temperature: f64) -> f64 {
+    let row = usize::from(temperature >= 300.0);
+    let part = (temperature - PAD[row][0]) / 200.0;
+    let at = |k: usize| PAD[row][k] + part * (PAD[row + 1][k] - PAD[row][k]);
+    let w = (velocity / 5.0).min(1.0);
+    at(1) * (1.0 - w) + at(2) * w
+}
+
+fn points(noise: f64) -> Vec<Point> {
+    let mut random = Random::new(9);
+    let point = |_| {
+        let (velocity, temperature) = (random.between(0.0, 7.0), random.between(100.0, 500.0));
+        Point { velocity, temperature, friction: pad(velocity, temperature) + noise * random.normal() }
+    };
+    (0..4000).map(point).collect()
+}
+
+#[test]
+fn the_pad_is_found_again() {
+    let rows = PAD.map(|row| row[0]);
+    // Exact points give the material to rounding; noise of 0.01 on 4000 points leaves about 0.01/sqrt(4000/6) = 4e-4.
+    for (noise, allowed, knee_allowed) in [(0.0, 1e-6, 1e-4), (0.01, 2e-3, 0.3)] {
+        let found = fit(&points(noise), LawKind::Bilinear, &rows, None).unwrap();
+        for (k, (param, values)) in found.columns.iter().take(2).enumerate() {
+            assert_eq!(*param, [Param::MuS, Param::MuD][k]);
+            for (row, value) in values.iter().enumerate() {
+                near(param.info().name, *value, PAD[row][k + 1], allowed);
+            }
+        }
+        assert_eq!(found.columns[2].0, Param::KneeVelocity);
+        near("knee", found.columns[2].1[0], 5.0, knee_allowed);
+        near("residual", found.residual, noise, 0.05 * noise + 1e-6);
+    }
+    // The comparison turns red for another pad.
+    let mut wrong = points(0.0);
+    for point in &mut wrong {
+        point.friction += 0.01;
+    }
+    let found = fit(&wrong, LawKind::Bilinear, &rows, Some(5.0)).unwrap();
+    near("shifted", found.columns[0].1[0], PAD[0][1] + 0.01, 1e-6);
+}
+
+#[test]
+fn other_laws() {
+    let exponential = |v: f64| 0.2 + 0.3 * (-v / 0.8).exp();
+    let points: Vec<Point> = (0..200)
+        .map(|k| 0.02 * f64::from(k))
+        .map(|velocity| Point { velocity: -velocity, temperature: 20.0, friction: exponential(velocity) })
+        .collect();
+    let found = fit(&points, LawKind::Exponential, &[20.0], None).unwrap();
+    let value = |k: usize| found.columns[k].1[0];
+    near("mu_s", value(0), 0.5, 1e-5);
+    near("mu_d", value(1), 0.2, 1e-5);
+    near("stribeck_velocity", value(2), 0.8, 1e-4);
+    let mean = points.iter().map(|point| point.friction).sum::<f64>() / 200.0;
+    let constant = fit(&points, LawKind::Constant, &[20.0], None).unwrap();
+    near("mean", constant.columns[0].1[0], mean, 1e-12);
+}
+
+#[test]
+fn what_is_not_determined_is_named() {
+    let at = |velocity: f64, temperature: f64| Point { velocity, temperature, friction: 0.3 };
+    let one_speed: Vec<Point> = (0..50).map(|k| at(2.0, f64::from(k))).collect();
+    let found = fit(&one_speed, LawKind::Bilinear, &[0.0, 49.0], Some(5.0)).unwrap_err();
+    assert!(matches!(found, FitFault::Undetermined { .. }), "{found}");
+    assert!(found.to_string().contains("from 2 to 2 m/s"), "{found}");
+    let cold: Vec<Point> = (0..50).map(|k| at(0.1 * f64::from(k), 20.0)).collect();
+    let found = fit(&cold, LawKind::Bilinear, &[0.0, 40.0, 80.0], Some(5.0)).unwrap_err();
+    assert!(matches!(found, FitFault::Undetermined { .. }), "{found}");
+    assert!(matches!(fit(&cold[..1], LawKind::Bilinear, &[20.0], None), Err(FitFault::TooFew { .. })));
+    assert!(matches!(fit(&cold, LawKind::Bilinear, &[20.0, 20.0], None), Err(FitFault::NotRising { .. })));
+    assert!(matches!(fit(&cold, LawKind::Table, &[20.0], None), Err(FitFault::Law { .. })));
+    let negative: Vec<Point> = cold.iter().map(|p| Point { friction: -0.1, ..*p }).collect();
+    assert!(matches!(fit(&negative, LawKind::Constant, &[20.0], None), Err(FitFault::Negative { .. })));
+}
+
+#[test]
+fn a_sweep_reads_the_material() {
+    let mut table = "V,mu,temperature\n".to_owned();
+    for point in points(0.0) {
+        writeln!(table, "{},{},{}", point.velocity, point.friction, point.temperature).unwrap();
+    }
+    let input = Box::new(Cursor::new(table.into_bytes())) as Box<dyn Read>;
+    let friction = FrictionColumn::Named("mu".to_owned());
+    let read = read_points(input, "points.csv", &Settings::default(), &friction, None).unwrap();
+    let found = fit(&read, LawKind::Bilinear, &PAD.map(|row| row[0]), None).unwrap();
+    let directory = tempfile::tempdir().unwrap();
+    std::fs::write(directory.path().join("material.csv"), material_csv(&found, &read, "points.csv")).unwrap();
+    let sweep = "[friction]\nlaw = \"bilinear\"\nmaterial = \"material.csv\"\n[axes]\n\
+                 temperature = { values = [200.0, 400.0] }\nbelt_velocity = { values = [3.0] }\n";
+    let spec = Spec::parse(sweep, "sweep.toml", directory.path()).unwrap();
+    near("mu at 200 °C", spec.instance(0).law.mu(3.0), pad(3.0, 200.0), 1e-5);
+    near("mu at 400 °C", spec.instance(1).law.mu(3.0), pad(3.0, 400.0), 1e-5);
+}

@@ -1,0 +1,20 @@
+//! Studies: modes, branches, traces, fits, measured signals, the source paper.
+
+pub(crate) mod bound;
+pub(crate) mod claims;
+pub(crate) mod fem;
+pub(crate) mod fit;
+pub(crate) mod fit_errors;
+pub(crate) mod hysteresis;
+pub(crate) mod identify;
+pub(crate) mod identify_faults;
+pub(crate) mod identify_files;
+pub(crate) mod identify_growth;
+pub(crate) mod judged;
+pub(crate) mod modes_figure;
+pub(crate) mod paper;
+pub(crate) mod report_numbers;
+pub(crate) mod sampling;
+pub(crate) mod stroke_table;
+pub(crate) mod strokes;
+pub(crate) mod trace_figure;

@@ -1,0 +1,13 @@
+//! Sweeps: files, grids, labels, checks, several starts, refinement.
+
+pub(crate) mod accuracy;
+pub(crate) mod bistable;
+pub(crate) mod build;
+pub(crate) mod checks;
+pub(crate) mod input_files;
+pub(crate) mod label;
+pub(crate) mod promise;
+pub(crate) mod refine;
+pub(crate) mod spec;
+pub(crate) mod stopped;
+pub(crate) mod sweeps;
