@@ -36,7 +36,7 @@ impl AccuracyArgs {
             return Err(squealmap::sweep::error::Error::Conflict { at: at.clone(), key, other }.into());
         }
         if let Some(precision) = engine.precision {
-            return Err(beside(format!("--precision {}", precision)));
+            return Err(beside(format!("--precision {precision}")));
         }
         let only_gpu = engine.strict || engine.require_gpu || engine.adapter.is_some();
         let backend = match engine.backend {

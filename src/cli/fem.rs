@@ -1,5 +1,6 @@
 //! `squealmap fem`: bodies in sliding contact by finite elements.
 
+use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use crate::cli::error::{Error, Result};
@@ -117,15 +118,15 @@ fn said(study: &Study, outcome: &Outcome) -> String {
         outcome.residual()
     );
     if let Some(pressed) = outcome.pressed.as_ref() {
-        text += &format!("pressed with {:.4} N; {} points gape\n", pressed.force, pressed.open);
+        let _ = writeln!(text, "pressed with {:.4} N; {} points gape", pressed.force, pressed.open);
     }
     if let Some(k) = study.document.friction.contact_stiffness {
-        text += &format!("contact stiffness {k:e} Pa/m: mu_c depends on it\n");
+        let _ = writeln!(text, "contact stiffness {k:e} Pa/m: mu_c depends on it");
     }
     for t in &outcome.transitions {
         let modes: Vec<String> = t.modes.iter().map(|mode| (mode + 1).to_string()).collect();
         let (event, modes) = (t.event.name(), modes.join(" and "));
-        text += &format!("{event} of mode {modes} at mu = {:.6}, {:.2} Hz\n", t.mu, t.frequency);
+        let _ = writeln!(text, "{event} of mode {modes} at mu = {:.6}, {:.2} Hz", t.mu, t.frequency);
     }
     if outcome.transitions.is_empty() {
         text += "no mode becomes unstable or stable in the range\n";

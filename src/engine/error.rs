@@ -188,22 +188,22 @@ impl Error {
     /// Whether the input (file, arguments, output directory) is at fault, as opposed to the run.
     #[must_use]
     pub fn is_bad_input(&self) -> bool {
-        match self {
+        matches!(
+            self,
             Error::WithoutGpu
-            | Error::NoAdapter { .. }
-            | Error::NoSuchAdapter { .. }
-            | Error::NoF64 { .. }
-            | Error::NoStrict { .. }
-            | Error::NoHardware { .. }
-            | Error::OnlyOnGpu { .. }
-            | Error::EmptyAdapter { .. }
-            | Error::LongTable { .. }
-            | Error::ReferencePrecision
-            | Error::CpuStrict
-            | Error::CpuAdapter { .. }
-            | Error::CpuRequireGpu => true,
-            _ => false,
-        }
+                | Error::NoAdapter { .. }
+                | Error::NoSuchAdapter { .. }
+                | Error::NoF64 { .. }
+                | Error::NoStrict { .. }
+                | Error::NoHardware { .. }
+                | Error::OnlyOnGpu { .. }
+                | Error::EmptyAdapter { .. }
+                | Error::LongTable { .. }
+                | Error::ReferencePrecision
+                | Error::CpuStrict
+                | Error::CpuAdapter { .. }
+                | Error::CpuRequireGpu
+        )
     }
 }
 

@@ -44,6 +44,7 @@ fn after_ramp(instance: &Instance, time: f64) -> Option<Instance> {
 
 /// The record of an instance before any analysis: its status is `ok`, or says why there is no equilibrium, or none that is
 /// finite. `prepared` are the polynomials of the instance.
+#[must_use]
 pub fn begun(instance: &Instance, prepared: &Preparation) -> Record {
     let status = match prepared {
         Ok(_) => Status::Ok,

@@ -161,6 +161,7 @@ pub fn differ(small: &Record, large: &Record, kind: Option<InstabilityType>) -> 
 }
 
 /// Whether two amplitudes are those of two cycles.
+#[must_use]
 pub fn apart(a: f64, b: f64) -> bool {
     (a - b).abs() > THRESHOLDS.apart * a.max(b)
 }

@@ -96,7 +96,7 @@ fn rows(
 }
 
 fn written(result: std::io::Result<()>) -> Result<()> {
-    Ok(result.map_err(|why| Error::WriteTable(why.into()))?)
+    result.map_err(|why| Error::WriteTable(why.into()))
 }
 
 /// A table in memory.
@@ -110,10 +110,10 @@ impl Table {
     }
 
     pub(crate) fn row(&mut self, cells: impl Iterator<Item = String>) -> Result<()> {
-        Ok(self.0.write_record(cells.map(String::into_bytes)).map_err(Error::WriteTable)?)
+        self.0.write_record(cells.map(String::into_bytes)).map_err(Error::WriteTable)
     }
 
     pub(crate) fn finish(self) -> Result<Vec<u8>> {
-        Ok(self.0.into_inner().map_err(|error| Error::WriteTable(error.into_error().into()))?)
+        self.0.into_inner().map_err(|error| Error::WriteTable(error.into_error().into()))
     }
 }

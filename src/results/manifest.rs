@@ -33,7 +33,7 @@ pub struct Manifest {
     pub complete: bool,
     /// Where, how and how far it was computed.
     pub computation: Computed,
-    /// How many instances have which label, see [`counts`].
+    /// How many instances have which label, see `counts`.
     pub counts: Value,
     /// Impacts that gained energy, of all instances; only the reference counts them.
     pub energy_gaining_impacts: Option<u64>,

@@ -33,18 +33,18 @@ type Texts = BTreeMap<Module, String>;
 fn read(root: &Path) -> Texts {
     let (mut texts, mut folders) = (Texts::new(), vec![root.to_owned()]);
     while let Some(folder) = folders.pop() {
-        for entry in std::fs::read_dir(folder).unwrap() {
-            let path = entry.unwrap().path();
+        for entry in std::fs::read_dir(folder).expect("as the test has set it up") {
+            let path = entry.expect("as the test has set it up").path();
             if path.is_dir() {
                 folders.push(path);
             } else if path.extension().is_some_and(|ending| ending == "rs") {
-                let module = path.strip_prefix(root).unwrap().with_extension("");
+                let module = path.strip_prefix(root).expect("as the test has set it up").with_extension("");
                 let mut module: Module =
                     module.iter().map(|part| part.to_string_lossy().into_owned()).collect();
                 if module.last().is_some_and(|last| last == "mod") || module == ["lib"] {
                     module.pop();
                 }
-                texts.insert(module, std::fs::read_to_string(&path).unwrap());
+                texts.insert(module, std::fs::read_to_string(&path).expect("as the test has set it up"));
             }
         }
     }

@@ -98,6 +98,7 @@ pub enum Error {
 
 impl Error {
     /// What is wrong with the thing that a key describes.
+    #[expect(clippy::needless_pass_by_value, reason = "sentences and errors are made where they are given")]
     pub(crate) fn at(key: impl Into<String>, what: impl ToString) -> Self {
         Self::Key { key: key.into(), what: what.to_string() }
     }

@@ -11,7 +11,7 @@ use crate::modes::{Basis, Factor, Judge, Near, Ordering, follow, lift, near, nea
 pub struct State {
     /// Growth rate and angular frequency, 1/s.
     pub lambda: c64,
-    /// Of the full problem: see [`residuals`] for the projected problem, [`near`] for the direct solution.
+    /// Of the full problem: see [`crate::modes::residuals`] for the projected problem, [`near`] for the direct solution.
     pub residual: f64,
     /// Whether it was computed directly, because the projected problem was not good enough.
     pub direct: bool,

@@ -27,23 +27,27 @@ pub const STEPS: usize = COLOURS.len();
 
 /// The colour around an angle, degrees; any number of whole turns away is the same.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within one turn")]
+#[must_use]
 pub fn step(angle: f64) -> usize {
     let turn = ((angle + HALF) / (2.0 * HALF)).rem_euclid(1.0);
     (turn * STEPS as f64) as usize % STEPS
 }
 
 /// The fill of a step.
+#[must_use]
 pub fn fill(step: usize) -> &'static str {
     COLOURS[step % STEPS]
 }
 
 /// The whole circle as a scale.
+#[must_use]
 pub fn scale() -> Scale {
     Scale::Linear { low: -HALF, high: HALF }
 }
 
 /// Ticks at quarters of a turn, for an axis that reaches over more than half a turn. `None` for a shorter one, where any
 /// round values will do.
+#[must_use]
 pub fn ticks(scale: &Scale) -> Option<Vec<Tick>> {
     const QUARTERS: [f64; 5] = [-HALF, -0.5 * HALF, 0.0, 0.5 * HALF, HALF];
     let reach = scale.value(1.0) - scale.value(0.0);
@@ -58,6 +62,7 @@ fn crosses(from: f64, to: f64) -> bool {
 }
 
 /// A curve of angles along positions `x`: where it crosses ±180° it goes on at the other side, with a gap (NaN) between.
+#[must_use]
 pub fn parted(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
     let mut parted: Vec<(f64, f64)> = Vec::with_capacity(points.len());
     for (x, angle) in points.iter().copied() {

@@ -36,16 +36,19 @@ pub struct Frame {
 
 impl Frame {
     /// Position 0..1 from the left, in points.
+    #[must_use]
     pub fn across(&self, at: f64) -> f64 {
         self.x + at * self.width
     }
 
     /// Position 0..1 from the bottom, in points.
+    #[must_use]
     pub fn up(&self, at: f64) -> f64 {
         self.y + (1.0 - at) * self.height
     }
 
     /// The lower end.
+    #[must_use]
     pub fn bottom(&self) -> f64 {
         self.y + self.height
     }
@@ -98,6 +101,7 @@ impl Frame {
 }
 
 /// How many ticks a vertical axis of this length takes at most.
+#[must_use]
 pub fn y_tick_count(height: f64) -> usize {
     /// A tick takes about this much, points.
     const EACH: f64 = 11.0;
@@ -107,6 +111,7 @@ pub fn y_tick_count(height: f64) -> usize {
 }
 
 /// The ticks of a vertical axis of this length: two or more where they fit, as one is no scale.
+#[must_use]
 pub fn y_ticks(scale: &Scale, height: f64) -> Vec<Tick> {
     let most = y_tick_count(height);
     let fits =
@@ -124,6 +129,7 @@ pub fn y_ticks(scale: &Scale, height: f64) -> Vec<Tick> {
 }
 
 /// Room below a frame for ticks and their labels.
+#[must_use]
 pub fn x_tick_room() -> f64 {
     TICK_LENGTH + TICK_SPACE + TICK_SIZE
 }

@@ -7,6 +7,7 @@ use crate::error::{Error, Result};
 use crate::png::{BOLD, FONTS, REGULAR};
 
 /// The width of upright words at a size, in the unit of the size; what has no glyph is as wide as high.
+#[must_use]
 pub fn width(words: &str, size: f64, bold: bool) -> f64 {
     let Ok(face) = Face::parse(if bold { BOLD } else { REGULAR }, 0) else { return f64::INFINITY };
     let advance = |letter: char| {

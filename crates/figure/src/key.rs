@@ -30,6 +30,7 @@ pub fn lines(svg: &mut Svg, mut x: f64, base: f64, size: f64, entries: &[(Text, 
 }
 
 /// The outline of a cross of this radius, points.
+#[must_use]
 pub fn cross((x, y): (f64, f64), radius: f64) -> String {
     [-radius, radius].map(|tilt| polyline([(x - radius, y - tilt), (x + radius, y + tilt)])).concat()
 }

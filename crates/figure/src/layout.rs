@@ -35,11 +35,13 @@ pub struct Layout {
 
 impl Layout {
     /// The least height of a panel of this width, points; none is taller than wide.
+    #[must_use]
     pub fn least_height(&self, width: f64) -> f64 {
         (self.flattest * width).max(LOWEST).min(width)
     }
 
     /// The usual one.
+    #[must_use]
     pub fn usual(across: usize) -> Layout {
         Layout { across, gap: GAP, more_columns: 0, broken: false, flattest: FLAT, page: PAGE }
     }

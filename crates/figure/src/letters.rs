@@ -22,6 +22,7 @@ pub fn letter(number: usize) -> String {
 }
 
 /// The width that a letter takes before words, points.
+#[must_use]
 pub fn width(number: usize) -> f64 {
     Text::from(letter(number)).width(LABEL_SIZE, true) + GAP
 }
@@ -33,6 +34,7 @@ pub fn draw_at(svg: &mut Svg, number: usize, [x, y]: [f64; 2]) {
 }
 
 /// The room that a letter leaves to the label of a vertical axis of this length, points.
+#[must_use]
 pub fn room(height: f64, rows: usize) -> f64 {
     if rows > 1 { height - HEIGHT } else { height }
 }

@@ -58,6 +58,9 @@ fn image(svg: &str) -> Result<Vec<u8>> {
 }
 
 /// An SVG document with the embedded fonts.
+///
+/// # Errors
+/// When it is not SVG.
 pub fn read(svg: &str) -> Result<Tree> {
     Tree::from_str(svg, &options()).map_err(Error::ReadSvg)
 }

@@ -16,6 +16,7 @@ const COLOURS: [[f32; 3]; 5] = [
 
 /// A fill on the way from one colour to another.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between two of 0..255")]
+#[must_use]
 pub fn between([from, to]: [[f32; 3]; 2], part: f32) -> String {
     let [r, g, b]: [u8; 3] = std::array::from_fn(|k| (from[k] + (to[k] - from[k]) * part).round() as u8);
     format!("#{r:02X}{g:02X}{b:02X}")
@@ -27,6 +28,7 @@ pub fn between([from, to]: [[f32; 3]; 2], part: f32) -> String {
     clippy::cast_sign_loss,
     reason = "clamped to the steps and to 0..255"
 )]
+#[must_use]
 pub fn colour(value: f32) -> [u8; 3] {
     let steps = (COLOURS.len() - 1) as f32;
     let at = if value.is_nan() { 0.0 } else { value.clamp(0.0, 1.0) * steps };
@@ -39,6 +41,7 @@ pub fn colour(value: f32) -> [u8; 3] {
 }
 
 /// The colour of a value as the fill of a vector drawing, `#RRGGBB`.
+#[must_use]
 pub fn fill(value: f32) -> String {
     let [r, g, b] = colour(value);
     format!("#{r:02X}{g:02X}{b:02X}")

@@ -253,6 +253,7 @@ fn linear_ticks(low: f64, high: f64, most: usize) -> Vec<(f64, Text)> {
 }
 
 /// A position that is beyond an end by rounding only is that end: no frame leaves its tick out.
+#[must_use]
 pub fn snapped(at: f64) -> f64 {
     /// More than rounding, and far less than a printer resolves.
     const ROUNDING: f64 = 1e-9;

@@ -1,6 +1,7 @@
 //! Words as LaTeX writes them.
 
 /// Text with the characters that mean something in LaTeX written out.
+#[must_use]
 pub fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
@@ -27,6 +28,7 @@ pub fn escaped(text: &str) -> String {
 }
 
 /// A text as it stands inside a formula.
+#[must_use]
 pub fn formula(text: &str) -> String {
     text.chars()
         .map(|c| match in_math(c) {

@@ -118,6 +118,7 @@ impl Text {
     }
 
     /// The text in lines of a width, each as many words as fit; a word that does not is a line.
+    #[must_use]
     pub fn wrapped(&self, width: f64, size: f64) -> Vec<Text> {
         let mut words = vec![Text::default()];
         for span in &self.0 {
@@ -140,6 +141,7 @@ impl Text {
     }
 
     /// The text as LaTeX writes it, symbols and scripts in formulas.
+    #[must_use]
     pub fn tex(&self) -> String {
         let mut out = String::new();
         let mut inside = false;
@@ -159,6 +161,7 @@ impl Text {
     }
 
     /// The content of an SVG `text` element.
+    #[must_use]
     pub fn tspans(&self, size: f64) -> String {
         let mut out = String::new();
         let mut shift: f64 = 0.0;
@@ -196,6 +199,7 @@ fn script_size(size: f64) -> f64 {
 }
 
 /// Splits a title into lines that fit a width.
+#[must_use]
 pub fn wrap(text: &str, width: f64, size: f64, bold: bool) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace().flat_map(|word| parts(word, width, size, bold)) {

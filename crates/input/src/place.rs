@@ -31,6 +31,7 @@ impl Source {
     }
 
     /// The place of a byte range of the text.
+    #[must_use]
     pub fn place(&self, span: Range<usize>) -> Place {
         let end = self.text.len();
         let mut start = span.start.min(end);
@@ -55,6 +56,7 @@ impl Source {
     }
 
     /// The text in a byte range, as it is written.
+    #[must_use]
     pub fn written(&self, span: Range<usize>) -> &str {
         self.text.get(span).unwrap_or_default()
     }
@@ -90,6 +92,7 @@ struct Spot {
 
 impl Place {
     /// A place in a command-line argument.
+    #[must_use]
     pub fn argument(name: &str, text: &str, span: Range<usize>) -> Place {
         Place(Box::new(Spot { source: name.to_owned(), text: Arc::from(text), span, position: None }))
     }

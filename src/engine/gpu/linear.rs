@@ -68,7 +68,7 @@ fn append_in<R: Real>(
         settings: [0; SETTING_WORDS],
         steps: None,
         most_dispatches: MOST_DISPATCHES,
-        cancel: cancel,
+        cancel,
         counts: true,
         progress,
     };

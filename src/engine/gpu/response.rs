@@ -119,7 +119,7 @@ fn complete_in<R: Real>(
         steps: None,
         // Every lane ends by itself: its steps, their parts and its events are counted.
         most_dispatches: u64::MAX,
-        cancel: cancel,
+        cancel,
         // A lane ends with every window.
         counts: plan.settle_limit.is_none(),
         progress,

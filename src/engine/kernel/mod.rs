@@ -13,7 +13,6 @@
 //! - [`segments`]: a run cut into the segments of a kernel.
 //! - [`response`]: an instance as words of the response kernel, and its outcome (f64, host only).
 //! - [`windows`]: a run until it is settled, window by window (host only).
-//! - [`reductions`]: the sums of a run as an outcome in SI units (host only).
 //! - [`spirv`]: a kernel as SPIR-V in which every operation on floats is rounded by itself.
 //! - [`words`]: an instance as words of the linear kernel, and back (f64, host only).
 

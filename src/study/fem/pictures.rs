@@ -203,7 +203,7 @@ impl Picture {
             let fill = fill(facet.value);
             let outline = polyline(facet.outline.iter().map(at)) + "Z";
             if facet.edges.iter().all(|edge| *edge) {
-                svg.path(&outline, &format!(r##"fill="{fill}" {EDGE}"##));
+                svg.path(&outline, &format!(r#"fill="{fill}" {EDGE}"#));
                 continue;
             }
             // The line of its own colour closes the seams between pieces.

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use tempfile::TempDir;
 
-use crate::cli::cli::{squealmap, unwrapped};
+use crate::cli::program::{squealmap, unwrapped};
 
 /// The values of `mu_s` and other lines of a sweep of two axes.
 fn sweep(analysis: &str, model: &str, friction: &str, mu_s: &str, end: &str) -> TempDir {

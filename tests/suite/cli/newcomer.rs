@@ -5,7 +5,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::cli::cli::{squealmap, tree, unwrapped};
+use crate::cli::program::{squealmap, tree, unwrapped};
 use squealmap::model::PARAMS;
 use squealmap::sweep::columns::{Values, computed};
 use squealmap::sweep::spec::Spec;

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use crate::cli::cli::with_sweep;
+use crate::cli::program::with_sweep;
 
 /// A user whom limits bind, unlike root; nobody on most systems.
 const USER: u32 = 65_534;
@@ -78,7 +78,7 @@ fn a_command_without_threads_computes_on_its_own() {
         assert!(!told.contains("panicked"), "{arguments:?}: {told}");
     }
     let csv = |at: &str| std::fs::read(directory.path().join(at).join("map.csv")).unwrap();
-    let ended = crate::cli::cli::squealmap(
+    let ended = crate::cli::program::squealmap(
         directory.path(),
         &["run", "small.toml", "--backend", "cpu", "-o", "many"],
     );

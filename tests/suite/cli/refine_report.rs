@@ -6,7 +6,7 @@ use std::path::Path;
 
 use serde_json::Value as Json;
 
-use crate::cli::cli::{squealmap, unwrapped};
+use crate::cli::program::{squealmap, unwrapped};
 use crate::store::refine_parts::{REFINE, arguments, undisturbed, with};
 
 /// How many rows of the table of computed points have this in a column.

@@ -5,7 +5,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::cli::cli::{squealmap, unwrapped, with_sweep};
+use crate::cli::program::{squealmap, unwrapped, with_sweep};
 
 /// Points of a constant law, colder than freezing to hot.
 const POINTS: &str = "V,mu,temperature\n1,0.3,-20\n2,0.3,-20\n6,0.3,-20\n1,0.5,100\n2,0.5,100\n6,0.5,100\n";

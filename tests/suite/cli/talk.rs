@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 
 use serde_json::Value as Json;
 
-use crate::cli::cli::{Ended, squealmap, unwrapped, with_sweep};
+use crate::cli::program::{Ended, squealmap, unwrapped, with_sweep};
 use crate::store::resume::{SWEEP, with};
 
 /// The one object on standard output.

@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use crate::cli::cli::{squealmap, unwrapped};
+use crate::cli::program::{squealmap, unwrapped};
 use crate::common::{bilinear, instance, paper, plan};
 use crate::engines::Engine;
 use crate::synthetic::{map, record, span};

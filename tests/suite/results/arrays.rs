@@ -7,7 +7,7 @@ use std::path::Path;
 
 use serde_json::Value as Json;
 
-use crate::cli::cli::{squealmap, unwrapped};
+use crate::cli::program::{squealmap, unwrapped};
 use crate::results::netcdf_file::netcdf;
 use crate::store::resume::{SWEEP, with};
 

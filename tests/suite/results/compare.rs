@@ -3,7 +3,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
-use crate::cli::cli::{squealmap, tree, unwrapped};
+use crate::cli::program::{squealmap, tree, unwrapped};
 use crate::common::near;
 use crate::results::figure::{draw, frames};
 use crate::results::pictures::outside;

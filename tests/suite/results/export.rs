@@ -118,11 +118,11 @@ fn numbers_that_are_not_finite_are_empty() {
 fn unwritten_and_missing_instances_are_errors() {
     let sweep = small(|i| if i == 3 { Record::default() } else { good(i) });
     assert_eq!(
-        map_csv(&sweep).unwrap_err().to_string(),
+        map_csv(&sweep).expect_err("as the test has set it up").to_string(),
         "instance 3 was never computed; nothing was exported"
     );
     assert_eq!(
-        manifest_json(&sweep).unwrap_err().to_string(),
+        manifest_json(&sweep).expect_err("as the test has set it up").to_string(),
         "instance 3 was never computed; nothing was exported"
     );
     let mut short = small(good);

@@ -323,7 +323,7 @@ fn maps_without_any_result_are_drawn() {
 fn an_unwritten_instance_is_no_picture() {
     let sweep = grid(|i, j| if (i, j) == (1, 1) { Record::default() } else { paper_like(0.1, 0.1, 1.0) });
     assert_eq!(
-        map_svg(&sweep).unwrap_err().to_string(),
+        map_svg(&sweep).expect_err("as the test has set it up").to_string(),
         "instance 4 was never computed; nothing was exported"
     );
 }

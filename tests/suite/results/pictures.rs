@@ -5,7 +5,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use crate::cli::cli::squealmap;
+use crate::cli::program::squealmap;
 use crate::common::near;
 use crate::results::figure::draw;
 use crate::results::gallery::{Piece, all};

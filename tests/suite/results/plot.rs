@@ -2,7 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
-use crate::cli::cli::squealmap;
+use crate::cli::program::squealmap;
 use crate::colour::{DICHROMACIES, delta_e, lab, rgb};
 use crate::common::near;
 use crate::results::figure::{colour, draw, frames};

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use tempfile::TempDir;
 
-use crate::cli::cli::{Ended, squealmap, tree, unwrapped, with_sweep};
+use crate::cli::program::{Ended, squealmap, tree, unwrapped, with_sweep};
 
 /// A directory with the results of a small sweep in `out/small`.
 fn results() -> TempDir {

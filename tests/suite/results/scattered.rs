@@ -2,7 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
-use crate::cli::cli::squealmap;
+use crate::cli::program::squealmap;
 use crate::common::near;
 use crate::results::figure::{colour, draw, frames};
 use crate::synthetic::{failed, map, record};
@@ -159,7 +159,7 @@ fn points_have_no_areas_and_all_their_rows() {
         let all: Vec<&str> = ["plot", "out"].iter().chain(arguments).copied().collect();
         let ended = squealmap(directory.path(), &all);
         assert_eq!(ended.code, Some(2), "{arguments:?}: {}", ended.err);
-        let said = crate::cli::cli::unwrapped(&ended.err);
+        let said = crate::cli::program::unwrapped(&ended.err);
         assert!(said.contains(words), "{words}: {said}");
         assert!(!directory.path().join("out/plot.svg").exists());
     };

@@ -2,7 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
-use crate::cli::cli::{squealmap, unwrapped};
+use crate::cli::program::{squealmap, unwrapped};
 use crate::results::plot::directory;
 use crate::synthetic::{axis, map, number, record, span};
 use squealmap::engine::regime::Regime;

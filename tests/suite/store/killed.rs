@@ -7,7 +7,7 @@ use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
 use std::time::Duration;
 
-use crate::cli::cli::squealmap;
+use crate::cli::program::squealmap;
 use crate::store::resume::{COMPLETE, SWEEP, names, tiles, with};
 
 /// Of 10 instances.

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use tempfile::TempDir;
 
-use crate::cli::cli::{Ended, squealmap, tree, unwrapped};
+use crate::cli::program::{Ended, squealmap, tree, unwrapped};
 
 /// 2 × 3 instances with this friction.
 fn sweep(title: &str, mu_s: &str, more: &str) -> String {

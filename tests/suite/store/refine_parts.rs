@@ -9,7 +9,7 @@ use std::time::Duration;
 
 use tempfile::TempDir;
 
-use crate::cli::cli::{squealmap, unwrapped};
+use crate::cli::program::{squealmap, unwrapped};
 
 /// A plane with response, long enough to be killed in.
 pub(crate) const SWEEP: &str = "[friction]\nlaw = \"bilinear\"\nknee_velocity = 5.0\n[axes]\n\

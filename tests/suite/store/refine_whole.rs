@@ -7,17 +7,17 @@ use std::path::{Path, PathBuf};
 use serde_json::Value as Json;
 use tempfile::TempDir;
 
-use crate::cli::cli::{squealmap, unwrapped};
+use crate::cli::program::{squealmap, unwrapped};
 use crate::store::refine_parts::{FILES, REFINE, SWEEP, arguments, parts, results, undisturbed, with};
 
 /// All that the document names.
 const NAMED: [&str; 4] = ["boundaries.csv", "points.csv", "refined.png", "refined.svg"];
 
-fn verify(directory: &Path) -> crate::cli::cli::Ended {
+fn verify(directory: &Path) -> crate::cli::program::Ended {
     squealmap(directory, &["verify", "out/s"])
 }
 
-fn repair(directory: &Path) -> crate::cli::cli::Ended {
+fn repair(directory: &Path) -> crate::cli::program::Ended {
     squealmap(directory, &["verify", "out/s", "--repair", "--threads", "1"])
 }
 

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use crate::cli::cli::squealmap;
+use crate::cli::program::squealmap;
 use squealmap::engine::backend::Backend;
 use squealmap::engine::options::Options;
 use squealmap::results::csv::map_csv;

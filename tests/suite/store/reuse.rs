@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-use crate::cli::cli::{Ended, squealmap, unwrapped};
+use crate::cli::program::{Ended, squealmap, unwrapped};
 use crate::store::resume::{names, tiles, with};
 use serde_json::Value as Json;
 use squealmap::store::direct::Room;

@@ -5,7 +5,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use crate::cli::cli::squealmap;
+use crate::cli::program::squealmap;
 use crate::store::resume::{COMPLETE, SWEEP, names, tiles, with};
 use squealmap::store::shard::Shard;
 
@@ -63,7 +63,7 @@ fn shards_come_from_the_command_line_or_the_launcher() {
 }
 
 /// Runs shard `shard` of the sweep into `output`.
-fn shard(directory: &Path, shard: &str, output: &str) -> crate::cli::cli::Ended {
+fn shard(directory: &Path, shard: &str, output: &str) -> crate::cli::program::Ended {
     squealmap(
         directory,
         &["run", "s.toml", "--backend", "cpu", "--tile", "32", "--shard", shard, "-o", output],

@@ -12,7 +12,7 @@ use std::time::Duration;
 
 use tempfile::TempDir;
 
-use crate::cli::cli::{Ended, squealmap, unwrapped};
+use crate::cli::program::{Ended, squealmap, unwrapped};
 use crate::store::resume::{SWEEP, names, tiles, with};
 
 /// What a quoting that is not one would fall over.

@@ -8,7 +8,7 @@ use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-use crate::cli::cli::squealmap;
+use crate::cli::program::squealmap;
 use crate::store::killed::{RUN, sweep};
 use crate::store::resume::with;
 use squealmap::store::claim::Claim;

@@ -10,7 +10,7 @@ use std::process::{Command, Stdio};
 use std::thread::sleep;
 use std::time::Duration;
 
-use crate::cli::cli::squealmap;
+use crate::cli::program::squealmap;
 use crate::store::killed::{RUN, done, sweep};
 use crate::store::resume::{COMPLETE, names, tiles, with};
 use crate::store::submit::copy_program;

@@ -7,7 +7,7 @@ use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-use crate::cli::cli::{squealmap, unwrapped};
+use crate::cli::program::{squealmap, unwrapped};
 use crate::store::killed::{RUN as SLOW, done, sweep as slow};
 use crate::store::resume::{COMPLETE, SWEEP, names, tiles, with};
 use serde_json::Value as Json;

@@ -10,27 +10,32 @@ const FILES: [&str; 7] =
 
 fn squealmap(directory: &Path, arguments: &[&str]) -> (i32, String, String) {
     let mut command = Command::new(env!("CARGO_BIN_EXE_squealmap"));
-    let output = command.current_dir(directory).args(arguments).output().unwrap();
-    let [said, noted] = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
-    (output.status.code().unwrap(), said, noted)
+    let output = command.current_dir(directory).args(arguments).output().expect("as the test has set it up");
+    let [said, noted] = [output.stdout, output.stderr]
+        .map(|bytes| String::from_utf8(bytes).expect("as the test has set it up"));
+    (output.status.code().expect("as the test has set it up"), said, noted)
 }
 
 #[test]
 fn a_study_gives_its_table_figures_and_shapes() {
-    let directory = tempfile::tempdir().unwrap();
+    let directory = tempfile::tempdir().expect("as the test has set it up");
     let text = PIN.replace("points = 26", "points = 11") + "\n[output]\nmodal = true\n";
-    std::fs::write(directory.path().join("pin.toml"), text).unwrap();
+    std::fs::write(directory.path().join("pin.toml"), text).expect("as the test has set it up");
     let (code, said, noted) = squealmap(directory.path(), &["fem", "pin.toml", "--out", "here"]);
     assert_eq!(code, 0, "{said}{noted}");
     assert!(said.contains("coalescence of mode 6 and 7 at mu = 0.388379, 64169.16 Hz"), "{said}");
     let here = directory.path().join("here");
-    let read = |name: &str| std::fs::read_to_string(here.join(name)).unwrap();
+    let read = |name: &str| std::fs::read_to_string(here.join(name)).expect("as the test has set it up");
     for name in FILES.iter().chain(&["modes.toml"]) {
         assert!(here.join(name).is_file(), "{name}");
     }
     assert_eq!(read("fem.csv").lines().count(), 1 + 11 * 7);
-    let manifest: serde_json::Value = serde_json::from_str(&read("manifest.json")).unwrap();
-    assert!((manifest["transitions"][0]["mu_c"].as_f64().unwrap() - 0.38838).abs() < 6e-6);
+    let manifest: serde_json::Value =
+        serde_json::from_str(&read("manifest.json")).expect("as the test has set it up");
+    assert!(
+        (manifest["transitions"][0]["mu_c"].as_f64().expect("as the test has set it up") - 0.38838).abs()
+            < 6e-6
+    );
     let curves = read("fem.svg");
     assert!(curves.contains("= 0.3884, 64.17 kHz"), "{}", &curves[..3000]);
     // Two modes before they coalesce, and the one of both that grows.
@@ -45,17 +50,17 @@ fn a_study_gives_its_table_figures_and_shapes() {
 
 #[test]
 fn a_check_computes_nothing() {
-    let directory = tempfile::tempdir().unwrap();
-    std::fs::write(directory.path().join("pin.toml"), PIN).unwrap();
+    let directory = tempfile::tempdir().expect("as the test has set it up");
+    std::fs::write(directory.path().join("pin.toml"), PIN).expect("as the test has set it up");
     let (code, said, noted) = squealmap(directory.path(), &["fem", "pin.toml", "--check"]);
     assert_eq!(code, 0, "{noted}");
     assert!(said.contains("unknowns  873 (") && said.contains("contact   21 points"), "{said}");
-    assert_eq!(std::fs::read_dir(directory.path()).unwrap().count(), 1);
+    assert_eq!(std::fs::read_dir(directory.path()).expect("as the test has set it up").count(), 1);
 }
 
 #[test]
 fn a_bad_description_is_one_sentence_and_writes_nothing() {
-    let directory = tempfile::tempdir().unwrap();
+    let directory = tempfile::tempdir().expect("as the test has set it up");
     for (old, new, wanted) in [
         (
             "cells = [6, 2, 2]",
@@ -69,20 +74,21 @@ fn a_bad_description_is_one_sentence_and_writes_nothing() {
         ),
         ("[modes]", "[modes", "`pin.toml`: line "),
     ] {
-        std::fs::write(directory.path().join("pin.toml"), PIN.replace(old, new)).unwrap();
+        std::fs::write(directory.path().join("pin.toml"), PIN.replace(old, new))
+            .expect("as the test has set it up");
         let (code, said, noted) = squealmap(directory.path(), &["fem", "pin.toml"]);
         assert_eq!(code, 2, "{noted}");
         assert!(said.is_empty(), "{said}");
         let flat = noted.split_whitespace().collect::<Vec<_>>().join(" ");
         assert!(flat.contains(wanted), "{flat}\n{wanted}");
-        assert_eq!(std::fs::read_dir(directory.path()).unwrap().count(), 1);
+        assert_eq!(std::fs::read_dir(directory.path()).expect("as the test has set it up").count(), 1);
     }
     let (code, _, noted) = squealmap(directory.path(), &["fem", "none.toml"]);
     assert_eq!(code, 2, "{noted}");
     assert!(noted.contains("cannot read"), "{noted}");
 }
 
-/// The shipped study is one that can be read; what it gives stands in docs/fem_paper.md.
+/// The shipped study is one that can be read; what it gives stands in `docs/fem_paper.md`.
 #[test]
 fn the_papers_model_is_as_large_as_it_says() {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));

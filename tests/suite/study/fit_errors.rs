@@ -5,7 +5,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use crate::cli::cli::{squealmap, unwrapped};
+use crate::cli::program::{squealmap, unwrapped};
 use crate::common::close;
 use crate::study::strokes::Random;
 use squealmap::model::friction::LawKind;

@@ -2,7 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
-use crate::cli::cli::squealmap;
+use crate::cli::program::squealmap;
 use crate::store::resume::with;
 use crate::sweep::bistable::highest_velocity_of_the_cycle;
 use crate::synthetic::record;

@@ -7,7 +7,7 @@ use std::io::{BufWriter, Write as _};
 use std::path::Path;
 use std::process::Command;
 
-use crate::cli::cli::squealmap;
+use crate::cli::program::squealmap;
 use crate::common::near;
 use crate::results::netcdf_file::netcdf;
 use crate::study::strokes::Random;

@@ -7,7 +7,7 @@ use std::path::Path;
 
 use serde_json::Value as Json;
 
-use crate::cli::cli::{Ended, squealmap, unwrapped};
+use crate::cli::program::{Ended, squealmap, unwrapped};
 use crate::common::close;
 use crate::study::strokes::{Random, Wanted, stroke};
 

@@ -5,7 +5,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use crate::cli::cli::{squealmap, unwrapped};
+use crate::cli::program::{squealmap, unwrapped};
 use squealmap::sweep::spec::{MAX_ROWS, MAX_SWEEP_BYTES, MAX_TABLE_ROWS, Spec};
 use tempfile::TempDir;
 

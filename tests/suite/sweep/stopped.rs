@@ -202,7 +202,10 @@ fn what_is_missing_without_a_reason_is_refused() {
     ];
     for (missing, stopped) in refused {
         for ended in with(missing, stopped) {
-            assert_eq!(ended.unwrap_err().to_string(), "instance 3 was never computed; nothing was exported");
+            assert_eq!(
+                ended.expect_err("as the test has set it up").to_string(),
+                "instance 3 was never computed; nothing was exported"
+            );
         }
     }
 }

@@ -211,7 +211,7 @@ impl<'a> Front<'a> {
             0 if !gone => seen.push(piece),
             all if all == piece.corners.len() && gone => {}
             _ if cuts < CUTS => {
-                piece.quarters().into_iter().for_each(|part| self.keep(part, index, cuts + 1, seen))
+                piece.quarters().into_iter().for_each(|part| self.keep(part, index, cuts + 1, seen));
             }
             _ if !gone => seen.push(piece),
             _ => {}

@@ -267,7 +267,7 @@ impl Document {
 pub(super) fn parsed<T: serde::de::DeserializeOwned>(text: &str) -> Result<T, Error> {
     toml::from_str(text).map_err(|error| {
         let at = error.span().map_or(0, |span| span.start.min(text.len()));
-        let line = text.as_bytes()[..at].iter().filter(|byte| **byte == b'\n').count() + 1;
+        let line = text[..at].matches('\n').count() + 1;
         Error::File { line, what: error.message().trim().replace('\n', "; ") }
     })
 }

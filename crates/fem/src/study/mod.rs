@@ -1,7 +1,7 @@
 //! A whole study from a description in a file: model, coefficients of friction, results.
 //!
-//! [`document`] is the file, [`Study::new`] builds the model, [`estimate`] says what it would cost, [`compute`] computes it, and
-//! [`table`], [`manifest`] and [`shapes`] are its results as bytes. Nothing here opens a file.
+//! [`document`] is the file, [`Study::new`] builds the model, [`estimate()`] says what it would cost, [`compute()`] computes it, and
+//! [`table()`], [`manifest()`] and [`shapes()`] are its results as bytes. Nothing here opens a file.
 
 mod band;
 mod build;

@@ -13,7 +13,7 @@ pub(super) fn coefficients(mu: &Values) -> Result<Vec<f64>, Error> {
     let key = "friction.mu";
     let values = match (mu.from, mu.to, mu.points, &mu.values) {
         (Some(from), Some(to), Some(points), None) => {
-            if points < 2 || points > MOST {
+            if !(2..=MOST).contains(&points) {
                 return Err(Error::at(
                     "friction.mu.points",
                     format!("there are {points} points, a range has 2 to {MOST}"),
@@ -42,8 +42,8 @@ pub(super) fn coefficients(mu: &Values) -> Result<Vec<f64>, Error> {
             ),
         ));
     }
-    if let Some(pair) = values.windows(2).find(|pair| !(pair[0] < pair[1])) {
-        return Err(Error::at(key, format!("{} follows {}: let the values rise", pair[1], pair[0])));
+    if let Some((before, after)) = values.iter().zip(&values[1..]).find(|(before, after)| !(before < after)) {
+        return Err(Error::at(key, format!("{after} follows {before}: let the values rise")));
     }
     Ok(values)
 }

@@ -46,11 +46,11 @@ fn the_pin_comes_from_its_description() {
     let rows: Vec<Vec<f64>> =
         lines.map(|line| line.split(',').map(|word| word.parse().expect("a number")).collect()).collect();
     assert_eq!(rows.len(), 26 * 7);
-    let unstable: Vec<&Vec<f64>> = rows.iter().filter(|row| row[5] == 1.0).collect();
+    let unstable: Vec<&Vec<f64>> = rows.iter().filter(|row| row[5] > 0.5).collect();
     // One of both grows at 0.4, 0.42, …, 0.5.
     assert_eq!(unstable.len(), 6, "{unstable:?}");
     let first = unstable[0];
-    assert_eq!(first[0], 0.4);
+    assert!((first[0] - 0.4).abs() < 1e-15);
     assert!((first[2] - 64_170.82).abs() < 0.006 && (first[3] - 431.41).abs() < 0.006, "{first:?}");
     let omega = std::f64::consts::TAU * first[2];
     assert!((first[4] + first[3] / omega.hypot(first[3])).abs() < 1e-14, "{first:?}");
@@ -160,6 +160,7 @@ fn a_cost_is_told_before() {
 
 /// What the first lines of a message have to be, for a description in which one text takes the place of another.
 #[test]
+#[expect(clippy::too_many_lines, reason = "a row for every input")]
 fn bad_descriptions_are_named() {
     for (old, new, wanted) in [
         ("title", "titel", "line 2: unknown field `titel`, expected one of"),
