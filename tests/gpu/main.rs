@@ -80,6 +80,8 @@ fn main() {
         (all, faults::CASES),
         (all, fuzz::CASES),
         (strict, strict::CASES),
+        (strict.or(slow), strict::SLOW),
+        (strict.or(f64).or(slow), strict::SLOW_F64),
         (strict, runs::STRICT),
         (strict.or(f64), strict::F64),
     ];

@@ -51,12 +51,6 @@ pub(crate) const CASES: &[Case] = &[
     ("strict::pieces_equal_their_twin_in_every_bit", || {
         response_equals::<f32>(LawForm::Pieces, COUNT, &[false, true])
     }),
-    ("strict::exponential_equals_its_twin_in_every_bit", || {
-        response_equals::<f32>(LawForm::Exponential, COUNT, &[true])
-    }),
-    ("strict::rational_equals_its_twin_in_every_bit", || {
-        response_equals::<f32>(LawForm::Rational, COUNT, &[true])
-    }),
     ("strict::belts_without_a_ramp_equal_their_twin_in_every_bit", || {
         // Their kernel is built without one; the others hold both.
         let forms = LawForm::ALL;
@@ -66,9 +60,18 @@ pub(crate) const CASES: &[Case] = &[
     ("strict::one_ulp_in_one_scene_is_noticed", changed_scene),
 ];
 
-/// Cases that need an adapter with f64 and a strict one.
-pub(crate) const F64: &[Case] = &[
-    ("strict::linear_in_f64_equals_its_twin_in_every_bit", linear_equals::<f64>),
+/// What takes a software adapter half a minute and more, in f32; some of every law are among the others.
+pub(crate) const SLOW: &[Case] = &[
+    ("strict::exponential_equals_its_twin_in_every_bit", || {
+        response_equals::<f32>(LawForm::Exponential, COUNT, &[true])
+    }),
+    ("strict::rational_equals_its_twin_in_every_bit", || {
+        response_equals::<f32>(LawForm::Rational, COUNT, &[true])
+    }),
+];
+
+/// What takes it as long in f64.
+pub(crate) const SLOW_F64: &[Case] = &[
     ("strict::pieces_in_f64_equal_their_twin_in_every_bit", || {
         response_equals::<f64>(LawForm::Pieces, FEW, &[false, true])
     }),
@@ -79,6 +82,10 @@ pub(crate) const F64: &[Case] = &[
         response_equals::<f64>(LawForm::Rational, FEW, &[true])
     }),
 ];
+
+/// Cases that need an adapter with f64 and a strict one.
+pub(crate) const F64: &[Case] =
+    &[("strict::linear_in_f64_equals_its_twin_in_every_bit", linear_equals::<f64>)];
 
 /// The instances whose words are not the same to the bit, and what the first of them differs in.
 fn differing<R: Real>(

@@ -29,7 +29,6 @@ pub(crate) const CASES: &[Case] = &[
     ("sweeps::slow_belts_are_those_of_the_reference", slow_belts),
     ("sweeps::a_table_of_forty_rows_is_that_of_the_reference", || table(40, 24)),
     ("sweeps::a_table_of_a_hundred_rows_is_that_of_the_reference", || table(100, 12)),
-    ("sweeps::a_table_of_a_thousand_rows_is_that_of_the_reference", || table(1000, 6)),
     ("sweeps::any_chunk_size_and_two_runs_give_the_same_records", any_chunk),
     ("sweeps::instances_that_cannot_start_keep_their_status", dead),
     ("sweeps::a_cancelled_sweep_keeps_what_is_finished", cancelled),
@@ -40,6 +39,7 @@ pub(crate) const CASES: &[Case] = &[
 pub(crate) const SLOW: &[Case] = &[
     ("sweeps::paper_map_is_that_of_the_reference", paper_map),
     ("sweeps::two_million_steps_per_instance", two_million_steps),
+    ("sweeps::a_table_of_a_thousand_rows_is_that_of_the_reference", || table(1000, 6)),
 ];
 
 pub(crate) const F64: &[Case] = &[("sweeps::f64_is_that_of_its_twin", in_f64)];
