@@ -10,6 +10,7 @@
 //! | measured signals | [`identify`] |
 //! | an instance as sensors record it | [`signals`] |
 //! | the source paper | [`paper`] |
+//! | bodies in sliding contact by finite elements | [`fem`] |
 //!
 //! [`kind`] says which figures a directory holds, [`picture`] draws them again, and [`error`] says why a study has no
 //! result.
@@ -20,9 +21,9 @@ pub use kind::Kind;
 pub use picture::Picture;
 
 pub mod error;
-#[cfg(feature = "identify")]
 #[cfg(feature = "fem")]
 pub mod fem;
+#[cfg(feature = "identify")]
 pub mod fit;
 pub mod hysteresis;
 #[cfg(all(feature = "figures", feature = "identify"))]
