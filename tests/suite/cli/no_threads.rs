@@ -109,8 +109,10 @@ fn little_memory_never_hangs() {
         for threads in ["1", "2"] {
             let arguments = ["run", "small.toml", "--backend", "cpu", "--threads", threads];
             let (code, told) = limited(directory.path(), &limit, &arguments);
-            // An abort has no code, but the words of the allocator.
-            assert!(!told.contains("panicked"), "{limit}, {threads}: {code:?} {told}");
+            // An abort has no code, but the words of the allocator. Where not even the signal stack of a thread can be had, the
+            // standard library panics within the start of that thread, before any of our code, and aborts.
+            let of_std = told.contains("failed to allocate an alternative stack") && code.is_none();
+            assert!(of_std || !told.contains("panicked"), "{limit}, {threads}: {code:?} {told}");
         }
     }
 }
