@@ -21,7 +21,7 @@ pub enum Status {
     /// Events piled up (chatter, Zeno) beyond the limit; `simulated_time` says how far it came.
     EventLimit = 5,
     /// The step needed for this instance is smaller than the integrator allows, or the run has more than
-    /// [`crate::engine::scene::MOST_STEPS`], or a period more than [`crate::engine::reference::integrate::MAX_STEPS_PER_PERIOD`].
+    /// [`crate::engine::scene::MOST_STEPS`], or a period more than [`crate::engine::reference::bounds::MAX_STEPS_PER_PERIOD`].
     StepTooLarge = 6,
     /// The state left the range of finite numbers, or its scaled parameters are beyond [`crate::engine::scene::LARGEST`].
     NonFinite = 7,

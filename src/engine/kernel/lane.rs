@@ -22,7 +22,9 @@ use crate::engine::kernel::series::{
     Body, Expansion, FREE, REVERSE, SLIP, STICK, Series, evaluate, expand, largest, step_length,
 };
 use crate::engine::kernel::steps::ORDER;
-use crate::engine::reference::integrate::{MAX_EVENTS_PER_PERIOD, MAX_STEPS_PER_PERIOD, ROUNDINGS};
+use crate::engine::reference::bounds::MAX_EVENTS_PER_PERIOD;
+use crate::engine::reference::bounds::MAX_STEPS_PER_PERIOD;
+use crate::engine::reference::bounds::ROUNDINGS;
 use crate::engine::scene::MOST_STEPS;
 use crate::model::status::Status;
 

@@ -15,7 +15,9 @@ use crate::engine::kernel::{contact, crossing, lane, observe, scene, series, ste
 use crate::engine::method::pace::Turns;
 use crate::engine::outcome::Outcome;
 use crate::engine::plan::Plan;
-use crate::engine::reference::integrate::{MAX_EVENTS_PER_PERIOD, MAX_STEPS_PER_PERIOD, ROUNDINGS};
+use crate::engine::reference::bounds::MAX_EVENTS_PER_PERIOD;
+use crate::engine::reference::bounds::MAX_STEPS_PER_PERIOD;
+use crate::engine::reference::bounds::ROUNDINGS;
 use crate::engine::scene::{MOST_STEPS, Scene};
 use crate::engine::sums::{growth, peak, phase, sum};
 use crate::model::instance::Instance;

@@ -13,7 +13,7 @@ use crate::engine::kernel::scalar::Real;
 use crate::engine::kernel::steps::{ORDER, TOLERANCE};
 use crate::engine::kernel::table::{head, piece, segment};
 use crate::engine::method::pace::Turns;
-use crate::engine::reference::integrate::MAX_EVENTS_AT_ONCE;
+use crate::engine::reference::bounds::MAX_EVENTS_AT_ONCE;
 use crate::model::piece::{FAR, LawForm, Piece as LawPiece};
 use crate::model::scaled::Scaled;
 

@@ -1,6 +1,7 @@
 //! Angles and their cosines in every lane.
 
-use crate::engine::lanes::vector::{Scalar, Vector};
+use crate::engine::lanes::scalar::Scalar;
+use crate::engine::lanes::vector::Vector;
 use crate::engine::precision::Precision;
 use std::f64::consts::{FRAC_PI_2, PI};
 

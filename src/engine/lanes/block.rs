@@ -10,7 +10,8 @@ use crate::engine::kernel::contact::{
 use crate::engine::kernel::scene::{EVENTS_AT_ONCE, Scene};
 use crate::engine::kernel::series::{Body, FREE, REVERSE, SLIP, STICK};
 use crate::engine::lanes::constants::{CONE, CONSTANTS, LONGEST, N0, SWING_WORDS, V0};
-use crate::engine::lanes::vector::{Mask, Scalar, Vector};
+use crate::engine::lanes::scalar::Scalar;
+use crate::engine::lanes::vector::{Mask, Vector};
 use crate::model::piece::LawForm;
 
 /// The event function a lane's normal force or gap belongs to.

@@ -1,10 +1,11 @@
 //! The end of a step: its events carried out, and the lanes that need more looked after.
 
-use crate::engine::lanes::expand::FLIGHT;
 use crate::engine::lanes::job::Part;
 use crate::engine::lanes::march::{Lanes, visit};
+use crate::engine::lanes::motion::FLIGHT;
+use crate::engine::lanes::scalar::Scalar;
 use crate::engine::lanes::transitions::transitions;
-use crate::engine::lanes::vector::{Scalar, Vector};
+use crate::engine::lanes::vector::Vector;
 use pulp::Simd;
 use std::ops::Not;
 

@@ -3,7 +3,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::engine::reference::integrate::{MAX_EVENTS_PER_PERIOD, MAX_STEPS_PER_PERIOD};
+use crate::engine::reference::bounds::{MAX_EVENTS_PER_PERIOD, MAX_STEPS_PER_PERIOD};
 
 /// The most that a lane counts to in f32, half of what it could.
 const COUNTED: f64 = 8_388_608.0;

@@ -8,8 +8,9 @@ use crate::engine::kernel::observe::SAMPLE_TIMES;
 use crate::engine::lanes::expand::Expansion;
 use crate::engine::lanes::observe::Sums;
 use crate::engine::lanes::polynomial::{soon_to, value_soon};
+use crate::engine::lanes::scalar::Scalar;
 use crate::engine::lanes::spectrum::Nodes;
-use crate::engine::lanes::vector::{Mask, Scalar, Vector};
+use crate::engine::lanes::vector::{Mask, Vector};
 
 /// Refinements of a crossing by Newton's method, and of an extremum by a chord.
 const REFINEMENTS: usize = 3;

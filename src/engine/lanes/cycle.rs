@@ -1,6 +1,7 @@
 //! The state of the sums at the last end of stick, so that whole cycles can be added to it.
 
-use crate::engine::lanes::vector::{Mask, Scalar, Vector};
+use crate::engine::lanes::scalar::Scalar;
+use crate::engine::lanes::vector::{Mask, Vector};
 use crate::engine::sums::sum;
 use pulp::Simd;
 

@@ -12,7 +12,8 @@ use crate::engine::lanes::expand::Expansion;
 use crate::engine::lanes::function::{Function, Rounding};
 use crate::engine::lanes::functions::{Functions, may_fall, may_return};
 use crate::engine::lanes::root::{Bracket, bracket, refine};
-use crate::engine::lanes::vector::{Scalar, Vector};
+use crate::engine::lanes::scalar::Scalar;
+use crate::engine::lanes::vector::Vector;
 
 /// The span of a function that may rise as far as it will: no number of a lane comes near.
 const NO_SPAN: f64 = 1e30;

@@ -4,24 +4,14 @@
 //! forces are times its square, so that everything that follows is a polynomial on [0, 1]. Terms that are
 //! known early are summed first: a degree waits for three of its products, not for all.
 
-use pulp::Simd;
-
 use crate::engine::lanes::block::{AT_ZERO, Block, OFFSET, RATE, SLOPE};
-use crate::engine::lanes::constants::{FALL, FLIGHT_X, FLIGHT_Y, H, KAPPA, LAYER, MU0, N0, R, V0, W};
-use crate::engine::lanes::vector::{Mask, Scalar, Vector};
+use crate::engine::lanes::constants::{KAPPA, LAYER, MU0, N0, R, V0, W};
+use crate::engine::lanes::forms::{Forms, forms};
+use crate::engine::lanes::motion::{CURVED, FLIGHT, PIECES, SINGLE};
+use crate::engine::lanes::scalar::Scalar;
+use crate::engine::lanes::vector::{Mask, Vector};
 use crate::model::piece::{FAR, LawForm};
-
-/// The laws of a pass are straight pieces.
-pub const PIECES: bool = false;
-/// They have one of the curved forms; which one is known when it runs.
-pub const CURVED: bool = true;
-
-/// Motion of `x2` alone: θ = 0 and `y1` at rest, so that the normal force is that of the equilibrium.
-pub const SINGLE: u8 = 0;
-/// No lane flies: `y2` is 0.
-pub const CLOSED: u8 = 1;
-/// Some lane may fly.
-pub const FLIGHT: u8 = 2;
+use pulp::Simd;
 
 /// Series of one step; `N` coefficients of the positions.
 #[derive(Clone, Copy, Debug)]
@@ -130,73 +120,6 @@ pub fn exp_m1<S: Simd, T: Scalar<S>>(x: Vector<S, T>) -> Vector<S, T> {
         e = large.select(e, small);
     }
     e
-}
-
-/// What the accelerations and the normal force are made of over a step, times its square: coefficients of the
-/// coordinates and of their velocities (the power of the step is in them), and constants.
-#[derive(Clone, Copy)]
-struct Forms<S: Simd, T: Scalar<S>> {
-    /// Acceleration of `x2`, friction by the curvature of its law aside.
-    ax: [Vector<S, T>; 6],
-    /// Acceleration of `y2`.
-    ay: [Vector<S, T>; 6],
-    /// Acceleration of `y1`.
-    aw: [Vector<S, T>; 6],
-    /// Normal force, without `−κ ẍ2`.
-    normal: [Vector<S, T>; 6],
-    /// Constant part of `ax`.
-    push: Vector<S, T>,
-    /// Constant part of `ay`.
-    fall: Vector<S, T>,
-    /// Constant part of `normal`.
-    load: Vector<S, T>,
-    /// `κ`, 0 in flight.
-    kappa: Vector<S, T>,
-}
-
-/// The forms of every lane's contact state; `reciprocal` is `1/(1 + κ q0)`.
-#[inline(always)]
-fn forms<S: Simd, T: Scalar<S>, const MOTION: u8>(
-    b: &Block<S, T>,
-    h: Vector<S, T>,
-    [q0, q0_less]: [Vector<S, T>; 2],
-    reciprocal: Vector<S, T>,
-) -> Forms<S, T> {
-    let zero = h.like(0.0);
-    let (slip, free) = (b.slip(), b.free());
-    let square = h * h;
-    let (scale, scale_damper) = (slip.select(reciprocal * square, zero), slip.select(reciprocal * h, zero));
-    let mut ax = [zero; 6];
-    let mut ay = [zero; 6];
-    let mut aw = [zero; 6];
-    let mut normal = [zero; 6];
-    for i in 0..6 {
-        if MOTION != FLIGHT && (i == 1 || i == 4) || MOTION == SINGLE && i % 3 > 0 {
-            continue;
-        }
-        let (power, scaled) = if i < 3 { (square, scale) } else { (h, scale_damper) };
-        ax[i] = (q0.fma(b.scene[W + i], -b.scene[R + i])) * scaled;
-        if MOTION != SINGLE {
-            aw[i] = b.scene[H + i] * power;
-            normal[i] = b.scene[W + i] * power;
-        }
-        if MOTION == FLIGHT {
-            ax[i] = free.select(b.scene[FLIGHT_X + i] * power, ax[i]);
-            ay[i] = (b.scene[FLIGHT_Y + i] * power).only(free);
-            normal[i] = free.select(zero, normal[i]);
-        }
-    }
-    let mut push = slip.select(q0_less * b.scene[N0] * scale, b.drive * square);
-    let mut load = b.scene[N0] * square;
-    let mut kappa = b.scene[KAPPA];
-    let mut fall = zero;
-    if MOTION == FLIGHT {
-        push = free.select(b.scene[FALL] * square, push);
-        fall = (b.scene[FALL + 1] * square).only(free);
-        load = free.select(zero, load);
-        kappa = free.select(zero, kappa);
-    }
-    Forms { ax, ay, aw, normal, push, fall, load, kappa }
 }
 
 /// Expands the motion over the step `h`; returns the lanes whose contact forces are not unique. Series of what

@@ -8,11 +8,13 @@ use pulp::Simd;
 use crate::engine::kernel::crossing::HIGHEST_ORDER;
 use crate::engine::lanes::block::Block;
 use crate::engine::lanes::constants::{INV_DET, MU_STICK, N0, STIFFNESS};
-use crate::engine::lanes::expand::{Expansion, SINGLE};
+use crate::engine::lanes::expand::Expansion;
 use crate::engine::lanes::functions::Functions;
+use crate::engine::lanes::motion::SINGLE;
 use crate::engine::lanes::reach::largest;
-use crate::engine::lanes::vector::{Mask, Scalar, Vector};
-use crate::engine::reference::integrate::ROUNDINGS;
+use crate::engine::lanes::scalar::Scalar;
+use crate::engine::lanes::vector::{Mask, Vector};
+use crate::engine::reference::bounds::ROUNDINGS;
 
 /// The rounding errors of event functions and their derivatives at the beginning of a step.
 pub struct Rounding<S: Simd, T: Scalar<S>> {

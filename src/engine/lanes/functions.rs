@@ -6,8 +6,10 @@ use pulp::Simd;
 
 use crate::engine::lanes::block::{Block, LOWER, UPPER};
 use crate::engine::lanes::constants::{CONE, KAPPA, MU_STICK, R, W};
-use crate::engine::lanes::expand::{Expansion, FLIGHT, SINGLE};
-use crate::engine::lanes::vector::{Mask, Scalar, Vector};
+use crate::engine::lanes::expand::Expansion;
+use crate::engine::lanes::motion::{FLIGHT, SINGLE};
+use crate::engine::lanes::scalar::Scalar;
+use crate::engine::lanes::vector::{Mask, Vector};
 
 /// The event functions of a step. Each is `m n_k + s d_k` for `k > 0`, with the series `n` of the normal force
 /// (of the gap for lanes that fly) and one more; the rest differs from lane to lane.

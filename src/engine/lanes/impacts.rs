@@ -8,7 +8,8 @@ use pulp::Simd;
 
 use crate::engine::lanes::block::{AT_ZERO, Block, LOWER, SLOPE, UPPER};
 use crate::engine::lanes::constants::{IMPACT_FRICTION, KAPPA, NORMAL_MASS, RESTITUTION};
-use crate::engine::lanes::vector::{Mask, Scalar, Vector};
+use crate::engine::lanes::scalar::Scalar;
+use crate::engine::lanes::vector::{Mask, Vector};
 use crate::model::contact::SLOWEST_REBOUND;
 
 /// A law at the speed `|v|` of every lane.

@@ -36,11 +36,13 @@ pub mod crossings;
 pub mod cycle;
 pub mod events;
 pub mod expand;
+pub mod forms;
 pub mod function;
 pub mod functions;
 pub mod impacts;
 pub mod job;
 pub mod march;
+pub mod motion;
 pub mod observe;
 pub mod outcomes;
 pub mod pass;
@@ -48,6 +50,7 @@ pub mod polynomial;
 pub mod reach;
 pub mod records;
 pub mod root;
+pub mod scalar;
 pub mod spectrum;
 pub mod stretches;
 pub mod swing;
@@ -67,7 +70,7 @@ use crate::model::piece::LawForm;
 use job::{Job, Part};
 use march::Settings;
 use pass::pass;
-use vector::Scalar;
+use scalar::Scalar;
 
 /// Order of the Taylor series: one of those whose steps damp an undamped mode whatever their length.
 pub const ORDER: usize = 13;
@@ -100,7 +103,7 @@ macro_rules! lanes {
                         '_,
                         $scalar,
                         { ORDER + 1 },
-                        { expand::PIECES },
+                        { motion::PIECES },
                     > {
                         jobs,
                         settings,
@@ -108,7 +111,7 @@ macro_rules! lanes {
                     Some(LawForm::Exponential | LawForm::Rational) => settings
                         .terms
                         .instructions
-                        .dispatch(Parts::<'_, $scalar, { ORDER + 1 }, { expand::CURVED }> { jobs, settings }),
+                        .dispatch(Parts::<'_, $scalar, { ORDER + 1 }, { motion::CURVED }> { jobs, settings }),
                 }
             }
         }
@@ -140,7 +143,7 @@ impl<T: Real, const N: usize, const LAW: bool> Parts<'_, T, N, LAW> {
     {
         let Parts { jobs, settings } = self;
         // Once for all parts: those that swing pass all their time in one of them.
-        let single = LAW == expand::PIECES && jobs.iter().all(Job::is_single);
+        let single = LAW == motion::PIECES && jobs.iter().all(Job::is_single);
         let mut parts = Part::ALL.into_iter().peekable();
         while let Some(part) = parts.peek().copied() {
             pass::<S, T, N, LAW>(simd, jobs, part, single, settings);

@@ -7,10 +7,12 @@ use crate::engine::lanes::angle::{rotation, turn};
 use crate::engine::lanes::block::Block;
 use crate::engine::lanes::constants::{N0, R, T0, W};
 use crate::engine::lanes::cycle::Cycle;
-use crate::engine::lanes::expand::{Expansion, SINGLE};
+use crate::engine::lanes::expand::Expansion;
+use crate::engine::lanes::motion::SINGLE;
 use crate::engine::lanes::polynomial::{soon_to, value_soon};
+use crate::engine::lanes::scalar::Scalar;
 use crate::engine::lanes::spectrum::{Nodes, Spectrum, moving, seen};
-use crate::engine::lanes::vector::{Mask, Scalar, Vector};
+use crate::engine::lanes::vector::{Mask, Vector};
 use crate::engine::sums::{growth, peak, sum};
 use pulp::Simd;
 

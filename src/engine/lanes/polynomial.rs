@@ -2,7 +2,8 @@
 
 use pulp::Simd;
 
-use crate::engine::lanes::vector::{Scalar, Vector};
+use crate::engine::lanes::scalar::Scalar;
+use crate::engine::lanes::vector::Vector;
 
 /// `Σ b_k t^(k − first)` over all degrees from `first` on. Even and odd ones are summed side by side, which takes less time
 /// than one chain of all.

@@ -4,8 +4,10 @@ use std::ops::Not;
 
 use pulp::Simd;
 
-use crate::engine::lanes::expand::{Expansion, FLIGHT, SINGLE};
-use crate::engine::lanes::vector::{Mask, Scalar, Vector};
+use crate::engine::lanes::expand::Expansion;
+use crate::engine::lanes::motion::{FLIGHT, SINGLE};
+use crate::engine::lanes::scalar::Scalar;
+use crate::engine::lanes::vector::{Mask, Vector};
 
 /// A step whose truncation leaves room for it lets the next be longer by this factor.
 pub const LONGER: f64 = 1.4;

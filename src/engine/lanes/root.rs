@@ -7,7 +7,8 @@ use pulp::Simd;
 
 use crate::engine::kernel::crossing::{DIP, DIP_ITERATIONS, SAMPLES, SOLVER_ITERATIONS};
 use crate::engine::lanes::polynomial::{at_one, soon_to, value_and_slope, value_slope_and_bend, value_soon};
-use crate::engine::lanes::vector::{Mask, Scalar, Vector};
+use crate::engine::lanes::scalar::Scalar;
+use crate::engine::lanes::vector::{Mask, Vector};
 use crate::engine::precision::Precision;
 
 /// The least part of the way between two samples at which a root is looked for first.

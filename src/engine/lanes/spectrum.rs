@@ -12,9 +12,11 @@ use pulp::Simd;
 
 use crate::engine::kernel::observe::{NODES, WEIGHTS};
 use crate::engine::lanes::angle::{rotation, turn};
-use crate::engine::lanes::expand::{Expansion, SINGLE};
+use crate::engine::lanes::expand::Expansion;
+use crate::engine::lanes::motion::SINGLE;
 use crate::engine::lanes::polynomial::soon_to;
-use crate::engine::lanes::vector::{Mask, Scalar, Vector};
+use crate::engine::lanes::scalar::Scalar;
+use crate::engine::lanes::vector::{Mask, Vector};
 
 /// Powers of `u`.
 pub const MOMENTS: usize = 3;

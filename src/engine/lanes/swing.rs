@@ -11,7 +11,8 @@ use crate::engine::lanes::angle::{about_arccos, angle_of, far_rotation, folded};
 use crate::engine::lanes::block::{AT_ZERO, Block, OFFSET, SECOND, THIRD};
 use crate::engine::lanes::constants::{CONE, MU0, N0, R, SWING};
 use crate::engine::lanes::expand::exp_m1;
-use crate::engine::lanes::vector::{Mask, Scalar, Vector};
+use crate::engine::lanes::scalar::Scalar;
+use crate::engine::lanes::vector::{Mask, Vector};
 use crate::engine::precision::Precision;
 
 /// The longest step of a lane, so that those that rest have a finite one.

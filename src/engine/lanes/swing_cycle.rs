@@ -9,7 +9,8 @@ use pulp::Simd;
 
 use crate::engine::lanes::block::Block;
 use crate::engine::lanes::observe::Sums;
-use crate::engine::lanes::vector::{Mask, Scalar};
+use crate::engine::lanes::scalar::Scalar;
+use crate::engine::lanes::vector::Mask;
 use crate::engine::sums::sum;
 
 /// A slip from the end of stick takes longer than half a turn at an angular frequency of about 1. A shorter one is chatter.

@@ -6,11 +6,11 @@ use pulp::Simd;
 
 use crate::engine::lanes::carry::carry_out;
 use crate::engine::lanes::constants::R;
-use crate::engine::lanes::expand::{PIECES, SINGLE};
 use crate::engine::lanes::job::Part;
 use crate::engine::lanes::march::{Lanes, fail};
+use crate::engine::lanes::motion::{PIECES, SINGLE};
+use crate::engine::lanes::scalar::Scalar;
 use crate::engine::lanes::swing::Swing;
-use crate::engine::lanes::vector::Scalar;
 
 /// One step of every lane.
 #[inline(always)]

@@ -12,8 +12,9 @@ use crate::engine::lanes::angle::folded;
 use crate::engine::lanes::block::Block;
 use crate::engine::lanes::constants::{N0, R, T0};
 use crate::engine::lanes::observe::Sums;
+use crate::engine::lanes::scalar::Scalar;
 use crate::engine::lanes::swing::{Reached, Swing};
-use crate::engine::lanes::vector::{Scalar, Vector};
+use crate::engine::lanes::vector::Vector;
 use crate::engine::sums::{peak, sum};
 
 impl<S: Simd, T: Scalar<S>> Sums<S, T> {

@@ -11,9 +11,10 @@ use crate::engine::kernel::scene::EVENTS_AT_ONCE;
 use crate::engine::kernel::series::{FREE, REVERSE, SLIP, STICK};
 use crate::engine::lanes::block::{Block, FIRST, LOWER, ONE_PIECE, SECOND, THIRD, UPPER};
 use crate::engine::lanes::constants::{CONE, KAPPA, MU_STICK, N0, R, T0, W};
-use crate::engine::lanes::expand::{FLIGHT, PIECES};
 use crate::engine::lanes::impacts::{at_speed, impact};
-use crate::engine::lanes::vector::{Mask, Scalar, Vector};
+use crate::engine::lanes::motion::{FLIGHT, PIECES};
+use crate::engine::lanes::scalar::Scalar;
+use crate::engine::lanes::vector::{Mask, Vector};
 
 /// A linear form of the state.
 #[inline(always)]

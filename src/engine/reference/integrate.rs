@@ -3,140 +3,24 @@
 //! Time always advances: a step ends at an event or at its full length, and events that do not advance
 //! time are counted; too many end the instance with [`Status::EventLimit`].
 
-use std::sync::atomic::{AtomicBool, Ordering};
-
 use crate::engine::method::pace::{Turns, stands_still};
 use crate::engine::method::roots::Crossing;
 use crate::engine::method::taylor::{
-    BeltMotion, Expansion, MAX_ORDER, Motion, NORMAL, RELATIVE, Series, State, TANGENTIAL, X2,
+    BeltMotion, Expansion, MAX_ORDER, NORMAL, RELATIVE, Series, State, TANGENTIAL, X2,
 };
 use crate::engine::method::{Method, rk4};
+use crate::engine::reference::bounds::{
+    MAX_EVENTS_AT_ONCE, MAX_EVENTS_PER_PERIOD, MAX_HALVINGS, MAX_STEPS_PER_PERIOD, PAINLEVE_APPROACHED,
+    RELEASED_AGAIN, ROUNDINGS, STEPS_BETWEEN_LOOKS,
+};
+use crate::engine::reference::observer::{Event, Observer, Step};
+use crate::engine::reference::resolution::Resolution;
+use crate::engine::reference::watched::{Disarmed, Watched};
 use crate::engine::scene::MOST_STEPS;
-use crate::model::contact::{Contact, ContactState};
+use crate::model::contact::Contact;
 use crate::model::scaled::Scaled;
 use crate::model::status::Status;
-
-/// Most events at one and the same instant.
-pub const MAX_EVENTS_AT_ONCE: u32 = 64;
-
-/// Most events within one period `2π/ω0`: above the bounces of a Zeno sequence at `e = 0.999`, so that
-/// only chatter without end is stopped.
-pub const MAX_EVENTS_PER_PERIOD: u32 = 20_000;
-
-/// Most halvings of the nominal step, enough for the boundary layers of extreme starts.
-pub const MAX_HALVINGS: i32 = 24;
-
-/// Most steps within one period `2π/ω0`; stiffer instances end with [`Status::StepTooLarge`], on every engine.
-/// Five times the finest setting of a sweep.
-pub const MAX_STEPS_PER_PERIOD: u32 = 500_000;
-
-/// Events without time between them from which on rest and release take turns.
-const RELEASED_AGAIN: u32 = 4;
-
-/// Roundings of the static loads that a force may be off by.
-pub const ROUNDINGS: f64 = 8.0;
-
-/// Steps after which a wish to stop is looked for: some milliseconds.
-const STEPS_BETWEEN_LOOKS: u64 = 1024;
-
-/// Where `M11` vanishes the acceleration of slip diverges like the inverse root of the time left, and no
-/// step is short enough to get there: an end within this many of the finest steps before it is Painlevé's.
-pub const PAINLEVE_APPROACHED: f64 = 50.0;
-
-/// How finely to integrate.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Resolution {
-    /// How a step is taken.
-    pub method: Method,
-    /// Order of the position series, 4 to [`MAX_ORDER`]; of a Taylor series only.
-    pub order: usize,
-    /// Largest step, in units of `1/ω0`.
-    pub nominal_step: f64,
-    /// Bound on the last two terms of the series; infinite for steps of fixed length. Of a Taylor series only.
-    pub tolerance: f64,
-}
-
-impl Resolution {
-    /// How far a step may turn.
-    fn turns(&self) -> Turns {
-        let tolerance = if self.method == Method::Taylor { self.tolerance } else { f64::INFINITY };
-        Turns::new(self.order, tolerance)
-    }
-
-    /// The longest step of slip, reversed slip, stick and flight.
-    fn longest(&self, model: &Scaled) -> [f64; 4] {
-        let mut longest = match self.method {
-            Method::Taylor => self.turns().longest_steps(&model.fastest),
-            Method::LocatedRk4 | Method::FixedStep => [self.nominal_step; 4],
-        };
-        if self.method == Method::LocatedRk4 {
-            longest[ContactState::Free as usize] *= rk4::IN_FLIGHT;
-        }
-        longest
-    }
-}
-
-/// One accepted step: the series holds from `start` for `duration`.
-#[derive(Clone, Copy, Debug)]
-pub struct Step<'a> {
-    /// The motion.
-    pub expansion: &'a Expansion,
-    /// Time at the start of the step.
-    pub start: f64,
-    /// Length of the step.
-    pub duration: f64,
-    /// The belt at the start of the step.
-    pub belt: BeltMotion,
-    /// The motion at the end of the step, before the event that ended it.
-    pub end: Motion,
-}
-
-/// The event that ended a step early.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Event {
-    /// The relative velocity reached 0.
-    Rest,
-    /// The relative velocity reached a kink of the friction law.
-    Kink,
-    /// The normal force fell to 0.
-    LiftOff,
-    /// The tangential force left the stick cone.
-    StickLimit,
-    /// The gap closed; with the energy gain of the impact.
-    Impact {
-        /// Whether the impact gained energy.
-        gained_energy: bool,
-    },
-}
-
-/// Watches the steps and events of an integration.
-pub trait Observer {
-    /// Called for every step, in order of time.
-    fn step(&mut self, step: &Step);
-    /// Called for every event, after the step that it ended.
-    fn event(&mut self, _event: Event) {}
-}
-
-impl<A: Observer, B: Observer> Observer for (&mut A, &mut B) {
-    fn step(&mut self, step: &Step) {
-        self.0.step(step);
-        self.1.step(step);
-    }
-    fn event(&mut self, event: Event) {
-        self.0.event(event);
-        self.1.event(event);
-    }
-}
-
-/// An event function that begins at zero because it started the present contact state.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Disarmed {
-    Nothing,
-    Rest,
-    LowerKink,
-    UpperKink,
-    Gap,
-}
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// The running integration of one instance.
 #[derive(Clone, Debug)]
@@ -513,15 +397,4 @@ impl<'a> Integrator<'a> {
             _ => Disarmed::Nothing,
         };
     }
-}
-
-/// The event functions; each is positive inside its contact state.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Watched {
-    Rest,
-    LowerKink,
-    UpperKink,
-    LiftOff,
-    StickLimit { sigma: f64 },
-    Gap,
 }

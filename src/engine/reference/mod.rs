@@ -5,7 +5,11 @@
 //! - [`integrate`]: smooth steps between located events.
 //! - [`observe`]: sums and extremes of one trajectory.
 
+pub mod bounds;
 pub mod integrate;
 pub mod observe;
+pub mod observer;
 pub mod records;
+pub mod resolution;
 pub mod respond;
+mod watched;

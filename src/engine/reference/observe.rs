@@ -6,7 +6,7 @@
 use crate::engine::method::roots::upward_crossings;
 use crate::engine::method::taylor::{Motion, NORMAL, X2, Y1, horner_with_derivatives};
 use crate::engine::reductions::Reductions;
-use crate::engine::reference::integrate::{Event, Observer, Step};
+use crate::engine::reference::observer::{Event, Observer, Step};
 use crate::engine::sums::{growth, peak, sum};
 use crate::model::contact::ContactState;
 use num_complex::Complex64;

@@ -4,7 +4,8 @@
 //! ([`crate::study::trace::run`]) has rows at events too, which no data logger has.
 
 use crate::engine::plan::Plan;
-use crate::engine::reference::integrate::{Observer, Step};
+use crate::engine::reference::observer::Observer;
+use crate::engine::reference::observer::Step;
 use crate::engine::scene::Scene;
 use crate::model::instance::Instance;
 use crate::model::status::Status;

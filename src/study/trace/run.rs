@@ -4,7 +4,9 @@ use std::f64::consts::TAU;
 
 use crate::engine::outcome::Outcome;
 use crate::engine::plan::Plan;
-use crate::engine::reference::integrate::{Event, Observer, Step};
+use crate::engine::reference::observer::Event;
+use crate::engine::reference::observer::Observer;
+use crate::engine::reference::observer::Step;
 use crate::engine::reference::respond::respond;
 use crate::engine::scene::Scene;
 use crate::model::contact::ContactState;

@@ -9,7 +9,7 @@ use squealmap::engine::lanes::march::Terms;
 use squealmap::engine::lanes::outcomes::outcomes_on;
 use squealmap::engine::outcome::Outcome;
 use squealmap::engine::plan::{Duration, Plan};
-use squealmap::engine::reference::integrate::MAX_STEPS_PER_PERIOD;
+use squealmap::engine::reference::bounds::MAX_STEPS_PER_PERIOD;
 use squealmap::engine::scene::MOST_STEPS;
 use squealmap::model::Param;
 use squealmap::model::instance::Instance;

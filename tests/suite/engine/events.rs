@@ -4,7 +4,9 @@ use crate::common::{close, constant, instance, near, paper, plan};
 use squealmap::engine::method::Method;
 use squealmap::engine::method::taylor::{BeltMotion, State};
 use squealmap::engine::plan::{Plan, StartKind};
-use squealmap::engine::reference::integrate::{Event, Observer, Step};
+use squealmap::engine::reference::observer::Event;
+use squealmap::engine::reference::observer::Observer;
+use squealmap::engine::reference::observer::Step;
 use squealmap::engine::scene::Scene;
 use squealmap::model::friction::FrictionLaw;
 use squealmap::model::instance::Instance;
@@ -194,7 +196,7 @@ fn free_flight_in_closed_form() {
         let scene = Scene::new(&instance, StartKind::Kick).expect("an equilibrium");
         // y1 = y2 = 0: the spring is unstretched, one static deflection above the equilibrium.
         let start = State { position: [0.0, 0.0, 1.0], velocity: [0.0, 0.0, u0 / scene.units.velocity] };
-        let resolution = squealmap::engine::reference::integrate::Resolution {
+        let resolution = squealmap::engine::reference::resolution::Resolution {
             method: Method::Taylor,
             order: 14,
             nominal_step: std::f64::consts::TAU / 24.0,

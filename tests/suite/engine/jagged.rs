@@ -12,7 +12,7 @@ use squealmap::engine::lanes::again::outcomes_again;
 use squealmap::engine::method::pace::fastest_beyond;
 use squealmap::engine::outcome::Outcome;
 use squealmap::engine::plan::{Duration, Plan, StartKind};
-use squealmap::engine::reference::integrate::MAX_STEPS_PER_PERIOD;
+use squealmap::engine::reference::bounds::MAX_STEPS_PER_PERIOD;
 use squealmap::engine::scene::Scene;
 use squealmap::model::Param;
 use squealmap::model::friction::{FrictionLaw, MuTable};

@@ -1,5 +1,6 @@
 //! The `.inp` files of Abaqus and CalculiX: mesh, sets, surfaces, materials, ties and supports.
 
+use super::cards::{Card, cards, flat};
 use std::collections::BTreeMap;
 
 use super::raw::{Built, Raw, RawElement, number};
@@ -23,60 +24,6 @@ pub struct Deck {
     pub ignored: Vec<String>,
 }
 
-/// A keyword line with the lines of data after it.
-struct Card<'a> {
-    line: usize,
-    name: String,
-    parameters: BTreeMap<String, String>,
-    data: Vec<(usize, Vec<&'a str>)>,
-}
-
-impl Card<'_> {
-    fn parameter(&self, name: &str) -> Result<String, Error> {
-        self.parameters.get(name).cloned().ok_or_else(|| Error::File {
-            line: self.line,
-            what: format!("*{} has no {name}=: give it one", self.name),
-        })
-    }
-
-    /// All entries as numbers.
-    fn values(&self) -> Result<Vec<f64>, Error> {
-        self.data
-            .iter()
-            .flat_map(|(line, words)| {
-                words.iter().filter(|w| !w.is_empty()).map(|w| number(w, *line, "number"))
-            })
-            .collect()
-    }
-}
-
-fn cards(text: &str) -> Vec<Card<'_>> {
-    let mut cards: Vec<Card<'_>> = Vec::new();
-    for (i, line) in text.lines().enumerate() {
-        let line = line.trim();
-        if line.is_empty() || line.starts_with("**") {
-            continue;
-        }
-        if let Some(keyword) = line.strip_prefix('*') {
-            let mut words = keyword.split(',').map(|w| w.trim().to_uppercase());
-            let name = words.next().unwrap_or_default();
-            let parameter = |w: String| {
-                let (key, value) = w.split_once('=').unwrap_or((&w, ""));
-                (key.trim().to_owned(), value.trim().to_owned())
-            };
-            cards.push(Card {
-                line: i + 1,
-                name,
-                parameters: words.map(parameter).collect(),
-                data: Vec::new(),
-            });
-        } else if let Some(card) = cards.last_mut() {
-            card.data.push((i + 1, line.split(',').map(str::trim).collect()));
-        }
-    }
-    cards
-}
-
 fn kind_of(name: &str, line: usize) -> Result<Kind, Error> {
     match name {
         "C3D8" => Ok(Kind::Hex8),
@@ -92,14 +39,6 @@ fn kind_of(name: &str, line: usize) -> Result<Kind, Error> {
             ),
         }),
     }
-}
-
-/// Lines and surfaces, which a mesh generator writes beside the solids.
-fn flat(card: &Card<'_>) -> bool {
-    let kind = card.parameters.get("TYPE").map_or("", String::as_str);
-    ["T3D", "B3", "CPS", "CPE", "M3D", "S3", "S4", "S6", "S8", "STRI"]
-        .iter()
-        .any(|start| kind.starts_with(start))
 }
 
 /// The sets of a file, by numbers, names in capitals.

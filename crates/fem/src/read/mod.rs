@@ -1,6 +1,7 @@
 //! Meshes of other programs: Gmsh's `.msh` (2 and 4.1, text) and the `.inp` of Abaqus and CalculiX.
 
 mod abaqus;
+mod cards;
 mod gmsh;
 mod raw;
 

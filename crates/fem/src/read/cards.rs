@@ -1,0 +1,68 @@
+//! Keyword cards of Abaqus and CalculiX.
+
+use std::collections::BTreeMap;
+
+use super::raw::number;
+use crate::Error;
+
+/// A keyword line with the lines of data after it.
+pub(super) struct Card<'a> {
+    pub(super) line: usize,
+    pub(super) name: String,
+    pub(super) parameters: BTreeMap<String, String>,
+    pub(super) data: Vec<(usize, Vec<&'a str>)>,
+}
+
+impl Card<'_> {
+    pub(super) fn parameter(&self, name: &str) -> Result<String, Error> {
+        self.parameters.get(name).cloned().ok_or_else(|| Error::File {
+            line: self.line,
+            what: format!("*{} has no {name}=: give it one", self.name),
+        })
+    }
+
+    /// All entries as numbers.
+    pub(super) fn values(&self) -> Result<Vec<f64>, Error> {
+        self.data
+            .iter()
+            .flat_map(|(line, words)| {
+                words.iter().filter(|w| !w.is_empty()).map(|w| number(w, *line, "number"))
+            })
+            .collect()
+    }
+}
+
+pub(super) fn cards(text: &str) -> Vec<Card<'_>> {
+    let mut cards: Vec<Card<'_>> = Vec::new();
+    for (i, line) in text.lines().enumerate() {
+        let line = line.trim();
+        if line.is_empty() || line.starts_with("**") {
+            continue;
+        }
+        if let Some(keyword) = line.strip_prefix('*') {
+            let mut words = keyword.split(',').map(|w| w.trim().to_uppercase());
+            let name = words.next().unwrap_or_default();
+            let parameter = |w: String| {
+                let (key, value) = w.split_once('=').unwrap_or((&w, ""));
+                (key.trim().to_owned(), value.trim().to_owned())
+            };
+            cards.push(Card {
+                line: i + 1,
+                name,
+                parameters: words.map(parameter).collect(),
+                data: Vec::new(),
+            });
+        } else if let Some(card) = cards.last_mut() {
+            card.data.push((i + 1, line.split(',').map(str::trim).collect()));
+        }
+    }
+    cards
+}
+
+/// Lines and surfaces, which a mesh generator writes beside the solids.
+pub(super) fn flat(card: &Card<'_>) -> bool {
+    let kind = card.parameters.get("TYPE").map_or("", String::as_str);
+    ["T3D", "B3", "CPS", "CPE", "M3D", "S3", "S4", "S6", "S8", "STRI"]
+        .iter()
+        .any(|start| kind.starts_with(start))
+}
