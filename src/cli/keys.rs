@@ -152,7 +152,7 @@ fn column_list(columns: &[&Column]) -> String {
     text
 }
 
-/// The same as a table.
+/// The columns as a table in Markdown.
 fn column_table(columns: &[&Column]) -> String {
     let mut text = "| column | unit | meaning | holds | with |\n|---|---|---|---|---|\n".to_owned();
     for column in columns {

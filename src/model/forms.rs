@@ -36,7 +36,7 @@ pub struct Rows<const N: usize> {
     pub beyond: Form<N>,
     /// The accelerations of the contact in free flight, along the belt and away from it.
     pub flight: [Form<N>; 2],
-    /// The same at the equilibrium: what no spring holds there.
+    /// The accelerations of the contact in free flight at the sliding equilibrium, where belt and spring forces balance.
     pub fall: [f64; 2],
 }
 

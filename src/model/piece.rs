@@ -127,7 +127,7 @@ impl Piece {
         if (a + b + c).is_nan() { f64::NAN } else { a.abs().max(b.abs()).max(c.abs()) }
     }
 
-    /// The same piece as a function of `|v|/velocity_unit`.
+    /// This piece of the law as a function of `|v|/velocity_unit`.
     #[must_use]
     pub fn scaled(self, velocity_unit: f64) -> Piece {
         match self {

@@ -209,7 +209,7 @@ impl Sweep {
         self.run_with(&Options::default())
     }
 
-    /// The same as the options say.
+    /// Computes the sweep as the options say.
     ///
     /// # Errors
     /// As [`Sweep::run`].

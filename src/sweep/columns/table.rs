@@ -97,7 +97,7 @@ macro_rules! table {
             Column::new(Group::$group, $name, $unit, $values, &[$($print),+], $meaning)$(.$more())*
         ),*];
 
-        /// The same of the large start.
+        /// Columns of the large start.
         pub(super) static LARGE: &[Column] = &[$(
             Column::new(
                 Group::$group,

@@ -33,7 +33,7 @@ pub enum Start {
 pub enum Settle {
     /// When the windows of its motion agree.
     Auto,
-    /// The same, but after this time at the latest.
+    /// Until settled, but no longer than this.
     AutoWithin(Duration),
     /// After this time.
     After(Duration),

@@ -74,7 +74,7 @@ pub(super) fn out_of_range(source: &Source, node: &Node, label: &str, limit: imp
     out_of_range_at(source, node.span(), label, limit)
 }
 
-/// The same of the value at `span`.
+/// The error that the value at `span` is outside its limits.
 pub(super) fn out_of_range_at(
     source: &Source,
     span: Range<usize>,
