@@ -10,7 +10,7 @@ pub const MAX_EVENTS_PER_PERIOD: u32 = 20_000;
 /// Most halvings of the nominal step, enough for the boundary layers of extreme starts.
 pub const MAX_HALVINGS: i32 = 24;
 
-/// Most steps within one period `2π/ω0`; stiffer instances end with [`Status::StepTooLarge`], on every engine.
+/// Most steps within one period `2π/ω0`; stiffer instances end with [`crate::model::status::Status::StepTooLarge`], on every engine.
 /// Five times the finest setting of a sweep.
 pub const MAX_STEPS_PER_PERIOD: u32 = 500_000;
 

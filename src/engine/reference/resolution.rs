@@ -10,7 +10,7 @@ use crate::model::scaled::Scaled;
 pub struct Resolution {
     /// How a step is taken.
     pub method: Method,
-    /// Order of the position series, 4 to [`MAX_ORDER`]; of a Taylor series only.
+    /// Order of the position series, 4 to [`crate::engine::method::taylor::MAX_ORDER`]; of a Taylor series only.
     pub order: usize,
     /// Largest step, in units of `1/ω0`.
     pub nominal_step: f64,
