@@ -3,7 +3,8 @@
 //!
 //! The program is built into this test with another disk behind its door ([`faulty`]). For each command ([`scenario`]) an
 //! undisturbed run counts the operations; then each is made to fail. `cargo test` takes one kind of fault for each
-//! operation, in turn; `-- --ignored` all of them, which takes minutes.
+//! operation, in turn, of the commands that take few; `-- --ignored long_` that of the others, and `-- --ignored way` all
+//! kinds, which takes minutes.
 
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
@@ -26,8 +27,11 @@ fn main() -> ExitCode {
         return cli::main();
     }
     let trial = |scenario: Scenario, all: bool| {
-        let name = format!("{}{}", scenario.name(), if all { "_in_every_way" } else { "" });
-        Trial::test(name, move || judge::judge(scenario, all).map_err(Into::into)).with_ignored_flag(all)
+        let is_long = !all && scenario.is_long();
+        let [before, behind] = [if is_long { "long_" } else { "" }, if all { "_in_every_way" } else { "" }];
+        let name = format!("{before}{}{behind}", scenario.name());
+        Trial::test(name, move || judge::judge(scenario, all).map_err(Into::into))
+            .with_ignored_flag(all || is_long)
     };
     let some = Scenario::ALL.into_iter().map(|scenario| trial(scenario, false));
     let all = Scenario::ALL.into_iter().map(|scenario| trial(scenario, true));

@@ -56,6 +56,18 @@ pub(crate) enum Scenario {
 }
 
 impl Scenario {
+    /// Whether its command takes more than 160 operations: seconds, of which every one is tried.
+    pub(crate) fn is_long(self) -> bool {
+        matches!(
+            self,
+            Scenario::RefineRepair
+                | Scenario::Zarr
+                | Scenario::ZarrAgain
+                | Scenario::Netcdf
+                | Scenario::Parquet
+        )
+    }
+
     pub(crate) const ALL: [Scenario; 16] = [
         Scenario::Run,
         Scenario::Resume,

@@ -48,20 +48,20 @@ const RESPONSE: Kernel = kernel::<PIECES>();
 
 pub(crate) const CASES: &[Case] = &[
     ("strict::linear_equals_its_twin_in_every_bit", linear_equals::<f32>),
-    ("strict::pieces_equal_their_twin_in_every_bit", || {
-        response_equals::<f32>(LawForm::Pieces, COUNT, &[false, true])
-    }),
     ("strict::belts_without_a_ramp_equal_their_twin_in_every_bit", || {
         // Their kernel is built without one; the others hold both.
         let forms = LawForm::ALL;
         forms.into_iter().try_for_each(|law| equals(&without_ramp::<f32>(law, FEW), law, false, &[true]))
     }),
-    ("strict::one_changed_operation_is_noticed", changed_operation),
     ("strict::one_ulp_in_one_scene_is_noticed", changed_scene),
 ];
 
 /// What takes a software adapter half a minute and more, in f32; some of every law are among the others.
 pub(crate) const SLOW: &[Case] = &[
+    ("strict::one_changed_operation_is_noticed", changed_operation),
+    ("strict::pieces_equal_their_twin_in_every_bit", || {
+        response_equals::<f32>(LawForm::Pieces, COUNT, &[false, true])
+    }),
     ("strict::exponential_equals_its_twin_in_every_bit", || {
         response_equals::<f32>(LawForm::Exponential, COUNT, &[true])
     }),
