@@ -27,9 +27,6 @@ use crate::model::kind::InstabilityType;
 use crate::model::linear::{prepare, solve};
 use crate::model::status::Status;
 
-/// Starts that are taken at a time of instances with several.
-const BLOCK: usize = 2048;
-
 /// Most instances of a batch: many per lane, so that few lanes rest at its end, and not more than a core's cache holds
 /// (1.5 MiB).
 const MOST: usize = 512;
@@ -95,10 +92,6 @@ impl Engine for Cpu {
 
     fn busy_with(&self, tile: usize, _: usize) -> usize {
         BUSY.min(tile) * rayon::current_num_threads()
-    }
-
-    fn at_once(&self, _: usize) -> usize {
-        BLOCK
     }
 }
 

@@ -23,9 +23,6 @@ use crate::engine::reference::respond::respond_until;
 use crate::model::linear::{prepare, solve};
 use crate::model::status::Status;
 
-/// Starts that are taken at a time of instances with several.
-const BLOCK: usize = 2048;
-
 /// The eigenvalue analysis on the CPU in a manifest.
 #[must_use]
 pub fn linear(backend: Backend) -> Computation {
@@ -79,10 +76,6 @@ impl Engine for Scalar {
 
     fn busy_with(&self, _: usize, _: usize) -> usize {
         rayon::current_num_threads()
-    }
-
-    fn at_once(&self, _: usize) -> usize {
-        BLOCK
     }
 }
 
