@@ -107,6 +107,7 @@ pub(crate) fn plan(steps_per_period: u32, order: usize, tolerance: f64) -> Plan 
         start: StartKind::Kick,
         settle: Duration::Periods(SETTLE),
         settle_limit: None,
+        hunts: false,
         measure: Duration::Periods(MEASURE),
         steps_per_period,
         method: Method::Taylor,

@@ -67,7 +67,7 @@ fn remarks(analysis: Analysis, tally: &Tally) -> String {
     if tally.failed_in_boxes() > 0 {
         let _ = writeln!(text, "{} starts of boxes have no response", tally.failed_in_boxes());
     }
-    let checks = tally.checks().summary();
+    let checks = tally.checks().summary(analysis.finds_cycles);
     if !checks.is_empty() {
         text.push('\n');
         text += &checks;

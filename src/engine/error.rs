@@ -53,6 +53,11 @@ pub enum Error {
         /// What helps against it.
         remedy: String,
     },
+    /// Cycles by shooting are asked of a GPU.
+    #[error(
+        "settle = \"cycle\" finds cycles on the CPU only; use --backend cpu, or settle = \"auto\" in [response]"
+    )]
+    CyclesOnGpu,
     /// An adapter without a name.
     #[error(
         "--adapter is `{name}` but must be a part of an adapter's name as `squealmap adapters` prints it; \
@@ -199,6 +204,7 @@ impl Error {
                 | Error::OnlyOnGpu { .. }
                 | Error::EmptyAdapter { .. }
                 | Error::LongTable { .. }
+                | Error::CyclesOnGpu
                 | Error::ReferencePrecision
                 | Error::CpuStrict
                 | Error::CpuAdapter { .. }

@@ -67,6 +67,10 @@ impl NoGpu {
                 format!("a friction table of {rows} rows is too long for a GPU, which takes {limit}"),
                 "thin it out",
             ),
+            NoGpu::Failed(Error::CyclesOnGpu) => parts(
+                "settle = \"cycle\" in [response] finds cycles on the CPU only".to_owned(),
+                "write settle = \"auto\"",
+            ),
             NoGpu::Failed(Error::OpenDevice { adapter, why }) => {
                 parts(format!("{adapter} cannot be opened ({why})"), "choose another with --adapter")
             }

@@ -26,6 +26,10 @@ pub fn regime(instance: &Instance, kind: Option<InstabilityType>, outcome: &Outc
     };
     // What sticks, reverses or lifts off has shown what it does, whatever grew: it needs no eigenvalues.
     let is_open = matches!(found.0, Regime::Slip | Regime::Equilibrium);
+    if outcome.floquet.is_some() {
+        // A cycle is an oscillation, however small.
+        return (if is_open { Regime::Slip } else { found.0 }, true);
+    }
     if !is_open || !kind.is_some_and(InstabilityType::is_unstable) {
         return found;
     }

@@ -56,6 +56,14 @@ impl Measuring {
         self.half
     }
 
+    /// Goes on for a scaled time from `now` on before the window begins; false when that would be too late, and the window
+    /// begins now.
+    pub fn wait(&mut self, now: f64, time: f64) -> bool {
+        let waits = self.settling.as_ref().is_some_and(|settling| now + time <= settling.limit());
+        self.start = if waits { now + time } else { now };
+        waits
+    }
+
     /// Judges a window that ended at `end`, in which the response had a `frequency` (cycles per scaled time); `events` says
     /// whether any fell into it. True when another one follows, which is the present one then.
     pub fn goes_on(&mut self, outcome: &Outcome, frequency: Option<f64>, events: bool, end: f64) -> bool {

@@ -6,6 +6,7 @@
 //! | one instance scaled, at its start | [`scene`], `start.rs` |
 //! | what an engine sums up, and what it did | [`sums`], [`growth`](mod@growth), [`reductions`], [`outcome`], [`regime`] |
 //! | until when it is followed | [`measuring`], [`settling`] |
+//! | the cycle that it comes to | [`cycle`] |
 //! | the words of a kernel | [`fields`], [`kernel::table`] |
 //! | the record of an instance | [`record`], [`judged`] |
 //! | where and how a sweep was computed, and its records | [`computation`], [`computed`] |
@@ -21,6 +22,7 @@ pub mod backend;
 pub mod choice;
 pub mod computation;
 pub mod computed;
+pub mod cycle;
 pub mod error;
 mod fallback;
 pub mod fields;

@@ -2,6 +2,8 @@
 
 use serde::Serialize;
 
+use crate::engine::cycle::candidate::Cycle;
+use crate::model::equilibrium::Units;
 use crate::model::status::Status;
 
 /// How a run until settled ended.
@@ -76,6 +78,15 @@ pub struct Outcome {
     /// Whether the run met an event, from its start to its end: rest on the belt, a kink of the friction law, the end of
     /// stick, lift-off, an impact.
     pub met_event: bool,
+    /// Largest modulus of the multipliers of the cycle, where it was found as a fixed point of the return map: what is left
+    /// of a small disturbance after one period.
+    pub floquet: Option<f64>,
+    /// The angle of that multiplier, degrees, 0 to 180.
+    pub floquet_angle: Option<f64>,
+    /// Returns to the section in a period, upward zero crossings of `ẋ2`.
+    pub cycle_returns: Option<u64>,
+    /// The period of the cycle, s.
+    pub period: Option<f64>,
     /// How a run until settled ended.
     pub ending: Option<Ending>,
     /// The start of its last window, s: what came before was needed to settle.
@@ -87,6 +98,19 @@ pub struct Outcome {
 }
 
 impl Outcome {
+    /// The outcome of one period of a cycle that a run came to at the scaled time `time`.
+    #[must_use]
+    pub fn on_cycle(self, cycle: &Cycle, time: f64, units: &Units) -> Outcome {
+        let [re, im] = cycle.multiplier;
+        Outcome {
+            floquet: Some(re.hypot(im)),
+            floquet_angle: Some(im.atan2(re).to_degrees()),
+            cycle_returns: Some(cycle.returns as u64),
+            period: Some(cycle.period * units.time),
+            ..self.ended(Ending::Settled, time * units.time)
+        }
+    }
+
     /// The outcome of the last window of a run until settled, which began at `start` (SI).
     #[must_use]
     pub fn ended(self, ending: Ending, start: f64) -> Outcome {

@@ -36,6 +36,8 @@ pub struct Plan {
     pub settle: Duration,
     /// The latest start of a window in a run until settled.
     pub settle_limit: Option<Duration>,
+    /// Whether a run until settled looks for its cycle, see [`crate::engine::cycle`].
+    pub hunts: bool,
     /// Length of the measuring window.
     pub measure: Duration,
     /// Largest step: this many per period `2π/ω0`.
@@ -54,6 +56,7 @@ impl Plan {
         start: StartKind::Kick,
         settle: Duration::Seconds(0.0),
         settle_limit: None,
+        hunts: false,
         measure: Duration::Seconds(0.0),
         steps_per_period: 0,
         method: Method::Taylor,

@@ -9,6 +9,9 @@ use crate::engine::scene::Scene;
 use crate::engine::sums::{growth as words, peak, sum};
 use crate::model::status::Status;
 
+/// A crossing so close to the end of a period, as a part of it, is the one that ends it.
+const AT_END: f64 = 1e-6;
+
 /// Reductions of one run, scaled, deviations from the equilibrium.
 #[derive(Clone, Debug, Default)]
 pub struct Reductions {
@@ -51,6 +54,16 @@ impl Reductions {
     pub fn frequency(&self) -> Option<f64> {
         let span = self.last - self.first;
         (self.crossings >= 2 && span > 0.0).then(|| (self.crossings - 1) as f64 / span)
+    }
+
+    /// Takes what a window from `start` to `end` has seen for a whole period of a cycle that begins with a crossing. Its halves
+    /// are alike then, and another crossing ends it, whether rounding let it be seen or not.
+    pub fn close_period(&mut self, [start, end]: [f64; 2]) {
+        let halves = self.halves;
+        self.halves = [std::array::from_fn(|i| 0.5 * (halves[0][i] + halves[1][i])); 2];
+        let at_end = self.crossings > 0 && end - self.last <= AT_END * (end - start);
+        self.crossings += if at_end { 1 } else { 2 };
+        (self.first, self.last) = (start, end);
     }
 
     /// The outcome.

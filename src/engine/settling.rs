@@ -78,6 +78,12 @@ impl Settling {
         })
     }
 
+    /// The latest start of a window, scaled.
+    #[must_use]
+    pub fn limit(&self) -> f64 {
+        self.limit
+    }
+
     /// The length of a half of the next window: whole cycles of a motion of `frequency` (cycles per scaled time).
     #[must_use]
     pub fn half(&self, frequency: Option<f64>) -> f64 {

@@ -39,6 +39,7 @@ mod tests {
             linear: true,
             response: true,
             until_settled: true,
+            finds_cycles: true,
             checked: true,
             starts: Starts::Both,
         };

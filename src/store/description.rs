@@ -14,6 +14,7 @@ use crate::store::tiling::Tiling;
 use crate::sweep::accuracy::frontier::Chosen;
 use crate::sweep::grid::Grid;
 use crate::sweep::sheet::Sheet;
+use crate::sweep::spec::duration::{AUTO, CYCLE};
 use crate::sweep::spec::{Analysis, Spec, Starts, start};
 
 /// The version of the format.
@@ -189,10 +190,11 @@ impl Description {
         let grid = physics.get(GRID).and_then(|grid| from_json(grid, rows)).ok_or("its grid is none")?;
         let computations = [document.linear, document.response];
         let [linear, response] = computations.each_ref().map(Option::is_some);
-        let until_settled = response && physics["response"]["settle"] == "auto";
+        let settles = |word: &str| response && physics["response"]["settle"] == word;
+        let (until_settled, finds_cycles) = (settles(AUTO) || settles(CYCLE), settles(CYCLE));
         let checked = response && physics["response"]["check"] == true;
         let starts = if response { start::from_json(&physics["start"]) } else { Starts::One };
-        let analysis = Analysis { linear, response, until_settled, checked, starts };
+        let analysis = Analysis { linear, response, until_settled, finds_cycles, checked, starts };
         let tiling = Tiling { instances: grid.len(), tile: document.tile };
         let resolved = resolved(&document.title, physics, &grid);
         Ok(Description {

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use serde_json::{Value as Json, json};
 
 use crate::engine::record::{By, Record};
+use crate::engine::regime::THRESHOLDS;
 
 /// Bins of a decade: a quantile is known to 12 %.
 const BINS: f64 = 20.0;
@@ -24,6 +25,8 @@ pub struct Found {
     pub taken: usize,
     /// How many of these have another label in the finer record.
     pub taken_changed: usize,
+    /// Checked instances that end elsewhere: with another label, or another amplitude.
+    pub elsewhere: usize,
     /// How many errors fall into each part of a decade.
     errors: BTreeMap<i32, usize>,
 }
@@ -59,6 +62,8 @@ impl Found {
         let Some(check) = record.check else { return };
         self.checked += 1;
         self.changed += usize::from(check.changed);
+        let apart = check.error.is_some_and(|error| error > THRESHOLDS.apart);
+        self.elsewhere += usize::from(check.changed || apart);
         self.taken += usize::from(check.taken);
         self.taken_changed += usize::from(check.taken && check.changed);
         if let Some(error) = check.error {
@@ -78,6 +83,7 @@ impl Found {
             },
             "labels_changed": self.changed,
             "labels_changed_share": self.changed as f64 / self.checked.max(1) as f64,
+            "elsewhere": self.elsewhere,
             "near_a_border": self.taken,
             "near_a_border_changed": self.taken_changed,
         })
@@ -121,9 +127,10 @@ impl Checks {
         ])
     }
 
-    /// The checks as a summary shows them: a line for each judge that checked any instance.
+    /// The checks as a summary shows them: a line for each judge that checked any instance. Those of cycles that were found are
+    /// long runs.
     #[must_use]
-    pub fn summary(&self) -> String {
+    pub fn summary(&self, finds_cycles: bool) -> String {
         let line = |found: &Found, judge: &str| {
             if found.checked == 0 {
                 return String::new();
@@ -147,8 +154,13 @@ impl Checks {
             } else {
                 String::new()
             };
+            let (over, elsewhere) = if finds_cycles {
+                (" in long runs", format!("; {} end elsewhere", found.elsewhere))
+            } else {
+                ("", String::new())
+            };
             format!(
-                "checked by {judge}: {} instances, {} settled oscillations{errors}; {} other labels{near}\n",
+                "checked by {judge}{over}: {} instances, {} settled oscillations{errors}; {} other labels{elsewhere}{near}\n",
                 found.checked,
                 found.settled(),
                 found.changed
@@ -211,7 +223,7 @@ mod tests {
         let mut checks = Checks::default();
         let check = Check { by: By::Fine, taken: false, changed: false, error: Some(0.25) };
         checks.add(&Record { check: Some(check), ..Record::default() });
-        assert!(checks.summary().contains("too few to say more"));
+        assert!(checks.summary(false).contains("too few to say more"));
     }
 
     #[test]

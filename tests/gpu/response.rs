@@ -62,6 +62,7 @@ pub(crate) fn plan(settle: f64, measure: f64) -> Plan {
         start: StartKind::Kick,
         settle: Duration::Periods(settle),
         settle_limit: None,
+        hunts: false,
         measure: Duration::Periods(measure),
         steps_per_period: 12,
         method: Method::Taylor,

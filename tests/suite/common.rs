@@ -35,6 +35,7 @@ pub(crate) fn plan(settle: f64, measure: f64, steps_per_period: u32) -> Plan {
         start: StartKind::Kick,
         settle: Duration::Seconds(settle),
         settle_limit: None,
+        hunts: false,
         measure: Duration::Seconds(measure),
         steps_per_period,
         method: Method::Taylor,

@@ -37,6 +37,7 @@ pub(crate) fn spec(grid: Grid) -> Spec {
             linear: true,
             response: true,
             until_settled: false,
+            finds_cycles: false,
             checked: false,
             starts: Starts::One,
         },

@@ -46,8 +46,11 @@ pub fn method(precision: Precision) -> String {
 /// Whether a GPU computes the response of a sweep, where it is asked for.
 ///
 /// # Errors
-/// When no kernel holds its friction table.
+/// When no kernel holds its friction table, or its cycles are to be found, which kernels do not.
 pub fn check(spec: &dyn Instances) -> Result<()> {
+    if spec.response() && spec.plan().hunts {
+        return Err(Error::CyclesOnGpu);
+    }
     let rows = spec.pieces();
     if spec.response() && rows > MOST_PIECES {
         return Err(Error::LongTable { rows, limit: MOST_PIECES });

@@ -21,6 +21,10 @@ pub fn carry_out<S: Simd, T: Scalar<S>, const LAW: bool, const MOTION: u8>(
     let mut look = b.left.not_positive();
     let happened = zero.less(event);
     let mut pending = zero;
+    if all.part == Part::Return {
+        look = look.or(zero.less(sums.section));
+        sums.follow_order(b.contact, event);
+    }
     if happened.any() {
         let (growing, quiet) = (happened.select(zero, sums.growing), happened.select(zero, sums.quiet));
         sums.growing.put(growing);

@@ -9,6 +9,7 @@ use crate::engine::kernel::scene::Scene as Words;
 use crate::engine::kernel::series::FREE;
 use crate::engine::lanes::constants::{CONSTANTS, SWING, constants};
 use crate::engine::lanes::count::Count;
+use crate::engine::lanes::flight::Flight;
 use crate::engine::lanes::stretches::Stretches;
 use crate::engine::measuring::Measuring;
 use crate::engine::method::pace::Turns;
@@ -56,14 +57,12 @@ pub enum Part {
     Window,
     /// The window once more, from the first to the last crossing.
     Phase,
-}
-
-impl Part {
-    /// All, in the order of a run.
-    pub const ALL: [Part; 5] = [Part::Growth, Part::Approach, Part::Settle, Part::Window, Part::Phase];
+    /// From a state to its next returns to the section, see [`crate::engine::cycle`].
+    Return,
 }
 
 /// An instance on its way.
+#[expect(clippy::struct_excessive_bools, reason = "each says one thing of the way, by itself")]
 #[derive(Clone, Debug)]
 pub struct Job<T> {
     /// The instance ready to be integrated.
@@ -105,6 +104,10 @@ pub struct Job<T> {
     pub marks: [f64; 3],
     /// Whether no event has fallen into the window.
     pub quiet: bool,
+    /// The flight to the section that it is on.
+    pub flight: Flight,
+    /// Whether its outcome is known otherwise.
+    pub is_over: bool,
     measuring: Measuring,
     /// The state at the start of the window.
     snapshot: Option<State<T>>,
@@ -139,6 +142,8 @@ impl<T: Real> Job<T> {
             count: Count::default(),
             marks: window(&measuring),
             quiet: true,
+            flight: Flight::default(),
+            is_over: false,
             measuring,
             snapshot: None,
         }
@@ -170,7 +175,7 @@ impl<T: Real> Job<T> {
     /// Whether a part of the run has anything to do. Among none but single masses (`single`) growth is measured on the way to
     /// the window.
     pub fn enter(&mut self, part: Part, tolerance: f64, single: bool) -> bool {
-        if self.state.status != Status::Unwritten {
+        if self.state.status != Status::Unwritten || self.is_over {
             return false;
         }
         self.habit = (0, false);
@@ -182,6 +187,7 @@ impl<T: Real> Job<T> {
             }
             Part::Settle => self.time < self.marks[0],
             Part::Window => self.time < self.marks[2],
+            Part::Return => self.flight.is_open(),
             Part::Phase => {
                 let Some(snapshot) = self.snapshot.take() else { return false };
                 // The single mass has no phase.
@@ -255,6 +261,7 @@ impl<T: Real> Job<T> {
             Part::Approach => &[self.approached],
             Part::Window => &self.marks,
             Part::Phase => &[self.seen.first, self.seen.last],
+            Part::Return => &[self.flight.until],
         };
         let goal = *goals.iter().find(|goal| self.time < **goal)?;
         let (_, holds) = self.scene.belt_from(self.time);
@@ -273,7 +280,7 @@ impl<T: Real> Job<T> {
             Part::Settle if self.growing => STRETCH,
             // The last one guesses the frequency: it is late, and not too short.
             Part::Settle if whole > LAST_STRETCH => LONG_STRETCH.min(whole - LAST_STRETCH),
-            Part::Approach | Part::Settle => LONG_STRETCH,
+            Part::Approach | Part::Settle | Part::Return => LONG_STRETCH,
             _ => STRETCH,
         };
         if whole <= most {
@@ -305,6 +312,7 @@ impl<T: Real> Job<T> {
     /// Judges the window of a run until settled; true when another one follows.
     pub fn goes_on(&mut self, plan: &Plan) -> bool {
         if self.state.status != Status::Unwritten
+            || self.is_over
             || !self.measuring.until_settled()
             || self.measuring.is_over()
         {
@@ -322,6 +330,24 @@ impl<T: Real> Job<T> {
         self.stretches = Stretches::default();
         self.snapshot = None;
         true
+    }
+
+    /// Goes on for a scaled time before the window begins; false when that would be too late, and the window begins now.
+    pub fn wait(&mut self, time: f64) -> bool {
+        let waits = self.measuring.wait(self.time, time);
+        self.marks = window(&self.measuring);
+        waits
+    }
+
+    /// Makes the window the one from here on for a period, scaled.
+    pub fn open_period(&mut self, period: f64) {
+        self.marks = [self.time, self.time + 0.5 * period, self.time + period];
+    }
+
+    /// Takes what the window has seen for one period of a cycle, of which the phase is still to be measured.
+    pub fn close_period(&mut self) {
+        self.seen.close_period([self.marks[0], self.marks[2]]);
+        self.stretches = Stretches::default();
     }
 
     /// The outcome of a job that has passed all parts.

@@ -204,6 +204,10 @@ fn begin<S: Simd, T: Scalar<S>>(all: &mut Lanes<S, T>, lane: usize) -> bool {
             sums.spectrum.turn_back(lane, 0.5 * length);
         }
     }
+    if all.part == Part::Return {
+        sums.section.set(lane, T::ZERO);
+        sums.order.set(lane, T::from_f64(job.flight.order));
+    }
     if all.part != Part::Phase {
         sums.crossings.set(lane, T::ZERO);
         sums.previous.set(lane, job.previous);
@@ -255,6 +259,8 @@ fn flush<S: Simd, T: Scalar<S>>(all: &mut Lanes<S, T>, lane: usize) {
         if !all.single {
             keep_spectrum(job, &sums.spectrum, lane, crossings > 0.0);
         }
+    } else if all.part == Part::Return {
+        job.flight.order = sums.order.get(lane).to_f64();
     } else if all.part != Part::Phase {
         let cycles = sums.crossings.get(lane).to_f64() - 1.0;
         let span = sums.last.get(lane).to_f64() - sums.first.get(lane).to_f64();
@@ -320,7 +326,14 @@ pub fn visit<S: Simd, T: Scalar<S>>(all: &mut Lanes<S, T>, look: &Vector<S, T>, 
             let exhausted = all.block.is_exhausted(lane);
             job.event(code, exhausted, all.part == Part::Window, all.block.belt(lane));
         }
-        let ended = all.part == Part::Growth && function > 0;
+        let mut ended = all.part == Part::Growth && function > 0;
+        if all.part == Part::Return && all.sums.section.get(lane) > T::ZERO {
+            all.sums.section.set(lane, T::ZERO);
+            let time = job.until - left.to_f64();
+            job.flight.arrive(&job.state, time, all.sums.order.get(lane).to_f64());
+            all.sums.order.set(lane, T::ZERO);
+            ended = !job.flight.is_open();
+        }
         if ended || job.state.status != Status::Unwritten {
             let reached = (job.until - left.to_f64()).max(job.time);
             flush::<S, T>(all, lane);

@@ -32,13 +32,17 @@ pub mod block;
 pub mod carry;
 pub mod constants;
 pub mod count;
+pub mod craft;
 pub mod crossings;
 pub mod cycle;
+pub mod drive;
 pub mod events;
 pub mod expand;
+pub mod flight;
 pub mod forms;
 pub mod function;
 pub mod functions;
+pub mod hunts;
 pub mod impacts;
 pub mod job;
 pub mod march;
@@ -51,6 +55,7 @@ pub mod reach;
 pub mod records;
 pub mod root;
 pub mod scalar;
+pub mod section;
 pub mod spectrum;
 pub mod stretches;
 pub mod swing;
@@ -89,14 +94,15 @@ pub fn tolerance(precision: Precision, steps_per_period: u32) -> f64 {
 
 /// A scalar the engine computes in.
 pub trait Lanes: Real {
-    /// Runs jobs whose laws have one form to their end.
-    fn run(jobs: &mut [Job<Self>], settings: Settings);
+    /// Takes jobs whose laws have one form through some parts of their runs; `single` says whether they are all single masses
+    /// with straight laws.
+    fn run(jobs: &mut [Job<Self>], parts: &[Part], single: bool, settings: Settings);
 }
 
 macro_rules! lanes {
     ($scalar:ty) => {
         impl Lanes for $scalar {
-            fn run(jobs: &mut [Job<Self>], settings: Settings) {
+            fn run(jobs: &mut [Job<Self>], parts: &[Part], single: bool, settings: Settings) {
                 match jobs.first().map(Job::law) {
                     None => {}
                     Some(LawForm::Pieces) => settings.terms.instructions.dispatch(Parts::<
@@ -106,12 +112,23 @@ macro_rules! lanes {
                         { motion::PIECES },
                     > {
                         jobs,
+                        which: parts,
+                        single,
                         settings,
                     }),
-                    Some(LawForm::Exponential | LawForm::Rational) => settings
-                        .terms
-                        .instructions
-                        .dispatch(Parts::<'_, $scalar, { ORDER + 1 }, { motion::CURVED }> { jobs, settings }),
+                    Some(LawForm::Exponential | LawForm::Rational) => {
+                        settings.terms.instructions.dispatch(Parts::<
+                            '_,
+                            $scalar,
+                            { ORDER + 1 },
+                            { motion::CURVED },
+                        > {
+                            jobs,
+                            which: parts,
+                            single,
+                            settings,
+                        })
+                    }
                 }
             }
         }
@@ -129,9 +146,11 @@ macro_rules! lanes {
 lanes!(f32);
 lanes!(f64);
 
-/// All parts of some jobs.
+/// Some parts of some jobs.
 struct Parts<'a, T: Real, const N: usize, const LAW: bool> {
     jobs: &'a mut [Job<T>],
+    which: &'a [Part],
+    single: bool,
     settings: Settings<'a>,
 }
 
@@ -141,20 +160,11 @@ impl<T: Real, const N: usize, const LAW: bool> Parts<'_, T, N, LAW> {
     where
         T: Scalar<S>,
     {
-        let Parts { jobs, settings } = self;
-        // Once for all parts: those that swing pass all their time in one of them.
-        let single = LAW == motion::PIECES && jobs.iter().all(Job::is_single);
-        let mut parts = Part::ALL.into_iter().peekable();
-        while let Some(part) = parts.peek().copied() {
-            pass::<S, T, N, LAW>(simd, jobs, part, single, settings);
+        let Parts { jobs, which, single, settings } = self;
+        for part in which {
+            pass::<S, T, N, LAW>(simd, jobs, *part, single, settings);
             if settings.cancel.load(Ordering::Relaxed) {
                 return;
-            }
-            // Those that are not settled go on together with another window.
-            let again = part == Part::Window
-                && jobs.iter_mut().fold(false, |any, job| job.goes_on(settings.plan) | any);
-            if !again {
-                parts.next();
             }
         }
     }

@@ -41,6 +41,10 @@ pub struct Sums<S: Simd, T: Scalar<S>> {
     pub cycle: Cycle<S, T>,
     /// Time since the stretch began.
     pub time: Vector<S, T>,
+    /// 1 where the section of the return map is reached in the present step.
+    pub section: Vector<S, T>,
+    /// A number that stands for the events since the last return to it.
+    pub order: Vector<S, T>,
     /// Sums before the first event.
     pub growth: [Vector<S, T>; growth::WORDS],
     /// 1 until the first event.
@@ -72,6 +76,8 @@ impl<S: Simd, T: Scalar<S>> Sums<S, T> {
             quiet: zero,
             cycle: Cycle::new(simd),
             time: zero,
+            section: zero,
+            order: zero,
             growth: [zero; growth::WORDS],
             growing: zero,
             spectrum: Spectrum::new(simd),

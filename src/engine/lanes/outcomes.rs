@@ -2,6 +2,7 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use crate::engine::lanes::drive::drive;
 use crate::engine::lanes::job::Job;
 use crate::engine::lanes::march::{Settings, Terms};
 use crate::engine::lanes::{Lanes, ORDER, tolerance};
@@ -49,12 +50,13 @@ pub fn outcomes_on<T: Lanes>(
                 false
             }
         });
-        T::run(&mut jobs, settings);
+        let some: Vec<&Instance> = indices.iter().map(|index| &instances[*index]).collect();
+        let ended = drive(&mut jobs, &some, settings);
         if cancel.load(Ordering::Relaxed) {
             return None;
         }
-        for (index, job) in indices.into_iter().zip(&jobs) {
-            outcomes[index] = job.outcome(plan);
+        for (index, outcome) in indices.into_iter().zip(ended) {
+            outcomes[index] = outcome;
         }
     }
     Some(outcomes)

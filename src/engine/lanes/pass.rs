@@ -13,6 +13,7 @@ use crate::engine::lanes::observe::change;
 use crate::engine::lanes::polynomial::value_soon;
 use crate::engine::lanes::reach::{LONGER, reach};
 use crate::engine::lanes::scalar::Scalar;
+use crate::engine::lanes::section::section;
 use crate::engine::lanes::spectrum::accelerations;
 use crate::engine::lanes::swing_step::swing_step;
 use crate::engine::lanes::vector::Vector;
@@ -37,9 +38,10 @@ pub fn pass<S: Simd, T: Scalar<S>, const N: usize, const LAW: bool>(
     let Some(law) = jobs.first().map(Job::law) else { return };
     let mut order: Vec<usize> = (0..jobs.len()).collect();
     order.sort_by_key(|index| jobs[*index].habit);
-    // Each its own way, whatever its neighbours are.
+    // Each its own way, whatever its neighbours are. Whole cycles that are added at once would leave nothing to hunt for.
+    let closed = single && !settings.plan.hunts;
     let (swings, steps): (Vec<usize>, Vec<usize>) =
-        order.into_iter().partition(|index| single && jobs[*index].swings());
+        order.into_iter().partition(|index| closed && jobs[*index].swings());
     let block = Block::idle(simd, law);
     // What cannot be is not compiled: both conditions are known before.
     if const { LAW == PIECES } && part == Part::Window && !swings.is_empty() {
@@ -138,8 +140,11 @@ fn step<S: Simd, T: Scalar<S>, const N: usize, const LAW: bool, const MOTION: u8
     functions::<S, T, N, MOTION>(b, e, g);
     let [at, event] = first_event::<S, T, N, MOTION>(b, e, g, tolerance);
     let (at, event) = (at.min(reach.end), event.only(at.at_most(reach.end)));
-    let (x, vx) = (value_soon(&e.p[0], 0, at), change(&e.v[0], at).fma(e.rate, b.v[0]));
     let sums = &mut all.sums;
+    let returns = all.part == Part::Return;
+    let (at, event) = if returns { section(sums, e, b.v[0], [at, event]) } else { (at, event) };
+    let (x, vx) = (value_soon(&e.p[0], 0, at), change(&e.v[0], at).fma(e.rate, b.v[0]));
+    let vx = if returns { zero.less(sums.section).select(zero, vx) } else { vx };
     if all.part == Part::Growth {
         sums.observe_growth::<N, MOTION>(e, at, x, vx);
         sums.guess_crossings(b.v[0], vx, at * e.step);

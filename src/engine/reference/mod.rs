@@ -6,10 +6,13 @@
 //! - [`observe`]: sums and extremes of one trajectory.
 
 pub mod bounds;
+mod hunt;
 pub mod integrate;
 pub mod observe;
 pub mod observer;
+mod phase;
 pub mod records;
 pub mod resolution;
 pub mod respond;
+mod section;
 mod watched;

@@ -43,7 +43,7 @@ pub trait Observer {
     fn event(&mut self, _event: Event) {}
 }
 
-impl<A: Observer, B: Observer> Observer for (&mut A, &mut B) {
+impl<A: Observer, B: Observer> Observer for (A, B) {
     fn step(&mut self, step: &Step) {
         self.0.step(step);
         self.1.step(step);
@@ -52,4 +52,17 @@ impl<A: Observer, B: Observer> Observer for (&mut A, &mut B) {
         self.0.event(event);
         self.1.event(event);
     }
+}
+
+impl<A: Observer> Observer for &mut A {
+    fn step(&mut self, step: &Step) {
+        (**self).step(step);
+    }
+    fn event(&mut self, event: Event) {
+        (**self).event(event);
+    }
+}
+
+impl Observer for () {
+    fn step(&mut self, _: &Step) {}
 }

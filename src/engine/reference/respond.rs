@@ -3,16 +3,16 @@
 use std::f64::consts::TAU;
 use std::sync::atomic::AtomicBool;
 
-use num_complex::Complex64;
-
 use crate::engine::measuring::Measuring;
 use crate::engine::method::taylor::State;
 use crate::engine::outcome::Outcome;
 use crate::engine::plan::Plan;
-use crate::engine::reductions::{End, Reductions};
+use crate::engine::reductions::End;
+use crate::engine::reference::hunt::Chase;
 use crate::engine::reference::integrate::Integrator;
-use crate::engine::reference::observe::{CyclePhase, EnergyGains, Growth, Window};
+use crate::engine::reference::observe::{EnergyGains, Growth, Window};
 use crate::engine::reference::observer::Observer;
+use crate::engine::reference::phase::phase;
 use crate::engine::reference::resolution::Resolution;
 use crate::engine::scene::Scene;
 use crate::model::instance::Instance;
@@ -103,8 +103,14 @@ fn measure(
 ) -> Result<Outcome, Status> {
     let mut growth = Growth::default();
     let mut gains = EnergyGains::default();
+    let mut chase = Chase::new(scene, plan);
     scene.advance(integrator, scene.scaled(plan.settle), &mut (&mut growth, &mut gains))?;
     loop {
+        if let Some(chase) = &mut chase
+            && let Some(outcome) = chase.run(integrator, (&mut growth, &mut gains), &mut measuring)?
+        {
+            return Ok(outcome);
+        }
         let window_start = integrator.clone();
         measuring.begin(window_start.time());
         let half = measuring.half();
@@ -130,25 +136,4 @@ fn measure(
         let outcome = Outcome { energy_gaining_impacts: Some(gains.0), ..seen.outcome(scene, plan, &end) };
         return Ok(measuring.told(outcome, scene));
     }
-}
-
-/// The Fourier components at the response frequency, which is known only after the window: a second pass over it.
-fn phase(
-    scene: &Scene,
-    mut integrator: Integrator,
-    frequency: f64,
-    seen: &Reductions,
-    half: f64,
-) -> Result<[[f64; 2]; 2], Status> {
-    let mut cycle = CyclePhase {
-        angular_frequency: TAU * frequency,
-        from: seen.first,
-        to: seen.last,
-        x: Complex64::ZERO,
-        y: Complex64::ZERO,
-    };
-    for _ in 0..2 {
-        scene.advance(&mut integrator, half, &mut cycle)?;
-    }
-    Ok([cycle.x, cycle.y].map(|z| [z.re, z.im]))
 }

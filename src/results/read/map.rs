@@ -17,6 +17,7 @@ use crate::results::read::folder::{Folder, Table, Why, text};
 use crate::sweep::columns::{Column, Values, computed, find};
 use crate::sweep::grid::{Axis, AxisKey, Grid, Value};
 use crate::sweep::map::{Map, Provenance};
+use crate::sweep::spec::duration::{AUTO, CYCLE};
 use crate::sweep::spec::{Analysis, Pass, STEPS_PER_PERIOD, Spec, Starts, start};
 
 /// The files of a map that are read.
@@ -88,10 +89,14 @@ fn spec(manifest: &Manifest, table: &Table) -> Why<Spec> {
         (None, Some(points)) => tuples(points, table)?,
         (None, None) => return Err("has neither `axes` nor `points` in `spec`".to_owned()),
     };
+    let settles = |words: &[&str]| {
+        resolved.get("response").is_some_and(|response| words.iter().any(|word| response["settle"] == *word))
+    };
     let analysis = Analysis {
         linear: asked("linear"),
         response: asked("response"),
-        until_settled: resolved.get("response").is_some_and(|response| response["settle"] == "auto"),
+        until_settled: settles(&[AUTO, CYCLE]),
+        finds_cycles: settles(&[CYCLE]),
         checked: resolved.get("response").is_some_and(|response| response["check"] == true),
         starts: start::from_json(&manifest.spec["start"]),
     };

@@ -66,6 +66,7 @@ fn sweep(document: &Document) -> Why<Spec> {
         linear: document.analysis.linear,
         response: document.analysis.response,
         until_settled: false,
+        finds_cycles: false,
         checked: false,
         starts: if document.both_starts { Starts::Both } else { Starts::One },
     };

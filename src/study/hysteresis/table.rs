@@ -21,6 +21,7 @@ pub fn hysteresis_csv(spec: &Spec, hysteresis: &Hysteresis) -> Result<Vec<u8>> {
         linear: true,
         response: true,
         until_settled: spec.settle_limit.is_some(),
+        finds_cycles: spec.analysis.finds_cycles,
         checked: false,
         starts: Starts::One,
     };

@@ -43,8 +43,14 @@ fn sweep(document: &Document) -> Why<(Spec, Modes)> {
     for (branch, values) in modes.branches.iter_mut().zip(critical) {
         branch.critical.clone_from(values);
     }
-    let analysis =
-        Analysis { linear: true, response: false, until_settled: false, checked: false, starts: Starts::One };
+    let analysis = Analysis {
+        linear: true,
+        response: false,
+        until_settled: false,
+        finds_cycles: false,
+        checked: false,
+        starts: Starts::One,
+    };
     Ok((drawn_spec(document.title.clone(), analysis, grid), modes))
 }
 

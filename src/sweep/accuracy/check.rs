@@ -8,6 +8,7 @@ use crate::engine::backend::Backend;
 use crate::engine::computation::Stopped;
 use crate::engine::error::Result;
 use crate::engine::method::Method;
+use crate::engine::plan::Duration;
 use crate::engine::record::{By, Check, Record};
 use crate::engine::{lanes, reference};
 use crate::model::status::Status;
@@ -18,7 +19,7 @@ use crate::sweep::accuracy::frontier::Frontier;
 use crate::sweep::accuracy::sample::subset;
 use crate::sweep::draw::spread;
 use crate::sweep::label::Label;
-use crate::sweep::spec::Spec;
+use crate::sweep::spec::{Analysis, Spec};
 use std::ops::Range;
 use std::sync::atomic::AtomicBool;
 
@@ -29,6 +30,10 @@ const REFERENCE_SHARE: f64 = 0.01;
 /// Instances that a fast GPU computes per second. The speed of a GPU is not known beforehand; with a fast one assumed, the
 /// checks, which the CPU makes, stay below their share on any.
 const GPU_PER_SECOND: f64 = 5e6;
+
+/// A run that waits for its cycle takes so many times as long as one that finds it: 1050 periods instead of 80 in
+/// `settled_map`.
+const LONGER: f64 = 13.0;
 
 /// Seeds of the two draws.
 const FINE_SEED: u64 = 0x5153_4645;
@@ -47,24 +52,39 @@ pub struct Counts {
 }
 
 impl Counts {
-    /// The counts for a sweep of `total` instances. None are checked where the reference computes the sweep, or a method
+    /// The counts for a sweep of `total` instances, which may find its cycles by shooting. None are checked where the reference computes the sweep, or a method
     /// that is only there to be compared with it.
     #[must_use]
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a part of the total")]
-    pub fn new(configuration: &Configuration, total: usize) -> Counts {
+    pub fn new(configuration: &Configuration, finds_cycles: bool, total: usize) -> Counts {
         if configuration.backend.method().is_some() {
             return Counts { fine: 0, reference: 0 };
         }
         let shipped = Frontier::shipped();
         let rate = |configuration: &Configuration| shipped.cpu_rate(configuration);
         let engine = if configuration.backend == Backend::Gpu { GPU_PER_SECOND } else { rate(configuration) };
-        let part = |share: f64, judge: &Configuration| share * rate(judge) / engine * total as f64;
+        // A long run costs as much more as its record.
+        let total = total as f64 / if finds_cycles { LONGER } else { 1.0 };
+        let part = |share: f64, judge: &Configuration| share * rate(judge) / engine * total;
         Counts {
             // One at least: a map says something of its error however small it is.
             fine: part(FINE_SHARE, &finer(configuration)).ceil() as usize,
             reference: part(REFERENCE_SHARE, &Configuration::reference(REFERENCE_STEPS)).floor() as usize,
         }
     }
+}
+
+/// The sweep by which one is judged: a cycle that was found is compared with a run that waits for it, for as long as a run may
+/// take to settle and then until its windows agree.
+fn waited_for(spec: Spec) -> Spec {
+    let Some(limit) = spec.settle_limit.filter(|_| spec.analysis.finds_cycles) else { return spec };
+    let twice = match limit {
+        Duration::Seconds(seconds) => Duration::Seconds(2.0 * seconds),
+        Duration::Periods(periods) => Duration::Periods(2.0 * periods),
+        Duration::Ramp => Duration::Ramp,
+    };
+    let analysis = Analysis { finds_cycles: false, ..spec.analysis };
+    Spec { analysis, settle: limit, settle_limit: Some(twice), ..spec }
 }
 
 /// Checks the records of the instances `range`, which `configuration` has computed; gives why it stopped, if it did.
@@ -79,7 +99,7 @@ pub fn check(
     cancel: &AtomicBool,
 ) -> Result<Option<Stopped>> {
     let (first, total) = (range.start, spec.grid.len());
-    let counts = Counts::new(configuration, total);
+    let counts = Counts::new(configuration, spec.analysis.finds_cycles, total);
     let draws = [
         (By::Fine, finer(configuration), spread(FINE_SEED, counts.fine, total, range.clone())),
         (
@@ -92,7 +112,7 @@ pub fn check(
         if indices.is_empty() {
             continue;
         }
-        let sweep = judge.sweep(&subset(spec, &indices));
+        let sweep = judge.sweep(&waited_for(subset(spec, &indices)));
         let all = 0..indices.len();
         let computed = match by {
             By::Fine => lanes::records::records(&sweep, all, judge.precision, cancel, &|_| {}),

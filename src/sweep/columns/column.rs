@@ -20,6 +20,8 @@ pub enum Group {
     Response,
     /// Time integration until settled.
     Settling,
+    /// Limit cycles found by shooting.
+    Cycles,
     /// Instances computed again.
     Checks,
     /// Several starts.
@@ -37,6 +39,7 @@ impl Group {
             Group::Linear => analysis.linear,
             Group::Response => analysis.response,
             Group::Settling => analysis.until_settled,
+            Group::Cycles => analysis.finds_cycles,
             Group::Checks => analysis.checks(),
             Group::Starts => analysis.starts != Starts::One,
             Group::Basin => matches!(analysis.starts, Starts::Box(_)),
@@ -50,7 +53,8 @@ impl Group {
             Group::Always => "every sweep",
             Group::Linear => "analysis: linear",
             Group::Response => "analysis: response",
-            Group::Settling => "settle: auto",
+            Group::Settling => "settle: auto, cycle",
+            Group::Cycles => "settle: cycle",
             Group::Checks => "check: true",
             Group::Starts => "start: both, box",
             Group::Basin => "start: box",

@@ -34,7 +34,7 @@ pub fn find(name: &str) -> Option<&'static Column> {
 
 /// The numbers that tiles keep of one start, in their order: analysis by analysis, in each as in the table.
 pub fn numbers(analysis: Analysis) -> impl Iterator<Item = Place> {
-    [Group::Linear, Group::Response, Group::Settling, Group::Checks]
+    [Group::Linear, Group::Response, Group::Settling, Group::Cycles, Group::Checks]
         .into_iter()
         .filter(move |group| group.is_asked(analysis))
         .flat_map(|group| COMPUTED.iter().filter(move |column| column.group == group))

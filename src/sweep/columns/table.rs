@@ -51,6 +51,27 @@ const _: () = {
     }
 };
 
+/// How a response was found. Tiles tell it by the multiplier.
+static FOUND_BY: Class = Class {
+    first: 0,
+    always: false,
+    name: |position| ["integration", "shooting"].get(position).copied(),
+    get: |record| {
+        record
+            .outcome
+            .as_ref()
+            .filter(|_| record.regime.is_some())
+            .map(|outcome| usize::from(outcome.floquet.is_some()))
+    },
+    put: |_, _| {},
+};
+
+/// How many periods a small disturbance lasts, from the multiplier.
+const DISTURBANCE: Place = Place {
+    get: |record| record.outcome.as_ref()?.floquet.map(|floquet| -1.0 / floquet.ln()),
+    put: |_, _| {},
+};
+
 /// A class of two: no and yes, as they are called.
 macro_rules! flag {
     ($name:ident $field:ident $no:literal $yes:literal) => {
@@ -141,6 +162,12 @@ table! {
     Response "energy_gaining_impacts" "" Count(field!(outcome energy_gaining_impacts)), ["Impacts that gained energy"], "impacts of the whole run that gained energy; only the reference counts them".hidden();
     Response "settled" "" Flag(&SETTLED), ["Settled"], "1 when the two halves of the window agree (until settled: when the windows do), else 0";
     Settling "settling_time" "s" Number(field!(outcome settling_time)), ["Settling time"], "start of the last window of a run until settled";
+    Cycles "found_by" "" Name(&FOUND_BY), ["Found by"], "how the response was found: shooting (a fixed point of the return map, the window is one period) or integration (as settle auto)";
+    Cycles "period" "s" Number(field!(outcome period)), ["Period {T} of the limit cycle", "{T}"], "period of the limit cycle that shooting found";
+    Cycles "cycle_returns" "" Count(field!(outcome cycle_returns)), ["Returns in a period"], "upward zero crossings of x2' in a period: more than 1 after a period doubling, or with several impacts";
+    Cycles "floquet" "" Number(field!(outcome floquet)), ["Largest Floquet multiplier {|λ|}", "{|λ|}"], "largest modulus of the Floquet multipliers: what is left of a small disturbance after one period";
+    Cycles "floquet_angle" "deg" Number(field!(outcome floquet_angle)), ["Angle of that multiplier"], "its angle, 0 to 180: a stable cycle ends at 0 by a fold, at 180 by a period doubling, else in a torus";
+    Cycles "disturbance_periods" "" Number(DISTURBANCE), ["Periods that a disturbance lasts", "Memory"], "periods after which a small disturbance has fallen to 1/e, -1/ln(floquet)";
     Checks "checked" "" Summary(checked), ["Checked"], "1: computed again in f64 with fine steps; 2: the same, and near a border between labels, so that the row is that result; 3: computed again by the reference; else empty";
     Checks "check_error" "" Number(field!(check error)), ["Relative error that a check found", "Error"], "worst relative error of x2_std, ax_rms, ay_rms and response_frequency against that, of a settled oscillation";
     Response "simulated_time" "s" Number(field!(outcome simulated_time)), ["Simulated time"], "simulated time";

@@ -9,8 +9,9 @@ use crate::model::friction::{LawKind, MuTable};
 use crate::model::material::{Material, Outside};
 use crate::model::{Param, Params};
 use crate::sweep::grid::Grid;
+use crate::sweep::spec::duration::{AUTO, CYCLE};
 use crate::sweep::spec::start::Kind;
-use crate::sweep::spec::{Analysis, FIRST_SETTLE, Pass, Spec};
+use crate::sweep::spec::{Analysis, FIRST_HUNT, FIRST_SETTLE, Pass, Spec};
 
 impl Spec {
     /// The sweep whose [`Spec::resolved`] form this is; `None` where an entry is none that [`Spec::resolved`] writes.
@@ -39,7 +40,8 @@ impl Spec {
         let response = resolved.get("response")?;
         let duration = |key: &str| Duration::from_words(response.get(key)?.as_str()?);
         let (settle, settle_limit) = match response.get("settle")?.as_str()? {
-            "auto" => (FIRST_SETTLE, Some(duration("settle_limit")?)),
+            CYCLE => (FIRST_HUNT, Some(duration("settle_limit")?)),
+            AUTO => (FIRST_SETTLE, Some(duration("settle_limit")?)),
             _ => (duration("settle")?, None),
         };
         let kind = resolved["start"]["kind"].as_str()?;

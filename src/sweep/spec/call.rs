@@ -33,6 +33,8 @@ pub enum Start {
 pub enum Settle {
     /// When the windows of its motion agree.
     Auto,
+    /// When its limit cycle is found by shooting, or else as [`Settle::Auto`].
+    Cycle,
     /// Until settled, but no longer than this.
     AutoWithin(Duration),
     /// After this time.

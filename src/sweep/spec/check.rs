@@ -7,6 +7,7 @@ use crate::model::material::Material;
 use crate::model::{Param, Section};
 use crate::sweep::error::{Error, Result};
 use crate::sweep::grid::{AxisKey, Grid, Value};
+use crate::sweep::spec::duration::{AUTO, CYCLE};
 use crate::sweep::spec::files::Files;
 use crate::sweep::spec::law;
 use crate::sweep::spec::sections::Sections;
@@ -172,16 +173,18 @@ impl Check<'_> {
 
     /// A run until settled needs a belt that goes on as it is; its limit needs such a run.
     fn settling_has_effect(&self) -> Result<()> {
-        let auto = "settle = \"auto\" in [response]";
+        let word = if self.sections.cycle { CYCLE } else { AUTO };
+        let auto = format!("settle = \"{word}\" in [response]");
         match (&self.sections.auto, &self.sections.settle_limit) {
             (None, Some((_, span))) => {
                 let key = "`settle_limit` in [response]".to_owned();
-                Err(unused(self.sweep.place(span.clone()), key, auto.to_owned()))
+                let needed = format!("settle = \"{AUTO}\" or \"{CYCLE}\" in [response]");
+                Err(unused(self.sweep.place(span.clone()), key, needed))
             }
             (Some(span), _) => match self.param(Param::RampDuration) {
                 Some((_, ramp)) => Err(Error::Conflict {
                     at: self.sweep.place(span.clone()),
-                    key: auto.to_owned(),
+                    key: auto,
                     other: format!("{ramp}, during which nothing settles"),
                 }),
                 None => Ok(()),

@@ -258,8 +258,9 @@ impl Code<'_> {
     fn settle(&mut self, settle: Settle, whole: &Range<usize>) -> Result<()> {
         let sections = &mut self.sections;
         (sections.auto, sections.settle, sections.settle_limit) = (None, None, None);
+        sections.cycle = matches!(settle, Settle::Cycle);
         match settle {
-            Settle::Auto => sections.auto = Some(whole.clone()),
+            Settle::Auto | Settle::Cycle => sections.auto = Some(whole.clone()),
             Settle::AutoWithin(limit) => {
                 sections.auto = Some(whole.clone());
                 sections.settle_limit = Some((limit, whole.clone()));

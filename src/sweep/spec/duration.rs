@@ -7,6 +7,12 @@ use crate::sweep::error::Result;
 use crate::sweep::spec::document::{Node, out_of_range, string};
 use squealmap_input::place::Source;
 
+/// The word for a run until its windows agree.
+pub(crate) const AUTO: &str = "auto";
+
+/// The word for a run until its cycle is found.
+pub(crate) const CYCLE: &str = "cycle";
+
 /// Longest duration in seconds or periods: a typing error is refused, no study is.
 pub(super) const LONGEST: f64 = 1e9;
 
@@ -19,7 +25,7 @@ pub(super) fn is_legal(count: f64, settle: bool) -> bool {
 /// Reads a duration; only that of `settle` may be 0.
 pub(super) fn duration(source: &Source, node: &Node, label: &str, settle: bool) -> Result<Duration> {
     let (expected, bound) = if settle {
-        ("\"auto\" or a string such as \"6 s\" or \"200 periods\"", "not below 0")
+        ("\"auto\", \"cycle\" or a string such as \"6 s\" or \"200 periods\"", "not below 0")
     } else {
         ("a string such as \"6 s\" or \"200 periods\"", "greater than 0")
     };

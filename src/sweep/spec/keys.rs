@@ -156,9 +156,13 @@ const ROWS: &[Row] = &[
     Row {
         section: "response",
         name: "settle",
-        meaning: "time before the measuring window; \"auto\" goes on until windows agree",
+        meaning: "time before the measuring window; \"auto\" goes on until windows agree, \"cycle\" until a limit cycle is found by shooting",
         default: || Some(format!("\"{SETTLE}\"; 0 with a ramp")),
-        range: || format!("\"auto\", or a time from 0 to {LONGEST:e}, such as \"6 s\" or \"200 periods\""),
+        range: || {
+            format!(
+                "\"auto\", \"cycle\", or a time from 0 to {LONGEST:e}, such as \"6 s\" or \"200 periods\""
+            )
+        },
         read_by: "",
         varies: false,
     },
@@ -168,7 +172,7 @@ const ROWS: &[Row] = &[
         meaning: "longest time to settle",
         default: || Some(format!("\"{SETTLE_LIMIT}\"")),
         range: time,
-        read_by: "settle `auto`",
+        read_by: "settle `auto`, `cycle`",
         varies: false,
     },
     Row {

@@ -19,7 +19,7 @@ pub(crate) mod call;
 mod check;
 mod code;
 mod document;
-mod duration;
+pub(crate) mod duration;
 mod files;
 mod instance;
 pub mod keys;
@@ -74,6 +74,9 @@ pub const MEASURE: Duration = Duration::Periods(100.0);
 /// Time before the first window of a run until settled.
 pub const FIRST_SETTLE: Duration = Duration::Periods(24.0);
 
+/// Time before the first look for a cycle.
+pub const FIRST_HUNT: Duration = Duration::Periods(8.0);
+
 /// The windows of a run until settled when a sweep does not say; they are lengthened to whole cycles.
 pub const AUTO_MEASURE: Duration = Duration::Periods(48.0);
 
@@ -81,7 +84,7 @@ pub const AUTO_MEASURE: Duration = Duration::Periods(48.0);
 pub const SETTLE_LIMIT: Duration = Duration::Periods(1000.0);
 
 /// What a sweep computes.
-#[expect(clippy::struct_excessive_bools, reason = "four questions with yes or no, asked one by one")]
+#[expect(clippy::struct_excessive_bools, reason = "five questions with yes or no, asked one by one")]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Analysis {
     /// Complex eigenvalue analysis.
@@ -90,6 +93,8 @@ pub struct Analysis {
     pub response: bool,
     /// Time integration goes on until it is settled.
     pub until_settled: bool,
+    /// Time integration looks for its limit cycle by shooting.
+    pub finds_cycles: bool,
     /// A few instances are computed again, to measure the error of the others.
     pub checked: bool,
     /// The starts of the time integration.
@@ -165,7 +170,7 @@ pub struct Spec {
     pub pass: Pass,
     /// Time before the measuring window, or before the first of a run until settled.
     pub settle: Duration,
-    /// The latest start of a window in a run until settled (`settle = "auto"`).
+    /// The latest start of a window in a run until settled (`settle = "auto"` or `"cycle"`).
     pub settle_limit: Option<Duration>,
     /// Length of the measuring window.
     pub measure: Duration,
@@ -185,6 +190,7 @@ impl Plan {
             start: spec.start,
             settle: spec.settle,
             settle_limit: spec.settle_limit,
+            hunts: spec.analysis.finds_cycles,
             measure: spec.measure,
             steps_per_period: spec.steps_per_period,
             ..Plan::REFERENCE

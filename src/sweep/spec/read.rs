@@ -17,7 +17,8 @@ use crate::sweep::spec::keys::top_level;
 use crate::sweep::spec::sections::{Sections, section_of, unknown_key};
 use crate::sweep::spec::varied::Varied;
 use crate::sweep::spec::{
-    AUTO_MEASURE, Analysis, FIRST_SETTLE, MAX_SWEEP_BYTES, MEASURE, Pass, SETTLE, SETTLE_LIMIT, Spec, Starts,
+    AUTO_MEASURE, Analysis, FIRST_HUNT, FIRST_SETTLE, MAX_SWEEP_BYTES, MEASURE, Pass, SETTLE, SETTLE_LIMIT,
+    Spec, Starts,
 };
 use squealmap_input::files;
 use squealmap_input::place::Source;
@@ -95,6 +96,7 @@ fn assemble(sections: Sections, varied: Varied, files: Files) -> Spec {
     let auto = sections.auto.is_some();
     let (settle, measure) = match (ramp, auto) {
         (true, _) => (Duration::Seconds(0.0), Duration::Ramp),
+        (false, true) if sections.cycle => (FIRST_HUNT, AUTO_MEASURE),
         (false, true) => (FIRST_SETTLE, AUTO_MEASURE),
         (false, false) => (SETTLE, MEASURE),
     };
@@ -104,6 +106,7 @@ fn assemble(sections: Sections, varied: Varied, files: Files) -> Spec {
         title: sections.title,
         analysis: Analysis {
             until_settled: auto && sections.analysis.response,
+            finds_cycles: sections.cycle && sections.analysis.response,
             checked: sections.check && sections.analysis.response,
             starts: if sections.analysis.response { starts } else { Starts::One },
             ..sections.analysis

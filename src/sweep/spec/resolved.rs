@@ -5,6 +5,7 @@ use serde_json::{Map, Value as Json, json};
 use crate::model::material::{Material, Outside};
 use crate::model::{PARAMS, Section};
 use crate::sweep::grid::{AxisKey, Grid, Value};
+use crate::sweep::spec::duration::{AUTO, CYCLE};
 use crate::sweep::spec::start::{AMPLITUDES, Kind};
 use crate::sweep::spec::{Spec, Starts};
 
@@ -56,7 +57,7 @@ impl Spec {
                 "check": self.analysis.checked,
             }),
             Some(limit) => json!({
-                "settle": "auto",
+                "settle": if self.analysis.finds_cycles { CYCLE } else { AUTO },
                 "settle_limit": limit.to_string(),
                 "measure": measure,
                 "steps_per_period": self.steps_per_period,

@@ -8,7 +8,7 @@ use crate::sweep::error::{Error, Result};
 use crate::sweep::spec::document::{
     Entry, Node, array, boolean, choice, entries, integer, number, out_of_range_at, string, table,
 };
-use crate::sweep::spec::duration::duration;
+use crate::sweep::spec::duration::{AUTO, CYCLE, duration};
 use crate::sweep::spec::keys::{STEPS_RANGE, home, names_of};
 use crate::sweep::spec::names::unknown;
 use crate::sweep::spec::refine::{COARSE, Settings};
@@ -57,8 +57,10 @@ pub(super) struct Sections {
     /// Starts drawn from a box.
     pub(super) box_samples: u32,
     pub(super) settle: Option<Duration>,
-    /// Where `settle = "auto"` stands.
+    /// Where `settle = "auto"` or `settle = "cycle"` stands.
     pub(super) auto: Option<Range<usize>>,
+    /// Whether it is the latter.
+    pub(super) cycle: bool,
     /// `settle_limit`, and where it stands.
     pub(super) settle_limit: Option<(Duration, Range<usize>)>,
     pub(super) measure: Option<Duration>,
@@ -80,6 +82,7 @@ impl Default for Sections {
                 linear: true,
                 response: true,
                 until_settled: false,
+                finds_cycles: false,
                 checked: false,
                 starts: Starts::One,
             },
@@ -93,6 +96,7 @@ impl Default for Sections {
             box_samples: BOX_SAMPLES,
             settle: None,
             auto: None,
+            cycle: false,
             settle_limit: None,
             measure: None,
             check: true,
@@ -219,7 +223,10 @@ impl Sections {
         for entry in entries(table(source, entry.node, "`response`", expected)?) {
             let label = format!("`{}` in [response]", entry.key);
             match entry.key {
-                "settle" if is_auto(entry.node) => self.auto = Some(entry.node.span()),
+                "settle" if is_left_to_the_run(entry.node) => {
+                    self.auto = Some(entry.node.span());
+                    self.cycle = entry.node.get_ref().as_str() == Some(CYCLE);
+                }
                 "settle" => self.settle = Some(duration(source, entry.node, &label, true)?),
                 "settle_limit" => {
                     let limit = duration(source, entry.node, &label, false)?;
@@ -265,9 +272,9 @@ pub(super) fn legal_title(source: &Source, span: &Range<usize>, title: &str) -> 
     Ok(())
 }
 
-/// Whether a duration is left to the run.
-fn is_auto(node: &Node) -> bool {
-    node.get_ref().as_str() == Some("auto")
+/// Whether the time to settle is left to the run.
+fn is_left_to_the_run(node: &Node) -> bool {
+    node.get_ref().as_str().is_some_and(|word| [AUTO, CYCLE].contains(&word))
 }
 
 /// The error of an unknown key of a section or of the top level (an empty section name).

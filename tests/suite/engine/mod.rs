@@ -2,6 +2,7 @@
 
 pub(crate) mod bounded;
 pub(crate) mod crossings;
+pub(crate) mod cycles;
 pub(crate) mod events;
 pub(crate) mod exact;
 pub(crate) mod extremes;

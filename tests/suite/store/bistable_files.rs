@@ -19,8 +19,14 @@ use squealmap::sweep::spec::{Analysis, Starts};
 /// Tiles keep what other starts gave; a sweep of one start has not a byte more than before.
 #[test]
 fn tiles_keep_all_starts() {
-    let one =
-        Analysis { linear: true, response: true, until_settled: true, checked: false, starts: Starts::One };
+    let one = Analysis {
+        linear: true,
+        response: true,
+        until_settled: true,
+        finds_cycles: false,
+        checked: false,
+        starts: Starts::One,
+    };
     assert_eq!(starts::width(one), columns::width(one));
     let large = Record { kind: None, linear: None, ..oscillation(Regime::StickSlip, 2.5) };
     let small = || record(InstabilityType::Stable, Regime::Equilibrium, true);

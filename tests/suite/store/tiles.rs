@@ -23,10 +23,16 @@ use squealmap::store::tiling::Tiling;
 use squealmap::sweep::grid::{Axis, AxisKey, Grid, Value};
 use squealmap::sweep::spec::{Analysis, Spec, Starts};
 
-const BOTH: Analysis =
-    Analysis { linear: true, response: true, until_settled: false, checked: false, starts: Starts::One };
+const BOTH: Analysis = Analysis {
+    linear: true,
+    response: true,
+    until_settled: false,
+    finds_cycles: false,
+    checked: false,
+    starts: Starts::One,
+};
 /// Both, until settled: with the time that took.
-const UNTIL_SETTLED: Analysis = Analysis { until_settled: true, ..BOTH };
+const UNTIL_SETTLED: Analysis = Analysis { until_settled: true, finds_cycles: false, ..BOTH };
 
 /// The columns of some records.
 fn encode(records: &[Record], analysis: Analysis) -> Vec<u8> {

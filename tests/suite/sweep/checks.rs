@@ -108,7 +108,7 @@ fn the_time_of_checks_is_bounded_by_their_number() {
     for precision in [Precision::F32, Precision::F64] {
         for steps in [3, 5, 8, 12, 24] {
             let engine = Configuration::cpu(precision, steps);
-            let counts = Counts::new(&engine, total);
+            let counts = Counts::new(&engine, false, total);
             let time = |count: usize, of: &Configuration| count as f64 / shipped.cpu_rate(of);
             let checks =
                 time(counts.fine, &finer(&engine)) + time(counts.reference, &Configuration::reference(12));
@@ -117,7 +117,7 @@ fn the_time_of_checks_is_bounded_by_their_number() {
             assert!(counts.fine > 1000 && counts.reference > 50, "{engine}: {counts:?}");
         }
     }
-    let reference = Counts::new(&Configuration::reference(12), total);
+    let reference = Counts::new(&Configuration::reference(12), false, total);
     assert_eq!((reference.fine, reference.reference), (0, 0));
 }
 
@@ -152,7 +152,7 @@ fn what_was_found_is_counted() {
     let largest = json[0]["error"]["largest"].as_f64().unwrap();
     assert!((1e-3..1.13e-3).contains(&largest), "{largest:e}");
     assert_eq!((&json[1]["checked"], &json[1]["labels_changed_share"]), (&1.into(), &1.0.into()));
-    let text = checks.summary();
+    let text = checks.summary(false);
     assert!(
         text.contains("3 instances, 2 settled oscillations") && text.contains("of 2 near a border"),
         "{text}"

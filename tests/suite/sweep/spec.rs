@@ -6,7 +6,7 @@
 use std::path::Path;
 
 use proptest::prelude::*;
-use squealmap::engine::plan::{Duration, StartKind};
+use squealmap::engine::plan::{Duration, Plan, StartKind};
 use squealmap::model::Param;
 use squealmap::model::friction::{FrictionLaw, LawKind};
 use squealmap::sweep::grid::{Grid, Value};
@@ -78,6 +78,18 @@ fn a_run_until_settled_has_shorter_windows_and_a_limit() {
     assert_eq!(json["response"]["settle_limit"], "1000 periods");
     let spec = parse(&format!("{base}settle_limit = \"60 s\"\nmeasure = \"2 s\"\n"));
     assert_eq!((spec.settle_limit, spec.measure), (Some(Duration::Seconds(60.0)), Duration::Seconds(2.0)));
+}
+
+#[test]
+fn a_run_that_finds_cycles_looks_early_and_is_described_as_such() {
+    let base = "[friction]\nmu_s = 0.4\nmu_d = 0.3\n[belt]\nbelt_velocity = 3\n[response]\n";
+    let spec = parse(&format!("{base}settle = \"cycle\"\nsettle_limit = \"60 s\"\n"));
+    assert!(spec.analysis.finds_cycles && spec.analysis.until_settled && Plan::new(&spec).hunts);
+    assert_eq!((spec.settle, spec.settle_limit), (Duration::Periods(8.0), Some(Duration::Seconds(60.0))));
+    let json = spec.resolved();
+    assert_eq!(json["response"]["settle"], "cycle");
+    let auto = parse(&format!("{base}settle = \"auto\"\n"));
+    assert!(!auto.analysis.finds_cycles && !Plan::new(&auto).hunts);
 }
 
 #[test]

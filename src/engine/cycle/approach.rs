@@ -1,0 +1,105 @@
+//! Whether a transient comes to a cycle: its returns approach it as the multipliers predict.
+
+use nalgebra::{DMatrix, DVector};
+use num_complex::Complex64;
+
+/// A return this close, by the size of the motion, has come.
+const THERE: f64 = 1e-6;
+
+/// From one return to the next the distance may differ from the linear prediction by this part of it.
+const OFF: f64 = 0.25;
+
+/// Where it differs by less than this part of what is forgotten from one return to the next, nothing else holds the motion.
+const CLOSELY: f64 = 0.5;
+
+/// The slowest part of the distance decays between these multiples of the predicted rate.
+const RATES: [f64; 2] = [0.5, 2.0];
+
+/// A distance beyond this part of the size of the motion is far.
+const AFAR: f64 = 0.05;
+
+/// A spiral from afar is followed for this angle before it is believed: by half a turn its distance has been in all
+/// directions, one way or the other.
+const TURNED: f64 = std::f64::consts::PI;
+
+/// Multipliers below this one are forgotten so soon that no rate is measured.
+const SLOW: f64 = 0.5;
+
+/// What the linear map about a fixed point says of distances from it.
+#[derive(Clone, Debug)]
+pub struct Approach {
+    jacobian: DMatrix<f64>,
+    /// The eigenvalue of largest modulus, and its left eigenvector.
+    slowest: Complex64,
+    left: DVector<Complex64>,
+    /// The part of the slowest multiplier in the first distance that was seen, and the returns since then.
+    first: Option<(f64, f64)>,
+}
+
+impl Approach {
+    /// The approach to a fixed point with this `jacobian`; `None` where its eigenvectors are not to be had.
+    #[must_use]
+    pub fn new(jacobian: DMatrix<f64>) -> Option<Approach> {
+        let multipliers = jacobian.complex_eigenvalues();
+        let slowest = *multipliers.iter().max_by(|a, b| a.norm().total_cmp(&b.norm()))?;
+        let left = left_vector(&jacobian, slowest)?;
+        Some(Approach { jacobian, slowest, left, first: None })
+    }
+
+    /// The multiplier of largest modulus; of a pair one of the two.
+    #[must_use]
+    pub fn slowest(&self) -> Complex64 {
+        self.slowest
+    }
+
+    /// Whether the distances from the fixed point, the last one first, fall as they should. `since` are the returns that were
+    /// made since the distances of the last call began; `size` is the size of the motion.
+    #[must_use]
+    pub fn is_seen(&mut self, distances: &[DVector<f64>], since: f64, size: f64) -> bool {
+        let (Some(last), Some(first)) = (distances.first(), distances.last()) else { return false };
+        if last.amax() <= THERE * size {
+            return true;
+        }
+        let within = |part: f64| {
+            distances.windows(2).all(|pair| {
+                let [after, before] = pair else { return false };
+                let off = (after - &self.jacobian * before).norm();
+                off <= part * before.norm() || before.amax() <= THERE * size
+            })
+        };
+        let multiplier = self.slowest.norm();
+        let seen = (within(OFF.min(CLOSELY * (1.0 - multiplier))), within(OFF));
+        let part = |distance: &DVector<f64>| self.left.dot(&distance.map(Complex64::from)).norm();
+        let (begun, so_far) = match self.first {
+            Some((part, before)) if seen.1 => (part, before + since),
+            _ => (part(first), 0.0),
+        };
+        let returns = so_far + (distances.len() - 1) as f64;
+        let rate = (begun / part(last)).ln() / returns;
+        self.first = seen.1.then_some((begun, so_far));
+        // What spirals in from afar is seen from all sides.
+        let turned = self.slowest.arg() == 0.0 || returns * self.slowest.arg().abs() >= TURNED;
+        let near = distances.iter().all(|distance| distance.amax() <= AFAR * size);
+        let predicted = -multiplier.ln();
+        let decays = (RATES[0] * predicted..=RATES[1] * predicted).contains(&rate);
+        seen.0 || seen.1 && (multiplier < SLOW || decays && (turned || near))
+    }
+}
+
+/// The left eigenvector of an eigenvalue, by inverse iteration.
+fn left_vector(matrix: &DMatrix<f64>, eigenvalue: Complex64) -> Option<DVector<Complex64>> {
+    let count = matrix.nrows();
+    let near = eigenvalue + Complex64::from(1e-9 * eigenvalue.norm().max(1e-3));
+    let shifted = matrix.transpose().map(Complex64::from) - DMatrix::identity(count, count) * near;
+    let factors = shifted.lu();
+    let mut vector = DVector::from_fn(count, |i, _| Complex64::new(1.0, 0.3 * i as f64));
+    for _ in 0..3 {
+        vector = factors.solve(&vector)?;
+        let norm = vector.norm();
+        if !(norm > 0.0 && norm.is_finite()) {
+            return None;
+        }
+        vector.unscale_mut(norm);
+    }
+    Some(vector)
+}

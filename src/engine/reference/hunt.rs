@@ -1,0 +1,158 @@
+//! The reference looks for the cycle of one run.
+
+use crate::engine::cycle::candidate::Cycle;
+use crate::engine::cycle::point::{Freedom, Point, Return};
+use crate::engine::cycle::pursuit::{GROWS, Pursuit};
+use crate::engine::measuring::Measuring;
+use crate::engine::outcome::Outcome;
+use crate::engine::plan::Plan;
+use crate::engine::reductions::End;
+use crate::engine::reference::integrate::Integrator;
+use crate::engine::reference::observe::{EnergyGains, Growth, Window};
+use crate::engine::reference::phase::phase;
+use crate::engine::reference::section::returns;
+use crate::engine::scene::Scene;
+use crate::model::contact::ContactState;
+use crate::model::status::Status;
+
+/// The hunts of one run.
+pub(super) struct Chase<'a> {
+    scene: &'a Scene,
+    plan: &'a Plan,
+    /// Whether the law is straight, so that a motion without events can only grow or decay.
+    straight: bool,
+    pursuit: Pursuit,
+    /// Steps and scaled time of all flights.
+    flown: (u64, f64),
+}
+
+impl<'a> Chase<'a> {
+    /// The hunts of a run; `None` where the plan has none.
+    pub(super) fn new(scene: &'a Scene, plan: &'a Plan) -> Option<Chase<'a>> {
+        let straight = scene.model.law.pieces.iter().all(|piece| piece.form().is_straight());
+        let chase = Chase { scene, plan, straight, pursuit: Pursuit::default(), flown: (0, 0.0) };
+        plan.hunts.then_some(chase)
+    }
+
+    /// Goes on with a run until it has come to its cycle, which it measures; `None` when a window is next.
+    ///
+    /// # Errors
+    /// The status that ends the run.
+    pub(super) fn run(
+        &mut self,
+        integrator: &mut Integrator,
+        seen: (&mut Growth, &mut EnergyGains),
+        measuring: &mut Measuring,
+    ) -> Result<Option<Outcome>, Status> {
+        let (growth, gains) = seen;
+        while self.pursuit.goes_on() {
+            let wait = if !growth.met_event() && self.straight {
+                GROWS - integrator.time()
+            } else {
+                if let Some(outcome) = self.look(integrator, growth, gains)? {
+                    return Ok(Some(outcome));
+                }
+                self.pursuit.wait()
+            };
+            if wait <= 0.0 || !measuring.wait(integrator.time(), wait) {
+                return Ok(None);
+            }
+            self.scene.advance(integrator, wait, &mut (&mut *growth, &mut *gains))?;
+        }
+        Ok(None)
+    }
+
+    /// One hunt.
+    fn look(
+        &mut self,
+        integrator: &mut Integrator,
+        growth: &mut Growth,
+        gains: &mut EnergyGains,
+    ) -> Result<Option<Outcome>, Status> {
+        let transient = match self.transient(integrator, growth, gains) {
+            Ok(transient) => transient,
+            Err(Status::NotComputed) => return Ok(None),
+            Err(status) => return Err(status),
+        };
+        let Some(cycle) = self.cycle(&transient, integrator) else { return Ok(None) };
+        self.measure(&cycle, integrator, growth, *gains)
+    }
+
+    /// The next returns of the run.
+    fn transient(
+        &self,
+        integrator: &mut Integrator,
+        growth: &mut Growth,
+        gains: &mut EnergyGains,
+    ) -> Result<Vec<Return>, Status> {
+        let mut seen = (*growth, *gains);
+        let all = returns(self.scene, integrator, self.pursuit.looks_at(), &mut seen);
+        (*growth, *gains) = seen;
+        all
+    }
+
+    /// The cycle that a transient comes to.
+    fn cycle(&mut self, transient: &[Return], integrator: &Integrator) -> Option<Cycle> {
+        let here = transient.last()?.point;
+        let (now, belt) = (integrator.time(), self.scene.belt(0.0).velocity);
+        let freedom = Freedom::of(&here, self.is_single(&here), ContactState::Free as u32);
+        if let Some(mut hunt) = self.pursuit.begin(transient, freedom, now, belt) {
+            let mut next = hunt.request();
+            while let Some((points, count)) = self.pursuit.take(next) {
+                let flown: Option<Vec<_>> =
+                    points.iter().map(|point| self.fly(integrator.at(point), count)).collect();
+                next = hunt.take(flown.as_deref());
+            }
+        }
+        self.pursuit.arrives(transient, now)
+    }
+
+    fn fly(&mut self, mut integrator: Integrator, count: usize) -> Option<Vec<Return>> {
+        let (steps, time) = (integrator.steps(), integrator.time());
+        let flown = returns(self.scene, &mut integrator, count, &mut ());
+        self.flown.0 += integrator.steps() - steps;
+        self.flown.1 += integrator.time() - time;
+        flown.ok()
+    }
+
+    /// Measures one period of a cycle; `None` where it does not close.
+    fn measure(
+        &self,
+        cycle: &Cycle,
+        integrator: &Integrator,
+        growth: &Growth,
+        gains: EnergyGains,
+    ) -> Result<Option<Outcome>, Status> {
+        let start = integrator.at(&cycle.start);
+        let mut round = start.clone();
+        let half = 0.5 * cycle.period;
+        let mut window = Window::default();
+        for part in 0..2 {
+            window.half = part;
+            self.scene.advance(&mut round, half, &mut window)?;
+        }
+        let state = round.state();
+        if !cycle.closes(state.position, state.velocity) {
+            return Ok(None);
+        }
+        let mut seen = window.reductions(growth);
+        seen.close_period([start.time(), round.time()]);
+        if let Some(frequency) = seen.frequency() {
+            seen.phase = phase(self.scene, start, frequency, &seen, half)?;
+        }
+        let time = round.time() + cycle.period + self.flown.1;
+        let steps = integrator.steps() + self.flown.0 + 2 * (round.steps() - integrator.steps());
+        let outcome = seen.outcome(self.scene, self.plan, &End { status: Status::Ok, steps, time });
+        if outcome.status != Status::Ok {
+            return Err(outcome.status);
+        }
+        let outcome = outcome.on_cycle(cycle, integrator.time(), &self.scene.units);
+        Ok(Some(Outcome { energy_gaining_impacts: Some(gains.0), ..outcome }))
+    }
+
+    /// Whether `x2` alone moves.
+    fn is_single(&self, point: &Point) -> bool {
+        let ([_, y2, y1], [_, vy2, vy1]) = (point.position, point.velocity);
+        self.scene.model.s == 0.0 && [y2, y1, vy2, vy1].iter().all(|value| *value == 0.0)
+    }
+}
