@@ -164,17 +164,20 @@ refuses! {
     half_a_ramp: format!("{VALID}ramp_duration = 10\n")
         => "s.toml:6:17: `belt_velocity_end` is missing: `ramp_duration` in [belt] describes a ramp, so give both or none";
     duration_without_unit: "[response]\nsettle = \"6\"\n"
-        => "s.toml:2:10: `settle` in [response] is \"6\" but must be \"auto\" or a string such as \"6 s\" or \"200 periods\", \
+        => "s.toml:2:10: `settle` in [response] is \"6\" but must be \"auto\", \"cycle\" or a string such as \"6 s\" or \"200 periods\", \
             not below 0 and at most 1e9";
     duration_as_number: "[response]\nsettle = 6\n"
-        => "s.toml:2:10: `settle` in [response] must be \"auto\" or a string such as \"6 s\" or \"200 periods\", \
+        => "s.toml:2:10: `settle` in [response] must be \"auto\", \"cycle\" or a string such as \"6 s\" or \"200 periods\", \
             found the number 6";
     limit_of_a_fixed_time: format!("{VALID}[response]\nsettle = \"6 s\"\nsettle_limit = \"9 s\"\n")
-        => "s.toml:8:1: `settle_limit` in [response] would have no effect: it is used only by settle = \"auto\" in [response]; \
+        => "s.toml:8:1: `settle_limit` in [response] would have no effect: it is used only by settle = \"auto\" or \"cycle\" in [response]; \
             remove it or choose that";
     no_limit: format!("{VALID}[response]\nsettle = \"auto\"\nsettle_limit = \"0 s\"\n")
         => "s.toml:8:16: `settle_limit` in [response] is \"0 s\" but must be a string such as \"6 s\" or \"200 periods\", \
             greater than 0 and at most 1e9";
+    cycles_on_a_ramp: format!("{VALID}belt_velocity_end = 0.5\nramp_duration = 10\n[response]\nsettle = \"cycle\"\n")
+        => "s.toml:9:10: settle = \"cycle\" in [response] stands beside `ramp_duration` in [belt], during which nothing settles; \
+            remove one of them";
     settling_on_a_ramp: format!("{VALID}belt_velocity_end = 0.5\nramp_duration = 10\n[response]\nsettle = \"auto\"\n")
         => "s.toml:9:10: settle = \"auto\" in [response] stands beside `ramp_duration` in [belt], during which nothing settles; \
             remove one of them";

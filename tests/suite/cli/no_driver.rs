@@ -10,11 +10,16 @@ use std::process::Command;
 const LONG: &str = "[friction]\nlaw = \"table\"\ntable = \"mu.csv\"\n[belt]\nbelt_velocity = 3\n\
                     [response]\nsettle = \"2 periods\"\nmeasure = \"2 periods\"\n";
 
+/// A sweep that finds its cycles.
+const CYCLE: &str =
+    "[friction]\nmu_s = 0.4\nmu_d = 0.3\n[belt]\nbelt_velocity = 3\n[response]\nsettle = \"cycle\"\n";
+
 /// Exit code and standard error of the program with the Vulkan loader pointed at `driver`.
 fn with_driver(driver: &Path, arguments: &[&str]) -> (Option<i32>, String, String) {
     let directory = tempfile::tempdir().unwrap();
     std::fs::copy("sweeps/paper/figure2.toml", directory.path().join("modes.toml")).unwrap();
     std::fs::write(directory.path().join("long.toml"), LONG).unwrap();
+    std::fs::write(directory.path().join("cycle.toml"), CYCLE).unwrap();
     let rows: Vec<String> = (0..1025).map(|row| format!("{row},0.3")).collect();
     std::fs::write(directory.path().join("mu.csv"), format!("velocity,mu\n{}\n", rows.join("\n"))).unwrap();
     let output = Command::new(env!("CARGO_BIN_EXE_squealmap"))
@@ -154,4 +159,25 @@ fn a_table_that_no_kernel_holds_is_the_reason_given() {
     let (code, _, err) = with_driver(Path::new("/nonexistent"), &["run", "long.toml"]);
     assert_eq!(code, Some(0), "{err}");
     assert!(err.starts_with(&format!("computing on the CPU in f64: {cause} use --backend cpu")), "{err}");
+}
+
+#[test]
+fn cycles_are_found_on_the_cpu_and_refused_on_a_gpu() {
+    let cause = "settle = \"cycle\"";
+    assert_eq!(
+        refused("run cycle.toml --backend gpu"),
+        format!(
+            "error: {cause} finds cycles on the CPU only; use --backend cpu, or settle = \"auto\" in [response]"
+        )
+    );
+    assert_eq!(
+        refused("run cycle.toml --require-gpu"),
+        format!(
+            "error: --require-gpu: this needs a GPU, but {cause} in [response] finds cycles on the CPU only; write \
+             settle = \"auto\", or remove --require-gpu"
+        )
+    );
+    let (code, _, err) = with_driver(Path::new("/nonexistent"), &["run", "cycle.toml"]);
+    assert_eq!(code, Some(0), "{err}");
+    assert!(err.starts_with(&format!("computing on the CPU in f64: {cause} finds cycles")), "{err}");
 }

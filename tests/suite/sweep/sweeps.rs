@@ -127,6 +127,23 @@ fn hysteresis_runs() {
 }
 
 #[test]
+fn cycle_map_finds_the_cycles_that_settled_map_waits_for() {
+    let (found, waited) = (run(thin(read("cycle_map"))), run(thin(read("settled_map"))));
+    let mut count = 0;
+    for (index, (found, waited)) in found.records.iter().zip(&waited.records).enumerate() {
+        assert_eq!((found.kind, found.regime), (waited.kind, waited.regime), "instance {index}");
+        let [found, waited] = [found, waited].map(|record| record.outcome.as_ref().unwrap());
+        if found.floquet.is_some() {
+            count += 1;
+            let [found, waited] = [found, waited].map(|outcome| outcome.x2_std.unwrap());
+            assert!((found - waited).abs() < 0.01 * waited, "instance {index}: {found} and {waited}");
+        }
+    }
+    // All that is not stable.
+    assert!(count >= 20, "{count}");
+}
+
+#[test]
 fn temperature_map_runs_from_stable_to_unstable() {
     let map = run(thin(read("temperature_map")));
     for (index, record) in map.records.iter().enumerate() {
