@@ -100,6 +100,10 @@ fn describe(spec: &Spec) -> String {
     if !spec.title.is_empty() {
         let _ = writeln!(text, "title     {}", spec.title);
     }
+    if let Some(modal) = &spec.modal {
+        let (name, modes, size) = (&modal.name, modal.modes(), modal.size());
+        let _ = writeln!(text, "model     {name}: {modes} mode(s) in the space of {size} vector(s)");
+    }
     if spec.analysis.linear {
         let _ = writeln!(text, "computes  complex eigenvalues, growth rates and the type of instability");
     }

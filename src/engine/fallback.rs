@@ -67,6 +67,9 @@ impl NoGpu {
                 format!("a friction table of {rows} rows is too long for a GPU, which takes {limit}"),
                 "thin it out",
             ),
+            NoGpu::Failed(Error::ModalOnGpu) => {
+                parts("no kernel of one computes a modal model".to_owned(), "compute it on the CPU")
+            }
             NoGpu::Failed(Error::OpenDevice { adapter, why }) => {
                 parts(format!("{adapter} cannot be opened ({why})"), "choose another with --adapter")
             }
