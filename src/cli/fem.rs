@@ -9,7 +9,7 @@ use serde_json::json;
 use squealmap::disk;
 use squealmap::results::figure::look::Look;
 use squealmap::store::space::bytes;
-use squealmap::study::fem::{curves_svg, pictures_svg};
+use squealmap::study::fem::{Curves, pictures_svg};
 use squealmap_fem::study::document::Document;
 use squealmap_fem::study::{Outcome, Study, compute, estimate, manifest, shapes, table};
 
@@ -65,7 +65,7 @@ impl FemCommand {
             (FILES[2], shapes(&study, &outcome)),
         ];
         let look = Look::default();
-        let drawn = [curves_svg(&study, &outcome, &look), pictures_svg(&study, &outcome, &look)];
+        let drawn = [Curves::of(&study, &outcome).svg(&look), pictures_svg(&study, &outcome, &look)];
         if let Some(modal) = &outcome.modal {
             files.push((FILES[7], modal.write()));
         }

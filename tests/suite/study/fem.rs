@@ -38,6 +38,15 @@ fn a_study_gives_its_table_figures_and_shapes() {
     );
     let curves = read("fem.svg");
     assert!(curves.contains("= 0.3884, 64.17 kHz"), "{}", &curves[..3000]);
+    // Drawn again from its table and manifest it is the same, line by line.
+    let (code, said, noted) = squealmap(directory.path(), &["plot", "here"]);
+    assert_eq!(code, 0, "{said}{noted}");
+    let drawn = |name: &str| -> Vec<String> {
+        let lines = read(name).lines().map(str::to_owned).collect::<Vec<_>>();
+        lines.into_iter().filter(|line| line.starts_with("<path") || line.starts_with("<text")).collect()
+    };
+    assert!(drawn("fem.svg").len() > 20);
+    assert_eq!(drawn("plot.svg"), drawn("fem.svg"));
     // Two modes before they coalesce, and the one of both that grows.
     let shapes = read("shapes.svg");
     for letter in ["(a)", "(b)", "(c)"] {
