@@ -9,7 +9,7 @@
 //! | its sliding equilibrium, and the scaled model around that | [`equilibrium`], [`scaled`] |
 //! | equations of motion, contact states, impacts | [`belt`], [`contact`] |
 //! | eigenvalues and their attribution, types of instability | [`linear`], [`quartic`], [`kind`] |
-//! | modes of any structure instead of two masses | [`modal`] |
+//! | modes of any structure instead of two masses | [`modal`], [`spectrum`] |
 //! | the fastest mode of each contact state | [`fastest`] |
 //! | how an instance ends | [`status`] |
 
@@ -27,6 +27,7 @@ pub mod modal;
 pub mod piece;
 pub mod quartic;
 pub mod scaled;
+pub mod spectrum;
 pub mod status;
 
 /// A numeric parameter of an instance; its row in [`PARAMS`] gives name, unit, default and range.

@@ -11,13 +11,15 @@
 //! forces. ζ (`damping_ratio`) damps the modes without friction, Ω = Σ ω φ (M φ)ᵀ. Attribution is that of
 //! [`crate::model::linear`]: without the slope, and without the feedback of the normal force (μ = 0 in the matrices).
 
-use nalgebra::{Cholesky, DMatrix, Schur, SymmetricEigen};
+use nalgebra::{Cholesky, DMatrix, SymmetricEigen};
 use num_complex::Complex64;
+
+use crate::model::spectrum::eigenvalues;
 
 /// How the eigenvalues are computed, in a manifest.
 pub const METHOD: &str = "QR algorithm, linearised where something damps";
 
-/// Turns of the QR algorithm for each row; it takes two or three.
+/// Turns for each frequency without friction; it takes two or three.
 const TURNS: usize = 60;
 
 /// The matrices of a structure, SI units.
@@ -119,15 +121,14 @@ impl Modal {
         let damping = lu.solve(&(sum(2) + per_slope * slope))? + &self.ratio * ratio;
         let mut all = if damping.iter().all(|entry| *entry == 0.0) {
             // λ² = −θ: what does not grow, does not grow to the last bit.
-            let roots = roots(stiffness)?;
-            roots.iter().flat_map(|theta| [-(-theta).sqrt(), (-theta).sqrt()]).collect()
+            eigenvalues(stiffness)?.iter().flat_map(|theta| [-(-theta).sqrt(), (-theta).sqrt()]).collect()
         } else {
             let n = self.size();
             let mut companion = DMatrix::zeros(2 * n, 2 * n);
             companion.view_mut((0, n), (n, n)).fill_with_identity();
             companion.view_mut((n, 0), (n, n)).copy_from(&-stiffness);
             companion.view_mut((n, n), (n, n)).copy_from(&-damping);
-            roots(companion)?
+            eigenvalues(companion)?
         };
         all.sort_by(|a, b| a.norm_sqr().total_cmp(&b.norm_sqr()));
         all.truncate(2 * self.modes());
@@ -142,14 +143,4 @@ impl Modal {
         let reach = 1.0 + self.wedge * mu;
         (reach > 0.0).then(|| load / self.load / reach)
     }
-}
-
-/// The eigenvalues of a matrix.
-fn roots(matrix: DMatrix<f64>) -> Option<Vec<Complex64>> {
-    if !matrix.iter().all(|entry| entry.is_finite()) {
-        return None;
-    }
-    let turns = TURNS * matrix.nrows();
-    let schur = Schur::try_new(matrix, f64::EPSILON, turns)?;
-    Some(schur.complex_eigenvalues().iter().copied().collect())
 }

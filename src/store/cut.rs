@@ -19,7 +19,7 @@ const STEPS: f64 = 1.2e8;
 const OF_REFERENCE: f64 = 16.0;
 
 /// Three eigenproblems of a modal model take as long as so many steps for each cube of their rows.
-const OF_ROWS: f64 = 0.6;
+const OF_ROWS: f64 = 0.4;
 
 /// Periods before the first window and in the windows of most runs until settled.
 const UNTIL_SETTLED: f64 = 300.0;

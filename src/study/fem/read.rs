@@ -13,11 +13,11 @@ pub(crate) const FILES: [&str; 2] = ["fem.csv", "manifest.json"];
 #[derive(Deserialize)]
 struct Document {
     damped: bool,
-    transitions: Vec<Event>,
+    transitions: Vec<Met>,
 }
 
 #[derive(Deserialize)]
-struct Event {
+struct Met {
     event: String,
     mu_c: f64,
     frequency: f64,
@@ -56,7 +56,7 @@ fn curves(table: &Table) -> Why<(Vec<f64>, Vec<Curve>)> {
         }
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a number of a mode")]
         let mode = mode as usize;
-        let state = State { frequency, growth, grows: unstable == 1.0 };
+        let state = State { frequency, growth, grows: unstable > 0.5 };
         match modes.iter_mut().find(|known| known.mode == mode) {
             Some(known) => known.states.push(state),
             None => modes.push(Curve { mode, states: vec![state] }),
