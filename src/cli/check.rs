@@ -51,6 +51,7 @@ impl Check {
         talk::tell("instances", spec.grid.len());
         talk::tell("analysis", json!({ "linear": spec.analysis.linear, "response": spec.analysis.response }));
         talk::tell("varies", spec.grid.keys().iter().map(|key| key.name()).collect::<Vec<_>>());
+        spec.beyond_its_modes().iter().for_each(|why| note(&format!("warning: {why}")));
         print(&materials(&spec));
         print(&disk(&spec));
         let estimate = estimate(&spec);

@@ -40,6 +40,8 @@ pub struct Modal {
     pub name: String,
     /// What stands in the file.
     pub text: String,
+    /// First and last coefficient of friction for which its vectors were chosen.
+    pub mu: [f64; 2],
     /// F0, N.
     pub load: f64,
     wedge: f64,
@@ -62,6 +64,7 @@ impl Modal {
     pub fn new(
         [name, text]: [String; 2],
         matrices: &Matrices,
+        mu: [f64; 2],
         [load, wedge]: [f64; 2],
         modes: usize,
     ) -> Result<Modal, String> {
@@ -95,7 +98,7 @@ impl Modal {
         if !is_finite.flatten().all(|entry| entry.is_finite()) {
             return Err(beyond());
         }
-        Ok(Modal { name, text, load, wedge, modes, scaled, ratio, unit })
+        Ok(Modal { name, text, mu, load, wedge, modes, scaled, ratio, unit })
     }
 
     /// How many vectors there are.

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use crate::model::Param;
 use crate::model::modal::Modal;
 use crate::sweep::error::{Error, Result};
-use crate::sweep::spec::MAX_SWEEP_BYTES;
+use crate::sweep::spec::{MAX_SWEEP_BYTES, Spec};
 use squealmap_input::files;
 use squealmap_input::place::Source;
 
@@ -75,6 +75,41 @@ impl Kind {
     }
 }
 
+/// Instances whose friction is looked at, spread over the sweep.
+const LOOKED_AT: usize = 4096;
+
+impl Spec {
+    /// A sentence about friction beyond that for which the vectors of a modal model were chosen, where a sweep has such.
+    #[must_use]
+    pub fn beyond_its_modes(&self) -> Option<String> {
+        let modal = self.modal.as_ref()?;
+        let instances = self.grid.len();
+        let looked_at = LOOKED_AT.min(instances);
+        let mu = |part: usize| {
+            // The first and the last among them.
+            let instance = self.instance(part * (instances - 1) / (looked_at - 1).max(1));
+            instance.law.mu(instance.params.require(Param::BeltVelocity))
+        };
+        let [low, high] = modal.mu;
+        let beyond = |mu: &f64| (low - mu).max(mu - high);
+        let farthest = (0..looked_at).map(mu).max_by(|a, b| beyond(a).total_cmp(&beyond(b)))?;
+        (beyond(&farthest) > 0.0).then(|| {
+            format!(
+                "the coefficient of friction is {farthest:.4} in this sweep, but the vectors of `{}` were chosen for {low} to \
+                 {high}: beyond, eigenvalues are less accurate",
+                modal.name
+            )
+        })
+    }
+}
+
+/// What to say of a key that is none, and that somebody may look for.
+pub(super) fn no_key(name: &str) -> Option<&'static str> {
+    matches!(name, "kn" | "contact_stiffness").then_some(
+        "a file of modes holds the shapes of one contact stiffness: make a study and a file of each (docs/fem_maps.md)",
+    )
+}
+
 /// Reads the file of modes `name`, relative to `base_dir`, which stands at `span` of `sweep`.
 pub(super) fn read(sweep: &Source, span: Range<usize>, name: &str, base_dir: &Path) -> Result<Arc<Modal>> {
     let path = base_dir.join(name);
@@ -105,7 +140,7 @@ pub(super) fn of_text(name: &str, text: &str) -> std::result::Result<Modal, Stri
         friction: [next()?, next()?, next()?],
         slope: next()?,
     };
-    Modal::new([name.to_owned(), text.to_owned()], &matrices, [file.load, file.wedge], file.modes)
+    Modal::new([name.to_owned(), text.to_owned()], &matrices, file.mu, [file.load, file.wedge], file.modes)
 }
 
 /// The structure of a text, which only the feature `fem` reads.

@@ -297,13 +297,14 @@ fn is_auto(node: &Node) -> bool {
 /// The error of an unknown key of a section or of the top level (an empty section name).
 pub(super) fn unknown_key(source: &Source, entry: Entry, section: &str, known: &[&str]) -> Error {
     let within = if section.is_empty() { "at the top level".to_owned() } else { format!("in [{section}]") };
-    match home(entry.key) {
-        Some(home) => Error::Unknown {
+    let found = home(entry.key).map(|home| format!("it belongs to [{home}]"));
+    match found.or_else(|| model::no_key(entry.key).map(str::to_owned)) {
+        Some(advice) => Error::Unknown {
             at: source.place(entry.key_span()),
             what: "key",
             name: entry.key.to_owned(),
             within,
-            advice: format!("it belongs to [{home}]"),
+            advice,
         },
         None => unknown(source, entry.key_span(), "key", entry.key, &within, known),
     }

@@ -266,6 +266,16 @@ fn what_a_modal_model_does_not_read_is_refused() {
             format!("[model]\ndamping_ratio = 0.1{rest}"),
             format!("`damping_ratio` in [model] would have no effect: {modal}"),
         ),
+        (
+            format!("[axes]\nkn = {{ from = 1e12, to = 1e15, points = 4 }}{rest}"),
+            "unknown axis `kn` in [axes]; a file of modes holds the shapes of one contact stiffness"
+                .to_owned(),
+        ),
+        (
+            format!("[model]\ncontact_stiffness = 1e14{rest}"),
+            "unknown key `contact_stiffness` in [model]; a file of modes holds the shapes of one contact"
+                .to_owned(),
+        ),
         (format!("[model]\nkind = \"modes\"{rest}"), "unknown model `modes` as `kind` in [model]".to_owned()),
         // Both sections have a key of this name.
         (
@@ -334,6 +344,18 @@ fn the_program_maps_a_structure_and_refuses_what_it_has_not() {
         "{}",
         checked.out
     );
+    // Friction beyond that of the vectors is said, and computed.
+    assert!(!checked.err.contains("vectors"), "{}", checked.err);
+    let far = std::fs::read_to_string(here.join("map.toml"))
+        .unwrap()
+        .replace("to = 0.4, points = 5 }\nmu_d", "to = 2.4, points = 5 }\nmu_d");
+    std::fs::write(here.join("far.toml"), far).unwrap();
+    for command in ["check", "run"] {
+        let ended = squealmap(here, &[command, "far.toml"]);
+        assert_eq!(ended.code, Some(0), "{}", ended.err);
+        let wanted = "warning: the coefficient of friction is 1.4000 in this sweep, but the vectors of `three.toml` were chosen for 0 to 1";
+        assert!(unwrapped(&ended.err).contains(wanted), "{}", ended.err);
+    }
     for (arguments, wanted) in [
         (
             vec!["trace", "map.toml", "--at", "mu_s=0.1,mu_d=0.1"],
