@@ -113,5 +113,5 @@ fn instance(number: u64) -> Instance {
     } else {
         FrictionLaw::Bilinear { mu_s, mu_d, knee_velocity: 5.0 }
     };
-    Instance { params, law, impact_friction: true }
+    Instance { params, law, impact_friction: true, modal: None }
 }

@@ -51,6 +51,7 @@ impl Check {
         talk::tell("instances", spec.grid.len());
         talk::tell("analysis", json!({ "linear": spec.analysis.linear, "response": spec.analysis.response }));
         talk::tell("varies", spec.grid.keys().iter().map(|key| key.name()).collect::<Vec<_>>());
+        spec.beyond_its_modes().iter().for_each(|why| note(&format!("warning: {why}")));
         print(&materials(&spec));
         print(&disk(&spec));
         let estimate = estimate(&spec);
@@ -99,6 +100,10 @@ fn describe(spec: &Spec) -> String {
     let mut text = String::new();
     if !spec.title.is_empty() {
         let _ = writeln!(text, "title     {}", spec.title);
+    }
+    if let Some(modal) = &spec.modal {
+        let (name, modes, size) = (&modal.name, modal.modes(), modal.size());
+        let _ = writeln!(text, "model     {name}: {modes} mode(s) in the space of {size} vector(s)");
     }
     if spec.analysis.linear {
         let _ = writeln!(text, "computes  complex eigenvalues, growth rates and the type of instability");

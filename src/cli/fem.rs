@@ -9,7 +9,7 @@ use serde_json::json;
 use squealmap::disk;
 use squealmap::results::figure::look::Look;
 use squealmap::store::space::bytes;
-use squealmap::study::fem::{curves_svg, pictures_svg};
+use squealmap::study::fem::{Curves, mesh_svg, pictures_svg};
 use squealmap_fem::study::document::Document;
 use squealmap_fem::study::{Outcome, Study, compute, estimate, manifest, shapes, table};
 
@@ -20,7 +20,7 @@ use crate::cli::progress::seconds;
 use crate::cli::talk::{self, note, print};
 
 /// What is written; the figures where there is something to draw, the last where it is asked for.
-const FILES: [&str; 8] = [
+const FILES: [&str; 10] = [
     "fem.csv",
     "manifest.json",
     "shapes.vtu",
@@ -28,6 +28,8 @@ const FILES: [&str; 8] = [
     "fem.png",
     "shapes.svg",
     "shapes.png",
+    "mesh.svg",
+    "mesh.png",
     "modes.toml",
 ];
 
@@ -65,11 +67,15 @@ impl FemCommand {
             (FILES[2], shapes(&study, &outcome)),
         ];
         let look = Look::default();
-        let drawn = [curves_svg(&study, &outcome, &look), pictures_svg(&study, &outcome, &look)];
+        let drawn = [
+            Curves::of(&study, &outcome).svg(&look),
+            pictures_svg(&study, &outcome, &look),
+            Some(mesh_svg(&study, &look)),
+        ];
         if let Some(modal) = &outcome.modal {
-            files.push((FILES[7], modal.write()));
+            files.push((FILES[9], modal.write()));
         }
-        for (svg, names) in drawn.into_iter().zip(FILES[3..7].chunks_exact(2)) {
+        for (svg, names) in drawn.into_iter().zip(FILES[3..9].chunks_exact(2)) {
             if let Some(svg) = svg {
                 files.push((names[1], png_of(&svg)?));
                 files.push((names[0], svg.into_bytes()));
@@ -80,7 +86,8 @@ impl FemCommand {
     }
 }
 
-fn text_of(path: &Path) -> std::result::Result<String, String> {
+/// The text of a file, or why there is none.
+pub(crate) fn text_of(path: &Path) -> std::result::Result<String, String> {
     let bytes = disk::read(path).map_err(|why| format!("cannot read `{}`: {why}", path.display()))?;
     String::from_utf8(bytes).map_err(|_| format!("`{}` is no text in UTF-8", path.display()))
 }

@@ -26,6 +26,7 @@ mod numbers;
 mod onset;
 mod output;
 mod paper;
+mod paper_fem;
 mod pictures;
 mod plot;
 mod plot_beside;

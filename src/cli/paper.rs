@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use crate::cli::error::Result;
 use crate::cli::numbers::number;
 use crate::cli::output::{Output, list};
+use crate::cli::paper_fem;
 use crate::cli::talk::print;
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -33,10 +34,24 @@ pub(crate) struct PaperCommand {
     /// Displacement at the start of that ramp, 1e-9 to 0.01 m [default: 1e-4]
     #[arg(long, value_name = "M", value_parser = kick)]
     kick: Option<f64>,
+    /// The paper's finite-element model instead, in minutes and 2 GB of memory: Figures 15 to 17 and a report; or another study
+    /// of it
+    #[arg(
+        long,
+        value_name = "STUDY",
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = paper_fem::BUILT_IN,
+        conflicts_with_all = ["only", "ramp_duration", "kick"]
+    )]
+    fem: Option<PathBuf>,
 }
 
 impl PaperCommand {
     pub(crate) fn execute(self) -> Result<()> {
+        if let Some(study) = &self.fem {
+            return paper_fem::execute(self.output, study);
+        }
         let chosen = |figure: &Figure| self.only.is_empty() || self.only.contains(figure);
         let figures: Vec<Figure> = Figure::ALL.into_iter().filter(chosen).collect();
         let path = |figure: Figure, extension: &str| format!("{FIGURES}/{}.{extension}", figure.name());

@@ -31,7 +31,7 @@ const PAPER: &str = "paper";
 /// Arguments of `plot`.
 #[derive(Debug, Args)]
 pub(crate) struct Plot {
-    /// Output directory of a command that draws a figure (run, refine, trace, modes, tradeoff, identify, paper); plot.svg,
+    /// Output directory of a command that draws a figure (run, refine, trace, modes, tradeoff, identify, fem, paper); plot.svg,
     /// plot.pdf and plot.png go there too
     directory: PathBuf,
     /// Which figure, where the directory holds several [default: the first of those named here]

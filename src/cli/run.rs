@@ -105,6 +105,7 @@ impl Run {
         let cancel = stop_at_signal()?;
         let mut spec = Spec::read(&self.files.sweep)?;
         spec.analysis.checked &= !self.no_check;
+        spec.beyond_its_modes().iter().for_each(|why| note(&format!("warning: {why}")));
         if let Some(settings) = spec.refine {
             self.can_refine()?;
             let refining =

@@ -61,6 +61,7 @@ pub(crate) struct TraceCommand {
 impl TraceCommand {
     pub(crate) fn execute(self) -> Result<ExitCode> {
         let spec = Spec::read(&self.files.sweep)?;
+        spec.of_two_masses("`trace`")?;
         if let Some(range) = &self.sweep_up_down {
             return hysteresis::execute(&spec, &self.files, &self.at, range, self.points);
         }

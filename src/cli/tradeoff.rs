@@ -73,6 +73,7 @@ impl Tradeoff {
     pub(crate) fn execute(self) -> Result<()> {
         // A mistake in the last sweep is told before the first is measured.
         let specs = self.sweeps.iter().map(|path| Ok(Spec::read(path)?)).collect::<Result<Vec<_>>>()?;
+        specs.iter().try_for_each(|spec| spec.of_two_masses("`tradeoff`"))?;
         let names: Vec<_> = self.sweeps.iter().map(|path| stem(path)).collect::<Result<_>>()?;
         if let Some(twice) = (1..names.len()).find(|at| names[..*at].contains(&names[*at])) {
             return Err(Error::SameName { name: names[twice].to_string_lossy().into_owned() });

@@ -21,6 +21,9 @@ pub fn choose(options: &Options, spec: &dyn Instances) -> Result<Box<dyn Engine>
     if let Some(name) = options.adapter.filter(|name| name.trim().is_empty()) {
         return Err(Error::EmptyAdapter { name: name.to_owned() });
     }
+    if spec.modal() && options.backend == Backend::Gpu {
+        return Err(Error::ModalOnGpu);
+    }
     let (engine, on, why): (Box<dyn Engine>, String, String) = match options.backend {
         Backend::Gpu => open::asked(options, spec)?,
         Backend::Auto => auto(options, spec)?,
@@ -60,7 +63,9 @@ fn cpu(options: &Options) -> Result<(Box<dyn Engine>, String)> {
 }
 
 fn auto(options: &Options, spec: &dyn Instances) -> Result<(Box<dyn Engine>, String, String)> {
-    let no_gpu = match open::hardware(options, spec) {
+    let hardware =
+        if spec.modal() { Err(NoGpu::Failed(Error::ModalOnGpu)) } else { open::hardware(options, spec) };
+    let no_gpu = match hardware {
         Ok((engine, on)) => return Ok((engine, on, "the best GPU of this machine".to_owned())),
         // A name that is nowhere is a slip of the pen, not a machine without a GPU.
         Err(NoGpu::Failed(why @ Error::NoSuchAdapter { .. })) => return Err(why),

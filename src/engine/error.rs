@@ -77,6 +77,9 @@ pub enum Error {
         /// The most there may be.
         limit: usize,
     },
+    /// A modal model asked of a GPU.
+    #[error("no kernel of a GPU computes a modal model, which --backend cpu does")]
+    ModalOnGpu,
     /// The reference asked to compute in f32.
     #[error("the reference computes in f64 only; remove --precision f32 or use --backend cpu")]
     ReferencePrecision,
@@ -209,6 +212,7 @@ impl Error {
                 | Error::CpuStrict
                 | Error::CpuAdapter { .. }
                 | Error::CpuRequireGpu
+                | Error::ModalOnGpu
         )
     }
 }

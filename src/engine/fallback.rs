@@ -71,6 +71,9 @@ impl NoGpu {
                 "settle = \"cycle\" in [response] finds cycles on the CPU only".to_owned(),
                 "write settle = \"auto\"",
             ),
+            NoGpu::Failed(Error::ModalOnGpu) => {
+                parts("no kernel of one computes a modal model".to_owned(), "compute it on the CPU")
+            }
             NoGpu::Failed(Error::OpenDevice { adapter, why }) => {
                 parts(format!("{adapter} cannot be opened ({why})"), "choose another with --adapter")
             }

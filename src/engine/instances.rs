@@ -20,6 +20,9 @@ pub trait Instances: Sync {
     /// Whether the transient of each is asked for.
     fn response(&self) -> bool;
 
+    /// Whether they are of a modal model.
+    fn modal(&self) -> bool;
+
     /// The pieces of the longest friction law.
     fn pieces(&self) -> usize;
 }

@@ -61,12 +61,34 @@ pub fn begun(instance: &Instance, prepared: &Preparation) -> Record {
     Record { status, ..Record::default() }
 }
 
+/// The record of an instance before any response, with the eigenvalue analysis if it is asked for, and the type of its
+/// equilibrium: on the CPU, of any model.
+#[must_use]
+pub fn examined(instance: &Instance, asked: bool) -> (Record, Option<InstabilityType>) {
+    let (mut record, kind, linear) = if let Some(modal) = &instance.modal {
+        let (kind, linear, status) = linear::of_modal(instance, modal);
+        (Record { status, ..Record::default() }, kind, linear)
+    } else {
+        let prepared = linear::prepare(instance);
+        let (kind, linear) = linear::solve(&prepared);
+        (begun(instance, &prepared), kind, linear)
+    };
+    if asked {
+        (record.kind, record.linear) = (kind, linear);
+    }
+    (record, kind)
+}
+
 /// Why an instance has no result, where that is known before anything is computed: from its law, its equilibrium, the size
 /// of its numbers or the length of its run.
 #[must_use]
 pub fn refused(spec: &dyn Instances, instance: &Instance) -> Option<Status> {
     if spec.response() {
         return Scene::planned(instance, &spec.plan()).err();
+    }
+    if let Some(modal) = &instance.modal {
+        let (kind, _, status) = linear::of_modal(instance, modal);
+        return kind.is_none().then_some(status);
     }
     match linear::prepare(instance) {
         Err(None) => Some(begun(instance, &Err(None)).status),

@@ -1,7 +1,10 @@
 //! One instance of the model.
 
+use std::sync::Arc;
+
 use crate::model::Params;
 use crate::model::friction::FrictionLaw;
+use crate::model::modal::Modal;
 
 /// Everything that defines one instance.
 #[derive(Clone, Debug)]
@@ -12,4 +15,6 @@ pub struct Instance {
     pub law: FrictionLaw,
     /// Whether impacts carry a Coulomb impulse.
     pub impact_friction: bool,
+    /// The structure that slides; `None` for two masses.
+    pub modal: Option<Arc<Modal>>,
 }

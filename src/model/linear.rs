@@ -19,6 +19,8 @@ use num_complex::Complex64;
 use crate::model::equilibrium::Equilibrium;
 use crate::model::instance::Instance;
 use crate::model::kind::{InstabilityType, UNSTABLE_ABOVE};
+use crate::model::modal::Modal;
+use crate::model::status::Status;
 use crate::model::{Param, quartic};
 
 /// Eigenvalue analysis of one sliding equilibrium.
@@ -95,8 +97,8 @@ fn mode_ratio([k2, c2, m1]: [f64; 3], s: f64, lambda: Complex64) -> Complex64 {
     spring * s / (m1 * lambda * lambda + spring)
 }
 
-/// The eigenvalue of largest real part; of a pair the one with positive imaginary part.
-fn rightmost(eigenvalues: &[Complex64; 4]) -> Complex64 {
+/// The eigenvalue of largest real part; of a pair the one with positive imaginary part. There is at least one.
+fn rightmost(eigenvalues: &[Complex64]) -> Complex64 {
     let key = |z: &Complex64| (z.re, z.im);
     let first = eigenvalues[0];
     eigenvalues[1..].iter().fold(first, |best, z| if key(z) > key(&best) { *z } else { best })
@@ -106,7 +108,19 @@ fn is_unstable(lambda: Complex64) -> bool {
     lambda.re > 0.0 && lambda.re * lambda.re > UNSTABLE_ABOVE * UNSTABLE_ABOVE * lambda.norm_sqr()
 }
 
-/// The four eigenvalues of the sliding equilibrium, 1/s; `None` where there is no belt motion or no equilibrium.
+/// The type by the eigenvalues of largest real part with both mechanisms, with the slope set to 0, with the normal force
+/// frozen.
+fn kind_of(leading: [Complex64; 3]) -> InstabilityType {
+    match leading.map(is_unstable) {
+        [false, _, _] => InstabilityType::Stable,
+        [true, false, true] => InstabilityType::NegativeSlope,
+        [true, true, false] => InstabilityType::ModeCoupling,
+        [true, true, true] => InstabilityType::Coexistence,
+        [true, false, false] => InstabilityType::Interaction,
+    }
+}
+
+/// The four eigenvalues of the sliding equilibrium of two masses, 1/s; `None` where there is no belt motion or no equilibrium.
 #[must_use]
 pub fn eigenvalues(instance: &Instance) -> Option<[Complex64; 4]> {
     let equilibrium = sliding(instance)?;
@@ -114,9 +128,10 @@ pub fn eigenvalues(instance: &Instance) -> Option<[Complex64; 4]> {
     Some(quartic::roots(Sliding::new(instance).polynomial(equilibrium.mu, slope_damping)))
 }
 
-/// The equilibrium of a belt that moves.
+/// The equilibrium of two masses on a belt that moves.
 fn sliding(instance: &Instance) -> Option<Equilibrium> {
-    (instance.params.require(Param::BeltVelocity) > 0.0).then(|| Equilibrium::new(instance).ok()).flatten()
+    let moves = instance.modal.is_none() && instance.params.require(Param::BeltVelocity) > 0.0;
+    moves.then(|| Equilibrium::new(instance).ok()).flatten()
 }
 
 /// The most unstable mode with a tangential part: its eigenvalue (1/s) and `y1/x2`.
@@ -191,12 +206,12 @@ fn is_solvable(polynomial: &[f64; 5]) -> bool {
 /// the friction law is ill-posed or a coefficient is beyond the range of numbers.
 pub type Preparation = Result<Prepared, Option<InstabilityType>>;
 
-/// The polynomials of an instance.
+/// The polynomials of an instance; a modal structure has none.
 ///
 /// # Errors
 /// The type of an instance without polynomials, see [`Preparation`].
 pub fn prepare(instance: &Instance) -> Preparation {
-    if !instance.law.is_valid() {
+    if instance.modal.is_some() || !instance.law.is_valid() {
         return Err(None);
     }
     if instance.params.require(Param::BeltVelocity) == 0.0 {
@@ -220,6 +235,10 @@ pub fn prepare(instance: &Instance) -> Preparation {
 /// `None` for an ill-posed friction law.
 #[must_use]
 pub fn analyse(instance: &Instance) -> (Option<InstabilityType>, Option<Linear>) {
+    if let Some(modal) = &instance.modal {
+        let (kind, linear, _) = of_modal(instance, modal);
+        return (kind, linear);
+    }
     solve(&prepare(instance))
 }
 
@@ -236,13 +255,7 @@ pub fn solve(prepared: &Preparation) -> (Option<InstabilityType>, Option<Linear>
     #[expect(clippy::float_cmp, reason = "the same polynomial, bit by bit")]
     let without = |polynomial| if polynomial == prepared.full { full } else { leading(polynomial) };
     let (flat, frozen) = (without(prepared.flat), without(prepared.frozen));
-    let kind = match (is_unstable(full), is_unstable(flat), is_unstable(frozen)) {
-        (false, _, _) => InstabilityType::Stable,
-        (true, false, true) => InstabilityType::NegativeSlope,
-        (true, true, false) => InstabilityType::ModeCoupling,
-        (true, true, true) => InstabilityType::Coexistence,
-        (true, false, false) => InstabilityType::Interaction,
-    };
+    let kind = kind_of([full, flat, frozen]);
     let phase = (full.im != 0.0 && prepared.s != 0.0)
         .then(|| mode_ratio(prepared.normal, prepared.s, full).arg().to_degrees())
         .filter(|phase| phase.is_finite());
@@ -254,4 +267,43 @@ pub fn solve(prepared: &Preparation) -> (Option<InstabilityType>, Option<Linear>
         growth_rate_frozen: frozen.re,
     };
     (Some(kind), Some(linear))
+}
+
+/// Type of instability and the eigenvalue analysis of an instance of a structure, and how it ended.
+#[must_use]
+pub fn of_modal(instance: &Instance, modal: &Modal) -> (Option<InstabilityType>, Option<Linear>, Status) {
+    if !instance.law.is_valid() {
+        return (None, None, Status::InvalidLaw);
+    }
+    let velocity = instance.params.require(Param::BeltVelocity);
+    let (mu, ratio) = (instance.law.mu(velocity), instance.params.get(Param::DampingRatio).unwrap_or(0.0));
+    let pressed = modal.pressed(instance.params.require(Param::FExt), mu);
+    if velocity == 0.0 {
+        let status = pressed.map_or(Status::NoEquilibrium, |_| Status::Ok);
+        return (Some(InstabilityType::Sticking), None, status);
+    }
+    let Some(pressed) = pressed else {
+        return (Some(InstabilityType::Divergence), None, Status::NoEquilibrium);
+    };
+    match attributed(modal, mu, instance.law.slope(velocity) * pressed, ratio) {
+        Some((kind, linear)) => (Some(kind), Some(linear), Status::Ok),
+        None => (None, None, Status::NonFinite),
+    }
+}
+
+/// The type of a structure's modes with friction `mu`, the part `slope` of its slope matrix and damping ratios `ratio`;
+/// `None` beyond the range of numbers.
+fn attributed(modal: &Modal, mu: f64, slope: f64, ratio: f64) -> Option<(InstabilityType, Linear)> {
+    let leading = |mu, slope| Some(rightmost(&modal.eigenvalues(mu, slope, ratio)?));
+    let full = leading(mu, slope)?;
+    let flat = if slope == 0.0 { full } else { leading(mu, 0.0)? };
+    let frozen = if mu == 0.0 { full } else { leading(0.0, slope)? };
+    let linear = Linear {
+        growth_rate: full.re,
+        frequency: full.im / TAU,
+        phase: None,
+        growth_rate_flat: flat.re,
+        growth_rate_frozen: frozen.re,
+    };
+    Some((kind_of([full, flat, frozen]), linear))
 }

@@ -1,4 +1,4 @@
-//! The two-mass belt model: its parameters, its equations, its contact and its eigenvalues.
+//! The two-mass belt model: its parameters, its equations, its contact and its eigenvalues; and the eigenvalues of other structures.
 //!
 //! This file holds the parameters. The table [`PARAMS`] drives the TOML keys, the axes, the CSV columns, the range checks
 //! and the axis labels of figures. Units are SI, temperatures in °C.
@@ -9,6 +9,7 @@
 //! | its sliding equilibrium, and the scaled model around that | [`equilibrium`], [`scaled`] |
 //! | equations of motion, contact states, impacts | [`belt`], [`contact`] |
 //! | eigenvalues and their attribution, types of instability | [`linear`], [`quartic`], [`kind`] |
+//! | modes of any structure instead of two masses | [`modal`], [`spectrum`] |
 //! | the fastest mode of each contact state | [`fastest`] |
 //! | how an instance ends | [`status`] |
 
@@ -22,9 +23,11 @@ pub mod instance;
 pub mod kind;
 pub mod linear;
 pub mod material;
+pub mod modal;
 pub mod piece;
 pub mod quartic;
 pub mod scaled;
+pub mod spectrum;
 pub mod status;
 
 /// A numeric parameter of an instance; its row in [`PARAMS`] gives name, unit, default and range.
@@ -41,6 +44,7 @@ pub enum Param {
     FExt,
     Theta,
     Restitution,
+    DampingRatio,
     MuS,
     MuD,
     KneeVelocity,
@@ -168,6 +172,7 @@ params! {
     FExt "f_ext" "F_ext" "N" Model Some(1000.0), Range::Positive, "external normal force";
     Theta "theta" "θ" "rad" Model Some(0.01), Range::Open(-std::f64::consts::FRAC_PI_2, std::f64::consts::FRAC_PI_2), "inclination of the contact";
     Restitution "restitution" "e" "" Model Some(0.0), Range::Closed(0.0, 1.0), "Newton restitution of the impact after a detachment";
+    DampingRatio "damping_ratio" "ζ" "" Model None, Range::Closed(0.0, 1.0), "damping ratio added to every mode without friction; none where it is left out";
     MuS "mu_s" "μ_s" "" Friction None, Range::NonNegative, "static friction coefficient";
     MuD "mu_d" "μ_d" "" Friction None, Range::NonNegative, "dynamic friction coefficient";
     KneeVelocity "knee_velocity" "v_k" "m/s" Friction Some(5.0), Range::Positive, "relative velocity from which the bilinear law is constant";

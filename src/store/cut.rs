@@ -18,6 +18,9 @@ const STEPS: f64 = 1.2e8;
 /// A step of the reference takes as long as this many of the other engines: 14 times on the paper's map.
 const OF_REFERENCE: f64 = 16.0;
 
+/// Three eigenproblems of a modal model take as long as so many steps for each cube of their rows.
+const OF_ROWS: f64 = 0.4;
+
 /// Periods before the first window and in the windows of most runs until settled.
 const UNTIL_SETTLED: f64 = 300.0;
 
@@ -28,6 +31,16 @@ const SAMPLES: usize = 32;
 /// has fewer.
 #[must_use]
 pub fn tile_of(spec: &Spec, by_reference: bool) -> usize {
+    let tile = |cost: f64| {
+        let mut tile = TILE;
+        while tile > LEAST && tile as f64 * cost > STEPS {
+            tile /= 2;
+        }
+        tile
+    };
+    if let Some(modal) = &spec.modal {
+        return tile(OF_ROWS * ((2 * modal.size()) as f64).powi(3));
+    }
     if !spec.analysis.response {
         return TILE;
     }
@@ -51,10 +64,5 @@ pub fn tile_of(spec: &Spec, by_reference: bool) -> usize {
     };
     let mean = if instances == 0 { 0.0 } else { (0..samples).map(steps).sum::<f64>() / samples as f64 };
     let slowness = if by_reference { OF_REFERENCE } else { 1.0 };
-    let cost = mean * spec.analysis.starts.count() as f64 * slowness;
-    let mut tile = TILE;
-    while tile > LEAST && tile as f64 * cost > STEPS {
-        tile /= 2;
-    }
-    tile
+    tile(mean * spec.analysis.starts.count() as f64 * slowness)
 }

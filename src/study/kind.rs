@@ -6,7 +6,7 @@ use crate::results::figure::look::WIDTHS;
 use crate::results::read::{map, refined};
 use crate::study::error::{Error, Result};
 use crate::study::paper::Figure;
-use crate::study::{hysteresis, identify, modes, trace, tradeoff};
+use crate::study::{fem, hysteresis, identify, modes, trace, tradeoff};
 
 /// A figure of a command that can be drawn from its directory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,13 +25,15 @@ pub enum Kind {
     Tradeoff,
     /// Measured signals of `identify`.
     Identify,
+    /// The modes of `fem` over friction.
+    Fem,
     /// A figure of `paper`.
     Paper(Figure),
 }
 
 impl Kind {
     /// All kinds. Where a directory holds several, the first of these is drawn unless another is asked for.
-    pub const ALL: [Kind; 15] = [
+    pub const ALL: [Kind; 16] = [
         Kind::Map,
         Kind::Refined,
         Kind::Trace,
@@ -39,6 +41,7 @@ impl Kind {
         Kind::Modes,
         Kind::Tradeoff,
         Kind::Identify,
+        Kind::Fem,
         Kind::Paper(Figure::Figure2),
         Kind::Paper(Figure::Figure3),
         Kind::Paper(Figure::Figure4),
@@ -60,6 +63,7 @@ impl Kind {
             Kind::Modes => "modes",
             Kind::Tradeoff => "tradeoff",
             Kind::Identify => "identify",
+            Kind::Fem => "fem",
             Kind::Paper(figure) => figure.name(),
         }
     }
@@ -75,6 +79,7 @@ impl Kind {
             Kind::Modes => modes::read::FILES,
             Kind::Tradeoff => tradeoff::read::FILES,
             Kind::Identify => identify::read::FILES,
+            Kind::Fem => fem::read::FILES,
             Kind::Paper(Figure::Figure2) => ["figure2.csv", "figure2.json"],
             Kind::Paper(Figure::Figure3) => ["figure3.csv", "figure3.json"],
             Kind::Paper(Figure::Figure4) => ["figure4.csv", "figure4.json"],
@@ -90,6 +95,7 @@ impl Kind {
     #[must_use]
     pub fn narrowest(self) -> f64 {
         match self {
+            Kind::Fem => 88.0,
             Kind::Paper(Figure::Phase | Figure::Figure7) => 84.0,
             Kind::Map | Kind::Identify | Kind::Paper(_) => 70.0,
             _ => WIDTHS[0],

@@ -21,7 +21,7 @@ pub use kind::Kind;
 pub use picture::Picture;
 
 pub mod error;
-#[cfg(feature = "fem")]
+#[cfg(feature = "figures")]
 pub mod fem;
 #[cfg(feature = "identify")]
 pub mod fit;

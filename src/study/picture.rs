@@ -10,6 +10,7 @@ use crate::results::read::folder::Folder;
 use crate::results::read::refined::Lines;
 use crate::results::read::{Archive, refined};
 use crate::study::error::Result;
+use crate::study::fem::Curves;
 use crate::study::hysteresis::follow::Hysteresis;
 use crate::study::hysteresis::table::hysteresis_svg;
 use crate::study::modes::follow::{Modes, draw};
@@ -17,7 +18,7 @@ use crate::study::paper::figures::Shown;
 use crate::study::trace::run::Trace;
 use crate::study::trace::table::trace_svg;
 use crate::study::tradeoff::report::figure;
-use crate::study::{Kind, hysteresis, identify, modes, paper, trace, tradeoff};
+use crate::study::{Kind, fem, hysteresis, identify, modes, paper, trace, tradeoff};
 use crate::sweep::accuracy::row::Row;
 use crate::sweep::spec::Spec;
 
@@ -31,6 +32,7 @@ enum Content {
     Modes(Box<Spec>, Modes),
     Tradeoff(String, Vec<Row>),
     Identify(Box<identify::report::Shown>),
+    Fem(Curves),
     Paper(Shown),
 }
 
@@ -69,11 +71,13 @@ impl Picture {
                 Content::Tradeoff(title, rows)
             }
             Kind::Identify => Content::Identify(Box::new(identify::read::read(folder)?)),
+            Kind::Fem => Content::Fem(fem::read::read(folder)?),
             Kind::Paper(figure) => Content::Paper(paper::read::read(folder, figure, kind.files())?),
         };
         let document = kind.files().into_iter().find(|file| file.rsplit('.').next() == Some("json"));
         let document = document.map_or(Ok(serde_json::Value::Null), |file| folder.json(file))?;
-        let program = Program::of(&document).to_string();
+        let named = document["program"].as_str().map(str::to_owned);
+        let program = named.unwrap_or_else(|| Program::of(&document).to_string());
         Ok(Picture { content, program })
     }
 
@@ -96,6 +100,7 @@ impl Picture {
             Content::Modes(spec, _) => &spec.title,
             Content::Tradeoff(title, _) => title,
             Content::Identify(shown) => &shown.title,
+            Content::Fem(curves) => &curves.title,
             Content::Paper(shown) => shown.title(),
         }
     }
@@ -113,6 +118,7 @@ impl Picture {
             Content::Modes(spec, modes) => Ok(draw(spec, modes, look)),
             Content::Tradeoff(title, rows) => Ok(figure(title, rows, look)),
             Content::Identify(shown) => identify::report::identify_svg(shown, look),
+            Content::Fem(curves) => Ok(curves.svg(look).unwrap_or_default()),
             Content::Paper(shown) => Ok(shown.svg(look)),
         }
     }

@@ -61,6 +61,11 @@ impl Sweep {
         Sweep { calls: Vec::new(), directory: PathBuf::from(".") }
     }
 
+    /// The modes of a structure in a file that `squealmap fem` writes; only its eigenvalues are computed.
+    pub fn modal(file: impl Into<PathBuf>) -> Sweep {
+        Sweep { calls: vec![Call::Modes(file.into())], directory: PathBuf::from(".") }
+    }
+
     fn call(mut self, call: Call) -> Sweep {
         self.calls.push(call);
         self

@@ -21,12 +21,23 @@ pub enum Error {
     ReadNamed {
         /// Where it is named.
         at: Place,
-        /// What it is for: `material`, `table` or `points`.
+        /// What it is for: `material`, `table`, `modes` or `points`.
         role: &'static str,
         /// The path that was tried.
         path: PathBuf,
         /// What the system says.
         why: String,
+    },
+    /// A modal model where two masses are needed.
+    #[error(
+        "{what} needs two masses, but the model is the modes of {}: a modal model has eigenvalues alone, which `run` maps",
+        one_line(modes)
+    )]
+    OnlyTwoMasses {
+        /// What needs them.
+        what: &'static str,
+        /// The file of modes.
+        modes: String,
     },
     /// A text is not what its format wants (TOML, or rows of fields).
     #[error("{at}: {}", clipped(why, SAID))]
@@ -326,6 +337,7 @@ impl Error {
             Error::ReadSweep { .. }
             | Error::TooManyToRefine { .. }
             | Error::NothingToRefine
+            | Error::OnlyTwoMasses { .. }
             | Error::NothingToJudge { .. }
             | Error::Inaccurate { .. }
             | Error::Unmeasured { .. } => true,

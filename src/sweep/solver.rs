@@ -10,6 +10,7 @@ use crate::engine::computed::Computed;
 use crate::engine::error::Result;
 use crate::engine::options::Options;
 use crate::engine::record::Record;
+use crate::model::modal;
 use crate::sweep::accuracy::check::check;
 use crate::sweep::accuracy::configuration::Configuration;
 use crate::sweep::accuracy::sample::subset;
@@ -48,7 +49,10 @@ impl<'a> Solver<'a> {
     #[must_use]
     pub fn computations(&self) -> [Option<Computation>; 2] {
         let Analysis { linear, response, .. } = self.spec.analysis;
-        let [of_linear, of_response] = self.engine.computations(self.spec.steps_per_period);
+        let [mut of_linear, of_response] = self.engine.computations(self.spec.steps_per_period);
+        if self.spec.modal.is_some() {
+            modal::METHOD.clone_into(&mut of_linear.method);
+        }
         [linear.then_some(of_linear), response.then_some(of_response)]
     }
 

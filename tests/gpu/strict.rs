@@ -186,7 +186,7 @@ pub(crate) fn instance(u: &mut Uniform, law: LawForm) -> Instance {
         LawForm::Exponential => FrictionLaw::Exponential { mu_s, mu_d, stribeck_velocity: scale },
         LawForm::Rational => FrictionLaw::Rational { mu_s, decay: scale },
     };
-    Instance { params, law, impact_friction: u.next() < 0.5 }
+    Instance { params, law, impact_friction: u.next() < 0.5, modal: None }
 }
 
 /// One instance and its twin at the end.

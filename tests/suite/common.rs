@@ -13,7 +13,7 @@ pub(crate) fn instance(law: FrictionLaw, values: &[(Param, f64)]) -> Instance {
     for &(param, value) in values {
         params.set(param, value);
     }
-    Instance { params, law, impact_friction: true }
+    Instance { params, law, impact_friction: true, modal: None }
 }
 
 /// Table 1 with the paper's bilinear law.

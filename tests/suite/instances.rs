@@ -57,5 +57,10 @@ fn one(u: &mut Uniform) -> Instance {
         params.set(param, u.log(low, high));
     }
     params.set(Param::Theta, 1.2 * u.next() - 0.6);
-    Instance { params, law: FrictionLaw::Bilinear { mu_s, mu_d, knee_velocity }, impact_friction: true }
+    Instance {
+        params,
+        law: FrictionLaw::Bilinear { mu_s, mu_d, knee_velocity },
+        impact_friction: true,
+        modal: None,
+    }
 }

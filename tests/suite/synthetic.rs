@@ -42,6 +42,7 @@ pub(crate) fn spec(grid: Grid) -> Spec {
             starts: Starts::One,
         },
         base: Params::default(),
+        modal: None,
         impact_friction: true,
         law: LawKind::Bilinear,
         material: None,

@@ -44,6 +44,7 @@ pub fn formula(text: &str) -> String {
 /// The command of a character that only a formula has.
 fn in_math(c: char) -> Option<&'static str> {
     Some(match c {
+        'ζ' => r"\zeta",
         'θ' => r"\theta",
         'ϑ' => r"\vartheta",
         'δ' => r"\delta",

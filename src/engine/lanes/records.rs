@@ -14,7 +14,7 @@ use crate::engine::computation::Computation;
 use crate::engine::computed::Computed;
 use crate::engine::error::{Error, Result};
 use crate::engine::instances::Instances;
-use crate::engine::judged::{begun, take_response};
+use crate::engine::judged::{examined, take_response};
 use crate::engine::lanes::again::outcomes_again;
 use crate::engine::lanes::outcomes::outcomes;
 use crate::engine::lanes::{ORDER, again, tolerance};
@@ -24,7 +24,6 @@ use crate::engine::record::Record;
 use crate::engine::reference::records::linear;
 use crate::model::instance::Instance;
 use crate::model::kind::InstabilityType;
-use crate::model::linear::{prepare, solve};
 use crate::model::status::Status;
 
 /// Most instances of a batch: many per lane, so that few lanes rest at its end, and not more than a core's cache holds
@@ -142,18 +141,8 @@ pub fn batch(
         return nothing();
     }
     let instances: Vec<Instance> = range.map(|index| spec.instance(index)).collect();
-    let (mut records, kinds): (Vec<Record>, Vec<Option<InstabilityType>>) = instances
-        .iter()
-        .map(|instance| {
-            let prepared = prepare(instance);
-            let mut record = begun(instance, &prepared);
-            let (kind, linear) = solve(&prepared);
-            if spec.linear() {
-                (record.kind, record.linear) = (kind, linear);
-            }
-            (record, kind)
-        })
-        .unzip();
+    let (mut records, kinds): (Vec<Record>, Vec<Option<InstabilityType>>) =
+        instances.iter().map(|instance| examined(instance, spec.linear())).unzip();
     if spec.response() {
         let outcomes = match precision {
             Precision::F32 => outcomes::<f32>(&instances, plan, cancel)

@@ -13,14 +13,13 @@ use crate::engine::computation::Computation;
 use crate::engine::computed::Computed;
 use crate::engine::error::{Error, Result};
 use crate::engine::instances::Instances;
-use crate::engine::judged::{begun, take_response};
+use crate::engine::judged::{examined, take_response};
 use crate::engine::method::Method;
 use crate::engine::method::taylor::REFERENCE_ORDER;
 use crate::engine::plan::Plan;
 use crate::engine::precision::Precision;
 use crate::engine::record::Record;
 use crate::engine::reference::respond::respond_until;
-use crate::model::linear::{prepare, solve};
 use crate::model::status::Status;
 
 /// The eigenvalue analysis on the CPU in a manifest.
@@ -126,12 +125,7 @@ pub fn record_with(spec: &dyn Instances, index: usize, plan: &Plan) -> Record {
 /// Computes instance `index` of a sweep by a plan. Soon after `cancel` is set it gives up, with [`Status::NotComputed`].
 fn record_until(spec: &dyn Instances, index: usize, plan: &Plan, cancel: &AtomicBool) -> Record {
     let instance = spec.instance(index);
-    let prepared = prepare(&instance);
-    let mut record = begun(&instance, &prepared);
-    let (kind, linear) = solve(&prepared);
-    if spec.linear() {
-        (record.kind, record.linear) = (kind, linear);
-    }
+    let (mut record, kind) = examined(&instance, spec.linear());
     if spec.response() {
         let outcome = respond_until(&instance, plan, cancel);
         if outcome.status == Status::NotComputed {

@@ -109,6 +109,7 @@ pub(crate) fn drawn_spec(title: String, analysis: Analysis, grid: Grid) -> Spec 
         title,
         analysis,
         base: Params::default(),
+        modal: None,
         impact_friction: true,
         law: LawKind::Bilinear,
         material: None,

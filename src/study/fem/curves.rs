@@ -1,8 +1,6 @@
 //! `fem.svg`: frequencies and growth rates of all modes against friction, as Figure 16 of the paper.
 
-use squealmap_fem::c64;
-use squealmap_fem::study::{Event, Outcome, Study, in_band};
-use squealmap_fem::sweep::{Mode, State};
+use std::f64::consts::TAU;
 
 use crate::results::figure::look::Look;
 use squealmap_figure::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room, y_ticks};
@@ -31,37 +29,100 @@ const STABLE: &str = r##"fill="none" stroke="#1F3F8F" stroke-width="0.7" stroke-
 /// One that grows.
 const GROWS: &str = r##"fill="none" stroke="#D55E00" stroke-width="1.6" stroke-linejoin="round""##;
 
-/// The figure of a study as an SVG document, or nothing where there is one coefficient of friction only.
-#[must_use]
-pub fn curves_svg(study: &Study, outcome: &Outcome, look: &Look<'_>) -> Option<String> {
-    let name = look.title(&study.document.title);
-    let name = if name.is_empty() { "Modes against friction" } else { name };
-    (study.mus.len() > 1)
-        .then(|| look.fitted(name, 2.0 * HEIGHT, |part| page(study, outcome, look, part * HEIGHT)))
+/// Without damping, what rounding leaves of the growth of a stable mode is below this part of its eigenvalue.
+const ROUNDING: f64 = 1e-6;
+
+/// The modes of a study over friction.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Curves {
+    /// What stands above them.
+    pub title: String,
+    /// Coefficients of friction, rising.
+    pub mus: Vec<f64>,
+    /// Whether anything damps.
+    pub damped: bool,
+    /// The modes.
+    pub modes: Vec<Curve>,
+    /// Where they begin and end to grow.
+    pub transitions: Vec<Transition>,
+}
+
+/// A mode over friction.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Curve {
+    /// Its number, from 1.
+    pub mode: usize,
+    /// At each coefficient of friction.
+    pub states: Vec<State>,
+}
+
+/// A mode at a coefficient of friction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct State {
+    /// Hz.
+    pub frequency: f64,
+    /// 1/s.
+    pub growth: f64,
+    /// Whether it grows.
+    pub grows: bool,
+}
+
+/// Where modes begin or end to grow.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Transition {
+    /// `coalescence`, `separation`, `onset` or `end`.
+    pub event: String,
+    /// The coefficient of friction.
+    pub mu: f64,
+    /// Hz.
+    pub frequency: f64,
+    /// The modes concerned, from 1.
+    pub modes: Vec<usize>,
+}
+
+impl Transition {
+    /// Whether growth begins here.
+    #[must_use]
+    pub fn begins(&self) -> bool {
+        matches!(self.event.as_str(), "coalescence" | "onset")
+    }
+
+    /// Whether two modes become one here, or part.
+    fn merges(&self) -> bool {
+        matches!(self.event.as_str(), "coalescence" | "separation")
+    }
+}
+
+impl Curves {
+    /// The figure as an SVG document, or nothing where there is one coefficient of friction only.
+    #[must_use]
+    pub fn svg(&self, look: &Look<'_>) -> Option<String> {
+        let name = look.title(&self.title);
+        let name = if name.is_empty() { "Modes against friction" } else { name };
+        (self.mus.len() > 1).then(|| look.fitted(name, 2.0 * HEIGHT, |part| page(self, look, part * HEIGHT)))
+    }
 }
 
 /// kHz.
 fn frequency(state: &State) -> f64 {
-    state.lambda.im / std::f64::consts::TAU / 1000.0
+    state.frequency / 1000.0
 }
 
-fn page(study: &Study, outcome: &Outcome, look: &Look<'_>, height: f64) -> (Svg, [f64; 2]) {
+fn page(curves: &Curves, look: &Look<'_>, height: f64) -> (Svg, [f64; 2]) {
     let width = look.points().unwrap_or(SINGLE_COLUMN);
     let mut svg = Svg::new();
-    let mut y = MARGIN + title(&mut svg, look.title(&study.document.title), width - 2.0 * MARGIN);
-    let shown: Vec<(usize, &Mode)> =
-        outcome.modes.iter().enumerate().filter(|(_, mode)| in_band(study, mode)).collect();
-    let states = || shown.iter().flat_map(|(_, mode)| &mode.states);
-    let x = Scale::spanning(study.mus.iter().copied());
+    let mut y = MARGIN + title(&mut svg, look.title(&curves.title), width - 2.0 * MARGIN);
+    let states = || curves.modes.iter().flat_map(|mode| &mode.states);
+    let x = Scale::spanning(curves.mus.iter().copied());
     let frequencies = Scale::spanning(states().map(frequency)).widened(HEADROOM);
-    let growths = Scale::spanning(states().map(|s| s.lambda.re).chain([0.0])).widened(HEADROOM);
+    let growths = Scale::spanning(states().map(|s| s.growth).chain([0.0])).widened(HEADROOM);
     let scales = [frequencies, growths];
     let ticks = scales.each_ref().map(|scale| y_ticks(scale, height));
     let left = MARGIN + LABEL_SIZE + 6.0 + ticks.iter().map(|ticks| y_tick_room(ticks)).fold(0.0, f64::max);
     let across = width - left - RIGHT;
-    let unstable = if outcome.damped { "unstable" } else { "unstable pair" };
+    let unstable = if curves.damped { "unstable" } else { "unstable pair" };
     let entries = [(Text::from("stable"), STABLE), (Text::from(unstable), GROWS)];
-    let entries = if outcome.damped || outcome.transitions.is_empty() {
+    let entries = if curves.damped || curves.transitions.is_empty() {
         entries.to_vec()
     } else {
         let [stable, grows] = entries;
@@ -69,7 +130,7 @@ fn page(study: &Study, outcome: &Outcome, look: &Look<'_>, height: f64) -> (Svg,
     };
     key::lines(&mut svg, left, y + LABEL_SIZE - 1.2, LABEL_SIZE, &entries);
     y += LABEL_SIZE + 5.0;
-    let marks: Vec<f64> = outcome.transitions.iter().map(|transition| transition.mu).collect();
+    let marks: Vec<f64> = curves.transitions.iter().map(|transition| transition.mu).collect();
     if !marks.is_empty() {
         y += LINE;
     }
@@ -78,13 +139,13 @@ fn page(study: &Study, outcome: &Outcome, look: &Look<'_>, height: f64) -> (Svg,
         let frame = Frame { x: left, y: y + row as f64 * (height + GAP), width: across, height };
         let plot = Plot { frame, x: &x, y: scale };
         if row == 1 {
-            plot.curve(&mut svg, [study.mus[0], study.mus[study.mus.len() - 1]].map(|mu| (mu, 0.0)), ZERO);
+            plot.curve(&mut svg, [curves.mus[0], curves.mus[curves.mus.len() - 1]].map(|mu| (mu, 0.0)), ZERO);
         }
         // What grows lies on top.
         for (stroke, wanted) in [(STABLE, Course::Stable), (SECOND, Course::Decays), (GROWS, Course::Grows)] {
-            for (index, mode) in &shown {
-                let value = |state: &State| if row == 0 { frequency(state) } else { state.lambda.re };
-                plot.curve(&mut svg, along(study, outcome, *index, mode, wanted, value), stroke);
+            for mode in &curves.modes {
+                let value = |state: &State| if row == 0 { frequency(state) } else { state.growth };
+                plot.curve(&mut svg, along(curves, mode, wanted, value), stroke);
             }
         }
         frame.border(&mut svg);
@@ -92,7 +153,7 @@ fn page(study: &Study, outcome: &Outcome, look: &Look<'_>, height: f64) -> (Svg,
         frame.y_ticks(&mut svg, &ticks[row], true);
     }
     let both = Frame { x: left, y, width: across, height: 2.0 * height + GAP };
-    critical(&mut svg, outcome, &x, &both);
+    critical(&mut svg, curves, &x, &both);
     let label =
         |words: &str, unit: &str, scale: &Scale| Text::from(words).then(axis_unit(unit, scale.exponent()));
     let labels = [label("Frequency", "kHz", &scales[0]), label("Growth rate", "1/s", &scales[1])];
@@ -117,43 +178,43 @@ enum Course {
 /// The values of a mode where it takes this course, nothing where it takes another. A piece begins at the transition, not at the
 /// next value of friction.
 fn along<'a>(
-    study: &'a Study,
-    outcome: &'a Outcome,
-    index: usize,
-    mode: &'a Mode,
+    curves: &'a Curves,
+    mode: &'a Curve,
     wanted: Course,
     value: impl Fn(&State) -> f64 + 'a,
 ) -> Vec<(f64, f64)> {
     /// Pieces of a curve between a transition and the next value of friction.
     const PIECES: usize = 16;
     let course = |i: usize| {
-        if outcome.grows(index, i) {
+        let State { frequency, growth, grows } = mode.states[i];
+        if grows {
             Course::Grows
-        } else if !outcome.damped && outcome.decays(index, i) {
+        } else if !curves.damped && -growth > ROUNDING * growth.hypot(TAU * frequency) {
             Course::Decays
         } else {
             Course::Stable
         }
     };
     let mut points = Vec::new();
-    for i in 0..study.mus.len() {
+    for i in 0..curves.mus.len() {
         let here = course(i) == wanted;
-        let own = |i: usize| (study.mus[i], value(&mode.states[i]));
+        let own = |i: usize| (curves.mus[i], value(&mode.states[i]));
         points.push(if here { own(i) } else { (f64::NAN, f64::NAN) });
-        if i + 1 < study.mus.len() && course(i) != course(i + 1) {
-            let between = study.mus[i]..study.mus[i + 1];
+        if i + 1 < curves.mus.len() && course(i) != course(i + 1) {
+            let between = curves.mus[i]..curves.mus[i + 1];
             let met =
-                outcome.transitions.iter().find(|t| t.modes.contains(&index) && between.contains(&t.mu));
+                curves.transitions.iter().find(|t| t.modes.contains(&mode.mode) && between.contains(&t.mu));
             if let Some(t) = met.filter(|_| here || course(i + 1) == wanted) {
-                let at = c64::new(0.0, std::f64::consts::TAU * t.frequency);
                 let known = if here { i } else { i + 1 };
-                let (from, lambda) = (study.mus[known], mode.states[known].lambda);
+                let (from, state) = (curves.mus[known], mode.states[known]);
                 // Near a coalescence eigenvalues go with the root of the distance.
-                let power = if matches!(t.event, Event::Coalescence | Event::Separation) { 0.5 } else { 1.0 };
+                let power = if t.merges() { 0.5 } else { 1.0 };
                 let between = |k: usize| {
                     let part = k as f64 / PIECES as f64;
-                    let lambda = at + (lambda - at) * part.powf(power);
-                    (t.mu + (from - t.mu) * part, value(&State { lambda, ..mode.states[known] }))
+                    let root = part.powf(power);
+                    let frequency = t.frequency + (state.frequency - t.frequency) * root;
+                    let between = State { frequency, growth: state.growth * root, ..state };
+                    (t.mu + (from - t.mu) * part, value(&between))
                 };
                 if here {
                     points.extend((0..PIECES).rev().map(between));
@@ -168,14 +229,14 @@ fn along<'a>(
 }
 
 /// A line through both panels at each transition, with the critical friction above the first of each.
-fn critical(svg: &mut Svg, outcome: &Outcome, x: &Scale, frame: &Frame) {
+fn critical(svg: &mut Svg, curves: &Curves, x: &Scale, frame: &Frame) {
     /// Digits of a critical value: more than a plot resolves, enough to compare.
     const DIGITS: usize = 3;
     let mut free = f64::MIN;
-    for transition in &outcome.transitions {
+    for transition in &curves.transitions {
         let at = frame.across(x.position(transition.mu));
         svg.path(&polyline([(at, frame.y), (at, frame.bottom())]), CRITICAL);
-        if !matches!(transition.event, Event::Coalescence | Event::Onset) {
+        if !transition.begins() {
             continue;
         }
         let rounded = |value: f64| format!("{value:.DIGITS$e}").parse().unwrap_or(value);

@@ -1,16 +1,17 @@
 //! `shapes.svg`: modes as deformed bodies, coloured by tangential and normal displacement, as Figure 17 of the paper.
 
 use squealmap_fem::c64;
-use squealmap_fem::output::{Facet, facets, isometric};
+use squealmap_fem::output::{facets, isometric};
 use squealmap_fem::study::{Outcome, Shape, Study};
 
 use crate::results::figure::look::Look;
+use crate::study::fem::painting::{PIECE, Painting};
 use squealmap_figure::frame::{LABEL_SIZE, TICK_SIZE};
 use squealmap_figure::letters;
 use squealmap_figure::page::{DOUBLE_COLUMN, MARGIN, title};
 use squealmap_figure::raster::between;
 use squealmap_figure::scale::value_label;
-use squealmap_figure::svg::{Anchor, Style, Svg, polyline};
+use squealmap_figure::svg::{Anchor, Style, Svg};
 use squealmap_figure::text::Text;
 use squealmap_figure::words::number;
 
@@ -28,8 +29,6 @@ const FOOT: f64 = 22.0;
 const REAL: f64 = 0.009;
 /// The largest displacement of a mode, over the size of the mesh.
 const SWING: f64 = 0.07;
-/// Pieces of the surface are this long, over the size of the mesh, or one element: finer ones make large files.
-const PIECE: f64 = 1.0 / 28.0;
 /// Shapes of a figure at most: one page.
 const MOST: usize = 6;
 /// The colours of −1, 0 and 1: dark on both sides, so that a grey print shows where a body stands still.
@@ -41,7 +40,7 @@ pub fn pictures_svg(study: &Study, outcome: &Outcome, look: &Look<'_>) -> Option
     let shown = shown(outcome);
     let name = look.title(&study.document.title);
     let name = if name.is_empty() { "Mode shapes" } else { name };
-    let pictures: Vec<[Picture; 2]> = shown.iter().map(|shape| both(study, shape)).collect();
+    let pictures: Vec<[Shown; 2]> = shown.iter().map(|shape| both(study, shape)).collect();
     (!shown.is_empty()).then(|| {
         look.fitted(name, TALLEST, |part| page(study, outcome, &shown, &pictures, look, part * TALLEST))
     })
@@ -61,7 +60,7 @@ fn page(
     study: &Study,
     outcome: &Outcome,
     shown: &[&Shape],
-    pictures: &[[Picture; 2]],
+    pictures: &[[Shown; 2]],
     look: &Look<'_>,
     tallest: f64,
 ) -> (Svg, [f64; 2]) {
@@ -69,7 +68,7 @@ fn page(
     let mut svg = Svg::new();
     let mut y = MARGIN + title(&mut svg, look.title(&study.document.title), width - 2.0 * MARGIN);
     let whole = width - 2.0 * MARGIN;
-    let aspect = pictures.iter().flatten().map(Picture::aspect).fold(0.0, f64::max);
+    let aspect = pictures.iter().flatten().map(|shown| shown.picture.aspect()).fold(0.0, f64::max);
     let columns = columns(shown.len(), aspect, whole);
     let pair = (whole + GAP) / columns as f64 - GAP;
     let column = (pair - GAP) / 2.0;
@@ -84,7 +83,7 @@ fn page(
             svg.text(from, base, &caption(outcome, shape), Style::new(LABEL_SIZE, Anchor::Start));
             for (side, picture) in pictures[index].iter().enumerate() {
                 let left = x + side as f64 * (column + GAP);
-                picture.paint(&mut svg, [left, y + HEAD, column, height]);
+                picture.picture.paint(&mut svg, [left, y + HEAD, column, height], fill);
                 for (line, words) in picture.words.iter().enumerate() {
                     let below = y + HEAD + height + TICK_SIZE + 2.0 + line as f64 * (TICK_SIZE + 2.0);
                     svg.text(left + 0.5 * column, below, words, Style::new(TICK_SIZE, Anchor::Middle));
@@ -123,17 +122,14 @@ fn caption(outcome: &Outcome, shape: &Shape) -> Text {
     }
 }
 
-/// One picture of a mode.
-struct Picture {
-    facets: Vec<Facet>,
-    /// Lower left and upper right corner, m.
-    bounds: [[f64; 2]; 2],
-    /// What stands below it.
+/// One picture of a mode, and what stands below it.
+struct Shown {
+    picture: Painting,
     words: [Text; 2],
 }
 
 /// Along the sliding and along the normal, each at the phase at which that displacement is largest.
-fn both(study: &Study, shape: &Shape) -> [Picture; 2] {
+fn both(study: &Study, shape: &Shape) -> [Shown; 2] {
     let mesh = &study.model.mesh;
     let size = mesh.extent();
     let contact = study.model.contact.first();
@@ -166,7 +162,7 @@ fn both(study: &Study, shape: &Shape) -> [Picture; 2] {
         let share = Text::from(format!("largest {:.2}", peak.norm() / largest));
         let share =
             if side == 0 || is_real { share } else { share.plain(&format!(", phase {}°", phase(turned))) };
-        Picture { bounds: bounds(&facets), facets, words: [Text::from(names[side]), share] }
+        Shown { picture: Painting::new(facets), words: [Text::from(names[side]), share] }
     })
 }
 
@@ -176,50 +172,6 @@ fn phase(angle: f64) -> String {
     let whole = (degrees - 360.0 * (degrees / 360.0).round()).round();
     format!("{:.0}", whole + 0.0).replace('-', "−")
 }
-
-fn bounds(facets: &[Facet]) -> [[f64; 2]; 2] {
-    let fold = |f: fn(f64, f64) -> f64, from: f64| {
-        [0, 1].map(|i| facets.iter().flat_map(|facet| &facet.outline).map(|c| c[i]).fold(from, f))
-    };
-    [fold(f64::min, f64::INFINITY), fold(f64::max, f64::NEG_INFINITY)]
-}
-
-impl Picture {
-    /// Width over height.
-    fn aspect(&self) -> f64 {
-        let [low, high] = self.bounds;
-        (high[0] - low[0]) / (high[1] - low[1])
-    }
-
-    /// Paints it into a rectangle, as large as it fits.
-    fn paint(&self, svg: &mut Svg, [x, y, width, height]: [f64; 4]) {
-        let [low, high] = self.bounds;
-        let scale = (width / (high[0] - low[0])).min(height / (high[1] - low[1]));
-        let shift =
-            [x + 0.5 * (width - scale * (high[0] - low[0])), y + 0.5 * (height + scale * (high[1] - low[1]))];
-        let at = |c: &[f64; 2]| (shift[0] + scale * (c[0] - low[0]), shift[1] - scale * (c[1] - low[1]));
-        svg.open(r#"stroke-width="0.3" stroke-linejoin="round""#);
-        for facet in &self.facets {
-            let fill = fill(facet.value);
-            let outline = polyline(facet.outline.iter().map(at)) + "Z";
-            if facet.edges.iter().all(|edge| *edge) {
-                svg.path(&outline, &format!(r#"fill="{fill}" {EDGE}"#));
-                continue;
-            }
-            // The line of its own colour closes the seams between pieces.
-            svg.path(&outline, &format!(r#"fill="{fill}" stroke="{fill}""#));
-            let side = |i: usize| {
-                polyline([at(&facet.outline[i]), at(&facet.outline[(i + 1) % facet.outline.len()])])
-            };
-            let edges: String = (0..facet.outline.len()).filter(|i| facet.edges[*i]).map(side).collect();
-            svg.path(&edges, EDGE);
-        }
-        svg.close();
-    }
-}
-
-/// An edge of an element.
-const EDGE: &str = r##"stroke="#3A3A3A" stroke-width="0.12""##;
 
 /// The colour of a value from −1 to 1.
 fn fill(value: f64) -> String {

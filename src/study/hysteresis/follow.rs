@@ -4,15 +4,15 @@
 //! branches differ, both exist. The start of the sweep (its kick, or its mode) is added at every value: without a small
 //! disturbance nothing would ever leave an equilibrium that is not stable.
 
-use crate::engine::judged::{begun, take_response};
+use crate::engine::judged::{examined, take_response};
 use crate::engine::method::taylor::State;
 use crate::engine::outcome::Outcome;
 use crate::engine::plan::Plan;
 use crate::engine::record::{Attractor, Record, apart, differ};
 use crate::engine::reference::respond::respond_in;
 use crate::engine::scene::Scene;
+use crate::model::Param;
 use crate::model::instance::Instance;
-use crate::model::{Param, linear};
 use crate::sweep::grid::{Axis, AxisKey, Grid, Value};
 
 /// A branch jumps from one cycle to another where its amplitude changes so many times as fast as beside it.
@@ -199,10 +199,7 @@ impl Motion {
 /// Computes one value: its record, and the motion that the next value starts from. There is none after a failure, and none
 /// after an equilibrium, where a run sees only the beginning of the decay: the next value starts afresh then.
 fn step(instance: &Instance, plan: &Plan, from: Option<Motion>) -> (Record, Option<Motion>) {
-    let prepared = linear::prepare(instance);
-    let mut record = begun(instance, &prepared);
-    (record.kind, record.linear) = linear::solve(&prepared);
-    let kind = record.kind;
+    let (mut record, kind) = examined(instance, true);
     let scene = match Scene::planned(instance, plan) {
         Ok(scene) => scene,
         Err(status) => {

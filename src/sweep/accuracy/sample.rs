@@ -110,6 +110,7 @@ pub fn subset(spec: &Spec, indices: &[usize]) -> Spec {
         title: spec.title.clone(),
         analysis: Analysis { checked: false, starts: Starts::One, ..spec.analysis },
         base: spec.base,
+        modal: spec.modal.clone(),
         impact_friction: spec.impact_friction,
         law: spec.law,
         material: spec.material.clone(),

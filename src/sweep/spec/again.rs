@@ -7,9 +7,11 @@ use serde_json::Value as Json;
 use crate::engine::plan::Duration;
 use crate::model::friction::{LawKind, MuTable};
 use crate::model::material::{Material, Outside};
+use crate::model::modal::Modal;
 use crate::model::{Param, Params};
 use crate::sweep::grid::Grid;
 use crate::sweep::spec::duration::{AUTO, CYCLE};
+use crate::sweep::spec::model::of_text;
 use crate::sweep::spec::start::Kind;
 use crate::sweep::spec::{Analysis, FIRST_HUNT, FIRST_SETTLE, Pass, Spec};
 
@@ -50,7 +52,11 @@ impl Spec {
             title: title.to_owned(),
             analysis,
             base,
-            impact_friction: resolved["model"]["impact_friction"].as_bool()?,
+            modal: match resolved["model"].get("content") {
+                None => None,
+                Some(text) => Some(modal(&resolved["model"], text)?),
+            },
+            impact_friction: resolved["model"].get("impact_friction").is_none_or(|acts| acts == true),
             law,
             material: match friction.get("material") {
                 None => None,
@@ -80,6 +86,11 @@ fn numbers(values: &Json) -> Option<Vec<f64>> {
 
 fn table(table: &Json) -> Option<Arc<MuTable>> {
     Some(Arc::new(MuTable { velocity: numbers(table.get("velocity")?)?, mu: numbers(table.get("mu")?)? }))
+}
+
+/// The structure whose file holds this text.
+fn modal(model: &Json, text: &Json) -> Option<Arc<Modal>> {
+    Some(Arc::new(of_text(model.get("modes")?.as_str()?, text.as_str()?).ok()?))
 }
 
 fn material(rows: &Json) -> Option<Arc<Material>> {

@@ -9,7 +9,7 @@ use crate::sweep::spec::check::{covered, unused, used_by_laws};
 use crate::sweep::spec::keys::is_fixed;
 use crate::sweep::spec::names::advice;
 use crate::sweep::spec::start::Kind;
-use crate::sweep::spec::{Spec, law};
+use crate::sweep::spec::{Spec, law, model};
 use squealmap_input::place::Place;
 use squealmap_input::quote::list;
 
@@ -176,6 +176,7 @@ impl At<'_> {
     fn everything_has_effect(&self, spec: &Spec) -> Result<()> {
         let varied = spec.grid.keys();
         let by_event = self.params.get(Param::StartEventFraction).is_some();
+        let model = if spec.modal.is_some() { model::Kind::Modal } else { model::Kind::TwoMass };
         for (key, at) in self.named.iter().filter(|(key, _)| !varied.contains(key)) {
             let used_by = match key {
                 AxisKey::Param(param) if LawKind::params().any(|one| one == *param) => {
@@ -183,6 +184,9 @@ impl At<'_> {
                 }
                 AxisKey::Param(Param::Temperature) => {
                     self.material.is_none().then(|| "a `material`".to_owned())
+                }
+                AxisKey::Param(param) if model.reader(*param).is_some() => {
+                    model.reader(*param).map(|reader| reader.written().to_owned())
                 }
                 AxisKey::Param(param) => Kind::of(spec).reader(*param, by_event).map(str::to_owned),
                 AxisKey::Material => self.law.reads_table().then(|| used_by_laws(&law::of_material())),

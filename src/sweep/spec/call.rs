@@ -47,6 +47,8 @@ pub(crate) enum Call {
     Title(String),
     WithoutEigenvalues,
     WithoutResponse,
+    /// The model; the first call, if it is one.
+    Modes(PathBuf),
     ImpactFriction(bool),
     Set(Param, f64),
     Friction(FrictionLaw),
@@ -80,6 +82,7 @@ impl Call {
             Call::Title(title) => one("title", format!("\"{}\"", quoted(title))),
             Call::WithoutEigenvalues => ("without_eigenvalues", Vec::new()),
             Call::WithoutResponse => ("without_response", Vec::new()),
+            Call::Modes(file) => one("modal", path(file)),
             Call::ImpactFriction(acts) => one("impact_friction", acts.to_string()),
             Call::Set(param, value) => ("set", vec![("", named(*param)), (", ", value.to_string())]),
             Call::Friction(FrictionLaw::Table(_)) => one("friction", "Table(…)".to_owned()),
@@ -135,13 +138,17 @@ pub(super) struct Stands {
 
 /// The calls as a text of one line each, and where each stands.
 pub(super) fn text(calls: &[Call]) -> (Source, Vec<Stands>) {
-    let mut text = "Sweep::two_mass()".to_owned();
+    let mut text = String::new();
     let mut all = Vec::with_capacity(calls.len());
+    if !matches!(calls.first(), Some(Call::Modes(_))) {
+        text.push_str("Sweep::two_mass()");
+    }
     for call in calls {
-        text.push('\n');
+        let before = if text.is_empty() { "Sweep::" } else { "\n." };
+        text.push_str(before.trim_end_matches('.'));
         let start = text.len();
         let (name, words) = call.words();
-        text.push('.');
+        text.push_str(if before == "\n." { "." } else { "" });
         text.push_str(name);
         text.push('(');
         let mut arguments = Vec::with_capacity(words.len());

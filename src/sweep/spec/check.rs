@@ -9,10 +9,10 @@ use crate::sweep::error::{Error, Result};
 use crate::sweep::grid::{AxisKey, Grid, Value};
 use crate::sweep::spec::duration::{AUTO, CYCLE};
 use crate::sweep::spec::files::Files;
-use crate::sweep::spec::law;
-use crate::sweep::spec::sections::Sections;
+use crate::sweep::spec::sections::{Given, Sections};
 use crate::sweep::spec::start::{AMPLITUDES, BOUNDS, Kind};
 use crate::sweep::spec::varied::Varied;
+use crate::sweep::spec::{law, model};
 use squealmap_input::place::{Place, Source};
 use squealmap_input::quote::{list, quoted};
 
@@ -28,6 +28,7 @@ impl Check<'_> {
     /// Runs every check; the first that fails is the error.
     pub(super) fn all(&self) -> Result<()> {
         self.nothing_twice()?;
+        self.model_reads_it()?;
         let laws = self.laws();
         self.law_parameters_have_effect(&laws)?;
         self.materials_have_effect(&laws)?;
@@ -75,6 +76,51 @@ impl Check<'_> {
             }
         }
         Ok(())
+    }
+
+    /// The model reads all that is given, and has its file.
+    fn model_reads_it(&self) -> Result<()> {
+        let model = self.sections.model;
+        let varied = self.varied.keys.iter().filter_map(|(key, _)| match key {
+            AxisKey::Param(param) => Some(*param),
+            AxisKey::Law | AxisKey::Material => None,
+        });
+        let given = self.sections.given.iter().filter_map(|given| Param::from_name(given.name));
+        for param in given.chain(varied) {
+            if let (Some(reader), Some((at, key))) = (model.reader(param), self.param(param)) {
+                return Err(unused(at, key, reader.written().to_owned()));
+            }
+        }
+        let unread = |given: &Given, reader: model::Kind| {
+            Err(unused(self.sweep.place(given.span.clone()), given.label(), reader.written().to_owned()))
+        };
+        match model {
+            model::Kind::TwoMass => match self.sections.find("modes") {
+                Some(given) => unread(given, model::Kind::Modal),
+                None => Ok(()),
+            },
+            model::Kind::Modal => {
+                if let Some(span) = &self.sections.response_asked {
+                    let reader = model::Kind::TwoMass.written();
+                    let used_by = format!("{reader}, since a modal model has eigenvalues alone");
+                    return Err(unused(self.sweep.place(span.clone()), "a response".to_owned(), used_by));
+                }
+                let of_motion =
+                    |given: &&Given| given.section == Section::Start || given.name == "impact_friction";
+                if let Some(given) = self.sections.given.iter().find(of_motion) {
+                    return unread(given, model::Kind::TwoMass);
+                }
+                if self.files.modal.is_some() {
+                    return Ok(());
+                }
+                Err(Error::Missing {
+                    at: self.sweep.place(self.sections.header(Section::Model)),
+                    key: "modes",
+                    needed_by: format!("{} is a file of modes", model.written()),
+                    remedy: "write modes = \"modes.toml\" in [model]".to_owned(),
+                })
+            }
+        }
     }
 
     fn law_parameters_have_effect(&self, laws: &[LawKind]) -> Result<()> {
@@ -134,7 +180,7 @@ impl Check<'_> {
             }
         }
         if let (Kind::Both | Kind::Box, false) = (kind, self.sections.analysis.response)
-            && let Some(given) = self.sections.find("kind")
+            && let Some(given) = self.sections.find_in(Section::Start, "kind")
         {
             let key = format!("`kind = \"{}\"` in [start]", kind.name());
             return Err(unused(

@@ -21,7 +21,7 @@ use crate::sweep::spec::rows::{Role, Rows};
 use crate::sweep::spec::sections::{Given, MOST_SAMPLED, MOST_SEED, Sections, legal_title};
 use crate::sweep::spec::start::{Kind, SAMPLES_RANGE};
 use crate::sweep::spec::varied::Varied;
-use crate::sweep::spec::{MAX_VALUES, Spec};
+use crate::sweep::spec::{MAX_VALUES, Spec, model};
 use squealmap_input::place::Source;
 
 impl Spec {
@@ -134,6 +134,9 @@ impl Code<'_> {
     /// A call of what does not vary.
     fn says(&mut self, call: &Call, stands: &Stands) -> Result<()> {
         let whole = &stands.whole;
+        if matches!(call, Call::Response(_) | Call::Measure(_) | Call::StepsPerPeriod(_) | Call::Check(_)) {
+            self.sections.response_asked = Some(whole.clone());
+        }
         let file = |file: &Path| (file.to_string_lossy().into_owned(), whole.clone());
         match call {
             Call::Title(title) => {
@@ -144,6 +147,11 @@ impl Code<'_> {
             Call::ImpactFriction(acts) => {
                 self.sections.impact_friction = *acts;
                 self.give("impact_friction", Section::Model, whole);
+            }
+            Call::Modes(path) => {
+                self.sections.model = model::Kind::Modal;
+                self.sections.modes = Some(file(path));
+                self.give("modes", Section::Model, whole);
             }
             Call::Set(param, value) => {
                 let section = param.info().section;

@@ -1,13 +1,16 @@
-//! The files a sweep file names for friction: materials and tables of μ(v).
+//! The files a sweep file names: materials and tables of μ(v), modes.
 
 use std::path::Path;
 use std::sync::Arc;
 
 use crate::model::friction::{LawKind, MuTable};
 use crate::model::material::{Material, Outside};
+use crate::model::modal::Modal;
 use crate::model::{Param, Range};
 use crate::sweep::error::{Error, Result};
 use crate::sweep::grid::AxisKey;
+use crate::sweep::spec::model;
+use crate::sweep::spec::model::Kind;
 use crate::sweep::spec::rows::{Role, Rows};
 use crate::sweep::spec::sections::Sections;
 use crate::sweep::spec::varied::Varied;
@@ -16,6 +19,8 @@ use squealmap_input::place::Source;
 /// What was read from the files.
 #[derive(Debug)]
 pub(super) struct Files {
+    /// The structure of a modal model.
+    pub(super) modal: Option<Arc<Modal>>,
     pub(super) table: Option<Arc<MuTable>>,
     /// The material of `[friction]`.
     pub(super) material: Option<Arc<Material>>,
@@ -42,7 +47,9 @@ impl Files {
             .into_iter()
             .map(|(name, span)| read_material(&varied.source, span, name, base_dir, sections.outside))
             .collect::<Result<_>>()?;
-        Ok(Files { table: table.transpose()?, material: material.transpose()?, materials })
+        let modal = sections.modes.as_ref().filter(|_| sections.model == Kind::Modal);
+        let modal = modal.map(|(name, span)| model::read(sweep, span.clone(), name, base_dir)).transpose()?;
+        Ok(Files { modal, table: table.transpose()?, material: material.transpose()?, materials })
     }
 
     /// Every material of the sweep.

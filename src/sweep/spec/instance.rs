@@ -48,6 +48,6 @@ impl Spec {
             }
         }
         let law = kind.with(&params, self.table.as_ref());
-        Instance { params, law, impact_friction: self.impact_friction }
+        Instance { params, law, impact_friction: self.impact_friction, modal: self.modal.clone() }
     }
 }

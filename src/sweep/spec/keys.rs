@@ -8,7 +8,7 @@ use crate::sweep::spec::duration::LONGEST;
 use crate::sweep::spec::names::advice;
 use crate::sweep::spec::refine::{COARSE, Settings};
 use crate::sweep::spec::start::{AMPLITUDES, BOX_SAMPLES, Kind, SAMPLES_RANGE};
-use crate::sweep::spec::{MEASURE, SETTLE, SETTLE_LIMIT, STEPS_PER_PERIOD, law};
+use crate::sweep::spec::{MEASURE, SETTLE, SETTLE_LIMIT, STEPS_PER_PERIOD, law, model};
 use squealmap_input::place::Place;
 use squealmap_input::quote::list;
 
@@ -92,11 +92,29 @@ const ROWS: &[Row] = &[
     },
     Row {
         section: "model",
+        name: "kind",
+        meaning: "two masses on a belt, or a few modes of any structure, of which only eigenvalues are computed",
+        default: || Some("\"two_mass\"".to_owned()),
+        range: || quoted(&model::Kind::ALL.map(|(name, _)| name)),
+        read_by: "",
+        varies: false,
+    },
+    Row {
+        section: "model",
+        name: "modes",
+        meaning: "file of modes that `squealmap fem` writes; `f_ext` is its load where it is left out",
+        default: || None,
+        range: || "a path, relative to the sweep file".to_owned(),
+        read_by: "kind `modal`",
+        varies: false,
+    },
+    Row {
+        section: "model",
         name: "impact_friction",
         meaning: "whether friction acts while the contact closes again after a detachment",
         default: || Some("true".to_owned()),
         range: || "true or false".to_owned(),
-        read_by: "",
+        read_by: "kind `two_mass`",
         varies: false,
     },
     Row {
@@ -279,6 +297,10 @@ fn readers(param: Param) -> String {
     if AMPLITUDES.contains(&param) {
         let kinds = Kind::ALL.iter().filter(|(_, kind)| kind.reader(param, false).is_none());
         return named("kind", &kinds.map(|(name, _)| *name).collect::<Vec<_>>());
+    }
+    if let Some(model) = model::Kind::only_reader(param) {
+        let name = model::Kind::ALL.iter().find(|(_, one)| *one == model).map(|(name, _)| *name);
+        return named("kind", &Vec::from_iter(name));
     }
     if param == Param::Temperature { "a `material`".to_owned() } else { String::new() }
 }

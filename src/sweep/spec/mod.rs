@@ -6,6 +6,7 @@
 //! | calls → sweep | `call.rs`, `code.rs` |
 //! | its sections, key by key | `sections.rs`, `law.rs`, `start.rs`, [`refine`] |
 //! | what varies | `axis.rs`, `varied.rs` |
+//! | the model | `model.rs` |
 //! | files that it names | `files.rs`, `rows.rs` |
 //! | what must hold between keys | `check.rs`, [`names`] |
 //! | every key, for people | [`keys`] |
@@ -24,6 +25,7 @@ mod files;
 mod instance;
 pub mod keys;
 mod law;
+mod model;
 pub mod names;
 mod read;
 pub mod refine;
@@ -43,6 +45,8 @@ use crate::model::Params;
 use crate::model::friction::{LawKind, MuTable};
 use crate::model::instance::Instance;
 use crate::model::material::Material;
+use crate::model::modal::Modal;
+use crate::sweep::error::{Error, Result};
 use crate::sweep::grid::Grid;
 use refine::Settings;
 use squealmap_input::place::Place;
@@ -152,6 +156,8 @@ pub struct Spec {
     pub analysis: Analysis,
     /// Parameters that do not vary; what varies overrides them.
     pub base: Params,
+    /// The structure that slides; `None` for two masses.
+    pub modal: Option<Arc<Modal>>,
     /// Whether impacts carry a Coulomb impulse.
     pub impact_friction: bool,
     /// The law of instances whose law does not vary.
@@ -180,6 +186,19 @@ pub struct Spec {
     pub steps_given: Option<Place>,
     /// How its map is refined; `None` where every instance is computed.
     pub refine: Option<Settings>,
+}
+
+impl Spec {
+    /// Refuses a sweep of another model than two masses.
+    ///
+    /// # Errors
+    /// For a modal model; `what` needs two masses.
+    pub fn of_two_masses(&self, what: &'static str) -> Result<()> {
+        match &self.modal {
+            None => Ok(()),
+            Some(modal) => Err(Error::OnlyTwoMasses { what, modes: modal.name.clone() }),
+        }
+    }
 }
 
 impl Plan {
@@ -213,6 +232,10 @@ impl Instances for Spec {
 
     fn response(&self) -> bool {
         self.analysis.response
+    }
+
+    fn modal(&self) -> bool {
+        self.modal.is_some()
     }
 
     fn pieces(&self) -> usize {

@@ -91,6 +91,11 @@ impl Spec {
 }
 
 fn assemble(sections: Sections, varied: Varied, files: Files) -> Spec {
+    let mut base = sections.base;
+    if let Some(modal) = files.modal.as_ref().filter(|_| sections.find("f_ext").is_none()) {
+        base.set(Param::FExt, modal.load);
+    }
+    let response = sections.analysis.response && files.modal.is_none();
     let ramp = sections.base.get(Param::RampDuration).is_some()
         || varied.find(AxisKey::Param(Param::RampDuration)).is_some();
     let auto = sections.auto.is_some();
@@ -105,13 +110,15 @@ fn assemble(sections: Sections, varied: Varied, files: Files) -> Spec {
     Spec {
         title: sections.title,
         analysis: Analysis {
-            until_settled: auto && sections.analysis.response,
-            finds_cycles: sections.cycle && sections.analysis.response,
-            checked: sections.check && sections.analysis.response,
-            starts: if sections.analysis.response { starts } else { Starts::One },
+            response,
+            until_settled: auto && response,
+            finds_cycles: sections.cycle && response,
+            checked: sections.check && response,
+            starts: if response { starts } else { Starts::One },
             ..sections.analysis
         },
-        base: sections.base,
+        base,
+        modal: files.modal,
         impact_friction: sections.impact_friction,
         law: sections.law,
         material: files.material,

@@ -7,7 +7,7 @@ use crate::model::{PARAMS, Section};
 use crate::sweep::grid::{AxisKey, Grid, Value};
 use crate::sweep::spec::duration::{AUTO, CYCLE};
 use crate::sweep::spec::start::{AMPLITUDES, Kind};
-use crate::sweep::spec::{Spec, Starts};
+use crate::sweep::spec::{Spec, Starts, model};
 
 impl Spec {
     /// The sweep with the section names of a sweep file and all defaults written out.
@@ -25,8 +25,7 @@ impl Spec {
         let mut spec = Map::new();
         spec.insert("title".to_owned(), json!(self.title));
         spec.insert("analysis".to_owned(), json!(analysis));
-        let mut model = self.section(Section::Model);
-        model.insert("impact_friction".to_owned(), json!(self.impact_friction));
+        let model = self.model();
         spec.insert("model".to_owned(), Json::Object(model));
         spec.insert("friction".to_owned(), self.friction());
         spec.insert("belt".to_owned(), Json::Object(self.section(Section::Belt)));
@@ -45,6 +44,28 @@ impl Spec {
         spec.insert("start".to_owned(), Json::Object(start));
         spec.insert("response".to_owned(), self.response());
         Json::Object(spec)
+    }
+
+    /// The model; of a modal one with what stands in its file, so that it can be computed without that.
+    fn model(&self) -> Map<String, Json> {
+        let mut model = Map::new();
+        match &self.modal {
+            None => {
+                model = self.section(Section::Model);
+                model.insert("impact_friction".to_owned(), json!(self.impact_friction));
+            }
+            Some(modal) => {
+                model.insert("kind".to_owned(), json!("modal"));
+                model.insert("modes".to_owned(), json!(modal.name));
+                model.insert(
+                    "blake3".to_owned(),
+                    json!(blake3::hash(modal.text.as_bytes()).to_hex().as_str()),
+                );
+                model.extend(self.section(Section::Model));
+                model.insert("content".to_owned(), json!(modal.text));
+            }
+        }
+        model
     }
 
     fn response(&self) -> Json {
@@ -69,9 +90,11 @@ impl Spec {
     /// The values of a section that do not vary.
     fn section(&self, section: Section) -> Map<String, Json> {
         let keys = self.grid.keys();
+        let kind = if self.modal.is_some() { model::Kind::Modal } else { model::Kind::TwoMass };
         PARAMS
             .iter()
             .filter(|row| row.section == section && !keys.contains(&AxisKey::Param(row.param)))
+            .filter(|row| section == Section::Start || kind.reader(row.param).is_none())
             .filter_map(|row| Some((row.name.to_owned(), json!(self.base.get(row.param)?))))
             .collect()
     }

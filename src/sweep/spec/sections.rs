@@ -13,7 +13,7 @@ use crate::sweep::spec::keys::{STEPS_RANGE, home, names_of};
 use crate::sweep::spec::names::unknown;
 use crate::sweep::spec::refine::{COARSE, Settings};
 use crate::sweep::spec::start::{BOX_SAMPLES, Kind, SAMPLES_RANGE};
-use crate::sweep::spec::{Analysis, STEPS_PER_PERIOD, Starts, law};
+use crate::sweep::spec::{Analysis, STEPS_PER_PERIOD, Starts, law, model};
 use squealmap_input::place::Source;
 use squealmap_input::quote::is_obeyed;
 use std::ops::Range;
@@ -48,6 +48,8 @@ pub(super) struct Sections {
     pub(super) title: String,
     pub(super) analysis: Analysis,
     pub(super) base: Params,
+    pub(super) model: model::Kind,
+    pub(super) modes: Option<FileName>,
     pub(super) impact_friction: bool,
     pub(super) law: LawKind,
     pub(super) table: Option<FileName>,
@@ -66,6 +68,8 @@ pub(super) struct Sections {
     pub(super) measure: Option<Duration>,
     pub(super) check: bool,
     pub(super) steps_per_period: u32,
+    /// Where a response is asked for in words, in `analysis` or by `[response]`.
+    pub(super) response_asked: Option<Range<usize>>,
     /// Where `steps_per_period` stands.
     pub(super) steps_given: Option<Range<usize>>,
     /// `[refine]`.
@@ -87,6 +91,8 @@ impl Default for Sections {
                 starts: Starts::One,
             },
             base: Params::default(),
+            model: model::Kind::default(),
+            modes: None,
             impact_friction: true,
             law: LawKind::Bilinear,
             table: None,
@@ -101,6 +107,7 @@ impl Default for Sections {
             measure: None,
             check: true,
             steps_per_period: STEPS_PER_PERIOD,
+            response_asked: None,
             steps_given: None,
             refine: None,
             given: Vec::new(),
@@ -115,7 +122,12 @@ impl Sections {
         self.start.starts(self.box_samples)
     }
 
-    /// Where a key of a section stands, if it does.
+    /// Where a key stands in a section, if it does.
+    pub(super) fn find_in(&self, section: Section, name: &str) -> Option<&Given> {
+        self.given.iter().find(|given| given.section == section && given.name == name)
+    }
+
+    /// Where a key that only one section has stands, if it does.
     pub(super) fn find(&self, name: &str) -> Option<&Given> {
         self.given.iter().find(|given| given.name == name)
     }
@@ -140,6 +152,9 @@ impl Sections {
             let response = choice(source, name, "an element of `analysis`", "analysis", &choices)?;
             self.analysis.linear |= !response;
             self.analysis.response |= response;
+            if response {
+                self.response_asked = Some(name.span());
+            }
         }
         if names.is_empty() {
             let at = source.place(entry.node.span());
@@ -175,6 +190,14 @@ impl Sections {
             (Section::Model, "impact_friction") => {
                 self.impact_friction = boolean(source, node, &label)?;
                 special = Some("impact_friction");
+            }
+            (Section::Model, "kind") => {
+                self.model = choice(source, node, &label, "model", &model::Kind::ALL)?;
+                special = Some("kind");
+            }
+            (Section::Model, "modes") => {
+                self.modes = Some(file()?);
+                special = Some("modes");
             }
             (Section::Friction, "law") => {
                 let laws = LawKind::ALL.map(|kind| (kind.name(), kind));
@@ -220,6 +243,7 @@ impl Sections {
     /// `[response]`.
     pub(super) fn response(&mut self, source: &Source, entry: Entry) -> Result<()> {
         let expected = "a table, written as a line [response] above its keys";
+        self.response_asked.get_or_insert(entry.key_span());
         for entry in entries(table(source, entry.node, "`response`", expected)?) {
             let label = format!("`{}` in [response]", entry.key);
             match entry.key {
@@ -280,13 +304,14 @@ fn is_left_to_the_run(node: &Node) -> bool {
 /// The error of an unknown key of a section or of the top level (an empty section name).
 pub(super) fn unknown_key(source: &Source, entry: Entry, section: &str, known: &[&str]) -> Error {
     let within = if section.is_empty() { "at the top level".to_owned() } else { format!("in [{section}]") };
-    match home(entry.key) {
-        Some(home) => Error::Unknown {
+    let found = home(entry.key).map(|home| format!("it belongs to [{home}]"));
+    match found.or_else(|| model::no_key(entry.key).map(str::to_owned)) {
+        Some(advice) => Error::Unknown {
             at: source.place(entry.key_span()),
             what: "key",
             name: entry.key.to_owned(),
             within,
-            advice: format!("it belongs to [{home}]"),
+            advice,
         },
         None => unknown(source, entry.key_span(), "key", entry.key, &within, known),
     }

@@ -10,6 +10,7 @@ use crate::sweep::spec::MAX_INSTANCES;
 use crate::sweep::spec::axis::axis;
 use crate::sweep::spec::document::{Entry, entries, table};
 use crate::sweep::spec::keys::is_fixed;
+use crate::sweep::spec::model::no_key;
 use crate::sweep::spec::names::advice;
 use crate::sweep::spec::rows::{Role, Rows};
 use crate::sweep::spec::sections::law_value;
@@ -176,7 +177,9 @@ fn too_many(source: &Source, span: Range<usize>, count: u128) -> Error {
 
 fn unknown_axis(source: &Source, entry: Entry) -> Error {
     let names: Vec<&str> = AxisKey::names().collect();
-    let advice = if is_fixed(entry.key) {
+    let advice = if let Some(why) = no_key(entry.key) {
+        why.to_owned()
+    } else if is_fixed(entry.key) {
         "this key holds for the whole sweep and cannot vary".to_owned()
     } else {
         advice(entry.key, &names)

@@ -2,3 +2,4 @@
 
 pub(crate) mod fastest;
 pub(crate) mod linear;
+pub(crate) mod spectrum;

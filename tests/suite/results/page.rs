@@ -28,7 +28,7 @@ fn letters(svg: &str) -> usize {
 fn rows_of_panels_have_letters() {
     for piece in all() {
         let expected = match piece.kind {
-            Kind::Map | Kind::Refined | Kind::Modes => 2,
+            Kind::Map | Kind::Refined | Kind::Modes | Kind::Fem => 2,
             Kind::Trace | Kind::Identify => 4,
             Kind::Hysteresis | Kind::Tradeoff => 0,
             Kind::Paper(figure) => match figure.name() {

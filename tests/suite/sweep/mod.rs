@@ -6,6 +6,7 @@ pub(crate) mod build;
 pub(crate) mod checks;
 pub(crate) mod input_files;
 pub(crate) mod label;
+pub(crate) mod modal;
 pub(crate) mod promise;
 pub(crate) mod refine;
 pub(crate) mod spec;

@@ -116,6 +116,13 @@ impl Rows {
         self.rows.iter().map(|row| row.iter().map(|(i, a)| a * x[*i]).sum()).collect()
     }
 
+    /// The matrix times a number.
+    #[must_use]
+    pub fn scaled(mut self, factor: f64) -> Self {
+        self.rows.iter_mut().flatten().for_each(|(_, value)| *value *= factor);
+        self
+    }
+
     /// y + Aᵀ x.
     pub fn add_transposed(&self, x: &[f64], y: &mut [f64]) {
         for (row, x) in self.rows.iter().zip(x) {

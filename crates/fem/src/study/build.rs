@@ -3,7 +3,7 @@
 use super::document::{Bond, By, Document, Load, Sliding, Support};
 use super::parts::join;
 use super::surfaces::flat;
-use super::values::{check_friction, check_modes, coefficients};
+use super::values::{check_friction, check_modes, check_output, coefficients};
 use crate::Error;
 use crate::assembly::{Loads, Model, Penalty, Supports};
 use crate::contact::{
@@ -39,6 +39,7 @@ impl Study {
         let mus = coefficients(&document.friction.mu)?;
         check_friction(&document.friction)?;
         check_modes(&document.modes)?;
+        check_output(&document.output)?;
         for (i, mu) in document.output.shapes_at.iter().enumerate() {
             if !mus.iter().any(|known| (known - mu).abs() <= 1e-12) {
                 let what = format!("{mu} is not among the values of friction.mu: name one of them");

@@ -5,7 +5,7 @@ use std::time::Instant;
 use faer::c64;
 
 use super::Study;
-use super::modal::{Modal, directions};
+use super::modal::{MOST, Modal, directions};
 use super::transitions::{Search, Transition, grows};
 use crate::Error;
 use crate::assembly::{Numbering, Pencil, Rows, assemble};
@@ -110,22 +110,19 @@ impl Clock<'_> {
 pub fn compute(study: &Study, say: &mut dyn FnMut(&str)) -> Result<Outcome, Error> {
     let mut clock = Clock { say, since: Instant::now(), seconds: Vec::new() };
     let friction = &study.document.friction;
-    let (numbering, pencil, pressed, slope) = if study.is_pressed() {
+    let (numbering, pencil, pressed, per_slope) = if study.is_pressed() {
         let settled = clock
             .step("static step", || settle(&study.model, &study.faces, &study.loads, friction.static_mu))?;
-        let slope = if friction.slope == 0.0 {
-            Rows::default()
-        } else {
-            let field: Vec<f64> = settled.pressures.iter().map(|p| p * friction.slope).collect();
-            settled.surface.matrix(&field)
-        };
+        let per_slope = settled.surface.matrix(&settled.pressures);
         let force = settled.forces.iter().sum();
         let pressed = Pressed { force, open: settled.open.len(), displacement: settled.displacement };
-        (settled.numbering, settled.pencil, Some(pressed), slope)
+        (settled.numbering, settled.pencil, Some(pressed), per_slope)
     } else {
         let (numbering, pencil) = clock.step("matrices", || assemble(&study.model))?;
         (numbering, pencil, None, Rows::default())
     };
+    let slope =
+        if friction.slope == 0.0 { Rows::default() } else { per_slope.clone().scaled(friction.slope) };
     let damped = pencil.damping.is_some() || !slope.rows.is_empty();
     let ordering = Ordering::best(&pencil.stiffness.pattern, &numbering.places(&study.model.mesh))?;
     let factor = clock.step("factor", || Factor::new(&ordering, &pencil.stiffness, &pencil.mass, 0.0))?;
@@ -145,7 +142,12 @@ pub fn compute(study: &Study, say: &mut dyn FnMut(&str)) -> Result<Outcome, Erro
     let transitions = clock.step("critical friction", || search.all(&mut basis, &modes))?;
     let wanted = wanted(study, &modes, &transitions, damped);
     let shapes = clock.step("shapes", || shapes(&numbering, &basis, &slope, study, &modes, &wanted))?;
-    let modal = study.document.output.modal.then(|| modal(study, &basis, &slope, count)).transpose()?;
+    let modal = if study.document.output.modal {
+        let load = pressed.as_ref().map_or(0.0, |pressed| pressed.force);
+        Some(modal(study, &basis, [&slope, &per_slope], count, load)?)
+    } else {
+        None
+    };
     Ok(Outcome {
         unknowns: pencil.size(),
         points: pencil.slip.rows.len(),
@@ -261,16 +263,24 @@ fn shapes(
     Ok(found)
 }
 
-/// The problem on the space of the lowest modes at all coefficients of friction.
-fn modal(study: &Study, basis: &Basis, slope: &Rows, count: usize) -> Result<Modal, Error> {
+/// The problem on the space of the lowest modes at all coefficients of friction; `slope` is the study's, `per_slope` what 1 s/m would be.
+fn modal(
+    study: &Study,
+    basis: &Basis,
+    [slope, per_slope]: [&Rows; 2],
+    count: usize,
+    load: f64,
+) -> Result<Modal, Error> {
     let mut all = Vec::new();
     for mu in &study.mus {
         all.extend(pairs(&basis.at(*mu, slope))?.into_iter().take(count));
     }
-    let coordinates = directions(&all.iter().collect::<Vec<_>>())?;
-    let (symmetric, friction, slope) = basis.within(&coordinates, slope);
+    let most = study.document.output.vectors.unwrap_or(MOST);
+    let coordinates = directions(&all.iter().collect::<Vec<_>>(), most)?;
+    let (symmetric, friction, slope) = basis.within(&coordinates, per_slope);
     let mu = [study.mus[0], study.mus[study.mus.len() - 1]];
-    Ok(Modal { title: study.document.title.clone(), mu, modes: count, symmetric, friction, slope })
+    let title = study.document.title.clone();
+    Ok(Modal { title, mu, modes: count, symmetric, friction, slope, load, wedge: 0.0 })
 }
 
 /// The same mode with a largest component of 1.

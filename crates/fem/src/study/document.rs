@@ -251,6 +251,8 @@ pub struct Output {
     pub shapes_at: Vec<f64>,
     /// Whether the projected problem is written, as `modes.toml`.
     pub modal: bool,
+    /// How many vectors it has at most; none: as many as it may.
+    pub vectors: Option<usize>,
 }
 
 impl Document {

@@ -1,7 +1,7 @@
 //! `modes.toml`: the projected problem as a small model of its own.
 //!
-//! With x in the coordinates of n vectors, λ² (M + μ M_f) x + λ (C + μ C_f + p μ' D) x + (K + μ K_f) x = 0, where p μ' stands for the
-//! slope dμ/dV over that of the study.
+//! With x in the coordinates of n vectors, λ² (M + μ M_f) x + λ (C + μ C_f + p μ' D) x + (K + μ K_f) x = 0, where μ' is the slope
+//! dμ/dV and p the normal force over that of the study, which is N0/(1 + w μ).
 
 use std::fmt::Write as _;
 
@@ -12,9 +12,9 @@ use crate::Error;
 use crate::modes::{Pair, Small};
 
 /// The version of the format.
-const VERSION: u32 = 1;
-/// No more modes than this.
-const MOST: usize = 64;
+const VERSION: u32 = 2;
+/// No more vectors than this.
+pub(super) const MOST: usize = 64;
 
 /// A projected problem.
 #[derive(Debug, Clone)]
@@ -29,8 +29,12 @@ pub struct Modal {
     pub symmetric: [Mat<f64>; 3],
     /// K_f, M_f and C_f: what one unit of friction adds.
     pub friction: [Mat<f64>; 3],
-    /// D: what the slope of the study adds to C; zero where it has none.
+    /// D: what a slope dμ/dV of 1 s/m adds to C under the load; zero where nothing presses.
     pub slope: Mat<f64>,
+    /// N0: the sum of the normal forces without friction, N; 0 where nothing presses.
+    pub load: f64,
+    /// w: how much friction takes off the normal forces, which are N0/(1 + w μ).
+    pub wedge: f64,
 }
 
 impl Modal {
@@ -40,11 +44,11 @@ impl Modal {
         self.symmetric[0].nrows()
     }
 
-    /// The problem at a coefficient of friction, with this many times the slope of the study.
+    /// The problem at a coefficient of friction and a slope dμ/dV (s/m), under the load.
     #[must_use]
     pub fn at(&self, mu: f64, slope: f64) -> Small {
         let sum = |i: usize| &self.symmetric[i] + faer::Scale(mu) * &self.friction[i];
-        let damping = sum(2) + faer::Scale(slope) * &self.slope;
+        let damping = sum(2) + faer::Scale(slope / (1.0 + self.wedge * mu)) * &self.slope;
         let damped = damping.norm_max() > 0.0;
         Small { stiffness: sum(0), mass: sum(1), damping: damped.then_some(damping) }
     }
@@ -54,14 +58,18 @@ impl Modal {
     pub fn write(&self) -> Vec<u8> {
         let mut text = format!(
             "# A projected problem of finite elements: lambda^2 (mass + mu mass_friction) + lambda (damping + mu damping_friction + slope\n\
-             # damping_slope) + (stiffness + mu stiffness_friction), in SI units and coordinates in which shapes have a mass of 1 kg.\n\
-             kind = \"modal\"\nversion = {VERSION}\ntitle = {}\nmu = [{:e}, {:e}]\nmodes = {}\n",
+             # damping_slope/(1 + wedge mu)) + (stiffness + mu stiffness_friction), in SI units and coordinates in which shapes have a mass\n\
+             # of 1 kg; slope is d mu/d velocity, under the load. Matrices that are zero are left out.\n\
+             kind = \"modal\"\nversion = {VERSION}\ntitle = {}\nmu = [{:e}, {:e}]\nmodes = {}\nload = {:e}\nwedge = {:e}\n",
             toml::Value::String(self.title.clone()),
             self.mu[0],
             self.mu[1],
-            self.modes
+            self.modes,
+            self.load,
+            self.wedge
         );
-        for (name, matrix) in NAMES.iter().zip(self.matrices()) {
+        for (name, matrix) in NAMES.iter().zip(self.matrices()).filter(|(_, matrix)| matrix.norm_max() > 0.0)
+        {
             let _ = writeln!(text, "{name} = [");
             for i in 0..matrix.nrows() {
                 // The shortest digits that give the same number again.
@@ -82,7 +90,7 @@ impl Modal {
     ///
     /// # Errors
     /// What is no TOML or another kind or version of file; matrices that are not square, of different sizes, too large or with entries that
-    /// are no finite numbers; a stiffness or mass without friction that is not symmetric.
+    /// are no finite numbers; a stiffness or mass without friction that is not symmetric; a load below 0, no modes.
     pub fn read(text: &str) -> Result<Self, Error> {
         let file: File = super::document::parsed(text)?;
         if file.kind != "modal" {
@@ -101,9 +109,19 @@ impl Modal {
         if size == 0 || size > MOST {
             return Err(Error::at("stiffness", format!("there are {size} rows, it must be 1 to {MOST}")));
         }
+        if !(file.load >= 0.0 && file.load.is_finite() && file.wedge.is_finite()) {
+            let what = format!(
+                "the load is {} N and the wedge {}, they must be finite numbers, the load not below 0",
+                file.load, file.wedge
+            );
+            return Err(Error::at("load", what));
+        }
+        if file.modes == 0 {
+            return Err(Error::at("modes", "there are 0 modes, it must be 1 or more"));
+        }
         let rows = [
-            file.stiffness,
-            file.mass,
+            Some(file.stiffness),
+            Some(file.mass),
             file.damping,
             file.stiffness_friction,
             file.mass_friction,
@@ -112,6 +130,10 @@ impl Modal {
         ];
         let mut matrices = Vec::with_capacity(rows.len());
         for (name, rows) in NAMES.iter().zip(rows) {
+            let Some(rows) = rows else {
+                matrices.push(Mat::zeros(size, size));
+                continue;
+            };
             if let Some(wrong) =
                 std::iter::once(rows.len()).chain(rows.iter().map(Vec::len)).find(|n| *n != size)
             {
@@ -137,8 +159,8 @@ impl Modal {
         let Ok([k, m, c, kf, mf, cf, slope]) = <[Mat<f64>; 7]>::try_from(matrices) else {
             return Err(Error::at("stiffness", "a matrix is missing"));
         };
-        let (title, mu, modes) = (file.title, file.mu, file.modes);
-        Ok(Self { title, mu, modes, symmetric: [k, m, c], friction: [kf, mf, cf], slope })
+        let File { title, mu, modes, load, wedge, .. } = file;
+        Ok(Self { title, mu, modes, symmetric: [k, m, c], friction: [kf, mf, cf], slope, load, wedge })
     }
 }
 
@@ -164,20 +186,24 @@ struct File {
     title: String,
     mu: [f64; 2],
     modes: usize,
+    #[serde(default)]
+    load: f64,
+    #[serde(default)]
+    wedge: f64,
     stiffness: Vec<Vec<f64>>,
     mass: Vec<Vec<f64>>,
-    damping: Vec<Vec<f64>>,
-    stiffness_friction: Vec<Vec<f64>>,
-    mass_friction: Vec<Vec<f64>>,
-    damping_friction: Vec<Vec<f64>>,
-    damping_slope: Vec<Vec<f64>>,
+    damping: Option<Vec<Vec<f64>>>,
+    stiffness_friction: Option<Vec<Vec<f64>>>,
+    mass_friction: Option<Vec<Vec<f64>>>,
+    damping_friction: Option<Vec<Vec<f64>>>,
+    damping_slope: Option<Vec<Vec<f64>>>,
 }
 
-/// At most so many directions, orthonormal, that hold vectors best: the first left singular vectors of their real and imaginary parts.
+/// At most `most` directions, orthonormal, that hold vectors best: the first left singular vectors of their real and imaginary parts.
 ///
 /// # Errors
 /// Where the singular values do not converge.
-pub(super) fn directions(vectors: &[&Pair]) -> Result<Mat<f64>, Error> {
+pub(super) fn directions(vectors: &[&Pair], most: usize) -> Result<Mat<f64>, Error> {
     /// Directions that hold less of the vectors than this are rounding.
     const NOTHING: f64 = 1e-13;
     let size = vectors.first().map_or(0, |pair| pair.vector.len());
@@ -188,6 +214,6 @@ pub(super) fn directions(vectors: &[&Pair]) -> Result<Mat<f64>, Error> {
     })?;
     let values = svd.S().column_vector();
     let largest = if values.nrows() > 0 { values[0] } else { 0.0 };
-    let kept = values.iter().take(MOST).filter(|s| **s > NOTHING * largest).count();
+    let kept = values.iter().take(most).filter(|s| **s > NOTHING * largest).count();
     Ok(svd.U().subcols(0, kept).to_owned())
 }

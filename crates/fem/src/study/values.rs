@@ -1,6 +1,7 @@
 //! Numbers of a description: whether they are what they can be.
 
-use super::document::{Friction, Modes, Values};
+use super::document::{Friction, Modes, Output, Values};
+use super::modal::MOST as MOST_VECTORS;
 use crate::Error;
 
 /// Coefficients of friction, rising.
@@ -91,6 +92,22 @@ pub(super) fn check_modes(modes: &Modes) -> Result<(), Error> {
             "modes.residual",
             format!("the residual is {}, it must be above 0 and at most {WORST}", modes.residual),
         ));
+    }
+    Ok(())
+}
+
+/// Checks what is written.
+pub(super) fn check_output(output: &Output) -> Result<(), Error> {
+    if let Some(vectors) = output.vectors.filter(|vectors| !(1..=MOST_VECTORS).contains(vectors)) {
+        return Err(Error::at(
+            "output.vectors",
+            format!("there are {vectors} vectors, it must be 1 to {MOST_VECTORS}"),
+        ));
+    }
+    if output.vectors.is_some() && !output.modal {
+        let what =
+            "vectors are counted, but no projected problem is written: add modal = true or leave it out";
+        return Err(Error::at("output.vectors", what));
     }
     Ok(())
 }

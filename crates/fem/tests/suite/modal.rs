@@ -36,11 +36,15 @@ fn a_projected_problem_survives_its_file() {
         {
             assert_eq!(a, b);
         }
-        assert_eq!(modal.slope, again.slope);
-        assert_eq!(outcome.damped, modal.slope.norm_max() > 0.0);
+        assert_eq!((&modal.slope, modal.wedge), (&again.slope, again.wedge));
+        assert_eq!(modal.load.to_bits(), again.load.to_bits());
+        // A load presses, and its normal forces are its own.
+        let slope = if outcome.damped { -0.02 } else { 0.0 };
+        assert!(outcome.damped == (modal.slope.norm_max() > 0.0));
+        assert!((modal.load - if outcome.damped { 1700.0 } else { 0.0 }).abs() < 1e-6, "{}", modal.load);
         for i in [0, 5, 13, 25] {
             let mu = 0.02 * f64::from(i);
-            let found = pairs(&again.at(mu, 1.0)).expect("pairs");
+            let found = pairs(&again.at(mu, slope)).expect("pairs");
             for mode in &outcome.modes {
                 let lambda = mode.states[usize::try_from(i).expect("an index")].lambda;
                 let apart = found.iter().map(|p| (p.lambda - lambda).norm()).fold(f64::INFINITY, f64::min);
@@ -73,7 +77,7 @@ fn bad_files_of_modes_are_named() {
     let good = two_masses_file();
     for (old, new, wanted) in [
         ("kind = \"modal\"", "kind = \"map\"", "kind: \"map\" is another kind of file, it must be \"modal\""),
-        ("version = 1", "version = 2", "version: 2 is not known, it must be 1"),
+        ("version = 2", "version = 1", "version: 1 is not known, it must be 2: write the file again"),
         ("mass = [[", "mass = [[1.0], [", "mass: it has a row or column of 3 entries, where stiffness has 2"),
         (
             "stiffness = [[",
@@ -82,6 +86,12 @@ fn bad_files_of_modes_are_named() {
         ),
         ("damping = [[0.0, 0.0]", "damping = [[0.0, 1.0]", "damping: it differs from its transpose by 1e0"),
         ("damping_slope = [[0.0", "damping_slope = [[inf", "damping_slope: inf is no finite number"),
+        ("modes = 2", "modes = 0", "modes: there are 0 modes, it must be 1 or more"),
+        (
+            "modes = 2",
+            "modes = 2\nload = -1.0",
+            "load: the load is -1 N and the wedge 0, they must be finite numbers",
+        ),
         ("modes = 2", "modes = 2\nmasses = 2", "line 6: unknown field `masses`"),
     ] {
         assert!(good.contains(old), "{old}");
@@ -97,6 +107,8 @@ fn bad_files_of_modes_are_named() {
         symmetric: [large.clone(), large, zero()],
         friction: [zero(), zero(), zero()],
         slope: zero(),
+        load: 0.0,
+        wedge: 0.0,
     };
     let file = String::from_utf8(modal.write()).expect("UTF-8");
     let error = Modal::read(&file).map(drop).expect_err("too large").to_string();
@@ -109,9 +121,9 @@ fn two_masses_file() -> String {
     let (s, c) = 0.01_f64.sin_cos();
     let zero = "[[0.0, 0.0], [0.0, 0.0]]";
     format!(
-        "kind = \"modal\"\nversion = 1\ntitle = \"Two masses\"\nmu = [0.0, 1.0]\nmodes = 2\n\
+        "kind = \"modal\"\nversion = 2\ntitle = \"Two masses\"\nmu = [0.0, 1.0]\nmodes = 2\n\
          stiffness = [[{:e}, {:e}], [{:e}, {:e}]]\nmass = [[{:e}, 0.0], [0.0, {m1}]]\ndamping = {zero}\n\
-         stiffness_friction = [[{:e}, {:e}], [0.0, 0.0]]\nmass_friction = [[{:e}, 0.0], [0.0, 0.0]]\ndamping_friction = {zero}\n\
+         stiffness_friction = [[{:e}, {:e}], [0.0, 0.0]]\nmass_friction = [[{:e}, 0.0], [0.0, 0.0]]\n\
          damping_slope = {zero}\n",
         c * c * k1 + s * s * k2,
         -s * k2,
@@ -122,4 +134,54 @@ fn two_masses_file() -> String {
         c * k2,
         m1 * c * s
     )
+}
+
+/// A file of a study without a slope of friction has the eigenvalues of one with it: shapes hardly know of it.
+#[test]
+fn a_slope_needs_no_vectors_of_its_own() {
+    let pressed = PIN.replace("points = 26", "points = 6").replace(
+        "set = \"pin.z1\"\n",
+        "set = \"pin.z1\"\naxes = \"xy\"\n\n[[loads]]\nset = \"pin.z1\"\nforce = 1700.0\n",
+    );
+    let (_, flat) = modal(&format!("{pressed}\n[output]\nmodal = true\n"));
+    let (outcome, _) = modal(&format!(
+        "{}\n[output]\nmodal = true\n",
+        pressed.replace("points = 6 }", "points = 6 }\nslope = -0.05")
+    ));
+    let (mut grown, mut worst) = (0.0_f64, 0.0_f64);
+    for i in 0..6 {
+        let found = pairs(&flat.at(0.1 * f64::from(i), -0.05)).expect("pairs");
+        for mode in &outcome.modes {
+            let lambda = mode.states[usize::try_from(i).expect("an index")].lambda;
+            let apart = found.iter().map(|p| (p.lambda - lambda).norm()).fold(f64::INFINITY, f64::min);
+            worst = worst.max(apart / lambda.norm());
+            grown = grown.max(if i == 0 { lambda.re } else { 0.0 });
+        }
+    }
+    // Of the eigenvalue; a ten-thousandth of what this large slope makes it grow.
+    assert!(worst < 2e-5, "{worst:e}");
+    assert!(grown > 4000.0, "{grown}");
+}
+
+/// A study says how many vectors its file has at most.
+#[test]
+fn fewer_vectors_are_those_that_hold_most() {
+    let (outcome, few) = modal(&format!("{PIN}\n[output]\nmodal = true\nvectors = 16\n"));
+    assert_eq!(few.size(), 16);
+    for (i, mu) in [(0, 0.0), (10, 0.2), (25, 0.5)] {
+        let found = pairs(&few.at(mu, 0.0)).expect("pairs");
+        for mode in &outcome.modes {
+            let lambda = mode.states[i].lambda;
+            let apart = found.iter().map(|p| (p.lambda - lambda).norm()).fold(f64::INFINITY, f64::min);
+            assert!(apart < 1e-4 * lambda.norm(), "mu {mu}: {lambda} {apart:e}");
+        }
+    }
+    for (output, wanted) in [
+        ("modal = true\nvectors = 65", "output.vectors: there are 65 vectors, it must be 1 to 64"),
+        ("vectors = 8", "output.vectors: vectors are counted, but no projected problem is written"),
+    ] {
+        let document = Document::read(&format!("{PIN}\n[output]\n{output}\n")).expect("TOML");
+        let error = Study::new(document, &|_| Err(String::new())).map(drop).expect_err(output).to_string();
+        assert!(error.starts_with(wanted), "{error}");
+    }
 }

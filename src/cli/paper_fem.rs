@@ -1,0 +1,75 @@
+//! `squealmap paper --fem`: the source paper's finite-element model computed again.
+
+use std::path::{Path, PathBuf};
+
+use crate::cli::error::{Error, Result};
+use crate::cli::fem::text_of;
+use crate::cli::output::{Output, list};
+use crate::cli::pictures::png_of;
+use crate::cli::talk::{note, print};
+use squealmap::results::figure::look::Look;
+use squealmap::study::fem::{Curves, claims, mesh_svg, pictures_svg, report};
+use squealmap_fem::study::document::Document;
+use squealmap_fem::study::{Study, compute, table};
+
+/// The study.
+const STUDY: &str = include_str!("../../sweeps/fem/paper.toml");
+
+/// What stands on the command line for it.
+pub(super) const BUILT_IN: &str = "built-in";
+
+/// What is written.
+const FILES: [&str; 8] = [
+    "paper_fem.md",
+    "paper/figure16.csv",
+    "paper/figure15.png",
+    "paper/figure15.svg",
+    "paper/figure16.png",
+    "paper/figure16.svg",
+    "paper/figure17.png",
+    "paper/figure17.svg",
+];
+
+/// Where its figures stand, seen from the report.
+const FIGURES: &str = "paper";
+
+/// Computes a study, and writes figures and report into a directory.
+pub(crate) fn execute(output: PathBuf, path: &Path) -> Result<()> {
+    let other = Some(path).filter(|path| *path != Path::new(BUILT_IN));
+    let wrong = |why: String| Error::Fem { path: path.to_owned(), why };
+    let of_study = |why: squealmap_fem::Error| wrong(why.to_string());
+    let text = match other {
+        Some(path) => text_of(path).map_err(wrong)?,
+        None => STUDY.to_owned(),
+    };
+    let beside = path.parent().unwrap_or(Path::new("")).to_owned();
+    let document = Document::read(&text).map_err(of_study)?;
+    let study = Study::new(document, &|path| text_of(&beside.join(path))).map_err(of_study)?;
+    let mut command = format!("squealmap paper --fem -o {}", output.display());
+    if let Some(path) = other {
+        command = format!("squealmap paper --fem={} -o {}", path.display(), output.display());
+    }
+    let output = Output::prepare(output, &FILES)?;
+    let outcome = compute(&study, &mut |step| note(&format!("{step} ..."))).map_err(of_study)?;
+    for claim in claims(&study, &outcome) {
+        print(&format!("{}: {}\n", claim.says, claim.verdict.words()));
+    }
+    let look = Look::default();
+    let drawn = [
+        Some(mesh_svg(&study, &look)),
+        Curves::of(&study, &outcome).svg(&look),
+        pictures_svg(&study, &outcome, &look),
+    ];
+    let mut files = vec![
+        (FILES[0], report(&study, &outcome, FIGURES, &command).into_bytes()),
+        (FILES[1], table(&study, &outcome)),
+    ];
+    for (svg, names) in drawn.into_iter().zip(FILES[2..].chunks_exact(2)) {
+        if let Some(svg) = svg {
+            files.push((names[0], png_of(&svg)?));
+            files.push((names[1], svg.into_bytes()));
+        }
+    }
+    print(&list(&output.write(&files)?));
+    Ok(())
+}

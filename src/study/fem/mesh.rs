@@ -1,0 +1,103 @@
+//! `mesh.svg`: the mesh of a study with its parts, as Figure 15 of the paper.
+
+use squealmap_fem::output::{facets, isometric};
+use squealmap_fem::study::Study;
+
+use crate::results::figure::look::Look;
+use crate::study::fem::painting::{PIECE, Painting};
+use squealmap_figure::frame::LABEL_SIZE;
+use squealmap_figure::page::{MARGIN, SINGLE_COLUMN, title};
+use squealmap_figure::svg::{Anchor, Style, Svg, polyline};
+use squealmap_figure::text::Text;
+
+/// Height of the picture at most, points.
+const TALLEST: f64 = 260.0;
+/// Side of a sample of a colour, points.
+const SAMPLE: f64 = 8.0;
+/// Height of a line of words, points.
+const LINE: f64 = 11.0;
+/// Length of an axis, points.
+const AXIS: f64 = 20.0;
+/// The colours of parts, over and over: light, so that edges show.
+const COLOURS: [&str; 6] = ["#9FC5E8", "#F6C48B", "#A8D5B0", "#E3A9C0", "#D9D38C", "#C4B5E0"];
+/// An axis of the triad.
+const ARROW: &str = r##"fill="none" stroke="#000000" stroke-width="0.8""##;
+
+/// The mesh of a study as an SVG document.
+#[must_use]
+pub fn mesh_svg(study: &Study, look: &Look<'_>) -> String {
+    let mesh = &study.model.mesh;
+    // Nodes stand part by part; those that a merged bond shares are of the part before.
+    let parts = study.parts.iter().enumerate();
+    let mut of: Vec<f64> = parts.flat_map(|(k, (_, nodes, _))| vec![k as f64; *nodes]).collect();
+    of.resize(mesh.nodes.len(), 0.0);
+    let still = vec![[0.0; 3]; mesh.nodes.len()];
+    let painting = Painting::new(facets(mesh, &still, &of, &isometric(), PIECE * mesh.extent()));
+    let name = look.title(&study.document.title);
+    let name = if name.is_empty() { "Mesh" } else { name };
+    look.fitted(name, TALLEST, |part| page(study, &painting, look, part * TALLEST))
+}
+
+fn page(study: &Study, painting: &Painting, look: &Look<'_>, tallest: f64) -> (Svg, [f64; 2]) {
+    let width = look.points().unwrap_or(SINGLE_COLUMN);
+    let whole = width - 2.0 * MARGIN;
+    let mut svg = Svg::new();
+    let mut y = MARGIN + title(&mut svg, look.title(&study.document.title), whole);
+    let height = (whole / painting.aspect()).min(tallest);
+    painting.paint(&mut svg, [MARGIN, y, whole, height], |value| colour(value).to_owned());
+    // Below the lower left edge of whatever stands in the middle there is room.
+    triad(&mut svg, [MARGIN + AXIS, y + height - 0.6 * AXIS]);
+    y += height + 6.0;
+    let style = Style::new(LABEL_SIZE, Anchor::Start);
+    for (k, (name, nodes, elements)) in study.parts.iter().enumerate() {
+        svg.rect(
+            [MARGIN, y, SAMPLE, SAMPLE],
+            &format!(r##"fill="{}" stroke="#3A3A3A" stroke-width="0.4""##, colour(k as f64)),
+        );
+        let words = Text::from(format!("{}: {elements} elements, {nodes} nodes", name.replace('_', " ")));
+        svg.text(MARGIN + SAMPLE + 4.0, y + SAMPLE - 1.0, &words, style);
+        y += LINE;
+    }
+    if let Some(words) = sliding(study) {
+        svg.text(MARGIN, y + SAMPLE - 1.0, &Text::from(words), style);
+        y += LINE;
+    }
+    (svg, [width, y + MARGIN])
+}
+
+/// The colour of a part.
+fn colour(value: f64) -> &'static str {
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small number")]
+    let part = value.max(0.0).round() as usize;
+    COLOURS[part % COLOURS.len()]
+}
+
+/// The directions x, y and z.
+fn triad(svg: &mut Svg, [x, y]: [f64; 2]) {
+    let view = isometric();
+    for (k, name) in ["x", "y", "z"].into_iter().enumerate() {
+        let to = [view[0][k], -view[1][k]].map(|part| AXIS * part);
+        svg.path(&polyline([(x, y), (x + to[0], y + to[1])]), ARROW);
+        let beyond = 1.0 + 5.0 / AXIS / to[0].hypot(to[1]) * AXIS;
+        let [right, down] = to.map(|part| part * beyond);
+        let style = Style::new(LABEL_SIZE, Anchor::Middle);
+        svg.text(x + right, y + down + 0.35 * LABEL_SIZE, &Text::default().symbol(name), style);
+    }
+}
+
+/// Points of contact, and where along an axis they slide.
+fn sliding(study: &Study) -> Option<String> {
+    /// The cosine from which a direction is along an axis.
+    const ALONG: f64 = 0.999_999;
+    let contact = &study.model.contact;
+    let first = contact.first()?;
+    let mut along = ["x", "y", "z"].into_iter().zip(first.direction).filter(|(_, part)| part.abs() > ALONG);
+    let turns = study.document.sliding.iter().any(|one| one.axis.is_some());
+    let which = match along.next() {
+        Some((axis, part)) if !turns => {
+            format!(", sliding along {}{axis}", if part < 0.0 { "−" } else { "" })
+        }
+        _ => String::new(),
+    };
+    Some(format!("{} points of contact{which}", contact.len()))
+}
