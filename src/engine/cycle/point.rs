@@ -36,10 +36,13 @@ pub enum Freedom {
 }
 
 impl Freedom {
-    /// Those of a point; `single` says that `x2` alone moves, and `open` is the contact state of flight.
+    /// Those of a point. Where the contact is `upright`, without inclination, nothing moves `y1` that rests; `open` is the contact
+    /// state of flight.
     #[must_use]
-    pub fn of(point: &Point, single: bool, open: u32) -> Freedom {
-        match (single, point.contact == open) {
+    pub fn of(point: &Point, upright: bool, open: u32) -> Freedom {
+        let ([_, y2, y1], [_, vy2, vy1]) = (point.position, point.velocity);
+        let rests = [y2, y1, vy2, vy1].iter().all(|value| *value == 0.0);
+        match (upright && rests, point.contact == open) {
             (true, _) => Freedom::Single,
             (false, false) => Freedom::Closed,
             (false, true) => Freedom::Open,

@@ -86,7 +86,9 @@ impl<'a> Hunts<'a> {
         let mut hunts: Vec<(usize, Hunt)> = Vec::new();
         for (at, transient) in prey.iter().zip(transients) {
             let Some(returns) = transient else { continue };
-            let freedom = Freedom::of(&returns[returns.len() - 1].point, self.single, FREE);
+            // Each its own way, whatever its neighbours are.
+            let upright = jobs[*at].scene.model.s == 0.0;
+            let freedom = Freedom::of(&returns[returns.len() - 1].point, upright, FREE);
             let (now, belt) = (jobs[*at].time, jobs[*at].scene.belt(0.0).velocity);
             let hunt = self.runs[*at].pursuit.begin(returns, freedom, now, belt);
             hunts.extend(hunt.map(|hunt| (*at, hunt)));

@@ -1,7 +1,7 @@
 //! The reference looks for the cycle of one run.
 
 use crate::engine::cycle::candidate::Cycle;
-use crate::engine::cycle::point::{Freedom, Point, Return};
+use crate::engine::cycle::point::{Freedom, Return};
 use crate::engine::cycle::pursuit::{GROWS, Pursuit};
 use crate::engine::measuring::Measuring;
 use crate::engine::outcome::Outcome;
@@ -95,7 +95,7 @@ impl<'a> Chase<'a> {
     fn cycle(&mut self, transient: &[Return], integrator: &Integrator) -> Option<Cycle> {
         let here = transient.last()?.point;
         let (now, belt) = (integrator.time(), self.scene.belt(0.0).velocity);
-        let freedom = Freedom::of(&here, self.is_single(&here), ContactState::Free as u32);
+        let freedom = Freedom::of(&here, self.scene.model.s == 0.0, ContactState::Free as u32);
         if let Some(mut hunt) = self.pursuit.begin(transient, freedom, now, belt) {
             let mut next = hunt.request();
             while let Some((points, count)) = self.pursuit.take(next) {
@@ -148,11 +148,5 @@ impl<'a> Chase<'a> {
         }
         let outcome = outcome.on_cycle(cycle, integrator.time(), &self.scene.units);
         Ok(Some(Outcome { energy_gaining_impacts: Some(gains.0), ..outcome }))
-    }
-
-    /// Whether `x2` alone moves.
-    fn is_single(&self, point: &Point) -> bool {
-        let ([_, y2, y1], [_, vy2, vy1]) = (point.position, point.velocity);
-        self.scene.model.s == 0.0 && [y2, y1, vy2, vy1].iter().all(|value| *value == 0.0)
     }
 }

@@ -242,7 +242,7 @@ fn drawn(count: usize) -> Vec<Instance> {
             let mut draw = |low: f64, high: f64| low + (high - low) * u.next();
             let (mu_s, mu_d, belt) = (draw(0.02, 0.6), draw(0.02, 0.6), draw(0.5, 6.0));
             let mut one = paper(mu_s, mu_d, belt);
-            one.params.set(Param::Theta, draw(-0.05, 0.05));
+            one.params.set(Param::Theta, if k % 6 == 5 { 0.0 } else { draw(-0.05, 0.05) });
             one.params.set(Param::Restitution, draw(-0.5, 0.8).max(0.0));
             kicked(one, if k % 2 == 0 { 0.05 * belt } else { belt * draw(0.8, 1.5) })
         })
