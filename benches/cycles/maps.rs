@@ -46,9 +46,9 @@ impl Map {
         [auto, Plan { settle: FIRST_HUNT, hunts: true, ..auto }]
     }
 
-    /// How its instances start.
+    /// A run of a fixed time that judges others: in steps so fine that its own error does not count.
     pub(crate) fn fixed(&self, settle: Duration, measure: Duration) -> Plan {
-        Plan { settle, settle_limit: None, hunts: false, measure, ..self.plan }
+        Plan { settle, settle_limit: None, hunts: false, measure, steps_per_period: 24, ..self.plan }
     }
 }
 

@@ -22,6 +22,9 @@ const AFAR: f64 = 0.05;
 /// directions, one way or the other.
 const TURNED: f64 = std::f64::consts::PI;
 
+/// The slowest part shows in a distance where it is no smaller than this part of it.
+const SHOWS: f64 = 0.05;
+
 /// Multipliers below this one are forgotten so soon that no rate is measured.
 const SLOW: f64 = 0.5;
 
@@ -52,6 +55,27 @@ impl Approach {
         self.slowest
     }
 
+    /// The distance after one more return.
+    #[must_use]
+    pub fn next(&self, distance: &DVector<f64>) -> DVector<f64> {
+        &self.jacobian * distance
+    }
+
+    /// Whether a distance becomes another about as the linear map has it, and what is left of it longest decays.
+    #[must_use]
+    pub fn predicts(&self, before: &DVector<f64>, after: &DVector<f64>) -> bool {
+        let off = (after - self.next(before)).norm();
+        let [first, last] = [before, after].map(|distance| self.part(distance));
+        let slow = first >= SHOWS * before.norm() && self.slowest.norm() > SLOW;
+        let rate = (first / last).ln();
+        off <= OFF * before.norm() && (!slow || rate >= -RATES[0] * self.slowest.norm().ln())
+    }
+
+    /// The part of the slowest multiplier in a distance.
+    fn part(&self, distance: &DVector<f64>) -> f64 {
+        self.left.dot(&distance.map(Complex64::from)).norm()
+    }
+
     /// Whether the distances from the fixed point, the last one first, fall as they should. `since` are the returns that were
     /// made since the distances of the last call began; `size` is the size of the motion.
     #[must_use]
@@ -69,7 +93,7 @@ impl Approach {
         };
         let multiplier = self.slowest.norm();
         let seen = (within(OFF.min(CLOSELY * (1.0 - multiplier))), within(OFF));
-        let part = |distance: &DVector<f64>| self.left.dot(&distance.map(Complex64::from)).norm();
+        let part = |distance: &DVector<f64>| self.part(distance);
         let (begun, so_far) = match self.first {
             Some((part, before)) if seen.1 => (part, before + since),
             _ => (part(first), 0.0),

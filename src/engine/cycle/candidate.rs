@@ -11,6 +11,15 @@ const CLOSES: f64 = 1e-9;
 /// A transient farther off than this part of the size of the motion goes elsewhere.
 const ELSEWHERE: f64 = 0.3;
 
+/// What is closer than this part of the size of the motion has no way to go.
+const CLOSE: f64 = 1e-4;
+
+/// The way is looked at where the distance is largest, and where it has fallen to these parts of that.
+const PARTS: [f64; 4] = [1.0, 0.5, 0.2, 0.05];
+
+/// Returns to the farthest of them, at most.
+const LONGEST_WAY: usize = 100_000;
+
 /// A cycle: a fixed point of the return map.
 #[derive(Clone, Debug)]
 pub struct Cycle {
@@ -68,8 +77,8 @@ impl Candidate {
         let alike = transient.iter().rev().zip(self.orders.iter().rev().cycle());
         // The first return began somewhere else.
         let alike = alike.take(transient.len() - 1).all(|(at, order)| at.order.to_bits() == order.to_bits());
-        let fixed = DVector::from_vec(self.cycle.start.coordinates(self.freedom));
-        let distance = |at: &Return| DVector::from_vec(at.point.coordinates(self.freedom)) - &fixed;
+        let fixed = self.vector(&self.cycle.start);
+        let distance = |at: &Return| self.vector(&at.point) - &fixed;
         let distances: Vec<_> = transient.iter().rev().step_by(returns).map(distance).collect();
         if !alike || distances.iter().any(|distance| distance.amax() > ELSEWHERE * self.size) {
             return Course::Elsewhere;
@@ -77,5 +86,60 @@ impl Candidate {
         let since = (now - self.seen) / self.cycle.period;
         self.seen = now;
         if self.approach.is_seen(&distances, since, self.size) { Course::Comes } else { Course::Near }
+    }
+
+    /// Points on the way of a transient from here to the cycle, as its linear map has it. On the way the distance may grow before
+    /// it falls, and the motion may meet what it has not met yet: a border between contact states, or a bend of the map. None
+    /// where it is there.
+    #[must_use]
+    pub fn way(&self, transient: &[Return]) -> Vec<Point> {
+        let Some(last) = transient.last() else { return Vec::new() };
+        let fixed = self.vector(&self.cycle.start);
+        let begun = self.vector(&last.point) - &fixed;
+        if begun.amax() <= CLOSE * self.size {
+            return Vec::new();
+        }
+        let mut farthest = begun.clone();
+        let mut distance = begun;
+        for _ in 0..LONGEST_WAY {
+            distance = self.approach.next(&distance);
+            if distance.norm() > farthest.norm() {
+                farthest.copy_from(&distance);
+            } else if distance.norm() < PARTS[PARTS.len() - 1] * farthest.norm() {
+                break;
+            }
+        }
+        let whole = farthest.norm();
+        let mut points = Vec::with_capacity(PARTS.len());
+        let mut distance = farthest;
+        for part in PARTS {
+            let mut steps = 0;
+            while distance.norm() > part * whole && steps < LONGEST_WAY {
+                distance = self.approach.next(&distance);
+                steps += 1;
+            }
+            points.push(self.cycle.start.with((&fixed + &distance).as_slice()));
+        }
+        points
+    }
+
+    /// Whether the returns of those points show that nothing stands in the way.
+    #[must_use]
+    pub fn is_open(&self, points: &[Point], flown: &[Option<&[Return]>]) -> bool {
+        let fixed = self.vector(&self.cycle.start);
+        points.iter().zip(flown).all(|(point, returns)| {
+            let Some(returns) = returns else { return false };
+            let same = returns
+                .iter()
+                .map(|at| at.order.to_bits())
+                .eq(self.orders.iter().map(|order| order.to_bits()));
+            let Some(end) = returns.last().filter(|_| same && point.position[1] >= 0.0) else { return false };
+            let (before, after) = (self.vector(point) - &fixed, self.vector(&end.point) - &fixed);
+            self.approach.predicts(&before, &after)
+        })
+    }
+
+    fn vector(&self, point: &Point) -> DVector<f64> {
+        DVector::from_vec(point.coordinates(self.freedom))
     }
 }

@@ -100,10 +100,19 @@ impl Pursuit {
         None
     }
 
-    /// The cycle, where the returns of a transient up to the scaled time `now` show that it comes to it.
-    pub fn arrives(&mut self, transient: &[Return], now: f64) -> Option<Cycle> {
+    /// Where the returns of a transient up to the scaled time `now` show that it comes to its cycle: points on the way there, to
+    /// be followed for so many returns.
+    pub fn way(&mut self, transient: &[Return], now: f64) -> Option<(Vec<Point>, usize)> {
         let candidate = self.candidate.as_mut()?;
-        (candidate.course(transient, now) == Course::Comes).then(|| candidate.cycle.clone())
+        let comes = candidate.course(transient, now) == Course::Comes;
+        comes.then(|| (candidate.way(transient), candidate.cycle.returns))
+    }
+
+    /// The cycle, where the returns of the points on the way to it show that the way is open.
+    #[must_use]
+    pub fn arrives(&self, points: &[Point], flown: &[Option<&[Return]>]) -> Option<Cycle> {
+        let candidate = self.candidate.as_ref()?;
+        candidate.is_open(points, flown).then(|| candidate.cycle.clone())
     }
 
     /// The scaled time to wait after a hunt that has found nothing.

@@ -2,7 +2,7 @@
 
 use crate::engine::cycle::candidate::Cycle;
 use crate::engine::cycle::hunt::Hunt;
-use crate::engine::cycle::point::{Freedom, Return};
+use crate::engine::cycle::point::{Freedom, Point, Return};
 use crate::engine::cycle::pursuit::{GROWS, Pursuit, STEPS_PER_PERIOD, TOLERANCE};
 use crate::engine::kernel::contact::State;
 use crate::engine::kernel::scalar::Real;
@@ -94,9 +94,24 @@ impl<'a> Hunts<'a> {
             hunts.extend(hunt.map(|hunt| (*at, hunt)));
         }
         self.hunt_down(hunts);
-        prey.iter()
-            .zip(transients)
-            .map(|(at, transient)| self.runs[*at].pursuit.arrives(transient.as_ref()?, jobs[*at].time))
+        let ways = prey.iter().zip(transients).map(|(at, transient)| {
+            let way = self.runs[*at].pursuit.way(transient.as_ref()?, jobs[*at].time);
+            way.map(|(points, returns)| (*at, points, returns))
+        });
+        let ways: Vec<Option<(usize, Vec<Point>, usize)>> = ways.collect();
+        let asked: Vec<_> = ways
+            .iter()
+            .flatten()
+            .map(|(at, points, returns)| (*at, points.iter().map(state_at).collect(), *returns))
+            .collect();
+        let mut flown = self.fly(&asked).into_iter();
+        ways.into_iter()
+            .map(|way| {
+                let (at, points, _) = way?;
+                let flights = flown.next()?;
+                let returns: Vec<_> = flights.iter().map(Job::returned).collect();
+                self.runs[at].pursuit.arrives(&points, &returns)
+            })
             .collect()
     }
 

@@ -104,7 +104,10 @@ impl<'a> Chase<'a> {
                 next = hunt.take(flown.as_deref());
             }
         }
-        self.pursuit.arrives(transient, now)
+        let (points, count) = self.pursuit.way(transient, now)?;
+        let flown: Vec<_> = points.iter().map(|point| self.fly(integrator.at(point), count)).collect();
+        let flown: Vec<_> = flown.iter().map(Option::as_deref).collect();
+        self.pursuit.arrives(&points, &flown)
     }
 
     fn fly(&mut self, mut integrator: Integrator, count: usize) -> Option<Vec<Return>> {
