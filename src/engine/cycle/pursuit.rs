@@ -10,16 +10,16 @@ use crate::engine::cycle::point::{Freedom, Point, Return};
 const FIRST_WAIT: f64 = 2.0;
 
 /// Hunts after which the time between them is doubled.
-const DOUBLES_AFTER: u32 = 10;
+const DOUBLES_AFTER: u32 = 5;
 
 /// Hunts of a run.
-const MOST_HUNTS: u32 = 36;
+const MOST_HUNTS: u32 = 24;
 
 /// Unstable cycles that a run may be found next to: about one it may turn for long.
 const MOST_UNSTABLE: u32 = 12;
 
 /// Hunts before those that look for cycles of several returns.
-const FAR_FROM: u32 = 18;
+const FAR_FROM: u32 = 12;
 
 /// Returns of the transient that are looked at, in the first hunts.
 const FEW: usize = 5;
