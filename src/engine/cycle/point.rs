@@ -1,5 +1,8 @@
 //! Points where `ẋ2` rises through zero.
 
+/// What the number of an order is multiplied by from event to event: it keeps the last dozens of them.
+pub const FORGETS: f64 = 0.618_033_988_749_894_8;
+
 /// A point of the section; scaled, deviations from the equilibrium.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Point {

@@ -2,6 +2,7 @@
 
 use pulp::Simd;
 
+use crate::engine::cycle::point::FORGETS;
 use crate::engine::lanes::expand::Expansion;
 use crate::engine::lanes::observe::{Sums, change};
 use crate::engine::lanes::polynomial::{soon_to, value_soon};
@@ -10,9 +11,6 @@ use crate::engine::lanes::vector::Vector;
 
 /// Steps of Newton's method from the straight line, each of which doubles the digits.
 const REFINEMENTS: usize = 7;
-
-/// What the number of an order is multiplied by from event to event: it keeps the last dozens of them.
-const FORGETS: f64 = 0.618_033_988_749_894_8;
 
 /// Ends the steps of lanes that reach the section before `at`, without the event there; `before` is `ẋ2` at the start.
 #[inline(always)]

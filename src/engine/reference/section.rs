@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::engine::cycle::point::{Point, Return};
+use crate::engine::cycle::point::{FORGETS, Point, Return};
 use crate::engine::cycle::pursuit::LONGEST_RETURN;
 use crate::engine::method::roots::upward_crossings;
 use crate::engine::method::taylor::{State, X2};
@@ -15,9 +15,6 @@ use crate::model::status::Status;
 
 /// The section is looked for in parts of this length.
 const PART: f64 = TAU / 16.0;
-
-/// What the number of an order is multiplied by from event to event.
-const FORGETS: f64 = 0.618_033_988_749_894_8;
 
 /// Watches for the first rise of `ẋ2` through zero within a step, and for the events before.
 #[derive(Clone, Copy, Debug, Default)]
