@@ -61,6 +61,7 @@ fn tile(bytes: &[u8]) {
         response: first & 2 != 0,
         until_settled: first & 4 != 0,
         checked: first & 8 != 0,
+        finds_cycles: first & 0x80 != 0,
         starts,
     };
     let label =
