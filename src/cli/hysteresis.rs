@@ -13,14 +13,17 @@ use squealmap::model::status::Status;
 use squealmap::model::{PARAMS, Param, Section};
 use squealmap::results::figure::heading::Heading;
 use squealmap::results::figure::look::Look;
+use squealmap::study::cycles::branch::{Branch, BranchPoint};
 use squealmap::study::hysteresis::follow::{Direction, Hysteresis};
-use squealmap::study::hysteresis::table::{document, hysteresis_csv, hysteresis_svg};
+use squealmap::study::hysteresis::table::{cycles_csv, document, hysteresis_csv, hysteresis_svg};
 use squealmap::sweep::grid::spaced;
 use squealmap::sweep::spec::Spec;
 use squealmap::sweep::spec::names::advice;
+use squealmap_input::quote::rounded;
 
 /// The files that are written.
-const FILES: [&str; 4] = ["hysteresis.csv", "hysteresis.json", "hysteresis.png", "hysteresis.svg"];
+const FILES: [&str; 5] =
+    ["cycles.csv", "hysteresis.csv", "hysteresis.json", "hysteresis.png", "hysteresis.svg"];
 
 /// A parameter and its lowest and highest value.
 #[derive(Clone, Copy, Debug)]
@@ -87,10 +90,11 @@ pub(crate) fn execute(spec: &Spec, files: &Files, at: &str, range: &Range, point
     let heading = Heading::new(&spec.title, at);
     let svg = hysteresis_svg(&found, &heading, &Look::default());
     let files = [
-        (FILES[0], hysteresis_csv(spec, &found)?),
-        (FILES[1], document(&found, &heading)?),
-        (FILES[2], png_of(&svg)?),
-        (FILES[3], svg.into_bytes()),
+        (FILES[0], cycles_csv(spec, &found)?),
+        (FILES[1], hysteresis_csv(spec, &found)?),
+        (FILES[2], document(&found, &heading)?),
+        (FILES[3], png_of(&svg)?),
+        (FILES[4], svg.into_bytes()),
     ];
     let paths = output.write(&files)?;
     let branches = Direction::ALL.map(|direction| {
@@ -122,6 +126,7 @@ pub(crate) fn execute(spec: &Spec, files: &Files, at: &str, range: &Range, point
     } else {
         format!("the branches end differently from {}\n", apart.join(", "))
     };
+    let cycles: String = found.cycles.iter().map(|branch| said(branch, name)).collect();
     let stays = Direction::ALL.iter().all(|direction| found.jumps(*direction).is_empty());
     let hint = if stays && found.apart().is_empty() {
         "no branch leaves the state in which it begins: inside a bistable band the other one is never met; \
@@ -142,8 +147,22 @@ pub(crate) fn execute(spec: &Spec, files: &Files, at: &str, range: &Range, point
         note(&format!("error: no value has a result: {told}"));
         return Ok(ExitCode::FAILURE);
     }
-    print(&format!("{}{apart}{hint}{warning}{failures}{}", branches.concat(), list(&paths)));
+    print(&format!("{}{apart}{cycles}{hint}{warning}{failures}{}", branches.concat(), list(&paths)));
     Ok(ExitCode::SUCCESS)
+}
+
+/// A sentence on a branch of cycles: where it is stable, and what is special about it.
+fn said(branch: &Branch, name: &str) -> String {
+    let special: Vec<String> = branch
+        .points
+        .iter()
+        .filter_map(|point| Some((point.special?, point.value)))
+        .map(|(special, value)| format!("{} at {value:.9}", special.name()))
+        .collect();
+    let special = if special.is_empty() { String::new() } else { format!(": {}", special.join(", ")) };
+    let end = |end: Option<&BranchPoint>| end.map_or(f64::NAN, |end| rounded(end.value));
+    let (from, to) = (end(branch.points.first()), end(branch.points.last()));
+    format!("a branch of cycles from {name} = {from} to {to}{special}\n")
 }
 
 /// A value without the rounding of its place on an axis.

@@ -5,6 +5,7 @@
 //! | eigenvalues along an axis | [`modes`] |
 //! | one instance over time | [`trace`] |
 //! | a cycle while a parameter rises and falls | [`hysteresis`] |
+//! | branches of cycles, stable and unstable | [`cycles`] |
 //! | speed against error | [`tradeoff`] |
 //! | measured friction as a material | [`fit`] |
 //! | measured signals | [`identify`] |
@@ -20,6 +21,7 @@ pub use kind::Kind;
 #[cfg(all(feature = "figures", feature = "identify"))]
 pub use picture::Picture;
 
+pub mod cycles;
 pub mod error;
 #[cfg(feature = "figures")]
 pub mod fem;

@@ -25,7 +25,7 @@ const FAR_FROM: u32 = 12;
 const FEW: usize = 5;
 
 /// And in later ones, which look for cycles of several returns.
-const MANY: usize = 17;
+pub const MANY: usize = 17;
 
 /// A motion smaller than this part of what the belt moves in `1/ω0` is no cycle: it has decayed to rounding.
 const SMALLEST: f64 = 1e-6;

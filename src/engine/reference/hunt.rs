@@ -6,10 +6,9 @@ use crate::engine::cycle::pursuit::{GROWS, Pursuit};
 use crate::engine::measuring::Measuring;
 use crate::engine::outcome::Outcome;
 use crate::engine::plan::Plan;
-use crate::engine::reductions::End;
 use crate::engine::reference::integrate::Integrator;
-use crate::engine::reference::observe::{EnergyGains, Growth, Window};
-use crate::engine::reference::phase::phase;
+use crate::engine::reference::observe::{EnergyGains, Growth};
+use crate::engine::reference::round::round;
 use crate::engine::reference::section::returns;
 use crate::engine::scene::Scene;
 use crate::model::contact::ContactState;
@@ -127,29 +126,7 @@ impl<'a> Chase<'a> {
         gains: EnergyGains,
     ) -> Result<Option<Outcome>, Status> {
         let start = integrator.at(&cycle.start);
-        let mut round = start.clone();
-        let half = 0.5 * cycle.period;
-        let mut window = Window::default();
-        for part in 0..2 {
-            window.half = part;
-            self.scene.advance(&mut round, half, &mut window)?;
-        }
-        let state = round.state();
-        if !cycle.closes(state.position, state.velocity) {
-            return Ok(None);
-        }
-        let mut seen = window.reductions(growth);
-        seen.close_period([start.time(), round.time()]);
-        if let Some(frequency) = seen.frequency() {
-            seen.phase = phase(self.scene, start, frequency, &seen, half)?;
-        }
-        let time = round.time() + cycle.period + self.flown.1;
-        let steps = integrator.steps() + self.flown.0 + 2 * (round.steps() - integrator.steps());
-        let outcome = seen.outcome(self.scene, self.plan, &End { status: Status::Ok, steps, time });
-        if outcome.status != Status::Ok {
-            return Err(outcome.status);
-        }
-        let outcome = outcome.on_cycle(cycle, integrator.time(), &self.scene.units);
-        Ok(Some(Outcome { energy_gaining_impacts: Some(gains.0), ..outcome }))
+        let outcome = round(self.scene, self.plan, start, cycle, growth, self.flown)?;
+        Ok(outcome.map(|outcome| Outcome { energy_gaining_impacts: Some(gains.0), ..outcome }))
     }
 }

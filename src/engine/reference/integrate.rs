@@ -44,7 +44,7 @@ pub struct Integrator<'a> {
 }
 
 impl<'a> Integrator<'a> {
-    /// Starts at `state` (deviations from the equilibrium, `y2 = ẏ2 = 0`) on the belt `belt`.
+    /// Starts at `state` (deviations from the equilibrium) on the belt `belt`: in flight where there is a gap.
     ///
     /// # Errors
     /// [`Status::Painleve`] when the first slip has `M11 ≤ 0`.
@@ -71,7 +71,9 @@ impl<'a> Integrator<'a> {
             steps_in_period: 0,
             period_end: std::f64::consts::TAU,
         };
-        integrator.enter_contact(belt)?;
+        if integrator.state.position[1] <= 0.0 {
+            integrator.enter_contact(belt)?;
+        }
         Ok(integrator)
     }
 

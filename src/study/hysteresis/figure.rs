@@ -7,6 +7,7 @@ use crate::model::kind::InstabilityType;
 use crate::results::figure::heading::Heading;
 use crate::results::figure::look::Look;
 use crate::results::figure::picture_axis::{Direction as Along, PictureAxis};
+use crate::study::hysteresis::cycles;
 use crate::study::hysteresis::follow::{Direction, Hysteresis};
 use crate::sweep::grid::{Axis, Grid};
 use squealmap_figure::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room};
@@ -70,6 +71,7 @@ fn draw(hysteresis: &Hysteresis, heading: &Heading, look: &Look<'_>, height: f64
     let largest = Direction::ALL
         .iter()
         .flat_map(|direction| hysteresis.branch(*direction).iter().map(amplitude))
+        .chain(hysteresis.cycles.iter().flat_map(|branch| branch.points.iter().map(cycles::amplitude)))
         .filter(|amplitude| amplitude.is_finite())
         .fold(0.0, f64::max);
     let (factor, unit) = if largest < METRES { (1e3, "mm") } else { (1.0, "m") };
@@ -87,6 +89,7 @@ fn draw(hysteresis: &Hysteresis, heading: &Heading, look: &Look<'_>, height: f64
     let plot = Plot { frame, x: &x, y: &y };
     both(&mut svg, hysteresis, &plot);
     equilibrium(&mut svg, hysteresis, &plot);
+    cycles::draw(&mut svg, &hysteresis.cycles, &plot, factor);
     for (direction, (stroke, mark)) in Direction::ALL.into_iter().zip([FIRST, SECOND].into_iter().zip(MARKS))
     {
         let points: Vec<(f64, f64)> = hysteresis
@@ -224,11 +227,18 @@ fn legend(svg: &mut Svg, hysteresis: &Hysteresis, [left, top]: [f64; 2], width: 
         svg.path(&triangle(direction, at), MARKS[direction as usize]);
     }
     let stable = stable(hysteresis);
-    let lines = [(true, "stable equilibrium"), (false, "unstable equilibrium")].into_iter().zip(EQUILIBRIUM);
+    let is_at_rest = stable.contains(&Some(true));
+    let of_both = if is_at_rest && cycles::are_stable(&hysteresis.cycles) {
+        "stable equilibrium, stable cycle"
+    } else {
+        "stable equilibrium"
+    };
+    let lines = [(true, of_both), (false, "unstable equilibrium")].into_iter().zip(EQUILIBRIUM);
     let mut entries: Vec<(Text, Sample<'_>)> = lines
         .filter(|((wanted, _), _)| stable.contains(&Some(*wanted)))
         .map(|((_, words), stroke)| (Text::from(words), Sample::Line(stroke)))
         .collect();
+    entries.extend(cycles::entries(&hysteresis.cycles, is_at_rest));
     if hysteresis.bistable().contains(&Some(true)) {
         entries.push((Text::from("bistable"), Sample::Area(BOTH)));
     }

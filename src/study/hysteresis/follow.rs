@@ -9,10 +9,13 @@ use crate::engine::method::taylor::State;
 use crate::engine::outcome::Outcome;
 use crate::engine::plan::Plan;
 use crate::engine::record::{Attractor, Record, apart, differ};
+use crate::engine::reference::orbit::cycle_near;
 use crate::engine::reference::respond::respond_in;
 use crate::engine::scene::Scene;
 use crate::model::Param;
 use crate::model::instance::Instance;
+use crate::study::cycles::branch::Branch;
+use crate::study::cycles::map::fine;
 use crate::sweep::grid::{Axis, AxisKey, Grid, Value};
 
 /// A branch jumps from one cycle to another where its amplitude changes so many times as fast as beside it.
@@ -57,6 +60,8 @@ pub struct Hysteresis {
     pub up: Vec<Record>,
     /// The records on the way down, one for each value, in the order of `values` too.
     pub down: Vec<Record>,
+    /// The branches of the cycles that were met, with their unstable parts.
+    pub cycles: Vec<Branch>,
 }
 
 impl Hysteresis {
@@ -71,16 +76,34 @@ impl Hysteresis {
         instance: impl Fn(f64) -> Result<Instance, E>,
     ) -> Result<Hysteresis, E> {
         let instances = values.iter().map(|value| instance(*value)).collect::<Result<Vec<_>, E>>()?;
-        let mut state = None;
-        let mut next = |instance: &Instance| {
-            let record;
-            (record, state) = step(instance, plan, state.take());
-            record
-        };
-        let up = instances.iter().map(&mut next).collect();
-        let mut down: Vec<Record> = instances.iter().rev().map(next).collect();
+        let (mut up, mut down, mut met) = (Vec::new(), Vec::new(), Vec::new());
+        let mut motion = None;
+        for direction in Direction::ALL {
+            let branch = if direction == Direction::Up { &mut up } else { &mut down };
+            for at in direction.order(values.len()) {
+                let record;
+                (record, motion) = step(&instances[at], plan, motion.take());
+                let x2_std = record.outcome.as_ref().and_then(|outcome| outcome.x2_std);
+                if Attractor::of(&record, record.kind) == Some(Attractor::Oscillation) {
+                    met.extend(motion.zip(x2_std).map(|(motion, x2_std)| (at, motion, x2_std)));
+                }
+                branch.push(record);
+            }
+        }
         down.reverse();
-        Ok(Hysteresis { param, values, up, down })
+        let mut cycles: Vec<Branch> = Vec::new();
+        let range = [values[0], values[values.len() - 1]];
+        let plan = &fine(plan);
+        for (at, motion, x2_std) in met {
+            if cycles.iter().any(|branch| branch.holds(values[at], x2_std)) {
+                continue;
+            }
+            let Ok(scene) = Scene::planned(&instances[at], plan) else { continue };
+            let Some((cycle, freedom)) = cycle_near(&scene, plan, motion.state(&scene)) else { continue };
+            let of_value = |value: f64| instance(value).ok();
+            cycles.extend(Branch::about(&of_value, plan, range, values[at], (&cycle, freedom)));
+        }
+        Ok(Hysteresis { param, values, up, down, cycles })
     }
 
     /// The records of a direction, in the order of `values`.
@@ -184,14 +207,22 @@ impl Motion {
         Motion { position, velocity: state.velocity.map(|speed| speed * scene.units.velocity) }
     }
 
-    /// The state in the scales of an instance, its own start added as a disturbance.
-    fn disturbed(self, scene: &Scene) -> State {
+    /// The state in the scales of an instance.
+    fn state(self, scene: &Scene) -> State {
         let [x2, y2, y1] = self.position;
         let about = [x2 - scene.equilibrium.x2, y2, y1 - scene.equilibrium.y1];
-        let start = scene.start();
         State {
-            position: std::array::from_fn(|k| about[k] / scene.units.length + start.position[k]),
-            velocity: std::array::from_fn(|k| self.velocity[k] / scene.units.velocity + start.velocity[k]),
+            position: about.map(|length| length / scene.units.length),
+            velocity: self.velocity.map(|speed| speed / scene.units.velocity),
+        }
+    }
+
+    /// The same, the start of the instance added as a disturbance.
+    fn disturbed(self, scene: &Scene) -> State {
+        let (state, start) = (self.state(scene), scene.start());
+        State {
+            position: std::array::from_fn(|k| state.position[k] + start.position[k]),
+            velocity: std::array::from_fn(|k| state.velocity[k] + start.velocity[k]),
         }
     }
 }

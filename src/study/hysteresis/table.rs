@@ -5,9 +5,11 @@ use serde::{Deserialize, Serialize};
 use crate::results::csv::Table;
 use crate::results::figure::heading::Heading;
 use crate::results::manifest::described;
+use crate::study::cycles::special::Special;
 use crate::study::error::Result;
 use crate::study::hysteresis::follow::{Direction, Hysteresis};
 use crate::sweep::columns::{Cell, Column, columns};
+use crate::sweep::grid::{Grid, Value};
 use crate::sweep::spec::{Analysis, Spec, Starts};
 
 pub use crate::study::hysteresis::figure::hysteresis_svg;
@@ -17,17 +19,8 @@ pub use crate::study::hysteresis::figure::hysteresis_svg;
 /// # Errors
 /// When the table cannot be written.
 pub fn hysteresis_csv(spec: &Spec, hysteresis: &Hysteresis) -> Result<Vec<u8>> {
-    let analysis = Analysis {
-        linear: true,
-        response: true,
-        until_settled: spec.settle_limit.is_some(),
-        finds_cycles: spec.analysis.finds_cycles,
-        checked: false,
-        starts: Starts::One,
-    };
     let grid = hysteresis.grid();
-    // The index of an instance says nothing here.
-    let columns: Vec<Column> = columns(&grid, analysis).into_iter().skip(1).collect();
+    let columns = columns_of(spec, &grid, spec.analysis.finds_cycles);
     let mut table = Table::new(std::iter::once("branch").chain(columns.iter().map(|column| column.name)))?;
     for direction in Direction::ALL {
         let branch = direction.name().to_owned();
@@ -39,6 +32,42 @@ pub fn hysteresis_csv(spec: &Spec, hysteresis: &Hysteresis) -> Result<Vec<u8>> {
         }
     }
     Ok(table.finish()?)
+}
+
+/// What comes before the columns of a map in the table of cycles.
+pub(crate) const OF_CYCLES: [&str; 3] = ["cycle_branch", "unstable_multipliers", "special"];
+
+/// The table of the branches of cycles, point by point along each: the number of the branch from 0 on, how many Floquet multipliers
+/// are outside the unit circle, what is special about the point, and the columns of a map.
+///
+/// # Errors
+/// When the table cannot be written.
+pub fn cycles_csv(spec: &Spec, hysteresis: &Hysteresis) -> Result<Vec<u8>> {
+    let columns = columns_of(spec, &hysteresis.grid(), true);
+    let mut table = Table::new(OF_CYCLES.into_iter().chain(columns.iter().map(|column| column.name)))?;
+    for (number, branch) in hysteresis.cycles.iter().enumerate() {
+        for point in &branch.points {
+            let value = Value::Number(point.value);
+            let cell = |column: &Column| column.cell(0, &[&value], &point.record).to_string();
+            let special = point.special.map_or("", Special::name).to_owned();
+            let head = [number.to_string(), point.unstable.to_string(), special];
+            table.row(head.into_iter().chain(columns.iter().map(cell)))?;
+        }
+    }
+    Ok(table.finish()?)
+}
+
+/// The columns of a map of one response, without the index, which says nothing here.
+fn columns_of(spec: &Spec, grid: &Grid, finds_cycles: bool) -> Vec<Column> {
+    let analysis = Analysis {
+        linear: true,
+        response: true,
+        until_settled: spec.settle_limit.is_some() || finds_cycles,
+        finds_cycles,
+        checked: false,
+        starts: Starts::One,
+    };
+    columns(grid, analysis).into_iter().skip(1).collect()
 }
 
 /// What the figure needs beside the table: the heading, and which parameter was followed.

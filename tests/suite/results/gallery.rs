@@ -230,7 +230,7 @@ fn a_hysteresis() -> Piece {
         Record { outcome: Some(Box::new(outcome)), ..record(kind, regime, true) }
     };
     let branch = |end: usize| (0..values.len()).map(|k| at(k < end, k)).collect();
-    let found = Hysteresis { param: Param::MuS, up: branch(9), down: branch(6), values };
+    let found = Hysteresis { param: Param::MuS, up: branch(9), down: branch(6), values, cycles: Vec::new() };
     let heading = Heading::new("A loop", "belt_velocity=1.5");
     let sweep = spec(found.grid());
     let svg = hysteresis::table::hysteresis_svg(&found, &heading, &Look::default());

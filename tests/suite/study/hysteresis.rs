@@ -7,16 +7,21 @@ use crate::store::resume::with;
 use crate::sweep::bistable::highest_velocity_of_the_cycle;
 use crate::synthetic::record;
 use squealmap::engine::outcome::Outcome;
+use squealmap::engine::plan::Duration;
 use squealmap::engine::plan::Plan;
 use squealmap::engine::record::Record;
+use squealmap::engine::reference::respond::respond;
 use squealmap::engine::regime::Regime;
 use squealmap::model::Param;
 use squealmap::model::kind::InstabilityType;
 use squealmap::model::status::Status;
 use squealmap::results::figure::heading::Heading;
 use squealmap::results::figure::look::Look;
+use squealmap::study::cycles::branch::BranchPoint;
+use squealmap::study::cycles::special::Special;
 use squealmap::study::hysteresis::follow::{Direction, Hysteresis};
 use squealmap::study::hysteresis::table::hysteresis_svg;
+use squealmap::study::{Kind, Picture};
 use squealmap::sweep::error::Error;
 use squealmap::sweep::spec::Spec;
 
@@ -218,6 +223,7 @@ fn jumps_from_one_cycle_to_another_are_found() {
         values: values.clone(),
         up,
         down,
+        cycles: Vec::new(),
     };
     let slow = |k: usize| 1.0 + 0.02 * k as f64;
     let two = |end: usize| move |k: usize| slow(k) * if k < end { 1.0 } else { 1.5 };
@@ -259,7 +265,13 @@ fn the_legend_has_what_is_drawn() {
             (0..5).map(of).collect()
         };
         let [up, down] = settled.map(branch);
-        let found = Hysteresis { param: Param::MuS, values: vec![0.1, 0.2, 0.3, 0.4, 0.5], up, down };
+        let found = Hysteresis {
+            param: Param::MuS,
+            values: vec![0.1, 0.2, 0.3, 0.4, 0.5],
+            up,
+            down,
+            cycles: Vec::new(),
+        };
         let svg = hysteresis_svg(&found, &Heading::new("", ""), &Look::default());
         let crosses = [blue, orange].map(|stroke| {
             svg.lines().filter(|line| line.contains("class=\"unsettled\"") && line.contains(stroke)).count()
@@ -306,4 +318,200 @@ fn what_cannot_be_followed_is_named() {
     let ended = squealmap(directory.path(), &["trace", "s.toml", "--sweep-up-down", "f_ext=1..2"]);
     assert_eq!(ended.code, Some(2));
     assert!(ended.err.contains("this instance has a ramp, `ramp_duration` = 5 s"), "{}", ended.err);
+}
+
+/// The special points of the only branch of cycles, in its order.
+fn special(found: &Hysteresis) -> Vec<(Special, f64)> {
+    let [branch] = &found.cycles[..] else { panic!("{} branches", found.cycles.len()) };
+    branch.points.iter().filter_map(|point| Some((point.special?, point.value))).collect()
+}
+
+fn is(found: (Special, f64), special: Special, value: f64) -> bool {
+    found.0 == special && (found.1 - value).abs() < 1e-8
+}
+
+/// The belt velocity from which on the motion that is released with the velocity of the belt does not come back to it, by steps of Runge
+/// and Kutta: `ẍ = −x − c ẋ + μ(V − ẋ)` with `μ(v) = 1/2 (1 + exp(−2 v))`.
+fn last_velocity_of_the_cycle(damping: f64) -> f64 {
+    let friction = |v: f64| 0.5 * (1.0 + (-2.0 * v).exp());
+    let comes_back = |belt: f64| {
+        let rate = |[x, v]: [f64; 2]| [v, -x - damping * v + friction(belt - v)];
+        let add = |s: [f64; 2], k: [f64; 2], h: f64| [s[0] + h * k[0], s[1] + h * k[1]];
+        let step = |s: [f64; 2], h: f64| {
+            let a = rate(s);
+            let b = rate(add(s, a, 0.5 * h));
+            let c = rate(add(s, b, 0.5 * h));
+            let d = rate(add(s, c, h));
+            std::array::from_fn(|i| s[i] + h / 6.0 * (a[i] + 2.0 * b[i] + 2.0 * c[i] + d[i]))
+        };
+        // Released where the spring holds what friction gives at most.
+        let mut state = [1.0 - damping * belt, belt];
+        let (mut falls, h) = (true, 1e-3);
+        loop {
+            let next: [f64; 2] = step(state, h);
+            let [before, after] = [rate(state)[1], rate(next)[1]];
+            if falls && after > 0.0 {
+                falls = false;
+            } else if !falls && after <= 0.0 {
+                // The top of the velocity, between the two.
+                let (mut low, mut high) = (0.0, h);
+                for _ in 0..60 {
+                    let middle = 0.5 * (low + high);
+                    if rate(step(state, middle))[1] > 0.0 { low = middle } else { high = middle }
+                }
+                return step(state, low)[1] >= belt;
+            }
+            assert!(before.is_finite());
+            state = next;
+        }
+    };
+    let [_, end] = (0..60).fold([1.2, 2.5], |[low, high], _| {
+        let middle = 0.5 * (low + high);
+        if comes_back(middle) { [middle, high] } else { [low, middle] }
+    });
+    end
+}
+
+/// The stick-slip cycle ends where an unstable cycle of pure slip reaches the velocity of the belt; that cycle is born at the Hopf
+/// point. No multiplier is +1 where they meet, as the stick-slip cycle forgets all in its stick.
+#[test]
+fn the_branch_of_stick_slip_turns_back_as_an_unstable_cycle_to_its_hopf_point() {
+    for damping in [0.1_f64, 0.15] {
+        let text = format!(
+            "{SINGLE}{EXPONENTIAL}mu_s = 1\n[start]\nstart_velocity = 0.0001\n{SETTLE}[axes]\nbelt_velocity = {{ values = [1] }}\n"
+        );
+        let spec = parse(&text.replace("c1 = 0.1", &format!("c1 = {damping}")));
+        let (hopf, end) = (0.5 * (0.5 / (damping * 0.5)).ln(), last_velocity_of_the_cycle(damping));
+        let found = follow(&spec, Param::BeltVelocity, [0.5, 2.1], 5);
+        let special = special(&found);
+        let [corner, birth] = special[..] else { panic!("{special:?}") };
+        assert!(
+            is(corner, Special::Corner, end) && is(birth, Special::Hopf, hopf),
+            "{special:?}: {end} {hopf}"
+        );
+        // The comparer sees a corner that is elsewhere, or is something else.
+        assert!(!is(corner, Special::Corner, end + 2e-8) && !is(corner, Special::Fold, end));
+        let points = &found.cycles[0].points;
+        let turn = points.iter().position(|point| point.special == Some(Special::Corner)).unwrap();
+        assert!(points[..turn].iter().all(|point| point.unstable == 0));
+        assert!(points[turn + 1..].iter().all(|point| point.unstable == 1));
+        let floquet = |point: &BranchPoint| point.record.outcome.as_ref().and_then(|outcome| outcome.floquet);
+        assert!(points[..turn].iter().all(|point| floquet(point).unwrap() < 1e-6), "it sticks");
+        assert!(points[turn + 1..points.len() - 1].iter().all(|point| floquet(point).unwrap() > 1.0));
+    }
+    let known = last_velocity_of_the_cycle(0.1);
+    assert!((known - 1.836_600_97).abs() < 5e-9, "{known}");
+}
+
+/// Law `constant`: slip alone decays, so that beyond its end the cycle has no neighbour, stable or not.
+#[test]
+fn the_cycle_of_a_jump_of_friction_has_no_unstable_one_beside_it() {
+    for (damping, difference) in [(0.1, 0.3), (0.05, 0.15)] {
+        let spec = parse(&format!(
+            "{SINGLE}law = \"constant\"\nmu_s = {}\nmu_d = 0.25\n[start]\nstart_velocity = 0.2\n{SETTLE}[axes]\nbelt_velocity = {{ values = [1] }}\n",
+            0.25 + difference
+        ).replace("c1 = 0.1", &format!("c1 = {damping}")));
+        let end = highest_velocity_of_the_cycle(damping, difference);
+        let found = follow(&spec, Param::BeltVelocity, [0.1, 2.0 * end], 9);
+        let special = special(&found);
+        let [last] = special[..] else { panic!("{special:?}") };
+        assert!(is(last, Special::End, end), "{last:?} instead of {end}");
+    }
+}
+
+/// The paper's model (Table 1) with `μ_s` = 0.6 at 3 m/s: two stable cycles over a band of `μ_d`, joined by an unstable one. The ends of the
+/// band are those of `benches/peers/folds.py`.
+#[test]
+fn the_bistable_band_of_the_papers_model_has_the_ends_of_an_independent_code() {
+    let spec = parse(&format!(
+        "[model]\ntheta = 0.01\n[friction]\nlaw = \"bilinear\"\nmu_s = 0.6\nknee_velocity = 5\n[belt]\nbelt_velocity = 3\n{SETTLE}\
+         [axes]\nmu_d = {{ values = [0.1] }}\n"
+    ));
+    let found = follow(&spec, Param::MuD, [0.0, 0.5], 26);
+    let special = special(&found);
+    let [upper, lower] = special[..] else { panic!("{special:?}") };
+    assert!(is(upper, Special::Fold, 0.343_427_415), "{upper:?}");
+    assert!(is(lower, Special::Fold, 0.075_381_729), "{lower:?}");
+    // Rising and falling, the motion leaves its cycle in the step that has the fold.
+    let [up, down] = Direction::ALL.map(|direction| found.jumps_of_amplitude(direction));
+    assert!(matches!(up[..], [[a, b]] if a < upper.1 && upper.1 < b), "{up:?}");
+    assert!(matches!(down[..], [[a, b]] if b < lower.1 && lower.1 < a), "{down:?}");
+    // At one value of the band: two stable cycles and the unstable one between them.
+    let points = &found.cycles[0].points;
+    let at = |pair: &&[BranchPoint]| (pair[0].value - 0.2) * (pair[1].value - 0.2) <= 0.0;
+    let unstable: Vec<usize> = points.windows(2).filter(at).map(|pair| pair[0].unstable).collect();
+    assert_eq!(unstable, [0, 1, 0]);
+}
+
+/// The picture that `plot` draws is that of the command, with branches and shading; a table of branches that is wrong is named.
+#[test]
+fn the_figure_is_drawn_again_from_its_files() {
+    let sweep = format!(
+        "[model]\ntheta = 0.01\n[friction]\nlaw = \"bilinear\"\nmu_s = 0.6\nknee_velocity = 5\n[belt]\nbelt_velocity = 3\n{SETTLE}\
+         [axes]\nmu_d = {{ values = [0.1] }}\n"
+    );
+    let directory = with(&sweep);
+    let ended =
+        squealmap(directory.path(), &["trace", "s.toml", "--sweep-up-down", "mu_d=0..0.5", "--points", "26"]);
+    assert_eq!(ended.code, Some(0), "{}", ended.err);
+    let said = "a branch of cycles from mu_d = 0 to 0.5: fold at 0.343427415, fold at 0.075381729\n";
+    assert!(ended.out.contains(said), "{}", ended.out);
+    let folder = directory.path().join("out/s");
+    let read = |name: &str| String::from_utf8(std::fs::read(folder.join(name)).unwrap()).unwrap();
+    let drawn = || Picture::read(&folder, Kind::Hysteresis).and_then(|picture| picture.svg(&Look::default()));
+    let svg = drawn().unwrap();
+    assert!(svg == read("hysteresis.svg"));
+    assert!(
+        svg.contains("class=\"unstable-cycle\"")
+            && svg.contains(">fold (LP)<")
+            && svg.matches(">LP<").count() == 2
+    );
+    let table = read("cycles.csv");
+    for (from, to, part) in [
+        (",fold,", ",flod,", "`special` is `flod`"),
+        ("\n0,1,", "\n0,0.5,", "`unstable_multipliers` is 0.5"),
+        ("\n0,0,", "\n3,0,", "`cycle_branch` is 3 without the branches before it"),
+    ] {
+        std::fs::write(folder.join("cycles.csv"), table.replacen(from, to, 1)).unwrap();
+        let error = drawn().unwrap_err();
+        assert!(error.to_string().contains(part) && error.to_string().contains("cycles.csv"), "{error}");
+    }
+    // A directory of an earlier version has none.
+    std::fs::remove_file(folder.join("cycles.csv")).unwrap();
+    assert!(!drawn().unwrap().contains("unstable-cycle"));
+}
+
+/// Kicks to one side of an unstable cycle come to rest, those to the other side to stick-slip: the last that comes to rest goes round
+/// on the unstable cycle itself.
+#[test]
+fn the_unstable_cycle_parts_the_basins() {
+    let text = |value: f64| {
+        format!(
+            "{SINGLE}{EXPONENTIAL}mu_s = 1\n[belt]\nbelt_velocity = {value}\n{SETTLE}[axes]\nstart_velocity = {{ values = [1] }}\n"
+        )
+    };
+    let along = parse(&format!(
+        "{SINGLE}{EXPONENTIAL}mu_s = 1\n{SETTLE}[axes]\nbelt_velocity = {{ values = [1] }}\n"
+    ));
+    let found = follow(&along, Param::BeltVelocity, [0.5, 2.1], 5);
+    let unstable =
+        found.cycles[0].points.iter().filter(|point| point.unstable > 0 && point.special.is_none());
+    let cycle = unstable.min_by(|a, b| (a.value - 1.5).abs().total_cmp(&(b.value - 1.5).abs())).unwrap();
+    let outcome = cycle.record.outcome.as_ref().unwrap();
+    let spec = parse(&text(cycle.value));
+    let kicked = |kick: f64, plan: &Plan| {
+        let instance = spec.instance_at(&format!("start_velocity={kick}")).unwrap();
+        respond(&instance, plan).x2_std.unwrap()
+    };
+    let long = Plan::new(&spec);
+    let kick = (0..45).fold([0.0, cycle.value], |[low, high], _| {
+        let middle = 0.5 * (low + high);
+        // Stick-slip at this velocity has about 1 m.
+        if kicked(middle, &long) > 0.8 { [low, middle] } else { [middle, high] }
+    })[0];
+    let once = Plan { settle_limit: None, measure: Duration::Seconds(outcome.period.unwrap()), ..long };
+    let once = Plan { settle: Duration::Seconds(0.0), ..once };
+    let (on_border, of_cycle) = (kicked(kick, &once), outcome.x2_std.unwrap());
+    assert!((on_border / of_cycle - 1.0).abs() < 1e-8, "{on_border} {of_cycle}");
+    assert!((kicked(1.001 * kick, &once) / of_cycle - 1.0).abs() > 1e-4, "another kick is another motion");
 }

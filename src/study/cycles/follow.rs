@@ -1,0 +1,141 @@
+//! From one fixed point of the return map to the next, along the arc length of their curve.
+
+use nalgebra::DVector;
+
+use crate::study::cycles::corner::beyond;
+use crate::study::cycles::map::ReturnMap;
+use crate::study::cycles::newton::{Fixed, fixed};
+use crate::study::cycles::special::{Special, between};
+
+/// The first step along the curve, in sizes of the first cycle and ranges of the parameter.
+const FIRST: f64 = 0.005;
+
+/// The longest.
+const LONGEST: f64 = 0.03;
+
+/// Shorter ones than this are not taken: something ends there.
+const SHORTEST: f64 = 1e-10;
+
+/// The first step beyond a corner.
+const AFTER_CORNER: f64 = 1e-4;
+
+/// A step beyond a corner that is shorter than this finds no branch there.
+const NO_BRANCH: f64 = 1e-7;
+
+/// Two steps in a row that are taken make the next this much longer.
+const GROWS: f64 = 1.5;
+
+/// From point to point the curve turns by no more than this cosine.
+const TURNS: f64 = 0.95;
+
+/// And where the contact states change on the way, by this.
+const STRAIGHT: f64 = 0.998;
+
+/// A step is no longer than this part of the cycle.
+const OF_SIZE: f64 = 0.2;
+
+/// A cycle so small, in the size of the first, vanishes.
+const VANISHES: f64 = 0.01;
+
+/// So close to an end of the range it is reached.
+const EDGE: f64 = 1e-6;
+
+/// Points of one direction.
+const MOST_POINTS: usize = 3000;
+
+/// The way of a branch in one direction.
+pub(super) struct Course {
+    /// The points, the start first.
+    pub(super) points: Vec<(Fixed, Option<Special>)>,
+    /// Whether the cycle shrinks to the equilibrium at the end.
+    pub(super) vanishes: bool,
+}
+
+/// Follows the curve from `start`, along its tangent or against it. Also whether it comes back to its start.
+pub(super) fn follow(map: &ReturnMap, start: &Fixed, sign: f64) -> (Course, bool) {
+    let count = map.count();
+    let begun = start.along().signum() * sign;
+    let mut here = Fixed { tangent: &start.tangent * begun, ..start.clone() };
+    let mut course = Course { points: vec![(here.clone(), None)], vanishes: false };
+    let (mut step, mut taken) = (FIRST, 0);
+    // After a corner: the events that are to be met, and how short a step may become.
+    let mut beyond_corner: Option<u64> = None;
+    while course.points.len() < MOST_POINTS {
+        if leaves(&here, count, 0.0) {
+            break;
+        }
+        let size = map.size(&here.place).unwrap_or(0.0);
+        if size < VANISHES {
+            course.vanishes = true;
+            break;
+        }
+        step = step.min(OF_SIZE * size);
+        let order = beyond_corner.unwrap_or(here.order);
+        let Some((next, at_edge)) = next(map, &here, step, order) else {
+            step *= 0.5;
+            taken = 0;
+            if step >= if beyond_corner.is_some() { NO_BRANCH } else { SHORTEST } {
+                continue;
+            }
+            // The last value of a range may have no neighbours, as a law without a slope has no knee.
+            if leaves(&here, count, EDGE) {
+                break;
+            }
+            let last = course.points.len() - 1;
+            let turned = if beyond_corner.is_some() { None } else { beyond(map, &here) };
+            let Some((along, order)) = turned else {
+                course.points[last].1 = Some(Special::End);
+                break;
+            };
+            let turns = along[count] * here.tangent[count] < 0.0;
+            course.points[last].1 = Some(if turns { Special::Corner } else { Special::Border });
+            (here.tangent, beyond_corner, step) = (along, Some(order), AFTER_CORNER);
+            continue;
+        };
+        if beyond_corner.take().is_none() {
+            course.points.extend(between(map, &here, &next).map(|(at, special)| (at, Some(special))));
+        }
+        if at_edge {
+            course.points.push((next, None));
+            break;
+        }
+        let back = (&next.place - &start.place).norm() < 0.5 * step;
+        course.points.push((next.clone(), None));
+        if back && course.points.len() > 3 && next.tangent.dot(&course.points[0].0.tangent) > TURNS {
+            return (course, true);
+        }
+        (here, taken) = (next, taken + 1);
+        if taken >= 2 {
+            step = (step * GROWS).min(LONGEST);
+        }
+    }
+    (course, false)
+}
+
+/// Whether the curve leaves the range of the parameter from here on, or is closer than `near` to where it does.
+fn leaves(here: &Fixed, count: usize, near: f64) -> bool {
+    let (at, along) = (here.place[count], here.tangent[count]);
+    at <= near && along < 0.0 || at >= 1.0 - near && along > 0.0
+}
+
+/// The next point, where the curve goes on smoothly for a step, and whether the range of the parameter ends there.
+fn next(map: &ReturnMap, here: &Fixed, step: f64, order: u64) -> Option<(Fixed, bool)> {
+    let count = map.count();
+    let guess = &here.place + &here.tangent * step;
+    let inside = guess[count].clamp(0.0, 1.0);
+    let at_edge = !(0.0..=1.0).contains(&guess[count]);
+    let next = if at_edge {
+        let part = (inside - here.place[count]) / here.tangent[count];
+        let mut across = DVector::zeros(guess.len());
+        across[count] = here.tangent[count].signum();
+        let mut guess = &here.place + &here.tangent * part;
+        guess[count] = inside;
+        fixed(map, &guess, &across)?
+    } else {
+        fixed(map, &guess, &here.tangent)?
+    };
+    let cosine = next.tangent.dot(&here.tangent);
+    let is_near = at_edge || (&next.place - &guess).norm() <= step;
+    let wanted = if next.order == order { TURNS } else { STRAIGHT };
+    (is_near && cosine >= wanted).then_some((next, at_edge))
+}
