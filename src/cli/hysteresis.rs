@@ -127,7 +127,9 @@ pub(crate) fn execute(spec: &Spec, files: &Files, at: &str, range: &Range, point
         format!("the branches end differently from {}\n", apart.join(", "))
     };
     let cycles: String = found.cycles.iter().map(|branch| said(branch, name)).collect();
-    let stays = Direction::ALL.iter().all(|direction| found.jumps(*direction).is_empty());
+    let is_plain = |branch: &Branch| branch.points.iter().all(|point| point.special.is_none());
+    let stays = found.cycles.iter().all(is_plain)
+        && Direction::ALL.iter().all(|direction| found.jumps(*direction).is_empty());
     let hint = if stays && found.apart().is_empty() {
         "no branch leaves the state in which it begins: inside a bistable band the other one is never met; \
          begin outside of it (a wider range), or with a larger start\n"
@@ -162,7 +164,8 @@ fn said(branch: &Branch, name: &str) -> String {
     let special = if special.is_empty() { String::new() } else { format!(": {}", special.join(", ")) };
     let end = |end: Option<&BranchPoint>| end.map_or(f64::NAN, |end| rounded(end.value));
     let (from, to) = (end(branch.points.first()), end(branch.points.last()));
-    format!("a branch of cycles from {name} = {from} to {to}{special}\n")
+    let to = if from.to_bits() == to.to_bits() { "and back".to_owned() } else { format!("to {to}") };
+    format!("a branch of cycles from {name} = {from} {to}{special}\n")
 }
 
 /// A value without the rounding of its place on an axis.

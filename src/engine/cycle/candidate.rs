@@ -5,8 +5,8 @@ use nalgebra::DVector;
 use crate::engine::cycle::approach::Approach;
 use crate::engine::cycle::point::{Freedom, Point, Return};
 
-/// A cycle closes within this part of the size of its start.
-const CLOSES: f64 = 1e-9;
+/// A cycle that a run comes to closes within this part of the size of its start.
+pub const CLOSES: f64 = 1e-9;
 
 /// A transient farther off than this part of the size of the motion goes elsewhere.
 const ELSEWHERE: f64 = 0.3;
@@ -34,12 +34,12 @@ pub struct Cycle {
 }
 
 impl Cycle {
-    /// Whether a motion that ends at this position and with this velocity has come back to the start.
+    /// Whether a motion that ends at this position and with this velocity has come back to the start, `within` this part of its size.
     #[must_use]
-    pub fn closes(&self, position: [f64; 3], velocity: [f64; 3]) -> bool {
+    pub fn closes(&self, position: [f64; 3], velocity: [f64; 3], within: f64) -> bool {
         let here = self.start.position.iter().chain(&self.start.velocity);
         let size = here.clone().fold(0.0, |size: f64, value| size.max(value.abs()));
-        here.zip(position.iter().chain(&velocity)).all(|(a, b)| (a - b).abs() <= CLOSES * size)
+        here.zip(position.iter().chain(&velocity)).all(|(a, b)| (a - b).abs() <= within * size)
     }
 }
 

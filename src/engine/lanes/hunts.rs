@@ -1,6 +1,6 @@
 //! The hunts of a batch for their cycles: the flights of all of them together, in double precision.
 
-use crate::engine::cycle::candidate::Cycle;
+use crate::engine::cycle::candidate::{CLOSES, Cycle};
 use crate::engine::cycle::hunt::Hunt;
 use crate::engine::cycle::point::{Freedom, Point, Return};
 use crate::engine::cycle::pursuit::{GROWS, Pursuit, STEPS_PER_PERIOD, TOLERANCE};
@@ -218,7 +218,7 @@ impl<'a> Hunts<'a> {
         self.run(&mut measured, Part::Window);
         for (job, (_, cycle)) in measured.iter_mut().zip(&found) {
             let ended = job.state.status == Status::Unwritten;
-            job.is_over = !(ended && cycle.closes(job.state.body.p, job.state.body.v));
+            job.is_over = !(ended && cycle.closes(job.state.body.p, job.state.body.v, CLOSES));
             job.close_period();
         }
         self.run(&mut measured, Part::Phase);

@@ -1,6 +1,6 @@
 //! The reference looks for the cycle of one run.
 
-use crate::engine::cycle::candidate::Cycle;
+use crate::engine::cycle::candidate::{CLOSES, Cycle};
 use crate::engine::cycle::point::{Freedom, Return};
 use crate::engine::cycle::pursuit::{GROWS, Pursuit};
 use crate::engine::measuring::Measuring;
@@ -126,7 +126,7 @@ impl<'a> Chase<'a> {
         gains: EnergyGains,
     ) -> Result<Option<Outcome>, Status> {
         let start = integrator.at(&cycle.start);
-        let outcome = round(self.scene, self.plan, start, cycle, growth, self.flown)?;
+        let outcome = round(self.scene, self.plan, start, cycle, growth, self.flown, CLOSES)?;
         Ok(outcome.map(|outcome| Outcome { energy_gaining_impacts: Some(gains.0), ..outcome }))
     }
 }

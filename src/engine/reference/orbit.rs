@@ -41,11 +41,14 @@ pub fn cycle_near(scene: &Scene, plan: &Plan, state: State) -> Option<(Cycle, Fr
     Some((candidate.cycle, freedom))
 }
 
+/// An unstable cycle magnifies what its start is off by: it closes within this part of its size.
+const CLOSES: f64 = 1e-5;
+
 /// What one period of a cycle measures; `None` where it does not close.
 #[must_use]
 pub fn measure(scene: &Scene, plan: &Plan, cycle: &Cycle) -> Option<Outcome> {
     let start = State { position: cycle.start.position, velocity: cycle.start.velocity };
     let scene = scene.clone().started(start);
     let integrator = scene.integrator(plan).ok()?;
-    round(&scene, plan, integrator, cycle, &Growth::default(), (0, 0.0)).ok()?
+    round(&scene, plan, integrator, cycle, &Growth::default(), (0, 0.0), CLOSES).ok()?
 }

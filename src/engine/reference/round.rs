@@ -11,7 +11,7 @@ use crate::engine::scene::Scene;
 use crate::model::status::Status;
 
 /// Measures one period of a cycle from its `start` on; `growth` is that of the run before it, and `spent` are the steps and the
-/// scaled time that were spent on finding it. `None` where it does not close.
+/// scaled time that were spent on finding it. `None` where it does not close `within` this part of its size.
 ///
 /// # Errors
 /// The status that ends the integration.
@@ -22,6 +22,7 @@ pub(super) fn round(
     cycle: &Cycle,
     growth: &Growth,
     spent: (u64, f64),
+    within: f64,
 ) -> Result<Option<Outcome>, Status> {
     let (steps, time) = (start.steps(), start.time());
     let mut round = start.clone();
@@ -32,7 +33,7 @@ pub(super) fn round(
         scene.advance(&mut round, half, &mut window)?;
     }
     let state = round.state();
-    if !cycle.closes(state.position, state.velocity) {
+    if !cycle.closes(state.position, state.velocity, within) {
         return Ok(None);
     }
     let mut seen = window.reductions(growth);

@@ -7,6 +7,7 @@ use crate::engine::cycle::point::Freedom;
 use crate::engine::judged::{examined, take_response};
 use crate::engine::plan::Plan;
 use crate::engine::record::Record;
+use crate::model::linear;
 use crate::study::cycles::follow::{Course, follow};
 use crate::study::cycles::map::{Instances, ReturnMap};
 use crate::study::cycles::newton::{Fixed, fixed};
@@ -47,7 +48,7 @@ pub struct Branch {
 }
 
 impl Branch {
-    /// Whether a stable cycle with this standard deviation of `x2` at a `value` of the parameter lies on the branch.
+    /// Whether a cycle with this standard deviation of `x2` at a `value` of the parameter lies on the branch.
     #[must_use]
     pub fn holds(&self, value: f64, x2_std: f64) -> bool {
         /// As near to the branch as a chord of it may be.
@@ -55,11 +56,10 @@ impl Branch {
         self.points.windows(2).any(|pair| {
             let [a, b] = pair else { return false };
             let between = (a.value - value) * (b.value - value) <= 0.0;
-            let is_stable = a.unstable == 0 && b.unstable == 0;
             let (Some(from), Some(to)) = (a.x2_std(), b.x2_std()) else { return false };
             let part = (value - a.value) / (b.value - a.value);
             let part = if part.is_finite() { part } else { 0.5 };
-            between && is_stable && (from + part * (to - from) - x2_std).abs() <= NEAR * x2_std
+            between && (from + part * (to - from) - x2_std).abs() <= NEAR * x2_std
         })
     }
 
@@ -109,7 +109,7 @@ fn point(map: &ReturnMap, fixed: &Fixed, special: Option<Special>) -> Option<Bra
     Some(BranchPoint { value: map.value(&fixed.place), unstable: fixed.unstable(), special, record })
 }
 
-/// Where the equilibrium that a cycle shrinks to changes its stability.
+/// Where a pair of eigenvalues of the equilibrium that a cycle shrinks to crosses the imaginary axis.
 fn birth(map: &ReturnMap, last: &Fixed) -> Option<BranchPoint> {
     let at = |part: f64| {
         let mut place = last.place.clone();
@@ -117,17 +117,22 @@ fn birth(map: &ReturnMap, last: &Fixed) -> Option<BranchPoint> {
         let (instance, _) = map.scene(&place)?;
         Some((examined(&instance, true).0, map.value(&place)))
     };
-    // The sign itself: a type has a margin.
-    let is_stable = |part: f64| Some(at(part)?.0.linear?.growth_rate < 0.0);
+    // How many eigenvalues grow; the cycle may be that of a pair beside another that grows already.
+    let growing = |part: f64| {
+        let mut place = last.place.clone();
+        place[map.count()] = part;
+        let (instance, _) = map.scene(&place)?;
+        Some(linear::eigenvalues(&instance)?.iter().filter(|eigenvalue| eigenvalue.re > 0.0).count())
+    };
     let about = last.place[map.count()];
     let [mut low, mut high] = ABOUT
         .into_iter()
         .map(|by| [about - by, about + by])
-        .find(|[low, high]| is_stable(*low).zip(is_stable(*high)).is_some_and(|(low, high)| low != high))?;
-    let before = is_stable(low)?;
+        .find(|[low, high]| growing(*low).zip(growing(*high)).is_some_and(|(low, high)| low != high))?;
+    let before = growing(low)?;
     for _ in 0..HALVINGS {
         let middle = 0.5 * (low + high);
-        if is_stable(middle)? == before { low = middle } else { high = middle }
+        if growing(middle)? == before { low = middle } else { high = middle }
     }
     let (record, value) = at(high)?;
     Some(BranchPoint { value, unstable: last.unstable(), special: Some(Special::Hopf), record })

@@ -9,7 +9,7 @@ use crate::engine::method::taylor::State;
 use crate::engine::outcome::Outcome;
 use crate::engine::plan::Plan;
 use crate::engine::record::{Attractor, Record, apart, differ};
-use crate::engine::reference::orbit::cycle_near;
+use crate::engine::reference::orbit::{cycle_near, measure};
 use crate::engine::reference::respond::respond_in;
 use crate::engine::scene::Scene;
 use crate::model::Param;
@@ -100,6 +100,10 @@ impl Hysteresis {
             }
             let Ok(scene) = Scene::planned(&instances[at], plan) else { continue };
             let Some((cycle, freedom)) = cycle_near(&scene, plan, motion.state(&scene)) else { continue };
+            let size = measure(&scene, plan, &cycle).and_then(|outcome| outcome.x2_std);
+            if size.is_some_and(|size| cycles.iter().any(|branch| branch.holds(values[at], size))) {
+                continue;
+            }
             let of_value = |value: f64| instance(value).ok();
             cycles.extend(Branch::about(&of_value, plan, range, values[at], (&cycle, freedom)));
         }

@@ -38,6 +38,9 @@ fn cycles(table: &Table, param: Param) -> Why<Vec<Branch>> {
     let numbers = table.numbers([number, OF_CYCLES[1], param.info().name, "x2_std"])?;
     let mut branches: Vec<Branch> = Vec::new();
     for (row, [number, unstable, value, x2_std]) in table.rows.iter().zip(numbers) {
+        if !value.is_finite() {
+            return Err(format!("`{}` is {value}, which is no value of it", param.info().name));
+        }
         let name = table.cell(row, special);
         let special = Special::of(name);
         if special.is_none() && !name.is_empty() {
