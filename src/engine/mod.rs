@@ -14,6 +14,7 @@
 //! | the f64 reference, which judges the others | [`reference`](mod@reference) |
 //! | the twins of the compute kernels | [`kernel`] |
 //! | vector registers of all cores | [`lanes`] |
+//! | that engine's method as a compute kernel | `march` |
 //! | compute kernels through wgpu | [`gpu`] |
 //! | which of them computes, in which precision, and why | [`choice`], [`options`], [`backend`], [`precision`], `fallback.rs` |
 //! | why none computes, or one stopped | [`error`] |
@@ -36,6 +37,8 @@ pub mod instances;
 pub mod judged;
 pub mod kernel;
 pub mod lanes;
+#[cfg(feature = "gpu")]
+pub mod march;
 pub mod measuring;
 pub mod method;
 pub mod options;

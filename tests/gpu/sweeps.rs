@@ -8,7 +8,7 @@ use libtest_mimic::Failed;
 use squealmap::engine::backend::Backend;
 use squealmap::engine::computation::Stopped;
 use squealmap::engine::gpu::adapter::Adapter;
-use squealmap::engine::gpu::response::software_chunk;
+use squealmap::engine::gpu::chunks::software_chunk;
 use squealmap::engine::kernel::response::respond;
 use squealmap::engine::kernel::steps::TOLERANCE;
 use squealmap::engine::options::Options;

@@ -42,9 +42,9 @@ impl Engine for Gpu {
         self.session.device().precision()
     }
 
-    fn computations(&self, _: u32) -> [Computation; 2] {
+    fn computations(&self, steps_per_period: u32) -> [Computation; 2] {
         let device = self.session.device();
-        [linear::method(), response::method(device.precision())].map(|method| Computation {
+        [linear::method(), response::method(device, steps_per_period)].map(|method| Computation {
             backend: Backend::Gpu.name().to_owned(),
             precision: device.precision().to_string(),
             method,

@@ -1,15 +1,16 @@
 //! The response of a sweep on a GPU: scenes on the host in f64, narrowed once, outcomes in SI.
 
 use std::collections::BTreeMap;
-use std::num::NonZero;
 use std::ops::Range;
-use std::thread::available_parallelism;
 
 use rayon::prelude::*;
 
 use crate::engine::error::{Error, Result};
 use crate::engine::fields;
-use crate::engine::gpu::chunks::{Batch, Session};
+use crate::engine::gpu::chunks::{Batch, Session, software_chunk};
+use crate::engine::gpu::columns::{lane_words, word_major};
+use crate::engine::gpu::device::Device;
+use crate::engine::gpu::marched;
 use crate::engine::gpu::run::{ChunkResult, Drive};
 use crate::engine::instances::Instances;
 use crate::engine::judged::{kind_of, take_response};
@@ -18,7 +19,7 @@ use crate::engine::kernel::record;
 use crate::engine::kernel::response::{KERNEL, MOST_PIECES, choices, kernel_for, words};
 use crate::engine::kernel::scalar::Real;
 use crate::engine::kernel::scene::Segments;
-use crate::engine::kernel::source::{FLAG_STATUS, SETTING_WORDS, WORKGROUP_SIZE};
+use crate::engine::kernel::source::{FLAG_STATUS, SETTING_WORDS};
 use crate::engine::kernel::steps::{ORDER, TOLERANCE};
 use crate::engine::kernel::table::segment;
 use crate::engine::kernel::windows::Windows;
@@ -36,10 +37,11 @@ use std::sync::atomic::AtomicBool;
 
 /// The method in a manifest.
 #[must_use]
-pub fn method(precision: Precision) -> String {
-    let again = again::note(precision);
+pub fn method(device: &Device, steps_per_period: u32) -> String {
+    let again = again::note(device.precision());
+    let marched = if marched::is_for(device) { marched::method(steps_per_period) } else { String::new() };
     format!(
-        "Taylor series of order {ORDER}, truncation below {TOLERANCE:e}, events located in the step{again}"
+        "{marched}Taylor series of order {ORDER}, truncation below {TOLERANCE:e}, events located in the step{again}"
     )
 }
 
@@ -72,6 +74,11 @@ pub fn complete(
     records: &mut [Record],
 ) -> Result<()> {
     match session.device().precision() {
+        Precision::F32 if marched::takes(session.device(), spec, first, records.len()) => {
+            let ended = marched::complete(spec, first, (session, chunk), cancel, progress, records);
+            records_again(spec, first, records, cancel);
+            ended
+        }
         Precision::F32 => {
             let ended = complete_in::<f32>(spec, first, (session, chunk), cancel, progress, records);
             records_again(spec, first, records, cancel);
@@ -79,14 +86,6 @@ pub fn complete(
         }
         Precision::F64 => complete_in::<f64>(spec, first, (session, chunk), cancel, progress, records),
     }
-}
-
-/// Most instances of one chunk on a software adapter. Its lanes advance together and come to their ends
-/// together: in one chunk of a whole sweep nothing would be finished for a run that is stopped to keep. Eight
-/// workgroups for each core cost no time against such a chunk (four cost 5 %, two a quarter).
-#[must_use]
-pub fn software_chunk() -> usize {
-    8 * WORKGROUP_SIZE as usize * available_parallelism().map_or(1, NonZero::get)
 }
 
 /// Most instances of one chunk.
@@ -146,7 +145,8 @@ fn complete_in<R: Real>(
                 .into_par_iter()
                 .enumerate()
                 .map(|(lane, one)| {
-                    let words = lane_words(&result, lane, count);
+                    let sizes = [fields::words(KERNEL.state), fields::words(KERNEL.flags)];
+                    let words = lane_words(&result, sizes, lane, count);
                     end(spec, &plan, first, one, result.cancelled, &words)
                 })
                 .collect::<Result<_>>()?;
@@ -250,29 +250,6 @@ fn batch<R: Real>(form: Form, ready: Vec<Ready<R>>) -> Batch<R, Vec<Running>> {
     });
     let memory = ready.into_iter().map(|one| one.running).collect();
     Batch { kernel, choices: choices(form.law, form.ramp).to_vec(), inputs, before, memory }
-}
-
-/// Rows of words, word by word.
-fn word_major<'a, T: bytemuck::Pod + Send + Sync>(
-    words: usize,
-    rows: usize,
-    row: impl Fn(usize) -> &'a Vec<T> + Sync,
-) -> Vec<T> {
-    let mut columns = vec![T::zeroed(); words * rows];
-    columns.par_chunks_mut(rows.max(1)).enumerate().for_each(|(word, column)| {
-        for (index, value) in column.iter_mut().enumerate() {
-            *value = row(index)[word];
-        }
-    });
-    columns
-}
-
-/// State and flags of lane `lane` of `count`.
-fn lane_words<R: Real>(result: &ChunkResult<R>, lane: usize, count: usize) -> (Vec<R>, Vec<u32>) {
-    let of_lane = |word: usize| word * count + lane;
-    let state = (0..fields::words(KERNEL.state)).map(|word| result.state[of_lane(word)]).collect();
-    let flags = (0..fields::words(KERNEL.flags)).map(|word| result.flags[of_lane(word)]).collect();
-    (state, flags)
 }
 
 /// How an instance ended, from the words of its lane.

@@ -39,7 +39,7 @@ pub struct Drive<'a> {
     pub most_dispatches: u64,
     /// Set to stop: between two dispatches.
     pub cancel: &'a AtomicBool,
-    /// Whether a lane that has ended is an instance that is done.
+    /// Whether a lane that has ended is an instance that is done; else those are that no batch follows for.
     pub counts: bool,
     /// Gets the number of newly finished instances.
     pub progress: &'a (dyn Fn(usize) + Sync),

@@ -13,12 +13,12 @@ use crate::engine::lanes::vector::{Mask, Vector};
 pub const LONGER: f64 = 1.4;
 /// A step that is too long ends where the last terms, taken to fall with the eighth power, are within their
 /// bound, and this much before: they fall faster, the motion they are measured by may fall too.
-const MARGIN: f64 = 0.9;
+pub const MARGIN: f64 = 0.9;
 /// One that would end before this part of it is expanded over less.
-const FAR: f64 = 0.5;
+pub const FAR: f64 = 0.5;
 /// One that would end before this part of it ends the run: the eighth power asks for far too little where the terms grow
 /// with the fourteenth, and a step of a part in millions is asked for where friction changes as fast.
-const SHORTEST: f64 = 1e-15;
+pub const SHORTEST: f64 = 1e-15;
 
 /// The length that the last terms of a step's series allow.
 pub struct Reach<S: Simd, T: Scalar<S>> {

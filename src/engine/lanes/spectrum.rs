@@ -24,7 +24,7 @@ pub const MOMENTS: usize = 3;
 pub const COMPONENTS: usize = 4 * MOMENTS;
 
 /// Periods of the guess before the end of the window from which crossings are noted.
-const CLOSING: f64 = 1.5;
+pub const CLOSING: f64 = 1.5;
 
 /// The sums of the present stretches.
 #[derive(Clone, Copy, Debug)]

@@ -1,0 +1,95 @@
+//! The kernel that marches instances through a stretch; the part of the run and the pieces of the law are chosen when it is
+//! compiled.
+
+use std::sync::LazyLock;
+
+use crate::engine::fields::Field;
+use crate::engine::kernel::observe::{NODES, WEIGHTS};
+use crate::engine::kernel::source::{Constant, Kernel};
+use crate::engine::kernel::table::piece;
+use crate::engine::kernel::{contact, crossing, scene, series as states};
+use crate::engine::lanes::ORDER;
+use crate::engine::lanes::job::Part;
+use crate::engine::lanes::reach::{FAR, LONGER, MARGIN, SHORTEST};
+use crate::engine::march::series;
+use crate::engine::march::table::{flag, head, state};
+use crate::engine::reference::bounds::ROUNDINGS;
+use crate::engine::sums::sum;
+use crate::model::contact::SLOWEST_REBOUND;
+
+/// Most pieces of a friction law in a kernel, and those of each that is compiled.
+pub const PIECES: [usize; 7] = [1, 2, 4, 16, 64, 256, 1024];
+
+/// Where the files of the kernel are, and their text; that of the series is made.
+static FILES: LazyLock<[(&str, &str); 4]> = LazyLock::new(|| {
+    [
+        ("shaders/march.wgsl", include_str!("../../../shaders/march.wgsl")),
+        ("src/engine/march/series.rs", Box::leak(series::text(ORDER).into_boxed_str())),
+        ("shaders/march_window.wgsl", include_str!("../../../shaders/march_window.wgsl")),
+        ("shaders/march_main.wgsl", include_str!("../../../shaders/march_main.wgsl")),
+    ]
+});
+
+static KERNELS: LazyLock<[Kernel; PIECES.len()]> = LazyLock::new(|| PIECES.map(kernel));
+
+/// The smallest kernel that holds laws of `pieces` pieces, and how many it holds; `None` when there is none.
+#[must_use]
+pub fn kernel_for(pieces: usize) -> Option<(&'static Kernel, usize)> {
+    let place = PIECES.iter().position(|holds| pieces <= *holds)?;
+    Some((&KERNELS[place], PIECES[place]))
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "small constants become words of a kernel")]
+fn kernel(pieces: usize) -> Kernel {
+    let mut inputs: Vec<Field> = head::FIELDS.to_vec();
+    inputs.push(Field::many("pieces", pieces * piece::WORDS));
+    Kernel {
+        name: "march",
+        files: &*FILES,
+        inputs: Vec::leak(inputs),
+        state: &state::FIELDS,
+        flags: &flag::FIELDS,
+        settings: const { &[Field::one("tolerance")] },
+        tables: &[("SUM", &sum::FIELDS), ("PIECE", &piece::FIELDS)],
+        constants: Vec::leak(vec![
+            ("PIECES", Constant::U32(pieces as u32)),
+            ("PART_GROWTH", Constant::U32(Part::Growth as u32)),
+            ("PART_SETTLE", Constant::U32(Part::Settle as u32)),
+            ("PART_WINDOW", Constant::U32(Part::Window as u32)),
+            ("SLIP", Constant::U32(states::SLIP)),
+            ("REVERSE", Constant::U32(states::REVERSE)),
+            ("STICK", Constant::U32(states::STICK)),
+            ("FREE", Constant::U32(states::FREE)),
+            ("HIGHEST_ORDER", Constant::U32(crossing::HIGHEST_ORDER as u32)),
+            ("HELD_FROM", Constant::U32(contact::HELD_FROM)),
+            ("EVENTS_AT_ONCE", Constant::U32(scene::EVENTS_AT_ONCE)),
+            ("ROUNDINGS", Constant::Real(ROUNDINGS)),
+            ("SLOWEST_REBOUND", Constant::Real(SLOWEST_REBOUND)),
+            ("LONGER", Constant::Real(LONGER)),
+            ("MARGIN", Constant::Real(MARGIN)),
+            ("FAR", Constant::Real(FAR)),
+            ("SHORTEST", Constant::Real(SHORTEST)),
+            ("ENOUGH", Constant::Real(ENOUGH)),
+            ("NODE_0", Constant::Real(NODES[0])),
+            ("NODE_1", Constant::Real(NODES[1])),
+            ("NODE_2", Constant::Real(NODES[2])),
+            ("WEIGHT_0", Constant::Real(WEIGHTS[0])),
+            ("WEIGHT_1", Constant::Real(WEIGHTS[1])),
+            // What a search of an event function is at: its samples, a dip between two of them, its root.
+            ("SAMPLES", Constant::U32(0)),
+            ("DIP", Constant::U32(1)),
+            ("ROOT", Constant::U32(2)),
+        ]),
+        // Three searches, and the searches for a piece at an impact.
+        loops_per_step: 160 + 3 * (pieces as u32 - 1),
+    }
+}
+
+/// A root is found when the last step of Newton's method, which squares its error, was below this part of the step.
+const ENOUGH: f64 = 1e-4;
+
+/// The parts of the kernel that are chosen: the part of the run, and whether the belt has a ramp.
+#[must_use]
+pub fn choices(part: Part, ramp: bool) -> Vec<(&'static str, Constant)> {
+    vec![("PART", Constant::U32(part as u32)), ("RAMP", Constant::Bool(ramp))]
+}
