@@ -1,6 +1,7 @@
 //! `cargo bench --bench map [-- options]`: one map on every engine, judged; see [`options::Options`].
 
 mod clock;
+mod date;
 mod engine;
 mod flops;
 mod gpu;

@@ -1,11 +1,7 @@
 //! The shipped map on the best adapter: instances per second, and its agreement with the f64 reference.
 //!
-//! `cargo bench --bench gpu_map` prints the log and keeps it under `benches/results/`. `SQUEALMAP_BENCH_POINTS`
-//! sets the friction coefficients on each axis (default 41, the shipped map; the reference takes 4 ms of a
-//! core per instance).
-
-#[path = "../tests/gpu/differences.rs"]
-mod differences;
+//! The log is printed and kept under `benches/results/`. `SQUEALMAP_BENCH_POINTS` sets the friction coefficients on each
+//! axis (default 41, the shipped map; the reference takes 4 ms of a core per instance).
 
 use std::error::Error;
 use std::fmt::Write;
@@ -16,16 +12,17 @@ use squealmap::engine::gpu::adapter::Adapter;
 use squealmap::engine::options::Options;
 use squealmap::engine::precision::Precision;
 use squealmap::sweep::map::Map;
-use squealmap::sweep::run;
+use squealmap::sweep::run as sweep_run;
 use squealmap::sweep::spec::Spec;
 use squealmap::version::{COMMIT, VERSION};
 
-use differences::Differences;
+use crate::differences::Differences;
 
 /// Runs of which the fastest counts.
 const RUNS: usize = 3;
 
-fn main() -> Result<(), Box<dyn Error>> {
+/// Measures, prints and keeps the log.
+pub(crate) fn run() -> Result<(), Box<dyn Error>> {
     let points = std::env::var("SQUEALMAP_BENCH_POINTS").unwrap_or_else(|_| "41".to_owned());
     let text = std::fs::read_to_string("sweeps/paper_map.toml")?;
     let text = text.replace("points = 41", &format!("points = {points}"));
@@ -41,7 +38,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     let run = |backend, precision, strict| {
         let options = Options { backend, precision, strict, ..Options::default() };
-        run::run(spec.clone(), &options, &|_| {})
+        sweep_run::run(spec.clone(), &options, &|_| {})
     };
     let reference = run(Backend::Reference, None, false)?;
     writeln!(log, "\nreference, f64 on {} threads: {}", reference.provenance.threads, rate(&reference))?;
