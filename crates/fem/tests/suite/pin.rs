@@ -10,7 +10,7 @@ use squealmap_fem::modes::{
 
 use crate::cases::pin;
 
-/// The ten lowest frequencies (Hz) of CalculiX 2.20 for the file of `examples/calculix.rs`, with equations that tie the normal displacements.
+/// The ten lowest frequencies (Hz) of CalculiX 2.20 for the file of `examples/calculix/main.rs`, with equations that tie the normal displacements.
 const CALCULIX: [f64; 10] = [
     16_087.39, 16_690.00, 30_126.49, 55_767.81, 63_371.81, 63_864.10, 64_420.15, 72_715.21, 80_388.74,
     85_893.48,
