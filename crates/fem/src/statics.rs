@@ -1,10 +1,12 @@
 //! The static step: a load presses the bodies together while they slide; what gapes is left out.
 
+use std::collections::HashSet;
+
 use faer::Mat;
 
 use crate::Error;
 use crate::assembly::{Loads, Model, Numbering, Pencil, assemble, load_vector};
-use crate::contact::{Point, Surface, pressures};
+use crate::contact::{Point, SHARE, Surface, pressures};
 use crate::mesh::FaceRef;
 use crate::modes::{Factor, Ordering};
 
@@ -19,8 +21,10 @@ pub struct Settled {
     pub pencil: Pencil,
     /// Displacements of all nodes, m.
     pub displacement: Vec<[f64; 3]>,
-    /// Normal force N0 of each pressed point, N.
+    /// Normal force N0 of each pressed point, N. A point that follows open corners hands a fifth of it on to each.
     pub forces: Vec<f64>,
+    /// The normal force of the whole contact, N.
+    pub force: f64,
     /// Pressure at each pressed point, Pa.
     pub pressures: Vec<f64>,
     /// The slaves' side.
@@ -43,18 +47,34 @@ impl Settled {
 /// Solves (K + μ Sᵀ K_n) q = f + μ Sᵀ f_n, takes out the points that are pulled, puts back those that overlap, until none is left of
 /// either. `faces` are those of the slaves.
 ///
+/// The middle of an edge of a quadratic face is held at a fifth of the gaps at the corners beside it: that gap and the force which presses
+/// it (see [`Surface::pressing`]) are conjugate, so that without friction there is one state in which each point is pressed or open.
+///
 /// # Errors
 /// A body that can move without a force; a contact of which nothing stays pressed; no end to opening and closing.
 pub fn settle(model: &Model, faces: &[FaceRef], loads: &Loads, mu: f64) -> Result<Settled, Error> {
     /// Each round moves the edge of the pressed area by an element or so.
     const ROUNDS: usize = 60;
+    /// Rounds that change one point only, the worst, once a state comes again.
+    const SINGLE: usize = 20;
     /// What rounding makes of zero, over the largest force or gap.
     const ZERO: f64 = 1e-9;
     let all = &model.contact;
+    let numbering = Numbering::new(&model.mesh, &model.supports, &[])?;
+    let whole = Surface::new(&model.mesh, &numbering, faces, all);
+    // Where a stiffness holds the points, each has its own gap.
+    let middles = if model.penalty.is_some() { Vec::new() } else { whole.middles() };
     let mut pressed: Vec<bool> = vec![true; all.len()];
-    for _ in 0..ROUNDS {
+    let mut met = HashSet::new();
+    let mut single = false;
+    let (mut rounds, mut left) = (0, ROUNDS);
+    while left > 0 {
+        (rounds, left) = (rounds + 1, left - 1);
+        if !single && !met.insert(pressed.clone()) {
+            (single, left) = (true, SINGLE);
+        }
         let mut now = model.clone();
-        now.contact = all.iter().zip(&pressed).filter(|(_, on)| **on).map(|(p, _)| p.clone()).collect();
+        now.contact = held(all, &pressed, &middles);
         if now.contact.is_empty() && !all.is_empty() {
             let what =
                 "nothing of the contact stays pressed: check the load's direction and the contact's normal"
@@ -63,43 +83,95 @@ pub fn settle(model: &Model, faces: &[FaceRef], loads: &Loads, mu: f64) -> Resul
         }
         let (numbering, pencil) = assemble(&now)?;
         let (displacement, forces) = slide(&now, &numbering, &pencil, loads, mu)?;
-        let surface = Surface::new(&now.mesh, &numbering, faces, &now.contact);
-        let areas = surface.matrix(&vec![1.0; forces.len()]);
-        let pressures = pressures(&areas, &forces);
-        let pressing = surface.pressing(&forces);
-        let largest = pressing.iter().copied().fold(0.0, f64::max);
-        let gaps: Vec<f64> = all.iter().map(|point| gap(point, &displacement)).collect();
-        let widest = gaps.iter().copied().fold(0.0, |a: f64, b| a.max(b.abs()));
-        let mut changed = false;
-        let mut index = 0;
-        for (i, on) in pressed.iter_mut().enumerate() {
-            let stays = if *on {
-                index += 1;
-                pressing[index - 1] >= -ZERO * largest
-            } else {
-                gaps[i] < -ZERO * widest
-            };
-            changed |= stays != *on;
-            *on = stays;
+        // Points on one line let a body turn: the matrix is singular but for rounding.
+        let farthest = displacement.iter().flatten().fold(0.0, |a: f64, u| a.max(u.abs()));
+        if farthest > now.mesh.extent() {
+            return Err(tips(rounds, mu));
         }
-        if !changed {
-            let open = all.iter().zip(&pressed).filter(|(_, on)| !**on).map(|(p, _)| p.clone()).collect();
+        let surface = Surface::new(&now.mesh, &numbering, faces, &now.contact);
+        // How much each point is on the wrong side: pulled, or overlapping.
+        let pressing = surface.pressing(&forces);
+        let gaps = gaps(all, &middles, &displacement);
+        let [largest, widest] =
+            [&pressing, &gaps].map(|all| all.iter().fold(0.0, |a: f64, b| a.max(b.abs())));
+        let mut pressing = pressing.iter();
+        let wrong = pressed.iter().zip(&gaps).map(|(on, gap)| {
+            let force = if *on { pressing.next() } else { None };
+            -force.map_or_else(|| gap / widest, |force| force / largest)
+        });
+        let wrong: Vec<f64> = wrong.collect();
+        let most = (0..wrong.len()).max_by(|a, b| wrong[*a].total_cmp(&wrong[*b]));
+        let Some(most) = most.filter(|most| wrong[*most] > ZERO) else {
+            let open: Vec<Point> =
+                all.iter().zip(&pressed).filter(|(_, on)| !**on).map(|(p, _)| p.clone()).collect();
+            let areas = surface.matrix(&vec![1.0; forces.len()]);
+            let pressures = pressures(&areas, &forces);
             return Ok(Settled {
-                model: now,
                 numbering,
                 pencil,
                 displacement,
+                force: total(&now.contact, &forces, &open),
+                model: now,
                 forces,
                 pressures,
                 surface,
                 open,
             });
+        };
+        for (i, on) in pressed.iter_mut().enumerate() {
+            if if single { i == most } else { wrong[i] > ZERO } {
+                *on = !*on;
+            }
         }
     }
+    Err(tips(rounds, mu))
+}
+
+fn tips(rounds: usize, mu: f64) -> Error {
     let what = format!(
-        "the contact still opens and closes after {ROUNDS} rounds: mesh its edge finer, or raise the load"
+        "no state of the contact was found in {rounds} rounds in which each point is pressed or open, with a static friction of {mu}: \
+         friction may tip a body over its edge; lower it, hold the body against turning, or mesh the edge finer"
     );
-    Err(Error::Contact { what })
+    Error::Contact { what }
+}
+
+/// The points that are pressed; a middle of an edge follows the corners beside it that are open.
+fn held(all: &[Point], pressed: &[bool], middles: &[(usize, Vec<usize>)]) -> Vec<Point> {
+    let mut points = all.to_vec();
+    for (middle, corners) in middles {
+        for corner in corners.iter().filter(|corner| !pressed[**corner]) {
+            let Point { slave, masters, .. } = &all[*corner];
+            let of = &mut points[*middle].masters;
+            for (node, w) in
+                std::iter::once((*slave, SHARE)).chain(masters.iter().map(|(m, w)| (*m, -SHARE * w)))
+            {
+                match of.iter_mut().find(|(known, _)| *known == node) {
+                    Some((_, sum)) => *sum += w,
+                    None => of.push((node, w)),
+                }
+            }
+        }
+    }
+    points.into_iter().zip(pressed).filter(|(_, on)| **on).map(|(point, _)| point).collect()
+}
+
+/// The sum of the forces on all nodes of the slaves, N.
+fn total(pressed: &[Point], forces: &[f64], open: &[Point]) -> f64 {
+    let slaves: HashSet<usize> = open.iter().map(|point| point.slave).collect();
+    let kept = |point: &Point| {
+        1.0 - point.masters.iter().filter(|(node, _)| slaves.contains(node)).map(|(_, w)| w).sum::<f64>()
+    };
+    pressed.iter().zip(forces).map(|(point, force)| force * kept(point)).sum()
+}
+
+/// The gaps that are conjugate to what presses the points, but for a positive factor, m.
+fn gaps(all: &[Point], middles: &[(usize, Vec<usize>)], displacement: &[[f64; 3]]) -> Vec<f64> {
+    let own: Vec<f64> = all.iter().map(|point| gap(point, displacement)).collect();
+    let mut gaps = own.clone();
+    for (middle, corners) in middles {
+        gaps[*middle] -= SHARE * corners.iter().map(|corner| own[*corner]).sum::<f64>();
+    }
+    gaps
 }
 
 /// n·(u_s − Σ w u_m), m.

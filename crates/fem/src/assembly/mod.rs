@@ -27,4 +27,4 @@ pub use pencil::{Modal, Pencil};
 pub use point::Point;
 pub use sparse::{Pattern, Rows, Symmetric};
 pub use supports::{Supports, Tie};
-pub use surface::{Surface, pressures};
+pub use surface::{SHARE, Surface, pressures};

@@ -3,7 +3,7 @@
 //! The forces that a uniform pressure makes on the nodes of a quadratic face have both signs (a corner of Quad8 is pulled): what is
 //! pressed and what is pulled is not seen on them.
 
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::{BTreeMap, HashMap};
 
 use super::Point;
 use super::{Numbering, Rows};
@@ -65,30 +65,37 @@ impl Surface {
     }
 }
 
+/// The part of a force in the middle of an edge that each corner takes over.
+pub const SHARE: f64 = 0.2;
+
 impl Surface {
+    /// Contact points in the middles of edges, with those at the corners beside each.
+    #[must_use]
+    pub fn middles(&self) -> Vec<(usize, Vec<usize>)> {
+        let point = |node: usize| self.index.get(&self.leader[node]).copied();
+        let mut found = BTreeMap::new();
+        for face in &self.faces {
+            let corners = face.kind.corners();
+            for (i, middle) in face.nodes[corners..].iter().enumerate() {
+                // An edge inside the surface is met twice.
+                let Some(middle) = point(*middle) else { continue };
+                let beside = [face.nodes[i], face.nodes[(i + 1) % corners]];
+                found.insert(middle, beside.into_iter().filter_map(point).collect());
+            }
+        }
+        found.into_iter().collect()
+    }
+
     /// What presses each contact point, N, from the forces on the nodes: corners of quadratic faces take over a fifth of the forces
     /// in the middles of their edges, by which a uniform pressure presses everywhere (Popp, Wohlmuth, Gee and Wall, Dual quadratic
     /// mortar finite element methods for 3D finite deformation contact, SIAM J. Sci. Comput. 34, 2012).
     #[must_use]
     pub fn pressing(&self, forces: &[f64]) -> Vec<f64> {
-        const SHARE: f64 = 0.2;
-        let point = |node: usize| self.index.get(&self.leader[node]).copied();
         let mut pressing = forces.to_vec();
-        // An edge inside the surface is met twice.
-        let mut met = HashSet::new();
-        for face in &self.faces {
-            let corners = face.kind.corners();
-            for (i, middle) in face.nodes[corners..].iter().enumerate() {
-                let Some(middle) = point(*middle) else { continue };
-                if !met.insert(middle) {
-                    continue;
-                }
-                for corner in [face.nodes[i], face.nodes[(i + 1) % corners]] {
-                    pressing[middle] -= SHARE * forces[middle];
-                    if let Some(corner) = point(corner) {
-                        pressing[corner] += SHARE * forces[middle];
-                    }
-                }
+        for (middle, corners) in self.middles() {
+            pressing[middle] -= 2.0 * SHARE * forces[middle];
+            for corner in corners {
+                pressing[corner] += SHARE * forces[middle];
             }
         }
         pressing

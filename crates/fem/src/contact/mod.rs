@@ -5,7 +5,7 @@ mod matching;
 mod mortar;
 mod rotation;
 
-pub use crate::assembly::{Point, Surface, pressures};
+pub use crate::assembly::{Point, SHARE, Surface, pressures};
 pub use interpolated::bonded_points;
 pub use matching::{bonded, periodic, sliding, sliding_on_rigid};
 pub use mortar::{bonded_mortar, mortar};

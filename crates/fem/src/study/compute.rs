@@ -114,7 +114,7 @@ pub fn compute(study: &Study, say: &mut dyn FnMut(&str)) -> Result<Outcome, Erro
         let settled = clock
             .step("static step", || settle(&study.model, &study.faces, &study.loads, friction.static_mu))?;
         let per_slope = settled.surface.matrix(&settled.pressures);
-        let force = settled.forces.iter().sum();
+        let force = settled.force;
         let pressed = Pressed { force, open: settled.open.len(), displacement: settled.displacement };
         (settled.numbering, settled.pencil, Some(pressed), per_slope)
     } else {

@@ -85,7 +85,7 @@ fn what_is_pulled_opens() {
         let settled = settle(&model, &slaves, &loads, 0.0).expect("a settled block");
         assert!(!settled.open.is_empty() && !settled.forces.is_empty(), "{}", kind.name());
         let applied: f64 = nodal_forces(&model, &loads).iter().map(|f| f[2]).sum();
-        let total: f64 = settled.forces.iter().sum();
+        let total = settled.force;
         assert!((total + applied).abs() < 1e-9 * total, "{total} N carry {applied} N");
         // Where the pressed part ends does not depend on the elements, to within one of them.
         let end = settled.model.contact.iter().map(|p| model.mesh.nodes[p.slave][0]).fold(0.0, f64::max);
@@ -129,6 +129,51 @@ fn what_has_opened_closes_again() {
         let widest = gaps.iter().copied().fold(0.0, f64::max);
         assert!(gaps.iter().all(|gap| *gap >= -1e-6 * widest), "{gaps:?}");
     }
+}
+
+/// A column that is pressed from above and hinged there, with friction at its foot: whatever the elements, the normal forces stand off
+/// its middle by μ times its height. Beyond half its length it tips over.
+#[test]
+fn friction_moves_the_normal_force_by_mu_times_the_height() {
+    let (length, height) = (1.0, 4.0);
+    let column = |kind: Kind| {
+        let mut model = on_plane(kind, [length, 0.5, height], [6, 2, 6]);
+        let top = model.mesh.node_set("z1").expect("a side").to_vec();
+        model.supports.prescribe(&top, 0, 0.0);
+        model.supports.prescribe(&top, 1, 0.0);
+        model
+    };
+    let pressed = |model: &Model, mu: f64| {
+        let set = |name| model.mesh.face_set(name).expect("a side").to_vec();
+        let loads = Loads { pressure: vec![(set("z1"), 1e6)], ..Loads::default() };
+        settle(model, &set("z0"), &loads, mu)
+    };
+    for kind in [Kind::Hex8, Kind::Hex20, Kind::Tet10, Kind::Wedge15] {
+        let model = column(kind);
+        for (mu, opens) in [(0.02, false), (0.06, true), (0.1, true)] {
+            let settled = pressed(&model, mu).expect("a settled column");
+            assert_eq!(opens, !settled.open.is_empty(), "{} at {mu}", kind.name());
+            let forces = internal_forces(&settled.model, &settled.displacement).expect("forces");
+            let foot = model.mesh.node_set("z0").expect("a side");
+            let total: f64 = foot.iter().map(|node| forces[*node][2]).sum();
+            let sideways: f64 = foot.iter().map(|node| forces[*node][0]).sum();
+            let moment: f64 =
+                foot.iter().map(|node| (model.mesh.nodes[*node][0] - length / 2.0) * forces[*node][2]).sum();
+            assert!((total - 0.5e6).abs() < 1e-3 && (settled.force - total).abs() < 1e-3, "{total} N");
+            assert!((sideways + mu * total).abs() < 1e-3, "{sideways} N");
+            let off = (moment / total).abs();
+            assert!((off - mu * height).abs() < 1e-6, "{}: {off} m at {mu}", kind.name());
+            let gaps = settled.open.iter().map(|p| settled.displacement[p.slave][2]);
+            assert!(gaps.clone().all(|gap| gap > -1e-15), "{:?}", gaps.collect::<Vec<_>>());
+            let pressing = settled.surface.pressing(&settled.forces);
+            assert!(pressing.iter().all(|force| *force > -1e-3), "{pressing:?}");
+        }
+    }
+    let error = pressed(&column(Kind::Hex8), 0.15).expect_err("it tips over").to_string();
+    assert!(
+        error.contains("with a static friction of 0.15: friction may tip a body over its edge"),
+        "{error}"
+    );
 }
 
 #[test]
