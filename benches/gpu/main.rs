@@ -102,7 +102,7 @@ fn check() -> Result<(), Box<dyn Error>> {
                 row.kernel, row.scalar, row.compiler, row.version
             ),
             Verdict::Unknown => {
-                faults.push(format!("`{}` in {} on {} has no limit", row.kernel, row.scalar, row.compiler))
+                faults.push(format!("`{}` in {} on {} has no limit", row.kernel, row.scalar, row.compiler));
             }
             Verdict::Risen(risen) => faults.extend(risen),
         }

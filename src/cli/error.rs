@@ -12,10 +12,12 @@ const FAULT: usize = 1200;
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum Error {
     /// A description of bodies in contact, or its model, cannot be computed.
-    #[error("`{}`: {}", one_line(&path.display().to_string()), clipped(why, SAID))]
+    #[error("{}: {}", at.as_ref().map_or_else(|| format!("`{}`", one_line(&path.display().to_string())), Place::to_string), clipped(why, SAID))]
     Fem {
         /// The description.
         path: PathBuf,
+        /// Where in it, if anywhere.
+        at: Option<Place>,
         /// What is wrong, as a sentence.
         why: String,
     },
@@ -347,6 +349,7 @@ impl Error {
     pub(crate) fn place(&self) -> Option<&Place> {
         match self {
             Error::Library(why) => why.place(),
+            Error::Fem { at, .. } => at.as_ref(),
             _ => None,
         }
     }

@@ -11,7 +11,9 @@ use squealmap::results::figure::look::Look;
 use squealmap::store::space::bytes;
 use squealmap::study::fem::{Curves, mesh_svg, pictures_svg};
 use squealmap_fem::study::document::Document;
-use squealmap_fem::study::{Outcome, Study, compute, estimate, manifest, shapes, table};
+use squealmap_fem::study::{Outcome, Study, compute, estimate, manifest, place, shapes, table, vary_table};
+
+use squealmap_input::place::Source;
 
 use crate::cli::home::prepare_beside;
 use crate::cli::output::list;
@@ -19,8 +21,8 @@ use crate::cli::pictures::png_of;
 use crate::cli::progress::seconds;
 use crate::cli::talk::{self, note, print};
 
-/// What is written; the figures where there is something to draw, the last where it is asked for.
-const FILES: [&str; 10] = [
+/// What is written; the figures where there is something to draw, the last two where they are asked for.
+const FILES: [&str; 13] = [
     "fem.csv",
     "manifest.json",
     "shapes.vtu",
@@ -30,7 +32,10 @@ const FILES: [&str; 10] = [
     "shapes.png",
     "mesh.svg",
     "mesh.png",
+    "vary.svg",
+    "vary.png",
     "modes.toml",
+    "vary.csv",
 ];
 
 /// Arguments of `fem`.
@@ -48,9 +53,9 @@ pub(crate) struct FemCommand {
 
 impl FemCommand {
     pub(crate) fn execute(self) -> Result<()> {
-        let wrong = |why: squealmap_fem::Error| Error::Fem { path: self.study.clone(), why: why.to_string() };
-        let unreadable = |why: String| Error::Fem { path: self.study.clone(), why };
+        let unreadable = |why: String| Error::Fem { path: self.study.clone(), at: None, why };
         let text = text_of(&self.study).map_err(unreadable)?;
+        let wrong = |why: squealmap_fem::Error| of_study(&self.study, &text, &why);
         let beside = self.study.parent().unwrap_or(Path::new("")).to_owned();
         let document = Document::read(&text).map_err(wrong)?;
         let study = Study::new(document, &|path| text_of(&beside.join(path))).map_err(wrong)?;
@@ -71,11 +76,15 @@ impl FemCommand {
             Curves::of(&study, &outcome).svg(&look),
             pictures_svg(&study, &outcome, &look),
             Some(mesh_svg(&study, &look)),
+            Curves::varied(&study, &outcome).and_then(|curves| curves.svg(&look)),
         ];
         if let Some(modal) = &outcome.modal {
-            files.push((FILES[9], modal.write()));
+            files.push((FILES[11], modal.write()));
         }
-        for (svg, names) in drawn.into_iter().zip(FILES[3..9].chunks_exact(2)) {
+        if let Some(varied) = vary_table(&study, &outcome) {
+            files.push((FILES[12], varied));
+        }
+        for (svg, names) in drawn.into_iter().zip(FILES[3..11].chunks_exact(2)) {
             if let Some(svg) = svg {
                 files.push((names[1], png_of(&svg)?));
                 files.push((names[0], svg.into_bytes()));
@@ -84,6 +93,17 @@ impl FemCommand {
         print(&list(&output.write(&files)?));
         Ok(())
     }
+}
+
+/// What is wrong with a description, and where.
+pub(crate) fn of_study(path: &Path, text: &str, why: &squealmap_fem::Error) -> Error {
+    let source = Source::new(path.display().to_string(), text);
+    let at = place(text, why).map(|span| source.place(span));
+    let why = match why {
+        squealmap_fem::Error::Description { what, .. } => what.clone(),
+        other => other.to_string(),
+    };
+    Error::Fem { path: path.to_owned(), at, why }
 }
 
 /// The text of a file, or why there is none.
@@ -126,6 +146,11 @@ fn said(study: &Study, outcome: &Outcome) -> String {
     );
     if let Some(pressed) = outcome.pressed.as_ref() {
         let _ = writeln!(text, "pressed with {:.4} N; {} points gape", pressed.force, pressed.open);
+    }
+    if let Some(plain) = &outcome.unstressed {
+        let moved = outcome.real.iter().zip(plain).map(|(with, without)| with / without - 1.0);
+        let farthest = moved.max_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap_or(0.0);
+        let _ = writeln!(text, "the stress moves real frequencies by up to {farthest:.2e} of themselves");
     }
     if let Some(k) = study.document.friction.contact_stiffness {
         let _ = writeln!(text, "contact stiffness {k:e} Pa/m: mu_c depends on it");

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::cli::error::{Error, Result};
-use crate::cli::fem::text_of;
+use crate::cli::fem::{of_study, text_of};
 use crate::cli::output::{Output, list};
 use crate::cli::pictures::png_of;
 use crate::cli::talk::{note, print};
@@ -36,12 +36,12 @@ const FIGURES: &str = "paper";
 /// Computes a study, and writes figures and report into a directory.
 pub(crate) fn execute(output: PathBuf, path: &Path) -> Result<()> {
     let other = Some(path).filter(|path| *path != Path::new(BUILT_IN));
-    let wrong = |why: String| Error::Fem { path: path.to_owned(), why };
-    let of_study = |why: squealmap_fem::Error| wrong(why.to_string());
+    let wrong = |why: String| Error::Fem { path: path.to_owned(), at: None, why };
     let text = match other {
         Some(path) => text_of(path).map_err(wrong)?,
         None => STUDY.to_owned(),
     };
+    let of_study = |why: squealmap_fem::Error| of_study(path, &text, &why);
     let beside = path.parent().unwrap_or(Path::new("")).to_owned();
     let document = Document::read(&text).map_err(of_study)?;
     let study = Study::new(document, &|path| text_of(&beside.join(path))).map_err(of_study)?;

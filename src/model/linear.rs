@@ -19,7 +19,7 @@ use num_complex::Complex64;
 use crate::model::equilibrium::Equilibrium;
 use crate::model::instance::Instance;
 use crate::model::kind::{InstabilityType, UNSTABLE_ABOVE};
-use crate::model::modal::Modal;
+use crate::model::modal::{At, Modal};
 use crate::model::status::Status;
 use crate::model::{Param, quartic};
 
@@ -276,7 +276,9 @@ pub fn of_modal(instance: &Instance, modal: &Modal) -> (Option<InstabilityType>,
         return (None, None, Status::InvalidLaw);
     }
     let velocity = instance.params.require(Param::BeltVelocity);
-    let (mu, ratio) = (instance.law.mu(velocity), instance.params.get(Param::DampingRatio).unwrap_or(0.0));
+    let mu = instance.law.mu(velocity);
+    let ratio = instance.params.get(Param::DampingRatio).unwrap_or(0.0);
+    let kn = instance.params.get(Param::Kn);
     let pressed = modal.pressed(instance.params.require(Param::FExt), mu);
     if velocity == 0.0 {
         let status = pressed.map_or(Status::NoEquilibrium, |_| Status::Ok);
@@ -285,16 +287,17 @@ pub fn of_modal(instance: &Instance, modal: &Modal) -> (Option<InstabilityType>,
     let Some(pressed) = pressed else {
         return (Some(InstabilityType::Divergence), None, Status::NoEquilibrium);
     };
-    match attributed(modal, mu, instance.law.slope(velocity) * pressed, ratio) {
+    let slope = instance.law.slope(velocity) * pressed;
+    match attributed(modal, At { mu, slope, ratio, kn }) {
         Some((kind, linear)) => (Some(kind), Some(linear), Status::Ok),
         None => (None, None, Status::NonFinite),
     }
 }
 
-/// The type of a structure's modes with friction `mu`, the part `slope` of its slope matrix and damping ratios `ratio`;
-/// `None` beyond the range of numbers.
-fn attributed(modal: &Modal, mu: f64, slope: f64, ratio: f64) -> Option<(InstabilityType, Linear)> {
-    let leading = |mu, slope| Some(rightmost(&modal.eigenvalues(mu, slope, ratio)?));
+/// The type of a structure's modes; `None` beyond the range of numbers.
+fn attributed(modal: &Modal, at: At) -> Option<(InstabilityType, Linear)> {
+    let leading = |mu, slope| Some(rightmost(&modal.eigenvalues(At { mu, slope, ..at })?));
+    let At { mu, slope, .. } = at;
     let full = leading(mu, slope)?;
     let flat = if slope == 0.0 { full } else { leading(mu, 0.0)? };
     let frozen = if mu == 0.0 { full } else { leading(0.0, slope)? };

@@ -45,6 +45,7 @@ pub enum Param {
     Theta,
     Restitution,
     DampingRatio,
+    Kn,
     MuS,
     MuD,
     KneeVelocity,
@@ -173,6 +174,7 @@ params! {
     Theta "theta" "θ" "rad" Model Some(0.01), Range::Open(-std::f64::consts::FRAC_PI_2, std::f64::consts::FRAC_PI_2), "inclination of the contact";
     Restitution "restitution" "e" "" Model Some(0.0), Range::Closed(0.0, 1.0), "Newton restitution of the impact after a detachment";
     DampingRatio "damping_ratio" "ζ" "" Model None, Range::Closed(0.0, 1.0), "damping ratio added to every mode without friction; none where it is left out";
+    Kn "kn" "k_n" "Pa/m" Model None, Range::Positive, "contact stiffness (of a modal model); that of its file where it is left out";
     MuS "mu_s" "μ_s" "" Friction None, Range::NonNegative, "static friction coefficient";
     MuD "mu_d" "μ_d" "" Friction None, Range::NonNegative, "dynamic friction coefficient";
     KneeVelocity "knee_velocity" "v_k" "m/s" Friction Some(5.0), Range::Positive, "relative velocity from which the bilinear law is constant";

@@ -8,7 +8,8 @@
 //!
 //! with μ = μ(V): friction adds to all three matrices, since the normal force holds back stiffness, inertia and damping of
 //! the surface. D is what a slope of 1 s/m is under the load F0, F the load (`f_ext`), w what friction takes off the normal
-//! forces. ζ (`damping_ratio`) damps the modes without friction, Ω = Σ ω φ (M φ)ᵀ. Attribution is that of
+//! forces. Where the file knows what the contact stiffness k (`kn`) changes, K is that of the file's `k0` with `(k − k0) K_c` added, and `K_f`
+//! is multiplied by `k/k0`. ζ (`damping_ratio`) damps the modes without friction, Ω = Σ ω φ (M φ)ᵀ. Attribution is that of
 //! [`crate::model::linear`]: without the slope, and without the feedback of the normal force (μ = 0 in the matrices).
 
 use nalgebra::{Cholesky, DMatrix, SymmetricEigen};
@@ -31,6 +32,30 @@ pub struct Matrices {
     pub friction: [DMatrix<f64>; 3],
     /// D: what a slope of 1 s/m adds to C under the load.
     pub slope: DMatrix<f64>,
+    /// `K_c`: what 1 Pa/m of contact stiffness adds to K; zero where the file has none.
+    pub contact: DMatrix<f64>,
+}
+
+/// The contact stiffness of a file, Pa/m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact {
+    /// That of K and `K_f`.
+    pub stiffness: f64,
+    /// The least and the largest for which the vectors were chosen.
+    pub range: [f64; 2],
+}
+
+/// What the matrices are asked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct At {
+    /// The coefficient of friction in the matrices.
+    pub mu: f64,
+    /// The part of D.
+    pub slope: f64,
+    /// Damping ratio of every mode without friction.
+    pub ratio: f64,
+    /// Contact stiffness, Pa/m; `None` for that of the file.
+    pub kn: Option<f64>,
 }
 
 /// A structure by some of its modes.
@@ -44,12 +69,14 @@ pub struct Modal {
     pub mu: [f64; 2],
     /// F0, N.
     pub load: f64,
+    /// Its contact stiffness, where that may vary.
+    pub contact: Option<Contact>,
     wedge: f64,
     /// So many modes of the lowest frequencies are the structure's; those above are what the vectors make of others.
     modes: usize,
     /// With s^-1 replaced by the highest frequency, so that numbers are about 1.
     scaled: Matrices,
-    /// 2 Ω in that unit.
+    /// 2 Ω in that unit, with the contact stiffness of the file.
     ratio: DMatrix<f64>,
     /// The unit of λ, 1/s.
     unit: f64,
@@ -66,39 +93,31 @@ impl Modal {
         matrices: &Matrices,
         mu: [f64; 2],
         [load, wedge]: [f64; 2],
+        contact: Option<Contact>,
         modes: usize,
     ) -> Result<Modal, String> {
         let [stiffness, mass, _] = &matrices.symmetric;
         let wrong =
             || "its mass matrix is not positive definite: every motion has to move some mass".to_owned();
-        let factor = Cholesky::new(mass.clone()).ok_or_else(wrong)?.unpack();
+        Cholesky::new(mass.clone()).ok_or_else(wrong)?;
         let beyond = || "its modes without friction are beyond the range of numbers".to_owned();
-        // L⁻¹ K L⁻ᵀ has the squares of the frequencies.
-        let half = factor.solve_lower_triangular(stiffness).ok_or_else(beyond)?;
-        let squares = factor.solve_lower_triangular(&half.transpose()).ok_or_else(beyond)?;
-        let eigen =
-            SymmetricEigen::try_new(squares, f64::EPSILON, TURNS * mass.nrows()).ok_or_else(beyond)?;
-        let highest = eigen.eigenvalues.iter().fold(0.0_f64, |most, square| most.max(square.abs()));
-        let unit = if highest > 0.0 { highest.sqrt() } else { 1.0 };
-        let frequencies = eigen.eigenvalues.map(|square| 2.0 * square.max(0.0).sqrt() / unit);
-        // Ω = L⁻ᵀ Y ω Yᵀ Lᵀ.
-        let within = &eigen.eigenvectors
-            * DMatrix::from_diagonal(&frequencies)
-            * eigen.eigenvectors.transpose()
-            * factor.transpose();
-        let ratio = factor.transpose().solve_upper_triangular(&within).ok_or_else(beyond)?;
+        let (highest, ratio) = damping(stiffness, mass).ok_or_else(beyond)?;
+        let unit = if highest > 0.0 { highest } else { 1.0 };
+        let ratio = ratio / unit;
         let per = [1.0 / (unit * unit), 1.0, 1.0 / unit];
         let scale = |all: &[DMatrix<f64>; 3]| [0, 1, 2].map(|i: usize| &all[i] * per[i]);
         let scaled = Matrices {
             symmetric: scale(&matrices.symmetric),
             friction: scale(&matrices.friction),
             slope: &matrices.slope / unit,
+            contact: &matrices.contact * per[0],
         };
-        let is_finite = scaled.symmetric.iter().chain(&scaled.friction).chain([&scaled.slope, &ratio]);
+        let is_finite =
+            scaled.symmetric.iter().chain(&scaled.friction).chain([&scaled.slope, &scaled.contact, &ratio]);
         if !is_finite.flatten().all(|entry| entry.is_finite()) {
             return Err(beyond());
         }
-        Ok(Modal { name, text, mu, load, wedge, modes, scaled, ratio, unit })
+        Ok(Modal { name, text, mu, load, contact, wedge, modes, scaled, ratio, unit })
     }
 
     /// How many vectors there are.
@@ -113,15 +132,24 @@ impl Modal {
         self.modes.min(self.size())
     }
 
-    /// The eigenvalues (1/s) of the modes that count, with friction `mu`, the part `slope` of D and damping ratios `ratio`;
-    /// `None` beyond the range of numbers.
+    /// The eigenvalues (1/s) of the modes that count; `None` beyond the range of numbers.
     #[must_use]
-    pub fn eigenvalues(&self, mu: f64, slope: f64, ratio: f64) -> Option<Vec<Complex64>> {
-        let Matrices { symmetric, friction, slope: per_slope } = &self.scaled;
-        let sum = |i: usize| &symmetric[i] + &friction[i] * mu;
+    pub fn eigenvalues(&self, at: At) -> Option<Vec<Complex64>> {
+        let Matrices { symmetric, friction, slope: per_slope, contact } = &self.scaled;
+        let sum = |i: usize| &symmetric[i] + &friction[i] * at.mu;
+        let other = at.kn.zip(self.contact).filter(|(kn, file)| kn.to_bits() != file.stiffness.to_bits());
         let lu = sum(1).lu();
-        let stiffness = lu.solve(&sum(0))?;
-        let damping = lu.solve(&(sum(2) + per_slope * slope))? + &self.ratio * ratio;
+        let (stiffness, ratio) = match other {
+            None => (sum(0), None),
+            Some((kn, file)) => {
+                let plain = &symmetric[0] + contact * (kn - file.stiffness);
+                let ratio = if at.ratio == 0.0 { None } else { Some(damping(&plain, &symmetric[1])?.1) };
+                (plain + &friction[0] * (at.mu * kn / file.stiffness), ratio)
+            }
+        };
+        let stiffness = lu.solve(&stiffness)?;
+        let damping =
+            lu.solve(&(sum(2) + per_slope * at.slope))? + ratio.as_ref().unwrap_or(&self.ratio) * at.ratio;
         let mut all = if damping.iter().all(|entry| *entry == 0.0) {
             // λ² = −θ: what does not grow, does not grow to the last bit.
             eigenvalues(stiffness)?.iter().flat_map(|theta| [-(-theta).sqrt(), (-theta).sqrt()]).collect()
@@ -146,4 +174,22 @@ impl Modal {
         let reach = 1.0 + self.wedge * mu;
         (reach > 0.0).then(|| load / self.load / reach)
     }
+}
+
+/// The highest frequency without friction (rad per unit of time), and 2 Ω; `None` beyond the range of numbers, or where the mass matrix is
+/// not positive definite.
+fn damping(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>) -> Option<(f64, DMatrix<f64>)> {
+    let factor = Cholesky::new(mass.clone())?.unpack();
+    // L⁻¹ K L⁻ᵀ has the squares of the frequencies.
+    let half = factor.solve_lower_triangular(stiffness)?;
+    let squares = factor.solve_lower_triangular(&half.transpose())?;
+    let eigen = SymmetricEigen::try_new(squares, f64::EPSILON, TURNS * mass.nrows())?;
+    let highest = eigen.eigenvalues.iter().fold(0.0_f64, |most, square| most.max(square.abs())).sqrt();
+    let frequencies = eigen.eigenvalues.map(|square| 2.0 * square.max(0.0).sqrt());
+    // Ω = L⁻ᵀ Y ω Yᵀ Lᵀ.
+    let within = &eigen.eigenvectors
+        * DMatrix::from_diagonal(&frequencies)
+        * eigen.eigenvectors.transpose()
+        * factor.transpose();
+    Some((highest, factor.transpose().solve_upper_triangular(&within)?))
 }

@@ -86,6 +86,16 @@ pub enum Error {
         /// A sentence with the value, its limit and what to do.
         what: String,
     },
+    /// A description that is no TOML, or has keys that there are not.
+    #[error("line {line}: {what}")]
+    Description {
+        /// Line of the text, from 1.
+        line: usize,
+        /// Its bytes.
+        span: std::ops::Range<usize>,
+        /// A sentence.
+        what: String,
+    },
     /// A file that cannot be read.
     #[error("line {line}: {what}")]
     File {

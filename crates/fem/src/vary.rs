@@ -24,6 +24,8 @@ pub struct Setup {
     pub loads: Loads,
     /// Coefficient of friction.
     pub mu: f64,
+    /// That of the static step; none: the same.
+    pub static_mu: Option<f64>,
     /// μ'(V), s/m.
     pub slope: f64,
     /// Whether the stress of the static step stiffens the bodies.
@@ -104,7 +106,7 @@ impl Setup {
             let (numbering, pencil) = assemble(&self.model)?;
             return Ok((numbering, pencil, Rows::default()));
         }
-        let settled = settle(&self.model, &self.faces, &self.loads, self.mu)?;
+        let settled = settle(&self.model, &self.faces, &self.loads, self.static_mu.unwrap_or(self.mu))?;
         let field: Vec<f64> = settled.pressures.iter().map(|p| p * self.slope).collect();
         let slope = if self.slope == 0.0 { Rows::default() } else { settled.surface.matrix(&field) };
         let pencil = if self.stiffened { settled.stiffened()? } else { settled.pencil };

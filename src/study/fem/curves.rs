@@ -37,7 +37,9 @@ const ROUNDING: f64 = 1e-6;
 pub struct Curves {
     /// What stands above them.
     pub title: String,
-    /// Coefficients of friction, rising.
+    /// What they are over, with its unit, where that is not the coefficient of friction.
+    pub over: Option<[String; 2]>,
+    /// Coefficients of friction, or values of what they are over, rising.
     pub mus: Vec<f64>,
     /// Whether anything damps.
     pub damped: bool,
@@ -103,6 +105,16 @@ impl Curves {
     }
 }
 
+/// In decades, where the values go over more than one.
+fn scale(values: &[f64]) -> Scale {
+    let (low, high) = (values[0], values[values.len() - 1]);
+    if low > 0.0 && high > 20.0 * low {
+        Scale::Log { low, high }
+    } else {
+        Scale::spanning(values.iter().copied())
+    }
+}
+
 /// kHz.
 fn frequency(state: &State) -> f64 {
     state.frequency / 1000.0
@@ -113,7 +125,7 @@ fn page(curves: &Curves, look: &Look<'_>, height: f64) -> (Svg, [f64; 2]) {
     let mut svg = Svg::new();
     let mut y = MARGIN + title(&mut svg, look.title(&curves.title), width - 2.0 * MARGIN);
     let states = || curves.modes.iter().flat_map(|mode| &mode.states);
-    let x = Scale::spanning(curves.mus.iter().copied());
+    let x = scale(&curves.mus);
     let frequencies = Scale::spanning(states().map(frequency)).widened(HEADROOM);
     let growths = Scale::spanning(states().map(|s| s.growth).chain([0.0])).widened(HEADROOM);
     let scales = [frequencies, growths];
@@ -162,7 +174,10 @@ fn page(curves: &Curves, look: &Look<'_>, height: f64) -> (Svg, [f64; 2]) {
         letters::side(&mut svg, (row, 2), &frame, &[words]);
     }
     y += 2.0 * height + GAP + x_tick_room() + LABEL_SIZE + 1.0;
-    let words = Text::from("Coefficient of friction ").symbol("μ");
+    let words = match &curves.over {
+        None => Text::from("Coefficient of friction ").symbol("μ"),
+        Some([what, unit]) => Text::from(what.as_str()).then(axis_unit(unit, x.exponent())),
+    };
     svg.text(left + 0.5 * across, y, &words, Style::new(LABEL_SIZE, Anchor::Middle));
     (svg, [width, y + MARGIN + 2.0])
 }
@@ -204,7 +219,22 @@ fn along<'a>(
             let between = curves.mus[i]..curves.mus[i + 1];
             let met =
                 curves.transitions.iter().find(|t| t.modes.contains(&mode.mode) && between.contains(&t.mu));
-            if let Some(t) = met.filter(|_| here || course(i + 1) == wanted) {
+            let other = course(i + 1) == wanted;
+            if met.is_none() && (here || other) {
+                // Where it changes is not known: on a straight line, or half-way.
+                let [from, to] = [mode.states[i], mode.states[i + 1]];
+                let crosses = from.growth * to.growth < 0.0;
+                let part = if crosses { from.growth / (from.growth - to.growth) } else { 0.5 };
+                let between = |a: f64, b: f64| a + part * (b - a);
+                let growth = between(from.growth, to.growth);
+                let state = State { frequency: between(from.frequency, to.frequency), growth, grows: here };
+                let place = (between(curves.mus[i], curves.mus[i + 1]), value(&state));
+                points.push(place);
+                if here {
+                    points.push((f64::NAN, f64::NAN));
+                }
+            }
+            if let Some(t) = met.filter(|_| here || other) {
                 let known = if here { i } else { i + 1 };
                 let (from, state) = (curves.mus[known], mode.states[known]);
                 // Near a coalescence eigenvalues go with the root of the distance.

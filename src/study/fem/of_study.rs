@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use squealmap_fem::study::{Outcome, Study, in_band};
+use squealmap_fem::study::{Outcome, Study, grows, in_band};
 use squealmap_fem::sweep;
 
 use crate::study::fem::curves::{Curve, Curves, State, Transition};
@@ -11,16 +11,6 @@ impl Curves {
     /// The modes of a study in its band.
     #[must_use]
     pub fn of(study: &Study, outcome: &Outcome) -> Curves {
-        let state = |mode: usize, (i, state): (usize, &sweep::State)| State {
-            frequency: state.lambda.im / TAU,
-            growth: state.lambda.re + 0.0,
-            grows: outcome.grows(mode, i),
-        };
-        let shown = outcome.modes.iter().enumerate().filter(|(_, mode)| in_band(study, mode));
-        let curve = |(k, mode): (usize, &sweep::Mode)| Curve {
-            mode: k + 1,
-            states: mode.states.iter().enumerate().map(|at| state(k, at)).collect(),
-        };
         let transitions = outcome.transitions.iter().map(|t| Transition {
             event: t.event.name().to_owned(),
             mu: t.mu,
@@ -29,10 +19,40 @@ impl Curves {
         });
         Curves {
             title: study.document.title.clone(),
+            over: None,
             mus: study.mus.clone(),
             damped: outcome.damped,
-            modes: shown.map(curve).collect(),
+            modes: curves(study, &outcome.modes, outcome.damped),
             transitions: transitions.collect(),
         }
     }
+
+    /// Those over another parameter, where one is varied.
+    #[must_use]
+    pub fn varied(study: &Study, outcome: &Outcome) -> Option<Curves> {
+        let (asked, found) = (study.document.vary.as_ref()?, outcome.variation.as_ref()?);
+        let (what, unit) = asked.parameter.words();
+        let what = match &asked.material {
+            Some(material) => format!("{what} of {}", material.replace('_', " ")),
+            None => what.to_owned(),
+        };
+        Some(Curves {
+            title: study.document.title.clone(),
+            over: Some([what, unit.to_owned()]),
+            mus: found.values.clone(),
+            damped: found.damped,
+            modes: curves(study, &found.modes, found.damped),
+            transitions: Vec::new(),
+        })
+    }
+}
+
+fn curves(study: &Study, modes: &[sweep::Mode], damped: bool) -> Vec<Curve> {
+    let state = |state: &sweep::State| State {
+        frequency: state.lambda.im / TAU,
+        growth: state.lambda.re + 0.0,
+        grows: grows(state.lambda, damped),
+    };
+    let shown = modes.iter().enumerate().filter(|(_, mode)| in_band(study, mode));
+    shown.map(|(k, mode)| Curve { mode: k + 1, states: mode.states.iter().map(state).collect() }).collect()
 }

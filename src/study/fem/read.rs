@@ -38,6 +38,7 @@ pub(crate) fn read(folder: Folder<'_>) -> Result<Curves> {
     });
     Ok(Curves {
         title: text(&json["title"]),
+        over: None,
         mus,
         damped: document.damped,
         modes,

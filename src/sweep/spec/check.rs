@@ -110,8 +110,14 @@ impl Check<'_> {
                 if let Some(given) = self.sections.given.iter().find(of_motion) {
                     return unread(given, model::Kind::TwoMass);
                 }
-                if self.files.modal.is_some() {
-                    return Ok(());
+                if let Some(modal) = &self.files.modal {
+                    return match self.param(Param::Kn).filter(|_| modal.contact.is_none()) {
+                        Some((at, key)) => {
+                            let by = "a file of modes with a range of contact stiffness, which a study writes with kn in [output]";
+                            Err(unused(at, key, by.to_owned()))
+                        }
+                        None => Ok(()),
+                    };
                 }
                 Err(Error::Missing {
                     at: self.sweep.place(self.sections.header(Section::Model)),

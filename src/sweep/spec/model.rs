@@ -44,7 +44,7 @@ impl Kind {
             | Param::Decay
             | Param::Temperature
             | Param::BeltVelocity => None,
-            Param::DampingRatio => Some(Kind::Modal),
+            Param::DampingRatio | Param::Kn => Some(Kind::Modal),
             // What only a motion in time shows is known of two masses alone.
             Param::M1
             | Param::M2
@@ -90,6 +90,20 @@ impl Spec {
             let instance = self.instance(part * (instances - 1) / (looked_at - 1).max(1));
             instance.law.mu(instance.params.require(Param::BeltVelocity))
         };
+        if let Some(contact) = modal.contact {
+            let [low, high] = contact.range;
+            let kn = |part: usize| {
+                let instance = part * (instances - 1) / (looked_at - 1).max(1);
+                self.instance(instance).params.get(Param::Kn)
+            };
+            if let Some(kn) = (0..looked_at).filter_map(kn).find(|kn| !(low..=high).contains(kn)) {
+                return Some(format!(
+                    "the contact stiffness is {kn:e} Pa/m in this sweep, but the vectors of `{}` were chosen for {low:e} to {high:e}: beyond, eigenvalues are \
+                     less accurate",
+                    modal.name
+                ));
+            }
+        }
         let [low, high] = modal.mu;
         let beyond = |mu: &f64| (low - mu).max(mu - high);
         let farthest = (0..looked_at).map(mu).max_by(|a, b| beyond(a).total_cmp(&beyond(b)))?;
@@ -105,8 +119,13 @@ impl Spec {
 
 /// What to say of a key that is none, and that somebody may look for.
 pub(super) fn no_key(name: &str) -> Option<&'static str> {
-    matches!(name, "kn" | "contact_stiffness").then_some(
-        "a file of modes holds the shapes of one contact stiffness: make a study and a file of each (docs/fem_maps.md)",
+    (name == "contact_stiffness").then_some("the contact stiffness of a modal model is `kn`")
+}
+
+/// What to say where a description of bodies in contact is taken for a sweep.
+pub(super) fn of_study(name: &str) -> Option<&'static str> {
+    matches!(name, "parts" | "materials" | "supports" | "loads" | "bonds" | "sliding").then_some(
+        "this is a study of bodies in contact by finite elements: `squealmap fem` computes it, and `squealmap fem --check` says what it costs",
     )
 }
 
@@ -123,7 +142,7 @@ pub(super) fn read(sweep: &Source, span: Range<usize>, name: &str, base_dir: &Pa
 /// The structure of a text; what is wrong with it as the end of a sentence.
 #[cfg(feature = "fem")]
 pub(super) fn of_text(name: &str, text: &str) -> std::result::Result<Modal, String> {
-    use crate::model::modal::Matrices;
+    use crate::model::modal::{Contact, Matrices};
     use nalgebra::DMatrix;
 
     let file = squealmap_fem::study::Modal::read(text).map_err(|why| why.to_string())?;
@@ -139,8 +158,13 @@ pub(super) fn of_text(name: &str, text: &str) -> std::result::Result<Modal, Stri
         symmetric: [next()?, next()?, next()?],
         friction: [next()?, next()?, next()?],
         slope: next()?,
+        contact: DMatrix::from_fn(n, n, |i, j| {
+            file.contact.as_ref().map_or(0.0, |of| of.per_stiffness[(i, j)])
+        }),
     };
-    Modal::new([name.to_owned(), text.to_owned()], &matrices, file.mu, [file.load, file.wedge], file.modes)
+    let contact = file.contact.as_ref().map(|of| Contact { stiffness: of.stiffness, range: of.range });
+    let (names, loads) = ([name.to_owned(), text.to_owned()], [file.load, file.wedge]);
+    Modal::new(names, &matrices, file.mu, loads, contact, file.modes)
 }
 
 /// The structure of a text, which only the feature `fem` reads.

@@ -305,7 +305,8 @@ fn is_left_to_the_run(node: &Node) -> bool {
 pub(super) fn unknown_key(source: &Source, entry: Entry, section: &str, known: &[&str]) -> Error {
     let within = if section.is_empty() { "at the top level".to_owned() } else { format!("in [{section}]") };
     let found = home(entry.key).map(|home| format!("it belongs to [{home}]"));
-    match found.or_else(|| model::no_key(entry.key).map(str::to_owned)) {
+    let of_study = || model::of_study(entry.key).filter(|_| section.is_empty());
+    match found.or_else(|| model::no_key(entry.key).or_else(of_study).map(str::to_owned)) {
         Some(advice) => Error::Unknown {
             at: source.place(entry.key_span()),
             what: "key",

@@ -183,6 +183,7 @@ fn a_finite_element_study() -> Piece {
     let event = "coalescence".to_owned();
     let curves = Curves {
         title: "Two samples".to_owned(),
+        over: None,
         mus: mus.clone(),
         damped: false,
         modes: (0..3).map(curve).collect(),

@@ -13,6 +13,7 @@ use squealmap::engine::record::Record;
 use squealmap::model::Param;
 use squealmap::model::kind::InstabilityType;
 use squealmap::model::linear::{analyse, eigenvalues};
+use squealmap::model::modal::At;
 use squealmap::model::status::Status;
 use squealmap::store::description::Description;
 use squealmap::store::identity::identity;
@@ -223,6 +224,50 @@ fn a_wedge_may_have_no_equilibrium() {
     assert_eq!(three(&massless, &rest(1.0)).status, Status::NonFinite);
 }
 
+/// x along the sliding on a spring a and y on the contact's spring k, coupled by c, masses of 1 kg; friction pulls x by μ k y:
+/// θ² − (a + k) θ + a k − c (c + μ k) = 0 with θ = −λ². Without c and μ both are oscillators with a damping ratio.
+#[test]
+fn a_contact_stiffness_is_known_in_closed_form() {
+    let directory = tempfile::tempdir().unwrap();
+    let (a, k0) = (4e6, 3e6);
+    let file = |c: f64| {
+        format!(
+            "kind = \"modal\"\nversion = 2\ntitle = \"\"\nmu = [0.0, 1.0]\nmodes = 2\nload = 1.0\nstiffness = [[{a}, {c}], [{c}, {k0}]]\n\
+             mass = [[1.0, 0.0], [0.0, 1.0]]\nstiffness_friction = [[0.0, {k0}], [0.0, 0.0]]\ncontact_stiffness = {k0}\n\
+             contact_range = [1e6, 9e6]\nstiffness_contact = [[0.0, 0.0], [0.0, 1.0]]\n"
+        )
+    };
+    let stiffnesses = [1e6, k0, 3.9e6, 6e6];
+    let found = |c: f64, mu: f64, ratio: f64| {
+        std::fs::write(directory.path().join("contact.toml"), file(c)).unwrap();
+        let rest = format!(
+            "damping_ratio = {ratio}\n[friction]\nlaw = \"constant\"\nmu_d = {mu}\n[belt]\nbelt_velocity = 1\n[axes]\nkn = {{ values = {stiffnesses:?} }}\n"
+        );
+        let records = records(directory.path(), "kind = \"modal\"\nmodes = \"contact.toml\"\n", &rest);
+        records.iter().map(|record| record.linear.unwrap()).collect::<Vec<_>>()
+    };
+    let c = -3e5;
+    let mut unstable = 0;
+    for (k, linear) in stiffnesses.iter().zip(found(c, 0.4, 0.0)) {
+        let (sum, product) = (a + k, a * k - c * (c + 0.4 * k));
+        let root = Complex64::from(sum * sum / 4.0 - product).sqrt();
+        let lambdas = [sum / 2.0 + root, sum / 2.0 - root].map(|theta| (-theta).sqrt());
+        let growth = lambdas.iter().map(|z| z.re.abs()).fold(0.0, f64::max);
+        // What does not couple has no growth at all, and one of both frequencies is given.
+        assert!((linear.growth_rate - growth).abs() < 1e-9 * growth.max(1.0), "{k}: {linear:?} {growth}");
+        let near = lambdas.iter().map(|z| (z.im.abs() / TAU - linear.frequency).abs());
+        assert!(near.fold(f64::INFINITY, f64::min) < 1e-9 * linear.frequency, "{k}: {linear:?} {lambdas:?}");
+        unstable += usize::from(growth > 1.0);
+    }
+    assert!((1..stiffnesses.len()).contains(&unstable), "{unstable}");
+    for (k, linear) in stiffnesses.iter().zip(found(0.0, 0.0, 0.1)) {
+        // The slower one decays most slowly.
+        let omega = a.min(*k).sqrt();
+        assert!((linear.growth_rate + 0.1 * omega).abs() < 1e-9 * omega, "{k}: {linear:?}");
+        assert!((linear.frequency * TAU - omega * 0.99_f64.sqrt()).abs() < 1e-9 * omega, "{k}: {linear:?}");
+    }
+}
+
 /// Every word that a modal model has no use for is one sentence.
 #[test]
 fn what_a_modal_model_does_not_read_is_refused() {
@@ -241,6 +286,7 @@ fn what_a_modal_model_does_not_read_is_refused() {
         ("modes = \"three.toml\"", "[start]\nkind = \"mode\"", format!("`kind` in [start] would have no effect: {two_mass}")),
         ("modes = \"three.toml\"", "[start]\nstart_velocity = 1", format!("`start_velocity` in [start] would have no effect: {two_mass}")),
         ("modes = \"three.toml\"", "[response]\nsettle = \"auto\"", format!("a response would have no effect: {two_mass}, since a modal model has eigenvalues alone")),
+        ("modes = \"three.toml\"", "[axes]\nkn = { values = [1e9, 2e9] }", "axis `kn` would have no effect: it is used only by a file of modes with a range of contact stiffness".to_owned()),
         ("", "", "`modes` is missing: kind = \"modal\" in [model] is a file of modes, so write modes = \"modes.toml\" in [model]".to_owned()),
         ("modes = \"none.toml\"", "", "cannot read the modes file `".to_owned()),
         ("modes = \"free.toml\"", "", "free.toml`: its load is 0 N, so that a slope of friction would have no effect; press the bodies in the study".to_owned()),
@@ -268,12 +314,11 @@ fn what_a_modal_model_does_not_read_is_refused() {
         ),
         (
             format!("[axes]\nkn = {{ from = 1e12, to = 1e15, points = 4 }}{rest}"),
-            "unknown axis `kn` in [axes]; a file of modes holds the shapes of one contact stiffness"
-                .to_owned(),
+            format!("axis `kn` would have no effect: {modal}"),
         ),
         (
             format!("[model]\ncontact_stiffness = 1e14{rest}"),
-            "unknown key `contact_stiffness` in [model]; a file of modes holds the shapes of one contact"
+            "unknown key `contact_stiffness` in [model]; the contact stiffness of a modal model is `kn`"
                 .to_owned(),
         ),
         (format!("[model]\nkind = \"modes\"{rest}"), "unknown model `modes` as `kind` in [model]".to_owned()),
@@ -415,7 +460,7 @@ fn the_shipped_map_is_that_of_the_papers_model() {
     assert_eq!((modal.modes(), modal.size()), (6, 16));
     assert!((modal.load - 17.0).abs() < 1e-10);
     let growth = |mu: f64| {
-        let all = modal.eigenvalues(mu, 0.0, 0.0).unwrap();
+        let all = modal.eigenvalues(At { mu, slope: 0.0, ratio: 0.0, kn: None }).unwrap();
         all.iter().map(|z| z.re).fold(0.0, f64::max)
     };
     // Growth rises as the root of the distance from the critical friction.
@@ -423,7 +468,7 @@ fn the_shipped_map_is_that_of_the_papers_model() {
     assert!(growth(critical - 2e-7) == 0.0 && growth(critical + 2e-7) > 0.1);
     assert!((growth(0.4) - 4821.2).abs() < 0.1, "{}", growth(0.4));
     let frequency = modal
-        .eigenvalues(0.4, 0.0, 0.0)
+        .eigenvalues(At { mu: 0.4, slope: 0.0, ratio: 0.0, kn: None })
         .unwrap()
         .iter()
         .max_by(|a, b| a.re.total_cmp(&b.re))

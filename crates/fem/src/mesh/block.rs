@@ -68,6 +68,8 @@ impl Block {
     /// # Errors
     /// Lengths that are not positive, no elements along an edge, a ratio that is not positive.
     pub fn mesh(&self) -> Result<Mesh, Error> {
+        /// Two million Hex20 are 25 million unknowns, some terabytes of a factor.
+        const MOST: usize = 2_000_000;
         for axis in 0..3 {
             let (size, cells) = (self.size[axis], self.cells[axis]);
             let name = ["x", "y", "z"][axis];
@@ -80,6 +82,12 @@ impl Block {
             } else {
                 continue;
             };
+            return Err(Error::Mesh { what });
+        }
+        let [x, y, z] = self.cells.map(|cells| cells.elements);
+        if x.saturating_mul(y).saturating_mul(z) > MOST {
+            let what =
+                format!("the block has {x} x {y} x {z} elements, it may have {MOST}: take larger ones");
             return Err(Error::Mesh { what });
         }
         let places = self.cells.map(Grading::places);

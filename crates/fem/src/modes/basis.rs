@@ -121,6 +121,11 @@ impl Basis {
         (symmetric, friction, damping)
     }
 
+    /// Vᵀ K V of any vectors.
+    pub(crate) fn projected_stiffness(pencil: &Pencil, vectors: &Mat<f64>) -> Mat<f64> {
+        vectors.transpose() * times(&pencil.stiffness, vectors)
+    }
+
     /// What one unit of μ adds to stiffness and mass.
     #[must_use]
     pub fn per_friction(&self) -> (&Mat<f64>, &Mat<f64>) {

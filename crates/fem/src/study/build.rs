@@ -1,9 +1,10 @@
 //! From a description to a model.
 
-use super::document::{Bond, By, Document, Load, Sliding, Support};
+use super::document::{Bond, By, Document, Load, Sliding, Support, Varied, Vary};
 use super::parts::join;
 use super::surfaces::flat;
-use super::values::{check_friction, check_modes, check_output, coefficients};
+use super::values::{check_friction, check_kn, check_modes, check_output, coefficients};
+use super::varied::check_vary;
 use crate::Error;
 use crate::assembly::{Loads, Model, Penalty, Supports};
 use crate::contact::{
@@ -40,13 +41,18 @@ impl Study {
         check_friction(&document.friction)?;
         check_modes(&document.modes)?;
         check_output(&document.output)?;
+        check_kn(&document)?;
+        check_vary(&document)?;
+        if let Some(celsius) = document.temperature.filter(|celsius| !celsius.is_finite()) {
+            return Err(Error::at("temperature", format!("{celsius} °C is no finite number")));
+        }
         for (i, mu) in document.output.shapes_at.iter().enumerate() {
             if !mus.iter().any(|known| (known - mu).abs() <= 1e-12) {
                 let what = format!("{mu} is not among the values of friction.mu: name one of them");
                 return Err(Error::at(format!("output.shapes_at[{i}]"), what));
             }
         }
-        let joined = join(&document.parts, &document.materials, file)?;
+        let joined = join(&document.parts, &document.materials, document.temperature, file)?;
         let mut model = Model { mesh: joined.mesh, materials: joined.materials, ..Model::default() };
         model.supports = joined.supports;
         let from_files =
@@ -81,6 +87,16 @@ impl Study {
         if study.document.friction.slope != 0.0 && !study.is_pressed() {
             let what = "a slope acts on the pressure, but nothing presses the surfaces: give a load";
             return Err(Error::at("friction.slope", what));
+        }
+        let of_load = |vary: &Vary| matches!(vary.parameter, Varied::Load | Varied::Slope);
+        if study.document.vary.as_ref().is_some_and(of_load) && !study.is_pressed() {
+            let what = "it acts through the pressure, but nothing presses the surfaces: give a load";
+            return Err(Error::at("vary.parameter", what));
+        }
+        if study.document.modes.stressed && !study.is_pressed() {
+            let what =
+                "the stress is that of a load, but nothing presses the bodies: give one, or leave it out";
+            return Err(Error::at("modes.stressed", what));
         }
         Ok(study)
     }

@@ -5,11 +5,17 @@ use std::time::Instant;
 use faer::c64;
 
 use super::Study;
-use super::modal::{MOST, Modal, directions};
+use super::mechanisms::{Alone, mechanisms};
+use super::modal::Modal;
+use super::projected::Projected;
+use super::space::{MORE, ROUNDS, spread_over};
 use super::transitions::{Search, Transition, grows};
+use super::variation::{Variation, variation};
 use crate::Error;
 use crate::assembly::{Numbering, Pencil, Rows, assemble};
-use crate::modes::{Basis, Factor, Ordering, RealModes, count_below, lift, lowest, pairs, refine};
+use crate::modes::{
+    Basis, Factor, Ordering, RealModes, count_below, damp, lift, loss_ratios, lowest, pairs, refine,
+};
 use crate::statics::settle;
 use crate::sweep::{Mode, Range, sweep};
 
@@ -54,6 +60,14 @@ pub struct Outcome {
     pub entries: usize,
     /// The modes that were asked for, over `Study::mus`.
     pub modes: Vec<Mode>,
+    /// Growth rates of each of them, over the same values, with one mechanism alone.
+    pub alone: Vec<Vec<Alone>>,
+    /// Frequencies of the real modes without the stress of the static step, Hz, where it stiffens the bodies.
+    pub unstressed: Option<Vec<f64>>,
+    /// Damping ratios of the real modes, where they are damped one by one or by their materials' losses.
+    pub ratios: Vec<f64>,
+    /// Another parameter, where it is varied.
+    pub variation: Option<Variation>,
     /// Whether anything damps.
     pub damped: bool,
     /// Where modes become unstable or stable.
@@ -110,26 +124,45 @@ impl Clock<'_> {
 pub fn compute(study: &Study, say: &mut dyn FnMut(&str)) -> Result<Outcome, Error> {
     let mut clock = Clock { say, since: Instant::now(), seconds: Vec::new() };
     let friction = &study.document.friction;
-    let (numbering, pencil, pressed, per_slope) = if study.is_pressed() {
+    let asked = &study.document.modes;
+    let (mut plain, mut model) = (None, study.model.clone());
+    let (numbering, mut pencil, pressed, per_slope) = if study.is_pressed() {
         let settled = clock
             .step("static step", || settle(&study.model, &study.faces, &study.loads, friction.static_mu))?;
         let per_slope = settled.surface.matrix(&settled.pressures);
+        let stiffened = if asked.stressed { Some(settled.stiffened()?) } else { None };
         let force = settled.force;
+        model = settled.model;
         let pressed = Pressed { force, open: settled.open.len(), displacement: settled.displacement };
-        (settled.numbering, settled.pencil, Some(pressed), per_slope)
+        let pencil = match stiffened {
+            Some(stiffened) => {
+                plain = Some(settled.pencil);
+                stiffened
+            }
+            None => settled.pencil,
+        };
+        (settled.numbering, pencil, Some(pressed), per_slope)
     } else {
         let (numbering, pencil) = clock.step("matrices", || assemble(&study.model))?;
         (numbering, pencil, None, Rows::default())
     };
     let slope =
         if friction.slope == 0.0 { Rows::default() } else { per_slope.clone().scaled(friction.slope) };
-    let damped = pencil.damping.is_some() || !slope.rows.is_empty();
     let ordering = Ordering::best(&pencil.stiffness.pattern, &numbering.places(&study.model.mesh))?;
     let factor = clock.step("factor", || Factor::new(&ordering, &pencil.stiffness, &pencil.mass, 0.0))?;
-    let asked = &study.document.modes;
     let (real, count) =
         clock.step("real modes", || real_modes(&pencil, &ordering, &factor, asked.count, asked.band[1]))?;
     let frequencies = real.frequencies();
+    let unstressed = match &plain {
+        Some(plain) => Some(clock.step("modes without the stress", || {
+            let factor = Factor::new(&ordering, &plain.stiffness, &plain.mass, 0.0)?;
+            Ok(lowest(plain, &factor, count)?.frequencies())
+        })?),
+        None => None,
+    };
+    let ratios = damping_ratios(study, &numbering, &real)?;
+    damp(&mut pencil, &real, &ratios)?;
+    let damped = pencil.is_damped() || !slope.rows.is_empty();
     clock.step("count of modes", || complete(&pencil, &ordering, &frequencies, count))?;
     let mut basis = Basis::new(&pencil, &real.shapes);
     let some = spread_over(&study.mus);
@@ -138,15 +171,30 @@ pub fn compute(study: &Study, say: &mut dyn FnMut(&str)) -> Result<Outcome, Erro
     })?;
     let range = Range { mus: &study.mus, slope: &slope, count, bound: asked.residual };
     let modes = clock.step("sweep over friction", || sweep(&pencil, &ordering, &factor, &basis, range))?;
+    if !modes.iter().any(|mode| super::band::in_band(study, mode)) {
+        let what = format!(
+            "none of the {count} modes that are followed lies in the band; the highest has {:.1} Hz: lower the band, or ask for more modes",
+            frequencies[count - 1]
+        );
+        return Err(Error::at("modes.band", what));
+    }
+    let alone = clock.step("one mechanism alone", || mechanisms(&basis, &slope, &study.mus, &modes))?;
     let search = Search { pencil: &pencil, factor: &factor, slope: &slope, mus: &study.mus, damped };
     let transitions = clock.step("critical friction", || search.all(&mut basis, &modes))?;
     let wanted = wanted(study, &modes, &transitions, damped);
     let shapes = clock.step("shapes", || shapes(&numbering, &basis, &slope, study, &modes, &wanted))?;
     let modal = if study.document.output.modal {
         let load = pressed.as_ref().map_or(0.0, |pressed| pressed.force);
-        Some(modal(study, &basis, [&slope, &per_slope], count, load)?)
+        let (basis, slope, per_slope) = (&basis, &slope, &per_slope);
+        let projected =
+            Projected { study, model: &model, pencil: &pencil, basis, slope, per_slope, count, load };
+        Some(clock.step("projected problem", || projected.modal())?)
     } else {
         None
+    };
+    let variation = match &study.document.vary {
+        Some(vary) => Some(clock.step("variation", || variation(study, vary, count))?),
+        None => None,
     };
     Ok(Outcome {
         unknowns: pencil.size(),
@@ -156,6 +204,10 @@ pub fn compute(study: &Study, say: &mut dyn FnMut(&str)) -> Result<Outcome, Erro
         vectors: basis.vectors.ncols(),
         entries: ordering.entries(),
         modes,
+        alone,
+        unstressed,
+        ratios,
+        variation,
         damped,
         transitions,
         shapes,
@@ -164,8 +216,19 @@ pub fn compute(study: &Study, say: &mut dyn FnMut(&str)) -> Result<Outcome, Erro
     })
 }
 
-/// Rounds of corrections of the space; each takes an order of magnitude off the residuals.
-const ROUNDS: usize = 12;
+/// Damping ratios of the real modes: those that are given, and by the losses of the materials.
+fn damping_ratios(study: &Study, numbering: &Numbering, real: &RealModes) -> Result<Vec<f64>, Error> {
+    let given = &study.document.modes.damping_ratios;
+    // Materials of the description stand first, in this order.
+    let mut loss: Vec<f64> = study.document.materials.values().map(|material| material.loss_factor).collect();
+    if loss.iter().all(|loss| *loss == 0.0) {
+        return Ok(given.clone());
+    }
+    loss.resize(study.model.materials.len(), 0.0);
+    let mut ratios = loss_ratios(&study.model, numbering, real, &loss)?;
+    ratios.iter_mut().zip(given).for_each(|(ratio, given)| *ratio += given);
+    Ok(ratios)
+}
 
 /// Real modes, more than are followed, and how many are followed: `count`, or as many as lie below a frequency (Hz).
 fn real_modes(
@@ -175,8 +238,6 @@ fn real_modes(
     count: usize,
     highest: f64,
 ) -> Result<(RealModes, usize), Error> {
-    /// The last modes that are followed couple with modes above them: so many more are in the space.
-    const MORE: usize = 8;
     let size = pencil.size();
     let count = if highest.is_finite() { count.min(count_below(pencil, ordering, highest)?) } else { count };
     if count == 0 {
@@ -206,15 +267,6 @@ fn complete(pencil: &Pencil, ordering: &Ordering, frequencies: &[f64], count: us
         frequencies[above]
     );
     Err(Error::Solver { what })
-}
-
-/// A few values over all, both ends among them: where the space is made good.
-fn spread_over(mus: &[f64]) -> Vec<f64> {
-    const FEW: usize = 5;
-    let last = mus.len() - 1;
-    let mut some: Vec<usize> = (0..FEW).map(|i| i * last / (FEW - 1)).collect();
-    some.dedup();
-    some.into_iter().map(|i| mus[i]).collect()
 }
 
 /// Which shapes are made: those asked for of all modes, else those of the modes with a transition, at the first coefficient of friction and
@@ -261,26 +313,6 @@ fn shapes(
         found.push(Shape { mu, mode: *mode, lambda: state.lambda, displacement: turned(raw.collect()) });
     }
     Ok(found)
-}
-
-/// The problem on the space of the lowest modes at all coefficients of friction; `slope` is the study's, `per_slope` what 1 s/m would be.
-fn modal(
-    study: &Study,
-    basis: &Basis,
-    [slope, per_slope]: [&Rows; 2],
-    count: usize,
-    load: f64,
-) -> Result<Modal, Error> {
-    let mut all = Vec::new();
-    for mu in &study.mus {
-        all.extend(pairs(&basis.at(*mu, slope))?.into_iter().take(count));
-    }
-    let most = study.document.output.vectors.unwrap_or(MOST);
-    let coordinates = directions(&all.iter().collect::<Vec<_>>(), most)?;
-    let (symmetric, friction, slope) = basis.within(&coordinates, per_slope);
-    let mu = [study.mus[0], study.mus[study.mus.len() - 1]];
-    let title = study.document.title.clone();
-    Ok(Modal { title, mu, modes: count, symmetric, friction, slope, load, wedge: 0.0 })
 }
 
 /// The same mode with a largest component of 1.

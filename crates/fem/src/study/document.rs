@@ -13,6 +13,8 @@ pub struct Document {
     /// What stands above figures; may be empty.
     #[serde(default)]
     pub title: String,
+    /// °C at which the tables of materials are read.
+    pub temperature: Option<f64>,
     /// Meshes by name. The sets of a part have its name and a dot before theirs: `pin.z0`.
     pub parts: BTreeMap<String, Part>,
     /// Materials by name.
@@ -35,12 +37,14 @@ pub struct Document {
     /// The modes that are asked for.
     #[serde(default)]
     pub modes: Modes,
+    /// Another parameter that is varied, at one coefficient of friction.
+    pub vary: Option<Vary>,
     /// What is written.
     #[serde(default)]
     pub output: Output,
 }
 
-/// A mesh: a block or a file.
+/// A mesh: a block, a cylinder, a ring or a file.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(tag = "kind", rename_all = "lowercase", deny_unknown_fields)]
 pub enum Part {
@@ -53,6 +57,39 @@ pub enum Part {
         /// Lengths of the edges, m.
         size: [f64; 3],
         /// Elements along each edge.
+        cells: [usize; 3],
+        /// Name of its material.
+        material: String,
+    },
+    /// A cylinder about an axis along z; its sides are the sets r1, z0, z1.
+    Cylinder {
+        /// `hex8`, `hex20`, `hex20r` or `wedge15`.
+        element: String,
+        /// The middle of the lower end, m.
+        centre: [f64; 3],
+        /// m.
+        radius: f64,
+        /// Length along z, m.
+        height: f64,
+        /// Elements along each side of a square core, from there to the outside, along z.
+        cells: [usize; 3],
+        /// Name of its material.
+        material: String,
+    },
+    /// A ring about an axis along z, or a sector of one; its sides are the sets r0, r1, z0, z1, of a sector a0 and a1, too.
+    Ring {
+        /// As of a block.
+        element: String,
+        /// The middle of the lower end, m.
+        centre: [f64; 3],
+        /// Inner and outer radius, m.
+        radii: [f64; 2],
+        /// Length along z, m.
+        height: f64,
+        /// Where the sector begins and ends, degrees from x towards y.
+        #[serde(default = "turn")]
+        degrees: [f64; 2],
+        /// Elements along the radius, around, along z.
         cells: [usize; 3],
         /// Name of its material.
         material: String,
@@ -75,6 +112,10 @@ pub enum Part {
 
 fn one() -> f64 {
     1.0
+}
+
+fn turn() -> [f64; 2] {
+    [0.0, 360.0]
 }
 
 /// One number for all directions, or one along each axis.
@@ -108,21 +149,41 @@ fn number(value: &toml::Value) -> Option<f64> {
     value.as_float().or_else(|| value.as_integer().map(|i| i as f64))
 }
 
-/// Constants of a material.
+/// A material: its elastic constants, or a table of them over temperature.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Constants {
     /// Young's modulus, Pa; three along x, y, z of an orthotropic one.
-    pub young: Directional,
+    pub young: Option<Directional>,
     /// Poisson's ratio; three, ν_xy, ν_yz, ν_xz, of an orthotropic one.
-    pub poisson: Directional,
+    pub poisson: Option<Directional>,
     /// Shear moduli of the planes xy, yz, zx of an orthotropic material, Pa.
     pub shear: Option<[f64; 3]>,
+    /// Instead of these constants: some at each of some temperatures.
+    #[serde(default)]
+    pub table: Vec<Row>,
     /// kg/m³.
     pub density: f64,
     /// Rayleigh damping C = α M + β K: α in 1/s, β in s.
     #[serde(default)]
     pub rayleigh: [f64; 2],
+    /// The part of its strain energy that it loses in a radian of a vibration.
+    #[serde(default)]
+    pub loss_factor: f64,
+}
+
+/// Elastic constants at a temperature.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Row {
+    /// °C.
+    pub temperature: f64,
+    /// As of a material.
+    pub young: Directional,
+    /// As of a material.
+    pub poisson: Directional,
+    /// As of a material.
+    pub shear: Option<[f64; 3]>,
 }
 
 /// A support.
@@ -213,7 +274,7 @@ pub struct Friction {
 
 /// Rising values: `{ from = 0.0, to = 0.6, points = 61 }`, or `{ values = [0.0, 0.2] }`.
 #[derive(Debug, Clone, Default, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "{ from, to, points } or { values = [...] }")]
 pub struct Values {
     /// The first of a range.
     pub from: Option<f64>,
@@ -235,12 +296,52 @@ pub struct Modes {
     pub band: [f64; 2],
     /// The largest residual that is good enough.
     pub residual: f64,
+    /// Damping ratios of the lowest real modes, one by one.
+    pub damping_ratios: Vec<f64>,
+    /// Whether the stress of the static step stiffens the bodies.
+    pub stressed: bool,
 }
 
 impl Default for Modes {
     fn default() -> Self {
-        Self { count: 20, band: [0.0, f64::INFINITY], residual: 1e-6 }
+        Self {
+            count: 20,
+            band: [0.0, f64::INFINITY],
+            residual: 1e-6,
+            damping_ratios: Vec::new(),
+            stressed: false,
+        }
     }
+}
+
+/// A parameter that is varied at one coefficient of friction.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Vary {
+    /// Which.
+    pub parameter: Varied,
+    /// The material whose stiffness is varied.
+    pub material: Option<String>,
+    /// The coefficient of friction.
+    pub mu: f64,
+    /// Its values.
+    pub values: Values,
+}
+
+/// What may be varied.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Varied {
+    /// Pressure per overlap, Pa/m.
+    ContactStiffness,
+    /// A factor of all moduli of a material.
+    Stiffness,
+    /// A factor of loads and prescribed displacements.
+    Load,
+    /// A factor of the Rayleigh damping of all materials.
+    Damping,
+    /// dμ/dV, s/m.
+    Slope,
 }
 
 /// What is written.
@@ -253,6 +354,8 @@ pub struct Output {
     pub modal: bool,
     /// How many vectors it has at most; none: as many as it may.
     pub vectors: Option<usize>,
+    /// The least and the largest contact stiffness for which it holds, Pa/m; none: that of friction alone.
+    pub kn: Option<[f64; 2]>,
 }
 
 impl Document {
@@ -261,15 +364,33 @@ impl Document {
     /// # Errors
     /// What is no TOML; keys that there are not or that are missing; values of a wrong kind.
     pub fn read(text: &str) -> Result<Self, Error> {
-        parsed(text)
+        parsed(text).map_err(|error| match error {
+            Error::Description { line, span, what }
+                if OF_SWEEPS.iter().any(|key| what.starts_with(&format!("unknown field `{key}`"))) =>
+            {
+                let what = format!("{what}; a sweep file is for `squealmap run`");
+                Error::Description { line, span, what }
+            }
+            other => other,
+        })
     }
 }
+
+/// Without the names of Rust's types, on one line.
+fn in_words(message: &str) -> String {
+    let plain = message.trim().replace('\n', "; ");
+    let plain = plain.replace("expected usize", "expected a whole number from 0 on");
+    plain.replace("expected f64", "expected a number")
+}
+
+/// Keys of sweep files.
+const OF_SWEEPS: [&str; 7] = ["axes", "points", "model", "belt", "analysis", "response", "start"];
 
 /// A file of TOML; what is wrong with it as one line.
 pub(super) fn parsed<T: serde::de::DeserializeOwned>(text: &str) -> Result<T, Error> {
     toml::from_str(text).map_err(|error| {
-        let at = error.span().map_or(0, |span| span.start.min(text.len()));
-        let line = text[..at].matches('\n').count() + 1;
-        Error::File { line, what: error.message().trim().replace('\n', "; ") }
+        let span = error.span().unwrap_or(0..0);
+        let line = text.get(..span.start).map_or(1, |before| before.matches('\n').count() + 1);
+        Error::Description { line, span, what: in_words(error.message()) }
     })
 }

@@ -35,6 +35,19 @@ pub struct Modal {
     pub load: f64,
     /// w: how much friction takes off the normal forces, which are N0/(1 + w μ).
     pub wedge: f64,
+    /// The contact stiffness, where the vectors hold for more than one.
+    pub contact: Option<Contact>,
+}
+
+/// How a projected problem changes with the contact stiffness kn, Pa/m: K + (kn − kn0) `K_c`, and `K_f` kn/kn0.
+#[derive(Debug, Clone)]
+pub struct Contact {
+    /// kn0: that of K and `K_f`.
+    pub stiffness: f64,
+    /// The least and the largest for which the vectors were chosen.
+    pub range: [f64; 2],
+    /// `K_c`.
+    pub per_stiffness: Mat<f64>,
 }
 
 impl Modal {
@@ -53,6 +66,16 @@ impl Modal {
         Small { stiffness: sum(0), mass: sum(1), damping: damped.then_some(damping) }
     }
 
+    /// The same with another contact stiffness, where the file knows what that changes.
+    #[must_use]
+    pub fn with_contact(&self, kn: f64) -> Option<Self> {
+        let contact = self.contact.as_ref()?;
+        let mut other = self.clone();
+        other.symmetric[0] += faer::Scale(kn - contact.stiffness) * &contact.per_stiffness;
+        other.friction[0] = faer::Scale(kn / contact.stiffness) * &self.friction[0];
+        Some(other)
+    }
+
     /// The file.
     #[must_use]
     pub fn write(&self) -> Vec<u8> {
@@ -68,8 +91,17 @@ impl Modal {
             self.load,
             self.wedge
         );
-        for (name, matrix) in NAMES.iter().zip(self.matrices()).filter(|(_, matrix)| matrix.norm_max() > 0.0)
-        {
+        if let Some(Contact { stiffness, range: [low, high], .. }) = &self.contact {
+            let _ = writeln!(
+                text,
+                "# With another contact stiffness kn (Pa/m) stiffness gets (kn - contact_stiffness) stiffness_contact, and\n\
+                 # stiffness_friction is multiplied by kn/contact_stiffness.\n\
+                 contact_stiffness = {stiffness:e}\ncontact_range = [{low:e}, {high:e}]"
+            );
+        }
+        let contact = self.contact.as_ref().map(|contact| (&CONTACT, &contact.per_stiffness));
+        let others = NAMES.iter().zip(self.matrices()).filter(|(_, matrix)| matrix.norm_max() > 0.0);
+        for (name, matrix) in others.chain(contact) {
             let _ = writeln!(text, "{name} = [");
             for i in 0..matrix.nrows() {
                 // The shortest digits that give the same number again.
@@ -129,7 +161,7 @@ impl Modal {
             file.damping_slope,
         ];
         let mut matrices = Vec::with_capacity(rows.len());
-        for (name, rows) in NAMES.iter().zip(rows) {
+        for (name, rows) in NAMES.iter().zip(rows).chain([(&CONTACT, file.stiffness_contact)]) {
             let Some(rows) = rows else {
                 matrices.push(Mat::zeros(size, size));
                 continue;
@@ -147,7 +179,8 @@ impl Modal {
             }
             matrices.push(Mat::from_fn(size, size, |i, j| rows[i][j]));
         }
-        for (name, matrix) in NAMES.iter().zip(&matrices[..3]) {
+        let per_stiffness = matrices.pop().unwrap_or_else(|| Mat::zeros(size, size));
+        for (name, matrix) in NAMES.iter().zip(&matrices[..3]).chain([(&CONTACT, &per_stiffness)]) {
             let apart = (matrix - matrix.transpose()).norm_max();
             if apart > SYMMETRIC * matrix.norm_max() {
                 return Err(Error::at(
@@ -159,8 +192,31 @@ impl Modal {
         let Ok([k, m, c, kf, mf, cf, slope]) = <[Mat<f64>; 7]>::try_from(matrices) else {
             return Err(Error::at("stiffness", "a matrix is missing"));
         };
+        let contact = match (file.contact_stiffness, file.contact_range, per_stiffness.norm_max() > 0.0) {
+            (Some(stiffness), Some([low, high]), true)
+                if stiffness > 0.0 && low > 0.0 && low <= high && stiffness.max(high).is_finite() =>
+            {
+                Some(Contact { stiffness, range: [low, high], per_stiffness })
+            }
+            (None, None, false) => None,
+            _ => {
+                let what = "contact_stiffness, contact_range and stiffness_contact belong together: positive numbers, the range rising, \
+                            and a matrix that is not zero, or none of the three";
+                return Err(Error::at("contact_stiffness", what));
+            }
+        };
         let File { title, mu, modes, load, wedge, .. } = file;
-        Ok(Self { title, mu, modes, symmetric: [k, m, c], friction: [kf, mf, cf], slope, load, wedge })
+        Ok(Self {
+            title,
+            mu,
+            modes,
+            symmetric: [k, m, c],
+            friction: [kf, mf, cf],
+            slope,
+            load,
+            wedge,
+            contact,
+        })
     }
 }
 
@@ -177,6 +233,9 @@ const NAMES: [&str; 7] = [
     "damping_friction",
     "damping_slope",
 ];
+
+/// The name of the matrix of [`Contact`].
+const CONTACT: &str = "stiffness_contact";
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -197,6 +256,9 @@ struct File {
     mass_friction: Option<Vec<Vec<f64>>>,
     damping_friction: Option<Vec<Vec<f64>>>,
     damping_slope: Option<Vec<Vec<f64>>>,
+    contact_stiffness: Option<f64>,
+    contact_range: Option<[f64; 2]>,
+    stiffness_contact: Option<Vec<Vec<f64>>>,
 }
 
 /// At most `most` directions, orthonormal, that hold vectors best: the first left singular vectors of their real and imaginary parts.

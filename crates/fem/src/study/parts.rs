@@ -2,12 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use super::document::{Constants, Directional, Part};
+use super::document::{Constants, Part};
+use super::materials::material;
 use crate::Error;
 use crate::assembly::Supports;
 use crate::elements::Kind;
-use crate::material::{Material, Orthotropic};
-use crate::mesh::{Block, Mesh, check};
+use crate::material::Material;
+use crate::mesh::{Block, Cylinder, Mesh, Ring, check};
 use crate::read::{abaqus, gmsh};
 
 /// All parts as one mesh.
@@ -27,6 +28,7 @@ pub(super) struct Joined {
 pub(super) fn join(
     parts: &BTreeMap<String, Part>,
     constants: &BTreeMap<String, Constants>,
+    celsius: Option<f64>,
     file: &dyn Fn(&str) -> Result<String, String>,
 ) -> Result<Joined, Error> {
     if parts.is_empty() {
@@ -34,7 +36,7 @@ pub(super) fn join(
     }
     let mut joined = Joined::default();
     for (name, constants) in constants {
-        joined.materials.push(material(name, constants)?);
+        joined.materials.push(material(name, constants, celsius)?);
     }
     let names: Vec<&String> = constants.keys().collect();
     for (name, part) in parts {
@@ -52,18 +54,8 @@ pub(super) fn join(
             })
         };
         let mesh = match part {
-            Part::Block { element, origin, size, cells, material } => {
-                let kind = kind(element).ok_or_else(|| {
-                    let what = format!(
-                        "\"{element}\" is no element, it must be hex8, hex20, hex20r, tet4, tet10 or wedge15"
-                    );
-                    Error::at(format!("{key}.element"), what)
-                })?;
-                if let Some(x) = origin.iter().find(|x| !x.is_finite()) {
-                    return Err(Error::at(format!("{key}.origin"), format!("{x} m is no finite number")));
-                }
-                let block = Block { origin: *origin, size: *size, cells: cells.map(Into::into), kind };
-                let mut mesh = block.mesh().map_err(|why| Error::at(&key, why))?;
+            Part::Block { material, .. } | Part::Cylinder { material, .. } | Part::Ring { material, .. } => {
+                let mut mesh = built(&key, part)?;
                 let index = known(format!("{key}.material"), material)?;
                 mesh.groups.iter_mut().for_each(|group| group.material = index);
                 mesh
@@ -103,6 +95,60 @@ pub(super) fn join(
     Ok(joined)
 }
 
+/// A mesh that is built in.
+fn built(key: &str, part: &Part) -> Result<Mesh, Error> {
+    let kind = |element: &String| {
+        kind(element).ok_or_else(|| {
+            let what = format!(
+                "\"{element}\" is no element, it must be hex8, hex20, hex20r, tet4, tet10 or wedge15"
+            );
+            Error::at(format!("{key}.element"), what)
+        })
+    };
+    let place = |name: &str, place: &[f64; 3]| match place.iter().find(|x| !x.is_finite()) {
+        Some(x) => Err(Error::at(format!("{key}.{name}"), format!("{x} m is no finite number"))),
+        None => Ok(*place),
+    };
+    let round = |height: f64, cells: &[usize; 3]| {
+        if !(height > 0.0 && height.is_finite()) {
+            return Err(Error::at(
+                format!("{key}.height"),
+                format!("{height} m is no length, it must be above 0"),
+            ));
+        }
+        if cells.contains(&0) {
+            let what = format!("{cells:?} has a 0, there must be at least 1 element each way");
+            return Err(Error::at(format!("{key}.cells"), what));
+        }
+        Ok(())
+    };
+    let mesh = match part {
+        Part::Block { element, origin, size, cells, .. } => {
+            let (origin, kind) = (place("origin", origin)?, kind(element)?);
+            Block { origin, size: *size, cells: cells.map(Into::into), kind }.mesh()
+        }
+        Part::Cylinder { element, centre, radius, height, cells, .. } => {
+            let (centre, kind) = (place("centre", centre)?, kind(element)?);
+            round(*height, cells)?;
+            Cylinder { centre, radius: *radius, height: *height, cells: *cells, kind }.mesh()
+        }
+        Part::Ring { element, centre, radii, height, degrees, cells, .. } => {
+            let (centre, kind) = (place("centre", centre)?, kind(element)?);
+            round(*height, cells)?;
+            let [from, to] = *degrees;
+            if !(to > from && to - from <= 360.0) {
+                let what =
+                    format!("a ring goes from {from} to {to} degrees, which must rise, by 360 at most");
+                return Err(Error::at(format!("{key}.degrees"), what));
+            }
+            let (angles, cells) = (degrees.map(f64::to_radians), cells.map(Into::into));
+            Ring { centre, radii: *radii, angles, height: *height, cells, kind }.mesh()
+        }
+        Part::Mesh { .. } => Ok(Mesh::default()),
+    };
+    mesh.map_err(|why| Error::at(key, why))
+}
+
 /// Gives the groups of a mesh from a file their materials.
 fn assign(
     mesh: &mut Mesh,
@@ -138,27 +184,4 @@ fn kind(name: &str) -> Option<Kind> {
     [Kind::Hex8, Kind::Hex20, Kind::Hex20Reduced, Kind::Tet4, Kind::Tet10, Kind::Wedge15]
         .into_iter()
         .find(|kind| kind.name().eq_ignore_ascii_case(name))
-}
-
-fn material(name: &str, constants: &Constants) -> Result<Material, Error> {
-    let key = format!("materials.{name}");
-    let Constants { young, poisson, shear, density, rayleigh } = constants;
-    let found = match (young, poisson, shear) {
-        (Directional::Same(young), Directional::Same(poisson), None) => {
-            Material::isotropic(name, *young, *poisson, *density)
-        }
-        (Directional::Each(young), Directional::Each(poisson), Some(shear)) => {
-            let constants = Orthotropic { young: *young, poisson: *poisson, shear: *shear };
-            Material::orthotropic(name, constants, *density)
-        }
-        _ => {
-            let what = "young and poisson are one number each, or three each with three shear moduli in shear: give all or none of \
-                        these as three";
-            return Err(Error::at(key, what));
-        }
-    };
-    if let Some(c) = rayleigh.iter().find(|c| !(**c >= 0.0 && c.is_finite())) {
-        return Err(Error::at(format!("{key}.rayleigh"), format!("{c} must be 0 or more")));
-    }
-    Ok(found?.damped(rayleigh[0], rayleigh[1]))
 }

@@ -4,7 +4,7 @@ use faer::c64;
 
 use crate::Error;
 use crate::assembly::{Pencil, Rows};
-use crate::modes::{Basis, Factor, Pair, coalescence, pairs};
+use crate::modes::{Basis, Factor, Pair, coalescence, likeness, pairs};
 use crate::sweep::Mode;
 
 /// What happens to modes at a coefficient of friction.
@@ -46,8 +46,9 @@ pub struct Transition {
     pub modes: Vec<usize>,
 }
 
-/// Whether a mode counts as growing or decaying. What rounding leaves of an undamped mode is some 1e-8 of its frequency.
-pub(super) fn grows(lambda: c64, damped: bool) -> bool {
+/// Whether a mode counts as growing. What rounding leaves of an undamped mode is some 1e-8 of its frequency.
+#[must_use]
+pub fn grows(lambda: c64, damped: bool) -> bool {
     const ROUNDING: f64 = 1e-6;
     if damped { lambda.re > 0.0 } else { lambda.re > ROUNDING * lambda.norm() }
 }
@@ -75,7 +76,16 @@ impl Search<'_> {
                 };
                 let changed: Vec<usize> =
                     (0..modes.len()).filter(|m| is_on(&modes[*m], on) && !is_on(&modes[*m], off)).collect();
-                for group in partners(&changed, modes, on, self.damped) {
+                if self.damped {
+                    let event = if begins { Event::Onset } else { Event::End };
+                    for mode in changed {
+                        let ends = [off, on].map(|i| (self.mus[i], modes[mode].states[i].lambda));
+                        let (mu, frequency) = self.turn(basis, ends)?;
+                        found.push(Transition { event, mu, frequency, modes: vec![mode] });
+                    }
+                    continue;
+                }
+                for group in partners(&changed, modes, on) {
                     let grown = group.iter().map(|m| modes[*m].states[on].lambda);
                     let Some(lambda) = grown.max_by(|a, b| a.re.total_cmp(&b.re)) else { continue };
                     found.push(self.one(basis, [self.mus[off], self.mus[on]], lambda, begins, group)?);
@@ -97,23 +107,49 @@ impl Search<'_> {
     ) -> Result<Transition, Error> {
         /// Bisections before Newton's method, which needs to start near a coalescence.
         const BISECTIONS: usize = 10;
-        /// Bisections where there is no Newton's method: to rounding.
-        const ALL: usize = 48;
         let mut pair = self.growing(basis, on, lambda)?.ok_or_else(|| lost(on, lambda))?;
-        for _ in 0..if self.damped { ALL } else { BISECTIONS } {
+        for _ in 0..BISECTIONS {
             let middle = f64::midpoint(off, on);
             match self.growing(basis, middle, pair.lambda)? {
                 Some(found) => (on, pair) = (middle, found),
                 None => off = middle,
             }
         }
-        if self.damped {
-            let event = if begins { Event::Onset } else { Event::End };
-            return Ok(Transition { event, mu: f64::midpoint(off, on), frequency: pair.frequency(), modes });
-        }
         let found = coalescence(self.pencil, self.factor, basis, on, &pair)?;
         let event = if begins { Event::Coalescence } else { Event::Separation };
         Ok(Transition { event, mu: found.mu, frequency: found.frequency(), modes })
+    }
+
+    /// Where a damped mode turns from one side to the other, and its frequency there (Hz), by bisection to rounding. It is followed by its
+    /// shape: other modes that grow may be near.
+    fn turn(&self, basis: &Basis, ends: [(f64, c64); 2]) -> Result<(f64, f64), Error> {
+        const BISECTIONS: usize = 48;
+        let closest = |mu: f64, lambda: c64| -> Result<Pair, Error> {
+            let apart = |pair: &Pair| (pair.lambda - lambda).norm();
+            let all = pairs(&basis.at(mu, self.slope))?;
+            all.into_iter().min_by(|a, b| apart(a).total_cmp(&apart(b))).ok_or_else(|| lost(mu, lambda))
+        };
+        let [(mut off, decaying), (mut on, growing)] = ends;
+        let mut known = [closest(off, decaying)?, closest(on, growing)?];
+        for _ in 0..BISECTIONS {
+            let middle = f64::midpoint(off, on);
+            let alike = |pair: &Pair| {
+                let to = |end: &Pair| {
+                    likeness(&end.vector, &pair.vector)
+                        - (end.lambda - pair.lambda).norm() / end.lambda.norm()
+                };
+                to(&known[0]).max(to(&known[1]))
+            };
+            let all = pairs(&basis.at(middle, self.slope))?;
+            let pair = all.into_iter().max_by(|a, b| alike(a).total_cmp(&alike(b)));
+            let pair = pair.ok_or_else(|| lost(middle, growing))?;
+            if grows(pair.lambda, true) {
+                (on, known[1]) = (middle, pair);
+            } else {
+                (off, known[0]) = (middle, pair);
+            }
+        }
+        Ok((f64::midpoint(off, on), known[1].frequency()))
     }
 
     /// The pair that grows and is nearest to an eigenvalue, as long as it is near.
@@ -122,7 +158,7 @@ impl Search<'_> {
         const NEAR: f64 = 0.05;
         let apart = |pair: &Pair| (pair.lambda - lambda).norm();
         let all = pairs(&basis.at(mu, self.slope))?;
-        let grown = all.into_iter().filter(|pair| grows(pair.lambda, self.damped));
+        let grown = all.into_iter().filter(|pair| grows(pair.lambda, false));
         let nearest = grown.min_by(|a, b| apart(a).total_cmp(&apart(b)));
         Ok(nearest.filter(|pair| apart(pair) <= NEAR * lambda.norm()))
     }
@@ -136,8 +172,8 @@ fn lost(mu: f64, lambda: c64) -> Error {
     Error::Solver { what }
 }
 
-/// Puts the two of each conjugate pair −λ̄ together; damped modes are alone.
-fn partners(changed: &[usize], modes: &[Mode], at: usize, damped: bool) -> Vec<Vec<usize>> {
+/// Puts the two of each conjugate pair −λ̄ together.
+fn partners(changed: &[usize], modes: &[Mode], at: usize) -> Vec<Vec<usize>> {
     /// The two of a pair differ by rounding and what is left of the residual.
     const SAME: f64 = 1e-4;
     let mut groups: Vec<Vec<usize>> = Vec::new();
@@ -145,7 +181,7 @@ fn partners(changed: &[usize], modes: &[Mode], at: usize, damped: bool) -> Vec<V
         let lambda = modes[*mode].states[at].lambda;
         let partner = groups.iter_mut().find(|group| {
             let other = modes[group[0]].states[at].lambda;
-            group.len() == 1 && !damped && (lambda + other.conj()).norm() <= SAME * lambda.norm()
+            group.len() == 1 && (lambda + other.conj()).norm() <= SAME * lambda.norm()
         });
         match partner {
             Some(group) => group.push(*mode),

@@ -1,6 +1,6 @@
 //! Numbers of a description: whether they are what they can be.
 
-use super::document::{Friction, Modes, Output, Values};
+use super::document::{Document, Friction, Modes, Output, Values};
 use super::modal::MOST as MOST_VECTORS;
 use crate::Error;
 
@@ -9,16 +9,32 @@ use crate::Error;
 /// # Errors
 /// What is no range and no list; values that fall, are negative or no numbers; too many.
 pub(super) fn coefficients(mu: &Values) -> Result<Vec<f64>, Error> {
+    let key = "friction.mu";
+    let values = listed(key, mu)?;
+    if let Some(mu) = values.iter().find(|mu| !(**mu >= 0.0 && mu.is_finite())) {
+        return Err(Error::at(
+            key,
+            format!(
+                "{mu} is no coefficient of friction, it must be 0 or more: turn the direction of sliding around instead"
+            ),
+        ));
+    }
+    in_order(key, values)
+}
+
+/// Values of any parameter, rising.
+pub(super) fn rising(key: &str, values: &Values) -> Result<Vec<f64>, Error> {
+    in_order(key, listed(key, values)?)
+}
+
+fn listed(key: &str, values: &Values) -> Result<Vec<f64>, Error> {
     /// A sweep of more values takes hours for curves that no print resolves.
     const MOST: usize = 100_000;
-    let key = "friction.mu";
-    let values = match (mu.from, mu.to, mu.points, &mu.values) {
+    let found = match (values.from, values.to, values.points, &values.values) {
         (Some(from), Some(to), Some(points), None) => {
             if !(2..=MOST).contains(&points) {
-                return Err(Error::at(
-                    "friction.mu.points",
-                    format!("there are {points} points, a range has 2 to {MOST}"),
-                ));
+                let what = format!("there are {points} points, a range has 2 to {MOST}");
+                return Err(Error::at(format!("{key}.points"), what));
             }
             let last = points - 1;
             // Both ends exactly.
@@ -32,17 +48,13 @@ pub(super) fn coefficients(mu: &Values) -> Result<Vec<f64>, Error> {
             return Err(Error::at(key, what));
         }
     };
-    if values.is_empty() || values.len() > MOST {
-        return Err(Error::at(key, format!("there are {} values, there must be 1 to {MOST}", values.len())));
+    if found.is_empty() || found.len() > MOST {
+        return Err(Error::at(key, format!("there are {} values, there must be 1 to {MOST}", found.len())));
     }
-    if let Some(mu) = values.iter().find(|mu| !(**mu >= 0.0 && mu.is_finite())) {
-        return Err(Error::at(
-            key,
-            format!(
-                "{mu} is no coefficient of friction, it must be 0 or more: turn the direction of sliding around instead"
-            ),
-        ));
-    }
+    Ok(found)
+}
+
+fn in_order(key: &str, values: Vec<f64>) -> Result<Vec<f64>, Error> {
     if let Some((before, after)) = values.iter().zip(&values[1..]).find(|(before, after)| !(before < after)) {
         return Err(Error::at(key, format!("{after} follows {before}: let the values rise")));
     }
@@ -93,6 +105,18 @@ pub(super) fn check_modes(modes: &Modes) -> Result<(), Error> {
             format!("the residual is {}, it must be above 0 and at most {WORST}", modes.residual),
         ));
     }
+    if let Some(ratio) = modes.damping_ratios.iter().find(|ratio| !(0.0..1.0).contains(*ratio)) {
+        let what = format!("{ratio} is no damping ratio, it must be 0 or more and below 1");
+        return Err(Error::at("modes.damping_ratios", what));
+    }
+    if modes.damping_ratios.len() > modes.count {
+        let what = format!(
+            "there are {} for {} modes: give one for each of the lowest at most",
+            modes.damping_ratios.len(),
+            modes.count
+        );
+        return Err(Error::at("modes.damping_ratios", what));
+    }
     Ok(())
 }
 
@@ -108,6 +132,29 @@ pub(super) fn check_output(output: &Output) -> Result<(), Error> {
         let what =
             "vectors are counted, but no projected problem is written: add modal = true or leave it out";
         return Err(Error::at("output.vectors", what));
+    }
+    Ok(())
+}
+
+/// Checks the range of contact stiffness of the projected problem.
+pub(super) fn check_kn(document: &Document) -> Result<(), Error> {
+    let Some([low, high]) = document.output.kn else { return Ok(()) };
+    let wrong = |what: &str| Err(Error::at("output.kn", what));
+    if !(low > 0.0 && low < high && high.is_finite()) {
+        return wrong(&format!("the range is {low} to {high} Pa/m, it must rise from above 0"));
+    }
+    if !document.output.modal {
+        return wrong(
+            "a range is given, but no projected problem is written: add modal = true or leave it out",
+        );
+    }
+    if document.friction.contact_stiffness.is_none() {
+        return wrong("the surfaces do not overlap (multipliers): give friction.contact_stiffness, too");
+    }
+    if document.modes.stressed {
+        return wrong(
+            "the stress of the static step depends on the contact stiffness: leave out modes.stressed or kn",
+        );
     }
     Ok(())
 }

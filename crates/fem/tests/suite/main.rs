@@ -12,6 +12,7 @@ mod cylinder;
 mod damping;
 mod elements;
 mod files;
+mod keys;
 mod layer;
 mod modal;
 mod mortar;

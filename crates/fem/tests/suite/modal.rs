@@ -109,6 +109,7 @@ fn bad_files_of_modes_are_named() {
         slope: zero(),
         load: 0.0,
         wedge: 0.0,
+        contact: None,
     };
     let file = String::from_utf8(modal.write()).expect("UTF-8");
     let error = Modal::read(&file).map(drop).expect_err("too large").to_string();
@@ -161,6 +162,39 @@ fn a_slope_needs_no_vectors_of_its_own() {
     // Of the eigenvalue; a ten-thousandth of what this large slope makes it grow.
     assert!(worst < 2e-5, "{worst:e}");
     assert!(grown > 4000.0, "{grown}");
+}
+
+/// A file with a range of contact stiffness has the eigenvalues of studies with other stiffnesses, in it and at its ends.
+#[test]
+fn a_range_of_contact_stiffness_is_held() {
+    let with = |kn: &str, rest: &str| {
+        format!("{}{rest}", PIN.replace("points = 26 }", &format!("points = 6 }}\ncontact_stiffness = {kn}")))
+    };
+    let (_, file) = modal(&with("1e14", "\n[output]\nmodal = true\nkn = [3e12, 3e15]\n"));
+    let text = String::from_utf8(file.write()).expect("UTF-8");
+    let file = Modal::read(&text).expect("the same problem");
+    for (written, kn) in [("3e12", 3e12), ("2e13", 2e13), ("1e14", 1e14), ("3e15", 3e15)] {
+        let (outcome, _) = modal(&with(written, "\n[output]\nmodal = true\n"));
+        let other = file.with_contact(kn).expect("a range");
+        for (i, mu) in [(0, 0.0), (3, 0.3), (5, 0.5)] {
+            let found = pairs(&other.at(mu, 0.0)).expect("pairs");
+            for mode in &outcome.modes {
+                let lambda = mode.states[i].lambda;
+                let apart = found.iter().map(|p| (p.lambda - lambda).norm()).fold(f64::INFINITY, f64::min);
+                assert!(apart < 1e-6 * lambda.norm(), "{written} Pa/m, mu {mu}: {lambda} {apart:e}");
+            }
+        }
+    }
+    for (old, new) in
+        [("contact_range", "# contact_range"), ("contact_stiffness = 1e14", "contact_stiffness = -1e14")]
+    {
+        assert!(text.contains(old), "{old}");
+        let error = Modal::read(&text.replacen(old, new, 1)).map(drop).expect_err(new).to_string();
+        assert!(
+            error.starts_with("contact_stiffness: contact_stiffness, contact_range and stiffness_contact"),
+            "{error}"
+        );
+    }
 }
 
 /// A study says how many vectors its file has at most.

@@ -122,6 +122,28 @@ fn a_damped_mode_begins_to_grow_where_it_should() {
     assert!(study.model.materials[0].rayleigh[1] > 0.0);
 }
 
+/// Falling friction makes two modes grow that differ by a few percent; each ends to grow where it does itself, not where the other does.
+#[test]
+fn a_mode_that_ends_to_grow_is_not_taken_for_its_neighbour() {
+    let text = include_str!("study/disc.toml");
+    let (_, outcome) = computed(text);
+    assert!(outcome.transitions.len() > 1);
+    for t in &outcome.transitions {
+        let values = format!("{{ values = [{}, {}] }}", t.mu - 1e-6, t.mu + 1e-6);
+        let (_, near) = computed(&text.replace("{ from = 0.0, to = 0.5, points = 11 }", &values));
+        let growth = |i: usize| {
+            let states = near.modes.iter().map(|mode| mode.states[i].lambda);
+            let apart = |lambda: &faer::c64| (lambda.im / std::f64::consts::TAU - t.frequency).abs();
+            states.min_by(|a, b| apart(a).total_cmp(&apart(b))).expect("a mode").re
+        };
+        let [before, after] = [growth(0), growth(1)];
+        assert!(
+            before * after < 0.0 && (before < 0.0) == (t.event == Event::Onset),
+            "{t:?}: {before} {after}"
+        );
+    }
+}
+
 /// A contact stiffness stands in the manifest, and a stiff one comes to the multipliers.
 #[test]
 fn a_contact_stiffness_is_stated() {
@@ -183,7 +205,7 @@ fn bad_descriptions_are_named() {
         (
             "kind = \"block\"\nelement = \"hex20\"\norigin = [0.0,",
             "kind = \"ball\"\nelement = \"hex20\"\norigin = [0.0,",
-            "line 5: unknown variant `ball`, expected `block` or `mesh`",
+            "line 5: unknown variant `ball`, expected one of `block`, `cylinder`, `ring`, `mesh`",
         ),
         (
             "[materials.steel]",
