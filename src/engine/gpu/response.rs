@@ -74,13 +74,10 @@ pub fn complete(
     records: &mut [Record],
 ) -> Result<()> {
     match session.device().precision() {
-        Precision::F32 if marched::takes(session.device(), spec, first, records.len()) => {
-            let ended = marched::complete(spec, first, (session, chunk), cancel, progress, records);
-            records_again(spec, first, records, cancel);
-            ended
-        }
         Precision::F32 => {
-            let ended = complete_in::<f32>(spec, first, (session, chunk), cancel, progress, records);
+            let marches = marched::takes(session.device(), spec, first, records.len());
+            let complete = if marches { marched::complete } else { complete_in::<f32> };
+            let ended = complete(spec, first, (session, chunk), cancel, progress, records);
             records_again(spec, first, records, cancel);
             ended
         }

@@ -114,14 +114,11 @@ fn birth(map: &ReturnMap, last: &Fixed) -> Option<BranchPoint> {
     let at = |part: f64| {
         let mut place = last.place.clone();
         place[map.count()] = part;
-        let (instance, _) = map.scene(&place)?;
-        Some((examined(&instance, true).0, map.value(&place)))
+        Some((map.scene(&place)?.0, map.value(&place)))
     };
     // How many eigenvalues grow; the cycle may be that of a pair beside another that grows already.
     let growing = |part: f64| {
-        let mut place = last.place.clone();
-        place[map.count()] = part;
-        let (instance, _) = map.scene(&place)?;
+        let (instance, _) = at(part)?;
         Some(linear::eigenvalues(&instance)?.iter().filter(|eigenvalue| eigenvalue.re > 0.0).count())
     };
     let about = last.place[map.count()];
@@ -134,6 +131,7 @@ fn birth(map: &ReturnMap, last: &Fixed) -> Option<BranchPoint> {
         let middle = 0.5 * (low + high);
         if growing(middle)? == before { low = middle } else { high = middle }
     }
-    let (record, value) = at(high)?;
+    let (instance, value) = at(high)?;
+    let (record, _) = examined(&instance, true);
     Some(BranchPoint { value, unstable: last.unstable(), special: Some(Special::Hopf), record })
 }

@@ -56,7 +56,7 @@ pub(super) struct Flown {
 }
 
 impl<'a> ReturnMap<'a> {
-    /// The map about a cycle at a `value` of the parameter, and the place of the cycle.
+    /// The map about a cycle at a `value` of the parameter, by a [`fine`] plan, and the place of the cycle.
     pub(super) fn about(
         instances: Instances<'a>,
         plan: &Plan,
@@ -64,13 +64,12 @@ impl<'a> ReturnMap<'a> {
         value: f64,
         (cycle, freedom): (&Cycle, Freedom),
     ) -> Option<(ReturnMap<'a>, DVector<f64>)> {
-        let plan = fine(plan);
-        let scene = Scene::planned(&instances(value)?, &plan).ok()?;
+        let scene = Scene::planned(&instances(value)?, plan).ok()?;
         let size =
             cycle.start.coordinates(freedom).iter().fold(0.0, |size: f64, value| size.max(value.abs()));
         let map = ReturnMap {
             instances,
-            plan,
+            plan: *plan,
             freedom,
             returns: cycle.returns,
             range,
