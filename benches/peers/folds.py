@@ -1,8 +1,8 @@
 """Folds of limit cycles of the two-mass belt model by an independent code: scipy's DOP853 between located events, the equations of
 docs/physics.md in SI units, a fixed point of the return map (upward zeros of x2') for each x2 on it, and the extremum of the parameter.
 
-    python3 folds.py up         the fold over mu_d that ends the rising branch at mu_s = 0.6, V = 3 m/s (Table 1, bilinear law)
-    python3 folds.py down       the one that ends the falling branch
+    python3 folds.py up 3       the fold over mu_d that ends the rising branch at mu_s = 0.6, V = 3 m/s (Table 1, bilinear law)
+    python3 folds.py down 3     the one that ends the falling branch; both also at V = 4
 """
 import sys
 import numpy as np
@@ -147,8 +147,8 @@ def section(z, contact, p):
     return np.array([e[0], e[2], e[5]]), ev
 
 
-def fold(mu_d0, direction, contact=("slip", 1.0, 0)):
-    p = dict(mu_s=0.6, mu_d=mu_d0, V=3.0)
+def fold(mu_d0, direction, V, contact=("slip", 1.0, 0)):
+    p = dict(mu_s=0.6, mu_d=mu_d0, V=V)
     # settle onto the stable cycle, and take it along to the value next to the fold
     z = np.array([0.0, -0.0099, 0.0]) + np.array([-0.012, 0, 0])
     for value in np.linspace(FROM[direction], mu_d0, 12):
@@ -198,5 +198,7 @@ def fold(mu_d0, direction, contact=("slip", 1.0, 0)):
 
 FROM = {"up": 0.02, "down": 0.36}
 STEP = {"up": 2e-5, "down": 2e-5}
+NEXT_TO = {("up", 3): 0.341, ("down", 3): 0.0775, ("up", 4): 0.2995, ("down", 4): 0.1325}
 if __name__ == "__main__":
-    fold(*{"up": (0.341, "up"), "down": (0.0775, "down")}[sys.argv[1]])
+    way, V = sys.argv[1], int(sys.argv[2])
+    fold(NEXT_TO[way, V], way, float(V))

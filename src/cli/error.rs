@@ -44,12 +44,20 @@ pub(crate) enum Error {
     },
     /// A motion that is to be followed in steps while its belt moves by a ramp.
     #[error(
-        "`--sweep-up-down` holds the belt at every value, but this instance has a ramp, `ramp_duration` = {duration} s; \
+        "{what} holds the belt at every value, but this instance has a ramp, `ramp_duration` = {duration} s; \
          take the ramp out of [belt]"
     )]
     FollowsRamp {
+        /// The command or option.
+        what: &'static str,
         /// Its duration, s.
         duration: f64,
+    },
+    /// A parameter with a value that is to be followed, too.
+    #[error("`--at` gives `{name}` a value, which `--sweep-up-down` varies; leave it out of `--at`")]
+    FollowedAndFixed {
+        /// The parameter.
+        name: &'static str,
     },
     /// A map with holes under the name of the whole one.
     #[error(
@@ -367,6 +375,7 @@ impl Error {
             | Error::SameName { .. }
             | Error::RefineBeside { .. }
             | Error::FollowsRamp { .. }
+            | Error::FollowedAndFixed { .. }
             | Error::PartialAsWhole { .. }
             | Error::BadFrontier { .. }
             | Error::FileThere { .. }

@@ -10,11 +10,11 @@ use crate::cli::pictures::png_of;
 use crate::cli::talk::{note, print};
 use squealmap::engine::plan::Plan;
 use squealmap::model::status::Status;
-use squealmap::model::{PARAMS, Param, Section};
+use squealmap::model::{PARAMS, Param};
 use squealmap::results::figure::heading::Heading;
 use squealmap::results::figure::look::Look;
 use squealmap::study::cycles::branch::{Branch, BranchPoint};
-use squealmap::study::hysteresis::follow::{Direction, Hysteresis};
+use squealmap::study::hysteresis::follow::{Direction, Hysteresis, can_follow};
 use squealmap::study::hysteresis::table::{cycles_csv, document, hysteresis_csv, hysteresis_svg};
 use squealmap::sweep::grid::spaced;
 use squealmap::sweep::spec::Spec;
@@ -38,15 +38,14 @@ impl Range {
     pub(crate) fn parse(text: &str) -> std::result::Result<Range, String> {
         let syntax = || "write name=from..to, such as mu_s=0.1..0.6".to_owned();
         let (name, range) = text.split_once('=').ok_or_else(syntax)?;
-        let (from, to) = range.split_once("..").ok_or_else(syntax)?;
+        // A third dot would make `1...2` a range to 0.2.
+        let (from, to) = range.split_once("..").filter(|(_, to)| !to.starts_with('.')).ok_or_else(syntax)?;
         let param = Param::from_name(name.trim()).ok_or_else(|| {
             let names: Vec<&str> = PARAMS.iter().map(|row| row.name).collect();
             let (name, advice) = (name.trim(), advice(name.trim(), &names));
             format!("`{name}` is no parameter of a sweep file with numbers as values; {advice}")
         })?;
-        if param.info().section == Section::Start
-            || [Param::BeltVelocityEnd, Param::RampDuration].contains(&param)
-        {
+        if !can_follow(param) {
             return Err(format!(
                 "`{}` says how a motion starts or ends, and cannot be followed",
                 param.info().name
@@ -77,13 +76,17 @@ impl Range {
 /// Follows the instance `at` over the range and writes both branches.
 pub(crate) fn execute(spec: &Spec, files: &Files, at: &str, range: &Range, points: u32) -> Result<ExitCode> {
     let name = range.param.info().name;
+    let is_named = |pair: &str| pair.split_once('=').is_some_and(|(other, _)| other.trim() == name);
+    if at.split(',').any(is_named) {
+        return Err(Error::FollowedAndFixed { name });
+    }
     let instance = |value: f64| {
         let comma = if at.trim().is_empty() { "" } else { "," };
         spec.instance_at(&format!("{at}{comma}{name}={value}"))
     };
     let ramp = instance(range.from)?.params.get(Param::RampDuration);
     if let Some(duration) = ramp {
-        return Err(Error::FollowsRamp { duration });
+        return Err(Error::FollowsRamp { what: "`--sweep-up-down`", duration });
     }
     let output = files.prepare_beside(&FILES)?;
     let found = Hysteresis::follow(range.param, range.values(points), &Plan::new(spec), instance)?;

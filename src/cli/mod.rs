@@ -5,6 +5,7 @@ mod accuracy;
 mod adapters;
 mod check;
 mod compare;
+mod curves;
 mod engine;
 mod environment;
 mod error;
@@ -100,6 +101,9 @@ enum Command {
     Compare(compare::Compare),
     /// One instance in full, as a time series: trace.csv, trace.json, trace.svg, trace.png
     Trace(trace::TraceCommand),
+    /// Where limit cycles meet, double their period, or are born, as curves over the planes of a sweep: curves.csv, curves.json,
+    /// curves.svg, curves.png
+    Curves(curves::CurvesCommand),
     /// What measured signals say: identify.json, identify.svg, identify.png, windows.csv
     Identify(identify::Identify),
     /// The source paper computed again: its figures, and what becomes of its claims
@@ -155,6 +159,7 @@ impl Command {
             | Command::Plot(_)
             | Command::Compare(_)
             | Command::Trace(_)
+            | Command::Curves(_)
             | Command::Identify(_)
             | Command::Fem(_)
             | Command::Paper(_)
@@ -170,6 +175,7 @@ impl Command {
             Command::Verify(command) => return command.execute(),
             Command::Check(command) => return command.execute(),
             Command::Trace(command) => return command.execute(),
+            Command::Curves(command) => command.execute()?,
             Command::Submit(command) => command.execute()?,
             Command::Status(command) => command.execute()?,
             Command::Export(command) => command.execute()?,

@@ -13,6 +13,7 @@ use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use squealmap::cluster::slurm::quote;
 use squealmap::results::figure::look::{Journal, Look, WIDTHS};
+use squealmap::study::curves::read::Curves;
 use squealmap::study::{Kind, Picture};
 use squealmap::version::program;
 use squealmap_figure::{pdf, png};
@@ -31,7 +32,7 @@ const PAPER: &str = "paper";
 /// Arguments of `plot`.
 #[derive(Debug, Args)]
 pub(crate) struct Plot {
-    /// Output directory of a command that draws a figure (run, refine, trace, modes, tradeoff, identify, fem, paper); plot.svg,
+    /// Output directory of a command that draws a figure (run, refine, trace, curves, modes, tradeoff, identify, fem, paper); plot.svg,
     /// plot.pdf and plot.png go there too
     directory: PathBuf,
     /// Which figure, where the directory holds several [default: the first of those named here]
@@ -49,6 +50,9 @@ pub(crate) struct Plot {
     /// What stands above the figure instead of the title of the sweep; "" for nothing
     #[arg(long, value_name = "TEXT")]
     title: Option<String>,
+    /// Of a map, computed or refined: with the lines of this directory of `curves`, where cycles end
+    #[arg(long, value_name = "DIR", conflicts_with = "cut")]
+    curves: Option<PathBuf>,
     #[command(flatten)]
     map: OfMaps,
 }
@@ -66,7 +70,16 @@ impl Plot {
         }
         let picture = Picture::read(&self.directory, kind)?;
         let provenance = format!("{}, of results of {}", self.command(), picture.program);
+        let lines = match (&self.curves, picture.grid()) {
+            (None, _) => Vec::new(),
+            (Some(curves), Some(grid)) => Curves::over(curves, &self.directory, grid)?,
+            (Some(_), None) => {
+                let path = self.directory.clone();
+                return Err(Error::OnlyOfMaps { option: "--curves", figure: kind.name(), path });
+            }
+        };
         let look = Look {
+            lines,
             width: self.journal.map(Journal::width).or(self.width),
             title: self.title.clone(),
             command: Some(provenance.clone()),
@@ -124,6 +137,9 @@ impl Plot {
         }
         if let Some(title) = &self.title {
             add(format!(" --title {}", quote(title)));
+        }
+        if let Some(curves) = &self.curves {
+            add(format!(" --curves {}", quote(&curves.display().to_string())));
         }
         command + &self.map.command()
     }

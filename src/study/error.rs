@@ -22,6 +22,44 @@ pub enum Error {
         "no instance of the sweep has modes: none has a sliding equilibrium on a moving belt; give at least one a `belt_velocity` above 0 (and, where theta < 0, less friction; with the law `constant`, `mu_s` of at least `mu_d`)"
     )]
     NoModes,
+    /// `curves` needs a plane of two parameters.
+    #[error(
+        "curves needs two axes of numbers with at least 2 values each, and [axes] does not have them; add one, e.g. belt_velocity = {{ from = 1.0, to = 6.0, points = 41 }}"
+    )]
+    NoPlane,
+    /// `curves` needs axes, not tuples.
+    #[error(
+        "curves needs two axes of numbers, and this sweep lists its instances in a file of `points`; give [axes] in its place"
+    )]
+    NoCurvesOfTuples,
+    /// An axis of the plane along which no cycle can be followed.
+    #[error(
+        "the plane of this sweep has `{name}` as an axis, along which no cycle can be followed: it is no number of the model, the friction or the belt; put two of these first in [axes]"
+    )]
+    NoCurvesAlong {
+        /// The axis.
+        name: &'static str,
+    },
+    /// Curves that hold for another system than a map.
+    #[error(
+        "the curves in `{}` are of another sweep than the map: `{section}` differs; compute them from the sweep of the map, with squealmap curves",
+        path.display()
+    )]
+    CurvesOfAnother {
+        /// The directory of the curves.
+        path: PathBuf,
+        /// The section of the sweep.
+        section: &'static str,
+    },
+    /// Curves in planes that a map does not show.
+    #[error(
+        "no curve in `{}` lies in a plane that the figure shows; compute them from the sweep of the map, with squealmap curves",
+        path.display()
+    )]
+    CurvesElsewhere {
+        /// The directory of the curves.
+        path: PathBuf,
+    },
     /// A ramp of the paper's figures that does not come to its end.
     #[error(
         "the ramp under {case} of {duration} s with a kick of {kick} m ended early with status `{status}`; \
@@ -109,6 +147,11 @@ impl Error {
             Error::NoModesAxis
             | Error::NoModesOfTuples
             | Error::NoModes
+            | Error::NoPlane
+            | Error::NoCurvesOfTuples
+            | Error::NoCurvesAlong { .. }
+            | Error::CurvesOfAnother { .. }
+            | Error::CurvesElsewhere { .. }
             | Error::PaperRamp { .. }
             | Error::NoDirectoryToPlot { .. }
             | Error::NothingToPlot { .. } => true,

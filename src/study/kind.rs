@@ -6,7 +6,7 @@ use crate::results::figure::look::WIDTHS;
 use crate::results::read::{map, refined};
 use crate::study::error::{Error, Result};
 use crate::study::paper::Figure;
-use crate::study::{fem, hysteresis, identify, modes, trace, tradeoff};
+use crate::study::{curves, fem, hysteresis, identify, modes, trace, tradeoff};
 
 /// A figure of a command that can be drawn from its directory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,6 +19,8 @@ pub enum Kind {
     Trace,
     /// Both branches of `trace --sweep-up-down`.
     Hysteresis,
+    /// The curves of `curves`.
+    Curves,
     /// The eigenvalues of `modes`.
     Modes,
     /// Speed against error of `tradeoff`.
@@ -33,11 +35,12 @@ pub enum Kind {
 
 impl Kind {
     /// All kinds. Where a directory holds several, the first of these is drawn unless another is asked for.
-    pub const ALL: [Kind; 16] = [
+    pub const ALL: [Kind; 17] = [
         Kind::Map,
         Kind::Refined,
         Kind::Trace,
         Kind::Hysteresis,
+        Kind::Curves,
         Kind::Modes,
         Kind::Tradeoff,
         Kind::Identify,
@@ -60,6 +63,7 @@ impl Kind {
             Kind::Refined => "refined",
             Kind::Trace => "trace",
             Kind::Hysteresis => "hysteresis",
+            Kind::Curves => "curves",
             Kind::Modes => "modes",
             Kind::Tradeoff => "tradeoff",
             Kind::Identify => "identify",
@@ -76,6 +80,7 @@ impl Kind {
             Kind::Refined => refined::FILES,
             Kind::Trace => trace::read::FILES,
             Kind::Hysteresis => hysteresis::read::FILES,
+            Kind::Curves => curves::read::FILES,
             Kind::Modes => modes::read::FILES,
             Kind::Tradeoff => tradeoff::read::FILES,
             Kind::Identify => identify::read::FILES,
@@ -97,7 +102,7 @@ impl Kind {
         match self {
             Kind::Fem => 88.0,
             Kind::Paper(Figure::Phase | Figure::Figure7) => 84.0,
-            Kind::Map | Kind::Identify | Kind::Paper(_) => 70.0,
+            Kind::Map | Kind::Curves | Kind::Identify | Kind::Paper(_) => 70.0,
             _ => WIDTHS[0],
         }
     }

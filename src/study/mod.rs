@@ -6,6 +6,7 @@
 //! | one instance over time | [`trace`] |
 //! | a cycle while a parameter rises and falls | [`hysteresis`] |
 //! | branches of cycles, stable and unstable | [`cycles`] |
+//! | curves over two parameters where cycles meet or are born | [`curves`] |
 //! | speed against error | [`tradeoff`] |
 //! | measured friction as a material | [`fit`] |
 //! | measured signals | [`identify`] |
@@ -21,6 +22,8 @@ pub use kind::Kind;
 #[cfg(all(feature = "figures", feature = "identify"))]
 pub use picture::Picture;
 
+#[cfg(feature = "figures")]
+pub mod curves;
 pub mod cycles;
 pub mod error;
 #[cfg(feature = "figures")]

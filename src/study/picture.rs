@@ -9,8 +9,10 @@ use crate::results::manifest::Program;
 use crate::results::read::folder::Folder;
 use crate::results::read::refined::Lines;
 use crate::results::read::{Archive, refined};
+use crate::study::curves::figure::curves_svg;
+use crate::study::curves::read::Curves;
 use crate::study::error::Result;
-use crate::study::fem::Curves;
+use crate::study::fem;
 use crate::study::hysteresis::follow::Hysteresis;
 use crate::study::hysteresis::table::hysteresis_svg;
 use crate::study::modes::follow::{Modes, draw};
@@ -18,8 +20,9 @@ use crate::study::paper::figures::Shown;
 use crate::study::trace::run::Trace;
 use crate::study::trace::table::trace_svg;
 use crate::study::tradeoff::report::figure;
-use crate::study::{Kind, fem, hysteresis, identify, modes, paper, trace, tradeoff};
+use crate::study::{Kind, curves, hysteresis, identify, modes, paper, trace, tradeoff};
 use crate::sweep::accuracy::row::Row;
+use crate::sweep::grid::Grid;
 use crate::sweep::spec::Spec;
 
 /// The content of a figure.
@@ -29,10 +32,11 @@ enum Content {
     Refined(Box<Lines>),
     Trace(Box<Trace>, Heading),
     Hysteresis(Hysteresis, Heading),
+    Curves(Box<Curves>),
     Modes(Box<Spec>, Modes),
     Tradeoff(String, Vec<Row>),
     Identify(Box<identify::report::Shown>),
-    Fem(Curves),
+    Fem(fem::Curves),
     Paper(Shown),
 }
 
@@ -62,6 +66,7 @@ impl Picture {
                 let (hysteresis, heading) = hysteresis::read::read(folder)?;
                 Content::Hysteresis(hysteresis, heading)
             }
+            Kind::Curves => Content::Curves(Box::new(curves::read::read(folder)?)),
             Kind::Modes => {
                 let (spec, modes) = modes::read::read(folder, kind.files())?;
                 Content::Modes(Box::new(spec), modes)
@@ -90,6 +95,16 @@ impl Picture {
         }
     }
 
+    /// The grid of a map, computed or refined, over which lines can be drawn.
+    #[must_use]
+    pub fn grid(&self) -> Option<&Grid> {
+        match &self.content {
+            Content::Map(archive) => Some(&archive.map.spec.grid),
+            Content::Refined(lines) => Some(&lines.spec.grid),
+            _ => None,
+        }
+    }
+
     /// The title of the sweep; may be empty.
     #[must_use]
     pub fn title(&self) -> &str {
@@ -97,6 +112,7 @@ impl Picture {
             Content::Map(archive) => &archive.map.spec.title,
             Content::Refined(lines) => &lines.spec.title,
             Content::Trace(_, heading) | Content::Hysteresis(_, heading) => &heading.title,
+            Content::Curves(curves) => &curves.spec.title,
             Content::Modes(spec, _) => &spec.title,
             Content::Tradeoff(title, _) => title,
             Content::Identify(shown) => &shown.title,
@@ -115,6 +131,7 @@ impl Picture {
             Content::Refined(lines) => Ok(lines.svg(look)),
             Content::Trace(trace, heading) => trace_svg(trace, heading, look),
             Content::Hysteresis(hysteresis, heading) => Ok(hysteresis_svg(hysteresis, heading, look)),
+            Content::Curves(curves) => Ok(curves_svg(&curves.spec, &curves.lines, look)),
             Content::Modes(spec, modes) => Ok(draw(spec, modes, look)),
             Content::Tradeoff(title, rows) => Ok(figure(title, rows, look)),
             Content::Identify(shown) => identify::report::identify_svg(shown, look),

@@ -5,11 +5,12 @@ use crate::results::figure::curve_block::is_curve;
 use crate::results::figure::field::Field;
 use crate::results::figure::legend::Legend;
 use crate::results::figure::look::Content;
+use crate::results::figure::overlay::Overlay;
 use crate::results::figure::palette::Colouring;
 use crate::results::figure::panels::Panels;
 use crate::results::figure::picture_axis::Direction;
 use crate::results::figure::sides::Sides;
-use crate::results::figure::{cells, colour_bar, curve_block};
+use crate::results::figure::{cells, colour_bar, curve_block, overlay};
 use crate::sweep::grid::Grid;
 use crate::sweep::label::Tally;
 use crate::sweep::spec::Starts;
@@ -61,6 +62,8 @@ pub(crate) struct Block<'a> {
     pub(crate) computed: Option<&'a Tally>,
     pub(crate) panels: &'a Panels,
     pub(crate) content: Content<'a>,
+    /// Lines over the panels.
+    pub(crate) overlays: &'a [Overlay],
     /// The starts of every instance.
     pub(crate) starts: Starts,
     /// How many blocks the figure stacks, and how it arranges them.
@@ -94,7 +97,8 @@ impl Block<'_> {
         }
         heading.bold = false;
         let field = Field::of(self.content, panels);
-        let sides = Sides::of(self.grid, panels).filter(|_| field.is_none());
+        let of_classes = field.is_none() && !matches!(self.content, Content::Lines);
+        let sides = Sides::of(self.grid, panels).filter(|_| of_classes);
         let mut lines = self.heading(width);
         // Beside the heading what the shares are of takes no line of its own.
         let mut is_said = false;
@@ -144,6 +148,7 @@ impl Block<'_> {
             }
             if !self.measured {
                 cells::draw(svg, self.grid, panels, panel, self.content, &frame);
+                overlay::draw(svg, self.grid, panels, panel, self.overlays, &frame);
             }
             frame.border(svg);
             let ticks = if column + 1 < columns { &inner_ticks } else { &x_ticks };
@@ -167,20 +172,29 @@ impl Block<'_> {
             svg.text(x + left + 0.5 * across, bottom, &label, Style::new(LABEL_SIZE, Anchor::Middle));
         }
         bottom += 9.0;
-        if let Some(field) = field {
-            return bottom + colour_bar::draw(&field, panels, svg, [x + left, bottom], width - left) - y;
+        if let Some(field) = &field {
+            bottom += colour_bar::draw(field, panels, svg, [x + left, bottom], width - left);
         }
-        let (colouring, hatched) = match self.content {
-            Content::Classes { colouring, hatched } => (colouring, hatched),
-            _ => (Colouring::Regime, false),
-        };
-        let cells = panels.scatter.is_none();
         let sides = sides.as_ref().map(|sides| (sides, is_said));
-        let legend = Legend::new((self.tally, self.computed), sides, colouring, [hatched, cells]);
+        let legend = self.legend(sides, field.is_some()).with_lines(self.overlays);
         // Under the panels, or from the outer edge where that saves a line.
         let wide = legend.draw(None, x, bottom, width) < legend.draw(None, x + left, bottom, width - left);
         let indent = if wide { 0.0 } else { left };
         bottom + legend.draw(Some(svg), x + indent, bottom, width - indent) - y
+    }
+
+    /// The legend of the classes; that of a field is its bar.
+    fn legend(&self, sides: Option<(&Sides, bool)>, is_field: bool) -> Legend {
+        let (colouring, hatched) = match self.content {
+            Content::Lines => return Legend::default(),
+            Content::Classes { colouring, hatched } => (colouring, hatched),
+            _ => (Colouring::Regime, false),
+        };
+        if is_field {
+            return Legend::default();
+        }
+        let cells = self.panels.scatter.is_none();
+        Legend::new((self.tally, self.computed), sides, colouring, [hatched, cells])
     }
 
     /// The heading above the panels, as lines for a block of this width. A curve has its words beside it and no heading.
@@ -191,6 +205,7 @@ impl Block<'_> {
             content if is_curve(content, self.panels) => Vec::new(),
             Content::Classes { colouring, .. } => lines(colouring.heading(self.starts)),
             Content::LargeRegime => lines("Regime from the large start (time integration)"),
+            Content::Lines => lines("Where limit cycles meet, change their stability, or are born"),
             content => Field::of(content, self.panels).map_or_else(Vec::new, |field| field.heading(room)),
         }
     }

@@ -30,7 +30,7 @@ pub(crate) fn draw(
         quantity::draw(svg, grid, panels, panel, &field, frame);
     }
     let (colouring, hatched) = match content {
-        Content::Basin | Content::Named { .. } => return,
+        Content::Basin | Content::Named { .. } | Content::Lines => return,
         Content::LargeRegime => (Colouring::Regime, false),
         Content::Quantity { column, levels } => {
             return isolines::draw(svg, panels, panel, (column, levels), frame);

@@ -44,7 +44,7 @@ impl<'a> Field<'a> {
     /// The field of a content that has values; `None` for classes.
     pub(crate) fn of(content: Content<'a>, panels: &'a Panels) -> Option<Field<'a>> {
         match content {
-            Content::Classes { .. } | Content::LargeRegime => None,
+            Content::Classes { .. } | Content::LargeRegime | Content::Lines => None,
             Content::Quantity { column, levels } => {
                 let value = |place: usize| column.values.get(panels.instances[place]).copied().flatten();
                 let (scale, tones) = shade(column);

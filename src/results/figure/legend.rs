@@ -2,9 +2,10 @@
 
 use crate::model::status::Status;
 use crate::results::figure::fills::{FAILED_FILL, LIMIT, hatch, is_stable, not_computed, unsettled_fill};
+use crate::results::figure::overlay::{Overlay, Stroke};
 use crate::results::figure::palette::Colouring;
-use crate::results::figure::sides;
 use crate::results::figure::sides::{COUNTED, Sides};
+use crate::results::figure::{overlay, sides};
 use crate::sweep::label::{Label, Tally};
 use squealmap_figure::frame::LABEL_SIZE;
 use squealmap_figure::svg::{Anchor, Style, Svg};
@@ -27,9 +28,11 @@ enum Swatch {
     NotComputed,
     Limit,
     Equal,
+    Line(&'static str),
 }
 
 /// The entries of a legend in order.
+#[derive(Default)]
 pub(crate) struct Legend(Vec<(Swatch, Text)>);
 
 impl Legend {
@@ -100,6 +103,13 @@ impl Legend {
         Legend(entries)
     }
 
+    /// The same with the kinds of these lines.
+    pub(crate) fn with_lines(mut self, lines: &[Overlay]) -> Legend {
+        let entry = |stroke: Stroke| (Swatch::Line(stroke.attributes), Text::from(stroke.words));
+        self.0.extend(overlay::strokes(lines).into_iter().map(entry));
+        self
+    }
+
     /// Draws it from `(x, y)` downwards into a width and returns its height; `svg` is `None` to measure only. Words that are
     /// wider go on in the next line.
     pub(crate) fn draw(&self, mut svg: Option<&mut Svg>, x: f64, y: f64, width: f64) -> f64 {
@@ -145,9 +155,14 @@ fn draw_swatch(svg: &mut Svg, swatch: &Swatch, x: f64, y: f64) {
             svg.rect(area, &format!(r#"fill="{FAILED_FILL}""#));
             svg.rect(area, r#"fill="url(#not-computed)""#);
         }
-        Swatch::Limit | Swatch::Equal => {
+        Swatch::Limit | Swatch::Equal | Swatch::Line(_) => {
             let line = format!("M{} {}h{}", number(x), number(y + 0.5 * SWATCH[1]), number(SWATCH[0]));
-            svg.path(&line, if matches!(swatch, Swatch::Limit) { LIMIT[1] } else { sides::STROKES[1] });
+            let stroke = match swatch {
+                Swatch::Line(stroke) => stroke,
+                Swatch::Limit => LIMIT[1],
+                _ => sides::STROKES[1],
+            };
+            svg.path(&line, stroke);
             return;
         }
     }

@@ -1,6 +1,7 @@
 //! How a figure is shown: at which width, what of a map, and where the picture comes from.
 
 use crate::results::figure::heading::Heading;
+use crate::results::figure::overlay::Overlay;
 use crate::results::figure::palette::Colouring;
 use crate::results::number::NumberColumn;
 use crate::version::program;
@@ -99,6 +100,8 @@ pub enum Content<'a> {
     LargeRegime,
     /// The fraction of the starts of a box that end in a settled oscillation, by lightness, with a bar.
     Basin,
+    /// The lines of the look alone.
+    Lines,
 }
 
 impl Content<'_> {
@@ -132,13 +135,23 @@ pub struct Look<'a> {
     /// The blocks of a map from top to bottom. Where it is empty, they are those that were computed. Other figures have
     /// none.
     pub contents: Vec<Content<'a>>,
+    /// Lines over the panels of a map; other figures have none.
+    pub lines: Vec<Overlay>,
     /// The command that makes the picture again, for its metadata.
     pub command: Option<String>,
 }
 
 impl Default for Look<'_> {
     fn default() -> Self {
-        Look { width: None, height: None, title: None, enlarged: 1.0, contents: Vec::new(), command: None }
+        Look {
+            width: None,
+            height: None,
+            title: None,
+            enlarged: 1.0,
+            contents: Vec::new(),
+            lines: Vec::new(),
+            command: None,
+        }
     }
 }
 

@@ -218,6 +218,7 @@ fn compose(
             computed: computed.as_ref(),
             panels,
             content: *content,
+            overlays: &look.lines,
             starts,
             blocks: stacked,
             layout,

@@ -7,7 +7,7 @@
 //! | one block of it: panels side by side | [`block`], [`panels`], [`beside`], [`picture_axis`] |
 //! | classes in a panel: cells, points, their outlines and fills | [`cells`], [`points`], [`outline`], [`fills`], [`palette`] |
 //! | a number in a panel: its values, colours, bar | [`field`], [`quantity`], [`tones`], [`colour_bar`] |
-//! | lines of equal value, and the line of equal friction coefficients | [`isolines`], [`sides`] |
+//! | lines of equal value, the line of equal friction coefficients, lines from elsewhere | [`isolines`], [`sides`], [`overlay`] |
 //! | curves instead of panels | [`curve_block`], [`starts_block`], [`cut_figure`] |
 //! | words: legend, names of columns | [`legend`], [`words`] |
 //! | LaTeX | [`tikz`] |
@@ -26,6 +26,7 @@ pub mod legend;
 pub mod look;
 pub mod map;
 pub mod outline;
+pub mod overlay;
 pub mod page;
 pub mod palette;
 pub mod panels;

@@ -63,7 +63,7 @@ pub fn map_tikz(map: &Map, look: &Look<'_>) -> Result<String> {
     for content in contents {
         match content {
             Content::Classes { colouring, .. } => colourings.push(colouring),
-            Content::Basin | Content::LargeRegime => {}
+            Content::Basin | Content::LargeRegime | Content::Lines => {}
             Content::Quantity { .. } | Content::Named { .. } => {
                 return refused("quantities are drawn as SVG, PDF and PNG only");
             }

@@ -7,9 +7,10 @@ use crate::engine::cycle::point::Freedom;
 use crate::engine::judged::{examined, take_response};
 use crate::engine::plan::Plan;
 use crate::engine::record::Record;
+use crate::model::instance::Instance;
 use crate::model::linear;
 use crate::study::cycles::follow::{Course, follow};
-use crate::study::cycles::map::{Instances, ReturnMap};
+use crate::study::cycles::map::{Frame, Instances, ReturnMap};
 use crate::study::cycles::newton::{Fixed, fixed};
 use crate::study::cycles::special::Special;
 
@@ -40,11 +41,34 @@ impl BranchPoint {
     }
 }
 
+/// A special point that can be followed over a second parameter.
+#[derive(Clone, Debug)]
+pub(crate) struct Spot {
+    /// What is special about it.
+    pub(crate) special: Special,
+    /// Where on the range of the parameter, from 0 to 1.
+    pub(crate) part: f64,
+    /// The cycle there.
+    pub(crate) cycle: BranchPoint,
+    pub(super) state: State,
+}
+
+/// What a special point is of.
+#[derive(Clone, Debug)]
+pub(super) enum State {
+    /// A cycle: its fixed point, and the coordinates that it is in.
+    Cycle(Box<Fixed>, Frame),
+    /// An equilibrium that loses its stability.
+    Birth,
+}
+
 /// Cycles in order along the curve that they make.
 #[derive(Clone, Debug, Default)]
 pub struct Branch {
     /// The cycles.
     pub points: Vec<BranchPoint>,
+    /// Those that can be followed; empty where a branch is read back.
+    pub(crate) spots: Vec<Spot>,
 }
 
 impl Branch {
@@ -77,28 +101,39 @@ impl Branch {
         across[map.count()] = 1.0;
         let start = fixed(&map, &place, &across)?;
         let (backwards, closed) = follow(&map, &start, -1.0);
-        let mut points = told(&map, &backwards);
-        points.reverse();
+        let mut branch = Branch::default();
+        branch.tell(&map, &backwards);
+        branch.points.reverse();
         if !closed {
-            points.extend(told(&map, &follow(&map, &start, 1.0).0).into_iter().skip(1));
+            // The start is told once.
+            let mut forwards = follow(&map, &start, 1.0).0;
+            forwards.points.remove(0);
+            branch.tell(&map, &forwards);
         }
-        Some(Branch { points })
+        Some(branch)
+    }
+
+    /// Takes over a course.
+    fn tell(&mut self, map: &ReturnMap, course: &Course) {
+        for (fixed, special) in &course.points {
+            let Some(cycle) = point(map, fixed, *special) else { continue };
+            if let Some(special) = special.filter(|special| Special::FOLLOWED.contains(special)) {
+                let (part, cycle) = (fixed.place[map.count()], cycle.clone());
+                let state = State::Cycle(Box::new(fixed.clone()), map.frame);
+                self.spots.push(Spot { special, part, cycle, state });
+            }
+            self.points.push(cycle);
+        }
+        if course.vanishes
+            && let Some(last) = course.points.last()
+        {
+            self.points.extend(birth(map, &last.0));
+        }
     }
 }
 
-/// The records of a course.
-fn told(map: &ReturnMap, course: &Course) -> Vec<BranchPoint> {
-    let mut points: Vec<BranchPoint> =
-        course.points.iter().filter_map(|(fixed, special)| point(map, fixed, *special)).collect();
-    if course.vanishes
-        && let Some(last) = course.points.last()
-    {
-        points.extend(birth(map, &last.0));
-    }
-    points
-}
-
-fn point(map: &ReturnMap, fixed: &Fixed, special: Option<Special>) -> Option<BranchPoint> {
+/// What is told of a cycle.
+pub(super) fn point(map: &ReturnMap, fixed: &Fixed, special: Option<Special>) -> Option<BranchPoint> {
     let (instance, _) = map.scene(&fixed.place)?;
     let (mut record, kind) = examined(&instance, true);
     let multipliers = fixed.multipliers();
@@ -116,22 +151,54 @@ fn birth(map: &ReturnMap, last: &Fixed) -> Option<BranchPoint> {
         place[map.count()] = part;
         Some((map.scene(&place)?.0, map.value(&place)))
     };
-    // How many eigenvalues grow; the cycle may be that of a pair beside another that grows already.
-    let growing = |part: f64| {
-        let (instance, _) = at(part)?;
-        Some(linear::eigenvalues(&instance)?.iter().filter(|eigenvalue| eigenvalue.re > 0.0).count())
-    };
+    let growing = |part: f64| growing(&at(part)?.0);
     let about = last.place[map.count()];
-    let [mut low, mut high] = ABOUT
-        .into_iter()
-        .map(|by| [about - by, about + by])
-        .find(|[low, high]| growing(*low).zip(growing(*high)).is_some_and(|(low, high)| low != high))?;
-    let before = growing(low)?;
+    let between = |[low, high]: [f64; 2]| {
+        // The cycle may be that of a pair beside another that grows already.
+        let least = growing(low)?.max(growing(high)?);
+        birth_between(&|part| Some(growing(part)? >= least), [low, high])
+    };
+    let part = ABOUT.into_iter().find_map(|by| between([about - by, about + by]))?;
+    let (instance, value) = at(part)?;
+    Some(born(&instance, value, last.unstable()))
+}
+
+/// What is told of an equilibrium that a cycle is born from.
+pub(super) fn born(instance: &Instance, value: f64, unstable: usize) -> BranchPoint {
+    let (record, _) = examined(instance, true);
+    BranchPoint { value, unstable, special: Some(Special::Hopf), record }
+}
+
+/// How many eigenvalues of an equilibrium grow.
+pub(crate) fn growing(instance: &Instance) -> Option<usize> {
+    Some(linear::eigenvalues(instance)?.iter().filter(|eigenvalue| eigenvalue.re > 0.0).count())
+}
+
+/// Between two values that only one of which `is_beyond`, where that changes.
+pub(crate) fn birth_between(is_beyond: &dyn Fn(f64) -> Option<bool>, [low, high]: [f64; 2]) -> Option<f64> {
+    let (mut low, mut high) = (low, high);
+    let before = is_beyond(low)?;
+    if is_beyond(high)? == before {
+        return None;
+    }
     for _ in 0..HALVINGS {
         let middle = 0.5 * (low + high);
-        if growing(middle)? == before { low = middle } else { high = middle }
+        if is_beyond(middle)? == before { low = middle } else { high = middle }
     }
-    let (instance, value) = at(high)?;
-    let (record, _) = examined(&instance, true);
-    Some(BranchPoint { value, unstable: last.unstable(), special: Some(Special::Hopf), record })
+    Some(high)
+}
+
+impl Spot {
+    /// Where the equilibrium loses its stability between neighbouring `values` of a parameter.
+    pub(crate) fn births(instances: Instances, values: &[f64]) -> Vec<Spot> {
+        let is_beyond = |value: f64| Some(growing(&instances(value)?)? > 0);
+        let range = [values[0], values[values.len() - 1]];
+        let birth = |pair: &[f64]| {
+            let value = birth_between(&is_beyond, [pair[0], pair[1]])?;
+            let part = (value - range[0]) / (range[1] - range[0]);
+            let cycle = born(&instances(value)?, value, 0);
+            Some(Spot { special: Special::Hopf, part, cycle, state: State::Birth })
+        };
+        values.windows(2).filter_map(birth).collect()
+    }
 }

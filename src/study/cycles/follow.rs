@@ -119,7 +119,7 @@ fn leaves(here: &Fixed, count: usize, near: f64) -> bool {
 }
 
 /// The next point, where the curve goes on smoothly for a step, and whether the range of the parameter ends there.
-fn next(map: &ReturnMap, here: &Fixed, step: f64, order: u64) -> Option<(Fixed, bool)> {
+pub(super) fn next(map: &ReturnMap, here: &Fixed, step: f64, order: u64) -> Option<(Fixed, bool)> {
     let count = map.count();
     let guess = &here.place + &here.tangent * step;
     let inside = guess[count].clamp(0.0, 1.0);

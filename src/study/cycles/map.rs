@@ -11,6 +11,7 @@ use crate::engine::outcome::Outcome;
 use crate::engine::plan::Plan;
 use crate::engine::reference::orbit::{measure, returns_of};
 use crate::engine::scene::Scene;
+use crate::model::contact::ContactState;
 use crate::model::instance::Instance;
 
 /// The instance of a value of the parameter; `None` where there is none.
@@ -33,10 +34,16 @@ pub(crate) fn fine(plan: &Plan) -> Plan {
 pub(super) struct ReturnMap<'a> {
     instances: Instances<'a>,
     plan: Plan,
-    freedom: Freedom,
-    returns: usize,
     /// The range of the parameter.
     range: [f64; 2],
+    pub(super) frame: Frame,
+}
+
+/// What the coordinates of a place are measured in.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Frame {
+    freedom: Freedom,
+    returns: usize,
     /// The equilibrium that places are deviations from: `x2` and `y1`, m.
     origin: [f64; 2],
     /// Length (m) and time (s) of one.
@@ -67,23 +74,31 @@ impl<'a> ReturnMap<'a> {
         let scene = Scene::planned(&instances(value)?, plan).ok()?;
         let size =
             cycle.start.coordinates(freedom).iter().fold(0.0, |size: f64, value| size.max(value.abs()));
-        let map = ReturnMap {
-            instances,
-            plan: *plan,
+        let frame = Frame {
             freedom,
             returns: cycle.returns,
-            range,
             origin: [scene.equilibrium.x2, scene.equilibrium.y1],
             length: size * scene.units.length,
             time: scene.units.time,
         };
+        let map = ReturnMap::along(instances, plan, range, frame);
         let place = map.place(&scene, &cycle.start, (value - range[0]) / (range[1] - range[0]));
         (size > 0.0).then_some((map, place))
     }
 
+    /// The map over the range of a parameter, its places in the coordinates of another map.
+    pub(super) fn along(
+        instances: Instances<'a>,
+        plan: &Plan,
+        range: [f64; 2],
+        frame: Frame,
+    ) -> ReturnMap<'a> {
+        ReturnMap { instances, plan: *plan, range, frame }
+    }
+
     /// How many coordinates there are, without the parameter.
     pub(super) fn count(&self) -> usize {
-        self.freedom.count()
+        self.frame.freedom.count()
     }
 
     /// The value of the parameter at a place.
@@ -101,17 +116,18 @@ impl<'a> ReturnMap<'a> {
 
     /// The offset (m), the unit (m) and the unit of time (s) of each coordinate, in the order of [`Point::coordinates`].
     fn axes(&self, scene: &Scene) -> [(f64, bool); 5] {
-        let offset = [scene.equilibrium.x2 - self.origin[0], scene.equilibrium.y1 - self.origin[1]];
+        let offset =
+            [scene.equilibrium.x2 - self.frame.origin[0], scene.equilibrium.y1 - self.frame.origin[1]];
         [(offset[0], false), (offset[1], false), (0.0, true), (0.0, false), (0.0, true)]
     }
 
     fn place(&self, scene: &Scene, point: &Point, parameter: f64) -> DVector<f64> {
-        let coordinates = point.coordinates(self.freedom);
+        let coordinates = point.coordinates(self.frame.freedom);
         let scaled = coordinates.iter().zip(self.axes(scene)).map(|(value, (offset, speed))| {
             if speed {
-                value * scene.units.velocity * self.time / self.length
+                value * scene.units.velocity * self.frame.time / self.frame.length
             } else {
-                (value * scene.units.length + offset) / self.length
+                (value * scene.units.length + offset) / self.frame.length
             }
         });
         let parameter = std::iter::once(parameter);
@@ -126,9 +142,9 @@ impl<'a> ReturnMap<'a> {
             .zip(self.axes(scene))
             .map(|(value, (offset, speed))| {
                 if speed {
-                    value * self.length / (self.time * scene.units.velocity)
+                    value * self.frame.length / (self.frame.time * scene.units.velocity)
                 } else {
-                    (value * self.length - offset) / scene.units.length
+                    (value * self.frame.length - offset) / scene.units.length
                 }
             })
             .collect();
@@ -139,7 +155,7 @@ impl<'a> ReturnMap<'a> {
     /// The size of the motion on the section, in that of the first cycle: how far `x2` is from its equilibrium.
     pub(super) fn size(&self, place: &DVector<f64>) -> Option<f64> {
         let (_, scene) = self.scene(place)?;
-        Some((self.point(&scene, place).position[0] * scene.units.length / self.length).abs())
+        Some((self.point(&scene, place).position[0] * scene.units.length / self.frame.length).abs())
     }
 
     /// Follows a place for all returns of the cycle.
@@ -150,8 +166,13 @@ impl<'a> ReturnMap<'a> {
             return None;
         }
         let start = State { position: point.position, velocity: point.velocity };
-        let all = returns_of(&scene, &self.plan, start, self.returns)?;
-        let end = self.place(&scene, &all.last()?.point, 0.0).rows(0, self.count()).into_owned();
+        let all = returns_of(&scene, &self.plan, start, self.frame.returns)?;
+        let last = all.last()?.point;
+        // What flies there has coordinates that the place of a closed contact does not have, and the other way round.
+        if (last.contact == ContactState::Free as u32) != (self.frame.freedom == Freedom::Open) {
+            return None;
+        }
+        let end = self.place(&scene, &last, 0.0).rows(0, self.count()).into_owned();
         let order = all.iter().fold(0.0, |order: f64, at| order.mul_add(FORGETS, at.order));
         let time = all.iter().map(|at| at.time).sum::<f64>() * scene.units.time;
         Some(Flown { end, order: order.to_bits(), time })
@@ -162,6 +183,6 @@ impl<'a> ReturnMap<'a> {
         let (_, scene) = self.scene(place)?;
         let start = self.point(&scene, place);
         let period = period / scene.units.time;
-        measure(&scene, &self.plan, &Cycle { start, returns: self.returns, period, multiplier })
+        measure(&scene, &self.plan, &Cycle { start, returns: self.frame.returns, period, multiplier })
     }
 }

@@ -9,13 +9,16 @@
 //! - `corner`: where the sequence of contact states changes, the curve has a corner.
 //! - [`special`]: where stability changes, to the rounding.
 //! - [`branch`]: what is found.
+//! - [`curve`]: a special point followed over a second parameter; `locate`: near where it is expected.
 //!
 //! References: H. B. Keller, in "Applications of Bifurcation Theory" (1977); M. di Bernardo et al., "Piecewise-smooth
 //! Dynamical Systems" (Springer, 2008), chapters 2 and 8.
 
 pub mod branch;
 mod corner;
+pub mod curve;
 mod follow;
+mod locate;
 pub(crate) mod map;
 mod newton;
 pub mod special;

@@ -34,6 +34,9 @@ impl Special {
         Special::End,
     ];
 
+    /// Those of cycles that have curves over two parameters.
+    pub const FOLLOWED: [Special; 4] = [Special::Fold, Special::Corner, Special::Doubling, Special::Torus];
+
     /// The name in tables.
     #[must_use]
     pub fn name(self) -> &'static str {

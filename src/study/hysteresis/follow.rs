@@ -12,14 +12,20 @@ use crate::engine::record::{Attractor, Record, apart, differ};
 use crate::engine::reference::orbit::{cycle_near, measure};
 use crate::engine::reference::respond::respond_in;
 use crate::engine::scene::Scene;
-use crate::model::Param;
 use crate::model::instance::Instance;
+use crate::model::{Param, Section};
 use crate::study::cycles::branch::Branch;
 use crate::study::cycles::map::fine;
 use crate::sweep::grid::{Axis, AxisKey, Grid, Value};
 
 /// A branch jumps from one cycle to another where its amplitude changes so many times as fast as beside it.
 pub const SHARP: f64 = 4.0;
+
+/// Whether a motion can be followed along a parameter: not where it says how the motion starts or ends.
+#[must_use]
+pub fn can_follow(param: Param) -> bool {
+    param.info().section != Section::Start && ![Param::BeltVelocityEnd, Param::RampDuration].contains(&param)
+}
 
 /// A direction in which the parameter goes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -58,7 +58,7 @@ pub fn cycles_csv(spec: &Spec, hysteresis: &Hysteresis) -> Result<Vec<u8>> {
 }
 
 /// The columns of a map of one response, without the index, which says nothing here.
-fn columns_of(spec: &Spec, grid: &Grid, finds_cycles: bool) -> Vec<Column> {
+pub(crate) fn columns_of(spec: &Spec, grid: &Grid, finds_cycles: bool) -> Vec<Column> {
     let analysis = Analysis {
         linear: true,
         response: true,

@@ -24,15 +24,19 @@ use squealmap::results::{csv, manifest, refined};
 use squealmap::store::description::Description;
 use squealmap::store::refinement::Refinement;
 use squealmap::study::Kind;
+use squealmap::study::curves::seek::PlaneCurves;
+use squealmap::study::cycles::branch::BranchPoint;
+use squealmap::study::cycles::curve::{self, CurvePoint, End};
+use squealmap::study::cycles::special::Special;
 use squealmap::study::fem::{Curve, Curves, State, Transition};
 use squealmap::study::hysteresis::follow::Hysteresis;
 use squealmap::study::identify::spectrogram::spectrogram_nc;
 use squealmap::study::paper::figures::{Growing, Shown, Slowdown};
 use squealmap::study::paper::{Figure, PhaseTrial, Settings, Stretch, Study, Trial, Witness};
 use squealmap::study::trace::run::{Trace, TraceRow};
-use squealmap::study::{hysteresis, identify, modes, trace, tradeoff};
+use squealmap::study::{curves, hysteresis, identify, modes, trace, tradeoff};
 use squealmap::sweep::accuracy::row::{Row, from_csv, to_csv};
-use squealmap::sweep::grid::Grid;
+use squealmap::sweep::grid::{AxisKey, Grid, Value};
 use squealmap::sweep::label::Label;
 use squealmap::sweep::refine;
 use squealmap::sweep::sheet::Sheet;
@@ -64,6 +68,7 @@ pub(crate) fn all() -> Vec<Piece> {
         a_refined_map(),
         a_trace(),
         a_hysteresis(),
+        some_curves(),
         some_modes(),
         a_tradeoff(),
         an_identification(),
@@ -240,6 +245,40 @@ fn a_hysteresis() -> Piece {
         hysteresis::table::document(&found, &heading).unwrap(),
     ];
     piece(Kind::Hysteresis, svg, files)
+}
+
+/// A fold and a Hopf curve in two planes.
+fn some_curves() -> Piece {
+    let axes = vec![
+        span(Param::MuS, 0.0, 0.6, 5),
+        span(Param::MuD, 0.0, 0.6, 5),
+        axis(Param::BeltVelocity, &[1.0, 3.0]),
+    ];
+    let sweep = spec(Grid::Axes(axes));
+    let point = |values: [f64; 2], special: Special| CurvePoint {
+        values,
+        cycle: BranchPoint {
+            value: values[0],
+            unstable: 0,
+            special: Some(special),
+            record: record(InstabilityType::ModeCoupling, Regime::StickSlip, true),
+        },
+    };
+    let line = |special: Special, at: f64| {
+        let points = (0..5).map(|k| 0.15 * f64::from(k)).map(|x| point([x, at + 0.2 * x], special)).collect();
+        curve::Curve { special, points, ends: [End::Edge; 2] }
+    };
+    let plane = |velocity: f64| PlaneCurves {
+        params: [Param::MuS, Param::MuD],
+        others: vec![(AxisKey::Param(Param::BeltVelocity), Value::Number(velocity))],
+        curves: vec![line(Special::Hopf, 0.1), line(Special::Fold, 0.1 * velocity)],
+        alone: 0,
+    };
+    let planes = [plane(1.0), plane(3.0)];
+    let svg = curves::figure::curves_svg(&sweep, &curves::figure::overlays(&planes), &Look::default());
+    let files =
+        [curves::table::curves_csv(&sweep, &planes).unwrap(), curves::table::document(&sweep).unwrap()];
+    piece(Kind::Curves, svg, files)
 }
 
 /// Two modes that merge, at two velocities.

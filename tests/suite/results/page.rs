@@ -30,7 +30,7 @@ fn rows_of_panels_have_letters() {
         let expected = match piece.kind {
             Kind::Map | Kind::Refined | Kind::Modes | Kind::Fem => 2,
             Kind::Trace | Kind::Identify => 4,
-            Kind::Hysteresis | Kind::Tradeoff => 0,
+            Kind::Hysteresis | Kind::Curves | Kind::Tradeoff => 0,
             Kind::Paper(figure) => match figure.name() {
                 "figure2" => 2,
                 "figure4" | "figure5" | "figure6" => 3,

@@ -332,7 +332,7 @@ fn is(found: (Special, f64), special: Special, value: f64) -> bool {
 
 /// The belt velocity from which on the motion that is released with the velocity of the belt does not come back to it, by steps of Runge
 /// and Kutta: `ẍ = −x − c ẋ + μ(V − ẋ)` with `μ(v) = 1/2 (1 + exp(−2 v))`.
-fn last_velocity_of_the_cycle(damping: f64) -> f64 {
+pub(crate) fn last_velocity_of_the_cycle(damping: f64) -> f64 {
     let friction = |v: f64| 0.5 * (1.0 + (-2.0 * v).exp());
     let comes_back = |belt: f64| {
         let rate = |[x, v]: [f64; 2]| [v, -x - damping * v + friction(belt - v)];

@@ -2,6 +2,7 @@
 
 pub(crate) mod bound;
 pub(crate) mod claims;
+pub(crate) mod curves;
 pub(crate) mod fem;
 pub(crate) mod fit;
 pub(crate) mod fit_errors;

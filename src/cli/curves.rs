@@ -1,0 +1,90 @@
+//! `squealmap curves`: where limit cycles meet, double their period, or are born, over the planes of a sweep.
+
+use crate::cli::error::{Error, Result};
+use crate::cli::files::Files;
+use crate::cli::output::list;
+use crate::cli::pictures::png_of;
+use crate::cli::talk::print;
+use clap::Args;
+use squealmap::model::Param;
+use squealmap::results::figure::look::Look;
+use squealmap::study::curves::figure::{curves_svg, overlays};
+use squealmap::study::curves::seek::{PlaneCurves, seek};
+use squealmap::study::curves::table::{curves_csv, document, named};
+use squealmap::study::cycles::curve::{Curve, End};
+use squealmap::sweep::spec::Spec;
+use squealmap_input::quote::rounded;
+
+/// The files that are written.
+const FILES: [&str; 4] = ["curves.csv", "curves.json", "curves.png", "curves.svg"];
+
+/// Arguments of `curves`.
+#[derive(Debug, Args)]
+pub(crate) struct CurvesCommand {
+    #[command(flatten)]
+    files: Files,
+    /// Lines across each plane, along either axis, on which curves are looked for; a curve between two of them may be missed
+    #[arg(long, value_name = "N", default_value_t = 9, value_parser = clap::value_parser!(u16).range(2..=1001))]
+    lines: u16,
+}
+
+impl CurvesCommand {
+    pub(crate) fn execute(self) -> Result<()> {
+        let spec = Spec::read(&self.files.sweep)?;
+        spec.of_two_masses("`curves`")?;
+        if let Some(duration) = spec.base.get(Param::RampDuration) {
+            return Err(Error::FollowsRamp { what: "`curves`", duration });
+        }
+        let output = self.files.prepare_beside(&FILES)?;
+        let planes = seek(&spec, usize::from(self.lines))?;
+        let svg = curves_svg(&spec, &overlays(&planes), &Look::default());
+        let files = [
+            (FILES[0], curves_csv(&spec, &planes)?),
+            (FILES[1], document(&spec)?),
+            (FILES[2], png_of(&svg)?),
+            (FILES[3], svg.into_bytes()),
+        ];
+        let paths = output.write(&files)?;
+        let said: String = planes.iter().map(said).collect();
+        print(&format!("{said}{}", list(&paths)));
+        Ok(())
+    }
+}
+
+/// Sentences on the curves of a plane.
+fn said(plane: &PlaneCurves) -> String {
+    let at: Vec<String> =
+        plane.others.iter().map(|(key, value)| format!("{} = {value}", key.name())).collect();
+    let at = if at.is_empty() { String::new() } else { format!("at {}, ", at.join(", ")) };
+    let names = plane.params.map(|param| param.info().name);
+    let mut said: Vec<String> = plane.curves.iter().map(|curve| one(curve, names)).collect();
+    if plane.curves.is_empty() {
+        said.push(format!("over {} and {}: no curve", names[0], names[1]));
+    }
+    if plane.alone > 0 {
+        said.push(format!(
+            "{} special points have no curve: what is near them cannot be followed",
+            plane.alone
+        ));
+    }
+    let line = |words: String| [at.as_str(), words.as_str(), "\n"].concat();
+    said.into_iter().map(line).collect()
+}
+
+fn one(curve: &Curve, [x, y]: [&str; 2]) -> String {
+    let end = |point: Option<&squealmap::study::cycles::curve::CurvePoint>, end: End| {
+        let [a, b] = point.map_or([f64::NAN; 2], |point| point.values.map(rounded));
+        let lost = if end == End::Lost { ", where it ends" } else { "" };
+        format!("{x} = {a}, {y} = {b}{lost}")
+    };
+    let (first, last) = (curve.points.first(), curve.points.last());
+    let [begins, ends] = curve.ends;
+    let closed = if begins == End::Closed { " and back" } else { "" };
+    format!(
+        "a curve of {} of {} points from {} to {}{closed}",
+        named(curve.special),
+        curve.points.len(),
+        end(first, begins),
+        end(last, ends)
+    )
+}

@@ -1,0 +1,181 @@
+//! A special point on a line through a plane of two parameters, near where it is expected.
+
+use nalgebra::DVector;
+
+use crate::engine::plan::Plan;
+use crate::study::cycles::branch::{BranchPoint, Spot, State, birth_between, born, growing, point};
+use crate::study::cycles::corner::beyond;
+use crate::study::cycles::follow::next;
+use crate::study::cycles::map::{Instances, ReturnMap};
+use crate::study::cycles::newton::{Fixed, fixed};
+use crate::study::cycles::special::Special;
+
+/// The first step along the branch, and when it ends the search.
+const STEPS: [f64; 2] = [1e-4, 1e-7];
+
+/// Steps of the search.
+const MOST_STEPS: usize = 14;
+
+/// So far before a corner its branch is taken up.
+const BEFORE: f64 = 2e-3;
+
+/// The last step to a corner.
+const AT_CORNER: f64 = 1e-10;
+
+/// Steps to a corner.
+const MOST_TO_CORNER: usize = 80;
+
+/// Halvings of the range about an expected Hopf point, from the narrowest.
+const BRACKETS: i32 = 8;
+
+/// A line of the plane.
+pub(super) struct Line<'a> {
+    /// Its instances.
+    pub(super) instances: Instances<'a>,
+    /// Their plan.
+    pub(super) plan: &'a Plan,
+    /// The range of its parameter.
+    pub(super) range: [f64; 2],
+}
+
+/// A special point on a line.
+#[derive(Clone, Debug)]
+pub(super) struct Found {
+    /// Where on the range of the line.
+    pub(super) part: f64,
+    /// What is there.
+    pub(super) cycle: BranchPoint,
+    state: State,
+}
+
+impl Found {
+    /// A special point of a branch.
+    pub(super) fn of(spot: &Spot) -> Found {
+        Found { part: spot.part, cycle: spot.cycle.clone(), state: spot.state.clone() }
+    }
+
+    /// What is expected as far beyond this one as a `part` of the way from the one `before`.
+    pub(super) fn beyond(&self, before: &Found, part: f64) -> Found {
+        let mut there = self.clone();
+        if let (State::Cycle(fixed, _), State::Cycle(before, _)) = (&mut there.state, &before.state) {
+            let way = &fixed.place - &before.place;
+            fixed.place += way * part;
+        }
+        there
+    }
+}
+
+/// The special point of a kind on a line, `within` a distance of the part `expected`; `from` is one on a line beside it.
+pub(super) fn located(
+    line: &Line<'_>,
+    special: Special,
+    expected: f64,
+    from: &Found,
+    within: f64,
+) -> Option<Found> {
+    let (before, frame) = match &from.state {
+        State::Cycle(before, frame) => (before, frame),
+        State::Birth => return birth(line, expected, within),
+    };
+    let map = ReturnMap::along(line.instances, line.plan, line.range, *frame);
+    let mut guess = before.place.clone();
+    guess[map.count()] = expected;
+    let at = match special {
+        Special::Corner => corner(&map, guess, before)?,
+        _ => smooth(&map, &guess, before, special)?,
+    };
+    let part = at.place[map.count()];
+    let cycle = point(&map, &at, Some(special)).filter(|_| (part - expected).abs() <= within)?;
+    Some(Found { part, cycle, state: State::Cycle(Box::new(at), *frame) })
+}
+
+/// Where a multiplier crosses the unit circle: a root along the branch, by secants.
+fn smooth(map: &ReturnMap<'_>, guess: &DVector<f64>, before: &Fixed, special: Special) -> Option<Fixed> {
+    let count = map.count();
+    // At a fold the parameter is an extremum of the branch; elsewhere it tells the cycles apart.
+    let mut along = before.tangent.clone();
+    if special == Special::Fold {
+        along[count] = 0.0;
+    } else {
+        along.fill(0.0);
+        along[count] = 1.0;
+    }
+    let along = along.normalize();
+    let at = |by: f64| {
+        let here = fixed(map, &(guess + &along * by), &along)?;
+        let test = test(&here, special)?;
+        Some((here, test))
+    };
+    let mut last = (0.0, at(0.0)?.1);
+    let mut by = STEPS[0];
+    for _ in 0..MOST_STEPS {
+        let (here, test) = at(by)?;
+        let step = -test * (by - last.0) / (test - last.1);
+        if !step.is_finite() {
+            return None;
+        }
+        if step.abs() <= STEPS[1] {
+            return Some(here);
+        }
+        last = (by, test);
+        by += step;
+    }
+    None
+}
+
+/// A number that is zero where the point is special, and changes its sign there.
+fn test(fixed: &Fixed, special: Special) -> Option<f64> {
+    match special {
+        Special::Fold => Some(fixed.along()),
+        Special::Doubling => {
+            let count = fixed.jacobian.nrows();
+            let mut matrix = fixed.jacobian.columns(0, count).into_owned();
+            for i in 0..count {
+                matrix[(i, i)] += 1.0;
+            }
+            Some(matrix.determinant())
+        }
+        Special::Torus => {
+            let pairs = fixed.multipliers().into_iter().filter(|multiplier| multiplier.im > 0.0);
+            let apart = pairs.map(|multiplier| multiplier.norm() - 1.0);
+            apart.min_by(|a, b| a.abs().total_cmp(&b.abs()))
+        }
+        _ => None,
+    }
+}
+
+/// The last cycle before a corner: as far as its sequence of contact states goes.
+fn corner(map: &ReturnMap<'_>, guess: DVector<f64>, before: &Fixed) -> Option<Fixed> {
+    let start = fixed(map, &(guess - &before.tangent * BEFORE), &before.tangent)?;
+    if start.order != before.order {
+        return None;
+    }
+    let (mut here, mut step) = (start, BEFORE);
+    for _ in 0..MOST_TO_CORNER {
+        let order = here.order;
+        match next(map, &here, step, order).filter(|(next, _)| next.order == order) {
+            Some((next, _)) => here = next,
+            None => step *= 0.5,
+        }
+        if step < AT_CORNER {
+            let (along, _) = beyond(map, &here)?;
+            return (along[map.count()] * here.along() < 0.0).then_some(here);
+        }
+    }
+    None
+}
+
+/// Where the equilibrium loses its stability.
+fn birth(line: &Line<'_>, expected: f64, within: f64) -> Option<Found> {
+    let value = |part: f64| line.range[0] + part * (line.range[1] - line.range[0]);
+    let instance = |part: f64| (line.instances)(value(part));
+    let is_beyond = |part: f64| Some(growing(&instance(part)?)? > 0);
+    // Where two curves are close the nearer one is meant.
+    let about = |halvings: i32| {
+        let by = within * 0.5_f64.powi(halvings);
+        birth_between(&is_beyond, [expected - by, expected + by])
+    };
+    let part = (0..=BRACKETS).rev().find_map(about)?;
+    let cycle = born(&instance(part)?, value(part), 0);
+    Some(Found { part, cycle, state: State::Birth })
+}
