@@ -14,7 +14,7 @@ pub(crate) fn main() -> Result<(), squealmap::Error> {
         .spec()?;
     for branch in modes_of(&spec)?.branches {
         for (mu, modes) in branch.values.iter().zip(&branch.modes).step_by(10) {
-            let Some([one, other]) = modes else { continue };
+            let Some([one, other]) = modes.as_deref() else { continue };
             let [f, g] = [one.frequency(), other.frequency()];
             println!("mu = {mu:.1}: {f:5.1} Hz and {g:5.1} Hz, growth {:+.2} 1/s", one.growth_rate());
         }

@@ -9,7 +9,7 @@ use serde_json::json;
 use squealmap::disk;
 use squealmap::results::figure::look::Look;
 use squealmap::store::space::bytes;
-use squealmap::study::fem::{Curves, mesh_svg, pictures_svg};
+use squealmap::study::fem::{Bodies, Curves};
 use squealmap_fem::study::document::Document;
 use squealmap_fem::study::{Outcome, Study, compute, estimate, manifest, place, shapes, table, vary_table};
 
@@ -71,11 +71,11 @@ impl FemCommand {
             (FILES[1], manifest(&study, &outcome, &text, program)),
             (FILES[2], shapes(&study, &outcome)),
         ];
-        let look = Look::default();
+        let (look, bodies) = (Look::default(), Bodies::of(&study, &outcome));
         let drawn = [
             Curves::of(&study, &outcome).svg(&look),
-            pictures_svg(&study, &outcome, &look),
-            Some(mesh_svg(&study, &look)),
+            bodies.shapes_svg(&look),
+            Some(bodies.mesh_svg(&look)),
             Curves::varied(&study, &outcome).and_then(|curves| curves.svg(&look)),
         ];
         if let Some(modal) = &outcome.modal {

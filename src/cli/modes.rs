@@ -23,7 +23,6 @@ pub(crate) struct Modes {
 impl Modes {
     pub(crate) fn execute(self) -> Result<()> {
         let spec = Spec::read(&self.files.sweep)?;
-        spec.of_two_masses("`modes`")?;
         let output = self.files.prepare_beside(&FILES)?;
         let found = modes_of(&spec)?;
         let svg = draw(&spec, &found, &Look::default());

@@ -8,7 +8,7 @@ use crate::cli::output::{Output, list};
 use crate::cli::pictures::png_of;
 use crate::cli::talk::{note, print};
 use squealmap::results::figure::look::Look;
-use squealmap::study::fem::{Curves, claims, mesh_svg, pictures_svg, report};
+use squealmap::study::fem::{Bodies, Curves, claims, report};
 use squealmap_fem::study::document::Document;
 use squealmap_fem::study::{Study, compute, table};
 
@@ -55,11 +55,9 @@ pub(crate) fn execute(output: PathBuf, path: &Path) -> Result<()> {
         print(&format!("{}: {}\n", claim.says, claim.verdict.words()));
     }
     let look = Look::default();
-    let drawn = [
-        Some(mesh_svg(&study, &look)),
-        Curves::of(&study, &outcome).svg(&look),
-        pictures_svg(&study, &outcome, &look),
-    ];
+    let bodies = Bodies::of(&study, &outcome);
+    let drawn =
+        [Some(bodies.mesh_svg(&look)), Curves::of(&study, &outcome).svg(&look), bodies.shapes_svg(&look)];
     let mut files = vec![
         (FILES[0], report(&study, &outcome, FIGURES, &command).into_bytes()),
         (FILES[1], table(&study, &outcome)),

@@ -104,7 +104,9 @@ fn rightmost(eigenvalues: &[Complex64]) -> Complex64 {
     eigenvalues[1..].iter().fold(first, |best, z| if key(z) > key(&best) { *z } else { best })
 }
 
-fn is_unstable(lambda: Complex64) -> bool {
+/// Whether a mode with this eigenvalue grows by more than rounding.
+#[must_use]
+pub fn is_unstable(lambda: Complex64) -> bool {
     lambda.re > 0.0 && lambda.re * lambda.re > UNSTABLE_ABOVE * UNSTABLE_ABOVE * lambda.norm_sqr()
 }
 
@@ -272,31 +274,46 @@ pub fn solve(prepared: &Preparation) -> (Option<InstabilityType>, Option<Linear>
 /// Type of instability and the eigenvalue analysis of an instance of a structure, and how it ended.
 #[must_use]
 pub fn of_modal(instance: &Instance, modal: &Modal) -> (Option<InstabilityType>, Option<Linear>, Status) {
+    match asked(instance, modal) {
+        Err((kind, status)) => (kind, None, status),
+        Ok(at) => match attributed(modal, at) {
+            Some((kind, linear)) => (Some(kind), Some(linear), Status::Ok),
+            None => (None, None, Status::NonFinite),
+        },
+    }
+}
+
+/// What the matrices of a structure are asked for by an instance, or its type and status where it does not slide.
+fn asked(instance: &Instance, modal: &Modal) -> Result<At, (Option<InstabilityType>, Status)> {
     if !instance.law.is_valid() {
-        return (None, None, Status::InvalidLaw);
+        return Err((None, Status::InvalidLaw));
     }
     let velocity = instance.params.require(Param::BeltVelocity);
     let mu = instance.law.mu(velocity);
-    let ratio = instance.params.get(Param::DampingRatio).unwrap_or(0.0);
-    let kn = instance.params.get(Param::Kn);
     let pressed = modal.pressed(instance.params.require(Param::FExt), mu);
     if velocity == 0.0 {
         let status = pressed.map_or(Status::NoEquilibrium, |_| Status::Ok);
-        return (Some(InstabilityType::Sticking), None, status);
+        return Err((Some(InstabilityType::Sticking), status));
     }
-    let Some(pressed) = pressed else {
-        return (Some(InstabilityType::Divergence), None, Status::NoEquilibrium);
-    };
-    let slope = instance.law.slope(velocity) * pressed;
-    match attributed(modal, At { mu, slope, ratio, kn }) {
-        Some((kind, linear)) => (Some(kind), Some(linear), Status::Ok),
-        None => (None, None, Status::NonFinite),
+    let divergence = (Some(InstabilityType::Divergence), Status::NoEquilibrium);
+    let slope = instance.law.slope(velocity) * pressed.ok_or(divergence)?;
+    let ratio = |param| instance.params.get(param).unwrap_or(0.0);
+    let each = Param::DAMPING_RATIOS.map(ratio);
+    Ok(At { mu, slope, ratio: ratio(Param::DampingRatio), each, kn: instance.params.get(Param::Kn) })
+}
+
+/// The eigenvalues (1/s) of the sliding equilibrium of either model, two for each of its modes; `None` where there is none.
+#[must_use]
+pub fn spectrum(instance: &Instance) -> Option<Vec<Complex64>> {
+    match &instance.modal {
+        None => eigenvalues(instance).map(Vec::from),
+        Some(modal) => modal.eigenvalues(asked(instance, modal).ok()?),
     }
 }
 
 /// The type of a structure's modes; `None` beyond the range of numbers.
 fn attributed(modal: &Modal, at: At) -> Option<(InstabilityType, Linear)> {
-    let leading = |mu, slope| Some(rightmost(&modal.eigenvalues(At { mu, slope, ..at })?));
+    let leading = |mu, slope| Some(rightmost(&modal.eigenvalues(at.with(mu, slope))?));
     let At { mu, slope, .. } = at;
     let full = leading(mu, slope)?;
     let flat = if slope == 0.0 { full } else { leading(mu, 0.0)? };

@@ -24,6 +24,7 @@ pub mod kind;
 pub mod linear;
 pub mod material;
 pub mod modal;
+mod natural;
 pub mod piece;
 pub mod quartic;
 pub mod scaled;
@@ -45,6 +46,14 @@ pub enum Param {
     Theta,
     Restitution,
     DampingRatio,
+    DampingRatio1,
+    DampingRatio2,
+    DampingRatio3,
+    DampingRatio4,
+    DampingRatio5,
+    DampingRatio6,
+    DampingRatio7,
+    DampingRatio8,
     Kn,
     MuS,
     MuD,
@@ -174,6 +183,14 @@ params! {
     Theta "theta" "θ" "rad" Model Some(0.01), Range::Open(-std::f64::consts::FRAC_PI_2, std::f64::consts::FRAC_PI_2), "inclination of the contact";
     Restitution "restitution" "e" "" Model Some(0.0), Range::Closed(0.0, 1.0), "Newton restitution of the impact after a detachment";
     DampingRatio "damping_ratio" "ζ" "" Model None, Range::Closed(0.0, 1.0), "damping ratio added to every mode without friction; none where it is left out";
+    DampingRatio1 "damping_ratio_1" "ζ_1" "" Model None, Range::Closed(0.0, 1.0), "damping ratio of mode 1, in addition to that of all";
+    DampingRatio2 "damping_ratio_2" "ζ_2" "" Model None, Range::Closed(0.0, 1.0), "damping ratio of mode 2, in addition to that of all";
+    DampingRatio3 "damping_ratio_3" "ζ_3" "" Model None, Range::Closed(0.0, 1.0), "damping ratio of mode 3, in addition to that of all";
+    DampingRatio4 "damping_ratio_4" "ζ_4" "" Model None, Range::Closed(0.0, 1.0), "damping ratio of mode 4, in addition to that of all";
+    DampingRatio5 "damping_ratio_5" "ζ_5" "" Model None, Range::Closed(0.0, 1.0), "damping ratio of mode 5, in addition to that of all";
+    DampingRatio6 "damping_ratio_6" "ζ_6" "" Model None, Range::Closed(0.0, 1.0), "damping ratio of mode 6, in addition to that of all";
+    DampingRatio7 "damping_ratio_7" "ζ_7" "" Model None, Range::Closed(0.0, 1.0), "damping ratio of mode 7, in addition to that of all";
+    DampingRatio8 "damping_ratio_8" "ζ_8" "" Model None, Range::Closed(0.0, 1.0), "damping ratio of mode 8, in addition to that of all";
     Kn "kn" "k_n" "Pa/m" Model None, Range::Positive, "contact stiffness (of a modal model); that of its file where it is left out";
     MuS "mu_s" "μ_s" "" Friction None, Range::NonNegative, "static friction coefficient";
     MuD "mu_d" "μ_d" "" Friction None, Range::NonNegative, "dynamic friction coefficient";
@@ -199,6 +216,18 @@ params! {
 impl Param {
     /// The number of parameters.
     pub const COUNT: usize = PARAMS.len();
+
+    /// The damping ratios of single modes of a structure, from the lowest on.
+    pub const DAMPING_RATIOS: [Param; modal::EACH] = [
+        Param::DampingRatio1,
+        Param::DampingRatio2,
+        Param::DampingRatio3,
+        Param::DampingRatio4,
+        Param::DampingRatio5,
+        Param::DampingRatio6,
+        Param::DampingRatio7,
+        Param::DampingRatio8,
+    ];
 
     /// The parameter's row in [`PARAMS`].
     #[must_use]

@@ -9,19 +9,21 @@
 //! with μ = μ(V): friction adds to all three matrices, since the normal force holds back stiffness, inertia and damping of
 //! the surface. D is what a slope of 1 s/m is under the load F0, F the load (`f_ext`), w what friction takes off the normal
 //! forces. Where the file knows what the contact stiffness k (`kn`) changes, K is that of the file's `k0` with `(k − k0) K_c` added, and `K_f`
-//! is multiplied by `k/k0`. ζ (`damping_ratio`) damps the modes without friction, Ω = Σ ω φ (M φ)ᵀ. Attribution is that of
-//! [`crate::model::linear`]: without the slope, and without the feedback of the normal force (μ = 0 in the matrices).
+//! is multiplied by `k/k0`. ζ (`damping_ratio`) damps the modes without friction, Ω = Σ ω φ (M φ)ᵀ; a mode may have more of it
+//! (`damping_ratio_1` and so on). Attribution is that of [`crate::model::linear`]: without the slope, and without the feedback of the
+//! normal force (μ = 0 in the matrices).
 
-use nalgebra::{Cholesky, DMatrix, SymmetricEigen};
+use nalgebra::{Cholesky, DMatrix};
 use num_complex::Complex64;
 
+use crate::model::natural::Natural;
 use crate::model::spectrum::eigenvalues;
 
 /// How the eigenvalues are computed, in a manifest.
 pub const METHOD: &str = "QR algorithm, linearised where something damps";
 
-/// Turns for each frequency without friction; it takes two or three.
-const TURNS: usize = 60;
+/// So many of the lowest modes may have a damping ratio each.
+pub const EACH: usize = 8;
 
 /// The matrices of a structure, SI units.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,8 +56,19 @@ pub struct At {
     pub slope: f64,
     /// Damping ratio of every mode without friction.
     pub ratio: f64,
+    /// What the lowest modes have of it in addition.
+    pub each: [f64; EACH],
     /// Contact stiffness, Pa/m; `None` for that of the file.
     pub kn: Option<f64>,
+}
+
+impl At {
+    /// The same with other friction.
+    #[must_use]
+    pub fn with(mut self, mu: f64, slope: f64) -> At {
+        (self.mu, self.slope) = (mu, slope);
+        self
+    }
 }
 
 /// A structure by some of its modes.
@@ -76,7 +89,9 @@ pub struct Modal {
     modes: usize,
     /// With s^-1 replaced by the highest frequency, so that numbers are about 1.
     scaled: Matrices,
-    /// 2 Ω in that unit, with the contact stiffness of the file.
+    /// The modes without friction in that unit, with the contact stiffness of the file.
+    natural: Natural,
+    /// 2 Ω of them.
     ratio: DMatrix<f64>,
     /// The unit of λ, 1/s.
     unit: f64,
@@ -101,9 +116,10 @@ impl Modal {
             || "its mass matrix is not positive definite: every motion has to move some mass".to_owned();
         Cholesky::new(mass.clone()).ok_or_else(wrong)?;
         let beyond = || "its modes without friction are beyond the range of numbers".to_owned();
-        let (highest, ratio) = damping(stiffness, mass).ok_or_else(beyond)?;
-        let unit = if highest > 0.0 { highest } else { 1.0 };
-        let ratio = ratio / unit;
+        let natural = Natural::new(stiffness, mass).ok_or_else(beyond)?;
+        let unit = if natural.highest() > 0.0 { natural.highest() } else { 1.0 };
+        let natural = natural.per(unit);
+        let ratio = natural.damping(|_| 1.0).ok_or_else(beyond)?;
         let per = [1.0 / (unit * unit), 1.0, 1.0 / unit];
         let scale = |all: &[DMatrix<f64>; 3]| [0, 1, 2].map(|i: usize| &all[i] * per[i]);
         let scaled = Matrices {
@@ -117,7 +133,7 @@ impl Modal {
         if !is_finite.flatten().all(|entry| entry.is_finite()) {
             return Err(beyond());
         }
-        Ok(Modal { name, text, mu, load, contact, wedge, modes, scaled, ratio, unit })
+        Ok(Modal { name, text, mu, load, contact, wedge, modes, scaled, natural, ratio, unit })
     }
 
     /// How many vectors there are.
@@ -139,17 +155,23 @@ impl Modal {
         let sum = |i: usize| &symmetric[i] + &friction[i] * at.mu;
         let other = at.kn.zip(self.contact).filter(|(kn, file)| kn.to_bits() != file.stiffness.to_bits());
         let lu = sum(1).lu();
-        let (stiffness, ratio) = match other {
-            None => (sum(0), None),
+        let ratio_of = |k: usize| at.ratio + at.each.get(k).copied().unwrap_or(0.0);
+        let alike = at.each.iter().all(|more| *more == 0.0);
+        let (stiffness, ratios) = match other {
+            None if alike => (sum(0), &self.ratio * at.ratio),
+            None => (sum(0), self.natural.damping(ratio_of)?),
             Some((kn, file)) => {
                 let plain = &symmetric[0] + contact * (kn - file.stiffness);
-                let ratio = if at.ratio == 0.0 { None } else { Some(damping(&plain, &symmetric[1])?.1) };
-                (plain + &friction[0] * (at.mu * kn / file.stiffness), ratio)
+                let ratios = if alike && at.ratio == 0.0 {
+                    DMatrix::zeros(self.size(), self.size())
+                } else {
+                    Natural::new(&plain, &symmetric[1])?.damping(ratio_of)?
+                };
+                (plain + &friction[0] * (at.mu * kn / file.stiffness), ratios)
             }
         };
         let stiffness = lu.solve(&stiffness)?;
-        let damping =
-            lu.solve(&(sum(2) + per_slope * at.slope))? + ratio.as_ref().unwrap_or(&self.ratio) * at.ratio;
+        let damping = lu.solve(&(sum(2) + per_slope * at.slope))? + ratios;
         let mut all = if damping.iter().all(|entry| *entry == 0.0) {
             // λ² = −θ: what does not grow, does not grow to the last bit.
             eigenvalues(stiffness)?.iter().flat_map(|theta| [-(-theta).sqrt(), (-theta).sqrt()]).collect()
@@ -174,22 +196,4 @@ impl Modal {
         let reach = 1.0 + self.wedge * mu;
         (reach > 0.0).then(|| load / self.load / reach)
     }
-}
-
-/// The highest frequency without friction (rad per unit of time), and 2 Ω; `None` beyond the range of numbers, or where the mass matrix is
-/// not positive definite.
-fn damping(stiffness: &DMatrix<f64>, mass: &DMatrix<f64>) -> Option<(f64, DMatrix<f64>)> {
-    let factor = Cholesky::new(mass.clone())?.unpack();
-    // L⁻¹ K L⁻ᵀ has the squares of the frequencies.
-    let half = factor.solve_lower_triangular(stiffness)?;
-    let squares = factor.solve_lower_triangular(&half.transpose())?;
-    let eigen = SymmetricEigen::try_new(squares, f64::EPSILON, TURNS * mass.nrows())?;
-    let highest = eigen.eigenvalues.iter().fold(0.0_f64, |most, square| most.max(square.abs())).sqrt();
-    let frequencies = eigen.eigenvalues.map(|square| 2.0 * square.max(0.0).sqrt());
-    // Ω = L⁻ᵀ Y ω Yᵀ Lᵀ.
-    let within = &eigen.eigenvectors
-        * DMatrix::from_diagonal(&frequencies)
-        * eigen.eigenvectors.transpose()
-        * factor.transpose();
-    Some((highest, factor.transpose().solve_upper_triangular(&within)?))
 }

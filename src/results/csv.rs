@@ -103,7 +103,7 @@ fn written(result: std::io::Result<()>) -> Result<()> {
 pub(crate) struct Table(csv::Writer<Vec<u8>>);
 
 impl Table {
-    pub(crate) fn new<'a>(header: impl Iterator<Item = &'a str>) -> Result<Table> {
+    pub(crate) fn new(header: impl Iterator<Item = impl AsRef<[u8]>>) -> Result<Table> {
         let mut writer = csv::Writer::from_writer(Vec::new());
         writer.write_record(header).map_err(Error::WriteTable)?;
         Ok(Table(writer))

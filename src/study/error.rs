@@ -94,6 +94,11 @@ pub enum Error {
         /// The files that were looked for.
         wanted: String,
     },
+    /// A study without shapes of modes.
+    #[error(
+        "the study has no shapes: none of its modes becomes unstable, and none was asked for; name coefficients of friction in `shapes_at` of its [output] and run `squealmap fem` again"
+    )]
+    NoShapes,
     /// What the floor below says.
     #[error(transparent)]
     OfResults(#[from] crate::results::error::Error),
@@ -152,6 +157,7 @@ impl Error {
             | Error::NoCurvesAlong { .. }
             | Error::CurvesOfAnother { .. }
             | Error::CurvesElsewhere { .. }
+            | Error::NoShapes
             | Error::PaperRamp { .. }
             | Error::NoDirectoryToPlot { .. }
             | Error::NothingToPlot { .. } => true,

@@ -29,13 +29,19 @@ pub enum Kind {
     Identify,
     /// The modes of `fem` over friction.
     Fem,
+    /// Those over another parameter.
+    Vary,
+    /// Pictures of modes of `fem`.
+    Shapes,
+    /// The mesh of `fem`.
+    Mesh,
     /// A figure of `paper`.
     Paper(Figure),
 }
 
 impl Kind {
     /// All kinds. Where a directory holds several, the first of these is drawn unless another is asked for.
-    pub const ALL: [Kind; 17] = [
+    pub const ALL: [Kind; 20] = [
         Kind::Map,
         Kind::Refined,
         Kind::Trace,
@@ -45,6 +51,9 @@ impl Kind {
         Kind::Tradeoff,
         Kind::Identify,
         Kind::Fem,
+        Kind::Vary,
+        Kind::Shapes,
+        Kind::Mesh,
         Kind::Paper(Figure::Figure2),
         Kind::Paper(Figure::Figure3),
         Kind::Paper(Figure::Figure4),
@@ -68,6 +77,9 @@ impl Kind {
             Kind::Tradeoff => "tradeoff",
             Kind::Identify => "identify",
             Kind::Fem => "fem",
+            Kind::Vary => "vary",
+            Kind::Shapes => "shapes",
+            Kind::Mesh => "mesh",
             Kind::Paper(figure) => figure.name(),
         }
     }
@@ -85,6 +97,8 @@ impl Kind {
             Kind::Tradeoff => tradeoff::read::FILES,
             Kind::Identify => identify::read::FILES,
             Kind::Fem => fem::read::FILES,
+            Kind::Vary => fem::read::VARIED,
+            Kind::Shapes | Kind::Mesh => fem::read::BODIES,
             Kind::Paper(Figure::Figure2) => ["figure2.csv", "figure2.json"],
             Kind::Paper(Figure::Figure3) => ["figure3.csv", "figure3.json"],
             Kind::Paper(Figure::Figure4) => ["figure4.csv", "figure4.json"],
@@ -100,7 +114,7 @@ impl Kind {
     #[must_use]
     pub fn narrowest(self) -> f64 {
         match self {
-            Kind::Fem => 88.0,
+            Kind::Fem | Kind::Vary => 88.0,
             Kind::Paper(Figure::Phase | Figure::Figure7) => 84.0,
             Kind::Map | Kind::Curves | Kind::Identify | Kind::Paper(_) => 70.0,
             _ => WIDTHS[0],

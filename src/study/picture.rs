@@ -11,8 +11,9 @@ use crate::results::read::refined::Lines;
 use crate::results::read::{Archive, refined};
 use crate::study::curves::figure::curves_svg;
 use crate::study::curves::read::Curves;
-use crate::study::error::Result;
+use crate::study::error::{Error, Result};
 use crate::study::fem;
+use crate::study::fem::Bodies;
 use crate::study::hysteresis::follow::Hysteresis;
 use crate::study::hysteresis::table::hysteresis_svg;
 use crate::study::modes::follow::{Modes, draw};
@@ -37,6 +38,8 @@ enum Content {
     Tradeoff(String, Vec<Row>),
     Identify(Box<identify::report::Shown>),
     Fem(fem::Curves),
+    Shapes(Box<Bodies>),
+    Mesh(Box<Bodies>),
     Paper(Shown),
 }
 
@@ -77,6 +80,9 @@ impl Picture {
             }
             Kind::Identify => Content::Identify(Box::new(identify::read::read(folder)?)),
             Kind::Fem => Content::Fem(fem::read::read(folder)?),
+            Kind::Vary => Content::Fem(fem::read::read_varied(folder)?),
+            Kind::Shapes => Content::Shapes(Box::new(Bodies::read(folder, kind.files())?)),
+            Kind::Mesh => Content::Mesh(Box::new(Bodies::read(folder, kind.files())?)),
             Kind::Paper(figure) => Content::Paper(paper::read::read(folder, figure, kind.files())?),
         };
         let document = kind.files().into_iter().find(|file| file.rsplit('.').next() == Some("json"));
@@ -117,6 +123,7 @@ impl Picture {
             Content::Tradeoff(title, _) => title,
             Content::Identify(shown) => &shown.title,
             Content::Fem(curves) => &curves.title,
+            Content::Shapes(bodies) | Content::Mesh(bodies) => bodies.title(),
             Content::Paper(shown) => shown.title(),
         }
     }
@@ -136,6 +143,8 @@ impl Picture {
             Content::Tradeoff(title, rows) => Ok(figure(title, rows, look)),
             Content::Identify(shown) => identify::report::identify_svg(shown, look),
             Content::Fem(curves) => Ok(curves.svg(look).unwrap_or_default()),
+            Content::Shapes(bodies) => bodies.shapes_svg(look).ok_or(Error::NoShapes),
+            Content::Mesh(bodies) => Ok(bodies.mesh_svg(look)),
             Content::Paper(shown) => Ok(shown.svg(look)),
         }
     }

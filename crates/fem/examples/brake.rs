@@ -1,8 +1,8 @@
 //! A disc brake with 100 coefficients of friction: time and memory against the number of unknowns.
 //!
-//!     cargo run --release -p squealmap-fem --example brake
+//!     cargo run --release -p squealmap-fem --example brake [-- --write]
 //!
-//! One size is given as its elements along the radius, around and along the axis, as `14,120,2`, and behind it other residuals than 1e-4. With `order` before it, the ways to order the
+//! `--write` puts the rows into benches/results/brake.csv. One size is given as its elements along the radius, around and along the axis, as `14,120,2`, and behind it other residuals than 1e-4. With `order` before it, the ways to order the
 //! elimination are compared, that of METIS (Debian package metis) where it is installed; `order pin,4` does that for a pin on a block.
 
 #![allow(clippy::doc_markdown, reason = "METIS and symbols of equations are no code")]
@@ -14,7 +14,7 @@ mod cases;
 mod cost;
 
 use std::fmt::Write as _;
-use std::process::Command;
+use std::process::{Command, Stdio};
 use std::time::Instant;
 
 use cost::{memory, work};
@@ -31,25 +31,61 @@ const BOUND: f64 = 1e-4;
 fn main() -> Result<(), Failure> {
     let words: Vec<String> = std::env::args().skip(1).collect();
     match words.iter().map(String::as_str).collect::<Vec<_>>().as_slice() {
+        [] => all(false),
+        ["--write"] => all(true),
         ["order", size] => compare(&of_size(size)?),
         [size] => run(size, BOUND),
         [size, bound] => run(size, bound.parse()?),
-        _ => {
-            println!(
-                "| elements | unknowns | contact points | entries of L | matrices, s | order and factor, s | 40 modes, s | space, s | \
-                 100 μ, s | work of all cores, s | wall, s | memory, GB | vectors | largest residual | unstable from μ | Hz |\n\
-                 |---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|"
-            );
-            // Each in a program of its own: the memory is the most that a program has had.
-            for size in ["7,60,2", "14,120,2", "14,120,4", "21,132,4"] {
-                let status = Command::new(std::env::current_exe()?).arg(size).status()?;
-                if !status.success() {
-                    return Err(format!("the brake of {size} elements failed").into());
-                }
-            }
-            Ok(())
-        }
+        _ => Err("give a size as 14,120,2, or nothing for all".into()),
     }
+}
+
+/// Columns of the table.
+const HEAD: [&str; 17] = [
+    "elements",
+    "unknowns",
+    "contact points",
+    "entries of L",
+    "matrices, s",
+    "order and factor, s",
+    "40 modes, s",
+    "space, s",
+    "100 μ, s",
+    "work of all cores, s",
+    "wall, s",
+    "memory, GB",
+    "vectors",
+    "largest residual",
+    "unstable from μ",
+    "Hz",
+    "load before",
+];
+
+const FILE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../benches/results/brake.csv");
+
+/// The table, and the file where it is asked for.
+fn all(write: bool) -> Result<(), Failure> {
+    println!("| {} |\n{}|", HEAD.join(" | "), "|---".repeat(HEAD.len()));
+    let named = HEAD.map(|name| name.replace(", ", "_").replace(' ', "_").replace('μ', "mu"));
+    let mut file = named.join(",").to_lowercase() + "\n";
+    // Each in a program of its own: the memory is the most that a program has had.
+    for size in ["7,60,2", "14,120,2", "14,120,4", "21,132,4"] {
+        let load = std::fs::read_to_string("/proc/loadavg").unwrap_or_default();
+        let load = load.split_whitespace().next().unwrap_or("unknown").to_owned();
+        let ended = Command::new(std::env::current_exe()?).arg(size).stderr(Stdio::inherit()).output()?;
+        if !ended.status.success() {
+            return Err(format!("the brake of {size} elements failed").into());
+        }
+        let row = String::from_utf8(ended.stdout)?;
+        let cells: Vec<&str> =
+            row.trim().trim_matches('|').split('|').map(str::trim).chain([load.as_str()]).collect();
+        println!("| {} |", cells.join(" | "));
+        file += &(cells.join(",").replace(" × ", "x") + "\n");
+    }
+    if write {
+        std::fs::write(FILE, file)?;
+    }
+    Ok(())
 }
 
 /// The brake by its numbers of elements, or the pin on the block by `pin,n` with elements of 5 mm over n.

@@ -6,7 +6,7 @@
 pub enum Error {
     /// An element is turned inside out or has no volume.
     #[error(
-        "element {element} ({kind}) has a Jacobian determinant of {determinant:e} at a corner or a point of \
+        "element {element} ({kind}) has a Jacobian determinant of {determinant:.3e} at a corner or a point of \
          integration, which must be above 0: order its nodes as the format asks, or mesh that place again"
     )]
     Inverted {
@@ -72,6 +72,11 @@ pub enum Error {
         /// A sentence with the value and its limit.
         what: String,
     },
+    /// A body that nothing holds in some direction.
+    #[error(
+        "the stiffness matrix is singular: a body can move without a force; hold it by supports in the directions in which it is free"
+    )]
+    Free,
     /// A factorisation or an iteration that did not come to an end.
     #[error("{what}")]
     Solver {

@@ -104,7 +104,7 @@ fn directly(
     let best = found.into_iter().map(|mode| (likeness(&mode), mode)).max_by(|a, b| a.0.total_cmp(&b.0));
     best.map(|(_, mode)| State { lambda: mode.lambda, residual: mode.residual, direct: true }).ok_or_else(
         || Error::Solver {
-            what: format!("no complex mode was found near {} Hz", guess.im / std::f64::consts::TAU),
+            what: format!("no complex mode was found near {:.1} Hz", guess.im / std::f64::consts::TAU),
         },
     )
 }

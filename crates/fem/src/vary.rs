@@ -114,9 +114,12 @@ impl Setup {
     }
 
     fn station(&self, count: usize, bound: f64) -> Result<Station, Error> {
+        /// A mode that is followed may move above the lowest `count` by so many others.
+        const ABOVE: usize = 4;
         /// The last modes couple with modes above them.
         const MORE: usize = 8;
         const ROUNDS: usize = 12;
+        let count = count + ABOVE;
         let (numbering, pencil, slope) = self.matrices()?;
         let pattern = &pencil.stiffness.pattern;
         let ordering = Ordering::best(pattern, &numbering.places(&self.model.mesh))?;
@@ -148,7 +151,8 @@ impl Setup {
     }
 }
 
-/// The `count` lowest modes over the values of a parameter, to a residual of `bound`.
+/// The `count` lowest modes of the first value over the values of a parameter, to a residual of `bound`. A mode that more than four others
+/// overtake is lost: ask for more then.
 ///
 /// # Errors
 /// A value that the parameter cannot have; modes that do not converge.

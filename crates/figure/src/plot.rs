@@ -14,6 +14,10 @@ pub const SECOND: &str =
     r##"fill="none" stroke="#D55E00" stroke-width="0.9" stroke-dasharray="3.2 1.6" stroke-linejoin="round""##;
 /// Stroke of a third curve: dotted, between the two in lightness.
 pub const THIRD: &str = r##"fill="none" stroke="#4F7F4F" stroke-width="1.1" stroke-dasharray="0.1 2.2" stroke-linecap="round" stroke-linejoin="round""##;
+/// Stroke of one of many modes that do not grow,
+pub const STABLE: &str = r##"fill="none" stroke="#1F3F8F" stroke-width="0.7" stroke-linejoin="round""##;
+/// and of one that grows.
+pub const GROWS: &str = r##"fill="none" stroke="#D55E00" stroke-width="1.6" stroke-linejoin="round""##;
 /// The mark at a critical value.
 pub const CRITICAL: &str = r##"fill="none" stroke="#000000" stroke-width="0.6" stroke-dasharray="1.2 1.4""##;
 /// The line of zero, of what has a sign.

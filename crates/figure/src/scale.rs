@@ -187,6 +187,9 @@ impl Scale {
 /// ` (10³ m/s²)`: the unit of an axis and the power of ten taken out of its labels.
 #[must_use]
 pub fn axis_unit(unit: &str, exponent: i32) -> Text {
+    if unit.is_empty() && exponent == 0 {
+        return Text::default();
+    }
     let text = Text::from(" (");
     let text = match exponent {
         0 => text,

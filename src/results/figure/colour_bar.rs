@@ -29,9 +29,7 @@ pub(crate) fn draw(field: &Field<'_>, panels: &Panels, svg: &mut Svg, [x, y]: [f
     if let Tones::Named(names) = field.tones {
         return named(field, names, panels, svg, [x, y], width);
     }
-    let power =
-        if field.scale.exponent() == 0 { Text::default() } else { axis_unit("", field.scale.exponent()) };
-    let beside = power.plain(field.label);
+    let beside = axis_unit("", field.scale.exponent()).plain(field.label);
     let room = beside.width(TICK_SIZE, false) + 6.0;
     let frame = Frame { x, y, width: (width - room).min(LONGEST), height: BAR };
     let tones = field.tones;

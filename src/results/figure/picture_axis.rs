@@ -2,7 +2,7 @@
 
 use crate::results::figure::words::capital;
 use crate::sweep::grid::{Axis, AxisKey, Value};
-use squealmap_figure::scale::{Scale, Tick, snapped, value_label};
+use squealmap_figure::scale::{Scale, Tick, axis_unit, snapped, value_label};
 use squealmap_figure::text::Text;
 
 /// Room between the ends of tick labels, points.
@@ -207,15 +207,7 @@ impl PictureAxis {
         let Some(key) = self.key else { return Text::default() };
         let AxisKey::Param(param) = key else { return Text::from(capital(key.name())) };
         let row = param.info();
-        let power = self.scale.exponent();
-        let factor = Text::from("10").superscript(&power.to_string().replace('-', "−"));
-        let unit = match (row.unit, power) {
-            ("", 0) => Text::default(),
-            ("", _) => Text::from(" (").then(factor).plain(")"),
-            (unit, 0) => Text::from(" (").unit(unit).plain(")"),
-            (unit, _) => Text::from(" (").then(factor).plain(" ").unit(unit).plain(")"),
-        };
-        let short = Text::default().symbol(row.symbol).then(unit);
+        let short = Text::default().symbol(row.symbol).then(axis_unit(row.unit, self.scale.exponent()));
         let long = Text::from(quantity(row.name, row.meaning)).plain(" ").then(short.clone());
         if long.width(size, false) <= available { long } else { short }
     }

@@ -7,8 +7,7 @@ use squealmap_figure::text::Text;
 
 /// The name of a column within `room` points at this size, and its unit with a power of ten.
 pub(crate) fn label(column: &NumberColumn, exponent: i32, room: f64, size: f64) -> Text {
-    let unit = column.unit.replace("deg", "°");
-    let unit = if unit.is_empty() && exponent == 0 { Text::default() } else { axis_unit(&unit, exponent) };
+    let unit = axis_unit(&column.unit.replace("deg", "°"), exponent);
     let (name, large) = match column.name.strip_suffix(LARGE_SUFFIX) {
         Some(name) => (name, ", large start"),
         None => (column.name.as_str(), ""),

@@ -7,7 +7,7 @@ use squealmap_figure::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_
 use squealmap_figure::key;
 use squealmap_figure::letters;
 use squealmap_figure::page::{MARGIN, SINGLE_COLUMN, title};
-use squealmap_figure::plot::{CRITICAL, Plot, SECOND, ZERO};
+use squealmap_figure::plot::{CRITICAL, GROWS, Plot, SECOND, STABLE, ZERO};
 use squealmap_figure::scale::{Scale, axis_unit, value_label};
 use squealmap_figure::svg::{Anchor, Style, Svg, polyline};
 use squealmap_figure::text::Text;
@@ -24,11 +24,6 @@ const HEADROOM: f64 = 0.06;
 const LINE: f64 = 10.0;
 /// How many ticks the axis of friction has at most.
 const X_TICKS: usize = 7;
-/// A mode that neither grows nor decays.
-const STABLE: &str = r##"fill="none" stroke="#1F3F8F" stroke-width="0.7" stroke-linejoin="round""##;
-/// One that grows.
-const GROWS: &str = r##"fill="none" stroke="#D55E00" stroke-width="1.6" stroke-linejoin="round""##;
-
 /// Without damping, what rounding leaves of the growth of a stable mode is below this part of its eigenvalue.
 const ROUNDING: f64 = 1e-6;
 
@@ -134,12 +129,10 @@ fn page(curves: &Curves, look: &Look<'_>, height: f64) -> (Svg, [f64; 2]) {
     let across = width - left - RIGHT;
     let unstable = if curves.damped { "unstable" } else { "unstable pair" };
     let entries = [(Text::from("stable"), STABLE), (Text::from(unstable), GROWS)];
-    let entries = if curves.damped || curves.transitions.is_empty() {
-        entries.to_vec()
-    } else {
-        let [stable, grows] = entries;
-        vec![stable, grows, (Text::from("decaying twin"), SECOND)]
-    };
+    let mut entries = entries.to_vec();
+    if states().any(|state| course(curves, state) == Course::Decays) {
+        entries.push((Text::from("decaying twin"), SECOND));
+    }
     key::lines(&mut svg, left, y + LABEL_SIZE - 1.2, LABEL_SIZE, &entries);
     y += LABEL_SIZE + 5.0;
     let marks: Vec<f64> = curves.transitions.iter().map(|transition| transition.mu).collect();
@@ -190,6 +183,17 @@ enum Course {
     Decays,
 }
 
+fn course(curves: &Curves, state: &State) -> Course {
+    let State { frequency, growth, grows } = *state;
+    if grows {
+        Course::Grows
+    } else if !curves.damped && -growth > ROUNDING * growth.hypot(TAU * frequency) {
+        Course::Decays
+    } else {
+        Course::Stable
+    }
+}
+
 /// The values of a mode where it takes this course, nothing where it takes another. A piece begins at the transition, not at the
 /// next value of friction.
 fn along<'a>(
@@ -200,16 +204,7 @@ fn along<'a>(
 ) -> Vec<(f64, f64)> {
     /// Pieces of a curve between a transition and the next value of friction.
     const PIECES: usize = 16;
-    let course = |i: usize| {
-        let State { frequency, growth, grows } = mode.states[i];
-        if grows {
-            Course::Grows
-        } else if !curves.damped && -growth > ROUNDING * growth.hypot(TAU * frequency) {
-            Course::Decays
-        } else {
-            Course::Stable
-        }
-    };
+    let course = |i: usize| course(curves, &mode.states[i]);
     let mut points = Vec::new();
     for i in 0..curves.mus.len() {
         let here = course(i) == wanted;

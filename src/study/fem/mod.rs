@@ -1,5 +1,7 @@
-//! Figures of a finite-element study: curves over friction, pictures of its mesh and of its modes; the curves read back.
+//! Figures of a finite-element study: curves over friction or another parameter, pictures of its mesh and of its modes; each read back.
 
+#[cfg(feature = "fem")]
+mod bodies;
 mod curves;
 #[cfg(feature = "fem")]
 mod mesh;
@@ -12,11 +14,13 @@ mod paper;
 #[cfg(feature = "fem")]
 mod pictures;
 pub(crate) mod read;
+#[cfg(all(feature = "identify", not(feature = "fem")))]
+mod without;
 
+#[cfg(feature = "fem")]
+pub use bodies::{Bodies, Sliding};
 pub use curves::{Curve, Curves, State, Transition};
 #[cfg(feature = "fem")]
-pub use mesh::mesh_svg;
-#[cfg(feature = "fem")]
 pub use paper::{claims, report};
-#[cfg(feature = "fem")]
-pub use pictures::pictures_svg;
+#[cfg(all(feature = "identify", not(feature = "fem")))]
+pub(crate) use without::Bodies;

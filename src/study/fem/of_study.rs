@@ -31,14 +31,9 @@ impl Curves {
     #[must_use]
     pub fn varied(study: &Study, outcome: &Outcome) -> Option<Curves> {
         let (asked, found) = (study.document.vary.as_ref()?, outcome.variation.as_ref()?);
-        let (what, unit) = asked.parameter.words();
-        let what = match &asked.material {
-            Some(material) => format!("{what} of {}", material.replace('_', " ")),
-            None => what.to_owned(),
-        };
         Some(Curves {
             title: study.document.title.clone(),
-            over: Some([what, unit.to_owned()]),
+            over: Some(asked.words()),
             mus: found.values.clone(),
             damped: found.damped,
             modes: curves(study, &found.modes, found.damped),

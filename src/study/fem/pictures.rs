@@ -2,9 +2,10 @@
 
 use squealmap_fem::c64;
 use squealmap_fem::output::{facets, isometric};
-use squealmap_fem::study::{Outcome, Shape, Study};
+use squealmap_fem::study::Shape;
 
 use crate::results::figure::look::Look;
+use crate::study::fem::bodies::Bodies;
 use crate::study::fem::painting::{PIECE, Painting};
 use squealmap_figure::frame::{LABEL_SIZE, TICK_SIZE};
 use squealmap_figure::letters;
@@ -34,45 +35,45 @@ const MOST: usize = 6;
 /// The colours of −1, 0 and 1: dark on both sides, so that a grey print shows where a body stands still.
 const COLOURS: [[f32; 3]; 3] = [[31.0, 63.0, 143.0], [246.0, 246.0, 240.0], [213.0, 94.0, 0.0]];
 
-/// The pictures of a study's modes, or nothing where no shape was computed.
-#[must_use]
-pub fn pictures_svg(study: &Study, outcome: &Outcome, look: &Look<'_>) -> Option<String> {
-    let shown = shown(outcome);
-    let name = look.title(&study.document.title);
-    let name = if name.is_empty() { "Mode shapes" } else { name };
-    let pictures: Vec<[Shown; 2]> = shown.iter().map(|shape| both(study, shape)).collect();
-    (!shown.is_empty()).then(|| {
-        look.fitted(name, TALLEST, |part| page(study, outcome, &shown, &pictures, look, part * TALLEST))
-    })
+impl Bodies {
+    /// The pictures of modes, or nothing where no shape was computed.
+    #[must_use]
+    pub fn shapes_svg(&self, look: &Look<'_>) -> Option<String> {
+        let shown = shown(self);
+        let name = look.title(&self.title);
+        let name = if name.is_empty() { "Mode shapes" } else { name };
+        let pictures: Vec<[Shown; 2]> = shown.iter().map(|shape| both(self, shape)).collect();
+        let rows = Rows::new(&pictures, look);
+        let all = pictures.len().div_ceil(rows.columns) as f64 * rows.height;
+        (!shown.is_empty()).then(|| {
+            look.fitted(name, all, |part| {
+                page(self, &shown, &pictures, look, &Rows { height: part * rows.height, ..rows })
+            })
+        })
+    }
 }
 
 /// The shapes of a figure: those of modes with a transition where there are such, and of an unstable pair the one that grows.
-fn shown(outcome: &Outcome) -> Vec<&Shape> {
-    let concerned = |shape: &&Shape| outcome.transitions.iter().any(|t| t.modes.contains(&shape.mode));
-    let of_transitions: Vec<&Shape> = outcome.shapes.iter().filter(concerned).collect();
-    let all = if of_transitions.is_empty() { outcome.shapes.iter().collect() } else { of_transitions };
+fn shown(bodies: &Bodies) -> Vec<&Shape> {
+    let concerned = |shape: &&Shape| bodies.concerned.contains(&shape.mode);
+    let of_transitions: Vec<&Shape> = bodies.shapes.iter().filter(concerned).collect();
+    let all = if of_transitions.is_empty() { bodies.shapes.iter().collect() } else { of_transitions };
     // Beside the one that grows, its twin looks the same.
-    let decays = |shape: &Shape| !outcome.damped && shape.lambda.re < -1e-6 * shape.lambda.norm();
+    let decays = |shape: &Shape| !bodies.damped && shape.lambda.re < -1e-6 * shape.lambda.norm();
     all.into_iter().filter(|shape| !decays(shape)).take(MOST).collect()
 }
 
 fn page(
-    study: &Study,
-    outcome: &Outcome,
+    bodies: &Bodies,
     shown: &[&Shape],
     pictures: &[[Shown; 2]],
     look: &Look<'_>,
-    tallest: f64,
+    &Rows { width, columns, column, height }: &Rows,
 ) -> (Svg, [f64; 2]) {
-    let width = look.points().unwrap_or(DOUBLE_COLUMN);
     let mut svg = Svg::new();
-    let mut y = MARGIN + title(&mut svg, look.title(&study.document.title), width - 2.0 * MARGIN);
+    let mut y = MARGIN + title(&mut svg, look.title(&bodies.title), width - 2.0 * MARGIN);
     let whole = width - 2.0 * MARGIN;
-    let aspect = pictures.iter().flatten().map(|shown| shown.picture.aspect()).fold(0.0, f64::max);
-    let columns = columns(shown.len(), aspect, whole);
-    let pair = (whole + GAP) / columns as f64 - GAP;
-    let column = (pair - GAP) / 2.0;
-    let height = (column / aspect).min(tallest);
+    let pair = 2.0 * column + GAP;
     for (row, shapes) in shown.chunks(columns).enumerate() {
         for (place, shape) in shapes.iter().enumerate() {
             let index = row * columns + place;
@@ -80,7 +81,7 @@ fn page(
             letters::draw_at(&mut svg, index, [x, y]);
             let base = y + letters::ASCENT * LABEL_SIZE;
             let from = x + letters::width(index);
-            svg.text(from, base, &caption(outcome, shape), Style::new(LABEL_SIZE, Anchor::Start));
+            svg.text(from, base, &caption(bodies, shape), Style::new(LABEL_SIZE, Anchor::Start));
             for (side, picture) in pictures[index].iter().enumerate() {
                 let left = x + side as f64 * (column + GAP);
                 picture.picture.paint(&mut svg, [left, y + HEAD, column, height], fill);
@@ -96,6 +97,29 @@ fn page(
     (svg, [width, y + MARGIN])
 }
 
+/// How pairs of pictures stand on a page.
+#[derive(Clone, Copy)]
+struct Rows {
+    /// Of the page, points.
+    width: f64,
+    /// Pairs beside one another.
+    columns: usize,
+    /// Width and height of a picture, points.
+    column: f64,
+    height: f64,
+}
+
+impl Rows {
+    fn new(pictures: &[[Shown; 2]], look: &Look<'_>) -> Rows {
+        let width = look.points().unwrap_or(DOUBLE_COLUMN);
+        let whole = width - 2.0 * MARGIN;
+        let aspect = pictures.iter().flatten().map(|shown| shown.picture.aspect()).fold(0.0, f64::max);
+        let columns = columns(pictures.len(), aspect, whole);
+        let column = ((whole + GAP) / columns as f64 - 2.0 * GAP) / 2.0;
+        Rows { width, columns, column, height: (column / aspect).min(TALLEST) }
+    }
+}
+
 /// How many pairs of pictures stand beside one another: as many as there are, as long as they do not become flatter than allowed.
 fn columns(count: usize, aspect: f64, width: f64) -> usize {
     let tall = |columns: usize| {
@@ -106,7 +130,7 @@ fn columns(count: usize, aspect: f64, width: f64) -> usize {
 }
 
 /// Frequency, growth and friction of a shape.
-fn caption(outcome: &Outcome, shape: &Shape) -> Text {
+fn caption(bodies: &Bodies, shape: &Shape) -> Text {
     let hertz = shape.lambda.im / std::f64::consts::TAU;
     let rounded = |value: f64, digits: usize| format!("{value:.digits$}").parse().unwrap_or(value);
     let text = Text::from(format!("mode {}, ", shape.mode + 1)).symbol("μ").plain(" = ");
@@ -115,7 +139,7 @@ fn caption(outcome: &Outcome, shape: &Shape) -> Text {
         .plain(": ")
         .then(value_label(rounded(hertz / 1000.0, 3)))
         .plain(" kHz");
-    if outcome.damped || shape.lambda.re.abs() > 1e-6 * shape.lambda.norm() {
+    if bodies.damped || shape.lambda.re.abs() > 1e-6 * shape.lambda.norm() {
         text.plain(", ").then(value_label(rounded(shape.lambda.re, 1))).plain(" 1/s")
     } else {
         text
@@ -129,11 +153,11 @@ struct Shown {
 }
 
 /// Along the sliding and along the normal, each at the phase at which that displacement is largest.
-fn both(study: &Study, shape: &Shape) -> [Shown; 2] {
-    let mesh = &study.model.mesh;
+fn both(bodies: &Bodies, shape: &Shape) -> [Shown; 2] {
+    let mesh = &bodies.mesh;
     let size = mesh.extent();
-    let contact = study.model.contact.first();
-    let axes = contact.map_or([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]], |point| [point.direction, point.normal]);
+    let along_axes = [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
+    let axes = bodies.sliding.map_or(along_axes, |contact| [contact.direction, contact.normal]);
     let length = |u: &[c64; 3]| u.iter().map(c64::norm_sqr).sum::<f64>().sqrt();
     let largest = shape.displacement.iter().map(length).fold(0.0, f64::max);
     let along = axes.map(|axis| {
@@ -210,8 +234,15 @@ fn bar(svg: &mut Svg, [x, y]: [f64; 2], width: f64) -> f64 {
             Style::new(TICK_SIZE, Anchor::Middle),
         );
     }
-    let words = Text::from("displacement over its largest; its largest is given over that of the mode");
-    let base = y + THICK + 6.0 + TICK_SIZE + LABEL_SIZE;
-    svg.text(from + 0.5 * LENGTH, base, &words, Style::new(LABEL_SIZE, Anchor::Middle));
-    base
+    let halves = ["displacement over its largest;", "its largest is given over that of the mode"];
+    let whole = halves.join(" ");
+    let fits = Text::from(whole.as_str()).width(LABEL_SIZE, false) <= width;
+    let lines = if fits { vec![whole.as_str()] } else { halves.to_vec() };
+    let mut base = y + THICK + 6.0 + TICK_SIZE;
+    for line in lines {
+        base += LABEL_SIZE;
+        svg.text(from + 0.5 * LENGTH, base, &Text::from(line), Style::new(LABEL_SIZE, Anchor::Middle));
+        base += 2.0;
+    }
+    base - 2.0
 }

@@ -1,5 +1,6 @@
 //! The two-panel figure of the modes: frequency above, growth rate below, as Figure 2 of the paper.
 
+use crate::model::linear::is_unstable;
 use crate::results::figure::beside::{most_panels, parted};
 use crate::results::figure::look::Look;
 use crate::results::figure::panels::{selection, setting};
@@ -10,8 +11,8 @@ use crate::sweep::grid::{AxisKey, Grid};
 use crate::sweep::spec::Spec;
 use squealmap_figure::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room, y_ticks};
 use squealmap_figure::page::{DOUBLE_COLUMN, MARGIN, SINGLE_COLUMN, title};
-use squealmap_figure::plot::{CRITICAL, FIRST, Plot, SECOND, ZERO};
-use squealmap_figure::scale::{Scale, value_label};
+use squealmap_figure::plot::{CRITICAL, FIRST, GROWS, Plot, SECOND, STABLE, ZERO};
+use squealmap_figure::scale::{Scale, axis_unit, value_label};
 use squealmap_figure::svg::{Anchor, Style, Svg, polyline};
 use squealmap_figure::text::Text;
 use squealmap_figure::{key, letters};
@@ -28,6 +29,11 @@ const RIGHT: f64 = 8.0;
 const HEADROOM: f64 = 0.08;
 /// Height of a line of text, points.
 const LINE: f64 = 10.0;
+
+/// Two modes by name, each with its line,
+const NAMED: [(&str, &str); 2] = [("mode 1", FIRST), ("mode 2", SECOND)];
+/// or many by what they do.
+const MANY: [(&str, &str); 2] = [("stable", STABLE), ("unstable", GROWS)];
 
 /// The figure of a sweep's eigenvalues as an SVG document: single column width for one branch.
 ///
@@ -67,8 +73,9 @@ fn page(spec: &Spec, modes: &Modes, look: &Look<'_>, height: f64) -> (Svg, [f64;
     let left = MARGIN + LABEL_SIZE + 6.0 + room;
     let columns = shown.len().max(1) as f64;
     let across = (width - left - RIGHT - (columns - 1.0) * GAP_ACROSS) / columns;
-    let names = ["mode 1", "mode 2"].map(Text::from).into_iter().zip([FIRST, SECOND]);
-    key::lines(&mut svg, left, y + LABEL_SIZE - 1.2, LABEL_SIZE, &names.collect::<Vec<_>>());
+    let names = if modes.count() > NAMED.len() { MANY } else { NAMED };
+    let names = names.map(|(name, stroke)| (Text::from(name), stroke));
+    key::lines(&mut svg, left, y + LABEL_SIZE - 1.2, LABEL_SIZE, &names);
     y += LABEL_SIZE + 5.0;
     let titles: Vec<Vec<Text>> = shown.iter().map(|branch| settings(spec, modes, branch)).collect();
     let lines = titles.iter().map(Vec::len).max().unwrap_or(0) as f64;
@@ -97,9 +104,10 @@ fn page(spec: &Spec, modes: &Modes, look: &Look<'_>, height: f64) -> (Svg, [f64;
         let frame = Frame { x: from, y, width: across, height: 2.0 * height + GAP };
         critical(&mut svg, spec, modes, branch, &x, &frame);
     }
-    for (row, words) in ["Frequency (Hz)", "Growth rate (1/s)"].into_iter().enumerate() {
+    for (row, (words, unit)) in [("Frequency", "Hz"), ("Growth rate", "1/s")].into_iter().enumerate() {
         let frame = Frame { x: left, y: y + row as f64 * (height + GAP), width: 0.0, height };
-        letters::side(&mut svg, (row, 2), &frame, &[Text::from(words)]);
+        let words = Text::from(words).then(axis_unit(unit, scales[row].exponent()));
+        letters::side(&mut svg, (row, 2), &frame, &[words]);
     }
     y += 2.0 * height + GAP + x_tick_room() + LABEL_SIZE + 1.0;
     let whole = columns * (across + GAP_ACROSS) - GAP_ACROSS;
@@ -132,15 +140,26 @@ fn curves(svg: &mut Svg, plot: &Plot<'_>, branch: &Branch, growth: bool) {
     if growth {
         plot.curve(svg, [branch.values[0], branch.values[branch.values.len() - 1]].map(|x| (x, 0.0)), ZERO);
     }
-    for (k, stroke) in [FIRST, SECOND].into_iter().enumerate() {
-        let along = |value: fn(&Mode) -> f64| {
-            let points = branch.values.iter().zip(&branch.modes);
-            points.map(move |(x, pair)| (*x, pair.as_ref().map_or(nothing, |pair| value(&pair[k]))))
-        };
-        if growth {
-            plot.curve(svg, along(Mode::growth_rate), stroke);
-        } else {
-            plot.curve(svg, along(Mode::frequency), stroke);
+    let value = if growth { Mode::growth_rate } else { Mode::frequency };
+    let along = |k: usize, wanted: fn(&Mode) -> bool| {
+        let points = branch.values.iter().zip(&branch.modes);
+        points.map(move |(x, modes)| {
+            let mode = modes.as_ref().map(|modes| modes[k]).filter(wanted);
+            (*x, mode.map_or(nothing, |mode| value(&mode)))
+        })
+    };
+    let count = branch.modes.iter().flatten().map(Vec::len).max().unwrap_or(0);
+    if count <= NAMED.len() {
+        for (k, (_, stroke)) in NAMED.into_iter().enumerate().take(count) {
+            plot.curve(svg, along(k, |_| true), stroke);
+        }
+        return;
+    }
+    // What grows lies on top.
+    let courses: [fn(&Mode) -> bool; 2] = [|_| true, |mode| is_unstable(mode.value)];
+    for ((_, stroke), wanted) in MANY.into_iter().zip(courses) {
+        for k in 0..count {
+            plot.curve(svg, along(k, wanted), stroke);
         }
     }
 }

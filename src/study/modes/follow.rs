@@ -4,6 +4,7 @@ use num_complex::Complex64;
 use serde::{Deserialize, Serialize};
 use serde_json::Value as Json;
 
+use crate::model::linear::spectrum;
 use crate::results::csv::Table;
 use crate::results::manifest::described;
 use crate::store::grid_json;
@@ -47,8 +48,8 @@ pub struct Branch {
     pub instances: Vec<usize>,
     /// The axis value of each.
     pub values: Vec<f64>,
-    /// The two modes of each; `None` where no equilibrium or no analysis is defined.
-    pub modes: Vec<Option<[Mode; 2]>>,
+    /// The modes of each, as many everywhere; `None` where no equilibrium or no analysis is defined.
+    pub modes: Vec<Option<Vec<Mode>>>,
     /// Axis values at which the largest growth rate changes sign, in rising order.
     pub critical: Vec<f64>,
 }
@@ -62,8 +63,17 @@ pub struct Modes {
     pub branches: Vec<Branch>,
 }
 
-/// Gives the eigenvalues of an instance of a sweep, 1/s.
-pub type Eigenvalues<'a> = &'a dyn Fn(&Spec, usize) -> Option<[Complex64; 4]>;
+impl Modes {
+    /// How many modes there are.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        let all = self.branches.iter().flat_map(|branch| &branch.modes).flatten();
+        all.map(Vec::len).max().unwrap_or(0)
+    }
+}
+
+/// Gives the eigenvalues of an instance of a sweep, 1/s: two for each of its modes.
+pub type Eigenvalues<'a> = &'a dyn Fn(&Spec, usize) -> Option<Vec<Complex64>>;
 
 /// Follows the modes of a sweep.
 ///
@@ -74,12 +84,12 @@ pub fn follow(spec: &Spec, eigenvalues: Eigenvalues<'_>) -> Result<Modes> {
     let Modes { axis, mut branches } = along(axes)?;
     for branch in &mut branches {
         let raw: Vec<_> = branch.instances.iter().map(|index| eigenvalues(spec, *index).map(pairs)).collect();
-        let growth: Vec<_> = raw.iter().map(|pair| pair.map(largest)).collect();
+        let growth: Vec<_> = raw.iter().map(|modes| modes.as_deref().map(largest)).collect();
         let between = |x: f64| {
-            eigenvalues(&single(spec, axes, axis, branch.first, x), 0).map(|values| largest(pairs(values)))
+            eigenvalues(&single(spec, axes, axis, branch.first, x), 0).map(|values| largest(&pairs(values)))
         };
         branch.critical = critical_values(&branch.values, &growth, &between);
-        branch.modes = connect(&raw);
+        branch.modes = connect(&branch.values, raw);
     }
     if branches.iter().all(|branch| branch.modes.iter().all(Option::is_none)) {
         return Err(Error::NoModes);
@@ -116,12 +126,18 @@ pub(crate) fn along(axes: &[Axis]) -> Result<Modes> {
 /// # Errors
 /// Those of [`follow`].
 pub fn modes_of(spec: &Spec) -> Result<Modes> {
-    follow(spec, &eigenvalues)
+    follow(spec, &|spec, index| spectrum(&spec.instance(index)))
 }
 
-/// The growth rate of the less stable mode.
-fn largest(modes: [Mode; 2]) -> f64 {
-    modes[0].growth_rate().max(modes[1].growth_rate())
+/// The growth rate of the least stable mode; what rounding leaves of none is none.
+fn largest(modes: &[Mode]) -> f64 {
+    /// The part of an eigenvalue that rounding makes, many times over.
+    const ROUNDING: f64 = 1e-12;
+    let growth = |mode: &Mode| {
+        let growth = mode.growth_rate();
+        if growth > ROUNDING * mode.value.norm() { growth } else { growth.min(0.0) }
+    };
+    modes.iter().map(growth).fold(f64::NEG_INFINITY, f64::max)
 }
 
 /// A sweep of one instance: that with index `first`, but with the value `x` on `axis`.
@@ -166,36 +182,62 @@ fn rising(axis: &Axis) -> Vec<(usize, f64)> {
     order
 }
 
-/// The two modes of four eigenvalues: complex ones by their conjugates, real ones by size; rising frequency.
-fn pairs(eigenvalues: [Complex64; 4]) -> [Mode; 2] {
-    let mut complex: Vec<Mode> =
-        eigenvalues.iter().filter(|z| z.im > 0.0).map(|z| Mode { value: *z, fast: None }).collect();
-    let mut real: Vec<f64> = eigenvalues.iter().filter(|z| z.im == 0.0).map(|z| z.re).collect();
-    real.sort_by(|a, b| b.total_cmp(a));
-    let overdamped =
-        real.chunks(2).map(|pair| Mode { value: Complex64::new(pair[0], 0.0), fast: pair.get(1).copied() });
-    complex.extend(overdamped);
-    complex.sort_by(|a, b| a.value.im.total_cmp(&b.value.im).then(b.value.re.total_cmp(&a.value.re)));
-    let missing = Mode { value: Complex64::new(f64::NAN, f64::NAN), fast: None };
-    [complex.first().copied().unwrap_or(missing), complex.get(1).copied().unwrap_or(missing)]
+/// The modes of eigenvalues, half as many: complex ones by their conjugates, real ones by size; rising frequency.
+fn pairs(eigenvalues: Vec<Complex64>) -> Vec<Mode> {
+    let count = eigenvalues.len() / 2;
+    let (complex, mut real): (Vec<Complex64>, Vec<Complex64>) =
+        eigenvalues.into_iter().partition(|z| z.im != 0.0);
+    real.sort_by(|a, b| b.re.total_cmp(&a.re));
+    let oscillating = complex.into_iter().filter(|z| z.im > 0.0).map(|value| Mode { value, fast: None });
+    let overdamped = real.chunks(2).map(|pair| Mode { value: pair[0], fast: pair.get(1).map(|z| z.re) });
+    let mut modes: Vec<Mode> = oscillating.chain(overdamped).collect();
+    modes.sort_by(|a, b| a.value.im.total_cmp(&b.value.im).then(b.value.re.total_cmp(&a.value.re)));
+    modes.resize(count, Mode { value: Complex64::new(f64::NAN, f64::NAN), fast: None });
+    modes
 }
 
-/// Names the modes so that each stays as close as possible to itself along the axis.
-fn connect(raw: &[Option<[Mode; 2]>]) -> Vec<Option<[Mode; 2]>> {
-    let mut last: Option<[Mode; 2]> = None;
-    raw.iter()
-        .map(|point| {
-            let [a, b] = (*point)?;
-            let distance = |one: Mode, other: Mode| (one.value - other.value).norm();
-            let swap =
-                last.is_some_and(|[p, q]| distance(p, b) + distance(q, a) < distance(p, a) + distance(q, b));
-            last = Some(if swap { [b, a] } else { [a, b] });
-            last
-        })
-        .collect()
+/// Names the modes so that each goes on as it has come: the modes that are nearest to where the last two values lead are joined first.
+fn connect(values: &[f64], raw: Vec<Option<Vec<Mode>>>) -> Vec<Option<Vec<Mode>>> {
+    let mut known: [Option<(f64, Vec<Mode>)>; 2] = [None, None];
+    let mut name = |x: f64, found: Vec<Mode>| {
+        let named = match &known {
+            [_, None] => found,
+            [before, Some((at, last))] => {
+                let expected = (0..last.len()).map(|k| match before {
+                    None => last[k].value,
+                    Some((from, before)) => {
+                        last[k].value + (last[k].value - before[k].value) * ((x - at) / (at - from))
+                    }
+                });
+                joined(&expected.collect::<Vec<_>>(), &found)
+            }
+        };
+        known = [known[1].take(), Some((x, named.clone()))];
+        named
+    };
+    values.iter().zip(raw).map(|(x, found)| found.map(|found| name(*x, found))).collect()
 }
 
-/// The table of a sweep's eigenvalues in the order of its instances: the swept parameters, then of both modes
+/// Modes in the order of the values that are expected of them.
+fn joined(expected: &[Complex64], found: &[Mode]) -> Vec<Mode> {
+    let apart = |i: usize, k: usize| (expected[i] - found[k].value).norm();
+    let mut offers: Vec<(f64, usize, usize)> = (0..expected.len())
+        .flat_map(|i| (0..found.len()).map(move |k| (i, k)))
+        .map(|(i, k)| (apart(i, k), i, k))
+        .collect();
+    offers.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut of = vec![None; found.len()];
+    let mut taken = vec![false; found.len()];
+    for (_, i, k) in offers {
+        if of.get(i) == Some(&None) && !taken[k] {
+            (of[i], taken[k]) = (Some(k), true);
+        }
+    }
+    let order = of.iter().enumerate().map(|(i, k)| k.unwrap_or(i));
+    order.map(|k| found[k]).collect()
+}
+
+/// The table of a sweep's eigenvalues in the order of its instances: the swept parameters, then of each mode
 /// the frequency (Hz), the growth rate (1/s) and, where a mode is overdamped, its faster decay (1/s).
 ///
 /// # Errors
@@ -204,36 +246,33 @@ pub fn modes_csv(spec: &Spec) -> Result<Vec<u8>> {
     table(spec, &modes_of(spec)?)
 }
 
-/// The columns of the two modes in `modes.csv`.
-pub const COLUMNS: [&str; 6] = [
-    "frequency_1",
-    "growth_rate_1",
-    "growth_rate_1_fast",
-    "frequency_2",
-    "growth_rate_2",
-    "growth_rate_2_fast",
-];
+/// The columns of a mode in `modes.csv`, counted from 1: frequency (Hz), growth rate, and the faster decay of an overdamped one (1/s).
+pub(crate) fn columns(mode: usize) -> [String; 3] {
+    [format!("frequency_{mode}"), format!("growth_rate_{mode}"), format!("growth_rate_{mode}_fast")]
+}
 
 /// The table of modes that were followed.
 ///
 /// # Errors
 /// When the table cannot be written.
 pub fn table(spec: &Spec, modes: &Modes) -> Result<Vec<u8>> {
-    let names = spec.grid.keys().into_iter().map(AxisKey::name);
-    let mut rows: Vec<(usize, Option<[Mode; 2]>)> = modes
+    let names = spec.grid.keys().into_iter().map(|key| key.name().to_owned());
+    let count = modes.count();
+    let mut rows: Vec<(usize, &Option<Vec<Mode>>)> = modes
         .branches
         .iter()
-        .flat_map(|branch| branch.instances.iter().copied().zip(branch.modes.iter().copied()))
+        .flat_map(|branch| branch.instances.iter().copied().zip(&branch.modes))
         .collect();
     rows.sort_by_key(|(index, _)| *index);
-    let mut table = Table::new(std::iter::once("instance").chain(names).chain(COLUMNS))?;
-    for (index, pair) in rows {
+    let columns = (1..=count).flat_map(columns);
+    let mut table = Table::new(std::iter::once("instance".to_owned()).chain(names).chain(columns))?;
+    for (index, found) in rows {
         let swept = spec.grid.coordinates(index).into_iter().map(|value| Cell::from(value).to_string());
         let mode = |k: usize| {
-            let mode = pair.map(|pair| pair[k]);
+            let mode = found.as_ref().map(|modes| modes[k]);
             [mode.map(|m| m.frequency()), mode.map(|m| m.growth_rate()), mode.and_then(|m| m.fast)]
         };
-        let cells = mode(0).into_iter().chain(mode(1)).map(|x| Cell::from(x).to_string());
+        let cells = (0..count).flat_map(mode).map(|x| Cell::from(x).to_string());
         table.row(std::iter::once(index.to_string()).chain(swept).chain(cells))?;
     }
     Ok(table.finish()?)
@@ -256,9 +295,4 @@ pub(crate) struct Document {
 pub fn document(spec: &Spec, modes: &Modes) -> Result<Vec<u8>> {
     let critical = modes.branches.iter().map(|branch| branch.critical.clone()).collect();
     Ok(described(&Document { title: spec.title.clone(), grid: grid_json::to_json(&spec.grid), critical })?)
-}
-
-/// The eigenvalues of an instance, 1/s.
-pub(crate) fn eigenvalues(spec: &Spec, index: usize) -> Option<[Complex64; 4]> {
-    crate::model::linear::eigenvalues(&spec.instance(index))
 }

@@ -1,6 +1,6 @@
 //! Eigenvalues along an axis.
 //!
-//! - [`follow`]: both modes from value to value, and their table.
+//! - [`follow`]: all modes from value to value, and their table.
 //! - [`figure`]: their figure; [`read`]: both read back.
 
 #[cfg(feature = "figures")]

@@ -9,7 +9,7 @@ use crate::results::read::folder::{Folder, Table, Why};
 use crate::results::read::map::drawn_spec;
 use crate::store::grid_json;
 use crate::study::error::Result;
-use crate::study::modes::follow::{COLUMNS, Document, Mode, Modes, along};
+use crate::study::modes::follow::{Document, Mode, Modes, along, columns};
 use crate::sweep::grid::Grid;
 use crate::sweep::spec::{Analysis, Spec, Starts};
 
@@ -56,20 +56,27 @@ fn sweep(document: &Document) -> Why<(Spec, Modes)> {
 
 /// Takes the modes from their table, which has a row for every instance.
 fn fill(modes: &mut Modes, table: &Table, instances: usize) -> Why<()> {
-    let rows = table.numbers(COLUMNS)?;
-    if rows.len() != instances {
-        return Err(format!("{} rows for {instances} instances", rows.len()));
+    if table.rows.len() != instances {
+        return Err(format!("{} rows for {instances} instances", table.rows.len()));
     }
+    let there = (1..).take_while(|mode| table.find(&columns(*mode)[0]).is_some());
+    let all: Why<Vec<Vec<[f64; 3]>>> =
+        there.map(columns).map(|names| table.numbers(names.each_ref().map(String::as_str))).collect();
+    let all = all?;
     let mode = |frequency: f64, growth_rate: f64, fast: f64| Mode {
         value: Complex64::new(growth_rate, TAU * frequency),
         fast: fast.is_finite().then_some(fast),
     };
-    let pair = |[f1, g1, fast1, f2, g2, fast2]: [f64; 6]| {
-        let defined = [f1, g1, f2, g2].iter().any(|number| number.is_finite());
-        defined.then(|| [mode(f1, g1, fast1), mode(f2, g2, fast2)])
+    let found = |instance: &usize| {
+        let numbers = || all.iter().map(|rows| rows[*instance]);
+        let defined =
+            numbers().any(|[frequency, growth_rate, _]| frequency.is_finite() || growth_rate.is_finite());
+        defined.then(|| {
+            numbers().map(|[frequency, growth_rate, fast]| mode(frequency, growth_rate, fast)).collect()
+        })
     };
     for branch in &mut modes.branches {
-        branch.modes = branch.instances.iter().map(|instance| pair(rows[*instance])).collect();
+        branch.modes = branch.instances.iter().map(found).collect();
     }
     Ok(())
 }

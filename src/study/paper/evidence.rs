@@ -2,7 +2,7 @@
 
 use crate::model::{Param, linear};
 use crate::study::error::Result;
-use crate::study::modes::follow::follow;
+use crate::study::modes::follow::modes_of;
 use crate::study::paper::accelerations::disturbance;
 use crate::study::paper::{Case, LIMITS, PhaseCase, PhaseTrial, Stretch, Study, Trial, Window};
 use crate::sweep::grid::{Axis, AxisKey, Grid, Value};
@@ -123,7 +123,7 @@ fn critical_velocity(spec: &Spec) -> Result<Option<f64>> {
     let values = (1..=STEPS).map(|k| Value::Number(fastest * f64::from(k) / f64::from(STEPS))).collect();
     let axis = Axis { key: AxisKey::Param(Param::BeltVelocity), values, log: false };
     let spec = Spec { grid: Grid::Axes(vec![axis]), ..spec.clone() };
-    let modes = follow(&spec, &|spec, index| linear::eigenvalues(&spec.instance(index)))?;
+    let modes = modes_of(&spec)?;
     Ok(modes.branches.first().and_then(|branch| branch.critical.last().copied()))
 }
 

@@ -2,10 +2,10 @@
 
 use std::sync::OnceLock;
 
+use crate::model::Param;
 use crate::model::instance::Instance;
-use crate::model::{Param, linear};
 use crate::study::error::Result;
-use crate::study::modes::follow::{Modes, follow};
+use crate::study::modes::follow::{Modes, modes_of};
 use crate::study::paper::accelerations;
 use crate::study::paper::accelerations::Trial;
 use crate::study::paper::growth::{Growth, PhaseCase};
@@ -52,7 +52,7 @@ impl Study {
     /// None with the shipped sweep; modes share one signature.
     pub fn modes(&self) -> Result<(Spec, Modes)> {
         let spec = FIGURE_2.spec();
-        let modes = follow(&spec, &|spec, index| linear::eigenvalues(&spec.instance(index)))?;
+        let modes = modes_of(&spec)?;
         Ok((spec, modes))
     }
 

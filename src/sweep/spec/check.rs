@@ -111,6 +111,15 @@ impl Check<'_> {
                     return unread(given, model::Kind::TwoMass);
                 }
                 if let Some(modal) = &self.files.modal {
+                    let above = Param::DAMPING_RATIOS.into_iter().skip(modal.modes());
+                    if let Some((at, key)) = above.into_iter().find_map(|param| self.param(param)) {
+                        let modes = modal.modes();
+                        return Err(unused(
+                            at,
+                            key,
+                            format!("a file of more modes than {modes}, which `{}` has", modal.name),
+                        ));
+                    }
                     return match self.param(Param::Kn).filter(|_| modal.contact.is_none()) {
                         Some((at, key)) => {
                             let by = "a file of modes with a range of contact stiffness, which a study writes with kn in [output]";

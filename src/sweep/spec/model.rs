@@ -44,7 +44,16 @@ impl Kind {
             | Param::Decay
             | Param::Temperature
             | Param::BeltVelocity => None,
-            Param::DampingRatio | Param::Kn => Some(Kind::Modal),
+            Param::DampingRatio
+            | Param::DampingRatio1
+            | Param::DampingRatio2
+            | Param::DampingRatio3
+            | Param::DampingRatio4
+            | Param::DampingRatio5
+            | Param::DampingRatio6
+            | Param::DampingRatio7
+            | Param::DampingRatio8
+            | Param::Kn => Some(Kind::Modal),
             // What only a motion in time shows is known of two masses alone.
             Param::M1
             | Param::M2

@@ -3,8 +3,8 @@
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
 use std::f64::consts::TAU;
-use std::fmt::Write as _;
 
+use crate::results::gallery_fem::{a_finite_element_study, a_varied_study, bodies};
 use crate::synthetic::{axis, map, number, paper_like, record, span, spec};
 use num_complex::Complex64;
 use squealmap::engine::backend::Backend;
@@ -28,7 +28,6 @@ use squealmap::study::curves::seek::PlaneCurves;
 use squealmap::study::cycles::branch::BranchPoint;
 use squealmap::study::cycles::curve::{self, CurvePoint, End};
 use squealmap::study::cycles::special::Special;
-use squealmap::study::fem::{Curve, Curves, State, Transition};
 use squealmap::study::hysteresis::follow::Hysteresis;
 use squealmap::study::identify::spectrogram::spectrogram_nc;
 use squealmap::study::paper::figures::{Growing, Shown, Slowdown};
@@ -53,7 +52,7 @@ pub(crate) struct Piece {
 }
 
 /// Leaves files in a directory.
-fn piece(kind: Kind, svg: String, files: [Vec<u8>; 2]) -> Piece {
+pub(super) fn piece(kind: Kind, svg: String, files: [Vec<u8>; 2]) -> Piece {
     let directory = tempfile::tempdir().unwrap();
     for (name, bytes) in kind.files().into_iter().zip(files) {
         std::fs::write(directory.path().join(name), bytes).unwrap();
@@ -73,7 +72,9 @@ pub(crate) fn all() -> Vec<Piece> {
         a_tradeoff(),
         an_identification(),
         a_finite_element_study(),
+        a_varied_study(),
     ];
+    pieces.extend([Kind::Shapes, Kind::Mesh].map(bodies));
     pieces.extend(Figure::ALL.map(of_the_paper));
     pieces
 }
@@ -155,47 +156,6 @@ fn an_identification() -> Piece {
     };
     let svg = identify::report::identify_svg(&shown, &Look::default()).unwrap();
     piece(Kind::Identify, svg, [spectrogram_nc(&shown.spectrogram, &shown.title), shown.document().unwrap()])
-}
-
-/// Three modes over friction, two of which coalesce; the files are those of `squealmap fem`.
-fn a_finite_element_study() -> Piece {
-    let mut table = "mu,mode,frequency,growth_rate,damping_ratio,unstable,residual,direct\n".to_owned();
-    let mus: Vec<f64> = (0..21).map(|k| f64::from(k) / 50.0).collect();
-    let states = |mu: f64| {
-        let apart = 0.21 - mu;
-        let (split, growth) =
-            if apart > 0.0 { (800.0 * apart.sqrt(), 0.0) } else { (0.0, 9000.0 * (-apart).sqrt()) };
-        [(12_000.0, 0.0), (14_500.0 - split, growth), (14_500.0 + split, 0.0 - growth)]
-    };
-    for mu in &mus {
-        for (k, (frequency, growth)) in states(*mu).into_iter().enumerate() {
-            let unstable = u8::from(growth > 0.0);
-            writeln!(table, "{mu},{},{frequency},{growth},0,{unstable},1e-9,0", k + 4).unwrap();
-        }
-    }
-    let transition =
-        serde_json::json!({ "event": "coalescence", "mu_c": 0.21, "frequency": 14500.0, "modes": [5, 6] });
-    let manifest = serde_json::json!({
-        "kind": "fem", "program": "squealmap 0.1.0", "title": "Two samples", "damped": false, "transitions": [transition],
-    });
-    let curve = |k: usize| {
-        let state = |mu: &f64| {
-            let (frequency, growth) = states(*mu)[k];
-            State { frequency, growth, grows: growth > 0.0 }
-        };
-        Curve { mode: k + 4, states: mus.iter().map(state).collect() }
-    };
-    let event = "coalescence".to_owned();
-    let curves = Curves {
-        title: "Two samples".to_owned(),
-        over: None,
-        mus: mus.clone(),
-        damped: false,
-        modes: (0..3).map(curve).collect(),
-        transitions: vec![Transition { event, mu: 0.21, frequency: 14_500.0, modes: vec![5, 6] }],
-    };
-    let svg = curves.svg(&Look::default()).unwrap();
-    piece(Kind::Fem, svg, [table.into_bytes(), manifest.to_string().into_bytes()])
 }
 
 /// A sine that sticks, flies and slides back, long enough for a second column.
@@ -292,7 +252,7 @@ fn some_modes() -> Piece {
         let (split, growth) = if apart > 0.0 { (apart, 0.0) } else { (0.0, -apart) };
         let [a, b] = [(1.0, -1.0), (-1.0, 1.0)]
             .map(|(side, sign)| Complex64::new(sign * 40.0 * growth - 0.5, 200.0 - side * 60.0 * split));
-        Some([a, a.conj(), b, b.conj()])
+        Some(vec![a, a.conj(), b, b.conj()])
     };
     let found = modes::follow::follow(&sweep, &two).unwrap();
     let svg = modes::follow::draw(&sweep, &found, &Look::default());

@@ -9,6 +9,7 @@ pub(crate) mod curves;
 pub(crate) mod export;
 pub(crate) mod figure;
 pub(crate) mod gallery;
+mod gallery_fem;
 pub(crate) mod gallery_plots;
 pub(crate) mod isolines;
 pub(crate) mod netcdf_file;

@@ -28,9 +28,10 @@ fn letters(svg: &str) -> usize {
 fn rows_of_panels_have_letters() {
     for piece in all() {
         let expected = match piece.kind {
-            Kind::Map | Kind::Refined | Kind::Modes | Kind::Fem => 2,
+            Kind::Map | Kind::Refined | Kind::Modes | Kind::Fem | Kind::Vary => 2,
+            Kind::Shapes => 1,
             Kind::Trace | Kind::Identify => 4,
-            Kind::Hysteresis | Kind::Curves | Kind::Tradeoff => 0,
+            Kind::Hysteresis | Kind::Curves | Kind::Tradeoff | Kind::Mesh => 0,
             Kind::Paper(figure) => match figure.name() {
                 "figure2" => 2,
                 "figure4" | "figure5" | "figure6" => 3,

@@ -82,7 +82,10 @@ fn every_figure_comes_back_from_its_directory() {
     assert_eq!(pieces.iter().map(|piece| piece.kind).collect::<Vec<_>>(), Kind::ALL, "one of each");
     for piece in &pieces {
         let name = piece.kind.name();
-        assert_eq!(Kind::choose(piece.directory.path(), None).unwrap(), piece.kind);
+        // Mesh and modes are in one file.
+        let first = if piece.kind == Kind::Mesh { Kind::Shapes } else { piece.kind };
+        assert_eq!(Kind::choose(piece.directory.path(), None).unwrap(), first);
+        assert_eq!(Kind::choose(piece.directory.path(), Some(piece.kind)).unwrap(), piece.kind);
         let picture = read(piece);
         let again = picture.svg(&Look::default()).unwrap();
         assert!(again == piece.svg, "{name}: not the same text");
@@ -119,7 +122,8 @@ fn without_sums(path: &Path) {
 /// The picture is drawn from the numbers in the table: another number is another picture.
 #[test]
 fn another_number_is_another_picture() {
-    for piece in all().iter().filter(|piece| piece.kind != Kind::Identify) {
+    let no_table = [Kind::Identify, Kind::Shapes, Kind::Mesh];
+    for piece in all().iter().filter(|piece| !no_table.contains(&piece.kind)) {
         let name = piece.kind.name();
         let labels = matches!(piece.kind, Kind::Map | Kind::Refined);
         let file =
@@ -139,9 +143,10 @@ fn another_number_is_another_picture() {
         }
         match Picture::read(piece.directory.path(), piece.kind) {
             Ok(picture) => assert!(picture.svg(&Look::default()).unwrap() != piece.svg, "{name}"),
-            // Both branches of a hysteresis have to have the same values, and a curve lies in a plane of its sweep.
+            // Both branches of a hysteresis have to have the same values, all modes of a variation too, and a curve lies in a plane of its
+            // sweep.
             Err(Error::OfResults(squealmap::results::error::Error::Archive { .. }))
-                if matches!(piece.kind, Kind::Hysteresis | Kind::Curves) => {}
+                if matches!(piece.kind, Kind::Hysteresis | Kind::Vary | Kind::Curves) => {}
             Err(why) => panic!("{name}: {why}"),
         }
         // What is no number, or no label, is named with its file.
@@ -149,6 +154,38 @@ fn another_number_is_another_picture() {
         std::fs::write(&path, text.replace(row, &broken)).unwrap();
         let error = Picture::read(piece.directory.path(), piece.kind).unwrap_err();
         assert!(error.is_bad_input() && error.to_string().contains(file), "{name}: {error}");
+    }
+}
+
+/// The same of bodies: another place of a node, or another displacement, is another picture, and what is no grid is an error.
+#[test]
+fn the_grid_belongs_to_its_figures() {
+    for piece in all().into_iter().filter(|piece| matches!(piece.kind, Kind::Shapes | Kind::Mesh)) {
+        let path = piece.directory.path().join("shapes.vtu");
+        let text = std::fs::read_to_string(&path).unwrap();
+        let array = if piece.kind == Kind::Mesh { "\"places\"" } else { "Hz, " };
+        let from = text.find(array).unwrap();
+        let line = from + text[from..].find('\n').unwrap() + 1;
+        let moved =
+            format!("{}1e-3 2e-3 5e-3{}", &text[..line], &text[line + text[line..].find('\n').unwrap()..]);
+        std::fs::write(&path, moved).unwrap();
+        assert!(read(&piece).svg(&Look::default()).unwrap() != piece.svg, "{}", piece.kind.name());
+        for (old, new, wanted) in [
+            ("<Cells>", "<Cell>", "it is no XML"),
+            ("\"places\"", "\"place\"", "it has no array \"places\" in <Points>"),
+            ("0 1 ", "0 99999 ", "has no 8 nodes"),
+            (
+                "Name=\"types\" format=\"ascii\">\n12",
+                "Name=\"types\" format=\"ascii\">\n7",
+                "its cell 0 is of type 7",
+            ),
+            ("mode 1 at", "mode 11 at", "has no shape \"mode 1 at mu 0, "),
+        ] {
+            assert!(text.contains(old), "{old}");
+            std::fs::write(&path, text.replace(old, new)).unwrap();
+            let error = Picture::read(piece.directory.path(), piece.kind).unwrap_err();
+            assert!(error.is_bad_input() && error.to_string().contains(wanted), "{error}");
+        }
     }
 }
 

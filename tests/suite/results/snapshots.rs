@@ -7,6 +7,7 @@ use std::path::PathBuf;
 
 use crate::results::gallery::all;
 use crate::results::gallery_plots::plots;
+use squealmap::study::Kind;
 
 /// A figure without what changes from commit to commit.
 fn lasting(svg: &str) -> String {
@@ -31,7 +32,9 @@ fn no_figure_has_changed_unseen() {
     let directory = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/suite/snapshots");
     let write = std::env::var_os("SQUEALMAP_SNAPSHOTS").is_some_and(|value| value == "write");
     let mut changed = Vec::new();
-    let kinds = all().into_iter().map(|piece| (format!("{}.svg", piece.kind.name()), piece.svg));
+    // Bodies are thousands of pieces, which crates/fem compares with closed forms.
+    let lines = all().into_iter().filter(|piece| !matches!(piece.kind, Kind::Shapes | Kind::Mesh));
+    let kinds = lines.map(|piece| (format!("{}.svg", piece.kind.name()), piece.svg));
     let others = plots().into_iter().map(|(name, drawn)| (name.to_owned(), drawn));
     for (name, drawn) in kinds.chain(others) {
         let drawn = lasting(&drawn);

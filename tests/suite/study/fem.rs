@@ -5,7 +5,7 @@ use std::process::Command;
 
 /// A pin on a block; two of its modes coalesce.
 const PIN: &str = include_str!("../../../crates/fem/tests/suite/study/pin.toml");
-const FILES: [&str; 9] = [
+const FILES: [&str; 12] = [
     "fem.csv",
     "manifest.json",
     "shapes.vtu",
@@ -15,6 +15,9 @@ const FILES: [&str; 9] = [
     "shapes.png",
     "mesh.svg",
     "mesh.png",
+    "vary.csv",
+    "vary.svg",
+    "vary.png",
 ];
 
 fn squealmap(directory: &Path, arguments: &[&str]) -> (i32, String, String) {
@@ -28,7 +31,8 @@ fn squealmap(directory: &Path, arguments: &[&str]) -> (i32, String, String) {
 #[test]
 fn a_study_gives_its_table_figures_and_shapes() {
     let directory = tempfile::tempdir().expect("as the test has set it up");
-    let text = PIN.replace("points = 26", "points = 11") + "\n[output]\nmodal = true\n";
+    let text = PIN.replace("points = 26", "points = 11")
+        + "\n[output]\nmodal = true\n\n[vary]\nparameter = \"stiffness\"\nmaterial = \"steel\"\nmu = 0.4\nvalues = { from = 1.0, to = 4.0, points = 3 }\n";
     std::fs::write(directory.path().join("pin.toml"), text).expect("as the test has set it up");
     let (code, said, noted) = squealmap(directory.path(), &["fem", "pin.toml", "--out", "here"]);
     assert_eq!(code, 0, "{said}{noted}");
@@ -56,6 +60,14 @@ fn a_study_gives_its_table_figures_and_shapes() {
     };
     assert!(drawn("fem.svg").len() > 20);
     assert_eq!(drawn("plot.svg"), drawn("fem.svg"));
+    assert!(noted.contains("there is also vary, shapes, mesh"), "{noted}");
+    for figure in ["vary", "shapes", "mesh"] {
+        let (code, said, noted) = squealmap(directory.path(), &["plot", "here", "--figure", figure]);
+        assert_eq!(code, 0, "{said}{noted}");
+        assert!(drawn("plot.svg").len() > 20);
+        assert_eq!(drawn("plot.svg"), drawn(&format!("{figure}.svg")), "{figure}");
+    }
+    assert!(read("vary.svg").contains(">Factor of the moduli of steel<"));
     // Two modes before they coalesce, and the one of both that grows.
     // Both parts in their colours, and what stands beside them.
     let mesh = read("mesh.svg");
@@ -131,8 +143,14 @@ fn a_bad_description_is_one_sentence_and_writes_nothing() {
         (
             "cells = [6, 2, 2]",
             "cells = [0, 2, 2]",
-            "pin.toml:4:8: parts.block: the block has no element along x, it needs at least 1",
+            "pin.toml:9:9: parts.block.cells: [0, 2, 2] elements, there must be at least 1 each way",
         ),
+        (
+            "cells = [6, 2, 2]",
+            "cells = [6, -2, 2]",
+            "pin.toml:9:9: parts.block.cells: [6, -2, 2] elements, there must be at least 1 each way",
+        ),
+        ("cells = [6, 2, 2]", "cells = [6000000000, 2000000000, 2000000000]", "it may have 2000000"),
         ("set = \"pin.z1\"", "set = \"pin.top\"", "supports[1].set: the mesh has no set \"pin.top\""),
         ("[modes]", "[modes", "error: pin.toml:"),
     ] {
@@ -145,6 +163,14 @@ fn a_bad_description_is_one_sentence_and_writes_nothing() {
         assert!(flat.contains(wanted) && flat.starts_with("error: pin.toml:"), "{flat}\n{wanted}");
         assert_eq!(std::fs::read_dir(directory.path()).expect("as the test has set it up").count(), 1);
     }
+    // What comes out while it is computed.
+    let free = PIN.replace("set = \"pin.z1\"", "set = \"pin.z1\"\naxes = \"z\"");
+    std::fs::write(directory.path().join("pin.toml"), free).expect("as the test has set it up");
+    let (code, _, noted) = squealmap(directory.path(), &["fem", "pin.toml"]);
+    let flat = noted.split_whitespace().collect::<Vec<_>>().join(" ");
+    let wanted = "error: pin.toml:25:1: the stiffness matrix is singular: a body can move without a force; hold it by supports";
+    assert!(code == 2 && flat.contains(wanted), "{flat}");
+    assert_eq!(std::fs::read_dir(directory.path()).expect("as the test has set it up").count(), 1);
     let (code, _, noted) = squealmap(directory.path(), &["fem", "none.toml"]);
     assert_eq!(code, 2, "{noted}");
     assert!(noted.contains("cannot read"), "{noted}");

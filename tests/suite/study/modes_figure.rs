@@ -5,7 +5,7 @@ use num_complex::Complex64;
 use squealmap::model::linear::eigenvalues;
 use squealmap::results::figure::look::Look;
 use squealmap::study::error::Error;
-use squealmap::study::modes::follow::{draw, follow, modes_csv, modes_svg};
+use squealmap::study::modes::follow::{Mode, draw, follow, modes_csv, modes_svg};
 use squealmap::sweep::spec::Spec;
 
 fn sweep(sections: &str, axes: &str) -> Spec {
@@ -13,8 +13,8 @@ fn sweep(sections: &str, axes: &str) -> Spec {
     Spec::parse(&text, "test", std::path::Path::new(".")).expect("a valid sweep")
 }
 
-fn of(spec: &Spec, index: usize) -> Option<[Complex64; 4]> {
-    eigenvalues(&spec.instance(index))
+fn of(spec: &Spec, index: usize) -> Option<Vec<Complex64>> {
+    eigenvalues(&spec.instance(index)).map(Vec::from)
 }
 
 const CONSTANT: &str = "[friction]\nlaw = \"constant\"\n[belt]\nbelt_velocity = 3.0";
@@ -35,16 +35,18 @@ fn the_critical_friction_is_found_between_the_points() {
 
 #[test]
 fn modes_keep_their_names_where_frequencies_cross() {
-    // Two uncoupled modes whose frequencies cross: ordering by frequency would swap them.
-    let spec = sweep(CONSTANT, "mu_d = { from = 0.0, to = 1.0, points = 21 }");
+    // Three uncoupled modes whose frequencies cross, by steps as large as they are apart: ordering by frequency would swap them, and so
+    // would joining what is nearest.
+    let spec = sweep(CONSTANT, "mu_d = { from = 0.0, to = 1.0, points = 6 }");
     let crossing = |spec: &Spec, index: usize| {
         let mu = spec.instance(index).params.require(squealmap::model::Param::MuD);
-        let (a, b) = (Complex64::new(-1.0, 100.0 + 50.0 * mu), Complex64::new(2.0, 140.0 - 40.0 * mu));
-        Some([b, a.conj(), b.conj(), a])
+        let [a, b, c] = [(-1.0, 100.0 + 60.0 * mu), (2.0, 148.0 - 60.0 * mu), (1.0, 131.0 + mu)]
+            .map(|(growth, omega)| Complex64::new(growth, omega));
+        Some(vec![b, a.conj(), c, b.conj(), a, c.conj()])
     };
     let modes = follow(&spec, &crossing).expect("an axis of numbers");
-    for pair in modes.branches[0].modes.iter().flatten() {
-        assert_eq!((pair[0].growth_rate(), pair[1].growth_rate()), (-1.0, 2.0));
+    for all in modes.branches[0].modes.iter().flatten() {
+        assert_eq!(all.iter().map(Mode::growth_rate).collect::<Vec<_>>(), [-1.0, 1.0, 2.0]);
     }
     render(&draw(&spec, &modes, &Look::default()), "modes_crossing");
 }

@@ -12,11 +12,12 @@ use squealmap::engine::options::Options;
 use squealmap::engine::record::Record;
 use squealmap::model::Param;
 use squealmap::model::kind::InstabilityType;
-use squealmap::model::linear::{analyse, eigenvalues};
-use squealmap::model::modal::At;
+use squealmap::model::linear::{analyse, eigenvalues, spectrum};
+use squealmap::model::modal::{At, EACH};
 use squealmap::model::status::Status;
 use squealmap::store::description::Description;
 use squealmap::store::identity::identity;
+use squealmap::study::modes::follow::{Mode, modes_of};
 use squealmap::sweep::grid::{Axis, Grid};
 use squealmap::sweep::run::run;
 use squealmap::sweep::solver::Solver;
@@ -183,6 +184,35 @@ fn one_mechanism_alone_is_known_in_closed_form() {
     assert!((linear.growth_rate - 0.5).abs() < 1e-6 && linear.growth_rate_flat.abs() < 1e-9, "{linear:?}");
 }
 
+/// Modes of 10, 20 and 30 rad/s in skew coordinates, with damping ratios of their own along an axis: λ = ω (−ζ ± i √(1 − ζ²)).
+#[test]
+fn each_mode_may_have_its_damping() {
+    let directory = tempfile::tempdir().unwrap();
+    let file = "kind = \"modal\"\nversion = 2\ntitle = \"\"\nmu = [0.0, 1.0]\nmodes = 3\nload = 1.0\n\
+                stiffness = [[100.0, 100.0, 0.0], [100.0, 500.0, 400.0], [0.0, 400.0, 1300.0]]\n\
+                mass = [[1.0, 1.0, 0.0], [1.0, 2.0, 1.0], [0.0, 1.0, 2.0]]\n";
+    std::fs::write(directory.path().join("skew.toml"), file).unwrap();
+    let text = "analysis = [\"linear\"]\n[model]\nkind = \"modal\"\nmodes = \"skew.toml\"\ndamping_ratio = 0.02\ndamping_ratio_3 = 0.5\n\
+                [friction]\nlaw = \"constant\"\nmu_d = 0\n[belt]\nbelt_velocity = 1\n[axes]\ndamping_ratio_1 = { values = [0, 0.1, 0.3] }\n";
+    let spec = Spec::parse(text, "test.toml", directory.path()).unwrap();
+    // One damped mode of three: what rounding makes of the others does not grow.
+    let one = text
+        .replace("damping_ratio = 0.02\ndamping_ratio_3 = 0.5\n", "")
+        .replace("mu_d = 0\n", "")
+        .replace("[axes]\n", "[axes]\nmu_d = { values = [0, 0.1, 0.2, 0.3] }\n");
+    let modes = modes_of(&Spec::parse(&one, "test.toml", directory.path()).unwrap()).unwrap();
+    assert_eq!(modes.branches.len(), 3);
+    assert!(modes.branches.iter().all(|branch| branch.critical.is_empty()), "{modes:?}");
+    for (index, first) in [0.0, 0.1, 0.3].into_iter().enumerate() {
+        let found = spectrum(&spec.instance(index)).unwrap();
+        for (omega, ratio) in [(10.0, 0.02 + first), (20.0, 0.02), (30.0, 0.52)] {
+            let wanted = Complex64::new(-ratio, f64::sqrt(1.0 - ratio * ratio)) * omega;
+            let nearest = found.iter().map(|z| (z - wanted).norm()).fold(f64::INFINITY, f64::min);
+            assert!(nearest < 1e-11 * omega, "{first}: {wanted} is not in {found:?}");
+        }
+    }
+}
+
 fn three_of(rest: &str) -> (InstabilityType, squealmap::model::linear::Linear) {
     let record = three(THREE, rest);
     (record.kind.unwrap(), record.linear.unwrap())
@@ -238,17 +268,17 @@ fn a_contact_stiffness_is_known_in_closed_form() {
         )
     };
     let stiffnesses = [1e6, k0, 3.9e6, 6e6];
-    let found = |c: f64, mu: f64, ratio: f64| {
+    let found = |c: f64, mu: f64, [ratio, more]: [f64; 2]| {
         std::fs::write(directory.path().join("contact.toml"), file(c)).unwrap();
         let rest = format!(
-            "damping_ratio = {ratio}\n[friction]\nlaw = \"constant\"\nmu_d = {mu}\n[belt]\nbelt_velocity = 1\n[axes]\nkn = {{ values = {stiffnesses:?} }}\n"
+            "damping_ratio = {ratio}\ndamping_ratio_1 = {more}\n[friction]\nlaw = \"constant\"\nmu_d = {mu}\n[belt]\nbelt_velocity = 1\n[axes]\nkn = {{ values = {stiffnesses:?} }}\n"
         );
         let records = records(directory.path(), "kind = \"modal\"\nmodes = \"contact.toml\"\n", &rest);
         records.iter().map(|record| record.linear.unwrap()).collect::<Vec<_>>()
     };
     let c = -3e5;
     let mut unstable = 0;
-    for (k, linear) in stiffnesses.iter().zip(found(c, 0.4, 0.0)) {
+    for (k, linear) in stiffnesses.iter().zip(found(c, 0.4, [0.0; 2])) {
         let (sum, product) = (a + k, a * k - c * (c + 0.4 * k));
         let root = Complex64::from(sum * sum / 4.0 - product).sqrt();
         let lambdas = [sum / 2.0 + root, sum / 2.0 - root].map(|theta| (-theta).sqrt());
@@ -260,7 +290,12 @@ fn a_contact_stiffness_is_known_in_closed_form() {
         unstable += usize::from(growth > 1.0);
     }
     assert!((1..stiffnesses.len()).contains(&unstable), "{unstable}");
-    for (k, linear) in stiffnesses.iter().zip(found(0.0, 0.0, 0.1)) {
+    for (k, linear) in stiffnesses.iter().zip(found(0.0, 0.0, [0.1, 0.4])) {
+        // One half of the lower, a tenth of the higher: that decays more slowly.
+        let (low, high) = (a.min(*k).sqrt(), a.max(*k).sqrt());
+        assert!((linear.growth_rate + (0.5 * low).min(0.1 * high)).abs() < 1e-9 * high, "{k}: {linear:?}");
+    }
+    for (k, linear) in stiffnesses.iter().zip(found(0.0, 0.0, [0.1, 0.0])) {
         // The slower one decays most slowly.
         let omega = a.min(*k).sqrt();
         assert!((linear.growth_rate + 0.1 * omega).abs() < 1e-9 * omega, "{k}: {linear:?}");
@@ -286,6 +321,7 @@ fn what_a_modal_model_does_not_read_is_refused() {
         ("modes = \"three.toml\"", "[start]\nkind = \"mode\"", format!("`kind` in [start] would have no effect: {two_mass}")),
         ("modes = \"three.toml\"", "[start]\nstart_velocity = 1", format!("`start_velocity` in [start] would have no effect: {two_mass}")),
         ("modes = \"three.toml\"", "[response]\nsettle = \"auto\"", format!("a response would have no effect: {two_mass}, since a modal model has eigenvalues alone")),
+        ("modes = \"three.toml\"\ndamping_ratio_4 = 0.1", "", "`damping_ratio_4` in [model] would have no effect: it is used only by a file of more modes than 3, which `three.toml` has".to_owned()),
         ("modes = \"three.toml\"", "[axes]\nkn = { values = [1e9, 2e9] }", "axis `kn` would have no effect: it is used only by a file of modes with a range of contact stiffness".to_owned()),
         ("", "", "`modes` is missing: kind = \"modal\" in [model] is a file of modes, so write modes = \"modes.toml\" in [model]".to_owned()),
         ("modes = \"none.toml\"", "", "cannot read the modes file `".to_owned()),
@@ -389,6 +425,24 @@ fn the_program_maps_a_structure_and_refuses_what_it_has_not() {
         "{}",
         checked.out
     );
+    // The third mode knows nothing of friction.
+    let ended = squealmap(here, &["modes", "map.toml", "--output", "c"]);
+    assert_eq!(ended.code, Some(0), "{}", ended.err);
+    let table = std::fs::read_to_string(here.join("c/modes.csv")).unwrap();
+    let mut reader = csv::Reader::from_reader(table.as_bytes());
+    let third = reader.headers().unwrap().iter().position(|name| name == "frequency_3").unwrap();
+    let thirds: Vec<f64> = reader.records().map(|row| row.unwrap()[third].parse().unwrap()).collect();
+    assert_eq!(thirds.len(), 25);
+    assert!(thirds.iter().all(|hertz| (hertz * TAU - 30.0).abs() < 1e-9), "{thirds:?}");
+    let drawn = |path: &str| std::fs::read_to_string(here.join(path)).unwrap();
+    let figure = drawn("c/modes.svg");
+    assert!(figure.contains(">unstable<") && !figure.contains(">mode 1<"), "{}", &figure[..2000]);
+    let ended = squealmap(here, &["plot", "c"]);
+    assert_eq!(ended.code, Some(0), "{}", ended.err);
+    let curves = |text: &str| {
+        text.lines().filter(|line| line.starts_with("<path")).map(str::to_owned).collect::<Vec<_>>()
+    };
+    assert_eq!(curves(&drawn("c/plot.svg")), curves(&figure));
     // Friction beyond that of the vectors is said, and computed.
     assert!(!checked.err.contains("vectors"), "{}", checked.err);
     let far = std::fs::read_to_string(here.join("map.toml"))
@@ -406,7 +460,6 @@ fn the_program_maps_a_structure_and_refuses_what_it_has_not() {
             vec!["trace", "map.toml", "--at", "mu_s=0.1,mu_d=0.1"],
             "`trace` needs two masses, but the model is the modes of three.toml: a modal model has eigenvalues alone, which `run` maps",
         ),
-        (vec!["modes", "map.toml"], "`modes` needs two masses"),
         (vec!["tradeoff", "map.toml"], "`tradeoff` needs two masses"),
         (
             vec!["run", "map.toml", "--backend", "gpu"],
@@ -451,6 +504,29 @@ fn code_names_the_file_of_modes() {
     assert!(wrong.starts_with(".set(Param::Theta, 0.1): `theta` in [model] would have no effect"), "{wrong}");
 }
 
+/// `modes` finds the critical friction of the study (`docs/fem_paper.md`) by bisection, and each mode goes on as it has come.
+#[test]
+fn modes_of_a_structure_are_followed() {
+    let directory = concat!(env!("CARGO_MANIFEST_DIR"), "/sweeps/fem");
+    let text = "analysis = [\"linear\"]\n[model]\nkind = \"modal\"\nmodes = \"fem_modes.toml\"\n[friction]\nlaw = \"constant\"\n[belt]\n\
+                belt_velocity = 1\n[axes]\nmu_d = { from = 0, to = 0.4, points = 21 }\n";
+    let found = modes_of(&Spec::parse(text, "test.toml", directory.as_ref()).unwrap()).unwrap();
+    let branch = &found.branches[0];
+    assert_eq!((found.count(), branch.critical.len()), (6, 1));
+    assert!((branch.critical[0] - 0.199_213).abs() < 1e-6, "{:?}", branch.critical);
+    let rows: Vec<&Vec<_>> = branch.modes.iter().flatten().collect();
+    assert_eq!(rows.len(), 21);
+    for k in 0..6 {
+        for pair in rows.windows(2) {
+            let moved = (pair[1][k].frequency() - pair[0][k].frequency()).abs();
+            // Least apart at the beginning are two that lie 238 Hz from each other.
+            assert!(moved < 200.0, "mode {k} jumps by {moved} Hz");
+        }
+    }
+    let growth = rows[20].iter().map(Mode::growth_rate).fold(0.0, f64::max);
+    assert!((growth - 4821.2).abs() < 0.1, "{growth}");
+}
+
 /// The shipped map is that of the study's own numbers (`docs/fem_paper.md`), and has the types that its page names.
 #[test]
 fn the_shipped_map_is_that_of_the_papers_model() {
@@ -460,7 +536,7 @@ fn the_shipped_map_is_that_of_the_papers_model() {
     assert_eq!((modal.modes(), modal.size()), (6, 16));
     assert!((modal.load - 17.0).abs() < 1e-10);
     let growth = |mu: f64| {
-        let all = modal.eigenvalues(At { mu, slope: 0.0, ratio: 0.0, kn: None }).unwrap();
+        let all = modal.eigenvalues(At { mu, slope: 0.0, ratio: 0.0, each: [0.0; EACH], kn: None }).unwrap();
         all.iter().map(|z| z.re).fold(0.0, f64::max)
     };
     // Growth rises as the root of the distance from the critical friction.
@@ -468,7 +544,7 @@ fn the_shipped_map_is_that_of_the_papers_model() {
     assert!(growth(critical - 2e-7) == 0.0 && growth(critical + 2e-7) > 0.1);
     assert!((growth(0.4) - 4821.2).abs() < 0.1, "{}", growth(0.4));
     let frequency = modal
-        .eigenvalues(At { mu: 0.4, slope: 0.0, ratio: 0.0, kn: None })
+        .eigenvalues(At { mu: 0.4, slope: 0.0, ratio: 0.0, each: [0.0; EACH], kn: None })
         .unwrap()
         .iter()
         .max_by(|a, b| a.re.total_cmp(&b.re))

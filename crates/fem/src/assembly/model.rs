@@ -2,7 +2,7 @@
 
 use super::{Penalty, Point, Supports};
 use crate::Error;
-use crate::elements::{Kind, Matrices, add_geometric, matrices};
+use crate::elements::{Inertia, Kind, Matrices, add_geometric, matrices};
 use crate::material::Material;
 use crate::mesh::Mesh;
 
@@ -22,6 +22,8 @@ pub struct Model {
     /// Displacements (m) of all nodes whose stress stiffens the bodies: those of a static step. That is the stiffness of the elements
     /// only: how the contact's normals turn is left out.
     pub stressed: Option<Vec<[f64; 3]>>,
+    /// Where the mass of elements is integrated.
+    pub inertia: Inertia,
 }
 
 impl Model {
@@ -44,7 +46,7 @@ impl Model {
         })?;
         let places: Vec<[f64; 3]> = nodes.iter().map(|node| self.mesh.nodes[*node]).collect();
         let inverted = |determinant| Error::Inverted { element, kind: kind.name(), determinant };
-        let mut matrices = matrices(kind, &places, material).map_err(inverted)?;
+        let mut matrices = matrices(kind, &places, material, self.inertia).map_err(inverted)?;
         if let Some(moved) = &self.stressed {
             let moved: Vec<[f64; 3]> = nodes.iter().map(|node| moved[*node]).collect();
             add_geometric(&mut matrices.stiffness, kind, &places, material, &moved).map_err(inverted)?;

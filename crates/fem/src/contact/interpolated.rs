@@ -38,7 +38,7 @@ pub fn bonded_points(
             }
             other => Err(Error::Contact {
                 what: format!(
-                    "node {slave} of a bond at ({}, {}, {}) m lies {:e} m beside the other surface (limit {limit:e} m): let the larger \
+                    "node {slave} of a bond at ({:.6}, {:.6}, {:.6}) m lies {:.2e} m beside the other surface (limit {limit:.1e} m): let the larger \
                      surface be the master, or name other faces",
                     x[0],
                     x[1],

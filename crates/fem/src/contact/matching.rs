@@ -21,7 +21,7 @@ fn pairs(
         let x = [0, 1, 2].map(|i| mesh.nodes[*slave][i] + shift[i]);
         let Some(master) = places.at(x) else {
             let what = format!(
-                "node {slave} of the contact at ({}, {}, {}) m has no partner on the other surface within {near:e} m: the \
+                "node {slave} of the contact at ({:.6}, {:.6}, {:.6}) m has no partner on the other surface within {near:.1e} m: the \
                  surfaces do not match or do not meet",
                 x[0], x[1], x[2]
             );
@@ -99,7 +99,7 @@ pub(super) fn axes(normal: [f64; 3], direction: [f64; 3]) -> Result<([f64; 3], [
     }
     if dot.abs() > ACROSS {
         let what = format!(
-            "the direction of sliding leaves the surface: it is {dot:e} along the normal, it must be across it"
+            "the direction of sliding leaves the surface: it is {dot:.3} along the normal, it must be across it"
         );
         return Err(Error::Contact { what });
     }

@@ -141,7 +141,7 @@ pub(super) fn one_plane<'a>(
     let limit = FLAT * mesh.extent();
     if high - low > limit {
         let what = format!(
-            "the surfaces of a contact lie up to {:e} m apart along its normal, they may lie {limit:e} m apart: they have to be flat \
+            "the surfaces of a contact lie up to {:.2e} m apart along its normal, they may lie {limit:.1e} m apart: they have to be flat \
              and meet",
             high - low
         );

@@ -1,6 +1,6 @@
 //! Stiffness and consistent mass of one element.
 
-use super::{Kind, Point, Shape, mass_rule, shape, stiffness_rule};
+use super::{Inertia, Kind, Point, Shape, mass_rule, shape, stiffness_rule};
 use crate::material::{Material, inverse3};
 
 /// Square matrices of one element, row by row; degree of freedom 3 a + i is direction i of local node a.
@@ -29,7 +29,12 @@ pub(crate) fn jacobian(nodes: &[[f64; 3]], gradient: &[[f64; 3]]) -> [[f64; 3]; 
 ///
 /// # Errors
 /// The determinant of the Jacobian, where it is not positive at a point of integration.
-pub fn matrices(kind: Kind, nodes: &[[f64; 3]], material: &Material) -> Result<Matrices, f64> {
+pub fn matrices(
+    kind: Kind,
+    nodes: &[[f64; 3]],
+    material: &Material,
+    inertia: Inertia,
+) -> Result<Matrices, f64> {
     let size = 3 * kind.nodes();
     let mut stiffness = vec![0.0; size * size];
     for point in stiffness_rule(kind) {
@@ -41,7 +46,7 @@ pub fn matrices(kind: Kind, nodes: &[[f64; 3]], material: &Material) -> Result<M
         }
     }
     let mut mass = vec![0.0; size * size];
-    for point in mass_rule(kind) {
+    for point in mass_rule(kind, inertia) {
         let Shape { value, gradient } = shape(kind, point.at);
         let determinant = positive(inverse3(&jacobian(nodes, &gradient)).1)?;
         let scale = material.density * determinant * point.weight;

@@ -106,11 +106,21 @@ pub fn stiffness_rule(kind: Kind) -> Vec<Point> {
     }
 }
 
-/// The points at which the mass of an element is integrated: exact for products of shape functions where edges are straight
-/// and opposite faces parallel.
+/// Where the mass of an element is integrated.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Inertia {
+    /// At enough points for products of shape functions, where edges are straight and opposite faces parallel.
+    #[default]
+    Exact,
+    /// As CalculiX does: at the points of the stiffness, which are too few for Hex20R, Tet4, Tet10 and Wedge15.
+    Calculix,
+}
+
+/// The points at which the mass of an element is integrated.
 #[must_use]
-pub fn mass_rule(kind: Kind) -> Vec<Point> {
+pub fn mass_rule(kind: Kind, inertia: Inertia) -> Vec<Point> {
     match kind {
+        _ if inertia == Inertia::Calculix => stiffness_rule(kind),
         Kind::Hex8 => brick(2),
         Kind::Hex20 | Kind::Hex20Reduced => brick(3),
         Kind::Tet4 | Kind::Tet10 => tetrahedron(),

@@ -2,7 +2,7 @@
 
 use super::Mesh;
 use crate::Error;
-use crate::elements::{jacobian, mass_rule, shape, stiffness_rule};
+use crate::elements::{Inertia, jacobian, mass_rule, shape, stiffness_rule};
 use crate::material::inverse3;
 
 /// Checks every element of a mesh.
@@ -31,7 +31,9 @@ pub fn check(mesh: &Mesh) -> Result<(), Error> {
         let places: Vec<[f64; 3]> = nodes.iter().map(|node| mesh.nodes[*node]).collect();
         // Corners, too: swapped nodes of a quadratic element can leave the points of integration as they should be.
         let corners = kind.reference().into_iter().take(kind.corners());
-        for at in corners.chain(stiffness_rule(kind).iter().chain(&mass_rule(kind)).map(|point| point.at)) {
+        for at in corners
+            .chain(stiffness_rule(kind).iter().chain(&mass_rule(kind, Inertia::Exact)).map(|point| point.at))
+        {
             let (_, determinant) = inverse3(&jacobian(&places, &shape(kind, at).gradient));
             if !(determinant > 0.0) {
                 return Err(Error::Inverted { element, kind: kind.name(), determinant });

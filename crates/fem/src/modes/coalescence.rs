@@ -102,8 +102,10 @@ pub fn coalescence_small(basis: &Basis, mu: f64, pair: &Pair) -> Result<Coalesce
             return Ok(Coalescence { mu, omega2: theta * unit, step: d_mu.abs(), steps, vectors: border });
         }
     }
-    let what =
-        format!("no coalescence was found near mu = {mu} and {} Hz: start nearer to it", pair.frequency());
+    let what = format!(
+        "no coalescence was found near mu = {mu:.6} and {:.1} Hz: start nearer to it",
+        pair.frequency()
+    );
     Err(Error::Solver { what })
 }
 

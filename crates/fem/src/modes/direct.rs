@@ -122,7 +122,7 @@ pub fn near(pencil: &Pencil, factor: &Factor, mu: f64, count: usize, bound: f64)
             }
             if last {
                 let what = format!(
-                    "of {count} complex modes near the shift {:e} 1/s2 the worst has a residual of {worst:e} (limit {bound:e}) \
+                    "of {count} complex modes near the shift {:.6e} 1/s2 the worst has a residual of {worst:.1e} (limit {bound:e}) \
                      after {done} Arnoldi vectors: ask for fewer",
                     factor.shift
                 );

@@ -173,11 +173,9 @@ impl Factor {
 }
 
 fn singular(shift: f64) -> Error {
-    let what = if shift == 0.0 {
-        "the stiffness matrix is singular: a body can move without a force. Clamp it, or shift below 0"
-            .to_owned()
-    } else {
-        format!("the shift {shift:e} 1/s2 is an eigenvalue to within rounding: move it")
-    };
+    if shift == 0.0 {
+        return Error::Free;
+    }
+    let what = format!("the shift {shift:.6e} 1/s2 is an eigenvalue to within rounding: move it");
     Error::Solver { what }
 }

@@ -18,7 +18,8 @@ pub fn likeness(x: &[c64], y: &[c64]) -> f64 {
 }
 
 /// Follows the `count` first pairs of the first value of μ through all values. Each pair belongs to one mode at most; the most alike
-/// are joined first. Where shapes do not decide, as after two have coalesced, the nearer eigenvalue does.
+/// are joined first. Where shapes do not decide, as after two have coalesced, the nearer eigenvalue does: its distance counts over the
+/// sum of both, which is below 1 however far all modes move from one value to the next.
 #[must_use]
 pub fn follow(steps: &[Vec<Pair>], count: usize) -> Vec<Branch> {
     let lambdas: Vec<Vec<c64>> =
@@ -43,7 +44,8 @@ pub fn follow_by(
         for (b, branch) in branches.iter().enumerate() {
             let at = branch.at[branch.at.len() - 1];
             for (k, new) in after.iter().enumerate() {
-                let apart = (new - before[at]).norm() / before[at].norm().max(f64::MIN_POSITIVE);
+                let both = (new.norm() + before[at].norm()).max(f64::MIN_POSITIVE);
+                let apart = (new - before[at]).norm() / both;
                 offers.push((alike(i, at, k) - apart, b, k));
             }
         }

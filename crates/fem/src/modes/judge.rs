@@ -71,7 +71,7 @@ impl Judge {
         let energy = basis.energy(factor.shift);
         let cholesky = energy.llt(Side::Lower).map_err(|_| Error::Solver {
             what: format!(
-                "the shift {:e} 1/s2 of the factor lies above an eigenvalue: move it below",
+                "the shift {:.6e} 1/s2 of the factor lies above an eigenvalue: move it below",
                 factor.shift
             ),
         })?;

@@ -56,7 +56,7 @@ pub fn nearby(
         now = best.unwrap_or(now);
     }
     let what = format!(
-        "the complex mode near {} Hz has a residual of {residual:e} (limit {bound:e}): use more real modes",
+        "the complex mode near {:.1} Hz has a residual of {residual:.1e} (limit {bound:e}): use more real modes",
         pair.frequency()
     );
     Err(Error::Solver { what })

@@ -38,6 +38,8 @@ const BLOCK: usize = 4;
 pub fn lowest(pencil: &Pencil, factor: &Factor, count: usize) -> Result<RealModes, Error> {
     /// The residual to which Ritz values are followed.
     const CONVERGED: f64 = 1e-9;
+    /// The part of the vectors that is added before Ritz values are looked at again.
+    const PART: usize = 16;
     let size = pencil.size();
     if count == 0 || count > size {
         let what =
@@ -50,6 +52,8 @@ pub fn lowest(pencil: &Pencil, factor: &Factor, count: usize) -> Result<RealMode
     append(&mut basis, &pencil.mass, &block);
     // T = Vᵀ M (K − σ M)⁻¹ M V, column by column.
     let mut projected: Vec<Vec<f64>> = Vec::new();
+    // Of many vectors the eigenvalues of T cost more than a few vectors too many.
+    let mut next = count + BLOCK;
     loop {
         let from = projected.len();
         let width = basis.ncols() - from;
@@ -66,9 +70,10 @@ pub fn lowest(pencil: &Pencil, factor: &Factor, count: usize) -> Result<RealMode
         }
         // Nothing is left to add, or no more is allowed: the residuals decide.
         let exhausted = basis.ncols() == done;
-        if !(done >= count + BLOCK || exhausted) {
+        if !(done >= next || exhausted) {
             continue;
         }
+        next = done + done / PART;
         let t = Mat::from_fn(done, done, |i, j| projected[i.max(j)][i.min(j)]);
         let (values, vectors) = symmetric(&t)?;
         // The part of the image of a Ritz vector that leaves the space.
@@ -115,7 +120,7 @@ fn checked(
     if residual.len() < count || residual.iter().any(|r| !(*r <= LARGEST)) {
         let worst = residual.iter().copied().fold(0.0, f64::max);
         let what = format!(
-            "{} of {count} real modes were found, with a residual of up to {worst:e} (limit {LARGEST:e}): check the units of \
+            "{} of {count} real modes were found, with a residual of up to {worst:.1e} (limit {LARGEST:e}): check the units of \
              the mesh and the materials",
             residual.len()
         );

@@ -187,7 +187,13 @@ fn slide(mesh: &Mesh, key: &str, pair: &Sliding) -> Result<(Vec<Point>, Vec<Face
 
 fn press(mesh: &Mesh, key: &str, load: &Load) -> Result<(Vec<FaceRef>, f64), Error> {
     let faces = faces_of(mesh, &format!("{key}.set"), &load.set)?;
+    let nothing = |name: &str, unit: &str| {
+        let what = format!("0 {unit} presses nothing, it must be another number: leave the load out instead");
+        Err(Error::at(format!("{key}.{name}"), what))
+    };
     let pressure = match (load.pressure, load.force) {
+        (Some(0.0), None) => return nothing("pressure", "Pa"),
+        (None, Some(0.0)) => return nothing("force", "N"),
         (Some(pressure), None) => pressure,
         (None, Some(force)) => {
             let (area, _) = flat(mesh, faces).map_err(|why| Error::at(format!("{key}.set"), why))?;

@@ -263,7 +263,7 @@ fn complete(pencil: &Pencil, ordering: &Ordering, frequencies: &[f64], count: us
         return Ok(());
     }
     let what = format!(
-        "{above} real modes were found below {} Hz, where there are {found}: ask for a few more or fewer modes",
+        "{above} real modes were found below {:.1} Hz, where there are {found}: ask for a few more or fewer modes",
         frequencies[above]
     );
     Err(Error::Solver { what })

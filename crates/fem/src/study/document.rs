@@ -57,7 +57,7 @@ pub enum Part {
         /// Lengths of the edges, m.
         size: [f64; 3],
         /// Elements along each edge.
-        cells: [usize; 3],
+        cells: [i64; 3],
         /// Name of its material.
         material: String,
     },
@@ -72,7 +72,7 @@ pub enum Part {
         /// Length along z, m.
         height: f64,
         /// Elements along each side of a square core, from there to the outside, along z.
-        cells: [usize; 3],
+        cells: [i64; 3],
         /// Name of its material.
         material: String,
     },
@@ -90,7 +90,7 @@ pub enum Part {
         #[serde(default = "turn")]
         degrees: [f64; 2],
         /// Elements along the radius, around, along z.
-        cells: [usize; 3],
+        cells: [i64; 3],
         /// Name of its material.
         material: String,
     },
@@ -380,6 +380,7 @@ impl Document {
 fn in_words(message: &str) -> String {
     let plain = message.trim().replace('\n', "; ");
     let plain = plain.replace("expected usize", "expected a whole number from 0 on");
+    let plain = plain.replace("expected i64", "expected a whole number");
     plain.replace("expected f64", "expected a number")
 }
 

@@ -35,6 +35,34 @@ pub fn manifest(study: &Study, outcome: &Outcome, description: &str, program: &s
             "open_points": pressed.open,
         })
     });
+    let sliding = study.model.contact.first().map(|point| {
+        json!({
+            "points": study.model.contact.len(),
+            "direction": point.direction,
+            "normal": point.normal,
+            "turns": study.document.sliding.iter().any(|one| one.axis.is_some()),
+        })
+    });
+    let varied = study.document.vary.as_ref().zip(outcome.variation.as_ref()).map(|(vary, found)| {
+        let [quantity, unit] = vary.words();
+        json!({
+            "parameter": vary.parameter.name(),
+            "quantity": quantity,
+            "unit": unit,
+            "material": vary.material,
+            "mu": vary.mu,
+            "damped": found.damped,
+        })
+    });
+    let shapes = outcome.shapes.iter().map(|shape| {
+        json!({
+            "name": shape.name(),
+            "mode": shape.mode + 1,
+            "mu": shape.mu,
+            "angular_frequency": shape.lambda.im,
+            "growth_rate": shape.lambda.re + 0.0,
+        })
+    });
     let seconds: serde_json::Map<String, Value> =
         outcome.seconds.iter().map(|(name, s)| ((*name).to_owned(), json!(s))).collect();
     let document = json!({
@@ -47,23 +75,20 @@ pub fn manifest(study: &Study, outcome: &Outcome, description: &str, program: &s
         "contact": contact,
         "contact_points": outcome.points,
         "matching": study.matching,
+        "sliding": sliding,
         "static_step": pressed,
         "temperature": study.document.temperature,
         "temperature_unit": "°C",
         "stressed": outcome.unstressed.is_some(),
         "real_frequencies_without_stress": outcome.unstressed,
         "damping_ratios": outcome.ratios,
-        "varied": study.document.vary.as_ref().map(|vary| json!({
-            "parameter": vary.parameter.name(),
-            "unit": vary.parameter.words().1,
-            "material": vary.material,
-            "mu": vary.mu,
-        })),
+        "varied": varied,
         "slope": friction.slope,
         "slope_unit": "s/m",
         "damped": outcome.damped,
         "mu": { "from": study.mus.first(), "to": study.mus.last(), "values": study.mus.len() },
         "transitions": outcome.transitions.iter().map(transition).collect::<Vec<_>>(),
+        "shapes": shapes.collect::<Vec<_>>(),
         "real_frequencies": outcome.real,
         "real_frequencies_unit": "Hz",
         "modes_followed": outcome.modes.len(),

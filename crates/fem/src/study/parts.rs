@@ -109,39 +109,43 @@ fn built(key: &str, part: &Part) -> Result<Mesh, Error> {
         Some(x) => Err(Error::at(format!("{key}.{name}"), format!("{x} m is no finite number"))),
         None => Ok(*place),
     };
-    let round = |height: f64, cells: &[usize; 3]| {
+    let round = |height: f64| {
         if !(height > 0.0 && height.is_finite()) {
             return Err(Error::at(
                 format!("{key}.height"),
                 format!("{height} m is no length, it must be above 0"),
             ));
         }
-        if cells.contains(&0) {
-            let what = format!("{cells:?} has a 0, there must be at least 1 element each way");
-            return Err(Error::at(format!("{key}.cells"), what));
-        }
         Ok(())
+    };
+    let counts = |cells: &[i64; 3]| {
+        // How many there may be in all is known to the meshes.
+        if let [Ok(a @ 1..), Ok(b @ 1..), Ok(c @ 1..)] = cells.map(usize::try_from) {
+            return Ok([a, b, c]);
+        }
+        let what = format!("{cells:?} elements, there must be at least 1 each way");
+        Err(Error::at(format!("{key}.cells"), what))
     };
     let mesh = match part {
         Part::Block { element, origin, size, cells, .. } => {
             let (origin, kind) = (place("origin", origin)?, kind(element)?);
-            Block { origin, size: *size, cells: cells.map(Into::into), kind }.mesh()
+            Block { origin, size: *size, cells: counts(cells)?.map(Into::into), kind }.mesh()
         }
         Part::Cylinder { element, centre, radius, height, cells, .. } => {
             let (centre, kind) = (place("centre", centre)?, kind(element)?);
-            round(*height, cells)?;
-            Cylinder { centre, radius: *radius, height: *height, cells: *cells, kind }.mesh()
+            round(*height)?;
+            Cylinder { centre, radius: *radius, height: *height, cells: counts(cells)?, kind }.mesh()
         }
         Part::Ring { element, centre, radii, height, degrees, cells, .. } => {
             let (centre, kind) = (place("centre", centre)?, kind(element)?);
-            round(*height, cells)?;
+            round(*height)?;
             let [from, to] = *degrees;
             if !(to > from && to - from <= 360.0) {
                 let what =
                     format!("a ring goes from {from} to {to} degrees, which must rise, by 360 at most");
                 return Err(Error::at(format!("{key}.degrees"), what));
             }
-            let (angles, cells) = (degrees.map(f64::to_radians), cells.map(Into::into));
+            let (angles, cells) = (degrees.map(f64::to_radians), counts(cells)?.map(Into::into));
             Ring { centre, radii: *radii, angles, height: *height, cells, kind }.mesh()
         }
         Part::Mesh { .. } => Ok(Mesh::default()),

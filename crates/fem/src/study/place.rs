@@ -14,6 +14,7 @@ pub fn place(text: &str, error: &Error) -> Option<Range<usize>> {
     match error {
         Error::Description { span, .. } => Some(span.clone()),
         Error::Key { key, .. } => Some(of_key(text, key)),
+        Error::Free => Some(of_key(text, "supports")),
         Error::Material { name, .. } => Some(of_key(text, &format!("materials.{name}"))),
         _ => None,
     }

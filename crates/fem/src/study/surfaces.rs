@@ -34,7 +34,7 @@ pub(super) fn flat(mesh: &Mesh, faces: &[FaceRef]) -> Result<(f64, [f64; 3]), St
     // |Σ n dA| = Σ dA cos(angle), and 1 − cos is half the square of the angle.
     if length < area * (1.0 - 0.5 * FLAT * FLAT) - area * 1e-12 {
         return Err(format!(
-            "the surface is not flat: its normals add up to {length:e} m2 on an area of {area:e} m2, name a flat part of it"
+            "the surface is not flat: its normals add up to {length:.3e} m2 on an area of {area:.3e} m2, name a flat part of it"
         ));
     }
     Ok((area, sum.map(|c| c / length)))

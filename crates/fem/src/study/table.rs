@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 
 use super::transitions::grows;
 use super::{Outcome, Study};
+use crate::sweep::State;
 
 /// A column of the table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -59,6 +60,18 @@ pub const COLUMNS: [Column; 10] = [
     },
 ];
 
+/// What both tables say of a mode: frequency (Hz), growth rate (1/s), damping ratio, whether it grows, residual.
+fn cells(state: &State, grows: bool) -> String {
+    let lambda = state.lambda;
+    // Without a frequency and a growth there is no ratio.
+    let ratio =
+        if lambda.norm() > 0.0 { (0.0 - lambda.re / lambda.norm()).to_string() } else { String::new() };
+    // Zero without a sign.
+    let growth = lambda.re + 0.0;
+    let frequency = lambda.im / std::f64::consts::TAU;
+    format!("{frequency},{growth},{ratio},{},{:e}", u8::from(grows), state.residual)
+}
+
 /// The table of all modes in the band, in full precision.
 #[must_use]
 pub fn table(study: &Study, outcome: &Outcome) -> Vec<u8> {
@@ -67,25 +80,9 @@ pub fn table(study: &Study, outcome: &Outcome) -> Vec<u8> {
     for (i, mu) in study.mus.iter().enumerate() {
         for (k, mode) in outcome.modes.iter().enumerate().filter(|(_, mode)| in_band(study, mode)) {
             let state = &mode.states[i];
-            let lambda = state.lambda;
             let [flat, frozen] = outcome.alone[k][i].map(|growth| growth + 0.0);
-            // Without a frequency and a growth there is no ratio.
-            let ratio = if lambda.norm() > 0.0 {
-                (0.0 - lambda.re / lambda.norm()).to_string()
-            } else {
-                String::new()
-            };
-            let _ = writeln!(
-                text,
-                "{mu},{},{},{},{ratio},{},{:e},{},{flat},{frozen}",
-                k + 1,
-                lambda.im / std::f64::consts::TAU,
-                // Zero without a sign.
-                lambda.re + 0.0,
-                u8::from(outcome.grows(k, i)),
-                state.residual,
-                u8::from(state.direct)
-            );
+            let (cells, direct) = (cells(state, outcome.grows(k, i)), u8::from(state.direct));
+            let _ = writeln!(text, "{mu},{},{cells},{direct},{flat},{frozen}", k + 1);
         }
     }
     text.into_bytes()
@@ -95,20 +92,16 @@ pub fn table(study: &Study, outcome: &Outcome) -> Vec<u8> {
 #[must_use]
 pub fn vary_table(study: &Study, outcome: &Outcome) -> Option<Vec<u8>> {
     let (asked, found) = (study.document.vary.as_ref()?, outcome.variation.as_ref()?);
-    let mut text =
-        format!("{},mode,frequency,growth_rate,damping_ratio,unstable,residual\n", asked.parameter.name());
+    // The first column of the other table is friction; those behind the residual are not known here.
+    let residual = COLUMNS.iter().position(|column| column.name == "residual")?;
+    let shared = COLUMNS[1..=residual].iter().map(|column| column.name);
+    let names: Vec<&str> = std::iter::once(asked.parameter.name()).chain(shared).collect();
+    let mut text = names.join(",") + "\n";
     for (i, value) in found.values.iter().enumerate() {
         for (k, mode) in found.modes.iter().enumerate().filter(|(_, mode)| in_band(study, mode)) {
-            let (lambda, residual) = (mode.states[i].lambda, mode.states[i].residual);
-            let _ = writeln!(
-                text,
-                "{value:e},{},{},{},{},{},{residual:e}",
-                k + 1,
-                lambda.im / std::f64::consts::TAU,
-                lambda.re + 0.0,
-                0.0 - lambda.re / lambda.norm(),
-                u8::from(grows(lambda, found.damped)),
-            );
+            let state = &mode.states[i];
+            let cells = cells(state, grows(state.lambda, found.damped));
+            let _ = writeln!(text, "{value:e},{},{cells}", k + 1);
         }
     }
     Some(text.into_bytes())

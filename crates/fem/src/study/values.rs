@@ -141,7 +141,7 @@ pub(super) fn check_kn(document: &Document) -> Result<(), Error> {
     let Some([low, high]) = document.output.kn else { return Ok(()) };
     let wrong = |what: &str| Err(Error::at("output.kn", what));
     if !(low > 0.0 && low < high && high.is_finite()) {
-        return wrong(&format!("the range is {low} to {high} Pa/m, it must rise from above 0"));
+        return wrong(&format!("the range is {low:e} to {high:e} Pa/m, it must rise from above 0"));
     }
     if !document.output.modal {
         return wrong(

@@ -1,6 +1,6 @@
 //! What may be varied beside friction, and whether it can be.
 
-use super::document::{Document, Varied};
+use super::document::{Document, Varied, Vary};
 use super::values::rising;
 use crate::Error;
 
@@ -18,8 +18,7 @@ impl Varied {
     }
 
     /// What it is, and its unit.
-    #[must_use]
-    pub fn words(self) -> (&'static str, &'static str) {
+    fn words(self) -> (&'static str, &'static str) {
         match self {
             Self::ContactStiffness => ("Contact stiffness", "Pa/m"),
             Self::Stiffness => ("Factor of the moduli", ""),
@@ -27,6 +26,16 @@ impl Varied {
             Self::Damping => ("Factor of the damping", ""),
             Self::Slope => ("Slope of friction", "s/m"),
         }
+    }
+}
+
+impl Vary {
+    /// What is varied, of which material, and its unit.
+    #[must_use]
+    pub fn words(&self) -> [String; 2] {
+        let (what, unit) = self.parameter.words();
+        let of = self.material.iter().map(|material| format!(" of {}", material.replace('_', " ")));
+        [what.to_owned() + &of.collect::<String>(), unit.to_owned()]
     }
 }
 

@@ -28,7 +28,7 @@ fn bad_elements_are_named() {
     for x in &mut flat.nodes {
         x[2] = 0.0;
     }
-    assert!(sentence(flat).starts_with("element 0 (Tet4) has a Jacobian determinant of 0e0 at"));
+    assert!(sentence(flat).starts_with("element 0 (Tet4) has a Jacobian determinant of 0.000e0 at"));
     let mut missing = block(Kind::Hex8);
     missing.groups[0].elements[1][2] = 99;
     assert_eq!(sentence(missing), "element 1 (Hex8) names node 99, but there are only 27");
@@ -115,7 +115,7 @@ fn sets_supports_and_contacts_are_checked() {
         .map(drop)
         .expect_err("apart")
         .to_string();
-    assert!(error.starts_with("the surfaces of a contact lie up to 2.5e-2 m apart"), "{error}");
+    assert!(error.starts_with("the surfaces of a contact lie up to 2.50e-2 m apart"), "{error}");
     let beside = model.mesh.faces_where(|x| (x[2] - 0.01).abs() < 1e-9 && x[0] < 0.01 + 1e-9);
     let error =
         mortar(&model.mesh, faces("pin.z0"), &beside, up, along).map(drop).expect_err("beside").to_string();

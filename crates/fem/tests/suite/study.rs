@@ -190,7 +190,7 @@ fn bad_descriptions_are_named() {
         (
             "cells = [6, 2, 2]",
             "cells = [6, 0, 2]",
-            "parts.block: the block has no element along y, it needs at least 1",
+            "parts.block.cells: [6, 0, 2] elements, there must be at least 1 each way",
         ),
         (
             "element = \"hex20\"\norigin = [0.0,",

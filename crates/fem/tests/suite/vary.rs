@@ -3,8 +3,9 @@
 use std::f64::consts::FRAC_PI_2;
 
 use faer::c64;
-use squealmap_fem::assembly::Penalty;
+use squealmap_fem::assembly::{Model, Penalty};
 use squealmap_fem::elements::Kind;
+use squealmap_fem::mesh::Block;
 use squealmap_fem::vary::{Parameter, Setup, vary};
 
 use crate::cases::{layer, pin};
@@ -44,24 +45,56 @@ fn slope_and_load_damp_as_they_should() {
     assert!(exact(slope).re < -1000.0);
 }
 
-/// All eigenvalues grow with the root of the moduli, also where a mode has lost its stability.
+/// All eigenvalues grow with the root of the moduli, also where a mode has lost its stability, and in one large step as in small ones:
+/// modes move past the old places of others, and are followed by their shapes.
 #[test]
 fn stiffness_moves_all_modes_alike() {
-    let setup = Setup { model: pin::model(Kind::Hex20, 1).expect("the pin"), mu: 0.45, ..Setup::default() };
-    let factors = [1.0, 1.5, 4.0];
+    for (mu, factors) in [(0.45, [1.0, 1.5, 4.0]), (0.4, [1.0, 4.0, 100.0]), (0.4, [0.01, 1.0, 4.0])] {
+        stiffness_moves_all_modes(mu, factors);
+    }
+}
+
+fn stiffness_moves_all_modes(mu: f64, factors: [f64; 3]) {
+    let setup = Setup { model: pin::model(Kind::Hex20, 1).expect("the pin"), mu, ..Setup::default() };
     let modes = vary(&setup, Parameter::Stiffness(0), &factors, 7, 1e-8).expect("modes");
     assert_eq!(modes.len(), 7);
-    let plain = vary(&setup, Parameter::Friction, &[0.45], 7, 1e-8).expect("modes");
+    let plain = vary(&setup, Parameter::Friction, &[mu], 7, 1e-8).expect("modes");
     for (a, b) in modes.iter().zip(&plain) {
-        assert!((a.states[0].lambda - b.states[0].lambda).norm() < 1e-9 * b.states[0].lambda.norm());
+        let expected = b.states[0].lambda * factors[0].sqrt();
+        assert!((a.states[0].lambda - expected).norm() < 1e-9 * expected.norm());
     }
-    assert!(modes.iter().any(|mode| mode.states[0].lambda.re > 100.0));
+    assert!(modes.iter().any(|mode| mode.states[0].lambda.re > 100.0 * factors[0].sqrt()));
     for mode in &modes {
         for (state, factor) in mode.states.iter().zip(factors) {
-            let expected = mode.states[0].lambda * f64::sqrt(factor);
+            let expected = mode.states[0].lambda * f64::sqrt(factor / factors[0]);
             assert!((state.lambda - expected).norm() < 1e-6 * expected.norm(), "{factor}: {mode:?}");
         }
     }
+}
+
+/// Two clamped blocks that know nothing of each other: the modes of one move by the root of its modulus, past those of the other, also
+/// where just as many modes are followed as it has below them.
+#[test]
+fn a_mode_is_followed_past_others() {
+    let block = |origin: f64, height: f64| {
+        let (origin, size) = ([origin, 0.0, 0.0], [0.01, 0.012, height]);
+        Block { origin, size, cells: [1.into(), 1.into(), 3.into()], kind: Kind::Hex20 }.mesh()
+    };
+    let mut model = Model { mesh: block(0.0, 0.05).expect("a block"), ..Model::default() };
+    model.materials = vec![crate::cases::steel(); 2];
+    model.mesh.add(block(0.02, 0.04).expect("a block"), "other.", 1);
+    for below in ["z0", "other.z0"] {
+        let nodes = model.mesh.node_set(below).expect("a side").to_vec();
+        model.supports.clamp(&nodes);
+    }
+    let setup = Setup { model, ..Setup::default() };
+    let modes = vary(&setup, Parameter::Stiffness(0), &[1.0, 9.0], 2, 1e-8).expect("modes");
+    for mode in &modes {
+        let [before, after] = [0, 1].map(|i| mode.states[i].lambda);
+        assert!((after - before * 3.0).norm() < 1e-6 * after.norm(), "{before} {after}");
+    }
+    let others = vary(&setup, Parameter::Stiffness(0), &[9.0], 2, 1e-8).expect("modes");
+    assert!(others[1].states[0].lambda.im < modes[0].states[1].lambda.im, "the other block's are below");
 }
 
 /// With C = f α M each θ = −λ² of the undamped body becomes the roots of λ² + f α λ + θ = 0.

@@ -1,5 +1,6 @@
-//! The models whose eigenvalues are known.
+//! The models whose eigenvalues are known, and how numbers are compared.
 
+pub(crate) mod apart;
 pub(crate) mod brake;
 pub(crate) mod layer;
 pub(crate) mod pin;
