@@ -14,7 +14,8 @@ struct Friction {
 struct Piece {
     at_zero: real,
     slope: real,
-    longest: real,
+    // Of a straight piece its longest step.
+    rate: real,
     offset: real,
 }
 
@@ -58,9 +59,36 @@ fn upper_kink(index: u32) -> real {
     return input(INPUT_PIECES + index * PIECE_WORDS + PIECE_KINK, instance);
 }
 
-fn friction(sigma: real, v: real, lag: real) -> Friction {
-    let q = piece.slope * v + sigma * piece.at_zero;
-    return Friction(q, select(q - input(INPUT_MU0, instance), piece.offset - piece.slope * lag, sigma > 0.0));
+// q = σ μ and q − μ0 at the relative velocity v; lag = V0 − v, known without cancellation.
+fn friction(p: Piece, sigma: real, v: real, lag: real) -> Friction {
+    let forward = sigma > 0.0;
+    if LAW == LAW_PIECES {
+        let q = p.slope * v + sigma * p.at_zero;
+        return Friction(q, select(q - input(INPUT_MU0, instance), p.offset - p.slope * lag, forward));
+    }
+    if LAW == LAW_EXPONENTIAL {
+        // From the equilibrium, without cancellation, or from rest, where that is too far down.
+        let ahead = p.rate * lag;
+        let near = forward && ahead <= NEAR;
+        let base = select(p.slope, p.offset, near);
+        let less = base * exp_m1(select(-(p.rate * max(sigma * v, 0.0)), ahead, near));
+        let q = sigma * (p.at_zero + (base + less));
+        return Friction(q, select(q - input(INPUT_MU0, instance), less, near));
+    }
+    let reciprocal = 1.0 / (p.rate * sigma * v + 1.0);
+    let q = sigma * p.at_zero * reciprocal;
+    let less = p.at_zero * p.rate * lag * reciprocal * p.offset;
+    return Friction(q, select(q - input(INPUT_MU0, instance), less, forward));
+}
+
+// The longest step of a curved law, near whose rest friction changes within a layer of speeds.
+fn longest_in_layer(q: Friction, inertia: real, speed: real) -> real {
+    let force = q.q * form(INPUT_W) + (q.less * input(INPUT_N0, instance) - form(INPUT_R));
+    let acceleration = abs(drive - force / inertia);
+    let narrowing = 1.0 / (piece.rate * max(speed, 0.0) + 1.0);
+    let sloped = select(abs(q.q) * narrowing, abs(abs(q.q) - piece.at_zero), LAW == LAW_EXPONENTIAL);
+    let inverse = acceleration * narrowing * input(INPUT_LAYER, instance) + sloped * input(INPUT_LAYER + 1u, instance);
+    return 1.0 / max(piece.rate * inverse, real(1e-30));
 }
 
 fn form(word: u32) -> real {
@@ -69,8 +97,7 @@ fn form(word: u32) -> real {
 }
 
 fn mu_of(index: u32, speed: real) -> real {
-    let word = INPUT_PIECES + index * PIECE_WORDS;
-    return input(word + PIECE_AT_ZERO, instance) + input(word + PIECE_SLOPE, instance) * speed;
+    return friction(piece_of(index), 1.0, speed, input(INPUT_V0, instance) - speed).q;
 }
 
 fn piece_at(speed: real) -> u32 {
@@ -245,7 +272,7 @@ fn first_root(end: real) -> real {
         let better = select(0.5 * (low + high), newton, inside);
         let change = abs(better - t);
         t = better;
-        if change < ENOUGH {
+        if change * change < ENOUGH * EPSILON {
             return min(t, end);
         }
     }

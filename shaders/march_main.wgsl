@@ -72,12 +72,18 @@ fn main(
         let relative = belt - vx;
         if slips {
             piece = piece_of(at);
-            pace = min(pace, piece.longest);
-            q = friction(sigma, relative, vx - (belt - input(INPUT_V0, instance)));
+            q = friction(piece, sigma, relative, vx - (belt - input(INPUT_V0, instance)));
             inertia = 1.0 + input(INPUT_KAPPA, instance) * q.q;
+            if LAW == LAW_PIECES {
+                pace = min(pace, piece.rate);
+            }
         }
         let last = left <= pace * 1.001;
-        let h = select(pace, left, last);
+        let asked = select(pace, left, last);
+        var h = asked;
+        if LAW != LAW_PIECES && slips {
+            h = min(h, longest_in_layer(q, inertia, sigma * relative));
+        }
         x0 = px;
         w0 = pw;
         x1 = vx * h;
@@ -86,7 +92,11 @@ fn main(
             let speed = sigma * relative;
             ahead = h * (speed - select(0.0, upper_kink(max(at, 1u) - 1u), at > 0u));
             back = h * (upper_kink(at) - speed);
-            expand_slip(h, q, inertia);
+            if LAW == LAW_PIECES {
+                expand_slip(h, q, inertia);
+            } else {
+                expand_curved(h, q, inertia, sigma, relative);
+            }
         } else if contact == STICK {
             expand_stick(h);
         } else {
@@ -110,13 +120,13 @@ fn main(
         advance(event.at, 1.0 / h);
         observe(event.at, h, before);
         let tau = event.at * h;
-        left = select(left - tau, 0.0, last && event.at >= 1.0);
+        left = select(left - tau, 0.0, last && event.at >= 1.0 && asked <= h);
         belt = drive * tau + belt;
         if event.at > 0.0 {
             disarmed = 0u;
         }
         let possible = reached.end * h;
-        pace = select(select(pace, pace * LONGER, reached.roomy), possible, possible < h);
+        pace = select(select(pace, pace * LONGER, reached.roomy), possible, possible < asked);
         if event.function > 0u {
             set_flag(FLAG_EVENTFUL, instance, 1u);
             set_flag(FLAG_GROWING, instance, 0u);

@@ -189,7 +189,7 @@ fn higher(tops: Tops, value: vec3<real>, i: u32) -> Tops {
 fn highest(tops: Tops) -> vec3<real> {
     let curvature = (tops.right - tops.left) * tops.per_width;
     let tangent = curvature * tops.before + tops.left;
-    let bent = (curvature < vec3<real>()) & (tops.one <= tops.top);
+    let bent = select(vec3<bool>(), tops.one <= tops.top, curvature < vec3<real>());
     let rise = tangent * tangent / select(vec3<real>(1.0), curvature * -4.0, bent);
     return select(max(tops.top, tops.one), tops.top + rise, bent);
 }

@@ -1,9 +1,8 @@
 //! The kernels and their parts as they are given to a compiler.
 
-use squealmap::engine::kernel::source::Constant;
-use squealmap::engine::kernel::{linear, response};
+use squealmap::engine::kernel::linear;
 use squealmap::engine::lanes::job::Part;
-use squealmap::engine::march::kernel as march;
+use squealmap::engine::march::marching::Form;
 use squealmap::engine::precision::Precision;
 use squealmap::model::piece::LawForm;
 
@@ -19,36 +18,29 @@ pub(crate) struct Variant {
 
 /// Every kernel whose figures are kept.
 pub(crate) fn all() -> Vec<Variant> {
+    use Part::{Growth, Settle, Window};
     use Precision::{F32, F64};
     let plain = |precision| variant("linear", precision, linear::KERNEL.source(precision, &[]));
     vec![
         plain(F32),
         plain(F64),
-        march("march, growth", Part::Growth),
-        march("march, settling", Part::Settle),
-        march("march, window", Part::Window),
-        respond::<2>("response, two pieces", F32, LawForm::Pieces, false),
-        respond::<2>("response, two pieces, ramp", F32, LawForm::Pieces, true),
-        respond::<1>("response, exponential", F32, LawForm::Exponential, false),
-        respond::<1>("response, rational", F32, LawForm::Rational, false),
-        respond::<2>("response, two pieces", F64, LawForm::Pieces, false),
+        march("march, growth", F32, Growth, LawForm::Pieces),
+        march("march, settling", F32, Settle, LawForm::Pieces),
+        march("march, window", F32, Window, LawForm::Pieces),
+        march("march, exponential, settling", F32, Settle, LawForm::Exponential),
+        march("march, exponential, window", F32, Window, LawForm::Exponential),
+        march("march, rational, settling", F32, Settle, LawForm::Rational),
+        march("march, settling", F64, Settle, LawForm::Pieces),
+        march("march, window", F64, Window, LawForm::Pieces),
     ]
 }
 
-fn respond<const PIECES: usize>(
-    name: &'static str,
-    precision: Precision,
-    law: LawForm,
-    ramp: bool,
-) -> Variant {
-    let choices: [(&str, Constant); 2] = response::choices(law, ramp);
-    variant(name, precision, response::kernel::<PIECES>().source(precision, &choices))
-}
-
-/// A part of the march, for laws of two pieces and a belt of one velocity.
-fn march(name: &'static str, part: Part) -> Variant {
-    let (kernel, _) = march::kernel_for(2).expect("laws of two pieces have a kernel");
-    variant(name, Precision::F32, kernel.source(Precision::F32, &march::choices(part, false)))
+/// A part of the march for a belt of one velocity; straight laws of two pieces.
+fn march(name: &'static str, precision: Precision, part: Part, law: LawForm) -> Variant {
+    let pieces = if law.is_straight() { 2 } else { 1 };
+    let form = Form { part, law, pieces, ramp: false };
+    let (kernel, choices) = form.kernel().expect("laws of two pieces have a kernel");
+    variant(name, precision, kernel.source(precision, &choices))
 }
 
 fn variant(name: &'static str, precision: Precision, source: String) -> Variant {

@@ -3,6 +3,7 @@
 //! | option | what it does |
 //! |---|---|
 //! | none | what every compiler that is installed makes of every kernel, into `benches/results/gpu-pipelines.csv`; where there is a hardware GPU the shipped map on it, too |
+//! | `--lockstep` | how well the march fills the warps of a GPU, by its twin, into `benches/results/gpu-lockstep.csv` |
 //! | `--map` | the shipped map on the best adapter alone |
 //! | `--check` | fails where the distribution's compiler needs more than `benches/gpu/limits.csv` allows |
 //! | `--keep-limits` | writes that file |
@@ -17,10 +18,19 @@ mod date;
 mod differences;
 mod driver;
 mod figures;
+#[path = "../map/kept.rs"]
+mod kept;
 mod kernels;
+mod lockstep;
 mod map;
 mod ratchet;
 mod rows;
+#[path = "../../tests/suite/twin.rs"]
+#[expect(dead_code, reason = "the tests take more of it")]
+mod twin;
+#[path = "../map/work.rs"]
+#[expect(dead_code, reason = "that bench takes more of it")]
+mod work;
 
 use std::error::Error;
 use std::path::Path;
@@ -44,6 +54,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             }
             Ok(())
         }
+        ["--lockstep"] => lockstep::run(),
         ["--map"] => map::run(),
         ["--check"] => check(),
         ["--keep-limits"] => {
@@ -51,9 +62,11 @@ fn main() -> Result<(), Box<dyn Error>> {
             println!("kept in {}", Limits::write(&rows)?.display());
             Ok(())
         }
-        _ => {
-            Err(format!("{} is no option: --map, --check, --keep-limits or none", arguments.join(" ")).into())
-        }
+        _ => Err(format!(
+            "{} is no option: --lockstep, --map, --check, --keep-limits or none",
+            arguments.join(" ")
+        )
+        .into()),
     }
 }
 

@@ -7,6 +7,7 @@ use squealmap::version::COMMIT;
 
 use crate::date::date;
 use crate::figures::Figures;
+use crate::kept;
 
 /// What one compiler says of one kernel.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,31 +48,7 @@ pub(crate) fn head() -> String {
 
 /// Keeps the rows; returns the file.
 pub(crate) fn keep(rows: &[Row]) -> Result<PathBuf, Box<dyn Error>> {
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("benches/results/gpu-pipelines.csv");
     let header: Vec<&str> =
         KEY.iter().chain(&["version", "date", "commit"]).chain(&Figures::NAMES).copied().collect();
-    let mut kept: Vec<Vec<String>> = Vec::new();
-    if path.exists() {
-        let mut old = csv::Reader::from_path(&path)?;
-        // Rows of other columns than today's are of no use beside them.
-        if old.headers()?.iter().eq(header.iter().copied()) {
-            for record in old.records() {
-                kept.push(record?.iter().map(str::to_owned).collect());
-            }
-        }
-    }
-    for row in rows {
-        let fields = row.fields();
-        match kept.iter_mut().find(|old| old[..KEY.len()] == fields[..KEY.len()]) {
-            Some(old) => *old = fields,
-            None => kept.push(fields),
-        }
-    }
-    let mut writer = csv::Writer::from_path(&path)?;
-    writer.write_record(&header)?;
-    for record in &kept {
-        writer.write_record(record)?;
-    }
-    writer.flush()?;
-    Ok(path)
+    kept::keep("gpu-pipelines.csv", &header, KEY.len(), rows.iter().map(Row::fields))
 }

@@ -7,9 +7,6 @@ use crate::work::{Work, plan, reference_plan};
 use clap::ValueEnum;
 use rayon::prelude::*;
 use squealmap::engine::gpu::adapter::Adapter;
-use squealmap::engine::kernel::response::respond as twin;
-use squealmap::engine::kernel::steps;
-use squealmap::engine::kernel::steps::TOLERANCE;
 use squealmap::engine::lanes::outcomes::outcomes;
 use squealmap::engine::lanes::{Lanes, ORDER, tolerance};
 use squealmap::engine::method::taylor::REFERENCE_ORDER;
@@ -32,8 +29,6 @@ pub(crate) enum Engine {
     /// The same method in scalar code: that of the reference with the order, the steps and the bound on the
     /// truncation of the engine in vector registers, in f64 with either bound (scalar code gains nothing by f32).
     Scalar,
-    /// The scalar twin of the GPU's kernel.
-    Twin,
     /// The engine in vector registers.
     Simd,
     /// The kernel on an adapter.
@@ -64,7 +59,6 @@ impl Engine {
         match self {
             Engine::Reference => "reference",
             Engine::Scalar => "scalar",
-            Engine::Twin => "twin",
             Engine::Simd => "simd",
             Engine::Gpu => "gpu",
         }
@@ -76,8 +70,7 @@ impl Case {
     pub(crate) fn order(self) -> usize {
         match self.engine {
             Engine::Reference => REFERENCE_ORDER,
-            Engine::Scalar | Engine::Simd => ORDER,
-            Engine::Twin | Engine::Gpu => steps::ORDER,
+            Engine::Scalar | Engine::Simd | Engine::Gpu => ORDER,
         }
     }
 
@@ -121,8 +114,6 @@ impl Case {
                 return gpu::run(work, judged, adapter, precision, self.steps_per_period);
             }
             (Engine::Reference | Engine::Scalar, _) => each(respond),
-            (Engine::Twin, Precision::F32) => each(|i, plan| twin::<f32>(i, plan, TOLERANCE.into())),
-            (Engine::Twin, Precision::F64) => each(|i, plan| twin::<f64>(i, plan, TOLERANCE.into())),
             (Engine::Simd, Precision::F32) => on_cpu(work, judged, |i| lanes::<f32>(i, &plan)),
             (Engine::Simd, Precision::F64) => on_cpu(work, judged, |i| lanes::<f64>(i, &plan)),
         })

@@ -1,8 +1,8 @@
-//! Flops of a step, counted on the scalar twin of the method (`src/engine/kernel/series.rs`): what one lane cannot do
+//! Flops of a step, counted on the method in scalars: what one lane cannot do
 //! without. Not counted: redone and shortened steps, masked lanes, the look-out for events and their search,
 //! transitions, observables, the bound on the truncation, minima, maxima and comparisons.
 //!
-//! The series of order `n` has `n − 1` degrees `k = 0 … n − 2`. Each takes, in the notation of the twin and with
+//! The series of order `n` has `n − 1` degrees `k = 0 … n − 2`. Each takes, with
 //! constants of the degree folded (`·` a multiplication or division, `±` an addition or subtraction):
 //!
 //! | what | contact only, 4 states | in flight too, 6 states |

@@ -6,6 +6,7 @@ mod engine;
 mod flops;
 mod gpu;
 mod judge;
+mod kept;
 mod machine;
 mod options;
 mod peak;
@@ -71,7 +72,6 @@ fn cases(options: &Options, work: Work, adapter: Option<&Adapter>) -> Vec<Case> 
     let mut cases = Vec::new();
     if work.len() <= MOST_FOR_SCALAR {
         cases.push(case(Engine::Reference, Precision::F64, STEPS_PER_PERIOD));
-        cases.extend(scalars.clone().map(|precision| case(Engine::Twin, precision, STEPS_PER_PERIOD)));
     }
     for precision in scalars.clone() {
         for &steps in &options.steps {

@@ -14,14 +14,14 @@ pub(crate) struct Options {
     /// Steps per period `2π/ω0` of the engine in vector registers and of its scalar counterpart.
     #[arg(long, value_delimiter = ',', default_value = "4,5,8,12")]
     pub(crate) steps: Vec<u32>,
-    /// Scalars of the engine in vector registers, of the twin and of the kernel.
+    /// Scalars of the engine in vector registers and of the kernel.
     #[arg(long, value_delimiter = ',', default_value = "f32,f64", value_parser = scalar)]
     pub(crate) scalars: Vec<Precision>,
     /// Rounds; every case runs once in each, the best counts.
     #[arg(long, default_value_t = 3)]
     pub(crate) rounds: usize,
     /// Engines; without the scalar codes their ratios stay empty, without an adapter there is no `gpu`.
-    #[arg(long, value_enum, value_delimiter = ',', default_value = "reference,scalar,twin,simd,gpu")]
+    #[arg(long, value_enum, value_delimiter = ',', default_value = "reference,scalar,simd,gpu")]
     pub(crate) engines: Vec<Engine>,
     /// Only prints: keeps nothing.
     #[arg(long)]

@@ -67,18 +67,14 @@ impl Row {
         Some([flops::contact_only(order) * steps, flops::all_modes(order) * steps])
     }
 
-    /// How many times the work per CPU-second of the row in `rows` that is this one in scalar code: of the same
-    /// order, steps and bound ([`Engine::Scalar`]), or the kernel's twin in the same scalar.
-    pub(crate) fn over(&self, engine: Engine, rows: &[Row]) -> Option<f64> {
+    /// How many times the work per CPU-second of the row in `rows` that is this one in scalar code, of the same order, steps
+    /// and bound.
+    pub(crate) fn over_scalar(&self, rows: &[Row]) -> Option<f64> {
         if self.case.engine != Engine::Simd {
             return None;
         }
-        let is_it = |row: &Row| match engine {
-            Engine::Scalar => row.case.steps_per_period == self.case.steps_per_period,
-            _ => true,
-        };
-        let mut of_engine = rows.iter().filter(|row| row.case.engine == engine);
-        let scalar = of_engine.find(|row| row.case.precision == self.case.precision && is_it(row))?;
+        let is_it = |row: &&Row| row.case == Case { engine: Engine::Scalar, ..self.case };
+        let scalar = rows.iter().find(is_it)?;
         Some(self.per_cpu_second()? / scalar.per_cpu_second()?)
     }
 

@@ -3,15 +3,15 @@
 use std::error::Error;
 use std::path::PathBuf;
 
-use crate::engine::Engine;
 use crate::flops;
+use crate::kept::keep;
 use crate::machine::Machine;
 use crate::row::Row;
 
 /// The columns that say which case a row is; the others are replaced by a later run.
 const KEY: [&str; 5] = ["engine", "scalar", "steps_per_period", "instances", "adapter"];
 
-const VALUES: [&str; 24] = [
+const VALUES: [&str; 23] = [
     "date",
     "commit",
     "cpu",
@@ -30,7 +30,6 @@ const VALUES: [&str; 24] = [
     "share_of_peak",
     "share_of_peak_all_modes",
     "over_scalar",
-    "over_twin",
     "x2_std_error_median",
     "x2_std_error_p99",
     "labels_differ",
@@ -40,35 +39,9 @@ const VALUES: [&str; 24] = [
 
 /// Keeps the rows; returns the file.
 pub(crate) fn store(rows: &[Row], machine: &Machine) -> Result<PathBuf, Box<dyn Error>> {
-    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("benches/results");
-    let path = folder.join(format!("map-{}.csv", machine.kind()));
-    let header: Vec<String> = KEY.iter().chain(&VALUES).map(ToString::to_string).collect();
-    let mut kept: Vec<Vec<String>> = Vec::new();
-    if path.exists() {
-        let mut old = csv::Reader::from_path(&path)?;
-        // Rows of other columns than today's are of no use beside them.
-        if old.headers()?.iter().eq(header.iter()) {
-            for record in old.records() {
-                kept.push(record?.iter().map(str::to_owned).collect());
-            }
-        }
-    }
-    for row in rows {
-        let key = row.key();
-        let fields: Vec<String> = key.iter().cloned().chain(values(row, rows, machine)).collect();
-        match kept.iter_mut().find(|old| old[..KEY.len()] == key) {
-            Some(old) => *old = fields,
-            None => kept.push(fields),
-        }
-    }
-    std::fs::create_dir_all(&folder)?;
-    let mut writer = csv::Writer::from_path(&path)?;
-    writer.write_record(&header)?;
-    for record in &kept {
-        writer.write_record(record)?;
-    }
-    writer.flush()?;
-    Ok(path)
+    let header: Vec<&str> = KEY.iter().chain(&VALUES).copied().collect();
+    let fields = |row: &Row| row.key().into_iter().chain(values(row, rows, machine)).collect();
+    keep(&format!("map-{}.csv", machine.kind()), &header, KEY.len(), rows.iter().map(fields))
 }
 
 /// The values of a row in the order of [`VALUES`].
@@ -95,8 +68,7 @@ fn values(row: &Row, rows: &[Row], machine: &Machine) -> Vec<String> {
         known(row.on_cpu.then(|| machine.peak(row.case.arithmetic()).flops)),
         known(share.map(|[contact_only, _]| contact_only)),
         known(share.map(|[_, all_modes]| all_modes)),
-        known(row.over(Engine::Scalar, rows)),
-        known(row.over(Engine::Twin, rows)),
+        known(row.over_scalar(rows)),
         number(row.errors.median),
         number(row.errors.p99),
         number(row.errors.labels),

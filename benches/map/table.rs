@@ -17,8 +17,8 @@ pub(crate) struct Tables<'a> {
 /// The columns of a map's table.
 const HEADER: &str = "\
 | engine | scalar | order, steps per period | instances/s | per CPU-second | 10⁶ steps per CPU-second \
-| share of peak, % (all modes) | × scalar | × twin | error of std x2, p50 / p99, % | labels that differ, % |
-|---|---|---|---|---|---|---|---|---|---|---|";
+| share of peak, % (all modes) | × scalar | error of std x2, p50 / p99, % | labels that differ, % |
+|---|---|---|---|---|---|---|---|---|---|";
 
 impl Display for Tables<'_> {
     fn fmt(&self, f: &mut Formatter) -> Result {
@@ -75,8 +75,7 @@ impl Tables<'_> {
         write!(f, "| {} ", known(row.per_cpu_second(), 0))?;
         write!(f, "| {} ", known(row.steps_per_cpu_second().map(|steps| steps / 1e6), 2))?;
         write!(f, "| {contact_only} ({all}) ")?;
-        write!(f, "| {} ", known(row.over(Engine::Scalar, self.rows), 1))?;
-        write!(f, "| {} ", known(row.over(Engine::Twin, self.rows), 1))?;
+        write!(f, "| {} ", known(row.over_scalar(self.rows), 1))?;
         let errors = row.errors;
         write!(f, "| {:.1e} / {:.1e} ", 100.0 * errors.median, 100.0 * errors.p99)?;
         write!(f, "| {:.2}", 100.0 * errors.labels)?;

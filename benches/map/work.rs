@@ -45,6 +45,12 @@ impl Work {
         Work { side: (side as usize).max(2) }
     }
 
+    /// Periods that all instances run.
+    #[allow(dead_code, reason = "the bench of the kernels takes it")]
+    pub(crate) fn periods(self) -> f64 {
+        (SETTLE + MEASURE) * self.len() as f64
+    }
+
     pub(crate) fn len(self) -> usize {
         VELOCITIES.len() * self.side * self.side
     }

@@ -7,7 +7,7 @@
 //! | what an engine sums up, and what it did | [`sums`], [`growth`](mod@growth), [`reductions`], [`outcome`], [`regime`] |
 //! | until when it is followed | [`measuring`], [`settling`] |
 //! | the cycle that it comes to | [`cycle`] |
-//! | the words of a kernel | [`fields`], [`kernel::table`] |
+//! | the words of a kernel | [`fields`], [`march::table`] |
 //! | the record of an instance | [`record`], [`judged`] |
 //! | where and how a sweep was computed, and its records | [`computation`], [`computed`] |
 //! | one step, events inside it | [`method`] |

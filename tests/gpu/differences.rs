@@ -12,6 +12,8 @@ use squealmap::sweep::map::Map;
 pub(crate) struct Differences {
     /// One line for each instance whose status, type or regime differs.
     pub(crate) labels: Vec<String>,
+    /// One line for each instance that was measured over another window: one settles a window earlier than the other.
+    pub(crate) windows: Vec<String>,
     /// Relative differences of the amplitudes, of settled instances unless the belt has a ramp, rising.
     pub(crate) amplitudes: Vec<f64>,
     /// Instances of the map.
@@ -20,7 +22,7 @@ pub(crate) struct Differences {
 
 impl Differences {
     pub(crate) fn new(map: &Map, reference: &Map) -> Differences {
-        let mut labels = Vec::new();
+        let (mut labels, mut windows) = (Vec::new(), Vec::new());
         let mut amplitudes = Vec::new();
         assert_eq!(map.records.len(), reference.records.len());
         for (index, (a, b)) in map.records.iter().zip(&reference.records).enumerate() {
@@ -44,7 +46,7 @@ impl Differences {
             if (a.simulated_time - b.simulated_time).abs() > within * b.simulated_time
                 && b.status == Status::Ok
             {
-                labels.push(format!("{index}: {} s instead of {} s", a.simulated_time, b.simulated_time));
+                windows.push(format!("{index}: {} s instead of {} s", a.simulated_time, b.simulated_time));
             }
             let ramp = map.spec.base.get(Param::RampDuration).is_some();
             if ramp || reference.records[index].settled == Some(true) {
@@ -52,7 +54,7 @@ impl Differences {
             }
         }
         amplitudes.sort_by(f64::total_cmp);
-        Differences { labels, amplitudes, instances: map.records.len() }
+        Differences { labels, windows, amplitudes, instances: map.records.len() }
     }
 
     /// The amplitude difference below which `share` per cent lie.
@@ -68,15 +70,16 @@ impl fmt::Display for Differences {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "{} of {} labels differ; {} amplitudes: median {:.1e}, p99 {:.1e}, worst {:.1e}",
+            "{} of {} labels differ, {} settle in another window; {} amplitudes: median {:.1e}, p99 {:.1e}, worst {:.1e}",
             self.labels.len(),
             self.instances,
+            self.windows.len(),
             self.amplitudes.len(),
             self.quantile(50),
             self.quantile(99),
             self.quantile(100)
         )?;
-        self.labels.iter().try_for_each(|line| write!(f, "\n  {line}"))
+        self.labels.iter().chain(&self.windows).try_for_each(|line| write!(f, "\n  {line}"))
     }
 }
 

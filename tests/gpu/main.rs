@@ -11,11 +11,12 @@ mod instances;
 mod linear;
 mod probes;
 mod response;
-mod response_probes;
 mod runs;
 mod starts;
 mod strict;
 mod sweeps;
+#[path = "../suite/twin.rs"]
+mod twin;
 #[path = "../suite/engine/fuzz/whole_range.rs"]
 mod whole_range;
 mod words;
@@ -67,7 +68,6 @@ fn main() {
     let slow = all.or(Some(Lack::Time));
     let groups = [
         (all, probes::CASES),
-        (all, response_probes::CASES),
         (all, linear::CASES),
         (f64, linear::F64),
         (all, response::CASES),

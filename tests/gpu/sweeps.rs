@@ -4,18 +4,18 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use crate::Case;
 use crate::differences::Differences;
+use crate::twin::outcomes;
 use libtest_mimic::Failed;
 use squealmap::engine::backend::Backend;
 use squealmap::engine::computation::Stopped;
 use squealmap::engine::gpu::adapter::Adapter;
 use squealmap::engine::gpu::chunks::software_chunk;
-use squealmap::engine::kernel::response::respond;
-use squealmap::engine::kernel::steps::TOLERANCE;
 use squealmap::engine::options::Options;
 use squealmap::engine::plan::{Duration, Plan};
 use squealmap::engine::precision::Precision;
 use squealmap::engine::record::Record;
 use squealmap::model::Param;
+use squealmap::model::instance::Instance;
 use squealmap::model::status::Status;
 use squealmap::sweep::map::Map;
 use squealmap::sweep::run;
@@ -55,9 +55,11 @@ fn on_cpu(spec: &Spec) -> Result<Map, Failed> {
 
 /// At least 99.5 % of the labels equal, amplitudes within the median and the 99th percentile.
 fn verdict(differences: &Differences, median: f64, p99: f64) -> Result<(), Failed> {
-    let Differences { labels, amplitudes, instances } = differences;
-    if labels.len() * 200 > *instances {
-        return Err(format!("{} of {instances} labels differ", labels.len()).into());
+    let Differences { labels, windows, amplitudes, instances } = differences;
+    if (labels.len() + windows.len()) * 200 > *instances {
+        return Err(
+            format!("{} of {instances} labels or windows differ", labels.len() + windows.len()).into()
+        );
     }
     let found = [50, 99].map(|share| differences.quantile(share));
     if amplitudes.len() < *instances || !(found[0] <= median && found[1] <= p99) {
@@ -94,16 +96,19 @@ fn coarse_paper_map() -> Result<(), Failed> {
 
 fn paper_map() -> Result<(), Failed> {
     let spec = paper_map_of(41)?;
-    check(&on_gpu(&spec, Precision::F32, None)?, &on_cpu(&spec)?, 1e-5, 5e-4)
+    let (map, reference) = (on_gpu(&spec, Precision::F32, None)?, on_cpu(&spec)?);
+    check(&map, &reference, 1e-5, 5e-4)?;
+    let labels = Differences::new(&map, &reference).labels;
+    if labels.is_empty() { Ok(()) } else { Err(format!("{} labels differ", labels.len()).into()) }
 }
 
 fn in_f64() -> Result<(), Failed> {
     let spec = paper_map_of(5)?;
     let mut twin = on_gpu(&spec, Precision::F64, None)?;
     let map = twin.clone();
-    let plan = Plan::new(&spec);
-    for (index, record) in twin.records.iter_mut().enumerate() {
-        record.outcome = Some(Box::new(respond::<f64>(&spec.instance(index), &plan, f64::from(TOLERANCE))));
+    let instances: Vec<Instance> = (0..spec.grid.len()).map(|index| spec.instance(index)).collect();
+    for (record, outcome) in twin.records.iter_mut().zip(outcomes::<f64>(&instances, &Plan::new(&spec))) {
+        record.outcome = Some(Box::new(outcome));
     }
     check(&map, &twin, 1e-12, 1e-6)
 }
@@ -206,13 +211,15 @@ fn leaning_springs() -> Result<(), Failed> {
         let map = on_gpu(&spec, precision, None)?;
         let failed = |map: &Map| map.records.iter().filter(|record| record.status != Status::Ok).count();
         assert_eq!((failed(&map), failed(&reference)), (0, 0), "{precision}");
-        // Detachments that last a thousandth of the time come and go with the last bits of such motions.
-        let differences = Differences::new(&map, &reference);
-        println!("{differences}");
-        let labels = differences.labels.len();
-        if labels * 100 > map.records.len() {
-            return Err(format!("{labels} of {} labels differ", map.records.len()).into());
-        }
+        println!("{}", Differences::new(&map, &reference));
+        // What has not settled is chaotic here: its detachments come and go with the last bits, between any two engines.
+        let settled =
+            |index: &usize| [&map, &reference].iter().all(|map| map.records[*index].settled == Some(true));
+        let settled: Vec<usize> = (0..reference.records.len()).filter(settled).collect();
+        let label = |map: &Map, index: usize| (map.records[index].kind, map.records[index].regime);
+        let differ =
+            settled.iter().filter(|index| label(&map, **index) != label(&reference, **index)).count();
+        assert!(settled.len() > 100 && differ == 0, "{precision}: {differ} of {} differ", settled.len());
     }
     Ok(())
 }

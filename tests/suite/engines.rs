@@ -2,8 +2,7 @@
 
 use std::sync::atomic::AtomicBool;
 
-use squealmap::engine::kernel::response;
-use squealmap::engine::kernel::steps::TOLERANCE;
+use crate::twin;
 use squealmap::engine::lanes::Lanes;
 use squealmap::engine::lanes::outcomes::outcomes;
 use squealmap::engine::outcome::Outcome;
@@ -39,17 +38,12 @@ impl Engine {
 
     /// The transients of some instances.
     pub(crate) fn run_all(self, instances: &[Instance], plan: &Plan) -> Vec<Outcome> {
-        let tolerance = f64::from(TOLERANCE);
         match self {
             Engine::Reference => instances.iter().map(|one| respond(one, plan)).collect(),
             Engine::CpuF64 => lanes::<f64>(instances, plan),
             Engine::CpuF32 => lanes::<f32>(instances, plan),
-            Engine::KernelF64 => {
-                instances.iter().map(|one| response::respond::<f64>(one, plan, tolerance)).collect()
-            }
-            Engine::KernelF32 => {
-                instances.iter().map(|one| response::respond::<f32>(one, plan, tolerance)).collect()
-            }
+            Engine::KernelF64 => twin::outcomes::<f64>(instances, plan),
+            Engine::KernelF32 => twin::outcomes::<f32>(instances, plan),
         }
     }
 

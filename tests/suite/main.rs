@@ -13,3 +13,4 @@ mod store;
 mod study;
 mod sweep;
 mod synthetic;
+mod twin;

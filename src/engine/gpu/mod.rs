@@ -9,7 +9,7 @@
 //! - [`run`]: one chunk of instances through a kernel, dispatch by dispatch.
 //! - [`chunks`]: a whole sweep chunk by chunk; a lost device is opened again once.
 //! - [`linear`]: the eigenvalue analysis of a sweep.
-//! - [`response`]: the time integration of a sweep; [`marched`]: that of laws of straight pieces in f32.
+//! - [`response`]: the time integration of a sweep.
 //! - `columns.rs`: words of instances in buffers.
 //! - [`records`]: a GPU as an engine: both of them, one after the other.
 
@@ -20,7 +20,6 @@ mod columns;
 pub mod device;
 pub mod kernel;
 pub mod linear;
-pub mod marched;
 pub(crate) mod open;
 pub mod records;
 pub mod response;

@@ -4,14 +4,14 @@ use std::ops::Not;
 
 use pulp::Simd;
 
-use crate::engine::kernel::contact::{
+use crate::engine::lanes::constants::{CONE, CONSTANTS, LONGEST, N0, SWING_WORDS, V0};
+use crate::engine::lanes::contact::{
     Belt, CONE_BACKWARD, CONE_FORWARD, GAP, LIFT_OFF, LOWER_KINK, NOTHING, REST, State, UPPER_KINK,
 };
-use crate::engine::kernel::scene::{EVENTS_AT_ONCE, Scene};
-use crate::engine::kernel::series::{Body, FREE, REVERSE, SLIP, STICK};
-use crate::engine::lanes::constants::{CONE, CONSTANTS, LONGEST, N0, SWING_WORDS, V0};
+use crate::engine::lanes::contact::{Body, FREE, REVERSE, SLIP, STICK};
 use crate::engine::lanes::scalar::Scalar;
 use crate::engine::lanes::vector::{Mask, Vector};
+use crate::engine::lanes::words::{EVENTS_AT_ONCE, Words};
 use crate::model::piece::LawForm;
 
 /// The event function a lane's normal force or gap belongs to.
@@ -146,7 +146,7 @@ impl<S: Simd, T: Scalar<S>> Block<S, T> {
 
     /// Loads the scene of an instance.
     #[inline(always)]
-    pub fn load_scene(&mut self, lane: usize, constants: &[T; CONSTANTS], scene: &Scene<T>) {
+    pub fn load_scene(&mut self, lane: usize, constants: &[T; CONSTANTS], scene: &Words<T>) {
         for (word, value) in self.scene.iter_mut().zip(constants) {
             word.set(lane, *value);
         }
@@ -164,7 +164,7 @@ impl<S: Simd, T: Scalar<S>> Block<S, T> {
 
     /// Loads the state of a lane.
     #[inline(always)]
-    pub fn load_state(&mut self, index: usize, state: &State<T>, scene: &Scene<T>) {
+    pub fn load_state(&mut self, index: usize, state: &State<T>, scene: &Words<T>) {
         for i in 0..3 {
             self.p[i].set(index, state.body.p[i]);
             self.v[i].set(index, state.body.v[i]);
@@ -194,7 +194,7 @@ impl<S: Simd, T: Scalar<S>> Block<S, T> {
 
     /// Stores the state of a lane.
     #[inline(always)]
-    pub fn store_state(&self, index: usize, state: &mut State<T>, scene: &Scene<T>) {
+    pub fn store_state(&self, index: usize, state: &mut State<T>, scene: &Words<T>) {
         state.body = Body {
             p: [self.p[0].get(index), self.p[1].get(index), self.p[2].get(index)],
             v: [self.v[0].get(index), self.v[1].get(index), self.v[2].get(index)],
@@ -274,7 +274,7 @@ impl<S: Simd, T: Scalar<S>> Block<S, T> {
 fn load_piece<S: Simd, T: Scalar<S>>(
     words: &mut [Vector<S, T>; 6],
     lane: usize,
-    scene: &Scene<T>,
+    scene: &Words<T>,
     index: usize,
 ) {
     let piece = &scene.pieces[index];

@@ -1,7 +1,7 @@
 //! The numbers of a scene that a step needs in every lane.
 
 use crate::engine::kernel::scalar::Real;
-use crate::engine::kernel::scene::NO_KINK;
+use crate::engine::lanes::words::NO_KINK;
 use crate::engine::method::pace::Turns;
 use crate::model::scaled::Scaled;
 

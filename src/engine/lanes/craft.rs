@@ -1,8 +1,8 @@
 //! Jobs that fly to the section of the return map, and back.
 
 use crate::engine::cycle::point::Return;
-use crate::engine::kernel::contact::State;
 use crate::engine::kernel::scalar::Real;
+use crate::engine::lanes::contact::State;
 use crate::engine::lanes::flight::Flight;
 use crate::engine::lanes::job::Job;
 use crate::model::status::Status;

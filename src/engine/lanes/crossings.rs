@@ -4,8 +4,8 @@ use std::ops::Not;
 
 use pulp::Simd;
 
-use crate::engine::kernel::observe::SAMPLE_TIMES;
 use crate::engine::lanes::expand::Expansion;
+use crate::engine::lanes::nodes::SAMPLE_TIMES;
 use crate::engine::lanes::observe::Sums;
 use crate::engine::lanes::polynomial::{soon_to, value_soon};
 use crate::engine::lanes::scalar::Scalar;
@@ -74,7 +74,7 @@ struct Bracket<S: Simd, T: Scalar<S>> {
 
 /// Notes the upward crossings of `ẋ2` up to `at` in the order of their times.
 ///
-/// They are those of [`crate::engine::kernel::observe`]: a jump to the first sample, rises from one sample to the next, and one
+/// They are a jump to the first sample, rises from one sample to the next, and one
 /// side of an extremum that reaches over zero between two samples of the same sign.
 #[inline(always)]
 pub fn cross_upwards<S: Simd, T: Scalar<S>, const N: usize, const MOTION: u8>(

@@ -1,6 +1,6 @@
 //! The first event of every lane inside its step.
 //!
-//! The rules of [`crate::engine::kernel::crossing`], for all lanes at once: a bound by Bernstein coefficients settles
+//! For all lanes at once: a bound by Bernstein coefficients settles
 //! most event functions; one that it does not settle is sampled and its first root refined.
 
 use std::ops::Not;

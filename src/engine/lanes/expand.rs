@@ -1,6 +1,6 @@
 //! The Taylor series of the motion in every lane, over the lane's own step.
 //!
-//! The recurrence of [`crate::engine::kernel::series`] with time in steps: coefficients carry the powers of the step,
+//! The recurrence of [`crate::engine::method::taylor`] with time in steps: coefficients carry the powers of the step,
 //! forces are times its square, so that everything that follows is a polynomial on [0, 1]. Terms that are
 //! known early are summed first: a degree waits for three of its products, not for all.
 
@@ -40,7 +40,7 @@ impl<S: Simd, T: Scalar<S>, const N: usize> Expansion<S, T, N> {
     }
 }
 
-/// `q = σ μ` and `q − μ0` at the relative velocity `v`, see [`crate::engine::kernel::scene::Scene::friction`].
+/// `q = σ μ` and `q − μ0` at the relative velocity `v`, see [`crate::engine::lanes::words::Words::friction`].
 #[inline(always)]
 pub fn friction<S: Simd, T: Scalar<S>, const LAW: bool>(
     b: &Block<S, T>,
@@ -97,7 +97,7 @@ fn layer<S: Simd, T: Scalar<S>, const MOTION: u8>(
     rate * (acceleration * narrowing).fma(b.scene[LAYER], sloped * b.scene[LAYER + 1])
 }
 
-/// `exp(x) − 1`, see [`crate::engine::kernel::scene::exp_m1`].
+/// `exp(x) − 1`, see [`crate::engine::lanes::words::exp_m1`].
 #[inline(always)]
 pub fn exp_m1<S: Simd, T: Scalar<S>>(x: Vector<S, T>) -> Vector<S, T> {
     const DOUBLINGS: usize = 8;
@@ -106,7 +106,7 @@ pub fn exp_m1<S: Simd, T: Scalar<S>>(x: Vector<S, T>) -> Vector<S, T> {
     let doubled = large.any();
     let y = if doubled { large.select(x * x.like(1.0 / 256.0), x) } else { x };
     let mut sum = x.like(1.0);
-    let mut k = crate::engine::kernel::scene::EXP_DEGREE;
+    let mut k = crate::engine::lanes::words::EXP_DEGREE;
     while k >= 2 {
         sum = (y * y.like(1.0 / f64::from(k))).fma(sum, y.like(1.0));
         k -= 1;

@@ -2,8 +2,8 @@
 
 use crate::engine::cycle::point::{Point, Return};
 use crate::engine::cycle::pursuit::LONGEST_RETURN;
-use crate::engine::kernel::contact::{NOTHING, State};
 use crate::engine::kernel::scalar::Real;
+use crate::engine::lanes::contact::{NOTHING, State};
 
 /// Returns asked for, and those that were made.
 #[derive(Clone, Debug, Default)]

@@ -5,7 +5,6 @@ use std::ops::Not;
 
 use pulp::Simd;
 
-use crate::engine::kernel::crossing::HIGHEST_ORDER;
 use crate::engine::lanes::block::Block;
 use crate::engine::lanes::constants::{INV_DET, MU_STICK, N0, STIFFNESS};
 use crate::engine::lanes::expand::Expansion;
@@ -15,6 +14,9 @@ use crate::engine::lanes::reach::largest;
 use crate::engine::lanes::scalar::Scalar;
 use crate::engine::lanes::vector::{Mask, Vector};
 use crate::engine::reference::bounds::ROUNDINGS;
+
+/// Zeros of an event function at its start are at most of this order (the gap opens with t³).
+pub const HIGHEST_ORDER: usize = 3;
 
 /// The rounding errors of event functions and their derivatives at the beginning of a step.
 pub struct Rounding<S: Simd, T: Scalar<S>> {

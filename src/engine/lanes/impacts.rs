@@ -1,6 +1,6 @@
 //! Impacts in all lanes at once, for laws of at most two straight pieces.
 //!
-//! The rules are those of [`crate::engine::kernel::contact`] and [`crate::model::contact`].
+//! The rules are those of [`crate::engine::lanes::contact`] and [`crate::model::contact`].
 
 use std::ops::Not;
 

@@ -2,15 +2,14 @@
 
 use std::f64::consts::TAU;
 
-use crate::engine::kernel::contact::{Belt, GAP, State, UPPER_KINK};
-use crate::engine::kernel::response::without_segments;
 use crate::engine::kernel::scalar::Real;
-use crate::engine::kernel::scene::Scene as Words;
-use crate::engine::kernel::series::FREE;
 use crate::engine::lanes::constants::{CONSTANTS, SWING, constants};
+use crate::engine::lanes::contact::FREE;
+use crate::engine::lanes::contact::{Belt, GAP, State, UPPER_KINK};
 use crate::engine::lanes::count::Count;
 use crate::engine::lanes::flight::Flight;
 use crate::engine::lanes::stretches::Stretches;
+use crate::engine::lanes::words::Words;
 use crate::engine::measuring::Measuring;
 use crate::engine::method::pace::Turns;
 use crate::engine::outcome::Outcome;
@@ -45,7 +44,7 @@ const PHASE_ERROR: f64 = 10.0;
 const FIRST_STRETCH: f64 = 32.0;
 
 /// The parts of a run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Part {
     /// Up to the first event: growth, frequency and phase are measured.
     Growth,
@@ -67,7 +66,7 @@ pub enum Part {
 pub struct Job<T> {
     /// The instance ready to be integrated.
     pub scene: Scene,
-    /// The instance in the form that the kernel's twin takes.
+    /// The instance as scalars, for what happens lane by lane.
     pub words: Words<T>,
     /// The instance as the constants that the steps in vector registers take.
     pub constants: [T; CONSTANTS],
@@ -117,7 +116,7 @@ impl<T: Real> Job<T> {
     /// The start of an instance, whose steps may turn so far.
     #[must_use]
     pub fn new(instance: &Instance, scene: Scene, plan: &Plan, turns: &Turns) -> Job<T> {
-        let words: Words<T> = without_segments(instance.law.kind().form(), &scene, turns);
+        let words: Words<T> = Words::new(instance.law.kind().form(), &scene, turns);
         let measuring = Measuring::new(instance, &scene, plan);
         let belt = scene.belt(0.0);
         let belt =

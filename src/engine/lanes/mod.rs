@@ -1,18 +1,18 @@
 //! The transient of many instances at a time in the lanes of the CPU's vector registers.
 //!
-//! The method is that of the kernels: Taylor series over the step, events located inside it. Lanes are
+//! The method: Taylor series over the step, events located inside it. Lanes are
 //! asynchronous: each has its own instance, time, step and contact state, and none waits for another. A run
 //! is cut into parts, each stepped by code that does only what its part needs.
 //!
 //! | question | where |
 //! |---|---|
 //! | a sweep on all cores; some instances of it; those that need double precision | [`records`], [`outcomes`], [`again`] |
-//! | one instance between passes | [`job`] |
+//! | one instance between passes, and as scalars | [`job`], [`words`] |
 //! | one part of the run: which lanes, step by step | [`march`], [`pass`](mod@pass), [`block`], [`count`] |
 //! | numbers in lanes | [`vector`], [`polynomial`], [`angle`], [`constants`] |
 //! | a step: its series, its length | [`expand`], [`reach`] |
-//! | its first event, and what that does | [`functions`], [`function`], [`root`], [`events`], [`carry`], [`transitions`], [`impacts`] |
-//! | what is seen on the way | [`observe`], [`crossings`], [`spectrum`], [`stretches`] |
+//! | its first event, and what that does | [`functions`], [`function`], [`root`], [`events`], [`carry`], [`transitions`], [`impacts`]; lane by lane: [`contact`] |
+//! | what is seen on the way | [`nodes`], [`observe`], [`crossings`], [`spectrum`], [`stretches`] |
 //! | the single mass in closed form | [`swing`], [`swing_step`], [`swing_sums`], [`swing_cycle`], [`cycle`] |
 
 #![expect(
@@ -31,6 +31,7 @@ pub mod angle;
 pub mod block;
 pub mod carry;
 pub mod constants;
+pub mod contact;
 pub mod count;
 pub mod craft;
 pub mod crossings;
@@ -47,6 +48,7 @@ pub mod impacts;
 pub mod job;
 pub mod march;
 pub mod motion;
+pub mod nodes;
 pub mod observe;
 pub mod outcomes;
 pub mod pass;
@@ -64,6 +66,7 @@ pub mod swing_step;
 pub mod swing_sums;
 pub mod transitions;
 pub mod vector;
+pub mod words;
 
 use std::sync::atomic::Ordering;
 

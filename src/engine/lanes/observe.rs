@@ -1,14 +1,14 @@
 //! Running reductions of every lane over its present stretch; a stretch ends in the job's sums in f64.
 //!
-//! The definitions are those of [`crate::engine::kernel::observe`].
+//! The definitions are those of [`crate::engine::reference::observe`].
 
-use crate::engine::kernel::observe::{NODES, SAMPLE_TIMES, WEIGHTS};
 use crate::engine::lanes::angle::{rotation, turn};
 use crate::engine::lanes::block::Block;
 use crate::engine::lanes::constants::{N0, R, T0, W};
 use crate::engine::lanes::cycle::Cycle;
 use crate::engine::lanes::expand::Expansion;
 use crate::engine::lanes::motion::SINGLE;
+use crate::engine::lanes::nodes::{NODES, SAMPLE_TIMES, WEIGHTS};
 use crate::engine::lanes::polynomial::{soon_to, value_soon};
 use crate::engine::lanes::scalar::Scalar;
 use crate::engine::lanes::spectrum::{Nodes, Spectrum, moving, seen};
@@ -278,7 +278,7 @@ pub fn change<S: Simd, T: Scalar<S>, const N: usize>(v: &[Vector<S, T>; N], t: V
     value_soon(v, 2, t) * t
 }
 
-/// The maximum of a smooth function from its samples, see [`crate::engine::kernel::observe::maximum`].
+/// The maximum of a smooth function from its samples, as [`crate::engine::reference::observe`] finds it.
 #[inline(always)]
 fn maximum<S: Simd, T: Scalar<S>>(values: &[Vector<S, T>; 5]) -> Vector<S, T> {
     let zero = values[0].like(0.0);

@@ -5,11 +5,23 @@ use std::ops::Not;
 
 use pulp::Simd;
 
-use crate::engine::kernel::crossing::{DIP, DIP_ITERATIONS, SAMPLES, SOLVER_ITERATIONS};
 use crate::engine::lanes::polynomial::{at_one, soon_to, value_and_slope, value_slope_and_bend, value_soon};
 use crate::engine::lanes::scalar::Scalar;
 use crate::engine::lanes::vector::{Mask, Vector};
 use crate::engine::precision::Precision;
+
+/// Samples of an event function inside a step that the bound does not clear.
+pub const SAMPLES: usize = 8;
+
+/// A sample lower than both its neighbours is followed to the minimum when it is below this part of their second
+/// difference: that of a parabola is no deeper than an eighth of it.
+pub const DIP: f64 = 0.25;
+
+/// Iterations that follow it: each leaves some tenth of the distance.
+pub const DIP_ITERATIONS: usize = 3;
+
+/// Iterations of the bracketed Newton solver.
+pub const SOLVER_ITERATIONS: usize = 12;
 
 /// The least part of the way between two samples at which a root is looked for first.
 const LEAST: f64 = 1e-3;

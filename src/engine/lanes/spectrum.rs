@@ -10,10 +10,10 @@ use std::f64::consts::TAU;
 
 use pulp::Simd;
 
-use crate::engine::kernel::observe::{NODES, WEIGHTS};
 use crate::engine::lanes::angle::{rotation, turn};
 use crate::engine::lanes::expand::Expansion;
 use crate::engine::lanes::motion::SINGLE;
+use crate::engine::lanes::nodes::{NODES, WEIGHTS};
 use crate::engine::lanes::polynomial::soon_to;
 use crate::engine::lanes::scalar::Scalar;
 use crate::engine::lanes::vector::{Mask, Vector};

@@ -1,20 +1,20 @@
 //! The effects of most events in all lanes at once: rest, stick, slip, kinks, lift-off and impacts.
 //!
-//! The rules are those of [`crate::engine::kernel::contact`]. Rare events are left to it, lane by lane.
+//! The rules are those of [`crate::engine::lanes::contact`]. Rare events are left to it, lane by lane.
 
 use std::ops::Not;
 
 use pulp::Simd;
 
-use crate::engine::kernel::contact::HELD_FROM;
-use crate::engine::kernel::scene::EVENTS_AT_ONCE;
-use crate::engine::kernel::series::{FREE, REVERSE, SLIP, STICK};
 use crate::engine::lanes::block::{Block, FIRST, LOWER, ONE_PIECE, SECOND, THIRD, UPPER};
 use crate::engine::lanes::constants::{CONE, KAPPA, MU_STICK, N0, R, T0, W};
+use crate::engine::lanes::contact::HELD_FROM;
+use crate::engine::lanes::contact::{FREE, REVERSE, SLIP, STICK};
 use crate::engine::lanes::impacts::{at_speed, impact};
 use crate::engine::lanes::motion::{FLIGHT, PIECES};
 use crate::engine::lanes::scalar::Scalar;
 use crate::engine::lanes::vector::{Mask, Vector};
+use crate::engine::lanes::words::EVENTS_AT_ONCE;
 
 /// A linear form of the state.
 #[inline(always)]

@@ -4,21 +4,26 @@
 use std::sync::LazyLock;
 
 use crate::engine::fields::Field;
-use crate::engine::kernel::observe::{NODES, WEIGHTS};
 use crate::engine::kernel::source::{Constant, Kernel};
-use crate::engine::kernel::table::piece;
-use crate::engine::kernel::{contact, crossing, scene, series as states};
 use crate::engine::lanes::ORDER;
+use crate::engine::lanes::contact as states;
+use crate::engine::lanes::function::HIGHEST_ORDER;
 use crate::engine::lanes::job::Part;
+use crate::engine::lanes::nodes::{NODES, WEIGHTS};
 use crate::engine::lanes::reach::{FAR, LONGER, MARGIN, SHORTEST};
+use crate::engine::lanes::words::EVENTS_AT_ONCE;
 use crate::engine::march::series;
-use crate::engine::march::table::{flag, head, state};
+use crate::engine::march::table::{flag, head, piece, state};
 use crate::engine::reference::bounds::ROUNDINGS;
 use crate::engine::sums::sum;
 use crate::model::contact::SLOWEST_REBOUND;
+use crate::model::piece::{FAR as NEAR, LawForm};
 
 /// Most pieces of a friction law in a kernel, and those of each that is compiled.
 pub const PIECES: [usize; 7] = [1, 2, 4, 16, 64, 256, 1024];
+
+/// Most pieces of a friction law.
+pub const MOST_PIECES: usize = PIECES[PIECES.len() - 1];
 
 /// Where the files of the kernel are, and their text; that of the series is made.
 static FILES: LazyLock<[(&str, &str); 4]> = LazyLock::new(|| {
@@ -60,9 +65,9 @@ fn kernel(pieces: usize) -> Kernel {
             ("REVERSE", Constant::U32(states::REVERSE)),
             ("STICK", Constant::U32(states::STICK)),
             ("FREE", Constant::U32(states::FREE)),
-            ("HIGHEST_ORDER", Constant::U32(crossing::HIGHEST_ORDER as u32)),
-            ("HELD_FROM", Constant::U32(contact::HELD_FROM)),
-            ("EVENTS_AT_ONCE", Constant::U32(scene::EVENTS_AT_ONCE)),
+            ("HIGHEST_ORDER", Constant::U32(HIGHEST_ORDER as u32)),
+            ("HELD_FROM", Constant::U32(states::HELD_FROM)),
+            ("EVENTS_AT_ONCE", Constant::U32(EVENTS_AT_ONCE)),
             ("ROUNDINGS", Constant::Real(ROUNDINGS)),
             ("SLOWEST_REBOUND", Constant::Real(SLOWEST_REBOUND)),
             ("LONGER", Constant::Real(LONGER)),
@@ -70,6 +75,9 @@ fn kernel(pieces: usize) -> Kernel {
             ("FAR", Constant::Real(FAR)),
             ("SHORTEST", Constant::Real(SHORTEST)),
             ("ENOUGH", Constant::Real(ENOUGH)),
+            ("LAW_PIECES", Constant::U32(LawForm::Pieces as u32)),
+            ("LAW_EXPONENTIAL", Constant::U32(LawForm::Exponential as u32)),
+            ("NEAR", Constant::Real(NEAR)),
             ("NODE_0", Constant::Real(NODES[0])),
             ("NODE_1", Constant::Real(NODES[1])),
             ("NODE_2", Constant::Real(NODES[2])),
@@ -85,11 +93,16 @@ fn kernel(pieces: usize) -> Kernel {
     }
 }
 
-/// A root is found when the last step of Newton's method, which squares its error, was below this part of the step.
-const ENOUGH: f64 = 1e-4;
+/// A root is found when the square of the last step of Newton's method, which squares its error, was below this many
+/// roundings of the step.
+const ENOUGH: f64 = 0.08;
 
-/// The parts of the kernel that are chosen: the part of the run, and whether the belt has a ramp.
+/// The parts of the kernel that are chosen: the part of the run, the form of the law, and whether the belt has a ramp.
 #[must_use]
-pub fn choices(part: Part, ramp: bool) -> Vec<(&'static str, Constant)> {
-    vec![("PART", Constant::U32(part as u32)), ("RAMP", Constant::Bool(ramp))]
+pub fn choices(part: Part, law: LawForm, ramp: bool) -> Vec<(&'static str, Constant)> {
+    vec![
+        ("PART", Constant::U32(part as u32)),
+        ("LAW", Constant::U32(law as u32)),
+        ("RAMP", Constant::Bool(ramp)),
+    ]
 }

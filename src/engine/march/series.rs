@@ -7,12 +7,8 @@
 
 use std::fmt::Write;
 
-/// A line of text.
-macro_rules! line {
-    ($text:ident, $($format:tt)*) => {{
-        let _ = writeln!($text, $($format)*);
-    }};
-}
+use crate::engine::march::curved;
+use crate::engine::march::rows::{line, row, scaled, sliding, slower, twice, velocities};
 
 /// The series of a step of some order and all that is done with them.
 #[must_use]
@@ -26,6 +22,7 @@ pub fn text(order: usize) -> String {
         }
     }
     slip(&mut text, order);
+    curved::text(&mut text, order);
     stick(&mut text, order);
     flight(&mut text, order);
     reach(&mut text, order);
@@ -37,60 +34,20 @@ pub fn text(order: usize) -> String {
     text
 }
 
-/// `1/((k + 1)(k + 2))`: from an acceleration to the position.
-fn twice(k: usize) -> f64 {
-    1.0 / ((k + 1) * (k + 2)) as f64
-}
-
-/// Products of rows with the coordinates and velocities of degree `k`: a row is four variables `{row}0 {row}2 {row}3 {row}5`.
-fn row(row: &str, k: usize) -> String {
-    format!("{row}0 * x{k} + ({row}2 * w{k} + ({row}3 * u + {row}5 * o))")
-}
-
-/// The velocities of degree `k`, in whole steps.
-fn velocities(text: &mut String, k: usize) {
-    line!(text, "    let u = {}.0 * x{}; let o = {}.0 * w{};", k + 1, k + 1, k + 1, k + 1);
-}
-
-/// Four words of a form of the state, times the powers of the step.
-fn scaled(text: &mut String, row: &str, word: &str) {
-    for (i, power) in [(0, "square"), (2, "square"), (3, "h"), (5, "h")] {
-        line!(text, "  let {row}{i} = input({word} + {i}u, instance) * {power};");
-    }
-}
-
 /// Slip in either direction on a straight piece.
 fn slip(text: &mut String, order: usize) {
     line!(text, "fn expand_slip(h: real, q: Friction, inertia: real) {{");
-    line!(
-        text,
-        "  let square = h * h; let reciprocal = 1.0 / inertia; let scale = reciprocal * square; let damp = reciprocal * h;"
-    );
-    scaled(text, "m", "INPUT_W");
-    scaled(text, "b", "INPUT_H");
-    for (i, power) in [(0, "scale"), (2, "scale"), (3, "damp"), (5, "damp")] {
-        line!(
-            text,
-            "  let a{i} = (q.q * input(INPUT_W + {i}u, instance) - input(INPUT_R + {i}u, instance)) * {power};"
-        );
-    }
-    line!(text, "  let load = input(INPUT_N0, instance);");
-    line!(text, "  let push = q.less * load * scale;");
-    line!(text, "  let kappa = input(INPUT_KAPPA, instance);");
+    sliding(text);
     line!(text, "  let stiff = -(piece.slope * reciprocal / h);");
-    // The relative velocity of degree j is less that of x2, but for the belt's.
-    let relative = |j: usize| {
-        if j == 1 { "(2.0 * x2 - drive * square)".to_owned() } else { format!("({}.0 * x{})", j + 1, j + 1) }
-    };
     for k in 0..=order - 2 {
         line!(text, "  {{");
         velocities(text, k);
         let constant = if k == 0 { " + push" } else { "" };
         line!(text, "    var a = {}{constant};", row("a", k));
         if k > 0 {
-            let mut sum = format!("{} * n{}", relative(k), 0);
+            let mut sum = format!("{} * n{}", slower(k), 0);
             for j in (1..k).rev() {
-                sum = format!("{} * n{} + ({sum})", relative(j), k - j);
+                sum = format!("{} * n{} + ({sum})", slower(j), k - j);
             }
             line!(text, "    a = stiff * ({sum}) + a;");
         }
@@ -99,7 +56,7 @@ fn slip(text: &mut String, order: usize) {
         line!(text, "    x{} = a * {:?}; w{} = ({}) * {:?};", k + 2, twice(k), k + 2, row("b", k), twice(k));
         line!(text, "  }}");
     }
-    line!(text, "  second = {};", relative(1));
+    line!(text, "  second = {};", slower(1));
     line!(text, "  n{} = 0.0; n{order} = 0.0;", order - 1);
     line!(text, "}}");
 }
@@ -118,7 +75,7 @@ fn stick(text: &mut String, order: usize) {
         let [mut tangential, mut normal, mut beyond] = ["a", "m", "b"].map(|name| row(name, k));
         line!(text, "  {{");
         if k <= 2 {
-            let u = ["x1", "2.0 * x2", "0.0"][k];
+            let u = ["x1", "2.0 * x2", "real(0.0)"][k];
             line!(text, "    let u = {u}; let o = {}.0 * w{};", k + 1, k + 1);
         } else {
             line!(text, "    let o = {}.0 * w{};", k + 1, k + 1);

@@ -25,6 +25,18 @@ pub mod head {
         IMPACT_FRICTION 1, "1 with a Coulomb impulse, else 0.";
         STEP 1, "The longest step of the stretch.";
         DRIVE 1, "Belt acceleration.";
+        LAYER 2, "How far a step of a curved law may go.";
+    }
+}
+
+/// A piece of the friction law.
+pub mod piece {
+    crate::engine::fields::fields! {
+        AT_ZERO 1, "μ continued to `|v| = 0`.";
+        SLOPE 1, "`dμ/d|v|`.";
+        RATE 1, "Decay rate, or the longest step on a straight piece.";
+        OFFSET 1, "μ at the initial belt velocity less μ of the equilibrium.";
+        KINK 1, "Upper end in `|v|`.";
     }
 }
 

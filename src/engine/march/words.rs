@@ -2,14 +2,13 @@
 
 use std::f64::consts::TAU;
 
-use crate::engine::kernel::contact::{NOTHING, UPPER_KINK};
 use crate::engine::kernel::scalar::Real;
-use crate::engine::kernel::series::{Body, FREE, STICK};
-use crate::engine::kernel::table::piece;
 use crate::engine::lanes::block::{FIRST, SECOND, THIRD, event_of};
+use crate::engine::lanes::constants::LAYER;
+use crate::engine::lanes::contact::{Body, FREE, NOTHING, STICK, UPPER_KINK};
 use crate::engine::lanes::job::{Job, Part};
 use crate::engine::lanes::spectrum::{CLOSING, COMPONENTS};
-use crate::engine::march::table::{flag, head, state};
+use crate::engine::march::table::{flag, head, piece, state};
 use crate::engine::plan::Plan;
 use crate::engine::scene::MOST_STEPS;
 use crate::engine::sums::sum;
@@ -42,6 +41,7 @@ pub fn begin<R: Real>(job: &mut Job<R>, part: Part, plan: &Plan, pieces: usize) 
     inputs[..head::STEP].copy_from_slice(&job.constants[..head::STEP]);
     inputs[head::V0] = job.words.v0;
     inputs[head::STEP] = R::from_f64(step);
+    inputs[head::LAYER..head::LAYER + 2].copy_from_slice(&job.constants[LAYER..LAYER + 2]);
     inputs[head::DRIVE] = R::from_f64(belt.acceleration);
     for (index, words) in inputs[head::WORDS..].chunks_exact_mut(piece::WORDS).enumerate() {
         // What there is room for beyond the last is the last.
@@ -86,10 +86,15 @@ pub fn begin<R: Real>(job: &mut Job<R>, part: Part, plan: &Plan, pieces: usize) 
     Some(Words { inputs, state: words, flags })
 }
 
-/// Takes what the kernel has made of a stretch; `None` when its status is none that it may have.
+/// Takes what the kernel has made of a stretch; `None` when its status is none that it may have, or it says that it came to
+/// its end and did not.
 pub fn take<R: Real>(job: &mut Job<R>, part: Part, words: &[R], flags: &[u32]) -> Option<()> {
     let status = Status::from_code(flags[flag::STATUS]).filter(|status| *status != Status::Unwritten)?;
     let left = words[state::LEFT].to_f64();
+    let met = part == Part::Growth && flags[flag::EVENTFUL] == 1;
+    if status == Status::Ok && left > 0.0 && !met {
+        return None;
+    }
     flush(job, part, words, flags);
     let triple = |at: usize| [words[at], words[at + 1], words[at + 2]];
     job.state.body = Body { p: triple(state::BODY), v: triple(state::BODY + 3) };

@@ -6,9 +6,9 @@ use pulp::{Arch, Simd, WithSimd};
 
 use crate::common::plan;
 use crate::instances::{Uniform, moving};
-use squealmap::engine::kernel::series::FREE;
 use squealmap::engine::lanes::ORDER;
 use squealmap::engine::lanes::block::Block;
+use squealmap::engine::lanes::contact::FREE;
 use squealmap::engine::lanes::impacts::impact;
 use squealmap::engine::lanes::job::Job;
 use squealmap::engine::lanes::scalar::Scalar;

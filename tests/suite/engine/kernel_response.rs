@@ -1,20 +1,15 @@
 //! The twin of the response kernel against the reference: is the method right, and is f32 enough?
 
-use crate::common::{bilinear, near, paper, plan};
-use squealmap::engine::kernel::response::respond as twin;
-use squealmap::engine::kernel::segments::segments;
+use crate::common::{bilinear, paper, plan};
+use crate::twin::outcomes as twin;
 use squealmap::engine::outcome::Outcome;
 use squealmap::engine::plan::{Duration, Plan};
 use squealmap::engine::reference::respond::respond;
 use squealmap::engine::regime::regime;
-use squealmap::engine::scene::Scene;
 use squealmap::model::Param;
 use squealmap::model::friction::FrictionLaw;
 use squealmap::model::instance::Instance;
 use squealmap::model::status::Status;
-
-/// Bound on the truncation of the kernel's steps, in use for f32.
-const TOLERANCE: f64 = 2e-4;
 
 /// 5 × 5 friction coefficients at four velocities, or the same numbers in another law.
 pub(crate) fn scenes(law: fn(f64, f64) -> FrictionLaw) -> Vec<Instance> {
@@ -37,11 +32,12 @@ pub(crate) fn periods() -> Plan {
 /// Relative differences of the amplitudes, and how many regimes differ.
 pub(crate) fn compare(
     law: fn(f64, f64) -> FrictionLaw,
-    run: fn(&Instance, &Plan, f64) -> Outcome,
+    run: fn(&[Instance], &Plan) -> Vec<Outcome>,
 ) -> (Vec<f64>, usize) {
     let (mut errors, mut regimes) = (Vec::new(), 0);
-    for instance in scenes(law) {
-        let (reference, other) = (respond(&instance, &periods()), run(&instance, &periods(), TOLERANCE));
+    let scenes = scenes(law);
+    for (instance, other) in scenes.iter().zip(run(&scenes, &periods())) {
+        let reference = respond(instance, &periods());
         assert_eq!(other.status, reference.status, "{instance:?}");
         if reference.status != Status::Ok {
             continue;
@@ -67,7 +63,7 @@ pub(crate) fn compare(
     (errors, regimes)
 }
 
-fn agree(law: fn(f64, f64) -> FrictionLaw, run: fn(&Instance, &Plan, f64) -> Outcome) {
+fn agree(law: fn(f64, f64) -> FrictionLaw, run: fn(&[Instance], &Plan) -> Vec<Outcome>) {
     let (errors, regimes) = compare(law, run);
     let quantile = |share: usize| errors[(errors.len() - 1) * share / 100];
     assert!(errors.len() > 400 && regimes <= 1, "{} numbers, {regimes} regimes differ", errors.len());
@@ -89,36 +85,13 @@ fn smooth_laws_agree_with_the_reference() {
 #[test]
 fn the_comparer_sees_a_wrong_scene() {
     // Planted fault: the twin integrates another normal stiffness.
-    let wrong = |instance: &Instance, plan: &Plan, tolerance: f64| {
-        let mut instance = instance.clone();
-        instance.params.set(Param::K2, 1.02e5);
-        twin::<f32>(&instance, plan, tolerance)
+    let wrong = |instances: &[Instance], plan: &Plan| {
+        let mut instances = instances.to_vec();
+        for one in &mut instances {
+            one.params.set(Param::K2, 1.02e5);
+        }
+        twin::<f32>(&instances, plan)
     };
     let (errors, _) = compare(bilinear, wrong);
     assert!(errors[(errors.len() - 1) * 99 / 100] > 2e-3);
-}
-
-/// The segments of a run make up the time that was asked for, wherever a ramp ends: a sum that falls short of that by its
-/// rounding once took the place of the second half of the window, with the status `ok`.
-#[test]
-fn segments_make_up_the_time_that_is_asked_for() {
-    // A sequence that fills the unit square evenly.
-    let even = |index: u32, ratio: f64| (f64::from(index) * ratio).fract();
-    for index in 0..20_000 {
-        let (settle, measure) = (60.0 * even(index, 0.754_877_666), 0.1 + 60.0 * even(index, 0.569_840_291));
-        let mut one = paper(0.3, 0.2, 1.0);
-        one.params.set(Param::BeltVelocityEnd, 1.0 + f64::from(index % 2));
-        one.params.set(Param::RampDuration, (settle + measure) * even(index, 0.618_033_989));
-        let plan = plan(settle, measure, 4);
-        let scene = Scene::new(&one, plan.start).expect("an equilibrium");
-        let segments = segments(&scene, &plan);
-        let asked =
-            [scene.scaled(plan.settle), 0.5 * scene.scaled(plan.measure), 0.5 * scene.scaled(plan.measure)];
-        for (part, asked) in asked.into_iter().enumerate() {
-            let is_of_part = |segment: &&[f64; 5]| segment[0] > 0.0 && (segment[4] - part as f64).abs() < 0.5;
-            let of_part = segments.iter().filter(is_of_part);
-            let sum: f64 = of_part.map(|segment| segment[0] * segment[1]).sum();
-            near(&format!("part {part} of {settle} s + {measure} s"), sum, asked, 1e-9);
-        }
-    }
 }

@@ -5,7 +5,10 @@ use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{AddressSpace, Module, Scalar, ScalarKind, StorageAccess, TypeInner};
 use squealmap::engine::fields::words;
 use squealmap::engine::kernel::source::{BINDINGS, Constant, Kernel, Settings, WORKGROUP_SIZE};
-use squealmap::engine::kernel::{linear, response, source};
+use squealmap::engine::kernel::{linear, source};
+use squealmap::engine::lanes::job::Part;
+use squealmap::engine::march::kernel::PIECES;
+use squealmap::engine::march::marching::Form;
 use squealmap::engine::precision::Precision;
 use squealmap::model::piece::LawForm;
 
@@ -21,39 +24,28 @@ struct Twin {
 const TWINS: &[Twin] = &[
     // is_finite belongs to the host's file in WGSL.
     Twin { name: "linear", rust_only: &["code", "all_finite"], wgsl_only: &[] },
-    Twin {
-        name: "scene",
-        rust_only: &["read", "words", "head", "piece", "of", "read_head"],
-        wgsl_only: &["read_scene", "piece_of", "segment_of"],
-    },
-    Twin { name: "series", rust_only: &[], wgsl_only: &[] },
-    Twin { name: "crossing", rust_only: &[], wgsl_only: &[] },
-    Twin {
-        name: "observe",
-        rust_only: &["start", "new", "default", "count_impact", "close_growth"],
-        wgsl_only: &["sample_time", "node_weight"],
-    },
-    Twin { name: "contact", rust_only: &["blank", "new", "return_to", "is_finite"], wgsl_only: &[] },
-    Twin {
-        name: "lane",
-        rust_only: &["blank", "new", "is_at_end", "run"],
-        wgsl_only: &["start_lane", "watch"],
-    },
 ];
 
+/// What is chosen in a kernel.
+type Choices = Vec<(&'static str, Constant)>;
+
 /// Every kernel there is, in every form.
-pub(crate) const KERNELS: [(Kernel, &[(&str, Constant)]); 10] = [
-    (linear::KERNEL, &[]),
-    (response::kernel::<1>(), &response::choices(LawForm::Pieces, false)),
-    (response::kernel::<2>(), &response::choices(LawForm::Pieces, true)),
-    (response::kernel::<4>(), &response::choices(LawForm::Pieces, false)),
-    (response::kernel::<16>(), &response::choices(LawForm::Pieces, true)),
-    (response::kernel::<64>(), &response::choices(LawForm::Pieces, false)),
-    (response::kernel::<256>(), &response::choices(LawForm::Pieces, true)),
-    (response::kernel::<1024>(), &response::choices(LawForm::Pieces, false)),
-    (response::kernel::<1>(), &response::choices(LawForm::Exponential, true)),
-    (response::kernel::<1>(), &response::choices(LawForm::Rational, false)),
-];
+pub(crate) fn kernels() -> Vec<(Kernel, Choices)> {
+    let march = |pieces: usize, part, law, ramp| {
+        let (kernel, choices) = Form { part, law, pieces, ramp }.kernel().expect("a kernel");
+        (*kernel, choices)
+    };
+    let mut all = vec![(linear::KERNEL, Vec::new())];
+    for (index, pieces) in PIECES.into_iter().enumerate() {
+        let part = [Part::Growth, Part::Settle, Part::Window][index % 3];
+        all.push(march(pieces, part, LawForm::Pieces, index % 2 == 0));
+    }
+    for part in [Part::Growth, Part::Settle, Part::Window] {
+        all.push(march(1, part, LawForm::Exponential, true));
+        all.push(march(1, part, LawForm::Rational, false));
+    }
+    all
+}
 
 fn parsed(kernel: &Kernel, choices: &[(&str, Constant)], precision: Precision) -> (Module, ModuleInfo) {
     let text = kernel.source(precision, choices);
@@ -71,9 +63,9 @@ fn parsed(kernel: &Kernel, choices: &[(&str, Constant)], precision: Precision) -
 
 #[test]
 fn every_kernel_is_valid_in_both_scalars() {
-    for (kernel, choices) in KERNELS {
+    for (kernel, choices) in kernels() {
         for precision in [Precision::F32, Precision::F64] {
-            let (module, info) = parsed(&kernel, choices, precision);
+            let (module, info) = parsed(&kernel, &choices, precision);
             let options = spv::Options::default();
             let words = spv::write_vec(&module, &info, &options, None).expect("SPIR-V");
             assert_eq!(words[0], 0x0723_0203, "{}: the magic number of SPIR-V", kernel.name);
@@ -83,8 +75,8 @@ fn every_kernel_is_valid_in_both_scalars() {
 
 #[test]
 fn every_kernel_can_be_written_for_metal_and_dx12() {
-    for (kernel, choices) in KERNELS {
-        let (module, info) = parsed(&kernel, choices, Precision::F32);
+    for (kernel, choices) in kernels() {
+        let (module, info) = parsed(&kernel, &choices, Precision::F32);
         let mut options = msl::Options { fake_missing_bindings: true, ..msl::Options::default() };
         options.lang_version = (2, 0);
         let (text, _) = msl::write_string(&module, &info, &options, &msl::PipelineOptions::default())
@@ -103,9 +95,9 @@ fn every_kernel_can_be_written_for_metal_and_dx12() {
 
 #[test]
 fn bindings_strides_and_sizes_are_those_of_rust() {
-    for (kernel, choices) in KERNELS {
+    for (kernel, choices) in kernels() {
         for precision in [Precision::F32, Precision::F64] {
-            let (module, _) = parsed(&kernel, choices, precision);
+            let (module, _) = parsed(&kernel, &choices, precision);
             for (number, name) in (0..).zip(BINDINGS) {
                 let (_, variable) = module
                     .global_variables
@@ -166,8 +158,8 @@ fn the_settings_have_the_same_members_at_the_same_places() {
 
 #[test]
 fn the_scalar_is_the_only_float_of_the_buffers() {
-    for (kernel, choices) in KERNELS {
-        let (module, _) = parsed(&kernel, choices, Precision::F64);
+    for (kernel, choices) in kernels() {
+        let (module, _) = parsed(&kernel, &choices, Precision::F64);
         let wide = Scalar { kind: ScalarKind::Float, width: 8 };
         let buffers = ["inputs", "state"];
         for (_, variable) in module.global_variables.iter() {
@@ -183,7 +175,7 @@ fn the_scalar_is_the_only_float_of_the_buffers() {
 
 #[test]
 fn flags_begin_with_status_and_steps() {
-    for (kernel, _) in KERNELS {
+    for (kernel, _) in kernels() {
         assert!(kernel.flags[source::FLAG_STATUS].name.eq_ignore_ascii_case("status"));
         assert!(kernel.flags[source::FLAG_STEPS].name.eq_ignore_ascii_case("steps"));
         assert!(words(kernel.settings) <= source::SETTING_WORDS);

@@ -5,10 +5,10 @@ use pulp::{Arch, Simd, WithSimd};
 
 use crate::engine::first_events::{Body, N, job, steps};
 use crate::instances::Uniform;
-use squealmap::engine::kernel::contact::NOTHING;
-use squealmap::engine::kernel::series::{REVERSE, SLIP};
 use squealmap::engine::lanes::block::{FIRST, LOWER, SECOND, THIRD, UPPER};
 use squealmap::engine::lanes::constants::LONGEST;
+use squealmap::engine::lanes::contact::NOTHING;
+use squealmap::engine::lanes::contact::{REVERSE, SLIP};
 
 /// Samples of the dense search.
 const DENSE: usize = 1000;

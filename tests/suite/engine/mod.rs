@@ -17,6 +17,7 @@ pub(crate) mod kernels;
 pub(crate) mod layers;
 pub(crate) mod leaves;
 pub(crate) mod limits;
+mod marching;
 pub(crate) mod methods;
 pub(crate) mod not_yet_grown;
 pub(crate) mod observables;

@@ -3,8 +3,8 @@
 use std::sync::atomic::AtomicBool;
 
 use crate::common::{close, near, paper, plan};
+use crate::twin;
 use squealmap::engine::judged::regime;
-use squealmap::engine::kernel::response::respond as twin;
 use squealmap::engine::lanes::Lanes;
 use squealmap::engine::lanes::outcomes::outcomes;
 use squealmap::engine::outcome::{Ending, Outcome};
@@ -46,14 +46,18 @@ fn in_lanes<T: Lanes>(instance: &Instance, plan: &Plan) -> Outcome {
     outcomes::<T>(std::slice::from_ref(instance), plan, &AtomicBool::new(false)).expect("nobody stops it")[0]
 }
 
+fn by_twin<T: Lanes>(instance: &Instance, plan: &Plan) -> Outcome {
+    twin::outcomes::<T>(std::slice::from_ref(instance), plan)[0]
+}
+
 /// The reference, the CPU engine and the kernel's twin, each in every precision it has.
 fn on_every_engine(instance: &Instance, plan: &Plan) -> [(&'static str, Outcome); 5] {
     [
         ("reference", respond(instance, plan)),
         ("f64", in_lanes::<f64>(instance, plan)),
         ("f32", in_lanes::<f32>(instance, plan)),
-        ("twin f64", twin::<f64>(instance, plan, 1e-8)),
-        ("twin f32", twin::<f32>(instance, plan, 2e-4)),
+        ("twin f64", by_twin::<f64>(instance, plan)),
+        ("twin f32", by_twin::<f32>(instance, plan)),
     ]
 }
 

@@ -5,9 +5,9 @@ use pulp::{Arch, Simd, WithSimd};
 
 use crate::engine::first_events::{Body, job, steps};
 use crate::instances::Uniform;
-use squealmap::engine::kernel::series::STICK;
 use squealmap::engine::lanes::block::{SECOND, THIRD};
 use squealmap::engine::lanes::constants::R;
+use squealmap::engine::lanes::contact::STICK;
 use squealmap::model::scaled::Scaled;
 
 /// Short steps of the other integration.

@@ -2,7 +2,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use crate::engine::kernels::KERNELS;
+use crate::engine::kernels::kernels;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use squealmap::engine::kernel::spirv::{Strict, decorated, written};
 use squealmap::engine::precision::Precision;
@@ -90,9 +90,9 @@ fn checked(module: &[u32]) -> Result<usize, String> {
 
 /// Every kernel as a strict module, with naga's words.
 fn every_kernel(mut with: impl FnMut(&str, Precision, &[u32], &[u32])) {
-    for (kernel, choices) in KERNELS {
+    for (kernel, choices) in kernels() {
         for precision in [Precision::F32, Precision::F64] {
-            let text = kernel.source(precision, choices);
+            let text = kernel.source(precision, &choices);
             let strict = Strict::new(&text, precision).expect("a strict kernel");
             let plain = written(&text, precision).expect("SPIR-V");
             with(&format!("{} in {precision}", kernel.name), precision, strict.words(), &plain);
@@ -177,7 +177,7 @@ fn the_check_sees_what_is_not_decorated_once() {
 fn words_that_are_no_module_are_refused() {
     assert!(decorated(&[]).is_err());
     assert!(decorated(&[7; 20]).is_err());
-    let plain = written(&KERNELS[0].0.source(Precision::F32, &[]), Precision::F32).expect("SPIR-V");
+    let plain = written(&kernels()[0].0.source(Precision::F32, &[]), Precision::F32).expect("SPIR-V");
     assert!(decorated(&plain[..plain.len() - 1]).is_ok(), "a module may end behind any instruction");
     let mut cut = plain.clone();
     cut[5] = 0;

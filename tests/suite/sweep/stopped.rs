@@ -10,9 +10,8 @@ use squealmap::engine::computation::Stopped;
 use squealmap::engine::computed::Computed;
 use squealmap::engine::error::Error;
 use squealmap::engine::gpu::run::{ChunkResult, check};
-use squealmap::engine::kernel::lane::Lane;
-use squealmap::engine::kernel::record::{read, write};
-use squealmap::engine::kernel::{linear, response};
+use squealmap::engine::kernel::linear;
+use squealmap::engine::march::kernel::kernel_for;
 use squealmap::engine::options::Options;
 use squealmap::engine::precision::Precision;
 use squealmap::engine::record::Record;
@@ -171,13 +170,7 @@ fn no_kernel_may_say_that_it_did_not_compute() {
     assert!(check(&chunk(Status::Ok as u32), 3, [1, 1, 1]).is_ok());
     let said = check(&chunk(Status::NotComputed as u32), 3, [1, 1, 1]);
     assert!(matches!(said, Err(Error::Unwritten { instance: 2 })));
-    for (status, known) in [(Status::Ok, true), (Status::NotComputed, false), (Status::Unwritten, false)] {
-        let mut lane = Lane::<f32>::blank();
-        lane.state.status = status;
-        let (state, flags) = write(&lane);
-        assert_eq!(read(&state, &flags).is_some(), known, "{status:?}");
-    }
-    for kernel in [&linear::KERNEL, &response::KERNEL] {
+    for kernel in [&linear::KERNEL, kernel_for(1).expect("a kernel").0] {
         assert!(!kernel.source(Precision::F32, &[]).contains("NOT_COMPUTED"));
     }
 }

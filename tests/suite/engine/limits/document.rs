@@ -20,13 +20,13 @@ const INTRODUCTION: &str = "\
 Where each method and precision stops being trustworthy: scenes at the ends of the ranges, and the largest relative error
 of each engine, to the next decade above three times of it, with 12 and with 4 steps per period (`12 / 4`), or the status in its place. The file is
 written and compared by the tests (`SQUEALMAP_WRITE_LIMITS=1 cargo test --release --test suite limits`): an error that has
-grown beyond its decade, or fallen by two, is a failed test. `gpu` is the kernel by its twin on the CPU.
+grown beyond its decade, or fallen by two, is a failed test. `gpu` is the kernel by its twin on the CPU, without the second computation in f64 of what ends early.
 
 What holds for all of them:
 
 - **A step is never too large.** `steps_per_period` bounds it from above, and so do the truncation of the motion's series,
-  and, in each contact state, the fastest mode, shown by the motion or not (`|λ| h ≤ 1.8`, on the CPU engine 2.35, and small
-  enough that an unseen mode loses less than 5e-7 of itself in a step; on the CPU engine, in f32 and with 3 to 8 steps per period, a hundredth of the
+  and, in each contact state, the fastest mode, shown by the motion or not (`|λ| h ≤ 2.35`, of the reference 1.8, and small
+  enough that an unseen mode loses less than 5e-7 of itself in a step; but for the reference, in f32 and with 3 to 8 steps per period, a hundredth of the
   tolerance, 1e-5 at most, if it is no faster than 2 ω0). With a step of a whole period every number below is within 10 % still, or the status is not `ok`.
   Before the third bound, weakly excited stiff modes were raised from the rounding to the truncation's
   bound, and `ay_rms` was off by 100 % at k2/k1 = 100 (cpu f32) and by a factor of 100 at 1e4.
@@ -40,14 +40,12 @@ What holds for all of them:
   comes to more where it has to take shorter steps is so there, a minute or two after its beginning. Each of several
   starts is a run of its own.
 - **So is a period bounded:** by 500 000 steps (`step_too_large`) and 20 000 events (`event_limit`). The reference counts them
-  period by period, the kernels of a GPU in periods of whole steps. The CPU engine counts at the ends of its stretches of up to
+  period by period. The CPU engine and a GPU count at the ends of its stretches of up to
   256 steps, and a stretch that is longer than a period may have the steps of all its periods in one of them, at most 2^23.
-- **So is a friction table.** On a short piece that rises steeply, sliding is held by a rate of the slope times the normal force, which the
-  engine of the CPU and the kernels resolve; where 500 000 steps per period are not enough it is `step_too_large`.
+- **So is a friction table.** On a short piece that rises steeply, sliding is held by a rate of the slope times the normal force, which all engines resolve; where 500 000 steps per period are not enough it is `step_too_large`.
 - **Thin layers take steps of their own.** Near rest an exponential or a rational law changes within `v_0` or `1/δ`, which no bound on
   positions sees. A step goes no further than its series holds there, on every engine, and layers of 1e-8 of the velocities
-  are those of the reference in f64. In f32 they end early below some 1e-6 of them, and are computed again in f64; kernels that
-  come to their end at that width may be off by percents. Where in addition `M11` all but vanishes on the way, the engines may differ.
+  are those of the reference in f64. In f32 they end early below some 1e-6 of them, and are computed again in f64. Where in addition `M11` all but vanishes on the way, the engines may differ.
 - **Painlevé's is what the law can do.** Where a row is narrower than an arithmetic resolves, friction is evaluated beyond its ends;
   `M11 ≤ 0` of a friction that the law has nowhere is `step_too_large`.
 - **At a limit statuses may differ.** Each engine has its own steps: `event_limit`, `step_too_large` and `ok` part where an instance needs

@@ -1,11 +1,27 @@
-//! Twin: shaders/contact.wgsl
-//!
 //! What an event does to the contact of one instance: rest, stick, slip, kinks, lift-off and impacts.
 
 use crate::engine::kernel::scalar::Real;
-use crate::engine::kernel::scene::Scene;
-use crate::engine::kernel::series::{Body, FREE, REVERSE, SLIP, STICK};
+use crate::engine::lanes::words::Words;
+use crate::model::contact::SLOWEST_REBOUND;
 use crate::model::status::Status;
+
+/// Slip with `v > 0`.
+pub const SLIP: u32 = 0;
+/// Slip with `v < 0`.
+pub const REVERSE: u32 = 1;
+/// Stick.
+pub const STICK: u32 = 2;
+/// Free flight.
+pub const FREE: u32 = 3;
+
+/// Position and velocity, deviations from the equilibrium: `x2 y2 y1`.
+#[derive(Clone, Copy, Debug)]
+pub struct Body<S> {
+    /// Positions.
+    pub p: [S; 3],
+    /// Velocities.
+    pub v: [S; 3],
+}
 
 /// What an event function belongs to.
 pub const NOTHING: u32 = 0;
@@ -69,7 +85,7 @@ impl<S: Real> State<S> {
 
     /// The start of an instance.
     #[must_use]
-    pub fn new(scene: &Scene<S>, belt: Belt<S>) -> Self {
+    pub fn new(scene: &Words<S>, belt: Belt<S>) -> Self {
         let [x, w, vx, vw] = scene.start;
         let mut state = State::blank();
         state.body = Body { p: [x, S::ZERO, w], v: [vx, S::ZERO, vw] };
@@ -90,7 +106,7 @@ impl<S: Real> State<S> {
     }
 
     /// Carries out the transition of an event.
-    pub fn transition(&mut self, scene: &Scene<S>, event: u32, belt: Belt<S>) {
+    pub fn transition(&mut self, scene: &Words<S>, event: u32, belt: Belt<S>) {
         match event {
             LOWER_KINK => {
                 self.piece -= 1;
@@ -109,7 +125,7 @@ impl<S: Real> State<S> {
     }
 
     /// `R − μ0 N0` and `W − N0` at the present state.
-    fn loads(&self, scene: &Scene<S>) -> [S; 2] {
+    fn loads(&self, scene: &Words<S>) -> [S; 2] {
         let [x, y, w] = self.body.p;
         let [vx, vy, vw] = self.body.v;
         let h = scene.k2 * (x * scene.s + y * scene.c - w) + scene.c2 * (vx * scene.s + vy * scene.c - vw);
@@ -118,7 +134,7 @@ impl<S: Real> State<S> {
     }
 
     /// Slip in direction `sigma` at `speed`, or flight when its normal force is not positive.
-    fn slip_or_free(&mut self, scene: &Scene<S>, sigma: S, speed: S, at_rest: bool) {
+    fn slip_or_free(&mut self, scene: &Words<S>, sigma: S, speed: S, at_rest: bool) {
         let piece = scene.piece_at(speed);
         let v = sigma * speed;
         let q = scene.friction(&scene.pieces[piece], sigma, v, scene.v0 - v).0;
@@ -151,7 +167,7 @@ impl<S: Real> State<S> {
     }
 
     /// Decides the contact state at `v = 0`.
-    fn at_rest(&mut self, scene: &Scene<S>, belt: Belt<S>) {
+    fn at_rest(&mut self, scene: &Words<S>, belt: Belt<S>) {
         self.body.v[0] = belt.velocity;
         let [r, w] = self.loads(scene);
         let tangential = r + belt.acceleration;
@@ -167,7 +183,7 @@ impl<S: Real> State<S> {
     }
 
     /// Decides the contact state of a closed contact.
-    pub fn enter_contact(&mut self, scene: &Scene<S>, belt: Belt<S>) {
+    pub fn enter_contact(&mut self, scene: &Words<S>, belt: Belt<S>) {
         let v = belt.velocity - self.body.v[0];
         if v > S::ZERO {
             self.slip_or_free(scene, S::ONE, v, false);
@@ -179,7 +195,7 @@ impl<S: Real> State<S> {
     }
 
     /// `Δẋ2` of an impact that changes `ẏ2` by `change` with `P_t = q P_n`.
-    fn tangential_jump(&mut self, scene: &Scene<S>, q: S, change: S) -> S {
+    fn tangential_jump(&mut self, scene: &Words<S>, q: S, change: S) -> S {
         let inertia = S::ONE + scene.kappa * q;
         if inertia <= S::ZERO {
             self.status = Status::Painleve;
@@ -189,11 +205,11 @@ impl<S: Real> State<S> {
     }
 
     /// Newton's impact with friction inside its cone, see [`crate::model::contact`].
-    fn impact(&mut self, scene: &Scene<S>, belt: Belt<S>) {
+    fn impact(&mut self, scene: &Words<S>, belt: Belt<S>) {
         let vx = self.body.v[0];
         let vy = self.body.v[1].min(S::ZERO);
         let mut rebound = -(scene.restitution * vy);
-        if rebound < scene.slowest_rebound {
+        if rebound < S::from_f64(SLOWEST_REBOUND) {
             rebound = S::ZERO;
         }
         let change = rebound - vy;

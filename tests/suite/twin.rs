@@ -1,0 +1,201 @@
+//! The kernels of the march on the CPU, operation by operation: their twin, made of their own text.
+
+use std::collections::BTreeMap;
+use std::sync::atomic::AtomicBool;
+use std::sync::{Arc, LazyLock, Mutex};
+
+use rayon::prelude::*;
+use squealmap::engine::fields::words;
+use squealmap::engine::gpu::run::ChunkResult;
+use squealmap::engine::kernel::scalar::Real;
+use squealmap::engine::kernel::source::{Kernel, PROGRESS_WORDS, SETTING_WORDS, Settings};
+use squealmap::engine::lanes::Lanes;
+use squealmap::engine::lanes::job::Part;
+use squealmap::engine::lanes::march::{Settings as OfLanes, Terms};
+use squealmap::engine::march::marching::{Form, Group, Marching, Way, groups};
+use squealmap::engine::march::table::{flag, state};
+use squealmap::engine::march::words::Words;
+use squealmap::engine::outcome::Outcome;
+use squealmap::engine::plan::Plan;
+use squealmap::engine::precision::Precision;
+use squealmap::model::instance::Instance;
+use squealmap_lockstep::{Count, Program};
+
+/// Instances of a part of a chunk, each of which is a task of its own.
+const TASK: usize = 256;
+
+fn bits<R: Real>(value: R) -> u64 {
+    match R::PRECISION {
+        Precision::F32 => u64::from(value.bits32()),
+        Precision::F64 => value.to_f64().to_bits(),
+    }
+}
+
+fn number<R: Real>(bits: u64) -> R {
+    match R::PRECISION {
+        Precision::F32 => R::from_f64(f64::from(f32::from_bits(low(bits)))),
+        Precision::F64 => R::from_f64(f64::from_bits(bits)),
+    }
+}
+
+fn low(bits: u64) -> u32 {
+    u32::try_from(bits & u64::from(u32::MAX)).expect("32 bits")
+}
+
+/// A part of a chunk that is done.
+struct Done {
+    lanes: usize,
+    /// State and flags.
+    words: [Vec<u64>; 2],
+    cost: Count,
+}
+
+/// What a kernel makes of a chunk, in warps of `W`; the words are word-major, as on a device.
+pub(crate) fn run<R: Real, const W: usize>(
+    program: &Program,
+    kernel: &Kernel,
+    inputs: &[R],
+    before: Option<&(Vec<R>, Vec<u32>)>,
+    settings: [u32; SETTING_WORDS],
+) -> (ChunkResult<R>, Count) {
+    let [per_input, per_state, per_flag] = [kernel.inputs, kernel.state, kernel.flags].map(words);
+    let count = inputs.len() / per_input;
+    let tasks: Vec<usize> = (0..count).step_by(TASK).collect();
+    let parts: Vec<Done> = tasks
+        .into_par_iter()
+        .map(|first| {
+            let lanes = first..count.min(first + TASK);
+            let columns = |words: usize, of: &dyn Fn(usize) -> u64| -> Vec<u64> {
+                (0..words).flat_map(|word| lanes.clone().map(move |lane| of(word * count + lane))).collect()
+            };
+            let head = Settings::new(u32::try_from(lanes.len()).expect("few"), u32::MAX, 0, settings);
+            let mut buffers = [
+                bytemuck::cast_slice::<Settings, u32>(&[head]).iter().map(|word| u64::from(*word)).collect(),
+                columns(per_input, &|at| bits(inputs[at])),
+                columns(per_state, &|at| before.map_or(0, |(state, _)| bits(state[at]))),
+                columns(per_flag, &|at| before.map_or(0, |(_, flags)| u64::from(flags[at]))),
+                vec![0; PROGRESS_WORDS],
+            ];
+            let cost = program.run::<W>(lanes.len(), &mut buffers);
+            let [_, _, state, flags, _] = buffers;
+            Done { lanes: lanes.len(), words: [state, flags], cost }
+        })
+        .collect();
+    let mut cost = Count::default();
+    for Done { cost: one, .. } in &parts {
+        cost.issued += one.issued;
+        cost.useful += one.useful;
+    }
+    let gather = |words: usize, which: usize| -> Vec<u64> {
+        let of = |word: usize| {
+            parts
+                .iter()
+                .flat_map(move |part| part.words[which][word * part.lanes..][..part.lanes].iter().copied())
+        };
+        (0..words).flat_map(of).collect()
+    };
+    let result = ChunkResult {
+        state: gather(per_state, 0).into_iter().map(number).collect(),
+        flags: gather(per_flag, 1).into_iter().map(low).collect(),
+        cancelled: false,
+    };
+    (result, cost)
+}
+
+/// A kernel as a program, made once.
+pub(crate) fn program(form: Form, precision: Precision) -> (&'static Kernel, Arc<Program>) {
+    type Made = BTreeMap<(Form, usize), Arc<Program>>;
+    static MADE: LazyLock<Mutex<Made>> = LazyLock::new(Mutex::default);
+    let (kernel, choices) = form.kernel().expect("a kernel for the pieces of the law");
+    let mut made = MADE.lock().expect("nobody has panicked");
+    let program = made.entry((form, precision.bytes())).or_insert_with(|| {
+        Arc::new(Program::new(&kernel.source(precision, &choices)).expect("a kernel that compiles"))
+    });
+    (kernel, program.clone())
+}
+
+/// The words of the settings.
+pub(crate) fn settings(way: &Way) -> [u32; SETTING_WORDS] {
+    let mut settings = [0; SETTING_WORDS];
+    settings[0] = way.tolerance.to_bits();
+    settings
+}
+
+/// Stretches that share a kernel, as word-major inputs, state and flags.
+pub(crate) fn columns<R: Real>(rows: &[Words<R>]) -> (Vec<R>, (Vec<R>, Vec<u32>)) {
+    fn by_word<T: Copy, W>(rows: &[W], of: impl Fn(&W) -> &Vec<T>) -> Vec<T> {
+        let words = rows.first().map_or(0, |row| of(row).len());
+        (0..words).flat_map(|word| rows.iter().map(|row| of(row)[word]).collect::<Vec<T>>()).collect()
+    }
+    (by_word(rows, |row| &row.inputs), (by_word(rows, |row| &row.state), by_word(rows, |row| &row.flags)))
+}
+
+/// One of the lanes of a chunk.
+pub(crate) fn lane<R: Real>(result: &ChunkResult<R>, lane: usize) -> (Vec<R>, Vec<u32>) {
+    let count = result.flags.len() / flag::WORDS;
+    let of = |word: usize| word * count + lane;
+    let state = (0..state::WORDS).map(|word| result.state[of(word)]).collect();
+    (state, (0..flag::WORDS).map(|word| result.flags[of(word)]).collect())
+}
+
+/// A chunk of stretches that share a kernel, and what the twin makes of it.
+pub(crate) struct Chunk<R> {
+    pub(crate) form: Form,
+    pub(crate) inputs: Vec<R>,
+    pub(crate) before: (Vec<R>, Vec<u32>),
+    pub(crate) result: ChunkResult<R>,
+    /// What it has cost.
+    pub(crate) count: Count,
+}
+
+/// The responses of some instances in warps of `W`; `seen` gets every chunk.
+pub(crate) fn outcomes_seen<R: Lanes, const W: usize>(
+    instances: &[Instance],
+    plan: &Plan,
+    mut seen: impl FnMut(Chunk<R>),
+) -> Vec<Outcome> {
+    let way = Way::new::<R>(*plan);
+    let mut made = vec![Outcome::default(); instances.len()];
+    let (mut going, mut over) = (Vec::new(), Vec::new());
+    for (index, instance) in instances.iter().enumerate() {
+        match Marching::new(index, instance, &way) {
+            Ok(one) => going.push(one),
+            Err(status) => made[index] = Outcome { status, ..Outcome::default() },
+        }
+    }
+    while !going.is_empty() {
+        let mut stretches = Vec::new();
+        for mut one in going.drain(..) {
+            match one.next(&way) {
+                Some(stretch) => stretches.push((one, stretch)),
+                None => over.push(one),
+            }
+        }
+        for Group { form, marching, rows } in groups(stretches) {
+            let (kernel, program) = program(form, R::PRECISION);
+            let (inputs, before) = columns(&rows);
+            let (result, count) = run::<R, W>(&program, kernel, &inputs, Some(&before), settings(&way));
+            for (index, mut one) in marching.into_iter().enumerate() {
+                one.take(&lane(&result, index)).expect("a lane that the kernel has ended");
+                going.push(one);
+            }
+            seen(Chunk { form, inputs, before, result, count });
+        }
+    }
+    let cancel = AtomicBool::new(false);
+    let settings =
+        OfLanes { plan, tolerance: f64::from(way.tolerance), terms: Terms::default(), cancel: &cancel };
+    for mut one in over {
+        R::run(std::slice::from_mut(&mut *one.job), &[Part::Phase], false, settings);
+        made[one.index] = one.job.outcome(plan);
+    }
+    made
+}
+
+/// The responses of some instances.
+pub(crate) fn outcomes<R: Lanes>(instances: &[Instance], plan: &Plan) -> Vec<Outcome> {
+    if instances.len() == 1 {
+        return outcomes_seen::<R, 1>(instances, plan, |_| {});
+    }
+    outcomes_seen::<R, 64>(instances, plan, |_| {})
+}
