@@ -11,7 +11,7 @@ use clap::{Args, ValueEnum};
 use squealmap::model::friction::LawKind;
 use squealmap::study::fit::table::{material_csv, residuals_csv};
 use squealmap::study::fit::{Fit, fit, range};
-use squealmap_identify::{Channel, FrictionColumn, Point, Settings, read_points};
+use squealmap_identify::{Channel, FrictionColumn, Measurements, Point, Settings, read_measurements};
 use squealmap_input::quote::rounded;
 
 /// The files that are written.
@@ -54,6 +54,12 @@ pub(crate) struct FitCommand {
     /// Column of the normal force, N [default: N]
     #[arg(long, value_name = "COLUMN", conflicts_with = "friction")]
     normal_force: Option<String>,
+    /// Column of the tangential acceleration of a record that may squeal, m/s²: what squeals is left out [default: ax2]
+    #[arg(long, value_name = "COLUMN", conflicts_with = "friction")]
+    tangential_acceleration: Option<String>,
+    /// Samples per second of such a record, Hz, instead of a column of time
+    #[arg(long, value_name = "HZ", value_parser = positive, conflicts_with = "friction")]
+    rate: Option<f64>,
     /// Column of the sliding velocity, m/s [default: V]
     #[arg(long, value_name = "COLUMN")]
     velocity: Option<String>,
@@ -77,11 +83,17 @@ impl FitCommand {
         settings.columns[Channel::Velocity as usize] = self.velocity;
         settings.columns[Channel::Temperature as usize] = self.temperature;
         let friction = self.friction.map_or(FrictionColumn::Forces, FrictionColumn::Named);
-        let input = squealmap_input::files::open(&self.points).map_err(|why| Error::Signals {
-            name: name.clone(),
-            fault: Box::new(squealmap_identify::Fault::Unreadable { why }),
-        })?;
-        let points = read_points(Box::new(input), &name, &settings, &friction, self.at_temperature)?;
+        settings.columns[Channel::TangentialAcceleration as usize] = self.tangential_acceleration;
+        settings.rate = self.rate;
+        let open = || {
+            let file = squealmap_input::files::open(&self.points).map_err(std::io::Error::other)?;
+            Ok(Box::new(file) as Box<dyn std::io::Read>)
+        };
+        let measured = read_measurements(open, &name, &settings, &friction, self.at_temperature)?;
+        for remark in remarks(&measured) {
+            note(&remark);
+        }
+        let points = measured.points;
         let rows = if self.temperatures.is_empty() { rows(&points) } else { self.temperatures };
         let law = match self.law {
             Law::Bilinear => LawKind::Bilinear,
@@ -106,6 +118,22 @@ impl FitCommand {
         }
         Ok(())
     }
+}
+
+/// What was not taken as it stands in the file.
+fn remarks(measured: &Measurements) -> Vec<String> {
+    let Measurements { without_contact, left_out, .. } = measured;
+    let mut remarks = Vec::new();
+    if *without_contact > 0 {
+        remarks.push(format!("{without_contact} row(s) without contact are passed over"));
+    }
+    if *left_out > 0.0 {
+        remarks.push(format!(
+            "{:.0} % of the record vibrate so that the mean of T/N is not the friction at the mean velocity; they are left out",
+            100.0 * left_out
+        ));
+    }
+    remarks
 }
 
 /// Where the law is farthest from a point.

@@ -11,8 +11,8 @@ use squealmap::study::identify::report;
 use squealmap::study::identify::report::{Shown, WindowsCsv};
 use squealmap::study::identify::spectrogram::spectrogram_nc;
 use squealmap_identify::{
-    DAMPING_RATIO, INCLINATION, Identification, LARGEST_FRICTION, OVERLAP, RATES, Settings, TimeUnit, WINDOW,
-    identify,
+    DAMPING_RATIO, FrictionReading, INCLINATION, Identification, LARGEST_FRICTION, Measured, OVERLAP, RATES,
+    Settings, TimeUnit, Verdict, WINDOW, identify, rate_of, told,
 };
 use squealmap_input::files;
 use squealmap_input::quote::one_line;
@@ -85,6 +85,9 @@ pub(crate) struct Identify {
     /// Largest T/N that is believed
     #[arg(long, value_name = "MU", default_value_t = LARGEST_FRICTION, value_parser = positive)]
     largest_friction: f64,
+    /// Friction coefficient at which the modes coalesce, and its standard error, from `squealmap modes` or a test: 0.23 or 0.23,0.01
+    #[arg(long, value_name = "MU[,ERROR]", value_parser = critical)]
+    critical_friction: Option<Measured>,
 }
 
 impl Identify {
@@ -137,16 +140,56 @@ impl Identify {
             window: self.window,
             overlap: self.overlap,
             largest_friction: self.largest_friction,
+            critical_friction: self.critical_friction,
         }
     }
 }
 
-/// The verdict with its reasons.
+/// The segments with what each witness says, and the verdict of the growth.
 fn summary(found: &Identification) -> String {
-    let verdict = &found.verdict;
-    let mut text = format!("{} (confidence {:.2})\n", verdict.kind.words(), verdict.shown_confidence());
-    for reason in &verdict.reasons {
-        let _ = writeln!(text, "  {reason}");
+    let mut text = format!("{}\n", told(&found.segments));
+    for segment in &found.segments {
+        let [start, end] = segment.time;
+        let Verdict { kind, reasons, .. } = &segment.verdict;
+        let confidence = segment.verdict.shown_confidence();
+        let slow = segment.friction.is_none_or(|friction| friction.reading != FrictionReading::Within);
+        let at = segment.frequency.map_or(String::new(), |frequency| format!(" at {frequency:.1} Hz"));
+        let _ = writeln!(
+            text,
+            "{start:.4} to {end:.4} s, {}{at}: {} (confidence {confidence:.2})",
+            segment.state.words(),
+            kind.words()
+        );
+        if let Some((mechanism, probability)) = segment.shared {
+            let _ = writeln!(text, "  in any case: {} (confidence {probability:.2})", mechanism.words());
+        }
+        for reason in reasons {
+            let _ = writeln!(text, "  {reason}");
+        }
+        if !segment.rests_on.is_empty() {
+            let rests: Vec<&str> = segment.rests_on.iter().map(|witness| witness.words()).collect();
+            let joint = rate_of(None, slow).map_or(String::new(), |rate| format!("; together: {rate}"));
+            let _ = writeln!(text, "  rests on {}{joint}", rests.join(", "));
+        }
+        for testimony in &segment.testimonies {
+            let said = testimony.chances.map_or("cannot speak".to_owned(), |chances| {
+                let (kind, probability) = chances.leading();
+                let tried =
+                    rate_of(Some(testimony.witness), slow).map_or(String::new(), |rate| format!(" ({rate})"));
+                format!("{} {:.0} %{tried}", kind.words(), 100.0 * probability)
+            });
+            let _ = writeln!(text, "  {}: {said}: {}", testimony.witness.words(), testimony.evidence);
+        }
+        for contradiction in &segment.contradictions {
+            let _ = writeln!(text, "  contradiction: {contradiction}");
+        }
+    }
+    if found.segments.is_empty() {
+        let verdict = &found.verdict;
+        let _ = writeln!(text, "{} (confidence {:.2})", verdict.kind.words(), verdict.shown_confidence());
+        for reason in &verdict.reasons {
+            let _ = writeln!(text, "  {reason}");
+        }
     }
     if let Some(friction) = found.slope {
         let (slope, [low, high]) = (friction.slope, friction.velocity);
@@ -198,6 +241,15 @@ fn rate(text: &str) -> std::result::Result<f64, String> {
 
 fn ratio(text: &str) -> std::result::Result<f64, String> {
     number(text, |x| (0.0..1.0).contains(&x), "a number from 0 to below 1")
+}
+
+/// A friction coefficient and its standard error, a thirtieth of it where none is given.
+fn critical(text: &str) -> std::result::Result<Measured, String> {
+    const WORDS: &str = "a friction coefficient, and after a comma its standard error, such as 0.23,0.01";
+    let (value, error) = text.split_once(',').map_or((text, None), |(value, error)| (value, Some(error)));
+    let positive = |text: &str| number(text.trim(), |x| x > 0.0, WORDS);
+    let value = positive(value)?;
+    Ok(Measured { value, error: error.map_or(Ok(value / 30.0), positive)? })
 }
 
 fn band(text: &str) -> std::result::Result<[f64; 2], String> {

@@ -63,3 +63,11 @@ pub(crate) fn near(what: &str, actual: f64, expected: f64, absolute: f64) {
         (actual - expected).abs()
     );
 }
+
+/// Whether the summary of `identify` names mode coupling, and no other cause.
+pub(crate) fn says_mode_coupling(out: &str) -> bool {
+    let summary = out.lines().next().unwrap_or_default();
+    let open = |part: &&str| part.contains("undecided") || part.contains("mode coupling, with or without");
+    let decided: Vec<&str> = summary.split(", to ").filter(|part| !open(part)).collect();
+    !decided.is_empty() && decided.iter().all(|part| part.ends_with("s mode coupling"))
+}

@@ -2,19 +2,23 @@
 
 use std::io::Read;
 
+use crate::cells::Cells;
 use crate::channel::{Channel, PerChannel};
 use crate::conclude::{Looked, conclude};
 use crate::envelope::Envelope;
 use crate::episode::{Episode, Recorded, swapped};
 use crate::fault::{Fault, Unfit};
+use crate::joint::judged;
 use crate::overview::{Friction, Overview};
 use crate::read::Table;
 use crate::reading::{Reading, reading};
 use crate::runs::Runs;
+use crate::segment::{Has, Segment, segments};
 use crate::settings::Settings;
 use crate::spans::{Known, sharpened};
 use crate::spectrogram::{Builder, Spectrogram};
 use crate::survey::{Survey, survey};
+use crate::undisturbed::{Undisturbed, undisturbed};
 use crate::verdict::Verdict;
 use crate::window::{Analyser, Window};
 
@@ -37,8 +41,12 @@ pub struct Identification {
     pub episodes: Vec<Episode>,
     /// Slope of the mean friction coefficient against the mean velocity of the quiet windows.
     pub slope: Option<Friction>,
-    /// The verdict on the record.
+    /// The verdict of the growth alone, on the record as a whole.
     pub verdict: Verdict,
+    /// The segments of the record in order of time; empty where no oscillation stands out.
+    pub segments: Vec<Segment>,
+    /// Friction against velocity; empty without forces and velocity.
+    pub undisturbed: Undisturbed,
     /// Remarks: what limits the analysis.
     pub notes: Vec<String>,
     /// The spectrogram of the tangential acceleration.
@@ -70,15 +78,26 @@ pub fn identify(
     let survey = table().and_then(|table| survey(table, settings)).map_err(named)?;
     let (samples, too_short) = (survey.samples, survey.too_short());
     let looked = Looked { samples, too_short, band: settings.band, outside: survey.outside };
-    let (mut found, overview) =
-        table().and_then(|table| analyse(table, &survey, settings, each)).map_err(named)?;
+    let (mut found, overview) = table()
+        .and_then(|table| analyse(table.turned(survey.turned), &survey, settings, each))
+        .map_err(named)?;
     if let Some(geometry) = survey.windows().filter(|_| !found.episodes.is_empty()) {
-        let Survey { rate, start, .. } = survey;
+        let Survey { rate, start, turned, .. } = survey;
         let known = Known { recorded: recorded(&survey), settings, geometry, rate, start };
-        table().and_then(|table| sharpened(table, &mut found.episodes, &known)).map_err(named)?;
+        table()
+            .and_then(|table| sharpened(table.turned(turned), &mut found.episodes, &known))
+            .map_err(named)?;
     }
+    judged(&mut found.segments, &found.episodes, settings.critical_friction);
     found.verdict = conclude(&overview, &found.episodes, &looked);
     Ok(found)
+}
+
+fn has(survey: &Survey) -> Has {
+    let Recorded { normal_acceleration, forces } = recorded(survey);
+    let [velocity, temperature] =
+        [Channel::Velocity, Channel::Temperature].map(|channel| survey.has[channel as usize]);
+    Has { normal_acceleration, forces, velocity, temperature }
 }
 
 fn recorded(survey: &Survey) -> Recorded {
@@ -107,6 +126,7 @@ fn analyse(
     let mut friction = Envelope::new(count);
     let mut runs = Runs::new(recorded, settings);
     let mut overview = Overview::new(recorded);
+    let mut cells = Cells::new(fits.map_or(0.0, |geometry| geometry.hop as f64 / rate));
     let mut from: u64 = 0;
     while let Some(row) = table.next()? {
         let tangential = row.values[Channel::TangentialAcceleration as usize];
@@ -123,6 +143,7 @@ fn analyse(
             each(&window, &reading(&window, recorded, settings));
             runs.take(&window);
             overview.take(&window);
+            cells.take(&window);
             if let Some(mu) = window.friction {
                 friction.take(mu);
             }
@@ -138,6 +159,8 @@ fn analyse(
         let [tangential, normal] = [Channel::TangentialAcceleration, Channel::NormalAcceleration].map(name);
         return Err(Fault::SwappedAccelerations { tangential, normal, time });
     }
+    let has = has(survey);
+    let friction_read = has.forces && has.velocity;
     let found = Identification {
         samples,
         rate,
@@ -149,6 +172,12 @@ fn analyse(
         notes: notes(survey),
         columns: survey.names.clone(),
         windows: overview.windows,
+        segments: segments(&cells.list, has, settings),
+        undisturbed: if friction_read {
+            undisturbed(&cells.list, has.temperature)
+        } else {
+            Undisturbed::default()
+        },
         episodes,
         spectrogram: spectrogram.finish(),
         envelopes,
@@ -161,6 +190,11 @@ fn analyse(
 /// Sentences about everything that limits the analysis.
 fn notes(survey: &Survey) -> Vec<String> {
     let mut notes: Vec<String> = survey.remark.iter().cloned().collect();
+    if survey.turned {
+        notes.push(
+            "the velocity is negative: the signs of what points along the contact are turned".to_owned(),
+        );
+    }
     for channel in &survey.constant {
         let column = &survey.names[*channel as usize];
         notes.push(format!("column `{column}` ({}) is constant", channel.words()));

@@ -8,8 +8,10 @@
 //! | episodes of growth; one mode fitted to the samples of each | `runs.rs`, `episode.rs`, `spans.rs`, `sharpen.rs`, `mode.rs`, `shape.rs`, `course.rs` |
 //! | friction power and its parts | `feedback.rs` |
 //! | which mechanism alone would destabilise | `attribution.rs` |
-//! | verdict, confidence, reasons | `verdict.rs`, `reading.rs`, `overview.rs`, `conclude.rs` |
-//! | points for `fit` | `points.rs` |
+//! | verdict of the growth, confidence, reasons | `verdict.rs`, `reading.rs`, `overview.rs`, `conclude.rs` |
+//! | segments of time: where the record changes in kind | `cells.rs`, `cut.rs`, `segment.rs`, `trend.rs`, `within.rs` |
+//! | what three witnesses say of each, and together | `witness.rs`, `population.rs`, `joint.rs`, `testimony.rs`, `rates.rs`, `told.rs` |
+//! | points for `fit` | `points.rs`, `undisturbed.rs`, `measured.rs` |
 //! | pictures | `spectrogram.rs`, `envelope.rs` |
 //! | all of it in order | `analysis.rs` |
 //!
@@ -18,24 +20,31 @@
 
 mod analysis;
 mod attribution;
+mod cells;
 mod channel;
 mod conclude;
 mod course;
 mod cross;
+mod cut;
 mod envelope;
 mod episode;
 mod fault;
 mod feedback;
+mod joint;
 mod line;
+mod measured;
 mod mode;
 mod outlier;
 mod overview;
 mod pace;
 mod points;
+pub mod population;
 mod range;
+mod rates;
 mod read;
 mod reading;
 mod runs;
+mod segment;
 mod settings;
 mod shape;
 mod sharpen;
@@ -44,9 +53,15 @@ mod spectrogram;
 mod spectrum;
 mod still;
 mod survey;
+mod testimony;
+mod told;
+mod trend;
+mod undisturbed;
 mod unit;
 mod verdict;
 mod window;
+mod within;
+mod witness;
 
 pub use analysis::{Identification, identify};
 pub use attribution::{CAUSE, alone};
@@ -55,12 +70,18 @@ pub use cross::Measured;
 pub use envelope::Envelope;
 pub use episode::Episode;
 pub use fault::{Fault, RATES, Unfit};
+pub use measured::{Measurements, read_measurements};
 pub use overview::Friction;
-pub use points::{FrictionColumn, Point, read_points};
+pub use points::{FrictionColumn, Point, Points, read_points};
+pub use rates::{Rate, rate_of};
 pub use reading::Reading;
+pub use segment::{Level, Reading as FrictionReading, Segment, State};
 pub use settings::{DAMPING_RATIO, INCLINATION, LARGEST_FRICTION, OVERLAP, Settings, WINDOW};
 pub use spectrogram::Spectrogram;
 pub use survey::{LEAST_PER_PERIOD, LEAST_SAMPLES};
+pub use testimony::{Chances, Mechanism, Testimony, Witness};
+pub use told::told;
+pub use undisturbed::Undisturbed;
 pub use unit::TimeUnit;
 pub use verdict::{CONFIDENT, Kind, Verdict};
 pub use window::Window;

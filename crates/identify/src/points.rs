@@ -31,6 +31,15 @@ pub enum FrictionColumn {
     Forces,
 }
 
+/// The points of a file.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Points {
+    /// In the order of the file.
+    pub points: Vec<Point>,
+    /// Rows that are passed over, as nothing presses there.
+    pub without_contact: u64,
+}
+
 /// Reads points from a CSV file with the columns of `settings` for velocity, temperature and both forces; its name in
 /// messages is `name`. Without a column of temperature every point has `temperature` (°C).
 ///
@@ -42,7 +51,7 @@ pub fn read_points(
     settings: &Settings,
     friction: &FrictionColumn,
     temperature: Option<f64>,
-) -> Result<Vec<Point>, Unfit> {
+) -> Result<Points, Unfit> {
     points(input, settings, friction, temperature)
         .map_err(|fault| Unfit { name: name.to_owned(), fault: Box::new(fault) })
 }
@@ -52,7 +61,7 @@ fn points(
     settings: &Settings,
     friction: &FrictionColumn,
     temperature: Option<f64>,
-) -> Result<Vec<Point>, Fault> {
+) -> Result<Points, Fault> {
     let mut settings = settings.clone();
     let mut needed = vec![Channel::Velocity];
     if temperature.is_none() {
@@ -74,6 +83,8 @@ fn points(
         fault => fault,
     })?;
     let mut points = Vec::new();
+    let mut open = None;
+    let mut without_contact = 0;
     while let Some(Row { line, values, .. }) = table.next()? {
         let value = |channel: Channel| values[channel as usize];
         let (tangential, normal) = (value(Channel::TangentialForce), value(Channel::NormalForce));
@@ -82,7 +93,9 @@ fn points(
             FrictionColumn::Forces if normal > 0.0 => tangential / normal,
             FrictionColumn::Forces => {
                 let column = table.name(Channel::NormalForce);
-                return Err(Fault::NoContact { line, column, value: normal });
+                open.get_or_insert(Fault::NoContact { line, column, value: normal });
+                without_contact += 1;
+                continue;
             }
         };
         points.push(Point {
@@ -91,5 +104,8 @@ fn points(
             temperature: temperature.unwrap_or(value(Channel::Temperature)),
         });
     }
-    Ok(points)
+    match open {
+        Some(fault) if points.is_empty() => Err(fault),
+        _ => Ok(Points { points, without_contact }),
+    }
 }

@@ -48,6 +48,8 @@ pub(super) struct Table {
     by_commas: bool,
     marks: Marks,
     columns: PerChannel<Option<usize>>,
+    /// Sign of what points along the contact: −1 for a stroke that goes the other way.
+    sign: f64,
 }
 
 /// The marks before the decimals that the file has shown so far.
@@ -139,7 +141,13 @@ impl Table {
             by_commas,
             marks,
             columns,
+            sign: 1.0,
         })
+    }
+
+    /// This table with the signs along the contact turned: those of a stroke that goes the other way.
+    pub(super) fn turned(self, turned: bool) -> Table {
+        Table { sign: if turned { -1.0 } else { 1.0 }, ..self }
     }
 
     /// The next row; `None` at the end of the file.
@@ -167,6 +175,9 @@ impl Table {
             if let Some(column) = column {
                 *value = self.number(column, line)?;
             }
+        }
+        for channel in [Channel::TangentialAcceleration, Channel::TangentialForce, Channel::Velocity] {
+            values[channel as usize] *= self.sign;
         }
         let unit = self.time_unit().unwrap_or(TimeUnit::Second).seconds();
         let time = self.time.map(|column| self.number(column, line).map(|time| time * unit));

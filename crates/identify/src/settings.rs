@@ -1,6 +1,7 @@
 //! The settings of an analysis.
 
 use crate::channel::{Channel, PerChannel};
+use crate::cross::Measured;
 use crate::unit::TimeUnit;
 
 /// Window of the spectrogram, s: that of the source paper.
@@ -50,6 +51,8 @@ pub struct Settings {
     pub overlap: f64,
     /// Largest friction coefficient that is believed.
     pub largest_friction: f64,
+    /// The friction coefficient at which the modes of the structure coalesce, and its standard error.
+    pub critical_friction: Option<Measured>,
 }
 
 impl Default for Settings {
@@ -67,6 +70,7 @@ impl Default for Settings {
             window: WINDOW,
             overlap: OVERLAP,
             largest_friction: LARGEST_FRICTION,
+            critical_friction: None,
         }
     }
 }

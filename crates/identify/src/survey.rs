@@ -28,8 +28,9 @@ const STANDS_OUT: f64 = 7.0;
 const STILL: f64 = 3.0;
 /// A given rate and the column of time may differ by this part: times printed with few digits.
 const SAME_RATE: f64 = 0.01;
-/// A normal force whose standard deviation exceeds its mean does not press.
-const PRESSES: f64 = 1.0;
+/// A normal force whose mean is a smaller part of its standard deviation does not press. Impacts of a contact that opens in
+/// every period have a standard deviation of about their mean.
+const PRESSES: f64 = 0.25;
 /// An acceleration whose mean exceeds its standard deviation this many times is none.
 const OFFSET: f64 = 3.0;
 
@@ -43,6 +44,8 @@ pub(super) struct Survey {
     pub(super) rate: f64,
     pub(super) names: PerChannel<String>,
     pub(super) has: PerChannel<bool>,
+    /// Whether the mean velocity is negative: the signs along the contact are turned.
+    pub(super) turned: bool,
     /// The strongest oscillation of the tangential acceleration, Hz; `None` where none stands out of the noise.
     pub(super) frequency: Option<f64>,
     /// The strongest oscillation of all frequencies, Hz, where a band is given that does not hold it.
@@ -140,7 +143,8 @@ pub(super) fn survey(mut table: Table, settings: &Settings) -> Result<Survey, Fa
             constant.push(channel);
         }
     }
-    forces(&table, &ranges, settings)?;
+    let turned = table.has(Channel::Velocity) && ranges[Channel::Velocity as usize].mean() < 0.0;
+    forces(&table, &ranges, settings, turned)?;
     let frequency = spectrum.peak(rate, settings.band);
     let strongest = settings.band.and_then(|band| spectrum.peak(rate, None).map(|found| (band, found)));
     let outside =
@@ -155,7 +159,7 @@ pub(super) fn survey(mut table: Table, settings: &Settings) -> Result<Survey, Fa
     let still = Channel::ALL.into_iter().zip(stills).filter(|(channel, _)| channel.vibrates());
     let still = still.filter_map(|(channel, still)| Some((channel, still.finish(least)?))).collect();
     let remark = table.remark_on_unit();
-    Ok(Survey { samples, start, rate, names, has, frequency, outside, remark, constant, still })
+    Ok(Survey { samples, start, rate, names, has, turned, frequency, outside, remark, constant, still })
 }
 
 /// Whether sensors of vibrations are sampled at this rate (Hz), or nearly.
@@ -217,7 +221,7 @@ fn judge(channel: Channel, range: &Range, name: &str, rate: f64) -> Result<bool,
 }
 
 /// Refuses forces that are swapped or of the wrong sign.
-fn forces(table: &Table, ranges: &PerChannel<Range>, settings: &Settings) -> Result<(), Fault> {
+fn forces(table: &Table, ranges: &PerChannel<Range>, settings: &Settings, turned: bool) -> Result<(), Fault> {
     let of = |channel: Channel| ranges[channel as usize];
     let (tangential, normal) = (of(Channel::TangentialForce), of(Channel::NormalForce));
     if !table.has(Channel::NormalForce) {
@@ -233,7 +237,7 @@ fn forces(table: &Table, ranges: &PerChannel<Range>, settings: &Settings) -> Res
     if !table.has(Channel::TangentialForce) {
         return Ok(());
     }
-    let friction = tangential.mean() / normal.mean();
+    let friction = tangential.mean() / normal.mean() * if turned { -1.0 } else { 1.0 };
     let (tangential, normal) = (table.name(Channel::TangentialForce), table.name(Channel::NormalForce));
     if friction > settings.largest_friction {
         return Err(Fault::SwappedForces {

@@ -7,6 +7,7 @@ use num_complex::Complex64;
 use crate::channel::{Channel, PerChannel};
 use crate::cross::{INDEPENDENT, Measured, Sums};
 use crate::spectrum::{Spectra, detrend, hann, noise_floor, refine};
+use crate::within::Within;
 
 /// Periods of the dominant oscillation in a block: the fewest whose main lobe stays clear of drift.
 const BLOCK_PERIODS: f64 = 4.0;
@@ -70,6 +71,12 @@ pub struct Window {
     pub growth: Measured,
     /// Amplitude of the second and third harmonic relative to the fundamental, noise taken off.
     pub distortion: f64,
+    /// Amplitude of the tangential acceleration at that frequency, noise taken off, m/s².
+    pub amplitude: f64,
+    /// Amplitude of either force at that frequency over its mean, the larger one.
+    pub(super) swing: Option<f64>,
+    /// The friction law within the oscillation, of the part of the window that no other has in its middle.
+    pub(super) within: Within,
     pub(super) sums: Sums,
 }
 
@@ -84,6 +91,8 @@ pub(super) struct Analyser {
     power: Vec<f64>,
     /// `x, y, n, t, u`, trends removed.
     signals: [Vec<f64>; 5],
+    /// `ẋ`, trend removed.
+    motion: Vec<f64>,
 }
 
 impl Analyser {
@@ -102,6 +111,7 @@ impl Analyser {
             taper: hann(geometry.block),
             power: Vec::new(),
             signals: Default::default(),
+            motion: Vec::new(),
         }
     }
 
@@ -132,6 +142,17 @@ impl Analyser {
             distortion = distortion.max(harmonics(&self.power, bin, floor));
         }
         let (sums, growth, frequency) = self.blocks(frequency, noise.map(|power| power * shorter));
+        // A block under a Hann taper sums an amplitude to a quarter of its samples of it.
+        let amplitude = |power: f64, noise: f64| {
+            4.0 * ((power - noise).max(0.0) / sums.blocks).sqrt() / self.geometry.block as f64
+        };
+        let [along, _, normal_noise, friction_noise] = sums.noise;
+        let swing = friction.zip(normal_force).map(|(mu, mean)| {
+            let tangential = amplitude(sums.tt, friction_noise + mu * mu * normal_noise) / (mu * mean).abs();
+            tangential.max(amplitude(sums.nn, normal_noise) / mean.abs())
+        });
+        let amplitude = amplitude(sums.xx, along);
+        let within = self.within(channels, velocity.zip(normal_force));
         Window {
             time: [start, start + self.geometry.window as f64 / self.rate],
             friction,
@@ -143,8 +164,36 @@ impl Analyser {
             signal_to_noise: sums.signal_to_noise(),
             growth,
             distortion,
+            amplitude,
+            swing,
+            within,
             sums,
         }
+    }
+
+    /// The friction law within the oscillation, with the mean velocity (m/s) and normal force (N).
+    fn within(&mut self, channels: &PerChannel<&[f64]>, means: Option<(f64, f64)>) -> Within {
+        /// Six points around each step: with seven samples per period a trapezoid is 7 % off.
+        const STEP: [f64; 6] = [11.0, -93.0, 802.0, 802.0, -93.0, 11.0];
+        let Some((velocity, mean)) = means.filter(|_| self.has[Channel::TangentialForce as usize]) else {
+            return Within::default();
+        };
+        let a = &self.signals[0];
+        let mut sum = 0.0;
+        self.motion.clear();
+        for k in 0..a.len() {
+            if k >= 3 && k + 2 < a.len() {
+                let step: f64 = STEP.iter().zip(&a[k - 3..]).map(|(weight, a)| weight * a).sum();
+                sum += step / 1440.0 / self.rate;
+            }
+            self.motion.push(sum);
+        }
+        detrend(&mut self.motion);
+        let Geometry { window, hop, .. } = self.geometry;
+        let middle = (window - hop) / 2..usize::midpoint(window, hop);
+        let [tangential, normal] =
+            [Channel::TangentialForce, Channel::NormalForce].map(|c| &channels[c as usize][middle.clone()]);
+        Within::read(&self.motion[middle.clone()], tangential, normal, velocity, mean)
     }
 
     fn load(&mut self, channels: &PerChannel<&[f64]>, friction: f64) {

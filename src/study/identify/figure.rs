@@ -15,7 +15,7 @@ use squealmap_figure::svg::{Anchor, Style, Svg};
 use squealmap_figure::text::{Text, wrap};
 use squealmap_figure::words::number;
 use squealmap_figure::{key, letters, raster};
-use squealmap_identify::{Identification, Kind, Spectrogram};
+use squealmap_identify::{Identification, Spectrogram, told};
 
 /// Heights of friction, acceleration and each spectrogram, points.
 const HEIGHTS: [f64; 4] = [70.0, 92.0, 100.0, 100.0];
@@ -170,19 +170,13 @@ fn draw(found: &Shown, pictures: &[String; 2], look: &Look<'_>, heights: [f64; 4
     (svg, [page, base + 2.0 + MARGIN])
 }
 
-/// `Verdict: mode coupling (confidence 0.97).`
+/// `Verdict: 0.000 to 0.082 s no instability, to 0.250 s mode coupling`; of a record without segments that of the whole.
 fn verdict_line(found: &Identification) -> String {
-    let verdict = &found.verdict;
-    let leaning = match (verdict.kind, verdict.leaning) {
-        (Kind::Undecided, Some(kind)) => format!(", leaning to {}", kind.words()),
-        _ => String::new(),
-    };
-    let confidence = if verdict.confidence > 0.0 {
-        format!(" (confidence {:.2})", verdict.shown_confidence())
-    } else {
-        String::new()
-    };
-    format!("Verdict: {}{leaning}{confidence}", verdict.kind.words())
+    if found.segments.is_empty() {
+        let verdict = &found.verdict;
+        return format!("Verdict: {} (confidence {:.2})", verdict.kind.words(), verdict.shown_confidence());
+    }
+    format!("Verdict: {}", told(&found.segments))
 }
 
 /// The labels of the panels, each with a shorter one for flat panels.

@@ -8,7 +8,9 @@ use crate::results::error::Error;
 use crate::study::error::Result;
 use crate::sweep::columns::Cell;
 use crate::version::{COMMIT, VERSION};
-use squealmap_identify::{Channel, Episode, Identification, Measured, Reading, Verdict, Window};
+use squealmap_identify::{
+    Chances, Channel, Episode, Identification, Measured, Reading, Segment, Testimony, Verdict, Window, told,
+};
 
 pub use crate::study::identify::figure::{Shown, identify_svg};
 
@@ -130,7 +132,9 @@ pub fn report_json(found: &Identification, name: &str) -> Result<Vec<u8>> {
         "start": found.time[0],
         "end": found.time[1],
         "frequency": found.frequency,
-        "verdict": verdict(&found.verdict),
+        "summary": told(&found.segments),
+        "segments": found.segments.iter().map(segment).collect::<Vec<_>>(),
+        "growth_verdict": verdict(&found.verdict),
         "friction_slope": found.slope.map(|friction| json!({
             "slope": measured(friction.slope),
             "velocity": friction.velocity,
@@ -173,4 +177,45 @@ fn episode(episode: &Episode) -> Value {
         "distortion": episode.distortion,
         "verdict": verdict(&episode.verdict),
     })
+}
+
+fn segment(segment: &Segment) -> Value {
+    json!({
+        "start": segment.time[0],
+        "end": segment.time[1],
+        "state": segment.state,
+        "frequency": segment.frequency,
+        "amplitude": segment.amplitude,
+        "vibration_over_sliding_velocity": segment.reach,
+        "phase": segment.phase.map(measured),
+        "coherence": segment.coherence,
+        "friction": segment.friction.map(|friction| json!({
+            "reading": friction.reading,
+            "level": measured(friction.level),
+            "slope": friction.slope.map(measured),
+        })),
+        "velocity": segment.velocity,
+        "temperature": segment.temperature,
+        "verdict": verdict(&segment.verdict),
+        "in_any_case": segment.shared.map(|(mechanism, probability)| json!({
+            "mechanism": mechanism,
+            "confidence": probability,
+        })),
+        "rests_on": segment.rests_on,
+        "contradictions": segment.contradictions,
+        "witnesses": segment.testimonies.iter().map(testimony).collect::<Vec<_>>(),
+    })
+}
+
+fn testimony(testimony: &Testimony) -> Value {
+    let chances = testimony.chances.map(|Chances([none, slope, coupling, both, together])| {
+        json!({
+            "no_instability": none,
+            "negative_slope": slope,
+            "mode_coupling": coupling,
+            "both": both,
+            "only_both_together": together,
+        })
+    });
+    json!({ "witness": testimony.witness, "chances": chances, "evidence": testimony.evidence })
 }

@@ -84,7 +84,7 @@ fn a_trace_of_the_preset_is_identified() {
     assert!(text.contains("squealmap identify out/growth/signals.csv\n"), "{text}");
     let found = fs::read(here.join("out/signals/identify.json")).unwrap();
     let found: serde_json::Value = serde_json::from_slice(&found).unwrap();
-    assert_eq!(found["verdict"]["kind"], "mode_coupling", "{found}");
+    assert_eq!(found["growth_verdict"]["kind"], "mode_coupling", "{found}");
 }
 
 #[test]

@@ -102,7 +102,7 @@ fn a_sweep_reads_the_material() {
     }
     let input = Box::new(Cursor::new(table.into_bytes())) as Box<dyn Read>;
     let friction = FrictionColumn::Named("mu".to_owned());
-    let read = read_points(input, "points.csv", &Settings::default(), &friction, None).unwrap();
+    let read = read_points(input, "points.csv", &Settings::default(), &friction, None).unwrap().points;
     let found = fit(&read, LawKind::Bilinear, &PAD.map(|row| row[0]), None).unwrap();
     let directory = tempfile::tempdir().unwrap();
     std::fs::write(directory.path().join("material.csv"), material_csv(&found, &read, "points.csv")).unwrap();

@@ -102,7 +102,7 @@ fn measured(bytes: u64) -> [f64; 3] {
         .output()
         .unwrap();
     let (out, err) = (String::from_utf8(ended.stdout).unwrap(), String::from_utf8(ended.stderr).unwrap());
-    assert!(ended.status.success() && out.starts_with("mode coupling"), "{out}{err}");
+    assert!(ended.status.success() && crate::common::says_mode_coupling(&out), "{out}{err}");
     let numbers: Vec<f64> =
         err.lines().last().unwrap().split(' ').map(|number| number.parse().unwrap()).collect();
     [numbers[0] / 1024.0, numbers[1], rows as f64]

@@ -1,0 +1,304 @@
+//! The witnesses of a segment together: its verdict, what that rests on, and what contradicts it.
+
+use crate::cross::Measured;
+use crate::episode::Episode;
+use crate::population::{Seen, Source, bin, chances};
+use crate::segment::{Reading, Segment, State};
+use crate::testimony::{Chances, Mechanism, Testimony, Witness};
+use crate::verdict::{CONFIDENT, Kind, Verdict};
+use crate::witness::{each, friction, friction_seen, phase, phase_seen, power};
+
+/// A probability that a confident witness leaves to what another says with confidence: they contradict each other.
+const LEAVES: f64 = 0.02;
+/// Confidence that a stretch without vibration is stable: nothing shows what a stronger kick would do.
+const QUIET: f64 = 0.95;
+/// E-foldings of the growth that follows, for which a quiet stretch must last: from the smallest kick on, growth would show.
+const FOLDS: f64 = 12.0;
+/// Relative difference of velocities, and difference of temperatures (°C), that are one condition.
+const SAME_VELOCITY: f64 = 0.03;
+const SAME_TEMPERATURE: f64 = 10.0;
+/// A likelihood is never believed beyond this: every witness has errors that it does not know.
+const BELIEVED: f64 = 0.995;
+
+/// Judges every segment. `critical`: the friction coefficient at which the modes coalesce.
+pub(super) fn judged(segments: &mut [Segment], episodes: &[Episode], critical: Option<Measured>) {
+    let homes = homes(segments, episodes);
+    let points = points(segments, episodes, &homes);
+    for number in 0..segments.len() {
+        let own: Vec<&Episode> =
+            homes.iter().zip(episodes).filter(|(home, _)| **home == Some(number)).map(|(_, e)| e).collect();
+        let confidence =
+            |episode: &&&Episode| (episode.verdict.kind != Kind::Undecided, episode.verdict.confidence);
+        let best = own
+            .iter()
+            .max_by(|a, b| confidence(a).partial_cmp(&confidence(b)).unwrap_or(std::cmp::Ordering::Equal));
+        let best = best.copied();
+        let told = best.or_else(|| elsewhere(&segments[number], episodes, &points));
+        let next = homes
+            .iter()
+            .zip(episodes)
+            .find(|(home, _)| **home == Some(number + 1))
+            .map(|(_, episode)| episode.growth.value);
+        let follows = segments
+            .get(number + 1)
+            .is_some_and(|next| next.state != State::Quiet && next.state != State::Decaying);
+        let grows = best.is_some_and(|episode| !episode.wanders);
+        let segment = &mut segments[number];
+        segment.seen = phase_seen(segment, best).ok().map(|(source, phase)| {
+            let (level, trend) = friction_seen(segment, critical);
+            Seen { source, bin: Some(bin(phase.value)), level, trend }
+        });
+        segment.testimonies =
+            vec![power(told, best.is_none()), phase(segment, best), friction(segment, critical, grows)];
+        match segment.state {
+            State::Quiet | State::Decaying => {
+                (segment.verdict, segment.rests_on) = calm(segment, next, follows, critical);
+            }
+            State::Growing | State::Sustained => {
+                (segment.verdict, segment.rests_on, segment.shared) = together(segment, best, critical);
+            }
+        }
+        contradict(segment, &own);
+    }
+}
+
+/// The segment of each episode: where most of its second half lies that is not quiet.
+fn homes(segments: &[Segment], episodes: &[Episode]) -> Vec<Option<usize>> {
+    let home = |episode: &Episode| {
+        let [start, end] = episode.time;
+        let late = [0.5 * (start + end), end];
+        let shared =
+            |segment: &Segment| late[1].min(segment.time[1]) - late[0].max(segment.time[0]).min(late[1]);
+        let loud =
+            (0..segments.len()).filter(|k| segments[*k].state != State::Quiet && shared(&segments[*k]) > 0.0);
+        if let Some(home) = loud.max_by(|a, b| shared(&segments[*a]).total_cmp(&shared(&segments[*b]))) {
+            return Some(home);
+        }
+        let inside = segments.iter().position(|segment| end <= segment.time[1])?;
+        // The end of a growth may lie a cell before what it grows into.
+        let quiet = segments[inside].state == State::Quiet;
+        Some(if quiet && inside + 1 < segments.len() { inside + 1 } else { inside })
+    };
+    episodes.iter().map(|episode| home(episode).or(segments.len().checked_sub(1))).collect()
+}
+
+/// Where each episode worked: velocity, m/s, and temperature, °C; `None` without the velocity.
+fn points(
+    segments: &[Segment],
+    episodes: &[Episode],
+    homes: &[Option<usize>],
+) -> Vec<Option<(f64, Option<f64>)>> {
+    let point = |(episode, home): (&Episode, &Option<usize>)| {
+        let segment = &segments[(*home)?];
+        let [first, last] = segment.velocity?;
+        let [start, end] = segment.time;
+        let part = ((0.5 * (episode.time[0] + episode.time[1]) - start) / (end - start)).clamp(0.0, 1.0);
+        Some((first + part * (last - first), segment.temperature))
+    };
+    episodes.iter().zip(homes).map(point).collect()
+}
+
+/// The most confident growth elsewhere in the record at the velocity and the temperature of a segment: what is unstable
+/// there is so here.
+fn elsewhere<'a>(
+    segment: &Segment,
+    episodes: &'a [Episode],
+    points: &[Option<(f64, Option<f64>)>],
+) -> Option<&'a Episode> {
+    let velocity = segment.velocity?;
+    let alike = |point: &(f64, Option<f64>)| {
+        let (at, temperature) = *point;
+        let heat = temperature.zip(segment.temperature).map_or(0.0, |(a, b)| (a - b).abs());
+        velocity.iter().all(|v| (v - at).abs() <= SAME_VELOCITY * at.abs()) && heat <= SAME_TEMPERATURE
+    };
+    let here = episodes.iter().zip(points).filter(|(_, point)| point.as_ref().is_some_and(alike));
+    let decided = here.map(|(episode, _)| episode).filter(|episode| episode.verdict.kind != Kind::Undecided);
+    decided.max_by(|a, b| a.verdict.confidence.total_cmp(&b.verdict.confidence))
+}
+
+/// A stretch without growth.
+fn calm(
+    segment: &Segment,
+    next: Option<f64>,
+    follows: bool,
+    critical: Option<Measured>,
+) -> (Verdict, Vec<Witness>) {
+    let length = segment.time[1] - segment.time[0];
+    let unstable = segment.testimonies[0].chances.map(|chances| chances.leading());
+    if let Some((kind, confidence)) =
+        unstable.filter(|_| segment.state == State::Quiet && (follows || next.is_some()))
+    {
+        let reason = "the vibration has not become visible yet; what grows at this velocity is unstable here";
+        let decided = confidence >= CONFIDENT;
+        let verdict = Verdict {
+            kind: if decided { kind } else { Kind::Undecided },
+            confidence,
+            leaning: Some(kind),
+            reasons: vec![reason.to_owned()],
+        };
+        return (verdict, vec![Witness::Power]);
+    }
+    if let Some(growth) = next.filter(|growth| growth * length < FOLDS) {
+        let reason = format!("it is too short to tell from the growth of {growth:.1} 1/s that follows");
+        return (Verdict::undecided(reason), Vec::new());
+    }
+    if follows && next.is_none() {
+        let reason = "a vibration follows whose growth was not seen: when it began is not known";
+        return (Verdict::undecided(reason), Vec::new());
+    }
+    let [above, _] = each(segment, critical);
+    if above.is_some_and(|above| above > CONFIDENT) {
+        return (
+            Verdict::undecided("friction lies above the coalescence of the modes, yet nothing grows"),
+            Vec::new(),
+        );
+    }
+    let reason = match segment.state {
+        State::Decaying => "the oscillation decays",
+        _ => "nothing grows",
+    };
+    let verdict = Verdict {
+        kind: Kind::NoInstability,
+        confidence: QUIET,
+        leaning: Some(Kind::NoInstability),
+        reasons: vec![reason.to_owned()],
+    };
+    (verdict, Vec::new())
+}
+
+/// A vibration: population, friction and power of friction multiplied.
+fn together(
+    segment: &Segment,
+    episode: Option<&Episode>,
+    critical: Option<Measured>,
+) -> (Verdict, Vec<Witness>, Option<(Mechanism, f64)>) {
+    let undecided = |reason: String| (Verdict::undecided(reason), Vec::new(), None);
+    let reads = each(segment, critical);
+    let by_power = segment.testimonies[0].chances;
+    let seen = phase_seen(segment, episode);
+    // That it is an instability at all, and not driven, shows in its growth or in what limits it.
+    let limited = segment.reach.is_some_and(|reach| reach >= crate::segment::REVERSES);
+    let grows = episode.is_some_and(|episode| !episode.wanders);
+    if !(limited || grows) {
+        return undecided(seen.err().unwrap_or_else(|| "the vibration may be driven".to_owned()));
+    }
+    let source = segment.source();
+    let binned = seen.as_ref().ok().map(|(_, phase)| bin(phase.value));
+    let mean = segment.friction.is_none_or(|friction| friction.reading == Reading::Mean);
+    let (level, trend) = if mean { (None, None) } else { friction_seen(segment, critical) };
+    let (population, number) = chances(Seen { source, bin: binned, level, trend });
+    let mut weights = population.0;
+    {
+        let [above, falls] = reads;
+        // Index: none, slope, coupling, both, interaction.
+        let believed = |p: f64| p.clamp(1.0 - BELIEVED, BELIEVED);
+        if let Some(p) = above.map(believed) {
+            for (cause, weight) in weights.iter_mut().enumerate() {
+                *weight *= if cause == 2 || cause == 3 { p } else { 1.0 - p };
+            }
+        }
+        if let Some(p) = falls.map(believed) {
+            for (cause, weight) in weights.iter_mut().enumerate() {
+                *weight *= if cause == 2 { 1.0 - p } else { p };
+            }
+        }
+    }
+    if let Some(power) = by_power {
+        weights.iter_mut().zip(power.0).for_each(|(weight, p)| *weight *= p.max(1.0 - BELIEVED));
+    }
+    let Some(joint) = Chances::from_weights(weights) else { return undecided("nothing fits".to_owned()) };
+    let (kind, probability) = joint.leading();
+    // What counted vibrations leave open; what is read does not rest on them.
+    let direct = by_power.is_some() || reads.iter().all(Option::is_some);
+    let sure = |probability: f64| {
+        let p = probability.clamp(0.0, 1.0);
+        let spread =
+            if direct { 0.0 } else { (p * (1.0 - p) / (number + 1.0)).sqrt() + 0.5 / (number + 1.0) };
+        (p - spread).clamp(0.0, BELIEVED)
+    };
+    let confidence = sure(probability);
+    let parts: Vec<String> =
+        [(1, "negative slope"), (2, "mode coupling"), (3, "both"), (4, "only both together")]
+            .into_iter()
+            .filter(|(k, _)| joint.0[*k] > 0.02)
+            .map(|(k, words)| format!("{words} {:.0} %", 100.0 * joint.0[k]))
+            .collect();
+    let reason = format!(
+        "mode coupling would do with {:.0} %, the slope with {:.0} %: {}",
+        100.0 * joint.coupling(),
+        100.0 * joint.slope(),
+        parts.join(", ")
+    );
+    // Phases of growth overlap too much: without a direct reading they only lean.
+    let told = direct || source != Source::Growth;
+    let confidence = if told { confidence } else { confidence.min(CONFIDENT - 0.01) };
+    let decided = confidence >= CONFIDENT && kind != Kind::Undecided;
+    let verdict = Verdict {
+        kind: if decided { kind } else { Kind::Undecided },
+        confidence,
+        leaning: (kind != Kind::Undecided).then_some(kind),
+        reasons: vec![reason],
+    };
+    let suffices = |mechanism| (mechanism, sure(joint.suffices(mechanism)));
+    let shared = Mechanism::ALL.map(suffices).into_iter().find(|(_, p)| *p >= CONFIDENT && !decided && told);
+    let agrees =
+        |testimony: &&Testimony| testimony.chances.is_some_and(|chances| chances.of(kind) >= CONFIDENT);
+    let mut rests: Vec<Witness> =
+        segment.testimonies.iter().filter(agrees).map(|testimony| testimony.witness).collect();
+    if rests.is_empty() {
+        let speaks = |testimony: &&Testimony| testimony.chances.is_some();
+        rests = segment.testimonies.iter().filter(speaks).map(|testimony| testimony.witness).collect();
+    }
+    (verdict, rests, shared)
+}
+
+/// Names what contradicts the verdict, which is then undecided.
+fn contradict(segment: &mut Segment, own: &[&Episode]) {
+    let mut found = Vec::new();
+    let loud: Vec<(&Testimony, Kind)> = segment
+        .testimonies
+        .iter()
+        .filter_map(|testimony| {
+            let (kind, probability) = testimony.chances?.leading();
+            (probability >= CONFIDENT && kind != Kind::Undecided).then_some((testimony, kind))
+        })
+        .collect();
+    if segment.state == State::Growing || segment.state == State::Sustained {
+        for (k, (one, kind)) in loud.iter().enumerate() {
+            for (other, differs) in &loud[k + 1..] {
+                let leaves = other.chances.map_or(0.0, |chances| chances.of(*kind));
+                let left = one.chances.map_or(0.0, |chances| chances.of(*differs));
+                if kind != differs && leaves < LEAVES && left < LEAVES {
+                    found.push(format!(
+                        "{} says {}, {} says {}",
+                        one.witness.words(),
+                        kind.words(),
+                        other.witness.words(),
+                        differs.words()
+                    ));
+                }
+            }
+        }
+    }
+    let decided: Vec<&&Episode> =
+        own.iter().filter(|episode| episode.verdict.kind != Kind::Undecided).collect();
+    if let Some(first) = decided.first()
+        && let Some(other) = decided.iter().find(|episode| episode.verdict.kind != first.verdict.kind)
+    {
+        found.push(format!(
+            "the growth at {:.4} s says {}, that at {:.4} s {}",
+            first.time[0],
+            first.verdict.kind.words(),
+            other.time[0],
+            other.verdict.kind.words()
+        ));
+    }
+    if !found.is_empty() {
+        segment.shared = None;
+    }
+    if !found.is_empty() && segment.verdict.kind != Kind::Undecided {
+        segment.verdict.kind = Kind::Undecided;
+        segment.verdict.confidence = segment.verdict.confidence.min(0.5);
+    }
+    segment.contradictions = found;
+}

@@ -1,0 +1,360 @@
+//! Segments of time: stretches in which amplitude, frequency, phase and friction stay in kind.
+
+use crate::cells::Cell;
+use crate::cross::{INDEPENDENT, Measured};
+use crate::cut::{Course, cut};
+use crate::population::{Seen, Source};
+use crate::settings::Settings;
+use crate::testimony::{Mechanism, Testimony, Witness};
+use crate::trend::Trended;
+use crate::verdict::Verdict;
+
+/// Amplitude, over the largest of the record, from which on the record vibrates.
+const VIBRATES: f64 = 0.1;
+/// Velocity of the vibration, over that of sliding, from which on it is limited by friction: it all but reverses the sliding.
+pub(super) const REVERSES: f64 = 0.5;
+/// That below which the mean of `T/N` is the friction at the mean velocity.
+pub(super) const SMALL: f64 = 0.1;
+/// The shortest segment, as a part of the record.
+const SHORTEST: f64 = 0.03;
+/// The fewest cells of a segment that is cut off another one.
+const LEAST: usize = 5;
+/// Swing of a force, over its mean, from which on force sensors follow a vibration that reverses the sliding.
+pub(super) const FOLLOWS: f64 = 0.05;
+/// Change of the logarithm of the amplitude that is no steady vibration any more.
+const CHANGES: f64 = 1.0;
+/// Standard errors from which on a trend of the amplitude is one.
+const CLEAR: f64 = 6.0;
+
+/// What the vibration does in a segment.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum State {
+    /// None to speak of.
+    Quiet,
+    /// It grows.
+    Growing,
+    /// It goes on.
+    Sustained,
+    /// It dies out.
+    Decaying,
+}
+
+impl State {
+    /// In words.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        match self {
+            State::Quiet => "quiet",
+            State::Growing => "growing",
+            State::Sustained => "sustained",
+            State::Decaying => "decaying",
+        }
+    }
+}
+
+/// How the friction coefficient of a segment was read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Reading {
+    /// The mean of `T/N`: the vibration is too small to change it.
+    Mean,
+    /// The law itself, within the oscillation, by force sensors that follow it.
+    Within,
+    /// The mean of `T/N` of a vibration that reverses the sliding: friction reaches at least that.
+    Bound,
+}
+
+/// Friction of a segment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Level {
+    /// How it was read.
+    pub reading: Reading,
+    /// The friction coefficient.
+    pub level: Measured,
+    /// `dμ/dv`, s/m; `None` where the velocity hardly changes.
+    pub slope: Option<Measured>,
+}
+
+/// A segment of time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Segment {
+    /// Start and end, s.
+    pub time: [f64; 2],
+    /// What the vibration does.
+    pub state: State,
+    /// Its frequency, Hz; `None` where nothing vibrates.
+    pub frequency: Option<f64>,
+    /// Amplitude of the tangential acceleration, m/s².
+    pub amplitude: f64,
+    /// Velocity of the vibration over that of sliding, where that is known.
+    pub reach: Option<f64>,
+    /// Phase of the normal against the tangential acceleration, degrees.
+    pub phase: Option<Measured>,
+    /// Squared coherence of the two.
+    pub coherence: Option<f64>,
+    /// Friction, where both forces are recorded.
+    pub friction: Option<Level>,
+    /// First and last velocity, m/s.
+    pub velocity: Option<[f64; 2]>,
+    /// Mean temperature, °C.
+    pub temperature: Option<f64>,
+    /// What the simulated population is asked about; `None` where there is no phase.
+    pub seen: Option<Seen>,
+    /// What each witness says, in the order of [`Witness::ALL`].
+    pub testimonies: Vec<Testimony>,
+    /// The joint verdict.
+    pub verdict: Verdict,
+    /// Where that is undecided between causes: the mechanism that they share, and its probability.
+    pub shared: Option<(Mechanism, f64)>,
+    /// The witnesses that it rests on.
+    pub rests_on: Vec<Witness>,
+    /// What speaks against it.
+    pub contradictions: Vec<String>,
+}
+
+impl Segment {
+    /// Where the simulated population has a vibration like that of this segment.
+    pub(super) fn source(&self) -> Source {
+        let within = self.friction.is_some_and(|friction| friction.reading == Reading::Within);
+        match self.state {
+            State::Growing => Source::Growth,
+            _ if within => Source::Within,
+            _ => Source::Sustained,
+        }
+    }
+}
+
+/// What the record has, beside the accelerations along the contact.
+#[derive(Clone, Copy, Debug)]
+#[expect(clippy::struct_excessive_bools, reason = "one for each channel")]
+pub(super) struct Has {
+    pub(super) normal_acceleration: bool,
+    pub(super) forces: bool,
+    pub(super) velocity: bool,
+    pub(super) temperature: bool,
+}
+
+/// The segments of a record, not judged yet.
+pub(super) fn segments(cells: &[Cell], has: Has, settings: &Settings) -> Vec<Segment> {
+    let largest = cells.iter().map(Cell::amplitude).fold(0.0, f64::max);
+    let vibrates: Vec<bool> = cells
+        .iter()
+        .map(|cell| {
+            cell.is_loud()
+                && (cell.amplitude() >= VIBRATES * largest
+                    || reached(cell, has).is_some_and(|r| r >= REVERSES))
+        })
+        .collect();
+    let mut found = Vec::new();
+    for [from, to] in runs(vibrates) {
+        let stretch = &cells[from..to];
+        let vibrating = cells[from..to]
+            .iter()
+            .filter(|cell| cell.is_loud() && cell.amplitude() >= VIBRATES * largest)
+            .count();
+        let vibrating = 2 * vibrating >= to - from;
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a small part of a small number"
+        )]
+        let least = LEAST.max((SHORTEST * cells.len() as f64).ceil() as usize);
+        let mut start = 0;
+        for end in cut(stretch.len(), &courses(stretch, has, vibrating), least) {
+            found.push(segment(&stretch[start..end], has, vibrating, settings));
+            start = end;
+        }
+    }
+    found
+}
+
+/// Stretches of the same kind; shorter ones than that of a segment go with what is around them.
+fn runs(mut kinds: Vec<bool>) -> Vec<[usize; 2]> {
+    let stretches = |kinds: &[bool]| -> Vec<[usize; 2]> {
+        let mut starts: Vec<usize> =
+            (0..kinds.len()).filter(|k| *k == 0 || kinds[*k] != kinds[*k - 1]).collect();
+        starts.push(kinds.len());
+        starts.windows(2).map(|pair| [pair[0], pair[1]]).collect()
+    };
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a small part of a small number"
+    )]
+    let least = ((0.01 * kinds.len() as f64).ceil() as usize).max(2);
+    loop {
+        let found = stretches(&kinds);
+        let short = found.iter().filter(|[from, to]| to - from < least).min_by_key(|[from, to]| to - from);
+        match short {
+            // The end of a record may be the beginning of a growth.
+            Some([from, to]) if found.len() > 1 && !(*to == kinds.len() && kinds[*from]) => {
+                for kind in &mut kinds[*from..*to] {
+                    *kind = !*kind;
+                }
+            }
+            _ => return found,
+        }
+    }
+}
+
+/// The quantities that stay in kind within a segment.
+fn courses(cells: &[Cell], has: Has, vibrating: bool) -> Vec<Course> {
+    let over_time = |of: &dyn Fn(&Cell) -> f64| -> Vec<[f64; 2]> {
+        cells.iter().map(|cell| [cell.middle(), of(cell)]).collect()
+    };
+    let mut courses = Vec::new();
+    if vibrating {
+        // A limit cycle follows the velocity: over it, its amplitude stays in kind.
+        let size = |cell: &Cell| reached(cell, has).unwrap_or(cell.amplitude()).max(f64::MIN_POSITIVE);
+        courses.push(Course::new(&over_time(&|cell| size(cell).ln()), 0.2));
+        courses.push(Course::new(&over_time(&|cell| cell.frequency().max(f64::MIN_POSITIVE).ln()), 0.004));
+        if has.normal_acceleration {
+            let turn = |cell: &Cell| cell.sums.yx / cell.sums.yx.norm().max(f64::MIN_POSITIVE);
+            courses.push(Course::new(&over_time(&|cell| turn(cell).re), 0.06));
+            courses.push(Course::new(&over_time(&|cell| turn(cell).im), 0.06));
+        }
+    }
+    if has.forces {
+        let moves = has.velocity && spread(cells, Cell::velocity) > 0.02;
+        let points =
+            cells.iter().map(|cell| [if moves { cell.velocity() } else { cell.middle() }, cell.friction()]);
+        courses.push(Course::new(&points.collect::<Vec<_>>(), 0.004));
+        if has.velocity && vibrating && follows(cells) {
+            let law = |cell: &Cell| cell.within.law(cell.velocity());
+            if cells.iter().all(|cell| law(cell).is_some()) {
+                let slope = |cell: &Cell| law(cell).map_or(0.0, |[_, slope]| slope.value * cell.velocity());
+                courses.push(Course::new(&over_time(&slope), 0.006));
+                courses.push(Course::new(
+                    &over_time(&|cell| law(cell).map_or(0.0, |[level, _]| level.value)),
+                    0.01,
+                ));
+            }
+        }
+    }
+    courses
+}
+
+/// Relative range of a quantity.
+fn spread(cells: &[Cell], of: impl Fn(&Cell) -> f64) -> f64 {
+    let values = cells.iter().map(of);
+    let [low, high] =
+        values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)]);
+    (high - low) / high.abs().max(low.abs()).max(f64::MIN_POSITIVE)
+}
+
+/// Whether the force sensors follow the vibration.
+fn follows(cells: &[Cell]) -> bool {
+    Cell::sum(cells).swing() >= FOLLOWS
+}
+
+/// Velocity of the vibration over that of sliding; `None` at rest.
+pub(super) fn reach(cell: &Cell) -> Option<f64> {
+    let omega = std::f64::consts::TAU * cell.frequency();
+    let reach = cell.amplitude() / omega / cell.velocity().abs();
+    reach.is_finite().then_some(reach)
+}
+
+/// That where the velocity is recorded.
+fn reached(cell: &Cell, has: Has) -> Option<f64> {
+    reach(cell).filter(|_| has.velocity)
+}
+
+/// One segment, not judged yet.
+fn segment(cells: &[Cell], has: Has, vibrating: bool, settings: &Settings) -> Segment {
+    let all = Cell::sum(cells);
+    let reach = reached(&all, has).filter(|_| all.is_loud());
+    let change = change(cells, has);
+    let clear = change.abs() > CHANGES;
+    let limited = reach.is_some_and(|reach| reach >= REVERSES);
+    let state = match (vibrating, clear && !limited) {
+        (false, _) => State::Quiet,
+        (true, true) if change > 0.0 => State::Growing,
+        (true, true) => State::Decaying,
+        (true, false) => State::Sustained,
+    };
+    let ratio = all.sums.normal_acceleration(INDEPENDENT);
+    let turned =
+        ratio.value * num_complex::Complex64::cis(std::f64::consts::TAU * all.frequency() * settings.skew);
+    let error = if ratio.value.norm() > 0.0 {
+        (ratio.error / ratio.value.norm()).min(std::f64::consts::PI)
+    } else {
+        f64::INFINITY
+    };
+    let shows = vibrating && has.normal_acceleration;
+    Segment {
+        time: all.time,
+        state,
+        frequency: vibrating.then(|| all.frequency()),
+        amplitude: all.amplitude(),
+        reach,
+        phase: shows.then(|| Measured { value: turned.arg().to_degrees(), error: error.to_degrees() }),
+        coherence: shows.then_some(ratio.coherence),
+        friction: has.forces.then(|| level(cells, &all, has, limited)),
+        velocity: has.velocity.then(|| [cells[0].velocity(), cells[cells.len() - 1].velocity()]),
+        temperature: has.temperature.then(|| all.temperature()),
+        seen: None,
+        testimonies: Vec::new(),
+        verdict: Verdict::undecided("not judged"),
+        shared: None,
+        rests_on: Vec::new(),
+        contradictions: Vec::new(),
+    }
+}
+
+/// Change of the logarithm of the amplitude where it is clear, else 0. A forced vibration that follows the velocity, or one that
+/// stays while the velocity falls, neither grows nor dies out: of both changes the smaller one counts.
+fn change(cells: &[Cell], has: Has) -> f64 {
+    let length = cells[cells.len() - 1].time[1] - cells[0].time[0];
+    let of = |size: &dyn Fn(&Cell) -> f64| {
+        let points = cells.iter().map(|cell| [cell.middle(), size(cell).max(f64::MIN_POSITIVE).ln()]);
+        let Measured { value, error } = Trended::new(points).slope;
+        if value.abs() > CLEAR * error { value * length } else { 0.0 }
+    };
+    let amplitude = of(&Cell::amplitude);
+    if cells.iter().any(|cell| reached(cell, has).is_none()) {
+        return amplitude;
+    }
+    let over_velocity = of(&|cell| reached(cell, has).unwrap_or_default());
+    if amplitude * over_velocity <= 0.0 {
+        0.0
+    } else if amplitude.abs() < over_velocity.abs() {
+        amplitude
+    } else {
+        over_velocity
+    }
+}
+
+/// Level and slope of friction.
+fn level(cells: &[Cell], all: &Cell, has: Has, limited: bool) -> Level {
+    /// Relative range of the velocity from which on there is a slope.
+    const MOVES: f64 = 0.05;
+    /// Systematic errors of a friction coefficient, relative, and of a slope, over that of `μ/v`.
+    const SYSTEMATIC: f64 = 0.01;
+    /// That of a slope within the oscillation, over that: it is read over three fifths of the velocity.
+    const LOCAL: f64 = 3.0;
+    let within = all.within.law(all.velocity()).filter(|_| limited && all.swing() >= FOLLOWS);
+    if let Some([level, slope]) = within {
+        let allowed = SYSTEMATIC * level.value.abs();
+        let error = level.error.hypot(allowed);
+        let slope = Measured { error: slope.error.hypot(LOCAL * allowed / all.velocity().abs()), ..slope };
+        let slope = (!all.within.bends(all.velocity())).then_some(slope);
+        return Level { reading: Reading::Within, level: Measured { error, ..level }, slope };
+    }
+    // A vibration that is not small any more lowers the mean: what is left of a growth is its beginning.
+    let small: Vec<Cell> =
+        cells.iter().filter(|cell| reach(cell).is_none_or(|r| r < SMALL)).copied().collect();
+    let few = small.len() < LEAST;
+    let blurred = !limited && few && small.len() < cells.len();
+    let cells = if limited || few { cells } else { &small };
+    let all = Cell::sum(cells);
+    let moves = has.velocity && !blurred && cells.len() >= LEAST && spread(cells, Cell::velocity) > MOVES;
+    let abscissa = |cell: &Cell| if moves { cell.velocity() } else { cell.middle() };
+    let line = Trended::new(cells.iter().map(|cell| [abscissa(cell), cell.friction()]));
+    let error = line.error.hypot(SYSTEMATIC * all.friction().abs());
+    Level {
+        reading: if limited { Reading::Bound } else { Reading::Mean },
+        level: Measured { value: all.friction(), error },
+        slope: moves.then_some(line.slope).filter(|slope| slope.error.is_finite()),
+    }
+}

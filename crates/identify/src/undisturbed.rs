@@ -1,0 +1,48 @@
+//! Friction against velocity in a record of vibrations, without what these blur.
+//!
+//! A vibration that reverses the sliding lowers the mean of `T/N`: that is not the friction at the mean velocity, however
+//! slow or fast the force sensors are. It is left out, and with it what slow sensors remember of it.
+
+use crate::cells::Cell;
+use crate::segment::{SMALL, reach};
+
+/// How long a slow force sensor remembers a vibration, s: six time constants at 50 Hz.
+const REMEMBERS: f64 = 0.02;
+
+/// Windows that begin this many hops apart share no samples: their errors are independent.
+const APART: f64 = 4.0;
+
+/// Friction that no vibration blurs.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Undisturbed {
+    /// Velocity (m/s), friction coefficient, and temperature (°C) where it is recorded.
+    pub points: Vec<(f64, f64, Option<f64>)>,
+    /// Share of the record that is left out.
+    pub left_out: f64,
+}
+
+/// The points of the cells of a record with velocity and forces.
+pub(super) fn undisturbed(cells: &[Cell], has_temperature: bool) -> Undisturbed {
+    let mut points = Vec::new();
+    let (mut blurred, mut all) = (0.0, 0.0);
+    let mut since = f64::NEG_INFINITY;
+    let mut last = f64::NEG_INFINITY;
+    for cell in cells {
+        all += cell.windows;
+        let vibrates = cell.is_loud() && reach(cell).is_none_or(|reach| reach >= SMALL);
+        if vibrates {
+            since = cell.time[1];
+        }
+        if vibrates || cell.time[0] < since + REMEMBERS || !cell.friction().is_finite() {
+            blurred += cell.windows;
+            continue;
+        }
+        let hop = (cell.time[1] - cell.time[0]) / cell.windows;
+        if cell.middle() - last > (APART - 0.5) * hop {
+            last = cell.middle();
+            let temperature = has_temperature.then(|| cell.temperature());
+            points.push((cell.velocity(), cell.friction(), temperature));
+        }
+    }
+    Undisturbed { points, left_out: if all > 0.0 { blurred / all } else { 0.0 } }
+}

@@ -1,0 +1,173 @@
+//! The three witnesses of a segment.
+
+use crate::attribution::normal_below;
+use crate::cross::Measured;
+use crate::episode::Episode;
+use crate::population::{Level as Height, Seen, Source, Trend, bin, stated};
+use crate::segment::{REVERSES, Reading, Segment, State};
+use crate::testimony::{Chances, Testimony, Witness};
+use crate::verdict::Kind;
+
+/// Squared coherence of the accelerations below which they have no phase.
+const COHERENT: f64 = 0.5;
+/// Standard errors of a phase, degrees, that blur it over more than a bin.
+const SHARP: f64 = 10.0;
+/// (a) The power of friction while it grows; `elsewhere`: in another segment at the same velocity.
+pub(super) fn power(episode: Option<&Episode>, elsewhere: bool) -> Testimony {
+    let silent = |why: String| Testimony::silent(Witness::Power, why);
+    let Some(episode) = episode else { return silent("no growth in it".to_owned()) };
+    let verdict = &episode.verdict;
+    let reason = verdict.reasons.first().cloned().unwrap_or_default();
+    if verdict.kind == Kind::Undecided {
+        return silent(reason);
+    }
+    // What it is not sure of may be any other cause.
+    let rest = (1.0 - verdict.confidence) / 4.0;
+    let mut weights = [rest; 5];
+    let place = Kind::ALL.iter().position(|kind| *kind == verdict.kind).unwrap_or_default();
+    weights[place] = verdict.confidence;
+    let evidence = if elsewhere {
+        format!("at this velocity, from {:.4} s on, {reason}", episode.time[0])
+    } else {
+        reason
+    };
+    Testimony { witness: Witness::Power, chances: Chances::from_weights(weights), evidence }
+}
+
+/// Where a segment shows a phase, and which.
+pub(super) fn phase_seen(segment: &Segment, episode: Option<&Episode>) -> Result<(Source, Measured), String> {
+    let (source, phase, coherence) = match segment.state {
+        State::Quiet => return Err("nothing vibrates".to_owned()),
+        State::Decaying => return Err("the vibration dies out".to_owned()),
+        State::Growing => {
+            let Some(episode) = episode.filter(|episode| !episode.wanders) else {
+                return Err("the vibration becomes stronger, but not as one growing mode".to_owned());
+            };
+            (Source::Growth, episode.phase, episode.coherence)
+        }
+        State::Sustained => (segment.source(), segment.phase, segment.coherence),
+    };
+    let Some((phase, coherence)) = phase.zip(coherence) else {
+        return Err("the normal acceleration is not recorded".to_owned());
+    };
+    if coherence < COHERENT || phase.error > SHARP {
+        return Err(format!("the accelerations have no clear phase (squared coherence {coherence:.2})"));
+    }
+    if source != Source::Growth {
+        match segment.reach {
+            None => {
+                return Err("without the sliding velocity a sustained vibration may be driven; record it (--velocity)".to_owned());
+            }
+            Some(reach) if reach < REVERSES => {
+                return Err(format!(
+                    "the vibration has {:.0} % of the sliding velocity: friction does not limit it there, it may be driven",
+                    100.0 * reach
+                ));
+            }
+            Some(_) => {}
+        }
+    }
+    Ok((source, phase))
+}
+
+/// (b) The phase, judged by a simulated population.
+pub(super) fn phase(segment: &Segment, episode: Option<&Episode>) -> Testimony {
+    match phase_seen(segment, episode) {
+        Err(why) => Testimony::silent(Witness::Phase, why),
+        Ok((source, phase)) => {
+            let (chances, number) =
+                stated(Seen { source, bin: Some(bin(phase.value)), level: None, trend: None });
+            let when = if source == Source::Growth { "while it grows" } else { "of the sustained vibration" };
+            let evidence =
+                format!("{}° {when}; {number:.0} simulated vibrations had such a phase", phase.text(1.0, 0));
+            Testimony { witness: Witness::Phase, chances: Some(chances), evidence }
+        }
+    }
+}
+
+/// The level and the trend of friction of a vibration that reverses the sliding, as the population has them.
+pub(super) fn friction_seen(
+    segment: &Segment,
+    critical: Option<Measured>,
+) -> (Option<Height>, Option<Trend>) {
+    /// Standard errors by which a level is above or below.
+    const CLEAR: f64 = 2.0;
+    /// Part of the coalescence below which a level is far below.
+    const FAR: f64 = 0.8;
+    let Some(friction) = segment.friction else { return (None, None) };
+    let height = critical.map(|critical| {
+        let off = (friction.level.value - critical.value) / friction.level.error.hypot(critical.error);
+        match off {
+            off if off > CLEAR => Height::Above,
+            off if off < -CLEAR && friction.level.value < FAR * critical.value => Height::Far,
+            off if off < -CLEAR => Height::Below,
+            _ => Height::Near,
+        }
+    });
+    let trend = friction.slope.zip(segment.velocity).map_or(Trend::Unknown, |(slope, [first, last])| {
+        let unit = 0.5 * (first + last) / friction.level.value;
+        Trend::of(Measured { value: slope.value * unit, error: slope.error * unit })
+    });
+    (height, Some(trend))
+}
+
+/// The probabilities that friction lies above the coalescence, and that it falls with the velocity, where no vibration
+/// disturbs it; `None` for what is not known.
+pub(super) fn each(segment: &Segment, critical: Option<Measured>) -> [Option<f64>; 2] {
+    let Some(friction) = segment.friction.filter(|friction| friction.reading == Reading::Mean) else {
+        return [None; 2];
+    };
+    let above = critical.map(|critical| {
+        normal_below((friction.level.value - critical.value) / friction.level.error.hypot(critical.error))
+    });
+    let falls = friction.slope.map(|slope| normal_below(-slope.value / slope.error));
+    [above, falls]
+}
+
+/// (c) Level and slope of friction.
+pub(super) fn friction(segment: &Segment, critical: Option<Measured>, grows: bool) -> Testimony {
+    let silent = |why: &str| Testimony::silent(Witness::Friction, why);
+    let Some(friction) = segment.friction else { return silent("the forces are not recorded") };
+    let level = friction.level.text(1.0, 3);
+    let slope = friction.slope.map_or(String::new(), |slope| format!(", dμ/dv {} s/m", slope.text(1.0, 3)));
+    let against =
+        critical.map_or(String::new(), |critical| format!(", coalescence at {}", critical.text(1.0, 3)));
+    let evidence = format!("μ {level}{against}{slope}");
+    let spoken = |chances: Option<Chances>, evidence: String| Testimony {
+        witness: Witness::Friction,
+        chances,
+        evidence,
+    };
+    if friction.reading != Reading::Mean {
+        let how = if friction.reading == Reading::Within {
+            "read within the oscillation"
+        } else {
+            "the vibration reverses the sliding and the force sensors do not follow it: the mean is a lower bound, its slope is not \
+             that of the law"
+        };
+        let (level, trend) = friction_seen(segment, critical);
+        let tells = level.is_some() || (trend != Some(Trend::Unknown) && friction.reading == Reading::Within);
+        let seen = Seen { source: segment.source(), bin: None, level, trend };
+        return spoken(tells.then(|| stated(seen).0), format!("{evidence}; {how}"));
+    }
+    let vibrates = segment.reach.is_some_and(|reach| reach >= REVERSES) || grows;
+    let vibrates = vibrates && matches!(segment.state, State::Growing | State::Sustained);
+    match each(segment, critical) {
+        [Some(coupling), Some(slope)] if !vibrates => {
+            // How much of a falling slope the damping takes is not known.
+            let chances = Chances::of_each(coupling, slope);
+            let tells = chances.leading().0 == Kind::NoInstability;
+            let evidence = if tells {
+                evidence
+            } else {
+                format!("{evidence}; nothing grows, so damping may outweigh it")
+            };
+            spoken(tells.then_some(chances), evidence)
+        }
+        [Some(coupling), Some(slope)] => spoken(Some(Chances::of_each(coupling, slope)), evidence),
+        [None, _] => spoken(None, format!("{evidence}; the coalescence is not known (--critical-friction)")),
+        [_, None] => {
+            spoken(None, format!("{evidence}; the velocity does not change, or the slope is not clear"))
+        }
+    }
+}

@@ -1,0 +1,240 @@
+//! Strokes as a laboratory records them: a load of 17 N, squeal near 14.5 kHz, forces of 50 Hz or fast ones, both directions;
+//! cause by the eigenvalues at every instant.
+
+use std::f64::consts::TAU;
+
+use crate::common::{bilinear, constant, instance, plan};
+use crate::study::strokes::{FIELDS, Random};
+use squealmap::model::friction::FrictionLaw;
+use squealmap::model::instance::Instance;
+use squealmap::model::kind::InstabilityType;
+use squealmap::model::status::Status;
+use squealmap::model::{Param, linear};
+use squealmap::study::signals::sensors::{Recording, Sample, record};
+use squealmap_identify::{CAUSE, Kind, Measured, Settings};
+
+/// Mean frequency of the squeal of the model, Hz, and what it is in Table 1.
+const SQUEAL: f64 = 14.5e3;
+const TABLE_1: f64 = 34.0;
+/// Load of the laboratory, N.
+const LOAD: f64 = 17.0;
+/// Corner of slow force sensors, Hz.
+const SLOW: f64 = 50.0;
+/// Samples per second, Hz.
+pub(crate) const RATE: f64 = 102.4e3;
+/// Length of a stroke of sustained squeal, s.
+const LENGTH: f64 = 0.2;
+/// Kick at the start, over the belt velocity.
+const KICK: f64 = 3e-3;
+
+/// What a stroke is drawn to be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Drawn {
+    /// Squeal is there from the first sample on.
+    Sustained,
+    /// The record ends when the growth does.
+    Growing,
+    /// Mode coupling first, both from some velocity on.
+    Late,
+    /// Stable, with a vibration that something else drives.
+    Driven,
+    /// Stable.
+    Stable,
+}
+
+impl Drawn {
+    pub(crate) const ALL: [Drawn; 5] =
+        [Drawn::Sustained, Drawn::Growing, Drawn::Late, Drawn::Driven, Drawn::Stable];
+
+    #[allow(dead_code, reason = "the benchmark shows it")]
+    pub(crate) fn words(self) -> &'static str {
+        match self {
+            Drawn::Sustained => "sustained",
+            Drawn::Growing => "growing",
+            Drawn::Late => "late coexistence",
+            Drawn::Driven => "driven",
+            Drawn::Stable => "stable",
+        }
+    }
+}
+
+/// One stroke as it is recorded.
+pub(crate) struct Stroke {
+    pub(crate) instance: Instance,
+    /// The friction coefficient of the coalescence.
+    pub(crate) critical: f64,
+    pub(crate) samples: Vec<Sample>,
+    /// Length of the motion, s; the record may begin later, with the time of the motion.
+    pub(crate) duration: f64,
+}
+
+/// The model of the laboratory with drawn structure and law, the belt going from one velocity to another within `duration` (s).
+fn structure(random: &mut Random, law: FrictionLaw, [first, last]: [f64; 2], duration: f64) -> Instance {
+    let compression = SQUEAL * random.between(0.7, 1.1) / TABLE_1;
+    let ratio = random.decades(2e-4, 2e-2);
+    let damping = |mass: f64| 2.0 * ratio * mass * TAU * TABLE_1;
+    let values = [
+        (Param::M1, 2.12 / compression),
+        (Param::M2, 0.18 / compression),
+        (Param::K1, 1e5 * compression),
+        (Param::K2, random.between(0.99e5, 1.04e5) * compression),
+        (Param::C1, damping(2.3)),
+        (Param::C2, damping(2.12)),
+        (Param::Theta, random.between(0.006, 0.03)),
+        (Param::FExt, LOAD),
+        (Param::BeltVelocity, first),
+        (Param::BeltVelocityEnd, last),
+        (Param::RampDuration, duration),
+        (Param::StartVelocity, KICK * first),
+    ];
+    instance(law, &values)
+}
+
+/// The friction coefficient from which on a flat law is unstable.
+pub(crate) fn coalescence(instance: &Instance) -> f64 {
+    let (mut low, mut high) = (0.0, 2.0);
+    for _ in 0..30 {
+        let middle = 0.5 * (low + high);
+        let flat = Instance { law: constant(middle), ..instance.clone() };
+        let unstable = linear::analyse(&flat).1.is_some_and(|linear| linear.growth_rate > 0.0);
+        if unstable { high = middle } else { low = middle }
+    }
+    high
+}
+
+/// The causes that are right at an instant of the motion (s); none where nothing may be said.
+pub(crate) fn right(instance: &Instance, time: f64) -> Vec<Kind> {
+    let mut at = instance.clone();
+    at.params
+        .set(Param::BeltVelocity, squealmap::engine::scene::belt_velocity(&instance.params, time).max(1e-9));
+    let (kind, found) = linear::analyse(&at);
+    let weaker = found.map(|found| found.growth_rate_flat.min(found.growth_rate_frozen) / found.growth_rate);
+    match kind {
+        Some(InstabilityType::Stable) => vec![Kind::NoInstability],
+        Some(InstabilityType::NegativeSlope) => vec![Kind::NegativeSlope],
+        Some(InstabilityType::ModeCoupling) => vec![Kind::ModeCoupling],
+        Some(InstabilityType::Coexistence) if weaker.is_some_and(|weaker| weaker < CAUSE) => {
+            vec![Kind::NegativeSlope, Kind::ModeCoupling, Kind::Both]
+        }
+        Some(InstabilityType::Coexistence) => vec![Kind::Both],
+        _ => Vec::new(),
+    }
+}
+
+/// A bilinear law with its knee at `knee` (m/s).
+fn law(mu_s: f64, mu_d: f64, knee: f64) -> FrictionLaw {
+    match bilinear(mu_s, mu_d) {
+        FrictionLaw::Bilinear { mu_s, mu_d, .. } => FrictionLaw::Bilinear { mu_s, mu_d, knee_velocity: knee },
+        other => other,
+    }
+}
+
+/// Draws an instance of this kind, until there is one: it and the length of its motion, s.
+fn draw(drawn: Drawn, random: &mut Random) -> (Instance, f64) {
+    // Each cause alike.
+    let wanted = match 3.0 * random.uniform() {
+        part if part < 1.0 => Kind::NegativeSlope,
+        part if part < 2.0 => Kind::ModeCoupling,
+        _ => Kind::Both,
+    };
+    loop {
+        let first = random.between(0.01, 0.12);
+        let steady = random.uniform() < 0.3;
+        let last = if steady && drawn != Drawn::Late { first } else { first * random.between(0.05, 0.8) };
+        let mu_d = random.between(0.05, 0.5);
+        let flat = random.uniform() < 0.35 && drawn != Drawn::Late;
+        let mu_s = mu_d + if flat { 0.0 } else { random.decades(0.01, 0.4) };
+        let knee = first * random.between(0.2, 1.2);
+        let instance = structure(random, law(mu_s, mu_d, knee), [first, last], LENGTH);
+        let (_, Some(found)) = linear::analyse(&instance) else { continue };
+        let kinds = [0.0, LENGTH].map(|time| right(&instance, time));
+        let fits = match drawn {
+            Drawn::Sustained => found.growth_rate > 100.0 && kinds[0] == [wanted],
+            Drawn::Growing => {
+                let slow = found.growth_rate < 0.04 * TAU * found.frequency;
+                found.growth_rate > 100.0 && slow && kinds[0] == [wanted]
+            }
+            Drawn::Late => found.growth_rate > 100.0 && kinds == [vec![Kind::ModeCoupling], vec![Kind::Both]],
+            Drawn::Driven | Drawn::Stable => kinds.iter().all(|kinds| kinds[..] == [Kind::NoInstability]),
+        };
+        if fits {
+            let growing = 1.1 * (1.0 / KICK).ln() / found.growth_rate;
+            return (instance, if drawn == Drawn::Growing { growing } else { LENGTH });
+        }
+    }
+}
+
+/// Draws and records a stroke, free of noise and with fast sensors.
+pub(crate) fn stroke(drawn: Drawn, random: &mut Random) -> Stroke {
+    loop {
+        let (instance, duration) = draw(drawn, random);
+        let recording = Recording { rate: RATE, duration, skew: 0.0, force_skew: 0.0 };
+        let mut signals = record(&instance, &plan(1.0, 1.0, 12), &recording);
+        if signals.status != Status::Ok {
+            continue;
+        }
+        let from = if drawn == Drawn::Sustained { 0.2 * LENGTH } else { 0.0 };
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a number of samples")]
+        signals.samples.drain(..(from * RATE) as usize);
+        if drawn == Drawn::Driven {
+            drive(&mut signals.samples, random);
+        }
+        return Stroke { critical: coalescence(&instance), instance, samples: signals.samples, duration };
+    }
+}
+
+/// Adds a vibration that something drives: steady, or stronger with time, up to half of the sliding velocity.
+fn drive(samples: &mut [Sample], random: &mut Random) {
+    let omega = TAU * SQUEAL * random.between(0.5, 1.1);
+    let reach = random.decades(0.01, 0.45);
+    let rising = random.uniform() < 0.5;
+    let parts = [1.0, random.between(0.1, 1.0), random.between(0.0, 0.3), random.between(0.0, 0.3)];
+    let phases = [0.0; 4].map(|_| TAU * random.uniform());
+    let count = samples.len() as f64;
+    for (k, sample) in samples.iter_mut().enumerate() {
+        let strength = if rising { k as f64 / count } else { 1.0 };
+        let velocity = reach * sample.belt_velocity * strength;
+        let scales = [velocity * omega, velocity * omega, sample.tangential_force, sample.normal_force];
+        for (number, field) in FIELDS.into_iter().enumerate() {
+            let size = if number < 2 { scales[number] } else { scales[number] * reach * strength };
+            *field(sample) += parts[number] * size * (omega * k as f64 / RATE + phases[number]).cos();
+        }
+    }
+}
+
+/// Makes the forces those of slow sensors, adds noise, and turns the stroke around.
+pub(crate) fn sensed(samples: &mut [Sample], slow: bool, decibel: f64, backwards: bool, random: &mut Random) {
+    let noise = 10_f64.powf(-decibel / 20.0);
+    let share = 1.0 - (-TAU * SLOW / RATE).exp();
+    for (number, field) in FIELDS.into_iter().enumerate() {
+        let force = number >= 2;
+        let count = samples.len() as f64;
+        let mean = samples.iter_mut().map(|sample| *field(sample)).sum::<f64>() / count;
+        let power = samples.iter_mut().map(|sample| (*field(sample) - mean).powi(2)).sum::<f64>() / count;
+        // A slow sensor is no noisier than its mean, a fast one than what it follows.
+        let size = noise * if force && slow { mean.abs() } else { power.sqrt() };
+        let mut state = *field(&mut samples[0]);
+        for sample in samples.iter_mut() {
+            if force && slow {
+                state += share * (*field(sample) - state);
+                *field(sample) = state;
+            }
+            *field(sample) += size * random.normal();
+        }
+    }
+    if backwards {
+        for sample in samples {
+            sample.tangential_acceleration *= -1.0;
+            sample.tangential_force *= -1.0;
+            sample.belt_velocity *= -1.0;
+        }
+    }
+}
+
+/// The settings of an analysis that knows the coalescence within 3 %.
+pub(crate) fn settings(critical: f64) -> Settings {
+    Settings {
+        critical_friction: Some(Measured { value: critical, error: 0.03 * critical }),
+        ..Settings::default()
+    }
+}

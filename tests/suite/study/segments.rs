@@ -1,0 +1,269 @@
+//! Segments of a record and their verdicts: strokes like the source paper's Figures 11 to 14, its ramp of Figure 6, and
+//! signals made by hand whose parts are known.
+
+#![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
+
+use std::f64::consts::TAU;
+
+use crate::common::{bilinear, instance, near, plan};
+use crate::study::confusion::{Fate, TOLERANCE, table};
+use crate::study::laboratory::{RATE, coalescence, right, sensed, settings};
+use crate::study::strokes::{Random, csv, run};
+use squealmap::model::friction::FrictionLaw;
+use squealmap::model::instance::Instance;
+use squealmap::model::{Param, Params};
+use squealmap::study::signals::sensors::{Recording, Sample, record};
+use squealmap_identify::{
+    FrictionReading, Identification, Kind, Mechanism, Segment, Settings, State, Witness,
+};
+
+/// Length of a stroke, s.
+pub(crate) const LENGTH: f64 = 0.3;
+
+/// The calibrated model at 14.5 kHz, damped with 1.4 %, under 17 N.
+pub(crate) fn rig(mu_s: f64, mu_d: f64, knee_velocity: f64, [first, last]: [f64; 2]) -> Instance {
+    let compression = 14.5e3 / 34.0;
+    let damping = |mass: f64| 2.0 * 0.0145 * mass * TAU * 33.6;
+    let values = [
+        (Param::M1, 2.12 / compression),
+        (Param::M2, 0.18 / compression),
+        (Param::K1, 1e5 * compression),
+        (Param::K2, 1.019e5 * compression),
+        (Param::C1, damping(2.3)),
+        (Param::C2, damping(2.12)),
+        (Param::Theta, 0.0237),
+        (Param::FExt, 17.0),
+        (Param::BeltVelocity, first),
+        (Param::BeltVelocityEnd, last),
+        (Param::RampDuration, LENGTH),
+        (Param::StartVelocity, 1e-3 * first),
+    ];
+    instance(FrictionLaw::Bilinear { mu_s, mu_d, knee_velocity }, &values)
+}
+
+/// What is found in a stroke with slow force sensors.
+fn found(instance: &Instance, decibel: f64, backwards: bool) -> Identification {
+    let recording = Recording { rate: RATE, duration: LENGTH, skew: 0.0, force_skew: 0.0 };
+    let mut samples = record(instance, &plan(1.0, 1.0, 12), &recording).samples;
+    sensed(&mut samples, true, decibel, backwards, &mut Random::new(5));
+    run(&csv(&samples), &settings(coalescence(instance))).unwrap()
+}
+
+fn describe(found: &Identification) -> String {
+    let words = |s: &Segment| {
+        let testimonies: Vec<String> = s
+            .testimonies
+            .iter()
+            .map(|t| format!("{:?} {}", t.chances.map(|c| c.leading()), t.evidence))
+            .collect();
+        format!(
+            "{:?} {:?} {:?} {:?} {:?} {:?}\n    {}",
+            s.time,
+            s.state,
+            s.reach,
+            s.verdict,
+            s.shared,
+            s.contradictions,
+            testimonies.join("\n    ")
+        )
+    };
+    found.segments.iter().map(words).collect::<Vec<_>>().join("\n  ")
+}
+
+/// Noise (dB) and direction of the strokes that are tried.
+const TRIED: [(f64, bool); 4] = [(40.0, false), (40.0, true), (20.0, false), (20.0, true)];
+
+/// Figure 11: at 300 °C stable first, then unstable where friction falls. The knee is at 0.025 of 0.045 to 0.005 m/s. What
+/// follows the onset leans to the slope, and the end of the stroke is certain.
+#[test]
+fn figure_11_is_stable_then_a_negative_slope() {
+    let rig = rig(0.16, 0.06, 0.025, [0.045, 0.005]);
+    assert_eq!(right(&rig, 0.1 * LENGTH), [Kind::NoInstability]);
+    assert_eq!(right(&rig, 0.9 * LENGTH), [Kind::NegativeSlope]);
+    for (decibel, backwards) in TRIED {
+        let found = found(&rig, decibel, backwards);
+        let [quiet, loud @ ..] = &found.segments[..] else { panic!() };
+        assert_eq!(quiet.verdict.kind, Kind::NoInstability, "{decibel} dB:\n  {}", describe(&found));
+        near("boundary", quiet.time[1], 0.5 * LENGTH, TOLERANCE * LENGTH);
+        for segment in loud.iter().filter(|s| s.time[1] - s.time[0] > TOLERANCE * LENGTH) {
+            assert_eq!(segment.verdict.leaning, Some(Kind::NegativeSlope), "{}", describe(&found));
+        }
+        let last = &loud[loud.len() - 1];
+        assert_eq!(last.verdict.kind, Kind::NegativeSlope, "{decibel} dB:\n  {}", describe(&found));
+    }
+}
+
+/// Whether mode coupling acts in a segment, whatever the slope does.
+fn couples(segment: &Segment) -> bool {
+    let shared = segment.shared.is_some_and(|(mechanism, _)| mechanism == Mechanism::ModeCoupling);
+    shared || matches!(segment.verdict.kind, Kind::ModeCoupling | Kind::Both)
+}
+
+/// Figure 12: at 500 °C and constant velocity mode coupling throughout. Slow forces at one velocity show no slope, so that
+/// a slope acts beside it stays open to the phase: what is told is that mode coupling acts.
+#[test]
+fn figure_12_is_mode_coupling_throughout() {
+    let rig = rig(0.3423, 0.3423, 0.0228, [0.045, 0.045]);
+    assert_eq!(right(&rig, 0.5 * LENGTH), [Kind::ModeCoupling]);
+    for (decibel, backwards) in TRIED {
+        let found = found(&rig, decibel, backwards);
+        for segment in found.segments.iter().filter(|s| s.time[1] - s.time[0] > TOLERANCE * LENGTH) {
+            assert!(couples(segment), "{}", describe(&found));
+            assert!(segment.verdict.kind != Kind::Both, "{}", describe(&found));
+        }
+    }
+}
+
+/// Figures 13 and 14: at 500 °C and falling velocity mode coupling, then both.
+#[test]
+fn figure_13_is_mode_coupling_then_both() {
+    let rig = rig(0.51, 0.3423, 0.0228, [0.0472, 0.0041]);
+    assert_eq!(right(&rig, 0.1 * LENGTH), [Kind::ModeCoupling]);
+    assert_eq!(right(&rig, 0.9 * LENGTH), [Kind::Both]);
+    let knee = LENGTH * (0.0472 - 0.0228) / (0.0472 - 0.0041);
+    for (decibel, backwards) in TRIED {
+        let found = found(&rig, decibel, backwards);
+        let late = found.segments.last().unwrap();
+        assert_eq!(late.verdict.kind, Kind::Both, "{decibel} dB:\n  {}", describe(&found));
+        for segment in found.segments.iter().filter(|s| s.time[1] - s.time[0] > TOLERANCE * LENGTH) {
+            assert!(couples(segment), "{}", describe(&found));
+            // None that says both begins before the knee.
+            let both = segment.verdict.kind == Kind::Both;
+            assert!(!both || segment.time[0] > knee - TOLERANCE * LENGTH, "{}", describe(&found));
+        }
+    }
+}
+
+/// The ramp of Figure 6, with fast forces: mode coupling above the knee, both below. The growth is above it, and says so; below
+/// it mode coupling is certain, and that the slope would do as well is what it leans to: how much of it damping takes is open.
+#[test]
+fn the_ramp_of_figure_6_leans_to_both_in_the_end() {
+    let mut params = Params::default();
+    for (param, value) in [
+        (Param::BeltVelocity, 7.0),
+        (Param::BeltVelocityEnd, 0.0),
+        (Param::RampDuration, 10.0),
+        (Param::StartDisplacement, 1e-4),
+        (Param::StartVelocity, 0.0),
+    ] {
+        params.set(param, value);
+    }
+    let ramp = Instance { params, law: bilinear(0.4, 0.3), impact_friction: true, modal: None };
+    let recording = Recording { rate: 1000.0, duration: 10.0, skew: 0.0, force_skew: 0.0 };
+    let samples = record(&ramp, &plan(1.0, 1.0, 12), &recording).samples;
+    let found = run(&csv(&samples), &settings(coalescence(&ramp))).unwrap();
+    // 7 − 0.7 t = 5 m/s.
+    let knee = 20.0 / 7.0;
+    let growth = found.segments.iter().find(|s| s.state == State::Growing).unwrap();
+    assert_eq!(growth.verdict.kind, Kind::ModeCoupling, "{}", describe(&found));
+    let loud: Vec<&Segment> = found.segments.iter().filter(|s| s.state == State::Sustained).collect();
+    assert!(loud.iter().all(|segment| couples(segment)), "{}", describe(&found));
+    let below: Vec<&&Segment> =
+        loud.iter().filter(|s| s.time[0] > knee - TOLERANCE * 10.0 && s.time[1] > knee).collect();
+    assert!(below.len() >= 2, "{}", describe(&found));
+    for segment in below {
+        assert_eq!(segment.verdict.leaning, Some(Kind::Both), "{}", describe(&found));
+    }
+    // The law is read within the oscillation: 0.4 − 0.02 V.
+    let read = loud.iter().filter_map(|s| s.friction.filter(|f| f.reading == FrictionReading::Within));
+    let slopes: Vec<f64> = read.filter_map(|f| f.slope).map(|slope| slope.value).collect();
+    assert!(slopes.iter().filter(|slope| (*slope + 0.02).abs() < 0.005).count() >= 2, "{slopes:?}");
+}
+
+/// A tone of 14.5 kHz at 1.1 times the sliding velocity whose phase jumps from −90° to −5° at `jump` (s).
+fn tone(jump: f64, length: f64) -> Vec<Sample> {
+    let omega = TAU * 14.5e3;
+    let sample = |k: u32| {
+        let t = f64::from(k) / RATE;
+        let belt_velocity = 0.05 - 0.04 * t / length;
+        let phase = f64::to_radians(if t < jump { -90.0 } else { -5.0 });
+        let size = 1.1 * belt_velocity * omega;
+        Sample {
+            t,
+            tangential_acceleration: size * (omega * t).cos(),
+            normal_acceleration: 0.3 * size * (omega * t + phase).cos(),
+            tangential_force: 17.0 * 0.4,
+            normal_force: 17.0,
+            belt_velocity,
+        }
+    };
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a number of samples")]
+    (0..(length * RATE) as u32).map(sample).collect()
+}
+
+#[test]
+fn a_jump_of_the_phase_is_where_a_segment_ends() {
+    for jump in [0.09, 0.15, 0.22] {
+        let mut samples = tone(jump, LENGTH);
+        sensed(&mut samples, true, 20.0, false, &mut Random::new(9));
+        let found = run(&csv(&samples), &settings(0.2)).unwrap();
+        assert_eq!(found.segments.len(), 2, "{}", describe(&found));
+        let [first, second] = &found.segments[..] else { panic!() };
+        near("boundary", first.time[1], jump, 0.01 * LENGTH);
+        near("before", first.phase.unwrap().value, -90.0, 1.0);
+        near("after", second.phase.unwrap().value, -5.0, 1.0);
+    }
+    // Without a jump there is one segment.
+    let mut samples = tone(2.0 * LENGTH, LENGTH);
+    sensed(&mut samples, true, 20.0, false, &mut Random::new(9));
+    let found = run(&csv(&samples), &settings(0.2)).unwrap();
+    assert_eq!(found.segments.len(), 1, "{}", describe(&found));
+}
+
+/// A vibration far from reversing the sliding may be driven: no witness speaks of its phase.
+#[test]
+fn a_weak_steady_tone_has_no_mechanism() {
+    let mut samples = tone(0.15, LENGTH);
+    for sample in &mut samples {
+        sample.tangential_acceleration *= 0.1;
+        sample.normal_acceleration *= 0.1;
+    }
+    sensed(&mut samples, true, 40.0, false, &mut Random::new(9));
+    let found = run(&csv(&samples), &settings(0.2)).unwrap();
+    for segment in &found.segments {
+        assert_eq!(segment.verdict.kind, Kind::Undecided, "{}", describe(&found));
+        let phase = segment.testimonies.iter().find(|t| t.witness == Witness::Phase).unwrap();
+        assert!(phase.chances.is_none() && phase.evidence.contains("may be driven"), "{}", phase.evidence);
+    }
+}
+
+/// Without the velocity, or without forces, what can be told is told.
+#[test]
+fn lone_accelerometers_give_frequency_and_phase() {
+    let mut samples = tone(0.15, LENGTH);
+    sensed(&mut samples, true, 40.0, false, &mut Random::new(9));
+    let text = String::from_utf8(csv(&samples)).unwrap();
+    let only = |columns: usize| -> String {
+        text.lines().map(|line| line.split(',').take(columns).collect::<Vec<_>>().join(",") + "\n").collect()
+    };
+    let found = run(only(3).as_bytes(), &Settings::default()).unwrap();
+    near("boundary", found.segments[0].time[1], 0.15, 0.01 * LENGTH);
+    near("phase", found.segments[1].phase.unwrap().value, -5.0, 1.0);
+    let found = run(only(2).as_bytes(), &Settings::default()).unwrap();
+    let segment = &found.segments[0];
+    near("frequency", segment.frequency.unwrap(), 14.5e3, 5.0);
+    assert_eq!((segment.state, segment.verdict.kind), (State::Sustained, Kind::Undecided));
+    assert!(segment.testimonies.iter().all(|testimony| testimony.chances.is_none()));
+}
+
+/// A few strokes of the confusion table, of another seed: next to none is confidently wrong, and the judge turns red.
+#[test]
+fn few_strokes_are_confidently_wrong() {
+    let judged = table(77, 2);
+    let count = |judged: &[crate::study::confusion::Judged], judge: usize, fate: Fate| {
+        judged.iter().filter(|stroke| stroke.fate(judge) == fate).count()
+    };
+    assert_eq!(judged.len(), 40);
+    // All together, and the mechanism that they are sure of.
+    for (judge, least) in [(3, 8), (4, 20)] {
+        let wrong = count(&judged, judge, Fate::ConfidentlyWrong);
+        assert!(wrong <= 1, "{wrong} of 40");
+        let right = count(&judged, judge, Fate::Right);
+        assert!(right >= least, "{right} of 40");
+    }
+    let mut planted = judged;
+    for statement in planted.iter_mut().flat_map(|stroke| &mut stroke.statements) {
+        statement.right = !statement.right;
+    }
+    assert!(count(&planted, 4, Fate::ConfidentlyWrong) >= 20);
+}
