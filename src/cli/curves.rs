@@ -11,7 +11,7 @@ use squealmap::results::figure::look::Look;
 use squealmap::study::curves::figure::{curves_svg, overlays};
 use squealmap::study::curves::seek::{PlaneCurves, seek};
 use squealmap::study::curves::table::{curves_csv, document, named};
-use squealmap::study::cycles::curve::{Curve, End};
+use squealmap::study::cycles::curve::{Curve, CurvePoint, End};
 use squealmap::sweep::spec::Spec;
 use squealmap_input::quote::rounded;
 
@@ -72,19 +72,19 @@ fn said(plane: &PlaneCurves) -> String {
 }
 
 fn one(curve: &Curve, [x, y]: [&str; 2]) -> String {
-    let end = |point: Option<&squealmap::study::cycles::curve::CurvePoint>, end: End| {
-        let [a, b] = point.map_or([f64::NAN; 2], |point| point.values.map(rounded));
-        let lost = if end == End::Lost { ", where it ends" } else { "" };
-        format!("{x} = {a}, {y} = {b}{lost}")
+    let place = |point: &CurvePoint| {
+        let [a, b] = point.values.map(rounded);
+        format!("{x} = {a}, {y} = {b}")
     };
-    let (first, last) = (curve.points.first(), curve.points.last());
-    let [begins, ends] = curve.ends;
-    let closed = if begins == End::Closed { " and back" } else { "" };
-    format!(
-        "a curve of {} of {} points from {} to {}{closed}",
-        named(curve.special),
-        curve.points.len(),
-        end(first, begins),
-        end(last, ends)
-    )
+    let [first, last] =
+        [curve.points.first(), curve.points.last()].map(|end| end.map(place).unwrap_or_default());
+    let how = match curve.ends {
+        [End::Closed, _] => ", a closed one",
+        [End::Edge, End::Edge] => "",
+        [End::Lost, End::Edge] => "; it ends at the first, inside the plane",
+        [End::Edge, _] => "; it ends at the last, inside the plane",
+        [End::Lost, _] => "; it ends at both, inside the plane",
+    };
+    let (name, points) = (named(curve.special), curve.points.len());
+    format!("a curve of {name}, {points} points, from {first} to {last}{how}")
 }

@@ -25,7 +25,6 @@ use crate::engine::march::table::{flag, state};
 use crate::engine::outcome::Outcome;
 use crate::engine::precision::Precision;
 use crate::engine::record::Record;
-use crate::engine::scene::Scene;
 use crate::model::status::Status;
 
 /// The method in a manifest.
@@ -136,13 +135,17 @@ fn complete_in<R: Lanes>(
                 }
             }
         }
+        for index in range.clone().filter(|index| !live[index - range.start]) {
+            let begun = Marching::<R>::new(index, &spec.instance(first + index), &way);
+            // It cannot start, or was over before its first stretch.
+            match begun.map(|mut one| (one.next(&way).is_none(), one)) {
+                Ok((true, one)) => over.push(one),
+                Ok((false, _)) => return Err(Error::Unwritten { instance: index }),
+                Err(status) => take(spec, [first, index], records, &Outcome { status, ..Outcome::default() }),
+            }
+        }
         for (index, outcome) in outcomes(over, &way, cancel) {
             take(spec, [first, index], records, &outcome);
-        }
-        for index in range.clone().filter(|index| !live[index - range.start]) {
-            let cannot = Scene::planned(&spec.instance(first + index), &way.plan).err();
-            let status = cannot.unwrap_or(Status::Unwritten);
-            take(spec, [first, index], records, &Outcome { status, ..Outcome::default() });
         }
         Ok(batches(going))
     };

@@ -11,6 +11,7 @@ use crate::results::error::Result;
 use crate::results::figure::block::Block;
 use crate::results::figure::fills::define_patterns;
 use crate::results::figure::look::{Content, Look};
+use crate::results::figure::overlay::Overlay;
 use crate::results::figure::palette::Colouring;
 use crate::results::figure::panels::Panels;
 use crate::results::trust;
@@ -200,6 +201,7 @@ fn compose(
     define_patterns(&mut svg);
     let mut y = MARGIN + title(&mut svg, look.title(sheet.title), inner);
     let across = block_width(inner, layout.across);
+    let overlays: Vec<Overlay> = look.lines.iter().filter(|line| line.is_in(sheet.grid)).cloned().collect();
     let mut blocks = Vec::with_capacity(contents.len());
     for (number, content) in contents.iter().enumerate() {
         let letter = (contents.len() > 1).then_some(number);
@@ -218,7 +220,7 @@ fn compose(
             computed: computed.as_ref(),
             panels,
             content: *content,
-            overlays: &look.lines,
+            overlays: &overlays,
             starts,
             blocks: stacked,
             layout,

@@ -12,6 +12,13 @@ use crate::sweep::spec::Spec;
 /// How each kind of curve is drawn.
 const STROKES: [(Special, Stroke); 5] = [
     (
+        Special::Hopf,
+        Stroke {
+            words: "Hopf (H): the equilibrium loses its stability",
+            attributes: r##"class="hopf" fill="none" stroke="#D55E00" stroke-width="1.2" stroke-linejoin="round""##,
+        },
+    ),
+    (
         Special::Fold,
         Stroke {
             words: "fold of cycles (LP)",
@@ -37,13 +44,6 @@ const STROKES: [(Special, Stroke); 5] = [
         Stroke {
             words: "torus (NS)",
             attributes: r##"class="torus" fill="none" stroke="#000000" stroke-width="1.2" stroke-dasharray="6 1.6 1.2 1.6" stroke-linejoin="round""##,
-        },
-    ),
-    (
-        Special::Hopf,
-        Stroke {
-            words: "Hopf (H): the equilibrium loses its stability",
-            attributes: r##"class="hopf" fill="none" stroke="#D55E00" stroke-width="1.2" stroke-linejoin="round""##,
         },
     ),
 ];
@@ -73,7 +73,7 @@ pub fn overlays(planes: &[PlaneCurves]) -> Vec<Overlay> {
     ordered(planes.iter().flat_map(of_plane).collect())
 }
 
-/// Lines in the order of their legend: those beneath first.
+/// Lines from beneath to above: what is rarer lies above.
 pub(crate) fn ordered(mut lines: Vec<Overlay>) -> Vec<Overlay> {
     let place = |line: &Overlay| STROKES.iter().position(|(_, stroke)| *stroke == line.stroke);
     lines.sort_by_key(place);

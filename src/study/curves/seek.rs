@@ -107,7 +107,12 @@ fn followed<'a>(
         let part = |k: usize| (values[k] - plane.ranges[k][0]) / (plane.ranges[k][1] - plane.ranges[k][0]);
         let curve = Curve::through(field, spot, along, [part(0), part(1)]);
         match curve.filter(|curve| curve.reach(plane.ranges) >= SHORTEST) {
-            Some(curve) => curves.push(curve),
+            Some(curve) if curves.iter().any(|other| other.covers(plane.ranges, &curve)) => {}
+            Some(curve) => {
+                // One that ended early may be a part of it.
+                curves.retain(|other| !curve.covers(plane.ranges, other));
+                curves.push(curve);
+            }
             None => alone += 1,
         }
     }

@@ -24,6 +24,9 @@ const NEAR: [f64; 2] = [2.0, 25.0];
 /// From step to step the curve turns by no more than this cosine, but for the shortest steps.
 const TURNS: f64 = 0.9;
 
+/// A curve comes back to its start where it passes it as near as this part of a step.
+const CLOSES: f64 = 0.1;
+
 /// Points of one direction.
 const MOST_POINTS: usize = 2000;
 
@@ -132,6 +135,14 @@ impl Curve {
         along(0).max(along(1))
     }
 
+    /// Whether nearly all points of another curve lie on this one.
+    pub(crate) fn covers(&self, ranges: [[f64; 2]; 2], other: &Curve) -> bool {
+        /// What of it: where both end they may part.
+        const NEARLY_ALL: f64 = 0.9;
+        let on = |point: &&CurvePoint| self.holds(ranges, other.special, point.values, point.cycle.x2_std());
+        other.points.iter().filter(on).count() as f64 >= NEARLY_ALL * other.points.len() as f64
+    }
+
     /// Whether a special point of this kind and size lies on the curve; distances are parts of the `ranges`.
     pub(crate) fn holds(
         &self,
@@ -145,19 +156,22 @@ impl Curve {
         /// And as alike.
         const ALIKE: f64 = 0.05;
         let scaled = |values: [f64; 2]| [0, 1].map(|k| values[k] / (ranges[k][1] - ranges[k][0]));
-        let [x, y] = scaled(values);
         let passes = |pair: &[CurvePoint]| {
-            let ([x0, y0], [x1, y1]) = (scaled(pair[0].values), scaled(pair[1].values));
-            let (dx, dy) = (x1 - x0, y1 - y0);
-            let part = (((x - x0) * dx + (y - y0) * dy) / (dx * dx + dy * dy)).clamp(0.0, 1.0);
-            let part = if part.is_finite() { part } else { 0.0 };
-            let is_near = (x0 + part * dx - x).hypot(y0 + part * dy - y) <= NEAR;
+            let is_near = distance(scaled(values), [scaled(pair[0].values), scaled(pair[1].values)]) <= NEAR;
             let of_curve = pair[0].cycle.x2_std();
             let alike = of_curve.zip(size).is_none_or(|(a, b)| (a - b).abs() <= ALIKE * a.max(b));
             is_near && alike
         };
         special == self.special && self.points.windows(2).any(passes)
     }
+}
+
+/// How far a point is from a chord.
+fn distance([x, y]: [f64; 2], [[x0, y0], [x1, y1]]: [[f64; 2]; 2]) -> f64 {
+    let (dx, dy) = (x1 - x0, y1 - y0);
+    let part = (((x - x0) * dx + (y - y0) * dy) / (dx * dx + dy * dy)).clamp(0.0, 1.0);
+    let part = if part.is_finite() { part } else { 0.0 };
+    (x0 + part * dx - x).hypot(y0 + part * dy - y)
 }
 
 /// Follows the curve from `start`, which was found `along` a parameter, towards higher (`sign` 1) or lower values of the other.
@@ -221,10 +235,10 @@ fn follow(field: Field<'_>, special: Special, along: usize, start: &Here, sign: 
             points.extend(last.filter(|_| part > 0.0));
             return (points, End::Edge);
         }
-        let back = (next.at[0] - start.at[0]).hypot(next.at[1] - start.at[1]) < 0.5 * step;
-        let closed = back && points.len() > 10;
+        let closed = points.len() > 10 && distance(start.at, [here.at, next.at]) < CLOSES * step;
         points.push(next);
         if closed {
+            points.push(start.clone());
             return (points, End::Closed);
         }
         if is_last {

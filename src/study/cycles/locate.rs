@@ -16,6 +16,9 @@ const STEPS: [f64; 2] = [1e-4, 1e-7];
 /// Steps of the search.
 const MOST_STEPS: usize = 14;
 
+/// A multiplier of a special point that is nearer to the unit circle than this is on it.
+const ON_CIRCLE: f64 = 1e-4;
+
 /// So far before a corner its branch is taken up.
 const BEFORE: f64 = 2e-3;
 
@@ -85,7 +88,10 @@ pub(super) fn located(
         _ => smooth(&map, &guess, before, special)?,
     };
     let part = at.place[map.count()];
-    let cycle = point(&map, &at, Some(special)).filter(|_| (part - expected).abs() <= within)?;
+    let mut cycle = point(&map, &at, Some(special)).filter(|_| (part - expected).abs() <= within)?;
+    // Those that are on the unit circle are the special ones.
+    let multipliers = at.multipliers();
+    cycle.unstable = multipliers.iter().filter(|multiplier| multiplier.norm() > 1.0 + ON_CIRCLE).count();
     Some(Found { part, cycle, state: State::Cycle(Box::new(at), *frame) })
 }
 

@@ -194,7 +194,7 @@ refuses! {
     unknown_analysis: "analysis = [\"linaer\"]\n"
         => "s.toml:1:13: unknown analysis `linaer` as an element of `analysis`; did you mean `linear`?";
     columns_count_characters: "title = \"é\"\n[model]\n\"é\" = 1 # and theta\n"
-        => "s.toml:3:1: unknown key `é` in [model]; choose from kind, modes, impact_friction, m1, m2, k1, k2, c1, c2, f_ext, theta, restitution, damping_ratio and kn";
+        => "s.toml:3:1: unknown key `é` in [model]; choose from kind, modes, impact_friction, m1, m2, k1, k2, c1, c2, f_ext, theta, restitution, damping_ratio, damping_ratio_1, damping_ratio_2, damping_ratio_3, damping_ratio_4, damping_ratio_5, damping_ratio_6, damping_ratio_7, damping_ratio_8 and kn";
 }
 
 #[test]

@@ -102,8 +102,8 @@ fn the_program_draws_the_curves_alone_and_over_a_map() {
     let run = |arguments: &[&str]| squealmap(directory.path(), arguments);
     let ended = run(&["curves", "s.toml", "--lines", "2", "-o", "curves"]);
     assert_eq!(ended.code, Some(0), "{}", ended.err);
-    let said = "from mu_d = 0.343427, belt_velocity = 3 to mu_d = 0.302106, belt_velocity = 4\n";
-    assert!(ended.out.contains("a curve of folds of ") && ended.out.contains(said), "{}", ended.out);
+    let said = " points, from mu_d = 0.343427, belt_velocity = 3 to mu_d = 0.302106, belt_velocity = 4\n";
+    assert!(ended.out.contains("a curve of folds, ") && ended.out.contains(said), "{}", ended.out);
     let folder = directory.path().join("curves");
     let read = |name: &str| String::from_utf8(std::fs::read(folder.join(name)).unwrap()).unwrap();
     let drawn = || Picture::read(&folder, Kind::Curves).and_then(|picture| picture.svg(&Look::default()));
