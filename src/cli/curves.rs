@@ -62,10 +62,8 @@ fn said(plane: &PlaneCurves) -> String {
         said.push(format!("over {} and {}: no curve", names[0], names[1]));
     }
     if plane.alone > 0 {
-        said.push(format!(
-            "{} special points have no curve: what is near them cannot be followed",
-            plane.alone
-        ));
+        let points = if plane.alone == 1 { "special point has" } else { "special points have" };
+        said.push(format!("{} {points} no curve: what is near cannot be followed", plane.alone));
     }
     let line = |words: String| [at.as_str(), words.as_str(), "\n"].concat();
     said.into_iter().map(line).collect()

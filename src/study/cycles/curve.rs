@@ -111,13 +111,18 @@ impl Curve {
     pub(crate) fn through(field: Field<'_>, spot: &Spot, along: usize, at: [f64; 2]) -> Option<Curve> {
         let special = spot.special;
         let start = field.find(special, along, at, &Found::of(spot), LONGEST)?;
-        let (mut back, first) = follow(field, special, along, &start, -1.0);
+        let (mut back, mut first) = follow(field, special, along, &start, -1.0);
         back.reverse();
         let last = if first == End::Closed {
             first
         } else {
             let (forth, last) = follow(field, special, along, &start, 1.0);
-            back.extend(forth.into_iter().skip(1));
+            if last == End::Closed {
+                // The way round has all points.
+                (back, first) = (forth, last);
+            } else {
+                back.extend(forth.into_iter().skip(1));
+            }
             last
         };
         let told = |here: Here| CurvePoint { values: field.values(here.at), cycle: here.found.cycle };
