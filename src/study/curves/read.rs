@@ -17,7 +17,7 @@ use crate::study::curves::table::{Document, OF_CURVES, System};
 use crate::study::cycles::special::Special;
 use crate::study::error::{Error, Result};
 use crate::sweep::grid::{Axis, AxisKey, Grid, Value};
-use crate::sweep::spec::{Analysis, Spec, Starts};
+use crate::sweep::spec::{Analysis, Spec};
 
 /// The files that are read.
 pub(crate) const FILES: [&str; 2] = ["curves.csv", "curves.json"];
@@ -71,15 +71,7 @@ pub(crate) fn read(folder: Folder<'_>) -> Result<Curves> {
     let sides = panels.x.key().zip(panels.y.as_ref().and_then(PictureAxis::key));
     let (x, y) = sides.ok_or_else(|| folder.bad(FILES[1], "has a `grid` without a plane"))?;
     let lines = lines(&table, axes, [x, y]).map_err(|why| folder.bad(FILES[0], why))?;
-    let analysis = Analysis {
-        linear: true,
-        response: false,
-        until_settled: false,
-        finds_cycles: false,
-        checked: false,
-        starts: Starts::One,
-    };
-    Ok(Curves { spec: drawn_spec(document.title, analysis, grid), lines, system: document.system })
+    Ok(Curves { spec: drawn_spec(document.title, Analysis::LINEAR, grid), lines, system: document.system })
 }
 
 fn lines(table: &Table, axes: &[Axis], sides: [AxisKey; 2]) -> Why<Vec<Overlay>> {

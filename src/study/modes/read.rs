@@ -11,7 +11,7 @@ use crate::store::grid_json;
 use crate::study::error::Result;
 use crate::study::modes::follow::{Document, Mode, Modes, along, columns};
 use crate::sweep::grid::Grid;
-use crate::sweep::spec::{Analysis, Spec, Starts};
+use crate::sweep::spec::{Analysis, Spec};
 
 /// The files that are read.
 pub(crate) const FILES: [&str; 2] = ["modes.csv", "modes.json"];
@@ -43,15 +43,7 @@ fn sweep(document: &Document) -> Why<(Spec, Modes)> {
     for (branch, values) in modes.branches.iter_mut().zip(critical) {
         branch.critical.clone_from(values);
     }
-    let analysis = Analysis {
-        linear: true,
-        response: false,
-        until_settled: false,
-        finds_cycles: false,
-        checked: false,
-        starts: Starts::One,
-    };
-    Ok((drawn_spec(document.title.clone(), analysis, grid), modes))
+    Ok((drawn_spec(document.title.clone(), Analysis::LINEAR, grid), modes))
 }
 
 /// Takes the modes from their table, which has a row for every instance.

@@ -106,6 +106,16 @@ pub struct Analysis {
 }
 
 impl Analysis {
+    /// The eigenvalues alone.
+    pub const LINEAR: Analysis = Analysis {
+        linear: true,
+        response: false,
+        until_settled: false,
+        finds_cycles: false,
+        checked: false,
+        starts: Starts::One,
+    };
+
     /// Whether instances are computed again: responses only.
     #[must_use]
     pub fn checks(self) -> bool {
