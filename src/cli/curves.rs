@@ -38,9 +38,10 @@ impl CurvesCommand {
         let output = self.files.prepare_beside(&FILES)?;
         let planes = seek(&spec, usize::from(self.lines))?;
         let svg = curves_svg(&spec, &overlays(&planes), &Look::default());
+        let table = curves_csv(&spec, &planes)?;
         let files = [
-            (FILES[0], curves_csv(&spec, &planes)?),
-            (FILES[1], document(&spec)?),
+            (FILES[1], document(&spec, &table)?),
+            (FILES[0], table),
             (FILES[2], png_of(&svg)?),
             (FILES[3], svg.into_bytes()),
         ];
@@ -61,21 +62,23 @@ fn said(plane: &PlaneCurves) -> String {
     if plane.curves.is_empty() {
         said.push(format!("over {} and {}: no curve", names[0], names[1]));
     }
-    if plane.alone > 0 {
-        let points = if plane.alone == 1 { "special point has" } else { "special points have" };
-        said.push(format!("{} {points} no curve: what is near cannot be followed", plane.alone));
-    }
+    said.extend(plane.alone.iter().map(|(special, values)| {
+        format!("{} at {}: no curve, what is near cannot be followed", special.name(), place(names, *values))
+    }));
     let line = |words: String| [at.as_str(), words.as_str(), "\n"].concat();
     said.into_iter().map(line).collect()
 }
 
-fn one(curve: &Curve, [x, y]: [&str; 2]) -> String {
-    let place = |point: &CurvePoint| {
-        let [a, b] = point.values.map(rounded);
-        format!("{x} = {a}, {y} = {b}")
-    };
+/// A point of a plane.
+fn place([x, y]: [&str; 2], values: [f64; 2]) -> String {
+    let [a, b] = values.map(rounded);
+    format!("{x} = {a}, {y} = {b}")
+}
+
+fn one(curve: &Curve, names: [&str; 2]) -> String {
+    let at = |point: &CurvePoint| place(names, point.values);
     let [first, last] =
-        [curve.points.first(), curve.points.last()].map(|end| end.map(place).unwrap_or_default());
+        [curve.points.first(), curve.points.last()].map(|end| end.map(at).unwrap_or_default());
     let how = match curve.ends {
         [End::Closed, _] => ", a closed one",
         [End::Edge, End::Edge] => "",

@@ -9,8 +9,8 @@ use crate::results::error::{Error, Result};
 use crate::results::manifest::Sum;
 use crate::store::seal::is_intact;
 
-/// The end of a sentence that says how damaged results are put right.
-const HEALED: &str = "`squealmap verify --repair` writes it anew";
+/// How damaged results of `run` and `refine` are put right, as the end of a sentence.
+pub(crate) const HEALED: &str = "`squealmap verify --repair` writes it anew";
 
 /// A result, or what is wrong with a file as the end of a sentence.
 pub(crate) type Why<T> = std::result::Result<T, String>;
@@ -40,25 +40,27 @@ impl Folder<'_> {
         serde_json::from_str(&self.text(file)?).map_err(|why| self.bad(file, why.to_string()))
     }
 
-    /// A file of JSON that may have a checksum of its own. A file that was changed since is refused.
-    pub(crate) fn sealed(self, file: &str) -> Result<Json> {
+    /// A file of JSON that may have a checksum of its own. A file that was changed since is refused; `healed` says what puts
+    /// it right.
+    pub(crate) fn sealed(self, file: &str, healed: &str) -> Result<Json> {
         let document = self.json(file)?;
         // Whichever of the two a change has hit, the other is there.
         let is_sealed = ["files", "checksum"].iter().any(|key| document.get(key).is_some());
         if is_sealed && !is_intact(&self.bytes(file)?) {
-            let why = format!("it was changed: its content does not have its checksum; {HEALED}");
+            let why = format!("it was changed: its content does not have its checksum; {healed}");
             return Err(self.bad(file, why));
         }
         Ok(document)
     }
 
-    /// The bytes of a file. Where the document `of` says its length and checksum, a file with others is refused.
-    pub(crate) fn named(self, file: &str, of: &str, document: &Json) -> Result<Vec<u8>> {
+    /// The bytes of a file. Where the document `of` says its length and checksum, a file with others is refused, see
+    /// [`Folder::sealed`].
+    pub(crate) fn named(self, file: &str, [of, healed]: [&str; 2], document: &Json) -> Result<Vec<u8>> {
         let bytes = self.bytes(file)?;
         match Sum::in_manifest(document, file) {
             Some(sum) if sum != Sum::of(&bytes) => {
                 let why =
-                    format!("it is not the file that {of} names: its checksum is another one; {HEALED}");
+                    format!("it is not the file that {of} names: its checksum is another one; {healed}");
                 Err(self.bad(file, why))
             }
             _ => Ok(bytes),

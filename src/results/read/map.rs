@@ -13,7 +13,7 @@ use crate::model::friction::LawKind;
 use crate::results::error::Result;
 use crate::results::manifest::{Explained, Manifest};
 use crate::results::number::NumberColumn;
-use crate::results::read::folder::{Folder, Table, Why, text};
+use crate::results::read::folder::{Folder, HEALED, Table, Why, text};
 use crate::sweep::columns::{Column, Values, computed, find};
 use crate::sweep::grid::{Axis, AxisKey, Grid, Value};
 use crate::sweep::map::{Map, Provenance};
@@ -42,10 +42,10 @@ impl Archive {
     /// When a file is missing or is not what a run writes.
     pub fn read(directory: &Path) -> Result<Archive> {
         let folder = Folder(directory);
-        let document = folder.sealed(FILES[0])?;
+        let document = folder.sealed(FILES[0], HEALED)?;
         let manifest =
             Manifest::deserialize(&document).map_err(|why| folder.bad(FILES[0], why.to_string()))?;
-        let table = Table::read(&folder.named(FILES[1], FILES[0], &document)?)
+        let table = Table::read(&folder.named(FILES[1], [FILES[0], HEALED], &document)?)
             .map_err(|why| folder.bad(FILES[1], why))?;
         numbers_are_numbers(&manifest, &table).map_err(|why| folder.bad(FILES[1], why))?;
         let spec = spec(&manifest, &table).map_err(|why| folder.bad(FILES[0], why))?;

@@ -8,7 +8,7 @@ use serde::Deserialize;
 use crate::engine::computation::Computation;
 use crate::results::error::Result;
 use crate::results::figure::look::Look;
-use crate::results::read::folder::{Folder, Table, Why};
+use crate::results::read::folder::{Folder, HEALED, Table, Why};
 use crate::results::read::map::{drawn_spec, record};
 use crate::results::refined::{Document, figure};
 use crate::store::grid_json;
@@ -40,11 +40,11 @@ impl Lines {
 
 /// Reads the points and follows the lines again: the same points are asked for as by the command.
 pub(crate) fn read(folder: Folder<'_>) -> Result<Lines> {
-    let whole = folder.sealed(FILES[1])?;
+    let whole = folder.sealed(FILES[1], HEALED)?;
     let document = Document::deserialize(&whole).map_err(|why| folder.bad(FILES[1], why.to_string()))?;
     let spec = sweep(&document).map_err(|why| folder.bad(FILES[1], why))?;
     let settings = settings(&whole).map_err(|why| folder.bad(FILES[1], why))?;
-    let points = folder.named(FILES[0], FILES[1], &whole)?;
+    let points = folder.named(FILES[0], [FILES[1], HEALED], &whole)?;
     let known =
         Table::read(&points).and_then(|table| labels(&table)).map_err(|why| folder.bad(FILES[0], why))?;
     let refined = refine(&spec.grid, settings, &mut |instances| {

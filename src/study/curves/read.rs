@@ -13,14 +13,17 @@ use crate::results::read::{map, refined};
 use crate::store::grid_json;
 use crate::store::grid_json::PHYSICS;
 use crate::study::curves::figure::{ordered, stroke};
-use crate::study::curves::table::{Document, OF_CURVES, System};
+use crate::study::curves::table::{Document, OF_CURVES, System, TABLE};
 use crate::study::cycles::special::Special;
 use crate::study::error::{Error, Result};
 use crate::sweep::grid::{Axis, AxisKey, Grid, Value};
 use crate::sweep::spec::{Analysis, Spec};
 
 /// The files that are read.
-pub(crate) const FILES: [&str; 2] = ["curves.csv", "curves.json"];
+pub(crate) const FILES: [&str; 2] = [TABLE, "curves.json"];
+
+/// How files that were changed are put right.
+const HEALED: &str = "run `squealmap curves` again";
 
 /// Curves read back.
 #[derive(Clone, Debug)]
@@ -61,9 +64,10 @@ impl Curves {
 
 /// Reads the curves of a directory.
 pub(crate) fn read(folder: Folder<'_>) -> Result<Curves> {
-    let table = folder.table(FILES[0])?;
-    let document =
-        Document::deserialize(folder.json(FILES[1])?).map_err(|why| folder.bad(FILES[1], why.to_string()))?;
+    let document = folder.sealed(FILES[1], HEALED)?;
+    let table = folder.named(FILES[0], [FILES[1], HEALED], &document)?;
+    let table = Table::read(&table).map_err(|why| folder.bad(FILES[0], why))?;
+    let document = Document::deserialize(document).map_err(|why| folder.bad(FILES[1], why.to_string()))?;
     let no_axes = || folder.bad(FILES[1], "has no `grid` of axes");
     let grid = grid_json::from_json(&document.grid, None).ok_or_else(no_axes)?;
     let Grid::Axes(axes) = &grid else { return Err(no_axes().into()) };

@@ -9,6 +9,7 @@ use crate::results::figure::panels::Panels;
 use crate::study::cycles::branch::Spot;
 use crate::study::cycles::curve::{Curve, Field};
 use crate::study::cycles::map::fine;
+use crate::study::cycles::special::Special;
 use crate::study::error::{Error, Result};
 use crate::study::hysteresis::follow::{Hysteresis, can_follow};
 use crate::sweep::error;
@@ -33,8 +34,8 @@ pub struct PlaneCurves {
     pub others: Vec<(AxisKey, Value)>,
     /// The curves.
     pub curves: Vec<Curve>,
-    /// How many special points lie on none of them: what is near them is not followed.
-    pub alone: usize,
+    /// The special points that lie on none of them, by both parameters: what is near them is not followed.
+    pub alone: Vec<(Special, [f64; 2])>,
 }
 
 /// A plane of a sweep.
@@ -70,7 +71,7 @@ pub fn seek(spec: &Spec, lines: usize) -> Result<Vec<PlaneCurves>> {
         .collect();
     let met: Vec<Vec<Spot>> =
         ways.par_iter().map(|(plane, along, at)| spots(&planes[*plane], *along, *at)).collect();
-    let curves: Vec<(Vec<Curve>, usize)> = planes
+    let curves: Vec<Followed> = planes
         .par_iter()
         .enumerate()
         .map(|(number, plane)| {
@@ -80,7 +81,7 @@ pub fn seek(spec: &Spec, lines: usize) -> Result<Vec<PlaneCurves>> {
             followed(plane, spots)
         })
         .collect();
-    let told = |(plane, (curves, alone)): (Plane<'_>, (Vec<Curve>, usize))| PlaneCurves {
+    let told = |(plane, (curves, alone)): (Plane<'_>, Followed)| PlaneCurves {
         params: plane.params,
         others: plane.others,
         curves,
@@ -89,15 +90,15 @@ pub fn seek(spec: &Spec, lines: usize) -> Result<Vec<PlaneCurves>> {
     Ok(planes.into_iter().zip(curves).map(told).collect())
 }
 
-/// The curves through special points, each once, and how many points have none.
-fn followed<'a>(
-    plane: &Plane<'_>,
-    spots: impl Iterator<Item = (usize, f64, &'a Spot)>,
-) -> (Vec<Curve>, usize) {
+/// Curves, and the special points that lie on none.
+type Followed = (Vec<Curve>, Vec<(Special, [f64; 2])>);
+
+/// The curves through special points, each once, and the points that have none.
+fn followed<'a>(plane: &Plane<'_>, spots: impl Iterator<Item = (usize, f64, &'a Spot)>) -> Followed {
     let plan = fine(&Plan::new(plane.spec));
     let instance = |values: [f64; 2]| plane.instance(values).ok();
     let field = Field { plane: &instance, plan: &plan, ranges: plane.ranges };
-    let (mut curves, mut alone): (Vec<Curve>, usize) = (Vec::new(), 0);
+    let (mut curves, mut alone): Followed = (Vec::new(), Vec::new());
     for (along, at, spot) in spots {
         let mut values = [at; 2];
         values[along] = spot.cycle.value;
@@ -113,7 +114,7 @@ fn followed<'a>(
                 curves.retain(|other| !curve.covers(plane.ranges, other));
                 curves.push(curve);
             }
-            None => alone += 1,
+            None => alone.push((spot.special, values)),
         }
     }
     (curves, alone)

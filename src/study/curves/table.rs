@@ -4,8 +4,9 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value as Json;
 
 use crate::results::csv::Table;
-use crate::results::manifest::described;
+use crate::results::manifest::{Sum, Sums, described};
 use crate::store::grid_json;
+use crate::store::seal::sealed;
 use crate::study::curves::seek::PlaneCurves;
 use crate::study::cycles::special::Special;
 use crate::study::error::Result;
@@ -13,6 +14,9 @@ use crate::study::hysteresis::table::columns_of;
 use crate::sweep::columns::Column;
 use crate::sweep::grid::{AxisKey, Grid, Value};
 use crate::sweep::spec::Spec;
+
+/// The name of the table.
+pub(crate) const TABLE: &str = "curves.csv";
 
 /// What comes before the columns of a map.
 pub(crate) const OF_CURVES: [&str; 3] = ["curve", "special", "unstable_multipliers"];
@@ -51,6 +55,8 @@ pub(crate) struct Document {
     /// The sections of the sweep that say which system it is.
     #[serde(flatten)]
     pub(crate) system: System,
+    /// Length and checksum of the table.
+    files: Sums,
 }
 
 /// The sections of a sweep that say which system it is.
@@ -73,15 +79,18 @@ impl System {
     }
 }
 
-/// This document as JSON.
+/// This document as JSON, beside a `table` of [`curves_csv`].
 ///
 /// # Errors
 /// When it cannot be written.
-pub fn document(spec: &Spec) -> Result<Vec<u8>> {
+pub fn document(spec: &Spec, table: &[u8]) -> Result<Vec<u8>> {
     let resolved = spec.resolved();
     let section = |name: &str| resolved[name].clone();
     let system = System { model: section("model"), friction: section("friction"), belt: section("belt") };
-    Ok(described(&Document { title: spec.title.clone(), grid: grid_json::to_json(&spec.grid), system })?)
+    let files = Sums::from_iter([(TABLE, Sum::of(table))]);
+    let document =
+        Document { title: spec.title.clone(), grid: grid_json::to_json(&spec.grid), system, files };
+    Ok(sealed(described(&document)?))
 }
 
 /// How a curve is named in sentences.

@@ -159,6 +159,30 @@ fn what_sticks_forgets_all() {
     }
 }
 
+/// Largest multipliers of the cycles of `benches/peers/multipliers.toml` by `benches/peers/multipliers.py`, which has its own
+/// equations, events and steps: a spiral with stick, slip back, flight on the section and off it.
+#[test]
+fn multipliers_are_those_of_an_independent_code() {
+    let known = [
+        ([0.25, 0.05, 1.5], [0.986_654_319, 19.482_287, 0.030_452_694_376]),
+        ([0.55, 0.05, 3.0], [0.986_874_960, 27.682_664, 0.031_076_032_229]),
+        ([0.25, 0.35, 6.0], [0.612_883_830, 0.0, 0.032_240_947_175]),
+        ([0.25, 0.5, 6.0], [0.409_745_905, 3.477_095, 0.032_471_952_505]),
+        ([0.55, 0.5, 6.0], [0.174_597_256, 0.0, 0.032_629_666_972]),
+        ([0.55, 0.5, 1.5], [0.551_204_214, 0.0, 0.029_123_574_520]),
+    ];
+    for ([mu_s, mu_d, belt], [modulus, angle, period]) in known {
+        let one = kicked(paper(mu_s, mu_d, belt), belt);
+        for engine in HUNTERS {
+            let found = engine.run(&one, &hunting());
+            let what = format!("{} at {mu_s}, {mu_d}, {belt}", engine.name());
+            close(&format!("period, {what}"), value(found.period), period, 1e-10);
+            near(&format!("multiplier, {what}"), value(found.floquet), modulus, 1e-6);
+            near(&format!("angle, {what}"), value(found.floquet_angle), angle, 2e-4);
+        }
+    }
+}
+
 /// Cycles of every kind: stick, slip back, flight with and without stick, by a curved law too.
 fn cases() -> Vec<(Instance, &'static str)> {
     let curved = FrictionLaw::Exponential { mu_s: 0.3, mu_d: 0.1, stribeck_velocity: 1.0 };

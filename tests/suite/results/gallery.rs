@@ -232,13 +232,13 @@ fn some_curves() -> Piece {
         params: [Param::MuS, Param::MuD],
         others: vec![(AxisKey::Param(Param::BeltVelocity), Value::Number(velocity))],
         curves: vec![line(Special::Hopf, 0.1), line(Special::Fold, 0.1 * velocity)],
-        alone: 0,
+        alone: Vec::new(),
     };
     let planes = [plane(1.0), plane(3.0)];
     let svg = curves::figure::curves_svg(&sweep, &curves::figure::overlays(&planes), &Look::default());
-    let files =
-        [curves::table::curves_csv(&sweep, &planes).unwrap(), curves::table::document(&sweep).unwrap()];
-    piece(Kind::Curves, svg, files)
+    let table = curves::table::curves_csv(&sweep, &planes).unwrap();
+    let document = curves::table::document(&sweep, &table).unwrap();
+    piece(Kind::Curves, svg, [table, document])
 }
 
 /// Two modes that merge, at two velocities.
