@@ -10,6 +10,7 @@ mod engine;
 mod environment;
 mod error;
 mod excerpt;
+mod explore;
 mod export;
 mod failed;
 mod fem;
@@ -104,6 +105,8 @@ enum Command {
     /// Where limit cycles meet, double their period, or are born, as curves over the planes of a sweep: curves.csv, curves.json,
     /// curves.svg, curves.png
     Curves(curves::CurvesCommand),
+    /// The map of a sweep to look into, computed in the browser of whoever reads it: explore.html
+    Explore(explore::ExploreCommand),
     /// What measured signals say: identify.json, identify.svg, identify.png, windows.csv
     Identify(identify::Identify),
     /// The source paper computed again: its figures, and what becomes of its claims
@@ -148,6 +151,7 @@ impl Command {
             | Command::Status(_)
             | Command::Init(_)
             | Command::Keys(_)
+            | Command::Explore(_)
             | Command::Adapters
             | Command::Fit(_)
             | Command::Completions(_)
@@ -176,6 +180,7 @@ impl Command {
             Command::Check(command) => return command.execute(),
             Command::Trace(command) => return command.execute(),
             Command::Curves(command) => command.execute()?,
+            Command::Explore(command) => command.execute()?,
             Command::Submit(command) => command.execute()?,
             Command::Status(command) => command.execute()?,
             Command::Export(command) => command.execute()?,

@@ -215,10 +215,14 @@ impl Description {
     /// The sweep, to be computed again by this program; `None` where another version described it.
     #[must_use]
     pub fn spec(&self) -> Option<Spec> {
-        let physics = &self.identity[PHYSICS];
-        let spec = Spec::from_resolved(physics, &self.title, self.analysis, self.grid.clone())?;
         // What was read back is the sweep if it has its identity, and only then.
-        (Id::of(&identity(&spec, &self.computations)) == self.id).then_some(spec)
+        self.spec_as_read().filter(|spec| Id::of(&identity(spec, &self.computations)) == self.id)
+    }
+
+    /// The sweep as this program reads it, whichever version has described it; `None` where an entry is none that it knows.
+    #[must_use]
+    pub fn spec_as_read(&self) -> Option<Spec> {
+        Spec::from_resolved(&self.identity[PHYSICS], &self.title, self.analysis, self.grid.clone())
     }
 
     /// Whether another sweep has everything but its grid in common with this one.

@@ -58,7 +58,7 @@ impl Need {
 /// When it has not.
 pub fn verify(directory: &Path, description: &Description, missing: usize) -> Result<()> {
     // Where the system does not say, the run finds out.
-    let Ok(free) = fs4::available_space(directory) else { return Ok(()) };
+    let Some(free) = free(directory) else { return Ok(()) };
     let tiling = Tiling { instances: missing, ..description.tiling };
     let tiles = Need::new(tiling, description.analysis).tiles;
     let table = Need::new(description.tiling, description.analysis).table.unwrap_or(0);
@@ -70,7 +70,7 @@ pub fn verify(directory: &Path, description: &Description, missing: usize) -> Re
 /// # Errors
 /// When it has not.
 pub fn verify_parts(directory: &Path, analysis: Analysis, missing: usize) -> Result<()> {
-    let Ok(free) = fs4::available_space(directory) else { return Ok(()) };
+    let Some(free) = free(directory) else { return Ok(()) };
     let need = Need::new(Tiling { instances: missing, tile: TILE }, analysis);
     fits(directory, need.tiles + need.table.unwrap_or(0) + AROUND, free)
 }
@@ -98,4 +98,15 @@ pub fn bytes(count: u64) -> String {
     } else {
         format!("{value:.1} {}", UNITS[unit])
     }
+}
+
+/// The bytes that are free on the disk of a directory; `None` where the system does not say.
+#[cfg(not(target_family = "wasm"))]
+fn free(directory: &Path) -> Option<u64> {
+    fs4::available_space(directory).ok()
+}
+
+#[cfg(target_family = "wasm")]
+fn free(_directory: &Path) -> Option<u64> {
+    None
 }

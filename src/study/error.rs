@@ -7,6 +7,14 @@ use std::path::PathBuf;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
+    /// A sweep without a plane to look into.
+    #[error("a map to look into needs two axes of numbers in [axes], as `squealmap init map` writes them")]
+    NothingToExplore,
+    /// A program without the page of the explorer.
+    #[error(
+        "this program was built without the page of `explore`: `crates/explorer/build` makes it, then `cargo build` takes it in"
+    )]
+    NoPage,
     /// `modes` needs a numeric axis with at least two values.
     #[error(
         "modes needs an axis of numbers with at least 2 values, and [axes] has none; add one, e.g. mu_d = {{ from = 0.0, to = 0.6, points = 601 }}"
@@ -149,7 +157,9 @@ impl Error {
     #[must_use]
     pub fn is_bad_input(&self) -> bool {
         match self {
-            Error::NoModesAxis
+            Error::NothingToExplore
+            | Error::NoPage
+            | Error::NoModesAxis
             | Error::NoModesOfTuples
             | Error::NoModes
             | Error::NoPlane

@@ -7,6 +7,7 @@
 //! | a cycle while a parameter rises and falls | [`hysteresis`] |
 //! | branches of cycles, stable and unstable | [`cycles`] |
 //! | curves over two parameters where cycles meet or are born | [`curves`] |
+//! | a map to look into, as a page | [`explore`] |
 //! | speed against error | [`tradeoff`] |
 //! | measured friction as a material | [`fit`] |
 //! | measured signals | [`identify`] |
@@ -26,6 +27,8 @@ pub use picture::Picture;
 pub mod curves;
 pub mod cycles;
 pub mod error;
+#[cfg(feature = "figures")]
+pub mod explore;
 #[cfg(feature = "figures")]
 pub mod fem;
 #[cfg(feature = "identify")]

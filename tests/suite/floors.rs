@@ -17,11 +17,12 @@ const FLOORS: [&[&str]; 9] = [
 ];
 
 /// The crates beside, each with those that it may use.
-const CRATES: [(&str, &str, &[&str]); 4] = [
+const CRATES: [(&str, &str, &[&str]); 5] = [
     ("input", "squealmap_input", &[]),
     ("figure", "squealmap_figure", &[]),
     ("identify", "squealmap_identify", &["squealmap_input"]),
     ("fem", "squealmap_fem", &[]),
+    ("explorer", "squealmap_explorer", &["squealmap"]),
 ];
 
 /// The path of a module; the crate's own root is empty.
@@ -333,6 +334,10 @@ fn files(folders: &[&str]) -> BTreeMap<String, String> {
     let mut all = BTreeMap::new();
     let mut left: Vec<_> = folders.iter().map(|folder| root.join(folder)).collect();
     while let Some(path) = left.pop() {
+        if path.ends_with("node_modules") {
+            // What others wrote, fetched beside the page of the explorer.
+            continue;
+        }
         if path.is_dir() {
             left.extend(
                 std::fs::read_dir(&path).expect("a folder").map(|entry| entry.expect("an entry").path()),

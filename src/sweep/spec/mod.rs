@@ -51,8 +51,12 @@ use crate::sweep::grid::Grid;
 use refine::Settings;
 use squealmap_input::place::Place;
 
-/// Most instances of one sweep: what a disk of 44 TB (linear) or 225 TB (with response) holds.
+/// Most instances of one sweep: what a disk of 44 TB (linear) or 225 TB (with response) holds; in a browser, what can be counted.
+#[cfg(target_pointer_width = "64")]
 pub const MAX_INSTANCES: usize = 1_000_000_000_000;
+/// Most instances of one sweep.
+#[cfg(not(target_pointer_width = "64"))]
+pub const MAX_INSTANCES: usize = usize::MAX;
 
 /// The most bytes of a sweep file, whose values take thirty times that while they are read.
 pub const MAX_SWEEP_BYTES: u64 = 4 * squealmap_input::files::MIB;

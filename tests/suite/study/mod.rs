@@ -4,6 +4,7 @@ pub(crate) mod bound;
 pub(crate) mod claims;
 pub(crate) mod confusion;
 pub(crate) mod curves;
+mod explore;
 pub(crate) mod fem;
 pub(crate) mod fit;
 pub(crate) mod fit_errors;

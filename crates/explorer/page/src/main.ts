@@ -1,0 +1,510 @@
+// The page: what is asked for by hand, and where it goes.
+
+import { Engines } from "./ask";
+import { columnsOf, masses, plots, rows, sound, taken, why, type Cell } from "./cell";
+import { hex, words } from "./colours";
+import { MapView } from "./map";
+import { ticks } from "./plots";
+import { closed, first, is_allowed, kept_within, parameter, read, type State, sides, whole, written } from "./state";
+import { type About, escape, type Given, plain, shown, symbol } from "./sweep";
+
+const element = <T extends HTMLElement>(id: string): T => {
+  const found = document.getElementById(id);
+  if (!found) throw new Error(`the page has no #${id}`);
+  return found as T;
+};
+
+const say = (text: string) => {
+  element("status").textContent = text;
+};
+
+/** Bytes of a text in base 64, unpacked. */
+async function unpacked(text: string): Promise<Uint8Array> {
+  const packed = Uint8Array.from(atob(text.trim()), (sign) => sign.charCodeAt(0));
+  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
+  return new Uint8Array(await new Response(stream).arrayBuffer());
+}
+
+async function main(): Promise<void> {
+  const given = document.getElementById("sweep")?.textContent;
+  if (!given) return say("no sweep is in this page; `squealmap explore SWEEP --export DIR` writes one that has");
+  if (typeof WebAssembly === "undefined" || typeof DecompressionStream === "undefined")
+    return say("this browser is too old: it has no WebAssembly or cannot unpack it; any of 2023 or later can");
+  const { description, file, classes } = JSON.parse(given) as Given;
+  const wasm = await unpacked(element("wasm").textContent ?? "");
+  const [engines, about] = await Engines.open(wasm, description);
+  new Page(engines, about.head as unknown as About, file, classes).start();
+}
+
+class Page {
+  private state: State;
+  private readonly view: MapView;
+  private readonly canvas = element<HTMLCanvasElement>("map");
+  private readonly marks = element<HTMLCanvasElement>("marks");
+  private cell: Cell | null = null;
+  private cellAsked = 0;
+  private moving = 0;
+  private sliderOf = new Map<string, HTMLInputElement[]>();
+
+  constructor(
+    private readonly engines: Engines,
+    private readonly about: About,
+    private readonly file: string,
+    private readonly classes: Given["classes"],
+  ) {
+    this.state = first(about);
+    this.view = new MapView(
+      this.canvas,
+      engines,
+      about,
+      classes,
+      ({ cells, of, seconds }) => {
+        const done = cells >= of;
+        const count = this.view.column(this.state.quantity).response ? "transients" : "cells";
+        say(`${cells.toLocaleString("en")} of ${of.toLocaleString("en")} ${count}, ${seconds.toFixed(2)} s on ${engines.count} engines${done ? "" : " …"}`);
+      },
+      (sentence) => say(sentence),
+    );
+  }
+
+  start(): void {
+    document.title = this.about.title || "squealmap";
+    element("title").textContent = this.about.title || "Map";
+    this.take();
+    this.controls();
+    this.handle();
+    this.go(this.state, false);
+    window.addEventListener("hashchange", () => {
+      if (location.hash === written(this.state)) return;
+      this.take();
+      this.controls();
+      this.go(this.state, false);
+    });
+    // What tests and the curious look at.
+    Object.assign(window, { squealmap: { page: this, state: () => this.state, view: this.view, about: this.about, engines: this.engines } });
+  }
+
+  private take(): void {
+    const { state, wrong } = read(this.about, location.hash);
+    this.state = state;
+    element("wrong").textContent = wrong.length > 0 ? `The address is not all understood: ${wrong.join("; ")}.` : "";
+  }
+
+  /** Shows another state. */
+  go(state: State, write = true): void {
+    const before = this.state;
+    this.state = closed(this.about, state);
+    if (write) history.replaceState(null, "", written(this.state));
+    this.view.show(this.state);
+    this.legend();
+    this.draw();
+    const same = JSON.stringify([before.cell, before.at]) === JSON.stringify([this.state.cell, this.state.at]);
+    if (!same || (this.state.cell && !this.cell)) void this.look();
+  }
+
+  private controls(): void {
+    const option = (value: string, text: string, chosen: boolean) => `<option value="${escape(value)}"${chosen ? " selected" : ""}>${escape(text)}</option>`;
+    const swept = new Set(this.about.axes.map((axis) => axis.key));
+    const shownColumns = this.about.columns.filter((column) => !swept.has(column.name) && column.name !== "status" && column.name !== "steps");
+    const group = (label: string, response: boolean) => {
+      const of = shownColumns.filter((column) => column.response === response);
+      return of.length === 0 ? "" : `<optgroup label="${label}">${of.map((column) => option(column.name, column.print.replace(/[{}]/g, ""), column.name === this.state.quantity)).join("")}</optgroup>`;
+    };
+    element("quantity").innerHTML = group("Eigenvalues", false) + (this.about.responds ? group("Transients", true) : "");
+    const axes = sides(this.about);
+    for (const [id, key] of [["across", this.state.x], ["up", this.state.y]] as const)
+      element(id).innerHTML = axes.map((axis) => option(axis.key, plain({ symbol: axis.symbol, unit: axis.unit }), axis.key === key)).join("");
+    this.sliders();
+  }
+
+  private sliders(): void {
+    const box = element("sliders");
+    box.textContent = "";
+    this.sliderOf.clear();
+    const add = (key: string, html: string, title: string, value: number, [low, high]: [number, number]) => {
+      const label = document.createElement("label");
+      label.innerHTML = html;
+      label.title = title;
+      label.htmlFor = `slider-${key}`;
+      const slider = Object.assign(document.createElement("input"), { type: "range", min: "0", max: "1000", step: "1", id: `slider-${key}` });
+      const number = Object.assign(document.createElement("input"), { type: "number", step: "any", value: String(value) });
+      number.setAttribute("aria-label", `${key}, a number`);
+      slider.value = String(Math.round((1000 * (value - low)) / (high - low || 1)));
+      const set = (chosen: number) => {
+        const of = parameter(this.about, key);
+        if (!of || !is_allowed(of, chosen)) return say(`\`${key}\` is ${chosen}, and has to be ${of?.range ?? "a number"}`);
+        this.go({ ...this.state, at: { ...this.state.at, [key]: chosen } });
+      };
+      slider.addEventListener("input", () => {
+        const chosen = Number((low + (Number(slider.value) / 1000) * (high - low)).toPrecision(5));
+        number.value = String(chosen);
+        set(chosen);
+      });
+      number.addEventListener("change", () => {
+        slider.value = String(Math.round((1000 * (Number(number.value) - low)) / (high - low || 1)));
+        if (number.value.trim() !== "") set(Number(number.value));
+      });
+      box.append(label, slider, number);
+    };
+    for (const axis of this.about.axes) {
+      if (axis.key === this.state.x || axis.key === this.state.y) continue;
+      if (!axis.numbers) {
+        const label = Object.assign(document.createElement("label"), { textContent: axis.key, htmlFor: `slider-${axis.key}` });
+        const select = Object.assign(document.createElement("select"), { id: `slider-${axis.key}` });
+        for (const value of axis.values) select.append(new Option(String(value), String(value), false, value === this.state.at[axis.key]));
+        select.addEventListener("change", () => this.go({ ...this.state, at: { ...this.state.at, [axis.key]: select.value } }));
+        box.append(label, select, document.createElement("span"));
+        continue;
+      }
+      add(axis.key, `${symbol(axis)} ${escape(axis.unit)}`, axis.meaning, Number(this.state.at[axis.key]), whole(this.about, axis.key));
+    }
+    for (const fixed of this.about.fixed) {
+      const value = Number(this.state.at[fixed.key] ?? fixed.value);
+      const size = Math.abs(fixed.value) || (fixed.most !== null && fixed.least !== null ? fixed.most : 1);
+      const range: [number, number] = [Math.max(fixed.least ?? -Infinity, fixed.value === 0 ? -size : fixed.value - size), Math.min(fixed.most ?? Infinity, fixed.value + size)];
+      add(fixed.key, `${symbol(fixed)} ${escape(fixed.unit)}`, fixed.meaning, value, range);
+    }
+  }
+
+  private legend(): void {
+    const column = this.view.column(this.state.quantity);
+    const box = element("legend");
+    const show = this.view.current;
+    if (column.names.length > 0) {
+      const known = this.classes[column.name] ?? column.names.map((name) => ({ name, label: name.replaceAll("_", " "), fill: "#888888" }));
+      box.textContent = "";
+      for (const one of known) {
+        const button = Object.assign(document.createElement("button"), { type: "button", className: "class", title: "Show or hide" });
+        const hidden = this.state.hidden.includes(one.name);
+        button.setAttribute("aria-pressed", String(!hidden));
+        const swatch = Object.assign(document.createElement("span"), { className: "swatch" });
+        swatch.style.background = one.fill;
+        button.append(swatch, one.label);
+        button.addEventListener("click", () => {
+          const others = this.state.hidden.filter((name) => name !== one.name);
+          this.go({ ...this.state, hidden: hidden ? others : [...others, one.name] });
+        });
+        box.append(button);
+      }
+      return;
+    }
+    const [low, high] = words(column, show?.ends ?? [0, 1]);
+    const canvas = document.createElement("canvas");
+    [canvas.width, canvas.height] = [192, 1];
+    const context = canvas.getContext("2d");
+    if (context && show && show.classes.length === 0) {
+      for (let k = 0; k < 192; k++) {
+        context.fillStyle = hex(show.colour(show.ends[0] + (k / 191) * (show.ends[1] - show.ends[0])));
+        context.fillRect(k, 0, 1, 1);
+      }
+    }
+    box.replaceChildren(low, canvas, high);
+    box.append(` ${column.print.replace(/[{}]/g, "")}`);
+  }
+
+  /** Axes, and the place of the cell. */
+  private draw(): void {
+    const scaleOf = window.devicePixelRatio || 1;
+    const [w, h] = [this.marks.clientWidth, this.marks.clientHeight];
+    this.marks.width = Math.round(w * scaleOf);
+    this.marks.height = Math.round(h * scaleOf);
+    const context = this.marks.getContext("2d");
+    if (!context) return;
+    context.scale(scaleOf, scaleOf);
+    context.font = "12px system-ui, sans-serif";
+    const px = (x: number) => ((x - this.state.rangeX[0]) / (this.state.rangeX[1] - this.state.rangeX[0])) * w;
+    const py = (y: number) => h - ((y - this.state.rangeY[0]) / (this.state.rangeY[1] - this.state.rangeY[0])) * h;
+    const text = (words: string, x: number, y: number, align: CanvasTextAlign) => {
+      context.textAlign = align;
+      context.lineWidth = 4;
+      context.strokeStyle = "#ffffff";
+      context.strokeText(words, x, y);
+      context.fillStyle = "#000000";
+      context.fillText(words, x, y);
+    };
+    context.strokeStyle = "#000000";
+    for (const tick of ticks(...this.state.rangeX, 5)) {
+      context.lineWidth = 1;
+      context.strokeStyle = "#000000";
+      context.strokeRect(px(tick), h - 6, 0.01, 6);
+      if (px(tick) > 30 && px(tick) < w - 60) text(shown(tick, 6), px(tick), h - 9, "center");
+    }
+    for (const tick of ticks(...this.state.rangeY, 5)) {
+      context.lineWidth = 1;
+      context.strokeStyle = "#000000";
+      context.strokeRect(0, py(tick), 6, 0.01);
+      if (py(tick) > 26 && py(tick) < h - 24) text(shown(tick, 6), 9, py(tick) + 4, "left");
+    }
+    const [x, y] = [parameter(this.about, this.state.x), parameter(this.about, this.state.y)];
+    if (x) text(plain(x), w - 8, h - 9, "right");
+    if (y) text(plain(y), 9, 16, "left");
+    if (this.state.cell) {
+      const [a, b] = [px(this.state.cell[0]), py(this.state.cell[1])];
+      for (const [colour, width] of [["#ffffff", 4], ["#000000", 1.6]] as const) {
+        context.strokeStyle = colour;
+        context.lineWidth = width;
+        context.beginPath();
+        context.arc(a, b, 7, 0, 2 * Math.PI);
+        context.stroke();
+      }
+    }
+  }
+
+  /** The values at a place of the map, as parts of both sides from the lower left. */
+  private at([x, y]: [number, number]): [number, number] {
+    const value = ([low, high]: [number, number], part: number) => low + part * (high - low);
+    return [value(this.state.rangeX, x), value(this.state.rangeY, y)];
+  }
+
+  private handle(): void {
+    const choose = (id: string, take: (value: string) => void) => element<HTMLSelectElement>(id).addEventListener("change", (event) => take((event.target as HTMLSelectElement).value));
+    choose("quantity", (quantity) => this.go({ ...this.state, quantity, hidden: [] }));
+    const side = (of: "x" | "y") => (key: string) => {
+      const [kept, other] = of === "x" ? [this.state.y, this.state.x] : [this.state.x, this.state.y];
+      const opposite = kept === key ? other : kept;
+      const [x, y] = of === "x" ? [key, opposite] : [opposite, key];
+      this.state = closed(this.about, { ...this.state, x, y, rangeX: whole(this.about, x), rangeY: whole(this.about, y), cell: null });
+      this.cell = null;
+      element("cell").hidden = true;
+      this.controls();
+      this.go(this.state);
+    };
+    choose("across", side("x"));
+    choose("up", side("y"));
+    element("home").addEventListener("click", () => this.go({ ...this.state, rangeX: whole(this.about, this.state.x), rangeY: whole(this.about, this.state.y) }));
+    this.pointer();
+    this.canvas.addEventListener("painted", () => {
+      if (this.view.column(this.state.quantity).names.length === 0) this.legend();
+    });
+    new ResizeObserver(() => {
+      this.view.show({ ...this.state, rangeX: [...this.state.rangeX] });
+      this.draw();
+    }).observe(this.canvas);
+    const copy = (id: string, text: () => Promise<string> | string, done: string) =>
+      element(id).addEventListener("click", async () => {
+        try {
+          await navigator.clipboard.writeText(await text());
+          say(done);
+        } catch (why) {
+          say(why instanceof Error ? why.message : String(why));
+        }
+      });
+    copy("toml", () => this.toml(), "the sweep of this view is copied: save it as view.toml, and `squealmap run view.toml` computes it");
+    copy("command", () => this.command(), "the command is copied");
+    copy("address", () => location.href, "the address is copied");
+    element("picture").addEventListener("click", () => {
+      const both = document.createElement("canvas");
+      [both.width, both.height] = [this.canvas.width, this.canvas.height];
+      const context = both.getContext("2d");
+      context?.drawImage(this.canvas, 0, 0);
+      context?.drawImage(this.marks, 0, 0, both.width, both.height);
+      const link = Object.assign(document.createElement("a"), { href: both.toDataURL("image/png"), download: "map.png" });
+      link.click();
+    });
+    element("close").addEventListener("click", () => {
+      this.cell = null;
+      element("cell").hidden = true;
+      this.go({ ...this.state, cell: null });
+    });
+    element("hear").addEventListener("click", () => this.hear());
+    element("move").addEventListener("click", () => this.move());
+  }
+
+  /** The sweep of the view, as a sweep file. */
+  async toml(): Promise<string> {
+    const column = this.view.column(this.state.quantity);
+    const points = column.response ? 101 : 401;
+    const side = (key: string, [from, to]: [number, number]) => ({ key, from, to, points });
+    const question = {
+      ask: "file",
+      x: side(this.state.x, this.state.rangeX),
+      y: side(this.state.y, this.state.rangeY),
+      at: this.state.at,
+      response: column.response,
+      columns: [],
+    };
+    return String((await this.engines.ask(question)).head["toml"]);
+  }
+
+  /** The command that shows the cell, or computes the sweep. */
+  command(): string {
+    const at = { ...this.state.at };
+    if (!this.state.cell) return `squealmap run ${this.file}`;
+    const pairs = Object.entries({ ...at, [this.state.x]: this.state.cell[0], [this.state.y]: this.state.cell[1] }).map(([key, value]) => `${key}=${value}`);
+    return `squealmap trace ${this.file} --at ${pairs.join(",")}`;
+  }
+
+  private pointer(): void {
+    const held = new Map<number, [number, number]>();
+    let moved = 0;
+    const place = (event: { clientX: number; clientY: number }): [number, number] => {
+      const box = this.canvas.getBoundingClientRect();
+      return [(event.clientX - box.left) / box.width, 1 - (event.clientY - box.top) / box.height];
+    };
+    this.canvas.addEventListener("pointerdown", (event) => {
+      this.canvas.setPointerCapture(event.pointerId);
+      held.set(event.pointerId, place(event));
+      moved = 0;
+    });
+    this.canvas.addEventListener("pointermove", (event) => {
+      const now = place(event);
+      const before = held.get(event.pointerId);
+      if (!before) return this.read(now);
+      const box = this.canvas.getBoundingClientRect();
+      moved += Math.hypot((now[0] - before[0]) * box.width, (now[1] - before[1]) * box.height);
+      const others = [...held].filter(([id]) => id !== event.pointerId).map(([, at]) => at);
+      held.set(event.pointerId, now);
+      const other = others[0];
+      if (other) {
+        const apart = (a: [number, number], b: [number, number]) => Math.hypot(a[0] - b[0], a[1] - b[1]);
+        this.zoom(apart(before, other) / Math.max(apart(now, other), 1e-3), other);
+      } else if (moved > 4) this.pan(before[0] - now[0], before[1] - now[1]);
+    });
+    const up = (event: PointerEvent) => {
+      const here = held.get(event.pointerId);
+      held.delete(event.pointerId);
+      if (event.type === "pointerup" && here && moved <= 4 && held.size === 0) this.pick(here);
+    };
+    this.canvas.addEventListener("pointerup", up);
+    this.canvas.addEventListener("pointercancel", up);
+    this.canvas.addEventListener("pointerleave", () => (element("readout").textContent = ""));
+    this.canvas.addEventListener(
+      "wheel",
+      (event) => {
+        event.preventDefault();
+        this.zoom(Math.exp(Math.sign(event.deltaY) * Math.min(Math.abs(event.deltaY), 100) * 0.003), place(event));
+      },
+      { passive: false },
+    );
+    this.canvas.addEventListener("keydown", (event) => {
+      const step: Record<string, [number, number]> = { ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1] };
+      const by = step[event.key];
+      if (by) this.pan(...by);
+      else if (event.key === "+" || event.key === "=") this.zoom(0.8, [0.5, 0.5]);
+      else if (event.key === "-") this.zoom(1.25, [0.5, 0.5]);
+      else if (event.key === "Enter") this.pick([0.5, 0.5]);
+      else return;
+      event.preventDefault();
+    });
+  }
+
+  private pan(dx: number, dy: number): void {
+    const by = (key: string, [low, high]: [number, number], part: number): [number, number] => {
+      const shift = part * (high - low);
+      const moved = kept_within(this.about, key, [low + shift, high + shift]);
+      // At the end of what is allowed the range keeps its length.
+      return moved && Math.abs(moved[1] - moved[0] - (high - low)) < 1e-9 * (high - low) ? moved : [low, high];
+    };
+    this.go({ ...this.state, rangeX: by(this.state.x, this.state.rangeX, dx), rangeY: by(this.state.y, this.state.rangeY, dy) });
+  }
+
+  private zoom(by: number, [x, y]: [number, number]): void {
+    const to = (key: string, [low, high]: [number, number], part: number): [number, number] => {
+      const at = low + part * (high - low);
+      return kept_within(this.about, key, [at - part * by * (high - low), at + (1 - part) * by * (high - low)]) ?? [low, high];
+    };
+    this.go({ ...this.state, rangeX: to(this.state.x, this.state.rangeX, x), rangeY: to(this.state.y, this.state.rangeY, y) });
+  }
+
+  private read(place: [number, number]): void {
+    const [a, b] = this.at(place);
+    const [x, y] = [parameter(this.about, this.state.x), parameter(this.about, this.state.y)];
+    const column = this.view.column(this.state.quantity);
+    const value = this.view.value(...place);
+    const said =
+      value === undefined ? "not computed yet" : column.names.length > 0 ? (column.names[value] ?? "–").replaceAll("_", " ") : `${shown(value, 5)} ${column.unit}`;
+    const unit = (of: { unit: string } | undefined) => (of?.unit ? ` ${of.unit}` : "");
+    element("readout").textContent = `${this.state.x} = ${shown(a, 5)}${unit(x)}, ${this.state.y} = ${shown(b, 5)}${unit(y)}: ${column.name} = ${said}`;
+  }
+
+  /** Looks into the cell at a place of the map. */
+  pick(place: [number, number]): void {
+    const [a, b] = this.at(place);
+    this.go({ ...this.state, cell: [Number(a.toPrecision(6)), Number(b.toPrecision(6))] });
+  }
+
+  private async look(): Promise<void> {
+    const { cell } = this.state;
+    const asked = ++this.cellAsked;
+    this.stop();
+    if (!cell) return;
+    const at = { ...this.state.at, [this.state.x]: cell[0], [this.state.y]: cell[1] };
+    const responds = this.about.responds;
+    const side = (key: string, value: number) => ({ key, from: value, to: value, points: 1 });
+    const columns = columnsOf(this.about, responds);
+    const region = {
+      ask: "region",
+      x: side(this.state.x, cell[0]),
+      y: side(this.state.y, cell[1]),
+      at: this.state.at,
+      response: responds,
+      columns: columns.map((column) => column.name),
+    };
+    const motion = { ask: "cell", at, skipped: responds ? 400 : 0, periods: responds ? 12 : 0, samples: 80 };
+    try {
+      const [answer, numbers] = await Promise.all([this.engines.ask(motion, 2), this.engines.ask(region, 2)]);
+      if (asked !== this.cellAsked) return;
+      this.cell = taken(answer);
+      const type = columns.findIndex((column) => column.name === "type");
+      const name = columns[type]?.names[numbers.numbers[type] ?? NaN];
+      element("why").textContent = why(this.cell, name);
+      element("plots").innerHTML = plots(this.cell, this.belt());
+      element("numbers").innerHTML = rows(columns, numbers.numbers);
+      element("cell").hidden = false;
+      element("hint").hidden = true;
+      masses(element("masses"), this.cell, this.belt(), 0);
+    } catch (why) {
+      say(why instanceof Error ? why.message : String(why));
+    }
+  }
+
+  private belt(): number {
+    const of = this.state.x === "belt_velocity" ? this.state.cell?.[0] : this.state.y === "belt_velocity" ? this.state.cell?.[1] : this.state.at["belt_velocity"];
+    const fixed = this.about.fixed.find((one) => one.key === "belt_velocity");
+    return Number(of ?? fixed?.value ?? 0);
+  }
+
+  private hear(): void {
+    const context = new AudioContext();
+    const wave = this.cell && sound(this.cell, context.sampleRate);
+    if (!wave) return say("nothing moves here, so that nothing is heard");
+    const buffer = context.createBuffer(1, wave.length, context.sampleRate);
+    buffer.copyToChannel(wave as Float32Array<ArrayBuffer>, 0);
+    const source = new AudioBufferSourceNode(context, { buffer });
+    source.connect(context.destination);
+    source.onended = () => void context.close();
+    source.start();
+  }
+
+  private stop(): void {
+    cancelAnimationFrame(this.moving);
+    this.moving = 0;
+    element("move").setAttribute("aria-pressed", "false");
+  }
+
+  /** The masses move, a period in two seconds. */
+  private move(): void {
+    if (this.moving !== 0) return this.stop();
+    const cell = this.cell;
+    const t = cell?.motion["t"];
+    if (!cell || !t || t.length < 2) return;
+    element("move").setAttribute("aria-pressed", "true");
+    const began = performance.now();
+    const length = (t[t.length - 1] as number) - (t[0] as number);
+    const frame = (now: number) => {
+      const time = (t[0] as number) + (((now - began) / 2000) * cell.period) % length;
+      let [low, high] = [0, t.length - 1];
+      while (low < high) {
+        const middle = (low + high) >> 1;
+        if ((t[middle] as number) < time) low = middle + 1;
+        else high = middle;
+      }
+      masses(element("masses"), cell, this.belt(), low);
+      this.moving = requestAnimationFrame(frame);
+    };
+    this.moving = requestAnimationFrame(frame);
+  }
+}
+
+main().catch((why: unknown) => say(why instanceof Error ? why.message : String(why)));
+

@@ -1,0 +1,246 @@
+// The map: coarse first, then fine, anew whenever the view moves; what is known stays until better is there.
+
+import type { Answer, Engines } from "./ask";
+import { NOTHING, type Scale, scale } from "./colours";
+import type { State } from "./state";
+import type { About, Class, Column } from "./sweep";
+
+/** Sides of cells in pixels of the screen, one level after the other. */
+const OF_EIGENVALUES = [16, 4, 1];
+const OF_TRANSIENTS = [32, 16, 8, 4];
+
+/** Cells of one question: an engine answers in a fraction of a second, and is free for another view. */
+const EIGENVALUES_AT_ONCE = 16384;
+const TRANSIENTS_AT_ONCE = 96;
+
+/** The group of questions about the map. */
+const GROUP = 1;
+
+/** A level of the map: values row by row from below. */
+interface Level {
+  wide: number;
+  high: number;
+  values: Float64Array;
+  /** Rows that are there. */
+  known: Uint8Array;
+}
+
+/** What the map says while it is computed. */
+export interface Progress {
+  cells: number;
+  of: number;
+  seconds: number;
+}
+
+export class MapView {
+  private generation = 0;
+  private levels: Level[] = [];
+  private shownState: State | null = null;
+  private picture: HTMLCanvasElement | null = null;
+  private pictureOf: State | null = null;
+  private drawing = false;
+  current: Scale | null = null;
+  /** Seconds until the first and the last picture of the last view. */
+  times: { first: number; last: number } = { first: NaN, last: NaN };
+
+  constructor(
+    private readonly canvas: HTMLCanvasElement,
+    private readonly engines: Engines,
+    private readonly about: About,
+    private readonly classes: Record<string, Class[]>,
+    private readonly told: (progress: Progress) => void,
+    private readonly failed: (why: string) => void,
+  ) {}
+
+  column(name: string): Column {
+    const found = this.about.columns.find((column) => column.name === name) ?? this.about.columns[0];
+    if (!found) throw new Error("the sweep has no columns");
+    return found;
+  }
+
+  /** Shows a state; computes what is not known. */
+  show(state: State): void {
+    const before = this.shownState;
+    this.shownState = state;
+    if (before && same(before, state) && this.levels.length > 0) {
+      this.draw();
+      return;
+    }
+    if (this.picture === null || before === null || before.x !== state.x || before.y !== state.y) this.pictureOf = null;
+    void this.compute(state);
+  }
+
+  private async compute(state: State): Promise<void> {
+    const generation = ++this.generation;
+    this.engines.drop(GROUP);
+    this.keep();
+    this.levels = [];
+    this.draw();
+    const began = performance.now();
+    this.times = { first: NaN, last: NaN };
+    const column = this.column(state.quantity);
+    const scaleOf = window.devicePixelRatio || 1;
+    const [w, h] = [Math.max(1, Math.round(this.canvas.clientWidth * scaleOf)), Math.max(1, Math.round(this.canvas.clientHeight * scaleOf))];
+    if (this.canvas.width !== w || this.canvas.height !== h) {
+      this.canvas.width = w;
+      this.canvas.height = h;
+    }
+    const sides = (column.response ? OF_TRANSIENTS : OF_EIGENVALUES).map((side) => Math.max(1, Math.round(side * (column.response ? scaleOf : 1))));
+    const most = column.response ? TRANSIENTS_AT_ONCE : EIGENVALUES_AT_ONCE;
+    const all = sides.map((side) => Math.ceil(w / side) * Math.ceil(h / side)).reduce((a, b) => a + b, 0);
+    let done = 0;
+    for (const side of sides) {
+      const [wide, high] = [Math.ceil(w / side), Math.ceil(h / side)];
+      const level: Level = { wide, high, values: new Float64Array(wide * high).fill(NaN), known: new Uint8Array(high) };
+      const rows = Math.max(1, Math.floor(most / wide));
+      const jobs: Promise<void>[] = [];
+      for (let row = 0; row < high; row += rows) {
+        const count = Math.min(rows, high - row);
+        const question = region(state, column, [wide, high], [row, count]);
+        jobs.push(
+          this.engines.ask(question, GROUP).then((answer: Answer) => {
+            if (generation !== this.generation) return;
+            level.values.set(answer.numbers, row * wide);
+            level.known.fill(1, row, row + count);
+            done += wide * count;
+            this.told({ cells: done, of: all, seconds: (performance.now() - began) / 1000 });
+            this.draw();
+          }),
+        );
+      }
+      this.levels.push(level);
+      try {
+        await Promise.all(jobs);
+      } catch (why) {
+        if (generation === this.generation) {
+          this.engines.drop(GROUP);
+          this.failed(why instanceof Error ? why.message : String(why));
+        }
+        return;
+      }
+      if (generation !== this.generation) return;
+      if (side === sides[0]) this.times.first = (performance.now() - began) / 1000;
+      // Coarser levels are of no more use.
+      this.levels = [level];
+    }
+    this.times.last = (performance.now() - began) / 1000;
+    this.draw();
+    this.told({ cells: all, of: all, seconds: this.times.last });
+  }
+
+  /** Keeps what is drawn, to be shown where nothing newer is. */
+  private keep(): void {
+    if (!this.current || this.levels.length === 0 || !this.drawnState) return;
+    const kept = document.createElement("canvas");
+    kept.width = this.canvas.width;
+    kept.height = this.canvas.height;
+    kept.getContext("2d")?.drawImage(this.canvas, 0, 0);
+    this.picture = kept;
+    this.pictureOf = this.drawnState;
+  }
+
+  private drawnState: State | null = null;
+
+  /** Draws once before the next frame. */
+  private draw(): void {
+    if (this.drawing) return;
+    this.drawing = true;
+    requestAnimationFrame(() => {
+      this.drawing = false;
+      this.paint();
+    });
+  }
+
+  private paint(): void {
+    const state = this.shownState;
+    const context = this.canvas.getContext("2d");
+    if (!state || !context) return;
+    const { width, height } = this.canvas;
+    const column = this.column(state.quantity);
+    let [low, high] = [Infinity, -Infinity];
+    for (const level of this.levels) {
+      for (const value of level.values) {
+        if (Number.isFinite(value)) {
+          if (value < low) low = value;
+          if (value > high) high = value;
+        }
+      }
+    }
+    const colours = scale(column, this.classes[column.name], low <= high ? [low, high] : [0, 1], state.hidden);
+    this.current = colours;
+    context.imageSmoothingEnabled = false;
+    context.fillStyle = "#ffffff";
+    context.fillRect(0, 0, width, height);
+    const before = this.pictureOf;
+    if (this.picture && before && before.x === state.x && before.y === state.y && before.quantity === state.quantity) {
+      const [x0, x1] = part(before.rangeX, state.rangeX);
+      const [y0, y1] = part(before.rangeY, state.rangeY);
+      context.drawImage(this.picture, x0 * width, (1 - y1) * height, (x1 - x0) * width, (y1 - y0) * height);
+    }
+    let any = false;
+    for (const level of this.levels) {
+      const image = new ImageData(level.wide, level.high);
+      let rows = 0;
+      for (let row = 0; row < level.high; row++) {
+        if (!level.known[row]) continue;
+        rows++;
+        for (let at = 0; at < level.wide; at++) {
+          const [r, g, b] = colours.colour(level.values[row * level.wide + at] as number) ?? NOTHING;
+          const pixel = 4 * ((level.high - 1 - row) * level.wide + at);
+          image.data[pixel] = r;
+          image.data[pixel + 1] = g;
+          image.data[pixel + 2] = b;
+          image.data[pixel + 3] = 255;
+        }
+      }
+      if (rows === 0) continue;
+      any = true;
+      const small = new OffscreenCanvas(level.wide, level.high);
+      small.getContext("2d")?.putImageData(image, 0, 0);
+      context.drawImage(small, 0, 0, width, height);
+    }
+    if (any) this.drawnState = state;
+    this.canvas.dispatchEvent(new Event("painted"));
+  }
+
+  /** The value at a place, as parts of both sides from the lower left; nothing where none is known. */
+  value(x: number, y: number): number | undefined {
+    for (const level of [...this.levels].reverse()) {
+      const row = Math.floor(y * level.high);
+      const at = Math.floor(x * level.wide);
+      if (row >= 0 && row < level.high && at >= 0 && at < level.wide && level.known[row]) return level.values[row * level.wide + at];
+    }
+    return undefined;
+  }
+
+  /** The finest level that is whole, for tests and pictures. */
+  finest(): { wide: number; high: number; values: Float64Array } | undefined {
+    return [...this.levels].reverse().find((level) => level.known.every((known) => known === 1));
+  }
+}
+
+/** Whether two states have the same cells. */
+function same(a: State, b: State): boolean {
+  const of = (state: State) => JSON.stringify([state.x, state.y, state.rangeX, state.rangeY, state.quantity, state.at]);
+  return of(a) === of(b);
+}
+
+/** Where an older range lies in a newer one, as parts of it. */
+function part(old: [number, number], now: [number, number]): [number, number] {
+  const length = now[1] - now[0];
+  return [(old[0] - now[0]) / length, (old[1] - now[0]) / length];
+}
+
+/** The question about rows of a level: each cell by its middle. */
+export function region(state: State, column: Column, [wide, high]: [number, number], [row, rows]: [number, number]): object {
+  const middle = ([low, high]: [number, number], place: number, of: number) => low + ((place + 0.5) / of) * (high - low);
+  return {
+    ask: "region",
+    x: { key: state.x, from: middle(state.rangeX, 0, wide), to: middle(state.rangeX, wide - 1, wide), points: wide },
+    y: { key: state.y, from: middle(state.rangeY, row, high), to: middle(state.rangeY, row + rows - 1, high), points: rows },
+    at: state.at,
+    response: column.response,
+    f32: column.response,
+    columns: [column.name],
+  };
+}

@@ -1,0 +1,66 @@
+//! The door to a page: memory of WebAssembly with a question in it, and an answer.
+//!
+//! The page asks for room ([`room`]), writes there, and calls [`open`] or [`ask`], which give the place of the answer's bytes; their
+//! length stands before it. One sweep is open at a time. A worker has a thread of its own, and so a sweep of its own.
+
+#![expect(unsafe_code, reason = "names that a page finds are written without Rust's own mangling")]
+
+use std::cell::RefCell;
+
+use crate::answer::Answer;
+use crate::explorer::Explorer;
+
+/// What stands in the memory that the page sees.
+#[derive(Default)]
+struct Memory {
+    explorer: Option<Explorer>,
+    question: Vec<u8>,
+    answer: Vec<u8>,
+}
+
+thread_local! {
+    static MEMORY: RefCell<Memory> = RefCell::default();
+}
+
+/// Room for a question of so many bytes: where to write it.
+#[unsafe(no_mangle)]
+pub extern "C" fn room(bytes: usize) -> *mut u8 {
+    MEMORY.with_borrow_mut(|memory| {
+        memory.question = vec![0; bytes];
+        memory.question.as_mut_ptr()
+    })
+}
+
+/// Opens the sweep whose description stands in the room: where the answer begins.
+#[unsafe(no_mangle)]
+pub extern "C" fn open() -> *const u8 {
+    answered(|memory| {
+        memory.explorer = None;
+        let explorer = Explorer::open(&memory.question)?;
+        let about = explorer.answer(r#"{"ask":"about"}"#)?;
+        memory.explorer = Some(explorer);
+        Ok(about)
+    })
+}
+
+/// Answers the question that stands in the room: where the answer begins.
+#[unsafe(no_mangle)]
+pub extern "C" fn ask() -> *const u8 {
+    answered(|memory| {
+        let question = str::from_utf8(&memory.question).map_err(|_| "this is no question: it is no UTF-8")?;
+        memory.explorer.as_ref().ok_or("no sweep is open")?.answer(question)
+    })
+}
+
+/// The bytes of the last answer.
+#[unsafe(no_mangle)]
+pub extern "C" fn length() -> usize {
+    MEMORY.with_borrow(|memory| memory.answer.len())
+}
+
+fn answered(answer: impl FnOnce(&mut Memory) -> Result<Answer, String>) -> *const u8 {
+    MEMORY.with_borrow_mut(|memory| {
+        memory.answer = answer(memory).unwrap_or_else(|sentence| Answer::error(&sentence)).bytes();
+        memory.answer.as_ptr()
+    })
+}

@@ -1,0 +1,45 @@
+//! The sweep of a region as a sweep file, and the command that computes it.
+
+use serde_json::{Value as Json, json};
+
+use crate::answer::Answer;
+use crate::opened::Opened;
+use crate::region::Region;
+
+/// The answer: `toml`, the text of a sweep file that `squealmap run` takes.
+///
+/// # Errors
+/// A sentence that names what is wrong, or which part of the sweep stands in a file of its own.
+pub fn file(opened: &Opened, region: &Region) -> Result<Answer, String> {
+    let spec = region.spec(opened)?;
+    let mut resolved = spec.resolved();
+    for (section, key) in
+        [("friction", "material"), ("friction", "materials"), ("friction", "table"), ("model", "content")]
+    {
+        if resolved[section].get(key).is_some() {
+            return Err(format!(
+                "`{key}` of [{section}] stands in a file of its own; take that sweep and change its axes"
+            ));
+        }
+    }
+    // Sides as ranges, not as values; what has one value stands in its section.
+    let sides = [&region.y, &region.x].map(|side| {
+        let mut axis = json!({ "from": side.from, "to": side.to, "points": side.points });
+        if side.log {
+            axis["scale"] = json!("log");
+        }
+        (side.key.clone(), axis)
+    });
+    let others: Vec<(String, Json)> =
+        region.at.iter().map(|(name, value)| (name.clone(), json!({ "values": [value] }))).collect();
+    resolved["axes"] = Json::Object(others.into_iter().chain(sides).collect());
+    if !spec.analysis.response {
+        let sections = resolved.as_object_mut().ok_or("a sweep has sections")?;
+        sections.remove("response");
+        sections.remove("start");
+    }
+    if resolved["title"] == "" {
+        resolved.as_object_mut().ok_or("a sweep has sections")?.remove("title");
+    }
+    Ok(Answer::of(json!({ "toml": toml::to_string(&resolved).map_err(|why| why.to_string())? })))
+}
