@@ -38,7 +38,7 @@ impl AccuracyArgs {
         if let Some(precision) = engine.precision {
             return Err(beside(format!("--precision {precision}")));
         }
-        let only_gpu = engine.strict || engine.require_gpu || engine.adapter.is_some();
+        let only_gpu = engine.strict || engine.require_gpu || !engine.adapter.is_empty();
         let backend = match engine.backend {
             Backend::Auto => only_gpu.then_some(Backend::Gpu),
             asked => Some(asked),

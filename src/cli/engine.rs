@@ -25,9 +25,9 @@ pub(crate) struct EngineArgs {
     /// A GPU rounds every operation by itself, like the twin of its kernel on the CPU; needs Vulkan
     #[arg(long)]
     pub(crate) strict: bool,
-    /// Only a GPU with this in its name; see `squealmap adapters`
+    /// A GPU with this in its name, see `squealmap adapters`; given several times, that many GPUs share the work
     #[arg(long, value_name = "NAME")]
-    pub(crate) adapter: Option<String>,
+    pub(crate) adapter: Vec<String>,
     /// Fail unless a hardware GPU computes
     #[arg(long)]
     pub(crate) require_gpu: bool,
@@ -50,7 +50,7 @@ impl EngineArgs {
             precision: self.precision,
             strict: self.strict,
             require_gpu: self.require_gpu,
-            adapter: self.adapter.as_deref(),
+            adapters: &self.adapter,
             chunk: None,
             cancel: Some(cancel),
             note: Some(note),

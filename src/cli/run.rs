@@ -121,7 +121,7 @@ impl Run {
             Some(choice) => {
                 say(&choice.chosen);
                 spec = choice.configuration.sweep(&spec);
-                Options { adapter: options.adapter, ..choice.configuration.options(&options) }
+                Options { adapters: options.adapters, ..choice.configuration.options(&options) }
             }
         };
         let mut solver = Solver::new(&spec, &options)?;

@@ -18,8 +18,8 @@ use crate::engine::reference::records::Scalar;
 /// When the backend that is asked for is not there, lacks the precision or cannot compute the analysis; when
 /// an option would have no effect on what computes.
 pub fn choose(options: &Options, spec: &dyn Instances) -> Result<Box<dyn Engine>> {
-    if let Some(name) = options.adapter.filter(|name| name.trim().is_empty()) {
-        return Err(Error::EmptyAdapter { name: name.to_owned() });
+    if let Some(name) = options.adapters.iter().find(|name| name.trim().is_empty()) {
+        return Err(Error::EmptyAdapter { name: name.clone() });
     }
     if spec.modal() && options.backend == Backend::Gpu {
         return Err(Error::ModalOnGpu);
@@ -42,8 +42,8 @@ fn cpu(options: &Options) -> Result<(Box<dyn Engine>, String)> {
     if options.strict {
         return Err(Error::CpuStrict);
     }
-    if let Some(name) = options.adapter {
-        return Err(Error::CpuAdapter { name: name.to_owned() });
+    if let Some(name) = options.adapters.first() {
+        return Err(Error::CpuAdapter { name: name.clone() });
     }
     if options.require_gpu {
         return Err(Error::CpuRequireGpu);

@@ -23,6 +23,18 @@ pub enum Error {
         /// What there is.
         names: String,
     },
+    /// A name that is given more often than there are adapters that have it.
+    #[error(
+        "--adapter {name} asks for {wanted} adapters with that in their names, but there are {found}; remove one"
+    )]
+    TooFewAdapters {
+        /// The part of a name.
+        name: String,
+        /// How many are asked for.
+        wanted: usize,
+        /// How many there are.
+        found: usize,
+    },
     /// An adapter without 64-bit arithmetic.
     #[error("{adapter} does not compute in f64 (SHADER_F64); use --precision f32 or --backend cpu")]
     NoF64 {
@@ -201,6 +213,7 @@ impl Error {
             Error::WithoutGpu
                 | Error::NoAdapter { .. }
                 | Error::NoSuchAdapter { .. }
+                | Error::TooFewAdapters { .. }
                 | Error::NoF64 { .. }
                 | Error::NoStrict { .. }
                 | Error::NoHardware { .. }

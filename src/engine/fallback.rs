@@ -88,9 +88,7 @@ fn only_on_gpu(options: &Options) -> Vec<String> {
     if options.strict {
         asked.push("--strict".to_owned());
     }
-    if let Some(name) = options.adapter {
-        asked.push(format!("--adapter {name}"));
-    }
+    asked.extend(options.adapters.iter().map(|name| format!("--adapter {name}")));
     if options.require_gpu {
         asked.push("--require-gpu".to_owned());
     }

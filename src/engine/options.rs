@@ -17,9 +17,9 @@ pub struct Options<'a> {
     pub strict: bool,
     /// An error unless a hardware GPU computes.
     pub require_gpu: bool,
-    /// Only adapters whose name contains this, in any case. An error where the CPU engine would compute, or
-    /// when it is blank.
-    pub adapter: Option<&'a str>,
+    /// For each of these an adapter whose name contains it, in any case; they share the work. None: all that are as the best
+    /// one. An error where the CPU engine would compute, or when one is blank.
+    pub adapters: &'a [String],
     /// Most instances of one chunk on a GPU; results do not depend on it.
     pub chunk: Option<usize>,
     /// Set to stop early.

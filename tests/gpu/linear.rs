@@ -103,15 +103,14 @@ fn lost() -> Result<(), Failed> {
         sizes.push(range.len());
         batch(&inputs, range)
     };
-    let result = session.each(1000, 1000, &drive(), prepare, |_, _, results| {
-        flags += results.iter().map(|((), result)| result.flags.len()).sum::<usize>();
-        Ok(Vec::new())
-    });
-    result?;
+    session.each(&KERNEL, [1000, 1000], &drive(), prepare, |(), result| {
+        flags += result.flags.len();
+        Ok(())
+    })?;
     assert_eq!(sizes, [1000, 500, 500], "the chunk is halved");
     assert_eq!(flags, expected.flags.len());
     session.device().destroy();
-    let again = session.each(1000, 1000, &drive(), |range| batch(&inputs, range), |_, _, _| Ok(Vec::new()));
+    let again = session.each(&KERNEL, [1000, 1000], &drive(), |range| batch(&inputs, range), |(), _| Ok(()));
     let message = again.err().map(|why| why.to_string()).unwrap_or_default();
     assert!(message.starts_with("the GPU was lost twice: "), "{message}");
     assert!(message.contains("0 of 1000 instances were done; use --backend cpu"), "{message}");
@@ -119,7 +118,7 @@ fn lost() -> Result<(), Failed> {
 }
 
 /// Some instances of word-major inputs.
-fn batch(inputs: &[f32], range: Range<usize>) -> Vec<Batch<f32, ()>> {
+fn batch(inputs: &[f32], range: Range<usize>) -> Batch<f32, ()> {
     let inputs = inputs.chunks(1000).flat_map(|word| word[range.clone()].iter().copied()).collect();
-    vec![Batch { kernel: KERNEL, choices: Vec::new(), inputs, before: None, memory: () }]
+    Batch { inputs, memory: () }
 }

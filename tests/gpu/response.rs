@@ -127,8 +127,10 @@ fn stops_early() -> Result<(), Failed> {
         // Instances at their start; the words of any later stretch are not theirs.
         let mut one = Marching::<f32>::new(0, &instances()[0], &way).map_err(Status::name)?;
         one.next(&way).ok_or("no stretch")?;
-        assert!(one.clone().take(&lane(&right, 0)).is_some());
-        assert!(one.take(&lane(&found, 0)).is_none(), "a stretch that did not come to its end was taken");
+        let (words, flags) = lane(&right, 0);
+        assert!(one.clone().take(&words, &flags).is_some());
+        let (words, flags) = lane(&found, 0);
+        assert!(one.take(&words, &flags).is_none(), "a stretch that did not come to its end was taken");
     }
     Ok(())
 }

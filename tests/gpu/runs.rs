@@ -121,8 +121,25 @@ fn two_adapters() -> Result<(), Failed> {
     let (_, listed, _) = squealmap(&["adapters"])?;
     assert_eq!(listed.matches("  kind      software").count(), 2, "{listed}");
     let name = listed.lines().next().ok_or("no name")?;
-    let (code, _, err) = squealmap(&["run", "belt.toml", "--backend", "gpu", "--adapter", name])?;
+    let one = ["run", "belt.toml", "--backend", "gpu", "--adapter", name];
+    let (code, _, err) = squealmap(&one)?;
     assert_eq!(code, Some(0), "{err}");
+    // Both of them, each with a name in the manifest, and the same table.
+    let (code, _, err) = squealmap(&[&one[..], &["--adapter", name, "-o", "both"]].concat())?;
+    assert_eq!(code, Some(0), "{err}");
+    let read = |path: &str| std::fs::read_to_string(directory.path().join(path));
+    assert_eq!(read("both/map.csv")?, read("out/belt/map.csv")?);
+    let manifest: serde_json::Value = serde_json::from_str(&read("both/manifest.json")?)?;
+    for part in ["linear", "response"] {
+        let adapters = manifest["computation"][part]["adapter"].as_str().unwrap_or_default();
+        assert_eq!(adapters.matches(name).count(), 2, "{part}: {adapters}");
+    }
+    let thrice = [&one[..], &["--adapter", name, "--adapter", name, "-o", "thrice"]].concat();
+    let (code, _, err) = squealmap(&thrice)?;
+    assert_eq!(code, Some(2), "{err}");
+    let few =
+        format!("--adapter {name} asks for 3 adapters with that in their names, but there are 2; remove one");
+    assert!(err.contains(&few), "{err}");
     let (code, _, err) = squealmap(&["run", "belt.toml", "--backend", "gpu", "--adapter", "abacus"])?;
     assert_eq!(code, Some(2), "{err}");
     assert!(err.contains(&format!("there are: {name}, {name}")), "{err}");

@@ -6,10 +6,13 @@ use crate::Case;
 use crate::differences::Differences;
 use crate::twin::outcomes;
 use libtest_mimic::Failed;
+use squealmap::engine::Engine;
 use squealmap::engine::backend::Backend;
 use squealmap::engine::computation::Stopped;
 use squealmap::engine::gpu::adapter::Adapter;
 use squealmap::engine::gpu::chunks::software_chunk;
+use squealmap::engine::gpu::device::Device;
+use squealmap::engine::gpu::records::Gpu;
 use squealmap::engine::options::Options;
 use squealmap::engine::plan::{Duration, Plan};
 use squealmap::engine::precision::Precision;
@@ -32,7 +35,9 @@ pub(crate) const CASES: &[Case] = &[
     ("sweeps::any_chunk_size_and_two_runs_give_the_same_records", any_chunk),
     ("sweeps::instances_that_cannot_start_keep_their_status", dead),
     ("sweeps::a_cancelled_sweep_keeps_what_is_finished", cancelled),
-    ("sweeps::a_cancelled_sweep_keeps_its_chunks", keeps_chunks),
+    ("sweeps::a_cancelled_sweep_keeps_what_was_told", keeps_told),
+    ("sweeps::any_number_of_devices_gives_the_same_records", several_devices),
+    ("sweeps::a_lost_device_loses_nothing", lost),
     ("sweeps::the_comparer_sees_another_scene", planted),
 ];
 
@@ -281,8 +286,9 @@ fn cancelled() -> Result<(), Failed> {
     Ok(())
 }
 
-/// The chunks are those that a software adapter takes by itself; elsewhere they are asked for.
-fn keeps_chunks() -> Result<(), Failed> {
+/// Every instance that was told as done is kept, as it is; the chunks are those that a software adapter takes by itself,
+/// elsewhere they are asked for.
+fn keeps_told() -> Result<(), Failed> {
     let chunk = software_chunk();
     let software = Adapter::best(Precision::F32, None)?.may_be_software();
     let spec = spec(&format!(
@@ -300,7 +306,6 @@ fn keeps_chunks() -> Result<(), Failed> {
         cancel: Some(&cancel),
         ..Options::default()
     };
-    // In the second chunk, whatever part of it is finished by then.
     let map = run::run(spec, &options, &|count| {
         if done.fetch_add(count, Ordering::Relaxed) + count > chunk {
             cancel.store(true, Ordering::Relaxed);
@@ -308,8 +313,71 @@ fn keeps_chunks() -> Result<(), Failed> {
     })?;
     println!("{} of {} instances were finished, chunks of {chunk}", map.computed(), 4 * chunk);
     assert_eq!(map.stopped, Some(Stopped::Cancelled));
-    assert_eq!(map.records[..chunk], whole.records[..chunk]);
-    assert!(map.records[2 * chunk..].iter().all(|record| *record == Record::NOT_COMPUTED));
+    assert_eq!(map.computed(), done.into_inner());
+    assert!(chunk < map.computed() && map.computed() < 4 * chunk);
+    for (found, expected) in map.records.iter().zip(&whole.records) {
+        assert!(*found == Record::NOT_COMPUTED || found == expected);
+    }
+    Ok(())
+}
+
+/// An engine on so many devices that are opened for it.
+fn devices(count: usize) -> Result<Vec<Device>, Failed> {
+    let adapter = Adapter::best(Precision::F32, None)?;
+    Ok((0..count).map(|_| Device::open(&adapter, Precision::F32)).collect::<Result<_, _>>()?)
+}
+
+/// The records of a sweep on some devices; `seen` gets the number of those that are newly done.
+fn records_on(
+    spec: &Spec,
+    devices: Vec<Device>,
+    chunk: usize,
+    seen: &(dyn Fn(usize) + Sync),
+) -> Result<Vec<Record>, Failed> {
+    let never = AtomicBool::new(false);
+    let computed = Gpu::new(devices, Some(chunk)).records(spec, 0..spec.grid.len(), &never, seen)?;
+    if let Some(why) = computed.stopped {
+        return Err(why.to_string().into());
+    }
+    Ok(computed.records)
+}
+
+/// The sweep of [`LAWS`] of one law, which few kernels compute, in a tenth of the time.
+fn one_law() -> Result<Spec, Failed> {
+    spec(
+        &LAWS
+            .replace("2 s", "0.2 s")
+            .replace("\"constant\", \"bilinear\", \"exponential\", \"rational\"", "\"bilinear\"")
+            .replace("stribeck_velocity = 2.0\ndecay = 0.2\n", ""),
+    )
+}
+
+fn several_devices() -> Result<(), Failed> {
+    let spec = one_law()?;
+    let whole = on_gpu(&spec, Precision::F32, None)?;
+    for (count, chunk) in [(2, 3), (3, 1)] {
+        let devices = devices(count)?;
+        let found = records_on(&spec, devices.clone(), chunk, &|_| {})?;
+        assert!(devices.iter().all(|device| device.metered().steps > 0), "a device did nothing");
+        assert!(found == whole.records, "{count} devices differ from one");
+    }
+    Ok(())
+}
+
+/// Lost when a part of the instances is done, with two more rounds under way: the others go on where they were.
+fn lost() -> Result<(), Failed> {
+    let spec = one_law()?;
+    let whole = on_gpu(&spec, Precision::F32, None)?;
+    for count in [1, 2] {
+        let devices = devices(count)?;
+        let (first, done) = (devices[0].clone(), AtomicUsize::new(0));
+        let found = records_on(&spec, devices, 3, &|count| {
+            if done.fetch_add(count, Ordering::Relaxed) + count > 5 {
+                first.destroy();
+            }
+        })?;
+        assert!(done.into_inner() == whole.records.len() && found == whole.records, "{count} devices");
+    }
     Ok(())
 }
 

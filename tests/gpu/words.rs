@@ -26,7 +26,6 @@ pub(crate) fn drive() -> Drive<'static> {
         steps: None,
         most_dispatches: 4,
         cancel: &NEVER,
-        counts: true,
         progress: &|_| {},
     }
 }

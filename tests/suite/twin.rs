@@ -12,7 +12,7 @@ use squealmap::engine::kernel::source::{Kernel, PROGRESS_WORDS, SETTING_WORDS, S
 use squealmap::engine::lanes::Lanes;
 use squealmap::engine::lanes::job::Part;
 use squealmap::engine::lanes::march::{Settings as OfLanes, Terms};
-use squealmap::engine::march::marching::{Form, Group, Marching, Way, groups};
+use squealmap::engine::march::marching::{Form, Marching, Stretch, Way};
 use squealmap::engine::march::table::{flag, state};
 use squealmap::engine::march::words::Words;
 use squealmap::engine::outcome::Outcome;
@@ -123,7 +123,7 @@ pub(crate) fn settings(way: &Way) -> [u32; SETTING_WORDS] {
 
 /// Stretches that share a kernel, as word-major inputs, state and flags.
 pub(crate) fn columns<R: Real>(rows: &[Words<R>]) -> (Vec<R>, (Vec<R>, Vec<u32>)) {
-    fn by_word<T: Copy, W>(rows: &[W], of: impl Fn(&W) -> &Vec<T>) -> Vec<T> {
+    fn by_word<T: Copy, W>(rows: &[W], of: impl Fn(&W) -> &[T]) -> Vec<T> {
         let words = rows.first().map_or(0, |row| of(row).len());
         (0..words).flat_map(|word| rows.iter().map(|row| of(row)[word]).collect::<Vec<T>>()).collect()
     }
@@ -136,6 +136,25 @@ pub(crate) fn lane<R: Real>(result: &ChunkResult<R>, lane: usize) -> (Vec<R>, Ve
     let of = |word: usize| word * count + lane;
     let state = (0..state::WORDS).map(|word| result.state[of(word)]).collect();
     (state, (0..flag::WORDS).map(|word| result.flags[of(word)]).collect())
+}
+
+/// Stretches that share a kernel.
+struct Group<R> {
+    form: Form,
+    marching: Vec<Marching<R>>,
+    rows: Vec<Words<R>>,
+}
+
+/// Stretches by their kernels, each group in the order of its instances.
+fn groups<R>(stretches: Vec<(Marching<R>, Stretch<R>)>) -> Vec<Group<R>> {
+    let mut groups: BTreeMap<Form, Group<R>> = BTreeMap::new();
+    for (one, (form, words)) in stretches {
+        let new = || Group { form, marching: Vec::new(), rows: Vec::new() };
+        let group = groups.entry(form).or_insert_with(new);
+        group.marching.push(one);
+        group.rows.push(words);
+    }
+    groups.into_values().collect()
 }
 
 /// A chunk of stretches that share a kernel, and what the twin makes of it.
@@ -176,7 +195,8 @@ pub(crate) fn outcomes_seen<R: Lanes, const W: usize>(
             let (inputs, before) = columns(&rows);
             let (result, count) = run::<R, W>(&program, kernel, &inputs, Some(&before), settings(&way));
             for (index, mut one) in marching.into_iter().enumerate() {
-                one.take(&lane(&result, index)).expect("a lane that the kernel has ended");
+                let (words, flags) = lane(&result, index);
+                one.take(&words, &flags).expect("a lane that the kernel has ended");
                 going.push(one);
             }
             seen(Chunk { form, inputs, before, result, count });
@@ -186,7 +206,7 @@ pub(crate) fn outcomes_seen<R: Lanes, const W: usize>(
     let settings =
         OfLanes { plan, tolerance: f64::from(way.tolerance), terms: Terms::default(), cancel: &cancel };
     for mut one in over {
-        R::run(std::slice::from_mut(&mut *one.job), &[Part::Phase], false, settings);
+        R::run(std::slice::from_mut(&mut one.job), &[Part::Phase], false, settings);
         made[one.index] = one.job.outcome(plan);
     }
     made

@@ -72,28 +72,45 @@ impl Adapter {
     /// # Errors
     /// When there is none, or none that has the arithmetic.
     pub fn best(arithmetic: impl Into<Arithmetic>, name: Option<&str>) -> Result<Adapter> {
-        let Arithmetic { precision, strict } = arithmetic.into();
+        let all = Adapter::all();
+        let best = best_of(&all, arithmetic.into(), name)?;
+        Ok(all[best].clone())
+    }
+
+    /// For each of the names the best adapter that has it and is not taken before; without any, the best one with all hardware
+    /// adapters that are as it is, whose results are the same.
+    ///
+    /// # Errors
+    /// As [`Adapter::best`]; when a name is given more often than there are adapters of it.
+    pub fn several(arithmetic: impl Into<Arithmetic>, names: &[String]) -> Result<Vec<Adapter>> {
+        let arithmetic = arithmetic.into();
         let mut all = Adapter::all();
-        if all.is_empty() {
-            return Err(Error::NoAdapter { remedy: MISSING_DRIVER });
-        }
-        if let Some(name) = name {
-            let names: Vec<String> = all.iter().map(|adapter| adapter.describe().name).collect();
-            all.retain(|adapter| adapter.describe().name.to_lowercase().contains(&name.to_lowercase()));
-            if all.is_empty() {
-                return Err(Error::NoSuchAdapter { name: name.to_owned(), names: names.join(", ") });
+        if names.is_empty() {
+            let best = all[best_of(&all, arithmetic, None)?].clone();
+            if best.may_be_software() {
+                return Ok(vec![best]);
             }
+            all.retain(|one| one.describe() == best.describe());
+            return Ok(all);
         }
-        all.sort_by_key(Adapter::rank);
-        let without = all[0].describe().to_string();
-        all.retain(|adapter| precision == Precision::F32 || adapter.describe().f64);
-        if all.is_empty() {
-            return Err(Error::NoF64 { adapter: without });
+        let (mut left, mut taken): (Vec<Adapter>, Vec<Adapter>) = (all.clone(), Vec::new());
+        for name in names {
+            let before = taken.iter().filter(|one| one.is_called(name)).count();
+            if before > 0 && !left.iter().any(|one| one.is_called(name)) {
+                return Err(Error::TooFewAdapters { name: name.clone(), found: before, wanted: before + 1 });
+            }
+            if left.is_empty() {
+                left.clone_from(&all);
+            }
+            let best = best_of(&left, arithmetic, Some(name))?;
+            taken.push(left.remove(best));
         }
-        let without = all[0].describe().to_string();
-        all.into_iter()
-            .find(|adapter| !strict || adapter.describe().strict)
-            .ok_or(Error::NoStrict { adapter: without })
+        Ok(taken)
+    }
+
+    /// Whether its name contains `name`, in any case.
+    fn is_called(&self, name: &str) -> bool {
+        self.describe().name.to_lowercase().contains(&name.to_lowercase())
     }
 
     /// Whether it is a program on the CPU.
@@ -141,4 +158,28 @@ impl Adapter {
             max_workgroups: limits.max_compute_workgroups_per_dimension,
         }
     }
+}
+
+/// The place of the best of some adapters, see [`Adapter::best`].
+fn best_of(
+    all: &[Adapter],
+    Arithmetic { precision, strict }: Arithmetic,
+    name: Option<&str>,
+) -> Result<usize> {
+    if all.is_empty() {
+        return Err(Error::NoAdapter { remedy: MISSING_DRIVER });
+    }
+    let mut places: Vec<usize> =
+        (0..all.len()).filter(|place| name.is_none_or(|name| all[*place].is_called(name))).collect();
+    if let (Some(name), true) = (name, places.is_empty()) {
+        let names: Vec<String> = all.iter().map(|adapter| adapter.describe().name).collect();
+        return Err(Error::NoSuchAdapter { name: name.to_owned(), names: names.join(", ") });
+    }
+    places.sort_by_key(|place| all[*place].rank());
+    let without = all[places[0]].describe().to_string();
+    places.retain(|place| precision == Precision::F32 || all[*place].describe().f64);
+    let Some(first) = places.first() else { return Err(Error::NoF64 { adapter: without }) };
+    let without = all[*first].describe().to_string();
+    let found = places.into_iter().find(|place| !strict || all[*place].describe().strict);
+    found.ok_or(Error::NoStrict { adapter: without })
 }

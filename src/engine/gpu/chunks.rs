@@ -1,4 +1,4 @@
-//! A whole sweep chunk by chunk; a lost device is opened again once, with half the work.
+//! Eigenvalues chunk by chunk; a lost device is opened again once, with half the work.
 
 use std::num::NonZero;
 use std::ops::Range;
@@ -9,7 +9,7 @@ use crate::engine::error::{Error, Result};
 use crate::engine::fields::words;
 use crate::engine::gpu::device::Device;
 use crate::engine::gpu::kernel::Compiled;
-use crate::engine::gpu::run::{ChunkResult, Drive, resume};
+use crate::engine::gpu::run::{ChunkResult, Drive, run};
 use crate::engine::kernel::scalar::Real;
 use crate::engine::kernel::source::{Constant, Kernel, WORKGROUP_SIZE};
 
@@ -28,26 +28,13 @@ pub fn software_chunk() -> usize {
 /// Constants that a scene selects.
 pub type Choices = Vec<(&'static str, Constant)>;
 
-/// Instances of one chunk that share a kernel.
+/// The instances of one chunk that need the kernel.
 #[derive(Debug)]
 pub struct Batch<R, T> {
-    /// The kernel.
-    pub kernel: Kernel,
-    /// The parts of the kernel that the scenes select.
-    pub choices: Choices,
     /// Word-major inputs; without any instance there is nothing to run, and nothing comes of it.
     pub inputs: Vec<R>,
-    /// Word-major state and flags that its instances have come to before; `None` at their start.
-    pub before: Option<(Vec<R>, Vec<u32>)>,
     /// Something to remember with the batch until its results come.
     pub memory: T,
-}
-
-impl<R, T> Batch<R, T> {
-    /// Its instances.
-    fn len(&self) -> usize {
-        self.inputs.len() / words(self.kernel.inputs).max(1)
-    }
 }
 
 /// A device with the kernels compiled for it.
@@ -90,21 +77,20 @@ impl Session {
             .max(1)
     }
 
-    /// Runs `total` instances in chunks of at most `chunk`.
+    /// Runs `total` instances through a kernel in chunks of at most `chunk`.
     ///
-    /// `prepare` makes the batches of a range, of as many instances as it likes. `accept` gets the range, whether it has got
-    /// it before, and each batch's memory and result, also of a chunk that was cancelled on its way. It returns the batches
-    /// that follow for the same range, and none when the range is done.
+    /// `prepare` makes the batch of a range; `accept` gets what it has remembered, and the result, also of a chunk that was
+    /// cancelled on its way.
     ///
     /// # Errors
-    /// Those of [`resume`]; a device lost for the second time.
+    /// Those of [`run`]; a device lost for the second time.
     pub fn each<R: Real, T>(
         &mut self,
-        total: usize,
-        chunk: usize,
+        kernel: &Kernel,
+        [total, chunk]: [usize; 2],
         drive: &Drive,
-        mut prepare: impl FnMut(Range<usize>) -> Vec<Batch<R, T>>,
-        mut accept: impl FnMut(Range<usize>, bool, Vec<(T, ChunkResult<R>)>) -> Result<Vec<Batch<R, T>>>,
+        mut prepare: impl FnMut(Range<usize>) -> Batch<R, T>,
+        mut accept: impl FnMut(T, ChunkResult<R>) -> Result<()>,
     ) -> Result<()> {
         let mut chunk = chunk.max(1);
         let mut start = 0;
@@ -113,51 +99,28 @@ impl Session {
             let range = start..(start + chunk).min(total);
             let done = AtomicUsize::new(0);
             // What a lost device had already reported is not reported again.
-            let report = |now: usize| {
+            let progress = |count: usize| {
+                let now = done.fetch_add(count, Ordering::Relaxed) + count;
                 let before = reported.fetch_max(now, Ordering::Relaxed);
                 if now > before {
                     (drive.progress)(now - before);
                 }
             };
-            let progress = |count: usize| {
-                if drive.counts {
-                    report(done.fetch_add(count, Ordering::Relaxed) + count);
-                }
-            };
-            let drive_chunk = Drive { offset: start, progress: &progress, ..*drive };
-            let mut batches = prepare(range.clone());
-            let mut again = false;
-            let ended = loop {
-                let results = match self.run(batches, &drive_chunk) {
-                    Ok(results) => results,
-                    Err(why) => break Err(why),
-                };
-                let cancelled = results.iter().any(|(_, result)| result.cancelled);
-                batches = accept(range.clone(), again, results)?;
-                if cancelled {
-                    return Err(Error::Cancelled { done: start, total });
-                }
-                if batches.is_empty() {
-                    break Ok(());
-                }
-                if !drive.counts {
-                    report(range.len().saturating_sub(batches.iter().map(Batch::len).sum()));
-                }
-                again = true;
-            };
-            match ended {
-                Ok(()) => {
-                    let rest = range.len().saturating_sub(reported.swap(0, Ordering::Relaxed));
-                    (drive.progress)(rest);
+            let Batch { inputs, memory } = prepare(range.clone());
+            let drive = Drive { offset: start, progress: &progress, ..*drive };
+            match self.one(kernel, &inputs, &drive) {
+                Ok(result) => {
+                    let cancelled = result.cancelled;
+                    accept(memory, result)?;
+                    if cancelled {
+                        return Err(Error::Cancelled { done: start, total });
+                    }
+                    progress(range.len().saturating_sub(done.load(Ordering::Relaxed)));
+                    reported.store(0, Ordering::Relaxed);
                     start = range.end;
                 }
-                Err(Error::DeviceLost { why }) if self.lost_once => {
-                    return Err(Error::DeviceLostAgain { why, done: start, total });
-                }
-                Err(Error::DeviceLost { .. }) => {
-                    self.device = self.device.reopen()?;
-                    self.compiled.clear();
-                    self.lost_once = true;
+                Err(Error::DeviceLost { why }) => {
+                    self.reopen(why, [start, total])?;
                     chunk = (chunk / 2).max(1);
                 }
                 Err(Error::Unwritten { instance }) => {
@@ -169,36 +132,38 @@ impl Session {
         Ok(())
     }
 
-    /// Runs the batches of one chunk.
-    fn run<R: Real, T>(
-        &mut self,
-        batches: Vec<Batch<R, T>>,
-        drive: &Drive,
-    ) -> Result<Vec<(T, ChunkResult<R>)>> {
-        let mut results = Vec::with_capacity(batches.len());
-        for batch in batches {
-            if batch.inputs.is_empty() {
-                results.push((batch.memory, ChunkResult::nothing(&batch.kernel, 0)));
-                continue;
-            }
-            let place = self.compiled(&batch.kernel, &batch.choices)?;
-            let result = match resume(
-                &self.device,
-                &self.compiled[place].1,
-                &batch.inputs,
-                batch.before.as_ref(),
-                drive,
-            ) {
-                Err(Error::Cancelled { total, .. }) => ChunkResult::nothing(&batch.kernel, total),
-                other => other?,
-            };
-            results.push((batch.memory, result));
+    /// Opens the device again that was lost, the first time.
+    ///
+    /// # Errors
+    /// When it is lost for the second time, or cannot be opened.
+    pub(super) fn reopen(&mut self, why: String, [done, total]: [usize; 2]) -> Result<()> {
+        if std::mem::replace(&mut self.lost_once, true) {
+            return Err(Error::DeviceLostAgain { why, done, total });
         }
-        Ok(results)
+        self.device = self.device.reopen()?;
+        self.compiled.clear();
+        Ok(())
+    }
+
+    /// Runs one chunk.
+    fn one<R: Real>(&mut self, kernel: &Kernel, inputs: &[R], drive: &Drive) -> Result<ChunkResult<R>> {
+        if inputs.is_empty() {
+            return Ok(ChunkResult::nothing(kernel, 0));
+        }
+        let place = self.compiled(kernel, &Choices::new())?;
+        match run(&self.device, &self.compiled[place].1, inputs, drive) {
+            Err(Error::Cancelled { total, .. }) => Ok(ChunkResult::nothing(kernel, total)),
+            other => other,
+        }
+    }
+
+    /// The kernel at a place.
+    pub(super) fn at(&self, place: usize) -> &Compiled {
+        &self.compiled[place].1
     }
 
     /// The place of a kernel, compiled at its first use.
-    fn compiled(&mut self, kernel: &Kernel, choices: &Choices) -> Result<usize> {
+    pub(super) fn compiled(&mut self, kernel: &Kernel, choices: &Choices) -> Result<usize> {
         let same = |(made, compiled): &(Choices, Compiled)| made == choices && compiled.kernel == *kernel;
         if let Some(place) = self.compiled.iter().position(same) {
             return Ok(place);

@@ -3,6 +3,7 @@
 use crate::engine::error::{Error, Result};
 use crate::engine::gpu::adapter::{Adapter, Description};
 use crate::engine::gpu::arithmetic::Arithmetic;
+use crate::engine::gpu::meter::{Meter, Metered};
 use crate::engine::precision::Precision;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -22,6 +23,7 @@ pub struct Device {
     adapter: Adapter,
     arithmetic: Arithmetic,
     lost: Arc<Lost>,
+    pub(super) meter: Arc<Meter>,
 }
 
 /// The words of the driver when the device is lost, and errors outside any scope.
@@ -76,7 +78,7 @@ impl Device {
         raw.set_device_lost_callback(move |reason, message| on_lost.set(format!("{reason:?} {message}")));
         let on_error = Arc::clone(&lost);
         raw.on_uncaptured_error(Arc::new(move |error: wgpu::Error| on_error.set(error.to_string())));
-        Ok(Device { raw, queue, adapter: adapter.clone(), arithmetic, lost })
+        Ok(Device { raw, queue, adapter: adapter.clone(), arithmetic, lost, meter: Arc::default() })
     }
 
     /// Opens the same adapter again, after a loss.
@@ -145,13 +147,37 @@ impl Device {
         }
     }
 
+    /// What it has done so far.
+    #[must_use]
+    pub fn metered(&self) -> Metered {
+        self.meter.read()
+    }
+
     /// Waits for everything submitted so far.
     ///
     /// # Errors
     /// When the device is lost or does not answer.
     pub fn wait(&self) -> Result<()> {
+        self.wait_until(None)
+    }
+
+    /// Waits for a submission, and for those before it.
+    ///
+    /// # Errors
+    /// When the device is lost or does not answer.
+    pub(super) fn wait_for(&self, submission: wgpu::SubmissionIndex) -> Result<()> {
+        self.wait_until(Some(submission))
+    }
+
+    /// Hears of what has come to its end, without waiting for it.
+    pub(super) fn listen(&self) {
+        // A loss is told by whatever is asked next.
+        let _ = self.raw.poll(wgpu::PollType::Poll);
+    }
+
+    fn wait_until(&self, submission_index: Option<wgpu::SubmissionIndex>) -> Result<()> {
         let patience = if self.adapter.is_software() { SOFTWARE_PATIENCE } else { PATIENCE };
-        let wait = wgpu::PollType::Wait { submission_index: None, timeout: Some(patience) };
+        let wait = wgpu::PollType::Wait { submission_index, timeout: Some(patience) };
         let polled = self.raw.poll(wait);
         self.alive()?;
         polled.map(|_| ()).map_err(|why| Error::DeviceLost { why: why.to_string() })

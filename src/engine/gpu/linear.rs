@@ -32,6 +32,52 @@ pub fn method() -> String {
     "two quadratic factors by a bracketed Newton search".to_owned()
 }
 
+/// As [`append`], on several devices, each with a part of the range.
+///
+/// # Errors
+/// Those of [`append`], of the first part that has any.
+pub fn on_all(
+    spec: &dyn Instances,
+    range: Range<usize>,
+    (sessions, chunk): (&mut [Session], Option<usize>),
+    cancel: &AtomicBool,
+    progress: &(dyn Fn(usize) + Sync),
+    records: &mut Vec<Record>,
+) -> Result<()> {
+    if let [session] = sessions {
+        return append(spec, range, (session, chunk), cancel, progress, records);
+    }
+    let share = range.len().div_ceil(sessions.len()).max(1);
+    let parts: Vec<(usize, Vec<Record>, Result<()>)> = sessions
+        .par_iter_mut()
+        .enumerate()
+        .map(|(number, session)| {
+            let start = (range.start + number * share).min(range.end);
+            let part = start..(start + share).min(range.end);
+            let mut made = Vec::with_capacity(part.len());
+            let ended = append(spec, part, (session, chunk), cancel, progress, &mut made);
+            (start - range.start, made, ended)
+        })
+        .collect();
+    for (before, made, ended) in parts {
+        records.extend(made);
+        ended.map_err(|why| counted_behind(before, range.len(), why))?;
+    }
+    Ok(())
+}
+
+/// An error of a part of `total` instances that begins behind `before` of them.
+fn counted_behind(before: usize, total: usize, why: Error) -> Error {
+    match why {
+        Error::Unwritten { instance } => Error::Unwritten { instance: before + instance },
+        Error::Cancelled { done, .. } => Error::Cancelled { done: before + done, total },
+        Error::DeviceLostAgain { why, done, .. } => {
+            Error::DeviceLostAgain { why, done: before + done, total }
+        }
+        other => other,
+    }
+}
+
 /// Appends the records of the instances `range` of a sweep with their linear part, in the order of its grid; when
 /// it ends early, those behind them are not computed. Instances in errors count from the start of the range.
 ///
@@ -69,20 +115,16 @@ fn append_in<R: Real>(
         steps: None,
         most_dispatches: MOST_DISPATCHES,
         cancel,
-        counts: true,
         progress,
     };
     let first = range.start;
     let prepare = |part: Range<usize>| {
         let known: Vec<Known> = part.into_par_iter().map(|index| known(spec, first + index)).collect();
         let inputs = inputs(&known);
-        vec![Batch { kernel: KERNEL, choices: Vec::new(), inputs, before: None, memory: known }]
+        Batch { inputs, memory: known }
     };
-    let accept = |_: Range<usize>, _: bool, results: Vec<(Vec<Known>, ChunkResult<R>)>| {
-        results.into_iter().try_for_each(|(known, result)| take(records, known, &result))?;
-        Ok(Vec::new())
-    };
-    session.each(range.len(), chunk, &drive, prepare, accept)
+    let accept = |known: Vec<Known>, result: ChunkResult<R>| take(records, known, &result);
+    session.each(&KERNEL, [range.len(), chunk], &drive, prepare, accept)
 }
 
 /// Instance `index` before the kernel.

@@ -7,21 +7,28 @@
 //! - `open.rs`: the one that a sweep is to be computed on, as an engine.
 //! - [`strict`]: a kernel in which every operation is rounded by itself.
 //! - [`run`]: one chunk of instances through a kernel, dispatch by dispatch.
-//! - [`chunks`]: a whole sweep chunk by chunk; a lost device is opened again once.
+//! - [`chunks`]: eigenvalues chunk by chunk; a lost device is opened again once.
 //! - [`linear`]: the eigenvalue analysis of a sweep.
 //! - [`response`]: the time integration of a sweep.
+//! - `stream.rs`: the instances of a sweep that pass through the lanes of one device or several.
+//! - `arena.rs`, `buffers.rs`: lanes of a device, rounds of dispatches; their buffers.
 //! - `columns.rs`: words of instances in buffers.
+//! - [`meter`]: what a device was given to do.
 //! - [`records`]: a GPU as an engine: both of them, one after the other.
 
 pub mod adapter;
+mod arena;
 pub mod arithmetic;
+mod buffers;
 pub mod chunks;
 mod columns;
 pub mod device;
 pub mod kernel;
 pub mod linear;
+pub mod meter;
 pub(crate) mod open;
 pub mod records;
 pub mod response;
 pub mod run;
+mod stream;
 pub mod strict;

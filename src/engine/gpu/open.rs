@@ -20,38 +20,42 @@ pub(crate) fn asked(options: &Options, spec: &dyn Instances) -> Result<(Box<dyn 
         if options.require_gpu { NoGpu::Failed(why).refusal(&asked, true) } else { why }
     })?;
     let asked = arithmetic(options);
-    let adapter = Adapter::best(asked, options.adapter)?;
-    if options.require_gpu && adapter.is_software() {
-        return Err(Error::NoHardware { instead: adapter.describe().to_string() });
+    let adapters = Adapter::several(asked, options.adapters)?;
+    let software = adapters.iter().find(|adapter| adapter.is_software());
+    if let Some(software) = software.filter(|_| options.require_gpu) {
+        return Err(Error::NoHardware { instead: software.describe().to_string() });
     }
-    let why = if adapter.is_software() {
-        "the best adapter there is, but it is software on the CPU and slower than --backend cpu"
-    } else {
-        "as asked for"
-    };
-    let (engine, on) = engine(Device::open(&adapter, asked)?, options);
+    let why =
+        if software.is_none() || !options.adapters.is_empty() && !adapters.iter().all(Adapter::is_software) {
+            "as asked for"
+        } else {
+            "the best adapter there is, but it is software on the CPU and slower than --backend cpu"
+        };
+    let (engine, on) = engine(&adapters, options)?;
     Ok((engine, on, why.to_owned()))
 }
 
-/// The best hardware GPU, and what is said of it.
+/// The best hardware GPUs, and what is said of them.
 pub(crate) fn hardware(
     options: &Options,
     spec: &dyn Instances,
 ) -> std::result::Result<(Box<dyn Engine>, String), NoGpu> {
     response::check(spec).map_err(NoGpu::Failed)?;
-    let asked = arithmetic(options);
-    let adapter = Adapter::best(asked, options.adapter).map_err(NoGpu::Failed)?;
-    if adapter.is_software() {
-        return Err(NoGpu::Software(adapter.describe().to_string()));
+    let adapters = Adapter::several(arithmetic(options), options.adapters).map_err(NoGpu::Failed)?;
+    if let Some(software) = adapters.iter().find(|adapter| adapter.is_software()) {
+        return Err(NoGpu::Software(software.describe().to_string()));
     }
-    Ok(engine(Device::open(&adapter, asked).map_err(NoGpu::Failed)?, options))
+    engine(&adapters, options).map_err(NoGpu::Failed)
 }
 
-/// An open device as an engine, and what is said of it.
-fn engine(device: Device, options: &Options) -> (Box<dyn Engine>, String) {
-    let strict = if device.strict() { "strict " } else { "" };
-    let on = format!("on {} in {strict}{}", device.describe(), device.precision());
-    (Box::new(Gpu::new(device, options.chunk)), on)
+/// Adapters, opened, as an engine, and what is said of it.
+fn engine(adapters: &[Adapter], options: &Options) -> Result<(Box<dyn Engine>, String)> {
+    let asked = arithmetic(options);
+    let devices = adapters.iter().map(|adapter| Device::open(adapter, asked)).collect::<Result<Vec<_>>>()?;
+    let names: Vec<String> = adapters.iter().map(|adapter| adapter.describe().to_string()).collect();
+    let strict = if asked.strict { "strict " } else { "" };
+    let on = format!("on {} in {strict}{}", names.join(" and "), asked.precision);
+    Ok((Box::new(Gpu::new(devices, options.chunk)), on))
 }
 
 /// What a GPU computes in.

@@ -15,21 +15,25 @@ use crate::engine::instances::Instances;
 use crate::engine::precision::Precision;
 use crate::engine::record::Record;
 
-/// The least that a GPU takes, which takes a range at once.
+/// The least that a GPU takes, which takes a range at once; of a program on the CPU, which takes minutes for it.
 const BLOCK: usize = 65_536;
 
-/// A GPU, whose kernels stay compiled.
+/// The least that hardware takes: some times as many as it has places for, whose records take 200 MB.
+const OF_HARDWARE: usize = 4 * BLOCK;
+
+/// GPUs that share the work; their kernels stay compiled.
 #[derive(Debug)]
 pub struct Gpu {
-    session: Session,
+    sessions: Vec<Session>,
     chunk: Option<usize>,
 }
 
 impl Gpu {
-    /// An open device; `chunk` is the most of one chunk, on which results do not depend.
+    /// Open devices, at least one, all of one arithmetic; `chunk` is the most of one chunk. Results depend on neither the
+    /// chunks nor on which device takes them.
     #[must_use]
-    pub fn new(device: Device, chunk: Option<usize>) -> Gpu {
-        Gpu { session: Session::new(device), chunk }
+    pub fn new(devices: Vec<Device>, chunk: Option<usize>) -> Gpu {
+        Gpu { sessions: devices.into_iter().map(Session::new).collect(), chunk }
     }
 }
 
@@ -39,16 +43,18 @@ impl Engine for Gpu {
     }
 
     fn precision(&self) -> Precision {
-        self.session.device().precision()
+        self.sessions[0].device().precision()
     }
 
     fn computations(&self, steps_per_period: u32) -> [Computation; 2] {
-        let device = self.session.device();
+        let device = self.sessions[0].device();
+        let names: Vec<String> =
+            self.sessions.iter().map(|one| one.device().describe().to_string()).collect();
         [linear::method(), response::method(device, steps_per_period)].map(|method| Computation {
             backend: Backend::Gpu.name().to_owned(),
             precision: device.precision().to_string(),
             method,
-            adapter: Some(device.describe().to_string()),
+            adapter: Some(names.join("; ")),
             strict: Some(device.strict()),
         })
     }
@@ -60,11 +66,13 @@ impl Engine for Gpu {
         cancel: &AtomicBool,
         progress: &(dyn Fn(usize) + Sync),
     ) -> Result<Computed> {
-        records(instances, range, (&mut self.session, self.chunk), cancel, progress)
+        records(instances, range, (&mut self.sessions, self.chunk), cancel, progress)
     }
 
     fn busy_with(&self, _: usize, starts: usize) -> usize {
-        BLOCK.div_ceil(starts)
+        let is_software = self.sessions.iter().any(|session| session.device().is_software());
+        let least = if is_software { BLOCK } else { OF_HARDWARE };
+        least.div_ceil(starts)
     }
 
     fn at_once(&self, instances: usize) -> usize {
@@ -77,7 +85,7 @@ impl Engine for Gpu {
 fn records(
     spec: &dyn Instances,
     range: Range<usize>,
-    (session, chunk): (&mut Session, Option<usize>),
+    (sessions, chunk): (&mut [Session], Option<usize>),
     cancel: &AtomicBool,
     progress: &(dyn Fn(usize) + Sync),
 ) -> Result<Computed> {
@@ -87,13 +95,13 @@ fn records(
     let mut ended = Ok(());
     if eigenvalues {
         let progress = if transients { &|_: usize| {} } else { progress };
-        ended = linear::append(spec, range, (session, chunk), cancel, progress, &mut records)
+        ended = linear::on_all(spec, range, (sessions, chunk), cancel, progress, &mut records)
             .map_err(|why| counted_from(first, why));
     }
     if transients {
         ended?;
         records.resize(total, Record::default());
-        ended = response::complete(spec, first, (session, chunk), cancel, progress, &mut records)
+        ended = response::complete(spec, first, (sessions, chunk), cancel, progress, &mut records)
             .map_err(|why| counted_from(first, why));
     }
     Computed::new(records, total, ended)

@@ -24,7 +24,7 @@ const AIM: Duration = Duration::from_millis(75);
 const GROWTH: f64 = 4.0;
 
 /// Steps of the first dispatch.
-const FIRST: u32 = 64;
+pub(super) const FIRST: u32 = 64;
 
 /// How a kernel is driven.
 #[derive(Clone, Copy)]
@@ -39,8 +39,6 @@ pub struct Drive<'a> {
     pub most_dispatches: u64,
     /// Set to stop: between two dispatches.
     pub cancel: &'a AtomicBool,
-    /// Whether a lane that has ended is an instance that is done; else those are that no batch follows for.
-    pub counts: bool,
     /// Gets the number of newly finished instances.
     pub progress: &'a (dyn Fn(usize) + Sync),
 }
@@ -120,6 +118,8 @@ pub fn resume<R: Real>(
         return Err(Error::Cancelled { done: 0, total: count });
     }
     let [state, flags] = read(device, [&buffers.state, &buffers.flags], sizes)?;
+    let up = size_of_val(inputs) + if before.is_some() { sizes[0] + sizes[1] } else { 0 };
+    device.meter.carry(up, sizes[0] + sizes[1]);
     let result = ChunkResult { state: cast(&state), flags: cast(&flags), cancelled };
     check(&result, count, compiled.words())?;
     Ok(result)
@@ -206,8 +206,7 @@ fn dispatch(
     drive: &Drive,
 ) -> Result<usize> {
     let name = compiled.kernel.name;
-    let per_step = if device.is_software() { compiled.kernel.loops_per_step.max(1) } else { 1 };
-    let most = (MAX_LOOPS / per_step).max(1);
+    let most = most_steps(device, &compiled.kernel);
     let mut steps = drive.steps.unwrap_or(FIRST).min(most);
     let mut finished = 0;
     for _ in 0..drive.most_dispatches {
@@ -243,8 +242,14 @@ fn dispatch(
     Err(Error::Endless { kernel: name, finished, count, dispatches: drive.most_dispatches })
 }
 
+/// Most steps of a kernel in one dispatch.
+pub(super) fn most_steps(device: &Device, kernel: &Kernel) -> u32 {
+    let per_step = if device.is_software() { kernel.loops_per_step.max(1) } else { 1 };
+    (MAX_LOOPS / per_step).max(1)
+}
+
 /// The steps that bring a dispatch of `steps` in `elapsed` to the time it aims at.
-fn adapted(steps: u32, elapsed: Duration) -> u32 {
+pub(super) fn adapted(steps: u32, elapsed: Duration) -> u32 {
     let factor = (AIM.as_secs_f64() / elapsed.as_secs_f64().max(1e-9)).min(GROWTH);
     #[expect(
         clippy::cast_possible_truncation,

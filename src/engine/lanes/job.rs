@@ -188,20 +188,25 @@ impl<T: Real> Job<T> {
             Part::Window => self.time < self.marks[2],
             Part::Return => self.flight.is_open(),
             Part::Phase => {
-                let Some(snapshot) = self.snapshot.take() else { return false };
-                // The single mass has no phase.
-                if self.seen.crossings < 2 || self.seen.last <= self.seen.first || self.is_single() {
-                    return false;
-                }
-                if let Some(phase) = self.components(PHASE_ERROR * tolerance) {
-                    self.seen.phase = phase;
-                    return false;
-                }
+                let told = self.tells_phase(tolerance);
+                let Some(snapshot) = self.snapshot.take().filter(|_| !told) else { return false };
                 self.state.return_to(&snapshot);
                 self.time = self.marks[0];
                 true
             }
         }
+    }
+
+    /// Whether the window needs no second pass: it has no phase, or its stretches tell it.
+    pub fn tells_phase(&mut self, tolerance: f64) -> bool {
+        // The single mass has no phase.
+        let none = self.seen.crossings < 2 || self.seen.last <= self.seen.first || self.is_single();
+        if self.state.status != Status::Unwritten || self.is_over || self.snapshot.is_none() || none {
+            return true;
+        }
+        let phase = self.components(PHASE_ERROR * tolerance);
+        self.seen.phase = phase.unwrap_or(self.seen.phase);
+        phase.is_some()
     }
 
     /// Whether the window has begun.

@@ -31,6 +31,13 @@ pub struct Stretches {
 }
 
 impl Stretches {
+    /// These without any, in the memory that they had.
+    #[must_use]
+    pub fn cleared(mut self) -> Stretches {
+        self.whole.clear();
+        Stretches { whole: self.whole, ..Stretches::default() }
+    }
+
     /// How many there are.
     #[must_use]
     pub fn len(&self) -> usize {

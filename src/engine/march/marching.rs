@@ -1,7 +1,5 @@
 //! An instance on its way through the kernel, stretch by stretch.
 
-use std::collections::BTreeMap;
-
 use crate::engine::fields::words;
 use crate::engine::kernel::source::{Constant, Kernel};
 use crate::engine::lanes::ORDER;
@@ -61,37 +59,12 @@ impl Form {
     /// Its input words of one instance.
     #[must_use]
     pub fn inputs(&self) -> usize {
-        self.kernel().map_or(0, |(kernel, _)| words(kernel.inputs))
+        kernel_for(self.pieces).map_or(0, |(kernel, _)| words(kernel.inputs))
     }
 }
 
 /// A stretch that is to be run: its kernel and its words.
 pub type Stretch<R> = (Form, Words<R>);
-
-/// Stretches that share a kernel.
-#[derive(Clone, Debug)]
-pub struct Group<R> {
-    /// Their kernel.
-    pub form: Form,
-    /// Their instances.
-    pub marching: Vec<Marching<R>>,
-    /// Their words.
-    pub rows: Vec<Words<R>>,
-}
-
-/// Stretches by their kernels, each group in their order: neighbours of a sweep are as alike as those with as many events and
-/// steps in their last stretch (44 and 44 % of the lanes of a warp of 32 at work).
-#[must_use]
-pub fn groups<R>(stretches: Vec<(Marching<R>, Stretch<R>)>) -> Vec<Group<R>> {
-    let mut groups: BTreeMap<Form, Group<R>> = BTreeMap::new();
-    for (one, (form, words)) in stretches {
-        let new = || Group { form, marching: Vec::new(), rows: Vec::new() };
-        let group = groups.entry(form).or_insert_with(new);
-        group.marching.push(one);
-        group.rows.push(words);
-    }
-    groups.into_values().collect()
-}
 
 /// An instance on its way.
 #[derive(Clone, Debug)]
@@ -99,7 +72,7 @@ pub struct Marching<R> {
     /// Its number among those of the run.
     pub index: usize,
     /// What it has come to.
-    pub job: Box<Job<R>>,
+    pub job: Job<R>,
     /// The part of its run that it has come to; `None` before the first.
     part: Option<Part>,
     /// Whether that part may have another stretch.
@@ -116,18 +89,24 @@ impl<R: Lanes> Marching<R> {
     pub fn new(index: usize, instance: &Instance, way: &Way) -> Result<Marching<R>, Status> {
         let scene = Scene::planned(instance, &way.plan)?;
         let (_, pieces) = kernel_for(scene.model.law.pieces.len()).ok_or(Status::Unwritten)?;
-        let job = Box::new(Job::new(instance, scene, &way.plan, &way.turns));
+        let job = Job::new(instance, scene, &way.plan, &way.turns);
         Ok(Marching { index, job, part: None, open: false, pieces })
     }
 
     /// Its next stretch and the kernel for it; `None` when nothing is left but a second pass over the window.
     pub fn next(&mut self, way: &Way) -> Option<Stretch<R>> {
+        let mut words = Words::blank();
+        self.next_in(way, &mut words).map(|form| (form, words))
+    }
+
+    /// As [`Marching::next`], in the place of the stretch before.
+    pub fn next_in(&mut self, way: &Way, words: &mut Words<R>) -> Option<Form> {
         loop {
             if let Some(part) = self.part.filter(|_| self.open)
-                && let Some(words) = begin(&mut self.job, part, &way.plan, self.pieces)
+                && begin(&mut self.job, part, &way.plan, self.pieces, words).is_some()
             {
                 let ramp = words.inputs[head::DRIVE] != R::ZERO;
-                return Some((Form { part, law: self.job.law(), pieces: self.pieces, ramp }, words));
+                return Some(Form { part, law: self.job.law(), pieces: self.pieces, ramp });
             }
             let part = match self.part {
                 None => Part::Growth,
@@ -142,7 +121,7 @@ impl<R: Lanes> Marching<R> {
     }
 
     /// Takes what has come of its stretch; `None` when the kernel cannot have made it.
-    pub fn take(&mut self, (words, flags): &(Vec<R>, Vec<u32>)) -> Option<()> {
+    pub fn take(&mut self, words: &[R], flags: &[u32]) -> Option<()> {
         let part = self.part?;
         take(&mut self.job, part, words, flags)?;
         let ended = part == Part::Growth && !self.job.growing;

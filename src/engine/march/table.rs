@@ -42,6 +42,7 @@ pub mod piece {
 
 /// What is carried of a lane between dispatches, and what it has seen in its stretch.
 pub mod state {
+    use crate::engine::lanes::job::Part;
     use crate::engine::lanes::spectrum::COMPONENTS;
     use crate::engine::sums::{growth, peak, sum};
 
@@ -54,16 +55,26 @@ pub mod state {
         PREVIOUS 1, "`ẋ2` at the end of the step before.";
         FIRST 1, "Time of the first crossing.";
         LAST 1, "Time of the last crossing.";
+        GROWTH growth::WORDS, "Sums before the first event.";
         ORIGIN 2, "`x2` and `y1` at the start of the window.";
         WINDOW sum::WORDS, "Sums of the window.";
         PEAKS peak::WORDS, "Largest values.";
-        GROWTH growth::WORDS, "Sums before the first event.";
         OMEGA 1, "The guess of the frequency.";
         CARRIER 2, "`exp(−iω′(t − t_m))`.";
         SCALE 1, "`1/T`.";
         CLOSING 1, "The time from which crossings are noted.";
         SPECTRUM COMPONENTS, "Fourier sums up to now.";
         NOTED COMPONENTS, "Fourier sums up to the last crossing that was noted.";
+    }
+
+    /// How many of the words, from the first on, a part of a run reads or writes.
+    #[must_use]
+    pub const fn words_of(part: Part) -> usize {
+        match part {
+            Part::Settle => GROWTH,
+            Part::Growth => ORIGIN,
+            _ => WORDS,
+        }
     }
 }
 

@@ -2,6 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use smallvec::SmallVec;
+
 use crate::engine::kernel::scalar::Real;
 use crate::engine::lanes::block::{FIRST, SECOND, THIRD, event_of};
 use crate::engine::lanes::constants::LAYER;
@@ -14,20 +16,38 @@ use crate::engine::scene::MOST_STEPS;
 use crate::engine::sums::sum;
 use crate::model::status::Status;
 
+/// Input words that a lane holds without an allocation: those of laws of two pieces.
+const INPUTS: usize = head::WORDS + 2 * piece::WORDS;
+
 /// The words of one lane.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Words<R> {
     /// Constants, stretch, and pieces of the law.
-    pub inputs: Vec<R>,
+    pub inputs: SmallVec<[R; INPUTS]>,
     /// What is carried between dispatches.
-    pub state: Vec<R>,
+    pub state: [R; state::WORDS],
     /// Counters and switches.
-    pub flags: Vec<u32>,
+    pub flags: [u32; flag::WORDS],
 }
 
-/// Begins the next stretch of a part of a job for a kernel of so many pieces; `None` at the end of the part.
+impl<R: Real> Words<R> {
+    /// Those of no stretch.
+    #[must_use]
+    pub fn blank() -> Words<R> {
+        Words { inputs: SmallVec::new(), state: [R::ZERO; state::WORDS], flags: [0; flag::WORDS] }
+    }
+}
+
+/// Begins the next stretch of a part of a job for a kernel of so many pieces, in the place of the one before; `None` at the end
+/// of the part.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "counts are words of a kernel")]
-pub fn begin<R: Real>(job: &mut Job<R>, part: Part, plan: &Plan, pieces: usize) -> Option<Words<R>> {
+pub fn begin<R: Real>(
+    job: &mut Job<R>,
+    part: Part,
+    plan: &Plan,
+    pieces: usize,
+    words: &mut Words<R>,
+) -> Option<()> {
     if part == Part::Window {
         job.open_window();
     }
@@ -37,7 +57,8 @@ pub fn begin<R: Real>(job: &mut Job<R>, part: Part, plan: &Plan, pieces: usize) 
     let [most_steps, most_events] = job.count.most([job.time, job.until], left);
     let belt = job.scene.belt(job.time);
 
-    let mut inputs = vec![R::ZERO; head::WORDS + pieces * piece::WORDS];
+    let Words { inputs, state: words, flags } = words;
+    inputs.resize(head::WORDS + pieces * piece::WORDS, R::ZERO);
     inputs[..head::STEP].copy_from_slice(&job.constants[..head::STEP]);
     inputs[head::V0] = job.words.v0;
     inputs[head::STEP] = R::from_f64(step);
@@ -49,7 +70,7 @@ pub fn begin<R: Real>(job: &mut Job<R>, part: Part, plan: &Plan, pieces: usize) 
         words.copy_from_slice(&[one.at_zero, one.slope, one.rate, one.offset, one.kink]);
     }
 
-    let mut words = vec![R::ZERO; state::WORDS];
+    words.fill(R::ZERO);
     let body = &job.state.body;
     words[state::BODY..state::BODY + 3].copy_from_slice(&body.p);
     words[state::BODY + 3..state::BODY + 6].copy_from_slice(&body.v);
@@ -69,7 +90,7 @@ pub fn begin<R: Real>(job: &mut Job<R>, part: Part, plan: &Plan, pieces: usize) 
         words[state::CLOSING] = R::from_f64(job.marks[2] - job.time - CLOSING * TAU / omega);
     }
 
-    let mut flags = vec![0; flag::WORDS];
+    flags.fill(0);
     flags[flag::STATUS] = Status::Unwritten as u32;
     flags[flag::CONTACT] = job.state.contact;
     flags[flag::PIECE] = if job.state.contact == STICK { 0 } else { job.state.piece };
@@ -83,7 +104,7 @@ pub fn begin<R: Real>(job: &mut Job<R>, part: Part, plan: &Plan, pieces: usize) 
     flags[flag::MOST_EVENTS] = most_events.max(0.0) as u32;
     flags[flag::GROWING] = u32::from(job.growing);
     flags[flag::BEGUN] = u32::from(begun);
-    Some(Words { inputs, state: words, flags })
+    Some(())
 }
 
 /// Takes what the kernel has made of a stretch; `None` when its status is none that it may have, or it says that it came to

@@ -60,8 +60,8 @@ impl Configuration {
     /// The options that compute like this, everything else as in `options`.
     #[must_use]
     pub fn options<'a>(&'a self, options: &Options<'a>) -> Options<'a> {
-        let adapter = self.adapter.as_deref();
-        Options { backend: self.backend, precision: Some(self.precision), adapter, ..*options }
+        let adapters = self.adapter.as_slice();
+        Options { backend: self.backend, precision: Some(self.precision), adapters, ..*options }
     }
 
     /// The sweep with the steps of this.

@@ -26,20 +26,20 @@ fn begun(way: &Way) -> (Marching<f32>, (Vec<f32>, Vec<u32>)) {
 fn words_that_are_no_finished_stretch_are_refused() {
     let way = Way::new::<f32>(plan(1.0, 1.0, 12));
     let (one, right) = begun(&way);
-    assert!(one.clone().take(&right).is_some());
+    assert!(one.clone().take(&right.0, &right.1).is_some());
     for code in [0, Status::NotComputed as u32, 77] {
         let mut wrong = right.clone();
         wrong.1[flag::STATUS] = code;
-        assert!(one.clone().take(&wrong).is_none(), "status {code}");
+        assert!(one.clone().take(&wrong.0, &wrong.1).is_none(), "status {code}");
     }
     let blank = (vec![0.0; state::WORDS], vec![0; flag::WORDS]);
-    assert!(one.clone().take(&blank).is_none(), "an unwritten lane");
+    assert!(one.clone().take(&blank.0, &blank.1).is_none(), "an unwritten lane");
     let mut early = right;
     early.0[state::LEFT] = 0.5;
-    assert!(one.clone().take(&early).is_none(), "it says that it came to its end and did not");
+    assert!(one.clone().take(&early.0, &early.1).is_none(), "it says that it came to its end and did not");
     // Up to the first event alone a stretch may end before.
     early.1[flag::EVENTFUL] = 1;
-    assert!(one.clone().take(&early).is_some());
+    assert!(one.clone().take(&early.0, &early.1).is_some());
 }
 
 /// A sum that is no number makes no result.
@@ -49,7 +49,7 @@ fn a_sum_that_is_no_number_is_told() {
     let end = |fault: Option<f32>| -> Outcome {
         let (mut one, mut words) = begun(&way);
         loop {
-            one.take(&words).expect("a finished stretch");
+            one.take(&words.0, &words.1).expect("a finished stretch");
             let Some((form, next)) = one.next(&way) else { return one.job.outcome(&way.plan) };
             let (kernel, program) = program(form, Precision::F32);
             let (inputs, before) = columns(&[next]);

@@ -1,0 +1,56 @@
+//! The buffers that a device computes in, and those through which it is reached.
+
+use crate::engine::error::Result;
+use crate::engine::gpu::device::Device;
+use crate::engine::kernel::source::PROGRESS_WORDS;
+
+/// What the places of bindings in a buffer are multiples of, bytes: the most that an adapter may ask for.
+pub(super) const ALIGNED: usize = 256;
+
+/// Most groups of a round: by parts, forms of laws, numbers of pieces, ramps.
+const GROUPS: usize = 128;
+
+/// Buffers of a device, of so many bytes.
+pub(super) struct Buffers {
+    pub(super) sizes: [usize; 3],
+    pub(super) inputs: wgpu::Buffer,
+    pub(super) state: wgpu::Buffer,
+    pub(super) flags: wgpu::Buffer,
+    pub(super) settings: wgpu::Buffer,
+    pub(super) progress: wgpu::Buffer,
+    /// What goes to the device, and what comes from it.
+    pub(super) up: wgpu::Buffer,
+    pub(super) back: wgpu::Buffer,
+}
+
+impl Buffers {
+    /// Buffers for inputs, state and flags of so many bytes.
+    pub(super) fn new(device: &Device, sizes: [usize; 3]) -> Result<Buffers> {
+        use wgpu::BufferUsages as Usage;
+        let [inputs, state, flags] = sizes;
+        let settings = GROUPS * ALIGNED;
+        device.checked("allocating buffers", || {
+            let buffer = |label, size: usize, usage, mapped_at_creation| {
+                let descriptor = wgpu::BufferDescriptor {
+                    label: Some(label),
+                    size: size as u64,
+                    usage,
+                    mapped_at_creation,
+                };
+                device.raw.create_buffer(&descriptor)
+            };
+            let both = Usage::STORAGE | Usage::COPY_SRC | Usage::COPY_DST;
+            let all = inputs + state + flags + settings;
+            Buffers {
+                sizes,
+                inputs: buffer("inputs", inputs, Usage::STORAGE | Usage::COPY_DST, false),
+                state: buffer("state", state, both, false),
+                flags: buffer("flags", flags, both, false),
+                settings: buffer("settings", settings, Usage::UNIFORM | Usage::COPY_DST, false),
+                progress: buffer("progress", PROGRESS_WORDS * 4, Usage::STORAGE, false),
+                up: buffer("up", all, Usage::MAP_WRITE | Usage::COPY_SRC, true),
+                back: buffer("back", state + flags, Usage::MAP_READ | Usage::COPY_DST, false),
+            }
+        })
+    }
+}
