@@ -1,5 +1,5 @@
-//! How well the march fills the warps of a GPU, without one: its twin in warps of 32 and 64 lanes, in the groups that the
-//! engine makes, on the map of `cargo bench --bench map`.
+//! How well the march fills the warps of a GPU, without one: its twin in warps of 32 and 64 lanes, neighbours side by side,
+//! on the map of `cargo bench --bench map`.
 //!
 //! What is counted are the operations of the kernel's text that any lane of a warp needs, reads and writes of buffers among
 //! them. A compiler makes about as many instructions of them, where it fuses products and sums some fewer.

@@ -4,6 +4,8 @@
 //! |---|---|
 //! | none | what every compiler that is installed makes of every kernel, into `benches/results/gpu-pipelines.csv`; where there is a hardware GPU the shipped map on it, too |
 //! | `--lockstep` | how well the march fills the warps of a GPU, by its twin, into `benches/results/gpu-lockstep.csv` |
+//! | `--host [INSTANCES [CASE [CHUNK]]]` | what the host does for each instance, and how busy the lanes are, into `benches/results/gpu-host.csv` |
+//! | `--projection` | from these, how long a large sweep takes on named cards, into `benches/results/gpu-projection.csv` |
 //! | `--map` | the shipped map on the best adapter alone |
 //! | `--check` | fails where the distribution's compiler needs more than `benches/gpu/limits.csv` allows |
 //! | `--keep-limits` | writes that file |
@@ -18,11 +20,14 @@ mod date;
 mod differences;
 mod driver;
 mod figures;
+mod host;
 #[path = "../map/kept.rs"]
 mod kept;
 mod kernels;
+mod ledger;
 mod lockstep;
 mod map;
+mod projection;
 mod ratchet;
 mod rows;
 #[path = "../../tests/suite/twin.rs"]
@@ -41,6 +46,9 @@ use rows::Row;
 use squealmap::engine::gpu::adapter::Adapter;
 use squealmap::engine::precision::Precision;
 
+#[global_allocator]
+static COUNTING: ledger::Counting = ledger::Counting;
+
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).filter(|one| one != "--bench").collect();
     let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
@@ -56,6 +64,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
         ["--lockstep"] => lockstep::run(),
         ["--map"] => map::run(),
+        ["--host", ..] => host::run(&arguments[1..]),
+        ["--projection"] => projection::run(),
         ["--check"] => check(),
         ["--keep-limits"] => {
             let rows = measured(Compiler::is_of_distribution)?;
@@ -63,7 +73,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             Ok(())
         }
         _ => Err(format!(
-            "{} is no option: --lockstep, --map, --check, --keep-limits or none",
+            "{} is no option: --lockstep, --host, --projection, --map, --check, --keep-limits or none",
             arguments.join(" ")
         )
         .into()),

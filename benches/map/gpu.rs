@@ -40,7 +40,7 @@ pub(crate) fn run(
     let options = Options {
         backend: Backend::Gpu,
         precision: Some(precision),
-        adapter: wanted.as_deref(),
+        adapters: wanted.as_slice(),
         ..Options::default()
     };
     let map = run::run(spec, &options, &|_| {})?;
