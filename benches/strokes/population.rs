@@ -9,11 +9,11 @@ use crate::study::confusion::truth;
 use crate::study::laboratory::{Drawn, Stroke, sensed, settings, stroke};
 use crate::study::strokes::{Random, csv, run};
 use rayon::prelude::*;
-use squealmap_identify::population::{Level, Seen, Source, Trend};
+use squealmap_identify::population::{Damped, Level, Seen, Source, Trend};
 use squealmap_identify::{Kind, Segment};
 
-/// Source, bin of the phase, level, trend: places in their lists.
-type Place = [usize; 4];
+/// Source, bin of the phase, level, trend, damping: places in their lists.
+type Place = [usize; 5];
 
 /// Strokes of each kind; their seed is not one of the confusion table.
 const STROKES: usize = 900;
@@ -26,11 +26,12 @@ pub(crate) fn write(path: &Path) -> Result<(), Box<dyn Error>> {
     for (place, cause) in found {
         counts.entry(place).or_default()[cause] += 1;
     }
-    let mut text = "source,phase,level,trend,slope,coupling,both,interaction\n".to_owned();
-    for ([source, bin, level, trend], [slope, coupling, both, interaction]) in counts {
+    let mut text = "source,phase,level,trend,damping,slope,coupling,both,interaction\n".to_owned();
+    for ([source, bin, level, trend, damped], [slope, coupling, both, interaction]) in counts {
         let [source, level, trend] =
             [Source::ALL[source].name(), Level::ALL[level].name(), Trend::ALL[trend].name()];
-        writeln!(text, "{source},{bin},{level},{trend},{slope},{coupling},{both},{interaction}")?;
+        let damped = Damped::ALL[damped].name();
+        writeln!(text, "{source},{bin},{level},{trend},{damped},{slope},{coupling},{both},{interaction}")?;
     }
     std::fs::write(path, text)?;
     println!("{} has the counts of {} records", path.display(), 6 * STROKES);
@@ -47,7 +48,7 @@ fn seen(number: usize) -> Vec<(Place, usize)> {
         for slow in [true, false] {
             let mut samples = stroke.samples.clone();
             sensed(&mut samples, slow, decibel, number % 2 == 1, &mut random);
-            if let Ok(found) = run(&csv(&samples), &settings(stroke.critical)) {
+            if let Ok(found) = run(&csv(&samples), &settings(stroke.critical, stroke.damping_ratio)) {
                 all.extend(found.segments.iter().filter_map(|segment| of(&stroke, segment)));
             }
         }
@@ -57,7 +58,7 @@ fn seen(number: usize) -> Vec<(Place, usize)> {
 
 /// The place of a segment, and that of its cause.
 fn of(stroke: &Stroke, segment: &Segment) -> Option<(Place, usize)> {
-    let Seen { source, bin, level, trend } = segment.seen?;
+    let Seen { source, bin, level, trend, damped } = segment.seen?;
     let cause = match truth(stroke, segment.time)?.as_slice() {
         [Kind::NegativeSlope] => 0,
         [Kind::ModeCoupling] => 1,
@@ -68,5 +69,7 @@ fn of(stroke: &Stroke, segment: &Segment) -> Option<(Place, usize)> {
     let source = Source::ALL.iter().position(|other| *other == source)?;
     let level = Level::ALL.iter().position(|other| Some(*other) == level)?;
     let trend = Trend::ALL.iter().position(|other| Some(*other) == trend)?;
-    Some(([source, bin?, level, trend], cause))
+    let damped = damped.unwrap_or(Damped::Strongly);
+    let damped = Damped::ALL.iter().position(|other| *other == damped)?;
+    Some(([source, bin?, level, trend, damped], cause))
 }

@@ -88,6 +88,9 @@ pub(crate) struct Identify {
     /// Friction coefficient at which the modes coalesce, and its standard error, from `squealmap modes` or a test: 0.23 or 0.23,0.01
     #[arg(long, value_name = "MU[,ERROR]", value_parser = critical)]
     critical_friction: Option<Measured>,
+    /// Instants at which the figure looks close, s: 0.12,0.25 [default: in the middles of the longest segments that vibrate]
+    #[arg(long, value_name = "S,…", value_delimiter = ',', allow_hyphen_values = true, value_parser = finite)]
+    zoom: Vec<f64>,
 }
 
 impl Identify {
@@ -141,6 +144,7 @@ impl Identify {
             overlap: self.overlap,
             largest_friction: self.largest_friction,
             critical_friction: self.critical_friction,
+            zooms: self.zoom,
         }
     }
 }

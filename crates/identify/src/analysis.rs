@@ -4,10 +4,12 @@ use std::io::Read;
 
 use crate::cells::Cells;
 use crate::channel::{Channel, PerChannel};
+use crate::clips::{Clip, Clips};
 use crate::conclude::{Looked, conclude};
 use crate::envelope::Envelope;
 use crate::episode::{Episode, Recorded, swapped};
 use crate::fault::{Fault, Unfit};
+use crate::instants::{Instant, instants};
 use crate::joint::judged;
 use crate::overview::{Friction, Overview};
 use crate::read::Table;
@@ -21,6 +23,7 @@ use crate::survey::{Survey, survey};
 use crate::undisturbed::{Undisturbed, undisturbed};
 use crate::verdict::Verdict;
 use crate::window::{Analyser, Window};
+use crate::witness::Structure;
 
 /// Everything found in a file of signals.
 #[derive(Clone, Debug)]
@@ -55,6 +58,10 @@ pub struct Identification {
     pub envelopes: [Envelope; 2],
     /// Mean friction coefficient of the windows for a picture, over [`Identification::friction_time`].
     pub friction: Envelope,
+    /// What the record does over time, for a picture.
+    pub course: Vec<Instant>,
+    /// Both accelerations over a few periods, for a picture.
+    pub clips: Vec<Clip>,
     /// Start of the first and end of the last window, s.
     pub friction_time: [f64; 2],
 }
@@ -88,7 +95,7 @@ pub fn identify(
             .and_then(|table| sharpened(table.turned(turned), &mut found.episodes, &known))
             .map_err(named)?;
     }
-    judged(&mut found.segments, &found.episodes, settings.critical_friction);
+    judged(&mut found.segments, &found.episodes, Structure::new(settings));
     found.verdict = conclude(&overview, &found.episodes, &looked);
     Ok(found)
 }
@@ -121,6 +128,8 @@ fn analyse(
     let mut analyser = fits.map(|geometry| Analyser::new(geometry, rate, survey.has, settings.band));
     let mut spectrogram = Builder::new(settings, samples, rate, start, survey.frequency);
     let mut envelopes = [Envelope::new(samples), Envelope::new(samples)];
+    let normal = recorded.normal_acceleration;
+    let mut clips = Clips::new(samples, [rate, start], survey.frequency, normal, &settings.zooms);
     let mut waiting = PerChannel::<Vec<f64>>::default();
     let count = fits.map_or(0, |geometry| (samples - geometry.window as u64) / geometry.hop as u64 + 1);
     let mut friction = Envelope::new(count);
@@ -131,6 +140,7 @@ fn analyse(
     while let Some(row) = table.next()? {
         let tangential = row.values[Channel::TangentialAcceleration as usize];
         spectrogram.take(tangential);
+        clips.take(&row.values);
         envelopes[0].take(tangential);
         if recorded.normal_acceleration {
             envelopes[1].take(row.values[Channel::NormalAcceleration as usize]);
@@ -160,6 +170,7 @@ fn analyse(
         return Err(Fault::SwappedAccelerations { tangential, normal, time });
     }
     let has = has(survey);
+    let cut = segments(&cells.list, has, settings);
     let friction_read = has.forces && has.velocity;
     let found = Identification {
         samples,
@@ -169,10 +180,12 @@ fn analyse(
         // Concluded when the episodes are known in full.
         verdict: Verdict::undecided("not concluded"),
         slope: overview.quasi_static_slope(&episodes),
-        notes: notes(survey),
+        notes: notes(survey, &settings.zooms),
         columns: survey.names.clone(),
         windows: overview.windows,
-        segments: segments(&cells.list, has, settings),
+        course: instants(&cells.list, has, settings.skew),
+        clips: clips.finish(&cut),
+        segments: cut,
         undisturbed: if friction_read {
             undisturbed(&cells.list, has.temperature)
         } else {
@@ -188,12 +201,18 @@ fn analyse(
 }
 
 /// Sentences about everything that limits the analysis.
-fn notes(survey: &Survey) -> Vec<String> {
+fn notes(survey: &Survey, zooms: &[f64]) -> Vec<String> {
     let mut notes: Vec<String> = survey.remark.iter().cloned().collect();
     if survey.turned {
         notes.push(
             "the velocity is negative: the signs of what points along the contact are turned".to_owned(),
         );
+    }
+    let [start, end] = [survey.start, survey.start + survey.samples as f64 / survey.rate];
+    for time in zooms.iter().filter(|time| !(start..=end).contains(*time)) {
+        notes.push(format!(
+            "nothing to look at close at {time} s (--zoom): the record lasts from {start:.6} to {end:.6} s"
+        ));
     }
     for channel in &survey.constant {
         let column = &survey.names[*channel as usize];

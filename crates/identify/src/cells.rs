@@ -1,7 +1,12 @@
 //! A record of any length in a bounded number of cells: what segments are cut from.
 
-use crate::cross::Sums;
+use std::f64::consts::{PI, TAU};
+
+use num_complex::Complex64;
+
+use crate::cross::{INDEPENDENT, Measured, Sums};
 use crate::episode::LOUD;
+use crate::losses::Losses;
 use crate::window::Window;
 use crate::within::Within;
 
@@ -32,6 +37,8 @@ pub(super) struct Cell {
     swing: f64,
     /// The friction law within the oscillation.
     pub(super) within: Within,
+    /// What the structure loses in it.
+    pub(super) losses: Losses,
 }
 
 impl Cell {
@@ -53,6 +60,7 @@ impl Cell {
             temperature: window.temperature.unwrap_or_default(),
             swing: window.swing.unwrap_or_default().powi(2),
             within: window.within,
+            losses: window.losses,
         }
     }
 
@@ -72,6 +80,7 @@ impl Cell {
         self.temperature += other.temperature;
         self.swing += other.swing;
         self.within.add(&other.within);
+        self.losses.add(&other.losses);
     }
 
     /// Cells added up.
@@ -102,6 +111,11 @@ impl Cell {
         self.tangential / self.normal
     }
 
+    /// Mean normal force, N.
+    pub(super) fn normal(&self) -> f64 {
+        self.normal / self.windows
+    }
+
     /// Mean velocity, m/s.
     pub(super) fn velocity(&self) -> f64 {
         self.velocity / self.windows
@@ -115,6 +129,17 @@ impl Cell {
     /// Amplitude of the force that swings most at the frequency of the oscillation, over its mean.
     pub(super) fn swing(&self) -> f64 {
         (self.swing / self.windows).sqrt()
+    }
+
+    /// Phase of the normal against the tangential acceleration, degrees, and the squared coherence of the two; the normal one is
+    /// late by `skew` (s).
+    pub(super) fn phase(&self, skew: f64) -> Option<(Measured, f64)> {
+        let ratio = self.sums.normal_acceleration(INDEPENDENT);
+        let turned = ratio.value * Complex64::cis(TAU * self.frequency() * skew);
+        let size = ratio.value.norm();
+        let error = if size > 0.0 { (ratio.error / size).min(PI) } else { f64::INFINITY };
+        let value = turned.arg().to_degrees();
+        value.is_finite().then_some((Measured { value, error: error.to_degrees() }, ratio.coherence))
     }
 
     /// The share of its windows in which an oscillation stands out.

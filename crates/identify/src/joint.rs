@@ -1,12 +1,11 @@
 //! The witnesses of a segment together: its verdict, what that rests on, and what contradicts it.
 
-use crate::cross::Measured;
 use crate::episode::Episode;
 use crate::population::{Seen, Source, bin, chances};
 use crate::segment::{Reading, Segment, State};
 use crate::testimony::{Chances, Mechanism, Testimony, Witness};
 use crate::verdict::{CONFIDENT, Kind, Verdict};
-use crate::witness::{each, friction, friction_seen, phase, phase_seen, power};
+use crate::witness::{Structure, each, friction, friction_seen, phase, phase_seen, power, read_within};
 
 /// A probability that a confident witness leaves to what another says with confidence: they contradict each other.
 const LEAVES: f64 = 0.02;
@@ -20,8 +19,8 @@ const SAME_TEMPERATURE: f64 = 10.0;
 /// A likelihood is never believed beyond this: every witness has errors that it does not know.
 const BELIEVED: f64 = 0.995;
 
-/// Judges every segment. `critical`: the friction coefficient at which the modes coalesce.
-pub(super) fn judged(segments: &mut [Segment], episodes: &[Episode], critical: Option<Measured>) {
+/// Judges every segment.
+pub(super) fn judged(segments: &mut [Segment], episodes: &[Episode], structure: Structure) {
     let homes = homes(segments, episodes);
     let points = points(segments, episodes, &homes);
     for number in 0..segments.len() {
@@ -45,17 +44,20 @@ pub(super) fn judged(segments: &mut [Segment], episodes: &[Episode], critical: O
         let grows = best.is_some_and(|episode| !episode.wanders);
         let segment = &mut segments[number];
         segment.seen = phase_seen(segment, best).ok().map(|(source, phase)| {
-            let (level, trend) = friction_seen(segment, critical);
-            Seen { source, bin: Some(bin(phase.value)), level, trend }
+            let (level, trend) = friction_seen(segment, structure);
+            Seen { source, bin: Some(bin(phase.value)), level, trend, damped: structure.damped }
         });
-        segment.testimonies =
-            vec![power(told, best.is_none()), phase(segment, best), friction(segment, critical, grows)];
+        segment.testimonies = vec![
+            power(told, best.is_none()),
+            phase(segment, best, structure),
+            friction(segment, structure, grows),
+        ];
         match segment.state {
             State::Quiet | State::Decaying => {
-                (segment.verdict, segment.rests_on) = calm(segment, next, follows, critical);
+                (segment.verdict, segment.rests_on) = calm(segment, next, follows, structure);
             }
             State::Growing | State::Sustained => {
-                (segment.verdict, segment.rests_on, segment.shared) = together(segment, best, critical);
+                (segment.verdict, segment.rests_on, segment.shared) = together(segment, best, structure);
             }
         }
         contradict(segment, &own);
@@ -121,7 +123,7 @@ fn calm(
     segment: &Segment,
     next: Option<f64>,
     follows: bool,
-    critical: Option<Measured>,
+    structure: Structure,
 ) -> (Verdict, Vec<Witness>) {
     let length = segment.time[1] - segment.time[0];
     let unstable = segment.testimonies[0].chances.map(|chances| chances.leading());
@@ -146,7 +148,7 @@ fn calm(
         let reason = "a vibration follows whose growth was not seen: when it began is not known";
         return (Verdict::undecided(reason), Vec::new());
     }
-    let [above, _] = each(segment, critical);
+    let [above, _] = each(segment, structure);
     if above.is_some_and(|above| above > CONFIDENT) {
         return (
             Verdict::undecided("friction lies above the coalescence of the modes, yet nothing grows"),
@@ -170,10 +172,10 @@ fn calm(
 fn together(
     segment: &Segment,
     episode: Option<&Episode>,
-    critical: Option<Measured>,
+    structure: Structure,
 ) -> (Verdict, Vec<Witness>, Option<(Mechanism, f64)>) {
     let undecided = |reason: String| (Verdict::undecided(reason), Vec::new(), None);
-    let reads = each(segment, critical);
+    let reads = each(segment, structure);
     let by_power = segment.testimonies[0].chances;
     let seen = phase_seen(segment, episode);
     // That it is an instability at all, and not driven, shows in its growth or in what limits it.
@@ -184,14 +186,22 @@ fn together(
     }
     let source = segment.source();
     let binned = seen.as_ref().ok().map(|(_, phase)| bin(phase.value));
+    let within = read_within(segment, structure);
     let mean = segment.friction.is_none_or(|friction| friction.reading == Reading::Mean);
-    let (level, trend) = if mean { (None, None) } else { friction_seen(segment, critical) };
-    let (population, number) = chances(Seen { source, bin: binned, level, trend });
+    let read = mean || within.is_some();
+    let (level, trend) = if read { (None, None) } else { friction_seen(segment, structure) };
+    // A level that is read needs no counts.
+    let level = if reads[0].is_some() { None } else { level };
+    let (population, number) = chances(Seen { source, bin: binned, level, trend, damped: structure.damped });
     let mut weights = population.0;
-    {
+    // Index: none, slope, coupling, both, interaction.
+    let believed = |p: f64| p.clamp(1.0 - BELIEVED, BELIEVED);
+    if let Some([above, exceeds]) = within.map(|each| each.map(believed)) {
+        let [below, less] = [1.0 - above, 1.0 - exceeds];
+        let each = [below * less, below * exceeds, above * less, above * exceeds, below * less];
+        weights.iter_mut().zip(each).for_each(|(weight, p)| *weight *= p);
+    } else {
         let [above, falls] = reads;
-        // Index: none, slope, coupling, both, interaction.
-        let believed = |p: f64| p.clamp(1.0 - BELIEVED, BELIEVED);
         if let Some(p) = above.map(believed) {
             for (cause, weight) in weights.iter_mut().enumerate() {
                 *weight *= if cause == 2 || cause == 3 { p } else { 1.0 - p };
@@ -209,7 +219,7 @@ fn together(
     let Some(joint) = Chances::from_weights(weights) else { return undecided("nothing fits".to_owned()) };
     let (kind, probability) = joint.leading();
     // What counted vibrations leave open; what is read does not rest on them.
-    let direct = by_power.is_some() || reads.iter().all(Option::is_some);
+    let direct = by_power.is_some() || within.is_some() || reads.iter().all(Option::is_some);
     let sure = |probability: f64| {
         let p = probability.clamp(0.0, 1.0);
         let spread =

@@ -9,10 +9,10 @@
 //! | friction power and its parts | `feedback.rs` |
 //! | which mechanism alone would destabilise | `attribution.rs` |
 //! | verdict of the growth, confidence, reasons | `verdict.rs`, `reading.rs`, `overview.rs`, `conclude.rs` |
-//! | segments of time: where the record changes in kind | `cells.rs`, `cut.rs`, `segment.rs`, `trend.rs`, `within.rs` |
+//! | segments of time: where the record changes in kind | `cells.rs`, `cut.rs`, `segment.rs`, `trend.rs`, `within.rs`, `losses.rs` |
 //! | what three witnesses say of each, and together | `witness.rs`, `population.rs`, `joint.rs`, `testimony.rs`, `rates.rs`, `told.rs` |
 //! | points for `fit` | `points.rs`, `undisturbed.rs`, `measured.rs` |
-//! | pictures | `spectrogram.rs`, `envelope.rs` |
+//! | pictures | `spectrogram.rs`, `envelope.rs`, `clips.rs`, `instants.rs` |
 //! | all of it in order | `analysis.rs` |
 //!
 //! A verdict rests on the signals alone and on one picture: a tangential and a normal mode, both slightly damped,
@@ -22,6 +22,7 @@ mod analysis;
 mod attribution;
 mod cells;
 mod channel;
+mod clips;
 mod conclude;
 mod course;
 mod cross;
@@ -30,8 +31,10 @@ mod envelope;
 mod episode;
 mod fault;
 mod feedback;
+mod instants;
 mod joint;
 mod line;
+mod losses;
 mod measured;
 mod mode;
 mod outlier;
@@ -66,10 +69,12 @@ mod witness;
 pub use analysis::{Identification, identify};
 pub use attribution::{CAUSE, alone};
 pub use channel::Channel;
+pub use clips::Clip;
 pub use cross::Measured;
 pub use envelope::Envelope;
 pub use episode::Episode;
 pub use fault::{Fault, RATES, Unfit};
+pub use instants::Instant;
 pub use measured::{Measurements, read_measurements};
 pub use overview::Friction;
 pub use points::{FrictionColumn, Point, Points, read_points};

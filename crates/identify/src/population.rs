@@ -4,12 +4,16 @@
 use std::sync::LazyLock;
 
 use crate::cross::Measured;
+use crate::settings::DAMPING_RATIO;
 use crate::testimony::{CAUSES, Chances};
 
 /// The counts.
 const TABLE: &str = include_str!("population.csv");
 /// Lower ends of the bins of |phase|, degrees: finer where causes differ.
 const BINS: [f64; 5] = [0.0, 10.0, 20.0, 45.0, 90.0];
+
+/// Standard errors of `d ln μ/d ln v` beyond which nothing is known of a slope.
+pub(super) const UNCLEAR: f64 = 0.1;
 
 /// What kind of vibration it is, and how its friction was read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -66,6 +70,35 @@ impl Level {
     }
 }
 
+/// How strongly the structure is damped: how much of a falling slope that takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Damped {
+    /// With a damping ratio of [`DAMPING_RATIO`] at most.
+    Lightly,
+    /// With more.
+    Strongly,
+}
+
+impl Damped {
+    /// Both of them.
+    pub const ALL: [Damped; 2] = [Damped::Lightly, Damped::Strongly];
+
+    /// The name in the table.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Damped::Lightly => "light",
+            Damped::Strongly => "strong",
+        }
+    }
+
+    /// What a structure may be whose damping ratio has this bound; `None` for either.
+    #[must_use]
+    pub fn bounded(damping_ratio: f64) -> Option<Damped> {
+        (damping_ratio <= DAMPING_RATIO).then_some(Damped::Lightly)
+    }
+}
+
 /// What the friction coefficient does with the velocity, by `d ln μ/d ln v`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Trend {
@@ -101,8 +134,6 @@ impl Trend {
         const SLIGHTLY: f64 = -0.03;
         /// Standard errors by which it does.
         const ERRORS: f64 = 3.0;
-        /// Errors beyond which nothing is known.
-        const UNCLEAR: f64 = 0.1;
         let Measured { value, error } = relative;
         if value < CLEARLY && value < -ERRORS * error {
             Trend::Falls
@@ -127,6 +158,8 @@ pub struct Seen {
     pub level: Option<Level>,
     /// Its trend.
     pub trend: Option<Trend>,
+    /// Its damping.
+    pub damped: Option<Damped>,
 }
 
 /// The bin of a phase (degrees).
@@ -136,7 +169,7 @@ pub fn bin(phase: f64) -> usize {
 }
 
 /// One row: what is seen and how many of slope, coupling, both, only both together.
-type Row = (Source, usize, Level, Trend, [f64; 4]);
+type Row = (Seen, [f64; 4]);
 
 static ROWS: LazyLock<Vec<Row>> = LazyLock::new(|| TABLE.lines().skip(1).filter_map(row).collect());
 
@@ -144,13 +177,15 @@ fn row(line: &str) -> Option<Row> {
     let mut fields = line.split(',');
     let name = fields.next()?;
     let source = Source::ALL.into_iter().find(|source| source.name() == name)?;
-    let bin = fields.next()?.parse().ok()?;
+    let bin = fields.next()?.parse().ok();
     let name = fields.next()?;
-    let level = Level::ALL.into_iter().find(|level| level.name() == name)?;
+    let level = Level::ALL.into_iter().find(|level| level.name() == name);
     let name = fields.next()?;
-    let trend = Trend::ALL.into_iter().find(|trend| trend.name() == name)?;
+    let trend = Trend::ALL.into_iter().find(|trend| trend.name() == name);
+    let name = fields.next()?;
+    let damped = Damped::ALL.into_iter().find(|damped| damped.name() == name);
     let mut count = || fields.next()?.parse().ok();
-    Some((source, bin, level, trend, [count()?, count()?, count()?, count()?]))
+    Some((Seen { source, bin, level, trend, damped }, [count()?, count()?, count()?, count()?]))
 }
 
 /// What a witness says by itself from the population: a part is kept for what no simulation holds.
@@ -166,13 +201,14 @@ pub fn stated(seen: Seen) -> (Chances, f64) {
 #[must_use]
 pub fn chances(seen: Seen) -> (Chances, f64) {
     let mut counts = [0.0; 4];
-    for (source, bin, level, trend, row) in ROWS.iter() {
-        let alike = *source == seen.source
-            && seen.bin.is_none_or(|seen| seen == *bin)
-            && seen.level.is_none_or(|seen| seen == *level)
-            && seen.trend.is_none_or(|seen| seen == *trend);
+    for (row, causes) in ROWS.iter() {
+        let alike = row.source == seen.source
+            && (seen.bin.is_none() || seen.bin == row.bin)
+            && (seen.level.is_none() || seen.level == row.level)
+            && (seen.trend.is_none() || seen.trend == row.trend)
+            && (seen.damped.is_none() || seen.damped == row.damped);
         if alike {
-            counts.iter_mut().zip(row).for_each(|(sum, count)| *sum += count);
+            counts.iter_mut().zip(causes).for_each(|(sum, count)| *sum += count);
         }
     }
     let number: f64 = counts.iter().sum();

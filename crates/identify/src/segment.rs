@@ -1,7 +1,7 @@
 //! Segments of time: stretches in which amplitude, frequency, phase and friction stay in kind.
 
 use crate::cells::Cell;
-use crate::cross::{INDEPENDENT, Measured};
+use crate::cross::Measured;
 use crate::cut::{Course, cut};
 use crate::population::{Seen, Source};
 use crate::settings::Settings;
@@ -74,6 +74,9 @@ pub struct Level {
     pub level: Measured,
     /// `dμ/dv`, s/m; `None` where the velocity hardly changes.
     pub slope: Option<Measured>,
+    /// What a falling slope has to exceed to be unstable alone: the damping along the contact over the normal force, s/m;
+    /// `None` where force sensors do not follow the vibration.
+    pub damping: Option<Measured>,
 }
 
 /// A segment of time.
@@ -273,24 +276,16 @@ fn segment(cells: &[Cell], has: Has, vibrating: bool, settings: &Settings) -> Se
         (true, true) => State::Decaying,
         (true, false) => State::Sustained,
     };
-    let ratio = all.sums.normal_acceleration(INDEPENDENT);
-    let turned =
-        ratio.value * num_complex::Complex64::cis(std::f64::consts::TAU * all.frequency() * settings.skew);
-    let error = if ratio.value.norm() > 0.0 {
-        (ratio.error / ratio.value.norm()).min(std::f64::consts::PI)
-    } else {
-        f64::INFINITY
-    };
-    let shows = vibrating && has.normal_acceleration;
+    let shown = all.phase(settings.skew).filter(|_| vibrating && has.normal_acceleration);
     Segment {
         time: all.time,
         state,
         frequency: vibrating.then(|| all.frequency()),
         amplitude: all.amplitude(),
         reach,
-        phase: shows.then(|| Measured { value: turned.arg().to_degrees(), error: error.to_degrees() }),
-        coherence: shows.then_some(ratio.coherence),
-        friction: has.forces.then(|| level(cells, &all, has, limited)),
+        phase: shown.map(|(phase, _)| phase),
+        coherence: shown.map(|(_, coherence)| coherence),
+        friction: has.forces.then(|| level(cells, &all, has, limited, settings.inclination)),
         velocity: has.velocity.then(|| [cells[0].velocity(), cells[cells.len() - 1].velocity()]),
         temperature: has.temperature.then(|| all.temperature()),
         seen: None,
@@ -325,8 +320,18 @@ fn change(cells: &[Cell], has: Has) -> f64 {
     }
 }
 
+/// Whether the power of friction goes into the losses, and next to none into a growth, or comes from a decay.
+fn steady(cells: &[Cell]) -> bool {
+    /// Growth rate, over the angular frequency, from which on it is not.
+    const STEADY: f64 = 2e-3;
+    let [first, last] = [&cells[0], &cells[cells.len() - 1]];
+    let omega = std::f64::consts::TAU * Cell::sum(cells).frequency();
+    let change = (last.amplitude() / first.amplitude()).ln().abs();
+    change < STEADY * omega * (last.middle() - first.middle())
+}
+
 /// Level and slope of friction.
-fn level(cells: &[Cell], all: &Cell, has: Has, limited: bool) -> Level {
+fn level(cells: &[Cell], all: &Cell, has: Has, limited: bool, inclination: f64) -> Level {
     /// Relative range of the velocity from which on there is a slope.
     const MOVES: f64 = 0.05;
     /// Systematic errors of a friction coefficient, relative, and of a slope, over that of `μ/v`.
@@ -339,7 +344,11 @@ fn level(cells: &[Cell], all: &Cell, has: Has, limited: bool) -> Level {
         let error = level.error.hypot(allowed);
         let slope = Measured { error: slope.error.hypot(LOCAL * allowed / all.velocity().abs()), ..slope };
         let slope = (!all.within.bends(all.velocity())).then_some(slope);
-        return Level { reading: Reading::Within, level: Measured { error, ..level }, slope };
+        let normal = all.normal();
+        let damping = all.losses.damping(inclination).filter(|_| steady(cells));
+        let damping = damping
+            .map(|Measured { value, error }| Measured { value: value / normal, error: error / normal });
+        return Level { reading: Reading::Within, level: Measured { error, ..level }, slope, damping };
     }
     // A vibration that is not small any more lowers the mean: what is left of a growth is its beginning.
     let small: Vec<Cell> =
@@ -356,5 +365,6 @@ fn level(cells: &[Cell], all: &Cell, has: Has, limited: bool) -> Level {
         reading: if limited { Reading::Bound } else { Reading::Mean },
         level: Measured { value: all.friction(), error },
         slope: moves.then_some(line.slope).filter(|slope| slope.error.is_finite()),
+        damping: None,
     }
 }

@@ -51,6 +51,8 @@ pub struct Settings {
     pub overlap: f64,
     /// Largest friction coefficient that is believed.
     pub largest_friction: f64,
+    /// Instants at which the figure looks close, s; without any, in the middles of the longest segments that vibrate.
+    pub zooms: Vec<f64>,
     /// The friction coefficient at which the modes of the structure coalesce, and its standard error.
     pub critical_friction: Option<Measured>,
 }
@@ -70,6 +72,7 @@ impl Default for Settings {
             window: WINDOW,
             overlap: OVERLAP,
             largest_friction: LARGEST_FRICTION,
+            zooms: Vec::new(),
             critical_friction: None,
         }
     }

@@ -6,6 +6,7 @@ use num_complex::Complex64;
 
 use crate::channel::{Channel, PerChannel};
 use crate::cross::{INDEPENDENT, Measured, Sums};
+use crate::losses::Losses;
 use crate::spectrum::{Spectra, detrend, hann, noise_floor, refine};
 use crate::within::Within;
 
@@ -77,6 +78,8 @@ pub struct Window {
     pub(super) swing: Option<f64>,
     /// The friction law within the oscillation, of the part of the window that no other has in its middle.
     pub(super) within: Within,
+    /// What the structure loses, of the same part.
+    pub(super) losses: Losses,
     pub(super) sums: Sums,
 }
 
@@ -152,7 +155,7 @@ impl Analyser {
             tangential.max(amplitude(sums.nn, normal_noise) / mean.abs())
         });
         let amplitude = amplitude(sums.xx, along);
-        let within = self.within(channels, velocity.zip(normal_force));
+        let (within, losses) = self.within(channels, velocity.zip(normal_force));
         Window {
             time: [start, start + self.geometry.window as f64 / self.rate],
             friction,
@@ -167,16 +170,17 @@ impl Analyser {
             amplitude,
             swing,
             within,
+            losses,
             sums,
         }
     }
 
-    /// The friction law within the oscillation, with the mean velocity (m/s) and normal force (N).
-    fn within(&mut self, channels: &PerChannel<&[f64]>, means: Option<(f64, f64)>) -> Within {
+    /// The friction law within the oscillation, with the mean velocity (m/s) and normal force (N), and the losses.
+    fn within(&mut self, channels: &PerChannel<&[f64]>, means: Option<(f64, f64)>) -> (Within, Losses) {
         /// Six points around each step: with seven samples per period a trapezoid is 7 % off.
         const STEP: [f64; 6] = [11.0, -93.0, 802.0, 802.0, -93.0, 11.0];
         let Some((velocity, mean)) = means.filter(|_| self.has[Channel::TangentialForce as usize]) else {
-            return Within::default();
+            return Default::default();
         };
         let a = &self.signals[0];
         let mut sum = 0.0;
@@ -193,7 +197,9 @@ impl Analyser {
         let middle = (window - hop) / 2..usize::midpoint(window, hop);
         let [tangential, normal] =
             [Channel::TangentialForce, Channel::NormalForce].map(|c| &channels[c as usize][middle.clone()]);
-        Within::read(&self.motion[middle.clone()], tangential, normal, velocity, mean)
+        let motion = &self.motion[middle.clone()];
+        let losses = Losses::read(motion, &self.signals[0][middle], tangential, normal);
+        (Within::read(motion, tangential, normal, velocity, mean), losses)
     }
 
     fn load(&mut self, channels: &PerChannel<&[f64]>, friction: f64) {

@@ -3,8 +3,9 @@
 use crate::attribution::normal_below;
 use crate::cross::Measured;
 use crate::episode::Episode;
-use crate::population::{Level as Height, Seen, Source, Trend, bin, stated};
-use crate::segment::{REVERSES, Reading, Segment, State};
+use crate::population::{Damped, Level as Height, Seen, Source, Trend, UNCLEAR, bin, stated};
+use crate::segment::{Level, REVERSES, Reading, Segment, State};
+use crate::settings::Settings;
 use crate::testimony::{Chances, Testimony, Witness};
 use crate::verdict::Kind;
 
@@ -12,6 +13,22 @@ use crate::verdict::Kind;
 const COHERENT: f64 = 0.5;
 /// Standard errors of a phase, degrees, that blur it over more than a bin.
 const SHARP: f64 = 10.0;
+
+/// What is known of the structure.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Structure {
+    /// The friction coefficient at which its modes coalesce.
+    pub(super) critical: Option<Measured>,
+    /// How strongly it is damped.
+    pub(super) damped: Option<Damped>,
+}
+
+impl Structure {
+    pub(super) fn new(settings: &Settings) -> Structure {
+        Structure { critical: settings.critical_friction, damped: Damped::bounded(settings.damping_ratio) }
+    }
+}
+
 /// (a) The power of friction while it grows; `elsewhere`: in another segment at the same velocity.
 pub(super) fn power(episode: Option<&Episode>, elsewhere: bool) -> Testimony {
     let silent = |why: String| Testimony::silent(Witness::Power, why);
@@ -71,12 +88,17 @@ pub(super) fn phase_seen(segment: &Segment, episode: Option<&Episode>) -> Result
 }
 
 /// (b) The phase, judged by a simulated population.
-pub(super) fn phase(segment: &Segment, episode: Option<&Episode>) -> Testimony {
+pub(super) fn phase(segment: &Segment, episode: Option<&Episode>, structure: Structure) -> Testimony {
     match phase_seen(segment, episode) {
         Err(why) => Testimony::silent(Witness::Phase, why),
         Ok((source, phase)) => {
-            let (chances, number) =
-                stated(Seen { source, bin: Some(bin(phase.value)), level: None, trend: None });
+            let (chances, number) = stated(Seen {
+                source,
+                bin: Some(bin(phase.value)),
+                level: None,
+                trend: None,
+                damped: structure.damped,
+            });
             let when = if source == Source::Growth { "while it grows" } else { "of the sustained vibration" };
             let evidence =
                 format!("{}° {when}; {number:.0} simulated vibrations had such a phase", phase.text(1.0, 0));
@@ -86,16 +108,13 @@ pub(super) fn phase(segment: &Segment, episode: Option<&Episode>) -> Testimony {
 }
 
 /// The level and the trend of friction of a vibration that reverses the sliding, as the population has them.
-pub(super) fn friction_seen(
-    segment: &Segment,
-    critical: Option<Measured>,
-) -> (Option<Height>, Option<Trend>) {
+pub(super) fn friction_seen(segment: &Segment, structure: Structure) -> (Option<Height>, Option<Trend>) {
     /// Standard errors by which a level is above or below.
     const CLEAR: f64 = 2.0;
     /// Part of the coalescence below which a level is far below.
     const FAR: f64 = 0.8;
     let Some(friction) = segment.friction else { return (None, None) };
-    let height = critical.map(|critical| {
+    let height = structure.critical.map(|critical| {
         let off = (friction.level.value - critical.value) / friction.level.error.hypot(critical.error);
         match off {
             off if off > CLEAR => Height::Above,
@@ -111,33 +130,60 @@ pub(super) fn friction_seen(
     (height, Some(trend))
 }
 
-/// The probabilities that friction lies above the coalescence, and that it falls with the velocity, where no vibration
-/// disturbs it; `None` for what is not known.
-pub(super) fn each(segment: &Segment, critical: Option<Measured>) -> [Option<f64>; 2] {
-    let Some(friction) = segment.friction.filter(|friction| friction.reading == Reading::Mean) else {
+/// The probabilities that friction lies above the coalescence, which is read within an oscillation too, and that it falls with the
+/// velocity, where no vibration disturbs it; `None` for what is not known.
+pub(super) fn each(segment: &Segment, structure: Structure) -> [Option<f64>; 2] {
+    let Some(friction) = segment.friction.filter(|friction| friction.reading != Reading::Bound) else {
         return [None; 2];
     };
-    let above = critical.map(|critical| {
+    let above = structure.critical.map(|critical| {
         normal_below((friction.level.value - critical.value) / friction.level.error.hypot(critical.error))
     });
-    let falls = friction.slope.map(|slope| normal_below(-slope.value / slope.error));
+    let disturbed = friction.reading != Reading::Mean;
+    let falls = friction.slope.filter(|_| !disturbed).map(|slope| normal_below(-slope.value / slope.error));
     [above, falls]
 }
 
+/// The probabilities that friction lies above the coalescence, and that it falls by more than the damping takes, where both are
+/// read within the oscillation: each alone would do then. `None` where the slope is not clear.
+pub(super) fn read_within(segment: &Segment, structure: Structure) -> Option<[f64; 2]> {
+    /// Standard errors from which on a rise is one.
+    const RISES: f64 = 3.0;
+    let Level { level, slope, damping, .. } =
+        segment.friction.filter(|friction| friction.reading == Reading::Within)?;
+    let (critical, slope, damping) = (structure.critical?, slope?, damping?);
+    let [first, last] = segment.velocity?;
+    let relative = slope.error * 0.5 * (first + last).abs() / level.value.abs();
+    if relative.is_nan() || relative > UNCLEAR {
+        return None;
+    }
+    let above = (level.value - critical.value) / level.error.hypot(critical.error);
+    // A rise that is not clear is none: friction hardly rises where it reaches the coalescence.
+    let value = if slope.value < RISES * slope.error { slope.value.min(0.0) } else { slope.value };
+    let exceeds = (-value - damping.value) / slope.error.hypot(damping.error);
+    Some([above, exceeds].map(normal_below))
+}
+
 /// (c) Level and slope of friction.
-pub(super) fn friction(segment: &Segment, critical: Option<Measured>, grows: bool) -> Testimony {
+pub(super) fn friction(segment: &Segment, structure: Structure, grows: bool) -> Testimony {
     let silent = |why: &str| Testimony::silent(Witness::Friction, why);
     let Some(friction) = segment.friction else { return silent("the forces are not recorded") };
     let level = friction.level.text(1.0, 3);
     let slope = friction.slope.map_or(String::new(), |slope| format!(", dμ/dv {} s/m", slope.text(1.0, 3)));
-    let against =
-        critical.map_or(String::new(), |critical| format!(", coalescence at {}", critical.text(1.0, 3)));
+    let against = structure
+        .critical
+        .map_or(String::new(), |critical| format!(", coalescence at {}", critical.text(1.0, 3)));
     let evidence = format!("μ {level}{against}{slope}");
     let spoken = |chances: Option<Chances>, evidence: String| Testimony {
         witness: Witness::Friction,
         chances,
         evidence,
     };
+    if let Some([coupling, slope]) = read_within(segment, structure) {
+        let damping = friction.damping.map_or(String::new(), |damping| damping.text(1.0, 3));
+        let evidence = format!("{evidence}, damping {damping} s/m; read within the oscillation");
+        return spoken(Some(Chances::of_each(coupling, slope)), evidence);
+    }
     if friction.reading != Reading::Mean {
         let how = if friction.reading == Reading::Within {
             "read within the oscillation"
@@ -145,14 +191,14 @@ pub(super) fn friction(segment: &Segment, critical: Option<Measured>, grows: boo
             "the vibration reverses the sliding and the force sensors do not follow it: the mean is a lower bound, its slope is not \
              that of the law"
         };
-        let (level, trend) = friction_seen(segment, critical);
+        let (level, trend) = friction_seen(segment, structure);
         let tells = level.is_some() || (trend != Some(Trend::Unknown) && friction.reading == Reading::Within);
-        let seen = Seen { source: segment.source(), bin: None, level, trend };
+        let seen = Seen { source: segment.source(), bin: None, level, trend, damped: structure.damped };
         return spoken(tells.then(|| stated(seen).0), format!("{evidence}; {how}"));
     }
     let vibrates = segment.reach.is_some_and(|reach| reach >= REVERSES) || grows;
     let vibrates = vibrates && matches!(segment.state, State::Growing | State::Sustained);
-    match each(segment, critical) {
+    match each(segment, structure) {
         [Some(coupling), Some(slope)] if !vibrates => {
             // How much of a falling slope the damping takes is not known.
             let chances = Chances::of_each(coupling, slope);

@@ -2,9 +2,11 @@
 //!
 //! - [`report`]: the table of windows and the report.
 //! - [`spectrogram`]: the spectrogram as NetCDF.
-//! - [`figure`]: the figure; [`read`]: what it needs, read back.
+//! - [`shown`]: what the figure shows; [`read`]: the same, read back; [`figure`]: its page, and what stands in its panels.
 
 pub mod figure;
+mod panels;
 pub mod read;
 pub mod report;
+pub mod shown;
 pub mod spectrogram;

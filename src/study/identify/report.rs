@@ -12,7 +12,8 @@ use squealmap_identify::{
     Chances, Channel, Episode, Identification, Measured, Reading, Segment, Testimony, Verdict, Window, told,
 };
 
-pub use crate::study::identify::figure::{Shown, identify_svg};
+pub use crate::study::identify::figure::identify_svg;
+pub use crate::study::identify::shown::Shown;
 
 /// The columns of `windows.csv`; SI units, phases in degrees, temperature in °C.
 pub const COLUMNS: [&str; 22] = [
@@ -193,6 +194,7 @@ fn segment(segment: &Segment) -> Value {
             "reading": friction.reading,
             "level": measured(friction.level),
             "slope": friction.slope.map(measured),
+            "damping": friction.damping.map(measured),
         })),
         "velocity": segment.velocity,
         "temperature": segment.temperature,

@@ -29,6 +29,7 @@ use squealmap::study::cycles::branch::BranchPoint;
 use squealmap::study::cycles::curve::{self, CurvePoint, End};
 use squealmap::study::cycles::special::Special;
 use squealmap::study::hysteresis::follow::Hysteresis;
+use squealmap::study::identify::shown::{Colour, Coloured};
 use squealmap::study::identify::spectrogram::spectrogram_nc;
 use squealmap::study::paper::figures::{Growing, Shown, Slowdown};
 use squealmap::study::paper::{Figure, PhaseTrial, Settings, Stretch, Study, Trial, Witness};
@@ -40,7 +41,7 @@ use squealmap::sweep::label::Label;
 use squealmap::sweep::refine;
 use squealmap::sweep::sheet::Sheet;
 use squealmap::sweep::spec::refine::Settings as Refining;
-use squealmap_identify::Spectrogram;
+use squealmap_identify::{Clip, Instant, Spectrogram};
 use tempfile::TempDir;
 
 /// A figure and the directory that it can be drawn from.
@@ -144,6 +145,18 @@ fn an_identification() -> Piece {
         let swing = size * (0.06 * f64::from(k)).exp().min(8.0);
         [-swing, 0.9 * swing]
     };
+    let instant = |k: u32| Instant {
+        time: 0.1 + 0.045 * f64::from(k),
+        velocity: Some(3.0 - 0.05 * f64::from(k)),
+        temperature: Some(500.0),
+        phase: (k > 4).then_some(if k < 25 { -90.0 } else { -5.0 }),
+        coherence: (k > 4).then_some(0.98),
+    };
+    let zoom = |middle: f64| {
+        let accelerations =
+            [0.0, 1.5].map(|late| (0..120).map(|k| 4.0 * (0.3 * f64::from(k) - late).sin()).collect());
+        Clip { start: middle - 0.03, step: 5e-4, accelerations }
+    };
     let shown = identify::report::Shown {
         title: "A stroke".to_owned(),
         verdict: "Verdict: mode coupling (confidence 0.97)".to_owned(),
@@ -151,7 +164,14 @@ fn an_identification() -> Piece {
         accelerations: [1.0, 0.4].map(|size| (0..60).map(|k| wave(k, size)).collect()),
         friction_time: [0.1, 1.9],
         friction: (0..30).map(|k| [0.4 - 1e-3 * f64::from(k), 0.41 + 1.0 / 3e3 * f64::from(k)]).collect(),
-        episodes: vec![[0.2, 1.1]],
+        course: (0..40).map(instant).collect(),
+        segments: vec![
+            Coloured { time: [0.1, 0.3], verdict: Colour::NoInstability },
+            Coloured { time: [0.3, 1.1], verdict: Colour::ModeCoupling },
+            Coloured { time: [1.1, 1.5], verdict: Colour::AnyCoupling },
+            Coloured { time: [1.5, 1.9], verdict: Colour::Both },
+        ],
+        zooms: [0.5, 1.2, 1.6].map(zoom).to_vec(),
         spectrogram,
     };
     let svg = identify::report::identify_svg(&shown, &Look::default()).unwrap();

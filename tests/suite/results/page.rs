@@ -30,7 +30,9 @@ fn rows_of_panels_have_letters() {
         let expected = match piece.kind {
             Kind::Map | Kind::Refined | Kind::Modes | Kind::Fem | Kind::Vary => 2,
             Kind::Shapes => 1,
-            Kind::Trace | Kind::Identify => 4,
+            Kind::Trace => 4,
+            // Five over time, three close ones.
+            Kind::Identify => 8,
             Kind::Hysteresis | Kind::Curves | Kind::Tradeoff | Kind::Mesh => 0,
             Kind::Paper(figure) => match figure.name() {
                 "figure2" => 2,

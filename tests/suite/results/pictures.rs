@@ -195,12 +195,15 @@ fn the_spectrogram_belongs_to_its_figure() {
     let piece = all().into_iter().find(|piece| piece.kind == Kind::Identify).unwrap();
     let [nc, json] = piece.kind.files().map(|file| piece.directory.path().join(file));
     let text = std::fs::read_to_string(&json).unwrap();
-    std::fs::write(&json, text.replacen("[0.2,1.1]", "[0.3,1.1]", 1)).unwrap();
+    std::fs::write(&json, text.replacen("[0.3,1.1]", "[0.35,1.1]", 1)).unwrap();
     assert!(read(&piece).svg(&Look::default()).unwrap() != piece.svg);
     let bytes = std::fs::read(&nc).unwrap();
     let mut level = bytes.clone();
-    let last = bytes.len() - 4;
-    level[last..].copy_from_slice(&(-30.0_f32).to_be_bytes());
+    // The levels in dB come last; the normalised ones before them are drawn.
+    let document: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let of = |name: &str| document["figure"]["spectrogram"][name].as_u64().unwrap();
+    let last = bytes.len() - 4 - 4 * usize::try_from(of("columns") * of("rows")).unwrap();
+    level[last..last + 4].copy_from_slice(&0.5_f32.to_be_bytes());
     std::fs::write(&json, &text).unwrap();
     std::fs::write(&nc, &level).unwrap();
     assert!(read(&piece).svg(&Look::default()).unwrap() != piece.svg);

@@ -118,7 +118,7 @@ impl Judged {
 
 /// Judges one stroke. Segments shorter than what boundaries may be off by are not judged.
 pub(crate) fn judged(drawn: Drawn, stroke: &Stroke, slow: bool) -> Judged {
-    let found = run(&csv(&stroke.samples), &settings(stroke.critical));
+    let found = run(&csv(&stroke.samples), &settings(stroke.critical, stroke.damping_ratio));
     let segments = found.map(|found| found.segments).unwrap_or_default();
     let long = |segment: &&Segment| segment.time[1] - segment.time[0] > TOLERANCE * stroke.duration;
     let mut statements = Vec::new();
@@ -167,7 +167,7 @@ fn show(judged: &Judged, stroke: &Stroke, decibel: f64) {
         "{:?} slow {} {decibel} dB, wrong: {judges:?}, critical {:.3}",
         judged.drawn, judged.slow, stroke.critical
     );
-    if let Ok(found) = run(&csv(&stroke.samples), &settings(stroke.critical)) {
+    if let Ok(found) = run(&csv(&stroke.samples), &settings(stroke.critical, stroke.damping_ratio)) {
         for s in &found.segments {
             println!(
                 "  {:.4} to {:.4} {:?} reach {:?} phase {:?} {:?}\n    truth {:?}, verdict {:?} {:.3} {:?}",

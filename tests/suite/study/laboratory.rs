@@ -20,6 +20,8 @@ const TABLE_1: f64 = 34.0;
 const LOAD: f64 = 17.0;
 /// Corner of slow force sensors, Hz.
 const SLOW: f64 = 50.0;
+/// Damping ratios of the structures; a laboratory knows on which side of the middle one its own lies.
+const DAMPING: [f64; 3] = [2e-4, squealmap_identify::DAMPING_RATIO, 2e-2];
 /// Samples per second, Hz.
 pub(crate) const RATE: f64 = 102.4e3;
 /// Length of a stroke of sustained squeal, s.
@@ -64,6 +66,8 @@ pub(crate) struct Stroke {
     /// The friction coefficient of the coalescence.
     pub(crate) critical: f64,
     pub(crate) samples: Vec<Sample>,
+    /// The largest damping ratio that it may have, as a laboratory knows it.
+    pub(crate) damping_ratio: f64,
     /// Length of the motion, s; the record may begin later, with the time of the motion.
     pub(crate) duration: f64,
 }
@@ -71,7 +75,7 @@ pub(crate) struct Stroke {
 /// The model of the laboratory with drawn structure and law, the belt going from one velocity to another within `duration` (s).
 fn structure(random: &mut Random, law: FrictionLaw, [first, last]: [f64; 2], duration: f64) -> Instance {
     let compression = SQUEAL * random.between(0.7, 1.1) / TABLE_1;
-    let ratio = random.decades(2e-4, 2e-2);
+    let ratio = random.decades(DAMPING[0], DAMPING[2]);
     let damping = |mass: f64| 2.0 * ratio * mass * TAU * TABLE_1;
     let values = [
         (Param::M1, 2.12 / compression),
@@ -179,7 +183,10 @@ pub(crate) fn stroke(drawn: Drawn, random: &mut Random) -> Stroke {
         if drawn == Drawn::Driven {
             drive(&mut signals.samples, random);
         }
-        return Stroke { critical: coalescence(&instance), instance, samples: signals.samples, duration };
+        let ratio = instance.params.require(Param::C1) / (2.0 * 2.3 * TAU * TABLE_1);
+        let damping_ratio = if ratio <= DAMPING[1] { DAMPING[1] } else { DAMPING[2] };
+        let critical = coalescence(&instance);
+        return Stroke { critical, damping_ratio, instance, samples: signals.samples, duration };
     }
 }
 
@@ -231,9 +238,10 @@ pub(crate) fn sensed(samples: &mut [Sample], slow: bool, decibel: f64, backwards
     }
 }
 
-/// The settings of an analysis that knows the coalescence within 3 %.
-pub(crate) fn settings(critical: f64) -> Settings {
+/// The settings of an analysis that knows the coalescence within 3 %, and a bound of the damping ratio.
+pub(crate) fn settings(critical: f64, damping_ratio: f64) -> Settings {
     Settings {
+        damping_ratio,
         critical_friction: Some(Measured { value: critical, error: 0.03 * critical }),
         ..Settings::default()
     }

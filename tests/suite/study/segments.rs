@@ -14,7 +14,7 @@ use squealmap::model::instance::Instance;
 use squealmap::model::{Param, Params};
 use squealmap::study::signals::sensors::{Recording, Sample, record};
 use squealmap_identify::{
-    FrictionReading, Identification, Kind, Mechanism, Segment, Settings, State, Witness,
+    DAMPING_RATIO, FrictionReading, Identification, Kind, Mechanism, Segment, Settings, State, Witness,
 };
 
 /// Length of a stroke, s.
@@ -46,7 +46,7 @@ fn found(instance: &Instance, decibel: f64, backwards: bool) -> Identification {
     let recording = Recording { rate: RATE, duration: LENGTH, skew: 0.0, force_skew: 0.0 };
     let mut samples = record(instance, &plan(1.0, 1.0, 12), &recording).samples;
     sensed(&mut samples, true, decibel, backwards, &mut Random::new(5));
-    run(&csv(&samples), &settings(coalescence(instance))).unwrap()
+    run(&csv(&samples), &settings(coalescence(instance), 0.02)).unwrap()
 }
 
 fn describe(found: &Identification) -> String {
@@ -151,7 +151,7 @@ fn the_ramp_of_figure_6_leans_to_both_in_the_end() {
     let ramp = Instance { params, law: bilinear(0.4, 0.3), impact_friction: true, modal: None };
     let recording = Recording { rate: 1000.0, duration: 10.0, skew: 0.0, force_skew: 0.0 };
     let samples = record(&ramp, &plan(1.0, 1.0, 12), &recording).samples;
-    let found = run(&csv(&samples), &settings(coalescence(&ramp))).unwrap();
+    let found = run(&csv(&samples), &settings(coalescence(&ramp), DAMPING_RATIO)).unwrap();
     // 7 − 0.7 t = 5 m/s.
     let knee = 20.0 / 7.0;
     let growth = found.segments.iter().find(|s| s.state == State::Growing).unwrap();
@@ -196,7 +196,7 @@ fn a_jump_of_the_phase_is_where_a_segment_ends() {
     for jump in [0.09, 0.15, 0.22] {
         let mut samples = tone(jump, LENGTH);
         sensed(&mut samples, true, 20.0, false, &mut Random::new(9));
-        let found = run(&csv(&samples), &settings(0.2)).unwrap();
+        let found = run(&csv(&samples), &settings(0.2, DAMPING_RATIO)).unwrap();
         assert_eq!(found.segments.len(), 2, "{}", describe(&found));
         let [first, second] = &found.segments[..] else { panic!() };
         near("boundary", first.time[1], jump, 0.01 * LENGTH);
@@ -206,7 +206,7 @@ fn a_jump_of_the_phase_is_where_a_segment_ends() {
     // Without a jump there is one segment.
     let mut samples = tone(2.0 * LENGTH, LENGTH);
     sensed(&mut samples, true, 20.0, false, &mut Random::new(9));
-    let found = run(&csv(&samples), &settings(0.2)).unwrap();
+    let found = run(&csv(&samples), &settings(0.2, DAMPING_RATIO)).unwrap();
     assert_eq!(found.segments.len(), 1, "{}", describe(&found));
 }
 
@@ -219,11 +219,62 @@ fn a_weak_steady_tone_has_no_mechanism() {
         sample.normal_acceleration *= 0.1;
     }
     sensed(&mut samples, true, 40.0, false, &mut Random::new(9));
-    let found = run(&csv(&samples), &settings(0.2)).unwrap();
+    let found = run(&csv(&samples), &settings(0.2, DAMPING_RATIO)).unwrap();
     for segment in &found.segments {
         assert_eq!(segment.verdict.kind, Kind::Undecided, "{}", describe(&found));
         let phase = segment.testimonies.iter().find(|t| t.witness == Witness::Phase).unwrap();
         assert!(phase.chances.is_none() && phase.evidence.contains("may be driven"), "{}", phase.evidence);
+    }
+}
+
+/// A mass on a spring with a damper, driven along two harmonics by what friction gives: forces that belong to its motion.
+fn cycle(damping: f64, slope: f64) -> Vec<Sample> {
+    const RATE: f64 = 2000.0;
+    let (mass, omega, belt_velocity, length) = (2.3, TAU * 34.0, 3.0, 12.0);
+    // A little beside the resonance, so that the forces swing.
+    let stiffness = 1.05 * mass * omega * omega;
+    let sample = |k: u32| {
+        let t = f64::from(k) / RATE;
+        let motion = |size: f64, harmonic: f64, phase: f64| {
+            let (w, angle) = (harmonic * omega, harmonic * omega * t + phase);
+            [size / w * angle.sin(), size * angle.cos(), -size * w * angle.sin()]
+        };
+        let [one, two] = [motion(0.75 * belt_velocity, 1.0, 0.0), motion(0.04 * belt_velocity, 2.0, 0.6)];
+        let [x, v, a] = [0, 1, 2].map(|n| one[n] + two[n]);
+        let tangential_force = 340.0 + mass * a + damping * v + stiffness * x;
+        let friction = 0.34 + slope * (belt_velocity - v - belt_velocity);
+        Sample {
+            t,
+            tangential_acceleration: a,
+            normal_acceleration: 0.3 * a,
+            tangential_force,
+            normal_force: tangential_force / friction,
+            belt_velocity,
+        }
+    };
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a number of samples")]
+    (0..(length * RATE) as u32).map(sample).collect()
+}
+
+/// The damping along the contact comes out of the power of friction, and decides whether a falling slope exceeds it.
+#[test]
+fn damping_is_read_within_the_oscillation() {
+    for (damping, slope, exceeds) in
+        [(2.0, -0.02, true), (2.0, 0.0, false), (40.0, -0.02, false), (10.0, -0.03, true)]
+    {
+        let mut samples = cycle(damping, slope);
+        let normal = samples.iter().map(|sample| sample.normal_force).sum::<f64>() / samples.len() as f64;
+        sensed(&mut samples, false, 60.0, false, &mut Random::new(4));
+        let found = run(&csv(&samples), &settings(0.25, DAMPING_RATIO)).unwrap();
+        let [segment] = &found.segments[..] else { panic!("{}", describe(&found)) };
+        let friction = segment.friction.unwrap();
+        assert_eq!(friction.reading, FrictionReading::Within, "{}", describe(&found));
+        let (read, law) = friction.damping.zip(friction.slope).unwrap_or_else(|| panic!("{friction:?}"));
+        near("slope", law.value, slope, 2.0 * law.error);
+        near("damping", read.value, damping / normal, 2.0 * read.error);
+        near("damping", read.value, damping / normal, 0.004);
+        let expected = if exceeds { Kind::Both } else { Kind::ModeCoupling };
+        assert_eq!(segment.verdict.leaning, Some(expected), "{}", describe(&found));
     }
 }
 
