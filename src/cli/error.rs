@@ -181,6 +181,20 @@ pub(crate) enum Error {
         /// Which value, and what to do.
         fault: Box<dyn std::error::Error + Send + Sync>,
     },
+    /// Measurements that no model has.
+    #[error("{fault}")]
+    Calibrate {
+        /// Which, and what to do.
+        fault: squealmap::study::calibrate::Fault,
+    },
+    /// A file that is no material over temperature.
+    #[error("`{}` {why}; give --material a file that `squealmap fit` wrote for at least two temperatures", path.display())]
+    NoMaterial {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        why: String,
+    },
     /// An option of maps for another figure.
     #[error("{option} is of maps, but the figure of `{}` is that of `{figure}`; leave {option} out", path.display())]
     OnlyOfMaps {
@@ -387,6 +401,8 @@ impl Error {
             | Error::NoStem { .. }
             | Error::Signals { .. }
             | Error::Fit { .. }
+            | Error::Calibrate { .. }
+            | Error::NoMaterial { .. }
             | Error::OnlyOfMaps { .. }
             | Error::TooNarrow { .. }
             | Error::NotComparable { .. }

@@ -10,7 +10,7 @@ use crate::cli::talk::{note, print};
 use clap::{Args, ValueEnum};
 use squealmap::model::friction::LawKind;
 use squealmap::study::fit::table::{material_csv, residuals_csv};
-use squealmap::study::fit::{Fit, fit, range};
+use squealmap::study::fit::{Candidate, Fit, compare, fit, range};
 use squealmap_identify::{Channel, FrictionColumn, Measurements, Point, Settings, read_measurements};
 use squealmap_input::quote::rounded;
 
@@ -29,6 +29,8 @@ enum Law {
     Bilinear,
     Exponential,
     Constant,
+    /// The one of these with the least `AICc`
+    Best,
 }
 
 /// Arguments of `fit`.
@@ -95,10 +97,12 @@ impl FitCommand {
         }
         let points = measured.points;
         let rows = if self.temperatures.is_empty() { rows(&points) } else { self.temperatures };
+        let candidates = compare(&points, &rows, self.law_velocity);
         let law = match self.law {
             Law::Bilinear => LawKind::Bilinear,
             Law::Exponential => LawKind::Exponential,
             Law::Constant => LawKind::Constant,
+            Law::Best => candidates[0].law,
         };
         let fitted = fit(&points, law, &rows, self.law_velocity)
             .map_err(|fault| Error::Fit { name: name.clone(), fault: fault.into() })?;
@@ -108,8 +112,9 @@ impl FitCommand {
         let paths = output.write(&[(FILES[0], text.clone().into_bytes()), (FILES[1], residuals)])?;
         let usage = format!("[friction]\nlaw = \"{}\"\nmaterial = \"{}\"\n", law.name(), FILES[0]);
         print(&format!(
-            "{text}{}{}in a sweep file beside {}:\n{usage}",
+            "{text}{}{}{}in a sweep file beside {}:\n{usage}",
             largest(&fitted, &points),
+            compared(&candidates),
             list(&paths),
             FILES[0]
         ));
@@ -134,6 +139,25 @@ fn remarks(measured: &Measurements) -> Vec<String> {
         ));
     }
     remarks
+}
+
+/// The laws beside each other.
+fn compared(candidates: &[Candidate]) -> String {
+    let least = |k: usize| {
+        candidates.iter().filter_map(|one| one.criteria).map(|all| all[k]).fold(f64::INFINITY, f64::min)
+    };
+    let line = |candidate: &Candidate| match (&candidate.fit, candidate.criteria) {
+        (Ok(fit), Some([aicc, bic])) => format!(
+            "law \"{}\": root mean square residual {:.2e}, AICc {:+.1}, BIC {:+.1} above the least\n",
+            candidate.law.name(),
+            fit.residual,
+            aicc - least(0),
+            bic - least(1)
+        ),
+        (Err(why), _) => format!("law \"{}\": {why}\n", candidate.law.name()),
+        (Ok(_), None) => format!("law \"{}\": too few points to compare\n", candidate.law.name()),
+    };
+    candidates.iter().map(line).collect()
 }
 
 /// Where the law is farthest from a point.

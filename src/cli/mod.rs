@@ -3,6 +3,7 @@
 
 mod accuracy;
 mod adapters;
+mod calibrate;
 mod check;
 mod compare;
 mod curves;
@@ -117,6 +118,8 @@ enum Command {
     Fem(fem::FemCommand),
     /// A material file for sweeps from measured velocity, friction and temperature
     Fit(fit::FitCommand),
+    /// The two-mass model with two measured frequencies, their damping, and the friction at which squeal began: calibrated.toml
+    Calibrate(calibrate::Calibrate),
     /// What a shell needs to complete commands and options, on standard output
     Completions(shell::Completions),
     /// Pages for `man`, one for the program and one for each command
@@ -154,6 +157,7 @@ impl Command {
             | Command::Explore(_)
             | Command::Adapters
             | Command::Fit(_)
+            | Command::Calibrate(_)
             | Command::Completions(_)
             | Command::Man(_) => Workers::None,
             Command::Merge(_)
@@ -193,6 +197,7 @@ impl Command {
             Command::Tradeoff(command) => command.execute()?,
             Command::Fem(command) => command.execute()?,
             Command::Fit(command) => command.execute()?,
+            Command::Calibrate(command) => command.execute()?,
             Command::Init(command) => command.execute()?,
             Command::Keys(command) => command.execute()?,
             Command::Completions(command) => command.execute(definition()),

@@ -14,6 +14,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use squealmap::cluster::slurm::quote;
 use squealmap::results::figure::look::{Journal, Look, WIDTHS};
 use squealmap::study::curves::read::Curves;
+use squealmap::study::observed::Strokes;
 use squealmap::study::{Kind, Picture};
 use squealmap::version::program;
 use squealmap_figure::{pdf, png};
@@ -53,6 +54,10 @@ pub(crate) struct Plot {
     /// Of a map, computed or refined: with the lines of this directory of `curves`, where cycles end
     #[arg(long, value_name = "DIR", conflicts_with = "cut")]
     curves: Option<PathBuf>,
+    /// Of a map, computed or refined: with the measured strokes of this table, which has a column for each axis of the map, a standard
+    /// error where that is known (`mu_s_error`), and `observed`: `no_instability`, `negative_slope`, `mode_coupling`, `both`, `undecided`
+    #[arg(long, value_name = "FILE", conflicts_with = "cut")]
+    strokes: Option<PathBuf>,
     #[command(flatten)]
     map: OfMaps,
 }
@@ -70,7 +75,7 @@ impl Plot {
         }
         let picture = Picture::read(&self.directory, kind)?;
         let provenance = format!("{}, of results of {}", self.command(), picture.program);
-        let lines = match (&self.curves, picture.grid()) {
+        let mut lines = match (&self.curves, picture.grid()) {
             (None, _) => Vec::new(),
             (Some(curves), Some(grid)) => Curves::over(curves, &self.directory, grid)?,
             (Some(_), None) => {
@@ -78,6 +83,23 @@ impl Plot {
                 return Err(Error::OnlyOfMaps { option: "--curves", figure: kind.name(), path });
             }
         };
+        match (&self.strokes, picture.grid()) {
+            (None, _) => {}
+            (Some(strokes), Some(grid)) => {
+                let found = Strokes::over(strokes, grid)?;
+                if found.outside > 0 {
+                    note(&format!(
+                        "{} of the strokes lie outside of the map and are not drawn",
+                        found.outside
+                    ));
+                }
+                lines.extend(found.lines);
+            }
+            (Some(_), None) => {
+                let path = self.directory.clone();
+                return Err(Error::OnlyOfMaps { option: "--strokes", figure: kind.name(), path });
+            }
+        }
         let look = Look {
             lines,
             width: self.journal.map(Journal::width).or(self.width),
@@ -137,6 +159,9 @@ impl Plot {
         }
         if let Some(title) = &self.title {
             add(format!(" --title {}", quote(title)));
+        }
+        if let Some(strokes) = &self.strokes {
+            add(format!(" --strokes {}", quote(&strokes.display().to_string())));
         }
         if let Some(curves) = &self.curves {
             add(format!(" --curves {}", quote(&curves.display().to_string())));

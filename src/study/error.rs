@@ -68,6 +68,14 @@ pub enum Error {
         /// The directory of the curves.
         path: PathBuf,
     },
+    /// Measured strokes that cannot be drawn over a map.
+    #[error("the strokes in `{}` {why}", path.display())]
+    BadStrokes {
+        /// Their table.
+        path: PathBuf,
+        /// What is wrong with it.
+        why: String,
+    },
     /// A ramp of the paper's figures that does not come to its end.
     #[error(
         "the ramp under {case} of {duration} s with a kick of {kick} m ended early with status `{status}`; \
@@ -167,6 +175,7 @@ impl Error {
             | Error::NoCurvesAlong { .. }
             | Error::CurvesOfAnother { .. }
             | Error::CurvesElsewhere { .. }
+            | Error::BadStrokes { .. }
             | Error::NoShapes
             | Error::PaperRamp { .. }
             | Error::NoDirectoryToPlot { .. }

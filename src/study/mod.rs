@@ -10,8 +10,10 @@
 //! | a map to look into, as a page | [`explore`] |
 //! | speed against error | [`tradeoff`] |
 //! | measured friction as a material | [`fit`] |
+//! | measurements of a structure as a model | [`calibrate`] |
 //! | measured signals | [`identify`] |
 //! | an instance as sensors record it | [`signals`] |
+//! | measured strokes over a map | [`observed`] |
 //! | the source paper | [`paper`] |
 //! | bodies in sliding contact by finite elements | [`fem`] |
 //!
@@ -23,6 +25,7 @@ pub use kind::Kind;
 #[cfg(all(feature = "figures", feature = "identify"))]
 pub use picture::Picture;
 
+pub mod calibrate;
 #[cfg(feature = "figures")]
 pub mod curves;
 pub mod cycles;
@@ -39,6 +42,8 @@ pub mod identify;
 #[cfg(all(feature = "figures", feature = "identify"))]
 pub mod kind;
 pub mod modes;
+#[cfg(feature = "figures")]
+pub mod observed;
 #[cfg(feature = "figures")]
 pub mod paper;
 #[cfg(all(feature = "figures", feature = "identify"))]

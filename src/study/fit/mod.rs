@@ -2,9 +2,11 @@
 //!
 //! - `squares.rs`: the fit by least squares; `problem.rs`: points as a linear problem.
 //! - `errors.rs`: how far the values of a fit would scatter.
+//! - [`compare`]: several laws, by information criteria.
 //! - [`table`]: the files of a fit.
 //! - `fault.rs`: why there is none.
 
+mod criteria;
 mod errors;
 mod fault;
 mod problem;
@@ -12,5 +14,6 @@ mod shape;
 mod squares;
 pub mod table;
 
+pub use criteria::{Candidate, compare};
 pub use fault::FitFault;
 pub use squares::{Fit, fit, range};

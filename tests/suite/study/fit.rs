@@ -10,7 +10,7 @@ use crate::study::strokes::Random;
 use squealmap::model::Param;
 use squealmap::model::friction::LawKind;
 use squealmap::study::fit::table::material_csv;
-use squealmap::study::fit::{FitFault, fit};
+use squealmap::study::fit::{Candidate, FitFault, compare, fit};
 use squealmap::sweep::spec::Spec;
 use squealmap_identify::Point;
 use squealmap_identify::{FrictionColumn, Settings, read_points};
@@ -111,4 +111,44 @@ fn a_sweep_reads_the_material() {
     let spec = Spec::parse(sweep, "sweep.toml", directory.path()).unwrap();
     near("mu at 200 °C", spec.instance(0).law.mu(3.0), pad(3.0, 200.0), 1e-5);
     near("mu at 400 °C", spec.instance(1).law.mu(3.0), pad(3.0, 400.0), 1e-5);
+}
+
+/// Of points of one law that law is the likeliest, and a law with more values is not preferred for its better fit alone.
+#[test]
+fn the_law_of_the_points_has_the_least_criteria() {
+    let mut random = Random::new(21);
+    let mu = |law: LawKind, v: f64| match law {
+        LawKind::Bilinear => 0.4 - 0.1 * (v / 2.0).min(1.0),
+        LawKind::Exponential => 0.3 + 0.1 * (-v / 0.6).exp(),
+        _ => 0.3,
+    };
+    for law in [LawKind::Constant, LawKind::Bilinear, LawKind::Exponential] {
+        let mut preferred = 0;
+        for _ in 0..20 {
+            let points: Vec<Point> = (0..200)
+                .map(|k| 0.03 * f64::from(k))
+                .map(|velocity| Point {
+                    velocity,
+                    temperature: 20.0,
+                    friction: mu(law, velocity) + 0.003 * random.normal(),
+                })
+                .collect();
+            let all = compare(&points, &[20.0], None);
+            let of = |kind: LawKind| all.iter().find(|one| one.law == kind).unwrap();
+            // By hand: n ln(Σr²/n) + 2k + 2k(k + 1)/(n − k − 1), k = 1 or 3 values of the law, and the variance.
+            let found = of(law);
+            let squares: f64 = found.fit.as_ref().unwrap().residuals.iter().map(|r| r * r).sum();
+            let k: f64 = if law == LawKind::Constant { 2.0 } else { 4.0 };
+            let fits = 200.0 * (squares / 200.0).ln();
+            let [aicc, bic] = found.criteria.unwrap();
+            near("AICc", aicc, fits + 2.0 * k + 2.0 * k * (k + 1.0) / (199.0 - k), 1e-9 * fits.abs());
+            near("BIC", bic, fits + k * 200.0_f64.ln(), 1e-9 * fits.abs());
+            let bic = |one: &Candidate| one.criteria.map_or(f64::INFINITY, |[_, bic]| bic);
+            let least = all.iter().min_by(|a, b| bic(a).total_cmp(&bic(b))).unwrap();
+            preferred += usize::from(least.law == law);
+            let rises = |pair: &[Candidate]| pair[0].criteria.unwrap()[0] <= pair[1].criteria.unwrap()[0];
+            assert!(all.windows(2).all(rises));
+        }
+        assert!(preferred >= 18, "{law:?}: {preferred} of 20");
+    }
 }

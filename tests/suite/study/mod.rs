@@ -1,6 +1,7 @@
 //! Studies: modes, branches, traces, fits, measured signals, the source paper.
 
 pub(crate) mod bound;
+pub(crate) mod calibrate;
 pub(crate) mod claims;
 pub(crate) mod confusion;
 pub(crate) mod curves;
@@ -17,6 +18,7 @@ pub(crate) mod identify_growth;
 pub(crate) mod judged;
 pub(crate) mod laboratory;
 pub(crate) mod modes_figure;
+pub(crate) mod observed;
 pub(crate) mod paper;
 pub(crate) mod report_numbers;
 pub(crate) mod sampling;

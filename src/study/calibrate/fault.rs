@@ -1,0 +1,48 @@
+//! Why no model has what was measured.
+
+/// Why no model has what was measured.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Fault {
+    /// Frequencies that do not rise.
+    #[error(
+        "the frequencies are {first} and {second} Hz but must rise; give the lower one first with --frequencies"
+    )]
+    NotRising {
+        /// The first, Hz.
+        first: f64,
+        /// The second, Hz.
+        second: f64,
+    },
+    /// Friction that no inclination makes critical.
+    #[error(
+        "modes at {first} and {second} Hz do not coalesce at a friction coefficient of {wanted}: with the inclinations that these \
+         frequencies allow it is {low:.4} to {high:.4}; measure the frequencies again (closer ones coalesce at less friction), or \
+         give another --critical-friction"
+    )]
+    Coalescence {
+        /// The lower frequency, Hz.
+        first: f64,
+        /// The upper one, Hz.
+        second: f64,
+        /// The friction coefficient that was measured.
+        wanted: f64,
+        /// The least that is possible.
+        low: f64,
+        /// The most that was tried.
+        high: f64,
+    },
+    /// Damping ratios that no dampers give.
+    #[error(
+        "damping ratios of {first} and {second} would ask for a damper of {value:.3e} N s/m, but dampers are not negative: modes that \
+         friction couples this easily are damped more alike; give one ratio for both with --damping-ratio"
+    )]
+    Damping {
+        /// The ratio of the lower mode.
+        first: f64,
+        /// That of the upper one.
+        second: f64,
+        /// The least damper, N s/m.
+        value: f64,
+    },
+}

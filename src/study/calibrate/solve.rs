@@ -1,0 +1,174 @@
+//! The inclination at which the modes coalesce where squeal began, and with it the whole model.
+
+use std::f64::consts::TAU;
+
+use crate::model::friction::FrictionLaw;
+use crate::model::instance::Instance;
+use crate::model::{Param, Params, linear};
+use crate::study::calibrate::fault::Fault;
+use crate::study::calibrate::system::{Structure, Wanted};
+
+/// What was measured.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Measured {
+    /// The frequencies of the two modes without friction, Hz, rising.
+    pub frequencies: [f64; 2],
+    /// Their damping ratios.
+    pub damping_ratios: [f64; 2],
+    /// The friction coefficient at which squeal began, where friction does not fall with the velocity.
+    pub critical_friction: f64,
+    /// The moving mass `m1 + m2`, kg.
+    pub mass: f64,
+    /// `m2/m1`.
+    pub mass_ratio: f64,
+    /// The load, N.
+    pub load: f64,
+    /// Whether the upper mode is rather the normal one, as in Table 1.
+    pub normal_above: bool,
+}
+
+/// A model that has all of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Calibrated {
+    /// Masses, stiffnesses, dampers, inclination and load.
+    pub params: Params,
+    /// The frequencies that its eigenvalues have without friction, Hz.
+    pub frequencies: [f64; 2],
+    /// Their damping ratios.
+    pub damping_ratios: [f64; 2],
+    /// The friction coefficient from which on it is unstable, the slope set to 0.
+    pub critical_friction: f64,
+}
+
+/// Inclinations are looked for down to this part of the largest one.
+const LEAST: f64 = 1e-5;
+/// Corrections of what the weak damping is taken for.
+const CORRECTIONS: usize = 8;
+
+/// The model that has what was measured.
+///
+/// The inclination is what remains when the modes are given: the flatter the contact, the more friction it takes to couple
+/// them. It is found by bisection; all else is in closed form, corrected for the damping.
+///
+/// # Errors
+/// When no model has it.
+pub fn calibrate(measured: &Measured) -> Result<Calibrated, Fault> {
+    let [first, second] = measured.frequencies;
+    if first.partial_cmp(&second) != Some(std::cmp::Ordering::Less) {
+        return Err(Fault::NotRising { first, second });
+    }
+    let m1 = measured.mass / (1.0 + measured.mass_ratio);
+    let wanted = Wanted {
+        masses: [m1, measured.mass - m1],
+        frequencies: measured.frequencies,
+        damping_ratios: measured.damping_ratios,
+        normal_above: measured.normal_above,
+    };
+    // Just below the largest one, where both modes are the same mixture.
+    let steep = 0.999 * wanted.steepest();
+    let critical =
+        |theta: f64| coalescence(&instance(&corrected(&wanted, theta), &wanted, theta, measured.load));
+    let (mut low, mut high) = (LEAST * steep, steep);
+    let ends = [critical(high), critical(low)];
+    if !(ends[0]..=ends[1]).contains(&measured.critical_friction) {
+        return Err(Fault::Coalescence {
+            first,
+            second,
+            wanted: measured.critical_friction,
+            low: ends[0],
+            high: ends[1],
+        });
+    }
+    for _ in 0..BISECTIONS {
+        let middle = (low * high).sqrt();
+        if critical(middle) > measured.critical_friction { low = middle } else { high = middle }
+    }
+    let theta = (low * high).sqrt();
+    let structure = corrected(&wanted, theta);
+    let least = structure.damping[0].min(structure.damping[1]);
+    if least < 0.0 {
+        let [first, second] = measured.damping_ratios;
+        return Err(Fault::Damping { first, second, value: least });
+    }
+    let found = instance(&structure, &wanted, theta, measured.load);
+    let (frequencies, damping_ratios) = modes(&found);
+    Ok(Calibrated {
+        params: found.params,
+        frequencies,
+        damping_ratios,
+        critical_friction: coalescence(&found),
+    })
+}
+
+/// Halvings of an interval of inclinations, and of friction coefficients.
+const BISECTIONS: usize = 48;
+
+/// The structure at an inclination whose eigenvalues have what is wanted: what its damping changes is taken off beforehand.
+fn corrected(wanted: &Wanted, theta: f64) -> Structure {
+    let mut asked = *wanted;
+    for _ in 0..CORRECTIONS {
+        let found = instance(&asked.structure(theta), wanted, theta, 1.0);
+        let (frequencies, damping_ratios) = modes(&found);
+        for mode in 0..2 {
+            asked.frequencies[mode] += wanted.frequencies[mode] - frequencies[mode];
+            asked.damping_ratios[mode] += wanted.damping_ratios[mode] - damping_ratios[mode];
+        }
+    }
+    asked.structure(theta)
+}
+
+/// An instance without friction.
+fn instance(structure: &Structure, wanted: &Wanted, theta: f64, load: f64) -> Instance {
+    let mut params = Params::default();
+    let Structure { stiffness, damping } = structure;
+    for (param, value) in [
+        (Param::M1, wanted.masses[0]),
+        (Param::M2, wanted.masses[1]),
+        (Param::K1, stiffness[0]),
+        (Param::K2, stiffness[1]),
+        (Param::C1, damping[0]),
+        (Param::C2, damping[1]),
+        (Param::Theta, theta),
+        (Param::FExt, load),
+        (Param::BeltVelocity, 1.0),
+    ] {
+        params.set(param, value);
+    }
+    Instance { params, law: flat(0.0), impact_friction: true, modal: None }
+}
+
+fn flat(mu: f64) -> FrictionLaw {
+    FrictionLaw::Constant { mu_s: mu, mu_d: mu }
+}
+
+/// Frequencies (Hz) and damping ratios of the two modes of an instance, rising.
+fn modes(instance: &Instance) -> ([f64; 2], [f64; 2]) {
+    let mut above: Vec<_> =
+        linear::eigenvalues(instance).into_iter().flatten().filter(|z| z.im > 0.0).collect();
+    above.sort_by(|a, b| a.im.total_cmp(&b.im));
+    let of = |mode: usize| above.get(mode).copied().unwrap_or_default();
+    let both = [of(0), of(1)];
+    (both.map(|z| z.im / TAU), both.map(|z| -z.re / z.norm()))
+}
+
+/// The least friction coefficient at which an instance is unstable with a flat law; infinite where none below `MOST` is.
+fn coalescence(instance: &Instance) -> f64 {
+    /// Friction coefficients beyond this are no friction.
+    const MOST: f64 = 5.0;
+    /// Steps in which the first unstable one is looked for.
+    const STEPS: u32 = 250;
+    let unstable = |mu: f64| {
+        let at = Instance { law: flat(mu), ..instance.clone() };
+        linear::eigenvalues(&at).is_some_and(|all| all.iter().any(|z| linear::is_unstable(*z)))
+    };
+    let step = MOST / f64::from(STEPS);
+    let Some(first) = (0..=STEPS).map(|k| step * f64::from(k)).find(|mu| unstable(*mu)) else {
+        return f64::INFINITY;
+    };
+    let (mut low, mut high) = ((first - step).max(0.0), first);
+    for _ in 0..BISECTIONS {
+        let middle = 0.5 * (low + high);
+        if unstable(middle) { high = middle } else { low = middle }
+    }
+    high
+}

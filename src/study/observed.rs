@@ -1,0 +1,198 @@
+//! Measured strokes over a map: what was observed beside what is predicted.
+
+use std::path::Path;
+
+use crate::results::figure::overlay::{Overlay, Stroke};
+use crate::results::figure::panels::Panels;
+use crate::results::figure::picture_axis::PictureAxis;
+use crate::study::error::{Error, Result};
+use crate::sweep::grid::{Axis, AxisKey, Grid, Value};
+use squealmap_input::files;
+use squealmap_input::quote::quoted;
+
+/// The largest table that is read, bytes.
+const MOST: u64 = 1 << 24;
+/// The column of what was observed.
+const OBSERVED: &str = "observed";
+
+/// The line of a standard error, and the rim of a mark.
+const ERROR: Stroke = Stroke {
+    words: "standard error",
+    attributes: r##"class="error" fill="none" stroke="#000000" stroke-width="0.7""##,
+};
+const RIM: Stroke = Stroke {
+    words: "measured stroke",
+    attributes: r##"class="rim" fill="none" stroke="#000000" stroke-width="5.6" stroke-linecap="round""##,
+};
+
+/// What may be observed: its name, and its mark in the colour that maps give the same type.
+const MARKS: [(&str, Stroke); 5] = [
+    (
+        "no_instability",
+        Stroke {
+            words: "measured: no instability",
+            attributes: r##"class="observed" fill="none" stroke="#F2F2EE" stroke-width="4.2" stroke-linecap="round""##,
+        },
+    ),
+    (
+        "negative_slope",
+        Stroke {
+            words: "measured: negative slope",
+            attributes: r##"class="observed" fill="none" stroke="#56B4E9" stroke-width="4.2" stroke-linecap="round""##,
+        },
+    ),
+    (
+        "mode_coupling",
+        Stroke {
+            words: "measured: mode coupling",
+            attributes: r##"class="observed" fill="none" stroke="#B5441A" stroke-width="4.2" stroke-linecap="round""##,
+        },
+    ),
+    (
+        "both",
+        Stroke {
+            words: "measured: both",
+            attributes: r##"class="observed" fill="none" stroke="#452087" stroke-width="4.2" stroke-linecap="round""##,
+        },
+    ),
+    (
+        "undecided",
+        Stroke {
+            words: "measured: undecided",
+            attributes: r##"class="observed" fill="none" stroke="#808B81" stroke-width="4.2" stroke-linecap="round""##,
+        },
+    ),
+];
+
+/// Measured strokes as lines over a map, and how many lie outside of it.
+#[derive(Clone, Debug)]
+pub struct Strokes {
+    /// Their errors, rims and marks.
+    pub lines: Vec<Overlay>,
+    /// Strokes in no panel.
+    pub outside: usize,
+}
+
+impl Strokes {
+    /// Reads a table of strokes: a column for each axis of the map, named as it, `NAME_error` for its standard error where that
+    /// is known, and `observed`. A stroke is in the panel nearest to it.
+    ///
+    /// # Errors
+    /// When the map has no plane, or the table is none of such strokes.
+    pub fn over(path: &Path, grid: &Grid) -> Result<Strokes> {
+        let bad = |why: String| Error::BadStrokes { path: path.to_owned(), why };
+        let Grid::Axes(axes) = grid else {
+            return Err(bad(
+                "are to be drawn over a map of axes, and this one is of listed instances".to_owned()
+            ));
+        };
+        let panels = Panels::new(grid);
+        let sides = panels.x.key().zip(panels.y.as_ref().and_then(PictureAxis::key));
+        let (x, y) =
+            sides.ok_or_else(|| bad("are to be drawn over a plane, and this map has none".to_owned()))?;
+        let text = files::table(path, MOST).map_err(bad)?;
+        let mut reader =
+            csv::ReaderBuilder::new().comment(Some(b'#')).trim(csv::Trim::All).from_reader(text.as_bytes());
+        let header = reader.headers().map_err(|why| bad(why.to_string()))?.clone();
+        let column = |name: &str| header.iter().position(|other| other == name);
+        let needed = |name: &str| {
+            let listed: Vec<String> = header.iter().map(|name| format!("`{}`", quoted(name))).collect();
+            column(name).ok_or_else(|| bad(format!("have no column `{name}`, only {}", listed.join(", "))))
+        };
+        let places = [needed(x.name())?, needed(y.name())?];
+        let errors = [x, y].map(|side| column(&format!("{}_error", side.name())));
+        let observed = needed(OBSERVED)?;
+        let others: Vec<(&Axis, usize)> = axes
+            .iter()
+            .filter(|axis| axis.key != x && axis.key != y && axis.values.len() > 1)
+            .map(|axis| Ok((axis, needed(axis.key.name())?)))
+            .collect::<Result<_>>()?;
+        let (mut bars, mut rims, mut marks, mut outside) = (Vec::new(), Vec::new(), Vec::new(), 0);
+        for (number, row) in reader.records().enumerate() {
+            let row = row.map_err(|why| bad(why.to_string()))?;
+            let stroke = number + 1;
+            let value = |place: usize| {
+                let cell = row.get(place).unwrap_or_default();
+                let value = cell.parse::<f64>().ok().filter(|value| value.is_finite());
+                value.ok_or_else(|| {
+                    bad(format!(
+                        "have `{}` as `{}` in row {stroke}, which is no number",
+                        quoted(cell),
+                        quoted(&header[place])
+                    ))
+                })
+            };
+            let at = [value(places[0])?, value(places[1])?];
+            let mut here = Vec::new();
+            for (axis, place) in &others {
+                let cell = row.get(*place).unwrap_or_default();
+                let found = nearest(axis, cell);
+                here.push((
+                    axis.key,
+                    found.ok_or_else(|| {
+                        bad(format!(
+                            "have `{}` as `{}` in row {stroke}, which is no value of the map",
+                            quoted(cell),
+                            axis.key.name()
+                        ))
+                    })?,
+                ));
+            }
+            let name = row.get(observed).unwrap_or_default();
+            let mark = MARKS.into_iter().find(|(known, _)| *known == name).map(|(_, mark)| mark);
+            let mark = mark.ok_or_else(|| {
+                let names = MARKS.map(|(name, _)| name).join(", ");
+                bad(format!(
+                    "have `{}` as `{OBSERVED}` in row {stroke}; it must be one of {names}",
+                    quoted(name)
+                ))
+            })?;
+            if !([x, y].into_iter().zip(at).all(|(side, value)| covers(axes, side, value))) {
+                outside += 1;
+                continue;
+            }
+            let line = |stroke: Stroke, points: [[f64; 2]; 2]| Overlay {
+                axes: [x, y],
+                others: here.clone(),
+                stroke,
+                points: points.to_vec(),
+            };
+            for (side, error) in errors.into_iter().enumerate() {
+                let Some(error) = error else { continue };
+                let error = value(error)?.abs();
+                let mut ends = [at; 2];
+                ends[0][side] -= error;
+                ends[1][side] += error;
+                bars.push(line(ERROR, ends));
+            }
+            rims.push(line(RIM, [at; 2]));
+            marks.push(line(mark, [at; 2]));
+        }
+        bars.extend(rims);
+        bars.extend(marks);
+        Ok(Strokes { lines: bars, outside })
+    }
+}
+
+/// Whether an axis reaches a value.
+fn covers(axes: &[Axis], side: AxisKey, value: f64) -> bool {
+    let numbers = axes.iter().filter(|axis| axis.key == side).flat_map(|axis| &axis.values);
+    let numbers = numbers.filter_map(|value| match value {
+        Value::Number(number) => Some(*number),
+        Value::Text(_) => None,
+    });
+    let [low, high] = numbers.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], x| [l.min(x), h.max(x)]);
+    (low..=high).contains(&value)
+}
+
+/// The value of an axis nearest to a number, or the same text.
+fn nearest(axis: &Axis, cell: &str) -> Option<Value> {
+    let number = cell.parse::<f64>().ok().filter(|number| number.is_finite());
+    let off = |value: &Value| match (value, number) {
+        (Value::Number(value), Some(number)) => (value - number).abs(),
+        (Value::Text(text), _) if text.as_str() == cell => 0.0,
+        _ => f64::INFINITY,
+    };
+    let best = axis.values.iter().min_by(|a, b| off(a).total_cmp(&off(b)))?;
+    off(best).is_finite().then(|| best.clone())
+}
