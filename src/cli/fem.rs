@@ -15,8 +15,8 @@ use squealmap_fem::study::{Outcome, Study, compute, estimate, manifest, place, s
 
 use squealmap_input::place::Source;
 
-use crate::cli::home::prepare_beside;
-use crate::cli::output::list;
+use crate::cli::home::{Replace, prepare};
+use crate::cli::output::{Output, list};
 use crate::cli::pictures::png_of;
 use crate::cli::progress::seconds;
 use crate::cli::talk::{self, note, print};
@@ -49,6 +49,8 @@ pub(crate) struct FemCommand {
     /// Say how many unknowns there are and what they would cost; compute and write nothing
     #[arg(long)]
     check: bool,
+    #[command(flatten)]
+    replace: Replace,
 }
 
 impl FemCommand {
@@ -59,10 +61,18 @@ impl FemCommand {
         let beside = self.study.parent().unwrap_or(Path::new("")).to_owned();
         let document = Document::read(&text).map_err(wrong)?;
         let study = Study::new(document, &|path| text_of(&beside.join(path))).map_err(wrong)?;
+        for remark in &study.remarks {
+            note(remark);
+        }
+        talk::tell("remarks", study.remarks.clone());
         if self.check {
             return check(&study).map_err(wrong);
         }
-        let output = prepare_beside(&self.study, self.output.as_deref(), &FILES)?;
+        // Proven now, made once there is something to write: a study that is stopped leaves nothing.
+        let output = prepare(&self.study, self.output.as_deref(), &FILES)?;
+        let directory = output.directory().to_owned();
+        self.replace.files(&directory, &self.study, &FILES)?;
+        drop(output);
         let outcome = compute(&study, &mut |step| note(&format!("{step} ..."))).map_err(wrong)?;
         print(&said(&study, &outcome));
         let program = concat!(env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_VERSION"));
@@ -90,7 +100,10 @@ impl FemCommand {
                 files.push((names[0], svg.into_bytes()));
             }
         }
-        print(&list(&output.write(&files)?));
+        let mut output = Output::prepare(directory, &FILES)?;
+        self.replace.files(output.directory(), &self.study, &FILES)?;
+        output.made_from(&self.study)?;
+        print(&list(&output.write_alone(&files, &FILES)?));
         Ok(())
     }
 }

@@ -119,6 +119,18 @@ impl Replace {
         }
     }
 
+    /// Makes room for the files of a command that takes minutes: where any of them stands there and is not known to be of this
+    /// input file, it is replaced only if that was asked for.
+    pub(crate) fn files(self, directory: &Path, input: &Path, names: &[&'static str]) -> Result<()> {
+        let there = names.iter().copied().find(|name| directory.join(name).exists());
+        let Some(name) = there.filter(|_| !origin::is_of(directory, input)) else { return Ok(()) };
+        if self.force {
+            return Ok(());
+        }
+        let from = origin::of(directory).map_or_else(|| "an unknown file".into(), |from| short(&from));
+        Err(Error::OtherInput { path: directory.to_owned(), name, from })
+    }
+
     fn decide(self, directory: &Path, there: &Occupant, gives_way: bool) -> Result<()> {
         if !self.force && !gives_way {
             return Err(squealmap::store::error::Error::OtherSweep {

@@ -100,12 +100,24 @@ impl Output {
         self.write_beside(files, Vec::new())
     }
 
+    /// Writes `files` as [`Output::write`] does, and removes what an earlier call has left of the other `names`.
+    pub(crate) fn write_alone(self, files: &[(&str, Vec<u8>)], names: &[&str]) -> Result<Vec<PathBuf>> {
+        let others = names.iter().filter(|name| files.iter().all(|(written, _)| written != *name));
+        let stale: Vec<PathBuf> = others.map(|name| self.directory.join(name)).collect();
+        self.put(files, Vec::new(), &stale)
+    }
+
     /// Writes `files`, and puts the `drafts`, which have been written already, in their places with them: all or none, as
     /// [`Output::write`] does.
-    pub(crate) fn write_beside(
+    pub(crate) fn write_beside(self, files: &[(&str, Vec<u8>)], drafts: Vec<Draft>) -> Result<Vec<PathBuf>> {
+        self.put(files, drafts, &[])
+    }
+
+    fn put(
         mut self,
         files: &[(&str, Vec<u8>)],
         drafts: Vec<Draft>,
+        stale: &[PathBuf],
     ) -> Result<Vec<PathBuf>> {
         let mut written = Vec::with_capacity(files.len() + drafts.len());
         for (name, bytes) in files {
@@ -114,7 +126,8 @@ impl Output {
         written.extend(drafts.into_iter().map(|Draft(claim)| claim));
         // The first takes the place of its own.
         let mut others: Vec<&Path> = written.iter().skip(1).map(Claim::path).collect();
-        others.iter().try_for_each(|path| gone(path))?;
+        let stale = stale.iter().map(PathBuf::as_path);
+        others.iter().copied().chain(stale).try_for_each(gone)?;
         others.dedup_by_key(|path| path.parent());
         others.into_iter().try_for_each(lasting)?;
         let paths = publish(written)?;

@@ -56,12 +56,20 @@ impl Material {
     /// # Errors
     /// Moduli or a density that are not positive; ratios for which some strain would give energy back.
     pub fn orthotropic(name: &str, constants: Orthotropic, density: f64) -> Result<Self, Error> {
+        /// Pa: the determinant of the compliance, of the order of 1/E³, has to be a number.
+        const LEAST: f64 = 1e-100;
+        const MOST: f64 = 1e100;
         let Orthotropic { young, poisson, shear } = constants;
         for (value, what) in
             young.iter().map(|e| (*e, "Young's modulus")).chain(shear.map(|g| (g, "a shear modulus")))
         {
             if !(value > 0.0 && value.is_finite()) {
                 return Err(bad(name, format!("{what} is {value} Pa, it must be above 0")));
+            }
+            if !(LEAST..=MOST).contains(&value) {
+                let what =
+                    format!("{what} is {value:e} Pa, it must be {LEAST:e} to {MOST:e}: check its unit");
+                return Err(bad(name, what));
             }
         }
         if !(density > 0.0 && density.is_finite()) {

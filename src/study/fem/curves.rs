@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use crate::results::figure::look::Look;
 use squealmap_figure::frame::{Frame, LABEL_SIZE, TICK_SIZE, x_tick_room, y_tick_room, y_ticks};
-use squealmap_figure::key;
+use squealmap_figure::key::{self, Sample};
 use squealmap_figure::letters;
 use squealmap_figure::page::{MARGIN, SINGLE_COLUMN, title};
 use squealmap_figure::plot::{CRITICAL, GROWS, Plot, SECOND, STABLE, ZERO};
@@ -34,6 +34,8 @@ pub struct Curves {
     pub title: String,
     /// What they are over, with its unit, where that is not the coefficient of friction.
     pub over: Option<[String; 2]>,
+    /// The coefficient of friction of all of them, where they are over something else.
+    pub at: Option<f64>,
     /// Coefficients of friction, or values of what they are over, rising.
     pub mus: Vec<f64>,
     /// Whether anything damps.
@@ -128,13 +130,19 @@ fn page(curves: &Curves, look: &Look<'_>, height: f64) -> (Svg, [f64; 2]) {
     let left = MARGIN + LABEL_SIZE + 6.0 + ticks.iter().map(|ticks| y_tick_room(ticks)).fold(0.0, f64::max);
     let across = width - left - RIGHT;
     let unstable = if curves.damped { "unstable" } else { "unstable pair" };
-    let entries = [(Text::from("stable"), STABLE), (Text::from(unstable), GROWS)];
-    let mut entries = entries.to_vec();
+    let mut entries = vec![(Text::from("stable"), STABLE)];
+    if states().any(|state| state.grows) {
+        entries.push((Text::from(unstable), GROWS));
+    }
     if states().any(|state| course(curves, state) == Course::Decays) {
         entries.push((Text::from("decaying twin"), SECOND));
     }
-    key::lines(&mut svg, left, y + LABEL_SIZE - 1.2, LABEL_SIZE, &entries);
-    y += LABEL_SIZE + 5.0;
+    if curves.transitions.iter().any(|transition| !transition.begins()) {
+        entries.push((Text::from("growth begins or ends"), CRITICAL));
+    }
+    let entries: Vec<(Text, Sample<'_>)> =
+        entries.into_iter().map(|(words, stroke)| (words, Sample::Line(stroke))).collect();
+    y += key::rows(&mut svg, [left, y], across, LABEL_SIZE, &entries) + 2.0;
     let marks: Vec<f64> = curves.transitions.iter().map(|transition| transition.mu).collect();
     if !marks.is_empty() {
         y += LINE;
@@ -170,6 +178,10 @@ fn page(curves: &Curves, look: &Look<'_>, height: f64) -> (Svg, [f64; 2]) {
     let words = match &curves.over {
         None => Text::from("Coefficient of friction ").symbol("μ"),
         Some([what, unit]) => Text::from(what.as_str()).then(axis_unit(unit, x.exponent())),
+    };
+    let words = match curves.at {
+        Some(mu) => words.plain(", at ").symbol("μ").plain(" = ").then(value_label(mu)),
+        None => words,
     };
     svg.text(left + 0.5 * across, y, &words, Style::new(LABEL_SIZE, Anchor::Middle));
     (svg, [width, y + MARGIN + 2.0])

@@ -4,10 +4,10 @@ use squealmap_fem::output::{facets, isometric};
 
 use crate::results::figure::look::Look;
 use crate::study::fem::bodies::Bodies;
-use crate::study::fem::painting::{PIECE, Painting};
+use crate::study::fem::painting::{AXIS, PIECE, Painting, triad};
 use squealmap_figure::frame::LABEL_SIZE;
 use squealmap_figure::page::{MARGIN, SINGLE_COLUMN, title};
-use squealmap_figure::svg::{Anchor, Style, Svg, polyline};
+use squealmap_figure::svg::{Anchor, Style, Svg};
 use squealmap_figure::text::Text;
 
 /// Height of the picture at most, points.
@@ -16,12 +16,8 @@ const TALLEST: f64 = 260.0;
 const SAMPLE: f64 = 8.0;
 /// Height of a line of words, points.
 const LINE: f64 = 11.0;
-/// Length of an axis, points.
-const AXIS: f64 = 20.0;
 /// The colours of parts, over and over: light, so that edges show.
 const COLOURS: [&str; 6] = ["#9FC5E8", "#F6C48B", "#A8D5B0", "#E3A9C0", "#D9D38C", "#C4B5E0"];
-/// An axis of the triad.
-const ARROW: &str = r##"fill="none" stroke="#000000" stroke-width="0.8""##;
 
 impl Bodies {
     /// The mesh as an SVG document.
@@ -72,19 +68,6 @@ fn colour(value: f64) -> &'static str {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small number")]
     let part = value.max(0.0).round() as usize;
     COLOURS[part % COLOURS.len()]
-}
-
-/// The directions x, y and z.
-fn triad(svg: &mut Svg, [x, y]: [f64; 2]) {
-    let view = isometric();
-    for (k, name) in ["x", "y", "z"].into_iter().enumerate() {
-        let to = [view[0][k], -view[1][k]].map(|part| AXIS * part);
-        svg.path(&polyline([(x, y), (x + to[0], y + to[1])]), ARROW);
-        let beyond = 1.0 + 5.0 / AXIS / to[0].hypot(to[1]) * AXIS;
-        let [right, down] = to.map(|part| part * beyond);
-        let style = Style::new(LABEL_SIZE, Anchor::Middle);
-        svg.text(x + right, y + down + 0.35 * LABEL_SIZE, &Text::default().symbol(name), style);
-    }
 }
 
 /// Points of contact, and where along an axis they slide.

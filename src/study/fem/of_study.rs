@@ -20,6 +20,7 @@ impl Curves {
         Curves {
             title: study.document.title.clone(),
             over: None,
+            at: None,
             mus: study.mus.clone(),
             damped: outcome.damped,
             modes: curves(study, &outcome.modes, outcome.damped),
@@ -34,6 +35,7 @@ impl Curves {
         Some(Curves {
             title: study.document.title.clone(),
             over: Some(asked.words()),
+            at: Some(asked.mu),
             mus: found.values.clone(),
             damped: found.damped,
             modes: curves(study, &found.modes, found.damped),

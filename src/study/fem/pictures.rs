@@ -6,7 +6,7 @@ use squealmap_fem::study::Shape;
 
 use crate::results::figure::look::Look;
 use crate::study::fem::bodies::Bodies;
-use crate::study::fem::painting::{PIECE, Painting};
+use crate::study::fem::painting::{AXIS, PIECE, Painting, arrow, triad};
 use squealmap_figure::frame::{LABEL_SIZE, TICK_SIZE};
 use squealmap_figure::letters;
 use squealmap_figure::page::{DOUBLE_COLUMN, MARGIN, title};
@@ -93,7 +93,16 @@ fn page(
         }
         y += HEAD + height + FOOT + 4.0;
     }
-    y = bar(&mut svg, [MARGIN, y + 2.0], whole);
+    // Axes and sliding stand left of the scale of colours.
+    let below = y + 1.8 * AXIS;
+    triad(&mut svg, [MARGIN + AXIS, y + 1.2 * AXIS]);
+    if let Some(contact) = bodies.sliding.filter(|contact| !contact.turns) {
+        let at = [MARGIN + 3.8 * AXIS, y + 0.7 * AXIS];
+        arrow(&mut svg, at, contact.direction);
+        svg.text(at[0], below, &Text::from("sliding"), Style::new(TICK_SIZE, Anchor::Middle));
+    }
+    let has_phase = pictures.iter().any(|[_, normal]| normal.has_phase);
+    y = bar(&mut svg, [MARGIN, y + 2.0], whole, has_phase).max(below + 2.0);
     (svg, [width, y + MARGIN])
 }
 
@@ -150,6 +159,8 @@ fn caption(bodies: &Bodies, shape: &Shape) -> Text {
 struct Shown {
     picture: Painting,
     words: [Text; 2],
+    /// Whether the words name a phase.
+    has_phase: bool,
 }
 
 /// Along the sliding and along the normal, each at the phase at which that displacement is largest.
@@ -184,9 +195,9 @@ fn both(bodies: &Bodies, shape: &Shape) -> [Shown; 2] {
             along[side].iter().map(|z| (z * turn).re / peak.norm().max(f64::MIN_POSITIVE)).collect();
         let facets = facets(mesh, &moved, &values, &isometric(), PIECE * size);
         let share = Text::from(format!("largest {:.2}", peak.norm() / largest));
-        let share =
-            if side == 0 || is_real { share } else { share.plain(&format!(", phase {}°", phase(turned))) };
-        Shown { picture: Painting::new(facets), words: [Text::from(names[side]), share] }
+        let has_phase = side == 1 && !is_real;
+        let share = if has_phase { share.plain(&format!(", phase {}°", phase(turned))) } else { share };
+        Shown { picture: Painting::new(facets), words: [Text::from(names[side]), share], has_phase }
     })
 }
 
@@ -209,7 +220,7 @@ fn fill(value: f64) -> String {
 }
 
 /// The scale of colours below the pictures; returns its lower end.
-fn bar(svg: &mut Svg, [x, y]: [f64; 2], width: f64) -> f64 {
+fn bar(svg: &mut Svg, [x, y]: [f64; 2], width: f64, has_phase: bool) -> f64 {
     const LENGTH: f64 = 140.0;
     const THICK: f64 = 6.0;
     const STEPS: usize = 70;
@@ -237,7 +248,10 @@ fn bar(svg: &mut Svg, [x, y]: [f64; 2], width: f64) -> f64 {
     let halves = ["displacement over its largest;", "its largest is given over that of the mode"];
     let whole = halves.join(" ");
     let fits = Text::from(whole.as_str()).width(LABEL_SIZE, false) <= width;
-    let lines = if fits { vec![whole.as_str()] } else { halves.to_vec() };
+    let mut lines = if fits { vec![whole.as_str()] } else { halves.to_vec() };
+    if has_phase {
+        lines.push("phase: by how much the normal displacement leads that along the sliding");
+    }
     let mut base = y + THICK + 6.0 + TICK_SIZE;
     for line in lines {
         base += LABEL_SIZE;

@@ -43,6 +43,7 @@ pub(crate) fn read(folder: Folder<'_>) -> Result<Curves> {
     Ok(Curves {
         title: text(&json["title"]),
         over: None,
+        at: None,
         mus,
         damped: document.damped,
         modes,
@@ -56,6 +57,7 @@ struct Varied {
     parameter: String,
     quantity: String,
     unit: String,
+    mu: f64,
     damped: bool,
 }
 
@@ -70,6 +72,7 @@ pub(crate) fn read_varied(folder: Folder<'_>) -> Result<Curves> {
     Ok(Curves {
         title: text(&json["title"]),
         over: Some([varied.quantity, varied.unit]),
+        at: Some(varied.mu),
         mus,
         damped: varied.damped,
         modes,

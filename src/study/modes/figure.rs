@@ -65,7 +65,8 @@ fn page(spec: &Spec, modes: &Modes, look: &Look<'_>, height: f64) -> (Svg, [f64;
     };
     let x = Scale::spanning(shown.iter().flat_map(|branch| branch.values.iter().copied()));
     let all = || shown.iter().flat_map(|branch| branch.modes.iter().flatten().flatten());
-    let frequency = Scale::spanning(all().map(Mode::frequency)).widened(HEADROOM);
+    let (hertz, unit) = unit(all().map(Mode::frequency).fold(0.0, f64::max));
+    let frequency = Scale::spanning(all().map(|mode| mode.frequency() / hertz)).widened(HEADROOM);
     let growth = Scale::spanning(all().map(Mode::growth_rate).chain([0.0])).widened(HEADROOM);
     let scales = [frequency, growth];
     let ticks = scales.each_ref().map(|scale| y_ticks(scale, height));
@@ -95,7 +96,7 @@ fn page(spec: &Spec, modes: &Modes, look: &Look<'_>, height: f64) -> (Svg, [f64;
         for (row, scale) in scales.iter().enumerate() {
             let frame = Frame { x: from, y: y + row as f64 * (height + GAP), width: across, height };
             let plot = Plot { frame, x: &x, y: scale };
-            curves(&mut svg, &plot, branch, row == 1);
+            curves(&mut svg, &plot, branch, (row == 0).then_some(hertz));
             frame.border(&mut svg);
             let ticks_below = if number + 1 < shown.len() { &inner_ticks } else { &x_ticks };
             frame.x_ticks(&mut svg, ticks_below, row == 1);
@@ -104,7 +105,7 @@ fn page(spec: &Spec, modes: &Modes, look: &Look<'_>, height: f64) -> (Svg, [f64;
         let frame = Frame { x: from, y, width: across, height: 2.0 * height + GAP };
         critical(&mut svg, spec, modes, branch, &x, &frame);
     }
-    for (row, (words, unit)) in [("Frequency", "Hz"), ("Growth rate", "1/s")].into_iter().enumerate() {
+    for (row, (words, unit)) in [("Frequency", unit), ("Growth rate", "1/s")].into_iter().enumerate() {
         let frame = Frame { x: left, y: y + row as f64 * (height + GAP), width: 0.0, height };
         let words = Text::from(words).then(axis_unit(unit, scales[row].exponent()));
         letters::side(&mut svg, (row, 2), &frame, &[words]);
@@ -135,12 +136,18 @@ fn settings(spec: &Spec, modes: &Modes, branch: &Branch) -> Vec<Text> {
     further.map(|i| setting(keys[i], values[i])).collect()
 }
 
-fn curves(svg: &mut Svg, plot: &Plot<'_>, branch: &Branch, growth: bool) {
+/// The unit of an axis of frequencies up to this one (Hz), in Hz and by name: kHz from 10 kHz on, as in the figures of studies.
+fn unit(largest: f64) -> (f64, &'static str) {
+    if largest >= 1e4 { (1e3, "kHz") } else { (1.0, "Hz") }
+}
+
+/// Frequencies in a unit (Hz), or growth rates.
+fn curves(svg: &mut Svg, plot: &Plot<'_>, branch: &Branch, hertz: Option<f64>) {
     let nothing = f64::NAN;
-    if growth {
+    if hertz.is_none() {
         plot.curve(svg, [branch.values[0], branch.values[branch.values.len() - 1]].map(|x| (x, 0.0)), ZERO);
     }
-    let value = if growth { Mode::growth_rate } else { Mode::frequency };
+    let value = |mode: &Mode| hertz.map_or_else(|| mode.growth_rate(), |hertz| mode.frequency() / hertz);
     let along = |k: usize, wanted: fn(&Mode) -> bool| {
         let points = branch.values.iter().zip(&branch.modes);
         points.map(move |(x, modes)| {

@@ -42,6 +42,7 @@ pub(super) fn a_finite_element_study() -> Piece {
     let curves = Curves {
         title: "Two samples".to_owned(),
         over: None,
+        at: None,
         mus: mus.clone(),
         damped: false,
         modes: (0..3).map(curve).collect(),
@@ -65,7 +66,7 @@ pub(super) fn a_varied_study() -> Piece {
     }
     let manifest = serde_json::json!({
         "kind": "fem", "program": "squealmap 0.1.0", "title": "A soft layer",
-        "varied": { "parameter": "contact_stiffness", "quantity": "Contact stiffness", "unit": "Pa/m", "damped": true },
+        "varied": { "parameter": "contact_stiffness", "quantity": "Contact stiffness", "unit": "Pa/m", "mu": 0.35, "damped": true },
     });
     let curve = |mode: usize| {
         let state = |value: f64| {
@@ -77,6 +78,7 @@ pub(super) fn a_varied_study() -> Piece {
     let curves = Curves {
         title: "A soft layer".to_owned(),
         over: Some(["Contact stiffness", "Pa/m"].map(str::to_owned)),
+        at: Some(0.35),
         mus: values.to_vec(),
         damped: true,
         modes: vec![curve(0), curve(1)],

@@ -20,6 +20,14 @@ const FILES: [&str; 12] = [
     "vary.png",
 ];
 
+/// The same, pressed by its clamped end.
+fn pushed() -> String {
+    PIN.replace(
+        "set = \"pin.z1\"\n",
+        "set = \"pin.z1\"\naxes = \"xy\"\n\n[[supports]]\nset = \"pin.z1\"\naxes = \"z\"\ndisplacement = -1e-6\n",
+    )
+}
+
 fn squealmap(directory: &Path, arguments: &[&str]) -> (i32, String, String) {
     let mut command = Command::new(env!("CARGO_BIN_EXE_squealmap"));
     let output = command.current_dir(directory).args(arguments).output().expect("as the test has set it up");
@@ -31,7 +39,7 @@ fn squealmap(directory: &Path, arguments: &[&str]) -> (i32, String, String) {
 #[test]
 fn a_study_gives_its_table_figures_and_shapes() {
     let directory = tempfile::tempdir().expect("as the test has set it up");
-    let text = PIN.replace("points = 26", "points = 11")
+    let text = pushed().replace("points = 26", "points = 11")
         + "\n[output]\nmodal = true\n\n[vary]\nparameter = \"stiffness\"\nmaterial = \"steel\"\nmu = 0.4\nvalues = { from = 1.0, to = 4.0, points = 3 }\n";
     std::fs::write(directory.path().join("pin.toml"), text).expect("as the test has set it up");
     let (code, said, noted) = squealmap(directory.path(), &["fem", "pin.toml", "--out", "here"]);
@@ -67,7 +75,10 @@ fn a_study_gives_its_table_figures_and_shapes() {
         assert!(drawn("plot.svg").len() > 20);
         assert_eq!(drawn("plot.svg"), drawn(&format!("{figure}.svg")), "{figure}");
     }
-    assert!(read("vary.svg").contains(">Factor of the moduli of steel<"));
+    // At which friction, and that a pair grows there at all.
+    let varied = read("vary.svg");
+    assert!(varied.contains("Factor of the moduli of steel, at ") && varied.contains("unstable pair"));
+    assert!(!curves.contains("growth begins or ends"), "nothing ends");
     // Two modes before they coalesce, and the one of both that grows.
     // Both parts in their colours, and what stands beside them.
     let mesh = read("mesh.svg");
@@ -88,6 +99,8 @@ fn a_study_gives_its_table_figures_and_shapes() {
     assert!(!shapes.contains("(d)"));
     // Without friction a mode is real; the one that grows has a phase.
     assert_eq!(shapes.matches(", phase ").count(), 1);
+    assert!(shapes.contains("phase: by how much the normal displacement leads that along the sliding"));
+    assert!(shapes.contains(">sliding<"));
 }
 
 /// Figures 15 to 17 of a study, and verdicts by its numbers: a pin has no modes at 14.5 kHz.
@@ -124,6 +137,81 @@ fn the_papers_figures_come_with_verdicts() {
     assert!(said.contains("from there on a mode is unstable: not reproduced\n"), "{said}");
     let (code, _, noted) = squealmap(directory.path(), &["paper", "--fem", "--kick", "0.001"]);
     assert_eq!(code, 2, "{noted}");
+}
+
+/// What stands in a directory stays, unless it is of the same file or `--force` says so; nothing of an earlier study stays beside
+/// a later one.
+#[test]
+fn results_of_others_are_replaced_with_force_alone() {
+    let directory = tempfile::tempdir().expect("as the test has set it up");
+    let small =
+        PIN.replace("hex20", "hex8").replace("points = 26", "points = 2").replace("count = 7", "count = 1");
+    let varied = small.clone()
+        + "\n[vary]\nparameter = \"stiffness\"\nmaterial = \"steel\"\nmu = 0.1\nvalues = { values = [1.0, 1.1] }\n";
+    let put = |name: &str, text: &str| {
+        std::fs::write(directory.path().join(name), text).expect("as the test has set it up");
+    };
+    put("a.toml", &small);
+    put("b.toml", &varied);
+    std::fs::create_dir(directory.path().join("here")).expect("as the test has set it up");
+    put("here/manifest.json", "{}");
+    let fem = |arguments: &[&str]| {
+        let (code, said, noted) = squealmap(directory.path(), &[&["fem"], arguments].concat());
+        (code, said + &noted.split_whitespace().collect::<Vec<_>>().join(" "))
+    };
+    let there = |name: &str| directory.path().join(name).exists();
+    let (code, said) = fem(&["a.toml", "-o", "here"]);
+    assert_eq!(code, 2, "{said}");
+    assert!(
+        said.contains("`here` holds `manifest.json` made from `an unknown file`; choose another directory"),
+        "{said}"
+    );
+    assert_eq!(std::fs::read(directory.path().join("here/manifest.json")).expect("a file"), b"{}");
+    assert_eq!(std::fs::read_dir(directory.path().join("here")).expect("a directory").count(), 1);
+    let (code, said) = fem(&["a.toml", "-o", "here", "--force"]);
+    assert_eq!(code, 0, "{said}");
+    // No mode grows, and no line of the key is of one that does.
+    let drawn = std::fs::read_to_string(directory.path().join("here/fem.svg")).expect("a figure");
+    assert!(drawn.contains(">stable<") && !drawn.contains("unstable"));
+    let (code, said) = fem(&["b.toml", "-o", "here"]);
+    assert!(code == 2 && said.contains("made from `a.toml`") && said.contains("--force"), "{said}");
+    assert!(!there("here/vary.csv"));
+    assert_eq!(fem(&["b.toml", "-o", "here", "--force"]).0, 0);
+    put("here/modes.toml", "of an earlier study");
+    put("here/notes.txt", "mine");
+    assert!(there("here/vary.csv") && there("here/vary.png"));
+    // The same file, changed, needs no force; what it no longer makes goes.
+    put("b.toml", &small);
+    let (code, said) = fem(&["b.toml", "-o", "here"]);
+    assert_eq!(code, 0, "{said}");
+    for name in ["here/vary.csv", "here/vary.svg", "here/vary.png", "here/modes.toml"] {
+        assert!(!there(name), "{name}");
+    }
+    assert!(there("here/fem.csv") && there("here/notes.txt"));
+    // So in the directory of its name.
+    for (text, has) in [(&varied, true), (&small, false)] {
+        put("b.toml", text);
+        assert_eq!(fem(&["b.toml"]).0, 0);
+        assert_eq!(there("out/b/vary.csv"), has);
+    }
+}
+
+/// A study that is killed while it computes leaves nothing: no directory, no note of its source.
+#[test]
+fn a_study_that_is_stopped_leaves_nothing() {
+    use std::io::BufRead;
+    let directory = tempfile::tempdir().expect("as the test has set it up");
+    let text = PIN.replace("points = 26", "points = 90000");
+    std::fs::write(directory.path().join("pin.toml"), text).expect("as the test has set it up");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_squealmap"));
+    command.current_dir(directory.path()).args(["fem", "pin.toml"]).stderr(std::process::Stdio::piped());
+    let mut child = command.spawn().expect("as the test has set it up");
+    let mut noted = std::io::BufReader::new(child.stderr.take().expect("as the test has set it up")).lines();
+    let begun = noted.any(|line| line.expect("text").contains("sweep over friction"));
+    child.kill().expect("as the test has set it up");
+    let ended = child.wait().expect("as the test has set it up");
+    assert!(begun && !ended.success());
+    assert_eq!(std::fs::read_dir(directory.path()).expect("as the test has set it up").count(), 1);
 }
 
 #[test]

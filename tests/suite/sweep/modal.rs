@@ -17,7 +17,7 @@ use squealmap::model::modal::{At, EACH};
 use squealmap::model::status::Status;
 use squealmap::store::description::Description;
 use squealmap::store::identity::identity;
-use squealmap::study::modes::follow::{Mode, modes_of};
+use squealmap::study::modes::follow::{Mode, modes_of, modes_svg};
 use squealmap::sweep::grid::{Axis, Grid};
 use squealmap::sweep::run::run;
 use squealmap::sweep::solver::Solver;
@@ -210,6 +210,22 @@ fn each_mode_may_have_its_damping() {
             let nearest = found.iter().map(|z| (z - wanted).norm()).fold(f64::INFINITY, f64::min);
             assert!(nearest < 1e-11 * omega, "{first}: {wanted} is not in {found:?}");
         }
+    }
+}
+
+/// Frequencies from 10 kHz on have one unit in all figures; lower ones stay in Hz.
+#[test]
+fn high_frequencies_are_drawn_in_kilohertz() {
+    let directory = tempfile::tempdir().unwrap();
+    for (k, unit) in [(1e10, "kHz"), (1e4, "Hz")] {
+        let file = format!(
+            "kind = \"modal\"\nversion = 2\ntitle = \"\"\nmu = [0.0, 1.0]\nmodes = 1\nload = 1.0\nstiffness = [[{k:e}]]\nmass = [[1.0]]\n"
+        );
+        std::fs::write(directory.path().join("one.toml"), file).unwrap();
+        let text = "analysis = [\"linear\"]\n[model]\nkind = \"modal\"\nmodes = \"one.toml\"\n[friction]\nlaw = \"constant\"\n\
+                    [belt]\nbelt_velocity = 1\n[axes]\nmu_d = { from = 0, to = 0.5, points = 3 }\n";
+        let svg = modes_svg(&Spec::parse(text, "test.toml", directory.path()).unwrap()).unwrap();
+        assert!(svg.contains(&format!("Frequency ({unit})")), "{svg}");
     }
 }
 

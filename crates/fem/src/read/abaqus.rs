@@ -4,6 +4,7 @@ use super::cards::{Card, cards, flat};
 use std::collections::BTreeMap;
 
 use super::raw::{Built, Raw, RawElement, number};
+use super::unread::{check_parameters, check_parts, passed_over};
 use crate::Error;
 use crate::elements::Kind;
 use crate::material::{Constants, Material, Orthotropic};
@@ -20,8 +21,8 @@ pub struct Deck {
     pub ties: Vec<(String, String)>,
     /// Supports: node, axis, displacement (m).
     pub supports: Vec<(usize, usize, f64)>,
-    /// Keywords that were left out, each once.
-    pub ignored: Vec<String>,
+    /// Sentences on cards that may matter and were left out, with their lines.
+    pub remarks: Vec<String>,
 }
 
 fn kind_of(name: &str, line: usize) -> Result<Kind, Error> {
@@ -35,7 +36,8 @@ fn kind_of(name: &str, line: usize) -> Result<Kind, Error> {
         _ => Err(Error::File {
             line,
             what: format!(
-                "elements of TYPE={name} are not known here: C3D4, C3D8, C3D10, C3D15, C3D20 and C3D20R are"
+                "elements of TYPE={name} are not known here: C3D4, C3D8, C3D10, C3D15, C3D20 and C3D20R are; mesh with \
+                 these, or delete the elements where they are no part of the body"
             ),
         }),
     }
@@ -47,7 +49,7 @@ type Sets = BTreeMap<String, Vec<u64>>;
 /// Reads a file. Of constants for several temperatures those of the first line count.
 ///
 /// # Errors
-/// What is no number, unknown kinds of elements, sets and nodes that are not there, *INCLUDE.
+/// What is no number, unknown kinds of elements, sets and nodes that are not there, *INCLUDE, cards that change the model and are not read.
 pub fn abaqus(text: &str) -> Result<Deck, Error> {
     read(text, f64::NEG_INFINITY)
 }
@@ -67,7 +69,10 @@ fn read(text: &str, celsius: f64) -> Result<Deck, Error> {
     let mut names: Vec<String> = Vec::new();
     let mut open: Option<(String, usize, Vec<f64>, bool, f64)> = None;
     let mut sections: Vec<(String, String, usize)> = Vec::new();
+    let (mut in_step, mut flats): (bool, Vec<String>) = (false, Vec::new());
+    check_parts(&cards)?;
     for card in &cards {
+        check_parameters(card)?;
         let is_material = matches!(card.name.as_str(), "ELASTIC" | "DENSITY");
         if !is_material
             && !matches!(card.name.as_str(), "EXPANSION" | "CONDUCTIVITY" | "SPECIFIC HEAT" | "DAMPING")
@@ -76,12 +81,7 @@ fn read(text: &str, celsius: f64) -> Result<Deck, Error> {
         }
         match card.name.as_str() {
             "NODE" => read_nodes(card, &mut raw, &mut node_sets)?,
-            "ELEMENT" if flat(card) => {
-                let kind = format!("ELEMENT, TYPE={}", card.parameter("TYPE")?);
-                if !deck.ignored.contains(&kind) {
-                    deck.ignored.push(kind);
-                }
-            }
+            "ELEMENT" if flat(card) => flats.extend(card.parameters.get("ELSET").cloned()),
             "ELEMENT" => read_elements(card, &mut raw, &mut element_sets)?,
             "NSET" => read_set(card, &card.parameter("NSET")?, &mut node_sets)?,
             "ELSET" => read_set(card, &card.parameter("ELSET")?, &mut element_sets)?,
@@ -109,18 +109,19 @@ fn read(text: &str, celsius: f64) -> Result<Deck, Error> {
             "SOLID SECTION" => {
                 sections.push((card.parameter("ELSET")?, card.parameter("MATERIAL")?, card.line));
             }
-            "TIE" => deck.ties.extend(card.data.iter().filter_map(|(_, words)| match words.as_slice() {
-                [slave, master, ..] => Some((slave.to_uppercase(), master.to_uppercase())),
-                _ => None,
-            })),
+            "TIE" => read_ties(card, &mut deck.ties)?,
             "INCLUDE" => {
                 let what = "*INCLUDE is not followed: put the file's lines here".to_owned();
                 return Err(Error::File { line: card.line, what });
             }
-            "SURFACE" | "BOUNDARY" | "HEADING" => {}
-            other if !deck.ignored.iter().any(|known| known == other) => deck.ignored.push(other.to_owned()),
-            _ => {}
+            "SURFACE" | "BOUNDARY" => {}
+            _ => deck.remarks.extend(passed_over(card, in_step)?),
         }
+        in_step = match card.name.as_str() {
+            "STEP" => true,
+            "END STEP" => false,
+            _ => in_step,
+        };
     }
     close(&mut open, celsius, &mut deck.materials, &mut names)?;
     for (set, material, line) in &sections {
@@ -128,9 +129,19 @@ fn read(text: &str, celsius: f64) -> Result<Deck, Error> {
             line: *line,
             what: format!("the section names material {material}, but there are: {}", names.join(", ")),
         })?;
-        let members = known(set, &element_sets, *line)?;
+        let members = if flats.contains(set) { &Vec::new() } else { known(set, &element_sets, *line)? };
         let members: std::collections::HashSet<u64> = members.iter().copied().collect();
-        raw.elements.iter_mut().filter(|e| members.contains(&e.number)).for_each(|e| e.material = index);
+        let of_set: Vec<&mut RawElement> =
+            raw.elements.iter_mut().filter(|e| members.contains(&e.number)).collect();
+        if of_set.is_empty() {
+            let what = format!(
+                "the section is of {set}, which has no solid element: mesh its body with solids, or leave the section out"
+            );
+            return Err(Error::File { line: *line, what });
+        }
+        for element in of_set {
+            element.material = index;
+        }
     }
     let mut built = raw.build()?;
     for (name, numbers) in &node_sets {
@@ -200,6 +211,17 @@ fn read_elements(card: &Card<'_>, raw: &mut Raw, sets: &mut Sets) -> Result<(), 
     let what =
         format!("the last element has {} nodes, {} needs {}", words.len() - 1, kind.name(), kind.nodes());
     Err(Error::File { line: card.data.last().map_or(card.line, |d| d.0), what })
+}
+
+fn read_ties(card: &Card<'_>, ties: &mut Vec<(String, String)>) -> Result<(), Error> {
+    for (line, words) in &card.data {
+        let [slave, master, ..] = words.as_slice() else {
+            let what = "a tie needs two surfaces: the slave and its master".to_owned();
+            return Err(Error::File { line: *line, what });
+        };
+        ties.push((slave.to_uppercase(), master.to_uppercase()));
+    }
+    Ok(())
 }
 
 fn read_set(card: &Card<'_>, name: &str, sets: &mut Sets) -> Result<(), Error> {

@@ -72,6 +72,31 @@ impl<'a> Lines<'a> {
         number(word, self.line, what)
     }
 
+    /// Takes the end of a section: more or fewer lines than its count says are no mesh.
+    fn end(&mut self, section: &str) -> Result<(), Error> {
+        let end = section.replacen('$', "$End", 1);
+        let words = self.next(&end)?;
+        if words == [end.as_str()] {
+            return Ok(());
+        }
+        let what = format!(
+            "{end} should follow, but there is \"{}\": the section has more lines than its count says, write the mesh again",
+            words.join(" ")
+        );
+        Err(self.wrong(what))
+    }
+
+    /// Checks that the blocks of a section of format 4 have as many members as its first line says.
+    fn counted(&self, said: usize, found: usize, what: &str) -> Result<(), Error> {
+        if said == found {
+            return Ok(());
+        }
+        let what = format!(
+            "the blocks have {found} {what} in all, where the section says {said}: write the mesh again"
+        );
+        Err(self.wrong(what))
+    }
+
     fn wrong(&self, what: String) -> Error {
         Error::File { line: self.line, what }
     }
@@ -123,7 +148,10 @@ pub fn gmsh(text: &str) -> Result<Mesh, Error> {
                 }
             }
             "$Elements" => read_elements(&mut lines, version, &mut found)?,
-            _ => {}
+            _ => continue,
+        }
+        if section != "$MeshFormat" {
+            lines.end(section)?;
         }
     }
     if version == 0.0 {
@@ -165,7 +193,9 @@ fn read_entities(lines: &mut Lines<'_>, entities: &mut HashMap<(usize, u64), Vec
 
 fn read_nodes4(lines: &mut Lines<'_>, raw: &mut Raw) -> Result<(), Error> {
     let words = lines.next("counts")?;
-    for _ in 0..lines.word::<usize>(&words, 0, "count")? {
+    let (blocks, all) = (lines.word::<usize>(&words, 0, "count")?, lines.word(&words, 1, "count")?);
+    let before = raw.nodes.len();
+    for _ in 0..blocks {
         let words = lines.next("a block of nodes")?;
         let count: usize = lines.word(&words, 3, "count")?;
         let mut numbers = Vec::new();
@@ -178,17 +208,19 @@ fn read_nodes4(lines: &mut Lines<'_>, raw: &mut Raw) -> Result<(), Error> {
             raw.nodes.push((number, place(lines, &words, 0)?));
         }
     }
-    Ok(())
+    lines.counted(all, raw.nodes.len() - before, "nodes")
 }
 
 fn read_elements(lines: &mut Lines<'_>, version: f64, found: &mut Found) -> Result<(), Error> {
-    let words = lines.next("a count")?;
-    for _ in 0..lines.word::<usize>(&words, 0, "count")? {
+    let first = lines.next("a count")?;
+    let mut all = 0;
+    for _ in 0..lines.word::<usize>(&first, 0, "count")? {
         let words = lines.next("an element")?;
         if version >= 4.0 {
             let (dim, tag) = (lines.word(&words, 0, "dimension")?, lines.word(&words, 1, "tag")?);
             let (kind, count) = (lines.word(&words, 2, "type")?, lines.word::<usize>(&words, 3, "count")?);
             let physical = found.entities.get(&(dim, tag)).cloned().unwrap_or_default();
+            all += count;
             for _ in 0..count {
                 let words = lines.next("an element")?;
                 element(lines, &words, 1, kind, &physical, found)?;
@@ -199,7 +231,7 @@ fn read_elements(lines: &mut Lines<'_>, version: f64, found: &mut Found) -> Resu
             element(lines, &words, tags.saturating_add(3), kind, &physical, found)?;
         }
     }
-    Ok(())
+    if version >= 4.0 { lines.counted(lines.word(&first, 1, "count")?, all, "elements") } else { Ok(()) }
 }
 
 /// Takes in an element whose nodes begin at a word of its line.

@@ -4,6 +4,7 @@ mod abaqus;
 mod cards;
 mod gmsh;
 mod raw;
+mod unread;
 mod vtu;
 
 pub use abaqus::{Deck, abaqus, abaqus_at};

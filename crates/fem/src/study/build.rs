@@ -6,7 +6,7 @@ use super::surfaces::flat;
 use super::values::{check_friction, check_kn, check_modes, check_output, coefficients};
 use super::varied::check_vary;
 use crate::Error;
-use crate::assembly::{Loads, Model, Penalty, Supports};
+use crate::assembly::{Loads, Model, Penalty, Supports, nodal_forces};
 use crate::contact::{
     Point, bonded, bonded_mortar, bonded_points, mortar, rotating, sliding, sliding_on_rigid,
 };
@@ -29,6 +29,8 @@ pub struct Study {
     pub mus: Vec<f64>,
     /// Whether the sliding surfaces have nodes at the same places, one by one.
     pub matching: Vec<bool>,
+    /// Sentences on what the files of meshes say and is left out.
+    pub remarks: Vec<String>,
 }
 
 impl Study {
@@ -81,9 +83,29 @@ impl Study {
         }
         let mut loads = Loads::default();
         for (i, load) in document.loads.iter().enumerate() {
-            loads.pressure.push(press(&model.mesh, &format!("loads[{i}]"), load)?);
+            let key = format!("loads[{i}]");
+            let pressure = press(&model.mesh, &key, load)?;
+            check_moves(&model, &key, &load.set, &pressure)?;
+            loads.pressure.push(pressure);
         }
-        let study = Self { document, model, parts: joined.sizes, faces, loads, mus, matching };
+        let study = Self {
+            document,
+            model,
+            parts: joined.sizes,
+            faces,
+            loads,
+            mus,
+            matching,
+            remarks: joined.remarks,
+        };
+        if study.document.output.modal && !study.is_pressed() {
+            let what = "maps need a load, which a slope of friction acts on, but nothing presses the surfaces: give a load, or leave modal out";
+            return Err(Error::at("output.modal", what));
+        }
+        if study.document.friction.static_mu != 0.0 && !study.is_pressed() {
+            let what = "it is the friction of the static step, but nothing presses the surfaces: give a load, or leave it out";
+            return Err(Error::at("friction.static_mu", what));
+        }
         if study.document.friction.slope != 0.0 && !study.is_pressed() {
             let what = "a slope acts on the pressure, but nothing presses the surfaces: give a load";
             return Err(Error::at("friction.slope", what));
@@ -151,6 +173,11 @@ fn tie(mesh: &Mesh, supports: &mut Supports, key: &str, bond: &Bond) -> Result<(
 
 /// Points of contact, faces of the slaves, whether nodes match.
 fn slide(mesh: &Mesh, key: &str, pair: &Sliding) -> Result<(Vec<Point>, Vec<FaceRef>, bool), Error> {
+    for (name, vector) in [("direction", pair.direction), ("axis", pair.axis), ("origin", pair.origin)] {
+        if let Some(x) = vector.iter().flatten().find(|x| !x.is_finite()) {
+            return Err(Error::at(format!("{key}.{name}"), format!("{x} is no finite number")));
+        }
+    }
     let slaves = faces_of(mesh, &format!("{key}.slaves"), &pair.slaves)?;
     let (_, outward) = flat(mesh, slaves).map_err(|why| Error::at(format!("{key}.slaves"), why))?;
     let normal = outward.map(|c| -c);
@@ -183,6 +210,26 @@ fn slide(mesh: &Mesh, key: &str, pair: &Sliding) -> Result<(Vec<Point>, Vec<Face
         Some((axis, origin)) => points.and_then(|points| rotating(mesh, points, origin, axis)),
     };
     Ok((points.map_err(|why| Error::at(key, why))?, slaves.to_vec(), matches))
+}
+
+/// Refuses a load of which supports take all: it would press nothing.
+fn check_moves(model: &Model, key: &str, set: &str, load: &(Vec<FaceRef>, f64)) -> Result<(), Error> {
+    /// Of the largest component of a force, what rounding makes of none.
+    const NOTHING: f64 = 1e-9;
+    let forces = nodal_forces(model, &Loads { pressure: vec![load.clone()], ..Loads::default() });
+    let largest = forces.iter().flatten().fold(0.0_f64, |most, force| most.max(force.abs()));
+    let held = |node: usize, axis: usize| model.supports.prescribed.contains_key(&(node, axis));
+    let mut parts =
+        forces.iter().enumerate().flat_map(|(node, force)| (0..3).map(move |axis| (node, axis, force[axis])));
+    if largest == 0.0 || parts.any(|(node, axis, force)| force.abs() > NOTHING * largest && !held(node, axis))
+    {
+        return Ok(());
+    }
+    let what = format!(
+        "supports hold all nodes of \"{set}\" along the load, so that it presses nothing: free that direction (axes = \"xy\" holds the other \
+         two), or press by the displacement of a support"
+    );
+    Err(Error::at(format!("{key}.set"), what))
 }
 
 fn press(mesh: &Mesh, key: &str, load: &Load) -> Result<(Vec<FaceRef>, f64), Error> {

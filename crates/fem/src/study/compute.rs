@@ -227,6 +227,14 @@ fn damping_ratios(study: &Study, numbering: &Numbering, real: &RealModes) -> Res
     loss.resize(study.model.materials.len(), 0.0);
     let mut ratios = loss_ratios(&study.model, numbering, real, &loss)?;
     ratios.iter_mut().zip(given).for_each(|(ratio, given)| *ratio += given);
+    if let Some(k) = ratios.iter().position(|ratio| *ratio >= 1.0) {
+        let what = format!(
+            "with half the loss of its materials the ratio of mode {} is {:.3}, it must be below 1: give less of one of both",
+            k + 1,
+            ratios[k]
+        );
+        return Err(Error::at("modes.damping_ratios", what));
+    }
     Ok(ratios)
 }
 

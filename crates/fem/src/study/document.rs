@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 
 use serde::Deserialize;
 
+pub use super::part::{Part, PartKind};
+use super::place::key_of;
 use crate::Error;
 
 /// A description of a study. The keys are those of `docs/fem_files.md`; units are SI.
@@ -42,80 +44,6 @@ pub struct Document {
     /// What is written.
     #[serde(default)]
     pub output: Output,
-}
-
-/// A mesh: a block, a cylinder, a ring or a file.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(tag = "kind", rename_all = "lowercase", deny_unknown_fields)]
-pub enum Part {
-    /// A rectangular block along the axes; its sides are the sets x0, x1, y0, y1, z0, z1.
-    Block {
-        /// `hex8`, `hex20`, `hex20r`, `tet4`, `tet10` or `wedge15`.
-        element: String,
-        /// The corner with the smallest coordinates, m.
-        origin: [f64; 3],
-        /// Lengths of the edges, m.
-        size: [f64; 3],
-        /// Elements along each edge.
-        cells: [i64; 3],
-        /// Name of its material.
-        material: String,
-    },
-    /// A cylinder about an axis along z; its sides are the sets r1, z0, z1.
-    Cylinder {
-        /// `hex8`, `hex20`, `hex20r` or `wedge15`.
-        element: String,
-        /// The middle of the lower end, m.
-        centre: [f64; 3],
-        /// m.
-        radius: f64,
-        /// Length along z, m.
-        height: f64,
-        /// Elements along each side of a square core, from there to the outside, along z.
-        cells: [i64; 3],
-        /// Name of its material.
-        material: String,
-    },
-    /// A ring about an axis along z, or a sector of one; its sides are the sets r0, r1, z0, z1, of a sector a0 and a1, too.
-    Ring {
-        /// As of a block.
-        element: String,
-        /// The middle of the lower end, m.
-        centre: [f64; 3],
-        /// Inner and outer radius, m.
-        radii: [f64; 2],
-        /// Length along z, m.
-        height: f64,
-        /// Where the sector begins and ends, degrees from x towards y.
-        #[serde(default = "turn")]
-        degrees: [f64; 2],
-        /// Elements along the radius, around, along z.
-        cells: [i64; 3],
-        /// Name of its material.
-        material: String,
-    },
-    /// A file of Gmsh (`.msh`) or of Abaqus and CalculiX (`.inp`).
-    Mesh {
-        /// Path, relative to the description.
-        file: String,
-        /// Metres per unit of its coordinates.
-        #[serde(default = "one")]
-        scale: f64,
-        /// How far it is moved, m, after scaling.
-        #[serde(default)]
-        shift: [f64; 3],
-        /// Names of the materials of its physical volumes, in the order of their tags; one name is for all. None: those of an `.inp` file.
-        #[serde(default)]
-        materials: Vec<String>,
-    },
-}
-
-fn one() -> f64 {
-    1.0
-}
-
-fn turn() -> [f64; 2] {
-    [0.0, 360.0]
 }
 
 /// One number for all directions, or one along each axis.
@@ -392,6 +320,7 @@ pub(super) fn parsed<T: serde::de::DeserializeOwned>(text: &str) -> Result<T, Er
     toml::from_str(text).map_err(|error| {
         let span = error.span().unwrap_or(0..0);
         let line = text.get(..span.start).map_or(1, |before| before.matches('\n').count() + 1);
-        Error::Description { line, span, what: in_words(error.message()) }
+        let key = key_of(text, &span).map(|key| key + ": ").unwrap_or_default();
+        Error::Description { line, span, what: key + &in_words(error.message()) }
     })
 }

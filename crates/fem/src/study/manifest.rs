@@ -71,6 +71,7 @@ pub fn manifest(study: &Study, outcome: &Outcome, description: &str, program: &s
         "library": concat!(env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_VERSION")),
         "title": study.document.title,
         "parts": parts,
+        "remarks": study.remarks,
         "unknowns": outcome.unknowns,
         "contact": contact,
         "contact_points": outcome.points,

@@ -39,9 +39,10 @@ pub(super) fn material(name: &str, constants: &Constants, celsius: Option<f64>) 
     if let Some(c) = rayleigh.iter().find(|c| !(**c >= 0.0 && c.is_finite())) {
         return Err(Error::at(format!("{key}.rayleigh"), format!("{c} must be 0 or more")));
     }
-    if !(0.0..=2.0).contains(loss_factor) {
-        let what =
-            format!("{loss_factor} is no loss factor, it must be 0 to 2: steel has 0.001, a lining 0.05");
+    if !(0.0..2.0).contains(loss_factor) {
+        let what = format!(
+            "{loss_factor} is no loss factor, it must be 0 or more and below 2: steel has 0.001, a lining 0.05"
+        );
         return Err(Error::at(format!("{key}.loss_factor"), what));
     }
     Ok(found?.damped(rayleigh[0], rayleigh[1]))

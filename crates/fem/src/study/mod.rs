@@ -12,6 +12,7 @@ mod manifest;
 mod materials;
 mod mechanisms;
 mod modal;
+mod part;
 mod parts;
 mod place;
 mod projected;

@@ -122,7 +122,8 @@ impl Modal {
     ///
     /// # Errors
     /// What is no TOML or another kind or version of file; matrices that are not square, of different sizes, too large or with entries that
-    /// are no finite numbers; a stiffness or mass without friction that is not symmetric; a load below 0, no modes.
+    /// are no finite numbers; a stiffness or mass without friction that is not symmetric, a stiffness with an eigenvalue below 0; a range of
+    /// friction that falls, a load below 0, no modes or more than vectors.
     pub fn read(text: &str) -> Result<Self, Error> {
         let file: File = super::document::parsed(text)?;
         if file.kind != "modal" {
@@ -141,16 +142,7 @@ impl Modal {
         if size == 0 || size > MOST {
             return Err(Error::at("stiffness", format!("there are {size} rows, it must be 1 to {MOST}")));
         }
-        if !(file.load >= 0.0 && file.load.is_finite() && file.wedge.is_finite()) {
-            let what = format!(
-                "the load is {} N and the wedge {}, they must be finite numbers, the load not below 0",
-                file.load, file.wedge
-            );
-            return Err(Error::at("load", what));
-        }
-        if file.modes == 0 {
-            return Err(Error::at("modes", "there are 0 modes, it must be 1 or more"));
-        }
+        check_numbers(&file, size)?;
         let rows = [
             Some(file.stiffness),
             Some(file.mass),
@@ -189,6 +181,7 @@ impl Modal {
                 ));
             }
         }
+        check_resists(&matrices[0])?;
         let Ok([k, m, c, kf, mf, cf, slope]) = <[Mat<f64>; 7]>::try_from(matrices) else {
             return Err(Error::at("stiffness", "a matrix is missing"));
         };
@@ -217,6 +210,46 @@ impl Modal {
             wedge,
             contact,
         })
+    }
+}
+
+/// Refuses a load, a number of modes or a range of friction that cannot be.
+fn check_numbers(file: &File, size: usize) -> Result<(), Error> {
+    if !(file.load >= 0.0 && file.load.is_finite() && file.wedge.is_finite()) {
+        let what = format!(
+            "the load is {} N and the wedge {}, they must be finite numbers, the load not below 0",
+            file.load, file.wedge
+        );
+        return Err(Error::at("load", what));
+    }
+    if file.modes == 0 || file.modes > size {
+        let what = format!("there are {} modes, it must be 1 to {size}, the rows of stiffness", file.modes);
+        return Err(Error::at("modes", what));
+    }
+    if !(0.0 <= file.mu[0] && file.mu[0] <= file.mu[1] && file.mu[1].is_finite()) {
+        let what = format!(
+            "the range is {:?}, it must rise from 0 or more: first and last coefficient of friction",
+            file.mu
+        );
+        return Err(Error::at("mu", what));
+    }
+    Ok(())
+}
+
+/// Refuses a stiffness without friction that pushes a motion on.
+fn check_resists(stiffness: &Mat<f64>) -> Result<(), Error> {
+    /// Of the largest eigenvalue, what rounding makes of a motion without stiffness.
+    const NOTHING: f64 = 1e-9;
+    let wrong = |what: String| Error::at(NAMES[0], what);
+    let values = stiffness.self_adjoint_eigenvalues(faer::Side::Lower);
+    let values =
+        values.map_err(|_| wrong("its eigenvalues do not converge: write the file again".to_owned()))?;
+    let most = values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+    match values.iter().copied().reduce(f64::min) {
+        Some(least) if least < -NOTHING * most => Err(wrong(format!(
+            "it has the eigenvalue {least:e}, where none may be below 0: without friction a structure resists every motion"
+        ))),
+        _ => Ok(()),
     }
 }
 

@@ -2,8 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use super::document::{Constants, Part};
+use super::document::Constants;
 use super::materials::material;
+use super::part::{Body, Part};
 use crate::Error;
 use crate::assembly::Supports;
 use crate::elements::Kind;
@@ -22,6 +23,8 @@ pub(super) struct Joined {
     pub(super) ties: Vec<(String, String)>,
     /// Name of each part with the number of its nodes and elements.
     pub(super) sizes: Vec<(String, usize, usize)>,
+    /// Sentences on what files say and is left out.
+    pub(super) remarks: Vec<String>,
 }
 
 /// Reads files through `file`, which gives the text behind a path or says why not.
@@ -41,7 +44,7 @@ pub(super) fn join(
     let names: Vec<&String> = constants.keys().collect();
     for (name, part) in parts {
         let key = format!("parts.{name}");
-        let known = |key: String, material: &String| {
+        let known = |key: String, material: &str| {
             names.iter().position(|n| *n == material).ok_or_else(|| {
                 let all: Vec<&str> = names.iter().map(|n| n.as_str()).collect();
                 let all = if all.is_empty() { "none is described".to_owned() } else { all.join(", ") };
@@ -53,15 +56,16 @@ pub(super) fn join(
                 )
             })
         };
-        let mesh = match part {
-            Part::Block { material, .. } | Part::Cylinder { material, .. } | Part::Ring { material, .. } => {
-                let mut mesh = built(&key, part)?;
+        let body = part.body(&key)?;
+        let mesh = match body {
+            Body::Block { material, .. } | Body::Cylinder { material, .. } | Body::Ring { material, .. } => {
+                let mut mesh = built(&key, &body)?;
                 let index = known(format!("{key}.material"), material)?;
                 mesh.groups.iter_mut().for_each(|group| group.material = index);
                 mesh
             }
-            Part::Mesh { file: path, scale, shift, materials } => {
-                if !(*scale > 0.0 && scale.is_finite()) {
+            Body::Mesh { file: path, scale, shift, materials } => {
+                if !(scale > 0.0 && scale.is_finite()) {
                     return Err(Error::at(
                         format!("{key}.scale"),
                         format!("{scale} is no scale, it must be above 0: 0.001 for a mesh in mm"),
@@ -71,6 +75,8 @@ pub(super) fn join(
                 let text = file(path).map_err(at_file)?;
                 let (mut mesh, own) = if path.to_lowercase().ends_with(".inp") {
                     let deck = abaqus(&text).map_err(|why| at_file(why.to_string()))?;
+                    let left_out = deck.remarks.iter().map(|what| format!("{key}.file: `{path}`: {what}"));
+                    joined.remarks.extend(left_out);
                     let first = joined.mesh.nodes.len();
                     for (node, axis, displacement) in deck.supports {
                         joined.supports.prescribe(&[first + node], axis, scale * displacement);
@@ -96,8 +102,8 @@ pub(super) fn join(
 }
 
 /// A mesh that is built in.
-fn built(key: &str, part: &Part) -> Result<Mesh, Error> {
-    let kind = |element: &String| {
+fn built(key: &str, body: &Body<'_>) -> Result<Mesh, Error> {
+    let kind = |element: &str| {
         kind(element).ok_or_else(|| {
             let what = format!(
                 "\"{element}\" is no element, it must be hex8, hex20, hex20r, tet4, tet10 or wedge15"
@@ -126,17 +132,17 @@ fn built(key: &str, part: &Part) -> Result<Mesh, Error> {
         let what = format!("{cells:?} elements, there must be at least 1 each way");
         Err(Error::at(format!("{key}.cells"), what))
     };
-    let mesh = match part {
-        Part::Block { element, origin, size, cells, .. } => {
+    let mesh = match body {
+        Body::Block { element, origin, size, cells, .. } => {
             let (origin, kind) = (place("origin", origin)?, kind(element)?);
             Block { origin, size: *size, cells: counts(cells)?.map(Into::into), kind }.mesh()
         }
-        Part::Cylinder { element, centre, radius, height, cells, .. } => {
+        Body::Cylinder { element, centre, radius, height, cells, .. } => {
             let (centre, kind) = (place("centre", centre)?, kind(element)?);
             round(*height)?;
             Cylinder { centre, radius: *radius, height: *height, cells: counts(cells)?, kind }.mesh()
         }
-        Part::Ring { element, centre, radii, height, degrees, cells, .. } => {
+        Body::Ring { element, centre, radii, height, degrees, cells, .. } => {
             let (centre, kind) = (place("centre", centre)?, kind(element)?);
             round(*height)?;
             let [from, to] = *degrees;
@@ -148,7 +154,7 @@ fn built(key: &str, part: &Part) -> Result<Mesh, Error> {
             let (angles, cells) = (degrees.map(f64::to_radians), counts(cells)?.map(Into::into));
             Ring { centre, radii: *radii, angles, height: *height, cells, kind }.mesh()
         }
-        Part::Mesh { .. } => Ok(Mesh::default()),
+        Body::Mesh { .. } => Ok(Mesh::default()),
     };
     mesh.map_err(|why| Error::at(key, why))
 }
@@ -160,7 +166,7 @@ fn assign(
     named: &[String],
     own: Vec<Material>,
     all: &mut Vec<Material>,
-    known: &dyn Fn(String, &String) -> Result<usize, Error>,
+    known: &dyn Fn(String, &str) -> Result<usize, Error>,
 ) -> Result<(), Error> {
     let key = format!("{key}.materials");
     let volumes = mesh.groups.iter().map(|group| group.material + 1).max().unwrap_or(0);

@@ -20,6 +20,28 @@ pub fn place(text: &str, error: &Error) -> Option<Range<usize>> {
     }
 }
 
+/// The key, as `parts.pin.cells`, whose value holds these bytes; nothing where no value does, as for the name of a key or a table.
+pub(super) fn key_of(text: &str, span: &Range<usize>) -> Option<String> {
+    let table = DeTable::parse(text).ok()?;
+    within(table.get_ref(), span)
+}
+
+fn within(table: &DeTable<'_>, span: &Range<usize>) -> Option<String> {
+    let holds = |outer: Range<usize>| !span.is_empty() && outer.start <= span.start && span.end <= outer.end;
+    let of = |value: &Spanned<DeValue<'_>>| match value.get_ref() {
+        DeValue::Table(table) => within(table, span).map(|inner| format!(".{inner}")),
+        DeValue::Array(all) if all.iter().any(is_table) => {
+            let inner = |(i, element): (usize, &Spanned<DeValue<'_>>)| match element.get_ref() {
+                DeValue::Table(table) => within(table, span).map(|inner| format!("[{i}].{inner}")),
+                _ => None,
+            };
+            all.iter().enumerate().find_map(inner)
+        }
+        _ => holds(value.span()).then(String::new),
+    };
+    table.iter().find_map(|(name, value)| of(value).map(|inner| format!("{}{inner}", name.get_ref())))
+}
+
 /// The bytes of the value of a key such as `parts.pin.cells` or `loads[1].force`.
 fn of_key(text: &str, key: &str) -> Range<usize> {
     let Ok(table) = DeTable::parse(text) else { return 0..0 };

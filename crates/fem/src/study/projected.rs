@@ -86,7 +86,8 @@ impl Projected<'_> {
         });
         let (mus, title) = (&self.study.mus, self.study.document.title.clone());
         let mu = [mus[0], mus[mus.len() - 1]];
-        let (modes, load) = (self.count, self.load);
+        // No more modes than vectors.
+        let (modes, load) = (self.count.min(coordinates.ncols()), self.load);
         Ok(Modal { title, mu, modes, symmetric, friction, slope, load, wedge: 0.0, contact })
     }
 

@@ -148,8 +148,13 @@ pub(super) fn check_kn(document: &Document) -> Result<(), Error> {
             "a range is given, but no projected problem is written: add modal = true or leave it out",
         );
     }
-    if document.friction.contact_stiffness.is_none() {
+    let Some(own) = document.friction.contact_stiffness else {
         return wrong("the surfaces do not overlap (multipliers): give friction.contact_stiffness, too");
+    };
+    if !(low..=high).contains(&own) {
+        return wrong(&format!(
+            "the range is {low:e} to {high:e} Pa/m, but friction.contact_stiffness is {own:e}: let it lie in the range"
+        ));
     }
     if document.modes.stressed {
         return wrong(

@@ -214,7 +214,7 @@ fn surfaces_sets_and_ties_are_read() {
     assert_eq!(deck.mesh.node_set("SIDE").expect("a set"), [1, 2, 5, 6]);
     assert_eq!(deck.ties, [("TOP".to_owned(), "SIDE".to_owned())]);
     assert_eq!(deck.supports, [(0, 0, 0.0), (3, 0, 0.0), (0, 1, 0.0), (3, 1, 0.0), (4, 2, 1e-6)]);
-    assert_eq!(deck.ignored, ["STEP"]);
+    assert!(deck.remarks.is_empty(), "{:?}", deck.remarks);
     // ν12, ν13, ν23 and G12, G13, G23: the shear stiffnesses xy, yz, zx are G12, G23, G13.
     let shear = [3, 4, 5].map(|i| deck.materials[0].stiffness[i][i]);
     assert_eq!(format!("{shear:?}"), "[3000000000.0, 1500000000.0, 2000000000.0]");
@@ -227,7 +227,8 @@ fn a_bad_file_is_a_sentence_with_its_line() {
         ("*NODE\n1, 0, zero, 0\n", "line 2: \"zero\" is no coordinate"),
         (
             "*ELEMENT, TYPE=C3D6\n",
-            "line 1: elements of TYPE=C3D6 are not known here: C3D4, C3D8, C3D10, C3D15, C3D20 and C3D20R are",
+            "line 1: elements of TYPE=C3D6 are not known here: C3D4, C3D8, C3D10, C3D15, C3D20 and C3D20R are; mesh with these, or delete \
+             the elements where they are no part of the body",
         ),
         (
             &format!("{node}*ELEMENT, TYPE=C3D4\n1,1,2,3,4\n"),
@@ -277,7 +278,12 @@ fn files_for_calculix_hold_the_model() {
         let mut model = pin::model(kind, 1).expect("the pin");
         model.materials = vec![lining.clone()];
         let text = inp(&model, 10);
-        let deck = abaqus(&text).expect("a file of our own");
+        let error = abaqus(&text).map(drop).expect_err("equations").to_string();
+        assert!(
+            error.contains(": *EQUATION ties displacements to one another, which is not read"),
+            "{error}"
+        );
+        let deck = abaqus(&without_equations(&text)).expect("a file of our own");
         assert_eq!(corners_and_all(&deck.mesh), corners_and_all(&model.mesh), "{}", kind.name());
         for (a, b) in deck.materials[0].stiffness.iter().flatten().zip(lining.stiffness.iter().flatten()) {
             assert!((a - b).abs() < 1e-10 * 12e9, "{a} {b}");
@@ -291,6 +297,39 @@ fn files_for_calculix_hold_the_model() {
                 .flat_map(|line| line.split(','))
                 .all(|word| word.starts_with('*') || word.trim().len() <= 20 || word.contains('='))
         );
+    }
+}
+
+fn without_equations(text: &str) -> String {
+    let mut inside = false;
+    let kept = |line: &&str| {
+        inside = *line == "*EQUATION" || (inside && !line.starts_with('*'));
+        !inside
+    };
+    text.lines().filter(kept).collect::<Vec<_>>().join("\n")
+}
+
+/// A mesh whose counts do not fit its lines is refused: elements would be missing.
+#[test]
+fn a_mesh_with_fewer_elements_than_lines_is_refused() {
+    for (kind, text) in GMSH {
+        let count = text.lines().skip_while(|line| *line != "$Elements").nth(1).expect("counts");
+        let fewer = |place: usize| {
+            let mut words: Vec<String> = count.split(' ').map(str::to_owned).collect();
+            words[place] = (words[place].parse::<usize>().expect("a count") - 1).to_string();
+            text.replace(&format!("$Elements\n{count}"), &format!("$Elements\n{}", words.join(" ")))
+        };
+        let blocks = count.contains(' ');
+        for damaged in (0..if blocks { 2 } else { 1 }).map(fewer) {
+            let error = gmsh(&damaged).map(drop).expect_err(kind.name()).to_string();
+            let says =
+                if blocks { "write the mesh again" } else { "$EndElements should follow, but there is \"" };
+            assert!(error.contains(says), "{}: {error}", kind.name());
+        }
+        for section in ["$EndElements", "$EndNodes"] {
+            let error = gmsh(&text.replace(section, "")).map(drop).expect_err(section).to_string();
+            assert!(error.contains(section), "{error}");
+        }
     }
 }
 

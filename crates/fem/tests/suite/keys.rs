@@ -105,6 +105,22 @@ fn a_band_has_to_hold_a_mode() {
     );
 }
 
+/// Damping of a mode by itself and by its material together may not stop it from vibrating.
+#[test]
+fn ratios_that_add_up_to_one_are_refused() {
+    let text = PIN
+        .replace("points = 26", "points = 2")
+        .replace("density = 7800", "density = 7800\nloss_factor = 1.0");
+    let text = text.replace("count = 7", "count = 2\ndamping_ratios = [0.0, 0.5]");
+    let error = compute(&study(&text), &mut |_| ()).map(drop).expect_err("half and half").to_string();
+    assert!(
+        error.starts_with(
+            "modes.damping_ratios: with half the loss of its materials the ratio of mode 2 is 1.000"
+        ),
+        "{error}"
+    );
+}
+
 /// A table at a temperature between two rows is the material half-way: frequencies go with the root of its modulus.
 #[test]
 fn a_table_is_read_at_the_temperature() {
@@ -201,6 +217,7 @@ fn stress_stiffens_and_its_effect_is_reported() {
 }
 
 #[test]
+#[expect(clippy::too_many_lines, reason = "a row for every input")]
 fn bad_keys_are_named_with_their_place() {
     let varied = |rest: &str| format!("[vary]\n{rest}\n\n[modes]");
     let range = "values = { values = [1.0, 2.0] }";
@@ -263,7 +280,7 @@ fn bad_keys_are_named_with_their_place() {
         (
             "[modes]",
             &varied(&format!("parameter = \"colour\"\nmu = 0.1\n{range}")),
-            "line 40: unknown variant `colour`",
+            "line 40: vary.parameter: unknown variant `colour`",
             "\"colour\"",
         ),
         (
@@ -289,6 +306,74 @@ fn bad_keys_are_named_with_their_place() {
             "cells = [2, 0, 5]",
             "parts.pin.cells: [2, 0, 5] elements, there must be at least 1 each way",
             "[2, 0, 5]",
+        ),
+        (
+            "density = 7800",
+            "density = 7800\nloss_factor = 2.0",
+            "materials.steel.loss_factor: 2 is no loss factor, it must be 0 or more and below 2",
+            "2.0",
+        ),
+        (
+            "points = 26 }",
+            "points = 26 }\ncontact_stiffness = 1e11\n\n[output]\nmodal = true\nkn = [1e12, 1e14]",
+            "output.kn: the range is 1e12 to 1e14 Pa/m, but friction.contact_stiffness is 1e11",
+            "[1e12, 1e14]",
+        ),
+        // What `run` would refuse is refused before hours are spent on it.
+        (
+            "[modes]",
+            "[output]\nmodal = true\n\n[modes]",
+            "output.modal: maps need a load, which a slope of friction acts on, but nothing presses",
+            "true",
+        ),
+        (
+            "points = 26 }",
+            "points = 26 }\nstatic_mu = 0.3",
+            "friction.static_mu: it is the friction of the static step, but nothing presses",
+            "0.3",
+        ),
+        (
+            "[modes]",
+            "[[loads]]\nset = \"pin.z1\"\nforce = 1.0\n\n[modes]",
+            "loads[0].set: supports hold all nodes of \"pin.z1\" along the load, so that it presses nothing",
+            "\"pin.z1\"",
+        ),
+        (
+            "direction = [1, 0, 0]",
+            "direction = [nan, 0, 0]",
+            "sliding[0].direction: NaN is no finite number",
+            "[nan, 0, 0]",
+        ),
+        (
+            "young = 210e9",
+            "young = 1e300",
+            "material steel: Young's modulus is 1e300 Pa, it must be 1e-100 to 1e100: check its unit",
+            "steel",
+        ),
+        // Parts by their keys, each at its place.
+        (
+            "cells = [2, 2, 5]",
+            "cells = [2, 2.5, 5]",
+            "line 17: parts.pin.cells: invalid type: floating point `2.5`, expected a whole number",
+            "2.5",
+        ),
+        (
+            "cells = [2, 2, 5]",
+            "cells = [2, 2, 5]\nradius = 0.1",
+            "parts.pin.radius: a block has no such key, it has element, origin, size, cells, material",
+            "0.1",
+        ),
+        (
+            "cells = [2, 2, 5]\n",
+            "",
+            "parts.pin.cells: it is missing: a block has element, origin, size, cells, material",
+            "pin",
+        ),
+        (
+            "cells = [2, 2, 5]",
+            "cellls = [2, 2, 5]",
+            "line 17: unknown field `cellls`, expected one of `kind`",
+            "cellls",
         ),
         ("[modes]", "[axes]\nmu_s = 1\n\n[modes]", "line 39: unknown field `axes`", "axes"),
     ] {

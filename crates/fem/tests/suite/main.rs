@@ -6,6 +6,7 @@
 
 mod bad_input;
 mod bonds;
+mod cards;
 mod cases;
 mod contact;
 mod cylinder;

@@ -186,7 +186,11 @@ fn a_cost_is_told_before() {
 fn bad_descriptions_are_named() {
     for (old, new, wanted) in [
         ("title", "titel", "line 2: unknown field `titel`, expected one of"),
-        ("cells = [6, 2, 2]", "cells = [6, 2]", "line 4: invalid length 2, expected an array of length 3"),
+        (
+            "cells = [6, 2, 2]",
+            "cells = [6, 2]",
+            "line 9: parts.block.cells: invalid length 2, expected an array of length 3",
+        ),
         (
             "cells = [6, 2, 2]",
             "cells = [6, 0, 2]",
@@ -205,7 +209,7 @@ fn bad_descriptions_are_named() {
         (
             "kind = \"block\"\nelement = \"hex20\"\norigin = [0.0,",
             "kind = \"ball\"\nelement = \"hex20\"\norigin = [0.0,",
-            "line 5: unknown variant `ball`, expected one of `block`, `cylinder`, `ring`, `mesh`",
+            "line 5: parts.block.kind: unknown variant `ball`, expected one of `block`, `cylinder`, `ring`, `mesh`",
         ),
         (
             "[materials.steel]",
@@ -225,7 +229,7 @@ fn bad_descriptions_are_named() {
         (
             "young = 210e9",
             "young = \"stiff\"",
-            "line 21: \"stiff\" is neither a number nor three of them in brackets",
+            "line 21: materials.steel.young: \"stiff\" is neither a number nor three of them in brackets",
         ),
         (
             "density = 7800",
