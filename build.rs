@@ -26,7 +26,7 @@ fn main() {
         }
     }
     // Everything that the binary is made of: a change of it is a change of the mark below.
-    for made_of in ["src", "shaders", "assets", "sweeps/paper", "Cargo.toml", "Cargo.lock"] {
+    for made_of in ["src", "shaders", "crates/figure/fonts", "sweeps/paper", "Cargo.toml", "Cargo.lock"] {
         println!("cargo::rerun-if-changed={made_of}");
     }
     let Some(commit) = git(&root, &["rev-parse", "HEAD"]) else { return };

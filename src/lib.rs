@@ -41,6 +41,28 @@
     allow(dead_code, reason = "fewer features leave unused what only the others call")
 )]
 
+/// The program knows the library by its name, as any other would.
+#[cfg(all(
+    feature = "cli",
+    feature = "fem",
+    feature = "figures",
+    feature = "gpu",
+    feature = "identify",
+    feature = "parquet"
+))]
+extern crate self as squealmap;
+
+/// The program: what `src/main.rs` and the Python package call.
+#[cfg(all(
+    feature = "cli",
+    feature = "fem",
+    feature = "figures",
+    feature = "gpu",
+    feature = "identify",
+    feature = "parquet"
+))]
+#[doc(hidden)]
+pub mod cli;
 pub mod cluster;
 #[doc(hidden)]
 pub mod disk;

@@ -3,7 +3,9 @@
 #![expect(unsafe_code, reason = "the environment of the process is changed while it has one thread")]
 
 use std::env;
-use std::path::Path;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 /// The variable that switches Mesa's Vulkan layer which sorts devices off.
 const NO_DEVICE_SELECT: &str = "NODEVICE_SELECT";
@@ -19,4 +21,22 @@ pub(crate) fn look_for_no_display() {
         // SAFETY: called first in `main`, so that no other thread is there.
         unsafe { env::set_var(NO_DEVICE_SELECT, "1") };
     }
+}
+
+/// The file that starts this program, where it is not that of the process.
+static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
+
+/// Keeps the file that starts this program, where it is not that of the process.
+pub(crate) fn started_by(program: Option<PathBuf>) {
+    if let Some(program) = program {
+        let _ = PROGRAM.set(program);
+    }
+}
+
+/// The file that starts this program.
+///
+/// # Errors
+/// What the system says where it does not know it.
+pub(crate) fn program() -> io::Result<PathBuf> {
+    PROGRAM.get().map_or_else(env::current_exe, |program| Ok(program.clone()))
 }

@@ -5,22 +5,9 @@ use std::path::PathBuf;
 use squealmap_input::place::Place;
 use squealmap_input::quote::{SAID, clipped, one_line};
 
-/// The most characters of a sentence about a file of signals, which may name all columns of its header.
-const FAULT: usize = 1200;
-
 /// Why a command failed.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum Error {
-    /// A description of bodies in contact, or its model, cannot be computed.
-    #[error("{}: {}", at.as_ref().map_or_else(|| format!("`{}`", one_line(&path.display().to_string())), Place::to_string), clipped(why, SAID))]
-    Fem {
-        /// The description.
-        path: PathBuf,
-        /// Where in it, if anywhere.
-        at: Option<Place>,
-        /// What is wrong, as a sentence.
-        why: String,
-    },
     /// What the library says.
     #[error(transparent)]
     Library(#[from] squealmap::Error),
@@ -85,14 +72,6 @@ pub(crate) enum Error {
     FileThere {
         /// The file.
         path: PathBuf,
-    },
-    /// No instance of a sweep has this number.
-    #[error("--instance {number}: the sweep has {instances} instances, numbered from 0 to {}", instances - 1)]
-    NoInstance {
-        /// What was asked for.
-        number: usize,
-        /// How many there are, at least one.
-        instances: usize,
     },
     /// A directory with what was made from another input file.
     #[error(
@@ -164,22 +143,6 @@ pub(crate) enum Error {
     NoStem {
         /// The sweep file.
         path: PathBuf,
-    },
-    /// Measured signals that are not fit for analysis.
-    #[error("{name}: {}", clipped(&fault.to_string(), FAULT))]
-    Signals {
-        /// The file as the user wrote it.
-        name: String,
-        /// Which column, where, and what to do.
-        fault: Box<squealmap_identify::Fault>,
-    },
-    /// Measured friction that does not determine a material.
-    #[error("{name}: {}", clipped(&fault.to_string(), FAULT))]
-    Fit {
-        /// The file as the user wrote it.
-        name: String,
-        /// Which value, and what to do.
-        fault: Box<dyn std::error::Error + Send + Sync>,
     },
     /// Measurements that no model has.
     #[error("{fault}")]
@@ -356,7 +319,7 @@ impl From<squealmap::study::error::Error> for Error {
 
 impl From<squealmap_identify::Unfit> for Error {
     fn from(unfit: squealmap_identify::Unfit) -> Error {
-        Error::Signals { name: unfit.name, fault: unfit.fault }
+        squealmap::study::error::Error::from(unfit).into()
     }
 }
 
@@ -371,7 +334,6 @@ impl Error {
     pub(crate) fn place(&self) -> Option<&Place> {
         match self {
             Error::Library(why) => why.place(),
-            Error::Fem { at, .. } => at.as_ref(),
             _ => None,
         }
     }
@@ -385,22 +347,18 @@ impl Error {
     pub(crate) fn is_bad_input(&self) -> bool {
         match self {
             Error::Library(why) => why.is_bad_input(),
-            Error::Fem { .. }
-            | Error::SameName { .. }
+            Error::SameName { .. }
             | Error::RefineBeside { .. }
             | Error::FollowsRamp { .. }
             | Error::FollowedAndFixed { .. }
             | Error::PartialAsWhole { .. }
             | Error::BadFrontier { .. }
             | Error::FileThere { .. }
-            | Error::NoInstance { .. }
             | Error::OtherInput { .. }
             | Error::OtherVersion { .. }
             | Error::NoRefinement { .. }
             | Error::TilesMissing { .. }
             | Error::NoStem { .. }
-            | Error::Signals { .. }
-            | Error::Fit { .. }
             | Error::Calibrate { .. }
             | Error::NoMaterial { .. }
             | Error::OnlyOfMaps { .. }

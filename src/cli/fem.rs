@@ -1,19 +1,15 @@
 //! `squealmap fem`: bodies in sliding contact by finite elements.
 
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use crate::cli::error::{Error, Result};
+use crate::cli::error::Result;
 use clap::Args;
 use serde_json::json;
-use squealmap::disk;
 use squealmap::results::figure::look::Look;
 use squealmap::store::space::bytes;
-use squealmap::study::fem::{Bodies, Curves};
-use squealmap_fem::study::document::Document;
-use squealmap_fem::study::{Outcome, Study, compute, estimate, manifest, place, shapes, table, vary_table};
-
-use squealmap_input::place::Source;
+use squealmap::study::fem::{Bodies, Curves, of_study, open};
+use squealmap_fem::study::{Outcome, Study, compute, estimate, manifest, shapes, table, vary_table};
 
 use crate::cli::home::{Replace, prepare};
 use crate::cli::output::{Output, list};
@@ -55,18 +51,14 @@ pub(crate) struct FemCommand {
 
 impl FemCommand {
     pub(crate) fn execute(self) -> Result<()> {
-        let unreadable = |why: String| Error::Fem { path: self.study.clone(), at: None, why };
-        let text = text_of(&self.study).map_err(unreadable)?;
+        let (study, text) = open(&self.study)?;
         let wrong = |why: squealmap_fem::Error| of_study(&self.study, &text, &why);
-        let beside = self.study.parent().unwrap_or(Path::new("")).to_owned();
-        let document = Document::read(&text).map_err(wrong)?;
-        let study = Study::new(document, &|path| text_of(&beside.join(path))).map_err(wrong)?;
         for remark in &study.remarks {
             note(remark);
         }
         talk::tell("remarks", study.remarks.clone());
         if self.check {
-            return check(&study).map_err(wrong);
+            return Ok(check(&study).map_err(wrong)?);
         }
         // Proven now, made once there is something to write: a study that is stopped leaves nothing.
         let output = prepare(&self.study, self.output.as_deref(), &FILES)?;
@@ -106,23 +98,6 @@ impl FemCommand {
         print(&list(&output.write_alone(&files, &FILES)?));
         Ok(())
     }
-}
-
-/// What is wrong with a description, and where.
-pub(crate) fn of_study(path: &Path, text: &str, why: &squealmap_fem::Error) -> Error {
-    let source = Source::new(path.display().to_string(), text);
-    let at = place(text, why).map(|span| source.place(span));
-    let why = match why {
-        squealmap_fem::Error::Description { what, .. } => what.clone(),
-        other => other.to_string(),
-    };
-    Error::Fem { path: path.to_owned(), at, why }
-}
-
-/// The text of a file, or why there is none.
-pub(crate) fn text_of(path: &Path) -> std::result::Result<String, String> {
-    let bytes = disk::read(path).map_err(|why| format!("cannot read `{}`: {why}", path.display()))?;
-    String::from_utf8(bytes).map_err(|_| format!("`{}` is no text in UTF-8", path.display()))
 }
 
 /// Size and cost.

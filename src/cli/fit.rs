@@ -2,27 +2,22 @@
 
 use std::path::PathBuf;
 
-use crate::cli::error::{Error, Result};
+use crate::cli::error::Result;
 use crate::cli::home::prepare_beside;
 use crate::cli::numbers::{finite, positive};
 use crate::cli::output::list;
 use crate::cli::talk::{note, print};
 use clap::{Args, ValueEnum};
 use squealmap::model::friction::LawKind;
+use squealmap::study::error::Error;
+use squealmap::study::fit::rows::rows;
 use squealmap::study::fit::table::{material_csv, residuals_csv};
-use squealmap::study::fit::{Candidate, Fit, compare, fit, range};
-use squealmap_identify::{Channel, FrictionColumn, Measurements, Point, Settings, read_measurements};
-use squealmap_input::quote::rounded;
+use squealmap::study::fit::told::{remarks, warnings};
+use squealmap::study::fit::{Candidate, Fit, compare, fit};
+use squealmap_identify::{Channel, FrictionColumn, Point, Settings, read_measurements};
 
 /// The files that are written.
 const FILES: [&str; 2] = ["material.csv", "residuals.csv"];
-/// Rows of a material over temperatures that are not repeated.
-const ROWS: u16 = 5;
-/// As many temperatures of a campaign are rows of its material, each with as many points or more: a law has up to three
-/// parameters, and their errors need some more.
-const MOST_MEASURED: usize = 20;
-const ENOUGH_POINTS: usize = 6;
-
 /// The laws that can be fitted.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum Law {
@@ -125,22 +120,6 @@ impl FitCommand {
     }
 }
 
-/// What was not taken as it stands in the file.
-fn remarks(measured: &Measurements) -> Vec<String> {
-    let Measurements { without_contact, left_out, .. } = measured;
-    let mut remarks = Vec::new();
-    if *without_contact > 0 {
-        remarks.push(format!("{without_contact} row(s) without contact are passed over"));
-    }
-    if *left_out > 0.0 {
-        remarks.push(format!(
-            "{:.0} % of the record vibrate so that the mean of T/N is not the friction at the mean velocity; they are left out",
-            100.0 * left_out
-        ));
-    }
-    remarks
-}
-
 /// The laws beside each other.
 fn compared(candidates: &[Candidate]) -> String {
     let least = |k: usize| {
@@ -166,60 +145,4 @@ fn largest(fitted: &Fit, points: &[Point]) -> String {
     of.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs())).map_or(String::new(), |(point, residual)| {
         format!("largest residual {residual:.2e}, at {} m/s and {} °C\n", point.velocity, point.temperature)
     })
-}
-
-/// Warnings about parts of the material that the points do not determine.
-fn warnings(fitted: &Fit, points: &[Point]) -> Vec<String> {
-    let mut warnings = Vec::new();
-    let [low, high] = range(points, |point| point.temperature);
-    let measured = format!("{} to {} °C", rounded(low), rounded(high));
-    let beyond = fitted.temperature.iter().filter(|row| !(low..=high).contains(*row));
-    let beyond: Vec<String> = beyond.map(f64::to_string).collect();
-    // A single row holds at every temperature.
-    if !beyond.is_empty() && fitted.temperature.len() > 1 {
-        warnings.push(format!(
-            "the points are from {measured}, so that the row(s) at {} °C are extrapolated; measure there, or ask for rows \
-             inside with --temperatures",
-            beyond.join(", ")
-        ));
-    }
-    let (first, last) = (fitted.temperature[0], fitted.temperature[fitted.temperature.len() - 1]);
-    let outside = points.iter().filter(|point| !(first..=last).contains(&point.temperature)).count();
-    if outside > 0 {
-        let rows = if first < last { format!("{first} to {last}") } else { first.to_string() };
-        warnings.push(format!(
-            "{outside} of {} points lie outside the rows of {rows} °C and count for the nearest row; ask for rows from {measured} \
-             with --temperatures, or leave these points out",
-            points.len()
-        ));
-    }
-    if let (true, Some((param, values))) = (fitted.open, fitted.columns.last()) {
-        warnings.push(format!(
-            "the points do not bound `{}`: {:.3} m/s fits best, but the fastest of them as well, so that there are no standard \
-             errors; measure faster, give it with --law-velocity, or choose another --law",
-            param.info().name,
-            values[0]
-        ));
-    }
-    warnings
-}
-
-/// The temperatures of the points where these are few with enough points each; else evenly spaced ones over them.
-fn rows(points: &[Point]) -> Vec<f64> {
-    let mut measured: Vec<f64> = points.iter().map(|point| point.temperature).collect();
-    measured.sort_by(f64::total_cmp);
-    let groups: Vec<usize> = measured.chunk_by(|a, b| a.total_cmp(b).is_eq()).map(<[f64]>::len).collect();
-    measured.dedup();
-    if measured.len() <= MOST_MEASURED && groups.iter().all(|points| *points >= ENOUGH_POINTS) {
-        return measured;
-    }
-    let [low, high] = range(points, |point| point.temperature);
-    if low < high {
-        let last = ROWS - 1;
-        (0..=last)
-            .map(|k| if k == last { high } else { low + (high - low) * f64::from(k) / f64::from(last) })
-            .collect()
-    } else {
-        points.first().map(|point| point.temperature).into_iter().collect()
-    }
 }

@@ -56,6 +56,8 @@ mod verify;
 use crate::cli::error::Result;
 use crate::cli::signal::INTERRUPTED;
 use crate::cli::talk::Manner;
+use std::ffi::OsString;
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Arg, CommandFactory, FromArgMatches, Parser, Subcommand};
@@ -207,10 +209,17 @@ impl Command {
     }
 }
 
-/// Parses, executes, reports an error and gives the exit code.
-pub(crate) fn main() -> ExitCode {
+/// Parses the arguments, the name of the program first, executes, reports an error and gives the exit code. `program` is the
+/// file that starts the same program again, where it is not that of this process, as in an interpreter.
+///
+/// Once in a process, before anything else: how it talks is kept, and the environment is changed.
+#[must_use]
+pub fn main(program: Option<PathBuf>, arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     environment::look_for_no_display();
-    let parsed = definition().try_get_matches().and_then(|found| Ok((Cli::from_arg_matches(&found)?, found)));
+    environment::started_by(program);
+    let parsed = definition()
+        .try_get_matches_from(arguments)
+        .and_then(|found| Ok((Cli::from_arg_matches(&found)?, found)));
     let (cli, found) = match parsed {
         Ok(parsed) => parsed,
         Err(said) => {
@@ -229,6 +238,25 @@ pub(crate) fn main() -> ExitCode {
         })
     });
     talk::end(found.subcommand_name().unwrap_or_default(), code)
+}
+
+/// The figure that `squealmap plot` draws with these arguments, without the name of the program, as SVG; nothing is written.
+///
+/// # Errors
+/// The sentence that the command would end with.
+pub fn figure(arguments: impl IntoIterator<Item = OsString>) -> std::result::Result<String, String> {
+    let words = ["squealmap", "plot"].map(OsString::from).into_iter().chain(arguments);
+    let parsed = definition().try_get_matches_from(words).and_then(|found| Cli::from_arg_matches(&found));
+    match parsed.map(|cli| cli.command) {
+        Ok(Command::Plot(mut plot)) => plot.draw().map(|drawn| drawn.svg).map_err(|why| why.to_string()),
+        Ok(_) => Err("only `plot` draws".to_owned()),
+        Err(why) => {
+            // Its usage is of the command line.
+            let text = why.to_string();
+            let sentence = text.split("\n\n").next().unwrap_or_default();
+            Err(sentence.trim_start_matches("error: ").replace('\n', " "))
+        }
+    }
 }
 
 /// The commands and their options; every option that takes a value takes a negative number, too, and says itself what is wrong

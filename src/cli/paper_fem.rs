@@ -2,15 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::cli::error::{Error, Result};
-use crate::cli::fem::{of_study, text_of};
+use crate::cli::error::Result;
 use crate::cli::output::{Output, list};
 use crate::cli::pictures::png_of;
 use crate::cli::talk::{note, print};
 use squealmap::results::figure::look::Look;
-use squealmap::study::fem::{Bodies, Curves, claims, report};
-use squealmap_fem::study::document::Document;
-use squealmap_fem::study::{Study, compute, table};
+use squealmap::study::fem::{Bodies, Curves, claims, of_study, open, report, study};
+use squealmap_fem::study::{compute, table};
 
 /// The study.
 const STUDY: &str = include_str!("../../sweeps/fem/paper.toml");
@@ -36,21 +34,17 @@ const FIGURES: &str = "paper";
 /// Computes a study, and writes figures and report into a directory.
 pub(crate) fn execute(output: PathBuf, path: &Path) -> Result<()> {
     let other = Some(path).filter(|path| *path != Path::new(BUILT_IN));
-    let wrong = |why: String| Error::Fem { path: path.to_owned(), at: None, why };
-    let text = match other {
-        Some(path) => text_of(path).map_err(wrong)?,
-        None => STUDY.to_owned(),
+    let (study, text) = match other {
+        Some(path) => open(path)?,
+        None => (study(path, STUDY)?, STUDY.to_owned()),
     };
-    let of_study = |why: squealmap_fem::Error| of_study(path, &text, &why);
-    let beside = path.parent().unwrap_or(Path::new("")).to_owned();
-    let document = Document::read(&text).map_err(of_study)?;
-    let study = Study::new(document, &|path| text_of(&beside.join(path))).map_err(of_study)?;
     let mut command = format!("squealmap paper --fem -o {}", output.display());
     if let Some(path) = other {
         command = format!("squealmap paper --fem={} -o {}", path.display(), output.display());
     }
     let output = Output::prepare(output, &FILES)?;
-    let outcome = compute(&study, &mut |step| note(&format!("{step} ..."))).map_err(of_study)?;
+    let outcome = compute(&study, &mut |step| note(&format!("{step} ...")))
+        .map_err(|why| of_study(path, &text, &why))?;
     for claim in claims(&study, &outcome) {
         print(&format!("{}: {}\n", claim.says, claim.verdict.words()));
     }

@@ -7,7 +7,7 @@ use crate::cli::numbers::number;
 use crate::cli::output::{Output, list};
 use crate::cli::pictures::tell_missing;
 use crate::cli::plot_beside;
-use crate::cli::plot_map::OfMaps;
+use crate::cli::plot_map::{OfMaps, Tables};
 use crate::cli::talk::{note, print};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -62,8 +62,38 @@ pub(crate) struct Plot {
     map: OfMaps,
 }
 
+/// A figure that is drawn and not written yet.
+pub(crate) struct Drawn {
+    pub(crate) svg: String,
+    kind: Kind,
+    title: String,
+    provenance: String,
+    /// The tables beside it, and the names of all files.
+    tables: Tables,
+    names: Vec<&'static str>,
+    is_map: bool,
+}
+
 impl Plot {
     pub(crate) fn execute(mut self) -> Result<()> {
+        let Drawn { svg, kind, title, provenance, tables: mut files, names, is_map } = self.draw()?;
+        let output = Output::prepare(self.output.clone().unwrap_or_else(|| self.directory.clone()), &names)?;
+        let beside =
+            if is_map { plot_beside::stale(output.directory(), FILES[2], &names) } else { Vec::new() };
+        let directory = output.directory().to_owned();
+        let svg = plot_beside::with_tables(svg, &files);
+        tell_missing(&svg)?;
+        files.push((FILES[0], pdf::render(&svg, &title, &provenance, &program())?));
+        files.push((FILES[1], png::render_described(&svg, &title, &provenance)?));
+        files.push((FILES[2], svg.into_bytes()));
+        print(&list(&output.write(&files)?));
+        plot_beside::remove(&directory, &beside);
+        self.tell_others(kind);
+        Ok(())
+    }
+
+    /// Reads the directory and draws the figure.
+    pub(crate) fn draw(&mut self) -> Result<Drawn> {
         // What `paper` was told to write to holds its figures one further down.
         let inside = self.directory.join(PAPER);
         if Kind::held(&self.directory).is_empty() && !Kind::held(&inside).is_empty() {
@@ -107,9 +137,9 @@ impl Plot {
             command: Some(provenance.clone()),
             ..self.journal.map_or_else(Look::default, Look::of_journal)
         };
-        let tables = picture.map().map_or(Vec::new(), |_| self.map.tables());
-        let names: Vec<&str> = FILES.into_iter().chain(tables).collect();
-        let (svg, mut files) = match (picture.map(), self.map.given()) {
+        let beside = picture.map().map_or(Vec::new(), |_| self.map.tables());
+        let names: Vec<&str> = FILES.into_iter().chain(beside).collect();
+        let (svg, tables) = match (picture.map(), self.map.given()) {
             (Some(archive), _) => self.map.draw(archive, look.clone())?,
             (None, None) => (picture.svg(&look)?, Vec::new()),
             (None, Some(option)) => {
@@ -118,20 +148,8 @@ impl Plot {
             }
         };
         look.check_height(&svg, if picture.map().is_some() { OF_A_MAP } else { OF_OTHERS })?;
-        let output = Output::prepare(self.output.clone().unwrap_or_else(|| self.directory.clone()), &names)?;
-        let title = look.title(picture.title());
-        let beside =
-            picture.map().map_or(Vec::new(), |_| plot_beside::stale(output.directory(), FILES[2], &names));
-        let directory = output.directory().to_owned();
-        let svg = plot_beside::with_tables(svg, &files);
-        tell_missing(&svg)?;
-        files.push((FILES[0], pdf::render(&svg, title, &provenance, &program())?));
-        files.push((FILES[1], png::render_described(&svg, title, &provenance)?));
-        files.push((FILES[2], svg.into_bytes()));
-        print(&list(&output.write(&files)?));
-        plot_beside::remove(&directory, &beside);
-        self.tell_others(kind);
-        Ok(())
+        let (title, is_map) = (look.title(picture.title()).to_owned(), picture.map().is_some());
+        Ok(Drawn { svg, kind, title, provenance, tables, names, is_map })
     }
 
     /// Names the figures that were not asked for.

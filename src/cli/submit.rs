@@ -3,6 +3,7 @@
 use std::ffi::OsString;
 use std::path::Path;
 
+use crate::cli::environment;
 use crate::cli::error::{Error, Result};
 use crate::cli::files::Files;
 use crate::cli::output::Output;
@@ -148,7 +149,7 @@ impl Submit {
             let text = whole.to_str().filter(|text| !text.contains(char::is_control)).map(str::to_owned);
             text.ok_or_else(|| Error::PathOfJob { path: path.to_owned() })
         };
-        let program = std::env::current_exe().map_err(|why| Error::OwnProgram { why: why.to_string() })?;
+        let program = environment::program().map_err(|why| Error::OwnProgram { why: why.to_string() })?;
         let (program, directory) = (absolute(&program)?, absolute(&self.files.directory()?)?);
         let sweep = absolute(&self.files.sweep)?;
         let stem = self.files.sweep.file_stem().unwrap_or_default().to_string_lossy();

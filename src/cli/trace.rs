@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::process::ExitCode;
 
-use crate::cli::error::{Error, Result};
+use crate::cli::error::Result;
 use crate::cli::failed::remedy;
 use crate::cli::files::Files;
 use crate::cli::hysteresis;
@@ -23,7 +23,6 @@ use squealmap::study::signals::sensors::{Recording, record};
 use squealmap::study::signals::table::signals_csv;
 use squealmap::study::trace::run::trace;
 use squealmap::study::trace::table::{document, trace_csv, trace_svg};
-use squealmap::sweep::grid::{AxisKey, Value};
 use squealmap::sweep::spec::Spec;
 use squealmap_input::quote::rounded;
 
@@ -67,7 +66,7 @@ impl TraceCommand {
         }
         let (instance, at) = match self.instance {
             None => (spec.instance_at(&self.at)?, self.at.clone()),
-            Some(number) => numbered(&spec, number)?,
+            Some(number) => spec.numbered(number)?,
         };
         let names: &[&str] =
             if self.rate.is_some() { &[FILES[0], FILES[1], FILES[2], FILES[3], SIGNALS] } else { &FILES };
@@ -138,16 +137,4 @@ fn too_slow(rate: u32, instance: &Instance) -> Option<String> {
             (ENOUGH * highest).ceil()
         )
     })
-}
-
-/// Instance `number` of a sweep, and its values as `--at` takes them.
-fn numbered(spec: &Spec, number: usize) -> Result<(Instance, String)> {
-    let instances = spec.grid.len();
-    if number >= instances {
-        return Err(Error::NoInstance { number, instances });
-    }
-    let pair = |(key, value): (AxisKey, &Value)| format!("{}={value}", key.name());
-    let pairs: Vec<String> =
-        spec.grid.keys().into_iter().zip(spec.grid.coordinates(number)).map(pair).collect();
-    Ok((spec.instance(number), pairs.join(",")))
 }

@@ -12,13 +12,18 @@ pub(crate) fn accounted(map: &Map) -> Result<()> {
     if map.records.len() != expected {
         return Err(Error::Incomplete { records: map.records.len(), instances: expected });
     }
+    all_written(0, &map.records, map.stopped.is_some())
+}
+
+/// The same of the records from instance `first` on.
+pub(crate) fn all_written(first: usize, records: &[Record], stopped: bool) -> Result<()> {
     let unaccounted = |record: &Record| match record.status {
         Status::Unwritten => true,
-        Status::NotComputed => map.stopped.is_none(),
+        Status::NotComputed => !stopped,
         _ => false,
     };
-    match map.records.iter().position(unaccounted) {
-        Some(instance) => Err(crate::engine::error::Error::Unwritten { instance }.into()),
+    match records.iter().position(unaccounted) {
+        Some(at) => Err(crate::engine::error::Error::Unwritten { instance: first + at }.into()),
         None => Ok(()),
     }
 }

@@ -13,6 +13,7 @@
 //! | a map read back | [`read`], [`number`] |
 //! | the files of a comparison of two maps | [`comparison`] |
 //! | the columns of a map in memory, by name | [`by_name`] |
+//! | a sweep computed as arrays alone | [`gathered`] |
 //! | values of axes as users name them | [`choose`] |
 //! | whether a map is whole, and which of its numbers to trust | [`accounted`], [`trust`] |
 //! | why results cannot be written, drawn or read | [`error`] |
@@ -30,6 +31,7 @@ pub mod cut;
 pub mod error;
 #[cfg(feature = "figures")]
 pub mod figure;
+pub mod gathered;
 pub mod manifest;
 pub mod netcdf;
 pub mod number;

@@ -1,7 +1,12 @@
 //! Why a study has no result.
 
 use squealmap_input::place::Place;
+use squealmap_input::quote::{SAID, clipped, one_line};
 use std::path::PathBuf;
+
+/// The most characters of a sentence about a file of signals, which may name all columns of its header.
+#[cfg(feature = "identify")]
+const FAULT: usize = 1200;
 
 /// Why a study has no result. Every message is one sentence: where, the key, the value, the limit, what to do.
 #[derive(Debug, thiserror::Error)]
@@ -115,9 +120,44 @@ pub enum Error {
         "the study has no shapes: none of its modes becomes unstable, and none was asked for; name coefficients of friction in `shapes_at` of its [output] and run `squealmap fem` again"
     )]
     NoShapes,
+    /// A description of bodies in contact, or its model, cannot be computed.
+    #[error("{}: {}", at.as_ref().map_or_else(|| format!("`{}`", one_line(&path.display().to_string())), Place::to_string), clipped(why, SAID))]
+    Fem {
+        /// The description.
+        path: PathBuf,
+        /// Where in it, if anywhere.
+        at: Option<Place>,
+        /// What is wrong, as a sentence.
+        why: String,
+    },
+    /// Measured signals that are not fit for analysis.
+    #[cfg(feature = "identify")]
+    #[error("{name}: {}", clipped(&fault.to_string(), FAULT))]
+    Signals {
+        /// The file as the user wrote it.
+        name: String,
+        /// Which column, where, and what to do.
+        fault: Box<squealmap_identify::Fault>,
+    },
+    /// Measured friction that does not determine a material.
+    #[cfg(feature = "identify")]
+    #[error("{name}: {}", clipped(&fault.to_string(), FAULT))]
+    Fit {
+        /// The file as the user wrote it.
+        name: String,
+        /// Which value, and what to do.
+        fault: Box<dyn std::error::Error + Send + Sync>,
+    },
     /// What the floor below says.
     #[error(transparent)]
     OfResults(#[from] crate::results::error::Error),
+}
+
+#[cfg(feature = "identify")]
+impl From<squealmap_identify::Unfit> for Error {
+    fn from(unfit: squealmap_identify::Unfit) -> Error {
+        Error::Signals { name: unfit.name, fault: unfit.fault }
+    }
 }
 
 impl From<crate::store::error::Error> for Error {
@@ -151,6 +191,7 @@ impl Error {
     pub fn place(&self) -> Option<&Place> {
         match self {
             Error::OfResults(why) => why.place(),
+            Error::Fem { at, .. } => at.as_ref(),
             _ => None,
         }
     }
@@ -179,7 +220,10 @@ impl Error {
             | Error::NoShapes
             | Error::PaperRamp { .. }
             | Error::NoDirectoryToPlot { .. }
-            | Error::NothingToPlot { .. } => true,
+            | Error::NothingToPlot { .. }
+            | Error::Fem { .. } => true,
+            #[cfg(feature = "identify")]
+            Error::Signals { .. } | Error::Fit { .. } => true,
             Error::OfResults(why) => why.is_bad_input(),
         }
     }

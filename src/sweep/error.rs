@@ -241,6 +241,14 @@ pub enum Error {
         /// What is wrong with it.
         problem: &'static str,
     },
+    /// No instance of a sweep has this number.
+    #[error("--instance {number}: the sweep has {instances} instances, numbered from 0 to {}", instances - 1)]
+    NoInstance {
+        /// What was asked for.
+        number: usize,
+        /// How many there are, at least one.
+        instances: usize,
+    },
     /// Swept parameters that an `--at` argument leaves open.
     #[error("{at}: no value for {names}, which the sweep varies; add {example}")]
     AtMissing {
@@ -337,6 +345,7 @@ impl Error {
             Error::ReadSweep { .. }
             | Error::TooManyToRefine { .. }
             | Error::NothingToRefine
+            | Error::NoInstance { .. }
             | Error::OnlyTwoMasses { .. }
             | Error::NothingToJudge { .. }
             | Error::Inaccurate { .. }

@@ -1,15 +1,13 @@
 //! Every operation on the disk fails once, in every way: what is left never lies, and the same command ends as if nothing
 //! had happened.
 //!
-//! The program is built into this test with another disk behind its door ([`faulty`]). For each command ([`scenario`]) an
+//! The program runs in this test with another disk behind its door ([`faulty`]). For each command ([`scenario`]) an
 //! undisturbed run counts the operations; then each is made to fail. `cargo test` takes one kind of fault for each
 //! operation, in turn, of the commands that take few; `-- --ignored long_` that of the others, and `-- --ignored way` all
 //! kinds, which takes minutes.
 
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
-#[path = "../../src/cli/mod.rs"]
-mod cli;
 mod faulty;
 mod judge;
 mod scenario;
@@ -24,7 +22,7 @@ use scenario::Scenario;
 fn main() -> ExitCode {
     if let Some(faulty) = Faulty::asked_for() {
         squealmap::disk::put_in_place(Box::new(faulty));
-        return cli::main();
+        return squealmap::cli::main(None, std::env::args_os());
     }
     let trial = |scenario: Scenario, all: bool| {
         let is_long = !all && scenario.is_long();

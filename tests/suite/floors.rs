@@ -17,12 +17,17 @@ const FLOORS: [&[&str]; 9] = [
 ];
 
 /// The crates beside, each with those that it may use.
-const CRATES: [(&str, &str, &[&str]); 5] = [
+const CRATES: [(&str, &str, &[&str]); 6] = [
     ("input", "squealmap_input", &[]),
     ("figure", "squealmap_figure", &[]),
     ("identify", "squealmap_identify", &["squealmap_input"]),
     ("fem", "squealmap_fem", &[]),
     ("explorer", "squealmap_explorer", &["squealmap"]),
+    (
+        "python",
+        "squealmap_python",
+        &["squealmap", "squealmap_fem", "squealmap_figure", "squealmap_identify", "squealmap_input"],
+    ),
 ];
 
 /// The path of a module; the crate's own root is empty.

@@ -17,12 +17,11 @@ pub const CSS_DPI: f32 = 96.0;
 const FAMILY: &str = "Liberation Sans";
 
 /// The upright face.
-pub const REGULAR: &[u8] = include_bytes!("../../../assets/fonts/LiberationSans-Regular.ttf");
+pub const REGULAR: &[u8] = include_bytes!("../fonts/LiberationSans-Regular.ttf");
 /// The bold face.
-pub const BOLD: &[u8] = include_bytes!("../../../assets/fonts/LiberationSans-Bold.ttf");
+pub const BOLD: &[u8] = include_bytes!("../fonts/LiberationSans-Bold.ttf");
 /// All faces.
-pub const FONTS: [&[u8]; 3] =
-    [REGULAR, include_bytes!("../../../assets/fonts/LiberationSans-Italic.ttf"), BOLD];
+pub const FONTS: [&[u8]; 3] = [REGULAR, include_bytes!("../fonts/LiberationSans-Italic.ttf"), BOLD];
 
 /// The PNG of an SVG document at [`DPI`] with its resolution recorded.
 ///

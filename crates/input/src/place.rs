@@ -4,7 +4,7 @@ use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
 
-use crate::quote::one_line;
+use crate::quote::{SAID, clipped, one_line};
 
 /// A text that errors can point into: the sweep file, or a file that it names.
 #[derive(Clone, Debug)]
@@ -42,7 +42,7 @@ impl Source {
         let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
         if self.by_line {
             let line = self.text[line_start..].lines().next().unwrap_or_default();
-            return Place::argument(line, &self.text, start..span.end.clamp(start, end));
+            return Place::argument(&clipped(line, SAID), &self.text, start..span.end.clamp(start, end));
         }
         Place(Box::new(Spot {
             source: self.name.clone(),

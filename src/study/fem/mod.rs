@@ -8,6 +8,8 @@ mod mesh;
 #[cfg(feature = "fem")]
 mod of_study;
 #[cfg(feature = "fem")]
+mod open;
+#[cfg(feature = "fem")]
 mod painting;
 #[cfg(feature = "fem")]
 mod paper;
@@ -20,6 +22,8 @@ mod without;
 #[cfg(feature = "fem")]
 pub use bodies::{Bodies, Sliding};
 pub use curves::{Curve, Curves, State, Transition};
+#[cfg(feature = "fem")]
+pub use open::{of_study, open, study};
 #[cfg(feature = "fem")]
 pub use paper::{claims, report};
 #[cfg(all(feature = "identify", not(feature = "fem")))]

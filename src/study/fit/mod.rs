@@ -3,16 +3,19 @@
 //! - `squares.rs`: the fit by least squares; `problem.rs`: points as a linear problem.
 //! - `errors.rs`: how far the values of a fit would scatter.
 //! - [`compare`]: several laws, by information criteria.
-//! - [`table`]: the files of a fit.
+//! - [`rows`]: the temperatures of the material.
+//! - [`table`]: the files of a fit; [`told`]: what it says beside them.
 //! - `fault.rs`: why there is none.
 
 mod criteria;
 mod errors;
 mod fault;
 mod problem;
+pub mod rows;
 mod shape;
 mod squares;
 pub mod table;
+pub mod told;
 
 pub use criteria::{Candidate, compare};
 pub use fault::FitFault;

@@ -39,6 +39,21 @@ impl Spec {
         }
         at.finish(self)
     }
+
+    /// Instance `number` of the sweep, and its values as [`Spec::instance_at`] takes them.
+    ///
+    /// # Errors
+    /// When the sweep has no such instance.
+    pub fn numbered(&self, number: usize) -> Result<(Instance, String)> {
+        let instances = self.grid.len();
+        if number >= instances {
+            return Err(Error::NoInstance { number, instances });
+        }
+        let pair = |(key, value): (AxisKey, &Value)| format!("{}={value}", key.name());
+        let pairs: Vec<String> =
+            self.grid.keys().into_iter().zip(self.grid.coordinates(number)).map(pair).collect();
+        Ok((self.instance(number), pairs.join(",")))
+    }
 }
 
 /// What the pairs have said so far.

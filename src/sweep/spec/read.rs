@@ -40,7 +40,19 @@ impl Spec {
     /// # Errors
     /// As [`Spec::read`].
     pub fn parse(text: &str, source_name: &str, base_dir: &Path) -> Result<Spec> {
-        let source = Source::new(source_name, text);
+        Spec::of_source(&Source::new(source_name, text), base_dir)
+    }
+
+    /// Validates a sweep whose keys a program has written one a line, such as `axes.mu_s.points = 8`: an error names the line
+    /// itself. Files that it names are relative to `base_dir`.
+    ///
+    /// # Errors
+    /// As [`Spec::read`].
+    pub fn of_lines(lines: &str, base_dir: &Path) -> Result<Spec> {
+        Spec::of_source(&Source::calls(lines), base_dir)
+    }
+
+    fn of_source(source: &Source, base_dir: &Path) -> Result<Spec> {
         let document = DeTable::parse(&source.text).map_err(|error| Error::Syntax {
             at: source.place(error.span().unwrap_or(0..0)),
             why: format!("not valid TOML: {}", error.message().trim().replace('\n', ", ")),
@@ -50,13 +62,13 @@ impl Spec {
         let mut points = None;
         for entry in entries(document.get_ref()) {
             match (entry.key, section_of(entry.key)) {
-                (_, Some(section)) => sections.section(&source, section, entry)?,
-                ("title" | "analysis", _) => sections.top_level(&source, entry)?,
-                ("response", _) => sections.response(&source, entry)?,
-                ("refine", _) => sections.refine(&source, entry)?,
+                (_, Some(section)) => sections.section(source, section, entry)?,
+                ("title" | "analysis", _) => sections.top_level(source, entry)?,
+                ("response", _) => sections.response(source, entry)?,
+                ("refine", _) => sections.refine(source, entry)?,
                 ("axes", _) => axes = Some(entry),
                 ("points", _) => points = Some(entry),
-                _ => return Err(unknown_key(&source, entry, "", &top_level())),
+                _ => return Err(unknown_key(source, entry, "", &top_level())),
             }
         }
         let varied = match (axes, points) {
@@ -64,14 +76,14 @@ impl Spec {
                 let at = source.place(points.key_span());
                 return Err(Error::Conflict { at, key: "`points`".to_owned(), other: "[axes]".to_owned() });
             }
-            (Some(axes), None) => Varied::axes(&source, axes)?,
+            (Some(axes), None) => Varied::axes(source, axes)?,
             (None, Some(points)) => {
-                let name = string(&source, points.node, "`points`", "the path of a file, as a string")?;
-                Varied::tuples(&source, points.node.span(), name, base_dir)?
+                let name = string(source, points.node, "`points`", "the path of a file, as a string")?;
+                Varied::tuples(source, points.node.span(), name, base_dir)?
             }
-            (None, None) => Varied::nothing(&source),
+            (None, None) => Varied::nothing(source),
         };
-        Spec::of_parts(&source, base_dir, sections, varied, None)
+        Spec::of_parts(source, base_dir, sections, varied, None)
     }
 
     /// What was read, or said in code, as a whole; `table` is the friction table that was given with its numbers.

@@ -238,7 +238,7 @@ fn plot_draws_what_a_directory_holds() {
         tree(&directory.path().join("print")),
         ["plot.pdf", "plot.png", "plot.svg"].map(PathBuf::from)
     );
-    let words = format!("squealmap {}, of results of squealmap 0.1.0", command.join(" "));
+    let words = format!("squealmap {}, of results of squealmap 0.2.0", command.join(" "));
     for file in ["plot.pdf", "plot.png", "plot.svg"] {
         let bytes = read(&format!("print/{file}"));
         assert!(String::from_utf8_lossy(&bytes).contains(&words), "{file}");

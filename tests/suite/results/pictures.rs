@@ -25,7 +25,7 @@ fn read(piece: &Piece) -> Picture {
 fn tree(svg: &str) -> Tree {
     let mut fonts = fontdb::Database::new();
     for font in ["Regular", "Italic", "Bold"] {
-        let path = format!("{}/assets/fonts/LiberationSans-{font}.ttf", env!("CARGO_MANIFEST_DIR"));
+        let path = format!("{}/crates/figure/fonts/LiberationSans-{font}.ttf", env!("CARGO_MANIFEST_DIR"));
         fonts.load_font_source(fontdb::Source::Binary(Arc::new(std::fs::read(path).unwrap())));
     }
     fonts.set_sans_serif_family("Liberation Sans");

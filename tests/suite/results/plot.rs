@@ -248,7 +248,7 @@ fn boundary_lines_stand_between_the_values() {
 #[test]
 fn the_metadata_names_the_command() {
     let map = sweep();
-    let command = "squealmap plot out/a --journal slide, of results of squealmap 0.1.0".to_owned();
+    let command = "squealmap plot out/a --journal slide, of results of squealmap 0.2.0".to_owned();
     let svg = look_svg(&map, &Look { command: Some(command.clone()), ..Look::default() }).unwrap();
     let metadata = svg.lines().find(|line| line.starts_with("<metadata>")).unwrap();
     assert!(metadata.contains(&command) && metadata.contains("reference f64"), "{metadata}");

@@ -1,10 +1,11 @@
 // Addresses: what is written is read again, and what is wrong is told and left out.
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import { fileURLToPath } from "node:url";
 import { build } from "esbuild";
 
 const built = await build({
-  stdin: { contents: 'export * from "./src/state"; export * from "./src/cell"; export { ticks } from "./src/plots";', resolveDir: `${import.meta.dirname}/..`, loader: "ts" },
+  stdin: { contents: 'export * from "./src/state"; export * from "./src/cell"; export { ticks } from "./src/plots";', resolveDir: fileURLToPath(new URL("..", import.meta.url)), loader: "ts" },
   bundle: true,
   write: false,
   format: "esm",

@@ -1,0 +1,5 @@
+"""``python -m squealmap``: the program."""
+
+from ._program import main
+
+main()

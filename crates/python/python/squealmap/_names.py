@@ -1,0 +1,34 @@
+"""Codes as the names that they stand for."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, Union
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    import xarray
+
+
+def meanings(attributes: Mapping[str, Any]) -> dict[int, str]:
+    """The names of codes, from the attributes of their array."""
+    codes = np.atleast_1d(attributes["flag_values"]).tolist()
+    return dict(zip(codes, attributes["flag_meanings"].split(" ")))
+
+
+def decoded(values: NDArray[Any], attributes: Mapping[str, Any]) -> NDArray[np.str_]:
+    """The names of codes; empty where they say that something is undefined."""
+    said = meanings(attributes)
+    lowest = min(said)
+    words = [said.get(code, "") for code in range(lowest, max(said) + 1)]
+    table = np.array(["" if word == "undefined" else word for word in words])
+    found: NDArray[np.str_] = table[np.asarray(values, dtype=np.int64) - lowest]
+    return found
+
+
+def names(variable: xarray.DataArray) -> xarray.DataArray:
+    """The names in a variable of codes such as ``ds["type"]``; empty where undefined."""
+    attributes = {key: value for key, value in variable.attrs.items() if not key.startswith("flag_")}
+    return variable.copy(data=decoded(variable.values, variable.attrs)).assign_attrs(attributes)

@@ -1,0 +1,59 @@
+//! What a fit says beside its material: what was left out, and what the points do not determine.
+
+use crate::study::fit::{Fit, range};
+use squealmap_identify::{Measurements, Point};
+use squealmap_input::quote::rounded;
+
+/// What was not taken as it stands in the file.
+#[must_use]
+pub fn remarks(measured: &Measurements) -> Vec<String> {
+    let Measurements { without_contact, left_out, .. } = measured;
+    let mut remarks = Vec::new();
+    if *without_contact > 0 {
+        remarks.push(format!("{without_contact} row(s) without contact are passed over"));
+    }
+    if *left_out > 0.0 {
+        remarks.push(format!(
+            "{:.0} % of the record vibrate so that the mean of T/N is not the friction at the mean velocity; they are left out",
+            100.0 * left_out
+        ));
+    }
+    remarks
+}
+
+/// Warnings about parts of the material that the points do not determine.
+#[must_use]
+pub fn warnings(fitted: &Fit, points: &[Point]) -> Vec<String> {
+    let mut warnings = Vec::new();
+    let [low, high] = range(points, |point| point.temperature);
+    let measured = format!("{} to {} °C", rounded(low), rounded(high));
+    let beyond = fitted.temperature.iter().filter(|row| !(low..=high).contains(*row));
+    let beyond: Vec<String> = beyond.map(f64::to_string).collect();
+    // A single row holds at every temperature.
+    if !beyond.is_empty() && fitted.temperature.len() > 1 {
+        warnings.push(format!(
+            "the points are from {measured}, so that the row(s) at {} °C are extrapolated; measure there, or ask for rows \
+             inside with --temperatures",
+            beyond.join(", ")
+        ));
+    }
+    let (first, last) = (fitted.temperature[0], fitted.temperature[fitted.temperature.len() - 1]);
+    let outside = points.iter().filter(|point| !(first..=last).contains(&point.temperature)).count();
+    if outside > 0 {
+        let rows = if first < last { format!("{first} to {last}") } else { first.to_string() };
+        warnings.push(format!(
+            "{outside} of {} points lie outside the rows of {rows} °C and count for the nearest row; ask for rows from {measured} \
+             with --temperatures, or leave these points out",
+            points.len()
+        ));
+    }
+    if let (true, Some((param, values))) = (fitted.open, fitted.columns.last()) {
+        warnings.push(format!(
+            "the points do not bound `{}`: {:.3} m/s fits best, but the fastest of them as well, so that there are no standard \
+             errors; measure faster, give it with --law-velocity, or choose another --law",
+            param.info().name,
+            values[0]
+        ));
+    }
+    warnings
+}
