@@ -61,6 +61,7 @@ extern crate self as squealmap;
     feature = "identify",
     feature = "parquet"
 ))]
+#[allow(rustdoc::invalid_html_tags, reason = "help of the program names values in angle brackets")]
 #[doc(hidden)]
 pub mod cli;
 pub mod cluster;

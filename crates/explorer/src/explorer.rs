@@ -17,7 +17,7 @@ pub enum Question {
     Region(region::Region),
     /// One instance: see [`cell`].
     Cell(cell::Wanted),
-    /// A region as a sweep file: see [`file`].
+    /// A region as a sweep file: see [`mod@file`].
     File(region::Region),
 }
 
