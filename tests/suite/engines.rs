@@ -36,6 +36,14 @@ impl Engine {
         }
     }
 
+    /// How many times longer a step takes than one of the reference: the twin carries out its kernel word by word.
+    pub(crate) fn slower(self) -> f64 {
+        match self {
+            Engine::Reference | Engine::CpuF64 | Engine::CpuF32 => 1.0,
+            Engine::KernelF64 | Engine::KernelF32 => 20.0,
+        }
+    }
+
     /// The transients of some instances.
     pub(crate) fn run_all(self, instances: &[Instance], plan: &Plan) -> Vec<Outcome> {
         match self {

@@ -7,6 +7,7 @@ mod defect;
 mod text;
 mod whole_range;
 
+use std::io::Write as _;
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
@@ -31,7 +32,7 @@ const SECONDS: &str = "SQUEALMAP_FUZZ_SECONDS";
 /// A case that takes longer hangs: the longest legal ones of these sweeps take ten seconds of a processor.
 const HANGS: Duration = Duration::from_mins(2);
 
-/// Instances that ask for more steps are legal and slow; they are left out.
+/// Instances that ask for more steps are legal and slow; they are left out. An engine with slower steps is asked for fewer.
 const MOST_STEPS: f64 = 3e5;
 
 /// Defects of different kinds after which a search ends.
@@ -97,7 +98,8 @@ fn watch(case: &Arc<Mutex<(Instant, String)>>) {
         while let Some(case) = case.upgrade() {
             let (began, text) = case.lock().expect("no case panics while it is noted").clone();
             if began.elapsed() > HANGS {
-                eprintln!("hangs:\n{text}");
+                // Past the harness, which keeps what a test prints until the test ends: this one does not.
+                let _ = writeln!(std::io::stderr(), "hangs:\n{text}");
                 std::process::exit(1);
             }
             std::thread::sleep(Duration::from_millis(100));
@@ -113,7 +115,9 @@ fn no_engine_is_at_a_loss() {
         let spec = Spec::parse(&text, "random.toml", "".as_ref())
             .map_err(|why| TestCaseError::fail(format!("a valid sweep is refused: {why}")))?;
         let plan = Plan::new(&spec);
-        if (MOST_STEPS..1e18).contains(&steps(&spec, &plan)) {
+        let steps = steps(&spec, &plan);
+        let too_long = |slower: f64| (MOST_STEPS / slower..1e18).contains(&steps);
+        if too_long(1.0) {
             return Ok(());
         }
         *case.lock().expect("the watch does not panic") = (Instant::now(), text.clone());
@@ -124,7 +128,7 @@ fn no_engine_is_at_a_loss() {
             record.status,
             record.linear
         );
-        for engine in Engine::ALL {
+        for engine in Engine::ALL.into_iter().filter(|engine| !too_long(engine.slower())) {
             let outcome = engine.run(&spec.instance(0), &plan);
             if let Some(defect) = defect(&outcome) {
                 return Err(TestCaseError::fail(format!("{}: {defect}", engine.name())));
