@@ -33,7 +33,7 @@
 //! ```
 //!
 //! Features, all of them default: `gpu` (compute kernels through wgpu), `figures`, `identify` (measured signals and
-//! friction), `parquet`, and `cli`, what only the program needs. Without any there are the model, the engines of the CPU,
+//! friction), `parquet`, and `cli`, what only the program needs; `program` is all of them. Without any there are the model, the engines of the CPU,
 //! sweeps, tiles, and tables as CSV, NetCDF and Zarr.
 
 #![cfg_attr(
@@ -42,25 +42,11 @@
 )]
 
 /// The program knows the library by its name, as any other would.
-#[cfg(all(
-    feature = "cli",
-    feature = "fem",
-    feature = "figures",
-    feature = "gpu",
-    feature = "identify",
-    feature = "parquet"
-))]
+#[cfg(feature = "program")]
 extern crate self as squealmap;
 
 /// The program: what `src/main.rs` and the Python package call.
-#[cfg(all(
-    feature = "cli",
-    feature = "fem",
-    feature = "figures",
-    feature = "gpu",
-    feature = "identify",
-    feature = "parquet"
-))]
+#[cfg(feature = "program")]
 #[allow(rustdoc::invalid_html_tags, reason = "help of the program names values in angle brackets")]
 #[doc(hidden)]
 pub mod cli;

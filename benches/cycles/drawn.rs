@@ -15,8 +15,8 @@ use squealmap::sweep::spec::{AUTO_MEASURE, FIRST_HUNT};
 
 use crate::Row;
 
-/// Periods of the runs that wait.
-const WAITED: f64 = 4000.0;
+/// Periods of the runs that wait: the next one for what the one before cannot tell yet.
+const WAITED: [f64; 5] = [250.0, 500.0, 1000.0, 2000.0, 4000.0];
 
 /// An observable that differs by this part has come from another motion: a window of whole `2π/ω0` is off by less.
 const ELSEWHERE: f64 = 0.01;
@@ -24,65 +24,108 @@ const ELSEWHERE: f64 = 0.01;
 /// What of a distance may be left for a long run to be a judge.
 const FORGOTTEN: f64 = 1e-3;
 
+/// What the long run says of a cycle.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Verdict {
+    /// The multiplier keeps a distance alive for longer than the run.
+    NotForgotten,
+    Elsewhere,
+    There,
+}
+
 /// The counts.
 pub(crate) fn rows(count: usize) -> Vec<Row> {
     let all: Vec<Instance> = (0..count as u64).map(instance).collect();
-    let never = AtomicBool::new(false);
-    let run = |plan: Plan| -> Vec<Outcome> {
-        all.par_chunks(64)
-            .flat_map_iter(|some| outcomes::<f64>(some, &plan, &never).unwrap_or_default())
-            .collect()
-    };
-    let long = Plan {
-        settle: Duration::Periods(WAITED),
-        measure: Duration::Periods(200.0),
-        steps_per_period: 12,
-        ..Plan::REFERENCE
-    };
     let hunts = Plan {
         settle: FIRST_HUNT,
         settle_limit: Some(Duration::Periods(1000.0)),
         hunts: true,
         measure: AUTO_MEASURE,
-        ..long
+        ..waits(0.0)
     };
-    let (found, waited) = (run(hunts), run(long));
-    let mut counts = [0_usize; 5];
-    for (one, (found, waited)) in all.iter().zip(found.iter().zip(&waited)) {
-        let Some((floquet, period)) = found.floquet.zip(found.period) else { continue };
-        counts[0] += 1;
-        counts[3] += usize::from(found.cycle_returns > Some(1));
-        let cycles = WAITED * TAU * Units::new(&one.params).time / period;
-        if floquet.powf(cycles) > FORGOTTEN || waited.x2_std.is_none() {
-            counts[1] += 1;
-        } else if [
-            (found.x2_std, waited.x2_std),
-            (found.ax_rms, waited.ax_rms),
-            (found.ay_rms, waited.ay_rms),
-        ]
-        .into_iter()
-        .any(|(a, b)| a.zip(b).is_none_or(|(a, b)| (a - b).abs() > ELSEWHERE * b))
-        {
-            counts[2] += 1;
-            eprintln!("ends elsewhere: {one:?}");
-        }
-        counts[4] += usize::from(found.cycle_returns == Some(2));
-    }
-    let names = [
-        "found by shooting",
-        "of them not forgotten in 4000 periods",
-        "of them elsewhere in a run of 4000 periods",
-        "of them with several returns in a period",
-        "of them with two",
-    ];
-    let row = |quantity: &str, value: usize| Row {
+    let found: Vec<(Instance, Outcome)> =
+        all.iter().cloned().zip(run(&all, hunts)).filter(|(_, outcome)| outcome.floquet.is_some()).collect();
+    let several = |least: u64, most: u64| {
+        found
+            .iter()
+            .filter(|(_, outcome)| outcome.cycle_returns.is_some_and(|n| (least..=most).contains(&n)))
+            .count()
+    };
+    let verdicts = judged(&found);
+    let told = |verdict| verdicts.iter().filter(|other| **other == verdict).count();
+    [
+        ("instances", count),
+        ("found by shooting", found.len()),
+        ("of them not forgotten in 4000 periods", told(Verdict::NotForgotten)),
+        ("of them where a run of up to 4000 periods ends", told(Verdict::There)),
+        ("of them elsewhere in a run of 4000 periods", told(Verdict::Elsewhere)),
+        ("of them with several returns in a period", several(2, u64::MAX)),
+        ("of them with two", several(2, 2)),
+    ]
+    .into_iter()
+    .map(|(quantity, value)| Row {
         of: "random instances, f64".to_owned(),
         quantity: quantity.to_owned(),
         value: value as f64,
-    };
-    std::iter::once(row("instances", count))
-        .chain(names.into_iter().zip(counts).map(|(name, count)| row(name, count)))
+    })
+    .collect()
+}
+
+/// A run for some periods and a window of 200 more.
+fn waits(periods: f64) -> Plan {
+    Plan {
+        settle: Duration::Periods(periods),
+        measure: Duration::Periods(200.0),
+        steps_per_period: 12,
+        ..Plan::REFERENCE
+    }
+}
+
+fn run(instances: &[Instance], plan: Plan) -> Vec<Outcome> {
+    let never = AtomicBool::new(false);
+    instances
+        .par_chunks(64)
+        .flat_map_iter(|some| outcomes::<f64>(some, &plan, &never).unwrap_or_default())
         .collect()
+}
+
+/// Each cycle beside runs that wait until, by its multiplier, a distance from it is forgotten; a run that is somewhere else is
+/// waited for longer, up to the end.
+fn judged(found: &[(Instance, Outcome)]) -> Vec<Verdict> {
+    let mut verdicts = vec![Verdict::NotForgotten; found.len()];
+    let mut open: Vec<usize> = (0..found.len()).collect();
+    for periods in WAITED {
+        let (now, later): (Vec<usize>, Vec<usize>) =
+            open.into_iter().partition(|index| forgotten(&found[*index], periods));
+        let asked: Vec<Instance> = now.iter().map(|index| found[*index].0.clone()).collect();
+        open = later;
+        for (index, waited) in now.into_iter().zip(run(&asked, waits(periods))) {
+            verdicts[index] =
+                if same(&found[index].1, &waited) { Verdict::There } else { Verdict::Elsewhere };
+            if verdicts[index] == Verdict::Elsewhere {
+                open.push(index);
+            }
+        }
+        eprintln!("{periods} periods: {} cycles left to judge", open.len());
+    }
+    for (index, _) in verdicts.iter().enumerate().filter(|(_, verdict)| **verdict == Verdict::Elsewhere) {
+        eprintln!("ends elsewhere: {:?}", found[index].0);
+    }
+    verdicts
+}
+
+/// Whether a run that found this cycle and went on for so long would have forgotten a distance from it.
+fn forgotten((instance, outcome): &(Instance, Outcome), periods: f64) -> bool {
+    let Some((floquet, period)) = outcome.floquet.zip(outcome.period) else { return false };
+    let time = periods * TAU * Units::new(&instance.params).time
+        - outcome.settling_time.unwrap_or(outcome.simulated_time);
+    time > 0.0 && floquet.powf(time / period) <= FORGOTTEN
+}
+
+fn same(found: &Outcome, waited: &Outcome) -> bool {
+    [(found.x2_std, waited.x2_std), (found.ax_rms, waited.ax_rms), (found.ay_rms, waited.ay_rms)]
+        .into_iter()
+        .all(|(a, b)| a.zip(b).is_some_and(|(a, b)| (a - b).abs() <= ELSEWHERE * b))
 }
 
 /// A random instance: friction, belt, inclination, restitution and damping over wide ranges; every second start is small.

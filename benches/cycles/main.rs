@@ -2,7 +2,7 @@
 //!
 //! Three questions: what does it save (two maps, `settle = "cycle"` beside `"auto"` in close turn), how exact is it (a sample of
 //! both beside runs of 5000 periods, measured over whole ones), and does any run end elsewhere than it says (random
-//! instances from small and large starts beside runs of 4000 periods). The rows go to `benches/results/cycles.csv`.
+//! instances from small and large starts beside runs of up to 4000 periods). The rows go to `benches/results/cycles.csv`.
 
 mod drawn;
 mod exact;

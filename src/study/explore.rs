@@ -10,7 +10,6 @@ use crate::engine::options::Options;
 use crate::results::figure::palette::{Class, Colouring};
 use crate::store::description::Description;
 use crate::study::error::{Error, Result};
-use crate::sweep::grid::{Grid, Value};
 use crate::sweep::solver::Solver;
 use crate::sweep::spec::Spec;
 
@@ -22,12 +21,7 @@ const PLACE: &str = "<!--sweep-->";
 /// # Errors
 /// When the sweep has no two axes of numbers, or the page has no place for it.
 pub fn page(spec: &Spec, file: &str, empty: &str) -> Result<Vec<u8>> {
-    let is_of_numbers = |values: &[Value]| values.iter().all(|value| matches!(value, Value::Number(_)));
-    let sides = match &spec.grid {
-        Grid::Axes(axes) => axes.iter().filter(|axis| is_of_numbers(&axis.values)).count(),
-        Grid::Tuples { .. } => 0,
-    };
-    if sides < 2 {
+    if spec.grid.axes_of_numbers().count() < 2 {
         return Err(Error::NothingToExplore);
     }
     let options = Options { backend: Backend::Cpu, ..Options::default() };

@@ -102,6 +102,14 @@ pub struct Axis {
     pub log: bool,
 }
 
+impl Axis {
+    /// Whether its values are numbers, and not names of laws or materials.
+    #[must_use]
+    pub fn is_of_numbers(&self) -> bool {
+        self.values.iter().all(|value| matches!(value, Value::Number(_)))
+    }
+}
+
 /// The instances of a sweep.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Grid {
@@ -201,6 +209,15 @@ impl Names {
 }
 
 impl Grid {
+    /// The axes of numbers; a table of tuples has none.
+    pub fn axes_of_numbers(&self) -> impl Iterator<Item = &Axis> {
+        let axes = match self {
+            Grid::Axes(axes) => axes.as_slice(),
+            Grid::Tuples { .. } => &[],
+        };
+        axes.iter().filter(|axis| axis.is_of_numbers())
+    }
+
     /// The number of instances; `None` when the product overflows `usize`.
     #[must_use]
     pub fn checked_len(&self) -> Option<usize> {

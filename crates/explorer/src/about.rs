@@ -8,7 +8,6 @@ use squealmap::sweep::spec::Analysis;
 
 use crate::answer::Answer;
 use crate::opened::Opened;
-use crate::place::is_of_numbers;
 use crate::region::names;
 
 /// The answer.
@@ -62,7 +61,7 @@ fn axis(axis: &Axis) -> Json {
     };
     about["values"] = axis.values.iter().map(value).collect();
     about["log"] = json!(axis.log);
-    about["numbers"] = json!(is_of_numbers(axis));
+    about["numbers"] = json!(axis.is_of_numbers());
     about
 }
 

@@ -4,8 +4,6 @@ use squealmap::store::description::Description;
 use squealmap::sweep::grid::{Axis, Grid};
 use squealmap::sweep::spec::Spec;
 
-use crate::place::is_of_numbers;
-
 /// A sweep that is open.
 #[derive(Clone, Debug)]
 pub struct Opened {
@@ -38,7 +36,7 @@ impl Opened {
             return Err("a sweep of single points has no plane to look into; give it `[axes]`".to_owned());
         };
         let axes = axes.clone();
-        if axes.iter().filter(|axis| is_of_numbers(axis)).count() < 2 {
+        if spec.grid.axes_of_numbers().count() < 2 {
             return Err("a map to look into needs two axes of numbers in `[axes]`".to_owned());
         }
         Ok(Opened { spec, axes })

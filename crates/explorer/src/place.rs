@@ -4,16 +4,10 @@ use std::collections::BTreeMap;
 
 use serde_json::Value as Json;
 use squealmap::Param;
-use squealmap::sweep::grid::{Axis, AxisKey, Value};
+use squealmap::sweep::grid::{AxisKey, Value};
 
 /// Values of axes and parameters by name: numbers, and names of laws and materials.
 pub type At = BTreeMap<String, Json>;
-
-/// Whether the values of an axis are numbers.
-#[must_use]
-pub fn is_of_numbers(axis: &Axis) -> bool {
-    axis.values.iter().all(|value| matches!(value, Value::Number(_)))
-}
 
 /// What a name stands for, and its value.
 ///
