@@ -125,7 +125,7 @@ fn impact() {
     let jump = (mass * q + kappa) / (1.0 + kappa * q) * change;
     let slides = !rubs || (relative - jump) * relative > 0.0;
     let turns = !slides && abs(relative - kappa * change) > limit * (mass * change - kappa * relative);
-    if 1.0 + kappa * q <= 0.0 || turns && 1.0 - kappa * q <= 0.0 {
+    if 1.0 + kappa * q <= 0.0 || (turns && 1.0 - kappa * q <= 0.0) {
         status = STATUS_PAINLEVE;
     }
     let turned = vx + (kappa - mass * q) / (1.0 - kappa * q) * change;
@@ -306,7 +306,7 @@ fn first_event(end: real, h: real, tolerance: real) -> Event {
             continue;
         }
         let of_force = !flies && (f == 1u || sticks);
-        if begins || of_force && d0 <= 0.0 {
+        if begins || (of_force && d0 <= 0.0) {
             let rate = 1.0 / h;
             let size = (input(INPUT_MU_STICK, instance) + 1.0) * input(INPUT_N0, instance) + abs(n0) * (rate * rate);
             let motion = (max(abs(x2), abs(w2)) * rate + max(abs(x1), abs(w1))) * rate + max(abs(x0), abs(w0));

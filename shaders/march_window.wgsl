@@ -70,7 +70,7 @@ fn note(after: real) {
 
 // Counts upward crossings of ẋ2 from end to end of the steps, on straight lines.
 fn guess_crossings(before: real, after: real, tau: real) {
-    if previous < 0.0 && before >= 0.0 || before < 0.0 && after >= 0.0 && tau > 0.0 {
+    if (previous < 0.0 && before >= 0.0) || (before < 0.0 && after >= 0.0 && tau > 0.0) {
         let rises = before < 0.0;
         note(select(0.0, before / min(before - after, real(-1e-30)) * tau, rises));
     }
@@ -249,7 +249,7 @@ fn observe_window(end: real, h: real) -> Motion {
         if i == 0u {
             speeds = vec2<real>(-1.0, 0.0);
             accelerations = vec2<real>();
-        } else if v < 0.0 && m.vx < 0.0 && a > 0.0 && m.ax < 0.0 || v >= 0.0 && m.vx >= 0.0 && a < 0.0 && m.ax > 0.0 {
+        } else if (v < 0.0 && m.vx < 0.0 && a > 0.0 && m.ax < 0.0) || (v >= 0.0 && m.vx >= 0.0 && a < 0.0 && m.ax > 0.0) {
             // An extremum that may reach over zero.
             let bend = (m.ax - a) / max(high - low, real(1e-30));
             var turn = low - a / bend;

@@ -37,7 +37,7 @@ pub mod instances;
 pub mod judged;
 pub mod kernel;
 pub mod lanes;
-#[cfg(feature = "gpu")]
+#[cfg(feature = "kernels")]
 pub mod march;
 pub mod measuring;
 pub mod method;

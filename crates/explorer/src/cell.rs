@@ -87,7 +87,7 @@ impl Wanted {
                 }
             }
         }
-        Ok(Answer { head: Json::Object(head), numbers })
+        Ok(Answer { head: Json::Object(head), numbers, ..Answer::default() })
     }
 }
 

@@ -4,6 +4,7 @@ use serde::Deserialize;
 use squealmap::sweep::spec::Spec;
 
 use crate::answer::Answer;
+use crate::device::OnDevice;
 use crate::opened::Opened;
 use crate::{about, cell, file, region};
 
@@ -40,6 +41,15 @@ impl Explorer {
     /// Those of it.
     pub fn new(spec: Spec) -> Result<Explorer, String> {
         Opened::new(spec).map(Explorer)
+    }
+
+    /// A region that a GPU is to compute.
+    ///
+    /// # Errors
+    /// When it cannot; see [`OnDevice::new`].
+    pub fn on_device(&self, question: &str) -> Result<OnDevice, String> {
+        let region = serde_json::from_str(question).map_err(|why| format!("this is no region: {why}"))?;
+        OnDevice::new(&region, &self.0)
     }
 
     /// The answer to a question; an error is a sentence.

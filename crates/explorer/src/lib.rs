@@ -11,11 +11,13 @@
 //! | [`about`] | what varies, what may be varied, which columns there are |
 //! | [`region`] | the cells of a rectangle of the map |
 //! | [`cell`] | one instance: eigenvalues, motion, friction law, record |
+//! | [`device`] | the same, by the GPU of the reader, in turns |
 //! | [`mod@file`] | the sweep of a region as a sweep file |
 
 pub mod about;
 pub mod answer;
 pub mod cell;
+pub mod device;
 #[cfg(target_family = "wasm")]
 pub mod door;
 pub mod explorer;

@@ -3,6 +3,7 @@
 use serde::Deserialize;
 use serde_json::json;
 use squealmap::engine::precision::Precision;
+use squealmap::engine::record::Record;
 use squealmap::sweep::columns::{Cell, Column, Content, Values, columns};
 use squealmap::sweep::grid::{Axis, AxisKey, Grid, Value, spaced};
 use squealmap::sweep::solver::Solver;
@@ -122,34 +123,50 @@ impl Region {
     /// A sentence that names what is wrong.
     pub fn answer(&self, opened: &Opened) -> Result<Answer, String> {
         let spec = self.spec(opened)?;
-        let all = columns(&spec.grid, spec.analysis);
-        let wanted = |name: &String| {
-            let found = all.iter().find(|column| column.name == name).copied();
-            found.ok_or_else(|| format!("there is no column `{name}` here"))
-        };
-        let wanted: Vec<Column> = self.columns.iter().map(wanted).collect::<Result<_, _>>()?;
+        let wanted = self.wanted(&spec)?;
         let options = Options {
             backend: Backend::Cpu,
             precision: (self.f32 && spec.analysis.response).then_some(Precision::F32),
             ..Options::default()
         };
-        let cells = spec.grid.len();
         let mut solver = Solver::new(&spec, &options).map_err(|why| why.to_string())?;
-        let records = solver.records(0..cells, &|_| ()).map_err(|why| why.to_string())?.records;
-        let mut numbers = Vec::with_capacity(cells * wanted.len());
-        for column in &wanted {
-            numbers.extend(records.iter().enumerate().map(|(index, record)| {
-                match column.cell(index, &spec.grid.coordinates(index), record) {
-                    Cell::Number(number) => number,
-                    Cell::Count(count) => count as f64,
-                    Cell::Empty => f64::NAN,
-                    Cell::Text(name) => code(column, &name),
-                }
-            }));
-        }
-        let head = json!({ "columns": self.columns, "shape": [self.y.points, self.x.points] });
-        Ok(Answer { head, numbers })
+        let records = solver.records(0..spec.grid.len(), &|_| ()).map_err(|why| why.to_string())?.records;
+        Ok(answered(&spec, &wanted, &self.columns, &records))
     }
+
+    /// The wanted columns.
+    ///
+    /// # Errors
+    /// A sentence, when there is none of a name.
+    pub fn wanted(&self, spec: &Spec) -> Result<Vec<Column>, String> {
+        let all = columns(&spec.grid, spec.analysis);
+        let wanted = |name: &String| {
+            let found = all.iter().find(|column| column.name == name).copied();
+            found.ok_or_else(|| format!("there is no column `{name}` here"))
+        };
+        self.columns.iter().map(wanted).collect()
+    }
+}
+
+/// The wanted columns of the cells of a region, by `names`.
+#[must_use]
+pub fn answered(spec: &Spec, wanted: &[Column], names: &[String], records: &[Record]) -> Answer {
+    let mut numbers = Vec::with_capacity(records.len() * wanted.len());
+    for column in wanted {
+        numbers.extend(records.iter().enumerate().map(|(index, record)| {
+            match column.cell(index, &spec.grid.coordinates(index), record) {
+                Cell::Number(number) => number,
+                Cell::Count(count) => count as f64,
+                Cell::Empty => f64::NAN,
+                Cell::Text(name) => code(column, &name),
+            }
+        }));
+    }
+    let shape = match &spec.grid {
+        Grid::Axes(axes) => axes.iter().rev().take(2).rev().map(|axis| axis.values.len()).collect(),
+        Grid::Tuples { .. } => vec![records.len()],
+    };
+    Answer { head: json!({ "columns": names, "shape": shape }), numbers, ..Answer::default() }
 }
 
 /// The names that a column may hold, in the order of their codes.

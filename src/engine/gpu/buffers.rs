@@ -3,9 +3,7 @@
 use crate::engine::error::Result;
 use crate::engine::gpu::device::Device;
 use crate::engine::kernel::source::PROGRESS_WORDS;
-
-/// What the places of bindings in a buffer are multiples of, bytes: the most that an adapter may ask for.
-pub(super) const ALIGNED: usize = 256;
+use crate::engine::march::round::ALIGNED;
 
 /// Most groups of a round: by parts, forms of laws, numbers of pieces, ramps.
 const GROUPS: usize = 128;

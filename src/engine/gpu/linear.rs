@@ -8,20 +8,13 @@ use crate::engine::error::{Error, Result};
 use crate::engine::gpu::chunks::{Batch, Session};
 use crate::engine::gpu::run::{ChunkResult, Drive};
 use crate::engine::instances::Instances;
-use crate::engine::judged::begun;
+use crate::engine::kernel::batch::{Known, inputs, known, take};
 use crate::engine::kernel::linear::KERNEL;
 use crate::engine::kernel::scalar::Real;
-use crate::engine::kernel::source::{FLAG_STATUS, FLAG_STEPS, SETTING_WORDS};
-use crate::engine::kernel::words::{INPUT_WORDS, STATE_WORDS, Words};
+use crate::engine::kernel::source::SETTING_WORDS;
 use crate::engine::precision::Precision;
 use crate::engine::record::Record;
-use crate::model::kind::InstabilityType;
-use crate::model::linear::prepare;
-use crate::model::status::Status;
 use std::sync::atomic::AtomicBool;
-
-/// The flag word of the type.
-const FLAG_TYPE: usize = 2;
 
 /// One dispatch finishes every instance.
 const MOST_DISPATCHES: u64 = 4;
@@ -97,9 +90,6 @@ pub fn append(
     }
 }
 
-/// An instance before the kernel: its record so far, and its words where it needs the kernel.
-type Known = (Record, Option<Words>);
-
 fn append_in<R: Real>(
     spec: &dyn Instances,
     range: Range<usize>,
@@ -123,68 +113,8 @@ fn append_in<R: Real>(
         let inputs = inputs(&known);
         Batch { inputs, memory: known }
     };
-    let accept = |known: Vec<Known>, result: ChunkResult<R>| take(records, known, &result);
+    let accept = |known: Vec<Known>, ChunkResult { state, flags, cancelled }: ChunkResult<R>| {
+        take(records, known, (&state, &flags), cancelled)
+    };
     session.each(&KERNEL, [range.len(), chunk], &drive, prepare, accept)
-}
-
-/// Instance `index` before the kernel.
-fn known(spec: &dyn Instances, index: usize) -> Known {
-    let instance = spec.instance(index);
-    let prepared = prepare(&instance);
-    let mut record = begun(&instance, &prepared);
-    match prepared {
-        Ok(prepared) => (record, Some(Words::new(&prepared))),
-        Err(kind) => {
-            record.kind = kind;
-            (record, None)
-        }
-    }
-}
-
-/// The word-major inputs of those instances that need the kernel.
-fn inputs<R: Real>(known: &[Known]) -> Vec<R> {
-    let live: Vec<&Words> = known.iter().filter_map(|(_, words)| words.as_ref()).collect();
-    let word = |word: usize| live.iter().map(move |one| R::from_f64(one.inputs[word]));
-    let mut inputs = Vec::with_capacity(INPUT_WORDS * live.len());
-    for k in 0..INPUT_WORDS {
-        inputs.extend(word(k));
-    }
-    inputs
-}
-
-/// Completes the records of a chunk and appends them.
-fn take<R: Real>(records: &mut Vec<Record>, known: Vec<Known>, result: &ChunkResult<R>) -> Result<()> {
-    let count = known.iter().filter(|(_, words)| words.is_some()).count();
-    let mut next = 0;
-    for (mut record, words) in known {
-        if let Some(words) = words {
-            let flag = |word: usize| result.flags[word * count + next];
-            let done = flag(FLAG_STEPS);
-            if result.cancelled && flag(FLAG_STATUS) == Status::Unwritten as u32 {
-                records.push(Record::NOT_COMPUTED);
-                next += 1;
-                continue;
-            }
-            if done != crate::engine::kernel::linear::POLYNOMIALS {
-                let wanted = crate::engine::kernel::linear::POLYNOMIALS as usize;
-                return Err(Error::Miscounted { kernel: KERNEL.name, found: done as usize, wanted });
-            }
-            let state: [f64; STATE_WORDS] = std::array::from_fn(|k| result.state[k * count + next].to_f64());
-            complete(&mut record, &words, state, flag(FLAG_STATUS), flag(FLAG_TYPE));
-            next += 1;
-        }
-        records.push(record);
-    }
-    Ok(())
-}
-
-/// Puts the kernel's results into a record.
-fn complete(record: &mut Record, words: &Words, state: [f64; STATE_WORDS], status: u32, kind: u32) {
-    let results: Option<(InstabilityType, _)> =
-        (status == Status::Ok as u32).then(|| words.results(state, kind)).flatten();
-    match results {
-        Some((kind, linear)) => (record.kind, record.linear) = (Some(kind), Some(linear)),
-        // Finite on the host but beyond the kernel's scalar.
-        None => record.status = Status::NonFinite,
-    }
 }

@@ -2,8 +2,8 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Lanes that a GPU steps together.
-pub const WARP: usize = 32;
+#[doc(inline)]
+pub use crate::engine::march::round::WARP;
 
 /// Counters of a device.
 #[derive(Debug, Default)]

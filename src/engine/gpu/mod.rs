@@ -12,7 +12,6 @@
 //! - [`response`]: the time integration of a sweep.
 //! - `stream.rs`: the instances of a sweep that pass through the lanes of one device or several.
 //! - `arena.rs`, `buffers.rs`: lanes of a device, rounds of dispatches; their buffers.
-//! - `columns.rs`: words of instances in buffers.
 //! - [`meter`]: what a device was given to do.
 //! - [`records`]: a GPU as an engine: both of them, one after the other.
 
@@ -21,7 +20,6 @@ mod arena;
 pub mod arithmetic;
 mod buffers;
 pub mod chunks;
-mod columns;
 pub mod device;
 pub mod kernel;
 pub mod linear;

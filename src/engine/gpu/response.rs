@@ -12,6 +12,7 @@ use crate::engine::kernel::source::Kernel;
 use crate::engine::lanes::again;
 use crate::engine::lanes::again::records_again;
 use crate::engine::lanes::{Lanes, ORDER, tolerance};
+use crate::engine::march::flow::Asked;
 use crate::engine::march::kernel::{MOST_PIECES, kernel_for};
 use crate::engine::precision::Precision;
 use crate::engine::record::Record;
@@ -78,7 +79,7 @@ fn complete_in<R: Lanes>(
         return Err(Error::LongTable { rows: spec.pieces(), limit: MOST_PIECES });
     };
     let most = sessions.iter().map(|session| most_lanes::<R>(session, kernel)).min().unwrap_or(1);
-    let ended = Stream::<R>::new(spec, first, records, cancel, progress)
+    let ended = Stream::<R>::new(Asked { spec, first, records }, cancel, progress)
         .run(sessions, chunk.unwrap_or(usize::MAX).min(most));
     // What a run that never came to its end would have filled.
     for record in records.iter_mut().filter(|record| record.outcome.is_none()) {

@@ -1,4 +1,4 @@
-// Questions to the engines: one queue, as many workers as there are cores.
+// Questions to the engines: one queue for as many workers as there are cores, and one for the reader's GPU.
 
 declare const WORKER: string;
 
@@ -13,7 +13,21 @@ interface Job {
   done: (answer: Answer) => void;
   failed: (why: Error) => void;
   group: number;
+  dropped?: boolean;
 }
+
+/** The reader's GPU, with a worker of its own. */
+export interface Device {
+  name: string;
+  isSoftware: boolean;
+}
+
+/** What computes: the GPU what it is faster at, all that it can, or nothing. */
+export type Choice = "auto" | "gpu" | "cpu";
+
+/** Cells of one question: an engine answers in a fraction of a second, and is free for another view. */
+const AT_ONCE = { eigenvalues: 16384, transients: 96 };
+const AT_ONCE_ON_GPU = { eigenvalues: 65536, transients: 8192 };
 
 /** Workers with the same sweep open. */
 export class Engines {
@@ -21,6 +35,16 @@ export class Engines {
   private readonly running = new Map<Worker, Job>();
   private queue: Job[] = [];
   readonly count: number;
+  /** The GPU, once it is open. */
+  device: Device | null = null;
+  /** Why there is none. */
+  noDevice = "";
+  choice: Choice = "auto";
+  /** Called when the GPU has come or gone. */
+  changed: () => void = () => undefined;
+  private gpu: Worker | null = null;
+  private onGpu: Job | null = null;
+  private gpuQueue: Job[] = [];
 
   private constructor(workers: Worker[]) {
     this.idle = workers;
@@ -36,39 +60,89 @@ export class Engines {
     const module = await WebAssembly.compile(wasm as BufferSource);
     const cores = Math.max(1, Math.min(16, navigator.hardwareConcurrency || 2));
     const address = URL.createObjectURL(new Blob([WORKER], { type: "text/javascript" }));
-    const start = () =>
+    const start = (gpu = false) =>
       new Promise<[Worker, Answer]>((resolve, reject) => {
         const worker = new Worker(address);
         worker.onmessage = (event: MessageEvent) => {
           const reply = event.data as Reply;
-          if (reply.error !== undefined) reject(new Error(reply.error));
-          else resolve([worker, { head: reply.head ?? {}, numbers: new Float64Array() }]);
+          if (reply.error !== undefined) {
+            worker.terminate();
+            reject(new Error(reply.error));
+          } else resolve([worker, { head: reply.head ?? {}, numbers: new Float64Array() }]);
         };
         worker.onerror = () => reject(new Error("this browser starts no worker from a page"));
-        worker.postMessage({ module, sweep });
+        worker.postMessage({ module, sweep, gpu });
       });
-    const all = await Promise.all(Array.from({ length: cores }, start));
+    const all = await Promise.all(Array.from({ length: cores }, () => start()));
     const first = all[0];
     if (!first) throw new Error("no engine");
-    return [new Engines(all.map(([worker]) => worker)), first[1]];
+    const engines = new Engines(all.map(([worker]) => worker));
+    // Nothing waits for the GPU.
+    start(true).then(
+      ([worker, { head }]) => engines.take(worker, head["gpu"] as Device),
+      (why: Error) => engines.lose(why.message),
+    );
+    return [engines, first[1]];
+  }
+
+  private take(worker: Worker, device: Device): void {
+    worker.onmessage = (event: MessageEvent) => this.finishOnGpu(event.data as Reply);
+    worker.onerror = () => this.lose("its engine has stopped");
+    this.gpu = worker;
+    this.device = device;
+    this.changed();
+  }
+
+  /** Goes on without the GPU; the engines get its questions. */
+  private lose(why: string): void {
+    this.gpu?.terminate();
+    this.gpu = this.device = null;
+    this.noDevice = why;
+    this.queue.push(...(this.onGpu ? [this.onGpu] : []), ...this.gpuQueue);
+    this.onGpu = null;
+    this.gpuQueue = [];
+    this.next();
+    this.changed();
+  }
+
+  /** Whether the GPU computes regions with or without transients. */
+  takesGpu(response: boolean): boolean {
+    if (!this.gpu || !this.device || this.choice === "cpu") return false;
+    return this.choice === "gpu" || (response && !this.device.isSoftware);
+  }
+
+  /** What computes such regions, in words. */
+  by(response: boolean): string {
+    return this.takesGpu(response) && this.device ? this.device.name : `${this.count} engines`;
+  }
+
+  /** Cells of one question. */
+  atOnce(response: boolean): number {
+    return (this.takesGpu(response) ? AT_ONCE_ON_GPU : AT_ONCE)[response ? "transients" : "eigenvalues"];
   }
 
   /** Asks; questions of one group can be dropped together. */
   ask(question: object, group = 0): Promise<Answer> {
     return new Promise((done, failed) => {
-      this.queue.push({ question, done, failed, group });
+      const { ask, response } = question as { ask?: string; response?: boolean };
+      (ask === "region" && this.takesGpu(response === true) ? this.gpuQueue : this.queue).push({ question, done, failed, group });
       this.next();
     });
   }
 
-  /** Drops the questions of a group that no engine has begun with. */
+  /** Drops the questions of a group that no engine has begun with; the GPU drops that, too, which it is at. */
   drop(group: number): void {
     this.queue = this.queue.filter((job) => job.group !== group);
+    this.gpuQueue = this.gpuQueue.filter((job) => job.group !== group);
+    if (this.onGpu?.group === group) {
+      this.onGpu.dropped = true;
+      this.gpu?.postMessage({ drop: true });
+    }
   }
 
   /** How many questions are open. */
   open(): number {
-    return this.queue.length + this.running.size;
+    return this.queue.length + this.running.size + this.gpuQueue.length + (this.onGpu ? 1 : 0);
   }
 
   private next(): void {
@@ -78,6 +152,21 @@ export class Engines {
       this.running.set(worker, job);
       worker.postMessage({ question: JSON.stringify(job.question) });
     }
+    const job = this.gpu && !this.onGpu ? this.gpuQueue.shift() : undefined;
+    if (!this.gpu || !job) return;
+    this.onGpu = job;
+    const { ask: _, ...region } = job.question as { ask?: string };
+    this.gpu.postMessage({ byGpu: JSON.stringify(region) });
+  }
+
+  private finishOnGpu(reply: Reply): void {
+    if (reply.noGpu) return this.lose(reply.error ?? "the GPU is lost");
+    const job = this.onGpu;
+    this.onGpu = null;
+    if (job && reply.error === undefined) job.done({ head: reply.head ?? {}, numbers: reply.numbers ?? new Float64Array() });
+    // What the GPU cannot do the engines do, or say why not.
+    else if (job && !job.dropped) this.queue.push(job);
+    this.next();
   }
 
   private finish(worker: Worker, reply: Reply): void {
@@ -93,6 +182,8 @@ export class Engines {
 
 interface Reply {
   error?: string;
+  /** Whether the GPU is to be done without. */
+  noGpu?: boolean;
   head?: Record<string, unknown>;
   numbers?: Float64Array;
 }

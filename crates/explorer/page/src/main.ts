@@ -1,8 +1,10 @@
 // The page: what is asked for by hand, and where it goes.
 
-import { Engines } from "./ask";
+import { type Choice, Engines } from "./ask";
 import { columnsOf, masses, plots, rows, sound, taken, why, type Cell } from "./cell";
 import { hex, words } from "./colours";
+import { cuts } from "./cut";
+import { PLACES, stateOf } from "./gallery";
 import { MapView } from "./map";
 import { ticks } from "./plots";
 import { closed, first, is_allowed, kept_within, parameter, read, type State, sides, whole, written } from "./state";
@@ -43,6 +45,7 @@ class Page {
   private readonly marks = element<HTMLCanvasElement>("marks");
   private cell: Cell | null = null;
   private cellAsked = 0;
+  private cut = "";
   private moving = 0;
   private sliderOf = new Map<string, HTMLInputElement[]>();
 
@@ -60,8 +63,10 @@ class Page {
       classes,
       ({ cells, of, seconds }) => {
         const done = cells >= of;
-        const count = this.view.column(this.state.quantity).response ? "transients" : "cells";
-        say(`${cells.toLocaleString("en")} of ${of.toLocaleString("en")} ${count}, ${seconds.toFixed(2)} s on ${engines.count} engines${done ? "" : " …"}`);
+        const { response } = this.view.column(this.state.quantity);
+        const count = response ? "transients" : "cells";
+        say(`${cells.toLocaleString("en")} of ${of.toLocaleString("en")} ${count}, ${seconds.toFixed(2)} s on ${engines.by(response)}${done ? "" : " …"}`);
+        if (done) void this.along();
       },
       (sentence) => say(sentence),
     );
@@ -73,6 +78,8 @@ class Page {
     this.take();
     this.controls();
     this.handle();
+    this.engine();
+    this.gallery();
     this.go(this.state, false);
     window.addEventListener("hashchange", () => {
       if (location.hash === written(this.state)) return;
@@ -81,7 +88,43 @@ class Page {
       this.go(this.state, false);
     });
     // What tests and the curious look at.
-    Object.assign(window, { squealmap: { page: this, state: () => this.state, view: this.view, about: this.about, engines: this.engines } });
+    Object.assign(window, { squealmap: { page: this, state: () => this.state, view: this.view, about: this.about, engines: this.engines, places: PLACES } });
+  }
+
+  /** Places that are worth a look, where the sweep has them. */
+  private gallery(): void {
+    const links = PLACES.flatMap((place) => {
+      const state = stateOf(this.about, place);
+      return state ? [`<li><a href="${escape(written(state))}">${escape(place.title)}</a>. ${escape(place.words)}</li>`] : [];
+    });
+    element("gallery").hidden = links.length === 0;
+    element("places").innerHTML = links.join("");
+  }
+
+  /** The choice of what computes. */
+  private engine(): void {
+    const choice = element<HTMLSelectElement>("engine");
+    const show = () => {
+      const { device, noDevice, count } = this.engines;
+      const gpu = device ? `${device.name}${device.isSoftware ? ", software" : ""}` : "no GPU";
+      choice.title = device ? `Transients on ${gpu}` : noDevice;
+      choice.innerHTML = [
+        ["auto", "automatic"],
+        ["gpu", `GPU (${gpu})`],
+        ["cpu", `${count} engines on the CPU`],
+      ]
+        .map(([value, words]) => `<option value="${value}"${value === this.engines.choice ? " selected" : ""}${value === "gpu" && !device ? " disabled" : ""}>${escape(words ?? "")}</option>`)
+        .join("");
+    };
+    choice.addEventListener("change", () => {
+      this.engines.choice = choice.value as Choice;
+      this.view.again(this.state);
+    });
+    this.engines.changed = () => {
+      if (!this.engines.device && this.engines.choice === "gpu") this.engines.choice = "auto";
+      show();
+    };
+    show();
   }
 
   private take(): void {
@@ -453,9 +496,19 @@ class Page {
       element("cell").hidden = false;
       element("hint").hidden = true;
       masses(element("masses"), this.cell, this.belt(), 0);
+      void this.along();
     } catch (why) {
       say(why instanceof Error ? why.message : String(why));
     }
+  }
+
+  /** The map along its sides through the cell, once the map itself is there. */
+  private async along(): Promise<void> {
+    const of = JSON.stringify({ ...this.state, hidden: [] });
+    if (!this.state.cell || of === this.cut) return;
+    this.cut = of;
+    const drawn = await cuts(this.engines, this.about, this.state, 2).catch(() => "");
+    if (of === this.cut) element("cuts").innerHTML = drawn;
   }
 
   private belt(): number {

@@ -9,10 +9,6 @@ import type { About, Class, Column } from "./sweep";
 const OF_EIGENVALUES = [16, 4, 1];
 const OF_TRANSIENTS = [32, 16, 8, 4];
 
-/** Cells of one question: an engine answers in a fraction of a second, and is free for another view. */
-const EIGENVALUES_AT_ONCE = 16384;
-const TRANSIENTS_AT_ONCE = 96;
-
 /** The group of questions about the map. */
 const GROUP = 1;
 
@@ -70,6 +66,12 @@ export class MapView {
     void this.compute(state);
   }
 
+  /** Computes a state anew. */
+  again(state: State): void {
+    this.shownState = state;
+    void this.compute(state);
+  }
+
   private async compute(state: State): Promise<void> {
     const generation = ++this.generation;
     this.engines.drop(GROUP);
@@ -86,7 +88,7 @@ export class MapView {
       this.canvas.height = h;
     }
     const sides = (column.response ? OF_TRANSIENTS : OF_EIGENVALUES).map((side) => Math.max(1, Math.round(side * (column.response ? scaleOf : 1))));
-    const most = column.response ? TRANSIENTS_AT_ONCE : EIGENVALUES_AT_ONCE;
+    const most = this.engines.atOnce(column.response);
     const all = sides.map((side) => Math.ceil(w / side) * Math.ceil(h / side)).reduce((a, b) => a + b, 0);
     let done = 0;
     for (const side of sides) {

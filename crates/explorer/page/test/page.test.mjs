@@ -1,28 +1,20 @@
-// The page in a browser: PAGE is what `explore` wrote, MAP the map.csv of the same sweep, CHROMIUM the browser.
+// The page in a browser, computed by WebAssembly; see browser.mjs.
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
 import { after, before, test } from "node:test";
-import { pathToFileURL } from "node:url";
-import puppeteer from "puppeteer-core";
+import * as tools from "./browser.mjs";
 
-const { PAGE, MAP, CHROMIUM = "/usr/bin/chromium" } = process.env;
-assert.ok(PAGE && MAP, "PAGE and MAP have to name files; crates/explorer/check does");
-const address = pathToFileURL(PAGE).href;
+const { address } = tools;
 const asked = [];
 const errors = [];
 let browser, page;
 
-const open = async (hash = "") => {
-  await page.goto("about:blank");
-  await page.goto(address + hash);
-  await whole();
-};
-const whole = () => page.waitForFunction(() => window.squealmap && Number.isFinite(window.squealmap.view.times.last), { timeout: 240000, polling: 50 });
+const open = (hash = "") => tools.open(page, hash);
+const whole = () => tools.whole(page);
 const state = () => page.evaluate(() => window.squealmap.state());
 const status = () => page.$eval("#status", (element) => element.textContent);
 
 before(async () => {
-  browser = await puppeteer.launch({ executablePath: CHROMIUM, args: ["--no-sandbox"], protocolTimeout: 600000 });
+  browser = await tools.launch();
   page = await browser.newPage();
   page.on("request", (request) => asked.push(request.url()));
   page.on("pageerror", (error) => errors.push(error.message));
@@ -32,33 +24,9 @@ before(async () => {
 after(() => browser?.close());
 
 test("the labels of the page are those of the program", async () => {
-  const [head, ...rows] = readFileSync(MAP, "utf8").trim().split("\n").map((line) => line.split(","));
-  const place = (name) => head.indexOf(name);
-  const values = (name) => [...new Set(rows.map((row) => Number(row[place(name)])))];
-  const [mu_s, mu_d, belts] = ["mu_s", "mu_d", "belt_velocity"].map(values);
-  const found = await page.evaluate(
-    async ([mu_s, mu_d, belts]) => {
-      const side = (key, values) => ({ key, from: values[0], to: values.at(-1), points: values.length });
-      const names = window.squealmap.about.columns.find((column) => column.name === "type").names;
-      const all = {};
-      for (const belt of belts) {
-        const region = { ask: "region", x: side("mu_d", mu_d), y: side("mu_s", mu_s), at: { belt_velocity: belt }, response: false, columns: ["type"] };
-        all[belt] = Array.from((await window.squealmap.engines.ask(region)).numbers, (code) => names[code]);
-      }
-      return all;
-    },
-    [mu_s, mu_d, belts],
-  );
-  let other = 0;
-  for (const row of rows) {
-    const [a, b, v] = ["mu_s", "mu_d", "belt_velocity"].map((name) => Number(row[place(name)]));
-    other += found[v][mu_s.indexOf(a) * mu_d.length + mu_d.indexOf(b)] === row[place("type")] ? 0 : 1;
-  }
-  assert.ok(rows.length > 8000, `${rows.length}`);
-  assert.equal(other, 0, `${other} of ${rows.length} labels differ`);
-  // The comparer sees a planted fault.
-  found[belts[0]][0] = "nothing";
-  assert.ok(rows.some((row) => found[Number(row[place("belt_velocity")])][0] !== row[place("type")]));
+  const { rows, differ } = await tools.labels(page);
+  assert.ok(rows > 8000, `${rows}`);
+  assert.equal(differ, 0, `${differ} of ${rows} labels differ`);
 });
 
 test("wheel, drag and keys move the view, and the address holds it", async () => {
@@ -102,6 +70,28 @@ test("a click looks into a cell, and its numbers are those of the map", async ()
   assert.ok(Math.abs(here.cell[0] - 0.18) < 0.01 && Math.abs(here.cell[1] - 0.48) < 0.01, `${here.cell}`);
   assert.ok((await page.$$("#plots svg")).length >= 5);
   assert.match(await page.$eval("#why", (element) => element.textContent), /Hz/);
+  await page.waitForFunction(() => document.querySelectorAll("#cuts svg").length === 2, { timeout: 60000, polling: 50 });
+});
+
+test("the gallery's places are what it says of them", async () => {
+  await open();
+  const found = await page.evaluate(async () => {
+    const { engines, about, places } = window.squealmap;
+    const names = (name) => about.columns.find((column) => column.name === name).names;
+    const one = async ({ mu_d, mu_s, at, type, regime, title }) => {
+      const side = (key, value) => ({ key, from: value, to: value, points: 1 });
+      const { numbers } = await engines.ask({ ask: "region", x: side("mu_d", mu_d), y: side("mu_s", mu_s), at, response: true, columns: ["type", "regime"] });
+      return { title, wanted: [type, regime], found: [names("type")[numbers[0]], names("regime")[numbers[1]]] };
+    };
+    return Promise.all(places.map(one));
+  });
+  assert.equal(found.length, 10);
+  for (const { title, wanted, found: is } of found) assert.deepEqual(is, wanted, title);
+  const links = await page.$$eval("#places a", (links) => links.map((link) => link.getAttribute("href")));
+  assert.equal(links.length, 10);
+  await open(links[9]);
+  assert.deepEqual((await state()).cell, [0.6, 0.2]);
+  assert.equal(await page.$eval("#wrong", (element) => element.textContent), "");
 });
 
 test("a slider changes the map, and a class is hidden", async () => {

@@ -1,0 +1,237 @@
+//! A region computed by the reader's own GPU, in turns: the page sends what it is given to the device, and brings back what has come
+//! of it, until there is an answer.
+//!
+//! First the eigenvalues of all cells, in one turn; then, where they are asked for, the transients, some steps a turn, in as many
+//! lanes as the device holds. Words, kernels and records are those of the GPU engine of [`squealmap`], in f32; what that does not
+//! bring to its end is computed again in f64 by WebAssembly.
+
+use std::sync::atomic::AtomicBool;
+
+use serde_json::{Map, Value as Json, json};
+use squealmap::engine::fields::words;
+use squealmap::engine::instances::Instances;
+use squealmap::engine::kernel::batch::{self, Known};
+use squealmap::engine::kernel::linear::KERNEL;
+use squealmap::engine::kernel::source::{Constant, Kernel, SETTING_WORDS, Settings};
+use squealmap::engine::lanes::again::records_again;
+use squealmap::engine::march::flow::{Asked, Flow, Place};
+use squealmap::engine::march::kernel::kernel_for;
+use squealmap::engine::march::round::{ALIGNED, Round};
+use squealmap::engine::precision::Precision;
+use squealmap::engine::record::Record;
+use squealmap::sweep::columns::Column;
+use squealmap::sweep::spec::Spec;
+
+use crate::answer::Answer;
+use crate::opened::Opened;
+use crate::region::{Region, answered};
+
+/// Most lanes of a turn: some hundred megabytes in the memory of the page.
+const MOST_LANES: usize = 16_384;
+
+/// Most loop iterations of an invocation in one turn: software in the place of a GPU may stop silently beyond 65 535.
+const MOST_LOOPS: u32 = 60_000;
+
+/// A region on its way.
+#[derive(Debug)]
+pub struct OnDevice {
+    spec: Spec,
+    wanted: Vec<Column>,
+    names: Vec<String>,
+    records: Vec<Record>,
+    stage: Stage,
+    /// Kernels whose text was told.
+    told: Vec<String>,
+}
+
+/// What the device is at.
+#[derive(Debug)]
+enum Stage {
+    Eigenvalues(Vec<Known>),
+    Transients(Box<Transients>),
+}
+
+#[derive(Debug)]
+struct Transients {
+    flow: Flow<f32>,
+    lanes: Vec<Place<f32>>,
+    round: Round<f32>,
+}
+
+/// A dispatch: its kernel, where its words of inputs, state and flags begin and how many there are, and how many invocations.
+struct Dispatch<'a> {
+    kernel: &'a Kernel,
+    choices: Vec<(&'static str, Constant)>,
+    first: [usize; 3],
+    words: [usize; 3],
+    count: usize,
+}
+
+impl OnDevice {
+    /// Before the first turn.
+    ///
+    /// # Errors
+    /// A sentence that says why no GPU can compute the region, or what is wrong with it.
+    pub fn new(region: &Region, opened: &Opened) -> Result<OnDevice, String> {
+        let spec = region.spec(opened)?;
+        if spec.modal.is_some() {
+            return Err("models of modes are computed without a GPU".to_owned());
+        }
+        if spec.response() && spec.plan().hunts {
+            return Err("cycles are found without a GPU".to_owned());
+        }
+        if kernel_for(spec.pieces()).is_none() {
+            return Err("no kernel holds a friction law of so many pieces".to_owned());
+        }
+        let wanted = region.wanted(&spec)?;
+        let known = (0..spec.grid.len()).map(|index| batch::known(&spec, index)).collect();
+        let stage = Stage::Eigenvalues(known);
+        Ok(OnDevice {
+            spec,
+            wanted,
+            names: region.columns.clone(),
+            records: Vec::new(),
+            stage,
+            told: Vec::new(),
+        })
+    }
+
+    /// A turn of at most so many steps: takes the words of state and flags that have come `back`, none in the first turn, and says
+    /// what is next: the answer, or what to send and to do, with `turn` in the head.
+    ///
+    /// # Errors
+    /// A sentence, when the device cannot have made those words.
+    pub fn turn(&mut self, back: &[u8], steps: u32) -> Result<Answer, String> {
+        let is_first = back.is_empty();
+        let back: Vec<u32> = back
+            .chunks_exact(4)
+            .map(|four| u32::from_le_bytes([four[0], four[1], four[2], four[3]]))
+            .collect();
+        match &mut self.stage {
+            Stage::Eigenvalues(known) => {
+                let inputs: Vec<f32> = batch::inputs(known);
+                let count = inputs.len() / words(KERNEL.inputs);
+                if is_first && count > 0 {
+                    return Ok(self.eigenvalues(&inputs, count));
+                }
+                let (state, flags) =
+                    split(&back, [KERNEL.state, KERNEL.flags].map(|fields| words(fields) * count))?;
+                let known = std::mem::take(known);
+                batch::take(&mut self.records, known, (&state, flags), false)
+                    .map_err(|why| why.to_string())?;
+                if !self.spec.response() {
+                    return Ok(self.done());
+                }
+                let flow = Flow::new(&self.spec);
+                let going = Transients { flow, lanes: Vec::new(), round: Round::new() };
+                self.stage = Stage::Transients(Box::new(going));
+            }
+            Stage::Transients(going) => {
+                let Transients { flow, lanes, round } = &mut **going;
+                let (state, flags) = split(&back, [round.state.len(), round.flags.len()])?;
+                let (_, ended) = round.collect(lanes, (&state, flags), |lane, steps| flow.take(lane, steps));
+                ended.map_err(|why| why.to_string())?;
+            }
+        }
+        Ok(self.next_round(steps))
+    }
+
+    /// What computes the eigenvalues.
+    fn eigenvalues(&mut self, inputs: &[f32], count: usize) -> Answer {
+        let words = [KERNEL.inputs, KERNEL.state, KERNEL.flags].map(|fields| words(fields) * count);
+        #[expect(clippy::cast_possible_truncation, reason = "a region has less than 2^32 cells")]
+        let head = Settings::new(count as u32, 1, 0, [0; SETTING_WORDS]);
+        let dispatch = Dispatch { kernel: &KERNEL, choices: Vec::new(), first: [0; 3], words, count };
+        let (state, flags) = (vec![0.0; words[1]], vec![0; words[2]]);
+        self.sent([inputs, &state], &flags, bytemuck::bytes_of(&head).to_vec(), vec![dispatch])
+    }
+
+    /// The next round of the transients.
+    fn next_round(&mut self, steps: u32) -> Answer {
+        let Stage::Transients(going) = &mut self.stage else { return self.done() };
+        let Transients { flow, lanes, round } = &mut **going;
+        let mut asked = Asked { spec: &self.spec, first: 0, records: &mut self.records };
+        loop {
+            flow.turn_over(&mut asked, lanes, MOST_LANES);
+            flow.finish(&mut asked);
+            if !lanes.is_empty() {
+                break;
+            }
+            if !flow.has_more(&asked) {
+                records_again(&self.spec, 0, &mut self.records, &AtomicBool::new(false));
+                return self.done();
+            }
+        }
+        round.stage(lanes);
+        let (settings, done) = (flow.settings(), flow.done());
+        let Round { groups, inputs, state, flags } = round.clone();
+        let mut heads = Vec::new();
+        let mut dispatches = Vec::new();
+        for group in &groups {
+            let Some((kernel, choices)) = group.form.kernel() else { continue };
+            let most = (MOST_LOOPS / kernel.loops_per_step.max(1)).max(1);
+            heads.extend(group.head(steps.clamp(1, most), settings));
+            dispatches.push(Dispatch {
+                kernel,
+                choices,
+                first: group.first,
+                words: group.words(),
+                count: group.lanes,
+            });
+        }
+        let mut answer = self.sent([&inputs, &state], &flags, heads, dispatches);
+        answer.head["done"] = json!(done);
+        answer
+    }
+
+    /// What is to be sent, and to be done with it. Bytes stand one after the other: inputs, state, flags, settings.
+    fn sent(
+        &mut self,
+        [inputs, state]: [&[f32]; 2],
+        flags: &[u32],
+        heads: Vec<u8>,
+        dispatches: Vec<Dispatch>,
+    ) -> Answer {
+        let mut sources = Map::new();
+        let dispatches: Vec<Json> = dispatches
+            .into_iter()
+            .map(|Dispatch { kernel, choices, first, words, count }| {
+                // Kernels of one name differ in the room for pieces of a law.
+                let name = format!("{} {} {choices:?}", kernel.name, self::words(kernel.inputs));
+                if !self.told.contains(&name) {
+                    sources.insert(name.clone(), Json::String(kernel.source(Precision::F32, &choices)));
+                    self.told.push(name.clone());
+                }
+                json!({ "kernel": name, "first": first.map(|word| 4 * word), "bytes": words.map(|count| 4 * count), "count": count })
+            })
+            .collect();
+        let sizes = [4 * inputs.len(), 4 * state.len(), 4 * flags.len(), heads.len()];
+        let mut bytes = Vec::with_capacity(sizes.iter().sum());
+        bytes.extend_from_slice(bytemuck::cast_slice(inputs));
+        bytes.extend_from_slice(bytemuck::cast_slice(state));
+        bytes.extend_from_slice(bytemuck::cast_slice(flags));
+        bytes.extend(heads);
+        let head = json!({
+            "turn": { "dispatches": dispatches, "sizes": sizes, "settings": size_of::<Settings>(), "aligned": ALIGNED },
+            "sources": sources,
+        });
+        Answer { head, numbers: Vec::new(), bytes }
+    }
+
+    fn done(&self) -> Answer {
+        answered(&self.spec, &self.wanted, &self.names, &self.records)
+    }
+}
+
+/// Words of state and flags that have come back.
+fn split(back: &[u32], [state, flags]: [usize; 2]) -> Result<(Vec<f32>, &[u32]), String> {
+    if back.len() != state + flags {
+        return Err(format!(
+            "the device gave {} words back, and should have given {}",
+            back.len(),
+            state + flags
+        ));
+    }
+    let (of_state, of_flags) = back.split_at(state);
+    Ok((of_state.iter().map(|word| f32::from_bits(*word)).collect(), of_flags))
+}
