@@ -41,7 +41,7 @@ const ALL: Place[] = [
   },
   {
     title: "Neither alone",
-    words: "Friction rises with the speed, which damps one mode and so drives them together. Without the slope it would be stable, and with the slope alone, too.",
+    words: "Friction rises with the speed, which damps the tangential motion alone. Without the slope it would be stable, and with the slope alone, too; both together are not.",
     ...{ mu_d: 0.35, mu_s: 0.1, at: { belt_velocity: 0.5 }, type: "interaction", regime: "detaching_stick_slip" },
   },
   {
@@ -61,8 +61,8 @@ const ALL: Place[] = [
   },
   {
     title: "More damping, less stable",
-    words: "The place before with thirty times the damping in the normal direction. Unequal damping brings the instability to half the friction: the destabilisation paradox.",
-    ...{ mu_d: 0.2, mu_s: 0.2, at: { belt_velocity: 3, c1: 2, c2: 60 }, type: "mode_coupling", regime: "detaching" },
+    words: "The place before with thirty times the damping in the normal direction. Unequal damping brings the instability down to less than half the friction: the destabilisation paradox.",
+    ...{ mu_d: 0.2, mu_s: 0.2, at: { belt_velocity: 3, c1: 2, c2: 60 }, type: "mode_coupling", regime: "stick_slip" },
   },
   {
     title: "Off the belt",

@@ -68,11 +68,13 @@ for (const [law, of] of [["bilinear", undefined], ["exponential", curved]])
     assert.notEqual(of, "", "CURVED has to name a page; crates/explorer/check does");
     await open(page, "", of);
     await opened();
+    // The first time the browser compiles the kernels.
+    const first = await transients("gpu", COLUMNS);
     const [gpu, cpu] = [await transients("gpu", COLUMNS), await transients("cpu", COLUMNS)];
     assert.equal(await page.evaluate(() => window.squealmap.engines.noDevice), "", "the GPU was lost on the way");
     assert.notEqual(gpu.by, cpu.by);
     const { other, worst } = compared(gpu, cpu);
-    console.log(`${law}: ${COUNT} transients in ${gpu.took.toFixed(2)} s on ${gpu.by}, ${cpu.took.toFixed(2)} s on ${cpu.by}; regimes that differ: ${other}; largest differences by the scale: ${worst.map((one) => one.toExponential(1)).join(" ")}`);
+    console.log(`${law}: ${COUNT} transients in ${gpu.took.toFixed(2)} s (the first time ${first.took.toFixed(2)}) on ${gpu.by}, ${cpu.took.toFixed(2)} s on ${cpu.by}; regimes that differ: ${other}; largest differences by the scale: ${worst.map((one) => one.toExponential(1)).join(" ")}`);
     assert.ok(other <= 2, `${other} regimes differ`);
     assert.ok(Math.max(...worst) < 1e-3, `${worst}`);
     // The comparer sees a planted fault.
@@ -89,7 +91,9 @@ function gpuProcess() {
       return "";
     }
   };
-  const found = readdirSync("/proc").filter((pid) => of(pid, "cmdline").includes("--type=gpu-process") && of(pid, "stat").split(") ")[1]?.split(" ")[1] === String(browser.process().pid));
+  const parent = (pid) => of(pid, "stat").split(") ").at(-1).split(" ")[1];
+  const isOurs = (pid) => pid === String(browser.process().pid) || (Number(pid) > 1 && isOurs(parent(pid)));
+  const found = readdirSync("/proc").filter((pid) => of(pid, "cmdline").includes("--type=gpu-process") && isOurs(pid));
   assert.equal(found.length, 1, `${found}`);
   return Number(found[0]);
 }
