@@ -77,16 +77,18 @@ pub fn settle(model: &Model, faces: &[FaceRef], loads: &Loads, mu: f64) -> Resul
         now.contact = held(all, &pressed, &middles);
         if now.contact.is_empty() && !all.is_empty() {
             let what =
-                "nothing of the contact stays pressed: check the load's direction and the contact's normal"
+                "the surfaces are pulled apart, so that nothing of the contact stays pressed: turn the sign of the load or \
+                        displacement round (a pressure or force above 0 pushes onto the faces of its set)"
                     .to_owned();
             return Err(Error::Contact { what });
         }
         let (numbering, pencil) = assemble(&now)?;
         let (displacement, forces) = slide(&now, &numbering, &pencil, loads, mu)?;
-        // Points on one line let a body turn: the matrix is singular but for rounding.
-        let farthest = displacement.iter().flatten().fold(0.0, |a: f64, u| a.max(u.abs()));
+        let largest = |a: f64, u: &f64| if u.is_finite() { a.max(u.abs()) } else { f64::INFINITY };
+        let farthest = displacement.iter().flatten().fold(0.0, largest);
         if farthest > now.mesh.extent() {
-            return Err(tips(rounds, mu));
+            // Points on one line let a body turn: the matrix is singular but for rounding. All of them do not.
+            return Err(if rounds > 1 { tips(rounds, mu) } else { moves(farthest, now.mesh.extent()) });
         }
         let surface = Surface::new(&now.mesh, &numbering, faces, &now.contact);
         // How much each point is on the wrong side: pulled, or overlapping.
@@ -127,12 +129,26 @@ pub fn settle(model: &Model, faces: &[FaceRef], loads: &Loads, mu: f64) -> Resul
     Err(tips(rounds, mu))
 }
 
-fn tips(rounds: usize, mu: f64) -> Error {
+fn moves(farthest: f64, size: f64) -> Error {
     let what = format!(
-        "no state of the contact was found in {rounds} rounds in which each point is pressed or open, with a static friction of {mu}: \
-         friction may tip a body over its edge; lower it, hold the body against turning, or mesh the edge finer"
+        "the bodies are moved by {farthest:.1e} m, which must be much less than their size of {size:.1e} m: lower the load or displacement \
+         (units are N, Pa and m), or check that Young's moduli are in Pa"
     );
     Error::Contact { what }
+}
+
+fn tips(rounds: usize, mu: f64) -> Error {
+    let what = format!(
+        "no state of the contact was found in {rounds} rounds in which each point is pressed or open"
+    );
+    let why = if mu == 0.0 {
+        "the bodies may touch at an edge only; press them over a face, hold them against turning, or mesh the edge finer".to_owned()
+    } else {
+        format!(
+            "static friction of {mu} may tip a body over its edge; lower it, hold the body against turning, or mesh the edge finer"
+        )
+    };
+    Error::Contact { what: format!("{what}: {why}") }
 }
 
 /// The points that are pressed; a middle of an edge follows the corners beside it that are open.

@@ -28,7 +28,8 @@ pub fn isometric() -> View {
     [[a, a, 0.0], [-b, b, 2.0 * b], [c, -c, c]]
 }
 
-/// The pieces that can be seen, from the farthest to the nearest. `displacement` (m) moves the nodes, `values` are those of the nodes,
+/// The pieces that can be seen, in the order in which they are painted: from the farthest to the nearest, but what nothing hides last, as
+/// it covers what is seen in part. `displacement` (m) moves the nodes, `values` are those of the nodes,
 /// pieces are cut no longer than `size` (m) or one element; those that are hidden in part are cut further.
 #[must_use]
 pub fn facets(mesh: &Mesh, displacement: &[[f64; 3]], values: &[f64], view: &View, size: f64) -> Vec<Facet> {
@@ -45,9 +46,10 @@ pub fn facets(mesh: &Mesh, displacement: &[[f64; 3]], values: &[f64], view: &Vie
     for (index, piece) in all.iter().enumerate() {
         front.keep(piece.clone(), index, 0, &mut seen);
     }
-    let mut seen: Vec<Facet> = seen.into_iter().map(Piece::facet).collect();
-    seen.sort_by(|a, b| a.depth.total_cmp(&b.depth));
-    seen
+    let mut seen: Vec<(bool, Facet)> =
+        seen.into_iter().map(|(piece, whole)| (whole, piece.facet())).collect();
+    seen.sort_by(|(whole, a), (other, b)| whole.cmp(other).then(a.depth.total_cmp(&b.depth)));
+    seen.into_iter().map(|(_, facet)| facet).collect()
 }
 
 /// A piece in space: corners are x, y, depth.
@@ -197,23 +199,31 @@ impl<'a> Front<'a> {
         Self { all, squares, size }
     }
 
-    /// Keeps what is seen of a piece, cut from the one with this index: all, nothing, or some of its quarters.
-    fn keep(&self, piece: Piece, index: usize, cuts: usize, seen: &mut Vec<Piece>) {
-        /// So far corners are drawn in: a corner itself lies on its neighbours.
+    /// Keeps what is seen of a piece, cut from the one with this index: all, nothing, or some of its quarters; with each, whether
+    /// nothing hides any of it.
+    fn keep(&self, piece: Piece, index: usize, cuts: usize, seen: &mut Vec<(Piece, bool)>) {
+        /// So far corners are drawn in: a corner itself lies on its neighbours. Less hidden than this is not cut,
         const INWARDS: f64 = 0.1;
+        /// and less than this is not hidden.
+        const WHOLE: f64 = 0.01;
         /// Pieces are cut so often; what is hidden in part then is all there or all gone.
         const CUTS: usize = 3;
         let middle = piece.middle();
-        let inner = piece.corners.iter().map(|c| [0, 1, 2].map(|i| c[i] + INWARDS * (middle[i] - c[i])));
-        let covered = inner.filter(|place| self.covers(*place, index)).count();
+        let covered = |inwards: f64| {
+            let inner = piece.corners.iter().map(|c| [0, 1, 2].map(|i| c[i] + inwards * (middle[i] - c[i])));
+            inner.filter(|place| self.covers(*place, index)).count()
+        };
         let gone = self.covers(middle, index);
-        match covered {
-            0 if !gone => seen.push(piece),
+        match covered(INWARDS) {
+            0 if !gone => {
+                let whole = covered(WHOLE) == 0;
+                seen.push((piece, whole));
+            }
             all if all == piece.corners.len() && gone => {}
             _ if cuts < CUTS => {
                 piece.quarters().into_iter().for_each(|part| self.keep(part, index, cuts + 1, seen));
             }
-            _ if !gone => seen.push(piece),
+            _ if !gone => seen.push((piece, false)),
             _ => {}
         }
     }

@@ -123,6 +123,18 @@ impl Study {
         Ok(study)
     }
 
+    /// The key of what presses the surfaces, where that is one thing.
+    pub(super) fn presser(&self) -> Option<String> {
+        let loads = self.document.loads.iter().enumerate().map(|(i, load)| {
+            let name = if load.force.is_some() { "force" } else { "pressure" };
+            format!("loads[{i}].{name}")
+        });
+        let moved =
+            self.document.supports.iter().enumerate().filter(|(_, support)| support.displacement != 0.0);
+        let mut all = loads.chain(moved.map(|(i, _)| format!("supports[{i}].displacement")));
+        all.next().filter(|_| all.next().is_none())
+    }
+
     /// Whether there is a static step to solve.
     #[must_use]
     pub fn is_pressed(&self) -> bool {

@@ -128,7 +128,8 @@ pub fn compute(study: &Study, say: &mut dyn FnMut(&str)) -> Result<Outcome, Erro
     let (mut plain, mut model) = (None, study.model.clone());
     let (numbering, mut pencil, pressed, per_slope) = if study.is_pressed() {
         let settled = clock
-            .step("static step", || settle(&study.model, &study.faces, &study.loads, friction.static_mu))?;
+            .step("static step", || settle(&study.model, &study.faces, &study.loads, friction.static_mu))
+            .map_err(|why| of_load(study, why))?;
         let per_slope = settled.surface.matrix(&settled.pressures);
         let stiffened = if asked.stressed { Some(settled.stiffened()?) } else { None };
         let force = settled.force;
@@ -214,6 +215,14 @@ pub fn compute(study: &Study, say: &mut dyn FnMut(&str)) -> Result<Outcome, Erro
         modal,
         seconds: clock.seconds,
     })
+}
+
+/// What is wrong with the contact, said of what presses it.
+fn of_load(study: &Study, why: Error) -> Error {
+    match why {
+        Error::Contact { what } => Error::at(study.presser().as_deref().unwrap_or("loads"), what),
+        other => other,
+    }
 }
 
 /// Damping ratios of the real modes: those that are given, and by the losses of the materials.

@@ -43,7 +43,12 @@ pub(super) fn variation(study: &Study, asked: &Vary, count: usize) -> Result<Var
         stiffened: study.document.modes.stressed,
     };
     let values = rising("vary.values", &asked.values)?;
-    let modes = vary(&setup, parameter, &values, count, study.document.modes.residual)?;
+    // With the values of the description itself the contact has settled.
+    let modes =
+        vary(&setup, parameter, &values, count, study.document.modes.residual).map_err(|why| match why {
+            Error::Contact { what } => Error::at("vary.values", what),
+            other => other,
+        })?;
     let rayleigh = study.model.materials.iter().any(|material| material.rayleigh.iter().any(|c| *c > 0.0));
     let damped = rayleigh || friction.slope != 0.0 || asked.parameter == Varied::Slope;
     Ok(Variation { values, modes, damped })

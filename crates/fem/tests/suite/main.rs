@@ -15,6 +15,7 @@ mod elements;
 mod files;
 mod keys;
 mod layer;
+mod loads;
 mod modal;
 mod mortar;
 mod order;

@@ -68,6 +68,14 @@ fn what_is_hidden_is_left_out() {
     assert_eq!(raised.iter().filter(|facet| (area(facet) - 2.0 * triangle).abs() < 1e-12).count(), 12 + 3);
 }
 
+/// Whether a place lies in an outline, not on it.
+fn inside(outline: &[[f64; 2]], at: [f64; 2]) -> bool {
+    (0..outline.len()).all(|i| {
+        let (a, b) = (outline[i], outline[(i + 1) % outline.len()]);
+        (b[0] - a[0]) * (at[1] - a[1]) - (b[1] - a[1]) * (at[0] - a[0]) > 1e-9
+    })
+}
+
 /// A small cube on a large piece: the piece is hidden in part, and no part of it is painted over the cube.
 #[test]
 fn a_piece_ends_where_something_stands_on_it() {
@@ -91,12 +99,18 @@ fn a_piece_ends_where_something_stands_on_it() {
         let middle =
             [0, 1].map(|i| part.outline.iter().map(|c| c[i]).sum::<f64>() / part.outline.len() as f64);
         for facet in seen.iter().filter(cubes) {
-            let o = &facet.outline;
-            let inside = (0..4).all(|i| {
-                let (a, b) = (o[i], o[(i + 1) % 4]);
-                (b[0] - a[0]) * (middle[1] - a[1]) - (b[1] - a[1]) * (middle[0] - a[0]) > 1e-9
-            });
-            assert!(!inside, "{middle:?}");
+            assert!(!inside(&facet.outline, middle), "{middle:?}");
+        }
+    }
+    // What of the plate reaches below the cube is painted before it.
+    let first = seen.iter().position(|facet| facet.value > 0.5).expect("a cube");
+    for part in seen[first..].iter().filter(|facet| facet.value < 0.5) {
+        let count = part.outline.len() as f64;
+        let middle = [0, 1].map(|i| part.outline.iter().map(|c| c[i]).sum::<f64>() / count);
+        for corner in &part.outline {
+            let at = [0, 1].map(|i| corner[i] + 0.02 * (middle[i] - corner[i]));
+            let below = seen.iter().filter(cubes).any(|facet| inside(&facet.outline, at));
+            assert!(!below, "{at:?}");
         }
     }
     // The plate's sides, and its top without most of what the cube hides: its hexagon.

@@ -171,7 +171,7 @@ fn friction_moves_the_normal_force_by_mu_times_the_height() {
     }
     let error = pressed(&column(Kind::Hex8), 0.15).expect_err("it tips over").to_string();
     assert!(
-        error.contains("with a static friction of 0.15: friction may tip a body over its edge"),
+        error.contains("is pressed or open: static friction of 0.15 may tip a body over its edge"),
         "{error}"
     );
 }
@@ -186,8 +186,8 @@ fn a_block_that_is_pulled_off_is_an_error() {
     let set = |name| model.mesh.face_set(name).expect("a side").to_vec();
     let loads = Loads { pressure: vec![(set("z1"), -1e6)], ..Loads::default() };
     let error = settle(&model, &set("z0"), &loads, 0.0).expect_err("nothing holds it").to_string();
-    assert_eq!(
-        error,
-        "nothing of the contact stays pressed: check the load's direction and the contact's normal"
+    assert!(
+        error.starts_with("the surfaces are pulled apart, so that nothing of the contact stays pressed"),
+        "{error}"
     );
 }
