@@ -77,20 +77,24 @@ impl Painting {
             [x + 0.5 * (width - scale * (high[0] - low[0])), y + 0.5 * (height + scale * (high[1] - low[1]))];
         let at = |c: &[f64; 2]| (shift[0] + scale * (c[0] - low[0]), shift[1] - scale * (c[1] - low[1]));
         svg.open(r#"stroke-width="0.3" stroke-linejoin="round""#);
+        let side = |facet: &Facet, i: usize| {
+            polyline([at(&facet.outline[i]), at(&facet.outline[(i + 1) % facet.outline.len()])])
+        };
+        let sides = |facet: &Facet, edge: bool| -> String {
+            (0..facet.outline.len()).filter(|i| facet.edges[*i] == edge).map(|i| side(facet, i)).collect()
+        };
         for facet in &self.facets {
             let fill = fill(facet.value);
-            let outline = polyline(facet.outline.iter().map(at)) + "Z";
-            if facet.edges.iter().all(|edge| *edge) {
-                svg.path(&outline, &format!(r#"fill="{fill}" {EDGE}"#));
-                continue;
+            svg.path(&(polyline(facet.outline.iter().map(at)) + "Z"), &format!(r#"fill="{fill}""#));
+            // A line of its own colour closes the seams between pieces.
+            svg.path(&sides(facet, false), &format!(r#"stroke="{fill}""#));
+            if !facet.whole {
+                svg.path(&sides(facet, true), EDGE);
             }
-            // The line of its own colour closes the seams between pieces.
-            svg.path(&outline, &format!(r#"fill="{fill}" stroke="{fill}""#));
-            let side = |i: usize| {
-                polyline([at(&facet.outline[i]), at(&facet.outline[(i + 1) % facet.outline.len()])])
-            };
-            let edges: String = (0..facet.outline.len()).filter(|i| facet.edges[*i]).map(side).collect();
-            svg.path(&edges, EDGE);
+        }
+        // Nothing hides these: they are drawn over all colours.
+        for facet in self.facets.iter().filter(|facet| facet.whole) {
+            svg.path(&sides(facet, true), EDGE);
         }
         svg.close();
     }

@@ -16,6 +16,8 @@ pub struct Facet {
     pub value: f64,
     /// Depth of its middle, m: larger is nearer to the eye.
     pub depth: f64,
+    /// Whether nothing hides any of it, so that its edges may be drawn over all else.
+    pub whole: bool,
 }
 
 /// From where a mesh is seen: to the right, upwards, towards the eye, unit vectors.
@@ -46,10 +48,9 @@ pub fn facets(mesh: &Mesh, displacement: &[[f64; 3]], values: &[f64], view: &Vie
     for (index, piece) in all.iter().enumerate() {
         front.keep(piece.clone(), index, 0, &mut seen);
     }
-    let mut seen: Vec<(bool, Facet)> =
-        seen.into_iter().map(|(piece, whole)| (whole, piece.facet())).collect();
-    seen.sort_by(|(whole, a), (other, b)| whole.cmp(other).then(a.depth.total_cmp(&b.depth)));
-    seen.into_iter().map(|(_, facet)| facet).collect()
+    let mut seen: Vec<Facet> = seen.into_iter().map(|(piece, whole)| piece.facet(whole)).collect();
+    seen.sort_by(|a, b| a.whole.cmp(&b.whole).then(a.depth.total_cmp(&b.depth)));
+    seen
 }
 
 /// A piece in space: corners are x, y, depth.
@@ -65,7 +66,7 @@ impl Piece {
         [0, 1, 2].map(|i| self.corners.iter().map(|c| c[i]).sum::<f64>() / self.corners.len() as f64)
     }
 
-    fn facet(self) -> Facet {
+    fn facet(self, whole: bool) -> Facet {
         let depth = self.middle()[2];
         let value = self.values.iter().sum::<f64>() / self.values.len() as f64;
         Facet {
@@ -73,6 +74,7 @@ impl Piece {
             edges: self.edges,
             value,
             depth,
+            whole,
         }
     }
 
@@ -205,7 +207,7 @@ impl<'a> Front<'a> {
         /// So far corners are drawn in: a corner itself lies on its neighbours. Less hidden than this is not cut,
         const INWARDS: f64 = 0.1;
         /// and less than this is not hidden.
-        const WHOLE: f64 = 0.01;
+        const WHOLE: f64 = 0.05;
         /// Pieces are cut so often; what is hidden in part then is all there or all gone.
         const CUTS: usize = 3;
         let middle = piece.middle();

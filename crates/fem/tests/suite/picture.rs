@@ -102,22 +102,39 @@ fn a_piece_ends_where_something_stands_on_it() {
             assert!(!inside(&facet.outline, middle), "{middle:?}");
         }
     }
-    // What of the plate reaches below the cube is painted before it.
-    let first = seen.iter().position(|facet| facet.value > 0.5).expect("a cube");
-    for part in seen[first..].iter().filter(|facet| facet.value < 0.5) {
-        let count = part.outline.len() as f64;
-        let middle = [0, 1].map(|i| part.outline.iter().map(|c| c[i]).sum::<f64>() / count);
-        for corner in &part.outline {
-            let at = [0, 1].map(|i| corner[i] + 0.02 * (middle[i] - corner[i]));
-            let below = seen.iter().filter(cubes).any(|facet| inside(&facet.outline, at));
-            assert!(!below, "{at:?}");
-        }
-    }
     // The plate's sides, and its top without most of what the cube hides: its hexagon.
     let plate: f64 = seen.iter().filter(|facet| facet.value < 0.5).map(area).sum();
     let whole = (64.0 + 8.0 + 8.0) / 3.0_f64.sqrt();
     let hidden = 3.0 * 4.0 / 3.0_f64.sqrt();
     assert!((plate - (whole - hidden)).abs() < 0.25 * hidden, "{plate} {}", whole - hidden);
+}
+
+/// A block of wide, flat elements on a large piece: what of the piece reaches below it is painted before it, though its middle is nearer.
+#[test]
+fn what_stands_on_a_piece_is_painted_over_it() {
+    let plate = Block {
+        origin: [0.0, 0.0, -1.0],
+        size: [8.0, 8.0, 1.0],
+        cells: [1, 1, 1].map(Into::into),
+        kind: Kind::Hex8,
+    };
+    let block =
+        Block { origin: [3.3, 3.3, 0.0], size: [2.0; 3], cells: [1, 1, 4].map(Into::into), kind: Kind::Hex8 };
+    let mut mesh = plate.mesh().expect("a plate");
+    mesh.add(block.mesh().expect("a block"), "block.", 0);
+    let still = vec![[0.0; 3]; mesh.nodes.len()];
+    let values: Vec<f64> = (0..mesh.nodes.len()).map(|node| if node < 8 { 0.0 } else { 1.0 }).collect();
+    let seen = facets(&mesh, &still, &values, &isometric(), 8.0);
+    let first = seen.iter().position(|facet| facet.value > 0.5).expect("a block");
+    for part in seen[first..].iter().filter(|facet| facet.value < 0.5) {
+        let count = part.outline.len() as f64;
+        let middle = [0, 1].map(|i| part.outline.iter().map(|c| c[i]).sum::<f64>() / count);
+        for corner in &part.outline {
+            let at = [0, 1].map(|i| corner[i] + 0.06 * (middle[i] - corner[i]));
+            let below = seen.iter().filter(|facet| facet.value > 0.5);
+            assert!(!below.clone().any(|facet| inside(&facet.outline, at)), "{at:?}");
+        }
+    }
 }
 
 /// A bent plate hides nothing of itself.
