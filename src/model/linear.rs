@@ -28,9 +28,11 @@ use crate::model::{Param, quartic};
 pub struct Linear {
     /// Largest real part of the eigenvalues, both mechanisms present, 1/s.
     pub growth_rate: f64,
-    /// Its imaginary part over 2π, Hz.
-    pub frequency: f64,
-    /// Phase of `ÿ1` against `ẍ2` in that mode, degrees in (−180, 180]; `None` at θ = 0 and for real eigenvalues.
+    /// Its imaginary part over 2π, Hz; `None` where nothing damps and nothing grows: no mode is then less stable than the
+    /// others.
+    pub frequency: Option<f64>,
+    /// Phase of `ÿ1` against `ẍ2` in that mode, degrees in (−180, 180]; `None` at θ = 0, for real eigenvalues and without a
+    /// frequency.
     pub phase: Option<f64>,
     /// Growth rate with the slope set to 0 (mode coupling alone), 1/s.
     pub growth_rate_flat: f64,
@@ -184,6 +186,18 @@ pub struct Prepared {
     pub s: f64,
 }
 
+impl Prepared {
+    /// Whether anything damps, or a slope drives, by more than rounding; otherwise no mode has a real part unless two have
+    /// coalesced.
+    #[must_use]
+    pub fn is_damped(&self) -> bool {
+        let [constant, one, _, three, leading] = self.full;
+        let square = (constant / leading).sqrt();
+        let mean = square.sqrt() * leading;
+        three.abs() > UNSTABLE_ABOVE * mean || one.abs() > UNSTABLE_ABOVE * mean * square
+    }
+}
+
 /// The smallest leading coefficient of a polynomial: it is divided by.
 const LEAST: f64 = 1e-290;
 
@@ -258,12 +272,13 @@ pub fn solve(prepared: &Preparation) -> (Option<InstabilityType>, Option<Linear>
     let without = |polynomial| if polynomial == prepared.full { full } else { leading(polynomial) };
     let (flat, frozen) = (without(prepared.flat), without(prepared.frozen));
     let kind = kind_of([full, flat, frozen]);
-    let phase = (full.im != 0.0 && prepared.s != 0.0)
+    let leads = kind != InstabilityType::Stable || prepared.is_damped();
+    let phase = (leads && full.im != 0.0 && prepared.s != 0.0)
         .then(|| mode_ratio(prepared.normal, prepared.s, full).arg().to_degrees())
         .filter(|phase| phase.is_finite());
     let linear = Linear {
         growth_rate: full.re,
-        frequency: full.im / TAU,
+        frequency: leads.then_some(full.im / TAU),
         phase,
         growth_rate_flat: flat.re,
         growth_rate_frozen: frozen.re,
@@ -315,12 +330,15 @@ pub fn spectrum(instance: &Instance) -> Option<Vec<Complex64>> {
 fn attributed(modal: &Modal, at: At) -> Option<(InstabilityType, Linear)> {
     let leading = |mu, slope| Some(rightmost(&modal.eigenvalues(at.with(mu, slope))?));
     let At { mu, slope, .. } = at;
-    let full = leading(mu, slope)?;
+    let all = modal.eigenvalues(at)?;
+    let full = rightmost(&all);
+    // One mode alone leads, whatever it does.
+    let leads = all.len() < 3 || all.iter().any(|lambda| is_unstable(*lambda) || is_unstable(-*lambda));
     let flat = if slope == 0.0 { full } else { leading(mu, 0.0)? };
     let frozen = if mu == 0.0 { full } else { leading(0.0, slope)? };
     let linear = Linear {
         growth_rate: full.re,
-        frequency: full.im / TAU,
+        frequency: leads.then_some(full.im / TAU),
         phase: None,
         growth_rate_flat: flat.re,
         growth_rate_frozen: frozen.re,

@@ -76,7 +76,7 @@ pub(crate) fn map(grid: Grid, record: impl Fn(usize, &[&Value]) -> Record) -> Ma
 pub(crate) fn record(kind: InstabilityType, regime: Regime, settled: bool) -> Record {
     let linear = Linear {
         growth_rate: 4.338_989_74,
-        frequency: 33.949_151_2,
+        frequency: Some(33.949_151_2),
         phase: Some(-40.738_935),
         growth_rate_flat: 4.3,
         growth_rate_frozen: -0.021_714_01,

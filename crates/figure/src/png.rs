@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use resvg::tiny_skia::{Pixmap, Transform};
+use resvg::tiny_skia::{Color, Pixmap, Transform};
 use resvg::usvg::{Options, Tree, fontdb};
 
 use crate::error::{Error, Result};
@@ -52,6 +52,8 @@ fn image(svg: &str) -> Result<Vec<u8>> {
     )]
     let [width, height] = [size.width(), size.height()].map(|length| (length * scale).ceil() as u32);
     let mut pixmap = Pixmap::new(width, height).ok_or(Error::Rasterize { width, height })?;
+    // The last row and column reach over the edge of the page.
+    pixmap.fill(Color::WHITE);
     resvg::render(&tree, Transform::from_scale(scale, scale), &mut pixmap.as_mut());
     pixmap.encode_png().map_err(|_| Error::Rasterize { width, height })
 }

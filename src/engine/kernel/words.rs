@@ -22,6 +22,8 @@ pub struct Words {
     pub scales: [f64; 3],
     /// `sin θ`, the sign of the mode ratio.
     pub s: f64,
+    /// Whether anything damps.
+    pub damped: bool,
 }
 
 impl Words {
@@ -39,7 +41,7 @@ impl Words {
         inputs[12] = mass / stiffness * scales[0] * scales[0];
         inputs[13] = 1.0 - inputs[12];
         inputs[14] = damping / stiffness * scales[0];
-        Words { inputs, scales, s: prepared.s }
+        Words { inputs, scales, s: prepared.s, damped: prepared.is_damped() }
     }
 
     /// Type and analysis from what the kernel wrote; `None` for a code that is no type.
@@ -47,12 +49,13 @@ impl Words {
     pub fn results(&self, state: [f64; STATE_WORDS], kind: u32) -> Option<(InstabilityType, Linear)> {
         let kind = InstabilityType::ALL.into_iter().find(|one| code(*one) == kind)?;
         let [growth, frequency, ratio_re, ratio_im, flat, frozen] = state;
-        let phase = (frequency != 0.0 && self.s != 0.0)
+        let leads = kind != InstabilityType::Stable || self.damped;
+        let phase = (leads && frequency != 0.0 && self.s != 0.0)
             .then(|| (self.s * ratio_im).atan2(self.s * ratio_re).to_degrees())
             .filter(|phase| phase.is_finite());
         let linear = Linear {
             growth_rate: growth * self.scales[0],
-            frequency: frequency * self.scales[0] / TAU,
+            frequency: leads.then_some(frequency * self.scales[0] / TAU),
             phase,
             growth_rate_flat: flat * self.scales[1],
             growth_rate_frozen: frozen * self.scales[2],

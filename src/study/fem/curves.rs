@@ -228,12 +228,13 @@ fn along<'a>(
                 curves.transitions.iter().find(|t| t.modes.contains(&mode.mode) && between.contains(&t.mu));
             let other = course(i + 1) == wanted;
             if met.is_none() && (here || other) {
-                // Where it changes is not known: on a straight line, or half-way.
+                // Where it changes is not known: on a straight line through 0, or half-way, up to where what has no growth has none.
                 let [from, to] = [mode.states[i], mode.states[i + 1]];
                 let crosses = from.growth * to.growth < 0.0;
                 let part = if crosses { from.growth / (from.growth - to.growth) } else { 0.5 };
                 let between = |a: f64, b: f64| a + part * (b - a);
-                let growth = between(from.growth, to.growth);
+                let least = if from.growth.abs() < to.growth.abs() { from.growth } else { to.growth };
+                let growth = if crosses { 0.0 } else { least };
                 let state = State { frequency: between(from.frequency, to.frequency), growth, grows: here };
                 let place = (between(curves.mus[i], curves.mus[i + 1]), value(&state));
                 points.push(place);

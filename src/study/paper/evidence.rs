@@ -1,5 +1,8 @@
 //! The numbers on which the claims are decided, and nothing else.
 
+use std::f64::consts::TAU;
+
+use crate::model::instance::Instance;
 use crate::model::{Param, linear};
 use crate::study::error::Result;
 use crate::study::modes::follow::modes_of;
@@ -73,6 +76,12 @@ pub struct Evidence {
     pub phase_trial: PhaseTrial,
 }
 
+/// The frequency (Hz) at which both modes of an instance are one.
+fn coalesced(at: &Instance) -> Option<f64> {
+    let all = linear::eigenvalues(at)?;
+    Some(all.iter().map(|lambda| lambda.im.abs()).sum::<f64>() / all.len() as f64 / TAU)
+}
+
 impl Evidence {
     /// Computes everything that is not there yet.
     ///
@@ -82,7 +91,7 @@ impl Evidence {
         let (spec, modes) = study.modes()?;
         let critical_friction = modes.branches.first().and_then(|branch| branch.critical.first().copied());
         let at = critical_friction.map(|mu| spec.instance_at(&format!("mu_d={mu}"))).transpose()?;
-        let coalescence_frequency = at.and_then(|at| linear::analyse(&at).1).map(|linear| linear.frequency);
+        let coalescence_frequency = at.and_then(|at| coalesced(&at));
         let falling = study.sweep(Case::NegativeSlope);
         let critical_velocity = critical_velocity(&falling)?;
         let [slope, coupling, both] = Case::ALL.map(|case| facts(study, case));

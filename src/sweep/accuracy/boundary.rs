@@ -24,7 +24,9 @@ pub fn is_near(record: &Record) -> bool {
 /// The real part of an eigenvalue that decides the type is near zero.
 fn near_stability(record: &Record) -> bool {
     record.linear.is_some_and(|linear| {
-        let limit = GROWTH * std::f64::consts::TAU * linear.frequency.abs();
+        // No mode leads: all have no growth but for rounding.
+        let Some(frequency) = linear.frequency else { return true };
+        let limit = GROWTH * std::f64::consts::TAU * frequency.abs();
         let unstable = linear.growth_rate > 0.0;
         // Attribution matters only where there is something to attribute.
         linear.growth_rate.abs() < limit

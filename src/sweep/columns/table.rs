@@ -135,7 +135,7 @@ macro_rules! table {
 table! {
     Linear "type" "" Name(&TYPE), ["Type"], "type of instability by complex eigenvalues and attribution";
     Linear "growth_rate" "1/s" Number(field!(linear growth_rate)), ["Growth rate {σ}", "{σ}"], "largest real part of the eigenvalues, both mechanisms present".signed();
-    Linear "frequency" "Hz" Number(field!(linear frequency)), ["Frequency of the least stable mode", "{f}"], "imaginary part of that eigenvalue over 2 pi";
+    Linear "frequency" "Hz" Number(field!(linear frequency)), ["Frequency of the least stable mode", "{f}"], "imaginary part of that eigenvalue over 2 pi; empty where nothing damps and nothing grows, as no mode leads there";
     Linear "phase" "deg" Number(field!(linear phase)), ["Phase of {ÿ_1} against {ẍ_2} in the mode", "{φ}, mode"], "phase of y1'' against x2'' in that mode; negative when y1'' lags";
     Linear "growth_rate_flat" "1/s" Number(field!(linear growth_rate_flat)), ["Growth rate without the friction slope", "{σ}, no slope"], "growth rate with the friction slope set to 0 (mode coupling alone)".signed();
     Linear "growth_rate_frozen" "1/s" Number(field!(linear growth_rate_frozen)), ["Growth rate at constant normal force", "{σ}, constant {N}"], "growth rate with the normal force frozen (negative slope alone)".signed();

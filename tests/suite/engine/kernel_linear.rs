@@ -54,7 +54,9 @@ fn worst<R: Real>(instances: &[Instance]) -> Worst {
     for instance in instances {
         let (Some(kind), Some(expected)) = analyse(instance) else { continue };
         let (actual_kind, actual, scales) = computed::<R>(instance);
-        let size = expected.growth_rate.hypot(std::f64::consts::TAU * expected.frequency);
+        let turns = |one: &Linear| std::f64::consts::TAU * one.frequency.unwrap_or(0.0);
+        let size = expected.growth_rate.hypot(turns(&expected));
+        assert_eq!(actual.frequency.is_some(), expected.frequency.is_some(), "{instance:?}");
         let rates = |one: &Linear| [one.growth_rate, one.growth_rate_flat, one.growth_rate_frozen];
         worst.compared += 1;
         if actual_kind != kind {
@@ -65,7 +67,7 @@ fn worst<R: Real>(instances: &[Instance]) -> Worst {
         for ((a, b), scale) in rates(&actual).into_iter().zip(rates(&expected)).zip(scales) {
             worst.growth = worst.growth.max((a - b).abs() / scale.max(b.abs()));
         }
-        let frequency = std::f64::consts::TAU * (actual.frequency - expected.frequency).abs();
+        let frequency = (turns(&actual) - turns(&expected)).abs();
         let frequency = frequency / scales[0].max(size);
         if frequency > OTHER_MODE {
             // The other of two modes whose growth rates are equal as far as the scalar can tell.

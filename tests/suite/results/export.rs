@@ -184,7 +184,7 @@ fn every_column_holds_its_own_value() {
     let sweep = small(|_| Record {
         linear: Some(Linear {
             growth_rate: at("growth_rate"),
-            frequency: at("frequency"),
+            frequency: Some(at("frequency")),
             phase: some("phase"),
             growth_rate_flat: at("growth_rate_flat"),
             growth_rate_frozen: at("growth_rate_frozen"),

@@ -51,7 +51,7 @@ fn numbered(base: f64) -> Record {
         kind: Some(InstabilityType::Interaction),
         linear: Some(Linear {
             growth_rate: number(),
-            frequency: number(),
+            frequency: Some(number()),
             phase: some(),
             growth_rate_flat: number(),
             growth_rate_frozen: number(),

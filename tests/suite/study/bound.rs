@@ -72,7 +72,7 @@ pub(crate) fn decidable(instance: &Instance, linear: &Linear, damping_ratio: f64
     }
     let Some(mode) = Feeding::new(instance) else { return false };
     let share = mode.nu[0].re / (mode.nu[0].re + mode.nu[1].re);
-    let largest = damping_ratio * TAU * linear.frequency / f64::from(STEPS);
+    let largest = damping_ratio * TAU * linear.frequency.unwrap_or(0.0) / f64::from(STEPS);
     let mut causes = (0..=STEPS).flat_map(|x| (0..=STEPS).map(move |y| [x, y])).map(|steps| {
         let dampings = steps.map(|step| largest * f64::from(step));
         alone(linear.growth_rate, share, mode.nu[0].arg(), dampings)

@@ -155,7 +155,7 @@ fn draw(drawn: Drawn, random: &mut Random) -> (Instance, f64) {
         let fits = match drawn {
             Drawn::Sustained => found.growth_rate > 100.0 && kinds[0] == [wanted],
             Drawn::Growing => {
-                let slow = found.growth_rate < 0.04 * TAU * found.frequency;
+                let slow = found.growth_rate < 0.04 * TAU * found.frequency.unwrap_or(0.0);
                 found.growth_rate > 100.0 && slow && kinds[0] == [wanted]
             }
             Drawn::Late => found.growth_rate > 100.0 && kinds == [vec![Kind::ModeCoupling], vec![Kind::Both]],

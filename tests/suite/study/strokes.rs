@@ -122,7 +122,8 @@ pub(crate) fn draw(wanted: Wanted, random: &mut Random) -> (Instance, Linear) {
         }
         let instance = instance(law, &values);
         if let (Some(kind), Some(linear)) = linear::analyse(&instance) {
-            let relative = linear.growth_rate / (TAU * linear.frequency);
+            let Some(frequency) = linear.frequency else { continue };
+            let relative = linear.growth_rate / (TAU * frequency);
             if Wanted::of(kind, &linear) == Some(wanted)
                 && (wanted == Wanted::Stable || (slowest..3e-2).contains(&relative))
             {
@@ -138,7 +139,7 @@ pub(crate) fn stroke(wanted: Wanted, rate: f64, skew: f64, random: &mut Random) 
     loop {
         let (mut instance, linear) = draw(wanted, random);
         let belt_velocity = instance.params.require(Param::BeltVelocity);
-        let period = 1.0 / linear.frequency;
+        let period = 1.0 / linear.frequency.expect("a mode that leads");
         let stable = wanted == Wanted::Stable;
         let kick: f64 = if stable { 0.1 } else { 3e-3 };
         // Up to 1.2 times the time in which the growth reaches the belt velocity; a decay to a tenth.

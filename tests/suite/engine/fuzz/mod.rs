@@ -77,7 +77,7 @@ fn until_the_time_is_over<T: Strategy>(
 
 fn is_finite(linear: &Linear) -> bool {
     let Linear { growth_rate, frequency, phase, growth_rate_flat, growth_rate_frozen } = *linear;
-    [growth_rate, frequency, phase.unwrap_or(0.0), growth_rate_flat, growth_rate_frozen]
+    [growth_rate, frequency.unwrap_or(0.0), phase.unwrap_or(0.0), growth_rate_flat, growth_rate_frozen]
         .iter()
         .all(|number| number.is_finite())
 }
