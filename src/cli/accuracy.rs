@@ -1,15 +1,14 @@
 //! `--accuracy`: what may compute a sweep as accurately as is asked for.
 
-use crate::cli::engine::EngineArgs;
-use crate::cli::error::{Error, Result};
 use crate::cli::frontier;
-use crate::cli::talk::note;
 use clap::Args;
 use squealmap::engine::backend::Backend;
 use squealmap::engine::gpu::adapter::Adapter;
+use squealmap::engine::options::Options;
 use squealmap::sweep::accuracy::configuration::Configuration;
 use squealmap::sweep::accuracy::frontier::{Choice, Chosen};
 use squealmap::sweep::accuracy::level::Level;
+use squealmap::sweep::error::{Error, Result};
 use squealmap::sweep::spec::Spec;
 
 /// The argument.
@@ -22,47 +21,45 @@ pub(crate) struct AccuracyArgs {
     pub(crate) accuracy: Option<Level>,
 }
 
-impl AccuracyArgs {
-    /// What may compute the sweep with the accuracy that is asked for, the fastest first; `None` where none is.
-    ///
-    /// # Errors
-    /// When something that it chooses is given too, or nothing is accurate enough.
-    pub(crate) fn ranked(&self, spec: &Spec, engine: &EngineArgs) -> Result<Option<Vec<Choice>>> {
-        let Some(level) = self.accuracy else { return Ok(None) };
-        let beside = |option: String| Error::AccuracyBeside { option, accuracy: level.to_string() };
-        if let Some(at) = &spec.steps_given {
-            let key = "`steps_per_period` in [response]".to_owned();
-            let other = format!("--accuracy {level}, which chooses it");
-            return Err(squealmap::sweep::error::Error::Conflict { at: at.clone(), key, other }.into());
-        }
-        if let Some(precision) = engine.precision {
-            return Err(beside(format!("--precision {precision}")));
-        }
-        let only_gpu = engine.strict || engine.require_gpu || !engine.adapter.is_empty();
-        let backend = match engine.backend {
-            Backend::Auto => only_gpu.then_some(Backend::Gpu),
-            asked => Some(asked),
-        };
-        if let (Level::Reference, Some(other @ (Backend::Gpu | Backend::Cpu))) = (level, backend) {
-            return Err(beside(format!("--backend {}", other.name())));
-        }
-        if !spec.analysis.response {
-            note("--accuracy has nothing to choose: this sweep asks for no response");
-            return Ok(None);
-        }
-        let allowed =
-            |one: &Configuration| backend.is_none_or(|backend| backend == one.backend) && is_here(one);
-        Ok(frontier::of(spec).ranked(level, spec, &allowed).map(Some)?)
+/// What may compute a sweep with an accuracy, the fastest first; `None` where there is nothing to choose.
+///
+/// # Errors
+/// When something that it chooses is given too, or nothing is accurate enough.
+pub fn ranked(level: Level, spec: &Spec, options: &Options) -> Result<Option<Vec<Choice>>> {
+    let note = |text: &str| options.note.iter().for_each(|note| note(text));
+    let beside = |option: String| Error::AccuracyBeside { option, accuracy: level.to_string() };
+    if let Some(at) = &spec.steps_given {
+        let key = "`steps_per_period` in [response]".to_owned();
+        let other = format!("--accuracy {level}, which chooses it");
+        return Err(Error::Conflict { at: at.clone(), key, other });
     }
+    if let Some(precision) = options.precision {
+        return Err(beside(format!("--precision {precision}")));
+    }
+    let only_gpu = options.strict || options.require_gpu || !options.adapters.is_empty();
+    let backend = match options.backend {
+        Backend::Auto => only_gpu.then_some(Backend::Gpu),
+        asked => Some(asked),
+    };
+    if let (Level::Reference, Some(other @ (Backend::Gpu | Backend::Cpu))) = (level, backend) {
+        return Err(beside(format!("--backend {}", other.name())));
+    }
+    if !spec.analysis.response {
+        note("--accuracy has nothing to choose: this sweep asks for no response");
+        return Ok(None);
+    }
+    let allowed = |one: &Configuration| backend.is_none_or(|backend| backend == one.backend) && is_here(one);
+    frontier::of(spec, &note).ranked(level, spec, &allowed).map(Some)
 }
 
-/// Says what was chosen, and why.
-pub(crate) fn say(chosen: &Chosen) {
-    note(&format!("--accuracy {}: {}", chosen.asked, chosen.configuration));
-    note(&chosen.why);
+/// What was chosen, and why, in sentences.
+#[must_use]
+pub fn said(chosen: &Chosen) -> Vec<String> {
+    let mut said = vec![format!("--accuracy {}: {}", chosen.asked, chosen.configuration), chosen.why.clone()];
     if let (Some(bound), Some(trial)) = (chosen.bound, chosen.trial) {
-        note(&trial.sentence(bound));
+        said.push(trial.sentence(bound));
     }
+    said
 }
 
 /// Whether this machine has what a configuration needs: a GPU may have gone since it was measured.

@@ -214,14 +214,6 @@ pub(crate) enum Error {
         /// The nearest name, or all of them.
         advice: String,
     },
-    /// An accuracy beside what it chooses.
-    #[error("{option} stands beside --accuracy {accuracy}, which chooses it; remove one of them")]
-    AccuracyBeside {
-        /// The option as written.
-        option: String,
-        /// The accuracy.
-        accuracy: String,
-    },
     /// A scheduler that is not there.
     #[error(
         "`{program}` of Slurm is not on the path; submit from a node of the cluster, or see with --dry-run what would be \
@@ -367,7 +359,6 @@ impl Error {
             | Error::NoIsolines { .. }
             | Error::NoAreas { .. }
             | Error::NoSuchQuantity { .. }
-            | Error::AccuracyBeside { .. }
             | Error::NoScheduler { .. }
             | Error::ReuseInJobs
             | Error::ManyGpus { .. }

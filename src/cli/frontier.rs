@@ -7,6 +7,7 @@ use crate::cli::error::{Error, Result};
 use crate::cli::output::{cannot, claim};
 use crate::cli::talk::note;
 use squealmap::disk;
+use squealmap::store::directory::Note;
 use squealmap::sweep::accuracy::frontier::Frontier;
 use squealmap::sweep::accuracy::row::{Row, from_csv, to_csv};
 use squealmap::sweep::spec::Spec;
@@ -21,7 +22,7 @@ fn place() -> Option<PathBuf> {
 
 /// The measurements that a choice for this sweep is made from: those of this machine if they cover the sweep, or else those
 /// that are shipped.
-pub(crate) fn of(spec: &Spec) -> Frontier {
+pub(crate) fn of(spec: &Spec, note: Note) -> Frontier {
     let measured = place().and_then(|path| match read(&path) {
         Ok(rows) => Some(Frontier::measured(rows, format!("`{}`", path.display()))),
         Err(why) => {

@@ -1,7 +1,7 @@
 //! The commands: one file each, the only code that prints, and with [`squealmap::store`] the only code that opens
 //! files for writing.
 
-mod accuracy;
+pub mod accuracy;
 mod adapters;
 mod calibrate;
 mod check;

@@ -1,6 +1,6 @@
 //! `squealmap run`: a whole sweep.
 
-use crate::cli::accuracy::{AccuracyArgs, say};
+use crate::cli::accuracy::{AccuracyArgs, ranked, said};
 use crate::cli::engine::EngineArgs;
 use crate::cli::error::{Error, Result};
 use crate::cli::failed::judged;
@@ -112,14 +112,15 @@ impl Run {
                 Refining { files: &self.files, engine: &self.engine, replace: self.replace, part: self.tile };
             return refining.execute(spec, settings, &cancel);
         }
-        let ranked = self.accuracy.ranked(&spec, &self.engine)?;
-        let mut output = self.files.prepare(&FILES)?;
         let options = self.engine.options(&cancel, &note);
+        let level = self.accuracy.accuracy;
+        let ranked = level.map(|level| ranked(level, &spec, &options)).transpose()?.flatten();
+        let mut output = self.files.prepare(&FILES)?;
         let choice = ranked.map(|ranked| first_that_keeps(ranked, &spec, &options)).transpose()?;
         let options = match &choice {
             None => options,
             Some(choice) => {
-                say(&choice.chosen);
+                said(&choice.chosen).iter().for_each(|sentence| note(sentence));
                 spec = choice.configuration.sweep(&spec);
                 Options { adapters: options.adapters, ..choice.configuration.options(&options) }
             }

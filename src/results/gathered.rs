@@ -14,6 +14,7 @@ use crate::results::arrays::{Arrays, Kind, Values, Variable};
 use crate::results::error::Result;
 use crate::results::manifest::{Run, manifest};
 use crate::store::cut::tile_of;
+use crate::sweep::accuracy::frontier::Chosen;
 use crate::sweep::error::Error;
 use crate::sweep::label::Tally;
 use crate::sweep::map::Provenance;
@@ -86,11 +87,11 @@ impl Gathered {
         Ok(Gathered { arrays, values, tally, stopped, provenance })
     }
 
-    /// The manifest of the sweep: UTF-8 JSON, indented.
+    /// The manifest of the sweep: UTF-8 JSON, indented. `accuracy` is what was asked for, and what was chosen for it.
     ///
     /// # Errors
     /// When it cannot be written as JSON.
-    pub fn manifest(&self, spec: &Spec) -> Result<Vec<u8>> {
+    pub fn manifest(&self, spec: &Spec, accuracy: Option<Chosen>) -> Result<Vec<u8>> {
         let made = &self.provenance;
         let run = Run {
             threads: made.threads,
@@ -99,7 +100,7 @@ impl Gathered {
             reused: None,
             stopped: self.stopped.as_ref().map(ToString::to_string),
             tiles: None,
-            accuracy: None,
+            accuracy,
         };
         let sheet = Sheet::new(spec, [made.linear.as_ref(), made.response.as_ref()]);
         manifest(sheet, &spec.resolved(), &self.tally, &run)

@@ -17,7 +17,8 @@ pub enum Error {
     NothingToExplore,
     /// A program without the page of the explorer.
     #[error(
-        "this program was built without the page of `explore`: `crates/explorer/build` makes it, then `cargo build` takes it in"
+        "this program was built without the page of `explore`: in a copy of its repository `crates/explorer/build` makes the page, \
+         then build or install the program again"
     )]
     NoPage,
     /// `modes` needs a numeric axis with at least two values.

@@ -159,6 +159,14 @@ pub enum Error {
         /// The limit.
         limit: usize,
     },
+    /// An accuracy beside what it chooses.
+    #[error("{option} stands beside --accuracy {accuracy}, which chooses it; remove one of them")]
+    AccuracyBeside {
+        /// The option as written.
+        option: String,
+        /// The accuracy.
+        accuracy: String,
+    },
     /// A map that is refined keeps a label per instance.
     #[error(
         "the sweep has {instances} instances but at most {limit} can be refined; make its axes shorter, or refine parts \
@@ -343,6 +351,7 @@ impl Error {
     pub fn is_bad_input(&self) -> bool {
         match self {
             Error::ReadSweep { .. }
+            | Error::AccuracyBeside { .. }
             | Error::TooManyToRefine { .. }
             | Error::NothingToRefine
             | Error::NoInstance { .. }

@@ -3,7 +3,7 @@
 //! | question | where |
 //! |---|---|
 //! | a sweep from Python, and what computes it | [`sweep`] |
-//! | maps; tiles of a directory | [`map`], [`tiles`] |
+//! | maps, the lines of maps; tiles of a directory | [`map`], [`refine`], [`tiles`] |
 //! | eigenvalues along an axis, one instance in time | [`modes`], [`trace`] |
 //! | measured signals and friction | [`signals`], [`material`] |
 //! | bodies in contact | [`bodies`] |
@@ -23,6 +23,7 @@ mod map;
 mod material;
 mod modes;
 mod program;
+mod refine;
 mod signals;
 mod sweep;
 mod table;
@@ -47,6 +48,8 @@ mod module {
     use crate::modes::modes;
     #[pymodule_export]
     use crate::program::main;
+    #[pymodule_export]
+    use crate::refine::refine;
     #[pymodule_export]
     use crate::signals::identify;
     #[pymodule_export]

@@ -4,8 +4,12 @@ use std::sync::{Mutex, PoisonError};
 
 use pyo3::prelude::*;
 use pyo3::types::{PyList, PyTuple};
+use squealmap::cli::accuracy::{ranked, said};
+use squealmap::engine::options::Options;
 use squealmap::results::arrays::Variable;
 use squealmap::results::gathered::Gathered;
+use squealmap::sweep::accuracy::frontier::Chosen;
+use squealmap::sweep::accuracy::trial::first_that_keeps;
 use squealmap::sweep::spec::{Analysis, Spec};
 
 use crate::dataset::{Dataset, variable};
@@ -34,8 +38,7 @@ pub(crate) fn run(
         spec.analysis.checked &= check;
         if spec.refine.is_some() {
             return Err(Failure::input(
-                "this sweep has [refine], and run computes every instance: remove [refine], or use the program, \
-                 `squealmap refine`",
+                "this sweep has [refine], and run computes every instance: remove [refine], or call squealmap.refine",
             ));
         }
         let warnings: Vec<String> = spec.beyond_its_modes().into_iter().collect();
@@ -43,9 +46,25 @@ pub(crate) fn run(
         let note = |text: &str| notes.lock().unwrap_or_else(PoisonError::into_inner).push(text.to_owned());
         let options = engine.options(watch, &note)?;
         watch.expect(spec.grid.len());
+        let choice = match engine.level()? {
+            Some(level) => {
+                let ranked = ranked(level, &spec, &options)?;
+                ranked.map(|ranked| first_that_keeps(ranked, &spec, &options)).transpose()?
+            }
+            None => None,
+        };
+        let options = match &choice {
+            None => options,
+            Some(choice) => {
+                said(&choice.chosen).iter().for_each(|sentence| note(sentence));
+                spec = choice.configuration.sweep(&spec);
+                Options { adapters: options.adapters, ..choice.configuration.options(&options) }
+            }
+        };
         let made = Gathered::compute(&spec, &options, &|count| watch.add(count))?;
+        let made = dataset(&spec, made, choice.as_ref().map(|choice| choice.chosen.clone()))?;
         let notes = std::mem::take(&mut *notes.lock().unwrap_or_else(PoisonError::into_inner));
-        Ok((dataset(&spec, made)?, warnings, notes))
+        Ok((made, warnings, notes))
     })?;
     let (dataset, warnings, notes) = made;
     let raised = raised.map(|raised| raised.into_value(py)).into_pyobject(py)?;
@@ -54,8 +73,8 @@ pub(crate) fn run(
     PyTuple::new(py, [dataset.into_any(), warnings.into_any(), notes.into_any(), raised.into_any()])
 }
 
-fn dataset(spec: &Spec, made: Gathered) -> Result<Dataset, Failure> {
-    let manifest = String::from_utf8_lossy(&made.manifest(spec)?).into_owned();
+fn dataset(spec: &Spec, made: Gathered, accuracy: Option<Chosen>) -> Result<Dataset, Failure> {
+    let manifest = String::from_utf8_lossy(&made.manifest(spec, accuracy)?).into_owned();
     let complete = made.stopped.is_none();
     let mut dataset = Dataset::of(&made.arrays);
     let dimensions: Vec<&str> = made.arrays.dimensions.iter().map(|(name, _)| *name).collect();

@@ -7,6 +7,7 @@ use squealmap::engine::backend::Backend;
 use squealmap::engine::options::Options;
 use squealmap::engine::precision::Precision;
 use squealmap::store::directory::Note;
+use squealmap::sweep::accuracy::level::Level;
 use squealmap::sweep::spec::Spec;
 
 use crate::failure::Failure;
@@ -19,9 +20,50 @@ pub(crate) struct Sweep {
     file: Option<PathBuf>,
     #[pyo3(item)]
     lines: String,
+    /// Its instances, where they are given one by one: the columns by their names.
+    #[pyo3(item)]
+    points: Option<Vec<(String, Points)>>,
     /// The directory that the files it names are relative to.
     #[pyo3(item)]
     directory: PathBuf,
+}
+
+/// A column of points.
+#[derive(Clone, Debug, FromPyObject)]
+pub(crate) enum Points {
+    Numbers(Vec<f64>),
+    Names(Vec<String>),
+}
+
+impl Points {
+    /// The field of a row; columns are as long as each other.
+    fn field(&self, row: usize) -> String {
+        match self {
+            Points::Numbers(numbers) => numbers.get(row).map(f64::to_string).unwrap_or_default(),
+            Points::Names(names) => names.get(row).map(|name| quoted(name)).unwrap_or_default(),
+        }
+    }
+
+    fn len(&self) -> usize {
+        match self {
+            Points::Numbers(numbers) => numbers.len(),
+            Points::Names(names) => names.len(),
+        }
+    }
+}
+
+/// Points as the text of the file that a sweep would name.
+fn table(columns: &[(String, Points)]) -> String {
+    let line = |fields: Vec<String>| fields.join(",") + "\n";
+    let rows = columns.iter().map(|(_, column)| column.len()).max().unwrap_or_default();
+    let header = line(columns.iter().map(|(name, _)| quoted(name)).collect());
+    (0..rows)
+        .fold(header, |text, row| text + &line(columns.iter().map(|(_, column)| column.field(row)).collect()))
+}
+
+/// A field in double quotes.
+fn quoted(text: &str) -> String {
+    format!("\"{}\"", text.replace('"', "\"\""))
 }
 
 impl Sweep {
@@ -32,7 +74,10 @@ impl Sweep {
     pub(crate) fn spec(&self) -> Result<Spec, Failure> {
         Ok(match &self.file {
             Some(file) => Spec::read(file)?,
-            None => Spec::of_lines(&self.lines, &self.directory)?,
+            None => {
+                let points = self.points.as_deref().map(table);
+                Spec::of_lines(&self.lines, points.as_deref(), &self.directory)?
+            }
         })
     }
 }
@@ -50,6 +95,8 @@ pub(crate) struct Engine {
     adapter: Option<String>,
     #[pyo3(item)]
     require_gpu: bool,
+    #[pyo3(item)]
+    accuracy: Option<String>,
     #[pyo3(item)]
     pub(crate) threads: Option<usize>,
 }
@@ -83,6 +130,20 @@ impl Engine {
             cancel: Some(watch.cancel()),
             note: Some(note),
         })
+    }
+}
+
+impl Engine {
+    /// The accuracy that is asked for.
+    ///
+    /// # Errors
+    /// For a word that is none.
+    pub(crate) fn level(&self) -> Result<Option<Level>, Failure> {
+        let parsed = |said: &String| {
+            let quoted = squealmap_input::quote::quoted(said);
+            Level::parse(said).map_err(|why| Failure::input(format!("accuracy is \"{quoted}\" but {why}")))
+        };
+        self.accuracy.as_ref().map(parsed).transpose()
     }
 }
 

@@ -195,10 +195,14 @@ def test_wrong_options():
         ({"threads": 5000}, "threads is 5000"),
         ({"threads": "two"}, "threads is two"),
         ({"threads": -1}, "threads is -1"),
+        ({"accuracy": "best"}, "accuracy is \"best\" but must be draft (1e-2), standard (1e-3)"),
+        ({"accuracy": 0.5}, "accuracy is \"0.5\" but must be"),
+        ({"accuracy": "paper", "precision": "f32"}, "which chooses it"),
+        ({"accuracy": "reference", "backend": "cpu"}, "which chooses it"),
     ]:
         with pytest.raises(squealmap.InputError, match=re.escape(words)):
             squealmap.run(FIRST, **keys)
-    for keys in [{"backend": 5}, {"strict": "yes"}, {"adapter": 3}, {"precision": []}]:
+    for keys in [{"backend": 5}, {"strict": "yes"}, {"adapter": 3}, {"precision": []}, {"accuracy": True}, {"accuracy": []}]:
         with pytest.raises(TypeError):
             squealmap.run(FIRST, **keys)
 

@@ -66,6 +66,32 @@ def test_the_manifest_of_the_program(first):
     assert made == wanted
 
 
+def test_the_three_lines_of_the_readme(tmp_path, program, monkeypatch):
+    """As they stand there: the shipped map, whole, is `map.csv` of the program."""
+    said = (ROOT / "README.md").read_text().split("```python\n")[1].split("```")[0]
+    assert len(said.splitlines()) == 3 and "sweeps/paper_map.toml" in said, said
+    ended = program("run", ROOT / "sweeps/paper_map.toml", "-o", tmp_path)
+    assert ended.returncode == 0, ended.stderr
+    monkeypatch.chdir(ROOT)
+    names = {}
+    exec(said, names)
+    columns = table(tmp_path / "map.csv")
+    assert names["ds"]["status"].size == len(columns["instance"]) == 8405
+    assert compare(names["ds"], columns) == len(columns) - 1 > 25
+
+
+@pytest.mark.parametrize("level", ["draft", "paper", 0.005, "reference"])
+def test_accuracy_is_that_of_the_program(level, tmp_path, program):
+    (tmp_path / "first.toml").write_text(FIRST_TOML)
+    words = ["run", "first.toml", "-o", "out", "--accuracy", level, "--backend", "reference" if level == "reference" else "cpu"]
+    ended = program(*words, cwd=tmp_path)
+    assert ended.returncode == 0, ended.stderr
+    made = squealmap.run(tmp_path / "first.toml", accuracy=level, backend=words[-1])
+    compare(made, table(tmp_path / "out/map.csv"))
+    wanted = document(tmp_path / "out/manifest.json")["accuracy"]
+    assert json.loads(made.attrs["manifest"])["accuracy"] == wanted
+
+
 @pytest.mark.parametrize("name", ["bistable_band", "tuples", "temperature_map", "basin", "mass_on_belt", "cycle_map"])
 def test_shipped_sweeps(name, tmp_path, program):
     """Two starts, listed instances, materials, boxes of starts, cycles: those of the program."""

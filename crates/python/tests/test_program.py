@@ -44,6 +44,18 @@ def test_it_says_and_writes_what_the_program_does(tmp_path, program):
         assert (tmp_path / "ours" / name).read_bytes() == (tmp_path / "built" / name).read_bytes(), name
 
 
+def test_the_page_of_explore(tmp_path, program):
+    """In the wheel where it was there when the wheel was built; else one sentence says what to do."""
+    (tmp_path / "first.toml").write_text(FIRST_TOML)
+    ended = program("explore", "first.toml", "-o", "page", cwd=tmp_path)
+    if ended.returncode == 0:
+        page = (tmp_path / "page/explore.html").read_text()
+        assert len(page) > 500_000 and "Friction against belt velocity" in page
+    else:
+        assert ended.returncode == 2 and "built without the page" in ended.stderr and "crates/explorer/build" in ended.stderr
+        assert not (tmp_path / "page").exists()
+
+
 def test_jobs_of_a_cluster_start_the_console_script(tmp_path, program):
     (tmp_path / "first.toml").write_text(FIRST_TOML)
     said = program("submit", "first.toml", "--slurm", "--dry-run", cwd=tmp_path).stdout

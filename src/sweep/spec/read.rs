@@ -14,6 +14,7 @@ use crate::sweep::spec::check::Check;
 use crate::sweep::spec::document::{entries, string};
 use crate::sweep::spec::files::Files;
 use crate::sweep::spec::keys::top_level;
+use crate::sweep::spec::rows::{Role, Rows};
 use crate::sweep::spec::sections::{Sections, section_of, unknown_key};
 use crate::sweep::spec::varied::Varied;
 use crate::sweep::spec::{
@@ -40,19 +41,21 @@ impl Spec {
     /// # Errors
     /// As [`Spec::read`].
     pub fn parse(text: &str, source_name: &str, base_dir: &Path) -> Result<Spec> {
-        Spec::of_source(&Source::new(source_name, text), base_dir)
+        Spec::of_source(&Source::new(source_name, text), base_dir, None)
     }
 
     /// Validates a sweep whose keys a program has written one a line, such as `axes.mu_s.points = 8`: an error names the line
-    /// itself. Files that it names are relative to `base_dir`.
+    /// itself. Files that it names are relative to `base_dir`. `points` are its instances, where it lists them, as the text of
+    /// the file that `points` would name.
     ///
     /// # Errors
     /// As [`Spec::read`].
-    pub fn of_lines(lines: &str, base_dir: &Path) -> Result<Spec> {
-        Spec::of_source(&Source::calls(lines), base_dir)
+    pub fn of_lines(lines: &str, points: Option<&str>, base_dir: &Path) -> Result<Spec> {
+        let points = points.map(|text| Rows::given("points", text, Role::Points)).transpose()?;
+        Spec::of_source(&Source::calls(lines), base_dir, points)
     }
 
-    fn of_source(source: &Source, base_dir: &Path) -> Result<Spec> {
+    fn of_source(source: &Source, base_dir: &Path, given: Option<Rows>) -> Result<Spec> {
         let document = DeTable::parse(&source.text).map_err(|error| Error::Syntax {
             at: source.place(error.span().unwrap_or(0..0)),
             why: format!("not valid TOML: {}", error.message().trim().replace('\n', ", ")),
@@ -72,6 +75,10 @@ impl Spec {
             }
         }
         let varied = match (axes, points) {
+            (Some(axes), None) if given.is_some() => {
+                let at = source.place(axes.key_span());
+                return Err(Error::Conflict { at, key: "[axes]".to_owned(), other: "`points`".to_owned() });
+            }
             (Some(_), Some(points)) => {
                 let at = source.place(points.key_span());
                 return Err(Error::Conflict { at, key: "`points`".to_owned(), other: "[axes]".to_owned() });
@@ -81,7 +88,7 @@ impl Spec {
                 let name = string(source, points.node, "`points`", "the path of a file, as a string")?;
                 Varied::tuples(source, points.node.span(), name, base_dir)?
             }
-            (None, None) => Varied::nothing(source),
+            (None, None) => given.map_or_else(|| Ok(Varied::nothing(source)), Varied::of_rows)?,
         };
         Spec::of_parts(source, base_dir, sections, varied, None)
     }

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from ._api import identify as identify
     from ._api import linear as linear
     from ._api import modes as modes
+    from ._refine import refine as refine
     from ._api import run as run
     from ._api import trace as trace
     from ._arrays import Arrays as Arrays
@@ -58,6 +59,7 @@ _PLACES = {
     "names": "_names",
     "open": "_open",
     "plot": "_figure",
+    "refine": "_refine",
     "run": "_api",
     "trace": "_api",
 }

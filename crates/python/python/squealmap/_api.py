@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-import contextlib
 import json
-import logging
 import os
-import sys
 import warnings
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Union
 
 from . import _squealmap
-from ._dataset import Dataset, dataset, import_beside
+from ._dataset import Dataset, dataset, importing
+from ._engine import LOG, engine_of
 from ._errors import InputError, Interrupted
 from ._measured import Fit, Identification
 from ._progress import Progress, Shown
@@ -20,9 +18,6 @@ from ._sweep import SweepLike, handed, path_of
 
 if TYPE_CHECKING:
     Path = Union[str, os.PathLike[str]]
-
-# What the program says on standard error, such as which engine computes.
-_LOG = logging.getLogger("squealmap")
 
 __all__ = ["fem", "fit", "identify", "linear", "modes", "run", "trace"]
 
@@ -36,6 +31,7 @@ def run(
     adapter: Union[str, None] = None,
     require_gpu: bool = False,
     threads: Union[int, None] = None,
+    accuracy: Union[str, float, None] = None,
     check: bool = True,
     progress: Progress = None,
 ) -> Dataset:
@@ -43,13 +39,17 @@ def run(
 
     Args:
         sweep: a dict with the keys of a sweep file, its path, or a :class:`Sweep`. Files that a dict names are relative to the
-            working directory, those of a file to its directory.
+            working directory, those of a file to its directory. ``points`` of a dict may be columns instead of a file: arrays
+            by the names of keys, one instance a row.
         backend: ``"auto"`` (a hardware GPU where there is one, else the CPU), ``"gpu"``, ``"cpu"`` or ``"reference"``.
         precision: ``"f64"`` or ``"f32"``; by default f64 on the CPU and f32 on a GPU.
         strict: a GPU rounds every operation by itself.
         adapter: only a GPU with this in its name.
         require_gpu: fail unless a hardware GPU computes.
         threads: worker threads, 1 to 1024; by default one per core.
+        accuracy: what to choose engine, precision and steps for: ``"draft"`` (a relative error of 1e-2 in 95 % of the settled
+            oscillations), ``"standard"`` (1e-3), ``"paper"`` (1e-4), ``"reference"``, or a number up to 0.1. The manifest says
+            what was chosen, and why.
         check: whether a few instances are computed again to measure the error of the others.
         progress: True for a bar of tqdm, False for none, or anything that makes one; by default in a terminal or notebook.
 
@@ -62,7 +62,15 @@ def run(
         Error: it cannot be computed.
         Interrupted: Ctrl-C; what is done is in its ``dataset``.
     """
-    engine = _engine(backend, precision, strict, adapter, require_gpu, threads)
+    engine = engine_of(
+        backend=backend,
+        precision=precision,
+        strict=strict,
+        adapter=adapter,
+        require_gpu=require_gpu,
+        threads=threads,
+        accuracy=accuracy,
+    )
     return _run(sweep, engine, False, check, progress)
 
 
@@ -71,7 +79,7 @@ def linear(sweep: SweepLike, *, threads: Union[int, None] = None, progress: Prog
 
     Args, Returns, Raises: as :func:`run`.
     """
-    engine = _engine("cpu", None, False, None, False, threads)
+    engine = engine_of(backend="cpu", threads=threads)
     return _run(sweep, engine, True, True, progress)
 
 
@@ -85,7 +93,7 @@ def modes(sweep: SweepLike) -> Dataset:
     Raises:
         InputError: the sweep is refused, or has no axis of numbers.
     """
-    with _importing():
+    with importing():
         found = _squealmap.modes(handed(sweep))
     return dataset(found)
 
@@ -127,7 +135,7 @@ def trace(
         raise TypeError(f"samples_per_period is a number, not {type(samples_per_period).__name__}")
     if not 0 < samples_per_period < 2**32:
         raise InputError(f"samples_per_period is {str(samples_per_period)[:40]} but must be from 1 to 10000")
-    with _importing():
+    with importing():
         found = _squealmap.trace(handed(sweep), pairs or "", number, samples_per_period)
     return dataset(found)
 
@@ -198,7 +206,7 @@ def identify(
         "largest_friction": largest_friction,
         "critical_friction": critical,
     }
-    with _importing():
+    with importing():
         report, windows, spectrogram, svg = _squealmap.identify(path_of(signals), choices)
     return Identification.of(report, dataset(windows), dataset(spectrogram), svg)
 
@@ -246,7 +254,7 @@ def fit(
         "at_temperature": at_temperature,
         "temperatures": list(temperatures),
     }
-    with _importing():
+    with importing():
         material, residuals, text, notes = _squealmap.fit(path_of(points), choices)
     _warn(notes)
     return Fit(dataset(material), dataset(residuals), text)
@@ -264,19 +272,9 @@ def fem(study: Path) -> Dataset:
     Raises:
         InputError: the description is refused.
     """
-    with _importing():
+    with importing():
         found = _squealmap.fem(path_of(study))
     return dataset(found)
-
-
-@contextlib.contextmanager
-def _importing() -> Iterator[None]:
-    """Imports xarray while the compiled part computes."""
-    thread = import_beside()
-    try:
-        yield
-    finally:
-        thread.join()
 
 
 def _said(value: Any) -> str:
@@ -284,39 +282,16 @@ def _said(value: Any) -> str:
     return repr(value) if isinstance(value, float) else str(value)
 
 
-def _engine(
-    backend: str,
-    precision: Union[str, None],
-    strict: bool,
-    adapter: Union[str, None],
-    require_gpu: bool,
-    threads: Union[int, None],
-) -> dict[str, Any]:
-    if threads is not None and not (isinstance(threads, int) and 0 < threads <= 1024):
-        raise InputError(f"threads is {str(threads)[:40]} but must be a whole number from 1 to 1024")
-    # Mesa's layer that sorts devices says twice that there is no display; devices are sorted by the program.
-    if sys.platform == "linux" and backend != "cpu" and not os.environ.get("XDG_RUNTIME_DIR", "").startswith("/"):
-        os.environ.setdefault("NODEVICE_SELECT", "1")
-    return {
-        "backend": backend,
-        "precision": precision,
-        "strict": strict,
-        "adapter": adapter,
-        "require_gpu": require_gpu,
-        "threads": threads,
-    }
-
-
 def _run(sweep: SweepLike, engine: dict[str, Any], only: bool, check: bool, progress: Progress) -> Dataset:
     shown = Shown(progress)
     try:
-        with _importing():
+        with importing():
             found, notes, told, raised = _squealmap.run(handed(sweep), engine, only, check, shown.wanted)
     finally:
         shown.close()
     _warn(notes)
     for note in told:
-        _LOG.info(note)
+        LOG.info(note)
     made = dataset(found)
     if isinstance(raised, KeyboardInterrupt):
         manifest = _manifest(made)["computation"]

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import contextlib
 import importlib
 import importlib.util
 import threading
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, Union
 
 import numpy as np
@@ -24,13 +26,6 @@ Dataset = Union["xarray.Dataset", Arrays]
 def has_xarray() -> bool:
     """Whether xarray is installed."""
     return importlib.util.find_spec("xarray") is not None
-
-
-def import_beside() -> threading.Thread:
-    """Imports xarray while something else is waited for: that takes half a second."""
-    thread = threading.Thread(target=lambda: has_xarray() and importlib.import_module("xarray"))
-    thread.start()
-    return thread
 
 
 def dataset(handed: Handed) -> Dataset:
@@ -71,3 +66,14 @@ def _shaped(column: Column, sizes: dict[str, int]) -> NDArray[Any]:
     _, dims, values, _ = column
     flat = values if isinstance(values, np.ndarray) else np.array(values, dtype=str)
     return flat.reshape([sizes[name] for name in dims])
+
+
+@contextlib.contextmanager
+def importing() -> Iterator[None]:
+    """Imports xarray, which takes half a second, while the compiled part computes."""
+    thread = threading.Thread(target=lambda: has_xarray() and importlib.import_module("xarray"))
+    thread.start()
+    try:
+        yield
+    finally:
+        thread.join()

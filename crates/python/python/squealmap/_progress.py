@@ -55,6 +55,9 @@ class Shown:
     def _told(self, done: int, total: int) -> None:
         if self._bar is None and self._make is not None:
             self._bar = self._make(total=total, unit=" instances", **self._keys)
+        # What refining asks for grows on the way.
+        if getattr(self._bar, "total", total) != total:
+            setattr(self._bar, "total", total)
         if self._bar is not None and done > self._done:
             self._bar.update(done - self._done)
             self._done = done

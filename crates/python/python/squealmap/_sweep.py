@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any, Union
 
 from ._lines import lines
+from ._points import columns_of, is_columns
 
 SweepLike = Union["Sweep", Mapping[str, Any], str, "os.PathLike[str]"]
 
@@ -90,16 +91,26 @@ class Sweep:
         axis = {key: value for key, value in given.items() if value is not None}
         return self._with("axes", {name: {**axis, "scale": "log"} if log else axis})
 
-    def points(self, file: Union[str, os.PathLike[str]]) -> Sweep:
-        """The instances of a CSV file, one a row, instead of axes."""
-        return Sweep(self.title, self.directory, {**self.keys, "points": file})
+    def points(self, points: Union[str, os.PathLike[str], Mapping[str, Any], Any]) -> Sweep:
+        """The instances one by one, instead of axes.
+
+        Args:
+            points: a CSV file, or columns: a dict of arrays by the names of keys, in SI units, or a table of pandas.
+        """
+        return Sweep(self.title, self.directory, {**self.keys, "points": points})
 
     def to_dict(self) -> dict[str, Any]:
         """The keys as :func:`squealmap.run` takes them."""
         return {**({"title": self.title} if self.title else {}), **self.keys}
 
     def __str__(self) -> str:
-        """The text of a sweep file."""
+        """The text of a sweep file.
+
+        Raises:
+            TypeError: for points that are columns.
+        """
+        if is_columns(self.keys.get("points")):
+            raise TypeError("a sweep file holds no columns of points: write them as CSV, and give `points` that file")
         return lines(self.to_dict())
 
     def write(self, path: Union[str, os.PathLike[str]]) -> None:
@@ -115,14 +126,22 @@ def handed(sweep: SweepLike) -> dict[str, Any]:
         TypeError: for something that is no sweep.
     """
     if isinstance(sweep, Sweep):
-        return {"file": None, "lines": lines(sweep.to_dict()), "directory": os.fspath(sweep.directory)}
+        return _of_keys(sweep.to_dict(), os.fspath(sweep.directory))
     if isinstance(sweep, Mapping):
-        return {"file": None, "lines": lines(sweep), "directory": "."}
+        return _of_keys(sweep, ".")
     if isinstance(sweep, (str, os.PathLike)):
-        return {"file": path_of(sweep), "lines": "", "directory": "."}
+        return {"file": path_of(sweep), "lines": "", "points": None, "directory": "."}
     raise TypeError(
         f"a sweep is a dict, the path of a sweep file or a squealmap.Sweep, not of the type {type(sweep).__name__}"
     )
+
+
+def _of_keys(keys: Mapping[str, Any], directory: str) -> dict[str, Any]:
+    points = keys.get("points")
+    if not is_columns(points):
+        return {"file": None, "lines": lines(keys), "points": None, "directory": directory}
+    rest = {key: value for key, value in keys.items() if key != "points"}
+    return {"file": None, "lines": lines(rest), "points": columns_of(points), "directory": directory}
 
 
 def path_of(path: Union[str, os.PathLike[str]]) -> str:
