@@ -88,8 +88,8 @@ def test_accuracy_is_that_of_the_program(level, tmp_path, program):
     assert ended.returncode == 0, ended.stderr
     made = squealmap.run(tmp_path / "first.toml", accuracy=level, backend=words[-1])
     compare(made, table(tmp_path / "out/map.csv"))
-    wanted = document(tmp_path / "out/manifest.json")["accuracy"]
-    assert json.loads(made.attrs["manifest"])["accuracy"] == wanted
+    wanted = document(tmp_path / "out/manifest.json")["computation"]["accuracy"]
+    assert wanted["asked"] and json.loads(made.attrs["manifest"])["computation"]["accuracy"] == wanted
 
 
 @pytest.mark.parametrize("name", ["bistable_band", "tuples", "temperature_map", "basin", "mass_on_belt", "cycle_map"])
