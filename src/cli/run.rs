@@ -120,7 +120,9 @@ impl Run {
         let options = match &choice {
             None => options,
             Some(choice) => {
-                said(&choice.chosen).iter().for_each(|sentence| note(sentence));
+                for sentence in said(&choice.chosen) {
+                    note(&sentence);
+                }
                 spec = choice.configuration.sweep(&spec);
                 Options { adapters: options.adapters, ..choice.configuration.options(&options) }
             }

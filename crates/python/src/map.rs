@@ -56,7 +56,9 @@ pub(crate) fn run(
         let options = match &choice {
             None => options,
             Some(choice) => {
-                said(&choice.chosen).iter().for_each(|sentence| note(sentence));
+                for sentence in said(&choice.chosen) {
+                    note(&sentence);
+                }
                 spec = choice.configuration.sweep(&spec);
                 Options { adapters: options.adapters, ..choice.configuration.options(&options) }
             }

@@ -72,13 +72,11 @@ impl Sweep {
     /// # Errors
     /// When anything in it is not valid.
     pub(crate) fn spec(&self) -> Result<Spec, Failure> {
-        Ok(match &self.file {
-            Some(file) => Spec::read(file)?,
-            None => {
-                let points = self.points.as_deref().map(table);
-                Spec::of_lines(&self.lines, points.as_deref(), &self.directory)?
-            }
-        })
+        if let Some(file) = &self.file {
+            return Ok(Spec::read(file)?);
+        }
+        let points = self.points.as_deref().map(table);
+        Ok(Spec::of_lines(&self.lines, points.as_deref(), &self.directory)?)
     }
 }
 
