@@ -2,14 +2,14 @@
 //!
 //! | question | where |
 //! |---|---|
-//! | a sweep from Python, and what computes it | [`sweep`] |
-//! | maps, the lines of maps; tiles of a directory | [`map`], [`refine`], [`tiles`] |
-//! | eigenvalues along an axis, one instance in time | [`modes`], [`trace`] |
-//! | measured signals and friction | [`signals`], [`material`] |
-//! | bodies in contact | [`bodies`] |
-//! | columns as Python sees them; tables of text | [`dataset`], [`table`] |
-//! | figures; the program | [`figure`], [`program`] |
-//! | work beside the interpreter; why there is no result | [`watch`], [`failure`] |
+//! | a sweep from Python, and what computes it | `sweep` |
+//! | maps, the lines of maps; tiles of a directory | `map`, `refine`, `tiles` |
+//! | eigenvalues along an axis, one instance in time | `modes`, `trace` |
+//! | measured signals and friction | `signals`, `material` |
+//! | bodies in contact | `bodies` |
+//! | columns as Python sees them; tables of text | `dataset`, `table` |
+//! | figures; the program | `figure`, `program` |
+//! | work beside the interpreter; why there is no result | `watch`, `failure` |
 //!
 //! What users see stands in `crates/python/python/squealmap`; the names here are its own business.
 
