@@ -83,7 +83,7 @@ fn paper_map() -> Result<(), Failed> {
         let (kind, expected) = squealmap::model::linear::analyse(&map.spec.instance(index));
         assert_eq!(record.kind, kind, "instance {index}");
         if let (Some(actual), Some(expected)) = (record.linear, expected) {
-            let size = expected.growth_rate.hypot(std::f64::consts::TAU * expected.frequency);
+            let size = expected.growth_rate.hypot(std::f64::consts::TAU * expected.frequency.unwrap_or(0.0));
             worst = worst.max((actual.growth_rate - expected.growth_rate).abs() / size);
         }
     }
