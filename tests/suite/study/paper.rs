@@ -258,7 +258,7 @@ fn stale(shipped: &Pixmap, svg: &str) -> Option<String> {
     }
     let words = Pixmap::decode_png(&png::render(&words(svg)).unwrap()).unwrap();
     let pairs = shipped.pixels().iter().zip(words.pixels());
-    let missing = pairs.filter(|(shipped, word)| word.alpha() > 230 && shipped.green() > 128).count();
+    let missing = pairs.filter(|(shipped, word)| word.green() < 25 && shipped.green() > 128).count();
     (missing > 0).then(|| format!("{missing} pixels of its words"))
 }
 
