@@ -32,9 +32,9 @@
 //! # Ok::<(), squealmap::Error>(())
 //! ```
 //!
-//! Features, all of them default: `gpu` (compute kernels through wgpu), `figures`, `identify` (measured signals and
-//! friction), `parquet`, and `cli`, what only the program needs; `program` is all of them. Without any there are the model, the engines of the CPU,
-//! sweeps, tiles, and tables as CSV, NetCDF and Zarr.
+//! Features, all of them default: `gpu` (compute kernels through wgpu; `kernels` is what a device that others open needs of
+//! them), `figures`, `identify` (measured signals and friction), `parquet`, and `cli`, what only the program needs; `program` is
+//! all of them. Without any there are the model, the engines of the CPU, sweeps, tiles, and tables as CSV, NetCDF and Zarr.
 
 #![cfg_attr(
     not(all(feature = "figures", feature = "gpu", feature = "identify")),
