@@ -109,10 +109,9 @@ impl OnDevice {
             .collect();
         match &mut self.stage {
             Stage::Eigenvalues(known) => {
-                let inputs: Vec<f32> = batch::inputs(known);
-                let count = inputs.len() / words(KERNEL.inputs);
+                let count = known.iter().filter(|(_, words)| words.is_some()).count();
                 if is_first && count > 0 {
-                    return Ok(self.eigenvalues(&inputs, count));
+                    return Ok(eigenvalues(&mut self.told, &batch::inputs(known), count));
                 }
                 let (state, flags) =
                     split(&back, [KERNEL.state, KERNEL.flags].map(|fields| words(fields) * count))?;
@@ -136,16 +135,6 @@ impl OnDevice {
         Ok(self.next_round(steps))
     }
 
-    /// What computes the eigenvalues.
-    fn eigenvalues(&mut self, inputs: &[f32], count: usize) -> Answer {
-        let words = [KERNEL.inputs, KERNEL.state, KERNEL.flags].map(|fields| words(fields) * count);
-        #[expect(clippy::cast_possible_truncation, reason = "a region has less than 2^32 cells")]
-        let head = Settings::new(count as u32, 1, 0, [0; SETTING_WORDS]);
-        let dispatch = Dispatch { kernel: &KERNEL, choices: Vec::new(), first: [0; 3], words, count };
-        let (state, flags) = (vec![0.0; words[1]], vec![0; words[2]]);
-        self.sent([inputs, &state], &flags, bytemuck::bytes_of(&head).to_vec(), vec![dispatch])
-    }
-
     /// The next round of the transients.
     fn next_round(&mut self, steps: u32) -> Answer {
         let Stage::Transients(going) = &mut self.stage else { return self.done() };
@@ -163,14 +152,13 @@ impl OnDevice {
             }
         }
         round.stage(lanes);
-        let (settings, done) = (flow.settings(), flow.done());
-        let Round { groups, inputs, state, flags } = round.clone();
+        let Round { groups, inputs, state, flags } = round;
         let mut heads = Vec::new();
         let mut dispatches = Vec::new();
-        for group in &groups {
+        for group in groups.iter() {
             let Some((kernel, choices)) = group.form.kernel() else { continue };
             let most = (MOST_LOOPS / kernel.loops_per_step.max(1)).max(1);
-            heads.extend(group.head(steps.clamp(1, most), settings));
+            heads.extend(group.head(steps.clamp(1, most), flow.settings()));
             dispatches.push(Dispatch {
                 kernel,
                 choices,
@@ -179,48 +167,56 @@ impl OnDevice {
                 count: group.lanes,
             });
         }
-        let mut answer = self.sent([&inputs, &state], &flags, heads, dispatches);
-        answer.head["done"] = json!(done);
-        answer
-    }
-
-    /// What is to be sent, and to be done with it. Bytes stand one after the other: inputs, state, flags, settings.
-    fn sent(
-        &mut self,
-        [inputs, state]: [&[f32]; 2],
-        flags: &[u32],
-        heads: Vec<u8>,
-        dispatches: Vec<Dispatch>,
-    ) -> Answer {
-        let mut sources = Map::new();
-        let dispatches: Vec<Json> = dispatches
-            .into_iter()
-            .map(|Dispatch { kernel, choices, first, words, count }| {
-                // Kernels of one name differ in the room for pieces of a law.
-                let name = format!("{} {} {choices:?}", kernel.name, self::words(kernel.inputs));
-                if !self.told.contains(&name) {
-                    sources.insert(name.clone(), Json::String(kernel.source(Precision::F32, &choices)));
-                    self.told.push(name.clone());
-                }
-                json!({ "kernel": name, "first": first.map(|word| 4 * word), "bytes": words.map(|count| 4 * count), "count": count })
-            })
-            .collect();
-        let sizes = [4 * inputs.len(), 4 * state.len(), 4 * flags.len(), heads.len()];
-        let mut bytes = Vec::with_capacity(sizes.iter().sum());
-        bytes.extend_from_slice(bytemuck::cast_slice(inputs));
-        bytes.extend_from_slice(bytemuck::cast_slice(state));
-        bytes.extend_from_slice(bytemuck::cast_slice(flags));
-        bytes.extend(heads);
-        let head = json!({
-            "turn": { "dispatches": dispatches, "sizes": sizes, "settings": size_of::<Settings>(), "aligned": ALIGNED },
-            "sources": sources,
-        });
-        Answer { head, numbers: Vec::new(), bytes }
+        sent(&mut self.told, [inputs, state], flags, heads, dispatches)
     }
 
     fn done(&self) -> Answer {
         answered(&self.spec, &self.wanted, &self.names, &self.records)
     }
+}
+
+/// What computes the eigenvalues.
+fn eigenvalues(told: &mut Vec<String>, inputs: &[f32], count: usize) -> Answer {
+    let words = [KERNEL.inputs, KERNEL.state, KERNEL.flags].map(|fields| words(fields) * count);
+    #[expect(clippy::cast_possible_truncation, reason = "a region has less than 2^32 cells")]
+    let head = Settings::new(count as u32, 1, 0, [0; SETTING_WORDS]);
+    let dispatch = Dispatch { kernel: &KERNEL, choices: Vec::new(), first: [0; 3], words, count };
+    let (state, flags) = (vec![0.0; words[1]], vec![0; words[2]]);
+    sent(told, [inputs, &state], &flags, bytemuck::bytes_of(&head).to_vec(), vec![dispatch])
+}
+
+/// What is to be sent, and to be done with it; `told` are the kernels whose text the page has. Bytes stand one after the other: inputs, state, flags, settings.
+fn sent(
+    told: &mut Vec<String>,
+    [inputs, state]: [&[f32]; 2],
+    flags: &[u32],
+    heads: Vec<u8>,
+    dispatches: Vec<Dispatch>,
+) -> Answer {
+    let mut sources = Map::new();
+    let dispatches: Vec<Json> = dispatches
+        .into_iter()
+        .map(|Dispatch { kernel, choices, first, words, count }| {
+            // Kernels of one name differ in the room for pieces of a law.
+            let name = format!("{} {} {choices:?}", kernel.name, self::words(kernel.inputs));
+            if !told.contains(&name) {
+                sources.insert(name.clone(), Json::String(kernel.source(Precision::F32, &choices)));
+                told.push(name.clone());
+            }
+            json!({ "kernel": name, "first": first.map(|word| 4 * word), "bytes": words.map(|count| 4 * count), "count": count })
+        })
+        .collect();
+    let sizes = [4 * inputs.len(), 4 * state.len(), 4 * flags.len(), heads.len()];
+    let mut bytes = Vec::with_capacity(sizes.iter().sum());
+    bytes.extend_from_slice(bytemuck::cast_slice(inputs));
+    bytes.extend_from_slice(bytemuck::cast_slice(state));
+    bytes.extend_from_slice(bytemuck::cast_slice(flags));
+    bytes.extend(heads);
+    let head = json!({
+        "turn": { "dispatches": dispatches, "sizes": sizes, "settings": size_of::<Settings>(), "aligned": ALIGNED },
+        "sources": sources,
+    });
+    Answer { head, numbers: Vec::new(), bytes }
 }
 
 /// Words of state and flags that have come back.
