@@ -14,6 +14,7 @@ use squealmap::engine::reference::respond::respond;
 use squealmap::model::friction::FrictionLaw;
 use squealmap::model::instance::Instance;
 use squealmap::model::linear::analyse;
+use squealmap::model::motion::Motion;
 use squealmap::model::{Param, Params};
 
 /// The paper's model over a grid of `side`² friction coefficients at 3 m/s.
@@ -23,7 +24,7 @@ fn plane(side: usize) -> Vec<Instance> {
         let mut params = Params::default();
         params.set(Param::BeltVelocity, 3.0);
         let law = FrictionLaw::Bilinear { mu_s, mu_d, knee_velocity: 5.0 };
-        Instance { params, law, impact_friction: true, modal: None }
+        Instance { params, law, impact_friction: true, motion: Motion::Ramp, modal: None }
     };
     (0..side * side).map(|k| instance(coefficient(k / side), coefficient(k % side))).collect()
 }

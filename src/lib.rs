@@ -81,6 +81,8 @@ pub use model::instance::Instance;
 #[doc(inline)]
 pub use model::kind::InstabilityType;
 #[doc(inline)]
+pub use model::motion::Motion;
+#[doc(inline)]
 pub use model::status::Status;
 #[doc(inline)]
 pub use model::{Param, Params};

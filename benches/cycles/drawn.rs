@@ -7,9 +7,12 @@ use rayon::prelude::*;
 use squealmap::engine::lanes::outcomes::outcomes;
 use squealmap::engine::outcome::Outcome;
 use squealmap::engine::plan::{Duration, Plan};
+use squealmap::engine::reference::respond::respond;
 use squealmap::model::equilibrium::Units;
 use squealmap::model::friction::FrictionLaw;
 use squealmap::model::instance::Instance;
+use squealmap::model::motion::Motion;
+use squealmap::model::status::Status;
 use squealmap::model::{Param, Params};
 use squealmap::sweep::spec::{AUTO_MEASURE, FIRST_HUNT};
 
@@ -20,6 +23,9 @@ const WAITED: [f64; 5] = [250.0, 500.0, 1000.0, 2000.0, 4000.0];
 
 /// An observable that differs by this part has come from another motion: a window of whole `2π/ω0` is off by less.
 const ELSEWHERE: f64 = 0.01;
+
+/// Steps per period of the reference, where the engine gives up.
+const FINE_STEPS: u32 = 48;
 
 /// What of a distance may be left for a long run to be a judge.
 const FORGOTTEN: f64 = 1e-3;
@@ -52,13 +58,13 @@ pub(crate) fn rows(count: usize) -> Vec<Row> {
             .count()
     };
     let verdicts = judged(&found);
-    let told = |verdict| verdicts.iter().filter(|other| **other == verdict).count();
+    let counted = |verdict| verdicts.iter().filter(|other| **other == verdict).count();
     [
         ("instances", count),
         ("found by shooting", found.len()),
-        ("of them not forgotten in 4000 periods", told(Verdict::NotForgotten)),
-        ("of them where a run of up to 4000 periods ends", told(Verdict::There)),
-        ("of them elsewhere in a run of 4000 periods", told(Verdict::Elsewhere)),
+        ("of them not forgotten in 4000 periods", counted(Verdict::NotForgotten)),
+        ("of them where a run of up to 4000 periods ends", counted(Verdict::There)),
+        ("of them elsewhere in a run of 4000 periods", counted(Verdict::Elsewhere)),
         ("of them with several returns in a period", several(2, u64::MAX)),
         ("of them with two", several(2, 2)),
     ]
@@ -99,7 +105,10 @@ fn judged(found: &[(Instance, Outcome)]) -> Vec<Verdict> {
             open.into_iter().partition(|index| forgotten(&found[*index], periods));
         let asked: Vec<Instance> = now.iter().map(|index| found[*index].0.clone()).collect();
         open = later;
-        for (index, waited) in now.into_iter().zip(run(&asked, waits(periods))) {
+        let waited = run(&asked, waits(periods));
+        let waited: Vec<Outcome> =
+            waited.par_iter().zip(&asked).map(|(one, asked)| told(one, asked, periods)).collect();
+        for (index, waited) in now.into_iter().zip(waited) {
             verdicts[index] =
                 if same(&found[index].1, &waited) { Verdict::There } else { Verdict::Elsewhere };
             if verdicts[index] == Verdict::Elsewhere {
@@ -112,6 +121,14 @@ fn judged(found: &[(Instance, Outcome)]) -> Vec<Verdict> {
         eprintln!("ends elsewhere: {:?}", found[index].0);
     }
     verdicts
+}
+
+/// What a run comes to; where the engine gives up, by the reference in finer steps.
+fn told(waited: &Outcome, instance: &Instance, periods: f64) -> Outcome {
+    match waited.status {
+        Status::Ok => *waited,
+        _ => respond(instance, &Plan { steps_per_period: FINE_STEPS, ..waits(periods) }),
+    }
 }
 
 /// Whether a run that found this cycle and went on for so long would have forgotten a distance from it.
@@ -128,15 +145,20 @@ fn same(found: &Outcome, waited: &Outcome) -> bool {
         .all(|(a, b)| a.zip(b).is_some_and(|(a, b)| (a - b).abs() <= ELSEWHERE * b))
 }
 
+/// The mixing of splitmix64.
+fn mixed(state: u64) -> u64 {
+    let z = (state ^ (state >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    z ^ (z >> 31)
+}
+
 /// A random instance: friction, belt, inclination, restitution and damping over wide ranges; every second start is small.
 fn instance(number: u64) -> Instance {
-    let mut state = number.wrapping_mul(0x9E37_79B9_7F4A_7C15).wrapping_add(29);
+    // Instances whose states are next to each other would have numbers in common.
+    let mut state = mixed(number + 29);
     let mut draw = |low: f64, high: f64| {
-        // The mixing of splitmix64.
         state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let z = (state ^ (state >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        low + (high - low) * ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+        low + (high - low) * (mixed(state) >> 11) as f64 / (1_u64 << 53) as f64
     };
     let (mu_s, mu_d, belt) = (draw(0.02, 0.6), draw(0.02, 0.6), draw(0.5, 6.0));
     let mut params = Params::default();
@@ -156,5 +178,5 @@ fn instance(number: u64) -> Instance {
     } else {
         FrictionLaw::Bilinear { mu_s, mu_d, knee_velocity: 5.0 }
     };
-    Instance { params, law, impact_friction: true, modal: None }
+    Instance { params, law, impact_friction: true, motion: Motion::Ramp, modal: None }
 }

@@ -5,6 +5,7 @@ use squealmap::engine::method::taylor::REFERENCE_ORDER;
 use squealmap::engine::plan::{Duration, Plan, STEP_TOLERANCE, StartKind};
 use squealmap::model::friction::FrictionLaw;
 use squealmap::model::instance::Instance;
+use squealmap::model::motion::Motion;
 use squealmap::model::{Param, Params};
 use squealmap::sweep::grid::{AxisKey, Grid, Value};
 use squealmap::sweep::spec::Spec;
@@ -69,7 +70,7 @@ impl Work {
         params.set(Param::BeltVelocity, velocity);
         params.set(Param::StartVelocity, kick);
         let law = FrictionLaw::Bilinear { mu_s, mu_d, knee_velocity: KNEE };
-        Instance { params, law, impact_friction: true, modal: None }
+        Instance { params, law, impact_friction: true, motion: Motion::Ramp, modal: None }
     }
 
     /// The same as a sweep.

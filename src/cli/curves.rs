@@ -6,7 +6,6 @@ use crate::cli::output::list;
 use crate::cli::pictures::png_of;
 use crate::cli::talk::print;
 use clap::Args;
-use squealmap::model::Param;
 use squealmap::results::figure::look::Look;
 use squealmap::study::curves::figure::{curves_svg, overlays};
 use squealmap::study::curves::seek::{PlaneCurves, seek};
@@ -32,8 +31,8 @@ impl CurvesCommand {
     pub(crate) fn execute(self) -> Result<()> {
         let spec = Spec::read(&self.files.sweep)?;
         spec.of_two_masses("`curves`")?;
-        if let Some(duration) = spec.base.get(Param::RampDuration) {
-            return Err(Error::FollowsRamp { what: "`curves`", duration });
+        if let Some(motion) = spec.moving_belt() {
+            return Err(Error::FollowsRamp { what: "`curves`", motion });
         }
         let output = self.files.prepare_beside(&FILES)?;
         let planes = seek(&spec, usize::from(self.lines))?;

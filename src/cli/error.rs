@@ -29,16 +29,13 @@ pub(crate) enum Error {
         /// The option.
         option: &'static str,
     },
-    /// A motion that is to be followed in steps while its belt moves by a ramp.
-    #[error(
-        "{what} holds the belt at every value, but this instance has a ramp, `ramp_duration` = {duration} s; \
-         take the ramp out of [belt]"
-    )]
+    /// A motion that is to be followed in steps while its belt changes its velocity.
+    #[error("{what} holds the belt at every value, but here it has {motion}; take that out of [belt]")]
     FollowsRamp {
         /// The command or option.
         what: &'static str,
-        /// Its duration, s.
-        duration: f64,
+        /// What it is.
+        motion: String,
     },
     /// A parameter with a value that is to be followed, too.
     #[error("`--at` gives `{name}` a value, which `--sweep-up-down` varies; leave it out of `--at`")]

@@ -4,7 +4,7 @@ use crate::engine::instances::Instances;
 use crate::engine::outcome::{Ending, Outcome};
 use crate::engine::record::Record;
 use crate::engine::regime::{self, Regime};
-use crate::engine::scene::{Scene, belt_velocity};
+use crate::engine::scene::Scene;
 use crate::model::equilibrium::Equilibrium;
 use crate::model::instance::Instance;
 use crate::model::kind::InstabilityType;
@@ -16,7 +16,7 @@ use crate::model::{Param, linear};
 #[must_use]
 pub fn regime(instance: &Instance, kind: Option<InstabilityType>, outcome: &Outcome) -> (Regime, bool) {
     let velocity = instance.params.require(Param::BeltVelocity);
-    let at_end = after_ramp(instance, outcome.simulated_time);
+    let at_end = at_the_end(instance, outcome.simulated_time);
     let (kind, known) = at_end.map_or((kind, None), |instance| linear::analyse(&instance));
     let (regime, settled) = regime::regime(outcome, velocity, kind == Some(InstabilityType::Stable));
     let found = match outcome.ending {
@@ -37,12 +37,14 @@ pub fn regime(instance: &Instance, kind: Option<InstabilityType>, outcome: &Outc
     linear.map_or(found, |linear| regime::about_unstable(outcome, velocity, linear.growth_rate, found))
 }
 
-/// The instance on the belt as it is at the time `time` (s), where it has a ramp: what a motion then
+/// The instance on the belt as it is at the time `time` (s), where that changes: what a motion then
 /// decays to or grows from is the equilibrium of that velocity.
-fn after_ramp(instance: &Instance, time: f64) -> Option<Instance> {
-    instance.params.get(Param::RampDuration)?;
+fn at_the_end(instance: &Instance, time: f64) -> Option<Instance> {
+    if instance.motion.is_steady(&instance.params) {
+        return None;
+    }
     let mut moved = instance.clone();
-    moved.params.set(Param::BeltVelocity, belt_velocity(&instance.params, time));
+    moved.params.set(Param::BeltVelocity, instance.motion.velocity(&instance.params, time));
     Some(moved)
 }
 

@@ -3,7 +3,7 @@
 //! | question | where |
 //! |---|---|
 //! | what an engine is, and what it is given | [`Engine`], [`instances`], [`plan`] |
-//! | one instance scaled, at its start | [`scene`], `start.rs` |
+//! | one instance scaled, at its start | [`scene`], `belt.rs`, `start.rs` |
 //! | what an engine sums up, and what it did | [`sums`], [`growth`](mod@growth), [`reductions`], [`outcome`], [`regime`] |
 //! | until when it is followed | [`measuring`], [`settling`] |
 //! | the cycle that it comes to | [`cycle`] |
@@ -20,6 +20,7 @@
 //! | why none computes, or one stopped | [`error`] |
 
 pub mod backend;
+mod belt;
 pub mod choice;
 pub mod computation;
 pub mod computed;

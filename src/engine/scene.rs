@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use crate::engine::belt::Belt;
 use crate::engine::method::taylor::{BeltMotion, State};
 use crate::engine::plan::{Duration, Plan, StartKind};
 use crate::engine::start::{kick, mode};
@@ -9,7 +10,6 @@ use crate::model::equilibrium::{Equilibrium, Units};
 use crate::model::instance::Instance;
 use crate::model::scaled::Scaled;
 use crate::model::status::Status;
-use crate::model::{Param, Params};
 
 impl Plan {
     /// The plan cut to at most `periods` of the instance, and the share of its time that is left; of a run until
@@ -41,44 +41,6 @@ pub const LARGEST: f64 = 1e18;
 /// The largest unit of a scaled number, SI, and the inverse of the smallest.
 const LARGEST_UNIT: f64 = 1e200;
 
-/// The belt velocity over time, scaled: linear from the first value to the last, then constant.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Ramp {
-    start: f64,
-    end: f64,
-    duration: f64,
-}
-
-impl Ramp {
-    fn new(params: &Params, units: &Units) -> Ramp {
-        let start = params.require(Param::BeltVelocity);
-        let end = params.get(Param::BeltVelocityEnd).unwrap_or(start);
-        let duration = params.get(Param::RampDuration).unwrap_or(0.0);
-        Ramp { start: start / units.velocity, end: end / units.velocity, duration: duration / units.time }
-    }
-
-    /// The belt at the time `t`, and how long it goes on like that.
-    fn at(&self, t: f64) -> (BeltMotion, f64) {
-        if t < self.duration {
-            let acceleration = (self.end - self.start) / self.duration;
-            (BeltMotion { velocity: self.start + acceleration * t, acceleration }, self.duration - t)
-        } else {
-            (BeltMotion { velocity: self.end, acceleration: 0.0 }, f64::INFINITY)
-        }
-    }
-}
-
-/// The velocity of the belt of an instance at the time `time` (s), m/s.
-#[must_use]
-pub fn belt_velocity(params: &Params, time: f64) -> f64 {
-    let start = params.require(Param::BeltVelocity);
-    match (params.get(Param::BeltVelocityEnd), params.get(Param::RampDuration)) {
-        (Some(end), Some(duration)) if time < duration => start + (end - start) * (time / duration),
-        (Some(end), Some(_)) => end,
-        _ => start,
-    }
-}
-
 /// An instance ready to be integrated.
 #[derive(Clone, Debug)]
 pub struct Scene {
@@ -88,7 +50,7 @@ pub struct Scene {
     pub equilibrium: Equilibrium,
     /// The dimensionless model around it.
     pub model: Scaled,
-    ramp: Ramp,
+    belt: Belt,
     start: State,
 }
 
@@ -101,12 +63,12 @@ impl Scene {
         let equilibrium = Equilibrium::new(instance)?;
         let units = Units::new(&instance.params);
         let model = Scaled::new(instance, &units, &equilibrium);
-        let ramp = Ramp::new(&instance.params, &units);
+        let belt = Belt::new(instance, &units);
         let start = match start {
             StartKind::Kick => kick(&instance.params, &units),
             StartKind::Mode => mode(instance, &units, &model),
         };
-        Ok(Scene { units, equilibrium, model, ramp, start })
+        Ok(Scene { units, equilibrium, model, belt, start })
     }
 
     /// Prepares an instance for a run as `plan` has it.
@@ -126,10 +88,11 @@ impl Scene {
 
     /// Whether no scaled number is beyond [`LARGEST`], or so small that its inverse is.
     fn is_representable(&self) -> bool {
-        let (model, ramp, start) = (&self.model, &self.ramp, &self.start);
+        let (model, start) = (&self.model, &self.start);
+        let (mut velocities, mut accelerations) = self.belt.numbers();
         let (size, rate) = (|value: &f64| value.abs() <= LARGEST, |value: &f64| value.abs() >= 1.0 / LARGEST);
         let positive = [model.m1, model.k1, model.k2, model.det, model.n0, model.c];
-        let others = [model.c1, model.c2, model.mu0, model.law.mu_stick, ramp.start, ramp.end];
+        let others = [model.c1, model.c2, model.mu0, model.law.mu_stick];
         let mut pieces = model.law.pieces.iter().map(|piece| piece.largest());
         let Units { time, length, velocity, acceleration, force } = self.units;
         // What they are multiplied by stays a number, too.
@@ -141,8 +104,8 @@ impl Scene {
             && positive.iter().all(|value| size(value) && rate(value))
             && others.iter().chain(&model.law.kinks).chain(&start.position).chain(&start.velocity).all(size)
             && pieces.all(|value| size(&value))
-            && [ramp.start, ramp.end].iter().all(|value| *value == 0.0 || rate(value))
-            && (ramp.duration == 0.0 || size(&((ramp.end - ramp.start) / ramp.duration)))
+            && velocities.all(|value| size(&value) && (value == 0.0 || rate(&value)))
+            && accelerations.all(|value| size(&value))
     }
 
     /// The status an integration ended with, as it is told. On a piece too narrow for an arithmetic a speed may lie beyond its
@@ -159,13 +122,19 @@ impl Scene {
     /// The belt at the time `t` (scaled).
     #[must_use]
     pub fn belt(&self, t: f64) -> BeltMotion {
-        self.ramp.at(t).0
+        self.belt.at(t).0
     }
 
     /// The belt from the time `t` (scaled) on, and how long it goes on like that.
     #[must_use]
     pub fn belt_from(&self, t: f64) -> (BeltMotion, f64) {
-        self.ramp.at(t)
+        self.belt.at(t)
+    }
+
+    /// Whether the belt is of one velocity.
+    #[must_use]
+    pub fn has_steady_belt(&self) -> bool {
+        self.belt.is_steady()
     }
 
     /// The state at the start.
@@ -201,7 +170,7 @@ impl Scene {
         match duration {
             Duration::Seconds(seconds) => seconds / self.units.time,
             Duration::Periods(periods) => periods * TAU,
-            Duration::Ramp => self.ramp.duration,
+            Duration::Ramp => self.belt.duration(),
         }
     }
 }

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crate::model::Params;
 use crate::model::friction::FrictionLaw;
 use crate::model::modal::Modal;
+use crate::model::motion::Motion;
 
 /// Everything that defines one instance.
 #[derive(Clone, Debug)]
@@ -15,6 +16,8 @@ pub struct Instance {
     pub law: FrictionLaw,
     /// Whether impacts carry a Coulomb impulse.
     pub impact_friction: bool,
+    /// How the velocity of its belt goes.
+    pub motion: Motion,
     /// The structure that slides; `None` for two masses.
     pub modal: Option<Arc<Modal>>,
 }

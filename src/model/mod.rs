@@ -24,6 +24,7 @@ pub mod kind;
 pub mod linear;
 pub mod material;
 pub mod modal;
+pub mod motion;
 mod natural;
 pub mod piece;
 pub mod quartic;
@@ -64,6 +65,7 @@ pub enum Param {
     BeltVelocity,
     BeltVelocityEnd,
     RampDuration,
+    RiseDuration,
     StartVelocity,
     StartDisplacement,
     StartFraction,
@@ -198,9 +200,10 @@ params! {
     StribeckVelocity "stribeck_velocity" "v_0" "m/s" Friction None, Range::Positive, "decay velocity of the exponential law";
     Decay "decay" "δ" "s/m" Friction None, Range::NonNegative, "decay constant of the rational law";
     Temperature "temperature" "ϑ" "°C" Friction None, Range::Finite, "temperature at which a material is read";
-    BeltVelocity "belt_velocity" "V" "m/s" Belt None, Range::NonNegative, "belt velocity (at the start of a ramp)";
+    BeltVelocity "belt_velocity" "V" "m/s" Belt None, Range::NonNegative, "belt velocity (at the start of a ramp, the largest of a sine or trapeze)";
     BeltVelocityEnd "belt_velocity_end" "V_end" "m/s" Belt None, Range::NonNegative, "belt velocity at the end of a ramp";
-    RampDuration "ramp_duration" "t_ramp" "s" Belt None, Range::Positive, "duration of the belt velocity ramp";
+    RampDuration "ramp_duration" "t_ramp" "s" Belt None, Range::Positive, "duration of the ramp, or of another motion of the belt";
+    RiseDuration "rise_duration" "t_rise" "s" Belt None, Range::Positive, "time in which the belt of a trapeze comes to its velocity, and to rest again; at most half of all";
     StartVelocity "start_velocity" "ẋ_2,0" "m/s" Start Some(0.01), Range::Finite, "kick: velocity added to x2' at the sliding equilibrium";
     StartDisplacement "start_displacement" "x_2,0" "m" Start Some(0.0), Range::Finite, "kick: displacement added to x2 at the sliding equilibrium";
     StartFraction "start_fraction" "a_0" "" Start Some(0.01), Range::Positive, "mode start: amplitude of x2' as a fraction of the belt velocity";

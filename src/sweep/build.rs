@@ -9,6 +9,7 @@ use crate::engine::plan::Duration;
 use crate::model::Param;
 use crate::model::friction::{FrictionLaw, LawKind};
 use crate::model::material::Outside;
+use crate::model::motion::Motion;
 use crate::sweep::error::Result;
 use crate::sweep::grid::{AxisKey, Value};
 use crate::sweep::map::Map;
@@ -114,6 +115,11 @@ impl Sweep {
     /// The material of a CSV file with a column `temperature` and parameters of the law.
     pub fn material(self, file: impl Into<PathBuf>) -> Sweep {
         self.call(Call::Material(file.into()))
+    }
+
+    /// How the belt moves; its times are parameters, such as [`Param::RampDuration`].
+    pub fn motion(self, motion: Motion) -> Sweep {
+        self.call(Call::Motion(motion))
     }
 
     /// What a temperature beyond the rows of a material is.

@@ -39,7 +39,7 @@ pub struct Onsets {
     pub longest: f64,
 }
 
-/// The onsets of a sweep with a response, from the start of [`Spec::start`]. `None` on a ramp, whose equilibrium moves.
+/// The onsets of a sweep with a response, from the start of [`Spec::start`]. `None` where the belt changes its velocity, as the equilibrium moves.
 #[must_use]
 pub fn onsets(spec: &Spec) -> Option<Onsets> {
     let instances = spec.grid.len();
@@ -47,7 +47,7 @@ pub fn onsets(spec: &Spec) -> Option<Onsets> {
     let (mut times, mut late, mut at_rest) = (Vec::new(), 0, 0);
     for part in 0..looked_at {
         let instance = spec.instance(sample(part, looked_at, instances));
-        if instance.params.get(Param::RampDuration).is_some() {
+        if !instance.motion.is_steady(&instance.params) {
             return None;
         }
         match time_to_first_event(&instance, spec.start) {

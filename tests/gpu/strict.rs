@@ -25,8 +25,10 @@ use squealmap::engine::march::table::head;
 use squealmap::engine::outcome::Outcome;
 use squealmap::engine::precision::Precision;
 use squealmap::engine::scene::Scene;
+use squealmap::model::Param;
 use squealmap::model::friction::FrictionLaw;
 use squealmap::model::instance::Instance;
+use squealmap::model::motion::Motion;
 use squealmap::model::piece::LawForm;
 use squealmap::model::status::Status;
 
@@ -134,7 +136,10 @@ fn instance(u: &mut Uniform, law: LawForm) -> Instance {
         LawForm::Exponential => FrictionLaw::Exponential { mu_s, mu_d, stribeck_velocity: scale },
         LawForm::Rational => FrictionLaw::Rational { mu_s, decay: scale },
     };
-    Instance { params, law, impact_friction: u.next() < 0.5, modal: None }
+    // Half of the belts that move have many corners, with and without an acceleration between them.
+    let moves = params.get(Param::RampDuration).is_some();
+    let motion = if moves && mu_s > 0.45 { Motion::Sine } else { Motion::Ramp };
+    Instance { params, law, impact_friction: u.next() < 0.5, motion, modal: None }
 }
 
 /// As many random instances as can be integrated, run by the twin: the chunks of their stretches.

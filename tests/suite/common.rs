@@ -5,6 +5,7 @@ use squealmap::engine::method::taylor::REFERENCE_ORDER;
 use squealmap::engine::plan::{Duration, Plan, STEP_TOLERANCE, StartKind};
 use squealmap::model::friction::FrictionLaw;
 use squealmap::model::instance::Instance;
+use squealmap::model::motion::Motion;
 use squealmap::model::{Param, Params};
 
 /// Table 1 with the given values and law.
@@ -13,7 +14,7 @@ pub(crate) fn instance(law: FrictionLaw, values: &[(Param, f64)]) -> Instance {
     for &(param, value) in values {
         params.set(param, value);
     }
-    Instance { params, law, impact_friction: true, modal: None }
+    Instance { params, law, impact_friction: true, motion: Motion::Ramp, modal: None }
 }
 
 /// Table 1 with the paper's bilinear law.

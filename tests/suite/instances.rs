@@ -2,6 +2,7 @@
 
 use squealmap::model::friction::FrictionLaw;
 use squealmap::model::instance::Instance;
+use squealmap::model::motion::Motion;
 use squealmap::model::{Param, Params};
 
 /// A small generator of uniform numbers in [0, 1): the upper bits of a linear congruence modulo 2^64.
@@ -61,6 +62,7 @@ fn one(u: &mut Uniform) -> Instance {
         params,
         law: FrictionLaw::Bilinear { mu_s, mu_d, knee_velocity },
         impact_friction: true,
+        motion: Motion::Ramp,
         modal: None,
     }
 }

@@ -11,6 +11,7 @@ use squealmap::engine::regime::Regime;
 use squealmap::model::friction::LawKind;
 use squealmap::model::kind::InstabilityType;
 use squealmap::model::linear::Linear;
+use squealmap::model::motion::Motion;
 use squealmap::model::status::Status;
 use squealmap::model::{Param, Params};
 use squealmap::sweep::grid::{Axis, AxisKey, Grid, Value};
@@ -48,6 +49,7 @@ pub(crate) fn spec(grid: Grid) -> Spec {
         material: None,
         materials: Vec::new(),
         table: None,
+        motion: Motion::Ramp,
         grid,
         start: StartKind::Kick,
         pass: Pass::Own,

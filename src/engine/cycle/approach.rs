@@ -1,5 +1,7 @@
 //! Whether a transient comes to a cycle: its returns approach it as the multipliers predict.
 
+use std::f64::consts::{PI, TAU};
+
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex64;
 
@@ -20,10 +22,16 @@ const AFAR: f64 = 0.05;
 
 /// A spiral from afar is followed for this angle before it is believed: by half a turn its distance has been in all
 /// directions, one way or the other.
-const TURNED: f64 = std::f64::consts::PI;
+const TURNED: f64 = PI;
 
 /// The slowest part shows in a distance where it is no smaller than this part of it.
 const SHOWS: f64 = 0.05;
+
+/// A spiral of a multiplier above this one takes many turns, on which what bends the map adds up.
+const WINDS: f64 = 0.98;
+
+/// Points all around a spiral.
+const AROUND: u32 = 6;
 
 /// Multipliers below this one are forgotten so soon that no rate is measured.
 const SLOW: f64 = 0.5;
@@ -35,6 +43,8 @@ pub struct Approach {
     /// The eigenvalue of largest modulus, and its left eigenvector.
     slowest: Complex64,
     left: DVector<Complex64>,
+    /// Its right eigenvector, by which `left` is 1.
+    right: DVector<Complex64>,
     /// The part of the slowest multiplier in the first distance that was seen, and the returns since then.
     first: Option<(f64, f64)>,
 }
@@ -46,7 +56,9 @@ impl Approach {
         let multipliers = jacobian.complex_eigenvalues();
         let slowest = *multipliers.iter().max_by(|a, b| a.norm().total_cmp(&b.norm()))?;
         let left = left_vector(&jacobian, slowest)?;
-        Some(Approach { jacobian, slowest, left, first: None })
+        let right = left_vector(&jacobian.transpose(), slowest)?;
+        let right = &right / left.dot(&right);
+        Some(Approach { jacobian, slowest, left, right, first: None })
     }
 
     /// The multiplier of largest modulus; of a pair one of the two.
@@ -69,6 +81,26 @@ impl Approach {
         let slow = first >= SHOWS * before.norm() && self.slowest.norm() > SLOW;
         let rate = (first / last).ln();
         off <= OFF * before.norm() && (!slow || rate >= -RATES[0] * self.slowest.norm().ln())
+    }
+
+    /// Distances all around the spiral that a distance is on, as large as its slowest part; none where nothing winds.
+    #[must_use]
+    pub fn around(&self, distance: &DVector<f64>) -> Vec<DVector<f64>> {
+        if self.slowest.im == 0.0 || self.slowest.norm() < WINDS {
+            return Vec::new();
+        }
+        let here = self.left.dot(&distance.map(Complex64::from));
+        let turned = |k| Complex64::cis(TAU * f64::from(k) / f64::from(AROUND)) * here * 2.0;
+        (0..AROUND).map(|k| self.right.map(|part| (turned(k) * part).re)).collect()
+    }
+
+    /// Whether distances all around a spiral become others that are nearer, in the mean, as the multiplier has it: a torus around
+    /// the cycle, beyond which motions go elsewhere, slows them down or turns them back.
+    #[must_use]
+    pub fn draws_in(&self, pairs: &[[DVector<f64>; 2]]) -> bool {
+        let rates = pairs.iter().map(|[before, after]| (self.part(before) / self.part(after)).ln());
+        let mean = rates.sum::<f64>() / pairs.len().max(1) as f64;
+        pairs.is_empty() || mean >= -RATES[0] * self.slowest.norm().ln()
     }
 
     /// The part of the slowest multiplier in a distance.

@@ -89,8 +89,8 @@ impl Candidate {
     }
 
     /// Points on the way of a transient from here to the cycle, as its linear map has it. On the way the distance may grow before
-    /// it falls, and the motion may meet what it has not met yet: a border between contact states, or a bend of the map. None
-    /// where it is there.
+    /// it falls, and the motion may meet what it has not met yet: a border between contact states, or a bend of the map. Behind
+    /// them points all around the farthest, where the way is a spiral of many turns. None where it is there.
     #[must_use]
     pub fn way(&self, transient: &[Return]) -> Vec<Point> {
         let Some(last) = transient.last() else { return Vec::new() };
@@ -110,6 +110,7 @@ impl Candidate {
             }
         }
         let whole = farthest.norm();
+        let around = self.approach.around(&farthest);
         let mut points = Vec::with_capacity(PARTS.len());
         let mut distance = farthest;
         for part in PARTS {
@@ -120,6 +121,7 @@ impl Candidate {
             }
             points.push(self.cycle.start.with((&fixed + &distance).as_slice()));
         }
+        points.extend(around.iter().map(|distance| self.cycle.start.with((&fixed + distance).as_slice())));
         points
     }
 
@@ -127,16 +129,22 @@ impl Candidate {
     #[must_use]
     pub fn is_open(&self, points: &[Point], flown: &[Option<&[Return]>]) -> bool {
         let fixed = self.vector(&self.cycle.start);
-        points.iter().zip(flown).all(|(point, returns)| {
-            let Some(returns) = returns else { return false };
+        let pair = |(point, returns): (&Point, Option<&[Return]>)| {
+            let returns = returns?;
             let same = returns
                 .iter()
                 .map(|at| at.order.to_bits())
                 .eq(self.orders.iter().map(|order| order.to_bits()));
-            let Some(end) = returns.last().filter(|_| same && point.position[1] >= 0.0) else { return false };
-            let (before, after) = (self.vector(point) - &fixed, self.vector(&end.point) - &fixed);
-            self.approach.predicts(&before, &after)
-        })
+            let end = returns.last().filter(|_| same && point.position[1] >= 0.0)?;
+            Some([self.vector(point) - &fixed, self.vector(&end.point) - &fixed])
+        };
+        let Some(pairs) = points.iter().zip(flown.iter().copied()).map(pair).collect::<Option<Vec<_>>>()
+        else {
+            return false;
+        };
+        let (way, around) = pairs.split_at(PARTS.len().min(pairs.len()));
+        way.iter().all(|[before, after]| self.approach.predicts(before, after))
+            && self.approach.draws_in(around)
     }
 
     fn vector(&self, point: &Point) -> DVector<f64> {

@@ -168,7 +168,7 @@ impl<T: Real> Job<T> {
     pub fn swings(&self) -> bool {
         let pieces = &self.words.pieces;
         let constant = pieces.len() == 1 && pieces[0].slope == T::ZERO;
-        constant && self.scene.belt(0.0).acceleration == 0.0 && self.constants[SWING + 1] > T::ZERO
+        constant && self.scene.has_steady_belt() && self.constants[SWING + 1] > T::ZERO
     }
 
     /// Whether a part of the run has anything to do. Among none but single masses (`single`) growth is measured on the way to

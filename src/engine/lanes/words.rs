@@ -98,7 +98,7 @@ impl<S: Real> Words<S> {
     /// An instance whose steps may turn so far.
     #[must_use]
     pub fn new(law: LawForm, scene: &Scene, turns: &Turns) -> Words<S> {
-        let (model, v0, start) = (&scene.model, scene.belt(0.0).velocity, scene.start());
+        let (model, v0, start) = (&scene.model, scene.model.v0, scene.start());
         let w = S::from_f64;
         let (mu0, n0, mu_s) = (model.mu0, model.n0, model.law.mu_stick);
         Words {

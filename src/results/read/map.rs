@@ -10,6 +10,7 @@ use crate::engine::plan::{Duration, StartKind};
 use crate::engine::record::{Basin, Others, Record};
 use crate::model::Params;
 use crate::model::friction::LawKind;
+use crate::model::motion::Motion;
 use crate::results::error::Result;
 use crate::results::manifest::{Explained, Manifest};
 use crate::results::number::NumberColumn;
@@ -115,6 +116,7 @@ pub(crate) fn drawn_spec(title: String, analysis: Analysis, grid: Grid) -> Spec 
         material: None,
         materials: Vec::new(),
         table: None,
+        motion: Motion::Ramp,
         grid,
         start: StartKind::Kick,
         pass: Pass::Own,

@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use crate::model::friction::FrictionLaw;
 use crate::model::instance::Instance;
+use crate::model::motion::Motion;
 use crate::model::{Param, Params, linear};
 use crate::study::calibrate::fault::Fault;
 use crate::study::calibrate::system::{Structure, Wanted};
@@ -134,7 +135,7 @@ fn instance(structure: &Structure, wanted: &Wanted, theta: f64, load: f64) -> In
     ] {
         params.set(param, value);
     }
-    Instance { params, law: flat(0.0), impact_friction: true, modal: None }
+    Instance { params, law: flat(0.0), impact_friction: true, motion: Motion::Ramp, modal: None }
 }
 
 fn flat(mu: f64) -> FrictionLaw {

@@ -116,6 +116,7 @@ pub fn subset(spec: &Spec, indices: &[usize]) -> Spec {
         material: spec.material.clone(),
         materials: spec.materials.clone(),
         table: spec.table.clone(),
+        motion: spec.motion.clone(),
         grid,
         start: spec.start,
         pass: spec.pass,

@@ -8,6 +8,7 @@ use crate::engine::plan::Duration;
 use crate::model::friction::{LawKind, MuTable};
 use crate::model::material::{Material, Outside};
 use crate::model::modal::Modal;
+use crate::model::motion::{Motion, MotionTable};
 use crate::model::{Param, Params};
 use crate::sweep::grid::Grid;
 use crate::sweep::spec::duration::{AUTO, CYCLE};
@@ -67,6 +68,7 @@ impl Spec {
                 None => None,
                 Some(rows) => Some(table(rows)?),
             },
+            motion: motion(resolved.get("belt")?)?,
             grid,
             start: kind.transient(),
             pass: Pass::Own,
@@ -86,6 +88,20 @@ fn numbers(values: &Json) -> Option<Vec<f64>> {
 
 fn table(table: &Json) -> Option<Arc<MuTable>> {
     Some(Arc::new(MuTable { velocity: numbers(table.get("velocity")?)?, mu: numbers(table.get("mu")?)? }))
+}
+
+fn motion(belt: &Json) -> Option<Motion> {
+    let Some(name) = belt.get("motion") else { return Some(Motion::Ramp) };
+    let table = match belt.get("motion_table") {
+        None => None,
+        Some(table) => {
+            let corners = numbers(table.get("time")?)?.into_iter().zip(numbers(table.get("velocity")?)?);
+            let corners = corners.map(|(time, velocity)| [time, velocity]).collect();
+            Some(Arc::new(MotionTable { name: table.get("name")?.as_str()?.to_owned(), corners }))
+        }
+    };
+    let name = Motion::NAMES.into_iter().find(|one| Some(*one) == name.as_str())?;
+    Some(Motion::named(name, table))
 }
 
 /// The structure whose file holds this text.

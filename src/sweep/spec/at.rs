@@ -5,6 +5,7 @@ use crate::model::instance::Instance;
 use crate::model::{Param, Params};
 use crate::sweep::error::{Error, Result};
 use crate::sweep::grid::{AxisKey, Grid, Value};
+use crate::sweep::spec::belt;
 use crate::sweep::spec::check::{covered, unused, used_by_laws};
 use crate::sweep::spec::keys::is_fixed;
 use crate::sweep::spec::names::advice;
@@ -148,12 +149,10 @@ impl At<'_> {
             return Err(Error::AtMissing { at: self.everything(), names, example });
         }
         self.everything_has_effect(spec)?;
-        let ramp = [Param::BeltVelocityEnd, Param::RampDuration];
-        for (given, other) in [(ramp[0], ramp[1]), (ramp[1], ramp[0])] {
-            if self.params.get(given).is_some() && self.params.get(other).is_none() {
-                let needed_by = format!("`{}` describes a ramp", given.info().name);
-                return Err(self.missing(other.info().name, needed_by));
-            }
+        if let Some((param, needed_by)) =
+            belt::lacking(spec.motion.name(), |param| self.params.get(param).is_some())
+        {
+            return Err(self.missing(param.info().name, needed_by));
         }
         if let Some(material) = &self.material {
             let given =
@@ -203,7 +202,10 @@ impl At<'_> {
                 AxisKey::Param(param) if model.reader(*param).is_some() => {
                     model.reader(*param).map(|reader| reader.written().to_owned())
                 }
-                AxisKey::Param(param) => Kind::of(spec).reader(*param, by_event).map(str::to_owned),
+                AxisKey::Param(param) => {
+                    let moves = belt::reader(spec.motion.name(), *param);
+                    moves.or_else(|| Kind::of(spec).reader(*param, by_event).map(str::to_owned))
+                }
                 AxisKey::Material => self.law.reads_table().then(|| used_by_laws(&law::of_material())),
                 AxisKey::Law => None,
             };

@@ -7,6 +7,7 @@ use crate::engine::plan::Duration;
 use crate::model::Param;
 use crate::model::friction::{FrictionLaw, LawKind};
 use crate::model::material::Outside;
+use crate::model::motion::Motion;
 use crate::sweep::grid::{AxisKey, Value};
 use crate::sweep::spec::refine::Settings;
 use squealmap_input::place::Source;
@@ -55,6 +56,7 @@ pub(crate) enum Call {
     FrictionTable(PathBuf),
     Law(LawKind),
     Material(PathBuf),
+    Motion(Motion),
     Outside(Outside),
     /// From, to, points, and whether the steps are equal ratios.
     Axis(Param, [f64; 2], usize, bool),
@@ -90,6 +92,8 @@ impl Call {
             Call::FrictionTable(file) => one("friction_table", path(file)),
             Call::Law(kind) => one("law", format!("LawKind::{kind:?}")),
             Call::Material(file) => one("material", path(file)),
+            Call::Motion(Motion::Table(_)) => one("motion", "Motion::Table(…)".to_owned()),
+            Call::Motion(motion) => one("motion", format!("Motion::{motion:?}")),
             Call::Outside(outside) => one("outside", format!("Outside::{outside:?}")),
             Call::Axis(param, [from, to], points, log) => (
                 if *log { "log_axis" } else { "axis" },

@@ -16,6 +16,9 @@ use crate::sweep::spec::{law, model};
 use squealmap_input::place::{Place, Source};
 use squealmap_input::quote::{list, quoted};
 
+/// Keys beside parameters that only a motion in time reads.
+const OF_MOTION: [&str; 3] = ["impact_friction", "motion", "motion_table"];
+
 /// Everything read, before it is known to fit together.
 pub(super) struct Check<'a> {
     pub(super) sweep: &'a Source,
@@ -34,7 +37,6 @@ impl Check<'_> {
         self.materials_have_effect(&laws)?;
         self.materials_stand_alone()?;
         self.start_has_effect()?;
-        self.ramp_is_whole()?;
         self.belt_moves()?;
         self.settling_has_effect()?;
         self.every_case()
@@ -48,7 +50,7 @@ impl Check<'_> {
         self.sections.find(key.name()).map(|given| (self.sweep.place(given.span.clone()), given.label()))
     }
 
-    fn param(&self, param: Param) -> Option<(Place, String)> {
+    pub(super) fn param(&self, param: Param) -> Option<(Place, String)> {
         self.stands(AxisKey::Param(param))
     }
 
@@ -106,7 +108,7 @@ impl Check<'_> {
                     return Err(unused(self.sweep.place(span.clone()), "a response".to_owned(), used_by));
                 }
                 let of_motion =
-                    |given: &&Given| given.section == Section::Start || given.name == "impact_friction";
+                    |given: &&Given| given.section == Section::Start || OF_MOTION.contains(&given.name);
                 if let Some(given) = self.sections.given.iter().find(of_motion) {
                     return unread(given, model::Kind::TwoMass);
                 }
@@ -216,22 +218,6 @@ impl Check<'_> {
         })
     }
 
-    /// A ramp has an end and a duration.
-    fn ramp_is_whole(&self) -> Result<()> {
-        let pair = [Param::BeltVelocityEnd, Param::RampDuration];
-        for (given, other) in [(pair[0], pair[1]), (pair[1], pair[0])] {
-            if let (Some((at, key)), None) = (self.param(given), self.param(other)) {
-                return Err(Error::Missing {
-                    at,
-                    key: other.info().name,
-                    needed_by: format!("{key} describes a ramp"),
-                    remedy: "give both or none".to_owned(),
-                });
-            }
-        }
-        Ok(())
-    }
-
     /// A run until settled needs a belt that goes on as it is; its limit needs such a run.
     fn settling_has_effect(&self) -> Result<()> {
         let word = if self.sections.cycle { CYCLE } else { AUTO };
@@ -242,11 +228,11 @@ impl Check<'_> {
                 let needed = format!("settle = \"{AUTO}\" or \"{CYCLE}\" in [response]");
                 Err(unused(self.sweep.place(span.clone()), key, needed))
             }
-            (Some(span), _) => match self.param(Param::RampDuration) {
-                Some((_, ramp)) => Err(Error::Conflict {
+            (Some(span), _) => match self.moving_belt() {
+                Some((_, motion)) => Err(Error::Conflict {
                     at: self.sweep.place(span.clone()),
                     key: auto,
-                    other: format!("{ramp}, during which nothing settles"),
+                    other: format!("{motion}, during which nothing settles"),
                 }),
                 None => Ok(()),
             },
@@ -254,14 +240,7 @@ impl Check<'_> {
         }
     }
 
-    fn belt_moves(&self) -> Result<()> {
-        match self.param(Param::BeltVelocity) {
-            Some(_) => Ok(()),
-            None => Err(self.missing(Param::BeltVelocity, "every instance has a belt velocity".to_owned())),
-        }
-    }
-
-    fn missing(&self, param: Param, needed_by: String) -> Error {
+    pub(super) fn missing(&self, param: Param, needed_by: String) -> Error {
         let section: Section = param.info().section;
         Error::Missing {
             at: self.sweep.place(self.sections.header(section)),

@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use crate::engine::plan::Duration;
 use crate::model::friction::{FrictionLaw, LawKind, MuTable};
+use crate::model::motion::{Motion, MotionTable};
 use crate::model::{Param, Section};
 use crate::sweep::error::{Error, Result};
 use crate::sweep::grid::{Axis, AxisKey, Value};
@@ -16,6 +17,7 @@ use crate::sweep::spec::call::{Call, Settle, Stands, Start, text};
 use crate::sweep::spec::duration::{LONGEST, is_legal};
 use crate::sweep::spec::files::table_of;
 use crate::sweep::spec::keys::STEPS_RANGE;
+use crate::sweep::spec::motion::motion_of;
 use crate::sweep::spec::refine::COARSE;
 use crate::sweep::spec::rows::{Role, Rows};
 use crate::sweep::spec::sections::{Given, MOST_SAMPLED, MOST_SEED, Sections, legal_title};
@@ -36,6 +38,7 @@ impl Spec {
             varied: Varied::nothing(&source),
             sections: Sections::default(),
             table: None,
+            motion: None,
             source: &source,
         };
         // What varies first: a law brings numbers for all of its parameters, and an axis overrides them.
@@ -45,8 +48,8 @@ impl Spec {
         for (call, stands) in calls.iter().zip(&stands) {
             code.says(call, stands)?;
         }
-        let Code { sections, varied, table, .. } = code;
-        Spec::of_parts(&source, base_dir, sections, varied, table)
+        let Code { sections, varied, table, motion, .. } = code;
+        Spec::of_parts(&source, base_dir, sections, varied, (table, motion))
     }
 }
 
@@ -58,6 +61,8 @@ struct Code<'a> {
     varied: Varied,
     /// The friction table that was given with its numbers.
     table: Option<Arc<MuTable>>,
+    /// The motion that was given with its corners.
+    motion: Option<Arc<MotionTable>>,
 }
 
 impl Code<'_> {
@@ -175,6 +180,7 @@ impl Code<'_> {
                 self.sections.material = Some(file(path));
                 self.give("material", Section::Friction, whole);
             }
+            Call::Motion(motion) => self.motion(motion, whole)?,
             Call::Outside(outside) => {
                 self.sections.outside = *outside;
                 self.give("outside", Section::Friction, whole);
@@ -244,6 +250,22 @@ impl Code<'_> {
             self.table = Some(table_of(&Rows::given(".friction(Table(…))", &text, Role::Table)?)?);
             self.sections.table = None;
             self.give("table", Section::Friction, whole);
+        }
+        Ok(())
+    }
+
+    /// How the belt moves; the corners of a table are checked as those of a file.
+    fn motion(&mut self, motion: &Motion, whole: &Range<usize>) -> Result<()> {
+        self.sections.motion = motion.name();
+        self.give("motion", Section::Belt, whole);
+        if let Motion::Table(table) = motion {
+            let mut text = "time,velocity\n".to_owned();
+            for [time, velocity] in table.corners.iter() {
+                // A string takes whatever is written to it.
+                let _ = writeln!(text, "{time},{velocity}");
+            }
+            let rows = Rows::given(".motion(Motion::Table(…))", &text, Role::Motion)?;
+            self.motion = Some(motion_of(&table.name, &rows)?);
         }
         Ok(())
     }

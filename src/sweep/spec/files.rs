@@ -6,11 +6,13 @@ use std::sync::Arc;
 use crate::model::friction::{LawKind, MuTable};
 use crate::model::material::{Material, Outside};
 use crate::model::modal::Modal;
+use crate::model::motion::Motion;
 use crate::model::{Param, Range};
 use crate::sweep::error::{Error, Result};
 use crate::sweep::grid::AxisKey;
 use crate::sweep::spec::model;
 use crate::sweep::spec::model::Kind;
+use crate::sweep::spec::motion;
 use crate::sweep::spec::rows::{Role, Rows};
 use crate::sweep::spec::sections::Sections;
 use crate::sweep::spec::varied::Varied;
@@ -22,6 +24,8 @@ pub(super) struct Files {
     /// The structure of a modal model.
     pub(super) modal: Option<Arc<Modal>>,
     pub(super) table: Option<Arc<MuTable>>,
+    /// How the belt moves.
+    pub(super) motion: Motion,
     /// The material of `[friction]`.
     pub(super) material: Option<Arc<Material>>,
     /// The materials of an axis or column.
@@ -49,7 +53,12 @@ impl Files {
             .collect::<Result<_>>()?;
         let modal = sections.modes.as_ref().filter(|_| sections.model == Kind::Modal);
         let modal = modal.map(|(name, span)| model::read(sweep, span.clone(), name, base_dir)).transpose()?;
-        Ok(Files { modal, table: table.transpose()?, material: material.transpose()?, materials })
+        let table_of_motion = sections.motion_table.as_ref();
+        let table_of_motion = table_of_motion
+            .map(|(name, span)| motion::read(sweep, span.clone(), name, base_dir))
+            .transpose()?;
+        let motion = Motion::named(sections.motion, table_of_motion);
+        Ok(Files { modal, table: table.transpose()?, motion, material: material.transpose()?, materials })
     }
 
     /// Every material of the sweep.
@@ -81,7 +90,7 @@ fn read_material(
             columns.push((param, values));
         }
     }
-    let temperature = temperature.ok_or_else(|| no_column(&file, "temperature", "a material"))?;
+    let temperature = temperature.ok_or_else(|| file.no_column("temperature", "a material"))?;
     Ok(Arc::new(Material { name: name.to_owned(), temperature, columns, outside }))
 }
 
@@ -127,23 +136,12 @@ pub(super) fn table_of(file: &Rows) -> Result<Arc<MuTable>> {
         });
     }
     let [velocity, mu] = values;
-    let velocity = velocity.ok_or_else(|| no_column(file, "velocity", "a friction table"))?;
-    let mu = mu.ok_or_else(|| no_column(file, "mu", "a friction table"))?;
+    let velocity = velocity.ok_or_else(|| file.no_column("velocity", "a friction table"))?;
+    let mu = mu.ok_or_else(|| file.no_column("mu", "a friction table"))?;
     Ok(Arc::new(MuTable { velocity, mu }))
 }
 
 fn column(file: &Rows, index: usize, param: Param) -> Result<Vec<f64>> {
     let info = param.info();
     file.numbers(index, info.name, info.range)
-}
-
-fn no_column(file: &Rows, key: &'static str, what: &str) -> Error {
-    let start = file.header.first().map_or(0, |field| field.span.start);
-    let end = file.header.last().map_or(0, |field| field.span.end);
-    Error::Missing {
-        at: file.source.place(start..end),
-        key,
-        needed_by: format!("{what} has such a column"),
-        remedy: "add it to the header and to every row".to_owned(),
-    }
 }

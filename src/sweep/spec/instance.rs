@@ -48,6 +48,7 @@ impl Spec {
             }
         }
         let law = kind.with(&params, self.table.as_ref());
-        Instance { params, law, impact_friction: self.impact_friction, modal: self.modal.clone() }
+        let (motion, modal) = (self.motion.clone(), self.modal.clone());
+        Instance { params, law, impact_friction: self.impact_friction, motion, modal }
     }
 }

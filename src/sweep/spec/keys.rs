@@ -2,6 +2,7 @@
 //! have their rows here.
 
 use crate::model::friction::LawKind;
+use crate::model::motion::Motion;
 use crate::model::{PARAMS, Param, ParamInfo};
 use crate::sweep::error::{Error, Result};
 use crate::sweep::spec::duration::LONGEST;
@@ -151,6 +152,24 @@ const ROWS: &[Row] = &[
         default: || Some("\"error\"".to_owned()),
         range: || quoted(&["error", "clamp"]),
         read_by: "a `material`",
+        varies: false,
+    },
+    Row {
+        section: "belt",
+        name: "motion",
+        meaning: "how the velocity goes: a ramp (constant without an end), half a sine wave or a trapeze from rest to rest, or as a table has it",
+        default: || Some("\"ramp\"".to_owned()),
+        range: || quoted(&Motion::NAMES),
+        read_by: "kind `two_mass`",
+        varies: false,
+    },
+    Row {
+        section: "belt",
+        name: "motion_table",
+        meaning: "CSV file with columns time (s) and velocity (m/s), straight between rows; its largest velocity is `belt_velocity`",
+        default: || None,
+        range: || "a path, relative to the sweep file".to_owned(),
+        read_by: "motion `table`",
         varies: false,
     },
     Row {

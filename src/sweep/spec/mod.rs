@@ -7,6 +7,7 @@
 //! | its sections, key by key | `sections.rs`, `law.rs`, `start.rs`, [`refine`] |
 //! | what varies | `axis.rs`, `varied.rs` |
 //! | the model | `model.rs` |
+//! | how the belt moves | `belt.rs`, `motion.rs` |
 //! | files that it names | `files.rs`, `rows.rs` |
 //! | what must hold between keys | `check.rs`, [`names`] |
 //! | every key, for people | [`keys`] |
@@ -16,6 +17,7 @@
 mod again;
 mod at;
 mod axis;
+mod belt;
 pub(crate) mod call;
 mod check;
 mod code;
@@ -26,6 +28,7 @@ mod instance;
 pub mod keys;
 mod law;
 mod model;
+mod motion;
 pub mod names;
 mod read;
 pub mod refine;
@@ -41,13 +44,14 @@ use std::sync::Arc;
 
 use crate::engine::instances::Instances;
 use crate::engine::plan::{Duration, Plan, StartKind};
-use crate::model::Params;
 use crate::model::friction::{LawKind, MuTable};
 use crate::model::instance::Instance;
 use crate::model::material::Material;
 use crate::model::modal::Modal;
+use crate::model::motion::Motion;
+use crate::model::{Param, Params};
 use crate::sweep::error::{Error, Result};
-use crate::sweep::grid::Grid;
+use crate::sweep::grid::{AxisKey, Grid};
 use refine::Settings;
 use squealmap_input::place::Place;
 
@@ -182,6 +186,8 @@ pub struct Spec {
     pub materials: Vec<Arc<Material>>,
     /// The table of the law `table`.
     pub table: Option<Arc<MuTable>>,
+    /// How the belt moves.
+    pub motion: Motion,
     /// The instances.
     pub grid: Grid,
     /// How transients start.
@@ -203,6 +209,22 @@ pub struct Spec {
 }
 
 impl Spec {
+    /// Why the velocity of the belt changes within a run, where it does, as the end of a sentence.
+    #[must_use]
+    pub fn moving_belt(&self) -> Option<String> {
+        let ramp = || {
+            self.base.get(Param::RampDuration).map(|seconds| format!("a ramp, `ramp_duration` = {seconds} s"))
+        };
+        let varied = || {
+            let is_varied = self.grid.keys().contains(&AxisKey::Param(Param::RampDuration));
+            is_varied.then(|| "a ramp".to_owned())
+        };
+        match &self.motion {
+            Motion::Ramp => ramp().or_else(varied),
+            other => Some(format!("the motion `{}`", other.name())),
+        }
+    }
+
     /// Refuses a sweep of another model than two masses.
     ///
     /// # Errors

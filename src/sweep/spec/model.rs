@@ -65,6 +65,7 @@ impl Kind {
             | Param::Restitution
             | Param::BeltVelocityEnd
             | Param::RampDuration
+            | Param::RiseDuration
             | Param::StartVelocity
             | Param::StartDisplacement
             | Param::StartFraction

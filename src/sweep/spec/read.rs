@@ -8,6 +8,7 @@ use toml::de::DeTable;
 use crate::engine::plan::Duration;
 use crate::model::Param;
 use crate::model::friction::MuTable;
+use crate::model::motion::{Motion, MotionTable};
 use crate::sweep::error::{Error, Result};
 use crate::sweep::grid::AxisKey;
 use crate::sweep::spec::check::Check;
@@ -90,19 +91,21 @@ impl Spec {
             }
             (None, None) => given.map_or_else(|| Ok(Varied::nothing(source)), Varied::of_rows)?,
         };
-        Spec::of_parts(source, base_dir, sections, varied, None)
+        Spec::of_parts(source, base_dir, sections, varied, (None, None))
     }
 
-    /// What was read, or said in code, as a whole; `table` is the friction table that was given with its numbers.
+    /// What was read, or said in code, as a whole; `numbers` are the friction table and the motion of the belt that were given
+    /// with their numbers.
     pub(super) fn of_parts(
         source: &Source,
         base_dir: &Path,
         sections: Sections,
         varied: Varied,
-        table: Option<Arc<MuTable>>,
+        numbers: (Option<Arc<MuTable>>, Option<Arc<MotionTable>>),
     ) -> Result<Spec> {
         let files = Files::read(source, base_dir, &sections, &varied)?;
-        let files = Files { table: files.table.or(table), ..files };
+        let motion = numbers.1.map_or(files.motion, Motion::Table);
+        let files = Files { table: files.table.or(numbers.0), motion, ..files };
         Check { sweep: source, sections: &sections, varied: &varied, files: &files }.all()?;
         let steps_given = sections.steps_given.clone().map(|span| source.place(span));
         Ok(Spec { steps_given, ..assemble(sections, varied, files) })
@@ -115,7 +118,11 @@ fn assemble(sections: Sections, varied: Varied, files: Files) -> Spec {
         base.set(Param::FExt, modal.load);
     }
     let response = sections.analysis.response && files.modal.is_none();
-    let ramp = sections.base.get(Param::RampDuration).is_some()
+    if let Motion::Table(table) = &files.motion {
+        base.set(Param::BeltVelocity, table.largest());
+    }
+    let ramp = files.motion != Motion::Ramp
+        || sections.base.get(Param::RampDuration).is_some()
         || varied.find(AxisKey::Param(Param::RampDuration)).is_some();
     let auto = sections.auto.is_some();
     let (settle, measure) = match (ramp, auto) {
@@ -143,6 +150,7 @@ fn assemble(sections: Sections, varied: Varied, files: Files) -> Spec {
         material: files.material,
         materials: files.materials,
         table: files.table,
+        motion: files.motion,
         grid: varied.grid,
         start: sections.start.transient(),
         pass: Pass::Own,

@@ -3,6 +3,7 @@
 use serde_json::{Map, Value as Json, json};
 
 use crate::model::material::{Material, Outside};
+use crate::model::motion::Motion;
 use crate::model::{PARAMS, Section};
 use crate::sweep::grid::{AxisKey, Grid, Value};
 use crate::sweep::spec::duration::{AUTO, CYCLE};
@@ -28,7 +29,7 @@ impl Spec {
         let model = self.model();
         spec.insert("model".to_owned(), Json::Object(model));
         spec.insert("friction".to_owned(), self.friction());
-        spec.insert("belt".to_owned(), Json::Object(self.section(Section::Belt)));
+        spec.insert("belt".to_owned(), Json::Object(self.belt()));
         let (key, grid) = resolved_grid(&self.grid);
         spec.insert(key.to_owned(), grid);
         let mut start = self.section(Section::Start);
@@ -66,6 +67,20 @@ impl Spec {
             }
         }
         model
+    }
+
+    /// The belt; that of a steady one or a ramp has no name, as before there were others.
+    fn belt(&self) -> Map<String, Json> {
+        let mut belt = self.section(Section::Belt);
+        if self.motion != Motion::Ramp {
+            belt.insert("motion".to_owned(), json!(self.motion.name()));
+        }
+        if let Motion::Table(table) = &self.motion {
+            let column = |at: usize| table.corners.iter().map(|corner| corner[at]).collect::<Vec<_>>();
+            let table = json!({ "name": table.name, "time": column(0), "velocity": column(1) });
+            belt.insert("motion_table".to_owned(), table);
+        }
+        belt
     }
 
     fn response(&self) -> Json {

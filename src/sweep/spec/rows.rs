@@ -23,6 +23,7 @@ pub(super) enum Role {
     Points,
     Table,
     Material,
+    Motion,
 }
 
 impl Role {
@@ -31,6 +32,7 @@ impl Role {
             Role::Points => "points",
             Role::Table => "table",
             Role::Material => "material",
+            Role::Motion => "motion",
         }
     }
 
@@ -38,7 +40,7 @@ impl Role {
     fn most_bytes(self) -> u64 {
         match self {
             Role::Points => 1024 * MIB,
-            Role::Table | Role::Material => 16 * MIB,
+            Role::Table | Role::Material | Role::Motion => 16 * MIB,
         }
     }
 
@@ -46,7 +48,7 @@ impl Role {
     fn most_rows(self) -> usize {
         match self {
             Role::Points => MAX_ROWS,
-            Role::Table | Role::Material => MAX_TABLE_ROWS,
+            Role::Table | Role::Material | Role::Motion => MAX_TABLE_ROWS,
         }
     }
 }
@@ -111,6 +113,18 @@ impl Rows {
             return Err(Error::ReadNamed { at: sweep.place(span), role: role.name(), path, why });
         }
         Ok(rows)
+    }
+
+    /// Says that a column is missing; `what` has such a one.
+    pub(super) fn no_column(&self, key: &'static str, what: &str) -> Error {
+        let start = self.header.first().map_or(0, |field| field.span.start);
+        let end = self.header.last().map_or(0, |field| field.span.end);
+        Error::Missing {
+            at: self.source.place(start..end),
+            key,
+            needed_by: format!("{what} has such a column"),
+            remedy: "add it to the header and to every row".to_owned(),
+        }
     }
 
     /// The rows of a text that was made of numbers given in code by the call `name`.

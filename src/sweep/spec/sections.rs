@@ -3,6 +3,7 @@
 use crate::engine::plan::Duration;
 use crate::model::friction::LawKind;
 use crate::model::material::Outside;
+use crate::model::motion::Motion;
 use crate::model::{Param, Params, Section};
 use crate::sweep::error::{Error, Result};
 use crate::sweep::spec::document::{
@@ -54,6 +55,10 @@ pub(super) struct Sections {
     pub(super) law: LawKind,
     pub(super) table: Option<FileName>,
     pub(super) material: Option<FileName>,
+    /// How the belt moves, by its name.
+    pub(super) motion: &'static str,
+    /// The file of that motion.
+    pub(super) motion_table: Option<FileName>,
     pub(super) outside: Outside,
     pub(super) start: Kind,
     /// Starts drawn from a box.
@@ -97,6 +102,8 @@ impl Default for Sections {
             law: LawKind::Bilinear,
             table: None,
             material: None,
+            motion: Motion::RAMP,
+            motion_table: None,
             outside: Outside::Error,
             start: Kind::Kick,
             box_samples: BOX_SAMPLES,
@@ -216,6 +223,15 @@ impl Sections {
                 let choices = [("error", Outside::Error), ("clamp", Outside::Clamp)];
                 self.outside = choice(source, node, &label, "choice", &choices)?;
                 special = Some("outside");
+            }
+            (Section::Belt, "motion") => {
+                self.motion =
+                    choice(source, node, &label, "motion", &Motion::NAMES.map(|name| (name, name)))?;
+                special = Some("motion");
+            }
+            (Section::Belt, "motion_table") => {
+                self.motion_table = Some(file()?);
+                special = Some("motion_table");
             }
             (Section::Start, "kind") => {
                 self.start = choice(source, node, &label, "start", &Kind::ALL)?;

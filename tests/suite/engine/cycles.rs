@@ -246,6 +246,30 @@ fn a_transient_on_a_torus_finds_no_cycle() {
     }
 }
 
+/// Both come near a stable cycle, inside or on an unstable torus about it, and leave again: of 1e5 random instances the only ones.
+#[test]
+fn a_run_that_an_unstable_torus_turns_back_finds_no_cycle() {
+    let values = |[c1, c2, theta, restitution, belt]: [f64; 5]| {
+        [
+            (Param::C1, c1),
+            (Param::C2, c2),
+            (Param::Theta, theta),
+            (Param::Restitution, restitution),
+            (Param::BeltVelocity, belt),
+            (Param::StartVelocity, 0.02 * belt),
+        ]
+    };
+    let first = [0.738_870_6, 0.124_390_22, 0.019_640_588, 0.569_061_83, 3.350_272_136_7];
+    let second = [10.600_886_05, 0.281_652_45, 0.006_934_187_5, 0.486_931_58, 4.259_497_902_7];
+    for (numbers, mu_s, mu_d) in
+        [(first, 0.129_113_263_7, 0.119_903_274_9), (second, 0.338_025_346_4, 0.248_900_058_3)]
+    {
+        let instance = instance(bilinear(mu_s, mu_d), &values(numbers));
+        let found = Engine::CpuF64.run(&instance, &hunting());
+        assert_eq!((found.status, found.floquet), (Status::Ok, None));
+    }
+}
+
 #[test]
 fn what_decays_or_sticks_has_no_cycle() {
     let stuck = kicked(paper(0.5, 0.5, 1e-3), 0.0);

@@ -19,6 +19,7 @@ use squealmap::engine::method::pace::Turns;
 use squealmap::engine::scene::Scene;
 use squealmap::model::friction::FrictionLaw;
 use squealmap::model::instance::Instance;
+use squealmap::model::motion::Motion;
 
 /// Coefficients of the series of a position.
 pub(crate) const N: usize = ORDER + 1;
@@ -37,7 +38,8 @@ pub(crate) struct Body {
 pub(crate) fn job(u: &mut Uniform, tolerance: f64) -> Option<Job<f64>> {
     let (mu_s, mu_d) = (0.6 * u.next(), 0.6 * u.next());
     let law = FrictionLaw::Bilinear { mu_s, mu_d, knee_velocity: u.log(0.03, 1.0) };
-    let instance = Instance { params: moving(u), law, impact_friction: false, modal: None };
+    let instance =
+        Instance { params: moving(u), law, impact_friction: false, motion: Motion::Ramp, modal: None };
     let plan = plan(1.0, 0.1, 12);
     let scene = Scene::planned(&instance, &plan).ok()?;
     Some(Job::new(&instance, scene, &plan, &Turns::new(ORDER, tolerance)))

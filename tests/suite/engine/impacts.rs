@@ -18,6 +18,7 @@ use squealmap::engine::scene::Scene;
 use squealmap::model::Param;
 use squealmap::model::friction::FrictionLaw;
 use squealmap::model::instance::Instance;
+use squealmap::model::motion::Motion;
 
 /// Velocities of the body and of the belt, scaled.
 #[derive(Clone, Copy)]
@@ -73,7 +74,8 @@ fn impacts(planted: impl Fn(&mut Instance)) -> (f64, [usize; 4]) {
         } else {
             FrictionLaw::Constant { mu_s, mu_d: mu_s }
         };
-        let instance = Instance { params, law, impact_friction: u.next() < 0.8, modal: None };
+        let instance =
+            Instance { params, law, impact_friction: u.next() < 0.8, motion: Motion::Ramp, modal: None };
         let Ok(scene) = Scene::planned(&instance, &plan(1.0, 0.1, 12)) else { continue };
         let belt = 3.0 * u.next();
         let moment = Moment { vx: belt + 4.0 * (u.next() - 0.5), vy: -2.0 * u.next(), belt };

@@ -19,6 +19,7 @@ pub(crate) mod leaves;
 pub(crate) mod limits;
 mod marching;
 pub(crate) mod methods;
+mod motions;
 pub(crate) mod not_yet_grown;
 pub(crate) mod observables;
 pub(crate) mod properties;

@@ -17,6 +17,7 @@ use squealmap::engine::scene::Scene;
 use squealmap::model::Param;
 use squealmap::model::friction::FrictionLaw;
 use squealmap::model::instance::Instance;
+use squealmap::model::motion::Motion;
 use squealmap::model::status::Status;
 
 /// Instances of every law, some with a ramp, impacts with and without restitution, springs leaning both ways.
@@ -48,7 +49,7 @@ fn any(u: &mut Uniform, k: usize) -> Instance {
         2 => FrictionLaw::Rational { mu_s, decay: scale },
         _ => FrictionLaw::Constant { mu_s, mu_d },
     };
-    Instance { params, law, impact_friction: u.next() < 0.5, modal: None }
+    Instance { params, law, impact_friction: u.next() < 0.5, motion: Motion::Ramp, modal: None }
 }
 
 fn run<T: Lanes>(instances: &[Instance], plan: &Plan) -> Vec<Outcome> {

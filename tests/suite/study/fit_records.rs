@@ -11,6 +11,7 @@ use crate::study::segments::{LENGTH, rig};
 use crate::study::strokes::{Random, csv};
 use squealmap::model::friction::LawKind;
 use squealmap::model::instance::Instance;
+use squealmap::model::motion::Motion;
 use squealmap::model::{Param, Params};
 use squealmap::study::fit::fit;
 use squealmap::study::signals::sensors::{Recording, record};
@@ -34,7 +35,13 @@ fn a_squealing_ramp_gives_the_law_within_its_errors() {
     ] {
         params.set(param, value);
     }
-    let ramp = Instance { params, law: bilinear(0.15, 0.05), impact_friction: true, modal: None };
+    let ramp = Instance {
+        params,
+        law: bilinear(0.15, 0.05),
+        impact_friction: true,
+        motion: Motion::Ramp,
+        modal: None,
+    };
     let recording = Recording { rate: 1000.0, duration: 10.0, skew: 0.0, force_skew: 0.0 };
     let mut samples = record(&ramp, &plan(1.0, 1.0, 12), &recording).samples;
     sensed(&mut samples, false, 60.0, false, &mut Random::new(3));

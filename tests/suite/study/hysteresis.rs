@@ -317,7 +317,7 @@ fn what_cannot_be_followed_is_named() {
     let directory = with(&ramp);
     let ended = squealmap(directory.path(), &["trace", "s.toml", "--sweep-up-down", "f_ext=1..2"]);
     assert_eq!(ended.code, Some(2));
-    assert!(ended.err.contains("this instance has a ramp, `ramp_duration` = 5 s"), "{}", ended.err);
+    assert!(ended.err.contains("here it has a ramp, `ramp_duration` = 5 s"), "{}", ended.err);
 }
 
 /// The special points of the only branch of cycles, in its order.

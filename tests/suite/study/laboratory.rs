@@ -109,8 +109,7 @@ pub(crate) fn coalescence(instance: &Instance) -> f64 {
 /// The causes that are right at an instant of the motion (s); none where nothing may be said.
 pub(crate) fn right(instance: &Instance, time: f64) -> Vec<Kind> {
     let mut at = instance.clone();
-    at.params
-        .set(Param::BeltVelocity, squealmap::engine::scene::belt_velocity(&instance.params, time).max(1e-9));
+    at.params.set(Param::BeltVelocity, instance.motion.velocity(&instance.params, time).max(1e-9));
     let (kind, found) = linear::analyse(&at);
     let weaker = found.map(|found| found.growth_rate_flat.min(found.growth_rate_frozen) / found.growth_rate);
     match kind {

@@ -11,6 +11,7 @@ use crate::study::laboratory::{RATE, coalescence, right, sensed, settings};
 use crate::study::strokes::{Random, csv, run};
 use squealmap::model::friction::FrictionLaw;
 use squealmap::model::instance::Instance;
+use squealmap::model::motion::Motion;
 use squealmap::model::{Param, Params};
 use squealmap::study::signals::sensors::{Recording, Sample, record};
 use squealmap_identify::{
@@ -148,7 +149,13 @@ fn the_ramp_of_figure_6_leans_to_both_in_the_end() {
     ] {
         params.set(param, value);
     }
-    let ramp = Instance { params, law: bilinear(0.4, 0.3), impact_friction: true, modal: None };
+    let ramp = Instance {
+        params,
+        law: bilinear(0.4, 0.3),
+        impact_friction: true,
+        motion: Motion::Ramp,
+        modal: None,
+    };
     let recording = Recording { rate: 1000.0, duration: 10.0, skew: 0.0, force_skew: 0.0 };
     let samples = record(&ramp, &plan(1.0, 1.0, 12), &recording).samples;
     let found = run(&csv(&samples), &settings(coalescence(&ramp), DAMPING_RATIO)).unwrap();

@@ -1,6 +1,7 @@
 //! Sweeps: files, grids, labels, checks, several starts, refinement.
 
 pub(crate) mod accuracy;
+mod belt;
 pub(crate) mod bistable;
 pub(crate) mod build;
 pub(crate) mod checks;

@@ -1,0 +1,94 @@
+//! `[belt]`: what each motion reads.
+
+use crate::model::Param;
+use crate::model::motion::Motion;
+use crate::sweep::error::{Error, Result};
+use crate::sweep::spec::check::{Check, unused};
+use squealmap_input::place::Place;
+use squealmap_input::quote::list;
+
+/// The parameters of the belt, and the motions that read them.
+const READERS: [(Param, &[&str]); 4] = [
+    (Param::BeltVelocity, &["ramp", "sine", "trapeze"]),
+    (Param::BeltVelocityEnd, &["ramp"]),
+    (Param::RampDuration, &["ramp", "sine", "trapeze"]),
+    (Param::RiseDuration, &["trapeze"]),
+];
+
+/// What reads a parameter that stands where the motion is another; `None` where this one does.
+pub(super) fn reader(motion: &str, param: Param) -> Option<String> {
+    let (_, motions) = READERS.into_iter().find(|(one, _)| *one == param)?;
+    if motions.contains(&motion) {
+        return None;
+    }
+    let motions: Vec<String> = motions.iter().map(|motion| format!("\"{motion}\"")).collect();
+    let motions: Vec<&str> = motions.iter().map(String::as_str).collect();
+    Some(format!("motion = {} in [belt]", list(&motions)))
+}
+
+/// A parameter that a motion needs and does not have, and what needs it.
+pub(super) fn lacking(motion: &str, has: impl Fn(Param) -> bool) -> Option<(Param, String)> {
+    let needed = match motion {
+        "sine" => &[Param::RampDuration][..],
+        "trapeze" => &[Param::RampDuration, Param::RiseDuration],
+        _ => &[],
+    };
+    let needed_by = || format!("motion = \"{motion}\" in [belt] takes its time");
+    if let Some(param) = needed.iter().find(|param| !has(**param)) {
+        return Some((*param, needed_by()));
+    }
+    let pair = [Param::BeltVelocityEnd, Param::RampDuration];
+    let half = [pair, [pair[1], pair[0]]].into_iter().find(|[given, other]| has(*given) && !has(*other));
+    let half = half.filter(|_| motion == Motion::RAMP);
+    half.map(|[given, other]| (other, format!("`{}` describes a ramp", given.info().name)))
+}
+
+impl Check<'_> {
+    /// The motion of the belt has all that it reads, and reads all that is given.
+    pub(super) fn belt_moves(&self) -> Result<()> {
+        let motion = self.sections.motion;
+        for (param, _) in READERS {
+            if let (Some(by), Some((at, key))) = (reader(motion, param), self.param(param)) {
+                return Err(unused(at, key, by));
+            }
+        }
+        if let Some(given) = self.sections.find("motion_table").filter(|_| motion != "table") {
+            let at = self.sweep.place(given.span.clone());
+            return Err(unused(at, given.label(), "motion = \"table\" in [belt]".to_owned()));
+        }
+        if motion == "table" && self.files.motion == Motion::Ramp {
+            let span = self.sections.find("motion").map_or(0..0, |given| given.span.clone());
+            return Err(Error::Missing {
+                at: self.sweep.place(span),
+                key: "motion_table",
+                needed_by: "motion = \"table\" in [belt] is read from a file".to_owned(),
+                remedy: "write motion_table = \"stroke.csv\" in [belt]".to_owned(),
+            });
+        }
+        let pair = [Param::BeltVelocityEnd, Param::RampDuration];
+        for [given, other] in [pair, [pair[1], pair[0]]] {
+            if let (Motion::RAMP, Some((at, key)), None) = (motion, self.param(given), self.param(other)) {
+                return Err(Error::Missing {
+                    at,
+                    key: other.info().name,
+                    needed_by: format!("{key} describes a ramp"),
+                    remedy: "give both or none".to_owned(),
+                });
+            }
+        }
+        if let Some((param, needed_by)) = lacking(motion, |param| self.param(param).is_some()) {
+            return Err(self.missing(param, needed_by));
+        }
+        if motion == "table" || self.param(Param::BeltVelocity).is_some() {
+            return Ok(());
+        }
+        Err(self.missing(Param::BeltVelocity, "every instance has a belt velocity".to_owned()))
+    }
+
+    /// What moves the belt otherwise than steadily, and how messages call it.
+    pub(super) fn moving_belt(&self) -> Option<(Place, String)> {
+        let motion = self.sections.find("motion").filter(|_| self.sections.motion != Motion::RAMP);
+        let motion = motion.map(|given| (self.sweep.place(given.span.clone()), given.label()));
+        motion.or_else(|| self.param(Param::RampDuration))
+    }
+}

@@ -1,0 +1,142 @@
+//! How the belt moves: what sweeps say of it, what is refused, and what is kept of it.
+
+#![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
+#![expect(clippy::float_cmp, reason = "values of a sweep file arrive as they are written")]
+
+use std::path::Path;
+use std::sync::Arc;
+
+use crate::cli::program::squealmap;
+use squealmap::engine::plan::Duration;
+use squealmap::model::motion::MotionTable;
+use squealmap::{Motion, Param, Spec, Sweep};
+
+/// A sweep with this `[belt]`, beside a file of a stroke.
+fn read(belt: &str) -> Result<Spec, String> {
+    with("time,velocity\ns,m/s\n0,0\n0.1,0.04\n0.3,0.01\n", belt, "")
+}
+
+fn with(stroke: &str, belt: &str, rest: &str) -> Result<Spec, String> {
+    let directory = tempfile::tempdir().unwrap();
+    std::fs::write(directory.path().join("stroke.csv"), stroke).unwrap();
+    let text = format!("[friction]\nmu_s = 0.4\nmu_d = 0.3\n[belt]\n{belt}\n{rest}");
+    Spec::parse(&text, "s.toml", directory.path()).map_err(|why| why.to_string())
+}
+
+#[track_caller]
+fn refused(belt: &str, words: &str) {
+    let why = read(belt).err().unwrap_or_else(|| panic!("{belt} is taken"));
+    assert!(why.contains(words), "{why}");
+}
+
+#[test]
+fn motions_are_read() {
+    let sine = read("motion = \"sine\"\nbelt_velocity = 0.05\nramp_duration = 0.3").unwrap();
+    assert_eq!((sine.motion.clone(), sine.measure), (Motion::Sine, Duration::Ramp));
+    assert_eq!(sine.settle, Duration::Seconds(0.0));
+    assert_eq!(sine.instance(0).motion, Motion::Sine);
+    let trapeze = "motion = \"trapeze\"\nramp_duration = 0.3\nrise_duration = 0.02\n";
+    let trapeze = with("", trapeze, "[axes]\nbelt_velocity = { values = [0.01, 0.05] }\n").unwrap();
+    let one = trapeze.instance(1);
+    assert_eq!(*one.motion.corners(&one.params), [[0.0, 0.0], [0.02, 0.05], [0.3 - 0.02, 0.05], [0.3, 0.0]]);
+    let table = read("motion = \"table\"\nmotion_table = \"stroke.csv\"").unwrap();
+    let one = table.instance(0);
+    assert_eq!(*one.motion.corners(&one.params), [[0.0, 0.0], [0.1, 0.04], [0.3, 0.01]]);
+    assert_eq!(one.params.require(Param::BeltVelocity), 0.04, "the largest, at which eigenvalues are taken");
+    assert_eq!(read("motion = \"ramp\"\nbelt_velocity = 3").unwrap().instance(0).motion, Motion::Ramp);
+}
+
+#[test]
+fn what_a_motion_does_not_read_or_lacks_is_said() {
+    let table = "motion = \"table\"\nmotion_table = \"stroke.csv\"\n";
+    refused("motion = \"circle\"\nbelt_velocity = 1", "motion `circle`");
+    refused("motion = \"sine\"\nbelt_velocity = 1", "`ramp_duration`");
+    refused("motion = \"sine\"\nramp_duration = 1", "`belt_velocity`");
+    refused("motion = \"trapeze\"\nbelt_velocity = 1\nramp_duration = 1", "`rise_duration`");
+    refused("motion = \"sine\"\nbelt_velocity = 1\nramp_duration = 1\nrise_duration = 0.1", "\"trapeze\"");
+    refused(
+        "motion = \"sine\"\nbelt_velocity = 1\nramp_duration = 1\nbelt_velocity_end = 0",
+        "motion = \"ramp\"",
+    );
+    refused("belt_velocity = 1\nbelt_velocity_end = 0", "describes a ramp");
+    refused("motion = \"table\"", "`motion_table`");
+    refused("motion_table = \"stroke.csv\"\nbelt_velocity = 1", "motion = \"table\"");
+    refused(&format!("{table}belt_velocity = 1"), "`belt_velocity`");
+    refused(&format!("{table}ramp_duration = 1"), "`ramp_duration`");
+    refused("motion = \"table\"\nmotion_table = \"none.csv\"", "cannot read the motion file");
+    refused("motion = 3\nbelt_velocity = 1", "`motion` in [belt]");
+    let auto =
+        with("", "motion = \"sine\"\nbelt_velocity = 1\nramp_duration = 1", "[response]\nsettle = \"auto\"");
+    assert!(auto.unwrap_err().contains("during which nothing settles"));
+    let spec = read(table).unwrap();
+    let why = spec.instance_at("belt_velocity=1").unwrap_err().to_string();
+    assert!(why.contains("`belt_velocity`") && why.contains("motion"), "{why}");
+    assert!(spec.moving_belt().is_some() && read("belt_velocity = 1").unwrap().moving_belt().is_none());
+}
+
+#[test]
+fn a_file_of_a_motion_that_is_none_is_refused() {
+    let table = "motion = \"table\"\nmotion_table = \"stroke.csv\"";
+    for (stroke, words) in [
+        ("time,velocity\n0,1\n", "at least 2"),
+        ("time,velocity\n0.1,1\n0.2,1\n", "the first `time`"),
+        ("time,velocity\n0,1\n0,2\n", "time"),
+        ("time,velocity\n0,1\n1,-2\n", "`velocity`"),
+        ("time,velocity\n0,0\n1,0\n", "above 0 somewhere"),
+        ("time,velocity\n0,1\n1,nan\n", "velocity"),
+        ("time,speed\n0,1\n1,2\n", "speed"),
+        ("time\n0\n1\n", "`velocity`"),
+        ("time,velocity\n", "row"),
+        ("", ""),
+    ] {
+        let why = with(stroke, table, "").err().unwrap_or_else(|| panic!("{stroke} is taken"));
+        assert!(why.contains(words), "{stroke}: {why}");
+    }
+}
+
+/// The sweep that a directory describes is the sweep that was computed.
+#[test]
+fn a_motion_is_kept_with_its_corners() {
+    let spec = read("motion = \"table\"\nmotion_table = \"stroke.csv\"").unwrap();
+    let belt = spec.resolved()["belt"].clone();
+    assert_eq!(belt["motion"], "table");
+    assert_eq!(belt["motion_table"]["time"], serde_json::json!([0.0, 0.1, 0.3]));
+    assert_eq!(belt["motion_table"]["velocity"], serde_json::json!([0.0, 0.04, 0.01]));
+    let steady = read("belt_velocity = 1").unwrap().resolved()["belt"].clone();
+    assert_eq!(steady, serde_json::json!({ "belt_velocity": 1.0 }), "as before there were others");
+}
+
+#[test]
+fn a_motion_built_in_code_is_that_of_a_file() {
+    let spec = read("motion = \"table\"\nmotion_table = \"stroke.csv\"").unwrap();
+    let corners: Arc<[[f64; 2]]> = Arc::new([[0.0, 0.0], [0.1, 0.04], [0.3, 0.01]]);
+    let table = |corners| Motion::Table(Arc::new(MotionTable { name: "stroke.csv".to_owned(), corners }));
+    let sweep = |motion| Sweep::two_mass().set(Param::MuS, 0.4).set(Param::MuD, 0.3).motion(motion);
+    let built = sweep(table(corners)).spec().unwrap();
+    assert_eq!(built.resolved(), spec.resolved());
+    let why = sweep(table(Arc::new([[0.5, 1.0], [1.0, 1.0]]))).spec().unwrap_err().to_string();
+    assert!(why.contains("the first `time`"), "{why}");
+    let why = sweep(Motion::Sine).spec().unwrap_err().to_string();
+    assert!(why.contains("`ramp_duration`"), "{why}");
+}
+
+/// A run in tiles is completed from what its directory holds, without the sweep file.
+#[test]
+fn a_run_of_strokes_is_completed_from_its_tiles() {
+    let directory = tempfile::tempdir().unwrap();
+    let at = directory.path();
+    std::fs::write(at.join("stroke.csv"), "time,velocity\n0,0\n0.1,3\n0.3,1\n").unwrap();
+    let text = "[friction]\nmu_d = 0.2\n[belt]\nmotion = \"table\"\nmotion_table = \"stroke.csv\"\n\
+                [axes]\nmu_s = { from = 0.1, to = 0.6, points = 12 }\n[response]\ncheck = false\n";
+    std::fs::write(at.join("s.toml"), text).unwrap();
+    let ran = |args: &[&str]| {
+        let ended = squealmap(Path::new(at), args);
+        assert_eq!(ended.code, Some(0), "{args:?}: {}", ended.err);
+    };
+    ran(&["run", "s.toml", "-o", "whole", "--backend", "cpu"]);
+    ran(&["run", "s.toml", "-o", "tiles", "--backend", "cpu", "--tile", "4", "--shard", "0/2"]);
+    ran(&["run", "s.toml", "-o", "tiles", "--backend", "cpu", "--tile", "4", "--shard", "1/2"]);
+    ran(&["merge", "tiles"]);
+    let map = |name: &str| std::fs::read(at.join(name).join("map.csv")).unwrap();
+    assert_eq!(map("whole"), map("tiles"));
+}
