@@ -1,11 +1,11 @@
 //! Points per second of the eigenvalue analysis and instances per second of the transient, reference and CPU
-//! engine, on one core. `cargo bench --bench core` prints both;
+//! engine, per second of processor time: the median of nine rounds. `cargo bench --bench core [-- NAME]` prints them;
 //! `docs/performance.md` says what was measured.
 
 use std::hint::black_box;
 use std::sync::atomic::AtomicBool;
 
-use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use squealmap::engine::lanes::Lanes;
 use squealmap::engine::lanes::outcomes::outcomes;
 use squealmap::engine::method::Method;
 use squealmap::engine::method::taylor::REFERENCE_ORDER;
@@ -16,6 +16,7 @@ use squealmap::model::instance::Instance;
 use squealmap::model::linear::analyse;
 use squealmap::model::motion::Motion;
 use squealmap::model::{Param, Params};
+use squealmap::sweep::accuracy::clock::Clock;
 
 /// The paper's model over a grid of `side`² friction coefficients at 3 m/s.
 fn plane(side: usize) -> Vec<Instance> {
@@ -29,73 +30,64 @@ fn plane(side: usize) -> Vec<Instance> {
     (0..side * side).map(|k| instance(coefficient(k / side), coefficient(k % side))).collect()
 }
 
-fn linear(criterion: &mut Criterion) {
-    let instances = plane(100);
-    let mut group = criterion.benchmark_group("linear");
-    group.throughput(Throughput::Elements(instances.len() as u64));
-    group.bench_function("analyse", |bencher| {
-        bencher.iter(|| {
-            for instance in &instances {
-                black_box(analyse(black_box(instance)));
-            }
-        });
-    });
-    group.finish();
-}
-
-fn response(criterion: &mut Criterion) {
-    let instances = plane(12);
-    let plan = Plan {
+/// A kick, and 140 periods of so many steps.
+fn plan(steps_per_period: u32) -> Plan {
+    Plan {
         start: StartKind::Kick,
         settle: Duration::Periods(100.0),
         settle_limit: None,
         hunts: false,
         measure: Duration::Periods(40.0),
-        steps_per_period: 12,
+        steps_per_period,
         method: Method::Taylor,
         order: REFERENCE_ORDER,
         tolerance: STEP_TOLERANCE,
-    };
-    let mut group = criterion.benchmark_group("response");
-    group.throughput(Throughput::Elements(instances.len() as u64));
-    group.sample_size(10);
-    group.bench_function("140 periods", |bencher| {
-        bencher.iter(|| {
-            for instance in &instances {
-                black_box(respond(black_box(instance), &plan));
-            }
-        });
-    });
-    group.finish();
+    }
 }
 
-fn lanes(criterion: &mut Criterion) {
-    let instances = plane(32);
-    let mut group = criterion.benchmark_group("lanes");
-    group.throughput(Throughput::Elements(instances.len() as u64));
-    group.sample_size(10);
-    for steps_per_period in [12, 5] {
-        let plan = Plan {
-            start: StartKind::Kick,
-            settle: Duration::Periods(100.0),
-            settle_limit: None,
-            hunts: false,
-            measure: Duration::Periods(40.0),
-            steps_per_period,
-            method: Method::Taylor,
-            order: REFERENCE_ORDER,
-            tolerance: STEP_TOLERANCE,
-        };
-        let never = AtomicBool::new(false);
-        group.bench_function(format!("f32, 140 periods of {steps_per_period} steps"), |bencher| {
-            bencher.iter(|| outcomes::<f32>(black_box(&instances), &plan, &never));
-        });
-        group.bench_function(format!("f64, 140 periods of {steps_per_period} steps"), |bencher| {
-            bencher.iter(|| outcomes::<f64>(black_box(&instances), &plan, &never));
+/// Prints how many items a second of processor time does, if it is asked for: the median of nine rounds of at least a second.
+fn report(name: &str, items: usize, work: impl Fn()) {
+    let asked: Vec<String> = std::env::args().skip(1).filter(|word| !word.starts_with('-')).collect();
+    if !asked.is_empty() && !asked.iter().any(|word| name.contains(word.as_str())) {
+        return;
+    }
+    let mut rates: Vec<f64> = (0..9)
+        .map(|_| {
+            let (clock, mut rounds) = (Clock::start(), 0);
+            while clock.worked() < 1.0 {
+                work();
+                rounds += 1;
+            }
+            (items * rounds) as f64 / clock.worked()
+        })
+        .collect();
+    rates.sort_by(f64::total_cmp);
+    println!("{name:40} {:.4e} per second, {:.4e} to {:.4e}", rates[4], rates[0], rates[8]);
+}
+
+fn lanes<T: Lanes>(name: &str) {
+    let (instances, never) = (plane(32), AtomicBool::new(false));
+    for steps in [12, 5] {
+        let plan = plan(steps);
+        report(&format!("lanes {name}, 140 periods of {steps} steps"), instances.len(), || {
+            black_box(outcomes::<T>(black_box(&instances), &plan, &never).is_ok());
         });
     }
-    group.finish();
 }
 
-criterion_group!(benches, linear, response, lanes);
-criterion_main!(benches);
+fn main() {
+    let instances = plane(100);
+    report("linear", instances.len(), || {
+        for instance in &instances {
+            black_box(analyse(black_box(instance)));
+        }
+    });
+    let (instances, plan) = (plane(12), plan(12));
+    report("response, 140 periods", instances.len(), || {
+        for instance in &instances {
+            black_box(respond(black_box(instance), &plan));
+        }
+    });
+    lanes::<f32>("f32");
+    lanes::<f64>("f64");
+}
