@@ -56,7 +56,7 @@ pub(crate) struct Served {
 
 impl Served {
     /// With so many questions at work at once.
-    pub(crate) fn new(explorer: Explorer, turns: usize) -> Served {
+    pub(crate) fn new(explorer: &Explorer, turns: usize) -> Served {
         let work = Work {
             options: Options { backend: Backend::Cpu, ..Options::default() },
             open: None,
@@ -77,12 +77,12 @@ impl Served {
     }
 
     pub(crate) fn of(text: &str) -> Served {
-        Served::new(Explorer::new(parse(text)).unwrap(), 2)
+        Served::new(&Explorer::new(parse(text)).unwrap(), 2)
     }
 
     pub(crate) fn connect(&self) -> TcpStream {
         let stream = TcpStream::connect(("127.0.0.1", self.port)).unwrap();
-        stream.set_read_timeout(Some(Duration::from_secs(60))).unwrap();
+        stream.set_read_timeout(Some(Duration::from_mins(1))).unwrap();
         stream
     }
 

@@ -106,7 +106,7 @@ fn a_directory_answers_by_its_table() {
     let directory = tempfile::tempdir().unwrap();
     let map = computed(MAP);
     written(&map, directory.path());
-    let served = Served::new(opened(directory.path()), 2);
+    let served = Served::new(&opened(directory.path()), 2);
     let about = served.ask(&json!({ "ask": "about" })).parts().0;
     let (head, numbers) = served.ask(&region(true, &COLUMNS)).parts();
     assert_eq!(head["of_run"], 42);
@@ -139,7 +139,7 @@ fn a_directory_answers_by_its_table() {
     rows[row][place] = "7.5";
     let lines: Vec<String> = rows.iter().map(|row| row.join(",")).collect();
     std::fs::write(&path, lines.join("\n") + "\n").unwrap();
-    let (_, planted) = Served::new(opened(directory.path()), 2).ask(&region(true, &["x2_std"])).parts();
+    let (_, planted) = Served::new(&opened(directory.path()), 2).ask(&region(true, &["x2_std"])).parts();
     let known = column(&map, &about, "x2_std");
     let differ: Vec<usize> = (0..42).filter(|k| !same(&planted[*k..=*k], &known[*k..=*k])).collect();
     assert_eq!(differ.iter().map(|k| planted[*k]).collect::<Vec<_>>(), [7.5]);
