@@ -21,6 +21,7 @@ use serde_json::json;
 use squealmap::engine::backend::Backend;
 use squealmap::engine::choice::choose;
 use squealmap::engine::options::Options;
+use squealmap::engine::precision::Precision;
 use squealmap::store::origin;
 use squealmap::study::error::Error as Why;
 use squealmap::study::explore::finished::Finished;
@@ -104,7 +105,10 @@ impl ExploreCommand {
         let analysis =
             Analysis { linear: true, response, checked: false, starts: Starts::One, ..spec.analysis };
         let options = self.engine.options(&cancel, &note);
-        let engine = choose(&options, &Spec { analysis, ..spec.clone() })?;
+        // The page asks for transients in f32, which a run beside it has in f64.
+        let is_enough = finished.is_none() && [Backend::Auto, Backend::Cpu].contains(&self.engine.backend);
+        let precision = options.precision.or(is_enough.then_some(Precision::F32));
+        let engine = choose(&Options { precision, ..options }, &Spec { analysis, ..spec.clone() })?;
         let backend = engine.backend();
         let [_, computation] = engine.computations(spec.steps_per_period);
         told["cores"] = json!(cores);

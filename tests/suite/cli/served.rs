@@ -145,6 +145,30 @@ fn a_directory_answers_by_its_table() {
     assert_eq!(differ.iter().map(|k| planted[*k]).collect::<Vec<_>>(), [7.5]);
 }
 
+/// Without a table the tiles that are there are taken, and what is in none of them is computed.
+#[test]
+fn a_directory_without_a_table_answers_by_its_tiles() {
+    let directory = tempfile::tempdir().unwrap();
+    let (here, map) = (directory.path(), directory.path().join("map"));
+    std::fs::write(here.join("s.toml"), MAP).unwrap();
+    let ran = squealmap(here, &["run", "s.toml", "-o", "map", "--quiet", "--backend", "cpu"]);
+    assert_eq!(ran.code, Some(0), "{}", ran.err);
+    let answer = || Served::new(&opened(&map), 2).ask(&region(true, &COLUMNS)).parts();
+    let (head, by_table) = answer();
+    assert_eq!(head["of_run"], 42);
+    std::fs::remove_file(map.join("map.csv")).unwrap();
+    let (head, by_tiles) = answer();
+    assert!(head["of_run"] == 42 && same(&by_tiles, &by_table));
+    for entry in std::fs::read_dir(map.join("tiles")).unwrap() {
+        let path = entry.unwrap().path();
+        if !path.ends_with("sweep.json") {
+            std::fs::remove_file(path).unwrap();
+        }
+    }
+    let (head, computed) = answer();
+    assert!(head["of_run"] == 0 && same(&computed, &by_table));
+}
+
 /// The sentence of a command that cannot serve this, and that it is bad input. A program without the page says that instead.
 fn refused(directory: &Path, arguments: &[&str], part: &str) {
     let ended = squealmap(directory, &[&["explore"], arguments].concat());

@@ -108,7 +108,7 @@ export class MapView {
       const jobs: Promise<void>[] = [];
       for (let row = 0; row < high; row += rows) {
         const count = Math.min(rows, high - row);
-        const question = own ? ownRegion(state, column, own, [row, count]) : region(state, column, [wide, high], [row, count], !this.engines.takesProgram());
+        const question = own ? ownRegion(state, column, own, [row, count]) : region(state, column, [wide, high], [row, count], !run);
         jobs.push(
           this.engines.ask(question, GROUP).then((answer: Answer) => {
             if (generation !== this.generation) return;

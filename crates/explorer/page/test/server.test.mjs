@@ -1,32 +1,17 @@
-// The page served by the program, in a browser; see browser.mjs. PROGRAM is the program, RUN the directory of a run of the same sweep.
+// The page served by the program, in a browser; see browser.mjs. SWEEP is the sweep, RUN the directory of a run of it.
 import assert from "node:assert/strict";
-import { spawn } from "node:child_process";
 import { readFileSync } from "node:fs";
-import { createInterface } from "node:readline";
 import { after, before, test } from "node:test";
-import { labels, launch, open, whole } from "./browser.mjs";
+import { endServers, labels, launch, open, serve, whole } from "./browser.mjs";
 
-const { PROGRAM, RUN, MAP, SWEEP } = process.env;
-assert.ok(PROGRAM && RUN && SWEEP, "PROGRAM, RUN and SWEEP have to name files; crates/explorer/check does");
+const { RUN, MAP, SWEEP } = process.env;
+assert.ok(RUN && SWEEP, "RUN and SWEEP have to name files; crates/explorer/check does");
 
 const errors = [];
 const asked = [];
 const dropped = [];
-const servers = [];
 let browser, page;
 
-/** A server of a sweep or a run: its address, once it listens, and how to end it. */
-async function serve(source) {
-  const child = spawn(PROGRAM, ["explore", source, "--no-open", "--backend", "cpu"], { stdio: ["ignore", "pipe", "inherit"] });
-  servers.push(child);
-  for await (const line of createInterface({ input: child.stdout })) {
-    const ended = new Promise((resolve) => child.once("exit", resolve));
-    return { address: line.split(" ")[0], end: () => (child.kill("SIGKILL"), ended) };
-  }
-  throw new Error("the server ended before it began");
-}
-
-const choose = (choice) => page.evaluate((choice) => void (window.squealmap.engines.choice = choice), choice);
 const text = (id) => page.$eval(id, (element) => element.textContent);
 
 before(async () => {
@@ -39,7 +24,7 @@ before(async () => {
 });
 after(async () => {
   await browser?.close();
-  for (const child of servers) child.kill("SIGKILL");
+  endServers();
 });
 
 test("the labels of a served page are those of the program, which computes them", async () => {
@@ -77,18 +62,23 @@ async function times(choice, quantity, zooms) {
 for (const [quantity, zooms, width] of [["type", 5, 1280], ["regime", 1, 300]])
   test(`from a zoom to the first and the last picture: ${quantity}`, async () => {
     await page.setViewport({ width, height: 900 });
-    await open(page, "", page.url());
-    const size = await page.$eval("#map", (map) => `${map.width} x ${map.height} pixels`);
-    for (const choice of ["program", "cpu", "program", "cpu"]) {
-      const { first, last, by } = await times(choice, quantity, zooms);
-      console.log(`${quantity}, ${size}, ${by}: first picture after ${first.toFixed(3)} s, last after ${last.toFixed(2)} s`);
-      assert.ok(first <= last);
+    for (const options of quantity === "type" ? [[]] : [[], ["--precision", "f64"]]) {
+      const { address, end } = await serve(SWEEP, ...options);
+      await open(page, "", address);
+      const size = await page.$eval("#map", (map) => `${map.width} x ${map.height} pixels`);
+      for (const choice of ["program", "cpu"]) {
+        const { first, last, by } = await times(choice, quantity, zooms);
+        console.log(`${quantity}, ${size}, ${[by, ...(choice === "program" ? options : [])].join(" ")}: first picture after ${first.toFixed(3)} s, last after ${last.toFixed(2)} s`);
+        assert.ok(first <= last);
+      }
+      await end();
     }
     await page.setViewport({ width: 1280, height: 900 });
-    await choose("program");
   });
 
 test("what is no longer wanted is dropped, and a cell is looked into", async () => {
+  const { address } = await serve(SWEEP);
+  await open(page, "", address);
   const before = dropped.length;
   await page.evaluate(async () => {
     const { page, state } = window.squealmap;
