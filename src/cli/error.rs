@@ -268,6 +268,31 @@ pub(crate) enum Error {
         /// What the system says.
         why: String,
     },
+    /// The page of a run, whose values no page has.
+    #[error(
+        "`{}` is the directory of a run, whose values the page of -o would not have; name its sweep file, or leave -o out",
+        path.display()
+    )]
+    RunAsPage {
+        /// The directory.
+        path: PathBuf,
+    },
+    /// A port that cannot be listened on.
+    #[error(
+        "cannot listen on 127.0.0.1:{port}: {why}; name another --port, or leave it out for one that is free"
+    )]
+    Listen {
+        /// The port.
+        port: u16,
+        /// What the system says.
+        why: String,
+    },
+    /// A server that does not begin.
+    #[error("the page cannot be served: {why}")]
+    Serve {
+        /// Why.
+        why: String,
+    },
     /// The handler of Ctrl-C cannot be set.
     #[error("cannot listen to Ctrl-C: {why}")]
     Signal {
@@ -358,6 +383,8 @@ impl Error {
             | Error::NoSuchQuantity { .. }
             | Error::NoScheduler { .. }
             | Error::ReuseInJobs
+            | Error::RunAsPage { .. }
+            | Error::Listen { .. }
             | Error::ManyGpus { .. }
             | Error::PathOfJob { .. } => true,
             _ => false,

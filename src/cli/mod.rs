@@ -41,6 +41,7 @@ mod report;
 mod results;
 mod run;
 mod scheduler;
+pub mod serve;
 mod shell;
 mod signal;
 mod status;
@@ -108,7 +109,7 @@ enum Command {
     /// Where limit cycles meet, double their period, or are born, as curves over the planes of a sweep: curves.csv, curves.json,
     /// curves.svg, curves.png
     Curves(curves::CurvesCommand),
-    /// The map of a sweep to look into, computed in the browser of whoever reads it: explore.html
+    /// The map of a sweep or a run to look into, in the browser: computed here, or with -o by whoever reads the page
     Explore(explore::ExploreCommand),
     /// What measured signals say: identify.json, identify.svg, identify.png, windows.csv
     Identify(identify::Identify),

@@ -74,6 +74,16 @@ pub(crate) fn product(text: &str) {
     if manner().json { print(text) } else { out(text) }
 }
 
+/// Prints a result at once, in the middle of a command: on standard error where one object is to stand on standard output.
+pub(crate) fn say(text: &str) {
+    let Manner { quiet, json, .. } = manner();
+    if json {
+        note(text);
+    } else if !quiet {
+        out(&format!("{text}\n"));
+    }
+}
+
 /// Writes to standard output; a reader that has gone away is no error, a full disk is one at the end.
 fn out(text: &str) {
     let mut out = std::io::stdout().lock();

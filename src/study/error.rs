@@ -15,6 +15,14 @@ pub enum Error {
     /// A sweep without a plane to look into.
     #[error("a map to look into needs two axes of numbers in [axes], as `squealmap init map` writes them")]
     NothingToExplore,
+    /// A directory without a run to look into.
+    #[error("`{}` holds no run to look into: {why}; give the directory of `squealmap run`, or a sweep file", path.display())]
+    NoRunToExplore {
+        /// The directory.
+        path: PathBuf,
+        /// Why there is none.
+        why: &'static str,
+    },
     /// A program without the page of the explorer.
     #[error(
         "this program was built without the page of `explore`: in a copy of its repository `crates/explorer/build` makes the page, \
@@ -208,6 +216,7 @@ impl Error {
     pub fn is_bad_input(&self) -> bool {
         match self {
             Error::NothingToExplore
+            | Error::NoRunToExplore { .. }
             | Error::NoPage
             | Error::NoModesAxis
             | Error::NoModesOfTuples

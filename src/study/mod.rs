@@ -7,7 +7,7 @@
 //! | a cycle while a parameter rises and falls | [`hysteresis`] |
 //! | branches of cycles, stable and unstable | [`cycles`] |
 //! | curves over two parameters where cycles meet or are born | [`curves`] |
-//! | a map to look into, as a page | [`explore`] |
+//! | a map to look into: questions, answers, the page | [`explore`] |
 //! | speed against error | [`tradeoff`] |
 //! | measured friction as a material | [`fit`] |
 //! | measurements of a structure as a model | [`calibrate`] |
@@ -30,7 +30,6 @@ pub mod calibrate;
 pub mod curves;
 pub mod cycles;
 pub mod error;
-#[cfg(feature = "figures")]
 pub mod explore;
 #[cfg(feature = "figures")]
 pub mod fem;

@@ -19,12 +19,11 @@ use squealmap::engine::march::kernel::kernel_for;
 use squealmap::engine::march::round::{ALIGNED, Round};
 use squealmap::engine::precision::Precision;
 use squealmap::engine::record::Record;
+use squealmap::study::explore::Explorer;
+use squealmap::study::explore::answer::Answer;
+use squealmap::study::explore::region::{Region, answered};
 use squealmap::sweep::columns::Column;
 use squealmap::sweep::spec::Spec;
-
-use crate::answer::Answer;
-use crate::opened::Opened;
-use crate::region::{Region, answered};
 
 /// Most lanes of a turn: some hundred megabytes in the memory of the page.
 const MOST_LANES: usize = 16_384;
@@ -68,11 +67,14 @@ struct Dispatch<'a> {
 }
 
 impl OnDevice {
-    /// Before the first turn.
+    /// A region of a sweep before the first turn, from the question for it.
     ///
     /// # Errors
     /// A sentence that says why no GPU can compute the region, or what is wrong with it.
-    pub fn new(region: &Region, opened: &Opened) -> Result<OnDevice, String> {
+    pub fn new(question: &str, explorer: &Explorer) -> Result<OnDevice, String> {
+        let region: Region =
+            serde_json::from_str(question).map_err(|why| format!("this is no region: {why}"))?;
+        let opened = explorer.opened();
         let spec = region.spec(opened)?;
         if spec.modal.is_some() {
             return Err("models of modes are computed without a GPU".to_owned());
@@ -86,14 +88,7 @@ impl OnDevice {
         let wanted = region.wanted(&spec)?;
         let known = (0..spec.grid.len()).map(|index| batch::known(&spec, index)).collect();
         let stage = Stage::Eigenvalues(known);
-        Ok(OnDevice {
-            spec,
-            wanted,
-            names: region.columns.clone(),
-            records: Vec::new(),
-            stage,
-            told: Vec::new(),
-        })
+        Ok(OnDevice { spec, wanted, names: region.columns, records: Vec::new(), stage, told: Vec::new() })
     }
 
     /// A turn of at most so many steps: takes the words of state and flags that have come `back`, none in the first turn, and says

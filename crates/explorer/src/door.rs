@@ -7,9 +7,10 @@
 
 use std::cell::RefCell;
 
-use crate::answer::Answer;
+use squealmap::study::explore::Explorer;
+use squealmap::study::explore::answer::Answer;
+
 use crate::device::OnDevice;
-use crate::explorer::Explorer;
 
 /// What stands in the memory that the page sees.
 #[derive(Default)]
@@ -60,7 +61,7 @@ pub extern "C" fn begin(steps: u32) -> *const u8 {
     answered(|memory| {
         memory.on_device = None;
         let question = str::from_utf8(&memory.question).map_err(|_| "this is no region: it is no UTF-8")?;
-        let mut region = memory.explorer.as_ref().ok_or("no sweep is open")?.on_device(question)?;
+        let mut region = OnDevice::new(question, memory.explorer.as_ref().ok_or("no sweep is open")?)?;
         let answer = region.turn(&[], steps)?;
         memory.on_device = Some(region);
         Ok(answer)

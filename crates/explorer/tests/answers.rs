@@ -3,9 +3,9 @@
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
 use serde_json::json;
+use squealmap::study::explore::Explorer;
 use squealmap::sweep::spec::Spec;
 use squealmap::{Backend, Options};
-use squealmap_explorer::Explorer;
 
 const MAP: &str = "[model]\ntheta = 0.01\n[friction]\nlaw = \"bilinear\"\nknee_velocity = 5\n[response]\nsettle = \"20 periods\"\n\
     measure = \"10 periods\"\ncheck = false\n[axes]\nmu_s = { from = 0.0, to = 0.6, points = 7 }\n\
@@ -149,7 +149,9 @@ fn questions_that_are_none_get_a_sentence() {
         (with(&["x", "from"], json!("a")), "no question"),
         (with(&["x", "points"], json!(0)), "has 0 points"),
         (with(&["x", "points"], json!(2_000_000)), "2000000 points"),
-        (with(&["y", "points"], json!(1_000_000)), "6 x 1000000 cells"),
+        (with(&["y", "points"], json!(200_000)), "6 x 200000 cells"),
+        (with(&["x", "values"], json!([0.0, 0.5])), "the 2 `values` of `mu_d` have to be 6 from 0 to 0.5"),
+        (with(&["x", "values"], json!([0.0, 0.1, 0.2, -1.0, 0.4, 0.5])), "`mu_d` is -1"),
         (with(&["x", "log"], json!(true)), "above 0"),
         (with(&["at"], json!({})), "`belt_velocity`"),
         (with(&["at", "belt_velocity"], json!(-1)), "`belt_velocity` is -1"),

@@ -5,9 +5,10 @@
 
 use serde_json::{Value as Json, json};
 use squealmap::engine::kernel::linear::analyse;
+use squealmap::study::explore::Explorer;
+use squealmap::study::explore::answer::Answer;
 use squealmap::sweep::spec::Spec;
-use squealmap_explorer::Explorer;
-use squealmap_explorer::answer::Answer;
+use squealmap_explorer::device::OnDevice;
 
 const MAP: &str = "[model]\ntheta = 0.01\n[friction]\nlaw = \"bilinear\"\nknee_velocity = 5\n[axes]\n\
     mu_s = { from = 0.0, to = 0.6, points = 7 }\nmu_d = { from = 0.0, to = 0.5, points = 6 }\n\
@@ -49,7 +50,7 @@ fn played(sent: &Answer) -> Vec<u8> {
 #[test]
 fn eigenvalues_by_a_device_are_those_of_the_cpu() {
     let explorer = open(MAP);
-    let mut on_device = explorer.on_device(&region(false).to_string()).unwrap();
+    let mut on_device = OnDevice::new(&region(false).to_string(), &explorer).unwrap();
     let sent = on_device.turn(&[], 64).unwrap();
     let (_, text) = sent.head["sources"].as_object().unwrap().iter().next().unwrap();
     assert!(text.as_str().unwrap().contains("fn analyse"));
@@ -67,7 +68,7 @@ fn eigenvalues_by_a_device_are_those_of_the_cpu() {
 #[test]
 fn what_a_device_cannot_have_made_is_refused() {
     let begun = || {
-        let mut on_device = open(MAP).on_device(&region(false).to_string()).unwrap();
+        let mut on_device = OnDevice::new(&region(false).to_string(), &open(MAP)).unwrap();
         let back = played(&on_device.turn(&[], 64).unwrap());
         (on_device, back)
     };
@@ -84,8 +85,8 @@ fn what_a_device_cannot_have_made_is_refused() {
 #[test]
 fn what_no_kernel_computes_is_left_to_the_cpu() {
     let text = MAP.to_owned() + "[response]\nsettle = \"cycle\"\n";
-    let why = open(&text).on_device(&region(true).to_string()).unwrap_err();
+    let why = OnDevice::new(&region(true).to_string(), &open(&text)).unwrap_err();
     assert!(why.contains("without a GPU"), "{why}");
-    assert!(open(&text).on_device(&region(false).to_string()).is_ok());
-    assert!(open(MAP).on_device("{}").unwrap_err().contains("no region"));
+    assert!(OnDevice::new(&region(false).to_string(), &open(&text)).is_ok());
+    assert!(OnDevice::new("{}", &open(MAP)).unwrap_err().contains("no region"));
 }

@@ -4,7 +4,7 @@
 
 use serde_json::Value as Json;
 use squealmap::store::description::Description;
-use squealmap::study::explore::page;
+use squealmap::study::explore::page::page;
 use squealmap::sweep::spec::Spec;
 
 const EMPTY: &str = "<html><!--sweep--></html>";

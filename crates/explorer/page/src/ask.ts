@@ -1,4 +1,7 @@
-// Questions to the engines: one queue for as many workers as there are cores, and one for the reader's GPU.
+// Questions to the engines: one queue for as many workers as there are cores, one for the reader's GPU, and one for the program
+// that serves the page, where one does.
+
+import { Gone, Program } from "./program";
 
 declare const WORKER: string;
 
@@ -22,12 +25,13 @@ export interface Device {
   isSoftware: boolean;
 }
 
-/** What computes: the GPU what it is faster at, all that it can, or nothing. */
-export type Choice = "auto" | "gpu" | "cpu";
+/** What computes: the program that serves the page; here, the GPU what it is faster at, all that it can, or nothing. */
+export type Choice = "program" | "auto" | "gpu" | "cpu";
 
 /** Cells of one question: an engine answers in a fraction of a second, and is free for another view. */
 const AT_ONCE = { eigenvalues: 16384, transients: 96 };
 const AT_ONCE_ON_GPU = { eigenvalues: 65536, transients: 8192 };
+const AT_ONCE_BY_PROGRAM = { eigenvalues: 65536, transients: 256 };
 
 /** Workers with the same sweep open. */
 export class Engines {
@@ -45,8 +49,15 @@ export class Engines {
   private gpu: Worker | null = null;
   private onGpu: Job | null = null;
   private gpuQueue: Job[] = [];
+  /** The program that serves the page, while it does. */
+  program: Program | null = Program.ofPage();
+  /** Why it does no longer. */
+  noProgram = "";
+  private programQueue: Job[] = [];
+  private readonly atProgram = new Map<Job, AbortController>();
 
   private constructor(workers: Worker[]) {
+    if (this.program) this.choice = "program";
     this.idle = workers;
     this.count = workers.length;
     for (const worker of workers) {
@@ -105,33 +116,62 @@ export class Engines {
     this.changed();
   }
 
+  /** Goes on without the program; the engines get its questions. */
+  private loseProgram(why: string): void {
+    if (!this.program) return;
+    this.program = null;
+    this.noProgram = why;
+    if (this.choice === "program") this.choice = "auto";
+    this.queue.push(...[...this.atProgram.keys()].filter((job) => !job.dropped), ...this.programQueue);
+    for (const controller of this.atProgram.values()) controller.abort();
+    this.atProgram.clear();
+    this.programQueue = [];
+    this.next();
+    this.changed();
+  }
+
+  /** Whether the program answers. */
+  takesProgram(): boolean {
+    return this.program !== null && this.choice === "program";
+  }
+
   /** Whether the GPU computes regions with or without transients. */
   takesGpu(response: boolean): boolean {
-    if (!this.gpu || !this.device || this.choice === "cpu") return false;
+    if (!this.gpu || !this.device || this.choice === "cpu" || this.takesProgram()) return false;
     return this.choice === "gpu" || (response && !this.device.isSoftware);
   }
 
   /** What computes such regions, in words. */
   by(response: boolean): string {
+    if (this.program && this.takesProgram()) return `this program (${this.program.told.by})`;
     return this.takesGpu(response) && this.device ? this.device.name : `${this.count} engines`;
   }
 
   /** Cells of one question. */
   atOnce(response: boolean): number {
-    return (this.takesGpu(response) ? AT_ONCE_ON_GPU : AT_ONCE)[response ? "transients" : "eigenvalues"];
+    const onGpu = this.takesProgram() ? this.program?.told.gpu : this.takesGpu(response);
+    const most = onGpu ? AT_ONCE_ON_GPU : this.takesProgram() ? AT_ONCE_BY_PROGRAM : AT_ONCE;
+    return most[response ? "transients" : "eigenvalues"];
   }
 
   /** Asks; questions of one group can be dropped together. */
   ask(question: object, group = 0): Promise<Answer> {
     return new Promise((done, failed) => {
       const { ask, response } = question as { ask?: string; response?: boolean };
-      (ask === "region" && this.takesGpu(response === true) ? this.gpuQueue : this.queue).push({ question, done, failed, group });
+      const queue = this.takesProgram() ? this.programQueue : ask === "region" && this.takesGpu(response === true) ? this.gpuQueue : this.queue;
+      queue.push({ question, done, failed, group });
       this.next();
     });
   }
 
-  /** Drops the questions of a group that no engine has begun with; the GPU drops that, too, which it is at. */
+  /** Drops the questions of a group that no engine has begun with; the GPU and the program drop those, too, which they are at. */
   drop(group: number): void {
+    this.programQueue = this.programQueue.filter((job) => job.group !== group);
+    for (const [job, controller] of this.atProgram) {
+      if (job.group !== group) continue;
+      job.dropped = true;
+      controller.abort();
+    }
     this.queue = this.queue.filter((job) => job.group !== group);
     this.gpuQueue = this.gpuQueue.filter((job) => job.group !== group);
     if (this.onGpu?.group === group) {
@@ -142,7 +182,7 @@ export class Engines {
 
   /** How many questions are open. */
   open(): number {
-    return this.queue.length + this.running.size + this.gpuQueue.length + (this.onGpu ? 1 : 0);
+    return this.queue.length + this.running.size + this.gpuQueue.length + (this.onGpu ? 1 : 0) + this.programQueue.length + this.atProgram.size;
   }
 
   private next(): void {
@@ -152,11 +192,25 @@ export class Engines {
       this.running.set(worker, job);
       worker.postMessage({ question: JSON.stringify(job.question) });
     }
+    while (this.program && this.programQueue.length > 0 && this.atProgram.size < this.program.told.cores) void this.askProgram(this.program, this.programQueue.shift() as Job);
     const job = this.gpu && !this.onGpu ? this.gpuQueue.shift() : undefined;
     if (!this.gpu || !job) return;
     this.onGpu = job;
     const { ask: _, ...region } = job.question as { ask?: string };
     this.gpu.postMessage({ byGpu: JSON.stringify(region) });
+  }
+
+  private async askProgram(program: Program, job: Job): Promise<void> {
+    const controller = new AbortController();
+    this.atProgram.set(job, controller);
+    try {
+      job.done(await program.ask(job.question, controller.signal));
+    } catch (why) {
+      if (why instanceof Gone) this.loseProgram(why.message);
+      else if (!controller.signal.aborted) job.failed(why instanceof Error ? why : new Error(String(why)));
+    }
+    // What was lost with the program is no longer among its questions.
+    if (this.atProgram.delete(job)) this.next();
   }
 
   private finishOnGpu(reply: Reply): void {

@@ -20,6 +20,13 @@ const say = (text: string) => {
   element("status").textContent = text;
 };
 
+/** Where the cells of a map come from, that shows a run. */
+function from(program: string, ofRun: number, cells: number, count: string): string {
+  if (ofRun === 0) return "Computed: the run has nothing of this.";
+  const all = ofRun === cells ? `all of ${cells.toLocaleString("en")} ${count}` : `${ofRun.toLocaleString("en")} of ${cells.toLocaleString("en")} ${count}; the others are computed`;
+  return `From the run of ${program.replace(/([0-9a-f]{10})[0-9a-f]+/, "$1")}: ${all}.`;
+}
+
 /** Bytes of a text in base 64, unpacked. */
 async function unpacked(text: string): Promise<Uint8Array> {
   const packed = Uint8Array.from(atob(text.trim()), (sign) => sign.charCodeAt(0));
@@ -61,11 +68,13 @@ class Page {
       engines,
       about,
       classes,
-      ({ cells, of, seconds }) => {
+      ({ cells, of, seconds, ofRun }) => {
         const done = cells >= of;
         const { response } = this.view.column(this.state.quantity);
         const count = response ? "transients" : "cells";
         say(`${cells.toLocaleString("en")} of ${of.toLocaleString("en")} ${count}, ${seconds.toFixed(2)} s on ${engines.by(response)}${done ? "" : " …"}`);
+        const run = engines.program?.told.run;
+        element("source").textContent = run && engines.takesProgram() ? from(run.program, ofRun, cells, count) : "";
         if (done) void this.along();
       },
       (sentence) => say(sentence),
@@ -105,22 +114,29 @@ class Page {
   private engine(): void {
     const choice = element<HTMLSelectElement>("engine");
     const show = () => {
-      const { device, noDevice, count } = this.engines;
+      const { device, noDevice, count, program, noProgram } = this.engines;
       const gpu = device ? `${device.name}${device.isSoftware ? ", software" : ""}` : "no GPU";
-      choice.title = device ? `Transients on ${gpu}` : noDevice;
+      const served = program || noProgram ? [["program", program ? `this program (${program.told.by})` : `this program, but ${noProgram}`]] : [];
+      const isThere = (value: string | undefined) => (value === "gpu" ? device !== null : value !== "program" || program !== null);
+      choice.title = noProgram ? `The program does not answer: ${noProgram}` : device ? `Transients on ${gpu}` : noDevice;
       choice.innerHTML = [
+        ...served,
         ["auto", "automatic"],
         ["gpu", `GPU (${gpu})`],
         ["cpu", `${count} engines on the CPU`],
       ]
-        .map(([value, words]) => `<option value="${value}"${value === this.engines.choice ? " selected" : ""}${value === "gpu" && !device ? " disabled" : ""}>${escape(words ?? "")}</option>`)
+        .map(([value, words]) => `<option value="${value}"${value === this.engines.choice ? " selected" : ""}${isThere(value) ? "" : " disabled"}>${escape(words ?? "")}</option>`)
         .join("");
     };
     choice.addEventListener("change", () => {
       this.engines.choice = choice.value as Choice;
       this.view.again(this.state);
     });
+    let before = this.engines.program;
     this.engines.changed = () => {
+      // Questions of a size for other engines are asked anew.
+      if (before !== this.engines.program) this.view.again(this.state);
+      before = this.engines.program;
       if (!this.engines.device && this.engines.choice === "gpu") this.engines.choice = "auto";
       show();
     };

@@ -2,6 +2,7 @@
 
 import type { Answer, Engines } from "./ask";
 import { NOTHING, type Scale, scale } from "./colours";
+import { nearest, own, type Own, ownRegion } from "./own";
 import type { State } from "./state";
 import type { About, Class, Column } from "./sweep";
 
@@ -19,6 +20,8 @@ interface Level {
   values: Float64Array;
   /** Rows that are there. */
   known: Uint8Array;
+  /** Where the cells stand, if not evenly over the view. */
+  own?: Own;
 }
 
 /** What the map says while it is computed. */
@@ -26,6 +29,8 @@ export interface Progress {
   cells: number;
   of: number;
   seconds: number;
+  /** Cells that a run had computed already. */
+  ofRun: number;
 }
 
 export class MapView {
@@ -87,25 +92,31 @@ export class MapView {
       this.canvas.width = w;
       this.canvas.height = h;
     }
-    const sides = (column.response ? OF_TRANSIENTS : OF_EIGENVALUES).map((side) => Math.max(1, Math.round(side * (column.response ? scaleOf : 1))));
+    const run = this.engines.takesProgram() ? this.engines.program?.told.run : null;
+    const ofRun = run ? own(this.about, run, state, column) : null;
+    const sides = ofRun?.whole ? [] : (column.response ? OF_TRANSIENTS : OF_EIGENVALUES).map((side) => Math.max(1, Math.round(side * (column.response ? scaleOf : 1))));
     const most = this.engines.atOnce(column.response);
-    const all = sides.map((side) => Math.ceil(w / side) * Math.ceil(h / side)).reduce((a, b) => a + b, 0);
-    let done = 0;
-    for (const side of sides) {
-      const [wide, high] = [Math.ceil(w / side), Math.ceil(h / side)];
-      const level: Level = { wide, high, values: new Float64Array(wide * high).fill(NaN), known: new Uint8Array(high) };
+    // What is coarser than the run shows less than it.
+    const least = ofRun ? ofRun.x.length * ofRun.y.length : 0;
+    const levels: { wide: number; high: number; own?: Own }[] = sides.map((side) => ({ wide: Math.ceil(w / side), high: Math.ceil(h / side) })).filter(({ wide, high }) => wide * high > least);
+    if (ofRun) levels.unshift({ wide: ofRun.x.length, high: ofRun.y.length, own: ofRun });
+    const all = levels.map(({ wide, high }) => wide * high).reduce((a, b) => a + b, 0);
+    let [done, taken] = [0, 0];
+    for (const { wide, high, own } of levels) {
+      const level: Level = { wide, high, values: new Float64Array(wide * high).fill(NaN), known: new Uint8Array(high), ...(own ? { own } : {}) };
       const rows = Math.max(1, Math.floor(most / wide));
       const jobs: Promise<void>[] = [];
       for (let row = 0; row < high; row += rows) {
         const count = Math.min(rows, high - row);
-        const question = region(state, column, [wide, high], [row, count]);
+        const question = own ? ownRegion(state, column, own, [row, count]) : region(state, column, [wide, high], [row, count], !run);
         jobs.push(
           this.engines.ask(question, GROUP).then((answer: Answer) => {
             if (generation !== this.generation) return;
             level.values.set(answer.numbers, row * wide);
             level.known.fill(1, row, row + count);
             done += wide * count;
-            this.told({ cells: done, of: all, seconds: (performance.now() - began) / 1000 });
+            taken += Number(answer.head["of_run"] ?? 0);
+            this.told({ cells: done, of: all, seconds: (performance.now() - began) / 1000, ofRun: taken });
             this.draw();
           }),
         );
@@ -121,13 +132,13 @@ export class MapView {
         return;
       }
       if (generation !== this.generation) return;
-      if (side === sides[0]) this.times.first = (performance.now() - began) / 1000;
+      if (Number.isNaN(this.times.first)) this.times.first = (performance.now() - began) / 1000;
       // Coarser levels are of no more use.
       this.levels = [level];
     }
     this.times.last = (performance.now() - began) / 1000;
     this.draw();
-    this.told({ cells: all, of: all, seconds: this.times.last });
+    this.told({ cells: all, of: all, seconds: this.times.last, ofRun: taken });
   }
 
   /** Keeps what is drawn, to be shown where nothing newer is. */
@@ -180,7 +191,8 @@ export class MapView {
       context.drawImage(this.picture, x0 * width, (1 - y1) * height, (x1 - x0) * width, (y1 - y0) * height);
     }
     let any = false;
-    for (const level of this.levels) {
+    for (const coarse of this.levels) {
+      const level = coarse.own ? spread(coarse, coarse.own, state, [width, height]) : coarse;
       const image = new ImageData(level.wide, level.high);
       let rows = 0;
       for (let row = 0; row < level.high; row++) {
@@ -208,8 +220,10 @@ export class MapView {
   /** The value at a place, as parts of both sides from the lower left; nothing where none is known. */
   value(x: number, y: number): number | undefined {
     for (const level of [...this.levels].reverse()) {
-      const row = Math.floor(y * level.high);
-      const at = Math.floor(x * level.wide);
+      const state = this.shownState;
+      const part = (values: number[], [low, high]: [number, number], at: number) => nearest(values, [low + at * (high - low), low + at * (high - low)], 1)[0] ?? 0;
+      const row = level.own && state ? part(level.own.y, state.rangeY, y) : Math.floor(y * level.high);
+      const at = level.own && state ? part(level.own.x, state.rangeX, x) : Math.floor(x * level.wide);
       if (row >= 0 && row < level.high && at >= 0 && at < level.wide && level.known[row]) return level.values[row * level.wide + at];
     }
     return undefined;
@@ -219,6 +233,20 @@ export class MapView {
   finest(): { wide: number; high: number; values: Float64Array } | undefined {
     return [...this.levels].reverse().find((level) => level.known.every((known) => known === 1));
   }
+}
+
+/** The cells of a run over the pixels of a view: each pixel has the nearest. */
+function spread(level: Level, { x, y }: Own, state: State, [wide, high]: [number, number]): Level {
+  const [across, up] = [nearest(x, state.rangeX, wide), nearest(y, state.rangeY, high)];
+  const values = new Float64Array(wide * high);
+  const known = new Uint8Array(high);
+  up.forEach((from, row) => {
+    known[row] = level.known[from] ?? 0;
+    across.forEach((at, to) => {
+      values[row * wide + to] = level.values[from * level.wide + at] as number;
+    });
+  });
+  return { wide, high, values, known };
 }
 
 /** Whether two states have the same cells. */
@@ -233,8 +261,8 @@ function part(old: [number, number], now: [number, number]): [number, number] {
   return [(old[0] - now[0]) / length, (old[1] - now[0]) / length];
 }
 
-/** The question about rows of a level: each cell by its middle. */
-export function region(state: State, column: Column, [wide, high]: [number, number], [row, rows]: [number, number]): object {
+/** The question about rows of a level: each cell by its middle; transients in f32 where that is wanted. */
+export function region(state: State, column: Column, [wide, high]: [number, number], [row, rows]: [number, number], f32: boolean): object {
   const middle = ([low, high]: [number, number], place: number, of: number) => low + ((place + 0.5) / of) * (high - low);
   return {
     ask: "region",
@@ -242,7 +270,7 @@ export function region(state: State, column: Column, [wide, high]: [number, numb
     y: { key: state.y, from: middle(state.rangeY, row, high), to: middle(state.rangeY, row + rows - 1, high), points: rows },
     at: state.at,
     response: column.response,
-    f32: column.response,
+    f32: f32 && column.response,
     columns: [column.name],
   };
 }

@@ -1,7 +1,9 @@
 // The page in a browser, for tests: PAGE is what `explore` wrote, MAP the map.csv of the same sweep, CURVED the page of a sweep with
-// an exponential law, CHROMIUM the browser.
+// an exponential law, PROGRAM the program that serves, CHROMIUM the browser.
 import assert from "node:assert/strict";
+import { spawn } from "node:child_process";
 import { readFileSync } from "node:fs";
+import { createInterface } from "node:readline";
 import { pathToFileURL } from "node:url";
 import puppeteer from "puppeteer-core";
 
@@ -53,3 +55,17 @@ export async function labels(page) {
   assert.equal(other(), differ + 1);
   return { rows: rows.length, differ };
 }
+
+const servers = [];
+
+/** Serves a sweep or a run: where, once it listens, and how to end it. */
+export async function serve(source, ...options) {
+  assert.ok(process.env.PROGRAM, "PROGRAM has to name the program; crates/explorer/check does");
+  const child = spawn(process.env.PROGRAM, ["explore", source, "--no-open", "--backend", "cpu", ...options], { stdio: ["ignore", "pipe", "inherit"] });
+  servers.push(child);
+  const ended = new Promise((resolve) => child.once("exit", resolve));
+  for await (const line of createInterface({ input: child.stdout })) return { address: line.split(" ")[0], end: () => (child.kill("SIGKILL"), ended) };
+  throw new Error("the server ended before it began");
+}
+
+export const endServers = () => servers.forEach((child) => child.kill("SIGKILL"));

@@ -1,7 +1,7 @@
 // The page in Firefox, which has no WebGPU here: FIREFOX is the browser; see browser.mjs.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { labels, launchFirefox, open, whole } from "./browser.mjs";
+import { endServers, labels, launchFirefox, open, serve, whole } from "./browser.mjs";
 
 let browser, page;
 const errors = [];
@@ -14,7 +14,10 @@ before(async () => {
   await page.setViewport({ width: 1280, height: 900 });
   await open(page);
 });
-after(() => browser?.close());
+after(async () => {
+  await browser?.close();
+  endServers();
+});
 
 test("the labels in Firefox are those of the program, without a GPU", async () => {
   const { rows, differ } = await labels(page);
@@ -49,6 +52,14 @@ test("wheel, keys, a click, a slider and a filter in Firefox", async () => {
   const hash = await page.evaluate(() => location.hash);
   await open(page, hash);
   assert.deepEqual(await state(), now);
+});
+
+test("the page served by the program in Firefox", async () => {
+  const { address } = await serve(process.env.SWEEP);
+  await open(page, "", address);
+  assert.equal(await page.$eval("#engine", (list) => list.value), "program");
+  const { differ } = await labels(page);
+  assert.equal(differ, 0);
 });
 
 test("a phone's width fits, and nothing goes wrong unseen", async () => {

@@ -5,12 +5,12 @@ import { fileURLToPath } from "node:url";
 import { build } from "esbuild";
 
 const built = await build({
-  stdin: { contents: 'export * from "./src/state"; export * from "./src/cell"; export { ticks } from "./src/plots";', resolveDir: fileURLToPath(new URL("..", import.meta.url)), loader: "ts" },
+  stdin: { contents: 'export * from "./src/state"; export * from "./src/cell"; export * from "./src/own"; export { ticks } from "./src/plots";', resolveDir: fileURLToPath(new URL("..", import.meta.url)), loader: "ts" },
   bundle: true,
   write: false,
   format: "esm",
 });
-const { first, read, written, kept_within, spectrum, ticks, why } = await import(`data:text/javascript,${encodeURIComponent(built.outputFiles[0].text)}`);
+const { first, read, written, kept_within, nearest, own, ownRegion, spectrum, ticks, why } = await import(`data:text/javascript,${encodeURIComponent(built.outputFiles[0].text)}`);
 
 const side = (key, values, least, most) => ({ key, symbol: key, unit: "", meaning: "", range: `between ${least} and ${most}`, least, most, values, log: false, numbers: true });
 const about = {
@@ -50,6 +50,24 @@ test("a range is kept within what its parameter may be", () => {
   assert.deepEqual(kept_within(about, "mu_s", [-1, 0.5]), [0, 0.5]);
   assert.equal(kept_within(about, "mu_s", [-2, -1]), undefined);
   assert.equal(kept_within(about, "mu_s", [0.3, 0.3]), undefined);
+});
+
+test("the cells of a run stand where its axes have values", () => {
+  const run = { instances: 18, response: true, program: "p" };
+  const state = first(about);
+  const column = { name: "type", response: false };
+  const whole = own(about, run, state, column);
+  assert.deepEqual(whole, { x: [0, 0.2, 0.5], y: [0, 0.3, 0.6], whole: true });
+  assert.deepEqual(own(about, run, { ...state, rangeX: [0.1, 0.3] }, column), { x: [0, 0.2, 0.5], y: [0, 0.3, 0.6], whole: false });
+  assert.deepEqual(own(about, run, { ...state, rangeX: [0.25, 0.3] }, column).x, [0.2, 0.5]);
+  // What the run has not.
+  assert.equal(own(about, run, { ...state, at: { belt_velocity: 2 } }, column), null);
+  assert.equal(own(about, run, { ...state, at: { ...state.at, theta: 0.02 } }, column), null);
+  assert.equal(own(about, { ...run, response: false }, state, { ...column, response: true }), null);
+  assert.equal(own(about, run, { ...state, rangeX: [0.7, 0.8] }, column), null);
+  const question = ownRegion(state, column, whole, [1, 2]);
+  assert.deepEqual(question.y, { key: "mu_s", from: 0.3, to: 0.6, points: 2, values: [0.3, 0.6] });
+  assert.deepEqual([...nearest([0, 0.2, 0.5], [0, 0.5], 4)], [0, 1, 1, 2]);
 });
 
 test("the spectrum of a sine has its frequency and its amplitude", () => {

@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
+use crate::model::Param;
+use crate::sweep::grid::{AxisKey, Value};
 use serde_json::Value as Json;
-use squealmap::Param;
-use squealmap::sweep::grid::{AxisKey, Value};
 
 /// Values of axes and parameters by name: numbers, and names of laws and materials.
 pub type At = BTreeMap<String, Json>;

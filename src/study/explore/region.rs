@@ -2,20 +2,23 @@
 
 use serde::Deserialize;
 use serde_json::json;
-use squealmap::engine::precision::Precision;
-use squealmap::engine::record::Record;
-use squealmap::sweep::columns::{Cell, Column, Content, Values, columns};
-use squealmap::sweep::grid::{Axis, AxisKey, Grid, Value, spaced};
-use squealmap::sweep::solver::Solver;
-use squealmap::sweep::spec::{Analysis, Spec, Starts};
-use squealmap::{Backend, Options};
 
-use crate::answer::Answer;
-use crate::opened::Opened;
-use crate::place::{At, allowed, value};
+use crate::engine::record::Record;
+use crate::study::explore::answer::Answer;
+use crate::study::explore::by::By;
+use crate::study::explore::finished::Known;
+use crate::study::explore::opened::Opened;
+use crate::study::explore::place::{At, allowed, value};
+use crate::sweep::accuracy::sample::subset;
+use crate::sweep::columns::{Cell, Column, Content, Values, columns};
+use crate::sweep::grid::{Axis, AxisKey, Grid, Value, spaced};
+use crate::sweep::spec::{Analysis, Spec, Starts};
 
-/// The most cells of one question: a worker answers in seconds, and can be asked for something else.
-pub const MOST_CELLS: usize = 1 << 20;
+/// The most cells of one question: an engine answers in seconds, and can be asked for something else.
+pub const MOST_CELLS: usize = 1 << 18;
+
+/// The most numbers of one answer.
+pub const MOST_NUMBERS: usize = 1 << 24;
 
 /// One side of a rectangle.
 #[derive(Clone, Debug, Deserialize)]
@@ -32,6 +35,9 @@ pub struct Side {
     /// Whether they are spaced by a factor.
     #[serde(default)]
     pub log: bool,
+    /// The values themselves, where they are spaced otherwise: as many, with the same ends.
+    #[serde(default)]
+    pub values: Vec<f64>,
 }
 
 impl Side {
@@ -45,10 +51,23 @@ impl Side {
         if self.log && (self.from <= 0.0 || self.to <= 0.0) {
             return Err(format!("`{}` is spaced by a factor, and has to be above 0", self.key));
         }
-        for end in [self.from, self.to] {
-            allowed(param, end)?;
+        for value in [self.from, self.to].iter().chain(&self.values) {
+            allowed(param, *value)?;
         }
-        let value = |k| Value::Number(spaced([self.from, self.to], self.points, self.log, k));
+        let ends = [self.values.first(), self.values.last()];
+        let listed = !self.values.is_empty();
+        if listed && (self.values.len() != self.points || ends != [Some(&self.from), Some(&self.to)]) {
+            let count = self.values.len();
+            return Err(format!(
+                "the {count} `values` of `{}` have to be {} from {} to {}",
+                self.key, self.points, self.from, self.to
+            ));
+        }
+        let number = |k: usize| match self.values.get(k) {
+            Some(value) => *value,
+            None => spaced([self.from, self.to], self.points, self.log, k),
+        };
+        let value = |k| Value::Number(number(k));
         Ok(Axis { key: AxisKey::Param(param), values: (0..self.points).map(value).collect(), log: self.log })
     }
 }
@@ -117,21 +136,38 @@ impl Region {
         Ok(Spec { analysis, grid: Grid::Axes(axes), refine: None, ..spec.clone() })
     }
 
-    /// Its cells: the wanted columns one after the other, each row by row from the first value up; names by their codes.
+    /// Its cells: the wanted columns one after the other, each row by row from the first value up; names by their codes. What a finished
+    /// run has computed comes from there, the others `by` an engine; `of_run` says how many are the run's.
     ///
     /// # Errors
     /// A sentence that names what is wrong.
-    pub fn answer(&self, opened: &Opened) -> Result<Answer, String> {
+    pub fn answer(&self, opened: &Opened, by: &By<'_>) -> Result<Answer, String> {
         let spec = self.spec(opened)?;
         let wanted = self.wanted(&spec)?;
-        let options = Options {
-            backend: Backend::Cpu,
-            precision: (self.f32 && spec.analysis.response).then_some(Precision::F32),
-            ..Options::default()
+        let Some(Known { cells, columns }) = self.known(opened, &spec) else {
+            return Ok(answered(&spec, &wanted, &self.columns, &by.records(&spec, self.f32)?));
         };
-        let mut solver = Solver::new(&spec, &options).map_err(|why| why.to_string())?;
-        let records = solver.records(0..spec.grid.len(), &|_| ()).map_err(|why| why.to_string())?.records;
-        Ok(answered(&spec, &wanted, &self.columns, &records))
+        let lacking: Vec<usize> = (0..cells.len()).filter(|cell| cells[*cell].is_none()).collect();
+        let others = subset(&spec, &lacking);
+        let records = if lacking.is_empty() { Vec::new() } else { by.records(&others, self.f32)? };
+        let mut numbers = Vec::with_capacity(cells.len() * wanted.len());
+        for (column, known) in wanted.iter().zip(columns) {
+            let fresh = |(cell, record): (&usize, &Record)| {
+                number(column, &column.cell(*cell, &spec.grid.coordinates(*cell), record))
+            };
+            let mut computed = lacking.iter().zip(&records).map(fresh);
+            numbers.extend(cells.iter().map(|instance| match instance {
+                Some(instance) => known[*instance],
+                None => computed.next().unwrap_or(f64::NAN),
+            }));
+        }
+        Ok(headed(&spec, &self.columns, numbers, cells.len() - lacking.len()))
+    }
+
+    /// What a finished run has of it.
+    fn known<'a>(&self, opened: &'a Opened, spec: &Spec) -> Option<Known<'a>> {
+        let Grid::Axes(axes) = &spec.grid else { return None };
+        opened.finished.as_ref()?.known(&self.columns, axes, &opened.spec)
     }
 
     /// The wanted columns.
@@ -140,6 +176,14 @@ impl Region {
     /// A sentence, when there is none of a name.
     pub fn wanted(&self, spec: &Spec) -> Result<Vec<Column>, String> {
         let all = columns(&spec.grid, spec.analysis);
+        let numbers = spec.grid.len().saturating_mul(self.columns.len());
+        if numbers > MOST_NUMBERS {
+            let count = self.columns.len();
+            return Err(format!(
+                "{count} columns of {} cells are more than {MOST_NUMBERS} numbers at once",
+                spec.grid.len()
+            ));
+        }
         let wanted = |name: &String| {
             let found = all.iter().find(|column| column.name == name).copied();
             found.ok_or_else(|| format!("there is no column `{name}` here"))
@@ -148,25 +192,24 @@ impl Region {
     }
 }
 
-/// The wanted columns of the cells of a region, by `names`.
+/// The wanted columns of the cells of a region, by `names`, all of them computed.
 #[must_use]
 pub fn answered(spec: &Spec, wanted: &[Column], names: &[String], records: &[Record]) -> Answer {
     let mut numbers = Vec::with_capacity(records.len() * wanted.len());
     for column in wanted {
-        numbers.extend(records.iter().enumerate().map(|(index, record)| {
-            match column.cell(index, &spec.grid.coordinates(index), record) {
-                Cell::Number(number) => number,
-                Cell::Count(count) => count as f64,
-                Cell::Empty => f64::NAN,
-                Cell::Text(name) => code(column, &name),
-            }
-        }));
+        let cell = |(index, record)| column.cell(index, &spec.grid.coordinates(index), record);
+        numbers.extend(records.iter().enumerate().map(|one| number(column, &cell(one))));
     }
+    headed(spec, names, numbers, 0)
+}
+
+fn headed(spec: &Spec, names: &[String], numbers: Vec<f64>, of_run: usize) -> Answer {
     let shape = match &spec.grid {
         Grid::Axes(axes) => axes.iter().rev().take(2).rev().map(|axis| axis.values.len()).collect(),
-        Grid::Tuples { .. } => vec![records.len()],
+        Grid::Tuples { rows, .. } => vec![rows.len()],
     };
-    Answer { head: json!({ "columns": names, "shape": shape }), numbers, ..Answer::default() }
+    let head = json!({ "columns": names, "shape": shape, "of_run": of_run });
+    Answer { head, numbers, ..Answer::default() }
 }
 
 /// The names that a column may hold, in the order of their codes.
@@ -176,7 +219,15 @@ pub fn names(column: &Column) -> Vec<&'static str> {
     class.map_or_else(Vec::new, |class| class.names().collect())
 }
 
-/// The place of a name among those of its column.
-fn code(column: &Column, name: &str) -> f64 {
-    names(column).iter().position(|one| *one == name).map_or(f64::NAN, |place| place as f64)
+/// A cell as a number: a name by its place among those of its column, NaN where it is undefined.
+#[must_use]
+pub fn number(column: &Column, cell: &Cell) -> f64 {
+    match cell {
+        Cell::Number(number) => *number,
+        Cell::Count(count) => *count as f64,
+        Cell::Empty => f64::NAN,
+        Cell::Text(name) => {
+            names(column).iter().position(|one| one == name).map_or(f64::NAN, |place| place as f64)
+        }
+    }
 }

@@ -1,14 +1,14 @@
 //! What varies, what may be varied, which columns there are.
 
+use crate::model::{PARAMS, ParamInfo, Range};
+use crate::sweep::columns::{Column, Group, columns};
+use crate::sweep::grid::{Axis, AxisKey, Grid, Value};
+use crate::sweep::spec::Analysis;
 use serde_json::{Value as Json, json};
-use squealmap::model::{PARAMS, ParamInfo, Range};
-use squealmap::sweep::columns::{Column, Group, columns};
-use squealmap::sweep::grid::{Axis, AxisKey, Grid, Value};
-use squealmap::sweep::spec::Analysis;
 
-use crate::answer::Answer;
-use crate::opened::Opened;
-use crate::region::names;
+use crate::study::explore::answer::Answer;
+use crate::study::explore::opened::Opened;
+use crate::study::explore::region::names;
 
 /// The answer.
 #[must_use]

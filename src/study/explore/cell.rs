@@ -1,17 +1,18 @@
 //! One instance: its eigenvalues with and without either mechanism, its motion, its friction law, its record.
 
+use crate::engine::plan::Duration;
+use crate::model::equilibrium::{Equilibrium, Units};
+use crate::model::instance::Instance;
+use crate::model::kind::InstabilityType;
+use crate::model::{Param, linear, quartic};
+use crate::study::trace::run::{TraceRow, trace};
+use crate::sweep::spec::Spec;
 use serde::Deserialize;
 use serde_json::{Map, Value as Json, json};
-use squealmap::model::equilibrium::{Equilibrium, Units};
-use squealmap::model::instance::Instance;
-use squealmap::model::{Param, linear, quartic};
-use squealmap::study::trace::run::{TraceRow, trace};
-use squealmap::sweep::spec::Spec;
-use squealmap::{Duration, InstabilityType};
 
-use crate::answer::Answer;
-use crate::opened::Opened;
-use crate::place::At;
+use crate::study::explore::answer::Answer;
+use crate::study::explore::opened::Opened;
+use crate::study::explore::place::At;
 
 /// The longest motion that is shown, and how finely at most.
 const MOST_PERIODS: f64 = 2000.0;

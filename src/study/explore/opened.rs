@@ -1,8 +1,9 @@
 //! A sweep that is open.
 
-use squealmap::store::description::Description;
-use squealmap::sweep::grid::{Axis, Grid};
-use squealmap::sweep::spec::Spec;
+use crate::store::description::Description;
+use crate::study::explore::finished::Finished;
+use crate::sweep::grid::{Axis, Grid};
+use crate::sweep::spec::Spec;
 
 /// A sweep that is open.
 #[derive(Clone, Debug)]
@@ -11,6 +12,8 @@ pub struct Opened {
     pub spec: Spec,
     /// Its axes.
     pub axes: Vec<Axis>,
+    /// What a run has computed of it.
+    pub finished: Option<Finished>,
 }
 
 impl Opened {
@@ -39,6 +42,6 @@ impl Opened {
         if spec.grid.axes_of_numbers().count() < 2 {
             return Err("a map to look into needs two axes of numbers in `[axes]`".to_owned());
         }
-        Ok(Opened { spec, axes })
+        Ok(Opened { spec, axes, finished: None })
     }
 }

@@ -2,9 +2,9 @@
 
 use serde_json::{Value as Json, json};
 
-use crate::answer::Answer;
-use crate::opened::Opened;
-use crate::region::Region;
+use crate::study::explore::answer::Answer;
+use crate::study::explore::opened::Opened;
+use crate::study::explore::region::Region;
 
 /// The answer: `toml`, the text of a sweep file that `squealmap run` takes.
 ///
@@ -22,9 +22,13 @@ pub fn file(opened: &Opened, region: &Region) -> Result<Answer, String> {
             ));
         }
     }
-    // Sides as ranges, not as values; what has one value stands in its section.
+    // Sides as ranges where they are; what has one value stands in its section.
     let sides = [&region.y, &region.x].map(|side| {
-        let mut axis = json!({ "from": side.from, "to": side.to, "points": side.points });
+        let mut axis = if side.values.is_empty() {
+            json!({ "from": side.from, "to": side.to, "points": side.points })
+        } else {
+            json!({ "values": side.values })
+        };
         if side.log {
             axis["scale"] = json!("log");
         }
