@@ -178,3 +178,46 @@ fn questions_that_are_none_get_a_sentence() {
     }
     assert!(Explorer::open(b"{}").unwrap_err().contains("the sweep"));
 }
+
+/// A belt that moves is a part of the sweep: of its regions, of its file, and of what has no effect.
+#[test]
+fn a_stroke_stays_a_stroke() {
+    let belt = "[belt]\nmotion = \"sine\"\nramp_duration = 0.2\n[axes]\n";
+    let text =
+        MAP.replace("settle = \"20 periods\"\nmeasure = \"10 periods\"\n", "").replace("[axes]\n", belt);
+    let sine = Explorer::new(parse(&text)).unwrap();
+    let asked = region(true, &["x2_std"]);
+    let found = sine.answer(&asked.to_string()).unwrap().numbers;
+    let mut wanted = asked.clone();
+    wanted["ask"] = json!("file");
+    let file = sine.answer(&wanted.to_string()).unwrap().head;
+    let written = file["toml"].as_str().unwrap();
+    let options = Options { backend: Backend::Cpu, ..Options::default() };
+    let map = squealmap::sweep::run::run(parse(written), &options, &|_| ()).unwrap();
+    let bits = |numbers: &[f64]| numbers.iter().map(|number| number.to_bits()).collect::<Vec<_>>();
+    assert_eq!(bits(&found), bits(&map.column("x2_std").unwrap()));
+    let steady = open().answer(&asked.to_string()).unwrap().numbers;
+    assert!(
+        found.iter().zip(&steady).any(|(a, b)| (a - b).abs() > 0.1 * b.abs()),
+        "a steady belt does something else"
+    );
+
+    let directory = tempfile::tempdir().unwrap();
+    std::fs::write(directory.path().join("stroke.csv"), "time,velocity\n0,0\n0.1,3\n0.2,1\n").unwrap();
+    let text = "[belt]\nmotion = \"table\"\nmotion_table = \"stroke.csv\"\n[axes]\n\
+                mu_s = { from = 0.0, to = 0.6, points = 7 }\nmu_d = { from = 0.0, to = 0.5, points = 6 }\n";
+    let table = Explorer::new(Spec::parse(text, "s.toml", directory.path()).unwrap()).unwrap();
+    let why = table.answer(&asked.to_string()).unwrap_err();
+    assert!(why.contains("`belt_velocity` has no effect here"), "{why}");
+    let about = table.answer(r#"{"ask":"about"}"#).unwrap().head;
+    assert!(
+        about["fixed"].as_array().unwrap().iter().all(|one| one["key"] != "belt_velocity"),
+        "no slider without effect"
+    );
+    let mut asked = asked;
+    asked["at"] = json!({});
+    table.answer(&asked.to_string()).unwrap();
+    asked["ask"] = json!("file");
+    let why = table.answer(&asked.to_string()).unwrap_err();
+    assert!(why.contains("`motion_table` of [belt] stands in a file of its own"), "{why}");
+}

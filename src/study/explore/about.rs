@@ -17,7 +17,8 @@ pub fn about(opened: &Opened) -> Answer {
     let varied = spec.grid.keys();
     let axes: Vec<Json> = opened.axes.iter().map(axis).collect();
     // What has one value, and may have another.
-    let fixed = PARAMS.iter().filter(|row| !varied.contains(&AxisKey::Param(row.param)));
+    let has_effect = |row: &&ParamInfo| spec.unread_by_motion(row.param).is_none();
+    let fixed = PARAMS.iter().filter(|row| !varied.contains(&AxisKey::Param(row.param))).filter(has_effect);
     let fixed = fixed.filter_map(|row| {
         let mut about = param(row);
         about["value"] = json!(spec.base.get(row.param)?);

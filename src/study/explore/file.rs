@@ -6,6 +6,15 @@ use crate::study::explore::answer::Answer;
 use crate::study::explore::opened::Opened;
 use crate::study::explore::region::Region;
 
+/// What the resolved form of a sweep has from other files.
+const IN_FILES: [(&str, &str); 5] = [
+    ("friction", "material"),
+    ("friction", "materials"),
+    ("friction", "table"),
+    ("belt", "motion_table"),
+    ("model", "content"),
+];
+
 /// The answer: `toml`, the text of a sweep file that `squealmap run` takes.
 ///
 /// # Errors
@@ -13,9 +22,7 @@ use crate::study::explore::region::Region;
 pub fn file(opened: &Opened, region: &Region) -> Result<Answer, String> {
     let spec = region.spec(opened)?;
     let mut resolved = spec.resolved();
-    for (section, key) in
-        [("friction", "material"), ("friction", "materials"), ("friction", "table"), ("model", "content")]
-    {
+    for (section, key) in IN_FILES {
         if resolved[section].get(key).is_some() {
             return Err(format!(
                 "`{key}` of [{section}] stands in a file of its own; take that sweep and change its axes"

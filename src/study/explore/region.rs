@@ -124,6 +124,12 @@ impl Region {
         }
         axes.extend([y, x]);
         let spec = &opened.spec;
+        for axis in &axes {
+            let AxisKey::Param(param) = axis.key else { continue };
+            if let Some(by) = spec.unread_by_motion(param) {
+                return Err(format!("`{}` has no effect here: only {by} reads it", param.info().name));
+            }
+        }
         let response = self.response && spec.modal.is_none();
         let analysis = Analysis {
             linear: true,

@@ -3,6 +3,7 @@
 use crate::model::Param;
 use crate::model::motion::Motion;
 use crate::sweep::error::{Error, Result};
+use crate::sweep::spec::Spec;
 use crate::sweep::spec::check::{Check, unused};
 use squealmap_input::place::Place;
 use squealmap_input::quote::list;
@@ -33,7 +34,7 @@ pub(super) fn lacking(motion: &str, has: impl Fn(Param) -> bool) -> Option<(Para
         "trapeze" => &[Param::RampDuration, Param::RiseDuration],
         _ => &[],
     };
-    let needed_by = || format!("motion = \"{motion}\" in [belt] takes its time");
+    let needed_by = || format!("motion = \"{motion}\" in [belt] needs it");
     if let Some(param) = needed.iter().find(|param| !has(**param)) {
         return Some((*param, needed_by()));
     }
@@ -41,6 +42,14 @@ pub(super) fn lacking(motion: &str, has: impl Fn(Param) -> bool) -> Option<(Para
     let half = [pair, [pair[1], pair[0]]].into_iter().find(|[given, other]| has(*given) && !has(*other));
     let half = half.filter(|_| motion == Motion::RAMP);
     half.map(|[given, other]| (other, format!("`{}` describes a ramp", given.info().name)))
+}
+
+impl Spec {
+    /// What reads a parameter that the motion of the belt does not, as the end of a sentence.
+    #[must_use]
+    pub fn unread_by_motion(&self, param: Param) -> Option<String> {
+        reader(self.motion.name(), param)
+    }
 }
 
 impl Check<'_> {
