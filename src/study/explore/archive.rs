@@ -79,8 +79,8 @@ fn of(
             numbers.into_iter().map(|number| number.unwrap_or(f64::NAN)).collect()
         }
         _ => {
-            let cell = |(index, record)| column.cell(index, &spec.grid.coordinates(index), record);
-            records.iter().enumerate().map(|one| number(column, &cell(one))).collect()
+            let cells = records.iter().enumerate();
+            cells.map(|(index, record)| number(column, &spec.grid, index, record)).collect()
         }
     };
     let values = own.map(|column| (column.name, values(column))).collect();

@@ -158,9 +158,7 @@ impl Region {
         let records = if lacking.is_empty() { Vec::new() } else { by.records(&others, self.f32)? };
         let mut numbers = Vec::with_capacity(cells.len() * wanted.len());
         for (column, known) in wanted.iter().zip(columns) {
-            let fresh = |(cell, record): (&usize, &Record)| {
-                number(column, &column.cell(*cell, &spec.grid.coordinates(*cell), record))
-            };
+            let fresh = |(cell, record): (&usize, &Record)| number(column, &spec.grid, *cell, record);
             let mut computed = lacking.iter().zip(&records).map(fresh);
             numbers.extend(cells.iter().map(|instance| match instance {
                 Some(instance) => known[*instance],
@@ -203,8 +201,8 @@ impl Region {
 pub fn answered(spec: &Spec, wanted: &[Column], names: &[String], records: &[Record]) -> Answer {
     let mut numbers = Vec::with_capacity(records.len() * wanted.len());
     for column in wanted {
-        let cell = |(index, record)| column.cell(index, &spec.grid.coordinates(index), record);
-        numbers.extend(records.iter().enumerate().map(|one| number(column, &cell(one))));
+        let cells = records.iter().enumerate();
+        numbers.extend(cells.map(|(index, record)| number(column, &spec.grid, index, record)));
     }
     headed(spec, names, numbers, 0)
 }
@@ -225,15 +223,20 @@ pub fn names(column: &Column) -> Vec<&'static str> {
     class.map_or_else(Vec::new, |class| class.names().collect())
 }
 
-/// A cell as a number: a name by its place among those of its column, NaN where it is undefined.
+/// The number of a column for an instance of a grid and its record: a name by its place among those of its column, NaN where it is
+/// undefined. Nothing is made on the way that is thrown away: a map has many cells.
 #[must_use]
-pub fn number(column: &Column, cell: &Cell) -> f64 {
-    match cell {
-        Cell::Number(number) => *number,
-        Cell::Count(count) => *count as f64,
-        Cell::Empty => f64::NAN,
-        Cell::Text(name) => {
-            names(column).iter().position(|one| one == name).map_or(f64::NAN, |place| place as f64)
+pub fn number(column: &Column, grid: &Grid, index: usize, record: &Record) -> f64 {
+    let cell = match column.values() {
+        Some(Values::Name(class)) => {
+            return class.position(column.of(record)).map_or(f64::NAN, |place| place as f64);
         }
+        Some(_) => column.cell(index, &[], record),
+        None => column.cell(index, &grid.coordinates(index), record),
+    };
+    match cell {
+        Cell::Number(number) => number,
+        Cell::Count(count) => count as f64,
+        Cell::Empty | Cell::Text(_) => f64::NAN,
     }
 }
