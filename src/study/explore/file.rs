@@ -13,9 +13,13 @@ use crate::study::explore::region::Region;
 pub fn file(opened: &Opened, region: &Region) -> Result<Answer, String> {
     let spec = region.spec(opened)?;
     let mut resolved = spec.resolved();
-    for (section, key) in
-        [("friction", "material"), ("friction", "materials"), ("friction", "table"), ("model", "content")]
-    {
+    for (section, key) in [
+        ("friction", "material"),
+        ("friction", "materials"),
+        ("friction", "table"),
+        ("belt", "motion_table"),
+        ("model", "content"),
+    ] {
         if resolved[section].get(key).is_some() {
             return Err(format!(
                 "`{key}` of [{section}] stands in a file of its own; take that sweep and change its axes"
