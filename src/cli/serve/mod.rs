@@ -2,13 +2,13 @@
 //!
 //! | question | where |
 //! |---|---|
-//! | a request, read within bounds | [`request`] |
-//! | which requests are let in | [`guard`] |
-//! | what is answered, and how it is written | [`reply`] |
-//! | the page with what it needs to ask here | [`served`] |
+//! | a request, read within bounds | `request.rs` |
+//! | which requests are let in | `guard.rs` |
+//! | what is answered, and how it is written | `reply.rs` |
+//! | the page with what it needs to ask here | `served.rs` |
 //! | a question at work, dropped when nobody waits for it | [`work`] |
 //! | connections | [`server`] |
-//! | the browser of whoever looks | [`browser`] |
+//! | the browser of whoever looks | `browser.rs` |
 
 pub(crate) mod browser;
 mod guard;
