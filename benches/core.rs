@@ -70,7 +70,7 @@ fn lanes<T: Lanes>(name: &str) {
     for steps in [12, 5] {
         let plan = plan(steps);
         report(&format!("lanes {name}, 140 periods of {steps} steps"), instances.len(), || {
-            black_box(outcomes::<T>(black_box(&instances), &plan, &never).is_ok());
+            black_box(outcomes::<T>(black_box(&instances), &plan, &never).is_some());
         });
     }
 }

@@ -27,10 +27,10 @@ def back(state, contact, p):
     return state, contact, time
 
 
-def cycle(p, x2, y1):
+def cycle(p, x2, y1, settling=RETURNS):
     """The multipliers of the cycle that these displacements settle to, and its period."""
     state, contact = np.array([x2, 0.0, y1, 0.0, 0.0, 0.0]), ("slip", 1.0, int(p["V"] >= folds.VK))
-    for _ in range(RETURNS):
+    for _ in range(settling):
         state, contact, _ = back(state, contact, p)
     free = COORDINATES[contact[0]]
     scale = SCALE[: len(free)] if len(free) == 5 else SCALE[[0, 2, 4]]

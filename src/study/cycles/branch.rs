@@ -9,7 +9,7 @@ use crate::engine::plan::Plan;
 use crate::engine::record::Record;
 use crate::model::instance::Instance;
 use crate::model::linear;
-use crate::study::cycles::follow::{Course, follow};
+use crate::study::cycles::follow::{Course, HALVED, follow};
 use crate::study::cycles::map::{Frame, Instances, ReturnMap};
 use crate::study::cycles::newton::{Fixed, fixed};
 use crate::study::cycles::special::Special;
@@ -96,7 +96,11 @@ impl Branch {
         value: f64,
         cycle: (&Cycle, Freedom),
     ) -> Option<Branch> {
-        let (map, place) = ReturnMap::about(instances, plan, range, value, cycle)?;
+        let (mut map, place) = ReturnMap::about(instances, plan, range, value, cycle)?;
+        // A cycle may have been found after more returns than it has.
+        while let Some(half) = map.halved().filter(|half| half.gap(&place).is_some_and(|gap| gap < HALVED)) {
+            map = half;
+        }
         let mut across = DVector::zeros(place.len());
         across[map.count()] = 1.0;
         let start = fixed(&map, &place, &across)?;
@@ -119,7 +123,11 @@ impl Branch {
             let Some(cycle) = point(map, fixed, *special) else { continue };
             if let Some(special) = special.filter(|special| Special::FOLLOWED.contains(special)) {
                 let (part, cycle) = (fixed.place[map.count()], cycle.clone());
-                let state = State::Cycle(Box::new(fixed.clone()), map.frame);
+                // A doubling is followed as that of the cycle whose period doubles.
+                let half = course.halved.as_ref().filter(|_| special == Special::Doubling);
+                let half = half.filter(|(half, _)| half.place == fixed.place);
+                let (fixed, frame) = half.map_or((fixed, map.frame), |(half, frame)| (half, *frame));
+                let state = State::Cycle(Box::new(fixed.clone()), frame);
                 self.spots.push(Spot { special, part, cycle, state });
             }
             self.points.push(cycle);

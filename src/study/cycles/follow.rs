@@ -3,9 +3,9 @@
 use nalgebra::DVector;
 
 use crate::study::cycles::corner::beyond;
-use crate::study::cycles::map::ReturnMap;
+use crate::study::cycles::map::{Frame, ReturnMap};
 use crate::study::cycles::newton::{Fixed, fixed};
-use crate::study::cycles::special::{Special, between};
+use crate::study::cycles::special::{Special, between, crossing};
 
 /// The first step along the curve, in sizes of the first cycle and ranges of the parameter.
 const FIRST: f64 = 0.005;
@@ -37,6 +37,12 @@ const OF_SIZE: f64 = 0.2;
 /// A cycle so small, in the size of the first, vanishes.
 const VANISHES: f64 = 0.01;
 
+/// What comes back after half its returns within this part of its size is the cycle of half its period.
+pub(super) const HALVED: f64 = 1e-3;
+
+/// A doubling that a branch meets is no farther than this many steps.
+const NEAR: f64 = 2.0;
+
 /// So close to an end of the range it is reached.
 const EDGE: f64 = 1e-6;
 
@@ -49,6 +55,8 @@ pub(super) struct Course {
     pub(super) points: Vec<(Fixed, Option<Special>)>,
     /// Whether the cycle shrinks to the equilibrium at the end.
     pub(super) vanishes: bool,
+    /// The cycle of half the returns that it comes to at the end, and the coordinates that this one is in.
+    pub(super) halved: Option<(Fixed, Frame)>,
 }
 
 /// Follows the curve from `start`, along its tangent or against it. Also whether it comes back to its start.
@@ -56,7 +64,8 @@ pub(super) fn follow(map: &ReturnMap, start: &Fixed, sign: f64) -> (Course, bool
     let count = map.count();
     let begun = start.along().signum() * sign;
     let mut here = Fixed { tangent: &start.tangent * begun, ..start.clone() };
-    let mut course = Course { points: vec![(here.clone(), None)], vanishes: false };
+    let mut course = Course { points: vec![(here.clone(), None)], vanishes: false, halved: None };
+    let half = map.halved();
     let (mut step, mut taken) = (FIRST, 0);
     // After a corner: the events that are to be met, and how short a step may become.
     let mut beyond_corner: Option<u64> = None;
@@ -92,9 +101,20 @@ pub(super) fn follow(map: &ReturnMap, start: &Fixed, sign: f64) -> (Course, bool
             (here.tangent, beyond_corner, step) = (along, Some(order), AFTER_CORNER);
             continue;
         };
-        if beyond_corner.take().is_none() {
-            course.points.extend(between(map, &here, &next).map(|(at, special)| (at, Some(special))));
+        let changed = if beyond_corner.take().is_none() { between(map, &here, &next) } else { None };
+        if let Some(half) = &half
+            && let Some(met) = meets(half, &here, &next, size)
+        {
+            if let Some(at) = met {
+                course.points.push((twice(&at, &here), Some(Special::Doubling)));
+                course.halved = Some((at, half.frame));
+            } else {
+                let last = course.points.len() - 1;
+                course.points[last].1 = Some(Special::End);
+            }
+            break;
         }
+        course.points.extend(changed.map(|(at, special)| (at, Some(special))));
         if at_edge {
             course.points.push((next, None));
             break;
@@ -110,6 +130,31 @@ pub(super) fn follow(map: &ReturnMap, start: &Fixed, sign: f64) -> (Course, bool
         }
     }
     (course, false)
+}
+
+/// Whether between two neighbours a cycle meets that of half its returns, whose period doubles there: beyond, it is its own mirror
+/// image or the other cycle twice. The fixed point of half the returns, where it is found.
+fn meets(half: &ReturnMap, here: &Fixed, next: &Fixed, size: f64) -> Option<Option<Fixed>> {
+    let chord = &next.place - &here.place;
+    let turns = here.along() * next.along() < 0.0;
+    let is_other = half.gap(&next.place).is_some_and(|gap| gap < HALVED * size);
+    if !turns && !is_other {
+        return None;
+    }
+    let part = if turns { here.along() / (here.along() - next.along()) } else { 0.5 };
+    let at = crossing(half, &(&here.place + &chord * part), next, Special::Doubling);
+    let at = at.filter(|at| (&at.place - &here.place).norm() <= NEAR * chord.norm());
+    (is_other || at.is_some()).then_some(at)
+}
+
+/// A fixed point of half the returns as one of all, on the branch that ends there.
+fn twice(half: &Fixed, here: &Fixed) -> Fixed {
+    let count = half.jacobian.nrows();
+    let (state, parameter) = (half.jacobian.columns(0, count), half.jacobian.column(count));
+    let mut jacobian = half.jacobian.clone();
+    jacobian.columns_mut(0, count).copy_from(&(state * state));
+    jacobian.set_column(count, &(state * parameter + parameter));
+    Fixed { place: half.place.clone(), jacobian, period: 2.0 * half.period, ..here.clone() }
 }
 
 /// Whether the curve leaves the range of the parameter from here on, or is closer than `near` to where it does.

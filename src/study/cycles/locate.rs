@@ -8,13 +8,7 @@ use crate::study::cycles::corner::beyond;
 use crate::study::cycles::follow::next;
 use crate::study::cycles::map::{Instances, ReturnMap};
 use crate::study::cycles::newton::{Fixed, fixed};
-use crate::study::cycles::special::Special;
-
-/// The first step along the branch, and when it ends the search.
-const STEPS: [f64; 2] = [1e-4, 1e-7];
-
-/// Steps of the search.
-const MOST_STEPS: usize = 14;
+use crate::study::cycles::special::{Special, crossing};
 
 /// A multiplier of a special point that is nearer to the unit circle than this is on it.
 const ON_CIRCLE: f64 = 1e-4;
@@ -85,7 +79,7 @@ pub(super) fn located(
     guess[map.count()] = expected;
     let at = match special {
         Special::Corner => corner(&map, guess, before)?,
-        _ => smooth(&map, &guess, before, special)?,
+        _ => crossing(&map, &guess, before, special)?,
     };
     let part = at.place[map.count()];
     let mut cycle = point(&map, &at, Some(special)).filter(|_| (part - expected).abs() <= within)?;
@@ -93,61 +87,6 @@ pub(super) fn located(
     let multipliers = at.multipliers();
     cycle.unstable = multipliers.iter().filter(|multiplier| multiplier.norm() > 1.0 + ON_CIRCLE).count();
     Some(Found { part, cycle, state: State::Cycle(Box::new(at), *frame) })
-}
-
-/// Where a multiplier crosses the unit circle: a root along the branch, by secants.
-fn smooth(map: &ReturnMap<'_>, guess: &DVector<f64>, before: &Fixed, special: Special) -> Option<Fixed> {
-    let count = map.count();
-    // At a fold the parameter is an extremum of the branch; elsewhere it tells the cycles apart.
-    let mut along = before.tangent.clone();
-    if special == Special::Fold {
-        along[count] = 0.0;
-    } else {
-        along.fill(0.0);
-        along[count] = 1.0;
-    }
-    let along = along.normalize();
-    let at = |by: f64| {
-        let here = fixed(map, &(guess + &along * by), &along)?;
-        let test = test(&here, special)?;
-        Some((here, test))
-    };
-    let mut last = (0.0, at(0.0)?.1);
-    let mut by = STEPS[0];
-    for _ in 0..MOST_STEPS {
-        let (here, test) = at(by)?;
-        let step = -test * (by - last.0) / (test - last.1);
-        if !step.is_finite() {
-            return None;
-        }
-        if step.abs() <= STEPS[1] {
-            return Some(here);
-        }
-        last = (by, test);
-        by += step;
-    }
-    None
-}
-
-/// A number that is zero where the point is special, and changes its sign there.
-fn test(fixed: &Fixed, special: Special) -> Option<f64> {
-    match special {
-        Special::Fold => Some(fixed.along()),
-        Special::Doubling => {
-            let count = fixed.jacobian.nrows();
-            let mut matrix = fixed.jacobian.columns(0, count).into_owned();
-            for i in 0..count {
-                matrix[(i, i)] += 1.0;
-            }
-            Some(matrix.determinant())
-        }
-        Special::Torus => {
-            let pairs = fixed.multipliers().into_iter().filter(|multiplier| multiplier.im > 0.0);
-            let apart = pairs.map(|multiplier| multiplier.norm() - 1.0);
-            apart.min_by(|a, b| a.abs().total_cmp(&b.abs()))
-        }
-        _ => None,
-    }
 }
 
 /// The last cycle before a corner: as far as its sequence of contact states goes.

@@ -31,6 +31,7 @@ pub(crate) fn fine(plan: &Plan) -> Plan {
 
 /// The return map. A place is the free coordinates of the section, in lengths and times of the first cycle, as deviations from
 /// its equilibrium, and then the parameter, 0 to 1 over its range.
+#[derive(Clone, Copy)]
 pub(super) struct ReturnMap<'a> {
     instances: Instances<'a>,
     plan: Plan,
@@ -176,6 +177,18 @@ impl<'a> ReturnMap<'a> {
         let order = all.iter().fold(0.0, |order: f64, at| order.mul_add(FORGETS, at.order));
         let time = all.iter().map(|at| at.time).sum::<f64>() * scene.units.time;
         Some(Flown { end, order: order.to_bits(), time })
+    }
+
+    /// The map of half the returns, of which this one's cycles are none.
+    pub(super) fn halved(&self) -> Option<ReturnMap<'a>> {
+        let returns = self.frame.returns;
+        let frame = Frame { returns: returns / 2, ..self.frame };
+        (returns > 1 && returns.is_multiple_of(2)).then_some(ReturnMap { frame, ..*self })
+    }
+
+    /// How far a place is from where it comes to.
+    pub(super) fn gap(&self, place: &DVector<f64>) -> Option<f64> {
+        Some((self.fly(place)?.end - place.rows(0, self.count())).amax())
     }
 
     /// What one period of the cycle at a place measures, with its multiplier of largest modulus.

@@ -1,5 +1,7 @@
 //! Where the stability of a cycle changes along its branch.
 
+use nalgebra::DVector;
+
 use crate::study::cycles::map::ReturnMap;
 use crate::study::cycles::newton::{Fixed, fixed};
 
@@ -92,5 +94,76 @@ pub(super) fn between(map: &ReturnMap, before: &Fixed, after: &Fixed) -> Option<
     } else {
         Special::Torus
     };
-    Some((to, special))
+    // The halvings end where a multiplier is seen to be outside, which is not where it crosses.
+    let crosses = matches!(special, Special::Doubling | Special::Torus);
+    let at =
+        if crosses { crossing(map, &to.place, &to, special).filter(|at| at.order == to.order) } else { None };
+    Some((at.unwrap_or(to), special))
+}
+
+/// The first step along the branch, and when it ends the search.
+const STEPS: [f64; 2] = [1e-4, 1e-7];
+
+/// Steps of the search.
+const MOST_STEPS: usize = 14;
+
+/// Where a multiplier crosses the unit circle: a root along the branch, by secants.
+pub(super) fn crossing(
+    map: &ReturnMap<'_>,
+    guess: &DVector<f64>,
+    before: &Fixed,
+    special: Special,
+) -> Option<Fixed> {
+    let count = map.count();
+    // At a fold the parameter is an extremum of the branch; elsewhere it tells the cycles apart.
+    let mut along = before.tangent.clone();
+    if special == Special::Fold {
+        along[count] = 0.0;
+    } else {
+        along.fill(0.0);
+        along[count] = 1.0;
+    }
+    let along = along.normalize();
+    let at = |by: f64| {
+        let here = fixed(map, &(guess + &along * by), &along)?;
+        let test = test(&here, special)?;
+        Some((here, test))
+    };
+    let mut last = (0.0, at(0.0)?.1);
+    let mut by = STEPS[0];
+    for _ in 0..MOST_STEPS {
+        let (here, test) = at(by)?;
+        let step = -test * (by - last.0) / (test - last.1);
+        if !step.is_finite() {
+            return None;
+        }
+        if step.abs() <= STEPS[1] {
+            // The last step is known, too.
+            return Some(at(by + step).map_or(here, |(there, _)| there));
+        }
+        last = (by, test);
+        by += step;
+    }
+    None
+}
+
+/// A number that is zero where the point is special, and changes its sign there.
+fn test(fixed: &Fixed, special: Special) -> Option<f64> {
+    match special {
+        Special::Fold => Some(fixed.along()),
+        Special::Doubling => {
+            let count = fixed.jacobian.nrows();
+            let mut matrix = fixed.jacobian.columns(0, count).into_owned();
+            for i in 0..count {
+                matrix[(i, i)] += 1.0;
+            }
+            Some(matrix.determinant())
+        }
+        Special::Torus => {
+            let pairs = fixed.multipliers().into_iter().filter(|multiplier| multiplier.im > 0.0);
+            let apart = pairs.map(|multiplier| multiplier.norm() - 1.0);
+            apart.min_by(|a, b| a.abs().total_cmp(&b.abs()))
+        }
+        _ => None,
+    }
 }

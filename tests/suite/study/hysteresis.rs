@@ -31,12 +31,12 @@ const SINGLE: &str =
 const EXPONENTIAL: &str = "law = \"exponential\"\nmu_d = 0.5\nstribeck_velocity = 0.5\n";
 const SETTLE: &str = "[response]\nsettle = \"auto\"\n";
 
-fn parse(text: &str) -> Spec {
+pub(crate) fn parse(text: &str) -> Spec {
     Spec::parse(text, "s.toml", ".".as_ref()).unwrap()
 }
 
 /// Follows `param` over `points` values.
-fn follow(spec: &Spec, param: Param, [from, to]: [f64; 2], points: u32) -> Hysteresis {
+pub(crate) fn follow(spec: &Spec, param: Param, [from, to]: [f64; 2], points: u32) -> Hysteresis {
     let step = (to - from) / f64::from(points - 1);
     let values = (0..points).map(|at| from + step * f64::from(at)).collect();
     let instance = |value: f64| spec.instance_at(&format!("{}={value}", param.info().name));
@@ -326,7 +326,7 @@ fn special(found: &Hysteresis) -> Vec<(Special, f64)> {
     branch.points.iter().filter_map(|point| Some((point.special?, point.value))).collect()
 }
 
-fn is(found: (Special, f64), special: Special, value: f64) -> bool {
+pub(crate) fn is(found: (Special, f64), special: Special, value: f64) -> bool {
     found.0 == special && (found.1 - value).abs() < 1e-8
 }
 

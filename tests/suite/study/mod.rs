@@ -5,6 +5,7 @@ pub(crate) mod calibrate;
 pub(crate) mod claims;
 pub(crate) mod confusion;
 pub(crate) mod curves;
+mod doubled;
 mod explore;
 pub(crate) mod fem;
 pub(crate) mod fit;
