@@ -105,12 +105,15 @@ pub(super) fn follow(map: &ReturnMap, start: &Fixed, sign: f64) -> (Course, bool
         if let Some(half) = &half
             && let Some(met) = meets(half, &here, &next, size)
         {
-            if let Some(at) = met {
-                course.points.push((twice(&at, &here), Some(Special::Doubling)));
-                course.halved = Some((at, half.frame));
-            } else {
-                let last = course.points.len() - 1;
-                course.points[last].1 = Some(Special::End);
+            match met {
+                Ok(at) => {
+                    course.points.push((twice(&at, &here), Some(Special::Doubling)));
+                    course.halved = Some((at, half.frame));
+                }
+                Err(end) => {
+                    let last = course.points.len() - 1;
+                    course.points[last].1 = Some(end);
+                }
             }
             break;
         }
@@ -133,8 +136,8 @@ pub(super) fn follow(map: &ReturnMap, start: &Fixed, sign: f64) -> (Course, bool
 }
 
 /// Whether between two neighbours a cycle meets that of half its returns, whose period doubles there: beyond, it is its own mirror
-/// image or the other cycle twice. The fixed point of half the returns, where it is found.
-fn meets(half: &ReturnMap, here: &Fixed, next: &Fixed, size: f64) -> Option<Option<Fixed>> {
+/// image or the other cycle twice. The fixed point of half the returns, or what the branch does where that is not found.
+fn meets(half: &ReturnMap, here: &Fixed, next: &Fixed, size: f64) -> Option<Result<Fixed, Special>> {
     let chord = &next.place - &here.place;
     let turns = here.along() * next.along() < 0.0;
     let is_other = half.gap(&next.place).is_some_and(|gap| gap < HALVED * size);
@@ -144,7 +147,7 @@ fn meets(half: &ReturnMap, here: &Fixed, next: &Fixed, size: f64) -> Option<Opti
     let part = if turns { here.along() / (here.along() - next.along()) } else { 0.5 };
     let at = crossing(half, &(&here.place + &chord * part), next, Special::Doubling);
     let at = at.filter(|at| (&at.place - &here.place).norm() <= NEAR * chord.norm());
-    (is_other || at.is_some()).then_some(at)
+    (is_other || at.is_some()).then(|| at.ok_or(Special::End))
 }
 
 /// A fixed point of half the returns as one of all, on the branch that ends there.
