@@ -1,5 +1,6 @@
 //! The sweep of a region as a sweep file, and the command that computes it.
 
+use crate::engine::plan::Duration;
 use serde_json::{Value as Json, json};
 
 use crate::study::explore::answer::Answer;
@@ -44,6 +45,12 @@ pub fn file(opened: &Opened, region: &Region) -> Result<Answer, String> {
     let others: Vec<(String, Json)> =
         region.at.iter().map(|(name, value)| (name.clone(), json!({ "values": [value] }))).collect();
     resolved["axes"] = Json::Object(others.into_iter().chain(sides).collect());
+    // What is measured as a whole is not said in a sweep file, as it is the default there.
+    if spec.measure == Duration::Ramp
+        && let Some(response) = resolved["response"].as_object_mut()
+    {
+        response.remove("measure");
+    }
     if !spec.analysis.response {
         let sections = resolved.as_object_mut().ok_or("a sweep has sections")?;
         sections.remove("response");
