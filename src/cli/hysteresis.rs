@@ -84,11 +84,8 @@ pub(crate) fn execute(spec: &Spec, files: &Files, at: &str, range: &Range, point
         let comma = if at.trim().is_empty() { "" } else { "," };
         spec.instance_at(&format!("{at}{comma}{name}={value}"))
     };
-    let ramp = instance(range.from)?
-        .params
-        .get(Param::RampDuration)
-        .map(|duration| format!("a ramp, `ramp_duration` = {duration} s"));
-    if let Some(motion) = spec.moving_belt().or(ramp) {
+    let first = instance(range.from)?;
+    if let Some(motion) = first.motion.moves(&first.params) {
         return Err(Error::FollowsRamp { what: "`--sweep-up-down`", motion });
     }
     let output = files.prepare_beside(&FILES)?;

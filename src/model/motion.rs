@@ -92,6 +92,17 @@ impl Motion {
         Motion::NAMES[index]
     }
 
+    /// What changes the velocity of the belt of these parameters within a run, in words; `None` where it is of one velocity.
+    #[must_use]
+    pub fn moves(&self, params: &Params) -> Option<String> {
+        match self {
+            Motion::Ramp => params
+                .get(Param::RampDuration)
+                .map(|seconds| format!("a ramp, `ramp_duration` = {seconds} s")),
+            other => Some(format!("the motion `{}`", other.name())),
+        }
+    }
+
     /// Whether the belt of these parameters is of one velocity.
     #[must_use]
     pub fn is_steady(&self, params: &Params) -> bool {

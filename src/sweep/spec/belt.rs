@@ -38,10 +38,15 @@ pub(super) fn lacking(motion: &str, has: impl Fn(Param) -> bool) -> Option<(Para
     if let Some(param) = needed.iter().find(|param| !has(**param)) {
         return Some((*param, needed_by()));
     }
+    let half = half_of_ramp(motion, has);
+    half.map(|[given, other]| (other, format!("`{}` describes a ramp", given.info().name)))
+}
+
+/// Of the end and the duration of a ramp the one that is given, and the one that is not.
+fn half_of_ramp(motion: &str, has: impl Fn(Param) -> bool) -> Option<[Param; 2]> {
     let pair = [Param::BeltVelocityEnd, Param::RampDuration];
     let half = [pair, [pair[1], pair[0]]].into_iter().find(|[given, other]| has(*given) && !has(*other));
-    let half = half.filter(|_| motion == Motion::RAMP);
-    half.map(|[given, other]| (other, format!("`{}` describes a ramp", given.info().name)))
+    half.filter(|_| motion == Motion::RAMP)
 }
 
 impl Spec {
@@ -74,18 +79,18 @@ impl Check<'_> {
                 remedy: "write motion_table = \"stroke.csv\" in [belt]".to_owned(),
             });
         }
-        let pair = [Param::BeltVelocityEnd, Param::RampDuration];
-        for [given, other] in [pair, [pair[1], pair[0]]] {
-            if let (Motion::RAMP, Some((at, key)), None) = (motion, self.param(given), self.param(other)) {
-                return Err(Error::Missing {
-                    at,
-                    key: other.info().name,
-                    needed_by: format!("{key} describes a ramp"),
-                    remedy: "give both or none".to_owned(),
-                });
-            }
+        let has = |param| self.param(param).is_some();
+        if let Some([given, other]) = half_of_ramp(motion, has)
+            && let Some((at, key)) = self.param(given)
+        {
+            return Err(Error::Missing {
+                at,
+                key: other.info().name,
+                needed_by: format!("{key} describes a ramp"),
+                remedy: "give both or none".to_owned(),
+            });
         }
-        if let Some((param, needed_by)) = lacking(motion, |param| self.param(param).is_some()) {
+        if let Some((param, needed_by)) = lacking(motion, has) {
             return Err(self.missing(param, needed_by));
         }
         if motion == "table" || self.param(Param::BeltVelocity).is_some() {

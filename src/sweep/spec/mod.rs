@@ -212,17 +212,8 @@ impl Spec {
     /// Why the velocity of the belt changes within a run, where it does, as the end of a sentence.
     #[must_use]
     pub fn moving_belt(&self) -> Option<String> {
-        let ramp = || {
-            self.base.get(Param::RampDuration).map(|seconds| format!("a ramp, `ramp_duration` = {seconds} s"))
-        };
-        let varied = || {
-            let is_varied = self.grid.keys().contains(&AxisKey::Param(Param::RampDuration));
-            is_varied.then(|| "a ramp".to_owned())
-        };
-        match &self.motion {
-            Motion::Ramp => ramp().or_else(varied),
-            other => Some(format!("the motion `{}`", other.name())),
-        }
+        let is_varied = || self.grid.keys().contains(&AxisKey::Param(Param::RampDuration));
+        self.motion.moves(&self.base).or_else(|| is_varied().then(|| "a ramp".to_owned()))
     }
 
     /// Refuses a sweep of another model than two masses.

@@ -39,6 +39,12 @@ fn digits(engine: Engine) -> f64 {
     }
 }
 
+/// The velocity at a time on straight lines between corners.
+fn straight(corners: &[[f64; 2]; 4], t: f64) -> f64 {
+    let at = corners.windows(2).find(|pair| t <= pair[1][0]).unwrap_or(&corners[2..]);
+    at[0][1] + (at[1][1] - at[0][1]) * (t - at[0][0]) / (at[1][0] - at[0][0])
+}
+
 /// Mean and standard deviation of what a belt has moved, by Simpson's rule on its velocity between corners.
 fn moved(velocity: Velocity, duration: f64, parts: usize) -> (f64, f64) {
     let h = duration / parts as f64;
@@ -74,10 +80,7 @@ fn what_sticks_goes_with_the_belt() {
     let trapeze = move |t: f64| velocity * (t / 0.02).min((duration - t) / 0.02).clamp(0.0, 1.0);
     let sine = move |t: f64| velocity * (PI * t / duration).sin();
     let corners = [[0.0, 0.0], [0.03, 0.01], [0.045, 0.002], [0.09, 0.006]];
-    let jagged = move |t: f64| {
-        let at = corners.windows(2).find(|pair| t <= pair[1][0]).unwrap_or(&corners[2..]);
-        at[0][1] + (at[1][1] - at[0][1]) * (t - at[0][0]) / (at[1][0] - at[0][0])
-    };
+    let jagged = move |t: f64| straight(&corners, t);
     let all: [(Motion, Velocity, f64); 3] =
         [(Motion::Trapeze, &trapeze, 0.0), (Motion::Sine, &sine, 4e-4), (table(&corners), &jagged, 0.0)];
     for (motion, velocity, chords) in all {
@@ -106,10 +109,7 @@ fn what_slides_is_as_another_integrator_has_it() {
     ];
     let corners = [[0.0, 1.0], [0.1, 3.0], [0.25, 2.0], [0.4, 2.5]];
     let one = Instance { motion: table(&corners), ..instance(bilinear(0.3, 0.2), &values) };
-    let belt = |t: f64| {
-        let at = corners.windows(2).find(|pair| t <= pair[1][0]).unwrap_or(&corners[2..]);
-        at[0][1] + (at[1][1] - at[0][1]) * (t - at[0][0]) / (at[1][0] - at[0][0])
-    };
+    let belt = |t: f64| straight(&corners, t);
     let value = |param| one.params.require(param);
     let (m, k, c, n) =
         (value(Param::M1) + value(Param::M2), value(Param::K1), value(Param::C1), value(Param::FExt));
