@@ -57,7 +57,7 @@ impl Check {
         let estimate = estimate(&spec);
         print(&cost(&spec, &estimate));
         if let Some(why) = hopeless(&spec) {
-            note(&format!("error: {why}"));
+            talk::error(&why);
             return Ok(ExitCode::FAILURE);
         }
         if let Some(why) = doubtful(&estimate) {

@@ -4,11 +4,12 @@ use crate::cli::error::{Error, Result};
 use crate::cli::files::Files;
 use crate::cli::output::list;
 use crate::cli::pictures::png_of;
+use crate::cli::progress::Progress;
 use crate::cli::talk::print;
 use clap::Args;
 use squealmap::results::figure::look::Look;
 use squealmap::study::curves::figure::{curves_svg, overlays};
-use squealmap::study::curves::seek::{PlaneCurves, seek};
+use squealmap::study::curves::seek::{PlaneCurves, count, seek};
 use squealmap::study::curves::table::{curves_csv, document, named};
 use squealmap::study::cycles::curve::{Curve, CurvePoint, End};
 use squealmap::sweep::spec::Spec;
@@ -35,7 +36,11 @@ impl CurvesCommand {
             return Err(Error::FollowsRamp { what: "`curves`", motion });
         }
         let output = self.files.prepare_beside(&FILES)?;
-        let planes = seek(&spec, usize::from(self.lines))?;
+        let lines = usize::from(self.lines);
+        let progress = Progress::new(count(&spec, lines)?, "lines");
+        let planes = seek(&spec, lines, &|| progress.add(1));
+        progress.finish();
+        let planes = planes?;
         let svg = curves_svg(&spec, &overlays(&planes), &Look::default());
         let table = curves_csv(&spec, &planes)?;
         let files = [

@@ -4,7 +4,7 @@
 use std::path::Path;
 use std::process::ExitCode;
 
-use crate::cli::talk::note;
+use crate::cli::talk;
 use serde_json::Value as Json;
 use squealmap::disk;
 use squealmap::model::status::Status;
@@ -15,7 +15,7 @@ pub(crate) fn judged(code: ExitCode, directory: &Path, document: &str) -> ExitCo
     let document: Json = serde_json::from_slice(&bytes).unwrap_or_default();
     match sentence(&document["counts"]) {
         Some(why) if code == ExitCode::SUCCESS => {
-            note(&format!("error: {why}"));
+            talk::error(&why);
             ExitCode::FAILURE
         }
         _ => code,
@@ -58,8 +58,8 @@ pub(crate) fn remedy(status: Status) -> &'static str {
         Status::Painleve => " (the motion is not unique: lower the friction or `theta`)",
         Status::EventLimit => " (events pile up: change `restitution` or the start)",
         Status::StepTooLarge => {
-            " (more or shorter steps than an instance may take: shorten `settle` and `measure`, or look at the units of \
-             stiffnesses and masses)"
+            " (more or shorter steps than an instance may take: shorten `settle_limit`, `measure` or a `settle` that is a time, or \
+             look at the units of stiffnesses and masses)"
         }
         Status::NonFinite => " (values beyond the range of numbers: look at their units)",
     }

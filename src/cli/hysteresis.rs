@@ -7,7 +7,8 @@ use crate::cli::failed::told;
 use crate::cli::files::Files;
 use crate::cli::output::list;
 use crate::cli::pictures::png_of;
-use crate::cli::talk::{note, print};
+use crate::cli::talk;
+use crate::cli::talk::print;
 use squealmap::engine::plan::Plan;
 use squealmap::model::status::Status;
 use squealmap::model::{PARAMS, Param};
@@ -122,12 +123,11 @@ pub(crate) fn execute(spec: &Spec, files: &Files, at: &str, range: &Range, point
     let total = 2 * found.values.len();
     let failed = total as u64 - of(Status::Ok);
     let told = told(of);
-    let apart: Vec<String> =
-        found.apart().iter().map(|[a, b]| format!("{} to {}", shown(*a), shown(*b))).collect();
+    let apart: Vec<String> = found.apart().iter().map(|range| place(*range)).collect();
     let apart = if apart.is_empty() {
         "the branches end alike at every value\n".to_owned()
     } else {
-        format!("the branches end differently from {}\n", apart.join(", "))
+        format!("the branches end differently {}\n", apart.join(", "))
     };
     let cycles: String = found.cycles.iter().map(|branch| said(branch, name)).collect();
     let is_plain = |branch: &Branch| branch.points.iter().all(|point| point.special.is_none());
@@ -149,11 +149,17 @@ pub(crate) fn execute(spec: &Spec, files: &Files, at: &str, range: &Range, point
     };
     if failed == total as u64 {
         print(&list(&paths));
-        note(&format!("error: no value has a result: {told}"));
+        talk::error(&format!("no value has a result: {told}"));
         return Ok(ExitCode::FAILURE);
     }
     print(&format!("{}{apart}{cycles}{hint}{warning}{failures}{}", branches.concat(), list(&paths)));
     Ok(ExitCode::SUCCESS)
+}
+
+/// Where a range of values is, in words.
+fn place([from, to]: [f64; 2]) -> String {
+    let [first, last] = [from, to].map(|value| shown(value).to_string());
+    if first == last { format!("at {first}") } else { format!("from {first} to {last}") }
 }
 
 /// A sentence on a branch of cycles: where it is stable, and what is special about it.

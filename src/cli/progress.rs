@@ -21,18 +21,19 @@ const WORDS: usize = " of  instances, 5399 h 59 min left, 12345678 instances/s "
 /// Columns of the longest bar.
 const BAR: usize = 32;
 
-/// Counts finished instances.
+/// Counts what is finished: instances, or what else a command has many of.
 #[derive(Debug)]
 pub(crate) struct Progress {
     total: usize,
+    unit: &'static str,
     done: AtomicUsize,
     began: Instant,
     bar: Option<ProgressBar>,
 }
 
 impl Progress {
-    /// Starts counting to `total` instances.
-    pub(crate) fn new(total: usize) -> Progress {
+    /// Starts counting to `total` of a `unit`, in the plural.
+    pub(crate) fn new(total: usize, unit: &'static str) -> Progress {
         let bar = (std::io::stderr().is_terminal() && !talk::is_quiet()).then(|| {
             let columns = usize::from(Term::stderr().size().1);
             let words = WORDS + 2 * total.to_string().len();
@@ -44,7 +45,7 @@ impl Progress {
             let style = ProgressStyle::with_template(&template);
             ProgressBar::new(total as u64).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
         });
-        Progress { total, done: AtomicUsize::new(0), began: Instant::now(), bar }
+        Progress { total, unit, done: AtomicUsize::new(0), began: Instant::now(), bar }
     }
 
     /// Adds newly finished instances; called from every worker.
@@ -83,7 +84,10 @@ impl Progress {
     fn words(&self, done: usize) -> String {
         let rate = done as f64 / self.began.elapsed().as_secs_f64().max(f64::MIN_POSITIVE);
         let left = seconds(self.total.saturating_sub(done) as f64 / rate);
-        format!("{done} of {} instances, {left} left, {rate:.0} instances/s", self.total)
+        let Progress { total, unit, .. } = self;
+        // What is done in many seconds has no rate to speak of.
+        let pace = if rate < 1.0 { String::new() } else { format!(", {rate:.0} {unit}/s") };
+        format!("{done} of {total} {unit}, {left} left{pace}")
     }
 }
 

@@ -196,7 +196,7 @@ impl Work<'_, '_> {
     /// The labels of some instances, in parts of so many.
     fn compute(&mut self, instances: &[usize], size: usize) -> Result<Vec<Label>> {
         talk::detail(&format!("{} more instances", instances.len()));
-        let progress = Progress::new(instances.len());
+        let progress = Progress::new(instances.len(), "instances");
         let mut labels = Vec::with_capacity(instances.len());
         for block in instances.chunks(size) {
             self.part(block, &progress, &mut labels)?;

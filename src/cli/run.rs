@@ -180,7 +180,7 @@ pub(crate) fn run(
         if lacking > 0 {
             space::verify(&store.directory, &store.description, lacking)?;
         }
-        let progress = Progress::new(lacking);
+        let progress = Progress::new(lacking, "instances");
         let watch = Watch { cancel, progress: &|count| progress.add(count), note: &note };
         let filled = fill(store, solver, &missing, reuse, watch);
         progress.finish();
@@ -304,7 +304,7 @@ fn shard_done(store: &Store, shard: Shard, filled: &Filled) -> ExitCode {
             ExitCode::from(INTERRUPTED)
         }
         Some(Stopped::Failed(why)) => {
-            note(&format!("error: {why}"));
+            talk::error(why);
             ExitCode::FAILURE
         }
     }
@@ -360,7 +360,7 @@ fn ended(stopped: &Stopped, tally: &Tally, did: &str) -> ExitCode {
     let code = match stopped {
         Stopped::Cancelled => INTERRUPTED,
         Stopped::Failed(why) => {
-            note(&format!("error: {why}"));
+            talk::error(why);
             1
         }
     };

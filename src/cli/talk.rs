@@ -112,6 +112,11 @@ pub(crate) fn note(text: &str) {
     }
 }
 
+/// Why a command that has done its work fails, on standard error: also where nothing else is to be said.
+pub(crate) fn error(why: &str) {
+    let _ = writeln!(std::io::stderr().lock(), "error: {why}");
+}
+
 /// A remark for those who asked for more.
 pub(crate) fn detail(text: &str) {
     if manner().verbose {

@@ -33,6 +33,23 @@ impl Measuring {
         self.settling.is_some()
     }
 
+    /// Whether the windows of the run agree.
+    #[must_use]
+    pub fn has_settled(&self) -> bool {
+        self.ending == Some(Ending::Settled)
+    }
+
+    /// Takes back that the run has settled at `end`. True when another window follows, which is the present one then; false when that
+    /// would be too late.
+    pub fn reopen(&mut self, frequency: Option<f64>, end: f64) -> bool {
+        let Some(settling) = &self.settling else { return false };
+        self.ending = (end > settling.limit()).then_some(Ending::Limit);
+        if self.ending.is_none() {
+            (self.start, self.half) = (end, settling.half(frequency));
+        }
+        self.ending.is_none()
+    }
+
     /// Whether the last window has been judged.
     #[must_use]
     pub fn is_over(&self) -> bool {

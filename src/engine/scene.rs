@@ -12,13 +12,9 @@ use crate::model::scaled::Scaled;
 use crate::model::status::Status;
 
 impl Plan {
-    /// The plan cut to at most `periods` of the instance, and the share of its time that is left; of a run until
-    /// settled the longest it may be.
+    /// The plan cut to at most `periods` of the instance, and the share of its time that is left; of a plan that has a time.
     #[must_use]
     pub fn shortened(&self, instance: &Instance, periods: f64) -> (Plan, f64) {
-        if let Some(limit) = self.settle_limit {
-            return Plan { settle: limit, settle_limit: None, ..*self }.shortened(instance, periods);
-        }
         let Ok(scene) = Scene::new(instance, self.start) else { return (*self, 1.0) };
         let [settle, measure] = [self.settle, self.measure].map(|part| scene.scaled(part) / TAU);
         let share = (periods / (settle + measure)).min(1.0);

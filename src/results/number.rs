@@ -1,6 +1,6 @@
 //! A column of a table, read back.
 
-use crate::sweep::columns::{Column, find};
+use crate::sweep::columns::{Column, Reading, find};
 
 /// A column of numbers.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,9 +22,15 @@ impl NumberColumn {
         find(&self.name)
     }
 
+    /// How its values are read.
+    #[must_use]
+    pub fn reading(&self) -> Reading {
+        self.row().map_or(Reading::Linear, |row| row.reading)
+    }
+
     /// Whether its values are angles in degrees, of which −180 and 180 are one.
     #[must_use]
     pub fn is_angle(&self) -> bool {
-        self.unit == "deg"
+        self.unit == "deg" && self.reading() != Reading::HalfTurn
     }
 }

@@ -68,8 +68,9 @@ pub fn estimate(spec: &Spec) -> Estimate {
             // What the whole plan refuses costs nothing.
             let whole = Plan::new(spec);
             let (plan, share) = match Scene::planned(&instance, &whole) {
-                Ok(_) => whole.shortened(&instance, periods),
-                Err(_) => (whole, 1.0),
+                // Until settled most take a part of the longest time.
+                Ok(_) if whole.settle_limit.is_none() => whole.shortened(&instance, periods),
+                _ => (whole, 1.0),
             };
             let terms = Terms { most_steps: MOST_OF_A_SAMPLE, ..Terms::default() };
             let copies: Vec<Instance> = std::iter::repeat_n(instance, COPIES).collect();
@@ -100,7 +101,8 @@ fn reached(outcome: &Outcome, instance: &Instance, plan: &Plan) -> f64 {
         return 1.0;
     }
     let Ok(scene) = Scene::new(instance, plan.start) else { return 1.0 };
-    let whole = (scene.scaled(plan.settle) + scene.scaled(plan.measure)) * scene.units.time;
+    let settle = plan.settle_limit.unwrap_or(plan.settle);
+    let whole = (scene.scaled(settle) + scene.scaled(plan.measure)) * scene.units.time;
     (outcome.simulated_time / whole).min(1.0)
 }
 

@@ -27,6 +27,9 @@ const TURNED: f64 = PI;
 /// The slowest part shows in a distance where it is no smaller than this part of it.
 const SHOWS: f64 = 0.05;
 
+/// The part of an unstable multiplier this small, by the size of the motion, is rounding: the motion lies on the fixed point.
+const ON_IT: f64 = 1e-9;
+
 /// A spiral of a multiplier above this one takes many turns, on which what bends the map adds up.
 const WINDS: f64 = 0.98;
 
@@ -101,6 +104,16 @@ impl Approach {
         let rates = pairs.iter().map(|[before, after]| (self.part(before) / self.part(after)).ln());
         let mean = rates.sum::<f64>() / pairs.len().max(1) as f64;
         pairs.is_empty() || mean >= -RATES[0] * self.slowest.norm().ln()
+    }
+
+    /// Whether distances from an unstable fixed point, the last one first, grow as its multiplier has it. `size` is that of the motion.
+    #[must_use]
+    pub fn drives_away(&self, distances: &[DVector<f64>], size: f64) -> bool {
+        let (Some(last), Some(first)) = (distances.first(), distances.last()) else { return false };
+        let [first, last] = [first, last].map(|distance| self.part(distance));
+        let returns = (distances.len() - 1) as f64;
+        let predicted = self.slowest.norm().ln();
+        predicted > 0.0 && (last <= ON_IT * size || (last / first).ln() >= RATES[0] * predicted * returns)
     }
 
     /// The part of the slowest multiplier in a distance.

@@ -1,4 +1,4 @@
-//! A stable cycle that a transient may come to.
+//! A cycle that a transient may come to, or leave.
 
 use nalgebra::DVector;
 
@@ -86,6 +86,16 @@ impl Candidate {
         let since = (now - self.seen) / self.cycle.period;
         self.seen = now;
         if self.approach.is_seen(&distances, since, self.size) { Course::Comes } else { Course::Near }
+    }
+
+    /// Whether a transient leaves this cycle, which is unstable, as its multiplier predicts: about it a motion may turn for
+    /// hundreds of returns that look settled.
+    #[must_use]
+    pub fn is_left_by(&self, transient: &[Return]) -> bool {
+        let fixed = self.vector(&self.cycle.start);
+        let returns = transient.iter().rev().step_by(self.cycle.returns);
+        let distances: Vec<_> = returns.map(|at| self.vector(&at.point) - &fixed).collect();
+        self.approach.drives_away(&distances, self.size)
     }
 
     /// Points on the way of a transient from here to the cycle, as its linear map has it. On the way the distance may grow before

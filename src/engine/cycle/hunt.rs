@@ -48,8 +48,8 @@ pub enum Next {
     Follow(Vec<Point>, usize),
     /// Nothing: this is a stable cycle.
     Found(Box<Candidate>),
-    /// Nothing: the cycle that was found is unstable.
-    Unstable,
+    /// Nothing: this is a cycle, and unstable.
+    Unstable(Box<Candidate>),
     /// Nothing: no cycle was found.
     Lost,
 }
@@ -155,10 +155,7 @@ impl Hunt {
         let period = time(base) + slopes.zip(change.iter()).map(|(slope, by)| slope * by).sum::<f64>();
         let approach = Approach::new(jacobian)?;
         let multiplier = approach.slowest();
-        if multiplier.norm() >= STABLE {
-            return Some(Next::Unstable);
-        }
-        Some(Next::Found(Box::new(Candidate {
+        let candidate = Box::new(Candidate {
             cycle: Cycle {
                 start: self.point.with(fixed.as_slice()),
                 returns: self.returns,
@@ -170,7 +167,8 @@ impl Hunt {
             freedom: self.freedom,
             approach,
             seen: 0.0,
-        })))
+        });
+        Some(if multiplier.norm() < STABLE { Next::Found(candidate) } else { Next::Unstable(candidate) })
     }
 }
 

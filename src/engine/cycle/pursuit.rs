@@ -50,6 +50,8 @@ pub struct Pursuit {
     unstable: u32,
     /// A stable cycle that the run may come to.
     candidate: Option<Box<Candidate>>,
+    /// The unstable cycle that the last hunt has found.
+    unstable_cycle: Option<Box<Candidate>>,
 }
 
 impl Pursuit {
@@ -94,7 +96,10 @@ impl Pursuit {
         match next {
             Next::Follow(points, returns) => return Some((points, returns)),
             Next::Found(candidate) => self.candidate = Some(candidate),
-            Next::Unstable => self.unstable += 1,
+            Next::Unstable(cycle) => {
+                self.unstable += 1;
+                self.unstable_cycle = Some(cycle);
+            }
             Next::Lost => {}
         }
         None
@@ -113,6 +118,19 @@ impl Pursuit {
     pub fn arrives(&self, points: &[Point], flown: &[Option<&[Return]>]) -> Option<Cycle> {
         let candidate = self.candidate.as_ref()?;
         candidate.is_open(points, flown).then(|| candidate.cycle.clone())
+    }
+
+    /// Looks at the returns of a run whose windows say that it has settled: the hunt for the cycle that it is next to.
+    #[must_use]
+    pub fn doubts(&mut self, transient: &[Return], freedom: Freedom, belt_velocity: f64) -> Option<Hunt> {
+        self.unstable_cycle = None;
+        Hunt::new(transient, freedom, true, SMALLEST * belt_velocity.abs())
+    }
+
+    /// Whether that cycle is unstable, and left by those returns: then the run has not settled.
+    #[must_use]
+    pub fn leaves(&self, transient: &[Return]) -> bool {
+        self.unstable_cycle.as_ref().is_some_and(|cycle| cycle.is_left_by(transient))
     }
 
     /// The scaled time to wait after a hunt that has found nothing.

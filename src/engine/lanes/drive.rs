@@ -28,8 +28,15 @@ pub fn drive<T: Lanes>(jobs: &mut [Job<T>], instances: &[&Instance], settings: S
             break;
         }
         T::run(jobs, &[Part::Window], single, settings);
+        if stopped() {
+            break;
+        }
         // Those that are not settled go on together with another window.
-        if stopped() || !jobs.iter_mut().fold(false, |any, job| job.goes_on(settings.plan) | any) {
+        let mut goes_on = jobs.iter_mut().fold(false, |any, job| job.goes_on(settings.plan) | any);
+        if let Some(hunts) = &mut hunts {
+            goes_on |= hunts.doubt(jobs, instances);
+        }
+        if stopped() || !goes_on {
             break;
         }
     }

@@ -3,7 +3,7 @@
 use crate::engine::cycle::candidate::{CLOSES, Cycle};
 use crate::engine::cycle::hunt::Hunt;
 use crate::engine::cycle::point::{Freedom, Point, Return};
-use crate::engine::cycle::pursuit::{GROWS, Pursuit, STEPS_PER_PERIOD, TOLERANCE};
+use crate::engine::cycle::pursuit::{GROWS, MANY, Pursuit, STEPS_PER_PERIOD, TOLERANCE};
 use crate::engine::kernel::scalar::Real;
 use crate::engine::lanes::contact::FREE;
 use crate::engine::lanes::contact::State;
@@ -33,6 +33,8 @@ struct Run {
     /// Its instance, ready to fly.
     craft: Option<Job<f64>>,
     found: Option<Outcome>,
+    /// Whether it has settled without, and leaves no unstable cycle.
+    has_settled: bool,
     /// Steps and scaled time of all flights.
     flown: (u64, f64),
 }
@@ -76,6 +78,31 @@ impl<'a> Hunts<'a> {
         waits
     }
 
+    /// Looks at those jobs whose windows agree since they were last looked at. What leaves an unstable cycle, about which it may turn
+    /// for long, goes on; true when there is one.
+    pub fn doubt<T: Lanes>(&mut self, jobs: &mut [Job<T>], instances: &[&Instance]) -> bool {
+        let settled: Vec<usize> = (0..jobs.len())
+            .filter(|at| jobs[*at].may_cycle() && jobs[*at].has_settled() && !self.runs[*at].has_settled)
+            .collect();
+        let flown = self.ahead(&settled, jobs, instances, |_| MANY);
+        let mut hunts = Vec::new();
+        for (at, flown) in settled.iter().zip(&flown) {
+            let Some(returns) = flown.first().and_then(Job::returned) else { continue };
+            let (freedom, belt) = (freedom(&jobs[*at], returns), jobs[*at].scene.belt(0.0).velocity);
+            let hunt = self.runs[*at].pursuit.doubts(returns, freedom, belt);
+            hunts.extend(hunt.map(|hunt| (*at, hunt)));
+        }
+        self.hunt_down(hunts);
+        let mut goes_on = false;
+        for (at, flown) in settled.iter().zip(&flown) {
+            let run = &mut self.runs[*at];
+            let leaves = |returns| run.pursuit.leaves(returns);
+            run.has_settled = !flown.first().and_then(Job::returned).is_some_and(leaves);
+            goes_on |= !run.has_settled && jobs[*at].reopen();
+        }
+        goes_on
+    }
+
     /// The cycles that some jobs come to, as their `transients` show.
     fn cycles<T: Real>(
         &mut self,
@@ -86,9 +113,7 @@ impl<'a> Hunts<'a> {
         let mut hunts: Vec<(usize, Hunt)> = Vec::new();
         for (at, transient) in prey.iter().zip(transients) {
             let Some(returns) = transient else { continue };
-            // Each its own way, whatever its neighbours are.
-            let upright = jobs[*at].scene.model.s == 0.0;
-            let freedom = Freedom::of(&returns[returns.len() - 1].point, upright, FREE);
+            let freedom = freedom(&jobs[*at], returns);
             let (now, belt) = (jobs[*at].time, jobs[*at].scene.belt(0.0).velocity);
             let hunt = self.runs[*at].pursuit.begin(returns, freedom, now, belt);
             hunts.extend(hunt.map(|hunt| (*at, hunt)));
@@ -147,15 +172,7 @@ impl<'a> Hunts<'a> {
         jobs: &mut [Job<T>],
         instances: &[&Instance],
     ) -> Vec<Option<Vec<Return>>> {
-        let turns = Turns::new(ORDER, TOLERANCE);
-        let mut asked = Vec::with_capacity(prey.len());
-        for at in prey {
-            let run = &mut self.runs[*at];
-            let scene = || jobs[*at].scene.clone();
-            run.craft.get_or_insert_with(|| Job::new(instances[*at], scene(), &self.plan, &turns));
-            asked.push((*at, vec![jobs[*at].exact_state()], run.pursuit.looks_at()));
-        }
-        let flown = self.fly(&asked);
+        let flown = self.ahead(prey, jobs, instances, Pursuit::looks_at);
         prey.iter()
             .zip(flown)
             .map(|(at, flown)| {
@@ -168,6 +185,25 @@ impl<'a> Hunts<'a> {
                 Some(returns)
             })
             .collect()
+    }
+
+    /// Follows some jobs from where they are for some returns each.
+    fn ahead<T: Lanes>(
+        &mut self,
+        prey: &[usize],
+        jobs: &[Job<T>],
+        instances: &[&Instance],
+        count: impl Fn(&Pursuit) -> usize,
+    ) -> Vec<Vec<Job<f64>>> {
+        let turns = Turns::new(ORDER, TOLERANCE);
+        let mut asked = Vec::with_capacity(prey.len());
+        for at in prey {
+            let run = &mut self.runs[*at];
+            let scene = || jobs[*at].scene.clone();
+            run.craft.get_or_insert_with(|| Job::new(instances[*at], scene(), &self.plan, &turns));
+            asked.push((*at, vec![jobs[*at].exact_state()], count(&run.pursuit)));
+        }
+        self.fly(&asked)
     }
 
     /// Follows states of some jobs for some returns each.
@@ -238,6 +274,11 @@ impl<'a> Hunts<'a> {
         }
         outcomes
     }
+}
+
+/// The free coordinates of a job whose last returns these are: each its own, whatever its neighbours are.
+fn freedom<T: Real>(job: &Job<T>, returns: &[Return]) -> Freedom {
+    Freedom::of(&returns[returns.len() - 1].point, job.scene.model.s == 0.0, FREE)
 }
 
 impl<T: Real> Job<T> {

@@ -323,17 +323,35 @@ impl<T: Real> Job<T> {
             return false;
         }
         let outcome = self.outcome(plan);
-        let guess = self.known_omega();
-        let frequency = self.seen.frequency();
-        if !self.measuring.goes_on(&outcome, frequency, !self.quiet, self.marks[2]) {
+        if !self.measuring.goes_on(&outcome, self.seen.frequency(), !self.quiet, self.marks[2]) {
             return false;
         }
+        self.next_window();
+        true
+    }
+
+    /// Whether the windows of an oscillation agree.
+    #[must_use]
+    pub fn has_settled(&self) -> bool {
+        self.measuring.has_settled() && self.seen.frequency().is_some()
+    }
+
+    /// Takes that back; true when another window follows.
+    pub fn reopen(&mut self) -> bool {
+        let goes_on = self.measuring.reopen(self.seen.frequency(), self.marks[2]);
+        if goes_on {
+            self.next_window();
+        }
+        goes_on
+    }
+
+    fn next_window(&mut self) {
+        let guess = self.known_omega();
         self.marks = window(&self.measuring);
         self.guess = guess;
         self.seen = Reductions { growth: self.seen.growth, ..Reductions::default() };
         self.stretches = Stretches::default();
         self.snapshot = None;
-        true
     }
 
     /// Goes on for a scaled time before the window begins; false when that would be too late, and the window begins now.

@@ -1,8 +1,9 @@
 //! The reference looks for the cycle of one run.
 
 use crate::engine::cycle::candidate::{CLOSES, Cycle};
-use crate::engine::cycle::point::{Freedom, Return};
-use crate::engine::cycle::pursuit::{GROWS, Pursuit};
+use crate::engine::cycle::hunt::Hunt;
+use crate::engine::cycle::point::{Freedom, Point, Return};
+use crate::engine::cycle::pursuit::{GROWS, MANY, Pursuit};
 use crate::engine::measuring::Measuring;
 use crate::engine::outcome::Outcome;
 use crate::engine::plan::Plan;
@@ -61,6 +62,20 @@ impl<'a> Chase<'a> {
         Ok(None)
     }
 
+    /// Whether a run whose windows agree leaves an unstable cycle, about which it may turn for long.
+    pub(super) fn leaves(&mut self, integrator: &Integrator, growth: &Growth) -> bool {
+        if !growth.met_event() && self.straight {
+            return false;
+        }
+        let Some(transient) = self.fly(integrator.clone(), MANY) else { return false };
+        let Some(last) = transient.last() else { return false };
+        let (freedom, belt) = (self.freedom(&last.point), self.scene.belt(0.0).velocity);
+        if let Some(hunt) = self.pursuit.doubts(&transient, freedom, belt) {
+            self.hunt_down(hunt, integrator);
+        }
+        self.pursuit.leaves(&transient)
+    }
+
     /// One hunt.
     fn look(
         &mut self,
@@ -94,19 +109,26 @@ impl<'a> Chase<'a> {
     fn cycle(&mut self, transient: &[Return], integrator: &Integrator) -> Option<Cycle> {
         let here = transient.last()?.point;
         let (now, belt) = (integrator.time(), self.scene.belt(0.0).velocity);
-        let freedom = Freedom::of(&here, self.scene.model.s == 0.0, ContactState::Free as u32);
-        if let Some(mut hunt) = self.pursuit.begin(transient, freedom, now, belt) {
-            let mut next = hunt.request();
-            while let Some((points, count)) = self.pursuit.take(next) {
-                let flown: Option<Vec<_>> =
-                    points.iter().map(|point| self.fly(integrator.at(point), count)).collect();
-                next = hunt.take(flown.as_deref());
-            }
+        if let Some(hunt) = self.pursuit.begin(transient, self.freedom(&here), now, belt) {
+            self.hunt_down(hunt, integrator);
         }
         let (points, count) = self.pursuit.way(transient, now)?;
         let flown: Vec<_> = points.iter().map(|point| self.fly(integrator.at(point), count)).collect();
         let flown: Vec<_> = flown.iter().map(Option::as_deref).collect();
         self.pursuit.arrives(&points, &flown)
+    }
+
+    fn hunt_down(&mut self, mut hunt: Hunt, integrator: &Integrator) {
+        let mut next = hunt.request();
+        while let Some((points, count)) = self.pursuit.take(next) {
+            let flown: Option<Vec<_>> =
+                points.iter().map(|point| self.fly(integrator.at(point), count)).collect();
+            next = hunt.take(flown.as_deref());
+        }
+    }
+
+    fn freedom(&self, point: &Point) -> Freedom {
+        Freedom::of(point, self.scene.model.s == 0.0, ContactState::Free as u32)
     }
 
     fn fly(&mut self, mut integrator: Integrator, count: usize) -> Option<Vec<Return>> {

@@ -130,6 +130,14 @@ fn measure(
         if measuring.goes_on(&outcome, frequency, window.events > 0, end.time) {
             continue;
         }
+        if let Some(chase) = &mut chase
+            && measuring.has_settled()
+            && frequency.is_some()
+            && chase.leaves(integrator, &growth)
+            && measuring.reopen(frequency, end.time)
+        {
+            continue;
+        }
         if let Some(frequency) = frequency {
             seen.phase = phase(scene, window_start, frequency, &seen, half)?;
         }

@@ -7,7 +7,7 @@ use crate::results::figure::tones::Tones;
 use crate::results::figure::words;
 use crate::results::number::NumberColumn;
 use crate::results::trust;
-use crate::sweep::columns::Column;
+use crate::sweep::columns::{self, Column, Reading};
 use squealmap_figure::cyclic;
 use squealmap_figure::frame::LABEL_SIZE;
 use squealmap_figure::scale::Scale;
@@ -160,7 +160,7 @@ fn is_fraction(column: &NumberColumn) -> bool {
 
 /// Whether the sign of a column says what happens: growth or decay.
 pub(crate) fn has_sign(column: &NumberColumn) -> bool {
-    column.row().is_some_and(|row| row.has_sign)
+    column.reading() == Reading::Sign
 }
 
 /// The scale of the colours of a quantity, and the colours.
@@ -181,9 +181,20 @@ fn shade(column: &NumberColumn) -> (Scale, Tones<'static>) {
     }
 }
 
-/// The scale of a quantity over all panels: from its lowest to its highest value.
+/// The scale of a quantity over all panels: from its lowest to its highest value; small counts have a step each.
 pub(crate) fn scale(quantity: &NumberColumn) -> Scale {
-    Scale::spanning(quantity.values.iter().flatten().copied())
+    /// Counts up to here are written out.
+    const SMALL: u32 = 8;
+    let spanning = Scale::spanning(quantity.values.iter().flatten().copied());
+    let counts = quantity.row().is_some_and(|row| row.content() == columns::Content::Count);
+    match (quantity.reading(), spanning) {
+        (Reading::HalfTurn, _) => Scale::Linear { low: 0.0, high: 180.0 },
+        (Reading::Ratios, Scale::Linear { low, high }) if low > 0.0 => Scale::Log { low, high },
+        (Reading::Linear, Scale::Linear { high, .. }) if counts && high <= f64::from(SMALL) => Scale::Names(
+            (0..=SMALL).filter(|count| f64::from(*count) <= high).map(|count| count.to_string()).collect(),
+        ),
+        (_, scale) => scale,
+    }
 }
 
 /// The power of ten that the bar of a quantity has beside it.

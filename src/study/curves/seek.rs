@@ -56,11 +56,19 @@ impl Plane<'_> {
     }
 }
 
-/// The curves in all planes of a sweep, from so many `lines` along each axis.
+/// Lines across the planes of a sweep, so many along each axis.
+///
+/// # Errors
+/// As [`seek`].
+pub fn count(spec: &Spec, lines: usize) -> Result<usize> {
+    Ok(2 * lines * planes(spec)?.len())
+}
+
+/// The curves in all planes of a sweep, from so many `lines` along each axis; `passed` is called after each of them, from any thread.
 ///
 /// # Errors
 /// When the sweep has no plane of two parameters that can be followed.
-pub fn seek(spec: &Spec, lines: usize) -> Result<Vec<PlaneCurves>> {
+pub fn seek(spec: &Spec, lines: usize, passed: &(dyn Fn() + Sync)) -> Result<Vec<PlaneCurves>> {
     let planes = planes(spec)?;
     let ways: Vec<(usize, usize, f64)> = (0..planes.len())
         .flat_map(|plane| [0, 1].map(|along| (plane, along)))
@@ -69,8 +77,12 @@ pub fn seek(spec: &Spec, lines: usize) -> Result<Vec<PlaneCurves>> {
             (0..lines).map(move |line| (plane, along, spaced(across, lines, false, line)))
         })
         .collect();
-    let met: Vec<Vec<Spot>> =
-        ways.par_iter().map(|(plane, along, at)| spots(&planes[*plane], *along, *at)).collect();
+    let met = |(plane, along, at): &(usize, usize, f64)| {
+        let spots = spots(&planes[*plane], *along, *at);
+        passed();
+        spots
+    };
+    let met: Vec<Vec<Spot>> = ways.par_iter().map(met).collect();
     let curves: Vec<Followed> = planes
         .par_iter()
         .enumerate()

@@ -1,7 +1,7 @@
 //! What varies, what may be varied, which columns there are.
 
 use crate::model::{PARAMS, ParamInfo, Range};
-use crate::sweep::columns::{Column, Group, columns};
+use crate::sweep::columns::{Column, Group, Reading, columns};
 use crate::sweep::grid::{Axis, AxisKey, Grid, Value};
 use crate::sweep::spec::Analysis;
 use serde_json::{Value as Json, json};
@@ -94,7 +94,7 @@ fn column(column: &Column) -> Json {
         "unit": column.unit,
         "meaning": column.meaning,
         "print": column.print[0],
-        "signed": column.has_sign,
+        "signed": column.reading == Reading::Sign,
         "response": column.is_of_the_window || !matches!(column.group, Group::Linear | Group::Always),
         "names": names(column),
     })

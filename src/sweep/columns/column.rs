@@ -62,6 +62,19 @@ impl Group {
     }
 }
 
+/// How the values of a column are read off a scale.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reading {
+    /// By their differences.
+    Linear,
+    /// By their sign, which says what happens: growth or decay.
+    Sign,
+    /// By their ratios: they span decades.
+    Ratios,
+    /// As angles from 0 to 180 degrees, which have no other side.
+    HalfTurn,
+}
+
 /// Where the values of a column come from.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Source {
@@ -75,7 +88,6 @@ pub(super) enum Source {
 
 /// One output column.
 #[derive(Clone, Copy, Debug)]
-#[expect(clippy::struct_excessive_bools, reason = "each says one thing of a column, by itself")]
 pub struct Column {
     /// The header.
     pub name: &'static str,
@@ -90,8 +102,8 @@ pub struct Column {
     /// Whether it is a quantity of the measuring window, which means little where the response has not settled. What is read
     /// before the window, or of the run as a whole, is none.
     pub is_of_the_window: bool,
-    /// Whether its sign says what happens: growth or decay.
-    pub has_sign: bool,
+    /// How its values are read.
+    pub reading: Reading,
     /// Whether it is of the large start of two.
     pub is_of_large_start: bool,
     /// Whether it stands in tiles alone.
@@ -116,7 +128,7 @@ impl Column {
             print: [print[0], print[print.len() - 1]],
             group,
             is_of_the_window: false,
-            has_sign: false,
+            reading: Reading::Linear,
             is_of_large_start: false,
             is_hidden: false,
             source: Source::Record(values),
@@ -128,9 +140,9 @@ impl Column {
         Column { is_of_the_window: true, ..self }
     }
 
-    /// Its sign says what happens.
-    pub(super) const fn signed(self) -> Column {
-        Column { has_sign: true, ..self }
+    /// Its values are read so.
+    pub(super) const fn read_by(self, reading: Reading) -> Column {
+        Column { reading, ..self }
     }
 
     /// It stands in tiles alone.

@@ -9,7 +9,7 @@ use crate::engine::regime::Regime;
 use crate::model::kind::InstabilityType;
 use crate::model::status::Status;
 use crate::sweep::columns::class::Class;
-use crate::sweep::columns::column::{Column, Group};
+use crate::sweep::columns::column::{Column, Group, Reading};
 use crate::sweep::columns::values::Values::{Count, Flag, Name, Number, Share, Summary};
 use crate::sweep::columns::values::{Kept, Place};
 
@@ -112,10 +112,10 @@ fn checked(record: &Record) -> Option<u64> {
 }
 
 macro_rules! table {
-    ($($group:ident $name:literal $unit:literal $values:expr, [$($print:literal),+], $meaning:literal $(.$more:ident())*;)*) => {
+    ($($group:ident $name:literal $unit:literal $values:expr, [$($print:literal),+], $meaning:literal $(.$more:ident($($how:expr)?))*;)*) => {
         /// What is computed of an instance.
         pub(super) static COMPUTED: &[Column] = &[$(
-            Column::new(Group::$group, $name, $unit, $values, &[$($print),+], $meaning)$(.$more())*
+            Column::new(Group::$group, $name, $unit, $values, &[$($print),+], $meaning)$(.$more($($how)?))*
         ),*];
 
         /// Columns of the large start.
@@ -127,18 +127,18 @@ macro_rules! table {
                 $values,
                 &[$($print),+],
                 concat!("from the large start: ", $meaning),
-            )$(.$more())*.of_large_start()
+            )$(.$more($($how)?))*.of_large_start()
         ),*];
     };
 }
 
 table! {
     Linear "type" "" Name(&TYPE), ["Type"], "type of instability by complex eigenvalues and attribution";
-    Linear "growth_rate" "1/s" Number(field!(linear growth_rate)), ["Growth rate {σ}", "{σ}"], "largest real part of the eigenvalues, both mechanisms present".signed();
+    Linear "growth_rate" "1/s" Number(field!(linear growth_rate)), ["Growth rate {σ}", "{σ}"], "largest real part of the eigenvalues, both mechanisms present".read_by(Reading::Sign);
     Linear "frequency" "Hz" Number(field!(linear frequency)), ["Frequency of the least stable mode", "{f}"], "imaginary part of that eigenvalue over 2 pi; empty where nothing damps and nothing grows, as no mode leads there";
     Linear "phase" "deg" Number(field!(linear phase)), ["Phase of {ÿ_1} against {ẍ_2} in the mode", "{φ}, mode"], "phase of y1'' against x2'' in that mode; negative when y1'' lags";
-    Linear "growth_rate_flat" "1/s" Number(field!(linear growth_rate_flat)), ["Growth rate without the friction slope", "{σ}, no slope"], "growth rate with the friction slope set to 0 (mode coupling alone)".signed();
-    Linear "growth_rate_frozen" "1/s" Number(field!(linear growth_rate_frozen)), ["Growth rate at constant normal force", "{σ}, constant {N}"], "growth rate with the normal force frozen (negative slope alone)".signed();
+    Linear "growth_rate_flat" "1/s" Number(field!(linear growth_rate_flat)), ["Growth rate without the friction slope", "{σ}, no slope"], "growth rate with the friction slope set to 0 (mode coupling alone)".read_by(Reading::Sign);
+    Linear "growth_rate_frozen" "1/s" Number(field!(linear growth_rate_frozen)), ["Growth rate at constant normal force", "{σ}, constant {N}"], "growth rate with the normal force frozen (negative slope alone)".read_by(Reading::Sign);
     Response "regime" "" Name(&REGIME), ["Regime"], "what the system does in the measuring window";
     Response "x2_mean" "m" Number(field!(outcome x2_mean)), ["Mean of {x_2}"], "mean of x2".window();
     Response "x2_std" "m" Number(field!(outcome x2_std)), ["Standard deviation of {x_2}", "Std. of {x_2}"], "standard deviation of x2".window();
@@ -152,7 +152,7 @@ table! {
     Response "n_peak" "N" Number(field!(outcome n_peak)), ["Largest normal force {N}", "Largest {N}"], "largest normal force".window();
     Response "response_frequency" "Hz" Number(field!(outcome response_frequency)), ["Response frequency", "{f}, response"], "upward zero crossings of x2' over the time from the first to the last".window();
     Response "phase_cycle" "deg" Number(field!(outcome phase_cycle)), ["Phase of {ÿ_1} against {ẍ_2} in the response", "{φ}, response"], "phase of y1'' against x2'' at the response frequency".window();
-    Response "growth_rate_measured" "1/s" Number(field!(outcome growth_rate_measured)), ["Growth rate before the first event", "{σ}, measured"], "growth rate before the first contact event".signed();
+    Response "growth_rate_measured" "1/s" Number(field!(outcome growth_rate_measured)), ["Growth rate before the first event", "{σ}, measured"], "growth rate before the first contact event".read_by(Reading::Sign);
     Response "frequency_measured" "Hz" Number(field!(outcome frequency_measured)), ["Frequency before the first event", "{f}, measured"], "frequency before the first contact event";
     Response "phase_measured" "deg" Number(field!(outcome phase_measured)), ["Phase of {ÿ_1} against {ẍ_2} before the first event", "{φ}, measured"], "phase of y1'' against x2'' before the first contact event";
     Response "stick" "" Number(field!(outcome stick)), ["Fraction of time in stick", "Stick"], "fraction of the window in stick".window();
@@ -166,8 +166,8 @@ table! {
     Cycles "period" "s" Number(field!(outcome period)), ["Period {T} of the limit cycle", "{T}"], "period of the limit cycle that shooting found";
     Cycles "cycle_returns" "" Count(field!(outcome cycle_returns)), ["Returns in a period"], "upward zero crossings of x2' in a period: more than 1 after a period doubling, or with several impacts";
     Cycles "floquet" "" Number(field!(outcome floquet)), ["Largest Floquet multiplier {|λ|}", "{|λ|}"], "largest modulus of the Floquet multipliers: what is left of a small disturbance after one period";
-    Cycles "floquet_angle" "deg" Number(field!(outcome floquet_angle)), ["Angle of that multiplier"], "its angle, 0 to 180: a stable cycle ends at 0 by a fold, at 180 by a period doubling, else in a torus";
-    Cycles "disturbance_periods" "" Number(DISTURBANCE), ["Periods that a disturbance lasts", "Memory"], "periods after which a small disturbance has fallen to 1/e, -1/ln(floquet)";
+    Cycles "floquet_angle" "deg" Number(field!(outcome floquet_angle)), ["Angle of that multiplier"], "its angle, 0 to 180: a stable cycle ends at 0 by a fold, at 180 by a period doubling, else in a torus".read_by(Reading::HalfTurn);
+    Cycles "disturbance_periods" "" Number(DISTURBANCE), ["Periods that a disturbance lasts", "Memory"], "periods after which a small disturbance has fallen to 1/e, -1/ln(floquet)".read_by(Reading::Ratios);
     Checks "checked" "" Summary(checked), ["Checked"], "1: computed again in f64 with fine steps; 2: the same, and near a border between labels, so that the row is that result; 3: computed again by the reference; else empty";
     Checks "check_error" "" Number(field!(check error)), ["Relative error that a check found", "Error"], "worst relative error of x2_std, ax_rms, ay_rms and response_frequency against that, of a settled oscillation";
     Response "simulated_time" "s" Number(field!(outcome simulated_time)), ["Simulated time"], "simulated time";

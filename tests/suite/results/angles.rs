@@ -24,13 +24,13 @@ fn phase(values: Vec<Option<f64>>) -> NumberColumn {
     NumberColumn { name: "phase".to_owned(), unit: "deg".to_owned(), meaning: String::new(), values }
 }
 
-fn sweep(columns: usize, rows: usize) -> Map {
+pub(crate) fn sweep(columns: usize, rows: usize) -> Map {
     let axes = vec![span(Param::MuS, 0.0, 0.6, columns), span(Param::MuD, 0.0, 0.6, rows)];
     map(Grid::Axes(axes), |_, _| paper_like(0.1, 0.1, 1.0))
 }
 
 /// A map of angles and the colours of its bar, from −180° on.
-fn drawn(sweep: &Map, column: &NumberColumn) -> (String, Vec<String>) {
+pub(crate) fn drawn(sweep: &Map, column: &NumberColumn) -> (String, Vec<String>) {
     let look = Look { contents: vec![Content::quantity(column)], width: Some(90.0), ..Look::default() };
     let svg = look_svg(sweep, &look).unwrap();
     let bar = svg.lines().filter(|line| line.starts_with("<rect") && !line.contains("stroke"));

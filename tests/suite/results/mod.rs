@@ -19,6 +19,7 @@ pub(crate) mod pictures;
 pub(crate) mod plot;
 pub(crate) mod plot_notes;
 pub(crate) mod print;
+mod readings;
 pub(crate) mod scattered;
 pub(crate) mod select;
 pub(crate) mod sides;

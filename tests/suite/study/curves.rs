@@ -28,7 +28,7 @@ fn parse(text: &str) -> Spec {
 }
 
 fn only(spec: &Spec) -> PlaneCurves {
-    let mut planes = seek(spec, 2).unwrap();
+    let mut planes = seek(spec, 2, &|| ()).unwrap();
     assert_eq!(planes.len(), 1);
     planes.remove(0)
 }

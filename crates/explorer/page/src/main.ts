@@ -1,13 +1,14 @@
 // The page: what is asked for by hand, and where it goes.
 
 import { type Choice, Engines } from "./ask";
+import { Basin } from "./basin";
 import { columnsOf, masses, plots, rows, sound, taken, why, type Cell } from "./cell";
-import { hex, words } from "./colours";
 import { cuts } from "./cut";
 import { PLACES, stateOf } from "./gallery";
-import { MapView } from "./map";
-import { ticks } from "./plots";
+import type { Progress } from "./map";
+import { Side } from "./side";
 import { closed, first, is_allowed, kept_within, parameter, read, type State, sides, whole, written } from "./state";
+import { said, strokes } from "./strokes";
 import { type About, escape, type Given, plain, shown, symbol } from "./sweep";
 
 const element = <T extends HTMLElement>(id: string): T => {
@@ -45,11 +46,15 @@ async function main(): Promise<void> {
   new Page(engines, about.head as unknown as About, file, classes).start();
 }
 
+/** What the second map shows. */
+const beside = (state: State): State => ({ ...state, quantity: state.beside, hidden: state.hiddenBeside });
+
 class Page {
   private state: State;
-  private readonly view: MapView;
-  private readonly canvas = element<HTMLCanvasElement>("map");
-  private readonly marks = element<HTMLCanvasElement>("marks");
+  /** The map, and the one beside it. */
+  private readonly first: Side;
+  private readonly second: Side;
+  private readonly basin: Basin;
   private cell: Cell | null = null;
   private cellAsked = 0;
   private cut = "";
@@ -63,22 +68,46 @@ class Page {
     private readonly classes: Given["classes"],
   ) {
     this.state = first(about);
-    this.view = new MapView(
-      this.canvas,
-      engines,
-      about,
-      classes,
-      ({ cells, of, seconds, ofRun }) => {
-        const done = cells >= of;
-        const { response } = this.view.column(this.state.quantity);
-        const count = response ? "transients" : "cells";
-        say(`${cells.toLocaleString("en")} of ${of.toLocaleString("en")} ${count}, ${seconds.toFixed(2)} s on ${engines.by(response)}${done ? "" : " …"}`);
-        const run = engines.program?.told.run;
-        element("source").textContent = run && engines.takesProgram() ? from(run.program, ofRun, cells, count) : "";
-        if (done) void this.along();
-      },
-      (sentence) => say(sentence),
-    );
+    const made = (ids: [string, string, string], group: number, toggled: (name: string) => void, told: (progress: Progress) => void) => {
+      const [canvas, marks, legend] = ids;
+      const elements = { canvas: element<HTMLCanvasElement>(canvas), marks: element<HTMLCanvasElement>(marks), legend: element(legend) };
+      return new Side(elements, engines, about, classes, group, toggled, told, say);
+    };
+    const without = (names: string[], name: string) => (names.includes(name) ? names.filter((other) => other !== name) : [...names, name]);
+    this.first = made(["map", "marks", "legend"], 1, (name) => this.go({ ...this.state, hidden: without(this.state.hidden, name) }), (progress) => this.told(progress));
+    this.second = made(["map-beside", "marks-beside", "legend-beside"], 3, (name) => this.go({ ...this.state, hiddenBeside: without(this.state.hiddenBeside, name) }), () => undefined);
+    this.basin = new Basin(element<HTMLCanvasElement>("basin"), element("basin-words"), engines, about, classes["regime"] ?? [], (start) => this.from(start));
+  }
+
+  /** Takes another start from the basin of a cell. */
+  private from([start_displacement, start_velocity]: [number, number]): void {
+    this.go({ ...this.state, at: { ...this.state.at, start_displacement, start_velocity } });
+    this.sliders();
+  }
+
+  private get view() {
+    return this.first.view;
+  }
+
+  private told({ cells, of, seconds, ofRun }: Progress): void {
+    const done = cells >= of;
+    const { response } = this.view.column(this.state.quantity);
+    const count = response ? "transients" : "cells";
+    say(`${cells.toLocaleString("en")} of ${of.toLocaleString("en")} ${count}, ${seconds.toFixed(2)} s on ${this.engines.by(response)}${done ? "" : " …"}`);
+    const run = this.engines.program?.told.run;
+    element("source").textContent = run && this.engines.takesProgram() ? from(run.program, ofRun, cells, count) : "";
+    if (done) void this.along();
+  }
+
+  /** The maps that are shown. */
+  private maps(): Side[] {
+    return this.state.beside === "" ? [this.first] : [this.first, this.second];
+  }
+
+  /** Computes what is shown anew. */
+  private again(): void {
+    this.view.again(this.state);
+    if (this.state.beside !== "") this.second.view.again(beside(this.state));
   }
 
   start(): void {
@@ -97,7 +126,7 @@ class Page {
       this.go(this.state, false);
     });
     // What tests and the curious look at.
-    Object.assign(window, { squealmap: { page: this, state: () => this.state, view: this.view, about: this.about, engines: this.engines, places: PLACES } });
+    Object.assign(window, { squealmap: { page: this, state: () => this.state, view: this.view, beside: this.second.view, basin: this.basin, about: this.about, engines: this.engines, places: PLACES } });
   }
 
   /** Places that are worth a look, where the sweep has them. */
@@ -130,12 +159,12 @@ class Page {
     };
     choice.addEventListener("change", () => {
       this.engines.choice = choice.value as Choice;
-      this.view.again(this.state);
+      this.again();
     });
     let before = this.engines.program;
     this.engines.changed = () => {
       // Questions of a size for other engines are asked anew.
-      if (before !== this.engines.program) this.view.again(this.state);
+      if (before !== this.engines.program) this.again();
       before = this.engines.program;
       if (!this.engines.device && this.engines.choice === "gpu") this.engines.choice = "auto";
       show();
@@ -154,9 +183,13 @@ class Page {
     const before = this.state;
     this.state = closed(this.about, state);
     if (write) history.replaceState(null, "", written(this.state));
-    this.view.show(this.state);
-    this.legend();
-    this.draw();
+    this.first.show(this.state);
+    element("measured").textContent = said(this.state);
+    element("strokes").textContent = this.state.strokes.length > 0 ? "Remove strokes" : "Add strokes";
+    const isTwo = this.state.beside !== "";
+    element("beside-map").hidden = !isTwo;
+    element("maps").classList.toggle("two", isTwo);
+    if (isTwo) this.second.show(beside(this.state));
     const same = JSON.stringify([before.cell, before.at]) === JSON.stringify([this.state.cell, this.state.at]);
     if (!same || (this.state.cell && !this.cell)) void this.look();
   }
@@ -165,11 +198,14 @@ class Page {
     const option = (value: string, text: string, chosen: boolean) => `<option value="${escape(value)}"${chosen ? " selected" : ""}>${escape(text)}</option>`;
     const swept = new Set(this.about.axes.map((axis) => axis.key));
     const shownColumns = this.about.columns.filter((column) => !swept.has(column.name) && column.name !== "status" && column.name !== "steps");
-    const group = (label: string, response: boolean) => {
+    const group = (chosen: string, label: string, response: boolean) => {
       const of = shownColumns.filter((column) => column.response === response);
-      return of.length === 0 ? "" : `<optgroup label="${label}">${of.map((column) => option(column.name, column.print.replace(/[{}]/g, ""), column.name === this.state.quantity)).join("")}</optgroup>`;
+      return of.length === 0 ? "" : `<optgroup label="${label}">${of.map((column) => option(column.name, column.print.replace(/[{}]/g, ""), column.name === chosen)).join("")}</optgroup>`;
     };
-    element("quantity").innerHTML = group("Eigenvalues", false) + (this.about.responds ? group("Transients", true) : "");
+    const quantities = (chosen: string) => group(chosen, "Eigenvalues", false) + (this.about.responds ? group(chosen, "Transients", true) : "");
+    element("quantity").innerHTML = quantities(this.state.quantity);
+    element("beside").innerHTML = option("", "nothing", this.state.beside === "") + quantities(this.state.beside);
+    element<HTMLInputElement>("lines").checked = this.state.lines;
     const axes = sides(this.about);
     for (const [id, key] of [["across", this.state.x], ["up", this.state.y]] as const)
       element(id).innerHTML = axes.map((axis) => option(axis.key, plain({ symbol: axis.symbol, unit: axis.unit }), axis.key === key)).join("");
@@ -225,90 +261,6 @@ class Page {
     }
   }
 
-  private legend(): void {
-    const column = this.view.column(this.state.quantity);
-    const box = element("legend");
-    const show = this.view.current;
-    if (column.names.length > 0) {
-      const known = this.classes[column.name] ?? column.names.map((name) => ({ name, label: name.replaceAll("_", " "), fill: "#888888" }));
-      box.textContent = "";
-      for (const one of known) {
-        const button = Object.assign(document.createElement("button"), { type: "button", className: "class", title: "Show or hide" });
-        const hidden = this.state.hidden.includes(one.name);
-        button.setAttribute("aria-pressed", String(!hidden));
-        const swatch = Object.assign(document.createElement("span"), { className: "swatch" });
-        swatch.style.background = one.fill;
-        button.append(swatch, one.label);
-        button.addEventListener("click", () => {
-          const others = this.state.hidden.filter((name) => name !== one.name);
-          this.go({ ...this.state, hidden: hidden ? others : [...others, one.name] });
-        });
-        box.append(button);
-      }
-      return;
-    }
-    const [low, high] = words(column, show?.ends ?? [0, 1]);
-    const canvas = document.createElement("canvas");
-    [canvas.width, canvas.height] = [192, 1];
-    const context = canvas.getContext("2d");
-    if (context && show && show.classes.length === 0) {
-      for (let k = 0; k < 192; k++) {
-        context.fillStyle = hex(show.colour(show.ends[0] + (k / 191) * (show.ends[1] - show.ends[0])));
-        context.fillRect(k, 0, 1, 1);
-      }
-    }
-    box.replaceChildren(low, canvas, high);
-    box.append(` ${column.print.replace(/[{}]/g, "")}`);
-  }
-
-  /** Axes, and the place of the cell. */
-  private draw(): void {
-    const scaleOf = window.devicePixelRatio || 1;
-    const [w, h] = [this.marks.clientWidth, this.marks.clientHeight];
-    this.marks.width = Math.round(w * scaleOf);
-    this.marks.height = Math.round(h * scaleOf);
-    const context = this.marks.getContext("2d");
-    if (!context) return;
-    context.scale(scaleOf, scaleOf);
-    context.font = "12px system-ui, sans-serif";
-    const px = (x: number) => ((x - this.state.rangeX[0]) / (this.state.rangeX[1] - this.state.rangeX[0])) * w;
-    const py = (y: number) => h - ((y - this.state.rangeY[0]) / (this.state.rangeY[1] - this.state.rangeY[0])) * h;
-    const text = (words: string, x: number, y: number, align: CanvasTextAlign) => {
-      context.textAlign = align;
-      context.lineWidth = 4;
-      context.strokeStyle = "#ffffff";
-      context.strokeText(words, x, y);
-      context.fillStyle = "#000000";
-      context.fillText(words, x, y);
-    };
-    context.strokeStyle = "#000000";
-    for (const tick of ticks(...this.state.rangeX, 5)) {
-      context.lineWidth = 1;
-      context.strokeStyle = "#000000";
-      context.strokeRect(px(tick), h - 6, 0.01, 6);
-      if (px(tick) > 30 && px(tick) < w - 60) text(shown(tick, 6), px(tick), h - 9, "center");
-    }
-    for (const tick of ticks(...this.state.rangeY, 5)) {
-      context.lineWidth = 1;
-      context.strokeStyle = "#000000";
-      context.strokeRect(0, py(tick), 6, 0.01);
-      if (py(tick) > 26 && py(tick) < h - 24) text(shown(tick, 6), 9, py(tick) + 4, "left");
-    }
-    const [x, y] = [parameter(this.about, this.state.x), parameter(this.about, this.state.y)];
-    if (x) text(plain(x), w - 8, h - 9, "right");
-    if (y) text(plain(y), 9, 16, "left");
-    if (this.state.cell) {
-      const [a, b] = [px(this.state.cell[0]), py(this.state.cell[1])];
-      for (const [colour, width] of [["#ffffff", 4], ["#000000", 1.6]] as const) {
-        context.strokeStyle = colour;
-        context.lineWidth = width;
-        context.beginPath();
-        context.arc(a, b, 7, 0, 2 * Math.PI);
-        context.stroke();
-      }
-    }
-  }
-
   /** The values at a place of the map, as parts of both sides from the lower left. */
   private at([x, y]: [number, number]): [number, number] {
     const value = ([low, high]: [number, number], part: number) => low + part * (high - low);
@@ -318,12 +270,15 @@ class Page {
   private handle(): void {
     const choose = (id: string, take: (value: string) => void) => element<HTMLSelectElement>(id).addEventListener("change", (event) => take((event.target as HTMLSelectElement).value));
     choose("quantity", (quantity) => this.go({ ...this.state, quantity, hidden: [] }));
+    choose("beside", (beside) => this.go({ ...this.state, beside, hiddenBeside: [] }));
+    element<HTMLInputElement>("lines").addEventListener("change", (event) => this.go({ ...this.state, lines: (event.target as HTMLInputElement).checked }));
     const side = (of: "x" | "y") => (key: string) => {
       const [kept, other] = of === "x" ? [this.state.y, this.state.x] : [this.state.x, this.state.y];
       const opposite = kept === key ? other : kept;
       const [x, y] = of === "x" ? [key, opposite] : [opposite, key];
       this.state = closed(this.about, { ...this.state, x, y, rangeX: whole(this.about, x), rangeY: whole(this.about, y), cell: null });
       this.cell = null;
+      this.basin.clear();
       element("cell").hidden = true;
       this.controls();
       this.go(this.state);
@@ -331,14 +286,23 @@ class Page {
     choose("across", side("x"));
     choose("up", side("y"));
     element("home").addEventListener("click", () => this.go({ ...this.state, rangeX: whole(this.about, this.state.x), rangeY: whole(this.about, this.state.y) }));
-    this.pointer();
-    this.canvas.addEventListener("painted", () => {
-      if (this.view.column(this.state.quantity).names.length === 0) this.legend();
+    for (const { elements } of [this.first, this.second]) this.pointer(elements.canvas);
+    const file = element<HTMLInputElement>("strokes-file");
+    element("strokes").addEventListener("click", () => {
+      if (this.state.strokes.length > 0) this.go({ ...this.state, strokes: [] });
+      else file.click();
     });
-    new ResizeObserver(() => {
-      this.view.show({ ...this.state, rangeX: [...this.state.rangeX] });
-      this.draw();
-    }).observe(this.canvas);
+    file.addEventListener("change", async () => {
+      const [chosen] = file.files ?? [];
+      file.value = "";
+      if (!chosen) return;
+      try {
+        if (chosen.size > 1 << 20) throw new Error(`${chosen.name} has ${chosen.size} bytes, and a table of strokes has at most ${1 << 20}`);
+        this.go({ ...this.state, strokes: strokes(this.about, await chosen.text()) });
+      } catch (why) {
+        say(why instanceof Error ? why.message : String(why));
+      }
+    });
     const copy = (id: string, text: () => Promise<string> | string, done: string) =>
       element(id).addEventListener("click", async () => {
         try {
@@ -352,16 +316,19 @@ class Page {
     copy("command", () => this.command(), "the command is copied");
     copy("address", () => location.href, "the address is copied");
     element("picture").addEventListener("click", () => {
-      const both = document.createElement("canvas");
-      [both.width, both.height] = [this.canvas.width, this.canvas.height];
+      const all = this.maps().map(({ elements }) => elements);
+      const [wide, high] = [all[0]?.canvas.width ?? 1, all[0]?.canvas.height ?? 1];
+      const both = Object.assign(document.createElement("canvas"), { width: wide * all.length, height: high });
       const context = both.getContext("2d");
-      context?.drawImage(this.canvas, 0, 0);
-      context?.drawImage(this.marks, 0, 0, both.width, both.height);
+      all.forEach(({ canvas, marks }, place) => {
+        for (const layer of [canvas, marks]) context?.drawImage(layer, place * wide, 0, wide, high);
+      });
       const link = Object.assign(document.createElement("a"), { href: both.toDataURL("image/png"), download: "map.png" });
       link.click();
     });
     element("close").addEventListener("click", () => {
       this.cell = null;
+      this.basin.clear();
       element("cell").hidden = true;
       this.go({ ...this.state, cell: null });
     });
@@ -393,23 +360,23 @@ class Page {
     return `squealmap trace ${this.file} --at ${pairs.join(",")}`;
   }
 
-  private pointer(): void {
+  private pointer(canvas: HTMLCanvasElement): void {
     const held = new Map<number, [number, number]>();
     let moved = 0;
     const place = (event: { clientX: number; clientY: number }): [number, number] => {
-      const box = this.canvas.getBoundingClientRect();
+      const box = canvas.getBoundingClientRect();
       return [(event.clientX - box.left) / box.width, 1 - (event.clientY - box.top) / box.height];
     };
-    this.canvas.addEventListener("pointerdown", (event) => {
-      this.canvas.setPointerCapture(event.pointerId);
+    canvas.addEventListener("pointerdown", (event) => {
+      canvas.setPointerCapture(event.pointerId);
       held.set(event.pointerId, place(event));
       moved = 0;
     });
-    this.canvas.addEventListener("pointermove", (event) => {
+    canvas.addEventListener("pointermove", (event) => {
       const now = place(event);
       const before = held.get(event.pointerId);
       if (!before) return this.read(now);
-      const box = this.canvas.getBoundingClientRect();
+      const box = canvas.getBoundingClientRect();
       moved += Math.hypot((now[0] - before[0]) * box.width, (now[1] - before[1]) * box.height);
       const others = [...held].filter(([id]) => id !== event.pointerId).map(([, at]) => at);
       held.set(event.pointerId, now);
@@ -424,10 +391,13 @@ class Page {
       held.delete(event.pointerId);
       if (event.type === "pointerup" && here && moved <= 4 && held.size === 0) this.pick(here);
     };
-    this.canvas.addEventListener("pointerup", up);
-    this.canvas.addEventListener("pointercancel", up);
-    this.canvas.addEventListener("pointerleave", () => (element("readout").textContent = ""));
-    this.canvas.addEventListener(
+    canvas.addEventListener("pointerup", up);
+    canvas.addEventListener("pointercancel", up);
+    canvas.addEventListener("pointerleave", () => {
+      element("readout").textContent = "";
+      for (const side of this.maps()) side.point(null);
+    });
+    canvas.addEventListener(
       "wheel",
       (event) => {
         event.preventDefault();
@@ -435,7 +405,7 @@ class Page {
       },
       { passive: false },
     );
-    this.canvas.addEventListener("keydown", (event) => {
+    canvas.addEventListener("keydown", (event) => {
       const step: Record<string, [number, number]> = { ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1] };
       const by = step[event.key];
       if (by) this.pan(...by);
@@ -468,12 +438,10 @@ class Page {
   private read(place: [number, number]): void {
     const [a, b] = this.at(place);
     const [x, y] = [parameter(this.about, this.state.x), parameter(this.about, this.state.y)];
-    const column = this.view.column(this.state.quantity);
-    const value = this.view.value(...place);
-    const said =
-      value === undefined ? "not computed yet" : column.names.length > 0 ? (column.names[value] ?? "–").replaceAll("_", " ") : `${shown(value, 5)} ${column.unit}`;
     const unit = (of: { unit: string } | undefined) => (of?.unit ? ` ${of.unit}` : "");
-    element("readout").textContent = `${this.state.x} = ${shown(a, 5)}${unit(x)}, ${this.state.y} = ${shown(b, 5)}${unit(y)}: ${column.name} = ${said}`;
+    element("readout").textContent = `${this.state.x} = ${shown(a, 5)}${unit(x)}, ${this.state.y} = ${shown(b, 5)}${unit(y)}: ${this.maps().map((side) => side.said(place)).join(", ")}`;
+    // One map needs no second pointer.
+    if (this.state.beside !== "") for (const side of this.maps()) side.point(place);
   }
 
   /** Looks into the cell at a place of the map. */
@@ -512,6 +480,8 @@ class Page {
       element("cell").hidden = false;
       element("hint").hidden = true;
       masses(element("masses"), this.cell, this.belt(), 0);
+      element("basin-of").hidden = !this.basin.isThere();
+      void this.basin.show(this.state, this.cell.period, this.belt()).catch((why: unknown) => say(why instanceof Error ? why.message : String(why)));
       void this.along();
     } catch (why) {
       say(why instanceof Error ? why.message : String(why));
@@ -520,7 +490,7 @@ class Page {
 
   /** The map along its sides through the cell, once the map itself is there. */
   private async along(): Promise<void> {
-    const of = JSON.stringify({ ...this.state, hidden: [] });
+    const of = JSON.stringify({ ...this.state, hidden: [], beside: "", hiddenBeside: [], lines: false, strokes: [] });
     if (!this.state.cell || of === this.cut) return;
     this.cut = of;
     const drawn = await cuts(this.engines, this.about, this.state, 2).catch(() => "");

@@ -10,11 +10,8 @@ import type { About, Class, Column } from "./sweep";
 const OF_EIGENVALUES = [16, 4, 1];
 const OF_TRANSIENTS = [32, 16, 8, 4];
 
-/** The group of questions about the map. */
-const GROUP = 1;
-
 /** A level of the map: values row by row from below. */
-interface Level {
+export interface Level {
   wide: number;
   high: number;
   values: Float64Array;
@@ -49,6 +46,8 @@ export class MapView {
     private readonly engines: Engines,
     private readonly about: About,
     private readonly classes: Record<string, Class[]>,
+    /** The group of its questions. */
+    private readonly group: number,
     private readonly told: (progress: Progress) => void,
     private readonly failed: (why: string) => void,
   ) {}
@@ -79,7 +78,7 @@ export class MapView {
 
   private async compute(state: State): Promise<void> {
     const generation = ++this.generation;
-    this.engines.drop(GROUP);
+    this.engines.drop(this.group);
     this.keep();
     this.levels = [];
     this.draw();
@@ -110,7 +109,7 @@ export class MapView {
         const count = Math.min(rows, high - row);
         const question = own ? ownRegion(state, column, own, [row, count]) : region(state, column, [wide, high], [row, count], !run);
         jobs.push(
-          this.engines.ask(question, GROUP).then((answer: Answer) => {
+          this.engines.ask(question, this.group).then((answer: Answer) => {
             if (generation !== this.generation) return;
             level.values.set(answer.numbers, row * wide);
             level.known.fill(1, row, row + count);
@@ -126,7 +125,7 @@ export class MapView {
         await Promise.all(jobs);
       } catch (why) {
         if (generation === this.generation) {
-          this.engines.drop(GROUP);
+          this.engines.drop(this.group);
           this.failed(why instanceof Error ? why.message : String(why));
         }
         return;
@@ -230,7 +229,7 @@ export class MapView {
   }
 
   /** The finest level that is whole, for tests and pictures. */
-  finest(): { wide: number; high: number; values: Float64Array } | undefined {
+  finest(): Level | undefined {
     return [...this.levels].reverse().find((level) => level.known.every((known) => known === 1));
   }
 }

@@ -1,5 +1,6 @@
 // What is looked at, and the address that holds it.
 
+import { line, type Stroke, strokes } from "./strokes";
 import { type About, type Axis, type Parameter, ends } from "./sweep";
 
 /** A range of a side, from its lower to its upper edge. */
@@ -16,6 +17,14 @@ export interface State {
   at: Record<string, number | string>;
   /** Classes that are not shown. */
   hidden: string[];
+  /** What a second map beside the first shows; nothing where there is none. */
+  beside: string;
+  /** Classes that it does not show. */
+  hiddenBeside: string[];
+  /** Whether lines of equal value and borders between classes are drawn. */
+  lines: boolean;
+  /** Measured strokes over the map. */
+  strokes: Stroke[];
   /** The cell that is looked into: its place on both sides. */
   cell: [number, number] | null;
 }
@@ -48,6 +57,10 @@ export function first(about: About): State {
     quantity: "type",
     at: {},
     hidden: [],
+    beside: "",
+    hiddenBeside: [],
+    lines: false,
+    strokes: [],
     cell: null,
   };
   return closed(about, state);
@@ -89,6 +102,10 @@ export function written(state: State): string {
   words.set("show", state.quantity);
   for (const [key, value] of Object.entries(state.at)) words.set(`at.${key}`, String(value));
   if (state.hidden.length > 0) words.set("hide", state.hidden.join(","));
+  if (state.beside !== "") words.set("beside", state.beside);
+  if (state.beside !== "" && state.hiddenBeside.length > 0) words.set("hide_beside", state.hiddenBeside.join(","));
+  if (state.lines) words.set("lines", "1");
+  if (state.strokes.length > 0) words.set("strokes", line(state.strokes));
   if (state.cell) words.set("cell", numbers(state.cell));
   return `#${words.toString()}`;
 }
@@ -150,7 +167,21 @@ export function read(about: About, hash: string): { state: State; wrong: string[
     if (of && is_allowed(of, value)) state.at[key] = value;
     else wrong.push(of ? `\`${key}\` is ${text}, and has to be ${of.range}` : `\`${key}\` is no parameter of this sweep`);
   }
-  state.hidden = (words.get("hide") ?? "").split(",").filter((name) => name !== "").slice(0, 32);
+  const beside = words.get("beside");
+  if (beside !== null) {
+    if (about.columns.some((column) => column.name === beside)) state.beside = beside;
+    else wrong.push(`there is no column \`${beside}\``);
+  }
+  const names = (of: string) => (words.get(of) ?? "").split(",").filter((name) => name !== "").slice(0, 32);
+  state.hidden = names("hide");
+  state.hiddenBeside = state.beside === "" ? [] : names("hide_beside");
+  state.lines = words.get("lines") === "1";
+  const measured = words.get("strokes");
+  try {
+    if (measured !== null) state.strokes = strokes(about, measured);
+  } catch (why) {
+    wrong.push(why instanceof Error ? why.message : String(why));
+  }
   const cell = pair("cell");
   if (cell) {
     const [a, b] = [parameter(about, state.x), parameter(about, state.y)];

@@ -1,5 +1,8 @@
 // The page in a browser, computed by WebAssembly; see browser.mjs.
 import assert from "node:assert/strict";
+import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
 import { after, before, test } from "node:test";
 import * as tools from "./browser.mjs";
 
@@ -135,6 +138,132 @@ test("frames stay short while transients are computed, and a move drops what is 
   await page.select("#quantity", "type");
   await whole();
   assert.equal(await page.evaluate(() => window.squealmap.engines.open() < 4), true);
+});
+
+test("two maps of one place have one pointer, and lines are where their values are", async () => {
+  await open("#x=mu_d&y=mu_s&show=type&beside=growth_rate&lines=1&at.belt_velocity=3");
+  await page.waitForFunction(() => Number.isFinite(window.squealmap.beside.times.last), { timeout: 240000, polling: 50 });
+  const box = await (await page.$("#map-beside")).boundingBox();
+  await page.mouse.move(box.x + 0.4 * box.width, box.y + 0.5 * box.height);
+  const readout = await page.$eval("#readout", (element) => element.textContent);
+  const [, type, growth] = readout.match(/: type = ([a-z ]+), growth_rate = (-?[0-9.]+) 1\/s$/) ?? [];
+  const found = await page.evaluate(async () => {
+    const { engines, state } = window.squealmap;
+    const [x, y] = [state().rangeX, state().rangeY].map(([low, high], k) => low + [0.4, 0.5][k] * (high - low));
+    const side = (key, value) => ({ key, from: value, to: value, points: 1 });
+    const { numbers } = await engines.ask({ ask: "region", x: side("mu_d", x), y: side("mu_s", y), at: state().at, response: false, columns: ["growth_rate"] });
+    return numbers[0];
+  });
+  assert.equal(type, "coexistence", readout);
+  assert.ok(Math.abs(growth / found - 1) < 0.01, `${growth}, ${found}`);
+  // Both have the pointer: a dark column where it is, and none where it is not.
+  const dark = (id, at) =>
+    page.$eval(
+      id,
+      (canvas, at) => {
+        const { data } = canvas.getContext("2d").getImageData(Math.round(at * canvas.width) - 2, 0, 5, canvas.height);
+        const rows = Array.from({ length: canvas.height }, (_, row) => Math.max(...[0, 1, 2, 3, 4].map((k) => (data[4 * (5 * row + k)] < 90 ? data[4 * (5 * row + k) + 3] : 0))));
+        return rows.filter((alpha) => alpha > 120).length / canvas.height;
+      },
+      at,
+    );
+  for (const id of ["#marks", "#marks-beside"]) {
+    assert.ok((await dark(id, 0.4)) > 0.9, id);
+    assert.ok((await dark(id, 0.9)) < 0.3, id);
+  }
+  // Zooming one zooms both.
+  await page.mouse.wheel({ deltaY: -100 });
+  await page.waitForFunction(() => Number.isFinite(window.squealmap.beside.times.last) && Number.isFinite(window.squealmap.view.times.last), { timeout: 240000, polling: 50 });
+  const wide = await page.evaluate(() => [window.squealmap.view, window.squealmap.beside].map((view) => view.shownState.rangeX[1] - view.shownState.rangeX[0]));
+  assert.ok(wide[0] === wide[1] && wide[0] < 0.5, `${wide}`);
+  await page.select("#beside", "");
+  assert.equal(await page.$eval("#beside-map", (element) => element.hidden), true);
+  assert.equal((await state()).beside, "");
+});
+
+test("other starts of a cell end elsewhere, and one of them is taken by hand", async () => {
+  await open();
+  const links = await page.$$eval("#places a", (links) => links.map((link) => link.getAttribute("href")));
+  // Stable when left alone, unstable when struck.
+  await open(links[5]);
+  await page.waitForFunction(() => window.squealmap.basin.grid?.points === 33, { timeout: 240000, polling: 50 });
+  const ends = () => page.evaluate(() => [[0, 0.01], [0, 7], [0.03, 0]].map((start) => window.squealmap.basin.at(start)));
+  const [small, large] = await ends();
+  assert.equal(small, "equilibrium");
+  assert.equal(large, "slip_reversal");
+  // Each cell of the plane is what the engine says of its start.
+  const differ = await page.evaluate(async () => {
+    const { basin, engines, state, about } = window.squealmap;
+    const names = about.columns.find((column) => column.name === "regime").names;
+    const { points, reach, values } = basin.grid;
+    const side = (key, value) => ({ key, from: value, to: value, points: 1 });
+    let differ = 0;
+    for (const [row, at] of [[16, 16], [30, 16], [10, 25], [25, 4]]) {
+      const [x, v] = [at, row].map((k, which) => reach[which] * (-1 + (2 * k) / (points - 1)));
+      const at_ = { ...state().at, [state().x]: state().cell[0], [state().y]: state().cell[1] };
+      delete at_.start_displacement;
+      delete at_.start_velocity;
+      const { numbers } = await engines.ask({ ask: "region", x: side("start_displacement", x), y: side("start_velocity", v), at: at_, response: true, columns: ["regime"] });
+      if (names[numbers[0]] !== names[values[row * points + at]]) differ++;
+    }
+    return differ;
+  });
+  assert.equal(differ, 0);
+  // Closer: kicks of up to 0.4 m/s do not reach the knee, those from 0.45 m/s on do (`run --backend reference`).
+  const reach = () => page.evaluate(() => window.squealmap.basin.grid?.points === 33 && window.squealmap.basin.grid.reach[1]);
+  const whole_plane = await reach();
+  await page.focus("#basin");
+  for (let k = 0; k < 5; k++) await page.keyboard.press("+");
+  await page.waitForFunction((before) => window.squealmap.basin.grid?.points === 33 && window.squealmap.basin.grid.reach[1] < before / 7, { timeout: 240000, polling: 50 }, whole_plane);
+  assert.deepEqual(await page.evaluate(() => [[0, 0.3], [0, -0.3], [0, 0.6], [0, -0.6]].map((start) => window.squealmap.basin.at(start))), ["equilibrium", "equilibrium", "slip_reversal", "slip_reversal"]);
+  for (let k = 0; k < 5; k++) await page.keyboard.press("-");
+  await page.waitForFunction((before) => window.squealmap.basin.grid?.points === 33 && Math.abs(window.squealmap.basin.grid.reach[1] / before - 1) < 0.01, { timeout: 240000, polling: 50 }, whole_plane);
+  // The start is dragged to where the motion does not die away.
+  await page.$eval("#basin", (canvas) => canvas.scrollIntoView({ block: "center" }));
+  const box = await (await page.$("#basin")).boundingBox();
+  const from = await page.$eval("#numbers", (table) => table.textContent);
+  await page.mouse.move(box.x + 0.5 * box.width, box.y + 0.5 * box.height);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 0.5 * box.width, box.y + 0.05 * box.height, { steps: 4 });
+  assert.match(await page.$eval("#basin-words", (words) => words.textContent), /slip reversal\.$/);
+  await page.mouse.up();
+  await page.waitForFunction((from) => document.getElementById("numbers").textContent !== from, { timeout: 240000, polling: 50 }, from);
+  const { at } = await state();
+  assert.ok(at.start_velocity > 7 && Math.abs(at.start_displacement ?? 0) < 1e-3, JSON.stringify(at));
+  const regime = await page.$$eval("#numbers tr", (rows) => rows.map((row) => [...row.children].map((cell) => cell.textContent)).find(([name]) => name === "regime")[1]);
+  assert.equal(regime, "slip reversal");
+});
+
+test("measured strokes stand where they were measured, and the address keeps them", async () => {
+  await open("#x=mu_d&y=mu_s&show=growth_rate&at.belt_velocity=3");
+  const folder = mkdtempSync(join(tmpdir(), "strokes-"));
+  const table = join(folder, "strokes.csv");
+  writeFileSync(table, "mu_s,mu_d,belt_velocity,mu_s_error,observed\n0.3,0.15,3,0.02,negative_slope\n0.2,0.45,1,,mode_coupling\n");
+  await (await page.$("#strokes-file")).uploadFile(table);
+  await page.waitForFunction(() => document.getElementById("measured").textContent !== "", { timeout: 60000, polling: 50 });
+  assert.match(await page.$eval("#measured", (told) => told.textContent), /^2 of 2 .* 1 hollow, measured at another belt_velocity than 3/);
+  const colour = (a, b) =>
+    page.$eval(
+      "#marks",
+      (canvas, a, b) => {
+        const { rangeX, rangeY } = window.squealmap.state();
+        const [x, y] = [((a - rangeX[0]) / (rangeX[1] - rangeX[0])) * canvas.width, (1 - (b - rangeY[0]) / (rangeY[1] - rangeY[0])) * canvas.height];
+        return [...canvas.getContext("2d").getImageData(Math.round(x), Math.round(y), 1, 1).data].slice(0, 3);
+      },
+      a,
+      b,
+    );
+  assert.deepEqual(await colour(0.15, 0.3), [0x56, 0xb4, 0xe9]);
+  assert.deepEqual(await colour(0.45, 0.2), [255, 255, 255]);
+  const hash = await page.evaluate(() => location.hash);
+  await open(hash);
+  assert.equal((await state()).strokes.length, 2);
+  writeFileSync(table, "mu_s,mu_d\n1,2\n");
+  await page.click("#strokes");
+  assert.equal((await state()).strokes.length, 0);
+  await (await page.$("#strokes-file")).uploadFile(table);
+  await page.waitForFunction(() => /no column `belt_velocity`/.test(document.getElementById("status").textContent), { timeout: 60000, polling: 50 });
+  rmSync(folder, { recursive: true });
 });
 
 test("200 zooms leave no memory behind", async () => {

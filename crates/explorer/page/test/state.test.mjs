@@ -5,12 +5,12 @@ import { fileURLToPath } from "node:url";
 import { build } from "esbuild";
 
 const built = await build({
-  stdin: { contents: 'export * from "./src/state"; export * from "./src/cell"; export * from "./src/own"; export { ticks } from "./src/plots";', resolveDir: fileURLToPath(new URL("..", import.meta.url)), loader: "ts" },
+  stdin: { contents: 'export * from "./src/state"; export * from "./src/cell"; export * from "./src/own"; export * from "./src/lines"; export * from "./src/strokes"; export { ticks } from "./src/plots";', resolveDir: fileURLToPath(new URL("..", import.meta.url)), loader: "ts" },
   bundle: true,
   write: false,
   format: "esm",
 });
-const { first, read, written, kept_within, nearest, own, ownRegion, spectrum, ticks, why } = await import(`data:text/javascript,${encodeURIComponent(built.outputFiles[0].text)}`);
+const { borders, first, isoline, places, read, marksOf, said, strokes, written, kept_within, nearest, own, ownRegion, spectrum, ticks, why } = await import(`data:text/javascript,${encodeURIComponent(built.outputFiles[0].text)}`);
 
 const side = (key, values, least, most) => ({ key, symbol: key, unit: "", meaning: "", range: `between ${least} and ${most}`, least, most, values, log: false, numbers: true });
 const about = {
@@ -20,11 +20,16 @@ const about = {
   columns: [{ name: "type", names: ["stable"] }, { name: "growth_rate", names: [] }],
 };
 
+const TABLE = "# measured\nmu_s,mu_d,belt_velocity,mu_s_error,observed\n0.2,0.3,2.5,0.02,both\n0.4,0.1,1,,mode_coupling\n";
+
 test("an address gives its state again", () => {
   const state = { ...first(about), rangeX: [0.1, 0.2], rangeY: [0.25, 0.5], quantity: "growth_rate", at: { belt_velocity: 2.5, theta: 0.02 }, hidden: ["stable"], cell: [0.15, 0.3] };
   const { state: again, wrong } = read(about, written(state));
   assert.deepEqual(wrong, []);
   assert.deepEqual(again, state);
+  const two = { ...state, beside: "type", hiddenBeside: ["stable"], lines: true, strokes: strokes(about, TABLE) };
+  assert.deepEqual(read(about, written(two)), { state: two, wrong: [] });
+  assert.equal(read(about, "#beside=depth").wrong.length, 1);
   const other = read(about, written({ ...state, quantity: "type" })).state;
   assert.notDeepEqual(other, state);
 });
@@ -89,4 +94,59 @@ test("the paragraph names the mechanism and its numbers", () => {
   assert.match(said, /31\.83 Hz grows at 10 1\/s, and only because friction falls/);
   assert.match(said, /Without the slope of friction the largest growth rate is -1 1\/s/);
   assert.doesNotMatch(why({ ...cell, full: [[-2, 210]] }, "stable"), /grows/);
+});
+
+/** Cells of a function of both sides, 0 to 1, row by row from below. */
+const cells = (wide, high, of) => {
+  const [x, y] = [places(wide, [0, 1]), places(high, [0, 1])];
+  return { x, y, cells: { wide, high, values: Float64Array.from({ length: wide * high }, (_, k) => of(x[k % wide], y[Math.floor(k / wide)])) } };
+};
+
+test("a line of equal value is where the function has it", () => {
+  const [r, about] = [0.3, [0.52, 0.47]];
+  const distance = (x, y) => Math.hypot(x - about[0], y - about[1]);
+  const { x, y, cells: all } = cells(80, 60, (x, y) => distance(x, y) ** 2);
+  const pieces = isoline(all, x, y, r * r);
+  const off = (pieces) => Math.max(...pieces.flatMap(([ax, ay, bx, by]) => [Math.abs(distance(ax, ay) - r), Math.abs(distance(bx, by) - r)]));
+  const long = pieces.reduce((sum, [ax, ay, bx, by]) => sum + Math.hypot(bx - ax, by - ay), 0);
+  assert.ok(off(pieces) < 2e-4, `${off(pieces)}`);
+  assert.ok(Math.abs(long - 2 * Math.PI * r) < 2e-3, `${long}`);
+  // The comparer sees a line of another value.
+  assert.ok(off(isoline(all, x, y, 0.32 ** 2)) > 0.01);
+  // No line passes what is undefined, or where an angle goes on at its other side.
+  const { cells: holed } = cells(80, 60, (x, y) => (x > about[0] ? NaN : distance(x, y) ** 2));
+  assert.ok(isoline(holed, x, y, r * r).every(([ax, , bx]) => ax <= about[0] && bx <= about[0]));
+  const angle = cells(40, 40, (x) => (x < 0.5 ? 170 : -170));
+  assert.equal(isoline(angle.cells, angle.x, angle.y, 0, 180).length, 0);
+  assert.ok(isoline(angle.cells, angle.x, angle.y, 0).length > 0);
+});
+
+test("borders stand between cells of two classes, also of a run whose cells are uneven", () => {
+  const { x, y, cells: all } = cells(4, 2, (x) => (x < 0.5 ? 1 : 2));
+  assert.deepEqual(borders(all, x, y), [[0.5, 0, 0.5, 0.5], [0.5, 0.5, 0.5, 1]]);
+  const uneven = places(3, [0, 10], [0, 1, 9]);
+  const one = { wide: 3, high: 1, values: Float64Array.of(0, 1, NaN) };
+  assert.deepEqual(borders(one, uneven, places(1, [0, 1])), [[0.05, 0, 0.05, 1]]);
+});
+
+test("strokes of a table are marks in the colours of their types", () => {
+  const state = { ...first(about), at: { belt_velocity: 2.5 }, strokes: strokes(about, TABLE) };
+  const types = [{ name: "coexistence", fill: "#452087" }, { name: "mode_coupling", fill: "#b5441a" }];
+  const [x, y] = [state.x, state.y].map((key) => ({ mu_s: [0.2, 0.4], mu_d: [0.3, 0.1] })[key]);
+  assert.deepEqual(marksOf(state, types), [
+    { at: [x[0], y[0]], errors: state.x === "mu_s" ? [0.02, 0] : [0, 0.02], fill: "#452087", here: true },
+    { at: [x[1], y[1]], errors: [0, 0], fill: "#b5441a", here: false },
+  ]);
+  assert.match(said(state), /^2 of 2 measured strokes are in view.*; 1 hollow, measured at another belt_velocity than 2.5/);
+  assert.match(said({ ...state, rangeX: [0.5, 0.6] }), /^0 of 2/);
+  for (const [text, why] of [
+    ["mu_s,mu_d,observed\n1,2,both", /no column `belt_velocity`, only `mu_s`, `mu_d`, `observed`/],
+    ["mu_s,mu_d,belt_velocity,observed", /no rows/],
+    ["mu_s,mu_d,belt_velocity,observed\n0.1,x,1,both", /`mu_d` is `x` in row 1/],
+    ["mu_s,mu_d,belt_velocity,observed\n0.1,0.1,1,squeal", /`observed` is `squeal` in row 1 .* one of no_instability/],
+    ["mu_s,mu_d,belt_velocity,observed\n" + "0.1,0.1,1,both\n".repeat(201), /201 strokes, and a page shows at most 200/],
+    ["", /no column `mu_s`/],
+  ])
+    assert.throws(() => strokes(about, text), why);
+  assert.match(read(about, "#strokes=mu_s;1").wrong[0], /no column/);
 });
