@@ -84,6 +84,6 @@ export function stateOf(about: About, place: Place): State | undefined {
   if (about.law !== "bilinear" || !known.includes("mu_s") || !known.includes("mu_d") || !others || !allowed) return undefined;
   return {
     ...{ x: "mu_d", y: "mu_s", rangeX: whole(about, "mu_d"), rangeY: whole(about, "mu_s") },
-    ...{ quantity: "type", at: { ...place.at }, hidden: [], beside: "", hiddenBeside: [], lines: false, strokes: [], cell: [place.mu_d, place.mu_s] },
+    ...{ quantity: "type", at: { ...place.at }, hidden: [], beside: "", hiddenBeside: [], lines: false, strokes: [], cut: null, cell: [place.mu_d, place.mu_s] },
   };
 }

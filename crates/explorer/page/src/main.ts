@@ -3,7 +3,7 @@
 import { type Choice, Engines } from "./ask";
 import { Basin } from "./basin";
 import { columnsOf, masses, plots, rows, sound, taken, why, type Cell } from "./cell";
-import { cuts } from "./cut";
+import { along, cuts } from "./cut";
 import { PLACES, stateOf } from "./gallery";
 import type { Progress } from "./map";
 import { Side } from "./side";
@@ -46,6 +46,12 @@ async function main(): Promise<void> {
   new Page(engines, about.head as unknown as About, file, classes).start();
 }
 
+/** The group of questions about the line across the map. */
+const LINE = 5;
+
+/** What a cut does not depend on. */
+const UNRELATED = { hidden: [], beside: "", hiddenBeside: [], lines: false, strokes: [] };
+
 /** What the second map shows. */
 const beside = (state: State): State => ({ ...state, quantity: state.beside, hidden: state.hiddenBeside });
 
@@ -58,6 +64,11 @@ class Page {
   private cell: Cell | null = null;
   private cellAsked = 0;
   private cut = "";
+  private line = "";
+  /** The values along it. */
+  private acrossValues: Float64Array | null = null;
+  /** Whether the next drag draws a line across the map. */
+  private draws = false;
   private moving = 0;
   private sliderOf = new Map<string, HTMLInputElement[]>();
 
@@ -96,7 +107,10 @@ class Page {
     say(`${cells.toLocaleString("en")} of ${of.toLocaleString("en")} ${count}, ${seconds.toFixed(2)} s on ${this.engines.by(response)}${done ? "" : " …"}`);
     const run = this.engines.program?.told.run;
     element("source").textContent = run && this.engines.takesProgram() ? from(run.program, ofRun, cells, count) : "";
-    if (done) void this.along();
+    if (done) {
+      void this.along();
+      void this.across();
+    }
   }
 
   /** The maps that are shown. */
@@ -184,6 +198,8 @@ class Page {
     this.state = closed(this.about, state);
     if (write) history.replaceState(null, "", written(this.state));
     this.first.show(this.state);
+    element("draw-cut").textContent = this.state.cut ? "Remove the cut" : "Draw a cut";
+    if (!this.state.cut) element("across-map").hidden = true;
     element("measured").textContent = said(this.state);
     element("strokes").textContent = this.state.strokes.length > 0 ? "Remove strokes" : "Add strokes";
     const isTwo = this.state.beside !== "";
@@ -276,7 +292,7 @@ class Page {
       const [kept, other] = of === "x" ? [this.state.y, this.state.x] : [this.state.x, this.state.y];
       const opposite = kept === key ? other : kept;
       const [x, y] = of === "x" ? [key, opposite] : [opposite, key];
-      this.state = closed(this.about, { ...this.state, x, y, rangeX: whole(this.about, x), rangeY: whole(this.about, y), cell: null });
+      this.state = closed(this.about, { ...this.state, cut: null, x, y, rangeX: whole(this.about, x), rangeY: whole(this.about, y), cell: null });
       this.cell = null;
       this.basin.clear();
       element("cell").hidden = true;
@@ -287,6 +303,14 @@ class Page {
     choose("up", side("y"));
     element("home").addEventListener("click", () => this.go({ ...this.state, rangeX: whole(this.about, this.state.x), rangeY: whole(this.about, this.state.y) }));
     for (const { elements } of [this.first, this.second]) this.pointer(elements.canvas);
+    const line = element("draw-cut");
+    line.addEventListener("click", () => {
+      this.draws = !this.draws && this.state.cut === null;
+      if (this.state.cut) this.go({ ...this.state, cut: null });
+      line.setAttribute("aria-pressed", String(this.draws));
+      void this.across();
+      if (this.draws) say("drag across the map, from one end of the cut to the other; or set `cut=` in the address");
+    });
     const file = element<HTMLInputElement>("strokes-file");
     element("strokes").addEventListener("click", () => {
       if (this.state.strokes.length > 0) this.go({ ...this.state, strokes: [] });
@@ -362,6 +386,7 @@ class Page {
 
   private pointer(canvas: HTMLCanvasElement): void {
     const held = new Map<number, [number, number]>();
+    const from = new Map<number, [number, number]>();
     let moved = 0;
     const place = (event: { clientX: number; clientY: number }): [number, number] => {
       const box = canvas.getBoundingClientRect();
@@ -370,6 +395,7 @@ class Page {
     canvas.addEventListener("pointerdown", (event) => {
       canvas.setPointerCapture(event.pointerId);
       held.set(event.pointerId, place(event));
+      from.set(event.pointerId, place(event));
       moved = 0;
     });
     canvas.addEventListener("pointermove", (event) => {
@@ -377,6 +403,12 @@ class Page {
       const before = held.get(event.pointerId);
       if (!before) return this.read(now);
       const box = canvas.getBoundingClientRect();
+      if (this.draws || event.shiftKey) {
+        const ends = [...this.at(from.get(event.pointerId) ?? before), ...this.at(now)].map((end) => Number(end.toPrecision(6)));
+        held.set(event.pointerId, now);
+        moved = Infinity;
+        return this.go({ ...this.state, cut: ends as [number, number, number, number] });
+      }
       moved += Math.hypot((now[0] - before[0]) * box.width, (now[1] - before[1]) * box.height);
       const others = [...held].filter(([id]) => id !== event.pointerId).map(([, at]) => at);
       held.set(event.pointerId, now);
@@ -389,6 +421,11 @@ class Page {
     const up = (event: PointerEvent) => {
       const here = held.get(event.pointerId);
       held.delete(event.pointerId);
+      if (this.draws && this.state.cut) {
+        this.draws = false;
+        element("draw-cut").setAttribute("aria-pressed", "false");
+      }
+      if (this.state.cut) void this.across();
       if (event.type === "pointerup" && here && moved <= 4 && held.size === 0) this.pick(here);
     };
     canvas.addEventListener("pointerup", up);
@@ -488,9 +525,22 @@ class Page {
     }
   }
 
+  /** The map along the line across it, once the map itself is there. */
+  private async across(): Promise<void> {
+    const of = JSON.stringify({ ...this.state, ...UNRELATED, cell: null });
+    element("across-map").hidden = this.state.cut === null;
+    if (!this.state.cut || of === this.line) return;
+    this.line = of;
+    this.engines.drop(LINE);
+    const drawn = await along(this.engines, this.about, this.state, LINE).catch(() => null);
+    if (of !== this.line) return;
+    this.acrossValues = drawn?.values ?? null;
+    element("line-cut").innerHTML = drawn?.plot ?? "";
+  }
+
   /** The map along its sides through the cell, once the map itself is there. */
   private async along(): Promise<void> {
-    const of = JSON.stringify({ ...this.state, hidden: [], beside: "", hiddenBeside: [], lines: false, strokes: [] });
+    const of = JSON.stringify({ ...this.state, ...UNRELATED, cut: null });
     if (!this.state.cell || of === this.cut) return;
     this.cut = of;
     const drawn = await cuts(this.engines, this.about, this.state, 2).catch(() => "");

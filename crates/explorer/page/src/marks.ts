@@ -71,6 +71,17 @@ export function marks(canvas: HTMLCanvasElement, about: About, state: State, lin
   const [x, y] = [parameter(about, state.x), parameter(about, state.y)];
   if (x) text(plain(x), w - 8, h - 9, "right");
   if (y) text(plain(y), 9, 16, "left");
+  const { cut } = state;
+  if (cut) {
+    twice(2, () => {
+      context.setLineDash([7, 4]);
+      context.beginPath();
+      context.moveTo(px(cut[0]), py(cut[1]));
+      context.lineTo(px(cut[2]), py(cut[3]));
+      context.stroke();
+    });
+    context.setLineDash([]);
+  }
   for (const { at, errors, fill, here } of strokes) {
     const [a, b] = [px(at[0]), py(at[1])];
     twice(1.2, () => {

@@ -25,6 +25,8 @@ export interface State {
   lines: boolean;
   /** Measured strokes over the map. */
   strokes: Stroke[];
+  /** A line across the map: both ends, each by its place on both sides. */
+  cut: [number, number, number, number] | null;
   /** The cell that is looked into: its place on both sides. */
   cell: [number, number] | null;
 }
@@ -61,6 +63,7 @@ export function first(about: About): State {
     hiddenBeside: [],
     lines: false,
     strokes: [],
+    cut: null,
     cell: null,
   };
   return closed(about, state);
@@ -106,6 +109,7 @@ export function written(state: State): string {
   if (state.beside !== "" && state.hiddenBeside.length > 0) words.set("hide_beside", state.hiddenBeside.join(","));
   if (state.lines) words.set("lines", "1");
   if (state.strokes.length > 0) words.set("strokes", line(state.strokes));
+  if (state.cut) words.set("cut", numbers(state.cut));
   if (state.cell) words.set("cell", numbers(state.cell));
   return `#${words.toString()}`;
 }
@@ -182,10 +186,18 @@ export function read(about: About, hash: string): { state: State; wrong: string[
   } catch (why) {
     wrong.push(why instanceof Error ? why.message : String(why));
   }
+  const [a, b] = [parameter(about, state.x), parameter(about, state.y)];
+  const isPlace = ([x, y]: [number, number]) => a !== undefined && b !== undefined && is_allowed(a, x) && is_allowed(b, y);
+  const cut = words.get("cut");
+  if (cut !== null) {
+    const [ax, ay, bx, by, more] = cut.split(",").map((part) => (part.trim() === "" ? NaN : Number(part)));
+    const known = ax !== undefined && ay !== undefined && bx !== undefined && by !== undefined && more === undefined;
+    if (known && isPlace([ax, ay]) && isPlace([bx, by])) state.cut = [ax, ay, bx, by];
+    else wrong.push(`\`cut=${cut}\` is not two places of this map`);
+  }
   const cell = pair("cell");
   if (cell) {
-    const [a, b] = [parameter(about, state.x), parameter(about, state.y)];
-    if (a && b && is_allowed(a, cell[0]) && is_allowed(b, cell[1])) state.cell = cell;
+    if (isPlace(cell)) state.cell = cell;
     else wrong.push("`cell` lies outside of what the parameters may be");
   }
   return { state: closed(about, state), wrong };

@@ -266,6 +266,43 @@ test("measured strokes stand where they were measured, and the address keeps the
   rmSync(folder, { recursive: true });
 });
 
+test("a line across the map gives the cut", async () => {
+  await open("#x=mu_d&y=mu_s&show=growth_rate&at.belt_velocity=3");
+  await page.click("#draw-cut");
+  await page.$eval("#map", (map) => map.scrollIntoView());
+  const box = await (await page.$("#map")).boundingBox();
+  await page.mouse.move(box.x + 0.1 * box.width, box.y + 0.9 * box.height);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 0.9 * box.width, box.y + 0.3 * box.height, { steps: 4 });
+  await page.mouse.up();
+  await page.waitForFunction(() => document.querySelectorAll("#line-cut svg").length === 1, { timeout: 60000, polling: 50 });
+  const { cut, rangeX, cell } = await state();
+  assert.equal(cell, null);
+  assert.deepEqual(rangeX, [0, 0.6]);
+  [0.06, 0.06, 0.54, 0.42].forEach((wanted, k) => assert.ok(Math.abs(cut[k] - wanted) < 0.005, `${cut}`));
+  // The curve has the values of its places, which are not those beside the line.
+  const { curve, there, beside } = await page.evaluate(async () => {
+    const { engines, state, page } = window.squealmap;
+    const { cut, at, x, y } = state();
+    const side = (key, value) => ({ key, from: value, to: value, points: 1 });
+    const one = async (a, b) => (await engines.ask({ ask: "region", x: side(x, a), y: side(y, b), at, response: false, columns: ["growth_rate"] })).numbers[0];
+    const place = (part, k) => cut[k] + part * (cut[k + 2] - cut[k]);
+    const parts = [0, 0.25, 0.5, 1];
+    const values = (off) => Promise.all(parts.map((part) => one(place(part, 0), place(part, 1) + off)));
+    const curve = page.acrossValues;
+    return { curve: parts.map((part) => curve[part * (curve.length - 1)]), there: await values(0), beside: await values(0.02) };
+  });
+  const off = (others) => Math.max(...curve.map((value, k) => Math.abs(value - others[k])));
+  assert.ok(off(there) < 1e-9, `${curve} ${there}`);
+  assert.ok(off(beside) > 0.01);
+  await open(await page.evaluate(() => location.hash));
+  await page.waitForFunction(() => document.querySelectorAll("#line-cut svg").length === 1, { timeout: 60000, polling: 50 });
+  assert.deepEqual((await state()).cut, cut);
+  await page.click("#draw-cut");
+  assert.equal((await state()).cut, null);
+  assert.equal(await page.$eval("#across-map", (section) => section.hidden), true);
+});
+
 test("200 zooms leave no memory behind", async () => {
   await open();
   const size = async () => (await page.metrics()).JSHeapUsedSize / 1e6;

@@ -27,8 +27,10 @@ test("an address gives its state again", () => {
   const { state: again, wrong } = read(about, written(state));
   assert.deepEqual(wrong, []);
   assert.deepEqual(again, state);
-  const two = { ...state, beside: "type", hiddenBeside: ["stable"], lines: true, strokes: strokes(about, TABLE) };
+  const two = { ...state, beside: "type", hiddenBeside: ["stable"], lines: true, strokes: strokes(about, TABLE), cut: [0.1, 0.2, 0.3, 0.4] };
   assert.deepEqual(read(about, written(two)), { state: two, wrong: [] });
+  assert.equal(read(about, "#cut=1,2,3").wrong.length, 1);
+  assert.equal(read(about, "#cut=-1,0,0.1,0.2").wrong.length, 1);
   assert.equal(read(about, "#beside=depth").wrong.length, 1);
   const other = read(about, written({ ...state, quantity: "type" })).state;
   assert.notDeepEqual(other, state);
