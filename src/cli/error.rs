@@ -20,6 +20,14 @@ pub(crate) enum Error {
         /// The name, without its ending.
         name: String,
     },
+    /// A folder without records.
+    #[error("`{}` {why}", path.display())]
+    NoRecords {
+        /// The folder.
+        path: PathBuf,
+        /// What is wrong with it.
+        why: String,
+    },
     /// An option that a refined sweep does not have.
     #[error(
         "{option} cannot be used for a sweep with [refine], which one process computes level by level; leave it out, or \
@@ -363,6 +371,7 @@ impl Error {
             Error::Library(why) => why.is_bad_input(),
             Error::SameName { .. }
             | Error::RefineBeside { .. }
+            | Error::NoRecords { .. }
             | Error::FollowsRamp { .. }
             | Error::FollowedAndFixed { .. }
             | Error::PartialAsWhole { .. }

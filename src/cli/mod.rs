@@ -4,6 +4,7 @@
 pub mod accuracy;
 mod adapters;
 mod calibrate;
+mod campaign;
 mod check;
 mod compare;
 mod curves;
@@ -44,6 +45,7 @@ mod scheduler;
 pub mod serve;
 mod shell;
 mod signal;
+mod signals;
 mod status;
 mod submit;
 mod summary;
@@ -113,6 +115,8 @@ enum Command {
     Explore(explore::ExploreCommand),
     /// What measured signals say: identify.json, identify.svg, identify.png, windows.csv
     Identify(identify::Identify),
+    /// What the strokes of many records say, and those of one condition together: strokes.csv, conditions.csv
+    Campaign(campaign::CampaignCommand),
     /// The source paper computed again: its figures, and what becomes of its claims
     Paper(paper::PaperCommand),
     /// Speed against error of every engine on a sweep: tradeoff.csv, tradeoff.json, tradeoff.svg, tradeoff.png
@@ -172,6 +176,7 @@ impl Command {
             | Command::Trace(_)
             | Command::Curves(_)
             | Command::Identify(_)
+            | Command::Campaign(_)
             | Command::Fem(_)
             | Command::Paper(_)
             | Command::Tradeoff(_) => Workers::Of(None),
@@ -186,6 +191,7 @@ impl Command {
             Command::Verify(command) => return command.execute(),
             Command::Check(command) => return command.execute(),
             Command::Trace(command) => return command.execute(),
+            Command::Campaign(command) => return command.execute(),
             Command::Curves(command) => command.execute()?,
             Command::Explore(command) => command.execute()?,
             Command::Submit(command) => command.execute()?,

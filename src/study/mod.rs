@@ -12,6 +12,7 @@
 //! | measured friction as a material | [`fit`] |
 //! | measurements of a structure as a model | [`calibrate`] |
 //! | measured signals | [`identify`] |
+//! | the strokes of many records | [`campaign`] |
 //! | an instance as sensors record it | [`signals`] |
 //! | measured strokes over a map | [`observed`] |
 //! | the source paper | [`paper`] |
@@ -26,6 +27,8 @@ pub use kind::Kind;
 pub use picture::Picture;
 
 pub mod calibrate;
+#[cfg(feature = "identify")]
+pub mod campaign;
 #[cfg(feature = "figures")]
 pub mod curves;
 pub mod cycles;

@@ -3,6 +3,7 @@
 //! | stage | file |
 //! |---|---|
 //! | columns, units of time, CSV → rows | `channel.rs`, `unit.rs`, `settings.rs`, `read.rs` |
+//! | its strokes, between rests and turns | `stroke.rs` |
 //! | is the file fit for analysis: gaps, outliers, clipping, swapped columns | `survey.rs`, `pace.rs`, `range.rs`, `outlier.rs`, `fault.rs` |
 //! | windows: frequency, growth, cross-spectra | `window.rs`, `cross.rs`, `spectrum.rs` |
 //! | episodes of growth; one mode fitted to the samples of each | `runs.rs`, `episode.rs`, `spans.rs`, `sharpen.rs`, `mode.rs`, `shape.rs`, `course.rs` |
@@ -55,6 +56,7 @@ mod spans;
 mod spectrogram;
 mod spectrum;
 mod still;
+mod stroke;
 mod survey;
 mod testimony;
 mod told;
@@ -83,6 +85,7 @@ pub use reading::Reading;
 pub use segment::{Level, Reading as FrictionReading, Segment, State};
 pub use settings::{DAMPING_RATIO, INCLINATION, LARGEST_FRICTION, OVERLAP, Settings, WINDOW};
 pub use spectrogram::Spectrogram;
+pub use stroke::{Stroke, strokes};
 pub use survey::{LEAST_PER_PERIOD, LEAST_SAMPLES};
 pub use testimony::{Chances, Mechanism, Testimony, Witness};
 pub use told::told;

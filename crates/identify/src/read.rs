@@ -48,6 +48,9 @@ pub(super) struct Table {
     by_commas: bool,
     marks: Marks,
     columns: PerChannel<Option<usize>>,
+    /// Rows to pass over, and rows to read after them.
+    skipped: u64,
+    left: u64,
     /// Sign of what points along the contact: −1 for a stroke that goes the other way.
     sign: f64,
 }
@@ -141,6 +144,8 @@ impl Table {
             by_commas,
             marks,
             columns,
+            skipped: settings.rows.map_or(0, |[before, _]| before),
+            left: settings.rows.map_or(u64::MAX, |[_, rows]| rows),
             sign: 1.0,
         })
     }
@@ -159,6 +164,16 @@ impl Table {
         if is_first && self.is_units() && !self.read()? {
             return Ok(None);
         }
+        while self.skipped > 0 {
+            self.skipped -= 1;
+            if !self.read()? {
+                return Ok(None);
+            }
+        }
+        if self.left == 0 {
+            return Ok(None);
+        }
+        self.left -= 1;
         let line = self.record.position().map_or(0, csv::Position::line);
         if self.record.len() != self.header.len() {
             let (fields, columns) = (self.record.len(), self.header.len());

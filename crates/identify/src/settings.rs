@@ -35,6 +35,9 @@ pub struct Settings {
     pub rate: Option<f64>,
     /// The columns in the order of [`Channel::ALL`]; `None` for the default name, if the file has it.
     pub columns: [Option<String>; Channel::ALL.len()],
+    /// The rows that are analysed: how many before them are left out, and how many they are; `None` for all. See
+    /// [`crate::strokes`].
+    pub rows: Option<[u64; 2]>,
     /// Delay of the normal acceleration behind the tangential one, s, which is taken out; at most one period.
     pub skew: f64,
     /// Delay of the forces behind the tangential acceleration, s, which is taken out; at most one period.
@@ -64,6 +67,7 @@ impl Default for Settings {
             time_unit: None,
             rate: None,
             columns: PerChannel::default(),
+            rows: None,
             skew: 0.0,
             force_skew: 0.0,
             damping_ratio: DAMPING_RATIO,

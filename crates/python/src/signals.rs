@@ -106,6 +106,7 @@ impl Choices {
             checked("the error of critical_friction", Some(error), positive, 0.0)?;
         }
         Ok(Settings {
+            rows: None,
             time: self.time,
             time_unit: self.time_unit.map(unit).transpose()?,
             rate: self.rate.map(|rate| checked("rate", Some(rate), positive, 0.0)).transpose()?,

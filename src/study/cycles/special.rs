@@ -63,6 +63,9 @@ impl Special {
 /// Halvings between two points of a branch: to the rounding of what a flight knows.
 const HALVINGS: usize = 36;
 
+/// Where no multiplier comes this near to the unit circle, what changes the stability is no bifurcation of a smooth map.
+const SMOOTH: f64 = 0.3;
+
 /// The point between two neighbours of a branch at which their stability changes, if it does.
 pub(super) fn between(map: &ReturnMap, before: &Fixed, after: &Fixed) -> Option<(Fixed, Special)> {
     let stable = before.unstable();
@@ -85,8 +88,12 @@ pub(super) fn between(map: &ReturnMap, before: &Fixed, after: &Fixed) -> Option<
     let multipliers = to.multipliers();
     let apart = |value: f64| (value - 1.0).abs();
     let critical = multipliers.iter().min_by(|a, b| apart(a.norm()).total_cmp(&apart(b.norm())))?;
+    let is_smooth = apart(critical.norm()) <= SMOOTH;
     let special = if from.order != to.order {
         Special::Border
+    } else if !is_smooth {
+        // The halvings have met a change of contact that the orders do not tell.
+        if from.along() * to.along() < 0.0 { Special::Corner } else { Special::Border }
     } else if from.along() * to.along() < 0.0 || critical.im == 0.0 && critical.re > 0.0 {
         Special::Fold
     } else if critical.im == 0.0 {

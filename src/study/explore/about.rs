@@ -3,7 +3,7 @@
 use crate::model::{PARAMS, ParamInfo, Range};
 use crate::sweep::columns::{Column, Group, Reading, columns};
 use crate::sweep::grid::{Axis, AxisKey, Grid, Value};
-use crate::sweep::spec::Analysis;
+use crate::sweep::spec::{Analysis, Starts};
 use serde_json::{Value as Json, json};
 
 use crate::study::explore::answer::Answer;
@@ -17,7 +17,7 @@ pub fn about(opened: &Opened) -> Answer {
     let varied = spec.grid.keys();
     let axes: Vec<Json> = opened.axes.iter().map(axis).collect();
     // What has one value, and may have another.
-    let has_effect = |row: &&ParamInfo| spec.unread_by_motion(row.param).is_none();
+    let has_effect = |row: &&ParamInfo| spec.unread(row.param).is_none();
     let fixed = PARAMS.iter().filter(|row| !varied.contains(&AxisKey::Param(row.param))).filter(has_effect);
     let fixed = fixed.filter_map(|row| {
         let mut about = param(row);
@@ -32,6 +32,7 @@ pub fn about(opened: &Opened) -> Answer {
         response,
         until_settled: response && spec.settle_limit.is_some(),
         checked: false,
+        starts: Starts::One,
         ..spec.analysis
     };
     let all = columns(&Grid::Axes(Vec::new()), analysis);

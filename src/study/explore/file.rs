@@ -1,6 +1,7 @@
 //! The sweep of a region as a sweep file, and the command that computes it.
 
 use crate::engine::plan::Duration;
+use crate::model::Param;
 use serde_json::{Value as Json, json};
 
 use crate::study::explore::answer::Answer;
@@ -45,6 +46,11 @@ pub fn file(opened: &Opened, region: &Region) -> Result<Answer, String> {
     let others: Vec<(String, Json)> =
         region.at.iter().map(|(name, value)| (name.clone(), json!({ "values": [value] }))).collect();
     resolved["axes"] = Json::Object(others.into_iter().chain(sides).collect());
+    // What no law reads has no place in a file.
+    if let Some(friction) = resolved["friction"].as_object_mut() {
+        let is_read = |name: &str| Param::from_name(name).is_none_or(|param| spec.unread(param).is_none());
+        friction.retain(|name, _| is_read(name));
+    }
     // What is measured as a whole is not said in a sweep file, as it is the default there.
     if spec.measure == Duration::Ramp
         && let Some(response) = resolved["response"].as_object_mut()

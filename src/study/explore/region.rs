@@ -126,7 +126,7 @@ impl Region {
         let spec = &opened.spec;
         for axis in &axes {
             let AxisKey::Param(param) = axis.key else { continue };
-            if let Some(by) = spec.unread_by_motion(param) {
+            if let Some(by) = spec.unread(param) {
                 return Err(format!("`{}` has no effect here: only {by} reads it", param.info().name));
             }
         }

@@ -1,10 +1,12 @@
 //! `[belt]`: what each motion reads.
 
 use crate::model::Param;
+use crate::model::friction::LawKind;
 use crate::model::motion::Motion;
 use crate::sweep::error::{Error, Result};
-use crate::sweep::spec::Spec;
-use crate::sweep::spec::check::{Check, unused};
+use crate::sweep::grid::{AxisKey, Grid, Value};
+use crate::sweep::spec::check::{Check, unused, used_by_laws};
+use crate::sweep::spec::{Spec, law};
 use squealmap_input::place::Place;
 use squealmap_input::quote::list;
 
@@ -50,10 +52,25 @@ fn half_of_ramp(motion: &str, has: impl Fn(Param) -> bool) -> Option<[Param; 2]>
 }
 
 impl Spec {
-    /// What reads a parameter that the motion of the belt does not, as the end of a sentence.
+    /// What reads a parameter that neither the laws of this sweep nor the motion of its belt do, as the end of a sentence.
     #[must_use]
-    pub fn unread_by_motion(&self, param: Param) -> Option<String> {
+    pub fn unread(&self, param: Param) -> Option<String> {
+        if LawKind::params().any(|one| one == param) && !self.laws().iter().any(|law| law.reads(param)) {
+            return Some(used_by_laws(&law::users(param)));
+        }
         reader(self.motion.name(), param)
+    }
+
+    /// The laws that instances have.
+    fn laws(&self) -> Vec<LawKind> {
+        let Grid::Axes(axes) = &self.grid else { return LawKind::ALL.to_vec() };
+        let varied = axes.iter().find(|axis| axis.key == AxisKey::Law);
+        let Some(varied) = varied else { return vec![self.law] };
+        let named = varied.values.iter().filter_map(|value| match value {
+            Value::Text(name) => LawKind::from_name(name),
+            Value::Number(_) => None,
+        });
+        named.collect()
     }
 }
 

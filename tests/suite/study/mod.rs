@@ -2,6 +2,7 @@
 
 pub(crate) mod bound;
 pub(crate) mod calibrate;
+mod campaign;
 pub(crate) mod claims;
 pub(crate) mod confusion;
 pub(crate) mod curves;

@@ -28,6 +28,9 @@ export interface Device {
 /** What computes: the program that serves the page; here, the GPU what it is faster at, all that it can, or nothing. */
 export type Choice = "program" | "auto" | "gpu" | "cpu";
 
+/** The group of questions about the cell that is looked into. */
+export const CELL = 2;
+
 /** Cells of one question: an engine answers in a fraction of a second, and is free for another view. */
 const AT_ONCE = { eigenvalues: 16384, transients: 96 };
 const AT_ONCE_ON_GPU = { eigenvalues: 65536, transients: 8192 };
@@ -159,7 +162,10 @@ export class Engines {
     return new Promise((done, failed) => {
       const { ask, response } = question as { ask?: string; response?: boolean };
       const queue = this.takesProgram() ? this.programQueue : ask === "region" && this.takesGpu(response === true) ? this.gpuQueue : this.queue;
-      queue.push({ question, done, failed, group });
+      const job = { question, done, failed, group };
+      // A cell does not wait for maps.
+      if (group === CELL) queue.unshift(job);
+      else queue.push(job);
       this.next();
     });
   }

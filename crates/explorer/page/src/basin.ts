@@ -6,7 +6,8 @@ import { parameter, type State } from "./state";
 import { type About, type Class, escape, shown } from "./sweep";
 
 /** Starts along each side, one level after the other. */
-const POINTS = [9, 33];
+// Even, so that none of them starts at rest in the equilibrium itself.
+const POINTS = [10, 34];
 
 /** Starts of one question. */
 const AT_ONCE = 99;
@@ -29,6 +30,8 @@ interface Grid {
 export class Basin {
   private grid: Grid | null = null;
   private start: Start = [0, 0];
+  /** A start, and its own regime. */
+  private exact: { start: Start; regime: string } | null = null;
   private generation = 0;
   private held = false;
   /** How much closer the plane is looked at. */
@@ -71,6 +74,12 @@ export class Basin {
     const reach: Start = [velocity / perSecond, velocity].map((one) => Number((one / this.closer).toPrecision(3))) as Start;
     this.grid = null;
     this.paint();
+    const { start } = this;
+    const one = (key: string, value: number) => ({ key, from: value, to: value, points: 1 });
+    const itself = { ask: "region", x: one(ACROSS, start[0]), y: one(UP, start[1]), at, response: true, columns: ["regime"] };
+    const { numbers: own } = await this.engines.ask(itself, GROUP);
+    if (generation !== this.generation) return;
+    this.exact = { start, regime: this.names[own[0] ?? NaN] ?? "nothing" };
     for (const points of POINTS) {
       const values = new Float64Array(points * points).fill(NaN);
       const rows = Math.max(1, Math.floor(AT_ONCE / points));
@@ -110,6 +119,7 @@ export class Basin {
   at([x, v]: Start): string | undefined {
     if (!this.grid) return undefined;
     const { points, reach, values } = this.grid;
+    if (Math.abs(x) > reach[0] || Math.abs(v) > reach[1]) return undefined;
     const place = (value: number, half: number) => Math.min(Math.max(Math.round(((value / half + 1) / 2) * (points - 1)), 0), points - 1);
     return this.names[values[place(v, reach[1]) * points + place(x, reach[0])] ?? NaN];
   }
@@ -150,12 +160,16 @@ export class Basin {
       return `<span class="swatch" style="background:${escape(one?.fill ?? "#888888")}"></span>${escape(one?.label ?? name)}`;
     };
     const [mm, v] = this.start;
+    const isOwn = this.exact !== null && this.exact.start[0] === mm && this.exact.start[1] === v;
+    const ends = isOwn ? this.exact?.regime : this.at(this.start);
+    const about = isOwn ? "" : ends === undefined ? " lies outside of the plane" : ", by the nearest of these starts";
     this.words.innerHTML =
       `Across x2 from −${shown(1e3 * reach[0], 3)} to ${shown(1e3 * reach[0], 3)} mm, up ẋ2 from −${shown(reach[1], 3)} to ${shown(reach[1], 3)} m/s, from the sliding equilibrium: ` +
-      `${found.map(swatch).join(", ")}. From ${shown(1e3 * mm, 3)} mm and ${shown(v, 3)} m/s: ${escape(this.at(this.start)?.replaceAll("_", " ") ?? "nothing")}.`;
+      `${found.map(swatch).join(", ")}. From ${shown(1e3 * mm, 3)} mm and ${shown(v, 3)} m/s${about}${ends === undefined ? "" : `: ${escape(ends.replaceAll("_", " "))}`}.`;
   }
 
   private handle(): void {
+    let before: Start = [0, 0];
     const take = (event: PointerEvent) => {
       if (!this.grid) return;
       const box = this.canvas.getBoundingClientRect();
@@ -163,18 +177,31 @@ export class Basin {
       const [x, y] = [part(event.clientX - box.left, box.width), part(event.clientY - box.top, box.height)];
       this.move([(2 * x - 1) * this.grid.reach[0], (1 - 2 * y) * this.grid.reach[1]]);
     };
+    const down = new Set<number>();
     this.canvas.addEventListener("pointerdown", (event) => {
+      down.add(event.pointerId);
+      // Two fingers take no start.
+      if (down.size > 1) {
+        if (this.held) this.move(before);
+        this.held = false;
+        return;
+      }
       this.held = this.grid !== null;
+      before = this.start;
       this.canvas.setPointerCapture(event.pointerId);
       take(event);
     });
     this.canvas.addEventListener("pointermove", (event) => this.held && take(event));
-    const drop = () => {
+    this.canvas.addEventListener("pointerup", (event) => {
+      down.delete(event.pointerId);
       if (this.held) this.chosen(this.start);
       this.held = false;
-    };
-    this.canvas.addEventListener("pointerup", drop);
-    this.canvas.addEventListener("pointercancel", drop);
+    });
+    this.canvas.addEventListener("pointercancel", (event) => {
+      down.delete(event.pointerId);
+      if (this.held) this.move(before);
+      this.held = false;
+    });
     this.canvas.addEventListener(
       "wheel",
       (event) => {

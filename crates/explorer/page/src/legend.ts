@@ -7,6 +7,8 @@ import type { Class, Column } from "./sweep";
 export function legend(box: HTMLElement, column: Column, classes: Class[] | undefined, show: Scale | null, hidden: string[], toggled: (name: string) => void): void {
   if (column.names.length > 0) {
     const known = classes ?? column.names.map((name) => ({ name, label: name.replaceAll("_", " "), fill: "#888888" }));
+    // The class that was chosen by a key keeps the focus.
+    const focused = [...box.children].indexOf(document.activeElement as Element);
     box.textContent = "";
     for (const one of known) {
       const button = Object.assign(document.createElement("button"), { type: "button", className: "class", title: "Show or hide" });
@@ -17,6 +19,7 @@ export function legend(box: HTMLElement, column: Column, classes: Class[] | unde
       button.addEventListener("click", () => toggled(one.name));
       box.append(button);
     }
+    (box.children[focused] as HTMLElement | undefined)?.focus();
     return;
   }
   const [low, high] = words(column, show?.ends ?? [0, 1]);

@@ -1,6 +1,6 @@
 // The page: what is asked for by hand, and where it goes.
 
-import { type Choice, Engines } from "./ask";
+import { CELL, type Choice, Engines } from "./ask";
 import { Basin } from "./basin";
 import { columnsOf, masses, plots, rows, sound, taken, why, type Cell } from "./cell";
 import { along, cuts } from "./cut";
@@ -207,7 +207,18 @@ class Page {
     element("maps").classList.toggle("two", isTwo);
     if (isTwo) this.second.show(beside(this.state));
     const same = JSON.stringify([before.cell, before.at]) === JSON.stringify([this.state.cell, this.state.at]);
-    if (!same || (this.state.cell && !this.cell)) void this.look();
+    if (!this.state.cell) this.leave();
+    else if (!same || !this.cell) void this.look();
+  }
+
+  /** No cell is looked into, also of those that were asked for. */
+  private leave(): void {
+    this.cellAsked++;
+    this.stop();
+    this.cell = null;
+    this.basin.clear();
+    element("cell").hidden = true;
+    element("hint").hidden = false;
   }
 
   private controls(): void {
@@ -293,9 +304,7 @@ class Page {
       const opposite = kept === key ? other : kept;
       const [x, y] = of === "x" ? [key, opposite] : [opposite, key];
       this.state = closed(this.about, { ...this.state, cut: null, x, y, rangeX: whole(this.about, x), rangeY: whole(this.about, y), cell: null });
-      this.cell = null;
-      this.basin.clear();
-      element("cell").hidden = true;
+      this.leave();
       this.controls();
       this.go(this.state);
     };
@@ -351,9 +360,6 @@ class Page {
       link.click();
     });
     element("close").addEventListener("click", () => {
-      this.cell = null;
-      this.basin.clear();
-      element("cell").hidden = true;
       this.go({ ...this.state, cell: null });
     });
     element("hear").addEventListener("click", () => this.hear());
@@ -506,7 +512,7 @@ class Page {
     };
     const motion = { ask: "cell", at, skipped: responds ? 400 : 0, periods: responds ? 12 : 0, samples: 80 };
     try {
-      const [answer, numbers] = await Promise.all([this.engines.ask(motion, 2), this.engines.ask(region, 2)]);
+      const [answer, numbers] = await Promise.all([this.engines.ask(motion, CELL), this.engines.ask(region, CELL)]);
       if (asked !== this.cellAsked) return;
       this.cell = taken(answer);
       const type = columns.findIndex((column) => column.name === "type");
@@ -543,7 +549,7 @@ class Page {
     const of = JSON.stringify({ ...this.state, ...UNRELATED, cut: null });
     if (!this.state.cell || of === this.cut) return;
     this.cut = of;
-    const drawn = await cuts(this.engines, this.about, this.state, 2).catch(() => "");
+    const drawn = await cuts(this.engines, this.about, this.state, CELL).catch(() => "");
     if (of === this.cut) element("cuts").innerHTML = drawn;
   }
 

@@ -38,6 +38,7 @@ export class MapView {
   private pictureOf: State | null = null;
   private drawing = false;
   current: Scale | null = null;
+  private currentOf = "";
   /** Seconds until the first and the last picture of the last view. */
   times: { first: number; last: number } = { first: NaN, last: NaN };
 
@@ -62,12 +63,23 @@ export class MapView {
   show(state: State): void {
     const before = this.shownState;
     this.shownState = state;
-    if (before && same(before, state) && this.levels.length > 0) {
+    if (before && same(before, state) && this.levels.length > 0 && !this.isResized()) {
       this.draw();
       return;
     }
     if (this.picture === null || before === null || before.x !== state.x || before.y !== state.y) this.pictureOf = null;
     void this.compute(state);
+  }
+
+  /** Pixels of the screen that the map has. */
+  private pixels(): [number, number] {
+    const scaleOf = window.devicePixelRatio || 1;
+    return [Math.max(1, Math.round(this.canvas.clientWidth * scaleOf)), Math.max(1, Math.round(this.canvas.clientHeight * scaleOf))];
+  }
+
+  private isResized(): boolean {
+    const [w, h] = this.pixels();
+    return this.canvas.clientWidth > 0 && (this.canvas.width !== w || this.canvas.height !== h);
   }
 
   /** Computes a state anew. */
@@ -86,7 +98,7 @@ export class MapView {
     this.times = { first: NaN, last: NaN };
     const column = this.column(state.quantity);
     const scaleOf = window.devicePixelRatio || 1;
-    const [w, h] = [Math.max(1, Math.round(this.canvas.clientWidth * scaleOf)), Math.max(1, Math.round(this.canvas.clientHeight * scaleOf))];
+    const [w, h] = this.pixels();
     if (this.canvas.width !== w || this.canvas.height !== h) {
       this.canvas.width = w;
       this.canvas.height = h;
@@ -178,13 +190,15 @@ export class MapView {
         }
       }
     }
-    const colours = scale(column, this.classes[column.name], low <= high ? [low, high] : [0, 1], state.hidden);
-    this.current = colours;
+    // Until there are values the scale of the picture that is shown stays.
+    const kept = this.current && this.currentOf === column.name ? this.current.ends : ([0, 1] as [number, number]);
+    const colours = scale(column, this.classes[column.name], low <= high ? [low, high] : kept, state.hidden);
+    [this.current, this.currentOf] = [colours, column.name];
     context.imageSmoothingEnabled = false;
     context.fillStyle = "#ffffff";
     context.fillRect(0, 0, width, height);
     const before = this.pictureOf;
-    if (this.picture && before && before.x === state.x && before.y === state.y && before.quantity === state.quantity) {
+    if (this.picture && before && before.x === state.x && before.y === state.y && before.quantity === state.quantity && before.hidden.join() === state.hidden.join()) {
       const [x0, x1] = part(before.rangeX, state.rangeX);
       const [y0, y1] = part(before.rangeY, state.rangeY);
       context.drawImage(this.picture, x0 * width, (1 - y1) * height, (x1 - x0) * width, (y1 - y0) * height);

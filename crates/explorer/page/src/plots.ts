@@ -38,7 +38,9 @@ const [LEFT, RIGHT, TOP, BOTTOM] = [58, 10, 8, 38];
 /** Steps of an axis: 1, 2 or 5 times a power of ten. */
 export function ticks(low: number, high: number, about: number): number[] {
   const rough = (high - low) / about;
-  if (!(rough > 0) || !Number.isFinite(rough)) return [low];
+  // Neighbouring numbers have no ticks between them: counting on would not go on.
+  const closest = 1e-12 * Math.max(Math.abs(low), Math.abs(high));
+  if (!(rough > closest) || !Number.isFinite(rough)) return Number.isFinite(low) ? [low] : [];
   const power = 10 ** Math.floor(Math.log10(rough));
   const step = ([1, 2, 5, 10].find((factor) => factor * power >= rough) ?? 10) * power;
   const first = Math.ceil(low / step - 1e-9);

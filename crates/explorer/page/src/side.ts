@@ -86,12 +86,17 @@ export class Side {
     if (this.lines?.of === level) return this.lines.all;
     const [x, y] = [places(level.wide, state.rangeX, level.own?.x), places(level.high, state.rangeY, level.own?.y)];
     const column = this.column();
-    const ends = this.view.current?.ends ?? [0, 1];
+    // Its own: the scale of the picture is that of the last frame.
+    let [low, high] = [Infinity, -Infinity];
+    for (const value of level.values) {
+      if (value < low) low = value;
+      if (value > high) high = value;
+    }
     const most = column.unit === "deg" ? 180 : Infinity;
     const all =
       column.names.length > 0
         ? [{ words: "", pieces: borders(level, x, y) }]
-        : ticks(...ends, LINES).map((value) => ({ words: shown(value, 4), pieces: isoline(level, x, y, value, most) }));
+        : ticks(low, high, LINES).map((value) => ({ words: shown(value, 4), pieces: isoline(level, x, y, value, most) }));
     this.lines = { of: level, all };
     return all;
   }

@@ -95,6 +95,9 @@ export function closed(about: About, state: State): State {
 
 const numbers = (range: number[]) => range.join(",");
 
+/** What an address may say, besides values at `at.`. */
+const WORDS = ["x", "y", "rx", "ry", "show", "hide", "beside", "hide_beside", "lines", "strokes", "cut", "cell"];
+
 /** The address of a state. */
 export function written(state: State): string {
   const words = new URLSearchParams();
@@ -120,6 +123,12 @@ export function read(about: About, hash: string): { state: State; wrong: string[
   const wrong: string[] = [];
   if (hash.length <= 1) return { state, wrong };
   const words = new URLSearchParams(hash.slice(1));
+  const said = new Set<string>();
+  for (const name of words.keys()) {
+    if (said.has(name)) wrong.push(`\`${name}\` stands there twice; the first is taken`);
+    else if (!name.startsWith("at.") && !WORDS.includes(name)) wrong.push(`\`${name}\` is nothing that an address says`);
+    said.add(name);
+  }
   const known = sides(about).map((axis) => axis.key);
   const side = (name: string, other: string) => {
     const value = words.get(name);
@@ -130,6 +139,7 @@ export function read(about: About, hash: string): { state: State; wrong: string[
   };
   const x = side("x", "");
   const y = side("y", x ?? "");
+  if ((x === undefined) !== (y === undefined) && wrong.length === 0) wrong.push("an address that names a side has to name both, `x` and `y`");
   if (x && y) {
     state.x = x;
     state.y = y;

@@ -21,8 +21,10 @@ export interface Stroke {
 
 /** Strokes of a table, rows by `;` or lines. Throws a sentence that says what is wrong. */
 export function strokes(about: About, text: string): Stroke[] {
-  const lines = text.split(/[;\r\n]+/).map((line) => line.trim()).filter((line) => line !== "" && !line.startsWith("#"));
-  const header = (lines[0] ?? "").split(",").map((name) => name.trim());
+  // An address has no lines.
+  const lines = text.split(/[\r\n]/.test(text) ? /[\r\n]+/ : /;/).map((line) => line.trim()).filter((line) => line !== "" && !line.startsWith("#"));
+  const fields = (line: string) => line.replace(/^\ufeff/, "").split(",").map((field) => field.trim().replace(/^"([^"]*)"$/, "$1").trim());
+  const header = fields(lines[0] ?? "");
   const keys = sides(about).map((axis) => axis.key);
   for (const name of [...keys, "observed"]) {
     if (!header.includes(name)) throw new Error(`the strokes have no column \`${name}\`, only ${header.map((one) => `\`${one.slice(0, 40)}\``).join(", ")}`);
@@ -30,10 +32,11 @@ export function strokes(about: About, text: string): Stroke[] {
   if (lines.length < 2) throw new Error("the strokes have no rows; each stroke is one, below the names of the columns");
   if (lines.length - 1 > MOST) throw new Error(`there are ${lines.length - 1} strokes, and a page shows at most ${MOST}: leave some out`);
   return lines.slice(1).map((line, row) => {
-    const cells = line.split(",").map((cell) => cell.trim());
+    const cells = fields(line);
+    if (cells.length !== header.length) throw new Error(`row ${row + 1} of the strokes has ${cells.length} fields, and their header has ${header.length}`);
     const number = (name: string): number => {
       const cell = cells[header.indexOf(name)] ?? "";
-      const value = cell === "" ? NaN : Number(cell);
+      const value = /^[-+]?[0-9.]/.test(cell) && !/^0[xob]/i.test(cell) ? Number(cell) : NaN;
       if (!Number.isFinite(value)) throw new Error(`\`${name}\` is \`${cell.slice(0, 40)}\` in row ${row + 1} of the strokes, and has to be a number`);
       return value;
     };

@@ -186,7 +186,7 @@ test("other starts of a cell end elsewhere, and one of them is taken by hand", a
   const links = await page.$$eval("#places a", (links) => links.map((link) => link.getAttribute("href")));
   // Stable when left alone, unstable when struck.
   await open(links[5]);
-  await page.waitForFunction(() => window.squealmap.basin.grid?.points === 33, { timeout: 240000, polling: 50 });
+  await page.waitForFunction(() => window.squealmap.basin.grid?.points === 34, { timeout: 240000, polling: 50 });
   const ends = () => page.evaluate(() => [[0, 0.01], [0, 7], [0.03, 0]].map((start) => window.squealmap.basin.at(start)));
   const [small, large] = await ends();
   assert.equal(small, "equilibrium");
@@ -210,14 +210,14 @@ test("other starts of a cell end elsewhere, and one of them is taken by hand", a
   });
   assert.equal(differ, 0);
   // Closer: kicks of up to 0.4 m/s do not reach the knee, those from 0.45 m/s on do (`run --backend reference`).
-  const reach = () => page.evaluate(() => window.squealmap.basin.grid?.points === 33 && window.squealmap.basin.grid.reach[1]);
+  const reach = () => page.evaluate(() => window.squealmap.basin.grid?.points === 34 && window.squealmap.basin.grid.reach[1]);
   const whole_plane = await reach();
   await page.focus("#basin");
   for (let k = 0; k < 5; k++) await page.keyboard.press("+");
-  await page.waitForFunction((before) => window.squealmap.basin.grid?.points === 33 && window.squealmap.basin.grid.reach[1] < before / 7, { timeout: 240000, polling: 50 }, whole_plane);
+  await page.waitForFunction((before) => window.squealmap.basin.grid?.points === 34 && window.squealmap.basin.grid.reach[1] < before / 7, { timeout: 240000, polling: 50 }, whole_plane);
   assert.deepEqual(await page.evaluate(() => [[0, 0.3], [0, -0.3], [0, 0.6], [0, -0.6]].map((start) => window.squealmap.basin.at(start))), ["equilibrium", "equilibrium", "slip_reversal", "slip_reversal"]);
   for (let k = 0; k < 5; k++) await page.keyboard.press("-");
-  await page.waitForFunction((before) => window.squealmap.basin.grid?.points === 33 && Math.abs(window.squealmap.basin.grid.reach[1] / before - 1) < 0.01, { timeout: 240000, polling: 50 }, whole_plane);
+  await page.waitForFunction((before) => window.squealmap.basin.grid?.points === 34 && Math.abs(window.squealmap.basin.grid.reach[1] / before - 1) < 0.01, { timeout: 240000, polling: 50 }, whole_plane);
   // The start is dragged to where the motion does not die away.
   await page.$eval("#basin", (canvas) => canvas.scrollIntoView({ block: "center" }));
   const box = await (await page.$("#basin")).boundingBox();

@@ -31,6 +31,7 @@ test("an address gives its state again", () => {
   assert.deepEqual(read(about, written(two)), { state: two, wrong: [] });
   assert.equal(read(about, "#cut=1,2,3").wrong.length, 1);
   assert.equal(read(about, "#cut=-1,0,0.1,0.2").wrong.length, 1);
+  for (const [hash, why] of [["#foo=1", /`foo` is nothing/], ["#x=mu_s", /both/], ["#show=type&show=type", /twice/]]) assert.match(read(about, hash).wrong.join(), why);
   assert.equal(read(about, "#beside=depth").wrong.length, 1);
   const other = read(about, written({ ...state, quantity: "type" })).state;
   assert.notDeepEqual(other, state);
@@ -83,6 +84,15 @@ test("the spectrum of a sine has its frequency and its amplitude", () => {
   const most = Math.max(...a);
   assert.ok(Math.abs(f[a.indexOf(most)] - 40) < 1.01, `${f[a.indexOf(most)]} Hz`);
   assert.ok(Math.abs(most - 3) < 0.1, `${most}`);
+});
+
+test("neighbouring numbers have no endless ticks", () => {
+  let next = 18.5;
+  for (let k = 0; k < 6; k++) {
+    next += 2 ** -48;
+    assert.ok(ticks(18.5, next, 5).length <= 6);
+  }
+  assert.deepEqual(ticks(Infinity, -Infinity, 5), []);
 });
 
 test("ticks are round and inside", () => {
@@ -148,7 +158,11 @@ test("strokes of a table are marks in the colours of their types", () => {
     ["mu_s,mu_d,belt_velocity,observed\n0.1,0.1,1,squeal", /`observed` is `squeal` in row 1 .* one of no_instability/],
     ["mu_s,mu_d,belt_velocity,observed\n" + "0.1,0.1,1,both\n".repeat(201), /201 strokes, and a page shows at most 200/],
     ["", /no column `mu_s`/],
+    ["mu_s,mu_d,belt_velocity,observed\n0x1,0.1,1,both", /`mu_s` is `0x1` in row 1/],
+    ["mu_s,mu_d,belt_velocity,observed\n0.1,0.1,1,both,7", /row 1 of the strokes has 5 fields, and their header has 4/],
   ])
     assert.throws(() => strokes(about, text), why);
   assert.match(read(about, "#strokes=mu_s;1").wrong[0], /no column/);
+  // Fields in quotes, and what is no row in a remark.
+  assert.equal(strokes(about, '# first; then\n"mu_s","mu_d",belt_velocity,"observed"\n"0.1",0.1,1,"both"\n').length, 1);
 });

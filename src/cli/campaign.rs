@@ -1,0 +1,140 @@
+//! `squealmap campaign`: what the strokes of many records say, and those of one condition together.
+
+use crate::cli::error::{Error, Result};
+use crate::cli::output::{Output, list};
+use crate::cli::signals::SignalOptions;
+use crate::cli::talk::{self, note, print};
+use clap::Args;
+use rayon::prelude::*;
+use squealmap::study::campaign::condition::{Condition, conditions, conditions_csv};
+use squealmap::study::campaign::row::{Said, StrokeRow, VelocityLaw, strokes_csv};
+use squealmap_identify::{Kind, Settings, Stroke, identify, strokes};
+use squealmap_input::files;
+use std::fmt::Write;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// The files that are written.
+const FILES: [&str; 2] = ["conditions.csv", "strokes.csv"];
+
+/// Arguments of `campaign`.
+#[derive(Debug, Args)]
+pub(crate) struct CampaignCommand {
+    /// Records, or folders whose records (*.csv, *.tsv, *.txt) are meant
+    #[arg(required = true, value_name = "RECORD")]
+    records: Vec<PathBuf>,
+    /// Output directory
+    #[arg(short, long, value_name = "DIR", default_value = "out/campaign")]
+    output: PathBuf,
+    #[command(flatten)]
+    signals_are: SignalOptions,
+}
+
+impl CampaignCommand {
+    pub(crate) fn execute(self) -> Result<ExitCode> {
+        let records = listed(&self.records)?;
+        let settings = self.signals_are.settings();
+        let output = Output::prepare(self.output, &FILES)?;
+        let rows: Vec<Vec<StrokeRow>> =
+            records.par_iter().map(|record| of_record(record, &settings)).collect();
+        let rows = rows.concat();
+        let found = conditions(&rows);
+        let paths = output.write(&[(FILES[0], conditions_csv(&found)?), (FILES[1], strokes_csv(&rows)?)])?;
+        let mut text = String::new();
+        for row in &rows {
+            match &row.said {
+                Ok(said) => {
+                    let _ = writeln!(text, "{}, stroke {}: {}", row.record, row.number, said.told);
+                }
+                Err(why) => note(&format!("warning: {why}")),
+            }
+        }
+        for one in &found {
+            let _ = writeln!(text, "{}", told(one));
+        }
+        print(&(text + &list(&paths)));
+        if rows.iter().all(|row| row.said.is_err()) {
+            talk::error("no record says anything; the column `status` of strokes.csv has the reason of each");
+            return Ok(ExitCode::FAILURE);
+        }
+        Ok(ExitCode::SUCCESS)
+    }
+}
+
+/// The records that are meant, those of folders by name.
+fn listed(given: &[PathBuf]) -> Result<Vec<PathBuf>> {
+    const ENDINGS: [&str; 3] = ["csv", "tsv", "txt"];
+    let mut all = Vec::new();
+    for path in given {
+        if !path.exists() {
+            return Err(Error::NoRecords {
+                path: path.clone(),
+                why: "does not exist; give records, or folders of records".to_owned(),
+            });
+        }
+        if !path.is_dir() {
+            all.push(path.clone());
+            continue;
+        }
+        let unreadable = |why: std::io::Error| Error::NoRecords { path: path.clone(), why: why.to_string() };
+        let mut inside = Vec::new();
+        for entry in std::fs::read_dir(path).map_err(unreadable)? {
+            let entry = entry.map_err(unreadable)?.path();
+            let is_record = entry
+                .extension()
+                .is_some_and(|ending| ENDINGS.iter().any(|known| ending.eq_ignore_ascii_case(known)));
+            if is_record && entry.is_file() {
+                inside.push(entry);
+            }
+        }
+        if inside.is_empty() {
+            let why = "holds no record: no file that ends in .csv, .tsv or .txt".to_owned();
+            return Err(Error::NoRecords { path: path.clone(), why });
+        }
+        inside.sort();
+        all.extend(inside);
+    }
+    Ok(all)
+}
+
+/// The strokes of a record; one that cannot be read is a row that says why.
+fn of_record(path: &Path, settings: &Settings) -> Vec<StrokeRow> {
+    let name = path.display().to_string();
+    let open =
+        || files::open(path).map(|file| Box::new(file) as Box<dyn Read>).map_err(std::io::Error::other);
+    let row = |number: usize, stroke: Option<Stroke>, said: std::result::Result<Said, String>| {
+        let law = stroke.and_then(|stroke| stroke.quarters).map(VelocityLaw::of);
+        StrokeRow { record: name.clone(), number, stroke, law, said }
+    };
+    let all = match strokes(open, &name, settings) {
+        Ok(all) => all,
+        Err(why) => return vec![row(1, None, Err(why.to_string()))],
+    };
+    let of_stroke = |(place, stroke): (usize, Stroke)| {
+        let settings = Settings { rows: Some(stroke.rows), ..settings.clone() };
+        let found = identify(open, &name, &settings, &mut |_, _| {});
+        row(
+            place + 1,
+            Some(stroke),
+            found.map(|found| Said::new(&found, &stroke)).map_err(|why| why.to_string()),
+        )
+    };
+    all.into_iter().enumerate().map(of_stroke).collect()
+}
+
+/// A sentence on a condition.
+fn told(one: &Condition) -> String {
+    let temperature = one.temperature.map_or(String::new(), |temperature| format!("{temperature:.0} °C, "));
+    let law = one.law.map_or(String::new(), |law| format!("{} velocity, ", law.name()));
+    let strokes = if one.strokes == 1 { "1 stroke".to_owned() } else { format!("{} strokes", one.strokes) };
+    let shares = Kind::ALL.iter().zip(one.shares).filter(|(_, share)| *share >= 0.005);
+    let shares: Vec<String> =
+        shares.map(|(kind, share)| format!("{} {:.0} %", kind.words(), 100.0 * share)).collect();
+    let at = one.vibration.map_or(String::new(), |[frequency, _]| format!(" at {frequency:.1} Hz"));
+    format!(
+        "{temperature}{law}{strokes}: vibrating {:.0} % of the time{at}; {}",
+        100.0 * one.vibrating,
+        shares.join(", ")
+    )
+}

@@ -1,0 +1,4 @@
+//! A campaign of braking tests: what each stroke of its records says, and what strokes of one condition have in common.
+
+pub mod condition;
+pub mod row;
