@@ -6,6 +6,7 @@ use crate::cli::signals::SignalOptions;
 use crate::cli::talk::{self, note, print};
 use clap::Args;
 use rayon::prelude::*;
+use squealmap::disk;
 use squealmap::study::campaign::condition::{Condition, conditions, conditions_csv};
 use squealmap::study::campaign::row::{Said, StrokeRow, VelocityLaw, strokes_csv};
 use squealmap_identify::{Kind, Settings, Stroke, identify, strokes};
@@ -79,8 +80,8 @@ fn listed(given: &[PathBuf]) -> Result<Vec<PathBuf>> {
         }
         let unreadable = |why: std::io::Error| Error::NoRecords { path: path.clone(), why: why.to_string() };
         let mut inside = Vec::new();
-        for entry in std::fs::read_dir(path).map_err(unreadable)? {
-            let entry = entry.map_err(unreadable)?.path();
+        for name in disk::door().names(path).map_err(unreadable)? {
+            let entry = path.join(name);
             let is_record = entry
                 .extension()
                 .is_some_and(|ending| ENDINGS.iter().any(|known| ending.eq_ignore_ascii_case(known)));
