@@ -1,6 +1,6 @@
 //! `conditions.csv`: what strokes of one temperature and one law of the velocity have in common.
 
-use crate::results::error::Error;
+use crate::results::csv::Table;
 use crate::study::campaign::row::{Said, StrokeRow, VelocityLaw};
 use crate::study::error::Result;
 use crate::sweep::columns::Cell;
@@ -91,17 +91,15 @@ fn together(some: &[&Said], law: Option<VelocityLaw>) -> Condition {
 /// # Errors
 /// When it cannot be written.
 pub fn conditions_csv(all: &[Condition]) -> Result<Vec<u8>> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    writer.write_record(COLUMNS).map_err(Error::WriteTable)?;
+    let mut table = Table::new(COLUMNS.iter())?;
     for one in all {
-        let number =
-            |value: Option<f64>| value.map_or_else(String::new, |value| Cell::Number(value).to_string());
+        let number = |value: Option<f64>| Cell::from(value).to_string();
         let mut cells = vec![number(one.temperature), one.law.map_or("", VelocityLaw::name).to_owned()];
         cells.push(one.strokes.to_string());
         cells.push(number(Some(one.vibrating)));
         cells.extend([0, 1].map(|which| number(one.vibration.map(|vibration| vibration[which]))));
         cells.extend(one.shares.map(|share| number(Some(share))));
-        writer.write_record(&cells).map_err(Error::WriteTable)?;
+        table.row(cells.into_iter())?;
     }
-    writer.into_inner().map_err(|why| Error::WriteTable(why.into_error().into()).into())
+    Ok(table.finish()?)
 }

@@ -1,6 +1,6 @@
 //! `strokes.csv`: a row for each stroke of a campaign.
 
-use crate::results::error::Error;
+use crate::results::csv::Table;
 use crate::study::error::Result;
 use crate::sweep::columns::Cell;
 use squealmap_identify::{Identification, Kind, Segment, State, Stroke, told};
@@ -143,15 +143,13 @@ impl Said {
 /// # Errors
 /// When it cannot be written.
 pub fn strokes_csv(rows: &[StrokeRow]) -> Result<Vec<u8>> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    writer.write_record(COLUMNS).map_err(Error::WriteTable)?;
+    let mut table = Table::new(COLUMNS.iter())?;
     for row in rows {
         let said = row.said.as_ref().ok();
-        let number =
-            |value: Option<f64>| value.map_or_else(String::new, |value| Cell::Number(value).to_string());
+        let number = |value: Option<f64>| Cell::from(value).to_string();
         let direction = row.stroke.map_or("", |stroke| if stroke.forward { "forward" } else { "back" });
         let ends = row.stroke.and_then(|stroke| stroke.quarters).map(|quarters| [quarters[0], quarters[3]]);
-        let shares = Kind::ALL.iter().enumerate().map(|(kind, _)| number(said.map(|said| said.shares[kind])));
+        let shares = Kind::ALL.map(|kind| number(said.map(|said| said.shares[kind as usize])));
         let mut cells = vec![row.record.clone(), row.number.to_string()];
         cells.extend([0, 1].map(|end| number(said.map(|said| said.time[end]))));
         cells.push(direction.to_owned());
@@ -163,7 +161,7 @@ pub fn strokes_csv(rows: &[StrokeRow]) -> Result<Vec<u8>> {
         cells.extend([0, 1].map(|which| number(said.and_then(|said| Some(said.vibration?[which])))));
         cells.extend(shares);
         cells.push(row.said.as_ref().err().map_or("ok", String::as_str).to_owned());
-        writer.write_record(&cells).map_err(Error::WriteTable)?;
+        table.row(cells.into_iter())?;
     }
-    writer.into_inner().map_err(|why| Error::WriteTable(why.into_error().into()).into())
+    Ok(table.finish()?)
 }

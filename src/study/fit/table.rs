@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::results::error::Error;
+use crate::results::csv::Table;
 use crate::study::error::Result;
 use crate::study::fit::Fit;
 use crate::sweep::columns::Cell;
@@ -82,12 +82,11 @@ fn span(points: &[Point], of: impl Fn(&Point) -> f64) -> String {
 /// # Errors
 /// When a row cannot be written.
 pub fn residuals_csv(fit: &Fit, points: &[Point]) -> Result<Vec<u8>> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    writer.write_record(RESIDUALS).map_err(Error::WriteTable)?;
+    let mut table = Table::new(RESIDUALS.iter())?;
     for (point, residual) in points.iter().zip(&fit.residuals) {
         let Point { velocity, temperature, friction } = *point;
         let row = [velocity, temperature, friction, friction - residual, *residual];
-        writer.write_record(row.map(|value| Cell::from(value).to_string())).map_err(Error::WriteTable)?;
+        table.row(row.into_iter().map(|value| Cell::from(value).to_string()))?;
     }
-    Ok(writer.into_inner().map_err(|why| Error::WriteTable(why.into_error().into()))?)
+    Ok(table.finish()?)
 }
