@@ -60,7 +60,9 @@ pub fn fill(
     watch: Watch,
 ) -> Result<Filled> {
     let began = Instant::now();
-    let (sender, receiver) = sync_channel(0);
+    // All but one of a group wait for the writer while the next is computed.
+    let tile = store.description.tiling.tile;
+    let (sender, receiver) = sync_channel(solver.busy_with(tile).div_ceil(tile.max(1)).saturating_sub(1));
     let mut filled = thread::scope(|scope| {
         let mut fill = |finish: &mut dyn FnMut(Finished) -> Result<()>| {
             let mut filling = Filling { store, solver, reuse, watch, finish, filled: Filled::default() };
