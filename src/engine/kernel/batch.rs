@@ -1,5 +1,9 @@
 //! The instances of a sweep as words of the linear kernel, and what it has made of them as their records.
 
+use std::sync::atomic::{AtomicU32, Ordering};
+
+use rayon::prelude::*;
+
 use crate::engine::error::{Error, Result};
 use crate::engine::instances::Instances;
 use crate::engine::judged::begun;
@@ -36,12 +40,13 @@ pub fn known(spec: &dyn Instances, index: usize) -> Known {
 /// The word-major inputs of those instances that need the kernel.
 #[must_use]
 pub fn inputs<R: Real>(known: &[Known]) -> Vec<R> {
-    let live: Vec<&Words> = known.iter().filter_map(|(_, words)| words.as_ref()).collect();
-    let word = |word: usize| live.iter().map(move |one| R::from_f64(one.inputs[word]));
-    let mut inputs = Vec::with_capacity(INPUT_WORDS * live.len());
-    for k in 0..INPUT_WORDS {
-        inputs.extend(word(k));
-    }
+    let live: Vec<&Words> = known.par_iter().filter_map(|(_, words)| words.as_ref()).collect();
+    let mut inputs = vec![R::ZERO; INPUT_WORDS * live.len()];
+    inputs.par_chunks_mut(live.len().max(1)).enumerate().for_each(|(word, column)| {
+        for (number, one) in column.iter_mut().zip(&live) {
+            *number = R::from_f64(one.inputs[word]);
+        }
+    });
     inputs
 }
 
@@ -56,26 +61,32 @@ pub fn take<R: Real>(
     (all_state, flags): (&[R], &[u32]),
     cancelled: bool,
 ) -> Result<()> {
-    let count = known.iter().filter(|(_, words)| words.is_some()).count();
-    let mut next = 0;
-    for (mut record, words) in known {
-        if let Some(words) = words {
-            let flag = |word: usize| flags[word * count + next];
-            let done = flag(FLAG_STEPS);
-            if cancelled && flag(FLAG_STATUS) == Status::Unwritten as u32 {
-                records.push(Record::NOT_COMPUTED);
-                next += 1;
-                continue;
-            }
-            if done != POLYNOMIALS {
-                let wanted = POLYNOMIALS as usize;
-                return Err(Error::Miscounted { kernel: KERNEL.name, found: done as usize, wanted });
-            }
-            let state: [f64; STATE_WORDS] = std::array::from_fn(|k| all_state[k * count + next].to_f64());
-            complete(&mut record, &words, state, flag(FLAG_STATUS), flag(FLAG_TYPE));
-            next += 1;
+    let mut count = 0;
+    let place = |(_, words): &Known| {
+        let place = count;
+        count += usize::from(words.is_some());
+        place
+    };
+    let places: Vec<usize> = known.iter().map(place).collect();
+    let miscounted = AtomicU32::new(POLYNOMIALS);
+    let record = |((mut record, words), place): (Known, usize)| {
+        let Some(words) = words else { return record };
+        let flag = |word: usize| flags[word * count + place];
+        if cancelled && flag(FLAG_STATUS) == Status::Unwritten as u32 {
+            return Record::NOT_COMPUTED;
         }
-        records.push(record);
+        if flag(FLAG_STEPS) != POLYNOMIALS {
+            miscounted.store(flag(FLAG_STEPS), Ordering::Relaxed);
+        }
+        let state: [f64; STATE_WORDS] = std::array::from_fn(|k| all_state[k * count + place].to_f64());
+        complete(&mut record, &words, state, flag(FLAG_STATUS), flag(FLAG_TYPE));
+        record
+    };
+    records.par_extend(known.into_par_iter().zip(places).map(record));
+    let found = miscounted.into_inner();
+    if found != POLYNOMIALS {
+        let wanted = POLYNOMIALS as usize;
+        return Err(Error::Miscounted { kernel: KERNEL.name, found: found as usize, wanted });
     }
     Ok(())
 }
