@@ -40,10 +40,28 @@ var<private> at: u32;
 var<private> disarmed: u32;
 var<private> at_once: u32;
 var<private> status: u32;
+// Steps of the leg, its section, the time left in the stretch, and the longest step that the last one lets expect.
+var<private> steps: u32;
+var<private> section: u32;
+var<private> left: real;
+var<private> pace: real;
 var<private> piece: Piece;
 // What the second and the third event function begin with, in units of the step.
 var<private> ahead: real;
 var<private> back: real;
+
+fn body_is_finite() -> bool {
+    return is_finite(px) && is_finite(py) && is_finite(pw) && is_finite(vx) && is_finite(vy) && is_finite(vw);
+}
+
+fn store_body(word: u32) {
+    store(word, instance, px);
+    store(word + 1u, instance, py);
+    store(word + 2u, instance, pw);
+    store(word + 3u, instance, vx);
+    store(word + 4u, instance, vy);
+    store(word + 5u, instance, vw);
+}
 
 fn piece_of(index: u32) -> Piece {
     let word = INPUT_PIECES + index * PIECE_WORDS;

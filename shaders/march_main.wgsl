@@ -1,4 +1,4 @@
-// The entry point of the march: settings.iterations steps of every running lane.
+// The entry point of the march: settings.iterations steps of every lane that is in this part of its run.
 
 fn load_lane() {
     px = load(STATE_BODY, instance);
@@ -14,6 +14,13 @@ fn load_lane() {
     if RAMP {
         drive = input(INPUT_DRIVE, instance);
     }
+    left = load(STATE_LEFT, instance);
+    pace = load(STATE_PACE, instance);
+    steps = flag(FLAG_STEPS, instance);
+    section = 0u;
+    if PART == PART_WINDOW {
+        section = flag(FLAG_SECTION, instance);
+    }
     contact = flag(FLAG_CONTACT, instance);
     at = flag(FLAG_PIECE, instance);
     disarmed = flag(FLAG_DISARMED, instance);
@@ -22,23 +29,18 @@ fn load_lane() {
 }
 
 fn store_lane() {
-    store(STATE_BODY, instance, px);
-    store(STATE_BODY + 1u, instance, py);
-    store(STATE_BODY + 2u, instance, pw);
-    store(STATE_BODY + 3u, instance, vx);
-    store(STATE_BODY + 4u, instance, vy);
-    store(STATE_BODY + 5u, instance, vw);
+    store_body(STATE_BODY);
     store(STATE_BELT, instance, belt);
     store(STATE_TIME, instance, time);
     store(STATE_PREVIOUS, instance, previous);
+    store(STATE_LEFT, instance, left);
+    store(STATE_PACE, instance, pace);
+    set_flag(FLAG_STEPS, instance, steps);
+    set_flag(FLAG_SECTION, instance, section);
     set_flag(FLAG_CONTACT, instance, contact);
     set_flag(FLAG_PIECE, instance, at);
     set_flag(FLAG_DISARMED, instance, disarmed);
     set_flag(FLAG_AT_ONCE, instance, at_once);
-}
-
-fn body_is_finite() -> bool {
-    return is_finite(px) && is_finite(py) && is_finite(pw) && is_finite(vx) && is_finite(vy) && is_finite(vw);
 }
 
 @compute @workgroup_size(WORKGROUP_SIZE)
@@ -48,21 +50,25 @@ fn main(
     @builtin(local_invocation_index) local: u32,
 ) {
     instance = instance_of(workgroup, workgroups, local);
-    if instance >= settings.count || flag(FLAG_STATUS, instance) != STATUS_UNWRITTEN {
+    if instance >= settings.count {
+        return;
+    }
+    if flag(FLAG_STATUS, instance) != STATUS_UNWRITTEN || flag(FLAG_PART, instance) != PART {
         return;
     }
     load_lane();
-    var left = load(STATE_LEFT, instance);
-    var pace = load(STATE_PACE, instance);
-    var steps = flag(FLAG_STEPS, instance);
+    var grows = PART == PART_GROWTH && flag(FLAG_GROWING, instance) == 1u;
     let tolerance = real(bitcast<f32>(setting(SETTING_TOLERANCE)));
     for (var i = 0u; i < settings.iterations; i++) {
-        if status != STATUS_UNWRITTEN {
+        if left <= 0.0 || (PART == PART_GROWTH && !grows) {
+            turn_over();
+        }
+        if status != STATUS_UNWRITTEN || left <= 0.0 || (PART == PART_GROWTH && !grows) {
             break;
         }
         let slips = contact <= REVERSE;
         let longest = input(INPUT_LONGEST + select(contact, 5u - contact, contact >= STICK), instance);
-        pace = min(min(pace, input(INPUT_STEP, instance)), longest);
+        pace = min(min(pace, input(INPUT_STEP + section, instance)), longest);
         var q = Friction(0.0, 0.0);
         var inertia = real(1.0);
         let sigma = select(real(-1.0), real(1.0), contact == SLIP);
@@ -128,7 +134,10 @@ fn main(
         let possible = reached.end * h;
         pace = select(select(pace, pace * LONGER, reached.roomy), possible, possible < asked);
         if event.function > 0u {
-            set_flag(FLAG_EVENTFUL, instance, 1u);
+            if PART == PART_WINDOW {
+                set_flag(FLAG_EVENTFUL, instance, 1u);
+            }
+            grows = false;
             set_flag(FLAG_GROWING, instance, 0u);
             at_once = select(at_once + 1u, 0u, event.at > 0.0);
             let counted = flag(FLAG_COUNTED, instance) + 1u;
@@ -138,7 +147,7 @@ fn main(
                 previous = max(previous, belt);
             }
             if contact == FREE {
-                pace = input(INPUT_STEP, instance);
+                pace = input(INPUT_STEP + section, instance);
                 if PART == PART_WINDOW {
                     set_flag(FLAG_IMPACTS, instance, flag(FLAG_IMPACTS, instance) + 1u);
                 }
@@ -147,18 +156,9 @@ fn main(
             if at_once > EVENTS_AT_ONCE || counted > flag(FLAG_MOST_EVENTS, instance) {
                 status = STATUS_EVENT_LIMIT;
             }
-            if PART == PART_GROWTH && status == STATUS_UNWRITTEN {
-                status = STATUS_OK;
-            }
-        }
-        if left <= 0.0 && status == STATUS_UNWRITTEN {
-            status = select(STATUS_NON_FINITE, STATUS_OK, body_is_finite());
         }
     }
     store_lane();
-    store(STATE_LEFT, instance, left);
-    store(STATE_PACE, instance, pace);
-    set_flag(FLAG_STEPS, instance, steps);
     if status != STATUS_UNWRITTEN {
         finish(instance, status);
     }

@@ -61,10 +61,20 @@ fn turned(z: vec2<real>, by: vec2<real>) -> vec2<real> {
 fn note(after: real) {
     let moment = time + after;
     let crossings = flag(FLAG_CROSSINGS, instance);
+    let number = flag(FLAG_STRETCH, instance);
+    let since = load(STATE_BASE, instance) + moment;
     if crossings == 0u {
         store(STATE_FIRST, instance, moment);
+        if PART == PART_WINDOW {
+            store(STATE_FROM, instance, since);
+            set_flag(FLAG_FIRST_IN, instance, number);
+        }
     }
     store(STATE_LAST, instance, moment);
+    if PART == PART_WINDOW {
+        store(STATE_TO, instance, since);
+        set_flag(FLAG_LAST_IN, instance, number);
+    }
     set_flag(FLAG_CROSSINGS, instance, crossings + 1u);
 }
 
@@ -200,7 +210,7 @@ fn observe_window(end: real, h: real) -> Motion {
     let rate = 1.0 / h;
     let flies = contact == FREE;
     let t0 = input(INPUT_T0, instance);
-    let origin = vec2<real>(load(STATE_ORIGIN, instance), load(STATE_ORIGIN + 1u, instance));
+    let origin = vec2<real>(load(STATE_START, instance), load(STATE_START + 2u, instance));
     let omega = load(STATE_OMEGA, instance);
     let scale = load(STATE_SCALE, instance);
     var carrier = vec2<real>(load(STATE_CARRIER, instance), load(STATE_CARRIER + 1u, instance));

@@ -1,5 +1,5 @@
 //! What the host does for each instance beside the kernels: processor time, allocations, bytes to and from the device, memory;
-//! and how busy the lanes are. On the map of `cargo bench --bench map`, with all columns.
+//! how long the device computes by its own clock and how long threads wait for it, and how busy the lanes are. On the map of `cargo bench --bench map`, with all columns.
 //!
 //! Processor time is that of the program's own threads: the pool's and the one that waits for the device. What a software driver
 //! does on threads of its own, kernels and copies, is told apart.
@@ -28,13 +28,16 @@ const CASES: [(&str, &str); 4] = [
     ("linear", ""),
 ];
 
-const HEADER: [&str; 14] = [
+const HEADER: [&str; 17] = [
+    "adapter",
     "case",
     "instances",
     "chunk",
     "date",
     "commit",
     "wall_s",
+    "device_s",
+    "waited_s",
     "driver_cpu_s",
     "host_us",
     "allocations",
@@ -46,7 +49,7 @@ const HEADER: [&str; 14] = [
 ];
 
 /// Columns that say which case a row is.
-const KEY: usize = 3;
+const KEY: usize = 4;
 
 /// Instances where none are asked for.
 const SIZE: usize = 40_000;
@@ -91,12 +94,15 @@ pub(crate) fn run(arguments: &[&str]) -> Result<(), Box<dyn Error>> {
             if whole == 0 { String::new() } else { format!("{:.1}", 100.0 * part as f64 / whole as f64) }
         };
         let fields = vec![
+            device.describe().name,
             name.to_owned(),
             count.to_string(),
             chunk.map_or("own".to_owned(), |chunk| chunk.to_string()),
             date(),
             COMMIT.unwrap_or("unknown").to_owned(),
             format!("{:.2}", taken.wall.as_secs_f64()),
+            format!("{:.2}", (after.computed - before.computed) as f64 * 1e-9),
+            format!("{:.2}", (after.waited - before.waited) as f64 * 1e-9),
             format!("{:.2}", taken.driver),
             each(taken.host * 1e6, 1),
             each(taken.allocations as f64, 1),

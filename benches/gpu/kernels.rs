@@ -38,8 +38,8 @@ pub(crate) fn all() -> Vec<Variant> {
 /// A part of the march for a belt of one velocity; straight laws of two pieces.
 fn march(name: &'static str, precision: Precision, part: Part, law: LawForm) -> Variant {
     let pieces = if law.is_straight() { 2 } else { 1 };
-    let form = Form { part, law, pieces, ramp: false };
-    let (kernel, choices) = form.kernel().expect("laws of two pieces have a kernel");
+    let form = Form { law, pieces, ramp: false };
+    let (kernel, choices) = form.kernel(part).expect("laws of two pieces have a kernel");
     variant(name, precision, kernel.source(precision, &choices))
 }
 

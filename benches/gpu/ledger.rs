@@ -94,15 +94,17 @@ impl Ledger {
         Ledger { threads: threads(), allocations: ALLOCATIONS.load(Ordering::Relaxed), began: Instant::now() }
     }
 
-    /// `own` are the program's threads; all others are those of a software driver, which runs kernels on some and takes
-    /// submissions on another.
+    /// `own` are the program's threads, and those of its crews, which have their name; all others are those of a software driver,
+    /// which runs kernels on some and takes submissions on another.
     pub(crate) fn close(self, own: &BTreeSet<u64>) -> Taken {
         let wall = self.began.elapsed();
         let allocations = ALLOCATIONS.load(Ordering::Relaxed) - self.allocations;
         let (mut host, mut driver) = (0.0, 0.0);
         for (number, seconds) in threads() {
             let before = self.threads.get(&number).copied().unwrap_or(0.0);
-            *(if own.contains(&number) { &mut host } else { &mut driver }) += seconds - before;
+            let name = fs::read_to_string(format!("/proc/self/task/{number}/comm")).unwrap_or_default();
+            let is_own = own.contains(&number) || name.starts_with("crew");
+            *(if is_own { &mut host } else { &mut driver }) += seconds - before;
         }
         Taken { wall, host, driver, allocations }
     }

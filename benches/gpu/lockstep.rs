@@ -55,7 +55,7 @@ fn measured<const W: usize>(steps: u32) -> Vec<Vec<String>> {
     let plan = plan(steps, ORDER, tolerance(Precision::F32, steps));
     let mut parts: BTreeMap<Option<Part>, Count> = BTreeMap::new();
     outcomes_seen::<f32, W>(&instances, &plan, |chunk| {
-        for part in [Some(chunk.form.part), None] {
+        for part in [Some(chunk.part), None] {
             let count = parts.entry(part).or_default();
             count.issued += chunk.count.issued;
             count.useful += chunk.count.useful;

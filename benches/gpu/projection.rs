@@ -17,6 +17,9 @@ const PERIODS: f64 = 140.0;
 /// The time that is aimed at, s.
 const AIM: f64 = 60.0;
 
+/// The adapter beside which the host was measured.
+const MEASURED: &str = "NVIDIA H100 80GB HBM3";
+
 /// Bytes of an instance in a tile with all columns of both analyses (`du` of the tiles of 14 400 instances).
 const ON_DISK: f64 = 229.0;
 
@@ -74,7 +77,10 @@ fn found(name: &str, key: &[(&str, &str)], column: &str) -> Result<f64, Box<dyn 
 /// Prints and keeps the rows.
 pub(crate) fn run() -> Result<(), Box<dyn Error>> {
     println!("| {} |\n|{}", HEADER.join(" | "), "---|".repeat(HEADER.len()));
-    let host = |column| found("gpu-host.csv", &[("case", "140 periods"), ("chunk", "own")], column);
+    let host = |column| {
+        let key = [("adapter", MEASURED), ("case", "140 periods"), ("chunk", "own")];
+        found("gpu-host.csv", &key, column)
+    };
     let [host_us, up, back] = [host("host_us")?, host("bytes_up")?, host("bytes_back")?];
     let mut rows = Vec::new();
     for card in &CARDS {

@@ -273,8 +273,9 @@ fn cancelled() -> Result<(), Failed> {
     spec.settle_limit = None;
     let whole = on_gpu(&spec, Precision::F32, None)?;
     let cancel = AtomicBool::new(false);
-    let options = Options { backend: Backend::Gpu, cancel: Some(&cancel), ..Options::default() };
-    // Instances with fewer events end in earlier dispatches of the one chunk.
+    // A few at a time, so that there are several rounds.
+    let options =
+        Options { backend: Backend::Gpu, chunk: Some(10), cancel: Some(&cancel), ..Options::default() };
     let map = run::run(spec, &options, &|_| cancel.store(true, Ordering::Relaxed))?;
     let computed = map.computed();
     println!("{computed} of {} instances were finished", map.records.len());
@@ -289,16 +290,17 @@ fn cancelled() -> Result<(), Failed> {
 /// Every instance that was told as done is kept, as it is; the chunks are those that a software adapter takes by itself,
 /// elsewhere they are asked for.
 fn keeps_told() -> Result<(), Failed> {
+    const MANY: usize = 12;
     let chunk = software_chunk();
     let software = Adapter::best(Precision::F32, None)?.may_be_software();
     let spec = spec(&format!(
         "[friction]\nmu_d = 0.3\nmu_s = 0.4\n[axes]\n\
          belt_velocity = {{ from = 1, to = 3, points = {} }}\n\
          [response]\nsettle = \"1 periods\"\nmeasure = \"1 periods\"\n",
-        4 * chunk
+        MANY * chunk
     ))?;
     let whole = on_gpu(&spec, Precision::F32, None)?;
-    assert_eq!(whole.computed(), 4 * chunk);
+    assert_eq!(whole.computed(), MANY * chunk);
     let (cancel, done) = (AtomicBool::new(false), AtomicUsize::new(0));
     let options = Options {
         backend: Backend::Gpu,
@@ -311,10 +313,10 @@ fn keeps_told() -> Result<(), Failed> {
             cancel.store(true, Ordering::Relaxed);
         }
     })?;
-    println!("{} of {} instances were finished, chunks of {chunk}", map.computed(), 4 * chunk);
+    println!("{} of {} instances were finished, chunks of {chunk}", map.computed(), MANY * chunk);
     assert_eq!(map.stopped, Some(Stopped::Cancelled));
     assert_eq!(map.computed(), done.into_inner());
-    assert!(chunk < map.computed() && map.computed() < 4 * chunk);
+    assert!(chunk < map.computed() && map.computed() < MANY * chunk);
     for (found, expected) in map.records.iter().zip(&whole.records) {
         assert!(*found == Record::NOT_COMPUTED || found == expected);
     }

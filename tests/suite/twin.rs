@@ -12,13 +12,14 @@ use squealmap::engine::kernel::source::{Kernel, PROGRESS_WORDS, SETTING_WORDS, S
 use squealmap::engine::lanes::Lanes;
 use squealmap::engine::lanes::job::Part;
 use squealmap::engine::lanes::march::{Settings as OfLanes, Terms};
-use squealmap::engine::march::marching::{Form, Marching, Stretch, Way};
+use squealmap::engine::march::marching::{Form, Marching, PARTS, Way};
 use squealmap::engine::march::table::{flag, state};
 use squealmap::engine::march::words::Words;
 use squealmap::engine::outcome::Outcome;
 use squealmap::engine::plan::Plan;
 use squealmap::engine::precision::Precision;
 use squealmap::model::instance::Instance;
+use squealmap::model::status::Status;
 use squealmap_lockstep::{Count, Program};
 
 /// Instances of a part of a chunk, each of which is a task of its own.
@@ -103,12 +104,12 @@ pub(crate) fn run<R: Real, const W: usize>(
 }
 
 /// A kernel as a program, made once.
-pub(crate) fn program(form: Form, precision: Precision) -> (&'static Kernel, Arc<Program>) {
-    type Made = BTreeMap<(Form, usize), Arc<Program>>;
+pub(crate) fn program(form: Form, part: Part, precision: Precision) -> (&'static Kernel, Arc<Program>) {
+    type Made = BTreeMap<(Form, Part, usize), Arc<Program>>;
     static MADE: LazyLock<Mutex<Made>> = LazyLock::new(Mutex::default);
-    let (kernel, choices) = form.kernel().expect("a kernel for the pieces of the law");
+    let (kernel, choices) = form.kernel(part).expect("a kernel for the pieces of the law");
     let mut made = MADE.lock().expect("nobody has panicked");
-    let program = made.entry((form, precision.bytes())).or_insert_with(|| {
+    let program = made.entry((form, part, precision.bytes())).or_insert_with(|| {
         Arc::new(Program::new(&kernel.source(precision, &choices)).expect("a kernel that compiles"))
     });
     (kernel, program.clone())
@@ -121,7 +122,7 @@ pub(crate) fn settings(way: &Way) -> [u32; SETTING_WORDS] {
     settings
 }
 
-/// Stretches that share a kernel, as word-major inputs, state and flags.
+/// Legs that share their kernels, as word-major inputs, state and flags.
 pub(crate) fn columns<R: Real>(rows: &[Words<R>]) -> (Vec<R>, (Vec<R>, Vec<u32>)) {
     fn by_word<T: Copy, W>(rows: &[W], of: impl Fn(&W) -> &[T]) -> Vec<T> {
         let words = rows.first().map_or(0, |row| of(row).len());
@@ -138,17 +139,20 @@ pub(crate) fn lane<R: Real>(result: &ChunkResult<R>, lane: usize) -> (Vec<R>, Ve
     (state, (0..flag::WORDS).map(|word| result.flags[of(word)]).collect())
 }
 
-/// Stretches that share a kernel.
+/// Legs that share their kernels.
 struct Group<R> {
     form: Form,
     marching: Vec<Marching<R>>,
     rows: Vec<Words<R>>,
 }
 
-/// Stretches by their kernels, each group in the order of its instances.
-fn groups<R>(stretches: Vec<(Marching<R>, Stretch<R>)>) -> Vec<Group<R>> {
+/// A leg of an instance: its kernels and its words.
+type Begun<R> = (Marching<R>, Form, Words<R>);
+
+/// Legs by their kernels, each group in the order of its instances.
+fn groups<R>(legs: Vec<Begun<R>>) -> Vec<Group<R>> {
     let mut groups: BTreeMap<Form, Group<R>> = BTreeMap::new();
-    for (one, (form, words)) in stretches {
+    for (one, form, words) in legs {
         let new = || Group { form, marching: Vec::new(), rows: Vec::new() };
         let group = groups.entry(form).or_insert_with(new);
         group.marching.push(one);
@@ -157,9 +161,10 @@ fn groups<R>(stretches: Vec<(Marching<R>, Stretch<R>)>) -> Vec<Group<R>> {
     groups.into_values().collect()
 }
 
-/// A chunk of stretches that share a kernel, and what the twin makes of it.
+/// A part of the legs of a chunk that share their kernels, and what the twin makes of it.
 pub(crate) struct Chunk<R> {
     pub(crate) form: Form,
+    pub(crate) part: Part,
     pub(crate) inputs: Vec<R>,
     pub(crate) before: (Vec<R>, Vec<u32>),
     pub(crate) result: ChunkResult<R>,
@@ -167,7 +172,39 @@ pub(crate) struct Chunk<R> {
     pub(crate) count: Count,
 }
 
-/// The responses of some instances in warps of `W`; `seen` gets every chunk.
+impl<R> Chunk<R> {
+    /// How many lanes have come to the part.
+    pub(crate) fn begun(&self) -> usize {
+        let flags = &self.before.1;
+        let lanes = flags.len() / flag::WORDS;
+        let is_here = |lane: &usize| {
+            let of = |word: usize| flags[word * lanes + lane];
+            of(flag::STATUS) == Status::Unwritten as u32 && of(flag::PART) == self.part as u32
+        };
+        (0..lanes).filter(is_here).count()
+    }
+}
+
+/// Runs legs that share their kernels through the parts of a run; `seen` gets every part.
+pub(crate) fn run_leg<R: Real, const W: usize>(
+    form: Form,
+    rows: &[Words<R>],
+    settings: [u32; SETTING_WORDS],
+    mut seen: impl FnMut(Chunk<R>),
+) -> ChunkResult<R> {
+    let (inputs, before) = columns(rows);
+    let mut result = ChunkResult { state: before.0, flags: before.1, cancelled: false };
+    for part in PARTS {
+        let (kernel, program) = program(form, part, R::PRECISION);
+        let before = (result.state, result.flags);
+        let (next, count) = run::<R, W>(&program, kernel, &inputs, Some(&before), settings);
+        result = next.clone();
+        seen(Chunk { form, part, inputs: inputs.clone(), before, result: next, count });
+    }
+    result
+}
+
+/// The responses of some instances in warps of `W`; `seen` gets every part of every leg.
 pub(crate) fn outcomes_seen<R: Lanes, const W: usize>(
     instances: &[Instance],
     plan: &Plan,
@@ -183,23 +220,21 @@ pub(crate) fn outcomes_seen<R: Lanes, const W: usize>(
         }
     }
     while !going.is_empty() {
-        let mut stretches = Vec::new();
+        let mut legs = Vec::new();
         for mut one in going.drain(..) {
-            match one.next(&way) {
-                Some(stretch) => stretches.push((one, stretch)),
+            let mut words = Words::blank();
+            match one.next(&way, &mut words) {
+                Some(form) => legs.push((one, form, words)),
                 None => over.push(one),
             }
         }
-        for Group { form, marching, rows } in groups(stretches) {
-            let (kernel, program) = program(form, R::PRECISION);
-            let (inputs, before) = columns(&rows);
-            let (result, count) = run::<R, W>(&program, kernel, &inputs, Some(&before), settings(&way));
+        for Group { form, marching, rows } in groups(legs) {
+            let result = run_leg::<R, W>(form, &rows, settings(&way), &mut seen);
             for (index, mut one) in marching.into_iter().enumerate() {
                 let (words, flags) = lane(&result, index);
-                one.take(&words, &flags).expect("a lane that the kernel has ended");
+                one.take(&words, &flags).expect("a lane that the kernels have ended");
                 going.push(one);
             }
-            seen(Chunk { form, inputs, before, result, count });
         }
     }
     let cancel = AtomicBool::new(false);

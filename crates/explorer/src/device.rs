@@ -14,8 +14,10 @@ use squealmap::engine::kernel::batch::{self, Known};
 use squealmap::engine::kernel::linear::KERNEL;
 use squealmap::engine::kernel::source::{Constant, Kernel, SETTING_WORDS, Settings};
 use squealmap::engine::lanes::again::records_again;
-use squealmap::engine::march::flow::{Asked, Flow, Place};
+use squealmap::engine::march::asked::{Asked, Tally};
+use squealmap::engine::march::flow::{Flow, Place};
 use squealmap::engine::march::kernel::kernel_for;
+use squealmap::engine::march::marching::PARTS;
 use squealmap::engine::march::round::{ALIGNED, Round};
 use squealmap::engine::precision::Precision;
 use squealmap::engine::record::Record;
@@ -53,6 +55,7 @@ enum Stage {
 #[derive(Debug)]
 struct Transients {
     flow: Flow<f32>,
+    tally: Tally,
     lanes: Vec<Place<f32>>,
     round: Round<f32>,
 }
@@ -116,14 +119,17 @@ impl OnDevice {
                 if !self.spec.response() {
                     return Ok(self.done());
                 }
-                let flow = Flow::new(&self.spec);
-                let going = Transients { flow, lanes: Vec::new(), round: Round::new() };
+                let flow = Flow::new(&self.spec, Vec::new());
+                let tally = Tally::default();
+                let going = Transients { flow, tally, lanes: Vec::new(), round: Round::new(true) };
                 self.stage = Stage::Transients(Box::new(going));
             }
             Stage::Transients(going) => {
-                let Transients { flow, lanes, round } = &mut **going;
+                let Transients { flow, tally, lanes, round } = &mut **going;
                 let (state, flags) = split(&back, [round.state.len(), round.flags.len()])?;
-                let (_, ended) = round.collect(lanes, (&state, flags), |lane, steps| flow.take(lane, steps));
+                let asked = Asked::new(&self.spec, 0, &mut self.records, tally);
+                let take = |lane: &mut Place<f32>, steps| flow.take(&asked, lane, steps);
+                let (_, ended) = round.collect(lanes, (&state, flags), take);
                 ended.map_err(|why| why.to_string())?;
             }
         }
@@ -133,34 +139,37 @@ impl OnDevice {
     /// The next round of the transients.
     fn next_round(&mut self, steps: u32) -> Answer {
         let Stage::Transients(going) = &mut self.stage else { return self.done() };
-        let Transients { flow, lanes, round } = &mut **going;
-        let mut asked = Asked { spec: &self.spec, first: 0, records: &mut self.records };
+        let Transients { flow, tally, lanes, round } = &mut **going;
+        let asked = Asked::new(&self.spec, 0, &mut self.records, tally);
         loop {
-            flow.turn_over(&mut asked, lanes, MOST_LANES);
-            flow.finish(&mut asked);
+            flow.finish(&asked, lanes);
+            flow.turn_over(&asked, lanes, MOST_LANES);
             if !lanes.is_empty() {
                 break;
             }
-            if !flow.has_more(&asked) {
+            if !asked.has_more() {
                 records_again(&self.spec, 0, &mut self.records, &AtomicBool::new(false));
                 return self.done();
             }
         }
         round.stage(lanes);
-        let Round { groups, inputs, state, flags } = round;
+        let Round { groups, inputs, state, flags, .. } = round;
         let mut heads = Vec::new();
         let mut dispatches = Vec::new();
         for group in groups.iter() {
-            let Some((kernel, choices)) = group.form.kernel() else { continue };
+            let Some((kernel, _)) = kernel_for(group.form.pieces) else { continue };
             let most = (MOST_LOOPS / kernel.loops_per_step.max(1)).max(1);
-            heads.extend(group.head(steps.clamp(1, most), flow.settings()));
-            dispatches.push(Dispatch {
-                kernel,
-                choices,
-                first: group.first,
-                words: group.words(),
-                count: group.lanes,
-            });
+            let head = group.head(steps.clamp(1, most), flow.settings());
+            for (kernel, choices) in PARTS.into_iter().filter_map(|part| group.form.kernel(part)) {
+                heads.extend(&head);
+                dispatches.push(Dispatch {
+                    kernel,
+                    choices,
+                    first: group.first,
+                    words: group.words(),
+                    count: group.lanes,
+                });
+            }
         }
         sent(&mut self.told, [inputs, state], flags, heads, dispatches)
     }

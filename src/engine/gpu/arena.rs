@@ -1,17 +1,21 @@
-//! Lanes of a device: buffers that stay, and one dispatch at a time of every group of lanes that share a kernel.
+//! Lanes of a device: buffers that stay, and one dispatch at a time of every part of a run for every group of lanes that share
+//! their kernels.
 
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use crate::engine::error::{Error, Result};
 use crate::engine::gpu::buffers::Buffers;
 use crate::engine::gpu::chunks::Session;
+use crate::engine::gpu::clock::{Clock, MOMENTS};
 use crate::engine::gpu::device::Device;
+use crate::engine::gpu::kernel::Compiled;
 use crate::engine::gpu::run::{FIRST, adapted, most_steps, workgroups};
 use crate::engine::kernel::scalar::Real;
 use crate::engine::kernel::source::{PROGRESS_WORDS, SETTING_WORDS, Settings};
-use crate::engine::march::marching::Form;
+use crate::engine::march::kernel::kernel_for;
+use crate::engine::march::marching::{Form, PARTS};
 use crate::engine::march::round::{ALIGNED, Group, Lane, Round};
 
 /// Buffers are made larger than they have to be by one part in so many.
@@ -20,10 +24,11 @@ const SPARE: usize = 4;
 /// What is known of the time of a step is trusted less by this factor in each round.
 const FORGOTTEN: f64 = 1.1;
 
-/// Most steps of a round: a few times those of a stretch.
-const MOST_STEPS: u32 = 1024;
+/// Most steps of a part of a run in a round: more than most take of any.
+const MOST_STEPS: u32 = 2048;
 
 /// Lanes on a device.
+#[derive(Debug)]
 pub(super) struct Arena<R> {
     device: Device,
     /// None before the first round.
@@ -34,7 +39,9 @@ pub(super) struct Arena<R> {
     /// The time of a step of all lanes, s, as far as is known.
     step: f64,
     submitted: Option<(wgpu::SubmissionIndex, Instant)>,
-    ready: Arc<AtomicBool>,
+    clock: Option<Clock>,
+    /// How many of the buffers of the round under way the host may read and write again.
+    mapped: Arc<AtomicUsize>,
 }
 
 impl<R: Real> Arena<R> {
@@ -43,23 +50,25 @@ impl<R: Real> Arena<R> {
         Arena {
             device: device.clone(),
             buffers: None,
-            round: Round::new(),
-            // A dispatch of a software driver ends with its stretches, however long that takes on cores that others use, too.
+            round: Round::new(false),
+            // A dispatch of a software driver takes what it takes, on cores that others use, too.
             steps: if device.is_software() { MOST_STEPS } else { FIRST },
             step: f64::INFINITY,
             submitted: None,
-            ready: Arc::default(),
+            clock: Clock::new(device),
+            mapped: Arc::default(),
         }
     }
 
-    /// Whether a round is under way.
-    pub(super) fn is_busy(&self) -> bool {
-        self.submitted.is_some()
-    }
-
-    /// Whether the round under way has come to its end, as far as is known.
-    pub(super) fn is_ready(&self) -> bool {
-        self.submitted.is_some() && self.ready.load(Ordering::Acquire)
+    /// Waits for the end of the round under way. What is wrong with its device comes to light in [`Arena::collect`].
+    pub(super) fn wait(&self) {
+        let Some((index, began)) = &self.submitted else { return };
+        let mut waits = self.device.wait_for(index.clone());
+        // Both, that which is sent and that which comes back; another thread may be about to tell of them.
+        while waits.is_ok() && self.mapped.load(Ordering::Acquire) < 2 {
+            waits = self.device.listen(began.elapsed());
+            std::thread::yield_now();
+        }
     }
 
     /// Begins a round: every lane goes on for some steps. The lanes are sorted by their kernels.
@@ -68,87 +77,115 @@ impl<R: Real> Arena<R> {
     /// When the device fails or is lost.
     pub(super) fn submit<T: Sync>(
         &mut self,
-        session: &mut Session,
-        lanes: &mut [Box<Lane<R, T>>],
+        session: &Mutex<&mut Session>,
+        lanes: &mut [Lane<R, T>],
         settings: [u32; SETTING_WORDS],
     ) -> Result<()> {
         self.round.stage(lanes);
-        let compiled: Vec<usize> =
-            self.round.groups.iter().map(|group| compiled(session, group.form)).collect::<Result<_>>()?;
-        let Round { inputs, state, flags, .. } = &self.round;
-        let sizes = [size_of_val(&inputs[..]), size_of_val(&state[..]), size_of_val(&flags[..])];
+        let kernels = {
+            let mut session = session.lock().unwrap_or_else(PoisonError::into_inner);
+            let groups = self.round.groups.iter();
+            groups.map(|group| compiled(&mut session, group.form)).collect::<Result<Vec<_>>>()?
+        };
+        let [inputs, state, flags] = self.round.words();
+        let sizes = [inputs * size_of::<R>(), state * size_of::<R>(), flags * size_of::<u32>()];
         let buffers = match self.buffers.take().filter(|had| (0..3).all(|k| sizes[k] <= had.sizes[k])) {
             Some(large_enough) => large_enough,
             None => Buffers::new(&self.device, sizes.map(|size| size + size / SPARE))?,
         };
-        let start = || self.start(&buffers, session, &compiled, settings);
+        let start = || self.start(&buffers, &kernels, settings);
         let index = self.device.checked("starting a round", start)??;
         self.buffers = Some(buffers);
         self.submitted = Some((index, Instant::now()));
         Ok(())
     }
 
-    /// Sends what is staged, dispatches every group and asks for what comes of it.
+    /// Sends what is staged, dispatches the parts of a run of every group and asks for what comes of them.
     fn start(
         &self,
         buffers: &Buffers,
-        session: &Session,
-        compiled: &[usize],
+        kernels: &[Vec<Compiled>],
         settings: [u32; SETTING_WORDS],
     ) -> Result<wgpu::SubmissionIndex> {
-        let heads: Vec<u8> = self.round.groups.iter().flat_map(|group| self.head(group, settings)).collect();
-        let sections: [(&[u8], &wgpu::Buffer); 4] = [
-            (bytemuck::cast_slice(&self.round.inputs), &buffers.inputs),
-            (bytemuck::cast_slice(&self.round.state), &buffers.state),
-            (bytemuck::cast_slice(&self.round.flags), &buffers.flags),
-            (&heads, &buffers.settings),
-        ];
-        let total = sections.iter().map(|(bytes, _)| bytes.len()).sum::<usize>();
+        let Round { groups, inputs, state, flags, .. } = &self.round;
+        let heads: Vec<u8> = groups.iter().flat_map(|group| self.head(group, settings)).collect();
+        let sections: [&[u8]; 4] =
+            [bytemuck::cast_slice(inputs), bytemuck::cast_slice(state), bytemuck::cast_slice(flags), &heads];
+        let total = sections.iter().map(|bytes| bytes.len()).sum::<usize>();
         {
             let mut view = buffers.up.get_mapped_range_mut(..total as u64).map_err(|why| unmapped(&why))?;
             let mut at = 0;
-            for (bytes, _) in sections {
+            for bytes in sections {
                 view.slice(at..at + bytes.len()).copy_from_slice(bytes);
                 at += bytes.len();
             }
         }
         buffers.up.unmap();
         let mut encoder = self.device.raw.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let targets =
+            [(&buffers.inputs, size_of::<R>()), (&buffers.state, size_of::<R>()), (&buffers.flags, 4)];
         let mut at = 0;
-        for (bytes, buffer) in sections {
-            encoder.copy_buffer_to_buffer(&buffers.up, at, buffer, 0, bytes.len() as u64);
-            at += bytes.len() as u64;
+        for (k, (buffer, size)) in targets.into_iter().enumerate() {
+            for group in groups {
+                let (words, sent) = (group.words()[k], group.words_sent()[k]);
+                let [from, to, sent, words] =
+                    [group.sent[k], group.first[k], sent, words].map(|count| (count * size) as u64);
+                encoder.copy_buffer_to_buffer(&buffers.up, at + from, buffer, to, sent);
+                if words > sent {
+                    encoder.clear_buffer(buffer, to + sent, Some(words - sent));
+                }
+            }
+            at += sections[k].len() as u64;
         }
+        encoder.copy_buffer_to_buffer(&buffers.up, at, &buffers.settings, 0, heads.len() as u64);
         {
-            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-            for (number, (group, compiled)) in self.round.groups.iter().zip(compiled).enumerate() {
-                let compiled = session.at(*compiled);
-                pass.set_pipeline(&compiled.pipeline);
-                pass.set_bind_group(0, &self.bind(buffers, &compiled.layout, group, number), &[]);
-                let most = self.device.limits().max_compute_workgroups_per_dimension;
-                let (x, y) = workgroups(group.lanes, most);
-                pass.dispatch_workgroups(x, y, 1);
+            let timestamp_writes = self.clock.as_ref().map(Clock::writes);
+            let mut pass =
+                encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: None, timestamp_writes });
+            for part in 0..PARTS.len() {
+                for (number, (group, kernels)) in groups.iter().zip(kernels).enumerate() {
+                    let compiled = &kernels[part];
+                    pass.set_pipeline(&compiled.pipeline);
+                    pass.set_bind_group(0, &self.bind(buffers, &compiled.layout, group, number), &[]);
+                    let most = self.device.limits().max_compute_workgroups_per_dimension;
+                    let (x, y) = workgroups(group.lanes, most);
+                    pass.dispatch_workgroups(x, y, 1);
+                }
             }
         }
-        let [state, flags] = [sections[1].0.len() as u64, sections[2].0.len() as u64];
+        let [state, flags] = self.back();
         encoder.copy_buffer_to_buffer(&buffers.state, 0, &buffers.back, 0, state);
         encoder.copy_buffer_to_buffer(&buffers.flags, 0, &buffers.back, state, flags);
+        let mut all = state + flags;
+        if let Some(clock) = &self.clock {
+            clock.read(&mut encoder, &buffers.back, all);
+            all += MOMENTS;
+        }
         let index = self.device.queue.submit([encoder.finish()]);
-        self.ready.store(false, Ordering::Release);
-        let ready = Arc::clone(&self.ready);
-        buffers.up.map_async(wgpu::MapMode::Write, .., |_| {});
-        buffers
-            .back
-            .map_async(wgpu::MapMode::Read, ..state + flags, move |_| ready.store(true, Ordering::Release));
-        self.device.meter.carry(total, sections[1].0.len() + sections[2].0.len());
+        self.mapped.store(0, Ordering::Release);
+        let tell = || {
+            let mapped = Arc::clone(&self.mapped);
+            move |_| {
+                mapped.fetch_add(1, Ordering::AcqRel);
+            }
+        };
+        buffers.up.map_async(wgpu::MapMode::Write, .., tell());
+        buffers.back.map_async(wgpu::MapMode::Read, ..all, tell());
+        #[expect(clippy::cast_possible_truncation, reason = "it was a size")]
+        self.device.meter.carry(total, (state + flags) as usize);
         Ok(index)
+    }
+
+    /// Bytes of the state and of the flags that come back.
+    fn back(&self) -> [u64; 2] {
+        let [_, state, flags] = self.round.words();
+        [state * size_of::<R>(), flags * size_of::<u32>()].map(|size| size as u64)
     }
 
     /// The settings of a group, with what lies between them and the next.
     fn head(&self, group: &Group, settings: [u32; SETTING_WORDS]) -> Vec<u8> {
-        let steps =
-            self.steps.min(group.form.kernel().map_or(1, |(kernel, _)| most_steps(&self.device, kernel)));
-        group.head(steps, settings)
+        let most = kernel_for(group.form.pieces).map_or(1, |(kernel, _)| most_steps(&self.device, kernel));
+        group.head(self.steps.min(most), settings)
     }
 
     /// The buffers bound for a group.
@@ -183,34 +220,43 @@ impl<R: Real> Arena<R> {
         })
     }
 
-    /// Waits for the end of the round under way and gives every lane to `take`, with the steps that it has gone.
+    /// Takes the end of the round that was under way and gives every lane to `take`, with the steps that it has gone.
     ///
     /// # Errors
-    /// When the device is lost or does not answer; the first of `take`.
+    /// When the device was lost or does not answer; the first of `take`.
     pub(super) fn collect<T: Send>(
         &mut self,
-        lanes: &mut [Box<Lane<R, T>>],
+        lanes: &mut [Lane<R, T>],
         take: impl Fn(&mut Lane<R, T>, u32) -> Result<()> + Sync,
     ) -> Result<()> {
         let (Some((index, began)), Some(buffers)) = (self.submitted.take(), &self.buffers) else {
             return Ok(());
         };
         self.device.wait_for(index)?;
-        let bytes = size_of_val(&self.round.state[..]);
-        let all = bytes + size_of_val(&self.round.flags[..]);
-        let (taken, ended) = {
-            let view = buffers.back.get_mapped_range(..all as u64).map_err(|why| unmapped(&why))?;
-            let words = (bytemuck::cast_slice(&view[..bytes]), bytemuck::cast_slice(&view[bytes..]));
+        // A host that is busy elsewhere comes late: the clock of the device knows better, where it has one.
+        let mut elapsed = began.elapsed();
+        let [state, flags] = self.back();
+        let (steps, ended) = {
+            let all = state + flags + if self.clock.is_some() { MOMENTS } else { 0 };
+            let view = buffers.back.get_mapped_range(..all).map_err(|why| unmapped(&why))?;
+            let [_, of_state, of_flags] = self.round.words();
+            let (state, others) = view.split_at(size_of::<R>() * of_state);
+            let (flags, moments) = others.split_at(size_of::<u32>() * of_flags);
+            if let Some(clock) = &self.clock {
+                let computed = clock.between(moments);
+                self.device.meter.compute(computed);
+                elapsed = Duration::from_secs_f64(1e-9 * computed);
+            }
+            let words = (bytemuck::cast_slice(state), bytemuck::cast_slice(flags));
             self.round.collect(lanes, words, take)
         };
-        self.device.meter.step(taken.steps, taken.of_warps);
+        self.device.meter.step(steps.gone, steps.of_warps);
         buffers.back.unmap();
-        // A host that is busy elsewhere comes late, and a device may have waited for another arena: the shortest time counts,
-        // and is forgotten by and by.
+        // A device may have waited for another arena: the shortest time counts, and is forgotten by and by.
         if self.device.is_software() {
             return ended;
         }
-        let step = began.elapsed().as_secs_f64() / f64::from(self.steps);
+        let step = elapsed.as_secs_f64() / f64::from(self.steps);
         self.step = step.min(self.step * FORGOTTEN);
         self.steps = adapted(self.steps, Duration::from_secs_f64(self.step * f64::from(self.steps)));
         self.steps = self.steps.clamp(1, MOST_STEPS);
@@ -218,10 +264,14 @@ impl<R: Real> Arena<R> {
     }
 }
 
-/// The place of the kernel of a form.
-fn compiled(session: &mut Session, form: Form) -> Result<usize> {
-    let (kernel, choices) = form.kernel().ok_or(Error::Unwritten { instance: 0 })?;
-    session.compiled(kernel, &choices)
+/// The kernels of a form, one for each part of a run.
+fn compiled(session: &mut Session, form: Form) -> Result<Vec<Compiled>> {
+    let kernel = |part| {
+        let (kernel, choices) = form.kernel(part).ok_or(Error::Unwritten { instance: 0 })?;
+        let place = session.compiled(kernel, &choices)?;
+        Ok(session.at(place).clone())
+    };
+    PARTS.into_iter().map(kernel).collect()
 }
 
 /// The error of a buffer that is not mapped.

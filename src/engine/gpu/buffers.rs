@@ -5,10 +5,11 @@ use crate::engine::gpu::device::Device;
 use crate::engine::kernel::source::PROGRESS_WORDS;
 use crate::engine::march::round::ALIGNED;
 
-/// Most groups of a round: by parts, forms of laws, numbers of pieces, ramps.
+/// Most groups of a round: by forms of laws, numbers of pieces, ramps, and whether their legs have begun.
 const GROUPS: usize = 128;
 
 /// Buffers of a device, of so many bytes.
+#[derive(Debug)]
 pub(super) struct Buffers {
     pub(super) sizes: [usize; 3],
     pub(super) inputs: wgpu::Buffer,
@@ -47,7 +48,7 @@ impl Buffers {
                 settings: buffer("settings", settings, Usage::UNIFORM | Usage::COPY_DST, false),
                 progress: buffer("progress", PROGRESS_WORDS * 4, Usage::STORAGE, false),
                 up: buffer("up", all, Usage::MAP_WRITE | Usage::COPY_SRC, true),
-                back: buffer("back", state + flags, Usage::MAP_READ | Usage::COPY_DST, false),
+                back: buffer("back", state + flags + ALIGNED, Usage::MAP_READ | Usage::COPY_DST, false),
             }
         })
     }

@@ -42,14 +42,15 @@ pub struct Batch<R, T> {
 pub struct Session {
     device: Device,
     compiled: Vec<(Choices, Compiled)>,
-    lost_once: bool,
+    /// How many times it was opened again.
+    opened_again: u32,
 }
 
 impl Session {
     /// An open device, no kernel yet.
     #[must_use]
     pub fn new(device: Device) -> Session {
-        Session { device, compiled: Vec::new(), lost_once: false }
+        Session { device, compiled: Vec::new(), opened_again: 0 }
     }
 
     /// The device in use.
@@ -137,9 +138,10 @@ impl Session {
     /// # Errors
     /// When it is lost for the second time, or cannot be opened.
     pub(super) fn reopen(&mut self, why: String, [done, total]: [usize; 2]) -> Result<()> {
-        if std::mem::replace(&mut self.lost_once, true) {
+        if self.opened_again > 0 {
             return Err(Error::DeviceLostAgain { why, done, total });
         }
+        self.opened_again += 1;
         self.device = self.device.reopen()?;
         self.compiled.clear();
         Ok(())
@@ -155,6 +157,11 @@ impl Session {
             Err(Error::Cancelled { total, .. }) => Ok(ChunkResult::nothing(kernel, total)),
             other => other,
         }
+    }
+
+    /// How many times the device was opened again.
+    pub(super) fn opened_again(&self) -> u32 {
+        self.opened_again
     }
 
     /// The kernel at a place.

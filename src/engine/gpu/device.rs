@@ -52,7 +52,8 @@ impl Device {
     pub fn open(adapter: &Adapter, arithmetic: impl Into<Arithmetic>) -> Result<Device> {
         let arithmetic = arithmetic.into();
         let description = adapter.describe();
-        let mut features = wgpu::Features::empty();
+        // It tells how long it computes, where it can.
+        let mut features = adapter.raw.features() & wgpu::Features::TIMESTAMP_QUERY;
         if arithmetic.precision == Precision::F64 {
             if !description.f64 {
                 return Err(Error::NoF64 { adapter: description.to_string() });
@@ -169,16 +170,28 @@ impl Device {
         self.wait_until(Some(submission))
     }
 
-    /// Hears of what has come to its end, without waiting for it.
-    pub(super) fn listen(&self) {
-        // A loss is told by whatever is asked next.
-        let _ = self.raw.poll(wgpu::PollType::Poll);
+    /// Hears of what has come to its end, without waiting for it: for something that was submitted so long ago.
+    ///
+    /// # Errors
+    /// When the device is lost or does not answer.
+    pub(super) fn listen(&self, since: Duration) -> Result<()> {
+        let polled = self.raw.poll(wgpu::PollType::Poll);
+        self.alive()?;
+        polled.map_err(|why| Error::DeviceLost { why: why.to_string() })?;
+        if since > self.patience() {
+            return Err(Error::DeviceLost { why: wgpu::PollError::Timeout.to_string() });
+        }
+        Ok(())
+    }
+
+    /// How long a submission may take.
+    fn patience(&self) -> Duration {
+        if self.adapter.is_software() { SOFTWARE_PATIENCE } else { PATIENCE }
     }
 
     fn wait_until(&self, submission_index: Option<wgpu::SubmissionIndex>) -> Result<()> {
-        let patience = if self.adapter.is_software() { SOFTWARE_PATIENCE } else { PATIENCE };
-        let wait = wgpu::PollType::Wait { submission_index, timeout: Some(patience) };
-        let polled = self.raw.poll(wait);
+        let wait = wgpu::PollType::Wait { submission_index, timeout: Some(self.patience()) };
+        let polled = self.meter.wait(|| self.raw.poll(wait));
         self.alive()?;
         polled.map(|_| ()).map_err(|why| Error::DeviceLost { why: why.to_string() })
     }

@@ -9,8 +9,8 @@ use crate::engine::gpu::strict;
 use crate::engine::kernel::source::{BINDINGS, Constant, Kernel, Settings};
 use crate::engine::kernel::spirv::Strict;
 
-/// A kernel ready to be dispatched.
-#[derive(Debug)]
+/// A kernel ready to be dispatched; clones are the same kernel.
+#[derive(Clone, Debug)]
 pub struct Compiled {
     /// The kernel that it was compiled from.
     pub kernel: Kernel,

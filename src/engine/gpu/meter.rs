@@ -1,6 +1,7 @@
 //! What a device was given to do, counted for the benches.
 
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::Instant;
 
 #[doc(inline)]
 pub use crate::engine::march::round::WARP;
@@ -14,6 +15,8 @@ pub(super) struct Meter {
     of_warps: AtomicU64,
     lanes: AtomicU64,
     room: AtomicU64,
+    computed: AtomicU64,
+    waited: AtomicU64,
 }
 
 /// What a [`Device`](crate::engine::gpu::device::Device) has done since it was opened.
@@ -31,6 +34,10 @@ pub struct Metered {
     pub lanes: u64,
     /// Lanes that there was room for.
     pub room: u64,
+    /// Time that it computed transients, ns; 0 where it does not tell.
+    pub computed: u64,
+    /// Time that the host waited for it, ns.
+    pub waited: u64,
 }
 
 impl Meter {
@@ -49,6 +56,20 @@ impl Meter {
         self.room.fetch_add(room as u64, Ordering::Relaxed);
     }
 
+    pub(super) fn compute(&self, nanoseconds: f64) {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
+        self.computed.fetch_add(nanoseconds as u64, Ordering::Relaxed);
+    }
+
+    /// Counts the time of what waits for the device.
+    pub(super) fn wait<T>(&self, waits: impl FnOnce() -> T) -> T {
+        let began = Instant::now();
+        let waited = waits();
+        let nanoseconds = u64::try_from(began.elapsed().as_nanos()).unwrap_or(u64::MAX);
+        self.waited.fetch_add(nanoseconds, Ordering::Relaxed);
+        waited
+    }
+
     pub(super) fn read(&self) -> Metered {
         let of = |counter: &AtomicU64| counter.load(Ordering::Relaxed);
         Metered {
@@ -58,6 +79,8 @@ impl Meter {
             of_warps: of(&self.of_warps),
             lanes: of(&self.lanes),
             room: of(&self.room),
+            computed: of(&self.computed),
+            waited: of(&self.waited),
         }
     }
 }

@@ -12,7 +12,7 @@
 //! - [`response`]: the time integration of a sweep.
 //! - `stream.rs`: the instances of a sweep that pass through the lanes of one device or several.
 //! - `arena.rs`, `buffers.rs`: lanes of a device, rounds of dispatches; their buffers.
-//! - [`meter`]: what a device was given to do.
+//! - [`meter`], `clock.rs`: what a device was given to do, and how long it took.
 //! - [`records`]: a GPU as an engine: both of them, one after the other.
 
 pub mod adapter;
@@ -20,6 +20,7 @@ mod arena;
 pub mod arithmetic;
 mod buffers;
 pub mod chunks;
+mod clock;
 pub mod device;
 pub mod kernel;
 pub mod linear;

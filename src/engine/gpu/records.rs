@@ -10,6 +10,7 @@ use crate::engine::computed::Computed;
 use crate::engine::error::{Error, Result};
 use crate::engine::gpu::chunks::Session;
 use crate::engine::gpu::device::Device;
+use crate::engine::gpu::response::Crews;
 use crate::engine::gpu::{linear, response};
 use crate::engine::instances::Instances;
 use crate::engine::precision::Precision;
@@ -25,6 +26,7 @@ const OF_HARDWARE: usize = 4 * BLOCK;
 #[derive(Debug)]
 pub struct Gpu {
     sessions: Vec<Session>,
+    crews: Crews,
     chunk: Option<usize>,
 }
 
@@ -33,7 +35,8 @@ impl Gpu {
     /// chunks nor on which device takes them.
     #[must_use]
     pub fn new(devices: Vec<Device>, chunk: Option<usize>) -> Gpu {
-        Gpu { sessions: devices.into_iter().map(Session::new).collect(), chunk }
+        let sessions = devices.into_iter().map(Session::new).collect();
+        Gpu { sessions, crews: Crews::default(), chunk }
     }
 }
 
@@ -66,7 +69,7 @@ impl Engine for Gpu {
         cancel: &AtomicBool,
         progress: &(dyn Fn(usize) + Sync),
     ) -> Result<Computed> {
-        records(instances, range, (&mut self.sessions, self.chunk), cancel, progress)
+        records(instances, range, self, cancel, progress)
     }
 
     fn busy_with(&self, _: usize, starts: usize) -> usize {
@@ -85,7 +88,7 @@ impl Engine for Gpu {
 fn records(
     spec: &dyn Instances,
     range: Range<usize>,
-    (sessions, chunk): (&mut [Session], Option<usize>),
+    Gpu { sessions, crews, chunk }: &mut Gpu,
     cancel: &AtomicBool,
     progress: &(dyn Fn(usize) + Sync),
 ) -> Result<Computed> {
@@ -95,13 +98,13 @@ fn records(
     let mut ended = Ok(());
     if eigenvalues {
         let progress = if transients { &|_: usize| {} } else { progress };
-        ended = linear::on_all(spec, range, (sessions, chunk), cancel, progress, &mut records)
+        ended = linear::on_all(spec, range, (sessions, *chunk), cancel, progress, &mut records)
             .map_err(|why| counted_from(first, why));
     }
     if transients {
         ended?;
         records.resize(total, Record::default());
-        ended = response::complete(spec, first, (sessions, chunk), cancel, progress, &mut records)
+        ended = response::complete(spec, first, (sessions, crews, *chunk), cancel, progress, &mut records)
             .map_err(|why| counted_from(first, why));
     }
     Computed::new(records, total, ended)

@@ -66,31 +66,68 @@ impl<R: Real> ChunkResult<R> {
     }
 }
 
-/// Runs a chunk from its start; `inputs` are word-major, `count` instances of all of the kernel's input words.
+/// Runs a chunk from its start to its end; `inputs` are word-major, `count` instances of all of the kernel's input words.
 ///
 /// # Errors
-/// Those of [`resume`].
+/// When the device fails or is lost, the run is cancelled before an instance is finished, the kernel does not
+/// end, or leaves an instance unwritten.
 pub fn run<R: Real>(
     device: &Device,
     compiled: &Compiled,
     inputs: &[R],
     drive: &Drive,
 ) -> Result<ChunkResult<R>> {
-    resume(device, compiled, inputs, None, drive)
+    let (count, sizes) = sizes(compiled, inputs)?;
+    let buffers =
+        device.checked("allocating buffers", || Buffers::new(device, compiled, inputs, None, sizes))?;
+    let finished = dispatch(device, compiled, &buffers, count, drive)?;
+    let cancelled = finished < count;
+    if cancelled && finished == 0 {
+        return Err(Error::Cancelled { done: 0, total: count });
+    }
+    let result = result(device, &buffers, sizes, cancelled)?;
+    device.meter.carry(size_of_val(inputs), sizes[0] + sizes[1]);
+    check(&result, count, compiled.words())?;
+    Ok(result)
 }
 
-/// Runs a chunk; `before` are the word-major state and flags it goes on from, if it does.
+/// Takes a chunk some dispatches further, of so many steps each; `before` are its word-major state and flags.
 ///
 /// # Errors
-/// When the device fails or is lost, the run is cancelled before an instance is finished, the kernel does not
-/// end, or leaves an instance unwritten.
-pub fn resume<R: Real>(
+/// When the device fails or is lost.
+pub fn advance<R: Real>(
     device: &Device,
     compiled: &Compiled,
     inputs: &[R],
-    before: Option<&(Vec<R>, Vec<u32>)>,
-    drive: &Drive,
+    before: &(Vec<R>, Vec<u32>),
+    (settings, [dispatches, steps]): ([u32; SETTING_WORDS], [u32; 2]),
 ) -> Result<ChunkResult<R>> {
+    let (count, sizes) = sizes(compiled, inputs)?;
+    let (state, flags) = before;
+    for (name, found, wanted) in
+        [("state", size_of_val(&state[..]), sizes[0]), ("flags", size_of_val(&flags[..]), sizes[1])]
+    {
+        if found != wanted {
+            return Err(Error::ShortBuffer { name, found, wanted });
+        }
+    }
+    let buffers = device
+        .checked("allocating buffers", || Buffers::new(device, compiled, inputs, Some(before), sizes))?;
+    let steps = steps.min(most_steps(device, &compiled.kernel));
+    #[expect(clippy::cast_possible_truncation, reason = "a chunk is below 2^32 words")]
+    let settings = Settings::new(count as u32, steps, 0, settings);
+    device.queue.write_buffer(&buffers.settings, 0, bytemuck::bytes_of(&settings));
+    for _ in 0..dispatches {
+        device.checked(&format!("dispatching the {} kernel", compiled.kernel.name), || {
+            submit(device, compiled, &buffers, count);
+        })?;
+        device.wait()?;
+    }
+    result(device, &buffers, sizes, false)
+}
+
+/// The number of instances, and the bytes of their state and flags.
+fn sizes<R: Real>(compiled: &Compiled, inputs: &[R]) -> Result<(usize, [usize; 2])> {
     let [input_words, state_words, flag_words] = compiled.words();
     let count = inputs.len() / input_words;
     if count * input_words != inputs.len() || count == 0 {
@@ -100,29 +137,18 @@ pub fn resume<R: Real>(
             wanted: (count + 1) * input_words,
         });
     }
-    let sizes = [state_words * count * size_of::<R>(), flag_words * count * 4];
-    if let Some((state, flags)) = before {
-        for (name, found, wanted) in
-            [("state", size_of_val(&state[..]), sizes[0]), ("flags", size_of_val(&flags[..]), sizes[1])]
-        {
-            if found != wanted {
-                return Err(Error::ShortBuffer { name, found, wanted });
-            }
-        }
-    }
-    let buffers =
-        device.checked("allocating buffers", || Buffers::new(device, compiled, inputs, before, sizes))?;
-    let finished = dispatch(device, compiled, &buffers, count, drive)?;
-    let cancelled = finished < count;
-    if cancelled && finished == 0 {
-        return Err(Error::Cancelled { done: 0, total: count });
-    }
+    Ok((count, [state_words * count * size_of::<R>(), flag_words * count * 4]))
+}
+
+/// What stands in the buffers.
+fn result<R: Real>(
+    device: &Device,
+    buffers: &Buffers,
+    sizes: [usize; 2],
+    cancelled: bool,
+) -> Result<ChunkResult<R>> {
     let [state, flags] = read(device, [&buffers.state, &buffers.flags], sizes)?;
-    let up = size_of_val(inputs) + if before.is_some() { sizes[0] + sizes[1] } else { 0 };
-    device.meter.carry(up, sizes[0] + sizes[1]);
-    let result = ChunkResult { state: cast(&state), flags: cast(&flags), cancelled };
-    check(&result, count, compiled.words())?;
-    Ok(result)
+    Ok(ChunkResult { state: cast(&state), flags: cast(&flags), cancelled })
 }
 
 /// The lengths of a result, and that no instance of it is unwritten unless it was cancelled.
@@ -243,7 +269,8 @@ fn dispatch(
 }
 
 /// Most steps of a kernel in one dispatch.
-pub(super) fn most_steps(device: &Device, kernel: &Kernel) -> u32 {
+#[must_use]
+pub fn most_steps(device: &Device, kernel: &Kernel) -> u32 {
     let per_step = if device.is_software() { kernel.loops_per_step.max(1) } else { 1 };
     (MAX_LOOPS / per_step).max(1)
 }

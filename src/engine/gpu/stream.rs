@@ -1,122 +1,189 @@
 //! The transients of a sweep as a stream: while a device computes some instances the host goes on with others.
 
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::thread;
+
+use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use crate::engine::error::{Error, Result};
 use crate::engine::gpu::arena::Arena;
 use crate::engine::gpu::chunks::Session;
 use crate::engine::lanes::Lanes;
-use crate::engine::march::flow::{Asked, Flow, Place};
+use crate::engine::march::asked::Asked;
+use crate::engine::march::flow::{Flow, Place};
 
-/// Between two looks at several devices.
-const PAUSE: std::time::Duration = std::time::Duration::from_micros(100);
+/// Crews of a device: one's instances are computed while the host goes on with those of the others.
+const OF_DEVICE: usize = 3;
 
-/// Instances of a device that go round by round.
-struct Crew<R> {
+/// What the threads of a crew are called.
+const CREW: &str = "crew";
+
+/// Lanes of a device, whose instances go round by round, and what is kept of them from run to run.
+#[derive(Debug)]
+pub(super) struct Crew<R> {
     session: usize,
+    /// How many times the device of the arena had been opened again.
+    opened_again: u32,
     arena: Arena<R>,
+    places: Vec<Place<R>>,
+    /// Threads of its own, `None` where there are none: in a pool that crews share, the work of one waits for pieces of another's.
+    threads: Option<Arc<ThreadPool>>,
+}
+
+impl<R: Lanes> Crew<R> {
+    /// The crews of some devices, each with as many threads as there are here.
+    pub(super) fn of(sessions: &[Session]) -> Vec<Crew<R>> {
+        let threads = rayon::current_num_threads();
+        let crew = |number: usize| {
+            let session = &sessions[number / OF_DEVICE];
+            Crew {
+                session: number / OF_DEVICE,
+                opened_again: session.opened_again(),
+                arena: Arena::new(session.device()),
+                places: Vec::new(),
+                threads: pool(threads),
+            }
+        };
+        (0..OF_DEVICE * sessions.len()).map(crew).collect()
+    }
+}
+
+/// Threads of a crew, with its name.
+fn pool(threads: usize) -> Option<Arc<ThreadPool>> {
+    let builder =
+        ThreadPoolBuilder::new().num_threads(threads).thread_name(|number| format!("{CREW} {number}"));
+    builder.build().ok().map(Arc::new)
+}
+
+/// A crew with its instances.
+struct AtWork<'a, R> {
+    crew: &'a mut Crew<R>,
+    flow: Flow<R>,
     lanes: Vec<Place<R>>,
 }
 
-/// The instances of a sweep that are computed.
-pub(super) struct Stream<'a, R> {
+/// The instances of a sweep that are computed, by whom.
+pub(super) struct Stream<'a> {
     asked: Asked<'a>,
-    flow: Flow<R>,
-    progress: &'a (dyn Fn(usize) + Sync),
+    sessions: Vec<Mutex<&'a mut Session>>,
+    /// Most instances of a crew.
+    most: usize,
     cancel: &'a AtomicBool,
+    progress: &'a (dyn Fn(usize) + Sync),
+    /// Whether one of the crews has failed.
+    failed: AtomicBool,
 }
 
-impl<'a, R: Lanes> Stream<'a, R> {
-    /// Instances of a sweep.
+impl<'a> Stream<'a> {
+    /// Instances of a sweep on some devices, at most so many at a time in each of their buffers.
     pub(super) fn new(
         asked: Asked<'a>,
+        (sessions, most): (&'a mut [Session], usize),
         cancel: &'a AtomicBool,
         progress: &'a (dyn Fn(usize) + Sync),
-    ) -> Stream<'a, R> {
-        let flow = Flow::new(asked.spec);
-        Stream { asked, flow, progress, cancel }
+    ) -> Stream<'a> {
+        let [_, total] = asked.count();
+        // As many rounds for every crew.
+        let crews = OF_DEVICE * sessions.len();
+        let rounds = total.div_ceil(crews * most.max(1)).max(1);
+        let most = total.div_ceil(crews * rounds).max(1);
+        let sessions = sessions.iter_mut().map(Mutex::new).collect();
+        Stream { asked, sessions, most, cancel, progress, failed: AtomicBool::new(false) }
     }
 
-    /// Runs all of them on some devices, `most` at a time in each of their buffers.
+    /// Runs all of them. The crews have no instance then, and are gone where that fails.
     ///
     /// # Errors
     /// When a device fails or is lost for the second time, the run is cancelled, or a result is in doubt.
-    pub(super) fn run(&mut self, sessions: &mut [Session], most: usize) -> Result<()> {
-        // Two for each device: one computes while the host goes on with the other.
-        let share = self.asked.records.len().div_ceil(2 * sessions.len()).clamp(1, most);
-        let mut crews = Vec::new();
-        for session in (0..sessions.len()).flat_map(|session| [session; 2]) {
-            let arena = Arena::new(sessions[session].device());
-            crews.push(Crew { session, arena, lanes: Vec::new() });
+    pub(super) fn run<R: Lanes>(&self, crews: &mut Vec<Crew<R>>) -> Result<()> {
+        let ended = thread::scope(|scope| {
+            let mut crews = crews.iter_mut();
+            let first = crews.next();
+            // Where no thread can be started the others do the work.
+            let others: Vec<_> = crews
+                .filter_map(|crew| {
+                    thread::Builder::new().name(CREW.to_owned()).spawn_scoped(scope, || self.work(crew)).ok()
+                })
+                .collect();
+            let ended = first.map_or(Ok(()), |crew| self.work(crew));
+            others.into_iter().fold(ended, |ended, other| {
+                let other = other.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+                ended.and(other)
+            })
+        });
+        if ended.is_err() {
+            crews.clear();
         }
-        let mut turn = 0;
+        ended
+    }
+
+    /// What a crew does, as long as there are instances.
+    fn work<R: Lanes>(&self, crew: &mut Crew<R>) -> Result<()> {
+        let flow = Flow::new(self.asked.spec(), std::mem::take(&mut crew.places));
+        let threads = crew.threads.clone();
+        let mut at_work = AtWork { crew, flow, lanes: Vec::new() };
         loop {
-            let done = self.flow.finish(&mut self.asked);
-            if done > 0 {
-                (self.progress)(done);
-            }
-            if self.cancel.load(Ordering::Relaxed) {
-                let [done, total] = self.count();
-                return Err(Error::Cancelled { done, total });
-            }
-            let Some(number) = self.next_crew(&crews, sessions, share, turn) else { break };
-            turn = number + 1;
-            let crew = &mut crews[number];
-            let went = self.go_on(crew, &mut sessions[crew.session], share);
-            if let Err(Error::DeviceLost { why }) = went {
-                let lost = crew.session;
-                sessions[lost].reopen(why, self.count())?;
-                // Its instances are on the host as they were before the round; the others of the device, too.
-                for crew in crews.iter_mut().filter(|crew| crew.session == lost) {
-                    crew.arena = Arena::new(sessions[lost].device());
+            let went = match &threads {
+                Some(threads) => threads.install(|| self.go_on(&mut at_work)),
+                None => self.go_on(&mut at_work),
+            };
+            match went {
+                // Another one says why.
+                _ if self.failed.load(Ordering::Relaxed) => return Ok(()),
+                Ok(true) => at_work.crew.arena.wait(),
+                Ok(false) => break,
+                Err(why) => {
+                    self.failed.store(true, Ordering::Relaxed);
+                    return Err(why);
                 }
-            } else {
-                went?;
             }
         }
+        at_work.crew.places = at_work.flow.into_places();
         Ok(())
     }
 
-    /// Instances that are done, and all.
-    fn count(&self) -> [usize; 2] {
-        [self.flow.done(), self.asked.records.len()]
+    fn session(&self, number: usize) -> MutexGuard<'_, &'a mut Session> {
+        self.sessions[number].lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The next crew that has something to do: one whose round is over or that has not begun any, else the one that began first;
-    /// `None` when nothing is left.
-    fn next_crew(&self, crews: &[Crew<R>], sessions: &[Session], share: usize, turn: usize) -> Option<usize> {
-        let in_turn = || (0..crews.len()).map(|k| (turn + k) % crews.len());
-        let waits = |number: &usize| {
-            let crew = &crews[*number];
-            !crew.arena.is_busy() && (!crew.lanes.is_empty() || self.flow.has_more(&self.asked) && share > 0)
-        };
-        if let Some(number) = in_turn().find(waits) {
-            return Some(number);
-        }
-        if sessions.len() > 1 {
-            // No device waits for a slower one.
-            while crews.iter().any(|crew| crew.arena.is_busy()) && !self.cancel.load(Ordering::Relaxed) {
-                for session in sessions {
-                    session.device().listen();
-                }
-                if let Some(number) = in_turn().find(|number| crews[*number].arena.is_ready()) {
-                    return Some(number);
-                }
-                std::thread::sleep(PAUSE);
+    /// What the host does for a crew between two rounds; whether there is another.
+    fn go_on<R: Lanes>(&self, at_work: &mut AtWork<'_, R>) -> Result<bool> {
+        loop {
+            let why = match self.round(at_work) {
+                Err(Error::DeviceLost { why }) => why,
+                other => return other,
+            };
+            // Its instances are on the host as they were before the round. Perhaps another crew has opened the device again.
+            let crew = &mut *at_work.crew;
+            let mut session = self.session(crew.session);
+            if session.opened_again() == crew.opened_again {
+                session.reopen(why, self.asked.count())?;
             }
+            (crew.arena, crew.opened_again) = (Arena::new(session.device()), session.opened_again());
         }
-        in_turn().find(|number| crews[*number].arena.is_busy())
     }
 
-    /// Takes what has come of the round of a crew, fills it up and begins its next round.
-    fn go_on(&mut self, crew: &mut Crew<R>, session: &mut Session, most: usize) -> Result<()> {
-        let flow = &self.flow;
-        crew.arena.collect(&mut crew.lanes, |lane, steps| flow.take(lane, steps))?;
-        self.flow.turn_over(&mut self.asked, &mut crew.lanes, most);
-        if crew.lanes.is_empty() {
-            return Ok(());
+    /// Takes what has come of the round of a crew, fills it up and begins its next round, if there is one.
+    fn round<R: Lanes>(&self, AtWork { crew, flow, lanes }: &mut AtWork<'_, R>) -> Result<bool> {
+        crew.arena.collect(lanes, |lane, steps| flow.take(&self.asked, lane, steps))?;
+        let is_cancelled = self.cancel.load(Ordering::Relaxed);
+        flow.finish(&self.asked, lanes);
+        flow.turn_over(&self.asked, lanes, if is_cancelled { 0 } else { self.most });
+        let done = flow.told();
+        if done > 0 {
+            (self.progress)(done);
         }
-        session.device().meter.hold(crew.lanes.len(), most);
-        crew.arena.submit(session, &mut crew.lanes, self.flow.settings())
+        if is_cancelled {
+            let [done, total] = self.asked.count();
+            return Err(Error::Cancelled { done, total });
+        }
+        if lanes.is_empty() {
+            return Ok(false);
+        }
+        let session = &self.sessions[crew.session];
+        self.session(crew.session).device().meter.hold(lanes.len(), self.most);
+        crew.arena.submit(session, lanes, flow.settings())?;
+        Ok(true)
     }
 }

@@ -22,13 +22,13 @@ use crate::model::piece::LawForm;
 use crate::model::status::Status;
 
 /// Steps of a stretch of the window: short sums keep their digits, and a lane is looked at between stretches.
-pub const STRETCH: f64 = 80.0;
+pub const STRETCH: u32 = 80;
 
 /// Steps of a stretch between the first event and the window, whose sums are only a guess at the frequency.
-pub const LONG_STRETCH: f64 = 256.0;
+pub const LONG_STRETCH: u32 = 256;
 
 /// Steps of the last of them.
-const LAST_STRETCH: f64 = 48.0;
+pub const LAST_STRETCH: u32 = 48;
 
 /// Periods `2π/ω0` of a stretch of the single mass in closed form, whose steps are whole swings.
 const SWINGS: f64 = 100.0;
@@ -41,7 +41,7 @@ const APPROACH: f64 = 10.0 * TAU;
 const PHASE_ERROR: f64 = 10.0;
 
 /// Steps of the first stretch of a window, whose guess of the frequency is the worst.
-const FIRST_STRETCH: f64 = 32.0;
+pub const FIRST_STRETCH: u32 = 32;
 
 /// The parts of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -218,12 +218,25 @@ impl<T: Real> Job<T> {
     /// Remembers the start of the window, where it has begun and that has not been done.
     pub fn open_window(&mut self) {
         if self.snapshot.is_none() && self.in_window() {
-            self.quiet = true;
             self.previous = T::ZERO;
-            self.origin = [self.state.body.p[0], self.state.body.p[2]];
-            self.seen.origin = self.origin.map(T::to_f64);
-            self.snapshot = Some(self.state);
+            self.open_window_at(self.state);
         }
+    }
+
+    /// Remembers the state at the start of the window, where that has not been done.
+    pub fn open_window_at(&mut self, start: State<T>) {
+        if self.snapshot.is_none() {
+            self.quiet = true;
+            self.origin = [start.body.p[0], start.body.p[2]];
+            self.seen.origin = self.origin.map(T::to_f64);
+            self.snapshot = Some(start);
+        }
+    }
+
+    /// The state at the start of the window, where that has begun.
+    #[must_use]
+    pub fn start_of_window(&self) -> Option<&State<T>> {
+        self.snapshot.as_ref()
     }
 
     /// The angular frequency between the first and the last crossing of the window.
@@ -278,14 +291,16 @@ impl<T: Real> Job<T> {
             // What grows is sampled in steps as short as those of a series.
             _ if swings && !self.growing => SWINGS * f64::from(steps_per_period),
             Part::Window if !self.is_single() => {
-                STRETCH.min(FIRST_STRETCH * (1 + self.stretches.len()) as f64)
+                f64::from(STRETCH).min(f64::from(FIRST_STRETCH) * (1 + self.stretches.len()) as f64)
             }
             // Sums of growth, as in the window.
-            Part::Settle if self.growing => STRETCH,
+            Part::Settle if self.growing => f64::from(STRETCH),
             // The last one guesses the frequency: it is late, and not too short.
-            Part::Settle if whole > LAST_STRETCH => LONG_STRETCH.min(whole - LAST_STRETCH),
-            Part::Approach | Part::Settle | Part::Return => LONG_STRETCH,
-            _ => STRETCH,
+            Part::Settle if whole > f64::from(LAST_STRETCH) => {
+                f64::from(LONG_STRETCH).min(whole - f64::from(LAST_STRETCH))
+            }
+            Part::Approach | Part::Settle | Part::Return => f64::from(LONG_STRETCH),
+            _ => f64::from(STRETCH),
         };
         if whole <= most {
             self.until = end;

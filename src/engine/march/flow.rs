@@ -1,27 +1,22 @@
 //! Instances that pass through the lanes of a device: those that are over make room for the next.
 
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
 use crate::engine::error::{Error, Result};
 use crate::engine::instances::Instances;
-use crate::engine::judged::{kind_of, take_response};
 use crate::engine::kernel::source::SETTING_WORDS;
 use crate::engine::lanes::Lanes;
 use crate::engine::lanes::job::{Job, Part};
 use crate::engine::lanes::march::{Settings, Terms};
+use crate::engine::march::asked::Asked;
 use crate::engine::march::marching::{Marching, Way};
 use crate::engine::march::round::Lane;
 use crate::engine::march::table::flag;
 use crate::engine::outcome::Outcome;
-use crate::engine::record::Record;
-use crate::model::instance::Instance;
 use crate::model::piece::LawForm;
 use crate::model::status::Status;
-
-/// Instances that are begun at a time.
-const BEGUN: usize = 4096;
 
 /// Jobs that a task finishes: some to every lane of a vector register.
 const FINISHED: usize = 64;
@@ -32,60 +27,50 @@ const MOST_IDLE: u32 = 64;
 /// An instance on a device, and how many rounds it has taken no step in.
 #[derive(Clone, Debug)]
 pub struct Going<R> {
-    marching: Marching<R>,
+    marching: Box<Marching<R>>,
     idle: u32,
-    is_over: bool,
+    stage: Stage,
 }
 
-/// An instance with its words, in a place of its own, which others take after it.
-pub type Place<R> = Box<Lane<R, Going<R>>>;
-
-/// What an instance begins with.
-#[derive(Debug)]
-enum Begun<R> {
-    Lane(Place<R>),
-    Over(Place<R>),
-    /// It cannot start; with the place that it did not need.
-    Dead(usize, Record, Option<Place<R>>),
+/// How far an instance is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Stage {
+    /// It has another leg.
+    Runs,
+    /// It has none, but perhaps a second pass over its window.
+    Over,
+    /// It has its record.
+    Done,
 }
 
-/// The instances of a sweep that are computed, and their records.
-pub struct Asked<'a> {
-    /// The sweep.
-    pub spec: &'a dyn Instances,
-    /// The number of the first in the sweep.
-    pub first: usize,
-    /// A record for each, as it is before any response.
-    pub records: &'a mut [Record],
-}
+/// An instance with its words, in memory that others take after it.
+pub type Place<R> = Lane<R, Going<R>>;
 
-/// Instances on their way through lanes.
+/// Instances on their way through lanes, one round after the other.
 #[derive(Debug)]
 pub struct Flow<R> {
     way: Way,
     settings: [u32; SETTING_WORDS],
-    /// The first that has not begun.
-    next: usize,
-    done: usize,
-    /// How many of them were told as progress.
-    told: usize,
-    /// Instances whose last window is over.
-    over: Vec<Place<R>>,
+    /// How many were done since that was told.
+    done: AtomicUsize,
     /// Places without an instance.
     free: Vec<Place<R>>,
-    made: Vec<(usize, Record)>,
-    begun: Vec<Begun<R>>,
 }
 
 impl<R: Lanes> Flow<R> {
-    /// Before the first instance of a sweep.
+    /// Before the first instance of a sweep, with places of another flow.
     #[must_use]
-    pub fn new(spec: &dyn Instances) -> Flow<R> {
+    pub fn new(spec: &dyn Instances, free: Vec<Place<R>>) -> Flow<R> {
         let way = Way::new::<R>(spec.plan());
         let mut settings = [0; SETTING_WORDS];
         settings[0] = way.tolerance.to_bits();
-        let (over, free, made, begun) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        Flow { way, settings, next: 0, done: 0, told: 0, over, free, made, begun }
+        Flow { way, settings, done: AtomicUsize::new(0), free }
+    }
+
+    /// The places that it has not given away.
+    #[must_use]
+    pub fn into_places(self) -> Vec<Place<R>> {
+        self.free
     }
 
     /// The words of the kernel's own settings.
@@ -94,154 +79,133 @@ impl<R: Lanes> Flow<R> {
         self.settings
     }
 
-    /// Instances that have a record.
-    #[must_use]
-    pub fn done(&self) -> usize {
-        self.done
-    }
-
-    /// Whether one of those asked for has not begun.
-    #[must_use]
-    pub fn has_more(&self, asked: &Asked) -> bool {
-        self.next < asked.records.len()
-    }
-
-    /// Takes those out of the lanes that are over, fills up to `most` lanes, and sorts them by their kernels.
-    pub fn turn_over(&mut self, asked: &mut Asked, lanes: &mut Vec<Place<R>>, most: usize) {
-        let over = lanes.extract_if(.., |lane| lane.memory.is_over);
-        self.over.extend(over);
-        self.fill_up(asked, lanes, most);
-        // Those that took as many steps in their last stretch are alike, and then neighbours of the sweep.
-        lanes.sort_by_cached_key(|lane| (lane.form, lane.before(), lane.memory.marching.index));
-    }
-
-    /// Takes what a round has made of a lane.
+    /// Takes what a round has made of a lane, on to its next leg or to its record.
     ///
     /// # Errors
-    /// When the kernel cannot have made it, or does not come to an end.
-    pub fn take(&self, lane: &mut Lane<R, Going<R>>, steps: u32) -> Result<()> {
-        take(lane, steps, &self.way)
+    /// When the kernels cannot have made it, or do not come to an end.
+    pub fn take(&self, asked: &Asked, lane: &mut Place<R>, steps: u32) -> Result<()> {
+        take(lane, steps, &self.way)?;
+        self.end(asked, &mut lane.memory);
+        Ok(())
     }
 
-    /// Begins instances until there are `most` lanes, or none is left.
-    fn fill_up(&mut self, asked: &mut Asked, lanes: &mut Vec<Place<R>>, most: usize) {
-        while lanes.len() < most && self.next < asked.records.len() {
-            let some = (most - lanes.len()).min(BEGUN).min(asked.records.len() - self.next);
-            let range = self.next..self.next + some;
-            self.next = range.end;
-            let kept = self.free.len().saturating_sub(some);
-            let mut places: Vec<Option<Place<R>>> = self.free.drain(kept..).map(Some).collect();
-            places.resize_with(some, || None);
-            let mut begun = std::mem::take(&mut self.begun);
-            let begin = |(index, place)| self.begin(asked, index, place);
-            range.into_par_iter().zip(places).map(begin).collect_into_vec(&mut begun);
-            for one in begun.drain(..) {
-                match one {
-                    Begun::Lane(lane) => lanes.push(lane),
-                    Begun::Over(lane) => self.over.push(lane),
-                    Begun::Dead(index, record, place) => {
-                        self.free.extend(place);
-                        self.put(asked, index, record);
-                    }
+    /// Begins other instances in the places of those that are done, up to `most`, and sorts the lanes by their kernels: neighbours of
+    /// the sweep, which are alike, stay neighbours.
+    pub fn turn_over(&mut self, asked: &Asked, lanes: &mut Vec<Place<R>>, most: usize) {
+        loop {
+            // Those that go on come first.
+            let mut going = 0;
+            for place in 0..lanes.len() {
+                if lanes[place].memory.stage == Stage::Runs {
+                    lanes.swap(going, place);
+                    going += 1;
                 }
             }
-            self.begun = begun;
-        }
-    }
-
-    /// An instance at its start, in a place that it may have.
-    fn begin(&self, asked: &Asked, index: usize, place: Option<Place<R>>) -> Begun<R> {
-        let instance = asked.spec.instance(asked.first + index);
-        let mut marching = match Marching::new(index, &instance, &self.way) {
-            Ok(marching) => marching,
-            Err(status) => {
-                let outcome = Outcome { status, ..Outcome::default() };
-                return Begun::Dead(index, asked.record(index, &instance, &outcome), place);
+            if going >= most || !asked.has_more() {
+                self.free.extend(lanes.drain(going..));
+                break;
             }
-        };
-        let mut lane = if let Some(mut lane) = place {
-            marching.job.stretches = std::mem::take(&mut lane.memory.marching.job.stretches).cleared();
-            lane.memory = Going { marching, idle: 0, is_over: false };
-            lane
-        } else {
-            Box::new(Lane::new(Going { marching, idle: 0, is_over: false }))
-        };
-        lane.go_on(&self.way);
-        if lane.memory.is_over { Begun::Over(lane) } else { Begun::Lane(lane) }
-    }
-
-    /// Puts the record of an instance that is done.
-    fn put(&mut self, asked: &mut Asked, index: usize, record: Record) {
-        asked.records[index] = record;
-        self.done += 1;
-    }
-
-    /// Makes the records of what is over, and says how many were not told before. What the Fourier sums of the one pass do not
-    /// tell, a second pass does, on the CPU.
-    pub fn finish(&mut self, asked: &mut Asked) -> usize {
-        let mut over = std::mem::take(&mut self.over);
-        let tolerance = f64::from(self.way.tolerance);
-        let told: Vec<bool> =
-            over.par_iter_mut().map(|lane| lane.memory.marching.job.tells_phase(tolerance)).collect();
-        self.pass_again(&mut over, &told);
-        let mut made = std::mem::take(&mut self.made);
-        let record = |lane: &Place<R>| {
-            let Marching { index, job, .. } = &lane.memory.marching;
-            let instance = asked.spec.instance(asked.first + index);
-            (*index, asked.record(*index, &instance, &job.outcome(&self.way.plan)))
-        };
-        over.par_iter().map(record).collect_into_vec(&mut made);
-        for (index, record) in made.drain(..) {
-            self.put(asked, index, record);
+            let mut range = asked.take(most - going);
+            let there = range.len().min(lanes.len() - going + self.free.len());
+            let lacking = (going + there).saturating_sub(lanes.len());
+            lanes.extend(self.free.drain(self.free.len() - lacking..));
+            self.free.extend(lanes.drain(going + there..));
+            let reused = range.start..range.start + there;
+            range.start = reused.end;
+            let begin = |(lane, index): (&mut Place<R>, usize)| self.begin(asked, index, lane);
+            lanes[going..].par_iter_mut().zip(reused).for_each(begin);
+            lanes.par_extend(range.into_par_iter().filter_map(|index| self.begin_anew(asked, index)));
         }
-        self.free.append(&mut over);
-        (self.made, self.over) = (made, over);
-        let before = std::mem::replace(&mut self.told, self.done);
-        self.done - before
+        if !lanes.is_sorted_by_key(Lane::order) {
+            lanes.sort_by_key(Lane::order);
+        }
     }
 
-    /// Passes the windows once more of those that are not `told`.
-    fn pass_again(&self, over: &mut [Place<R>], told: &[bool]) {
+    /// An instance at its start; a record where it cannot start.
+    fn start(&self, asked: &Asked, index: usize) -> Option<Marching<R>> {
+        let instance = asked.instance(index);
+        let marching = Marching::new(index, &instance, &self.way);
+        if let Err(status) = marching {
+            asked.complete(index, &instance, &Outcome { status, ..Outcome::default() });
+            self.done.fetch_add(1, Ordering::Relaxed);
+        }
+        marching.ok()
+    }
+
+    /// Begins an instance in the place of another.
+    fn begin(&self, asked: &Asked, index: usize, lane: &mut Place<R>) {
+        let Going { marching: before, idle, stage } = &mut lane.memory;
+        let Some(mut marching) = self.start(asked, index) else {
+            *stage = Stage::Done;
+            return;
+        };
+        marching.job.stretches = std::mem::take(&mut before.job.stretches).cleared();
+        (**before, *idle, *stage) = (marching, 0, Stage::Runs);
+        lane.go_on(&self.way);
+        self.end(asked, &mut lane.memory);
+    }
+
+    /// Begins an instance in a new place.
+    fn begin_anew(&self, asked: &Asked, index: usize) -> Option<Place<R>> {
+        let marching = Box::new(self.start(asked, index)?);
+        let mut lane = Lane::new(Going { marching, idle: 0, stage: Stage::Runs });
+        lane.go_on(&self.way);
+        self.end(asked, &mut lane.memory);
+        Some(lane)
+    }
+
+    /// Completes the record of an instance that is over, where nothing is left to do for it.
+    fn end(&self, asked: &Asked, going: &mut Going<R>) {
+        let tolerance = f64::from(self.way.tolerance);
+        if going.stage == Stage::Over && going.marching.job.tells_phase(tolerance) {
+            self.complete(asked, &going.marching);
+            going.stage = Stage::Done;
+        }
+    }
+
+    /// Completes the record of an instance that is over.
+    fn complete(&self, asked: &Asked, marching: &Marching<R>) {
+        let instance = asked.instance(marching.index);
+        asked.complete(marching.index, &instance, &marching.job.outcome(&self.way.plan));
+        self.done.fetch_add(1, Ordering::Relaxed);
+    }
+
+    /// Completes the records of those lanes whose windows are passed once more, on the CPU, as their Fourier sums did not tell a phase.
+    pub fn finish(&self, asked: &Asked, lanes: &mut [Place<R>]) {
         // What is over is finished, whatever else is stopped.
         let never = AtomicBool::new(false);
         let plan = &self.way.plan;
         let tolerance = f64::from(self.way.tolerance);
         let settings = Settings { plan, tolerance, terms: Terms::default(), cancel: &never };
+        let going = lanes.iter_mut().map(|lane| &mut lane.memory);
+        let mut over: Vec<&mut Going<R>> = going.filter(|going| going.stage == Stage::Over).collect();
         for law in LawForm::ALL {
-            let here =
-                |(place, told): &(&mut Place<R>, &bool)| !**told && place.memory.marching.job.law() == law;
-            let places =
-                over.iter_mut().zip(told).filter(here).map(|(place, _)| &mut place.memory.marching.job);
-            let (places, mut jobs): (Vec<&mut Job<R>>, Vec<Job<R>>) = places
-                .map(|job| {
-                    let copy = job.clone();
-                    (job, copy)
-                })
-                .unzip();
+            let here: Vec<usize> =
+                (0..over.len()).filter(|place| over[*place].marching.job.law() == law).collect();
+            let mut jobs: Vec<Job<R>> = here.iter().map(|place| over[*place].marching.job.clone()).collect();
             jobs.par_chunks_mut(FINISHED).for_each(|jobs| R::run(jobs, &[Part::Phase], false, settings));
-            for (place, job) in places.into_iter().zip(jobs) {
-                *place = job;
+            for (place, job) in here.into_iter().zip(jobs) {
+                over[place].marching.job = job;
             }
         }
+        over.par_iter_mut().for_each(|going| {
+            self.complete(asked, &going.marching);
+            going.stage = Stage::Done;
+        });
     }
-}
 
-impl Asked<'_> {
-    /// The record of an instance with what it did.
-    fn record(&self, index: usize, instance: &Instance, outcome: &Outcome) -> Record {
-        let mut record = self.records[index].clone();
-        let kind = kind_of(self.spec, instance, &record);
-        take_response(&mut record, instance, kind, outcome);
-        record
+    /// How many are done that were not told of before.
+    pub fn told(&mut self) -> usize {
+        std::mem::take(self.done.get_mut())
     }
 }
 
 impl<R: Lanes> Lane<R, Going<R>> {
-    /// On to the next stretch, if there is one.
+    /// On to the next leg, if there is one.
     fn go_on(&mut self, way: &Way) {
-        match self.memory.marching.next_in(way, &mut self.words) {
-            Some(form) => self.begin(form),
-            None => self.memory.is_over = true,
+        match self.memory.marching.next(way, &mut self.words) {
+            Some(form) => self.begin(form, self.memory.marching.stretches()),
+            None => self.memory.stage = Stage::Over,
         }
     }
 }

@@ -1,6 +1,7 @@
-//! The kernel that marches instances through a stretch; the part of the run and the pieces of the law are chosen when it is
+//! The kernel that marches instances through a leg; the part of the run and the pieces of the law are chosen when it is
 //! compiled.
 
+use std::f64::consts::TAU;
 use std::sync::LazyLock;
 
 use crate::engine::fields::Field;
@@ -8,14 +9,15 @@ use crate::engine::kernel::source::{Constant, Kernel};
 use crate::engine::lanes::ORDER;
 use crate::engine::lanes::contact as states;
 use crate::engine::lanes::function::HIGHEST_ORDER;
-use crate::engine::lanes::job::Part;
+use crate::engine::lanes::job::{FIRST_STRETCH, LAST_STRETCH, LONG_STRETCH, Part, STRETCH};
 use crate::engine::lanes::nodes::{NODES, WEIGHTS};
 use crate::engine::lanes::reach::{FAR, LONGER, MARGIN, SHORTEST};
+use crate::engine::lanes::spectrum::{CLOSING, COMPONENTS};
 use crate::engine::lanes::words::EVENTS_AT_ONCE;
 use crate::engine::march::series;
-use crate::engine::march::table::{flag, head, piece, state};
-use crate::engine::reference::bounds::ROUNDINGS;
-use crate::engine::sums::sum;
+use crate::engine::march::table::{flag, head, history, piece, state};
+use crate::engine::reference::bounds::{MAX_EVENTS_PER_PERIOD, MAX_STEPS_PER_PERIOD, ROUNDINGS};
+use crate::engine::sums::{growth, sum};
 use crate::model::contact::SLOWEST_REBOUND;
 use crate::model::piece::{FAR as NEAR, LawForm};
 
@@ -26,11 +28,12 @@ pub const PIECES: [usize; 7] = [1, 2, 4, 16, 64, 256, 1024];
 pub const MOST_PIECES: usize = PIECES[PIECES.len() - 1];
 
 /// Where the files of the kernel are, and their text; that of the series is made.
-static FILES: LazyLock<[(&str, &str); 4]> = LazyLock::new(|| {
+static FILES: LazyLock<[(&str, &str); 5]> = LazyLock::new(|| {
     [
         ("shaders/march.wgsl", include_str!("../../../shaders/march.wgsl")),
         ("src/engine/march/series.rs", Box::leak(series::text(ORDER).into_boxed_str())),
         ("shaders/march_window.wgsl", include_str!("../../../shaders/march_window.wgsl")),
+        ("shaders/march_stretch.wgsl", include_str!("../../../shaders/march_stretch.wgsl")),
         ("shaders/march_main.wgsl", include_str!("../../../shaders/march_main.wgsl")),
     ]
 });
@@ -55,12 +58,26 @@ fn kernel(pieces: usize) -> Kernel {
         state: &state::FIELDS,
         flags: &flag::FIELDS,
         settings: const { &[Field::one("tolerance")] },
-        tables: &[("SUM", &sum::FIELDS), ("PIECE", &piece::FIELDS)],
+        tables: &[
+            ("SUM", &sum::FIELDS),
+            ("GROWTH", &growth::FIELDS),
+            ("HISTORY", &history::FIELDS),
+            ("PIECE", &piece::FIELDS),
+        ],
         constants: Vec::leak(vec![
             ("PIECES", Constant::U32(pieces as u32)),
             ("PART_GROWTH", Constant::U32(Part::Growth as u32)),
             ("PART_SETTLE", Constant::U32(Part::Settle as u32)),
             ("PART_WINDOW", Constant::U32(Part::Window as u32)),
+            ("COMPONENTS", Constant::U32(COMPONENTS as u32)),
+            ("STRETCH", Constant::U32(STRETCH)),
+            ("LONG_STRETCH", Constant::U32(LONG_STRETCH)),
+            ("LAST_STRETCH", Constant::U32(LAST_STRETCH)),
+            ("FIRST_STRETCH", Constant::U32(FIRST_STRETCH)),
+            ("TAU", Constant::Real(TAU)),
+            ("CLOSING", Constant::Real(CLOSING)),
+            ("STEPS_PER_PERIOD", Constant::Real(f64::from(MAX_STEPS_PER_PERIOD))),
+            ("EVENTS_PER_PERIOD", Constant::Real(f64::from(MAX_EVENTS_PER_PERIOD))),
             ("SLIP", Constant::U32(states::SLIP)),
             ("REVERSE", Constant::U32(states::REVERSE)),
             ("STICK", Constant::U32(states::STICK)),
@@ -88,8 +105,8 @@ fn kernel(pieces: usize) -> Kernel {
             ("DIP", Constant::U32(1)),
             ("ROOT", Constant::U32(2)),
         ]),
-        // Three searches, and the searches for a piece at an impact.
-        loops_per_step: 160 + 3 * (pieces as u32 - 1),
+        // Three searches, the searches for a piece at an impact, and the sums of a stretch.
+        loops_per_step: 200 + 3 * (pieces as u32 - 1),
     }
 }
 

@@ -1,4 +1,4 @@
-//! An instance on its way through the kernel, stretch by stretch.
+//! An instance on its way through the kernels, leg by leg.
 
 use crate::engine::fields::words;
 use crate::engine::kernel::source::{Constant, Kernel};
@@ -6,6 +6,7 @@ use crate::engine::lanes::ORDER;
 use crate::engine::lanes::job::{Job, Part};
 use crate::engine::lanes::{Lanes, tolerance};
 use crate::engine::march::kernel::{choices, kernel_for};
+use crate::engine::march::leg::Leg;
 use crate::engine::march::table::head;
 use crate::engine::march::words::{Words, begin, take};
 use crate::engine::method::pace::Turns;
@@ -35,36 +36,34 @@ impl Way {
     }
 }
 
-/// What selects the kernel of a stretch.
+/// The parts of a run that have a kernel, in the order of a leg.
+pub const PARTS: [Part; 3] = [Part::Growth, Part::Settle, Part::Window];
+
+/// What selects the kernels of a leg.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Form {
-    /// The part of the run.
-    pub part: Part,
     /// The form of the law.
     pub law: LawForm,
-    /// How many pieces the kernel holds.
+    /// How many pieces the kernels hold.
     pub pieces: usize,
     /// Whether the belt has a ramp.
     pub ramp: bool,
 }
 
 impl Form {
-    /// The kernel, and what is chosen in it; `None` when there is none for so many pieces.
+    /// The kernel of a part, and what is chosen in it; `None` when there is none for so many pieces.
     #[must_use]
-    pub fn kernel(&self) -> Option<(&'static Kernel, Vec<(&'static str, Constant)>)> {
+    pub fn kernel(&self, part: Part) -> Option<(&'static Kernel, Vec<(&'static str, Constant)>)> {
         let (kernel, _) = kernel_for(self.pieces)?;
-        Some((kernel, choices(self.part, self.law, self.ramp)))
+        Some((kernel, choices(part, self.law, self.ramp)))
     }
 
-    /// Its input words of one instance.
+    /// Input words of one instance.
     #[must_use]
     pub fn inputs(&self) -> usize {
         kernel_for(self.pieces).map_or(0, |(kernel, _)| words(kernel.inputs))
     }
 }
-
-/// A stretch that is to be run: its kernel and its words.
-pub type Stretch<R> = (Form, Words<R>);
 
 /// An instance on its way.
 #[derive(Clone, Debug)]
@@ -73,10 +72,7 @@ pub struct Marching<R> {
     pub index: usize,
     /// What it has come to.
     pub job: Job<R>,
-    /// The part of its run that it has come to; `None` before the first.
-    part: Option<Part>,
-    /// Whether that part may have another stretch.
-    open: bool,
+    leg: Leg,
     /// How many pieces its kernel holds.
     pieces: usize,
 }
@@ -90,42 +86,34 @@ impl<R: Lanes> Marching<R> {
         let scene = Scene::planned(instance, &way.plan)?;
         let (_, pieces) = kernel_for(scene.model.law.pieces.len()).ok_or(Status::Unwritten)?;
         let job = Job::new(instance, scene, &way.plan, &way.turns);
-        Ok(Marching { index, job, part: None, open: false, pieces })
+        Ok(Marching { index, job, leg: Leg::default(), pieces })
     }
 
-    /// Its next stretch and the kernel for it; `None` when nothing is left but a second pass over the window.
-    pub fn next(&mut self, way: &Way) -> Option<Stretch<R>> {
-        let mut words = Words::blank();
-        self.next_in(way, &mut words).map(|form| (form, words))
-    }
-
-    /// As [`Marching::next`], in the place of the stretch before.
-    pub fn next_in(&mut self, way: &Way, words: &mut Words<R>) -> Option<Form> {
+    /// Puts its next leg into words, which hold the one before, and says which kernels it needs; `None` when nothing is left but a
+    /// second pass over the window.
+    pub fn next(&mut self, way: &Way, words: &mut Words<R>) -> Option<Form> {
         loop {
-            if let Some(part) = self.part.filter(|_| self.open)
-                && begin(&mut self.job, part, &way.plan, self.pieces, words).is_some()
-            {
+            let is_running = self.job.state.status == Status::Unwritten;
+            if is_running && let Some(leg) = Leg::next(&self.job, way.plan.steps_per_period) {
+                begin(&mut self.job, &leg, self.pieces, words);
+                self.leg = leg;
                 let ramp = words.inputs[head::DRIVE] != R::ZERO;
-                return Some(Form { part, law: self.job.law(), pieces: self.pieces, ramp });
+                return Some(Form { law: self.job.law(), pieces: self.pieces, ramp });
             }
-            let part = match self.part {
-                None => Part::Growth,
-                Some(Part::Growth) => Part::Settle,
-                Some(Part::Settle) => Part::Window,
-                Some(_) if self.job.goes_on(&way.plan) => Part::Growth,
-                Some(_) => return None,
-            };
-            self.part = Some(part);
-            self.open = self.job.enter(part, f64::from(way.tolerance), false);
+            if !self.job.goes_on(&way.plan) {
+                return None;
+            }
         }
     }
 
-    /// Takes what has come of its stretch; `None` when the kernel cannot have made it.
+    /// Stretches that its leg has in the window.
+    #[must_use]
+    pub fn stretches(&self) -> usize {
+        self.leg.stretches
+    }
+
+    /// Takes what has come of its leg; `None` when the kernels cannot have made it.
     pub fn take(&mut self, words: &[R], flags: &[u32]) -> Option<()> {
-        let part = self.part?;
-        take(&mut self.job, part, words, flags)?;
-        let ended = part == Part::Growth && !self.job.growing;
-        self.open = self.job.state.status == Status::Unwritten && !ended;
-        Some(())
+        take(&mut self.job, &self.leg, words, flags)
     }
 }

@@ -1,19 +1,24 @@
-//! The method of the engine of the CPU as a compute kernel: every invocation takes one stretch of one instance, and the host
-//! keeps the instance as that engine does, as a [`Job`](crate::engine::lanes::job::Job).
+//! The method of the engine of the CPU as compute kernels: every invocation takes one leg of one instance, which is all of its run
+//! where its belt is steady and its window not long, and the host keeps the instance as that engine does, as a
+//! [`Job`](crate::engine::lanes::job::Job).
 //!
 //! - [`kernel`]: the kernel for each part of a run.
-//! - [`marching`]: an instance on its way, stretch by stretch.
+//! - [`leg`]: what a device goes through without the host.
+//! - [`marching`]: an instance on its way, leg by leg.
 //! - [`series`]: the series of a step, written out in WGSL.
 //! - `rows.rs`, `curved.rs`: what they are made of, and slip on a curved law.
 //! - [`table`]: what stands where in its buffers.
+//! - [`asked`]: the instances of a sweep, and their records.
 //! - [`flow`]: instances that pass through the lanes of a device.
 //! - [`round`]: the words of all lanes in the buffers of a device; `columns.rs` turns rows into columns.
-//! - [`words`]: the next stretch of a job as words, and what the kernel has made of them.
+//! - [`words`]: the next leg of a job as words, and what the kernels have made of them.
 
+pub mod asked;
 mod columns;
 mod curved;
 pub mod flow;
 pub mod kernel;
+pub mod leg;
 pub mod marching;
 pub mod round;
 mod rows;

@@ -9,7 +9,7 @@ use crate::engine::kernel::scalar::Real;
 use crate::engine::kernel::source::{FLAG_STATUS, FLAG_STEPS, SETTING_WORDS, Settings};
 use crate::engine::lanes::job::Part;
 use crate::engine::march::columns::{fill, length, row};
-use crate::engine::march::marching::Form;
+use crate::engine::march::marching::{Form, PARTS};
 use crate::engine::march::table::{flag, state};
 use crate::engine::march::words::Words;
 use crate::model::piece::LawForm;
@@ -24,15 +24,18 @@ pub const WARP: usize = 32;
 /// Words of a lane, and where it is in the present round.
 #[derive(Clone, Debug)]
 pub struct Lane<R, T> {
-    /// What selects its kernel.
+    /// What selects its kernels.
     pub form: Form,
-    /// Its words: what is sent, then what has come back.
-    pub words: Words<R>,
+    /// Its words: what is sent, then what has come back. Rounds look at all lanes without them.
+    pub words: Box<Words<R>>,
     /// Something to remember with it.
     pub memory: T,
-    /// Steps of the stretch before the present round.
-    steps: u32,
-    before: u32,
+    /// Stretches of its leg in the window.
+    stretches: usize,
+    /// Whether its leg has begun.
+    begun: bool,
+    /// Steps of its leg in every part, before the present round.
+    gone: [u32; PARTS.len()],
     /// Its group, and its place in that.
     at: [usize; 2],
 }
@@ -40,35 +43,55 @@ pub struct Lane<R, T> {
 impl<R: Real, T> Lane<R, T> {
     /// A lane whose words are still to be filled, for [`Lane::begin`].
     pub fn new(memory: T) -> Lane<R, T> {
-        let form = Form { part: Part::Growth, law: LawForm::Pieces, pieces: 1, ramp: false };
-        Lane { form, words: Words::blank(), memory, steps: 0, before: 0, at: [0; 2] }
+        let form = Form { law: LawForm::Pieces, pieces: 1, ramp: false };
+        let gone = [0; PARTS.len()];
+        Lane { form, words: Box::new(Words::blank()), memory, stretches: 0, begun: false, gone, at: [0; 2] }
     }
 
-    /// Begins the stretch that its words are.
-    pub fn begin(&mut self, form: Form) {
-        self.before = if form.part == self.form.part { self.steps } else { 0 };
-        (self.form, self.steps) = (form, 0);
+    /// Begins the leg that its words are, with so many stretches in the window.
+    pub fn begin(&mut self, form: Form, stretches: usize) {
+        (self.form, self.stretches, self.begun, self.gone) = (form, stretches, false, [0; PARTS.len()]);
     }
 
-    /// Steps of the stretch before, where it was of the same part.
-    pub fn before(&self) -> u32 {
-        self.before
+    /// What lanes are sorted by: those whose legs have begun come first, of every form.
+    pub fn order(&self) -> (Form, bool) {
+        (self.form, !self.begun)
+    }
+
+    /// Takes the steps that its words tell; how many each part has come to in the present round.
+    fn count(&mut self) -> [u32; PARTS.len()] {
+        let flags = &self.words.flags;
+        let steps = flags[FLAG_STEPS];
+        let before = if flags[flag::PART] == Part::Growth as u32 {
+            [steps, steps]
+        } else if flags[flag::PART] == Part::Settle as u32 {
+            [flags[flag::GROWN], steps]
+        } else {
+            [flags[flag::GROWN], flags[flag::SETTLED]]
+        };
+        let all = [before[0], before[1].wrapping_sub(before[0]), steps.wrapping_sub(before[1])];
+        let gone = std::mem::replace(&mut self.gone, all);
+        std::array::from_fn(|part| all[part].saturating_sub(gone[part]))
     }
 }
 
-/// Lanes that share a kernel: where their words begin in each buffer, in words of that.
+/// Lanes that share their kernels: where their words of inputs, state and flags are.
 #[derive(Clone, Debug)]
 pub struct Group {
-    /// What selects the kernel.
+    /// What selects the kernels.
     pub form: Form,
     /// How many there are.
     pub lanes: usize,
-    /// Where their words of inputs, state and flags begin.
+    /// Where they begin in each buffer, in words of that.
     pub first: [usize; 3],
+    /// Where what is sent of them begins among what is sent to each buffer.
+    pub sent: [usize; 3],
+    /// Whether their legs have begun, so that all words are sent.
+    begun: bool,
     /// The number of its first warp.
     warp: usize,
-    /// Words of a lane in each buffer.
-    each: [usize; 3],
+    /// Stretches in the window, of the leg that has most.
+    stretches: usize,
 }
 
 impl Group {
@@ -78,10 +101,20 @@ impl Group {
         length(self.lanes)
     }
 
-    /// Its words of each buffer.
+    /// Its words in each buffer.
     #[must_use]
     pub fn words(&self) -> [usize; 3] {
-        self.each.map(|words| words * self.length())
+        let each = [self.form.inputs(), state::words_of(self.stretches), flag::WORDS];
+        each.map(|words| words * self.length())
+    }
+
+    /// Words that are sent to each buffer, from the first on; the others are 0.
+    #[must_use]
+    pub fn words_sent(&self) -> [usize; 3] {
+        if self.begun {
+            return self.words();
+        }
+        [self.form.inputs(), state::SENT, flag::SENT].map(|words| words * self.length())
     }
 
     /// The settings of its dispatch of so many steps, with what lies between them and the next.
@@ -94,15 +127,15 @@ impl Group {
         bytes
     }
 
-    /// Where the next group begins.
+    /// Where the next group begins in each buffer.
     fn end<R>(&self) -> [usize; 3] {
-        let [inputs, state, flags] = self.words();
-        let [first_input, first_state, first_flag] = self.first;
-        [
-            aligned::<R>(first_input + inputs),
-            aligned::<R>(first_state + state),
-            aligned::<u32>(first_flag + flags),
-        ]
+        let [inputs, state, flags] = std::array::from_fn(|k| self.first[k] + self.words()[k]);
+        [aligned::<R>(inputs), aligned::<R>(state), aligned::<u32>(flags)]
+    }
+
+    /// Where what is sent of the next group begins.
+    fn end_sent(&self) -> [usize; 3] {
+        std::array::from_fn(|k| self.sent[k] + self.words_sent()[k])
     }
 }
 
@@ -113,9 +146,9 @@ fn aligned<T>(count: usize) -> usize {
 
 /// Steps that lanes have taken in a round.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Taken {
+pub struct Steps {
     /// By the lanes.
-    pub steps: u64,
+    pub gone: u64,
     /// If every lane of a warp of [`WARP`] took as many as the one that took most.
     pub of_warps: u64,
 }
@@ -125,34 +158,45 @@ pub struct Taken {
 pub struct Round<R> {
     /// The groups.
     pub groups: Vec<Group>,
-    /// What goes to the device.
+    /// What goes to the buffer of inputs.
     pub inputs: Vec<R>,
-    /// What goes there and comes back.
+    /// What goes to that of the state, most of which comes back.
     pub state: Vec<R>,
-    /// This, too.
+    /// What goes to that of the flags, which come back.
     pub flags: Vec<u32>,
+    /// Whether all words are sent, those that are 0 among them.
+    whole: bool,
 }
 
 impl<R: Real> Round<R> {
-    /// Of no lane.
+    /// Of no lane; `whole` says whether all words are sent, those that are 0 among them.
     #[must_use]
-    pub fn new() -> Round<R> {
-        Round { groups: Vec::new(), inputs: Vec::new(), state: Vec::new(), flags: Vec::new() }
+    pub fn new(whole: bool) -> Round<R> {
+        Round { groups: Vec::new(), inputs: Vec::new(), state: Vec::new(), flags: Vec::new(), whole }
     }
 
-    /// Puts the words of lanes, which are sorted by their kernels, into the buffers.
-    pub fn stage<T: Sync>(&mut self, lanes: &mut [Box<Lane<R, T>>]) {
-        let [inputs, state, flags] = self.place(lanes);
+    /// The words of each buffer.
+    #[must_use]
+    pub fn words(&self) -> [usize; 3] {
+        self.groups.last().map_or([0; 3], Group::end::<R>)
+    }
+
+    /// Puts the words of lanes, which are sorted by [`Lane::order`], into what is sent.
+    pub fn stage<T: Sync>(&mut self, lanes: &mut [Lane<R, T>]) {
+        self.place(lanes);
+        let last = self.groups.last();
+        let [inputs, state, flags] =
+            if self.whole { self.words() } else { last.map_or([0; 3], Group::end_sent) };
         self.inputs.resize(inputs, R::ZERO);
         self.state.resize(state, R::ZERO);
         self.flags.resize(flags, 0);
         let mut first = 0;
         for group in &self.groups {
             let of = |index: usize| &lanes[first + index].words;
-            let ([inputs, state, flags], size) = (group.words(), [group.length(), group.lanes]);
-            fill(&mut self.inputs[group.first[0]..][..inputs], size, |index| &of(index).inputs[..]);
-            fill(&mut self.state[group.first[1]..][..state], size, |index| &of(index).state[..]);
-            let flags = &mut self.flags[group.first[2]..][..flags];
+            let ([inputs, state, flags], size) = (group.words_sent(), [group.length(), group.lanes]);
+            fill(&mut self.inputs[group.sent[0]..][..inputs], size, |index| &of(index).inputs[..]);
+            fill(&mut self.state[group.sent[1]..][..state], size, |index| &of(index).state[..]);
+            let flags = &mut self.flags[group.sent[2]..][..flags];
             fill(flags, size, |index| &of(index).flags[..]);
             // What is no lane has ended.
             flags[FLAG_STATUS * size[0]..][..size[0]][size[1]..].fill(Status::Ok as u32);
@@ -160,23 +204,26 @@ impl<R: Real> Round<R> {
         }
     }
 
-    /// Gives every lane its place; how many words of each buffer there are.
-    fn place<T>(&mut self, lanes: &mut [Box<Lane<R, T>>]) -> [usize; 3] {
+    /// Gives every lane its place.
+    fn place<T>(&mut self, lanes: &mut [Lane<R, T>]) {
         self.groups.clear();
         for lane in lanes {
-            if self.groups.last().is_none_or(|group| group.form != lane.form) {
-                let first = self.groups.last().map_or([0; 3], Group::end::<R>);
-                let warp = self.groups.last().map_or(0, |last| last.warp + last.lanes.div_ceil(WARP));
-                let (form, of_state) = (lane.form, state::words_of(lane.form.part));
-                let each = [form.inputs(), of_state, flag::WORDS];
-                self.groups.push(Group { form, lanes: 0, first, warp, each });
+            let begun = lane.begun || self.whole;
+            let is_same = |group: &Group| group.form == lane.form && group.begun == begun;
+            if !self.groups.last().is_some_and(is_same) {
+                let last = self.groups.last();
+                let first = last.map_or([0; 3], Group::end::<R>);
+                let sent = if self.whole { first } else { last.map_or([0; 3], Group::end_sent) };
+                let warp = last.map_or(0, |last| last.warp + last.lanes.div_ceil(WARP));
+                let form = lane.form;
+                self.groups.push(Group { form, lanes: 0, first, sent, begun, warp, stretches: 0 });
             }
             let number = self.groups.len() - 1;
             let group = &mut self.groups[number];
             lane.at = [number, group.lanes];
             group.lanes += 1;
+            group.stretches = group.stretches.max(lane.stretches);
         }
-        self.groups.last().map_or([0; 3], Group::end::<R>)
     }
 
     /// Gives what has come back to the lanes that were staged, and every lane to `take` with the steps that it has gone.
@@ -185,17 +232,17 @@ impl<R: Real> Round<R> {
     /// The first of `take`.
     ///
     /// # Panics
-    /// When there are not as many words as were staged.
+    /// When there are not as many words as there are in the buffers.
     pub fn collect<T: Send>(
         &self,
-        lanes: &mut [Box<Lane<R, T>>],
+        lanes: &mut [Lane<R, T>],
         (all_state, all_flags): (&[R], &[u32]),
         take: impl Fn(&mut Lane<R, T>, u32) -> Result<()> + Sync,
-    ) -> (Taken, Result<()>) {
-        let most: Vec<AtomicU32> =
-            (0..lanes.len() / WARP + self.groups.len()).map(|_| AtomicU32::new(0)).collect();
-        let taken = AtomicU64::new(0);
-        let ended = lanes.par_iter_mut().try_for_each(|lane| {
+    ) -> (Steps, Result<()>) {
+        let warps = self.groups.last().map_or(0, |last| last.warp + last.lanes.div_ceil(WARP));
+        let most: Vec<[AtomicU32; PARTS.len()]> = (0..warps).map(|_| Default::default()).collect();
+        let gone = AtomicU64::new(0);
+        let one = |lane: &mut Lane<R, T>| {
             let [group, at] = lane.at;
             let warp = &most[self.groups[group].warp + at / WARP];
             let group = &self.groups[group];
@@ -204,19 +251,17 @@ impl<R: Real> Round<R> {
             let used = state / length;
             row(&mut lane.words.state[..used], &all_state[first_state..][..state], length, at);
             row(&mut lane.words.flags, &all_flags[first_flag..][..flags], length, at);
-            let steps = lane.words.flags[FLAG_STEPS].saturating_sub(lane.steps);
-            warp.fetch_max(steps, Ordering::Relaxed);
-            taken.fetch_add(u64::from(steps), Ordering::Relaxed);
-            lane.steps += steps;
+            lane.begun = true;
+            let steps = lane.count();
+            for (most, steps) in warp.iter().zip(steps) {
+                most.fetch_max(steps, Ordering::Relaxed);
+            }
+            let steps = steps.iter().sum();
+            gone.fetch_add(u64::from(steps), Ordering::Relaxed);
             take(lane, steps)
-        });
-        let of_warps = most.iter().map(|most| u64::from(most.load(Ordering::Relaxed))).sum::<u64>();
-        (Taken { steps: taken.into_inner(), of_warps: WARP as u64 * of_warps }, ended)
-    }
-}
-
-impl<R: Real> Default for Round<R> {
-    fn default() -> Round<R> {
-        Round::new()
+        };
+        let ended = lanes.par_iter_mut().try_for_each(one);
+        let of_warps = most.iter().flatten().map(|most| u64::from(most.load(Ordering::Relaxed))).sum::<u64>();
+        (Steps { gone: gone.into_inner(), of_warps: WARP as u64 * of_warps }, ended)
     }
 }

@@ -1,8 +1,13 @@
 //! The words of the march by name: what stands where in its buffers.
 
+/// Sections of a leg: the time before the window, and its two halves.
+pub const SECTIONS: usize = 3;
+
 /// What one instance hands to the kernel before the pieces of its law: the constants of [`crate::engine::lanes::constants`], in
-/// their order, and its stretch.
+/// their order, and its leg.
 pub mod head {
+    use crate::engine::march::table::SECTIONS;
+
     crate::engine::fields::fields! {
         R 6, "The tangential spring force, by positions and velocities.";
         W 6, "The normal spring force.";
@@ -23,7 +28,8 @@ pub mod head {
         NORMAL_MASS 1, "`m2 + m1 s²`.";
         RESTITUTION 1, "Newton restitution.";
         IMPACT_FRICTION 1, "1 with a Coulomb impulse, else 0.";
-        STEP 1, "The longest step of the stretch.";
+        STEP SECTIONS, "The longest step of each section.";
+        BEYOND 1, "Time from the end of the leg to that of the window.";
         DRIVE 1, "Belt acceleration.";
         LAYER 2, "How far a step of a curved law may go.";
     }
@@ -40,61 +46,97 @@ pub mod piece {
     }
 }
 
-/// What is carried of a lane between dispatches, and what it has seen in its stretch.
+/// What is carried of a lane between dispatches, and what it has seen in its leg.
 pub mod state {
-    use crate::engine::lanes::job::Part;
     use crate::engine::lanes::spectrum::COMPONENTS;
+    use crate::engine::march::table::history;
     use crate::engine::sums::{growth, peak, sum};
 
     crate::engine::fields::fields! {
         BODY 6, "Positions `x2 y2 y1` and velocities.";
         BELT 1, "Belt velocity.";
+        PREVIOUS 1, "`ẋ2` at the end of the step before.";
+        OMEGA 1, "The guess of the frequency.";
+        START 6, "Positions and velocities at the start of the window.";
         LEFT 1, "Time left in the stretch.";
         PACE 1, "The longest step that the last one lets expect.";
         TIME 1, "Time since the stretch began.";
-        PREVIOUS 1, "`ẋ2` at the end of the step before.";
-        FIRST 1, "Time of the first crossing.";
-        LAST 1, "Time of the last crossing.";
-        GROWTH growth::WORDS, "Sums before the first event.";
-        ORIGIN 2, "`x2` and `y1` at the start of the window.";
-        WINDOW sum::WORDS, "Sums of the window.";
-        PEAKS peak::WORDS, "Largest values.";
-        OMEGA 1, "The guess of the frequency.";
-        CARRIER 2, "`exp(−iω′(t − t_m))`.";
+        BASE 1, "Time from the start of the leg's window to that of the stretch.";
+        FROM 1, "Time of the first crossing since the leg's window began.";
+        TO 1, "Time of the last crossing since then.";
+        CARRIER 2, "`exp(−iω′t)`, from the start of the stretch.";
         SCALE 1, "`1/T`.";
         CLOSING 1, "The time from which crossings are noted.";
-        SPECTRUM COMPONENTS, "Fourier sums up to now.";
-        NOTED COMPONENTS, "Fourier sums up to the last crossing that was noted.";
+        GROWTH growth::WORDS, "Sums of the stretch before the first event.";
+        WINDOW sum::WORDS, "Sums of the stretch in the window.";
+        SPECTRUM COMPONENTS, "Fourier sums of the stretch up to now.";
+        FIRST 1, "Time of the first crossing since its stretch began.";
+        LAST 1, "Time of the last crossing since its stretch began.";
+        GROWN growth::WORDS, "Sums of the leg before the first event.";
+        SEEN 2 * sum::WORDS, "Sums of both halves of the window.";
+        PEAKS peak::WORDS, "Largest values.";
+        NOTED COMPONENTS, "Fourier sums of its stretch up to the last crossing that was noted.";
+        HISTORY history::MOST * history::WORDS, "The stretches of the window that are over.";
     }
 
-    /// How many of the words, from the first on, a part of a run reads or writes.
+    /// How many of the words, from the first on, are sent of a leg before it has begun; the others are 0.
+    pub const SENT: usize = LEFT;
+
+    /// How many of the words, from the first on, a leg reads or writes that has so many stretches in the window.
     #[must_use]
-    pub const fn words_of(part: Part) -> usize {
-        match part {
-            Part::Settle => GROWTH,
-            Part::Growth => ORIGIN,
-            _ => WORDS,
-        }
+    pub const fn words_of(stretches: usize) -> usize {
+        HISTORY + stretches * history::WORDS
     }
+}
+
+/// A stretch of the window that is over.
+pub mod history {
+    use crate::engine::lanes::spectrum::COMPONENTS;
+
+    crate::engine::fields::fields! {
+        OMEGA 1, "The guess of the frequency.";
+        TIME 1, "Its length.";
+        SPECTRUM COMPONENTS, "Its Fourier sums.";
+    }
+
+    /// Most stretches of the window in a leg.
+    pub const MOST: usize = 8;
 }
 
 /// Counters and switches of a lane.
 pub mod flag {
+    use crate::engine::march::table::SECTIONS;
+
     crate::engine::fields::fields! {
         STATUS 1, "Status.";
-        STEPS 1, "Steps done of the stretch.";
+        STEPS 1, "Steps done of the leg.";
+        PART 1, "The part of the run that it is in.";
+        SECTION 1, "The section that it is in.";
+        WHOLE SECTIONS, "Steps that each section is still to begin, of its longest.";
         CONTACT 1, "Contact state.";
         PIECE 1, "Piece of the law.";
         DISARMED 1, "The event function that begins at zero.";
         AT_ONCE 1, "Events at this instant.";
-        COUNTED 1, "Events of the stretch.";
-        MOST_STEPS 1, "The most steps of the stretch.";
-        MOST_EVENTS 1, "The most events of the stretch.";
-        CROSSINGS 1, "Upward crossings of `ẋ2`.";
-        IMPACTS 1, "Impacts.";
-        EVENTFUL 1, "1 once there was an event.";
+        LEFT_STEPS 1, "The most steps of the leg.";
         GROWING 1, "1 until the first event of the run.";
+        OPENED 1, "1 once the window has begun.";
         BEGUN 1, "1 from the first crossing of the window on.";
+        BEFORE 1, "Stretches of the window before those of the leg.";
+        AT_START 1, "Contact state, piece and event function at the start of the window.";
+        MOST_STEPS 1, "The most steps up to the end of the stretch.";
+        MOST_EVENTS 1, "The most events of the stretch.";
+        COUNTED 1, "Events of the stretch.";
+        GROWN 1, "Steps at the end of growth.";
+        SETTLED 1, "Steps at the start of the window.";
+        CROSSINGS 1, "Upward crossings of `ẋ2`: of the stretch, in the window of the leg.";
+        IMPACTS 1, "Impacts.";
+        EVENTFUL 1, "1 once there was an event in the window.";
+        STRETCH 1, "Stretches of the window that are over.";
+        FIRST_IN 1, "The stretch with the first crossing.";
+        LAST_IN 1, "The stretch with the last crossing.";
         FRESH 1, "1 when the last crossing has been noted.";
     }
+
+    /// How many of the words, from the first on, are sent of a leg before it has begun; the others are 0.
+    pub const SENT: usize = MOST_STEPS;
 }

@@ -32,7 +32,7 @@ type Choices = Vec<(&'static str, Constant)>;
 /// Every kernel there is, in every form.
 pub(crate) fn kernels() -> Vec<(Kernel, Choices)> {
     let march = |pieces: usize, part, law, ramp| {
-        let (kernel, choices) = Form { part, law, pieces, ramp }.kernel().expect("a kernel");
+        let (kernel, choices) = Form { law, pieces, ramp }.kernel(part).expect("a kernel");
         (*kernel, choices)
     };
     let mut all = vec![(linear::KERNEL, Vec::new())];

@@ -1,0 +1,86 @@
+//! The instances of a sweep whose response is asked for, and their records, for several that compute them side by side.
+
+use std::ops::Range;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+use crate::engine::instances::Instances;
+use crate::engine::judged::{kind_of, take_response};
+use crate::engine::outcome::Outcome;
+use crate::engine::record::Record;
+use crate::model::instance::Instance;
+
+/// Records under one lock: neighbours, which one task makes mostly.
+const TOGETHER: usize = 256;
+
+/// How far the instances of a sweep are.
+#[derive(Debug, Default)]
+pub struct Tally {
+    /// The first that nobody has taken.
+    next: AtomicUsize,
+    done: AtomicUsize,
+}
+
+/// The instances of a sweep that are computed.
+pub struct Asked<'a> {
+    spec: &'a dyn Instances,
+    first: usize,
+    total: usize,
+    records: Vec<Mutex<&'a mut [Record]>>,
+    tally: &'a Tally,
+}
+
+impl<'a> Asked<'a> {
+    /// Those of a sweep from `first` on, each with a record as it is before any response.
+    #[must_use]
+    pub fn new(
+        spec: &'a dyn Instances,
+        first: usize,
+        records: &'a mut [Record],
+        tally: &'a Tally,
+    ) -> Asked<'a> {
+        let total = records.len();
+        let records = records.chunks_mut(TOGETHER).map(Mutex::new).collect();
+        Asked { spec, first, total, records, tally }
+    }
+
+    /// The sweep.
+    #[must_use]
+    pub fn spec(&self) -> &'a dyn Instances {
+        self.spec
+    }
+
+    /// Those that have a record with their response, and all.
+    #[must_use]
+    pub fn count(&self) -> [usize; 2] {
+        [self.tally.done.load(Ordering::Relaxed), self.total]
+    }
+
+    /// Whether there is one that nobody has taken.
+    #[must_use]
+    pub fn has_more(&self) -> bool {
+        self.tally.next.load(Ordering::Relaxed) < self.total
+    }
+
+    /// Takes the next ones, at most so many.
+    #[must_use]
+    pub fn take(&self, most: usize) -> Range<usize> {
+        let first = self.tally.next.fetch_add(most, Ordering::Relaxed).min(self.total);
+        first..(first + most).min(self.total)
+    }
+
+    /// One of them.
+    #[must_use]
+    pub fn instance(&self, index: usize) -> Instance {
+        self.spec.instance(self.first + index)
+    }
+
+    /// Completes the record of one of them with what it did.
+    pub fn complete(&self, index: usize, instance: &Instance, outcome: &Outcome) {
+        let mut records = self.records[index / TOGETHER].lock().unwrap_or_else(PoisonError::into_inner);
+        let record = &mut records[index % TOGETHER];
+        let kind = kind_of(self.spec, instance, record);
+        take_response(record, instance, kind, outcome);
+        self.tally.done.fetch_add(1, Ordering::Relaxed);
+    }
+}
