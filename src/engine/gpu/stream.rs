@@ -84,10 +84,7 @@ impl<'a> Stream<'a> {
         progress: &'a (dyn Fn(usize) + Sync),
     ) -> Stream<'a> {
         let [_, total] = asked.count();
-        // As many rounds for every crew.
-        let crews = OF_DEVICE * sessions.len();
-        let rounds = total.div_ceil(crews * most.max(1)).max(1);
-        let most = total.div_ceil(crews * rounds).max(1);
+        let most = total.div_ceil(OF_DEVICE * sessions.len()).clamp(1, most.max(1));
         let sessions = sessions.iter_mut().map(Mutex::new).collect();
         Stream { asked, sessions, most, cancel, progress, failed: AtomicBool::new(false) }
     }
