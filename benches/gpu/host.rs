@@ -1,5 +1,6 @@
 //! What the host does for each instance beside the kernels: processor time, allocations, bytes to and from the device, memory;
-//! how long the device computes by its own clock and how long threads wait for it, and how busy the lanes are. On the map of `cargo bench --bench map`, with all columns.
+//! how long the device computes by its own clock and how long threads wait for it, and how busy the lanes are. On the map of
+//! `cargo bench --bench map`, with all columns.
 //!
 //! Processor time is that of the program's own threads: the pool's and the one that waits for the device. What a software driver
 //! does on threads of its own, kernels and copies, is told apart.

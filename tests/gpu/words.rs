@@ -20,14 +20,7 @@ static NEVER: AtomicBool = AtomicBool::new(false);
 
 /// How the tests drive a kernel.
 pub(crate) fn drive() -> Drive<'static> {
-    Drive {
-        offset: 0,
-        settings: [0; SETTING_WORDS],
-        steps: None,
-        most_dispatches: 4,
-        cancel: &NEVER,
-        progress: &|_| {},
-    }
+    Drive { offset: 0, settings: [0; SETTING_WORDS], most_dispatches: 4, cancel: &NEVER, progress: &|_| {} }
 }
 
 /// The best adapter's device.

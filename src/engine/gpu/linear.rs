@@ -99,14 +99,8 @@ fn append_in<R: Real>(
     records: &mut Vec<Record>,
 ) -> Result<()> {
     let chunk = chunk.unwrap_or(usize::MAX).min(session.chunk_size::<R>(&KERNEL));
-    let drive = Drive {
-        offset: 0,
-        settings: [0; SETTING_WORDS],
-        steps: None,
-        most_dispatches: MOST_DISPATCHES,
-        cancel,
-        progress,
-    };
+    let drive =
+        Drive { offset: 0, settings: [0; SETTING_WORDS], most_dispatches: MOST_DISPATCHES, cancel, progress };
     let first = range.start;
     let prepare = |part: Range<usize>| {
         let known: Vec<Known> = part.into_par_iter().map(|index| known(spec, first + index)).collect();

@@ -33,8 +33,6 @@ pub struct Drive<'a> {
     pub offset: usize,
     /// Kernel-specific words of the settings.
     pub settings: [u32; SETTING_WORDS],
-    /// Steps of a dispatch; `None` where they adapt to the time that it takes.
-    pub steps: Option<u32>,
     /// Most dispatches; more mean that the kernel does not come to an end.
     pub most_dispatches: u64,
     /// Set to stop: between two dispatches.
@@ -233,7 +231,7 @@ fn dispatch(
 ) -> Result<usize> {
     let name = compiled.kernel.name;
     let most = most_steps(device, &compiled.kernel);
-    let mut steps = drive.steps.unwrap_or(FIRST).min(most);
+    let mut steps = FIRST.min(most);
     let mut finished = 0;
     for _ in 0..drive.most_dispatches {
         if drive.cancel.load(Ordering::Relaxed) {
@@ -261,9 +259,7 @@ fn dispatch(
         if finished == count {
             return Ok(count);
         }
-        if drive.steps.is_none() {
-            steps = adapted(steps, elapsed).clamp(1, most);
-        }
+        steps = adapted(steps, elapsed).clamp(1, most);
     }
     Err(Error::Endless { kernel: name, finished, count, dispatches: drive.most_dispatches })
 }
