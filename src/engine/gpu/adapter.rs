@@ -11,7 +11,9 @@ const BACKENDS: wgpu::Backends =
     wgpu::Backends::VULKAN.union(wgpu::Backends::METAL).union(wgpu::Backends::DX12);
 
 /// Says what to install where no adapter is found.
-pub const MISSING_DRIVER: &str = if cfg!(target_os = "linux") {
+pub const MISSING_DRIVER: &str = if cfg!(all(target_os = "linux", target_feature = "crt-static")) {
+    "this program is linked statically and can load no driver: take the one built for x86_64-unknown-linux-gnu"
+} else if cfg!(target_os = "linux") {
     "install the Vulkan loader and a driver (Debian and Ubuntu: libvulkan1, and mesa-vulkan-drivers or the vendor's driver)"
 } else if cfg!(target_os = "macos") {
     "Metal needs macOS 10.13 or newer on a Mac with a supported GPU"
