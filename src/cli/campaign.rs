@@ -2,22 +2,27 @@
 
 use crate::cli::error::{Error, Result};
 use crate::cli::output::{Output, list};
+use crate::cli::pictures::png_of;
 use crate::cli::signals::SignalOptions;
 use crate::cli::talk::{self, note, print};
 use clap::Args;
 use rayon::prelude::*;
 use squealmap::disk;
+use squealmap::results::figure::look::Look;
 use squealmap::study::campaign::condition::{Condition, conditions, conditions_csv};
-use squealmap::study::campaign::row::{Said, StrokeRow, VelocityLaw, strokes_csv};
-use squealmap_identify::{Kind, Settings, Stroke, identify, strokes};
+use squealmap::study::campaign::figure::campaign_svg;
+use squealmap::study::campaign::read::document;
+use squealmap::study::campaign::row::{Said, StrokeRow, strokes_csv};
+use squealmap_identify::{Kind, Settings, Stroke, identify, strokes, told as told_of};
 use squealmap_input::files;
+use squealmap_input::quote::rounded;
 use std::fmt::Write;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// The files that are written.
-const FILES: [&str; 2] = ["conditions.csv", "strokes.csv"];
+const FILES: [&str; 5] = ["campaign.json", "campaign.png", "campaign.svg", "conditions.csv", "strokes.csv"];
 
 /// Arguments of `campaign`.
 #[derive(Debug, Args)]
@@ -40,13 +45,21 @@ impl CampaignCommand {
         let rows: Vec<Vec<StrokeRow>> =
             records.par_iter().map(|record| of_record(record, &settings)).collect();
         let rows = rows.concat();
-        let found = conditions(&rows);
-        let paths = output.write(&[(FILES[0], conditions_csv(&found)?), (FILES[1], strokes_csv(&rows)?)])?;
+        let said: Vec<Said> = rows.iter().filter_map(|row| row.said.clone().ok()).collect();
+        let found = conditions(&said);
+        let svg = campaign_svg("", &said, &Look::default());
+        let paths = output.write(&[
+            (FILES[0], document("", rows.len())?),
+            (FILES[1], png_of(&svg)?),
+            (FILES[2], svg.into_bytes()),
+            (FILES[3], conditions_csv(&found)?),
+            (FILES[4], strokes_csv(&rows)?),
+        ])?;
         let mut text = String::new();
         for row in &rows {
             match &row.said {
-                Ok(said) => {
-                    let _ = writeln!(text, "{}, stroke {}: {}", row.record, row.number, said.told);
+                Ok(_) => {
+                    let _ = writeln!(text, "{}, stroke {}: {}", row.record, row.number, row.told);
                 }
                 Err(why) => note(&format!("warning: {why}")),
             }
@@ -104,9 +117,12 @@ fn of_record(path: &Path, settings: &Settings) -> Vec<StrokeRow> {
     let name = path.display().to_string();
     let open =
         || files::open(path).map(|file| Box::new(file) as Box<dyn Read>).map_err(std::io::Error::other);
-    let row = |number: usize, stroke: Option<Stroke>, said: std::result::Result<Said, String>| {
-        let law = stroke.and_then(|stroke| stroke.quarters).map(VelocityLaw::of);
-        StrokeRow { record: name.clone(), number, stroke, law, said }
+    let row = |number: usize, stroke: Option<Stroke>, said: std::result::Result<Said, String>| StrokeRow {
+        record: name.clone(),
+        number,
+        stroke,
+        said,
+        told: String::new(),
     };
     let all = match strokes(open, &name, settings) {
         Ok(all) => all,
@@ -114,12 +130,13 @@ fn of_record(path: &Path, settings: &Settings) -> Vec<StrokeRow> {
     };
     let of_stroke = |(place, stroke): (usize, Stroke)| {
         let settings = Settings { rows: Some(stroke.rows), ..settings.clone() };
-        let found = identify(open, &name, &settings, &mut |_, _| {});
-        row(
-            place + 1,
-            Some(stroke),
-            found.map(|found| Said::new(&found, &stroke)).map_err(|why| why.to_string()),
-        )
+        match identify(open, &name, &settings, &mut |_, _| {}) {
+            Ok(found) => StrokeRow {
+                told: told_of(&found.segments),
+                ..row(place + 1, Some(stroke), Ok(Said::new(&found, &stroke)))
+            },
+            Err(why) => row(place + 1, Some(stroke), Err(why.to_string())),
+        }
     };
     all.into_iter().enumerate().map(of_stroke).collect()
 }
@@ -128,13 +145,14 @@ fn of_record(path: &Path, settings: &Settings) -> Vec<StrokeRow> {
 fn told(one: &Condition) -> String {
     let temperature = one.temperature.map_or(String::new(), |temperature| format!("{temperature:.0} °C, "));
     let law = one.law.map_or(String::new(), |law| format!("{} velocity, ", law.name()));
+    let speed = one.speed.map_or(String::new(), |speed| format!("{} m/s on average, ", rounded(speed)));
     let strokes = if one.strokes == 1 { "1 stroke".to_owned() } else { format!("{} strokes", one.strokes) };
     let shares = Kind::ALL.iter().zip(one.shares).filter(|(_, share)| *share >= 0.005);
     let shares: Vec<String> =
         shares.map(|(kind, share)| format!("{} {:.0} %", kind.words(), 100.0 * share)).collect();
     let at = one.vibration.map_or(String::new(), |[frequency, _]| format!(" at {frequency:.1} Hz"));
     format!(
-        "{temperature}{law}{strokes}: vibrating {:.0} % of the time{at}; {}",
+        "{temperature}{law}{speed}{strokes}: vibrating {:.0} % of the time{at}; {}",
         100.0 * one.vibrating,
         shares.join(", ")
     )

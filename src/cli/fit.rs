@@ -6,18 +6,23 @@ use crate::cli::error::Result;
 use crate::cli::home::prepare_beside;
 use crate::cli::numbers::{finite, positive};
 use crate::cli::output::list;
+use crate::cli::pictures::png_of;
 use crate::cli::talk::{note, print};
 use clap::{Args, ValueEnum};
 use squealmap::model::friction::LawKind;
+use squealmap::results::figure::look::Look;
 use squealmap::study::error::Error;
+use squealmap::study::fit::course::Shown;
+use squealmap::study::fit::figure::fit_svg;
 use squealmap::study::fit::rows::rows;
 use squealmap::study::fit::table::{material_csv, residuals_csv};
 use squealmap::study::fit::told::{remarks, warnings};
 use squealmap::study::fit::{Candidate, Fit, compare, fit};
 use squealmap_identify::{Channel, FrictionColumn, Point, Settings, read_measurements};
+use squealmap_input::quote::one_line;
 
 /// The files that are written.
-const FILES: [&str; 2] = ["material.csv", "residuals.csv"];
+const FILES: [&str; 5] = ["fit.json", "fit.png", "fit.svg", "material.csv", "residuals.csv"];
 /// The laws that can be fitted.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum Law {
@@ -103,15 +108,23 @@ impl FitCommand {
             .map_err(|fault| Error::Fit { name: name.clone(), fault: fault.into() })?;
         let text = material_csv(&fitted, &points, &name);
         let output = prepare_beside(&self.points, self.output.as_deref(), &FILES)?;
-        let residuals = residuals_csv(&fitted, &points)?;
-        let paths = output.write(&[(FILES[0], text.clone().into_bytes()), (FILES[1], residuals)])?;
-        let usage = format!("[friction]\nlaw = \"{}\"\nmaterial = \"{}\"\n", law.name(), FILES[0]);
+        let heading = one_line(&self.points.file_stem().unwrap_or_default().to_string_lossy());
+        let shown = Shown::new(&fitted, &points, &heading);
+        let svg = fit_svg(&shown, &Look::default());
+        let paths = output.write(&[
+            (FILES[0], shown.document()?),
+            (FILES[1], png_of(&svg)?),
+            (FILES[2], svg.into_bytes()),
+            (FILES[3], text.clone().into_bytes()),
+            (FILES[4], residuals_csv(&fitted, &points)?),
+        ])?;
+        let usage = format!("[friction]\nlaw = \"{}\"\nmaterial = \"{}\"\n", law.name(), FILES[3]);
         print(&format!(
             "{text}{}{}{}in a sweep file beside {}:\n{usage}",
             largest(&fitted, &points),
             compared(&candidates),
             list(&paths),
-            FILES[0]
+            FILES[3]
         ));
         for warning in warnings(&fitted, &points) {
             note(&format!("warning: {warning}"));

@@ -115,7 +115,7 @@ enum Command {
     Explore(explore::ExploreCommand),
     /// What measured signals say: identify.json, identify.svg, identify.png, windows.csv
     Identify(identify::Identify),
-    /// What the strokes of many records say, and those of one condition together: strokes.csv, conditions.csv
+    /// What the strokes of many records say, and those of one condition together: strokes.csv, conditions.csv, campaign.svg
     Campaign(campaign::CampaignCommand),
     /// The source paper computed again: its figures, and what becomes of its claims
     Paper(paper::PaperCommand),

@@ -6,7 +6,7 @@ use crate::results::figure::look::WIDTHS;
 use crate::results::read::{map, refined};
 use crate::study::error::{Error, Result};
 use crate::study::paper::Figure;
-use crate::study::{curves, fem, hysteresis, identify, modes, trace, tradeoff};
+use crate::study::{campaign, curves, fem, fit, hysteresis, identify, modes, trace, tradeoff};
 
 /// A figure of a command that can be drawn from its directory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,6 +27,10 @@ pub enum Kind {
     Tradeoff,
     /// Measured signals of `identify`.
     Identify,
+    /// The conditions of `campaign`.
+    Campaign,
+    /// The law of `fit` among its points.
+    Fit,
     /// The modes of `fem` over friction.
     Fem,
     /// Those over another parameter.
@@ -41,7 +45,7 @@ pub enum Kind {
 
 impl Kind {
     /// All kinds. Where a directory holds several, the first of these is drawn unless another is asked for.
-    pub const ALL: [Kind; 20] = [
+    pub const ALL: [Kind; 22] = [
         Kind::Map,
         Kind::Refined,
         Kind::Trace,
@@ -50,6 +54,8 @@ impl Kind {
         Kind::Modes,
         Kind::Tradeoff,
         Kind::Identify,
+        Kind::Campaign,
+        Kind::Fit,
         Kind::Fem,
         Kind::Vary,
         Kind::Shapes,
@@ -76,6 +82,8 @@ impl Kind {
             Kind::Modes => "modes",
             Kind::Tradeoff => "tradeoff",
             Kind::Identify => "identify",
+            Kind::Campaign => "campaign",
+            Kind::Fit => "fit",
             Kind::Fem => "fem",
             Kind::Vary => "vary",
             Kind::Shapes => "shapes",
@@ -96,6 +104,8 @@ impl Kind {
             Kind::Modes => modes::read::FILES,
             Kind::Tradeoff => tradeoff::read::FILES,
             Kind::Identify => identify::read::FILES,
+            Kind::Campaign => campaign::read::FILES,
+            Kind::Fit => fit::read::FILES,
             Kind::Fem => fem::read::FILES,
             Kind::Vary => fem::read::VARIED,
             Kind::Shapes | Kind::Mesh => fem::read::BODIES,

@@ -9,11 +9,14 @@ use crate::results::manifest::Program;
 use crate::results::read::folder::Folder;
 use crate::results::read::refined::Lines;
 use crate::results::read::{Archive, refined};
+use crate::study::campaign::figure::campaign_svg;
+use crate::study::campaign::row::Said;
 use crate::study::curves::figure::curves_svg;
 use crate::study::curves::read::Curves;
 use crate::study::error::{Error, Result};
 use crate::study::fem;
 use crate::study::fem::Bodies;
+use crate::study::fit::figure::fit_svg;
 use crate::study::hysteresis::follow::Hysteresis;
 use crate::study::hysteresis::table::hysteresis_svg;
 use crate::study::modes::follow::{Modes, draw};
@@ -21,7 +24,7 @@ use crate::study::paper::figures::Shown;
 use crate::study::trace::run::Trace;
 use crate::study::trace::table::trace_svg;
 use crate::study::tradeoff::report::figure;
-use crate::study::{Kind, curves, hysteresis, identify, modes, paper, trace, tradeoff};
+use crate::study::{Kind, campaign, curves, fit, hysteresis, identify, modes, paper, trace, tradeoff};
 use crate::sweep::accuracy::row::Row;
 use crate::sweep::grid::Grid;
 use crate::sweep::spec::Spec;
@@ -37,6 +40,8 @@ enum Content {
     Modes(Box<Spec>, Modes),
     Tradeoff(String, Vec<Row>),
     Identify(Box<identify::report::Shown>),
+    Campaign(String, Vec<Said>),
+    Fit(fit::course::Shown),
     Fem(fem::Curves),
     Shapes(Box<Bodies>),
     Mesh(Box<Bodies>),
@@ -79,6 +84,11 @@ impl Picture {
                 Content::Tradeoff(title, rows)
             }
             Kind::Identify => Content::Identify(Box::new(identify::read::read(folder)?)),
+            Kind::Campaign => {
+                let (title, strokes) = campaign::read::read(folder)?;
+                Content::Campaign(title, strokes)
+            }
+            Kind::Fit => Content::Fit(fit::read::read(folder)?),
             Kind::Fem => Content::Fem(fem::read::read(folder)?),
             Kind::Vary => Content::Fem(fem::read::read_varied(folder)?),
             Kind::Shapes => Content::Shapes(Box::new(Bodies::read(folder, kind.files())?)),
@@ -120,8 +130,9 @@ impl Picture {
             Content::Trace(_, heading) | Content::Hysteresis(_, heading) => &heading.title,
             Content::Curves(curves) => &curves.spec.title,
             Content::Modes(spec, _) => &spec.title,
-            Content::Tradeoff(title, _) => title,
+            Content::Tradeoff(title, _) | Content::Campaign(title, _) => title,
             Content::Identify(shown) => &shown.title,
+            Content::Fit(shown) => &shown.title,
             Content::Fem(curves) => &curves.title,
             Content::Shapes(bodies) | Content::Mesh(bodies) => bodies.title(),
             Content::Paper(shown) => shown.title(),
@@ -142,6 +153,8 @@ impl Picture {
             Content::Modes(spec, modes) => Ok(draw(spec, modes, look)),
             Content::Tradeoff(title, rows) => Ok(figure(title, rows, look)),
             Content::Identify(shown) => identify::report::identify_svg(shown, look),
+            Content::Campaign(title, strokes) => Ok(campaign_svg(title, strokes, look)),
+            Content::Fit(shown) => Ok(fit_svg(shown, look)),
             Content::Fem(curves) => Ok(curves.svg(look).unwrap_or_default()),
             Content::Shapes(bodies) => bodies.shapes_svg(look).ok_or(Error::NoShapes),
             Content::Mesh(bodies) => Ok(bodies.mesh_svg(look)),

@@ -113,10 +113,15 @@ fn parted(blocks: &[Block], has: Has) -> Vec<Stroke> {
         _ => -1,
     };
     let mut all = Vec::new();
-    let mut before = 0;
+    let (mut before, mut passed) = (0, 0);
     for run in blocks.chunk_by(|a, b| sign(a) == sign(b)) {
+        passed += run.len();
         if sign(&run[0]) != 0 {
-            all.push(stroke(run, before, has));
+            // The block in which a stroke begins or ends holds some of the rest beside it.
+            let first = usize::from(passed > run.len());
+            let last = run.len() - usize::from(passed < blocks.len());
+            let within = if first < last { first..last } else { 0..run.len() };
+            all.push(stroke(&run[within.clone()], before + Block::of(&run[..within.start]).rows, has));
         }
         before += Block::of(run).rows;
     }

@@ -1,17 +1,22 @@
-//! `conditions.csv`: what strokes of one temperature and one law of the velocity have in common.
+//! `conditions.csv`: what strokes of one temperature, one law of the velocity and one speed have in common.
+
+use std::collections::BTreeMap;
 
 use crate::results::csv::Table;
-use crate::study::campaign::row::{Said, StrokeRow, VelocityLaw};
+use crate::study::campaign::row::{Said, VelocityLaw};
 use crate::study::error::Result;
 use crate::sweep::columns::Cell;
 use squealmap_identify::Kind;
 
 /// Temperatures with less than this between neighbours, °C, are one condition.
 const APART: f64 = 20.0;
+/// Speeds with less than this factor between neighbours are one condition.
+const FASTER: f64 = 1.25;
 
-const COLUMNS: [&str; 11] = [
+const COLUMNS: [&str; 12] = [
     "temperature",
     "velocity_law",
+    "velocity",
     "strokes",
     "vibrating",
     "frequency",
@@ -30,6 +35,8 @@ pub struct Condition {
     pub temperature: Option<f64>,
     /// How the velocity goes; `None` where it was not recorded.
     pub law: Option<VelocityLaw>,
+    /// Their mean speed, m/s; `None` where the velocity was not recorded.
+    pub speed: Option<f64>,
     /// How many there are.
     pub strokes: usize,
     /// The part of their time in which they vibrate.
@@ -40,48 +47,70 @@ pub struct Condition {
     pub shares: [f64; Kind::ALL.len()],
 }
 
-/// The conditions of a campaign, by temperature and law; strokes that say nothing are in none.
-#[must_use]
-pub fn conditions(rows: &[StrokeRow]) -> Vec<Condition> {
-    let mut known: Vec<(&Said, Option<VelocityLaw>)> =
-        rows.iter().filter_map(|row| Some((row.said.as_ref().ok()?, row.law))).collect();
-    let temperature = |said: &Said| said.temperature.unwrap_or(f64::NEG_INFINITY);
-    known.sort_by(|(a, _), (b, _)| temperature(a).total_cmp(&temperature(b)));
-    let near = |a: &Said, b: &Said| match (a.temperature, b.temperature) {
-        (Some(a), Some(b)) => b - a < APART,
-        (a, b) => a.is_none() && b.is_none(),
-    };
-    let mut all = Vec::new();
-    for group in known.chunk_by(|(a, _), (b, _)| near(a, b)) {
-        let mut laws: Vec<Option<VelocityLaw>> = group.iter().map(|(_, law)| *law).collect();
-        laws.sort_unstable();
-        laws.dedup();
-        for law in laws {
-            let some: Vec<&Said> = group.iter().filter(|(_, of)| *of == law).map(|(said, _)| *said).collect();
-            all.push(together(&some, law));
-        }
+/// Strokes together by temperature, law of the velocity, and speed; the latter two are a column of the figure.
+pub(super) type Groups<'a> = BTreeMap<(usize, (Option<VelocityLaw>, usize)), Vec<&'a Said>>;
+
+/// The strokes of each condition, by temperature, law and speed.
+pub(super) fn groups(all: &[Said]) -> Groups<'_> {
+    let temperatures = classes(all, |said| said.temperature, |low, high| high - low < APART);
+    let speeds = classes(all, |said| said.speed, |low, high| high < FASTER * low);
+    let mut groups = Groups::new();
+    for ((said, temperature), speed) in all.iter().zip(temperatures).zip(speeds) {
+        groups.entry((temperature, (said.law, speed))).or_default().push(said);
     }
-    all
+    groups
 }
 
-fn together(some: &[&Said], law: Option<VelocityLaw>) -> Condition {
+/// The conditions of a campaign.
+#[must_use]
+pub fn conditions(all: &[Said]) -> Vec<Condition> {
+    groups(all).values().map(|some| together(some)).collect()
+}
+
+/// The class of each stroke by a quantity, 0 of the lowest and of those without it: neighbours that are `near` are in one.
+fn classes(all: &[Said], of: impl Fn(&Said) -> Option<f64>, near: impl Fn(f64, f64) -> bool) -> Vec<usize> {
+    let value = |place: usize| of(&all[place]);
+    let mut rising: Vec<usize> = (0..all.len()).collect();
+    rising.sort_by(|a, b| {
+        let [a, b] = [*a, *b].map(|place| value(place).unwrap_or(f64::NEG_INFINITY));
+        a.total_cmp(&b)
+    });
+    let together = |a: &usize, b: &usize| match (value(*a), value(*b)) {
+        (Some(low), Some(high)) => near(low, high),
+        (low, high) => low.is_none() && high.is_none(),
+    };
+    let mut classes = vec![0; all.len()];
+    for (class, some) in rising.chunk_by(together).enumerate() {
+        for place in some {
+            classes[*place] = class;
+        }
+    }
+    classes
+}
+
+/// The middle of some values.
+pub(super) fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    let middle = values.len() / 2;
+    if values.len() % 2 == 1 { values[middle] } else { 0.5 * (values[middle - 1] + values[middle]) }
+}
+
+/// The condition of some strokes.
+pub(super) fn together(some: &[&Said]) -> Condition {
     let length = |said: &Said| said.time[1] - said.time[0];
     let whole: f64 = some.iter().map(|said| length(said)).sum();
     let mean =
         |of: &dyn Fn(&Said) -> f64| some.iter().map(|said| of(said) * length(said)).sum::<f64>() / whole;
     let vibrations: Vec<[f64; 2]> = some.iter().filter_map(|said| said.vibration).collect();
-    let median = |which: usize| {
-        let mut values: Vec<f64> = vibrations.iter().map(|vibration| vibration[which]).collect();
-        values.sort_by(f64::total_cmp);
-        let middle = values.len() / 2;
-        if values.len() % 2 == 1 { values[middle] } else { 0.5 * (values[middle - 1] + values[middle]) }
-    };
     Condition {
         temperature: some[0].temperature.map(|_| mean(&|said| said.temperature.unwrap_or(0.0))),
-        law,
+        law: some[0].law,
+        speed: some[0].speed.map(|_| mean(&|said| said.speed.unwrap_or(0.0))),
         strokes: some.len(),
         vibrating: mean(&|said| said.vibrating),
-        vibration: (!vibrations.is_empty()).then(|| [median(0), median(1)]),
+        vibration: (!vibrations.is_empty()).then(|| {
+            [0, 1].map(|which| median(vibrations.iter().map(|vibration| vibration[which]).collect()))
+        }),
         shares: std::array::from_fn(|kind| mean(&|said| said.shares[kind])),
     }
 }
@@ -95,6 +124,7 @@ pub fn conditions_csv(all: &[Condition]) -> Result<Vec<u8>> {
     for one in all {
         let number = |value: Option<f64>| Cell::from(value).to_string();
         let mut cells = vec![number(one.temperature), one.law.map_or("", VelocityLaw::name).to_owned()];
+        cells.push(number(one.speed));
         cells.push(one.strokes.to_string());
         cells.push(number(Some(one.vibrating)));
         cells.extend([0, 1].map(|which| number(one.vibration.map(|vibration| vibration[which]))));

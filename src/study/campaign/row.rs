@@ -1,18 +1,19 @@
-//! `strokes.csv`: a row for each stroke of a campaign.
+//! A stroke of a campaign, and `strokes.csv` with a row for each.
 
 use crate::results::csv::Table;
 use crate::study::error::Result;
 use crate::sweep::columns::Cell;
-use squealmap_identify::{Identification, Kind, Segment, State, Stroke, told};
+use squealmap_identify::{Identification, Kind, Segment, State, Stroke};
 
 /// The columns of a stroke; SI units, temperature in °C, shares of its time from 0 to 1.
-const COLUMNS: [&str; 19] = [
+const COLUMNS: [&str; 20] = [
     "record",
     "stroke",
     "start",
     "end",
     "direction",
     "temperature",
+    "velocity",
     "velocity_start",
     "velocity_end",
     "velocity_law",
@@ -27,6 +28,9 @@ const COLUMNS: [&str; 19] = [
     "undecided",
     "status",
 ];
+
+/// The directions of strokes, that of a positive velocity first.
+pub(super) const DIRECTIONS: [&str; 2] = ["forward", "back"];
 
 /// The velocity hardly changes where its quarters differ by less than this part of the largest.
 const CONSTANT: f64 = 0.15;
@@ -45,6 +49,10 @@ pub enum VelocityLaw {
 }
 
 impl VelocityLaw {
+    /// All of them.
+    pub(super) const ALL: [VelocityLaw; 4] =
+        [VelocityLaw::Constant, VelocityLaw::Falling, VelocityLaw::Rising, VelocityLaw::Varying];
+
     /// The law of a stroke whose quarters have these mean speeds.
     #[must_use]
     pub fn of(speeds: [f64; 4]) -> VelocityLaw {
@@ -69,11 +77,17 @@ impl VelocityLaw {
     }
 }
 
-/// What the signals of a stroke say.
+/// What the signals of a stroke say: what its row of the table has.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Said {
     /// Start and end, s, by the clock of the record.
     pub time: [f64; 2],
+    /// Whether the body slides in the direction that has a positive velocity.
+    pub forward: bool,
+    /// How the velocity goes; `None` where it was not recorded.
+    pub law: Option<VelocityLaw>,
+    /// Mean speed, m/s; `None` where the velocity was not recorded.
+    pub speed: Option<f64>,
     /// Mean temperature, °C.
     pub temperature: Option<f64>,
     /// Mean friction coefficient.
@@ -84,8 +98,6 @@ pub struct Said {
     pub vibration: Option<[f64; 2]>,
     /// The parts of its time with each verdict, in the order of [`Kind::ALL`].
     pub shares: [f64; Kind::ALL.len()],
-    /// Its segments in one sentence.
-    pub told: String,
 }
 
 /// A stroke of a campaign.
@@ -97,10 +109,10 @@ pub struct StrokeRow {
     pub number: usize,
     /// Where in the record, and which way; `None` of a record that cannot be read.
     pub stroke: Option<Stroke>,
-    /// How the velocity goes; `None` where it was not recorded.
-    pub law: Option<VelocityLaw>,
     /// What its signals say, or why they say nothing.
     pub said: std::result::Result<Said, String>,
+    /// Its segments in one sentence; empty of a stroke that says nothing.
+    pub told: String,
 }
 
 impl Said {
@@ -128,12 +140,14 @@ impl Said {
         });
         Said {
             time: found.time.map(|time| time + offset),
+            forward: stroke.forward,
+            law: stroke.quarters.map(VelocityLaw::of),
+            speed: stroke.quarters.map(|quarters| quarters.iter().sum::<f64>() / quarters.len() as f64),
             temperature: stroke.temperature,
             friction: stroke.friction,
             vibrating: if whole > 0.0 { part(&vibrates) } else { 0.0 },
             vibration: longest.and_then(|segment| Some([segment.frequency?, amplitude])),
             shares,
-            told: told(&found.segments),
         }
     }
 }
@@ -147,15 +161,17 @@ pub fn strokes_csv(rows: &[StrokeRow]) -> Result<Vec<u8>> {
     for row in rows {
         let said = row.said.as_ref().ok();
         let number = |value: Option<f64>| Cell::from(value).to_string();
-        let direction = row.stroke.map_or("", |stroke| if stroke.forward { "forward" } else { "back" });
+        let direction = row.stroke.map_or("", |stroke| DIRECTIONS[usize::from(!stroke.forward)]);
         let ends = row.stroke.and_then(|stroke| stroke.quarters).map(|quarters| [quarters[0], quarters[3]]);
         let shares = Kind::ALL.map(|kind| number(said.map(|said| said.shares[kind as usize])));
         let mut cells = vec![row.record.clone(), row.number.to_string()];
         cells.extend([0, 1].map(|end| number(said.map(|said| said.time[end]))));
         cells.push(direction.to_owned());
         cells.push(number(said.and_then(|said| said.temperature)));
+        cells.push(number(said.and_then(|said| said.speed)));
         cells.extend([0, 1].map(|end| number(ends.map(|ends| ends[end]))));
-        cells.push(row.law.map_or("", VelocityLaw::name).to_owned());
+        let law = row.stroke.and_then(|stroke| stroke.quarters).map(VelocityLaw::of);
+        cells.push(law.map_or("", VelocityLaw::name).to_owned());
         cells.push(number(said.and_then(|said| said.friction)));
         cells.push(number(said.map(|said| said.vibrating)));
         cells.extend([0, 1].map(|which| number(said.and_then(|said| Some(said.vibration?[which])))));

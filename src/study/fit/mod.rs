@@ -5,12 +5,18 @@
 //! - [`compare`]: several laws, by information criteria.
 //! - [`rows`]: the temperatures of the material.
 //! - [`table`]: the files of a fit; [`told`]: what it says beside them.
+//! - [`course`]: the law over the velocity; [`read`]: a fit read back; [`figure`]: its picture.
 //! - `fault.rs`: why there is none.
 
+pub mod course;
 mod criteria;
 mod errors;
 mod fault;
+#[cfg(feature = "figures")]
+pub mod figure;
 mod problem;
+#[cfg(feature = "figures")]
+pub mod read;
 pub mod rows;
 mod shape;
 mod squares;

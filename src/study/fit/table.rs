@@ -10,7 +10,7 @@ use squealmap_identify::Point;
 use squealmap_input::quote::rounded;
 
 /// The columns of the residuals, SI units, temperature in °C.
-const RESIDUALS: [&str; 5] = ["velocity", "temperature", "friction", "fitted", "residual"];
+pub(super) const RESIDUALS: [&str; 5] = ["velocity", "temperature", "friction", "fitted", "residual"];
 
 /// The file of a material: comments with what it was fitted to and its standard errors, `temperature` and one column per law
 /// parameter, rising temperatures.

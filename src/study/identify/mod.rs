@@ -5,7 +5,7 @@
 //! - [`shown`]: what the figure shows; [`read`]: the same, read back; [`figure`]: its page, and what stands in its panels.
 
 pub mod figure;
-mod panels;
+pub(crate) mod panels;
 pub mod read;
 pub mod report;
 pub mod shown;

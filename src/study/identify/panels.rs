@@ -40,7 +40,7 @@ const END: &str = r##"fill="none" stroke="#777777" stroke-width="0.4" stroke-das
 const FRAME: &str = r##"fill="none" stroke="#000000" stroke-width="0.6""##;
 
 /// The fill of a verdict: that of the type in maps, lighter where another mechanism is not excluded.
-pub(super) fn fill(colour: Colour) -> String {
+pub(crate) fn fill(colour: Colour) -> String {
     let of = |name: &str| TYPES.iter().find(|class| class.name == name).map_or(PALE, |class| class.fill);
     let (fill, opacity) = match colour {
         Colour::NoInstability => (of("stable"), 1.0),

@@ -76,13 +76,9 @@ impl Colour {
 
     fn new(segment: &Segment) -> Colour {
         match (segment.verdict.kind, segment.shared) {
-            (Kind::NoInstability, _) => Colour::NoInstability,
-            (Kind::NegativeSlope, _) => Colour::NegativeSlope,
-            (Kind::ModeCoupling, _) => Colour::ModeCoupling,
-            (Kind::Both, _) => Colour::Both,
             (Kind::Undecided, Some((Mechanism::NegativeSlope, _))) => Colour::AnySlope,
             (Kind::Undecided, Some((Mechanism::ModeCoupling, _))) => Colour::AnyCoupling,
-            (Kind::Undecided, None) => Colour::Undecided,
+            (kind, _) => Colour::from(kind),
         }
     }
 
@@ -96,6 +92,18 @@ impl Colour {
             Colour::AnyCoupling => "mode coupling at least",
             Colour::Both => "both",
             Colour::Undecided => "undecided",
+        }
+    }
+}
+
+impl From<Kind> for Colour {
+    fn from(kind: Kind) -> Colour {
+        match kind {
+            Kind::NoInstability => Colour::NoInstability,
+            Kind::NegativeSlope => Colour::NegativeSlope,
+            Kind::ModeCoupling => Colour::ModeCoupling,
+            Kind::Both => Colour::Both,
+            Kind::Undecided => Colour::Undecided,
         }
     }
 }

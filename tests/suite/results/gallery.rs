@@ -5,6 +5,7 @@
 use std::f64::consts::TAU;
 
 use crate::results::gallery_fem::{a_finite_element_study, a_varied_study, bodies};
+use crate::results::gallery_measured::{a_campaign, a_fit};
 use crate::synthetic::{axis, map, number, paper_like, record, span, spec};
 use num_complex::Complex64;
 use squealmap::engine::backend::Backend;
@@ -72,6 +73,8 @@ pub(crate) fn all() -> Vec<Piece> {
         some_modes(),
         a_tradeoff(),
         an_identification(),
+        a_campaign(),
+        a_fit(),
         a_finite_element_study(),
         a_varied_study(),
     ];

@@ -10,6 +10,7 @@ pub(crate) mod export;
 pub(crate) mod figure;
 pub(crate) mod gallery;
 mod gallery_fem;
+mod gallery_measured;
 pub(crate) mod gallery_plots;
 pub(crate) mod isolines;
 pub(crate) mod netcdf_file;

@@ -28,9 +28,9 @@ fn letters(svg: &str) -> usize {
 fn rows_of_panels_have_letters() {
     for piece in all() {
         let expected = match piece.kind {
-            Kind::Map | Kind::Refined | Kind::Modes | Kind::Fem | Kind::Vary => 2,
+            Kind::Map | Kind::Refined | Kind::Modes | Kind::Fit | Kind::Fem | Kind::Vary => 2,
             Kind::Shapes => 1,
-            Kind::Trace => 4,
+            Kind::Trace | Kind::Campaign => 4,
             // Five over time, three close ones.
             Kind::Identify => 8,
             Kind::Hysteresis | Kind::Curves | Kind::Tradeoff | Kind::Mesh => 0,

@@ -6,11 +6,13 @@ use std::io::{Cursor, Read};
 
 use crate::cli::program::squealmap;
 use squealmap::study::campaign::condition::conditions;
-use squealmap::study::campaign::row::{Said, StrokeRow, VelocityLaw};
+use squealmap::study::campaign::row::{Said, VelocityLaw};
 use squealmap_identify::{Kind, Settings, Stroke, identify, strokes};
 
 /// Samples per second.
 const RATE: f64 = 20_000.0;
+/// Samples of a rest: no multiple of the blocks in which a record is looked at.
+const REST: usize = 2003;
 
 /// A record of strokes between rests: each its direction, first and last speed (m/s), duration (s), and frequency of what vibrates in
 /// it, Hz, or 0; noise by a fixed sequence.
@@ -29,7 +31,7 @@ fn record(of: &[(f64, [f64; 2], f64, f64)], temperature: f64) -> String {
         row += 1;
     };
     for &(direction, [first, last], duration, frequency) in of {
-        (0..2000).for_each(|_| add(0.0, 0.0));
+        (0..REST).for_each(|_| add(0.0, 0.0));
         let times =
             (0..u32::MAX).map(|k| f64::from(k) / RATE).take_while(|time| *time < duration - 0.5 / RATE);
         for time in times {
@@ -38,7 +40,7 @@ fn record(of: &[(f64, [f64; 2], f64, f64)], temperature: f64) -> String {
             add(direction * (first + part * (last - first)), sound);
         }
     }
-    (0..2000).for_each(|_| add(0.0, 0.0));
+    (0..REST).for_each(|_| add(0.0, 0.0));
     text
 }
 
@@ -67,7 +69,7 @@ fn strokes_lie_between_rests_and_turns() {
     assert_eq!(all.iter().map(|stroke| stroke.forward).collect::<Vec<_>>(), [true, false, true]);
     let mut before = 0.0;
     for (stroke, (_, [first, last], duration, _)) in all.iter().zip(THREE) {
-        before += 2000.0;
+        before += REST as f64;
         let [from, rows] = stroke.rows.map(|rows| rows as f64);
         // Blocks of 16 rows, and what moves at 5 % of the fastest or below is at rest.
         assert!((from - before).abs() <= 16.0 && (rows - duration * RATE).abs() <= 32.0, "{stroke:?}");
@@ -106,28 +108,31 @@ fn a_stroke_of_a_record_says_what_a_file_of_it_says() {
 
 #[test]
 fn strokes_of_one_temperature_and_law_are_one_condition() {
-    let said = |temperature: f64, vibrating: f64, seconds: f64| Said {
+    let said = |law, speed: f64, temperature: f64, vibrating: f64, seconds: f64| Said {
         time: [1.0, 1.0 + seconds],
+        forward: true,
+        law: Some(law),
+        speed: Some(speed),
         temperature: Some(temperature),
         friction: Some(0.4),
         vibrating,
         vibration: (vibrating > 0.0).then_some([100.0 * temperature, 1.0]),
         shares: [1.0 - vibrating, 0.0, vibrating, 0.0, 0.0],
-        told: String::new(),
     };
-    let row = |law, said| StrokeRow { record: "r".to_owned(), number: 1, stroke: None, law: Some(law), said };
     let rows = [
-        row(VelocityLaw::Falling, Ok(said(305.0, 1.0, 3.0))),
-        row(VelocityLaw::Constant, Ok(said(498.0, 0.5, 1.0))),
-        row(VelocityLaw::Falling, Ok(said(295.0, 0.0, 1.0))),
-        row(VelocityLaw::Constant, Err("no".to_owned())),
-        row(VelocityLaw::Constant, Ok(said(301.0, 0.25, 1.0))),
+        said(VelocityLaw::Falling, 0.1, 305.0, 1.0, 3.0),
+        said(VelocityLaw::Constant, 0.1, 498.0, 0.5, 1.0),
+        said(VelocityLaw::Falling, 0.11, 295.0, 0.0, 1.0),
+        said(VelocityLaw::Constant, 0.1, 301.0, 0.25, 1.0),
+        said(VelocityLaw::Constant, 0.2, 300.0, 0.25, 1.0),
     ];
     let all = conditions(&rows);
     let of: Vec<_> = all.iter().map(|one| (one.law, one.strokes)).collect();
     let [constant, falling] = [VelocityLaw::Constant, VelocityLaw::Falling].map(Some);
-    assert_eq!(of, [(constant, 1), (falling, 2), (constant, 1)]);
-    let falling = &all[1];
+    // Twice as fast is another condition, a tenth faster is not.
+    assert_eq!(of, [(constant, 1), (constant, 1), (falling, 2), (constant, 1)]);
+    let falling = &all[2];
+    assert!(falling.speed.is_some_and(|mean| (mean - 0.1025).abs() < 1e-12));
     // Weighted by time: three seconds at 305, one at 295.
     assert!(falling.temperature.is_some_and(|mean| (mean - 302.5).abs() < 1e-12));
     assert!((falling.vibrating - 0.75).abs() < 1e-12);
@@ -153,9 +158,9 @@ fn a_folder_of_records_is_a_campaign_and_a_broken_one_says_why() {
     let table = read("strokes.csv");
     let rows: Vec<Vec<&str>> = table.lines().map(|line| line.split(',').collect()).collect();
     assert_eq!(rows.len(), 1 + 1 + 3 + 3, "{table}");
-    assert!(rows[1][0].ends_with("broken.csv") && rows[1][18] != "ok", "{table}");
-    assert!(rows[2..].iter().all(|row| row[18] == "ok"), "{table}");
-    let laws: Vec<&str> = rows[2..5].iter().map(|row| row[8]).collect();
+    assert!(rows[1][0].ends_with("broken.csv") && rows[1][19] != "ok", "{table}");
+    assert!(rows[2..].iter().all(|row| row[19] == "ok"), "{table}");
+    let laws: Vec<&str> = rows[2..5].iter().map(|row| row[9]).collect();
     assert_eq!(laws, ["falling", "constant", "rising"]);
     let conditions = read("conditions.csv");
     assert_eq!(conditions.lines().count(), 1 + 6, "{conditions}");

@@ -87,7 +87,8 @@ fn a_report_on_accuracy_prints_numbers_of_its_run_alone() {
     assert_eq!(unmeasured(&report, &measured), none);
     // What another run measured is seen. Its numbers have more digits than a report prints, so that no time of this
     // run can be among them.
-    let planted = report + "\nMeasured: 129600.125 instances take 5.325 s of a processor; 91.725 % keep 3.14e-3.\n";
+    let planted =
+        report + "\nMeasured: 129600.125 instances take 5.325 s of a processor; 91.725 % keep 3.14e-3.\n";
     assert_eq!(unmeasured(&planted, &measured), ["129600.125", "5.325", "91.725", "3.14e-3"]);
 }
 

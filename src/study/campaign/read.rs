@@ -1,0 +1,79 @@
+//! `strokes.csv` and `campaign.json`: a campaign read back.
+
+use serde::{Deserialize, Serialize};
+
+use crate::results::manifest::described;
+use crate::results::read::folder::{Folder, Table, Why, headed};
+use crate::study::campaign::row::{DIRECTIONS, Said, VelocityLaw};
+use crate::study::error::Result;
+use squealmap_identify::Kind;
+
+/// The files that are read.
+pub(crate) const FILES: [&str; 2] = ["strokes.csv", "campaign.json"];
+
+/// What the figure needs beside the table.
+#[derive(Deserialize, Serialize)]
+struct Document {
+    title: String,
+    /// The number of rows of the table.
+    strokes: usize,
+}
+
+/// `campaign.json` of a campaign whose table has so many rows.
+///
+/// # Errors
+/// When it cannot be written.
+pub fn document(title: &str, strokes: usize) -> Result<Vec<u8>> {
+    Ok(described(&Document { title: title.to_owned(), strokes })?)
+}
+
+/// The title of a campaign, and what its strokes say; those that say nothing are left out.
+pub(crate) fn read(folder: Folder<'_>) -> Result<(String, Vec<Said>)> {
+    let table = folder.table(FILES[0])?;
+    let Document { title, strokes } =
+        headed(folder.json(FILES[1])?).map_err(|why| folder.bad(FILES[1], why))?;
+    // A table that was cut short at the end of a line looks whole.
+    if strokes != table.rows.len() {
+        let why = format!("has {} rows, but `{}` says {strokes}", table.rows.len(), FILES[1]);
+        return Err(folder.bad(FILES[0], why).into());
+    }
+    Ok((title, said(&table).map_err(|why| folder.bad(FILES[0], why))?))
+}
+
+fn said(table: &Table) -> Why<Vec<Said>> {
+    let numbers =
+        ["start", "end", "temperature", "velocity", "friction", "vibrating", "frequency", "amplitude"];
+    let numbers = table.numbers(numbers)?;
+    let shares = table.numbers(Kind::ALL.map(Kind::name))?;
+    let mut all = Vec::new();
+    for ((row, numbers), shares) in table.rows.iter().zip(numbers).zip(shares) {
+        if table.cell(row, "status") != "ok" {
+            continue;
+        }
+        let [start, end, temperature, speed, friction, vibrating, frequency, amplitude] = numbers;
+        let known = |value: f64| value.is_finite().then_some(value);
+        let part = |value: &f64| (0.0..=1.0 + 1e-9).contains(value);
+        if !(end > start && part(&vibrating) && shares.iter().all(part)) {
+            return Err(format!("has a stroke from {start} to {end} s whose parts of the time are no parts"));
+        }
+        let name = table.cell(row, "velocity_law");
+        let law = VelocityLaw::ALL.into_iter().find(|law| law.name() == name);
+        if law.is_none() && !name.is_empty() {
+            return Err(format!("`velocity_law` is `{name}`, which is none"));
+        }
+        all.push(Said {
+            time: [start, end],
+            forward: table.cell(row, "direction") == DIRECTIONS[0],
+            law,
+            speed: known(speed),
+            temperature: known(temperature),
+            friction: known(friction),
+            vibrating,
+            vibration: known(frequency)
+                .zip(known(amplitude))
+                .map(|(frequency, amplitude)| [frequency, amplitude]),
+            shares,
+        });
+    }
+    Ok(all)
+}

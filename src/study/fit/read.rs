@@ -1,0 +1,28 @@
+//! `residuals.csv` and `fit.json`: a fit read back, to be drawn.
+
+use crate::results::read::folder::{Folder, headed};
+use crate::study::error::Result;
+use crate::study::fit::course::{Document, Shown};
+use crate::study::fit::table::RESIDUALS;
+
+/// The files that are read.
+pub(crate) const FILES: [&str; 2] = ["residuals.csv", "fit.json"];
+
+/// Reads a fit.
+pub(crate) fn read(folder: Folder<'_>) -> Result<Shown> {
+    let table = folder.table(FILES[0])?;
+    let Document { title, law, points: all, courses } =
+        headed(folder.json(FILES[1])?).map_err(|why| folder.bad(FILES[1], why))?;
+    // A table that was cut short at the end of a line looks whole.
+    if all != table.rows.len() {
+        let why = format!("has {} rows, but `{}` says {all}", table.rows.len(), FILES[1]);
+        return Err(folder.bad(FILES[0], why).into());
+    }
+    let [velocity, temperature, friction, _, residual] = RESIDUALS;
+    let points = table.numbers([velocity, temperature, friction, residual]);
+    let mut points = points.map_err(|why| folder.bad(FILES[0], why))?;
+    for point in &mut points {
+        point[0] = point[0].abs();
+    }
+    Ok(Shown { title, law, courses, points })
+}
