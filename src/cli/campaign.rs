@@ -27,7 +27,7 @@ const FILES: [&str; 5] = ["campaign.json", "campaign.png", "campaign.svg", "cond
 /// Arguments of `campaign`.
 #[derive(Debug, Args)]
 pub(crate) struct CampaignCommand {
-    /// Records, or folders whose records (*.csv, *.tsv, *.txt) are meant
+    /// Records, or folders whose records (*.csv, *.tsv, *.txt, *.wav, *.mat, *.uff, *.unv, *.tdms) are meant
     #[arg(required = true, value_name = "RECORD")]
     records: Vec<PathBuf>,
     /// Output directory
@@ -78,7 +78,7 @@ impl CampaignCommand {
 
 /// The records that are meant, those of folders by name.
 fn listed(given: &[PathBuf]) -> Result<Vec<PathBuf>> {
-    const ENDINGS: [&str; 3] = ["csv", "tsv", "txt"];
+    const ENDINGS: [&str; 8] = ["csv", "tsv", "txt", "wav", "mat", "uff", "unv", "tdms"];
     let mut all = Vec::new();
     for path in given {
         if !path.exists() {
@@ -103,7 +103,7 @@ fn listed(given: &[PathBuf]) -> Result<Vec<PathBuf>> {
             }
         }
         if inside.is_empty() {
-            let why = "holds no record: no file that ends in .csv, .tsv or .txt".to_owned();
+            let why = format!("holds no record: no file that ends in .{}", ENDINGS.join(", ."));
             return Err(Error::NoRecords { path: path.clone(), why });
         }
         inside.sort();

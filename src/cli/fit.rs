@@ -36,7 +36,7 @@ enum Law {
 /// Arguments of `fit`.
 #[derive(Debug, Args)]
 pub(crate) struct FitCommand {
-    /// Measured points: CSV with a header
+    /// Measured points, or a record of a stroke: CSV with a header, or WAV, MAT (-v7), UFF 58 or TDMS
     points: PathBuf,
     /// Output directory [default: out/<name of the file>]
     #[arg(short, long, value_name = "DIR")]

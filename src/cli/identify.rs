@@ -27,7 +27,7 @@ const FILES: [&str; 6] =
 /// Arguments of `identify`.
 #[derive(Debug, Args)]
 pub(crate) struct Identify {
-    /// Measured signals: CSV with a header, separated by commas, semicolons or tabs
+    /// Measured signals: CSV with a header, separated by commas, semicolons or tabs; or WAV, MAT (-v7), UFF 58 or TDMS
     signals: PathBuf,
     /// Output directory [default: out/<name of the file>]
     #[arg(short, long, value_name = "DIR")]

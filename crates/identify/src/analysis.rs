@@ -202,7 +202,7 @@ fn analyse(
 
 /// Sentences about everything that limits the analysis.
 fn notes(survey: &Survey, zooms: &[f64]) -> Vec<String> {
-    let mut notes: Vec<String> = survey.remark.iter().cloned().collect();
+    let mut notes: Vec<String> = survey.remarks.clone();
     if survey.turned {
         notes.push(
             "the velocity is negative: the signs of what points along the contact are turned".to_owned(),

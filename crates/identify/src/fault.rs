@@ -1,5 +1,8 @@
 //! The faults of files of signals. A file with a fault is named and not analysed.
 
+use crate::place::Place;
+use crate::unread::Unread;
+
 /// The slowest and the fastest rate of sensors of vibrations, Hz. What a column of time without a unit says beyond them is asked
 /// about: squeal at 51.2 kHz with its time in milliseconds would be 51.2 Hz.
 pub const RATES: [f64; 2] = [1e3, 1e6];
@@ -9,11 +12,14 @@ pub const RATES: [f64; 2] = [1e3, 1e6];
 #[non_exhaustive]
 pub enum Fault {
     /// The file cannot be read.
-    #[error("cannot be read: {why}; give a CSV file with a header")]
+    #[error("cannot be read: {why}; give a CSV file with a header, or a WAV, MAT, UFF 58 or TDMS file")]
     Unreadable {
         /// What the system says.
         why: String,
     },
+    /// A file of a recorder that is not read.
+    #[error(transparent)]
+    Unread(#[from] Unread),
     /// A named column that is not there.
     #[error("there is no column `{name}` for {words}; the header has {header}; name one with {flag}")]
     NoColumn {
@@ -104,11 +110,11 @@ pub enum Fault {
     },
     /// Time that stands still or runs backwards.
     #[error(
-        "line {line}: column `{column}` is {time} s after {previous} s but must rise; sort the rows, name another column with --time, or give --rate"
+        "{place}: column `{column}` is {time} s after {previous} s but must rise; sort the rows, name another column with --time, or give --rate"
     )]
     NotRising {
-        /// Line, from 1.
-        line: u64,
+        /// Where.
+        place: Place,
         /// The column.
         column: String,
         /// The time, s.
@@ -118,11 +124,11 @@ pub enum Fault {
     },
     /// A normal force that is not positive, where a friction coefficient is wanted.
     #[error(
-        "line {line}: column `{column}` is {value} N, without contact there is no friction coefficient; leave such rows out"
+        "{place}: column `{column}` is {value} N, without contact there is no friction coefficient; leave such rows out"
     )]
     NoContact {
-        /// Line, from 1.
-        line: u64,
+        /// Where.
+        place: Place,
         /// The column.
         column: String,
         /// Its value, N.
@@ -130,11 +136,11 @@ pub enum Fault {
     },
     /// Missing samples.
     #[error(
-        "line {line}: a gap of {missing} sample(s) in column `{column}` before {time} s; cut the record there and give one part"
+        "{place}: a gap of {missing} sample(s) in column `{column}` before {time} s; cut the record there and give one part"
     )]
     Gap {
-        /// Line, from 1.
-        line: u64,
+        /// Where.
+        place: Place,
         /// The column of time.
         column: String,
         /// Samples that are missing.
@@ -144,11 +150,11 @@ pub enum Fault {
     },
     /// Samples that are not evenly spaced.
     #[error(
-        "line {line}: column `{column}` steps by {step} s where {usual} s is usual; give evenly spaced samples (`squealmap trace --rate HZ` writes them)"
+        "{place}: column `{column}` steps by {step} s where {usual} s is usual; give evenly spaced samples (`squealmap trace --rate HZ` writes them)"
     )]
     Uneven {
-        /// Line, from 1.
-        line: u64,
+        /// Where.
+        place: Place,
         /// The column of time.
         column: String,
         /// The step, s.

@@ -2,7 +2,8 @@
 //!
 //! | stage | file |
 //! |---|---|
-//! | columns, units of time, CSV → rows | `channel.rs`, `unit.rs`, `settings.rs`, `read.rs` |
+//! | a file of any format → columns and rows | `formats/mod.rs`, `place.rs`, `unread.rs` |
+//! | columns → channels, units of time | `channel.rs`, `unit.rs`, `settings.rs`, `read.rs` |
 //! | its strokes, between rests and turns | `stroke.rs` |
 //! | is the file fit for analysis: gaps, outliers, clipping, swapped columns | `survey.rs`, `pace.rs`, `range.rs`, `outlier.rs`, `fault.rs` |
 //! | windows: frequency, growth, cross-spectra | `window.rs`, `cross.rs`, `spectrum.rs` |
@@ -32,6 +33,7 @@ mod envelope;
 mod episode;
 mod fault;
 mod feedback;
+mod formats;
 mod instants;
 mod joint;
 mod line;
@@ -41,6 +43,7 @@ mod mode;
 mod outlier;
 mod overview;
 mod pace;
+mod place;
 mod points;
 pub mod population;
 mod range;
@@ -63,6 +66,7 @@ mod told;
 mod trend;
 mod undisturbed;
 mod unit;
+mod unread;
 mod verdict;
 mod window;
 mod within;
@@ -79,6 +83,7 @@ pub use fault::{Fault, RATES, Unfit};
 pub use instants::Instant;
 pub use measured::{Measurements, read_measurements};
 pub use overview::Friction;
+pub use place::Place;
 pub use points::{FrictionColumn, Point, Points, read_points};
 pub use rates::{Rate, rate_of};
 pub use reading::Reading;
@@ -91,5 +96,6 @@ pub use testimony::{Chances, Mechanism, Testimony, Witness};
 pub use told::told;
 pub use undisturbed::Undisturbed;
 pub use unit::TimeUnit;
+pub use unread::Unread;
 pub use verdict::{CONFIDENT, Kind, Verdict};
 pub use window::Window;

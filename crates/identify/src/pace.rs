@@ -1,6 +1,7 @@
 //! The pace of the samples: rising time, even steps, no gaps.
 
 use crate::fault::Fault;
+use crate::place::Place;
 
 /// Steps from which the usual one is taken (their median).
 const FIRST_STEPS: usize = 200;
@@ -18,8 +19,8 @@ pub(super) struct Pace {
     last: f64,
     rows: u64,
     usual: Option<f64>,
-    /// The first steps, kept until the usual one is known: line, time and step.
-    early: Vec<(u64, f64, f64)>,
+    /// The first steps, kept until the usual one is known: place, time and step.
+    early: Vec<(Place, f64, f64)>,
 }
 
 impl Pace {
@@ -28,7 +29,7 @@ impl Pace {
     }
 
     /// Takes the time of the next row.
-    pub(super) fn row(&mut self, line: u64, time: f64) -> Result<(), Fault> {
+    pub(super) fn row(&mut self, place: Place, time: f64) -> Result<(), Fault> {
         self.rows += 1;
         if self.first.is_none() {
             (self.first, self.last) = (Some(time), time);
@@ -37,12 +38,12 @@ impl Pace {
         let previous = std::mem::replace(&mut self.last, time);
         let step = time - previous;
         if step <= 0.0 {
-            return Err(Fault::NotRising { line, column: self.column.clone(), time, previous });
+            return Err(Fault::NotRising { place, column: self.column.clone(), time, previous });
         }
         if self.usual.is_some() {
-            return self.check(line, time, step);
+            return self.check(place, time, step);
         }
-        self.early.push((line, time, step));
+        self.early.push((place, time, step));
         if self.early.len() >= FIRST_STEPS { self.settle() } else { Ok(()) }
     }
 
@@ -52,18 +53,18 @@ impl Pace {
         let mut steps: Vec<f64> = early.iter().map(|(_, _, step)| *step).collect();
         steps.sort_by(f64::total_cmp);
         self.usual = steps.get(steps.len() / 2).copied();
-        early.into_iter().try_for_each(|(line, time, step)| self.check(line, time, step))
+        early.into_iter().try_for_each(|(place, time, step)| self.check(place, time, step))
     }
 
-    fn check(&self, line: u64, time: f64, step: f64) -> Result<(), Fault> {
+    fn check(&self, place: Place, time: f64, step: f64) -> Result<(), Fault> {
         let usual = self.usual.unwrap_or(step);
         if step > GAP * usual {
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a positive count")]
             let missing = (step / usual).round().max(2.0) as u64 - 1;
-            return Err(Fault::Gap { line, column: self.column.clone(), missing, time });
+            return Err(Fault::Gap { place, column: self.column.clone(), missing, time });
         }
         if step < SHORT * usual {
-            return Err(Fault::Uneven { line, column: self.column.clone(), step, usual });
+            return Err(Fault::Uneven { place, column: self.column.clone(), step, usual });
         }
         Ok(())
     }

@@ -40,7 +40,7 @@ pub struct Points {
     pub without_contact: u64,
 }
 
-/// Reads points from a CSV file with the columns of `settings` for velocity, temperature and both forces; its name in
+/// Reads points from a file with the columns of `settings` for velocity, temperature and both forces; its name in
 /// messages is `name`. Without a column of temperature every point has `temperature` (°C).
 ///
 /// # Errors
@@ -85,7 +85,7 @@ fn points(
     let mut points = Vec::new();
     let mut open = None;
     let mut without_contact = 0;
-    while let Some(Row { line, values, .. }) = table.next()? {
+    while let Some(Row { place, values, .. }) = table.next()? {
         let value = |channel: Channel| values[channel as usize];
         let (tangential, normal) = (value(Channel::TangentialForce), value(Channel::NormalForce));
         let friction = match friction {
@@ -93,7 +93,7 @@ fn points(
             FrictionColumn::Forces if normal > 0.0 => tangential / normal,
             FrictionColumn::Forces => {
                 let column = table.name(Channel::NormalForce);
-                open.get_or_insert(Fault::NoContact { line, column, value: normal });
+                open.get_or_insert(Fault::NoContact { place, column, value: normal });
                 without_contact += 1;
                 continue;
             }

@@ -10,6 +10,7 @@ use crate::settings::Settings;
 use crate::spectrum::{Spectra, hann, noise_floor, refine};
 use crate::still::{Stand, Stillness};
 use crate::unit::TimeUnit;
+use crate::unread::Unread;
 use crate::window::Geometry;
 use squealmap_input::quote::rounded;
 
@@ -50,8 +51,8 @@ pub(super) struct Survey {
     pub(super) frequency: Option<f64>,
     /// The strongest oscillation of all frequencies, Hz, where a band is given that does not hold it.
     pub(super) outside: Option<f64>,
-    /// A sentence about the unit of time, if one is needed.
-    pub(super) remark: Option<String>,
+    /// Sentences about what was read and how, where that is not plain.
+    pub(super) remarks: Vec<String>,
     /// Velocity and temperature that stand still.
     pub(super) constant: Vec<Channel>,
     /// Vibrating channels that stand still for a while.
@@ -76,7 +77,7 @@ impl Survey {
 
 /// Reads a whole file once.
 pub(super) fn survey(mut table: Table, settings: &Settings) -> Result<Survey, Fault> {
-    let mut pace = settings.rate.is_none().then(|| Pace::new(table.time_name()));
+    let mut pace = table.reads_time().then(|| Pace::new(table.time_name()));
     let mut ranges = PerChannel::<Range>::default();
     let mut stills = PerChannel::<Stillness>::default();
     let mut watches = PerChannel::<Watch>::default();
@@ -85,7 +86,7 @@ pub(super) fn survey(mut table: Table, settings: &Settings) -> Result<Survey, Fa
     let mut times = None::<[f64; 2]>;
     while let Some(row) = table.next()? {
         if let (Some(pace), Some(time)) = (&mut pace, row.time) {
-            pace.row(row.line, time)?;
+            pace.row(row.place, time)?;
         }
         if let Some(time) = row.time {
             times = Some([times.map_or(time, |[first, _]| first), time]);
@@ -105,15 +106,23 @@ pub(super) fn survey(mut table: Table, settings: &Settings) -> Result<Survey, Fa
     if samples < LEAST_SAMPLES {
         return Err(Fault::TooShort { samples, least: LEAST_SAMPLES, because: String::new() });
     }
+    let own = table.clock();
+    let timed = pace.is_some();
     let (start, rate) = match pace {
         Some(pace) => pace.finish()?,
-        None => (0.0, settings.rate.unwrap_or_default()),
+        // Without either the header was refused.
+        None => {
+            settings.rate.map(|rate| (0.0, rate)).or(own.map(|own| (own.start, own.rate))).unwrap_or_default()
+        }
     };
     if !(rate.is_finite() && rate > 0.0) {
         return Err(Fault::NoRate { rate });
     }
-    if settings.rate.is_none() && table.time_unit().is_none() && !is_usual(rate) {
+    if timed && table.time_unit().is_none() && !is_usual(rate) {
         return Err(doubtful(table.time_name(), rate));
+    }
+    if let Some(own) = own.filter(|own| !is_same(rate, own.rate)) {
+        return Err(other_rate(timed.then(|| table.time_name()), [rate, own.rate]));
     }
     if let Some((given, [first, last])) = settings.rate.zip(times) {
         let found = (samples - 1) as f64 / (last - first);
@@ -158,8 +167,8 @@ pub(super) fn survey(mut table: Table, settings: &Settings) -> Result<Survey, Fa
     let least = frequency.map_or(f64::INFINITY, |frequency| STILL * rate / frequency);
     let still = Channel::ALL.into_iter().zip(stills).filter(|(channel, _)| channel.vibrates());
     let still = still.filter_map(|(channel, still)| Some((channel, still.finish(least)?))).collect();
-    let remark = table.remark_on_unit();
-    Ok(Survey { samples, start, rate, names, has, turned, frequency, outside, remark, constant, still })
+    let remarks = table.remarks();
+    Ok(Survey { samples, start, rate, names, has, turned, frequency, outside, remarks, constant, still })
 }
 
 /// Whether sensors of vibrations are sampled at this rate (Hz), or nearly.
@@ -169,6 +178,13 @@ fn is_usual(rate: f64) -> bool {
 
 fn is_same(found: f64, given: f64) -> bool {
     (found / given - 1.0).abs() <= SAME_RATE
+}
+
+/// Refuses a rate, or that of a column of time, beside another one of the file itself (Hz).
+fn other_rate(column: Option<String>, [given, own]: [f64; 2]) -> Fault {
+    let flag = if column.is_some() { "--time" } else { "--rate" };
+    let what = column.map_or("--rate is".to_owned(), |column| format!("column `{column}` has a rate of"));
+    Unread::OtherRate { what, given: rounded(given), own: rounded(own), flag }.into()
 }
 
 /// Asks about a column of time that would have this rate (Hz) in seconds.

@@ -9,7 +9,7 @@ use crate::study::strokes::{FIELDS, Field, Random, Wanted, add_noise, csv, run, 
 use squealmap::model::kind::InstabilityType;
 use squealmap::model::{Param, linear};
 use squealmap::study::signals::sensors::{Recording, Sample, record};
-use squealmap_identify::{Fault, INCLINATION, Kind, Settings, Unfit, alone};
+use squealmap_identify::{Fault, INCLINATION, Kind, Place, Settings, Unfit, alone};
 
 /// `identify` of the phase must not be right by luck: an unknown skew shows in full.
 #[test]
@@ -116,7 +116,7 @@ fn broken_files_are_named_and_not_analysed() {
     let mut cut = lines.clone();
     cut.drain(60..63);
     let found = fault(cut.join("\n").as_bytes());
-    assert!(matches!(&found, Fault::Gap { missing: 3, line: 61, .. }), "{found}");
+    assert!(matches!(&found, Fault::Gap { missing: 3, place: Place::Line(61), .. }), "{found}");
     let mut back = lines.clone();
     back.swap(70, 71);
     assert!(matches!(fault(back.join("\n").as_bytes()), Fault::Gap { .. } | Fault::NotRising { .. }));

@@ -165,7 +165,7 @@ def identify(
     """Says what measured signals say: is there an instability, and which mechanism causes it?
 
     Args:
-        signals: a CSV file with a header.
+        signals: a CSV file with a header, or a WAV, MAT (``-v7``), UFF 58 or TDMS file.
         time, tangential_acceleration, normal_acceleration, tangential_force, normal_force, velocity, temperature: its columns; in s,
             m/s2, N, m/s and degrees Celsius. By default t, ax2, ay1, T, N, V and temperature.
         time_unit: s, ms, us, ns, min or h.
@@ -229,7 +229,7 @@ def fit(
     """Fits a material for sweeps to measured velocity, friction and temperature.
 
     Args:
-        points: a CSV file with a header.
+        points: a CSV file with a header, or a WAV, MAT (``-v7``), UFF 58 or TDMS file.
         law: ``"bilinear"``, ``"exponential"`` or ``"constant"``.
         law_velocity: knee or Stribeck velocity, m/s; left out, the best one is found.
         friction: column of the friction coefficient; by default the ratio of the forces.

@@ -1,0 +1,161 @@
+//! CSV → rows, one at a time: the memory needed does not depend on the length of the file.
+
+use std::cell::Cell;
+use std::io::{Cursor, Read};
+use std::rc::Rc;
+
+use csv::ByteRecord;
+use squealmap_input::files::decoded;
+use squealmap_input::quote::quoted;
+
+use super::source::Source;
+use crate::fault::Fault;
+use crate::place::Place;
+
+/// Bytes read at a time.
+pub(super) const BUFFER: usize = 1 << 18;
+/// Bytes that a row may take: without a line feed, or within double quotes that are not closed, a row is the rest of the file.
+const LONGEST_ROW: usize = 1 << 20;
+/// The separators that are told apart by the header.
+const SEPARATORS: [u8; 3] = [b',', b';', b'\t'];
+
+/// A CSV file that is being read.
+pub(super) struct Text {
+    reader: csv::Reader<Bounded>,
+    /// Bytes read since the last whole row.
+    since: Rc<Cell<usize>>,
+    record: ByteRecord,
+    header: Vec<String>,
+    /// Whether a comma is what separates the fields.
+    by_commas: bool,
+    marks: Marks,
+}
+
+/// The marks before the decimals that the file has shown so far.
+#[derive(Clone, Copy, Debug, Default)]
+struct Marks {
+    point: bool,
+    comma: bool,
+}
+
+impl Text {
+    /// Reads the header of a file that begins with `start` and goes on with `rest`.
+    pub(super) fn open(start: Vec<u8>, rest: Box<dyn Read>) -> Result<Text, Fault> {
+        let since = Rc::new(Cell::new(0));
+        let separator = separator(&start);
+        let input = Bounded { input: Box::new(Cursor::new(start).chain(rest)), since: Rc::clone(&since) };
+        let mut reader = csv::ReaderBuilder::new()
+            .delimiter(separator)
+            .comment(Some(b'#'))
+            .trim(csv::Trim::All)
+            .flexible(true)
+            .buffer_capacity(BUFFER)
+            .from_reader(input);
+        let headers = reader.byte_headers().map_err(|why| Fault::Unreadable { why: why.to_string() })?;
+        // A header in Latin-1 has the names that its program wrote, as `°C`.
+        let header: Vec<String> = headers
+            .iter()
+            .map(|name| decoded(name.to_vec()).trim().trim_start_matches('\u{feff}').to_owned())
+            .collect();
+        since.set(0);
+        let (record, marks) = (ByteRecord::new(), Marks::default());
+        Ok(Text { reader, since, record, header, by_commas: separator == b',', marks })
+    }
+
+    /// Reads the next row as it is; whether there is one.
+    fn read(&mut self) -> Result<bool, Fault> {
+        let more = self.reader.read_byte_record(&mut self.record);
+        let more = more.map_err(|why| Fault::Unreadable { why: why.to_string() })?;
+        self.since.set(0);
+        Ok(more)
+    }
+
+    /// Whether the row has text, and in no field a number: the units of the columns.
+    fn is_units(&self) -> bool {
+        let is_number =
+            |field: &[u8]| String::from_utf8_lossy(field).replacen(',', ".", 1).parse::<f64>().is_ok();
+        self.record.iter().any(|field| !field.is_empty()) && !self.record.iter().any(is_number)
+    }
+
+    fn line(&self) -> u64 {
+        self.record.position().map_or(0, csv::Position::line)
+    }
+}
+
+impl Source for Text {
+    fn header(&self) -> &[String] {
+        &self.header
+    }
+
+    fn advance(&mut self) -> Result<bool, Fault> {
+        let is_first = self.record.is_empty();
+        Ok(self.read()? && (!is_first || !self.is_units() || self.read()?))
+    }
+
+    fn whole(&self) -> Result<(), Fault> {
+        let (fields, columns) = (self.record.len(), self.header.len());
+        if fields == columns {
+            return Ok(());
+        }
+        // `0,5,1,25` under `t,a`.
+        let because = if self.by_commas && fields > columns {
+            "; where these are decimal commas, separate the fields with semicolons or tabs"
+        } else {
+            ""
+        };
+        Err(Fault::Ragged { line: self.line(), fields, columns, because })
+    }
+
+    /// A finite number with a point or a comma before its decimals; one file has one of the two.
+    fn number(&mut self, column: usize) -> Result<f64, Fault> {
+        let field = &self.record[column];
+        let text = std::str::from_utf8(field).unwrap_or_default();
+        // Commas that separate fields are none of a field.
+        let comma = text.contains(',');
+        let value = if comma { text.replacen(',', ".", 1).parse() } else { text.parse::<f64>() };
+        let name = || quoted(&self.header[column]);
+        let Some(value) = value.ok().filter(|value| value.is_finite()) else {
+            let text = quoted(&String::from_utf8_lossy(field));
+            return Err(Fault::NotANumber { line: self.line(), column: name(), text });
+        };
+        self.marks.comma |= comma;
+        self.marks.point |= !comma && text.contains('.');
+        if self.marks.comma && self.marks.point {
+            return Err(Fault::TwoMarks { line: self.line(), column: name(), text: quoted(text) });
+        }
+        Ok(value)
+    }
+
+    fn place(&self) -> Place {
+        Place::Line(self.line())
+    }
+}
+
+/// The separator that the first line that is no comment holds most of.
+fn separator(start: &[u8]) -> u8 {
+    let mut lines = start.split(|byte| *byte == b'\n');
+    let header = lines.find(|line| !line.is_empty() && line[0] != b'#').unwrap_or_default();
+    let count = |separator: &u8| header.split(|byte| byte == separator).count();
+    // Of equal counts the first separator of the list is the last of the reversed one.
+    SEPARATORS.into_iter().rev().max_by_key(count).unwrap_or(b',')
+}
+
+/// A reader that gives up where a row has no end.
+struct Bounded {
+    input: Box<dyn Read>,
+    since: Rc<Cell<usize>>,
+}
+
+impl Read for Bounded {
+    fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
+        // What was read ahead of a row counts as well.
+        if self.since.get() > LONGEST_ROW + BUFFER {
+            return Err(std::io::Error::other(format!(
+                "a row is longer than {LONGEST_ROW} bytes: is a double quote not closed, or is this no table of signals?"
+            )));
+        }
+        let read = self.input.read(buffer)?;
+        self.since.set(self.since.get() + read);
+        Ok(read)
+    }
+}
