@@ -165,6 +165,12 @@ fn signals(bytes: &[u8]) {
         let settings = Settings { rate, ..Settings::default() };
         let _ = identify(|| Ok(input()), "x.csv", &settings, &mut |_, _| {});
     }
+    // The names that WAV has.
+    let mut settings = Settings::default();
+    for (number, column) in settings.columns.iter_mut().enumerate().take(2) {
+        *column = Some(format!("channel_{}", number + 1));
+    }
+    let _ = identify(|| Ok(input()), "x.wav", &settings, &mut |_, _| {});
     let _ = read_points(input(), "x.csv", &Settings::default(), &FrictionColumn::Forces, None);
     let named = FrictionColumn::Named("mu".to_owned());
     let _ = read_points(input(), "x.csv", &Settings::default(), &named, Some(20.0));

@@ -66,7 +66,7 @@ pub struct Identification {
     pub friction_time: [f64; 2],
 }
 
-/// Analyses the signals that `open` reads (called up to three times: the file is read anew and never held), named `name` in
+/// Analyses the signals that `open` reads (called up to three times: CSV and WAV are read anew and never held), named `name` in
 /// messages. `each` is given every window in order of time, with what it says by itself; none is kept.
 ///
 /// # Errors

@@ -95,10 +95,12 @@ impl Table {
             });
         }
         let first = columns.iter().flatten().next().copied();
-        if let Some((first, time)) = first.zip(time) {
-            source.together(first, time)?;
-        }
+        let apart = first.zip(time).and_then(|(first, time)| source.together(first, time).err());
         let believed = settings.rate.is_none();
+        if let Some(why) = apart.clone().filter(|_| believed || settings.time.is_some()) {
+            return Err(why.into());
+        }
+        let time = time.filter(|_| apart.is_none());
         if let Some(found) = time.filter(|_| believed) {
             once(header, &header[found], "time", "--time")?;
         }

@@ -63,7 +63,7 @@ struct Has {
 }
 
 /// The strokes of the record that `open` reads, named `name` in messages: by the sign of its velocity, or of its tangential force where
-/// it has no velocity. Where it has neither, or nothing in it moves, the whole record is one. A record is read once, and never held.
+/// it has no velocity. Where it has neither, or nothing in it moves, the whole record is one. A record is read once.
 ///
 /// # Errors
 /// When the file cannot be read, or a value is no number: which, where, what to do.

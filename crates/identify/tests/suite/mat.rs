@@ -1,6 +1,7 @@
 //! MAT of version 5, byte by byte.
 
 use crate::common::{NAMES, RATE, at_rate, columns, found, named, record, reference, refused};
+use squealmap_identify::Settings;
 
 /// An element: its type, its bytes, and what fills the last eight.
 fn element(kind: u32, bytes: &[u8]) -> Vec<u8> {
@@ -93,8 +94,10 @@ fn integers_and_a_length_beside_a_name_are_read() {
 fn a_scalar_of_the_name_of_a_channel_is_passed_over() {
     let mut elements = stroke();
     elements[3] = column("N", &[600.0]);
+    elements.push(column("t", &[0.012]));
     let found = crate::common::run(&file(&elements), &at_rate(RATE)).expect("a whole record");
     let said = found.notes.join("\n");
+    refused(&file(&elements), &Settings::default(), &["columns `ax2` and `t` have 600 and 1 samples"]);
     assert!(
         said.contains("the normal force is not read: columns `ax2` and `N` have 600 and 1 samples"),
         "{said}"
