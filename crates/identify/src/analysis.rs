@@ -2,6 +2,7 @@
 
 use std::io::Read;
 
+use crate::again::Again;
 use crate::cells::Cells;
 use crate::channel::{Channel, PerChannel};
 use crate::clips::{Clip, Clips};
@@ -66,7 +67,7 @@ pub struct Identification {
     pub friction_time: [f64; 2],
 }
 
-/// Analyses the signals that `open` reads (called up to three times: CSV and WAV are read anew and never held), named `name` in
+/// Analyses the signals that `open` reads (called up to three times: what is longer than some two million samples is read anew and never held), named `name` in
 /// messages. `each` is given every window in order of time, with what it says by itself; none is kept.
 ///
 /// # Errors
@@ -82,17 +83,18 @@ pub fn identify(
         Table::open(input, settings)
     };
     let named = |fault| Unfit { name: name.to_owned(), fault: Box::new(fault) };
-    let survey = table().and_then(|table| survey(table, settings)).map_err(named)?;
+    let (survey, kept) = table().and_then(|table| survey(table, settings)).map_err(named)?;
     let (samples, too_short) = (survey.samples, survey.too_short());
     let looked = Looked { samples, too_short, band: settings.band, outside: survey.outside };
-    let (mut found, overview) = table()
-        .and_then(|table| analyse(table.turned(survey.turned), &survey, settings, each))
+    let (mut found, overview) = kept
+        .again(survey.turned, &mut table)
+        .and_then(|samples| analyse(samples, &survey, settings, each))
         .map_err(named)?;
     if let Some(geometry) = survey.windows().filter(|_| !found.episodes.is_empty()) {
         let Survey { rate, start, turned, .. } = survey;
         let known = Known { recorded: recorded(&survey), settings, geometry, rate, start };
-        table()
-            .and_then(|table| sharpened(table.turned(turned), &mut found.episodes, &known))
+        kept.again(turned, &mut table)
+            .and_then(|samples| sharpened(samples, &mut found.episodes, &known))
             .map_err(named)?;
     }
     judged(&mut found.segments, &found.episodes, Structure::new(settings));
@@ -115,9 +117,9 @@ fn recorded(survey: &Survey) -> Recorded {
     }
 }
 
-/// The second reading.
+/// The second time through the record.
 fn analyse(
-    mut table: Table,
+    mut again: Again<'_>,
     survey: &Survey,
     settings: &Settings,
     each: &mut dyn FnMut(&Window, &Reading),
@@ -137,16 +139,16 @@ fn analyse(
     let mut overview = Overview::new(recorded);
     let mut cells = Cells::new(fits.map_or(0.0, |geometry| geometry.hop as f64 / rate));
     let mut from: u64 = 0;
-    while let Some(row) = table.next()? {
-        let tangential = row.values[Channel::TangentialAcceleration as usize];
+    while let Some(values) = again.next()? {
+        let tangential = values[Channel::TangentialAcceleration as usize];
         spectrogram.take(tangential);
-        clips.take(&row.values);
+        clips.take(&values);
         envelopes[0].take(tangential);
         if recorded.normal_acceleration {
-            envelopes[1].take(row.values[Channel::NormalAcceleration as usize]);
+            envelopes[1].take(values[Channel::NormalAcceleration as usize]);
         }
         let (Some(analyser), Some(geometry)) = (&mut analyser, fits) else { continue };
-        waiting.iter_mut().zip(row.values).for_each(|(waiting, value)| waiting.push(value));
+        waiting.iter_mut().zip(values).for_each(|(waiting, value)| waiting.push(value));
         if waiting[0].len() == geometry.window {
             let at = start + from as f64 / rate;
             let window = analyser.window(at, &waiting.each_ref().map(Vec::as_slice));

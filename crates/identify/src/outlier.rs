@@ -57,6 +57,27 @@ struct Level {
     widest: f64,
 }
 
+/// What a sample is judged by: the levels around it together.
+#[derive(Clone, Copy, Debug)]
+struct Surroundings {
+    /// The lowest and the highest median.
+    medians: [f64; 2],
+    widest: f64,
+    scatter: f64,
+}
+
+impl Surroundings {
+    fn new(levels: &[Option<Level>]) -> Surroundings {
+        let over = |of: fn(&Level) -> f64| {
+            let values = levels.iter().flatten().map(of);
+            values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
+        };
+        let [_, widest] = over(|level| level.widest);
+        let [_, scatter] = over(|level| level.scatter);
+        Surroundings { medians: over(|level| level.median), widest, scatter }
+    }
+}
+
 /// Looks for outliers in a channel, sample by sample.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Watch {
@@ -100,37 +121,35 @@ impl Watch {
     fn turn(&mut self) {
         let next = Level::of(&self.filling);
         let [before, own] = self.levels;
-        let mut around: Vec<Level> = [before, own, next].into_iter().flatten().collect();
-        if around.is_empty() {
-            around.extend(Level::still(&self.waiting));
+        let mut around = [before, own, next];
+        if around.iter().all(Option::is_none) {
+            around[0] = Level::still(&self.waiting);
         }
-        for held in std::mem::take(&mut self.waiting) {
-            self.judge(held, &around);
-        }
+        // Both blocks change places, so that neither is made anew.
+        let mut judged = std::mem::take(&mut self.waiting);
+        self.judge(&judged, Surroundings::new(&around));
+        judged.clear();
         self.largest = next.map_or(self.largest, |level| self.largest.max(level.scatter));
-        self.waiting = std::mem::take(&mut self.filling);
+        self.waiting = std::mem::replace(&mut self.filling, judged);
         self.levels = [own, next];
     }
 
-    fn judge(&mut self, held: Held, around: &[Level]) {
-        let over = |of: fn(&Level) -> f64| {
-            around
-                .iter()
-                .map(of)
-                .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
-        };
-        let [low, high] = over(|level| level.median);
-        let [_, widest] = over(|level| level.widest);
-        let [_, scatter] = over(|level| level.scatter);
-        let distance = (low - held.value).max(held.value - high);
-        let found = Outliers { value: held.value, first: held.first, count: held.count };
-        let join = |so_far: Option<Outliers>| so_far.map_or(found, |so_far| so_far.with(found));
-        if stands_for_nothing(held.value) && distance > WRITTEN * (scatter + (high - low)) {
-            self.written = Some(join(self.written));
-        } else if distance > ALONE * (widest + (high - low)) {
-            let bin = exponent(distance);
-            let joined = join(self.alone.get(&bin).copied());
-            self.alone.insert(bin, joined);
+    fn judge(
+        &mut self,
+        block: &[Held],
+        Surroundings { medians: [low, high], widest, scatter }: Surroundings,
+    ) {
+        for held in block {
+            let distance = (low - held.value).max(held.value - high);
+            let found = Outliers { value: held.value, first: held.first, count: held.count };
+            let join = |so_far: Option<Outliers>| so_far.map_or(found, |so_far| so_far.with(found));
+            if distance > WRITTEN * (scatter + (high - low)) && stands_for_nothing(held.value) {
+                self.written = Some(join(self.written));
+            } else if distance > ALONE * (widest + (high - low)) {
+                let bin = exponent(distance);
+                let joined = join(self.alone.get(&bin).copied());
+                self.alone.insert(bin, joined);
+            }
         }
     }
 }
@@ -147,11 +166,17 @@ impl Level {
         if block.len() < LEAST {
             return None;
         }
-        let mut values: Vec<f64> = block.iter().map(|held| held.value).collect();
-        values.sort_by(f64::total_cmp);
+        let mut all = [[0.0; BLOCK]; 2];
+        let [values, off] = all.each_mut().map(|all| &mut all[..block.len()]);
+        for (value, held) in values.iter_mut().zip(block) {
+            *value = held.value;
+        }
+        values.sort_unstable_by(f64::total_cmp);
         let median = values[values.len() / 2];
-        let mut off: Vec<f64> = values.iter().map(|value| (value - median).abs()).collect();
-        off.sort_by(f64::total_cmp);
+        for (off, value) in off.iter_mut().zip(&*values) {
+            *off = (value - median).abs();
+        }
+        off.sort_unstable_by(f64::total_cmp);
         Some(Level { median, scatter: off[off.len() / 2], widest: off[off.len() - 1 - LEFT_OUT] })
     }
 }

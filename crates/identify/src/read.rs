@@ -37,8 +37,6 @@ pub(super) struct Table {
     /// Rows to pass over, and rows to read after them.
     skipped: u64,
     left: u64,
-    /// Sign of what points along the contact: −1 for a stroke that goes the other way.
-    sign: f64,
     /// Sentences about columns that are passed over.
     remarks: Vec<String>,
 }
@@ -118,14 +116,8 @@ impl Table {
             columns,
             skipped,
             left,
-            sign: 1.0,
             remarks,
         })
-    }
-
-    /// This table with the signs along the contact turned: those of a stroke that goes the other way.
-    pub(super) fn turned(self, turned: bool) -> Table {
-        Table { sign: if turned { -1.0 } else { 1.0 }, ..self }
     }
 
     /// The next row; `None` at the end of the file.
@@ -149,9 +141,6 @@ impl Table {
             if let Some(column) = column {
                 *value = self.source.number(column)?;
             }
-        }
-        for channel in [Channel::TangentialAcceleration, Channel::TangentialForce, Channel::Velocity] {
-            values[channel as usize] *= self.sign;
         }
         let unit = self.time_unit().unwrap_or(TimeUnit::Second).seconds();
         let time = self.time.map(|column| self.source.number(column).map(|time| time * unit));

@@ -1,5 +1,6 @@
 //! The first reading of a file: is it fit for analysis, and where is its oscillation?
 
+use crate::again::Kept;
 use crate::channel::{Channel, PerChannel};
 use crate::fault::{Fault, RATES};
 use crate::outlier::Watch;
@@ -75,8 +76,10 @@ impl Survey {
     }
 }
 
-/// Reads a whole file once.
-pub(super) fn survey(mut table: Table, settings: &Settings) -> Result<Survey, Fault> {
+/// Reads a whole file once; its samples as well, where they are few enough to be kept.
+pub(super) fn survey(mut table: Table, settings: &Settings) -> Result<(Survey, Kept), Fault> {
+    let has = Channel::ALL.map(|channel| table.has(channel));
+    let mut kept = Kept::new(has);
     let mut pace = table.reads_time().then(|| Pace::new(table.time_name()));
     let mut ranges = PerChannel::<Range>::default();
     let mut stills = PerChannel::<Stillness>::default();
@@ -101,6 +104,7 @@ pub(super) fn survey(mut table: Table, settings: &Settings) -> Result<Survey, Fa
             still.take(value);
         }
         spectrum.take(row.values[Channel::TangentialAcceleration as usize]);
+        kept.take(&row.values);
         samples += 1;
     }
     if samples < LEAST_SAMPLES {
@@ -137,7 +141,6 @@ pub(super) fn survey(mut table: Table, settings: &Settings) -> Result<Survey, Fa
         }
     }
     let names = Channel::ALL.map(|channel| table.name(channel));
-    let has = Channel::ALL.map(|channel| table.has(channel));
     // Outliers first: they make a channel look offset or swapped.
     for (channel, watch) in Channel::ALL.into_iter().zip(watches) {
         if let Some(found) = watch.finish() {
@@ -168,7 +171,9 @@ pub(super) fn survey(mut table: Table, settings: &Settings) -> Result<Survey, Fa
     let still = Channel::ALL.into_iter().zip(stills).filter(|(channel, _)| channel.vibrates());
     let still = still.filter_map(|(channel, still)| Some((channel, still.finish(least)?))).collect();
     let remarks = table.remarks();
-    Ok(Survey { samples, start, rate, names, has, turned, frequency, outside, remarks, constant, still })
+    let found =
+        Survey { samples, start, rate, names, has, turned, frequency, outside, remarks, constant, still };
+    Ok((found, kept))
 }
 
 /// Whether sensors of vibrations are sampled at this rate (Hz), or nearly.

@@ -47,7 +47,7 @@ impl Text {
         let mut reader = csv::ReaderBuilder::new()
             .delimiter(separator)
             .comment(Some(b'#'))
-            .trim(csv::Trim::All)
+            .trim(csv::Trim::Headers)
             .flexible(true)
             .buffer_capacity(BUFFER)
             .from_reader(input);
@@ -74,7 +74,8 @@ impl Text {
     fn is_units(&self) -> bool {
         let is_number =
             |field: &[u8]| String::from_utf8_lossy(field).replacen(',', ".", 1).parse::<f64>().is_ok();
-        self.record.iter().any(|field| !field.is_empty()) && !self.record.iter().any(is_number)
+        let fields = || self.record.iter().map(<[u8]>::trim_ascii);
+        fields().any(|field| !field.is_empty()) && !fields().any(is_number)
     }
 
     fn line(&self) -> u64 {
@@ -108,10 +109,12 @@ impl Source for Text {
 
     /// A finite number with a point or a comma before its decimals; one file has one of the two.
     fn number(&mut self, column: usize) -> Result<f64, Fault> {
-        let field = &self.record[column];
+        // Trimmed here: the reader would copy every row for that.
+        let field = self.record[column].trim_ascii();
         let text = std::str::from_utf8(field).unwrap_or_default();
-        // Commas that separate fields are none of a field.
-        let comma = text.contains(',');
+        // The first of them: a number with both is none. Commas that separate fields are none of a field.
+        let mark = field.iter().find(|byte| matches!(byte, b',' | b'.'));
+        let comma = mark == Some(&b',');
         let value = if comma { text.replacen(',', ".", 1).parse() } else { text.parse::<f64>() };
         let name = || quoted(&self.header[column]);
         let Some(value) = value.ok().filter(|value| value.is_finite()) else {
@@ -119,7 +122,7 @@ impl Source for Text {
             return Err(Fault::NotANumber { line: self.line(), column: name(), text });
         };
         self.marks.comma |= comma;
-        self.marks.point |= !comma && text.contains('.');
+        self.marks.point |= !comma && mark.is_some();
         if self.marks.comma && self.marks.point {
             return Err(Fault::TwoMarks { line: self.line(), column: name(), text: quoted(text) });
         }
