@@ -106,10 +106,15 @@ fn read(bytes: &[u8]) -> Option<(String, [f64; 2])> {
     let mut lines = text.lines().filter(|line| !line.starts_with('#') && !line.trim().is_empty());
     let header: Vec<&str> = lines.next()?.split(',').map(str::trim).collect();
     let column = header.iter().position(|name| *name == "temperature")?;
-    let law = ["stribeck_velocity", "decay", "mu_s"].iter().position(|name| header.contains(name));
-    let law = ["exponential", "rational", "bilinear", "constant"][law.unwrap_or(3)];
+    let law =
+        ["velocity", "stribeck_velocity", "decay", "mu_s"].iter().position(|name| header.contains(name));
+    let law = ["table", "exponential", "rational", "bilinear", "constant"][law.unwrap_or(4)];
     let rows: Option<Vec<f64>> = lines.map(|line| line.split(',').nth(column)?.trim().parse().ok()).collect();
-    let rows = rows?;
+    let mut rows = rows?;
+    // A table has several rows of each temperature.
+    if law == "table" {
+        rows.dedup();
+    }
     let rises = rows.windows(2).all(|pair| pair[0] < pair[1]);
     let (first, last) = rows.first().zip(rows.last()).filter(|(first, last)| rises && first < last)?;
     Some((law.to_owned(), [*first, *last]))

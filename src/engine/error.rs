@@ -81,7 +81,8 @@ pub enum Error {
     },
     /// A friction table that no kernel holds.
     #[error(
-        "a friction table of {rows} rows is too long for a GPU, which takes {limit}; thin it out, or use --backend cpu"
+        "a friction table of {rows} rows, or two of a material together, is too long for a GPU, which takes {limit}; thin it out, \
+         or use --backend cpu"
     )]
     LongTable {
         /// Rows of the table.

@@ -64,7 +64,9 @@ impl NoGpu {
                 "choose another with --adapter",
             ),
             NoGpu::Failed(Error::LongTable { rows, limit }) => parts(
-                format!("a friction table of {rows} rows is too long for a GPU, which takes {limit}"),
+                format!(
+                    "a friction table of {rows} rows, or two of a material together, is too long for a GPU, which takes {limit}"
+                ),
                 "thin it out",
             ),
             NoGpu::Failed(Error::CyclesOnGpu) => parts(

@@ -9,6 +9,8 @@ use std::sync::Arc;
 use crate::model::piece::{LawForm, Piece, PieceChain};
 use crate::model::{PARAMS, Param, Params};
 
+pub use crate::model::table::MuTable;
+
 macro_rules! laws {
     ($($kind:ident $name:literal $form:ident [$($needs:ident)*] [$($takes:ident)*];)*) => {
         /// Which law; the parameters of each are in [`FrictionLaw`].
@@ -117,15 +119,6 @@ impl LawKind {
             }
         }
     }
-}
-
-/// A tabulated law: strictly rising velocities (m/s), the first 0, with their friction coefficients.
-#[derive(Clone, Debug, PartialEq)]
-pub struct MuTable {
-    /// `|v|`, m/s, strictly rising from 0.
-    pub velocity: Vec<f64>,
-    /// μ at each velocity.
-    pub mu: Vec<f64>,
 }
 
 /// A friction law `μ(|v|)` of the relative velocity `v = V − ẋ2` (m/s).
@@ -276,20 +269,6 @@ impl FrictionLaw {
             pieces: starts.map(|&speed| self.piece(speed).scaled(velocity_unit)).collect(),
             kinks: kinks.iter().map(|kink| kink / velocity_unit).collect(),
             mu_stick: self.mu_stick(),
-        }
-    }
-}
-
-impl MuTable {
-    /// Piece `index`: before row `index`, constant beyond the last row.
-    fn piece(&self, index: usize) -> Piece {
-        match (self.velocity.get(index), self.mu.get(index)) {
-            (Some(v1), Some(mu1)) => {
-                let (v0, mu0) = (self.velocity[index - 1], self.mu[index - 1]);
-                let slope = (mu1 - mu0) / (v1 - v0);
-                Piece::Linear { at_zero: mu0 - slope * v0, slope }
-            }
-            _ => Piece::Linear { at_zero: self.mu[self.mu.len() - 1], slope: 0.0 },
         }
     }
 }

@@ -31,6 +31,7 @@ pub mod quartic;
 pub mod scaled;
 pub mod spectrum;
 pub mod status;
+mod table;
 
 /// A numeric parameter of an instance; its row in [`PARAMS`] gives name, unit, default and range.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

@@ -112,7 +112,8 @@ impl Sweep {
         self.call(Call::FrictionTable(file.into()))
     }
 
-    /// The material of a CSV file with a column `temperature` and parameters of the law.
+    /// The material of a CSV file with a column `temperature` and parameters of the law, or for [`LawKind::Table`] with columns
+    /// `velocity` and `mu`.
     pub fn material(self, file: impl Into<PathBuf>) -> Sweep {
         self.call(Call::Material(file.into()))
     }

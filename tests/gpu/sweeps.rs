@@ -32,6 +32,7 @@ pub(crate) const CASES: &[Case] = &[
     ("sweeps::slow_belts_are_those_of_the_reference", slow_belts),
     ("sweeps::a_table_of_forty_rows_is_that_of_the_reference", || table(40, 24)),
     ("sweeps::a_table_of_a_hundred_rows_is_that_of_the_reference", || table(100, 12)),
+    ("sweeps::tables_of_a_material_are_those_of_the_reference", tables),
     ("sweeps::any_chunk_size_and_two_runs_give_the_same_records", any_chunk),
     ("sweeps::instances_that_cannot_start_keep_their_status", dead),
     ("sweeps::a_cancelled_sweep_keeps_what_is_finished", cancelled),
@@ -253,6 +254,27 @@ fn table(rows: i32, points: usize) -> Result<(), Failed> {
     let steps: u64 =
         reference.records.iter().filter_map(|one| one.outcome.as_ref()).map(|one| one.steps).sum();
     println!("{steps} steps of the reference, an event ends one");
+    check(&on_gpu(&spec, Precision::F32, None)?, &reference, 1e-4, 2e-3)
+}
+
+/// A material of a short and a longer table: at its temperatures and between them the laws need kernels of several sizes.
+fn tables() -> Result<(), Failed> {
+    let directory = tempfile::tempdir()?;
+    let row = |i: i32| {
+        let v = 6.0 * f64::from(i) / 20.0;
+        format!("300,{v},{}\n", 0.2 + 0.3 * (-v / 2.0).exp())
+    };
+    let cold = "temperature,velocity,mu\n100,0,0.3\n100,2.1,0.35\n100,4,0.2\n".to_owned();
+    std::fs::write(directory.path().join("pad.csv"), cold + &(0..20).map(row).collect::<String>())?;
+    std::fs::write(
+        directory.path().join("sweep.toml"),
+        "[friction]\nlaw = \"table\"\nmaterial = \"pad.csv\"\n[axes]\n\
+         temperature = { values = [100, 160, 220, 300] }\nbelt_velocity = { from = 0.2, to = 5.5, points = 8 }\n\
+         [response]\nsettle = \"3 s\"\nmeasure = \"2 s\"\n",
+    )?;
+    let mut spec = Spec::read(&directory.path().join("sweep.toml"))?;
+    spec.analysis.checked = false;
+    let reference = on_cpu(&spec)?;
     check(&on_gpu(&spec, Precision::F32, None)?, &reference, 1e-4, 2e-3)
 }
 

@@ -121,6 +121,10 @@ fn material(rows: &Json) -> Option<Arc<Material>> {
         name: rows.get("name")?.as_str()?.to_owned(),
         temperature: numbers(rows.get("temperature")?)?,
         columns,
+        tables: match rows.get("tables") {
+            None => Vec::new(),
+            Some(all) => all.as_array()?.iter().map(table).collect::<Option<_>>()?,
+        },
         outside: match rows.get("outside")?.as_str()? {
             "error" => Outside::Error,
             "clamp" => Outside::Clamp,

@@ -175,7 +175,8 @@ impl At<'_> {
         if let Some(param) = law::missing(self.law, has) {
             return Err(self.missing(param.info().name, format!("law `{}` needs it", self.law.name())));
         }
-        if self.law.reads_table() && spec.table.is_none() {
+        let of_material = self.material.as_ref().is_some_and(|material| material.has_tables());
+        if self.law.reads_table() && spec.table.is_none() && !of_material {
             return Err(Error::Missing {
                 at: self.everything(),
                 key: "table",
@@ -206,7 +207,10 @@ impl At<'_> {
                     let moves = belt::reader(spec.motion.name(), *param);
                     moves.or_else(|| Kind::of(spec).reader(*param, by_event).map(str::to_owned))
                 }
-                AxisKey::Material => self.law.reads_table().then(|| used_by_laws(&law::of_material())),
+                AxisKey::Material => {
+                    let reads = self.material.as_ref().is_some_and(|one| one.has_tables());
+                    (self.law.reads_table() && !reads).then(|| used_by_laws(&law::of_material()))
+                }
                 AxisKey::Law => None,
             };
             if let Some(used_by) = used_by {

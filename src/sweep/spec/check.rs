@@ -166,10 +166,17 @@ impl Check<'_> {
             if let Some((at, key)) = self.param(Param::Temperature).or_else(outside) {
                 return Err(unused(at, key, "a `material`".to_owned()));
             }
-        } else if laws.iter().all(|kind| kind.reads_table())
-            && let Some((at, key)) = self.stands(AxisKey::Material)
-        {
-            return Err(unused(at, key, used_by_laws(&law::of_material())));
+        } else if let Some(given) = self.sections.find("table") {
+            if let Some(material) = self.files.all_materials().find(|one| one.has_tables()) {
+                let at = self.sweep.place(given.span.clone());
+                let other = format!("material `{}`, which has tables of its own", quoted(&material.name));
+                return Err(Error::Conflict { at, key: given.label(), other });
+            }
+            if laws.iter().all(|kind| kind.reads_table())
+                && let Some((at, key)) = self.stands(AxisKey::Material)
+            {
+                return Err(unused(at, key, used_by_laws(&law::of_material())));
+            }
         }
         Ok(())
     }
@@ -250,6 +257,11 @@ impl Check<'_> {
         }
     }
 
+    fn missing_in_friction(&self, key: &'static str, needed_by: String, remedy: String) -> Error {
+        let at = self.sweep.place(self.sections.header(Section::Friction));
+        Error::Missing { at, key, needed_by, remedy }
+    }
+
     /// Law, material and temperature of every instance fit together.
     fn every_case(&self) -> Result<()> {
         let position = |key| self.varied.position(key);
@@ -307,22 +319,31 @@ impl Check<'_> {
         };
         if let Some(param) = law::missing(kind, has) {
             let needed_by = format!("law `{}` needs it", kind.name());
-            return Err(match material {
-                Some(material) => Error::Missing {
-                    at: self.sweep.place(self.sections.header(Section::Friction)),
-                    key: param.info().name,
-                    needed_by,
-                    remedy: format!("give material `{}` such a column", quoted(&material.name)),
-                },
-                None => self.missing(param, needed_by),
-            });
+            let Some(material) = material else { return Err(self.missing(param, needed_by)) };
+            let name = quoted(&material.name);
+            let remedy = if material.has_tables() {
+                format!("choose law = \"table\", whose tables material `{name}` has, or another material")
+            } else {
+                format!("give material `{name}` such a column")
+            };
+            return Err(self.missing_in_friction(param.info().name, needed_by, remedy));
         }
-        if kind.reads_table() && self.files.table.is_none() {
-            return Err(Error::Missing {
-                at: self.sweep.place(self.sections.header(Section::Friction)),
-                key: "table",
-                needed_by: format!("law `{}` needs it", kind.name()),
-                remedy: "write table = \"mu.csv\" in [friction]".to_owned(),
+        let has_table = self.files.table.is_some() || material.is_some_and(|material| material.has_tables());
+        if kind.reads_table() && !has_table {
+            let needed_by = format!("law `{}` needs it", kind.name());
+            return Err(match material {
+                None => self.missing_in_friction(
+                    "table",
+                    needed_by,
+                    "write table = \"mu.csv\" in [friction]".to_owned(),
+                ),
+                Some(material) => {
+                    let remedy = format!(
+                        "give material `{}` columns `temperature`, `velocity` and `mu` alone, or choose the law of its columns",
+                        quoted(&material.name)
+                    );
+                    self.missing_in_friction("mu", needed_by, remedy)
+                }
             });
         }
         Ok(())

@@ -3,11 +3,11 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use crate::model::Param;
 use crate::model::friction::{LawKind, MuTable};
 use crate::model::material::{Material, Outside};
 use crate::model::modal::Modal;
 use crate::model::motion::Motion;
-use crate::model::{Param, Range};
 use crate::sweep::error::{Error, Result};
 use crate::sweep::grid::AxisKey;
 use crate::sweep::spec::model;
@@ -15,6 +15,7 @@ use crate::sweep::spec::model::Kind;
 use crate::sweep::spec::motion;
 use crate::sweep::spec::rows::{Role, Rows};
 use crate::sweep::spec::sections::Sections;
+use crate::sweep::spec::tables;
 use crate::sweep::spec::varied::Varied;
 use squealmap_input::place::Source;
 
@@ -41,7 +42,7 @@ impl Files {
         varied: &Varied,
     ) -> Result<Files> {
         let table =
-            sections.table.as_ref().map(|(name, span)| read_table(sweep, span.clone(), name, base_dir));
+            sections.table.as_ref().map(|(name, span)| tables::read(sweep, span.clone(), name, base_dir));
         let material = sections
             .material
             .as_ref()
@@ -67,7 +68,14 @@ impl Files {
     }
 }
 
-/// Reads a material: `temperature` and columns of law parameters.
+/// What a column of a material holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Column {
+    Param(Param),
+    Table(tables::Column),
+}
+
+/// Reads a material: `temperature` and columns of law parameters, or `temperature` and tables of friction.
 fn read_material(
     source: &Source,
     span: std::ops::Range<usize>,
@@ -75,73 +83,39 @@ fn read_material(
     base_dir: &Path,
     outside: Outside,
 ) -> Result<Arc<Material>> {
-    let known: Vec<Param> = std::iter::once(Param::Temperature).chain(LawKind::params()).collect();
-    let names: Vec<&str> = known.iter().map(|param| param.info().name).collect();
+    let params = std::iter::once(Param::Temperature).chain(LawKind::params());
+    let params = params.map(|param| (param.info().name, Column::Param(param)));
+    let known: Vec<(&str, Column)> =
+        params.chain(tables::COLUMNS.map(|(name, column)| (name, Column::Table(column)))).collect();
+    let names: Vec<&str> = known.iter().map(|(name, _)| *name).collect();
     let file = Rows::read(source, span, Role::Material, &names, name, base_dir)?;
-    let params = file.columns(&names, |text| Param::from_name(text).filter(|param| known.contains(param)))?;
-    let mut temperature = None;
-    let mut columns = Vec::new();
-    for (index, &param) in params.iter().enumerate() {
-        let values = column(&file, index, param)?;
+    let held =
+        file.columns(&names, |text| known.iter().find(|(name, _)| *name == text).map(|(_, column)| *column))?;
+    let tabular = held.iter().position(|column| matches!(column, Column::Table(_)));
+    let (mut temperature, mut columns) = (None, Vec::new());
+    for (index, held) in held.iter().enumerate() {
+        let Column::Param(param) = *held else { continue };
+        if let Some(tabular) = tabular.filter(|_| param != Param::Temperature) {
+            return Err(Error::Conflict {
+                at: file.source.place(file.header[index].span.clone()),
+                key: format!("column `{}` of a law", param.info().name),
+                other: format!("column `{}` of tables of friction", file.header[tabular].text),
+            });
+        }
+        let values = file.numbers(index, param.info().name, param.info().range)?;
         if param == Param::Temperature {
-            file.rising("temperature", index, &values)?;
-            temperature = Some(values);
+            temperature = Some((index, values));
         } else {
             columns.push((param, values));
         }
     }
-    let temperature = temperature.ok_or_else(|| file.no_column("temperature", "a material"))?;
-    Ok(Arc::new(Material { name: name.to_owned(), temperature, columns, outside }))
-}
-
-/// Reads a table of friction against velocity: `velocity`, `mu`.
-fn read_table(
-    source: &Source,
-    span: std::ops::Range<usize>,
-    name: &str,
-    base_dir: &Path,
-) -> Result<Arc<MuTable>> {
-    table_of(&Rows::read(source, span, Role::Table, &TABLE, name, base_dir)?)
-}
-
-/// The columns of a table of friction.
-const TABLE: [&str; 2] = ["velocity", "mu"];
-
-/// The table of friction that some rows are.
-pub(super) fn table_of(file: &Rows) -> Result<Arc<MuTable>> {
-    let columns = file.columns(&TABLE, |text| TABLE.iter().position(|name| *name == text))?;
-    let mut values = [None, None];
-    for (index, &which) in columns.iter().enumerate() {
-        let numbers = file.numbers(index, TABLE[which], Range::NonNegative)?;
-        if which == 0 {
-            file.rising("velocity", index, &numbers)?;
-            if numbers[0] > 0.0 {
-                return Err(Error::OutOfRange {
-                    at: file.source.place(file.span(0, index)),
-                    key: "the first `velocity`".to_owned(),
-                    value: numbers[0].to_string(),
-                    limit: "0, where the table gives the limit of stick".to_owned(),
-                });
-            }
-        }
-        values[which] = Some(numbers);
-    }
-    if file.len() < 2 {
-        let at = file.source.place(file.span(0, 0));
-        return Err(Error::OutOfRange {
-            at,
-            key: "the number of rows of a friction table".to_owned(),
-            value: file.len().to_string(),
-            limit: "at least 2; for one value choose law = \"constant\"".to_owned(),
-        });
-    }
-    let [velocity, mu] = values;
-    let velocity = velocity.ok_or_else(|| file.no_column("velocity", "a friction table"))?;
-    let mu = mu.ok_or_else(|| file.no_column("mu", "a friction table"))?;
-    Ok(Arc::new(MuTable { velocity, mu }))
-}
-
-fn column(file: &Rows, index: usize, param: Param) -> Result<Vec<f64>> {
-    let info = param.info();
-    file.numbers(index, info.name, info.range)
+    let (index, temperature) = temperature.ok_or_else(|| file.no_column("temperature", "a material"))?;
+    let (temperature, tables) = if tabular.is_some() {
+        let place = |wanted| held.iter().position(|column| *column == Column::Table(wanted));
+        tables::by_temperature(&file, (index, &temperature), place)?
+    } else {
+        file.rising("temperature", index, &temperature)?;
+        (temperature, Vec::new())
+    };
+    Ok(Arc::new(Material { name: name.to_owned(), temperature, columns, tables, outside }))
 }

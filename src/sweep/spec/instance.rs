@@ -42,12 +42,15 @@ impl Spec {
         kind: LawKind,
         material: Option<&Arc<Material>>,
     ) -> Instance {
+        let mut table = self.table.clone();
         if let Some(material) = material {
-            for (param, value) in material.at(params.require(Param::Temperature)) {
+            let temperature = params.require(Param::Temperature);
+            for (param, value) in material.at(temperature) {
                 params.set(param, value);
             }
+            table = material.table_at(temperature).or(table);
         }
-        let law = kind.with(&params, self.table.as_ref());
+        let law = kind.with(&params, table.as_ref());
         let (motion, modal) = (self.motion.clone(), self.modal.clone());
         Instance { params, law, impact_friction: self.impact_friction, motion, modal }
     }

@@ -139,10 +139,10 @@ const ROWS: &[Row] = &[
     Row {
         section: "friction",
         name: "material",
-        meaning: "CSV file with a column temperature (°C) and parameters of the law, straight between rows",
+        meaning: "CSV file with a column temperature (°C) and parameters of the law, or for law `table` with velocity (m/s) and mu, straight between rows",
         default: || None,
         range: || "a path, relative to the sweep file".to_owned(),
-        read_by: "every law but `table`",
+        read_by: "",
         varies: true,
     },
     Row {

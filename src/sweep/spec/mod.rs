@@ -8,7 +8,7 @@
 //! | what varies | `axis.rs`, `varied.rs` |
 //! | the model | `model.rs` |
 //! | how the belt moves | `belt.rs`, `motion.rs` |
-//! | files that it names | `files.rs`, `rows.rs` |
+//! | files that it names | `files.rs`, `tables.rs`, `rows.rs` |
 //! | what must hold between keys | `check.rs`, [`names`] |
 //! | every key, for people | [`keys`] |
 //! | one instance of it | `instance.rs`, `at.rs` |
@@ -36,6 +36,7 @@ mod resolved;
 mod rows;
 mod sections;
 pub(crate) mod start;
+mod tables;
 mod varied;
 
 pub(crate) use resolved::resolved_grid;
@@ -266,6 +267,8 @@ impl Instances for Spec {
     }
 
     fn pieces(&self) -> usize {
-        self.table.as_ref().map_or(0, |table| table.velocity.len()).max(2)
+        let of_materials = self.material.iter().chain(&self.materials).map(|material| material.most_rows());
+        let of_table = self.table.iter().map(|table| table.velocity.len());
+        of_materials.chain(of_table).max().unwrap_or(0).max(2)
     }
 }

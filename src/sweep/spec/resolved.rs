@@ -2,6 +2,7 @@
 
 use serde_json::{Map, Value as Json, json};
 
+use crate::model::friction::MuTable;
 use crate::model::material::{Material, Outside};
 use crate::model::motion::Motion;
 use crate::model::{PARAMS, Section};
@@ -131,7 +132,7 @@ impl Spec {
             friction.insert("materials".to_owned(), json!(materials));
         }
         if let Some(table) = &self.table {
-            friction.insert("table".to_owned(), json!({ "velocity": table.velocity, "mu": table.mu }));
+            friction.insert("table".to_owned(), self::table(table));
         }
         Json::Object(friction)
     }
@@ -166,6 +167,10 @@ fn value(value: &Value) -> Json {
     }
 }
 
+fn table(table: &MuTable) -> Json {
+    json!({ "velocity": table.velocity, "mu": table.mu })
+}
+
 fn rows(material: &Material) -> Json {
     let mut rows = Map::new();
     rows.insert("name".to_owned(), json!(material.name));
@@ -177,6 +182,9 @@ fn rows(material: &Material) -> Json {
     rows.insert("temperature".to_owned(), json!(material.temperature));
     for (param, values) in &material.columns {
         rows.insert(param.info().name.to_owned(), json!(values));
+    }
+    if material.has_tables() {
+        rows.insert("tables".to_owned(), material.tables.iter().map(|one| table(one)).collect());
     }
     Json::Object(rows)
 }

@@ -147,7 +147,8 @@ fn an_adapter_has_a_name() {
 
 #[test]
 fn a_table_that_no_kernel_holds_is_the_reason_given() {
-    let cause = "a friction table of 1025 rows is too long for a GPU, which takes 1024; thin it out, or";
+    let cause = "a friction table of 1025 rows, or two of a material together, is too long for a GPU, which takes 1024; \
+                 thin it out, or";
     assert_eq!(refused("run long.toml --backend gpu"), format!("error: {cause} use --backend cpu"));
     for asked in ["--require-gpu", "--backend gpu --require-gpu", "--strict"] {
         let named = asked.replace(" --r", " and --r");

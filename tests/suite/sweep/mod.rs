@@ -13,3 +13,4 @@ pub(crate) mod refine;
 pub(crate) mod spec;
 pub(crate) mod stopped;
 pub(crate) mod sweeps;
+mod tables;
