@@ -12,12 +12,14 @@ use clap::{Args, ValueEnum};
 use squealmap::model::friction::LawKind;
 use squealmap::results::figure::look::Look;
 use squealmap::study::error::Error;
+use squealmap::study::fit::binned::binned;
+use squealmap::study::fit::binned_csv::tables_csv;
 use squealmap::study::fit::course::Shown;
 use squealmap::study::fit::figure::fit_svg;
 use squealmap::study::fit::rows::rows;
 use squealmap::study::fit::table::{material_csv, residuals_csv};
 use squealmap::study::fit::told::{remarks, warnings};
-use squealmap::study::fit::{Candidate, Fit, compare, fit};
+use squealmap::study::fit::{Candidate, Fit, FitFault, compare, fit};
 use squealmap_identify::{Channel, FrictionColumn, Point, Settings, read_measurements};
 use squealmap_input::quote::one_line;
 
@@ -29,7 +31,9 @@ enum Law {
     Bilinear,
     Exponential,
     Constant,
-    /// The one of these with the least `AICc`
+    /// No law: tables, the means of friction in bins of velocity
+    Table,
+    /// The law with the least `AICc`, a table aside
     Best,
 }
 
@@ -96,20 +100,32 @@ impl FitCommand {
             note(&remark);
         }
         let points = measured.points;
-        let rows = if self.temperatures.is_empty() { rows(&points) } else { self.temperatures };
-        let candidates = compare(&points, &rows, self.law_velocity);
+        let given = !self.temperatures.is_empty();
+        let rows = if given { self.temperatures.clone() } else { rows(&points) };
+        let mut candidates = compare(&points, &rows, self.law_velocity);
         let law = match self.law {
             Law::Bilinear => LawKind::Bilinear,
             Law::Exponential => LawKind::Exponential,
             Law::Constant => LawKind::Constant,
+            Law::Table => LawKind::Table,
             Law::Best => candidates[0].law,
         };
-        let fitted = fit(&points, law, &rows, self.law_velocity)
-            .map_err(|fault| Error::Fit { name: name.clone(), fault: fault.into() })?;
-        let text = material_csv(&fitted, &points, &name);
+        let no_fit = |fault: FitFault| Error::Fit { name: name.clone(), fault: fault.into() };
+        let (fitted, text, courses) = if law.reads_table() {
+            let binned = binned(&points, &self.temperatures).map_err(no_fit)?;
+            candidates.push(binned.candidate());
+            let text = tables_csv(&binned, &points, &name);
+            let courses = binned.courses(&points);
+            (binned.fit, text, Some(courses))
+        } else {
+            let fitted = fit(&points, law, &rows, self.law_velocity).map_err(no_fit)?;
+            let text = material_csv(&fitted, &points, &name);
+            (fitted, text, None)
+        };
         let output = prepare_beside(&self.points, self.output.as_deref(), &FILES)?;
         let heading = one_line(&self.points.file_stem().unwrap_or_default().to_string_lossy());
         let shown = Shown::new(&fitted, &points, &heading);
+        let shown = Shown { courses: courses.unwrap_or(shown.courses), ..shown };
         let svg = fit_svg(&shown, &Look::default());
         let paths = output.write(&[
             (FILES[0], shown.document()?),
@@ -126,7 +142,9 @@ impl FitCommand {
             list(&paths),
             FILES[3]
         ));
-        for warning in warnings(&fitted, &points) {
+        // Tables without given temperatures are where the points are.
+        let warned = given || !law.reads_table();
+        for warning in warned.then(|| warnings(&fitted, &points)).into_iter().flatten() {
             note(&format!("warning: {warning}"));
         }
         Ok(())

@@ -51,8 +51,14 @@ fn criteria(fit: &Fit, given: bool) -> Option<[f64; 2]> {
         Shape::Falling(_, velocity) if *param == velocity => usize::from(!given),
         _ => rows,
     };
-    let k = (fit.columns.iter().map(values).sum::<usize>() + 1) as f64;
+    let values = fit.columns.iter().map(values).sum();
+    information(fit.points, values, n * fit.residual * fit.residual)
+}
+
+/// `AICc` and `BIC` of so many values, beside the variance, that leave this sum of `squares` of so many `points`.
+pub(super) fn information(points: usize, values: usize, squares: f64) -> Option<[f64; 2]> {
+    let (n, k) = (points as f64, (values + 1) as f64);
     let free = n - k - 1.0;
-    let fits = n * (fit.residual * fit.residual).max(KNOWN * KNOWN).ln();
+    let fits = n * (squares / n).max(KNOWN * KNOWN).ln();
     (free > 0.0).then(|| [fits + 2.0 * k + 2.0 * k * (k + 1.0) / free, fits + k * n.ln()])
 }

@@ -38,6 +38,21 @@ pub enum FitFault {
         /// Highest velocity near it, m/s.
         high: f64,
     },
+    /// Points that do not make a table.
+    #[error(
+        "{points} point(s) near {temperature} °C, at {low} to {high} m/s, do not make a table, which takes two bins of 6 points \
+         at velocities 2 % apart or more; measure more there, or ask for other rows with --temperatures"
+    )]
+    FewBins {
+        /// The row, °C.
+        temperature: f64,
+        /// Points near it.
+        points: usize,
+        /// Their lowest velocity, m/s.
+        low: f64,
+        /// Their highest velocity, m/s.
+        high: f64,
+    },
     /// A law that cannot be fitted this way.
     #[error(
         "the law `{law}` is not linear in its coefficients; choose bilinear, exponential or constant with --law"

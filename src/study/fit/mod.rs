@@ -6,8 +6,11 @@
 //! - [`rows`]: the temperatures of the material.
 //! - [`table`]: the files of a fit; [`told`]: what it says beside them.
 //! - [`course`]: the law over the velocity; [`read`]: a fit read back; [`figure`]: its picture.
+//! - [`binned`](mod@binned): tables where no law describes the friction; [`binned_csv`]: their file.
 //! - `fault.rs`: why there is none.
 
+pub mod binned;
+pub mod binned_csv;
 pub mod course;
 mod criteria;
 mod errors;

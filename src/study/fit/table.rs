@@ -71,7 +71,7 @@ fn standard_errors(fit: &Fit) -> String {
 }
 
 /// `100 to 500`, or `20` where all are alike.
-fn span(points: &[Point], of: impl Fn(&Point) -> f64) -> String {
+pub(super) fn span(points: &[Point], of: impl Fn(&Point) -> f64) -> String {
     let [low, high] = crate::study::fit::range(points, of);
     let [low, high] = [low, high].map(rounded);
     if low < high { format!("{low} to {high}") } else { low.to_string() }

@@ -12,6 +12,7 @@ pub(crate) mod fem;
 pub(crate) mod fit;
 pub(crate) mod fit_errors;
 pub(crate) mod fit_records;
+mod fit_tables;
 pub(crate) mod hysteresis;
 pub(crate) mod identify;
 pub(crate) mod identify_faults;

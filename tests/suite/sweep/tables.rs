@@ -1,7 +1,6 @@
 //! Materials of tables: friction against velocity at several temperatures.
 
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
-#![expect(clippy::float_cmp, reason = "tables at measured temperatures arrive as they are written")]
 
 use std::fmt::Write as _;
 use std::fs;
