@@ -2,6 +2,7 @@
 
 use serde::Deserialize;
 use serde_json::json;
+use squealmap_input::quote::quoted;
 
 use crate::engine::record::Record;
 use crate::study::explore::answer::Answer;
@@ -113,6 +114,14 @@ impl Region {
             let (key, value) = value(name, given)?;
             if [x.key, y.key].contains(&key) {
                 return Err(format!("`{name}` stands on a side and in `at`"));
+            }
+            // What a law or a material needs is known of those of the sweep alone.
+            let of_sweep = || opened.axes.iter().any(|axis| axis.key == key && axis.values.contains(&value));
+            if let Value::Text(text) = &value
+                && !of_sweep()
+            {
+                let text = quoted(text);
+                return Err(format!("`{name}` is `{text}`, which is no value of an axis of the sweep"));
             }
             axes.push(Axis { key, values: vec![value], log: false });
         }

@@ -98,6 +98,21 @@ fn a_large_head_is_refused_and_a_large_body_not_read() {
     assert_eq!(served.send(&served.question(&fits)).unwrap().status, 200);
 }
 
+/// A law needs parameters, and a table its file: a sweep knows those of its own laws alone.
+#[test]
+fn a_law_that_is_none_of_the_sweep_is_refused() {
+    let served = Served::of(MAP);
+    for (key, name) in [("law", "table"), ("law", "exponential"), ("material", "pad.csv")] {
+        let mut question = region(true, &["x2_std"]);
+        question["at"][key] = json!(name);
+        let answered = served.ask(&question);
+        let text = answered.text();
+        assert_eq!(answered.status, 400, "{text}");
+        assert!(text.contains(&format!("`{key}` is `{name}`, which is no value of an axis")), "{text}");
+    }
+    assert_eq!(served.ask(&region(false, &["type"])).status, 200);
+}
+
 /// Numbers that look random and are the same every time.
 struct Dice(u64);
 
