@@ -58,8 +58,8 @@ What holds for all of them:
 - **Chaos.** From a restitution of about 0.95 on, and wherever a motion grazes the belt, the last bits decide: statuses and
   statistics hold, single values do not.
 - **Inputs have limits.** Only regular files are read, no pipes or devices: a sweep file of at most 4 MiB, points of 1 GiB and
-  20 million rows, friction tables and materials of 16 MiB and 65 536 rows (1024 on a GPU). Points take 16 bytes per value
-  beside the file itself. Signals are of any length and read up to three times, a row of them has at most 1 MiB. A value in a
+  20 million rows, friction tables and materials of 16 MiB and 65 536 rows (on a GPU 1024 in a table, in two neighbours of a material together). Points take 16 bytes per value
+  beside the file itself. Signals are of any length, long ones read up to three times, a row of them has at most 1 MiB. A value in a
   message is cut after 40 characters, and control characters are shown by their escapes; a title has none.
 ";
 
