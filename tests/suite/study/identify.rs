@@ -9,7 +9,7 @@ use crate::study::strokes::{FIELDS, Field, Random, Wanted, add_noise, csv, run, 
 use squealmap::model::kind::InstabilityType;
 use squealmap::model::{Param, linear};
 use squealmap::study::signals::sensors::{Recording, Sample, record};
-use squealmap_identify::{Fault, INCLINATION, Kind, Place, Settings, Unfit, alone};
+use squealmap_identify::{Fault, INCLINATION, Kind, Place, Settings, Unfit, Unread, alone};
 
 /// `identify` of the phase must not be right by luck: an unknown skew shows in full.
 #[test]
@@ -124,7 +124,7 @@ fn broken_files_are_named_and_not_analysed() {
     assert!(matches!(fault(short.as_bytes()), Fault::TooShort { samples: 19, .. }));
     assert!(matches!(fault(b""), Fault::NoColumn { .. }));
     assert!(matches!(fault(b"t,ax2\n"), Fault::TooShort { samples: 0, .. }));
-    assert!(matches!(fault(b"\xff\xfe\x00"), Fault::NoColumn { .. } | Fault::Unreadable { .. }));
+    assert!(matches!(fault(b"\xff\xfe\x00"), Fault::Unread(Unread::Kind { .. })));
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! What is no record, and records with any byte changed: a sentence, never a panic.
 
 use crate::common::{RATE, at_rate, record, refused, run};
-use squealmap_identify::Settings;
+use squealmap_identify::{Fault, Settings, Unread};
 
 #[test]
 fn kinds_that_are_not_read_are_named_with_what_to_do() {
@@ -21,6 +21,8 @@ fn kinds_that_are_not_read_are_named_with_what_to_do() {
         (wide, ["no text", "UTF-8"]),
     ] {
         refused(&bytes, &settings, &parts);
+        let fault = *run(&bytes, &settings).expect_err("a fault").fault;
+        assert!(matches!(fault, Fault::Unread(Unread::Kind { .. })), "{fault}");
     }
 }
 
