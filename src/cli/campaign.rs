@@ -129,7 +129,7 @@ fn of_record(path: &Path, settings: &Settings) -> Vec<StrokeRow> {
         Err(why) => return vec![row(1, None, Err(why.to_string()))],
     };
     let of_stroke = |(place, stroke): (usize, Stroke)| {
-        let settings = Settings { rows: Some(stroke.rows), ..settings.clone() };
+        let settings = Settings { rows: Some(stroke.rows), back: !stroke.forward, ..settings.clone() };
         match identify(open, &name, &settings, &mut |_, _| {}) {
             Ok(found) => StrokeRow {
                 told: told_of(&found.segments),

@@ -111,9 +111,11 @@ impl FitCommand {
             Law::Best => candidates[0].law,
         };
         let no_fit = |fault: FitFault| Error::Fit { name: name.clone(), fault: fault.into() };
+        let mut elsewhere = Vec::new();
         let (fitted, text, courses) = if law.reads_table() {
             let binned = binned(&points, &self.temperatures).map_err(no_fit)?;
             candidates.push(binned.candidate());
+            elsewhere = binned.elsewhere();
             let text = tables_csv(&binned, &points, &name);
             let courses = binned.courses(&points);
             (binned.fit, text, Some(courses))
@@ -143,6 +145,9 @@ impl FitCommand {
             FILES[3]
         ));
         // Tables without given temperatures are where the points are.
+        for warning in elsewhere {
+            note(&format!("warning: {warning}"));
+        }
         let warned = given || !law.reads_table();
         for warning in warned.then(|| warnings(&fitted, &points)).into_iter().flatten() {
             note(&format!("warning: {warning}"));

@@ -7,6 +7,14 @@ pub enum Error {
     /// The document is not the SVG it should be.
     #[error("the figure could not be read as SVG")]
     ReadSvg(#[source] resvg::usvg::Error),
+    /// Elements within elements beyond measure.
+    #[error("the figure has {depth} elements within one another, but at most {most} are drawn")]
+    Nested {
+        /// How many.
+        depth: usize,
+        /// How many are drawn.
+        most: usize,
+    },
     /// A figure is too large for an image, or its encoding failed.
     #[error("a picture of {width} × {height} pixels could not be made; plot fewer panels or points")]
     Rasterize {

@@ -23,6 +23,24 @@ pub const BOLD: &[u8] = include_bytes!("../fonts/LiberationSans-Bold.ttf");
 /// All faces.
 pub const FONTS: [&[u8]; 3] = [REGULAR, include_bytes!("../fonts/LiberationSans-Italic.ttf"), BOLD];
 
+/// The deepest nesting of elements that is drawn: the library goes down into each, on the stack of its caller.
+const DEEPEST: usize = 100;
+
+/// How deep the elements of a document are nested, or what a broken one looks like.
+fn nesting(svg: &str) -> usize {
+    let (mut depth, mut deepest) = (0_usize, 0);
+    for tag in svg.split('<').skip(1) {
+        if tag.starts_with('/') {
+            depth = depth.saturating_sub(1);
+        } else if !tag.starts_with(['!', '?']) {
+            let end = tag.find('>').unwrap_or(tag.len());
+            deepest = deepest.max(depth + 1);
+            depth += usize::from(!tag[..end].ends_with('/'));
+        }
+    }
+    deepest
+}
+
 /// The PNG of an SVG document at [`DPI`] with its resolution recorded.
 ///
 /// # Errors
@@ -63,6 +81,10 @@ fn image(svg: &str) -> Result<Vec<u8>> {
 /// # Errors
 /// When it is not SVG.
 pub fn read(svg: &str) -> Result<Tree> {
+    let depth = nesting(svg);
+    if depth > DEEPEST {
+        return Err(Error::Nested { depth, most: DEEPEST });
+    }
     Tree::from_str(svg, &options()).map_err(Error::ReadSvg)
 }
 

@@ -207,7 +207,7 @@ fn notes(survey: &Survey, zooms: &[f64]) -> Vec<String> {
     let mut notes: Vec<String> = survey.remarks.clone();
     if survey.turned {
         notes.push(
-            "the velocity is negative: the signs of what points along the contact are turned".to_owned(),
+            "the stroke goes the other way: the signs of what points along the contact are turned".to_owned(),
         );
     }
     let [start, end] = [survey.start, survey.start + survey.samples as f64 / survey.rate];

@@ -38,6 +38,8 @@ pub struct Settings {
     /// The rows that are analysed: how many before them are left out, and how many they are; `None` for all. See
     /// [`crate::strokes`].
     pub rows: Option<[u64; 2]>,
+    /// Whether they are a stroke that goes the other way; a recorded velocity says that by itself.
+    pub back: bool,
     /// Delay of the normal acceleration behind the tangential one, s, which is taken out; at most one period.
     pub skew: f64,
     /// Delay of the forces behind the tangential acceleration, s, which is taken out; at most one period.
@@ -68,6 +70,7 @@ impl Default for Settings {
             rate: None,
             columns: PerChannel::default(),
             rows: None,
+            back: false,
             skew: 0.0,
             force_skew: 0.0,
             damping_ratio: DAMPING_RATIO,

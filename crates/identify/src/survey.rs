@@ -125,8 +125,8 @@ pub(super) fn survey(mut table: Table, settings: &Settings) -> Result<(Survey, K
     if timed && table.time_unit().is_none() && !is_usual(rate) {
         return Err(doubtful(table.time_name(), rate));
     }
-    if let Some(own) = own.filter(|own| !is_same(rate, own.rate)) {
-        return Err(other_rate(timed.then(|| table.time_name()), [rate, own.rate]));
+    if let Some(own) = own {
+        of_file(timed.then(|| table.time_name()), settings, [rate, own.rate])?;
     }
     if let Some((given, [first, last])) = settings.rate.zip(times) {
         let found = (samples - 1) as f64 / (last - first);
@@ -155,7 +155,8 @@ pub(super) fn survey(mut table: Table, settings: &Settings) -> Result<(Survey, K
             constant.push(channel);
         }
     }
-    let turned = table.has(Channel::Velocity) && ranges[Channel::Velocity as usize].mean() < 0.0;
+    let by_velocity = table.has(Channel::Velocity).then(|| ranges[Channel::Velocity as usize].mean() < 0.0);
+    let turned = by_velocity.unwrap_or(settings.back);
     forces(&table, &ranges, settings, turned)?;
     let frequency = spectrum.peak(rate, settings.band);
     let strongest = settings.band.and_then(|band| spectrum.peak(rate, None).map(|found| (band, found)));
@@ -185,11 +186,17 @@ fn is_same(found: f64, given: f64) -> bool {
     (found / given - 1.0).abs() <= SAME_RATE
 }
 
-/// Refuses a rate, or that of a column of time, beside another one of the file itself (Hz).
-fn other_rate(column: Option<String>, [given, own]: [f64; 2]) -> Fault {
+/// Refuses a rate of the file itself (Hz) that no sensor has, and one given, or of a column of time, that is another.
+fn of_file(column: Option<String>, settings: &Settings, [given, own]: [f64; 2]) -> Result<(), Fault> {
+    if settings.rate.is_none() && column.is_none() && !is_usual(own) {
+        return Err(Unread::NoRate { own: rounded(own), usual: RATES }.into());
+    }
+    if is_same(given, own) {
+        return Ok(());
+    }
     let flag = if column.is_some() { "--time" } else { "--rate" };
     let what = column.map_or("--rate is".to_owned(), |column| format!("column `{column}` has a rate of"));
-    Unread::OtherRate { what, given: rounded(given), own: rounded(own), flag }.into()
+    Err(Unread::OtherRate { what, given: rounded(given), own: rounded(own), flag }.into())
 }
 
 /// Asks about a column of time that would have this rate (Hz) in seconds.

@@ -82,6 +82,19 @@ pub enum Unread {
         /// How much later it begins, s.
         later: f64,
     },
+    /// A rate that no sensor of vibrations has.
+    #[error(
+        "the file itself says {own} samples per second, which no sensor of vibrations has ({} to {} Hz); correct the rate in the file, or \
+         export it as CSV",
+        usual[0],
+        usual[1]
+    )]
+    NoRate {
+        /// The rate of the file, Hz.
+        own: f64,
+        /// The slowest and the fastest that are usual, Hz.
+        usual: [f64; 2],
+    },
     /// A rate that is not that of the file.
     #[error(
         "{what} {given} Hz but the file itself says {own} samples per second; leave out {flag}, or correct the rate in the file"

@@ -1,6 +1,7 @@
 """What is refused is an exception with the very sentence of the program, and never the end of the interpreter."""
 
 import json
+import pathlib
 import re
 import subprocess
 import sys
@@ -277,3 +278,29 @@ def test_a_fault_of_the_program_is_an_exception():
     """
     ended = subprocess.run([sys.executable, "-c", textwrap.dedent(text)], capture_output=True, text=True)
     assert ended.stdout.strip() == "alive", ended.stderr
+
+
+def test_a_stop_goes_from_process_to_process() -> None:
+    import pickle
+
+    stop = squealmap.Interrupted({"a": 1}, 2, 3)  # type: ignore[arg-type]
+    again = pickle.loads(pickle.dumps(stop))
+    assert str(again) == str(stop) and again.dataset == {"a": 1}
+
+
+def test_numbers_of_numpy_are_threads() -> None:
+    numpy = pytest.importorskip("numpy")
+    assert squealmap._engine.engine_of(threads=numpy.int64(2))["threads"] == 2
+    for threads in (True, 0, 1025, 2.5, "2"):
+        with pytest.raises(squealmap.InputError, match="threads is"):
+            squealmap._engine.engine_of(threads=threads)  # type: ignore[arg-type]
+
+
+def test_what_is_no_dataset_is_not_drawn(tmp_path: pathlib.Path) -> None:
+    for given in (None, 3, {}):
+        with pytest.raises(squealmap.InputError, match="plot takes an xarray.Dataset"):
+            squealmap.plot(given)  # type: ignore[arg-type]
+    deep = "<g opacity='.5'>" * 1000 + "</g>" * 1000
+    svg = f"<svg xmlns='http://www.w3.org/2000/svg' width='9' height='9'>{deep}</svg>"
+    with pytest.raises(squealmap.Error, match="1001 elements within one another"):
+        squealmap.Figure(svg).save(tmp_path / "a.png")

@@ -1,6 +1,6 @@
 //! The figure of a campaign: verdicts, frequency, amplitude and friction across its conditions.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use crate::results::figure::look::Look;
 use crate::results::figure::panels::selection;
@@ -27,6 +27,8 @@ const RIGHT: f64 = 4.0;
 /// A condition is no narrower than this, points, and in a figure of one column as wide as this or more.
 const NARROWEST: f64 = 15.0;
 const WIDE: f64 = 26.0;
+/// The width of the longest word of a heading, points.
+const HEADING: f64 = 38.0;
 /// The part of the room of a condition that its bar takes, and its marks.
 const BAR: f64 = 0.7;
 /// Radius of a mark, points.
@@ -61,6 +63,8 @@ struct Column<'a> {
 /// What a row of panels shows of a stroke.
 struct Row {
     words: &'static str,
+    /// What stands for the words where there is no room for them.
+    symbol: &'static str,
     unit: &'static str,
     /// That unit in SI units.
     in_si: f64,
@@ -68,8 +72,8 @@ struct Row {
 }
 
 impl Row {
-    fn new(words: &'static str, unit: &'static str, of: fn(&Said) -> Option<f64>) -> Row {
-        Row { words, unit, in_si: 1.0, of }
+    fn new([words, symbol, unit]: [&'static str; 3], of: fn(&Said) -> Option<f64>) -> Row {
+        Row { words, symbol, unit, in_si: 1.0, of }
     }
 
     fn value(&self, said: &Said) -> Option<f64> {
@@ -80,9 +84,9 @@ impl Row {
 /// The rows below that of the verdicts, of what was recorded.
 fn rows(all: &[Said]) -> Vec<Row> {
     let mut rows = vec![
-        Row::new("Frequency", "Hz", |said| said.vibration.map(|[frequency, _]| frequency)),
-        Row::new("Amplitude", "m/s^2", |said| said.vibration.map(|[_, amplitude]| amplitude)),
-        Row::new("Friction", "", |said| said.friction),
+        Row::new(["Frequency", "f", "Hz"], |said| said.vibration.map(|[frequency, _]| frequency)),
+        Row::new(["Amplitude", "a", "m/s^2"], |said| said.vibration.map(|[_, amplitude]| amplitude)),
+        Row::new(["Friction", "μ", ""], |said| said.friction),
     ];
     if all.iter().filter_map(|said| rows[0].value(said)).any(|frequency| frequency >= KILOHERTZ) {
         (rows[0].unit, rows[0].in_si) = ("kHz", 1e3);
@@ -131,31 +135,14 @@ fn draw(
     let mut svg = Svg::new();
     let mut y = MARGIN + title(&mut svg, heading, page - 2.0 * MARGIN);
     y += legend(&mut svg, [left, y], page - left - RIGHT, columns) + 3.0;
-    // As many conditions as have room, an even choice of all.
     let across = page - left - RIGHT;
-    let room = |columns: usize| across - (columns.max(1) - 1) as f64 * GAP_ACROSS;
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive count")]
-    let most = (room(columns.len()) / NARROWEST).max(1.0) as usize;
-    let chosen: BTreeSet<usize> = selection(total, most).collect();
-    let mut number = 0;
-    let shown: Vec<(&Column<'_>, Vec<&Group<'_>>)> = columns
-        .iter()
-        .map(|column| {
-            let before = number;
-            number += column.groups.len();
-            let some = column.groups.iter().enumerate();
-            let some = some.filter(|(place, _)| chosen.contains(&(before + place)));
-            (column, some.map(|(_, group)| group).collect::<Vec<_>>())
-        })
-        .filter(|(_, some)| !some.is_empty())
-        .collect();
-    let each = room(shown.len()) / chosen.len().max(1) as f64;
+    let (shown, each) = chosen(columns, across);
     let heads: Vec<Vec<Text>> =
-        shown.iter().map(|(column, some)| head(column, some, each * some.len() as f64)).collect();
+        shown.iter().map(|(column, some)| head(column, some, each * weight(some.len()))).collect();
     y += heads.iter().map(Vec::len).max().unwrap_or(0) as f64 * LINE + TICK_SIZE + 2.0;
     let mut x = left;
     for (place, (_, some)) in shown.iter().enumerate() {
-        let width = each * some.len() as f64;
+        let width = each * weight(some.len());
         for (line, words) in heads[place].iter().rev().enumerate() {
             let base = y - TICK_SIZE - 4.0 - line as f64 * LINE;
             svg.text(x + 0.5 * width, base, words, Style::new(LABEL_SIZE, Anchor::Middle));
@@ -175,11 +162,12 @@ fn draw(
         }
         x += width + GAP_ACROSS;
     }
-    let labels = rows
-        .iter()
-        .zip(&scales)
-        .map(|(row, scale)| vec![Text::from(row.words).then(axis_unit(row.unit, scale.exponent()))]);
-    let labels = std::iter::once(vec![Text::from("Part of the time")]).chain(labels);
+    let labels = rows.iter().zip(&scales).map(|(row, scale)| {
+        let unit = || axis_unit(row.unit, scale.exponent());
+        vec![Text::from(row.words).then(unit()), Text::default().symbol(row.symbol).then(unit())]
+    });
+    let time = vec![Text::from("Part of the time"), Text::from("Time")];
+    let labels = std::iter::once(time).chain(labels);
     for (row, labels) in labels.enumerate() {
         let frame = Frame { x: left, y: y + row as f64 * (height + GAP), width: 0.0, height };
         letters::side(&mut svg, (row, 1 + rows.len()), &frame, &labels);
@@ -187,12 +175,47 @@ fn draw(
     y += (1 + rows.len()) as f64 * (height + GAP) - GAP + x_tick_room() + LABEL_SIZE + 1.0;
     let words = Text::from("Temperature (°C)");
     svg.text(left + 0.5 * across, y, &words, Style::new(LABEL_SIZE, Anchor::Middle));
-    if chosen.len() < total {
+    let drawn: usize = shown.iter().map(|(_, some)| some.len()).sum();
+    if drawn < total {
         y += LABEL_SIZE + 6.0;
-        let note = format!("{} of {total} conditions shown; the table holds all.", chosen.len());
+        let note = format!("{drawn} of {total} conditions shown; the table holds all.");
         svg.text(MARGIN, y, &Text::from(note), Style::new(LABEL_SIZE, Anchor::Start));
     }
     (svg, [page, y + MARGIN + 2.0])
+}
+
+/// Columns of panels with the conditions that they show.
+type Chosen<'a> = Vec<(&'a Column<'a>, Vec<&'a Group<'a>>)>;
+
+/// The columns that have room, an even choice of all, and the width of a condition: each has all of its conditions; only where one
+/// has no room for them, it has an even choice.
+fn chosen<'a>(columns: &'a [Column<'a>], across: f64) -> (Chosen<'a>, f64) {
+    let room = |count: usize| across - count.saturating_sub(1) as f64 * GAP_ACROSS;
+    let each = |shown: &Chosen<'_>| {
+        room(shown.len()) / shown.iter().map(|(_, some)| weight(some.len())).sum::<f64>().max(1.0)
+    };
+    for count in (1..=columns.len()).rev() {
+        let all = selection(columns.len(), count).map(|place| &columns[place]);
+        let shown: Chosen<'_> = all.map(|column| (column, column.groups.iter().collect())).collect();
+        let width = each(&shown);
+        if width >= NARROWEST {
+            return (shown, width);
+        }
+    }
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive count")]
+    let most = (across / NARROWEST).max(1.0) as usize;
+    let few = |column: &'a Column<'a>| {
+        let some = selection(column.groups.len(), most).map(|place| &column.groups[place]);
+        (column, some.collect())
+    };
+    let shown: Chosen<'_> = columns.first().map(few).into_iter().collect();
+    let width = each(&shown);
+    (shown, width)
+}
+
+/// The width of a column of so many conditions, in conditions: that of its heading at least.
+fn weight(conditions: usize) -> f64 {
+    (conditions as f64).max(HEADING / NARROWEST)
 }
 
 /// The verdicts and marks that occur; returns the height that their rows take.
@@ -216,7 +239,7 @@ fn legend(svg: &mut Svg, at: [f64; 2], width: f64, columns: &[Column<'_>]) -> f6
 /// The words above a column of panels.
 fn head(column: &Column<'_>, some: &[&Group<'_>], width: f64) -> Vec<Text> {
     let law = column.law.map_or("velocity not recorded".to_owned(), |law| format!("{} velocity", law.name()));
-    let mut words = Text::from(law).wrapped(width + GAP_ACROSS, LABEL_SIZE);
+    let mut words = Text::from(law).wrapped(width + 0.5 * GAP_ACROSS, LABEL_SIZE);
     let speeds = || some.iter().filter_map(|group| group.condition.speed);
     let count = speeds().count();
     if count > 0 {

@@ -7,6 +7,7 @@ use crate::results::read::folder::{Folder, Table, Why, headed};
 use crate::study::campaign::row::{DIRECTIONS, Said, VelocityLaw};
 use crate::study::error::Result;
 use squealmap_identify::Kind;
+use squealmap_input::quote::quoted;
 
 /// The files that are read.
 pub(crate) const FILES: [&str; 2] = ["strokes.csv", "campaign.json"];
@@ -46,9 +47,26 @@ fn said(table: &Table) -> Why<Vec<Said>> {
     let numbers = table.numbers(numbers)?;
     let shares = table.numbers(Kind::ALL.map(Kind::name))?;
     let mut all = Vec::new();
-    for ((row, numbers), shares) in table.rows.iter().zip(numbers).zip(shares) {
-        if table.cell(row, "status") != "ok" {
+    for (number, ((row, numbers), shares)) in table.rows.iter().zip(numbers).zip(shares).enumerate() {
+        let status = table.cell(row, "status");
+        if status.is_empty() {
+            return Err(format!("has no `status` in row {}", number + 1));
+        }
+        if status != "ok" {
             continue;
+        }
+        // An empty cell is what was not recorded.
+        let strange = |name: &&&str| {
+            let value = table.cell(row, name).parse::<f64>();
+            value.is_ok_and(|value| !(value.is_finite() && value >= 0.0))
+        };
+        if let Some(name) = ["velocity", "frequency", "amplitude"].iter().find(strange) {
+            let value = quoted(table.cell(row, name));
+            return Err(format!("has `{value}` as `{name}` in row {}, which is none", number + 1));
+        }
+        let direction = table.cell(row, "direction");
+        if !DIRECTIONS.contains(&direction) {
+            return Err(format!("has `{}` as `direction` in row {}", quoted(direction), number + 1));
         }
         let [start, end, temperature, speed, friction, vibrating, frequency, amplitude] = numbers;
         let known = |value: f64| value.is_finite().then_some(value);
@@ -63,7 +81,7 @@ fn said(table: &Table) -> Why<Vec<Said>> {
         }
         all.push(Said {
             time: [start, end],
-            forward: table.cell(row, "direction") == DIRECTIONS[0],
+            forward: direction == DIRECTIONS[0],
             law,
             speed: known(speed),
             temperature: known(temperature),

@@ -15,6 +15,7 @@ use crate::study::fit::problem::sum_of_squares;
 use crate::study::fit::range;
 use crate::study::fit::rows::rows;
 use crate::study::fit::squares::{Fit, Point};
+use squealmap_input::quote::rounded;
 
 /// Most bins of a table: between two temperatures a law has the velocities of both tables, which with the one at rest are 63 at
 /// most, and a kernel holds 64.
@@ -165,10 +166,17 @@ fn mean(points: &[Point], of: impl Fn(&Point) -> f64) -> f64 {
     first + points.iter().map(|point| of(point) - first).sum::<f64>() / points.len() as f64
 }
 
-/// The table of some bins: from rest on, where friction is that of the slowest bin.
+/// Friction at rest: the line through the two slowest bins goes on, as slower points are part of them. `None` where a bin is at rest.
+pub(super) fn at_rest(bins: &[Bin]) -> Option<f64> {
+    let [slowest, next, ..] = bins else { return None };
+    let slope = (next.friction - slowest.friction) / (next.velocity - slowest.velocity);
+    (slowest.velocity > 0.0).then(|| (slowest.friction - slope * slowest.velocity).max(0.0))
+}
+
+/// The table of some bins, from rest on.
 fn table(bins: &[Bin]) -> MuTable {
-    let slowest = bins.first().filter(|bin| bin.velocity > 0.0).map(|bin| (0.0, bin.friction));
-    let rows = slowest.into_iter().chain(bins.iter().map(|bin| (bin.velocity, bin.friction)));
+    let rest = at_rest(bins).map(|friction| (0.0, friction));
+    let rows = rest.into_iter().chain(bins.iter().map(|bin| (bin.velocity, bin.friction)));
     let (velocity, mu) = rows.unzip();
     MuTable { velocity, mu }
 }
@@ -213,6 +221,23 @@ fn fitted(rows: &[Row], points: &[Point]) -> Fit {
 }
 
 impl Binned {
+    /// Warnings about tables at another temperature than that of their points.
+    #[must_use]
+    pub fn elsewhere(&self) -> Vec<String> {
+        /// Friction coefficients hardly change over this, °C.
+        const NEAR: f64 = 5.0;
+        let away = self.rows.iter().filter(|row| (row.measured - row.temperature).abs() > NEAR);
+        away.map(|row| {
+            format!(
+                "the points of the table at {} °C were measured at {} °C in the mean; ask for rows where you measured, or leave \
+                 --temperatures out",
+                row.temperature,
+                rounded(row.measured)
+            )
+        })
+        .collect()
+    }
+
     /// The table of each temperature from rest to the fastest point.
     #[must_use]
     pub fn courses(&self, points: &[Point]) -> Vec<Course> {

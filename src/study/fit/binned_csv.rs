@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::study::fit::binned::{Bin, Binned};
+use crate::study::fit::binned::{Bin, Binned, at_rest};
 use crate::study::fit::table::span;
 use crate::sweep::columns::Cell;
 use squealmap_identify::Point;
@@ -31,13 +31,13 @@ pub fn tables_csv(binned: &Binned, points: &[Point], source: &str) -> String {
             row.measured
         );
     }
-    text += "# A row at 0 m/s, the limit of stick, without mu_error is not measured: it has the value of the slowest bin.\n\
+    text += "# A row at 0 m/s, the limit of stick, without mu_error: there the line through the two slowest bins ends.\n\
              # mu_error: standard error of mu by the scatter in its bin, for independent errors of friction; sweeps pass over it.\n\
              temperature,velocity,mu,mu_error\n";
     for row in &binned.rows {
         let temperature = Cell::from(row.temperature);
-        if let Some(slowest) = row.bins.first().filter(|bin| bin.velocity > 0.0) {
-            let _ = writeln!(text, "{temperature},0,{},", Cell::from(slowest.friction));
+        if let Some(friction) = at_rest(&row.bins) {
+            let _ = writeln!(text, "{temperature},0,{},", Cell::from(friction));
         }
         for Bin { velocity, friction, error, .. } in &row.bins {
             let (velocity, friction) = (Cell::from(*velocity), Cell::from(*friction));

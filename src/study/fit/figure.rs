@@ -24,6 +24,8 @@ const GAP: f64 = 8.0;
 const RIGHT: f64 = 8.0;
 /// Margin above and below points, as a fraction of the panel.
 const HEADROOM: f64 = 0.06;
+/// An error below this is that of rounding, and so is scatter.
+const KNOWN: f64 = 1e-9;
 /// Points of one temperature are thinned to one in each square of this side, points.
 const SQUARE: f64 = 1.2;
 /// From the coldest to the hottest.
@@ -45,8 +47,8 @@ fn draw(heading: &str, shown: &Shown, look: &Look<'_>, heights: [f64; 2]) -> (Sv
     let of_courses =
         |which: usize| shown.courses.iter().flat_map(|course| &course.points).map(move |at| at[which]);
     let x = Scale::spanning(of_points(0).chain(of_courses(0)).chain([0.0]));
-    let friction = Scale::spanning(of_points(2).chain(of_courses(1))).widened(HEADROOM);
-    let residual = Scale::spanning(of_points(3).chain([0.0])).widened(HEADROOM);
+    let friction = spanning(of_points(2).chain(of_courses(1)));
+    let residual = spanning(of_points(3).chain([0.0]));
     let scales = [friction, residual];
     let ticks = [0, 1].map(|row| y_ticks(&scales[row], heights[row]));
     let room = ticks.iter().map(|ticks| y_tick_room(ticks)).fold(0.0, f64::max);
@@ -86,6 +88,17 @@ fn draw(heading: &str, shown: &Shown, look: &Look<'_>, heights: [f64; 2]) -> (Sv
     (svg, [page, y + MARGIN + 2.0])
 }
 
+/// The scale of some values; those that rounding alone tells apart are one.
+fn spanning(values: impl Iterator<Item = f64>) -> Scale {
+    match Scale::spanning(values) {
+        Scale::Linear { low, high } if high - low < KNOWN => {
+            Scale::spanning([(0.5 * (low + high) / KNOWN).round() * KNOWN])
+        }
+        other => other,
+    }
+    .widened(HEADROOM)
+}
+
 /// Each temperature with the values of its law, and those that all have in common; returns the height of the rows.
 fn legend(svg: &mut Svg, at: [f64; 2], width: f64, shown: &Shown) -> f64 {
     let courses = &shown.courses;
@@ -111,8 +124,8 @@ fn legend(svg: &mut Svg, at: [f64; 2], width: f64, shown: &Shown) -> f64 {
 fn said(parameter: &Parameter) -> Text {
     let info = Param::from_name(&parameter.name).map(Param::info);
     let (symbol, unit) = info.map_or((parameter.name.as_str(), ""), |info| (info.symbol, info.unit));
-    let text = Text::default().symbol(symbol).plain(" = ");
-    let text = match parameter.error.filter(|error| *error > 0.0) {
+    let text = Text::default().symbol(symbol).plain("\u{a0}=\u{a0}");
+    let text = match parameter.error.filter(|error| *error > KNOWN) {
         Some(error) => {
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to 9")]
             let decimals = (1.0 - error.log10().floor()).clamp(0.0, 9.0) as usize;
@@ -123,7 +136,7 @@ fn said(parameter: &Parameter) -> Text {
         }
         None => text.then(value_label(format!("{:.4e}", parameter.value).parse().unwrap_or(parameter.value))),
     };
-    if unit.is_empty() { text } else { text.plain(" ").unit(unit) }
+    if unit.is_empty() { text } else { text.plain("\u{a0}").unit(unit) }
 }
 
 /// The points, each in the colour of the nearest temperature.

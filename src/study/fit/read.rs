@@ -21,6 +21,9 @@ pub(crate) fn read(folder: Folder<'_>) -> Result<Shown> {
     let [velocity, temperature, friction, _, residual] = RESIDUALS;
     let points = table.numbers([velocity, temperature, friction, residual]);
     let mut points = points.map_err(|why| folder.bad(FILES[0], why))?;
+    if let Some(row) = points.iter().position(|point| point.iter().any(|value| !value.is_finite())) {
+        return Err(folder.bad(FILES[0], format!("has no finite number in row {}", row + 1)).into());
+    }
     for point in &mut points {
         point[0] = point[0].abs();
     }

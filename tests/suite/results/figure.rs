@@ -356,6 +356,17 @@ fn the_png_says_300_dots_per_inch() {
     assert_eq!(&bytes[37..41], b"pHYs");
     assert_eq!(&bytes[41..50], &[0, 0, 0x2E, 0x23, 0, 0, 0x2E, 0x23, 1]);
     assert!(matches!(png::render("not a picture"), Err(squealmap_figure::Error::ReadSvg(_))));
+    let nested = |depth: usize| {
+        let [open, close] = [r#"<g opacity=".5">"#, "</g>"].map(|tag| tag.repeat(depth - 2));
+        let rect = r#"<rect width="5" height="5"/>"#;
+        png::render(&format!(
+            r#"<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9">{open}{rect}{close}</svg>"#
+        ))
+    };
+    assert!(nested(100).is_ok());
+    for depth in [101, 100_000] {
+        assert!(matches!(nested(depth), Err(squealmap_figure::Error::Nested { most: 100, .. })), "{depth}");
+    }
 }
 
 #[test]

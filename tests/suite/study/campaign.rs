@@ -149,6 +149,9 @@ fn a_folder_of_records_is_a_campaign_and_a_broken_one_says_why() {
         std::fs::write(here.join("records").join(name), record(&THREE, temperature)).expect("written");
     }
     std::fs::write(here.join("records/broken.csv"), "t,ax2\n0,1\n1,x\n").expect("written");
+    // Without a velocity the force tells the direction, and the stroke back is turned.
+    let forces = record(&THREE, 100.0).replace("T,N,V", "T,N,speed");
+    std::fs::write(here.join("records/no_velocity.csv"), forces).expect("written");
     std::fs::write(here.join("records/notes.md"), "none").expect("written");
     let ended = squealmap(here, &["campaign", "records", "-o", "out"]);
     assert_eq!(ended.code, Some(0), "{}", ended.err);
@@ -157,13 +160,18 @@ fn a_folder_of_records_is_a_campaign_and_a_broken_one_says_why() {
     let read = |name: &str| std::fs::read_to_string(here.join("out").join(name)).expect("a table");
     let table = read("strokes.csv");
     let rows: Vec<Vec<&str>> = table.lines().map(|line| line.split(',').collect()).collect();
-    assert_eq!(rows.len(), 1 + 1 + 3 + 3, "{table}");
+    assert_eq!(rows.len(), 1 + 1 + 3 + 3 + 3, "{table}");
     assert!(rows[1][0].ends_with("broken.csv") && rows[1][19] != "ok", "{table}");
     assert!(rows[2..].iter().all(|row| row[19] == "ok"), "{table}");
+    assert_eq!(
+        rows[5..8].iter().map(|row| row[4]).collect::<Vec<_>>(),
+        ["forward", "back", "forward"],
+        "{table}"
+    );
     let laws: Vec<&str> = rows[2..5].iter().map(|row| row[9]).collect();
     assert_eq!(laws, ["falling", "constant", "rising"]);
     let conditions = read("conditions.csv");
-    assert_eq!(conditions.lines().count(), 1 + 6, "{conditions}");
+    assert_eq!(conditions.lines().count(), 1 + 1 + 6, "{conditions}");
     for (given, why) in [("nothing", "nothing"), ("out", "no record")] {
         std::fs::create_dir_all(here.join("empty")).expect("a folder");
         let given = if given == "out" { "empty" } else { given };

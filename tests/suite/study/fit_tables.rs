@@ -53,6 +53,33 @@ fn are_as_stated(distances: &[f64]) -> bool {
     beyond <= 0.1 * count && distances.iter().all(|z| z.abs() < 4.0) && (0.5..1.6).contains(&squares)
 }
 
+/// The slowest bin holds the points down to rest: the law goes on below its mean.
+#[test]
+fn a_straight_law_is_straight_down_to_rest() {
+    let law = |velocity: f64| 0.4 - 0.03 * velocity;
+    let point = |k: u32| {
+        let velocity = 0.05 * f64::from(k);
+        Point { velocity, temperature: 100.0, friction: law(velocity) }
+    };
+    let points: Vec<Point> = (0..60).map(point).collect();
+    let found = binned(&points, &[]).unwrap();
+    let course = &found.courses(&points)[0].points;
+    assert_eq!(course[0][0].to_bits(), 0.0_f64.to_bits());
+    let slowest = found.rows[0].bins[0].velocity;
+    for [velocity, friction] in course.iter().filter(|point| point[0] <= slowest) {
+        assert!((friction - law(*velocity)).abs() < 1e-12, "{velocity}: {friction}");
+    }
+}
+
+/// A table at another temperature than that of its points is told.
+#[test]
+fn a_table_far_from_its_points_is_warned_of() {
+    let points = points(0.01, 600);
+    assert_eq!(binned(&points, &[100.0, 300.0, 500.0]).unwrap().elsewhere().len(), 0);
+    let told = binned(&points, &[100.0, 450.0]).unwrap().elsewhere();
+    assert!(told.len() == 1 && told[0].contains("at 450 °C were measured at 400 °C"), "{told:?}");
+}
+
 #[test]
 fn a_curve_is_found_within_the_stated_errors() {
     for (noise, count) in [(0.01, 3000), (0.03, 1500), (0.02, 300)] {

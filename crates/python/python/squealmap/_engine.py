@@ -29,7 +29,10 @@ def engine_of(
         InputError: for a number of threads that cannot be.
         TypeError: for an accuracy that is neither a name nor a number.
     """
-    if threads is not None and not (isinstance(threads, int) and 0 < threads <= 1024):
+    # Numbers of numpy are numbers.
+    if threads is not None and not isinstance(threads, bool) and hasattr(threads, "__index__"):
+        threads = threads.__index__()
+    if threads is not None and (isinstance(threads, bool) or not isinstance(threads, int) or not 0 < threads <= 1024):
         raise InputError(f"threads is {str(threads)[:40]} but must be a whole number from 1 to 1024")
     if accuracy is not None and (isinstance(accuracy, bool) or not isinstance(accuracy, (str, int, float))):
         raise TypeError(f"accuracy is a name such as 'paper' or a number, not {type(accuracy).__name__}")

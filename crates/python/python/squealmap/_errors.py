@@ -28,3 +28,8 @@ class Interrupted(KeyboardInterrupt):
             f"stopped after {done} of {total} instances; what is done is in the attribute `dataset` of this exception"
         )
         self.dataset = dataset
+        self._counts = done, total
+
+    def __reduce__(self) -> tuple[type[Interrupted], tuple[Union[xarray.Dataset, Arrays], int, int]]:
+        """So that a process can hand it to another."""
+        return Interrupted, (self.dataset, *self._counts)

@@ -84,6 +84,12 @@ def plot(
     Raises:
         InputError: the dataset is none of this package, or has no such quantity.
     """
+    if not hasattr(dataset, "data_vars"):
+        what = type(dataset).__name__
+        raise InputError(f"plot takes an xarray.Dataset, not {what}; install xarray: pip install 'squealmap[xarray]'")
+    empty = [str(name) for name, size in dataset.sizes.items() if size == 0]
+    if empty:
+        raise InputError(f"there is nothing to draw: `{empty[0]}` has no values; select some")
     kind = str(dataset.attrs.get("squealmap", ""))
     if kind not in _FILES:
         raise InputError("only datasets of squealmap draw themselves: the attribute `squealmap` is not there or another")
