@@ -107,6 +107,7 @@ impl Choices {
         }
         Ok(Settings {
             rows: None,
+            back: false,
             time: self.time,
             time_unit: self.time_unit.map(unit).transpose()?,
             rate: self.rate.map(|rate| checked("rate", Some(rate), positive, 0.0)).transpose()?,
