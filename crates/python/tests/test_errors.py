@@ -290,10 +290,12 @@ def test_a_stop_goes_from_process_to_process() -> None:
 
 def test_numbers_of_numpy_are_threads() -> None:
     numpy = pytest.importorskip("numpy")
-    assert squealmap._engine.engine_of(threads=numpy.int64(2))["threads"] == 2
+    from squealmap._engine import engine_of
+
+    assert engine_of(threads=numpy.int64(2))["threads"] == 2
     for threads in (True, 0, 1025, 2.5, "2"):
         with pytest.raises(squealmap.InputError, match="threads is"):
-            squealmap._engine.engine_of(threads=threads)  # type: ignore[arg-type]
+            engine_of(threads=threads)
 
 
 def test_what_is_no_dataset_is_not_drawn(tmp_path: pathlib.Path) -> None:
