@@ -144,10 +144,10 @@ impl FitCommand {
             list(&paths),
             FILES[3]
         ));
-        // Tables without given temperatures are where the points are.
         for warning in elsewhere {
             note(&format!("warning: {warning}"));
         }
+        // Tables without given temperatures are where the points are.
         let warned = given || !law.reads_table();
         for warning in warned.then(|| warnings(&fitted, &points)).into_iter().flatten() {
             note(&format!("warning: {warning}"));

@@ -67,6 +67,15 @@ impl Folder<'_> {
         }
     }
 
+    /// Refuses a table with another number of rows than the document `of` says: one that was cut short at the end of a line
+    /// looks whole.
+    pub(crate) fn has_rows(self, [file, of]: [&str; 2], table: &Table, rows: usize) -> Result<()> {
+        if table.rows.len() == rows {
+            return Ok(());
+        }
+        Err(self.bad(file, format!("has {} rows, but `{of}` says {rows}", table.rows.len())))
+    }
+
     /// A table.
     pub(crate) fn table(self, file: &str) -> Result<Table> {
         Table::read(self.text(file)?.as_bytes()).map_err(|why| self.bad(file, why))

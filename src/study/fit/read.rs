@@ -13,11 +13,7 @@ pub(crate) fn read(folder: Folder<'_>) -> Result<Shown> {
     let table = folder.table(FILES[0])?;
     let Document { title, law, points: all, courses } =
         headed(folder.json(FILES[1])?).map_err(|why| folder.bad(FILES[1], why))?;
-    // A table that was cut short at the end of a line looks whole.
-    if all != table.rows.len() {
-        let why = format!("has {} rows, but `{}` says {all}", table.rows.len(), FILES[1]);
-        return Err(folder.bad(FILES[0], why).into());
-    }
+    folder.has_rows(FILES, &table, all)?;
     let [velocity, temperature, friction, _, residual] = RESIDUALS;
     let points = table.numbers([velocity, temperature, friction, residual]);
     let mut points = points.map_err(|why| folder.bad(FILES[0], why))?;
