@@ -81,7 +81,9 @@ fn broken_files_end_in_a_sentence() {
     still[28..32].fill(0);
     refused(&still, &settings, &["0 samples per second"]);
     let mut slow = of_kind(KINDS[0]);
+    let frame = u32::from(slow[32]);
     slow[24..28].copy_from_slice(&500_u32.to_le_bytes());
+    slow[28..32].copy_from_slice(&(500 * frame).to_le_bytes());
     refused(&slow, &settings, &["500 samples per second", "1000 to 1000000 Hz", "correct the rate"]);
     let mut none = of_kind(KINDS[0]);
     none[22..24].fill(0);
