@@ -217,84 +217,36 @@ fn carry_out(event: u32) {
     }
 }
 
-// Where the function `d0 …` first falls below zero, if that is before `end`; else `end`.
+// Where the function `d0 …`, which is above zero at the start, first falls to zero, if that is before `end`; else `end`.
 //
-// One loop over its samples, its dips and its root, so that lanes that are at different ones go on together.
+// It stays above the parabola with its value and slope and the least bend of the step: on to where that meets zero, from there
+// to the next, no root is passed, and close to one the steps are those of Newton's method.
 fn first_root(end: real) -> real {
-    let gap = real(1.0 / 8.0);
-    var low = real(0.0);
-    var high = real(0.0);
-    var low_slope = d1;
-    var low_value = d0;
-    var t = gap;
-    var next = gap;
-    var mode = SAMPLES;
-    for (var i = 0u; i < 40u; i++) {
+    let hollow = max(-least_bend(), 0.0);
+    var value = d0;
+    var slope = d1;
+    var t = real(0.0);
+    for (var i = 0u; i < MOST_MEETS; i++) {
+        // Per value, so that no square leaves the range of numbers.
+        let steep = min(max(slope / value, real(-1e18)), real(1e18));
+        let root = sqrt(steep * steep + 2.0 * min(hollow / value, real(1e36)));
+        let rises = slope >= 0.0;
+        let on = select(2.0, value * root + slope, rises) / max(select(root - steep, hollow, rises), real(1e-30));
+        t = t + on;
+        if !(t < end) {
+            return end;
+        }
+        if on * on < ENOUGH * EPSILON {
+            return t;
+        }
         let found = searched(t);
-        let value = found.x;
-        let slope = found.y;
-        if mode == SAMPLES {
-            if value <= 0.0 {
-                high = t;
-                mode = ROOT;
-                t = t - gap * (0.0 - value) / (low_value - value);
-                continue;
-            }
-            // Between two slopes that fall and rise it may dip: not where their lines meet above zero.
-            let meets = low_value + low_slope * ((value - low_value - slope * gap) / (low_slope - slope));
-            if low_slope < 0.0 && slope > 0.0 && meets <= 0.0 {
-                high = t;
-                next = t;
-                mode = DIP;
-                t = t - gap * slope / (slope - low_slope);
-                continue;
-            }
-            low = t;
-            low_slope = slope;
-            low_value = value;
-            if low >= end {
-                return end;
-            }
-            t = t + gap;
-            continue;
-        }
-        if mode == DIP {
-            if value <= 0.0 {
-                high = t;
-                mode = ROOT;
-                t = 0.5 * (low + high);
-                continue;
-            }
-            if slope < 0.0 {
-                low = t;
-            } else {
-                high = t;
-            }
-            // It has come to its least, or its line stays above zero to the end of the bracket.
-            if high - low < 1e-3 || value - abs(slope) * (high - low) > 0.0 {
-                mode = SAMPLES;
-                t = next;
-                low_slope = 0.0;
-                continue;
-            }
-            t = 0.5 * (low + high);
-            continue;
-        }
-        if value > 0.0 {
-            low = t;
-        } else {
-            high = t;
-        }
-        let newton = t - value / slope;
-        let inside = slope < 0.0 && newton >= low && newton <= high;
-        let better = select(0.5 * (low + high), newton, inside);
-        let change = abs(better - t);
-        t = better;
-        if change * change < ENOUGH * EPSILON {
-            return min(t, end);
+        value = found.x;
+        slope = found.y;
+        if value <= 0.0 {
+            return t;
         }
     }
-    return select(end, min(t, end), mode == ROOT);
+    return end;
 }
 
 // The order of zeros at the start that are looked through, each by a line below.

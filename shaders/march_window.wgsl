@@ -38,9 +38,9 @@ fn sample_time(i: u32) -> real {
     return select(select(inner, real(1.0), i == 4u), real(0.0), i == 0u);
 }
 
+// That of a sample between the ends.
 fn sample_weight(i: u32) -> real {
-    let inner = select(WEIGHT_0, WEIGHT_1, i == 2u);
-    return select(inner, real(0.0), i == 0u || i == 4u);
+    return select(WEIGHT_0, WEIGHT_1, i == 2u);
 }
 
 fn rotation(angle: real) -> vec2<real> {
@@ -175,20 +175,18 @@ fn cross(low: real, high: real, v: vec2<real>, a: vec2<real>, h: real) {
     set_flag(FLAG_FRESH, instance, select(0u, 1u, counts));
 }
 
-// On to the next sample of a step, `width` behind the last one.
-fn higher(tops: Tops, value: vec3<real>, i: u32) -> Tops {
+// On to the next sample of a step, `way` behind the last one, which was `way_in` behind that before it.
+fn higher(tops: Tops, value: vec3<real>, i: u32, way_in: real, way: real) -> Tops {
     var next = tops;
     if i == 0u {
         next.top = value;
     } else if i > 1u {
-        let way_in = sample_time(i - 1u) - sample_time(i - 2u);
-        let way_out = sample_time(i) - sample_time(i - 1u);
         let up = tops.one > tops.top;
         next.top = select(tops.top, tops.one, up);
         next.left = select(tops.left, (tops.one - tops.two) / way_in, up);
-        next.right = select(tops.right, (value - tops.one) / way_out, up);
+        next.right = select(tops.right, (value - tops.one) / way, up);
         next.before = select(tops.before, vec3<real>(way_in), up);
-        next.per_width = select(tops.per_width, vec3<real>(1.0 / (way_in + way_out)), up);
+        next.per_width = select(tops.per_width, vec3<real>(1.0 / (way_in + way)), up);
     }
     next.two = tops.one;
     next.one = value;
@@ -226,30 +224,41 @@ fn observe_window(end: real, h: real) -> Motion {
     var v = previous;
     var a = real(0.0);
     var before = real(0.0);
+    var last = real(0.0);
+    var way_in = real(0.0);
     for (var i = 0u; i < 5u; i++) {
         let here = sample_time(i);
         let t = end * here;
-        m = motion(t, rate);
-        let tangential = input(INPUT_R, instance) * m.x + (input(INPUT_R + 2u, instance) * m.w
-            + (input(INPUT_R + 3u, instance) * m.vx + input(INPUT_R + 5u, instance) * m.vw)) + m.ax + t0;
+        let way = here - last;
+        if i == 0u {
+            let twice = (rate + rate) * rate;
+            m = Motion(x0, x1 * rate, x2 * twice, w0, w1 * rate, w2 * twice);
+        } else {
+            m = motion(t, rate);
+        }
         let pressed = input(INPUT_W, instance) * m.x + (input(INPUT_W + 2u, instance) * m.w
             + (input(INPUT_W + 3u, instance) * m.vx + input(INPUT_W + 5u, instance) * m.vw))
             + input(INPUT_N0, instance) - input(INPUT_KAPPA, instance) * m.ax;
-        let loads = select(vec2<real>(tangential, pressed), vec2<real>(), flies);
-        let weight = tau * sample_weight(i);
-        let d = vec2<real>(m.x, m.w) - origin;
-        places += weight * vec4<real>(d.x, d.x * d.x, d.y, d.y * d.y);
-        squares += weight * vec3<real>(m.ax * m.ax, m.aw * m.aw, m.vx * m.vx + m.vw * m.vw);
-        forces += weight * loads;
-        tops = higher(tops, vec3<real>(abs(m.ax), abs(m.aw), loads.y), i);
+        let normal = select(pressed, 0.0, flies);
+        tops = higher(tops, vec3<real>(abs(m.ax), abs(m.aw), normal), i, way_in, way);
         if i > 0u {
-            carrier = turned(carrier, rotation(omega * tau * (here - sample_time(i - 1u))));
+            carrier = turned(carrier, rotation(omega * tau * way));
         }
-        let term = vec4<real>(m.ax * carrier, m.aw * carrier) * weight;
-        let u = (time + tau * here) * scale - 1.0;
-        first += term;
-        second += term * u;
-        third += term * (u * u);
+        // The ends of the step have no weight.
+        if i > 0u && i < 4u {
+            let tangential = input(INPUT_R, instance) * m.x + (input(INPUT_R + 2u, instance) * m.w
+                + (input(INPUT_R + 3u, instance) * m.vx + input(INPUT_R + 5u, instance) * m.vw)) + m.ax + t0;
+            let weight = tau * sample_weight(i);
+            let d = vec2<real>(m.x, m.w) - origin;
+            places += weight * vec4<real>(d.x, d.x * d.x, d.y, d.y * d.y);
+            squares += weight * vec3<real>(m.ax * m.ax, m.aw * m.aw, m.vx * m.vx + m.vw * m.vw);
+            forces += weight * vec2<real>(select(tangential, 0.0, flies), normal);
+            let term = vec4<real>(m.ax * carrier, m.aw * carrier) * weight;
+            let u = (time + tau * here) * scale - 1.0;
+            first += term;
+            second += term * u;
+            third += term * (u * u);
+        }
         // The first sample crosses where it is above and the end of the step before was not.
         var low = before;
         var high = t;
@@ -287,6 +296,8 @@ fn observe_window(end: real, h: real) -> Motion {
             cross(low, high, speeds, accelerations, h);
         }
         before = t;
+        last = here;
+        way_in = way;
         v = m.vx;
         a = m.ax;
     }

@@ -4,19 +4,21 @@
 //! What is counted are the operations of the kernel's text that any lane of a warp needs, reads and writes of buffers among
 //! them. A compiler makes about as many instructions of them, where it fuses products and sums some fewer.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::error::Error;
 
 use squealmap::engine::lanes::job::Part;
 use squealmap::engine::lanes::{ORDER, tolerance};
+use squealmap::engine::march::marching::Form;
 use squealmap::engine::precision::Precision;
 use squealmap::model::instance::Instance;
+use squealmap::model::piece::LawForm;
 use squealmap::version::COMMIT;
 use squealmap_lockstep::Count;
 
 use crate::date::date;
 use crate::kept::keep;
-use crate::twin::outcomes_seen;
+use crate::twin::{outcomes_seen, program};
 use crate::work::{Work, plan};
 
 /// Instances of the map: as many as a chunk of a software adapter on two cores.
@@ -37,15 +39,31 @@ const HEADER: [&str; 8] = [
 const KEY: usize = 4;
 
 /// Measures, prints and keeps the rows.
-pub(crate) fn run() -> Result<(), Box<dyn Error>> {
+pub(crate) fn run(steps: &[&str]) -> Result<(), Box<dyn Error>> {
     println!("| {} |\n|{}", HEADER.join(" | "), "---|".repeat(HEADER.len()));
     let mut rows = Vec::new();
-    for steps in [4, 12] {
+    let steps = steps.iter().map(|steps| steps.parse()).collect::<Result<Vec<u32>, _>>()?;
+    for steps in if steps.is_empty() { vec![4, 12] } else { steps } {
         rows.extend(measured::<32>(steps));
         rows.extend(measured::<64>(steps));
     }
     println!("kept in {}", keep("gpu-lockstep.csv", &HEADER, KEY, rows)?.display());
     Ok(())
+}
+
+/// Prints where the operations of warps of so many lanes are, without those of less than a hundredth of them.
+fn shown(functions: BTreeMap<(Part, String), Count>, lanes: usize, periods: f64) {
+    let mut functions: Vec<_> = functions.into_iter().collect();
+    let all: Count = functions.iter().map(|(_, count)| *count).sum();
+    functions.retain(|(_, count)| 100 * count.issued > all.issued);
+    functions.sort_by_key(|(_, count)| std::cmp::Reverse(count.issued));
+    for ((part, name), Count { issued, useful }) in functions {
+        let of_warps = (lanes as u64 * issued) as f64;
+        let (per_period, filled) = (of_warps / periods, 100.0 * useful as f64 / of_warps);
+        println!(
+            "{part:?} in {lanes} lanes, {name}: {per_period:.0} operations per period, {filled:.1} % of lanes at work"
+        );
+    }
 }
 
 /// Rows of every part of a run, and of all.
@@ -54,13 +72,23 @@ fn measured<const W: usize>(steps: u32) -> Vec<Vec<String>> {
     let instances: Vec<Instance> = (0..work.len()).map(|index| work.instance(index)).collect();
     let plan = plan(steps, ORDER, tolerance(Precision::F32, steps));
     let mut parts: BTreeMap<Option<Part>, Count> = BTreeMap::new();
+    let mut functions: BTreeMap<(Part, String), Count> = BTreeMap::new();
     outcomes_seen::<f32, W>(&instances, &plan, |chunk| {
         for part in [Some(chunk.part), None] {
-            let count = parts.entry(part).or_default();
-            count.issued += chunk.count.issued;
-            count.useful += chunk.count.useful;
+            *parts.entry(part).or_default() += chunk.count();
+        }
+        for (name, count) in chunk.by_function {
+            *functions.entry((chunk.part, name)).or_default() += count;
         }
     });
+    for part in functions.keys().map(|(part, _)| *part).collect::<BTreeSet<Part>>() {
+        let form = Form { law: LawForm::Pieces, pieces: 2, ramp: false };
+        println!(
+            "{part:?}: {} operations in the text of pieces",
+            program(form, part, Precision::F32).1.operations()
+        );
+    }
+    shown(functions, W, work.periods());
     let row = |(part, count): (Option<Part>, Count)| {
         let name = part.map_or("all".to_owned(), |part| format!("{part:?}").to_lowercase());
         let key = [name, W.to_string(), steps.to_string(), work.len().to_string()];

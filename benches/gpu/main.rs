@@ -62,7 +62,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             }
             Ok(())
         }
-        ["--lockstep"] => lockstep::run(),
+        ["--lockstep", ..] => lockstep::run(&arguments[1..]),
         ["--map"] => map::run(),
         ["--host", ..] => host::run(&arguments[1..]),
         ["--projection"] => projection::run(),

@@ -158,7 +158,7 @@ fn chunks<R: Lanes>(law: LawForm, count: usize) -> Vec<Chunk<R>> {
     });
     let many = |holds: fn(&Outcome) -> bool| outcomes.iter().filter(|one| holds(one)).count();
     let cost = chunks.iter().fold([0, 0], |[issued, useful], one: &Chunk<R>| {
-        [issued + one.count.issued, useful + one.count.useful]
+        [issued + one.count().issued, useful + one.count().useful]
     });
     println!(
         "{law:?}, lanes at work {:.0} % of the time: {} ok, {} at the limit of events; {} stick, {} fly; {} have events",

@@ -48,7 +48,8 @@ struct Done {
     lanes: usize,
     /// State and flags.
     words: [Vec<u64>; 2],
-    cost: Count,
+    /// By the functions of the kernel.
+    cost: Vec<Count>,
 }
 
 /// What a kernel makes of a chunk, in warps of `W`; the words are word-major, as on a device.
@@ -58,7 +59,7 @@ pub(crate) fn run<R: Real, const W: usize>(
     inputs: &[R],
     before: Option<&(Vec<R>, Vec<u32>)>,
     settings: [u32; SETTING_WORDS],
-) -> (ChunkResult<R>, Count) {
+) -> (ChunkResult<R>, Vec<Count>) {
     let [per_input, per_state, per_flag] = [kernel.inputs, kernel.state, kernel.flags].map(words);
     let count = inputs.len() / per_input;
     let tasks: Vec<usize> = (0..count).step_by(TASK).collect();
@@ -82,10 +83,11 @@ pub(crate) fn run<R: Real, const W: usize>(
             Done { lanes: lanes.len(), words: [state, flags], cost }
         })
         .collect();
-    let mut cost = Count::default();
-    for Done { cost: one, .. } in &parts {
-        cost.issued += one.issued;
-        cost.useful += one.useful;
+    let mut cost = vec![Count::default(); program.functions().len()];
+    for one in &parts {
+        for (all, one) in cost.iter_mut().zip(&one.cost) {
+            *all += *one;
+        }
     }
     let gather = |words: usize, which: usize| -> Vec<u64> {
         let of = |word: usize| {
@@ -168,11 +170,16 @@ pub(crate) struct Chunk<R> {
     pub(crate) inputs: Vec<R>,
     pub(crate) before: (Vec<R>, Vec<u32>),
     pub(crate) result: ChunkResult<R>,
-    /// What it has cost.
-    pub(crate) count: Count,
+    /// What each function of the kernel has cost, by its name.
+    pub(crate) by_function: Vec<(String, Count)>,
 }
 
 impl<R> Chunk<R> {
+    /// What it has cost.
+    pub(crate) fn count(&self) -> Count {
+        self.by_function.iter().map(|(_, count)| *count).sum()
+    }
+
     /// How many lanes have come to the part.
     pub(crate) fn begun(&self) -> usize {
         let flags = &self.before.1;
@@ -197,9 +204,10 @@ pub(crate) fn run_leg<R: Real, const W: usize>(
     for part in PARTS {
         let (kernel, program) = program(form, part, R::PRECISION);
         let before = (result.state, result.flags);
-        let (next, count) = run::<R, W>(&program, kernel, &inputs, Some(&before), settings);
+        let (next, counts) = run::<R, W>(&program, kernel, &inputs, Some(&before), settings);
         result = next.clone();
-        seen(Chunk { form, part, inputs: inputs.clone(), before, result: next, count });
+        let by_function = program.functions().iter().cloned().zip(counts).collect();
+        seen(Chunk { form, part, inputs: inputs.clone(), before, result: next, by_function });
     }
     result
 }

@@ -17,6 +17,8 @@ pub(crate) struct Code {
     pub(crate) arguments: Vec<(Place, u32)>,
     /// Invocations of a workgroup.
     pub(crate) workgroup: u32,
+    /// The names of the functions, `main` first.
+    pub(crate) functions: Vec<String>,
 }
 
 /// A statement.
@@ -64,11 +66,37 @@ pub(crate) enum Node {
         continuing: Vec<Node>,
         break_if: Option<u32>,
     },
-    /// A function, written out where it is called.
-    Call(Vec<Node>),
+    /// A function by its number, written out where it is called.
+    Call {
+        function: usize,
+        body: Vec<Node>,
+    },
     Break,
     Continue,
     Return,
+}
+
+impl Code {
+    /// How many operations stand in its text, each once however often it is carried out; what no lane can come to aside.
+    pub(crate) fn operations(&self) -> u64 {
+        self.within(&self.body)
+    }
+
+    fn within(&self, nodes: &[Node]) -> u64 {
+        let of = |node: &Node| match node {
+            Node::Operations { counted, .. } => *counted,
+            Node::Load { .. } | Node::Store { .. } | Node::Add { .. } => 1,
+            Node::If { condition, accept, reject } => match self.constants.get(*condition as usize) {
+                Some(0) => self.within(reject),
+                Some(_) => self.within(accept),
+                None => self.within(accept) + self.within(reject),
+            },
+            Node::Loop { body, continuing, .. } => self.within(body) + self.within(continuing),
+            Node::Call { body, .. } => self.within(body),
+            Node::Put { .. } | Node::Break | Node::Continue | Node::Return => 0,
+        };
+        nodes.iter().map(of).sum()
+    }
 }
 
 /// What an argument of the entry point is of an invocation.

@@ -65,7 +65,13 @@ pub(crate) fn compile(module: &Module, info: &ModuleInfo) -> Result<Code> {
         registers: most,
         arguments,
         workgroup: module.entry_points[entry].workgroup_size[0],
+        functions: std::iter::once("main".to_owned()).chain(module.functions.iter().map(name)).collect(),
     })
+}
+
+/// The name of a function.
+fn name((handle, function): (naga::Handle<naga::Function>, &naga::Function)) -> String {
+    function.name.clone().unwrap_or_else(|| format!("function {}", handle.index()))
 }
 
 /// What a component of a builtin is.
@@ -202,7 +208,8 @@ impl<'m> Compiler<'m> {
                     arguments: values,
                     result: returned.clone(),
                 };
-                nodes.push(Node::Call(self.function(inner)?));
+                let body = self.function(inner)?;
+                nodes.push(Node::Call { function: 1 + function.index(), body });
                 self.next = before;
                 if let Some(result) = result {
                     frame.values.insert(*result, Value::Scalars(returned));

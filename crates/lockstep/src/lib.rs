@@ -22,11 +22,30 @@ mod machine;
 mod operation;
 mod values;
 
+use std::iter::Sum;
+use std::ops::AddAssign;
+
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 
 use code::Code;
 use compile::compile;
 use machine::Machine;
+
+impl AddAssign for Count {
+    fn add_assign(&mut self, other: Count) {
+        self.issued += other.issued;
+        self.useful += other.useful;
+    }
+}
+
+impl Sum for Count {
+    fn sum<I: Iterator<Item = Count>>(counts: I) -> Count {
+        counts.fold(Count::default(), |mut all, one| {
+            all += one;
+            all
+        })
+    }
+}
 
 /// A kernel ready to be run.
 #[derive(Debug)]
@@ -56,17 +75,31 @@ impl Program {
         compile(&module, &info).map(|code| Program { code })
     }
 
+    /// The names of the functions of the kernel, `main` first.
+    #[must_use]
+    pub fn functions(&self) -> &[String] {
+        &self.code.functions
+    }
+
+    /// How many operations its text has, functions written out where they are called, and without
+    /// branches that constants close.
+    #[must_use]
+    pub fn operations(&self) -> u64 {
+        self.code.operations()
+    }
+
     /// Runs `count` invocations in warps of `W` (64 at most). A buffer of a binding holds one scalar a word: the bits of an
-    /// f32 or u32 as the lower half. An index beyond a buffer is that of its last word.
+    /// f32 or u32 as the lower half. An index beyond a buffer is that of its last word. Gives what each of its
+    /// [`functions`](Program::functions) has cost, without those that it calls.
     ///
     /// # Panics
     /// When there are fewer buffers than bindings, or one of them is empty.
-    pub fn run<const W: usize>(&self, count: usize, buffers: &mut [Vec<u64>]) -> Count {
+    pub fn run<const W: usize>(&self, count: usize, buffers: &mut [Vec<u64>]) -> Vec<Count> {
         const { assert!(W >= 1 && W <= 64, "a mask has 64 bits") };
         let mut machine = Machine::<W>::new(&self.code, buffers);
         for first in (0..count).step_by(W) {
             machine.warp(first, count);
         }
-        machine.count
+        machine.counts
     }
 }

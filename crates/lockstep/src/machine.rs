@@ -9,7 +9,10 @@ pub(crate) struct Machine<'a, const W: usize> {
     code: &'a Code,
     buffers: &'a mut [Vec<u64>],
     registers: Vec<Register<W>>,
-    pub(crate) count: Count,
+    /// What each function has cost, without those that it calls.
+    pub(crate) counts: Vec<Count>,
+    /// The function that is carried out.
+    function: usize,
 }
 
 /// Lanes that have left the loop, or this turn of it.
@@ -25,7 +28,8 @@ impl<'a, const W: usize> Machine<'a, W> {
         for (register, bits) in registers[..CONSTANTS as usize].iter_mut().zip(&code.constants) {
             *register = [*bits; W];
         }
-        Machine { code, buffers, registers, count: Count::default() }
+        let counts = vec![Count::default(); code.functions.len()];
+        Machine { code, buffers, registers, counts, function: 0 }
     }
 
     /// Runs the invocations of a warp from `first` on, of `count` in all.
@@ -129,8 +133,10 @@ impl<'a, const W: usize> Machine<'a, W> {
                 *left = outer;
                 out
             }
-            Node::Call(body) => {
+            Node::Call { function, body } => {
+                let caller = std::mem::replace(&mut self.function, *function);
                 self.block(body, active, &mut Left::default());
+                self.function = caller;
                 active
             }
             Node::Break => {
@@ -171,8 +177,8 @@ impl<'a, const W: usize> Machine<'a, W> {
     }
 
     fn counts(&mut self, operations: u64, active: u64) {
-        self.count.issued += operations;
-        self.count.useful += operations * u64::from(active.count_ones());
+        self.counts[self.function] +=
+            Count { issued: operations, useful: operations * u64::from(active.count_ones()) };
     }
 }
 

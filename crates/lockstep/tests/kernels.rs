@@ -1,6 +1,6 @@
 //! Small kernels with known results: statements, masks, buffers, functions, roundings.
 
-use squealmap_lockstep::Program;
+use squealmap_lockstep::{Count, Program};
 
 const HEAD: &str = "@group(0) @binding(0) var<storage, read> inputs: array<f32>;
 @group(0) @binding(1) var<storage, read_write> outputs: array<f32>;
@@ -18,7 +18,7 @@ fn run<const W: usize>(before: &str, body: &str, inputs: &[f32]) -> (Vec<f32>, u
     let program = Program::new(&source).expect("a kernel");
     let words = inputs.iter().map(|one| u64::from(one.to_bits())).collect();
     let mut buffers = [words, vec![0; inputs.len()], vec![0]];
-    let cost = program.run::<W>(inputs.len(), &mut buffers);
+    let cost: Count = program.run::<W>(inputs.len(), &mut buffers).into_iter().sum();
     let found = buffers[1].iter().map(|bits| f32::from_bits(u32::try_from(*bits).expect("an f32"))).collect();
     (found, buffers[2][0], [cost.issued, cost.useful])
 }
@@ -104,4 +104,25 @@ fn what_is_not_known_is_refused() {
         let refused = Program::new(&main(body)).expect_err(body);
         assert!(refused.contains(why), "{body}: {refused}");
     }
+}
+
+#[test]
+fn operations_of_a_text_and_of_its_functions() {
+    let source = format!(
+        "{HEAD}fn twice(x: f32) -> f32 {{ return x + x; }}
+        @compute @workgroup_size(4)
+        fn main(@builtin(global_invocation_id) id: vec3<u32>) {{
+            let x = inputs[id.x];
+            if x > 0.0 {{ outputs[id.x] = twice(x); }} else {{ outputs[id.x] = twice(x * x); }}
+        }}"
+    );
+    let program = Program::new(&source).expect("a kernel");
+    // A load, a comparison, two stores, a product, and the sum of a function that is called twice.
+    assert_eq!(program.operations(), 1 + 1 + 2 + 1 + 2);
+    assert_eq!(program.functions(), ["main", "twice"]);
+    let inputs: Vec<u64> = [1.0_f32, -2.0, 3.0, 4.0].iter().map(|one| u64::from(one.to_bits())).collect();
+    let mut buffers = [inputs, vec![0; 4], vec![0]];
+    let counts = program.run::<4>(4, &mut buffers);
+    // Three lanes take the one call, the last the other.
+    assert_eq!([counts[1].issued, counts[1].useful], [2, 4]);
 }

@@ -10,6 +10,7 @@ use squealmap::engine::outcome::Outcome;
 use squealmap::engine::precision::Precision;
 use squealmap::model::Param;
 use squealmap::model::status::Status;
+use squealmap_lockstep::Count;
 
 /// A fault in the words of state and flags.
 type Fault = fn(&mut [f32], &mut [u32]);
@@ -87,13 +88,14 @@ fn lanes_know_nothing_of_each_other() {
     assert!(chunks.len() >= 3);
     for chunk in chunks {
         let (kernel, program) = program(chunk.form, chunk.part, Precision::F32);
-        let (alone, count) =
+        let (alone, counts) =
             run::<f32, 1>(&program, kernel, &chunk.inputs, Some(&chunk.before), settings(&way));
+        let count: Count = counts.into_iter().sum();
         let bits = |words: &[f32]| words.iter().map(|word| word.to_bits()).collect::<Vec<u32>>();
         assert_eq!((bits(&alone.state), &alone.flags), (bits(&chunk.result.state), &chunk.result.flags));
-        assert_eq!((count.issued, count.useful), (chunk.count.useful, chunk.count.useful));
+        assert_eq!((count.issued, count.useful), (chunk.count().useful, chunk.count().useful));
         if chunk.begun() > 1 {
-            assert!(chunk.count.issued < count.issued && 64 * chunk.count.issued > count.issued);
+            assert!(chunk.count().issued < count.issued && 64 * chunk.count().issued > count.issued);
         }
     }
 }
