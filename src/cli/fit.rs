@@ -12,19 +12,18 @@ use clap::{Args, ValueEnum};
 use squealmap::model::friction::LawKind;
 use squealmap::results::figure::look::Look;
 use squealmap::study::error::Error;
-use squealmap::study::fit::binned::binned;
-use squealmap::study::fit::binned_csv::tables_csv;
+use squealmap::study::fit::Fit;
 use squealmap::study::fit::course::Shown;
 use squealmap::study::fit::figure::fit_svg;
-use squealmap::study::fit::rows::rows;
-use squealmap::study::fit::table::{material_csv, residuals_csv};
-use squealmap::study::fit::told::{remarks, warnings};
-use squealmap::study::fit::{Candidate, Fit, FitFault, compare, fit};
+use squealmap::study::fit::made::{Wanted, made};
+use squealmap::study::fit::table::residuals_csv;
+use squealmap::study::fit::told::{compared, remarks};
 use squealmap_identify::{Channel, FrictionColumn, Point, Settings, read_measurements};
 use squealmap_input::quote::one_line;
 
 /// The files that are written.
 const FILES: [&str; 5] = ["fit.json", "fit.png", "fit.svg", "material.csv", "residuals.csv"];
+
 /// The laws that can be fitted.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum Law {
@@ -35,6 +34,18 @@ enum Law {
     Table,
     /// The law with the least `AICc`, a table aside
     Best,
+}
+
+impl Law {
+    fn wanted(self) -> Wanted {
+        match self {
+            Law::Bilinear => Wanted::Law(LawKind::Bilinear),
+            Law::Exponential => Wanted::Law(LawKind::Exponential),
+            Law::Constant => Wanted::Law(LawKind::Constant),
+            Law::Table => Wanted::Law(LawKind::Table),
+            Law::Best => Wanted::Best,
+        }
+    }
 }
 
 /// Arguments of `fit`.
@@ -100,79 +111,34 @@ impl FitCommand {
             note(&remark);
         }
         let points = measured.points;
-        let given = !self.temperatures.is_empty();
-        let rows = if given { self.temperatures.clone() } else { rows(&points) };
-        let mut candidates = compare(&points, &rows, self.law_velocity);
-        let law = match self.law {
-            Law::Bilinear => LawKind::Bilinear,
-            Law::Exponential => LawKind::Exponential,
-            Law::Constant => LawKind::Constant,
-            Law::Table => LawKind::Table,
-            Law::Best => candidates[0].law,
-        };
-        let no_fit = |fault: FitFault| Error::Fit { name: name.clone(), fault: fault.into() };
-        let mut elsewhere = Vec::new();
-        let (fitted, text, courses) = if law.reads_table() {
-            let binned = binned(&points, &self.temperatures).map_err(no_fit)?;
-            candidates.push(binned.candidate());
-            elsewhere = binned.elsewhere();
-            let text = tables_csv(&binned, &points, &name);
-            let courses = binned.courses(&points);
-            (binned.fit, text, Some(courses))
-        } else {
-            let fitted = fit(&points, law, &rows, self.law_velocity).map_err(no_fit)?;
-            let text = material_csv(&fitted, &points, &name);
-            (fitted, text, None)
-        };
+        let made = made(&points, &name, self.law.wanted(), &self.temperatures, self.law_velocity)
+            .map_err(|fault| Error::Fit { name, fault: fault.into() })?;
+        let fitted = &made.fit;
         let output = prepare_beside(&self.points, self.output.as_deref(), &FILES)?;
         let heading = one_line(&self.points.file_stem().unwrap_or_default().to_string_lossy());
-        let shown = Shown::new(&fitted, &points, &heading);
-        let shown = Shown { courses: courses.unwrap_or(shown.courses), ..shown };
+        let shown = Shown::new(fitted, made.courses, &points, &heading);
         let svg = fit_svg(&shown, &Look::default());
         let paths = output.write(&[
             (FILES[0], shown.document()?),
             (FILES[1], png_of(&svg)?),
             (FILES[2], svg.into_bytes()),
-            (FILES[3], text.clone().into_bytes()),
-            (FILES[4], residuals_csv(&fitted, &points)?),
+            (FILES[3], made.text.clone().into_bytes()),
+            (FILES[4], residuals_csv(fitted, &points)?),
         ])?;
-        let usage = format!("[friction]\nlaw = \"{}\"\nmaterial = \"{}\"\n", law.name(), FILES[3]);
+        let usage = format!("[friction]\nlaw = \"{}\"\nmaterial = \"{}\"\n", fitted.law.name(), FILES[3]);
         print(&format!(
-            "{text}{}{}{}in a sweep file beside {}:\n{usage}",
-            largest(&fitted, &points),
-            compared(&candidates),
+            "{}{}{}{}in a sweep file beside {}:\n{usage}",
+            made.text,
+            largest(fitted, &points),
+            compared(&made.candidates),
             list(&paths),
             FILES[3]
         ));
-        for warning in elsewhere {
-            note(&format!("warning: {warning}"));
-        }
-        // Tables without given temperatures are where the points are.
-        let warned = given || !law.reads_table();
-        for warning in warned.then(|| warnings(&fitted, &points)).into_iter().flatten() {
+        for warning in &made.warnings {
             note(&format!("warning: {warning}"));
         }
         Ok(())
     }
-}
-
-/// The laws beside each other.
-fn compared(candidates: &[Candidate]) -> String {
-    let least = |k: usize| {
-        candidates.iter().filter_map(|one| one.criteria).map(|all| all[k]).fold(f64::INFINITY, f64::min)
-    };
-    let line = |candidate: &Candidate| match (&candidate.fit, candidate.criteria) {
-        (Ok(fit), Some([aicc, bic])) => format!(
-            "law \"{}\": root mean square residual {:.2e}, AICc {:+.1}, BIC {:+.1} above the least\n",
-            candidate.law.name(),
-            fit.residual,
-            aicc - least(0),
-            bic - least(1)
-        ),
-        (Err(why), _) => format!("law \"{}\": {why}\n", candidate.law.name()),
-        (Ok(_), None) => format!("law \"{}\": too few points to compare\n", candidate.law.name()),
-    };
-    candidates.iter().map(line).collect()
 }
 
 /// Where the law is farthest from a point.

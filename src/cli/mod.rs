@@ -237,7 +237,7 @@ pub fn main(program: Option<PathBuf>, arguments: impl IntoIterator<Item = OsStri
     talk::begin(cli.manner);
     let code = cli.execute().unwrap_or_else(|error| {
         report::report(&error);
-        talk::tell("error", error.to_string());
+        talk::tell("error", squealmap_input::quote::message(&error.to_string()));
         ExitCode::from(match error {
             error if error.is_cancelled() => INTERRUPTED,
             error if error.is_bad_input() => 2,

@@ -8,13 +8,14 @@ use crate::cli::error::Error;
 use crate::cli::excerpt::Excerpt;
 use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, SourceCode};
 use squealmap_input::place::Place;
+use squealmap_input::quote::message;
 
 /// Prints the error, its causes and the place in the input that it is about.
 pub(crate) fn report(error: &Error) {
-    let mut text = format!("error: {error}\n");
+    let mut text = format!("error: {}\n", message(&error.to_string()));
     let mut cause = error.source();
     while let Some(error) = cause {
-        let _ = writeln!(text, "caused by: {error}");
+        let _ = writeln!(text, "caused by: {}", message(&error.to_string()));
         cause = error.source();
     }
     if let Some(place) = error.place() {

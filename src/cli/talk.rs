@@ -7,6 +7,7 @@ use std::sync::{LazyLock, Mutex, MutexGuard, OnceLock, PoisonError};
 
 use clap::Args;
 use serde_json::{Map, Value as Json, json};
+use squealmap_input::quote::message;
 
 /// How much is said, and how.
 #[derive(Clone, Copy, Debug, Default, Args)]
@@ -114,7 +115,7 @@ pub(crate) fn note(text: &str) {
 
 /// Why a command that has done its work fails, on standard error: also where nothing else is to be said.
 pub(crate) fn error(why: &str) {
-    let _ = writeln!(std::io::stderr().lock(), "error: {why}");
+    let _ = writeln!(std::io::stderr().lock(), "error: {}", message(why));
 }
 
 /// A remark for those who asked for more.

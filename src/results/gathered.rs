@@ -4,6 +4,7 @@ use std::time::Instant;
 
 use rayon::prelude::*;
 
+use crate::engine;
 use crate::engine::backend::Backend;
 use crate::engine::computation::Stopped;
 use crate::engine::computed::Computed;
@@ -43,7 +44,7 @@ pub struct Gathered {
 
 impl Gathered {
     /// Computes a sweep. The CPU's part runs on the rayon pool that it is called in. `progress` gets the number of newly
-    /// finished instances. A run that is cancelled or fails on its way gives what is done.
+    /// finished instances. A run that is cancelled, or fails on its way, gives what is done.
     ///
     /// # Errors
     /// As [`crate::sweep::run::run`].
@@ -66,7 +67,10 @@ impl Gathered {
             let range = first..instances.min(first + part);
             let computed = match solver.records(range.clone(), progress) {
                 Ok(computed) => computed,
-                Err(why) if first == 0 => return Err(why.into()),
+                // Nothing is done, and cannot be; but a stop is no failure.
+                Err(why) if first == 0 && !matches!(why, engine::error::Error::Cancelled { .. }) => {
+                    return Err(why.into());
+                }
                 Err(why) => Computed { records: Vec::new(), stopped: Some(Stopped::try_from(why)?) },
             };
             all_written(first, &computed.records, computed.stopped.is_some())?;

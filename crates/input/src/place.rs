@@ -41,7 +41,9 @@ impl Source {
         let before = &self.text[..start];
         let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
         if self.by_line {
-            let line = self.text[line_start..].lines().next().unwrap_or_default();
+            // Without a line it is about all of them.
+            let line = self.text[line_start..].lines().next().filter(|line| !line.is_empty());
+            let line = line.unwrap_or("the sweep");
             return Place::argument(&clipped(line, SAID), &self.text, start..span.end.clamp(start, end));
         }
         Place(Box::new(Spot {

@@ -26,15 +26,27 @@ pub fn clipped(text: &str, most: usize) -> String {
 /// The whole text on one line, with control characters by their escapes: for paths, which may not be shortened.
 #[must_use]
 pub fn one_line(text: &str) -> String {
-    let mut line = String::with_capacity(text.len());
+    escaped(text, is_obeyed)
+}
+
+/// A whole message as a terminal may get it, whatever names it holds: its lines, with all other control characters by their
+/// escapes.
+#[must_use]
+pub fn message(text: &str) -> String {
+    escaped(text, |c| c != '\n' && is_obeyed(c))
+}
+
+/// A text with some of its characters by their escapes.
+fn escaped(text: &str, which: impl Fn(char) -> bool) -> String {
+    let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {
-        if is_obeyed(c) {
-            line.extend(c.escape_default());
+        if which(c) {
+            escaped.extend(c.escape_default());
         } else {
-            line.push(c);
+            escaped.push(c);
         }
     }
-    line
+    escaped
 }
 
 /// A number as a sentence says it: six digits, and no more than it has.

@@ -4,6 +4,7 @@ use std::error::Error as _;
 
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
+use squealmap_input::quote::message;
 
 /// Whose fault it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,7 +26,7 @@ pub(crate) struct Failure {
 impl Failure {
     /// Input that is refused.
     pub(crate) fn input(sentence: impl Into<String>) -> Failure {
-        Failure { kind: Kind::Input, sentence: sentence.into(), causes: Vec::new() }
+        Failure { kind: Kind::Input, sentence: message(&sentence.into()), causes: Vec::new() }
     }
 
     /// A fault of the program itself.
@@ -68,8 +69,8 @@ impl<E: Into<squealmap::Error>> From<E> for Failure {
         });
         Failure {
             kind: if why.is_bad_input() { Kind::Input } else { Kind::Run },
-            sentence: why.to_string(),
-            causes: causes.map(ToString::to_string).collect(),
+            sentence: message(&why.to_string()),
+            causes: causes.map(|cause| message(&cause.to_string())).collect(),
         }
     }
 }

@@ -8,7 +8,8 @@ use squealmap::cli::accuracy::{ranked, said};
 use squealmap::engine::options::Options;
 use squealmap::results::arrays::Variable;
 use squealmap::results::gathered::Gathered;
-use squealmap::sweep::accuracy::frontier::Chosen;
+use squealmap::sweep::accuracy::frontier::{Choice, Chosen};
+use squealmap::sweep::accuracy::level::Level;
 use squealmap::sweep::accuracy::trial::first_that_keeps;
 use squealmap::sweep::spec::{Analysis, Spec};
 
@@ -46,12 +47,14 @@ pub(crate) fn run(
         let note = |text: &str| notes.lock().unwrap_or_else(PoisonError::into_inner).push(text.to_owned());
         let options = engine.options(watch, &note)?;
         watch.expect(spec.grid.len());
-        let choice = match engine.level()? {
-            Some(level) => {
-                let ranked = ranked(level, &spec, &options)?;
-                ranked.map(|ranked| first_that_keeps(ranked, &spec, &options)).transpose()?
-            }
-            None => None,
+        let chosen = |level: Level| -> Result<Option<Choice>, Failure> {
+            let ranked = ranked(level, &spec, &options)?;
+            Ok(ranked.map(|ranked| first_that_keeps(ranked, &spec, &options)).transpose()?)
+        };
+        let choice = match engine.level()?.map(chosen).transpose() {
+            // Stopped while it chose: nothing is computed.
+            Err(_) if watch.is_cancelled() => None,
+            choice => choice?.flatten(),
         };
         let options = match &choice {
             None => options,

@@ -7,10 +7,10 @@ use pyo3::prelude::*;
 use pyo3::types::{PyList, PyTuple};
 use squealmap::model::friction::LawKind;
 use squealmap::study::error::Error;
-use squealmap::study::fit::rows::rows;
-use squealmap::study::fit::table::{material_csv, residuals_csv};
-use squealmap::study::fit::told::{remarks, warnings};
-use squealmap::study::fit::{Fit, fit as fitted};
+use squealmap::study::fit::Fit;
+use squealmap::study::fit::made::{Wanted, made};
+use squealmap::study::fit::table::residuals_csv;
+use squealmap::study::fit::told::{compared, remarks};
 use squealmap_identify::{Channel, FrictionColumn, Settings, read_measurements};
 use squealmap_input::files;
 
@@ -20,9 +20,6 @@ use crate::map::attributes;
 use crate::sweep::named;
 use crate::table::columns;
 use crate::watch::whole;
-
-/// The laws that can be fitted.
-const LAWS: [LawKind; 3] = [LawKind::Bilinear, LawKind::Exponential, LawKind::Constant];
 
 /// How the points are read and fitted.
 #[derive(Debug, FromPyObject)]
@@ -56,7 +53,7 @@ impl Choices {
     ///
     /// # Errors
     /// For a name or a number that is none.
-    fn law(&self) -> Result<LawKind, Failure> {
+    fn law(&self) -> Result<Wanted, Failure> {
         for (name, value) in [("law_velocity", self.law_velocity), ("rate", self.rate)] {
             if let Some(value) = value.filter(|value| !(*value > 0.0 && value.is_finite())) {
                 return Err(Failure::input(format!(
@@ -68,11 +65,11 @@ impl Choices {
         if let Some(value) = temperatures.into_iter().find(|value| !value.is_finite()) {
             return Err(Failure::input(format!("a temperature is {value} but must be a finite number")));
         }
-        named("law", &self.law, &LAWS, LawKind::name)
+        named("law", &self.law, &Wanted::ALL, Wanted::name)
     }
 }
 
-/// The material, the residuals, the text of the material's file, and remarks.
+/// The material, the residuals, the text of the material's file, the laws beside each other, and remarks.
 #[pyfunction]
 pub(crate) fn fit(py: Python<'_>, file: PathBuf, choices: Choices) -> PyResult<Bound<'_, PyTuple>> {
     let (material, residuals, text, notes) = whole(py, move |_| {
@@ -97,14 +94,18 @@ pub(crate) fn fit(py: Python<'_>, file: PathBuf, choices: Choices) -> PyResult<B
             .map_err(Error::from)?;
         let mut notes = remarks(&measured);
         let points = measured.points;
-        let rows = if choices.temperatures.is_empty() { rows(&points) } else { choices.temperatures };
-        let fit = fitted(&points, law, &rows, choices.law_velocity)
+        let made = made(&points, &name, law, &choices.temperatures, choices.law_velocity)
             .map_err(|fault| Error::Fit { name: name.clone(), fault: fault.into() })?;
-        notes.extend(warnings(&fit, &points));
-        let text = material_csv(&fit, &points, &name);
-        let residuals = residuals(&residuals_csv(&fit, &points)?, &name)?;
-        Ok((material(fit, &name), residuals, text, notes))
+        notes.extend(made.warnings);
+        let residuals = rows_of(&residuals_csv(&made.fit, &points)?, "residuals", "point", &name)?;
+        let material = match made.fit.law {
+            LawKind::Table => rows_of(made.text.as_bytes(), "material", "row", &name)?,
+            _ => material(made.fit, &name),
+        };
+        Ok((material, residuals, [made.text, compared(&made.candidates)], notes))
     })?;
+    let [text, comparison] = text;
+    let comparison = comparison.into_pyobject(py)?;
     let text = text.into_pyobject(py)?;
     let notes = PyList::new(py, notes)?;
     PyTuple::new(
@@ -113,6 +114,7 @@ pub(crate) fn fit(py: Python<'_>, file: PathBuf, choices: Choices) -> PyResult<B
             material.handed(py)?.into_any(),
             residuals.handed(py)?.into_any(),
             text.into_any(),
+            comparison.into_any(),
             notes.into_any(),
         ],
     )
@@ -144,26 +146,26 @@ fn material(fit: Fit, name: &str) -> Dataset {
     }
 }
 
-/// Every point with what the law gives there and what it leaves.
-fn residuals(table: &[u8], name: &str) -> Result<Dataset, Failure> {
+/// A table of the program, row by row.
+fn rows_of(table: &[u8], kind: &str, row: &'static str, name: &str) -> Result<Dataset, Failure> {
     let columns = columns(table)?;
     let unit = |name: &str| match name {
         "velocity" => "m/s",
         "temperature" => "degC",
         _ => "1",
     };
-    let points = columns.first().map_or(0, |(_, column)| match column {
+    let rows = columns.first().map_or(0, |(_, column)| match column {
         Column::Numbers(numbers) => numbers.len(),
         _ => 0,
     });
     let named = columns.into_iter().map(|(name, column)| {
         let said = [unit(&name), ""];
-        Named::new(name, &["point"], column, said)
+        Named::new(name, &[row], column, said)
     });
     Ok(Dataset {
-        dimensions: vec![("point".to_owned(), points)],
+        dimensions: vec![(row.to_owned(), rows)],
         variables: named.collect(),
-        attributes: attributes("residuals", name, String::new()),
+        attributes: attributes(kind, name, String::new()),
         ..Dataset::default()
     })
 }

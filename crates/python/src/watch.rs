@@ -98,7 +98,8 @@ fn patiently<T: Send + 'static>(
     begun.map_err(|why| PyRuntimeError::new_err(format!("cannot start a thread: {why}")))?;
     let (made, raised) = py.detach(|| wait(receiver, &watch, progress, patience));
     match (made, raised) {
-        (Some(Ok(made)), None) => watch.look(py, progress).map(|()| (made, None)),
+        // The last look: what is done is not lost to a Ctrl-C that comes with its end.
+        (Some(Ok(made)), None) => Ok((made, watch.look(py, progress).err())),
         (Some(Ok(made)), raised) => Ok((made, raised)),
         (_, Some(raised)) => Err(raised),
         (Some(Err(why)), None) => Err(why.raised(py)),

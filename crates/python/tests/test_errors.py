@@ -306,3 +306,34 @@ def test_what_is_no_dataset_is_not_drawn(tmp_path: pathlib.Path) -> None:
     svg = f"<svg xmlns='http://www.w3.org/2000/svg' width='9' height='9'>{deep}</svg>"
     with pytest.raises(squealmap.Error, match="1001 elements within one another"):
         squealmap.Figure(svg).save(tmp_path / "a.png")
+
+
+def test_an_argument_of_a_wrong_type_is_named(tmp_path) -> None:
+    (tmp_path / "points.csv").write_text("V,mu\n1,0.4\n")
+    for call, keys, words in [
+        (squealmap.identify, {"rate": "x"}, "rate: must be real number, not str"),
+        (squealmap.identify, {"band": 3}, "band: "),
+        (squealmap.identify, {"time": 3}, "time: "),
+        (squealmap.identify, {"velocity": 3}, "velocity is the name of a column, not int"),
+        (squealmap.fit, {"temperatures": ["a"]}, "temperatures: must be real number, not str"),
+        (squealmap.fit, {"law": 4}, "law: "),
+    ]:
+        with pytest.raises(TypeError, match=f"^{re.escape(words)}"):
+            call(tmp_path / "points.csv", **keys)
+    with pytest.raises(TypeError, match="^backend: "):
+        squealmap.run(FIRST, backend=4)
+
+
+def test_sentences_hold_no_control_characters(tmp_path, program) -> None:
+    escape = "\x1b[31m"
+    for call in [squealmap.run, squealmap.identify, squealmap.open, squealmap.fem]:
+        with pytest.raises(squealmap.InputError) as raised:
+            call(tmp_path / escape)
+        assert "\x1b" not in str(raised.value) and "\\u{1b}[31m" in str(raised.value)
+    ended = program("run", escape + ".toml", cwd=tmp_path)
+    assert ended.returncode == 2 and "\\u{1b}[31m.toml" in ended.stderr and "\x1b" not in ended.stderr
+
+
+def test_an_empty_sweep_is_told_by_what_is_missing() -> None:
+    with pytest.raises(squealmap.InputError, match="^the sweep: `belt_velocity` is missing"):
+        squealmap.run({})

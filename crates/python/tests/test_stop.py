@@ -81,6 +81,19 @@ def test_ctrl_c_ends_within_a_second_with_what_is_done():
         assert abs(float(one["x2_std"].item()) - float.fromhex(value)) <= 1e-9 * abs(float.fromhex(value))
 
 
+@pytest.mark.parametrize("accuracy", [None, "standard"])
+def test_a_stop_at_the_very_beginning_is_one_too(accuracy):
+    class Bar:
+        def __init__(self, **_):
+            raise KeyboardInterrupt
+
+    with pytest.raises(squealmap.Interrupted) as stopped:
+        squealmap.run(LONG, progress=Bar, backend="auto" if accuracy else "cpu", accuracy=accuracy)
+    counts = stopped.value.dataset.squealmap.counts("status")
+    assert counts.get("ok", 0) + counts["not_computed"] == 200_000
+    assert str(stopped.value).startswith(f"stopped after {counts.get('ok', 0)} of 200000 instances")
+
+
 @pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
 def test_ctrl_c_in_a_study_is_heard():
     ended = script(f"""

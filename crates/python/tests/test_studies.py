@@ -135,6 +135,36 @@ def test_fit(tmp_path, program):
     assert squealmap.linear(sweep)["type"].shape == (3, 1)
 
 
+@pytest.mark.parametrize("law", ["table", "best"])
+def test_fit_of_a_table_and_of_the_best_law(tmp_path, program, law):
+    rows = [
+        f"{v},{temperature},{0.3 + 1e-4 * temperature - 0.1 * min(v / 3, 1) + 0.002 * np.sin(11 * k):.6f}"
+        for temperature in (100.0, 300.0)
+        for k, v in enumerate(np.linspace(0.1, 6, 60))
+    ]
+    (tmp_path / "points.csv").write_text("V,temperature,mu\n" + "\n".join(rows) + "\n")
+    ended = program("fit", "points.csv", "--friction", "mu", "--law", law, "-o", "out", cwd=tmp_path)
+    assert ended.returncode == 0, ended.stderr
+    found = squealmap.fit(tmp_path / "points.csv", friction="mu", law=law)
+    found.write(tmp_path / "material.csv")
+    assert table(tmp_path / "material.csv") == table(tmp_path / "out/material.csv")
+    assert found.comparison in ended.stdout and 'law "bilinear"' in found.comparison
+    if law == "best":
+        # The points fall to a knee at 3 m/s.
+        assert found.material.attrs["law"] == "bilinear"
+        assert np.allclose(found.material["knee_velocity"], 3, rtol=0.05)
+        return
+    assert set(found.material["temperature"].values) == {100.0, 300.0}
+    at = np.abs(found.material["velocity"] - 1.5).argmin()
+    level = 0.3 + 1e-4 * found.material["temperature"][at] - 0.1 * found.material["velocity"][at] / 3
+    assert np.isclose(found.material["mu"][at], level, atol=0.003)
+    sweep = {
+        "friction": {"law": "table", "material": tmp_path / "material.csv", "temperature": 200},
+        "axes": {"belt_velocity": {"values": [1.0, 5.0]}},
+    }
+    assert squealmap.linear(sweep)["type"].shape == (2,)
+
+
 def test_fem(tmp_path, program):
     study = ROOT / "crates/fem/tests/suite/study/pin.toml"
     assert program("fem", study, "-o", tmp_path).returncode == 0

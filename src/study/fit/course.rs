@@ -57,17 +57,16 @@ pub(crate) struct Document {
 }
 
 impl Shown {
-    /// The figure of a fit to some points, with a heading.
+    /// The figure of a fit to some points, and of its course at each temperature, with a heading.
     #[must_use]
-    pub fn new(fit: &Fit, points: &[Point], title: &str) -> Shown {
-        let [_, fastest] = range(points, |point| point.velocity.abs());
+    pub fn new(fit: &Fit, courses: Vec<Course>, points: &[Point], title: &str) -> Shown {
         let row = |(point, residual): (&Point, &f64)| {
             [point.velocity.abs(), point.temperature, point.friction, *residual]
         };
         Shown {
             title: title.to_owned(),
             law: fit.law.name().to_owned(),
-            courses: courses(fit, fastest),
+            courses,
             points: points.iter().zip(&fit.residuals).map(row).collect(),
         }
     }
@@ -82,8 +81,10 @@ impl Shown {
     }
 }
 
-/// The law of each row up to a speed, m/s.
-fn courses(fit: &Fit, fastest: f64) -> Vec<Course> {
+/// The law of each row from rest to the fastest point.
+#[must_use]
+pub fn courses(fit: &Fit, points: &[Point]) -> Vec<Course> {
+    let [_, fastest] = range(points, |point| point.velocity.abs());
     let course = |(row, temperature): (usize, &f64)| {
         let parameters: Vec<Parameter> = fit
             .columns

@@ -4,6 +4,7 @@
 //! - `errors.rs`: how far the values of a fit would scatter.
 //! - [`compare`]: several laws, by information criteria.
 //! - [`rows`]: the temperatures of the material.
+//! - [`made`](mod@made): a material with all of it.
 //! - [`table`]: the files of a fit; [`told`]: what it says beside them.
 //! - [`course`]: the law over the velocity; [`read`]: a fit read back; [`figure`]: its picture.
 //! - [`binned`](mod@binned): tables where no law describes the friction; [`binned_csv`]: their file.
@@ -17,6 +18,7 @@ mod errors;
 mod fault;
 #[cfg(feature = "figures")]
 pub mod figure;
+pub mod made;
 mod problem;
 #[cfg(feature = "figures")]
 pub mod read;

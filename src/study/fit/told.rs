@@ -1,6 +1,6 @@
-//! What a fit says beside its material: what was left out, and what the points do not determine.
+//! What a fit says beside its material: what was left out, what the points do not determine, and the laws beside each other.
 
-use crate::study::fit::{Fit, range};
+use crate::study::fit::{Candidate, Fit, range};
 use squealmap_identify::{Measurements, Point};
 use squealmap_input::quote::rounded;
 
@@ -56,4 +56,24 @@ pub fn warnings(fitted: &Fit, points: &[Point]) -> Vec<String> {
         ));
     }
     warnings
+}
+
+/// The laws beside each other, a line each.
+#[must_use]
+pub fn compared(candidates: &[Candidate]) -> String {
+    let least = |k: usize| {
+        candidates.iter().filter_map(|one| one.criteria).map(|all| all[k]).fold(f64::INFINITY, f64::min)
+    };
+    let line = |candidate: &Candidate| match (&candidate.fit, candidate.criteria) {
+        (Ok(fit), Some([aicc, bic])) => format!(
+            "law \"{}\": root mean square residual {:.2e}, AICc {:+.1}, BIC {:+.1} above the least\n",
+            candidate.law.name(),
+            fit.residual,
+            aicc - least(0),
+            bic - least(1)
+        ),
+        (Err(why), _) => format!("law \"{}\": {why}\n", candidate.law.name()),
+        (Ok(_), None) => format!("law \"{}\": too few points to compare\n", candidate.law.name()),
+    };
+    candidates.iter().map(line).collect()
 }

@@ -58,7 +58,7 @@ pub(super) fn a_fit() -> Piece {
     };
     let points: Vec<Point> = (0..80).map(point).collect();
     let found = fit::fit(&points, LawKind::Bilinear, &[100.0, 300.0], None).unwrap();
-    let shown = fit::course::Shown::new(&found, &points, "Points");
+    let shown = fit::course::Shown::new(&found, fit::course::courses(&found, &points), &points, "Points");
     let svg = fit::figure::fit_svg(&shown, &Look::default());
     let table = fit::table::residuals_csv(&found, &points).unwrap();
     piece(Kind::Fit, svg, [table, shown.document().unwrap()])

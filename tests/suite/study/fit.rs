@@ -9,6 +9,7 @@ use crate::common::near;
 use crate::study::strokes::Random;
 use squealmap::model::Param;
 use squealmap::model::friction::LawKind;
+use squealmap::study::fit::made::{Wanted, made};
 use squealmap::study::fit::table::material_csv;
 use squealmap::study::fit::{Candidate, FitFault, compare, fit};
 use squealmap::sweep::spec::Spec;
@@ -151,4 +152,23 @@ fn the_law_of_the_points_has_the_least_criteria() {
         }
         assert!(preferred >= 18, "{law:?}: {preferred} of 20");
     }
+}
+
+/// The best law is named with a warning where the points do not tell it from another.
+#[test]
+fn the_best_law_of_few_points_is_doubted() {
+    let point = |(velocity, friction): (f64, f64)| Point { velocity, temperature: 20.0, friction };
+    let few: Vec<Point> =
+        [(0.5, 0.40), (1.0, 0.36), (1.5, 0.37), (2.0, 0.33), (3.0, 0.34), (4.0, 0.31)].map(point).into();
+    let warned = |points: &[Point]| {
+        let found = made(points, "points", Wanted::Best, &[], None).unwrap();
+        (found.fit.law, found.warnings.iter().any(|warning| warning.contains("is taken, but")))
+    };
+    assert!(warned(&few).1);
+    assert!(warned(&few[..3]).1);
+    let many: Vec<Point> = (0..200)
+        .map(|k| 0.03 * f64::from(k))
+        .map(|v| point((v, 0.4 - 0.1 * (v / 2.0).min(1.0) + 0.002 * (37.0 * v).sin())))
+        .collect();
+    assert_eq!(warned(&many), (LawKind::Bilinear, false));
 }

@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Union
 
 from . import _squealmap
-from ._dataset import Dataset, dataset, importing
+from ._dataset import Dataset, dataset, calling
 from ._engine import LOG, engine_of
 from ._errors import InputError, Interrupted
 from ._measured import Fit, Identification
@@ -93,7 +93,7 @@ def modes(sweep: SweepLike) -> Dataset:
     Raises:
         InputError: the sweep is refused, or has no axis of numbers.
     """
-    with importing():
+    with calling():
         found = _squealmap.modes(handed(sweep))
     return dataset(found)
 
@@ -135,7 +135,7 @@ def trace(
         raise TypeError(f"samples_per_period is a number, not {type(samples_per_period).__name__}")
     if not 0 < samples_per_period < 2**32:
         raise InputError(f"samples_per_period is {str(samples_per_period)[:40]} but must be from 1 to 10000")
-    with importing():
+    with calling():
         found = _squealmap.trace(handed(sweep), pairs or "", number, samples_per_period)
     return dataset(found)
 
@@ -184,18 +184,22 @@ def identify(
     critical = critical_friction
     if critical is not None and not isinstance(critical, (tuple, list)):
         critical = (critical, critical / 30.0)
+    columns = {
+        "tangential_acceleration": tangential_acceleration,
+        "normal_acceleration": normal_acceleration,
+        "tangential_force": tangential_force,
+        "normal_force": normal_force,
+        "velocity": velocity,
+        "temperature": temperature,
+    }
+    for name, column in columns.items():
+        if column is not None and not isinstance(column, str):
+            raise TypeError(f"{name} is the name of a column, not {type(column).__name__}")
     choices = {
         "time": time,
         "time_unit": time_unit,
         "rate": rate,
-        "columns": [
-            tangential_acceleration,
-            normal_acceleration,
-            tangential_force,
-            normal_force,
-            velocity,
-            temperature,
-        ],
+        "columns": list(columns.values()),
         "skew": skew,
         "force_skew": force_skew,
         "damping_ratio": damping_ratio,
@@ -206,7 +210,7 @@ def identify(
         "largest_friction": largest_friction,
         "critical_friction": critical,
     }
-    with importing():
+    with calling():
         report, windows, spectrogram, svg = _squealmap.identify(path_of(signals), choices)
     return Identification.of(report, dataset(windows), dataset(spectrogram), svg)
 
@@ -230,7 +234,8 @@ def fit(
 
     Args:
         points: a CSV file with a header, or a WAV, MAT (``-v7``), UFF 58 or TDMS file.
-        law: ``"bilinear"``, ``"exponential"`` or ``"constant"``.
+        law: ``"bilinear"``, ``"exponential"``, ``"constant"``, ``"table"`` (means of friction in bins of velocity) or ``"best"``,
+            the law with the least AICc.
         law_velocity: knee or Stribeck velocity, m/s; left out, the best one is found.
         friction: column of the friction coefficient; by default the ratio of the forces.
         tangential_force, normal_force, tangential_acceleration, velocity, temperature: columns, in N, m/s2, m/s and degrees Celsius.
@@ -254,10 +259,10 @@ def fit(
         "at_temperature": at_temperature,
         "temperatures": list(temperatures),
     }
-    with importing():
-        material, residuals, text, notes = _squealmap.fit(path_of(points), choices)
+    with calling():
+        material, residuals, text, comparison, notes = _squealmap.fit(path_of(points), choices)
     _warn(notes)
-    return Fit(dataset(material), dataset(residuals), text)
+    return Fit(dataset(material), dataset(residuals), text, comparison)
 
 
 def fem(study: Path) -> Dataset:
@@ -272,7 +277,7 @@ def fem(study: Path) -> Dataset:
     Raises:
         InputError: the description is refused.
     """
-    with importing():
+    with calling():
         found = _squealmap.fem(path_of(study))
     return dataset(found)
 
@@ -285,7 +290,7 @@ def _said(value: Any) -> str:
 def _run(sweep: SweepLike, engine: dict[str, Any], only: bool, check: bool, progress: Progress) -> Dataset:
     shown = Shown(progress)
     try:
-        with importing():
+        with calling():
             found, notes, told, raised = _squealmap.run(handed(sweep), engine, only, check, shown.wanted)
     finally:
         shown.close()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import importlib
 import importlib.util
+import re
 import threading
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, Union
@@ -19,6 +20,9 @@ if TYPE_CHECKING:
 
     Column = tuple[str, tuple[str, ...], Any, dict[str, Any]]
     Handed = tuple[list[tuple[str, int]], list[Column], list[Column], dict[str, str]]
+
+# How the compiled part says that it cannot take an argument.
+_FIELD = re.compile(r"failed to extract field \w+\.(\w+)")
 
 Dataset = Union["xarray.Dataset", Arrays]
 
@@ -69,11 +73,16 @@ def _shaped(column: Column, sizes: dict[str, int]) -> NDArray[Any]:
 
 
 @contextlib.contextmanager
-def importing() -> Iterator[None]:
-    """Imports xarray, which takes half a second, while the compiled part computes."""
+def calling() -> Iterator[None]:
+    """Imports xarray, which takes half a second, while the compiled part computes; says which argument has a wrong type."""
     thread = threading.Thread(target=lambda: has_xarray() and importlib.import_module("xarray"))
     thread.start()
     try:
         yield
+    except TypeError as why:
+        field = _FIELD.match(str(why))
+        if field is None:
+            raise
+        raise TypeError(f"{field[1]}: {why.__cause__}") from None
     finally:
         thread.join()

@@ -49,14 +49,16 @@ class Fit:
     """A material fitted to measured friction.
 
     Attributes:
-        material: parameters of the law with their standard errors over ``temperature`` in degrees Celsius.
+        material: parameters of the law with their standard errors over ``temperature`` in degrees Celsius; of tables their rows.
         residuals: every point with what the law gives there.
         text: the material file.
+        comparison: the laws beside each other, by their residuals and information criteria.
     """
 
     material: Dataset
     residuals: Dataset
     text: str
+    comparison: str
 
     def write(self, path: Union[str, os.PathLike[str]]) -> None:
         """Writes the material file, which ``material`` in ``[friction]`` of a sweep names."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any, Union
 
 from . import _squealmap
-from ._dataset import Dataset, dataset, importing
+from ._dataset import Dataset, dataset, calling
 from ._engine import LOG, engine_of
 from ._errors import InputError
 from ._progress import Progress, Shown
@@ -55,7 +55,7 @@ def refine(
     )
     shown = Shown(progress)
     try:
-        with importing():
+        with calling():
             found, told = _squealmap.refine(handed(sweep), engine, choices, shown.wanted)
     finally:
         shown.close()
