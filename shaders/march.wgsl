@@ -217,36 +217,41 @@ fn carry_out(event: u32) {
     }
 }
 
-// Where the function `d0 …`, which is above zero at the start, first falls to zero, if that is before `end`; else `end`.
+// The first event up to `first`, where the function `d0 …`, that of number `f`, is above zero at the start.
 //
-// It stays above the parabola with its value and slope and the least bend of the step: on to where that meets zero, from there
-// to the next, no root is passed, and close to one the steps are those of Newton's method.
-fn first_root(end: real) -> real {
-    let hollow = max(-least_bend(), 0.0);
+// It stays above the parabola with its value, its slope and the least bend up to there: on to where that meets zero, from there
+// to the next, no root is passed, and close to one the steps are those of Newton's method. Where so many of them come to
+// nothing the step ends without an event.
+fn first_root(first: Event, f: u32) -> Event {
+    let hollow = max(-least_bend(first.at), 0.0);
     var value = d0;
     var slope = d1;
     var t = real(0.0);
     for (var i = 0u; i < MOST_MEETS; i++) {
         // Per value, so that no square leaves the range of numbers.
         let steep = min(max(slope / value, real(-1e18)), real(1e18));
-        let root = sqrt(steep * steep + 2.0 * min(hollow / value, real(1e36)));
         let rises = slope >= 0.0;
-        let on = select(2.0, value * root + slope, rises) / max(select(root - steep, hollow, rises), real(1e-30));
-        t = t + on;
-        if !(t < end) {
-            return end;
+        let newton = -1.0 / min(steep, real(-1e-18));
+        if newton * newton < ENOUGH * EPSILON {
+            t = t + newton;
+            if t < first.at {
+                return Event(t, f);
+            }
+            return first;
         }
-        if on * on < ENOUGH * EPSILON {
-            return t;
+        let root = sqrt(steep * steep + 2.0 * min(hollow / value, real(1e36)));
+        t = t + select(2.0, value * root + slope, rises) / max(select(root - steep, hollow, rises), real(1e-30));
+        if !(t < first.at) {
+            return first;
         }
         let found = searched(t);
         value = found.x;
         slope = found.y;
         if value <= 0.0 {
-            return t;
+            return Event(t, f);
         }
     }
-    return end;
+    return Event(t, 0u);
 }
 
 // The order of zeros at the start that are looked through, each by a line below.
@@ -303,12 +308,10 @@ fn first_event(end: real, h: real, tolerance: real) -> Event {
                 continue;
             }
         }
-        var root = real(0.0);
         if d0 > 0.0 {
-            root = first_root(first.at);
-        }
-        if root < first.at {
-            first = Event(root, f);
+            first = first_root(first, f);
+        } else if first.at > 0.0 {
+            first = Event(0.0, f);
         }
     }
     return first;

@@ -37,6 +37,7 @@ use squealmap::model::status::Status;
 const COUNT: usize = 65_536;
 
 /// Instances of a comparison of transients, whose twin is slow: 65 536 take it a quarter of an hour for each law.
+/// `SQUEALMAP_STRICT_INSTANCES` asks for more.
 const MARCHED: usize = 4096;
 
 /// Instances of a planted fault, and of a transient in f64.
@@ -54,13 +55,13 @@ pub(crate) const CASES: &[Case] = &[
 pub(crate) const SLOW: &[Case] = &[
     ("strict::one_changed_operation_is_noticed", changed_operation),
     ("strict::pieces_equal_their_twin_in_every_bit", || {
-        march_equals::<f32>(LawForm::Pieces, MARCHED, &[false, true])
+        march_equals::<f32>(LawForm::Pieces, marched(), &[false, true])
     }),
     ("strict::exponential_equals_its_twin_in_every_bit", || {
-        march_equals::<f32>(LawForm::Exponential, MARCHED, &[true])
+        march_equals::<f32>(LawForm::Exponential, marched(), &[true])
     }),
     ("strict::rational_equals_its_twin_in_every_bit", || {
-        march_equals::<f32>(LawForm::Rational, MARCHED, &[true])
+        march_equals::<f32>(LawForm::Rational, marched(), &[true])
     }),
 ];
 
@@ -143,13 +144,17 @@ fn instance(u: &mut Uniform, law: LawForm) -> Instance {
     Instance { params, law, impact_friction: u.next() < 0.5, motion, modal: None }
 }
 
+/// How many transients are compared.
+fn marched() -> usize {
+    std::env::var("SQUEALMAP_STRICT_INSTANCES").ok().and_then(|count| count.parse().ok()).unwrap_or(MARCHED)
+}
+
 /// As many random instances as can be integrated, run by the twin: the parts of their legs that any of them goes through.
-fn chunks<R: Lanes>(law: LawForm, count: usize) -> Vec<Chunk<R>> {
+fn chunks<R: Lanes>(u: &mut Uniform, law: LawForm, count: usize) -> Vec<Chunk<R>> {
     let plan = plan(0.5, 1.5);
-    let mut u = Uniform(11);
     let live = |one: &Instance| Scene::planned(one, &plan).is_ok();
     let instances: Vec<Instance> =
-        std::iter::repeat_with(|| instance(&mut u, law)).filter(live).take(count).collect();
+        std::iter::repeat_with(|| instance(u, law)).filter(live).take(count).collect();
     let mut chunks = Vec::new();
     let outcomes = outcomes_seen::<R, 64>(&instances, &plan, |chunk| {
         if chunk.begun() > 0 {
@@ -201,8 +206,21 @@ fn text<R: Real>(chunk: &Chunk<R>) -> Result<String, Failed> {
 
 /// Whole runs, part by part, on a device that is strict or not as `modes` say: each from what the twin has come to.
 fn march_equals<R: Lanes>(law: LawForm, count: usize, modes: &[bool]) -> Result<(), Failed> {
+    let mut u = Uniform(11);
+    // Memory holds the parts of so many.
+    (0..count)
+        .step_by(MARCHED)
+        .try_for_each(|first| some_march_equals::<R>(&mut u, law, MARCHED.min(count - first), modes))
+}
+
+fn some_march_equals<R: Lanes>(
+    u: &mut Uniform,
+    law: LawForm,
+    count: usize,
+    modes: &[bool],
+) -> Result<(), Failed> {
     // Some of them have more than a growth and a window, which are the least.
-    let chunks = chunks::<R>(law, count);
+    let chunks = chunks::<R>(u, law, count);
     let parts: BTreeSet<(Part, bool)> = chunks.iter().map(|one| (one.part, one.form.ramp)).collect();
     assert_eq!(parts.len(), 6, "every part of a run, on belts with a ramp and without");
     for strict in modes {
@@ -253,7 +271,7 @@ fn noticed(chunk: &Chunk<f32>, text: &str, inputs: &[f32]) -> Result<(), Failed>
 
 /// The first windows.
 fn window() -> Result<Chunk<f32>, Failed> {
-    let chunks = chunks(LawForm::Pieces, FEW);
+    let chunks = chunks(&mut Uniform(11), LawForm::Pieces, FEW);
     Ok(chunks.into_iter().find(|one| one.part == Part::Window).ok_or("no window")?)
 }
 

@@ -154,21 +154,28 @@ fn the_law_of_the_points_has_the_least_criteria() {
     }
 }
 
-/// The best law is named with a warning where the points do not tell it from another.
+/// The best law is named with a warning where the points do not tell it from another: `AICc` less than 2 apart, or none.
 #[test]
 fn the_best_law_of_few_points_is_doubted() {
-    let point = |(velocity, friction): (f64, f64)| Point { velocity, temperature: 20.0, friction };
-    let few: Vec<Point> =
-        [(0.5, 0.40), (1.0, 0.36), (1.5, 0.37), (2.0, 0.33), (3.0, 0.34), (4.0, 0.31)].map(point).into();
-    let warned = |points: &[Point]| {
-        let found = made(points, "points", Wanted::Best, &[], None).unwrap();
-        (found.fit.law, found.warnings.iter().any(|warning| warning.contains("is taken, but")))
-    };
-    assert!(warned(&few).1);
-    assert!(warned(&few[..3]).1);
-    let many: Vec<Point> = (0..200)
-        .map(|k| 0.03 * f64::from(k))
-        .map(|v| point((v, 0.4 - 0.1 * (v / 2.0).min(1.0) + 0.002 * (37.0 * v).sin())))
-        .collect();
-    assert_eq!(warned(&many), (LawKind::Bilinear, false));
+    let mut random = Random::new(5);
+    let (mut doubted, mut sure) = (0, 0);
+    for count in (3..60).step_by(3) {
+        let points: Vec<Point> = (1..=count)
+            .map(|k| 4.0 * f64::from(k) / f64::from(count))
+            .map(|v| Point {
+                velocity: v,
+                temperature: 20.0,
+                friction: 0.4 - 0.02 * v + 0.01 * random.normal(),
+            })
+            .collect();
+        let made = made(&points, "points", Wanted::Best, &[], None).unwrap();
+        let aicc = |one: &Candidate| one.criteria.map(|[aicc, _]| aicc);
+        let [first, second] = [0, 1].map(|k| aicc(&made.candidates[k]));
+        let expected = first.is_none_or(|first| second.is_some_and(|second| second - first < 2.0));
+        let warned = made.warnings.iter().any(|warning| warning.contains("is taken, but"));
+        assert_eq!(warned, expected, "{count} points: {first:?}, {second:?}");
+        assert_eq!(made.fit.law, made.candidates[0].law);
+        *(if warned { &mut doubted } else { &mut sure }) += 1;
+    }
+    assert!(doubted > 2 && sure > 2, "{doubted}, {sure}");
 }
