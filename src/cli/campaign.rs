@@ -15,7 +15,8 @@ use squealmap::study::campaign::read::document;
 use squealmap::study::campaign::row::{Said, StrokeRow, strokes_csv};
 use squealmap_identify::{Kind, Settings, Stroke, identify, strokes, told as told_of};
 use squealmap_input::files;
-use squealmap_input::quote::rounded;
+use squealmap_input::quote::{one_line, rounded};
+use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -76,7 +77,7 @@ impl CampaignCommand {
     }
 }
 
-/// The records that are meant, those of folders by name.
+/// The records that are meant, each once, those of folders by name.
 fn listed(given: &[PathBuf]) -> Result<Vec<PathBuf>> {
     const ENDINGS: [&str; 8] = ["csv", "tsv", "txt", "wav", "mat", "uff", "unv", "tdms"];
     let mut all = Vec::new();
@@ -109,6 +110,17 @@ fn listed(given: &[PathBuf]) -> Result<Vec<PathBuf>> {
         inside.sort();
         all.extend(inside);
     }
+    let mut known = BTreeSet::new();
+    all.retain(|path| {
+        let is_new = known.insert(path.canonicalize().unwrap_or_else(|_| path.clone()));
+        if !is_new {
+            note(&format!(
+                "warning: `{}` is given twice and counts once",
+                one_line(&path.display().to_string())
+            ));
+        }
+        is_new
+    });
     Ok(all)
 }
 

@@ -4,6 +4,7 @@ use crate::model::Param;
 use crate::study::fit::fault::FitFault;
 use crate::study::fit::shape::Part;
 use nalgebra::{DMatrix, DVector};
+use smallvec::SmallVec;
 use squealmap_identify::Point;
 
 /// Condition of the normal equations above which a row of the material is not determined by the data.
@@ -14,6 +15,9 @@ const TRIALS: usize = 40;
 
 /// Refinements by the golden section: to 1e-7 of the interval.
 const REFINEMENTS: usize = 34;
+
+/// The values that the friction of a point depends on: two of each of two rows, and perhaps a velocity.
+pub(super) type Weights = SmallVec<[(usize, f64); 5]>;
 
 /// A fit with its law's velocity open.
 pub(super) struct Problem<'a> {
@@ -43,7 +47,7 @@ impl Problem<'_> {
     }
 
     /// The weight of each value of the rows in the friction of a point, without those of weight 0.
-    pub(super) fn weights(&self, point: &Point, velocity: f64) -> Vec<(usize, f64)> {
+    pub(super) fn weights(&self, point: &Point, velocity: f64) -> Weights {
         let kinds = self.params.len();
         let parts = self.parts(point.velocity.abs(), velocity);
         let rows = self.rows(point.temperature);
@@ -126,12 +130,23 @@ impl Problem<'_> {
         let residual = |log: f64| self.squares(log.exp());
         let top = fastest.max(f64::MIN_POSITIVE).ln();
         let step = -SLOWEST.ln() / TRIALS as f64;
-        let trials = (0..=TRIALS).map(|k| top - k as f64 * step);
-        let best = trials.min_by(|a, b| residual(*a).total_cmp(&residual(*b))).unwrap_or(top);
+        let trials = (0..=TRIALS).map(|k| top - k as f64 * step).map(|log| (log, residual(log)));
+        let best = trials.min_by(|a, b| a.1.total_cmp(&b.1)).map_or(top, |(log, _)| log);
         let (mut low, mut high) = (best - step, (best + step).min(top));
+        let within = |low: f64, high: f64, part: f64| {
+            let log = low + part * (high - low);
+            (log, residual(log))
+        };
+        // One of the two places inside is one of the next interval, too.
+        let (mut a, mut b) = (within(low, high, 1.0 - GOLDEN), within(low, high, GOLDEN));
         for _ in 0..REFINEMENTS {
-            let (a, b) = (high - GOLDEN * (high - low), low + GOLDEN * (high - low));
-            if residual(a) <= residual(b) { high = b } else { low = a }
+            if a.1 <= b.1 {
+                (high, b) = (b.0, a);
+                a = within(low, high, 1.0 - GOLDEN);
+            } else {
+                (low, a) = (a.0, b);
+                b = within(low, high, GOLDEN);
+            }
         }
         (0.5 * (low + high)).exp()
     }

@@ -153,9 +153,11 @@ fn a_folder_of_records_is_a_campaign_and_a_broken_one_says_why() {
     let forces = record(&THREE, 100.0).replace("T,N,V", "T,N,speed");
     std::fs::write(here.join("records/no_velocity.csv"), forces).expect("written");
     std::fs::write(here.join("records/notes.md"), "none").expect("written");
-    let ended = squealmap(here, &["campaign", "records", "-o", "out"]);
+    // Whatever is given twice counts once.
+    let ended = squealmap(here, &["campaign", "records", "records/../records/hot.csv", "-o", "out"]);
     assert_eq!(ended.code, Some(0), "{}", ended.err);
     let told = ended.err;
+    assert!(told.contains("`records/../records/hot.csv` is given twice and counts once"), "{told}");
     assert!(told.contains("broken.csv") && told.contains("`x`"), "{told}");
     let read = |name: &str| std::fs::read_to_string(here.join("out").join(name)).expect("a table");
     let table = read("strokes.csv");
