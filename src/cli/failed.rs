@@ -45,6 +45,12 @@ pub(crate) fn told(count: impl Fn(Status) -> u64) -> String {
     told.collect::<Vec<_>>().join(", ")
 }
 
+/// A sentence that an instance has no result, and why.
+#[must_use]
+pub fn without_result(status: Status) -> String {
+    format!("the instance has no result: `{}`{}", status.name(), remedy(status))
+}
+
 /// Why an instance ends like this and what to change.
 pub(crate) fn remedy(status: Status) -> &'static str {
     match status {

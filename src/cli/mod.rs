@@ -14,7 +14,7 @@ mod error;
 mod excerpt;
 mod explore;
 mod export;
-mod failed;
+pub mod failed;
 mod fem;
 mod files;
 mod fit;

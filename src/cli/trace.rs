@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::process::ExitCode;
 
 use crate::cli::error::Result;
-use crate::cli::failed::remedy;
+use crate::cli::failed::without_result;
 use crate::cli::files::Files;
 use crate::cli::hysteresis;
 use crate::cli::hysteresis::Range;
@@ -21,7 +21,7 @@ use squealmap::results::figure::heading::Heading;
 use squealmap::results::figure::look::Look;
 use squealmap::study::signals::sensors::{Recording, record};
 use squealmap::study::signals::table::signals_csv;
-use squealmap::study::trace::run::trace;
+use squealmap::study::trace::run::{has_room, trace};
 use squealmap::study::trace::table::{document, trace_csv, trace_svg};
 use squealmap::sweep::spec::Spec;
 use squealmap_input::quote::rounded;
@@ -68,6 +68,7 @@ impl TraceCommand {
             None => (spec.instance_at(&self.at)?, self.at.clone()),
             Some(number) => spec.numbered(number)?,
         };
+        has_room(&spec, &instance, self.samples_per_period)?;
         let names: &[&str] =
             if self.rate.is_some() { &[FILES[0], FILES[1], FILES[2], FILES[3], SIGNALS] } else { &FILES };
         let output = self.files.prepare_beside(names)?;
@@ -114,11 +115,7 @@ impl TraceCommand {
         if outcome.status == Status::Ok {
             return Ok(ExitCode::SUCCESS);
         }
-        note(&format!(
-            "error: the instance has no result: `{}`{}",
-            outcome.status.name(),
-            remedy(outcome.status)
-        ));
+        note(&format!("error: {}", without_result(outcome.status)));
         Ok(ExitCode::FAILURE)
     }
 }

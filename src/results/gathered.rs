@@ -57,7 +57,7 @@ impl Gathered {
         let mut solver = Solver::new(spec, options)?;
         let [linear, response] = solver.computations();
         let arrays = Arrays::new(Sheet::new(spec, [linear.as_ref(), response.as_ref()]));
-        let mut values = empty(&arrays, instances);
+        let mut values = empty(&arrays, instances).ok_or(Error::NoRoomInMemory { instances })?;
         let (mut tally, mut stopped) = (Tally::default(), None);
         // Whole tiles, as the program takes them.
         let tile = tile_of(spec, options.backend == Backend::Reference);
@@ -111,11 +111,15 @@ impl Gathered {
     }
 }
 
-/// Room for the values of all instances.
-fn empty(arrays: &Arrays, instances: usize) -> Vec<Values> {
+/// Room for the values of all instances; `None` where there is none.
+fn empty(arrays: &Arrays, instances: usize) -> Option<Vec<Values>> {
+    fn room<T>(instances: usize) -> Option<Vec<T>> {
+        let mut room = Vec::new();
+        room.try_reserve_exact(instances).ok().map(|()| room)
+    }
     let of = |variable: &Variable| match variable.kind {
-        Kind::Numbers => Values::Numbers(Vec::with_capacity(instances)),
-        Kind::Codes(_) => Values::Codes(Vec::with_capacity(instances)),
+        Kind::Numbers => room(instances).map(Values::Numbers),
+        Kind::Codes(_) => room(instances).map(Values::Codes),
     };
     arrays.variables.iter().map(of).collect()
 }

@@ -39,6 +39,27 @@ pub enum Error {
         "modes needs an axis of numbers with at least 2 values, and this sweep lists its instances in a file of `points`; give [axes] in its place, e.g. mu_d = {{ from = 0.0, to = 0.6, points = 601 }}"
     )]
     NoModesOfTuples,
+    /// `modes` of more instances than it follows.
+    #[error(
+        "the sweep has {instances} instances but modes are followed in at most {limit}; give its axes fewer points or values"
+    )]
+    TooManyModes {
+        /// Instances.
+        instances: usize,
+        /// The most.
+        limit: usize,
+    },
+    /// A trace that memory does not hold.
+    #[error(
+        "the trace would have {rows:.0} rows but at most {limit:.0} fit the memory; shorten `settle`, `settle_limit` or `measure` \
+         in [response], or ask for fewer samples per period"
+    )]
+    TraceTooLong {
+        /// Rows.
+        rows: f64,
+        /// The most.
+        limit: f64,
+    },
     /// `modes` finds nothing to show.
     #[error(
         "no instance of the sweep has modes: none has a sliding equilibrium on a moving belt; give at least one a `belt_velocity` above 0 (and, where theta < 0, less friction; with the law `constant`, `mu_s` of at least `mu_d`)"
@@ -221,6 +242,8 @@ impl Error {
             | Error::NoModesAxis
             | Error::NoModesOfTuples
             | Error::NoModes
+            | Error::TooManyModes { .. }
+            | Error::TraceTooLong { .. }
             | Error::NoPlane
             | Error::NoCurvesOfTuples
             | Error::NoCurvesAlong { .. }

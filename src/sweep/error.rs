@@ -184,6 +184,15 @@ pub enum Error {
          3 values each; add some under `[axes]`, or compute the whole grid by `squealmap run`, without [refine]"
     )]
     NothingToRefine,
+    /// Values of a sweep that memory has no room for.
+    #[error(
+        "the memory has no room for the values of {instances} instances; compute them into a directory of tiles, as \
+         `squealmap run` does"
+    )]
+    NoRoomInMemory {
+        /// Instances.
+        instances: usize,
+    },
     /// More instances than the records of a sweep in memory may have.
     #[error(
         "the sweep has {instances} instances but at most {limit} fit the memory; compute it into a directory of \

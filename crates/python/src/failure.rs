@@ -29,6 +29,11 @@ impl Failure {
         Failure { kind: Kind::Input, sentence: message(&sentence.into()), causes: Vec::new() }
     }
 
+    /// Work that has no result.
+    pub(crate) fn run(sentence: impl Into<String>) -> Failure {
+        Failure { kind: Kind::Run, sentence: message(&sentence.into()), causes: Vec::new() }
+    }
+
     /// A fault of the program itself.
     pub(crate) fn panic(said: &str) -> Failure {
         let sentence = format!(

@@ -2,9 +2,11 @@
 
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
+use squealmap::cli::failed::without_result;
 use squealmap::model::contact::ContactState;
+use squealmap::model::status::Status;
 use squealmap::results::figure::heading::Heading;
-use squealmap::study::trace::run::{Trace, TraceRow, trace as traced};
+use squealmap::study::trace::run::{Trace, TraceRow, has_room, trace as traced};
 use squealmap::study::trace::table::{COLUMNS, document};
 use squealmap::sweep::spec::Spec;
 
@@ -56,7 +58,12 @@ pub(crate) fn trace(
             None => (spec.instance_at(&at)?, at),
             Some(number) => spec.numbered(number)?,
         };
-        dataset(&spec, &traced(&spec, &instance, samples_per_period), &at)
+        has_room(&spec, &instance, samples_per_period)?;
+        let trace = traced(&spec, &instance, samples_per_period);
+        if trace.rows.is_empty() && trace.outcome.status != Status::Ok {
+            return Err(Failure::run(without_result(trace.outcome.status)));
+        }
+        dataset(&spec, &trace, &at)
     })?
     .handed(py)
 }

@@ -137,7 +137,8 @@ fn wait<T>(
         }
         match &raised {
             Some((_, since)) if since.elapsed() > patience => return (None, raised.map(|(why, _)| why)),
-            Some(_) => {}
+            // It is stopping: pressing Ctrl-C again says nothing new.
+            Some(_) => Python::attach(|py| drop(py.check_signals())),
             None => {
                 if let Err(why) = Python::attach(|py| watch.look(py, progress)) {
                     watch.cancel.store(true, Ordering::Relaxed);

@@ -337,3 +337,52 @@ def test_sentences_hold_no_control_characters(tmp_path, program) -> None:
 def test_an_empty_sweep_is_told_by_what_is_missing() -> None:
     with pytest.raises(squealmap.InputError, match="^the sweep: `belt_velocity` is missing"):
         squealmap.run({})
+
+
+def test_what_memory_does_not_hold_is_refused() -> None:
+    axes = {"mu_s": {"from": 0.2, "to": 0.6, "points": 100_000}, "belt_velocity": {"from": 0.3, "to": 6.3, "points": 10_000}}
+    with pytest.raises(squealmap.InputError, match="1000000000 instances but modes are followed in at most"):
+        squealmap.modes({**FIRST, "axes": axes})
+    long = {**FIRST, "response": {"settle": "1000 periods", "measure": "1000 periods"}}
+    with pytest.raises(squealmap.InputError, match="the trace would have 20000000 rows"):
+        squealmap.trace(long, instance=4, samples_per_period=10_000)
+
+
+def test_a_trace_without_a_motion_is_the_sentence_of_the_program(tmp_path, program) -> None:
+    endless = {**FIRST, "response": {"settle": "1000000 periods", "measure": "1000000 periods"}}
+    with pytest.raises(squealmap.Error, match="^the instance has no result: `step_too_large`") as raised:
+        squealmap.trace(endless, instance=2, samples_per_period=1)
+    assert not isinstance(raised.value, squealmap.InputError)
+
+
+def test_columns_without_an_order_are_none() -> None:
+    numpy = pytest.importorskip("numpy")
+    masked = numpy.ma.array([0.3, 0.4], mask=[False, True])
+    for values in [{0.4, 0.3}, masked]:
+        with pytest.raises(TypeError, match="points.mu_s is"):
+            squealmap.linear({"friction": {"law": "bilinear"}, "points": {"mu_s": values, "mu_d": [0.2, 0.2]}})
+    for values in [b"abc", "abc", {1.0, 2.0}, 5]:
+        with pytest.raises(TypeError, match="axis mu_s"):
+            squealmap.Sweep().axis("mu_s", values)
+
+
+def test_codes_have_no_mean() -> None:
+    pytest.importorskip("xarray")
+    found = squealmap.linear({**FIRST, "axes": {**FIRST["axes"], "theta": {"from": 0.0, "to": 0.3, "points": 3}}})
+    mean = found.mean("theta", keep_attrs=True)
+    with pytest.raises(squealmap.InputError, match="no codes"):
+        mean.squealmap.plot()
+    with pytest.raises(squealmap.InputError, match="no codes"):
+        squealmap.names(mean["type"])
+    with pytest.raises(squealmap.InputError, match="`status`"):
+        found[["type"]].squealmap.plot()
+    with pytest.raises(squealmap.InputError, match="some"):
+        found.isel(mu_s=0, belt_velocity=0, theta=0).squealmap.plot()
+
+
+def test_numbers_of_numpy_are_numbers() -> None:
+    numpy = pytest.importorskip("numpy")
+    found = squealmap.trace(FIRST, instance=2, samples_per_period=numpy.int64(20))
+    assert found.sizes == squealmap.trace(FIRST, instance=2, samples_per_period=20).sizes
+    with pytest.raises(squealmap.InputError, match="accuracy is"):
+        squealmap.run(FIRST, accuracy=numpy.float32(0.5))

@@ -82,3 +82,9 @@ def test_what_is_no_dataset_of_this_package():
 
     with pytest.raises(squealmap.InputError, match="squealmap"):
         squealmap.plot(xarray.Dataset({"a": ("x", np.zeros(3))}))
+
+
+def test_a_part_of_a_trace_draws_itself():
+    found = squealmap.trace(FIRST, instance=2, samples_per_period=20)
+    part = found.isel(t=slice(0, 100))
+    assert "<svg" in part.squealmap.plot().svg

@@ -81,6 +81,28 @@ def test_ctrl_c_ends_within_a_second_with_what_is_done():
         assert abs(float(one["x2_std"].item()) - float.fromhex(value)) <= 1e-9 * abs(float.fromhex(value))
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
+def test_pressing_twice_loses_nothing():
+    ended = script("""
+        class Bar:
+            def __init__(self, **_): print("begins", flush=True)
+            def update(self, count): pass
+            def close(self): pass
+        try:
+            squealmap.run(LONG, progress=Bar, backend="cpu")
+        except squealmap.Interrupted as why:
+            print("done", why.dataset.sizes["mu_s"], flush=True)
+    """)
+    assert ended.stdout.readline() == "begins\n"
+    time.sleep(0.3)
+    ended.send_signal(signal.SIGINT)
+    time.sleep(0.06)
+    ended.send_signal(signal.SIGINT)
+    rest, errors = ended.communicate(timeout=60)
+    # Where it had stopped before the second one, that is one of Python's own.
+    assert rest == "done 400\n" or "panicked" not in errors and "KeyboardInterrupt" in errors, (rest, errors)
+
+
 @pytest.mark.parametrize("accuracy", [None, "standard"])
 def test_a_stop_at_the_very_beginning_is_one_too(accuracy):
     class Bar:

@@ -75,12 +75,18 @@ impl Modes {
 /// Gives the eigenvalues of an instance of a sweep, 1/s: two for each of its modes.
 pub type Eigenvalues<'a> = &'a dyn Fn(&Spec, usize) -> Option<Vec<Complex64>>;
 
+/// Most instances whose modes are followed: a gigabyte of memory.
+const MOST_FOLLOWED: usize = 2_000_000;
+
 /// Follows the modes of a sweep.
 ///
 /// # Errors
-/// When the sweep has no axis of numbers with at least two values, or no instance with modes.
+/// When the sweep has no axis of numbers with at least two values, no instance with modes, or more than two million.
 pub fn follow(spec: &Spec, eigenvalues: Eigenvalues<'_>) -> Result<Modes> {
     let Grid::Axes(axes) = &spec.grid else { return Err(Error::NoModesOfTuples) };
+    if spec.grid.len() > MOST_FOLLOWED {
+        return Err(Error::TooManyModes { instances: spec.grid.len(), limit: MOST_FOLLOWED });
+    }
     let Modes { axis, mut branches } = along(axes)?;
     for branch in &mut branches {
         let raw: Vec<_> = branch.instances.iter().map(|index| eigenvalues(spec, *index).map(pairs)).collect();

@@ -11,6 +11,7 @@ use crate::engine::reference::respond::respond;
 use crate::engine::scene::Scene;
 use crate::model::contact::ContactState;
 use crate::model::instance::Instance;
+use crate::study::error::{Error, Result};
 use crate::sweep::spec::Spec;
 
 /// One sample of a trajectory, SI units.
@@ -39,6 +40,26 @@ pub struct Trace {
     pub rows: Vec<TraceRow>,
     /// The observables, as a map would hold them.
     pub outcome: Outcome,
+}
+
+/// Most rows of a trace but those of its events: a gigabyte of memory.
+const MOST_ROWS: f64 = 5e6;
+
+/// Whether the rows of a trace have room in memory.
+///
+/// # Errors
+/// When there would be more than five million.
+pub fn has_room(spec: &Spec, instance: &Instance, samples_per_period: u32) -> Result<()> {
+    let plan = Plan::new(spec);
+    let Ok(scene) = Scene::planned(instance, &plan) else { return Ok(()) };
+    let rows = |time: f64| time * f64::from(samples_per_period) / TAU;
+    let longest = plan.settle_limit.unwrap_or(plan.settle);
+    let mut count = rows(scene.scaled(longest) + scene.scaled(plan.measure));
+    if count > MOST_ROWS && plan.settle_limit.is_some() {
+        // It may settle long before.
+        count = rows(respond(instance, &plan).simulated_time / scene.units.time);
+    }
+    if count > MOST_ROWS { Err(Error::TraceTooLong { rows: count, limit: MOST_ROWS }) } else { Ok(()) }
 }
 
 /// Integrates one instance and samples it `samples_per_period` times per `2π/ω0`, and on both sides of every event.

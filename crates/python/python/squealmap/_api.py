@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Union
 
 from . import _squealmap
@@ -120,6 +120,7 @@ def trace(
 
     Raises:
         InputError: the sweep or the instance is refused.
+        Error: the instance has no motion; the sentence says why.
     """
     if instance is not None and at is not None:
         raise InputError("`at` and `instance` both choose the instance; leave one of them out")
@@ -131,8 +132,9 @@ def trace(
     number = None if instance is None else instance.__index__()
     if number is not None and not 0 <= number < 2**63:
         raise InputError(f"instance is {str(number)[:40]} but must be a number from 0 on")
-    if isinstance(samples_per_period, bool) or not isinstance(samples_per_period, int):
-        raise TypeError(f"samples_per_period is a number, not {type(samples_per_period).__name__}")
+    if isinstance(samples_per_period, bool) or not hasattr(samples_per_period, "__index__"):
+        raise TypeError(f"samples_per_period is a whole number, not {type(samples_per_period).__name__}")
+    samples_per_period = samples_per_period.__index__()
     if not 0 < samples_per_period < 2**32:
         raise InputError(f"samples_per_period is {str(samples_per_period)[:40]} but must be from 1 to 10000")
     with calling():
@@ -246,6 +248,8 @@ def fit(
     Raises:
         InputError: the points do not determine the material.
     """
+    if isinstance(temperatures, (str, bytes)) or not isinstance(temperatures, Iterable):
+        raise TypeError(f"temperatures is a list of numbers, not {type(temperatures).__name__}")
     choices = {
         "law": law,
         "law_velocity": law_velocity,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import unicodedata
 from typing import TYPE_CHECKING, Union
 
 if TYPE_CHECKING:
@@ -12,6 +13,10 @@ if TYPE_CHECKING:
 
 class Error(Exception):
     """There is no result; the text is the sentence of the program."""
+
+    def __init__(self, text: str) -> None:
+        # A terminal would obey control characters.
+        super().__init__("".join(ascii(c)[1:-1] if unicodedata.category(c) == "Cc" and c != "\n" else c for c in text))
 
 
 class InputError(Error, ValueError):

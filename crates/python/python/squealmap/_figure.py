@@ -113,7 +113,7 @@ def plot(
         table, document = _FILES[kind]
         columns = _instances(dataset) if kind == "map" else _COLUMNS[kind](dataset)
         _squealmap.write_table(os.path.join(directory, table), columns)
-        text = _of_part(dataset) if kind in ("map", "modes") else str(dataset.attrs["manifest"])
+        text = _of_part(dataset) if kind in ("map", "modes", "trace") else str(dataset.attrs["manifest"])
         Path(directory, document).write_text(text, encoding="utf-8")
         svg = _squealmap.figure([directory, *options])
         # The figure says of which directory it is.
@@ -141,6 +141,8 @@ def _cells(values: xarray.DataArray) -> Any:
     if "flag_values" in values.attrs:
         said = meanings(values.attrs)
         first = min(said)
+        if flat.dtype.kind not in "iub" and not np.isin(flat, list(said)).all():
+            raise InputError(f"`{values.name}` holds no codes any more: draw a selection, not a mean, or leave it out by ds.drop_vars")
         yes_no = {"no": "0", "yes": "1", "undefined": ""}
         words = [yes_no.get(said.get(code, ""), said.get(code, "")) for code in range(first, max(said) + 1)]
         return flat.astype(np.int8), first, words
@@ -149,6 +151,10 @@ def _cells(values: xarray.DataArray) -> Any:
 
 def _instances(dataset: xarray.Dataset) -> list[tuple[str, Any]]:
     """The columns of ``map.csv``."""
+    if "status" not in dataset:
+        raise InputError("a map is drawn with its `status`, which this dataset has no longer; select with ds.isel or ds.sel")
+    if not dataset["status"].dims:
+        raise InputError("one instance is no map; select some")
     swept = _swept(dataset)
     dims = dataset["status"].dims
     whole = [(name, dataset[name].broadcast_like(dataset["status"]).transpose(*dims)) for name in swept]
@@ -189,7 +195,9 @@ _COLUMNS = {"modes": _modes, "trace": _trace, "fem": _fem}
 def _of_part(dataset: xarray.Dataset) -> str:
     """The document of a dataset, with the values that its axes have here."""
     manifest = json.loads(dataset.attrs["manifest"])
-    if dataset.attrs["squealmap"] == "modes":
+    if dataset.attrs["squealmap"] == "trace":
+        manifest["rows"] = dataset.sizes["t"]
+    if dataset.attrs["squealmap"] != "map":
         return json.dumps(manifest)
     for key in ("files", "checksum", "tiles"):
         manifest.pop(key, None)

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any, Union
 import numpy as np
 from numpy.typing import NDArray
 
+from ._errors import InputError
+
 if TYPE_CHECKING:
     import xarray
 
@@ -20,7 +22,12 @@ def meanings(attributes: Mapping[str, Any]) -> dict[int, str]:
 
 def decoded(values: NDArray[Any], attributes: Mapping[str, Any]) -> NDArray[np.str_]:
     """The names of codes; empty where they say that something is undefined."""
+    if "flag_values" not in attributes:
+        raise InputError("these values are no codes with names; their attribute `flag_values` is not there")
     said = meanings(attributes)
+    values = np.asarray(values)
+    if values.dtype.kind == "f" and not np.isin(values, list(said)).all():
+        raise InputError("these values are no codes: names have no mean, and no names where values are masked; count them instead")
     lowest = min(said)
     words = [said.get(code, "") for code in range(lowest, max(said) + 1)]
     table = np.array(["" if word == "undefined" else word for word in words])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Set
 from numbers import Real
 from typing import Any, Union
 
@@ -43,8 +43,10 @@ def _name(name: Any) -> str:
 
 
 def _column(name: str, values: Any) -> Column:
-    if isinstance(values, (str, bytes, Mapping)) or not isinstance(values, Iterable):
+    if isinstance(values, (str, bytes, Mapping, Set)) or not isinstance(values, Iterable):
         raise TypeError(f"points.{name[:60]} is an array of numbers or names, not {type(values).__name__}")
+    if np.ma.is_masked(values):
+        raise TypeError(f"points.{name[:60]} is masked in part; leave those instances out")
     # Arrays of numpy, pandas and xarray.
     values = np.asarray(values).tolist() if hasattr(values, "__array__") else list(values)
     if not isinstance(values, list):

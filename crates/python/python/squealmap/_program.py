@@ -16,5 +16,6 @@ def main() -> None:
     name = sys.argv[0]
     # The file that starts the program again, as jobs of a cluster do.
     program = os.path.abspath(name) if os.path.basename(name).startswith("squealmap") else None
-    sys.stdout.flush()
+    if sys.stdout is not None:
+        sys.stdout.flush()
     sys.exit(_squealmap.main(program, ["squealmap", *sys.argv[1:]]))

@@ -34,7 +34,8 @@ def _usual() -> Union[Callable[..., Bar], None]:
 
 def _is_watched() -> bool:
     """Whether anybody looks: a terminal, or a notebook."""
-    return "ipykernel" in sys.modules or (sys.stderr is not None and sys.stderr.isatty())
+    open_one = sys.stderr is not None and not sys.stderr.closed
+    return "ipykernel" in sys.modules or (open_one and sys.stderr.isatty())
 
 
 class Shown:

@@ -71,5 +71,5 @@ def _count(name: str, value: Any) -> Union[int, None]:
         raise TypeError(f"{name} is a whole number, not {type(value).__name__}")
     number: int = value.__index__()
     if not 0 <= number < 2**63:
-        raise InputError(f"{name} is {str(number)[:40]} but must be a whole number from 0 on")
+        raise InputError(f"{name} is {str(number)[:40]} but must be a whole number from 0 to {2**63 - 1}")
     return number

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Set
 from dataclasses import dataclass, field
 from typing import Any, Union
 
@@ -86,6 +86,8 @@ class Sweep:
             log: whether the steps are equal ratios.
         """
         if values is not None:
+            if isinstance(values, (str, bytes, Mapping, Set)) or not isinstance(values, Iterable):
+                raise TypeError(f"the values of axis {name} are a list or an array, not {type(values).__name__}")
             values = values.tolist() if hasattr(values, "tolist") else list(values)
         given = {"values": values, "from": start, "to": stop, "points": points}
         axis = {key: value for key, value in given.items() if value is not None}
