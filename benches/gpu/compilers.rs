@@ -77,6 +77,11 @@ impl Compiler {
         matches!(self.how, How::Here(_))
     }
 
+    /// Whether its card computes in f64: compilers of those that do not take minutes and gigabytes to fail.
+    pub(crate) fn has_f64(&self) -> bool {
+        !matches!(self.how, How::Root(Mesa { icd: "asahi" | "freedreno", .. }))
+    }
+
     /// Why it is not there, if it is not.
     pub(crate) fn missing(&self) -> Option<String> {
         let absent = |path: &Path| (!path.exists()).then(|| format!("{} is not there", path.display()));

@@ -91,6 +91,10 @@ fn measured(wanted: impl Fn(&Compiler) -> bool) -> Result<Vec<Row>, Box<dyn Erro
             continue;
         }
         for variant in kernels::all() {
+            if variant.precision == Precision::F64 && !compiler.has_f64() {
+                println!("NOT RUN: {} in f64, which {} does not have", variant.name, compiler.name);
+                continue;
+            }
             match compiler.compile(&variant, folder.path()) {
                 Ok((version, figures)) => {
                     let row = Row {

@@ -56,13 +56,10 @@ mod module {
     use crate::tiles::Tiles;
     #[pymodule_export]
     use crate::trace::trace;
-    use numpy::IntoPyArray;
     use pyo3::prelude::*;
 
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
-        // What numpy is reached by is looked up once: where Ctrl-C came in between, it panicked.
-        drop(Vec::<f64>::new().into_pyarray(module.py()));
         module.add("version", squealmap::version::VERSION)?;
         module.add("commit", squealmap::version::COMMIT)
     }

@@ -8,6 +8,7 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, sync_channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use numpy::IntoPyArray;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use rayon::ThreadPoolBuilder;
@@ -87,6 +88,8 @@ fn patiently<T: Send + 'static>(
     progress: Option<&Py<PyAny>>,
     work: impl FnOnce(&Watch) -> Result<T, Failure> + Send + 'static,
 ) -> PyResult<Ended<T>> {
+    // What numpy is reached by is looked up once, before any Ctrl-C, which it would take for a fault.
+    drop(Vec::<f64>::new().into_pyarray(py));
     let watch = Arc::new(Watch::default());
     let (sender, receiver) = sync_channel(1);
     let seen = Arc::clone(&watch);

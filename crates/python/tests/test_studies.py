@@ -155,7 +155,7 @@ def test_fit_of_a_table_and_of_the_best_law(tmp_path, program, law):
         assert np.allclose(found.material["knee_velocity"], 3, rtol=0.05)
         return
     assert set(found.material["temperature"].values) == {100.0, 300.0}
-    at = np.abs(found.material["velocity"] - 1.5).argmin()
+    at = np.abs(found.material["velocity"].values - 1.5).argmin()
     level = 0.3 + 1e-4 * found.material["temperature"][at] - 0.1 * found.material["velocity"][at] / 3
     assert np.isclose(found.material["mu"][at], level, atol=0.003)
     sweep = {

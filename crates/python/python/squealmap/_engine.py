@@ -34,7 +34,7 @@ def engine_of(
         threads = threads.__index__()
     if threads is not None and (isinstance(threads, bool) or not isinstance(threads, int) or not 0 < threads <= 1024):
         raise InputError(f"threads is {str(threads)[:40]} but must be a whole number from 1 to 1024")
-    if hasattr(accuracy, "item"):
+    if accuracy is not None and hasattr(accuracy, "item"):
         accuracy = accuracy.item()
     if accuracy is not None and (isinstance(accuracy, bool) or not isinstance(accuracy, (str, int, float))):
         raise TypeError(f"accuracy is a name such as 'paper' or a number, not {type(accuracy).__name__}")
