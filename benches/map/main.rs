@@ -83,8 +83,9 @@ fn cases(options: &Options, work: Work, adapter: Option<&Adapter>) -> Vec<Case> 
     }
     if let Some(adapter) = adapter.filter(|adapter| gpu::is_fit(adapter, work)) {
         let computes = |precision: &Precision| *precision == Precision::F32 || adapter.describe().f64;
-        cases
-            .extend(scalars.filter(computes).map(|precision| case(Engine::Gpu, precision, STEPS_PER_PERIOD)));
+        for precision in scalars.filter(computes) {
+            cases.extend(options.steps.iter().map(|steps| case(Engine::Gpu, precision, *steps)));
+        }
     }
     cases.retain(|case| options.engines.contains(&case.engine));
     cases
