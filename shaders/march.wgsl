@@ -217,41 +217,84 @@ fn carry_out(event: u32) {
     }
 }
 
-// The first event up to `first`, where the function `d0 …`, that of number `f`, is above zero at the start.
+// Where the function `d0 …` first falls below zero, if that is before `end`; else `end`.
 //
-// It stays above the parabola with its value, its slope and the least bend up to there: on to where that meets zero, from there
-// to the next, no root is passed, and close to one the steps are those of Newton's method. Where so many of them come to
-// nothing the step ends without an event.
-fn first_root(first: Event, f: u32) -> Event {
-    let hollow = max(-least_bend(first.at), 0.0);
-    var value = d0;
-    var slope = d1;
-    var t = real(0.0);
-    for (var i = 0u; i < MOST_MEETS; i++) {
-        // Per value, so that no square leaves the range of numbers.
-        let steep = min(max(slope / value, real(-1e18)), real(1e18));
-        let rises = slope >= 0.0;
-        let newton = -1.0 / min(steep, real(-1e-18));
-        if newton * newton < ENOUGH * EPSILON {
-            t = t + newton;
-            if t < first.at {
-                return Event(t, f);
-            }
-            return first;
-        }
-        let root = sqrt(steep * steep + 2.0 * min(hollow / value, real(1e36)));
-        t = t + select(2.0, value * root + slope, rises) / max(select(root - steep, hollow, rises), real(1e-30));
-        if !(t < first.at) {
-            return first;
-        }
+// One loop over its samples, its dips and its root, so that lanes that are at different ones go on together.
+fn first_root(end: real) -> real {
+    let gap = real(1.0 / 8.0);
+    var low = real(0.0);
+    var high = real(0.0);
+    var low_slope = d1;
+    var low_value = d0;
+    var t = gap;
+    var next = gap;
+    var mode = SAMPLES;
+    for (var i = 0u; i < 40u; i++) {
         let found = searched(t);
-        value = found.x;
-        slope = found.y;
-        if value <= 0.0 {
-            return Event(t, f);
+        let value = found.x;
+        let slope = found.y;
+        if mode == SAMPLES {
+            if value <= 0.0 {
+                high = t;
+                mode = ROOT;
+                t = t - gap * (0.0 - value) / (low_value - value);
+                continue;
+            }
+            // Between two slopes that fall and rise it may dip: not where their lines meet above zero.
+            let meets = low_value + low_slope * ((value - low_value - slope * gap) / (low_slope - slope));
+            if low_slope < 0.0 && slope > 0.0 && meets <= 0.0 {
+                high = t;
+                next = t;
+                mode = DIP;
+                t = t - gap * slope / (slope - low_slope);
+                continue;
+            }
+            low = t;
+            low_slope = slope;
+            low_value = value;
+            if low >= end {
+                return end;
+            }
+            t = t + gap;
+            continue;
+        }
+        if mode == DIP {
+            if value <= 0.0 {
+                high = t;
+                mode = ROOT;
+                t = 0.5 * (low + high);
+                continue;
+            }
+            if slope < 0.0 {
+                low = t;
+            } else {
+                high = t;
+            }
+            // It has come to its least, or its line stays above zero to the end of the bracket.
+            if high - low < 1e-3 || value - abs(slope) * (high - low) > 0.0 {
+                mode = SAMPLES;
+                t = next;
+                low_slope = 0.0;
+                continue;
+            }
+            t = 0.5 * (low + high);
+            continue;
+        }
+        if value > 0.0 {
+            low = t;
+        } else {
+            high = t;
+        }
+        let newton = t - value / slope;
+        let inside = slope < 0.0 && newton >= low && newton <= high;
+        let better = select(0.5 * (low + high), newton, inside);
+        let change = abs(better - t);
+        t = better;
+        if change * change < ENOUGH * EPSILON {
+            return min(t, end);
         }
     }
-    return Event(t, 0u);
+    return select(end, min(t, end), mode == ROOT);
 }
 
 // The order of zeros at the start that are looked through, each by a line below.
@@ -308,10 +351,12 @@ fn first_event(end: real, h: real, tolerance: real) -> Event {
                 continue;
             }
         }
+        var root = real(0.0);
         if d0 > 0.0 {
-            first = first_root(first, f);
-        } else if first.at > 0.0 {
-            first = Event(0.0, f);
+            root = first_root(first.at);
+        }
+        if root < first.at {
+            first = Event(root, f);
         }
     }
     return first;

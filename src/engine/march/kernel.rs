@@ -100,7 +100,10 @@ fn kernel(pieces: usize) -> Kernel {
             ("NODE_2", Constant::Real(NODES[2])),
             ("WEIGHT_0", Constant::Real(WEIGHTS[0])),
             ("WEIGHT_1", Constant::Real(WEIGHTS[1])),
-            ("MOST_MEETS", Constant::U32(MOST_MEETS)),
+            // What a search of an event function is at: its samples, a dip between two of them, its root.
+            ("SAMPLES", Constant::U32(0)),
+            ("DIP", Constant::U32(1)),
+            ("ROOT", Constant::U32(2)),
         ]),
         // Three searches, the searches for a piece at an impact, and the sums of a stretch.
         loops_per_step: 200 + 3 * (pieces as u32 - 1),
@@ -110,10 +113,6 @@ fn kernel(pieces: usize) -> Kernel {
 /// A root is found when the square of the last step of Newton's method, which squares its error, was below this many
 /// roundings of the step.
 const ENOUGH: f64 = 0.08;
-
-/// Most places at which an event function is looked at in a step: one that does not come to zero until then, but stays close,
-/// touches it within rounding.
-const MOST_MEETS: u32 = 40;
 
 /// The parts of the kernel that are chosen: the part of the run, the form of the law, and whether the belt has a ramp.
 #[must_use]

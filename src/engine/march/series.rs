@@ -201,17 +201,6 @@ fn function(text: &mut String, order: usize) {
     let rest: Vec<String> = (7..=order).map(|k| format!("abs(d{k})")).collect();
     line!(text, "  return d0 + low - ({});", rest.join(" + "));
     line!(text, "}}");
-    // The same of its second derivative up to `end`, of terms to the fourth.
-    line!(text, "fn least_bend(end: real) -> real {{");
-    line!(text, "  let e2 = end * end;");
-    line!(text, "  let c0 = 2.0 * d2; let c1 = 1.5 * d3 * end; let c2 = 2.0 * d4 * e2;");
-    line!(text, "  let c3 = 5.0 * d5 * (e2 * end); let c4 = 30.0 * d6 * (e2 * e2);");
-    line!(text, "  let low = min(min(min(c0, c0 + c1), 2.0 * c1 + (c0 + c2)),");
-    line!(text, "    min(3.0 * (c1 + c2) + (c0 + c3), 4.0 * (c1 + c3) + (6.0 * c2 + (c0 + c4))));");
-    let term = |k: usize| format!("{}.0 * abs(d{k})", k * (k - 1));
-    let rest = (7..order).rev().fold(term(order), |above, k| format!("({above}) * end + {}", term(k)));
-    line!(text, "  return low - ({rest}) * (e2 * e2 * end);");
-    line!(text, "}}");
 }
 
 /// The function without a root at the start.
