@@ -85,7 +85,8 @@ pub fn made(
         Wanted::Law(law) => (law, None),
         Wanted::Best => (candidates[0].law, unsure(&candidates)),
     };
-    let fit = fit(points, law, of, velocity)?;
+    let compared = candidates.iter().find(|one| one.law == law);
+    let fit = compared.map_or_else(|| fit(points, law, of, velocity), |one| one.fit.clone())?;
     let warnings = unsure.into_iter().chain(warnings(&fit, points)).collect();
     let (text, courses) = (material_csv(&fit, points, source), courses(&fit, points));
     Ok(Made { fit, text, courses, candidates, warnings })
