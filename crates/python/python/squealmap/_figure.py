@@ -13,7 +13,7 @@ import numpy as np
 
 from . import _squealmap
 from ._errors import InputError
-from ._names import meanings
+from ._names import meanings, whole
 
 if TYPE_CHECKING:
     import xarray
@@ -141,11 +141,9 @@ def _cells(values: xarray.DataArray) -> Any:
     if "flag_values" in values.attrs:
         said = meanings(values.attrs)
         first = min(said)
-        if flat.dtype.kind not in "iub" and not np.isin(flat, list(said)).all():
-            raise InputError(f"`{values.name}` holds no codes any more: draw a selection, not a mean, or leave it out by ds.drop_vars")
         yes_no = {"no": "0", "yes": "1", "undefined": ""}
         words = [yes_no.get(said.get(code, ""), said.get(code, "")) for code in range(first, max(said) + 1)]
-        return flat.astype(np.int8), first, words
+        return whole(flat, said, np.int8, f"the values of `{values.name}`"), first, words
     return [str(word) for word in flat] if flat.dtype.kind in "OUS" else flat.astype(np.float64)
 
 

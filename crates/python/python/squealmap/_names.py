@@ -20,18 +20,28 @@ def meanings(attributes: Mapping[str, Any]) -> dict[int, str]:
     return dict(zip(codes, attributes["flag_meanings"].split(" ")))
 
 
+def whole(values: Any, said: Mapping[int, str], dtype: Any, what: str = "these values") -> NDArray[Any]:
+    """Codes as whole numbers.
+
+    Raises:
+        InputError: for values that are none of them, such as a mean.
+    """
+    values = np.asarray(values)
+    if values.dtype.kind not in "iub" and not np.isin(values, list(said)).all():
+        raise InputError(f"{what} are no codes: names have no mean, and there is none where values are masked; select, or count them")
+    found: NDArray[Any] = values.astype(dtype)
+    return found
+
+
 def decoded(values: NDArray[Any], attributes: Mapping[str, Any]) -> NDArray[np.str_]:
     """The names of codes; empty where they say that something is undefined."""
     if "flag_values" not in attributes:
         raise InputError("these values are no codes with names; their attribute `flag_values` is not there")
     said = meanings(attributes)
-    values = np.asarray(values)
-    if values.dtype.kind == "f" and not np.isin(values, list(said)).all():
-        raise InputError("these values are no codes: names have no mean, and no names where values are masked; count them instead")
     lowest = min(said)
     words = [said.get(code, "") for code in range(lowest, max(said) + 1)]
     table = np.array(["" if word == "undefined" else word for word in words])
-    found: NDArray[np.str_] = table[np.asarray(values, dtype=np.int64) - lowest]
+    found: NDArray[np.str_] = table[whole(values, said, np.int64) - lowest]
     return found
 
 
