@@ -9,6 +9,15 @@ struct Event {
 struct Friction {
     q: real,
     less: real,
+    // What the recurrence of a curved law carries along: of an exponential its distance from the floor, however far down; of
+    // others q.
+    law: real,
+}
+
+// exp(x) − 1 and exp(x).
+struct Exponential {
+    change: real,
+    ratio: real,
 }
 
 struct Piece {
@@ -82,21 +91,22 @@ fn friction(p: Piece, sigma: real, v: real, lag: real) -> Friction {
     let forward = sigma > 0.0;
     if LAW == LAW_PIECES {
         let q = p.slope * v + sigma * p.at_zero;
-        return Friction(q, select(q - input(INPUT_MU0, instance), p.offset - p.slope * lag, forward));
+        return Friction(q, select(q - input(INPUT_MU0, instance), p.offset - p.slope * lag, forward), q);
     }
     if LAW == LAW_EXPONENTIAL {
         // From the equilibrium, without cancellation, or from rest, where that is too far down.
         let ahead = p.rate * lag;
         let near = forward && ahead <= NEAR;
         let base = select(p.slope, p.offset, near);
-        let less = base * exp_m1(select(-(p.rate * max(sigma * v, 0.0)), ahead, near));
-        let q = sigma * (p.at_zero + (base + less));
-        return Friction(q, select(q - input(INPUT_MU0, instance), less, near));
+        let e = exponential(select(-(p.rate * max(sigma * v, 0.0)), ahead, near));
+        let law = base * e.ratio;
+        let q = sigma * (p.at_zero + law);
+        return Friction(q, select(q - input(INPUT_MU0, instance), base * e.change, near), law);
     }
     let reciprocal = 1.0 / (p.rate * sigma * v + 1.0);
     let q = sigma * p.at_zero * reciprocal;
     let less = p.at_zero * p.rate * lag * reciprocal * p.offset;
-    return Friction(q, select(q - input(INPUT_MU0, instance), less, forward));
+    return Friction(q, select(q - input(INPUT_MU0, instance), less, forward), q);
 }
 
 // The longest step of a curved law, near whose rest friction changes within a layer of speeds.
@@ -104,7 +114,7 @@ fn longest_in_layer(q: Friction, inertia: real, speed: real) -> real {
     let force = q.q * form(INPUT_W) + (q.less * input(INPUT_N0, instance) - form(INPUT_R));
     let acceleration = abs(drive - force / inertia);
     let narrowing = 1.0 / (piece.rate * max(speed, 0.0) + 1.0);
-    let sloped = select(abs(q.q) * narrowing, abs(abs(q.q) - piece.at_zero), LAW == LAW_EXPONENTIAL);
+    let sloped = abs(q.law) * select(narrowing, real(1.0), LAW == LAW_EXPONENTIAL);
     let inverse = acceleration * narrowing * input(INPUT_LAYER, instance) + sloped * input(INPUT_LAYER + 1u, instance);
     return 1.0 / max(piece.rate * inverse, real(1e-30));
 }

@@ -69,7 +69,7 @@ fn main(
         let slips = contact <= REVERSE;
         let longest = input(INPUT_LONGEST + select(contact, 5u - contact, contact >= STICK), instance);
         pace = min(min(pace, input(INPUT_STEP + section, instance)), longest);
-        var q = Friction(0.0, 0.0);
+        var q = Friction(0.0, 0.0, 0.0);
         var inertia = real(1.0);
         let sigma = select(real(-1.0), real(1.0), contact == SLIP);
         if contact == STICK {

@@ -10,6 +10,7 @@ use crate::engine::lanes::forms::{Forms, forms};
 use crate::engine::lanes::motion::{CURVED, FLIGHT, PIECES, SINGLE};
 use crate::engine::lanes::scalar::Scalar;
 use crate::engine::lanes::vector::{Mask, Vector};
+use crate::engine::lanes::words::{DOWN, EXP_DEGREE, FARTHEST};
 use crate::model::piece::{FAR, LawForm};
 use pulp::Simd;
 
@@ -40,14 +41,26 @@ impl<S: Simd, T: Scalar<S>, const N: usize> Expansion<S, T, N> {
     }
 }
 
-/// `q = σ μ` and `q − μ0` at the relative velocity `v`, see [`crate::engine::lanes::words::Words::friction`].
+/// Friction at the beginning of a step.
+#[derive(Clone, Copy)]
+pub struct AtStart<S: Simd, T: Scalar<S>> {
+    /// `q = σ μ`.
+    q: Vector<S, T>,
+    /// `q − μ0`.
+    less: Vector<S, T>,
+    /// What the recurrence of a curved law carries along: of an exponential its distance from the floor, to the last digits
+    /// however far down; of others `q`.
+    law: Vector<S, T>,
+}
+
+/// Friction at the relative velocity `v`, see [`crate::engine::lanes::words::Words::friction`].
 #[inline(always)]
 pub fn friction<S: Simd, T: Scalar<S>, const LAW: bool>(
     b: &Block<S, T>,
     sigma: Vector<S, T>,
     v: Vector<S, T>,
     lag: Vector<S, T>,
-) -> [Vector<S, T>; 2] {
+) -> AtStart<S, T> {
     let one = v.like(1.0);
     let forward = one.at_most(sigma);
     let (at_zero, slope, rate, offset) = (b.piece[AT_ZERO], b.piece[SLOPE], b.piece[RATE], b.piece[OFFSET]);
@@ -59,10 +72,10 @@ pub fn friction<S: Simd, T: Scalar<S>, const LAW: bool>(
                 let ahead = rate * lag;
                 let near = forward.and(ahead.at_most(one.like(FAR)));
                 let base = near.select(offset, slope);
-                let change = exp_m1(near.select(ahead, -(rate * (sigma * v).max(v.like(0.0)))));
-                let less = base * change;
-                let q = sigma * (at_zero + (base + less));
-                return [q, near.select(less, q - b.scene[MU0])];
+                let [change, ratio] = exponential(near.select(ahead, -(rate * (sigma * v).max(v.like(0.0)))));
+                let law = base * ratio;
+                let q = sigma * (at_zero + law);
+                return AtStart { q, less: near.select(base * change, q - b.scene[MU0]), law };
             }
             LawForm::Pieces | LawForm::Rational => {
                 let reciprocal = one / (rate * sigma).fma(v, one);
@@ -70,14 +83,14 @@ pub fn friction<S: Simd, T: Scalar<S>, const LAW: bool>(
             }
         }
     };
-    [q, forward.select(less, q - b.scene[MU0])]
+    AtStart { q, less: forward.select(less, q - b.scene[MU0]), law: q }
 }
 
 /// The inverse of the longest step of a curved law, see [`crate::engine::method::pace::Layer`].
 #[inline(always)]
 fn layer<S: Simd, T: Scalar<S>, const MOTION: u8>(
     b: &Block<S, T>,
-    [q0, q0_less]: [Vector<S, T>; 2],
+    start: AtStart<S, T>,
     inertia: Vector<S, T>,
     speed: Vector<S, T>,
 ) -> Vector<S, T> {
@@ -86,13 +99,13 @@ fn layer<S: Simd, T: Scalar<S>, const MOTION: u8>(
         let sum = b.scene[at].fma(b.p[0], b.scene[at + 3] * b.v[0]);
         if MOTION == SINGLE { sum } else { b.scene[at + 2].fma(b.p[2], b.scene[at + 5].fma(b.v[2], sum)) }
     };
-    let force = q0.fma(form(W), q0_less.fma(b.scene[N0], -form(R)));
+    let force = start.q.fma(form(W), start.less.fma(b.scene[N0], -form(R)));
     let acceleration = (b.drive - force / inertia).abs();
     let rate = b.piece[RATE];
     let narrowing = one / rate.fma(speed.max(zero), one);
     let sloped = match b.law {
-        LawForm::Exponential => (q0.abs() - b.piece[AT_ZERO]).abs(),
-        LawForm::Pieces | LawForm::Rational => q0.abs() * narrowing,
+        LawForm::Exponential => start.law.abs(),
+        LawForm::Pieces | LawForm::Rational => start.law.abs() * narrowing,
     };
     rate * (acceleration * narrowing).fma(b.scene[LAYER], sloped * b.scene[LAYER + 1])
 }
@@ -100,26 +113,48 @@ fn layer<S: Simd, T: Scalar<S>, const MOTION: u8>(
 /// `exp(x) − 1`, see [`crate::engine::lanes::words::exp_m1`].
 #[inline(always)]
 pub fn exp_m1<S: Simd, T: Scalar<S>>(x: Vector<S, T>) -> Vector<S, T> {
+    let [e, _] = exponential(x);
+    e
+}
+
+/// `exp(x) − 1` and `exp(x)`, each to its own last digits.
+///
+/// Below [`DOWN`] the sum of one and the first has lost what is left of the second: there it is the 16th power of `exp(x/16)`,
+/// on the way to the first, and 0 below −[`FARTHEST`].
+#[inline(always)]
+fn exponential<S: Simd, T: Scalar<S>>(x: Vector<S, T>) -> [Vector<S, T>; 2] {
     const DOUBLINGS: usize = 8;
-    let x = x.max(x.like(-80.0)).min(x.like(80.0));
+    const POWER: usize = 4;
+    let unbounded = x;
+    let x = x.max(x.like(-FARTHEST)).min(x.like(FARTHEST));
     let large = x.like(0.5).less(x.abs());
     let doubled = large.any();
     let y = if doubled { large.select(x * x.like(1.0 / 256.0), x) } else { x };
     let mut sum = x.like(1.0);
-    let mut k = crate::engine::lanes::words::EXP_DEGREE;
+    let mut k = EXP_DEGREE;
     while k >= 2 {
         sum = (y * y.like(1.0 / f64::from(k))).fma(sum, y.like(1.0));
         k -= 1;
     }
     let mut e = y * sum;
-    if doubled {
-        let small = e;
-        for _ in 0..DOUBLINGS {
-            e = e * (e + e.like(2.0));
-        }
-        e = large.select(e, small);
+    let one = x.like(1.0);
+    if !doubled {
+        return [e, one + e];
     }
-    e
+    let small = e;
+    let mut power = one;
+    for doubling in 0..DOUBLINGS {
+        if doubling == DOUBLINGS - POWER {
+            power = one + e;
+        }
+        e = e * (e + e.like(2.0));
+    }
+    for _ in 0..POWER {
+        power = power * power;
+    }
+    e = large.select(e, small);
+    let power = power.only(x.like(-FARTHEST).at_most(unbounded));
+    [e, x.less(x.like(DOWN)).select(power, one + e)]
 }
 
 /// Expands the motion over the step `h`; returns the lanes whose contact forces are not unique. Series of what
@@ -136,11 +171,12 @@ pub fn expand<S: Simd, T: Scalar<S>, const N: usize, const LAW: bool, const MOTI
     let velocity = b.v[0];
     let relative = b.belt - velocity;
     let lag = velocity - (b.belt - b.scene[V0]);
-    let [q0, q0_less] = friction::<S, T, LAW>(b, sigma, relative, lag);
+    let start = friction::<S, T, LAW>(b, sigma, relative, lag);
+    let AtStart { q: q0, less: q0_less, law } = start;
     let inertia = slip.select(b.scene[KAPPA].fma(q0, one), one);
     let ill_posed = inertia.not_positive();
     let h = if LAW == CURVED {
-        let inverse = layer::<S, T, MOTION>(b, [q0, q0_less], inertia, sigma * relative);
+        let inverse = layer::<S, T, MOTION>(b, start, inertia, sigma * relative);
         slip.select(h.min(one / inverse), h)
     } else {
         h
@@ -164,10 +200,7 @@ pub fn expand<S: Simd, T: Scalar<S>, const N: usize, const LAW: bool, const MOTI
     }
     let mut friction = Friction { q: [zero; N], law: [zero; N] };
     if LAW == CURVED {
-        friction.law[0] = match b.law {
-            LawForm::Exponential => sigma.fma(q0, -b.piece[AT_ZERO]),
-            LawForm::Pieces | LawForm::Rational => q0,
-        };
+        friction.law[0] = law;
     }
     let known = Known {
         forms,

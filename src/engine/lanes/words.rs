@@ -171,7 +171,7 @@ impl<S: Real> Words<S> {
 /// `exp(x) − 1` for `x` in [−80, 80]: a series for `|x| ≤ 1/2`, doubled by `(1 + e)² − 1 = e (2 + e)`.
 #[must_use]
 pub fn exp_m1<S: Real>(x: S) -> S {
-    let mut y = x.max(S::from_f64(-80.0)).min(S::from_f64(80.0));
+    let mut y = x.max(S::from_f64(-FARTHEST)).min(S::from_f64(FARTHEST));
     let mut doublings = 0;
     while y.abs() > S::from_f64(0.5) {
         y *= S::from_f64(0.5);
@@ -190,3 +190,9 @@ pub fn exp_m1<S: Real>(x: S) -> S {
 
 /// Degree of the exponential's series: below 1e-17 at 1/2.
 pub const EXP_DEGREE: u8 = 14;
+
+/// Below this `1 + (exp(x) − 1)` has lost too many digits of `exp(x)`.
+pub const DOWN: f64 = -3.0;
+
+/// Up to here exponents are told apart: below it `exp(x)` is nothing, or in f32 all but.
+pub const FARTHEST: f64 = 80.0;

@@ -4,21 +4,24 @@
 //! that of the relative velocity as the recurrence takes it, `q1 …` that of `q = σ μ`. What the two forms have of their own is
 //! chosen by the constant `LAW`.
 
-use crate::engine::lanes::words::EXP_DEGREE;
+use crate::engine::lanes::words::{DOWN, EXP_DEGREE, FARTHEST};
 use crate::engine::march::rows::{line, row, sliding, slower, twice, velocities};
 use std::fmt::Write;
 
 /// Halvings of a large argument of the exponential.
 const DOUBLINGS: i32 = 8;
 
+/// Those of them that lead from `exp(x/16)` to `exp(x)`.
+const POWER: i32 = 4;
+
 pub(super) fn text(text: &mut String, order: usize) {
-    exp_m1(text);
+    exponential(text);
     line!(text, "fn expand_curved(h: real, q: Friction, inertia: real, sigma: real, relative: real) {{");
     sliding(text);
     line!(text, "  let exponential = LAW == LAW_EXPONENTIAL; let per_step = -1.0 / h;");
     line!(text, "  let bend = -(piece.rate * sigma);");
     line!(text, "  let pole = 1.0 / select(1.0 + piece.rate * sigma * relative, 1.0, exponential);");
-    line!(text, "  let l0 = select(q.q, sigma * q.q - piece.at_zero, exponential);");
+    line!(text, "  let l0 = q.law;");
     for k in 1..=order - 2 {
         line!(text, "  var l{k}: real; var c{k}: real; var q{k}: real;");
     }
@@ -57,21 +60,32 @@ fn products(left: &str, right: &str, k: usize) -> String {
     (1..k).rev().fold(first, |sum, j| format!("{left}{j} * {right}{} + ({sum})", k - j))
 }
 
-/// `exp(x) − 1` for `x` in [−80, 80]: a series for `|x| ≤ 1/2`, doubled by `(1 + e)² − 1 = e (2 + e)`.
-fn exp_m1(text: &mut String) {
-    line!(text, "fn exp_m1(x: real) -> real {{");
-    line!(text, "  let bounded = min(max(x, real(-80.0)), real(80.0)); let large = abs(bounded) > 0.5;");
+/// `exp(x) − 1` and `exp(x)` for `x` in [−80, 80], each to its own last digits: a series for `|x| ≤ 1/2`, doubled by
+/// `(1 + e)² − 1 = e (2 + e)`; far down the second is a power of `exp(x/16)`, on the way to the first, and 0 beyond.
+fn exponential(text: &mut String) {
+    line!(text, "fn exponential(x: real) -> Exponential {{");
+    line!(
+        text,
+        "  let bounded = min(max(x, real(-{FARTHEST:?})), real({FARTHEST:?})); let large = abs(bounded) > 0.5;"
+    );
     line!(text, "  let y = bounded * select(real(1.0), real({:?}), large);", 0.5_f64.powi(DOUBLINGS));
     line!(text, "  var sum = real(1.0);");
     for k in (2..=EXP_DEGREE).rev() {
         line!(text, "  sum = y * {:?} * sum + 1.0;", 1.0 / f64::from(k));
     }
-    line!(text, "  var e = y * sum;");
+    line!(text, "  var e = y * sum; var power = real(0.0);");
     line!(text, "  if large {{");
-    for _ in 0..DOUBLINGS {
+    for doubling in 0..DOUBLINGS {
+        if doubling == DOUBLINGS - POWER {
+            line!(text, "    power = 1.0 + e;");
+        }
         line!(text, "    e = e * (e + 2.0);");
     }
+    for _ in 0..POWER {
+        line!(text, "    power = power * power;");
+    }
     line!(text, "  }}");
-    line!(text, "  return e;");
+    line!(text, "  let down = select(power, 0.0, x < -{FARTHEST:?});");
+    line!(text, "  return Exponential(e, select(1.0 + e, down, x < {DOWN:?}));");
     line!(text, "}}");
 }

@@ -20,6 +20,7 @@ use squealmap::model::friction::FrictionLaw;
 use squealmap::model::instance::Instance;
 use squealmap::model::piece::Piece;
 use squealmap::model::status::Status;
+use squealmap::sweep::spec::{AUTO_MEASURE, FIRST_SETTLE};
 
 const TABLE_1: [Param; 11] = [
     Param::M1,
@@ -129,6 +130,14 @@ fn found() -> Vec<(&'static str, Instance, Plan)> {
             periods(5.0, 5.0, 12),
         ),
         (
+            "a knee beside which the search for roots goes on and on",
+            one(
+                bilinear(0.618_181_8, 0.25, 3e-8),
+                [2.12, 0.18, 100_000.0, 101_000.0, 0.1, 0.1, 1000.0, 0.1, 1.0, 0.05, 0.0],
+            ),
+            periods(40.0, 20.0, 12),
+        ),
+        (
             "a release that rounding turns back",
             one(
                 exponential(0.0799, 0.0615, 5.34e-12),
@@ -209,6 +218,29 @@ fn a_layer_of_any_width_is_that_of_the_reference() {
                 let name = format!("{} at {width:e}", engine.name());
                 close(&name, made.x2_std.expect("one"), expected.x2_std.expect("one"), error);
             }
+        }
+    }
+}
+
+/// A motion that grows far above the layer until it reaches it: what is left of the fall at such speeds is nothing, and
+/// rounding must not make more of it.
+#[test]
+fn what_is_left_of_a_fall_is_as_small_as_it_is() {
+    let plan = Plan {
+        settle: FIRST_SETTLE,
+        settle_limit: Some(Duration::Periods(1000.0)),
+        measure: AUTO_MEASURE,
+        ..periods(1.0, 1.0, 12)
+    };
+    for ratio in [250.0, 1e3, 1e5] {
+        let law = FrictionLaw::Exponential { mu_s: 0.4, mu_d: 0.2, stribeck_velocity: 10.0 / ratio };
+        let values = [(Param::Theta, 0.05), (Param::BeltVelocity, 10.0), (Param::StartVelocity, 0.05)];
+        let one = instance(law, &values);
+        let expected = run(Engine::Reference, &one, &plan);
+        for engine in [Engine::CpuF64, Engine::CpuF32, Engine::KernelF64, Engine::KernelF32] {
+            let made = run(engine, &one, &plan);
+            let name = format!("{} at V = {ratio:e} v0", engine.name());
+            close(&name, made.x2_std.expect("one"), expected.x2_std.expect("one"), 1e-3);
         }
     }
 }

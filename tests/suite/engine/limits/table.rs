@@ -75,6 +75,11 @@ fn slides() -> Vec<Scene> {
     for (law_name, law, at) in sloped {
         all.push(sliding_under(&format!("kick of 1e-12 m/s, {law_name} law"), law, at, 20.0, &tiny));
     }
+    // Far above its decay an exponential law is its floor: nothing of the fall is left, however short it was.
+    for ratio in [1e3, 1e6] {
+        let law = FrictionLaw::Exponential { mu_s: 0.3, mu_d: 0.1, stribeck_velocity: 1.0 / ratio };
+        all.push(sliding_under(&format!("exponential law, V = {ratio:e} v_0"), law, [0.1, 0.0], 20.0, &[]));
+    }
     let undamped = [(Param::C1, 0.0), (Param::C2, 0.0), (Param::Theta, 0.01)];
     all.push(sliding("defective eigenvalue (coalescence)", COALESCENCE, 20.0, &undamped));
     all.push(sliding("no damping, 2000 periods", 0.1, 1000.0, &undamped));
