@@ -128,8 +128,15 @@ fn no_engine_is_at_a_loss() {
             record.status,
             record.linear
         );
-        for engine in Engine::ALL.into_iter().filter(|engine| !too_long(engine.slower())) {
+        // A law may ask for more steps than the modes, up to where every engine gives up; the others come first and show it.
+        let mut taken = 0.0;
+        for engine in Engine::ALL {
+            let slower = engine.slower();
+            if too_long(slower) || slower > 1.0 && taken * slower > MOST_STEPS {
+                continue;
+            }
             let outcome = engine.run(&spec.instance(0), &plan);
+            taken = f64::max(taken, outcome.steps as f64);
             if let Some(defect) = defect(&outcome) {
                 return Err(TestCaseError::fail(format!("{}: {defect}", engine.name())));
             }
