@@ -33,8 +33,9 @@ pub fn regime(instance: &Instance, kind: Option<InstabilityType>, outcome: &Outc
     if !is_open || !kind.is_some_and(InstabilityType::is_unstable) {
         return found;
     }
-    let linear = known.or_else(|| linear::analyse(instance).1);
-    linear.map_or(found, |linear| regime::about_unstable(outcome, velocity, linear.growth_rate, found))
+    // Only a growth that may have stopped needs its rate.
+    let growth_rate = || known.or_else(|| linear::analyse(instance).1).map(|linear| linear.growth_rate);
+    regime::about_unstable(outcome, velocity, growth_rate, found)
 }
 
 /// The instance on the belt as it is at the time `time` (s), where that changes: what a motion then

@@ -135,24 +135,28 @@ fn halves_agree(outcome: &Outcome) -> bool {
     agree(outcome.x2_std_halves) && agree(outcome.ay_rms_halves)
 }
 
-/// The regime of a completed outcome about an unstable equilibrium with this growth rate (1/s). `found` is what [`regime`]
-/// makes of the outcome alone. A motion that has met no event, or is small, may only be growing: it is an oscillation of its
+/// The regime of a completed outcome about an unstable equilibrium, whose growth rate (1/s) is asked for where it matters. `found`
+/// is what [`regime`] makes of the outcome alone, and what is told where there is no rate. A motion that has met no event, or is small, may only be growing: it is an oscillation of its
 /// own when it keeps its size although its growth rate would have it grow.
 #[must_use]
 pub fn about_unstable(
     outcome: &Outcome,
     belt_velocity: f64,
-    growth_rate: f64,
+    growth_rate: impl FnOnce() -> Option<f64>,
     found: (Regime, bool),
 ) -> (Regime, bool) {
     match found.0 {
         Regime::Slip if outcome.met_event && outcome.speed_rms_halves[1] >= small_speed(belt_velocity) => {
             found
         }
-        Regime::Slip | Regime::Equilibrium if has_stopped_growing(outcome, belt_velocity, growth_rate) => {
-            (Regime::Slip, found.1)
+        Regime::Slip | Regime::Equilibrium if !may_have_stopped_growing(outcome, belt_velocity) => {
+            (Regime::NotYetGrown, false)
         }
-        Regime::Slip | Regime::Equilibrium => (Regime::NotYetGrown, false),
+        Regime::Slip | Regime::Equilibrium => match growth_rate() {
+            Some(rate) if has_outgrown(outcome, rate) => (Regime::Slip, found.1),
+            Some(_) => (Regime::NotYetGrown, false),
+            None => found,
+        },
         _ => found,
     }
 }
@@ -167,12 +171,19 @@ fn small_speed(belt_velocity: f64) -> f64 {
 /// outgrown all others. A small motion without any event is linear: nothing stops its growth.
 #[must_use]
 pub fn has_stopped_growing(outcome: &Outcome, belt_velocity: f64, growth_rate: f64) -> bool {
-    let limits = THRESHOLDS;
+    may_have_stopped_growing(outcome, belt_velocity) && has_outgrown(outcome, growth_rate)
+}
+
+/// What of that needs no growth rate.
+fn may_have_stopped_growing(outcome: &Outcome, belt_velocity: f64) -> bool {
     let [_, speed] = outcome.speed_rms_halves;
     let linear = speed < small_speed(belt_velocity) && !outcome.met_event;
-    speed > 0.0
-        && !linear
-        && halves_agree(outcome)
-        && (0.5 * growth_rate * outcome.window).exp_m1() > limits.apart
+    speed > 0.0 && !linear && halves_agree(outcome)
+}
+
+/// What of that needs the growth rate.
+fn has_outgrown(outcome: &Outcome, growth_rate: f64) -> bool {
+    let limits = THRESHOLDS;
+    (0.5 * growth_rate * outcome.window).exp_m1() > limits.apart
         && growth_rate * outcome.simulated_time > limits.outgrown.ln()
 }
