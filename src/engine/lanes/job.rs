@@ -121,10 +121,16 @@ impl<T: Real> Job<T> {
         let belt = scene.belt(0.0);
         let belt =
             Belt { velocity: T::from_f64(belt.velocity), acceleration: T::from_f64(belt.acceleration) };
+        let mut state = State::new(&words, belt);
+        let epsilon = T::EPSILON.to_f64();
+        // f64 goes on: there is nothing finer that would compute it again.
+        if epsilon > f64::EPSILON && turns.stands_still_on_a_rise(&scene.model, epsilon) {
+            state.status = Status::StepTooLarge;
+        }
         Job {
             constants: constants(&scene.model, turns),
             scene,
-            state: State::new(&words, belt),
+            state,
             words,
             time: 0.0,
             until: 0.0,

@@ -159,7 +159,11 @@ fn both_sides_of_what_stops_growing() {
         (outcome(same, same, true), 0.01, Regime::StickSlip, (Regime::StickSlip, true)),
         (outcome(same, same, false), 0.01, Regime::Stuck, (Regime::Stuck, true)),
     ] {
-        assert_eq!(about_unstable(&one, 2.0, || Some(rate), (found, true)), expected, "{rate} {found:?} {one:?}");
+        assert_eq!(
+            about_unstable(&one, 2.0, || Some(rate), (found, true)),
+            expected,
+            "{rate} {found:?} {one:?}"
+        );
     }
 }
 
