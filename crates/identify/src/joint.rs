@@ -15,6 +15,8 @@ const QUIET: f64 = 0.95;
 const FOLDS: f64 = 12.0;
 /// Relative difference of velocities, and difference of temperatures (°C), that are one condition.
 const SAME_VELOCITY: f64 = 0.03;
+/// The same of velocities where the growth went over into what is judged, without a cut between them.
+const SAME_VIBRATION: f64 = 0.1;
 const SAME_TEMPERATURE: f64 = 10.0;
 /// A likelihood is never believed beyond this: every witness has errors that it does not know.
 const BELIEVED: f64 = 0.995;
@@ -26,13 +28,16 @@ pub(super) fn judged(segments: &mut [Segment], episodes: &[Episode], structure: 
     for number in 0..segments.len() {
         let own: Vec<&Episode> =
             homes.iter().zip(episodes).filter(|(home, _)| **home == Some(number)).map(|(_, e)| e).collect();
-        let confidence =
-            |episode: &&&Episode| (episode.verdict.kind != Kind::Undecided, episode.verdict.confidence);
-        let best = own
-            .iter()
-            .max_by(|a, b| confidence(a).partial_cmp(&confidence(b)).unwrap_or(std::cmp::Ordering::Equal));
-        let best = best.copied();
-        let told = best.or_else(|| elsewhere(&segments[number], episodes, &points));
+        let best = own.iter().copied().max_by(|a, b| by_confidence(a, b));
+        // What grew is unstable so at that velocity, not at all that its vibration goes through afterwards.
+        let grown = segments[number].state == State::Growing;
+        let here = own.iter().copied().filter(|episode| {
+            let place = episodes.iter().position(|other| std::ptr::eq(other, *episode));
+            let point = place.and_then(|place| points[place]);
+            grown || point.is_none_or(|point| alike(&segments[number], point, SAME_VIBRATION))
+        });
+        let here = here.max_by(|a, b| by_confidence(a, b));
+        let told = here.or_else(|| elsewhere(&segments[number], episodes, &points));
         let next = homes
             .iter()
             .zip(episodes)
@@ -107,15 +112,25 @@ fn elsewhere<'a>(
     episodes: &'a [Episode],
     points: &[Option<(f64, Option<f64>)>],
 ) -> Option<&'a Episode> {
-    let velocity = segment.velocity?;
-    let alike = |point: &(f64, Option<f64>)| {
-        let (at, temperature) = *point;
-        let heat = temperature.zip(segment.temperature).map_or(0.0, |(a, b)| (a - b).abs());
-        velocity.iter().all(|v| (v - at).abs() <= SAME_VELOCITY * at.abs()) && heat <= SAME_TEMPERATURE
-    };
-    let here = episodes.iter().zip(points).filter(|(_, point)| point.as_ref().is_some_and(alike));
+    let here = episodes
+        .iter()
+        .zip(points)
+        .filter(|(_, point)| point.is_some_and(|point| alike(segment, point, SAME_VELOCITY)));
     let decided = here.map(|(episode, _)| episode).filter(|episode| episode.verdict.kind != Kind::Undecided);
     decided.max_by(|a, b| a.verdict.confidence.total_cmp(&b.verdict.confidence))
+}
+
+/// Whether a segment has this velocity (m/s), up to a relative difference, and this temperature (°C) throughout.
+fn alike(segment: &Segment, (at, temperature): (f64, Option<f64>), apart: f64) -> bool {
+    let heat = temperature.zip(segment.temperature).map_or(0.0, |(a, b)| (a - b).abs());
+    let same = |velocity: &[f64; 2]| velocity.iter().all(|v| (v - at).abs() <= apart * at.abs());
+    segment.velocity.as_ref().is_some_and(same) && heat <= SAME_TEMPERATURE
+}
+
+/// Decided before undecided, then the more confident one.
+fn by_confidence(a: &Episode, b: &Episode) -> std::cmp::Ordering {
+    let of = |episode: &Episode| (episode.verdict.kind != Kind::Undecided, episode.verdict.confidence);
+    of(a).partial_cmp(&of(b)).unwrap_or(std::cmp::Ordering::Equal)
 }
 
 /// A stretch without growth.

@@ -8,6 +8,7 @@ use crate::settings::Settings;
 use crate::testimony::{Mechanism, Testimony, Witness};
 use crate::trend::Trended;
 use crate::verdict::Verdict;
+use crate::within::differ;
 
 /// Amplitude, over the largest of the record, from which on the record vibrates.
 const VIBRATES: f64 = 0.1;
@@ -330,6 +331,24 @@ fn steady(cells: &[Cell]) -> bool {
     change < STEADY * omega * (last.middle() - first.middle())
 }
 
+/// Whether the law read within the oscillation has another slope early than late: the velocity has passed a bend on the way.
+fn turns(cells: &[Cell]) -> bool {
+    /// Parts of the time before and after.
+    const PARTS: usize = 4;
+    let velocity = Cell::sum(cells).velocity();
+    let read = |some: &[Cell]| {
+        let all = Cell::sum(some);
+        all.within.law(all.velocity())
+    };
+    (1..PARTS).any(|part| {
+        let (early, late) = cells.split_at(cells.len() * part / PARTS);
+        !early.is_empty()
+            && read(early)
+                .zip(read(late))
+                .is_some_and(|(early, late)| differ([early[1], late[1]], early[0].value, velocity))
+    })
+}
+
 /// Level and slope of friction.
 fn level(cells: &[Cell], all: &Cell, has: Has, limited: bool, inclination: f64) -> Level {
     /// Relative range of the velocity from which on there is a slope.
@@ -343,7 +362,8 @@ fn level(cells: &[Cell], all: &Cell, has: Has, limited: bool, inclination: f64) 
         let allowed = SYSTEMATIC * level.value.abs();
         let error = level.error.hypot(allowed);
         let slope = Measured { error: slope.error.hypot(LOCAL * allowed / all.velocity().abs()), ..slope };
-        let slope = (!all.within.bends(all.velocity())).then_some(slope);
+        let one = !all.within.bends(all.velocity()) && !turns(cells);
+        let slope = one.then_some(slope);
         let normal = all.normal();
         let damping = all.losses.damping(inclination).filter(|_| steady(cells));
         let damping = damping

@@ -103,11 +103,16 @@ impl Within {
 
     /// Whether the law bends: the slopes of both sides differ clearly, so that it has none at the mean velocity.
     pub(super) fn bends(&self, velocity: f64) -> bool {
-        /// Standard errors that are clear, and the difference that matters, of `d ln μ/d ln v`.
-        const CLEAR: f64 = 2.0;
-        const MATTERS: f64 = 0.1;
         let [low, high] = self.0.map(|line| line.read(velocity));
-        let off = (low[1].value - high[1].value).abs();
-        off > CLEAR * low[1].error.hypot(high[1].error) && off * velocity > MATTERS * low[0].value.abs()
+        differ([low[1], high[1]], low[0].value, velocity)
     }
+}
+
+/// Whether two slopes `dμ/dv` (s/m) of a law differ clearly, by more than matters to friction of this `level` at this velocity (m/s).
+pub(super) fn differ([one, other]: [Measured; 2], level: f64, velocity: f64) -> bool {
+    /// Standard errors that are clear, and the difference that matters, of `d ln μ/d ln v`.
+    const CLEAR: f64 = 2.0;
+    const MATTERS: f64 = 0.1;
+    let off = (one.value - other.value).abs();
+    off > CLEAR * one.error.hypot(other.error) && off * velocity.abs() > MATTERS * level.abs()
 }
