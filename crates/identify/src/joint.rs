@@ -30,13 +30,13 @@ pub(super) fn judged(segments: &mut [Segment], episodes: &[Episode], structure: 
             homes.iter().zip(episodes).filter(|(home, _)| **home == Some(number)).map(|(_, e)| e).collect();
         let best = own.iter().copied().max_by(|a, b| by_confidence(a, b));
         // What grew is unstable so at that velocity, not at all that its vibration goes through afterwards.
-        let grown = segments[number].state == State::Growing;
-        let here = own.iter().copied().filter(|episode| {
-            let place = episodes.iter().position(|other| std::ptr::eq(other, *episode));
-            let point = place.and_then(|place| points[place]);
-            grown || point.is_none_or(|point| alike(&segments[number], point, SAME_VIBRATION))
-        });
-        let here = here.max_by(|a, b| by_confidence(a, b));
+        let segment = &segments[number];
+        let speaks = |point: &Option<(f64, Option<f64>)>| {
+            segment.state == State::Growing || point.is_none_or(|point| alike(segment, point, SAME_VIBRATION))
+        };
+        let here = homes.iter().zip(episodes).zip(&points);
+        let here = here.filter(|((home, _), point)| **home == Some(number) && speaks(point));
+        let here = here.map(|((_, episode), _)| episode).max_by(|a, b| by_confidence(a, b));
         let told = here.or_else(|| elsewhere(&segments[number], episodes, &points));
         let next = homes
             .iter()

@@ -10,7 +10,7 @@ use crate::engine::lanes::forms::{Forms, forms};
 use crate::engine::lanes::motion::{CURVED, FLIGHT, PIECES, SINGLE};
 use crate::engine::lanes::scalar::Scalar;
 use crate::engine::lanes::vector::{Mask, Vector};
-use crate::engine::lanes::words::{DOWN, EXP_DEGREE, FARTHEST};
+use crate::engine::lanes::words::{DOUBLINGS, DOWN, EXP_DEGREE, FARTHEST, POWER};
 use crate::model::piece::{FAR, LawForm};
 use pulp::Simd;
 
@@ -123,13 +123,11 @@ pub fn exp_m1<S: Simd, T: Scalar<S>>(x: Vector<S, T>) -> Vector<S, T> {
 /// on the way to the first, and 0 below −[`FARTHEST`].
 #[inline(always)]
 fn exponential<S: Simd, T: Scalar<S>>(x: Vector<S, T>) -> [Vector<S, T>; 2] {
-    const DOUBLINGS: usize = 8;
-    const POWER: usize = 4;
     let unbounded = x;
     let x = x.max(x.like(-FARTHEST)).min(x.like(FARTHEST));
     let large = x.like(0.5).less(x.abs());
     let doubled = large.any();
-    let y = if doubled { large.select(x * x.like(1.0 / 256.0), x) } else { x };
+    let y = if doubled { large.select(x * x.like(0.5_f64.powi(DOUBLINGS)), x) } else { x };
     let mut sum = x.like(1.0);
     let mut k = EXP_DEGREE;
     while k >= 2 {

@@ -191,6 +191,11 @@ pub fn exp_m1<S: Real>(x: S) -> S {
 /// Degree of the exponential's series: below 1e-17 at 1/2.
 pub const EXP_DEGREE: u8 = 14;
 
+/// Doublings of a large argument of the exponential: all, and those from `exp(x/16)` on.
+pub const DOUBLINGS: i32 = 8;
+/// See [`DOUBLINGS`].
+pub const POWER: i32 = 4;
+
 /// Below this `1 + (exp(x) − 1)` has lost too many digits of `exp(x)`.
 pub const DOWN: f64 = -3.0;
 

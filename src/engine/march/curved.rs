@@ -4,15 +4,9 @@
 //! that of the relative velocity as the recurrence takes it, `q1 …` that of `q = σ μ`. What the two forms have of their own is
 //! chosen by the constant `LAW`.
 
-use crate::engine::lanes::words::{DOWN, EXP_DEGREE, FARTHEST};
+use crate::engine::lanes::words::{DOUBLINGS, DOWN, EXP_DEGREE, FARTHEST, POWER};
 use crate::engine::march::rows::{line, row, sliding, slower, twice, velocities};
 use std::fmt::Write;
-
-/// Halvings of a large argument of the exponential.
-const DOUBLINGS: i32 = 8;
-
-/// Those of them that lead from `exp(x/16)` to `exp(x)`.
-const POWER: i32 = 4;
 
 pub(super) fn text(text: &mut String, order: usize) {
     exponential(text);
