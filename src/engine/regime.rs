@@ -135,9 +135,10 @@ fn halves_agree(outcome: &Outcome) -> bool {
     agree(outcome.x2_std_halves) && agree(outcome.ay_rms_halves)
 }
 
-/// The regime of a completed outcome about an unstable equilibrium, whose growth rate (1/s) is asked for where it matters. `found`
-/// is what [`regime`] makes of the outcome alone, and what is told where there is no rate. A motion that has met no event, or is small, may only be growing: it is an oscillation of its
-/// own when it keeps its size although its growth rate would have it grow.
+/// The regime of a completed outcome about an unstable equilibrium, whose growth rate (1/s) is asked for where it matters.
+/// `found` is what [`regime`] makes of the outcome alone, and what is told where there is no rate. A motion that has met no
+/// event, or is small, may only be growing: it is an oscillation of its own when it keeps its size although its growth rate
+/// would have it grow.
 #[must_use]
 pub fn about_unstable(
     outcome: &Outcome,

@@ -15,9 +15,9 @@ const QUIET: f64 = 0.95;
 const FOLDS: f64 = 12.0;
 /// Relative difference of velocities, and difference of temperatures (°C), that are one condition.
 const SAME_VELOCITY: f64 = 0.03;
-/// The same of velocities where the growth went over into what is judged, without a cut between them.
-const SAME_VIBRATION: f64 = 0.1;
 const SAME_TEMPERATURE: f64 = 10.0;
+/// Relative difference of velocities up to which a growth speaks for the vibration that it goes over into.
+const SAME_VIBRATION: f64 = 0.1;
 /// A likelihood is never believed beyond this: every witness has errors that it does not know.
 const BELIEVED: f64 = 0.995;
 

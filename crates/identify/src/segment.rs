@@ -331,11 +331,10 @@ fn steady(cells: &[Cell]) -> bool {
     change < STEADY * omega * (last.middle() - first.middle())
 }
 
-/// Whether the law read within the oscillation has another slope early than late: the velocity has passed a bend on the way.
-fn turns(cells: &[Cell]) -> bool {
+/// Whether the law read within the oscillation has another slope early than late: the velocity (m/s, its mean) has passed a bend.
+fn turns(cells: &[Cell], velocity: f64) -> bool {
     /// Parts of the time before and after.
     const PARTS: usize = 4;
-    let velocity = Cell::sum(cells).velocity();
     let read = |some: &[Cell]| {
         let all = Cell::sum(some);
         all.within.law(all.velocity())
@@ -362,8 +361,9 @@ fn level(cells: &[Cell], all: &Cell, has: Has, limited: bool, inclination: f64) 
         let allowed = SYSTEMATIC * level.value.abs();
         let error = level.error.hypot(allowed);
         let slope = Measured { error: slope.error.hypot(LOCAL * allowed / all.velocity().abs()), ..slope };
-        let one = !all.within.bends(all.velocity()) && !turns(cells);
-        let slope = one.then_some(slope);
+        let velocity = all.velocity();
+        let bent = all.within.bends(velocity) || turns(cells, velocity);
+        let slope = (!bent).then_some(slope);
         let normal = all.normal();
         let damping = all.losses.damping(inclination).filter(|_| steady(cells));
         let damping = damping

@@ -122,9 +122,8 @@ impl<T: Real> Job<T> {
         let belt =
             Belt { velocity: T::from_f64(belt.velocity), acceleration: T::from_f64(belt.acceleration) };
         let mut state = State::new(&words, belt);
-        let epsilon = T::EPSILON.to_f64();
         // f64 goes on: there is nothing finer that would compute it again.
-        if epsilon > f64::EPSILON && turns.stands_still_on_a_rise(&scene.model, epsilon) {
+        if T::EPSILON.to_f64() > f64::EPSILON && words.stands_still_on_a_rise() {
             state.status = Status::StepTooLarge;
         }
         Job {

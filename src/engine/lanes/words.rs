@@ -6,7 +6,7 @@
 use smallvec::SmallVec;
 
 use crate::engine::kernel::scalar::Real;
-use crate::engine::method::pace::Turns;
+use crate::engine::method::pace::{Turns, stands_still};
 use crate::engine::reference::bounds::MAX_EVENTS_AT_ONCE;
 use crate::engine::scene::Scene;
 use crate::model::piece::{FAR, LawForm, Piece as LawPiece};
@@ -149,6 +149,14 @@ impl<S: Real> Words<S> {
                 (q, if forward { less } else { q - self.mu0 })
             }
         }
+    }
+
+    /// Whether a rising piece asks for steps in which a position stands still, so that what slides there slowly comes to is lost.
+    #[must_use]
+    pub fn stands_still_on_a_rise(&self) -> bool {
+        let still = |longest: S| stands_still(longest.to_f64(), S::EPSILON.to_f64());
+        self.law == LawForm::Pieces
+            && self.pieces.iter().any(|piece| piece.slope > S::ZERO && still(piece.rate))
     }
 
     /// μ at the speed `|v|`, whatever its piece.

@@ -125,17 +125,6 @@ impl Turns {
         if beyond > 0.0 { self.contact / (slip.max(reverse) + beyond) } else { f64::INFINITY }
     }
 
-    /// Whether a rising piece of the law asks for steps in which a scalar of that rounding stands still, see [`stands_still`]. What
-    /// slides there slowly comes to does not show then.
-    #[must_use]
-    pub fn stands_still_on_a_rise(&self, model: &Scaled, epsilon: f64) -> bool {
-        let law = &model.law;
-        (0..law.pieces.len()).any(|piece| {
-            let rises = law.pieces[piece].form().is_straight() && law.slope_of(piece) > 0.0;
-            rises && stands_still(self.longest_step_on(model, piece), epsilon)
-        })
-    }
-
     /// The longest step of slip, reversed slip, stick and flight.
     #[must_use]
     pub fn longest_steps(&self, fastest: &Fastest) -> [f64; 4] {
