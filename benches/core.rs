@@ -25,7 +25,7 @@ fn plane(side: usize) -> Vec<Instance> {
         let mut params = Params::default();
         params.set(Param::BeltVelocity, 3.0);
         let law = FrictionLaw::Bilinear { mu_s, mu_d, knee_velocity: 5.0 };
-        Instance { params, law, impact_friction: true, motion: Motion::Ramp, modal: None }
+        Instance { params, law, impact_friction: true, motion: Motion::Ramp, heating: None, modal: None }
     };
     (0..side * side).map(|k| instance(coefficient(k / side), coefficient(k % side))).collect()
 }

@@ -198,6 +198,14 @@ fn carry_out(event: u32) {
     let kappa = input(INPUT_KAPPA, instance);
     let tangential = form(INPUT_R);
     let normal = form(INPUT_W);
+    let index = piece_at(speed);
+    let mu = mu_of(index, speed);
+    // Slip at rest whose inertia is not positive has passed the place where that vanishes.
+    let passed = rests && contact <= REVERSE && 1.0 + kappa * select(-mu, mu, contact == SLIP) <= 0.0;
+    if passed {
+        status = STATUS_PAINLEVE;
+        return;
+    }
     if rests {
         let pushed = tangential + drive;
         let held = input(INPUT_MU_STICK, instance) * (normal - kappa * drive);
@@ -209,8 +217,6 @@ fn carry_out(event: u32) {
         }
         forward = pushed + input(INPUT_T0, instance) >= 0.0;
     }
-    let index = piece_at(speed);
-    let mu = mu_of(index, speed);
     if 1.0 + kappa * select(-mu, mu, forward) <= 0.0 {
         status = STATUS_PAINLEVE;
         return;

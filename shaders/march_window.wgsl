@@ -292,7 +292,8 @@ fn observe_window(end: real, h: real) -> Motion {
                 accelerations.x = 0.0;
             }
         }
-        if crosses {
+        // Reversed slip and stick are not below the velocity of the belt, which is not below 0, but for a rounding.
+        if crosses && (i == 0u || contact == SLIP || contact == FREE) {
             cross(low, high, speeds, accelerations, h);
         }
         before = t;

@@ -178,5 +178,5 @@ fn instance(number: u64) -> Instance {
     } else {
         FrictionLaw::Bilinear { mu_s, mu_d, knee_velocity: 5.0 }
     };
-    Instance { params, law, impact_friction: true, motion: Motion::Ramp, modal: None }
+    Instance { params, law, impact_friction: true, motion: Motion::Ramp, heating: None, modal: None }
 }

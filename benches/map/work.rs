@@ -70,7 +70,7 @@ impl Work {
         params.set(Param::BeltVelocity, velocity);
         params.set(Param::StartVelocity, kick);
         let law = FrictionLaw::Bilinear { mu_s, mu_d, knee_velocity: KNEE };
-        Instance { params, law, impact_friction: true, motion: Motion::Ramp, modal: None }
+        Instance { params, law, impact_friction: true, motion: Motion::Ramp, heating: None, modal: None }
     }
 
     /// The same as a sweep.

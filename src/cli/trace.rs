@@ -15,8 +15,8 @@ use clap::Args;
 use squealmap::engine::judged;
 use squealmap::engine::plan::Plan;
 use squealmap::model::instance::Instance;
+use squealmap::model::linear;
 use squealmap::model::status::Status;
-use squealmap::model::{Param, linear};
 use squealmap::results::figure::heading::Heading;
 use squealmap::results::figure::look::Look;
 use squealmap::study::signals::sensors::{Recording, record};
@@ -89,8 +89,7 @@ impl TraceCommand {
                 force_skew: 0.0,
             };
             let signals = record(&instance, &Plan::new(&spec), &recording);
-            let temperature = instance.params.get(Param::Temperature);
-            files.push((SIGNALS, signals_csv(&signals.samples, temperature)?));
+            files.push((SIGNALS, signals_csv(&signals.samples, Some(&instance))?));
         }
         let paths = output.write(&files)?;
         let (kind, _) = linear::analyse(&instance);

@@ -22,7 +22,7 @@ pub fn regime(instance: &Instance, kind: Option<InstabilityType>, outcome: &Outc
     let found = match outcome.ending {
         None => (regime, settled),
         Some(Ending::Decays) => (Regime::Equilibrium, true),
-        Some(ending) => (regime, ending == Ending::Settled),
+        Some(ending) => (regime, ending == Ending::Settled && !regime::is_carried(regime, velocity)),
     };
     // What sticks, reverses or lifts off has shown what it does, whatever grew: it needs no eigenvalues.
     let is_open = matches!(found.0, Regime::Slip | Regime::Equilibrium);
@@ -38,13 +38,15 @@ pub fn regime(instance: &Instance, kind: Option<InstabilityType>, outcome: &Outc
     regime::about_unstable(outcome, velocity, growth_rate, found)
 }
 
-/// The instance on the belt as it is at the time `time` (s), where that changes: what a motion then
+/// The instance on the belt and at the temperature as they are at the time `time` (s), where they change: what a motion then
 /// decays to or grows from is the equilibrium of that velocity.
 fn at_the_end(instance: &Instance, time: f64) -> Option<Instance> {
     if instance.motion.is_steady(&instance.params) {
         return None;
     }
-    let mut moved = instance.clone();
+    let heating = instance.heating.as_ref();
+    let mut moved =
+        heating.map_or_else(|| instance.clone(), |heating| instance.heated(heating.temperature(time)));
     moved.params.set(Param::BeltVelocity, instance.motion.velocity(&instance.params, time));
     Some(moved)
 }

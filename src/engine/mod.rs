@@ -24,6 +24,7 @@ mod belt;
 pub mod choice;
 pub mod computation;
 pub mod computed;
+pub mod course;
 pub mod cycle;
 pub mod error;
 mod fallback;

@@ -70,7 +70,8 @@ impl Reductions {
     #[must_use]
     pub fn outcome(&self, scene: &Scene, plan: &Plan, end: &End) -> Outcome {
         let units = &scene.units;
-        let mut outcome = Outcome { status: scene.told(end.status), steps: end.steps, ..Outcome::default() };
+        let mut outcome =
+            Outcome { status: scene.model.told(end.status), steps: end.steps, ..Outcome::default() };
         if end.status != Status::Ok {
             outcome.simulated_time = end.time * units.time;
             return outcome;
@@ -108,7 +109,8 @@ impl Reductions {
         outcome.speed_rms_halves = halves.map(|s| rms(&s, sum::SPEED) * units.velocity);
         outcome.x2_std_halves = halves.map(|s| std(&s, sum::X, sum::XX) * units.length);
         outcome.ay_rms_halves = halves.map(|s| rms(&s, sum::AY) * units.acceleration);
-        if let Some(frequency) = self.frequency() {
+        // What rests has no frequency, whatever its last digits do.
+        if let Some(frequency) = self.frequency().filter(|_| outcome.x2_std > Some(0.0)) {
             outcome.response_frequency = Some(frequency / units.time);
             let [x, y] = self.phase.map(|z| Complex64::new(z[0], z[1]));
             let ratio = y / x;

@@ -126,7 +126,14 @@ pub fn regime(outcome: &Outcome, belt_velocity: f64, stable: bool) -> (Regime, b
     } else {
         Regime::Slip
     };
-    (regime, regime == Regime::Equilibrium || halves_agree(outcome))
+    let settled = halves_agree(outcome) && !is_carried(regime, belt_velocity);
+    (regime, regime == Regime::Equilibrium || settled)
+}
+
+/// Whether the belt carries the mass along, for ever or until it slips: that has not settled.
+#[must_use]
+pub fn is_carried(regime: Regime, belt_velocity: f64) -> bool {
+    regime == Regime::Stuck && belt_velocity > 0.0
 }
 
 /// Whether the halves of the window agree in the standard deviation of `x2` and the rms of `ÿ1`.

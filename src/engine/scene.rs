@@ -1,8 +1,10 @@
 //! An instance ready to be integrated: scaled, about its equilibrium, at its start.
 
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 use crate::engine::belt::Belt;
+use crate::engine::course::{Course, Warmth};
 use crate::engine::method::taylor::{BeltMotion, State};
 use crate::engine::plan::{Duration, Plan, StartKind};
 use crate::engine::start::{kick, mode};
@@ -47,6 +49,7 @@ pub struct Scene {
     /// The dimensionless model around it.
     pub model: Scaled,
     belt: Belt,
+    course: Option<Arc<Course>>,
     start: State,
 }
 
@@ -60,11 +63,12 @@ impl Scene {
         let units = Units::new(&instance.params);
         let model = Scaled::new(instance, &units, &equilibrium);
         let belt = Belt::new(instance, &units);
+        let course = Course::of(instance, &units, &equilibrium);
         let start = match start {
             StartKind::Kick => kick(&instance.params, &units),
             StartKind::Mode => mode(instance, &units, &model),
         };
-        Ok(Scene { units, equilibrium, model, belt, start })
+        Ok(Scene { units, equilibrium, model, belt, course, start })
     }
 
     /// Prepares an instance for a run as `plan` has it.
@@ -84,12 +88,8 @@ impl Scene {
 
     /// Whether no scaled number is beyond [`LARGEST`], or so small that its inverse is.
     fn is_representable(&self) -> bool {
-        let (model, start) = (&self.model, &self.start);
+        let start = &self.start;
         let (mut velocities, mut accelerations) = self.belt.numbers();
-        let (size, rate) = (|value: &f64| value.abs() <= LARGEST, |value: &f64| value.abs() >= 1.0 / LARGEST);
-        let positive = [model.m1, model.k1, model.k2, model.det, model.n0, model.c];
-        let others = [model.c1, model.c2, model.mu0, model.law.mu_stick];
-        let mut pieces = model.law.pieces.iter().map(|piece| piece.largest());
         let Units { time, length, velocity, acceleration, force } = self.units;
         // What they are multiplied by stays a number, too.
         let units = [time, length, velocity, acceleration, force];
@@ -97,22 +97,37 @@ impl Scene {
         let equilibrium = [self.equilibrium.x2, self.equilibrium.y1];
         units.iter().all(in_range)
             && equilibrium.iter().all(|value| value.abs() <= LARGEST_UNIT)
-            && positive.iter().all(|value| size(value) && rate(value))
-            && others.iter().chain(&model.law.kinks).chain(&start.position).chain(&start.velocity).all(size)
-            && pieces.all(|value| size(&value))
-            && velocities.all(|value| size(&value) && (value == 0.0 || rate(&value)))
-            && accelerations.all(|value| size(&value))
+            && has_range(&self.model)
+            && start.position.iter().chain(&start.velocity).copied().all(is_small)
+            && velocities.all(|value| is_small(value) && (value == 0.0 || is_large(value)))
+            && accelerations.all(is_small)
     }
 
-    /// The status an integration ended with, as it is told. On a piece too narrow for an arithmetic a speed may lie beyond its
-    /// ends, and friction with it beyond all that the law has: where that alone makes `M11` vanish, nothing is Painlevé's.
+    /// What the model of the start is of.
     #[must_use]
-    pub fn told(&self, status: Status) -> Status {
-        if status == Status::Painleve && !self.model.may_be_painleve() {
-            Status::StepTooLarge
-        } else {
-            status
+    pub fn warmth(&self) -> Warmth {
+        let temperature = self.course.as_ref().map_or(0.0, |course| course.at(0.0).0);
+        Warmth { temperature, base: [0.0; 2] }
+    }
+
+    /// The model at the time `t` (scaled), where it is another than the one of `now`.
+    ///
+    /// # Errors
+    /// The status of an instance that cannot go on with it.
+    pub fn warmed(&self, t: f64, now: &Warmth) -> Result<Option<(Scaled, Warmth)>, Status> {
+        let Some(course) = &self.course else { return Ok(None) };
+        let found = course.model(t, now)?;
+        match &found {
+            Some((model, _)) if !has_range(model) => Err(Status::NonFinite),
+            _ => Ok(found),
         }
+    }
+
+    /// The most pieces that the law has within a run.
+    #[must_use]
+    pub fn most_pieces(&self) -> usize {
+        let now = self.model.law.pieces.len();
+        self.course.as_ref().map_or(now, |course| course.most_pieces(now))
     }
 
     /// The belt at the time `t` (scaled).
@@ -121,10 +136,11 @@ impl Scene {
         self.belt.at(t).0
     }
 
-    /// The belt from the time `t` (scaled) on, and how long it goes on like that.
+    /// The belt from the time `t` (scaled) on, and how long it and the friction law go on like that.
     #[must_use]
     pub fn belt_from(&self, t: f64) -> (BeltMotion, f64) {
-        self.belt.at(t)
+        let (belt, holds) = self.belt.at(t);
+        (belt, self.course.as_ref().map_or(holds, |course| holds.min(course.at(t).1)))
     }
 
     /// Whether the belt is of one velocity.
@@ -169,4 +185,23 @@ impl Scene {
             Duration::Ramp => self.belt.duration(),
         }
     }
+}
+
+/// Whether a number is not beyond [`LARGEST`].
+fn is_small(value: f64) -> bool {
+    value.abs() <= LARGEST
+}
+
+/// Whether the inverse of a number is not.
+fn is_large(value: f64) -> bool {
+    value.abs() >= 1.0 / LARGEST
+}
+
+/// Whether no number of a model is beyond [`LARGEST`], or so small that its inverse is.
+fn has_range(model: &Scaled) -> bool {
+    let positive = [model.m1, model.k1, model.k2, model.det, model.n0, model.c];
+    let others = [model.c1, model.c2, model.mu0, model.law.mu_stick];
+    positive.into_iter().all(|value| is_small(value) && is_large(value))
+        && others.iter().chain(&model.law.kinks).copied().all(is_small)
+        && model.law.pieces.iter().all(|piece| is_small(piece.largest()))
 }

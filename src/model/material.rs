@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use crate::model::Param;
-use crate::model::friction::MuTable;
+use crate::model::friction::{FrictionLaw, LawKind, MuTable};
+use crate::model::{Param, Params};
 
 /// How a material continues outside its range of temperatures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -79,6 +79,22 @@ impl Material {
         let (lower, upper, part) = self.between(temperature);
         let (colder, hotter) = (&self.tables[lower], &self.tables[upper]);
         Some(if part < 1.0 { Arc::new(colder.mixed(hotter, part)) } else { Arc::clone(hotter) })
+    }
+
+    /// The law `kind` at `temperature` (°C), whose parameters it puts into `params`; `table` is read where it has none itself.
+    #[must_use]
+    pub fn law_at(
+        &self,
+        temperature: f64,
+        kind: LawKind,
+        params: &mut Params,
+        table: Option<&Arc<MuTable>>,
+    ) -> FrictionLaw {
+        for (param, value) in self.at(temperature) {
+            params.set(param, value);
+        }
+        let own = self.table_at(temperature);
+        kind.with(params, own.as_ref().or(table))
     }
 
     /// Most rows that a table has at any temperature; 0 where there are no tables.

@@ -19,6 +19,7 @@ pub mod equilibrium;
 pub mod fastest;
 pub mod forms;
 pub mod friction;
+pub mod heating;
 pub mod instance;
 pub mod kind;
 pub mod linear;
@@ -63,6 +64,7 @@ pub enum Param {
     StribeckVelocity,
     Decay,
     Temperature,
+    TemperatureEnd,
     BeltVelocity,
     BeltVelocityEnd,
     RampDuration,
@@ -201,6 +203,7 @@ params! {
     StribeckVelocity "stribeck_velocity" "v_0" "m/s" Friction None, Range::Positive, "decay velocity of the exponential law";
     Decay "decay" "δ" "s/m" Friction None, Range::NonNegative, "decay constant of the rational law";
     Temperature "temperature" "ϑ" "°C" Friction None, Range::Finite, "temperature at which a material is read";
+    TemperatureEnd "temperature_end" "ϑ_end" "°C" Friction None, Range::Finite, "temperature of the material after `ramp_duration`, straight from `temperature`";
     BeltVelocity "belt_velocity" "V" "m/s" Belt None, Range::NonNegative, "belt velocity (at the start of a ramp, the largest of a sine or trapeze)";
     BeltVelocityEnd "belt_velocity_end" "V_end" "m/s" Belt None, Range::NonNegative, "belt velocity at the end of a ramp";
     RampDuration "ramp_duration" "t_ramp" "s" Belt None, Range::Positive, "duration of the ramp, or of another motion of the belt";
@@ -220,6 +223,9 @@ params! {
 impl Param {
     /// The number of parameters.
     pub const COUNT: usize = PARAMS.len();
+
+    /// Temperatures of a material: at the start of a run, and at the end of its course.
+    pub const TEMPERATURES: [Param; 2] = [Param::Temperature, Param::TemperatureEnd];
 
     /// The damping ratios of single modes of a structure, from the lowest on.
     pub const DAMPING_RATIOS: [Param; modal::EACH] = [

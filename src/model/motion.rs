@@ -25,13 +25,15 @@ pub enum Motion {
     Table(Arc<MotionTable>),
 }
 
-/// The velocity of the belt over time as a file has it; after its last row the velocity stays.
+/// The velocity of the belt over time as a file has it, perhaps with the temperature; after its last row they stay.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MotionTable {
     /// Its file, as the sweep names it.
     pub name: String,
     /// Corners: time (s), rising from 0, and velocity (m/s), not below 0.
     pub corners: Arc<[[f64; 2]]>,
+    /// The same with temperatures of a material (°C), where the file has them.
+    pub temperature: Option<Arc<[[f64; 2]]>>,
 }
 
 /// Corners of a motion: time (s) and velocity (m/s).
@@ -139,17 +141,28 @@ impl Motion {
         })
     }
 
+    /// The temperature (°C) over time that comes with it, if any.
+    #[must_use]
+    pub fn temperature(&self) -> Option<&Arc<[[f64; 2]]>> {
+        let Motion::Table(table) = self else { return None };
+        table.temperature.as_ref()
+    }
+
     /// The velocity of the belt at the time `time` (s), m/s.
     #[must_use]
     pub fn velocity(&self, params: &Params, time: f64) -> f64 {
-        let corners = self.corners(params);
-        let after = corners.partition_point(|corner| corner[0] <= time);
-        match (after.checked_sub(1), corners.get(after)) {
-            (Some(before), Some([end, last])) => {
-                let [start, first] = corners[before];
-                first + (last - first) * ((time - start) / (end - start))
-            }
-            (before, _) => corners[before.unwrap_or(0)][1],
+        straight(&self.corners(params), time)
+    }
+}
+
+/// The value at the time `time` of what is straight between corners of time and value, and stays after the last.
+pub(super) fn straight(corners: &[[f64; 2]], time: f64) -> f64 {
+    let after = corners.partition_point(|corner| corner[0] <= time);
+    match (after.checked_sub(1), corners.get(after)) {
+        (Some(before), Some([end, last])) => {
+            let [start, first] = corners[before];
+            first + (last - first) * ((time - start) / (end - start))
         }
+        (before, _) => corners[before.unwrap_or(0)][1],
     }
 }

@@ -5,6 +5,7 @@ use crate::model::equilibrium::{Equilibrium, Units, sliding_mass};
 use crate::model::fastest::{Fastest, fastest};
 use crate::model::instance::Instance;
 use crate::model::piece::PieceChain;
+use crate::model::status::Status;
 
 /// The dimensionless model: everything the equations of motion hold.
 #[derive(Clone, Debug, PartialEq)]
@@ -75,6 +76,13 @@ impl Scaled {
             impact_friction: instance.impact_friction,
             fastest: fastest(params, units, equilibrium),
         }
+    }
+
+    /// The status an integration ended with, as it is told. On a piece too narrow for an arithmetic a speed may lie beyond its
+    /// ends, and friction with it beyond all that the law has: where that alone makes `M11` vanish, nothing is Painlevé's.
+    #[must_use]
+    pub fn told(&self, status: Status) -> Status {
+        if status == Status::Painleve && !self.may_be_painleve() { Status::StepTooLarge } else { status }
     }
 
     /// Whether friction may make `M11` vanish, at whatever speed: `|κ| μ ≥ 1`.

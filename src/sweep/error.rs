@@ -297,8 +297,9 @@ pub enum Error {
     },
     /// An accuracy from what nobody has measured.
     #[error(
-        "--accuracy chooses from what was measured, and of {kinds} nothing was that may be taken here; measure it with \
-         `squealmap tradeoff SWEEP` on this machine, or leave out --backend, --strict, --adapter and --require-gpu"
+        "--accuracy chooses an engine and its steps from measurements, and there are none of the engine asked for on scenes such \
+         as {kinds}; measure them with `squealmap tradeoff SWEEP` on this machine, or leave out --backend, --strict, --adapter and \
+         --require-gpu, so that it may choose another engine"
     )]
     Unmeasured {
         /// The kinds of scenes.

@@ -38,7 +38,7 @@ fn instances() -> Vec<Instance> {
         params.set(Param::StartVelocity, 0.3 * velocity);
         let (mu_s, mu_d) = (0.15 * f64::from(k / 5), 0.15 * f64::from(k % 5));
         let law = FrictionLaw::Bilinear { mu_s, mu_d, knee_velocity: 5.0 };
-        Instance { params, law, impact_friction: true, motion: Motion::Ramp, modal: None }
+        Instance { params, law, impact_friction: true, motion: Motion::Ramp, heating: None, modal: None }
     };
     velocities.iter().flat_map(|velocity| (0..25).map(|k| instance(*velocity, k))).collect()
 }

@@ -141,7 +141,7 @@ fn instance(u: &mut Uniform, law: LawForm) -> Instance {
     // Half of the belts that move have many corners, with and without an acceleration between them.
     let moves = params.get(Param::RampDuration).is_some();
     let motion = if moves && mu_s > 0.45 { Motion::Sine } else { Motion::Ramp };
-    Instance { params, law, impact_friction: u.next() < 0.5, motion, modal: None }
+    Instance { params, law, impact_friction: u.next() < 0.5, motion, heating: None, modal: None }
 }
 
 /// How many transients are compared.

@@ -27,6 +27,7 @@ use squealmap::sweep::spec::Spec;
 pub(crate) const CASES: &[Case] = &[
     ("sweeps::a_coarse_paper_map_is_that_of_the_reference", coarse_paper_map),
     ("sweeps::every_law_and_a_ramp_are_those_of_the_reference", laws_and_ramp),
+    ("sweeps::a_pad_that_warms_up_is_that_of_the_reference", warms_up),
     ("sweeps::leaning_springs_are_those_of_the_reference", leaning_springs),
     ("sweeps::runs_until_settled_are_those_of_the_reference", until_settled),
     ("sweeps::slow_belts_are_those_of_the_reference", slow_belts),
@@ -159,6 +160,17 @@ fn laws_and_ramp() -> Result<(), Failed> {
         check(&on_gpu(&spec, Precision::F32, None)?, &on_cpu(&spec)?, 1e-4, 5e-3)?;
     }
     Ok(())
+}
+
+/// A law that changes from leg to leg.
+fn warms_up() -> Result<(), Failed> {
+    let spec = spec(
+        "[friction]\nmaterial = \"sweeps/pad.csv\"\ntemperature = 100\ntemperature_end = 500\n\
+         [belt]\nramp_duration = 1.5\n\
+         [axes]\nbelt_velocity = { values = [0.1, 0.5, 1, 2, 3, 4, 5] }\ntheta = { values = [0, 0.01, 0.3] }\n\
+         [start]\nstart_velocity = 0.3\n[response]\nsettle = \"1 s\"\nmeasure = \"0.8 s\"\n",
+    )?;
+    check(&on_gpu(&spec, Precision::F32, None)?, &on_cpu(&spec)?, 1e-4, 5e-3)
 }
 
 /// Until settled, in chunks that leave few lanes to a window: the same endings, and windows of whole cycles.

@@ -14,7 +14,7 @@ pub(crate) fn instance(law: FrictionLaw, values: &[(Param, f64)]) -> Instance {
     for &(param, value) in values {
         params.set(param, value);
     }
-    Instance { params, law, impact_friction: true, motion: Motion::Ramp, modal: None }
+    Instance { params, law, impact_friction: true, motion: Motion::Ramp, heating: None, modal: None }
 }
 
 /// Table 1 with the paper's bilinear law.

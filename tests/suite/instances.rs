@@ -63,6 +63,7 @@ fn one(u: &mut Uniform) -> Instance {
         law: FrictionLaw::Bilinear { mu_s, mu_d, knee_velocity },
         impact_friction: true,
         motion: Motion::Ramp,
+        heating: None,
         modal: None,
     }
 }

@@ -23,6 +23,14 @@ pub struct Body<S> {
     pub v: [S; 3],
 }
 
+impl<S: Real> Body<S> {
+    /// Counts `x2` and `y1` from elsewhere.
+    pub fn shift(&mut self, [x, w]: [S; 2]) {
+        self.p[0] += x;
+        self.p[2] += w;
+    }
+}
+
 /// What an event function belongs to.
 pub const NOTHING: u32 = 0;
 /// `v` falls to 0.
@@ -93,6 +101,26 @@ impl<S: Real> State<S> {
         state
     }
 
+    /// Goes on in a scene whose law is another and whose positions count from elsewhere: what is stuck may slip, what slides is
+    /// on the piece of its speed.
+    pub fn go_over(&mut self, scene: &Words<S>, belt: Belt<S>, shift: [S; 2]) {
+        self.body.shift(shift);
+        match self.contact {
+            FREE => {}
+            STICK => self.at_rest(scene, belt),
+            contact => {
+                let v = belt.velocity - self.body.v[0];
+                let piece = scene.piece_at(if contact == SLIP { v } else { -v });
+                #[expect(clippy::cast_possible_truncation, reason = "a table has fewer than 2^32 rows")]
+                let piece = piece as u32;
+                self.piece = piece;
+                if self.disarmed != REST {
+                    self.disarmed = NOTHING;
+                }
+            }
+        }
+    }
+
     /// Goes back to a state of before.
     pub fn return_to(&mut self, before: &State<S>) {
         (self.body, self.contact, self.piece, self.disarmed) =
@@ -116,12 +144,20 @@ impl<S: Real> State<S> {
                 self.piece += 1;
                 self.disarmed = LOWER_KINK;
             }
+            REST if self.passes_singularity(scene) => self.status = Status::Painleve,
             REST => self.at_rest(scene, belt),
             CONE_FORWARD => self.slip_or_free(scene, S::ONE, S::ZERO, true),
             CONE_BACKWARD => self.slip_or_free(scene, -S::ONE, S::ZERO, true),
             LIFT_OFF => self.enter(FREE, false),
             _ => self.impact(scene, belt),
         }
+    }
+
+    /// Whether slip that has come to rest has passed the place where its inertia vanishes: at rest it is not positive.
+    fn passes_singularity(&self, scene: &Words<S>) -> bool {
+        let sigma = if self.contact == SLIP { S::ONE } else { -S::ONE };
+        let q = scene.friction(&scene.pieces[0], sigma, S::ZERO, scene.v0).0;
+        S::ONE + scene.kappa * q <= S::ZERO
     }
 
     /// `R − μ0 N0` and `W − N0` at the present state.

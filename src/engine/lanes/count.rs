@@ -29,6 +29,12 @@ impl Count {
         [steps.min(left).min(COUNTED), events.min(COUNTED)]
     }
 
+    /// Counts from `time` on, to which a run goes back.
+    #[must_use]
+    pub fn restarted(time: f64) -> Count {
+        Count { since: time, ..Count::default() }
+    }
+
     /// Adds those of a stretch.
     pub fn add(&mut self, steps: f64, events: f64) {
         self.steps += steps;

@@ -75,19 +75,21 @@ struct Bracket<S: Simd, T: Scalar<S>> {
 /// Notes the upward crossings of `ẋ2` up to `at` in the order of their times.
 ///
 /// They are a jump to the first sample, rises from one sample to the next, and one
-/// side of an extremum that reaches over zero between two samples of the same sign.
+/// side of an extremum that reaches over zero between two samples of the same sign. Reversed slip and stick, which are not among
+/// the lanes `open`, are not below the velocity of the belt, which is not below 0, but for a rounding.
 #[inline(always)]
 pub fn cross_upwards<S: Simd, T: Scalar<S>, const N: usize, const MOTION: u8>(
     sums: &mut Sums<S, T>,
     e: &Expansion<S, T, N>,
     track: &Track<S, T>,
     at: Vector<S, T>,
+    open: Mask<S, T>,
 ) {
     let zero = at.like(0.0);
     let jumped = sums.previous.less(zero).and(zero.at_most(track.velocity[0]));
     sums.previous = track.velocity[4];
-    let rises = [track.rises(0), track.rises(1), track.rises(2), track.rises(3)];
-    let turns = track.turns(0).or(track.turns(1)).or(track.turns(2)).or(track.turns(3));
+    let rises = [0, 1, 2, 3].map(|i| track.rises(i).and(open));
+    let turns = track.turns(0).or(track.turns(1)).or(track.turns(2)).or(track.turns(3)).and(open);
     if !jumped.or(rises[0]).or(rises[1]).or(rises[2]).or(rises[3]).or(turns).any() {
         return;
     }
@@ -105,7 +107,7 @@ pub fn cross_upwards<S: Simd, T: Scalar<S>, const N: usize, const MOTION: u8>(
     if turns.any() {
         for i in 0..4 {
             let over = turn_over(e, track, i, &mut brackets[i + 1]);
-            crosses[i + 1] = crosses[i + 1].or(over);
+            crosses[i + 1] = crosses[i + 1].or(over.and(open));
         }
     }
     loop {

@@ -2,10 +2,10 @@
 
 use std::f64::consts::TAU;
 
+use crate::engine::course::Warmth;
 use crate::engine::kernel::scalar::Real;
 use crate::engine::lanes::constants::{CONSTANTS, SWING, constants};
-use crate::engine::lanes::contact::FREE;
-use crate::engine::lanes::contact::{Belt, GAP, State, UPPER_KINK};
+use crate::engine::lanes::contact::{Belt, FREE, GAP, STICK, State, UPPER_KINK};
 use crate::engine::lanes::count::Count;
 use crate::engine::lanes::flight::Flight;
 use crate::engine::lanes::stretches::Stretches;
@@ -64,8 +64,10 @@ pub enum Part {
 #[expect(clippy::struct_excessive_bools, reason = "each says one thing of the way, by itself")]
 #[derive(Clone, Debug)]
 pub struct Job<T> {
-    /// The instance ready to be integrated.
+    /// The instance ready to be integrated, with its model of now.
     pub scene: Scene,
+    /// What that model is of.
+    pub warmth: Warmth,
     /// The instance as scalars, for what happens lane by lane.
     pub words: Words<T>,
     /// The instance as the constants that the steps in vector registers take.
@@ -109,7 +111,7 @@ pub struct Job<T> {
     pub is_over: bool,
     measuring: Measuring,
     /// The state at the start of the window.
-    snapshot: Option<State<T>>,
+    pub(super) snapshot: Option<State<T>>,
 }
 
 impl<T: Real> Job<T> {
@@ -118,16 +120,14 @@ impl<T: Real> Job<T> {
     pub fn new(instance: &Instance, scene: Scene, plan: &Plan, turns: &Turns) -> Job<T> {
         let words: Words<T> = Words::new(instance.law.kind().form(), &scene, turns);
         let measuring = Measuring::new(instance, &scene, plan);
-        let belt = scene.belt(0.0);
-        let belt =
-            Belt { velocity: T::from_f64(belt.velocity), acceleration: T::from_f64(belt.acceleration) };
-        let mut state = State::new(&words, belt);
+        let mut state = State::new(&words, belt_at(&scene, 0.0));
         // f64 goes on: there is nothing finer that would compute it again.
         if T::EPSILON.to_f64() > f64::EPSILON && words.stands_still_on_a_rise() {
             state.status = Status::StepTooLarge;
         }
         Job {
             constants: constants(&scene.model, turns),
+            warmth: scene.warmth(),
             scene,
             state,
             words,
@@ -197,6 +197,7 @@ impl<T: Real> Job<T> {
                 let Some(snapshot) = self.snapshot.take().filter(|_| !told) else { return false };
                 self.state.return_to(&snapshot);
                 self.time = self.marks[0];
+                self.count = Count::restarted(self.time);
                 true
             }
         }
@@ -233,7 +234,7 @@ impl<T: Real> Job<T> {
         if self.snapshot.is_none() {
             self.quiet = true;
             self.origin = [start.body.p[0], start.body.p[2]];
-            self.seen.origin = self.origin.map(T::to_f64);
+            self.seen.origin = std::array::from_fn(|k| self.origin[k].to_f64() + self.warmth.base[k]);
             self.snapshot = Some(start);
         }
     }
@@ -242,6 +243,11 @@ impl<T: Real> Job<T> {
     #[must_use]
     pub fn start_of_window(&self) -> Option<&State<T>> {
         self.snapshot.as_ref()
+    }
+
+    /// Keeps `ẋ2` at the end of a stretch: what sticks on a belt that has come to rest has not gone below it, but for a rounding.
+    pub fn keep_previous(&mut self, velocity: T, contact: u32) {
+        self.previous = if contact == STICK { velocity.max(T::ZERO) } else { velocity };
     }
 
     /// The angular frequency between the first and the last crossing of the window.
@@ -403,6 +409,12 @@ impl<T: Real> Job<T> {
         let outcome = self.seen.outcome(&self.scene, plan, &End { status, steps: self.steps, time });
         self.measuring.told(Outcome { met_event: !self.growing, ..outcome }, &self.scene)
     }
+}
+
+/// The belt of a scene at a time.
+pub(super) fn belt_at<T: Real>(scene: &Scene, time: f64) -> Belt<T> {
+    let belt = scene.belt(time);
+    Belt { velocity: T::from_f64(belt.velocity), acceleration: T::from_f64(belt.acceleration) }
 }
 
 /// The times of a window's start, middle and end.

@@ -106,6 +106,16 @@ impl<'a, S: Simd, T: Scalar<S>> Lanes<'a, S, T> {
         all
     }
 
+    /// Loads the scene of the instance of a lane.
+    fn load(&mut self, lane: usize) {
+        let job = &self.jobs[self.of_lane[lane]];
+        if self.swings {
+            self.block.load_swing(lane, &job.constants);
+        } else {
+            self.block.load_scene(lane, &job.constants, &job.words);
+        }
+    }
+
     /// Whether another step of the lanes follows: some do not rest, and nobody has asked to stop.
     pub fn go_on(&mut self) -> bool {
         self.turns = self.turns.wrapping_add(1);
@@ -133,12 +143,7 @@ fn refill<S: Simd, T: Scalar<S>>(all: &mut Lanes<S, T>, lane: usize) {
         }
         all.of_lane[lane] = index;
         all.running += 1;
-        let job = &all.jobs[index];
-        if all.swings {
-            all.block.load_swing(lane, &job.constants);
-        } else {
-            all.block.load_scene(lane, &job.constants, &job.words);
-        }
+        all.load(lane);
         if begin::<S, T>(all, lane) {
             return;
         }
@@ -152,7 +157,13 @@ fn refill<S: Simd, T: Scalar<S>>(all: &mut Lanes<S, T>, lane: usize) {
 /// Begins the next stretch of a lane; false at the end of the part.
 fn begin<S: Simd, T: Scalar<S>>(all: &mut Lanes<S, T>, lane: usize) -> bool {
     let sees_growth = all.sees_growth();
+    if all.jobs[all.of_lane[lane]].heat(all.settings.tolerance) {
+        all.load(lane);
+    }
     let job = &mut all.jobs[all.of_lane[lane]];
+    if job.state.status != Status::Unwritten {
+        return false;
+    }
     if all.part == Part::Window {
         job.open_window();
     }
@@ -268,7 +279,7 @@ fn flush<S: Simd, T: Scalar<S>>(all: &mut Lanes<S, T>, lane: usize) {
             job.guess = Some(TAU * cycles / span);
         }
     }
-    job.previous = sums.previous.get(lane);
+    job.keep_previous(sums.previous.get(lane), job.state.contact);
     if all.part == Part::Phase {
         for (total, word) in job.seen.phase.iter_mut().flatten().zip(&sums.phase) {
             *total += word.get(lane).to_f64();

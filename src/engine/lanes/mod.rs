@@ -43,6 +43,7 @@ pub mod flight;
 pub mod forms;
 pub mod function;
 pub mod functions;
+pub mod heat;
 pub mod hunts;
 pub mod impacts;
 pub mod job;

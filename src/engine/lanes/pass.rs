@@ -2,6 +2,7 @@
 
 use crate::engine::lanes::block::{Block, RATE};
 use crate::engine::lanes::carry::carry_out;
+use crate::engine::lanes::contact::SLIP;
 use crate::engine::lanes::crossings::{Track, cross_upwards};
 use crate::engine::lanes::events::first_event;
 use crate::engine::lanes::expand::{Expansion, expand};
@@ -157,7 +158,7 @@ fn step<S: Simd, T: Scalar<S>, const N: usize, const LAW: bool, const MOTION: u8
         let nodes = accelerations::<S, T, N, MOTION>(e, at);
         let velocities = sums.observe_window::<N, MOTION>(b, e, &nodes, at);
         let track = Track::new(e, at, b.v[0], vx, velocities, &nodes);
-        cross_upwards::<S, T, N, MOTION>(sums, e, &track, at);
+        cross_upwards::<S, T, N, MOTION>(sums, e, &track, at, b.up_to(SLIP).or(b.free()));
         if MOTION != SINGLE {
             sums.spectrum.observe::<N, MOTION>(e, &nodes, at, sums.time);
         }

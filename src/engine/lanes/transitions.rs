@@ -6,7 +6,7 @@ use std::ops::Not;
 
 use pulp::Simd;
 
-use crate::engine::lanes::block::{Block, FIRST, LOWER, ONE_PIECE, SECOND, THIRD, UPPER};
+use crate::engine::lanes::block::{AT_ZERO, Block, FIRST, LOWER, ONE_PIECE, SECOND, THIRD, UPPER};
 use crate::engine::lanes::constants::{CONE, KAPPA, MU_STICK, N0, R, T0, W};
 use crate::engine::lanes::contact::HELD_FROM;
 use crate::engine::lanes::contact::{FREE, REVERSE, SLIP, STICK};
@@ -54,6 +54,10 @@ pub fn transitions<S: Simd, T: Scalar<S>, const LAW: bool, const MOTION: u8>(
     let kink = slip.and(second.or(third)).and(inner.not());
     let cone = slip.or(free).not().and(second.or(third));
     let mut rare = kink.and(zero.less(b.many)).or(limit);
+    // Slip at rest whose inertia is not positive has passed the place where that vanishes.
+    let at_zero = if LAW == PIECES { b.piece[AT_ZERO] } else { b.scene[MU_STICK] };
+    let at_zero = b.reverse().select(-at_zero, at_zero);
+    rare = rare.or(inner.and(b.scene[KAPPA].fma(at_zero, one).not_positive()));
     let mut lands = Landing::nowhere(event);
     if MOTION == FLIGHT {
         let hits = happened.and(free);

@@ -84,7 +84,7 @@ impl<R: Lanes> Marching<R> {
     /// The status of an instance that cannot start.
     pub fn new(index: usize, instance: &Instance, way: &Way) -> Result<Marching<R>, Status> {
         let scene = Scene::planned(instance, &way.plan)?;
-        let (_, pieces) = kernel_for(scene.model.law.pieces.len()).ok_or(Status::Unwritten)?;
+        let (_, pieces) = kernel_for(scene.most_pieces()).ok_or(Status::Unwritten)?;
         let job = Job::new(instance, scene, &way.plan, &way.turns);
         Ok(Marching { index, job, leg: Leg::default(), pieces })
     }
@@ -93,6 +93,7 @@ impl<R: Lanes> Marching<R> {
     /// second pass over the window.
     pub fn next(&mut self, way: &Way, words: &mut Words<R>) -> Option<Form> {
         loop {
+            self.job.heat(f64::from(way.tolerance));
             let is_running = self.job.state.status == Status::Unwritten;
             if is_running && let Some(leg) = Leg::next(&self.job, way.plan.steps_per_period) {
                 begin(&mut self.job, &leg, self.pieces, words);

@@ -140,7 +140,7 @@ fn flush<R: Real>(job: &mut Job<R>, words: &[R], flags: &[u32], stretches: usize
     }
     job.growing &= flags[flag::GROWING] == 1;
     job.guess = Some(number(state::OMEGA));
-    job.previous = words[state::PREVIOUS];
+    job.keep_previous(words[state::PREVIOUS], flags[flag::CONTACT]);
     job.steps += u64::from(flags[flag::STEPS]);
     if flags[flag::OPENED] == 0 {
         return;

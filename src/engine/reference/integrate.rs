@@ -3,6 +3,7 @@
 //! Time always advances: a step ends at an event or at its full length, and events that do not advance
 //! time are counted; too many end the instance with [`Status::EventLimit`].
 
+use crate::engine::course::Warmth;
 use crate::engine::method::pace::{Turns, stands_still};
 use crate::engine::method::roots::Crossing;
 use crate::engine::method::taylor::{
@@ -20,18 +21,21 @@ use crate::engine::scene::MOST_STEPS;
 use crate::model::contact::Contact;
 use crate::model::scaled::Scaled;
 use crate::model::status::Status;
+use std::borrow::Cow;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// The running integration of one instance.
 #[derive(Clone, Debug)]
 pub struct Integrator<'a> {
-    model: &'a Scaled,
-    resolution: Resolution,
+    pub(super) model: Cow<'a, Scaled>,
+    /// What the model is of.
+    pub(super) warmth: Warmth,
+    pub(super) resolution: Resolution,
     /// Set to stop early.
     cancel: Option<&'a AtomicBool>,
     turns: Turns,
     /// The longest step of each contact state.
-    longest: [f64; 4],
+    pub(super) longest: [f64; 4],
     pub(super) state: State,
     pub(super) contact: Contact,
     pub(super) disarmed: Disarmed,
@@ -56,11 +60,12 @@ impl<'a> Integrator<'a> {
     ) -> Result<Self, Status> {
         debug_assert!((4..=MAX_ORDER).contains(&resolution.order));
         let mut integrator = Integrator {
-            model,
+            longest: resolution.longest(model),
+            model: Cow::Borrowed(model),
+            warmth: Warmth::default(),
             resolution,
             cancel: None,
             turns: resolution.turns(),
-            longest: resolution.longest(model),
             state,
             contact: Contact::Free,
             disarmed: Disarmed::Nothing,
@@ -146,11 +151,11 @@ impl<'a> Integrator<'a> {
         let allowed = self.longest[self.contact.state() as usize];
         let expansion = match self.resolution.method {
             Method::Taylor => {
-                Expansion::new(self.model, self.resolution.order, &self.state, self.contact, belt)
+                Expansion::new(&self.model, self.resolution.order, &self.state, self.contact, belt)
             }
             // Of a step in full: divided by the rest of a stretch, however short, its output would be rounding.
             Method::LocatedRk4 | Method::FixedStep => {
-                rk4::expand(self.model, &self.state, self.contact, belt, allowed)
+                rk4::expand(&self.model, &self.state, self.contact, belt, allowed)
             }
         };
         let (inertia, inertia_rate) = self.slip_inertia(&expansion);
@@ -183,7 +188,15 @@ impl<'a> Integrator<'a> {
             return Err(Status::NonFinite);
         }
         if taken > 0.0 {
-            observer.step(&Step { expansion: &expansion, start: self.time, duration: taken, belt, end });
+            let base = self.warmth.base;
+            observer.step(&Step {
+                expansion: &expansion,
+                start: self.time,
+                duration: taken,
+                belt,
+                base,
+                end,
+            });
             self.state = end.state;
             self.disarmed = Disarmed::Nothing;
         }
@@ -204,13 +217,13 @@ impl<'a> Integrator<'a> {
             // What is left on a rising piece of a mode that holds the motion is no more than the tolerance, here next to
             // nothing. Halving finds no step for a falling one from far above.
             let falls = law.slope(0.0) < 0.0;
-            return if falls { self.turns.longest_step_on(self.model, piece) } else { f64::INFINITY };
+            return if falls { self.turns.longest_step_on(&self.model, piece) } else { f64::INFINITY };
         }
         let [v, acceleration] = expansion.relative_motion();
         let speed = (sigma * v).max(0.0);
         // A law without a layer has no slope either.
         let sloped = (law.slope(speed) / self.model.law.rate().max(f64::MIN_POSITIVE)).abs();
-        1.0 / self.turns.layer().pace(self.model, [acceleration.abs(), sloped], speed)
+        1.0 / self.turns.layer().pace(&self.model, [acceleration.abs(), sloped], speed)
     }
 
     /// `M11` at the start of a step in slip and its rate of change; 1 and 0 in the other contact states.
@@ -339,7 +352,13 @@ impl<'a> Integrator<'a> {
                 self.disarmed = disarmed;
                 Ok(Event::Kink)
             }
-            (Watched::Rest, _) => {
+            (Watched::Rest, contact) => {
+                // Slip at rest whose inertia is not positive has passed the place where that vanishes.
+                if let Contact::Slip { sigma, .. } = contact
+                    && self.model.slip_inertia(sigma * self.model.law.pieces[0].mu(0.0)) <= 0.0
+                {
+                    return Err(Status::Painleve);
+                }
                 self.rest(belt)?;
                 Ok(Event::Rest)
             }
@@ -382,7 +401,7 @@ impl<'a> Integrator<'a> {
     }
 
     /// Decides the contact state at zero relative velocity.
-    fn rest(&mut self, belt: BeltMotion) -> Result<(), Status> {
+    pub(super) fn rest(&mut self, belt: BeltMotion) -> Result<(), Status> {
         self.state.velocity[0] = belt.velocity;
         let springs = self.model.springs(self.state.position, self.state.velocity);
         let contact = self.model.contact_at_rest(springs, belt.acceleration)?;

@@ -7,6 +7,7 @@
 //! - [`orbit`]: cycles and returns without a run around them.
 
 pub mod bounds;
+mod heat;
 mod hunt;
 pub mod integrate;
 pub mod observe;

@@ -23,6 +23,7 @@ const GAUSS: [(f64, f64); 4] = [
 /// Adds a step to the sums of half of the measuring window.
 fn add(sums: &mut [f64; sum::WORDS], step: &Step, nodes: &[Sample; 4], origin: [f64; 2]) {
     let duration = step.duration;
+    let from = [origin[0] - step.base[0], origin[1] - step.base[1]];
     sums[sum::TIME] += duration;
     match step.expansion.contact.state() {
         ContactState::Slip => {}
@@ -33,7 +34,7 @@ fn add(sums: &mut [f64; sum::WORDS], step: &Step, nodes: &[Sample; 4], origin: [
     for ((_, weight), sample) in GAUSS.iter().zip(nodes) {
         let weight = weight * duration;
         let Motion { state, acceleration: [ax, _, ay] } = sample.motion;
-        let (x, y) = (state.position[X2] - origin[0], state.position[Y1] - origin[1]);
+        let (x, y) = (state.position[X2] - from[0], state.position[Y1] - from[1]);
         let [vx, _, vy] = state.velocity;
         sums[sum::X] += weight * x;
         sums[sum::XX] += weight * x * x;
@@ -160,15 +161,21 @@ impl Window {
         if before >= 0.0 && self.previous_velocity.is_some_and(|v| v < 0.0) {
             self.crossed(step.start);
         }
-        for tau in
-            upward_crossings(&velocity[..step.expansion.order], step.duration, [before < 0.0, after < 0.0])
-        {
-            self.crossed(step.start + tau);
+        // Reversed slip and stick are not below the velocity of the belt, which is not below 0, but for a rounding.
+        let state = step.expansion.contact.state();
+        if matches!(state, ContactState::Slip | ContactState::Free) {
+            let velocity = &velocity[..step.expansion.order];
+            for tau in upward_crossings(velocity, step.duration, [before < 0.0, after < 0.0]) {
+                self.crossed(step.start + tau);
+            }
         }
-        // What comes down to the velocity of the belt has not gone below it, which matters where that is 0.
-        let reverse = step.expansion.contact.state() == ContactState::Reverse;
+        // What comes down to the velocity of the belt, or sticks, has not gone below it, which matters where that is 0.
         let belt = step.belt.velocity + step.belt.acceleration * step.duration;
-        self.previous_velocity = Some(if reverse { after.max(belt) } else { after });
+        self.previous_velocity = Some(match state {
+            ContactState::Reverse => after.max(belt),
+            ContactState::Stick => after.max(0.0),
+            ContactState::Slip | ContactState::Free => after,
+        });
     }
 }
 
@@ -177,7 +184,7 @@ impl Observer for Window {
         let samples = SAMPLE_TIMES.map(|fraction| Sample::at(step, fraction));
         let [_, ref nodes @ .., _] = samples;
         let start = samples[0].motion.state.position;
-        let origin = *self.origin.get_or_insert([start[X2], start[Y1]]);
+        let origin = *self.origin.get_or_insert([start[X2] + step.base[0], start[Y1] + step.base[1]]);
         add(&mut self.halves[self.half], step, nodes, origin);
         self.count_crossings(step);
         let (order, duration) = (step.expansion.order, step.duration);

@@ -13,6 +13,8 @@ pub struct Step<'a> {
     pub duration: f64,
     /// The belt at the start of the step.
     pub belt: BeltMotion,
+    /// From where `x2` and `y1` count, scaled, from the equilibrium of the start.
+    pub base: [f64; 2],
     /// The motion at the end of the step, before the event that ended it.
     pub end: Motion,
 }

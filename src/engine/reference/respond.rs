@@ -30,10 +30,11 @@ impl Scene {
             nominal_step: TAU / f64::from(plan.steps_per_period),
             tolerance: plan.tolerance,
         };
-        Integrator::new(&self.model, resolution, self.start(), self.belt(0.0))
+        let integrator = Integrator::new(&self.model, resolution, self.start(), self.belt(0.0))?;
+        Ok(integrator.of(self.warmth()))
     }
 
-    /// Integrates for exactly `duration` (scaled), the belt as the ramp says.
+    /// Integrates for exactly `duration` (scaled), the belt and the friction law as they go.
     ///
     /// # Errors
     /// The status that ends the instance before its time.
@@ -46,6 +47,9 @@ impl Scene {
         let mut rest = duration;
         while rest > 0.0 {
             let (belt, holds) = self.belt_from(integrator.time());
+            if let Some((model, warmth)) = self.warmed(integrator.time(), integrator.warmth())? {
+                integrator.go_over(model, warmth, belt)?;
+            }
             let part = rest.min(holds);
             integrator.advance(part, belt, observer)?;
             rest -= part;
@@ -83,14 +87,14 @@ fn respond_in_until(
 ) -> (Outcome, Option<State>) {
     let mut integrator = match scene.integrator(plan) {
         Ok(integrator) => integrator,
-        Err(status) => return (Outcome { status: scene.told(status), ..Outcome::default() }, None),
+        Err(status) => return (Outcome { status: scene.model.told(status), ..Outcome::default() }, None),
     };
     integrator.stop_at(cancel);
     match measure(scene, &mut integrator, plan, Measuring::new(instance, scene, plan)) {
         Ok(outcome) => (outcome, Some(integrator.state())),
         Err(status) => {
             let (simulated_time, steps) = (scene.seconds(integrator.time(), plan), integrator.steps());
-            (Outcome { status: scene.told(status), simulated_time, steps, ..Outcome::default() }, None)
+            (Outcome { status: integrator.told(status), simulated_time, steps, ..Outcome::default() }, None)
         }
     }
 }

@@ -135,7 +135,14 @@ fn instance(structure: &Structure, wanted: &Wanted, theta: f64, load: f64) -> In
     ] {
         params.set(param, value);
     }
-    Instance { params, law: flat(0.0), impact_friction: true, motion: Motion::Ramp, modal: None }
+    Instance {
+        params,
+        law: flat(0.0),
+        impact_friction: true,
+        motion: Motion::Ramp,
+        heating: None,
+        modal: None,
+    }
 }
 
 fn flat(mu: f64) -> FrictionLaw {

@@ -111,8 +111,8 @@ impl Sampler<'_> {
         let motion = step.expansion.motion(tau);
         let (tangential, normal) = step.expansion.forces(tau);
         let mut position = motion.state.position.map(|x| x * units.length);
-        position[0] += self.scene.equilibrium.x2;
-        position[2] += self.scene.equilibrium.y1;
+        position[0] += self.scene.equilibrium.x2 + step.base[0] * units.length;
+        position[2] += self.scene.equilibrium.y1 + step.base[1] * units.length;
         TraceRow {
             t: (step.start + tau) * units.time,
             position,

@@ -95,9 +95,16 @@ fn motion(belt: &Json) -> Option<Motion> {
     let table = match belt.get("motion_table") {
         None => None,
         Some(table) => {
-            let corners = numbers(table.get("time")?)?.into_iter().zip(numbers(table.get("velocity")?)?);
-            let corners = corners.map(|(time, velocity)| [time, velocity]).collect();
-            Some(Arc::new(MotionTable { name: table.get("name")?.as_str()?.to_owned(), corners }))
+            let time = numbers(table.get("time")?)?;
+            let corners =
+                |values: Vec<f64>| time.iter().zip(values).map(|(time, value)| [*time, value]).collect();
+            let temperature = match table.get("temperature") {
+                None => None,
+                Some(values) => Some(corners(numbers(values)?)),
+            };
+            let name = table.get("name")?.as_str()?.to_owned();
+            let corners = corners(numbers(table.get("velocity")?)?);
+            Some(Arc::new(MotionTable { name, corners, temperature }))
         }
     };
     let name = Motion::NAMES.into_iter().find(|one| Some(*one) == name.as_str())?;

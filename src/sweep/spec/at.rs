@@ -166,7 +166,9 @@ impl At<'_> {
                 let needed_by = format!("material `{}` is read at a temperature", material.name);
                 return Err(self.missing("temperature", needed_by));
             };
-            covered(Some(material), &Value::Number(temperature), || self.everything())?;
+            for value in [Some(temperature), self.params.get(Param::TemperatureEnd)].into_iter().flatten() {
+                covered(Some(material), &Value::Number(value), || self.everything())?;
+            }
         }
         let has = |param| {
             self.params.get(param).is_some()
@@ -197,8 +199,11 @@ impl At<'_> {
                 AxisKey::Param(param) if LawKind::params().any(|one| one == *param) => {
                     (!self.law.reads(*param)).then(|| used_by_laws(&law::users(*param)))
                 }
-                AxisKey::Param(Param::Temperature) => {
-                    self.material.is_none().then(|| "a `material`".to_owned())
+                AxisKey::Param(Param::Temperature) if spec.motion.temperature().is_some() => {
+                    Some("a motion without temperatures of its own".to_owned())
+                }
+                AxisKey::Param(param) if Param::TEMPERATURES.contains(param) && self.material.is_none() => {
+                    Some("a `material`".to_owned())
                 }
                 AxisKey::Param(param) if model.reader(*param).is_some() => {
                     model.reader(*param).map(|reader| reader.written().to_owned())

@@ -5,13 +5,14 @@ use crate::model::friction::LawKind;
 use crate::model::motion::Motion;
 use crate::sweep::error::{Error, Result};
 use crate::sweep::grid::{AxisKey, Grid, Value};
-use crate::sweep::spec::check::{Check, unused, used_by_laws};
+use crate::sweep::spec::check::{Check, covered, unused, used_by_laws};
 use crate::sweep::spec::{Spec, law};
 use squealmap_input::place::Place;
 use squealmap_input::quote::list;
 
 /// The parameters of the belt, and the motions that read them.
-const READERS: [(Param, &[&str]); 4] = [
+const READERS: [(Param, &[&str]); 5] = [
+    (Param::TemperatureEnd, &["ramp", "sine", "trapeze"]),
     (Param::BeltVelocity, &["ramp", "sine", "trapeze"]),
     (Param::BeltVelocityEnd, &["ramp"]),
     (Param::RampDuration, &["ramp", "sine", "trapeze"]),
@@ -31,6 +32,10 @@ pub(super) fn reader(motion: &str, param: Param) -> Option<String> {
 
 /// A parameter that a motion needs and does not have, and what needs it.
 pub(super) fn lacking(motion: &str, has: impl Fn(Param) -> bool) -> Option<(Param, String)> {
+    if has(Param::TemperatureEnd) && !has(Param::RampDuration) {
+        let needed_by = format!("`{}` is reached after it", Param::TemperatureEnd.info().name);
+        return Some((Param::RampDuration, needed_by));
+    }
     let needed = match motion {
         "sine" => &[Param::RampDuration][..],
         "trapeze" => &[Param::RampDuration, Param::RiseDuration],
@@ -44,8 +49,12 @@ pub(super) fn lacking(motion: &str, has: impl Fn(Param) -> bool) -> Option<(Para
     half.map(|[given, other]| (other, format!("`{}` describes a ramp", given.info().name)))
 }
 
-/// Of the end and the duration of a ramp the one that is given, and the one that is not.
+/// Of the end and the duration of a ramp the one that is given, and the one that is not. A ramp of temperature alone has a
+/// duration, too.
 fn half_of_ramp(motion: &str, has: impl Fn(Param) -> bool) -> Option<[Param; 2]> {
+    if has(Param::TemperatureEnd) && has(Param::RampDuration) {
+        return None;
+    }
     let pair = [Param::BeltVelocityEnd, Param::RampDuration];
     let half = [pair, [pair[1], pair[0]]].into_iter().find(|[given, other]| has(*given) && !has(*other));
     half.filter(|_| motion == Motion::RAMP)
@@ -114,6 +123,26 @@ impl Check<'_> {
             return Ok(());
         }
         Err(self.missing(Param::BeltVelocity, "every instance has a belt velocity".to_owned()))
+    }
+
+    /// Temperatures of a motion are those of a material, which has them all, and the only ones.
+    pub(super) fn motion_warms(&self) -> Result<()> {
+        let Some(corners) = self.files.motion.temperature() else { return Ok(()) };
+        let given = ["motion_table", "motion"].into_iter().find_map(|name| self.sections.find(name));
+        let at = || self.sweep.place(given.map_or(0..0, |given| given.span.clone()));
+        let column = "column `temperature` of `motion_table`";
+        if let Some((at, key)) = self.param(Param::Temperature) {
+            return Err(Error::Conflict { at, key, other: column.to_owned() });
+        }
+        if self.files.all_materials().next().is_none() {
+            return Err(unused(at(), column.to_owned(), "a `material`".to_owned()));
+        }
+        for material in self.files.all_materials() {
+            for [_, temperature] in corners.iter() {
+                covered(Some(material), &Value::Number(*temperature), at)?;
+            }
+        }
+        Ok(())
     }
 
     /// What moves the belt otherwise than steadily, and how messages call it.

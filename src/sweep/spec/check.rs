@@ -38,6 +38,7 @@ impl Check<'_> {
         self.materials_stand_alone()?;
         self.start_has_effect()?;
         self.belt_moves()?;
+        self.motion_warms()?;
         self.settling_has_effect()?;
         self.every_case()
     }
@@ -163,7 +164,8 @@ impl Check<'_> {
                 let given = self.sections.find("outside")?;
                 Some((self.sweep.place(given.span.clone()), given.label()))
             };
-            if let Some((at, key)) = self.param(Param::Temperature).or_else(outside) {
+            let temperature = Param::TEMPERATURES.into_iter().find_map(|param| self.param(param));
+            if let Some((at, key)) = temperature.or_else(outside) {
                 return Err(unused(at, key, "a `material`".to_owned()));
             }
         } else if let Some(given) = self.sections.find("table") {
@@ -265,7 +267,7 @@ impl Check<'_> {
     /// Law, material and temperature of every instance fit together.
     fn every_case(&self) -> Result<()> {
         let position = |key| self.varied.position(key);
-        let temperature = position(AxisKey::Param(Param::Temperature));
+        let temperatures = Param::TEMPERATURES.map(|param| (param, position(AxisKey::Param(param))));
         match &self.varied.grid {
             // All combinations occur, so laws, materials and temperatures can be checked by themselves.
             Grid::Axes(axes) => {
@@ -277,13 +279,14 @@ impl Check<'_> {
                     for kind in self.laws() {
                         self.law_is_complete(kind, material)?;
                     }
-                    match temperature {
-                        Some(axis) => {
-                            for (index, value) in axes[axis].values.iter().enumerate() {
-                                covered(material, value, || self.varied.value_place(axis, index))?;
-                            }
+                    for (param, axis) in temperatures {
+                        let Some(axis) = axis else {
+                            self.base_temperature(param, material)?;
+                            continue;
+                        };
+                        for (index, value) in axes[axis].values.iter().enumerate() {
+                            covered(material, value, || self.varied.value_place(axis, index))?;
                         }
-                        None => self.base_temperature(material)?,
                     }
                 }
             }
@@ -299,11 +302,13 @@ impl Check<'_> {
                         _ => self.sections.law,
                     };
                     self.law_is_complete(kind, material)?;
-                    match temperature {
-                        Some(column) => {
-                            covered(material, &row[column], || self.varied.value_place(column, index))?;
+                    for (param, column) in temperatures {
+                        match column {
+                            Some(column) => {
+                                covered(material, &row[column], || self.varied.value_place(column, index))?;
+                            }
+                            None => self.base_temperature(param, material)?,
                         }
-                        None => self.base_temperature(material)?,
                     }
                 }
             }
@@ -349,13 +354,15 @@ impl Check<'_> {
         Ok(())
     }
 
-    fn base_temperature(&self, material: Option<&Arc<Material>>) -> Result<()> {
+    /// A material covers the one temperature of all instances. That of the start has to be there.
+    fn base_temperature(&self, param: Param, material: Option<&Arc<Material>>) -> Result<()> {
         let Some(one) = material else { return Ok(()) };
-        let Some(temperature) = self.sections.base.get(Param::Temperature) else {
+        let Some(temperature) = self.sections.base.get(param) else {
             let needed_by = format!("material `{}` is read at a temperature", one.name);
-            return Err(self.missing(Param::Temperature, needed_by));
+            let is_start = param == Param::Temperature && self.files.motion.temperature().is_none();
+            return if is_start { Err(self.missing(param, needed_by)) } else { Ok(()) };
         };
-        let span = self.sections.find("temperature").map_or(0..0, |given| given.span.clone());
+        let span = self.sections.find(param.info().name).map_or(0..0, |given| given.span.clone());
         covered(material, &Value::Number(temperature), || self.sweep.place(span.clone()))
     }
 }

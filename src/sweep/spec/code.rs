@@ -259,10 +259,20 @@ impl Code<'_> {
         self.sections.motion = motion.name();
         self.give("motion", Section::Belt, whole);
         if let Motion::Table(table) = motion {
-            let mut text = "time,velocity\n".to_owned();
-            for [time, velocity] in table.corners.iter() {
+            let mut text =
+                if table.temperature.is_some() { "time,velocity,temperature\n" } else { "time,velocity\n" }
+                    .to_owned();
+            for (row, [time, velocity]) in table.corners.iter().enumerate() {
                 // A string takes whatever is written to it.
-                let _ = writeln!(text, "{time},{velocity}");
+                let _ = write!(text, "{time},{velocity}");
+                if let Some(corners) = &table.temperature {
+                    let _ = write!(
+                        text,
+                        ",{}",
+                        corners.get(row).map(|corner| corner[1].to_string()).unwrap_or_default()
+                    );
+                }
+                text.push('\n');
             }
             let rows = Rows::given(".motion(Motion::Table(…))", &text, Role::Motion)?;
             self.motion = Some(motion_of(&table.name, &rows)?);

@@ -2,9 +2,13 @@
 
 use std::sync::Arc;
 
+use smallvec::smallvec;
+
 use crate::model::friction::LawKind;
+use crate::model::heating::Heating;
 use crate::model::instance::Instance;
 use crate::model::material::Material;
+use crate::model::motion::Corners;
 use crate::model::{Param, Params};
 use crate::sweep::grid::{AxisKey, Value};
 use crate::sweep::spec::{Spec, start};
@@ -42,16 +46,26 @@ impl Spec {
         kind: LawKind,
         material: Option<&Arc<Material>>,
     ) -> Instance {
-        let mut table = self.table.clone();
-        if let Some(material) = material {
-            let temperature = params.require(Param::Temperature);
-            for (param, value) in material.at(temperature) {
-                params.set(param, value);
+        let law = match material {
+            Some(material) => {
+                let temperature = params.require(Param::Temperature);
+                material.law_at(temperature, kind, &mut params, self.table.as_ref())
             }
-            table = material.table_at(temperature).or(table);
-        }
-        let law = kind.with(&params, table.as_ref());
+            None => kind.with(&params, self.table.as_ref()),
+        };
+        let heating = material.and_then(|material| self.heating(&params, kind, material)).map(Arc::new);
         let (motion, modal) = (self.motion.clone(), self.modal.clone());
-        Instance { params, law, impact_friction: self.impact_friction, motion, modal }
+        Instance { params, law, impact_friction: self.impact_friction, motion, heating, modal }
+    }
+
+    /// How the temperature of a material goes over a run; `None` where it stays.
+    fn heating(&self, params: &Params, kind: LawKind, material: &Arc<Material>) -> Option<Heating> {
+        let corners = if let Some(corners) = self.motion.temperature() {
+            Corners::Shared(Arc::clone(corners))
+        } else {
+            let (end, duration) = (params.get(Param::TemperatureEnd)?, params.get(Param::RampDuration)?);
+            Corners::Own(smallvec![[0.0, params.require(Param::Temperature)], [duration, end]])
+        };
+        Some(Heating::new(Arc::clone(material), kind, self.table.clone(), corners))
     }
 }

@@ -166,7 +166,7 @@ const ROWS: &[Row] = &[
     Row {
         section: "belt",
         name: "motion_table",
-        meaning: "CSV file with columns time (s) and velocity (m/s), straight between rows; its largest velocity is `belt_velocity`",
+        meaning: "CSV file with columns time (s), velocity (m/s) and perhaps temperature (°C), straight between rows; its largest velocity is `belt_velocity`",
         default: || None,
         range: || "a path, relative to the sweep file".to_owned(),
         read_by: "motion `table`",
@@ -317,11 +317,14 @@ fn readers(param: Param) -> String {
         let kinds = Kind::ALL.iter().filter(|(_, kind)| kind.reader(param, false).is_none());
         return named("kind", &kinds.map(|(name, _)| *name).collect::<Vec<_>>());
     }
+    if Param::TEMPERATURES.contains(&param) {
+        return "a `material`".to_owned();
+    }
     if let Some(model) = model::Kind::only_reader(param) {
         let name = model::Kind::ALL.iter().find(|(_, one)| *one == model).map(|(name, _)| *name);
         return named("kind", &Vec::from_iter(name));
     }
-    if param == Param::Temperature { "a `material`".to_owned() } else { String::new() }
+    String::new()
 }
 
 /// The keys that `name` stands for: a key, `section.key`, or a section with all its keys. `axes` stands for all keys that

@@ -63,6 +63,7 @@ impl Kind {
             | Param::C2
             | Param::Theta
             | Param::Restitution
+            | Param::TemperatureEnd
             | Param::BeltVelocityEnd
             | Param::RampDuration
             | Param::RiseDuration

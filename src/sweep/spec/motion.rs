@@ -11,7 +11,7 @@ use crate::sweep::spec::rows::{Role, Rows};
 use squealmap_input::place::Source;
 
 /// The columns of a motion.
-const COLUMNS: [&str; 2] = ["time", "velocity"];
+const COLUMNS: [&str; 3] = ["time", "velocity", "temperature"];
 
 /// Reads the file `name` of a motion, relative to `base_dir`, which stands at `span` of `sweep`.
 pub(super) fn read(
@@ -26,9 +26,10 @@ pub(super) fn read(
 /// The motion that some rows are.
 pub(super) fn motion_of(name: &str, file: &Rows) -> Result<Arc<MotionTable>> {
     let columns = file.columns(&COLUMNS, |text| COLUMNS.iter().position(|name| *name == text))?;
-    let mut values = [None, None];
+    let mut values = [None, None, None];
     for (index, &which) in columns.iter().enumerate() {
-        let numbers = file.numbers(index, COLUMNS[which], model::Range::NonNegative)?;
+        let range = if which == 2 { model::Range::Finite } else { model::Range::NonNegative };
+        let numbers = file.numbers(index, COLUMNS[which], range)?;
         let wrong = |key: &str, value: String, limit: &str| Error::OutOfRange {
             at: file.source.place(file.span(0, index)),
             key: key.to_owned(),
@@ -44,14 +45,15 @@ pub(super) fn motion_of(name: &str, file: &Rows) -> Result<Arc<MotionTable>> {
                 let limit = "at least 2; for one velocity give `belt_velocity` alone";
                 return Err(wrong("the number of rows of a motion", numbers.len().to_string(), limit));
             }
-        } else if numbers.iter().all(|velocity| *velocity == 0.0) {
+        } else if which == 1 && numbers.iter().all(|velocity| *velocity == 0.0) {
             return Err(wrong("every `velocity`", "0".to_owned(), "above 0 somewhere"));
         }
         values[which] = Some(numbers);
     }
-    let [time, velocity] = values;
+    let [time, velocity, temperature] = values;
     let time = time.ok_or_else(|| file.no_column("time", "a motion of the belt"))?;
     let velocity = velocity.ok_or_else(|| file.no_column("velocity", "a motion of the belt"))?;
-    let corners = time.into_iter().zip(velocity).map(|(time, velocity)| [time, velocity]).collect();
-    Ok(Arc::new(MotionTable { name: name.to_owned(), corners }))
+    let corners = |values: Vec<f64>| time.iter().zip(values).map(|(time, value)| [*time, value]).collect();
+    let (corners, temperature) = (corners(velocity), temperature.map(corners));
+    Ok(Arc::new(MotionTable { name: name.to_owned(), corners, temperature }))
 }

@@ -120,6 +120,9 @@ fn assemble(sections: Sections, varied: Varied, files: Files) -> Spec {
     let response = sections.analysis.response && files.modal.is_none();
     if let Motion::Table(table) = &files.motion {
         base.set(Param::BeltVelocity, table.largest());
+        if let Some([_, first]) = table.temperature.as_ref().and_then(|corners| corners.first()) {
+            base.set(Param::Temperature, *first);
+        }
     }
     let ramp = files.motion != Motion::Ramp
         || sections.base.get(Param::RampDuration).is_some()

@@ -78,8 +78,11 @@ impl Spec {
         }
         if let Motion::Table(table) = &self.motion {
             let column = |at: usize| table.corners.iter().map(|corner| corner[at]).collect::<Vec<_>>();
-            let table = json!({ "name": table.name, "time": column(0), "velocity": column(1) });
-            belt.insert("motion_table".to_owned(), table);
+            let mut rows = json!({ "name": table.name, "time": column(0), "velocity": column(1) });
+            if let Some(corners) = &table.temperature {
+                rows["temperature"] = json!(corners.iter().map(|corner| corner[1]).collect::<Vec<_>>());
+            }
+            belt.insert("motion_table".to_owned(), rows);
         }
         belt
     }

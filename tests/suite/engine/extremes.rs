@@ -147,6 +147,39 @@ fn painleve_is_reported() {
     assert_ne!(run(&below).status, Status::Painleve);
 }
 
+/// In a thin layer of friction that grows as the body slows down, M11 falls from 15 to 0 before the body comes to rest: another
+/// integrator, in which the relative velocity is the independent variable, meets that at 0.142809778 s. A step that jumps over
+/// it to the rest has passed what has no solution.
+#[test]
+fn what_passes_the_singularity_is_painleve() {
+    let values = [
+        (Param::Theta, -0.9),
+        (Param::M1, 66.327_729_085_398_93),
+        (Param::M2, 2.290_743_039_378_798),
+        (Param::K1, 63_207.937_671_933_17),
+        (Param::K2, 17_575.751_230_207_603),
+        (Param::C1, 400.0),
+        (Param::C2, 400.0),
+        (Param::FExt, 5.731_314_947_718_468),
+        (Param::BeltVelocity, 0.227_875_931_650_275_25),
+        (Param::StartVelocity, 2.357_926_324_294_166_6),
+    ];
+    let law = FrictionLaw::Bilinear {
+        mu_s: 1.278_510_241_234_278_6,
+        mu_d: 0.396_478_215_251_073_3,
+        knee_velocity: 0.005_307_199_524_510_54,
+    };
+    let one = instance(law, &values);
+    for engine in Engine::ALL {
+        for steps in [6, 8, 12, 16, 20, 30, 60] {
+            let outcome = engine.run(&one, &plan(1.0, 1.0, steps));
+            let what = format!("{} with {steps} steps", engine.name());
+            assert_eq!(outcome.status, Status::Painleve, "{what}");
+            near(&what, outcome.simulated_time, 0.142_809_778, 2e-5);
+        }
+    }
+}
+
 #[test]
 fn no_equilibrium_and_invalid_law_are_reported() {
     let divergent = instance(constant(2.0), &[(Param::Theta, -0.5), (Param::BeltVelocity, 1.0)]);

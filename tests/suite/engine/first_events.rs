@@ -38,8 +38,14 @@ pub(crate) struct Body {
 pub(crate) fn job(u: &mut Uniform, tolerance: f64) -> Option<Job<f64>> {
     let (mu_s, mu_d) = (0.6 * u.next(), 0.6 * u.next());
     let law = FrictionLaw::Bilinear { mu_s, mu_d, knee_velocity: u.log(0.03, 1.0) };
-    let instance =
-        Instance { params: moving(u), law, impact_friction: false, motion: Motion::Ramp, modal: None };
+    let instance = Instance {
+        params: moving(u),
+        law,
+        impact_friction: false,
+        motion: Motion::Ramp,
+        heating: None,
+        modal: None,
+    };
     let plan = plan(1.0, 0.1, 12);
     let scene = Scene::planned(&instance, &plan).ok()?;
     Some(Job::new(&instance, scene, &plan, &Turns::new(ORDER, tolerance)))

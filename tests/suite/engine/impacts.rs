@@ -74,8 +74,14 @@ fn impacts(planted: impl Fn(&mut Instance)) -> (f64, [usize; 4]) {
         } else {
             FrictionLaw::Constant { mu_s, mu_d: mu_s }
         };
-        let instance =
-            Instance { params, law, impact_friction: u.next() < 0.8, motion: Motion::Ramp, modal: None };
+        let instance = Instance {
+            params,
+            law,
+            impact_friction: u.next() < 0.8,
+            motion: Motion::Ramp,
+            heating: None,
+            modal: None,
+        };
         let Ok(scene) = Scene::planned(&instance, &plan(1.0, 0.1, 12)) else { continue };
         let belt = 3.0 * u.next();
         let moment = Moment { vx: belt + 4.0 * (u.next() - 0.5), vy: -2.0 * u.next(), belt };

@@ -304,7 +304,7 @@ fn painleve_is_told_of_laws_that_can() {
     let steep = FrictionLaw::Bilinear { mu_s: 1.9, mu_d: 1.4, knee_velocity: 1e-12 };
     let told = |law: FrictionLaw, theta: f64| {
         let one = instance(law, &[(Param::Theta, theta), (Param::BeltVelocity, 1.0)]);
-        Scene::new(&one, StartKind::Kick).expect("an equilibrium").told(Status::Painleve)
+        Scene::new(&one, StartKind::Kick).expect("an equilibrium").model.told(Status::Painleve)
     };
     assert_eq!(told(steep.clone(), 0.01), Status::StepTooLarge);
     // The limit of μ is 1.17 at π/4.

@@ -1,6 +1,7 @@
 //! Engines: every one against closed forms, the reference and each other.
 
 pub(crate) mod bounded;
+mod counting;
 pub(crate) mod crossings;
 pub(crate) mod cycles;
 pub(crate) mod events;
@@ -8,6 +9,7 @@ pub(crate) mod exact;
 pub(crate) mod extremes;
 pub(crate) mod first_events;
 pub(crate) mod fuzz;
+mod heating;
 pub(crate) mod impacts;
 pub(crate) mod instructions;
 pub(crate) mod jagged;

@@ -22,7 +22,11 @@ fn stroke() -> Plan {
 }
 
 fn table(corners: &[[f64; 2]]) -> Motion {
-    Motion::Table(Arc::new(MotionTable { name: "stroke.csv".to_owned(), corners: corners.into() }))
+    Motion::Table(Arc::new(MotionTable {
+        name: "stroke.csv".to_owned(),
+        corners: corners.into(),
+        temperature: None,
+    }))
 }
 
 fn run(engine: Engine, one: &Instance) -> Outcome {

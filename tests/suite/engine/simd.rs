@@ -49,7 +49,14 @@ fn any(u: &mut Uniform, k: usize) -> Instance {
         2 => FrictionLaw::Rational { mu_s, decay: scale },
         _ => FrictionLaw::Constant { mu_s, mu_d },
     };
-    Instance { params, law, impact_friction: u.next() < 0.5, motion: Motion::Ramp, modal: None }
+    Instance {
+        params,
+        law,
+        impact_friction: u.next() < 0.5,
+        motion: Motion::Ramp,
+        heating: None,
+        modal: None,
+    }
 }
 
 fn run<T: Lanes>(instances: &[Instance], plan: &Plan) -> Vec<Outcome> {

@@ -40,6 +40,7 @@ fn a_squealing_ramp_gives_the_law_within_its_errors() {
         law: bilinear(0.15, 0.05),
         impact_friction: true,
         motion: Motion::Ramp,
+        heating: None,
         modal: None,
     };
     let recording = Recording { rate: 1000.0, duration: 10.0, skew: 0.0, force_skew: 0.0 };

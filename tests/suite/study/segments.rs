@@ -154,6 +154,7 @@ fn the_ramp_of_figure_6_leans_to_both_in_the_end() {
         law: bilinear(0.4, 0.3),
         impact_friction: true,
         motion: Motion::Ramp,
+        heating: None,
         modal: None,
     };
     let recording = Recording { rate: 1000.0, duration: 10.0, skew: 0.0, force_skew: 0.0 };

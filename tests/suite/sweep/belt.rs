@@ -9,7 +9,7 @@ use std::sync::Arc;
 use crate::cli::program::squealmap;
 use squealmap::engine::plan::Duration;
 use squealmap::model::motion::MotionTable;
-use squealmap::{Motion, Param, Spec, Sweep};
+use squealmap::{InstabilityType, Motion, Param, Regime, Spec, Sweep};
 
 /// A sweep with this `[belt]`, beside a file of a stroke.
 fn read(belt: &str) -> Result<Spec, String> {
@@ -110,10 +110,26 @@ fn a_motion_is_kept_with_its_corners() {
 fn a_motion_built_in_code_is_that_of_a_file() {
     let spec = read("motion = \"table\"\nmotion_table = \"stroke.csv\"").unwrap();
     let corners: Arc<[[f64; 2]]> = Arc::new([[0.0, 0.0], [0.1, 0.04], [0.3, 0.01]]);
-    let table = |corners| Motion::Table(Arc::new(MotionTable { name: "stroke.csv".to_owned(), corners }));
+    let table = |corners| {
+        Motion::Table(Arc::new(MotionTable { name: "stroke.csv".to_owned(), corners, temperature: None }))
+    };
     let sweep = |motion| Sweep::two_mass().set(Param::MuS, 0.4).set(Param::MuD, 0.3).motion(motion);
     let built = sweep(table(corners)).spec().unwrap();
     assert_eq!(built.resolved(), spec.resolved());
+    let warm = MotionTable {
+        name: "warm.csv".to_owned(),
+        corners: Arc::new([[0.0, 0.5], [1.0, 2.0], [3.0, 1.0]]),
+        temperature: Some(Arc::new([[0.0, 100.0], [1.0, 500.0], [3.0, 200.0]])),
+    };
+    let directory = tempfile::tempdir().unwrap();
+    std::fs::write(directory.path().join("pad.csv"), PAD).unwrap();
+    let built = Sweep::two_mass()
+        .files_in(directory.path())
+        .material("pad.csv")
+        .motion(Motion::Table(Arc::new(warm)));
+    let read =
+        warmed("material = \"pad.csv\"", "motion = \"table\"\nmotion_table = \"warm.csv\"", "").unwrap();
+    assert_eq!(built.spec().unwrap().resolved(), read.resolved());
     let why = sweep(table(Arc::new([[0.5, 1.0], [1.0, 1.0]]))).spec().unwrap_err().to_string();
     assert!(why.contains("the first `time`"), "{why}");
     let why = sweep(Motion::Sine).spec().unwrap_err().to_string();
@@ -123,11 +139,25 @@ fn a_motion_built_in_code_is_that_of_a_file() {
 /// A run in tiles is completed from what its directory holds, without the sweep file.
 #[test]
 fn a_run_of_strokes_is_completed_from_its_tiles() {
+    completed(
+        "time,velocity\n0,0\n0.1,3\n0.3,1\n",
+        "mu_d = 0.2",
+        "mu_s = { from = 0.1, to = 0.6, points = 12 }",
+    );
+    let (warm, pad) =
+        ("time,velocity,temperature\n0,0,100\n0.1,3,500\n0.3,1,300\n", "material = \"pad.csv\"");
+    completed(warm, pad, "theta = { from = 0.01, to = 0.3, points = 12 }");
+}
+
+fn completed(stroke: &str, friction: &str, axis: &str) {
     let directory = tempfile::tempdir().unwrap();
     let at = directory.path();
-    std::fs::write(at.join("stroke.csv"), "time,velocity\n0,0\n0.1,3\n0.3,1\n").unwrap();
-    let text = "[friction]\nmu_d = 0.2\n[belt]\nmotion = \"table\"\nmotion_table = \"stroke.csv\"\n\
-                [axes]\nmu_s = { from = 0.1, to = 0.6, points = 12 }\n[response]\ncheck = false\n";
+    std::fs::write(at.join("stroke.csv"), stroke).unwrap();
+    std::fs::write(at.join("pad.csv"), "temperature,mu_s,mu_d\n100,0.2,0.1\n500,0.5,0.3\n").unwrap();
+    let text = format!(
+        "[friction]\n{friction}\n[belt]\nmotion = \"table\"\nmotion_table = \"stroke.csv\"\n\
+         [axes]\n{axis}\n[response]\ncheck = false\n"
+    );
     std::fs::write(at.join("s.toml"), text).unwrap();
     let ran = |args: &[&str]| {
         let ended = squealmap(Path::new(at), args);
@@ -139,4 +169,82 @@ fn a_run_of_strokes_is_completed_from_its_tiles() {
     ran(&["merge", "tiles"]);
     let map = |name: &str| std::fs::read(at.join(name).join("map.csv")).unwrap();
     assert_eq!(map("whole"), map("tiles"));
+}
+
+/// A pad.
+const PAD: &str = "temperature,mu_s,mu_d\n100,0.1,0.1\n300,0.2,0.1\n500,0.4,0.2\n";
+
+/// A sweep of a pad with this `[belt]`, and further lines of `[friction]`.
+fn warmed(friction: &str, belt: &str, rest: &str) -> Result<Spec, String> {
+    let directory = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| std::fs::write(directory.path().join(name), text).unwrap();
+    write("pad.csv", PAD);
+    write("warm.csv", "time,velocity,temperature\n0,0.5,100\n1,2,500\n3,1,200\n");
+    write("hot.csv", "time,velocity,temperature\n0,0.5,100\n1,2,501\n");
+    let text = format!("[friction]\n{friction}\n[belt]\n{belt}\n{rest}");
+    Spec::parse(&text, "s.toml", directory.path()).map_err(|why| why.to_string())
+}
+
+#[test]
+fn temperatures_over_a_run_are_read() {
+    let pad = "material = \"pad.csv\"\n";
+    let straight = format!("{pad}temperature = 100\ntemperature_end = 500");
+    let spec = warmed(&straight, "belt_velocity = 2\nramp_duration = 4", "").unwrap();
+    assert_eq!((spec.settle, spec.measure), (Duration::Seconds(0.0), Duration::Ramp), "all of the course");
+    let one = spec.instance(0);
+    assert_eq!([0.0, 1.0, 4.0, 9.0].map(|t| one.temperature(t).unwrap()), [100.0, 200.0, 500.0, 500.0]);
+    assert_eq!(one.law.mu(0.0), 0.1, "eigenvalues are those at the start");
+    let hot = one.heated(400.0).law;
+    assert!((hot.mu(0.0) - 0.3).abs() < 1e-15 && (hot.mu(9.0) - 0.15).abs() < 1e-15);
+    let axis = "[axes]\ntemperature_end = { values = [100, 300] }";
+    let ends =
+        warmed(&format!("{pad}temperature = 100"), "belt_velocity = 2\nramp_duration = 4", axis).unwrap();
+    assert_eq!([0, 1].map(|index| ends.instance(index).temperature(2.0).unwrap()), [100.0, 200.0]);
+    let table = "motion = \"table\"\nmotion_table = \"warm.csv\"";
+    let spec = warmed(pad, table, "").unwrap();
+    let one = spec.instance(0);
+    assert_eq!([0.0, 0.5, 2.0, 3.5].map(|t| one.temperature(t).unwrap()), [100.0, 300.0, 350.0, 200.0]);
+    assert_eq!(one.motion.velocity(&one.params, 2.0), 1.5);
+    // Without a course it stays.
+    let still = warmed(&format!("{pad}temperature = 300"), "belt_velocity = 2", "").unwrap().instance(0);
+    assert!(still.heating.is_none() && still.temperature(5.0) == Some(300.0));
+}
+
+#[test]
+fn temperatures_that_do_not_fit_are_refused() {
+    let pad = "material = \"pad.csv\"\n";
+    let ramp = "belt_velocity = 2\nramp_duration = 4";
+    let table = "motion = \"table\"\nmotion_table = \"warm.csv\"";
+    let cases = [
+        ("mu_s = 0.4\nmu_d = 0.3\ntemperature_end = 200", ramp, "only by a `material`"),
+        (&format!("{pad}temperature = 100\ntemperature_end = 200"), "belt_velocity = 2", "`ramp_duration`"),
+        (&format!("{pad}temperature_end = 200"), ramp, "`temperature`"),
+        (&format!("{pad}temperature = 100\ntemperature_end = 501"), ramp, "501"),
+        (&format!("{pad}temperature = 100\ntemperature_end = nan"), ramp, "finite"),
+        (&format!("{pad}temperature = 100"), table, "column `temperature` of `motion_table`"),
+        (&format!("{pad}temperature_end = 200"), table, "motion = \"ramp\""),
+        ("mu_s = 0.4\nmu_d = 0.3", table, "only by a `material`"),
+        (pad, "motion = \"table\"\nmotion_table = \"hot.csv\"", "501"),
+    ];
+    for (friction, belt, words) in cases {
+        let why = warmed(friction, belt, "").err().unwrap_or_else(|| panic!("{friction} {belt} is taken"));
+        assert!(why.contains(words), "{why}");
+    }
+    let settles = format!("{pad}temperature = 100\ntemperature_end = 200");
+    let why = warmed(&settles, ramp, "[response]\nsettle = \"auto\"").unwrap_err();
+    assert!(why.contains("nothing settles"), "{why}");
+}
+
+/// What a run decays to is the equilibrium of the temperature at its end: a pad that has cooled down is stable.
+#[test]
+fn a_regime_is_that_of_the_temperature_at_the_end() {
+    let run = |from: f64, to: f64| {
+        let friction = format!("material = \"pad.csv\"\ntemperature = {from}\ntemperature_end = {to}");
+        let rest = "[response]\nsettle = \"1 s\"\nmeasure = \"1 s\"\n[start]\nstart_velocity = 1e-3\n[model]\nc1 = 5\nc2 = 5";
+        let spec = warmed(&friction, "belt_velocity = 2\nramp_duration = 1.5", rest).unwrap();
+        let map = squealmap::sweep::run::run(spec, &squealmap::Options::default(), &|_| {}).unwrap();
+        (map.records[0].kind, map.records[0].regime)
+    };
+    assert_eq!(run(300.0, 100.0), (Some(InstabilityType::NegativeSlope), Some(Regime::Equilibrium)));
+    assert_eq!(run(100.0, 300.0), (Some(InstabilityType::Stable), Some(Regime::NotYetGrown)));
 }

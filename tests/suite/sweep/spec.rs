@@ -63,7 +63,7 @@ fn every_shipped_sweep_is_valid() {
             count += 1;
         }
     }
-    assert_eq!(count, 12 + 8, "and those of the paper");
+    assert_eq!(count, 13 + 8, "and those of the paper");
 }
 
 #[test]
