@@ -12,6 +12,9 @@ use crate::model::linear::Preparation;
 use crate::model::status::Status;
 use crate::model::{Param, linear};
 
+/// By what part the time of an engine may be short of that of a motion.
+const ROUNDING: f64 = 1e-9;
+
 /// The regime of a completed outcome, and whether it is settled; `kind` is the type of its equilibrium.
 #[must_use]
 pub fn regime(instance: &Instance, kind: Option<InstabilityType>, outcome: &Outcome) -> (Regime, bool) {
@@ -41,6 +44,8 @@ pub fn regime(instance: &Instance, kind: Option<InstabilityType>, outcome: &Outc
 /// The instance on the belt and at the temperature as they are at the time `time` (s), where they change: what a motion then
 /// decays to or grows from is the equilibrium of that velocity.
 fn at_the_end(instance: &Instance, time: f64) -> Option<Instance> {
+    // A belt that comes to rest at the end is at rest, whatever the last digits of that time are.
+    let time = time * (1.0 + ROUNDING);
     if instance.motion.is_steady(&instance.params) {
         return None;
     }

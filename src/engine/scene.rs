@@ -106,8 +106,7 @@ impl Scene {
     /// What the model of the start is of.
     #[must_use]
     pub fn warmth(&self) -> Warmth {
-        let temperature = self.course.as_ref().map_or(0.0, |course| course.at(0.0).0);
-        Warmth { temperature, base: [0.0; 2] }
+        Warmth::steady(self.course.as_ref().map_or(0.0, |course| course.at(0.0).0))
     }
 
     /// The model at the time `t` (scaled), where it is another than the one of `now`.

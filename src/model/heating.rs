@@ -66,6 +66,20 @@ impl Heating {
         (first + (last - first) * (gone / steps), ends)
     }
 
+    /// How fast the temperature changes from a time (s) on, °C/s.
+    #[must_use]
+    pub fn rate(&self, time: f64) -> f64 {
+        let after = self.corners.partition_point(|corner| corner[0] <= time).max(1);
+        let [begun, first] = self.corners[after - 1];
+        self.corners.get(after).map_or(0.0, |[end, last]| (last - first) / (end - begun))
+    }
+
+    /// A small part of all temperatures, for differences, °C.
+    #[must_use]
+    pub fn height(&self) -> f64 {
+        self.height
+    }
+
     /// The law at a temperature (°C), whose parameters it puts into `params`.
     #[must_use]
     pub fn law_at(&self, temperature: f64, params: &mut Params) -> FrictionLaw {

@@ -232,13 +232,15 @@ pub enum Error {
     },
     /// A temperature outside the rows of a material that is not clamped.
     #[error(
-        "{at}: `temperature` is {value} but material `{}` covers {low} to {high} °C; \
+        "{at}: `{key}` is {value} but material `{}` covers {low} to {high} °C; \
          stay inside or set outside = \"clamp\" in [friction]",
         quoted(material)
     )]
     OutsideMaterial {
         /// Where the temperature is given.
         at: Place,
+        /// What gives it.
+        key: &'static str,
         /// The temperature, °C.
         value: f64,
         /// The material file as written.

@@ -101,13 +101,17 @@ impl<S: Real> State<S> {
         state
     }
 
-    /// Goes on in a scene whose law is another and whose positions count from elsewhere: what is stuck may slip, what slides is
-    /// on the piece of its speed.
-    pub fn go_over(&mut self, scene: &Words<S>, belt: Belt<S>, shift: [S; 2]) {
-        self.body.shift(shift);
+    /// Goes on in a scene whose law is another and whose equilibrium moves otherwise, so that velocities seen from it are larger by
+    /// `faster` (`ẋ2` and `ẏ1`). What sticks may slip, what slides is on the piece of its speed.
+    pub fn go_over(&mut self, scene: &Words<S>, belt: Belt<S>, faster: [S; 2]) {
+        self.body.v[0] += faster[0];
+        self.body.v[2] += faster[1];
         match self.contact {
-            FREE => {}
-            STICK => self.at_rest(scene, belt),
+            FREE => self.piece = 0,
+            STICK => {
+                self.piece = 0;
+                self.at_rest(scene, belt);
+            }
             contact => {
                 let v = belt.velocity - self.body.v[0];
                 let piece = scene.piece_at(if contact == SLIP { v } else { -v });

@@ -9,33 +9,43 @@ use crate::engine::method::pace::Turns;
 use crate::model::status::Status;
 
 impl<T: Real> Job<T> {
-    /// Takes the model of its present time, where that is another, for steps of this tolerance: positions count from its
-    /// equilibrium then. Whether it is another.
+    /// Goes over to the model of its present time, where that is another, for steps of this tolerance. Whether it is.
     pub fn heat(&mut self, tolerance: f64) -> bool {
+        let before = self.warmth;
+        if !self.take_model(tolerance) {
+            return false;
+        }
+        let shift = self.shift_from(before.base);
+        let faster = [0, 1].map(|k| T::from_f64(before.drift[k] - self.warmth.drift[k]));
+        let belt = belt_at(self.warmth.seen(self.scene.belt(self.time)));
+        let ahead = [0, 1].map(|k| T::from_f64(before.lag[k] - self.warmth.lag[k]));
+        self.state.body.shift(ahead);
+        self.state.go_over(&self.words, belt, faster);
+        self.origin = [self.origin[0] + shift[0], self.origin[1] + shift[1]];
+        true
+    }
+
+    /// Takes the model of its present time; positions count from its equilibrium then. Whether it is another.
+    pub(super) fn take_model(&mut self, tolerance: f64) -> bool {
         if self.state.status != Status::Unwritten {
             return false;
         }
-        let (model, warmth) = match self.scene.warmed(self.time, &self.warmth) {
+        match self.scene.warmed(self.time, &self.warmth) {
             Ok(None) => return false,
-            Ok(Some(found)) => found,
+            Ok(Some((model, warmth))) => (self.scene.model, self.warmth) = (model, warmth),
             Err(status) => {
                 self.state.status = status;
                 return false;
             }
-        };
-        let before = self.warmth.base;
-        let shift = [0, 1].map(|k| T::from_f64(before[k] - warmth.base[k]));
+        }
         let turns = &Turns::new(ORDER, tolerance);
-        self.scene.model = model;
-        self.warmth = warmth;
         self.words = Words::new(self.words.law, &self.scene, turns);
         self.constants = constants(&self.scene.model, turns);
-        let belt = belt_at(&self.scene, self.time);
-        self.state.go_over(&self.words, belt, shift);
-        if let Some(start) = &mut self.snapshot {
-            start.body.shift(shift);
-        }
-        self.origin = [self.origin[0] + shift[0], self.origin[1] + shift[1]];
         true
+    }
+
+    /// By how much positions are larger that count from the present equilibrium instead of one that lay at `before`.
+    pub(super) fn shift_from(&self, before: [f64; 2]) -> [T; 2] {
+        [0, 1].map(|k| T::from_f64(before[k] - self.warmth.base[k]))
     }
 }

@@ -5,13 +5,14 @@ use std::f64::consts::TAU;
 use crate::engine::course::Warmth;
 use crate::engine::kernel::scalar::Real;
 use crate::engine::lanes::constants::{CONSTANTS, SWING, constants};
-use crate::engine::lanes::contact::{Belt, FREE, GAP, STICK, State, UPPER_KINK};
+use crate::engine::lanes::contact::{Belt, Body, FREE, GAP, STICK, State, UPPER_KINK};
 use crate::engine::lanes::count::Count;
 use crate::engine::lanes::flight::Flight;
 use crate::engine::lanes::stretches::Stretches;
 use crate::engine::lanes::words::Words;
 use crate::engine::measuring::Measuring;
 use crate::engine::method::pace::Turns;
+use crate::engine::method::taylor::BeltMotion;
 use crate::engine::outcome::Outcome;
 use crate::engine::plan::Plan;
 use crate::engine::reductions::{End, Reductions};
@@ -111,7 +112,9 @@ pub struct Job<T> {
     pub is_over: bool,
     measuring: Measuring,
     /// The state at the start of the window.
-    pub(super) snapshot: Option<State<T>>,
+    snapshot: Option<State<T>>,
+    /// From where its positions count.
+    opened: [f64; 2],
 }
 
 impl<T: Real> Job<T> {
@@ -120,7 +123,7 @@ impl<T: Real> Job<T> {
     pub fn new(instance: &Instance, scene: Scene, plan: &Plan, turns: &Turns) -> Job<T> {
         let words: Words<T> = Words::new(instance.law.kind().form(), &scene, turns);
         let measuring = Measuring::new(instance, &scene, plan);
-        let mut state = State::new(&words, belt_at(&scene, 0.0));
+        let mut state = State::new(&words, belt_at(scene.belt(0.0)));
         // f64 goes on: there is nothing finer that would compute it again.
         if T::EPSILON.to_f64() > f64::EPSILON && words.stands_still_on_a_rise() {
             state.status = Status::StepTooLarge;
@@ -150,6 +153,7 @@ impl<T: Real> Job<T> {
             is_over: false,
             measuring,
             snapshot: None,
+            opened: [0.0; 2],
         }
     }
 
@@ -198,6 +202,7 @@ impl<T: Real> Job<T> {
                 self.state.return_to(&snapshot);
                 self.time = self.marks[0];
                 self.count = Count::restarted(self.time);
+                self.take_model(tolerance);
                 true
             }
         }
@@ -235,14 +240,16 @@ impl<T: Real> Job<T> {
             self.quiet = true;
             self.origin = [start.body.p[0], start.body.p[2]];
             self.seen.origin = std::array::from_fn(|k| self.origin[k].to_f64() + self.warmth.base[k]);
-            self.snapshot = Some(start);
+            (self.snapshot, self.opened) = (Some(start), self.warmth.base);
         }
     }
 
-    /// The state at the start of the window, where that has begun.
+    /// Position and velocity at the start of the window, where that has begun, from the present equilibrium.
     #[must_use]
-    pub fn start_of_window(&self) -> Option<&State<T>> {
-        self.snapshot.as_ref()
+    pub fn start_of_window(&self) -> Option<Body<T>> {
+        let mut body = self.snapshot.as_ref()?.body;
+        body.shift(self.shift_from(self.opened));
+        Some(body)
     }
 
     /// Keeps `ẋ2` at the end of a stretch: what sticks on a belt that has come to rest has not gone below it, but for a rounding.
@@ -411,9 +418,8 @@ impl<T: Real> Job<T> {
     }
 }
 
-/// The belt of a scene at a time.
-pub(super) fn belt_at<T: Real>(scene: &Scene, time: f64) -> Belt<T> {
-    let belt = scene.belt(time);
+/// A belt in the numbers of the lanes.
+pub(super) fn belt_at<T: Real>(belt: BeltMotion) -> Belt<T> {
     Belt { velocity: T::from_f64(belt.velocity), acceleration: T::from_f64(belt.acceleration) }
 }
 

@@ -176,7 +176,7 @@ fn begin<S: Simd, T: Scalar<S>>(all: &mut Lanes<S, T>, lane: usize) -> bool {
         _ => f64::from(all.settings.terms.most_steps) - job.steps as f64,
     };
     let [most_steps, most_events] = job.count.most([job.time, job.until], left);
-    let belt = job.scene.belt(job.time);
+    let belt = job.warmth.seen(job.scene.belt(job.time));
     let b = &mut all.block;
     b.load_state(lane, &job.state, &job.words);
     b.belt.set(lane, T::from_f64(belt.velocity));

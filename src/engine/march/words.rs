@@ -40,7 +40,7 @@ impl<R: Real> Words<R> {
 /// Begins a leg of a job for a kernel of so many pieces, in the place of the one before.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "counts are words of a kernel")]
 pub fn begin<R: Real>(job: &mut Job<R>, leg: &Leg, pieces: usize, words: &mut Words<R>) {
-    let belt = job.scene.belt(job.time);
+    let belt = job.warmth.seen(job.scene.belt(job.time));
     job.until = job.time + leg.length;
 
     let Words { inputs, state: words, flags } = words;
@@ -87,7 +87,7 @@ pub fn begin<R: Real>(job: &mut Job<R>, leg: &Leg, pieces: usize, words: &mut Wo
     flags[flag::GROWING] = u32::from(job.growing);
     if let Some(start) = job.start_of_window() {
         flags[flag::OPENED] = 1;
-        put_body(&mut words[state::START..], &start.body);
+        put_body(&mut words[state::START..], &start);
         flags[flag::BEGUN] = u32::from(job.seen.crossings > 0);
         flags[flag::BEFORE] = job.stretches.len() as u32;
     }

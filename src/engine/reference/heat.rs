@@ -30,13 +30,16 @@ impl Integrator<'_> {
         &self.warmth
     }
 
-    /// Goes on with another model, on the belt `belt`: what is stuck may slip, what slides is on the piece of its speed.
+    /// Goes on with another model, on the belt `belt` as it is seen from there: what sticks may slip, what slides is on the piece of
+    /// its speed.
     ///
     /// # Errors
     /// As [`Integrator::new`].
     pub fn go_over(&mut self, model: Scaled, warmth: Warmth, belt: BeltMotion) -> Result<(), Status> {
-        self.state.position[0] += self.warmth.base[0] - warmth.base[0];
-        self.state.position[2] += self.warmth.base[1] - warmth.base[1];
+        self.state.position[0] += self.warmth.lag[0] - warmth.lag[0];
+        self.state.position[2] += self.warmth.lag[1] - warmth.lag[1];
+        self.state.velocity[0] += self.warmth.drift[0] - warmth.drift[0];
+        self.state.velocity[2] += self.warmth.drift[1] - warmth.drift[1];
         (self.longest, self.warmth) = (self.resolution.longest(&model), warmth);
         self.model = Cow::Owned(model);
         match self.contact {

@@ -188,13 +188,13 @@ impl<'a> Integrator<'a> {
             return Err(Status::NonFinite);
         }
         if taken > 0.0 {
-            let base = self.warmth.base;
+            let warmth = self.warmth;
             observer.step(&Step {
                 expansion: &expansion,
                 start: self.time,
                 duration: taken,
                 belt,
-                base,
+                warmth,
                 end,
             });
             self.state = end.state;

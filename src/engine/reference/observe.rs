@@ -23,7 +23,7 @@ const GAUSS: [(f64, f64); 4] = [
 /// Adds a step to the sums of half of the measuring window.
 fn add(sums: &mut [f64; sum::WORDS], step: &Step, nodes: &[Sample; 4], origin: [f64; 2]) {
     let duration = step.duration;
-    let from = [origin[0] - step.base[0], origin[1] - step.base[1]];
+    let from = [origin[0] - step.warmth.base[0], origin[1] - step.warmth.base[1]];
     sums[sum::TIME] += duration;
     match step.expansion.contact.state() {
         ContactState::Slip => {}
@@ -184,7 +184,8 @@ impl Observer for Window {
         let samples = SAMPLE_TIMES.map(|fraction| Sample::at(step, fraction));
         let [_, ref nodes @ .., _] = samples;
         let start = samples[0].motion.state.position;
-        let origin = *self.origin.get_or_insert([start[X2] + step.base[0], start[Y1] + step.base[1]]);
+        let origin =
+            *self.origin.get_or_insert([start[X2] + step.warmth.base[0], start[Y1] + step.warmth.base[1]]);
         add(&mut self.halves[self.half], step, nodes, origin);
         self.count_crossings(step);
         let (order, duration) = (step.expansion.order, step.duration);

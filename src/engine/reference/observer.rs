@@ -1,5 +1,6 @@
 //! What is seen of a motion: its steps and events.
 
+use crate::engine::course::Warmth;
 use crate::engine::method::taylor::{BeltMotion, Expansion, Motion};
 
 /// One accepted step: the series holds from `start` for `duration`.
@@ -13,8 +14,8 @@ pub struct Step<'a> {
     pub duration: f64,
     /// The belt at the start of the step.
     pub belt: BeltMotion,
-    /// From where `x2` and `y1` count, scaled, from the equilibrium of the start.
-    pub base: [f64; 2],
+    /// From where `x2` and `y1` and their velocities count.
+    pub warmth: Warmth,
     /// The motion at the end of the step, before the event that ended it.
     pub end: Motion,
 }

@@ -48,8 +48,9 @@ impl Scene {
         while rest > 0.0 {
             let (belt, holds) = self.belt_from(integrator.time());
             if let Some((model, warmth)) = self.warmed(integrator.time(), integrator.warmth())? {
-                integrator.go_over(model, warmth, belt)?;
+                integrator.go_over(model, warmth, warmth.seen(belt))?;
             }
+            let belt = integrator.warmth().seen(belt);
             let part = rest.min(holds);
             integrator.advance(part, belt, observer)?;
             rest -= part;

@@ -111,12 +111,15 @@ impl Sampler<'_> {
         let motion = step.expansion.motion(tau);
         let (tangential, normal) = step.expansion.forces(tau);
         let mut position = motion.state.position.map(|x| x * units.length);
-        position[0] += self.scene.equilibrium.x2 + step.base[0] * units.length;
-        position[2] += self.scene.equilibrium.y1 + step.base[1] * units.length;
+        let [base, drift] = [step.warmth.base, step.warmth.drift];
+        position[0] += self.scene.equilibrium.x2 + base[0] * units.length;
+        position[2] += self.scene.equilibrium.y1 + base[1] * units.length;
+        let [vx, vy, vw] = motion.state.velocity;
+        let velocity = [vx + drift[0], vy, vw + drift[1]];
         TraceRow {
             t: (step.start + tau) * units.time,
             position,
-            velocity: motion.state.velocity.map(|v| v * units.velocity),
+            velocity: velocity.map(|v| v * units.velocity),
             acceleration: motion.acceleration.map(|a| a * units.acceleration),
             normal_force: normal * units.force,
             tangential_force: tangential * units.force,

@@ -166,8 +166,9 @@ impl At<'_> {
                 let needed_by = format!("material `{}` is read at a temperature", material.name);
                 return Err(self.missing("temperature", needed_by));
             };
-            for value in [Some(temperature), self.params.get(Param::TemperatureEnd)].into_iter().flatten() {
-                covered(Some(material), &Value::Number(value), || self.everything())?;
+            for param in Param::TEMPERATURES {
+                let value = self.params.get(param).unwrap_or(temperature);
+                covered(Some(material), (param.info().name, &Value::Number(value)), || self.everything())?;
             }
         }
         let has = |param| {

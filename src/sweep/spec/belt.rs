@@ -113,7 +113,7 @@ impl Check<'_> {
                 at,
                 key: other.info().name,
                 needed_by: format!("{key} describes a ramp"),
-                remedy: "give both or none".to_owned(),
+                remedy: "give both or none, or with a material `temperature_end` and a duration".to_owned(),
             });
         }
         if let Some((param, needed_by)) = lacking(motion, has) {
@@ -139,7 +139,7 @@ impl Check<'_> {
         }
         for material in self.files.all_materials() {
             for [_, temperature] in corners.iter() {
-                covered(Some(material), &Value::Number(*temperature), at)?;
+                covered(Some(material), ("temperature` of `motion_table", &Value::Number(*temperature)), at)?;
             }
         }
         Ok(())

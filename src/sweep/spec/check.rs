@@ -285,7 +285,8 @@ impl Check<'_> {
                             continue;
                         };
                         for (index, value) in axes[axis].values.iter().enumerate() {
-                            covered(material, value, || self.varied.value_place(axis, index))?;
+                            let given = (param.info().name, value);
+                            covered(material, given, || self.varied.value_place(axis, index))?;
                         }
                     }
                 }
@@ -305,7 +306,8 @@ impl Check<'_> {
                     for (param, column) in temperatures {
                         match column {
                             Some(column) => {
-                                covered(material, &row[column], || self.varied.value_place(column, index))?;
+                                let given = (param.info().name, &row[column]);
+                                covered(material, given, || self.varied.value_place(column, index))?;
                             }
                             None => self.base_temperature(param, material)?,
                         }
@@ -363,14 +365,14 @@ impl Check<'_> {
             return if is_start { Err(self.missing(param, needed_by)) } else { Ok(()) };
         };
         let span = self.sections.find(param.info().name).map_or(0..0, |given| given.span.clone());
-        covered(material, &Value::Number(temperature), || self.sweep.place(span.clone()))
+        covered(material, (param.info().name, &Value::Number(temperature)), || self.sweep.place(span.clone()))
     }
 }
 
 /// Refuses a temperature outside a material that is not clamped.
 pub(super) fn covered(
     material: Option<&Arc<Material>>,
-    temperature: &Value,
+    (key, temperature): (&'static str, &Value),
     at: impl Fn() -> Place,
 ) -> Result<()> {
     let (Some(material), &Value::Number(value)) = (material, temperature) else { return Ok(()) };
@@ -378,7 +380,7 @@ pub(super) fn covered(
         return Ok(());
     }
     let (low, high) = material.temperatures();
-    Err(Error::OutsideMaterial { at: at(), value, material: material.name.clone(), low, high })
+    Err(Error::OutsideMaterial { at: at(), key, value, material: material.name.clone(), low, high })
 }
 
 pub(super) fn unused(at: Place, key: String, used_by: String) -> Error {

@@ -162,7 +162,7 @@ refuses! {
     event_fraction_of_one: format!("{VALID}[start]\nkind = \"mode\"\nstart_event_fraction = 1\n")
         => "s.toml:8:24: `start_event_fraction` in [start] is 1 but must be strictly between 0 and 1";
     half_a_ramp: format!("{VALID}ramp_duration = 10\n")
-        => "s.toml:6:17: `belt_velocity_end` is missing: `ramp_duration` in [belt] describes a ramp, so give both or none";
+        => "s.toml:6:17: `belt_velocity_end` is missing: `ramp_duration` in [belt] describes a ramp, so give both or none, or with a material `temperature_end` and a duration";
     duration_without_unit: "[response]\nsettle = \"6\"\n"
         => "s.toml:2:10: `settle` in [response] is \"6\" but must be \"auto\", \"cycle\" or a string such as \"6 s\" or \"200 periods\", \
             not below 0 and at most 1e9";

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use crate::common::{close, instance, plan};
 use crate::engines::Engine;
+use crate::instances::Uniform;
 use smallvec::SmallVec;
 use squealmap::engine::outcome::Outcome;
 use squealmap::engine::plan::{Duration, Plan};
@@ -121,9 +122,9 @@ fn what_slides_is_as_another_integrator_has_it() {
         let outcome = run(engine, &one);
         let what = engine.name();
         assert_eq!((outcome.stick, outcome.free), (Some(0.0), Some(0.0)), "{what}");
-        // Stairs of 1/1024 of all rises and falls; with 256 of them the deviation is 0.65 % off.
+        // Stairs of 1/1024 of all rises and falls are not quite the temperature.
         close(&format!("{what}, mean"), outcome.x2_mean.expect("a value"), mean, 1e-5);
-        close(&format!("{what}, deviation"), outcome.x2_std.expect("a value"), std, 1e-3);
+        close(&format!("{what}, deviation"), outcome.x2_std.expect("a value"), std, 5e-4);
     }
 }
 
@@ -233,4 +234,130 @@ fn stairs_lie_about_the_temperature() {
     close("area", area, 2.0 * 50.0 + 90.0 + 2.0 * 70.0, 1e-12);
     assert!((STAIRS..STAIRS + 8).contains(&stairs), "{stairs}");
     assert_eq!(heating.stair(7.0), (50.0, f64::INFINITY));
+}
+
+/// Random strokes of random pads: of every law, up and down in temperature, with fewer and more stairs than periods. Where two
+/// step lengths of the reference agree, all engines of f64 do, and those of f32 but for what an event on its edge may decide.
+#[test]
+fn engines_agree_on_random_courses() {
+    let mut u = Uniform(20_261_127);
+    let (mut compared, mut apart) = (0, 0);
+    for number in 0..40 {
+        let kind = LawKind::ALL[number % LawKind::ALL.len()];
+        let rows = [0.0, 100.0, 200.0];
+        let mut three = |low: f64, high: f64| -> Vec<f64> {
+            rows.iter().map(|_| low + (high - low) * u.next()).collect()
+        };
+        let (mu_d, above, scale) = (three(0.05, 0.3), three(0.0, 0.4), three(0.1, 2.0));
+        let mu_s: Vec<f64> = mu_d.iter().zip(&above).map(|(mu, above)| mu + above).collect();
+        let of = if kind == LawKind::Table {
+            let tables = (0..rows.len()).map(|row| {
+                let (top, end, knee) = (mu_s[row], mu_d[row], scale[row]);
+                let (mut velocity, mut mu) = (vec![0.0, knee, 3.0 * knee], vec![top, 0.5 * (top + end), end]);
+                // Another number of pieces in every row.
+                (velocity, mu) = (velocity.drain(..=row.max(1)).collect(), mu.drain(..=row.max(1)).collect());
+                Arc::new(MuTable { velocity, mu })
+            });
+            material(&rows, &[], tables.collect())
+        } else {
+            let columns: [(Param, &[f64]); 5] = [
+                (Param::MuS, &mu_s),
+                (Param::MuD, &mu_d),
+                (Param::KneeVelocity, &scale),
+                (Param::StribeckVelocity, &scale),
+                (Param::Decay, &scale),
+            ];
+            material(&rows, &columns, Vec::new())
+        };
+        let duration = u.log(0.02, 3.0);
+        let values = [
+            (Param::BeltVelocity, u.log(0.05, 5.0)),
+            (Param::RampDuration, duration),
+            (Param::RiseDuration, 0.2 * duration),
+            (Param::Theta, 0.6 * u.next() - 0.2),
+            (Param::C1, u.log(0.1, 50.0)),
+            (Param::C2, u.log(0.1, 50.0)),
+            (Param::StartVelocity, u.next()),
+            (Param::Restitution, if u.next() < 0.5 { 0.0 } else { 0.5 }),
+        ];
+        let mut corners = vec![[0.0, 200.0 * u.next()]];
+        for at in [0.4, 0.7, 1.0] {
+            corners.push([at * duration, 200.0 * u.next()]);
+        }
+        let motion = [Motion::Ramp, Motion::Sine, Motion::Trapeze][number % 3].clone();
+        let one = Instance { motion, ..heated(kind, &of, &corners, &values) };
+        let reference = |steps| Engine::Reference.run(&one, &Plan { steps_per_period: steps, ..whole() });
+        let [expected, finer] = [12, 17].map(reference);
+        let std = |outcome: &Outcome| outcome.x2_std.unwrap_or(f64::NAN);
+        if expected.status != Status::Ok || (std(&finer) / std(&expected) - 1.0).abs() > 1e-7 {
+            continue;
+        }
+        compared += 1;
+        for engine in Engine::ALL.into_iter().filter(|engine| engine.slower() < 2.0 || duration < 0.2) {
+            let outcome = engine.run(&one, &whole());
+            let what = format!("{number}: {} of {}", engine.name(), kind.name());
+            assert_eq!(outcome.status, Status::Ok, "{what}");
+            let off = (std(&outcome) / std(&expected) - 1.0).abs();
+            if digits(engine) < 1e-5 {
+                assert!(off < 1e-5, "{what}: {off}");
+            } else if off > 1e-3 {
+                apart += 1;
+            }
+        }
+    }
+    assert!(compared >= 20 && apart <= 2, "{compared} compared, {apart} apart in f32");
+}
+
+/// Stairs that come in step with the vibration do not push what slides: a single mass, one period of which is as long as a stair,
+/// goes with its equilibrium, and its standard deviation is that of a straight line.
+#[test]
+fn stairs_push_nothing_that_slides() {
+    let of = material(&[0.0, 100.0], &[(Param::MuS, &[0.1, 0.2]), (Param::MuD, &[0.1, 0.2])], Vec::new());
+    let (duration, window) = (30.86, 1.0);
+    let values = [
+        (Param::BeltVelocity, 0.1),
+        (Param::RampDuration, duration),
+        (Param::Theta, 0.0),
+        (Param::StartVelocity, 1e-6),
+    ];
+    let one = heated(LawKind::Constant, &of, &[[0.0, 0.0], [duration, 100.0]], &values);
+    // The spring gives way by 1e-3 m in all; a straight line over a part of it has its length over the root of 12.
+    let expected = 1e-3 * (window / duration) / 12.0_f64.sqrt();
+    for engine in [Engine::Reference, Engine::CpuF64, Engine::CpuF32] {
+        let outcome = engine.run(&one, &plan(duration - window, window, 12));
+        close(engine.name(), outcome.x2_std.expect("a value"), expected, 1e-3);
+        assert_eq!(outcome.stick, Some(0.0), "{}", engine.name());
+        assert!(outcome.ax_peak.expect("a value") < 0.01, "{}: {:?}", engine.name(), outcome.ax_peak);
+    }
+}
+
+/// A body that flies while the law loses pieces slides on one of those that are left when it lands.
+#[test]
+fn a_law_may_lose_pieces_during_a_flight() {
+    let table = |rows: &[[f64; 2]]| {
+        let (velocity, mu) = rows.iter().map(|[velocity, mu]| (*velocity, *mu)).unzip();
+        Arc::new(MuTable { velocity, mu })
+    };
+    let tables = vec![
+        table(&[[0.0, 0.446], [0.7914, 0.4936]]),
+        table(&[[0.0, 0.0298], [0.3783, 0.537]]),
+        table(&[[0.0, 0.2955], [0.0014, 0.0647], [0.3497, 0.4425]]),
+    ];
+    let of = material(&[0.0, 275.221_316_943_280_67, 600.0], &[], tables);
+    for duration in [0.12, 0.18, 0.22, 0.46, 0.88] {
+        let values = [
+            (Param::BeltVelocity, 2.5),
+            (Param::RampDuration, duration),
+            (Param::Theta, 0.1),
+            (Param::C1, 0.0),
+            (Param::C2, 10.0),
+            (Param::StartVelocity, -1.0),
+        ];
+        let one =
+            heated(LawKind::Table, &of, &[[0.0, 272.3], [duration, 0.0], [2.0 * duration, 0.0]], &values);
+        for engine in Engine::ALL {
+            let outcome = run(engine, &one);
+            assert_eq!(outcome.status, Status::Ok, "{} {duration}", engine.name());
+        }
+    }
 }

@@ -57,6 +57,9 @@ impl Text {
             .iter()
             .map(|name| decoded(name.to_vec()).trim().trim_start_matches('\u{feff}').to_owned())
             .collect();
+        if header.iter().all(String::is_empty) {
+            return Err(Fault::Unreadable { why: "it holds no header".to_owned() });
+        }
         since.set(0);
         let (record, marks) = (ByteRecord::new(), Marks::default());
         Ok(Text { reader, since, record, header, by_commas: separator == b',', marks })

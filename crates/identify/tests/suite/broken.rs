@@ -42,3 +42,14 @@ fn any_changed_byte_or_end_is_no_panic() {
         assert!(refused > 200, "{name}: {refused}");
     }
 }
+
+#[test]
+fn a_file_without_a_header_is_told_as_such() {
+    for nothing in ["", "\n\n", "# a remark\n", ",,\n1,2,3\n"] {
+        refused(
+            nothing.as_bytes(),
+            &Settings::default(),
+            &["holds no header", "give a CSV file with a header"],
+        );
+    }
+}
