@@ -49,9 +49,8 @@ impl Heating {
     /// temperature itself.
     #[must_use]
     pub fn stair(&self, time: f64) -> (f64, f64) {
-        let after = self.corners.partition_point(|corner| corner[0] <= time).max(1);
-        let [begun, first] = self.corners[after - 1];
-        let Some(&[end, last]) = self.corners.get(after) else { return (first, f64::INFINITY) };
+        let ([begun, first], next) = self.leg(time);
+        let Some([end, last]) = next else { return (first, f64::INFINITY) };
         let steps = ((last - first).abs() / self.height).ceil();
         if steps == 0.0 {
             return (first, end);
@@ -69,9 +68,14 @@ impl Heating {
     /// How fast the temperature changes from a time (s) on, °C/s.
     #[must_use]
     pub fn rate(&self, time: f64) -> f64 {
+        let ([begun, first], next) = self.leg(time);
+        next.map_or(0.0, |[end, last]| (last - first) / (end - begun))
+    }
+
+    /// The corner before a time (s), and the one after it, if any.
+    fn leg(&self, time: f64) -> ([f64; 2], Option<[f64; 2]>) {
         let after = self.corners.partition_point(|corner| corner[0] <= time).max(1);
-        let [begun, first] = self.corners[after - 1];
-        self.corners.get(after).map_or(0.0, |[end, last]| (last - first) / (end - begun))
+        (self.corners[after - 1], self.corners.get(after).copied())
     }
 
     /// A small part of all temperatures, for differences, °C.

@@ -3,11 +3,12 @@
 use std::sync::Arc;
 
 use crate::common::{close, instance, plan};
+use crate::engine::motions::{run, stroke};
 use crate::engines::Engine;
 use crate::instances::Uniform;
 use smallvec::SmallVec;
 use squealmap::engine::outcome::Outcome;
-use squealmap::engine::plan::{Duration, Plan};
+use squealmap::engine::plan::Plan;
 use squealmap::model::Param;
 use squealmap::model::friction::{LawKind, MuTable};
 use squealmap::model::heating::{Heating, STAIRS};
@@ -15,11 +16,6 @@ use squealmap::model::instance::Instance;
 use squealmap::model::material::{Material, Outside};
 use squealmap::model::motion::{Corners, Motion};
 use squealmap::model::status::Status;
-
-/// A run is measured as a whole.
-fn whole() -> Plan {
-    Plan { settle: Duration::Seconds(0.0), measure: Duration::Ramp, ..plan(0.0, 1.0, 12) }
-}
 
 /// A material with these temperatures and columns, and tables where there are any.
 fn material(temperature: &[f64], columns: &[(Param, &[f64])], tables: Vec<Arc<MuTable>>) -> Arc<Material> {
@@ -41,12 +37,6 @@ fn heated(kind: LawKind, of: &Arc<Material>, corners: &[[f64; 2]], values: &[(Pa
     one.law = heating.law_at(one.params.require(Param::Temperature), &mut one.params);
     one.heating = Some(Arc::new(heating));
     one
-}
-
-fn run(engine: Engine, one: &Instance) -> Outcome {
-    let outcome = engine.run(one, &whole());
-    assert_eq!(outcome.status, Status::Ok, "{}", engine.name());
-    outcome
 }
 
 /// What an engine may be off by beside another: rounding, the truncation of steps, and in f32 that of a long sum.
@@ -286,7 +276,7 @@ fn engines_agree_on_random_courses() {
         }
         let motion = [Motion::Ramp, Motion::Sine, Motion::Trapeze][number % 3].clone();
         let one = Instance { motion, ..heated(kind, &of, &corners, &values) };
-        let reference = |steps| Engine::Reference.run(&one, &Plan { steps_per_period: steps, ..whole() });
+        let reference = |steps| Engine::Reference.run(&one, &Plan { steps_per_period: steps, ..stroke() });
         let [expected, finer] = [12, 17].map(reference);
         let std = |outcome: &Outcome| outcome.x2_std.unwrap_or(f64::NAN);
         if expected.status != Status::Ok || (std(&finer) / std(&expected) - 1.0).abs() > 1e-7 {
@@ -294,7 +284,7 @@ fn engines_agree_on_random_courses() {
         }
         compared += 1;
         for engine in Engine::ALL.into_iter().filter(|engine| engine.slower() < 2.0 || duration < 0.2) {
-            let outcome = engine.run(&one, &whole());
+            let outcome = engine.run(&one, &stroke());
             let what = format!("{number}: {} of {}", engine.name(), kind.name());
             assert_eq!(outcome.status, Status::Ok, "{what}");
             let off = (std(&outcome) / std(&expected) - 1.0).abs();

@@ -17,7 +17,7 @@ use squealmap::model::status::Status;
 type Velocity<'a> = &'a dyn Fn(f64) -> f64;
 
 /// A stroke is measured as a whole.
-fn stroke() -> Plan {
+pub(crate) fn stroke() -> Plan {
     Plan { settle: Duration::Seconds(0.0), measure: Duration::Ramp, ..plan(0.0, 1.0, 12) }
 }
 
@@ -29,7 +29,7 @@ fn table(corners: &[[f64; 2]]) -> Motion {
     }))
 }
 
-fn run(engine: Engine, one: &Instance) -> Outcome {
+pub(crate) fn run(engine: Engine, one: &Instance) -> Outcome {
     let outcome = engine.run(one, &stroke());
     assert_eq!(outcome.status, Status::Ok, "{}", engine.name());
     outcome
