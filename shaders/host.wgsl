@@ -1,5 +1,5 @@
 // Twin: src/engine/kernel/source.rs
-// The contract between host and kernels. Words are word-major: word w of instance i at w * count + i.
+// The contract between host and kernels. The words of TOGETHER instances lie together, word by word.
 
 struct Settings {
     count: u32,
@@ -8,7 +8,8 @@ struct Settings {
     zero: u32,
     zero_real: f32,
     one_real: f32,
-    spare: vec2<u32>,
+    state_words: u32,
+    spare: u32,
     words: array<vec4<u32>, SETTING_VECTORS>,
 }
 
@@ -23,24 +24,30 @@ fn instance_of(workgroup: vec3<u32>, workgroups: vec3<u32>, local: u32) -> u32 {
     return (workgroup.y * workgroups.x + workgroup.x) * WORKGROUP_SIZE + local;
 }
 
+// Where word 0 of an instance with so many words is, and how far it is from there to another one: the first of these is the
+// same for all words, the second a constant.
+fn first_place(words: u32, instance: u32) -> u32 {
+    return (instance / TOGETHER) * (words * TOGETHER) + instance % TOGETHER;
+}
+
 fn input(word: u32, instance: u32) -> real {
-    return inputs[word * settings.count + instance];
+    return inputs[first_place(INPUT_WORDS, instance) + word * TOGETHER];
 }
 
 fn load(word: u32, instance: u32) -> real {
-    return state[word * settings.count + instance];
+    return state[first_place(settings.state_words, instance) + word * TOGETHER];
 }
 
 fn store(word: u32, instance: u32, value: real) {
-    state[word * settings.count + instance] = value;
+    state[first_place(settings.state_words, instance) + word * TOGETHER] = value;
 }
 
 fn flag(word: u32, instance: u32) -> u32 {
-    return flags[word * settings.count + instance];
+    return flags[first_place(FLAG_WORDS, instance) + word * TOGETHER];
 }
 
 fn set_flag(word: u32, instance: u32, value: u32) {
-    flags[word * settings.count + instance] = value;
+    flags[first_place(FLAG_WORDS, instance) + word * TOGETHER] = value;
 }
 
 // A kernel-specific word of the settings.

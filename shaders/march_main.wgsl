@@ -1,5 +1,23 @@
 // The entry point of the march: settings.iterations steps of every lane that is in this part of its run.
 
+// State and flags before a leg: their first words stand in its inputs, the others are 0.
+fn begin_lane() {
+    // Numbers that a compiler does not know: the loops stay loops.
+    let sent = STATE_SENT + settings.zero;
+    for (var i = 0u; i < settings.state_words; i++) {
+        store(i, instance, 0.0);
+    }
+    for (var i = 0u; i < sent; i++) {
+        store(i, instance, input(INPUT_START + i, instance));
+    }
+    for (var i = 0u; i < FLAG_WORDS + settings.zero; i++) {
+        set_flag(i, instance, 0u);
+    }
+    for (var i = 0u; i < FLAG_SENT + settings.zero; i++) {
+        set_flag(i, instance, u32(input(INPUT_COUNTS + i, instance)));
+    }
+}
+
 fn load_lane() {
     px = load(STATE_BODY, instance);
     py = load(STATE_BODY + 1u, instance);
@@ -52,6 +70,9 @@ fn main(
     instance = instance_of(workgroup, workgroups, local);
     if instance >= settings.count {
         return;
+    }
+    if PART == PART_GROWTH && setting(SETTING_FRESH) == 1u {
+        begin_lane();
     }
     if flag(FLAG_STATUS, instance) != STATUS_UNWRITTEN || flag(FLAG_PART, instance) != PART {
         return;

@@ -4,18 +4,20 @@ use crate::Case;
 use crate::words::{compare, device, drive, inputs, on_cpu};
 use libtest_mimic::Failed;
 use squealmap::engine::error::Error;
+use squealmap::engine::fields::words;
 use squealmap::engine::gpu::kernel::Compiled;
 use squealmap::engine::gpu::run::{ChunkResult, Drive, run};
-use squealmap::engine::kernel::linear::KERNEL;
+use squealmap::engine::kernel::linear::{FLAGS, KERNEL, STATE};
+use squealmap::engine::kernel::places::{TOGETHER, place};
 use squealmap::engine::precision::Precision;
 
 /// Instances of a fault.
 const COUNT: usize = 500;
 
 pub(crate) const CASES: &[Case] = &[
-    ("faults::one_wrong_value", || caught(|result| result.state[77] += 0.01)),
+    ("faults::one_wrong_value", || caught(|result| result.state[place([0, words(&STATE)], 77)] += 0.01)),
     ("faults::one_nan", || caught(|result| result.state[1234] = f32::NAN)),
-    ("faults::one_wrong_type", || caught(|result| result.flags[2 * COUNT + 5] ^= 1)),
+    ("faults::one_wrong_type", || caught(|result| result.flags[place([2, words(&FLAGS)], 5)] ^= 1)),
     ("faults::a_short_state", || caught(|result| result.state.truncate(COUNT))),
     ("faults::short_flags", || caught(|result| result.flags.truncate(COUNT))),
     ("faults::all_zero", || {
@@ -26,8 +28,8 @@ pub(crate) const CASES: &[Case] = &[
     }),
     ("faults::swapped_words", || {
         caught(|result| {
-            let (first, second) = result.state.split_at_mut(COUNT);
-            first.swap_with_slice(&mut second[..COUNT]);
+            let (first, second) = result.state.split_at_mut(TOGETHER);
+            first.swap_with_slice(&mut second[..TOGETHER]);
         })
     }),
     ("faults::a_kernel_that_stops_early", stops_early),
@@ -39,11 +41,11 @@ pub(crate) const CASES: &[Case] = &[
 
 /// A fault in an otherwise right result must be noticed, and the right result accepted.
 fn caught(fault: fn(&mut ChunkResult<f32>)) -> Result<(), Failed> {
-    let right = on_cpu(&inputs::<f32>(COUNT));
-    compare(&right, &right, 0.0, 0)?;
+    let right = on_cpu(&inputs::<f32>(COUNT), COUNT);
+    compare(&right, &right, COUNT, 0.0, 0)?;
     let mut wrong = right.clone();
     fault(&mut wrong);
-    match compare(&wrong, &right, 1e-3, 0) {
+    match compare(&wrong, &right, COUNT, 1e-3, 0) {
         Ok(_) => Err("the fault was not noticed".into()),
         Err(_) => Ok(()),
     }
@@ -59,7 +61,7 @@ fn with_main(body: &str) -> Result<squealmap::engine::error::Result<ChunkResult<
     let files = [KERNEL.files[0], ("fault", main.as_str())];
     let source = KERNEL.source_with(Precision::F32, &[], &files);
     let compiled = Compiled::from_source(&device, &KERNEL, &source)?;
-    Ok(run(&device, &compiled, &inputs::<f32>(COUNT), &drive()))
+    Ok(run(&device, &compiled, (&inputs::<f32>(COUNT), COUNT), &drive()))
 }
 
 fn stops_early() -> Result<(), Failed> {
@@ -79,7 +81,7 @@ fn lies() -> Result<(), Failed> {
 fn short_inputs() -> Result<(), Failed> {
     let device = device(Precision::F32)?;
     let compiled = Compiled::new(&device, &KERNEL, &[])?;
-    match run(&device, &compiled, &[1.0_f32; 7], &drive()) {
+    match run(&device, &compiled, (&[1.0_f32; 7], 1), &drive()) {
         Err(Error::ShortBuffer { name: "inputs", found: 7, .. }) => Ok(()),
         other => Err(format!("{:?}", other.map(|_| "a result")).into()),
     }
@@ -96,7 +98,7 @@ fn cancelled() -> Result<(), Failed> {
     let device = device(Precision::F32)?;
     let compiled = Compiled::new(&device, &KERNEL, &[])?;
     let stop = std::sync::atomic::AtomicBool::new(true);
-    match run(&device, &compiled, &inputs::<f32>(COUNT), &Drive { cancel: &stop, ..drive() }) {
+    match run(&device, &compiled, (&inputs::<f32>(COUNT), COUNT), &Drive { cancel: &stop, ..drive() }) {
         Err(Error::Cancelled { done: 0, total: COUNT }) => Ok(()),
         other => Err(format!("{:?}", other.map(|_| "a result")).into()),
     }

@@ -8,7 +8,9 @@ use libtest_mimic::Failed;
 use squealmap::engine::backend::Backend;
 use squealmap::engine::gpu::chunks::{Batch, Session};
 use squealmap::engine::kernel::linear::KERNEL;
+use squealmap::engine::kernel::places::{filled, row};
 use squealmap::engine::kernel::scalar::Real;
+use squealmap::engine::kernel::words::INPUT_WORDS;
 use squealmap::engine::options::Options;
 use squealmap::engine::precision::Precision;
 use squealmap::sweep::map::Map;
@@ -30,8 +32,8 @@ pub(crate) const F64: &[Case] = &[("linear::f64_equals_its_twin", f64_equals_its
 
 fn twin<R: Real>(tolerance: f64) -> Result<(), Failed> {
     let inputs = inputs::<R>(COUNT);
-    let (cpu, gpu) = (on_cpu(&inputs), on_gpu(&inputs)?);
-    let worst = compare(&gpu, &cpu, tolerance, COUNT / 10_000)?;
+    let (cpu, gpu) = (on_cpu(&inputs, COUNT), on_gpu(&inputs, COUNT)?);
+    let worst = compare(&gpu, &cpu, COUNT, tolerance, COUNT / 10_000)?;
     println!(
         "{}: worst {worst:.1e}, {} of {} words differ",
         R::PRECISION,
@@ -51,7 +53,7 @@ fn f64_equals_its_twin() -> Result<(), Failed> {
 
 fn two_runs() -> Result<(), Failed> {
     let inputs = inputs::<f32>(10_000);
-    let (first, second) = (on_gpu(&inputs)?, on_gpu(&inputs)?);
+    let (first, second) = (on_gpu(&inputs, 10_000)?, on_gpu(&inputs, 10_000)?);
     if first == second { Ok(()) } else { Err("two runs differ".into()) }
 }
 
@@ -94,7 +96,7 @@ fn paper_map() -> Result<(), Failed> {
 
 fn lost() -> Result<(), Failed> {
     let inputs = inputs::<f32>(1000);
-    let expected = on_gpu(&inputs)?;
+    let expected = on_gpu(&inputs, 1000)?;
     let mut session = Session::new(device(Precision::F32)?);
     session.device().destroy();
     let mut sizes = Vec::new();
@@ -117,8 +119,8 @@ fn lost() -> Result<(), Failed> {
     Ok(())
 }
 
-/// Some instances of word-major inputs.
+/// Some of the instances of inputs.
 fn batch(inputs: &[f32], range: Range<usize>) -> Batch<f32, ()> {
-    let inputs = inputs.chunks(1000).flat_map(|word| word[range.clone()].iter().copied()).collect();
-    Batch { inputs, memory: () }
+    let rows: Vec<Vec<f32>> = range.map(|index| row(inputs, INPUT_WORDS, index).collect()).collect();
+    Batch { inputs: (filled(INPUT_WORDS, rows.len(), |index| &rows[index][..]), rows.len()), memory: () }
 }

@@ -3,9 +3,12 @@
 use crate::Case;
 use crate::words::{device, drive, inputs};
 use libtest_mimic::Failed;
+use squealmap::engine::fields::words;
 use squealmap::engine::gpu::kernel::Compiled;
 use squealmap::engine::gpu::run::run;
-use squealmap::engine::kernel::linear::{KERNEL, Quartic, factors, quadratic, rightmost, split};
+use squealmap::engine::kernel::linear::{KERNEL, Quartic, STATE, factors, quadratic, rightmost, split};
+use squealmap::engine::kernel::places::place;
+use squealmap::engine::kernel::words::INPUT_WORDS;
 use squealmap::engine::precision::Precision;
 
 /// Instances of a probe.
@@ -49,13 +52,13 @@ fn probe(call: &str, tolerance: f32, twin: fn(Quartic<f32>) -> Vec<f32>) -> Resu
     let files = [KERNEL.files[0], ("probe", main.as_str())];
     let compiled = Compiled::from_source(&device, &KERNEL, &KERNEL.source_with(Precision::F32, &[], &files))?;
     let inputs = inputs::<f32>(COUNT);
-    let result = run(&device, &compiled, &inputs, &drive())?;
+    let result = run(&device, &compiled, (&inputs, COUNT), &drive())?;
     let (mut worst, mut differing) = (0.0_f32, 0);
     for i in 0..COUNT {
-        let word = |word: usize| inputs[word * COUNT + i];
+        let word = |word: usize| inputs[place([word, INPUT_WORDS], i)];
         let quartic = Quartic { p: word(0), g: word(1), k: word(2), e: word(3) };
         for (k, expected) in twin(quartic).into_iter().enumerate() {
-            let actual = result.state[k * COUNT + i];
+            let actual = result.state[place([k, words(&STATE)], i)];
             differing += usize::from(actual.to_bits() != expected.to_bits());
             let difference = (actual - expected).abs() / expected.abs().max(1.0);
             if difference.is_nan() || difference > tolerance {

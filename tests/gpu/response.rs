@@ -7,6 +7,7 @@ use libtest_mimic::Failed;
 use squealmap::engine::gpu::device::Device;
 use squealmap::engine::gpu::kernel::Compiled;
 use squealmap::engine::gpu::run::{ChunkResult, advance, most_steps};
+use squealmap::engine::kernel::places::place;
 use squealmap::engine::kernel::source::SETTING_WORDS;
 use squealmap::engine::lanes::Lanes;
 use squealmap::engine::lanes::job::Part;
@@ -73,12 +74,12 @@ pub(crate) fn on_device<R: Lanes>(
     (settings, steps): ([u32; SETTING_WORDS], u32),
 ) -> Result<ChunkResult<R>, Failed> {
     let steps = steps.min(most_steps(device, &compiled.kernel));
-    let lanes = chunk.result.flags.len() / flag::WORDS;
-    let gone = |flags: &[u32], lane: usize| flags[flag::STEPS * lanes + lane];
-    let most = (0..lanes).map(|lane| gone(&chunk.result.flags, lane) - gone(&chunk.before.1, lane)).max();
+    let gone = |flags: &[u32], lane: usize| flags[place([flag::STEPS, flag::WORDS], lane)];
+    let most =
+        (0..chunk.lanes).map(|lane| gone(&chunk.result.flags, lane) - gone(&chunk.before.1, lane)).max();
     // A step that is too long is gone anew; of every other step there is one.
     let dispatches = 2 * most.unwrap_or(0) / steps + 2;
-    Ok(advance(device, compiled, inputs, &chunk.before, (settings, [dispatches, steps]))?)
+    Ok(advance(device, compiled, (inputs, chunk.lanes), &chunk.before, (settings, [dispatches, steps]))?)
 }
 
 /// What a device makes of a chunk, by the kernel's text with something in it replaced.
@@ -102,9 +103,8 @@ fn close() -> Result<(), Failed> {
     let (mut worst, mut count) = (0.0_f64, 0);
     for chunk in chunks(&plan).into_iter().filter(|chunk| chunk.part == Part::Window) {
         let found = on_gpu(&chunk, &plan, None, ["", ""])?;
-        let lanes = found.flags.len() / flag::WORDS;
-        count += lanes;
-        for index in 0..lanes {
+        count += chunk.lanes;
+        for index in 0..chunk.lanes {
             let ((found, _), (expected, flags)) = (lane(&found, index), lane(&chunk.result, index));
             if flags[flag::STATUS] != Status::Ok as u32 {
                 return Err(format!("status {}", flags[flag::STATUS]).into());

@@ -17,6 +17,7 @@ use squealmap::engine::gpu::device::Device;
 use squealmap::engine::gpu::kernel::Compiled;
 use squealmap::engine::gpu::run::{ChunkResult, run};
 use squealmap::engine::kernel::linear;
+use squealmap::engine::kernel::places::{TOGETHER, place};
 use squealmap::engine::kernel::scalar::Real;
 use squealmap::engine::kernel::source::Kernel;
 use squealmap::engine::lanes::Lanes;
@@ -37,7 +38,7 @@ use squealmap::model::status::Status;
 const COUNT: usize = 65_536;
 
 /// Instances of a comparison of transients, whose twin is slow: 65 536 take it a quarter of an hour for each law.
-/// `SQUEALMAP_STRICT_INSTANCES` asks for more.
+/// `SQUEALMAP_STRICT_INSTANCES` asks for more, in f32 and in f64.
 const MARCHED: usize = 4096;
 
 /// Instances of a planted fault, and of a transient in f64.
@@ -55,26 +56,26 @@ pub(crate) const CASES: &[Case] = &[
 pub(crate) const SLOW: &[Case] = &[
     ("strict::one_changed_operation_is_noticed", changed_operation),
     ("strict::pieces_equal_their_twin_in_every_bit", || {
-        march_equals::<f32>(LawForm::Pieces, marched(), &[false, true])
+        march_equals::<f32>(LawForm::Pieces, marched(MARCHED), &[false, true])
     }),
     ("strict::exponential_equals_its_twin_in_every_bit", || {
-        march_equals::<f32>(LawForm::Exponential, marched(), &[true])
+        march_equals::<f32>(LawForm::Exponential, marched(MARCHED), &[true])
     }),
     ("strict::rational_equals_its_twin_in_every_bit", || {
-        march_equals::<f32>(LawForm::Rational, marched(), &[true])
+        march_equals::<f32>(LawForm::Rational, marched(MARCHED), &[true])
     }),
 ];
 
 /// What takes it as long in f64.
 pub(crate) const SLOW_F64: &[Case] = &[
     ("strict::pieces_in_f64_equal_their_twin_in_every_bit", || {
-        march_equals::<f64>(LawForm::Pieces, FEW, &[false, true])
+        march_equals::<f64>(LawForm::Pieces, marched(FEW), &[false, true])
     }),
     ("strict::exponential_in_f64_equals_its_twin_in_every_bit", || {
-        march_equals::<f64>(LawForm::Exponential, FEW, &[true])
+        march_equals::<f64>(LawForm::Exponential, marched(FEW), &[true])
     }),
     ("strict::rational_in_f64_equals_its_twin_in_every_bit", || {
-        march_equals::<f64>(LawForm::Rational, FEW, &[true])
+        march_equals::<f64>(LawForm::Rational, marched(FEW), &[true])
     }),
 ];
 
@@ -88,27 +89,29 @@ fn differing<R: Real>(
     actual: &ChunkResult<R>,
     expected: &ChunkResult<R>,
 ) -> Result<(usize, String), Failed> {
-    let count = expected.flags.len() / fields::words(kernel.flags);
+    let words = [kernel.state, kernel.flags].map(fields::words);
     if (actual.state.len(), actual.flags.len()) != (expected.state.len(), expected.flags.len()) {
         return Err("results of different sizes".into());
     }
-    let mut differs = vec![false; count];
+    let mut differs = vec![false; expected.flags.len() / words[1]];
     let mut first = String::new();
-    let mut note = |index: usize, a: String, b: String| {
+    let mut note = |index: usize, words: usize, a: String, b: String| {
+        let (group, at) = (index / (words * TOGETHER), index % (words * TOGETHER));
+        let instance = group * TOGETHER + at % TOGETHER;
         if first.is_empty() {
-            first = format!("word {} of instance {}: {a} instead of {b}", index / count, index % count);
+            first = format!("word {} of instance {instance}: {a} instead of {b}", at / TOGETHER);
         }
-        differs[index % count] = true;
+        differs[instance] = true;
     };
     for (index, (a, b)) in actual.flags.iter().zip(&expected.flags).enumerate() {
         if a != b {
-            note(index, format!("flag {a}"), format!("{b}"));
+            note(index, words[1], format!("flag {a}"), format!("{b}"));
         }
     }
     for (index, (a, b)) in actual.state.iter().zip(&expected.state).enumerate() {
         let (a, b) = (a.to_f64(), b.to_f64());
         if a.to_bits() != b.to_bits() {
-            note(index, format!("{a:e}"), format!("{b:e}"));
+            note(index, words[0], format!("{a:e}"), format!("{b:e}"));
         }
     }
     Ok((differs.into_iter().filter(|one| *one).count(), first))
@@ -116,10 +119,11 @@ fn differing<R: Real>(
 
 fn linear_equals<R: Real>() -> Result<(), Failed> {
     let inputs = inputs::<R>(COUNT);
-    let twin = on_cpu(&inputs);
+    let twin = on_cpu(&inputs, COUNT);
     for strict in [false, true] {
         let device = device(Arithmetic { precision: R::PRECISION, strict })?;
-        let actual = run(&device, &Compiled::new(&device, &linear::KERNEL, &[])?, &inputs, &drive())?;
+        let actual =
+            run(&device, &Compiled::new(&device, &linear::KERNEL, &[])?, (&inputs, COUNT), &drive())?;
         let (different, first) = differing(&linear::KERNEL, &actual, &twin)?;
         println!("strict {strict}: {different} of {COUNT} instances differ on {}", device.describe());
         if strict && device.describe().device_type == "software" && different > 0 {
@@ -144,9 +148,9 @@ fn instance(u: &mut Uniform, law: LawForm) -> Instance {
     Instance { params, law, impact_friction: u.next() < 0.5, motion, heating: None, modal: None }
 }
 
-/// How many transients are compared.
-fn marched() -> usize {
-    std::env::var("SQUEALMAP_STRICT_INSTANCES").ok().and_then(|count| count.parse().ok()).unwrap_or(MARCHED)
+/// How many transients are compared, `without` a wish.
+fn marched(without: usize) -> usize {
+    std::env::var("SQUEALMAP_STRICT_INSTANCES").ok().and_then(|count| count.parse().ok()).unwrap_or(without)
 }
 
 /// As many random instances as can be integrated, run by the twin: the parts of their legs that any of them goes through.
@@ -301,8 +305,7 @@ fn changed_scene() -> Result<(), Failed> {
     let chunk = window()?;
     let mut inputs = chunk.inputs.clone();
     // The first coefficient of a form of instance 77.
-    let count = inputs.len() / chunk.form.inputs();
-    let word = &mut inputs[head::R * count + 77];
+    let word = &mut inputs[place([head::R, chunk.form.inputs()], 77)];
     *word = word.next_up();
     noticed(&chunk, &text(&chunk)?, &inputs)
 }

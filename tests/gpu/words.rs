@@ -10,7 +10,8 @@ use squealmap::engine::gpu::arithmetic::Arithmetic;
 use squealmap::engine::gpu::device::Device;
 use squealmap::engine::gpu::kernel::Compiled;
 use squealmap::engine::gpu::run::{ChunkResult, Drive, check, run};
-use squealmap::engine::kernel::linear::{FLAGS, KERNEL, STATE, analyse};
+use squealmap::engine::kernel::linear::{Analysed, FLAGS, KERNEL, STATE, analyse};
+use squealmap::engine::kernel::places::{filled, place};
 use squealmap::engine::kernel::scalar::Real;
 use squealmap::engine::kernel::source::SETTING_WORDS;
 use squealmap::engine::kernel::words::{INPUT_WORDS, Words};
@@ -29,35 +30,36 @@ pub(crate) fn device(arithmetic: impl Into<Arithmetic>) -> Result<Device, Failed
     Ok(Device::open(&Adapter::best(arithmetic, None)?, arithmetic)?)
 }
 
-/// Word-major inputs of random instances that need the kernel.
+/// The inputs of random instances that need the kernel.
 pub(crate) fn inputs<R: Real>(count: usize) -> Vec<R> {
-    let live: Vec<Words> = random(2 * count)
+    let live: Vec<[R; INPUT_WORDS]> = random(2 * count)
         .iter()
         .filter_map(|one| prepare(one).ok())
         .take(count)
-        .map(|one| Words::new(&one))
+        .map(|one| Words::new(&one).inputs.map(R::from_f64))
         .collect();
     assert_eq!(live.len(), count);
-    (0..INPUT_WORDS).flat_map(|word| live.iter().map(move |one| R::from_f64(one.inputs[word]))).collect()
+    of_rows(&live)
 }
 
-/// The twin over word-major inputs.
-pub(crate) fn on_cpu<R: Real>(inputs: &[R]) -> ChunkResult<R> {
-    let count = inputs.len() / INPUT_WORDS;
-    let results: Vec<_> =
-        (0..count).map(|instance| analyse(&|word| inputs[word * count + instance])).collect();
-    ChunkResult {
-        state: (0..words(&STATE)).flat_map(|word| results.iter().map(move |one| one.state[word])).collect(),
-        cancelled: false,
-        flags: (0..words(&FLAGS)).flat_map(|word| results.iter().map(move |one| one.flags[word])).collect(),
-    }
+/// Rows as a buffer.
+fn of_rows<T: bytemuck::Pod + Send + Sync, const N: usize>(rows: &[[T; N]]) -> Vec<T> {
+    filled(N, rows.len(), |index| &rows[index][..])
 }
 
-/// The kernel over word-major inputs.
-pub(crate) fn on_gpu<R: Real>(inputs: &[R]) -> Result<ChunkResult<R>, Failed> {
+/// The twin over the inputs of so many instances.
+pub(crate) fn on_cpu<R: Real>(inputs: &[R], count: usize) -> ChunkResult<R> {
+    let one = |instance: usize| analyse(&|word| inputs[place([word, INPUT_WORDS], instance)]);
+    let (state, flags): (Vec<_>, Vec<_>) =
+        (0..count).map(one).map(|Analysed { state, flags }| (state, flags)).unzip();
+    ChunkResult { state: of_rows(&state), flags: of_rows(&flags), cancelled: false }
+}
+
+/// The kernel over the inputs of so many instances.
+pub(crate) fn on_gpu<R: Real>(inputs: &[R], count: usize) -> Result<ChunkResult<R>, Failed> {
     let device = device(R::PRECISION)?;
     let compiled = Compiled::new(&device, &KERNEL, &[])?;
-    Ok(run(&device, &compiled, inputs, &drive())?)
+    Ok(run(&device, &compiled, (inputs, count), &drive())?)
 }
 
 /// Compares two results of the linear kernel word by word.
@@ -67,11 +69,11 @@ pub(crate) fn on_gpu<R: Real>(inputs: &[R]) -> Result<ChunkResult<R>, Failed> {
 pub(crate) fn compare<R: Real>(
     actual: &ChunkResult<R>,
     expected: &ChunkResult<R>,
+    count: usize,
     tolerance: f64,
     most_flags: usize,
 ) -> Result<f64, Failed> {
     let sizes = [INPUT_WORDS, words(&STATE), words(&FLAGS)];
-    let count = expected.flags.len() / sizes[2];
     check(expected, count, sizes)?;
     check(actual, count, sizes)?;
     let mut worst = 0.0_f64;

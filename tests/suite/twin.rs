@@ -4,9 +4,11 @@ use std::collections::BTreeMap;
 use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, LazyLock, Mutex};
 
+use bytemuck::Pod;
 use rayon::prelude::*;
 use squealmap::engine::fields::words;
 use squealmap::engine::gpu::run::ChunkResult;
+use squealmap::engine::kernel::places::{filled, place, room, row};
 use squealmap::engine::kernel::scalar::Real;
 use squealmap::engine::kernel::source::{Kernel, PROGRESS_WORDS, SETTING_WORDS, Settings};
 use squealmap::engine::lanes::Lanes;
@@ -45,42 +47,41 @@ fn low(bits: u64) -> u32 {
 
 /// A part of a chunk that is done.
 struct Done {
-    lanes: usize,
     /// State and flags.
     words: [Vec<u64>; 2],
     /// By the functions of the kernel.
     cost: Vec<Count>,
 }
 
-/// What a kernel makes of a chunk, in warps of `W`; the words are word-major, as on a device.
+/// What a kernel makes of a chunk of so many lanes, in warps of `W`; the words are as on a device.
 pub(crate) fn run<R: Real, const W: usize>(
     program: &Program,
     kernel: &Kernel,
-    inputs: &[R],
+    (inputs, count): (&[R], usize),
     before: Option<&(Vec<R>, Vec<u32>)>,
     settings: [u32; SETTING_WORDS],
 ) -> (ChunkResult<R>, Vec<Count>) {
     let [per_input, per_state, per_flag] = [kernel.inputs, kernel.state, kernel.flags].map(words);
-    let count = inputs.len() / per_input;
     let tasks: Vec<usize> = (0..count).step_by(TASK).collect();
     let parts: Vec<Done> = tasks
         .into_par_iter()
         .map(|first| {
-            let lanes = first..count.min(first + TASK);
-            let columns = |words: usize, of: &dyn Fn(usize) -> u64| -> Vec<u64> {
-                (0..words).flat_map(|word| lanes.clone().map(move |lane| of(word * count + lane))).collect()
+            let lanes = TASK.min(count - first);
+            let part = |words: usize, of: &dyn Fn(usize) -> u64| -> Vec<u64> {
+                let begin = place([0, words], first);
+                (begin..begin + words * room(lanes)).map(of).collect()
             };
-            let head = Settings::new(u32::try_from(lanes.len()).expect("few"), u32::MAX, 0, settings);
+            let head = Settings::new([lanes, per_state], u32::MAX, 0, settings);
             let mut buffers = [
                 bytemuck::cast_slice::<Settings, u32>(&[head]).iter().map(|word| u64::from(*word)).collect(),
-                columns(per_input, &|at| bits(inputs[at])),
-                columns(per_state, &|at| before.map_or(0, |(state, _)| bits(state[at]))),
-                columns(per_flag, &|at| before.map_or(0, |(_, flags)| u64::from(flags[at]))),
+                part(per_input, &|at| bits(inputs[at])),
+                part(per_state, &|at| before.map_or(0, |(state, _)| bits(state[at]))),
+                part(per_flag, &|at| before.map_or(0, |(_, flags)| u64::from(flags[at]))),
                 vec![0; PROGRESS_WORDS],
             ];
-            let cost = program.run::<W>(lanes.len(), &mut buffers);
+            let cost = program.run::<W>(lanes, &mut buffers);
             let [_, _, state, flags, _] = buffers;
-            Done { lanes: lanes.len(), words: [state, flags], cost }
+            Done { words: [state, flags], cost }
         })
         .collect();
     let mut cost = vec![Count::default(); program.functions().len()];
@@ -89,19 +90,9 @@ pub(crate) fn run<R: Real, const W: usize>(
             *all += *one;
         }
     }
-    let gather = |words: usize, which: usize| -> Vec<u64> {
-        let of = |word: usize| {
-            parts
-                .iter()
-                .flat_map(move |part| part.words[which][word * part.lanes..][..part.lanes].iter().copied())
-        };
-        (0..words).flat_map(of).collect()
-    };
-    let result = ChunkResult {
-        state: gather(per_state, 0).into_iter().map(number).collect(),
-        flags: gather(per_flag, 1).into_iter().map(low).collect(),
-        cancelled: false,
-    };
+    let of = |which: usize| parts.iter().flat_map(move |part| part.words[which].iter().copied());
+    let result =
+        ChunkResult { state: of(0).map(number).collect(), flags: of(1).map(low).collect(), cancelled: false };
     (result, cost)
 }
 
@@ -124,21 +115,20 @@ pub(crate) fn settings(way: &Way) -> [u32; SETTING_WORDS] {
     settings
 }
 
-/// Legs that share their kernels, as word-major inputs, state and flags.
-pub(crate) fn columns<R: Real>(rows: &[Words<R>]) -> (Vec<R>, (Vec<R>, Vec<u32>)) {
-    fn by_word<T: Copy, W>(rows: &[W], of: impl Fn(&W) -> &[T]) -> Vec<T> {
-        let words = rows.first().map_or(0, |row| of(row).len());
-        (0..words).flat_map(|word| rows.iter().map(|row| of(row)[word]).collect::<Vec<T>>()).collect()
+/// Legs that share their kernels, as inputs, state and flags.
+fn buffers<R: Real>(rows: &[Words<R>]) -> (Vec<R>, (Vec<R>, Vec<u32>)) {
+    fn of<'a, T: Pod + Send + Sync, R: Sync>(
+        rows: &'a [Words<R>],
+        part: impl Fn(&'a Words<R>) -> &'a [T] + Sync,
+    ) -> Vec<T> {
+        filled(rows.first().map_or(0, |row| part(row).len()), rows.len(), |index| part(&rows[index]))
     }
-    (by_word(rows, |row| &row.inputs), (by_word(rows, |row| &row.state), by_word(rows, |row| &row.flags)))
+    (of(rows, |row| &row.inputs), (of(rows, |row| &row.state), of(rows, |row| &row.flags)))
 }
 
 /// One of the lanes of a chunk.
 pub(crate) fn lane<R: Real>(result: &ChunkResult<R>, lane: usize) -> (Vec<R>, Vec<u32>) {
-    let count = result.flags.len() / flag::WORDS;
-    let of = |word: usize| word * count + lane;
-    let state = (0..state::WORDS).map(|word| result.state[of(word)]).collect();
-    (state, (0..flag::WORDS).map(|word| result.flags[of(word)]).collect())
+    (row(&result.state, state::WORDS, lane).collect(), row(&result.flags, flag::WORDS, lane).collect())
 }
 
 /// Legs that share their kernels.
@@ -167,6 +157,7 @@ fn groups<R>(legs: Vec<Begun<R>>) -> Vec<Group<R>> {
 pub(crate) struct Chunk<R> {
     pub(crate) form: Form,
     pub(crate) part: Part,
+    pub(crate) lanes: usize,
     pub(crate) inputs: Vec<R>,
     pub(crate) before: (Vec<R>, Vec<u32>),
     pub(crate) result: ChunkResult<R>,
@@ -183,12 +174,11 @@ impl<R> Chunk<R> {
     /// How many lanes have come to the part.
     pub(crate) fn begun(&self) -> usize {
         let flags = &self.before.1;
-        let lanes = flags.len() / flag::WORDS;
         let is_here = |lane: &usize| {
-            let of = |word: usize| flags[word * lanes + lane];
+            let of = |word: usize| flags[place([word, flag::WORDS], *lane)];
             of(flag::STATUS) == Status::Unwritten as u32 && of(flag::PART) == self.part as u32
         };
-        (0..lanes).filter(is_here).count()
+        (0..self.lanes).filter(is_here).count()
     }
 }
 
@@ -199,15 +189,15 @@ pub(crate) fn run_leg<R: Real, const W: usize>(
     settings: [u32; SETTING_WORDS],
     mut seen: impl FnMut(Chunk<R>),
 ) -> ChunkResult<R> {
-    let (inputs, before) = columns(rows);
+    let ((inputs, before), lanes) = (buffers(rows), rows.len());
     let mut result = ChunkResult { state: before.0, flags: before.1, cancelled: false };
     for part in PARTS {
         let (kernel, program) = program(form, part, R::PRECISION);
         let before = (result.state, result.flags);
-        let (next, counts) = run::<R, W>(&program, kernel, &inputs, Some(&before), settings);
+        let (next, counts) = run::<R, W>(&program, kernel, (&inputs, lanes), Some(&before), settings);
         result = next.clone();
         let by_function = program.functions().iter().cloned().zip(counts).collect();
-        seen(Chunk { form, part, inputs: inputs.clone(), before, result: next, by_function });
+        seen(Chunk { form, part, lanes, inputs: inputs.clone(), before, result: next, by_function });
     }
     result
 }

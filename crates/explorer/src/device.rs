@@ -12,6 +12,7 @@ use squealmap::engine::fields::words;
 use squealmap::engine::instances::Instances;
 use squealmap::engine::kernel::batch::{self, Known};
 use squealmap::engine::kernel::linear::KERNEL;
+use squealmap::engine::kernel::places::room;
 use squealmap::engine::kernel::source::{Constant, Kernel, SETTING_WORDS, Settings};
 use squealmap::engine::lanes::again::records_again;
 use squealmap::engine::march::asked::{Asked, Tally};
@@ -109,10 +110,11 @@ impl OnDevice {
             Stage::Eigenvalues(known) => {
                 let count = known.iter().filter(|(_, words)| words.is_some()).count();
                 if is_first && count > 0 {
-                    return Ok(eigenvalues(&mut self.told, &batch::inputs(known), count));
+                    return Ok(eigenvalues(&mut self.told, batch::inputs(known)));
                 }
+                let room = room(count);
                 let (state, flags) =
-                    split(&back, [KERNEL.state, KERNEL.flags].map(|fields| words(fields) * count))?;
+                    split(&back, [KERNEL.state, KERNEL.flags].map(|fields| words(fields) * room))?;
                 let known = std::mem::take(known);
                 batch::take(&mut self.records, known, (&state, flags), false)
                     .map_err(|why| why.to_string())?;
@@ -180,13 +182,13 @@ impl OnDevice {
 }
 
 /// What computes the eigenvalues.
-fn eigenvalues(told: &mut Vec<String>, inputs: &[f32], count: usize) -> Answer {
-    let words = [KERNEL.inputs, KERNEL.state, KERNEL.flags].map(|fields| words(fields) * count);
-    #[expect(clippy::cast_possible_truncation, reason = "a region has less than 2^32 cells")]
-    let head = Settings::new(count as u32, 1, 0, [0; SETTING_WORDS]);
+fn eigenvalues(told: &mut Vec<String>, (inputs, count): (Vec<f32>, usize)) -> Answer {
+    let of_each = words(KERNEL.state);
+    let words = [KERNEL.inputs, KERNEL.state, KERNEL.flags].map(|fields| words(fields) * room(count));
+    let head = Settings::new([count, of_each], 1, 0, [0; SETTING_WORDS]);
     let dispatch = Dispatch { kernel: &KERNEL, choices: Vec::new(), first: [0; 3], words, count };
     let (state, flags) = (vec![0.0; words[1]], vec![0; words[2]]);
-    sent(told, [inputs, &state], &flags, bytemuck::bytes_of(&head).to_vec(), vec![dispatch])
+    sent(told, [&inputs, &state], &flags, bytemuck::bytes_of(&head).to_vec(), vec![dispatch])
 }
 
 /// What is to be sent, and to be done with it; `told` are the kernels whose text the page has. Bytes stand one after the other: inputs, state, flags, settings.

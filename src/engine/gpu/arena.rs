@@ -127,12 +127,10 @@ impl<R: Real> Arena<R> {
         let mut at = 0;
         for (k, (buffer, size)) in targets.into_iter().enumerate() {
             for group in groups {
-                let (words, sent) = (group.words()[k], group.words_sent()[k]);
-                let [from, to, sent, words] =
-                    [group.sent[k], group.first[k], sent, words].map(|count| (count * size) as u64);
-                encoder.copy_buffer_to_buffer(&buffers.up, at + from, buffer, to, sent);
-                if words > sent {
-                    encoder.clear_buffer(buffer, to + sent, Some(words - sent));
+                let places = [group.sent[k], group.first[k], group.words_sent()[k]];
+                let [from, to, sent] = places.map(|count| (count * size) as u64);
+                if sent > 0 {
+                    encoder.copy_buffer_to_buffer(&buffers.up, at + from, buffer, to, sent);
                 }
             }
             at += sections[k].len() as u64;

@@ -31,8 +31,8 @@ pub type Choices = Vec<(&'static str, Constant)>;
 /// The instances of one chunk that need the kernel.
 #[derive(Debug)]
 pub struct Batch<R, T> {
-    /// Word-major inputs; without any instance there is nothing to run, and nothing comes of it.
-    pub inputs: Vec<R>,
+    /// Their inputs, and how many they are; without any instance there is nothing to run, and nothing comes of it.
+    pub inputs: (Vec<R>, usize),
     /// Something to remember with the batch until its results come.
     pub memory: T,
 }
@@ -68,7 +68,7 @@ impl Session {
         let bytes = [inputs * size_of::<R>(), state * size_of::<R>(), flags * 4];
         let largest = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
         let largest = usize::try_from(largest).unwrap_or(usize::MAX);
-        // Word-major indices are u32.
+        // Places of words are u32.
         let words = inputs.max(state).max(flags).max(1);
         let rows = limits.max_compute_workgroups_per_dimension as usize;
         (largest / bytes.into_iter().max().unwrap_or(1).max(1))
@@ -107,9 +107,9 @@ impl Session {
                     (drive.progress)(now - before);
                 }
             };
-            let Batch { inputs, memory } = prepare(range.clone());
+            let Batch { inputs: (inputs, count), memory } = prepare(range.clone());
             let drive = Drive { offset: start, progress: &progress, ..*drive };
-            match self.one(kernel, &inputs, &drive) {
+            match self.one(kernel, (&inputs, count), &drive) {
                 Ok(result) => {
                     let cancelled = result.cancelled;
                     accept(memory, result)?;
@@ -148,8 +148,13 @@ impl Session {
     }
 
     /// Runs one chunk.
-    fn one<R: Real>(&mut self, kernel: &Kernel, inputs: &[R], drive: &Drive) -> Result<ChunkResult<R>> {
-        if inputs.is_empty() {
+    fn one<R: Real>(
+        &mut self,
+        kernel: &Kernel,
+        inputs: (&[R], usize),
+        drive: &Drive,
+    ) -> Result<ChunkResult<R>> {
+        if inputs.1 == 0 {
             return Ok(ChunkResult::nothing(kernel, 0));
         }
         let place = self.compiled(kernel, &Choices::new())?;

@@ -7,6 +7,7 @@ use crate::engine::error::{Error, Result};
 use crate::engine::fields::words;
 use crate::engine::gpu::device::Device;
 use crate::engine::gpu::kernel::Compiled;
+use crate::engine::kernel::places::{place, room};
 use crate::engine::kernel::scalar::Real;
 use crate::engine::kernel::source::{
     FLAG_STATUS, Kernel, PROGRESS_WORDS, SETTING_WORDS, Settings, WORKGROUP_SIZE,
@@ -41,7 +42,7 @@ pub struct Drive<'a> {
     pub progress: &'a (dyn Fn(usize) + Sync),
 }
 
-/// The results of a chunk; words are word-major.
+/// The results of a chunk, as they stand in the buffers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChunkResult<R> {
     /// The words of `state`.
@@ -57,14 +58,14 @@ impl<R: Real> ChunkResult<R> {
     #[must_use]
     pub fn nothing(kernel: &Kernel, count: usize) -> ChunkResult<R> {
         ChunkResult {
-            state: vec![R::ZERO; count * words(kernel.state)],
-            flags: vec![Status::Unwritten as u32; count * words(kernel.flags)],
+            state: vec![R::ZERO; room(count) * words(kernel.state)],
+            flags: vec![Status::Unwritten as u32; room(count) * words(kernel.flags)],
             cancelled: count > 0,
         }
     }
 }
 
-/// Runs a chunk from its start to its end; `inputs` are word-major, `count` instances of all of the kernel's input words.
+/// Runs a chunk from its start to its end: inputs, and how many instances they are of.
 ///
 /// # Errors
 /// When the device fails or is lost, the run is cancelled before an instance is finished, the kernel does not
@@ -72,10 +73,10 @@ impl<R: Real> ChunkResult<R> {
 pub fn run<R: Real>(
     device: &Device,
     compiled: &Compiled,
-    inputs: &[R],
+    (inputs, count): (&[R], usize),
     drive: &Drive,
 ) -> Result<ChunkResult<R>> {
-    let (count, sizes) = sizes(compiled, inputs)?;
+    let sizes = sizes(compiled, inputs, count)?;
     let buffers =
         device.checked("allocating buffers", || Buffers::new(device, compiled, inputs, None, sizes))?;
     let finished = dispatch(device, compiled, &buffers, count, drive)?;
@@ -89,18 +90,18 @@ pub fn run<R: Real>(
     Ok(result)
 }
 
-/// Takes a chunk some dispatches further, of so many steps each; `before` are its word-major state and flags.
+/// Takes a chunk some dispatches further, of so many steps each; `before` are its state and flags.
 ///
 /// # Errors
 /// When the device fails or is lost.
 pub fn advance<R: Real>(
     device: &Device,
     compiled: &Compiled,
-    inputs: &[R],
+    (inputs, count): (&[R], usize),
     before: &(Vec<R>, Vec<u32>),
     (settings, [dispatches, steps]): ([u32; SETTING_WORDS], [u32; 2]),
 ) -> Result<ChunkResult<R>> {
-    let (count, sizes) = sizes(compiled, inputs)?;
+    let sizes = sizes(compiled, inputs, count)?;
     let (state, flags) = before;
     for (name, found, wanted) in
         [("state", size_of_val(&state[..]), sizes[0]), ("flags", size_of_val(&flags[..]), sizes[1])]
@@ -112,8 +113,7 @@ pub fn advance<R: Real>(
     let buffers = device
         .checked("allocating buffers", || Buffers::new(device, compiled, inputs, Some(before), sizes))?;
     let steps = steps.min(most_steps(device, &compiled.kernel));
-    #[expect(clippy::cast_possible_truncation, reason = "a chunk is below 2^32 words")]
-    let settings = Settings::new(count as u32, steps, 0, settings);
+    let settings = Settings::new([count, compiled.words()[1]], steps, 0, settings);
     device.queue.write_buffer(&buffers.settings, 0, bytemuck::bytes_of(&settings));
     for _ in 0..dispatches {
         device.checked(&format!("dispatching the {} kernel", compiled.kernel.name), || {
@@ -124,18 +124,13 @@ pub fn advance<R: Real>(
     result(device, &buffers, sizes, false)
 }
 
-/// The number of instances, and the bytes of their state and flags.
-fn sizes<R: Real>(compiled: &Compiled, inputs: &[R]) -> Result<(usize, [usize; 2])> {
-    let [input_words, state_words, flag_words] = compiled.words();
-    let count = inputs.len() / input_words;
-    if count * input_words != inputs.len() || count == 0 {
-        return Err(Error::ShortBuffer {
-            name: "inputs",
-            found: inputs.len(),
-            wanted: (count + 1) * input_words,
-        });
+/// The bytes of state and flags of so many instances.
+fn sizes<R: Real>(compiled: &Compiled, inputs: &[R], count: usize) -> Result<[usize; 2]> {
+    let [input_words, state_words, flag_words] = compiled.words().map(|words| words * room(count));
+    if input_words != inputs.len() {
+        return Err(Error::ShortBuffer { name: "inputs", found: inputs.len(), wanted: input_words });
     }
-    Ok((count, [state_words * count * size_of::<R>(), flag_words * count * 4]))
+    Ok([state_words * size_of::<R>(), flag_words * 4])
 }
 
 /// What stands in the buffers.
@@ -154,18 +149,19 @@ fn result<R: Real>(
 /// # Errors
 /// A short buffer, or the first unwritten instance of the chunk.
 pub fn check<R>(result: &ChunkResult<R>, count: usize, [_, state, flags]: [usize; 3]) -> Result<()> {
-    for (name, found, wanted) in
-        [("state", result.state.len(), state * count), ("flags", result.flags.len(), flags * count)]
-    {
+    for (name, found, wanted) in [
+        ("state", result.state.len(), state * room(count)),
+        ("flags", result.flags.len(), flags * room(count)),
+    ] {
         if found != wanted {
             return Err(Error::ShortBuffer { name, found, wanted });
         }
     }
-    let statuses = &result.flags[FLAG_STATUS * count..(FLAG_STATUS + 1) * count];
-    let known = |code: &u32| {
-        Status::from_code(*code).is_some() || result.cancelled && *code == Status::Unwritten as u32
+    let is_known = |instance: &usize| {
+        let code = result.flags[place([FLAG_STATUS, flags], *instance)];
+        Status::from_code(code).is_some() || result.cancelled && code == Status::Unwritten as u32
     };
-    match statuses.iter().position(|code| !known(code)) {
+    match (0..count).find(|instance| !is_known(instance)) {
         Some(instance) => Err(Error::Unwritten { instance }),
         None => Ok(()),
     }
@@ -237,11 +233,7 @@ fn dispatch(
         if drive.cancel.load(Ordering::Relaxed) {
             return Ok(finished);
         }
-        #[expect(
-            clippy::cast_possible_truncation,
-            reason = "a chunk is below 2^32 words; the offset is its low half"
-        )]
-        let settings = Settings::new(count as u32, steps, drive.offset as u32, drive.settings);
+        let settings = Settings::new([count, compiled.words()[1]], steps, drive.offset, drive.settings);
         let began = Instant::now();
         device.checked(&format!("dispatching the {name} kernel"), || {
             device.queue.write_buffer(&buffers.settings, 0, bytemuck::bytes_of(&settings));

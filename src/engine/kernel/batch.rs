@@ -5,9 +5,11 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use rayon::prelude::*;
 
 use crate::engine::error::{Error, Result};
+use crate::engine::fields::words;
 use crate::engine::instances::Instances;
 use crate::engine::judged::begun;
-use crate::engine::kernel::linear::{KERNEL, POLYNOMIALS};
+use crate::engine::kernel::linear::{FLAGS, KERNEL, POLYNOMIALS};
+use crate::engine::kernel::places::{filled, place};
 use crate::engine::kernel::scalar::Real;
 use crate::engine::kernel::source::{FLAG_STATUS, FLAG_STEPS};
 use crate::engine::kernel::words::{INPUT_WORDS, STATE_WORDS, Words};
@@ -18,6 +20,9 @@ use crate::model::status::Status;
 
 /// The flag word of the type.
 const FLAG_TYPE: usize = 2;
+
+/// Flags of one instance.
+const FLAG_WORDS: usize = words(&FLAGS);
 
 /// An instance before the kernel: its record so far, and its words where it needs the kernel.
 pub type Known = (Record, Option<Words>);
@@ -37,17 +42,12 @@ pub fn known(spec: &dyn Instances, index: usize) -> Known {
     }
 }
 
-/// The word-major inputs of those instances that need the kernel.
+/// The inputs of those instances that need the kernel, and how many they are.
 #[must_use]
-pub fn inputs<R: Real>(known: &[Known]) -> Vec<R> {
-    let live: Vec<&Words> = known.par_iter().filter_map(|(_, words)| words.as_ref()).collect();
-    let mut inputs = vec![R::ZERO; INPUT_WORDS * live.len()];
-    inputs.par_chunks_mut(live.len().max(1)).enumerate().for_each(|(word, column)| {
-        for (number, one) in column.iter_mut().zip(&live) {
-            *number = R::from_f64(one.inputs[word]);
-        }
-    });
-    inputs
+pub fn inputs<R: Real>(known: &[Known]) -> (Vec<R>, usize) {
+    let live: Vec<[R; INPUT_WORDS]> =
+        known.par_iter().filter_map(|(_, words)| Some(words.as_ref()?.inputs.map(R::from_f64))).collect();
+    (filled(INPUT_WORDS, live.len(), |index| &live[index][..]), live.len())
 }
 
 /// Completes the records of a chunk by the words of its state and flags, and appends them; instances that were not computed before
@@ -62,27 +62,28 @@ pub fn take<R: Real>(
     cancelled: bool,
 ) -> Result<()> {
     let mut count = 0;
-    let place = |(_, words): &Known| {
-        let place = count;
+    let number = |(_, words): &Known| {
+        let number = count;
         count += usize::from(words.is_some());
-        place
+        number
     };
-    let places: Vec<usize> = known.iter().map(place).collect();
+    let numbers: Vec<usize> = known.iter().map(number).collect();
     let miscounted = AtomicU32::new(POLYNOMIALS);
-    let record = |((mut record, words), place): (Known, usize)| {
+    let record = |((mut record, words), number): (Known, usize)| {
         let Some(words) = words else { return record };
-        let flag = |word: usize| flags[word * count + place];
+        let flag = |word: usize| flags[place([word, FLAG_WORDS], number)];
         if cancelled && flag(FLAG_STATUS) == Status::Unwritten as u32 {
             return Record::NOT_COMPUTED;
         }
         if flag(FLAG_STEPS) != POLYNOMIALS {
             miscounted.store(flag(FLAG_STEPS), Ordering::Relaxed);
         }
-        let state: [f64; STATE_WORDS] = std::array::from_fn(|k| all_state[k * count + place].to_f64());
+        let state: [f64; STATE_WORDS] =
+            std::array::from_fn(|k| all_state[place([k, STATE_WORDS], number)].to_f64());
         complete(&mut record, &words, state, flag(FLAG_STATUS), flag(FLAG_TYPE));
         record
     };
-    records.par_extend(known.into_par_iter().zip(places).map(record));
+    records.par_extend(known.into_par_iter().zip(numbers).map(record));
     let found = miscounted.into_inner();
     if found != POLYNOMIALS {
         let wanted = POLYNOMIALS as usize;

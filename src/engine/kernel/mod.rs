@@ -8,12 +8,14 @@
 //! - [`scalar`]: f32 and f64 under one trait.
 //! - [`linear`]: eigenvalues and attribution of one instance.
 //! - [`batch`]: the instances of a sweep as words of the linear kernel, and back as records.
+//! - [`places`]: where the words of instances stand in a buffer.
 //! - [`spirv`]: a kernel as SPIR-V in which every operation on floats is rounded by itself.
 //! - [`words`]: an instance as words of the linear kernel, and back (f64, host only).
 
 #[cfg(feature = "kernels")]
 pub mod batch;
 pub mod linear;
+pub mod places;
 pub mod scalar;
 pub mod source;
 #[cfg(feature = "gpu")]

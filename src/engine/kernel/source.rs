@@ -1,6 +1,6 @@
 //! The contract between host and kernels; twin of `shaders/host.wgsl`.
 //!
-//! All bindings are in group 0. Words are stored word-major: word `w` of instance `i` at `w * count + i`.
+//! All bindings are in group 0. [`places`](crate::engine::kernel::places) says where a word of an instance is.
 //!
 //! | binding | name | type | what |
 //! |---|---|---|---|
@@ -14,6 +14,7 @@
 //! from the tables here.
 
 use crate::engine::fields::{Field, words};
+use crate::engine::kernel::places::TOGETHER;
 use crate::engine::precision::Precision;
 use crate::model::status::Status;
 use std::fmt::Write;
@@ -58,17 +59,31 @@ pub struct Settings {
     pub zero_real: f32,
     /// 1.0 that a compiler cannot know: a product with it keeps a sum from being reassociated.
     pub one_real: f32,
+    /// Words of the state of an instance.
+    pub state_words: u32,
     /// Nothing yet.
-    pub spare: [u32; 2],
+    pub spare: u32,
     /// The words of the kernel's own settings.
     pub words: [u32; SETTING_WORDS],
 }
 
 impl Settings {
-    /// The settings of one dispatch.
+    /// The settings of a dispatch of so many instances, each with so many words of state, over so many steps; `offset` is the index of the
+    /// first.
     #[must_use]
-    pub fn new(count: u32, iterations: u32, offset: u32, words: [u32; SETTING_WORDS]) -> Settings {
-        Settings { count, iterations, offset, zero: 0, zero_real: 0.0, one_real: 1.0, spare: [0; 2], words }
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "a chunk is below 2^32 words; the offset is its low half"
+    )]
+    pub fn new(
+        [count, state_words]: [usize; 2],
+        iterations: u32,
+        offset: usize,
+        words: [u32; SETTING_WORDS],
+    ) -> Settings {
+        let [count, state_words, offset] = [count, state_words, offset].map(|number| number as u32);
+        let (zero, zero_real, one_real, spare) = (0, 0.0, 1.0, 0);
+        Settings { count, iterations, offset, zero, zero_real, one_real, state_words, spare, words }
     }
 }
 
@@ -134,9 +149,11 @@ impl Kernel {
         {
             places(&mut text, prefix, fields);
         }
+        for (prefix, fields) in [("INPUT", self.inputs), ("FLAG", self.flags)].iter().chain(self.tables) {
+            constant(&mut text, &format!("{prefix}_WORDS"), Constant::count(words(fields)));
+        }
         for (prefix, fields) in self.tables {
             places(&mut text, prefix, fields);
-            constant(&mut text, &format!("{prefix}_WORDS"), Constant::count(words(fields)));
         }
         for (name, value) in self.constants.iter().chain(choices) {
             constant(&mut text, name, *value);
@@ -158,6 +175,7 @@ fn header(precision: Precision) -> String {
     constant(&mut text, "EPSILON", Constant::Real(epsilon));
     constant(&mut text, "WORKGROUP_SIZE", Constant::U32(WORKGROUP_SIZE));
     constant(&mut text, "SETTING_VECTORS", Constant::U32(SETTING_VECTORS));
+    constant(&mut text, "TOGETHER", Constant::count(TOGETHER));
     for status in std::iter::once(Status::Unwritten).chain(Status::ALL) {
         let name = format!("STATUS_{}", status.name().to_uppercase());
         constant(&mut text, &name, Constant::U32(status as u32));

@@ -15,7 +15,7 @@ use crate::engine::lanes::reach::{FAR, LONGER, MARGIN, SHORTEST};
 use crate::engine::lanes::spectrum::{CLOSING, COMPONENTS};
 use crate::engine::lanes::words::EVENTS_AT_ONCE;
 use crate::engine::march::series;
-use crate::engine::march::table::{flag, head, history, piece, state};
+use crate::engine::march::table::{SETTINGS, flag, head, history, piece, state};
 use crate::engine::reference::bounds::{MAX_EVENTS_PER_PERIOD, MAX_STEPS_PER_PERIOD, ROUNDINGS};
 use crate::engine::sums::{growth, sum};
 use crate::model::contact::SLOWEST_REBOUND;
@@ -57,7 +57,7 @@ fn kernel(pieces: usize) -> Kernel {
         inputs: Vec::leak(inputs),
         state: &state::FIELDS,
         flags: &flag::FIELDS,
-        settings: const { &[Field::one("tolerance")] },
+        settings: &SETTINGS,
         tables: &[
             ("SUM", &sum::FIELDS),
             ("GROWTH", &growth::FIELDS),
@@ -66,6 +66,8 @@ fn kernel(pieces: usize) -> Kernel {
         ],
         constants: Vec::leak(vec![
             ("PIECES", Constant::U32(pieces as u32)),
+            ("STATE_SENT", Constant::U32(state::SENT as u32)),
+            ("FLAG_SENT", Constant::U32(flag::SENT as u32)),
             ("PART_GROWTH", Constant::U32(Part::Growth as u32)),
             ("PART_SETTLE", Constant::U32(Part::Settle as u32)),
             ("PART_WINDOW", Constant::U32(Part::Window as u32)),

@@ -10,11 +10,10 @@
 //! - [`table`]: what stands where in its buffers.
 //! - [`asked`]: the instances of a sweep, and their records.
 //! - [`flow`]: instances that pass through the lanes of a device.
-//! - [`round`]: the words of all lanes in the buffers of a device; `columns.rs` turns rows into columns.
+//! - [`round`]: the words of all lanes in the buffers of a device.
 //! - [`words`]: the next leg of a job as words, and what the kernels have made of them.
 
 pub mod asked;
-mod columns;
 mod curved;
 pub mod flow;
 pub mod kernel;

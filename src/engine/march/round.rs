@@ -1,25 +1,28 @@
 //! A round of lanes: their words in the buffers of a device, lane by lane of every group that shares a kernel, and back.
 
-use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use rayon::prelude::*;
+use smallvec::SmallVec;
 
 use crate::engine::error::Result;
+use crate::engine::kernel::places::{TOGETHER, fill, read, room};
 use crate::engine::kernel::scalar::Real;
-use crate::engine::kernel::source::{FLAG_STATUS, FLAG_STEPS, SETTING_WORDS, Settings};
+use crate::engine::kernel::source::{FLAG_STEPS, SETTING_WORDS, Settings};
 use crate::engine::lanes::job::Part;
-use crate::engine::march::columns::{fill, length, row};
 use crate::engine::march::marching::{Form, PARTS};
-use crate::engine::march::table::{flag, state};
+use crate::engine::march::table::{SETTING_FRESH, flag, state};
 use crate::engine::march::words::Words;
 use crate::model::piece::LawForm;
-use crate::model::status::Status;
 
 /// What the places of bindings in a buffer are multiples of, bytes: the most that an adapter may ask for.
 pub const ALIGNED: usize = 256;
 
 /// Lanes that a GPU steps together.
-pub const WARP: usize = 32;
+pub const WARP: usize = TOGETHER;
+
+/// The rows of a warp.
+type Rows<T> = SmallVec<[T; WARP]>;
 
 /// Words of a lane, and where it is in the present round.
 #[derive(Clone, Debug)]
@@ -51,6 +54,11 @@ impl<R: Real, T> Lane<R, T> {
     /// Begins the leg that its words are, with so many stretches in the window.
     pub fn begin(&mut self, form: Form, stretches: usize) {
         (self.form, self.stretches, self.begun, self.gone) = (form, stretches, false, [0; PARTS.len()]);
+    }
+
+    /// Its group, and the number of its warp there.
+    fn warp(&self) -> [usize; 2] {
+        [self.at[0], self.at[1] / WARP]
     }
 
     /// What lanes are sorted by: those whose legs have begun come first, of every form.
@@ -88,40 +96,34 @@ pub struct Group {
     pub sent: [usize; 3],
     /// Whether their legs have begun, so that all words are sent.
     begun: bool,
-    /// The number of its first warp.
-    warp: usize,
     /// Stretches in the window, of the leg that has most.
     stretches: usize,
 }
 
 impl Group {
-    /// The length of its columns.
-    #[must_use]
-    pub fn length(&self) -> usize {
-        length(self.lanes)
+    /// Words of a lane in each buffer.
+    fn of_lane(&self) -> [usize; 3] {
+        [self.form.inputs(), state::words_of(self.stretches), flag::WORDS]
     }
 
     /// Its words in each buffer.
     #[must_use]
     pub fn words(&self) -> [usize; 3] {
-        let each = [self.form.inputs(), state::words_of(self.stretches), flag::WORDS];
-        each.map(|words| words * self.length())
+        self.of_lane().map(|words| words * room(self.lanes))
     }
 
-    /// Words that are sent to each buffer, from the first on; the others are 0.
+    /// Its words that are sent to each buffer: of legs that have not begun their inputs, of which their kernels make the others.
     #[must_use]
     pub fn words_sent(&self) -> [usize; 3] {
-        if self.begun {
-            return self.words();
-        }
-        [self.form.inputs(), state::SENT, flag::SENT].map(|words| words * self.length())
+        let [inputs, state, flags] = self.words();
+        if self.begun { [inputs, state, flags] } else { [inputs, 0, 0] }
     }
 
     /// The settings of its dispatch of so many steps, with what lies between them and the next.
     #[must_use]
-    pub fn head(&self, steps: u32, settings: [u32; SETTING_WORDS]) -> Vec<u8> {
-        #[expect(clippy::cast_possible_truncation, reason = "a round has less than 2^32 lanes")]
-        let head = Settings::new(self.length() as u32, steps, 0, settings);
+    pub fn head(&self, steps: u32, mut settings: [u32; SETTING_WORDS]) -> Vec<u8> {
+        settings[SETTING_FRESH] = u32::from(!self.begun);
+        let head = Settings::new([self.lanes, self.of_lane()[1]], steps, 0, settings);
         let mut bytes = bytemuck::bytes_of(&head).to_vec();
         bytes.resize(ALIGNED, 0);
         bytes
@@ -193,14 +195,11 @@ impl<R: Real> Round<R> {
         let mut first = 0;
         for group in &self.groups {
             let of = |index: usize| &lanes[first + index].words;
-            let ([inputs, state, flags], size) = (group.words_sent(), [group.length(), group.lanes]);
-            fill(&mut self.inputs[group.sent[0]..][..inputs], size, |index| &of(index).inputs[..]);
-            fill(&mut self.state[group.sent[1]..][..state], size, |index| &of(index).state[..]);
-            let flags = &mut self.flags[group.sent[2]..][..flags];
-            fill(flags, size, |index| &of(index).flags[..]);
-            // What is no lane has ended.
-            flags[FLAG_STATUS * size[0]..][..size[0]][size[1]..].fill(Status::Ok as u32);
-            first += size[1];
+            let ([inputs, state, flags], words, lanes) = (group.words_sent(), group.of_lane(), group.lanes);
+            fill(&mut self.inputs[group.sent[0]..][..inputs], words[0], lanes, |index| &of(index).inputs[..]);
+            fill(&mut self.state[group.sent[1]..][..state], words[1], lanes, |index| &of(index).state[..]);
+            fill(&mut self.flags[group.sent[2]..][..flags], words[2], lanes, |index| &of(index).flags[..]);
+            first += lanes;
         }
     }
 
@@ -214,9 +213,8 @@ impl<R: Real> Round<R> {
                 let last = self.groups.last();
                 let first = last.map_or([0; 3], Group::end::<R>);
                 let sent = if self.whole { first } else { last.map_or([0; 3], Group::end_sent) };
-                let warp = last.map_or(0, |last| last.warp + last.lanes.div_ceil(WARP));
                 let form = lane.form;
-                self.groups.push(Group { form, lanes: 0, first, sent, begun, warp, stretches: 0 });
+                self.groups.push(Group { form, lanes: 0, first, sent, begun, stretches: 0 });
             }
             let number = self.groups.len() - 1;
             let group = &mut self.groups[number];
@@ -239,29 +237,31 @@ impl<R: Real> Round<R> {
         (all_state, all_flags): (&[R], &[u32]),
         take: impl Fn(&mut Lane<R, T>, u32) -> Result<()> + Sync,
     ) -> (Steps, Result<()>) {
-        let warps = self.groups.last().map_or(0, |last| last.warp + last.lanes.div_ceil(WARP));
-        let most: Vec<[AtomicU32; PARTS.len()]> = (0..warps).map(|_| Default::default()).collect();
-        let gone = AtomicU64::new(0);
-        let one = |lane: &mut Lane<R, T>| {
-            let [group, at] = lane.at;
-            let warp = &most[self.groups[group].warp + at / WARP];
+        let (gone, of_warps) = (AtomicU64::new(0), AtomicU64::new(0));
+        let is_warp = |a: &Lane<R, T>, b: &Lane<R, T>| a.warp() == b.warp();
+        let warp = |lanes: &mut [Lane<R, T>]| {
+            let [group, warp] = lanes[0].warp();
             let group = &self.groups[group];
-            let ([_, state, flags], [_, first_state, first_flag]) = (group.words(), group.first);
-            let length = group.length();
-            let used = state / length;
-            row(&mut lane.words.state[..used], &all_state[first_state..][..state], length, at);
-            row(&mut lane.words.flags, &all_flags[first_flag..][..flags], length, at);
-            lane.begun = true;
-            let steps = lane.count();
-            for (most, steps) in warp.iter().zip(steps) {
-                most.fetch_max(steps, Ordering::Relaxed);
+            let ([_, first_state, first_flag], [_, state, flags]) = (group.first, group.of_lane());
+            {
+                let rows = lanes.iter_mut().map(|lane| lane.words.come_back());
+                let (mut states, mut counts): (Rows<&mut [R]>, Rows<&mut [u32]>) = rows.unzip();
+                read(&mut states, &all_state[first_state..], state, warp);
+                read(&mut counts, &all_flags[first_flag..], flags, warp);
             }
-            let steps = steps.iter().sum();
-            gone.fetch_add(u64::from(steps), Ordering::Relaxed);
-            take(lane, steps)
+            let mut most = [0; PARTS.len()];
+            for lane in lanes {
+                lane.begun = true;
+                let steps = lane.count();
+                most = std::array::from_fn(|part| most[part].max(steps[part]));
+                let steps = steps.iter().sum();
+                gone.fetch_add(u64::from(steps), Ordering::Relaxed);
+                take(lane, steps)?;
+            }
+            of_warps.fetch_add(most.iter().map(|steps| u64::from(*steps)).sum(), Ordering::Relaxed);
+            Ok(())
         };
-        let ended = lanes.par_iter_mut().try_for_each(one);
-        let of_warps = most.iter().flatten().map(|most| u64::from(most.load(Ordering::Relaxed))).sum::<u64>();
-        (Steps { gone: gone.into_inner(), of_warps: WARP as u64 * of_warps }, ended)
+        let ended = lanes.par_chunk_by_mut(is_warp).try_for_each(warp);
+        (Steps { gone: gone.into_inner(), of_warps: WARP as u64 * of_warps.into_inner() }, ended)
     }
 }

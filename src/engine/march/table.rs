@@ -1,12 +1,20 @@
 //! The words of the march by name: what stands where in its buffers.
 
+use crate::engine::fields::{Field, first_word};
+
 /// Sections of a leg: the time before the window, and its two halves.
 pub const SECTIONS: usize = 3;
+
+/// The word of the settings that is 1 where legs have not begun.
+pub const SETTING_FRESH: usize = first_word(&SETTINGS, "fresh");
+
+/// The kernel's own settings.
+pub const SETTINGS: [Field; 2] = [Field::one("tolerance"), Field::one("fresh")];
 
 /// What one instance hands to the kernel before the pieces of its law: the constants of [`crate::engine::lanes::constants`], in
 /// their order, and its leg.
 pub mod head {
-    use crate::engine::march::table::SECTIONS;
+    use crate::engine::march::table::{SECTIONS, flag, state};
 
     crate::engine::fields::fields! {
         R 6, "The tangential spring force, by positions and velocities.";
@@ -32,6 +40,8 @@ pub mod head {
         BEYOND 1, "Time from the end of the leg to that of the window.";
         DRIVE 1, "Belt acceleration.";
         LAYER 2, "How far a step of a curved law may go.";
+        START state::SENT, "The first words of the state before the leg.";
+        COUNTS flag::SENT, "The first words of the flags before it, as numbers.";
     }
 }
 
@@ -79,7 +89,7 @@ pub mod state {
         HISTORY history::MOST * history::WORDS, "The stretches of the window that are over.";
     }
 
-    /// How many of the words, from the first on, are sent of a leg before it has begun; the others are 0.
+    /// How many of the words, from the first on, stand in the inputs of a leg; before it has begun the others are 0.
     pub const SENT: usize = LEFT;
 
     /// How many of the words, from the first on, a leg reads or writes that has so many stretches in the window.
@@ -137,6 +147,6 @@ pub mod flag {
         FRESH 1, "1 when the last crossing has been noted.";
     }
 
-    /// How many of the words, from the first on, are sent of a leg before it has begun; the others are 0.
+    /// How many of the words, from the first on, stand in the inputs of a leg, too; before it has begun the others are 0.
     pub const SENT: usize = MOST_STEPS;
 }

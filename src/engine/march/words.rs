@@ -35,6 +35,11 @@ impl<R: Real> Words<R> {
     pub fn blank() -> Words<R> {
         Words { inputs: SmallVec::new(), state: [R::ZERO; state::WORDS], flags: [0; flag::WORDS] }
     }
+
+    /// State and flags, which come back.
+    pub(super) fn come_back(&mut self) -> (&mut [R], &mut [u32]) {
+        (&mut self.state, &mut self.flags)
+    }
 }
 
 /// Begins a leg of a job for a kernel of so many pieces, in the place of the one before.
@@ -90,6 +95,10 @@ pub fn begin<R: Real>(job: &mut Job<R>, leg: &Leg, pieces: usize, words: &mut Wo
         put_body(&mut words[state::START..], &start);
         flags[flag::BEGUN] = u32::from(job.seen.crossings > 0);
         flags[flag::BEFORE] = job.stretches.len() as u32;
+    }
+    inputs[head::START..head::COUNTS].copy_from_slice(&words[..state::SENT]);
+    for (word, flag) in inputs[head::COUNTS..head::WORDS].iter_mut().zip(flags) {
+        *word = R::from_f64(f64::from(*flag));
     }
 }
 

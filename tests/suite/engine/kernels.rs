@@ -148,6 +148,7 @@ fn the_settings_have_the_same_members_at_the_same_places() {
         ("zero", std::mem::offset_of!(Settings, zero)),
         ("zero_real", std::mem::offset_of!(Settings, zero_real)),
         ("one_real", std::mem::offset_of!(Settings, one_real)),
+        ("state_words", std::mem::offset_of!(Settings, state_words)),
         ("spare", std::mem::offset_of!(Settings, spare)),
         ("words", std::mem::offset_of!(Settings, words)),
     ];

@@ -3,8 +3,9 @@
 use crate::common::{bilinear, paper, plan};
 use crate::engine::kernel_response::scenes;
 use crate::twin::{lane, outcomes_seen, program, run, run_leg, settings};
+use squealmap::engine::lanes::job::Part;
 use squealmap::engine::march::marching::{Marching, Way};
-use squealmap::engine::march::table::{flag, state};
+use squealmap::engine::march::table::{SETTING_FRESH, flag, state};
 use squealmap::engine::march::words::Words;
 use squealmap::engine::outcome::Outcome;
 use squealmap::engine::precision::Precision;
@@ -88,8 +89,13 @@ fn lanes_know_nothing_of_each_other() {
     assert!(chunks.len() >= 3);
     for chunk in chunks {
         let (kernel, program) = program(chunk.form, chunk.part, Precision::F32);
-        let (alone, counts) =
-            run::<f32, 1>(&program, kernel, &chunk.inputs, Some(&chunk.before), settings(&way));
+        let (alone, counts) = run::<f32, 1>(
+            &program,
+            kernel,
+            (&chunk.inputs, chunk.lanes),
+            Some(&chunk.before),
+            settings(&way),
+        );
         let count: Count = counts.into_iter().sum();
         let bits = |words: &[f32]| words.iter().map(|word| word.to_bits()).collect::<Vec<u32>>();
         assert_eq!((bits(&alone.state), &alone.flags), (bits(&chunk.result.state), &chunk.result.flags));
@@ -98,4 +104,29 @@ fn lanes_know_nothing_of_each_other() {
             assert!(chunk.count().issued < count.issued && 64 * chunk.count().issued > count.issued);
         }
     }
+}
+
+/// What a leg begins from stands in its inputs: whatever was in the other buffers before, it begins there.
+#[test]
+fn a_leg_that_has_not_begun_needs_its_inputs_alone() {
+    let plan = plan(0.1, 0.1, 12);
+    let mut fresh = settings(&Way::new::<f32>(plan));
+    fresh[SETTING_FRESH] = 1;
+    let mut legs = 0;
+    outcomes_seen::<f32, 64>(&scenes(bilinear), &plan, |chunk| {
+        if chunk.part != Part::Growth {
+            return;
+        }
+        let (kernel, program) = program(chunk.form, chunk.part, Precision::F32);
+        let (mut state, mut flags) = (chunk.result.state.clone(), chunk.result.flags.clone());
+        state.fill(7.0);
+        flags.fill(7);
+        let inputs = (&chunk.inputs[..], chunk.lanes);
+        let (made, _) = run::<f32, 64>(&program, kernel, inputs, Some(&(state, flags)), fresh);
+        for index in 0..chunk.lanes {
+            assert_eq!(lane(&made, index), lane(&chunk.result, index));
+            legs += 1;
+        }
+    });
+    assert!(legs >= 100, "{legs}");
 }
