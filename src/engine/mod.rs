@@ -94,6 +94,27 @@ pub trait Engine: fmt::Debug + Send {
         progress: &(dyn Fn(usize) + Sync),
     ) -> Result<Computed>;
 
+    /// As [`Engine::records`]. Of the `ahead` instances behind the range, for which the next call asks, it may begin some, so that the last
+    /// ones of the range are not alone.
+    ///
+    /// # Errors
+    /// As [`Engine::records`].
+    fn records_ahead(
+        &mut self,
+        instances: &dyn Instances,
+        range: Range<usize>,
+        _ahead: usize,
+        cancel: &AtomicBool,
+        progress: &(dyn Fn(usize) + Sync),
+    ) -> Result<Computed> {
+        self.records(instances, range, cancel, progress)
+    }
+
+    /// How many instances behind a range it begins at most.
+    fn ahead(&self) -> usize {
+        0
+    }
+
     /// The least number of instances, of `starts` starts each, that keeps it busy: with fewer, cores or lanes are left
     /// without work. Where instances are so costly that a tile has few, a core takes no more than a tile at a time, so that
     /// a stop does not lose many.

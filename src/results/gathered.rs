@@ -65,7 +65,8 @@ impl Gathered {
         let mut first = 0;
         while first < instances && stopped.is_none() {
             let range = first..instances.min(first + part);
-            let computed = match solver.records(range.clone(), progress) {
+            let ahead = solver.ahead().min(instances - range.end);
+            let computed = match solver.records_ahead(range, ahead, progress) {
                 Ok(computed) => computed,
                 // Nothing is done, and cannot be; but a stop is no failure.
                 Err(why) if first == 0 && !matches!(why, engine::error::Error::Cancelled { .. }) => {

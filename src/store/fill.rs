@@ -1,5 +1,7 @@
 //! Computes the tiles that a directory lacks.
 
+use std::collections::VecDeque;
+use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, sync_channel};
 use std::thread;
@@ -94,6 +96,17 @@ fn write_all(store: &Store, receiver: Receiver<Finished>) -> Result<()> {
         .try_for_each(|(claim, number, records)| store.write(claim, number, records, &mut room))
 }
 
+/// Tiles that are computed together.
+struct Group {
+    tiles: Vec<(usize, Claim)>,
+    /// Their instances.
+    range: Range<usize>,
+    /// The records that are known of these; empty where none is.
+    known: Vec<Option<Record>>,
+    /// How many of these are another sweep's.
+    reused: usize,
+}
+
 /// A directory that is being filled.
 struct Filling<'a, 'b> {
     store: &'a Store,
@@ -111,12 +124,11 @@ impl Filling<'_, '_> {
         while !open.is_empty() {
             let mut busy = Vec::new();
             let mut rest = open.as_slice();
+            let mut next = VecDeque::new();
             while !self.is_cancelled() {
-                let group = self.next_group(&mut rest, &mut busy)?;
-                if group.is_empty() {
-                    break;
-                }
-                self.compute(group)?;
+                self.claim_ahead(&mut next, &mut rest, &mut busy)?;
+                let Some(group) = next.pop_front() else { break };
+                self.compute(group, &next)?;
                 if self.filled.stopped.is_some() {
                     return Ok(());
                 }
@@ -141,6 +153,42 @@ impl Filling<'_, '_> {
         self.watch.cancel.load(Ordering::Relaxed)
     }
 
+    /// Claims groups, as long as there are more, for one to be computed and as many instances behind it as the engine begins ahead.
+    fn claim_ahead(
+        &self,
+        next: &mut VecDeque<Group>,
+        rest: &mut &[usize],
+        busy: &mut Vec<usize>,
+    ) -> Result<()> {
+        let ahead =
+            |next: &VecDeque<Group>| next.iter().skip(1).map(|group| group.range.len()).sum::<usize>();
+        while next.is_empty() || ahead(next) < self.solver.ahead() {
+            let tiles = self.next_group(rest, busy)?;
+            if tiles.is_empty() {
+                break;
+            }
+            next.push_back(self.group(tiles)?);
+        }
+        Ok(())
+    }
+
+    /// Tiles that follow one another as a group.
+    fn group(&self, tiles: Vec<(usize, Claim)>) -> Result<Group> {
+        let bounds = |number: usize| self.store.description.tiling.bounds(number);
+        let (first, last) = (tiles[0].0, tiles[tiles.len() - 1].0);
+        let range = bounds(first).start..bounds(last).end;
+        let (mut known, mut reused) = (Vec::new(), 0);
+        for (number, _) in &tiles {
+            let [of_tile, taken] = self.known(*number, &mut known)?;
+            debug_assert_eq!(of_tile, bounds(*number).len());
+            reused += taken;
+        }
+        if known.iter().all(Option::is_none) {
+            known = Vec::new();
+        }
+        Ok(Group { tiles, range, known, reused })
+    }
+
     /// Claims the next tiles of `rest` that nobody has and that follow one another, as many as keep the engine busy; those
     /// that other processes have go to `busy`. Empty at the end.
     fn next_group(&self, rest: &mut &[usize], busy: &mut Vec<usize>) -> Result<Vec<(usize, Claim)>> {
@@ -163,20 +211,20 @@ impl Filling<'_, '_> {
         Ok(group)
     }
 
-    /// Computes the tiles of a group and sends them to be written. Where that is stopped, keeps the records that are done.
-    fn compute(&mut self, group: Vec<(usize, Claim)>) -> Result<()> {
-        let tiling = self.store.description.tiling;
-        let bounds = |number: usize| tiling.bounds(number);
-        let (Some((first, _)), Some((last, _))) = (group.first(), group.last()) else { return Ok(()) };
-        let range = bounds(*first).start..bounds(*last).end;
-        let (mut known, mut reused) = (Vec::with_capacity(range.len()), 0);
-        for (number, _) in &group {
-            let [of_tile, taken] = self.known(*number, &mut known)?;
-            debug_assert_eq!(of_tile, bounds(*number).len());
-            reused += taken;
-        }
+    /// Computes the tiles of a group and sends them to be written; those of `next` will be computed after it. Where that is stopped, keeps
+    /// the records that are done.
+    fn compute(&mut self, group: Group, next: &VecDeque<Group>) -> Result<()> {
+        let Group { tiles, range, known, reused } = group;
         let before = known.iter().flatten().count();
-        let made = match self.solver.records_beside(range.clone(), &known, self.watch.progress) {
+        let mut end = range.end;
+        for group in next.iter().take_while(|group| group.known.is_empty()) {
+            if group.range.start != end {
+                break;
+            }
+            end = group.range.end;
+        }
+        let ahead = end - range.end;
+        let made = match self.solver.records_beside(range, &known, ahead, self.watch.progress) {
             Ok(made) => made,
             Err(why) => {
                 self.filled.stopped = Some(Stopped::try_from(why)?);
@@ -187,8 +235,9 @@ impl Filling<'_, '_> {
         self.filled.computed += made.records.iter().filter(|record| is_done(record)).count() - before;
         self.filled.reused += reused;
         let mut records = made.records.into_iter();
-        for (number, claim) in group {
-            let of_tile: Vec<Record> = records.by_ref().take(bounds(number).len()).collect();
+        for (number, claim) in tiles {
+            let count = self.store.description.tiling.bounds(number).len();
+            let of_tile: Vec<Record> = records.by_ref().take(count).collect();
             if made.stopped.is_none() {
                 (self.finish)((claim, number, of_tile))?;
             } else if of_tile.iter().any(is_done) {

@@ -67,6 +67,29 @@ impl<'a> Solver<'a> {
         self.records_of(self.spec, range, progress)
     }
 
+    /// As [`Solver::records`]. Of the `ahead` instances behind the range, for which the next call asks, the engine may begin some.
+    ///
+    /// # Errors
+    /// Those of [`Solver::records`].
+    pub fn records_ahead(
+        &mut self,
+        range: Range<usize>,
+        ahead: usize,
+        progress: &(dyn Fn(usize) + Sync),
+    ) -> Result<Computed> {
+        if self.ahead() == 0 {
+            self.records(range, progress)
+        } else {
+            self.once(self.spec, range, ahead, progress)
+        }
+    }
+
+    /// How many instances behind a range the engine begins at most.
+    #[must_use]
+    pub fn ahead(&self) -> usize {
+        if self.spec.analysis.starts == Starts::One { self.engine.ahead() } else { 0 }
+    }
+
     /// The records of the instances `range` of another sweep, which asks for the same analysis; see [`Solver::records`].
     ///
     /// # Errors
@@ -78,11 +101,11 @@ impl<'a> Solver<'a> {
         progress: &(dyn Fn(usize) + Sync),
     ) -> Result<Computed> {
         if spec.analysis.starts == Starts::One {
-            return self.once(spec, range, progress);
+            return self.once(spec, range, 0, progress);
         }
         let block = self.engine.at_once(range.len());
         let mut once = |spec: &Spec, range: Range<usize>, progress: &(dyn Fn(usize) + Sync)| {
-            self.once(spec, range, progress)
+            self.once(spec, range, 0, progress)
         };
         several::records(spec, range, block, &mut once, progress)
     }
@@ -92,11 +115,12 @@ impl<'a> Solver<'a> {
         &mut self,
         spec: &Spec,
         range: Range<usize>,
+        ahead: usize,
         progress: &(dyn Fn(usize) + Sync),
     ) -> Result<Computed> {
         let cancel = self.options.cancel();
         let all = range.clone();
-        let mut computed = self.engine.records(spec, range, cancel, progress)?;
+        let mut computed = self.engine.records_ahead(spec, range, ahead, cancel, progress)?;
         if spec.analysis.checks() && computed.stopped.is_none() {
             computed.stopped = check(spec, all, &self.configuration(), &mut computed.records, cancel)?;
         }
@@ -112,7 +136,8 @@ impl<'a> Solver<'a> {
     }
 
     /// The records of the instances `range` where some are `known`: of one start each as this engine makes them, before
-    /// any check, of several starts with their checks. Only the others are computed.
+    /// any check, of several starts with their checks. Only the others are computed. See [`Solver::records_ahead`] for `ahead`; nothing
+    /// is begun where some are known.
     ///
     /// # Errors
     /// Those of [`Solver::records`].
@@ -120,11 +145,12 @@ impl<'a> Solver<'a> {
         &mut self,
         range: Range<usize>,
         known: &[Option<Record>],
+        ahead: usize,
         progress: &(dyn Fn(usize) + Sync),
     ) -> Result<Computed> {
         let lacking = known.iter().filter(|known| known.is_none()).count();
-        if lacking == range.len() {
-            return self.records(range, progress);
+        if lacking == known.len() {
+            return self.records_ahead(range, ahead, progress);
         }
         progress(range.len() - lacking);
         if self.spec.analysis.starts == Starts::One {

@@ -1,6 +1,7 @@
 //! Tests that need an adapter, software or not. Without one each is shown as ignored with the reason; with
 //! `SQUEALMAP_REQUIRE_GPU=1` each fails instead.
 
+mod ahead;
 #[path = "../suite/engine/fuzz/defect.rs"]
 mod defect;
 mod differences;
@@ -72,6 +73,7 @@ fn main() {
         (f64, linear::F64),
         (all, response::CASES),
         (all, sweeps::CASES),
+        (all, ahead::CASES),
         (all, starts::CASES),
         (f64, sweeps::F64),
         (slow, sweeps::SLOW),

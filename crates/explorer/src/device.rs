@@ -129,7 +129,7 @@ impl OnDevice {
             Stage::Transients(going) => {
                 let Transients { flow, tally, lanes, round } = &mut **going;
                 let (state, flags) = split(&back, [round.state.len(), round.flags.len()])?;
-                let asked = Asked::new(&self.spec, 0, &mut self.records, tally);
+                let asked = asked(&self.spec, &mut self.records, tally);
                 let take = |lane: &mut Place<f32>, steps| flow.take(&asked, lane, steps);
                 let (_, ended) = round.collect(lanes, (&state, flags), take);
                 ended.map_err(|why| why.to_string())?;
@@ -142,7 +142,7 @@ impl OnDevice {
     fn next_round(&mut self, steps: u32) -> Answer {
         let Stage::Transients(going) = &mut self.stage else { return self.done() };
         let Transients { flow, tally, lanes, round } = &mut **going;
-        let asked = Asked::new(&self.spec, 0, &mut self.records, tally);
+        let asked = asked(&self.spec, &mut self.records, tally);
         loop {
             flow.finish(&asked, lanes);
             flow.turn_over(&asked, lanes, MOST_LANES);
@@ -179,6 +179,12 @@ impl OnDevice {
     fn done(&self) -> Answer {
         answered(&self.spec, &self.wanted, &self.names, &self.records)
     }
+}
+
+/// All instances of a region.
+fn asked<'a>(spec: &'a Spec, records: &'a mut [Record], tally: &'a Tally) -> Asked<'a> {
+    let wanted = records.len();
+    Asked::new(spec, [0, wanted], records, tally)
 }
 
 /// What computes the eigenvalues.

@@ -22,12 +22,34 @@ const BLOCK: usize = 65_536;
 /// The least that hardware takes: some times as many as it has places for, whose records take 200 MB.
 const OF_HARDWARE: usize = 4 * BLOCK;
 
+/// How many times that they begin ahead: of runs until settled, the last of a range take five times as long as most.
+const AHEAD: usize = 2;
+
 /// GPUs that share the work; their kernels stay compiled.
 #[derive(Debug)]
 pub struct Gpu {
     sessions: Vec<Session>,
     crews: Crews,
     chunk: Option<usize>,
+    begun: Option<Begun>,
+}
+
+/// What was begun of the instances behind a range.
+#[derive(Debug)]
+struct Begun {
+    /// Where their sweep is, which has not gone away since.
+    of: usize,
+    /// The first of them.
+    first: usize,
+    /// How many were taken.
+    taken: usize,
+    /// Their records so far.
+    records: Vec<Record>,
+}
+
+/// Where a sweep is.
+fn address(spec: &dyn Instances) -> usize {
+    std::ptr::from_ref(spec).addr()
 }
 
 impl Gpu {
@@ -36,7 +58,13 @@ impl Gpu {
     #[must_use]
     pub fn new(devices: Vec<Device>, chunk: Option<usize>) -> Gpu {
         let sessions = devices.into_iter().map(Session::new).collect();
-        Gpu { sessions, crews: Crews::default(), chunk }
+        Gpu { sessions, crews: Crews::default(), chunk, begun: None }
+    }
+
+    /// The least that they take.
+    fn least(&self) -> usize {
+        let is_software = self.sessions.iter().any(|session| session.device().is_software());
+        if is_software { BLOCK } else { OF_HARDWARE }
     }
 }
 
@@ -69,13 +97,27 @@ impl Engine for Gpu {
         cancel: &AtomicBool,
         progress: &(dyn Fn(usize) + Sync),
     ) -> Result<Computed> {
-        records(instances, range, self, cancel, progress)
+        records(instances, [range.start, range.len(), 0], self, cancel, progress)
+    }
+
+    fn records_ahead(
+        &mut self,
+        instances: &dyn Instances,
+        range: Range<usize>,
+        ahead: usize,
+        cancel: &AtomicBool,
+        progress: &(dyn Fn(usize) + Sync),
+    ) -> Result<Computed> {
+        let ahead = ahead.min(self.ahead());
+        records(instances, [range.start, range.len(), ahead], self, cancel, progress)
+    }
+
+    fn ahead(&self) -> usize {
+        AHEAD * self.least()
     }
 
     fn busy_with(&self, _: usize, starts: usize) -> usize {
-        let is_software = self.sessions.iter().any(|session| session.device().is_software());
-        let least = if is_software { BLOCK } else { OF_HARDWARE };
-        least.div_ceil(starts)
+        self.least().div_ceil(starts)
     }
 
     fn at_once(&self, instances: usize) -> usize {
@@ -83,31 +125,52 @@ impl Engine for Gpu {
     }
 }
 
-/// The records of a range from a GPU; only the last analysis counts as progress, and only what has all of
-/// them is done.
+/// The records of a range from a GPU, its start and length, with so many instances ahead; only the last analysis counts as progress, and
+/// only what has all of them is done.
 fn records(
     spec: &dyn Instances,
-    range: Range<usize>,
-    Gpu { sessions, crews, chunk }: &mut Gpu,
+    [first, wanted, ahead]: [usize; 3],
+    Gpu { sessions, crews, chunk, begun }: &mut Gpu,
     cancel: &AtomicBool,
     progress: &(dyn Fn(usize) + Sync),
 ) -> Result<Computed> {
     let (eigenvalues, transients) = (spec.linear(), spec.response());
-    let (first, total) = (range.start, range.len());
-    let mut records = Vec::with_capacity(total);
-    let mut ended = Ok(());
+    let before = begun.take().filter(|begun| begun.of == address(spec) && begun.first == first);
+    let (taken, mut records) = before.map_or((0, Vec::new()), |begun| (begun.taken, begun.records));
+    let total = if transients { records.len().max(wanted + ahead) } else { wanted };
     if eigenvalues {
         let progress = if transients { &|_: usize| {} } else { progress };
-        ended = linear::on_all(spec, range, (sessions, *chunk), cancel, progress, &mut records)
-            .map_err(|why| counted_from(first, why));
+        let (known, devices) = (records.len(), (&mut sessions[..], *chunk));
+        let ended =
+            linear::on_all(spec, first + known..first + total, devices, cancel, progress, &mut records);
+        if let Err(why) = ended {
+            // What has only its eigenvalues is not done where more is asked for; what was begun before may be.
+            let is_done = |record: &Record| !transients || record.outcome.is_some();
+            for record in records.iter_mut().filter(|record| !is_done(record)) {
+                *record = Record::NOT_COMPUTED;
+            }
+            records.truncate(wanted);
+            return Computed::new(records, wanted, Err(counted_from(first + known, why)));
+        }
     }
+    let mut ended = Ok(());
     if transients {
-        ended?;
         records.resize(total, Record::default());
-        ended = response::complete(spec, first, (sessions, crews, *chunk), cancel, progress, &mut records)
-            .map_err(|why| counted_from(first, why));
+        let devices = (&mut sessions[..], crews, *chunk);
+        let of_all = [first, wanted, taken];
+        match response::complete(spec, of_all, devices, cancel, progress, &mut records) {
+            Ok(taken) => {
+                let records = records.split_off(wanted);
+                let (of, first, taken) = (address(spec), first + wanted, taken - wanted);
+                *begun = Some(Begun { of, first, taken, records }).filter(|begun| !begun.records.is_empty());
+            }
+            Err(why) => {
+                records.truncate(wanted);
+                ended = Err(counted_from(first, why));
+            }
+        }
     }
-    Computed::new(records, total, ended)
+    Computed::new(records, wanted, ended)
 }
 
 /// An error of a range that starts at `first`, its instance counted from the start of the sweep.

@@ -50,57 +50,61 @@ pub(super) struct Crews {
     of_f64: Vec<Crew<f64>>,
 }
 
-/// Completes the records of the instances from `first` on of a sweep with their response; when it ends early,
-/// those without are not computed. Instances in errors count from `first`.
+/// Completes the records of the first `wanted` instances from `first` on of a sweep with their response; when it ends early,
+/// those without are not computed. Of the others the devices may begin some; gives how many of all they have begun, where some were
+/// in the call before. Instances in errors count from `first`.
 ///
 /// # Errors
 /// When the device fails, or the run is cancelled.
 pub(super) fn complete(
     spec: &dyn Instances,
-    first: usize,
+    [first, wanted, begun]: [usize; 3],
     (sessions, crews, chunk): (&mut [Session], &mut Crews, Option<usize>),
     cancel: &AtomicBool,
     progress: &(dyn Fn(usize) + Sync),
     records: &mut [Record],
-) -> Result<()> {
+) -> Result<usize> {
     match sessions[0].device().precision() {
         Precision::F32 => {
             let devices = (sessions, &mut crews.of_f32, chunk);
-            let ended = complete_in(spec, first, devices, cancel, progress, records);
-            records_again(spec, first, records, cancel);
+            let ended = complete_in(spec, [first, wanted, begun], devices, cancel, progress, records);
+            records_again(spec, first, &mut records[..wanted], cancel);
             ended
         }
         Precision::F64 => {
             let devices = (sessions, &mut crews.of_f64, chunk);
-            complete_in(spec, first, devices, cancel, progress, records)
+            complete_in(spec, [first, wanted, begun], devices, cancel, progress, records)
         }
     }
 }
 
 fn complete_in<R: Lanes>(
     spec: &dyn Instances,
-    first: usize,
+    [first, wanted, begun]: [usize; 3],
     (sessions, crews, chunk): (&mut [Session], &mut Vec<Crew<R>>, Option<usize>),
     cancel: &AtomicBool,
     progress: &(dyn Fn(usize) + Sync),
     records: &mut [Record],
-) -> Result<()> {
+) -> Result<usize> {
     let Some((kernel, _)) = kernel_for(spec.pieces()) else {
         return Err(Error::LongTable { rows: spec.pieces(), limit: MOST_PIECES });
     };
     let most = sessions.iter().map(|session| most_lanes::<R>(session, kernel)).min().unwrap_or(1);
-    if crews.is_empty() {
+    // What an earlier call has begun of other instances is nobody's.
+    if crews.is_empty() || begun == 0 && crews.iter().any(Crew::has_instances) {
         *crews = Crew::of(sessions);
     }
-    let tally = Tally::default();
-    let asked = Asked::new(spec, first, records, &tally);
+    let done = records[..wanted].iter().filter(|record| record.outcome.is_some()).count();
+    let tally = Tally::begun(begun, done);
+    let asked = Asked::new(spec, [first, wanted], records, &tally);
     let devices = (sessions, chunk.unwrap_or(usize::MAX).min(most));
     let ended = Stream::new(asked, devices, cancel, progress).run(crews);
     // What a run that never came to its end would have filled.
-    for record in records.iter_mut().filter(|record| record.outcome.is_none()) {
+    for record in records[..wanted].iter_mut().filter(|record| record.outcome.is_none()) {
         *record = Record::NOT_COMPUTED;
     }
-    ended
+    crews.iter_mut().for_each(|crew| crew.count_from(wanted));
+    ended.map(|()| tally.taken().min(records.len()))
 }
 
 /// Most instances of a device at a time in one of its buffers.

@@ -26,6 +26,8 @@ pub(super) struct Crew<R> {
     /// How many times the device of the arena had been opened again.
     opened_again: u32,
     arena: Arena<R>,
+    /// Instances on their way that come behind those of the run.
+    lanes: Vec<Place<R>>,
     places: Vec<Place<R>>,
     /// Threads of its own, `None` where there are none: in a pool that crews share, the work of one waits for pieces of another's.
     threads: Option<Arc<ThreadPool>>,
@@ -41,11 +43,22 @@ impl<R: Lanes> Crew<R> {
                 session: number / OF_DEVICE,
                 opened_again: session.opened_again(),
                 arena: Arena::new(session.device()),
+                lanes: Vec::new(),
                 places: Vec::new(),
                 threads: pool(threads),
             }
         };
         (0..OF_DEVICE * sessions.len()).map(crew).collect()
+    }
+
+    /// Whether it has any.
+    pub(super) fn has_instances(&self) -> bool {
+        !self.lanes.is_empty()
+    }
+
+    /// Counts its instances from one that comes so many later.
+    pub(super) fn count_from(&mut self, later: usize) {
+        self.lanes.iter_mut().for_each(|lane| lane.count_from(later));
     }
 }
 
@@ -83,13 +96,12 @@ impl<'a> Stream<'a> {
         cancel: &'a AtomicBool,
         progress: &'a (dyn Fn(usize) + Sync),
     ) -> Stream<'a> {
-        let [_, total] = asked.count();
-        let most = total.div_ceil(OF_DEVICE * sessions.len()).clamp(1, most.max(1));
+        let most = asked.total().div_ceil(OF_DEVICE * sessions.len()).clamp(1, most.max(1));
         let sessions = sessions.iter_mut().map(Mutex::new).collect();
         Stream { asked, sessions, most, cancel, progress, failed: AtomicBool::new(false) }
     }
 
-    /// Runs all of them. The crews have no instance then, and are gone where that fails.
+    /// Runs all of them that are wanted. The crews have none of these then, and are gone where that fails.
     ///
     /// # Errors
     /// When a device fails or is lost for the second time, the run is cancelled, or a result is in doubt.
@@ -115,11 +127,11 @@ impl<'a> Stream<'a> {
         ended
     }
 
-    /// What a crew does, as long as there are instances.
+    /// What a crew does, as long as there are instances that are wanted. It leaves others to its device.
     fn work<R: Lanes>(&self, crew: &mut Crew<R>) -> Result<()> {
         let flow = Flow::new(self.asked.spec(), std::mem::take(&mut crew.places));
-        let threads = crew.threads.clone();
-        let mut at_work = AtWork { crew, flow, lanes: Vec::new() };
+        let (threads, lanes) = (crew.threads.clone(), std::mem::take(&mut crew.lanes));
+        let mut at_work = AtWork { crew, flow, lanes };
         loop {
             let went = match &threads {
                 Some(threads) => threads.install(|| self.go_on(&mut at_work)),
@@ -128,15 +140,15 @@ impl<'a> Stream<'a> {
             match went {
                 // Another one says why.
                 _ if self.failed.load(Ordering::Relaxed) => return Ok(()),
-                Ok(true) => at_work.crew.arena.wait(),
-                Ok(false) => break,
+                Ok(true) if !self.asked.is_done() => at_work.crew.arena.wait(),
+                Ok(_) => break,
                 Err(why) => {
                     self.failed.store(true, Ordering::Relaxed);
                     return Err(why);
                 }
             }
         }
-        at_work.crew.places = at_work.flow.into_places();
+        (at_work.crew.places, at_work.crew.lanes) = (at_work.flow.into_places(), at_work.lanes);
         Ok(())
     }
 
@@ -167,7 +179,7 @@ impl<'a> Stream<'a> {
         let is_cancelled = self.cancel.load(Ordering::Relaxed);
         flow.finish(&self.asked, lanes);
         flow.turn_over(&self.asked, lanes, if is_cancelled { 0 } else { self.most });
-        let done = flow.told();
+        let done = self.asked.told();
         if done > 0 {
             (self.progress)(done);
         }

@@ -18,13 +18,36 @@ const TOGETHER: usize = 256;
 pub struct Tally {
     /// The first that nobody has taken.
     next: AtomicUsize,
+    /// Those of the wanted that are done, and how many of them were not told of yet.
     done: AtomicUsize,
+    untold: AtomicUsize,
 }
 
-/// The instances of a sweep that are computed.
+impl Tally {
+    /// Before a run in which some were taken before, of which so many wanted ones are done.
+    #[must_use]
+    pub fn begun(taken: usize, done: usize) -> Tally {
+        Tally { next: taken.into(), done: done.into(), untold: done.into() }
+    }
+
+    /// How many were taken.
+    #[must_use]
+    pub fn taken(&self) -> usize {
+        self.next.load(Ordering::Relaxed)
+    }
+
+    fn complete(&self) {
+        self.done.fetch_add(1, Ordering::Relaxed);
+        self.untold.fetch_add(1, Ordering::Relaxed);
+    }
+}
+
+/// The instances of a sweep that are computed. The first of them are wanted; those behind them fill the room that the last of these
+/// leave.
 pub struct Asked<'a> {
     spec: &'a dyn Instances,
     first: usize,
+    wanted: usize,
     total: usize,
     records: Vec<Mutex<&'a mut [Record]>>,
     tally: &'a Tally,
@@ -35,13 +58,13 @@ impl<'a> Asked<'a> {
     #[must_use]
     pub fn new(
         spec: &'a dyn Instances,
-        first: usize,
+        [first, wanted]: [usize; 2],
         records: &'a mut [Record],
         tally: &'a Tally,
     ) -> Asked<'a> {
         let total = records.len();
         let records = records.chunks_mut(TOGETHER).map(Mutex::new).collect();
-        Asked { spec, first, total, records, tally }
+        Asked { spec, first, wanted, total, records, tally }
     }
 
     /// The sweep.
@@ -50,10 +73,29 @@ impl<'a> Asked<'a> {
         self.spec
     }
 
-    /// Those that have a record with their response, and all.
+    /// Those of the wanted that have a record with their response, and the wanted.
     #[must_use]
     pub fn count(&self) -> [usize; 2] {
-        [self.tally.done.load(Ordering::Relaxed), self.total]
+        [self.tally.done.load(Ordering::Relaxed), self.wanted]
+    }
+
+    /// All, the wanted and those behind them.
+    #[must_use]
+    pub fn total(&self) -> usize {
+        self.total
+    }
+
+    /// Whether the wanted are done.
+    #[must_use]
+    pub fn is_done(&self) -> bool {
+        let [done, wanted] = self.count();
+        done >= wanted
+    }
+
+    /// How many of the wanted are done that were not told of before.
+    #[must_use]
+    pub fn told(&self) -> usize {
+        self.tally.untold.swap(0, Ordering::Relaxed)
     }
 
     /// Whether there is one that nobody has taken.
@@ -81,6 +123,8 @@ impl<'a> Asked<'a> {
         let record = &mut records[index % TOGETHER];
         let kind = kind_of(self.spec, instance, record);
         take_response(record, instance, kind, outcome);
-        self.tally.done.fetch_add(1, Ordering::Relaxed);
+        if index < self.wanted {
+            self.tally.complete();
+        }
     }
 }

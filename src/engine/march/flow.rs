@@ -1,6 +1,6 @@
 //! Instances that pass through the lanes of a device: those that are over make room for the next.
 
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::atomic::AtomicBool;
 
 use rayon::prelude::*;
 
@@ -51,8 +51,6 @@ pub type Place<R> = Lane<R, Going<R>>;
 pub struct Flow<R> {
     way: Way,
     settings: [u32; SETTING_WORDS],
-    /// How many were done since that was told.
-    done: AtomicUsize,
     /// Places without an instance.
     free: Vec<Place<R>>,
 }
@@ -64,7 +62,7 @@ impl<R: Lanes> Flow<R> {
         let way = Way::new::<R>(spec.plan());
         let mut settings = [0; SETTING_WORDS];
         settings[0] = way.tolerance.to_bits();
-        Flow { way, settings, done: AtomicUsize::new(0), free }
+        Flow { way, settings, free }
     }
 
     /// The places that it has not given away.
@@ -127,7 +125,6 @@ impl<R: Lanes> Flow<R> {
         let marching = Marching::new(index, &instance, &self.way);
         if let Err(status) = marching {
             asked.complete(index, &instance, &Outcome { status, ..Outcome::default() });
-            self.done.fetch_add(1, Ordering::Relaxed);
         }
         marching.ok()
     }
@@ -167,7 +164,6 @@ impl<R: Lanes> Flow<R> {
     fn complete(&self, asked: &Asked, marching: &Marching<R>) {
         let instance = asked.instance(marching.index);
         asked.complete(marching.index, &instance, &marching.job.outcome(&self.way.plan));
-        self.done.fetch_add(1, Ordering::Relaxed);
     }
 
     /// Completes the records of those lanes whose windows are passed once more, on the CPU, as their Fourier sums did not tell a phase.
@@ -193,14 +189,14 @@ impl<R: Lanes> Flow<R> {
             going.stage = Stage::Done;
         });
     }
-
-    /// How many are done that were not told of before.
-    pub fn told(&mut self) -> usize {
-        std::mem::take(self.done.get_mut())
-    }
 }
 
 impl<R: Lanes> Lane<R, Going<R>> {
+    /// Counts its instance from one that comes so many later.
+    pub fn count_from(&mut self, later: usize) {
+        self.memory.marching.index -= later;
+    }
+
     /// On to the next leg, if there is one.
     fn go_on(&mut self, way: &Way) {
         match self.memory.marching.next(way, &mut self.words) {
