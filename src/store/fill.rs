@@ -18,6 +18,9 @@ use crate::store::reuse::Reuse;
 use crate::sweep::solver::Solver;
 use crate::sweep::spec::Starts;
 
+/// Groups of so many tiles together are not added to: each is an open file.
+const MOST_AHEAD: usize = 256;
+
 /// Between two looks at a tile that another process computes.
 const WAIT: Duration = Duration::from_millis(50);
 
@@ -50,7 +53,7 @@ type Finished = (Claim, usize, Vec<Record>);
 
 /// Computes those of the tiles `wanted` that are not there, as far as neither a stopped run nor `reuse` has their instances;
 /// tiles that other processes are computing are waited for. Tiles are computed while those before are written, as many
-/// together as keep the engine busy: the records of two such groups are in memory.
+/// together as keep the engine busy. The records of two such groups are in memory, and of those that the engine begins ahead.
 ///
 /// # Errors
 /// When a tile cannot be written, or a result is in doubt; all finished tiles stay.
@@ -107,6 +110,18 @@ struct Group {
     reused: usize,
 }
 
+/// How many instances follow those of a group without a gap, of which nothing is known.
+fn ahead<'a>(first: &Group, next: impl Iterator<Item = &'a Group>) -> usize {
+    let mut end = first.range.end;
+    for group in next.take_while(|group| group.known.is_empty()) {
+        if group.range.start != end {
+            break;
+        }
+        end = group.range.end;
+    }
+    end - first.range.end
+}
+
 /// A directory that is being filled.
 struct Filling<'a, 'b> {
     store: &'a Store,
@@ -160,9 +175,14 @@ impl Filling<'_, '_> {
         rest: &mut &[usize],
         busy: &mut Vec<usize>,
     ) -> Result<()> {
-        let ahead =
-            |next: &VecDeque<Group>| next.iter().skip(1).map(|group| group.range.len()).sum::<usize>();
-        while next.is_empty() || ahead(next) < self.solver.ahead() {
+        let is_enough = |next: &VecDeque<Group>| {
+            let Some(first) = next.front() else { return false };
+            let behind = || next.iter().skip(1);
+            let tiles: usize = next.iter().map(|group| group.tiles.len()).sum();
+            let all = behind().map(|group| group.range.len()).sum::<usize>();
+            ahead(first, behind()) < all || all >= self.solver.ahead() || tiles >= MOST_AHEAD
+        };
+        while !is_enough(next) {
             let tiles = self.next_group(rest, busy)?;
             if tiles.is_empty() {
                 break;
@@ -214,16 +234,9 @@ impl Filling<'_, '_> {
     /// Computes the tiles of a group and sends them to be written; those of `next` will be computed after it. Where that is stopped, keeps
     /// the records that are done.
     fn compute(&mut self, group: Group, next: &VecDeque<Group>) -> Result<()> {
+        let ahead = ahead(&group, next.iter());
         let Group { tiles, range, known, reused } = group;
         let before = known.iter().flatten().count();
-        let mut end = range.end;
-        for group in next.iter().take_while(|group| group.known.is_empty()) {
-            if group.range.start != end {
-                break;
-            }
-            end = group.range.end;
-        }
-        let ahead = end - range.end;
         let made = match self.solver.records_beside(range, &known, ahead, self.watch.progress) {
             Ok(made) => made,
             Err(why) => {

@@ -87,7 +87,8 @@ impl<'a> Solver<'a> {
     /// How many instances behind a range the engine begins at most.
     #[must_use]
     pub fn ahead(&self) -> usize {
-        if self.spec.analysis.starts == Starts::One { self.engine.ahead() } else { 0 }
+        let Analysis { response, starts, .. } = self.spec.analysis;
+        if response && starts == Starts::One { self.engine.ahead() } else { 0 }
     }
 
     /// The records of the instances `range` of another sweep, which asks for the same analysis; see [`Solver::records`].

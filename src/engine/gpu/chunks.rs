@@ -10,6 +10,7 @@ use crate::engine::fields::words;
 use crate::engine::gpu::device::Device;
 use crate::engine::gpu::kernel::Compiled;
 use crate::engine::gpu::run::{ChunkResult, Drive, run};
+use crate::engine::kernel::places::TOGETHER;
 use crate::engine::kernel::scalar::Real;
 use crate::engine::kernel::source::{Constant, Kernel, WORKGROUP_SIZE};
 
@@ -71,11 +72,12 @@ impl Session {
         // Places of words are u32.
         let words = inputs.max(state).max(flags).max(1);
         let rows = limits.max_compute_workgroups_per_dimension as usize;
-        (largest / bytes.into_iter().max().unwrap_or(1).max(1))
+        let most = (largest / bytes.into_iter().max().unwrap_or(1).max(1))
             .min(MOST_BYTES / bytes.into_iter().sum::<usize>().max(1))
             .min(u32::MAX as usize / words)
-            .min(rows.saturating_mul(rows).saturating_mul(WORKGROUP_SIZE as usize))
-            .max(1)
+            .min(rows.saturating_mul(rows).saturating_mul(WORKGROUP_SIZE as usize));
+        // Buffers have room for whole groups of instances.
+        (most / TOGETHER * TOGETHER).max(TOGETHER)
     }
 
     /// Runs `total` instances through a kernel in chunks of at most `chunk`.

@@ -138,14 +138,18 @@ fn records(
     let before = begun.take().filter(|begun| begun.of == address(spec) && begun.first == first);
     let (taken, mut records) = before.map_or((0, Vec::new()), |begun| (begun.taken, begun.records));
     let total = if transients { records.len().max(wanted + ahead) } else { wanted };
+    records.reserve(total - records.len());
     if eigenvalues {
         let progress = if transients { &|_: usize| {} } else { progress };
         let (known, devices) = (records.len(), (&mut sessions[..], *chunk));
         let ended =
             linear::on_all(spec, first + known..first + total, devices, cancel, progress, &mut records);
         if let Err(why) = ended {
-            // What has only its eigenvalues is not done where more is asked for; what was begun before may be.
-            let is_done = |record: &Record| !transients || record.outcome.is_some();
+            // What has only its eigenvalues is not done where more is asked for. What was begun before is, but for that which may
+            // end otherwise in double precision.
+            let is_done = |record: &Record| {
+                !transients || record.outcome.is_some() && !record.status.may_come_through()
+            };
             for record in records.iter_mut().filter(|record| !is_done(record)) {
                 *record = Record::NOT_COMPUTED;
             }
@@ -160,9 +164,11 @@ fn records(
         let of_all = [first, wanted, taken];
         match response::complete(spec, of_all, devices, cancel, progress, &mut records) {
             Ok(taken) => {
-                let records = records.split_off(wanted);
+                let behind = records.split_off(wanted);
+                records.shrink_to_fit();
                 let (of, first, taken) = (address(spec), first + wanted, taken - wanted);
-                *begun = Some(Begun { of, first, taken, records }).filter(|begun| !begun.records.is_empty());
+                let next = Begun { of, first, taken, records: behind };
+                *begun = Some(next).filter(|begun| !begun.records.is_empty());
             }
             Err(why) => {
                 records.truncate(wanted);

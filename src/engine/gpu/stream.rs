@@ -109,7 +109,6 @@ impl<'a> Stream<'a> {
         let ended = thread::scope(|scope| {
             let mut crews = crews.iter_mut();
             let first = crews.next();
-            // Where no thread can be started the others do the work.
             let others: Vec<_> = crews
                 .filter_map(|crew| {
                     thread::Builder::new().name(CREW.to_owned()).spawn_scoped(scope, || self.work(crew)).ok()
@@ -121,6 +120,9 @@ impl<'a> Stream<'a> {
                 ended.and(other)
             })
         });
+        // Where no thread could be started for a crew, its instances wait for this one.
+        let mut left = crews.iter_mut().take_while(|_| ended.is_ok() && !self.asked.is_done());
+        let ended = left.try_for_each(|crew| self.work(crew)).and(ended);
         if ended.is_err() {
             crews.clear();
         }
@@ -191,7 +193,7 @@ impl<'a> Stream<'a> {
             return Ok(false);
         }
         let session = &self.sessions[crew.session];
-        self.session(crew.session).device().meter.hold(lanes.len(), self.most);
+        self.session(crew.session).device().meter.hold(lanes.len(), self.most.max(lanes.len()));
         crew.arena.submit(session, lanes, flow.settings())?;
         Ok(true)
     }

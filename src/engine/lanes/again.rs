@@ -45,7 +45,7 @@ pub fn outcomes_again(
 }
 
 /// Computes the responses of those records again that ended early, on the rayon pool it is called in; the records are those
-/// of the instances from `first` on of a sweep. What `cancel` stops stays as it is.
+/// of the instances from `first` on of a sweep. What `cancel` stops is not computed.
 pub fn records_again(spec: &dyn Instances, first: usize, records: &mut [Record], cancel: &AtomicBool) {
     let plan = spec.plan();
     let failed: Vec<usize> = (0..records.len())
@@ -65,6 +65,9 @@ pub fn records_again(spec: &dyn Instances, first: usize, records: &mut [Record],
             some.iter().zip(instances).zip(made).map(complete).collect::<Vec<_>>()
         })
         .collect();
+    for index in failed {
+        records[index] = Record::NOT_COMPUTED;
+    }
     for (index, record) in made {
         records[index] = record;
     }
