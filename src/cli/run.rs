@@ -52,7 +52,7 @@ pub(crate) struct Run {
     /// Compute no instance again: the manifest then says nothing of the error
     #[arg(long)]
     no_check: bool,
-    /// Only the tiles k, k + n, k + 2n, … with k from 0 to n - 1, and no results, which `merge` writes; `auto` takes
+    /// Only a share of the tiles, k of n with k from 0 to n - 1, and no results, which `merge` writes; `auto` takes
     /// k and n, `auto/n` takes k from the task of Slurm, mpirun, Kubernetes, PBS or HyperQueue
     #[arg(long, value_name = "K/N", value_parser = shard)]
     shard: Option<Shard>,

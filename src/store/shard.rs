@@ -1,4 +1,4 @@
-//! A share of the tiles of a sweep: `k/n` takes the tiles k, k + n, k + 2n, …
+//! A share of the tiles of a sweep: of runs of tiles `k/n` takes the runs k, k + n, k + 2n, …
 
 use std::fmt;
 
@@ -37,6 +37,12 @@ const fn alone(number: &'static str, of: &'static str) -> Launcher {
     Launcher { number, first: "", step: "", of }
 }
 
+/// Most tiles of a run: a GPU computes some together, and begins those that follow.
+const LONGEST_RUN: usize = 16;
+
+/// Runs that each share has at least, where runs are longer than a tile: parts of a sweep differ in what they cost.
+const RUNS: usize = 8;
+
 /// A share of the tiles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shard {
@@ -55,7 +61,8 @@ impl fmt::Display for Shard {
 impl Shard {
     /// Its tiles among `count`.
     pub fn tiles(self, count: usize) -> impl Iterator<Item = usize> {
-        (self.number..count).step_by(self.of)
+        let run = (count / (RUNS * self.of)).clamp(1, LONGEST_RUN);
+        (0..count).filter(move |tile| tile / run % self.of == self.number)
     }
 
     /// Reads `k/n`, `auto` or `auto/n`, where the launcher of this process says the rest. With `auto/n` any

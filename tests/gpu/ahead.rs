@@ -80,7 +80,7 @@ fn ranges() -> Result<(), Failed> {
     let (with_next, beside) = all(&spec, 2 * RANGE)?;
     println!("{:.0} % of the lanes held, {:.0} % ahead", 100.0 * alone, 100.0 * beside);
     assert!(one_by_one == whole && with_next == whole, "ranges differ from the whole");
-    assert!(beside > 1.2 * alone, "{beside} is not much more than {alone}");
+    assert!(1.0 - beside < 0.7 * (1.0 - alone), "as many lanes are empty");
     Ok(())
 }
 

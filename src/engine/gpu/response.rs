@@ -103,7 +103,9 @@ fn complete_in<R: Lanes>(
     for record in records[..wanted].iter_mut().filter(|record| record.outcome.is_none()) {
         *record = Record::NOT_COMPUTED;
     }
-    crews.iter_mut().for_each(|crew| crew.count_from(wanted));
+    for crew in crews {
+        crew.count_from(wanted);
+    }
     ended.map(|()| tally.taken().min(records.len()))
 }
 

@@ -58,7 +58,9 @@ impl<R: Lanes> Crew<R> {
 
     /// Counts its instances from one that comes so many later.
     pub(super) fn count_from(&mut self, later: usize) {
-        self.lanes.iter_mut().for_each(|lane| lane.count_from(later));
+        for lane in &mut self.lanes {
+            lane.count_from(later);
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! Engines: every one against closed forms, the reference and each other.
 
-pub(crate) mod bounded;
 mod again;
+pub(crate) mod bounded;
 mod counting;
 pub(crate) mod crossings;
 pub(crate) mod cycles;

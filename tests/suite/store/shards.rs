@@ -17,12 +17,16 @@ fn parse(text: &str, variables: &[(&str, &str)]) -> Result<(usize, usize), Strin
 
 #[test]
 fn shards_are_every_tile_once() {
-    for (count, of) in [(10, 3), (2, 5), (1, 1), (12, 4)] {
+    for (count, of) in [(10, 3), (2, 5), (1, 1), (12, 4), (1000, 4), (5000, 7)] {
         let mut all: Vec<usize> = (0..of).flat_map(|number| Shard { number, of }.tiles(count)).collect();
         all.sort_unstable();
         assert_eq!(all, (0..count).collect::<Vec<_>>());
     }
     assert_eq!(Shard { number: 1, of: 3 }.tiles(10).collect::<Vec<_>>(), [1, 4, 7]);
+    // Of many tiles those of a share follow one another, as a GPU computes them together.
+    let tiles: Vec<usize> = Shard { number: 1, of: 4 }.tiles(1000).collect();
+    assert_eq!(tiles[..17], [(16..32).collect::<Vec<_>>(), vec![80]].concat());
+    assert!((240..=256).contains(&tiles.len()), "{}", tiles.len());
 }
 
 #[test]
