@@ -11,6 +11,7 @@ use squealmap::engine::computed::Computed;
 use squealmap::engine::error::Error;
 use squealmap::engine::gpu::run::{ChunkResult, check};
 use squealmap::engine::kernel::linear;
+use squealmap::engine::kernel::places::{place, room};
 use squealmap::engine::march::kernel::kernel_for;
 use squealmap::engine::options::Options;
 use squealmap::engine::precision::Precision;
@@ -165,8 +166,11 @@ fn no_kernel_may_say_that_it_did_not_compute() {
     assert!(!Status::ALL.contains(&Status::NotComputed) && !Status::ALL.contains(&Status::Unwritten));
     assert_eq!(Status::IN_MAP[..7], Status::ALL);
     assert_eq!(Status::IN_MAP[7..], [Status::NotComputed]);
-    let chunk =
-        |code: u32| ChunkResult { state: vec![0.0_f32; 3], flags: vec![1, 1, code], cancelled: false };
+    let chunk = |code: u32| {
+        let mut flags = vec![Status::Ok as u32; room(3)];
+        flags[place([0, 1], 2)] = code;
+        ChunkResult { state: vec![0.0_f32; room(3)], flags, cancelled: false }
+    };
     assert!(check(&chunk(Status::Ok as u32), 3, [1, 1, 1]).is_ok());
     let said = check(&chunk(Status::NotComputed as u32), 3, [1, 1, 1]);
     assert!(matches!(said, Err(Error::Unwritten { instance: 2 })));
