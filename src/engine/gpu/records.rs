@@ -135,7 +135,7 @@ fn records(
     progress: &(dyn Fn(usize) + Sync),
 ) -> Result<Computed> {
     let (eigenvalues, transients) = (spec.linear(), spec.response());
-    let before = begun.take().filter(|begun| begun.of == address(spec) && begun.first == first);
+    let before = begun.take().filter(|begun| transients && begun.of == address(spec) && begun.first == first);
     let (taken, mut records) = before.map_or((0, Vec::new()), |begun| (begun.taken, begun.records));
     let total = if transients { records.len().max(wanted + ahead) } else { wanted };
     records.reserve(total - records.len());
