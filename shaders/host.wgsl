@@ -24,8 +24,7 @@ fn instance_of(workgroup: vec3<u32>, workgroups: vec3<u32>, local: u32) -> u32 {
     return (workgroup.y * workgroups.x + workgroup.x) * WORKGROUP_SIZE + local;
 }
 
-// Where word 0 of an instance with so many words is, and how far it is from there to another one: the first of these is the
-// same for all words, the second a constant.
+// The place of the first word of an instance that has so many. The next one is TOGETHER further, a constant.
 fn first_place(words: u32, instance: u32) -> u32 {
     return (instance / TOGETHER) * (words * TOGETHER) + instance % TOGETHER;
 }

@@ -4,20 +4,20 @@ use crate::Case;
 use crate::words::{compare, device, drive, inputs, on_cpu};
 use libtest_mimic::Failed;
 use squealmap::engine::error::Error;
-use squealmap::engine::fields::words;
 use squealmap::engine::gpu::kernel::Compiled;
 use squealmap::engine::gpu::run::{ChunkResult, Drive, run};
-use squealmap::engine::kernel::linear::{FLAGS, KERNEL, STATE};
+use squealmap::engine::kernel::linear::KERNEL;
 use squealmap::engine::kernel::places::{TOGETHER, place};
+use squealmap::engine::kernel::words::{FLAG_WORDS, STATE_WORDS};
 use squealmap::engine::precision::Precision;
 
 /// Instances of a fault.
 const COUNT: usize = 500;
 
 pub(crate) const CASES: &[Case] = &[
-    ("faults::one_wrong_value", || caught(|result| result.state[place([0, words(&STATE)], 77)] += 0.01)),
+    ("faults::one_wrong_value", || caught(|result| result.state[place([0, STATE_WORDS], 77)] += 0.01)),
     ("faults::one_nan", || caught(|result| result.state[1234] = f32::NAN)),
-    ("faults::one_wrong_type", || caught(|result| result.flags[place([2, words(&FLAGS)], 5)] ^= 1)),
+    ("faults::one_wrong_type", || caught(|result| result.flags[place([2, FLAG_WORDS], 5)] ^= 1)),
     ("faults::a_short_state", || caught(|result| result.state.truncate(COUNT))),
     ("faults::short_flags", || caught(|result| result.flags.truncate(COUNT))),
     ("faults::all_zero", || {

@@ -3,12 +3,11 @@
 use crate::Case;
 use crate::words::{device, drive, inputs};
 use libtest_mimic::Failed;
-use squealmap::engine::fields::words;
 use squealmap::engine::gpu::kernel::Compiled;
 use squealmap::engine::gpu::run::run;
-use squealmap::engine::kernel::linear::{KERNEL, Quartic, STATE, factors, quadratic, rightmost, split};
+use squealmap::engine::kernel::linear::{KERNEL, Quartic, factors, quadratic, rightmost, split};
 use squealmap::engine::kernel::places::place;
-use squealmap::engine::kernel::words::INPUT_WORDS;
+use squealmap::engine::kernel::words::{INPUT_WORDS, STATE_WORDS};
 use squealmap::engine::precision::Precision;
 
 /// Instances of a probe.
@@ -58,7 +57,7 @@ fn probe(call: &str, tolerance: f32, twin: fn(Quartic<f32>) -> Vec<f32>) -> Resu
         let word = |word: usize| inputs[place([word, INPUT_WORDS], i)];
         let quartic = Quartic { p: word(0), g: word(1), k: word(2), e: word(3) };
         for (k, expected) in twin(quartic).into_iter().enumerate() {
-            let actual = result.state[place([k, words(&STATE)], i)];
+            let actual = result.state[place([k, STATE_WORDS], i)];
             differing += usize::from(actual.to_bits() != expected.to_bits());
             let difference = (actual - expected).abs() / expected.abs().max(1.0);
             if difference.is_nan() || difference > tolerance {

@@ -4,17 +4,16 @@ use std::sync::atomic::AtomicBool;
 
 use crate::instances::random;
 use libtest_mimic::Failed;
-use squealmap::engine::fields::words;
 use squealmap::engine::gpu::adapter::Adapter;
 use squealmap::engine::gpu::arithmetic::Arithmetic;
 use squealmap::engine::gpu::device::Device;
 use squealmap::engine::gpu::kernel::Compiled;
 use squealmap::engine::gpu::run::{ChunkResult, Drive, check, run};
-use squealmap::engine::kernel::linear::{Analysed, FLAGS, KERNEL, STATE, analyse};
+use squealmap::engine::kernel::linear::{Analysed, KERNEL, analyse};
 use squealmap::engine::kernel::places::{filled, place};
 use squealmap::engine::kernel::scalar::Real;
 use squealmap::engine::kernel::source::SETTING_WORDS;
-use squealmap::engine::kernel::words::{INPUT_WORDS, Words};
+use squealmap::engine::kernel::words::{FLAG_WORDS, INPUT_WORDS, STATE_WORDS, Words};
 use squealmap::model::linear::prepare;
 
 static NEVER: AtomicBool = AtomicBool::new(false);
@@ -73,7 +72,7 @@ pub(crate) fn compare<R: Real>(
     tolerance: f64,
     most_flags: usize,
 ) -> Result<f64, Failed> {
-    let sizes = [INPUT_WORDS, words(&STATE), words(&FLAGS)];
+    let sizes = [INPUT_WORDS, STATE_WORDS, FLAG_WORDS];
     check(expected, count, sizes)?;
     check(actual, count, sizes)?;
     let mut worst = 0.0_f64;

@@ -22,7 +22,7 @@ const BLOCK: usize = 65_536;
 /// The least that hardware takes: some times as many as it has places for, whose records take 200 MB.
 const OF_HARDWARE: usize = 4 * BLOCK;
 
-/// How many times that they begin ahead: of runs until settled, the last of a range take five times as long as most.
+/// They begin this many times as much ahead: of runs until settled, the last of a range take five times as long as most.
 const AHEAD: usize = 2;
 
 /// GPUs that share the work; their kernels stay compiled.
@@ -37,7 +37,7 @@ pub struct Gpu {
 /// What was begun of the instances behind a range.
 #[derive(Debug)]
 struct Begun {
-    /// Where their sweep is, which has not gone away since.
+    /// The address of their sweep.
     of: usize,
     /// The first of them.
     first: usize,
@@ -47,7 +47,7 @@ struct Begun {
     records: Vec<Record>,
 }
 
-/// Where a sweep is.
+/// The address of a sweep, which tells it from another one as long as it is there.
 fn address(spec: &dyn Instances) -> usize {
     std::ptr::from_ref(spec).addr()
 }

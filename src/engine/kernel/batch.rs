@@ -5,14 +5,13 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use rayon::prelude::*;
 
 use crate::engine::error::{Error, Result};
-use crate::engine::fields::words;
 use crate::engine::instances::Instances;
 use crate::engine::judged::begun;
-use crate::engine::kernel::linear::{FLAGS, KERNEL, POLYNOMIALS};
+use crate::engine::kernel::linear::{KERNEL, POLYNOMIALS};
 use crate::engine::kernel::places::{filled, place};
 use crate::engine::kernel::scalar::Real;
 use crate::engine::kernel::source::{FLAG_STATUS, FLAG_STEPS};
-use crate::engine::kernel::words::{INPUT_WORDS, STATE_WORDS, Words};
+use crate::engine::kernel::words::{FLAG_WORDS, INPUT_WORDS, STATE_WORDS, Words};
 use crate::engine::record::Record;
 use crate::model::kind::InstabilityType;
 use crate::model::linear::prepare;
@@ -20,9 +19,6 @@ use crate::model::status::Status;
 
 /// The flag word of the type.
 const FLAG_TYPE: usize = 2;
-
-/// Flags of one instance.
-const FLAG_WORDS: usize = words(&FLAGS);
 
 /// An instance before the kernel: its record so far, and its words where it needs the kernel.
 pub type Known = (Record, Option<Words>);

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use crate::engine::fields::words;
-use crate::engine::kernel::linear::{STATE, code};
+use crate::engine::kernel::linear::{FLAGS, STATE, code};
 use crate::model::kind::InstabilityType;
 use crate::model::linear::{Linear, Prepared};
 
@@ -12,6 +12,9 @@ pub const INPUT_WORDS: usize = words(&crate::engine::kernel::linear::INPUTS);
 
 /// State words of one instance.
 pub const STATE_WORDS: usize = words(&STATE);
+
+/// Flags of one instance.
+pub const FLAG_WORDS: usize = words(&FLAGS);
 
 /// An instance that the linear kernel can analyse.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -112,7 +112,7 @@ impl Group {
         self.of_lane().map(|words| words * room(self.lanes))
     }
 
-    /// Its words that are sent to each buffer: of legs that have not begun their inputs, of which their kernels make the others.
+    /// Its words that are sent to each buffer: of legs that have not begun only the inputs, from which the kernels make the rest.
     #[must_use]
     pub fn words_sent(&self) -> [usize; 3] {
         let [inputs, state, flags] = self.words();
