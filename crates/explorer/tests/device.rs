@@ -5,6 +5,7 @@
 
 use serde_json::{Value as Json, json};
 use squealmap::engine::kernel::linear::analyse;
+use squealmap::engine::kernel::places::{filled, place, room};
 use squealmap::study::explore::Explorer;
 use squealmap::study::explore::answer::Answer;
 use squealmap::sweep::spec::Spec;
@@ -35,14 +36,11 @@ fn played(sent: &Answer) -> Vec<u8> {
     let count = number(&turn["dispatches"][0]["count"]);
     let bytes = &sent.bytes[..number(&turn["sizes"][0])];
     let inputs: Vec<f32> = bytes.chunks(4).map(|four| f32::from_le_bytes(four.try_into().unwrap())).collect();
-    let made: Vec<_> = (0..count).map(|one| analyse(&|word: usize| inputs[word * count + one])).collect();
-    let mut back = Vec::new();
-    for word in 0..6 {
-        back.extend(made.iter().flat_map(|one| one.state[word].to_le_bytes()));
-    }
-    for word in 0..3 {
-        back.extend(made.iter().flat_map(|one| one.flags[word].to_le_bytes()));
-    }
+    let words = inputs.len() / room(count);
+    let made: Vec<_> = (0..count).map(|one| analyse(&|word: usize| inputs[place([word, words], one)])).collect();
+    let state: Vec<f32> = filled(6, count, |one| &made[one].state);
+    let flags: Vec<u32> = filled(3, count, |one| &made[one].flags);
+    let back = [bytemuck::cast_slice(&state), bytemuck::cast_slice(&flags)].concat();
     assert_eq!(back.len(), number(&turn["sizes"][1]) + number(&turn["sizes"][2]));
     back
 }
