@@ -37,7 +37,8 @@ fn played(sent: &Answer) -> Vec<u8> {
     let bytes = &sent.bytes[..number(&turn["sizes"][0])];
     let inputs: Vec<f32> = bytes.chunks(4).map(|four| f32::from_le_bytes(four.try_into().unwrap())).collect();
     let words = inputs.len() / room(count);
-    let made: Vec<_> = (0..count).map(|one| analyse(&|word: usize| inputs[place([word, words], one)])).collect();
+    let made: Vec<_> =
+        (0..count).map(|one| analyse(&|word: usize| inputs[place([word, words], one)])).collect();
     let state: Vec<f32> = filled(6, count, |one| &made[one].state);
     let flags: Vec<u32> = filled(3, count, |one| &made[one].flags);
     let back = [bytemuck::cast_slice(&state), bytemuck::cast_slice(&flags)].concat();
