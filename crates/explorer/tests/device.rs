@@ -6,6 +6,7 @@
 use serde_json::{Value as Json, json};
 use squealmap::engine::kernel::linear::analyse;
 use squealmap::engine::kernel::places::{filled, place, room};
+use squealmap::engine::kernel::words::{FLAG_WORDS, INPUT_WORDS, STATE_WORDS};
 use squealmap::study::explore::Explorer;
 use squealmap::study::explore::answer::Answer;
 use squealmap::sweep::spec::Spec;
@@ -36,11 +37,11 @@ fn played(sent: &Answer) -> Vec<u8> {
     let count = number(&turn["dispatches"][0]["count"]);
     let bytes = &sent.bytes[..number(&turn["sizes"][0])];
     let inputs: Vec<f32> = bytes.chunks(4).map(|four| f32::from_le_bytes(four.try_into().unwrap())).collect();
-    let words = inputs.len() / room(count);
+    assert_eq!(inputs.len(), INPUT_WORDS * room(count));
     let made: Vec<_> =
-        (0..count).map(|one| analyse(&|word: usize| inputs[place([word, words], one)])).collect();
-    let state: Vec<f32> = filled(6, count, |one| &made[one].state);
-    let flags: Vec<u32> = filled(3, count, |one| &made[one].flags);
+        (0..count).map(|one| analyse(&|word: usize| inputs[place([word, INPUT_WORDS], one)])).collect();
+    let state: Vec<f32> = filled(STATE_WORDS, count, |one| &made[one].state);
+    let flags: Vec<u32> = filled(FLAG_WORDS, count, |one| &made[one].flags);
     let back = [bytemuck::cast_slice(&state), bytemuck::cast_slice(&flags)].concat();
     assert_eq!(back.len(), number(&turn["sizes"][1]) + number(&turn["sizes"][2]));
     back
