@@ -4,7 +4,7 @@ use std::io::Read;
 
 use crate::again::Again;
 use crate::cells::Cells;
-use crate::channel::{Channel, PerChannel};
+use crate::channel::Channel;
 use crate::clips::{Clip, Clips};
 use crate::conclude::{Looked, conclude};
 use crate::envelope::Envelope;
@@ -18,6 +18,7 @@ use crate::reading::{Reading, reading};
 use crate::runs::Runs;
 use crate::segment::{Has, Segment, segments};
 use crate::settings::Settings;
+use crate::sliding::Sliding;
 use crate::spans::{Known, sharpened};
 use crate::spectrogram::{Builder, Spectrogram};
 use crate::survey::{Survey, survey};
@@ -132,7 +133,7 @@ fn analyse(
     let mut envelopes = [Envelope::new(samples), Envelope::new(samples)];
     let normal = recorded.normal_acceleration;
     let mut clips = Clips::new(samples, [rate, start], survey.frequency, normal, &settings.zooms);
-    let mut waiting = PerChannel::<Vec<f64>>::default();
+    let mut sliding = fits.map(|fits| Channel::ALL.map(|_| Sliding::new(fits.window, fits.hop)));
     let count = fits.map_or(0, |geometry| (samples - geometry.window as u64) / geometry.hop as u64 + 1);
     let mut friction = Envelope::new(count);
     let mut runs = Runs::new(recorded, settings);
@@ -147,11 +148,14 @@ fn analyse(
         if recorded.normal_acceleration {
             envelopes[1].take(values[Channel::NormalAcceleration as usize]);
         }
-        let (Some(analyser), Some(geometry)) = (&mut analyser, fits) else { continue };
-        waiting.iter_mut().zip(values).for_each(|(waiting, value)| waiting.push(value));
-        if waiting[0].len() == geometry.window {
+        let (Some(analyser), Some(sliding)) = (&mut analyser, &mut sliding) else { continue };
+        let mut full = false;
+        for (sliding, value) in sliding.iter_mut().zip(values) {
+            full = sliding.take(value);
+        }
+        if full {
             let at = start + from as f64 / rate;
-            let window = analyser.window(at, &waiting.each_ref().map(Vec::as_slice));
+            let window = analyser.window(at, &sliding.each_ref().map(Sliding::window));
             each(&window, &reading(&window, recorded, settings));
             runs.take(&window);
             overview.take(&window);
@@ -159,10 +163,8 @@ fn analyse(
             if let Some(mu) = window.friction {
                 friction.take(mu);
             }
-            for waiting in &mut waiting {
-                waiting.drain(..geometry.hop);
-            }
-            from += geometry.hop as u64;
+            sliding.iter_mut().for_each(Sliding::leave);
+            from += fits.map_or(0, |fits| fits.hop as u64);
         }
     }
     let episodes = runs.finish();

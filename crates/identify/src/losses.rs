@@ -5,6 +5,7 @@
 //! sliding unstable where `−N dμ/dv > c`.
 
 use crate::cross::Measured;
+use crate::lanes::sum;
 
 /// Delay of the forces that is not known, as an angle of the oscillation, rad: 3°, as for the power at growth.
 const LATE: f64 = 0.052;
@@ -30,7 +31,7 @@ pub(super) struct Losses {
 impl Losses {
     /// Reads whole periods: motion `ẋ` (m/s), acceleration `ẍ` (m/s²), forces (N).
     pub(super) fn read(motion: &[f64], acceleration: &[f64], tangential: &[f64], normal: &[f64]) -> Losses {
-        let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len().max(1) as f64;
+        let mean = |values: &[f64]| sum(values) / values.len().max(1) as f64;
         let means = [motion, acceleration, tangential, normal].map(mean);
         let mut sums = Losses::default();
         for k in 0..motion.len() {

@@ -172,12 +172,17 @@ impl Level {
             *value = held.value;
         }
         values.sort_unstable_by(f64::total_cmp);
-        let median = values[values.len() / 2];
-        for (off, value) in off.iter_mut().zip(&*values) {
-            *off = (value - median).abs();
+        let middle = values.len() / 2;
+        let median = values[middle];
+        // On either side of the median the distances are in order already.
+        let (mut low, mut high) = (middle, middle);
+        for off in off.iter_mut() {
+            let below = low.checked_sub(1).map_or(f64::INFINITY, |k| median - values[k]);
+            let above = values.get(high).map_or(f64::INFINITY, |value| value - median);
+            *off = below.min(above);
+            (low, high) = if below < above { (low - 1, high) } else { (low, high + 1) };
         }
-        off.sort_unstable_by(f64::total_cmp);
-        Some(Level { median, scatter: off[off.len() / 2], widest: off[off.len() - 1 - LEFT_OUT] })
+        Some(Level { median, scatter: off[middle], widest: off[off.len() - 1 - LEFT_OUT] })
     }
 }
 

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::settings::Settings;
+use crate::sliding::Sliding;
 use crate::spectrum::{Spectra, hann};
 
 /// Columns of the picture: a printer at 300 dpi resolves about this many across two columns of a journal.
@@ -15,6 +16,10 @@ const LEAST_PERIODS: f64 = 8.0;
 const LEAST_WINDOWS: u64 = 8;
 /// The picture reaches up to this many times the dominant frequency.
 const ABOVE: f64 = 4.0;
+/// Windows that are this part of their length apart weigh the power of every sample alike, as they are tapered by Hann …
+const APART: usize = 4;
+/// … so that they are no closer where the picture has this many of them in each of its columns all the same.
+const IN_A_COLUMN: u64 = 8;
 /// Fewest samples of a window.
 const LEAST_SAMPLES: usize = 16;
 
@@ -44,7 +49,7 @@ pub(super) struct Builder {
     spectra: Spectra,
     length: usize,
     hop: usize,
-    waiting: Vec<f64>,
+    sliding: Sliding,
     windows: u64,
     expected: u64,
     rate: f64,
@@ -77,6 +82,7 @@ impl Builder {
         let longest = (samples / LEAST_WINDOWS).min(1 << 20) as usize;
         let length = ((seconds * rate).round() as usize).min(longest).max(LEAST_SAMPLES);
         let hop = (((1.0 - settings.overlap) * length as f64).round() as usize).max(1);
+        let hop = hop.max((length / APART).min((samples / (IN_A_COLUMN * COLUMNS as u64)) as usize));
         let expected = (samples.saturating_sub(length as u64) / hop as u64 + 1).max(1);
         let top = dominant.map_or(rate / 2.0, |f| (ABOVE * f).min(rate / 2.0));
         let bins = ((top / rate * length as f64).ceil() as usize).clamp(1, length / 2);
@@ -87,7 +93,7 @@ impl Builder {
             spectra: Spectra::new(hann(length)),
             length,
             hop,
-            waiting: Vec::new(),
+            sliding: Sliding::new(length, hop),
             windows: 0,
             expected,
             rate,
@@ -104,16 +110,15 @@ impl Builder {
 
     /// Takes the next sample.
     pub(super) fn take(&mut self, value: f64) {
-        self.waiting.push(value);
-        if self.waiting.len() < self.length {
+        if !self.sliding.take(value) {
             return;
         }
-        self.spectra.power(&self.waiting, &mut self.scratch);
+        self.spectra.power(self.sliding.window(), &mut self.scratch);
         let column =
             (self.windows.saturating_mul(self.columns as u64) / self.expected).min(self.columns as u64 - 1);
         self.add(usize::try_from(column).unwrap_or(0));
         self.windows += 1;
-        self.waiting.drain(..self.hop.min(self.length));
+        self.sliding.leave();
     }
 
     #[expect(clippy::cast_possible_truncation, reason = "a picture has no use for more digits than f32")]

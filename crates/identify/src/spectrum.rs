@@ -6,6 +6,8 @@ use std::sync::Arc;
 use num_complex::Complex64;
 use realfft::{RealFftPlanner, RealToComplex};
 
+use crate::lanes::{moment, sum};
+
 /// The Hann window of this length: 0 at its first sample and one after its last.
 pub(super) fn hann(length: usize) -> Vec<f64> {
     (0..length).map(|k| 0.5 - 0.5 * (TAU * k as f64 / length as f64).cos()).collect()
@@ -15,12 +17,12 @@ pub(super) fn hann(length: usize) -> Vec<f64> {
 pub(super) fn detrend(values: &mut [f64]) {
     let n = values.len() as f64;
     let middle = 0.5 * (n - 1.0);
-    let mean = values.iter().sum::<f64>() / n.max(1.0);
-    let moment: f64 = values.iter().enumerate().map(|(k, v)| (k as f64 - middle) * (v - mean)).sum();
-    // Σ (k − middle)² = n (n² − 1)/12.
-    let slope = moment * 12.0 / (n * (n * n - 1.0)).max(1.0);
+    let mean = sum(values) / n.max(1.0);
+    values.iter_mut().for_each(|value| *value -= mean);
+    // Of values whose mean is 0 the moment is the same about every point; Σ (k − middle)² = n (n² − 1)/12.
+    let slope = moment(values) * 12.0 / (n * (n * n - 1.0)).max(1.0);
     for (k, value) in values.iter_mut().enumerate() {
-        *value -= mean + slope * (k as f64 - middle);
+        *value -= slope * (k as f64 - middle);
     }
 }
 
@@ -46,9 +48,18 @@ impl Spectra {
     pub(super) fn power(&mut self, values: &[f64], power: &mut Vec<f64>) {
         self.input.copy_from_slice(values);
         detrend(&mut self.input);
-        for (value, weight) in self.input.iter_mut().zip(&self.window) {
-            *value *= weight;
-        }
+        self.input.iter_mut().zip(&self.window).for_each(|(value, weight)| *value *= weight);
+        self.transformed(power);
+    }
+
+    /// The same of values that have no trend.
+    pub(super) fn power_of_level(&mut self, values: &[f64], power: &mut Vec<f64>) {
+        let weighted = values.iter().zip(&self.window).map(|(value, weight)| value * weight);
+        self.input.iter_mut().zip(weighted).for_each(|(input, value)| *input = value);
+        self.transformed(power);
+    }
+
+    fn transformed(&mut self, power: &mut Vec<f64>) {
         self.transform
             .process_with_scratch(&mut self.input, &mut self.output, &mut self.scratch)
             .expect("the buffers are those that the transform made");
@@ -72,19 +83,46 @@ pub(super) fn refine(power: &[f64], k: usize) -> f64 {
 /// Mean noise power per bin: the median of the bins away from the peak at `peak` (bins) and its harmonics;
 /// powers of noise are exponentially distributed, so their mean is the median over ln 2.
 pub(super) fn noise_floor(power: &[f64], peak: f64) -> f64 {
-    /// Bins that mean and slow drift reach.
-    const DRIFT: usize = 3;
-    /// Bins on either side that the main lobe of a growing oscillation under a Hann window reaches.
-    const LOBE: f64 = 4.0;
-    /// Harmonics that are left out, the fundamental included.
-    const HARMONICS: usize = 3;
-    let near = |k: usize| (1..=HARMONICS).any(|h| (k as f64 - h as f64 * peak).abs() < LOBE);
-    let mut quiet: Vec<f64> =
-        power.iter().enumerate().filter(|(k, _)| *k >= DRIFT && !near(*k)).map(|(_, p)| *p).collect();
-    if quiet.is_empty() {
-        return 0.0;
+    Beside::new(power.len(), peak).noise_floor(power)
+}
+
+/// The bins of spectra that hold noise alone, away from an oscillation.
+#[derive(Default)]
+pub(super) struct Beside {
+    bins: Vec<usize>,
+    powers: Vec<f64>,
+}
+
+impl Beside {
+    /// Of spectra of so many bins with a peak at `peak` (bins) and its harmonics.
+    pub(super) fn new(bins: usize, peak: f64) -> Beside {
+        let mut beside = Beside::default();
+        beside.set(bins, peak);
+        beside
     }
-    let middle = quiet.len() / 2;
-    let (_, median, _) = quiet.select_nth_unstable_by(middle, f64::total_cmp);
-    *median / LN_2
+
+    /// As if made anew.
+    pub(super) fn set(&mut self, bins: usize, peak: f64) {
+        /// Bins that mean and slow drift reach.
+        const DRIFT: usize = 3;
+        /// Bins on either side that the main lobe of a growing oscillation under a Hann window reaches.
+        const LOBE: f64 = 4.0;
+        /// Harmonics that are left out, the fundamental included.
+        const HARMONICS: usize = 3;
+        let near = |k: usize| (1..=HARMONICS).any(|h| (k as f64 - h as f64 * peak).abs() < LOBE);
+        self.bins.clear();
+        self.bins.extend((DRIFT..bins).filter(|k| !near(*k)));
+    }
+
+    /// Mean noise power per bin of one of the spectra, see [`noise_floor`].
+    pub(super) fn noise_floor(&mut self, power: &[f64]) -> f64 {
+        self.powers.clear();
+        self.powers.extend(self.bins.iter().map(|k| power[*k]));
+        if self.powers.is_empty() {
+            return 0.0;
+        }
+        let middle = self.powers.len() / 2;
+        let (_, median, _) = self.powers.select_nth_unstable_by(middle, f64::total_cmp);
+        *median / LN_2
+    }
 }

@@ -6,8 +6,9 @@ use num_complex::Complex64;
 
 use crate::channel::{Channel, PerChannel};
 use crate::cross::{INDEPENDENT, Measured, Sums};
+use crate::lanes::{dot, sum};
 use crate::losses::Losses;
-use crate::spectrum::{Spectra, detrend, hann, noise_floor, refine};
+use crate::spectrum::{Beside, Spectra, detrend, hann, refine};
 use crate::within::Within;
 
 /// Periods of the dominant oscillation in a block: the fewest whose main lobe stays clear of drift.
@@ -92,6 +93,9 @@ pub(super) struct Analyser {
     spectra: Spectra,
     taper: Vec<f64>,
     power: Vec<f64>,
+    beside: Beside,
+    /// Real and imaginary parts of the tapered phasor of a block.
+    phasors: [Vec<f64>; 2],
     /// `x, y, n, t, u`, trends removed.
     signals: [Vec<f64>; 5],
     /// `ẋ`, trend removed.
@@ -113,6 +117,8 @@ impl Analyser {
             spectra: Spectra::new(hann(geometry.window)),
             taper: hann(geometry.block),
             power: Vec::new(),
+            beside: Beside::default(),
+            phasors: Default::default(),
             signals: Default::default(),
             motion: Vec::new(),
         }
@@ -122,26 +128,26 @@ impl Analyser {
     pub(super) fn window(&mut self, start: f64, channels: &PerChannel<&[f64]>) -> Window {
         let mean = |channel: Channel| {
             let values = channels[channel as usize];
-            self.has[channel as usize].then(|| values.iter().sum::<f64>() / values.len() as f64)
+            self.has[channel as usize].then(|| sum(values) / values.len() as f64)
         };
         let normal_force = mean(Channel::NormalForce);
         let friction =
             mean(Channel::TangentialForce).zip(normal_force).map(|(tangential, normal)| tangential / normal);
         let (velocity, temperature) = (mean(Channel::Velocity), mean(Channel::Temperature));
         self.load(channels, friction.unwrap_or(0.0));
-        let rms = (self.signals[0].iter().map(|a| a * a).sum::<f64>() / self.geometry.window as f64).sqrt();
+        let rms = (dot(&self.signals[0], &self.signals[0]) / self.geometry.window as f64).sqrt();
         let (bin, mut distortion, x_noise) = self.peak();
         let frequency = bin * self.rate / self.geometry.window as f64;
         // Block and window are tapered alike, so noise powers go with their lengths.
         let shorter = self.geometry.block as f64 / self.geometry.window as f64;
         let mut noise = [x_noise; 4];
         for (noise, signal) in noise[1..].iter_mut().zip([1, 2, 4]) {
-            self.spectra.power(&self.signals[signal], &mut self.power);
-            *noise = noise_floor(&self.power, bin);
+            self.spectra.power_of_level(&self.signals[signal], &mut self.power);
+            *noise = self.beside.noise_floor(&self.power);
         }
         if self.has[Channel::TangentialForce as usize] {
-            self.spectra.power(&self.signals[3], &mut self.power);
-            let floor = noise_floor(&self.power, bin);
+            self.spectra.power_of_level(&self.signals[3], &mut self.power);
+            let floor = self.beside.noise_floor(&self.power);
             distortion = distortion.max(harmonics(&self.power, bin, floor));
         }
         let (sums, growth, frequency) = self.blocks(frequency, noise.map(|power| power * shorter));
@@ -218,37 +224,44 @@ impl Analyser {
 
     /// Position of the dominant peak of the tangential acceleration (bins), its distortion and its noise.
     fn peak(&mut self) -> (f64, f64, f64) {
-        self.spectra.power(&self.signals[0], &mut self.power);
+        self.spectra.power_of_level(&self.signals[0], &mut self.power);
         let width = self.rate / self.geometry.window as f64;
         let inside =
             |k: usize| self.band.is_none_or(|[low, high]| (low..=high).contains(&(k as f64 * width)));
         let bins = (DRIFT_BINS..self.power.len()).filter(|k| inside(*k));
         let highest = bins.max_by(|a, b| self.power[*a].total_cmp(&self.power[*b])).unwrap_or(DRIFT_BINS);
         let bin = refine(&self.power, highest);
-        let floor = noise_floor(&self.power, bin);
+        self.beside.set(self.power.len(), bin);
+        let floor = self.beside.noise_floor(&self.power);
         (bin, harmonics(&self.power, bin, floor), floor)
+    }
+
+    /// Fills the tapered phasor, which turns by `turn` from sample to sample.
+    fn turn(&mut self, turn: Complex64) {
+        self.phasors.iter_mut().for_each(Vec::clear);
+        let mut phasor = Complex64::ONE;
+        for weight in &self.taper {
+            self.phasors[0].push(phasor.re * weight);
+            self.phasors[1].push(phasor.im * weight);
+            phasor *= turn;
+        }
     }
 
     /// Complex amplitudes of every block at `frequency` (Hz), the growth rate of their magnitude, and the frequency again
     /// (Hz), from the phase that they gain: the peak of a spectrum is biased by up to 0.02 bins, 0.2 %.
-    fn blocks(&self, frequency: f64, noise: [f64; 4]) -> (Sums, Measured, f64) {
+    fn blocks(&mut self, frequency: f64, noise: [f64; 4]) -> (Sums, Measured, f64) {
         let Geometry { block, block_hop, .. } = self.geometry;
-        let turn = Complex64::cis(-TAU * frequency / self.rate);
+        self.turn(Complex64::cis(-TAU * frequency / self.rate));
         let mut sums = Sums::default();
         let mut amplitudes = [(0.0, 0.0); BLOCKS];
         let (mut before, mut gained) = (Complex64::ZERO, Complex64::ZERO);
         let hop = block_hop as f64 / self.rate;
         for (number, amplitude) in amplitudes.iter_mut().enumerate() {
             let from = number * block_hop;
-            let mut totals = [Complex64::ZERO; 5];
-            let mut phasor = Complex64::ONE;
-            for (k, weight) in self.taper.iter().enumerate() {
-                let factor = phasor * weight;
-                for (total, signal) in totals.iter_mut().zip(&self.signals) {
-                    *total += factor * signal[from + k];
-                }
-                phasor *= turn;
-            }
+            let totals = self.signals.each_ref().map(|signal| {
+                let [re, im] = self.phasors.each_ref().map(|part| dot(part, &signal[from..from + block]));
+                Complex64::new(re, im)
+            });
             sums.block(totals, noise);
             gained += totals[0] * before.conj();
             before = totals[0];

@@ -1,5 +1,6 @@
 //! `identify`: the table of windows and the report; the figure is in `figure.rs`.
 
+use std::fmt::Write as _;
 use std::io::Write;
 
 use serde_json::{Value, json};
@@ -45,6 +46,8 @@ pub const COLUMNS: [&str; 22] = [
 #[derive(Debug)]
 pub struct WindowsCsv<W: Write> {
     writer: csv::Writer<W>,
+    /// The text of a cell.
+    text: String,
     /// Whether all rows so far were written.
     written: Result<()>,
 }
@@ -57,15 +60,55 @@ impl<W: Write> WindowsCsv<W> {
     pub fn new(out: W) -> Result<WindowsCsv<W>> {
         let mut writer = csv::Writer::from_writer(out);
         writer.write_record(COLUMNS).map_err(Error::WriteTable)?;
-        Ok(WindowsCsv { writer, written: Ok(()) })
+        Ok(WindowsCsv { writer, text: String::new(), written: Ok(()) })
     }
 
     /// Writes the row of the next window. An error is kept until [`WindowsCsv::finish`]; nothing is written after it.
     pub fn add(&mut self, window: &Window, reading: &Reading) {
         if self.written.is_ok() {
-            self.written =
-                self.writer.write_record(row(window, reading)).map_err(|why| Error::WriteTable(why).into());
+            self.written = self.row(window, reading).map_err(|why| Error::WriteTable(why).into());
         }
+    }
+
+    /// Writes the row of a window.
+    fn row(&mut self, window: &Window, reading: &Reading) -> csv::Result<()> {
+        let value = |measured: Option<Measured>| measured.map(|m| m.value);
+        let error = |measured: Option<Measured>| measured.map(|m| m.error);
+        let numbers = [
+            Some(window.time[0]),
+            Some(window.time[1]),
+            window.friction,
+            window.velocity,
+            window.temperature,
+            Some(window.rms),
+            Some(window.frequency),
+            Some(10.0 * window.signal_to_noise.log10()),
+            Some(window.growth.value),
+            Some(window.growth.error),
+            Some(window.distortion),
+            value(reading.phase),
+            error(reading.phase),
+            reading.coherence,
+            reading.force_coherence,
+            value(reading.share),
+            error(reading.share),
+            value(reading.slope),
+            error(reading.slope),
+        ];
+        for number in numbers {
+            self.cell(number)?;
+        }
+        self.writer.write_field(reading.verdict.kind.name())?;
+        self.cell(Some(reading.verdict.confidence))?;
+        self.writer.write_field(reading.verdict.leaning.map_or("", |kind| kind.name()))?;
+        self.writer.write_record(None::<&[u8]>)
+    }
+
+    fn cell(&mut self, number: Option<f64>) -> csv::Result<()> {
+        self.text.clear();
+        // Text takes everything.
+        let _ = write!(self.text, "{}", Cell::from(number));
+        self.writer.write_field(&self.text)
     }
 
     /// Ends the table and gives the writer back.
@@ -76,39 +119,6 @@ impl<W: Write> WindowsCsv<W> {
         self.written?;
         Ok(self.writer.into_inner().map_err(|error| Error::WriteTable(error.into_error().into()))?)
     }
-}
-
-/// The row of a window.
-fn row(window: &Window, reading: &Reading) -> Vec<String> {
-    let value = |measured: Option<Measured>| measured.map(|m| m.value);
-    let error = |measured: Option<Measured>| measured.map(|m| m.error);
-    let numbers = [
-        Some(window.time[0]),
-        Some(window.time[1]),
-        window.friction,
-        window.velocity,
-        window.temperature,
-        Some(window.rms),
-        Some(window.frequency),
-        Some(10.0 * window.signal_to_noise.log10()),
-        Some(window.growth.value),
-        Some(window.growth.error),
-        Some(window.distortion),
-        value(reading.phase),
-        error(reading.phase),
-        reading.coherence,
-        reading.force_coherence,
-        value(reading.share),
-        error(reading.share),
-        value(reading.slope),
-        error(reading.slope),
-    ];
-    let words = [
-        reading.verdict.kind.name().to_owned(),
-        Cell::from(reading.verdict.confidence).to_string(),
-        reading.verdict.leaning.map(|kind| kind.name().to_owned()).unwrap_or_default(),
-    ];
-    numbers.into_iter().map(|number| Cell::from(number).to_string()).chain(words).collect()
 }
 
 /// Verdict, evidence and what was analysed, as JSON.

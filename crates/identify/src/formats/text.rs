@@ -1,5 +1,6 @@
 //! CSV → rows, one at a time: the memory needed does not depend on the length of the file.
 
+use std::borrow::Cow;
 use std::cell::Cell;
 use std::io::{Cursor, Read};
 use std::rc::Rc;
@@ -114,20 +115,28 @@ impl Source for Text {
     fn number(&mut self, column: usize) -> Result<f64, Fault> {
         // Trimmed here: the reader would copy every row for that.
         let field = self.record[column].trim_ascii();
-        let text = std::str::from_utf8(field).unwrap_or_default();
+        // A file with decimal points shows nothing new with one more number of that kind.
+        if self.marks.point
+            && let Some(value) = finite(field)
+        {
+            return Ok(value);
+        }
         // The first of them: a number with both is none. Commas that separate fields are none of a field.
-        let mark = field.iter().find(|byte| matches!(byte, b',' | b'.'));
-        let comma = mark == Some(&b',');
-        let value = if comma { text.replacen(',', ".", 1).parse() } else { text.parse::<f64>() };
-        let name = || quoted(&self.header[column]);
-        let Some(value) = value.ok().filter(|value| value.is_finite()) else {
-            let text = quoted(&String::from_utf8_lossy(field));
-            return Err(Fault::NotANumber { line: self.line(), column: name(), text });
+        let mark = field.iter().position(|byte| matches!(byte, b',' | b'.'));
+        let comma = mark.filter(|at| field[*at] == b',');
+        let pointed = comma.map_or(Cow::Borrowed(field), |at| {
+            let mut pointed = field.to_vec();
+            pointed[at] = b'.';
+            Cow::Owned(pointed)
+        });
+        let (name, text) = (|| quoted(&self.header[column]), || quoted(&String::from_utf8_lossy(field)));
+        let Some(value) = finite(&pointed) else {
+            return Err(Fault::NotANumber { line: self.line(), column: name(), text: text() });
         };
-        self.marks.comma |= comma;
-        self.marks.point |= !comma && mark.is_some();
+        self.marks.comma |= comma.is_some();
+        self.marks.point |= comma.is_none() && mark.is_some();
         if self.marks.comma && self.marks.point {
-            return Err(Fault::TwoMarks { line: self.line(), column: name(), text: quoted(text) });
+            return Err(Fault::TwoMarks { line: self.line(), column: name(), text: text() });
         }
         Ok(value)
     }
@@ -135,6 +144,10 @@ impl Source for Text {
     fn place(&self) -> Place {
         Place::Line(self.line())
     }
+}
+
+fn finite(field: &[u8]) -> Option<f64> {
+    fast_float2::parse(field).ok().filter(|value: &f64| value.is_finite())
 }
 
 /// The separator that the first line that is no comment holds most of.

@@ -1,0 +1,61 @@
+//! Windows of one length over a signal that streams.
+
+/// The last samples of a signal, as many as windows of it still need.
+pub(super) struct Sliding {
+    values: Vec<f64>,
+    /// Where the window starts.
+    from: usize,
+    length: usize,
+    hop: usize,
+}
+
+impl Sliding {
+    /// Windows of `length` samples (one or more), each `hop` samples (one to a whole window) after the one before.
+    pub(super) fn new(length: usize, hop: usize) -> Sliding {
+        Sliding { values: Vec::with_capacity(2 * length), from: 0, length, hop: hop.clamp(1, length) }
+    }
+
+    /// Takes the next sample; whether a window is full, which has to be left before the next sample.
+    pub(super) fn take(&mut self, value: f64) -> bool {
+        if self.values.len() == 2 * self.length {
+            self.values.drain(..self.from);
+            self.from = 0;
+        }
+        self.values.push(value);
+        self.values.len() == self.from + self.length
+    }
+
+    /// The window, as far as it is filled.
+    pub(super) fn window(&self) -> &[f64] {
+        &self.values[self.from..]
+    }
+
+    /// Leaves the window for the next one.
+    pub(super) fn leave(&mut self) {
+        self.from += self.hop;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn windows_follow_each_other_by_a_hop() {
+        for (length, hop) in [(1, 1), (4, 1), (4, 3), (5, 5), (7, 2)] {
+            let mut sliding = Sliding::new(length, hop);
+            let mut starts = Vec::new();
+            for k in 0..100 {
+                if sliding.take(f64::from(k)) {
+                    let window = sliding.window();
+                    assert_eq!(window.len(), length);
+                    assert!(window.windows(2).all(|pair| pair[1] - pair[0] == 1.0));
+                    starts.push(window[0]);
+                    sliding.leave();
+                }
+            }
+            let expected: Vec<f64> = (0..=100 - length).step_by(hop).map(|k| k as f64).collect();
+            assert_eq!(starts, expected, "{length} {hop}");
+        }
+    }
+}
