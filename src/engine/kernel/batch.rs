@@ -7,13 +7,13 @@ use rayon::prelude::*;
 use crate::engine::error::{Error, Result};
 use crate::engine::instances::Instances;
 use crate::engine::judged::begun;
-use crate::engine::kernel::linear::{KERNEL, POLYNOMIALS};
+use crate::engine::kernel::linear::{Analysed, KERNEL, POLYNOMIALS, analyse};
 use crate::engine::kernel::places::{filled, place};
 use crate::engine::kernel::scalar::Real;
 use crate::engine::kernel::source::{FLAG_STATUS, FLAG_STEPS};
 use crate::engine::kernel::words::{FLAG_WORDS, INPUT_WORDS, STATE_WORDS, Words};
 use crate::engine::record::Record;
-use crate::model::kind::InstabilityType;
+use crate::model::kind::{InstabilityType, UNSTABLE_ABOVE};
 use crate::model::linear::prepare;
 use crate::model::status::Status;
 
@@ -76,7 +76,13 @@ pub fn take<R: Real>(
         }
         let state: [f64; STATE_WORDS] =
             std::array::from_fn(|k| all_state[place([k, STATE_WORDS], number)].to_f64());
-        complete(&mut record, &words, state, flag(FLAG_STATUS), flag(FLAG_TYPE));
+        let (state, kind) = if doubtful::<R>(&words, state) {
+            let Analysed { state, flags } = analyse::<f64>(&|word| words.inputs[word]);
+            (state, flags[FLAG_TYPE])
+        } else {
+            (state, flag(FLAG_TYPE))
+        };
+        complete(&mut record, &words, state, flag(FLAG_STATUS), kind);
         record
     };
     records.par_extend(known.into_par_iter().zip(numbers).map(record));
@@ -86,6 +92,15 @@ pub fn take<R: Real>(
         return Err(Error::Miscounted { kernel: KERNEL.name, found: found as usize, wanted });
     }
     Ok(())
+}
+
+/// Whether the rounding of the scalar decides on the sign of a growth rate: such an instance is analysed again in f64.
+fn doubtful<R: Real>(words: &Words, [full, .., flat, frozen]: [f64; STATE_WORDS]) -> bool {
+    /// Roundings that add up in a growth rate, in the size of the dampings: half their sum `P`, and their coupling `e`.
+    const ROUNDINGS: f64 = 32.0;
+    let rounding = ROUNDINGS * R::EPSILON.to_f64();
+    let near = |(rate, four): (f64, &[f64])| rate.abs() < rounding * (four[0].abs() + four[3].abs());
+    rounding > UNSTABLE_ABOVE && [full, flat, frozen].into_iter().zip(words.inputs.chunks(4)).any(near)
 }
 
 /// Puts the kernel's results into a record.

@@ -121,7 +121,9 @@ impl Turns {
         if law.slope_of(piece) >= 0.0 && width > RAISED * self.tolerance * beyond {
             return f64::INFINITY;
         }
-        let [slip, reverse, ..] = model.fastest;
+        // A direction in which sliding is not unique ends the run when it comes, and says nothing of the other one.
+        let [slip, reverse] =
+            [0, 1].map(|way| Some(model.fastest[way]).filter(|rate| rate.is_finite()).unwrap_or_default());
         if beyond > 0.0 { self.contact / (slip.max(reverse) + beyond) } else { f64::INFINITY }
     }
 

@@ -147,6 +147,26 @@ fn painleve_is_reported() {
     assert_ne!(run(&below).status, Status::Painleve);
 }
 
+/// Sliding that never reverses runs on, whatever reversed slip would do; a law that falls by next to nothing is a constant one.
+#[test]
+fn what_reversed_slip_would_do_ends_no_run() {
+    let values = [
+        (Param::Theta, 1.186_590_559_226_814_4),
+        (Param::M2, 0.057_433_456_923_756_315),
+        (Param::K2, 229_649.655_647_752_93),
+        (Param::BeltVelocity, 1.094),
+        (Param::StartVelocity, 0.010_94),
+    ];
+    let [flat, falling] = [constant(0.5958), bilinear(0.5958, 0.595_799)].map(|law| instance(law, &values));
+    for engine in Engine::ALL {
+        let [flat, falling] = [&flat, &falling]
+            .map(|one| engine.run(one, &Plan { start: StartKind::Kick, ..plan(0.2, 0.2, 12) }));
+        assert_eq!([flat.status, falling.status], [Status::Ok; 2], "{}", engine.name());
+        let [flat, falling] = [flat, falling].map(|one| one.x2_std.expect("a motion"));
+        near(engine.name(), falling / flat, 1.0, 1e-2);
+    }
+}
+
 /// In a thin layer of friction that grows as the body slows down, M11 falls from 15 to 0 before the body comes to rest: another
 /// integrator, in which the relative velocity is the independent variable, meets that at 0.142809778 s. A step that jumps over
 /// it to the rest has passed what has no solution.
