@@ -202,9 +202,8 @@ fn highest(tops: Tops) -> vec3<real> {
     return select(max(tops.top, tops.one), tops.top + rise, bent);
 }
 
-// Adds the part of the step up to `end` to the window; returns the motion at its end. `started` is ẋ2 at its start, where that of the
-// body is at its end: of one instant there is one velocity, or a crossing on the end of a step counts twice.
-fn observe_window(end: real, h: real, started: real) -> Motion {
+// Adds the part of the step up to `end` to the window; returns the motion at its end.
+fn observe_window(end: real, h: real) -> Motion {
     let tau = end * h;
     let rate = 1.0 / h;
     let flies = contact == FREE;
@@ -233,9 +232,10 @@ fn observe_window(end: real, h: real, started: real) -> Motion {
         let way = here - last;
         if i == 0u {
             let twice = (rate + rate) * rate;
-            m = Motion(x0, started, x2 * twice, w0, w1 * rate, w2 * twice);
+            m = Motion(x0, x1 * rate, x2 * twice, w0, w1 * rate, w2 * twice);
         } else {
             m = motion(t, rate);
+            // The end has the velocity with which the next step begins, or a crossing there could count in both.
             m.vx = select(m.vx, vx, i == 4u);
         }
         let pressed = input(INPUT_W, instance) * m.x + (input(INPUT_W + 2u, instance) * m.w
@@ -337,7 +337,7 @@ fn observe_window(end: real, h: real, started: real) -> Motion {
 fn observe(end: real, h: real, before: real) {
     let tau = end * h;
     if PART == PART_WINDOW {
-        let m = observe_window(end, h, before);
+        let m = observe_window(end, h);
         if flag(FLAG_GROWING, instance) == 1u {
             observe_growth(tau, m);
         }
