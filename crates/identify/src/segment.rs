@@ -360,8 +360,9 @@ fn level(cells: &[Cell], all: &Cell, has: Has, limited: bool, inclination: f64) 
     if let Some([level, slope]) = within {
         let allowed = SYSTEMATIC * level.value.abs();
         let error = level.error.hypot(allowed);
-        let slope = Measured { error: slope.error.hypot(LOCAL * allowed / all.velocity().abs()), ..slope };
         let velocity = all.velocity();
+        let local = (LOCAL * allowed / velocity.abs()).hypot(all.within.unclear_bend(velocity));
+        let slope = Measured { error: slope.error.hypot(local), ..slope };
         let bent = all.within.bends(velocity) || turns(cells, velocity);
         let slope = (!bent).then_some(slope);
         let normal = all.normal();

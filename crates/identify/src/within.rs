@@ -106,6 +106,12 @@ impl Within {
         let [low, high] = self.0.map(|line| line.read(velocity));
         differ([low[1], high[1]], low[0].value, velocity)
     }
+
+    /// By how much the slopes (s/m) of both sides are off the one between them: a bend that is not clear may be one.
+    pub(super) fn unclear_bend(&self, velocity: f64) -> f64 {
+        let [low, high] = self.0.map(|line| line.read(velocity)[1].value);
+        0.5 * (low - high).abs()
+    }
 }
 
 /// Whether two slopes `dμ/dv` (s/m) of a law differ clearly, by more than matters to friction of this `level` at this velocity (m/s).
