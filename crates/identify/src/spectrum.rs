@@ -18,7 +18,9 @@ pub(super) fn detrend(values: &mut [f64]) {
     let n = values.len() as f64;
     let middle = 0.5 * (n - 1.0);
     let mean = sum(values) / n.max(1.0);
-    values.iter_mut().for_each(|value| *value -= mean);
+    for value in values.iter_mut() {
+        *value -= mean;
+    }
     // Of values whose mean is 0 the moment is the same about every point; Σ (k − middle)² = n (n² − 1)/12.
     let slope = moment(values) * 12.0 / (n * (n * n - 1.0)).max(1.0);
     for (k, value) in values.iter_mut().enumerate() {
