@@ -53,8 +53,10 @@ fn page(root: &str) {
     }
 }
 
-/// The trimmed output of a git command, `None` when it fails or git is missing.
+/// The trimmed output of a git command, `None` when it fails or git is missing. None writes to the index, as `status` may: a file that
+/// is newer than this run would run it again, and compile everything.
 fn git(root: &str, arguments: &[&str]) -> Option<String> {
-    let output = Command::new("git").current_dir(root).args(arguments).output().ok()?;
+    let output =
+        Command::new("git").arg("--no-optional-locks").current_dir(root).args(arguments).output().ok()?;
     output.status.success().then(|| String::from_utf8_lossy(&output.stdout).trim().to_owned())
 }
