@@ -130,7 +130,7 @@ pub(crate) fn run(arguments: &[&str]) -> Result<(), Box<dyn Error>> {
 }
 
 /// The map nearest to `size` instances, run as a section says; without one only eigenvalues.
-fn spec(size: usize, section: &str) -> Result<Spec, Box<dyn Error>> {
+pub(crate) fn spec(size: usize, section: &str) -> Result<Spec, Box<dyn Error>> {
     let of_map = Work::of_size(size).spec()?;
     let analysis = if section.is_empty() { "analysis = [\"linear\"]\n" } else { "" };
     let text = format!(

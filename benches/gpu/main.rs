@@ -5,6 +5,7 @@
 //! | none | what every compiler that is installed makes of every kernel, into `benches/results/gpu-pipelines.csv`; where there is a hardware GPU the shipped map on it, too |
 //! | `--lockstep` | how well the march fills the warps of a GPU, by its twin, into `benches/results/gpu-lockstep.csv` |
 //! | `--host [INSTANCES [CASE [CHUNK]]]` | what the host does for each instance, and how busy the lanes are, into `benches/results/gpu-host.csv` |
+//! | `--alone [INSTANCES]` | that by itself, without a device beside it |
 //! | `--projection` | from these, how long a large sweep takes on named cards, into `benches/results/gpu-projection.csv` |
 //! | `--map` | the shipped map on the best adapter alone |
 //! | `--check` | fails where the distribution's compiler needs more than `benches/gpu/limits.csv` allows |
@@ -12,6 +13,7 @@
 //!
 //! docs/gpu.md says how the compilers are installed. None of them needs a card.
 
+mod alone;
 mod compilers;
 mod cuda;
 #[path = "../map/date.rs"]
@@ -65,6 +67,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         ["--lockstep", ..] => lockstep::run(&arguments[1..]),
         ["--map"] => map::run(),
         ["--host", ..] => host::run(&arguments[1..]),
+        ["--alone", ..] => alone::run(&arguments[1..]),
         ["--projection"] => projection::run(),
         ["--check"] => check(),
         ["--keep-limits"] => {
@@ -73,7 +76,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             Ok(())
         }
         _ => Err(format!(
-            "{} is no option: --lockstep, --host, --projection, --map, --check, --keep-limits or none",
+            "{} is no option: --lockstep, --host, --alone, --projection, --map, --check, --keep-limits or none",
             arguments.join(" ")
         )
         .into()),

@@ -110,7 +110,7 @@ impl ExploreCommand {
         let precision = options.precision.or(is_enough.then_some(Precision::F32));
         let engine = choose(&Options { precision, ..options }, &Spec { analysis, ..spec.clone() })?;
         let backend = engine.backend();
-        let [_, computation] = engine.computations(spec.steps_per_period);
+        let [_, computation] = engine.computations(&spec);
         told["cores"] = json!(cores);
         told["gpu"] = json!(backend == Backend::Gpu);
         told["by"] = json!(computation.adapter.unwrap_or_else(|| match backend {

@@ -3,7 +3,7 @@
 use crate::engine::Engine;
 use crate::engine::backend::Backend;
 use crate::engine::error::{Error, Result};
-use crate::engine::fallback::NoGpu;
+use crate::engine::fallback::{NoGpu, only_on_gpu};
 use crate::engine::gpu::open;
 use crate::engine::instances::Instances;
 use crate::engine::lanes::records::Cpu;
@@ -63,6 +63,13 @@ fn cpu(options: &Options) -> Result<(Box<dyn Engine>, String)> {
 }
 
 fn auto(options: &Options, spec: &dyn Instances) -> Result<(Box<dyn Engine>, String, String)> {
+    let precision = options.precision.unwrap_or(Precision::F64);
+    let on_cpu =
+        |why| Ok::<_, Error>((Box::new(Cpu(precision)) as _, format!("on the CPU in {precision}"), why));
+    // The host takes as long to send an instance as to compute its eigenvalues.
+    if !spec.response() && only_on_gpu(options).is_empty() {
+        return on_cpu("a GPU gains nothing where eigenvalues alone are asked for".to_owned());
+    }
     let hardware =
         if spec.modal() { Err(NoGpu::Failed(Error::ModalOnGpu)) } else { open::hardware(options, spec) };
     let no_gpu = match hardware {
@@ -72,6 +79,5 @@ fn auto(options: &Options, spec: &dyn Instances) -> Result<(Box<dyn Engine>, Str
         Err(no_gpu) => no_gpu,
     };
     no_gpu.allows_cpu(options)?;
-    let precision = options.precision.unwrap_or(Precision::F64);
-    Ok((Box::new(Cpu(precision)), format!("on the CPU in {precision}"), no_gpu.note()))
+    on_cpu(no_gpu.note())
 }

@@ -85,7 +85,7 @@ impl NoGpu {
 }
 
 /// The options that only a GPU can honour, as they are written on the command line.
-fn only_on_gpu(options: &Options) -> Vec<String> {
+pub(crate) fn only_on_gpu(options: &Options) -> Vec<String> {
     let mut asked = Vec::new();
     if options.strict {
         asked.push("--strict".to_owned());

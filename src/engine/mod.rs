@@ -78,8 +78,8 @@ pub trait Engine: fmt::Debug + Send {
     /// Its scalar.
     fn precision(&self) -> Precision;
 
-    /// Where and how it computes the eigenvalue analysis and the response, with so many steps per period.
-    fn computations(&self, steps_per_period: u32) -> [Computation; 2];
+    /// Where and how it computes the eigenvalue analysis and the response of a sweep.
+    fn computations(&self, instances: &dyn Instances) -> [Computation; 2];
 
     /// The records of the instances `range`, in order; the CPU's part runs on the rayon pool it is called in. `progress` gets the
     /// number of newly finished instances. What is cancelled or fails on its way gives what is done, see [`Computed::stopped`].

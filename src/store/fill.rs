@@ -3,7 +3,6 @@
 use std::collections::VecDeque;
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{Receiver, sync_channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -11,9 +10,9 @@ use crate::engine::computation::Stopped;
 use crate::engine::record::Record;
 use crate::model::status::Status;
 use crate::store::claim::Claim;
-use crate::store::direct::Room;
 use crate::store::directory::{Note, Store};
 use crate::store::error::Result;
+use crate::store::finish::{Filled, Finishing, Made};
 use crate::store::reuse::Reuse;
 use crate::sweep::solver::Solver;
 use crate::sweep::spec::Starts;
@@ -23,19 +22,6 @@ const MOST_AHEAD: usize = 256;
 
 /// Between two looks at a tile that another process computes.
 const WAIT: Duration = Duration::from_millis(50);
-
-/// The result of filling a directory.
-#[derive(Debug, Default)]
-pub struct Filled {
-    /// Instances that were computed here, those of tiles that were stopped on their way included.
-    pub computed: usize,
-    /// Instances that were taken over from another sweep.
-    pub reused: usize,
-    /// The wall time it took.
-    pub elapsed: Duration,
-    /// Why not all is there.
-    pub stopped: Option<Stopped>,
-}
 
 /// Who asks for tiles, and hears of them.
 #[derive(Clone, Copy)]
@@ -48,12 +34,10 @@ pub struct Watch<'a> {
     pub note: Note<'a>,
 }
 
-/// A tile to be written.
-type Finished = (Claim, usize, Vec<Record>);
-
 /// Computes those of the tiles `wanted` that are not there, as far as neither a stopped run nor `reuse` has their instances;
-/// tiles that other processes are computing are waited for. Tiles are computed while those before are written, as many
-/// together as keep the engine busy. The records of two such groups are in memory, and of those that the engine begins ahead.
+/// tiles that other processes are computing are waited for. Tiles are computed, as many together as keep the engine busy, while
+/// those before are checked and those before these are written. The records of three such groups are in memory, and of those that the
+/// engine begins ahead.
 ///
 /// # Errors
 /// When a tile cannot be written, or a result is in doubt; all finished tiles stay.
@@ -65,38 +49,10 @@ pub fn fill(
     watch: Watch,
 ) -> Result<Filled> {
     let began = Instant::now();
-    // All but one of a group wait for the writer while the next is computed.
-    let tile = store.description.tiling.tile;
-    let (sender, receiver) = sync_channel(solver.busy_with(tile).div_ceil(tile.max(1)).saturating_sub(1));
-    let mut filled = thread::scope(|scope| {
-        let mut fill = |finish: &mut dyn FnMut(Finished) -> Result<()>| {
-            let mut filling = Filling { store, solver, reuse, watch, finish, filled: Filled::default() };
-            filling.all(wanted).map(|()| filling.filled)
-        };
-        let writer = thread::Builder::new().spawn_scoped(scope, || write_all(store, receiver));
-        let Ok(writer) = writer else {
-            // Where no thread can be started each tile is written before the next is computed.
-            let mut room = Room::default();
-            return fill(&mut |(claim, number, records)| store.write(claim, number, records, &mut room));
-        };
-        // The writer has ended with an error, which is reported in place of this.
-        let ended = |_| crate::engine::error::Error::Cancelled { done: 0, total: 0 }.into();
-        let filled = fill(&mut |tile| sender.send(tile).map_err(ended));
-        drop(sender);
-        // An error of the writer is the cause of one of the computation.
-        writer.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))?;
-        filled
-    })?;
-    filled.elapsed = began.elapsed();
-    Ok(filled)
-}
-
-/// Writes what it is sent until there is no more.
-fn write_all(store: &Store, receiver: Receiver<Finished>) -> Result<()> {
-    let mut room = Room::default();
-    receiver
-        .into_iter()
-        .try_for_each(|(claim, number, records)| store.write(claim, number, records, &mut room))
+    let finishing = Finishing::new(store, solver.checker(), solver.busy_with(store.description.tiling.tile));
+    let mut filling = Filling { store, solver, reuse, watch };
+    let ended = finishing.run(|finish| filling.all(wanted, finish));
+    ended.map(|filled| Filled { elapsed: began.elapsed(), ..filled })
 }
 
 /// Tiles that are computed together.
@@ -128,12 +84,15 @@ struct Filling<'a, 'b> {
     solver: &'a mut Solver<'b>,
     reuse: Option<&'a Reuse>,
     watch: Watch<'a>,
-    finish: &'a mut dyn FnMut(Finished) -> Result<()>,
-    filled: Filled,
 }
 
 impl Filling<'_, '_> {
-    fn all(&mut self, wanted: &[usize]) -> Result<()> {
+    /// Computes all, and gives them to `finish`; why it stopped, if it did.
+    fn all(
+        &mut self,
+        wanted: &[usize],
+        finish: &mut dyn FnMut(Made) -> Result<()>,
+    ) -> Result<Option<Stopped>> {
         let mut open = wanted.to_vec();
         let mut told = false;
         while !open.is_empty() {
@@ -143,14 +102,22 @@ impl Filling<'_, '_> {
             while !self.is_cancelled() {
                 self.claim_ahead(&mut next, &mut rest, &mut busy)?;
                 let Some(group) = next.pop_front() else { break };
-                self.compute(group, &next)?;
-                if self.filled.stopped.is_some() {
-                    return Ok(());
+                let ahead = ahead(&group, next.iter());
+                let Group { tiles, range, known, reused } = group;
+                let known_before = known.iter().flatten().count();
+                match self.solver.records_beside(range.clone(), &known, ahead, self.watch.progress) {
+                    Ok(computed) => {
+                        let is_stopped = computed.stopped.is_some();
+                        finish(Made { tiles, range, computed, known: known_before, reused })?;
+                        if is_stopped {
+                            return Ok(None);
+                        }
+                    }
+                    Err(why) => return Ok(Some(Stopped::try_from(why)?)),
                 }
             }
             if self.is_cancelled() {
-                self.filled.stopped = Some(Stopped::Cancelled);
-                return Ok(());
+                return Ok(Some(Stopped::Cancelled));
             }
             open = busy;
             if !open.is_empty() {
@@ -161,7 +128,7 @@ impl Filling<'_, '_> {
                 thread::sleep(WAIT);
             }
         }
-        Ok(())
+        Ok(None)
     }
 
     fn is_cancelled(&self) -> bool {
@@ -229,36 +196,6 @@ impl Filling<'_, '_> {
             }
         }
         Ok(group)
-    }
-
-    /// Computes the tiles of a group and sends them to be written; those of `next` will be computed after it. Where that is stopped, keeps
-    /// the records that are done.
-    fn compute(&mut self, group: Group, next: &VecDeque<Group>) -> Result<()> {
-        let ahead = ahead(&group, next.iter());
-        let Group { tiles, range, known, reused } = group;
-        let before = known.iter().flatten().count();
-        let made = match self.solver.records_beside(range, &known, ahead, self.watch.progress) {
-            Ok(made) => made,
-            Err(why) => {
-                self.filled.stopped = Some(Stopped::try_from(why)?);
-                return Ok(());
-            }
-        };
-        let is_done = |record: &Record| record.status != Status::NotComputed;
-        self.filled.computed += made.records.iter().filter(|record| is_done(record)).count() - before;
-        self.filled.reused += reused;
-        let mut records = made.records.into_iter();
-        for (number, claim) in tiles {
-            let count = self.store.description.tiling.bounds(number).len();
-            let of_tile: Vec<Record> = records.by_ref().take(count).collect();
-            if made.stopped.is_none() {
-                (self.finish)((claim, number, of_tile))?;
-            } else if of_tile.iter().any(is_done) {
-                self.store.keep(&claim, number, of_tile)?;
-            }
-        }
-        self.filled.stopped = made.stopped;
-        Ok(())
     }
 
     /// Adds the records of a tile's instances that are known from a stopped run or another sweep. Gives how many instances

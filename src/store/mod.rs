@@ -15,7 +15,7 @@
 //! - [`direct`]: bytes of large tiles, past the system's cache.
 //! - `folder.rs`: files of a folder, what is set aside.
 //! - [`directory`]: the tiles of a directory.
-//! - `begin.rs`, [`fill`]: a directory made ready, and its missing tiles computed.
+//! - `begin.rs`, [`fill`], [`finish`]: a directory made ready, its missing tiles computed, and these checked and written.
 //! - [`parts`]: pieces of a sweep whose order shows only on the way; [`refinement`]: what asks for them.
 //! - [`reuse`]: what another directory has of it.
 //! - [`shard`]: a share of the tiles.
@@ -33,6 +33,7 @@ pub mod direct;
 pub mod directory;
 pub mod error;
 pub mod fill;
+pub mod finish;
 mod folder;
 pub mod grid_json;
 pub mod identity;

@@ -2,6 +2,7 @@
 
 use std::fmt;
 use std::ops::Range;
+use std::sync::atomic::AtomicBool;
 
 use crate::engine::Engine;
 use crate::engine::choice::choose;
@@ -49,7 +50,7 @@ impl<'a> Solver<'a> {
     #[must_use]
     pub fn computations(&self) -> [Option<Computation>; 2] {
         let Analysis { linear, response, .. } = self.spec.analysis;
-        let [mut of_linear, of_response] = self.engine.computations(self.spec.steps_per_period);
+        let [mut of_linear, of_response] = self.engine.computations(self.spec);
         if self.spec.modal.is_some() {
             modal::METHOD.clone_into(&mut of_linear.method);
         }
@@ -111,7 +112,7 @@ impl<'a> Solver<'a> {
         several::records(spec, range, block, &mut once, progress)
     }
 
-    /// The records of instances with one start each.
+    /// The records of instances with one start each, checked.
     fn once(
         &mut self,
         spec: &Spec,
@@ -120,12 +121,15 @@ impl<'a> Solver<'a> {
         progress: &(dyn Fn(usize) + Sync),
     ) -> Result<Computed> {
         let cancel = self.options.cancel();
-        let all = range.clone();
-        let mut computed = self.engine.records_ahead(spec, range, ahead, cancel, progress)?;
-        if spec.analysis.checks() && computed.stopped.is_none() {
-            computed.stopped = check(spec, all, &self.configuration(), &mut computed.records, cancel)?;
-        }
+        let mut computed = self.engine.records_ahead(spec, range.clone(), ahead, cancel, progress)?;
+        Checker { spec, configuration: self.configuration(), cancel }.check(range, &mut computed)?;
         Ok(computed)
+    }
+
+    /// What checks the records of [`Solver::records_beside`].
+    #[must_use]
+    pub fn checker(&self) -> Checker<'a> {
+        Checker { spec: self.spec, configuration: self.configuration(), cancel: self.options.cancel() }
     }
 
     /// The least number of instances that keeps the engine busy: with fewer, cores or lanes are left without work. Where
@@ -136,9 +140,9 @@ impl<'a> Solver<'a> {
         self.engine.busy_with(tile, self.spec.analysis.starts.count())
     }
 
-    /// The records of the instances `range` where some are `known`: of one start each as this engine makes them, before
-    /// any check, of several starts with their checks. Only the others are computed. See [`Solver::records_ahead`] for `ahead`; nothing
-    /// is begun where some are known.
+    /// The records of the instances `range` where some are `known`, which are not computed: of one start each before any check,
+    /// for [`Solver::checker`], of several starts with their checks. See [`Solver::records_ahead`] for `ahead`; nothing is begun where
+    /// some are known.
     ///
     /// # Errors
     /// Those of [`Solver::records`].
@@ -149,43 +153,40 @@ impl<'a> Solver<'a> {
         ahead: usize,
         progress: &(dyn Fn(usize) + Sync),
     ) -> Result<Computed> {
+        let one_start = self.spec.analysis.starts == Starts::One;
         let lacking = known.iter().filter(|known| known.is_none()).count();
-        if lacking == known.len() {
-            return self.records_ahead(range, ahead, progress);
+        if lacking == known.len() && one_start {
+            return self.engine.records_ahead(self.spec, range, ahead, self.options.cancel(), progress);
+        } else if lacking == known.len() {
+            return self.records(range, progress);
         }
         progress(range.len() - lacking);
-        if self.spec.analysis.starts == Starts::One {
+        if one_start {
             self.one_start_beside(range, known, progress)
         } else {
             self.several_starts_beside(range, known, progress)
         }
     }
 
-    /// The lacking instances as a sweep of their own; then checks as of all.
+    /// The lacking instances as a sweep of their own.
     fn one_start_beside(
         &mut self,
         range: Range<usize>,
         known: &[Option<Record>],
         progress: &(dyn Fn(usize) + Sync),
     ) -> Result<Computed> {
-        let spec = self.spec;
         let lacking: Vec<usize> =
-            range.clone().zip(known).filter(|(_, known)| known.is_none()).map(|(index, _)| index).collect();
+            range.zip(known).filter(|(_, known)| known.is_none()).map(|(index, _)| index).collect();
         let fresh = if lacking.is_empty() {
             Computed { records: Vec::new(), stopped: None }
         } else {
-            self.records_of(&subset(spec, &lacking), 0..lacking.len(), progress)?
+            self.records_of(&subset(self.spec, &lacking), 0..lacking.len(), progress)?
         };
         let mut records = fresh.records.into_iter();
         let merged = known
             .iter()
             .map(|known| known.clone().or_else(|| records.next()).unwrap_or(Record::NOT_COMPUTED));
-        let mut computed = Computed { records: merged.collect(), stopped: fresh.stopped };
-        if spec.analysis.checks() && computed.stopped.is_none() {
-            let cancel = self.options.cancel();
-            computed.stopped = check(spec, range, &self.configuration(), &mut computed.records, cancel)?;
-        }
-        Ok(computed)
+        Ok(Computed { records: merged.collect(), stopped: fresh.stopped })
     }
 
     /// The lacking instances stretch by stretch: where other starts lie depends on the number of an instance.
@@ -220,5 +221,31 @@ impl<'a> Solver<'a> {
     /// The engine with its settings, as one of the configurations whose accuracy is measured.
     fn configuration(&self) -> Configuration {
         Configuration::of(self.engine.as_ref(), self.spec.steps_per_period)
+    }
+}
+
+/// Checks records of a sweep while others are computed.
+#[derive(Debug)]
+pub struct Checker<'a> {
+    spec: &'a Spec,
+    configuration: Configuration,
+    cancel: &'a AtomicBool,
+}
+
+impl Checker<'_> {
+    /// Checks the records of the instances `range`, of one start each, where the sweep is checked and they are all there; says in
+    /// them where it was stopped.
+    ///
+    /// # Errors
+    /// When a result is in doubt.
+    pub fn check(&self, range: Range<usize>, computed: &mut Computed) -> Result<()> {
+        if self.spec.analysis.checks()
+            && self.spec.analysis.starts == Starts::One
+            && computed.stopped.is_none()
+        {
+            computed.stopped =
+                check(self.spec, range, &self.configuration, &mut computed.records, self.cancel)?;
+        }
+        Ok(())
     }
 }

@@ -8,7 +8,7 @@ use libtest_mimic::Failed;
 use squealmap::engine::backend::Backend;
 use squealmap::engine::gpu::chunks::{Batch, Session};
 use squealmap::engine::kernel::linear::KERNEL;
-use squealmap::engine::kernel::places::{filled, row};
+use squealmap::engine::kernel::places::{Column, filled};
 use squealmap::engine::kernel::scalar::Real;
 use squealmap::engine::kernel::words::INPUT_WORDS;
 use squealmap::engine::options::Options;
@@ -141,6 +141,7 @@ fn lost() -> Result<(), Failed> {
 
 /// Some of the instances of inputs.
 fn batch(inputs: &[f32], range: Range<usize>) -> Batch<f32, ()> {
-    let rows: Vec<Vec<f32>> = range.map(|index| row(inputs, INPUT_WORDS, index).collect()).collect();
+    let rows: Vec<Vec<f32>> =
+        range.map(|index| Column::of_buffer(inputs, INPUT_WORDS, index).iter().collect()).collect();
     Batch { inputs: (filled(INPUT_WORDS, rows.len(), |index| &rows[index][..]), rows.len()), memory: () }
 }

@@ -7,13 +7,12 @@ use libtest_mimic::Failed;
 use squealmap::engine::gpu::device::Device;
 use squealmap::engine::gpu::kernel::Compiled;
 use squealmap::engine::gpu::run::{ChunkResult, advance, most_steps};
-use squealmap::engine::kernel::places::place;
+use squealmap::engine::kernel::places::{Column, place};
 use squealmap::engine::kernel::source::SETTING_WORDS;
 use squealmap::engine::lanes::Lanes;
 use squealmap::engine::lanes::job::Part;
 use squealmap::engine::march::marching::{Marching, Way};
 use squealmap::engine::march::table::{flag, state};
-use squealmap::engine::march::words::Words;
 use squealmap::engine::method::Method;
 use squealmap::engine::method::taylor::REFERENCE_ORDER;
 use squealmap::engine::plan::{Duration, Plan, STEP_TOLERANCE, StartKind};
@@ -147,11 +146,14 @@ fn stops_early() -> Result<(), Failed> {
         let found = on_gpu(chunk, &plan, None, early)?;
         let right = on_gpu(chunk, &plan, None, ["", ""])?;
         let mut one = Marching::<f32>::new(0, &instances()[0], &way).map_err(Status::name)?;
-        one.next(&way, &mut Words::blank()).ok_or("no leg")?;
+        one.next(&way).ok_or("no leg")?;
         let (words, flags) = lane(&right, 0);
-        assert!(one.clone().take(&words, &flags).is_some());
+        assert!(one.clone().take(Column::of_row(&words), Column::of_row(&flags)).is_some());
         let (words, flags) = lane(&found, 0);
-        assert!(one.take(&words, &flags).is_none(), "a leg that did not come to its end was taken");
+        assert!(
+            one.take(Column::of_row(&words), Column::of_row(&flags)).is_none(),
+            "a leg that did not come to its end was taken"
+        );
     }
     Ok(())
 }

@@ -8,15 +8,14 @@ use bytemuck::Pod;
 use rayon::prelude::*;
 use squealmap::engine::fields::words;
 use squealmap::engine::gpu::run::ChunkResult;
-use squealmap::engine::kernel::places::{filled, place, room, row};
+use squealmap::engine::kernel::places::{Column, filled, place, room};
 use squealmap::engine::kernel::scalar::Real;
 use squealmap::engine::kernel::source::{Kernel, PROGRESS_WORDS, SETTING_WORDS, Settings};
 use squealmap::engine::lanes::Lanes;
 use squealmap::engine::lanes::job::Part;
 use squealmap::engine::lanes::march::{Settings as OfLanes, Terms};
 use squealmap::engine::march::marching::{Form, Marching, PARTS, Way};
-use squealmap::engine::march::table::{flag, state};
-use squealmap::engine::march::words::Words;
+use squealmap::engine::march::table::{flag, head, state};
 use squealmap::engine::outcome::Outcome;
 use squealmap::engine::plan::Plan;
 use squealmap::engine::precision::Precision;
@@ -115,31 +114,41 @@ pub(crate) fn settings(way: &Way) -> [u32; SETTING_WORDS] {
     settings
 }
 
-/// Legs that share their kernels, as inputs, state and flags.
-fn buffers<R: Real>(rows: &[Words<R>]) -> (Vec<R>, (Vec<R>, Vec<u32>)) {
-    fn of<'a, T: Pod + Send + Sync, R: Sync>(
-        rows: &'a [Words<R>],
-        part: impl Fn(&'a Words<R>) -> &'a [T] + Sync,
-    ) -> Vec<T> {
-        filled(rows.first().map_or(0, |row| part(row).len()), rows.len(), |index| part(&rows[index]))
+/// Legs that share their kernels, as inputs, state and flags: the first words of these stand in the inputs, the others are 0.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "counts are words of a kernel")]
+fn buffers<R: Real>(rows: &[Vec<R>]) -> (Vec<R>, (Vec<R>, Vec<u32>)) {
+    fn of<T: Pod + Send + Sync>(rows: &[Vec<T>]) -> Vec<T> {
+        filled(rows.first().map_or(0, Vec::len), rows.len(), |index| &rows[index])
     }
-    (of(rows, |row| &row.inputs), (of(rows, |row| &row.state), of(rows, |row| &row.flags)))
+    let begun = |row: &Vec<R>| {
+        let (mut words, mut flags) = (vec![R::ZERO; state::WORDS], vec![0; flag::WORDS]);
+        words[..state::SENT].copy_from_slice(&row[head::START..head::COUNTS]);
+        for (flag, count) in flags.iter_mut().zip(&row[head::COUNTS..head::WORDS]) {
+            *flag = count.to_f64() as u32;
+        }
+        (words, flags)
+    };
+    let (words, flags): (Vec<_>, Vec<_>) = rows.iter().map(begun).unzip();
+    (of(rows), (of(&words), of(&flags)))
 }
 
 /// One of the lanes of a chunk.
 pub(crate) fn lane<R: Real>(result: &ChunkResult<R>, lane: usize) -> (Vec<R>, Vec<u32>) {
-    (row(&result.state, state::WORDS, lane).collect(), row(&result.flags, flag::WORDS, lane).collect())
+    (
+        Column::of_buffer(&result.state, state::WORDS, lane).iter().collect(),
+        Column::of_buffer(&result.flags, flag::WORDS, lane).iter().collect(),
+    )
 }
 
 /// Legs that share their kernels.
 struct Group<R> {
     form: Form,
     marching: Vec<Marching<R>>,
-    rows: Vec<Words<R>>,
+    rows: Vec<Vec<R>>,
 }
 
 /// A leg of an instance: its kernels and its words.
-type Begun<R> = (Marching<R>, Form, Words<R>);
+type Begun<R> = (Marching<R>, Form, Vec<R>);
 
 /// Legs by their kernels, each group in the order of its instances.
 fn groups<R>(legs: Vec<Begun<R>>) -> Vec<Group<R>> {
@@ -185,7 +194,7 @@ impl<R> Chunk<R> {
 /// Runs legs that share their kernels through the parts of a run; `seen` gets every part.
 pub(crate) fn run_leg<R: Real, const W: usize>(
     form: Form,
-    rows: &[Words<R>],
+    rows: &[Vec<R>],
     settings: [u32; SETTING_WORDS],
     mut seen: impl FnMut(Chunk<R>),
 ) -> ChunkResult<R> {
@@ -200,6 +209,14 @@ pub(crate) fn run_leg<R: Real, const W: usize>(
         seen(Chunk { form, part, lanes, inputs: inputs.clone(), before, result: next, by_function });
     }
     result
+}
+
+/// The next leg of an instance, its kernels and its words; `None` at its end.
+pub(crate) fn begin<R: Lanes>(one: &mut Marching<R>, way: &Way) -> Option<(Form, Vec<R>)> {
+    let form = one.next(way)?;
+    let mut words = vec![R::ZERO; form.inputs()];
+    one.put(&mut words);
+    Some((form, words))
 }
 
 /// The responses of some instances in warps of `W`; `seen` gets every part of every leg.
@@ -220,9 +237,8 @@ pub(crate) fn outcomes_seen<R: Lanes, const W: usize>(
     while !going.is_empty() {
         let mut legs = Vec::new();
         for mut one in going.drain(..) {
-            let mut words = Words::blank();
-            match one.next(&way, &mut words) {
-                Some(form) => legs.push((one, form, words)),
+            match begin(&mut one, &way) {
+                Some((form, words)) => legs.push((one, form, words)),
                 None => over.push(one),
             }
         }
@@ -230,7 +246,8 @@ pub(crate) fn outcomes_seen<R: Lanes, const W: usize>(
             let result = run_leg::<R, W>(form, &rows, settings(&way), &mut seen);
             for (index, mut one) in marching.into_iter().enumerate() {
                 let (words, flags) = lane(&result, index);
-                one.take(&words, &flags).expect("a lane that the kernels have ended");
+                let taken = one.take(Column::of_row(&words), Column::of_row(&flags));
+                taken.expect("a lane that the kernels have ended");
                 going.push(one);
             }
         }

@@ -1,8 +1,8 @@
 //! A region computed by the reader's own GPU, in turns: the page sends what it is given to the device, and brings back what has come
 //! of it, until there is an answer.
 //!
-//! First the eigenvalues of all cells, in one turn; then, where they are asked for, the transients, some steps a turn, in as many
-//! lanes as the device holds. Words, kernels and records are those of the GPU engine of [`squealmap`], in f32; what that does not
+//! The eigenvalues of all cells in one turn; or, where they are asked for, the transients, some steps a turn, in as many lanes as
+//! the device holds, and the eigenvalues beside them by WebAssembly. Words, kernels and records are those of the GPU engine of [`squealmap`], in f32; what that does not
 //! bring to its end is computed again in f64 by WebAssembly.
 
 use std::sync::atomic::AtomicBool;
@@ -16,8 +16,9 @@ use squealmap::engine::kernel::places::room;
 use squealmap::engine::kernel::source::{Constant, Kernel, SETTING_WORDS, Settings};
 use squealmap::engine::lanes::again::records_again;
 use squealmap::engine::march::asked::{Asked, Tally};
-use squealmap::engine::march::flow::{Flow, Place};
+use squealmap::engine::march::flow::Flow;
 use squealmap::engine::march::kernel::kernel_for;
+use squealmap::engine::march::lane::Lane;
 use squealmap::engine::march::marching::PARTS;
 use squealmap::engine::march::round::{ALIGNED, Round};
 use squealmap::engine::precision::Precision;
@@ -57,7 +58,7 @@ enum Stage {
 struct Transients {
     flow: Flow<f32>,
     tally: Tally,
-    lanes: Vec<Place<f32>>,
+    lanes: Vec<Lane<f32>>,
     round: Round<f32>,
 }
 
@@ -90,9 +91,20 @@ impl OnDevice {
             return Err("no kernel holds a friction law of so many pieces".to_owned());
         }
         let wanted = region.wanted(&spec)?;
-        let known = (0..spec.grid.len()).map(|index| batch::known(&spec, index)).collect();
-        let stage = Stage::Eigenvalues(known);
-        Ok(OnDevice { spec, wanted, names: region.columns, records: Vec::new(), stage, told: Vec::new() })
+        let (count, mut records) = (spec.grid.len(), Vec::new());
+        let stage = if spec.response() {
+            records.resize(count, Record::default());
+            let (flow, round) = (Flow::new(&spec, Vec::new()), Round::new(true));
+            Stage::Transients(Box::new(Transients {
+                flow,
+                tally: Tally::default(),
+                lanes: Vec::new(),
+                round,
+            }))
+        } else {
+            Stage::Eigenvalues((0..count).map(|index| batch::known(&spec, index)).collect())
+        };
+        Ok(OnDevice { spec, wanted, names: region.columns, records, stage, told: Vec::new() })
     }
 
     /// A turn of at most so many steps: takes the words of state and flags that have come `back`, none in the first turn, and says
@@ -118,20 +130,15 @@ impl OnDevice {
                 let known = std::mem::take(known);
                 batch::take(&mut self.records, known, (&state, flags), false)
                     .map_err(|why| why.to_string())?;
-                if !self.spec.response() {
-                    return Ok(self.done());
-                }
-                let flow = Flow::new(&self.spec, Vec::new());
-                let tally = Tally::default();
-                let going = Transients { flow, tally, lanes: Vec::new(), round: Round::new(true) };
-                self.stage = Stage::Transients(Box::new(going));
+                return Ok(self.done());
             }
+            Stage::Transients(_) if is_first => {}
             Stage::Transients(going) => {
                 let Transients { flow, tally, lanes, round } = &mut **going;
                 let (state, flags) = split(&back, [round.state.len(), round.flags.len()])?;
                 let asked = asked(&self.spec, &mut self.records, tally);
-                let take = |lane: &mut Place<f32>, steps| flow.take(&asked, lane, steps);
-                let (_, ended) = round.collect(lanes, (&state, flags), take);
+                let back = (&state[..], flags);
+                let (_, ended) = round.collect(lanes, back, |lane, back| flow.take(&asked, lane, back));
                 ended.map_err(|why| why.to_string())?;
             }
         }

@@ -6,17 +6,18 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use crate::engine::error::{Error, Result};
-use crate::engine::gpu::buffers::Buffers;
+use crate::engine::gpu::buffers::{Buffers, write};
 use crate::engine::gpu::chunks::Session;
 use crate::engine::gpu::clock::{Clock, MOMENTS};
 use crate::engine::gpu::device::Device;
 use crate::engine::gpu::kernel::Compiled;
 use crate::engine::gpu::run::{FIRST, adapted, most_steps, workgroups};
-use crate::engine::kernel::scalar::Real;
 use crate::engine::kernel::source::{PROGRESS_WORDS, SETTING_WORDS, Settings};
+use crate::engine::lanes::Lanes;
 use crate::engine::march::kernel::kernel_for;
+use crate::engine::march::lane::{Back, Lane};
 use crate::engine::march::marching::{Form, PARTS};
-use crate::engine::march::round::{ALIGNED, Group, Lane, Round};
+use crate::engine::march::round::{ALIGNED, Group, Round};
 
 /// Buffers are made larger than they have to be by one part in so many.
 const SPARE: usize = 4;
@@ -44,7 +45,7 @@ pub(super) struct Arena<R> {
     mapped: Arc<AtomicUsize>,
 }
 
-impl<R: Real> Arena<R> {
+impl<R: Lanes> Arena<R> {
     /// On a device, without a lane.
     pub(super) fn new(device: &Device) -> Arena<R> {
         Arena {
@@ -75,10 +76,10 @@ impl<R: Real> Arena<R> {
     ///
     /// # Errors
     /// When the device fails or is lost.
-    pub(super) fn submit<T: Sync>(
+    pub(super) fn submit(
         &mut self,
         session: &Mutex<&mut Session>,
-        lanes: &mut [Lane<R, T>],
+        lanes: &mut [Lane<R>],
         settings: [u32; SETTING_WORDS],
     ) -> Result<()> {
         self.round.stage(lanes);
@@ -116,7 +117,7 @@ impl<R: Real> Arena<R> {
             let mut view = buffers.up.get_mapped_range_mut(..total as u64).map_err(|why| unmapped(&why))?;
             let mut at = 0;
             for bytes in sections {
-                view.slice(at..at + bytes.len()).copy_from_slice(bytes);
+                write(view.slice(at..at + bytes.len()), bytes);
                 at += bytes.len();
             }
         }
@@ -218,14 +219,14 @@ impl<R: Real> Arena<R> {
         })
     }
 
-    /// Takes the end of the round that was under way and gives every lane to `take`, with the steps that it has gone.
+    /// Takes the end of the round that was under way and gives every lane to `take`, with what has come of it.
     ///
     /// # Errors
     /// When the device was lost or does not answer; the first of `take`.
-    pub(super) fn collect<T: Send>(
+    pub(super) fn collect(
         &mut self,
-        lanes: &mut [Lane<R, T>],
-        take: impl Fn(&mut Lane<R, T>, u32) -> Result<()> + Sync,
+        lanes: &mut [Lane<R>],
+        take: impl Fn(&mut Lane<R>, Back<R>) -> Result<()> + Sync,
     ) -> Result<()> {
         let (Some((index, began)), Some(buffers)) = (self.submitted.take(), &self.buffers) else {
             return Ok(());

@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
 #[doc(inline)]
-pub use crate::engine::march::round::WARP;
+pub use crate::engine::march::lane::WARP;
 
 /// Counters of a device.
 #[derive(Debug, Default)]

@@ -3,6 +3,8 @@
 use std::ops::Range;
 use std::sync::atomic::AtomicBool;
 
+use rayon::prelude::*;
+
 use crate::engine::Engine;
 use crate::engine::backend::Backend;
 use crate::engine::computation::Computation;
@@ -15,6 +17,7 @@ use crate::engine::gpu::{linear, response};
 use crate::engine::instances::Instances;
 use crate::engine::precision::Precision;
 use crate::engine::record::Record;
+use crate::engine::reference::records::linear as on_cpu;
 
 /// The least that a GPU takes, which takes a range at once; of a program on the CPU, which takes minutes for it.
 const BLOCK: usize = 65_536;
@@ -77,17 +80,20 @@ impl Engine for Gpu {
         self.sessions[0].device().precision()
     }
 
-    fn computations(&self, steps_per_period: u32) -> [Computation; 2] {
+    fn computations(&self, instances: &dyn Instances) -> [Computation; 2] {
         let device = self.sessions[0].device();
         let names: Vec<String> =
             self.sessions.iter().map(|one| one.device().describe().to_string()).collect();
-        [linear::method(), response::method(device, steps_per_period)].map(|method| Computation {
+        let on_device = |method| Computation {
             backend: Backend::Gpu.name().to_owned(),
             precision: device.precision().to_string(),
             method,
             adapter: Some(names.join("; ")),
             strict: Some(device.strict()),
-        })
+        };
+        let eigenvalues =
+            if instances.response() { on_cpu(Backend::Cpu) } else { on_device(linear::method()) };
+        [eigenvalues, on_device(response::method(device, instances.plan().steps_per_period))]
     }
 
     fn records(
@@ -125,8 +131,9 @@ impl Engine for Gpu {
     }
 }
 
-/// The records of a range from a GPU, its start and length, with so many instances ahead; only the last analysis counts as progress, and
-/// only what has all of them is done.
+/// The records of a range from a GPU, its start and length, with so many instances ahead. Eigenvalues alone are computed there, those
+/// beside transients on the host, which has the instance at hand when its transient is over: they take no longer than what the host does
+/// to send them.
 fn records(
     spec: &dyn Instances,
     [first, wanted, ahead]: [usize; 3],
@@ -134,49 +141,26 @@ fn records(
     cancel: &AtomicBool,
     progress: &(dyn Fn(usize) + Sync),
 ) -> Result<Computed> {
-    let (eigenvalues, transients) = (spec.linear(), spec.response());
-    let before = begun.take().filter(|begun| transients && begun.of == address(spec) && begun.first == first);
+    if !spec.response() {
+        let (mut records, devices) = (Vec::with_capacity(wanted), (&mut sessions[..], *chunk));
+        let ended = linear::on_all(spec, first..first + wanted, devices, cancel, progress, &mut records);
+        return Computed::new(records, wanted, ended.map_err(|why| counted_from(first, why)));
+    }
+    let before = begun.take().filter(|begun| begun.of == address(spec) && begun.first == first);
     let (taken, mut records) = before.map_or((0, Vec::new()), |begun| (begun.taken, begun.records));
-    let total = if transients { records.len().max(wanted + ahead) } else { wanted };
-    records.reserve(total - records.len());
-    if eigenvalues {
-        let progress = if transients { &|_: usize| {} } else { progress };
-        let (known, devices) = (records.len(), (&mut sessions[..], *chunk));
-        let ended =
-            linear::on_all(spec, first + known..first + total, devices, cancel, progress, &mut records);
-        if let Err(why) = ended {
-            // What has only its eigenvalues is not done where more is asked for. What was begun before is, but for that which may
-            // end otherwise in double precision.
-            let is_done = |record: &Record| {
-                !transients || record.outcome.is_some() && !record.status.may_come_through()
-            };
-            for record in records.iter_mut().filter(|record| !is_done(record)) {
-                *record = Record::NOT_COMPUTED;
-            }
-            records.truncate(wanted);
-            return Computed::new(records, wanted, Err(counted_from(first + known, why)));
-        }
+    let fresh = (wanted + ahead).saturating_sub(records.len());
+    // By all threads: into memory that the system has still to give.
+    records.par_extend(rayon::iter::repeat_n(Record::default(), fresh));
+    let devices = (&mut sessions[..], crews, *chunk);
+    let ended = response::complete(spec, [first, wanted, taken], devices, cancel, progress, &mut records);
+    let behind: Vec<Record> = records.par_drain(wanted..).collect();
+    records.shrink_to_fit();
+    if let Ok(taken) = &ended {
+        let (of, first, taken) = (address(spec), first + wanted, taken - wanted);
+        let next = Begun { of, first, taken, records: behind };
+        *begun = Some(next).filter(|begun| !begun.records.is_empty());
     }
-    let mut ended = Ok(());
-    if transients {
-        records.resize(total, Record::default());
-        let devices = (&mut sessions[..], crews, *chunk);
-        let of_all = [first, wanted, taken];
-        match response::complete(spec, of_all, devices, cancel, progress, &mut records) {
-            Ok(taken) => {
-                let behind = records.split_off(wanted);
-                records.shrink_to_fit();
-                let (of, first, taken) = (address(spec), first + wanted, taken - wanted);
-                let next = Begun { of, first, taken, records: behind };
-                *begun = Some(next).filter(|begun| !begun.records.is_empty());
-            }
-            Err(why) => {
-                records.truncate(wanted);
-                ended = Err(counted_from(first, why));
-            }
-        }
-    }
-    Computed::new(records, wanted, ended)
+    Computed::new(records, wanted, ended.map(|_| ()).map_err(|why| counted_from(first, why)))
 }
 
 /// An error of a range that starts at `first`, its instance counted from the start of the sweep.

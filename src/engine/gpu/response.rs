@@ -2,6 +2,8 @@
 
 use std::sync::atomic::AtomicBool;
 
+use rayon::prelude::*;
+
 use crate::engine::error::{Error, Result};
 use crate::engine::gpu::chunks::{Session, software_chunk};
 use crate::engine::gpu::device::Device;
@@ -16,7 +18,7 @@ use crate::engine::march::kernel::{MOST_PIECES, kernel_for};
 use crate::engine::precision::Precision;
 use crate::engine::record::Record;
 
-/// Most instances at a time in one of the buffers of a GPU: the host keeps some 4 KiB of each. An H100 has as many in its registers,
+/// Most instances at a time in one of the buffers of a GPU: the host keeps some 3 KiB of each. An H100 has as many in its registers,
 /// and takes a quarter less time for each of twice as many, but the host more.
 const MOST_LANES: usize = 65_536;
 
@@ -94,15 +96,14 @@ fn complete_in<R: Lanes>(
     if crews.is_empty() || begun == 0 && crews.iter().any(Crew::has_instances) {
         *crews = Crew::of(sessions);
     }
-    let done = records[..wanted].iter().filter(|record| record.outcome.is_some()).count();
+    let done = records[..wanted].par_iter().filter(|record| record.outcome.is_some()).count();
     let tally = Tally::begun(begun, done);
     let asked = Asked::new(spec, [first, wanted], records, &tally);
     let devices = (sessions, chunk.unwrap_or(usize::MAX).min(most));
     let ended = Stream::new(asked, devices, cancel, progress).run(crews);
     // What a run that never came to its end would have filled.
-    for record in records[..wanted].iter_mut().filter(|record| record.outcome.is_none()) {
-        *record = Record::NOT_COMPUTED;
-    }
+    let without = records[..wanted].par_iter_mut().filter(|record| record.outcome.is_none());
+    without.for_each(|record| *record = Record::NOT_COMPUTED);
     for crew in crews {
         crew.count_from(wanted);
     }

@@ -11,7 +11,8 @@ use crate::engine::gpu::arena::Arena;
 use crate::engine::gpu::chunks::Session;
 use crate::engine::lanes::Lanes;
 use crate::engine::march::asked::Asked;
-use crate::engine::march::flow::{Flow, Place};
+use crate::engine::march::flow::Flow;
+use crate::engine::march::lane::Lane;
 
 /// Crews of a device: one's instances are computed while the host goes on with those of the others.
 const OF_DEVICE: usize = 3;
@@ -27,8 +28,8 @@ pub(super) struct Crew<R> {
     opened_again: u32,
     arena: Arena<R>,
     /// Instances on their way that come behind those of the run.
-    lanes: Vec<Place<R>>,
-    places: Vec<Place<R>>,
+    lanes: Vec<Lane<R>>,
+    places: Vec<Lane<R>>,
     /// Threads of its own, `None` where there are none: in a pool that crews share, the work of one waits for pieces of another's.
     threads: Option<Arc<ThreadPool>>,
 }
@@ -59,7 +60,7 @@ impl<R: Lanes> Crew<R> {
     /// Counts its instances from one that comes so many later.
     pub(super) fn count_from(&mut self, later: usize) {
         for lane in &mut self.lanes {
-            lane.count_from(later);
+            lane.marching.index -= later;
         }
     }
 }
@@ -75,7 +76,7 @@ fn pool(threads: usize) -> Option<Arc<ThreadPool>> {
 struct AtWork<'a, R> {
     crew: &'a mut Crew<R>,
     flow: Flow<R>,
-    lanes: Vec<Place<R>>,
+    lanes: Vec<Lane<R>>,
 }
 
 /// The instances of a sweep that are computed, by whom.
@@ -179,7 +180,7 @@ impl<'a> Stream<'a> {
 
     /// Takes what has come of the round of a crew, fills it up and begins its next round, if there is one.
     fn round<R: Lanes>(&self, AtWork { crew, flow, lanes }: &mut AtWork<'_, R>) -> Result<bool> {
-        crew.arena.collect(lanes, |lane, steps| flow.take(&self.asked, lane, steps))?;
+        crew.arena.collect(lanes, |lane, back| flow.take(&self.asked, lane, back))?;
         let is_cancelled = self.cancel.load(Ordering::Relaxed);
         flow.finish(&self.asked, lanes);
         flow.turn_over(&self.asked, lanes, if is_cancelled { 0 } else { self.most });

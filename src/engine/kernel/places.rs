@@ -23,24 +23,28 @@ pub const fn place([word, words]: [usize; 2], instance: usize) -> usize {
     (instance / TOGETHER * words + word) * TOGETHER + instance % TOGETHER
 }
 
-/// Writes the words of `count` instances into a buffer that has room for them, each a row; what there is room for beyond the
-/// last is the last.
-pub fn fill<'a, T: Copy + Send + Sync + 'a>(
+/// Writes the words of `count` instances into a buffer that has room for them, each a row that `row` writes; what there is room for
+/// beyond the last is the last.
+pub fn fill<T: bytemuck::Pod + Send + Sync>(
     buffer: &mut [T],
     words: usize,
     count: usize,
-    row: impl Fn(usize) -> &'a [T] + Sync,
+    row: impl Fn(usize, &mut [T]) + Sync,
 ) {
-    let group = |(number, group): (usize, &mut [T])| {
-        let rows: [&[T]; TOGETHER] = std::array::from_fn(|k| row((number * TOGETHER + k).min(count - 1)));
+    let blank = || vec![T::zeroed(); words * TOGETHER];
+    let group = |rows: &mut Vec<T>, (number, group): (usize, &mut [T])| {
+        for (place, words) in rows.chunks_exact_mut(words).enumerate() {
+            row((number * TOGETHER + place).min(count - 1), words);
+        }
         for (word, line) in group.chunks_exact_mut(TOGETHER).enumerate() {
-            for (place, row) in line.iter_mut().zip(&rows) {
+            for (place, row) in line.iter_mut().zip(rows.chunks_exact(words)) {
                 *place = row[word];
             }
         }
     };
     if words > 0 {
-        buffer.par_chunks_mut(words * TOGETHER).with_min_len(TASK).enumerate().for_each(group);
+        let groups = buffer.par_chunks_mut(words * TOGETHER).with_min_len(TASK);
+        groups.enumerate().for_each_init(blank, group);
     }
 }
 
@@ -51,22 +55,46 @@ pub fn filled<'a, T: bytemuck::Pod + Send + Sync>(
     row: impl Fn(usize) -> &'a [T] + Sync,
 ) -> Vec<T> {
     let mut buffer = vec![T::zeroed(); words * room(count)];
-    fill(&mut buffer, words, count, row);
+    fill(&mut buffer, words, count, |instance, words| words.copy_from_slice(row(instance)));
     buffer
 }
 
-/// Reads the `words` words of instances that lie together, the group of this number in a buffer, into rows. Line by line: a row
-/// at a time would fetch all of them from afar for every row.
-pub fn read<T: Copy>(rows: &mut [&mut [T]], buffer: &[T], words: usize, group: usize) {
-    let of_group = &buffer[place([0, words], group * TOGETHER)..][..words * TOGETHER];
-    for (word, line) in of_group.chunks_exact(TOGETHER).enumerate() {
-        for (row, value) in rows.iter_mut().zip(line) {
-            row[word] = *value;
-        }
-    }
+/// The words of one instance, where they stand.
+#[derive(Clone, Copy, Debug)]
+pub struct Column<'a, T> {
+    words: &'a [T],
+    /// How far it is from word to word.
+    apart: usize,
 }
 
-/// The words of one instance.
-pub fn row<T: Copy>(buffer: &[T], words: usize, instance: usize) -> impl Iterator<Item = T> {
-    (0..words).map(move |word| buffer[place([word, words], instance)])
+impl<'a, T: Copy> Column<'a, T> {
+    /// Those of a row.
+    #[must_use]
+    pub const fn of_row(words: &'a [T]) -> Column<'a, T> {
+        Column { words, apart: 1 }
+    }
+
+    /// The `words` words of an instance in a buffer.
+    #[must_use]
+    pub fn of_buffer(buffer: &'a [T], words: usize, instance: usize) -> Column<'a, T> {
+        let [first, end] = [[0, words], [words, words]].map(|word| place(word, instance));
+        Column { words: &buffer[first..end + 1 - TOGETHER], apart: TOGETHER }
+    }
+
+    /// A word.
+    #[must_use]
+    pub fn at(&self, word: usize) -> T {
+        self.words[word * self.apart]
+    }
+
+    /// Those from a word on.
+    #[must_use]
+    pub fn from(&self, word: usize) -> Column<'a, T> {
+        Column { words: &self.words[word * self.apart..], ..*self }
+    }
+
+    /// All, one after the other.
+    pub fn iter(&self) -> impl Iterator<Item = T> + use<'a, T> {
+        self.words.iter().step_by(self.apart).copied()
+    }
 }

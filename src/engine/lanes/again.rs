@@ -49,6 +49,7 @@ pub fn outcomes_again(
 pub fn records_again(spec: &dyn Instances, first: usize, records: &mut [Record], cancel: &AtomicBool) {
     let plan = spec.plan();
     let failed: Vec<usize> = (0..records.len())
+        .into_par_iter()
         .filter(|index| records[*index].outcome.is_some() && records[*index].status.may_come_through())
         .collect();
     let made: Vec<(usize, Record)> = failed

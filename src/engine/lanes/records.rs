@@ -75,8 +75,8 @@ impl Engine for Cpu {
         self.0
     }
 
-    fn computations(&self, steps_per_period: u32) -> [Computation; 2] {
-        [linear(Backend::Cpu), response(self.0, steps_per_period)]
+    fn computations(&self, instances: &dyn Instances) -> [Computation; 2] {
+        [linear(Backend::Cpu), response(self.0, instances.plan().steps_per_period)]
     }
 
     fn records(

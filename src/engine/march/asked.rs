@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use crate::engine::instances::Instances;
-use crate::engine::judged::{kind_of, take_response};
+use crate::engine::judged::{examined, take_response};
 use crate::engine::outcome::Outcome;
 use crate::engine::record::Record;
 use crate::model::instance::Instance;
@@ -54,7 +54,7 @@ pub struct Asked<'a> {
 }
 
 impl<'a> Asked<'a> {
-    /// Those of a sweep from `first` on, each with a record as it is before any response.
+    /// Those of a sweep from `first` on, each with room for its record.
     #[must_use]
     pub fn new(
         spec: &'a dyn Instances,
@@ -117,12 +117,13 @@ impl<'a> Asked<'a> {
         self.spec.instance(self.first + index)
     }
 
-    /// Completes the record of one of them with what it did.
+    /// Completes the record of one of them, with its eigenvalues where they are asked for and with what it did.
     pub fn complete(&self, index: usize, instance: &Instance, outcome: &Outcome) {
+        let (mut record, kind) = examined(instance, self.spec.linear());
+        take_response(&mut record, instance, kind, outcome);
         let mut records = self.records[index / TOGETHER].lock().unwrap_or_else(PoisonError::into_inner);
-        let record = &mut records[index % TOGETHER];
-        let kind = kind_of(self.spec, instance, record);
-        take_response(record, instance, kind, outcome);
+        records[index % TOGETHER] = record;
+        drop(records);
         if index < self.wanted {
             self.tally.complete();
         }

@@ -11,8 +11,8 @@ use crate::engine::lanes::Lanes;
 use crate::engine::lanes::job::{Job, Part};
 use crate::engine::lanes::march::{Settings, Terms};
 use crate::engine::march::asked::Asked;
+use crate::engine::march::lane::{Back, Lane, Stage};
 use crate::engine::march::marching::{Marching, Way};
-use crate::engine::march::round::Lane;
 use crate::engine::march::table::flag;
 use crate::engine::outcome::Outcome;
 use crate::model::piece::LawForm;
@@ -24,41 +24,19 @@ const FINISHED: usize = 64;
 /// Rounds without a step after which a lane does not come to its end.
 const MOST_IDLE: u32 = 64;
 
-/// An instance on a device, and how many rounds it has taken no step in.
-#[derive(Clone, Debug)]
-pub struct Going<R> {
-    marching: Box<Marching<R>>,
-    idle: u32,
-    stage: Stage,
-}
-
-/// How far an instance is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Stage {
-    /// It has another leg.
-    Runs,
-    /// It has none, but perhaps a second pass over its window.
-    Over,
-    /// It has its record.
-    Done,
-}
-
-/// An instance with its words, in memory that others take after it.
-pub type Place<R> = Lane<R, Going<R>>;
-
 /// Instances on their way through lanes, one round after the other.
 #[derive(Debug)]
 pub struct Flow<R> {
     way: Way,
     settings: [u32; SETTING_WORDS],
     /// Places without an instance.
-    free: Vec<Place<R>>,
+    free: Vec<Lane<R>>,
 }
 
 impl<R: Lanes> Flow<R> {
     /// Before the first instance of a sweep, with places of another flow.
     #[must_use]
-    pub fn new(spec: &dyn Instances, free: Vec<Place<R>>) -> Flow<R> {
+    pub fn new(spec: &dyn Instances, free: Vec<Lane<R>>) -> Flow<R> {
         let way = Way::new::<R>(spec.plan());
         let mut settings = [0; SETTING_WORDS];
         settings[0] = way.tolerance.to_bits();
@@ -67,7 +45,7 @@ impl<R: Lanes> Flow<R> {
 
     /// The places that it has not given away.
     #[must_use]
-    pub fn into_places(self) -> Vec<Place<R>> {
+    pub fn into_places(self) -> Vec<Lane<R>> {
         self.free
     }
 
@@ -81,20 +59,31 @@ impl<R: Lanes> Flow<R> {
     ///
     /// # Errors
     /// When the kernels cannot have made it, or do not come to an end.
-    pub fn take(&self, asked: &Asked, lane: &mut Place<R>, steps: u32) -> Result<()> {
-        take(lane, steps, &self.way)?;
-        self.end(asked, &mut lane.memory);
+    pub fn take(&self, asked: &Asked, lane: &mut Lane<R>, back: Back<R>) -> Result<()> {
+        if back.flags.at(flag::STATUS) == Status::Unwritten as u32 {
+            lane.keep(&back);
+            lane.idle = if back.steps == 0 { lane.idle + 1 } else { 0 };
+            if lane.idle > MOST_IDLE {
+                let dispatches = u64::from(lane.idle);
+                return Err(Error::Endless { kernel: "march", finished: 0, count: 1, dispatches });
+            }
+            return Ok(());
+        }
+        let taken = lane.marching.take(back.state, back.flags);
+        taken.ok_or(Error::Unwritten { instance: lane.marching.index })?;
+        lane.go_on(&self.way);
+        self.end(asked, lane);
         Ok(())
     }
 
     /// Begins other instances in the places of those that are done, up to `most`, and sorts the lanes by their kernels: neighbours of
     /// the sweep, which are alike, stay neighbours.
-    pub fn turn_over(&mut self, asked: &Asked, lanes: &mut Vec<Place<R>>, most: usize) {
+    pub fn turn_over(&mut self, asked: &Asked, lanes: &mut Vec<Lane<R>>, most: usize) {
         loop {
             // Those that go on come first.
             let mut going = 0;
             for place in 0..lanes.len() {
-                if lanes[place].memory.stage == Stage::Runs {
+                if lanes[place].stage == Stage::Runs {
                     lanes.swap(going, place);
                     going += 1;
                 }
@@ -110,7 +99,7 @@ impl<R: Lanes> Flow<R> {
             self.free.extend(lanes.drain(going + there..));
             let reused = range.start..range.start + there;
             range.start = reused.end;
-            let begin = |(lane, index): (&mut Place<R>, usize)| self.begin(asked, index, lane);
+            let begin = |(lane, index): (&mut Lane<R>, usize)| self.begin(asked, index, lane);
             lanes[going..].par_iter_mut().zip(reused).for_each(begin);
             lanes.par_extend(range.into_par_iter().filter_map(|index| self.begin_anew(asked, index)));
         }
@@ -130,33 +119,30 @@ impl<R: Lanes> Flow<R> {
     }
 
     /// Begins an instance in the place of another.
-    fn begin(&self, asked: &Asked, index: usize, lane: &mut Place<R>) {
-        let Going { marching: before, idle, stage } = &mut lane.memory;
+    fn begin(&self, asked: &Asked, index: usize, lane: &mut Lane<R>) {
         let Some(mut marching) = self.start(asked, index) else {
-            *stage = Stage::Done;
+            lane.stage = Stage::Done;
             return;
         };
-        marching.job.stretches = std::mem::take(&mut before.job.stretches).cleared();
-        (**before, *idle, *stage) = (marching, 0, Stage::Runs);
+        marching.job.stretches = std::mem::take(&mut lane.marching.job.stretches).cleared();
+        *lane.marching = marching;
         lane.go_on(&self.way);
-        self.end(asked, &mut lane.memory);
+        self.end(asked, lane);
     }
 
     /// Begins an instance in a new place.
-    fn begin_anew(&self, asked: &Asked, index: usize) -> Option<Place<R>> {
-        let marching = Box::new(self.start(asked, index)?);
-        let mut lane = Lane::new(Going { marching, idle: 0, stage: Stage::Runs });
-        lane.go_on(&self.way);
-        self.end(asked, &mut lane.memory);
+    fn begin_anew(&self, asked: &Asked, index: usize) -> Option<Lane<R>> {
+        let mut lane = Lane::new(Box::new(self.start(asked, index)?), &self.way);
+        self.end(asked, &mut lane);
         Some(lane)
     }
 
     /// Completes the record of an instance that is over, where nothing is left to do for it.
-    fn end(&self, asked: &Asked, going: &mut Going<R>) {
+    fn end(&self, asked: &Asked, lane: &mut Lane<R>) {
         let tolerance = f64::from(self.way.tolerance);
-        if going.stage == Stage::Over && going.marching.job.tells_phase(tolerance) {
-            self.complete(asked, &going.marching);
-            going.stage = Stage::Done;
+        if lane.stage == Stage::Over && lane.marching.job.tells_phase(tolerance) {
+            self.complete(asked, &lane.marching);
+            lane.stage = Stage::Done;
         }
     }
 
@@ -167,14 +153,13 @@ impl<R: Lanes> Flow<R> {
     }
 
     /// Completes the records of those lanes whose windows are passed once more, on the CPU, as their Fourier sums did not tell a phase.
-    pub fn finish(&self, asked: &Asked, lanes: &mut [Place<R>]) {
+    pub fn finish(&self, asked: &Asked, lanes: &mut [Lane<R>]) {
         // What is over is finished, whatever else is stopped.
         let never = AtomicBool::new(false);
         let plan = &self.way.plan;
         let tolerance = f64::from(self.way.tolerance);
         let settings = Settings { plan, tolerance, terms: Terms::default(), cancel: &never };
-        let going = lanes.iter_mut().map(|lane| &mut lane.memory);
-        let mut over: Vec<&mut Going<R>> = going.filter(|going| going.stage == Stage::Over).collect();
+        let mut over: Vec<&mut Lane<R>> = lanes.iter_mut().filter(|lane| lane.stage == Stage::Over).collect();
         for law in LawForm::ALL {
             let here: Vec<usize> =
                 (0..over.len()).filter(|place| over[*place].marching.job.law() == law).collect();
@@ -184,45 +169,9 @@ impl<R: Lanes> Flow<R> {
                 over[place].marching.job = job;
             }
         }
-        over.par_iter_mut().for_each(|going| {
-            self.complete(asked, &going.marching);
-            going.stage = Stage::Done;
+        over.par_iter_mut().for_each(|lane| {
+            self.complete(asked, &lane.marching);
+            lane.stage = Stage::Done;
         });
     }
-}
-
-impl<R: Lanes> Lane<R, Going<R>> {
-    /// Counts its instance from one that comes so many later.
-    pub fn count_from(&mut self, later: usize) {
-        self.memory.marching.index -= later;
-    }
-
-    /// On to the next leg, if there is one.
-    fn go_on(&mut self, way: &Way) {
-        match self.memory.marching.next(way, &mut self.words) {
-            Some(form) => self.begin(form, self.memory.marching.stretches()),
-            None => self.memory.stage = Stage::Over,
-        }
-    }
-}
-
-/// Takes what a round has made of an instance.
-fn take<R: Lanes>(lane: &mut Lane<R, Going<R>>, steps: u32, way: &Way) -> Result<()> {
-    let (words, Going { marching, idle, .. }) = (&lane.words, &mut lane.memory);
-    if words.flags[flag::STATUS] == Status::Unwritten as u32 {
-        *idle = if steps == 0 { *idle + 1 } else { 0 };
-        if *idle > MOST_IDLE {
-            return Err(Error::Endless {
-                kernel: "march",
-                finished: 0,
-                count: 1,
-                dispatches: u64::from(*idle),
-            });
-        }
-        return Ok(());
-    }
-    marching.take(&words.state, &words.flags).ok_or(Error::Unwritten { instance: marching.index })?;
-    *idle = 0;
-    lane.go_on(way);
-    Ok(())
 }

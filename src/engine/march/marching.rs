@@ -1,14 +1,14 @@
 //! An instance on its way through the kernels, leg by leg.
 
 use crate::engine::fields::words;
+use crate::engine::kernel::places::Column;
 use crate::engine::kernel::source::{Constant, Kernel};
 use crate::engine::lanes::ORDER;
 use crate::engine::lanes::job::{Job, Part};
 use crate::engine::lanes::{Lanes, tolerance};
 use crate::engine::march::kernel::{choices, kernel_for};
 use crate::engine::march::leg::Leg;
-use crate::engine::march::table::head;
-use crate::engine::march::words::{Words, begin, take};
+use crate::engine::march::words::{put, take};
 use crate::engine::method::pace::Turns;
 use crate::engine::plan::Plan;
 use crate::engine::scene::Scene;
@@ -89,22 +89,30 @@ impl<R: Lanes> Marching<R> {
         Ok(Marching { index, job, leg: Leg::default(), pieces })
     }
 
-    /// Puts its next leg into words, which hold the one before, and says which kernels it needs; `None` when nothing is left but a
-    /// second pass over the window.
-    pub fn next(&mut self, way: &Way, words: &mut Words<R>) -> Option<Form> {
+    /// Goes on to its next leg, and says which kernels that needs; `None` when nothing is left but a second pass over the window.
+    pub fn next(&mut self, way: &Way) -> Option<Form> {
         loop {
             self.job.heat(f64::from(way.tolerance));
             let is_running = self.job.state.status == Status::Unwritten;
             if is_running && let Some(leg) = Leg::next(&self.job, way.plan.steps_per_period) {
-                begin(&mut self.job, &leg, self.pieces, words);
+                self.job.until = self.job.time + leg.length;
                 self.leg = leg;
-                let ramp = words.inputs[head::DRIVE] != R::ZERO;
+                let belt = self.job.warmth.seen(self.job.scene.belt(self.job.time));
+                let ramp = R::from_f64(belt.acceleration) != R::ZERO;
                 return Some(Form { law: self.job.law(), pieces: self.pieces, ramp });
             }
             if !self.job.goes_on(&way.plan) {
                 return None;
             }
         }
+    }
+
+    /// Puts what its leg begins from into the words of the kernels' inputs.
+    ///
+    /// # Panics
+    /// When there are not as many as [`Form::inputs`] says.
+    pub fn put(&self, inputs: &mut [R]) {
+        put(&self.job, &self.leg, inputs);
     }
 
     /// Stretches that its leg has in the window.
@@ -114,7 +122,7 @@ impl<R: Lanes> Marching<R> {
     }
 
     /// Takes what has come of its leg; `None` when the kernels cannot have made it.
-    pub fn take(&mut self, words: &[R], flags: &[u32]) -> Option<()> {
+    pub fn take(&mut self, words: Column<R>, flags: Column<u32>) -> Option<()> {
         take(&mut self.job, &self.leg, words, flags)
     }
 }

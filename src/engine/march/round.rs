@@ -3,85 +3,17 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use rayon::prelude::*;
-use smallvec::SmallVec;
 
 use crate::engine::error::Result;
-use crate::engine::kernel::places::{TOGETHER, fill, read, room};
-use crate::engine::kernel::scalar::Real;
-use crate::engine::kernel::source::{FLAG_STEPS, SETTING_WORDS, Settings};
-use crate::engine::lanes::job::Part;
+use crate::engine::kernel::places::{Column, fill, room};
+use crate::engine::kernel::source::{SETTING_WORDS, Settings};
+use crate::engine::lanes::Lanes;
+use crate::engine::march::lane::{Back, Lane, WARP};
 use crate::engine::march::marching::{Form, PARTS};
 use crate::engine::march::table::{SETTING_FRESH, flag, state};
-use crate::engine::march::words::Words;
-use crate::model::piece::LawForm;
 
 /// What the places of bindings in a buffer are multiples of, bytes: the most that an adapter may ask for.
 pub const ALIGNED: usize = 256;
-
-/// Lanes that a GPU steps together.
-pub const WARP: usize = TOGETHER;
-
-/// The rows of a warp.
-type Rows<T> = SmallVec<[T; WARP]>;
-
-/// Words of a lane, and where it is in the present round.
-#[derive(Clone, Debug)]
-pub struct Lane<R, T> {
-    /// What selects its kernels.
-    pub form: Form,
-    /// Its words: what is sent, then what has come back. Rounds look at all lanes without them.
-    pub words: Box<Words<R>>,
-    /// Something to remember with it.
-    pub memory: T,
-    /// Stretches of its leg in the window.
-    stretches: usize,
-    /// Whether its leg has begun.
-    begun: bool,
-    /// Steps of its leg in every part, before the present round.
-    gone: [u32; PARTS.len()],
-    /// Its group, and its place in that.
-    at: [usize; 2],
-}
-
-impl<R: Real, T> Lane<R, T> {
-    /// A lane whose words are still to be filled, for [`Lane::begin`].
-    pub fn new(memory: T) -> Lane<R, T> {
-        let form = Form { law: LawForm::Pieces, pieces: 1, ramp: false };
-        let gone = [0; PARTS.len()];
-        Lane { form, words: Box::new(Words::blank()), memory, stretches: 0, begun: false, gone, at: [0; 2] }
-    }
-
-    /// Begins the leg that its words are, with so many stretches in the window.
-    pub fn begin(&mut self, form: Form, stretches: usize) {
-        (self.form, self.stretches, self.begun, self.gone) = (form, stretches, false, [0; PARTS.len()]);
-    }
-
-    /// Its group, and the number of its warp there.
-    fn warp(&self) -> [usize; 2] {
-        [self.at[0], self.at[1] / WARP]
-    }
-
-    /// What lanes are sorted by: those whose legs have begun come first, of every form.
-    pub fn order(&self) -> (Form, bool) {
-        (self.form, !self.begun)
-    }
-
-    /// Takes the steps that its words tell; how many each part has come to in the present round.
-    fn count(&mut self) -> [u32; PARTS.len()] {
-        let flags = &self.words.flags;
-        let steps = flags[FLAG_STEPS];
-        let before = if flags[flag::PART] == Part::Growth as u32 {
-            [steps, steps]
-        } else if flags[flag::PART] == Part::Settle as u32 {
-            [flags[flag::GROWN], steps]
-        } else {
-            [flags[flag::GROWN], flags[flag::SETTLED]]
-        };
-        let all = [before[0], before[1].wrapping_sub(before[0]), steps.wrapping_sub(before[1])];
-        let gone = std::mem::replace(&mut self.gone, all);
-        std::array::from_fn(|part| all[part].saturating_sub(gone[part]))
-    }
-}
 
 /// Lanes that share their kernels: where their words of inputs, state and flags are.
 #[derive(Clone, Debug)]
@@ -166,12 +98,12 @@ pub struct Round<R> {
     pub state: Vec<R>,
     /// What goes to that of the flags, which come back.
     pub flags: Vec<u32>,
-    /// Whether all words are sent, those that are 0 among them.
+    /// Whether all places of the buffers are sent, also those that the kernels fill.
     whole: bool,
 }
 
-impl<R: Real> Round<R> {
-    /// Of no lane; `whole` says whether all words are sent, those that are 0 among them.
+impl<R: Lanes> Round<R> {
+    /// Of no lane; `whole` says whether all places of the buffers are sent, also those that the kernels fill.
     #[must_use]
     pub fn new(whole: bool) -> Round<R> {
         Round { groups: Vec::new(), inputs: Vec::new(), state: Vec::new(), flags: Vec::new(), whole }
@@ -184,7 +116,7 @@ impl<R: Real> Round<R> {
     }
 
     /// Puts the words of lanes, which are sorted by [`Lane::order`], into what is sent.
-    pub fn stage<T: Sync>(&mut self, lanes: &mut [Lane<R, T>]) {
+    pub fn stage(&mut self, lanes: &mut [Lane<R>]) {
         self.place(lanes);
         let last = self.groups.last();
         let [inputs, state, flags] =
@@ -194,33 +126,38 @@ impl<R: Real> Round<R> {
         self.flags.resize(flags, 0);
         let mut first = 0;
         for group in &self.groups {
-            let of = |index: usize| &lanes[first + index].words;
-            let ([inputs, state, flags], words, lanes) = (group.words_sent(), group.of_lane(), group.lanes);
-            fill(&mut self.inputs[group.sent[0]..][..inputs], words[0], lanes, |index| &of(index).inputs[..]);
-            fill(&mut self.state[group.sent[1]..][..state], words[1], lanes, |index| &of(index).state[..]);
-            fill(&mut self.flags[group.sent[2]..][..flags], words[2], lanes, |index| &of(index).flags[..]);
-            first += lanes;
+            let ([inputs, state, flags], words) = (group.words_sent(), group.of_lane());
+            let lanes = &lanes[first..][..group.lanes];
+            let sent = &mut self.inputs[group.sent[0]..][..inputs];
+            fill(sent, words[0], lanes.len(), |index, row| lanes[index].marching.put(row));
+            if group.begun {
+                let sent = &mut self.state[group.sent[1]..][..state];
+                fill(sent, words[1], lanes.len(), |index, row| lanes[index].put_state(row));
+                let sent = &mut self.flags[group.sent[2]..][..flags];
+                fill(sent, words[2], lanes.len(), |index, row| lanes[index].put_flags(row));
+            }
+            first += lanes.len();
         }
     }
 
     /// Gives every lane its place.
-    fn place<T>(&mut self, lanes: &mut [Lane<R, T>]) {
+    fn place(&mut self, lanes: &mut [Lane<R>]) {
         self.groups.clear();
         for lane in lanes {
-            let begun = lane.begun || self.whole;
-            let is_same = |group: &Group| group.form == lane.form && group.begun == begun;
+            let begun = lane.has_begun();
+            let is_same = |group: &Group| group.form == lane.form() && group.begun == begun;
             if !self.groups.last().is_some_and(is_same) {
                 let last = self.groups.last();
                 let first = last.map_or([0; 3], Group::end::<R>);
                 let sent = if self.whole { first } else { last.map_or([0; 3], Group::end_sent) };
-                let form = lane.form;
+                let form = lane.form();
                 self.groups.push(Group { form, lanes: 0, first, sent, begun, stretches: 0 });
             }
             let number = self.groups.len() - 1;
             let group = &mut self.groups[number];
             lane.at = [number, group.lanes];
             group.lanes += 1;
-            group.stretches = group.stretches.max(lane.stretches);
+            group.stretches = group.stretches.max(lane.marching.stretches());
         }
     }
 
@@ -231,32 +168,26 @@ impl<R: Real> Round<R> {
     ///
     /// # Panics
     /// When there are not as many words as there are in the buffers.
-    pub fn collect<T: Send>(
+    pub fn collect(
         &self,
-        lanes: &mut [Lane<R, T>],
-        (all_state, all_flags): (&[R], &[u32]),
-        take: impl Fn(&mut Lane<R, T>, u32) -> Result<()> + Sync,
+        lanes: &mut [Lane<R>],
+        (state, flags): (&[R], &[u32]),
+        take: impl Fn(&mut Lane<R>, Back<R>) -> Result<()> + Sync,
     ) -> (Steps, Result<()>) {
         let (gone, of_warps) = (AtomicU64::new(0), AtomicU64::new(0));
-        let is_warp = |a: &Lane<R, T>, b: &Lane<R, T>| a.warp() == b.warp();
-        let warp = |lanes: &mut [Lane<R, T>]| {
-            let [group, warp] = lanes[0].warp();
-            let group = &self.groups[group];
-            let ([_, first_state, first_flag], [_, state, flags]) = (group.first, group.of_lane());
-            {
-                let rows = lanes.iter_mut().map(|lane| lane.words.come_back());
-                let (mut states, mut counts): (Rows<&mut [R]>, Rows<&mut [u32]>) = rows.unzip();
-                read(&mut states, &all_state[first_state..], state, warp);
-                read(&mut counts, &all_flags[first_flag..], flags, warp);
-            }
+        let is_warp = |a: &Lane<R>, b: &Lane<R>| a.warp() == b.warp();
+        let warp = |lanes: &mut [Lane<R>]| {
             let mut most = [0; PARTS.len()];
             for lane in lanes {
-                lane.begun = true;
-                let steps = lane.count();
+                let group = &self.groups[lane.at[0]];
+                let ([_, first_state, first_flag], [_, words, counts]) = (group.first, group.of_lane());
+                let state = Column::of_buffer(&state[first_state..], words, lane.at[1]);
+                let flags = Column::of_buffer(&flags[first_flag..], counts, lane.at[1]);
+                let steps = lane.count(flags);
                 most = std::array::from_fn(|part| most[part].max(steps[part]));
                 let steps = steps.iter().sum();
                 gone.fetch_add(u64::from(steps), Ordering::Relaxed);
-                take(lane, steps)?;
+                take(lane, Back { state, flags, steps })?;
             }
             of_warps.fetch_add(most.iter().map(|steps| u64::from(*steps)).sum(), Ordering::Relaxed);
             Ok(())

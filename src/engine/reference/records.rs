@@ -59,7 +59,7 @@ impl Engine for Scalar {
         Precision::F64
     }
 
-    fn computations(&self, _: u32) -> [Computation; 2] {
+    fn computations(&self, _: &dyn Instances) -> [Computation; 2] {
         [linear(self.backend()), response(self.0)]
     }
 

@@ -25,12 +25,18 @@ pub extern "C" fn vkGetInstanceProcAddr(_: *const u8, _: *const u8) -> *const u8
 }
 "#;
 
-/// Standard error of `squealmap run` with the loader and these variables.
-fn said(loader: &Path, more: &[&str], variables: &[(&str, &str)]) -> String {
+/// A sweep with transients, and one without.
+const PERIODS: &str = "[friction]\nmu_s = 0.4\nmu_d = 0.3\n[belt]\nbelt_velocity = 3\n\
+                       [response]\nsettle = \"2 periods\"\nmeasure = \"2 periods\"\n";
+const MODES: &str =
+    "analysis = [\"linear\"]\n[friction]\nmu_s = 0.4\nmu_d = 0.3\n[belt]\nbelt_velocity = 3\n";
+
+/// Standard error of `squealmap run` with the loader, of a sweep, and these variables.
+fn said((loader, sweep): (&Path, &str), more: &[&str], variables: &[(&str, &str)]) -> String {
     let directory = tempfile::tempdir().unwrap();
-    std::fs::copy("sweeps/paper/figure2.toml", directory.path().join("modes.toml")).unwrap();
+    std::fs::write(directory.path().join("sweep.toml"), sweep).unwrap();
     let output = Command::new(env!("CARGO_BIN_EXE_squealmap"))
-        .args([&["run", "modes.toml"], more].concat())
+        .args([&["run", "sweep.toml"], more].concat())
         .current_dir(directory.path())
         .env_remove("XDG_RUNTIME_DIR")
         .env_remove("NODEVICE_SELECT")
@@ -56,18 +62,18 @@ fn drivers_are_heard_and_a_display_is_not_looked_for() {
 
     let (complaint, driver) = ("XDG_RUNTIME_DIR is invalid", "the driver says: no device; layer ");
     for variables in [&[][..], &[("XDG_RUNTIME_DIR", "")], &[("XDG_RUNTIME_DIR", "here")]] {
-        let err = said(loader.path(), &[], variables);
+        let err = said((loader.path(), PERIODS), &[], variables);
         assert!(err.contains(&format!("{driver}Some(\"1\")")), "{variables:?}: {err}");
         assert!(!err.contains(complaint), "{variables:?}: {err}");
     }
     // Where there may be a display, or the user has decided, nothing is changed.
-    let err = said(loader.path(), &[], &[("XDG_RUNTIME_DIR", "/run/user/1")]);
+    let err = said((loader.path(), PERIODS), &[], &[("XDG_RUNTIME_DIR", "/run/user/1")]);
     assert!(err.contains(&format!("{driver}None")), "{err}");
-    let err = said(loader.path(), &[], &[("NODEVICE_SELECT", "0")]);
+    let err = said((loader.path(), PERIODS), &[], &[("NODEVICE_SELECT", "0")]);
     assert!(err.contains(&format!("{driver}Some(\"0\")")), "{err}");
     // What computes on the CPU asks no driver.
-    for backend in ["cpu", "reference"] {
-        let err = said(loader.path(), &["--backend", backend], &[]);
+    for (sweep, backend) in [(PERIODS, "cpu"), (PERIODS, "reference"), (MODES, "auto")] {
+        let err = said((loader.path(), sweep), &["--backend", backend], &[]);
         assert!(!err.contains(complaint) && !err.contains(driver), "{backend}: {err}");
     }
 }

@@ -2,11 +2,11 @@
 
 use crate::common::{bilinear, paper, plan};
 use crate::engine::kernel_response::scenes;
-use crate::twin::{lane, outcomes_seen, program, run, run_leg, settings};
+use crate::twin::{begin, lane, outcomes_seen, program, run, run_leg, settings};
+use squealmap::engine::kernel::places::Column;
 use squealmap::engine::lanes::job::Part;
 use squealmap::engine::march::marching::{Marching, Way};
 use squealmap::engine::march::table::{SETTING_FRESH, flag, state};
-use squealmap::engine::march::words::Words;
 use squealmap::engine::outcome::Outcome;
 use squealmap::engine::precision::Precision;
 use squealmap::model::Param;
@@ -18,9 +18,13 @@ type Fault = fn(&mut [f32], &mut [u32]);
 
 /// An instance with its next leg done by the twin, and the words of that; `None` at its end.
 fn went(one: &mut Marching<f32>, way: &Way) -> Option<(Vec<f32>, Vec<u32>)> {
-    let mut words = Words::blank();
-    let form = one.next(way, &mut words)?;
+    let (form, words) = begin(one, way)?;
     Some(lane(&run_leg::<f32, 1>(form, &[words], settings(way), |_| {}), 0))
+}
+
+/// Whether an instance takes these words as those of its leg.
+fn taken(one: &Marching<f32>, (words, flags): &(Vec<f32>, Vec<u32>)) -> Option<()> {
+    one.clone().take(Column::of_row(words), Column::of_row(flags))
 }
 
 /// An instance with its first leg done.
@@ -36,14 +40,14 @@ fn begun(way: &Way) -> (Marching<f32>, (Vec<f32>, Vec<u32>)) {
 fn words_that_are_no_finished_leg_are_refused() {
     let way = Way::new::<f32>(plan(1.0, 1.0, 12));
     let (one, right) = begun(&way);
-    assert!(one.clone().take(&right.0, &right.1).is_some());
+    assert!(taken(&one, &right).is_some());
     for code in [0, Status::NotComputed as u32, 77] {
         let mut wrong = right.clone();
         wrong.1[flag::STATUS] = code;
-        assert!(one.clone().take(&wrong.0, &wrong.1).is_none(), "status {code}");
+        assert!(taken(&one, &wrong).is_none(), "status {code}");
     }
     let blank = (vec![0.0; state::WORDS], vec![0; flag::WORDS]);
-    assert!(one.clone().take(&blank.0, &blank.1).is_none(), "an unwritten lane");
+    assert!(taken(&one, &blank).is_none(), "an unwritten lane");
     let faults: [Fault; 4] = [
         |state, _| state[state::LEFT] = 0.5,
         |_, flags| flags[flag::WHOLE + 2] = 1,
@@ -53,10 +57,7 @@ fn words_that_are_no_finished_leg_are_refused() {
     for fault in faults {
         let mut wrong = right.clone();
         fault(&mut wrong.0, &mut wrong.1);
-        assert!(
-            one.clone().take(&wrong.0, &wrong.1).is_none(),
-            "it says that it came to its end and did not"
-        );
+        assert!(taken(&one, &wrong).is_none(), "it says that it came to its end and did not");
     }
 }
 
@@ -69,7 +70,7 @@ fn a_sum_that_is_no_number_is_told() {
         if let Some(fault) = fault {
             words.0[state::SEEN + 2] = fault;
         }
-        one.take(&words.0, &words.1).expect("a finished leg");
+        one.take(Column::of_row(&words.0), Column::of_row(&words.1)).expect("a finished leg");
         assert!(went(&mut one, &way).is_none(), "one leg is the whole run");
         one.job.outcome(&way.plan)
     };
