@@ -11,7 +11,7 @@ use crate::engine::lanes::flight::Flight;
 use crate::engine::lanes::stretches::Stretches;
 use crate::engine::lanes::words::Words;
 use crate::engine::measuring::Measuring;
-use crate::engine::method::pace::Turns;
+use crate::engine::method::pace::{Turns, stands_still};
 use crate::engine::method::taylor::BeltMotion;
 use crate::engine::outcome::Outcome;
 use crate::engine::plan::Plan;
@@ -125,7 +125,10 @@ impl<T: Real> Job<T> {
         let measuring = Measuring::new(instance, &scene, plan);
         let mut state = State::new(&words, belt_at(scene.belt(0.0)));
         // f64 goes on: there is nothing finer that would compute it again.
-        if T::EPSILON.to_f64() > f64::EPSILON && words.stands_still_on_a_rise() {
+        let epsilon = T::EPSILON.to_f64();
+        let stands_still = words.stands_still_on_a_rise()
+            || stands_still(turns.longest_step_of_a_rise(&scene.model), epsilon);
+        if epsilon > f64::EPSILON && stands_still {
             state.status = Status::StepTooLarge;
         }
         Job {

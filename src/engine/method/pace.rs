@@ -1,7 +1,7 @@
 //! The longest step that a Taylor series of some order may take of a mode, whether the motion shows it or not.
 
 use crate::model::fastest::Fastest;
-use crate::model::piece::LawForm;
+use crate::model::piece::{LawForm, Piece};
 use crate::model::scaled::Scaled;
 
 /// Beyond this many radians of an undamped mode a step of even order makes it grow: the first excess over 1 of the
@@ -125,6 +125,14 @@ impl Turns {
         let [slip, reverse] =
             [0, 1].map(|way| Some(model.fastest[way]).filter(|rate| rate.is_finite()).unwrap_or_default());
         if beyond > 0.0 { self.contact / (slip.max(reverse) + beyond) } else { f64::INFINITY }
+    }
+
+    /// The longest step of slip near rest, where friction rises there along an exponential; infinite on other laws.
+    #[must_use]
+    pub fn longest_step_of_a_rise(&self, model: &Scaled) -> f64 {
+        let Piece::Exponential { height, rate, .. } = model.law.pieces[0] else { return f64::INFINITY };
+        let [_, along] = self.layer.inverses(model);
+        1.0 / (rate * (-height).max(0.0) * along)
     }
 
     /// The longest step of slip, reversed slip, stick and flight.

@@ -46,7 +46,7 @@ What holds for all of them:
 - **Thin layers take steps of their own.** Near rest an exponential or a rational law changes within `v_0` or `1/δ`, which no bound on
   positions sees. A step goes no further than its series holds there, on every engine, and layers of 1e-8 of the velocities
   are those of the reference in f64. In f32 they end early below some 1e-6 of them, and are computed again in f64; laws of straight
-  pieces that rise within some 1e-4 of them are left to f64 from the start. Where in addition `M11` all but vanishes on the way, the engines may differ.
+  pieces, and exponential ones, that rise within some 1e-4 of them are left to f64 from the start. Where in addition `M11` all but vanishes on the way, the engines may differ.
 - **Painlevé's is what the law can do.** Where a row is narrower than an arithmetic resolves, friction is evaluated beyond its ends;
   `M11 ≤ 0` of a friction that the law has nowhere is `step_too_large`.
 - **At a limit statuses may differ.** Each engine has its own steps: `event_limit`, `step_too_large` and `ok` part where an instance needs
