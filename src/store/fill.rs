@@ -12,7 +12,7 @@ use crate::model::status::Status;
 use crate::store::claim::Claim;
 use crate::store::directory::{Note, Store};
 use crate::store::error::Result;
-use crate::store::finish::{Filled, Finishing, Made};
+use crate::store::finish::{Filled, Finish, Finishing, Made};
 use crate::store::reuse::Reuse;
 use crate::sweep::solver::Solver;
 use crate::sweep::spec::Starts;
@@ -36,8 +36,7 @@ pub struct Watch<'a> {
 
 /// Computes those of the tiles `wanted` that are not there, as far as neither a stopped run nor `reuse` has their instances;
 /// tiles that other processes are computing are waited for. Tiles are computed, as many together as keep the engine busy, while
-/// those before are checked and those before these are written. The records of three such groups are in memory, and of those that the
-/// engine begins ahead.
+/// those before are checked and written. The records of three such groups are in memory, and of those that the engine begins ahead.
 ///
 /// # Errors
 /// When a tile cannot be written, or a result is in doubt; all finished tiles stay.
@@ -88,34 +87,41 @@ struct Filling<'a, 'b> {
 
 impl Filling<'_, '_> {
     /// Computes all, and gives them to `finish`; why it stopped, if it did.
-    fn all(
-        &mut self,
-        wanted: &[usize],
-        finish: &mut dyn FnMut(Made) -> Result<()>,
-    ) -> Result<Option<Stopped>> {
+    fn all(&mut self, wanted: &[usize], finish: &mut Finish) -> Result<Option<Stopped>> {
         let mut open = wanted.to_vec();
         let mut told = false;
         while !open.is_empty() {
             let mut busy = Vec::new();
             let mut rest = open.as_slice();
             let mut next = VecDeque::new();
+            let mut before: Option<Made> = None;
             while !self.is_cancelled() {
                 self.claim_ahead(&mut next, &mut rest, &mut busy)?;
                 let Some(group) = next.pop_front() else { break };
                 let ahead = ahead(&group, next.iter());
                 let Group { tiles, range, known, reused } = group;
                 let known_before = known.iter().flatten().count();
-                match self.solver.records_beside(range.clone(), &known, ahead, self.watch.progress) {
+                let (solver, progress) = (&mut *self.solver, self.watch.progress);
+                // On the threads of the pool that this is called in, of which there may be but one.
+                let (computed, finished) = rayon::join(
+                    || solver.records_beside(range.clone(), &known, ahead, progress),
+                    || before.take().map_or(Ok(()), &mut *finish),
+                );
+                finished?;
+                match computed {
                     Ok(computed) => {
                         let is_stopped = computed.stopped.is_some();
-                        finish(Made { tiles, range, computed, known: known_before, reused })?;
+                        let made = Made { tiles, range, computed, known: known_before, reused };
                         if is_stopped {
+                            finish(made)?;
                             return Ok(None);
                         }
+                        before = Some(made);
                     }
                     Err(why) => return Ok(Some(Stopped::try_from(why)?)),
                 }
             }
+            before.map_or(Ok(()), &mut *finish)?;
             if self.is_cancelled() {
                 return Ok(Some(Stopped::Cancelled));
             }

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 use std::sync::mpsc::{Receiver, sync_channel};
-use std::thread::{self, ScopedJoinHandle};
+use std::thread;
 use std::time::Duration;
 
 use crate::engine;
@@ -44,6 +44,9 @@ pub(super) struct Made {
     pub(super) reused: usize,
 }
 
+/// What becomes of tiles that were computed.
+pub(super) type Finish<'a> = dyn FnMut(Made) -> Result<()> + Send + 'a;
+
 /// A tile to be written.
 type Finished = (Claim, usize, Vec<Record>);
 
@@ -64,41 +67,29 @@ impl<'a> Finishing<'a> {
         Finishing { store, checker, waiting }
     }
 
-    /// Checks and writes what `compute` gives away, which says why it stopped, if it did; each on a thread of its own, and all
-    /// on this one where none can be started.
+    /// Checks and writes what `compute` gives away, which says why it stopped, if it did. Tiles are written by a thread of their own, and
+    /// by this one where none can be started.
     ///
     /// # Errors
     /// When a tile cannot be written, or a result is in doubt; that of `compute`.
-    pub(super) fn run(
-        &self,
-        compute: impl FnOnce(&mut dyn FnMut(Made) -> Result<()>) -> Result<Option<Stopped>>,
-    ) -> Result<Filled> {
-        let (made, to_check) = sync_channel(0);
+    pub(super) fn run(&self, compute: impl FnOnce(&mut Finish) -> Result<Option<Stopped>>) -> Result<Filled> {
         let (checked, to_write) = sync_channel(self.waiting);
         thread::scope(|scope| {
             let writer = thread::Builder::new().spawn_scoped(scope, || self.write_all(to_write));
-            let check =
-                move || self.take_all(to_check, &mut |tile| checked.send(tile).map_err(|_| no_more()));
-            let checker = thread::Builder::new().spawn_scoped(scope, check);
-            let (Ok(writer), Ok(checker)) = (writer, checker) else {
-                drop(made);
-                return self.run_alone(compute);
-            };
-            let stopped = compute(&mut |one| made.send(one).map_err(|_| no_more()));
-            drop(made);
-            let filled = joined(checker);
-            // An error of the writer is the cause of one of the checks, and that of one of the computation.
-            joined(writer)?;
-            let (filled, stopped) = (filled?, stopped?);
-            Ok(Filled { stopped: filled.stopped.or(stopped), ..filled })
+            let Ok(writer) = writer else { return self.run_alone(compute) };
+            let mut filled = Filled::default();
+            let mut send = |tile| checked.send(tile).map_err(|_| no_more());
+            let stopped = compute(&mut |made| self.take(&mut filled, made, &mut send));
+            drop(checked);
+            // An error of the writer is the cause of one of the computation.
+            writer.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))?;
+            let stopped = stopped?;
+            Ok(Filled { stopped: filled.stopped.take().or(stopped), ..filled })
         })
     }
 
     /// As [`Finishing::run`], one after the other.
-    fn run_alone(
-        &self,
-        compute: impl FnOnce(&mut dyn FnMut(Made) -> Result<()>) -> Result<Option<Stopped>>,
-    ) -> Result<Filled> {
+    fn run_alone(&self, compute: impl FnOnce(&mut Finish) -> Result<Option<Stopped>>) -> Result<Filled> {
         let (mut filled, mut room) = (Filled::default(), Room::default());
         let mut write = |(claim, number, records)| self.store.write(claim, number, records, &mut room);
         let stopped = compute(&mut |made| self.take(&mut filled, made, &mut write))?;
@@ -110,17 +101,6 @@ impl<'a> Finishing<'a> {
         let mut room = Room::default();
         let mut write = |(claim, number, records)| self.store.write(claim, number, records, &mut room);
         tiles.into_iter().try_for_each(&mut write)
-    }
-
-    /// Checks until there is no more.
-    fn take_all(
-        &self,
-        made: Receiver<Made>,
-        finish: &mut dyn FnMut(Finished) -> Result<()>,
-    ) -> Result<Filled> {
-        let mut filled = Filled::default();
-        made.into_iter().try_for_each(|made| self.take(&mut filled, made, finish))?;
-        Ok(filled)
     }
 
     /// Checks what was computed and gives its tiles to `finish`. Where it was stopped, keeps the records that are done.
@@ -150,12 +130,7 @@ impl<'a> Finishing<'a> {
     }
 }
 
-/// What a thread has come to.
-fn joined<T>(thread: ScopedJoinHandle<T>) -> T {
-    thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
-}
-
-/// The error of one whose work nobody takes: the other has ended with an error, which is told in its place.
+/// The error of a tile that nobody writes any more: the writer has ended with an error, which is told in its place.
 fn no_more() -> Error {
     engine::error::Error::Cancelled { done: 0, total: 0 }.into()
 }
