@@ -96,7 +96,10 @@ impl Filling<'_, '_> {
             let mut next = VecDeque::new();
             let mut before: Option<Made> = None;
             while !self.is_cancelled() {
-                self.claim_ahead(&mut next, &mut rest, &mut busy)?;
+                if let Err(why) = self.claim_ahead(&mut next, &mut rest, &mut busy) {
+                    before.map_or(Ok(()), &mut *finish)?;
+                    return Err(why);
+                }
                 let Some(group) = next.pop_front() else { break };
                 let ahead = ahead(&group, next.iter());
                 let Group { tiles, range, known, reused } = group;
