@@ -109,14 +109,37 @@ fn friction(p: Piece, sigma: real, v: real, lag: real) -> Friction {
     return Friction(q, select(q - input(INPUT_MU0, instance), less, forward), q);
 }
 
-// The longest step of a curved law, near whose rest friction changes within a layer of speeds.
-fn longest_in_layer(q: Friction, inertia: real, speed: real) -> real {
-    let force = q.q * form(INPUT_W) + (q.less * input(INPUT_N0, instance) - form(INPUT_R));
-    let acceleration = abs(drive - force / inertia);
-    let narrowing = 1.0 / (piece.rate * max(speed, 0.0) + 1.0);
-    let sloped = abs(q.law) * select(narrowing, real(1.0), LAW == LAW_EXPONENTIAL);
-    let inverse = acceleration * narrowing * input(INPUT_LAYER, instance) + sloped * input(INPUT_LAYER + 1u, instance);
-    return 1.0 / max(piece.rate * inverse, real(1e-30));
+// The longest step of a curved law, near whose rest friction changes within a layer of speeds: see Layer in
+// src/engine/method/pace.rs.
+fn longest_in_layer(q: Friction, inertia: real, sigma: real, relative: real) -> real {
+    let normal = form(INPUT_W);
+    let force = (q.q * normal + (q.less * input(INPUT_N0, instance) - form(INPUT_R))) / inertia;
+    let faster = sigma * (drive - force);
+    let acceleration = abs(faster);
+    let load = max(normal - input(INPUT_KAPPA, instance) * force, 0.0) + input(INPUT_N0, instance);
+    let share = abs(q.law) * load / inertia;
+    let widths = piece.rate * max(sigma * relative, 0.0);
+    let away = widths + 1.0;
+    let reach = input(INPUT_LAYER, instance);
+    let along = input(INPUT_LAYER + 1u, instance);
+    var held = real(0.0);
+    var toward = (acceleration * reach + share * along) / away;
+    if LAW == LAW_EXPONENTIAL {
+        let square = widths * widths;
+        let behind = select(0.0, square * square * LEFT_BEHIND, faster > 0.0);
+        let root = sqrt(min(acceleration, share * HIDDEN)) + sqrt(share);
+        held = max(root * root * 0.25 * reach, share * along);
+        toward = acceleration * reach / (away + behind);
+    }
+    toward *= piece.rate;
+    let turning = piece.rate * reach * abs(q.q * changing(INPUT_W) - changing(INPUT_R)) / (inertia * away);
+    let double = toward + sqrt(toward * toward + (turning + turning));
+    return 1.0 / max(max(piece.rate * held, double * 0.5), real(1e-30));
+}
+
+// How fast a force of springs changes.
+fn changing(word: u32) -> real {
+    return input(word, instance) * vx + input(word + 2u, instance) * vw;
 }
 
 fn form(word: u32) -> real {

@@ -109,7 +109,7 @@ fn main(
         let asked = select(pace, left, last);
         var h = asked;
         if LAW != LAW_PIECES && slips {
-            h = min(h, longest_in_layer(q, inertia, sigma * relative));
+            h = min(h, longest_in_layer(q, inertia, sigma, relative));
         }
         x0 = px;
         w0 = pw;

@@ -28,7 +28,7 @@ pub fn choose(options: &Options, spec: &dyn Instances) -> Result<Box<dyn Engine>
         Backend::Gpu => open::asked(options, spec)?,
         Backend::Auto => auto(options, spec)?,
         _ => {
-            let (engine, on) = cpu(options)?;
+            let (engine, on) = cpu(options, spec)?;
             (engine, on, "as asked for".to_owned())
         }
     };
@@ -38,7 +38,13 @@ pub fn choose(options: &Options, spec: &dyn Instances) -> Result<Box<dyn Engine>
     Ok(engine)
 }
 
-fn cpu(options: &Options) -> Result<(Box<dyn Engine>, String)> {
+/// Where the CPU engine computes: eigenvalues are in f64 whatever the precision of the response.
+fn on_cpu(precision: Precision, spec: &dyn Instances) -> String {
+    let precision = if spec.response() { precision } else { Precision::F64 };
+    format!("on the CPU in {precision}")
+}
+
+fn cpu(options: &Options, spec: &dyn Instances) -> Result<(Box<dyn Engine>, String)> {
     if options.strict {
         return Err(Error::CpuStrict);
     }
@@ -50,7 +56,7 @@ fn cpu(options: &Options) -> Result<(Box<dyn Engine>, String)> {
     }
     let Some(method) = options.backend.method() else {
         let precision = options.precision.unwrap_or(Precision::F64);
-        return Ok((Box::new(Cpu(precision)), format!("on the CPU in {precision}")));
+        return Ok((Box::new(Cpu(precision)), on_cpu(precision, spec)));
     };
     if options.precision == Some(Precision::F32) {
         return Err(Error::ReferencePrecision);
@@ -64,11 +70,10 @@ fn cpu(options: &Options) -> Result<(Box<dyn Engine>, String)> {
 
 fn auto(options: &Options, spec: &dyn Instances) -> Result<(Box<dyn Engine>, String, String)> {
     let precision = options.precision.unwrap_or(Precision::F64);
-    let on_cpu =
-        |why| Ok::<_, Error>((Box::new(Cpu(precision)) as _, format!("on the CPU in {precision}"), why));
+    let cpu = |why| Ok::<_, Error>((Box::new(Cpu(precision)) as _, on_cpu(precision, spec), why));
     // The host takes as long to send an instance as to compute its eigenvalues.
     if !spec.response() && only_on_gpu(options).is_empty() {
-        return on_cpu("a GPU gains nothing where eigenvalues alone are asked for".to_owned());
+        return cpu("a GPU gains nothing where eigenvalues alone are asked for".to_owned());
     }
     let hardware =
         if spec.modal() { Err(NoGpu::Failed(Error::ModalOnGpu)) } else { open::hardware(options, spec) };
@@ -79,5 +84,5 @@ fn auto(options: &Options, spec: &dyn Instances) -> Result<(Box<dyn Engine>, Str
         Err(no_gpu) => no_gpu,
     };
     no_gpu.allows_cpu(options)?;
-    on_cpu(no_gpu.note())
+    cpu(no_gpu.note())
 }

@@ -97,6 +97,16 @@ impl Piece {
         }
     }
 
+    /// The part of μ that fades with the speed: 0 of a straight piece.
+    #[must_use]
+    pub fn fading(self, speed: f64) -> f64 {
+        match self {
+            Piece::Linear { .. } => 0.0,
+            Piece::Exponential { height, rate, .. } => height * (-rate * speed).exp(),
+            Piece::Rational { .. } => self.mu(speed),
+        }
+    }
+
     /// `μ(speed + change) − μ(speed)`, to the last digits of however small a change.
     #[must_use]
     pub fn change(self, speed: f64, change: f64) -> f64 {

@@ -91,7 +91,7 @@ pub fn constants<T: Real>(model: &Scaled, turns: &Turns) -> [T; CONSTANTS] {
     put(RESTITUTION, &[model.restitution]);
     put(IMPACT_FRICTION, &[f64::from(u8::from(model.impact_friction))]);
     put(SWING, &swing(rows.tangential.positions[0], rows.tangential.velocities[0]));
-    put(LAYER, &turns.layer().inverses(model));
+    put(LAYER, &turns.layer().inverses(model.law.form()));
     all
 }
 

@@ -3,7 +3,7 @@
 use crate::engine::kernel::scalar::Real;
 use crate::engine::lanes::ORDER;
 use crate::engine::lanes::constants::constants;
-use crate::engine::lanes::job::{Job, belt_at};
+use crate::engine::lanes::job::{Job, belt_at, is_left_to_f64};
 use crate::engine::lanes::words::Words;
 use crate::engine::method::pace::Turns;
 use crate::model::status::Status;
@@ -41,6 +41,9 @@ impl<T: Real> Job<T> {
         let turns = &Turns::new(ORDER, tolerance);
         self.words = Words::new(self.words.law, &self.scene, turns);
         self.constants = constants(&self.scene.model, turns);
+        if is_left_to_f64(&self.words, &self.scene.model, turns) {
+            self.state.status = Status::StepTooLarge;
+        }
         true
     }
 

@@ -20,6 +20,7 @@ use crate::engine::scene::Scene;
 use crate::engine::sums::sum;
 use crate::model::instance::Instance;
 use crate::model::piece::LawForm;
+use crate::model::scaled::Scaled;
 use crate::model::status::Status;
 
 /// Steps of a stretch of the window: short sums keep their digits, and a lane is looked at between stretches.
@@ -117,6 +118,15 @@ pub struct Job<T> {
     opened: [f64; 2],
 }
 
+/// Whether steps where friction rises near rest are so short that nothing moves. f64 goes on: there is nothing finer that would
+/// compute it again.
+pub(super) fn is_left_to_f64<T: Real>(words: &Words<T>, model: &Scaled, turns: &Turns) -> bool {
+    let epsilon = T::EPSILON.to_f64();
+    let rises =
+        || words.stands_still_on_a_rise() || stands_still(turns.longest_step_of_a_rise(model), epsilon);
+    epsilon > f64::EPSILON && rises()
+}
+
 impl<T: Real> Job<T> {
     /// The start of an instance, whose steps may turn so far.
     #[must_use]
@@ -124,11 +134,7 @@ impl<T: Real> Job<T> {
         let words: Words<T> = Words::new(instance.law.kind().form(), &scene, turns);
         let measuring = Measuring::new(instance, &scene, plan);
         let mut state = State::new(&words, belt_at(scene.belt(0.0)));
-        // f64 goes on: there is nothing finer that would compute it again.
-        let epsilon = T::EPSILON.to_f64();
-        let stands_still = words.stands_still_on_a_rise()
-            || stands_still(turns.longest_step_of_a_rise(&scene.model), epsilon);
-        if epsilon > f64::EPSILON && stands_still {
+        if is_left_to_f64(&words, &scene.model, turns) {
             state.status = Status::StepTooLarge;
         }
         Job {

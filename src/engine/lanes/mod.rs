@@ -10,7 +10,7 @@
 //! | one instance between passes, and as scalars | [`job`], [`words`] |
 //! | one part of the run: which lanes, step by step | [`march`], [`pass`](mod@pass), [`block`], [`count`] |
 //! | numbers in lanes | [`vector`], [`polynomial`], [`angle`], [`constants`] |
-//! | a step: its series, its length | [`expand`], [`reach`] |
+//! | a step: its series, its length | [`expand`], [`friction`], [`layer`](mod@layer), [`reach`] |
 //! | its first event, and what that does | [`functions`], [`function`], [`root`], [`events`], [`carry`], [`transitions`], [`impacts`]; lane by lane: [`contact`] |
 //! | what is seen on the way | [`nodes`], [`observe`], [`crossings`], [`spectrum`], [`stretches`] |
 //! | the single mass in closed form | [`swing`], [`swing_step`], [`swing_sums`], [`swing_cycle`], [`cycle`] |
@@ -41,12 +41,14 @@ pub mod events;
 pub mod expand;
 pub mod flight;
 pub mod forms;
+pub mod friction;
 pub mod function;
 pub mod functions;
 pub mod heat;
 pub mod hunts;
 pub mod impacts;
 pub mod job;
+pub mod layer;
 pub mod march;
 pub mod motion;
 pub mod nodes;

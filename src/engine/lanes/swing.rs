@@ -9,7 +9,7 @@ use pulp::Simd;
 use crate::engine::lanes::angle::{about_arccos, angle_of, far_rotation, folded};
 use crate::engine::lanes::block::{AT_ZERO, Block, OFFSET, SECOND, THIRD};
 use crate::engine::lanes::constants::{CONE, MU0, N0, R, SWING};
-use crate::engine::lanes::expand::exp_m1;
+use crate::engine::lanes::friction::exp_m1;
 use crate::engine::lanes::root::SOLVER_ITERATIONS;
 use crate::engine::lanes::scalar::Scalar;
 use crate::engine::lanes::vector::{Mask, Vector};

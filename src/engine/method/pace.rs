@@ -1,7 +1,7 @@
 //! The longest step that a Taylor series of some order may take of a mode, whether the motion shows it or not.
 
 use crate::model::fastest::Fastest;
-use crate::model::piece::{LawForm, Piece};
+use crate::model::piece::{LawForm, Piece, PieceChain};
 use crate::model::scaled::Scaled;
 
 /// Beyond this many radians of an undamped mode a step of even order makes it grow: the first excess over 1 of the
@@ -55,33 +55,60 @@ pub struct Turns {
 
 /// How far a step of slip may go on a curved law, near whose rest friction may change within a layer of speeds so thin that
 /// no bound on positions sees it.
+///
+/// As a function of complex time the motion has a pole near by, where the argument of the law runs to its own end: the series
+/// of the forces holds only up to there, and those of the positions, which hardly move in a layer, do not show it. With
+/// `v' = a + E u`, where `u` is the law's share that fades with speed, scaled to 1 now, `A = a + E` is the acceleration now. Of
+/// an exponential of rate `r` the pole lies at the time `ln(A/E) / (r (A − E))`, and of a rational law no nearer than
+/// `(1 + r v) / (r (|A| + 2 |E|))`. Where the acceleration is about to change, at the rate `J`,
+/// `|A| t + |J| t²/2` stands in place of `|A| t`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Layer {
-    /// Towards the pole of a rational law, a part of the way there: the terms of the highest degree are the tolerance.
+    /// A part of the way to the pole.
     pole: f64,
-    /// The largest exponent of a step: by which an exponential decays on the way, or by which the slope of any law lets the
-    /// motion grow or decay.
+    /// The largest exponent by which the slope of the law lets the motion grow or decay within a step.
     turn: f64,
 }
 
+/// Where the acceleration `A` is more than this many shares `E`, what an exponential's pole does to the forces is within the
+/// truncation.
+pub const HIDDEN: f64 = 400.0;
+
+/// An exponential is left behind by a motion that goes away from it: from some 40 of its widths on what remains of it is too little
+/// to show, wherever the pole is. With this factor of the fourth power of the widths a step may be longer.
+pub const LEFT_BEHIND: f64 = 1.0 / (40.0 * 40.0 * 40.0);
+
 impl Layer {
-    /// The inverse of the longest step: `relative` is the rate of change of the relative velocity, `sloped` the slope of the
-    /// law in units of its rate, both as magnitudes.
+    /// The inverse of the longest step at the relative speed `speed`; its first and second rate of change are `relative`, and
+    /// `share` is the magnitude of what friction by the part of the law that fades with speed has in the first.
     #[must_use]
-    pub fn pace(&self, model: &Scaled, [relative, sloped]: [f64; 2], speed: f64) -> f64 {
-        let [across, along] = self.inverses(model);
-        let rate = model.law.rate();
-        rate * (relative / (1.0 + rate * speed) * across + sloped * along)
+    pub fn pace(&self, law: &PieceChain, relative: [f64; 2], share: f64, speed: f64) -> f64 {
+        let [toward, along] = self.inverses(law.form());
+        let (rate, reach, leaves) = (law.rate(), toward, relative[0] > 0.0);
+        let [relative, turning] = relative.map(f64::abs);
+        let widths = rate * speed;
+        let away = 1.0 + widths;
+        let (along, toward) = match law.form() {
+            LawForm::Exponential => {
+                // By `ln y ≥ 4 (√y − 1)/(√y + 1)`.
+                let root = relative.min(share * HIDDEN).sqrt() + share.sqrt();
+                let behind = if leaves { widths.powi(4) * LEFT_BEHIND } else { 0.0 };
+                ((0.25 * root * root * toward).max(share * along), relative * toward / (away + behind))
+            }
+            LawForm::Pieces | LawForm::Rational => (0.0, (relative * toward + share * along) / away),
+        };
+        // In the time `t` the motion may come as far as `A t + J t²/2`.
+        let (toward, turning) = (rate * toward, rate * turning * reach / away);
+        (rate * along).max(0.5 * (toward + (toward * toward + 2.0 * turning).sqrt()))
     }
 
     /// The factors of both in [`Layer::pace`].
     #[must_use]
-    pub fn inverses(&self, model: &Scaled) -> [f64; 2] {
-        let across = match model.law.form() {
-            LawForm::Rational => self.pole,
-            LawForm::Pieces | LawForm::Exponential => self.turn,
-        };
-        [1.0 / across, HARDER * model.n0 / self.turn]
+    pub fn inverses(&self, form: LawForm) -> [f64; 2] {
+        match form {
+            LawForm::Exponential => [1.0 / self.pole, HARDER / self.turn],
+            LawForm::Pieces | LawForm::Rational => [1.0 / self.pole, 2.0 / self.pole],
+        }
     }
 }
 
@@ -101,7 +128,7 @@ impl Turns {
             contact: turn(order, tolerance.min(kept)),
             slow: turn(order, tolerance.min(kept.max(tolerance * part))),
             flight: turn(order, tolerance),
-            layer: Layer { pole: tolerance.powf(1.0 / order as f64), turn: turn(order, tolerance) },
+            layer: Layer { pole: tolerance.powf(0.75 / order as f64), turn: turn(order, tolerance) },
         }
     }
 
@@ -131,8 +158,8 @@ impl Turns {
     #[must_use]
     pub fn longest_step_of_a_rise(&self, model: &Scaled) -> f64 {
         let Piece::Exponential { height, rate, .. } = model.law.pieces[0] else { return f64::INFINITY };
-        let [_, along] = self.layer.inverses(model);
-        1.0 / (rate * (-height).max(0.0) * along)
+        let [_, along] = self.layer.inverses(model.law.form());
+        1.0 / (rate * (-height).max(0.0) * model.n0 * along)
     }
 
     /// The longest step of slip, reversed slip, stick and flight.

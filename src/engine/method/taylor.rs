@@ -271,10 +271,17 @@ impl Expansion {
         std::array::from_fn(|k| self.contact_series[k][component])
     }
 
-    /// The relative velocity and acceleration at the start.
+    /// The relative velocity at the start, its first and its second rate of change.
     #[must_use]
-    pub fn relative_motion(&self) -> [f64; 2] {
-        [self.contact_series[0][RELATIVE], self.contact_series[1][RELATIVE]]
+    pub fn relative_motion(&self) -> [f64; 3] {
+        let degree = |k: usize| self.contact_series[k][RELATIVE];
+        [degree(0), degree(1), 2.0 * degree(2)]
+    }
+
+    /// The normal force at the start.
+    #[must_use]
+    pub fn normal_force(&self) -> f64 {
+        self.contact_series[0][NORMAL]
     }
 
     /// The largest step, `nominal` halved as often as needed (at most `halvings` times), whose two last

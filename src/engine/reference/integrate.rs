@@ -219,11 +219,16 @@ impl<'a> Integrator<'a> {
             let falls = law.slope(0.0) < 0.0;
             return if falls { self.turns.longest_step_on(&self.model, piece) } else { f64::INFINITY };
         }
-        let [v, acceleration] = expansion.relative_motion();
+        if self.is_turned_back(expansion) {
+            // What drives it through the layer is still to come.
+            return f64::INFINITY;
+        }
+        let [v, acceleration, turning] = expansion.relative_motion();
         let speed = (sigma * v).max(0.0);
-        // A law without a layer has no slope either.
-        let sloped = (law.slope(speed) / self.model.law.rate().max(f64::MIN_POSITIVE)).abs();
-        1.0 / self.turns.layer().pace(&self.model, [acceleration.abs(), sloped], speed)
+        let load = expansion.normal_force().max(self.model.n0);
+        let share = law.fading(speed).abs() * load / (1.0 + sigma * self.model.kappa * law.mu(speed));
+        let relative = [sigma * acceleration, turning];
+        1.0 / self.turns.layer().pace(&self.model.law, relative, share, speed)
     }
 
     /// `M11` at the start of a step in slip and its rate of change; 1 and 0 in the other contact states.
@@ -231,7 +236,7 @@ impl<'a> Integrator<'a> {
         match self.contact {
             Contact::Slip { sigma, piece } => {
                 let law = self.model.law.pieces[piece];
-                let [v, acceleration] = expansion.relative_motion();
+                let [v, acceleration, _] = expansion.relative_motion();
                 let q = sigma * law.mu(sigma * v);
                 (self.model.slip_inertia(q), self.model.kappa * law.slope(sigma * v) * acceleration)
             }
@@ -273,9 +278,8 @@ impl<'a> Integrator<'a> {
                     (law.kinks[piece - 1], Watched::LowerKink, Disarmed::LowerKink)
                 };
                 speed[0] = at_start - lower;
-                let again = self.disarmed == Disarmed::Rest && self.events_at_once >= RELEASED_AGAIN;
-                if again && speed[1].abs() <= self.rounding(expansion) {
-                    // Released on the edge of the cone and turned back by a rounding: which way it goes is told by what follows.
+                if self.is_turned_back(expansion) {
+                    // Which way it goes is told by what follows.
                     speed[1] = 0.0;
                 }
                 if !visit(watched, &speed[..order], self.disarmed == disarmed) {
@@ -307,6 +311,13 @@ impl<'a> Integrator<'a> {
         }
     }
 
+    /// Whether it was released on the edge of the cone and turned back by a rounding.
+    fn is_turned_back(&self, expansion: &Expansion) -> bool {
+        let [_, acceleration, _] = expansion.relative_motion();
+        let again = self.disarmed == Disarmed::Rest && self.events_at_once >= RELEASED_AGAIN;
+        again && acceleration.abs() <= self.rounding(expansion)
+    }
+
     /// The rounding error of the acceleration at rest, from the forces on the edge of the cone.
     fn rounding(&self, expansion: &Expansion) -> f64 {
         let (tangential, normal) = expansion.forces(0.0);
@@ -330,7 +341,9 @@ impl<'a> Integrator<'a> {
             return Err(Status::StepTooLarge);
         }
         if event {
-            self.events_at_once = if taken > 0.0 { 0 } else { self.events_at_once + 1 };
+            // A stick that ends within a rounding of the time has not lasted.
+            let lasts = taken > ROUNDINGS * f64::EPSILON * self.time;
+            self.events_at_once = if lasts { 0 } else { self.events_at_once + 1 };
             self.events_in_period += 1;
         }
         if self.events_at_once > MAX_EVENTS_AT_ONCE || self.events_in_period > MAX_EVENTS_PER_PERIOD {

@@ -54,6 +54,11 @@ fn nothing_answers(driver: &Path) {
     let why = "a GPU gains nothing where eigenvalues alone are asked for";
     assert!(err.starts_with(&format!("computing on the CPU in f64: {why}\n")), "{err}");
 
+    // Eigenvalues are in f64 whatever was asked for.
+    let (code, _, err) = with_driver(driver, &["run", "modes.toml", "--precision", "f32"]);
+    assert_eq!(code, Some(0), "{err}");
+    assert!(err.starts_with(&format!("computing on the CPU in f64: {why}\n")), "{err}");
+
     let (code, _, err) = with_driver(driver, &["run", "modes.toml", "--backend", "gpu"]);
     assert_eq!(code, Some(2), "{err}");
     assert!(err.starts_with("error: no GPU was found: "), "{err}");

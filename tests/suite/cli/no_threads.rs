@@ -6,6 +6,8 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
+use tempfile::TempDir;
+
 use crate::cli::program::with_sweep;
 
 /// A user whom limits bind, unlike root; nobody on most systems.
@@ -84,6 +86,60 @@ fn a_command_without_threads_computes_on_its_own() {
     );
     assert_eq!(ended.code, Some(0), "{}", ended.err);
     assert_eq!(csv("out/small"), csv("many"));
+}
+
+/// A sweep of many tiles, some of whose instances are computed again.
+fn with_many_tiles() -> TempDir {
+    let directory = with_sweep("");
+    let few = std::fs::read_to_string(directory.path().join("small.toml")).unwrap();
+    let many = few.replace("points = 3", "points = 3000").replace("\"2 periods\"", "\"5 periods\"");
+    std::fs::write(directory.path().join("many.toml"), many).unwrap();
+    directory
+}
+
+/// Tiles are checked and written beside the computation of the next ones: by the threads of the command and one that writes.
+#[test]
+fn many_tiles_take_no_more_threads_than_were_asked_for() {
+    let directory = with_many_tiles();
+    for (threads, most) in [(1, 3), (2, 4)] {
+        let mut run = Command::new(env!("CARGO_BIN_EXE_squealmap"))
+            .args([
+                "run",
+                "many.toml",
+                "--backend",
+                "cpu",
+                "--tile",
+                "100",
+                "--threads",
+                &threads.to_string(),
+            ])
+            .args(["-o", &format!("by{threads}")])
+            .current_dir(directory.path())
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        let tasks = format!("/proc/{}/task", run.id());
+        let mut seen = 0;
+        while run.try_wait().unwrap().is_none() {
+            seen = seen.max(std::fs::read_dir(&tasks).map_or(0, Iterator::count));
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        assert!(run.wait().unwrap().success());
+        assert_eq!(seen, most, "with {threads} threads");
+    }
+}
+
+/// A user who may start only some threads more.
+#[test]
+fn many_tiles_need_no_thread_that_cannot_be_had() {
+    let directory = with_many_tiles();
+    for most in 3..7 {
+        let output = format!("most{most}");
+        let arguments = ["run", "many.toml", "--backend", "cpu", "--tile", "100", "-o", &output];
+        let (code, told) = limited(directory.path(), &format!("ulimit -u {most}"), &arguments);
+        assert!(code == Some(0) && !told.contains("panicked"), "{most}: {code:?} {told}");
+    }
 }
 
 #[test]

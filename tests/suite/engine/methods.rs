@@ -204,7 +204,7 @@ fn dense_output_loses_one_order_with_each_derivative() {
         assert!(contact == Contact::Free || found > 2.7, "{case}: normal force of order {found}");
         // The relative velocity is that of the motion.
         let step = rk4::expand(&scene.model, &state, contact, belt, 0.3);
-        let [v, a] = step.relative_motion();
+        let [v, a, _] = step.relative_motion();
         let motion = step.motion(0.0);
         near("v", v, belt.velocity - motion.state.velocity[0], 1e-14);
         near("dv/dt", a, -motion.acceleration[0], 1e-13);

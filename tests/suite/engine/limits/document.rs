@@ -44,12 +44,9 @@ What holds for all of them:
   256 steps, and a stretch that is longer than a period may have the steps of all its periods in one of them, at most 2^23.
 - **So is a friction table.** On a short piece that rises steeply, sliding is held by a rate of the slope times the normal force, which all engines resolve; where 500 000 steps per period are not enough it is `step_too_large`.
 - **Thin layers take steps of their own.** Near rest an exponential or a rational law changes within `v_0` or `1/δ`, which no bound on
-  positions sees. A step goes no further than its series holds there, on every engine, and layers of 1e-8 of the velocities
-  are those of the reference in f64. In f32 they end early below some 1e-6 of them, and are computed again in f64; laws of straight
+  positions sees. A step goes no further than three tenths (reference) to six tenths (f32) of the way to the pole that the motion has there in
+  complex time, beyond which the series of its forces says nothing, on every engine; layers of 1e-8 of the velocities are those of the reference in f64. In f32 they end early below some 1e-6 of them, and are computed again in f64; laws of straight
   pieces, and exponential ones, that rise within some 1e-4 of them are left to f64 from the start. Where in addition `M11` all but vanishes on the way, the engines may differ.
-- **Known fault in f32.** Where friction rises from near 0 at rest along an exponential, within 1e-4 to 1e-2 of the belt velocity, and the
-  contact opens, f32 finds impacts that are none: amplitudes are 10 to 30 % off, and the status is `ok` (θ = 0.1, `mu_s = 0`, `mu_d = 0.6`,
-  `stribeck_velocity = 5e-3` at 2 m/s: 2000 impacts per second in place of 54). Ask for f64, which is right.
 - **Painlevé's is what the law can do.** Where a row is narrower than an arithmetic resolves, friction is evaluated beyond its ends;
   `M11 ≤ 0` of a friction that the law has nowhere is `step_too_large`.
 - **At a limit statuses may differ.** Each engine has its own steps: `event_limit`, `step_too_large` and `ok` part where an instance needs
