@@ -20,8 +20,8 @@ pub(crate) type Number = fn(&Outcome) -> Option<f64>;
 pub(crate) enum Expected {
     /// Numbers, each with what is read from an outcome.
     Numbers(Vec<(Number, f64)>),
-    /// The same as the reference with five times as many steps per period.
-    Reference,
+    /// The same numbers as those of the reference with five times as many steps per period.
+    Reference(Vec<Number>),
     /// This status, from every engine.
     Ends(Status),
 }
@@ -133,12 +133,31 @@ pub(crate) fn stick_slip(name: &str, velocity: f64, force: f64, margin: f64) -> 
 
 /// A scene that every engine has to end as the reference does with shorter steps.
 pub(crate) fn as_reference(name: &str, law: FrictionLaw, values: &[(Param, f64)]) -> Scene {
+    let numbers: [Number; 6] = [
+        |outcome| outcome.x2_std,
+        |outcome| outcome.y1_std,
+        |outcome| outcome.ax_rms,
+        |outcome| outcome.ay_rms,
+        |outcome| outcome.free,
+        |outcome| outcome.n_peak,
+    ];
     Scene {
         name: name.to_owned(),
         instance: instance(law, values),
         plan: periods(30.0, 20.0, 12),
-        expected: Expected::Reference,
+        expected: Expected::Reference(numbers.to_vec()),
     }
+}
+
+/// One in which friction changes near rest, where the accelerations show it.
+pub(crate) fn layer(name: &str, law: FrictionLaw, values: &[(Param, f64)]) -> Scene {
+    let numbers: [Number; 4] = [
+        |outcome| outcome.x2_std,
+        |outcome| outcome.ax_rms,
+        |outcome| outcome.ax_peak,
+        |outcome| outcome.impacts_per_second,
+    ];
+    Scene { expected: Expected::Reference(numbers.to_vec()), ..as_reference(name, law, values) }
 }
 
 /// A scene that every engine has to refuse.

@@ -1,6 +1,6 @@
 //! The scenes: every parameter from one end of its range to the other.
 
-use super::scene::{Group, Scene, as_reference, ends, periods, sliding, sliding_under, stick_slip};
+use super::scene::{Group, Scene, as_reference, ends, layer, periods, sliding, sliding_under, stick_slip};
 use crate::common::{bilinear, constant};
 use squealmap::model::Param;
 use squealmap::model::friction::FrictionLaw;
@@ -21,6 +21,12 @@ pub(crate) fn groups() -> Vec<Group> {
             title: "Stick-slip of the single mass",
             source: "θ = 0, no damping, μ_d = 0.3: share of stick, frequency and acceleration of the closed form.",
             scenes: stick_slips(),
+        },
+        Group {
+            title: "Layers near rest",
+            source: "Friction that falls or rises within a small part of the belt's velocity, 2 m/s, θ = 0.1: deviation, acceleration, its \
+                     peak, and impacts per second. The same as the reference with 60 steps per period; its own column is that against 12.",
+            scenes: layers(),
         },
         Group {
             title: "Flight and impact",
@@ -99,6 +105,28 @@ fn stick_slips() -> Vec<Scene> {
         all.push(stick_slip(&name, velocity, 1000.0, margin));
     }
     all
+}
+
+fn layers() -> Vec<Scene> {
+    let values = [(Param::Theta, 0.1), (Param::BeltVelocity, 2.0), (Param::StartVelocity, 0.01)];
+    let exponential = |mu_s: f64, mu_d: f64, width: f64| {
+        let law = FrictionLaw::Exponential { mu_s, mu_d, stribeck_velocity: 2.0 * width };
+        layer(&format!("exponential, {mu_s} to {mu_d} within {width:e} V"), law, &values)
+    };
+    let rational = |width: f64| {
+        let law = FrictionLaw::Rational { mu_s: 0.5, decay: 0.5 / width };
+        layer(&format!("rational, 0.5 at rest, within {width:e} V"), law, &values)
+    };
+    vec![
+        exponential(0.6, 0.3, 1e-2),
+        exponential(0.6, 0.3, 1e-4),
+        exponential(0.6, 0.3, 1e-6),
+        exponential(0.0, 0.6, 1e-1),
+        exponential(0.0, 0.6, 1e-2),
+        exponential(0.0, 0.6, 1e-3),
+        rational(0.5),
+        rational(5.0),
+    ]
 }
 
 fn impacts() -> Vec<Scene> {
