@@ -128,7 +128,8 @@ fn longest_in_layer(q: Friction, inertia: real, sigma: real, relative: real) -> 
         let square = widths * widths;
         let behind = select(0.0, square * square * LEFT_BEHIND, faster > 0.0);
         let root = sqrt(min(acceleration, share * HIDDEN)) + sqrt(share);
-        held = max(root * root * 0.25 * reach, share * along);
+        let slope = select(share, share * HARDER, q.law > 0.0);
+        held = max(root * root * 0.25 * reach, slope * along);
         toward = acceleration * reach / (away + behind);
     }
     toward *= piece.rate;

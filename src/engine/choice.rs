@@ -38,10 +38,12 @@ pub fn choose(options: &Options, spec: &dyn Instances) -> Result<Box<dyn Engine>
     Ok(engine)
 }
 
-/// Where the CPU engine computes: eigenvalues are in f64 whatever the precision of the response.
+/// Where the CPU engine computes, in words.
 fn on_cpu(precision: Precision, spec: &dyn Instances) -> String {
-    let precision = if spec.response() { precision } else { Precision::F64 };
-    format!("on the CPU in {precision}")
+    match precision {
+        Precision::F32 if !spec.response() => "on the CPU in f64, as eigenvalues always are".to_owned(),
+        _ => format!("on the CPU in {precision}"),
+    }
 }
 
 fn cpu(options: &Options, spec: &dyn Instances) -> Result<(Box<dyn Engine>, String)> {

@@ -11,6 +11,7 @@ use std::f64::consts::TAU;
 use num_complex::Complex64;
 
 use crate::engine::sums::growth::{PRODUCTS, SAMPLED, SAMPLES, TIME, WORDS};
+use crate::model::scaled::Scaled;
 
 /// A growth window shorter than this many periods `2π/ω0` says nothing.
 pub const SHORTEST_GROWTH_WINDOW: f64 = 1.0;
@@ -24,6 +25,24 @@ pub struct GrowthFit {
     pub angular_frequency: f64,
     /// Phase of `ÿ1` against `ẍ2`, rad; `None` when `y1` does not follow.
     pub phase: Option<f64>,
+}
+
+/// A change of the slope of friction over the motion that changes the growth rate by more than this part of it.
+const BENT: f64 = 0.1;
+
+impl GrowthFit {
+    /// Whether a curved law bends too much over a motion of this largest deviation of `x2` for its growth rate to be that of a
+    /// linear one. No event tells where such growth has ended.
+    #[must_use]
+    pub fn is_bent(&self, model: &Scaled, words: &[f64; WORDS], deviation: f64) -> bool {
+        let law = model.law.pieces[0];
+        let speed =
+            2_f64.sqrt() * (deviation * self.angular_frequency).max(covariance(words, 1, 1).max(0.0).sqrt());
+        let ways = [speed, -speed.min(model.v0)].map(|change| law.change(model.v0, change) / change);
+        let bend =
+            ways.into_iter().fold(0.0, |bend, slope| f64::max(bend, (slope - law.slope(model.v0)).abs()));
+        !law.form().is_straight() && 0.5 * bend * model.n0 > BENT * self.growth_rate.abs()
+    }
 }
 
 /// The fit, when the window is long enough and oscillates.

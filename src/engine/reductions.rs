@@ -2,7 +2,7 @@
 
 use num_complex::Complex64;
 
-use crate::engine::growth;
+use crate::engine::growth::{self, GrowthFit};
 use crate::engine::outcome::Outcome;
 use crate::engine::plan::Plan;
 use crate::engine::scene::Scene;
@@ -33,8 +33,6 @@ pub struct Reductions {
     pub phase: [[f64; 2]; 2],
     /// Sums before the first event, see [`words`].
     pub growth: [f64; words::WORDS],
-    /// Whether there was an event in the whole run.
-    pub met_event: bool,
 }
 
 /// How a run ended.
@@ -46,6 +44,8 @@ pub struct End {
     pub steps: u64,
     /// The time it reached.
     pub time: f64,
+    /// Whether there was an event in the whole run.
+    pub met_event: bool,
 }
 
 impl Reductions {
@@ -117,8 +117,11 @@ impl Reductions {
             outcome.phase_cycle =
                 (ratio.is_finite() && ratio != Complex64::ZERO).then(|| ratio.arg().to_degrees());
         }
-        outcome.met_event = self.met_event;
-        if let Some(fit) = growth::fit(&self.growth) {
+        outcome.met_event = end.met_event;
+        let deviation = halves.map(|s| std(&s, sum::X, sum::XX)).into_iter().fold(0.0, f64::max);
+        let is_linear =
+            |fit: &GrowthFit| end.met_event || !fit.is_bent(&scene.model, &self.growth, deviation);
+        if let Some(fit) = growth::fit(&self.growth).filter(is_linear) {
             outcome.growth_rate_measured = Some(fit.growth_rate / units.time);
             outcome.frequency_measured = Some(fit.angular_frequency / std::f64::consts::TAU / units.time);
             outcome.phase_measured = fit.phase.map(f64::to_degrees);

@@ -422,8 +422,8 @@ impl<T: Real> Job<T> {
         // The second pass goes over the window again and ends before its end.
         let (status, time) =
             if status == Status::Unwritten { (Status::Ok, end) } else { (status, self.time) };
-        let outcome = self.seen.outcome(&self.scene, plan, &End { status, steps: self.steps, time });
-        self.measuring.told(Outcome { met_event: !self.growing, ..outcome }, &self.scene)
+        let end = End { status, steps: self.steps, time, met_event: !self.growing };
+        self.measuring.told(self.seen.outcome(&self.scene, plan, &end), &self.scene)
     }
 }
 

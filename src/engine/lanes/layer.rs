@@ -9,7 +9,7 @@ use crate::engine::lanes::friction::AtStart;
 use crate::engine::lanes::motion::SINGLE;
 use crate::engine::lanes::scalar::Scalar;
 use crate::engine::lanes::vector::Vector;
-use crate::engine::method::pace::{HIDDEN, LEFT_BEHIND};
+use crate::engine::method::pace::{HARDER, HIDDEN, LEFT_BEHIND};
 use crate::model::piece::LawForm;
 
 /// The inverse of the longest step, of the friction `start`, the inertia `M11`, the direction of slip and the relative velocity.
@@ -46,7 +46,8 @@ pub(super) fn layer<S: Simd, T: Scalar<S>, const MOTION: u8>(
             let square = widths * widths;
             let behind = (square * square * one.like(LEFT_BEHIND)).only(zero.less(faster));
             let root = acceleration.min(share * one.like(HIDDEN)).sqrt() + share.sqrt();
-            let held = (root * root * one.like(0.25) * reach).max(share * along);
+            let slope = zero.less(start.law).select(share * one.like(HARDER), share);
+            let held = (root * root * one.like(0.25) * reach).max(slope * along);
             (held, acceleration * reach / (away + behind))
         }
         LawForm::Pieces | LawForm::Rational => (zero, acceleration.fma(reach, share * along) / away),

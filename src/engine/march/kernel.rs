@@ -16,7 +16,7 @@ use crate::engine::lanes::spectrum::{CLOSING, COMPONENTS};
 use crate::engine::lanes::words::EVENTS_AT_ONCE;
 use crate::engine::march::series;
 use crate::engine::march::table::{SETTINGS, flag, head, history, piece, state};
-use crate::engine::method::pace::{HIDDEN, LEFT_BEHIND};
+use crate::engine::method::pace::{HARDER, HIDDEN, LEFT_BEHIND};
 use crate::engine::reference::bounds::{MAX_EVENTS_PER_PERIOD, MAX_STEPS_PER_PERIOD, ROUNDINGS};
 use crate::engine::sums::{growth, sum};
 use crate::model::contact::SLOWEST_REBOUND;
@@ -95,6 +95,7 @@ fn kernel(pieces: usize) -> Kernel {
             ("FAR", Constant::Real(FAR)),
             ("SHORTEST", Constant::Real(SHORTEST)),
             ("ENOUGH", Constant::Real(ENOUGH)),
+            ("HARDER", Constant::Real(HARDER)),
             ("HIDDEN", Constant::Real(HIDDEN)),
             ("LEFT_BEHIND", Constant::Real(LEFT_BEHIND)),
             ("LAW_PIECES", Constant::U32(LawForm::Pieces as u32)),

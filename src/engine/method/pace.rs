@@ -35,7 +35,8 @@ const SLOW: f64 = 2.0;
 /// does at 400 times.
 const RAISED: f64 = 2000.0;
 
-/// The normal force and the inertia of slip change on the way; the rate of a piece may rise with them by this factor.
+/// The normal force and the inertia of slip change on the way; the rate of a piece may rise with them by this factor. So much
+/// more counts the slope of an exponential that drives the motion away.
 pub const HARDER: f64 = 2.0;
 
 /// Of a piece that drives the motion away only this part of its rate counts. The motion itself shows that it is driven, and
@@ -80,7 +81,7 @@ pub const LEFT_BEHIND: f64 = 1.0 / (40.0 * 40.0 * 40.0);
 
 impl Layer {
     /// The inverse of the longest step at the relative speed `speed`; its first and second rate of change are `relative`, and
-    /// `share` is the magnitude of what friction by the part of the law that fades with speed has in the first.
+    /// `share` is what friction by the part of the law that fades with speed has in the first, positive where friction falls.
     #[must_use]
     pub fn pace(&self, law: &PieceChain, relative: [f64; 2], share: f64, speed: f64) -> f64 {
         let [toward, along] = self.inverses(law.form());
@@ -91,11 +92,12 @@ impl Layer {
         let (along, toward) = match law.form() {
             LawForm::Exponential => {
                 // By `ln y ≥ 4 (√y − 1)/(√y + 1)`.
-                let root = relative.min(share * HIDDEN).sqrt() + share.sqrt();
+                let root = relative.min(share.abs() * HIDDEN).sqrt() + share.abs().sqrt();
                 let behind = if leaves { widths.powi(4) * LEFT_BEHIND } else { 0.0 };
-                ((0.25 * root * root * toward).max(share * along), relative * toward / (away + behind))
+                let slope = if share > 0.0 { HARDER * share } else { -share };
+                ((0.25 * root * root * toward).max(slope * along), relative * toward / (away + behind))
             }
-            LawForm::Pieces | LawForm::Rational => (0.0, (relative * toward + share * along) / away),
+            LawForm::Pieces | LawForm::Rational => (0.0, (relative * toward + share.abs() * along) / away),
         };
         // In the time `t` the motion may come as far as `A t + J t²/2`.
         let (toward, turning) = (rate * toward, rate * turning * reach / away);
@@ -106,7 +108,7 @@ impl Layer {
     #[must_use]
     pub fn inverses(&self, form: LawForm) -> [f64; 2] {
         match form {
-            LawForm::Exponential => [1.0 / self.pole, HARDER / self.turn],
+            LawForm::Exponential => [1.0 / self.pole, 1.0 / self.turn],
             LawForm::Pieces | LawForm::Rational => [1.0 / self.pole, 2.0 / self.pole],
         }
     }
@@ -158,8 +160,7 @@ impl Turns {
     #[must_use]
     pub fn longest_step_of_a_rise(&self, model: &Scaled) -> f64 {
         let Piece::Exponential { height, rate, .. } = model.law.pieces[0] else { return f64::INFINITY };
-        let [_, along] = self.layer.inverses(model.law.form());
-        1.0 / (rate * (-height).max(0.0) * model.n0 * along)
+        self.layer.turn / (HARDER * rate * (-height).max(0.0) * model.n0)
     }
 
     /// The longest step of slip, reversed slip, stick and flight.

@@ -226,7 +226,7 @@ impl<'a> Integrator<'a> {
         let [v, acceleration, turning] = expansion.relative_motion();
         let speed = (sigma * v).max(0.0);
         let load = expansion.normal_force().max(self.model.n0);
-        let share = law.fading(speed).abs() * load / (1.0 + sigma * self.model.kappa * law.mu(speed));
+        let share = law.fading(speed) * load / (1.0 + sigma * self.model.kappa * law.mu(speed));
         let relative = [sigma * acceleration, turning];
         1.0 / self.turns.layer().pace(&self.model.law, relative, share, speed)
     }

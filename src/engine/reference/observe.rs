@@ -151,7 +151,6 @@ impl Window {
             last: self.last_crossing,
             phase: [[0.0; 2]; 2],
             growth: growth.words(),
-            met_event: growth.met_event(),
         }
     }
 

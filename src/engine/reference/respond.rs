@@ -125,7 +125,12 @@ fn measure(
             let mut all = (&mut window, &mut (&mut growth, &mut gains));
             scene.advance(integrator, half, &mut all)?;
         }
-        let end = End { status: Status::Ok, steps: integrator.steps(), time: integrator.time() };
+        let end = End {
+            status: Status::Ok,
+            steps: integrator.steps(),
+            time: integrator.time(),
+            met_event: growth.met_event(),
+        };
         let mut seen = window.reductions(&growth);
         let outcome = seen.outcome(scene, plan, &end);
         if outcome.status != Status::Ok {

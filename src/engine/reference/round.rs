@@ -45,6 +45,7 @@ pub(super) fn round(
         status: Status::Ok,
         steps: steps + spent.0 + 2 * (round.steps() - steps),
         time: round.time() + cycle.period + spent.1,
+        met_event: growth.met_event(),
     };
     let outcome = seen.outcome(scene, plan, &end);
     if outcome.status != Status::Ok {

@@ -152,7 +152,7 @@ table! {
     Response "n_peak" "N" Number(field!(outcome n_peak)), ["Largest normal force {N}", "Largest {N}"], "largest normal force".window();
     Response "response_frequency" "Hz" Number(field!(outcome response_frequency)), ["Response frequency", "{f}, response"], "upward zero crossings of x2' over the time from the first to the last".window();
     Response "phase_cycle" "deg" Number(field!(outcome phase_cycle)), ["Phase of {ÿ_1} against {ẍ_2} in the response", "{φ}, response"], "phase of y1'' against x2'' at the response frequency".window();
-    Response "growth_rate_measured" "1/s" Number(field!(outcome growth_rate_measured)), ["Growth rate before the first event", "{σ}, measured"], "growth rate before the first contact event".read_by(Reading::Sign);
+    Response "growth_rate_measured" "1/s" Number(field!(outcome growth_rate_measured)), ["Growth rate before the first event", "{σ}, measured"], "growth rate before the first contact event; none where a curved law limits the motion without one".read_by(Reading::Sign);
     Response "frequency_measured" "Hz" Number(field!(outcome frequency_measured)), ["Frequency before the first event", "{f}, measured"], "frequency before the first contact event";
     Response "phase_measured" "deg" Number(field!(outcome phase_measured)), ["Phase of {ÿ_1} against {ẍ_2} before the first event", "{φ}, measured"], "phase of y1'' against x2'' before the first contact event";
     Response "stick" "" Number(field!(outcome stick)), ["Fraction of time in stick", "Stick"], "fraction of the window in stick".window();

@@ -333,6 +333,34 @@ fn a_thin_rise_is_left_to_f64() {
     }
 }
 
+/// A layer in which friction rises keeps the motion from coming to rest: it is limited without any event, and its sums say nothing of
+/// how it grew. As long as it is small they say what the eigenvalues say, 11.318 1/s.
+#[test]
+fn growth_that_a_law_ends_without_an_event_is_not_stated() {
+    let grown = |start: f64| {
+        instance(
+            FrictionLaw::Exponential { mu_s: 0.48942, mu_d: 0.76689, stribeck_velocity: 6.3758e-5 },
+            &[
+                (Param::Theta, 0.068153),
+                (Param::BeltVelocity, 0.063876),
+                (Param::C1, 13.038),
+                (Param::C2, 15.2334),
+                (Param::K2, 120_594.0),
+                (Param::M1, 4.55522),
+                (Param::M2, 0.449343),
+                (Param::StartVelocity, start),
+            ],
+        )
+    };
+    for engine in [Engine::Reference, Engine::CpuF64] {
+        let limited = run(engine, &grown(-9.4e-4), &periods(20.0, 30.0, 12));
+        assert!(limited.status == Status::Ok && !limited.met_event, "{limited:?}");
+        assert_eq!(limited.growth_rate_measured, None, "{}", engine.name());
+        let small = run(engine, &grown(-1e-7), &periods(10.0, 10.0, 12));
+        close(engine.name(), small.growth_rate_measured.expect("a rate"), 11.318, 1e-2);
+    }
+}
+
 fn friction_of<T: Real>(instance: &Instance, speed: f64) -> f64 {
     let scene = Scene::new(instance, StartKind::Kick).expect("an equilibrium");
     let turns = Turns::new(13, 1e-6);
