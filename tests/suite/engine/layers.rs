@@ -341,13 +341,13 @@ fn growth_that_a_law_ends_without_an_event_is_not_stated() {
         instance(
             FrictionLaw::Exponential { mu_s: 0.48942, mu_d: 0.76689, stribeck_velocity: 6.3758e-5 },
             &[
-                (Param::Theta, 0.068153),
-                (Param::BeltVelocity, 0.063876),
+                (Param::Theta, 0.068_153),
+                (Param::BeltVelocity, 0.063_876),
                 (Param::C1, 13.038),
                 (Param::C2, 15.2334),
                 (Param::K2, 120_594.0),
                 (Param::M1, 4.55522),
-                (Param::M2, 0.449343),
+                (Param::M2, 0.449_343),
                 (Param::StartVelocity, start),
             ],
         )
