@@ -72,10 +72,10 @@ fn cpu(options: &Options, spec: &dyn Instances) -> Result<(Box<dyn Engine>, Stri
 
 fn auto(options: &Options, spec: &dyn Instances) -> Result<(Box<dyn Engine>, String, String)> {
     let precision = options.precision.unwrap_or(Precision::F64);
-    let cpu = |why| Ok::<_, Error>((Box::new(Cpu(precision)) as _, on_cpu(precision, spec), why));
+    let by_cpu = |why| Ok::<_, Error>((Box::new(Cpu(precision)) as _, on_cpu(precision, spec), why));
     // The host takes as long to send an instance as to compute its eigenvalues.
     if !spec.response() && only_on_gpu(options).is_empty() {
-        return cpu("a GPU gains nothing where eigenvalues alone are asked for".to_owned());
+        return by_cpu("a GPU gains nothing where eigenvalues alone are asked for".to_owned());
     }
     let hardware =
         if spec.modal() { Err(NoGpu::Failed(Error::ModalOnGpu)) } else { open::hardware(options, spec) };
@@ -86,5 +86,5 @@ fn auto(options: &Options, spec: &dyn Instances) -> Result<(Box<dyn Engine>, Str
         Err(no_gpu) => no_gpu,
     };
     no_gpu.allows_cpu(options)?;
-    cpu(no_gpu.note())
+    by_cpu(no_gpu.note())
 }

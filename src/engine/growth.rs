@@ -36,12 +36,15 @@ impl GrowthFit {
     #[must_use]
     pub fn is_bent(&self, model: &Scaled, words: &[f64; WORDS], deviation: f64) -> bool {
         let law = model.law.pieces[0];
+        if law.form().is_straight() {
+            return false;
+        }
         let speed =
             2_f64.sqrt() * (deviation * self.angular_frequency).max(covariance(words, 1, 1).max(0.0).sqrt());
         let ways = [speed, -speed.min(model.v0)].map(|change| law.change(model.v0, change) / change);
         let bend =
             ways.into_iter().fold(0.0, |bend, slope| f64::max(bend, (slope - law.slope(model.v0)).abs()));
-        !law.form().is_straight() && 0.5 * bend * model.n0 > BENT * self.growth_rate.abs()
+        0.5 * bend * model.n0 > BENT * self.growth_rate.abs()
     }
 }
 

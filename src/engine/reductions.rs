@@ -107,7 +107,8 @@ impl Reductions {
         outcome.window = all[sum::TIME] * units.time;
         outcome.impacts_per_second = Some(self.impacts as f64 / outcome.window);
         outcome.speed_rms_halves = halves.map(|s| rms(&s, sum::SPEED) * units.velocity);
-        outcome.x2_std_halves = halves.map(|s| std(&s, sum::X, sum::XX) * units.length);
+        let deviations = halves.map(|s| std(&s, sum::X, sum::XX));
+        outcome.x2_std_halves = deviations.map(|deviation| deviation * units.length);
         outcome.ay_rms_halves = halves.map(|s| rms(&s, sum::AY) * units.acceleration);
         // What rests has no frequency, whatever its last digits do.
         if let Some(frequency) = self.frequency().filter(|_| outcome.x2_std > Some(0.0)) {
@@ -118,9 +119,9 @@ impl Reductions {
                 (ratio.is_finite() && ratio != Complex64::ZERO).then(|| ratio.arg().to_degrees());
         }
         outcome.met_event = end.met_event;
-        let deviation = halves.map(|s| std(&s, sum::X, sum::XX)).into_iter().fold(0.0, f64::max);
+        let [early, late] = deviations;
         let is_linear =
-            |fit: &GrowthFit| end.met_event || !fit.is_bent(&scene.model, &self.growth, deviation);
+            |fit: &GrowthFit| end.met_event || !fit.is_bent(&scene.model, &self.growth, early.max(late));
         if let Some(fit) = growth::fit(&self.growth).filter(is_linear) {
             outcome.growth_rate_measured = Some(fit.growth_rate / units.time);
             outcome.frequency_measured = Some(fit.angular_frequency / std::f64::consts::TAU / units.time);

@@ -84,24 +84,24 @@ impl Layer {
     /// `share` is what friction by the part of the law that fades with speed has in the first, positive where friction falls.
     #[must_use]
     pub fn pace(&self, law: &PieceChain, relative: [f64; 2], share: f64, speed: f64) -> f64 {
-        let [toward, along] = self.inverses(law.form());
-        let (rate, reach, leaves) = (law.rate(), toward, relative[0] > 0.0);
+        let [reach, along] = self.inverses(law.form());
+        let (rate, leaves) = (law.rate(), relative[0] > 0.0);
         let [relative, turning] = relative.map(f64::abs);
         let widths = rate * speed;
         let away = 1.0 + widths;
-        let (along, toward) = match law.form() {
+        let (held, toward) = match law.form() {
             LawForm::Exponential => {
                 // By `ln y ≥ 4 (√y − 1)/(√y + 1)`.
                 let root = relative.min(share.abs() * HIDDEN).sqrt() + share.abs().sqrt();
                 let behind = if leaves { widths.powi(4) * LEFT_BEHIND } else { 0.0 };
                 let slope = if share > 0.0 { HARDER * share } else { -share };
-                ((0.25 * root * root * toward).max(slope * along), relative * toward / (away + behind))
+                ((0.25 * root * root * reach).max(slope * along), relative * reach / (away + behind))
             }
-            LawForm::Pieces | LawForm::Rational => (0.0, (relative * toward + share.abs() * along) / away),
+            LawForm::Pieces | LawForm::Rational => (0.0, (relative * reach + share.abs() * along) / away),
         };
         // In the time `t` the motion may come as far as `A t + J t²/2`.
         let (toward, turning) = (rate * toward, rate * turning * reach / away);
-        (rate * along).max(0.5 * (toward + (toward * toward + 2.0 * turning).sqrt()))
+        (rate * held).max(0.5 * (toward + (toward * toward + 2.0 * turning).sqrt()))
     }
 
     /// The factors of both in [`Layer::pace`].
