@@ -40,7 +40,7 @@ fn measure(size: usize) -> Result<(), Box<dyn Error>> {
     let spec = spec(size, "[response]\nsettle = \"1 periods\"\nmeasure = \"1 periods\"\n")?;
     let count = spec.grid.len();
     let mut made: Option<(Vec<f32>, Vec<u32>)> = None;
-    let (mut free, mut best) = (Vec::new(), [f64::INFINITY; 3]);
+    let (mut free, mut best, mut sent) = (Vec::new(), [f64::INFINITY; 3], Vec::new());
     for time in 0..=TIMES {
         let (tally, mut records) = (Tally::default(), vec![Record::default(); count]);
         let asked = Asked::new(&spec, [0, count], &mut records, &tally);
@@ -48,16 +48,18 @@ fn measure(size: usize) -> Result<(), Box<dyn Error>> {
         let began = Instant::now();
         flow.turn_over(&asked, &mut lanes, count);
         let begun = Instant::now();
-        round.stage(&mut lanes);
+        round.place(&mut lanes);
+        sent.resize(round.bytes_sent()[0], 0_u8);
+        round.send(&lanes, |_, at, part| sent[at..at + part.len()].copy_from_slice(part));
         let staged = Instant::now();
         let (state, flags) = match made.take() {
             Some(made) => made,
-            None => by_device(&spec, &flow, &round)?,
+            None => by_device(&spec, &flow, (&round, bytemuck::cast_slice(&sent)))?,
         };
-        let sent = Instant::now();
+        let back = Instant::now();
         let (_, ended) =
             round.collect(&mut lanes, (&state, &flags), |lane, back| flow.take(&asked, lane, back));
-        let taken = [begun - began, staged - begun, sent.elapsed()];
+        let taken = [begun - began, staged - begun, back.elapsed()];
         ended?;
         if !asked.is_done() {
             return Err("an instance is not at its end after one round".into());
@@ -82,11 +84,11 @@ fn measure(size: usize) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// What a device makes of a round of lanes that have not begun, state and flags.
+/// What a device makes of a round of lanes that have not begun, of which only inputs are sent: state and flags.
 fn by_device(
     spec: &dyn Instances,
     flow: &Flow<f32>,
-    round: &Round<f32>,
+    (round, sent): (&Round<f32>, &[f32]),
 ) -> Result<(Vec<f32>, Vec<u32>), Box<dyn Error>> {
     let device = Device::open(&Adapter::best(Precision::F32, None)?, Precision::F32)?;
     let [_, all_words, all_flags] = round.words();
@@ -100,7 +102,7 @@ fn by_device(
         for part in PARTS {
             let (kernel, choices) = group.form.kernel(part).ok_or("there is no kernel")?;
             let compiled = Compiled::new(&device, kernel, &choices)?;
-            let inputs = (&round.inputs[group.sent[0]..][..group.words_sent()[0]], group.lanes);
+            let inputs = (&sent[group.sent[0]..][..group.words_sent()[0]], group.lanes);
             let came = advance(&device, &compiled, inputs, &made, (settings, [dispatches, STEPS]))?;
             (made, settings[SETTING_FRESH]) = ((came.state, came.flags), 0);
         }

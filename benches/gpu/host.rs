@@ -22,7 +22,7 @@ use crate::ledger::{Ledger, forget_peak, own, peak_memory};
 use crate::work::Work;
 
 /// The cases: their names, and their sections of a sweep file.
-const CASES: [(&str, &str); 4] = [
+pub(crate) const CASES: [(&str, &str); 4] = [
     ("two periods", "[response]\nsettle = \"1 periods\"\nmeasure = \"1 periods\"\n"),
     ("140 periods", "[response]\nsettle = \"100 periods\"\nmeasure = \"40 periods\"\n"),
     ("auto", "[response]\nsettle = \"auto\"\n"),
@@ -59,7 +59,7 @@ const SIZE: usize = 40_000;
 const WARM: usize = 600;
 
 /// Bytes of a MiB.
-const MIB: f64 = 1024.0 * 1024.0;
+pub(crate) const MIB: f64 = 1024.0 * 1024.0;
 
 /// Measures, prints and keeps the rows; of `arguments` the first is the number of instances, the second a case, the third the
 /// most instances of a chunk.

@@ -5,6 +5,7 @@
 //! | none | what every compiler that is installed makes of every kernel, into `benches/results/gpu-pipelines.csv`; where there is a hardware GPU the shipped map on it, too |
 //! | `--lockstep` | how well the march fills the warps of a GPU, by its twin, into `benches/results/gpu-lockstep.csv` |
 //! | `--host [INSTANCES [CASE [CHUNK]]]` | what the host does for each instance, and how busy the lanes are, into `benches/results/gpu-host.csv` |
+//! | `--memory [INSTANCES [CASE]]` | the most memory of a sweep with checks and tiles that takes as much at once as on hardware |
 //! | `--alone [INSTANCES]` | that by itself, without a device beside it |
 //! | `--projection` | from these, how long a large sweep takes on named cards, into `benches/results/gpu-projection.csv` |
 //! | `--map` | the shipped map on the best adapter alone |
@@ -29,6 +30,7 @@ mod kernels;
 mod ledger;
 mod lockstep;
 mod map;
+mod memory;
 mod projection;
 mod ratchet;
 mod rows;
@@ -67,6 +69,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         ["--lockstep", ..] => lockstep::run(&arguments[1..]),
         ["--map"] => map::run(),
         ["--host", ..] => host::run(&arguments[1..]),
+        ["--memory", ..] => memory::run(&arguments[1..]),
         ["--alone", ..] => alone::run(&arguments[1..]),
         ["--projection"] => projection::run(),
         ["--check"] => check(),
@@ -76,7 +79,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             Ok(())
         }
         _ => Err(format!(
-            "{} is no option: --lockstep, --host, --alone, --projection, --map, --check, --keep-limits or none",
+            "{} is no option: --lockstep, --host, --memory, --alone, --projection, --map, --check, --keep-limits or none",
             arguments.join(" ")
         )
         .into()),

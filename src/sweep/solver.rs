@@ -37,7 +37,13 @@ impl<'a> Solver<'a> {
     /// # Errors
     /// Those of [`choose`].
     pub fn new(spec: &'a Spec, options: &'a Options<'a>) -> Result<Solver<'a>> {
-        Ok(Solver { spec, options, engine: choose(options, spec)? })
+        Ok(Solver::with_engine(spec, options, choose(options, spec)?))
+    }
+
+    /// With an engine that computes as the options say.
+    #[must_use]
+    pub fn with_engine(spec: &'a Spec, options: &'a Options<'a>, engine: Box<dyn Engine>) -> Solver<'a> {
+        Solver { spec, options, engine }
     }
 
     /// The sweep.

@@ -135,7 +135,8 @@ impl OnDevice {
             Stage::Transients(_) if is_first => {}
             Stage::Transients(going) => {
                 let Transients { flow, tally, lanes, round } = &mut **going;
-                let (state, flags) = split(&back, [round.state.len(), round.flags.len()])?;
+                let [_, of_state, of_flags] = round.words();
+                let (state, flags) = split(&back, [of_state, of_flags])?;
                 let asked = asked(&self.spec, &mut self.records, tally);
                 let back = (&state[..], flags);
                 let (_, ended) = round.collect(lanes, back, |lane, back| flow.take(&asked, lane, back));
@@ -161,11 +162,14 @@ impl OnDevice {
                 return self.done();
             }
         }
-        round.stage(lanes);
-        let Round { groups, inputs, state, flags, .. } = round;
+        round.place(lanes);
+        let sizes = round.bytes_sent();
+        let begins = [0, sizes[0], sizes[0] + sizes[1]];
+        let mut bytes = vec![0; sizes.iter().sum()];
+        round.send(lanes, |k, at, part| bytes[begins[k] + at..][..part.len()].copy_from_slice(part));
         let mut heads = Vec::new();
         let mut dispatches = Vec::new();
-        for group in groups.iter() {
+        for group in &round.groups {
             let Some((kernel, _)) = kernel_for(group.form.pieces) else { continue };
             let most = (MOST_LOOPS / kernel.loops_per_step.max(1)).max(1);
             let head = group.head(steps.clamp(1, most), flow.settings());
@@ -180,7 +184,7 @@ impl OnDevice {
                 });
             }
         }
-        sent(&mut self.told, [inputs, state], flags, heads, dispatches)
+        sent(&mut self.told, (sizes, bytes), &heads, dispatches)
     }
 
     fn done(&self) -> Answer {
@@ -200,16 +204,18 @@ fn eigenvalues(told: &mut Vec<String>, (inputs, count): (Vec<f32>, usize)) -> An
     let words = [KERNEL.inputs, KERNEL.state, KERNEL.flags].map(|fields| words(fields) * room(count));
     let head = Settings::new([count, of_each], 1, 0, [0; SETTING_WORDS]);
     let dispatch = Dispatch { kernel: &KERNEL, choices: Vec::new(), first: [0; 3], words, count };
-    let (state, flags) = (vec![0.0; words[1]], vec![0; words[2]]);
-    sent(told, [&inputs, &state], &flags, bytemuck::bytes_of(&head).to_vec(), vec![dispatch])
+    let sizes = words.map(|count| 4 * count);
+    let mut bytes: Vec<u8> = bytemuck::cast_slice(&inputs).to_vec();
+    bytes.resize(sizes.iter().sum(), 0);
+    sent(told, (sizes, bytes), bytemuck::bytes_of(&head), vec![dispatch])
 }
 
-/// What is to be sent, and to be done with it; `told` are the kernels whose text the page has. Bytes stand one after the other: inputs, state, flags, settings.
+/// What is to be sent, and to be done with it; `told` are the kernels whose text the page has. Bytes stand one after the other: inputs, state, flags,
+/// and behind these the settings.
 fn sent(
     told: &mut Vec<String>,
-    [inputs, state]: [&[f32]; 2],
-    flags: &[u32],
-    heads: Vec<u8>,
+    ([inputs, state, flags], mut bytes): ([usize; 3], Vec<u8>),
+    heads: &[u8],
     dispatches: Vec<Dispatch>,
 ) -> Answer {
     let mut sources = Map::new();
@@ -225,12 +231,8 @@ fn sent(
             json!({ "kernel": name, "first": first.map(|word| 4 * word), "bytes": words.map(|count| 4 * count), "count": count })
         })
         .collect();
-    let sizes = [4 * inputs.len(), 4 * state.len(), 4 * flags.len(), heads.len()];
-    let mut bytes = Vec::with_capacity(sizes.iter().sum());
-    bytes.extend_from_slice(bytemuck::cast_slice(inputs));
-    bytes.extend_from_slice(bytemuck::cast_slice(state));
-    bytes.extend_from_slice(bytemuck::cast_slice(flags));
-    bytes.extend(heads);
+    let sizes = [inputs, state, flags, heads.len()];
+    bytes.extend_from_slice(heads);
     let head = json!({
         "turn": { "dispatches": dispatches, "sizes": sizes, "settings": size_of::<Settings>(), "aligned": ALIGNED },
         "sources": sources,

@@ -20,7 +20,7 @@ use crate::engine::march::marching::{Form, PARTS};
 use crate::engine::march::round::{ALIGNED, Group, Round};
 
 /// Buffers are made larger than they have to be by one part in so many.
-const SPARE: usize = 4;
+const SPARE: usize = 16;
 
 /// What is known of the time of a step is trusted less by this factor in each round.
 const FORGOTTEN: f64 = 1.1;
@@ -82,7 +82,7 @@ impl<R: Lanes> Arena<R> {
         lanes: &mut [Lane<R>],
         settings: [u32; SETTING_WORDS],
     ) -> Result<()> {
-        self.round.stage(lanes);
+        self.round.place(lanes);
         let kernels = {
             let mut session = session.lock().unwrap_or_else(PoisonError::into_inner);
             let groups = self.round.groups.iter();
@@ -94,49 +94,49 @@ impl<R: Lanes> Arena<R> {
             Some(large_enough) => large_enough,
             None => Buffers::new(&self.device, sizes.map(|size| size + size / SPARE))?,
         };
-        let start = || self.start(&buffers, &kernels, settings);
+        let start = || self.start(&buffers, lanes, &kernels, settings);
         let index = self.device.checked("starting a round", start)??;
         self.buffers = Some(buffers);
         self.submitted = Some((index, Instant::now()));
         Ok(())
     }
 
-    /// Sends what is staged, dispatches the parts of a run of every group and asks for what comes of them.
+    /// Sends the words of the lanes, dispatches the parts of a run of every group and asks for what comes of them.
     fn start(
         &self,
         buffers: &Buffers,
+        lanes: &[Lane<R>],
         kernels: &[Vec<Compiled>],
         settings: [u32; SETTING_WORDS],
     ) -> Result<wgpu::SubmissionIndex> {
-        let Round { groups, inputs, state, flags, .. } = &self.round;
+        let groups = &self.round.groups;
         let heads: Vec<u8> = groups.iter().flat_map(|group| self.head(group, settings)).collect();
-        let sections: [&[u8]; 4] =
-            [bytemuck::cast_slice(inputs), bytemuck::cast_slice(state), bytemuck::cast_slice(flags), &heads];
-        let total = sections.iter().map(|bytes| bytes.len()).sum::<usize>();
+        let [inputs, state, flags] = self.round.bytes_sent();
+        let begins = [0, inputs, inputs + state, inputs + state + flags];
+        let total = begins[3] + heads.len();
         {
             let mut view = buffers.up.get_mapped_range_mut(..total as u64).map_err(|why| unmapped(&why))?;
-            let mut at = 0;
-            for bytes in sections {
-                write(view.slice(at..at + bytes.len()), bytes);
-                at += bytes.len();
-            }
+            let mut put = |k: usize, at: usize, part: &[u8]| {
+                write(view.slice(begins[k] + at..begins[k] + at + part.len()), part);
+            };
+            self.round.send(lanes, &mut put);
+            put(3, 0, &heads);
         }
         buffers.up.unmap();
         let mut encoder = self.device.raw.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         let targets =
             [(&buffers.inputs, size_of::<R>()), (&buffers.state, size_of::<R>()), (&buffers.flags, 4)];
-        let mut at = 0;
         for (k, (buffer, size)) in targets.into_iter().enumerate() {
             for group in groups {
                 let places = [group.sent[k], group.first[k], group.words_sent()[k]];
                 let [from, to, sent] = places.map(|count| (count * size) as u64);
                 if sent > 0 {
-                    encoder.copy_buffer_to_buffer(&buffers.up, at + from, buffer, to, sent);
+                    encoder.copy_buffer_to_buffer(&buffers.up, begins[k] as u64 + from, buffer, to, sent);
                 }
             }
-            at += sections[k].len() as u64;
         }
-        encoder.copy_buffer_to_buffer(&buffers.up, at, &buffers.settings, 0, heads.len() as u64);
+        let of_heads = begins[3] as u64;
+        encoder.copy_buffer_to_buffer(&buffers.up, of_heads, &buffers.settings, 0, heads.len() as u64);
         {
             let timestamp_writes = self.clock.as_ref().map(Clock::writes);
             let mut pass =

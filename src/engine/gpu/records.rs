@@ -10,23 +10,38 @@ use crate::engine::backend::Backend;
 use crate::engine::computation::Computation;
 use crate::engine::computed::Computed;
 use crate::engine::error::{Error, Result};
-use crate::engine::gpu::chunks::Session;
+use crate::engine::gpu::chunks::{Session, software_chunk};
 use crate::engine::gpu::device::Device;
-use crate::engine::gpu::response::Crews;
+use crate::engine::gpu::response::{Crews, MOST_LANES};
 use crate::engine::gpu::{linear, response};
 use crate::engine::instances::Instances;
 use crate::engine::precision::Precision;
 use crate::engine::record::Record;
 use crate::engine::reference::records::linear as on_cpu;
 
-/// The least that a GPU takes, which takes a range at once; of a program on the CPU, which takes minutes for it.
+/// A GPU in software takes so many at once, for which it needs minutes, and whatever takes several starts of each.
 const BLOCK: usize = 65_536;
 
-/// The least that hardware takes: some times as many as it has places for, whose records take 200 MB.
-const OF_HARDWARE: usize = 4 * BLOCK;
+/// How much devices take at once.
+#[derive(Clone, Copy, Debug)]
+struct Room {
+    /// The least instances of a range.
+    range: usize,
+    /// Most of those behind it that are begun: of runs until settled, the last of a range take five times as long as most.
+    ahead: usize,
+    /// Most lanes in one of the buffers of a device.
+    lanes: usize,
+}
 
-/// They begin this many times as much ahead: of runs until settled, the last of a range take five times as long as most.
-const AHEAD: usize = 2;
+impl Room {
+    /// Where one of the devices is software.
+    fn of_software() -> Room {
+        Room { range: BLOCK, ahead: 2 * BLOCK, lanes: software_chunk() }
+    }
+
+    /// Where all are hardware: more than four times as many as there are lanes in three buffers.
+    const OF_HARDWARE: Room = Room { range: 2 * BLOCK, ahead: 8 * BLOCK, lanes: MOST_LANES };
+}
 
 /// GPUs that share the work; their kernels stay compiled.
 #[derive(Debug)]
@@ -34,6 +49,7 @@ pub struct Gpu {
     sessions: Vec<Session>,
     crews: Crews,
     chunk: Option<usize>,
+    room: Room,
     begun: Option<Begun>,
 }
 
@@ -60,14 +76,16 @@ impl Gpu {
     /// chunks nor on which device takes them.
     #[must_use]
     pub fn new(devices: Vec<Device>, chunk: Option<usize>) -> Gpu {
+        let room =
+            if devices.iter().any(Device::is_software) { Room::of_software() } else { Room::OF_HARDWARE };
         let sessions = devices.into_iter().map(Session::new).collect();
-        Gpu { sessions, crews: Crews::default(), chunk, begun: None }
+        Gpu { sessions, crews: Crews::default(), chunk, room, begun: None }
     }
 
-    /// The least that they take.
-    fn least(&self) -> usize {
-        let is_software = self.sessions.iter().any(|session| session.device().is_software());
-        if is_software { BLOCK } else { OF_HARDWARE }
+    /// These, which take as much at once as hardware whatever they are: what that needs of memory can be measured without any.
+    #[must_use]
+    pub fn as_hardware(self) -> Gpu {
+        Gpu { room: Room::OF_HARDWARE, ..self }
     }
 }
 
@@ -119,11 +137,11 @@ impl Engine for Gpu {
     }
 
     fn ahead(&self) -> usize {
-        AHEAD * self.least()
+        self.room.ahead
     }
 
     fn busy_with(&self, _: usize, starts: usize) -> usize {
-        self.least().div_ceil(starts)
+        self.room.range.div_ceil(starts)
     }
 
     fn at_once(&self, instances: usize) -> usize {
@@ -137,7 +155,7 @@ impl Engine for Gpu {
 fn records(
     spec: &dyn Instances,
     [first, wanted, ahead]: [usize; 3],
-    Gpu { sessions, crews, chunk, begun }: &mut Gpu,
+    Gpu { sessions, crews, chunk, room, begun }: &mut Gpu,
     cancel: &AtomicBool,
     progress: &(dyn Fn(usize) + Sync),
 ) -> Result<Computed> {
@@ -151,7 +169,7 @@ fn records(
     let fresh = (wanted + ahead).saturating_sub(records.len());
     // By all threads: into memory that the system has still to give.
     records.par_extend(rayon::iter::repeat_n(Record::default(), fresh));
-    let devices = (&mut sessions[..], crews, *chunk);
+    let devices = (&mut sessions[..], crews, chunk.unwrap_or(usize::MAX).min(room.lanes));
     let ended = response::complete(spec, [first, wanted, taken], devices, cancel, progress, &mut records);
     let behind: Vec<Record> = records.par_drain(wanted..).collect();
     records.shrink_to_fit();

@@ -5,11 +5,10 @@ use std::sync::atomic::AtomicBool;
 use rayon::prelude::*;
 
 use crate::engine::error::{Error, Result};
-use crate::engine::gpu::chunks::{Session, software_chunk};
+use crate::engine::gpu::chunks::Session;
 use crate::engine::gpu::device::Device;
 use crate::engine::gpu::stream::{Crew, Stream};
 use crate::engine::instances::Instances;
-use crate::engine::kernel::source::Kernel;
 use crate::engine::lanes::again;
 use crate::engine::lanes::again::records_again;
 use crate::engine::lanes::{Lanes, ORDER, tolerance};
@@ -18,9 +17,10 @@ use crate::engine::march::kernel::{MOST_PIECES, kernel_for};
 use crate::engine::precision::Precision;
 use crate::engine::record::Record;
 
-/// Most instances at a time in one of the buffers of a GPU: the host keeps some 3 KiB of each. An H100 has as many in its registers,
-/// and takes a quarter less time for each of twice as many, but the host more.
-const MOST_LANES: usize = 65_536;
+/// Most instances at a time in one of the buffers of a GPU: the host keeps some 3 KiB of each. The registers of an H100 hold 50 688 of
+/// the 168 that the window takes; what is beyond waits for a second turn, as long as the first. In 65 536 each took a third longer than
+/// in 131 072, which is two turns against three.
+pub(super) const MOST_LANES: usize = 49_152;
 
 /// The method in a manifest.
 #[must_use]
@@ -61,20 +61,20 @@ pub(super) struct Crews {
 pub(super) fn complete(
     spec: &dyn Instances,
     [first, wanted, begun]: [usize; 3],
-    (sessions, crews, chunk): (&mut [Session], &mut Crews, Option<usize>),
+    (sessions, crews, lanes): (&mut [Session], &mut Crews, usize),
     cancel: &AtomicBool,
     progress: &(dyn Fn(usize) + Sync),
     records: &mut [Record],
 ) -> Result<usize> {
     match sessions[0].device().precision() {
         Precision::F32 => {
-            let devices = (sessions, &mut crews.of_f32, chunk);
+            let devices = (sessions, &mut crews.of_f32, lanes);
             let ended = complete_in(spec, [first, wanted, begun], devices, cancel, progress, records);
             records_again(spec, first, &mut records[..wanted], cancel);
             ended
         }
         Precision::F64 => {
-            let devices = (sessions, &mut crews.of_f64, chunk);
+            let devices = (sessions, &mut crews.of_f64, lanes);
             complete_in(spec, [first, wanted, begun], devices, cancel, progress, records)
         }
     }
@@ -83,7 +83,7 @@ pub(super) fn complete(
 fn complete_in<R: Lanes>(
     spec: &dyn Instances,
     [first, wanted, begun]: [usize; 3],
-    (sessions, crews, chunk): (&mut [Session], &mut Vec<Crew<R>>, Option<usize>),
+    (sessions, crews, lanes): (&mut [Session], &mut Vec<Crew<R>>, usize),
     cancel: &AtomicBool,
     progress: &(dyn Fn(usize) + Sync),
     records: &mut [Record],
@@ -91,7 +91,7 @@ fn complete_in<R: Lanes>(
     let Some((kernel, _)) = kernel_for(spec.pieces()) else {
         return Err(Error::LongTable { rows: spec.pieces(), limit: MOST_PIECES });
     };
-    let most = sessions.iter().map(|session| most_lanes::<R>(session, kernel)).min().unwrap_or(1);
+    let most = sessions.iter().map(|session| session.chunk_size::<R>(kernel)).min().unwrap_or(1);
     // What an earlier call has begun of other instances is nobody's.
     if crews.is_empty() || begun == 0 && crews.iter().any(Crew::has_instances) {
         *crews = Crew::of(sessions);
@@ -99,7 +99,7 @@ fn complete_in<R: Lanes>(
     let done = records[..wanted].par_iter().filter(|record| record.outcome.is_some()).count();
     let tally = Tally::begun(begun, done);
     let asked = Asked::new(spec, [first, wanted], records, &tally);
-    let devices = (sessions, chunk.unwrap_or(usize::MAX).min(most));
+    let devices = (sessions, lanes.min(most));
     let ended = Stream::new(asked, devices, cancel, progress).run(crews);
     // What a run that never came to its end would have filled.
     let without = records[..wanted].par_iter_mut().filter(|record| record.outcome.is_none());
@@ -108,10 +108,4 @@ fn complete_in<R: Lanes>(
         crew.count_from(wanted);
     }
     ended.map(|()| tally.taken().min(records.len()))
-}
-
-/// Most instances of a device at a time in one of its buffers.
-fn most_lanes<R: Lanes>(session: &Session, kernel: &Kernel) -> usize {
-    let kept = if session.device().is_software() { software_chunk() } else { MOST_LANES };
-    kept.min(session.chunk_size::<R>(kernel))
 }

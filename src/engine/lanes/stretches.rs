@@ -38,6 +38,11 @@ impl Stretches {
         Stretches { whole: self.whole, ..Stretches::default() }
     }
 
+    /// Makes room for some more and for no others.
+    pub fn reserve(&mut self, more: usize) {
+        self.whole.reserve_exact(more);
+    }
+
     /// How many there are.
     #[must_use]
     pub fn len(&self) -> usize {

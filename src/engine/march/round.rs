@@ -1,5 +1,6 @@
 //! A round of lanes: their words in the buffers of a device, lane by lane of every group that shares a kernel, and back.
 
+use std::marker::PhantomData;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use rayon::prelude::*;
@@ -14,6 +15,9 @@ use crate::engine::march::table::{SETTING_FRESH, flag, state};
 
 /// What the places of bindings in a buffer are multiples of, bytes: the most that an adapter may ask for.
 pub const ALIGNED: usize = 256;
+
+/// Lanes whose words are made and handed on together: some for every thread, and no more than stay in a cache.
+const AT_A_TIME: usize = 8192;
 
 /// Lanes that share their kernels: where their words of inputs, state and flags are.
 #[derive(Clone, Debug)]
@@ -78,6 +82,22 @@ fn aligned<T>(count: usize) -> usize {
     count.next_multiple_of(ALIGNED / size_of::<T>())
 }
 
+/// Makes the words of some lanes, each a row of so many that `row` writes, and hands them to `put`: part by part, each with its
+/// first word.
+fn rows<R: Lanes, T: bytemuck::Pod + Send + Sync>(
+    lanes: &[Lane<R>],
+    words: usize,
+    made: &mut Vec<T>,
+    row: impl Fn(&Lane<R>, &mut [T]) + Sync,
+    mut put: impl FnMut(usize, &[u8]),
+) {
+    for (number, lanes) in lanes.chunks(AT_A_TIME).enumerate() {
+        made.resize(words * room(lanes.len()), T::zeroed());
+        fill(made, words, lanes.len(), |index, words| row(&lanes[index], words));
+        put(number * AT_A_TIME * words, bytemuck::cast_slice(made));
+    }
+}
+
 /// Steps that lanes have taken in a round.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Steps {
@@ -87,26 +107,21 @@ pub struct Steps {
     pub of_warps: u64,
 }
 
-/// The words of all lanes of a round.
+/// The places of all lanes of a round.
 #[derive(Clone, Debug)]
 pub struct Round<R> {
     /// The groups.
     pub groups: Vec<Group>,
-    /// What goes to the buffer of inputs.
-    pub inputs: Vec<R>,
-    /// What goes to that of the state, most of which comes back.
-    pub state: Vec<R>,
-    /// What goes to that of the flags, which come back.
-    pub flags: Vec<u32>,
     /// Whether all places of the buffers are sent, also those that the kernels fill.
     whole: bool,
+    scalar: PhantomData<R>,
 }
 
 impl<R: Lanes> Round<R> {
     /// Of no lane; `whole` says whether all places of the buffers are sent, also those that the kernels fill.
     #[must_use]
     pub fn new(whole: bool) -> Round<R> {
-        Round { groups: Vec::new(), inputs: Vec::new(), state: Vec::new(), flags: Vec::new(), whole }
+        Round { groups: Vec::new(), whole, scalar: PhantomData }
     }
 
     /// The words of each buffer.
@@ -115,33 +130,38 @@ impl<R: Lanes> Round<R> {
         self.groups.last().map_or([0; 3], Group::end::<R>)
     }
 
-    /// Puts the words of lanes, which are sorted by [`Lane::order`], into what is sent.
-    pub fn stage(&mut self, lanes: &mut [Lane<R>]) {
-        self.place(lanes);
-        let last = self.groups.last();
-        let [inputs, state, flags] =
-            if self.whole { self.words() } else { last.map_or([0; 3], Group::end_sent) };
-        self.inputs.resize(inputs, R::ZERO);
-        self.state.resize(state, R::ZERO);
-        self.flags.resize(flags, 0);
+    /// The bytes that are sent to each buffer.
+    #[must_use]
+    pub fn bytes_sent(&self) -> [usize; 3] {
+        let words =
+            if self.whole { self.words() } else { self.groups.last().map_or([0; 3], Group::end_sent) };
+        std::array::from_fn(|k| words[k] * Self::SIZES[k])
+    }
+
+    /// Bytes of a word of each buffer.
+    const SIZES: [usize; 3] = [size_of::<R>(), size_of::<R>(), size_of::<u32>()];
+
+    /// Hands the words of the lanes, which have their places, to `put`: part by part, each with the number of its buffer and its place
+    /// among the bytes that are sent to that.
+    pub fn send(&self, lanes: &[Lane<R>], mut put: impl FnMut(usize, usize, &[u8])) {
+        let (mut scalars, mut counts) = (Vec::new(), Vec::new());
         let mut first = 0;
         for group in &self.groups {
-            let ([inputs, state, flags], words) = (group.words_sent(), group.of_lane());
-            let lanes = &lanes[first..][..group.lanes];
-            let sent = &mut self.inputs[group.sent[0]..][..inputs];
-            fill(sent, words[0], lanes.len(), |index, row| lanes[index].marching.put(row));
+            let (lanes, words) = (&lanes[first..][..group.lanes], group.of_lane());
+            let mut put =
+                |k: usize, at: usize, part: &[u8]| put(k, (group.sent[k] + at) * Self::SIZES[k], part);
+            let inputs = |lane: &Lane<R>, row: &mut [R]| lane.marching.put(row);
+            rows(lanes, words[0], &mut scalars, inputs, |at, part| put(0, at, part));
             if group.begun {
-                let sent = &mut self.state[group.sent[1]..][..state];
-                fill(sent, words[1], lanes.len(), |index, row| lanes[index].put_state(row));
-                let sent = &mut self.flags[group.sent[2]..][..flags];
-                fill(sent, words[2], lanes.len(), |index, row| lanes[index].put_flags(row));
+                rows(lanes, words[1], &mut scalars, Lane::put_state, |at, part| put(1, at, part));
+                rows(lanes, words[2], &mut counts, Lane::put_flags, |at, part| put(2, at, part));
             }
             first += lanes.len();
         }
     }
 
-    /// Gives every lane its place.
-    fn place(&mut self, lanes: &mut [Lane<R>]) {
+    /// Gives lanes, which are sorted by [`Lane::order`], their places.
+    pub fn place(&mut self, lanes: &mut [Lane<R>]) {
         self.groups.clear();
         for lane in lanes {
             let begun = lane.has_begun();
@@ -161,7 +181,7 @@ impl<R: Lanes> Round<R> {
         }
     }
 
-    /// Gives what has come back to the lanes that were staged, and every lane to `take` with the steps that it has gone.
+    /// Gives what has come back to the lanes that were sent, and every lane to `take` with the steps that it has gone.
     ///
     /// # Errors
     /// The first of `take`.

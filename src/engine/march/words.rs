@@ -145,6 +145,7 @@ fn flush<R: Real>(job: &mut Job<R>, words: Column<R>, flags: Column<u32>, stretc
     let crossings = flags.at(flag::CROSSINGS);
     let [first_in, last_in] = [flag::FIRST_IN, flag::LAST_IN].map(|word| flags.at(word) as usize);
     let mut begins = from;
+    job.stretches.reserve(stretches);
     for index in 0..stretches {
         let stretch = words.from(state::HISTORY + index * history::WORDS);
         let [omega, length] = [history::OMEGA, history::TIME].map(|word| stretch.at(word).to_f64());
