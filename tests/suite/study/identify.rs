@@ -91,6 +91,28 @@ fn text(samples: &[Sample]) -> String {
     String::from_utf8(csv(samples)).unwrap()
 }
 
+/// Empty lines and comments count, whatever ends a line, and whether the last one has an end or not.
+#[test]
+fn a_fault_has_the_line_that_an_editor_shows() {
+    for end in ["\n", "\r\n"] {
+        for lines in [
+            &["t,ax2", "0,1", "1e-3,x"][..],
+            &["t,ax2", "0,1", "", "", "# nothing", "1e-3,x"],
+            &["# first", "", "t,ax2", "", "0,1", "", "1e-3,x"],
+        ] {
+            for after in [String::new(), end.to_owned(), format!("{end}{end}2e-3,1{end}")] {
+                let text = lines.join(end) + &after;
+                let found = fault(text.as_bytes());
+                let line = lines.len() as u64;
+                assert!(
+                    matches!(found, Fault::NotANumber { line: at, .. } if at == line),
+                    "{text:?}: {found}"
+                );
+            }
+        }
+    }
+}
+
 #[test]
 fn broken_files_are_named_and_not_analysed() {
     let samples = clean();

@@ -29,6 +29,8 @@ pub(super) struct Text {
     header: Vec<String>,
     /// Whether a comma is what separates the fields.
     by_commas: bool,
+    /// Whether a carriage return comes before the line feeds: a row ends with it.
+    by_returns: bool,
     marks: Marks,
 }
 
@@ -44,7 +46,10 @@ impl Text {
     pub(super) fn open(start: Vec<u8>, rest: Box<dyn Read>) -> Result<Text, Fault> {
         let since = Rc::new(Cell::new(0));
         let separator = separator(&start);
-        let input = Bounded { input: Box::new(Cursor::new(start).chain(rest)), since: Rc::clone(&since) };
+        let by_returns = start.windows(2).any(|two| two == b"\r\n");
+        let end = if by_returns { b'\r' } else { b'\n' };
+        let input = Box::new(Cursor::new(start).chain(rest));
+        let input = Bounded { input, since: Rc::clone(&since), last: b'\n', end };
         let mut reader = csv::ReaderBuilder::new()
             .delimiter(separator)
             .comment(Some(b'#'))
@@ -63,7 +68,7 @@ impl Text {
         }
         since.set(0);
         let (record, marks) = (ByteRecord::new(), Marks::default());
-        Ok(Text { reader, since, record, header, by_commas: separator == b',', marks })
+        Ok(Text { reader, since, record, header, by_commas: separator == b',', by_returns, marks })
     }
 
     /// Reads the next row as it is; whether there is one.
@@ -82,8 +87,9 @@ impl Text {
         fields().any(|field| !field.is_empty()) && !fields().any(is_number)
     }
 
+    /// The line of the row. That of its own position is the one behind the row before, and may be empty or a comment.
     fn line(&self) -> u64 {
-        self.record.position().map_or(0, csv::Position::line)
+        self.reader.position().line() - u64::from(!self.by_returns)
     }
 }
 
@@ -163,6 +169,10 @@ fn separator(start: &[u8]) -> u8 {
 struct Bounded {
     input: Box<dyn Read>,
     since: Rc<Cell<usize>>,
+    /// The last byte.
+    last: u8,
+    /// What ends the last row, where the file does not.
+    end: u8,
 }
 
 impl Read for Bounded {
@@ -173,7 +183,12 @@ impl Read for Bounded {
                 "a row is longer than {LONGEST_ROW} bytes: is a double quote not closed, or is this no table of signals?"
             )));
         }
-        let read = self.input.read(buffer)?;
+        let mut read = self.input.read(buffer)?;
+        if let Some(last) = buffer[..read].last() {
+            self.last = *last;
+        } else if self.last != b'\n' && !buffer.is_empty() {
+            (buffer[0], read, self.last) = (self.end, 1, b'\n');
+        }
         self.since.set(self.since.get() + read);
         Ok(read)
     }
