@@ -49,8 +49,9 @@ fn measure(size: usize) -> Result<(), Box<dyn Error>> {
         flow.turn_over(&asked, &mut lanes, count);
         let begun = Instant::now();
         round.place(&mut lanes);
-        sent.resize(round.bytes_sent()[0], 0_u8);
-        round.send(&lanes, |_, at, part| sent[at..at + part.len()].copy_from_slice(part));
+        let [.., end] = round.begins_sent();
+        sent.resize(end, 0_u8);
+        round.send(&lanes, |at, part| sent[at..at + part.len()].copy_from_slice(part));
         let staged = Instant::now();
         let (state, flags) = match made.take() {
             Some(made) => made,

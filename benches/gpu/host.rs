@@ -122,11 +122,15 @@ pub(crate) fn run(arguments: &[&str]) -> Result<(), Box<dyn Error>> {
         rows.push(fields);
     }
     if rows.is_empty() {
-        let names: Vec<&str> = CASES.iter().map(|(name, _)| *name).collect();
-        return Err(format!("the case has to be one of: {}", names.join(", ")).into());
+        return Err(no_case());
     }
     println!("kept in {}", keep("gpu-host.csv", &HEADER, KEY, rows)?.display());
     Ok(())
+}
+
+/// Why a case that is asked for is none.
+pub(crate) fn no_case() -> Box<dyn Error> {
+    format!("the case has to be one of: {}", CASES.map(|(name, _)| name).join(", ")).into()
 }
 
 /// The map nearest to `size` instances, run as a section says; without one only eigenvalues.

@@ -16,7 +16,7 @@ use squealmap::store::fill::{Watch, fill};
 use squealmap::store::tiling::TILE;
 use squealmap::sweep::solver::Solver;
 
-use crate::host::{CASES, MIB, spec};
+use crate::host::{CASES, MIB, no_case, spec};
 use crate::ledger::{forget_peak, peak_memory};
 
 /// Instances where none are asked for: more than are in work at a time.
@@ -26,9 +26,7 @@ const SIZE: usize = 1_500_000;
 pub(crate) fn run(arguments: &[&str]) -> Result<(), Box<dyn Error>> {
     let size = arguments.first().map_or(Ok(SIZE), |text| text.parse())?;
     let asked = arguments.get(1).copied().unwrap_or(CASES[0].0);
-    let Some((case, section)) = CASES.into_iter().find(|(name, _)| *name == asked) else {
-        return Err(format!("`{asked}` is no case: {}", CASES.map(|(name, _)| name).join(", ")).into());
-    };
+    let (case, section) = CASES.into_iter().find(|(name, _)| *name == asked).ok_or_else(no_case)?;
     let mut spec = spec(size, section)?;
     spec.analysis.checked = true;
     let device = Device::open(&Adapter::best(Precision::F32, None)?, Precision::F32)?;

@@ -163,10 +163,10 @@ impl OnDevice {
             }
         }
         round.place(lanes);
-        let sizes = round.bytes_sent();
-        let begins = [0, sizes[0], sizes[0] + sizes[1]];
-        let mut bytes = vec![0; sizes.iter().sum()];
-        round.send(lanes, |k, at, part| bytes[begins[k] + at..][..part.len()].copy_from_slice(part));
+        let [inputs, state, flags, end] = round.begins_sent();
+        let sizes = [state - inputs, flags - state, end - flags];
+        let mut bytes = vec![0; end];
+        round.send(lanes, |at, part| bytes[at..at + part.len()].copy_from_slice(part));
         let mut heads = Vec::new();
         let mut dispatches = Vec::new();
         for group in &round.groups {

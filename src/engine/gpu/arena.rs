@@ -111,16 +111,14 @@ impl<R: Lanes> Arena<R> {
     ) -> Result<wgpu::SubmissionIndex> {
         let groups = &self.round.groups;
         let heads: Vec<u8> = groups.iter().flat_map(|group| self.head(group, settings)).collect();
-        let [inputs, state, flags] = self.round.bytes_sent();
-        let begins = [0, inputs, inputs + state, inputs + state + flags];
-        let total = begins[3] + heads.len();
+        let begins = self.round.begins_sent();
+        let [.., of_heads] = begins;
+        let total = of_heads + heads.len();
         {
             let mut view = buffers.up.get_mapped_range_mut(..total as u64).map_err(|why| unmapped(&why))?;
-            let mut put = |k: usize, at: usize, part: &[u8]| {
-                write(view.slice(begins[k] + at..begins[k] + at + part.len()), part);
-            };
+            let mut put = |at: usize, part: &[u8]| write(view.slice(at..at + part.len()), part);
             self.round.send(lanes, &mut put);
-            put(3, 0, &heads);
+            put(of_heads, &heads);
         }
         buffers.up.unmap();
         let mut encoder = self.device.raw.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
@@ -135,8 +133,7 @@ impl<R: Lanes> Arena<R> {
                 }
             }
         }
-        let of_heads = begins[3] as u64;
-        encoder.copy_buffer_to_buffer(&buffers.up, of_heads, &buffers.settings, 0, heads.len() as u64);
+        encoder.copy_buffer_to_buffer(&buffers.up, of_heads as u64, &buffers.settings, 0, heads.len() as u64);
         {
             let timestamp_writes = self.clock.as_ref().map(Clock::writes);
             let mut pass =

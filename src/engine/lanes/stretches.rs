@@ -38,9 +38,13 @@ impl Stretches {
         Stretches { whole: self.whole, ..Stretches::default() }
     }
 
-    /// Makes room for some more and for no others.
+    /// Makes room for some more: for the first ones and no others, as most windows have no more.
     pub fn reserve(&mut self, more: usize) {
-        self.whole.reserve_exact(more);
+        if self.whole.is_empty() {
+            self.whole.reserve_exact(more);
+        } else {
+            self.whole.reserve(more);
+        }
     }
 
     /// How many there are.

@@ -83,7 +83,7 @@ fn aligned<T>(count: usize) -> usize {
 }
 
 /// Makes the words of some lanes, each a row of so many that `row` writes, and hands them to `put`: part by part, each with its
-/// first word.
+/// place among their bytes.
 fn rows<R: Lanes, T: bytemuck::Pod + Send + Sync>(
     lanes: &[Lane<R>],
     words: usize,
@@ -94,7 +94,7 @@ fn rows<R: Lanes, T: bytemuck::Pod + Send + Sync>(
     for (number, lanes) in lanes.chunks(AT_A_TIME).enumerate() {
         made.resize(words * room(lanes.len()), T::zeroed());
         fill(made, words, lanes.len(), |index, words| row(&lanes[index], words));
-        put(number * AT_A_TIME * words, bytemuck::cast_slice(made));
+        put(number * AT_A_TIME * words * size_of::<T>(), bytemuck::cast_slice(made));
     }
 }
 
@@ -130,31 +130,36 @@ impl<R: Lanes> Round<R> {
         self.groups.last().map_or([0; 3], Group::end::<R>)
     }
 
-    /// The bytes that are sent to each buffer.
+    /// Where what is sent to each buffer begins, bytes, one after the other, and where all of it ends.
     #[must_use]
-    pub fn bytes_sent(&self) -> [usize; 3] {
-        let words =
+    pub fn begins_sent(&self) -> [usize; 4] {
+        let [inputs, state, flags] =
             if self.whole { self.words() } else { self.groups.last().map_or([0; 3], Group::end_sent) };
-        std::array::from_fn(|k| words[k] * Self::SIZES[k])
+        let of_state = inputs * size_of::<R>();
+        let of_flags = of_state + state * size_of::<R>();
+        [0, of_state, of_flags, of_flags + flags * size_of::<u32>()]
     }
 
-    /// Bytes of a word of each buffer.
-    const SIZES: [usize; 3] = [size_of::<R>(), size_of::<R>(), size_of::<u32>()];
-
-    /// Hands the words of the lanes, which have their places, to `put`: part by part, each with the number of its buffer and its place
-    /// among the bytes that are sent to that.
-    pub fn send(&self, lanes: &[Lane<R>], mut put: impl FnMut(usize, usize, &[u8])) {
+    /// Hands the words of the lanes, which have their places, to `put`: part by part, each with its place among all bytes that are
+    /// sent.
+    pub fn send(&self, lanes: &[Lane<R>], mut put: impl FnMut(usize, &[u8])) {
         let (mut scalars, mut counts) = (Vec::new(), Vec::new());
+        let [of_inputs, of_state, of_flags, _] = self.begins_sent();
         let mut first = 0;
         for group in &self.groups {
             let (lanes, words) = (&lanes[first..][..group.lanes], group.of_lane());
-            let mut put =
-                |k: usize, at: usize, part: &[u8]| put(k, (group.sent[k] + at) * Self::SIZES[k], part);
-            let inputs = |lane: &Lane<R>, row: &mut [R]| lane.marching.put(row);
-            rows(lanes, words[0], &mut scalars, inputs, |at, part| put(0, at, part));
+            let [inputs, state, flags] = group.sent;
+            let row = |lane: &Lane<R>, row: &mut [R]| lane.marching.put(row);
+            rows(lanes, words[0], &mut scalars, row, |at, part| {
+                put(of_inputs + inputs * size_of::<R>() + at, part);
+            });
             if group.begun {
-                rows(lanes, words[1], &mut scalars, Lane::put_state, |at, part| put(1, at, part));
-                rows(lanes, words[2], &mut counts, Lane::put_flags, |at, part| put(2, at, part));
+                rows(lanes, words[1], &mut scalars, Lane::put_state, |at, part| {
+                    put(of_state + state * size_of::<R>() + at, part);
+                });
+                rows(lanes, words[2], &mut counts, Lane::put_flags, |at, part| {
+                    put(of_flags + flags * size_of::<u32>() + at, part);
+                });
             }
             first += lanes.len();
         }
