@@ -8,6 +8,7 @@ pub(crate) mod checks;
 pub(crate) mod input_files;
 pub(crate) mod label;
 pub(crate) mod modal;
+mod modal_sweeps;
 pub(crate) mod promise;
 pub(crate) mod refine;
 pub(crate) mod spec;
