@@ -47,13 +47,13 @@ impl Belt {
         self.corner(self.corners.len() - 1)[0]
     }
 
-    /// Every scaled velocity, and every acceleration.
-    pub(crate) fn numbers(&self) -> (impl Iterator<Item = f64>, impl Iterator<Item = f64>) {
+    /// Every scaled velocity, and of every part of it between corners its length and acceleration.
+    pub(crate) fn numbers(&self) -> (impl Iterator<Item = f64>, impl Iterator<Item = [f64; 2]>) {
         let velocities = (0..self.corners.len()).map(|index| self.corner(index)[1]);
-        let accelerations = (1..self.corners.len()).map(|index| {
+        let parts = (1..self.corners.len()).map(|index| {
             let ([begun, start], [ends, end]) = (self.corner(index - 1), self.corner(index));
-            (end - start) / (ends - begun)
+            [ends - begun, (end - start) / (ends - begun)]
         });
-        (velocities, accelerations)
+        (velocities, parts)
     }
 }

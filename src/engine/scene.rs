@@ -78,10 +78,11 @@ impl Scene {
     /// that has more than [`MOST_STEPS`] even if none is cut short.
     pub fn planned(instance: &Instance, plan: &Plan) -> Result<Scene, Status> {
         let scene = Scene::new(instance, plan.start)?;
-        if !scene.is_representable() {
+        let [settle, measure] = [plan.settle, plan.measure].map(|part| scene.scaled(part));
+        if !scene.is_representable() || !is_large(measure) || settle != 0.0 && !is_large(settle) {
             return Err(Status::NonFinite);
         }
-        let periods = (scene.scaled(plan.settle) + scene.scaled(plan.measure)) / TAU;
+        let periods = (settle + measure) / TAU;
         let countable = periods * f64::from(plan.steps_per_period) <= f64::from(MOST_STEPS);
         if countable { Ok(scene) } else { Err(Status::StepTooLarge) }
     }
@@ -89,7 +90,7 @@ impl Scene {
     /// Whether no scaled number is beyond [`LARGEST`], or so small that its inverse is.
     fn is_representable(&self) -> bool {
         let start = &self.start;
-        let (mut velocities, mut accelerations) = self.belt.numbers();
+        let (mut velocities, mut parts) = self.belt.numbers();
         let Units { time, length, velocity, acceleration, force } = self.units;
         // What they are multiplied by stays a number, too.
         let units = [time, length, velocity, acceleration, force];
@@ -100,7 +101,7 @@ impl Scene {
             && has_range(&self.model)
             && start.position.iter().chain(&start.velocity).copied().all(is_small)
             && velocities.all(|value| is_small(value) && (value == 0.0 || is_large(value)))
-            && accelerations.all(is_small)
+            && parts.all(|[length, acceleration]| is_large(length) && is_small(acceleration))
     }
 
     /// What the model of the start is of.

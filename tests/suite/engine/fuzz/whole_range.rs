@@ -91,19 +91,23 @@ const FIXED: &str = "[response]\nsettle = \"2 periods\"\nmeasure = \"3 periods\"
 /// Whether it goes on until settled, and the section: short runs, the shorter the finer their steps.
 fn response() -> impl Strategy<Value = (bool, String)> {
     let steps = prop_oneof![4 => 4..100_u32, 1 => 100..100_001_u32];
-    (steps, 0.0..20.0_f64, 0.01..20.0_f64, prop::bool::weighted(0.15)).prop_map(
-        |(steps, settle, measure, auto)| {
+    // Any number of seconds, too, as far as a sweep may ask for it.
+    let seconds = prop::option::weighted(0.1, (not_negative(1e-2), positive(1e-2)));
+    (steps, 0.0..20.0_f64, 0.01..20.0_f64, prop::bool::weighted(0.15), seconds).prop_map(
+        |(steps, settle, measure, auto, seconds)| {
             let shorter = (100.0 / f64::from(steps)).min(1.0);
             let (settle, measure, auto) = (settle * shorter, measure * shorter, auto && steps < 100);
-            let settle = if auto {
-                format!("settle = \"auto\"\nsettle_limit = \"{} periods\"\n", settle + 0.1)
-            } else {
-                format!("settle = \"{settle} periods\"\n")
+            let limit = format!("{} periods", settle + 0.1);
+            let [settle, measure] = match seconds {
+                Some((settle, measure)) => [settle, measure].map(|time| format!("{:e} s", time.min(1e9))),
+                None => [settle, measure].map(|count| format!("{count} periods")),
             };
-            (
-                auto,
-                format!("[response]\n{settle}measure = \"{measure} periods\"\nsteps_per_period = {steps}\n"),
-            )
+            let settle = if auto {
+                format!("settle = \"auto\"\nsettle_limit = \"{limit}\"\n")
+            } else {
+                format!("settle = \"{settle}\"\n")
+            };
+            (auto, format!("[response]\n{settle}measure = \"{measure}\"\nsteps_per_period = {steps}\n"))
         },
     )
 }

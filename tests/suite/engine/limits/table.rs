@@ -177,5 +177,11 @@ fn refused() -> Vec<Scene> {
             constant(0.4),
             &[(Param::FExt, 1e-300), (Param::BeltVelocity, 1.0)],
         ),
+        ends(
+            "a ramp of 1e-300 s",
+            Status::NonFinite,
+            constant(0.4),
+            &[(Param::RampDuration, 1e-300), (Param::BeltVelocity, 1.0)],
+        ),
     ]
 }
