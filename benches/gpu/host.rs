@@ -89,7 +89,7 @@ pub(crate) fn run(arguments: &[&str]) -> Result<(), Box<dyn Error>> {
         let part = engine.busy_with(count, 1);
         for first in (0..count).step_by(part) {
             let range = first..count.min(first + part);
-            let ahead = engine.ahead().min(count - range.end);
+            let ahead = engine.ahead(&spec).min(count - range.end);
             engine.records_ahead(&spec, range, ahead, &never, &|_| {})?;
         }
         let taken = ledger.close(&own);

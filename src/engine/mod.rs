@@ -110,8 +110,8 @@ pub trait Engine: fmt::Debug + Send {
         self.records(instances, range, cancel, progress)
     }
 
-    /// How many instances behind a range it begins at most.
-    fn ahead(&self) -> usize {
+    /// How many instances behind a range of these it begins at most.
+    fn ahead(&self, _instances: &dyn Instances) -> usize {
         0
     }
 

@@ -95,7 +95,7 @@ impl<'a> Solver<'a> {
     #[must_use]
     pub fn ahead(&self) -> usize {
         let Analysis { response, starts, .. } = self.spec.analysis;
-        if response && starts == Starts::One { self.engine.ahead() } else { 0 }
+        if response && starts == Starts::One { self.engine.ahead(self.spec) } else { 0 }
     }
 
     /// The records of the instances `range` of another sweep, which asks for the same analysis; see [`Solver::records`].

@@ -27,8 +27,10 @@ const BLOCK: usize = 65_536;
 struct Room {
     /// The least instances of a range.
     range: usize,
-    /// Most of those behind it that are begun: of runs until settled, the last of a range take five times as long as most.
+    /// Most of those behind it that each device begins.
     ahead: usize,
+    /// The same of runs until settled, of which the last of a range take five times as long as most.
+    ahead_unsettled: usize,
     /// Most lanes in one of the buffers of a device.
     lanes: usize,
 }
@@ -36,11 +38,12 @@ struct Room {
 impl Room {
     /// Where one of the devices is software.
     fn of_software() -> Room {
-        Room { range: BLOCK, ahead: 2 * BLOCK, lanes: software_chunk() }
+        Room { range: BLOCK, ahead: 2 * BLOCK, ahead_unsettled: 2 * BLOCK, lanes: software_chunk() }
     }
 
-    /// Where all are hardware: more than four times as many as there are lanes in three buffers.
-    const OF_HARDWARE: Room = Room { range: 2 * BLOCK, ahead: 8 * BLOCK, lanes: MOST_LANES };
+    /// Where all are hardware: begun are more than there are lanes in three buffers, or more than four times as many.
+    const OF_HARDWARE: Room =
+        Room { range: 2 * BLOCK, ahead: 3 * BLOCK, ahead_unsettled: 8 * BLOCK, lanes: MOST_LANES };
 }
 
 /// GPUs that share the work; their kernels stay compiled.
@@ -132,12 +135,14 @@ impl Engine for Gpu {
         cancel: &AtomicBool,
         progress: &(dyn Fn(usize) + Sync),
     ) -> Result<Computed> {
-        let ahead = ahead.min(self.ahead());
+        let ahead = ahead.min(self.ahead(instances));
         records(instances, [range.start, range.len(), ahead], self, cancel, progress)
     }
 
-    fn ahead(&self) -> usize {
-        self.room.ahead
+    fn ahead(&self, instances: &dyn Instances) -> usize {
+        let Room { ahead, ahead_unsettled, .. } = self.room;
+        let each = if instances.plan().settle_limit.is_some() { ahead_unsettled } else { ahead };
+        each * self.sessions.len()
     }
 
     fn busy_with(&self, _: usize, starts: usize) -> usize {
@@ -171,6 +176,8 @@ fn records(
     records.par_extend(rayon::iter::repeat_n(Record::default(), fresh));
     let devices = (&mut sessions[..], crews, chunk.unwrap_or(usize::MAX).min(room.lanes));
     let ended = response::complete(spec, [first, wanted, taken], devices, cancel, progress, &mut records);
+    // Nothing was begun of those that were not taken.
+    records.truncate(ended.as_ref().map_or(wanted, |taken| *taken));
     let behind: Vec<Record> = records.par_drain(wanted..).collect();
     records.shrink_to_fit();
     if let Ok(taken) = &ended {
