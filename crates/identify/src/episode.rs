@@ -1,5 +1,7 @@
 //! Episodes: windows in a row in which one oscillation grows.
 
+use std::f64::consts::TAU;
+
 use crate::cross::{INDEPENDENT, Measured, Sums};
 use crate::feedback::{Feedback, Skews, folded};
 use crate::settings::Settings;
@@ -70,6 +72,8 @@ pub struct Episode {
     pub slope: Option<Measured>,
     /// Largest distortion of its windows.
     pub distortion: f64,
+    /// Its largest velocity over that of sliding, where that is recorded.
+    pub reach: Option<f64>,
     /// The mechanism that caused it.
     pub verdict: Verdict,
     pub(super) feedback: Feedback,
@@ -192,6 +196,7 @@ pub(super) fn episode(
         share: None,
         slope: None,
         distortion,
+        reach: reach(run),
         verdict,
         feedback,
         wanders,
@@ -212,6 +217,12 @@ impl Episode {
         self.share = recorded.forces.then(|| feedback.share());
         self.slope = normal_force.filter(|_| recorded.forces).map(|force| feedback.slope_of(force));
     }
+}
+
+/// The largest velocity of windows over that of sliding.
+fn reach(run: &[Window]) -> Option<f64> {
+    let of = |window: &Window| Some(window.amplitude / (TAU * window.frequency * window.velocity?.abs()));
+    run.iter().map(of).try_fold(0.0, |most: f64, reach| Some(most.max(reach?)))
 }
 
 /// How many windows of a run are still linear. They end at the first strong window whose friction departs from that of all

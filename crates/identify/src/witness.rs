@@ -13,6 +13,11 @@ use crate::verdict::Kind;
 const COHERENT: f64 = 0.5;
 /// Standard errors of a phase, degrees, that blur it over more than a bin.
 const SHARP: f64 = 10.0;
+/// How likely a slope begins only below the mean velocity, over the part of that to which the velocity swings down: of growths that
+/// feed on both and swing by a third, one in six or seven.
+const BEGINS_BELOW: f64 = 0.5;
+/// A swing from which on that is said.
+const WIDE: f64 = 0.1;
 
 /// What is known of the structure.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,11 +48,21 @@ pub(super) fn power(episode: Option<&Episode>, elsewhere: bool) -> Testimony {
     let mut weights = [rest; 5];
     let place = Kind::ALL.iter().position(|kind| *kind == verdict.kind).unwrap_or_default();
     weights[place] = verdict.confidence;
-    let evidence = if elsewhere {
+    let mut evidence = if elsewhere {
         format!("at this velocity, from {:.4} s on, {reason}", episode.time[0])
     } else {
         reason
     };
+    if let Some(reach) = episode.reach.filter(|_| verdict.kind == Kind::Both) {
+        let [.., coupling, both, _] = &mut weights;
+        let below = *both * BEGINS_BELOW * reach.min(1.0);
+        (*coupling, *both) = (*coupling + below, *both - below);
+        if reach > WIDE {
+            let swing = 100.0 * reach;
+            evidence +=
+                &format!("; it swings by {swing:.0} % of the velocity, and the slope may begin below that");
+        }
+    }
     Testimony { witness: Witness::Power, chances: Chances::from_weights(weights), evidence }
 }
 
