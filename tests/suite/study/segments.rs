@@ -12,7 +12,7 @@ use crate::study::strokes::{Random, csv, run};
 use squealmap::model::friction::FrictionLaw;
 use squealmap::model::instance::Instance;
 use squealmap::model::motion::Motion;
-use squealmap::model::{Param, Params};
+use squealmap::model::{Param, Params, linear};
 use squealmap::study::signals::sensors::{Recording, Sample, record};
 use squealmap_identify::{
     DAMPING_RATIO, FrictionReading, Identification, Kind, Mechanism, Segment, Settings, State, Witness,
@@ -291,6 +291,33 @@ fn damping_is_read_within_the_oscillation() {
         let expected = if exceeds { Kind::Both } else { Kind::ModeCoupling };
         assert_eq!(segment.verdict.leaning, Some(expected), "{}", describe(&found));
     }
+}
+
+/// What a wide swing shows of a slope may begin below the velocity that it goes about: "both" has less confidence then, and says so.
+#[test]
+fn a_wide_swing_says_both_with_less_confidence() {
+    let mut rig = rig(0.168, 0.16, 0.0228, [0.02, 0.02]);
+    for param in [Param::C1, Param::C2] {
+        let damping = rig.params.require(param);
+        rig.params.set(param, 0.05 * damping);
+    }
+    assert_eq!(right(&rig, 0.0), [Kind::Both]);
+    let growth = linear::analyse(&rig).1.unwrap().growth_rate;
+    let told = |reach: f64| {
+        let duration = (reach / 1e-3).ln() / growth;
+        let recording = Recording { rate: RATE, duration, skew: 0.0, force_skew: 0.0 };
+        let mut samples = record(&rig, &plan(1.0, 1.0, 12), &recording).samples;
+        sensed(&mut samples, false, 60.0, false, &mut Random::new(3));
+        let found = run(&csv(&samples), &settings(coalescence(&rig), DAMPING_RATIO)).unwrap();
+        let grown = found.segments.last().unwrap();
+        let power = grown.testimonies.iter().find(|t| t.witness == Witness::Power).unwrap();
+        let (kind, confidence) = power.chances.unwrap_or_else(|| panic!("{}", describe(&found))).leading();
+        assert_eq!(kind, Kind::Both, "{}", describe(&found));
+        (confidence, power.evidence.contains("may begin below"))
+    };
+    let [(small, small_says), (wide, wide_says)] = [0.05, 0.8].map(told);
+    assert!(small > 0.95 && !small_says, "{small}");
+    assert!(wide < small - 0.04 && wide_says, "{wide}");
 }
 
 /// Without the velocity, or without forces, what can be told is told.
