@@ -59,8 +59,9 @@ pub(super) fn power(episode: Option<&Episode>, elsewhere: bool) -> Testimony {
         (*coupling, *both) = (*coupling + below, *both - below);
         if reach > WIDE {
             let swing = 100.0 * reach;
-            evidence +=
-                &format!("; it swings by {swing:.0} % of the velocity, and the slope may begin below that");
+            evidence = format!(
+                "{evidence}; it swings by {swing:.0} % of the velocity, and the slope may begin below that"
+            );
         }
     }
     Testimony { witness: Witness::Power, chances: Chances::from_weights(weights), evidence }
