@@ -49,7 +49,11 @@ fn seen(number: usize) -> Vec<(Place, usize)> {
             let mut samples = stroke.samples.clone();
             sensed(&mut samples, slow, decibel, number % 2 == 1, &mut random);
             if let Ok(found) = run(&csv(&samples), &settings(stroke.critical, stroke.damping_ratio)) {
-                all.extend(found.segments.iter().filter_map(|segment| of(&stroke, segment)));
+                // What fast forces do not read is what slow ones have seen already.
+                let sustained = Source::ALL.iter().position(|source| *source == Source::Sustained);
+                let new = |place: &Place| slow || Some(place[0]) != sustained;
+                let places = found.segments.iter().filter_map(|segment| of(&stroke, segment));
+                all.extend(places.filter(|(place, _)| new(place)));
             }
         }
     }

@@ -6,6 +6,7 @@ use num_complex::Complex64;
 
 use crate::cross::{INDEPENDENT, Measured, Sums};
 use crate::episode::LOUD;
+use crate::inertia::Inertia;
 use crate::losses::Losses;
 use crate::window::Window;
 use crate::within::Within;
@@ -39,6 +40,8 @@ pub(super) struct Cell {
     pub(super) within: Within,
     /// What the structure loses in it.
     pub(super) losses: Losses,
+    /// What moves along the contact.
+    pub(super) inertia: Inertia,
 }
 
 impl Cell {
@@ -61,6 +64,7 @@ impl Cell {
             swing: window.swing.unwrap_or_default().powi(2),
             within: window.within,
             losses: window.losses,
+            inertia: window.inertia,
         }
     }
 
@@ -81,6 +85,7 @@ impl Cell {
         self.swing += other.swing;
         self.within.add(&other.within);
         self.losses.add(&other.losses);
+        self.inertia.add(&other.inertia);
     }
 
     /// Cells added up.
@@ -119,6 +124,12 @@ impl Cell {
     /// Mean velocity, m/s.
     pub(super) fn velocity(&self) -> f64 {
         self.velocity / self.windows
+    }
+
+    /// Velocity of the vibration over that of sliding; `None` at rest.
+    pub(super) fn reach(&self) -> Option<f64> {
+        let reach = self.amplitude() / (TAU * self.frequency()) / self.velocity().abs();
+        reach.is_finite().then_some(reach)
     }
 
     /// Mean temperature, °C.

@@ -1,8 +1,9 @@
 //! The witnesses of a segment together: its verdict, what that rests on, and what contradicts it.
 
 use crate::episode::Episode;
+use crate::level::Reading;
 use crate::population::{Seen, Source, bin, chances};
-use crate::segment::{Reading, Segment, State};
+use crate::segment::{REVERSES, Segment, State};
 use crate::testimony::{Chances, Mechanism, Testimony, Witness};
 use crate::verdict::{CONFIDENT, Kind, Verdict};
 use crate::witness::{Structure, each, friction, friction_seen, phase, phase_seen, power, read_within};
@@ -194,7 +195,7 @@ fn together(
     let by_power = segment.testimonies[0].chances;
     let seen = phase_seen(segment, episode);
     // That it is an instability at all, and not driven, shows in its growth or in what limits it.
-    let limited = segment.reach.is_some_and(|reach| reach >= crate::segment::REVERSES);
+    let limited = segment.reach.is_some_and(|reach| reach >= REVERSES);
     let grows = episode.is_some_and(|episode| !episode.wanders);
     if !(limited || grows) {
         return undecided(seen.err().unwrap_or_else(|| "the vibration may be driven".to_owned()));

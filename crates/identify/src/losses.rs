@@ -5,14 +5,14 @@
 //! sliding unstable where `−N dμ/dv > c`.
 
 use crate::cross::Measured;
+use crate::inertia::OPEN;
 use crate::lanes::sum;
 
 /// Delay of the forces that is not known, as an angle of the oscillation, rad: 3°, as for the power at growth.
 const LATE: f64 = 0.052;
 
-/// Normal force, over its mean, below which the contact is open, and the share of such samples from which on nothing is read: the
-/// impacts that follow change the velocity between two samples, which no acceleration shows.
-const OPEN: f64 = 0.1;
+/// The share of samples with an open contact from which on nothing is read: the impacts that follow change the velocity between two
+/// samples, which no acceleration shows.
 const FEW: f64 = 0.002;
 
 /// Sums over samples of a sustained vibration: deviations of `T` and `N`, motion `ẋ` and acceleration `ẍ`.
@@ -64,6 +64,11 @@ impl Losses {
         self.acceleration += other.acceleration;
     }
 
+    /// Whether the contact opens.
+    pub(super) fn opens(&self) -> bool {
+        self.open > FEW * self.count
+    }
+
     /// The damping `c`, N s/m, for an inclination of up to `inclination` (rad); `None` where nothing moves,
     /// or where the contact opens.
     pub(super) fn damping(&self, inclination: f64) -> Option<Measured> {
@@ -75,7 +80,6 @@ impl Losses {
         // As if all of the force were noise.
         let noise = (self.tangential / self.motion / self.count).sqrt();
         let error = inclined.hypot(late).hypot(noise);
-        (value.is_finite() && error.is_finite() && self.open <= FEW * self.count)
-            .then_some(Measured { value, error })
+        (value.is_finite() && error.is_finite() && !self.opens()).then_some(Measured { value, error })
     }
 }

@@ -3,25 +3,19 @@
 use crate::cells::Cell;
 use crate::cross::Measured;
 use crate::cut::{Course, cut};
+use crate::level::{LEAST, Level, Reading, follows, level, spread};
 use crate::population::{Seen, Source};
 use crate::settings::Settings;
 use crate::testimony::{Mechanism, Testimony, Witness};
 use crate::trend::Trended;
 use crate::verdict::Verdict;
-use crate::within::differ;
 
 /// Amplitude, over the largest of the record, from which on the record vibrates.
 const VIBRATES: f64 = 0.1;
 /// Velocity of the vibration, over that of sliding, from which on it is limited by friction: it all but reverses the sliding.
 pub(super) const REVERSES: f64 = 0.5;
-/// That below which the mean of `T/N` is the friction at the mean velocity.
-pub(super) const SMALL: f64 = 0.1;
 /// The shortest segment, as a part of the record.
 const SHORTEST: f64 = 0.03;
-/// The fewest cells of a segment that is cut off another one.
-const LEAST: usize = 5;
-/// Swing of a force, over its mean, from which on force sensors follow a vibration that reverses the sliding.
-pub(super) const FOLLOWS: f64 = 0.05;
 /// Change of the logarithm of the amplitude that is no steady vibration any more.
 const CHANGES: f64 = 1.0;
 /// Standard errors from which on a trend of the amplitude is one.
@@ -52,32 +46,6 @@ impl State {
             State::Decaying => "decaying",
         }
     }
-}
-
-/// How the friction coefficient of a segment was read.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Reading {
-    /// The mean of `T/N`: the vibration is too small to change it.
-    Mean,
-    /// The law itself, within the oscillation, by force sensors that follow it.
-    Within,
-    /// The mean of `T/N` of a vibration that reverses the sliding: friction reaches at least that.
-    Bound,
-}
-
-/// Friction of a segment.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Level {
-    /// How it was read.
-    pub reading: Reading,
-    /// The friction coefficient.
-    pub level: Measured,
-    /// `dμ/dv`, s/m; `None` where the velocity hardly changes.
-    pub slope: Option<Measured>,
-    /// What a falling slope has to exceed to be unstable alone: the damping along the contact over the normal force, s/m;
-    /// `None` where force sensors do not follow the vibration.
-    pub damping: Option<Measured>,
 }
 
 /// A segment of time.
@@ -239,29 +207,9 @@ fn courses(cells: &[Cell], has: Has, vibrating: bool) -> Vec<Course> {
     courses
 }
 
-/// Relative range of a quantity.
-fn spread(cells: &[Cell], of: impl Fn(&Cell) -> f64) -> f64 {
-    let values = cells.iter().map(of);
-    let [low, high] =
-        values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)]);
-    (high - low) / high.abs().max(low.abs()).max(f64::MIN_POSITIVE)
-}
-
-/// Whether the force sensors follow the vibration.
-fn follows(cells: &[Cell]) -> bool {
-    Cell::sum(cells).swing() >= FOLLOWS
-}
-
-/// Velocity of the vibration over that of sliding; `None` at rest.
-pub(super) fn reach(cell: &Cell) -> Option<f64> {
-    let omega = std::f64::consts::TAU * cell.frequency();
-    let reach = cell.amplitude() / omega / cell.velocity().abs();
-    reach.is_finite().then_some(reach)
-}
-
 /// That where the velocity is recorded.
 fn reached(cell: &Cell, has: Has) -> Option<f64> {
-    reach(cell).filter(|_| has.velocity)
+    cell.reach().filter(|_| has.velocity)
 }
 
 /// One segment, not judged yet.
@@ -286,7 +234,7 @@ fn segment(cells: &[Cell], has: Has, vibrating: bool, settings: &Settings) -> Se
         reach,
         phase: shown.map(|(phase, _)| phase),
         coherence: shown.map(|(_, coherence)| coherence),
-        friction: has.forces.then(|| level(cells, &all, has, limited, settings.inclination)),
+        friction: has.forces.then(|| level(cells, &all, has.velocity, limited, settings)),
         velocity: has.velocity.then(|| [cells[0].velocity(), cells[cells.len() - 1].velocity()]),
         temperature: has.temperature.then(|| all.temperature()),
         seen: None,
@@ -318,74 +266,5 @@ fn change(cells: &[Cell], has: Has) -> f64 {
         amplitude
     } else {
         over_velocity
-    }
-}
-
-/// Whether the power of friction goes into the losses, and next to none into a growth, or comes from a decay.
-fn steady(cells: &[Cell]) -> bool {
-    /// Growth rate, over the angular frequency, from which on it is not.
-    const STEADY: f64 = 2e-3;
-    let [first, last] = [&cells[0], &cells[cells.len() - 1]];
-    let omega = std::f64::consts::TAU * Cell::sum(cells).frequency();
-    let change = (last.amplitude() / first.amplitude()).ln().abs();
-    change < STEADY * omega * (last.middle() - first.middle())
-}
-
-/// Whether the law read within the oscillation has another slope early than late: the velocity (m/s, its mean) has passed a bend.
-fn turns(cells: &[Cell], velocity: f64) -> bool {
-    /// Parts of the time before and after.
-    const PARTS: usize = 4;
-    let read = |some: &[Cell]| {
-        let all = Cell::sum(some);
-        all.within.law(all.velocity())
-    };
-    (1..PARTS).any(|part| {
-        let (early, late) = cells.split_at(cells.len() * part / PARTS);
-        !early.is_empty()
-            && read(early)
-                .zip(read(late))
-                .is_some_and(|(early, late)| differ([early[1], late[1]], early[0].value, velocity))
-    })
-}
-
-/// Level and slope of friction.
-fn level(cells: &[Cell], all: &Cell, has: Has, limited: bool, inclination: f64) -> Level {
-    /// Relative range of the velocity from which on there is a slope.
-    const MOVES: f64 = 0.05;
-    /// Systematic errors of a friction coefficient, relative, and of a slope, over that of `μ/v`.
-    const SYSTEMATIC: f64 = 0.01;
-    /// That of a slope within the oscillation, over that: it is read over three fifths of the velocity.
-    const LOCAL: f64 = 3.0;
-    let within = all.within.law(all.velocity()).filter(|_| limited && all.swing() >= FOLLOWS);
-    if let Some([level, slope]) = within {
-        let allowed = SYSTEMATIC * level.value.abs();
-        let error = level.error.hypot(allowed);
-        let velocity = all.velocity();
-        let local = (LOCAL * allowed / velocity.abs()).hypot(all.within.unclear_bend(velocity));
-        let slope = Measured { error: slope.error.hypot(local), ..slope };
-        let bent = all.within.bends(velocity) || turns(cells, velocity);
-        let slope = (!bent).then_some(slope);
-        let normal = all.normal();
-        let damping = all.losses.damping(inclination).filter(|_| steady(cells));
-        let damping = damping
-            .map(|Measured { value, error }| Measured { value: value / normal, error: error / normal });
-        return Level { reading: Reading::Within, level: Measured { error, ..level }, slope, damping };
-    }
-    // A vibration that is not small any more lowers the mean: what is left of a growth is its beginning.
-    let small: Vec<Cell> =
-        cells.iter().filter(|cell| reach(cell).is_none_or(|r| r < SMALL)).copied().collect();
-    let few = small.len() < LEAST;
-    let blurred = !limited && few && small.len() < cells.len();
-    let cells = if limited || few { cells } else { &small };
-    let all = Cell::sum(cells);
-    let moves = has.velocity && !blurred && cells.len() >= LEAST && spread(cells, Cell::velocity) > MOVES;
-    let abscissa = |cell: &Cell| if moves { cell.velocity() } else { cell.middle() };
-    let line = Trended::new(cells.iter().map(|cell| [abscissa(cell), cell.friction()]));
-    let error = line.error.hypot(SYSTEMATIC * all.friction().abs());
-    Level {
-        reading: if limited { Reading::Bound } else { Reading::Mean },
-        level: Measured { value: all.friction(), error },
-        slope: moves.then_some(line.slope).filter(|slope| slope.error.is_finite()),
-        damping: None,
     }
 }

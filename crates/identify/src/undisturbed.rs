@@ -4,7 +4,7 @@
 //! slow or fast the force sensors are. It is left out, and with it what slow sensors remember of it.
 
 use crate::cells::Cell;
-use crate::segment::{SMALL, reach};
+use crate::level::SMALL;
 
 /// How long a slow force sensor remembers a vibration, s: six time constants at 50 Hz.
 const REMEMBERS: f64 = 0.02;
@@ -29,7 +29,7 @@ pub(super) fn undisturbed(cells: &[Cell], has_temperature: bool) -> Undisturbed 
     let mut last = f64::NEG_INFINITY;
     for cell in cells {
         all += cell.windows;
-        let vibrates = cell.is_loud() && reach(cell).is_none_or(|reach| reach >= SMALL);
+        let vibrates = cell.is_loud() && cell.reach().is_none_or(|reach| reach >= SMALL);
         if vibrates {
             since = cell.time[1];
         }

@@ -6,6 +6,7 @@ use num_complex::Complex64;
 
 use crate::channel::{Channel, PerChannel};
 use crate::cross::{INDEPENDENT, Measured, Sums};
+use crate::inertia::Inertia;
 use crate::lanes::{dot, sum};
 use crate::losses::Losses;
 use crate::spectrum::{Beside, Spectra, detrend, hann, refine};
@@ -81,6 +82,8 @@ pub struct Window {
     pub(super) within: Within,
     /// What the structure loses, of the same part.
     pub(super) losses: Losses,
+    /// What moves along the contact, of the same part, where it opens.
+    pub(super) inertia: Inertia,
     pub(super) sums: Sums,
 }
 
@@ -161,7 +164,7 @@ impl Analyser {
             tangential.max(amplitude(sums.nn, normal_noise) / mean.abs())
         });
         let amplitude = amplitude(sums.xx, along);
-        let (within, losses) = self.within(channels, velocity.zip(normal_force));
+        let (within, losses, inertia) = self.within(channels, velocity.zip(normal_force), frequency);
         Window {
             time: [start, start + self.geometry.window as f64 / self.rate],
             friction,
@@ -177,12 +180,19 @@ impl Analyser {
             swing,
             within,
             losses,
+            inertia,
             sums,
         }
     }
 
-    /// The friction law within the oscillation, with the mean velocity (m/s) and normal force (N), and the losses.
-    fn within(&mut self, channels: &PerChannel<&[f64]>, means: Option<(f64, f64)>) -> (Within, Losses) {
+    /// The friction law within the oscillation, with the mean velocity (m/s) and normal force (N), the losses and the mass; at a
+    /// frequency (Hz).
+    fn within(
+        &mut self,
+        channels: &PerChannel<&[f64]>,
+        means: Option<(f64, f64)>,
+        frequency: f64,
+    ) -> (Within, Losses, Inertia) {
         /// Six points around each step: with seven samples per period a trapezoid is 7 % off.
         const STEP: [f64; 6] = [11.0, -93.0, 802.0, 802.0, -93.0, 11.0];
         let Some((velocity, mean)) = means.filter(|_| self.has[Channel::TangentialForce as usize]) else {
@@ -201,11 +211,17 @@ impl Analyser {
         detrend(&mut self.motion);
         let Geometry { window, hop, .. } = self.geometry;
         let middle = (window - hop) / 2..usize::midpoint(window, hop);
-        let [tangential, normal] =
-            [Channel::TangentialForce, Channel::NormalForce].map(|c| &channels[c as usize][middle.clone()]);
-        let motion = &self.motion[middle.clone()];
+        let [acceleration, tangential, normal] =
+            [Channel::TangentialAcceleration, Channel::TangentialForce, Channel::NormalForce]
+                .map(|c| &channels[c as usize][middle.clone()]);
+        let motion = &mut self.motion[middle.clone()];
         let losses = Losses::read(motion, &self.signals[0][middle], tangential, normal);
-        (Within::read(motion, tangential, normal, velocity, mean), losses)
+        let inertia = if losses.opens() {
+            Inertia::read(motion, [acceleration, tangential, normal], self.rate, self.rate / frequency)
+        } else {
+            Inertia::default()
+        };
+        (Within::read(motion, tangential, normal, velocity, mean), losses, inertia)
     }
 
     fn load(&mut self, channels: &PerChannel<&[f64]>, friction: f64) {

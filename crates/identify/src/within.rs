@@ -107,6 +107,11 @@ impl Within {
         differ([low[1], high[1]], low[0].value, velocity)
     }
 
+    /// Slope (s/m) above the mean velocity (m/s).
+    pub(super) fn above(&self, velocity: f64) -> Measured {
+        self.0[1].read(velocity)[1]
+    }
+
     /// By how much the slopes (s/m) of both sides are off the one between them: a bend that is not clear may be one.
     pub(super) fn unclear_bend(&self, velocity: f64) -> f64 {
         let [low, high] = self.0.map(|line| line.read(velocity)[1].value);

@@ -3,8 +3,9 @@
 use crate::attribution::normal_below;
 use crate::cross::Measured;
 use crate::episode::Episode;
+use crate::level::{Level, Reading};
 use crate::population::{Damped, Level as Height, Seen, Source, Trend, UNCLEAR, bin, stated};
-use crate::segment::{Level, REVERSES, Reading, Segment, State};
+use crate::segment::{REVERSES, Segment, State};
 use crate::settings::Settings;
 use crate::testimony::{Chances, Testimony, Witness};
 use crate::verdict::Kind;
@@ -165,7 +166,7 @@ pub(super) fn each(segment: &Segment, structure: Structure) -> [Option<f64>; 2] 
 pub(super) fn read_within(segment: &Segment, structure: Structure) -> Option<[f64; 2]> {
     /// Standard errors from which on a rise is one.
     const RISES: f64 = 3.0;
-    let Level { level, slope, damping, .. } =
+    let Level { level, slope, least, damping, .. } =
         segment.friction.filter(|friction| friction.reading == Reading::Within)?;
     let (critical, slope, damping) = (structure.critical?, slope?, damping?);
     let [first, last] = segment.velocity?;
@@ -175,9 +176,14 @@ pub(super) fn read_within(segment: &Segment, structure: Structure) -> Option<[f6
     }
     let above = (level.value - critical.value) / level.error.hypot(critical.error);
     // A rise that is not clear is none: friction hardly rises where it reaches the coalescence.
-    let value = if slope.value < RISES * slope.error { slope.value.min(0.0) } else { slope.value };
-    let exceeds = (-value - damping.value) / slope.error.hypot(damping.error);
-    Some([above, exceeds].map(normal_below))
+    let exceeds = |slope: Measured| {
+        let value = if slope.value < RISES * slope.error { slope.value.min(0.0) } else { slope.value };
+        normal_below((-value - damping.value) / slope.error.hypot(damping.error))
+    };
+    // What does so in all but a part of the segment is in doubt, no less and no more.
+    let doubt = least.map_or(1.0, |least| exceeds(least).max(0.5));
+    let exceeds = exceeds(slope);
+    Some([normal_below(above), if exceeds > 0.5 { exceeds.min(doubt) } else { exceeds }])
 }
 
 /// (c) Level and slope of friction.
@@ -204,8 +210,8 @@ pub(super) fn friction(segment: &Segment, structure: Structure, grows: bool) -> 
         let how = if friction.reading == Reading::Within {
             "read within the oscillation"
         } else {
-            "the vibration reverses the sliding and the force sensors do not follow it: the mean is a lower bound, its slope is not \
-             that of the law"
+            "the vibration reverses the sliding and hides the law (the force sensors do not follow it, or the contact opens and there \
+             are fewer than 15 samples per period): the mean is a lower bound, its slope is not that of the law"
         };
         let (level, trend) = friction_seen(segment, structure);
         let tells = level.is_some() || (trend != Some(Trend::Unknown) && friction.reading == Reading::Within);

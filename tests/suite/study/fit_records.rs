@@ -71,7 +71,7 @@ fn a_squealing_ramp_gives_the_law_within_its_errors() {
 #[test]
 fn what_squeals_under_slow_forces_is_left_out() {
     let stroke = rig(0.16, 0.06, 0.025, [0.045, 0.005]);
-    let recording = Recording { rate: RATE, duration: LENGTH, skew: 0.0, force_skew: 0.0 };
+    let recording = Recording { rate: *RATE, duration: LENGTH, skew: 0.0, force_skew: 0.0 };
     let mut samples = record(&stroke, &plan(1.0, 1.0, 12), &recording).samples;
     sensed(&mut samples, true, 40.0, false, &mut Random::new(5));
     let measured = read(&csv(&samples));

@@ -2,6 +2,7 @@
 //! cause by the eigenvalues at every instant.
 
 use std::f64::consts::TAU;
+use std::sync::LazyLock;
 
 use crate::common::{bilinear, constant, instance, plan};
 use crate::study::strokes::{FIELDS, Random};
@@ -22,8 +23,10 @@ const LOAD: f64 = 17.0;
 const SLOW: f64 = 50.0;
 /// Damping ratios of the structures; a laboratory knows on which side of the middle one its own lies.
 const DAMPING: [f64; 3] = [2e-4, squealmap_identify::DAMPING_RATIO, 2e-2];
-/// Samples per second, Hz.
-pub(crate) const RATE: f64 = 102.4e3;
+/// Samples per second, Hz; the benchmark may be asked for others.
+pub(crate) static RATE: LazyLock<f64> = LazyLock::new(|| {
+    std::env::var("SQUEALMAP_RATE").ok().and_then(|text| text.parse().ok()).unwrap_or(102.4e3)
+});
 /// Length of a stroke of sustained squeal, s.
 const LENGTH: f64 = 0.2;
 /// Kick at the start, over the belt velocity.
@@ -171,14 +174,14 @@ fn draw(drawn: Drawn, random: &mut Random) -> (Instance, f64) {
 pub(crate) fn stroke(drawn: Drawn, random: &mut Random) -> Stroke {
     loop {
         let (instance, duration) = draw(drawn, random);
-        let recording = Recording { rate: RATE, duration, skew: 0.0, force_skew: 0.0 };
+        let recording = Recording { rate: *RATE, duration, skew: 0.0, force_skew: 0.0 };
         let mut signals = record(&instance, &plan(1.0, 1.0, 12), &recording);
         if signals.status != Status::Ok {
             continue;
         }
         let from = if drawn == Drawn::Sustained { 0.2 * LENGTH } else { 0.0 };
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a number of samples")]
-        signals.samples.drain(..(from * RATE) as usize);
+        signals.samples.drain(..(from * *RATE) as usize);
         if drawn == Drawn::Driven {
             drive(&mut signals.samples, random);
         }
@@ -203,7 +206,7 @@ fn drive(samples: &mut [Sample], random: &mut Random) {
         let scales = [velocity * omega, velocity * omega, sample.tangential_force, sample.normal_force];
         for (number, field) in FIELDS.into_iter().enumerate() {
             let size = if number < 2 { scales[number] } else { scales[number] * reach * strength };
-            *field(sample) += parts[number] * size * (omega * k as f64 / RATE + phases[number]).cos();
+            *field(sample) += parts[number] * size * (omega * k as f64 / *RATE + phases[number]).cos();
         }
     }
 }
@@ -211,7 +214,7 @@ fn drive(samples: &mut [Sample], random: &mut Random) {
 /// Makes the forces those of slow sensors, adds noise, and turns the stroke around.
 pub(crate) fn sensed(samples: &mut [Sample], slow: bool, decibel: f64, backwards: bool, random: &mut Random) {
     let noise = 10_f64.powf(-decibel / 20.0);
-    let share = 1.0 - (-TAU * SLOW / RATE).exp();
+    let share = 1.0 - (-TAU * SLOW / *RATE).exp();
     for (number, field) in FIELDS.into_iter().enumerate() {
         let force = number >= 2;
         let count = samples.len() as f64;
