@@ -43,7 +43,7 @@ impl Room {
 
     /// Where all are hardware: begun are more than there are lanes in three buffers, or more than four times as many.
     const OF_HARDWARE: Room =
-        Room { range: 2 * BLOCK, ahead: 3 * BLOCK, ahead_unsettled: 8 * BLOCK, lanes: MOST_LANES };
+        Room { range: BLOCK, ahead: 3 * BLOCK, ahead_unsettled: 9 * BLOCK, lanes: MOST_LANES };
 }
 
 /// GPUs that share the work; their kernels stay compiled.
