@@ -41,9 +41,9 @@ impl Room {
         Room { range: BLOCK, ahead: 2 * BLOCK, ahead_unsettled: 2 * BLOCK, lanes: software_chunk() }
     }
 
-    /// Where all are hardware: begun are more than there are lanes in three buffers, or more than four times as many.
+    /// Where all are hardware: begun behind a range are as many as there are lanes in three buffers, or four times as many.
     const OF_HARDWARE: Room =
-        Room { range: BLOCK, ahead: 3 * BLOCK, ahead_unsettled: 9 * BLOCK, lanes: MOST_LANES };
+        Room { range: BLOCK, ahead: 3 * MOST_LANES, ahead_unsettled: 12 * MOST_LANES, lanes: MOST_LANES };
 }
 
 /// GPUs that share the work; their kernels stay compiled.
