@@ -50,10 +50,9 @@ fn seen(number: usize) -> Vec<(Place, usize)> {
             sensed(&mut samples, slow, decibel, number % 2 == 1, &mut random);
             if let Ok(found) = run(&csv(&samples), &settings(stroke.critical, stroke.damping_ratio)) {
                 // What fast forces do not read is what slow ones have seen already.
-                let sustained = Source::ALL.iter().position(|source| *source == Source::Sustained);
-                let new = |place: &Place| slow || Some(place[0]) != sustained;
-                let places = found.segments.iter().filter_map(|segment| of(&stroke, segment));
-                all.extend(places.filter(|(place, _)| new(place)));
+                let new =
+                    |of: &&Segment| slow || of.seen.is_some_and(|seen| seen.source != Source::Sustained);
+                all.extend(found.segments.iter().filter(new).filter_map(|segment| of(&stroke, segment)));
             }
         }
     }
