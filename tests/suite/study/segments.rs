@@ -177,7 +177,9 @@ fn the_ramp_of_figure_6_ends_in_both() {
     let last = loud[loud.len() - 1];
     assert_eq!(last.verdict.leaning, Some(Kind::Both), "{}", describe(&found));
     // The law is 0.4 − 0.02 V, and what moves is m1 + m2: as much damping as they may have, or none.
-    for segment in both.iter().filter(|s| s.time[0] > knee) {
+    let below: Vec<&&&Segment> = both.iter().filter(|s| s.time[0] > knee).collect();
+    assert!(!below.is_empty(), "{}", describe(&found));
+    for segment in below {
         let friction = segment.friction.unwrap();
         assert_eq!(friction.reading, FrictionReading::Within);
         let [first, last] = segment.velocity.unwrap();
