@@ -59,7 +59,9 @@ impl Lack {
 }
 
 fn main() {
-    let arguments = Arguments::from_args();
+    let mut arguments = Arguments::from_args();
+    // A software driver has all cores at work for one of them.
+    arguments.test_threads.get_or_insert(1);
     let adapters = Adapter::all();
     let required = std::env::var_os(REQUIRE).is_some_and(|value| value == "1");
     let all = adapters.is_empty().then_some(Lack::Adapter);

@@ -28,7 +28,8 @@ fn all_starts() -> Result<(), Failed> {
         [axes]\nbelt_velocity = { values = [0.7, 1.3, 1.6, 2.5] }\n";
     let boxed = "kind = \"box\"\nbox_samples = 8\nbox_displacement_from = -2.5\nbox_displacement_to = 1.5\n\
         box_velocity_from = 0\nbox_velocity_to = 2\n";
-    for start in ["kind = \"both\"\n", boxed] {
+    // Chunks that part the starts of an instance.
+    for (start, split) in [("kind = \"both\"\n", 5), (boxed, 20)] {
         let text = format!(
             "{single}[start]\n{start}[response]\nsettle = \"100 periods\"\nmeasure = \"40 periods\"\n"
         );
@@ -38,7 +39,7 @@ fn all_starts() -> Result<(), Failed> {
         for verdict in [true, false] {
             assert!(reference.records.iter().any(|record| record.bistable == Some(verdict)), "{expected:?}");
         }
-        for chunk in [None, Some(3)] {
+        for chunk in [None, Some(split)] {
             let options = Options {
                 backend: Backend::Gpu,
                 precision: Some(Precision::F32),

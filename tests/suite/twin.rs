@@ -262,10 +262,12 @@ pub(crate) fn outcomes_seen<R: Lanes, const W: usize>(
     made
 }
 
-/// The responses of some instances.
+/// The responses of some instances; few of them in narrow warps, which wait less for the one that takes the most steps.
 pub(crate) fn outcomes<R: Lanes>(instances: &[Instance], plan: &Plan) -> Vec<Outcome> {
-    if instances.len() == 1 {
-        return outcomes_seen::<R, 1>(instances, plan, |_| {});
+    match instances.len() {
+        0 | 1 => outcomes_seen::<R, 1>(instances, plan, |_| {}),
+        2..=64 => outcomes_seen::<R, 8>(instances, plan, |_| {}),
+        65..=256 => outcomes_seen::<R, 16>(instances, plan, |_| {}),
+        _ => outcomes_seen::<R, 64>(instances, plan, |_| {}),
     }
-    outcomes_seen::<R, 64>(instances, plan, |_| {})
 }

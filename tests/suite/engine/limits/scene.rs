@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use crate::common::{instance, plan};
 use crate::engine::exact;
+use crate::engines::Engine;
 use nalgebra::Vector4;
 use squealmap::engine::outcome::Outcome;
 use squealmap::engine::plan::{Duration, Plan};
@@ -20,8 +21,6 @@ pub(crate) type Number = fn(&Outcome) -> Option<f64>;
 pub(crate) enum Expected {
     /// Numbers, each with what is read from an outcome.
     Numbers(Vec<(Number, f64)>),
-    /// The same numbers as those of the reference with five times as many steps per period.
-    Reference(Vec<Number>),
     /// This status, from every engine.
     Ends(Status),
 }
@@ -116,8 +115,8 @@ pub(crate) fn stick_slip(name: &str, velocity: f64, force: f64, margin: f64) -> 
             (Param::StartDisplacement, 0.5 * reach),
         ],
     );
-    // Whole cycles, so that the ends of the window count for nothing.
-    let cycles = 16.0 * period / TAU;
+    // Whole cycles, so that the ends of the window count for nothing; few of those that stick for most of their time.
+    let cycles = if stick > 100.0 * slip { 4.0 } else { 16.0 } * period / TAU;
     let mut numbers: Vec<(Number, f64)> = vec![
         (|outcome| outcome.stick, stick / period),
         (|outcome| outcome.response_frequency, omega / period),
@@ -131,8 +130,18 @@ pub(crate) fn stick_slip(name: &str, velocity: f64, force: f64, margin: f64) -> 
     }
 }
 
-/// A scene that every engine has to end as the reference does with shorter steps.
+/// A scene that every engine has to end as the reference does with five times as many steps per period.
 pub(crate) fn as_reference(name: &str, law: FrictionLaw, values: &[(Param, f64)]) -> Scene {
+    as_reference_over([30.0, 20.0], name, law, values)
+}
+
+/// The same with so many periods before the window and in it.
+pub(crate) fn as_reference_over(
+    [settle, measure]: [f64; 2],
+    name: &str,
+    law: FrictionLaw,
+    values: &[(Param, f64)],
+) -> Scene {
     let numbers: [Number; 6] = [
         |outcome| outcome.x2_std,
         |outcome| outcome.y1_std,
@@ -141,12 +150,7 @@ pub(crate) fn as_reference(name: &str, law: FrictionLaw, values: &[(Param, f64)]
         |outcome| outcome.free,
         |outcome| outcome.n_peak,
     ];
-    Scene {
-        name: name.to_owned(),
-        instance: instance(law, values),
-        plan: periods(30.0, 20.0, 12),
-        expected: Expected::Reference(numbers.to_vec()),
-    }
+    in_these(name, instance(law, values), periods(settle, measure, 12), &numbers)
 }
 
 /// One in which friction changes near rest, where the accelerations show it.
@@ -157,7 +161,15 @@ pub(crate) fn layer(name: &str, law: FrictionLaw, values: &[(Param, f64)]) -> Sc
         |outcome| outcome.ax_peak,
         |outcome| outcome.impacts_per_second,
     ];
-    Scene { expected: Expected::Reference(numbers.to_vec()), ..as_reference(name, law, values) }
+    in_these(name, instance(law, values), periods(30.0, 20.0, 12), &numbers)
+}
+
+/// One that the reference tells these numbers of.
+fn in_these(name: &str, instance: Instance, plan: Plan, numbers: &[Number]) -> Scene {
+    let outcome = Engine::Reference.run(&instance, &Plan { steps_per_period: 60, ..plan });
+    let told = |number: &Number| (*number, number(&outcome).expect("the reference computes it"));
+    let expected = Expected::Numbers(numbers.iter().map(told).collect());
+    Scene { name: name.to_owned(), instance, plan, expected }
 }
 
 /// A scene that every engine has to refuse.

@@ -1,6 +1,8 @@
 //! The scenes: every parameter from one end of its range to the other.
 
-use super::scene::{Group, Scene, as_reference, ends, layer, periods, sliding, sliding_under, stick_slip};
+use super::scene::{
+    Group, Scene, as_reference, as_reference_over, ends, layer, periods, sliding, sliding_under, stick_slip,
+};
 use crate::common::{bilinear, constant};
 use squealmap::model::Param;
 use squealmap::model::friction::FrictionLaw;
@@ -56,9 +58,11 @@ fn slides() -> Vec<Scene> {
     for ratio in [1e-9, 1e-3, 10.0, 1e3] {
         all.push(slide(&format!("m2/m1 = {ratio:e}"), &[(Param::M2, 2.12 * ratio)]));
     }
-    for damping in [0.0, 1e2, 1e4, 1e5] {
+    for damping in [0.0, 1e2, 1e4] {
         all.push(slide(&format!("c1 = c2 = {damping:e}"), &[(Param::C1, damping), (Param::C2, damping)]));
     }
+    let damped = [(Param::C1, 1e5), (Param::C2, 1e5)];
+    all.push(sliding("c1 = c2 = 1e5, 4 + 4 periods", 0.1, 4.0, &damped));
     for force in [1e-9, 1e9] {
         let values =
             [(Param::FExt, force), (Param::StartVelocity, 1e-6 * force), (Param::BeltVelocity, 1e-3 * force)];
@@ -136,11 +140,12 @@ fn impacts() -> Vec<Scene> {
     for restitution in [0.0, 0.5, 0.9] {
         all.push(with(&format!("e = {restitution}"), &[(Param::Restitution, restitution)]));
     }
-    for ratio in [1e-6, 1e-3, 1e-2] {
-        all.push(with(
-            &format!("m2/m1 = {ratio:e}"),
-            &[(Param::M2, 2.12 * ratio), (Param::BeltVelocity, 3.0)],
-        ));
+    for (ratio, shorter) in [(1e-6, 2.0), (1e-3, 1.0), (1e-2, 1.0)] {
+        let [settle, measure] = [30.0, 20.0].map(|periods| periods / shorter);
+        let length = if shorter > 1.0 { format!(", {settle} + {measure} periods") } else { String::new() };
+        let values = [&base[..], &[(Param::M2, 2.12 * ratio), (Param::BeltVelocity, 3.0)]].concat();
+        let name = format!("m2/m1 = {ratio:e}{length}");
+        all.push(as_reference_over([settle, measure], &name, constant(0.4), &values));
     }
     all
 }
