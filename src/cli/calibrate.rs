@@ -75,7 +75,7 @@ impl Calibrate {
             Some(path) => {
                 let bad = |why: String| Error::NoMaterial { path: path.clone(), why };
                 let bytes = files::text(path, MOST).map_err(bad)?.into_bytes();
-                let nothing = || bad("has no column `temperature` of rising numbers".to_owned());
+                let nothing = || bad("has no column `temperature` of two or more rising numbers".to_owned());
                 let (law, temperatures) = read(&bytes).ok_or_else(nothing)?;
                 let file = FILES[1].to_owned();
                 (Plane::Material { file, law, temperatures, velocities: self.velocities }, Some(bytes))
@@ -122,7 +122,7 @@ fn read(bytes: &[u8]) -> Option<(String, [f64; 2])> {
 
 /// Two positive numbers, the lower one first.
 fn pair(text: &str) -> std::result::Result<[f64; 2], String> {
-    const WORDS: &str = "two numbers greater than 0 such as 14.2,14.6, the lower one first";
+    const WORDS: &str = "two numbers greater than 0 with a comma between them, the lower one first";
     let (low, high) = text.split_once(',').ok_or_else(|| format!("must be {WORDS}"))?;
     let [low, high] = [low, high].map(|part| number(part.trim(), |x| x > 0.0, WORDS));
     match (low?, high?) {

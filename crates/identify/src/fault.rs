@@ -266,6 +266,19 @@ pub enum Fault {
         /// When first, s.
         time: f64,
     },
+    /// Strokes in both directions.
+    #[error(
+        "column `{column}` (the sliding velocity) goes in both directions, {forward:.0} % of its way forward and {back:.0} % back; \
+         `squealmap campaign` parts such a record into its strokes, or cut it where it turns"
+    )]
+    BothDirections {
+        /// The column.
+        column: String,
+        /// Part of the way that goes forward, per cent.
+        forward: f64,
+        /// Part that goes back.
+        back: f64,
+    },
     /// A friction coefficient that no brake has.
     #[error(
         "T/N of columns `{tangential}` and `{normal}` is {friction:.3}, above {largest}: they look swapped; exchange --tangential-force and --normal-force, or allow it with --largest-friction"

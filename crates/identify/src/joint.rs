@@ -6,7 +6,9 @@ use crate::population::{Seen, Source, bin, chances};
 use crate::segment::{REVERSES, Segment, State};
 use crate::testimony::{Chances, Mechanism, Testimony, Witness};
 use crate::verdict::{CONFIDENT, Kind, Verdict};
-use crate::witness::{Structure, each, friction, friction_seen, phase, phase_seen, power, read_within};
+use crate::witness::{
+    Structure, driven, each, friction, friction_seen, phase, phase_seen, power, read_within,
+};
 
 /// A probability that a confident witness leaves to what another says with confidence: they contradict each other.
 const LEAVES: f64 = 0.02;
@@ -171,6 +173,14 @@ fn calm(
             Vec::new(),
         );
     }
+    if let Some(part) = segment.weak {
+        let reason = format!(
+            "a vibration goes on with {:.1} % of the largest amplitude of the record: too weak beside that to be judged; cut the record \
+             before it, or give its band (--band)",
+            100.0 * part
+        );
+        return (Verdict::undecided(reason), Vec::new());
+    }
     let reason = match segment.state {
         State::Decaying => "the oscillation decays",
         _ => "nothing grows",
@@ -196,9 +206,16 @@ fn together(
     let seen = phase_seen(segment, episode);
     // That it is an instability at all, and not driven, shows in its growth or in what limits it.
     let limited = segment.reach.is_some_and(|reach| reach >= REVERSES);
-    let grows = episode.is_some_and(|episode| !episode.wanders);
-    if !(limited || grows) {
+    // What has grown and goes on far below that speaks by the power of its growth alone.
+    let grows = episode.is_some_and(|episode| !episode.wanders) && segment.state == State::Growing;
+    if !(limited || grows || by_power.is_some()) {
         return undecided(seen.err().unwrap_or_else(|| "the vibration may be driven".to_owned()));
+    }
+    if let Some(why) = driven(segment, structure) {
+        return undecided(why);
+    }
+    if segment.testimonies.iter().all(|testimony| testimony.chances.is_none()) {
+        return undecided("no witness speaks".to_owned());
     }
     let source = segment.source();
     let binned = seen.as_ref().ok().map(|(_, phase)| bin(phase.value));

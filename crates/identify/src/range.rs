@@ -12,6 +12,7 @@ const ABRUPT: f64 = 0.25;
 pub(super) struct Range {
     count: u64,
     mean: f64,
+    sizes: f64,
     squares: f64,
     steps: f64,
     last: f64,
@@ -81,11 +82,18 @@ impl Range {
         self.count += 1;
         let off = value - self.mean;
         self.mean += off / self.count as f64;
+        self.sizes += value.abs();
         self.squares += off * (value - self.mean);
     }
 
     pub(super) fn mean(&self) -> f64 {
         self.mean
+    }
+
+    /// Parts of the sum of all sizes that positive and negative values have; 0 where all are 0.
+    pub(super) fn parts(&self) -> [f64; 2] {
+        let surplus = self.mean * self.count as f64 / self.sizes.max(f64::MIN_POSITIVE);
+        if self.sizes > 0.0 { [0.5 * (1.0 + surplus), 0.5 * (1.0 - surplus)] } else { [0.0; 2] }
     }
 
     pub(super) fn deviation(&self) -> f64 {

@@ -36,6 +36,11 @@ pub enum State {
 }
 
 impl State {
+    /// Whether something goes on or grows.
+    pub(super) fn vibrates(self) -> bool {
+        matches!(self, State::Growing | State::Sustained)
+    }
+
     /// In words.
     #[must_use]
     pub fn words(self) -> &'static str {
@@ -55,6 +60,9 @@ pub struct Segment {
     pub time: [f64; 2],
     /// What the vibration does.
     pub state: State,
+    /// Amplitude over the largest of the record of a vibration that stands out of the noise, neither grows nor dies out, and is too weak
+    /// to be judged; `None` elsewhere.
+    pub weak: Option<f64>,
     /// Its frequency, Hz; `None` where nothing vibrates.
     pub frequency: Option<f64>,
     /// Amplitude of the tangential acceleration, m/s².
@@ -134,7 +142,9 @@ pub(super) fn segments(cells: &[Cell], has: Has, settings: &Settings) -> Vec<Seg
         let least = LEAST.max((SHORTEST * cells.len() as f64).ceil() as usize);
         let mut start = 0;
         for end in cut(stretch.len(), &courses(stretch, has, vibrating), least) {
-            found.push(segment(&stretch[start..end], has, vibrating, settings));
+            let mut one = segment(&stretch[start..end], has, vibrating, settings);
+            one.weak = one.weak.map(|amplitude| amplitude / largest);
+            found.push(one);
             start = end;
         }
     }
@@ -225,10 +235,13 @@ fn segment(cells: &[Cell], has: Has, vibrating: bool, settings: &Settings) -> Se
         (true, true) => State::Decaying,
         (true, false) => State::Sustained,
     };
+    // What dies out may still stand out of the noise.
+    let weak = (state == State::Quiet && all.is_loud() && change > -CHANGES).then(|| all.amplitude());
     let shown = all.phase(settings.skew).filter(|_| vibrating && has.normal_acceleration);
     Segment {
         time: all.time,
         state,
+        weak,
         frequency: vibrating.then(|| all.frequency()),
         amplitude: all.amplitude(),
         reach,

@@ -17,6 +17,8 @@ use squealmap_input::quote::rounded;
 
 /// Fewest samples of a record: below this there is no spectrum to speak of.
 pub const LEAST_SAMPLES: u64 = 64;
+/// The part of the way in either direction from which on a record holds strokes in both: noise of a belt at rest beside a stroke has less.
+const TURNS: f64 = 0.1;
 /// Samples per period below which phases of noisy signals mean nothing (2 is the limit of sampling).
 pub const LEAST_PER_PERIOD: f64 = 2.5;
 /// Samples of a segment of the mean spectrum: 0.3 s at 200 kHz.
@@ -155,7 +157,9 @@ pub(super) fn survey(mut table: Table, settings: &Settings) -> Result<(Survey, K
             constant.push(channel);
         }
     }
-    let by_velocity = table.has(Channel::Velocity).then(|| ranges[Channel::Velocity as usize].mean() < 0.0);
+    let velocity = table.has(Channel::Velocity).then(|| &ranges[Channel::Velocity as usize]);
+    let by_velocity =
+        velocity.map(|range| goes_back(range, &names[Channel::Velocity as usize])).transpose()?;
     let turned = by_velocity.unwrap_or(settings.back);
     forces(&table, &ranges, settings, turned)?;
     let frequency = spectrum.peak(rate, settings.band);
@@ -175,6 +179,16 @@ pub(super) fn survey(mut table: Table, settings: &Settings) -> Result<(Survey, K
     let found =
         Survey { samples, start, rate, names, has, turned, frequency, outside, remarks, constant, still };
     Ok((found, kept))
+}
+
+/// Whether a stroke goes the other way; one that goes both ways is refused.
+fn goes_back(velocity: &Range, column: &str) -> Result<bool, Fault> {
+    let parts = velocity.parts();
+    if parts.iter().all(|part| *part > TURNS) {
+        let [forward, back] = parts.map(|part| 100.0 * part);
+        return Err(Fault::BothDirections { column: column.to_owned(), forward, back });
+    }
+    Ok(velocity.mean() < 0.0)
 }
 
 /// Whether sensors of vibrations are sampled at this rate (Hz), or nearly.

@@ -195,7 +195,10 @@ impl Analyser {
     ) -> (Within, Losses, Inertia) {
         /// Six points around each step: with seven samples per period a trapezoid is 7 % off.
         const STEP: [f64; 6] = [11.0, -93.0, 802.0, 802.0, -93.0, 11.0];
-        let Some((velocity, mean)) = means.filter(|_| self.has[Channel::TangentialForce as usize]) else {
+        /// Samples per period, with which the velocity is 1 % off; with three and a half it is 7 %, and the harmonics are lost.
+        const LEAST: f64 = 5.0;
+        let is_read = self.has[Channel::TangentialForce as usize] && self.rate >= LEAST * frequency;
+        let Some((velocity, mean)) = means.filter(|_| is_read) else {
             return Default::default();
         };
         let a = &self.signals[0];

@@ -186,10 +186,34 @@ pub(super) fn read_within(segment: &Segment, structure: Structure) -> Option<[f6
     Some([normal_below(above), if exceeds > 0.5 { exceeds.min(doubt) } else { exceeds }])
 }
 
+/// Why a vibration is driven from elsewhere, where the forces show it: friction takes power out of it, and yet it goes on; or friction
+/// lies below the coalescence and does not fall, and yet it vibrates.
+pub(super) fn driven(segment: &Segment, structure: Structure) -> Option<String> {
+    /// Standard errors from which on a damping is negative.
+    const NEGATIVE: f64 = 3.0;
+    let damping = segment.friction.and_then(|friction| friction.damping);
+    if let Some(damping) = damping.filter(|damping| damping.value < -NEGATIVE * damping.error) {
+        return Some(format!(
+            "friction takes power out of the vibration (damping {} s/m), and yet it goes on: it is driven from elsewhere, or the forces \
+             are late (--force-skew)",
+            damping.text(1.0, 3)
+        ));
+    }
+    let [above, falls] = each(segment, structure);
+    let stable = (1.0 - above?) * (1.0 - falls?);
+    (stable > 0.5).then(|| {
+        "by level and slope of friction sliding is rather stable, and yet it vibrates: it may be driven"
+            .to_owned()
+    })
+}
+
 /// (c) Level and slope of friction.
 pub(super) fn friction(segment: &Segment, structure: Structure, grows: bool) -> Testimony {
     let silent = |why: &str| Testimony::silent(Witness::Friction, why);
     let Some(friction) = segment.friction else { return silent("the forces are not recorded") };
+    if let Some(why) = driven(segment, structure).filter(|_| segment.state.vibrates()) {
+        return silent(&why);
+    }
     let level = friction.level.text(1.0, 3);
     let slope = friction.slope.map_or(String::new(), |slope| format!(", dμ/dv {} s/m", slope.text(1.0, 3)));
     let against = structure
@@ -210,16 +234,20 @@ pub(super) fn friction(segment: &Segment, structure: Structure, grows: bool) -> 
         let how = if friction.reading == Reading::Within {
             "read within the oscillation"
         } else {
-            "the vibration reverses the sliding and hides the law (the force sensors do not follow it, or the contact opens and there \
-             are fewer than 15 samples per period): the mean is a lower bound, its slope is not that of the law"
+            "the vibration reverses the sliding and hides the law (the force sensors do not follow it, or there are fewer than 5 \
+             samples per period, or 15 where the contact opens): the mean is a lower bound, its slope is not that of the law"
         };
         let (level, trend) = friction_seen(segment, structure);
         let tells = level.is_some() || (trend != Some(Trend::Unknown) && friction.reading == Reading::Within);
         let seen = Seen { source: segment.source(), bin: None, level, trend, damped: structure.damped };
         return spoken(tells.then(|| stated(seen).0), format!("{evidence}; {how}"));
     }
-    let vibrates = segment.reach.is_some_and(|reach| reach >= REVERSES) || grows;
-    let vibrates = vibrates && matches!(segment.state, State::Growing | State::Sustained);
+    let limited = segment.reach.is_some_and(|reach| reach >= REVERSES);
+    let vibrates = match segment.state {
+        State::Growing => limited || grows,
+        State::Sustained => limited,
+        State::Quiet | State::Decaying => false,
+    };
     match each(segment, structure) {
         [Some(coupling), Some(slope)] if !vibrates => {
             // How much of a falling slope the damping takes is not known.

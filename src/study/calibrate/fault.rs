@@ -32,6 +32,19 @@ pub enum Fault {
         /// The most that was tried.
         high: f64,
     },
+    /// Modes that no friction couples.
+    #[error(
+        "modes at {first} and {second} Hz do not coalesce at any friction coefficient up to {most}, whatever the inclination: they are too \
+         far apart, or damped too differently; give the two that couple with --frequencies, or one ratio for both with --damping-ratio"
+    )]
+    NoCoalescence {
+        /// The lower frequency, Hz.
+        first: f64,
+        /// The upper one, Hz.
+        second: f64,
+        /// The largest friction coefficient that was tried.
+        most: f64,
+    },
     /// Damping ratios that no dampers give.
     #[error(
         "damping ratios of {first} and {second} would ask for a damper of {value:.3e} N s/m, but dampers are not negative: modes that \

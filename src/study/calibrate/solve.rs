@@ -45,6 +45,8 @@ pub struct Calibrated {
 const LEAST: f64 = 1e-5;
 /// Corrections of what the weak damping is taken for.
 const CORRECTIONS: usize = 8;
+/// Friction coefficients beyond this are no friction.
+const MOST: f64 = 5.0;
 
 /// The model that has what was measured.
 ///
@@ -71,6 +73,9 @@ pub fn calibrate(measured: &Measured) -> Result<Calibrated, Fault> {
         |theta: f64| coalescence(&instance(&corrected(&wanted, theta), &wanted, theta, measured.load));
     let (mut low, mut high) = (LEAST * steep, steep);
     let ends = [critical(high), critical(low)];
+    if ends[0].is_infinite() {
+        return Err(Fault::NoCoalescence { first, second, most: MOST });
+    }
     if !(ends[0]..=ends[1]).contains(&measured.critical_friction) {
         return Err(Fault::Coalescence {
             first,
@@ -161,8 +166,6 @@ fn modes(instance: &Instance) -> ([f64; 2], [f64; 2]) {
 
 /// The least friction coefficient at which an instance is unstable with a flat law; infinite where none below `MOST` is.
 fn coalescence(instance: &Instance) -> f64 {
-    /// Friction coefficients beyond this are no friction.
-    const MOST: f64 = 5.0;
     /// Steps in which the first unstable one is looked for.
     const STEPS: u32 = 250;
     let unstable = |mu: f64| {

@@ -69,6 +69,9 @@ pub fn binned(points: &[Point], temperatures: &[f64]) -> Result<Binned, FitFault
     if let Some(pair) = temperatures.windows(2).find(|pair| pair[0] >= pair[1]) {
         return Err(FitFault::NotRising { first: pair[0], second: pair[1] });
     }
+    if points.is_empty() {
+        return Err(FitFault::NoPoints);
+    }
     let given = !temperatures.is_empty();
     let centres = if given { temperatures.to_vec() } else { rows(points) };
     let mut groups = vec![Vec::new(); centres.len()];
@@ -82,9 +85,6 @@ pub fn binned(points: &[Point], temperatures: &[f64]) -> Result<Binned, FitFault
     let kept = centres.into_iter().zip(groups).filter(|(_, group)| given || !group.is_empty());
     let made = kept.map(|(centre, group)| row(centre, given, group));
     let rows = made.collect::<Result<Vec<Row>, FitFault>>()?;
-    if rows.is_empty() {
-        return Err(FitFault::TooFew { points: points.len(), unknowns: 2 });
-    }
     let fit = fitted(&rows, points);
     Ok(Binned { rows, fit })
 }

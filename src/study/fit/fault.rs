@@ -4,6 +4,12 @@
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FitFault {
+    /// None at all.
+    #[error(
+        "there is no point to fit: all rows are left out, as they vibrate or the contact is open there, or there are none; measure where \
+         nothing squeals"
+    )]
+    NoPoints,
     /// Fewer points than unknowns.
     #[error(
         "{points} point(s) do not determine {unknowns} value(s); measure more, or ask for fewer rows with --temperatures"

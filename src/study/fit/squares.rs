@@ -66,6 +66,9 @@ pub fn fit(
     if let Some(pair) = temperatures.windows(2).find(|pair| pair[0] >= pair[1]) {
         return Err(FitFault::NotRising { first: pair[0], second: pair[1] });
     }
+    if points.is_empty() {
+        return Err(FitFault::NoPoints);
+    }
     let unknowns = params.len() * temperatures.len();
     if points.len() < unknowns || unknowns == 0 {
         return Err(FitFault::TooFew { points: points.len(), unknowns });

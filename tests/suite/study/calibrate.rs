@@ -144,7 +144,14 @@ fn what_no_model_has_is_told() {
     let Fault::Coalescence { low, wanted, .. } = why(far) else { panic!() };
     assert!(low > wanted, "{low}");
     let unlike = Measured { damping_ratios: [0.0001, 0.1], ..asked };
-    assert!(matches!(why(unlike), Fault::Damping { .. } | Fault::Coalescence { .. }));
+    assert!(matches!(why(unlike), Fault::Damping { .. } | Fault::NoCoalescence { .. }));
+    let apart = why(Measured { frequencies: [100.0, 14_200.0], ..asked });
+    assert!(
+        apart
+            .to_string()
+            .starts_with("modes at 100 and 14200 Hz do not coalesce at any friction coefficient up to 5"),
+        "{apart}"
+    );
 }
 
 /// The sweep file of a model is one, and its instances have the model's parameters.

@@ -171,7 +171,7 @@ fn what_makes_no_table_is_named() {
     let one_speed: Vec<Point> = (0..50).map(|_| at(2.0, 0.3)).collect();
     assert!(matches!(binned(&one_speed, &[]), Err(FitFault::FewBins { .. })));
     assert!(matches!(binned(&few, &[20.0, 40.0]), Err(FitFault::FewBins { .. })));
-    assert!(matches!(binned(&[], &[]), Err(FitFault::TooFew { .. })));
+    assert!(matches!(binned(&[], &[]), Err(FitFault::NoPoints)));
     assert!(matches!(binned(&few, &[40.0, 20.0]), Err(FitFault::NotRising { .. })));
     let negative: Vec<Point> = (0..50).map(|k| at(f64::from(k), -0.1)).collect();
     assert!(matches!(binned(&negative, &[]), Err(FitFault::Negative { .. })));

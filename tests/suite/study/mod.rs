@@ -15,6 +15,7 @@ pub(crate) mod fit_records;
 mod fit_tables;
 pub(crate) mod hysteresis;
 pub(crate) mod identify;
+mod identify_driven;
 pub(crate) mod identify_faults;
 pub(crate) mod identify_files;
 pub(crate) mod identify_growth;
