@@ -3,7 +3,7 @@
 use crate::episode::Episode;
 use crate::level::Reading;
 use crate::population::{Seen, Source, bin, chances};
-use crate::segment::{REVERSES, Segment, State};
+use crate::segment::{Segment, State};
 use crate::testimony::{Chances, Mechanism, Testimony, Witness};
 use crate::verdict::{CONFIDENT, Kind, Verdict};
 use crate::witness::{
@@ -204,11 +204,8 @@ fn together(
     let reads = each(segment, structure);
     let by_power = segment.testimonies[0].chances;
     let seen = phase_seen(segment, episode);
-    // That it is an instability at all, and not driven, shows in its growth or in what limits it.
-    let limited = segment.reach.is_some_and(|reach| reach >= REVERSES);
-    // What has grown and goes on far below that speaks by the power of its growth alone.
-    let grows = episode.is_some_and(|episode| !episode.wanders) && segment.state == State::Growing;
-    if !(limited || grows || by_power.is_some()) {
+    let grows = episode.is_some_and(|episode| !episode.wanders);
+    if !segment.goes_by_itself(grows) && by_power.is_none() {
         return undecided(seen.err().unwrap_or_else(|| "the vibration may be driven".to_owned()));
     }
     if let Some(why) = driven(segment, structure) {
@@ -306,7 +303,7 @@ fn contradict(segment: &mut Segment, own: &[&Episode]) {
             (probability >= CONFIDENT && kind != Kind::Undecided).then_some((testimony, kind))
         })
         .collect();
-    if segment.state == State::Growing || segment.state == State::Sustained {
+    if segment.state.vibrates() {
         for (k, (one, kind)) in loud.iter().enumerate() {
             for (other, differs) in &loud[k + 1..] {
                 let leaves = other.chances.map_or(0.0, |chances| chances.of(*kind));

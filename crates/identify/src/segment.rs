@@ -94,6 +94,13 @@ pub struct Segment {
 }
 
 impl Segment {
+    /// Whether it is an instability at all, and not driven: that shows in what limits it, or in its growth (`grows`). What has grown and
+    /// goes on far below its limit may be driven.
+    pub(super) fn goes_by_itself(&self, grows: bool) -> bool {
+        let limited = self.reach.is_some_and(|reach| reach >= REVERSES);
+        self.state.vibrates() && limited || self.state == State::Growing && grows
+    }
+
     /// Where the simulated population has a vibration like that of this segment.
     pub(super) fn source(&self) -> Source {
         let within = self.friction.is_some_and(|friction| friction.reading == Reading::Within);
@@ -142,9 +149,7 @@ pub(super) fn segments(cells: &[Cell], has: Has, settings: &Settings) -> Vec<Seg
         let least = LEAST.max((SHORTEST * cells.len() as f64).ceil() as usize);
         let mut start = 0;
         for end in cut(stretch.len(), &courses(stretch, has, vibrating), least) {
-            let mut one = segment(&stretch[start..end], has, vibrating, settings);
-            one.weak = one.weak.map(|amplitude| amplitude / largest);
-            found.push(one);
+            found.push(segment(&stretch[start..end], has, (vibrating, largest), settings));
             start = end;
         }
     }
@@ -222,8 +227,8 @@ fn reached(cell: &Cell, has: Has) -> Option<f64> {
     cell.reach().filter(|_| has.velocity)
 }
 
-/// One segment, not judged yet.
-fn segment(cells: &[Cell], has: Has, vibrating: bool, settings: &Settings) -> Segment {
+/// One segment, not judged yet; `largest` is the amplitude of the record's loudest cell.
+fn segment(cells: &[Cell], has: Has, (vibrating, largest): (bool, f64), settings: &Settings) -> Segment {
     let all = Cell::sum(cells);
     let reach = reached(&all, has).filter(|_| all.is_loud());
     let change = change(cells, has);
@@ -236,7 +241,8 @@ fn segment(cells: &[Cell], has: Has, vibrating: bool, settings: &Settings) -> Se
         (true, false) => State::Sustained,
     };
     // What dies out may still stand out of the noise.
-    let weak = (state == State::Quiet && all.is_loud() && change > -CHANGES).then(|| all.amplitude());
+    let weak =
+        (state == State::Quiet && all.is_loud() && change > -CHANGES).then(|| all.amplitude() / largest);
     let shown = all.phase(settings.skew).filter(|_| vibrating && has.normal_acceleration);
     Segment {
         time: all.time,

@@ -242,14 +242,8 @@ pub(super) fn friction(segment: &Segment, structure: Structure, grows: bool) -> 
         let seen = Seen { source: segment.source(), bin: None, level, trend, damped: structure.damped };
         return spoken(tells.then(|| stated(seen).0), format!("{evidence}; {how}"));
     }
-    let limited = segment.reach.is_some_and(|reach| reach >= REVERSES);
-    let vibrates = match segment.state {
-        State::Growing => limited || grows,
-        State::Sustained => limited,
-        State::Quiet | State::Decaying => false,
-    };
     match each(segment, structure) {
-        [Some(coupling), Some(slope)] if !vibrates => {
+        [Some(coupling), Some(slope)] if !segment.goes_by_itself(grows) => {
             // How much of a falling slope the damping takes is not known.
             let chances = Chances::of_each(coupling, slope);
             let tells = chances.leading().0 == Kind::NoInstability;
