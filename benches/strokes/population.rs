@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use crate::study::confusion::truth;
-use crate::study::laboratory::{Drawn, Stroke, sensed, settings, stroke};
+use crate::study::laboratory::{Drawn, RATE, Stroke, sensed, settings, stroke};
 use crate::study::strokes::{Random, csv, run};
 use rayon::prelude::*;
 use squealmap_identify::population::{Damped, Level, Seen, Source, Trend};
@@ -43,7 +43,7 @@ fn seen(number: usize) -> Vec<(Place, usize)> {
     let mut random = Random::new(SEED + number as u64);
     let mut all = Vec::new();
     for drawn in [Drawn::Sustained, Drawn::Growing, Drawn::Late] {
-        let stroke = stroke(drawn, &mut random);
+        let stroke = stroke(drawn, *RATE, &mut random);
         let decibel = random.between(20.0, 40.0);
         for slow in [true, false] {
             let mut samples = stroke.samples.clone();

@@ -5,26 +5,29 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use crate::study::confusion::{Fate, JUDGES, Judged, table};
-use crate::study::laboratory::Drawn;
+use crate::study::laboratory::{Drawn, Sensors};
 
 /// The seed had no part in the building of anything.
 const SEED: u64 = 3_300;
-/// Strokes of each kind, sort of sensor and ratio of signal to noise: 500 in all.
+/// Strokes of each kind, sort of sensor and ratio of signal to noise: 750 in all.
 const EACH: usize = 25;
 
 /// Draws the strokes, judges them and writes both files.
 pub(crate) fn write(root: &Path) -> Result<(), Box<dyn Error>> {
     let seed = std::env::var("SQUEALMAP_SEED").ok().and_then(|text| text.parse().ok());
-    let judged = table(seed.unwrap_or(SEED), EACH);
+    let judged: Vec<Judged> = [&Sensors::ALL[..2], &Sensors::ALL[2..]]
+        .into_iter()
+        .flat_map(|sensors| table(seed.unwrap_or(SEED), EACH, sensors))
+        .collect();
     let mut rows = "strokes,forces,witness,number,right,undecided,wrong,confidently_wrong\n".to_owned();
     let mut rates = "forces,witness,number,decided,confidently_wrong\n".to_owned();
-    for slow in [true, false] {
-        let forces = if slow { "slow" } else { "fast" };
+    for sensors in Sensors::ALL {
+        let forces = sensors.words();
         for (judge, name) in JUDGES.into_iter().enumerate() {
             for drawn in Drawn::ALL.map(Some).into_iter().chain([None]) {
                 let of: Vec<&Judged> = judged
                     .iter()
-                    .filter(|j| j.slow == slow && drawn.is_none_or(|drawn| j.drawn == drawn))
+                    .filter(|j| j.sensors == sensors && drawn.is_none_or(|drawn| j.drawn == drawn))
                     .collect();
                 let count = |fate: Fate| of.iter().filter(|j| j.fate(judge) == fate).count();
                 let [right, undecided, confidently] =

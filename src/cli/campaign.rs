@@ -41,7 +41,7 @@ pub(crate) struct CampaignCommand {
 impl CampaignCommand {
     pub(crate) fn execute(self) -> Result<ExitCode> {
         let records = listed(&self.records)?;
-        let settings = self.signals_are.settings();
+        let settings = self.signals_are.settings()?;
         let output = Output::prepare(self.output, &FILES)?;
         let rows: Vec<Vec<StrokeRow>> =
             records.par_iter().map(|record| of_record(record, &settings)).collect();

@@ -11,7 +11,9 @@ use squealmap::results::figure::look::Look;
 use squealmap::study::identify::report;
 use squealmap::study::identify::report::{Shown, WindowsCsv};
 use squealmap::study::identify::spectrogram::spectrogram_nc;
-use squealmap_identify::{FrictionReading, Identification, Settings, Verdict, identify, rate_of, told};
+use squealmap_identify::{
+    Forces, FrictionReading, Identification, Settings, Verdict, identify, rate_of, told,
+};
 use squealmap_input::files;
 use squealmap_input::quote::one_line;
 use std::fmt::Write;
@@ -45,7 +47,7 @@ impl Identify {
         let heading = one_line(&self.signals.file_stem().unwrap_or_default().to_string_lossy());
         let asked = self.output.clone();
         let path = self.signals.clone();
-        let settings = Settings { zooms: self.zoom, ..self.signals_are.settings() };
+        let settings = Settings { zooms: self.zoom, ..self.signals_are.settings()? };
         let output = prepare_beside(&path, asked.as_deref(), &FILES)?;
         // Read up to three times, which a pipe cannot be.
         let open =
@@ -64,19 +66,24 @@ impl Identify {
             (FILES[4], spectrogram_nc(&found.spectrogram, &heading)),
         ];
         let paths = output.write_beside(&files, vec![windows])?;
-        print(&(summary(&found) + &list(&paths)));
+        print(&(summary(&found, settings.rig.is_some()) + &list(&paths)));
         Ok(())
     }
 }
 
 /// The segments with what each witness says, and the verdict of the growth.
-fn summary(found: &Identification) -> String {
+fn summary(found: &Identification, modelled: bool) -> String {
     let mut text = format!("{}\n", told(&found.segments));
     for segment in &found.segments {
         let [start, end] = segment.time;
         let Verdict { kind, reasons, .. } = &segment.verdict;
         let confidence = segment.verdict.shown_confidence();
-        let slow = segment.friction.is_none_or(|friction| friction.reading != FrictionReading::Within);
+        let within = segment.friction.is_some_and(|friction| friction.reading == FrictionReading::Within);
+        let forces = match (modelled, within) {
+            (true, _) => Forces::Model,
+            (false, true) => Forces::Fast,
+            (false, false) => Forces::Slow,
+        };
         let at = segment.frequency.map_or(String::new(), |frequency| format!(" at {frequency:.1} Hz"));
         let _ = writeln!(
             text,
@@ -92,14 +99,14 @@ fn summary(found: &Identification) -> String {
         }
         if !segment.rests_on.is_empty() {
             let rests: Vec<&str> = segment.rests_on.iter().map(|witness| witness.words()).collect();
-            let joint = rate_of(None, slow).map_or(String::new(), |rate| format!("; together: {rate}"));
+            let joint = rate_of(None, forces).map_or(String::new(), |rate| format!("; together: {rate}"));
             let _ = writeln!(text, "  rests on {}{joint}", rests.join(", "));
         }
         for testimony in &segment.testimonies {
             let said = testimony.chances.map_or("cannot speak".to_owned(), |chances| {
                 let (kind, probability) = chances.leading();
-                let tried =
-                    rate_of(Some(testimony.witness), slow).map_or(String::new(), |rate| format!(" ({rate})"));
+                let tried = rate_of(Some(testimony.witness), forces)
+                    .map_or(String::new(), |rate| format!(" ({rate})"));
                 format!("{} {:.0} %{tried}", kind.words(), 100.0 * probability)
             });
             let _ = writeln!(text, "  {}: {said}: {}", testimony.witness.words(), testimony.evidence);

@@ -1,10 +1,14 @@
 //! The options of commands that read measured signals.
 
+use crate::cli::error::{Error, Result};
 use crate::cli::numbers::{finite, number, positive};
 use clap::Args;
+use squealmap::study::identify::rig::rig_of;
+use squealmap::sweep::spec::Spec;
 use squealmap_identify::{
     DAMPING_RATIO, INCLINATION, LARGEST_FRICTION, Measured, OVERLAP, RATES, Settings, TimeUnit, WINDOW,
 };
+use std::path::PathBuf;
 
 /// What the columns are, and what is known of the structure.
 #[derive(Clone, Debug, Args)]
@@ -42,12 +46,15 @@ pub(crate) struct SignalOptions {
     /// Delay of the forces behind the tangential acceleration, s
     #[arg(long, value_name = "S", default_value_t = 0.0, allow_hyphen_values = true, value_parser = finite)]
     force_skew: f64,
-    /// Largest damping ratio the structure may have without friction
-    #[arg(long, value_name = "RATIO", default_value_t = DAMPING_RATIO, value_parser = ratio)]
-    damping_ratio: f64,
-    /// Largest inclination of the structure to the contact, rad
-    #[arg(long, value_name = "RAD", default_value_t = INCLINATION, value_parser = ratio)]
-    inclination: f64,
+    /// Sweep file of the rig, as `squealmap calibrate` writes it: forces that slow sensors do not show are taken from the accelerations
+    #[arg(long, value_name = "SWEEP")]
+    model: Option<PathBuf>,
+    /// Largest damping ratio the structure may have without friction [default: that of --model, or 0.002]
+    #[arg(long, value_name = "RATIO", value_parser = ratio)]
+    damping_ratio: Option<f64>,
+    /// Largest inclination of the structure to the contact, rad [default: that of --model, or 0.02]
+    #[arg(long, value_name = "RAD", value_parser = ratio)]
+    inclination: Option<f64>,
     /// Frequencies in which to look for the oscillation, Hz; nothing is filtered
     #[arg(long, value_name = "LOW,HIGH", value_parser = band)]
     band: Option<[f64; 2]>,
@@ -61,14 +68,21 @@ pub(crate) struct SignalOptions {
     #[arg(long, value_name = "MU", default_value_t = LARGEST_FRICTION, value_parser = positive)]
     largest_friction: f64,
     /// Friction coefficient at which the modes coalesce, and its standard error, from `squealmap modes` or a test: 0.23 or 0.23,0.01
+    /// [default: that of --model]
     #[arg(long, value_name = "MU[,ERROR]", value_parser = critical)]
     critical_friction: Option<Measured>,
 }
 
 impl SignalOptions {
     /// The settings of an analysis.
-    pub(crate) fn settings(self) -> Settings {
-        Settings {
+    ///
+    /// # Errors
+    /// For a model that is none.
+    pub(crate) fn settings(self) -> Result<Settings> {
+        let model = self.model.map(|path| Ok::<_, Error>(rig_of(&Spec::read(&path)?)?)).transpose()?;
+        let (rig, damping_ratio) = model.unzip();
+        let inclination = rig.map(|rig| rig.theta.abs());
+        Ok(Settings {
             time: self.time,
             time_unit: self.time_unit,
             rate: self.rate,
@@ -82,15 +96,16 @@ impl SignalOptions {
             ],
             skew: self.skew,
             force_skew: self.force_skew,
-            damping_ratio: self.damping_ratio,
-            inclination: self.inclination,
+            damping_ratio: self.damping_ratio.or(damping_ratio).unwrap_or(DAMPING_RATIO),
+            inclination: self.inclination.or(inclination).unwrap_or(INCLINATION),
             band: self.band,
             window: self.window,
             overlap: self.overlap,
             largest_friction: self.largest_friction,
             critical_friction: self.critical_friction,
+            rig,
             ..Settings::default()
-        }
+        })
     }
 }
 

@@ -12,6 +12,15 @@ const FAULT: usize = 1200;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
+    /// A rig that varies.
+    #[cfg(feature = "identify")]
+    #[error(
+        "--model takes one rig, but the sweep varies `{name}`; set it in [model] and leave it out of [axes] and points"
+    )]
+    NoOneRig {
+        /// The parameter.
+        name: &'static str,
+    },
     /// A sweep without a plane to look into.
     #[error("a map to look into needs two axes of numbers in [axes], as `squealmap init map` writes them")]
     NothingToExplore,
@@ -256,7 +265,7 @@ impl Error {
             | Error::NothingToPlot { .. }
             | Error::Fem { .. } => true,
             #[cfg(feature = "identify")]
-            Error::Signals { .. } | Error::Fit { .. } => true,
+            Error::NoOneRig { .. } | Error::Signals { .. } | Error::Fit { .. } => true,
             Error::OfResults(why) => why.is_bad_input(),
         }
     }

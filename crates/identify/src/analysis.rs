@@ -2,7 +2,6 @@
 
 use std::io::Read;
 
-use crate::again::Again;
 use crate::cells::Cells;
 use crate::channel::Channel;
 use crate::clips::{Clip, Clips};
@@ -12,9 +11,11 @@ use crate::episode::{Episode, Recorded, swapped};
 use crate::fault::{Fault, Unfit};
 use crate::instants::{Instant, instants};
 use crate::joint::judged;
+use crate::level::UNFIT;
 use crate::overview::{Friction, Overview};
 use crate::read::Table;
 use crate::reading::{Reading, reading};
+use crate::restore::{Restoring, Samples};
 use crate::runs::Runs;
 use crate::segment::{Has, Segment, segments};
 use crate::settings::Settings;
@@ -25,6 +26,7 @@ use crate::survey::{Survey, survey};
 use crate::undisturbed::{Undisturbed, undisturbed};
 use crate::verdict::Verdict;
 use crate::window::{Analyser, Window};
+use crate::within::PER_PERIOD;
 use crate::witness::Structure;
 
 /// Everything found in a file of signals.
@@ -86,21 +88,61 @@ pub fn identify(
     let named = |fault| Unfit { name: name.to_owned(), fault: Box::new(fault) };
     let (survey, kept) = table().and_then(|table| survey(table, settings)).map_err(named)?;
     let (samples, too_short) = (survey.samples, survey.too_short());
+    let given = settings;
+    let settings = &given.directed(survey.turned);
+    let restoring = restoring(&survey, settings).map_err(named)?;
     let looked = Looked { samples, too_short, band: settings.band, outside: survey.outside };
-    let (mut found, overview) = kept
+    let (mut found, overview, its_rig) = kept
         .again(survey.turned, &mut table)
+        .map(|samples| Samples::new(samples, restoring))
         .and_then(|samples| analyse(samples, &survey, settings, each))
         .map_err(named)?;
     if let Some(geometry) = survey.windows().filter(|_| !found.episodes.is_empty()) {
         let Survey { rate, start, turned, .. } = survey;
         let known = Known { recorded: recorded(&survey), settings, geometry, rate, start };
         kept.again(turned, &mut table)
+            .map(|samples| Samples::new(samples, restoring))
             .and_then(|samples| sharpened(samples, &mut found.episodes, &known))
             .map_err(named)?;
     }
-    judged(&mut found.segments, &found.episodes, Structure::new(settings));
+    if !its_rig {
+        for episode in &mut found.episodes {
+            episode.verdict =
+                Verdict::undecided("its forces are those of --model, which does not fit the record");
+        }
+    }
+    judged(&mut found.segments, &found.episodes, Structure::new(if its_rig { settings } else { given }));
     found.verdict = conclude(&overview, &found.episodes, &looked);
     Ok(found)
+}
+
+/// Whether the rig is that of the record, as far as its forces tell: less than a quarter of the time in which they do contradicts it.
+fn is_its_rig(segments: &[Segment]) -> bool {
+    let known = segments.iter().filter_map(|segment| {
+        let misfit = segment.friction?.misfit?;
+        Some((segment.time[1] - segment.time[0], misfit >= UNFIT))
+    });
+    let [all, against] = known.fold([0.0, 0.0], |[all, against], (time, unfit)| {
+        [all + time, against + if unfit { time } else { 0.0 }]
+    });
+    4.0 * against <= all
+}
+
+/// How the forces are restored; `None` where nothing vibrates, or no rig is given.
+fn restoring(survey: &Survey, settings: &Settings) -> Result<Option<Restoring>, Fault> {
+    let (Some(rig), Some(frequency), Some(_)) = (settings.rig, survey.frequency, survey.windows()) else {
+        return Ok(None);
+    };
+    let needed =
+        [Channel::NormalAcceleration, Channel::TangentialForce, Channel::NormalForce, Channel::Velocity];
+    if let Some(channel) = needed.into_iter().find(|channel| !survey.has[*channel as usize]) {
+        return Err(Fault::NotRestored { words: channel.words(), flag: channel.flag() });
+    }
+    let rate = survey.rate;
+    if rate < PER_PERIOD * frequency {
+        return Err(Fault::TooFewToRestore { frequency, samples: rate / frequency, least: PER_PERIOD });
+    }
+    Ok(Some(Restoring { rig, rate, frequency, skew: settings.skew }))
 }
 
 fn has(survey: &Survey) -> Has {
@@ -120,15 +162,15 @@ fn recorded(survey: &Survey) -> Recorded {
 
 /// The second time through the record.
 fn analyse(
-    mut again: Again<'_>,
+    mut again: Samples<'_>,
     survey: &Survey,
     settings: &Settings,
     each: &mut dyn FnMut(&Window, &Reading),
-) -> Result<(Identification, Overview), Fault> {
+) -> Result<(Identification, Overview, bool), Fault> {
     let Survey { samples, start, rate, .. } = *survey;
     let recorded = recorded(survey);
     let fits = survey.windows();
-    let mut analyser = fits.map(|geometry| Analyser::new(geometry, rate, survey.has, settings.band));
+    let mut analyser = fits.map(|geometry| Analyser::new(geometry, rate, survey.has, settings));
     let mut spectrogram = Builder::new(settings, samples, rate, start, survey.frequency);
     let mut envelopes = [Envelope::new(samples), Envelope::new(samples)];
     let normal = recorded.normal_acceleration;
@@ -173,8 +215,31 @@ fn analyse(
         let [tangential, normal] = [Channel::TangentialAcceleration, Channel::NormalAcceleration].map(name);
         return Err(Fault::SwappedAccelerations { tangential, normal, time });
     }
+    let mut notes = notes(survey, &settings.zooms);
+    if let Some(frequency) = again.restored_from() {
+        notes.push(format!(
+            "forces that are faster than a third of {frequency:.0} Hz are those that move the masses of the model, by the accelerations"
+        ));
+    }
+    if again.needless() {
+        notes.push(
+            "the force sensors follow the vibration: the forces that were taken are those of the model all the same; leave out --model \
+             for what was measured, and give what it says by --critical-friction, --damping-ratio and --inclination"
+                .to_owned(),
+        );
+    }
     let has = has(survey);
-    let cut = segments(&cells.list, has, settings);
+    let mut cut = segments(&cells.list, has, settings);
+    let its_rig = is_its_rig(&cut);
+    if !its_rig {
+        notes.push(
+            "the forces of --model contradict themselves in a good part of the record: it is another rig (masses, stiffnesses, the sign of \
+             theta), or the normal acceleration is late (--skew); nothing is taken from it"
+                .to_owned(),
+        );
+        cells.forget_fast_forces();
+        cut = segments(&cells.list, has, settings);
+    }
     let friction_read = has.forces && has.velocity;
     let found = Identification {
         samples,
@@ -184,7 +249,7 @@ fn analyse(
         // Concluded when the episodes are known in full.
         verdict: Verdict::undecided("not concluded"),
         slope: overview.quasi_static_slope(&episodes),
-        notes: notes(survey, &settings.zooms),
+        notes,
         columns: survey.names.clone(),
         windows: overview.windows,
         course: instants(&cells.list, has, settings.skew),
@@ -201,7 +266,7 @@ fn analyse(
         friction,
         friction_time: overview.time,
     };
-    Ok((found, overview))
+    Ok((found, overview, its_rig))
 }
 
 /// Sentences about everything that limits the analysis.

@@ -176,6 +176,19 @@ impl Cells {
         Cells { list: Vec::new(), each: 1.0, hop }
     }
 
+    /// Leaves out what forces at the frequency of the vibration have shown.
+    pub(super) fn forget_fast_forces(&mut self) {
+        for cell in &mut self.list {
+            *cell = Cell {
+                swing: 0.0,
+                within: Within::default(),
+                losses: Losses::default(),
+                inertia: Inertia::default(),
+                ..*cell
+            };
+        }
+    }
+
     pub(super) fn take(&mut self, window: &Window) {
         let cell = Cell::new(window, self.hop);
         match self.list.last_mut() {

@@ -357,6 +357,30 @@ pub enum Fault {
         /// The least.
         least: f64,
     },
+    /// Forces that are to be restored from what is not recorded.
+    #[error(
+        "--model takes the forces of the vibration from both accelerations and the mean forces and the velocity from their sensors, but \
+         {words} is not recorded; name it with {flag}, or leave out --model"
+    )]
+    NotRestored {
+        /// The quantity.
+        words: &'static str,
+        /// The option that names it.
+        flag: &'static str,
+    },
+    /// Forces that are to be restored from too few samples.
+    #[error(
+        "the oscillation at {frequency:.1} Hz has {samples:.1} samples per period, but --model takes {least} to restore its forces; sample \
+         faster, or leave out --model"
+    )]
+    TooFewToRestore {
+        /// Its frequency, Hz.
+        frequency: f64,
+        /// Samples per period.
+        samples: f64,
+        /// The least.
+        least: f64,
+    },
 }
 
 /// A file of signals that is not fit for analysis.

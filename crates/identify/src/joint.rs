@@ -256,7 +256,11 @@ fn together(
             if direct { 0.0 } else { (p * (1.0 - p) / (number + 1.0)).sqrt() + 0.5 / (number + 1.0) };
         (p - spread).clamp(0.0, BELIEVED)
     };
-    let confidence = sure(probability);
+    // A level that is read has the last word on whether it reaches the coalescence: what counted vibrations say of it is of others.
+    let above = reads[0].filter(|_| source == Source::Within);
+    let by_level = |couples: bool| above.map_or(1.0, |above| if couples { above } else { 1.0 - above });
+    let couples = matches!(kind, Kind::ModeCoupling | Kind::Both);
+    let confidence = sure(probability).min(by_level(couples));
     let parts: Vec<String> =
         [(1, "negative slope"), (2, "mode coupling"), (3, "both"), (4, "only both together")]
             .into_iter()
@@ -279,7 +283,10 @@ fn together(
         leaning: (kind != Kind::Undecided).then_some(kind),
         reasons: vec![reason],
     };
-    let suffices = |mechanism| (mechanism, sure(joint.suffices(mechanism)));
+    let suffices = |mechanism| {
+        let most = if mechanism == Mechanism::ModeCoupling { by_level(true) } else { 1.0 };
+        (mechanism, sure(joint.suffices(mechanism)).min(most))
+    };
     let shared = Mechanism::ALL.map(suffices).into_iter().find(|(_, p)| *p >= CONFIDENT && !decided && told);
     let agrees =
         |testimony: &&Testimony| testimony.chances.is_some_and(|chances| chances.of(kind) >= CONFIDENT);

@@ -13,6 +13,9 @@ pub(super) const LEAST: usize = 5;
 /// Swing of a force, over its mean, from which on force sensors follow a vibration that reverses the sliding.
 const FOLLOWS: f64 = 0.05;
 
+/// The part of the friction coefficient by which restored forces differ in themselves from which on nothing is read with them.
+pub(super) const UNFIT: f64 = 0.15;
+
 /// How the friction coefficient of a segment was read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -34,11 +37,15 @@ pub struct Level {
     pub level: Measured,
     /// `dμ/dv`, s/m; `None` where the velocity hardly changes.
     pub slope: Option<Measured>,
-    /// The same where it falls least: above the mean velocity, or early, or late; `None` but for [`Reading::Within`].
-    pub least: Option<Measured>,
+    /// The same where it falls least and where it falls most: at an end of the segment, or above the mean velocity; `None` but for
+    /// [`Reading::Within`].
+    pub extremes: Option<[Measured; 2]>,
     /// What a falling slope has to exceed to be unstable alone: the damping along the contact over the normal force, s/m;
     /// of a contact that opens, all that [`Settings::damping_ratio`] leaves. `None` where force sensors do not follow the vibration.
     pub damping: Option<Measured>,
+    /// The part of the friction coefficient by which forces taken from the accelerations ([`Settings::rig`]) differ while the velocity
+    /// rises and while it falls, where the law is read with them: 0 where the rig fits the record.
+    pub misfit: Option<f64>,
 }
 
 /// Relative range of a quantity.
@@ -64,6 +71,80 @@ fn steady(cells: &[Cell]) -> bool {
     change < STEADY * omega * (last.middle() - first.middle())
 }
 
+/// The law read within the oscillation, of as few cells as show it: the cell after the last of them, and the mean velocity (m/s) with the
+/// friction coefficient there.
+pub(super) fn reads(cells: &[Cell]) -> Vec<(usize, [f64; 2])> {
+    let mut found = Vec::new();
+    let mut sum = Cell::default();
+    for (number, cell) in cells.iter().enumerate() {
+        sum.add(cell);
+        let velocity = sum.velocity();
+        if let Some([level, _]) = sum.within.law(velocity) {
+            found.push((number + 1, [velocity, level.value]));
+            sum = Cell::default();
+        }
+    }
+    found
+}
+
+/// The part of the friction coefficient by which restored forces differ while the velocity rises and while it falls: next to nothing
+/// where the rig is that of the record. 3 % of a stiffness make it 0.1 to 0.5.
+fn misfit(cells: &[Cell]) -> Option<f64> {
+    /// Parts of the time in which it is looked for.
+    const PARTS: usize = 8;
+    let parts = cells.chunks(cells.len().div_ceil(PARTS)).map(Cell::sum);
+    let of = |part: Cell| {
+        let velocity = part.velocity();
+        Some(part.within.differs(velocity)? / part.within.law(velocity)?[0].value.abs())
+    };
+    let found: Vec<f64> = parts.filter_map(of).collect();
+    (!found.is_empty()).then(|| found.iter().sum::<f64>() / found.len() as f64)
+}
+
+/// The largest and the least slope.
+fn extremes(slopes: impl Iterator<Item = Measured>) -> Option<[Measured; 2]> {
+    let slopes: Vec<Measured> = slopes.collect();
+    let by_value = |a: &&Measured, b: &&Measured| a.value.total_cmp(&b.value);
+    Some([*slopes.iter().max_by(by_value)?, *slopes.iter().min_by(by_value)?])
+}
+
+/// Slopes (s/m) of the levels over the velocity.
+struct Trend {
+    all: Measured,
+    /// Early and late.
+    halves: [Measured; 2],
+}
+
+impl Trend {
+    /// `None` where the velocity hardly moves, or the law is read too seldom to tell early from late: a knee below smears into what is read
+    /// above it.
+    fn new(cells: &[Cell]) -> Option<Trend> {
+        /// Relative range of the velocity from which on levels show a slope.
+        const MOVES: f64 = 0.1;
+        let slope = |cells: &[Cell]| {
+            let found = reads(cells);
+            (found.len() >= LEAST).then(|| Trended::new(found.iter().map(|(_, point)| *point)).slope)
+        };
+        if spread(cells, Cell::velocity) < MOVES {
+            return None;
+        }
+        let all = slope(cells)?;
+        let (early, late) = cells.split_at(cells.len() / 2);
+        Some(Trend { all, halves: [slope(early)?, slope(late)?] })
+    }
+
+    /// Where friction falls least, and where it falls most: a slope that changes goes on changing from the middles of its halves to either
+    /// end, of which half of the way counts.
+    fn ends(&self) -> [Measured; 2] {
+        let [early, late] = self.halves;
+        let end = |near: Measured, far: Measured| Measured {
+            value: 1.25 * near.value - 0.25 * far.value,
+            error: (1.25 * near.error).hypot(0.25 * far.error),
+        };
+        extremes([end(early, late), end(late, early)].into_iter()).unwrap_or(self.halves)
+    }
+}
+
 /// Whether the law read within the oscillation has another slope early than late: the velocity (m/s, its mean) has passed a bend.
 fn turns(cells: &[Cell], velocity: f64) -> bool {
     /// Parts of the time before and after.
@@ -81,9 +162,9 @@ fn turns(cells: &[Cell], velocity: f64) -> bool {
     })
 }
 
-/// The slope (s/m) early, late, or above the mean velocity, whichever falls least: a knee that the velocity passes in between
-/// makes the slope of all of them one that there is nowhere.
-fn least(cells: &[Cell]) -> Option<Measured> {
+/// The slopes (s/m) early, late, and above the mean velocity: the one that falls least and the one that falls most. A knee that the velocity
+/// passes in between makes the slope of all of them one that there is nowhere.
+fn parts(cells: &[Cell]) -> Option<[Measured; 2]> {
     let (early, late) = cells.split_at(cells.len() / 2);
     let slopes = [early, late].map(|cells| {
         let all = Cell::sum(cells);
@@ -91,7 +172,19 @@ fn least(cells: &[Cell]) -> Option<Measured> {
     });
     let all = Cell::sum(cells);
     let above = Some(all.within.above(all.velocity())).filter(|slope| slope.error.is_finite());
-    slopes.into_iter().chain([above]).flatten().max_by(|a, b| a.value.total_cmp(&b.value))
+    extremes(slopes.into_iter().chain([above]).flatten())
+}
+
+/// What a falling slope has to exceed, s/m.
+fn damping(cells: &[Cell], all: &Cell, settings: &Settings) -> Option<Measured> {
+    let normal = all.normal();
+    let read = if all.losses.opens() {
+        let omega = std::f64::consts::TAU * all.frequency();
+        all.inertia.damping(settings.damping_ratio, omega)
+    } else {
+        all.losses.damping(settings.inclination).filter(|_| steady(cells))
+    };
+    read.map(|Measured { value, error }| Measured { value: value / normal, error: error / normal })
 }
 
 /// Level and slope of friction.
@@ -106,28 +199,39 @@ pub(super) fn level(
     const MOVES: f64 = 0.05;
     /// Systematic errors of a friction coefficient, relative, and of a slope, over that of `μ/v`.
     const SYSTEMATIC: f64 = 0.01;
+    /// The part of the difference of restored forces that a coefficient is off.
+    const OFF: f64 = 0.1;
     /// That of a slope within the oscillation, over that: it is read over three fifths of the velocity.
     const LOCAL: f64 = 3.0;
-    let within = all.within.law(all.velocity()).filter(|_| limited && all.swing() >= FOLLOWS);
+    let damping = damping(cells, all, settings).filter(|_| limited && all.swing() >= FOLLOWS);
+    let misfit = settings.rig.and_then(|_| misfit(cells));
+    let fits = settings.rig.is_none() || misfit.is_some_and(|misfit| misfit < UNFIT);
+    let within = all.within.law(all.velocity()).filter(|_| limited && all.swing() >= FOLLOWS && fits);
     if let Some([level, slope]) = within {
-        let allowed = SYSTEMATIC * level.value.abs();
-        let error = level.error.hypot(allowed);
+        let known = (SYSTEMATIC + OFF * misfit.unwrap_or_default()) * level.value.abs();
+        // The error of the level as a whole is that of its ends.
+        let allowed = known.hypot(level.error);
+        let error = allowed;
         let velocity = all.velocity();
-        let local = (LOCAL * allowed / velocity.abs()).hypot(all.within.unclear_bend(velocity));
+        let local = (LOCAL * known / velocity.abs()).hypot(all.within.unclear_bend(velocity));
         let slope = Measured { error: slope.error.hypot(local), ..slope };
-        let bent = all.within.bends(velocity) || turns(cells, velocity);
-        let slope = (!bent).then_some(slope);
-        let normal = all.normal();
-        let damping = if all.losses.opens() {
-            let omega = std::f64::consts::TAU * all.frequency();
-            all.inertia.damping(settings.damping_ratio, omega)
-        } else {
-            all.losses.damping(settings.inclination).filter(|_| steady(cells))
-        };
-        let damping = damping
-            .map(|Measured { value, error }| Measured { value: value / normal, error: error / normal });
-        let least = least(cells).map(|least| Measured { error: least.error.hypot(local), ..least });
-        return Level { reading: Reading::Within, level: Measured { error, ..level }, slope, least, damping };
+        let wider = |by: f64| move |slope: Measured| Measured { error: slope.error.hypot(by), ..slope };
+        // By the levels over the velocity, or within each period, whichever is known better. What the jumps of friction lose between samples
+        // tilts the law within a period: with restored forces its levels alone count.
+        let moves = Trend::new(cells).map(|trend| {
+            let systematic = allowed / (spread(cells, Cell::velocity) * velocity.abs());
+            let bent = differ(trend.halves.map(wider(systematic)), level.value, velocity);
+            (wider(systematic)(trend.all), bent, Some(trend.ends().map(wider(systematic))))
+        });
+        let inside = settings.rig.is_none().then(|| {
+            let bent = all.within.bends(velocity) || turns(cells, velocity);
+            (slope, bent, parts(cells).map(|both| both.map(wider(local))))
+        });
+        let better = moves.into_iter().chain(inside).min_by(|a, b| a.0.error.total_cmp(&b.0.error));
+        let (slope, extremes) =
+            better.map_or((None, None), |(slope, bent, extremes)| ((!bent).then_some(slope), extremes));
+        let level = Measured { error, ..level };
+        return Level { reading: Reading::Within, level, slope, extremes, damping, misfit };
     }
     // A vibration that is not small any more lowers the mean: what is left of a growth is its beginning.
     let small: Vec<Cell> =
@@ -144,7 +248,8 @@ pub(super) fn level(
         reading: if limited { Reading::Bound } else { Reading::Mean },
         level: Measured { value: all.friction(), error },
         slope: moves.then_some(line.slope).filter(|slope| slope.error.is_finite()),
-        least: None,
-        damping: None,
+        extremes: None,
+        damping,
+        misfit,
     }
 }

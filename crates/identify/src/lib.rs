@@ -6,6 +6,7 @@
 //! | columns → channels, units of time | `channel.rs`, `unit.rs`, `settings.rs`, `read.rs` |
 //! | its strokes, between rests and turns | `stroke.rs` |
 //! | is the file fit for analysis: gaps, outliers, clipping, swapped columns | `survey.rs`, `pace.rs`, `range.rs`, `outlier.rs`, `fault.rs` |
+//! | forces that slow sensors do not show, from the accelerations of a known rig | `rig.rs`, `restore.rs`, `motion.rs` |
 //! | windows: frequency, growth, cross-spectra | `window.rs`, `cross.rs`, `spectrum.rs` |
 //! | episodes of growth; one mode fitted to the samples of each | `runs.rs`, `episode.rs`, `spans.rs`, `sharpen.rs`, `mode.rs`, `shape.rs`, `course.rs` |
 //! | friction power and its parts | `feedback.rs` |
@@ -44,6 +45,7 @@ mod line;
 mod losses;
 mod measured;
 mod mode;
+mod motion;
 mod outlier;
 mod overview;
 mod pace;
@@ -54,6 +56,8 @@ mod range;
 mod rates;
 mod read;
 mod reading;
+mod restore;
+mod rig;
 mod runs;
 mod segment;
 mod settings;
@@ -91,8 +95,9 @@ pub use measured::{Measurements, read_measurements};
 pub use overview::Friction;
 pub use place::Place;
 pub use points::{FrictionColumn, Point, Points, read_points};
-pub use rates::{Rate, rate_of};
+pub use rates::{Forces, Rate, rate_of};
 pub use reading::Reading;
+pub use rig::Rig;
 pub use segment::{Segment, State};
 pub use settings::{DAMPING_RATIO, INCLINATION, LARGEST_FRICTION, OVERLAP, Settings, WINDOW};
 pub use spectrogram::Spectrogram;

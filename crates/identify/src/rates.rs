@@ -19,8 +19,29 @@ pub struct Rate {
     pub wrong: u32,
 }
 
-/// Whether forces are slow, the name of a witness, and its rate.
-type Row = (bool, &'static str, Rate);
+/// How the forces were known at the frequency of the vibration.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Forces {
+    /// Not at all: their sensors are slow.
+    Slow,
+    /// By sensors that follow it.
+    Fast,
+    /// From the accelerations, by a model of the rig.
+    Model,
+}
+
+impl Forces {
+    fn name(self) -> &'static str {
+        match self {
+            Forces::Slow => "slow",
+            Forces::Fast => "fast",
+            Forces::Model => "model",
+        }
+    }
+}
+
+/// How the forces were known, the name of a witness, and its rate.
+type Row = (&'static str, &'static str, Rate);
 
 static ROWS: LazyLock<Vec<Row>> = LazyLock::new(|| TABLE.lines().skip(1).filter_map(row).collect());
 
@@ -28,18 +49,14 @@ fn row(line: &'static str) -> Option<Row> {
     let fields: Vec<&str> = line.split(',').collect();
     let [forces, witness, number, decided, wrong] = fields[..] else { return None };
     let count = |field: &str| field.parse().ok();
-    Some((
-        forces == "slow",
-        witness,
-        Rate { number: count(number)?, decided: count(decided)?, wrong: count(wrong)? },
-    ))
+    Some((forces, witness, Rate { number: count(number)?, decided: count(decided)?, wrong: count(wrong)? }))
 }
 
-/// The rate of a witness, or of all together (`None`), with slow force sensors or with those that follow the vibration.
+/// The rate of a witness, or of all together (`None`), with forces that are known so.
 #[must_use]
-pub fn rate_of(witness: Option<Witness>, slow: bool) -> Option<Rate> {
+pub fn rate_of(witness: Option<Witness>, by: Forces) -> Option<Rate> {
     let name = witness.map_or("joint", Witness::name);
-    ROWS.iter().find(|(forces, row, _)| *forces == slow && *row == name).map(|(.., rate)| *rate)
+    ROWS.iter().find(|(forces, row, _)| *forces == by.name() && *row == name).map(|(.., rate)| *rate)
 }
 
 impl std::fmt::Display for Rate {

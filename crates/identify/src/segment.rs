@@ -3,7 +3,7 @@
 use crate::cells::Cell;
 use crate::cross::Measured;
 use crate::cut::{Course, cut};
-use crate::level::{LEAST, Level, Reading, follows, level, spread};
+use crate::level::{LEAST, Level, Reading, follows, level, reads, spread};
 use crate::population::{Seen, Source};
 use crate::settings::Settings;
 use crate::testimony::{Mechanism, Testimony, Witness};
@@ -147,10 +147,15 @@ pub(super) fn segments(cells: &[Cell], has: Has, settings: &Settings) -> Vec<Seg
             reason = "a small part of a small number"
         )]
         let least = LEAST.max((SHORTEST * cells.len() as f64).ceil() as usize);
-        let mut start = 0;
-        for end in cut(stretch.len(), &courses(stretch, has, vibrating), least) {
-            found.push(segment(&stretch[start..end], has, (vibrating, largest), settings));
-            start = end;
+        let mut rest = stretch;
+        for length in by_law(stretch, has, vibrating, least) {
+            let (part, after) = rest.split_at(length);
+            rest = after;
+            let mut start = 0;
+            for end in cut(part.len(), &courses(part, has, vibrating), least) {
+                found.push(segment(&part[start..end], has, (vibrating, largest), settings));
+                start = end;
+            }
         }
     }
     found
@@ -183,6 +188,30 @@ fn runs(mut kinds: Vec<bool>) -> Vec<[usize; 2]> {
             _ => return found,
         }
     }
+}
+
+/// The lengths, in cells, of the parts of a stretch in each of which the friction law is a straight line, where it is read within the
+/// oscillation: a knee of the law comes first, what else changes with the velocity is cut between.
+fn by_law(cells: &[Cell], has: Has, vibrating: bool, least: usize) -> Vec<usize> {
+    /// The least scatter of a level that means anything.
+    const SCATTER: f64 = 0.005;
+    let whole = vec![cells.len()];
+    if !(has.forces && has.velocity && vibrating && follows(cells) && spread(cells, Cell::velocity) > 0.05) {
+        return whole;
+    }
+    let found = reads(cells);
+    if found.len() < 2 * LEAST {
+        return whole;
+    }
+    let points: Vec<[f64; 2]> = found.iter().map(|(_, point)| *point).collect();
+    let least = (least * found.len()).div_ceil(cells.len());
+    let cuts = cut(points.len(), &[Course::new(&points, SCATTER)], least);
+    let mut ends: Vec<usize> = cuts.iter().map(|cut| found[cut - 1].0).collect();
+    if let Some(last) = ends.last_mut() {
+        *last = cells.len();
+    }
+    let starts = std::iter::once(0).chain(ends.iter().copied());
+    ends.iter().zip(starts).map(|(end, start)| end - start).collect()
 }
 
 /// The quantities that stay in kind within a segment.

@@ -2,6 +2,7 @@
 
 use crate::channel::{Channel, PerChannel};
 use crate::cross::Measured;
+use crate::rig::Rig;
 use crate::unit::TimeUnit;
 
 /// Window of the spectrogram, s: that of the source paper.
@@ -60,6 +61,23 @@ pub struct Settings {
     pub zooms: Vec<f64>,
     /// The friction coefficient at which the modes of the structure coalesce, and its standard error.
     pub critical_friction: Option<Measured>,
+    /// The structure, where it is known: forces at the frequency of the vibration are then those that move it, in place of what slow
+    /// sensors show; and its coalescence counts where [`Settings::critical_friction`] is none.
+    pub rig: Option<Rig>,
+}
+
+impl Settings {
+    /// What holds for a stroke that goes forwards, or the other way (`turned`).
+    pub(super) fn directed(&self, turned: bool) -> Settings {
+        let rig = self.rig.map(|rig| if turned { rig.turned() } else { rig });
+        Settings {
+            critical_friction: self.critical_friction.or(rig.map(|rig| rig.critical[0])),
+            // What is restored from the accelerations is not late.
+            force_skew: if rig.is_some() { 0.0 } else { self.force_skew },
+            rig,
+            ..self.clone()
+        }
+    }
 }
 
 impl Default for Settings {
@@ -81,6 +99,7 @@ impl Default for Settings {
             largest_friction: LARGEST_FRICTION,
             zooms: Vec::new(),
             critical_friction: None,
+            rig: None,
         }
     }
 }

@@ -1,12 +1,12 @@
 //! The third reading of a file: the samples of its episodes, and what a fit to them tells.
 
-use crate::again::Again;
 use crate::channel::Channel;
 use crate::course::course;
 use crate::cross::Ratio;
 use crate::episode::{Episode, Recorded};
 use crate::fault::Fault;
 use crate::feedback::{Feedback, Skews};
+use crate::restore::Samples;
 use crate::settings::Settings;
 use crate::sharpen::{AFTER, MOST, Sharpened, Span, sharpen};
 use crate::verdict::{Setting, Verdict, judge};
@@ -47,7 +47,11 @@ struct Open {
 
 /// Reads the samples of the episodes and replaces what windows tell of each by what a fit tells. Memory: the samples of
 /// one episode, at most.
-pub(super) fn sharpened(mut again: Again<'_>, episodes: &mut [Episode], known: &Known) -> Result<(), Fault> {
+pub(super) fn sharpened(
+    mut again: Samples<'_>,
+    episodes: &mut [Episode],
+    known: &Known,
+) -> Result<(), Fault> {
     let channels = known.fitted();
     let mut waiting: Vec<Open> =
         episodes.iter().enumerate().map(|(number, episode)| known.open(number, episode)).collect();

@@ -9,8 +9,10 @@ use crate::cross::{INDEPENDENT, Measured, Sums};
 use crate::inertia::Inertia;
 use crate::lanes::{dot, sum};
 use crate::losses::Losses;
+use crate::motion::{drift, integral, period};
+use crate::settings::Settings;
 use crate::spectrum::{Beside, Spectra, detrend, hann, refine};
-use crate::within::Within;
+use crate::within::{PER_PERIOD, Within};
 
 /// Periods of the dominant oscillation in a block: the fewest whose main lobe stays clear of drift.
 const BLOCK_PERIODS: f64 = 4.0;
@@ -93,6 +95,8 @@ pub(super) struct Analyser {
     rate: f64,
     has: PerChannel<bool>,
     band: Option<[f64; 2]>,
+    /// Whether the forces are restored from the accelerations.
+    restored: bool,
     spectra: Spectra,
     taper: Vec<f64>,
     power: Vec<f64>,
@@ -106,17 +110,13 @@ pub(super) struct Analyser {
 }
 
 impl Analyser {
-    pub(super) fn new(
-        geometry: Geometry,
-        rate: f64,
-        has: PerChannel<bool>,
-        band: Option<[f64; 2]>,
-    ) -> Analyser {
+    pub(super) fn new(geometry: Geometry, rate: f64, has: PerChannel<bool>, settings: &Settings) -> Analyser {
         Analyser {
             geometry,
             rate,
             has,
-            band,
+            band: settings.band,
+            restored: settings.rig.is_some(),
             spectra: Spectra::new(hann(geometry.window)),
             taper: hann(geometry.block),
             power: Vec::new(),
@@ -193,25 +193,15 @@ impl Analyser {
         means: Option<(f64, f64)>,
         frequency: f64,
     ) -> (Within, Losses, Inertia) {
-        /// Six points around each step: with seven samples per period a trapezoid is 7 % off.
-        const STEP: [f64; 6] = [11.0, -93.0, 802.0, 802.0, -93.0, 11.0];
         /// Samples per period, with which the velocity is 1 % off; with three and a half it is 7 %, and the harmonics are lost.
         const LEAST: f64 = 5.0;
         let is_read = self.has[Channel::TangentialForce as usize] && self.rate >= LEAST * frequency;
         let Some((velocity, mean)) = means.filter(|_| is_read) else {
             return Default::default();
         };
-        let a = &self.signals[0];
-        let mut sum = 0.0;
-        self.motion.clear();
-        for k in 0..a.len() {
-            if k >= 3 && k + 2 < a.len() {
-                let step: f64 = STEP.iter().zip(&a[k - 3..]).map(|(weight, a)| weight * a).sum();
-                sum += step / 1440.0 / self.rate;
-            }
-            self.motion.push(sum);
-        }
-        detrend(&mut self.motion);
+        integral(&self.signals[0], 1.0 / self.rate, &mut self.motion);
+        let slow = drift(&self.motion, period(self.rate / frequency));
+        self.motion.iter_mut().zip(slow).for_each(|(motion, slow)| *motion -= slow);
         let Geometry { window, hop, .. } = self.geometry;
         let middle = (window - hop) / 2..usize::midpoint(window, hop);
         let [acceleration, tangential, normal] =
@@ -219,12 +209,20 @@ impl Analyser {
                 .map(|c| &channels[c as usize][middle.clone()]);
         let motion = &mut self.motion[middle.clone()];
         let losses = Losses::read(motion, &self.signals[0][middle], tangential, normal);
-        let inertia = if losses.opens() {
+        let inertia = if losses.opens() && self.restored {
+            // The motion of a contact that opens tells neither forces nor, with forces made of it, the mass.
+            return Default::default();
+        } else if losses.opens() {
             Inertia::read(motion, [acceleration, tangential, normal], self.rate, self.rate / frequency)
         } else {
             Inertia::default()
         };
-        (Within::read(motion, tangential, normal, velocity, mean), losses, inertia)
+        let within = if self.rate < PER_PERIOD * frequency {
+            Within::default()
+        } else {
+            Within::read(motion, [acceleration, tangential, normal], velocity, mean)
+        };
+        (within, losses, inertia)
     }
 
     fn load(&mut self, channels: &PerChannel<&[f64]>, friction: f64) {

@@ -3,7 +3,7 @@
 use crate::attribution::normal_below;
 use crate::cross::Measured;
 use crate::episode::Episode;
-use crate::level::{Level, Reading};
+use crate::level::{Level, Reading, UNFIT};
 use crate::population::{Damped, Level as Height, Seen, Source, Trend, UNCLEAR, bin, stated};
 use crate::segment::{REVERSES, Segment, State};
 use crate::settings::Settings;
@@ -166,7 +166,7 @@ pub(super) fn each(segment: &Segment, structure: Structure) -> [Option<f64>; 2] 
 pub(super) fn read_within(segment: &Segment, structure: Structure) -> Option<[f64; 2]> {
     /// Standard errors from which on a rise is one.
     const RISES: f64 = 3.0;
-    let Level { level, slope, least, damping, .. } =
+    let Level { level, slope, extremes, damping, .. } =
         segment.friction.filter(|friction| friction.reading == Reading::Within)?;
     let (critical, slope, damping) = (structure.critical?, slope?, damping?);
     let [first, last] = segment.velocity?;
@@ -180,10 +180,11 @@ pub(super) fn read_within(segment: &Segment, structure: Structure) -> Option<[f6
         let value = if slope.value < RISES * slope.error { slope.value.min(0.0) } else { slope.value };
         normal_below((-value - damping.value) / slope.error.hypot(damping.error))
     };
-    // What does so in all but a part of the segment is in doubt, no less and no more.
-    let doubt = least.map_or(1.0, |least| exceeds(least).max(0.5));
+    // What does so, or does not, in all but a part of the segment is in doubt, no less and no more.
+    let [least, most] = extremes.unwrap_or([slope; 2]).map(exceeds);
     let exceeds = exceeds(slope);
-    Some([normal_below(above), if exceeds > 0.5 { exceeds.min(doubt) } else { exceeds }])
+    let told = if exceeds > 0.5 { exceeds.min(least.max(0.5)) } else { exceeds.max(most.min(0.5)) };
+    Some([normal_below(above), told])
 }
 
 /// Why a vibration is driven from elsewhere, where the forces show it: friction takes power out of it, and yet it goes on; or friction
@@ -219,7 +220,14 @@ pub(super) fn friction(segment: &Segment, structure: Structure, grows: bool) -> 
     let against = structure
         .critical
         .map_or(String::new(), |critical| format!(", coalescence at {}", critical.text(1.0, 3)));
-    let evidence = format!("μ {level}{against}{slope}");
+    let misfit = friction.misfit.filter(|misfit| *misfit >= UNFIT).map_or(String::new(), |misfit| {
+        format!(
+            ", the forces of --model differ by {:.0} % while the velocity rises and while it falls: it does not fit the record (masses, \
+             stiffnesses, the sign of theta, --skew)",
+            100.0 * misfit
+        )
+    });
+    let evidence = format!("μ {level}{against}{slope}{misfit}");
     let spoken = |chances: Option<Chances>, evidence: String| Testimony {
         witness: Witness::Friction,
         chances,
@@ -233,8 +241,10 @@ pub(super) fn friction(segment: &Segment, structure: Structure, grows: bool) -> 
     if friction.reading != Reading::Mean {
         let how = if friction.reading == Reading::Within {
             "read within the oscillation"
+        } else if friction.misfit.is_some_and(|misfit| misfit >= UNFIT) {
+            "the vibration reverses the sliding and hides the law: the mean is a lower bound, its slope is not that of the law"
         } else {
-            "the vibration reverses the sliding and hides the law (the force sensors do not follow it, or there are fewer than 5 \
+            "the vibration reverses the sliding and hides the law (the force sensors do not follow it, or there are fewer than 12 \
              samples per period, or 15 where the contact opens): the mean is a lower bound, its slope is not that of the law"
         };
         let (level, trend) = friction_seen(segment, structure);

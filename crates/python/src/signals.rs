@@ -9,6 +9,8 @@ use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 use squealmap::results::figure::look::Look;
 use squealmap::study::identify::report::{Shown, WindowsCsv, identify_svg, report_json};
+use squealmap::study::identify::rig::rig_of;
+use squealmap::sweep::spec::Spec;
 use squealmap_identify::{Identification, Measured, Settings, Spectrogram, TimeUnit, identify as identified};
 use squealmap_input::{files, quote};
 
@@ -68,15 +70,25 @@ pub(crate) struct Choices {
     /// Value and standard error.
     #[pyo3(item)]
     critical_friction: Option<[f64; 2]>,
+    /// A sweep file.
+    #[pyo3(item)]
+    model: Option<PathBuf>,
 }
 
 impl Choices {
     /// The settings.
     ///
     /// # Errors
-    /// For a value that is none.
+    /// For a value that is none, or a model that is none.
     fn settings(self) -> Result<Settings, Failure> {
-        let usual = Settings::default();
+        let of = |path: &PathBuf| Ok::<_, Failure>(rig_of(&Spec::read(path)?)?);
+        let (rig, damping_ratio) = self.model.as_ref().map(of).transpose()?.unzip();
+        let known = Settings::default();
+        let usual = Settings {
+            damping_ratio: damping_ratio.unwrap_or(known.damping_ratio),
+            inclination: rig.map_or(known.inclination, |rig| rig.theta.abs()),
+            ..known
+        };
         let positive: (fn(f64) -> bool, _) = (|x| x > 0.0, "a finite number greater than 0");
         let ratio: (fn(f64) -> bool, _) = (|x| (0.0..1.0).contains(&x), "a number from 0 to below 1");
         let finite: (fn(f64) -> bool, _) = (|_| true, "a finite number");
@@ -127,6 +139,7 @@ impl Choices {
             )?,
             zooms: Vec::new(),
             critical_friction: self.critical_friction.map(|[value, error]| Measured { value, error }),
+            rig,
         })
     }
 }

@@ -91,6 +91,16 @@ def test_identify(stroke, program):
     assert "<svg" in found._repr_svg_() and found.summary in repr(found)
 
 
+def test_identify_with_a_model(stroke, program, tmp_path):
+    model = ROOT / "sweeps/trace.toml"
+    assert program("identify", "signals.csv", "--model", model, "-o", tmp_path, cwd=stroke).returncode == 0
+    found = squealmap.identify(stroke / "signals.csv", model=model)
+    assert found.report["segments"] == document(tmp_path / "identify.json")["segments"]
+    assert any("model" in note for note in found.report["notes"])
+    with pytest.raises(squealmap.InputError, match="none.toml"):
+        squealmap.identify(stroke / "signals.csv", model="none.toml")
+
+
 def test_identify_with_other_columns(stroke, tmp_path):
     text = (stroke / "signals.csv").read_text().replace("ax2", "tangential", 1)
     (tmp_path / "signals.csv").write_text(text)

@@ -11,3 +11,5 @@ mod system;
 
 pub use fault::Fault;
 pub use solve::{Calibrated, Measured, calibrate};
+#[cfg(all(feature = "figures", feature = "identify"))]
+pub(crate) use solve::{MOST, coalescence};

@@ -46,7 +46,7 @@ const LEAST: f64 = 1e-5;
 /// Corrections of what the weak damping is taken for.
 const CORRECTIONS: usize = 8;
 /// Friction coefficients beyond this are no friction.
-const MOST: f64 = 5.0;
+pub(crate) const MOST: f64 = 5.0;
 
 /// The model that has what was measured.
 ///
@@ -165,7 +165,7 @@ fn modes(instance: &Instance) -> ([f64; 2], [f64; 2]) {
 }
 
 /// The least friction coefficient at which an instance is unstable with a flat law; infinite where none below `MOST` is.
-fn coalescence(instance: &Instance) -> f64 {
+pub(crate) fn coalescence(instance: &Instance) -> f64 {
     /// Steps in which the first unstable one is looked for.
     const STEPS: u32 = 250;
     let unstable = |mu: f64| {

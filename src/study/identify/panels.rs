@@ -133,7 +133,8 @@ pub(super) fn rightwards(
         svg.text(right + TICK_LENGTH + 1.5, y + 0.36 * TICK_SIZE, &tick.label, style);
     }
     svg.path(&marks, FRAME);
-    let x = right + y_tick_room(&ticks) + TICK_SIZE + 1.0;
+    // A superscript stands nearer to the ticks than capitals.
+    let x = right + y_tick_room(&ticks) + 1.4 * TICK_SIZE + 1.0;
     let middle = frame.y + 0.5 * frame.height;
     svg.text(x, middle, label, Style::new(TICK_SIZE, Anchor::Middle).upwards());
 }

@@ -205,6 +205,7 @@ fn segment(segment: &Segment) -> Value {
             "level": measured(friction.level),
             "slope": friction.slope.map(measured),
             "damping": friction.damping.map(measured),
+            "misfit": friction.misfit,
         })),
         "velocity": segment.velocity,
         "temperature": segment.temperature,

@@ -3,6 +3,7 @@
 //! - [`sensors`]: the sampled channels.
 //! - [`table`]: their table, `signals.csv`.
 
+pub mod filter;
 pub mod sensors;
 #[cfg(feature = "identify")]
 pub mod table;

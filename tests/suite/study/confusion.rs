@@ -1,9 +1,9 @@
 //! What `identify` says of a laboratory's strokes, held against the eigenvalues: each witness, and all of them together.
 
-use crate::study::laboratory::{Drawn, Stroke, right, sensed, settings, stroke};
+use crate::study::laboratory::{Drawn, Sensors, Stroke, known, right, sensed, settings, stroke};
 use crate::study::strokes::{Random, csv, run};
 use rayon::prelude::*;
-use squealmap_identify::{CONFIDENT, Kind, Mechanism, Segment};
+use squealmap_identify::{CONFIDENT, Kind, Mechanism, Segment, Settings};
 
 /// Instants at which a segment is held against the eigenvalues.
 const INSTANTS: usize = 20;
@@ -78,7 +78,7 @@ pub(crate) struct Statement {
 /// One stroke and what was said about it; no segments where it was not analysed.
 pub(crate) struct Judged {
     pub(crate) drawn: Drawn,
-    pub(crate) slow: bool,
+    pub(crate) sensors: Sensors,
     pub(crate) statements: Vec<Statement>,
 }
 
@@ -117,8 +117,8 @@ impl Judged {
 }
 
 /// Judges one stroke. Segments shorter than what boundaries may be off by are not judged.
-pub(crate) fn judged(drawn: Drawn, stroke: &Stroke, slow: bool) -> Judged {
-    let found = run(&csv(&stroke.samples), &settings(stroke.critical, stroke.damping_ratio));
+pub(crate) fn judged(drawn: Drawn, stroke: &Stroke, sensors: Sensors, by: &Settings) -> Judged {
+    let found = run(&csv(&stroke.samples), by);
     let segments = found.map(|found| found.segments).unwrap_or_default();
     let long = |segment: &&Segment| segment.time[1] - segment.time[0] > TOLERANCE * stroke.duration;
     let mut statements = Vec::new();
@@ -132,24 +132,29 @@ pub(crate) fn judged(drawn: Drawn, stroke: &Stroke, slow: bool) -> Judged {
             }
         }
     }
-    Judged { drawn, slow, statements }
+    Judged { drawn, sensors, statements }
 }
 
-/// `each` strokes of every kind, with slow and with fast forces, at 40 and at 20 dB, in both directions.
-pub(crate) fn table(seed: u64, each: usize) -> Vec<Judged> {
-    let drawn = Drawn::ALL.into_iter().flat_map(|drawn| [true, false].map(|slow| (drawn, slow)));
-    let asked: Vec<(Drawn, bool, f64, usize)> = drawn
-        .flat_map(|(drawn, slow)| [40.0, 20.0].map(|decibel| (drawn, slow, decibel)))
-        .flat_map(|(drawn, slow, decibel)| (0..each).map(move |number| (drawn, slow, decibel, number)))
+/// `each` strokes of every kind, with these sensors of the forces, at 40 and at 20 dB, in both directions.
+pub(crate) fn table(seed: u64, each: usize, sensors: &[Sensors]) -> Vec<Judged> {
+    let drawn = Drawn::ALL.into_iter().flat_map(|drawn| sensors.iter().map(move |by| (drawn, *by)));
+    let asked: Vec<(Drawn, Sensors, f64, usize)> = drawn
+        .flat_map(|(drawn, by)| [40.0, 20.0].map(|decibel| (drawn, by, decibel)))
+        .flat_map(|(drawn, by, decibel)| (0..each).map(move |number| (drawn, by, decibel, number)))
         .collect();
-    let one = |(place, (drawn, slow, decibel, number)): (usize, (Drawn, bool, f64, usize))| {
+    let one = |(place, (drawn, by, decibel, number)): (usize, (Drawn, Sensors, f64, usize))| {
         // Each stroke has a seed of its own: they do not depend on their number.
         let mut random = Random::new(seed.wrapping_mul(1_000_003).wrapping_add(place as u64));
-        let mut stroke = stroke(drawn, &mut random);
-        sensed(&mut stroke.samples, slow, decibel, number % 2 == 1, &mut random);
-        let judged = judged(drawn, &stroke, slow);
+        let mut stroke = stroke(drawn, by.rate(), &mut random);
+        let backwards = number % 2 == 1;
+        sensed(&mut stroke.samples, by != Sensors::Fast, decibel, backwards, &mut random);
+        let mut settings = settings(stroke.critical, stroke.damping_ratio);
+        if by == Sensors::Model {
+            settings.rig = Some(known(&stroke.instance, backwards, &mut random));
+        }
+        let judged = judged(drawn, &stroke, by, &settings);
         if std::env::var_os("SQUEALMAP_SHOW_WRONG").is_some() {
-            show(&judged, &stroke, decibel);
+            show(&judged, &stroke, decibel, &settings);
         }
         judged
     };
@@ -157,17 +162,17 @@ pub(crate) fn table(seed: u64, each: usize) -> Vec<Judged> {
 }
 
 /// Prints a stroke about which something wrong was said.
-fn show(judged: &Judged, stroke: &Stroke, decibel: f64) {
+fn show(judged: &Judged, stroke: &Stroke, decibel: f64, by: &Settings) {
     let wrong = |judge: &usize| judged.fate(*judge) == Fate::ConfidentlyWrong;
     let judges: Vec<&str> = (0..JUDGES.len()).filter(wrong).map(|judge| JUDGES[judge]).collect();
     if judges.is_empty() {
         return;
     }
     println!(
-        "{:?} slow {} {decibel} dB, wrong: {judges:?}, critical {:.3}",
-        judged.drawn, judged.slow, stroke.critical
+        "{:?} {:?} {decibel} dB, wrong: {judges:?}, critical {:.3}",
+        judged.drawn, judged.sensors, stroke.critical
     );
-    if let Ok(found) = run(&csv(&stroke.samples), &settings(stroke.critical, stroke.damping_ratio)) {
+    if let Ok(found) = run(&csv(&stroke.samples), by) {
         for s in &found.segments {
             println!(
                 "  {:.4} to {:.4} {:?} reach {:?} phase {:?} {:?}\n    truth {:?}, verdict {:?} {:.3} {:?}",

@@ -11,8 +11,9 @@ use squealmap::model::instance::Instance;
 use squealmap::model::kind::InstabilityType;
 use squealmap::model::status::Status;
 use squealmap::model::{Param, linear};
-use squealmap::study::signals::sensors::{Recording, Sample, record};
-use squealmap_identify::{CAUSE, Kind, Measured, Settings};
+use squealmap::study::signals::filter::recorded;
+use squealmap::study::signals::sensors::{Recording, Sample};
+use squealmap_identify::{CAUSE, Kind, Measured, Rig, Settings};
 
 /// Mean frequency of the squeal of the model, Hz, and what it is in Table 1.
 const SQUEAL: f64 = 14.5e3;
@@ -27,10 +28,42 @@ const DAMPING: [f64; 3] = [2e-4, squealmap_identify::DAMPING_RATIO, 2e-2];
 pub(crate) static RATE: LazyLock<f64> = LazyLock::new(|| {
     std::env::var("SQUEALMAP_RATE").ok().and_then(|text| text.parse().ok()).unwrap_or(102.4e3)
 });
+/// How often a second a rig records whose forces come from its accelerations, over [`struct@RATE`]: they take more samples.
+const FINER: f64 = 3.0;
 /// Length of a stroke of sustained squeal, s.
 const LENGTH: f64 = 0.2;
 /// Kick at the start, over the belt velocity.
 const KICK: f64 = 3e-3;
+
+/// How the forces are known.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Sensors {
+    /// By sensors that do not follow the vibration.
+    Slow,
+    /// By sensors that follow it.
+    Fast,
+    /// By slow sensors, and by a model of the rig, which is off by some per cent.
+    Model,
+}
+
+impl Sensors {
+    #[allow(dead_code, reason = "the benchmark shows them")]
+    pub(crate) const ALL: [Sensors; 3] = [Sensors::Slow, Sensors::Fast, Sensors::Model];
+
+    /// The samples per second that a record with them has, Hz.
+    pub(crate) fn rate(self) -> f64 {
+        *RATE * if self == Sensors::Model { FINER } else { 1.0 }
+    }
+
+    #[allow(dead_code, reason = "the benchmark shows it")]
+    pub(crate) fn words(self) -> &'static str {
+        match self {
+            Sensors::Slow => "slow",
+            Sensors::Fast => "fast",
+            Sensors::Model => "model",
+        }
+    }
+}
 
 /// What a stroke is drawn to be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -170,18 +203,18 @@ fn draw(drawn: Drawn, random: &mut Random) -> (Instance, f64) {
     }
 }
 
-/// Draws and records a stroke, free of noise and with fast sensors.
-pub(crate) fn stroke(drawn: Drawn, random: &mut Random) -> Stroke {
+/// Draws a stroke and records it at a rate (Hz), free of noise and with fast sensors.
+pub(crate) fn stroke(drawn: Drawn, rate: f64, random: &mut Random) -> Stroke {
     loop {
         let (instance, duration) = draw(drawn, random);
-        let recording = Recording { rate: *RATE, duration, skew: 0.0, force_skew: 0.0 };
-        let mut signals = record(&instance, &plan(1.0, 1.0, 12), &recording);
+        let recording = Recording { rate, duration, skew: 0.0, force_skew: 0.0 };
+        let mut signals = recorded(&instance, &plan(1.0, 1.0, 12), &recording);
         if signals.status != Status::Ok {
             continue;
         }
         let from = if drawn == Drawn::Sustained { 0.2 * LENGTH } else { 0.0 };
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a number of samples")]
-        signals.samples.drain(..(from * *RATE) as usize);
+        signals.samples.drain(..(from * rate) as usize);
         if drawn == Drawn::Driven {
             drive(&mut signals.samples, random);
         }
@@ -192,6 +225,11 @@ pub(crate) fn stroke(drawn: Drawn, random: &mut Random) -> Stroke {
     }
 }
 
+/// Samples per second, Hz.
+fn rate_of(samples: &[Sample]) -> f64 {
+    (samples.len() - 1) as f64 / (samples[samples.len() - 1].t - samples[0].t)
+}
+
 /// Adds a vibration that something drives: steady, or stronger with time, up to half of the sliding velocity.
 fn drive(samples: &mut [Sample], random: &mut Random) {
     let omega = TAU * SQUEAL * random.between(0.5, 1.1);
@@ -200,13 +238,14 @@ fn drive(samples: &mut [Sample], random: &mut Random) {
     let parts = [1.0, random.between(0.1, 1.0), random.between(0.0, 0.3), random.between(0.0, 0.3)];
     let phases = [0.0; 4].map(|_| TAU * random.uniform());
     let count = samples.len() as f64;
+    let rate = rate_of(samples);
     for (k, sample) in samples.iter_mut().enumerate() {
         let strength = if rising { k as f64 / count } else { 1.0 };
         let velocity = reach * sample.belt_velocity * strength;
         let scales = [velocity * omega, velocity * omega, sample.tangential_force, sample.normal_force];
         for (number, field) in FIELDS.into_iter().enumerate() {
             let size = if number < 2 { scales[number] } else { scales[number] * reach * strength };
-            *field(sample) += parts[number] * size * (omega * k as f64 / *RATE + phases[number]).cos();
+            *field(sample) += parts[number] * size * (omega * k as f64 / rate + phases[number]).cos();
         }
     }
 }
@@ -214,7 +253,7 @@ fn drive(samples: &mut [Sample], random: &mut Random) {
 /// Makes the forces those of slow sensors, adds noise, and turns the stroke around.
 pub(crate) fn sensed(samples: &mut [Sample], slow: bool, decibel: f64, backwards: bool, random: &mut Random) {
     let noise = 10_f64.powf(-decibel / 20.0);
-    let share = 1.0 - (-TAU * SLOW / *RATE).exp();
+    let share = 1.0 - (-TAU * SLOW / rate_of(samples)).exp();
     for (number, field) in FIELDS.into_iter().enumerate() {
         let force = number >= 2;
         let count = samples.len() as f64;
@@ -237,6 +276,24 @@ pub(crate) fn sensed(samples: &mut [Sample], slow: bool, decibel: f64, backwards
             sample.tangential_force *= -1.0;
             sample.belt_velocity *= -1.0;
         }
+    }
+}
+
+/// What a laboratory knows of a structure: masses to a per cent, frequencies to a quarter of one, damping and inclination to a tenth. A
+/// stroke that `sensed` has turned around was made by a rig with the inclination of one that goes backwards.
+pub(crate) fn known(instance: &Instance, backwards: bool, random: &mut Random) -> Rig {
+    let value = |param: Param| instance.params.require(param);
+    let [mass, square, damping, inclination] =
+        [0.01, 0.005, 0.1, 0.1].map(|error| (error * random.normal()).exp());
+    let theta = inclination * if backwards { -1.0 } else { 1.0 } * value(Param::Theta);
+    let critical = coalescence(instance);
+    Rig {
+        m1: mass * value(Param::M1),
+        m2: mass * value(Param::M2),
+        k1: mass * square * value(Param::K1),
+        c1: damping * value(Param::C1),
+        theta,
+        critical: [Measured { value: critical, error: 0.03 * critical }; 2],
     }
 }
 

@@ -25,6 +25,7 @@ pub(crate) mod modes_figure;
 pub(crate) mod observed;
 pub(crate) mod paper;
 pub(crate) mod report_numbers;
+mod rig;
 pub(crate) mod sampling;
 pub(crate) mod segments;
 pub(crate) mod stroke_table;

@@ -163,6 +163,7 @@ def identify(
     overlap: Union[float, None] = None,
     largest_friction: Union[float, None] = None,
     critical_friction: Union[float, tuple[float, float], None] = None,
+    model: Union[Path, None] = None,
 ) -> Identification:
     """Says what measured signals say: is there an instability, and which mechanism causes it?
 
@@ -179,6 +180,8 @@ def identify(
         window, overlap: windows of the spectrogram, s, and how far they overlap, below 1.
         largest_friction: largest T/N that is believed.
         critical_friction: friction at which the modes coalesce, and its standard error.
+        model: a sweep file of the rig. Forces that slow sensors do not show are taken from the accelerations then; damping, inclination
+            and coalescence are those of the rig where they are not given.
 
     Raises:
         InputError: the file is not fit for that.
@@ -211,6 +214,7 @@ def identify(
         "overlap": overlap,
         "largest_friction": largest_friction,
         "critical_friction": critical,
+        "model": None if model is None else path_of(model),
     }
     with calling():
         report, windows, spectrogram, svg = _squealmap.identify(path_of(signals), choices)

@@ -1,0 +1,158 @@
+//! Forces that slow sensors do not show, taken from the accelerations and a known rig: strokes like the source paper's Figures 11 to 14,
+//! through the filter of a recorder.
+
+#![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
+
+use crate::common::{near, plan};
+use crate::study::confusion::{TOLERANCE, is_right};
+use crate::study::laboratory::{Stroke, coalescence, right, sensed};
+use crate::study::segments::{LENGTH, couples, describe, rig};
+use crate::study::strokes::{Random, csv, run};
+use squealmap::model::Param;
+use squealmap::model::instance::Instance;
+use squealmap::study::signals::filter::recorded;
+use squealmap::study::signals::sensors::{Recording, Sample};
+use squealmap_identify::{
+    Fault, FrictionReading, Identification, Kind, Measured, Rig, Segment, Settings, Witness,
+};
+
+/// Samples per second, Hz: 27 per period.
+const RATE: f64 = 400e3;
+/// Friction of the law, and its knee, m/s.
+const MU_S: f64 = 0.51;
+const MU_D: f64 = 0.3423;
+const KNEE: f64 = 0.0228;
+
+/// A stroke with slow force sensors, by a rig whose inclination is that of the stroke's direction.
+fn sampled(instance: &Instance, rate: f64, decibel: f64, backwards: bool) -> Vec<Sample> {
+    let recording = Recording { rate, duration: LENGTH, skew: 0.0, force_skew: 0.0 };
+    let mut samples = recorded(instance, &plan(1.0, 1.0, 12), &recording).samples;
+    sensed(&mut samples, true, decibel, backwards, &mut Random::new(5));
+    samples
+}
+
+/// What is known of the rig of a stroke: everything, its masses times `mass`, its stiffness times `stiffness`.
+fn known(instance: &Instance, backwards: bool, [mass, stiffness]: [f64; 2]) -> Settings {
+    let value = |param: Param| instance.params.require(param);
+    let critical = coalescence(instance);
+    let critical = [Measured { value: critical, error: 0.03 * critical }; 2];
+    let theta = if backwards { -1.0 } else { 1.0 } * value(Param::Theta);
+    let [m1, m2, k1, c1] = [Param::M1, Param::M2, Param::K1, Param::C1].map(value);
+    let rig = Rig { m1: mass * m1, m2: mass * m2, k1: stiffness * k1, c1, theta, critical };
+    Settings { damping_ratio: 0.02, rig: Some(rig), ..Settings::default() }
+}
+
+/// The segments that are longer than a boundary may be off.
+fn long(found: &Identification) -> impl Iterator<Item = &Segment> {
+    found.segments.iter().filter(|s| s.time[1] - s.time[0] > TOLERANCE * LENGTH)
+}
+
+/// All that is decided is right.
+fn assert_right(instance: &Instance, found: &Identification) {
+    let stroke = Stroke {
+        instance: instance.clone(),
+        critical: coalescence(instance),
+        samples: Vec::new(),
+        damping_ratio: 0.02,
+        duration: LENGTH,
+    };
+    for segment in long(found).filter(|segment| segment.verdict.kind != Kind::Undecided) {
+        assert!(is_right(&stroke, segment.time, &[segment.verdict.kind]), "{}", describe(found));
+    }
+}
+
+/// Figures 13 and 14: mode coupling above the knee, both below it, and the law as it is.
+#[test]
+fn figure_13_is_mode_coupling_then_both_with_slow_sensors() {
+    let [first, last] = [0.0472, 0.0041];
+    let rig = rig(MU_S, MU_D, KNEE, [first, last]);
+    let at = |velocity: f64| LENGTH * (first - velocity) / (first - last);
+    assert_eq!(right(&rig, at(KNEE) - 0.01), [Kind::ModeCoupling]);
+    assert_eq!(right(&rig, at(KNEE) + 0.01), [Kind::Both]);
+    // Noise, direction, and how late "both" may be told.
+    for (decibel, backwards, late) in
+        [(40.0, false, TOLERANCE), (40.0, true, TOLERANCE), (20.0, false, 0.12), (20.0, true, 0.12)]
+    {
+        let samples = sampled(&rig, RATE, decibel, backwards);
+        let found = run(&csv(&samples), &known(&rig, backwards, [1.0, 1.0])).unwrap();
+        assert_right(&rig, &found);
+        assert!(long(&found).all(couples), "{}", describe(&found));
+        let both = found.segments.iter().position(|s| s.verdict.kind == Kind::Both).unwrap();
+        assert!(found.segments[both..].iter().all(|s| s.verdict.kind == Kind::Both), "{}", describe(&found));
+        near("both from", found.segments[both].time[0], at(KNEE), late * LENGTH);
+        // The law, which the mean of slow forces does not show.
+        let mut read = 0;
+        for segment in long(&found) {
+            let friction = segment.friction.filter(|f| f.reading == FrictionReading::Within).unwrap();
+            let velocity = 0.5 * segment.velocity.unwrap().iter().map(|v| v.abs()).sum::<f64>();
+            let law = MU_D + (MU_S - MU_D) * (1.0 - velocity / KNEE).max(0.0);
+            near("level", friction.level.value, law, 0.04 * law);
+            read += 1;
+            if segment.time[0] > at(KNEE) + TOLERANCE * LENGTH {
+                let slope = friction.slope.unwrap();
+                near("slope", slope.value, (MU_D - MU_S) / KNEE, 3.0 * slope.error);
+            }
+        }
+        assert!(read >= 3, "{}", describe(&found));
+    }
+}
+
+/// Figures 11 and 12: what is decided is right, and mode coupling is told throughout at constant velocity.
+#[test]
+fn figures_11_and_12_stay_right() {
+    for backwards in [false, true] {
+        let slope = rig(0.16, 0.06, 0.025, [0.045, 0.005]);
+        let samples = sampled(&slope, RATE, 40.0, backwards);
+        let found = run(&csv(&samples), &known(&slope, backwards, [1.0, 1.0])).unwrap();
+        assert_right(&slope, &found);
+        assert_eq!(found.segments[0].verdict.kind, Kind::NoInstability, "{}", describe(&found));
+        assert_eq!(found.segments.last().unwrap().verdict.kind, Kind::NegativeSlope, "{}", describe(&found));
+        let coupling = rig(MU_D, MU_D, KNEE, [0.045, 0.045]);
+        let samples = sampled(&coupling, RATE, 40.0, backwards);
+        let found = run(&csv(&samples), &known(&coupling, backwards, [1.0, 1.0])).unwrap();
+        assert_right(&coupling, &found);
+        assert!(long(&found).all(couples), "{}", describe(&found));
+    }
+}
+
+/// A rig that is not that of the record contradicts itself: nothing is read with it, and nothing wrong is told.
+#[test]
+fn another_rig_is_noticed() {
+    let rig = rig(MU_S, MU_D, KNEE, [0.0472, 0.0041]);
+    let samples = csv(&sampled(&rig, RATE, 40.0, false));
+    for off in [[1.0, 1.03], [1.0, 0.97], [0.95, 1.0], [1.05, 1.0], [1.0, 1.1], [1.0, 0.0025], [1.3, 1.0]] {
+        let found = run(&samples, &known(&rig, false, off)).unwrap();
+        assert_right(&rig, &found);
+        let notices = |segment: &&Segment| {
+            let friction = segment.testimonies.iter().find(|t| t.witness == Witness::Friction).unwrap();
+            friction.evidence.contains("does not fit the record")
+        };
+        let noticed = found.segments.iter().any(|segment| notices(&segment))
+            || found.notes.iter().any(|note| note.contains("another rig"));
+        assert!(noticed, "{off:?}:\n  {}", describe(&found));
+    }
+    let found = run(&samples, &known(&rig, false, [1.0, 1.0])).unwrap();
+    let misfit = |s: &Segment| s.friction.and_then(|friction| friction.misfit).unwrap_or_default();
+    let worst = long(&found).map(misfit).fold(0.0, f64::max);
+    assert!(worst < 0.05, "{worst}");
+}
+
+/// What the rig needs and the record has not is named.
+#[test]
+fn what_a_rig_needs_is_named() {
+    let rig = rig(MU_S, MU_D, KNEE, [0.0472, 0.0041]);
+    let samples = sampled(&rig, 120e3, 40.0, false);
+    let known = known(&rig, false, [1.0, 1.0]);
+    let refused = |text: &[u8]| run(text, &known).unwrap_err();
+    let few = refused(&csv(&samples));
+    assert!(matches!(*few.fault, Fault::TooFewToRestore { .. }), "{few}");
+    assert!(few.to_string().contains("samples per period, but --model takes 12"), "{few}");
+    let text = String::from_utf8(csv(&samples)).unwrap();
+    for (column, flag) in [("ay1", "--normal-acceleration"), ("N", "--normal-force"), ("V", "--velocity")] {
+        let header = text.lines().next().unwrap();
+        let renamed: Vec<&str> =
+            header.split(',').map(|name| if name == column { "other" } else { name }).collect();
+        let lacks = refused(text.replacen(header, &renamed.join(","), 1).as_bytes());
+        assert!(lacks.to_string().contains(flag), "{lacks}");
+    }
+}
