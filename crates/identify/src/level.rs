@@ -201,7 +201,7 @@ pub(super) fn level(
     const SYSTEMATIC: f64 = 0.01;
     /// The part of the difference of restored forces that a coefficient is off.
     const OFF: f64 = 0.1;
-    /// That of a slope within the oscillation, over that: it is read over three fifths of the velocity.
+    /// That of a slope within the oscillation, over that: it is read over two fifths of the velocity.
     const LOCAL: f64 = 3.0;
     let damping = damping(cells, all, settings).filter(|_| limited && all.swing() >= FOLLOWS);
     let misfit = settings.rig.and_then(|_| misfit(cells));
