@@ -47,7 +47,7 @@ pub(crate) struct SignalOptions {
     #[arg(long, value_name = "S", default_value_t = 0.0, allow_hyphen_values = true, value_parser = finite)]
     force_skew: f64,
     /// Sweep file of the rig, as `squealmap calibrate` writes it: forces that slow sensors do not show are taken from the accelerations
-    #[arg(long, value_name = "SWEEP")]
+    #[arg(long, value_name = "SWEEP", conflicts_with = "force_skew")]
     model: Option<PathBuf>,
     /// Largest damping ratio the structure may have without friction [default: that of --model, or 0.002]
     #[arg(long, value_name = "RATIO", value_parser = ratio)]
@@ -79,8 +79,8 @@ impl SignalOptions {
     /// # Errors
     /// For a model that is none.
     pub(crate) fn settings(self) -> Result<Settings> {
-        let model = self.model.map(|path| Ok::<_, Error>(rig_of(&Spec::read(&path)?)?)).transpose()?;
-        let (rig, damping_ratio) = model.unzip();
+        let rig = self.model.map(|path| Ok::<_, Error>(rig_of(&Spec::read(&path)?)?)).transpose()?;
+        let damping_ratio = rig.map(|rig| rig.damping_ratio());
         let inclination = rig.map(|rig| rig.theta.abs());
         Ok(Settings {
             time: self.time,

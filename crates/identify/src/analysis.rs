@@ -11,7 +11,7 @@ use crate::episode::{Episode, Recorded, swapped};
 use crate::fault::{Fault, Unfit};
 use crate::instants::{Instant, instants};
 use crate::joint::judged;
-use crate::level::UNFIT;
+use crate::misfit::misfit;
 use crate::overview::{Friction, Overview};
 use crate::read::Table;
 use crate::reading::{Reading, reading};
@@ -116,18 +116,6 @@ pub fn identify(
     Ok(found)
 }
 
-/// Whether the rig is that of the record, as far as its forces tell: less than a quarter of the time in which they do contradicts it.
-fn is_its_rig(segments: &[Segment]) -> bool {
-    let known = segments.iter().filter_map(|segment| {
-        let misfit = segment.friction?.misfit?;
-        Some((segment.time[1] - segment.time[0], misfit >= UNFIT))
-    });
-    let [all, against] = known.fold([0.0, 0.0], |[all, against], (time, unfit)| {
-        [all + time, against + if unfit { time } else { 0.0 }]
-    });
-    4.0 * against <= all
-}
-
 /// How the forces are restored; `None` where nothing vibrates, or no rig is given.
 fn restoring(survey: &Survey, settings: &Settings) -> Result<Option<Restoring>, Fault> {
     let (Some(rig), Some(frequency), Some(_)) = (settings.rig, survey.frequency, survey.windows()) else {
@@ -230,13 +218,10 @@ fn analyse(
     }
     let has = has(survey);
     let mut cut = segments(&cells.list, has, settings);
-    let its_rig = is_its_rig(&cut);
-    if !its_rig {
-        notes.push(
-            "the forces of --model contradict themselves in a good part of the record: it is another rig (masses, stiffnesses, the sign of \
-             theta), or the normal acceleration is late (--skew); nothing is taken from it"
-                .to_owned(),
-        );
+    let misfit = settings.rig.and_then(|_| misfit(&cut));
+    let its_rig = misfit.is_none();
+    if let Some(why) = misfit {
+        notes.push(why);
         cells.forget_fast_forces();
         cut = segments(&cells.list, has, settings);
     }

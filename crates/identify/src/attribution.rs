@@ -34,7 +34,7 @@
 //!
 //! Measuring errors are carried through as a probability: the closer to a threshold, the less of it falls on one kind.
 //! The dampings, which a growing oscillation does not show, are no matter of probability: a kind has the least of its
-//! probabilities over all dampings, and inclinations, from 0 to a stated bound.
+//! probabilities over all dampings, and inclinations, from 0 to a stated bound; of a known rig, over those that it may have.
 
 use num_complex::Complex64;
 
@@ -64,7 +64,7 @@ const FINE: &[(f64, f64)] = &[
 ];
 /// Points and weights for single windows, by Gauss and Hermite: few, since a record may have a million windows.
 const COARSE: &[(f64, f64)] = &[(-1.732_050_8, 1.0 / 6.0), (0.0, 2.0 / 3.0), (1.732_050_8, 1.0 / 6.0)];
-/// Values of each damping from 0 to its bound, both included, and pairs of them.
+/// Values of each damping, and pairs of them.
 const DAMPINGS: usize = 3;
 const PAIRS: usize = DAMPINGS * DAMPINGS;
 /// Values of the inclination likewise.
@@ -98,8 +98,8 @@ impl Cause {
 /// Bounds on quantities that a growing oscillation does not show.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Bounds {
-    /// Largest damping, 1/s.
-    pub(super) damping: f64,
+    /// The dampings that are possible along and across the contact, 1/s.
+    pub(super) dampings: [[f64; DAMPINGS]; 2],
     /// Largest coupling of the modes by the inclination, over that by friction.
     pub(super) tilt: f64,
 }
@@ -149,8 +149,8 @@ pub(super) fn probabilities(feedback: &Feedback, bounds: &Bounds, fine: bool) ->
     let all = nodes.iter().map(|(_, weight)| weight).sum::<f64>().powi(4);
     let mut found = Probabilities::default();
     for (k, of) in found.0.iter_mut().enumerate() {
-        let dampings = [k / DAMPINGS % DAMPINGS, k % DAMPINGS]
-            .map(|step| bounds.damping * step as f64 / (DAMPINGS - 1) as f64);
+        let [along, across] = bounds.dampings;
+        let dampings = [along[k / DAMPINGS % DAMPINGS], across[k % DAMPINGS]];
         let tilt = bounds.tilt * (k / PAIRS) as f64 / (TILTS - 1) as f64;
         of[Cause::None as usize] = 1.0 - grows;
         for (l, weight_l) in nodes.iter().copied() {

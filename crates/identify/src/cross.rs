@@ -65,6 +65,13 @@ impl Measured {
     }
 }
 
+impl Ratio {
+    /// That of a channel that is late by this angle, rad, in time.
+    pub(super) fn advanced(self, angle: f64) -> Ratio {
+        Ratio { value: self.value * Complex64::cis(angle), ..self }
+    }
+}
+
 impl Sums {
     /// Adds one block.
     pub(super) fn block(&mut self, [x, y, n, t, u]: [Complex64; 5], noise: [f64; 4]) {

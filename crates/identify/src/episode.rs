@@ -172,8 +172,7 @@ pub(super) fn episode(
     let setting = Setting {
         forces: recorded.forces,
         normal_acceleration: recorded.normal_acceleration,
-        damping_ratio: settings.damping_ratio,
-        inclination: settings.inclination,
+        settings,
         distortion,
         episode: true,
     };
@@ -314,6 +313,7 @@ impl Part {
         let skews = Skews { acceleration: settings.skew, force: settings.force_skew };
         let share = INDEPENDENT / SHARED;
         Feedback::new(&self.sums, self.growth, self.frequency, self.friction.unwrap_or(0.0), skews, share)
+            .of(settings.rig)
     }
 }
 

@@ -18,6 +18,7 @@ use num_complex::Complex64;
 use std::f64::consts::TAU;
 
 use crate::cross::{Measured, Ratio, Sums};
+use crate::rig::Rig;
 
 /// Delays that are taken out of the channels, s.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -46,6 +47,8 @@ pub(super) struct Feedback {
     pub(super) slope: (Complex64, f64),
     /// The part of its error that no noise explains.
     pub(super) unexplained: f64,
+    /// The error of its imaginary part beside that where the forces are those that move a rig: how well that is known.
+    pub(super) aside: Option<f64>,
 }
 
 impl Feedback {
@@ -74,20 +77,24 @@ impl Feedback {
     ) -> Feedback {
         let lambda = Complex64::new(growth.value, omega);
         // A channel that is late by τ lags by ωτ.
-        let advanced =
-            |ratio: Ratio, delay: f64| Ratio { value: ratio.value * Complex64::cis(omega * delay), ..ratio };
-        let normal_force = advanced(normal_force, skews.force);
-        let change = advanced(change, skews.force);
+        let normal_force = normal_force.advanced(omega * skews.force);
+        let change = change.advanced(omega * skews.force);
         Feedback {
             growth,
             omega,
             friction,
-            normal_acceleration: advanced(normal_acceleration, skews.acceleration),
+            normal_acceleration: normal_acceleration.advanced(omega * skews.acceleration),
             normal_force,
             normal: (friction * lambda * normal_force.value, friction.abs() * omega * normal_force.error),
             slope: (lambda * change.value, omega * change.error),
             unexplained: omega * change.unexplained,
+            aside: None,
         }
+    }
+
+    /// By forces that move this rig, where there is one.
+    pub(super) fn of(self, rig: Option<Rig>) -> Feedback {
+        Feedback { aside: rig.map(|rig| rig.aside(self.omega)), ..self }
     }
 
     /// Phase of the normal against the tangential acceleration, degrees in (−180, 180], negative when the
@@ -123,6 +130,7 @@ impl Feedback {
         /// Share of the whole feedback that it must have.
         const MATTERS: f64 = 0.1;
         let ((normal, _), (slope, error)) = (self.normal, self.slope);
+        let error = error.hypot(self.aside.unwrap_or_default());
         let matters = slope.norm() > CLEAR * error && slope.norm() > MATTERS * (normal + slope).norm();
         matters.then(|| {
             let angle = angle(slope, error);

@@ -134,14 +134,25 @@ impl Trend {
     }
 
     /// Where friction falls least, and where it falls most: a slope that changes goes on changing from the middles of its halves to either
-    /// end, of which half of the way counts.
-    fn ends(&self) -> [Measured; 2] {
+    /// end, of which half of the way counts. At the faster end the law may have had its knee meanwhile, which is smeared over a fifth of
+    /// the velocity: what the slope clearly changes by counts over that, too, unless the record is cut there (`knees`: the first and the last cell).
+    fn ends(&self, cells: &[Cell], knees: [bool; 2]) -> [Measured; 2] {
+        /// The part of the velocity over which a knee is smeared, and the most that it counts, over the way between the halves.
+        const SMEARED: f64 = 0.2;
+        const MOST: f64 = 2.0;
         let [early, late] = self.halves;
-        let end = |near: Measured, far: Measured| Measured {
-            value: 1.25 * near.value - 0.25 * far.value,
-            error: (1.25 * near.error).hypot(0.25 * far.error),
+        let [first, last] = [&cells[0], &cells[cells.len() - 1]].map(|cell| cell.velocity().abs());
+        let smeared = (SMEARED * first.max(last) / (0.5 * (first - last).abs())).min(MOST);
+        let further = [!knees[0] && first > last, !knees[1] && last > first];
+        let end = |near: Measured, far: Measured, further: bool| {
+            let clearly = (near.value - far.value - near.error.hypot(far.error)).max(0.0);
+            Measured {
+                value: 1.25 * near.value - 0.25 * far.value + if further { smeared * clearly } else { 0.0 },
+                error: (1.25 * near.error).hypot(0.25 * far.error),
+            }
         };
-        extremes([end(early, late), end(late, early)].into_iter()).unwrap_or(self.halves)
+        extremes([end(early, late, further[0]), end(late, early, further[1])].into_iter())
+            .unwrap_or(self.halves)
     }
 }
 
@@ -178,7 +189,9 @@ fn parts(cells: &[Cell]) -> Option<[Measured; 2]> {
 /// What a falling slope has to exceed, s/m.
 fn damping(cells: &[Cell], all: &Cell, settings: &Settings) -> Option<Measured> {
     let normal = all.normal();
-    let read = if all.losses.opens() {
+    let read = if let Some(rig) = settings.rig {
+        Some(rig.damping())
+    } else if all.losses.opens() {
         let omega = std::f64::consts::TAU * all.frequency();
         all.inertia.damping(settings.damping_ratio, omega)
     } else {
@@ -187,12 +200,12 @@ fn damping(cells: &[Cell], all: &Cell, settings: &Settings) -> Option<Measured> 
     read.map(|Measured { value, error }| Measured { value: value / normal, error: error / normal })
 }
 
-/// Level and slope of friction.
+/// Level and slope of friction; whether the velocity is recorded, whether it limits the vibration, and whether the first and the last cell
+/// are at a knee of the law.
 pub(super) fn level(
     cells: &[Cell],
     all: &Cell,
-    has_velocity: bool,
-    limited: bool,
+    (has_velocity, limited, knees): (bool, bool, [bool; 2]),
     settings: &Settings,
 ) -> Level {
     /// Relative range of the velocity from which on there is a slope.
@@ -221,7 +234,7 @@ pub(super) fn level(
         let moves = Trend::new(cells).map(|trend| {
             let systematic = allowed / (spread(cells, Cell::velocity) * velocity.abs());
             let bent = differ(trend.halves.map(wider(systematic)), level.value, velocity);
-            (wider(systematic)(trend.all), bent, Some(trend.ends().map(wider(systematic))))
+            (wider(systematic)(trend.all), bent, Some(trend.ends(cells, knees).map(wider(systematic))))
         });
         let inside = settings.rig.is_none().then(|| {
             let bent = all.within.bends(velocity) || turns(cells, velocity);

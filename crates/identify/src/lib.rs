@@ -44,6 +44,7 @@ mod level;
 mod line;
 mod losses;
 mod measured;
+mod misfit;
 mod mode;
 mod motion;
 mod outlier;

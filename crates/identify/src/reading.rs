@@ -30,7 +30,8 @@ pub struct Reading {
 pub(super) fn reading(window: &Window, recorded: Recorded, settings: &Settings) -> Reading {
     let skews = Skews { acceleration: settings.skew, force: settings.force_skew };
     let friction = window.friction.unwrap_or(0.0);
-    let feedback = Feedback::new(&window.sums, window.growth, window.frequency, friction, skews, INDEPENDENT);
+    let feedback = Feedback::new(&window.sums, window.growth, window.frequency, friction, skews, INDEPENDENT)
+        .of(settings.rig);
     Reading {
         phase: recorded.normal_acceleration.then(|| feedback.phase()),
         coherence: recorded.normal_acceleration.then_some(feedback.normal_acceleration.coherence),
@@ -49,8 +50,7 @@ fn verdict(window: &Window, feedback: &Feedback, recorded: Recorded, settings: &
         let setting = Setting {
             forces: recorded.forces,
             normal_acceleration: recorded.normal_acceleration,
-            damping_ratio: settings.damping_ratio,
-            inclination: settings.inclination,
+            settings,
             distortion: window.distortion,
             episode: false,
         };

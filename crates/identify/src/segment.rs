@@ -1,7 +1,9 @@
 //! Segments of time: stretches in which amplitude, frequency, phase and friction stay in kind.
 
+use std::f64::consts::TAU;
+
 use crate::cells::Cell;
-use crate::cross::Measured;
+use crate::cross::{INDEPENDENT, Measured};
 use crate::cut::{Course, cut};
 use crate::level::{LEAST, Level, Reading, follows, level, reads, spread};
 use crate::population::{Seen, Source};
@@ -73,6 +75,8 @@ pub struct Segment {
     pub phase: Option<Measured>,
     /// Squared coherence of the two.
     pub coherence: Option<f64>,
+    /// The stiffness across the contact that the two show, over that of [`Settings::rig`], where there is one.
+    pub across: Option<Measured>,
     /// Friction, where both forces are recorded.
     pub friction: Option<Level>,
     /// First and last velocity, m/s.
@@ -147,15 +151,17 @@ pub(super) fn segments(cells: &[Cell], has: Has, settings: &Settings) -> Vec<Seg
             reason = "a small part of a small number"
         )]
         let least = LEAST.max((SHORTEST * cells.len() as f64).ceil() as usize);
-        let mut rest = stretch;
-        for length in by_law(stretch, has, vibrating, least) {
-            let (part, after) = rest.split_at(length);
-            rest = after;
+        let mut before = Edge { at: 0, knee: false };
+        for after in by_law(stretch, has, vibrating, least) {
+            let part = &stretch[before.at..after.at];
             let mut start = 0;
             for end in cut(part.len(), &courses(part, has, vibrating), least) {
-                found.push(segment(&part[start..end], has, (vibrating, largest), settings));
+                let knees = [before.knee && start == 0, after.knee && end == part.len()];
+                let context = Context { vibrating, largest, knees };
+                found.push(segment(&part[start..end], has, context, settings));
                 start = end;
             }
+            before = after;
         }
     }
     found
@@ -190,12 +196,19 @@ fn runs(mut kinds: Vec<bool>) -> Vec<[usize; 2]> {
     }
 }
 
-/// The lengths, in cells, of the parts of a stretch in each of which the friction law is a straight line, where it is read within the
-/// oscillation: a knee of the law comes first, what else changes with the velocity is cut between.
-fn by_law(cells: &[Cell], has: Has, vibrating: bool, least: usize) -> Vec<usize> {
+/// Where a part of a stretch ends: the cell after it, and whether the law has a knee there.
+#[derive(Clone, Copy, Debug)]
+struct Edge {
+    at: usize,
+    knee: bool,
+}
+
+/// The ends of the parts of a stretch in each of which the friction law is a straight line, where it is read within the oscillation: a knee
+/// of the law comes first, what else changes with the velocity is cut between.
+fn by_law(cells: &[Cell], has: Has, vibrating: bool, least: usize) -> Vec<Edge> {
     /// The least scatter of a level that means anything.
     const SCATTER: f64 = 0.005;
-    let whole = vec![cells.len()];
+    let whole = vec![Edge { at: cells.len(), knee: false }];
     if !(has.forces && has.velocity && vibrating && follows(cells) && spread(cells, Cell::velocity) > 0.05) {
         return whole;
     }
@@ -204,14 +217,10 @@ fn by_law(cells: &[Cell], has: Has, vibrating: bool, least: usize) -> Vec<usize>
         return whole;
     }
     let points: Vec<[f64; 2]> = found.iter().map(|(_, point)| *point).collect();
-    let least = (least * found.len()).div_ceil(cells.len());
-    let cuts = cut(points.len(), &[Course::new(&points, SCATTER)], least);
-    let mut ends: Vec<usize> = cuts.iter().map(|cut| found[cut - 1].0).collect();
-    if let Some(last) = ends.last_mut() {
-        *last = cells.len();
-    }
-    let starts = std::iter::once(0).chain(ends.iter().copied());
-    ends.iter().zip(starts).map(|(end, start)| end - start).collect()
+    let lines = (least * found.len()).div_ceil(cells.len());
+    let cuts = cut(points.len(), &[Course::new(&points, SCATTER)], lines);
+    let knees = cuts.iter().take(cuts.len() - 1).map(|cut| Edge { at: found[cut - 1].0, knee: true });
+    knees.chain(whole).collect()
 }
 
 /// The quantities that stay in kind within a segment.
@@ -256,8 +265,19 @@ fn reached(cell: &Cell, has: Has) -> Option<f64> {
     cell.reach().filter(|_| has.velocity)
 }
 
-/// One segment, not judged yet; `largest` is the amplitude of the record's loudest cell.
-fn segment(cells: &[Cell], has: Has, (vibrating, largest): (bool, f64), settings: &Settings) -> Segment {
+/// The stretch of a segment, and what is around it.
+#[derive(Clone, Copy, Debug)]
+struct Context {
+    vibrating: bool,
+    /// Amplitude of the record's loudest cell, m/s².
+    largest: f64,
+    /// Whether it begins, and ends, where the law has a knee.
+    knees: [bool; 2],
+}
+
+/// One segment, not judged yet.
+fn segment(cells: &[Cell], has: Has, context: Context, settings: &Settings) -> Segment {
+    let Context { vibrating, largest, knees } = context;
     let all = Cell::sum(cells);
     let reach = reached(&all, has).filter(|_| all.is_loud());
     let change = change(cells, has);
@@ -282,7 +302,11 @@ fn segment(cells: &[Cell], has: Has, (vibrating, largest): (bool, f64), settings
         reach,
         phase: shown.map(|(phase, _)| phase),
         coherence: shown.map(|(_, coherence)| coherence),
-        friction: has.forces.then(|| level(cells, &all, has.velocity, limited, settings)),
+        across: settings.rig.filter(|_| shown.is_some() && !all.losses.opens()).map(|rig| {
+            let omega = TAU * all.frequency();
+            rig.across(omega, all.sums.normal_acceleration(INDEPENDENT).advanced(omega * settings.skew))
+        }),
+        friction: has.forces.then(|| level(cells, &all, (has.velocity, limited, knees), settings)),
         velocity: has.velocity.then(|| [cells[0].velocity(), cells[cells.len() - 1].velocity()]),
         temperature: has.temperature.then(|| all.temperature()),
         seen: None,

@@ -45,7 +45,7 @@ pub struct Settings {
     pub skew: f64,
     /// Delay of the forces behind the tangential acceleration, s, which is taken out; at most one period.
     pub force_skew: f64,
-    /// Largest damping ratio of the structure without friction.
+    /// Largest damping ratio of the structure without friction; of a rig, its own, or more where that is possible.
     pub damping_ratio: f64,
     /// Largest inclination of the structure to the contact, rad.
     pub inclination: f64,
@@ -67,6 +67,15 @@ pub struct Settings {
 }
 
 impl Settings {
+    /// The rates (1/s) with which both directions of the structure may die out without friction: those of a known rig, or all up to the
+    /// bound, also where that is above the damping ratio of the rig.
+    pub(super) fn decays(&self, omega: f64) -> [[f64; 3]; 2] {
+        match self.rig.filter(|rig| self.damping_ratio <= rig.damping_ratio()) {
+            Some(rig) => rig.decays(),
+            None => [[0.0, 0.5, 1.0].map(|part| part * self.damping_ratio * omega); 2],
+        }
+    }
+
     /// What holds for a stroke that goes forwards, or the other way (`turned`).
     pub(super) fn directed(&self, turned: bool) -> Settings {
         let rig = self.rig.map(|rig| if turned { rig.turned() } else { rig });

@@ -151,8 +151,7 @@ impl Known<'_> {
         let setting = Setting {
             forces: self.recorded.forces,
             normal_acceleration: self.recorded.normal_acceleration,
-            damping_ratio: self.settings.damping_ratio,
-            inclination: self.settings.inclination,
+            settings: self.settings,
             distortion,
             episode: true,
         };
@@ -170,7 +169,13 @@ impl Known<'_> {
         let of = |channel: Channel| channels.iter().position(|fitted| *fitted == channel);
         let ratio = |channel: Channel| of(channel).map(|q| mode.ratio(q, 0)).unwrap_or_default();
         let mean = |channel: Channel| of(channel).map(|q| mode.channels[q].mean);
-        let (pulled, pressed) = (ratio(Channel::TangentialForce), ratio(Channel::NormalForce));
+        let settings = self.settings;
+        let accelerations = ratio(Channel::NormalAcceleration);
+        // Restored forces have the noise of the accelerations: those of the fitted mode have less.
+        let [pulled, pressed] = match settings.rig {
+            Some(rig) => rig.ratios(*linear, mode.omega, accelerations.advanced(mode.omega * settings.skew)),
+            None => [ratio(Channel::TangentialForce), ratio(Channel::NormalForce)],
+        };
         let normal_force = mean(Channel::NormalForce);
         let friction = mean(Channel::TangentialForce).zip(normal_force).map(|(t, n)| t / n);
         let mu = friction.unwrap_or(0.0);
@@ -179,10 +184,9 @@ impl Known<'_> {
             error: pulled.error.hypot(mu * pressed.error),
             ..pulled
         };
-        let settings = self.settings;
         let skews = Skews { acceleration: settings.skew, force: settings.force_skew };
-        let ratios = [ratio(Channel::NormalAcceleration), pressed, change];
-        let feedback = Feedback::from_ratios(ratios, *linear, mode.omega, mu, skews);
+        let ratios = [accelerations, pressed, change];
+        let feedback = Feedback::from_ratios(ratios, *linear, mode.omega, mu, skews).of(settings.rig);
         // The fit has harmonics of its own.
         self.judged(episode, feedback, 0.0);
         episode.time[1] = end;

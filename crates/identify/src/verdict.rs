@@ -2,6 +2,7 @@
 
 use crate::attribution::{Bounds, Cause, Probabilities, probabilities};
 use crate::feedback::{Feedback, folded};
+use crate::settings::Settings;
 
 /// From this confidence on a verdict is given; below it is undecided.
 pub const CONFIDENT: f64 = 0.9;
@@ -86,16 +87,14 @@ impl Verdict {
 }
 
 /// The facts that are known besides the feedback.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Setting {
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Setting<'a> {
     /// Whether both forces are recorded.
     pub(super) forces: bool,
     /// Whether the normal acceleration is recorded.
     pub(super) normal_acceleration: bool,
-    /// Largest damping ratio.
-    pub(super) damping_ratio: f64,
-    /// Largest inclination of the structure to the contact, rad.
-    pub(super) inclination: f64,
+    /// What is known of the structure.
+    pub(super) settings: &'a Settings,
     /// Harmonics relative to the fundamental.
     pub(super) distortion: f64,
     /// Whether it is an episode, on which the verdict on the record rests, and not one window.
@@ -103,7 +102,7 @@ pub(super) struct Setting {
 }
 
 /// The verdict on an oscillation that grows.
-pub(super) fn judge(feedback: &Feedback, setting: &Setting) -> Verdict {
+pub(super) fn judge(feedback: &Feedback, setting: &Setting<'_>) -> Verdict {
     if !setting.forces {
         return Verdict::undecided(
             "without both forces the power that friction feeds in is unknown, and a phase alone fits every mechanism; \
@@ -118,6 +117,13 @@ pub(super) fn judge(feedback: &Feedback, setting: &Setting) -> Verdict {
         ));
     }
     if let Some(off) = feedback.asynchrony().filter(|off| off.value.abs() > IN_STEP + 2.0 * off.error) {
+        if feedback.aside.is_some() {
+            return Verdict::undecided(format!(
+                "by --model the friction coefficient is {:.0}° out of step with the velocity: it is another rig (masses, stiffnesses), \
+                 or the normal acceleration is late (--skew)",
+                off.value
+            ));
+        }
         return Verdict::undecided(format!(
             "the friction coefficient is {:.0}° out of step with the velocity: forces and accelerations are skewed \
              (by about {:.2e} s), or the acceleration columns are swapped; set --force-skew",
@@ -134,8 +140,8 @@ pub(super) fn judge(feedback: &Feedback, setting: &Setting) -> Verdict {
         ));
     }
     let bounds = Bounds {
-        damping: setting.damping_ratio * feedback.omega,
-        tilt: setting.inclination.tan() / feedback.friction.abs().max(f64::MIN_POSITIVE),
+        dampings: setting.settings.decays(feedback.omega),
+        tilt: setting.settings.inclination.tan() / feedback.friction.abs().max(f64::MIN_POSITIVE),
     };
     let likely = probabilities(feedback, &bounds, setting.episode);
     let (kind, probability) = leading(&likely);

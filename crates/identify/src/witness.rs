@@ -162,15 +162,17 @@ pub(super) fn each(segment: &Segment, structure: Structure) -> [Option<f64>; 2] 
 }
 
 /// The probabilities that friction lies above the coalescence, and that it falls by more than the damping takes, where both are
-/// read within the oscillation: each alone would do then. `None` where the slope is not clear.
+/// read within the oscillation: each alone would do then. `None` where slopes are not clear.
 pub(super) fn read_within(segment: &Segment, structure: Structure) -> Option<[f64; 2]> {
     /// Standard errors from which on a rise is one.
     const RISES: f64 = 3.0;
     let Level { level, slope, extremes, damping, .. } =
         segment.friction.filter(|friction| friction.reading == Reading::Within)?;
-    let (critical, slope, damping) = (structure.critical?, slope?, damping?);
+    let (critical, damping, ends) =
+        (structure.critical?, damping?, extremes.or(slope.map(|slope| [slope; 2]))?);
     let [first, last] = segment.velocity?;
-    let relative = slope.error * 0.5 * (first + last).abs() / level.value.abs();
+    let error = slope.map_or(ends[0].error.max(ends[1].error), |slope| slope.error);
+    let relative = error * 0.5 * (first + last).abs() / level.value.abs();
     if relative.is_nan() || relative > UNCLEAR {
         return None;
     }
@@ -181,8 +183,9 @@ pub(super) fn read_within(segment: &Segment, structure: Structure) -> Option<[f6
         normal_below((-value - damping.value) / slope.error.hypot(damping.error))
     };
     // What does so, or does not, in all but a part of the segment is in doubt, no less and no more.
-    let [least, most] = extremes.unwrap_or([slope; 2]).map(exceeds);
-    let exceeds = exceeds(slope);
+    let [least, most] = ends.map(exceeds);
+    // A law that bends has no slope in the middle: what holds at both ends holds.
+    let exceeds = slope.map_or(if least > 0.5 { most } else { least }, exceeds);
     let told = if exceeds > 0.5 { exceeds.min(least.max(0.5)) } else { exceeds.max(most.min(0.5)) };
     Some([normal_below(above), told])
 }

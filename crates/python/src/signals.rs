@@ -82,10 +82,10 @@ impl Choices {
     /// For a value that is none, or a model that is none.
     fn settings(self) -> Result<Settings, Failure> {
         let of = |path: &PathBuf| Ok::<_, Failure>(rig_of(&Spec::read(path)?)?);
-        let (rig, damping_ratio) = self.model.as_ref().map(of).transpose()?.unzip();
+        let rig = self.model.as_ref().map(of).transpose()?;
         let known = Settings::default();
         let usual = Settings {
-            damping_ratio: damping_ratio.unwrap_or(known.damping_ratio),
+            damping_ratio: rig.map_or(known.damping_ratio, |rig| rig.damping_ratio()),
             inclination: rig.map_or(known.inclination, |rig| rig.theta.abs()),
             ..known
         };
@@ -112,6 +112,11 @@ impl Choices {
             return Err(Failure::input(format!(
                 "band is ({low}, {high}) but must be two frequencies such as (1000, 20000), the lower one first"
             )));
+        }
+        if self.model.is_some() && self.force_skew.is_some_and(|skew| skew != 0.0) {
+            return Err(Failure::input(
+                "force_skew is given beside model, but the forces of a model come from the accelerations: leave one of them out".to_owned(),
+            ));
         }
         if let Some([value, error]) = self.critical_friction {
             checked("critical_friction", Some(value), positive, 0.0)?;

@@ -99,6 +99,8 @@ def test_identify_with_a_model(stroke, program, tmp_path):
     assert any("model" in note for note in found.report["notes"])
     with pytest.raises(squealmap.InputError, match="none.toml"):
         squealmap.identify(stroke / "signals.csv", model="none.toml")
+    with pytest.raises(squealmap.InputError, match="force_skew is given beside model"):
+        squealmap.identify(stroke / "signals.csv", model=model, force_skew=1e-6)
 
 
 def test_identify_with_other_columns(stroke, tmp_path):

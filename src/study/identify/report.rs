@@ -200,6 +200,7 @@ fn segment(segment: &Segment) -> Value {
         "vibration_over_sliding_velocity": segment.reach,
         "phase": segment.phase.map(measured),
         "coherence": segment.coherence,
+        "stiffness_across_over_model": segment.across.map(measured),
         "friction": segment.friction.map(|friction| json!({
             "reading": friction.reading,
             "level": measured(friction.level),

@@ -15,12 +15,12 @@ const STRUCTURE: [Param; 8] =
 /// How well a rig is known: its stiffnesses, from measured frequencies, and its inclination, each as a part of it.
 const KNOWN: [(Param, f64); 3] = [(Param::K1, 0.01), (Param::K2, 0.01), (Param::Theta, 0.1)];
 
-/// The structure of a sweep, and the larger damping ratio of its two directions without friction. The error of the coalescence is what a
-/// per cent of either stiffness and a tenth of the inclination move it by, and a thirtieth of it at least.
+/// The structure of a sweep. The error of the coalescence is what a per cent of either stiffness and a tenth of the inclination move it by,
+/// and a thirtieth of it at least.
 ///
 /// # Errors
 /// For a sweep of another model than two masses, or one that varies the structure.
-pub fn rig_of(spec: &Spec) -> Result<(Rig, f64)> {
+pub fn rig_of(spec: &Spec) -> Result<Rig> {
     spec.of_two_masses("--model")?;
     let varied = spec.grid.keys().into_iter().find_map(|key| match key {
         AxisKey::Param(param) if STRUCTURE.contains(&param) => Some(param.info().name),
@@ -45,9 +45,7 @@ pub fn rig_of(spec: &Spec) -> Result<(Rig, f64)> {
         let error = moved.into_iter().fold(value / 30.0, f64::hypot);
         Measured { value, error }
     });
-    let [m1, m2, k1, c1] = [Param::M1, Param::M2, Param::K1, Param::C1].map(value);
-    let ratio = |damping: f64, stiffness: f64, mass: f64| damping / (2.0 * (stiffness * mass).sqrt());
-    let along = ratio(c1, k1, m1 + m2);
-    let across = ratio(value(Param::C2), value(Param::K2), m1);
-    Ok((Rig { m1, m2, k1, c1, theta, critical }, along.max(across)))
+    let [m1, m2, k1, k2, c1, c2] =
+        [Param::M1, Param::M2, Param::K1, Param::K2, Param::C1, Param::C2].map(value);
+    Ok(Rig { m1, m2, k1, k2, c1, c2, theta, critical })
 }

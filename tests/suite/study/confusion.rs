@@ -150,7 +150,9 @@ pub(crate) fn table(seed: u64, each: usize, sensors: &[Sensors]) -> Vec<Judged> 
         sensed(&mut stroke.samples, by != Sensors::Fast, decibel, backwards, &mut random);
         let mut settings = settings(stroke.critical, stroke.damping_ratio);
         if by == Sensors::Model {
-            settings.rig = Some(known(&stroke.instance, backwards, &mut random));
+            let rig = known(&stroke.instance, backwards, &mut random);
+            let (damping_ratio, inclination) = (rig.damping_ratio(), rig.theta.abs());
+            settings = Settings { damping_ratio, inclination, rig: Some(rig), ..settings };
         }
         let judged = judged(drawn, &stroke, by, &settings);
         if std::env::var_os("SQUEALMAP_SHOW_WRONG").is_some() {

@@ -291,7 +291,9 @@ pub(crate) fn known(instance: &Instance, backwards: bool, random: &mut Random) -
         m1: mass * value(Param::M1),
         m2: mass * value(Param::M2),
         k1: mass * square * value(Param::K1),
+        k2: mass / square * value(Param::K2),
         c1: damping * value(Param::C1),
+        c2: damping * value(Param::C2),
         theta,
         critical: [Measured { value: critical, error: 0.03 * critical }; 2],
     }
