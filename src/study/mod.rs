@@ -27,7 +27,7 @@ pub use kind::Kind;
 pub use picture::Picture;
 
 pub mod calibrate;
-#[cfg(feature = "identify")]
+#[cfg(all(feature = "figures", feature = "identify"))]
 pub mod campaign;
 #[cfg(feature = "figures")]
 pub mod curves;

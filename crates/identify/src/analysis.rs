@@ -2,7 +2,7 @@
 
 use std::io::Read;
 
-use crate::cells::Cells;
+use crate::cells::{Cell, Cells};
 use crate::channel::Channel;
 use crate::clips::{Clip, Clips};
 use crate::conclude::{Looked, conclude};
@@ -204,26 +204,25 @@ fn analyse(
         return Err(Fault::SwappedAccelerations { tangential, normal, time });
     }
     let mut notes = notes(survey, &settings.zooms);
-    if let Some(frequency) = again.restored_from() {
-        notes.push(format!(
-            "forces that are faster than a third of {frequency:.0} Hz are those that move the masses of the model, by the accelerations"
-        ));
-    }
-    if again.needless() {
-        notes.push(
-            "the force sensors follow the vibration: the forces that were taken are those of the model all the same; leave out --model \
-             for what was measured, and give what it says by --critical-friction, --damping-ratio and --inclination"
-                .to_owned(),
-        );
-    }
     let has = has(survey);
     let mut cut = segments(&cells.list, has, settings);
-    let misfit = settings.rig.and_then(|_| misfit(&cut));
+    let misfit = settings.rig.and_then(|rig| misfit(&cut, &rig, Cell::sum(&cells.list).normal()));
     let its_rig = misfit.is_none();
     if let Some(why) = misfit {
         notes.push(why);
         cells.forget_fast_forces();
         cut = segments(&cells.list, has, settings);
+    } else if let Some(frequency) = again.restored_from() {
+        notes.push(format!(
+            "forces that are faster than a third of {frequency:.0} Hz are those that move the masses of the model, by the accelerations"
+        ));
+        if again.needless() {
+            notes.push(
+                "the force sensors follow the vibration: the forces that were taken are those of the model all the same; leave out --model \
+                 for what was measured, and give what it says by --critical-friction, --damping-ratio and --inclination"
+                    .to_owned(),
+            );
+        }
     }
     let friction_read = has.forces && has.velocity;
     let found = Identification {

@@ -153,6 +153,11 @@ impl Cell {
         value.is_finite().then_some((Measured { value, error: error.to_degrees() }, ratio.coherence))
     }
 
+    /// Whether the law is read in it.
+    pub(super) fn reads(&self) -> bool {
+        self.within != Within::default()
+    }
+
     /// The share of its windows in which an oscillation stands out.
     pub(super) fn is_loud(&self) -> bool {
         2.0 * self.loud >= self.windows

@@ -41,14 +41,16 @@ pub(super) fn judged(segments: &mut [Segment], episodes: &[Episode], structure: 
         let here = here.filter(|((home, _), point)| **home == Some(number) && speaks(point));
         let here = here.map(|((_, episode), _)| episode).max_by(|a, b| by_confidence(a, b));
         let told = here.or_else(|| elsewhere(&segments[number], episodes, &points));
+        // What a quiet stretch goes over into, by way of other quiet ones.
+        let goes_on = |k: &usize| segments[*k].state != State::Quiet || homes.contains(&Some(*k));
+        let after = (number + 1..segments.len()).find(goes_on);
         let next = homes
             .iter()
             .zip(episodes)
-            .find(|(home, _)| **home == Some(number + 1))
+            .find(|(home, _)| home.is_some() && **home == after)
             .map(|(_, episode)| episode.growth.value);
-        let follows = segments
-            .get(number + 1)
-            .is_some_and(|next| next.state != State::Quiet && next.state != State::Decaying);
+        let follows = after.is_some_and(|after| segments[after].state.vibrates());
+        let until = after.map(|after| segments[after].time[0]);
         let grows = best.is_some_and(|episode| !episode.wanders);
         let segment = &mut segments[number];
         segment.seen = phase_seen(segment, best).ok().map(|(source, phase)| {
@@ -62,7 +64,7 @@ pub(super) fn judged(segments: &mut [Segment], episodes: &[Episode], structure: 
         ];
         match segment.state {
             State::Quiet | State::Decaying => {
-                (segment.verdict, segment.rests_on) = calm(segment, next, follows, structure);
+                (segment.verdict, segment.rests_on) = calm(segment, (next, until), follows, structure);
             }
             State::Growing | State::Sustained => {
                 (segment.verdict, segment.rests_on, segment.shared) = together(segment, best, structure);
@@ -136,14 +138,14 @@ fn by_confidence(a: &Episode, b: &Episode) -> std::cmp::Ordering {
     of(a).partial_cmp(&of(b)).unwrap_or(std::cmp::Ordering::Equal)
 }
 
-/// A stretch without growth.
+/// A stretch without growth, the rate (1/s) of the growth that follows, and when it does, s.
 fn calm(
     segment: &Segment,
-    next: Option<f64>,
+    (next, until): (Option<f64>, Option<f64>),
     follows: bool,
     structure: Structure,
 ) -> (Verdict, Vec<Witness>) {
-    let length = segment.time[1] - segment.time[0];
+    let length = until.unwrap_or(segment.time[1]) - segment.time[0];
     let unstable = segment.testimonies[0].chances.map(|chances| chances.leading());
     if let Some((kind, confidence)) =
         unstable.filter(|_| segment.state == State::Quiet && (follows || next.is_some()))
@@ -259,8 +261,15 @@ fn together(
     // A level that is read has the last word on whether it reaches the coalescence: what counted vibrations say of it is of others.
     let above = reads[0].filter(|_| source == Source::Within);
     let by_level = |couples: bool| above.map_or(1.0, |above| if couples { above } else { 1.0 - above });
+    // And so has a slope that is read, or that the power at growth shows, on whether it feeds: that coupling cannot be does not make it do so.
+    let by_slope = |feeds: bool| {
+        let shown = within.map(|[_, exceeds]| exceeds).into_iter().chain(by_power.map(|power| power.slope()));
+        let most = shown.reduce(f64::max).unwrap_or(CONFIDENT - 0.01);
+        if feeds && source == Source::Within { most } else { 1.0 }
+    };
     let couples = matches!(kind, Kind::ModeCoupling | Kind::Both);
-    let confidence = sure(probability).min(by_level(couples));
+    let feeds = matches!(kind, Kind::NegativeSlope | Kind::Both);
+    let confidence = sure(probability).min(by_level(couples)).min(by_slope(feeds));
     let parts: Vec<String> =
         [(1, "negative slope"), (2, "mode coupling"), (3, "both"), (4, "only both together")]
             .into_iter()
@@ -284,7 +293,7 @@ fn together(
         reasons: vec![reason],
     };
     let suffices = |mechanism| {
-        let most = if mechanism == Mechanism::ModeCoupling { by_level(true) } else { 1.0 };
+        let most = if mechanism == Mechanism::ModeCoupling { by_level(true) } else { by_slope(true) };
         (mechanism, sure(joint.suffices(mechanism)).min(most))
     };
     let shared = Mechanism::ALL.map(suffices).into_iter().find(|(_, p)| *p >= CONFIDENT && !decided && told);

@@ -2,34 +2,59 @@
 
 use crate::cross::Measured;
 use crate::level::UNFIT;
+use crate::rig::Rig;
 use crate::segment::Segment;
 
 /// The part by which the stiffness across the contact may be off, beside two standard errors: a quarter of a per cent of a frequency, and
 /// as much for how it is read.
 const STIFFNESS: f64 = 0.02;
+/// The same of the damping.
+const DAMPING: f64 = 0.5;
+/// Factor by which the mean normal force may be off: beyond it a unit is another one.
+const LOAD: f64 = 3.0;
+/// Velocity of a vibration over that of sliding that friction does not excite: again a unit.
+const REACH: f64 = 10.0;
 
-/// Why nothing is taken from the rig: a quarter of the time that tells contradicts it.
-pub(super) fn misfit(segments: &[Segment]) -> Option<String> {
+/// Why nothing is taken from the rig: a quarter of the time that tells contradicts it. `normal` is the mean normal force, N.
+pub(super) fn misfit(segments: &[Segment], rig: &Rig, normal: f64) -> Option<String> {
     let vibrating = || segments.iter().filter(|segment| segment.state.vibrates());
     let time = |segment: &Segment| segment.time[1] - segment.time[0];
-    let forces = vibrating().filter_map(|s| Some((time(s), s.friction?.misfit? >= UNFIT)));
-    if contradicts(forces) {
+    if !(1.0 / LOAD..LOAD).contains(&(normal / rig.load)) {
+        return Some(format!(
+            "the mean normal force is {normal:.4} N, the load of --model {:.4} N: check the unit of the forces; nothing is taken from the \
+             model",
+            rig.load
+        ));
+    }
+    let reach = vibrating().filter_map(|segment| segment.reach).fold(0.0, f64::max);
+    if reach > REACH {
+        return Some(format!(
+            "the vibration has {reach:.0} times the velocity of sliding: check the units of accelerations and velocity; nothing is taken \
+             from --model"
+        ));
+    }
+    if contradicts(vibrating().filter_map(|s| Some((time(s), s.friction?.misfit? >= UNFIT)))) {
         return Some(
-            "the forces of --model contradict themselves in a good part of the record: it is another rig (masses, stiffnesses, the sign of \
-             theta), or the normal acceleration is late (--skew); nothing is taken from it"
+            "the forces of --model contradict themselves in a good part of the record: it is another rig (masses, stiffnesses, theta and its \
+             sign), the normal acceleration is late (--skew) or has the other sign, or something else drives the vibration; nothing is \
+             taken from the model"
                 .to_owned(),
         );
     }
-    let off = |across: Measured| (across.value - 1.0).abs() > STIFFNESS + 2.0 * across.error;
-    let across = || vibrating().filter_map(|segment| Some((time(segment), segment.across?)));
-    contradicts(across().map(|(time, across)| (time, off(across)))).then(|| {
-        let longest = across().filter(|(_, across)| off(*across)).max_by(|a, b| a.0.total_cmp(&b.0));
-        let shown = longest.map_or(f64::NAN, |(_, across)| across.value);
-        format!(
-            "the accelerations show {shown:.3} of the stiffness k2 of --model (or of what --rate, m1 and the sign of the normal \
-             acceleration make of it): it is another rig; nothing is taken from it"
-        )
-    })
+    let across = |which: usize| vibrating().filter_map(move |s| Some((time(s), s.across?[which])));
+    let off = |part: f64| move |shown: &Measured| (shown.value - 1.0).abs() > part + 2.0 * shown.error;
+    let [stiffness, damping] = [(0, STIFFNESS, "stiffness k2"), (1, DAMPING, "damping c2")].map(|(which, part, words)| {
+        contradicts(across(which).map(|(time, shown)| (time, off(part)(&shown)))).then(|| {
+            let against = across(which).filter(|(_, shown)| off(part)(shown));
+            let longest = against.max_by(|a, b| a.0.total_cmp(&b.0));
+            let shown = longest.map_or(f64::NAN, |(_, shown)| shown.value);
+            format!(
+                "the accelerations show {shown:.3} times the {words} of --model, if its m1 and theta, --rate and --skew are right: it is \
+                 another rig; nothing is taken from it"
+            )
+        })
+    });
+    stiffness.or(damping)
 }
 
 /// Whether a quarter of the time is against it.

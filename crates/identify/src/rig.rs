@@ -10,7 +10,7 @@
 //! ```
 //!
 //! `m1` touches nothing but its spring, so `m1 ÿ = k2 (x sin θ − y) + c2 (ẋ sin θ − ẏ)` whatever the friction does: at each frequency
-//! both accelerations show `k2`.
+//! both accelerations show `k2` and `c2`.
 
 use num_complex::Complex64;
 
@@ -22,6 +22,8 @@ const DAMPING: f64 = 0.1;
 const INCLINATION: f64 = 0.1;
 /// That of the inertia along the contact less the stiffness over ω², as a part of that inertia: half a per cent of each.
 const TUNING: f64 = 0.01;
+/// Delay between the accelerations that is not known, as an angle of the oscillation, rad: 3°.
+const LATE: f64 = 0.052;
 
 /// The structure of a rig.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,6 +42,8 @@ pub struct Rig {
     pub c2: f64,
     /// Inclination to the belt, rad.
     pub theta: f64,
+    /// The force that presses the masses to the belt, N.
+    pub load: f64,
     /// The friction coefficient at which its modes coalesce, for strokes forwards and backwards; beyond all friction where they do not.
     pub critical: [Measured; 2],
 }
@@ -109,11 +113,18 @@ impl Rig {
         Measured { value, error: DAMPING * value }
     }
 
-    /// The stiffness across the contact that both accelerations show at the angular frequency `omega` (rad/s), over that of the rig.
-    pub(super) fn across(&self, omega: f64, normal: Ratio) -> Measured {
+    /// Stiffness and damping across the contact that both accelerations show at the angular frequency `omega` (rad/s), each over that of the
+    /// rig. What the vibration grows by, `growth` (1/s), is taken for damping: an error.
+    pub(super) fn across(&self, omega: f64, growth: f64, normal: Ratio) -> [Measured; 2] {
         let detuned = self.theta.sin() / normal.value;
         let shown = self.m1 * omega * omega / (1.0 - detuned);
-        let error = detuned.norm() * INCLINATION.hypot(normal.error / normal.value.norm());
-        Measured { value: shown.re / self.k2, error }
+        let noise = normal.error / normal.value.norm();
+        let detuning = detuned.norm() * INCLINATION.hypot(noise);
+        let late = (LATE * detuned.norm()).hypot(2.0 * growth / omega);
+        let damping = omega * self.c2;
+        [
+            Measured { value: shown.re / self.k2, error: detuning },
+            Measured { value: shown.im / damping, error: detuning.hypot(late) * self.k2 / damping },
+        ]
     }
 }

@@ -7,6 +7,7 @@ use crate::cross::{INDEPENDENT, Measured};
 use crate::cut::{Course, cut};
 use crate::level::{LEAST, Level, Reading, follows, level, reads, spread};
 use crate::population::{Seen, Source};
+use crate::rig::Rig;
 use crate::settings::Settings;
 use crate::testimony::{Mechanism, Testimony, Witness};
 use crate::trend::Trended;
@@ -75,8 +76,9 @@ pub struct Segment {
     pub phase: Option<Measured>,
     /// Squared coherence of the two.
     pub coherence: Option<f64>,
-    /// The stiffness across the contact that the two show, over that of [`Settings::rig`], where there is one.
-    pub across: Option<Measured>,
+    /// Stiffness and damping across the contact that the two show while it is closed, each over that of [`Settings::rig`], where there is
+    /// one.
+    pub across: Option<[Measured; 2]>,
     /// Friction, where both forces are recorded.
     pub friction: Option<Level>,
     /// First and last velocity, m/s.
@@ -302,10 +304,7 @@ fn segment(cells: &[Cell], has: Has, context: Context, settings: &Settings) -> S
         reach,
         phase: shown.map(|(phase, _)| phase),
         coherence: shown.map(|(_, coherence)| coherence),
-        across: settings.rig.filter(|_| shown.is_some() && !all.losses.opens()).map(|rig| {
-            let omega = TAU * all.frequency();
-            rig.across(omega, all.sums.normal_acceleration(INDEPENDENT).advanced(omega * settings.skew))
-        }),
+        across: settings.rig.filter(|_| shown.is_some()).and_then(|rig| across(cells, rig, settings.skew)),
         friction: has.forces.then(|| level(cells, &all, (has.velocity, limited, knees), settings)),
         velocity: has.velocity.then(|| [cells[0].velocity(), cells[cells.len() - 1].velocity()]),
         temperature: has.temperature.then(|| all.temperature()),
@@ -316,6 +315,17 @@ fn segment(cells: &[Cell], has: Has, context: Context, settings: &Settings) -> S
         rests_on: Vec::new(),
         contradictions: Vec::new(),
     }
+}
+
+/// What the cells say of a rig across the contact in which forces are restored: not of a contact that opens.
+fn across(cells: &[Cell], rig: Rig, skew: f64) -> Option<[Measured; 2]> {
+    let closed: Vec<Cell> = cells.iter().filter(|cell| cell.is_loud() && cell.reads()).copied().collect();
+    let all = Cell::sum(&closed);
+    let omega = TAU * all.frequency();
+    let ratio = all.sums.normal_acceleration(INDEPENDENT).advanced(omega * skew);
+    let [first, last] = [closed.first()?, closed.last()?];
+    let growth = (last.amplitude() / first.amplitude()).ln() / (last.time[1] - first.time[0]);
+    (ratio.value.norm() > 0.0).then(|| rig.across(omega, growth, ratio))
 }
 
 /// Change of the logarithm of the amplitude where it is clear, else 0. A forced vibration that follows the velocity, or one that

@@ -5,15 +5,15 @@ use std::collections::BTreeMap;
 use crate::results::csv::Table;
 use crate::study::campaign::row::{Said, VelocityLaw};
 use crate::study::error::Result;
+use crate::study::identify::shown::Colour;
 use crate::sweep::columns::Cell;
-use squealmap_identify::Kind;
 
 /// Temperatures with less than this between neighbours, °C, are one condition.
 const APART: f64 = 20.0;
 /// Speeds with less than this factor between neighbours are one condition.
 const FASTER: f64 = 1.25;
 
-const COLUMNS: [&str; 12] = [
+const COLUMNS: [&str; 14] = [
     "temperature",
     "velocity_law",
     "velocity",
@@ -23,7 +23,9 @@ const COLUMNS: [&str; 12] = [
     "amplitude",
     "no_instability",
     "negative_slope",
+    "negative_slope_at_least",
     "mode_coupling",
+    "mode_coupling_at_least",
     "both",
     "undecided",
 ];
@@ -43,8 +45,8 @@ pub struct Condition {
     pub vibrating: f64,
     /// Medians of the frequency (Hz) and of the amplitude (m/s²) of those that vibrate.
     pub vibration: Option<[f64; 2]>,
-    /// The parts of their time with each verdict, in the order of [`Kind::ALL`].
-    pub shares: [f64; Kind::ALL.len()],
+    /// The parts of their time with each verdict, in the order of [`Colour::ALL`].
+    pub shares: [f64; Colour::ALL.len()],
 }
 
 /// Strokes together by temperature, law of the velocity, and speed; the latter two are a column of the figure.

@@ -15,7 +15,6 @@ use squealmap_figure::page::{DOUBLE_COLUMN, MARGIN, SINGLE_COLUMN, title};
 use squealmap_figure::scale::{Scale, Tick, axis_unit, value_label};
 use squealmap_figure::svg::{Anchor, Style, Svg, polyline};
 use squealmap_figure::text::Text;
-use squealmap_identify::Kind;
 
 /// Height of a panel, points.
 const HEIGHT: f64 = 74.0;
@@ -221,11 +220,11 @@ fn weight(conditions: usize) -> f64 {
 /// The verdicts and marks that occur; returns the height that their rows take.
 fn legend(svg: &mut Svg, at: [f64; 2], width: f64, columns: &[Column<'_>]) -> f64 {
     let all = || columns.iter().flat_map(|column| &column.groups);
-    let occurring =
-        Kind::ALL.into_iter().filter(|kind| all().any(|group| group.condition.shares[*kind as usize] > 0.0));
-    let fills: Vec<(Kind, String)> = occurring.map(|kind| (kind, fill(Colour::from(kind)))).collect();
+    let occurs = |colour: &Colour| all().any(|group| group.condition.shares[*colour as usize] > 0.0);
+    let fills: Vec<(Colour, String)> =
+        Colour::ALL.into_iter().filter(occurs).map(|colour| (colour, fill(colour))).collect();
     let mut entries: Vec<(Text, Sample<'_>)> =
-        fills.iter().map(|(kind, fill)| (Text::from(kind.words()), Sample::Area(fill))).collect();
+        fills.iter().map(|(colour, fill)| (Text::from(colour.words()), Sample::Area(fill))).collect();
     for (place, name) in DIRECTIONS.into_iter().enumerate() {
         let forward = place == 0;
         if all().any(|group| group.strokes.iter().any(|said| said.forward == forward)) {
@@ -289,11 +288,11 @@ fn bars(svg: &mut Svg, frame: &Frame, some: &[&Group<'_>]) {
     for (place, Group { condition, strokes }) in some.iter().enumerate() {
         let [x, width] = room(frame, place, some.len());
         let mut below = 0.0;
-        for kind in Kind::ALL {
-            let part = condition.shares[kind as usize];
+        for colour in Colour::ALL {
+            let part = condition.shares[colour as usize];
             if part > 0.0 {
                 let top = (below + part).min(1.0);
-                svg.rect([x, frame.up(top), width, (top - below) * frame.height], &fill(Colour::from(kind)));
+                svg.rect([x, frame.up(top), width, (top - below) * frame.height], &fill(colour));
                 below = top;
             }
         }

@@ -6,7 +6,7 @@ use crate::results::manifest::described;
 use crate::results::read::folder::{Folder, Table, Why, headed};
 use crate::study::campaign::row::{DIRECTIONS, Said, VelocityLaw};
 use crate::study::error::Result;
-use squealmap_identify::Kind;
+use crate::study::identify::shown::Colour;
 use squealmap_input::quote::quoted;
 
 /// The files that are read.
@@ -41,7 +41,7 @@ fn said(table: &Table) -> Why<Vec<Said>> {
     let numbers =
         ["start", "end", "temperature", "velocity", "friction", "vibrating", "frequency", "amplitude"];
     let numbers = table.numbers(numbers)?;
-    let shares = table.numbers(Kind::ALL.map(Kind::name))?;
+    let shares = table.numbers(Colour::ALL.map(Colour::name))?;
     let mut all = Vec::new();
     for (number, ((row, numbers), shares)) in table.rows.iter().zip(numbers).zip(shares).enumerate() {
         let status = table.cell(row, "status");

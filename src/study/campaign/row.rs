@@ -2,11 +2,12 @@
 
 use crate::results::csv::Table;
 use crate::study::error::Result;
+use crate::study::identify::shown::Colour;
 use crate::sweep::columns::Cell;
-use squealmap_identify::{Identification, Kind, Segment, State, Stroke};
+use squealmap_identify::{Identification, Segment, State, Stroke};
 
 /// The columns of a stroke; SI units, temperature in °C, shares of its time from 0 to 1.
-const COLUMNS: [&str; 20] = [
+const COLUMNS: [&str; 22] = [
     "record",
     "stroke",
     "start",
@@ -23,7 +24,9 @@ const COLUMNS: [&str; 20] = [
     "amplitude",
     "no_instability",
     "negative_slope",
+    "negative_slope_at_least",
     "mode_coupling",
+    "mode_coupling_at_least",
     "both",
     "undecided",
     "status",
@@ -96,8 +99,8 @@ pub struct Said {
     pub vibrating: f64,
     /// Frequency (Hz) of what vibrates longest, and the largest amplitude of the tangential acceleration, m/s².
     pub vibration: Option<[f64; 2]>,
-    /// The parts of its time with each verdict, in the order of [`Kind::ALL`].
-    pub shares: [f64; Kind::ALL.len()],
+    /// The parts of its time with each verdict, in the order of [`Colour::ALL`].
+    pub shares: [f64; Colour::ALL.len()],
 }
 
 /// A stroke of a campaign.
@@ -131,11 +134,11 @@ impl Said {
         let loud = || found.segments.iter().filter(|segment| vibrates(segment));
         let longest = loud().max_by(|a, b| length(a).total_cmp(&length(b)));
         let amplitude = loud().map(|segment| segment.amplitude).fold(0.0, f64::max);
-        let shares = Kind::ALL.map(|kind| {
+        let shares = Colour::ALL.map(|colour| {
             if whole > 0.0 {
-                part(&|segment| segment.verdict.kind == kind)
+                part(&|segment| Colour::of(segment) == colour)
             } else {
-                f64::from(u8::from(found.verdict.kind == kind))
+                f64::from(u8::from(Colour::from(found.verdict.kind) == colour))
             }
         });
         Said {
@@ -163,7 +166,7 @@ pub fn strokes_csv(rows: &[StrokeRow]) -> Result<Vec<u8>> {
         let number = |value: Option<f64>| Cell::from(value).to_string();
         let direction = row.stroke.map_or("", |stroke| DIRECTIONS[usize::from(!stroke.forward)]);
         let ends = row.stroke.and_then(|stroke| stroke.quarters).map(|quarters| [quarters[0], quarters[3]]);
-        let shares = Kind::ALL.map(|kind| number(said.map(|said| said.shares[kind as usize])));
+        let shares = Colour::ALL.map(|colour| number(said.map(|said| said.shares[colour as usize])));
         let mut cells = vec![row.record.clone(), row.number.to_string()];
         cells.extend([0, 1].map(|end| number(said.map(|said| said.time[end]))));
         cells.push(direction.to_owned());

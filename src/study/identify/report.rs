@@ -200,7 +200,8 @@ fn segment(segment: &Segment) -> Value {
         "vibration_over_sliding_velocity": segment.reach,
         "phase": segment.phase.map(measured),
         "coherence": segment.coherence,
-        "stiffness_across_over_model": segment.across.map(measured),
+        "stiffness_across_over_model": segment.across.map(|[stiffness, _]| measured(stiffness)),
+        "damping_across_over_model": segment.across.map(|[_, damping]| measured(damping)),
         "friction": segment.friction.map(|friction| json!({
             "reading": friction.reading,
             "level": measured(friction.level),

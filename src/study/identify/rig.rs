@@ -47,5 +47,5 @@ pub fn rig_of(spec: &Spec) -> Result<Rig> {
     });
     let [m1, m2, k1, k2, c1, c2] =
         [Param::M1, Param::M2, Param::K1, Param::K2, Param::C1, Param::C2].map(value);
-    Ok(Rig { m1, m2, k1, k2, c1, c2, theta, critical })
+    Ok(Rig { m1, m2, k1, k2, c1, c2, theta, load: value(Param::FExt), critical })
 }

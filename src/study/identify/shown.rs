@@ -42,7 +42,7 @@ pub struct Coloured {
     pub verdict: Colour,
 }
 
-/// What a colour says.
+/// What a colour says of a stretch of time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Colour {
@@ -74,7 +74,9 @@ impl Colour {
         Colour::Undecided,
     ];
 
-    fn new(segment: &Segment) -> Colour {
+    /// That of a segment.
+    #[must_use]
+    pub fn of(segment: &Segment) -> Colour {
         match (segment.verdict.kind, segment.shared) {
             (Kind::Undecided, Some((Mechanism::NegativeSlope, _))) => Colour::AnySlope,
             (Kind::Undecided, Some((Mechanism::ModeCoupling, _))) => Colour::AnyCoupling,
@@ -82,8 +84,22 @@ impl Colour {
         }
     }
 
+    /// The name in tables.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Colour::NoInstability => Kind::NoInstability.name(),
+            Colour::NegativeSlope => Kind::NegativeSlope.name(),
+            Colour::AnySlope => "negative_slope_at_least",
+            Colour::ModeCoupling => Kind::ModeCoupling.name(),
+            Colour::AnyCoupling => "mode_coupling_at_least",
+            Colour::Both => Kind::Both.name(),
+            Colour::Undecided => Kind::Undecided.name(),
+        }
+    }
+
     /// The words of a key.
-    pub(super) fn words(self) -> &'static str {
+    pub(crate) fn words(self) -> &'static str {
         match self {
             Colour::NoInstability => "no instability",
             Colour::NegativeSlope => "negative slope",
@@ -112,7 +128,7 @@ impl Shown {
     /// The figure of an identification, with a heading.
     #[must_use]
     pub fn new(found: &Identification, title: &str) -> Shown {
-        let coloured = |segment: &Segment| Coloured { time: segment.time, verdict: Colour::new(segment) };
+        let coloured = |segment: &Segment| Coloured { time: segment.time, verdict: Colour::of(segment) };
         Shown {
             title: title.to_owned(),
             verdict: verdict_line(found),

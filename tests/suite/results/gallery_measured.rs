@@ -33,7 +33,7 @@ pub(super) fn a_campaign() -> Piece {
             friction: stroke.friction,
             vibrating,
             vibration: (vibrating > 0.0).then_some([14_500.0 - 10.0 * x, 3.0 * (0.3 * x).exp()]),
-            shares: [1.0 - vibrating, 0.0, 0.75 * vibrating, 0.25 * vibrating, 0.0],
+            shares: [1.0 - vibrating, 0.0, 0.0, 0.5 * vibrating, 0.25 * vibrating, 0.25 * vibrating, 0.0],
         };
         let (record, told) = (format!("r{k}.csv"), String::new());
         StrokeRow { record, number: 1, stroke: Some(stroke), said: Ok(said), told }

@@ -7,7 +7,8 @@ use std::io::{Cursor, Read};
 use crate::cli::program::squealmap;
 use squealmap::study::campaign::condition::conditions;
 use squealmap::study::campaign::row::{Said, VelocityLaw};
-use squealmap_identify::{Kind, Settings, Stroke, identify, strokes};
+use squealmap::study::identify::shown::Colour;
+use squealmap_identify::{Settings, Stroke, identify, strokes};
 
 /// Samples per second.
 const RATE: f64 = 20_000.0;
@@ -117,7 +118,7 @@ fn strokes_of_one_temperature_and_law_are_one_condition() {
         friction: Some(0.4),
         vibrating,
         vibration: (vibrating > 0.0).then_some([100.0 * temperature, 1.0]),
-        shares: [1.0 - vibrating, 0.0, vibrating, 0.0, 0.0],
+        shares: [1.0 - vibrating, 0.0, 0.0, vibrating, 0.0, 0.0, 0.0],
     };
     let rows = [
         said(VelocityLaw::Falling, 0.1, 305.0, 1.0, 3.0),
@@ -137,7 +138,7 @@ fn strokes_of_one_temperature_and_law_are_one_condition() {
     assert!(falling.temperature.is_some_and(|mean| (mean - 302.5).abs() < 1e-12));
     assert!((falling.vibrating - 0.75).abs() < 1e-12);
     assert_eq!(falling.vibration, Some([30_500.0, 1.0]));
-    assert!((falling.shares[Kind::ModeCoupling as usize] - 0.75).abs() < 1e-12);
+    assert!((falling.shares[Colour::ModeCoupling as usize] - 0.75).abs() < 1e-12);
 }
 
 #[test]
@@ -163,8 +164,8 @@ fn a_folder_of_records_is_a_campaign_and_a_broken_one_says_why() {
     let table = read("strokes.csv");
     let rows: Vec<Vec<&str>> = table.lines().map(|line| line.split(',').collect()).collect();
     assert_eq!(rows.len(), 1 + 1 + 3 + 3 + 3, "{table}");
-    assert!(rows[1][0].ends_with("broken.csv") && rows[1][19] != "ok", "{table}");
-    assert!(rows[2..].iter().all(|row| row[19] == "ok"), "{table}");
+    assert!(rows[1][0].ends_with("broken.csv") && rows[1][21] != "ok", "{table}");
+    assert!(rows[2..].iter().all(|row| row[21] == "ok"), "{table}");
     assert_eq!(
         rows[5..8].iter().map(|row| row[4]).collect::<Vec<_>>(),
         ["forward", "back", "forward"],

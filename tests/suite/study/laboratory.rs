@@ -295,6 +295,7 @@ pub(crate) fn known(instance: &Instance, backwards: bool, random: &mut Random) -
         c1: damping * value(Param::C1),
         c2: damping * value(Param::C2),
         theta,
+        load: value(Param::FExt),
         critical: [Measured { value: critical, error: 0.03 * critical }; 2],
     }
 }
