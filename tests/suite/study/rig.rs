@@ -199,6 +199,37 @@ fn another_rig_is_noticed() {
     assert!(worst < 0.05, "{worst}");
 }
 
+/// A damping across the contact that is not that of the record, and forces or accelerations in another unit, are named.
+#[test]
+fn another_damping_or_unit_is_named() {
+    let rig = rig(MU_S, MU_D, KNEE, [0.0472, 0.0041]);
+    let samples = noisy(&sampled(&rig, RATE), 40.0, false, 5);
+    let right = known(&rig, false, [1.0; 3]);
+    let other = |change: &dyn Fn(&mut Rig)| {
+        let mut settings = right.clone();
+        settings.rig.iter_mut().for_each(change);
+        settings
+    };
+    for (settings, named) in [
+        (other(&|rig| rig.c2 *= 3.0), "times the damping c2"),
+        (other(&|rig| rig.c2 /= 3.0), "times the damping c2"),
+        (other(&|rig| rig.load *= 1e3), "the unit of the forces"),
+    ] {
+        let found = run(&samples, &settings).unwrap();
+        assert!(found.notes.iter().any(|note| note.contains(named)), "{named}: {:?}", found.notes);
+        assert_right(&rig, &found);
+    }
+    let text = String::from_utf8(samples).unwrap();
+    let (head, rows) = text.split_once('\n').unwrap();
+    let scaled = rows.lines().map(|row| {
+        let cells: Vec<&str> = row.split(',').collect();
+        format!("{},{}e3,{}e3,{}", cells[0], cells[1], cells[2], cells[3..].join(","))
+    });
+    let scaled: Vec<String> = scaled.collect();
+    let found = run(format!("{head}\n{}\n", scaled.join("\n")).as_bytes(), &right).unwrap();
+    assert!(found.notes.iter().any(|note| note.contains("the units of accelerations")), "{:?}", found.notes);
+}
+
 /// What the rig needs and the record has not is named.
 #[test]
 fn what_a_rig_needs_is_named() {
