@@ -83,14 +83,10 @@ impl Rig {
     /// parts that give power, where the mode is known by that much and the rig as usual.
     pub(super) fn ratios(&self, growth: Measured, omega: f64, normal: Ratio) -> [Ratio; 2] {
         let lambda = Complex64::new(growth.value, omega);
-        let of = |velocity: Complex64, displacement: Complex64| {
-            let parts = |part: fn(Complex64) -> f64| {
-                self.forces([part(displacement), part(velocity), part(Complex64::ONE)], part(normal.value))
-            };
-            let ([t, n], [t_aside, n_aside]) = (parts(|z| z.re), parts(|z| z.im));
-            [Complex64::new(t, t_aside), Complex64::new(n, n_aside)]
-        };
-        let [pulled, pressed] = of(lambda.inv(), (lambda * lambda).inv());
+        let (v, x) = (lambda.inv(), (lambda * lambda).inv());
+        let real = self.forces([x.re, v.re, 1.0], normal.value.re);
+        let imaginary = self.forces([x.im, v.im, 0.0], normal.value.im);
+        let [pulled, pressed] = [0, 1].map(|k| Complex64::new(real[k], imaginary[k]));
         // Along the contact the power is that of 2 m σ + c.
         let inertia = self.m1 + self.m2;
         let power = (2.0 * inertia * growth.error)
