@@ -206,13 +206,16 @@ fn analyse(
     let mut notes = notes(survey, &settings.zooms);
     let has = has(survey);
     let mut cut = segments(&cells.list, has, settings);
-    let misfit = settings.rig.and_then(|rig| misfit(&cut, &rig, Cell::sum(&cells.list).normal()));
+    // Where nothing stands out nothing is restored, and nothing tells.
+    let restored_from = again.restored_from();
+    let rig = settings.rig.filter(|_| restored_from.is_some());
+    let misfit = rig.and_then(|rig| misfit(&cut, &rig, Cell::sum(&cells.list).normal()));
     let its_rig = misfit.is_none();
     if let Some(why) = misfit {
         notes.push(why);
         cells.forget_fast_forces();
         cut = segments(&cells.list, has, settings);
-    } else if let Some(frequency) = again.restored_from() {
+    } else if let Some(frequency) = restored_from {
         notes.push(format!(
             "forces that are faster than a third of {frequency:.0} Hz are those that move the masses of the model, by the accelerations"
         ));

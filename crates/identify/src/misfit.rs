@@ -41,20 +41,21 @@ pub(super) fn misfit(segments: &[Segment], rig: &Rig, normal: f64) -> Option<Str
                 .to_owned(),
         );
     }
-    let across = |which: usize| vibrating().filter_map(move |s| Some((time(s), s.across?[which])));
-    let off = |part: f64| move |shown: &Measured| (shown.value - 1.0).abs() > part + 2.0 * shown.error;
-    let [stiffness, damping] = [(0, STIFFNESS, "stiffness k2"), (1, DAMPING, "damping c2")].map(|(which, part, words)| {
-        contradicts(across(which).map(|(time, shown)| (time, off(part)(&shown)))).then(|| {
-            let against = across(which).filter(|(_, shown)| off(part)(shown));
-            let longest = against.max_by(|a, b| a.0.total_cmp(&b.0));
-            let shown = longest.map_or(f64::NAN, |(_, shown)| shown.value);
-            format!(
-                "the accelerations show {shown:.3} times the {words} of --model, if its m1 and theta, --rate and --skew are right: it is \
-                 another rig; nothing is taken from it"
-            )
-        })
-    });
-    stiffness.or(damping)
+    for (which, part, words) in [(0, STIFFNESS, "stiffness k2"), (1, DAMPING, "damping c2")] {
+        let off = |shown: &Measured| (shown.value - 1.0).abs() > part + 2.0 * shown.error;
+        let known = || vibrating().filter_map(|segment| Some((time(segment), segment.across?[which])));
+        let against = known().filter(|(_, shown)| off(shown)).max_by(|a, b| a.0.total_cmp(&b.0));
+        if let Some((_, longest)) =
+            against.filter(|_| contradicts(known().map(|(time, shown)| (time, off(&shown)))))
+        {
+            return Some(format!(
+                "the accelerations show {:.3} times the {words} of --model, if its m1 and theta, --rate and --skew are right: it is \
+                 another rig; nothing is taken from it",
+                longest.value
+            ));
+        }
+    }
+    None
 }
 
 /// Whether a quarter of the time is against it.

@@ -230,6 +230,26 @@ fn another_damping_or_unit_is_named() {
     assert!(found.notes.iter().any(|note| note.contains("the units of accelerations")), "{:?}", found.notes);
 }
 
+/// A record in which nothing stands out, or that is too short for a window, does not tell whether the rig is its own.
+#[test]
+fn a_quiet_record_says_nothing_of_a_rig() {
+    let settings = known(&rig(MU_S, MU_D, KNEE, [0.0472, 0.0041]), false, [1.0; 3]);
+    let mut random = Random::new(5);
+    let mut sample = |k: u32| Sample {
+        t: f64::from(k) / RATE,
+        tangential_acceleration: 0.1 * random.normal(),
+        normal_acceleration: 0.1 * random.normal(),
+        tangential_force: 1.7 + 0.02 * random.normal(),
+        normal_force: 17.0 + 0.05 * random.normal(),
+        belt_velocity: 0.04 + 1e-6 * random.normal(),
+    };
+    let samples: Vec<Sample> = (0..20_000).map(&mut sample).collect();
+    for length in [200, samples.len()] {
+        let found = run(&csv(&samples[..length]), &settings).unwrap();
+        assert!(found.notes.iter().all(|note| !note.contains("--model")), "{:?}", found.notes);
+    }
+}
+
 /// What the rig needs and the record has not is named.
 #[test]
 fn what_a_rig_needs_is_named() {
