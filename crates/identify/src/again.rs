@@ -1,5 +1,6 @@
 //! A record that is gone through again: a short one is kept from the first reading, a long one read anew.
 
+use crate::block::{Block, ROWS};
 use crate::channel::{Channel, PerChannel};
 use crate::fault::Fault;
 use crate::read::Table;
@@ -8,26 +9,32 @@ use crate::read::Table;
 const MOST: usize = 12 * (1 << 20);
 
 /// The samples of a record, as long as they are few enough.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Kept {
-    channels: Vec<usize>,
-    values: Vec<f64>,
+    has: PerChannel<bool>,
+    columns: PerChannel<Vec<f64>>,
+    samples: usize,
     too_many: bool,
 }
 
 impl Kept {
     /// Nothing yet of a record with these channels.
     pub(super) fn new(has: PerChannel<bool>) -> Kept {
-        Kept { channels: (0..has.len()).filter(|channel| has[*channel]).collect(), ..Kept::default() }
+        Kept { has, columns: PerChannel::default(), samples: 0, too_many: false }
     }
 
-    /// Takes the next sample.
-    pub(super) fn take(&mut self, values: &PerChannel<f64>) {
-        self.too_many |= self.values.len() + self.channels.len() > MOST;
+    /// Takes the next samples.
+    pub(super) fn take(&mut self, block: &Block) {
+        self.samples += block.len();
+        self.too_many |= self.samples * self.has.iter().filter(|has| **has).count() > MOST;
         if self.too_many {
-            self.values = Vec::new();
-        } else {
-            self.values.extend(self.channels.iter().map(|channel| values[*channel]));
+            self.columns = PerChannel::default();
+            return;
+        }
+        for ((column, values), _) in
+            self.columns.iter_mut().zip(block.columns()).zip(self.has).filter(|(_, has)| *has)
+        {
+            column.extend_from_slice(values);
         }
     }
 
@@ -38,45 +45,52 @@ impl Kept {
         turned: bool,
         open: impl FnOnce() -> Result<Table, Fault>,
     ) -> Result<Again<'_>, Fault> {
-        let sign = if turned { -1.0 } else { 1.0 };
-        if self.too_many {
-            return Ok(Again::Read(open()?, sign));
-        }
-        Ok(Again::Kept(self, 0, sign))
+        let source = if self.too_many { Source::Read(open()?) } else { Source::Kept(self, 0) };
+        Ok(Again { source, turned })
     }
 }
 
 /// Goes through a record once more.
-pub(super) enum Again<'a> {
-    /// What was kept, the sample that comes next, and the sign.
-    Kept(&'a Kept, usize, f64),
-    /// The file, and the sign.
-    Read(Table, f64),
+pub(super) struct Again<'a> {
+    source: Source<'a>,
+    turned: bool,
+}
+
+enum Source<'a> {
+    /// What was kept, and the sample that comes next.
+    Kept(&'a Kept, usize),
+    Read(Table),
 }
 
 impl Again<'_> {
-    /// The next sample; `None` at the end.
-    pub(super) fn next(&mut self) -> Result<Option<PerChannel<f64>>, Fault> {
-        let mut values = PerChannel::default();
-        let sign = match self {
-            Again::Kept(kept, at, sign) => {
-                let own = kept.values.get(*at..*at + kept.channels.len());
-                let Some(own) = own.filter(|own| !own.is_empty()) else { return Ok(None) };
-                for (channel, value) in kept.channels.iter().zip(own) {
-                    values[*channel] = *value;
+    /// Fills a block with the next samples; whether there are any.
+    pub(super) fn next(&mut self, block: &mut Block) -> Result<bool, Fault> {
+        block.clear();
+        match &mut self.source {
+            Source::Kept(kept, at) => {
+                let end = (*at + ROWS).min(kept.samples);
+                for ((column, kept), has) in block.columns_mut().iter_mut().zip(&kept.columns).zip(kept.has) {
+                    if has {
+                        column.extend_from_slice(&kept[*at..end]);
+                    } else {
+                        column.resize(end - *at, 0.0);
+                    }
                 }
-                *at += kept.channels.len();
-                *sign
+                *at = end;
             }
-            Again::Read(table, sign) => {
-                let Some(row) = table.next()? else { return Ok(None) };
-                values = row.values;
-                *sign
+            Source::Read(table) => {
+                while !block.is_full()
+                    && let Some(row) = table.next()?
+                {
+                    block.push(&row.values);
+                }
             }
-        };
-        for channel in [Channel::TangentialAcceleration, Channel::TangentialForce, Channel::Velocity] {
-            values[channel as usize] *= sign;
         }
-        Ok(Some(values))
+        if self.turned {
+            for channel in [Channel::TangentialAcceleration, Channel::TangentialForce, Channel::Velocity] {
+                block.columns_mut()[channel as usize].iter_mut().for_each(|value| *value = -*value);
+            }
+        }
+        Ok(block.len() > 0)
     }
 }

@@ -2,6 +2,7 @@
 
 use std::io::Read;
 
+use crate::block::Block;
 use crate::cells::{Cell, Cells};
 use crate::channel::Channel;
 use crate::clips::{Clip, Clips};
@@ -170,28 +171,26 @@ fn analyse(
     let mut overview = Overview::new(recorded);
     let mut cells = Cells::new(fits.map_or(0.0, |geometry| geometry.hop as f64 / rate));
     let mut from: u64 = 0;
-    while let Some(values) = again.next()? {
-        let tangential = values[Channel::TangentialAcceleration as usize];
+    let mut block = Block::default();
+    while again.next(&mut block)? {
+        let tangential = block.of(Channel::TangentialAcceleration);
         spectrogram.take(tangential);
-        clips.take(&values);
+        clips.take(&block);
         envelopes[0].take(tangential);
         if recorded.normal_acceleration {
-            envelopes[1].take(values[Channel::NormalAcceleration as usize]);
+            envelopes[1].take(block.of(Channel::NormalAcceleration));
         }
         let (Some(analyser), Some(sliding)) = (&mut analyser, &mut sliding) else { continue };
-        let mut full = false;
-        for (sliding, value) in sliding.iter_mut().zip(values) {
-            full = sliding.take(value);
-        }
-        if full {
+        sliding.iter_mut().zip(block.columns()).for_each(|(sliding, values)| sliding.take(values));
+        while sliding[0].window().is_some() {
             let at = start + from as f64 / rate;
-            let window = analyser.window(at, &sliding.each_ref().map(Sliding::window));
+            let window = analyser.window(at, &sliding.each_ref().map(|s| s.window().unwrap_or_default()));
             each(&window, &reading(&window, recorded, settings));
             runs.take(&window);
             overview.take(&window);
             cells.take(&window);
             if let Some(mu) = window.friction {
-                friction.take(mu);
+                friction.take(&[mu]);
             }
             sliding.iter_mut().for_each(Sliding::leave);
             from += fits.map_or(0, |fits| fits.hop as u64);

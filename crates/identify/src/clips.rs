@@ -1,6 +1,7 @@
 //! A few periods of both accelerations at instants all over a record, for pictures that look close.
 
-use crate::channel::{Channel, PerChannel};
+use crate::block::Block;
+use crate::channel::Channel;
 use crate::segment::{Segment, State};
 
 /// Instants that are kept beside those that are asked for: a segment that is not short has one of them near its middle.
@@ -33,15 +34,11 @@ impl Clip {
 
 /// Collects clips while the record goes by.
 pub(super) struct Clips {
-    /// First sample of each, latest first, and whether it was asked for.
-    waiting: Vec<(u64, bool)>,
-    length: usize,
-    rate: f64,
-    start: f64,
+    /// In order of time: the first sample of each, and whether it was asked for.
+    all: Vec<(u64, bool, Clip)>,
+    length: u64,
     normal: bool,
     taken: u64,
-    open: Vec<(Clip, bool)>,
-    done: Vec<(Clip, bool)>,
 }
 
 impl Clips {
@@ -69,33 +66,33 @@ impl Clips {
         let end = start + samples as f64 / rate;
         let asked =
             asked.iter().filter(|time| (start..=end).contains(*time)).map(|time| (from(time - start), true));
-        let mut waiting: Vec<(u64, bool)> =
+        let mut places: Vec<(u64, bool)> =
             if length == 0 { Vec::new() } else { spread.chain(asked).collect() };
-        waiting.sort_unstable_by(|a, b| b.cmp(a));
-        Clips { waiting, length, rate, start, normal, taken: 0, open: Vec::new(), done: Vec::new() }
+        places.sort_unstable();
+        let clip = |(first, asked): (u64, bool)| {
+            let start = start + first as f64 / rate;
+            (first, asked, Clip { start, step: 1.0 / rate, ..Clip::default() })
+        };
+        let all = places.into_iter().map(clip).collect();
+        Clips { all, length: length as u64, normal, taken: 0 }
     }
 
-    pub(super) fn take(&mut self, values: &PerChannel<f64>) {
-        while let Some((first, asked)) = self.waiting.pop_if(|(first, _)| *first <= self.taken) {
-            let start = self.start + first as f64 / self.rate;
-            let clip = Clip { start, step: 1.0 / self.rate, ..Clip::default() };
-            self.open.push((clip, asked));
-        }
-        self.taken += 1;
-        for (clip, _) in &mut self.open {
-            clip.accelerations[0].push(values[Channel::TangentialAcceleration as usize]);
+    pub(super) fn take(&mut self, block: &Block) {
+        for (first, _, clip) in &mut self.all {
+            let own = [*first, *first + self.length];
+            let of = |channel: Channel| block.within(channel, own, self.taken);
+            clip.accelerations[0].extend_from_slice(of(Channel::TangentialAcceleration));
             if self.normal {
-                clip.accelerations[1].push(values[Channel::NormalAcceleration as usize]);
+                clip.accelerations[1].extend_from_slice(of(Channel::NormalAcceleration));
             }
         }
-        let length = self.length;
-        self.done.extend(self.open.extract_if(.., |(clip, _)| clip.accelerations[0].len() >= length));
+        self.taken += block.len() as u64;
     }
 
     /// The clips that were asked for; without any, those in the middles of the longest segments that vibrate.
     pub(super) fn finish(self, segments: &[Segment]) -> Vec<Clip> {
         let asked: Vec<Clip> =
-            self.done.iter().filter(|(_, asked)| *asked).map(|(clip, _)| clip.clone()).collect();
+            self.all.iter().filter(|(_, asked, _)| *asked).map(|(_, _, clip)| clip.clone()).collect();
         if !asked.is_empty() {
             return asked;
         }
@@ -108,7 +105,7 @@ impl Clips {
         let of = |segment: &Segment| {
             let middle = 0.5 * (segment.time[0] + segment.time[1]);
             let off = |clip: &Clip| (clip.middle() - middle).abs();
-            let inside = self.done.iter().map(|(clip, _)| clip).filter(|clip| {
+            let inside = self.all.iter().map(|(_, _, clip)| clip).filter(|clip| {
                 clip.start >= segment.time[0] && 2.0 * clip.middle() - clip.start <= segment.time[1]
             });
             inside.min_by(|a, b| off(a).total_cmp(&off(b))).cloned()

@@ -35,6 +35,75 @@ pub(super) fn moment(a: &[f64]) -> f64 {
     sums.into_iter().chain(rest.iter().zip(at).map(|(a, at)| a * at)).sum()
 }
 
+/// Adds `start + k slope` to `a_k`.
+pub(super) fn add_line(a: &mut [f64], [start, slope]: [f64; 2]) {
+    let (chunks, rest) = a.as_chunks_mut::<LANES>();
+    let mut at = [0.0, 1.0, 2.0, 3.0];
+    for a in chunks {
+        for (at, a) in at.iter_mut().zip(a) {
+            *a += start + *at * slope;
+            *at += LANES as f64;
+        }
+    }
+    rest.iter_mut().zip(at).for_each(|(a, at)| *a += start + at * slope);
+}
+
+/// The highest of `a`; −∞ of none.
+pub(super) fn highest(a: &[f64]) -> f64 {
+    let (chunks, rest) = a.as_chunks::<LANES>();
+    let mut tops = [f64::NEG_INFINITY; LANES];
+    for a in chunks {
+        tops.iter_mut().zip(a).for_each(|(top, a)| *top = if *a > *top { *a } else { *top });
+    }
+    tops.into_iter().chain(rest.iter().copied()).fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// The lowest of `a`; ∞ of none.
+pub(super) fn lowest(a: &[f64]) -> f64 {
+    let (chunks, rest) = a.as_chunks::<LANES>();
+    let mut bottoms = [f64::INFINITY; LANES];
+    for a in chunks {
+        bottoms.iter_mut().zip(a).for_each(|(bottom, a)| *bottom = if *a < *bottom { *a } else { *bottom });
+    }
+    bottoms.into_iter().chain(rest.iter().copied()).fold(f64::INFINITY, f64::min)
+}
+
+/// `Σ |a|`.
+pub(super) fn sizes(a: &[f64]) -> f64 {
+    let (chunks, rest) = a.as_chunks::<LANES>();
+    let mut sums = [0.0; LANES];
+    for a in chunks {
+        sums.iter_mut().zip(a).for_each(|(sum, a)| *sum += a.abs());
+    }
+    sums.into_iter().chain(rest.iter().map(|a| a.abs())).sum()
+}
+
+/// `Σ (a − from)²`.
+pub(super) fn squares(a: &[f64], from: f64) -> f64 {
+    let (chunks, rest) = a.as_chunks::<LANES>();
+    let mut sums = [0.0; LANES];
+    for a in chunks {
+        sums.iter_mut().zip(a).for_each(|(sum, a)| *sum += (a - from) * (a - from));
+    }
+    sums.into_iter().chain(rest.iter().map(|a| (a - from) * (a - from))).sum()
+}
+
+/// `Σ |a_{k+1} − a_k|`, and the least of them; 0 and ∞ of fewer than two.
+pub(super) fn steps(a: &[f64]) -> [f64; 2] {
+    let next = a.get(1..).unwrap_or_default();
+    let ((a, a_rest), (next, next_rest)) = (a[..next.len()].as_chunks::<LANES>(), next.as_chunks::<LANES>());
+    let (mut sums, mut least) = ([0.0; LANES], [f64::INFINITY; LANES]);
+    for (a, next) in a.iter().zip(next) {
+        for k in 0..LANES {
+            let step = (next[k] - a[k]).abs();
+            sums[k] += step;
+            least[k] = if step < least[k] { step } else { least[k] };
+        }
+    }
+    let rest = a_rest.iter().zip(next_rest).map(|(a, next)| (next - a).abs());
+    [sums.into_iter().chain(rest.clone()).sum(), least.into_iter().chain(rest).fold(f64::INFINITY, f64::min)]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -50,6 +119,18 @@ mod tests {
             // Whole numbers: exact in every order. No zero has a sign.
             let bits = |sum: f64| (sum + 0.0).to_bits();
             assert_eq!(found.map(bits), [a.iter().sum(), products, moments].map(bits));
+            let (found, off) = (squares(&a, 2.0), a.iter().map(|a| (a - 2.0).powi(2)).sum());
+            assert_eq!(bits(found), bits(off));
+            let mut line = a.clone();
+            add_line(&mut line, [7.0, -2.0]);
+            for (k, found) in (0..length).zip(line) {
+                assert_eq!(bits(found), bits(f64::from(k * k) - 2.0 * f64::from(k)));
+            }
+            assert_eq!(bits(steps(&b)[1]), bits(if length > 1 { 1.0 } else { f64::INFINITY }));
+            let found = [sizes(&b), steps(&b)[0], highest(&b), lowest(&b)];
+            let sizes = b.iter().map(|b| b.abs()).sum();
+            let last = 4.0 - f64::from(length);
+            assert_eq!(found.map(bits), [sizes, f64::from(length - 1), 3.0, last].map(bits));
         }
     }
 }

@@ -16,7 +16,7 @@
 //! | what three witnesses say of each, and together | `witness.rs`, `population.rs`, `joint.rs`, `testimony.rs`, `rates.rs`, `told.rs` |
 //! | points for `fit` | `points.rs`, `undisturbed.rs`, `measured.rs` |
 //! | pictures | `spectrogram.rs`, `envelope.rs`, `clips.rs`, `instants.rs` |
-//! | all of it in order, over samples that are kept or read again | `analysis.rs`, `again.rs` |
+//! | all of it in order, over samples that are kept or read again | `analysis.rs`, `again.rs`, `block.rs`, `sliding.rs` |
 //!
 //! A verdict rests on the signals alone and on one picture: a tangential and a normal mode, both slightly damped,
 //! coupled by friction. Where the signals leave more than one mechanism open, the verdict is undecided and says why.
@@ -24,6 +24,7 @@
 mod again;
 mod analysis;
 mod attribution;
+mod block;
 mod cells;
 mod channel;
 mod clips;

@@ -39,12 +39,34 @@ impl Outliers {
     }
 }
 
-/// Equal samples in a row.
-#[derive(Clone, Copy, Debug)]
-struct Held {
-    value: f64,
-    first: u64,
-    count: u64,
+/// Samples that follow each other; equal ones in a row are one.
+#[derive(Clone, Copy, Debug, Default)]
+struct Few {
+    values: [f64; BLOCK],
+    /// The index of each, and how many are equal to it.
+    firsts: [u64; BLOCK],
+    counts: [u64; BLOCK],
+    len: usize,
+}
+
+impl Few {
+    fn values(&self) -> &[f64] {
+        &self.values[..self.len]
+    }
+
+    /// Takes the sample `first` where there is room for it or it is one with the last; whether it was taken.
+    fn take(&mut self, value: f64, first: u64) -> bool {
+        if self.len > 0 && self.values[self.len - 1].to_bits() == value.to_bits() {
+            self.counts[self.len - 1] += 1;
+            return true;
+        }
+        if self.len == BLOCK {
+            return false;
+        }
+        (self.values[self.len], self.firsts[self.len], self.counts[self.len]) = (value, first, 1);
+        self.len += 1;
+        true
+    }
 }
 
 /// Where the samples of a block lie.
@@ -82,9 +104,9 @@ impl Surroundings {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Watch {
     taken: u64,
-    filling: Vec<Held>,
+    filling: Few,
     /// The block before `filling`, to be judged when that is full.
-    waiting: Vec<Held>,
+    waiting: Few,
     /// Levels of the block before `waiting`, and of that.
     levels: [Option<Level>; 2],
     /// The largest scatter so far.
@@ -95,17 +117,19 @@ pub(super) struct Watch {
 }
 
 impl Watch {
-    pub(super) fn take(&mut self, value: f64) {
-        let first = self.taken;
-        self.taken += 1;
-        if let Some(held) = self.filling.last_mut().filter(|held| held.value.to_bits() == value.to_bits()) {
-            held.count += 1;
-            return;
+    /// Takes the next samples.
+    pub(super) fn take(&mut self, values: &[f64]) {
+        for value in values {
+            self.one(*value);
         }
-        if self.filling.len() == BLOCK {
+    }
+
+    fn one(&mut self, value: f64) {
+        if !self.filling.take(value, self.taken) {
             self.turn();
+            self.filling.take(value, self.taken);
         }
-        self.filling.push(Held { value, first, count: 1 });
+        self.taken += 1;
     }
 
     /// The outliers of the record, if it has any.
@@ -125,27 +149,27 @@ impl Watch {
         if around.iter().all(Option::is_none) {
             around[0] = Level::still(&self.waiting);
         }
-        // Both blocks change places, so that neither is made anew.
-        let mut judged = std::mem::take(&mut self.waiting);
-        self.judge(&judged, Surroundings::new(&around));
-        judged.clear();
+        self.judge(Surroundings::new(&around));
         self.largest = next.map_or(self.largest, |level| self.largest.max(level.scatter));
-        self.waiting = std::mem::replace(&mut self.filling, judged);
+        self.waiting = std::mem::take(&mut self.filling);
         self.levels = [own, next];
     }
 
-    fn judge(
-        &mut self,
-        block: &[Held],
-        Surroundings { medians: [low, high], widest, scatter }: Surroundings,
-    ) {
-        for held in block {
-            let distance = (low - held.value).max(held.value - high);
-            let found = Outliers { value: held.value, first: held.first, count: held.count };
+    /// Judges the waiting block.
+    fn judge(&mut self, Surroundings { medians: [low, high], widest, scatter }: Surroundings) {
+        let [written, alone] = [WRITTEN * (scatter + (high - low)), ALONE * (widest + (high - low))];
+        let distance = |value: f64| (low - value).max(value - high);
+        let block = self.waiting;
+        for (number, value) in block.values().iter().enumerate() {
+            let distance = distance(*value);
+            if distance <= written.min(alone) {
+                continue;
+            }
+            let found = Outliers { value: *value, first: block.firsts[number], count: block.counts[number] };
             let join = |so_far: Option<Outliers>| so_far.map_or(found, |so_far| so_far.with(found));
-            if distance > WRITTEN * (scatter + (high - low)) && stands_for_nothing(held.value) {
+            if distance > written && stands_for_nothing(*value) {
                 self.written = Some(join(self.written));
-            } else if distance > ALONE * (widest + (high - low)) {
+            } else if distance > alone {
                 let bin = exponent(distance);
                 let joined = join(self.alone.get(&bin).copied());
                 self.alone.insert(bin, joined);
@@ -156,33 +180,63 @@ impl Watch {
 
 impl Level {
     /// The level of a channel that hardly moves: its most frequent value, which is its scatter, too.
-    fn still(block: &[Held]) -> Option<Level> {
-        let most = block.iter().max_by_key(|held| held.count)?;
-        let scatter = most.value.abs();
-        Some(Level { median: most.value, scatter, widest: f64::INFINITY })
+    fn still(block: &Few) -> Option<Level> {
+        let most = (0..block.len).max_by_key(|number| block.counts[*number])?;
+        let (median, scatter) = (block.values[most], block.values[most].abs());
+        Some(Level { median, scatter, widest: f64::INFINITY })
     }
 
-    fn of(block: &[Held]) -> Option<Level> {
-        if block.len() < LEAST {
+    fn of(block: &Few) -> Option<Level> {
+        if block.len < LEAST {
             return None;
         }
-        let mut all = [[0.0; BLOCK]; 2];
-        let [values, off] = all.each_mut().map(|all| &mut all[..block.len()]);
-        for (value, held) in values.iter_mut().zip(block) {
-            *value = held.value;
+        let mut all = block.values;
+        let values = &mut all[..block.len];
+        if let Ok(full) = <&mut [f64; BLOCK]>::try_from(&mut *values) {
+            sort(full);
+        } else {
+            values.sort_unstable_by(f64::total_cmp);
         }
-        values.sort_unstable_by(f64::total_cmp);
         let middle = values.len() / 2;
         let median = values[middle];
-        // On either side of the median the distances are in order already.
-        let (mut low, mut high) = (middle, middle);
-        for off in off.iter_mut() {
-            let below = low.checked_sub(1).map_or(f64::INFINITY, |k| median - values[k]);
-            let above = values.get(high).map_or(f64::INFINITY, |value| value - median);
-            *off = below.min(above);
-            (low, high) = if below < above { (low - 1, high) } else { (low, high + 1) };
+        // The smallest distance within which there are so many beside the median.
+        let within = |others: usize| {
+            let reach = |from: usize| larger(median - values[from], values[from + others] - median);
+            (0..values.len() - others).map(reach).fold(f64::INFINITY, smaller)
+        };
+        Some(Level { median, scatter: within(middle), widest: within(values.len() - 1 - LEFT_OUT) })
+    }
+}
+
+// Of numbers that are none nothing is asked here, which `f64::max` is slower for.
+fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+fn smaller(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
+/// Sorts without a branch (Batcher's odd-even merge sort).
+fn sort(values: &mut [f64; BLOCK]) {
+    let mut sorted = 1;
+    while sorted < BLOCK {
+        let mut apart = sorted;
+        while apart > 0 {
+            let mut from = apart % sorted;
+            while from + apart < BLOCK {
+                for low in from..(from + apart).min(BLOCK - apart) {
+                    let high = low + apart;
+                    if low / (2 * sorted) == high / (2 * sorted) {
+                        let (a, b) = (values[low], values[high]);
+                        (values[low], values[high]) = (smaller(a, b), larger(a, b));
+                    }
+                }
+                from += 2 * apart;
+            }
+            apart /= 2;
         }
-        Some(Level { median, scatter: off[middle], widest: off[off.len() - 1 - LEFT_OUT] })
+        sorted *= 2;
     }
 }
 
@@ -207,4 +261,40 @@ fn stands_for_nothing(value: f64) -> bool {
     let is_power = |x: f64| (x.log10() - x.log10().round()).abs() < 1e-12;
     let nines = (999.0..LARGE).contains(&size) && size.fract() == 0.0 && is_power(size + 1.0);
     nines || ENDS.contains(&size) || (size >= LARGE && is_power(size))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What sorts all zeros and ones by comparisons sorts everything (Knuth, The Art of Computer Programming 3, 5.3.4).
+    #[test]
+    fn zeros_and_ones_are_sorted() {
+        for bits in 0..1_u32 << BLOCK {
+            let mut values = std::array::from_fn(|k| f64::from(bits >> k & 1));
+            sort(&mut values);
+            assert!(values.is_sorted(), "{bits:b}");
+        }
+    }
+
+    /// Against distances that are sorted.
+    #[test]
+    fn a_level_is_the_median_and_distances_from_it() {
+        for seed in 0..500_u64 {
+            let len = LEAST + (seed % 9) as usize;
+            let mut block = Few { len, ..Few::default() };
+            for (k, value) in (0..).zip(&mut block.values[..len]) {
+                let mixed = (seed * 31 + k).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+                *value = (mixed >> 40) as f64;
+            }
+            let level = Level::of(&block).expect("there are enough");
+            let mut values = block.values()[..].to_vec();
+            values.sort_by(f64::total_cmp);
+            let median = values[len / 2];
+            let mut off: Vec<f64> = values.iter().map(|value| (value - median).abs()).collect();
+            off.sort_by(f64::total_cmp);
+            let found = [level.median, level.scatter, level.widest].map(f64::to_bits);
+            assert_eq!(found, [median, off[len / 2], off[len - 1 - LEFT_OUT]].map(f64::to_bits));
+        }
+    }
 }

@@ -1,7 +1,11 @@
 //! Range of one channel: mean and deviation, extremes, and whether it is cut off at one of them.
 
+use crate::lanes::{highest, lowest, sizes, squares, steps, sum};
+
 /// Equal samples in a row that look cut off: at a smooth peak two may be equal by rounding.
 const RUN: u64 = 3;
+/// Samples that are looked at together.
+const AT_ONCE: usize = 64;
 /// From this many runs at one extreme value on they are no chance.
 const RUNS: u64 = 3;
 /// A smooth peak leaves its highest value by far less than the signal's mean step, a cut one by about it.
@@ -52,6 +56,11 @@ impl Extreme {
         }
     }
 
+    /// Whether samples up to `top` are more than none to it.
+    fn is_reached(&self, top: f64) -> bool {
+        self.run > 0 || top >= self.value
+    }
+
     fn clipped(&self, mean_step: f64) -> Option<Clipping> {
         let abrupt = self.exits > ABRUPT * mean_step * self.runs as f64;
         (self.runs >= RUNS && abrupt).then_some(Clipping {
@@ -72,18 +81,29 @@ pub(super) struct Clipping {
 }
 
 impl Range {
-    pub(super) fn take(&mut self, value: f64) {
-        self.high.take(value, self.count);
-        self.low.take(-value, self.count);
-        if self.count > 0 {
-            self.steps += (value - self.last).abs();
+    /// Takes the next samples, one or more.
+    pub(super) fn take(&mut self, values: &[f64]) {
+        let (count, own) = (values.len() as f64, sum(values) / values.len() as f64);
+        for (some, at) in values.chunks(AT_ONCE).zip((self.count..).step_by(AT_ONCE)) {
+            // Most are no extremes.
+            if at == 0 || self.high.is_reached(highest(some)) {
+                some.iter().zip(at..).for_each(|(value, index)| self.high.take(*value, index));
+            }
+            if at == 0 || self.low.is_reached(-lowest(some)) {
+                some.iter().zip(at..).for_each(|(value, index)| self.low.take(-value, index));
+            }
         }
-        self.last = value;
-        self.count += 1;
-        let off = value - self.mean;
-        self.mean += off / self.count as f64;
-        self.sizes += value.abs();
-        self.squares += off * (value - self.mean);
+        if self.count > 0 {
+            self.steps += (values[0] - self.last).abs();
+        }
+        self.steps += steps(values)[0];
+        self.last = values[values.len() - 1];
+        self.sizes += sizes(values);
+        // Means and squares of both parts together (Chan, Golub and LeVeque 1983).
+        let (before, off) = (self.count as f64, own - self.mean);
+        self.mean += off * count / (before + count);
+        self.squares += squares(values, own) + off * off * before * count / (before + count);
+        self.count += values.len() as u64;
     }
 
     pub(super) fn mean(&self) -> f64 {

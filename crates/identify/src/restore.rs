@@ -3,13 +3,16 @@
 //! What the sensors show that is slower than the vibration stays; what is faster is replaced by what the motion of the masses takes.
 
 use crate::again::Again;
-use crate::channel::{Channel, PerChannel};
+use crate::block::Block;
+use crate::channel::Channel;
 use crate::fault::Fault;
 use crate::motion::{drift, integral, period, reach};
 use crate::rig::Rig;
 
 /// Samples that are restored at once.
 const CHUNK: usize = 1 << 15;
+/// What is restored.
+const FORCES: [Channel; 2] = [Channel::TangentialForce, Channel::NormalForce];
 /// Swing of the measured tangential force, over the restored one, from which on the sensors follow the vibration.
 const FOLLOWS: f64 = 0.5;
 
@@ -46,11 +49,11 @@ impl<'a> Samples<'a> {
         }
     }
 
-    /// The next sample; `None` at the end.
-    pub(super) fn next(&mut self) -> Result<Option<PerChannel<f64>>, Fault> {
+    /// Fills a block with the next samples; whether there are any.
+    pub(super) fn next(&mut self, block: &mut Block) -> Result<bool, Fault> {
         match self {
-            Samples::Measured(again) => again.next(),
-            Samples::Restored(restored) => restored.next(),
+            Samples::Measured(again) => again.next(block),
+            Samples::Restored(restored) => restored.next(block),
         }
     }
 
@@ -75,11 +78,11 @@ pub(super) struct Restored<'a> {
     /// Samples before and after, which those of a chunk need.
     around: usize,
     /// Samples as they were measured; the first that is not restored yet.
-    raw: Vec<PerChannel<f64>>,
+    raw: Block,
     from: usize,
     at_end: bool,
-    /// Restored samples.
-    ready: std::vec::IntoIter<PerChannel<f64>>,
+    /// Samples that were read last.
+    read: Block,
     /// Squared deviations of `T`, measured and restored.
     swing: [f64; 2],
 }
@@ -92,19 +95,12 @@ impl<'a> Restored<'a> {
             again,
             by,
             around,
-            raw: Vec::new(),
+            raw: Block::default(),
             from: 0,
             at_end: false,
-            ready: Vec::new().into_iter(),
+            read: Block::default(),
             swing: [0.0; 2],
         }
-    }
-
-    fn next(&mut self) -> Result<Option<PerChannel<f64>>, Fault> {
-        if self.ready.len() == 0 && !self.at_end {
-            self.restore()?;
-        }
-        Ok(self.ready.next())
     }
 
     /// Whether the force sensors follow the vibration, so that nothing had to be restored.
@@ -114,42 +110,45 @@ impl<'a> Restored<'a> {
     }
 
     /// Restores the next samples.
-    fn restore(&mut self) -> Result<(), Fault> {
+    fn next(&mut self, block: &mut Block) -> Result<bool, Fault> {
         let done = self.from.saturating_sub(self.around);
-        self.raw.drain(..done);
+        self.raw.leave(done);
         self.from -= done;
-        while self.raw.len() < self.from + CHUNK + self.around {
-            let Some(row) = self.again.next()? else {
-                self.at_end = true;
-                break;
-            };
-            self.raw.push(row);
+        while !self.at_end && self.raw.len() < self.from + CHUNK + self.around {
+            self.at_end = !self.again.next(&mut self.read)?;
+            self.raw.append(&self.read, 0..self.read.len());
         }
         let end = if self.at_end { self.raw.len() } else { self.from + CHUNK };
         let [measured, restored] = self.forces();
-        let mut ready = self.raw[self.from..end].to_vec();
-        for (row, k) in ready.iter_mut().zip(self.from..) {
-            let of = Channel::TangentialForce as usize;
-            self.swing[0] += (row[of] - measured[0][k]).powi(2);
-            self.swing[1] += restored[0][k].powi(2);
-            row[of] = measured[0][k] + restored[0][k];
-            row[Channel::NormalForce as usize] = measured[1][k] + restored[1][k];
+        let own = self.from..end;
+        block.clear();
+        block.append(&self.raw, own.clone());
+        let tangential = &self.raw.of(Channel::TangentialForce)[own.clone()];
+        for ((raw, slow), fast) in
+            tangential.iter().zip(&measured[0][own.clone()]).zip(&restored[0][own.clone()])
+        {
+            self.swing[0] += (raw - slow).powi(2);
+            self.swing[1] += fast.powi(2);
         }
-        self.ready = ready.into_iter();
+        for (channel, (slow, fast)) in FORCES.into_iter().zip(measured.iter().zip(&restored)) {
+            let column = &mut block.columns_mut()[channel as usize];
+            for ((force, slow), fast) in column.iter_mut().zip(&slow[own.clone()]).zip(&fast[own.clone()]) {
+                *force = slow + fast;
+            }
+        }
         self.from = end;
-        Ok(())
+        Ok(block.len() > 0)
     }
 
     /// `T` and `N` of all samples: what the sensors show, and what the rig adds to it.
     fn forces(&self) -> [[Vec<f64>; 2]; 2] {
         let (step, period) = (1.0 / self.by.rate, self.by.period());
-        let of =
-            |channel: Channel| -> Vec<f64> { self.raw.iter().map(|row| row[channel as usize]).collect() };
+        let of = |channel: Channel| self.raw.of(channel);
         let fast = |values: &[f64]| -> Vec<f64> {
             values.iter().zip(drift(values, period)).map(|(value, slow)| value - slow).collect()
         };
-        let a = fast(&of(Channel::TangentialAcceleration));
-        let normal = fast(&earlier(&of(Channel::NormalAcceleration), self.by.skew * self.by.rate));
+        let a = fast(of(Channel::TangentialAcceleration));
+        let normal = fast(&earlier(of(Channel::NormalAcceleration), self.by.skew * self.by.rate));
         let mut sums = Vec::new();
         integral(&a, step, &mut sums);
         let v = fast(&sums);
@@ -160,8 +159,7 @@ impl<'a> Restored<'a> {
             let forces = self.by.rig.forces([x[k], v[k], a[k]], normal[k]);
             restored.iter_mut().zip(forces).for_each(|(all, force)| all.push(force));
         }
-        let measured =
-            [Channel::TangentialForce, Channel::NormalForce].map(|channel| drift(&of(channel), period));
+        let measured = FORCES.map(|channel| drift(of(channel), period));
         [measured, restored]
     }
 }

@@ -1,5 +1,6 @@
 //! The third reading of a file: the samples of its episodes, and what a fit to them tells.
 
+use crate::block::Block;
 use crate::channel::Channel;
 use crate::course::course;
 use crate::cross::Ratio;
@@ -57,19 +58,20 @@ pub(super) fn sharpened(
         episodes.iter().enumerate().map(|(number, episode)| known.open(number, episode)).collect();
     waiting.reverse();
     let mut reading: Vec<Open> = Vec::new();
-    let mut sample = 0;
-    while !(waiting.is_empty() && reading.is_empty()) {
-        let Some(row) = again.next()? else { break };
-        while let Some(next) = waiting.pop_if(|next| next.samples[0] <= sample) {
+    let (mut block, mut first) = (Block::default(), 0);
+    while !(waiting.is_empty() && reading.is_empty()) && again.next(&mut block)? {
+        let end = first + block.len() as u64;
+        while let Some(next) = waiting.pop_if(|next| next.samples[0] < end) {
             reading.push(next);
         }
         for open in &mut reading {
+            let [from, _, to] = open.samples;
             for (values, channel) in open.channels.iter_mut().zip(&channels) {
-                values.push(row[*channel as usize]);
+                values.extend_from_slice(block.within(*channel, [from, to], first));
             }
         }
-        sample += 1;
-        for done in reading.extract_if(.., |open| open.samples[2] <= sample) {
+        first = end;
+        for done in reading.extract_if(.., |open| open.samples[2] <= end) {
             known.close(&mut episodes[done.episode], done);
         }
     }

@@ -19,7 +19,7 @@ const ABOVE: f64 = 4.0;
 /// Windows that are this part of their length apart weigh the power of every sample alike, as they are tapered by Hann …
 const APART: usize = 4;
 /// … so that they are no closer where the picture has this many of them in each of its columns all the same.
-const IN_A_COLUMN: u64 = 8;
+const IN_A_COLUMN: u64 = 4;
 /// Fewest samples of a window.
 const LEAST_SAMPLES: usize = 16;
 
@@ -108,17 +108,17 @@ impl Builder {
         }
     }
 
-    /// Takes the next sample.
-    pub(super) fn take(&mut self, value: f64) {
-        if !self.sliding.take(value) {
-            return;
+    /// Takes the next samples.
+    pub(super) fn take(&mut self, values: &[f64]) {
+        self.sliding.take(values);
+        while let Some(window) = self.sliding.window() {
+            self.spectra.power(window, &mut self.scratch);
+            let column = (self.windows.saturating_mul(self.columns as u64) / self.expected)
+                .min(self.columns as u64 - 1);
+            self.add(usize::try_from(column).unwrap_or(0));
+            self.windows += 1;
+            self.sliding.leave();
         }
-        self.spectra.power(self.sliding.window(), &mut self.scratch);
-        let column =
-            (self.windows.saturating_mul(self.columns as u64) / self.expected).min(self.columns as u64 - 1);
-        self.add(usize::try_from(column).unwrap_or(0));
-        self.windows += 1;
-        self.sliding.leave();
     }
 
     #[expect(clippy::cast_possible_truncation, reason = "a picture has no use for more digits than f32")]

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use num_complex::Complex64;
 use realfft::{RealFftPlanner, RealToComplex};
 
-use crate::lanes::{moment, sum};
+use crate::lanes::{add_line, moment, sum};
 
 /// The Hann window of this length: 0 at its first sample and one after its last.
 pub(super) fn hann(length: usize) -> Vec<f64> {
@@ -23,9 +23,7 @@ pub(super) fn detrend(values: &mut [f64]) {
     }
     // Of values whose mean is 0 the moment is the same about every point; Σ (k − middle)² = n (n² − 1)/12.
     let slope = moment(values) * 12.0 / (n * (n * n - 1.0)).max(1.0);
-    for (k, value) in values.iter_mut().enumerate() {
-        *value -= slope * (k as f64 - middle);
-    }
+    add_line(values, [middle * slope, -slope]);
 }
 
 /// Power spectra of windows of one length.
@@ -40,24 +38,55 @@ pub(super) struct Spectra {
 impl Spectra {
     /// Spectra under this window.
     pub(super) fn new(window: Vec<f64>) -> Spectra {
-        let transform = RealFftPlanner::new().plan_fft_forward(window.len());
+        let length = window.len();
+        Spectra::padded(window, length)
+    }
+
+    /// Spectra under this window, with zeros behind it where a length with small factors takes less time.
+    pub(super) fn quick(window: Vec<f64>) -> Spectra {
+        let is_quick = |length: &usize| {
+            let rest = [2, 3, 5, 7].into_iter().fold(*length, |mut rest, factor| {
+                while rest.is_multiple_of(factor) {
+                    rest /= factor;
+                }
+                rest
+            });
+            rest == 1
+        };
+        // There is a power of two.
+        let even = window.len().next_multiple_of(2);
+        let length = (even..=2 * even).step_by(2).find(is_quick).unwrap_or(even);
+        Spectra::padded(window, length)
+    }
+
+    fn padded(window: Vec<f64>, length: usize) -> Spectra {
+        let transform = RealFftPlanner::new().plan_fft_forward(length);
         let (input, output) = (transform.make_input_vec(), transform.make_output_vec());
         let scratch = transform.make_scratch_vec();
         Spectra { transform, window, input, output, scratch }
     }
 
+    /// Samples, with the zeros behind them: bins are the sampling rate over this apart.
+    pub(super) fn length(&self) -> usize {
+        self.input.len()
+    }
+
     /// `|F_k|²` for `k = 0 …  length/2` of `values` (as many as the window), trend removed.
     pub(super) fn power(&mut self, values: &[f64], power: &mut Vec<f64>) {
-        self.input.copy_from_slice(values);
-        detrend(&mut self.input);
-        self.input.iter_mut().zip(&self.window).for_each(|(value, weight)| *value *= weight);
+        let (own, zeros) = self.input.split_at_mut(values.len());
+        own.copy_from_slice(values);
+        detrend(own);
+        own.iter_mut().zip(&self.window).for_each(|(value, weight)| *value *= weight);
+        zeros.fill(0.0);
         self.transformed(power);
     }
 
     /// The same of values that have no trend.
     pub(super) fn power_of_level(&mut self, values: &[f64], power: &mut Vec<f64>) {
+        let (own, zeros) = self.input.split_at_mut(values.len());
         let weighted = values.iter().zip(&self.window).map(|(value, weight)| value * weight);
-        self.input.iter_mut().zip(weighted).for_each(|(input, value)| *input = value);
+        own.iter_mut().zip(weighted).for_each(|(input, value)| *input = value);
+        zeros.fill(0.0);
         self.transformed(power);
     }
 

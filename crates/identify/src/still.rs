@@ -1,7 +1,11 @@
 //! Whether a channel stands still for a while, as one whose sensor or cable drops out.
 
+use crate::lanes::steps;
+
 /// Fewest equal samples in a row that are looked at.
 const LEAST: u64 = 64;
+/// Samples that are looked at together.
+const AT_ONCE: usize = 64;
 /// A channel that stops, or starts again, with a step this many times its smallest one has not come to rest by itself.
 const ABRUPT: f64 = 20.0;
 
@@ -27,8 +31,31 @@ pub(super) struct Stillness {
 }
 
 impl Stillness {
-    /// Takes the next sample.
-    pub(super) fn take(&mut self, value: f64) {
+    /// Takes the next samples.
+    pub(super) fn take(&mut self, values: &[f64]) {
+        for some in values.chunks(AT_ONCE) {
+            let [first, .., before, last] = some else {
+                for value in some {
+                    self.one(*value);
+                }
+                continue;
+            };
+            let [_, least] = steps(some);
+            self.one(*first);
+            if least > 0.0 {
+                // Each differs from the one before: between the ends nothing stands.
+                self.one(some[1]);
+                self.index += some.len() as u64 - 3;
+                self.smallest = self.smallest.map(|smallest| smallest.min(least));
+                self.now.value = *before;
+                self.one(*last);
+            } else {
+                some[1..].iter().for_each(|value| self.one(*value));
+            }
+        }
+    }
+
+    fn one(&mut self, value: f64) {
         let step = (value - self.now.value).abs();
         if self.index > 0 && step > 0.0 {
             self.close(step);
@@ -54,5 +81,27 @@ impl Stillness {
         let Stillness { longest, smallest, .. } = self;
         let abrupt = longest.step > ABRUPT * smallest?;
         (abrupt && longest.count as f64 >= least.max(LEAST as f64)).then_some(longest)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The chunks that are looked at together hide no stand, wherever it begins and ends.
+    #[test]
+    fn a_stand_is_found_wherever_it_lies() {
+        for (from, count) in [(0, 64), (1, 70), (63, 64), (64, 64), (65, 127), (100, 200), (129, 64)] {
+            let moves = |k: u64| 1e-3 * (k as f64 + (k % 7) as f64);
+            let sample = |k: u64| if (from..from + count).contains(&k) { 5.0 } else { moves(k) };
+            let values: Vec<f64> = (0..400).map(sample).collect();
+            let mut still = Stillness::default();
+            values.chunks(90).for_each(|some| still.take(some));
+            let found = still.finish(0.0).map(|stand| (stand.value, stand.first, stand.count));
+            assert_eq!(found, Some((5.0, from, count)));
+            let mut moving = Stillness::default();
+            (0..400).for_each(|k| moving.take(&[moves(k)]));
+            assert_eq!(moving.finish(0.0), None);
+        }
     }
 }

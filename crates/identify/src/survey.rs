@@ -1,6 +1,7 @@
 //! The first reading of a file: is it fit for analysis, and where is its oscillation?
 
 use crate::again::Kept;
+use crate::block::Block;
 use crate::channel::{Channel, PerChannel};
 use crate::fault::{Fault, RATES};
 use crate::outlier::Watch;
@@ -8,6 +9,7 @@ use crate::pace::Pace;
 use crate::range::Range;
 use crate::read::Table;
 use crate::settings::Settings;
+use crate::sliding::Sliding;
 use crate::spectrum::{Spectra, hann, noise_floor, refine};
 use crate::still::{Stand, Stillness};
 use crate::unit::TimeUnit;
@@ -83,32 +85,28 @@ pub(super) fn survey(mut table: Table, settings: &Settings) -> Result<(Survey, K
     let has = Channel::ALL.map(|channel| table.has(channel));
     let mut kept = Kept::new(has);
     let mut pace = table.reads_time().then(|| Pace::new(table.time_name()));
-    let mut ranges = PerChannel::<Range>::default();
-    let mut stills = PerChannel::<Stillness>::default();
-    let mut watches = PerChannel::<Watch>::default();
-    let mut spectrum = MeanSpectrum::default();
+    let mut seen = Seen::default();
+    let mut block = Block::default();
     let mut samples = 0;
     let mut times = None::<[f64; 2]>;
-    while let Some(row) = table.next()? {
+    loop {
+        let row = table.next()?;
+        if block.is_full() || row.is_none() {
+            seen.take(&block, has);
+            kept.take(&block);
+            block.clear();
+        }
+        let Some(row) = row else { break };
         if let (Some(pace), Some(time)) = (&mut pace, row.time) {
             pace.row(row.place, time)?;
         }
         if let Some(time) = row.time {
             times = Some([times.map_or(time, |[first, _]| first), time]);
         }
-        for (range, value) in ranges.iter_mut().zip(row.values) {
-            range.take(value);
-        }
-        for (watch, value) in watches.iter_mut().zip(row.values) {
-            watch.take(value);
-        }
-        for (still, value) in stills.iter_mut().zip(row.values) {
-            still.take(value);
-        }
-        spectrum.take(row.values[Channel::TangentialAcceleration as usize]);
-        kept.take(&row.values);
+        block.push(&row.values);
         samples += 1;
     }
+    let Seen { ranges, stills, watches, mut spectrum } = seen;
     if samples < LEAST_SAMPLES {
         return Err(Fault::TooShort { samples, least: LEAST_SAMPLES, because: String::new() });
     }
@@ -179,6 +177,27 @@ pub(super) fn survey(mut table: Table, settings: &Settings) -> Result<(Survey, K
     let found =
         Survey { samples, start, rate, names, has, turned, frequency, outside, remarks, constant, still };
     Ok((found, kept))
+}
+
+/// What is told of the channels while the record goes by.
+#[derive(Default)]
+struct Seen {
+    ranges: PerChannel<Range>,
+    stills: PerChannel<Stillness>,
+    watches: PerChannel<Watch>,
+    spectrum: MeanSpectrum,
+}
+
+impl Seen {
+    fn take(&mut self, block: &Block, has: PerChannel<bool>) {
+        for channel in Channel::ALL.into_iter().filter(|channel| has[*channel as usize] && block.len() > 0) {
+            let values = block.of(channel);
+            self.ranges[channel as usize].take(values);
+            self.watches[channel as usize].take(values);
+            self.stills[channel as usize].take(values);
+        }
+        self.spectrum.take(block.of(Channel::TangentialAcceleration));
+    }
 }
 
 /// Whether a stroke goes the other way; one that goes both ways is refused.
@@ -296,26 +315,29 @@ fn forces(table: &Table, ranges: &PerChannel<Range>, settings: &Settings, turned
 }
 
 /// The mean power spectrum of a signal of any length: segments that overlap by half, and what remains.
-#[derive(Default)]
 struct MeanSpectrum {
-    waiting: Vec<f64>,
+    segments: Sliding,
     sum: Vec<f64>,
     spectra: Option<Spectra>,
     power: Vec<f64>,
 }
 
+impl Default for MeanSpectrum {
+    fn default() -> MeanSpectrum {
+        let segments = Sliding::new(SEGMENT, SEGMENT / 2);
+        MeanSpectrum { segments, sum: Vec::new(), spectra: None, power: Vec::new() }
+    }
+}
+
 impl MeanSpectrum {
-    fn take(&mut self, value: f64) {
-        self.waiting.push(value);
-        if self.waiting.len() == SEGMENT {
+    fn take(&mut self, values: &[f64]) {
+        self.segments.take(values);
+        while let Some(segment) = self.segments.window() {
             let spectra = self.spectra.get_or_insert_with(|| Spectra::new(hann(SEGMENT)));
-            spectra.power(&self.waiting, &mut self.power);
-            if self.sum.is_empty() {
-                self.sum.clone_from(&self.power);
-            } else {
-                self.sum.iter_mut().zip(&self.power).for_each(|(sum, power)| *sum += power);
-            }
-            self.waiting.drain(..SEGMENT / 2);
+            spectra.power(segment, &mut self.power);
+            self.sum.resize(self.power.len(), 0.0);
+            self.sum.iter_mut().zip(&self.power).for_each(|(sum, power)| *sum += power);
+            self.segments.leave();
         }
     }
 
@@ -324,8 +346,8 @@ impl MeanSpectrum {
         let mut length = SEGMENT;
         if self.spectra.is_none() {
             // A record shorter than a segment: no taper, as a growing oscillation is strongest at its end.
-            length = self.waiting.len();
-            Spectra::new(vec![1.0; length]).power(&self.waiting, &mut self.sum);
+            length = self.segments.rest().len();
+            Spectra::new(vec![1.0; length]).power(self.segments.rest(), &mut self.sum);
         }
         let width = rate / length as f64;
         let inside = |k: usize| {

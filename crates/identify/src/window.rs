@@ -117,7 +117,7 @@ impl Analyser {
             has,
             band: settings.band,
             restored: settings.rig.is_some(),
-            spectra: Spectra::new(hann(geometry.window)),
+            spectra: Spectra::quick(hann(geometry.window)),
             taper: hann(geometry.block),
             power: Vec::new(),
             beside: Beside::default(),
@@ -140,7 +140,7 @@ impl Analyser {
         self.load(channels, friction.unwrap_or(0.0));
         let rms = (dot(&self.signals[0], &self.signals[0]) / self.geometry.window as f64).sqrt();
         let (bin, mut distortion, x_noise) = self.peak();
-        let frequency = bin * self.rate / self.geometry.window as f64;
+        let frequency = bin * self.rate / self.spectra.length() as f64;
         // Block and window are tapered alike, so noise powers go with their lengths.
         let shorter = self.geometry.block as f64 / self.geometry.window as f64;
         let mut noise = [x_noise; 4];
@@ -242,7 +242,7 @@ impl Analyser {
     /// Position of the dominant peak of the tangential acceleration (bins), its distortion and its noise.
     fn peak(&mut self) -> (f64, f64, f64) {
         self.spectra.power_of_level(&self.signals[0], &mut self.power);
-        let width = self.rate / self.geometry.window as f64;
+        let width = self.rate / self.spectra.length() as f64;
         let inside =
             |k: usize| self.band.is_none_or(|[low, high]| (low..=high).contains(&(k as f64 * width)));
         let bins = (DRIFT_BINS..self.power.len()).filter(|k| inside(*k));
