@@ -4,7 +4,7 @@
 //! residuals of all quantities by [`PRICE`].
 
 /// What a cut has to gain. Noise alone gains the number of its parameters, some 10; slow modulation of a limit cycle more.
-const PRICE: f64 = 60.0;
+pub(super) const PRICE: f64 = 60.0;
 /// The most pieces of a stretch.
 const PIECES: usize = 5;
 
@@ -37,6 +37,11 @@ impl Course {
         Course { sums, scale: scatter.max(least) }
     }
 
+    /// By what residuals are scaled.
+    pub(super) fn scale(&self) -> f64 {
+        self.scale
+    }
+
     /// Scaled squared residuals of a line through the points `from..to`.
     fn cost(&self, from: usize, to: usize) -> f64 {
         let n = (to - from) as f64;
@@ -49,11 +54,16 @@ impl Course {
 
 /// The ends of the pieces of `count` cells, the last one `count` itself; no piece has fewer than `least` cells.
 pub(super) fn cut(count: usize, courses: &[Course], least: usize) -> Vec<usize> {
+    priced(count, courses, least).0
+}
+
+/// The same, and what is left of all residuals with the price of the cuts.
+pub(super) fn priced(count: usize, courses: &[Course], least: usize) -> (Vec<usize>, f64) {
     let least = least.max(3);
-    if courses.is_empty() || count < 2 * least {
-        return vec![count];
-    }
     let cost = |from: usize, to: usize| courses.iter().map(|course| course.cost(from, to)).sum::<f64>();
+    if courses.is_empty() || count < 2 * least {
+        return (vec![count], cost(0, count));
+    }
     // best[k][to]: the least cost of the first `to` cells in k + 1 pieces, and where the last of them begins.
     let mut best: Vec<Vec<(f64, usize)>> =
         vec![(0..=count).map(|to| (if to >= least { cost(0, to) } else { f64::INFINITY }, 0)).collect()];
@@ -68,12 +78,12 @@ pub(super) fn cut(count: usize, courses: &[Course], least: usize) -> Vec<usize> 
         best.push(row);
     }
     let priced = (0..PIECES).map(|k| best[k][count].0 + PRICE * k as f64);
-    let pieces = priced.enumerate().min_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(k, _)| k);
+    let (pieces, price) = priced.enumerate().min_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or_default();
     let mut ends = vec![count];
     for k in (1..=pieces).rev() {
         let end = ends[ends.len() - 1];
         ends.push(best[k][end].1);
     }
     ends.reverse();
-    ends
+    (ends, price)
 }

@@ -2,9 +2,10 @@
 
 use crate::cells::Cell;
 use crate::cross::Measured;
+use crate::knee::Knee;
 use crate::settings::Settings;
 use crate::trend::Trended;
-use crate::within::differ;
+use crate::within::{SIDE, differ};
 
 /// Velocity of the vibration, over that of sliding, below which the mean of `T/N` is the friction at the mean velocity.
 pub(super) const SMALL: f64 = 0.1;
@@ -109,51 +110,70 @@ fn extremes(slopes: impl Iterator<Item = Measured>) -> Option<[Measured; 2]> {
 }
 
 /// Slopes (s/m) of the levels over the velocity.
-struct Trend {
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Trend {
     all: Measured,
     /// Early and late.
     halves: [Measured; 2],
+    /// Where friction falls least, and where it falls most.
+    ends: [Measured; 2],
+    /// The range of the velocity, m/s.
+    range: f64,
 }
 
 impl Trend {
-    /// `None` where the velocity hardly moves, or the law is read too seldom to tell early from late: a knee below smears into what is read
-    /// above it.
-    fn new(cells: &[Cell]) -> Option<Trend> {
+    /// `None` where the velocity hardly moves, or the law is read too seldom to tell early from late. `knees`: whether the first and the last
+    /// cell are at one; what the knee above all cells smears into them is taken out.
+    pub(super) fn new(cells: &[Cell], knees: [bool; 2], knee: Option<Knee>) -> Option<Trend> {
         /// Relative range of the velocity from which on levels show a slope.
         const MOVES: f64 = 0.1;
         let slope = |cells: &[Cell]| {
             let found = reads(cells);
-            (found.len() >= LEAST).then(|| Trended::new(found.iter().map(|(_, point)| *point)).slope)
+            let clear = |[velocity, level]: [f64; 2]| {
+                [velocity, level - knee.map_or(0.0, |knee| knee.smear(velocity))]
+            };
+            (found.len() >= LEAST).then(|| Trended::new(found.iter().map(|(_, point)| clear(*point))).slope)
         };
-        if spread(cells, Cell::velocity) < MOVES {
+        let spread = spread(cells, Cell::velocity);
+        if spread < MOVES {
             return None;
         }
         let all = slope(cells)?;
         let (early, late) = cells.split_at(cells.len() / 2);
-        Some(Trend { all, halves: [slope(early)?, slope(late)?] })
+        let halves = [slope(early)?, slope(late)?];
+        let range = spread * Cell::sum(cells).velocity().abs();
+        Some(Trend { all, halves, ends: ends(cells, halves, knees), range })
     }
 
-    /// Where friction falls least, and where it falls most: a slope that changes goes on changing from the middles of its halves to either
-    /// end, of which half of the way counts. At the faster end the law may have had its knee meanwhile, which is smeared over a fifth of
-    /// the velocity: what the slope clearly changes by counts over that, too, unless the record is cut there (`knees`: the first and the last cell).
-    fn ends(&self, cells: &[Cell], knees: [bool; 2]) -> [Measured; 2] {
-        /// The part of the velocity over which a knee is smeared, and the most that it counts, over the way between the halves.
-        const SMEARED: f64 = 0.2;
-        const MOST: f64 = 2.0;
-        let [early, late] = self.halves;
-        let [first, last] = [&cells[0], &cells[cells.len() - 1]].map(|cell| cell.velocity().abs());
-        let smeared = (SMEARED * first.max(last) / (0.5 * (first - last).abs())).min(MOST);
-        let further = [!knees[0] && first > last, !knees[1] && last > first];
-        let end = |near: Measured, far: Measured, further: bool| {
-            let clearly = (near.value - far.value - near.error.hypot(far.error)).max(0.0);
-            Measured {
-                value: 1.25 * near.value - 0.25 * far.value + if further { smeared * clearly } else { 0.0 },
-                error: (1.25 * near.error).hypot(0.25 * far.error),
-            }
-        };
-        extremes([end(early, late, further[0]), end(late, early, further[1])].into_iter())
-            .unwrap_or(self.halves)
+    /// The slope, whether it bends, and its extremes, where friction at this velocity (m/s) is known up to `allowed` and has this `level`.
+    fn read(&self, allowed: f64, level: f64, velocity: f64) -> Read {
+        let wider = |slope: Measured| Measured { error: slope.error.hypot(allowed / self.range), ..slope };
+        let bent = differ(self.halves.map(wider), level, velocity);
+        (wider(self.all), bent, Some(self.ends.map(wider)))
     }
+}
+
+/// A slope, whether it is another at either end, and its extremes.
+type Read = (Measured, bool, Option<[Measured; 2]>);
+
+/// Where friction falls least, and where it falls most, by the slopes of both halves: a slope that changes goes on changing from their middles to
+/// either end, of which half of the way counts. At the faster end the law may have had its knee meanwhile, which is smeared over a fifth of
+/// the velocity: what the slope clearly changes by counts over that, too, unless the record is cut there (`knees`: the first and the last cell).
+fn ends(cells: &[Cell], [early, late]: [Measured; 2], knees: [bool; 2]) -> [Measured; 2] {
+    /// The most that the smear of a knee counts, over the way between the halves.
+    const MOST: f64 = 2.0;
+    let [first, last] = [&cells[0], &cells[cells.len() - 1]].map(|cell| cell.velocity().abs());
+    let smeared = (SIDE * first.max(last) / (0.5 * (first - last).abs())).min(MOST);
+    let further = [!knees[0] && first > last, !knees[1] && last > first];
+    let end = |near: Measured, far: Measured, further: bool| {
+        let clearly = (near.value - far.value - near.error.hypot(far.error)).max(0.0);
+        Measured {
+            value: 1.25 * near.value - 0.25 * far.value + if further { smeared * clearly } else { 0.0 },
+            error: (1.25 * near.error).hypot(0.25 * far.error),
+        }
+    };
+    let both = [end(early, late, further[0]), end(late, early, further[1])];
+    extremes(both.into_iter()).unwrap_or(both)
 }
 
 /// Whether the law read within the oscillation has another slope early than late: the velocity (m/s, its mean) has passed a bend.
@@ -200,14 +220,22 @@ fn damping(cells: &[Cell], all: &Cell, settings: &Settings) -> Option<Measured> 
     read.map(|Measured { value, error }| Measured { value: value / normal, error: error / normal })
 }
 
-/// Level and slope of friction; whether the velocity is recorded, whether it limits the vibration, and whether the first and the last cell
-/// are at a knee of the law.
-pub(super) fn level(
-    cells: &[Cell],
-    all: &Cell,
-    (has_velocity, limited, knees): (bool, bool, [bool; 2]),
-    settings: &Settings,
-) -> Level {
+/// What is known of a segment whose friction is read.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Around {
+    /// Whether the velocity is recorded, and whether it limits the vibration.
+    pub(super) has_velocity: bool,
+    pub(super) limited: bool,
+    /// Whether the first and the last cell are at a knee of the law.
+    pub(super) knees: [bool; 2],
+    /// The knee below which the segment lies, where one is fitted.
+    pub(super) knee: Option<Knee>,
+    /// The law of all that lies below that knee, where it is a straight line: of what smears from above alone a line would have a slope, too.
+    pub(super) line: Option<Trend>,
+}
+
+/// Level and slope of friction.
+pub(super) fn level(cells: &[Cell], all: &Cell, around: Around, settings: &Settings) -> Level {
     /// Relative range of the velocity from which on there is a slope.
     const MOVES: f64 = 0.05;
     /// Systematic errors of a friction coefficient, relative, and of a slope, over that of `μ/v`.
@@ -216,6 +244,7 @@ pub(super) fn level(
     const OFF: f64 = 0.1;
     /// That of a slope within the oscillation, over that: it is read over two fifths of the velocity.
     const LOCAL: f64 = 3.0;
+    let Around { has_velocity, limited, knees, knee, line } = around;
     let damping = damping(cells, all, settings).filter(|_| limited && all.swing() >= FOLLOWS);
     let misfit = settings.rig.and_then(|_| misfit(cells));
     let fits = settings.rig.is_none() || misfit.is_some_and(|misfit| misfit < UNFIT);
@@ -228,19 +257,17 @@ pub(super) fn level(
         let velocity = all.velocity();
         let local = (LOCAL * known / velocity.abs()).hypot(all.within.unclear_bend(velocity));
         let slope = Measured { error: slope.error.hypot(local), ..slope };
-        let wider = |by: f64| move |slope: Measured| Measured { error: slope.error.hypot(by), ..slope };
+        let wider = |slope: Measured| Measured { error: slope.error.hypot(local), ..slope };
         // By the levels over the velocity, or within each period, whichever is known better. What the jumps of friction lose between samples
         // tilts the law within a period: with restored forces its levels alone count.
-        let moves = Trend::new(cells).map(|trend| {
-            let systematic = allowed / (spread(cells, Cell::velocity) * velocity.abs());
-            let bent = differ(trend.halves.map(wider(systematic)), level.value, velocity);
-            (wider(systematic)(trend.all), bent, Some(trend.ends(cells, knees).map(wider(systematic))))
-        });
+        let moves = Trend::new(cells, knees, knee).map(|own| own.read(allowed, level.value, velocity));
+        let around = line.map(|line| line.read(allowed, level.value, velocity));
         let inside = settings.rig.is_none().then(|| {
             let bent = all.within.bends(velocity) || turns(cells, velocity);
-            (slope, bent, parts(cells).map(|both| both.map(wider(local))))
+            (slope, bent, parts(cells).map(|both| both.map(wider)))
         });
-        let better = moves.into_iter().chain(inside).min_by(|a, b| a.0.error.total_cmp(&b.0.error));
+        let better =
+            moves.into_iter().chain(around).chain(inside).min_by(|a, b| a.0.error.total_cmp(&b.0.error));
         let (slope, extremes) =
             better.map_or((None, None), |(slope, bent, extremes)| ((!bent).then_some(slope), extremes));
         let level = Measured { error, ..level };

@@ -12,7 +12,7 @@
 //! | friction power and its parts | `feedback.rs` |
 //! | which mechanism alone would destabilise | `attribution.rs` |
 //! | verdict of the growth, confidence, reasons | `verdict.rs`, `reading.rs`, `overview.rs`, `conclude.rs` |
-//! | segments of time: where the record changes in kind | `cells.rs`, `cut.rs`, `segment.rs`, `trend.rs`, `within.rs`, `losses.rs` |
+//! | segments of time: where the record changes in kind | `cells.rs`, `cut.rs`, `knee.rs`, `segment.rs`, `trend.rs`, `within.rs`, `losses.rs` |
 //! | what three witnesses say of each, and together | `witness.rs`, `population.rs`, `joint.rs`, `testimony.rs`, `rates.rs`, `told.rs` |
 //! | points for `fit` | `points.rs`, `undisturbed.rs`, `measured.rs` |
 //! | pictures | `spectrogram.rs`, `envelope.rs`, `clips.rs`, `instants.rs` |
@@ -40,6 +40,7 @@ mod formats;
 mod inertia;
 mod instants;
 mod joint;
+mod knee;
 mod lanes;
 mod level;
 mod line;

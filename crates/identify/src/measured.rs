@@ -38,8 +38,9 @@ pub fn read_measurements(
     if records {
         let found = identify(&mut open, name, settings, &mut |_, _| ())?;
         let Undisturbed { points, left_out } = found.undisturbed;
-        let point = |(velocity, friction, own): &(f64, f64, Option<f64>)| {
-            Some(Point { velocity: *velocity, friction: *friction, temperature: temperature.or(*own)? })
+        let point = |(point, own): &(Point, bool)| {
+            let temperature = temperature.or(own.then_some(point.temperature))?;
+            Some(Point { temperature, ..*point })
         };
         let points: Option<Vec<Point>> = points.iter().map(point).collect();
         // Without a vibration there are no windows, and without a temperature the table says what is missing.

@@ -12,6 +12,8 @@ use crate::settings::Settings;
 pub struct Point {
     /// Sliding velocity, m/s; its sign does not matter.
     pub velocity: f64,
+    /// Half of the range of velocities over which the friction is averaged, m/s.
+    pub half_range: f64,
     /// Friction coefficient.
     pub friction: f64,
     /// Temperature, °C.
@@ -100,6 +102,7 @@ fn points(
         };
         points.push(Point {
             velocity: value(Channel::Velocity),
+            half_range: 0.0,
             friction,
             temperature: temperature.unwrap_or(value(Channel::Temperature)),
         });

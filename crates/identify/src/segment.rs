@@ -4,8 +4,9 @@ use std::f64::consts::TAU;
 
 use crate::cells::Cell;
 use crate::cross::{INDEPENDENT, Measured};
-use crate::cut::{Course, cut};
-use crate::level::{LEAST, Level, Reading, follows, level, reads, spread};
+use crate::cut::{Course, PRICE, cut, priced};
+use crate::knee::Knee;
+use crate::level::{Around, LEAST, Level, Reading, Trend, follows, level, reads, spread};
 use crate::population::{Seen, Source};
 use crate::rig::Rig;
 use crate::settings::Settings;
@@ -21,6 +22,9 @@ pub(super) const REVERSES: f64 = 0.5;
 const SHORTEST: f64 = 0.03;
 /// Change of the logarithm of the amplitude that is no steady vibration any more.
 const CHANGES: f64 = 1.0;
+/// E-foldings per period below which nothing that is left to itself dies out: 0.02 % of critical damping. What becomes weaker slower than that
+/// follows the velocity, perhaps, which is not recorded.
+const LINGERS: f64 = 1e-3;
 /// Standard errors from which on a trend of the amplitude is one.
 const CLEAR: f64 = 6.0;
 
@@ -154,12 +158,15 @@ pub(super) fn segments(cells: &[Cell], has: Has, settings: &Settings) -> Vec<Seg
         )]
         let least = LEAST.max((SHORTEST * cells.len() as f64).ceil() as usize);
         let mut before = Edge { at: 0, knee: false };
-        for after in by_law(stretch, has, vibrating, least) {
+        let (edges, knee) = by_law(stretch, has, vibrating, least);
+        for after in edges {
             let part = &stretch[before.at..after.at];
+            let knee = knee.filter(|knee| Cell::sum(part).velocity().abs() < knee.below);
+            let line = knee.and_then(|_| Trend::new(part, [before.knee, after.knee], knee));
             let mut start = 0;
             for end in cut(part.len(), &courses(part, has, vibrating), least) {
                 let knees = [before.knee && start == 0, after.knee && end == part.len()];
-                let context = Context { vibrating, largest, knees };
+                let context = Context { vibrating, largest, knees, knee, line };
                 found.push(segment(&part[start..end], has, context, settings));
                 start = end;
             }
@@ -206,23 +213,37 @@ struct Edge {
 }
 
 /// The ends of the parts of a stretch in each of which the friction law is a straight line, where it is read within the oscillation: a knee
-/// of the law comes first, what else changes with the velocity is cut between.
-fn by_law(cells: &[Cell], has: Has, vibrating: bool, least: usize) -> Vec<Edge> {
+/// of the law comes first, what else changes with the velocity is cut between. And the knee, where that explains what is read better than
+/// straight lines do.
+fn by_law(cells: &[Cell], has: Has, vibrating: bool, least: usize) -> (Vec<Edge>, Option<Knee>) {
     /// The least scatter of a level that means anything.
     const SCATTER: f64 = 0.005;
+    /// By how much less a knee has to leave of the residuals than lines do.
+    const CLEARLY: f64 = 4.0;
     let whole = vec![Edge { at: cells.len(), knee: false }];
     if !(has.forces && has.velocity && vibrating && follows(cells) && spread(cells, Cell::velocity) > 0.05) {
-        return whole;
+        return (whole, None);
     }
     let found = reads(cells);
     if found.len() < 2 * LEAST {
-        return whole;
+        return (whole, None);
     }
     let points: Vec<[f64; 2]> = found.iter().map(|(_, point)| *point).collect();
     let lines = (least * found.len()).div_ceil(cells.len());
-    let cuts = cut(points.len(), &[Course::new(&points, SCATTER)], lines);
+    let course = Course::new(&points, SCATTER);
+    let scale = course.scale();
+    let (cuts, price) = priced(points.len(), &[course], lines);
+    let knee = Knee::fitted(&points, scale, lines).filter(|(_, left)| left + PRICE + CLEARLY < price);
+    let (cuts, knee) = match knee {
+        Some((knee, _)) => {
+            let faster = |point: &[f64; 2]| point[0].abs() > knee.below;
+            let before = points.iter().take_while(|point| faster(point) == faster(&points[0])).count();
+            (vec![before, points.len()], Some(knee))
+        }
+        None => (cuts, None),
+    };
     let knees = cuts.iter().take(cuts.len() - 1).map(|cut| Edge { at: found[cut - 1].0, knee: true });
-    knees.chain(whole).collect()
+    (knees.chain(whole).collect(), knee)
 }
 
 /// The quantities that stay in kind within a segment.
@@ -275,21 +296,26 @@ struct Context {
     largest: f64,
     /// Whether it begins, and ends, where the law has a knee.
     knees: [bool; 2],
+    /// The knee below which it lies, where one is fitted.
+    knee: Option<Knee>,
+    /// The law of all that lies below that knee, where it is a straight line.
+    line: Option<Trend>,
 }
 
 /// One segment, not judged yet.
 fn segment(cells: &[Cell], has: Has, context: Context, settings: &Settings) -> Segment {
-    let Context { vibrating, largest, knees } = context;
+    let Context { vibrating, largest, knees, knee, line } = context;
     let all = Cell::sum(cells);
     let reach = reached(&all, has).filter(|_| all.is_loud());
     let change = change(cells, has);
     let clear = change.abs() > CHANGES;
     let limited = reach.is_some_and(|reach| reach >= REVERSES);
+    let lingers = !has.velocity && change > -LINGERS * all.frequency() * (all.time[1] - all.time[0]);
     let state = match (vibrating, clear && !limited) {
         (false, _) => State::Quiet,
         (true, true) if change > 0.0 => State::Growing,
-        (true, true) => State::Decaying,
-        (true, false) => State::Sustained,
+        (true, true) if !lingers => State::Decaying,
+        (true, _) => State::Sustained,
     };
     // What dies out may still stand out of the noise.
     let weak =
@@ -305,7 +331,9 @@ fn segment(cells: &[Cell], has: Has, context: Context, settings: &Settings) -> S
         phase: shown.map(|(phase, _)| phase),
         coherence: shown.map(|(_, coherence)| coherence),
         across: settings.rig.filter(|_| shown.is_some()).and_then(|rig| across(cells, rig, settings.skew)),
-        friction: has.forces.then(|| level(cells, &all, (has.velocity, limited, knees), settings)),
+        friction: has.forces.then(|| {
+            level(cells, &all, Around { has_velocity: has.velocity, limited, knees, knee, line }, settings)
+        }),
         velocity: has.velocity.then(|| [cells[0].velocity(), cells[cells.len() - 1].velocity()]),
         temperature: has.temperature.then(|| all.temperature()),
         seen: None,

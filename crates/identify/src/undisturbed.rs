@@ -5,6 +5,7 @@
 
 use crate::cells::Cell;
 use crate::level::SMALL;
+use crate::points::Point;
 
 /// How long a slow force sensor remembers a vibration, s: six time constants at 50 Hz.
 const REMEMBERS: f64 = 0.02;
@@ -15,10 +16,19 @@ const APART: f64 = 4.0;
 /// Friction that no vibration blurs.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Undisturbed {
-    /// Velocity (m/s), friction coefficient, and temperature (°C) where it is recorded.
-    pub points: Vec<(f64, f64, Option<f64>)>,
+    /// Points, and whether their temperature was recorded.
+    pub points: Vec<(Point, bool)>,
     /// Share of the record that is left out.
     pub left_out: f64,
+}
+
+/// Half of the range that the velocity passes within a cell and its windows, which reach over its ends, m/s.
+fn half_range(cells: &[Cell], number: usize) -> f64 {
+    let [before, after] = [number.saturating_sub(1), (number + 1).min(cells.len() - 1)].map(|k| &cells[k]);
+    let cell = &cells[number];
+    let hop = (cell.time[1] - cell.time[0]) / cell.windows;
+    let pace = (after.velocity() - before.velocity()) / (after.middle() - before.middle());
+    if pace.is_finite() { 0.5 * pace.abs() * hop * (cell.windows + APART - 1.0) } else { 0.0 }
 }
 
 /// The points of the cells of a record with velocity and forces.
@@ -27,7 +37,7 @@ pub(super) fn undisturbed(cells: &[Cell], has_temperature: bool) -> Undisturbed 
     let (mut blurred, mut all) = (0.0, 0.0);
     let mut since = f64::NEG_INFINITY;
     let mut last = f64::NEG_INFINITY;
-    for cell in cells {
+    for (number, cell) in cells.iter().enumerate() {
         all += cell.windows;
         let vibrates = cell.is_loud() && cell.reach().is_none_or(|reach| reach >= SMALL);
         if vibrates {
@@ -40,8 +50,9 @@ pub(super) fn undisturbed(cells: &[Cell], has_temperature: bool) -> Undisturbed 
         let hop = (cell.time[1] - cell.time[0]) / cell.windows;
         if cell.middle() - last > (APART - 0.5) * hop {
             last = cell.middle();
-            let temperature = has_temperature.then(|| cell.temperature());
-            points.push((cell.velocity(), cell.friction(), temperature));
+            let (velocity, friction, temperature) = (cell.velocity(), cell.friction(), cell.temperature());
+            let half_range = half_range(cells, number);
+            points.push((Point { velocity, half_range, friction, temperature }, has_temperature));
         }
     }
     Undisturbed { points, left_out: if all > 0.0 { blurred / all } else { 0.0 } }

@@ -6,8 +6,10 @@
 
 use crate::cross::Measured;
 
-/// Sliding velocities around the mean one, over it, at which the law is read: the lower and the upper side.
-const SIDES: [[f64; 2]; 2] = [[0.8, 1.0], [1.0, 1.2]];
+/// The part of the mean sliding velocity, on either side of it, over which the law is read.
+pub(super) const SIDE: f64 = 0.2;
+/// Sliding velocities around the mean one, over it: the lower and the upper side.
+const SIDES: [[f64; 2]; 2] = [[1.0 - SIDE, 1.0], [1.0, 1.0 + SIDE]];
 /// Fewest samples per period: with fewer the jumps of friction, which are smeared over three of them, reach far into the slip.
 pub(super) const PER_PERIOD: f64 = 12.0;
 /// Normal force, over its mean, below which the contact is about to open: `T/N` is mostly noise there.

@@ -106,7 +106,7 @@ pub fn courses(fit: &Fit, points: &[Point]) -> Vec<Course> {
         }
         let friction = |speed: f64| match Shape::of(fit.law) {
             Shape::Falling(part, _) => {
-                let part = part.at(speed, value(2));
+                let part = part.over([speed; 2], value(2));
                 value(0) * (1.0 - part) + value(1) * part
             }
             Shape::Level | Shape::Other => value(0),

@@ -11,7 +11,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::study::fit::problem::{DETERMINED, Problem};
+use crate::study::fit::problem::{DETERMINED, Problem, speeds};
 
 /// Standard errors of the values of a solution, in their order, followed by that of the velocity (m/s) where it was found.
 /// `variance` is that of the friction coefficients. `None` where the points do not determine all values together.
@@ -26,7 +26,7 @@ pub(super) fn standard_errors(
     for point in problem.points {
         let mut derivatives = problem.weights(point, velocity);
         if is_found {
-            let change = problem.part.map_or(0.0, |part| part.shift(point.velocity.abs(), velocity));
+            let change = problem.part.map_or(0.0, |part| part.shift(speeds(point), velocity));
             let fall = |(row, share): (usize, f64)| share * (solution[2 * row + 1] - solution[2 * row]);
             let by_velocity = problem.rows(point.temperature).into_iter().map(fall).sum::<f64>() * change;
             derivatives.push((solution.len(), by_velocity));

@@ -29,10 +29,10 @@ pub(super) struct Problem<'a> {
 }
 
 impl Problem<'_> {
-    /// The parts of `μ_s` and `μ_d` (or of `μ_d` alone) at a velocity.
-    fn parts(&self, speed: f64, velocity: f64) -> [f64; 2] {
+    /// The parts of `μ_s` and `μ_d` (or of `μ_d` alone) over the velocities of a point.
+    fn parts(&self, point: &Point, velocity: f64) -> [f64; 2] {
         let Some(part) = self.part else { return [1.0, 0.0] };
-        let w = part.at(speed, velocity);
+        let w = part.over(speeds(point), velocity);
         [1.0 - w, w]
     }
 
@@ -49,7 +49,7 @@ impl Problem<'_> {
     /// The weight of each value of the rows in the friction of a point, without those of weight 0.
     pub(super) fn weights(&self, point: &Point, velocity: f64) -> Weights {
         let kinds = self.params.len();
-        let parts = self.parts(point.velocity.abs(), velocity);
+        let parts = self.parts(point, velocity);
         let rows = self.rows(point.temperature);
         rows.into_iter()
             .flat_map(|(row, share)| (0..kinds).map(move |k| (row * kinds + k, share * parts[k])))
@@ -150,6 +150,12 @@ impl Problem<'_> {
         }
         (0.5 * (low + high)).exp()
     }
+}
+
+/// The speeds over which the friction of a point is averaged, m/s.
+pub(super) fn speeds(point: &Point) -> [f64; 2] {
+    let speed = point.velocity.abs();
+    [(speed - point.half_range).max(0.0), speed + point.half_range]
 }
 
 pub(super) fn sum_of_squares(residuals: &[f64]) -> f64 {

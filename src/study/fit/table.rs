@@ -84,7 +84,7 @@ pub(super) fn span(points: &[Point], of: impl Fn(&Point) -> f64) -> String {
 pub fn residuals_csv(fit: &Fit, points: &[Point]) -> Result<Vec<u8>> {
     let mut table = Table::new(RESIDUALS.iter())?;
     for (point, residual) in points.iter().zip(&fit.residuals) {
-        let Point { velocity, temperature, friction } = *point;
+        let Point { velocity, temperature, friction, .. } = *point;
         let row = [velocity, temperature, friction, friction - residual, *residual];
         table.row(row.into_iter().map(|value| Cell::from(value).to_string()))?;
     }

@@ -54,7 +54,7 @@ pub(super) fn a_fit() -> Piece {
     let point = |k: usize| {
         let (velocity, temperature) = (0.1 * (k / 2) as f64, [100.0, 300.0][k % 2]);
         let friction = 0.4 + 3e-4 * temperature - 0.1 * f64::min(velocity / 2.5, 1.0);
-        Point { velocity, temperature, friction: friction + 0.01 * (7.0 * k as f64).sin() }
+        Point { velocity, half_range: 0.0, temperature, friction: friction + 0.01 * (7.0 * k as f64).sin() }
     };
     let points: Vec<Point> = (0..80).map(point).collect();
     let found = fit::fit(&points, LawKind::Bilinear, &[100.0, 300.0], None).unwrap();

@@ -31,7 +31,12 @@ fn points(noise: f64) -> Vec<Point> {
     let mut random = Random::new(9);
     let point = |_| {
         let (velocity, temperature) = (random.between(0.0, 7.0), random.between(100.0, 500.0));
-        Point { velocity, temperature, friction: pad(velocity, temperature) + noise * random.normal() }
+        Point {
+            velocity,
+            half_range: 0.0,
+            temperature,
+            friction: pad(velocity, temperature) + noise * random.normal(),
+        }
     };
     (0..4000).map(point).collect()
 }
@@ -61,12 +66,44 @@ fn the_pad_is_found_again() {
     near("shifted", found.columns[0].1[0], PAD[0][1] + 0.01, 1e-6);
 }
 
+/// Friction that is averaged while the velocity moves is no friction at the mean velocity, where the law bends: here two points tell its fall,
+/// and one is averaged over the knee.
+#[test]
+fn what_is_averaged_over_the_knee_is_fitted_as_that() {
+    let law = |v: f64| 0.05 + 0.1 * (1.0 - v / 5.0).max(0.0);
+    let mean = |velocity: f64, half_range: f64| {
+        let sum: f64 = (0..1000).map(|k| law(velocity + half_range * (f64::from(k) - 499.5) / 500.0)).sum();
+        sum / 1000.0
+    };
+    let points: Vec<Point> = (0..9)
+        .map(|k| 6.87 - 0.26 * f64::from(k))
+        .map(|velocity| Point {
+            velocity,
+            half_range: 0.17,
+            temperature: 20.0,
+            friction: mean(velocity, 0.17),
+        })
+        .collect();
+    let value =
+        |points: &[Point], k: usize| fit(points, LawKind::Bilinear, &[20.0], None).unwrap().columns[k].1[0];
+    for (k, expected) in [0.15, 0.05, 5.0].into_iter().enumerate() {
+        near("law", value(&points, k), expected, 1e-3 * expected);
+    }
+    let taken_at_the_mean: Vec<Point> = points.iter().map(|p| Point { half_range: 0.0, ..*p }).collect();
+    assert!((value(&taken_at_the_mean, 0) - 0.15).abs() > 0.01);
+}
+
 #[test]
 fn other_laws() {
     let exponential = |v: f64| 0.2 + 0.3 * (-v / 0.8).exp();
     let points: Vec<Point> = (0..200)
         .map(|k| 0.02 * f64::from(k))
-        .map(|velocity| Point { velocity: -velocity, temperature: 20.0, friction: exponential(velocity) })
+        .map(|velocity| Point {
+            velocity: -velocity,
+            half_range: 0.0,
+            temperature: 20.0,
+            friction: exponential(velocity),
+        })
         .collect();
     let found = fit(&points, LawKind::Exponential, &[20.0], None).unwrap();
     let value = |k: usize| found.columns[k].1[0];
@@ -80,7 +117,8 @@ fn other_laws() {
 
 #[test]
 fn what_is_not_determined_is_named() {
-    let at = |velocity: f64, temperature: f64| Point { velocity, temperature, friction: 0.3 };
+    let at =
+        |velocity: f64, temperature: f64| Point { velocity, half_range: 0.0, temperature, friction: 0.3 };
     let one_speed: Vec<Point> = (0..50).map(|k| at(2.0, f64::from(k))).collect();
     let found = fit(&one_speed, LawKind::Bilinear, &[0.0, 49.0], Some(5.0)).unwrap_err();
     assert!(matches!(found, FitFault::Undetermined { .. }), "{found}");
@@ -130,6 +168,7 @@ fn the_law_of_the_points_has_the_least_criteria() {
                 .map(|k| 0.03 * f64::from(k))
                 .map(|velocity| Point {
                     velocity,
+                    half_range: 0.0,
                     temperature: 20.0,
                     friction: mu(law, velocity) + 0.003 * random.normal(),
                 })
@@ -164,6 +203,7 @@ fn the_best_law_of_few_points_is_doubted() {
             .map(|k| 4.0 * f64::from(k) / f64::from(count))
             .map(|v| Point {
                 velocity: v,
+                half_range: 0.0,
                 temperature: 20.0,
                 friction: 0.4 - 0.02 * v + 0.01 * random.normal(),
             })

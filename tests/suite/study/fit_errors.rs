@@ -177,7 +177,7 @@ fn a_knee_that_was_not_reached_is_told() {
 
 /// Points of one temperature.
 fn at_20(velocity: f64, friction: f64) -> Point {
-    Point { velocity, friction, temperature: 20.0 }
+    Point { velocity, half_range: 0.0, friction, temperature: 20.0 }
 }
 
 fn errors(found: &Fit, column: usize) -> f64 {

@@ -29,6 +29,7 @@ fn drawn(seed: u64, noise: f64, count: usize) -> Vec<Point> {
         let (velocity, temperature) = (random.between(0.0, 5.0), [100.0, 300.0, 500.0][k % 3]);
         Point {
             velocity: -velocity,
+            half_range: 0.0,
             temperature,
             friction: curve(velocity, temperature) + noise * random.normal(),
         }
@@ -68,7 +69,7 @@ fn a_straight_law_is_straight_down_to_rest() {
     let law = |velocity: f64| 0.4 - 0.03 * velocity;
     let point = |k: u32| {
         let velocity = 0.05 * f64::from(k);
-        Point { velocity, temperature: 100.0, friction: law(velocity) }
+        Point { velocity, half_range: 0.0, temperature: 100.0, friction: law(velocity) }
     };
     let points: Vec<Point> = (0..60).map(point).collect();
     let found = binned(&points, &[]).unwrap();
@@ -118,7 +119,7 @@ fn points_at_a_few_velocities_are_bins_by_themselves() {
     let speeds = [0.0, 0.25, 0.5, 2.0, 4.0];
     let exact = |k: usize| {
         let velocity = speeds[k % 5];
-        Point { velocity, temperature: 20.0, friction: curve(velocity, 20.0) }
+        Point { velocity, half_range: 0.0, temperature: 20.0, friction: curve(velocity, 20.0) }
     };
     let found = binned(&(0..100).map(exact).collect::<Vec<_>>(), &[]).unwrap();
     let [row] = &found.rows[..] else { panic!("one temperature") };
@@ -132,7 +133,7 @@ fn points_at_a_few_velocities_are_bins_by_themselves() {
     let mut random = Random::new(3);
     let met = |k: usize| {
         let velocity = [1.0, 2.0, 4.0][k % 3] * (1.0 + 0.003 * random.normal());
-        Point { velocity, temperature: 20.0, friction: 0.3 + 0.02 * random.normal() }
+        Point { velocity, half_range: 0.0, temperature: 20.0, friction: 0.3 + 0.02 * random.normal() }
     };
     let found = binned(&(0..600).map(met).collect::<Vec<_>>(), &[]).unwrap();
     assert!(found.rows[0].bins.len() <= 3, "{:?}", found.rows[0].bins);
@@ -144,6 +145,7 @@ fn temperatures_are_those_of_the_points_or_as_asked() {
     let mut drift = |temperature: f64| {
         let one = |_| Point {
             velocity: random.between(0.0, 5.0),
+            half_range: 0.0,
             temperature: temperature + random.between(-2.0, 2.0),
             friction: 0.3,
         };
@@ -160,7 +162,7 @@ fn temperatures_are_those_of_the_points_or_as_asked() {
 
 #[test]
 fn what_makes_no_table_is_named() {
-    let at = |velocity: f64, friction: f64| Point { velocity, temperature: 20.0, friction };
+    let at = |velocity: f64, friction: f64| Point { velocity, half_range: 0.0, temperature: 20.0, friction };
     let few: Vec<Point> = (0..11).map(|k| at(f64::from(k), 0.3)).collect();
     let why = binned(&few, &[]).unwrap_err();
     assert_eq!(

@@ -1,0 +1,128 @@
+//! The knee of a friction law among the levels that are read within an oscillation, each of which is smeared.
+//!
+//! Levels are read over [`SIDE`] of the velocity on either side. Where friction falls below a velocity `k` by `c` per m/s more than above it,
+//! the mean over a half-width `h` is `a + b v + c r(k − v)` with
+//!
+//! ```text
+//! r(x) = 0 for x ≤ −h,   (x + h)²/4h between,   x for x ≥ h
+//! ```
+//!
+//! Two straight lines follow that only with a third between them, and then say nothing of where the knee is.
+
+use nalgebra::{Matrix3, Vector3};
+
+use crate::within::SIDE;
+
+/// By how much the squared residuals over their scale may exceed the least of a knee that is likely: two standard errors.
+const LIKELY: f64 = 4.0;
+
+/// A velocity below which friction falls more steeply.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Knee {
+    /// Where, m/s.
+    pub(super) at: f64,
+    /// Below which speed it lies behind, up to two standard errors of it, m/s.
+    pub(super) below: f64,
+    /// By how much more steeply friction falls, s/m.
+    fall: f64,
+}
+
+impl Knee {
+    /// The knee that leaves the smallest sum of squared residuals of points (velocity, m/s, and friction), and that sum over the square of
+    /// `scale`. `None` where the velocity passes none, or more than once, with `least` points or more on either side; where friction does not
+    /// fall more steeply below; or where the knee is known no better than a level.
+    pub(super) fn fitted(points: &[[f64; 2]], scale: f64, least: usize) -> Option<(Knee, f64)> {
+        let last = points.len().checked_sub(least)?;
+        let found = (least..last).filter_map(|k| {
+            let at = 0.5 * (points[k - 1][0].abs() + points[k][0].abs());
+            passed(points, at).filter(|from| *from == k)?;
+            solved(points, at)
+        });
+        let found: Vec<(Knee, f64)> = found.collect();
+        let (best, squares) = *found.iter().min_by(|a, b| a.1.total_cmp(&b.1))?;
+        let likely = found.iter().filter(|(_, other)| *other <= squares + LIKELY * scale * scale);
+        let [low, high] =
+            likely.fold([best.at; 2], |[low, high], (knee, _)| [low.min(knee.at), high.max(knee.at)]);
+        let knee = Knee { below: low, ..best };
+        let clear = knee.fall > 0.0 && high - low < SIDE * best.at;
+        clear.then_some((knee, squares / (scale * scale)))
+    }
+
+    /// By how much the level read at a velocity (m/s) lies above the law.
+    pub(super) fn smear(self, velocity: f64) -> f64 {
+        let speed = velocity.abs();
+        self.fall * (ramp(self.at - speed, SIDE * speed) - (self.at - speed).max(0.0))
+    }
+}
+
+/// The first point beyond a speed (m/s) that is passed once.
+fn passed(points: &[[f64; 2]], at: f64) -> Option<usize> {
+    let faster = |point: &[f64; 2]| point[0].abs() > at;
+    let begins = faster(points.first()?);
+    let from = points.iter().position(|point| faster(point) != begins)?;
+    points[from..].iter().all(|point| faster(point) != begins).then_some(from)
+}
+
+/// `r(x)` for a half-width `h`.
+fn ramp(x: f64, h: f64) -> f64 {
+    if x >= h {
+        x
+    } else if x <= -h {
+        0.0
+    } else {
+        (x + h).powi(2) / (4.0 * h)
+    }
+}
+
+/// Least squares with a knee at a speed, and the squared residuals.
+fn solved(points: &[[f64; 2]], at: f64) -> Option<(Knee, f64)> {
+    // Speeds from the knee on: no digits are lost.
+    let row = |point: &[f64; 2]| {
+        let speed = point[0].abs();
+        Vector3::new(1.0, speed / at - 1.0, ramp(at - speed, SIDE * speed) / at)
+    };
+    let (mut normal, mut right) = (Matrix3::zeros(), Vector3::zeros());
+    for point in points {
+        let row = row(point);
+        normal += row * row.transpose();
+        right += row * point[1];
+    }
+    let solution = normal.cholesky()?.solve(&right);
+    let squares = points.iter().map(|point| (point[1] - row(point).dot(&solution)).powi(2)).sum();
+    Some((Knee { at, below: at, fall: solution[2] / at }, squares))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Levels of a bilinear law, as means over the window in which they are read, by sums: knee and smear are found again.
+    #[test]
+    fn a_smeared_knee_is_found_where_it_is() {
+        const KNEE: f64 = 0.023;
+        let law = |v: f64| 0.34 - 0.3 * v + 7.0 * (KNEE - v).max(0.0);
+        let mean = |v: f64| {
+            let parts = (0..2000).map(|k| law(v * (1.0 + SIDE * (f64::from(k) - 999.5) / 1000.0)));
+            parts.sum::<f64>() / 2000.0
+        };
+        let points: Vec<[f64; 2]> =
+            (0..200).map(|k| 0.047 - 0.0002 * f64::from(k)).map(|v| [v, mean(v)]).collect();
+        let (knee, squares) = Knee::fitted(&points, 0.005, 5).expect("there is one");
+        assert!((knee.at - KNEE).abs() < 1e-4 && squares < 0.01, "{knee:?} {squares}");
+        for [v, level] in &points {
+            assert!((level - knee.smear(*v) - law(*v)).abs() < 2e-4, "{v}");
+        }
+        let turned: Vec<[f64; 2]> = points.iter().map(|[v, level]| [-v, *level]).rev().collect();
+        let (other, _) = Knee::fitted(&turned, 0.005, 5).expect("there is one");
+        assert!((other.at - knee.at).abs() < 1e-9, "{other:?}");
+    }
+
+    #[test]
+    fn a_velocity_that_turns_around_has_none() {
+        let there = (0..100).map(|k| 0.04 - 0.0003 * f64::from(k));
+        let back = there.clone().rev();
+        let points: Vec<[f64; 2]> =
+            there.chain(back).map(|v| [v, 0.3 + 5.0 * (0.025 - v).max(0.0)]).collect();
+        assert_eq!(Knee::fitted(&points, 0.005, 5), None);
+    }
+}
