@@ -202,7 +202,7 @@ fn analyse(
         let [tangential, normal] = [Channel::TangentialAcceleration, Channel::NormalAcceleration].map(name);
         return Err(Fault::SwappedAccelerations { tangential, normal, time });
     }
-    let mut notes = notes(survey, &settings.zooms);
+    let mut notes = notes(survey, settings);
     let has = has(survey);
     let mut cut = segments(&cells.list, has, settings);
     // Where nothing stands out nothing is restored, and nothing tells.
@@ -256,15 +256,23 @@ fn analyse(
 }
 
 /// Sentences about everything that limits the analysis.
-fn notes(survey: &Survey, zooms: &[f64]) -> Vec<String> {
+fn notes(survey: &Survey, settings: &Settings) -> Vec<String> {
     let mut notes: Vec<String> = survey.remarks.clone();
     if survey.turned {
         notes.push(
             "the stroke goes the other way: the signs of what points along the contact are turned".to_owned(),
         );
     }
+    if let Some(own) =
+        settings.rig.map(|rig| rig.damping_ratio()).filter(|own| settings.damping_ratio < 0.999 * own)
+    {
+        notes.push(format!(
+            "--damping-ratio {} is below {own:.4}, the damping ratio of --model: that of the model counts",
+            settings.damping_ratio
+        ));
+    }
     let [start, end] = [survey.start, survey.start + survey.samples as f64 / survey.rate];
-    for time in zooms.iter().filter(|time| !(start..=end).contains(*time)) {
+    for time in settings.zooms.iter().filter(|time| !(start..=end).contains(*time)) {
         notes.push(format!(
             "nothing to look at close at {time} s (--zoom): the record lasts from {start:.6} to {end:.6} s"
         ));

@@ -242,13 +242,19 @@ pub(super) fn friction(segment: &Segment, structure: Structure, grows: bool) -> 
         return spoken(Some(Chances::of_each(coupling, slope)), evidence);
     }
     if friction.reading != Reading::Mean {
-        let how = if friction.reading == Reading::Within {
-            "read within the oscillation"
-        } else if friction.misfit.is_some_and(|misfit| misfit >= UNFIT) {
-            "the vibration reverses the sliding and hides the law: the mean is a lower bound, its slope is not that of the law"
+        let reverses =
+            if segment.reach.is_some_and(|reach| reach < 1.0) { "all but reverses" } else { "reverses" };
+        let why = if friction.misfit.is_some_and(|misfit| misfit >= UNFIT) {
+            ""
         } else {
-            "the vibration reverses the sliding and hides the law (the force sensors do not follow it, or there are fewer than 12 \
-             samples per period, or 15 where the contact opens): the mean is a lower bound, its slope is not that of the law"
+            " (the force sensors do not follow it, or there are fewer than 12 samples per period, or 15 where the contact opens)"
+        };
+        let how = if friction.reading == Reading::Within {
+            "read within the oscillation".to_owned()
+        } else {
+            format!(
+                "the vibration {reverses} the sliding and hides the law{why}: the mean is a lower bound, its slope is not that of the law"
+            )
         };
         let (level, trend) = friction_seen(segment, structure);
         let tells = level.is_some() || (trend != Some(Trend::Unknown) && friction.reading == Reading::Within);

@@ -213,6 +213,7 @@ fn another_damping_or_unit_is_named() {
         (other(&|rig| rig.c2 *= 3.0), "times the damping c2"),
         (other(&|rig| rig.c2 /= 3.0), "times the damping c2"),
         (other(&|rig| rig.load *= 1e3), "the unit of the forces"),
+        (Settings { damping_ratio: 0.001, ..right.clone() }, "that of the model counts"),
     ] {
         let found = run(&samples, &settings).unwrap();
         assert!(found.notes.iter().any(|note| note.contains(named)), "{named}: {:?}", found.notes);
