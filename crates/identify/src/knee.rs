@@ -20,7 +20,7 @@ const LIKELY: f64 = 4.0;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Knee {
     /// Where, m/s.
-    pub(super) at: f64,
+    at: f64,
     /// Below which speed it lies behind, up to two standard errors of it, m/s.
     pub(super) below: f64,
     /// By how much more steeply friction falls, s/m.
@@ -46,6 +46,11 @@ impl Knee {
         let knee = Knee { below: low, ..best };
         let clear = knee.fall > 0.0 && high - low < SIDE * best.at;
         clear.then_some((knee, squares / (scale * scale)))
+    }
+
+    /// The first point after the velocity has passed it for certain, of those that it is fitted to.
+    pub(super) fn behind(self, points: &[[f64; 2]]) -> Option<usize> {
+        passed(points, self.below)
     }
 
     /// By how much the level read at a velocity (m/s) lies above the law.

@@ -1,15 +1,30 @@
-//! Sums of long slices, by four sums side by side: one addition need not wait for the one before.
+//! Sums and extremes of long slices, by four side by side: one operation need not wait for the one before.
 
 const LANES: usize = 4;
 
-/// `Σ a`.
-pub(super) fn sum(a: &[f64]) -> f64 {
+/// `Σ of(a)`.
+fn total(a: &[f64], of: impl Fn(f64) -> f64) -> f64 {
     let (chunks, rest) = a.as_chunks::<LANES>();
     let mut sums = [0.0; LANES];
     for a in chunks {
-        sums.iter_mut().zip(a).for_each(|(sum, a)| *sum += a);
+        sums.iter_mut().zip(a).for_each(|(sum, a)| *sum += of(*a));
     }
-    sums.into_iter().chain(rest.iter().copied()).sum()
+    sums.into_iter().chain(rest.iter().map(|a| of(*a))).sum()
+}
+
+/// `Σ a`.
+pub(super) fn sum(a: &[f64]) -> f64 {
+    total(a, |a| a)
+}
+
+/// `Σ |a|`.
+pub(super) fn sizes(a: &[f64]) -> f64 {
+    total(a, f64::abs)
+}
+
+/// `Σ (a − from)²`.
+pub(super) fn squares(a: &[f64], from: f64) -> f64 {
+    total(a, |a| (a - from) * (a - from))
 }
 
 /// `Σ a b` of slices of one length.
@@ -48,44 +63,34 @@ pub(super) fn add_line(a: &mut [f64], [start, slope]: [f64; 2]) {
     rest.iter_mut().zip(at).for_each(|(a, at)| *a += start + at * slope);
 }
 
+/// The larger one of two numbers; neither is NaN, for which `f64::max` would look.
+pub(super) fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+/// The smaller one likewise.
+pub(super) fn smaller(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
+/// What is left of `start` and all of `a` when each pair leaves one.
+fn chosen(a: &[f64], start: f64, one: impl Fn(f64, f64) -> f64) -> f64 {
+    let (chunks, rest) = a.as_chunks::<LANES>();
+    let mut best = [start; LANES];
+    for a in chunks {
+        best.iter_mut().zip(a).for_each(|(best, a)| *best = one(*best, *a));
+    }
+    best.into_iter().chain(rest.iter().copied()).fold(start, one)
+}
+
 /// The highest of `a`; −∞ of none.
 pub(super) fn highest(a: &[f64]) -> f64 {
-    let (chunks, rest) = a.as_chunks::<LANES>();
-    let mut tops = [f64::NEG_INFINITY; LANES];
-    for a in chunks {
-        tops.iter_mut().zip(a).for_each(|(top, a)| *top = if *a > *top { *a } else { *top });
-    }
-    tops.into_iter().chain(rest.iter().copied()).fold(f64::NEG_INFINITY, f64::max)
+    chosen(a, f64::NEG_INFINITY, larger)
 }
 
 /// The lowest of `a`; ∞ of none.
 pub(super) fn lowest(a: &[f64]) -> f64 {
-    let (chunks, rest) = a.as_chunks::<LANES>();
-    let mut bottoms = [f64::INFINITY; LANES];
-    for a in chunks {
-        bottoms.iter_mut().zip(a).for_each(|(bottom, a)| *bottom = if *a < *bottom { *a } else { *bottom });
-    }
-    bottoms.into_iter().chain(rest.iter().copied()).fold(f64::INFINITY, f64::min)
-}
-
-/// `Σ |a|`.
-pub(super) fn sizes(a: &[f64]) -> f64 {
-    let (chunks, rest) = a.as_chunks::<LANES>();
-    let mut sums = [0.0; LANES];
-    for a in chunks {
-        sums.iter_mut().zip(a).for_each(|(sum, a)| *sum += a.abs());
-    }
-    sums.into_iter().chain(rest.iter().map(|a| a.abs())).sum()
-}
-
-/// `Σ (a − from)²`.
-pub(super) fn squares(a: &[f64], from: f64) -> f64 {
-    let (chunks, rest) = a.as_chunks::<LANES>();
-    let mut sums = [0.0; LANES];
-    for a in chunks {
-        sums.iter_mut().zip(a).for_each(|(sum, a)| *sum += (a - from) * (a - from));
-    }
-    sums.into_iter().chain(rest.iter().map(|a| (a - from) * (a - from))).sum()
+    chosen(a, f64::INFINITY, smaller)
 }
 
 /// `Σ |a_{k+1} − a_k|`, and the least of them; 0 and ∞ of fewer than two.
@@ -97,7 +102,7 @@ pub(super) fn steps(a: &[f64]) -> [f64; 2] {
         for k in 0..LANES {
             let step = (next[k] - a[k]).abs();
             sums[k] += step;
-            least[k] = if step < least[k] { step } else { least[k] };
+            least[k] = smaller(least[k], step);
         }
     }
     let rest = a_rest.iter().zip(next_rest).map(|(a, next)| (next - a).abs());

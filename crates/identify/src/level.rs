@@ -220,12 +220,9 @@ fn damping(cells: &[Cell], all: &Cell, settings: &Settings) -> Option<Measured> 
     read.map(|Measured { value, error }| Measured { value: value / normal, error: error / normal })
 }
 
-/// What is known of a segment whose friction is read.
+/// What is known of the law around a segment.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Around {
-    /// Whether the velocity is recorded, and whether it limits the vibration.
-    pub(super) has_velocity: bool,
-    pub(super) limited: bool,
     /// Whether the first and the last cell are at a knee of the law.
     pub(super) knees: [bool; 2],
     /// The knee below which the segment lies, where one is fitted.
@@ -234,8 +231,14 @@ pub(super) struct Around {
     pub(super) line: Option<Trend>,
 }
 
-/// Level and slope of friction.
-pub(super) fn level(cells: &[Cell], all: &Cell, around: Around, settings: &Settings) -> Level {
+/// Level and slope of friction; whether the velocity is recorded, and whether it limits the vibration.
+pub(super) fn level(
+    cells: &[Cell],
+    all: &Cell,
+    [has_velocity, limited]: [bool; 2],
+    Around { knees, knee, line }: Around,
+    settings: &Settings,
+) -> Level {
     /// Relative range of the velocity from which on there is a slope.
     const MOVES: f64 = 0.05;
     /// Systematic errors of a friction coefficient, relative, and of a slope, over that of `μ/v`.
@@ -244,7 +247,6 @@ pub(super) fn level(cells: &[Cell], all: &Cell, around: Around, settings: &Setti
     const OFF: f64 = 0.1;
     /// That of a slope within the oscillation, over that: it is read over two fifths of the velocity.
     const LOCAL: f64 = 3.0;
-    let Around { has_velocity, limited, knees, knee, line } = around;
     let damping = damping(cells, all, settings).filter(|_| limited && all.swing() >= FOLLOWS);
     let misfit = settings.rig.and_then(|_| misfit(cells));
     let fits = settings.rig.is_none() || misfit.is_some_and(|misfit| misfit < UNFIT);

@@ -8,6 +8,8 @@
 
 use std::collections::BTreeMap;
 
+use crate::lanes::{larger, smaller};
+
 /// Samples of a block.
 const BLOCK: usize = 16;
 /// Fewest samples of the last block that have a scatter of their own.
@@ -206,15 +208,6 @@ impl Level {
         };
         Some(Level { median, scatter: within(middle), widest: within(values.len() - 1 - LEFT_OUT) })
     }
-}
-
-// Of numbers that are none nothing is asked here, which `f64::max` is slower for.
-fn larger(a: f64, b: f64) -> f64 {
-    if a > b { a } else { b }
-}
-
-fn smaller(a: f64, b: f64) -> f64 {
-    if a < b { a } else { b }
 }
 
 /// Sorts without a branch (Batcher's odd-even merge sort).

@@ -56,7 +56,7 @@ impl Extreme {
         }
     }
 
-    /// Whether samples up to `top` are more than none to it.
+    /// Whether samples, the largest of which is `top`, change anything of it.
     fn is_reached(&self, top: f64) -> bool {
         self.run > 0 || top >= self.value
     }
@@ -85,7 +85,7 @@ impl Range {
     pub(super) fn take(&mut self, values: &[f64]) {
         let (count, own) = (values.len() as f64, sum(values) / values.len() as f64);
         for (some, at) in values.chunks(AT_ONCE).zip((self.count..).step_by(AT_ONCE)) {
-            // Most are no extremes.
+            // Most samples are no extremes.
             if at == 0 || self.high.is_reached(highest(some)) {
                 some.iter().zip(at..).for_each(|(value, index)| self.high.take(*value, index));
             }

@@ -166,7 +166,7 @@ pub(super) fn segments(cells: &[Cell], has: Has, settings: &Settings) -> Vec<Seg
             let mut start = 0;
             for end in cut(part.len(), &courses(part, has, vibrating), least) {
                 let knees = [before.knee && start == 0, after.knee && end == part.len()];
-                let context = Context { vibrating, largest, knees, knee, line };
+                let context = Context { vibrating, largest, around: Around { knees, knee, line } };
                 found.push(segment(&part[start..end], has, context, settings));
                 start = end;
             }
@@ -234,12 +234,9 @@ fn by_law(cells: &[Cell], has: Has, vibrating: bool, least: usize) -> (Vec<Edge>
     let scale = course.scale();
     let (cuts, price) = priced(points.len(), &[course], lines);
     let knee = Knee::fitted(&points, scale, lines).filter(|(_, left)| left + PRICE + CLEARLY < price);
+    let knee = knee.and_then(|(knee, _)| Some((knee, knee.behind(&points)?)));
     let (cuts, knee) = match knee {
-        Some((knee, _)) => {
-            let faster = |point: &[f64; 2]| point[0].abs() > knee.below;
-            let before = points.iter().take_while(|point| faster(point) == faster(&points[0])).count();
-            (vec![before, points.len()], Some(knee))
-        }
+        Some((knee, behind)) => (vec![behind, points.len()], Some(knee)),
         None => (cuts, None),
     };
     let knees = cuts.iter().take(cuts.len() - 1).map(|cut| Edge { at: found[cut - 1].0, knee: true });
@@ -294,17 +291,12 @@ struct Context {
     vibrating: bool,
     /// Amplitude of the record's loudest cell, m/s².
     largest: f64,
-    /// Whether it begins, and ends, where the law has a knee.
-    knees: [bool; 2],
-    /// The knee below which it lies, where one is fitted.
-    knee: Option<Knee>,
-    /// The law of all that lies below that knee, where it is a straight line.
-    line: Option<Trend>,
+    around: Around,
 }
 
 /// One segment, not judged yet.
 fn segment(cells: &[Cell], has: Has, context: Context, settings: &Settings) -> Segment {
-    let Context { vibrating, largest, knees, knee, line } = context;
+    let Context { vibrating, largest, around } = context;
     let all = Cell::sum(cells);
     let reach = reached(&all, has).filter(|_| all.is_loud());
     let change = change(cells, has);
@@ -331,9 +323,7 @@ fn segment(cells: &[Cell], has: Has, context: Context, settings: &Settings) -> S
         phase: shown.map(|(phase, _)| phase),
         coherence: shown.map(|(_, coherence)| coherence),
         across: settings.rig.filter(|_| shown.is_some()).and_then(|rig| across(cells, rig, settings.skew)),
-        friction: has.forces.then(|| {
-            level(cells, &all, Around { has_velocity: has.velocity, limited, knees, knee, line }, settings)
-        }),
+        friction: has.forces.then(|| level(cells, &all, [has.velocity, limited], around, settings)),
         velocity: has.velocity.then(|| [cells[0].velocity(), cells[cells.len() - 1].velocity()]),
         temperature: has.temperature.then(|| all.temperature()),
         seen: None,

@@ -53,7 +53,7 @@ impl Spectra {
             });
             rest == 1
         };
-        // There is a power of two.
+        // A power of two is among them.
         let even = window.len().next_multiple_of(2);
         let length = (even..=2 * even).step_by(2).find(is_quick).unwrap_or(even);
         Spectra::padded(window, length)

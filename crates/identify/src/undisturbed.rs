@@ -23,12 +23,10 @@ pub struct Undisturbed {
 }
 
 /// Half of the range that the velocity passes within a cell and its windows, which reach over its ends, m/s.
-fn half_range(cells: &[Cell], number: usize) -> f64 {
+fn half_range(cells: &[Cell], number: usize, hop: f64) -> f64 {
     let [before, after] = [number.saturating_sub(1), (number + 1).min(cells.len() - 1)].map(|k| &cells[k]);
-    let cell = &cells[number];
-    let hop = (cell.time[1] - cell.time[0]) / cell.windows;
     let pace = (after.velocity() - before.velocity()) / (after.middle() - before.middle());
-    if pace.is_finite() { 0.5 * pace.abs() * hop * (cell.windows + APART - 1.0) } else { 0.0 }
+    if pace.is_finite() { 0.5 * pace.abs() * hop * (cells[number].windows + APART - 1.0) } else { 0.0 }
 }
 
 /// The points of the cells of a record with velocity and forces.
@@ -51,7 +49,7 @@ pub(super) fn undisturbed(cells: &[Cell], has_temperature: bool) -> Undisturbed 
         if cell.middle() - last > (APART - 0.5) * hop {
             last = cell.middle();
             let (velocity, friction, temperature) = (cell.velocity(), cell.friction(), cell.temperature());
-            let half_range = half_range(cells, number);
+            let half_range = half_range(cells, number, hop);
             points.push((Point { velocity, half_range, friction, temperature }, has_temperature));
         }
     }
