@@ -112,7 +112,8 @@ pub fn identify(
                 Verdict::undecided("its forces are those of --model, which does not fit the record");
         }
     }
-    judged(&mut found.segments, &found.episodes, Structure::new(if its_rig { settings } else { given }));
+    let structure = Structure::new(if its_rig { settings } else { given });
+    judged(&mut found.segments, &found.episodes, &found.course, structure);
     found.verdict = conclude(&overview, &found.episodes, &looked);
     Ok(found)
 }

@@ -126,9 +126,14 @@ impl Cell {
         self.velocity / self.windows
     }
 
+    /// Mean velocity either way, m/s.
+    pub(super) fn speed(&self) -> f64 {
+        self.velocity().abs()
+    }
+
     /// Velocity of the vibration over that of sliding; `None` at rest.
     pub(super) fn reach(&self) -> Option<f64> {
-        let reach = self.amplitude() / (TAU * self.frequency()) / self.velocity().abs();
+        let reach = self.amplitude() / (TAU * self.frequency()) / self.speed();
         reach.is_finite().then_some(reach)
     }
 

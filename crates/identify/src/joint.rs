@@ -1,6 +1,7 @@
 //! The witnesses of a segment together: its verdict, what that rests on, and what contradicts it.
 
 use crate::episode::Episode;
+use crate::instants::Instant;
 use crate::level::Reading;
 use crate::population::{Seen, Source, bin, chances};
 use crate::segment::{Segment, State};
@@ -25,9 +26,15 @@ const SAME_VIBRATION: f64 = 0.1;
 const BELIEVED: f64 = 0.995;
 
 /// Judges every segment.
-pub(super) fn judged(segments: &mut [Segment], episodes: &[Episode], structure: Structure) {
+/// `course`: the velocity over time.
+pub(super) fn judged(
+    segments: &mut [Segment],
+    episodes: &[Episode],
+    course: &[Instant],
+    structure: Structure,
+) {
     let homes = homes(segments, episodes);
-    let points = points(segments, episodes, &homes);
+    let points: Vec<_> = episodes.iter().map(|episode| point(episode, course)).collect();
     for number in 0..segments.len() {
         let own: Vec<&Episode> =
             homes.iter().zip(episodes).filter(|(home, _)| **home == Some(number)).map(|(_, e)| e).collect();
@@ -94,20 +101,12 @@ fn homes(segments: &[Segment], episodes: &[Episode]) -> Vec<Option<usize>> {
     episodes.iter().map(|episode| home(episode).or(segments.len().checked_sub(1))).collect()
 }
 
-/// Where each episode worked: velocity, m/s, and temperature, °C; `None` without the velocity.
-fn points(
-    segments: &[Segment],
-    episodes: &[Episode],
-    homes: &[Option<usize>],
-) -> Vec<Option<(f64, Option<f64>)>> {
-    let point = |(episode, home): (&Episode, &Option<usize>)| {
-        let segment = &segments[(*home)?];
-        let [first, last] = segment.velocity?;
-        let [start, end] = segment.time;
-        let part = ((0.5 * (episode.time[0] + episode.time[1]) - start) / (end - start)).clamp(0.0, 1.0);
-        Some((first + part * (last - first), segment.temperature))
-    };
-    episodes.iter().zip(homes).map(point).collect()
+/// Where an episode worked: velocity, m/s, and temperature, °C; `None` without the velocity.
+fn point(episode: &Episode, course: &[Instant]) -> Option<(f64, Option<f64>)> {
+    let middle = 0.5 * (episode.time[0] + episode.time[1]);
+    let after = course.partition_point(|instant| instant.time < middle).min(course.len().checked_sub(1)?);
+    let Instant { velocity, temperature, .. } = course[after];
+    Some((velocity?, temperature))
 }
 
 /// The most confident growth elsewhere in the record at the velocity and the temperature of a segment: what is unstable
@@ -129,7 +128,7 @@ fn elsewhere<'a>(
 fn alike(segment: &Segment, (at, temperature): (f64, Option<f64>), apart: f64) -> bool {
     let heat = temperature.zip(segment.temperature).map_or(0.0, |(a, b)| (a - b).abs());
     let same = |velocity: &[f64; 2]| velocity.iter().all(|v| (v - at).abs() <= apart * at.abs());
-    segment.velocity.as_ref().is_some_and(same) && heat <= SAME_TEMPERATURE
+    segment.swept.as_ref().is_some_and(same) && heat <= SAME_TEMPERATURE
 }
 
 /// Decided before undecided, then the more confident one.
@@ -261,11 +260,16 @@ fn together(
     // A level that is read has the last word on whether it reaches the coalescence: what counted vibrations say of it is of others.
     let above = reads[0].filter(|_| source == Source::Within);
     let by_level = |couples: bool| above.map_or(1.0, |above| if couples { above } else { 1.0 - above });
-    // And so has a slope that is read, or that the power at growth shows, on whether it feeds: that coupling cannot be does not make it do so.
+    // And so has a slope that is read, or that the power at growth shows, on whether it feeds: that coupling cannot be does not make it do so,
+    // nor do counts alone show that it does not.
     let by_slope = |feeds: bool| {
         let shown = within.map(|[_, exceeds]| exceeds).into_iter().chain(by_power.map(|power| power.slope()));
-        let most = shown.reduce(f64::max).unwrap_or(CONFIDENT - 0.01);
-        if feeds && source == Source::Within { most } else { 1.0 }
+        match shown.reduce(f64::max) {
+            _ if source != Source::Within => 1.0,
+            None => CONFIDENT - 0.01,
+            Some(most) if feeds => most,
+            Some(_) => 1.0,
+        }
     };
     let couples = matches!(kind, Kind::ModeCoupling | Kind::Both);
     let feeds = matches!(kind, Kind::NegativeSlope | Kind::Both);

@@ -49,12 +49,23 @@ pub struct Level {
     pub misfit: Option<f64>,
 }
 
+/// Range of a quantity.
+pub(super) fn range(cells: &[Cell], of: impl Fn(&Cell) -> f64) -> [f64; 2] {
+    let values = cells.iter().map(of);
+    values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
+}
+
 /// Relative range of a quantity.
 pub(super) fn spread(cells: &[Cell], of: impl Fn(&Cell) -> f64) -> f64 {
-    let values = cells.iter().map(of);
-    let [low, high] =
-        values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)]);
+    let [low, high] = range(cells, of);
     (high - low) / high.abs().max(low.abs()).max(f64::MIN_POSITIVE)
+}
+
+/// Cells in order of speed: a part of them is a part of the law, however often the velocity goes to and fro.
+fn by_speed(cells: &[Cell]) -> Vec<Cell> {
+    let mut sorted = cells.to_vec();
+    sorted.sort_by(|a, b| a.speed().total_cmp(&b.speed()));
+    sorted
 }
 
 /// Whether the force sensors follow the vibration.
@@ -113,7 +124,7 @@ fn extremes(slopes: impl Iterator<Item = Measured>) -> Option<[Measured; 2]> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Trend {
     all: Measured,
-    /// Early and late.
+    /// Of the slower and of the faster half.
     halves: [Measured; 2],
     /// Where friction falls least, and where it falls most.
     ends: [Measured; 2],
@@ -122,9 +133,9 @@ pub(super) struct Trend {
 }
 
 impl Trend {
-    /// `None` where the velocity hardly moves, or the law is read too seldom to tell early from late. `knees`: whether the first and the last
-    /// cell are at one; what the knee above all cells smears into them is taken out.
-    pub(super) fn new(cells: &[Cell], knees: [bool; 2], knee: Option<Knee>) -> Option<Trend> {
+    /// `None` where the velocity hardly moves, or the law is read too seldom to tell slow from fast. `at_knee`: whether the
+    /// fastest cell is at one; what the knee above all cells smears into them is taken out.
+    pub(super) fn new(cells: &[Cell], at_knee: bool, knee: Option<Knee>) -> Option<Trend> {
         /// Relative range of the velocity from which on levels show a slope.
         const MOVES: f64 = 0.1;
         let slope = |cells: &[Cell]| {
@@ -138,11 +149,13 @@ impl Trend {
         if spread < MOVES {
             return None;
         }
-        let all = slope(cells)?;
-        let (early, late) = cells.split_at(cells.len() / 2);
-        let halves = [slope(early)?, slope(late)?];
-        let range = spread * Cell::sum(cells).velocity().abs();
-        Some(Trend { all, halves, ends: ends(cells, halves, knees), range })
+        let sorted = by_speed(cells);
+        let all = slope(&sorted)?;
+        let (slow, fast) = sorted.split_at(sorted.len() / 2);
+        let halves = [slope(slow)?, slope(fast)?];
+        let range = spread * Cell::sum(cells).speed();
+        let speeds = [&sorted[0], &sorted[sorted.len() - 1]].map(Cell::speed);
+        Some(Trend { all, halves, ends: ends(speeds, halves, at_knee), range })
     }
 
     /// The slope, whether it bends, and its extremes, where friction at this velocity (m/s) is known up to `allowed` and has this `level`.
@@ -156,52 +169,52 @@ impl Trend {
 /// A slope, whether it is another at either end, and its extremes.
 type Read = (Measured, bool, Option<[Measured; 2]>);
 
-/// Where friction falls least, and where it falls most, by the slopes of both halves: a slope that changes goes on changing from their middles to
-/// either end, of which half of the way counts. At the faster end the law may have had its knee meanwhile, which is smeared over a fifth of
-/// the velocity: what the slope clearly changes by counts over that, too, unless the record is cut there (`knees`: the first and the last cell).
-fn ends(cells: &[Cell], [early, late]: [Measured; 2], knees: [bool; 2]) -> [Measured; 2] {
+/// Where friction falls least, and where it falls most, by the slopes of the slower and the faster half (`speeds`: where they begin and end,
+/// m/s): a slope that changes goes on changing from their middles to either end, of which half of the way counts. At the faster end the law may
+/// have had its knee meanwhile, which is smeared over a fifth of the velocity: what the slope clearly changes by counts over that, too, unless the
+/// record is cut there (`knee`).
+fn ends([slowest, fastest]: [f64; 2], [slow, fast]: [Measured; 2], knee: bool) -> [Measured; 2] {
     /// The most that the smear of a knee counts, over the way between the halves.
     const MOST: f64 = 2.0;
-    let [first, last] = [&cells[0], &cells[cells.len() - 1]].map(|cell| cell.velocity().abs());
-    let smeared = (SIDE * first.max(last) / (0.5 * (first - last).abs())).min(MOST);
-    let further = [!knees[0] && first > last, !knees[1] && last > first];
-    let end = |near: Measured, far: Measured, further: bool| {
+    let smeared = if knee { 0.0 } else { (SIDE * fastest / (0.5 * (fastest - slowest))).min(MOST) };
+    let end = |near: Measured, far: Measured, smeared: f64| {
         let clearly = (near.value - far.value - near.error.hypot(far.error)).max(0.0);
         Measured {
-            value: 1.25 * near.value - 0.25 * far.value + if further { smeared * clearly } else { 0.0 },
+            value: 1.25 * near.value - 0.25 * far.value + smeared * clearly,
             error: (1.25 * near.error).hypot(0.25 * far.error),
         }
     };
-    let both = [end(early, late, further[0]), end(late, early, further[1])];
+    let both = [end(slow, fast, 0.0), end(fast, slow, smeared)];
     extremes(both.into_iter()).unwrap_or(both)
 }
 
-/// Whether the law read within the oscillation has another slope early than late: the velocity (m/s, its mean) has passed a bend.
+/// Whether the law read within the oscillation has another slope in the first of these cells than in the last: the velocity (m/s, its mean) has
+/// passed a bend.
 fn turns(cells: &[Cell], velocity: f64) -> bool {
-    /// Parts of the time before and after.
+    /// Parts before and after.
     const PARTS: usize = 4;
     let read = |some: &[Cell]| {
         let all = Cell::sum(some);
         all.within.law(all.velocity())
     };
     (1..PARTS).any(|part| {
-        let (early, late) = cells.split_at(cells.len() * part / PARTS);
-        !early.is_empty()
-            && read(early)
-                .zip(read(late))
-                .is_some_and(|(early, late)| differ([early[1], late[1]], early[0].value, velocity))
+        let (first, last) = cells.split_at(cells.len() * part / PARTS);
+        !first.is_empty()
+            && read(first)
+                .zip(read(last))
+                .is_some_and(|(first, last)| differ([first[1], last[1]], first[0].value, velocity))
     })
 }
 
-/// The slopes (s/m) early, late, and above the mean velocity: the one that falls least and the one that falls most. A knee that the velocity
+/// The slopes (s/m) of the slower cells, of the faster ones, and above the mean velocity: the one that falls least and the one that falls most. A knee that the velocity
 /// passes in between makes the slope of all of them one that there is nowhere.
-fn parts(cells: &[Cell]) -> Option<[Measured; 2]> {
-    let (early, late) = cells.split_at(cells.len() / 2);
-    let slopes = [early, late].map(|cells| {
+fn parts(sorted: &[Cell]) -> Option<[Measured; 2]> {
+    let (slow, fast) = sorted.split_at(sorted.len() / 2);
+    let slopes = [slow, fast].map(|cells| {
         let all = Cell::sum(cells);
         all.within.law(all.velocity()).map(|[_, slope]| slope)
     });
-    let all = Cell::sum(cells);
+    let all = Cell::sum(sorted);
     let above = Some(all.within.above(all.velocity())).filter(|slope| slope.error.is_finite());
     extremes(slopes.into_iter().chain([above]).flatten())
 }
@@ -223,8 +236,8 @@ fn damping(cells: &[Cell], all: &Cell, settings: &Settings) -> Option<Measured> 
 /// What is known of the law around a segment.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Around {
-    /// Whether the first and the last cell are at a knee of the law.
-    pub(super) knees: [bool; 2],
+    /// Whether its fastest cell is at a knee of the law.
+    pub(super) at_knee: bool,
     /// The knee below which the segment lies, where one is fitted.
     pub(super) knee: Option<Knee>,
     /// The law of all that lies below that knee, where it is a straight line: of what smears from above alone a line would have a slope, too.
@@ -236,7 +249,7 @@ pub(super) fn level(
     cells: &[Cell],
     all: &Cell,
     [has_velocity, limited]: [bool; 2],
-    Around { knees, knee, line }: Around,
+    Around { at_knee, knee, line }: Around,
     settings: &Settings,
 ) -> Level {
     /// Relative range of the velocity from which on there is a slope.
@@ -262,11 +275,12 @@ pub(super) fn level(
         let wider = |slope: Measured| Measured { error: slope.error.hypot(local), ..slope };
         // By the levels over the velocity, or within each period, whichever is known better. What the jumps of friction lose between samples
         // tilts the law within a period: with restored forces its levels alone count.
-        let moves = Trend::new(cells, knees, knee).map(|own| own.read(allowed, level.value, velocity));
+        let moves = Trend::new(cells, at_knee, knee).map(|own| own.read(allowed, level.value, velocity));
         let around = line.map(|line| line.read(allowed, level.value, velocity));
         let inside = settings.rig.is_none().then(|| {
-            let bent = all.within.bends(velocity) || turns(cells, velocity);
-            (slope, bent, parts(cells).map(|both| both.map(wider)))
+            let sorted = by_speed(cells);
+            let bent = all.within.bends(velocity) || turns(cells, velocity) || turns(&sorted, velocity);
+            (slope, bent, parts(&sorted).map(|both| both.map(wider)))
         });
         let better =
             moves.into_iter().chain(around).chain(inside).min_by(|a, b| a.0.error.total_cmp(&b.0.error));

@@ -52,6 +52,7 @@ mod motion;
 mod outlier;
 mod overview;
 mod pace;
+mod parts;
 mod place;
 mod points;
 pub mod population;

@@ -4,9 +4,9 @@ use std::f64::consts::TAU;
 
 use crate::cells::Cell;
 use crate::cross::{INDEPENDENT, Measured};
-use crate::cut::{Course, PRICE, cut, priced};
-use crate::knee::Knee;
-use crate::level::{Around, LEAST, Level, Reading, Trend, follows, level, reads, spread};
+use crate::cut::{Course, cut};
+use crate::level::{Around, LEAST, Level, Reading, follows, level, range, spread};
+use crate::parts::{Part, parts, stretches};
 use crate::population::{Seen, Source};
 use crate::rig::Rig;
 use crate::settings::Settings;
@@ -20,11 +20,15 @@ const VIBRATES: f64 = 0.1;
 pub(super) const REVERSES: f64 = 0.5;
 /// The shortest segment, as a part of the record.
 const SHORTEST: f64 = 0.03;
+/// The shortest stretch that vibrates, or does not, as a part of the record.
+const APART: f64 = 0.01;
 /// Change of the logarithm of the amplitude that is no steady vibration any more.
 const CHANGES: f64 = 1.0;
 /// E-foldings per period below which nothing that is left to itself dies out: 0.02 % of critical damping. What becomes weaker slower than that
 /// follows the velocity, perhaps, which is not recorded.
 const LINGERS: f64 = 1e-3;
+/// Relative range of the velocity from which on the friction law shows in it.
+const MOVES: f64 = 0.05;
 /// Standard errors from which on a trend of the amplitude is one.
 const CLEAR: f64 = 6.0;
 
@@ -87,6 +91,8 @@ pub struct Segment {
     pub friction: Option<Level>,
     /// First and last velocity, m/s.
     pub velocity: Option<[f64; 2]>,
+    /// Lowest and highest velocity, m/s.
+    pub(super) swept: Option<[f64; 2]>,
     /// Mean temperature, °C.
     pub temperature: Option<f64>,
     /// What the simulated population is asked about; `None` where there is no phase.
@@ -135,112 +141,50 @@ pub(super) struct Has {
 /// The segments of a record, not judged yet.
 pub(super) fn segments(cells: &[Cell], has: Has, settings: &Settings) -> Vec<Segment> {
     let largest = cells.iter().map(Cell::amplitude).fold(0.0, f64::max);
-    let vibrates: Vec<bool> = cells
-        .iter()
-        .map(|cell| {
-            cell.is_loud()
-                && (cell.amplitude() >= VIBRATES * largest
-                    || reached(cell, has).is_some_and(|r| r >= REVERSES))
-        })
-        .collect();
+    let vibrates = |cell: &Cell| {
+        cell.is_loud()
+            && (cell.amplitude() >= VIBRATES * largest || reached(cell, has).is_some_and(|r| r >= REVERSES))
+    };
+    let kinds = cells.iter().map(|cell| usize::from(vibrates(cell))).collect();
+    let part = |share: f64| {
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a small part of a small number"
+        )]
+        let part = (share * cells.len() as f64).ceil() as usize;
+        part
+    };
     let mut found = Vec::new();
-    for [from, to] in runs(vibrates) {
+    // The end of a record may be the beginning of a growth.
+    for [from, to] in stretches(kinds, part(APART).max(2), true) {
         let stretch = &cells[from..to];
         let vibrating = cells[from..to]
             .iter()
             .filter(|cell| cell.is_loud() && cell.amplitude() >= VIBRATES * largest)
             .count();
         let vibrating = 2 * vibrating >= to - from;
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "a small part of a small number"
-        )]
-        let least = LEAST.max((SHORTEST * cells.len() as f64).ceil() as usize);
-        let mut before = Edge { at: 0, knee: false };
-        let (edges, knee) = by_law(stretch, has, vibrating, least);
-        for after in edges {
-            let part = &stretch[before.at..after.at];
-            let knee = knee.filter(|knee| Cell::sum(part).velocity().abs() < knee.below);
-            let line = knee.and_then(|_| Trend::new(part, [before.knee, after.knee], knee));
-            let mut start = 0;
-            for end in cut(part.len(), &courses(part, has, vibrating), least) {
-                let knees = [before.knee && start == 0, after.knee && end == part.len()];
-                let context = Context { vibrating, largest, around: Around { knees, knee, line } };
-                found.push(segment(&part[start..end], has, context, settings));
+        let least = LEAST.max(part(SHORTEST));
+        let read = has.forces && has.velocity && vibrating && follows(stretch);
+        let parts = if read && spread(stretch, Cell::velocity) > MOVES {
+            parts(stretch, least)
+        } else {
+            vec![Part::whole(stretch.len())]
+        };
+        for part in parts {
+            let [first, after] = part.cells;
+            let mut start = first;
+            for end in cut(after - first, &courses(&stretch[first..after], has, vibrating), least) {
+                let end = first + end;
+                let at_knee = part.fastest_at_knee([start, end], stretch);
+                let around = Around { at_knee, knee: part.knee, line: part.line };
+                let context = Context { vibrating, largest, around };
+                found.push(segment(&stretch[start..end], has, context, settings));
                 start = end;
             }
-            before = after;
         }
     }
     found
-}
-
-/// Stretches of the same kind; shorter ones than that of a segment go with what is around them.
-fn runs(mut kinds: Vec<bool>) -> Vec<[usize; 2]> {
-    let stretches = |kinds: &[bool]| -> Vec<[usize; 2]> {
-        let mut starts: Vec<usize> =
-            (0..kinds.len()).filter(|k| *k == 0 || kinds[*k] != kinds[*k - 1]).collect();
-        starts.push(kinds.len());
-        starts.windows(2).map(|pair| [pair[0], pair[1]]).collect()
-    };
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "a small part of a small number"
-    )]
-    let least = ((0.01 * kinds.len() as f64).ceil() as usize).max(2);
-    loop {
-        let found = stretches(&kinds);
-        let short = found.iter().filter(|[from, to]| to - from < least).min_by_key(|[from, to]| to - from);
-        match short {
-            // The end of a record may be the beginning of a growth.
-            Some([from, to]) if found.len() > 1 && !(*to == kinds.len() && kinds[*from]) => {
-                for kind in &mut kinds[*from..*to] {
-                    *kind = !*kind;
-                }
-            }
-            _ => return found,
-        }
-    }
-}
-
-/// Where a part of a stretch ends: the cell after it, and whether the law has a knee there.
-#[derive(Clone, Copy, Debug)]
-struct Edge {
-    at: usize,
-    knee: bool,
-}
-
-/// The ends of the parts of a stretch in each of which the friction law is a straight line, where it is read within the oscillation: a knee
-/// of the law comes first, what else changes with the velocity is cut between. And the knee, where that explains what is read better than
-/// straight lines do.
-fn by_law(cells: &[Cell], has: Has, vibrating: bool, least: usize) -> (Vec<Edge>, Option<Knee>) {
-    /// The least scatter of a level that means anything.
-    const SCATTER: f64 = 0.005;
-    /// By how much less a knee has to leave of the residuals than lines do.
-    const CLEARLY: f64 = 4.0;
-    let whole = vec![Edge { at: cells.len(), knee: false }];
-    if !(has.forces && has.velocity && vibrating && follows(cells) && spread(cells, Cell::velocity) > 0.05) {
-        return (whole, None);
-    }
-    let found = reads(cells);
-    if found.len() < 2 * LEAST {
-        return (whole, None);
-    }
-    let points: Vec<[f64; 2]> = found.iter().map(|(_, point)| *point).collect();
-    let lines = (least * found.len()).div_ceil(cells.len());
-    let course = Course::new(&points, SCATTER);
-    let scale = course.scale();
-    let (cuts, price) = priced(points.len(), &[course], lines);
-    let knee = Knee::fitted(&points, scale, lines).filter(|(_, left)| left + PRICE + CLEARLY < price);
-    let knee = knee.and_then(|(knee, _)| Some((knee, knee.behind(&points)?)));
-    let (cuts, knee) = match knee {
-        Some((knee, behind)) => (vec![behind, points.len()], Some(knee)),
-        None => (cuts, None),
-    };
-    let knees = cuts.iter().take(cuts.len() - 1).map(|cut| Edge { at: found[cut - 1].0, knee: true });
-    (knees.chain(whole).collect(), knee)
 }
 
 /// The quantities that stay in kind within a segment.
@@ -325,6 +269,7 @@ fn segment(cells: &[Cell], has: Has, context: Context, settings: &Settings) -> S
         across: settings.rig.filter(|_| shown.is_some()).and_then(|rig| across(cells, rig, settings.skew)),
         friction: has.forces.then(|| level(cells, &all, [has.velocity, limited], around, settings)),
         velocity: has.velocity.then(|| [cells[0].velocity(), cells[cells.len() - 1].velocity()]),
+        swept: has.velocity.then(|| range(cells, Cell::velocity)),
         temperature: has.temperature.then(|| all.temperature()),
         seen: None,
         testimonies: Vec::new(),

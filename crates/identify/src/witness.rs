@@ -140,8 +140,8 @@ pub(super) fn friction_seen(segment: &Segment, structure: Structure) -> (Option<
             _ => Height::Near,
         }
     });
-    let trend = friction.slope.zip(segment.velocity).map_or(Trend::Unknown, |(slope, [first, last])| {
-        let unit = 0.5 * (first + last) / friction.level.value;
+    let trend = friction.slope.zip(segment.swept).map_or(Trend::Unknown, |(slope, [low, high])| {
+        let unit = 0.5 * (low + high) / friction.level.value;
         Trend::of(Measured { value: slope.value * unit, error: slope.error * unit })
     });
     (height, Some(trend))
@@ -170,9 +170,9 @@ pub(super) fn read_within(segment: &Segment, structure: Structure) -> Option<[f6
         segment.friction.filter(|friction| friction.reading == Reading::Within)?;
     let (critical, damping, ends) =
         (structure.critical?, damping?, extremes.or(slope.map(|slope| [slope; 2]))?);
-    let [first, last] = segment.velocity?;
+    let [low, high] = segment.swept?;
     let error = slope.map_or(ends[0].error.max(ends[1].error), |slope| slope.error);
-    let relative = error * 0.5 * (first + last).abs() / level.value.abs();
+    let relative = error * 0.5 * (low + high).abs() / level.value.abs();
     if relative.is_nan() || relative > UNCLEAR {
         return None;
     }

@@ -3,6 +3,8 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
 
+use std::sync::Arc;
+
 use crate::common::{near, plan};
 use crate::study::confusion::{TOLERANCE, is_right};
 use crate::study::laboratory::{Stroke, coalescence, right, sensed};
@@ -11,6 +13,7 @@ use crate::study::strokes::{Random, csv, run};
 use squealmap::model::Param;
 use squealmap::model::friction::FrictionLaw;
 use squealmap::model::instance::Instance;
+use squealmap::model::motion::{Motion, MotionTable};
 use squealmap::study::signals::filter::recorded;
 use squealmap::study::signals::sensors::{Recording, Sample};
 use squealmap_identify::{
@@ -282,6 +285,38 @@ fn a_law_that_bends_gently_is_told_nothing_wrong() {
             let settings = known(&rig, backwards, [1.0; 3]);
             let found = run(&noisy(&samples, decibel, backwards, seed), &settings).unwrap();
             assert_right(&rig, &found);
+        }
+    }
+}
+
+/// A velocity that goes to and fro passes the knee many times: nothing wrong is told, and both where it lies below long enough, by restored forces and
+/// by fast sensors.
+#[test]
+fn a_velocity_that_goes_to_and_fro_is_told_nothing_wrong() {
+    let [fast, slow] = [0.0472, 0.006];
+    for (times, least) in [(2_u32, 0.7), (5, 0.0), (12, 0.0)] {
+        let mut rig = rig(MU_S, MU_D, KNEE, [fast, slow]);
+        let corners = (0..=2 * times)
+            .map(|k| [LENGTH * f64::from(k) / f64::from(2 * times), if k % 2 == 0 { fast } else { slow }]);
+        let corners = corners.collect();
+        rig.motion =
+            Motion::Table(Arc::new(MotionTable { name: "triangles".to_owned(), corners, temperature: None }));
+        let samples = sampled(&rig, RATE);
+        let restored = known(&rig, false, [1.0; 3]);
+        let read = Settings {
+            rig: None,
+            critical_friction: restored.rig.map(|rig| rig.critical[0]),
+            ..restored.clone()
+        };
+        for (slowly, settings) in [(true, restored), (false, read)] {
+            let mut samples = samples.clone();
+            sensed(&mut samples, slowly, 40.0, false, &mut Random::new(5));
+            let found = run(&csv(&samples), &settings).unwrap();
+            assert_right(&rig, &found);
+            let both = found.segments.iter().filter(|segment| segment.verdict.kind == Kind::Both);
+            let told: f64 = both.map(|segment| segment.time[1] - segment.time[0]).sum();
+            let below = LENGTH * (KNEE - slow) / (fast - slow);
+            assert!(told >= least * below, "{times}: {told} of {below}\n{}", describe(&found));
         }
     }
 }
