@@ -49,7 +49,7 @@ pub(super) fn misfit(segments: &[Segment], rig: &Rig, normal: f64) -> Option<Str
             against.filter(|_| contradicts(known().map(|(time, shown)| (time, off(&shown)))))
         {
             return Some(format!(
-                "the accelerations show {:.3} times the {words} of --model, if its m1 and theta, --rate and --skew are right: it is \
+                "the accelerations show {:.3} times the {words} of --model, if its m1, theta and the sign of theta (it turns with the direction of sliding), --rate and --skew are right: it is \
                  another rig; nothing is taken from it",
                 longest.value
             ));

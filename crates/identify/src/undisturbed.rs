@@ -1,13 +1,17 @@
 //! Friction against velocity in a record of vibrations, without what these blur.
 //!
 //! A vibration that reverses the sliding lowers the mean of `T/N`: that is not the friction at the mean velocity, however
-//! slow or fast the force sensors are. It is left out, and with it what slow sensors remember of it.
+//! slow or fast the force sensors are. It is left out, and with it what slow sensors remember of it; so is a rest, in which friction is
+//! whatever holds the body.
 
 use crate::cells::Cell;
 use crate::level::SMALL;
 use crate::points::Point;
 
-/// How long a slow force sensor remembers a vibration, s: six time constants at 50 Hz.
+/// What moves slower than this part of the fastest is at rest: no law of sliding is measured there.
+const RESTS: f64 = 0.01;
+
+/// How long a slow force sensor remembers a vibration or a rest, s: six time constants at 50 Hz.
 const REMEMBERS: f64 = 0.02;
 
 /// Windows that begin this many hops apart share no samples: their errors are independent.
@@ -18,7 +22,7 @@ const APART: f64 = 4.0;
 pub struct Undisturbed {
     /// Points, and whether their temperature was recorded.
     pub points: Vec<(Point, bool)>,
-    /// Share of the record that is left out.
+    /// Share of the record that is left out, of what is not at rest.
     pub left_out: f64,
 }
 
@@ -35,7 +39,14 @@ pub(super) fn undisturbed(cells: &[Cell], has_temperature: bool) -> Undisturbed 
     let (mut blurred, mut all) = (0.0, 0.0);
     let mut since = f64::NEG_INFINITY;
     let mut last = f64::NEG_INFINITY;
+    let fastest = cells.iter().map(Cell::speed).fold(0.0, f64::max);
     for (number, cell) in cells.iter().enumerate() {
+        let hop = (cell.time[1] - cell.time[0]) / cell.windows;
+        let half_range = half_range(cells, number, hop);
+        if cell.speed() - half_range <= RESTS * fastest {
+            since = cell.time[1];
+            continue;
+        }
         all += cell.windows;
         let vibrates = cell.is_loud() && cell.reach().is_none_or(|reach| reach >= SMALL);
         if vibrates {
@@ -45,11 +56,9 @@ pub(super) fn undisturbed(cells: &[Cell], has_temperature: bool) -> Undisturbed 
             blurred += cell.windows;
             continue;
         }
-        let hop = (cell.time[1] - cell.time[0]) / cell.windows;
         if cell.middle() - last > (APART - 0.5) * hop {
             last = cell.middle();
             let (velocity, friction, temperature) = (cell.velocity(), cell.friction(), cell.temperature());
-            let half_range = half_range(cells, number, hop);
             points.push((Point { velocity, half_range, friction, temperature }, has_temperature));
         }
     }

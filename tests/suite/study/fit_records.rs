@@ -4,6 +4,7 @@
 
 use std::fmt::Write as _;
 use std::io::{Cursor, Read};
+use std::sync::Arc;
 
 use crate::common::{bilinear, near, plan};
 use crate::study::laboratory::{RATE, sensed};
@@ -11,7 +12,7 @@ use crate::study::segments::{LENGTH, rig};
 use crate::study::strokes::{Random, csv};
 use squealmap::model::friction::LawKind;
 use squealmap::model::instance::Instance;
-use squealmap::model::motion::Motion;
+use squealmap::model::motion::{Motion, MotionTable};
 use squealmap::model::{Param, Params};
 use squealmap::study::fit::fit;
 use squealmap::study::signals::sensors::{Recording, record};
@@ -78,6 +79,26 @@ fn what_squeals_under_slow_forces_is_left_out() {
     assert!((0.3..0.6).contains(&measured.left_out), "{}", measured.left_out);
     for point in &measured.points {
         near("friction", point.friction, stroke.law.mu(point.velocity), 0.01 * point.friction);
+    }
+}
+
+/// A rest before and after the stroke, in which friction is whatever holds the body, is no point of the law.
+#[test]
+fn a_rest_is_left_out() {
+    let mut stroke = rig(0.06, 0.06, 0.025, [0.045, 0.005]);
+    let corners = Arc::new([[0.0, 0.0], [0.1, 0.0], [0.11, 0.045], [0.4, 0.005], [0.41, 0.0], [0.5, 0.0]]);
+    stroke.motion =
+        Motion::Table(Arc::new(MotionTable { name: "stroke".to_owned(), corners, temperature: None }));
+    let recording = Recording { rate: *RATE, duration: 0.5, skew: 0.0, force_skew: 0.0 };
+    let mut samples = record(&stroke, &plan(1.0, 1.0, 12), &recording).samples;
+    // Not the load that falls on at first.
+    samples.retain(|sample| sample.t > 0.03);
+    sensed(&mut samples, true, 40.0, false, &mut Random::new(5));
+    let measured = read(&csv(&samples));
+    assert!(measured.points.len() > 20, "{}", measured.points.len());
+    for point in &measured.points {
+        assert!((0.0004..0.046).contains(&point.velocity), "{point:?}");
+        near("friction", point.friction, 0.06, 0.03 * point.friction);
     }
 }
 
