@@ -4,7 +4,8 @@
 //! Samples are taken in blocks; equal ones in a row count once, so that steps of a converter and pauses of a signal do not
 //! look like silence. A sample is judged by the medians and scatters of its own block and of both beside it. The scatter
 //! leaves out the two samples of a block that are farthest off: a sensor that follows an impact, or a filter before a
-//! converter, moves more of them. Growth over decades, steps and impacts are thus no outliers, and nothing is held but two blocks.
+//! converter, moves more of them. Growth over decades, steps and impacts are thus no outliers, and nothing is held but two blocks. A value that
+//! stands for more than a block is a rest, as of a velocity that is commanded: [`crate::still`] looks after it.
 
 use std::collections::BTreeMap;
 
@@ -171,7 +172,7 @@ impl Watch {
             let join = |so_far: Option<Outliers>| so_far.map_or(found, |so_far| so_far.with(found));
             if distance > written && stands_for_nothing(*value) {
                 self.written = Some(join(self.written));
-            } else if distance > alone {
+            } else if distance > alone && found.count <= BLOCK as u64 {
                 let bin = exponent(distance);
                 let joined = join(self.alone.get(&bin).copied());
                 self.alone.insert(bin, joined);

@@ -74,6 +74,25 @@ fn a_mark_in_a_channel_that_stands_still_is_named() {
     assert!(run(&csv(&samples), &Settings::default()).is_ok());
 }
 
+/// A velocity without noise that steps, as it is commanded: its rest is no outlier.
+#[test]
+fn a_rest_of_a_commanded_velocity_is_no_outlier() {
+    let mut samples = stroke(Wanted::Coupling, RATE, 0.0, &mut Random::new(21)).samples;
+    let count = samples.len();
+    for (k, sample) in samples.iter_mut().enumerate() {
+        let slides = (count / 5..4 * count / 5).contains(&k);
+        sample.belt_velocity = if slides { 3.0 - 1e-4 * k as f64 } else { 0.0 };
+    }
+    let found = run(&csv(&samples), &Settings::default());
+    assert!(found.is_ok(), "{found:?}");
+    // Where it rests for some samples only it is one.
+    for sample in &mut samples[count / 2..count / 2 + 9] {
+        sample.belt_velocity = 0.0;
+    }
+    let fault = run(&csv(&samples), &Settings::default()).unwrap_err().fault;
+    assert!(matches!(&*fault, Fault::Outliers { column, count: 9, .. } if column == "V"), "{fault:?}");
+}
+
 /// What is too small to be named must not lead astray either.
 #[test]
 fn smaller_outliers_are_never_confidently_wrong() {
