@@ -4,6 +4,7 @@ use crate::cells::Cell;
 use crate::cut::{Course, PRICE, priced};
 use crate::knee::Knee;
 use crate::level::{LEAST, Trend, range, reads};
+use crate::within::SIDE;
 
 /// A part of a stretch of cells.
 #[derive(Clone, Copy, Debug)]
@@ -33,7 +34,8 @@ impl Part {
     }
 }
 
-/// The parts of a stretch: a knee of the law comes first, what else changes with the velocity is cut between. `least`: cells of a part.
+/// The parts of a stretch: a knee of the law comes first, what else changes with the velocity is cut between. What is read while the velocity
+/// changes by a fifth is smeared over more than a knee is, and shows none. `least`: cells of a part.
 pub(super) fn parts(cells: &[Cell], least: usize) -> Vec<Part> {
     /// The least scatter of a level that means anything.
     const SCATTER: f64 = 0.005;
@@ -44,10 +46,18 @@ pub(super) fn parts(cells: &[Cell], least: usize) -> Vec<Part> {
         return vec![Part::whole(cells.len())];
     }
     // The law is one of the speed, however often the velocity goes to and fro.
+    let begins = [0].into_iter().chain(found.iter().map(|(after, _)| *after));
+    let steady = begins.zip(&found).filter(|(from, (after, [velocity, _]))| {
+        let change = cells[*after.min(&(cells.len() - 1))].velocity() - cells[*from].velocity();
+        change.abs() < SIDE * velocity.abs()
+    });
     let mut points: Vec<[f64; 2]> =
-        found.iter().map(|(_, [velocity, level])| [velocity.abs(), *level]).collect();
+        steady.map(|(_, (_, [velocity, level]))| [velocity.abs(), *level]).collect();
+    if points.len() < 2 * LEAST {
+        return vec![Part::whole(cells.len())];
+    }
     points.sort_by(|a, b| a[0].total_cmp(&b[0]));
-    let lines = (least * found.len()).div_ceil(cells.len());
+    let lines = (least * points.len()).div_ceil(cells.len());
     let course = Course::new(&points, SCATTER);
     let scale = course.scale();
     let (cuts, price) = priced(points.len(), &[course], lines);

@@ -82,6 +82,15 @@ fn assert_right(instance: &Instance, found: &Identification) {
     }
 }
 
+/// A motion of these corners: time, s, and velocity, m/s.
+fn table(corners: &[[f64; 2]]) -> Motion {
+    Motion::Table(Arc::new(MotionTable {
+        name: "table".to_owned(),
+        corners: corners.into(),
+        temperature: None,
+    }))
+}
+
 /// Noise, direction and draw of the records of a stroke that are tried.
 const TRIED: [(f64, bool, u64); 4] = [(40.0, false, 5), (40.0, true, 6), (20.0, false, 7), (20.0, true, 8)];
 
@@ -298,9 +307,8 @@ fn a_velocity_that_goes_to_and_fro_is_told_nothing_wrong() {
         let mut rig = rig(MU_S, MU_D, KNEE, [fast, slow]);
         let corners = (0..=2 * times)
             .map(|k| [LENGTH * f64::from(k) / f64::from(2 * times), if k % 2 == 0 { fast } else { slow }]);
-        let corners = corners.collect();
-        rig.motion =
-            Motion::Table(Arc::new(MotionTable { name: "triangles".to_owned(), corners, temperature: None }));
+        let corners: Vec<[f64; 2]> = corners.collect();
+        rig.motion = table(&corners);
         let samples = sampled(&rig, RATE);
         let restored = known(&rig, false, [1.0; 3]);
         let read = Settings {
@@ -318,5 +326,23 @@ fn a_velocity_that_goes_to_and_fro_is_told_nothing_wrong() {
             let below = LENGTH * (KNEE - slow) / (fast - slow);
             assert!(told >= least * below, "{times}: {told} of {below}\n{}", describe(&found));
         }
+    }
+}
+
+/// A stroke that begins at rest passes all velocities of its law within some periods first: what is read there moves no boundary.
+#[test]
+fn a_stroke_from_rest_is_both_from_the_knee_on() {
+    let mut rig = rig(MU_S, MU_D, KNEE, [0.05, 0.004]);
+    rig.motion = table(&[[0.0, 0.0], [0.01, 0.05], [LENGTH, 0.004]]);
+    let at = 0.01 + (LENGTH - 0.01) * (0.05 - KNEE) / (0.05 - 0.004);
+    let samples = sampled(&rig, RATE);
+    for seed in 1..=12 {
+        let (decibel, backwards) = (if seed > 6 { 20.0 } else { 40.0 }, seed % 2 == 0);
+        let found =
+            run(&noisy(&samples, decibel, backwards, seed), &known(&rig, backwards, [1.0; 3])).unwrap();
+        assert_right(&rig, &found);
+        let both = found.segments.iter().position(|s| s.verdict.kind == Kind::Both).unwrap();
+        near("both", found.segments[both].time[0], at, TOLERANCE * LENGTH);
+        assert!(found.segments[both..].iter().all(|s| s.verdict.kind == Kind::Both), "{}", describe(&found));
     }
 }
