@@ -45,7 +45,7 @@ impl Kept {
         turned: bool,
         open: impl FnOnce() -> Result<Table, Fault>,
     ) -> Result<Again<'_>, Fault> {
-        let source = if self.too_many { Source::Read(open()?) } else { Source::Kept(self, 0) };
+        let source = if self.too_many { Source::Read(Box::new(open()?)) } else { Source::Kept(self, 0) };
         Ok(Again { source, turned })
     }
 }
@@ -59,7 +59,7 @@ pub(super) struct Again<'a> {
 enum Source<'a> {
     /// What was kept, and the sample that comes next.
     Kept(&'a Kept, usize),
-    Read(Table),
+    Read(Box<Table>),
 }
 
 impl Again<'_> {

@@ -264,12 +264,7 @@ fn together(
     // nor do counts alone show that it does not.
     let by_slope = |feeds: bool| {
         let shown = within.map(|[_, exceeds]| exceeds).into_iter().chain(by_power.map(|power| power.slope()));
-        match shown.reduce(f64::max) {
-            _ if source != Source::Within => 1.0,
-            None => CONFIDENT - 0.01,
-            Some(most) if feeds => most,
-            Some(_) => 1.0,
-        }
+        if source == Source::Within { by_shown(feeds, shown.reduce(f64::max)) } else { 1.0 }
     };
     let couples = matches!(kind, Kind::ModeCoupling | Kind::Both);
     let feeds = matches!(kind, Kind::NegativeSlope | Kind::Both);
@@ -310,6 +305,15 @@ fn together(
         rests = segment.testimonies.iter().filter(speaks).map(|testimony| testimony.witness).collect();
     }
     (verdict, rests, shared)
+}
+
+/// The most that may be said of whether the slope feeds, by the probability that it is shown to, if any is.
+fn by_shown(feeds: bool, shown: Option<f64>) -> f64 {
+    match shown {
+        None => CONFIDENT - 0.01,
+        Some(most) if feeds => most,
+        Some(_) => 1.0,
+    }
 }
 
 /// Names what contradicts the verdict, which is then undecided.

@@ -242,6 +242,8 @@ pub(super) struct Around {
     pub(super) knee: Option<Knee>,
     /// The law of all that lies below that knee, where it is a straight line: of what smears from above alone a line would have a slope, too.
     pub(super) line: Option<Trend>,
+    /// Whether it lies on both sides of a knee: it has no slope.
+    pub(super) mixed: bool,
 }
 
 /// Level and slope of friction; whether the velocity is recorded, and whether it limits the vibration.
@@ -249,7 +251,7 @@ pub(super) fn level(
     cells: &[Cell],
     all: &Cell,
     [has_velocity, limited]: [bool; 2],
-    Around { at_knee, knee, line }: Around,
+    Around { at_knee, knee, line, mixed }: Around,
     settings: &Settings,
 ) -> Level {
     /// Relative range of the velocity from which on there is a slope.
@@ -282,8 +284,12 @@ pub(super) fn level(
             let bent = all.within.bends(velocity) || turns(cells, velocity) || turns(&sorted, velocity);
             (slope, bent, parts(&sorted).map(|both| both.map(wider)))
         });
-        let better =
-            moves.into_iter().chain(around).chain(inside).min_by(|a, b| a.0.error.total_cmp(&b.0.error));
+        let better = moves
+            .into_iter()
+            .chain(around)
+            .chain(inside)
+            .min_by(|a, b| a.0.error.total_cmp(&b.0.error))
+            .filter(|_| !mixed);
         let (slope, extremes) =
             better.map_or((None, None), |(slope, bent, extremes)| ((!bent).then_some(slope), extremes));
         let level = Measured { error, ..level };

@@ -3,7 +3,7 @@
 //! | stage | file |
 //! |---|---|
 //! | a file of any format → columns and rows | `formats/mod.rs`, `place.rs`, `unread.rs` |
-//! | columns → channels, units of time | `channel.rs`, `unit.rs`, `settings.rs`, `read.rs` |
+//! | columns → channels, units of time | `channel.rs`, `unit.rs`, `scale.rs`, `settings.rs`, `read.rs` |
 //! | its strokes, between rests and turns | `stroke.rs` |
 //! | is the file fit for analysis: gaps, outliers, clipping, swapped columns | `survey.rs`, `pace.rs`, `range.rs`, `outlier.rs`, `fault.rs` |
 //! | forces that slow sensors do not show, from the accelerations of a known rig | `rig.rs`, `restore.rs`, `motion.rs` |
@@ -12,7 +12,7 @@
 //! | friction power and its parts | `feedback.rs` |
 //! | which mechanism alone would destabilise | `attribution.rs` |
 //! | verdict of the growth, confidence, reasons | `verdict.rs`, `reading.rs`, `overview.rs`, `conclude.rs` |
-//! | segments of time: where the record changes in kind | `cells.rs`, `cut.rs`, `knee.rs`, `segment.rs`, `trend.rs`, `within.rs`, `losses.rs` |
+//! | segments of time: where the record changes in kind | `cells.rs`, `cut.rs`, `knee.rs`, `parts.rs`, `segment.rs`, `trend.rs`, `within.rs`, `losses.rs` |
 //! | what three witnesses say of each, and together | `witness.rs`, `population.rs`, `joint.rs`, `testimony.rs`, `rates.rs`, `told.rs` |
 //! | points for `fit` | `points.rs`, `undisturbed.rs`, `measured.rs` |
 //! | pictures | `spectrogram.rs`, `envelope.rs`, `clips.rs`, `instants.rs` |
@@ -63,6 +63,7 @@ mod reading;
 mod restore;
 mod rig;
 mod runs;
+mod scale;
 mod segment;
 mod settings;
 mod shape;

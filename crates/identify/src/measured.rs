@@ -19,6 +19,10 @@ pub struct Measurements {
     pub without_contact: u64,
     /// Share of a record that is left out, as a vibration blurs its friction.
     pub left_out: f64,
+    /// Share of a record, or of rows with forces, that is at rest and left out.
+    pub at_rest: f64,
+    /// Sentences about what was read and how, where that is not plain.
+    pub remarks: Vec<String>,
 }
 
 /// Reads measured friction from the file that `open` reads (up to three times), named `name` in messages. With forces, a
@@ -34,10 +38,11 @@ pub fn read_measurements(
     friction: &FrictionColumn,
     temperature: Option<f64>,
 ) -> Result<Measurements, Unfit> {
-    let records = *friction == FrictionColumn::Forces && open().is_ok_and(|input| is_record(input, settings));
-    if records {
+    let forces = *friction == FrictionColumn::Forces;
+    let record = open().ok().filter(|_| forces).and_then(|input| of_record(input, settings));
+    if let Some(remarks) = record {
         let found = identify(&mut open, name, settings, &mut |_, _| ())?;
-        let Undisturbed { points, left_out } = found.undisturbed;
+        let Undisturbed { points, left_out, at_rest } = found.undisturbed;
         let point = |(point, own): &(Point, bool)| {
             let temperature = temperature.or(own.then_some(point.temperature))?;
             Some(Point { temperature, ..*point })
@@ -45,20 +50,21 @@ pub fn read_measurements(
         let points: Option<Vec<Point>> = points.iter().map(point).collect();
         // Without a vibration there are no windows, and without a temperature the table says what is missing.
         if let Some(points) = points.filter(|_| found.windows > 0) {
-            return Ok(Measurements { points, without_contact: 0, left_out });
+            return Ok(Measurements { points, without_contact: 0, left_out, at_rest, remarks });
         }
     }
     let input = open().map_err(|why| Unfit {
         name: name.to_owned(),
         fault: Box::new(crate::fault::Fault::Unreadable { why: why.to_string() }),
     })?;
-    let Points { points, without_contact } = read_points(input, name, settings, friction, temperature)?;
-    Ok(Measurements { points, without_contact, left_out: 0.0 })
+    let Points { points, without_contact, at_rest, remarks } =
+        read_points(input, name, settings, friction, temperature)?;
+    Ok(Measurements { points, without_contact, left_out: 0.0, at_rest, remarks })
 }
 
-/// Whether the file has all that a record of vibrations has.
-fn is_record(input: Box<dyn Read>, settings: &Settings) -> bool {
+/// What is to be said of how a file is read; `None` where it does not have all that a record of vibrations has.
+fn of_record(input: Box<dyn Read>, settings: &Settings) -> Option<Vec<String>> {
     let needed =
         [Channel::TangentialAcceleration, Channel::TangentialForce, Channel::NormalForce, Channel::Velocity];
-    Table::open_with(input, settings, &needed, true).is_ok()
+    Table::open_with(input, settings, &needed, true).ok().map(|table| table.remarks())
 }

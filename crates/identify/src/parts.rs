@@ -17,12 +17,14 @@ pub(super) struct Part {
     pub(super) knee: Option<Knee>,
     /// The law of all parts as slow as this one, where they are the slowest: it is one, however often the velocity comes there.
     pub(super) line: Option<Trend>,
+    /// Whether a part of it lies beyond a knee, for too short a time to be cut off: it has no slope.
+    pub(super) mixed: bool,
 }
 
 impl Part {
     /// All of so many cells.
     pub(super) fn whole(count: usize) -> Part {
-        Part { cells: [0, count], knees: [false; 2], knee: None, line: None }
+        Part { cells: [0, count], knees: [false; 2], knee: None, line: None, mixed: false }
     }
 
     /// Whether the cells `from..to` of this part are fastest at a knee, where all cells of the stretch are given.
@@ -41,14 +43,17 @@ pub(super) fn parts(cells: &[Cell], least: usize) -> Vec<Part> {
     const SCATTER: f64 = 0.005;
     /// By how much less a knee has to leave of the residuals than lines do.
     const CLEARLY: f64 = 4.0;
+    /// The part of its cells that may lie beyond a knee.
+    const MIXED: f64 = 0.1;
     let found = reads(cells);
     if found.len() < 2 * LEAST {
         return vec![Part::whole(cells.len())];
     }
     // The law is one of the speed, however often the velocity goes to and fro.
     let begins = [0].into_iter().chain(found.iter().map(|(after, _)| *after));
-    let steady = begins.zip(&found).filter(|(from, (after, [velocity, _]))| {
-        let change = cells[*after.min(&(cells.len() - 1))].velocity() - cells[*from].velocity();
+    let begins: Vec<usize> = begins.collect();
+    let steady = begins.iter().zip(&found).filter(|(from, (after, [velocity, _]))| {
+        let change = cells[*after.min(&(cells.len() - 1))].velocity() - cells[**from].velocity();
         change.abs() < SIDE * velocity.abs()
     });
     let mut points: Vec<[f64; 2]> =
@@ -66,10 +71,12 @@ pub(super) fn parts(cells: &[Cell], least: usize) -> Vec<Part> {
     let between = cuts.iter().filter(|cut| **cut < points.len());
     let between = between.map(|cut| 0.5 * (points[cut - 1][0] + points[*cut][0])).collect();
     let speeds: Vec<f64> = knee.map_or(between, |knee| vec![knee.below]);
-    // Among which of these speeds the law is read.
-    let among =
-        found.iter().map(|(_, [velocity, _])| speeds.iter().filter(|at| velocity.abs() > **at).count());
-    let stretches = stretches(among.collect(), LEAST, false);
+    // Among which of these speeds something moves.
+    let place = |speed: f64| speeds.iter().filter(|at| speed > **at).count();
+    // Below a knee lies what is read wholly below it.
+    let fastest = |from: usize, to: usize| range(&cells[from..to], Cell::speed)[1];
+    let read = begins.iter().zip(&found).map(|(from, (after, _))| place(fastest(*from, *after)));
+    let stretches = stretches(read.collect(), LEAST, false);
     let last = stretches.len() - 1;
     let starts = [0].into_iter().chain(stretches.iter().skip(1).map(|[from, _]| found[from - 1].0));
     let starts: Vec<usize> = starts.collect();
@@ -79,9 +86,15 @@ pub(super) fn parts(cells: &[Cell], least: usize) -> Vec<Part> {
             knees: [k > 0, k < last],
             knee: None,
             line: None,
+            mixed: false,
         })
         .collect();
     let of = |part: &Part| &cells[part.cells[0]..part.cells[1]];
+    for part in &mut parts {
+        let most = place(Cell::sum(of(part)).speed());
+        let elsewhere = of(part).iter().filter(|cell| place(cell.speed()) != most).count();
+        part.mixed = elsewhere as f64 > MIXED * of(part).len() as f64;
+    }
     let Some(slowest) = speeds.first() else { return parts };
     let (slow, all): (Vec<&mut Part>, Vec<&[Cell]>) = parts
         .iter_mut()

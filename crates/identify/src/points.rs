@@ -6,6 +6,7 @@ use crate::channel::Channel;
 use crate::fault::{Fault, Unfit};
 use crate::read::{Row, Table};
 use crate::settings::Settings;
+use crate::undisturbed::RESTS;
 
 /// One measured point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,6 +41,10 @@ pub struct Points {
     pub points: Vec<Point>,
     /// Rows that are passed over, as nothing presses there.
     pub without_contact: u64,
+    /// Share of the others that is left out, as nothing moves there: forces at rest are no friction of sliding.
+    pub at_rest: f64,
+    /// Sentences about what was read and how, where that is not plain.
+    pub remarks: Vec<String>,
 }
 
 /// Reads points from a file with the columns of `settings` for velocity, temperature and both forces; its name in
@@ -90,7 +95,7 @@ fn points(
     while let Some(Row { place, values, .. }) = table.next()? {
         let value = |channel: Channel| values[channel as usize];
         let (tangential, normal) = (value(Channel::TangentialForce), value(Channel::NormalForce));
-        let friction = match friction {
+        let coefficient = match friction {
             FrictionColumn::Named(_) => tangential,
             FrictionColumn::Forces if normal > 0.0 => tangential / normal,
             FrictionColumn::Forces => {
@@ -103,12 +108,20 @@ fn points(
         points.push(Point {
             velocity: value(Channel::Velocity),
             half_range: 0.0,
-            friction,
+            friction: coefficient,
             temperature: temperature.unwrap_or(value(Channel::Temperature)),
         });
     }
-    match open {
-        Some(fault) if points.is_empty() => Err(fault),
-        _ => Ok(Points { points, without_contact }),
+    if let Some(fault) = open.filter(|_| points.is_empty()) {
+        return Err(fault);
     }
+    let read = points.len();
+    if *friction == FrictionColumn::Forces {
+        let fastest = points.iter().map(|point: &Point| point.velocity.abs()).fold(0.0, f64::max);
+        // Rows that do not follow each other in time rest only where they say so: speeds of a table may span decades.
+        let rests = if table.is_over_time() { RESTS * fastest } else { 0.0 };
+        points.retain(|point| point.velocity.abs() > rests || fastest == 0.0);
+    }
+    let at_rest = (read - points.len()) as f64 / read.max(1) as f64;
+    Ok(Points { points, without_contact, at_rest, remarks: table.remarks() })
 }

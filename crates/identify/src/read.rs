@@ -6,6 +6,7 @@ use crate::channel::{Channel, PerChannel};
 use crate::fault::Fault;
 use crate::formats::{self, Clock, Source};
 use crate::place::Place;
+use crate::scale::scale;
 use crate::settings::Settings;
 use crate::unit::{TimeUnit, is_time, named};
 use squealmap_input::quote::{clipped, quoted};
@@ -34,6 +35,10 @@ pub(super) struct Table {
     /// Whether a row was read.
     begun: bool,
     columns: PerChannel<Option<usize>>,
+    /// What one of the unit of each is in that in which it is given.
+    scales: PerChannel<f64>,
+    /// Whether the file has a column of time, or says it: its rows follow each other.
+    over_time: bool,
     /// Rows to pass over, and rows to read after them.
     skipped: u64,
     left: u64,
@@ -79,9 +84,18 @@ impl Table {
             Some(name) => find(header, name),
             None => find(header, TIME).or_else(|| header.iter().position(|name| is_time(name))),
         };
-        let remarks = of_one_record(&*source, &mut columns, settings, needed)?;
+        let mut remarks = of_one_record(&*source, &mut columns, settings, needed)?;
+        let mut scales = [1.0; Channel::ALL.len()];
+        for (channel, column) in Channel::ALL.into_iter().zip(columns) {
+            let Some(name) = column.map(|column| &header[column]) else { continue };
+            if let Some((factor, unit)) = scale(channel, name) {
+                scales[channel as usize] = factor;
+                remarks.push(format!("column `{}` is read in {unit}, as its header says", quoted(name)));
+            }
+        }
         // A format that says the time of its samples needs no column of it, unless one is named.
         let clock = columns.iter().flatten().find_map(|column| source.clock(*column));
+        let over_time = time.is_some() || clock.is_some();
         let time = time.filter(|_| timed && (clock.is_none() || settings.time.is_some()));
         let untold = settings.rate.is_none() && clock.is_none();
         if timed && time.is_none() && (untold || settings.time.is_some()) {
@@ -114,6 +128,8 @@ impl Table {
             believed,
             begun: false,
             columns,
+            scales,
+            over_time,
             skipped,
             left,
             remarks,
@@ -137,9 +153,9 @@ impl Table {
         self.left -= 1;
         self.source.whole()?;
         let mut values = PerChannel::default();
-        for (value, column) in values.iter_mut().zip(self.columns) {
+        for ((value, column), scale) in values.iter_mut().zip(self.columns).zip(self.scales) {
             if let Some(column) = column {
-                *value = self.source.number(column)?;
+                *value = scale * self.source.number(column)?;
             }
         }
         let unit = self.time_unit().unwrap_or(TimeUnit::Second).seconds();
@@ -177,6 +193,11 @@ impl Table {
     /// Whether the time of the samples is that of a column.
     pub(super) fn reads_time(&self) -> bool {
         self.believed && self.time.is_some()
+    }
+
+    /// Whether its rows follow each other in time.
+    pub(super) fn is_over_time(&self) -> bool {
+        self.over_time
     }
 
     /// Sentences about what was read and how, where that is not plain.

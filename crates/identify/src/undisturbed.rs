@@ -9,7 +9,7 @@ use crate::level::SMALL;
 use crate::points::Point;
 
 /// What moves slower than this part of the fastest is at rest: no law of sliding is measured there.
-const RESTS: f64 = 0.01;
+pub(super) const RESTS: f64 = 0.01;
 
 /// How long a slow force sensor remembers a vibration or a rest, s: six time constants at 50 Hz.
 const REMEMBERS: f64 = 0.02;
@@ -24,6 +24,8 @@ pub struct Undisturbed {
     pub points: Vec<(Point, bool)>,
     /// Share of the record that is left out, of what is not at rest.
     pub left_out: f64,
+    /// Share of the record that is at rest.
+    pub at_rest: f64,
 }
 
 /// Half of the range that the velocity passes within a cell and its windows, which reach over its ends, m/s.
@@ -36,7 +38,7 @@ fn half_range(cells: &[Cell], number: usize, hop: f64) -> f64 {
 /// The points of the cells of a record with velocity and forces.
 pub(super) fn undisturbed(cells: &[Cell], has_temperature: bool) -> Undisturbed {
     let mut points = Vec::new();
-    let (mut blurred, mut all) = (0.0, 0.0);
+    let (mut blurred, mut all, mut rests) = (0.0, 0.0, 0.0);
     let mut since = f64::NEG_INFINITY;
     let mut last = f64::NEG_INFINITY;
     let fastest = cells.iter().map(Cell::speed).fold(0.0, f64::max);
@@ -45,6 +47,7 @@ pub(super) fn undisturbed(cells: &[Cell], has_temperature: bool) -> Undisturbed 
         let half_range = half_range(cells, number, hop);
         if cell.speed() - half_range <= RESTS * fastest {
             since = cell.time[1];
+            rests += cell.windows;
             continue;
         }
         all += cell.windows;
@@ -62,5 +65,6 @@ pub(super) fn undisturbed(cells: &[Cell], has_temperature: bool) -> Undisturbed 
             points.push((Point { velocity, half_range, friction, temperature }, has_temperature));
         }
     }
-    Undisturbed { points, left_out: if all > 0.0 { blurred / all } else { 0.0 } }
+    let share = |part: f64, of: f64| if of > 0.0 { part / of } else { 0.0 };
+    Undisturbed { points, left_out: share(blurred, all), at_rest: share(rests, all + rests) }
 }

@@ -128,7 +128,9 @@ impl Said {
         let length = |segment: &Segment| segment.time[1] - segment.time[0];
         let whole: f64 = found.segments.iter().map(length).sum();
         let part = |is: &dyn Fn(&Segment) -> bool| {
-            found.segments.iter().filter(|segment| is(segment)).map(length).sum::<f64>() / whole
+            // The sum of nothing is −0.
+            found.segments.iter().filter(|segment| is(segment)).map(length).fold(0.0, |sum, one| sum + one)
+                / whole
         };
         let vibrates = |segment: &Segment| segment.state != State::Quiet;
         let loud = || found.segments.iter().filter(|segment| vibrates(segment));

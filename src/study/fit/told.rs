@@ -7,8 +7,25 @@ use squealmap_input::quote::rounded;
 /// What was not taken as it stands in the file.
 #[must_use]
 pub fn remarks(measured: &Measurements) -> Vec<String> {
-    let Measurements { without_contact, left_out, .. } = measured;
-    let mut remarks = Vec::new();
+    /// The largest usual friction coefficient that passes without a word.
+    const LARGEST: f64 = 2.0;
+    let Measurements { points, without_contact, left_out, at_rest, remarks } = measured;
+    let mut remarks = remarks.clone();
+    let mut sizes: Vec<f64> = points.iter().map(|point| point.friction.abs()).collect();
+    sizes.sort_by(f64::total_cmp);
+    if let Some(usual) = sizes.get(sizes.len() / 2).filter(|usual| **usual > LARGEST) {
+        remarks.push(format!(
+            "half of the friction coefficients are above {}: is a column in percent, or a force in another unit? A header may say so, as \
+             `mu (%)` or `T (kN)`",
+            rounded(*usual)
+        ));
+    }
+    if *at_rest > 0.0 {
+        remarks.push(format!(
+            "{:.1} % are at rest and left out: friction is there whatever holds the body",
+            100.0 * at_rest
+        ));
+    }
     if *without_contact > 0 {
         remarks.push(format!("{without_contact} row(s) without contact are passed over"));
     }

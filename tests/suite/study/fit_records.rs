@@ -16,7 +16,7 @@ use squealmap::model::motion::{Motion, MotionTable};
 use squealmap::model::{Param, Params};
 use squealmap::study::fit::fit;
 use squealmap::study::signals::sensors::{Recording, record};
-use squealmap_identify::{FrictionColumn, Measurements, Settings, read_measurements, read_points};
+use squealmap_identify::{Channel, FrictionColumn, Measurements, Settings, read_measurements, read_points};
 
 fn read(bytes: &[u8]) -> Measurements {
     let open = || Ok(Box::new(Cursor::new(bytes.to_vec())) as Box<dyn Read>);
@@ -115,4 +115,56 @@ fn rows_without_contact_are_passed_over() {
     assert_eq!((measured.without_contact, measured.points.len()), (10, 30));
     let fitted = fit(&measured.points, LawKind::Bilinear, &[20.0], None).unwrap();
     near("knee", fitted.columns[2].1[0], 5.0, 1e-4);
+}
+
+/// Forces at rest are no friction of sliding: in rows over time, and in a table where it says 0.
+#[test]
+fn rows_at_rest_are_left_out() {
+    let mut rows = "t,V,T,N\n".to_owned();
+    let mut table = "V,T,N\n".to_owned();
+    let law = |v: f64| 0.4 - 0.2 * (v / 0.02).min(1.0);
+    for k in 0..200 {
+        let v = if k < 50 { 1e-5 * f64::from(k % 3) } else { 0.0002 * f64::from(k - 49) };
+        let mu = if k < 50 { 0.1 } else { law(v) };
+        writeln!(rows, "{},{v},{},10", 0.01 * f64::from(k), 10.0 * mu).unwrap();
+        writeln!(table, "{},{},10", if k < 50 { 0.0 } else { v }, 10.0 * mu).unwrap();
+    }
+    for text in [rows, table] {
+        let measured = read(text.as_bytes());
+        near("share at rest", measured.at_rest, 0.25, 0.01);
+        let fitted = fit(&measured.points, LawKind::Bilinear, &[20.0], None).unwrap();
+        near("mu_s", fitted.columns[0].1[0], 0.4, 1e-3);
+        near("knee", fitted.columns[2].1[0], 0.02, 1e-4);
+    }
+    // A table of speeds over decades keeps its slow ones.
+    let mut table = "V,T,N\n".to_owned();
+    for k in 0..40 {
+        let v = 10_f64.powf(-4.0 + 0.1 * f64::from(k));
+        writeln!(table, "{v},{},10", 10.0 * law(v)).unwrap();
+    }
+    let measured = read(table.as_bytes());
+    assert_eq!((measured.points.len(), measured.at_rest), (40, 0.0));
+}
+
+/// What a header says of units is heeded, and said.
+#[test]
+fn units_in_headers_are_heeded() {
+    let mut table = "t,V (mm/s),T (kN),N\n".to_owned();
+    for k in 1..100 {
+        let v = 0.0005 * f64::from(k);
+        let mu = 0.4 - 0.2 * (v / 0.02).min(1.0);
+        writeln!(table, "{},{},{},1000", 0.1 * f64::from(k), 1e3 * v, mu).unwrap();
+    }
+    let mut settings = Settings::default();
+    for (channel, name) in [(Channel::Velocity, "V (mm/s)"), (Channel::TangentialForce, "T (kN)")] {
+        settings.columns[channel as usize] = Some(name.to_owned());
+    }
+    let open = || Ok(Box::new(Cursor::new(table.clone().into_bytes())) as Box<dyn Read>);
+    let measured =
+        read_measurements(open, "table.csv", &settings, &FrictionColumn::Forces, Some(20.0)).unwrap();
+    let fitted = fit(&measured.points, LawKind::Bilinear, &[20.0], None).unwrap();
+    near("knee", fitted.columns[2].1[0], 0.02, 1e-6);
+    near("mu_s", fitted.columns[0].1[0], 0.4, 1e-6);
+    let said = squealmap::study::fit::told::remarks(&measured).join("; ");
+    assert!(said.contains("`V (mm/s)` is read in mm/s") && said.contains("`T (kN)` is read in kN"), "{said}");
 }
