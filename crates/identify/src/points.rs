@@ -6,7 +6,9 @@ use crate::channel::Channel;
 use crate::fault::{Fault, Unfit};
 use crate::read::{Row, Table};
 use crate::settings::Settings;
-use crate::undisturbed::RESTS;
+
+/// What moves slower than this part of the fastest is at rest: no law of sliding is measured there.
+pub(super) const RESTS: f64 = 0.01;
 
 /// One measured point.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -6,10 +6,7 @@
 
 use crate::cells::Cell;
 use crate::level::SMALL;
-use crate::points::Point;
-
-/// What moves slower than this part of the fastest is at rest: no law of sliding is measured there.
-pub(super) const RESTS: f64 = 0.01;
+use crate::points::{Point, RESTS};
 
 /// How long a slow force sensor remembers a vibration or a rest, s: six time constants at 50 Hz.
 const REMEMBERS: f64 = 0.02;
