@@ -35,7 +35,7 @@ pub(super) struct Table {
     /// Whether a row was read.
     begun: bool,
     columns: PerChannel<Option<usize>>,
-    /// What one of the unit of each is in that in which it is given.
+    /// What a value of each is multiplied by, for its unit.
     scales: PerChannel<f64>,
     /// Whether the file has a column of time, or says it: its rows follow each other.
     over_time: bool,
