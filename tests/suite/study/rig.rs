@@ -303,13 +303,14 @@ fn a_law_that_bends_gently_is_told_nothing_wrong() {
 #[test]
 fn a_velocity_that_goes_to_and_fro_is_told_nothing_wrong() {
     let [fast, slow] = [0.0472, 0.006];
-    for (times, least) in [(2_u32, 0.7), (5, 0.0), (12, 0.0)] {
+    for (times, length, least) in [(2_u32, LENGTH, 0.7), (5, LENGTH, 0.0), (50, 1.0, 0.0)] {
         let mut rig = rig(MU_S, MU_D, KNEE, [fast, slow]);
         let corners = (0..=2 * times)
-            .map(|k| [LENGTH * f64::from(k) / f64::from(2 * times), if k % 2 == 0 { fast } else { slow }]);
+            .map(|k| [length * f64::from(k) / f64::from(2 * times), if k % 2 == 0 { fast } else { slow }]);
         let corners: Vec<[f64; 2]> = corners.collect();
         rig.motion = table(&corners);
-        let samples = sampled(&rig, RATE);
+        let recording = Recording { rate: RATE, duration: length, skew: 0.0, force_skew: 0.0 };
+        let samples = recorded(&rig, &plan(1.0, 1.0, 12), &recording).samples;
         let restored = known(&rig, false, [1.0; 3]);
         let read = Settings {
             rig: None,
@@ -323,7 +324,7 @@ fn a_velocity_that_goes_to_and_fro_is_told_nothing_wrong() {
             assert_right(&rig, &found);
             let both = found.segments.iter().filter(|segment| segment.verdict.kind == Kind::Both);
             let told: f64 = both.map(|segment| segment.time[1] - segment.time[0]).sum();
-            let below = LENGTH * (KNEE - slow) / (fast - slow);
+            let below = length * (KNEE - slow) / (fast - slow);
             assert!(told >= least * below, "{times}: {told} of {below}\n{}", describe(&found));
         }
     }
