@@ -6,7 +6,7 @@
 pub enum FitFault {
     /// None at all.
     #[error(
-        "there is no point to fit: all rows are left out, as they vibrate or the contact is open there, or there are none; measure where \
+        "there is no point to fit: all rows are left out, as they vibrate or rest, or the contact is open there, or there are none; measure where \
          nothing squeals"
     )]
     NoPoints,
