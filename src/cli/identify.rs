@@ -6,7 +6,7 @@ use crate::cli::numbers::finite;
 use crate::cli::output::list;
 use crate::cli::pictures::png_of;
 use crate::cli::signals::SignalOptions;
-use crate::cli::talk::print;
+use crate::cli::talk::{is_verbose, print};
 use squealmap::results::figure::look::Look;
 use squealmap::study::identify::report;
 use squealmap::study::identify::report::{Shown, WindowsCsv};
@@ -71,8 +71,11 @@ impl Identify {
     }
 }
 
-/// The segments with what each witness says, and the verdict of the growth.
+/// The segments with what each witness says, where these are few or more was asked for, and the verdict of the growth.
 fn summary(found: &Identification, modelled: bool) -> String {
+    /// The most segments of which all is said.
+    const FEW: usize = 8;
+    let brief = found.segments.len() > FEW && !is_verbose();
     let mut text = format!("{}\n", told(&found.segments));
     for segment in &found.segments {
         let [start, end] = segment.time;
@@ -94,6 +97,9 @@ fn summary(found: &Identification, modelled: bool) -> String {
         if let Some((mechanism, probability)) = segment.shared {
             let _ = writeln!(text, "  in any case: {} (confidence {probability:.2})", mechanism.words());
         }
+        if brief {
+            continue;
+        }
         for reason in reasons {
             let _ = writeln!(text, "  {reason}");
         }
@@ -114,6 +120,12 @@ fn summary(found: &Identification, modelled: bool) -> String {
         for contradiction in &segment.contradictions {
             let _ = writeln!(text, "  contradiction: {contradiction}");
         }
+    }
+    if brief {
+        let _ = writeln!(
+            text,
+            "what each witness says of these segments is in identify.json; --verbose prints it"
+        );
     }
     if found.segments.is_empty() {
         let verdict = &found.verdict;

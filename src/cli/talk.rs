@@ -118,9 +118,14 @@ pub(crate) fn error(why: &str) {
     let _ = writeln!(std::io::stderr().lock(), "error: {}", message(why));
 }
 
+/// Whether more was asked for.
+pub(crate) fn is_verbose() -> bool {
+    manner().verbose
+}
+
 /// A remark for those who asked for more.
 pub(crate) fn detail(text: &str) {
-    if manner().verbose {
+    if is_verbose() {
         note(text);
     }
 }

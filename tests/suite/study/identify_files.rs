@@ -18,6 +18,32 @@ const RATE: f64 = 20e3;
 const TONE: f64 = 1500.0;
 const GROWTH: f64 = 12.0;
 
+/// Of many segments a line each is printed, and all of it where more is asked for.
+#[test]
+fn many_segments_have_a_line_each() {
+    let directory = tempfile::tempdir().unwrap();
+    let mut table = b"ax2\n".to_vec();
+    let mut random = Random::new(1);
+    for k in 0..40_000 {
+        let t = f64::from(k) / RATE;
+        let loud = if k % 8000 < 4000 { 1.0 } else { 0.0 };
+        writeln!(table, "{}", loud * (TAU * TONE * t).sin() + 1e-3 * random.normal()).unwrap();
+    }
+    std::fs::write(directory.path().join("bursts.csv"), table).unwrap();
+    let said = |more: &[&str]| {
+        let words = [&["identify", "bursts.csv", "--rate", "20000", "-o", "found"], more].concat();
+        let ended = squealmap(directory.path(), &words);
+        assert_eq!(ended.code, Some(0), "{}", ended.err);
+        ended.out
+    };
+    let [brief, full] = [said(&[]), said(&["--verbose"])];
+    let segments = brief.lines().filter(|line| line.contains(" s, ")).count();
+    assert!(segments > 8 && full.lines().filter(|line| line.contains(" s, ")).count() == segments, "{brief}");
+    assert!(brief.contains("--verbose prints it") && !brief.contains("cannot speak"), "{brief}");
+    assert!(!full.contains("--verbose prints it"));
+    assert_eq!(full.matches("cannot speak").count(), 3 * segments, "{full}");
+}
+
 #[test]
 fn the_spectrogram_shows_a_growing_tone_where_it_is() {
     let directory = tempfile::tempdir().unwrap();
