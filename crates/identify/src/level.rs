@@ -62,7 +62,7 @@ pub(super) fn spread(cells: &[Cell], of: impl Fn(&Cell) -> f64) -> f64 {
 }
 
 /// Cells in order of speed: a part of them is a part of the law, however often the velocity goes to and fro.
-fn by_speed(cells: &[Cell]) -> Vec<Cell> {
+pub(super) fn by_speed(cells: &[Cell]) -> Vec<Cell> {
     let mut sorted = cells.to_vec();
     sorted.sort_by(|a, b| a.speed().total_cmp(&b.speed()));
     sorted
@@ -134,8 +134,8 @@ pub(super) struct Trend {
 
 impl Trend {
     /// `None` where the velocity hardly moves, or the law is read too seldom to tell slow from fast. `at_knee`: whether the
-    /// fastest cell is at one; what the knee above all cells smears into them is taken out.
-    pub(super) fn new(cells: &[Cell], at_knee: bool, knee: Option<Knee>) -> Option<Trend> {
+    /// fastest cell is at one; what the knee above all cells smears into them is taken out. The cells are in order of speed.
+    pub(super) fn new(sorted: &[Cell], at_knee: bool, knee: Option<Knee>) -> Option<Trend> {
         /// Relative range of the velocity from which on levels show a slope.
         const MOVES: f64 = 0.1;
         let slope = |cells: &[Cell]| {
@@ -145,15 +145,14 @@ impl Trend {
             };
             (found.len() >= LEAST).then(|| Trended::new(found.iter().map(|(_, point)| clear(*point))).slope)
         };
-        let spread = spread(cells, Cell::velocity);
+        let spread = spread(sorted, Cell::velocity);
         if spread < MOVES {
             return None;
         }
-        let sorted = by_speed(cells);
-        let all = slope(&sorted)?;
+        let all = slope(sorted)?;
         let (slow, fast) = sorted.split_at(sorted.len() / 2);
         let halves = [slope(slow)?, slope(fast)?];
-        let range = spread * Cell::sum(cells).speed();
+        let range = spread * Cell::sum(sorted).speed();
         let speeds = [&sorted[0], &sorted[sorted.len() - 1]].map(Cell::speed);
         Some(Trend { all, halves, ends: ends(speeds, halves, at_knee), range })
     }
@@ -234,15 +233,16 @@ fn damping(cells: &[Cell], all: &Cell, settings: &Settings) -> Option<Measured> 
 }
 
 /// What is known of the law around a segment.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Around {
     /// Whether its fastest cell is at a knee of the law.
     pub(super) at_knee: bool,
     /// The knee below which the segment lies, where one is fitted.
     pub(super) knee: Option<Knee>,
-    /// The law of all that lies below that knee, where it is a straight line: of what smears from above alone a line would have a slope, too.
+    /// The law of all that is slower than the slowest cut: it is one, however often the velocity comes there. Of what smears from above alone a line
+    /// would have a slope, too.
     pub(super) line: Option<Trend>,
-    /// Whether it lies on both sides of a knee: it has no slope.
+    /// Whether a part of it lies beyond a knee, for too short a time to be cut off: it has no slope.
     pub(super) mixed: bool,
 }
 
@@ -277,10 +277,10 @@ pub(super) fn level(
         let wider = |slope: Measured| Measured { error: slope.error.hypot(local), ..slope };
         // By the levels over the velocity, or within each period, whichever is known better. What the jumps of friction lose between samples
         // tilts the law within a period: with restored forces its levels alone count.
-        let moves = Trend::new(cells, at_knee, knee).map(|own| own.read(allowed, level.value, velocity));
+        let sorted = by_speed(cells);
+        let moves = Trend::new(&sorted, at_knee, knee).map(|own| own.read(allowed, level.value, velocity));
         let around = line.map(|line| line.read(allowed, level.value, velocity));
         let inside = settings.rig.is_none().then(|| {
-            let sorted = by_speed(cells);
             let bent = all.within.bends(velocity) || turns(cells, velocity) || turns(&sorted, velocity);
             (slope, bent, parts(&sorted).map(|both| both.map(wider)))
         });

@@ -3,7 +3,7 @@
 use crate::cells::Cell;
 use crate::cut::{Course, PRICE, priced};
 use crate::knee::Knee;
-use crate::level::{LEAST, Trend, range, reads};
+use crate::level::{Around, LEAST, Trend, by_speed, range, reads};
 use crate::within::SIDE;
 
 /// A part of a stretch of cells.
@@ -13,26 +13,22 @@ pub(super) struct Part {
     pub(super) cells: [usize; 2],
     /// Whether the law has a knee at its beginning and at its end.
     knees: [bool; 2],
-    /// The knee below which it lies, where that explains what is read better than straight lines do.
-    pub(super) knee: Option<Knee>,
-    /// The law of all parts as slow as this one, where they are the slowest: it is one, however often the velocity comes there.
-    pub(super) line: Option<Trend>,
-    /// Whether a part of it lies beyond a knee, for too short a time to be cut off: it has no slope.
-    pub(super) mixed: bool,
+    around: Around,
 }
 
 impl Part {
     /// All of so many cells.
     pub(super) fn whole(count: usize) -> Part {
-        Part { cells: [0, count], knees: [false; 2], knee: None, line: None, mixed: false }
+        Part { cells: [0, count], knees: [false; 2], around: Around::default() }
     }
 
-    /// Whether the cells `from..to` of this part are fastest at a knee, where all cells of the stretch are given.
-    pub(super) fn fastest_at_knee(&self, [from, to]: [usize; 2], stretch: &[Cell]) -> bool {
+    /// What is known of the law around the cells `from..to` of this part, where all cells of the stretch are given.
+    pub(super) fn around(&self, [from, to]: [usize; 2], stretch: &[Cell]) -> Around {
         let [slowest, fastest] = range(&stretch[from..to], Cell::speed);
         let [begins, ends] = self.knees;
         let marked = [(begins && from == self.cells[0], from), (ends && to == self.cells[1], to - 1)];
-        marked.iter().any(|(knee, at)| *knee && stretch[*at].speed() > 0.5 * (slowest + fastest))
+        let fast = |at: usize| stretch[at].speed() > 0.5 * (slowest + fastest);
+        Around { at_knee: marked.iter().any(|(knee, at)| *knee && fast(*at)), ..self.around }
     }
 }
 
@@ -77,36 +73,25 @@ pub(super) fn parts(cells: &[Cell], least: usize) -> Vec<Part> {
     let fastest = |from: usize, to: usize| range(&cells[from..to], Cell::speed)[1];
     let read = begins.iter().zip(&found).map(|(from, (after, _))| place(fastest(*from, *after)));
     let stretches = stretches(read.collect(), LEAST, false);
-    let last = stretches.len() - 1;
-    let starts = [0].into_iter().chain(stretches.iter().skip(1).map(|[from, _]| found[from - 1].0));
-    let starts: Vec<usize> = starts.collect();
-    let mut parts: Vec<Part> = (0..=last)
-        .map(|k| Part {
-            cells: [starts[k], starts.get(k + 1).copied().unwrap_or(cells.len())],
-            knees: [k > 0, k < last],
-            knee: None,
-            line: None,
-            mixed: false,
-        })
-        .collect();
-    let of = |part: &Part| &cells[part.cells[0]..part.cells[1]];
-    for part in &mut parts {
-        let most = place(Cell::sum(of(part)).speed());
-        let elsewhere = of(part).iter().filter(|cell| place(cell.speed()) != most).count();
-        part.mixed = elsewhere as f64 > MIXED * of(part).len() as f64;
-    }
-    let Some(slowest) = speeds.first() else { return parts };
-    let (slow, all): (Vec<&mut Part>, Vec<&[Cell]>) = parts
-        .iter_mut()
-        .filter(|part| Cell::sum(of(part)).speed() < *slowest)
-        .map(|part| {
-            let cells = of(part);
-            (part, cells)
-        })
-        .unzip();
-    let line = if slow.is_empty() { None } else { Trend::new(&all.concat(), true, knee) };
-    for part in slow {
-        (part.knee, part.line) = (knee, line);
+    // A stretch begins behind what was read before it, and the last one ends with the cells.
+    let begin = |k: usize| if k == 0 { 0 } else { found[k - 1].0 };
+    let end = |k: usize| if k == found.len() { cells.len() } else { begin(k) };
+    let parts = stretches.iter().map(|[from, to]| {
+        let own = &cells[begin(*from)..end(*to)];
+        let most = place(Cell::sum(own).speed());
+        let elsewhere = own.iter().filter(|cell| place(cell.speed()) != most).count();
+        let around = Around { mixed: elsewhere as f64 > MIXED * own.len() as f64, ..Around::default() };
+        let knees = [*from > 0, *to < found.len()];
+        (Part { cells: [begin(*from), end(*to)], knees, around }, most == 0 && !speeds.is_empty())
+    });
+    let (mut parts, slowest): (Vec<Part>, Vec<bool>) = parts.unzip();
+    let slow = parts.iter().zip(&slowest).filter(|(_, slowest)| **slowest);
+    let slow: Vec<Cell> = slow.flat_map(|(part, _)| &cells[part.cells[0]..part.cells[1]]).copied().collect();
+    if !slow.is_empty() {
+        let line = Trend::new(&by_speed(&slow), true, knee);
+        for (part, _) in parts.iter_mut().zip(slowest).filter(|(_, slowest)| *slowest) {
+            part.around = Around { knee, line, ..part.around };
+        }
     }
     parts
 }

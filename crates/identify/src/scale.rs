@@ -1,6 +1,7 @@
 //! The unit of a channel by its header, where that is another one than it is read in.
 
 use crate::channel::Channel;
+use crate::unit::bracketed;
 
 /// Standard gravity, m/s².
 const GRAVITY: f64 = 9.80665;
@@ -36,9 +37,7 @@ pub(super) fn scale(channel: Channel, header: &str) -> Option<(f64, String)> {
         Channel::Velocity => &VELOCITY,
         Channel::Temperature => &[],
     };
-    let header = header.trim();
-    let text = header.strip_suffix(')').and_then(|text| text.rsplit_once('('));
-    let (_, unit) = text.or_else(|| header.strip_suffix(']').and_then(|text| text.rsplit_once('[')))?;
+    let (_, unit) = bracketed(header)?;
     let unit: String = unit.chars().filter(|letter| !letter.is_whitespace()).collect();
     let (_, factor) = units.iter().find(|(name, _)| *name == unit)?;
     Some((*factor, unit))

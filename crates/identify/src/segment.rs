@@ -176,8 +176,7 @@ pub(super) fn segments(cells: &[Cell], has: Has, settings: &Settings) -> Vec<Seg
             let mut start = first;
             for end in cut(after - first, &courses(&stretch[first..after], has, vibrating), least) {
                 let end = first + end;
-                let at_knee = part.fastest_at_knee([start, end], stretch);
-                let around = Around { at_knee, knee: part.knee, line: part.line, mixed: part.mixed };
+                let around = part.around([start, end], stretch);
                 let context = Context { vibrating, largest, around };
                 found.push(segment(&stretch[start..end], has, context, settings));
                 start = end;

@@ -70,15 +70,18 @@ impl TimeUnit {
     }
 }
 
+/// What stands before the brackets that a header ends with, and in them.
+pub(super) fn bracketed(header: &str) -> Option<(&str, &str)> {
+    let header = header.trim();
+    let unclosed = header.strip_suffix(']').map(|text| (text, '['));
+    let (text, bracket) = unclosed.or(header.strip_suffix(')').map(|text| (text, '(')))?;
+    text.rsplit_once(bracket)
+}
+
 /// The name of a column and the unit that its header says: of `time [ms]`, `t_ms`, `Time (ms)`, `t/ms`, `t in ms`.
 pub(super) fn named(header: &str) -> (&str, Option<TimeUnit>) {
     let header = header.trim();
-    let unclosed =
-        header.strip_suffix(']').map(|text| (text, '[')).or(header.strip_suffix(')').map(|text| (text, '(')));
-    let parts = match unclosed {
-        Some((text, bracket)) => text.rsplit_once(bracket),
-        None => header.rsplit_once(['_', ' ', '/', ',', '-']),
-    };
+    let parts = bracketed(header).or_else(|| header.rsplit_once(['_', ' ', '/', ',', '-']));
     let Some((name, unit)) = parts.and_then(|(name, unit)| Some((name, TimeUnit::parse(unit)?))) else {
         return (header, None);
     };
