@@ -6,6 +6,7 @@ use std::hint::black_box;
 use std::sync::atomic::AtomicBool;
 
 use squealmap::engine::lanes::Lanes;
+use squealmap::engine::lanes::linear::solved;
 use squealmap::engine::lanes::outcomes::outcomes;
 use squealmap::engine::method::Method;
 use squealmap::engine::method::taylor::REFERENCE_ORDER;
@@ -13,7 +14,7 @@ use squealmap::engine::plan::{Duration, Plan, STEP_TOLERANCE, StartKind};
 use squealmap::engine::reference::respond::respond;
 use squealmap::model::friction::FrictionLaw;
 use squealmap::model::instance::Instance;
-use squealmap::model::linear::analyse;
+use squealmap::model::linear::{Preparation, analyse, prepare};
 use squealmap::model::motion::Motion;
 use squealmap::model::{Param, Params};
 use squealmap::sweep::accuracy::clock::Clock;
@@ -77,7 +78,13 @@ fn lanes<T: Lanes>(name: &str) {
 
 fn main() {
     let instances = plane(100);
-    report("linear", instances.len(), || {
+    report("linear, in the lanes", instances.len(), || {
+        for instances in instances.chunks(500) {
+            let prepared: Vec<Preparation> = instances.iter().map(prepare).collect();
+            black_box(solved(black_box(&prepared)));
+        }
+    });
+    report("linear, one by one", instances.len(), || {
         for instance in &instances {
             black_box(analyse(black_box(instance)));
         }

@@ -58,8 +58,7 @@ fn measure(size: usize) -> Result<(), Box<dyn Error>> {
             None => by_device(&spec, &flow, (&round, bytemuck::cast_slice(&sent)))?,
         };
         let back = Instant::now();
-        let (_, ended) =
-            round.collect(&mut lanes, (&state, &flags), |lane, back| flow.take(&asked, lane, back));
+        let (_, ended) = round.collect(&mut lanes, (&state, &flags), &flow, &asked);
         let taken = [begun - began, staged - begun, back.elapsed()];
         ended?;
         if !asked.is_done() {

@@ -8,7 +8,7 @@ use crate::engine::scene::Scene;
 use crate::model::equilibrium::Equilibrium;
 use crate::model::instance::Instance;
 use crate::model::kind::InstabilityType;
-use crate::model::linear::Preparation;
+use crate::model::linear::{Linear, Preparation};
 use crate::model::status::Status;
 use crate::model::{Param, linear};
 
@@ -71,17 +71,29 @@ pub fn begun(instance: &Instance, prepared: &Preparation) -> Record {
     Record { status, ..Record::default() }
 }
 
+/// A record before any response, and the type of the equilibrium.
+pub type Examined = (Record, Option<InstabilityType>);
+
 /// The record of an instance before any response, with the eigenvalue analysis if it is asked for, and the type of its
 /// equilibrium: on the CPU, of any model.
 #[must_use]
-pub fn examined(instance: &Instance, asked: bool) -> (Record, Option<InstabilityType>) {
-    let (mut record, kind, linear) = if let Some(modal) = &instance.modal {
+pub fn examined(instance: &Instance, asked: bool) -> Examined {
+    with_eigenvalues(instance, asked, &linear::prepare(instance), linear::solve)
+}
+
+/// [`examined`] of an instance with these polynomials, which `solve` analyses.
+#[must_use]
+pub fn with_eigenvalues(
+    instance: &Instance,
+    asked: bool,
+    prepared: &Preparation,
+    solve: impl FnOnce(&Preparation) -> (Option<InstabilityType>, Option<Linear>),
+) -> Examined {
+    let (mut record, (kind, linear)) = if let Some(modal) = &instance.modal {
         let (kind, linear, status) = linear::of_modal(instance, modal);
-        (Record { status, ..Record::default() }, kind, linear)
+        (Record { status, ..Record::default() }, (kind, linear))
     } else {
-        let prepared = linear::prepare(instance);
-        let (kind, linear) = linear::solve(&prepared);
-        (begun(instance, &prepared), kind, linear)
+        (begun(instance, prepared), solve(prepared))
     };
     if asked {
         (record.kind, record.linear) = (kind, linear);
@@ -105,12 +117,6 @@ pub fn refused(spec: &dyn Instances, instance: &Instance) -> Option<Status> {
         // A type is all that is asked for.
         _ => None,
     }
-}
-
-/// The type of the equilibrium of an instance: that of its record, where the sweep has the linear analysis.
-#[must_use]
-pub fn kind_of(spec: &dyn Instances, instance: &Instance, record: &Record) -> Option<InstabilityType> {
-    if spec.linear() { record.kind } else { linear::analyse(instance).0 }
 }
 
 /// Puts a response into the record of its instance; `kind` is the type of its equilibrium.

@@ -139,7 +139,7 @@ impl OnDevice {
                 let (state, flags) = split(&back, [of_state, of_flags])?;
                 let asked = asked(&self.spec, &mut self.records, tally);
                 let back = (&state[..], flags);
-                let (_, ended) = round.collect(lanes, back, |lane, back| flow.take(&asked, lane, back));
+                let (_, ended) = round.collect(lanes, back, flow, &asked);
                 ended.map_err(|why| why.to_string())?;
             }
         }

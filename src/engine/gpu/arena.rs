@@ -14,8 +14,10 @@ use crate::engine::gpu::kernel::Compiled;
 use crate::engine::gpu::run::{FIRST, adapted, most_steps, workgroups};
 use crate::engine::kernel::source::{PROGRESS_WORDS, SETTING_WORDS, Settings};
 use crate::engine::lanes::Lanes;
+use crate::engine::march::asked::Asked;
+use crate::engine::march::flow::Flow;
 use crate::engine::march::kernel::kernel_for;
-use crate::engine::march::lane::{Back, Lane};
+use crate::engine::march::lane::Lane;
 use crate::engine::march::marching::{Form, PARTS};
 use crate::engine::march::round::{ALIGNED, Group, Round};
 
@@ -216,15 +218,11 @@ impl<R: Lanes> Arena<R> {
         })
     }
 
-    /// Takes the end of the round that was under way and gives every lane to `take`, with what has come of it.
+    /// Takes the end of the round that was under way, and gives every lane what has come of it.
     ///
     /// # Errors
-    /// When the device was lost or does not answer; the first of `take`.
-    pub(super) fn collect(
-        &mut self,
-        lanes: &mut [Lane<R>],
-        take: impl Fn(&mut Lane<R>, Back<R>) -> Result<()> + Sync,
-    ) -> Result<()> {
+    /// When the device was lost or does not answer; the first of [`Flow::take`].
+    pub(super) fn collect(&mut self, lanes: &mut [Lane<R>], flow: &Flow<R>, asked: &Asked) -> Result<()> {
         let (Some((index, began)), Some(buffers)) = (self.submitted.take(), &self.buffers) else {
             return Ok(());
         };
@@ -244,7 +242,7 @@ impl<R: Lanes> Arena<R> {
                 elapsed = Duration::from_secs_f64(1e-9 * computed);
             }
             let words = (bytemuck::cast_slice(state), bytemuck::cast_slice(flags));
-            self.round.collect(lanes, words, take)
+            self.round.collect(lanes, words, flow, asked)
         };
         self.device.meter.step(steps.gone, steps.of_warps);
         buffers.back.unmap();

@@ -19,12 +19,6 @@ use std::sync::atomic::AtomicBool;
 /// One dispatch finishes every instance.
 const MOST_DISPATCHES: u64 = 4;
 
-/// The method in a manifest.
-#[must_use]
-pub fn method() -> String {
-    "two quadratic factors by a bracketed Newton search".to_owned()
-}
-
 /// As [`append`], on several devices, each with a part of the range.
 ///
 /// # Errors

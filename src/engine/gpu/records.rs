@@ -15,9 +15,10 @@ use crate::engine::gpu::device::Device;
 use crate::engine::gpu::response::{Crews, MOST_LANES};
 use crate::engine::gpu::{linear, response};
 use crate::engine::instances::Instances;
+use crate::engine::kernel::linear::METHOD;
+use crate::engine::lanes::records::linear as on_cpu;
 use crate::engine::precision::Precision;
 use crate::engine::record::Record;
-use crate::engine::reference::records::linear as on_cpu;
 
 /// A GPU in software takes so many at once, for which it needs minutes, and whatever takes several starts of each.
 const BLOCK: usize = 65_536;
@@ -112,8 +113,7 @@ impl Engine for Gpu {
             adapter: Some(names.join("; ")),
             strict: Some(device.strict()),
         };
-        let eigenvalues =
-            if instances.response() { on_cpu(Backend::Cpu) } else { on_device(linear::method()) };
+        let eigenvalues = if instances.response() { on_cpu() } else { on_device(METHOD.to_owned()) };
         [eigenvalues, on_device(response::method(device, instances.plan().steps_per_period))]
     }
 

@@ -180,7 +180,7 @@ impl<'a> Stream<'a> {
 
     /// Takes what has come of the round of a crew, fills it up and begins its next round, if there is one.
     fn round<R: Lanes>(&self, AtWork { crew, flow, lanes }: &mut AtWork<'_, R>) -> Result<bool> {
-        crew.arena.collect(lanes, |lane, back| flow.take(&self.asked, lane, back))?;
+        crew.arena.collect(lanes, flow, &self.asked)?;
         let is_cancelled = self.cancel.load(Ordering::Relaxed);
         flow.finish(&self.asked, lanes);
         flow.turn_over(&self.asked, lanes, if is_cancelled { 0 } else { self.most });

@@ -21,6 +21,9 @@ use crate::engine::kernel::source::{Constant, Kernel};
 use crate::model::kind::{InstabilityType, UNSTABLE_ABOVE};
 use crate::model::status::Status;
 
+/// The method in a manifest.
+pub const METHOD: &str = "two quadratic factors by a bracketed Newton search";
+
 /// Most steps of the search for `y`; three to six are usual.
 pub const MAX_STEPS: u32 = 64;
 

@@ -8,7 +8,8 @@ use std::sync::atomic::AtomicBool;
 use rayon::prelude::*;
 
 use crate::engine::instances::Instances;
-use crate::engine::judged::{kind_of, take_response};
+use crate::engine::judged::{Examined, take_response};
+use crate::engine::lanes::linear::examined_many;
 use crate::engine::lanes::outcomes::outcomes;
 use crate::engine::outcome::Outcome;
 use crate::engine::plan::Plan;
@@ -57,13 +58,13 @@ pub fn records_again(spec: &dyn Instances, first: usize, records: &mut [Record],
         .flat_map_iter(|some| {
             let instances: Vec<Instance> = some.iter().map(|index| spec.instance(first + index)).collect();
             let made = outcomes::<f64>(&instances, &plan, cancel).unwrap_or_default();
-            let complete = |((index, instance), outcome): ((&usize, Instance), Outcome)| {
+            let complete = |(((index, instance), (_, kind)), outcome): (((&usize, _), Examined), Outcome)| {
                 let mut record = records[*index].clone();
-                let kind = kind_of(spec, &instance, &record);
-                take_response(&mut record, &instance, kind, &outcome);
+                take_response(&mut record, instance, kind, &outcome);
                 (*index, record)
             };
-            some.iter().zip(instances).zip(made).map(complete).collect::<Vec<_>>()
+            let examined = examined_many(&instances, false);
+            some.iter().zip(&instances).zip(examined).zip(made).map(complete).collect::<Vec<_>>()
         })
         .collect();
     for index in failed {

@@ -9,6 +9,7 @@
 //! | a sweep on all cores; some instances of it; those that need double precision | [`records`], [`outcomes`], [`again`] |
 //! | one instance between passes, and as scalars | [`job`], [`words`] |
 //! | one part of the run: which lanes, step by step | [`march`], [`pass`](mod@pass), [`block`], [`count`] |
+//! | eigenvalues of many equilibria | [`linear`] |
 //! | numbers in lanes | [`vector`], [`polynomial`], [`angle`], [`constants`] |
 //! | a step: its series, its length | [`expand`], [`friction`], [`layer`](mod@layer), [`reach`] |
 //! | its first event, and what that does | [`functions`], [`function`], [`root`], [`events`], [`carry`], [`transitions`], [`impacts`]; lane by lane: [`contact`] |
@@ -49,6 +50,7 @@ pub mod hunts;
 pub mod impacts;
 pub mod job;
 pub mod layer;
+pub mod linear;
 pub mod march;
 pub mod motion;
 pub mod nodes;

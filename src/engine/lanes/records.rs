@@ -14,16 +14,17 @@ use crate::engine::computation::Computation;
 use crate::engine::computed::Computed;
 use crate::engine::error::{Error, Result};
 use crate::engine::instances::Instances;
-use crate::engine::judged::{examined, take_response};
+use crate::engine::judged::take_response;
+use crate::engine::kernel::linear::METHOD;
 use crate::engine::lanes::again::outcomes_again;
+use crate::engine::lanes::linear::examined_many;
 use crate::engine::lanes::outcomes::outcomes;
 use crate::engine::lanes::{ORDER, again, tolerance};
 use crate::engine::plan::Plan;
 use crate::engine::precision::Precision;
 use crate::engine::record::Record;
-use crate::engine::reference::records::linear;
+use crate::engine::reference::records::in_f64;
 use crate::model::instance::Instance;
-use crate::model::kind::InstabilityType;
 use crate::model::status::Status;
 
 /// Most instances of a batch: many per lane, so that few lanes rest at its end, and not more than a core's cache holds
@@ -35,6 +36,12 @@ const FEWEST: usize = 32;
 
 /// Instances for each thread that keep it busy: two batches.
 pub(crate) const BUSY: usize = 2 * FEWEST;
+
+/// The eigenvalue analysis in a manifest.
+#[must_use]
+pub fn linear() -> Computation {
+    in_f64(Backend::Cpu, METHOD.to_owned())
+}
 
 /// The response of a sweep in a manifest.
 #[must_use]
@@ -76,7 +83,7 @@ impl Engine for Cpu {
     }
 
     fn computations(&self, instances: &dyn Instances) -> [Computation; 2] {
-        [linear(Backend::Cpu), response(self.0, instances.plan().steps_per_period)]
+        [linear(), response(self.0, instances.plan().steps_per_period)]
     }
 
     fn records(
@@ -112,11 +119,7 @@ pub fn records(
     let size = (total / (4 * threads)).clamp(FEWEST, MOST).min(total.div_ceil(threads)).max(1);
     let mut records = vec![Record::NOT_COMPUTED; total];
     records.par_chunks_mut(size).enumerate().for_each(|(index, batch)| {
-        let first = range.start + index * size;
-        let made = self::batch(spec, first..first + batch.len(), &plan, precision, cancel);
-        for (record, made) in batch.iter_mut().zip(made) {
-            *record = made;
-        }
+        self::batch(spec, range.start + index * size, &plan, precision, cancel, batch);
         if !cancel.load(Ordering::Relaxed) {
             progress(batch.len());
         }
@@ -126,35 +129,35 @@ pub fn records(
     Computed::new(records, total, ended)
 }
 
-/// The records of a range of instances; none of them is computed when `cancel` is set on the way.
-#[must_use]
-pub fn batch(
+/// Computes the records of the instances from `first` on; none of them when `cancel` is set on the way.
+fn batch(
     spec: &dyn Instances,
-    range: Range<usize>,
+    first: usize,
     plan: &Plan,
     precision: Precision,
     cancel: &AtomicBool,
-) -> Vec<Record> {
-    let count = range.len();
-    let nothing = || vec![Record::NOT_COMPUTED; count];
+    records: &mut [Record],
+) {
     if cancel.load(Ordering::Relaxed) {
-        return nothing();
+        return;
     }
-    let instances: Vec<Instance> = range.map(|index| spec.instance(index)).collect();
-    let (mut records, kinds): (Vec<Record>, Vec<Option<InstabilityType>>) =
-        instances.iter().map(|instance| examined(instance, spec.linear())).unzip();
-    if spec.response() {
-        let outcomes = match precision {
-            Precision::F32 => outcomes::<f32>(&instances, plan, cancel)
-                .and_then(|made| outcomes_again(&instances, plan, made, cancel)),
-            Precision::F64 => outcomes::<f64>(&instances, plan, cancel),
-        };
-        let Some(outcomes) = outcomes else { return nothing() };
-        for (((record, instance), kind), outcome) in
-            records.iter_mut().zip(&instances).zip(kinds).zip(&outcomes)
-        {
-            take_response(record, instance, kind, outcome);
-        }
+    let instances: Vec<Instance> = (first..first + records.len()).map(|index| spec.instance(index)).collect();
+    let mut kinds = Vec::with_capacity(instances.len());
+    for (record, (examined, kind)) in records.iter_mut().zip(examined_many(&instances, spec.linear())) {
+        *record = examined;
+        kinds.push(kind);
     }
-    records
+    if !spec.response() {
+        return;
+    }
+    let outcomes = match precision {
+        Precision::F32 => outcomes::<f32>(&instances, plan, cancel)
+            .and_then(|made| outcomes_again(&instances, plan, made, cancel)),
+        Precision::F64 => outcomes::<f64>(&instances, plan, cancel),
+    };
+    let Some(outcomes) = outcomes else { return records.fill(Record::NOT_COMPUTED) };
+    for (((record, instance), kind), outcome) in records.iter_mut().zip(&instances).zip(kinds).zip(&outcomes)
+    {
+        take_response(record, instance, kind, outcome);
+    }
 }

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use crate::engine::instances::Instances;
-use crate::engine::judged::{examined, take_response};
+use crate::engine::judged::{Examined, take_response};
 use crate::engine::outcome::Outcome;
 use crate::engine::record::Record;
 use crate::model::instance::Instance;
@@ -117,9 +117,14 @@ impl<'a> Asked<'a> {
         self.spec.instance(self.first + index)
     }
 
-    /// Completes the record of one of them, with its eigenvalues where they are asked for and with what it did.
-    pub fn complete(&self, index: usize, instance: &Instance, outcome: &Outcome) {
-        let (mut record, kind) = examined(instance, self.spec.linear());
+    /// Completes the record of one of them, which has its eigenvalues where they are asked for, with what it did.
+    pub fn complete(
+        &self,
+        index: usize,
+        instance: &Instance,
+        (mut record, kind): Examined,
+        outcome: &Outcome,
+    ) {
         take_response(&mut record, instance, kind, outcome);
         let mut records = self.records[index / TOGETHER].lock().unwrap_or_else(PoisonError::into_inner);
         records[index % TOGETHER] = record;

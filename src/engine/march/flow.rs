@@ -1,20 +1,24 @@
 //! Instances that pass through the lanes of a device: those that are over make room for the next.
 
+use std::slice;
 use std::sync::atomic::AtomicBool;
 
 use rayon::prelude::*;
 
 use crate::engine::error::{Error, Result};
 use crate::engine::instances::Instances;
+use crate::engine::judged::examined;
 use crate::engine::kernel::source::SETTING_WORDS;
 use crate::engine::lanes::Lanes;
 use crate::engine::lanes::job::{Job, Part};
+use crate::engine::lanes::linear::examined_many;
 use crate::engine::lanes::march::{Settings, Terms};
 use crate::engine::march::asked::Asked;
 use crate::engine::march::lane::{Back, Lane, Stage};
 use crate::engine::march::marching::{Marching, Way};
 use crate::engine::march::table::flag;
 use crate::engine::outcome::Outcome;
+use crate::model::instance::Instance;
 use crate::model::piece::LawForm;
 use crate::model::status::Status;
 
@@ -55,11 +59,11 @@ impl<R: Lanes> Flow<R> {
         self.settings
     }
 
-    /// Takes what a round has made of a lane, on to its next leg or to its record.
+    /// Takes what a round has made of a lane, on to its next leg or to its end.
     ///
     /// # Errors
     /// When the kernels cannot have made it, or do not come to an end.
-    pub fn take(&self, asked: &Asked, lane: &mut Lane<R>, back: Back<R>) -> Result<()> {
+    pub fn take(&self, lane: &mut Lane<R>, back: Back<R>) -> Result<()> {
         if back.flags.at(flag::STATUS) == Status::Unwritten as u32 {
             lane.keep(&back);
             lane.idle = if back.steps == 0 { lane.idle + 1 } else { 0 };
@@ -72,8 +76,15 @@ impl<R: Lanes> Flow<R> {
         let taken = lane.marching.take(back.state, back.flags);
         taken.ok_or(Error::Unwritten { instance: lane.marching.index })?;
         lane.go_on(&self.way);
-        self.end(asked, lane);
         Ok(())
+    }
+
+    /// Completes the records of those lanes that are over, where nothing is left to do for them.
+    pub fn close(&self, asked: &Asked, lanes: &mut [Lane<R>]) {
+        let tolerance = f64::from(self.way.tolerance);
+        let mut over: Vec<&mut Lane<R>> = lanes.iter_mut().filter(|lane| lane.stage == Stage::Over).collect();
+        over.retain_mut(|lane| lane.marching.job.tells_phase(tolerance));
+        self.complete(asked, &mut over);
     }
 
     /// Begins other instances in the places of those that are done, up to `most`, and sorts the lanes by their kernels: neighbours of
@@ -113,7 +124,8 @@ impl<R: Lanes> Flow<R> {
         let instance = asked.instance(index);
         let marching = Marching::new(index, &instance, &self.way);
         if let Err(status) = marching {
-            asked.complete(index, &instance, &Outcome { status, ..Outcome::default() });
+            let examined = examined(&instance, asked.spec().linear());
+            asked.complete(index, &instance, examined, &Outcome { status, ..Outcome::default() });
         }
         marching.ok()
     }
@@ -127,29 +139,25 @@ impl<R: Lanes> Flow<R> {
         marching.job.stretches = std::mem::take(&mut lane.marching.job.stretches).cleared();
         *lane.marching = marching;
         lane.go_on(&self.way);
-        self.end(asked, lane);
+        self.close(asked, slice::from_mut(lane));
     }
 
     /// Begins an instance in a new place.
     fn begin_anew(&self, asked: &Asked, index: usize) -> Option<Lane<R>> {
         let mut lane = Lane::new(Box::new(self.start(asked, index)?), &self.way);
-        self.end(asked, &mut lane);
+        self.close(asked, slice::from_mut(&mut lane));
         Some(lane)
     }
 
-    /// Completes the record of an instance that is over, where nothing is left to do for it.
-    fn end(&self, asked: &Asked, lane: &mut Lane<R>) {
-        let tolerance = f64::from(self.way.tolerance);
-        if lane.stage == Stage::Over && lane.marching.job.tells_phase(tolerance) {
-            self.complete(asked, &lane.marching);
+    /// Completes the records of instances that are over.
+    fn complete(&self, asked: &Asked, over: &mut [&mut Lane<R>]) {
+        let instances: Vec<Instance> = over.iter().map(|lane| asked.instance(lane.marching.index)).collect();
+        let examined = examined_many(&instances, asked.spec().linear());
+        for ((lane, instance), examined) in over.iter_mut().zip(&instances).zip(examined) {
+            let Marching { index, job, .. } = &*lane.marching;
+            asked.complete(*index, instance, examined, &job.outcome(&self.way.plan));
             lane.stage = Stage::Done;
         }
-    }
-
-    /// Completes the record of an instance that is over.
-    fn complete(&self, asked: &Asked, marching: &Marching<R>) {
-        let instance = asked.instance(marching.index);
-        asked.complete(marching.index, &instance, &marching.job.outcome(&self.way.plan));
     }
 
     /// Completes the records of those lanes whose windows are passed once more, on the CPU, as their Fourier sums did not tell a phase.
@@ -169,9 +177,6 @@ impl<R: Lanes> Flow<R> {
                 over[place].marching.job = job;
             }
         }
-        over.par_iter_mut().for_each(|lane| {
-            self.complete(asked, &lane.marching);
-            lane.stage = Stage::Done;
-        });
+        over.par_chunks_mut(FINISHED).for_each(|over| self.complete(asked, over));
     }
 }

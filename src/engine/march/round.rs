@@ -9,6 +9,8 @@ use crate::engine::error::Result;
 use crate::engine::kernel::places::{Column, fill, room};
 use crate::engine::kernel::source::{SETTING_WORDS, Settings};
 use crate::engine::lanes::Lanes;
+use crate::engine::march::asked::Asked;
+use crate::engine::march::flow::Flow;
 use crate::engine::march::lane::{Back, Lane, WARP};
 use crate::engine::march::marching::{Form, PARTS};
 use crate::engine::march::table::{SETTING_FRESH, flag, state};
@@ -186,10 +188,10 @@ impl<R: Lanes> Round<R> {
         }
     }
 
-    /// Gives what has come back to the lanes that were sent, and every lane to `take` with the steps that it has gone.
+    /// Gives what has come back to the lanes that were sent; the records of those that are over are completed, of a warp together.
     ///
     /// # Errors
-    /// The first of `take`.
+    /// The first of [`Flow::take`].
     ///
     /// # Panics
     /// When there are not as many words as there are in the buffers.
@@ -197,13 +199,14 @@ impl<R: Lanes> Round<R> {
         &self,
         lanes: &mut [Lane<R>],
         (state, flags): (&[R], &[u32]),
-        take: impl Fn(&mut Lane<R>, Back<R>) -> Result<()> + Sync,
+        flow: &Flow<R>,
+        asked: &Asked,
     ) -> (Steps, Result<()>) {
         let (gone, of_warps) = (AtomicU64::new(0), AtomicU64::new(0));
         let is_warp = |a: &Lane<R>, b: &Lane<R>| a.warp() == b.warp();
         let warp = |lanes: &mut [Lane<R>]| {
             let mut most = [0; PARTS.len()];
-            for lane in lanes {
+            let taken = lanes.iter_mut().try_for_each(|lane| {
                 let group = &self.groups[lane.at[0]];
                 let ([_, first_state, first_flag], [_, words, counts]) = (group.first, group.of_lane());
                 let state = Column::of_buffer(&state[first_state..], words, lane.at[1]);
@@ -212,10 +215,12 @@ impl<R: Lanes> Round<R> {
                 most = std::array::from_fn(|part| most[part].max(steps[part]));
                 let steps = steps.iter().sum();
                 gone.fetch_add(u64::from(steps), Ordering::Relaxed);
-                take(lane, Back { state, flags, steps })?;
-            }
+                flow.take(lane, Back { state, flags, steps })
+            });
             of_warps.fetch_add(most.iter().map(|steps| u64::from(*steps)).sum(), Ordering::Relaxed);
-            Ok(())
+            // Also where one of them fails.
+            flow.close(asked, lanes);
+            taken
         };
         let ended = lanes.par_chunk_by_mut(is_warp).try_for_each(warp);
         (Steps { gone: gone.into_inner(), of_warps: WARP as u64 * of_warps.into_inner() }, ended)

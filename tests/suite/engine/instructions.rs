@@ -17,7 +17,7 @@ use squealmap::model::instance::Instance;
 use squealmap::model::status::Status;
 
 /// Every instruction set that this program may be run with, `None` where the machine has none.
-fn levels() -> Vec<(&'static str, Option<Arch>)> {
+pub(crate) fn levels() -> Vec<(&'static str, Option<Arch>)> {
     let mut levels = vec![("scalar", Some(Arch::Scalar))];
     #[cfg(target_arch = "x86_64")]
     levels.extend([

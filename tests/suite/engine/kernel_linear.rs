@@ -1,12 +1,14 @@
 //! The linear kernel's twin against the reference: how good are f32 and f64 in its formulation?
 
+use crate::engine::instructions::levels;
 use crate::instances::random;
 use squealmap::engine::kernel::linear::analyse as twin;
 use squealmap::engine::kernel::scalar::Real;
 use squealmap::engine::kernel::words::Words;
+use squealmap::engine::lanes::linear::{Solved, solved_on};
 use squealmap::model::instance::Instance;
 use squealmap::model::kind::InstabilityType;
-use squealmap::model::linear::{Linear, analyse, prepare};
+use squealmap::model::linear::{Linear, Preparation, analyse, prepare, solve};
 use squealmap::sweep::spec::Spec;
 
 /// Random instances, over wide ranges of every parameter.
@@ -105,4 +107,33 @@ fn random_instances_in_f32_and_f64() {
         "{narrow:?}"
     );
     assert!(wide.growth < 1e-12 && wide.frequency < 1e-12 && wide.phase < 1e-5, "{wide:?}");
+}
+
+/// What the lanes have to give: the bits of the twin, where there are polynomials.
+fn of_twin(prepared: &Preparation) -> Solved {
+    let Ok(polynomials) = prepared else { return solve(prepared) };
+    let words = Words::new(polynomials);
+    let result = twin(&|word| words.inputs[word]);
+    let found = words.results(result.state, result.flags[2]).filter(|_| result.flags[0] == 1);
+    found.map_or_else(|| solve(prepared), |(kind, linear)| (Some(kind), Some(linear)))
+}
+
+#[test]
+fn lanes_have_the_bits_of_the_twin_whatever_the_instruction_set() {
+    // The last lanes of a vector are in use, or not.
+    let instances: Vec<Instance> = paper_map().into_iter().chain(random(RANDOM + 3)).collect();
+    let mut prepared: Vec<Preparation> = instances.iter().map(prepare).collect();
+    // Some have no polynomials.
+    prepared.push(Err(Some(InstabilityType::Sticking)));
+    prepared.insert(5, Err(None));
+    let expected: Vec<Solved> = prepared.iter().map(of_twin).collect();
+    for (level, arch) in levels() {
+        let Some(arch) = arch else {
+            eprintln!("NOT RUN: {level}, which this machine does not have");
+            continue;
+        };
+        let bits = |all: &[Solved]| all.iter().map(|one| format!("{one:?}")).collect::<Vec<_>>();
+        let made = solved_on(arch, &prepared);
+        assert!(bits(&made) == bits(&expected), "{level}");
+    }
 }
