@@ -72,18 +72,16 @@ impl Sliding {
     fn polynomial(&self, mu: f64, slope_damping: f64) -> [f64; 5] {
         let Sliding { m1, m2, k1, k2, c1, c2, s, c } = *self;
         let (along, across) = (c * (c + mu * s), s * (s - mu * c));
-        let a = [
-            k1 * along + k2 * across,
-            c1 * along + c2 * across + slope_damping,
-            m2 + m1 * c * c + mu * m1 * c * s,
-        ];
-        let b = [k2, c2, m1];
+        let stiffness = k1 * along + k2 * across;
+        let (damping, own) = (c1 * along + slope_damping, c2 * across);
+        let mass = m2 + m1 * c * c + mu * m1 * c * s;
+        // What of A B the square of `c2 λ + k2` takes away is left out: differences of it would have no digits left.
         [
-            a[0] * b[0] - across * k2 * k2,
-            a[0] * b[1] + a[1] * b[0] - across * 2.0 * c2 * k2,
-            a[0] * b[2] + a[1] * b[1] + a[2] * b[0] - across * c2 * c2,
-            a[1] * b[2] + a[2] * b[1],
-            a[2] * b[2],
+            k1 * along * k2,
+            k1 * along * c2 + damping * k2,
+            stiffness * m1 + damping * c2 + mass * k2,
+            (damping + own) * m1 + mass * c2,
+            mass * m1,
         ]
     }
 

@@ -1,23 +1,24 @@
-//! The roots of a real quartic in closed form, polished.
+//! The roots of a real quartic, by its two real quadratic factors.
 //!
-//! Factorisation into two quadratics after A. Orellana and C. De Michele, Algorithm 1010, ACM TOMS 46,
-//! 20 (2020): a scaled quartic, the dominant root of its resolvent, the best of three ways to the
-//! coefficients of the factors, then Newton steps on the roots.
+//! After A. Orellana and C. De Michele, Algorithm 1010, ACM TOMS 46, 20 (2020): a scaled quartic, the dominant root of its
+//! resolvent, the best of several ways to the coefficients of the factors, then Newton steps on these coefficients. Small real
+//! parts of roots keep their digits, as they are coefficients of a factor.
 
+use nalgebra::{Matrix4, Vector4};
 use num_complex::Complex64;
 
-/// Newton steps on each root; every one is kept only if it lowers the residual.
-const POLISH: usize = 2;
-
-/// A step of this relative size is rounding.
-const NEGLIGIBLE_STEP: f64 = 4.0 * f64::EPSILON;
+/// Newton steps on the coefficients of the factors; every one is kept only if it lowers the error.
+const POLISH: usize = 12;
 
 /// Newton steps on the resolvent's root.
 const RESOLVENT_POLISH: usize = 2;
 
+/// Two real quadratics `(ζ² + p ζ + q)(ζ² + r ζ + s)`, as `[p, q, r, s]`.
+type Factors = [f64; 4];
+
 /// The four roots of `c4 z⁴ + c3 z³ + c2 z² + c1 z + c0`; `c4` must not be 0.
 ///
-/// Complex roots come as exact conjugate pairs next to each other whenever the factors are real.
+/// Complex roots come as exact conjugate pairs next to each other.
 #[must_use]
 pub fn roots([c0, c1, c2, c3, c4]: [f64; 5]) -> [Complex64; 4] {
     // z = scale ζ brings the roots to magnitude about 1.
@@ -25,23 +26,21 @@ pub fn roots([c0, c1, c2, c3, c4]: [f64; 5]) -> [Complex64; 4] {
     let scale = if scale > 0.0 && scale.is_finite() { scale } else { 1.0 };
     let (per_c4, per_scale) = (1.0 / c4, 1.0 / scale);
     let square = per_scale * per_scale;
-    let (a, b) = (c3 * per_c4 * per_scale, c2 * per_c4 * square);
-    let (c, d) = (c1 * per_c4 * per_scale * square, c0 * per_c4 * square * square);
-    let [p, q, r, s] = factor(a, b, c, d);
-    // Of a conjugate pair one member is polished.
-    let pair = |p: Complex64, q: Complex64| {
-        let first = scale * polish([d, c, b, a], p);
-        let second =
-            if p.im != 0.0 && q == p.conj() { first.conj() } else { scale * polish([d, c, b, a], q) };
-        [first, second]
-    };
-    let ([p, q], [r, s]) = (pair(p, q), pair(r, s));
-    [p, q, r, s]
+    let monic = [
+        c3 * per_c4 * per_scale,
+        c2 * per_c4 * square,
+        c1 * per_c4 * per_scale * square,
+        c0 * per_c4 * square * square,
+    ];
+    let [p, q, r, s] = polished(&monic, factors(&monic));
+    let ([first, second], [third, fourth]) = (quadratic_real(p, q), quadratic_real(r, s));
+    [first, second, third, fourth].map(|root| scale * root)
 }
 
-/// Roots of `ζ⁴ + a ζ³ + b ζ² + c ζ + d`.
-fn factor(a: f64, b: f64, c: f64, d: f64) -> [Complex64; 4] {
-    let phi = dominant_resolvent_root(a, b, c, d);
+/// The factors of `ζ⁴ + a ζ³ + b ζ² + c ζ + d`, nearly.
+fn factors(monic: &[f64; 4]) -> Factors {
+    let [a, b, c, d] = *monic;
+    let phi = dominant_resolvent_root(monic);
     let l1 = 0.5 * a;
     let l3 = b / 6.0 + 0.5 * phi;
     let delta2 = c - a * l3;
@@ -52,39 +51,93 @@ fn factor(a: f64, b: f64, c: f64, d: f64) -> [Complex64; 4] {
         (delta2 / (2.0 * l2_ratio), l2_ratio),
         (d2_direct, l2_ratio),
     ];
-    let [per_b, per_c, per_d] = [b, c, d].map(|size| if size == 0.0 { 1.0 } else { 1.0 / size });
-    let residual = |&(d2, l2): &(f64, f64)| {
-        let sum = ((d2 + l1 * l1 + 2.0 * l3 - b) * per_b).abs()
-            + ((2.0 * (d2 * l2 + l1 * l3) - c) * per_c).abs()
-            + ((d2 * l2 * l2 + l3 * l3 - d) * per_d).abs();
-        if sum.is_nan() { f64::INFINITY } else { sum }
+    let apart = candidates.map(|(d2, l2)| {
+        if d2 < 0.0 {
+            let gamma = (-d2).sqrt();
+            completed(monic, [l1 + gamma, l3 + gamma * l2, l1 - gamma, l3 - gamma * l2])
+        } else {
+            let gamma = d2.sqrt();
+            of_conjugates(Complex64::new(l1, gamma), Complex64::new(l3, gamma * l2))
+        }
+    });
+    // Two factors with the same linear term: without damping they have none, and rounding is all that is left of `d2`.
+    let gap = l3 * l3 - d;
+    let alike = if gap >= 0.0 {
+        completed(monic, [l1, l3 + gap.sqrt(), l1, l3 - gap.sqrt()])
+    } else {
+        of_conjugates(Complex64::new(l1, 0.0), Complex64::new(l3, (-gap).sqrt()))
     };
-    let best = candidates.iter().min_by(|p, q| residual(p).total_cmp(&residual(q)));
-    match best {
-        Some(&(d2, l2)) if residual(&(d2, l2)).is_finite() && d2 != 0.0 => {
-            if d2 < 0.0 {
-                let gamma = (-d2).sqrt();
-                let [p, q] = quadratic_real(l1 + gamma, l3 + gamma * l2);
-                let [r, s] = quadratic_real(l1 - gamma, l3 - gamma * l2);
-                [p, q, r, s]
-            } else {
-                let gamma = d2.sqrt();
-                let [p, q] = quadratic(Complex64::new(l1, gamma), Complex64::new(l3, gamma * l2));
-                [p, p.conj(), q, q.conj()]
-            }
-        }
-        _ => {
-            // Two factors with the same linear term.
-            let gap = square_root(Complex64::new(l3 * l3 - d, 0.0));
-            let [p, q] = quadratic(Complex64::new(l1, 0.0), l3 + gap);
-            let [r, s] = quadratic(Complex64::new(l1, 0.0), l3 - gap);
-            [p, q, r, s]
-        }
+    let [first, second, third] = apart;
+    [second, third, alike]
+        .into_iter()
+        .fold(first, |best, other| if error(monic, &other) < error(monic, &best) { other } else { best })
+}
+
+/// Factors of which the smaller coefficients, differences, are had from the larger ones and from the product.
+fn completed(&[a, b, c, d]: &[f64; 4], [p, mut q, r, mut s]: Factors) -> Factors {
+    if s.abs() < q.abs() {
+        s = d / q;
+    } else if q.abs() < s.abs() {
+        q = d / s;
+    }
+    // Of `p + r = a`, `q + p r + s = b` and `q r + p s = c` the one that is best known.
+    let others =
+        |small: f64, large: f64, q: f64, s: f64| [small, (c - s * large) / q, (b - q - s) / large, a - large];
+    let monic = [a, b, c, d];
+    let better = |of: [f64; 4], put: fn(f64, Factors) -> Factors| {
+        of.into_iter().map(|one| put(one, [p, q, r, s])).fold([p, q, r, s], |best, other| {
+            if error(&monic, &other) < error(&monic, &best) { other } else { best }
+        })
+    };
+    if p.abs() < r.abs() {
+        // c = q r + p s
+        better(others(p, r, s, q), |p, [_, q, r, s]| [p, q, r, s])
+    } else {
+        better(others(r, p, q, s), |r, [p, q, _, s]| [p, q, r, s])
     }
 }
 
+/// The real factors of `(ζ² + p ζ + q)(ζ² + p* ζ + q*)`: a root of the first and its conjugate belong to one of them.
+fn of_conjugates(p: Complex64, q: Complex64) -> Factors {
+    let [first, second] = quadratic(p, q);
+    [-2.0 * first.re, first.norm_sqr(), -2.0 * second.re, second.norm_sqr()]
+}
+
+/// What the product of two factors lacks of a quartic.
+fn lacks(&[a, b, c, d]: &[f64; 4], &[p, q, r, s]: &Factors) -> [f64; 4] {
+    [a - (p + r), b - (q + p * r + s), c - (q * r + p * s), d - q * s]
+}
+
+/// The sum of the relative errors of the coefficients; infinite where one is no number.
+fn error(monic: &[f64; 4], factors: &Factors) -> f64 {
+    let sum: f64 = lacks(monic, factors)
+        .into_iter()
+        .zip(monic)
+        .map(|(lack, size)| if *size == 0.0 { lack.abs() } else { (lack / size).abs() })
+        .sum();
+    if sum.is_nan() { f64::INFINITY } else { sum }
+}
+
+/// Newton on the coefficients of the factors.
+fn polished(monic: &[f64; 4], mut factors: Factors) -> Factors {
+    let mut least = error(monic, &factors);
+    for _ in 0..POLISH {
+        let [p, q, r, s] = factors;
+        let slopes = Matrix4::new(1.0, 0.0, 1.0, 0.0, r, 1.0, p, 1.0, s, r, q, p, 0.0, s, 0.0, q);
+        let lacks = Vector4::from(lacks(monic, &factors));
+        let Some(step) = slopes.lu().solve(&lacks) else { break };
+        let next: Factors = std::array::from_fn(|k| factors[k] + step[k]);
+        let left = error(monic, &next);
+        if left >= least {
+            break;
+        }
+        (factors, least) = (next, left);
+    }
+    factors
+}
+
 /// The real root of largest magnitude of the depressed resolvent `φ³ + g φ + h`.
-fn dominant_resolvent_root(a: f64, b: f64, c: f64, d: f64) -> f64 {
+fn dominant_resolvent_root(&[a, b, c, d]: &[f64; 4]) -> f64 {
     let g = a * c - 4.0 * d - b * b / 3.0;
     let h = (8.0 * d + a * c - 2.0 * b * b / 9.0) * b / 3.0 - c * c - a * a * d;
     let (q, r) = (-g / 3.0, 0.5 * h);
@@ -141,28 +194,4 @@ fn quadratic(p: Complex64, q: Complex64) -> [Complex64; 2] {
     let larger = if (half.conj() * root).re < 0.0 { half - root } else { half + root };
     let smaller = if larger.norm_sqr() == 0.0 { larger } else { q / larger };
     [larger, smaller]
-}
-
-/// Newton on `ζ⁴ + a ζ³ + b ζ² + c ζ + d`, each step kept only if it lowers the residual.
-fn polish([d, c, b, a]: [f64; 4], start: Complex64) -> Complex64 {
-    let value = |z: Complex64| (((z + a) * z + b) * z + c) * z + d;
-    let mut root = start;
-    let mut residual = value(root);
-    for _ in 0..POLISH {
-        let slope = ((4.0 * root + 3.0 * a) * root + 2.0 * b) * root + c;
-        // residual / slope, which is not finite for a multiple root: then no step is taken.
-        let step = residual * slope.conj() * (1.0 / slope.norm_sqr());
-        if step.norm_sqr() <= NEGLIGIBLE_STEP * NEGLIGIBLE_STEP * root.norm_sqr() {
-            break;
-        }
-        let next = root - step;
-        let next_residual = value(next);
-        if next_residual.norm_sqr() < residual.norm_sqr() {
-            root = next;
-            residual = next_residual;
-        } else {
-            break;
-        }
-    }
-    root
 }

@@ -14,7 +14,7 @@ use crate::engine::kernel::source::{FLAG_STATUS, FLAG_STEPS};
 use crate::engine::kernel::words::{FLAG_WORDS, INPUT_WORDS, STATE_WORDS, Words};
 use crate::engine::record::Record;
 use crate::model::kind::{InstabilityType, UNSTABLE_ABOVE};
-use crate::model::linear::prepare;
+use crate::model::linear::{prepare, solve};
 use crate::model::status::Status;
 
 /// The flag word of the type.
@@ -29,13 +29,11 @@ pub fn known(spec: &dyn Instances, index: usize) -> Known {
     let instance = spec.instance(index);
     let prepared = prepare(&instance);
     let mut record = begun(&instance, &prepared);
-    match prepared {
-        Ok(prepared) => (record, Some(Words::new(&prepared))),
-        Err(kind) => {
-            record.kind = kind;
-            (record, None)
-        }
+    let words = prepared.as_ref().ok().map(Words::new).filter(|words| !words.is_far());
+    if words.is_none() {
+        (record.kind, record.linear) = solve(&prepared);
     }
+    (record, words)
 }
 
 /// The inputs of those instances that need the kernel, and how many they are.

@@ -16,6 +16,10 @@ pub const STATE_WORDS: usize = words(&STATE);
 /// Flags of one instance.
 pub const FLAG_WORDS: usize = words(&FLAGS);
 
+/// Half the sum of the roots, or of their inverses, in units of their geometric mean, beyond which they lie far apart. It is half a
+/// hundred where two modes a thousandfold apart have a damping ratio of 0.1.
+const FAR: f64 = 1e4;
+
 /// An instance that the linear kernel can analyse.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Words {
@@ -45,6 +49,14 @@ impl Words {
         inputs[13] = 1.0 - inputs[12];
         inputs[14] = damping / stiffness * scales[0];
         Words { inputs, scales, s: prepared.s, damped: prepared.is_damped() }
+    }
+
+    /// Whether roots lie so far apart, by damping, that the kernel's form has no digits for the small ones: the quartic itself has.
+    #[must_use]
+    pub fn is_far(&self) -> bool {
+        // `P`, and half of `c`.
+        let sums = |four: &[f64]| [four[0], four[0] - four[3]];
+        self.inputs[..12].chunks(4).flat_map(sums).any(|sum| sum.abs() > FAR)
     }
 
     /// Type and analysis from what the kernel wrote; `None` for a code that is no type.

@@ -28,8 +28,8 @@ pub fn examined_many(instances: &[Instance], asked: bool) -> impl Iterator<Item 
         .map(move |((instance, prepared), solved)| with_eigenvalues(instance, asked, &prepared, |_| solved))
 }
 
-/// What [`solve`] gives for each of some preparations, by the factors of the kernel; where these are beyond the range of numbers,
-/// by the closed form.
+/// What [`solve`] gives for each of some preparations, by the factors of the kernel; by [`solve`] itself where these are beyond the
+/// range of numbers, or have too few digits.
 #[must_use]
 pub fn solved(prepared: &[Preparation]) -> Vec<Solved> {
     solved_on(Arch::new(), prepared)
@@ -45,8 +45,8 @@ pub fn solved_on(instructions: Arch, prepared: &[Preparation]) -> Vec<Solved> {
     let each = |prepared: &Preparation| {
         let found = prepared.as_ref().ok().and_then(|_| made.next());
         let results = found.and_then(|(words, (state, kind))| {
-            let finite = state.iter().all(|value| value.is_finite());
-            finite.then(|| words.results(state, kind)).flatten()
+            let known = !words.is_far() && state.iter().all(|value| value.is_finite());
+            known.then(|| words.results(state, kind)).flatten()
         });
         results.map_or_else(|| solve(prepared), |(kind, linear)| (Some(kind), Some(linear)))
     };

@@ -22,9 +22,9 @@ use crate::engine::record::Record;
 use crate::engine::reference::respond::respond_until;
 use crate::model::status::Status;
 
-/// The eigenvalue analysis on the CPU in a manifest.
+/// The eigenvalue analysis in a manifest.
 #[must_use]
-pub fn linear(backend: Backend) -> Computation {
+fn linear(backend: Backend) -> Computation {
     in_f64(backend, "closed form of the quartic, polished".to_owned())
 }
 

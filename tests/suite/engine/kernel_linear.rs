@@ -114,7 +114,8 @@ fn of_twin(prepared: &Preparation) -> Solved {
     let Ok(polynomials) = prepared else { return solve(prepared) };
     let words = Words::new(polynomials);
     let result = twin(&|word| words.inputs[word]);
-    let found = words.results(result.state, result.flags[2]).filter(|_| result.flags[0] == 1);
+    let found =
+        words.results(result.state, result.flags[2]).filter(|_| result.flags[0] == 1 && !words.is_far());
     found.map_or_else(|| solve(prepared), |(kind, linear)| (Some(kind), Some(linear)))
 }
 
