@@ -9,13 +9,13 @@ use clap::Args;
 use rayon::prelude::*;
 use squealmap::disk;
 use squealmap::results::figure::look::Look;
-use squealmap::study::campaign::condition::{Condition, conditions, conditions_csv};
+use squealmap::study::campaign::condition::{conditions, conditions_csv};
 use squealmap::study::campaign::figure::campaign_svg;
 use squealmap::study::campaign::read::document;
 use squealmap::study::campaign::row::{Said, StrokeRow, strokes_csv};
-use squealmap_identify::{Kind, Settings, Stroke, identify, strokes, told as told_of};
+use squealmap_identify::{Settings, Stroke, identify, strokes, told as told_of};
 use squealmap_input::files;
-use squealmap_input::quote::{one_line, rounded};
+use squealmap_input::quote::one_line;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::io::Read;
@@ -66,7 +66,7 @@ impl CampaignCommand {
             }
         }
         for one in &found {
-            let _ = writeln!(text, "{}", told(one));
+            let _ = writeln!(text, "{one}");
         }
         print(&(text + &list(&paths)));
         if rows.iter().all(|row| row.said.is_err()) {
@@ -151,21 +151,4 @@ fn of_record(path: &Path, settings: &Settings) -> Vec<StrokeRow> {
         }
     };
     all.into_iter().enumerate().map(of_stroke).collect()
-}
-
-/// A sentence on a condition.
-fn told(one: &Condition) -> String {
-    let temperature = one.temperature.map_or(String::new(), |temperature| format!("{temperature:.0} °C, "));
-    let law = one.law.map_or(String::new(), |law| format!("{} velocity, ", law.name()));
-    let speed = one.speed.map_or(String::new(), |speed| format!("{} m/s on average, ", rounded(speed)));
-    let strokes = if one.strokes == 1 { "1 stroke".to_owned() } else { format!("{} strokes", one.strokes) };
-    let shares = Kind::ALL.iter().zip(one.shares).filter(|(_, share)| *share >= 0.005);
-    let shares: Vec<String> =
-        shares.map(|(kind, share)| format!("{} {:.0} %", kind.words(), 100.0 * share)).collect();
-    let at = one.vibration.map_or(String::new(), |[frequency, _]| format!(" at {frequency:.1} Hz"));
-    format!(
-        "{temperature}{law}{speed}{strokes}: vibrating {:.0} % of the time{at}; {}",
-        100.0 * one.vibrating,
-        shares.join(", ")
-    )
 }

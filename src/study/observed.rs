@@ -90,7 +90,7 @@ impl Strokes {
         let sides = panels.x.key().zip(panels.y.as_ref().and_then(PictureAxis::key));
         let (x, y) =
             sides.ok_or_else(|| bad("are to be drawn over a plane, and this map has none".to_owned()))?;
-        let text = files::table(path, MOST).map_err(bad)?;
+        let text = files::table(path, MOST).map_err(|why| bad(format!("cannot be read: {why}")))?;
         let mut reader =
             csv::ReaderBuilder::new().comment(Some(b'#')).trim(csv::Trim::All).from_reader(text.as_bytes());
         let header = reader.headers().map_err(|why| bad(why.to_string()))?.clone();
@@ -158,7 +158,11 @@ impl Strokes {
                 points: points.to_vec(),
             };
             for (side, error) in errors.into_iter().enumerate() {
-                let Some(error) = error else { continue };
+                // An error that is not known is an empty cell.
+                let Some(error) = error.filter(|place| row.get(*place).is_some_and(|cell| !cell.is_empty()))
+                else {
+                    continue;
+                };
                 let error = value(error)?.abs();
                 let mut ends = [at; 2];
                 ends[0][side] -= error;

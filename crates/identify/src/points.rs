@@ -91,6 +91,9 @@ fn points(
         }
         fault => fault,
     })?;
+    if temperature.is_some() {
+        table.pass_over(Channel::Temperature);
+    }
     let mut points = Vec::new();
     let mut open = None;
     let mut without_contact = 0;

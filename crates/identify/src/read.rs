@@ -6,7 +6,7 @@ use crate::channel::{Channel, PerChannel};
 use crate::fault::Fault;
 use crate::formats::{self, Clock, Source};
 use crate::place::Place;
-use crate::scale::scale;
+use crate::scale::{scale, without_unit};
 use crate::settings::Settings;
 use crate::unit::{TimeUnit, is_time, named};
 use squealmap_input::quote::{clipped, quoted};
@@ -64,7 +64,7 @@ impl Table {
         let mut columns = PerChannel::default();
         for (channel, column) in Channel::ALL.into_iter().zip(&mut columns) {
             let named = settings.columns[channel as usize].as_deref();
-            let found = find(header, named.unwrap_or(channel.default_column()));
+            let found = named.map_or_else(|| by_default(header, channel), |name| find(header, name));
             // What is named has to be there, too.
             if found.is_none() && (named.is_some() || needed.contains(&channel)) {
                 return Err(Fault::NoColumn {
@@ -200,6 +200,11 @@ impl Table {
         self.over_time
     }
 
+    /// Reads nothing of a channel from here on.
+    pub(super) fn pass_over(&mut self, channel: Channel) {
+        self.columns[channel as usize] = None;
+    }
+
     /// Sentences about what was read and how, where that is not plain.
     pub(super) fn remarks(&self) -> Vec<String> {
         let remarks = self.source.remark().map(str::to_owned).into_iter().chain(self.remark_on_unit());
@@ -257,6 +262,13 @@ fn of_one_record(
 
 fn find(header: &[String], name: &str) -> Option<usize> {
     header.iter().position(|column| column == name)
+}
+
+/// The column of a channel that nobody names: by its name alone, or with a unit in brackets.
+fn by_default(header: &[String], channel: Channel) -> Option<usize> {
+    let name = channel.default_column();
+    find(header, name)
+        .or_else(|| header.iter().position(|column| without_unit(channel, column) == Some(name)))
 }
 
 /// Refuses a column whose name stands more than once in the header.

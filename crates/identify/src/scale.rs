@@ -28,6 +28,21 @@ const VELOCITY: [(&str, f64); 7] = [
     ("m/min", 1.0 / 60.0),
 ];
 
+/// The units that channels are read in.
+const OWN: [&[&str]; 4] = [&["m/s²", "m/s2", "m/s^2"], &["N"], &["m/s"], &["°C", "C", "degC"]];
+
+/// The header of a channel without the unit in brackets that it ends with; `None` where there is none that the channel may have.
+pub(super) fn without_unit(channel: Channel, header: &str) -> Option<&str> {
+    let own = match channel {
+        Channel::TangentialAcceleration | Channel::NormalAcceleration => OWN[0],
+        Channel::TangentialForce | Channel::NormalForce => OWN[1],
+        Channel::Velocity => OWN[2],
+        Channel::Temperature => OWN[3],
+    };
+    let (name, unit) = bracketed(header)?;
+    (own.contains(&unit.trim()) || scale(channel, header).is_some()).then(|| name.trim_end())
+}
+
 /// What one of the unit in brackets that a header ends with is in the unit of the channel, and that unit; `None` where it is that of the
 /// channel, or none that is known.
 pub(super) fn scale(channel: Channel, header: &str) -> Option<(f64, String)> {
@@ -55,6 +70,12 @@ mod tests {
         assert_eq!(scale(Channel::TangentialForce, "mu (%)"), Some((0.01, "%".to_owned())));
         for header in ["V (m/s)", "V", "V (belt)", "V mm/s", "mm/s)"] {
             assert_eq!(scale(Channel::Velocity, header), None, "{header}");
+        }
+        assert_eq!(without_unit(Channel::TangentialForce, "T (kN)"), Some("T"));
+        assert_eq!(without_unit(Channel::NormalAcceleration, "ay1 [m/s²]"), Some("ay1"));
+        assert_eq!(without_unit(Channel::Temperature, "temperature (°C)"), Some("temperature"));
+        for header in ["T", "T (V)", "T (m/s)"] {
+            assert_eq!(without_unit(Channel::TangentialForce, header), None, "{header}");
         }
         // A kilonewton is no velocity.
         assert_eq!(scale(Channel::Velocity, "V (kN)"), None);

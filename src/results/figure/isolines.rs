@@ -247,8 +247,13 @@ pub fn round_levels(column: &NumberColumn, most: usize) -> Vec<f64> {
     if column.is_angle() {
         return parts_of_a_turn(&scale, most);
     }
+    let [low, high] = [0.0, 1.0].map(|at| scale.value(at));
     let value = |at: f64| {
         let value = scale.value(at);
+        // Zero, but for rounding.
+        if low < 0.0 && value.abs() < FLAT * (high - low) {
+            return 0.0;
+        }
         format!("{value:.DIGITS$e}").parse().unwrap_or(value)
     };
     let inside = |at: &f64| (0.0..=1.0).contains(at);

@@ -1,12 +1,14 @@
 //! `conditions.csv`: what strokes of one temperature, one law of the velocity and one speed have in common.
 
 use std::collections::BTreeMap;
+use std::fmt::{self, Display, Formatter};
 
 use crate::results::csv::Table;
 use crate::study::campaign::row::{Said, VelocityLaw};
 use crate::study::error::Result;
 use crate::study::identify::shown::Colour;
 use crate::sweep::columns::Cell;
+use squealmap_input::quote::rounded;
 
 /// Temperatures with less than this between neighbours, °C, are one condition.
 const APART: f64 = 20.0;
@@ -47,6 +49,28 @@ pub struct Condition {
     pub vibration: Option<[f64; 2]>,
     /// The parts of their time with each verdict, in the order of [`Colour::ALL`].
     pub shares: [f64; Colour::ALL.len()],
+}
+
+/// A sentence on a condition.
+impl Display for Condition {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        let or_none = |text: Option<String>| text.unwrap_or_default();
+        let temperature = or_none(self.temperature.map(|temperature| format!("{temperature:.0} °C, ")));
+        let law = or_none(self.law.map(|law| format!("{} velocity, ", law.name())));
+        let speed = or_none(self.speed.map(|speed| format!("{} m/s on average, ", rounded(speed))));
+        let at = or_none(self.vibration.map(|[frequency, _]| format!(" at {frequency:.1} Hz")));
+        let strokes =
+            if self.strokes == 1 { "1 stroke".to_owned() } else { format!("{} strokes", self.strokes) };
+        let shares = Colour::ALL.iter().zip(self.shares).filter(|(_, share)| *share >= 0.005);
+        let shares: Vec<String> =
+            shares.map(|(kind, share)| format!("{} {:.0} %", kind.words(), 100.0 * share)).collect();
+        let vibrating = 100.0 * self.vibrating;
+        write!(
+            f,
+            "{temperature}{law}{speed}{strokes}: vibrating {vibrating:.0} % of the time{at}; {}",
+            shares.join(", ")
+        )
+    }
 }
 
 /// Strokes together by temperature, law of the velocity, and speed; the latter two are a column of the figure.

@@ -5,9 +5,10 @@ use crate::study::fit::binned::binned;
 use crate::study::fit::binned_csv::tables_csv;
 use crate::study::fit::course::{Course, courses};
 use crate::study::fit::criteria::{Candidate, compare};
+use crate::study::fit::each::fit;
 use crate::study::fit::fault::FitFault;
 use crate::study::fit::rows::rows;
-use crate::study::fit::squares::{Fit, Point, fit};
+use crate::study::fit::squares::{Fit, Point};
 use crate::study::fit::table::material_csv;
 use crate::study::fit::told::warnings;
 

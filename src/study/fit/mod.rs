@@ -2,6 +2,7 @@
 //!
 //! - `squares.rs`: the fit by least squares; `problem.rs`: points as a linear problem.
 //! - `errors.rs`: how far the values of a fit would scatter.
+//! - `each.rs`: a velocity for every temperature, where the points ask for it; `information.rs`: what tells that.
 //! - [`compare`]: several laws, by information criteria.
 //! - [`rows`]: the temperatures of the material.
 //! - [`made`](mod@made): a material with all of it.
@@ -14,10 +15,12 @@ pub mod binned;
 pub mod binned_csv;
 pub mod course;
 mod criteria;
+mod each;
 mod errors;
 mod fault;
 #[cfg(feature = "figures")]
 pub mod figure;
+mod information;
 pub mod made;
 mod problem;
 #[cfg(feature = "figures")]
@@ -29,5 +32,6 @@ pub mod table;
 pub mod told;
 
 pub use criteria::{Candidate, compare};
+pub use each::fit;
 pub use fault::FitFault;
-pub use squares::{Fit, fit, range};
+pub use squares::{Fit, range};

@@ -47,12 +47,11 @@ pub struct Fit {
     pub points: usize,
 }
 
-/// Fits `law` with rows at `temperatures` (°C, rising; points outside count to the nearest row) and the law's velocity
-/// (`knee_velocity` or `stribeck_velocity`, m/s; `None`: found).
+/// Fits `law` with rows at `temperatures`, as [`crate::study::fit::fit`] does, and one velocity for all of them.
 ///
 /// # Errors
 /// When the points do not determine the material.
-pub fn fit(
+pub(super) fn together(
     points: &[Point],
     law: LawKind,
     temperatures: &[f64],

@@ -1,5 +1,6 @@
 //! What a fit says beside its material: what was left out, what the points do not determine, and the laws beside each other.
 
+use crate::study::fit::each::own_velocity;
 use crate::study::fit::{Candidate, Fit, range};
 use squealmap_identify::{Measurements, Point};
 use squealmap_input::quote::rounded;
@@ -62,6 +63,12 @@ pub fn warnings(fitted: &Fit, points: &[Point]) -> Vec<String> {
             "{outside} of {} points lie outside the rows of {rows} °C and count for the nearest row; ask for rows from {measured} \
              with --temperatures, or leave these points out",
             points.len()
+        ));
+    }
+    if let Some(param) = own_velocity(fitted) {
+        warnings.push(format!(
+            "no one `{}` describes the points at all temperatures: each row has its own, and a sweep takes what is straight between them",
+            param.info().name
         ));
     }
     if let (true, Some((param, values))) = (fitted.open, fitted.columns.last()) {

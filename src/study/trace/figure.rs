@@ -98,16 +98,26 @@ fn draw(trace: &Trace, heading: &Heading, look: &Look<'_>, panel: f64) -> (Svg, 
     let ticks = scales.each_ref().map(|scale| y_ticks(scale, panel));
     let room = ticks.iter().map(|ticks| y_tick_room(ticks)).fold(0.0, f64::max);
     let left = MARGIN + LABEL_SIZE + 6.0 + room;
-    y = legend(&mut svg, trace, [left, y], page - left - RIGHT);
+    let time_ticks = |rows: &[TraceRow], width: f64| {
+        let time = Scale::spanning(rows.iter().map(|row| row.t));
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive count")]
+        let ticks = time.ticks((width / TICK_WIDTH) as usize);
+        (time, ticks)
+    };
+    // The last label may reach beyond the panel.
+    let beyond = columns(trace, page - left - RIGHT).pop().and_then(|(rows, width)| {
+        let (_, ticks) = time_ticks(rows, width);
+        ticks.last().map(|tick| 0.5 * tick.label.width(TICK_SIZE, false))
+    });
+    let right = beyond.map_or(RIGHT, |beyond| RIGHT.max(beyond + 1.0));
+    y = legend(&mut svg, trace, [left, y], page - left - right);
     let tops = tops(y, panel);
     let bottom = tops[PANELS.len() - 1] + panel;
     let mut from = left;
-    let columns = columns(trace, page - left - RIGHT);
+    let columns = columns(trace, page - left - right);
     let last = columns.len() - 1;
     for (column, (rows, width)) in columns.into_iter().enumerate() {
-        let time = Scale::spanning(rows.iter().map(|row| row.t));
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive count")]
-        let x_ticks = time.ticks((width / TICK_WIDTH) as usize);
+        let (time, x_ticks) = time_ticks(rows, width);
         for (number, (curves, _)) in PANELS.iter().enumerate() {
             let frame = Frame { x: from, y: tops[number], width, height: panel };
             let plot = Plot { frame, x: &time, y: &scales[number] };

@@ -8,7 +8,7 @@ use crate::sweep::grid::{AxisKey, Grid, Value};
 use crate::sweep::spec::check::{Check, covered, unused, used_by_laws};
 use crate::sweep::spec::{Spec, law};
 use squealmap_input::place::Place;
-use squealmap_input::quote::list;
+use squealmap_input::quote::{list, rounded};
 
 /// The parameters of the belt, and the motions that read them.
 const READERS: [(Param, &[&str]); 5] = [
@@ -119,10 +119,47 @@ impl Check<'_> {
         if let Some((param, needed_by)) = lacking(motion, has) {
             return Err(self.missing(param, needed_by));
         }
-        if motion == "table" || self.param(Param::BeltVelocity).is_some() {
-            return Ok(());
+        if motion != "table" && self.param(Param::BeltVelocity).is_none() {
+            return Err(self.missing(Param::BeltVelocity, "every instance has a belt velocity".to_owned()));
         }
-        Err(self.missing(Param::BeltVelocity, "every instance has a belt velocity".to_owned()))
+        if motion == "trapeze" { self.trapeze_closes() } else { Ok(()) }
+    }
+
+    /// A trapeze comes to rest within its duration, in every instance.
+    fn trapeze_closes(&self) -> Result<()> {
+        let params = [Param::RiseDuration, Param::RampDuration];
+        let Some((at, key)) = self.param(params[0]) else { return Ok(()) };
+        let values = |row: &dyn Fn(Param) -> Option<f64>| {
+            params.map(|param| row(param).or(self.sections.base.get(param)).unwrap_or_default())
+        };
+        let number = |value: &Value| match value {
+            Value::Number(number) => Some(*number),
+            Value::Text(_) => None,
+        };
+        let pairs: Vec<[f64; 2]> = match &self.varied.grid {
+            Grid::Axes(axes) => {
+                let extreme = |param: Param, pick: fn(f64, f64) -> f64| {
+                    let axis = axes.iter().find(|axis| axis.key == AxisKey::Param(param))?;
+                    axis.values.iter().filter_map(number).reduce(pick)
+                };
+                let longest = extreme(params[0], f64::max);
+                let shortest = extreme(params[1], f64::min);
+                vec![values(&|param| if param == params[0] { longest } else { shortest })]
+            }
+            Grid::Tuples { keys, rows } => {
+                let column = |param| keys.iter().position(|key| *key == AxisKey::Param(param));
+                rows.iter().map(|row| values(&|param| number(&row[column(param)?]))).collect()
+            }
+        };
+        let Some([rise, duration]) = pairs.into_iter().find(|[rise, duration]| *rise > 0.5 * duration) else {
+            return Ok(());
+        };
+        let limit = format!(
+            "at most half of `{}`, {} s: the belt comes to rest as long as it rises",
+            params[1].info().name,
+            rounded(0.5 * duration)
+        );
+        Err(Error::OutOfRange { at, key, value: format!("{} s", rounded(rise)), limit })
     }
 
     /// Temperatures of a motion are those of a material, which has them all, and the only ones.

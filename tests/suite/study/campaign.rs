@@ -5,7 +5,7 @@ use std::fmt::Write;
 use std::io::{Cursor, Read};
 
 use crate::cli::program::squealmap;
-use squealmap::study::campaign::condition::conditions;
+use squealmap::study::campaign::condition::{Condition, conditions};
 use squealmap::study::campaign::row::{Said, VelocityLaw};
 use squealmap::study::identify::shown::Colour;
 use squealmap_identify::{Settings, Stroke, identify, strokes};
@@ -139,6 +139,16 @@ fn strokes_of_one_temperature_and_law_are_one_condition() {
     assert!((falling.vibrating - 0.75).abs() < 1e-12);
     assert_eq!(falling.vibration, Some([30_500.0, 1.0]));
     assert!((falling.shares[Colour::ModeCoupling as usize] - 0.75).abs() < 1e-12);
+    let told = falling.to_string();
+    assert!(told.ends_with("at 30500.0 Hz; no instability 25 %, mode coupling 75 %"), "{told}");
+    // Every verdict by its own name.
+    for colour in Colour::ALL {
+        let mut shares = [0.0; Colour::ALL.len()];
+        shares[colour as usize] = 1.0;
+        let told = Condition { shares, ..falling.clone() }.to_string();
+        let name = colour.name().replace('_', " ");
+        assert!(told.ends_with(&format!("; {name} 100 %")), "{told}");
+    }
 }
 
 #[test]

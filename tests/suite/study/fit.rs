@@ -11,7 +11,7 @@ use squealmap::model::Param;
 use squealmap::model::friction::LawKind;
 use squealmap::study::fit::made::{Wanted, made};
 use squealmap::study::fit::table::material_csv;
-use squealmap::study::fit::{Candidate, FitFault, compare, fit};
+use squealmap::study::fit::{Candidate, Fit, FitFault, compare, fit};
 use squealmap::sweep::spec::Spec;
 use squealmap_identify::Point;
 use squealmap_identify::{FrictionColumn, Settings, read_points};
@@ -218,4 +218,61 @@ fn the_best_law_of_few_points_is_doubted() {
         *(if warned { &mut doubted } else { &mut sure }) += 1;
     }
     assert!(doubted > 2 && sure > 2, "{doubted}, {sure}");
+}
+
+/// Points at three temperatures with a knee each, and the fit of them.
+fn with_knees(knees: [f64; 3], seed: u64) -> Fit {
+    let mut random = Random::new(seed);
+    let mut points = Vec::new();
+    for ([temperature, mu_s, mu_d], knee) in PAD.into_iter().zip(knees) {
+        for step in 1_u8..=80 {
+            let velocity = 0.1 * f64::from(step);
+            let w = (velocity / knee).min(1.0);
+            let friction = (mu_s + 0.1) * (1.0 - w) + mu_d * w + 0.003 * random.normal();
+            points.push(Point { velocity, half_range: 0.0, friction, temperature });
+        }
+    }
+    fit(&points, LawKind::Bilinear, &PAD.map(|row| row[0]), None).unwrap()
+}
+
+#[test]
+fn each_temperature_has_a_knee_of_its_own_where_the_points_ask_for_it() {
+    let (knees, mut worst) = ([2.0, 4.0, 5.5], 0.0_f64);
+    for seed in 0..12 {
+        let found = with_knees(knees, seed);
+        for (k, expected) in
+            [PAD.map(|row| row[1] + 0.1), PAD.map(|row| row[2]), knees].into_iter().enumerate()
+        {
+            let errors = found.errors[k].clone().unwrap();
+            for ((value, error), expected) in found.columns[k].1.iter().zip(errors).zip(expected) {
+                worst = worst.max((value - expected).abs() / error);
+            }
+        }
+    }
+    // Of 108 values the farthest is some 2.8 standard errors off.
+    assert!((1.0..4.5).contains(&worst), "{worst}");
+    // Where one describes them, it is one, and better known.
+    let (one, several) = (with_knees([4.0; 3], 1), with_knees(knees, 1));
+    let error = |found: &Fit| found.errors[2].clone().unwrap()[1];
+    assert!(
+        one.columns[2].1.windows(2).all(|pair| pair[0].total_cmp(&pair[1]).is_eq()),
+        "{:?}",
+        one.columns[2]
+    );
+    assert!(error(&one) < 0.8 * error(&several), "{} and {}", error(&one), error(&several));
+}
+
+#[test]
+fn a_temperature_that_is_given_takes_the_place_of_an_empty_column() {
+    let text = "V (mm/s),mu,temperature [°C]\n10,0.5,\n20,0.4,\n";
+    let friction = FrictionColumn::Named("mu".to_owned());
+    let read = |temperature| {
+        read_points(Box::new(Cursor::new(text)), "table", &Settings::default(), &friction, temperature)
+    };
+    let points = read(Some(500.0)).unwrap().points;
+    let of: Vec<_> = points.iter().map(|point| (point.velocity, point.temperature)).collect();
+    // Columns are known by their names, whatever unit stands behind.
+    assert_eq!(of, [(0.01, 500.0), (0.02, 500.0)]);
+    let why = read(None).unwrap_err().to_string();
+    assert!(why.contains("temperature"), "{why}");
 }

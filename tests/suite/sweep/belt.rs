@@ -54,6 +54,16 @@ fn what_a_motion_does_not_read_or_lacks_is_said() {
     refused("motion = \"sine\"\nramp_duration = 1", "`belt_velocity`");
     refused("motion = \"trapeze\"\nbelt_velocity = 1\nramp_duration = 1", "`rise_duration`");
     refused("motion = \"sine\"\nbelt_velocity = 1\nramp_duration = 1\nrise_duration = 0.1", "\"trapeze\"");
+    // Half of the time is a triangle; more would not come to rest.
+    let trapeze = "motion = \"trapeze\"\nbelt_velocity = 1\nramp_duration = 1\n";
+    assert!(with("", &format!("{trapeze}rise_duration = 0.5\n"), "").is_ok());
+    refused(
+        &format!("{trapeze}rise_duration = 0.6"),
+        "is 0.6 s but must be at most half of `ramp_duration`, 0.5 s",
+    );
+    let axes = "[axes]\nrise_duration = { values = [0.1, 0.7] }\n";
+    let why = with("", trapeze, axes).err().unwrap();
+    assert!(why.contains("axis `rise_duration`") && why.contains("0.7 s"), "{why}");
     refused(
         "motion = \"sine\"\nbelt_velocity = 1\nramp_duration = 1\nbelt_velocity_end = 0",
         "motion = \"ramp\"",
