@@ -55,7 +55,8 @@ pub(crate) struct Plot {
     #[arg(long, value_name = "DIR", conflicts_with = "cut")]
     curves: Option<PathBuf>,
     /// Of a map, computed or refined: with the measured strokes of this table, which has a column for each axis of the map, a standard
-    /// error where that is known (`mu_s_error`), and `observed`: `no_instability`, `negative_slope`, `mode_coupling`, `both`, `undecided`
+    /// error where that is known (`mu_s_error`), and `observed`: `no_instability`, `negative_slope`, `mode_coupling`, `both`, `undecided`;
+    /// or of the `strokes.csv` of a campaign
     #[arg(long, value_name = "FILE", conflicts_with = "cut")]
     strokes: Option<PathBuf>,
     #[command(flatten)]
@@ -119,7 +120,7 @@ impl Plot {
                 let found = Strokes::over(strokes, grid)?;
                 if found.outside > 0 {
                     note(&format!(
-                        "{} of the strokes lie outside of the map and are not drawn",
+                        "{} of the strokes lie outside of the map, or have no verdict, and are not drawn",
                         found.outside
                     ));
                 }

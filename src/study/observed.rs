@@ -15,52 +15,72 @@ const MOST: u64 = 1 << 24;
 /// The column of what was observed.
 const OBSERVED: &str = "observed";
 
+/// Columns of a campaign that stand for those of a map.
+const OF_CAMPAIGN: [(&str, &str); 1] = [("belt_velocity", "velocity")];
+
 /// The line of a standard error, and the rim of a mark.
-const ERROR: Stroke = Stroke {
-    words: "standard error",
-    attributes: r##"class="error" fill="none" stroke="#000000" stroke-width="0.7""##,
-};
-const RIM: Stroke = Stroke {
-    words: "measured stroke",
-    attributes: r##"class="rim" fill="none" stroke="#000000" stroke-width="5.6" stroke-linecap="round""##,
-};
+const ERROR: Stroke =
+    Stroke::line("standard error", r##"class="error" fill="none" stroke="#000000" stroke-width="0.7""##);
+const RIM: Stroke = Stroke::line(
+    "",
+    r##"class="rim" fill="none" stroke="#000000" stroke-width="5.6" stroke-linecap="round""##,
+);
+
+/// A mark on its rim.
+const fn mark(words: &'static str, attributes: &'static str) -> Stroke {
+    Stroke { words, attributes, rim: Some(RIM.attributes) }
+}
 
 /// What may be observed: its name, and its mark in the colour that maps give the same type.
-const MARKS: [(&str, Stroke); 5] = [
+const MARKS: [(&str, Stroke); 7] = [
     (
         "no_instability",
-        Stroke {
-            words: "measured: no instability",
-            attributes: r##"class="observed" fill="none" stroke="#F2F2EE" stroke-width="4.2" stroke-linecap="round""##,
-        },
+        mark(
+            "measured: no instability",
+            r##"class="observed" fill="none" stroke="#F2F2EE" stroke-width="4.2" stroke-linecap="round""##,
+        ),
     ),
     (
         "negative_slope",
-        Stroke {
-            words: "measured: negative slope",
-            attributes: r##"class="observed" fill="none" stroke="#56B4E9" stroke-width="4.2" stroke-linecap="round""##,
-        },
+        mark(
+            "measured: negative slope",
+            r##"class="observed" fill="none" stroke="#56B4E9" stroke-width="4.2" stroke-linecap="round""##,
+        ),
+    ),
+    (
+        "negative_slope_at_least",
+        mark(
+            "measured: negative slope at least",
+            r##"class="observed" fill="none" stroke="#BFE2F7" stroke-width="4.2" stroke-linecap="round""##,
+        ),
     ),
     (
         "mode_coupling",
-        Stroke {
-            words: "measured: mode coupling",
-            attributes: r##"class="observed" fill="none" stroke="#B5441A" stroke-width="4.2" stroke-linecap="round""##,
-        },
+        mark(
+            "measured: mode coupling",
+            r##"class="observed" fill="none" stroke="#B5441A" stroke-width="4.2" stroke-linecap="round""##,
+        ),
+    ),
+    (
+        "mode_coupling_at_least",
+        mark(
+            "measured: mode coupling at least",
+            r##"class="observed" fill="none" stroke="#DFB09E" stroke-width="4.2" stroke-linecap="round""##,
+        ),
     ),
     (
         "both",
-        Stroke {
-            words: "measured: both",
-            attributes: r##"class="observed" fill="none" stroke="#452087" stroke-width="4.2" stroke-linecap="round""##,
-        },
+        mark(
+            "measured: both",
+            r##"class="observed" fill="none" stroke="#452087" stroke-width="4.2" stroke-linecap="round""##,
+        ),
     ),
     (
         "undecided",
-        Stroke {
-            words: "measured: undecided",
-            attributes: r##"class="observed" fill="none" stroke="#808B81" stroke-width="4.2" stroke-linecap="round""##,
-        },
+        mark(
+            "measured: undecided",
+            r##"class="observed" fill="none" stroke="#808B81" stroke-width="4.2" stroke-linecap="round""##,
+        ),
     ),
 ];
 
@@ -69,13 +89,14 @@ const MARKS: [(&str, Stroke); 5] = [
 pub struct Strokes {
     /// Their errors, rims and marks.
     pub lines: Vec<Overlay>,
-    /// Strokes in no panel.
+    /// Strokes in no panel, or without a verdict.
     pub outside: usize,
 }
 
 impl Strokes {
     /// Reads a table of strokes: a column for each axis of the map, named as it, `NAME_error` for its standard error where that
-    /// is known, and `observed`. A stroke is in the panel nearest to it.
+    /// is known, and `observed`. The table of a campaign is one: its `velocity` is that of the belt, and observed is what fills most of a
+    /// stroke. A stroke is in the panel nearest to it.
     ///
     /// # Errors
     /// When the map has no plane, or the table is none of such strokes.
@@ -94,14 +115,19 @@ impl Strokes {
         let mut reader =
             csv::ReaderBuilder::new().comment(Some(b'#')).trim(csv::Trim::All).from_reader(text.as_bytes());
         let header = reader.headers().map_err(|why| bad(why.to_string()))?.clone();
-        let column = |name: &str| header.iter().position(|other| other == name);
+        let named = |name: &str| header.iter().position(|other| other == name);
+        let column =
+            |name: &str| named(name).or_else(|| named(OF_CAMPAIGN.iter().find(|(own, _)| *own == name)?.1));
         let needed = |name: &str| {
             let listed: Vec<String> = header.iter().map(|name| format!("`{}`", quoted(name))).collect();
             column(name).ok_or_else(|| bad(format!("have no column `{name}`, only {}", listed.join(", "))))
         };
         let places = [needed(x.name())?, needed(y.name())?];
         let errors = [x, y].map(|side| column(&format!("{}_error", side.name())));
-        let observed = needed(OBSERVED)?;
+        let observed = match Observed::of_campaign(&named) {
+            Some(shares) => shares,
+            None => Observed::Named(needed(OBSERVED)?),
+        };
         let others: Vec<(&Axis, usize)> = axes
             .iter()
             .filter(|axis| axis.key != x && axis.key != y && axis.values.len() > 1)
@@ -111,6 +137,10 @@ impl Strokes {
         for (number, row) in reader.records().enumerate() {
             let row = row.map_err(|why| bad(why.to_string()))?;
             let stroke = number + 1;
+            if !observed.has_verdict(&row) {
+                outside += 1;
+                continue;
+            }
             let value = |place: usize| {
                 let cell = row.get(place).unwrap_or_default();
                 let value = cell.parse::<f64>().ok().filter(|value| value.is_finite());
@@ -138,14 +168,8 @@ impl Strokes {
                     })?,
                 ));
             }
-            let name = row.get(observed).unwrap_or_default();
-            let mark = MARKS.into_iter().find(|(known, _)| *known == name).map(|(_, mark)| mark);
-            let mark = mark.ok_or_else(|| {
-                let names = MARKS.map(|(name, _)| name).join(", ");
-                bad(format!(
-                    "have `{}` as `{OBSERVED}` in row {stroke}; it must be one of {names}",
-                    quoted(name)
-                ))
+            let mark = observed.mark(&row, value, |name, names| {
+                bad(format!("have `{name}` as `{OBSERVED}` in row {stroke}; it must be one of {names}"))
             })?;
             if !([x, y].into_iter().zip(at).all(|(side, value)| covers(axes, side, value))) {
                 outside += 1;
@@ -175,6 +199,51 @@ impl Strokes {
         bars.extend(rims);
         bars.extend(marks);
         Ok(Strokes { lines: bars, outside })
+    }
+}
+
+/// Where the rows of a table say what was observed.
+enum Observed {
+    /// By its name.
+    Named(usize),
+    /// By the parts of a stroke that each verdict of [`MARKS`] fills; the status of a stroke that could not be judged is not `ok`.
+    Shares { shares: Vec<usize>, status: Option<usize> },
+}
+
+impl Observed {
+    /// That of a campaign, by the places of its columns.
+    fn of_campaign(named: &impl Fn(&str) -> Option<usize>) -> Option<Observed> {
+        if named(OBSERVED).is_some() {
+            return None;
+        }
+        let shares = MARKS.iter().map(|(name, _)| named(name)).collect::<Option<_>>()?;
+        Some(Observed::Shares { shares, status: named("status") })
+    }
+
+    fn has_verdict(&self, row: &csv::StringRecord) -> bool {
+        let Observed::Shares { status: Some(status), .. } = self else { return true };
+        row.get(*status) == Some("ok")
+    }
+
+    /// The mark of a row; `value` reads a cell, `bad` refuses a name for one of some.
+    fn mark(
+        &self,
+        row: &csv::StringRecord,
+        value: impl Fn(usize) -> Result<f64>,
+        bad: impl Fn(String, String) -> Error,
+    ) -> Result<Stroke> {
+        match self {
+            Observed::Named(place) => {
+                let name = row.get(*place).unwrap_or_default();
+                let mark = MARKS.into_iter().find(|(known, _)| *known == name).map(|(_, mark)| mark);
+                mark.ok_or_else(|| bad(quoted(name), MARKS.map(|(name, _)| name).join(", ")))
+            }
+            Observed::Shares { shares, .. } => {
+                let shares = shares.iter().map(|place| value(*place)).collect::<Result<Vec<f64>>>()?;
+                let most = (0..shares.len()).max_by(|a, b| shares[*a].total_cmp(&shares[*b]));
+                Ok(MARKS[most.unwrap_or_default()].1)
+            }
+        }
     }
 }
 

@@ -80,6 +80,7 @@ fn without_growth(overview: &Overview, looked: &Looked) -> Verdict {
         confidence,
         leaning: Some(Kind::NoInstability),
         reasons: vec![reason],
+        each: None,
     };
     if overview.loud == 0 {
         let Looked { samples, band, outside, .. } = *looked;

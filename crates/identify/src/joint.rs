@@ -5,7 +5,7 @@ use crate::instants::Instant;
 use crate::level::Reading;
 use crate::population::{Seen, Source, bin, chances};
 use crate::segment::{Segment, State};
-use crate::testimony::{Chances, Mechanism, Testimony, Witness};
+use crate::testimony::{CAUSES, Chances, Mechanism, Testimony, Witness};
 use crate::verdict::{CONFIDENT, Kind, Verdict};
 use crate::witness::{
     Structure, driven, each, friction, friction_seen, phase, phase_seen, power, read_within,
@@ -22,6 +22,8 @@ const SAME_VELOCITY: f64 = 0.03;
 const SAME_TEMPERATURE: f64 = 10.0;
 /// Relative difference of velocities up to which a growth speaks for the vibration that it goes over into.
 const SAME_VIBRATION: f64 = 0.1;
+/// A probability below which the power at growth rather speaks against a mechanism.
+const RATHER: f64 = 0.85;
 /// A likelihood is never believed beyond this: every witness has errors that it does not know.
 const BELIEVED: f64 = 0.995;
 
@@ -74,7 +76,8 @@ pub(super) fn judged(
                 (segment.verdict, segment.rests_on) = calm(segment, (next, until), follows, structure);
             }
             State::Growing | State::Sustained => {
-                (segment.verdict, segment.rests_on, segment.shared) = together(segment, best, structure);
+                (segment.verdict, segment.rests_on, segment.shared) =
+                    together(segment, best, told, structure);
             }
         }
         contradict(segment, &own);
@@ -156,6 +159,7 @@ fn calm(
             confidence,
             leaning: Some(kind),
             reasons: vec![reason.to_owned()],
+            each: None,
         };
         return (verdict, vec![Witness::Power]);
     }
@@ -191,14 +195,16 @@ fn calm(
         confidence: QUIET,
         leaning: Some(Kind::NoInstability),
         reasons: vec![reason.to_owned()],
+        each: None,
     };
     (verdict, Vec::new())
 }
 
-/// A vibration: population, friction and power of friction multiplied.
+/// A vibration: population, friction and power of friction multiplied. `episode` is the growth in it, `told` the one whose power holds here.
 fn together(
     segment: &Segment,
     episode: Option<&Episode>,
+    told: Option<&Episode>,
     structure: Structure,
 ) -> (Verdict, Vec<Witness>, Option<(Mechanism, f64)>) {
     let undecided = |reason: String| (Verdict::undecided(reason), Vec::new(), None);
@@ -224,7 +230,81 @@ fn together(
     // A level that is read needs no counts.
     let level = if reads[0].is_some() { None } else { level };
     let (population, number) = chances(Seen { source, bin: binned, level, trend, damped: structure.damped });
-    let mut weights = population.0;
+    let weights = multiplied(population, within, reads, by_power);
+    let Some(joint) = Chances::from_weights(weights) else { return undecided("nothing fits".to_owned()) };
+    let (kind, probability) = joint.leading();
+    // What counted vibrations leave open; what is read does not rest on them.
+    let direct = by_power.is_some() || within.is_some() || reads.iter().all(Option::is_some);
+    let sure = |probability: f64| {
+        let p = probability.clamp(0.0, 1.0);
+        let spread =
+            if direct { 0.0 } else { (p * (1.0 - p) / (number + 1.0)).sqrt() + 0.5 / (number + 1.0) };
+        (p - spread).clamp(0.0, BELIEVED)
+    };
+    // A level that is read has the last word on whether it reaches the coalescence: what counted vibrations say of it is of others.
+    let above = reads[0].filter(|_| source == Source::Within);
+    let by_level = |couples: bool| above.map_or(1.0, |above| if couples { above } else { 1.0 - above });
+    // And so has a slope that is read, or that the power at growth shows, on whether it feeds: that coupling cannot be does not make it do so,
+    // nor do counts alone show that it does not.
+    let by_slope = |feeds: bool| {
+        let shown = within.map(|[_, exceeds]| exceeds).into_iter().chain(by_power.map(|power| power.slope()));
+        if source == Source::Within { by_shown(feeds, shown.reduce(f64::max)) } else { 1.0 }
+    };
+    // The power at growth may be too unsure to speak, and yet say that a mechanism rather would not do.
+    let [slope, coupling] = told.and_then(|episode| episode.verdict.each).unwrap_or([1.0; 2]);
+    let by_growth = |share: f64| if share < RATHER { CONFIDENT - 0.01 } else { 1.0 };
+    let most = |mechanism| match mechanism {
+        Mechanism::ModeCoupling => by_level(true).min(by_growth(coupling)),
+        Mechanism::NegativeSlope => by_slope(true).min(by_growth(slope)),
+    };
+    let couples = matches!(kind, Kind::ModeCoupling | Kind::Both);
+    let feeds = matches!(kind, Kind::NegativeSlope | Kind::Both);
+    let of_coupling = if couples { most(Mechanism::ModeCoupling) } else { by_level(false) };
+    let of_slope = if feeds { most(Mechanism::NegativeSlope) } else { by_slope(false) };
+    let confidence = sure(probability).min(of_coupling).min(of_slope);
+    let parts: Vec<String> =
+        [(1, "negative slope"), (2, "mode coupling"), (3, "both"), (4, "only both together")]
+            .into_iter()
+            .filter(|(k, _)| joint.0[*k] > 0.02)
+            .map(|(k, words)| format!("{words} {:.0} %", 100.0 * joint.0[k]))
+            .collect();
+    let reason = format!(
+        "mode coupling would do with {:.0} %, the slope with {:.0} %: {}",
+        100.0 * joint.coupling(),
+        100.0 * joint.slope(),
+        parts.join(", ")
+    );
+    // Phases of growth overlap too much: without a direct reading they only lean.
+    let tells = direct || source != Source::Growth;
+    let confidence = if tells { confidence } else { confidence.min(CONFIDENT - 0.01) };
+    let decided = confidence >= CONFIDENT && kind != Kind::Undecided;
+    let verdict = Verdict {
+        kind: if decided { kind } else { Kind::Undecided },
+        confidence,
+        leaning: (kind != Kind::Undecided).then_some(kind),
+        reasons: vec![reason],
+        each: None,
+    };
+    let suffices = |mechanism| (mechanism, sure(joint.suffices(mechanism)).min(most(mechanism)));
+    let shared = Mechanism::ALL.map(suffices).into_iter().find(|(_, p)| *p >= CONFIDENT && !decided && tells);
+    let agrees =
+        |testimony: &&Testimony| testimony.chances.is_some_and(|chances| chances.of(kind) >= CONFIDENT);
+    let mut rests: Vec<Witness> =
+        segment.testimonies.iter().filter(agrees).map(|testimony| testimony.witness).collect();
+    if rests.is_empty() {
+        let speaks = |testimony: &&Testimony| testimony.chances.is_some();
+        rests = segment.testimonies.iter().filter(speaks).map(|testimony| testimony.witness).collect();
+    }
+    (verdict, rests, shared)
+}
+
+/// The weights of the causes by the population, what is read, and the power at growth.
+fn multiplied(
+    Chances(mut weights): Chances,
+    within: Option<[f64; 2]>,
+    reads: [Option<f64>; 2],
+    by_power: Option<Chances>,
+) -> [f64; CAUSES] {
     // Index: none, slope, coupling, both, interaction.
     let believed = |p: f64| p.clamp(1.0 - BELIEVED, BELIEVED);
     if let Some([above, exceeds]) = within.map(|each| each.map(believed)) {
@@ -247,64 +327,7 @@ fn together(
     if let Some(power) = by_power {
         weights.iter_mut().zip(power.0).for_each(|(weight, p)| *weight *= p.max(1.0 - BELIEVED));
     }
-    let Some(joint) = Chances::from_weights(weights) else { return undecided("nothing fits".to_owned()) };
-    let (kind, probability) = joint.leading();
-    // What counted vibrations leave open; what is read does not rest on them.
-    let direct = by_power.is_some() || within.is_some() || reads.iter().all(Option::is_some);
-    let sure = |probability: f64| {
-        let p = probability.clamp(0.0, 1.0);
-        let spread =
-            if direct { 0.0 } else { (p * (1.0 - p) / (number + 1.0)).sqrt() + 0.5 / (number + 1.0) };
-        (p - spread).clamp(0.0, BELIEVED)
-    };
-    // A level that is read has the last word on whether it reaches the coalescence: what counted vibrations say of it is of others.
-    let above = reads[0].filter(|_| source == Source::Within);
-    let by_level = |couples: bool| above.map_or(1.0, |above| if couples { above } else { 1.0 - above });
-    // And so has a slope that is read, or that the power at growth shows, on whether it feeds: that coupling cannot be does not make it do so,
-    // nor do counts alone show that it does not.
-    let by_slope = |feeds: bool| {
-        let shown = within.map(|[_, exceeds]| exceeds).into_iter().chain(by_power.map(|power| power.slope()));
-        if source == Source::Within { by_shown(feeds, shown.reduce(f64::max)) } else { 1.0 }
-    };
-    let couples = matches!(kind, Kind::ModeCoupling | Kind::Both);
-    let feeds = matches!(kind, Kind::NegativeSlope | Kind::Both);
-    let confidence = sure(probability).min(by_level(couples)).min(by_slope(feeds));
-    let parts: Vec<String> =
-        [(1, "negative slope"), (2, "mode coupling"), (3, "both"), (4, "only both together")]
-            .into_iter()
-            .filter(|(k, _)| joint.0[*k] > 0.02)
-            .map(|(k, words)| format!("{words} {:.0} %", 100.0 * joint.0[k]))
-            .collect();
-    let reason = format!(
-        "mode coupling would do with {:.0} %, the slope with {:.0} %: {}",
-        100.0 * joint.coupling(),
-        100.0 * joint.slope(),
-        parts.join(", ")
-    );
-    // Phases of growth overlap too much: without a direct reading they only lean.
-    let told = direct || source != Source::Growth;
-    let confidence = if told { confidence } else { confidence.min(CONFIDENT - 0.01) };
-    let decided = confidence >= CONFIDENT && kind != Kind::Undecided;
-    let verdict = Verdict {
-        kind: if decided { kind } else { Kind::Undecided },
-        confidence,
-        leaning: (kind != Kind::Undecided).then_some(kind),
-        reasons: vec![reason],
-    };
-    let suffices = |mechanism| {
-        let most = if mechanism == Mechanism::ModeCoupling { by_level(true) } else { by_slope(true) };
-        (mechanism, sure(joint.suffices(mechanism)).min(most))
-    };
-    let shared = Mechanism::ALL.map(suffices).into_iter().find(|(_, p)| *p >= CONFIDENT && !decided && told);
-    let agrees =
-        |testimony: &&Testimony| testimony.chances.is_some_and(|chances| chances.of(kind) >= CONFIDENT);
-    let mut rests: Vec<Witness> =
-        segment.testimonies.iter().filter(agrees).map(|testimony| testimony.witness).collect();
-    if rests.is_empty() {
-        let speaks = |testimony: &&Testimony| testimony.chances.is_some();
-        rests = segment.testimonies.iter().filter(speaks).map(|testimony| testimony.witness).collect();
-    }
-    (verdict, rests, shared)
+    weights
 }
 
 /// The most that may be said of whether the slope feeds, by the probability that it is shown to, if any is.

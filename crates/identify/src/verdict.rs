@@ -71,6 +71,9 @@ pub struct Verdict {
     pub leaning: Option<Kind>,
     /// Sentences: what speaks for it, or what keeps it undecided.
     pub reasons: Vec<String>,
+    /// The probabilities that a mechanism alone would do, in the order of [`crate::testimony::Mechanism::ALL`], as far as the power of friction tells,
+    /// also where that decides on none.
+    pub each: Option<[f64; 2]>,
 }
 
 impl Verdict {
@@ -82,7 +85,13 @@ impl Verdict {
 
     /// The signals do not tell, for one reason.
     pub(super) fn undecided(reason: impl Into<String>) -> Verdict {
-        Verdict { kind: Kind::Undecided, confidence: 0.0, leaning: None, reasons: vec![reason.into()] }
+        Verdict {
+            kind: Kind::Undecided,
+            confidence: 0.0,
+            leaning: None,
+            reasons: vec![reason.into()],
+            each: None,
+        }
     }
 }
 
@@ -155,7 +164,9 @@ pub(super) fn judge(feedback: &Feedback, setting: &Setting<'_>) -> Verdict {
     let confidence = probability * coherence * (1.0 - 0.5 * setting.distortion).clamp(0.0, 1.0);
     let decided = kind.filter(|_| confidence >= CONFIDENT);
     reasons.insert(0, evidence(feedback, decided.is_some(), &likely));
-    Verdict { kind: decided.unwrap_or(Kind::Undecided), confidence, leaning: kind, reasons }
+    let each = [Cause::Slope, Cause::Coupling].map(|cause| likely.mean(cause) + likely.mean(Cause::Both));
+    let told = decided.unwrap_or(Kind::Undecided);
+    Verdict { kind: told, confidence, leaning: kind, reasons, each: Some(each) }
 }
 
 /// The most probable kind (`None` where it is none of them) and how sure it is.

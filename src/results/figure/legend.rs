@@ -28,7 +28,7 @@ enum Swatch {
     NotComputed,
     Limit,
     Equal,
-    Line(&'static str),
+    Line(Stroke),
 }
 
 /// The entries of a legend in order.
@@ -105,7 +105,7 @@ impl Legend {
 
     /// The same with the kinds of these lines.
     pub(crate) fn with_lines(mut self, lines: &[Overlay]) -> Legend {
-        let entry = |stroke: Stroke| (Swatch::Line(stroke.attributes), Text::from(stroke.words));
+        let entry = |stroke: Stroke| (Swatch::Line(stroke), Text::from(stroke.words));
         self.0.extend(overlay::strokes(lines).into_iter().map(entry));
         self
     }
@@ -158,7 +158,14 @@ fn draw_swatch(svg: &mut Svg, swatch: &Swatch, x: f64, y: f64) {
         Swatch::Limit | Swatch::Equal | Swatch::Line(_) => {
             let line = format!("M{} {}h{}", number(x), number(y + 0.5 * SWATCH[1]), number(SWATCH[0]));
             let stroke = match swatch {
-                Swatch::Line(stroke) => stroke,
+                Swatch::Line(Stroke { rim: Some(rim), attributes, .. }) => {
+                    let [x, y] = [x + 0.5 * SWATCH[0], y + 0.5 * SWATCH[1]].map(number);
+                    for dot in [rim, attributes] {
+                        svg.path(&format!("M{x} {y}h0.01"), dot);
+                    }
+                    return;
+                }
+                Swatch::Line(stroke) => stroke.attributes,
                 Swatch::Limit => LIMIT[1],
                 _ => sides::STROKES[1],
             };

@@ -14,10 +14,20 @@ const HALO: &str = r##"fill="none" stroke="#FFFFFF" stroke-width="2.4" stroke-li
 /// How a kind of line is drawn and named.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stroke {
-    /// Its words in the legend.
+    /// Its words in the legend; empty where that does not name it.
     pub words: &'static str,
     /// Its attributes.
     pub attributes: &'static str,
+    /// Of a mark instead of a line: the attributes of the larger dot under it.
+    pub rim: Option<&'static str>,
+}
+
+impl Stroke {
+    /// A line.
+    #[must_use]
+    pub const fn line(words: &'static str, attributes: &'static str) -> Stroke {
+        Stroke { words, attributes, rim: None }
+    }
 }
 
 /// A line over panels.
@@ -83,7 +93,7 @@ pub(crate) fn draw(
 pub(crate) fn strokes(lines: &[Overlay]) -> Vec<Stroke> {
     let mut strokes: Vec<Stroke> = Vec::new();
     for line in lines {
-        if !strokes.contains(&line.stroke) {
+        if !line.stroke.words.is_empty() && !strokes.contains(&line.stroke) {
             strokes.push(line.stroke);
         }
     }

@@ -17,8 +17,9 @@ pub enum Fault {
     /// Friction that no inclination makes critical.
     #[error(
         "modes at {first} and {second} Hz do not coalesce at a friction coefficient of {wanted}: with the inclinations that these \
-         frequencies allow it is {low:.4} to {high:.4}; measure the frequencies again (closer ones coalesce at less friction), or \
-         give another --critical-friction"
+         frequencies allow it is {low:.4} {}; measure the frequencies again (closer ones coalesce at less friction), or \
+         give another --critical-friction",
+        up_to(*high)
     )]
     Coalescence {
         /// The lower frequency, Hz.
@@ -29,7 +30,7 @@ pub enum Fault {
         wanted: f64,
         /// The least that is possible.
         low: f64,
-        /// The most that was tried.
+        /// The most that was tried, infinite where they do not coalesce at the flattest inclination.
         high: f64,
     },
     /// Modes that no friction couples.
@@ -58,4 +59,9 @@ pub enum Fault {
         /// The least damper, N s/m.
         value: f64,
     },
+}
+
+/// The end of a range of friction coefficients.
+fn up_to(high: f64) -> String {
+    if high.is_finite() { format!("to {high:.4}") } else { "and more".to_owned() }
 }

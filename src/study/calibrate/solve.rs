@@ -43,6 +43,10 @@ pub struct Calibrated {
 
 /// Inclinations are looked for down to this part of the largest one.
 const LEAST: f64 = 1e-5;
+/// Steps of equal factors between these.
+const INCLINATIONS: u32 = 80;
+/// What a model has of what is wanted is off by this part at most.
+const EXACT: f64 = 1e-6;
 /// Corrections of what the weak damping is taken for.
 const CORRECTIONS: usize = 8;
 /// Friction coefficients beyond this are no friction.
@@ -51,7 +55,7 @@ pub(crate) const MOST: f64 = 5.0;
 /// The model that has what was measured.
 ///
 /// The inclination is what remains when the modes are given: the flatter the contact, the more friction it takes to couple
-/// them. It is found by bisection; all else is in closed form, corrected for the damping.
+/// them. It is found among some, then by bisection; all else is in closed form, corrected for the damping.
 ///
 /// # Errors
 /// When no model has it.
@@ -69,41 +73,75 @@ pub fn calibrate(measured: &Measured) -> Result<Calibrated, Fault> {
     };
     // Just below the largest one, where both modes are the same mixture.
     let steep = 0.999 * wanted.steepest();
-    let critical =
-        |theta: f64| coalescence(&instance(&corrected(&wanted, theta), &wanted, theta, measured.load));
-    let (mut low, mut high) = (LEAST * steep, steep);
-    let ends = [critical(high), critical(low)];
-    if ends[0].is_infinite() {
-        return Err(Fault::NoCoalescence { first, second, most: MOST });
-    }
-    if !(ends[0]..=ends[1]).contains(&measured.critical_friction) {
-        return Err(Fault::Coalescence {
-            first,
-            second,
-            wanted: measured.critical_friction,
-            low: ends[0],
-            high: ends[1],
+    let tried = |theta: f64| {
+        let structure = corrected(&wanted, theta);
+        let made = instance(&structure, &wanted, theta, measured.load);
+        let critical = coalescence(&made);
+        Tried { theta, structure, made, critical }
+    };
+    let all: Vec<Tried> = (0..=INCLINATIONS)
+        .map(|k| tried(steep * LEAST.powf(1.0 - f64::from(k) / f64::from(INCLINATIONS))))
+        .collect();
+    let asked = measured.critical_friction;
+    // From the flattest on, the more friction it takes.
+    let between = all.windows(2).filter(|pair| pair[0].critical >= asked && asked >= pair[1].critical);
+    let found: Vec<Tried> = between
+        .map(|pair| {
+            let (mut low, mut high) = (pair[0].theta, pair[1].theta);
+            for _ in 0..BISECTIONS {
+                let middle = (low * high).sqrt();
+                if tried(middle).critical > asked { low = middle } else { high = middle }
+            }
+            tried((low * high).sqrt())
+        })
+        .filter(|found| (found.critical - asked).abs() <= EXACT * asked && found.has(&wanted))
+        .collect();
+    if let Some(Tried { made, critical, .. }) = found.iter().find(|found| found.least_damper() >= 0.0) {
+        let (frequencies, damping_ratios) = modes(made);
+        return Ok(Calibrated {
+            params: made.params,
+            frequencies,
+            damping_ratios,
+            critical_friction: *critical,
         });
     }
-    for _ in 0..BISECTIONS {
-        let middle = (low * high).sqrt();
-        if critical(middle) > measured.critical_friction { low = middle } else { high = middle }
-    }
-    let theta = (low * high).sqrt();
-    let structure = corrected(&wanted, theta);
-    let least = structure.damping[0].min(structure.damping[1]);
-    if least < 0.0 {
+    if let Some(negative) = found.first() {
         let [first, second] = measured.damping_ratios;
-        return Err(Fault::Damping { first, second, value: least });
+        return Err(Fault::Damping { first, second, value: negative.least_damper() });
     }
-    let found = instance(&structure, &wanted, theta, measured.load);
-    let (frequencies, damping_ratios) = modes(&found);
-    Ok(Calibrated {
-        params: found.params,
-        frequencies,
-        damping_ratios,
-        critical_friction: coalescence(&found),
+    let possible = all.iter().filter(|one| one.has(&wanted)).map(|one| one.critical);
+    let [low, high] = possible.fold([f64::INFINITY, 0.0], |[low, high], one| [one.min(low), one.max(high)]);
+    Err(if low.is_infinite() {
+        Fault::NoCoalescence { first, second, most: MOST }
+    } else {
+        Fault::Coalescence { first, second, wanted: asked, low, high }
     })
+}
+
+/// A model at an inclination.
+struct Tried {
+    /// The inclination, rad.
+    theta: f64,
+    structure: Structure,
+    made: Instance,
+    /// The friction coefficient from which on it is unstable.
+    critical: f64,
+}
+
+impl Tried {
+    /// The smaller damper, N s/m.
+    fn least_damper(&self) -> f64 {
+        self.structure.damping[0].min(self.structure.damping[1])
+    }
+
+    /// Whether its eigenvalues are what is wanted: where close modes are damped very differently, corrections may not come to that.
+    fn has(&self, wanted: &Wanted) -> bool {
+        let (frequencies, damping_ratios) = modes(&self.made);
+        let near = |(a, b): (f64, f64), most: f64| (a - b).abs() <= EXACT * most;
+        let most = wanted.damping_ratios[0].max(wanted.damping_ratios[1]);
+        frequencies.into_iter().zip(wanted.frequencies).all(|pair| near(pair, pair.1))
+            && damping_ratios.into_iter().zip(wanted.damping_ratios).all(|pair| near(pair, most))
+    }
 }
 
 /// Halvings of an interval of inclinations, and of friction coefficients.

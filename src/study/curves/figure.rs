@@ -13,38 +13,38 @@ use crate::sweep::spec::Spec;
 const STROKES: [(Special, Stroke); 5] = [
     (
         Special::Hopf,
-        Stroke {
-            words: "Hopf (H): the equilibrium loses its stability",
-            attributes: r##"class="hopf" fill="none" stroke="#D55E00" stroke-width="1.2" stroke-linejoin="round""##,
-        },
+        Stroke::line(
+            "Hopf (H): the equilibrium loses its stability",
+            r##"class="hopf" fill="none" stroke="#D55E00" stroke-width="1.2" stroke-linejoin="round""##,
+        ),
     ),
     (
         Special::Fold,
-        Stroke {
-            words: "fold of cycles (LP)",
-            attributes: r##"class="fold" fill="none" stroke="#000000" stroke-width="1.2" stroke-linejoin="round""##,
-        },
+        Stroke::line(
+            "fold of cycles (LP)",
+            r##"class="fold" fill="none" stroke="#000000" stroke-width="1.2" stroke-linejoin="round""##,
+        ),
     ),
     (
         Special::Corner,
-        Stroke {
-            words: "fold at a change of contact (C)",
-            attributes: r##"class="corner" fill="none" stroke="#000000" stroke-width="1.2" stroke-dasharray="6 2" stroke-linejoin="round""##,
-        },
+        Stroke::line(
+            "fold at a change of contact (C)",
+            r##"class="corner" fill="none" stroke="#000000" stroke-width="1.2" stroke-dasharray="6 2" stroke-linejoin="round""##,
+        ),
     ),
     (
         Special::Doubling,
-        Stroke {
-            words: "period doubling (PD)",
-            attributes: r##"class="doubling" fill="none" stroke="#000000" stroke-width="1.2" stroke-dasharray="1.2 1.6" stroke-linejoin="round""##,
-        },
+        Stroke::line(
+            "period doubling (PD)",
+            r##"class="doubling" fill="none" stroke="#000000" stroke-width="1.2" stroke-dasharray="1.2 1.6" stroke-linejoin="round""##,
+        ),
     ),
     (
         Special::Torus,
-        Stroke {
-            words: "torus (NS)",
-            attributes: r##"class="torus" fill="none" stroke="#000000" stroke-width="1.2" stroke-dasharray="6 1.6 1.2 1.6" stroke-linejoin="round""##,
-        },
+        Stroke::line(
+            "torus (NS)",
+            r##"class="torus" fill="none" stroke="#000000" stroke-width="1.2" stroke-dasharray="6 1.6 1.2 1.6" stroke-linejoin="round""##,
+        ),
     ),
 ];
 

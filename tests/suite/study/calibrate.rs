@@ -112,6 +112,39 @@ fn known_models_are_found_again() {
     assert!(tried.iter().all(|count| *count >= 5), "{tried:?}");
 }
 
+/// Close modes that are damped very differently: an impact test on what is found has all of it. At the steepest inclination they
+/// have no model.
+#[test]
+fn unlike_dampings_have_their_model() {
+    for (frequencies, damping_ratios, critical_friction) in [
+        ([131.053, 131.462], [0.005_323, 0.014_92], 0.8691),
+        ([131.053, 131.462], [0.014_92, 0.005_323], 0.8691),
+        ([14_145.9, 14_872.9], [0.0001, 0.1], 0.3),
+    ] {
+        let asked = Measured {
+            frequencies,
+            damping_ratios,
+            critical_friction,
+            mass: 0.08489,
+            mass_ratio: 0.18 / 2.12,
+            load: 4.0,
+            normal_above: true,
+        };
+        let found = calibrate(&asked).unwrap_or_else(|why| panic!("{why}"));
+        let (made, damped) = impact_test(values(&found));
+        for mode in 0..2 {
+            near("frequency", made[mode], frequencies[mode], 1e-9 * frequencies[mode]);
+            near("damping ratio", damped[mode], damping_ratios[mode], 1e-7);
+        }
+        let with = |mu: f64| {
+            let law = FrictionLaw::Constant { mu_s: mu, mu_d: mu };
+            let found = Instance { law, ..model(values(&found)) };
+            squealmap::model::linear::analyse(&found).1.unwrap().growth_rate
+        };
+        assert!(with(0.999 * critical_friction) < 0.0 && with(1.001 * critical_friction) > 0.0);
+    }
+}
+
 /// The model is another one if any of what was measured changes: none of it is passed over.
 #[test]
 fn each_measurement_counts() {
@@ -143,8 +176,11 @@ fn what_no_model_has_is_told() {
     let far = Measured { frequencies: [first, 1.5 * second], critical_friction: 0.05, ..asked };
     let Fault::Coalescence { low, wanted, .. } = why(far) else { panic!() };
     assert!(low > wanted, "{low}");
-    let unlike = Measured { damping_ratios: [0.0001, 0.1], ..asked };
-    assert!(matches!(why(unlike), Fault::Damping { .. } | Fault::NoCoalescence { .. }));
+    let unlike = Measured { damping_ratios: [0.00225, 0.000_418], critical_friction: 0.0123, ..asked };
+    let unlike = Measured { frequencies: [14_145.9, 14_387.3], ..unlike };
+    assert!(matches!(why(unlike), Fault::Damping { value, .. } if value < 0.0), "{}", why(unlike));
+    let close = Measured { frequencies: [14_145.9, 14_177.5], damping_ratios: [0.0243, 0.0754], ..asked };
+    assert!(matches!(why(close), Fault::NoCoalescence { .. }), "{}", why(close));
     let apart = why(Measured { frequencies: [100.0, 14_200.0], ..asked });
     assert!(
         apart

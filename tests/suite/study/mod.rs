@@ -8,6 +8,7 @@ pub(crate) mod confusion;
 pub(crate) mod curves;
 mod doubled;
 mod explore;
+pub(crate) mod falling_law;
 pub(crate) mod fem;
 pub(crate) mod fit;
 pub(crate) mod fit_errors;

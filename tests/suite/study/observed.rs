@@ -12,6 +12,7 @@ use squealmap::model::{Param, linear};
 use squealmap::results::figure::palette::TYPES;
 use squealmap::study::calibrate::sweep::{Plane, sweep_toml};
 use squealmap::study::calibrate::{Calibrated, Measured, calibrate};
+use squealmap::study::campaign::row::strokes_csv;
 use squealmap::study::observed::Strokes;
 use squealmap::sweep::grid::{AxisKey, Value};
 use squealmap::sweep::spec::Spec;
@@ -163,4 +164,41 @@ fn a_calibrated_map_predicts_a_campaign() {
     let wrong =
         cells.iter().filter(|cell| right(&other.instance(**cell), 0.0) != right(&map.instance(**cell), 0.0));
     assert!(wrong.count() > 5);
+}
+
+#[test]
+fn the_table_of_a_campaign_is_one_of_strokes() {
+    let header = String::from_utf8(strokes_csv(&[]).unwrap()).unwrap();
+    let row = |temperature: &str, shares: &str, status: &str| {
+        format!(
+            "r.csv,1,0,0.3,forward,{temperature},0.03,0.05,0.01,falling,0.3,1,14500,100,{shares},{status}\n"
+        )
+    };
+    let rows = [
+        row("480", "0,0,0,0.2,0.5,0.3,0", "ok"),
+        row("310", "0.6,0,0,0,0,0,0.4", "ok"),
+        row("", ",,,,,,", "broken"),
+    ];
+    let (_directory, path) = table(&format!("{}{}", header, rows.concat()));
+    let text = "[friction]\nknee_velocity = 0.02\nmaterial = \"sweeps/pad.csv\"\n[axes]\n\
+                temperature = { from = 100.0, to = 500.0, points = 5 }\n\
+                belt_velocity = { from = 0.004, to = 0.05, points = 5 }\n";
+    let found = Strokes::over(&path, &spec(text).grid).unwrap();
+    let marks: Vec<_> =
+        found.lines.iter().filter(|line| line.stroke.attributes.contains("class=\"observed\"")).collect();
+    let said: Vec<_> = marks.iter().map(|line| (line.stroke.words, line.points[0])).collect();
+    assert_eq!(found.outside, 1, "what has no verdict is counted");
+    assert_eq!(
+        said,
+        [("measured: mode coupling at least", [480.0, 0.03]), ("measured: no instability", [310.0, 0.03]),]
+    );
+}
+
+#[test]
+fn an_error_that_is_not_known_may_be_empty() {
+    let (_directory, path) =
+        table("mu_s,mu_d,belt_velocity,mu_s_error,observed\n0.4,0.3,0.02,,both\n0.4,0.3,0.02,0.01,both\n");
+    let found = Strokes::over(&path, &spec(SWEEP).grid).unwrap();
+    let bars = found.lines.iter().filter(|line| line.stroke.attributes.contains("class=\"error\"")).count();
+    assert_eq!(bars, 1);
 }

@@ -1,0 +1,50 @@
+//! Squeal by a falling law alone, of a rig with strong damping: what grows there has a phase as that of coupled modes.
+
+#![expect(clippy::unwrap_used, reason = "a test may stop at what it did not expect")]
+
+use crate::common::plan;
+use crate::study::laboratory::sensed;
+use crate::study::segments::{describe, rig};
+use crate::study::strokes::{Random, csv, run};
+use squealmap::model::kind::InstabilityType;
+use squealmap::model::linear::analyse;
+use squealmap::study::signals::filter::recorded;
+use squealmap::study::signals::sensors::Recording;
+use squealmap_identify::{Kind, Mechanism, Settings};
+
+/// Samples per second, Hz, and the length of a record, s.
+const RATE: f64 = 400e3;
+const DURATION: f64 = 0.017;
+
+/// Friction at rest and from the knee on, the knee and the velocity of the belt, m/s.
+const LAWS: [[f64; 4]; 6] = [
+    [0.16, 0.04, 0.0424, 0.0141],
+    [0.16, 0.04, 0.0424, 0.0071],
+    [0.12, 0.02, 0.0424, 0.0141],
+    [0.14, 0.06, 0.0424, 0.0212],
+    [0.16, 0.08, 0.0283, 0.0141],
+    [0.10, 0.00, 0.0566, 0.0141],
+];
+
+#[test]
+fn a_falling_law_alone_is_never_told_to_couple() {
+    for (number, [mu_s, mu_d, knee, velocity]) in LAWS.into_iter().enumerate() {
+        let rig = rig(mu_s, mu_d, knee, [velocity; 2]);
+        assert_eq!(analyse(&rig).0, Some(InstabilityType::NegativeSlope));
+        let recording = Recording { rate: RATE, duration: DURATION, skew: 0.0, force_skew: 0.0 };
+        let samples = recorded(&rig, &plan(1.0, 1.0, 12), &recording).samples;
+        for seed in [1, 2] {
+            let mut samples = samples.clone();
+            sensed(&mut samples, false, 40.0, false, &mut Random::new(seed));
+            let settings = Settings { damping_ratio: 0.015, inclination: 0.024, ..Settings::default() };
+            let found = run(&csv(&samples), &settings).unwrap();
+            let couples = found.segments.iter().any(|segment| {
+                matches!(segment.verdict.kind, Kind::ModeCoupling | Kind::Both)
+                    || matches!(segment.shared, Some((Mechanism::ModeCoupling, _)))
+            });
+            assert!(!couples, "law {number}, {seed}: {}", describe(&found));
+            // It grows, and its growth is read.
+            assert!(found.episodes.iter().any(|episode| episode.growth.value > 100.0), "law {number}");
+        }
+    }
+}
