@@ -8,6 +8,7 @@ use crate::cli::failed::without_result;
 use crate::cli::files::Files;
 use crate::cli::hysteresis;
 use crate::cli::hysteresis::Range;
+use crate::cli::numbers::{index, rate};
 use crate::cli::output::list;
 use crate::cli::pictures::png_of;
 use crate::cli::talk::{note, print};
@@ -40,13 +41,13 @@ pub(crate) struct TraceCommand {
     #[arg(long, value_name = "NAME=VALUE,...", default_value = "", hide_default_value = true)]
     at: String,
     /// The instance by its number in map.csv, where the first is 0
-    #[arg(long, value_name = "N", conflicts_with_all = ["at", "sweep_up_down"])]
+    #[arg(long, value_name = "N", value_parser = index, conflicts_with_all = ["at", "sweep_up_down"])]
     instance: Option<usize>,
     /// Rows per period 2π/ω0, 1 to 10000, besides the events
     #[arg(long, value_name = "N", default_value_t = 50, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     samples_per_period: u32,
     /// Also write signals.csv, evenly sampled with this rate, which `identify` reads
-    #[arg(long, value_name = "HZ", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "HZ", value_parser = rate)]
     rate: Option<u32>,
     /// Follow the motion while this parameter rises and falls in steps, each from the state in which the one before
     /// ended: hysteresis.csv and its figure instead of the trace

@@ -307,7 +307,8 @@ pub enum Fault {
     },
     /// A friction force against the motion.
     #[error(
-        "T/N of columns `{tangential}` and `{normal}` is {friction:.3}: the friction force has the wrong sign; change the sign of one column"
+        "T/N of columns `{tangential}` and `{normal}` along the sliding velocity is {friction:.3}: friction would drive the sliding; change the \
+         sign of the tangential force, or of the velocity"
     )]
     NegativeFriction {
         /// The column of the tangential force.

@@ -34,6 +34,8 @@ fn negative_values_stand_after_their_flag() {
         (&["paper", "--ramp-duration", "-1"], "from 0.5 to 100"),
         (&["tradeoff", "small.toml", "--sample", "-5"], "-5 is not in 16..=100000"),
         (&["trace", "small.toml", "--rate", "-10"], "'-10' for '--rate"),
+        (&["trace", "small.toml", "--rate", "1e12"], "samples per second from 1 to 4294967295"),
+        (&["trace", "small.toml", "--instance", "-1"], "must be a whole number from 0 on"),
         (&["identify", "small.toml", "--window", "-1"], "'-1' for '--window"),
     ] {
         let ended = squealmap(directory.path(), arguments);
