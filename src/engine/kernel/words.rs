@@ -16,8 +16,8 @@ pub const STATE_WORDS: usize = words(&STATE);
 /// Flags of one instance.
 pub const FLAG_WORDS: usize = words(&FLAGS);
 
-/// Half the sum of the roots, or of their inverses, in units of their geometric mean, beyond which they lie far apart. It is half a
-/// hundred where two modes a thousandfold apart have a damping ratio of 0.1.
+/// Half the sum of the roots, or of their inverses, in units of their geometric mean, beyond which they lie far apart. It is 3
+/// where two modes a thousandfold apart have a damping ratio of 0.1.
 const FAR: f64 = 1e4;
 
 /// An instance that the linear kernel can analyse.

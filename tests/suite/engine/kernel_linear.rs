@@ -1,11 +1,16 @@
 //! The linear kernel's twin against the reference: how good are f32 and f64 in its formulation?
 
+use pulp::Arch;
+
+use crate::common::{close, instance};
 use crate::engine::instructions::levels;
 use crate::instances::random;
 use squealmap::engine::kernel::linear::analyse as twin;
 use squealmap::engine::kernel::scalar::Real;
 use squealmap::engine::kernel::words::Words;
 use squealmap::engine::lanes::linear::{Solved, solved_on};
+use squealmap::model::Param;
+use squealmap::model::friction::FrictionLaw;
 use squealmap::model::instance::Instance;
 use squealmap::model::kind::InstabilityType;
 use squealmap::model::linear::{Linear, Preparation, analyse, prepare, solve};
@@ -136,5 +141,34 @@ fn lanes_have_the_bits_of_the_twin_whatever_the_instruction_set() {
         let bits = |all: &[Solved]| all.iter().map(|one| format!("{one:?}")).collect::<Vec<_>>();
         let made = solved_on(arch, &prepared);
         assert!(bits(&made) == bits(&expected), "{level}");
+    }
+}
+
+/// A normal mode that is damped so strongly that its roots lie 1e12 apart, above a tangential one that is damped weakly. Without an
+/// inclination the modes do not know of each other.
+#[test]
+fn roots_far_apart_have_their_digits() {
+    for (stiffness, damping, is_far) in [(1e12, 1e12, true), (1e4, 1e3, false)] {
+        let law = FrictionLaw::Constant { mu_s: 0.3, mu_d: 0.3 };
+        let values = [
+            (Param::M1, 1.0),
+            (Param::M2, 1.0),
+            (Param::K1, 1e4),
+            (Param::K2, stiffness),
+            (Param::C1, 1.0),
+            (Param::C2, damping),
+            (Param::Theta, 0.0),
+            (Param::BeltVelocity, 1.0),
+        ];
+        let prepared = prepare(&instance(law, &values));
+        let words = Words::new(prepared.as_ref().expect("polynomials"));
+        assert_eq!(words.is_far(), is_far);
+        // c1/2(m1 + m2) of the tangential mode; the roots of the other one lie left of it.
+        let expected = -0.25;
+        let [(_, Some(linear))] = solved_on(Arch::new(), &[prepared])[..] else { panic!() };
+        close("growth", linear.growth_rate, expected, 1e-12);
+        // The form of the kernel alone has lost digits.
+        let alone = twin(&|word| words.inputs[word]).state[0] * words.scales[0];
+        assert_eq!((alone - expected).abs() > 1e-9 * expected.abs(), is_far, "{alone} and {expected}");
     }
 }
