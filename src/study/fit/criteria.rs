@@ -3,9 +3,8 @@
 //! The law with the least is preferred; a difference below 2 tells nothing. Both take the errors of friction for independent.
 
 use crate::model::friction::LawKind;
-use crate::study::fit::each::{fit, values};
+use crate::study::fit::each::{criteria, fit};
 use crate::study::fit::fault::FitFault;
-use crate::study::fit::information::information;
 use crate::study::fit::shape::Shape;
 use crate::study::fit::squares::{Fit, Point};
 
@@ -34,9 +33,4 @@ pub fn compare(points: &[Point], temperatures: &[f64], velocity: Option<f64>) ->
     let key = |candidate: &Candidate| candidate.criteria.map_or(f64::INFINITY, |[aicc, _]| aicc);
     all.sort_by(|a, b| key(a).total_cmp(&key(b)));
     all
-}
-
-/// `AICc` and `BIC` of a fit whose velocity was `given`, or found.
-fn criteria(fit: &Fit, given: bool) -> Option<[f64; 2]> {
-    information(fit.points, values(fit, given), fit.points as f64 * fit.residual * fit.residual)
 }

@@ -27,10 +27,7 @@ pub fn fit(
     let several =
         temperatures.len() > 1 && velocity.is_none() && matches!(Shape::of(law), Shape::Falling(..));
     let each = if several { each_alone(points, law, temperatures) } else { None };
-    let aicc = |of: &Fit| {
-        let squares = of.residual * of.residual * of.points as f64;
-        information(of.points, values(of, false), squares).map_or(f64::INFINITY, |[aicc, _]| aicc)
-    };
+    let aicc = |of: &Fit| criteria(of, false).map_or(f64::INFINITY, |[aicc, _]| aicc);
     Ok(each.filter(|each| aicc(each) + TELLS < aicc(&one)).unwrap_or(one))
 }
 
@@ -82,11 +79,16 @@ fn each_alone(points: &[Point], law: LawKind, temperatures: &[f64]) -> Option<Fi
 }
 
 /// How many values a fit has whose velocity was `given`, or found.
-pub(super) fn values(fit: &Fit, given: bool) -> usize {
+fn values(fit: &Fit, given: bool) -> usize {
     let (rows, own) = (fit.temperature.len(), own_velocity(fit).is_some());
     let of = |(param, _): &(Param, Vec<f64>)| match Shape::of(fit.law) {
         Shape::Falling(_, velocity) if *param == velocity && !own => usize::from(!given),
         _ => rows,
     };
     fit.columns.iter().map(of).sum()
+}
+
+/// `AICc` and `BIC` of a fit whose velocity was `given`, or found.
+pub(super) fn criteria(fit: &Fit, given: bool) -> Option<[f64; 2]> {
+    information(fit.points, values(fit, given), fit.points as f64 * fit.residual * fit.residual)
 }
