@@ -68,32 +68,29 @@ fn factors(monic: &[f64; 4]) -> Factors {
         of_conjugates(Complex64::new(l1, 0.0), Complex64::new(l3, (-gap).sqrt()))
     };
     let [first, second, third] = apart;
-    [second, third, alike]
-        .into_iter()
-        .fold(first, |best, other| if error(monic, &other) < error(monic, &best) { other } else { best })
+    best(monic, first, [second, third, alike])
+}
+
+/// Of some factors those whose product lacks least.
+fn best(monic: &[f64; 4], first: Factors, others: impl IntoIterator<Item = Factors>) -> Factors {
+    let less = |best, other| if error(monic, &other) < error(monic, &best) { other } else { best };
+    others.into_iter().fold(first, less)
 }
 
 /// Factors of which the smaller coefficients, differences, are had from the larger ones and from the product.
-fn completed(&[a, b, c, d]: &[f64; 4], [p, mut q, r, mut s]: Factors) -> Factors {
+fn completed(monic: &[f64; 4], [p, mut q, r, mut s]: Factors) -> Factors {
+    let [a, b, c, d] = *monic;
     if s.abs() < q.abs() {
         s = d / q;
     } else if q.abs() < s.abs() {
         q = d / s;
     }
     // Of `p + r = a`, `q + p r + s = b` and `q r + p s = c` the one that is best known.
-    let others =
-        |small: f64, large: f64, q: f64, s: f64| [small, (c - s * large) / q, (b - q - s) / large, a - large];
-    let monic = [a, b, c, d];
-    let better = |of: [f64; 4], put: fn(f64, Factors) -> Factors| {
-        of.into_iter().map(|one| put(one, [p, q, r, s])).fold([p, q, r, s], |best, other| {
-            if error(&monic, &other) < error(&monic, &best) { other } else { best }
-        })
-    };
+    let known = |large: f64, q: f64, s: f64| [(c - s * large) / q, (b - q - s) / large, a - large];
     if p.abs() < r.abs() {
-        // c = q r + p s
-        better(others(p, r, s, q), |p, [_, q, r, s]| [p, q, r, s])
+        best(monic, [p, q, r, s], known(r, s, q).map(|p| [p, q, r, s]))
     } else {
-        better(others(r, p, q, s), |r, [p, q, _, s]| [p, q, r, s])
+        best(monic, [p, q, r, s], known(p, q, s).map(|r| [p, q, r, s]))
     }
 }
 

@@ -69,7 +69,7 @@ fn choose(axes: &[Axis], text: &str) -> Result<Choice, String> {
     let axis = names.iter().position(|one| *one == name);
     let axis = axis.ok_or_else(|| format!("the map has no axis `{name}`; {}", advice(name, &names)))?;
     let values = &axes[axis].values;
-    let numbers: Option<Vec<f64>> = values.iter().map(number).collect();
+    let numbers: Option<Vec<f64>> = values.iter().map(Value::number).collect();
     let Some(numbers) = numbers else {
         let values: Vec<String> = values.iter().map(ToString::to_string).collect();
         let found = values.iter().position(|value| value == asked);
@@ -117,13 +117,6 @@ fn is_same(axis: &Axis, numbers: &[f64], a: f64, b: f64) -> bool {
 fn ends(numbers: &[f64]) -> [f64; 2] {
     let (low, high) = (f64::INFINITY, f64::NEG_INFINITY);
     numbers.iter().fold([low, high], |[low, high], x| [low.min(*x), high.max(*x)])
-}
-
-fn number(value: &Value) -> Option<f64> {
-    match value {
-        Value::Number(x) => Some(*x),
-        Value::Text(_) => None,
-    }
 }
 
 /// A number without the rounding of a step times an index.

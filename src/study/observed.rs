@@ -250,10 +250,7 @@ impl Observed {
 /// Whether an axis reaches a value.
 fn covers(axes: &[Axis], side: AxisKey, value: f64) -> bool {
     let numbers = axes.iter().filter(|axis| axis.key == side).flat_map(|axis| &axis.values);
-    let numbers = numbers.filter_map(|value| match value {
-        Value::Number(number) => Some(*number),
-        Value::Text(_) => None,
-    });
+    let numbers = numbers.filter_map(Value::number);
     let [low, high] = numbers.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], x| [l.min(x), h.max(x)]);
     (low..=high).contains(&value)
 }

@@ -19,6 +19,17 @@ pub enum Value {
     Text(Arc<String>),
 }
 
+impl Value {
+    /// The number, where it is none of a name.
+    #[must_use]
+    pub fn number(&self) -> Option<f64> {
+        match self {
+            Value::Number(number) => Some(*number),
+            Value::Text(_) => None,
+        }
+    }
+}
+
 impl std::fmt::Display for Value {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {

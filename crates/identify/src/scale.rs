@@ -6,8 +6,11 @@ use crate::unit::bracketed;
 /// Standard gravity, m/s².
 const GRAVITY: f64 = 9.80665;
 
-/// Units as people write them, without spaces, and what one of them is in that of the channel.
-const ACCELERATION: [(&str, f64); 8] = [
+/// Units as people write them, without spaces, and what one of them is in that of the channel; its own come first.
+const ACCELERATION: [(&str, f64); 11] = [
+    ("m/s²", 1.0),
+    ("m/s2", 1.0),
+    ("m/s^2", 1.0),
     ("g", GRAVITY),
     ("mg", 1e-3 * GRAVITY),
     ("mm/s²", 1e-3),
@@ -17,8 +20,9 @@ const ACCELERATION: [(&str, f64); 8] = [
     ("km/s2", 1e3),
     ("km/s^2", 1e3),
 ];
-const FORCE: [(&str, f64); 4] = [("kN", 1e3), ("mN", 1e-3), ("daN", 10.0), ("%", 0.01)];
-const VELOCITY: [(&str, f64); 7] = [
+const FORCE: [(&str, f64); 5] = [("N", 1.0), ("kN", 1e3), ("mN", 1e-3), ("daN", 10.0), ("%", 0.01)];
+const VELOCITY: [(&str, f64); 8] = [
+    ("m/s", 1.0),
     ("mm/s", 1e-3),
     ("cm/s", 1e-2),
     ("\u{b5}m/s", 1e-6),
@@ -27,35 +31,33 @@ const VELOCITY: [(&str, f64); 7] = [
     ("km/h", 1.0 / 3.6),
     ("m/min", 1.0 / 60.0),
 ];
+const TEMPERATURE: [(&str, f64); 3] = [("°C", 1.0), ("C", 1.0), ("degC", 1.0)];
 
-/// The units that channels are read in.
-const OWN: [&[&str]; 4] = [&["m/s²", "m/s2", "m/s^2"], &["N"], &["m/s"], &["°C", "C", "degC"]];
+/// What stands before the brackets that a header ends with, the unit in them, and what one of it is in that of the channel; `None` where
+/// there is none that the channel may have.
+fn known(channel: Channel, header: &str) -> Option<(&str, String, f64)> {
+    let units: &[(&str, f64)] = match channel {
+        Channel::TangentialAcceleration | Channel::NormalAcceleration => &ACCELERATION,
+        Channel::TangentialForce | Channel::NormalForce => &FORCE,
+        Channel::Velocity => &VELOCITY,
+        Channel::Temperature => &TEMPERATURE,
+    };
+    let (name, unit) = bracketed(header)?;
+    let unit: String = unit.chars().filter(|letter| !letter.is_whitespace()).collect();
+    let (_, factor) = units.iter().find(|(name, _)| *name == unit)?;
+    Some((name.trim_end(), unit, *factor))
+}
 
 /// The header of a channel without the unit in brackets that it ends with; `None` where there is none that the channel may have.
 pub(super) fn without_unit(channel: Channel, header: &str) -> Option<&str> {
-    let own = match channel {
-        Channel::TangentialAcceleration | Channel::NormalAcceleration => OWN[0],
-        Channel::TangentialForce | Channel::NormalForce => OWN[1],
-        Channel::Velocity => OWN[2],
-        Channel::Temperature => OWN[3],
-    };
-    let (name, unit) = bracketed(header)?;
-    (own.contains(&unit.trim()) || scale(channel, header).is_some()).then(|| name.trim_end())
+    known(channel, header).map(|(name, ..)| name)
 }
 
 /// What one of the unit in brackets that a header ends with is in the unit of the channel, and that unit; `None` where it is that of the
 /// channel, or none that is known.
 pub(super) fn scale(channel: Channel, header: &str) -> Option<(f64, String)> {
-    let units: &[(&str, f64)] = match channel {
-        Channel::TangentialAcceleration | Channel::NormalAcceleration => &ACCELERATION,
-        Channel::TangentialForce | Channel::NormalForce => &FORCE,
-        Channel::Velocity => &VELOCITY,
-        Channel::Temperature => &[],
-    };
-    let (_, unit) = bracketed(header)?;
-    let unit: String = unit.chars().filter(|letter| !letter.is_whitespace()).collect();
-    let (_, factor) = units.iter().find(|(name, _)| *name == unit)?;
-    Some((*factor, unit))
+    let (_, unit, factor) = known(channel, header)?;
+    factor.total_cmp(&1.0).is_ne().then_some((factor, unit))
 }
 
 #[cfg(test)]

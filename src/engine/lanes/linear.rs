@@ -5,7 +5,7 @@
 use pulp::{Arch, Simd, WithSimd};
 
 use crate::engine::judged::{Examined, with_eigenvalues};
-use crate::engine::kernel::linear::{MAX_STEPS, NEGLIGIBLE_EPSILONS, type_of};
+use crate::engine::kernel::linear::{MAX_STEPS, NEGLIGIBLE_EPSILONS, Quartic, Root, type_of};
 use crate::engine::kernel::words::{INPUT_WORDS, STATE_WORDS, Words};
 use crate::engine::lanes::vector::Vector;
 use crate::model::instance::Instance;
@@ -102,25 +102,6 @@ fn analyse<S: Simd>(simd: S, words: &[Wide<S>; INPUT_WORDS]) -> ([Wide<S>; STATE
         one.only((one.like(UNSTABLE_ABOVE) * size).less(root.re))
     });
     ([full.re, full.im, ratio_re, ratio_im, flat.re, frozen.re], unstable)
-}
-
-/// As [`crate::engine::kernel::linear::Quartic`].
-#[derive(Clone, Copy)]
-struct Quartic<V> {
-    p: V,
-    g: V,
-    k: V,
-    e: V,
-}
-
-/// As [`crate::engine::kernel::linear::Root`].
-#[derive(Clone, Copy)]
-struct Root<V> {
-    re: V,
-    im: V,
-    p: V,
-    q: V,
-    t: V,
 }
 
 /// `y`, as [`crate::engine::kernel::linear::split`] has it.

@@ -7,7 +7,6 @@ use rayon::prelude::*;
 
 use crate::engine::error::{Error, Result};
 use crate::engine::instances::Instances;
-use crate::engine::judged::examined;
 use crate::engine::kernel::source::SETTING_WORDS;
 use crate::engine::lanes::Lanes;
 use crate::engine::lanes::job::{Job, Part};
@@ -124,8 +123,9 @@ impl<R: Lanes> Flow<R> {
         let instance = asked.instance(index);
         let marching = Marching::new(index, &instance, &self.way);
         if let Err(status) = marching {
-            let examined = examined(&instance, asked.spec().linear());
-            asked.complete(index, &instance, examined, &Outcome { status, ..Outcome::default() });
+            for examined in examined_many(slice::from_ref(&instance), asked.spec().linear()) {
+                asked.complete(index, &instance, examined, &Outcome { status, ..Outcome::default() });
+            }
         }
         marching.ok()
     }

@@ -43,7 +43,7 @@ pub(crate) struct PictureAxis {
 impl PictureAxis {
     /// Cells around the values of an axis: borders halfway between neighbours, in the logarithm on a log axis.
     pub(crate) fn cells(axis: &Axis) -> PictureAxis {
-        let numbers: Option<Vec<f64>> = axis.values.iter().map(as_number).collect();
+        let numbers: Option<Vec<f64>> = axis.values.iter().map(Value::number).collect();
         let mut order: Vec<usize> = (0..axis.values.len()).collect();
         let Some(numbers) = numbers else { return PictureAxis::names(axis) };
         order.sort_by(|a, b| numbers[*a].total_cmp(&numbers[*b]));
@@ -84,7 +84,7 @@ impl PictureAxis {
 
     /// A scale around scattered values of a column.
     pub(crate) fn scatter(key: AxisKey, column: &[&Value]) -> PictureAxis {
-        let numbers: Option<Vec<f64>> = column.iter().map(|value| as_number(value)).collect();
+        let numbers: Option<Vec<f64>> = column.iter().map(|value| value.number()).collect();
         let (scale, values) = if let Some(mut values) = numbers {
             values.sort_by(f64::total_cmp);
             values.dedup();
@@ -224,13 +224,6 @@ fn quantity(name: &str, meaning: &str) -> String {
         name.replace('_', " ")
     };
     capital(&phrase)
-}
-
-fn as_number(value: &Value) -> Option<f64> {
-    match value {
-        Value::Number(x) => Some(*x),
-        Value::Text(_) => None,
-    }
 }
 
 fn as_name(value: &Value) -> String {

@@ -191,10 +191,7 @@ fn same_axis(first: &Axis, second: &Axis) -> Result<(), String> {
     if counts[0] != counts[1] {
         return Err(format!("`{name}` has {} values in the first, {} in the second", counts[0], counts[1]));
     }
-    let numbers = first.values.iter().filter_map(|value| match value {
-        Value::Number(x) => Some(*x),
-        Value::Text(_) => None,
-    });
+    let numbers = first.values.iter().filter_map(Value::number);
     let (low, high) =
         numbers.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
     let length = if first.log || low > high { 0.0 } else { high - low };

@@ -74,10 +74,8 @@ pub fn calibrate(measured: &Measured) -> Result<Calibrated, Fault> {
     // Just below the largest one, where both modes are the same mixture.
     let steep = 0.999 * wanted.steepest();
     let tried = |theta: f64| {
-        let structure = corrected(&wanted, theta);
-        let made = instance(&structure, &wanted, theta, measured.load);
-        let critical = coalescence(&made);
-        Tried { theta, structure, made, critical }
+        let made = instance(&corrected(&wanted, theta), &wanted, theta, measured.load);
+        Tried { theta, critical: coalescence(&made), made }
     };
     let all: Vec<Tried> = (0..=INCLINATIONS)
         .map(|k| tried(steep * LEAST.powf(1.0 - f64::from(k) / f64::from(INCLINATIONS))))
@@ -122,7 +120,6 @@ pub fn calibrate(measured: &Measured) -> Result<Calibrated, Fault> {
 struct Tried {
     /// The inclination, rad.
     theta: f64,
-    structure: Structure,
     made: Instance,
     /// The friction coefficient from which on it is unstable.
     critical: f64,
@@ -131,7 +128,8 @@ struct Tried {
 impl Tried {
     /// The smaller damper, N s/m.
     fn least_damper(&self) -> f64 {
-        self.structure.damping[0].min(self.structure.damping[1])
+        let [first, second] = [Param::C1, Param::C2].map(|damper| self.made.params.require(damper));
+        first.min(second)
     }
 
     /// Whether its eigenvalues are what is wanted: where close modes are damped very differently, corrections may not come to that.

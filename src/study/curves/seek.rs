@@ -168,10 +168,7 @@ fn planes(spec: &Spec) -> Result<Vec<Plane<'_>>> {
     let params = [param(panels.x.key())?, param(y.key())?];
     let range = |param: Param| {
         let axis = axes.iter().find(|axis| axis.key == AxisKey::Param(param));
-        let numbers = axis.into_iter().flat_map(|axis| &axis.values).filter_map(|value| match value {
-            Value::Number(number) => Some(*number),
-            Value::Text(_) => None,
-        });
+        let numbers = axis.into_iter().flat_map(|axis| &axis.values).filter_map(Value::number);
         numbers.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
     };
     let ranges = params.map(range);

@@ -132,15 +132,11 @@ impl Check<'_> {
         let values = |row: &dyn Fn(Param) -> Option<f64>| {
             params.map(|param| row(param).or(self.sections.base.get(param)).unwrap_or_default())
         };
-        let number = |value: &Value| match value {
-            Value::Number(number) => Some(*number),
-            Value::Text(_) => None,
-        };
         let pairs: Vec<[f64; 2]> = match &self.varied.grid {
             Grid::Axes(axes) => {
                 let extreme = |param: Param, pick: fn(f64, f64) -> f64| {
                     let axis = axes.iter().find(|axis| axis.key == AxisKey::Param(param))?;
-                    axis.values.iter().filter_map(number).reduce(pick)
+                    axis.values.iter().filter_map(Value::number).reduce(pick)
                 };
                 let longest = extreme(params[0], f64::max);
                 let shortest = extreme(params[1], f64::min);
@@ -148,7 +144,7 @@ impl Check<'_> {
             }
             Grid::Tuples { keys, rows } => {
                 let column = |param| keys.iter().position(|key| *key == AxisKey::Param(param));
-                rows.iter().map(|row| values(&|param| number(&row[column(param)?]))).collect()
+                rows.iter().map(|row| values(&|param| row[column(param)?].number())).collect()
             }
         };
         let Some([rise, duration]) = pairs.into_iter().find(|[rise, duration]| *rise > 0.5 * duration) else {
