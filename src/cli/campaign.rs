@@ -1,13 +1,13 @@
 //! `squealmap campaign`: what the strokes of many records say, and those of one condition together.
 
-use crate::cli::error::{Error, Result};
+use crate::cli::error::Result;
 use crate::cli::output::{Output, list};
 use crate::cli::pictures::png_of;
+use crate::cli::records::listed;
 use crate::cli::signals::SignalOptions;
 use crate::cli::talk::{self, note, print};
 use clap::Args;
 use rayon::prelude::*;
-use squealmap::disk;
 use squealmap::results::figure::look::Look;
 use squealmap::study::campaign::condition::{conditions, conditions_csv};
 use squealmap::study::campaign::figure::campaign_svg;
@@ -15,10 +15,7 @@ use squealmap::study::campaign::read::document;
 use squealmap::study::campaign::row::{Said, StrokeRow, strokes_csv};
 use squealmap_identify::{Settings, Stroke, identify, strokes, told as told_of};
 use squealmap_input::files;
-use squealmap_input::quote::one_line;
-use std::collections::BTreeSet;
 use std::fmt::Write;
-use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -77,58 +74,10 @@ impl CampaignCommand {
     }
 }
 
-/// The records that are meant, each once, those of folders by name.
-fn listed(given: &[PathBuf]) -> Result<Vec<PathBuf>> {
-    const ENDINGS: [&str; 8] = ["csv", "tsv", "txt", "wav", "mat", "uff", "unv", "tdms"];
-    let mut all = Vec::new();
-    for path in given {
-        if !path.exists() {
-            return Err(Error::NoRecords {
-                path: path.clone(),
-                why: "does not exist; give records, or folders of records".to_owned(),
-            });
-        }
-        if !path.is_dir() {
-            all.push(path.clone());
-            continue;
-        }
-        let unreadable = |why: std::io::Error| Error::NoRecords { path: path.clone(), why: why.to_string() };
-        let mut inside = Vec::new();
-        for name in disk::door().names(path).map_err(unreadable)? {
-            let entry = path.join(name);
-            let is_record = entry
-                .extension()
-                .is_some_and(|ending| ENDINGS.iter().any(|known| ending.eq_ignore_ascii_case(known)));
-            if is_record && entry.is_file() {
-                inside.push(entry);
-            }
-        }
-        if inside.is_empty() {
-            let why = format!("holds no record: no file that ends in .{}", ENDINGS.join(", ."));
-            return Err(Error::NoRecords { path: path.clone(), why });
-        }
-        inside.sort();
-        all.extend(inside);
-    }
-    let mut known = BTreeSet::new();
-    all.retain(|path| {
-        let is_new = known.insert(path.canonicalize().unwrap_or_else(|_| path.clone()));
-        if !is_new {
-            note(&format!(
-                "warning: `{}` is given twice and counts once",
-                one_line(&path.display().to_string())
-            ));
-        }
-        is_new
-    });
-    Ok(all)
-}
-
 /// The strokes of a record; one that cannot be read is a row that says why.
 fn of_record(path: &Path, settings: &Settings) -> Vec<StrokeRow> {
     let name = path.display().to_string();
-    let open =
-        || files::open(path).map(|file| Box::new(file) as Box<dyn Read>).map_err(std::io::Error::other);
+    let open = || files::reader(path);
     let row = |number: usize, stroke: Option<Stroke>, said: std::result::Result<Said, String>| StrokeRow {
         record: name.clone(),
         number,

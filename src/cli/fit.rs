@@ -7,6 +7,7 @@ use crate::cli::home::prepare_beside;
 use crate::cli::numbers::{finite, positive};
 use crate::cli::output::list;
 use crate::cli::pictures::png_of;
+use crate::cli::records::listed;
 use crate::cli::talk::{note, print};
 use clap::{Args, ValueEnum};
 use squealmap::model::friction::LawKind;
@@ -15,10 +16,11 @@ use squealmap::study::error::Error;
 use squealmap::study::fit::Fit;
 use squealmap::study::fit::course::Shown;
 use squealmap::study::fit::figure::fit_svg;
+use squealmap::study::fit::files::{Files, files as measured_in};
 use squealmap::study::fit::made::{Wanted, made};
 use squealmap::study::fit::table::residuals_csv;
-use squealmap::study::fit::told::{compared, remarks};
-use squealmap_identify::{Channel, FrictionColumn, Point, Settings, read_measurements};
+use squealmap::study::fit::told::compared;
+use squealmap_identify::{Channel, FrictionColumn, Point, Settings};
 use squealmap_input::quote::one_line;
 
 /// The files that are written.
@@ -51,9 +53,11 @@ impl Law {
 /// Arguments of `fit`.
 #[derive(Debug, Args)]
 pub(crate) struct FitCommand {
-    /// Measured points, or a record of a stroke: CSV with a header, or WAV, MAT (-v7), UFF 58 or TDMS
-    points: PathBuf,
-    /// Output directory [default: out/<name of the file>]
+    /// Measured points, or records of strokes: CSV with a header, WAV, MAT (-v7), UFF 58 or TDMS; several files, or folders of
+    /// them, make one material
+    #[arg(required = true)]
+    points: Vec<PathBuf>,
+    /// Output directory [default: out/<name of the first of them>]
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
     /// Friction law of the material
@@ -83,9 +87,9 @@ pub(crate) struct FitCommand {
     /// Column of the temperature, °C [default: temperature]
     #[arg(long, value_name = "COLUMN", conflicts_with = "at_temperature")]
     temperature: Option<String>,
-    /// The temperature of all points, °C, instead of a column
-    #[arg(long, value_name = "C", allow_negative_numbers = true, value_parser = finite)]
-    at_temperature: Option<f64>,
+    /// The temperature of all points, °C, instead of a column; of several files, one for all or one for each
+    #[arg(long, value_name = "C,…", value_delimiter = ',', allow_hyphen_values = true, value_parser = finite)]
+    at_temperature: Vec<f64>,
     /// Temperatures of the rows, °C, rising [default: those of the points, or 5 from the lowest to the highest where they hardly repeat]
     #[arg(long, value_name = "C,C,...", value_delimiter = ',', allow_hyphen_values = true, value_parser = finite)]
     temperatures: Vec<f64>,
@@ -93,7 +97,7 @@ pub(crate) struct FitCommand {
 
 impl FitCommand {
     pub(crate) fn execute(self) -> Result<()> {
-        let name = self.points.display().to_string();
+        let files = listed(&self.points)?;
         let mut settings = Settings::default();
         settings.columns[Channel::TangentialForce as usize] = self.tangential_force;
         settings.columns[Channel::NormalForce as usize] = self.normal_force;
@@ -102,20 +106,16 @@ impl FitCommand {
         let friction = self.friction.map_or(FrictionColumn::Forces, FrictionColumn::Named);
         settings.columns[Channel::TangentialAcceleration as usize] = self.tangential_acceleration;
         settings.rate = self.rate;
-        let open = || {
-            let file = squealmap_input::files::open(&self.points).map_err(std::io::Error::other)?;
-            Ok(Box::new(file) as Box<dyn std::io::Read>)
-        };
-        let measured = read_measurements(open, &name, &settings, &friction, self.at_temperature)?;
-        for remark in remarks(&measured) {
-            note(&remark);
+        let Files { points, name, remarks } =
+            measured_in(&files, &settings, &friction, &self.at_temperature)?;
+        for remark in &remarks {
+            note(remark);
         }
-        let points = measured.points;
         let made = made(&points, &name, self.law.wanted(), &self.temperatures, self.law_velocity)
             .map_err(|fault| Error::Fit { name, fault: fault.into() })?;
         let fitted = &made.fit;
-        let output = prepare_beside(&self.points, self.output.as_deref(), &FILES)?;
-        let heading = one_line(&self.points.file_stem().unwrap_or_default().to_string_lossy());
+        let output = prepare_beside(&self.points[0], self.output.as_deref(), &FILES)?;
+        let heading = one_line(&self.points[0].file_stem().unwrap_or_default().to_string_lossy());
         let shown = Shown::new(fitted, made.courses, &points, &heading);
         let svg = fit_svg(&shown, &Look::default());
         let paths = output.write(&[

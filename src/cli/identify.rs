@@ -17,7 +17,6 @@ use squealmap_identify::{
 use squealmap_input::files;
 use squealmap_input::quote::one_line;
 use std::fmt::Write;
-use std::io::Read;
 use std::path::PathBuf;
 
 use clap::Args;
@@ -50,8 +49,7 @@ impl Identify {
         let settings = Settings { zooms: self.zoom, ..self.signals_are.settings()? };
         let output = prepare_beside(&path, asked.as_deref(), &FILES)?;
         // Read up to three times, which a pipe cannot be.
-        let open =
-            || files::open(&path).map(|file| Box::new(file) as Box<dyn Read>).map_err(std::io::Error::other);
+        let open = || files::reader(&path);
         let mut windows = output.draft(FILES[5])?;
         let mut table = WindowsCsv::new(windows.file())?;
         let found = identify(open, &name, &settings, &mut |window, reading| table.add(window, reading))?;

@@ -36,6 +36,7 @@ mod plot;
 mod plot_beside;
 mod plot_map;
 mod progress;
+mod records;
 mod refine;
 mod refined;
 mod report;

@@ -2,7 +2,8 @@
 
 use crate::cli::progress::seconds;
 use squealmap::engine::regime::Regime;
-use squealmap::sweep::label::Tally;
+use squealmap::model::kind::InstabilityType;
+use squealmap::sweep::label::{Label, Tally};
 use squealmap::sweep::onset::{Onsets, onsets};
 use squealmap::sweep::spec::Spec;
 
@@ -15,7 +16,22 @@ pub(crate) fn onset_of(spec: &Spec, tally: &Tally) -> String {
     if tally.count(|label| label.regime() == Some(Regime::NotYetGrown)) == 0 {
         return String::new();
     }
-    onset(spec).map_or_else(String::new, |onset| format!("{onset}\n"))
+    let kinks = about_kinks(tally).into_iter();
+    kinks.chain(onset(spec)).map(|sentence| sentence + "\n").collect()
+}
+
+/// A sentence about instances that grow although they are called stable: only a kink of the law makes that.
+fn about_kinks(tally: &Tally) -> Option<String> {
+    let grow = |label: Label| {
+        label.kind() == Some(InstabilityType::Stable) && label.regime() == Some(Regime::NotYetGrown)
+    };
+    let count = tally.count(grow);
+    (count > 0).then(|| {
+        format!(
+            "{count} instance(s) are `stable` by the slope above a kink of the friction law, on which the belt velocity lies or nearly lies: a \
+             vibration about it sees the slope below, too, and grows"
+        )
+    })
 }
 
 /// A sentence about the time that the unstable instances of a sweep need to show what they do; `None` where the sweep gives

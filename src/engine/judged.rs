@@ -1,6 +1,7 @@
 //! From an outcome to the record of its instance, with its regime.
 
 use crate::engine::instances::Instances;
+use crate::engine::kinks;
 use crate::engine::outcome::{Ending, Outcome};
 use crate::engine::record::Record;
 use crate::engine::regime::{self, Regime};
@@ -20,7 +21,18 @@ const ROUNDING: f64 = 1e-9;
 pub fn regime(instance: &Instance, kind: Option<InstabilityType>, outcome: &Outcome) -> (Regime, bool) {
     let velocity = instance.params.require(Param::BeltVelocity);
     let at_end = at_the_end(instance, outcome.simulated_time);
-    let (kind, known) = at_end.map_or((kind, None), |instance| linear::analyse(&instance));
+    let (mut kind, mut known) = at_end.as_ref().map_or((kind, None), linear::analyse);
+    // A small motion grows or decays by the slope that it sees, on a kink at every size; beside one it may grow where a smaller one decays.
+    let moved = at_end.as_ref().unwrap_or(instance);
+    let small = outcome.speed_rms_halves[1] < regime::small_speed(velocity);
+    let is_stable = kind == Some(InstabilityType::Stable);
+    let amplitude = if is_stable { kinks::amplitude(outcome) } else { 0.0 };
+    if let Some(seen) = kinks::seen(moved, amplitude).filter(|_| small) {
+        let (of_seen, linear) = linear::analyse(&seen);
+        if kinks::is_on_one(moved) || of_seen.is_some_and(InstabilityType::is_unstable) {
+            (kind, known) = (of_seen, linear);
+        }
+    }
     let (regime, settled) = regime::regime(outcome, velocity, kind == Some(InstabilityType::Stable));
     let found = match outcome.ending {
         None => (regime, settled),

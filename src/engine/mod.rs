@@ -5,6 +5,7 @@
 //! | what an engine is, and what it is given | [`Engine`], [`instances`], [`plan`] |
 //! | one instance scaled, at its start | [`scene`], `belt.rs`, `start.rs` |
 //! | what an engine sums up, and what it did | [`sums`], [`growth`](mod@growth), [`reductions`], [`outcome`], [`regime`] |
+//! | what small motions see of a kink of the friction law | `kinks.rs` |
 //! | until when it is followed | [`measuring`], [`settling`] |
 //! | the cycle that it comes to | [`cycle`] |
 //! | the words of a kernel | [`fields`], [`march::table`] |
@@ -38,6 +39,7 @@ pub mod growth;
 pub mod instances;
 pub mod judged;
 pub mod kernel;
+mod kinks;
 pub mod lanes;
 #[cfg(feature = "kernels")]
 pub mod march;

@@ -170,7 +170,8 @@ pub fn about_unstable(
 }
 
 /// The speed (m/s) below which a motion is small.
-fn small_speed(belt_velocity: f64) -> f64 {
+#[must_use]
+pub fn small_speed(belt_velocity: f64) -> f64 {
     THRESHOLDS.small_speed * belt_velocity
 }
 

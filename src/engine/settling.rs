@@ -8,9 +8,10 @@ use std::f64::consts::TAU;
 
 use num_complex::Complex64;
 
+use crate::engine::kinks;
 use crate::engine::outcome::{Ending, Outcome};
 use crate::engine::plan::Plan;
-use crate::engine::regime::{self, Regime, THRESHOLDS};
+use crate::engine::regime::{self, Regime};
 use crate::engine::scene::Scene;
 use crate::model::instance::Instance;
 use crate::model::kind::InstabilityType;
@@ -48,6 +49,8 @@ pub struct Settling {
     /// How long a linear motion may grow before it decays; `None` when it does not.
     wait: Option<f64>,
     piecewise_linear: bool,
+    /// Whether the belt velocity lies on a kink of the law: small motions pass it twice in every cycle, and nothing else.
+    on_kink: bool,
     before: Option<[f64; 2]>,
     /// The end of the window before, and the time without events up to there.
     reached: [f64; 2],
@@ -60,6 +63,10 @@ impl Settling {
         let limit = scene.scaled(plan.settle_limit?);
         let asked = (0.5 * scene.scaled(plan.measure)).max(SHORTEST_HALF * TAU);
         let time = scene.units.time;
+        // What begins on a kink of the law stays about it.
+        let seen = kinks::seen(instance, 0.0);
+        let on_kink = seen.is_some();
+        let instance = seen.as_ref().unwrap_or(instance);
         let modes: Vec<Complex64> =
             linear::eigenvalues(instance).into_iter().flatten().map(|z| z * time).collect();
         let beat = beat(&modes);
@@ -74,6 +81,7 @@ impl Settling {
             stable: kind == Some(InstabilityType::Stable),
             growth_rate: linear.map(|linear| linear.growth_rate).filter(|_| unstable),
             piecewise_linear: instance.law.kind().form().is_straight(),
+            on_kink,
             before: None,
         })
     }
@@ -102,11 +110,13 @@ impl Settling {
         if first == 0.0 && second == 0.0 || regime == Regime::Stuck {
             return Some(Ending::Settled);
         }
+        let small = regime::small_speed(self.belt_velocity);
+        let events = events && !(self.on_kink && first < small && second < small);
         let [reached, quiet] = self.reached;
         let quiet = if events { 0.0 } else { quiet + end - reached };
         self.reached = [end, quiet];
         // The beat of two decaying modes may still grow into an event; a curved law is linear for small motions.
-        let linear = self.piecewise_linear || second < THRESHOLDS.small_speed * self.belt_velocity;
+        let linear = self.piecewise_linear || second < small;
         let decays = self.wait.filter(|_| self.stable);
         if linear && decays.is_some_and(|wait| quiet >= wait) {
             return Some(Ending::Decays);

@@ -57,6 +57,8 @@ pub struct Identification {
     pub undisturbed: Undisturbed,
     /// Remarks: what limits the analysis.
     pub notes: Vec<String>,
+    /// Those of them that say what was read and how, where that is not plain.
+    pub remarks: Vec<String>,
     /// The spectrogram of the tangential acceleration.
     pub spectrogram: Spectrogram,
     /// Tangential and normal acceleration for a picture.
@@ -237,6 +239,7 @@ fn analyse(
         verdict: Verdict::undecided("not concluded"),
         slope: overview.quasi_static_slope(&episodes),
         notes,
+        remarks: survey.remarks.clone(),
         columns: survey.names.clone(),
         windows: overview.windows,
         course: instants(&cells.list, has, settings.skew),

@@ -2,6 +2,7 @@
 
 use crate::place::Place;
 use crate::unread::Unread;
+use squealmap_input::quote::rounded;
 
 /// The slowest and the fastest rate of sensors of vibrations, Hz. What a column of time without a unit says beyond them is asked
 /// about: squeal at 51.2 kHz with its time in milliseconds would be 51.2 Hz.
@@ -150,7 +151,8 @@ pub enum Fault {
     },
     /// Samples that are not evenly spaced.
     #[error(
-        "{place}: column `{column}` steps by {step} s where {usual} s is usual; give evenly spaced samples (`squealmap trace --rate HZ` writes them)"
+        "{place}: column `{column}` steps by {} s where {} s is usual; where only the times are rounded or doubled, give --rate, and else evenly spaced samples",
+        rounded(*step), rounded(*usual)
     )]
     Uneven {
         /// Where.

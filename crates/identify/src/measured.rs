@@ -8,6 +8,7 @@ use crate::fault::Unfit;
 use crate::points::{FrictionColumn, Point, Points, read_points};
 use crate::read::Table;
 use crate::settings::Settings;
+use crate::stroke::{Stroke, strokes};
 use crate::undisturbed::Undisturbed;
 
 /// Measured friction.
@@ -25,8 +26,31 @@ pub struct Measurements {
     pub remarks: Vec<String>,
 }
 
-/// Reads measured friction from the file that `open` reads (up to three times), named `name` in messages. With forces, a
-/// velocity, a tangential acceleration and time it is a record of vibrations: what these blur is left out.
+impl Measurements {
+    /// Adds those of another part, whose rows are so many times as many.
+    fn add(&mut self, other: Measurements, rows: [f64; 2]) {
+        let moving = [self.at_rest, other.at_rest].map(|rests| 1.0 - rests);
+        self.left_out = mean([self.left_out, other.left_out], [rows[0] * moving[0], rows[1] * moving[1]]);
+        self.at_rest = mean([self.at_rest, other.at_rest], rows);
+        self.without_contact += other.without_contact;
+        self.points.extend(other.points);
+        for remark in other.remarks {
+            if !self.remarks.contains(&remark) {
+                self.remarks.push(remark);
+            }
+        }
+    }
+}
+
+/// The mean of two values by their weights.
+fn mean([one, other]: [f64; 2], weights: [f64; 2]) -> f64 {
+    let sum = weights[0] + weights[1];
+    if sum > 0.0 { (one * weights[0] + other * weights[1]) / sum } else { one }
+}
+
+/// Reads measured friction from the file that `open` reads (three times and more), named `name` in messages. With forces, a
+/// velocity, a tangential acceleration and time it is a record of vibrations: what these blur is left out, and each of its strokes
+/// is read by itself where they go both ways.
 /// Otherwise every row is a point. Without a column of temperature every point has `temperature` (°C).
 ///
 /// # Errors
@@ -39,20 +63,73 @@ pub fn read_measurements(
     temperature: Option<f64>,
 ) -> Result<Measurements, Unfit> {
     let forces = *friction == FrictionColumn::Forces;
-    let record = open().ok().filter(|_| forces).and_then(|input| of_record(input, settings));
-    if let Some(remarks) = record {
-        let found = identify(&mut open, name, settings, &mut |_, _| ())?;
-        let Undisturbed { points, left_out, at_rest } = found.undisturbed;
-        let point = |(point, own): &(Point, bool)| {
-            let temperature = temperature.or(own.then_some(point.temperature))?;
-            Some(Point { temperature, ..*point })
-        };
-        let points: Option<Vec<Point>> = points.iter().map(point).collect();
-        // Without a vibration there are no windows, and without a temperature the table says what is missing.
-        if let Some(points) = points.filter(|_| found.windows > 0) {
-            return Ok(Measurements { points, without_contact: 0, left_out, at_rest, remarks });
-        }
+    if !open().is_ok_and(|input| forces && is_record(input, settings)) {
+        return of_rows(open, name, settings, friction, temperature);
     }
+    let mut all = Measurements::default();
+    let mut before = 0.0;
+    for settings in ways(&mut open, name, settings)? {
+        let part = of_stroke(&mut open, name, &settings, temperature)?;
+        let rows = settings.rows.map_or(1.0, |[_, rows]| rows as f64);
+        all.add(part, [before, rows]);
+        before += rows;
+    }
+    Ok(all)
+}
+
+/// The strokes of a record that go both ways, each with half of the rest before and after it; the whole record where all go one way.
+fn ways(
+    open: &mut impl FnMut() -> std::io::Result<Box<dyn Read>>,
+    name: &str,
+    settings: &Settings,
+) -> Result<Vec<Settings>, Unfit> {
+    let found = strokes(open, name, settings)?;
+    if found.windows(2).all(|two| two[0].forward == two[1].forward) {
+        return Ok(vec![settings.clone()]);
+    }
+    let end = |stroke: &Stroke| stroke.rows[0] + stroke.rows[1];
+    let mut turns: Vec<u64> = found.windows(2).map(|two| end(&two[0]).midpoint(two[1].rows[0])).collect();
+    turns.insert(0, found.first().map_or(0, |stroke| stroke.rows[0]));
+    turns.extend(found.last().map(end));
+    let part = |(stroke, turns): (&Stroke, &[u64])| Settings {
+        rows: Some([turns[0], turns[1] - turns[0]]),
+        back: !stroke.forward,
+        ..settings.clone()
+    };
+    Ok(found.iter().zip(turns.windows(2)).map(part).collect())
+}
+
+/// The friction of a stroke, by windows where it has any.
+fn of_stroke(
+    open: &mut impl FnMut() -> std::io::Result<Box<dyn Read>>,
+    name: &str,
+    settings: &Settings,
+    temperature: Option<f64>,
+) -> Result<Measurements, Unfit> {
+    let found = identify(&mut *open, name, settings, &mut |_, _| ())?;
+    let Undisturbed { points, left_out, at_rest } = found.undisturbed;
+    let point = |(point, own): &(Point, bool)| {
+        let temperature = temperature.or(own.then_some(point.temperature))?;
+        Some(Point { temperature, ..*point })
+    };
+    let points: Option<Vec<Point>> = points.iter().map(point).collect();
+    // Without a vibration there are no windows, and without a temperature the table says what is missing.
+    match points.filter(|_| found.windows > 0) {
+        Some(points) => {
+            Ok(Measurements { points, left_out, at_rest, without_contact: 0, remarks: found.remarks })
+        }
+        None => of_rows(open, name, settings, &FrictionColumn::Forces, temperature),
+    }
+}
+
+/// Every row as a point.
+fn of_rows(
+    mut open: impl FnMut() -> std::io::Result<Box<dyn Read>>,
+    name: &str,
+    settings: &Settings,
+    friction: &FrictionColumn,
+    temperature: Option<f64>,
+) -> Result<Measurements, Unfit> {
     let input = open().map_err(|why| Unfit {
         name: name.to_owned(),
         fault: Box::new(crate::fault::Fault::Unreadable { why: why.to_string() }),
@@ -62,9 +139,9 @@ pub fn read_measurements(
     Ok(Measurements { points, without_contact, left_out: 0.0, at_rest, remarks })
 }
 
-/// What is to be said of how a file is read; `None` where it does not have all that a record of vibrations has.
-fn of_record(input: Box<dyn Read>, settings: &Settings) -> Option<Vec<String>> {
+/// Whether a file has all that a record of vibrations has.
+fn is_record(input: Box<dyn Read>, settings: &Settings) -> bool {
     let needed =
         [Channel::TangentialAcceleration, Channel::TangentialForce, Channel::NormalForce, Channel::Velocity];
-    Table::open_with(input, settings, &needed, true).ok().map(|table| table.remarks())
+    Table::open_with(input, settings, &needed, true).is_ok()
 }

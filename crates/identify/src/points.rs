@@ -120,6 +120,7 @@ fn points(
     if let Some(fault) = open.filter(|_| points.is_empty()) {
         return Err(fault);
     }
+    turn(&mut points);
     let read = points.len();
     if *friction == FrictionColumn::Forces {
         let fastest = points.iter().map(|point: &Point| point.velocity.abs()).fold(0.0, f64::max);
@@ -129,4 +130,15 @@ fn points(
     }
     let at_rest = (read - points.len()) as f64 / read.max(1) as f64;
     Ok(Points { points, without_contact, at_rest, remarks: table.remarks() })
+}
+
+/// Friction of bodies that slide backwards, along their way: a force that opposes it has the other sign.
+fn turn(points: &mut [Point]) {
+    let back = || points.iter().filter(|point| point.velocity < 0.0);
+    if back().map(|point| point.friction).sum::<f64>() < 0.0 {
+        points
+            .iter_mut()
+            .filter(|point| point.velocity < 0.0)
+            .for_each(|point| point.friction = -point.friction);
+    }
 }

@@ -6,9 +6,9 @@ use crate::channel::{Channel, PerChannel};
 use crate::fault::Fault;
 use crate::formats::{self, Clock, Source};
 use crate::place::Place;
-use crate::scale::{scale, without_unit};
+use crate::scale::{Said, Scale, said, without_unit};
 use crate::settings::Settings;
-use crate::unit::{TimeUnit, is_time, named};
+use crate::unit::{TimeUnit, bracketed, is_time, named};
 use squealmap_input::quote::{clipped, quoted};
 
 /// The column of time when none is named.
@@ -35,8 +35,11 @@ pub(super) struct Table {
     /// Whether a row was read.
     begun: bool,
     columns: PerChannel<Option<usize>>,
-    /// What a value of each is multiplied by, for its unit.
-    scales: PerChannel<f64>,
+    /// What a number of each is in the unit of the channel.
+    scales: PerChannel<Scale>,
+    /// The values of the row before, and how many are blank in this file since, of channels that do not vibrate.
+    held: PerChannel<Option<f64>>,
+    blanks: PerChannel<u64>,
     /// Whether the file has a column of time, or says it: its rows follow each other.
     over_time: bool,
     /// Rows to pass over, and rows to read after them.
@@ -85,14 +88,7 @@ impl Table {
             None => find(header, TIME).or_else(|| header.iter().position(|name| is_time(name))),
         };
         let mut remarks = of_one_record(&*source, &mut columns, settings, needed)?;
-        let mut scales = [1.0; Channel::ALL.len()];
-        for (channel, column) in Channel::ALL.into_iter().zip(columns) {
-            let Some(name) = column.map(|column| &header[column]) else { continue };
-            if let Some((factor, unit)) = scale(channel, name) {
-                scales[channel as usize] = factor;
-                remarks.push(format!("column `{}` is read in {unit}, as its header says", quoted(name)));
-            }
-        }
+        let scales = scales(&*source, &columns, &mut remarks);
         // A format that says the time of its samples needs no column of it, unless one is named.
         let clock = columns.iter().flatten().find_map(|column| source.clock(*column));
         let over_time = time.is_some() || clock.is_some();
@@ -116,7 +112,8 @@ impl Table {
         if let Some(found) = time.filter(|_| believed) {
             once(header, &header[found], "time", "--time")?;
         }
-        let units = [settings.time_unit, time.and_then(|found| named(&header[found]).1)];
+        let unit_of = |found: usize| named(&header[found]).1.or_else(|| TimeUnit::bare(source.unit(found)?));
+        let units = [settings.time_unit, time.and_then(unit_of)];
         let chosen: Vec<usize> = columns.iter().chain([&time]).flatten().copied().collect();
         source.choose(&chosen);
         let [skipped, left] = settings.rows.unwrap_or([0, u64::MAX]);
@@ -129,6 +126,8 @@ impl Table {
             begun: false,
             columns,
             scales,
+            held: PerChannel::default(),
+            blanks: PerChannel::default(),
             over_time,
             skipped,
             left,
@@ -153,10 +152,22 @@ impl Table {
         self.left -= 1;
         self.source.whole()?;
         let mut values = PerChannel::default();
-        for ((value, column), scale) in values.iter_mut().zip(self.columns).zip(self.scales) {
-            if let Some(column) = column {
-                *value = scale * self.source.number(column)?;
+        for (channel, value) in Channel::ALL.into_iter().zip(&mut values) {
+            let at = channel as usize;
+            let Some(column) = self.columns[at] else { continue };
+            let number = match (self.source.number(column), self.held[at]) {
+                // A slow channel of a file with several rates.
+                (Err(_), Some(held)) if self.source.is_blank(column) => {
+                    self.blanks[at] += 1;
+                    held
+                }
+                (number, _) => number?,
+            };
+            if !channel.vibrates() {
+                self.held[at] = Some(number);
             }
+            let [factor, offset] = self.scales[at];
+            *value = factor * number + offset;
         }
         let unit = self.time_unit().unwrap_or(TimeUnit::Second).seconds();
         let time = self.time.map(|column| self.source.number(column).map(|time| time * unit));
@@ -207,8 +218,15 @@ impl Table {
 
     /// Sentences about what was read and how, where that is not plain.
     pub(super) fn remarks(&self) -> Vec<String> {
-        let remarks = self.source.remark().map(str::to_owned).into_iter().chain(self.remark_on_unit());
-        remarks.chain(self.remarks.iter().cloned()).collect()
+        let blank = |(channel, count): (Channel, u64)| {
+            let name = self.name(channel);
+            (count > 0).then(|| {
+                format!("column `{name}` is blank in {count} row(s), which have the value of the row before")
+            })
+        };
+        let blanks = Channel::ALL.into_iter().zip(self.blanks).filter_map(blank);
+        let remarks = self.source.remark().into_iter().chain(self.remark_on_unit());
+        remarks.chain(self.remarks.iter().cloned()).chain(blanks).collect()
     }
 
     /// A sentence about the unit of time, where it is not the second or not the one of the header.
@@ -258,6 +276,54 @@ fn of_one_record(
         }
     }
     Ok(remarks)
+}
+
+/// What a number of each column is in the unit of its channel, with a sentence where that is another one than its own, or not known.
+fn scales(
+    source: &dyn Source,
+    columns: &PerChannel<Option<usize>>,
+    remarks: &mut Vec<String>,
+) -> PerChannel<Scale> {
+    let header = source.header();
+    Channel::ALL.map(|channel| {
+        const OWN: Scale = [1.0, 0.0];
+        let Some(column) = columns[channel as usize] else {
+            remarks.extend(passed_over(header, channel));
+            return OWN;
+        };
+        let name = quoted(&header[column]);
+        match said(channel, &header[column], source.unit(column)) {
+            Said::Own => OWN,
+            Said::Other(scale, unit) => {
+                let whose = if source.unit(column).is_some() { "the file" } else { "its header" };
+                remarks.push(format!("column `{name}` is read in {unit}, as {whose} says"));
+                scale
+            }
+            Said::Unknown(unit) => {
+                remarks.push(format!(
+                    "column `{name}` is read in {}, as `{}` is no unit of {} that is known",
+                    channel.unit(),
+                    quoted(&unit),
+                    channel.words()
+                ));
+                OWN
+            }
+        }
+    })
+}
+
+/// A sentence about a column that would be that of a channel if its unit were known.
+fn passed_over(header: &[String], channel: Channel) -> Option<String> {
+    let name = channel.default_column();
+    let column =
+        header.iter().find(|column| bracketed(column).is_some_and(|(text, _)| text.trim_end() == name))?;
+    Some(format!(
+        "column `{}` is not read, as its unit is none of {} that is known; name it with {} to read it in {}",
+        quoted(column),
+        channel.words(),
+        channel.flag(),
+        channel.unit()
+    ))
 }
 
 fn find(header: &[String], name: &str) -> Option<usize> {

@@ -2,10 +2,11 @@
 
 use std::io::Read;
 
-use crate::channel::Channel;
+use crate::channel::{Channel, PerChannel};
 use crate::fault::{Fault, Unfit};
-use crate::read::{Row, Table};
+use crate::read::Table;
 use crate::settings::Settings;
+use crate::unread::Unread;
 
 /// The record is looked at in at most twice so many blocks.
 const BLOCKS: usize = 2048;
@@ -85,7 +86,9 @@ fn found(mut table: Table) -> Result<Vec<Stroke>, Fault> {
         temperature: table.has(Channel::Temperature),
     };
     let (mut blocks, mut open, mut size) = (Vec::<Block>::new(), Block::default(), 1);
-    while let Some(Row { values, .. }) = table.next()? {
+    let mut before = PerChannel::default();
+    while let Some(values) = row(&mut table, before)? {
+        before = values;
         let of = |channel: Channel| values[channel as usize];
         let forces = [Channel::TangentialForce, Channel::NormalForce].map(of);
         let sums = [told.map_or(1.0, of), forces[0], forces[1], of(Channel::Temperature)];
@@ -102,6 +105,18 @@ fn found(mut table: Table) -> Result<Vec<Stroke>, Fault> {
         blocks.push(open);
     }
     Ok(parted(&blocks, has))
+}
+
+/// The values of the next row. One that holds no numbers has those of the row before: it is the stroke that it lies in that is refused,
+/// once it is looked at.
+fn row(table: &mut Table, before: PerChannel<f64>) -> Result<Option<PerChannel<f64>>, Fault> {
+    match table.next() {
+        Ok(row) => Ok(row.map(|row| row.values)),
+        Err(Fault::NotANumber { .. } | Fault::Ragged { .. } | Fault::Unread(Unread::NotFinite { .. })) => {
+            Ok(Some(before))
+        }
+        Err(fault) => Err(fault),
+    }
 }
 
 /// The strokes of a record in blocks.

@@ -70,6 +70,13 @@ impl TimeUnit {
     }
 }
 
+impl TimeUnit {
+    /// Reads a unit that may stand in brackets.
+    pub(super) fn bare(text: &str) -> Option<TimeUnit> {
+        TimeUnit::parse(text.trim().trim_matches(['[', ']', '(', ')']))
+    }
+}
+
 /// What stands before the brackets that a header ends with, and in them.
 pub(super) fn bracketed(header: &str) -> Option<(&str, &str)> {
     let header = header.trim();

@@ -25,6 +25,14 @@ pub fn open(path: &Path) -> Result<File, String> {
     File::open(path).map_err(|why| why.to_string())
 }
 
+/// What [`open`] gives, to be read.
+///
+/// # Errors
+/// The same.
+pub fn reader(path: &Path) -> std::io::Result<Box<dyn Read>> {
+    open(path).map(|file| Box::new(file) as Box<dyn Read>).map_err(std::io::Error::other)
+}
+
 /// The text of a file of at most `most` bytes.
 ///
 /// # Errors

@@ -1,6 +1,5 @@
 //! Measured friction as a material.
 
-use std::io::Read;
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
@@ -8,11 +7,11 @@ use pyo3::types::{PyList, PyTuple};
 use squealmap::model::friction::LawKind;
 use squealmap::study::error::Error;
 use squealmap::study::fit::Fit;
+use squealmap::study::fit::files::{Files, files};
 use squealmap::study::fit::made::{Wanted, made};
 use squealmap::study::fit::table::residuals_csv;
-use squealmap::study::fit::told::{compared, remarks};
-use squealmap_identify::{Channel, FrictionColumn, Settings, read_measurements};
-use squealmap_input::files;
+use squealmap::study::fit::told::compared;
+use squealmap_identify::{Channel, FrictionColumn, Settings};
 
 use crate::dataset::{Column, Dataset, Named};
 use crate::failure::Failure;
@@ -43,7 +42,7 @@ pub(crate) struct Choices {
     #[pyo3(item)]
     temperature: Option<String>,
     #[pyo3(item)]
-    at_temperature: Option<f64>,
+    at_temperature: Vec<f64>,
     #[pyo3(item)]
     temperatures: Vec<f64>,
 }
@@ -71,9 +70,8 @@ impl Choices {
 
 /// The material, the residuals, the text of the material's file, the laws beside each other, and remarks.
 #[pyfunction]
-pub(crate) fn fit(py: Python<'_>, file: PathBuf, choices: Choices) -> PyResult<Bound<'_, PyTuple>> {
+pub(crate) fn fit(py: Python<'_>, paths: Vec<PathBuf>, choices: Choices) -> PyResult<Bound<'_, PyTuple>> {
     let (material, residuals, text, notes) = whole(py, move |_| {
-        let name = file.display().to_string();
         let law = choices.law()?;
         let mut settings = Settings { rate: choices.rate, ..Settings::default() };
         for (channel, column) in [
@@ -86,14 +84,8 @@ pub(crate) fn fit(py: Python<'_>, file: PathBuf, choices: Choices) -> PyResult<B
             settings.columns[channel as usize] = column;
         }
         let friction = choices.friction.map_or(FrictionColumn::Forces, FrictionColumn::Named);
-        let open = || {
-            let file = files::open(&file).map_err(std::io::Error::other)?;
-            Ok(Box::new(file) as Box<dyn Read>)
-        };
-        let measured = read_measurements(open, &name, &settings, &friction, choices.at_temperature)
-            .map_err(Error::from)?;
-        let mut notes = remarks(&measured);
-        let points = measured.points;
+        let Files { points, name, remarks: mut notes } =
+            files(&paths, &settings, &friction, &choices.at_temperature)?;
         let made = made(&points, &name, law, &choices.temperatures, choices.law_velocity)
             .map_err(|fault| Error::Fit { name: name.clone(), fault: fault.into() })?;
         notes.extend(made.warnings);

@@ -147,6 +147,27 @@ def test_fit(tmp_path, program):
     assert squealmap.linear(sweep)["type"].shape == (3, 1)
 
 
+def test_fit_of_several_files(tmp_path, program):
+    law = {100.0: (0.5, 0.35), 300.0: (0.4, 0.2)}
+    for at, (s, d) in law.items():
+        # There and back: friction opposes the sliding.
+        rows = [f"{v},{10 * np.sign(v) * (s + (d - s) * min(abs(v) / 4, 1))},10" for v in np.linspace(-6, 6, 24)]
+        (tmp_path / f"{at:.0f}.csv").write_text("V,T,N\n" + "\n".join(rows) + "\n")
+    files = [tmp_path / "100.csv", tmp_path / "300.csv"]
+    found = squealmap.fit(files, at_temperature=list(law), law_velocity=4)
+    assert found.material["temperature"].values.tolist() == list(law)
+    for at, (s, d) in enumerate(law.values()):
+        assert np.isclose(found.material["mu_s"][at], s, atol=1e-9) and np.isclose(found.material["mu_d"][at], d, atol=1e-9)
+    ended = program("fit", "100.csv", "300.csv", "--at-temperature", "100,300", "--law-velocity", "4", cwd=tmp_path)
+    assert ended.returncode == 0
+    written = table(tmp_path / "out/100/material.csv")["mu_s"]
+    assert [float(value) for value in written] == found.material["mu_s"].values.tolist()
+    with pytest.raises(squealmap.InputError, match="3 temperatures are given for 2 file"):
+        squealmap.fit(files, at_temperature=[1, 2, 3])
+    with pytest.raises(squealmap.InputError, match="names no file"):
+        squealmap.fit([])
+
+
 @pytest.mark.parametrize("law", ["table", "best"])
 def test_fit_of_a_table_and_of_the_best_law(tmp_path, program, law):
     rows = [

@@ -10,6 +10,16 @@ pub enum FitFault {
          nothing squeals"
     )]
     NoPoints,
+    /// Temperatures of some files, and not one for each.
+    #[error(
+        "{given} temperatures are given for {files} file(s); give --at-temperature one for all of them, or one for each in their order"
+    )]
+    Temperatures {
+        /// Temperatures.
+        given: usize,
+        /// Files.
+        files: usize,
+    },
     /// Fewer points than unknowns.
     #[error(
         "{points} point(s) do not determine {unknowns} value(s); measure more, or ask for fewer rows with --temperatures"

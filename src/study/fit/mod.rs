@@ -4,6 +4,7 @@
 //! - `errors.rs`: how far the values of a fit would scatter.
 //! - `each.rs`: a velocity for every temperature, where the points ask for it; `information.rs`: what tells that.
 //! - [`compare`]: several laws, by information criteria.
+//! - [`files`](mod@files): the points of one file, or of several.
 //! - [`rows`]: the temperatures of the material.
 //! - [`made`](mod@made): a material with all of it.
 //! - [`table`]: the files of a fit; [`told`]: what it says beside them.
@@ -20,6 +21,7 @@ mod errors;
 mod fault;
 #[cfg(feature = "figures")]
 pub mod figure;
+pub mod files;
 mod information;
 pub mod made;
 mod problem;

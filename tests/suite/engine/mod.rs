@@ -17,6 +17,7 @@ pub(crate) mod jagged;
 pub(crate) mod kernel_linear;
 pub(crate) mod kernel_response;
 pub(crate) mod kernels;
+mod kinks;
 pub(crate) mod layers;
 pub(crate) mod leaves;
 pub(crate) mod limits;

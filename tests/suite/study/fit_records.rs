@@ -6,6 +6,7 @@ use std::fmt::Write as _;
 use std::io::{Cursor, Read};
 use std::sync::Arc;
 
+use crate::cli::program::{squealmap, unwrapped};
 use crate::common::{bilinear, near, plan};
 use crate::study::laboratory::{RATE, sensed};
 use crate::study::segments::{LENGTH, rig};
@@ -15,7 +16,7 @@ use squealmap::model::instance::Instance;
 use squealmap::model::motion::{Motion, MotionTable};
 use squealmap::model::{Param, Params};
 use squealmap::study::fit::fit;
-use squealmap::study::signals::sensors::{Recording, record};
+use squealmap::study::signals::sensors::{Recording, Sample, record};
 use squealmap_identify::{Channel, FrictionColumn, Measurements, Settings, read_measurements, read_points};
 
 fn read(bytes: &[u8]) -> Measurements {
@@ -79,6 +80,58 @@ fn what_squeals_under_slow_forces_is_left_out() {
     assert!((0.3..0.6).contains(&measured.left_out), "{}", measured.left_out);
     for point in &measured.points {
         near("friction", point.friction, stroke.law.mu(point.velocity), 0.01 * point.friction);
+    }
+}
+
+/// A record of a stroke there and one back gives the points of both.
+#[test]
+fn strokes_there_and_back_are_read_together() {
+    let stroke = rig(0.16, 0.06, 0.025, [0.045, 0.005]);
+    let recording = Recording { rate: *RATE, duration: LENGTH, skew: 0.0, force_skew: 0.0 };
+    let there = record(&stroke, &plan(1.0, 1.0, 12), &recording).samples;
+    let sensed_by = |backwards: bool, seed: u64| {
+        let mut samples = there.clone();
+        sensed(&mut samples, true, 40.0, backwards, &mut Random::new(seed));
+        samples
+    };
+    let [alone, mut both, mut back] = [sensed_by(false, 5), sensed_by(false, 5), sensed_by(true, 7)];
+    // A rest of 50 ms between them, held by a tenth of the load.
+    let rest = (1..2500_u32).map(|k| Sample {
+        t: LENGTH + f64::from(k) / *RATE,
+        belt_velocity: 0.0,
+        tangential_force: 0.1 * alone[0].normal_force,
+        ..alone[0]
+    });
+    both.extend(rest);
+    let start = both[both.len() - 1].t + 1.0 / *RATE;
+    for sample in &mut back {
+        sample.t += start;
+    }
+    both.extend(back);
+    let [one, two] = [alone, both].map(|samples| read(&csv(&samples)));
+    // What slow forces remember of the rest is left out of the way back.
+    let there_alone = one.points.len();
+    assert!((there_alone * 17 / 10..2 * there_alone).contains(&two.points.len()), "{}", two.points.len());
+    near("left out", two.left_out, one.left_out, 0.05);
+    assert!((0.01..0.06).contains(&two.at_rest), "{}", two.at_rest);
+    for point in &two.points {
+        near("friction", point.friction, stroke.law.mu(point.velocity), 0.01 * point.friction);
+    }
+}
+
+/// In a table a force that opposes a body on its way back has the other sign.
+#[test]
+fn rows_of_a_way_back_are_turned() {
+    for sign in [-1.0, 1.0] {
+        let mut table = "V,T,N\n".to_owned();
+        for k in -40..40 {
+            let v = 0.2 * (f64::from(k) + 0.5);
+            let mu = 0.4 - 0.1 * (v.abs() / 5.0).min(1.0);
+            writeln!(table, "{v},{},10", 10.0 * mu * if v < 0.0 { sign } else { 1.0 }).unwrap();
+        }
+        let fitted = fit(&read(table.as_bytes()).points, LawKind::Bilinear, &[20.0], None).unwrap();
+        near("mu_s", fitted.columns[0].1[0], 0.4, 1e-6);
+        near("knee", fitted.columns[2].1[0], 5.0, 1e-4);
     }
 }
 
@@ -167,4 +220,43 @@ fn units_in_headers_are_heeded() {
     near("mu_s", fitted.columns[0].1[0], 0.4, 1e-6);
     let said = squealmap::study::fit::told::remarks(&measured).join("; ");
     assert!(said.contains("`V (mm/s)` is read in mm/s") && said.contains("`T (kN)` is read in kN"), "{said}");
+}
+
+/// One file for each temperature, as laboratories have them.
+#[test]
+fn files_of_one_temperature_each_make_one_material() {
+    let directory = tempfile::tempdir().unwrap();
+    let records = directory.path().join("records");
+    std::fs::create_dir(&records).unwrap();
+    for (name, mu_s) in [("a", 0.5), ("b", 0.4), ("c", 0.3)] {
+        let mut table = "V,T,N\n".to_owned();
+        for k in 1..30 {
+            let v = 0.25 * f64::from(k);
+            let normal = if k == 3 { 0.0 } else { 10.0 };
+            writeln!(table, "{v},{},{normal}", 10.0 * (mu_s - 0.1 * (v / 5.0).min(1.0))).unwrap();
+        }
+        std::fs::write(records.join(format!("{name}.csv")), table).unwrap();
+    }
+    let fitted = |temperatures: &str| {
+        squealmap(directory.path(), &["fit", "records", "--at-temperature", temperatures, "-o", "out"])
+    };
+    let ended = fitted("100,300,500");
+    assert_eq!(ended.code, Some(0), "{}", ended.err);
+    let said = unwrapped(&ended.err);
+    assert!(said.contains("b.csv: 1 row(s) without contact are passed over"), "{said}");
+    let text = std::fs::read_to_string(directory.path().join("out/material.csv")).unwrap();
+    let rows: Vec<Vec<f64>> = text
+        .lines()
+        .filter(|line| line.starts_with(|c: char| c.is_ascii_digit()))
+        .map(|line| line.split(',').map(|value| value.parse().unwrap()).collect())
+        .collect();
+    assert_eq!(rows.iter().map(|row| row[0]).collect::<Vec<_>>(), [100.0, 300.0, 500.0]);
+    for (row, mu_s) in rows.iter().zip([0.5, 0.4, 0.3]) {
+        near("mu_s", row[1], mu_s, 1e-6);
+        near("knee", row[3], 5.0, 1e-4);
+    }
+    let ended = fitted("100,300");
+    assert_eq!(ended.code, Some(2));
+    let said = unwrapped(&ended.err);
+    assert!(said.contains("2 temperatures are given for 3 file(s); give --at-temperature"), "{said}");
 }

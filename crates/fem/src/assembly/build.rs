@@ -49,6 +49,7 @@ pub fn assemble(model: &Model) -> Result<(Numbering, Pencil), Error> {
         let (matrices, material) = model.element(element, kind, material, nodes)?;
         let size = 3 * nodes.len();
         let [alpha, beta] = material.rayleigh;
+        let elastic = matrices.elastic();
         let rows: Vec<&[(usize, f64)]> =
             (0..size).map(|i| numbering.rows[3 * nodes[i / 3] + i % 3].as_slice()).collect();
         for j in 0..size {
@@ -58,8 +59,8 @@ pub fn assemble(model: &Model) -> Result<(Numbering, Pencil), Error> {
                 for i in 0..size {
                     for (row, fi) in rows[i] {
                         let at = from + entries.partition_point(|r| r < row);
-                        let (k, m) = (matrices.stiffness[i * size + j], matrices.mass[i * size + j]);
-                        stiffness.values[at] += fi * fj * k;
+                        let (k, m) = (elastic[i * size + j], matrices.mass[i * size + j]);
+                        stiffness.values[at] += fi * fj * matrices.stiffness[i * size + j];
                         mass.values[at] += fi * fj * m;
                         if let Some(damping) = &mut damping {
                             damping.values[at] += fi * fj * (alpha * m + beta * k);
@@ -74,10 +75,10 @@ pub fn assemble(model: &Model) -> Result<(Numbering, Pencil), Error> {
                 for (j, row) in rows.iter().enumerate() {
                     let along =
                         |matrix: &[f64]| (0..3).map(|i| n[i] * matrix[(3 * a + i) * size + j]).sum::<f64>();
-                    let (k, m) = (along(&matrices.stiffness), along(&matrices.mass));
+                    let [stiffness, k, m] = [&matrices.stiffness, elastic, &matrices.mass].map(along);
                     for (column, f) in *row {
                         let sums = normal[*index].entry(*column).or_default();
-                        for (sum, part) in sums.iter_mut().zip([k, m, alpha * m + beta * k]) {
+                        for (sum, part) in sums.iter_mut().zip([stiffness, m, alpha * m + beta * k]) {
                             *sum += f * part;
                         }
                     }

@@ -49,6 +49,7 @@ impl Model {
         let mut matrices = matrices(kind, &places, material, self.inertia).map_err(inverted)?;
         if let Some(moved) = &self.stressed {
             let moved: Vec<[f64; 3]> = nodes.iter().map(|node| moved[*node]).collect();
+            matrices.unstressed = Some(matrices.stiffness.clone());
             add_geometric(&mut matrices.stiffness, kind, &places, material, &moved).map_err(inverted)?;
         }
         Ok((matrices, material))

@@ -2,7 +2,8 @@
 
 use super::Point;
 use crate::Error;
-use crate::mesh::{Mesh, Places};
+use crate::mesh::{Face, FaceRef, Mesh, Places};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Pairs each slave node with the master node at its place plus a shift (m).
 fn pairs(
@@ -38,6 +39,26 @@ fn pairs(
 /// A node of the first surface without a partner on the second.
 pub fn bonded(mesh: &Mesh, first: &[usize], second: &[usize]) -> Result<Vec<(usize, usize)>, Error> {
     pairs(mesh, first, second, [0.0; 3])
+}
+
+/// Whether two surfaces are one mesh where they meet, by pairs of a slave and a master: each face of the slaves lies on one of the masters,
+/// or all nodes of both have a partner. Where the masters have nodes between those of the slaves, pairs of nodes leave these free.
+#[must_use]
+pub fn conforms(mesh: &Mesh, slaves: &[FaceRef], masters: &[FaceRef], pairs: &[(usize, usize)]) -> bool {
+    let partner: BTreeMap<usize, usize> = pairs.iter().copied().collect();
+    let sorted = |mut nodes: Vec<usize>| {
+        nodes.sort_unstable();
+        nodes
+    };
+    let slaves = mesh.resolve(slaves);
+    let below: BTreeSet<Vec<usize>> =
+        mesh.resolve(masters).into_iter().map(|face| sorted(face.nodes)).collect();
+    let on = |face: &Face| {
+        let partners: Option<Vec<usize>> = face.nodes.iter().map(|node| partner.get(node).copied()).collect();
+        partners.is_some_and(|partners| below.contains(&sorted(partners)))
+    };
+    let paired: BTreeSet<usize> = partner.values().copied().collect();
+    slaves.iter().all(on) || below.iter().flatten().all(|node| paired.contains(node))
 }
 
 /// Makes a body periodic: each node of the first surface moves as the node of the second that lies `shift` (m) from it.

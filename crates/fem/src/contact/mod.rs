@@ -7,6 +7,6 @@ mod rotation;
 
 pub use crate::assembly::{Point, SHARE, Surface, pressures};
 pub use interpolated::bonded_points;
-pub use matching::{bonded, periodic, sliding, sliding_on_rigid};
+pub use matching::{bonded, conforms, periodic, sliding, sliding_on_rigid};
 pub use mortar::{bonded_mortar, mortar};
 pub use rotation::rotating;

@@ -10,6 +10,16 @@ pub struct Matrices {
     pub stiffness: Vec<f64>,
     /// ∫ ρ Nᵀ N dV, kg.
     pub mass: Vec<f64>,
+    /// The stiffness without that of a stress, where one stiffens the element.
+    pub unstressed: Option<Vec<f64>>,
+}
+
+impl Matrices {
+    /// The stiffness of the material alone, N/m: what loses energy.
+    #[must_use]
+    pub fn elastic(&self) -> &[f64] {
+        self.unstressed.as_ref().unwrap_or(&self.stiffness)
+    }
 }
 
 /// ∂x_j/∂ξ_i in row i and column j.
@@ -58,7 +68,7 @@ pub fn matrices(
             }
         }
     }
-    Ok(Matrices { stiffness, mass })
+    Ok(Matrices { stiffness, mass, unstressed: None })
 }
 
 fn positive(determinant: f64) -> Result<f64, f64> {

@@ -29,21 +29,45 @@ impl Pair {
     }
 }
 
-/// All pairs of (λ² M + λ C + K) x = 0 with a frequency of 0 or more, rising with the frequency.
+/// All pairs of (λ² M + λ C + K) x = 0 with a frequency of 0 or more, one for each mode. They rise with the frequency, where something
+/// damps with the one |λ| that they had without damping: of what damping slows down the frequency itself may be next to nothing.
+/// A mode that damping keeps from vibrating has two real eigenvalues, of which the larger one is taken, as that is what lasts; its place is
+/// that of the frequency √(xᴴ K x / xᴴ M x) of its shape.
 ///
 /// # Errors
 /// Where the iteration for the eigenvalues does not converge.
 pub fn pairs(small: &Small) -> Result<Vec<Pair>, Error> {
     let mut pairs = match &small.damping {
-        None => undamped(small)?,
-        Some(damping) => damped(small, damping)?,
+        None => undamped(small)?.into_iter().map(|pair| (pair.lambda.im, pair)).collect(),
+        Some(damping) => placed(small, damped(small, damping)?),
     };
     pairs.sort_by(|a, b| {
-        (a.lambda.im, a.lambda.re)
-            .partial_cmp(&(b.lambda.im, b.lambda.re))
-            .unwrap_or(std::cmp::Ordering::Equal)
+        (a.0, a.1.lambda.re).partial_cmp(&(b.0, b.1.lambda.re)).unwrap_or(std::cmp::Ordering::Equal)
     });
-    Ok(pairs)
+    Ok(pairs.into_iter().map(|(_, pair)| pair).collect())
+}
+
+/// One pair for each mode, with the frequency (1/s) of its place. Both real eigenvalues of a mode have shapes of about one energy.
+fn placed(small: &Small, all: Vec<Pair>) -> Vec<(f64, Pair)> {
+    let (real, vibrating): (Vec<Pair>, Vec<Pair>) = all.into_iter().partition(|pair| pair.lambda.im == 0.0);
+    let mut real: Vec<(f64, Pair)> =
+        real.into_iter().map(|pair| (energy(small, &pair.vector), pair)).collect();
+    real.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut placed: Vec<(f64, Pair)> = vibrating.into_iter().map(|pair| (pair.lambda.norm(), pair)).collect();
+    for two in real.chunks(2) {
+        let lasting = two.iter().max_by(|a, b| a.1.lambda.re.total_cmp(&b.1.lambda.re));
+        placed.extend(lasting.map(|(energy, pair)| (energy.max(0.0).sqrt(), pair.clone())));
+    }
+    placed
+}
+
+/// xᴴ K x / xᴴ M x, 1/s².
+fn energy(small: &Small, vector: &[c64]) -> f64 {
+    let form = |matrix: &Mat<f64>| -> f64 {
+        let row = |i: usize| (0..vector.len()).map(|j| vector[j] * matrix[(i, j)]).sum::<c64>();
+        (0..vector.len()).map(|i| (vector[i].conj() * row(i)).re).sum()
+    };
+    form(&small.stiffness) / form(&small.mass)
 }
 
 /// Eigenvalues, rising, and orthonormal vectors of a symmetric matrix, of which the lower triangle counts.

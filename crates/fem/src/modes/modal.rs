@@ -57,13 +57,12 @@ pub fn loss_ratios(
         let (matrices, _) = model.element(element, kind, material, nodes)?;
         for (sums, moved) in sums.iter_mut().zip(&moved) {
             let u: Vec<f64> = nodes.iter().flat_map(|node| moved[*node]).collect();
-            let rows = matrices.stiffness.chunks_exact(u.len());
-            let energy: f64 = rows
-                .zip(&u)
-                .map(|(row, u_i)| u_i * row.iter().zip(&u).map(|(k, u)| k * u).sum::<f64>())
-                .sum();
-            sums[0] += loss[material] * energy;
-            sums[1] += energy;
+            let energy = |stiffness: &[f64]| -> f64 {
+                let rows = stiffness.chunks_exact(u.len()).zip(&u);
+                rows.map(|(row, u_i)| u_i * row.iter().zip(&u).map(|(k, u)| k * u).sum::<f64>()).sum()
+            };
+            sums[0] += loss[material] * energy(matrices.elastic());
+            sums[1] += energy(&matrices.stiffness);
         }
     }
     Ok(sums.into_iter().map(|[lost, all]| 0.5 * lost / all).collect())

@@ -8,7 +8,7 @@ use super::varied::check_vary;
 use crate::Error;
 use crate::assembly::{Loads, Model, Penalty, Supports, nodal_forces};
 use crate::contact::{
-    Point, bonded, bonded_mortar, bonded_points, mortar, rotating, sliding, sliding_on_rigid,
+    Point, bonded, bonded_mortar, bonded_points, conforms, mortar, rotating, sliding, sliding_on_rigid,
 };
 use crate::mesh::{FaceRef, Mesh};
 
@@ -62,6 +62,7 @@ impl Study {
         for (i, support) in document.supports.iter().enumerate() {
             hold(&mut model, &format!("supports[{i}]"), support)?;
         }
+        check_displaced(&model, &document.supports)?;
         for (i, bond) in document.bonds.iter().cloned().chain(from_files).enumerate() {
             tie(&model.mesh, &mut model.supports, &format!("bonds[{i}]"), &bond)?;
         }
@@ -167,10 +168,34 @@ fn hold(model: &mut Model, key: &str, support: &Support) -> Result<(), Error> {
     Ok(())
 }
 
+/// Refuses a displacement of which other supports hold all nodes: it would move nothing.
+fn check_displaced(model: &Model, supports: &[Support]) -> Result<(), Error> {
+    for (i, support) in supports.iter().enumerate().filter(|(_, support)| support.displacement != 0.0) {
+        let nodes = model.mesh.node_set(&support.set)?;
+        let axes = || support.axes.chars().filter_map(|axis| "xyz".find(axis));
+        let moves = |node: &usize| {
+            axes().any(|axis| {
+                let held = model.supports.prescribed.get(&(*node, axis));
+                held.is_some_and(|held| held.total_cmp(&support.displacement).is_eq())
+            })
+        };
+        if !nodes.iter().any(moves) {
+            let what = format!(
+                "{} m is given to \"{}\", but supports after it hold all of its nodes elsewhere: leave one of them out",
+                support.displacement, support.set
+            );
+            return Err(Error::at(format!("supports[{i}].displacement"), what));
+        }
+    }
+    Ok(())
+}
+
 fn tie(mesh: &Mesh, supports: &mut Supports, key: &str, bond: &Bond) -> Result<(), Error> {
     let slaves = faces_of(mesh, &format!("{key}.slaves"), &bond.slaves)?;
     let masters = faces_of(mesh, &format!("{key}.masters"), &bond.masters)?;
-    if let Ok(pairs) = bonded(mesh, &mesh.face_nodes(slaves), &mesh.face_nodes(masters)) {
+    if let Ok(pairs) = bonded(mesh, &mesh.face_nodes(slaves), &mesh.face_nodes(masters))
+        && conforms(mesh, slaves, masters, &pairs)
+    {
         supports.bond(pairs);
         return Ok(());
     }
@@ -212,9 +237,11 @@ fn slide(mesh: &Mesh, key: &str, pair: &Sliding) -> Result<(Vec<Point>, Vec<Face
         (sliding_on_rigid(&nodes, normal, direction), true)
     } else {
         let masters = faces_of(mesh, &format!("{key}.masters"), &pair.masters)?;
-        match sliding(mesh, &nodes, &mesh.face_nodes(masters), normal, direction) {
-            Ok(points) => (Ok(points), true),
-            Err(_) => (mortar(mesh, slaves, masters, normal, direction), false),
+        let pairs = bonded(mesh, &nodes, &mesh.face_nodes(masters)).ok();
+        if pairs.is_some_and(|pairs| conforms(mesh, slaves, masters, &pairs)) {
+            (sliding(mesh, &nodes, &mesh.face_nodes(masters), normal, direction), true)
+        } else {
+            (mortar(mesh, slaves, masters, normal, direction), false)
         }
     };
     let points = match turn {

@@ -18,6 +18,7 @@ mod layer;
 mod loads;
 mod modal;
 mod mortar;
+mod nested;
 mod order;
 mod patch;
 mod penalty;

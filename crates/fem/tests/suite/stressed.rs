@@ -90,6 +90,19 @@ fn the_static_step_stiffens_the_modes() {
     );
 }
 
+/// Rayleigh's β damps by what the material does, whatever stress there is.
+#[test]
+fn stress_is_no_damping() {
+    let mut model = bar(Kind::Hex20, 2);
+    model.materials = model.materials.into_iter().map(|material| material.damped(0.0, 1e-6)).collect();
+    let plain = assemble(&model).expect("matrices").1;
+    model.stressed = Some(model.mesh.nodes.iter().map(|x| [0.2 * x[0], 0.0, 0.0]).collect());
+    let stressed = assemble(&model).expect("matrices").1;
+    assert_ne!(plain.stiffness.values, stressed.stiffness.values);
+    let [plain, stressed] = [plain, stressed].map(|pencil| pencil.damping.expect("a damped bar").values);
+    assert_eq!(plain, stressed);
+}
+
 #[test]
 fn displacements_of_another_mesh_stiffen_nothing() {
     let mut model = bar(Kind::Hex8, 2);

@@ -247,6 +247,11 @@ fn bad_descriptions_are_named() {
             "supports[0].axes: \"xw\" names no axes, it must be of x, y and z",
         ),
         (
+            "[[supports]]\nset = \"block.z0\"",
+            "[[supports]]\nset = \"pin.z1\"\naxes = \"z\"\ndisplacement = -1e-6\n[[supports]]\nset = \"pin.z1\"\n[[supports]]\nset = \"block.z0\"",
+            "supports[0].displacement: -0.000001 m is given to \"pin.z1\", but supports after it hold all",
+        ),
+        (
             "slaves = \"pin.z0\"",
             "slaves = \"pin.foot\"",
             "sliding[0].slaves: the mesh has no set \"pin.foot\"",

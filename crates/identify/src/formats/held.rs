@@ -18,6 +18,8 @@ pub(super) struct Column {
     pub(super) name: String,
     pub(super) values: Vec<f64>,
     pub(super) clock: Option<Clock>,
+    /// Its unit, where the file says one.
+    pub(super) unit: Option<String>,
     /// Why it is not read, and what to do.
     pub(super) refused: Option<&'static str>,
 }
@@ -46,6 +48,10 @@ impl Source for Held {
 
     fn clock(&self, column: usize) -> Option<Clock> {
         self.columns[column].clock
+    }
+
+    fn unit(&self, column: usize) -> Option<&str> {
+        self.columns[column].unit.as_deref()
     }
 
     fn together(&self, first: usize, second: usize) -> Result<(), Unread> {

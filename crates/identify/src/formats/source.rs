@@ -38,6 +38,16 @@ pub(crate) trait Source {
         None
     }
 
+    /// The unit that a file says a column has, beside its name.
+    fn unit(&self, _column: usize) -> Option<&str> {
+        None
+    }
+
+    /// Whether the row has nothing in a column.
+    fn is_blank(&self, _column: usize) -> bool {
+        false
+    }
+
     /// Refuses a column that is not read, and two that were not recorded together.
     fn together(&self, _first: usize, _second: usize) -> Result<(), Unread> {
         Ok(())
@@ -60,8 +70,8 @@ pub(crate) trait Source {
     /// Where the row stands.
     fn place(&self) -> Place;
 
-    /// What has to be known of the numbers.
-    fn remark(&self) -> Option<&'static str> {
+    /// What has to be known of the numbers, once they are read.
+    fn remark(&self) -> Option<String> {
         None
     }
 }

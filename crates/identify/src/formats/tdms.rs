@@ -49,6 +49,7 @@ struct Object {
     path: String,
     index: Option<Index>,
     values: Vec<f64>,
+    unit: Option<String>,
     numeric: bool,
     increment: Option<f64>,
     offset: f64,
@@ -192,6 +193,7 @@ impl File {
                     "wf_start_offset" => object.offset = number,
                     "wf_start_time" => object.began = number,
                     "NI_Number_Of_Scales" => object.scales = number,
+                    "unit_string" => object.unit = Some(text),
                     "NI_Scaling_Status" => object.scaled = text == "scaled",
                     _ => {}
                 }
@@ -253,6 +255,7 @@ impl File {
             ),
             name: if count[&channel] > 1 { format!("{group}/{channel}") } else { channel },
             values: object.values,
+            unit: object.unit,
         }
         };
         let columns: Vec<Column> = channels.into_iter().map(column).collect();

@@ -27,11 +27,18 @@ pub(super) struct Text {
     since: Rc<Cell<usize>>,
     record: ByteRecord,
     header: Vec<String>,
-    /// Whether a comma is what separates the fields.
-    by_commas: bool,
+    /// What separates the fields.
+    separator: u8,
     /// Whether a carriage return comes before the line feeds: a row ends with it.
     by_returns: bool,
     marks: Marks,
+    /// The units of the columns, where the row below the header has them; empty where it has not.
+    units: Vec<String>,
+    /// Whether the row at hand is still to be gone to.
+    waits: bool,
+    /// Whether the file ended within its last row, which was then left out.
+    cut_off: Rc<Cell<bool>>,
+    left_out: bool,
 }
 
 /// The marks before the decimals that the file has shown so far.
@@ -49,7 +56,9 @@ impl Text {
         let by_returns = start.windows(2).any(|two| two == b"\r\n");
         let end = if by_returns { b'\r' } else { b'\n' };
         let input = Box::new(Cursor::new(start).chain(rest));
-        let input = Bounded { input, since: Rc::clone(&since), last: b'\n', end };
+        let cut_off = Rc::new(Cell::new(false));
+        let input =
+            Bounded { input, since: Rc::clone(&since), cut_off: Rc::clone(&cut_off), last: b'\n', end };
         let mut reader = csv::ReaderBuilder::new()
             .delimiter(separator)
             .comment(Some(b'#'))
@@ -67,8 +76,27 @@ impl Text {
             return Err(Fault::Unreadable { why: "it holds no header".to_owned() });
         }
         since.set(0);
-        let (record, marks) = (ByteRecord::new(), Marks::default());
-        Ok(Text { reader, since, record, header, by_commas: separator == b',', by_returns, marks })
+        let (record, marks, units) = (ByteRecord::new(), Marks::default(), Vec::new());
+        let (waits, left_out) = (false, false);
+        let mut text = Text {
+            reader,
+            since,
+            record,
+            header,
+            separator,
+            by_returns,
+            marks,
+            units,
+            waits,
+            cut_off,
+            left_out,
+        };
+        text.waits = text.read()?;
+        if text.waits && text.is_units() {
+            text.units = text.record.iter().map(|unit| decoded(unit.to_vec()).trim().to_owned()).collect();
+            text.waits = false;
+        }
+        Ok(text)
     }
 
     /// Reads the next row as it is; whether there is one.
@@ -87,6 +115,12 @@ impl Text {
         fields().any(|field| !field.is_empty()) && !fields().any(is_number)
     }
 
+    /// Whether the file ends within this row: the program that wrote it was stopped.
+    fn is_cut_off(&self) -> bool {
+        let last = self.record.iter().next_back().unwrap_or_default().trim_ascii();
+        self.cut_off.get() && (self.record.len() < self.header.len() || last.is_empty())
+    }
+
     /// The line of the row. That of its own position is the one behind the row before, and may be empty or a comment.
     fn line(&self) -> u64 {
         self.reader.position().line() - u64::from(!self.by_returns)
@@ -99,8 +133,26 @@ impl Source for Text {
     }
 
     fn advance(&mut self) -> Result<bool, Fault> {
-        let is_first = self.record.is_empty();
-        Ok(self.read()? && (!is_first || !self.is_units() || self.read()?))
+        if std::mem::take(&mut self.waits) {
+            return Ok(true);
+        }
+        if !self.read()? {
+            return Ok(false);
+        }
+        self.left_out = self.is_cut_off();
+        Ok(!self.left_out)
+    }
+
+    fn unit(&self, column: usize) -> Option<&str> {
+        self.units.get(column).map(String::as_str)
+    }
+
+    fn is_blank(&self, column: usize) -> bool {
+        self.record.get(column).is_some_and(|field| field.trim_ascii().is_empty())
+    }
+
+    fn remark(&self) -> Option<String> {
+        self.left_out.then(|| "the last line of the file is cut off and left out".to_owned())
     }
 
     fn whole(&self) -> Result<(), Fault> {
@@ -109,7 +161,7 @@ impl Source for Text {
             return Ok(());
         }
         // `0,5,1,25` under `t,a`.
-        let because = if self.by_commas && fields > columns {
+        let because = if self.separator == b',' && fields > columns {
             "; where these are decimal commas, separate the fields with semicolons or tabs"
         } else {
             ""
@@ -169,6 +221,8 @@ fn separator(start: &[u8]) -> u8 {
 struct Bounded {
     input: Box<dyn Read>,
     since: Rc<Cell<usize>>,
+    /// Whether the file has ended without the end of a row.
+    cut_off: Rc<Cell<bool>>,
     /// The last byte.
     last: u8,
     /// What ends the last row, where the file does not.
@@ -188,6 +242,7 @@ impl Read for Bounded {
             self.last = *last;
         } else if self.last != b'\n' && !buffer.is_empty() {
             (buffer[0], read, self.last) = (self.end, 1, b'\n');
+            self.cut_off.set(true);
         }
         self.since.set(self.since.get() + read);
         Ok(read)

@@ -17,6 +17,8 @@ const LONGEST: u64 = 1 << 12;
 /// Lines with names, and those after them.
 const NAMES: usize = 5;
 const OTHERS: usize = 6;
+/// Where the line of an axis has its unit.
+const UNIT: std::ops::Range<usize> = 47..67;
 /// Functions: a time response, and one that is not said to be any.
 const TIME_RESPONSE: u32 = 1;
 const GENERAL: u32 = 0;
@@ -36,6 +38,7 @@ struct Record {
     count: u64,
     even: bool,
     clock: Option<Clock>,
+    unit: String,
 }
 
 /// What the first line of a binary dataset says.
@@ -105,7 +108,7 @@ fn record(input: &mut dyn BufRead) -> Result<Record, String> {
     for other in &mut lines {
         *other = needed(input, "the beginning of a record")?;
     }
-    let [point, numbers, abscissa, ..] = &lines;
+    let [point, numbers, abscissa, ordinate, ..] = &lines;
     let whole = |line: &[u8], from, to| field(line, from, to).parse::<u32>();
     let broken = |what: &str| format!("has a record (`{}`) whose {what} is no number", names[0]);
     let function = whole(point, 0, 5).map_err(|_| broken("function"))?;
@@ -114,7 +117,7 @@ fn record(input: &mut dyn BufRead) -> Result<Record, String> {
     let spacing = whole(numbers, 20, 30).map_err(|_| broken("spacing"))?;
     let start = number(field(numbers, 30, 43)).ok_or_else(|| broken("first time"))?;
     let step = number(field(numbers, 43, 56)).ok_or_else(|| broken("step of time"))?;
-    let unit = TimeUnit::parse(field(abscissa, 47, 67)).unwrap_or(TimeUnit::Second).seconds();
+    let unit = TimeUnit::parse(field(abscissa, UNIT.start, UNIT.end)).unwrap_or(TimeUnit::Second).seconds();
     let over_time = match function {
         TIME_RESPONSE => true,
         GENERAL => whole(abscissa, 0, 10) == Ok(TIME),
@@ -136,13 +139,18 @@ fn record(input: &mut dyn BufRead) -> Result<Record, String> {
         count,
         even,
         clock: clock.filter(|_| even),
+        unit: decoded(part(ordinate, UNIT.start, UNIT.end).to_vec()).trim().to_owned(),
     })
 }
 
 /// A field of a line of fixed columns.
 fn field(line: &[u8], from: usize, to: usize) -> &str {
-    let to = to.min(line.len());
-    std::str::from_utf8(line.get(from..to).unwrap_or_default()).unwrap_or_default().trim()
+    std::str::from_utf8(part(line, from, to)).unwrap_or_default().trim()
+}
+
+/// The bytes of a field, as many as there are.
+fn part(line: &[u8], from: usize, to: usize) -> &[u8] {
+    line.get(from..to.min(line.len())).unwrap_or_default()
 }
 
 /// A number as Fortran writes it.
@@ -163,7 +171,8 @@ impl Record {
 
     fn column(&self, values: Vec<f64>) -> Column {
         let refused = self.values().err();
-        Column { name: String::new(), values, clock: self.clock, refused }
+        let unit = Some(self.unit.clone());
+        Column { name: String::new(), values, clock: self.clock, unit, refused }
     }
 }
 

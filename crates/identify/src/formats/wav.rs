@@ -111,8 +111,8 @@ impl Source for Wav {
         Place::Sample(self.at)
     }
 
-    fn remark(&self) -> Option<&'static str> {
-        Some(REMARK)
+    fn remark(&self) -> Option<String> {
+        Some(REMARK.to_owned())
     }
 }
 

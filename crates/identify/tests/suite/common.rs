@@ -60,6 +60,7 @@ pub(crate) fn run(bytes: &[u8], settings: &Settings) -> Result<Identification, U
 pub(crate) fn found(bytes: &[u8], settings: &Settings) -> String {
     let mut found = run(bytes, settings).unwrap_or_else(|why| panic!("{why}"));
     found.notes.clear();
+    found.remarks.clear();
     found.columns = Default::default();
     format!("{found:?}")
 }

@@ -6,4 +6,5 @@ mod mat;
 mod recorded;
 mod tdms;
 mod uff;
+mod units;
 mod wav;

@@ -1,6 +1,7 @@
 //! TDMS, byte by byte.
 
 use crate::common::{NAMES, RATE, columns, found, named, record, reference, refused, run};
+use crate::units::is_read_in_its_units;
 use squealmap_identify::Settings;
 
 const META: u32 = 2;
@@ -82,6 +83,23 @@ fn chunks_and_segments_say_what_csv_says() {
     bare[12..20].copy_from_slice(&(second.len() as u64).to_le_bytes());
     bare[20..28].fill(0);
     assert_eq!(found(&[segment(PLAIN, &objects, &first), bare].concat(), &settings), reference());
+}
+
+#[test]
+fn the_units_of_channels_are_read() {
+    let columns = columns();
+    let (mut objects, mut raw) = (Vec::new(), Vec::new());
+    for (name, values) in NAMES.iter().zip(&columns) {
+        let (factor, unit) = match *name {
+            "V" => (1e3, "mm/s"),
+            "T" => (1e-3, "kN"),
+            "N" => (1.0, "N"),
+            _ => (1.0, "m/s^2"),
+        };
+        objects.push(object(&path(name), Some((DOUBLE, 600)), &STEP, &[("unit_string", unit)]));
+        raw.extend(values.iter().map(|value| factor * value));
+    }
+    is_read_in_its_units(&segment(PLAIN, &objects, &doubles(&raw)));
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Universal files, line by line.
 
 use crate::common::{NAMES, RATE, columns, found, record, reference, refused, run};
+use crate::units::is_read_in_its_units;
 use squealmap_identify::Settings;
 use std::fmt::Write;
 
@@ -75,6 +76,25 @@ fn the_unit_of_time_is_read() {
     let text = text.replace("2.00000E-05", "2.00000E-02");
     let found = run(text.as_bytes(), &Settings::default()).expect("a whole record");
     assert!((found.rate / RATE - 1.0).abs() < 1e-9, "{}", found.rate);
+}
+
+#[test]
+fn units_of_the_ordinate_are_read() {
+    let records = NAMES.iter().zip(columns()).map(|(name, values)| {
+        let (factor, unit) = match *name {
+            "V" => (1e3, "mm/s"),
+            "T" => (1e-3, "kN"),
+            _ => (1.0, "NONE"),
+        };
+        let values: Vec<f64> = values.iter().map(|value| factor * value).collect();
+        let axis = |unit: &str| format!("{:10}{:5}{:5}{:5} {:20} {unit:20}\n", 0, 0, 0, 0, "NONE");
+        dataset([name, "x"], PLAIN, 600, 1, &values).replacen(
+            "         0    0    0    0 NONE                 NONE\n",
+            &axis(unit),
+            1,
+        )
+    });
+    is_read_in_its_units(records.collect::<String>().as_bytes());
 }
 
 #[test]

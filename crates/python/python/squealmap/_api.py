@@ -222,7 +222,7 @@ def identify(
 
 
 def fit(
-    points: Path,
+    points: Union[Path, Sequence[Path]],
     *,
     law: str = "bilinear",
     law_velocity: Union[float, None] = None,
@@ -233,20 +233,20 @@ def fit(
     rate: Union[float, None] = None,
     velocity: Union[str, None] = None,
     temperature: Union[str, None] = None,
-    at_temperature: Union[float, None] = None,
+    at_temperature: Union[float, Sequence[float], None] = None,
     temperatures: Sequence[float] = (),
 ) -> Fit:
     """Fits a material for sweeps to measured velocity, friction and temperature.
 
     Args:
-        points: a CSV file with a header, or a WAV, MAT (``-v7``), UFF 58 or TDMS file.
+        points: a CSV file with a header, or a WAV, MAT (``-v7``), UFF 58 or TDMS file; several of them make one material.
         law: ``"bilinear"``, ``"exponential"``, ``"constant"``, ``"table"`` (means of friction in bins of velocity) or ``"best"``,
             the law with the least AICc.
         law_velocity: knee or Stribeck velocity, m/s; left out, the best one is found.
         friction: column of the friction coefficient; by default the ratio of the forces.
         tangential_force, normal_force, tangential_acceleration, velocity, temperature: columns, in N, m/s2, m/s and degrees Celsius.
         rate: samples per second of a record that may squeal, Hz.
-        at_temperature: the temperature of all points, degrees Celsius, instead of a column.
+        at_temperature: the temperature of all points, degrees Celsius, instead of a column; or one for each file.
         temperatures: temperatures of the rows, degrees Celsius, rising.
 
     Raises:
@@ -254,6 +254,9 @@ def fit(
     """
     if isinstance(temperatures, (str, bytes)) or not isinstance(temperatures, Iterable):
         raise TypeError(f"temperatures is a list of numbers, not {type(temperatures).__name__}")
+    files = _listed(points)
+    if not files:
+        raise InputError("points names no file")
     choices = {
         "law": law,
         "law_velocity": law_velocity,
@@ -264,11 +267,11 @@ def fit(
         "rate": rate,
         "velocity": velocity,
         "temperature": temperature,
-        "at_temperature": at_temperature,
+        "at_temperature": _listed(at_temperature),
         "temperatures": list(temperatures),
     }
     with calling():
-        material, residuals, text, comparison, notes = _squealmap.fit(path_of(points), choices)
+        material, residuals, text, comparison, notes = _squealmap.fit([path_of(file) for file in files], choices)
     _warn(notes)
     return Fit(dataset(material), dataset(residuals), text, comparison)
 
@@ -288,6 +291,12 @@ def fem(study: Path) -> Dataset:
     with calling():
         found = _squealmap.fem(path_of(study))
     return dataset(found)
+
+
+def _listed(value: Any) -> list[Any]:
+    if value is None:
+        return []
+    return list(value) if isinstance(value, (list, tuple)) else [value]
 
 
 def _said(value: Any) -> str:
