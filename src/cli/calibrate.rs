@@ -19,6 +19,8 @@ const OUTPUT: &str = "out/calibrated";
 const MOST: u64 = 1 << 24;
 /// `m2/m1` of Table 1 of the source paper.
 const MASS_RATIO: f64 = 0.18 / 2.12;
+/// The knee of the law over the fastest velocity: on a knee friction has no one slope.
+const BEYOND: f64 = 1.25;
 
 /// Arguments of `calibrate`.
 #[derive(Debug, Args)]
@@ -69,9 +71,10 @@ impl Calibrate {
         let found = calibrate(&measured).map_err(|fault| Error::Calibrate { fault })?;
         let [slow, fast] = self.velocities;
         let (plane, material) = match &self.material {
-            None => {
-                (Plane::Friction { knee: fast, velocities: vec![slow, (slow * fast).sqrt(), fast] }, None)
-            }
+            None => (
+                Plane::Friction { knee: BEYOND * fast, velocities: vec![slow, (slow * fast).sqrt(), fast] },
+                None,
+            ),
             Some(path) => {
                 let bad = |why: String| Error::NoMaterial { path: path.clone(), why };
                 let bytes = files::text(path, MOST).map_err(bad)?.into_bytes();

@@ -96,7 +96,7 @@ pub struct Strokes {
 impl Strokes {
     /// Reads a table of strokes: a column for each axis of the map, named as it, `NAME_error` for its standard error where that
     /// is known, and `observed`. The table of a campaign is one: its `velocity` is that of the belt, and observed is what fills most of a
-    /// stroke. A stroke is in the panel nearest to it.
+    /// stroke. A stroke is in the panel nearest to it, and outside where that is far.
     ///
     /// # Errors
     /// When the map has no plane, or the table is none of such strokes.
@@ -133,6 +133,10 @@ impl Strokes {
             .filter(|axis| axis.key != x && axis.key != y && axis.values.len() > 1)
             .map(|axis| Ok((axis, needed(axis.key.name())?)))
             .collect::<Result<_>>()?;
+        // A table need not have what the map has one value of.
+        let alone = axes.iter().filter(|axis| axis.values.len() == 1);
+        let alone: Vec<(&Axis, usize)> =
+            alone.filter_map(|axis| Some((axis, column(axis.key.name())?))).collect();
         let (mut bars, mut rims, mut marks, mut outside) = (Vec::new(), Vec::new(), Vec::new(), 0);
         for (number, row) in reader.records().enumerate() {
             let row = row.map_err(|why| bad(why.to_string()))?;
@@ -153,25 +157,23 @@ impl Strokes {
                 })
             };
             let at = [value(places[0])?, value(places[1])?];
-            let mut here = Vec::new();
-            for (axis, place) in &others {
-                let cell = row.get(*place).unwrap_or_default();
-                let found = nearest(axis, cell);
-                here.push((
-                    axis.key,
-                    found.ok_or_else(|| {
-                        bad(format!(
-                            "have `{}` as `{}` in row {stroke}, which is no value of the map",
-                            quoted(cell),
-                            axis.key.name()
-                        ))
-                    })?,
-                ));
-            }
+            let panel = |(axis, place): &(&Axis, usize)| {
+                let (cell, name) = (row.get(*place).unwrap_or_default(), axis.key.name());
+                let none = format!(
+                    "have `{}` as `{name}` in row {stroke}, which is no value of the map",
+                    quoted(cell)
+                );
+                Ok((axis.key, nearest(axis, cell).ok_or_else(|| bad(none))?))
+            };
+            let here = others.iter().map(panel).collect::<Result<Vec<_>>>()?;
             let mark = observed.mark(&row, value, |name, names| {
                 bad(format!("have `{name}` as `{OBSERVED}` in row {stroke}; it must be one of {names}"))
             })?;
-            if !([x, y].into_iter().zip(at).all(|(side, value)| covers(axes, side, value))) {
+            let is_far = others
+                .iter()
+                .chain(&alone)
+                .any(|(axis, place)| !is_near(axis, row.get(*place).unwrap_or_default()));
+            if is_far || !([x, y].into_iter().zip(at).all(|(side, value)| covers(axes, side, value))) {
                 outside += 1;
                 continue;
             }
@@ -253,6 +255,23 @@ fn covers(axes: &[Axis], side: AxisKey, value: f64) -> bool {
     let numbers = numbers.filter_map(Value::number);
     let [low, high] = numbers.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], x| [l.min(x), h.max(x)]);
     (low..=high).contains(&value)
+}
+
+/// Whether a panel of an axis is near a number: half a step beyond its ends at most, of a single value a quarter of it. A text is near.
+fn is_near(axis: &Axis, cell: &str) -> bool {
+    /// The part of a speed by which those of one condition of a campaign may differ.
+    const ALONE: f64 = 0.25;
+    let Some(number) = cell.parse::<f64>().ok() else { return true };
+    let mut values: Vec<f64> = axis.values.iter().filter_map(Value::number).collect();
+    values.sort_by(f64::total_cmp);
+    match values[..] {
+        [] => true,
+        [only] => (number - only).abs() <= ALONE * only.abs(),
+        [first, second, ..] => {
+            let [before, last] = [values[values.len() - 2], values[values.len() - 1]];
+            (first - 0.5 * (second - first)..=last + 0.5 * (last - before)).contains(&number)
+        }
+    }
 }
 
 /// The value of an axis nearest to a number, or the same text.

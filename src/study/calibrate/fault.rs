@@ -1,5 +1,7 @@
 //! Why no model has what was measured.
 
+use crate::study::calibrate::solve::MOST;
+
 /// Why no model has what was measured.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -46,22 +48,9 @@ pub enum Fault {
         /// The largest friction coefficient that was tried.
         most: f64,
     },
-    /// Damping ratios that no dampers give.
-    #[error(
-        "damping ratios of {first} and {second} would ask for a damper of {value:.3e} N s/m, but dampers are not negative: modes that \
-         friction couples this easily are damped more alike; give one ratio for both with --damping-ratio"
-    )]
-    Damping {
-        /// The ratio of the lower mode.
-        first: f64,
-        /// That of the upper one.
-        second: f64,
-        /// The least damper, N s/m.
-        value: f64,
-    },
 }
 
 /// The end of a range of friction coefficients.
 fn up_to(high: f64) -> String {
-    if high.is_finite() { format!("to {high:.4}") } else { "and more".to_owned() }
+    if high.is_finite() { format!("to {high:.4}") } else { format!("and more, looked for up to {MOST}") }
 }

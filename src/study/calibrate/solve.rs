@@ -41,21 +41,19 @@ pub struct Calibrated {
     pub critical_friction: f64,
 }
 
-/// Inclinations are looked for down to this part of the largest one.
+/// Inclinations are looked for down to this part of the largest one …
 const LEAST: f64 = 1e-5;
-/// Steps of equal factors between these.
+/// … in so many steps of equal factors, and as many equal ones in the upper half, where modes that are damped differently change fast.
 const INCLINATIONS: u32 = 80;
 /// What a model has of what is wanted is off by this part at most.
 const EXACT: f64 = 1e-6;
-/// Corrections of what the weak damping is taken for.
-const CORRECTIONS: usize = 8;
 /// Friction coefficients beyond this are no friction.
 pub(crate) const MOST: f64 = 5.0;
 
 /// The model that has what was measured.
 ///
 /// The inclination is what remains when the modes are given: the flatter the contact, the more friction it takes to couple
-/// them. It is found among some, then by bisection; all else is in closed form, corrected for the damping.
+/// them. It is found among some, then by bisection; all else has the characteristic polynomial that is wanted. Of several the flattest is taken.
 ///
 /// # Errors
 /// When no model has it.
@@ -71,43 +69,41 @@ pub fn calibrate(measured: &Measured) -> Result<Calibrated, Fault> {
         damping_ratios: measured.damping_ratios,
         normal_above: measured.normal_above,
     };
-    // Just below the largest one, where both modes are the same mixture.
-    let steep = 0.999 * wanted.steepest();
-    let tried = |theta: f64| {
-        let made = instance(&corrected(&wanted, theta), &wanted, theta, measured.load);
-        Tried { theta, critical: coalescence(&made), made }
-    };
-    let all: Vec<Tried> = (0..=INCLINATIONS)
-        .map(|k| tried(steep * LEAST.powf(1.0 - f64::from(k) / f64::from(INCLINATIONS))))
-        .collect();
-    let asked = measured.critical_friction;
-    // From the flattest on, the more friction it takes.
-    let between = all.windows(2).filter(|pair| pair[0].critical >= asked && asked >= pair[1].critical);
-    let found: Vec<Tried> = between
-        .map(|pair| {
-            let (mut low, mut high) = (pair[0].theta, pair[1].theta);
-            for _ in 0..BISECTIONS {
-                let middle = (low * high).sqrt();
-                if tried(middle).critical > asked { low = middle } else { high = middle }
-            }
-            tried((low * high).sqrt())
+    let steepest = wanted.steepest();
+    let mut inclinations: Vec<f64> = (0..INCLINATIONS)
+        .flat_map(|k| {
+            let part = f64::from(k) / f64::from(INCLINATIONS);
+            [LEAST.powf(1.0 - part), 0.5 + 0.5 * part]
         })
-        .filter(|found| (found.critical - asked).abs() <= EXACT * asked && found.has(&wanted))
+        .chain([0.9999])
+        .map(|part| part * steepest)
         .collect();
-    if let Some(Tried { made, critical, .. }) = found.iter().find(|found| found.least_damper() >= 0.0) {
-        let (frequencies, damping_ratios) = modes(made);
+    inclinations.sort_by(f64::total_cmp);
+    let tried = |theta: f64| -> Vec<Tried> {
+        let all = wanted.structures(theta).into_iter().enumerate().map(|(number, structure)| {
+            let made = instance(&structure, &wanted, theta, measured.load);
+            Tried { number, theta, critical: coalescence(&made), made }
+        });
+        all.filter(|one| one.has(&wanted)).collect()
+    };
+    let all: Vec<Vec<Tried>> = inclinations.iter().map(|theta| tried(*theta)).collect();
+    let asked = measured.critical_friction;
+    let mut found = all.windows(2).flat_map(|two| {
+        let pairs = two[0]
+            .iter()
+            .filter_map(|one| Some((one, two[1].iter().find(|next| next.number == one.number)?)));
+        pairs.filter_map(|(one, next)| between(&tried, one, next, asked)).collect::<Vec<_>>()
+    });
+    if let Some(Tried { made, critical, .. }) = found.next() {
+        let (frequencies, damping_ratios) = modes(&made);
         return Ok(Calibrated {
             params: made.params,
             frequencies,
             damping_ratios,
-            critical_friction: *critical,
+            critical_friction: critical,
         });
     }
-    if let Some(negative) = found.first() {
-        let [first, second] = measured.damping_ratios;
-        return Err(Fault::Damping { first, second, value: negative.least_damper() });
-    }
-    let possible = all.iter().filter(|one| one.has(&wanted)).map(|one| one.critical);
+    let possible = all.iter().flatten().map(|one| one.critical);
     let [low, high] = possible.fold([f64::INFINITY, 0.0], |[low, high], one| [one.min(low), one.max(high)]);
     Err(if low.is_infinite() {
         Fault::NoCoalescence { first, second, most: MOST }
@@ -116,8 +112,25 @@ pub fn calibrate(measured: &Measured) -> Result<Calibrated, Fault> {
     })
 }
 
+/// The model between two neighbours that is critical where asked, if there is one.
+fn between(tried: &impl Fn(f64) -> Vec<Tried>, one: &Tried, next: &Tried, asked: f64) -> Option<Tried> {
+    let falls = one.critical >= asked && asked >= next.critical;
+    if !(falls || one.critical <= asked && asked <= next.critical) {
+        return None;
+    }
+    let at = |theta: f64| tried(theta).into_iter().find(|found| found.number == one.number);
+    let (mut low, mut high) = (one.theta, next.theta);
+    for _ in 0..BISECTIONS {
+        let middle = (low * high).sqrt();
+        if (at(middle)?.critical > asked) == falls { low = middle } else { high = middle }
+    }
+    at((low * high).sqrt()).filter(|found| (found.critical - asked).abs() <= EXACT * asked)
+}
+
 /// A model at an inclination.
 struct Tried {
+    /// Which of the models there.
+    number: usize,
     /// The inclination, rad.
     theta: f64,
     made: Instance,
@@ -126,13 +139,7 @@ struct Tried {
 }
 
 impl Tried {
-    /// The smaller damper, N s/m.
-    fn least_damper(&self) -> f64 {
-        let [first, second] = [Param::C1, Param::C2].map(|damper| self.made.params.require(damper));
-        first.min(second)
-    }
-
-    /// Whether its eigenvalues are what is wanted: where close modes are damped very differently, corrections may not come to that.
+    /// Whether its eigenvalues are what is wanted.
     fn has(&self, wanted: &Wanted) -> bool {
         let (frequencies, damping_ratios) = modes(&self.made);
         let near = |(a, b): (f64, f64), most: f64| (a - b).abs() <= EXACT * most;
@@ -144,20 +151,6 @@ impl Tried {
 
 /// Halvings of an interval of inclinations, and of friction coefficients.
 const BISECTIONS: usize = 48;
-
-/// The structure at an inclination whose eigenvalues have what is wanted: what its damping changes is taken off beforehand.
-fn corrected(wanted: &Wanted, theta: f64) -> Structure {
-    let mut asked = *wanted;
-    for _ in 0..CORRECTIONS {
-        let found = instance(&asked.structure(theta), wanted, theta, 1.0);
-        let (frequencies, damping_ratios) = modes(&found);
-        for mode in 0..2 {
-            asked.frequencies[mode] += wanted.frequencies[mode] - frequencies[mode];
-            asked.damping_ratios[mode] += wanted.damping_ratios[mode] - damping_ratios[mode];
-        }
-    }
-    asked.structure(theta)
-}
 
 /// An instance without friction.
 fn instance(structure: &Structure, wanted: &Wanted, theta: f64, load: f64) -> Instance {

@@ -60,7 +60,7 @@ pub fn sweep_toml(found: &Calibrated, measured: &Measured, plane: &Plane) -> Str
             let velocities: Vec<String> = velocities.iter().map(|velocity| number(*velocity)).collect();
             let _ = write!(
                 text,
-                "\n[friction]\nlaw = \"bilinear\"\nknee_velocity = {}\n\n[axes]\nmu_s = {{ from = 0.0, to = {most}, points = 61 }}\n\
+                "\n[friction]\nlaw = \"bilinear\"\nknee_velocity = {}   # above the velocities; `squealmap fit` finds yours\n\n[axes]\nmu_s = {{ from = 0.0, to = {most}, points = 61 }}\n\
                  mu_d = {{ from = 0.0, to = {most}, points = 61 }}\nbelt_velocity = {{ values = [{}] }}\n",
                 number(*knee),
                 velocities.join(", ")

@@ -12,8 +12,10 @@ use squealmap_input::quote::rounded;
 
 /// Temperatures with less than this between neighbours, °C, are one condition.
 const APART: f64 = 20.0;
-/// Speeds with less than this factor between neighbours are one condition.
+/// Speeds with less than this factor between neighbours are one condition …
 const FASTER: f64 = 1.25;
+/// … which is no wider than this many of such steps: a test that heats up slowly is several.
+const WIDEST: i32 = 2;
 
 const COLUMNS: [&str; 14] = [
     "temperature",
@@ -78,8 +80,8 @@ pub(super) type Groups<'a> = BTreeMap<(usize, (Option<VelocityLaw>, usize)), Vec
 
 /// The strokes of each condition, by temperature, law and speed.
 pub(super) fn groups(all: &[Said]) -> Groups<'_> {
-    let temperatures = classes(all, |said| said.temperature, |low, high| high - low < APART);
-    let speeds = classes(all, |said| said.speed, |low, high| high < FASTER * low);
+    let temperatures = classes(all, |said| said.temperature.map(|temperature| temperature / APART));
+    let speeds = classes(all, |said| said.speed.map(|speed| speed.ln() / FASTER.ln()));
     let mut groups = Groups::new();
     for ((said, temperature), speed) in all.iter().zip(temperatures).zip(speeds) {
         groups.entry((temperature, (said.law, speed))).or_default().push(said);
@@ -93,25 +95,35 @@ pub fn conditions(all: &[Said]) -> Vec<Condition> {
     groups(all).values().map(|some| together(some)).collect()
 }
 
-/// The class of each stroke by a quantity, 0 of the lowest and of those without it: neighbours that are `near` are in one.
-fn classes(all: &[Said], of: impl Fn(&Said) -> Option<f64>, near: impl Fn(f64, f64) -> bool) -> Vec<usize> {
-    let value = |place: usize| of(&all[place]);
+/// The class of each stroke by a quantity in steps, 0 of the lowest and of those without it: neighbours that are less than a step apart are in
+/// one, unless it would be too wide.
+fn classes(all: &[Said], of: impl Fn(&Said) -> Option<f64>) -> Vec<usize> {
+    let value = |place: usize| of(&all[place]).unwrap_or(f64::NEG_INFINITY);
     let mut rising: Vec<usize> = (0..all.len()).collect();
-    rising.sort_by(|a, b| {
-        let [a, b] = [*a, *b].map(|place| value(place).unwrap_or(f64::NEG_INFINITY));
-        a.total_cmp(&b)
-    });
-    let together = |a: &usize, b: &usize| match (value(*a), value(*b)) {
-        (Some(low), Some(high)) => near(low, high),
-        (low, high) => low.is_none() && high.is_none(),
-    };
+    rising.sort_by(|a, b| value(*a).total_cmp(&value(*b)));
     let mut classes = vec![0; all.len()];
-    for (class, some) in rising.chunk_by(together).enumerate() {
+    let mut class = 0;
+    let mut open = vec![&rising[..]];
+    while let Some(some) = open.pop() {
+        if let Some(at) = cut(&some.iter().map(|place| value(*place)).collect::<Vec<f64>>()) {
+            let (low, high) = some.split_at(at);
+            open.extend([high, low]);
+            continue;
+        }
         for place in some {
             classes[*place] = class;
         }
+        class += 1;
     }
     classes
+}
+
+/// Where rising values, in steps, are no one class: at the widest gap.
+fn cut(values: &[f64]) -> Option<usize> {
+    let gap = |at: usize| if values[at] > values[at - 1] { values[at] - values[at - 1] } else { 0.0 };
+    let widest = (1..values.len()).rev().max_by(|a, b| gap(*a).total_cmp(&gap(*b)))?;
+    let width = values[values.len() - 1] - values[0];
+    (gap(widest) >= 1.0 || width >= f64::from(WIDEST)).then_some(widest)
 }
 
 /// The middle of some values.

@@ -132,6 +132,12 @@ fn strokes_of_one_temperature_and_law_are_one_condition() {
     let [constant, falling] = [VelocityLaw::Constant, VelocityLaw::Falling].map(Some);
     // Twice as fast is another condition, a tenth faster is not.
     assert_eq!(of, [(constant, 1), (constant, 1), (falling, 2), (constant, 1)]);
+    // Small steps from one end to the other are no one condition.
+    let heating = (0..12).map(|k| said(VelocityLaw::Constant, 0.1, 100.0 + 5.0 * f64::from(k), 0.5, 1.0));
+    let heated = conditions(&heating.collect::<Vec<_>>());
+    let means: Vec<f64> = heated.iter().filter_map(|one| one.temperature).collect();
+    assert!(heated.len() > 1 && heated.iter().all(|one| one.strokes <= 8), "{means:?}");
+    assert!(means.windows(2).all(|two| two[0] < two[1]), "{means:?}");
     let falling = &all[2];
     assert!(falling.speed.is_some_and(|mean| (mean - 0.1025).abs() < 1e-12));
     // Weighted by time: three seconds at 305, one at 295.

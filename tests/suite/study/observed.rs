@@ -194,6 +194,18 @@ fn the_table_of_a_campaign_is_one_of_strokes() {
     );
 }
 
+/// Far from every panel is outside: half a step beyond their ends, a quarter of a single value.
+#[test]
+fn what_is_far_from_every_panel_is_outside() {
+    for (velocities, near) in [("0.01, 0.02, 0.05", ["0.006", "0.06"]), ("0.02", ["0.016", "0.024"])] {
+        let grid = spec(&SWEEP.replace("0.01, 0.02, 0.05", velocities)).grid;
+        for (at, outside) in [(near[0], 0), (near[1], 0), ("0.004", 1), ("0.07", 1), ("3", 1)] {
+            let (_directory, path) = table(&format!("mu_s,mu_d,belt_velocity,observed\n0.4,0.3,{at},both\n"));
+            assert_eq!(Strokes::over(&path, &grid).unwrap().outside, outside, "{velocities}: {at}");
+        }
+    }
+}
+
 #[test]
 fn an_error_that_is_not_known_may_be_empty() {
     let (_directory, path) =
