@@ -20,6 +20,8 @@ const FOLDS: f64 = 12.0;
 /// Relative difference of velocities, and difference of temperatures (°C), that are one condition.
 const SAME_VELOCITY: f64 = 0.03;
 const SAME_TEMPERATURE: f64 = 10.0;
+/// Relative difference of friction coefficients that are one, a vibration that blurs the one of them aside.
+const SAME_FRICTION: f64 = 0.05;
 /// Relative difference of velocities up to which a growth speaks for the vibration that it goes over into.
 const SAME_VIBRATION: f64 = 0.1;
 /// A probability below which the power at growth rather speaks against a mechanism.
@@ -53,11 +55,13 @@ pub(super) fn judged(
         // What a quiet stretch goes over into, by way of other quiet ones.
         let goes_on = |k: &usize| segments[*k].state != State::Quiet || homes.contains(&Some(*k));
         let after = (number + 1..segments.len()).find(goes_on);
-        let next = homes
-            .iter()
-            .zip(episodes)
-            .find(|(home, _)| home.is_some() && **home == after)
-            .map(|(_, episode)| episode.growth.value);
+        let next = homes.iter().position(|home| home.is_some() && *home == after);
+        let same = next.zip(after).is_some_and(|(next, after)| {
+            let level = |number: usize| segments[number].friction.map(|friction| friction.level.value);
+            let drift = level(number).zip(level(after)).map_or(0.0, |(here, then)| (then / here - 1.0).abs());
+            drift <= SAME_FRICTION && points[next].is_some_and(|point| alike(segment, point, SAME_VELOCITY))
+        });
+        let next = next.map(|next| episodes[next].growth.value);
         let follows = after.is_some_and(|after| segments[after].state.vibrates());
         let until = after.map(|after| segments[after].time[0]);
         let grows = best.is_some_and(|episode| !episode.wanders);
@@ -73,7 +77,8 @@ pub(super) fn judged(
         ];
         match segment.state {
             State::Quiet | State::Decaying => {
-                (segment.verdict, segment.rests_on) = calm(segment, (next, until), follows, structure);
+                (segment.verdict, segment.rests_on) =
+                    calm(segment, (next, until), [follows, same], structure);
             }
             State::Growing | State::Sustained => {
                 (segment.verdict, segment.rests_on, segment.shared) =
@@ -140,11 +145,12 @@ fn by_confidence(a: &Episode, b: &Episode) -> std::cmp::Ordering {
     of(a).partial_cmp(&of(b)).unwrap_or(std::cmp::Ordering::Equal)
 }
 
-/// A stretch without growth, the rate (1/s) of the growth that follows, and when it does, s.
+/// A stretch without growth, the rate (1/s) of the growth that follows, and when it does, s; whether a vibration follows, and whether it grew at
+/// the velocity, the temperature and the friction of this stretch.
 fn calm(
     segment: &Segment,
     (next, until): (Option<f64>, Option<f64>),
-    follows: bool,
+    [follows, same]: [bool; 2],
     structure: Structure,
 ) -> (Verdict, Vec<Witness>) {
     let length = until.unwrap_or(segment.time[1]) - segment.time[0];
@@ -165,6 +171,10 @@ fn calm(
     }
     if let Some(growth) = next.filter(|growth| growth * length < FOLDS) {
         let reason = format!("it is too short to tell from the growth of {growth:.1} 1/s that follows");
+        return (Verdict::undecided(reason), Vec::new());
+    }
+    if same && segment.state == State::Quiet {
+        let reason = "what follows grows at this velocity, so the contact is unstable here; the vibration has not become visible yet";
         return (Verdict::undecided(reason), Vec::new());
     }
     if follows && next.is_none() {

@@ -67,7 +67,7 @@ impl Table {
         let mut columns = PerChannel::default();
         for (channel, column) in Channel::ALL.into_iter().zip(&mut columns) {
             let named = settings.columns[channel as usize].as_deref();
-            let found = named.map_or_else(|| by_default(header, channel), |name| find(header, name));
+            let found = by_name(header, channel, named.unwrap_or(channel.default_column()));
             // What is named has to be there, too.
             if found.is_none() && (named.is_some() || needed.contains(&channel)) {
                 return Err(Fault::NoColumn {
@@ -330,9 +330,8 @@ fn find(header: &[String], name: &str) -> Option<usize> {
     header.iter().position(|column| column == name)
 }
 
-/// The column of a channel that nobody names: by its name alone, or with a unit in brackets.
-fn by_default(header: &[String], channel: Channel) -> Option<usize> {
-    let name = channel.default_column();
+/// The column of a channel by its name, alone or with a unit in brackets.
+fn by_name(header: &[String], channel: Channel, name: &str) -> Option<usize> {
     find(header, name)
         .or_else(|| header.iter().position(|column| without_unit(channel, column) == Some(name)))
 }

@@ -5,9 +5,10 @@ use crate::unit::bracketed;
 
 /// Standard gravity, m/s².
 const GRAVITY: f64 = 9.80665;
-/// A pound of force, N, and a foot, m.
+/// A pound of force, N, a foot and an inch, m.
 const POUND: f64 = 4.448_221_615_260_5;
 const FOOT: f64 = 0.3048;
+const INCH: f64 = 0.0254;
 /// 0 °C in kelvin.
 const ICE: f64 = 273.15;
 
@@ -35,9 +36,9 @@ const ACCELERATION: Units = &[
     ("ft/s²", [FOOT, 0.0]),
     ("ft/s2", [FOOT, 0.0]),
     ("ft/s^2", [FOOT, 0.0]),
-    ("in/s²", [FOOT / 12.0, 0.0]),
-    ("in/s2", [FOOT / 12.0, 0.0]),
-    ("in/s^2", [FOOT / 12.0, 0.0]),
+    ("in/s²", [INCH, 0.0]),
+    ("in/s2", [INCH, 0.0]),
+    ("in/s^2", [INCH, 0.0]),
 ];
 /// A friction coefficient may take the place of a force.
 const FORCE: Units = &[
@@ -65,7 +66,7 @@ const VELOCITY: Units = &[
     ("kph", [1.0 / 3.6, 0.0]),
     ("m/min", [1.0 / 60.0, 0.0]),
     ("ft/s", [FOOT, 0.0]),
-    ("in/s", [FOOT / 12.0, 0.0]),
+    ("in/s", [INCH, 0.0]),
     ("mph", [5280.0 * FOOT / 3600.0, 0.0]),
 ];
 const TEMPERATURE: Units = &[

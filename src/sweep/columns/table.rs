@@ -148,11 +148,11 @@ table! {
     Response "ay_rms" "m/s^2" Number(field!(outcome ay_rms)), ["Root mean square of {ÿ_1}", "Rms of {ÿ_1}"], "root mean square of y1''".window();
     Response "ax_peak" "m/s^2" Number(field!(outcome ax_peak)), ["Largest |{ẍ_2}|"], "largest |x2''|".window();
     Response "ay_peak" "m/s^2" Number(field!(outcome ay_peak)), ["Largest |{ÿ_1}|"], "largest |y1''|".window();
-    Response "friction_mean" "" Number(field!(outcome friction_mean)), ["Mean friction coefficient {T}/{N}", "Mean {T}/{N}"], "time integral of T over time integral of N".window();
+    Response "friction_mean" "" Number(field!(outcome friction_mean)), ["Mean friction coefficient {T}/{N}", "Mean {T}/{N}"], "time integral of T over time integral of N, as they are between impacts, whose impulses are left out".window();
     Response "n_peak" "N" Number(field!(outcome n_peak)), ["Largest normal force {N}", "Largest {N}"], "largest normal force".window();
-    Response "response_frequency" "Hz" Number(field!(outcome response_frequency)), ["Response frequency", "{f}, response"], "upward zero crossings of x2' over the time from the first to the last".window();
+    Response "response_frequency" "Hz" Number(field!(outcome response_frequency)), ["Response frequency", "{f}, response"], "upward zero crossings of x2' over the time from the first to the last; while the temperature changes, less the drift of the equilibrium".window();
     Response "phase_cycle" "deg" Number(field!(outcome phase_cycle)), ["Phase of {ÿ_1} against {ẍ_2} in the response", "{φ}, response"], "phase of y1'' against x2'' at the response frequency".window();
-    Response "growth_rate_measured" "1/s" Number(field!(outcome growth_rate_measured)), ["Growth rate before the first event", "{σ}, measured"], "growth rate before the first contact event; none where a curved law limits the motion without one".read_by(Reading::Sign);
+    Response "growth_rate_measured" "1/s" Number(field!(outcome growth_rate_measured)), ["Growth rate before the first event", "{σ}, measured"], "growth rate before the first event, of all modes that the start excites; none where a curved law limits the motion without one".read_by(Reading::Sign);
     Response "frequency_measured" "Hz" Number(field!(outcome frequency_measured)), ["Frequency before the first event", "{f}, measured"], "frequency before the first contact event";
     Response "phase_measured" "deg" Number(field!(outcome phase_measured)), ["Phase of {ÿ_1} against {ẍ_2} before the first event", "{φ}, measured"], "phase of y1'' against x2'' before the first contact event";
     Response "stick" "" Number(field!(outcome stick)), ["Fraction of time in stick", "Stick"], "fraction of the window in stick".window();

@@ -379,3 +379,21 @@ fn few_strokes_are_confidently_wrong() {
     }
     assert!(count(&planted, 4, Fate::ConfidentlyWrong) >= 20);
 }
+
+/// At one velocity and friction what has not become visible yet is unstable: nothing says that it was stable until then.
+#[test]
+fn what_is_quiet_before_it_grows_is_not_stable() {
+    for (mu, fast) in [(0.19, false), (0.30, true)] {
+        let mut rig = rig(mu, mu, 0.025, [0.03; 2]);
+        rig.params.set(Param::StartVelocity, 1e-12);
+        assert!(linear::analyse(&rig).1.unwrap().growth_rate > 0.0);
+        let recording = Recording { rate: *RATE, duration: LENGTH, skew: 0.0, force_skew: 0.0 };
+        let mut samples = record(&rig, &plan(1.0, 1.0, 12), &recording).samples;
+        sensed(&mut samples, !fast, 40.0, false, &mut Random::new(5));
+        let settings = Settings { damping_ratio: 0.015, inclination: 0.024, ..Settings::default() };
+        let found = run(&csv(&samples), &settings).unwrap();
+        assert_eq!(found.segments[0].state, State::Quiet, "{}", describe(&found));
+        let stable = found.segments.iter().any(|segment| segment.verdict.kind == Kind::NoInstability);
+        assert!(!stable, "{mu}: {}", describe(&found));
+    }
+}

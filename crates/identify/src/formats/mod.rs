@@ -3,6 +3,7 @@
 mod held;
 mod mat;
 mod numbers;
+mod preamble;
 mod source;
 mod tdms;
 mod text;

@@ -9,6 +9,7 @@ use csv::ByteRecord;
 use squealmap_input::files::decoded;
 use squealmap_input::quote::quoted;
 
+use super::preamble::commented;
 use super::source::Source;
 use crate::fault::Fault;
 use crate::place::Place;
@@ -18,7 +19,7 @@ pub(super) const BUFFER: usize = 1 << 18;
 /// Bytes that a row may take: without a line feed, or within double quotes that are not closed, a row is the rest of the file.
 const LONGEST_ROW: usize = 1 << 20;
 /// The separators that are told apart by the header.
-const SEPARATORS: [u8; 3] = [b',', b';', b'\t'];
+pub(super) const SEPARATORS: [u8; 3] = [b',', b';', b'\t'];
 
 /// A CSV file that is being read.
 pub(super) struct Text {
@@ -39,6 +40,8 @@ pub(super) struct Text {
     /// Whether the file ended within its last row, which was then left out.
     cut_off: Rc<Cell<bool>>,
     left_out: bool,
+    /// Lines before the header.
+    before: usize,
 }
 
 /// The marks before the decimals that the file has shown so far.
@@ -50,7 +53,8 @@ struct Marks {
 
 impl Text {
     /// Reads the header of a file that begins with `start` and goes on with `rest`.
-    pub(super) fn open(start: Vec<u8>, rest: Box<dyn Read>) -> Result<Text, Fault> {
+    pub(super) fn open(mut start: Vec<u8>, rest: Box<dyn Read>) -> Result<Text, Fault> {
+        let before = commented(&mut start);
         let since = Rc::new(Cell::new(0));
         let separator = separator(&start);
         let by_returns = start.windows(2).any(|two| two == b"\r\n");
@@ -90,6 +94,7 @@ impl Text {
             waits,
             cut_off,
             left_out,
+            before,
         };
         text.waits = text.read()?;
         if text.waits && text.is_units() {
@@ -152,7 +157,14 @@ impl Source for Text {
     }
 
     fn remark(&self) -> Option<String> {
-        self.left_out.then(|| "the last line of the file is cut off and left out".to_owned())
+        let mut said = Vec::new();
+        if self.before > 0 {
+            said.push(format!("{} line(s) before the header are passed over", self.before));
+        }
+        if self.left_out {
+            said.push("the last line of the file is cut off and left out".to_owned());
+        }
+        (!said.is_empty()).then(|| said.join("; "))
     }
 
     fn whole(&self) -> Result<(), Fault> {

@@ -107,3 +107,16 @@ fn a_last_line_that_is_cut_off_is_left_out() {
     let fault = read_points(short, "record", &Settings::default(), &FrictionColumn::Forces, Some(20.0));
     assert!(fault.expect_err("a fault").to_string().contains("line 4"));
 }
+
+#[test]
+fn lines_before_the_header_are_passed_over() {
+    let text = "Test: brake 7\nDate;29.11.2026;x\n\nV;T;N\nmm/s;N;N\n100,5;3;10\n200;3;10\n";
+    let found = rows(text.as_bytes(), Some(20.0));
+    let velocities: Vec<f64> = found.points.iter().map(|point| point.velocity).collect();
+    assert_eq!(velocities, [0.1005, 0.2]);
+    assert!(found.remarks.join("; ").contains("2 line(s) before the header"), "{:?}", found.remarks);
+    // Lines are counted as in the file.
+    let wrong = Box::new(Cursor::new(text.replace("200;3", "200;x").into_bytes())) as Box<dyn Read>;
+    let fault = read_points(wrong, "record", &Settings::default(), &FrictionColumn::Forces, Some(20.0));
+    assert!(fault.expect_err("a fault").to_string().contains("line 7"));
+}
