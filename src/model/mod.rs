@@ -15,6 +15,7 @@
 
 pub mod belt;
 pub mod contact;
+mod counted;
 pub mod equilibrium;
 pub mod fastest;
 pub mod forms;

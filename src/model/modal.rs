@@ -16,6 +16,7 @@
 use nalgebra::{Cholesky, DMatrix};
 use num_complex::Complex64;
 
+use crate::model::counted::counted;
 use crate::model::natural::Natural;
 use crate::model::spectrum::eigenvalues;
 
@@ -170,21 +171,26 @@ impl Modal {
                 (plain + &friction[0] * (at.mu * kn / file.stiffness), ratios)
             }
         };
-        let stiffness = lu.solve(&stiffness)?;
-        let damping = lu.solve(&(sum(2) + per_slope * at.slope))? + ratios;
-        let mut all = if damping.iter().all(|entry| *entry == 0.0) {
+        let viscous = sum(2) + per_slope * at.slope;
+        let [stiffness_per, damping_per] = [lu.solve(&stiffness)?, lu.solve(&viscous)? + &ratios];
+        let all = if damping_per.iter().all(|entry| *entry == 0.0) {
             // λ² = −θ: what does not grow, does not grow to the last bit.
-            eigenvalues(stiffness)?.iter().flat_map(|theta| [-(-theta).sqrt(), (-theta).sqrt()]).collect()
+            let squares = eigenvalues(stiffness_per)?;
+            let mut all: Vec<Complex64> =
+                squares.iter().flat_map(|theta| [-(-theta).sqrt(), (-theta).sqrt()]).collect();
+            all.sort_by(|a, b| a.norm_sqr().total_cmp(&b.norm_sqr()));
+            all.truncate(2 * self.modes());
+            all
         } else {
             let n = self.size();
             let mut companion = DMatrix::zeros(2 * n, 2 * n);
             companion.view_mut((0, n), (n, n)).fill_with_identity();
-            companion.view_mut((n, 0), (n, n)).copy_from(&-stiffness);
-            companion.view_mut((n, n), (n, n)).copy_from(&-damping);
-            eigenvalues(companion)?
+            companion.view_mut((n, 0), (n, n)).copy_from(&-stiffness_per);
+            companion.view_mut((n, n), (n, n)).copy_from(&-damping_per);
+            let mass = sum(1);
+            let damping = viscous + &mass * ratios;
+            counted(eigenvalues(companion)?, [&stiffness, &mass, &damping], self.modes())
         };
-        all.sort_by(|a, b| a.norm_sqr().total_cmp(&b.norm_sqr()));
-        all.truncate(2 * self.modes());
         let all: Vec<Complex64> = all.into_iter().map(|z| z * self.unit).collect();
         all.iter().all(|z| z.is_finite()).then_some(all)
     }

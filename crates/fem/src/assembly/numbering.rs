@@ -84,7 +84,7 @@ impl Numbering {
                     "node {} slides on one surface and carries another: let its body be the master of both",
                     point.slave
                 );
-                return Err(Error::Contact { what });
+                return Err(Error::Support { what });
             }
             let (dof, terms) = follow(point, &leader, &fate)?;
             fate[dof] = Some(Fate::Follows(terms));

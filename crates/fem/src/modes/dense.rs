@@ -3,7 +3,7 @@
 use faer::linalg::solvers::Solve;
 use faer::{Mat, Side, c64};
 
-use super::Small;
+use super::{Small, likeness};
 use crate::Error;
 
 /// An eigenvalue and its vector.
@@ -32,7 +32,7 @@ impl Pair {
 /// All pairs of (λ² M + λ C + K) x = 0 with a frequency of 0 or more, one for each mode. They rise with the frequency, where something
 /// damps with the one |λ| that they had without damping: of what damping slows down the frequency itself may be next to nothing.
 /// A mode that damping keeps from vibrating has two real eigenvalues, of which the larger one is taken, as that is what lasts; its place is
-/// that of the frequency √(xᴴ K x / xᴴ M x) of its shape.
+/// that of the frequency √(xᴴ K x / xᴴ M x) of the shape of the slower one.
 ///
 /// # Errors
 /// Where the iteration for the eigenvalues does not converge.
@@ -47,16 +47,40 @@ pub fn pairs(small: &Small) -> Result<Vec<Pair>, Error> {
     Ok(pairs.into_iter().map(|(_, pair)| pair).collect())
 }
 
-/// One pair for each mode, with the frequency (1/s) of its place. Both real eigenvalues of a mode have shapes of about one energy.
+/// One pair for each mode, with the frequency (1/s) of its place.
+///
+/// With e = xᴴ K x / xᴴ M x the other eigenvalue of an oscillator of the shape x is e/λ: λ is the slow one of both where λ² ≤ e, which damping
+/// and stiffness make, or the fast one, which inertia and damping make. Each fast one belongs to the slow one whose shape is most like its own.
 fn placed(small: &Small, all: Vec<Pair>) -> Vec<(f64, Pair)> {
     let (real, vibrating): (Vec<Pair>, Vec<Pair>) = all.into_iter().partition(|pair| pair.lambda.im == 0.0);
-    let mut real: Vec<(f64, Pair)> =
-        real.into_iter().map(|pair| (energy(small, &pair.vector), pair)).collect();
-    real.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut placed: Vec<(f64, Pair)> = vibrating.into_iter().map(|pair| (pair.lambda.norm(), pair)).collect();
-    for two in real.chunks(2) {
-        let lasting = two.iter().max_by(|a, b| a.1.lambda.re.total_cmp(&b.1.lambda.re));
-        placed.extend(lasting.map(|(energy, pair)| (energy.max(0.0).sqrt(), pair.clone())));
+    let real: Vec<(f64, Pair)> = real.into_iter().map(|pair| (energy(small, &pair.vector), pair)).collect();
+    let mut left: Vec<&Pair> = real.iter().filter(|one| one.0 <= 0.0).map(|one| &one.1).collect();
+    for grows in [false, true] {
+        let of_sign = real.iter().filter(|one| (one.1.lambda.re > 0.0) == grows && one.0 > 0.0);
+        let (slow, fast): (Vec<_>, Vec<_>) = of_sign.partition(|one| one.1.lambda.re.powi(2) <= one.0);
+        let mut offers: Vec<(f64, usize, usize)> = (0..slow.len())
+            .flat_map(|s| (0..fast.len()).map(move |f| (s, f)))
+            .map(|(s, f)| (likeness(&slow[s].1.vector, &fast[f].1.vector), s, f))
+            .collect();
+        offers.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let (mut of_slow, mut of_fast) = (vec![false; slow.len()], vec![false; fast.len()]);
+        for (_, s, f) in offers {
+            if !of_slow[s] && !of_fast[f] {
+                (of_slow[s], of_fast[f]) = (true, true);
+                let lasting = if grows { fast[f] } else { slow[s] };
+                placed.push((slow[s].0.sqrt(), lasting.1.clone()));
+            }
+        }
+        let alone = slow.into_iter().zip(of_slow).chain(fast.into_iter().zip(of_fast));
+        left.extend(alone.filter(|(_, taken)| !taken).map(|(one, _)| &one.1));
+    }
+    // Of what is left, such as what stiffness itself drives away, each mode has two as well.
+    left.sort_by(|a, b| a.lambda.norm().total_cmp(&b.lambda.norm()));
+    for some in left.chunks(2) {
+        let product: f64 = some.iter().map(|pair| pair.lambda.re).product();
+        let lasting = some.iter().max_by(|a, b| a.lambda.re.total_cmp(&b.lambda.re));
+        placed.extend(lasting.map(|pair| (product.max(0.0).sqrt(), (*pair).clone())));
     }
     placed
 }
@@ -106,6 +130,9 @@ fn undamped(small: &Small) -> Result<Vec<Pair>, Error> {
     Ok((0..size).map(pair).collect())
 }
 
+/// Of an eigenvalue, what rounding makes of no frequency.
+const ROUNDING: f64 = 1e-8;
+
 /// λ of the companion matrix [0 1; −M⁻¹K −M⁻¹C], in a unit of time in which both blocks are of one size.
 fn damped(small: &Small, damping: &Mat<f64>) -> Result<Vec<Pair>, Error> {
     let size = small.mass.nrows();
@@ -119,11 +146,14 @@ fn damped(small: &Small, damping: &Mat<f64>) -> Result<Vec<Pair>, Error> {
         (false, false) => -damping[(i - size, j - size)] / unit_of_time,
     });
     let eigen = companion.eigen().map_err(|_| failed(2 * size))?;
-    let pair = |k: usize| Pair {
-        lambda: eigen.S()[k] * unit_of_time,
-        vector: unit((0..size).map(|i| eigen.U()[(i, k)])),
+    // Rounding makes a conjugate pair of a real eigenvalue that two modes have.
+    let is_real = |lambda: c64| lambda.im.abs() <= ROUNDING * lambda.norm();
+    let pair = |k: usize| {
+        let lambda = eigen.S()[k] * unit_of_time;
+        let lambda = if is_real(lambda) { c64::new(lambda.re, 0.0) } else { lambda };
+        Pair { lambda, vector: unit((0..size).map(|i| eigen.U()[(i, k)])) }
     };
-    Ok((0..2 * size).filter(|k| eigen.S()[*k].im >= 0.0).map(pair).collect())
+    Ok((0..2 * size).filter(|k| eigen.S()[*k].im >= 0.0 || is_real(eigen.S()[*k])).map(pair).collect())
 }
 
 fn unit(vector: impl Iterator<Item = c64>) -> Vec<c64> {

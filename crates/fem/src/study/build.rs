@@ -1,5 +1,7 @@
 //! From a description to a model.
 
+use std::collections::HashSet;
+
 use super::document::{Bond, By, Document, Load, Sliding, Support, Varied, Vary};
 use super::parts::join;
 use super::surfaces::flat;
@@ -237,7 +239,16 @@ fn slide(mesh: &Mesh, key: &str, pair: &Sliding) -> Result<(Vec<Point>, Vec<Face
         (sliding_on_rigid(&nodes, normal, direction), true)
     } else {
         let masters = faces_of(mesh, &format!("{key}.masters"), &pair.masters)?;
-        let pairs = bonded(mesh, &nodes, &mesh.face_nodes(masters)).ok();
+        let below = mesh.face_nodes(masters);
+        let known: HashSet<usize> = below.iter().copied().collect();
+        if let Some(node) = nodes.iter().find(|node| known.contains(node)) {
+            let what = format!(
+                "\"{}\" and \"{}\" have node {node} in common, but a surface slides on that of another body: name two surfaces",
+                pair.slaves, pair.masters
+            );
+            return Err(Error::at(key, what));
+        }
+        let pairs = bonded(mesh, &nodes, &below).ok();
         if pairs.is_some_and(|pairs| conforms(mesh, slaves, masters, &pairs)) {
             (sliding(mesh, &nodes, &mesh.face_nodes(masters), normal, direction), true)
         } else {

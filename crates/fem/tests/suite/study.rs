@@ -256,6 +256,7 @@ fn bad_descriptions_are_named() {
             "slaves = \"pin.foot\"",
             "sliding[0].slaves: the mesh has no set \"pin.foot\"",
         ),
+        ("masters = \"block.z1\"", "masters = \"pin.z0\"", "sliding[0]: \"pin.z0\" and \"pin.z0\" have node"),
         (
             "masters = \"block.z1\"",
             "masters = \"block.x1\"",
