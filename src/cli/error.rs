@@ -78,6 +78,14 @@ pub(crate) enum Error {
         /// The file.
         path: PathBuf,
     },
+    /// A file that `export` would replace, and does not.
+    #[error("`{}` {why}", path.display())]
+    ExportThere {
+        /// The file.
+        path: PathBuf,
+        /// What it is, and what to do.
+        why: &'static str,
+    },
     /// A directory with what was made from another input file.
     #[error(
         "`{}` holds `{name}` made from `{}`; choose another directory with -o, or replace it with --force",
@@ -377,6 +385,7 @@ impl Error {
             | Error::PartialAsWhole { .. }
             | Error::BadFrontier { .. }
             | Error::FileThere { .. }
+            | Error::ExportThere { .. }
             | Error::OtherInput { .. }
             | Error::OtherVersion { .. }
             | Error::NoRefinement { .. }

@@ -33,6 +33,9 @@ pub(crate) struct Export {
     /// Also where tiles are missing: their instances are `not_computed`
     #[arg(long)]
     partial: bool,
+    /// Replace the file that is there under the name of --output
+    #[arg(long)]
+    force: bool,
 }
 
 /// The values of `--format`.
@@ -71,6 +74,9 @@ impl Export {
             let (path, done) = (self.directory, total - lacking);
             return Err(Error::TilesMissing { path, done, total });
         }
+        if let Some(path) = self.output.as_ref().filter(|_| !matches!(self.format, Format::Zarr)) {
+            replaceable(path, self.force)?;
+        }
         let whole = store.directory.join(self.format.file(true));
         let path = self.output.unwrap_or_else(|| store.directory.join(self.format.file(lacking == 0)));
         if lacking > 0 && is_same(&path, &whole) {
@@ -92,6 +98,19 @@ impl Export {
         print(&list(&[path]));
         Ok(())
     }
+}
+
+/// Refuses a file that is there, unless it may be replaced, and whatever is no file.
+fn replaceable(path: &Path, force: bool) -> Result<()> {
+    let why = match path.symlink_metadata() {
+        Err(_) => return Ok(()),
+        Ok(found) if found.is_file() && force => return Ok(()),
+        Ok(found) if found.is_file() => {
+            "is there already; name another file with -o, or replace it with --force"
+        }
+        Ok(_) => "is a directory, a link, a pipe or a device; name a file with -o",
+    };
+    Err(Error::ExportThere { path: path.to_owned(), why })
 }
 
 /// Whether two paths name one file, which need not be there.

@@ -18,7 +18,7 @@ use crate::cli::talk::{note, print};
 use clap::Args;
 use squealmap::results::manifest::Run;
 use squealmap::store::directory::Store;
-use squealmap::store::merge::merge;
+use squealmap::store::merge::{merge, of_one_sweep};
 use squealmap::store::origin;
 
 /// Arguments of `merge`.
@@ -53,6 +53,10 @@ impl Merge {
     pub(crate) fn execute(self) -> Result<ExitCode> {
         let cancel = stop_at_signal()?;
         let sources = self.sources.iter().map(|path| Ok(Store::open(path)?)).collect::<Result<Vec<_>>>()?;
+        // Before anything is written.
+        for two in sources.windows(2) {
+            of_one_sweep(&two[0], &two[1])?;
+        }
         let target = match (Store::open(&self.target), sources.first()) {
             (Err(squealmap::store::error::Error::NoTiles { .. }), Some(source)) => self.begin(source)?,
             (Ok(other), Some(source)) if self.replace.force && !other.is_same(source) => {

@@ -2,6 +2,9 @@
 
 use crate::Error;
 
+/// The least density, kg/m³: below are those of files in t/mm³.
+const LIGHTEST: f64 = 1e-3;
+
 /// A linear elastic material in the axes of the mesh.
 ///
 /// Strains are ordered xx, yy, zz, xy, yz, zx, shear strains as angles (γ = 2 ε).
@@ -72,8 +75,14 @@ impl Material {
                 return Err(bad(name, what));
             }
         }
-        if !(density > 0.0 && density.is_finite()) {
-            return Err(bad(name, format!("the density is {density} kg/m3, it must be above 0")));
+        if !(density >= LIGHTEST && density.is_finite()) {
+            return Err(bad(
+                name,
+                format!(
+                    "the density is {density} kg/m3, it must be {LIGHTEST} or more: constants are in SI units (Pa, kg/m3), whatever the unit of \
+                     lengths"
+                ),
+            ));
         }
         let [xy, yz, xz] = poisson;
         let compliance = [

@@ -246,7 +246,7 @@ fn analyse(
         clips: clips.finish(&cut),
         segments: cut,
         undisturbed: if friction_read {
-            undisturbed(&cells.list, has.temperature)
+            undisturbed(&cells.list, has.temperature, settings.rows.is_some())
         } else {
             Undisturbed::default()
         },

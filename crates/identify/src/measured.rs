@@ -77,7 +77,7 @@ pub fn read_measurements(
     Ok(all)
 }
 
-/// The strokes of a record that go both ways, each with half of the rest before and after it; the whole record where all go one way.
+/// The strokes of a record that go both ways, or the whole record where all go one way.
 fn ways(
     open: &mut impl FnMut() -> std::io::Result<Box<dyn Read>>,
     name: &str,
@@ -87,16 +87,9 @@ fn ways(
     if found.windows(2).all(|two| two[0].forward == two[1].forward) {
         return Ok(vec![settings.clone()]);
     }
-    let end = |stroke: &Stroke| stroke.rows[0] + stroke.rows[1];
-    let mut turns: Vec<u64> = found.windows(2).map(|two| end(&two[0]).midpoint(two[1].rows[0])).collect();
-    turns.insert(0, found.first().map_or(0, |stroke| stroke.rows[0]));
-    turns.extend(found.last().map(end));
-    let part = |(stroke, turns): (&Stroke, &[u64])| Settings {
-        rows: Some([turns[0], turns[1] - turns[0]]),
-        back: !stroke.forward,
-        ..settings.clone()
-    };
-    Ok(found.iter().zip(turns.windows(2)).map(part).collect())
+    let part =
+        |stroke: &Stroke| Settings { rows: Some(stroke.rows), back: !stroke.forward, ..settings.clone() };
+    Ok(found.iter().map(part).collect())
 }
 
 /// The friction of a stroke, by windows where it has any.

@@ -32,11 +32,11 @@ fn half_range(cells: &[Cell], number: usize, hop: f64) -> f64 {
     if pace.is_finite() { 0.5 * pace.abs() * hop * (cells[number].windows + APART - 1.0) } else { 0.0 }
 }
 
-/// The points of the cells of a record with velocity and forces.
-pub(super) fn undisturbed(cells: &[Cell], has_temperature: bool) -> Undisturbed {
+/// The points of the cells of a record with velocity and forces; of a part of one, slow sensors remember what was before it (`is_part`).
+pub(super) fn undisturbed(cells: &[Cell], has_temperature: bool, is_part: bool) -> Undisturbed {
     let mut points = Vec::new();
     let (mut blurred, mut all, mut rests) = (0.0, 0.0, 0.0);
-    let mut since = f64::NEG_INFINITY;
+    let mut since = cells.first().filter(|_| is_part).map_or(f64::NEG_INFINITY, |first| first.time[0]);
     let mut last = f64::NEG_INFINITY;
     let fastest = cells.iter().map(Cell::speed).fold(0.0, f64::max);
     for (number, cell) in cells.iter().enumerate() {

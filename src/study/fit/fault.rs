@@ -20,6 +20,17 @@ pub enum FitFault {
         /// Files.
         files: usize,
     },
+    /// Friction that opposes the sliding at some points and drives it at others.
+    #[error(
+        "the friction coefficient is below 0 at {negative} of {points} points: where strokes go both ways, the velocity needs a sign, or the force \
+         none; make both have the sign of the motion"
+    )]
+    BothSigns {
+        /// Points with a negative one.
+        negative: usize,
+        /// All of them.
+        points: usize,
+    },
     /// Fewer points than unknowns.
     #[error(
         "{points} point(s) do not determine {unknowns} value(s); measure more, or ask for fewer rows with --temperatures"

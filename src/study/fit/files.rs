@@ -40,9 +40,27 @@ pub fn files(
     for (number, (path, name)) in paths.iter().zip(&names).enumerate() {
         let temperature = temperatures.get(number).or(temperatures.first()).copied();
         let measured = read_measurements(|| reader(path), name, settings, friction, temperature)?;
+        if let Some(fault) = of_both_signs(&measured.points) {
+            return Err(Error::Fit { name: name.clone(), fault: fault.into() });
+        }
         let named = |said: String| if names.len() > 1 { format!("{name}: {said}") } else { said };
         all.remarks.extend(remarks(&measured).into_iter().map(named));
         all.points.extend(measured.points);
     }
     Ok(all)
+}
+
+/// Why points have no law: friction opposes the sliding at some of them, and drives it at others, about as strongly.
+fn of_both_signs(points: &[Point]) -> Option<FitFault> {
+    /// The part of the points that noise about a small friction coefficient does not reach …
+    const SOME: f64 = 0.02;
+    /// … with a mean so large, over that of the others.
+    const LARGE: f64 = 0.2;
+    let (driven, opposed): (Vec<f64>, Vec<f64>) =
+        points.iter().map(|point| point.friction).partition(|friction| *friction < 0.0);
+    let mean = |of: &[f64]| of.iter().sum::<f64>().abs() / of.len().max(1) as f64;
+    let few = SOME * points.len() as f64;
+    let both =
+        driven.len() as f64 > few && opposed.len() as f64 > few && mean(&driven) > LARGE * mean(&opposed);
+    both.then_some(FitFault::BothSigns { negative: driven.len(), points: points.len() })
 }

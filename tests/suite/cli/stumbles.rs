@@ -142,6 +142,26 @@ fn an_export_makes_the_folder_of_its_file() {
         assert_eq!(ended.code, Some(0), "{format}: {}", ended.err);
         assert!(here.join(file).exists(), "{file}");
     }
+    for (format, file) in
+        [("netcdf", "notes.txt"), ("csv", "notes.txt"), ("parquet", "out/small/manifest.json")]
+    {
+        fs::write(here.join("notes.txt"), "mine").unwrap();
+        let before = fs::read(here.join(file)).unwrap();
+        let export = ["export", "out/small", "--format", format, "-o", file];
+        let ended = squealmap(here, &export);
+        assert_eq!(ended.code, Some(2), "{format}: {}", ended.err);
+        assert!(
+            unwrapped(&ended.err).contains("is there already; name another file with -o"),
+            "{}",
+            ended.err
+        );
+        assert_eq!(fs::read(here.join(file)).unwrap(), before);
+    }
+    let forced = squealmap(here, &["export", "out/small", "--format", "csv", "-o", "notes.txt", "--force"]);
+    assert_eq!(forced.code, Some(0), "{}", forced.err);
+    let ended = squealmap(here, &["export", "out/small", "--format", "csv", "-o", "out"]);
+    assert_eq!(ended.code, Some(2), "{}", ended.err);
+    assert!(here.join("out").is_dir());
     fs::write(here.join("taken"), "").unwrap();
     let ended = squealmap(here, &["export", "out/small", "--format", "csv", "-o", "taken/x.csv"]);
     assert_ne!(ended.code, Some(0));

@@ -25,8 +25,18 @@ pub fn follow(steps: &[Vec<Pair>], count: usize) -> Vec<Branch> {
     let lambdas: Vec<Vec<c64>> =
         steps.iter().map(|pairs| pairs.iter().map(|pair| pair.lambda).collect()).collect();
     follow_by(&lambdas, count, |step, old, new| {
-        likeness(&steps[step][old].vector, &steps[step + 1][new].vector)
+        let (old, all) = (&steps[step][old].vector, &steps[step + 1]);
+        // Of an eigenvalue that several modes have, any shapes that span theirs may come out.
+        let like =
+            |pair: &Pair| if one(all[new].lambda, pair.lambda) { likeness(old, &pair.vector) } else { 0.0 };
+        all.iter().map(like).sum::<f64>().min(1.0)
     })
+}
+
+/// Whether two eigenvalues are one but for rounding.
+fn one(a: c64, b: c64) -> bool {
+    const ROUNDING: f64 = 1e-8;
+    (a - b).norm() <= ROUNDING * a.norm()
 }
 
 /// The same with a likeness of its own: of a mode of a step, by its place there, and one of the next step.

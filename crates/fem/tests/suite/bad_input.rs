@@ -148,7 +148,10 @@ fn constants_of_no_material_are_named() {
     let error = Material::isotropic("steel", -1.0, 0.3, 7800.0).map(drop).expect_err("negative").to_string();
     assert_eq!(error, "material steel: Young's modulus is -1 Pa, it must be above 0");
     let error = Material::isotropic("steel", 210e9, 0.3, 0.0).map(drop).expect_err("no mass").to_string();
-    assert_eq!(error, "material steel: the density is 0 kg/m3, it must be above 0");
+    assert_eq!(
+        error,
+        "material steel: the density is 0 kg/m3, it must be 0.001 or more: constants are in SI units (Pa, kg/m3), whatever the unit of lengths"
+    );
     let constants = Orthotropic { young: [1e9, 1e9, 1e9], poisson: [0.9, 0.1, 0.9], shear: [1e9; 3] };
     let error =
         Material::orthotropic("pad", constants, 2000.0).map(drop).expect_err("gives energy").to_string();
