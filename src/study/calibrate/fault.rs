@@ -1,7 +1,5 @@
 //! Why no model has what was measured.
 
-use crate::study::calibrate::solve::MOST;
-
 /// Why no model has what was measured.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -21,7 +19,7 @@ pub enum Fault {
         "modes at {first} and {second} Hz do not coalesce at a friction coefficient of {wanted}: with the inclinations that these \
          frequencies allow it is {low:.4} {}; measure the frequencies again (closer ones coalesce at less friction), or \
          give another --critical-friction",
-        up_to(*high)
+        up_to(*high, *most)
     )]
     Coalescence {
         /// The lower frequency, Hz.
@@ -34,6 +32,8 @@ pub enum Fault {
         low: f64,
         /// The most that was tried, infinite where they do not coalesce at the flattest inclination.
         high: f64,
+        /// The largest friction coefficient that was tried.
+        most: f64,
     },
     /// Modes that no friction couples.
     #[error(
@@ -51,6 +51,6 @@ pub enum Fault {
 }
 
 /// The end of a range of friction coefficients.
-fn up_to(high: f64) -> String {
-    if high.is_finite() { format!("to {high:.4}") } else { format!("and more, looked for up to {MOST}") }
+fn up_to(high: f64, most: f64) -> String {
+    if high.is_finite() { format!("to {high:.4}") } else { format!("and more, looked for up to {most}") }
 }

@@ -108,7 +108,7 @@ pub fn calibrate(measured: &Measured) -> Result<Calibrated, Fault> {
     Err(if low.is_infinite() {
         Fault::NoCoalescence { first, second, most: MOST }
     } else {
-        Fault::Coalescence { first, second, wanted: asked, low, high }
+        Fault::Coalescence { first, second, wanted: asked, low, high, most: MOST }
     })
 }
 

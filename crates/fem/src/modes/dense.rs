@@ -3,31 +3,9 @@
 use faer::linalg::solvers::Solve;
 use faer::{Mat, Side, c64};
 
-use super::{Small, likeness};
+use super::Small;
+use super::pair::{Pair, likeness};
 use crate::Error;
-
-/// An eigenvalue and its vector.
-#[derive(Debug, Clone)]
-pub struct Pair {
-    /// λ, 1/s: growth rate and angular frequency. Of each pair of conjugates the one with a frequency that is not negative.
-    pub lambda: c64,
-    /// x in the coordinates of the basis, xᴴ x = 1.
-    pub vector: Vec<c64>,
-}
-
-impl Pair {
-    /// Frequency, Hz.
-    #[must_use]
-    pub fn frequency(&self) -> f64 {
-        self.lambda.im / std::f64::consts::TAU
-    }
-
-    /// Growth rate, 1/s.
-    #[must_use]
-    pub fn growth(&self) -> f64 {
-        self.lambda.re
-    }
-}
 
 /// All pairs of (λ² M + λ C + K) x = 0 with a frequency of 0 or more, one for each mode. They rise with the frequency, where something
 /// damps with the one |λ| that they had without damping: of what damping slows down the frequency itself may be next to nothing.

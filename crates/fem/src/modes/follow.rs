@@ -2,19 +2,13 @@
 
 use faer::c64;
 
-use super::Pair;
+use super::pair::{Pair, likeness};
 
 /// One mode along the values of μ.
 #[derive(Debug, Clone)]
 pub struct Branch {
     /// The pair at each value of μ, by its place in the pairs of that value.
     pub at: Vec<usize>,
-}
-
-/// |xᴴ y|² of two unit vectors: 1 for the same shape, 0 for shapes that have nothing in common in M.
-#[must_use]
-pub fn likeness(x: &[c64], y: &[c64]) -> f64 {
-    x.iter().zip(y).map(|(a, b)| a.conj() * b).sum::<c64>().norm_sqr()
 }
 
 /// Follows the `count` first pairs of the first value of μ through all values. Each pair belongs to one mode at most; the most alike

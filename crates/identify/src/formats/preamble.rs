@@ -1,6 +1,7 @@
 //! Lines before the header of a table, as recorders write them: what was tested, when, by whom.
 
-use super::text::SEPARATORS;
+/// The separators that are told apart by the header.
+pub(super) const SEPARATORS: [u8; 3] = [b',', b';', b'\t'];
 
 /// Turns the lines before a header into comments, and gives how many that were. The header is the line above the first row of numbers, with a
 /// row of units between them perhaps, that has as many fields; where the first line has as many, or nothing is sure, there is no preamble.

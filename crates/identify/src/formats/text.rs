@@ -9,7 +9,7 @@ use csv::ByteRecord;
 use squealmap_input::files::decoded;
 use squealmap_input::quote::quoted;
 
-use super::preamble::commented;
+use super::preamble::{SEPARATORS, commented};
 use super::source::Source;
 use crate::fault::Fault;
 use crate::place::Place;
@@ -18,9 +18,6 @@ use crate::place::Place;
 pub(super) const BUFFER: usize = 1 << 18;
 /// Bytes that a row may take: without a line feed, or within double quotes that are not closed, a row is the rest of the file.
 const LONGEST_ROW: usize = 1 << 20;
-/// The separators that are told apart by the header.
-pub(super) const SEPARATORS: [u8; 3] = [b',', b';', b'\t'];
-
 /// A CSV file that is being read.
 pub(super) struct Text {
     reader: csv::Reader<Bounded>,
