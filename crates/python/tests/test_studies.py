@@ -164,7 +164,7 @@ def test_fit_of_several_files(tmp_path, program):
     assert [float(value) for value in written] == found.material["mu_s"].values.tolist()
     with pytest.raises(squealmap.InputError, match="3 temperatures are given for 2 file"):
         squealmap.fit(files, at_temperature=[1, 2, 3])
-    with pytest.raises(squealmap.InputError, match="names no file"):
+    with pytest.raises(TypeError, match="not an empty list"):
         squealmap.fit([])
 
 

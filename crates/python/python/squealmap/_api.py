@@ -254,9 +254,9 @@ def fit(
     """
     if isinstance(temperatures, (str, bytes)) or not isinstance(temperatures, Iterable):
         raise TypeError(f"temperatures is a list of numbers, not {type(temperatures).__name__}")
-    files = _listed(points)
+    files = list(points) if isinstance(points, (list, tuple)) else [points]
     if not files:
-        raise InputError("points names no file")
+        raise TypeError("points is a path or a list of paths, not an empty list")
     choices = {
         "law": law,
         "law_velocity": law_velocity,
