@@ -25,7 +25,9 @@ fn limited(directory: &Path, limit: &str, arguments: &[&str]) -> (Option<i32>, S
     // Another place than the build's, which others may not read.
     let program = directory.join("squealmap");
     if !program.exists() {
-        std::fs::copy(env!("CARGO_BIN_EXE_squealmap"), &program).unwrap();
+        // By another process: a child that another test begins meanwhile would hold a file that is being written, which cannot be run.
+        let copied = Command::new("cp").arg(env!("CARGO_BIN_EXE_squealmap")).arg(&program).status();
+        assert!(copied.unwrap().success());
     }
     let root =
         std::fs::metadata("/proc/self").is_ok_and(|own| std::os::unix::fs::MetadataExt::uid(&own) == 0);
