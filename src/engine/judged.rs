@@ -27,7 +27,7 @@ pub fn regime(instance: &Instance, kind: Option<InstabilityType>, outcome: &Outc
     let small = outcome.speed_rms_halves[1] < regime::small_speed(velocity);
     let is_stable = kind == Some(InstabilityType::Stable);
     let amplitude = if is_stable { kinks::amplitude(outcome) } else { 0.0 };
-    if let Some(seen) = kinks::seen(moved, amplitude).filter(|_| small) {
+    if small && let Some(seen) = kinks::seen(moved, amplitude) {
         let (of_seen, linear) = linear::analyse(&seen);
         if kinks::is_on_one(moved) || of_seen.is_some_and(InstabilityType::is_unstable) {
             (kind, known) = (of_seen, linear);

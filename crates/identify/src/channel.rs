@@ -54,17 +54,6 @@ impl Channel {
         }
     }
 
-    /// The unit that it is read in.
-    #[must_use]
-    pub fn unit(self) -> &'static str {
-        match self {
-            Channel::TangentialAcceleration | Channel::NormalAcceleration => "m/s²",
-            Channel::TangentialForce | Channel::NormalForce => "N",
-            Channel::Velocity => "m/s",
-            Channel::Temperature => "°C",
-        }
-    }
-
     /// The quantity in words.
     #[must_use]
     pub fn words(self) -> &'static str {

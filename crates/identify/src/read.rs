@@ -6,7 +6,7 @@ use crate::channel::{Channel, PerChannel};
 use crate::fault::Fault;
 use crate::formats::{self, Clock, Source};
 use crate::place::Place;
-use crate::scale::{Said, Scale, said, without_unit};
+use crate::scale::{Said, Scale, own, said, without_unit};
 use crate::settings::Settings;
 use crate::unit::{TimeUnit, bracketed, is_time, named};
 use squealmap_input::quote::{clipped, quoted};
@@ -302,7 +302,7 @@ fn scales(
             Said::Unknown(unit) => {
                 remarks.push(format!(
                     "column `{name}` is read in {}, as `{}` is no unit of {} that is known",
-                    channel.unit(),
+                    own(channel),
                     quoted(&unit),
                     channel.words()
                 ));
@@ -322,7 +322,7 @@ fn passed_over(header: &[String], channel: Channel) -> Option<String> {
         quoted(column),
         channel.words(),
         channel.flag(),
-        channel.unit()
+        own(channel)
     ))
 }
 

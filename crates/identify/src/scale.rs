@@ -14,7 +14,7 @@ const ICE: f64 = 273.15;
 
 /// What a number of a unit is in that of the channel: times a factor, plus an offset.
 pub(super) type Scale = [f64; 2];
-/// Units as people write them, without spaces; those of the channel come first.
+/// Units as people write them, without spaces; the one of the channel comes first, then its other names.
 type Units = &'static [(&'static str, Scale)];
 
 const ACCELERATION: Units = &[
@@ -90,6 +90,11 @@ fn units(channel: Channel) -> Units {
         Channel::Velocity => VELOCITY,
         Channel::Temperature => TEMPERATURE,
     }
+}
+
+/// The unit that a channel is read in.
+pub(super) fn own(channel: Channel) -> &'static str {
+    units(channel)[0].0
 }
 
 /// What is said of the unit of a column.

@@ -4,7 +4,7 @@ use faer::linalg::solvers::Solve;
 use faer::{Mat, Side, c64};
 
 use super::Small;
-use super::pair::{Pair, likeness};
+use super::pair::{Pair, likeness, matched};
 use crate::Error;
 
 /// All pairs of (λ² M + λ C + K) x = 0 with a frequency of 0 or more, one for each mode. They rise with the frequency, where something
@@ -37,21 +37,22 @@ fn placed(small: &Small, all: Vec<Pair>) -> Vec<(f64, Pair)> {
     for grows in [false, true] {
         let of_sign = real.iter().filter(|one| (one.1.lambda.re > 0.0) == grows && one.0 > 0.0);
         let (slow, fast): (Vec<_>, Vec<_>) = of_sign.partition(|one| one.1.lambda.re.powi(2) <= one.0);
-        let mut offers: Vec<(f64, usize, usize)> = (0..slow.len())
+        let offers = (0..slow.len())
             .flat_map(|s| (0..fast.len()).map(move |f| (s, f)))
             .map(|(s, f)| (likeness(&slow[s].1.vector, &fast[f].1.vector), s, f))
             .collect();
-        offers.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let (mut of_slow, mut of_fast) = (vec![false; slow.len()], vec![false; fast.len()]);
-        for (_, s, f) in offers {
-            if !of_slow[s] && !of_fast[f] {
-                (of_slow[s], of_fast[f]) = (true, true);
-                let lasting = if grows { fast[f] } else { slow[s] };
-                placed.push((slow[s].0.sqrt(), lasting.1.clone()));
+        let partner = matched(offers, [slow.len(), fast.len()]);
+        for (slow, partner) in slow.iter().zip(&partner) {
+            match partner {
+                Some(f) => {
+                    let lasting = if grows { fast[*f] } else { slow };
+                    placed.push((slow.0.sqrt(), lasting.1.clone()));
+                }
+                None => left.push(&slow.1),
             }
         }
-        let alone = slow.into_iter().zip(of_slow).chain(fast.into_iter().zip(of_fast));
-        left.extend(alone.filter(|(_, taken)| !taken).map(|(one, _)| &one.1));
+        let alone = fast.iter().enumerate().filter(|(f, _)| !partner.contains(&Some(*f)));
+        left.extend(alone.map(|(_, one)| &one.1));
     }
     // Of what is left, such as what stiffness itself drives away, each mode has two as well.
     left.sort_by(|a, b| a.lambda.norm().total_cmp(&b.lambda.norm()));

@@ -2,7 +2,7 @@
 
 use faer::c64;
 
-use super::pair::{Pair, likeness};
+use super::pair::{Pair, likeness, matched};
 
 /// One mode along the values of μ.
 #[derive(Debug, Clone)]
@@ -53,14 +53,7 @@ pub fn follow_by(
                 offers.push((alike(i, at, k) - apart, b, k));
             }
         }
-        offers.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let (mut served, mut taken) = (vec![None; branches.len()], vec![false; after.len()]);
-        for (_, b, k) in offers {
-            if served[b].is_none() && !taken[k] {
-                served[b] = Some(k);
-                taken[k] = true;
-            }
-        }
+        let served = matched(offers, [branches.len(), after.len()]);
         for (branch, k) in branches.iter_mut().zip(served) {
             branch.at.push(k.unwrap_or(branch.at[branch.at.len() - 1]));
         }

@@ -30,3 +30,17 @@ impl Pair {
 pub fn likeness(x: &[c64], y: &[c64]) -> f64 {
     x.iter().zip(y).map(|(a, b)| a.conj() * b).sum::<c64>().norm_sqr()
 }
+
+/// Joins things of two kinds by offers, each with its worth: the best first, each thing once. Gives the partner of each of the first kind; `counts`
+/// are how many there are of both.
+pub(super) fn matched(mut offers: Vec<(f64, usize, usize)>, counts: [usize; 2]) -> Vec<Option<usize>> {
+    offers.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let (mut partner, mut taken) = (vec![None; counts[0]], vec![false; counts[1]]);
+    for (_, one, other) in offers {
+        if partner[one].is_none() && !taken[other] {
+            partner[one] = Some(other);
+            taken[other] = true;
+        }
+    }
+    partner
+}

@@ -250,7 +250,7 @@ fn slide(mesh: &Mesh, key: &str, pair: &Sliding) -> Result<(Vec<Point>, Vec<Face
         }
         let pairs = bonded(mesh, &nodes, &below).ok();
         if pairs.is_some_and(|pairs| conforms(mesh, slaves, masters, &pairs)) {
-            (sliding(mesh, &nodes, &mesh.face_nodes(masters), normal, direction), true)
+            (sliding(mesh, &nodes, &below, normal, direction), true)
         } else {
             (mortar(mesh, slaves, masters, normal, direction), false)
         }

@@ -46,7 +46,7 @@ fn header(start: &[u8], lines: &[[usize; 2]], separator: u8) -> Option<usize> {
 }
 
 /// Whether a field is a number, with a decimal comma perhaps.
-fn is_number(field: &[u8]) -> bool {
+pub(super) fn is_number(field: &[u8]) -> bool {
     let text = String::from_utf8_lossy(field).replacen(',', ".", 1);
     text.parse::<f64>().is_ok()
 }

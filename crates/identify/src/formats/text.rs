@@ -9,7 +9,7 @@ use csv::ByteRecord;
 use squealmap_input::files::decoded;
 use squealmap_input::quote::quoted;
 
-use super::preamble::{SEPARATORS, commented};
+use super::preamble::{SEPARATORS, commented, is_number};
 use super::source::Source;
 use crate::fault::Fault;
 use crate::place::Place;
@@ -18,6 +18,7 @@ use crate::place::Place;
 pub(super) const BUFFER: usize = 1 << 18;
 /// Bytes that a row may take: without a line feed, or within double quotes that are not closed, a row is the rest of the file.
 const LONGEST_ROW: usize = 1 << 20;
+
 /// A CSV file that is being read.
 pub(super) struct Text {
     reader: csv::Reader<Bounded>,
@@ -111,8 +112,6 @@ impl Text {
 
     /// Whether the row has text, and in no field a number: the units of the columns.
     fn is_units(&self) -> bool {
-        let is_number =
-            |field: &[u8]| String::from_utf8_lossy(field).replacen(',', ".", 1).parse::<f64>().is_ok();
         let fields = || self.record.iter().map(<[u8]>::trim_ascii);
         fields().any(|field| !field.is_empty()) && !fields().any(is_number)
     }
