@@ -99,7 +99,7 @@ impl Scenario {
             Scenario::Repair | Scenario::RefineRepair => "verify out/s --repair --threads 1",
             Scenario::Refine | Scenario::RefineAgain => REFINE,
             Scenario::Merge => "merge out/s part0 part1",
-            Scenario::Csv => "export out/s --format csv -o out/s/copy.csv",
+            Scenario::Csv => "export out/s --format csv --force -o out/s/copy.csv",
             Scenario::Zarr | Scenario::ZarrAgain => "export out/s --format zarr",
             Scenario::Netcdf => "export out/s --format netcdf",
             Scenario::Parquet => "export out/s --format parquet",
