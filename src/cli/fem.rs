@@ -66,6 +66,10 @@ impl FemCommand {
         self.replace.files(&directory, &self.study, &FILES)?;
         drop(output);
         let outcome = compute(&study, &mut |step| note(&format!("{step} ..."))).map_err(wrong)?;
+        for remark in &outcome.remarks {
+            note(remark);
+        }
+        talk::tell("remarks", [study.remarks.as_slice(), &outcome.remarks].concat());
         print(&said(&study, &outcome));
         let program = concat!(env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_VERSION"));
         let mut files = vec![

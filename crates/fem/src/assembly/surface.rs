@@ -13,24 +13,32 @@ use crate::mesh::{Face, FaceRef, Mesh};
 /// The slaves' side of a contact.
 #[derive(Debug, Clone)]
 pub struct Surface {
-    faces: Vec<Face>,
-    /// Index of the contact point of each leading node.
-    index: HashMap<usize, usize>,
-    leader: Vec<usize>,
+    /// With the contact point at each node.
+    faces: Vec<(Face, Vec<Option<usize>>)>,
     places: Vec<[f64; 3]>,
 }
 
 impl Surface {
-    /// The faces of the slaves, and the contact points on them.
+    /// The faces of the slaves, and the contact points on them. On an edge that two surfaces have in common each face takes the points that it
+    /// presses.
     #[must_use]
     pub fn new(mesh: &Mesh, numbering: &Numbering, faces: &[FaceRef], points: &[Point]) -> Self {
-        let index = points.iter().enumerate().map(|(i, p)| (numbering.leader[p.slave], i)).collect();
-        Self {
-            faces: mesh.resolve(faces),
-            index,
-            leader: numbering.leader.clone(),
-            places: mesh.nodes.clone(),
+        let mut index: HashMap<usize, Vec<usize>> = HashMap::new();
+        for (i, point) in points.iter().enumerate() {
+            index.entry(numbering.leader[point.slave]).or_default().push(i);
         }
+        let with_points = |face: Face| {
+            let outward = outward(&face, &mesh.nodes);
+            let length = outward.iter().map(|c| c * c).sum::<f64>().sqrt();
+            let presses = |i: &usize| {
+                let along: f64 = (0..3).map(|k| -outward[k] * points[*i].normal[k]).sum();
+                along > std::f64::consts::FRAC_1_SQRT_2 * length
+            };
+            let point = |node: &usize| index.get(&numbering.leader[*node])?.iter().copied().find(presses);
+            let at = face.nodes.iter().map(point).collect();
+            (face, at)
+        };
+        Self { faces: mesh.resolve(faces).into_iter().map(with_points).collect(), places: mesh.nodes.clone() }
     }
 
     /// ∫ f N_a N_b dA between contact points, of a field f by its values at the contact points: with f = 1 the areas by which pressures
@@ -38,19 +46,10 @@ impl Surface {
     #[must_use]
     pub fn matrix(&self, field: &[f64]) -> Rows {
         let mut sums: Vec<BTreeMap<usize, f64>> = vec![BTreeMap::new(); field.len()];
-        for face in &self.faces {
-            let at: Vec<Option<usize>> =
-                face.nodes.iter().map(|node| self.index.get(&self.leader[*node]).copied()).collect();
+        for (face, at) in &self.faces {
             for (place, weight) in face_rule(face.kind) {
                 let (value, gradient) = face_shape(face.kind, place);
-                let mut tangents = [[0.0; 3]; 2];
-                for (node, d) in face.nodes.iter().zip(&gradient) {
-                    for i in 0..3 {
-                        tangents[0][i] += d[0] * self.places[*node][i];
-                        tangents[1][i] += d[1] * self.places[*node][i];
-                    }
-                }
-                let [a, b] = tangents;
+                let [a, b] = tangents(face, &gradient, &self.places);
                 let dot = |a: [f64; 3], b: [f64; 3]| (0..3).map(|i| a[i] * b[i]).sum::<f64>();
                 let area = (dot(a, a) * dot(b, b) - dot(a, b).powi(2)).max(0.0).sqrt();
                 let f: f64 = at.iter().zip(&value).filter_map(|(p, n)| p.map(|p| n * field[p])).sum();
@@ -65,6 +64,25 @@ impl Surface {
     }
 }
 
+/// The derivatives of the place on a face by its two coordinates.
+fn tangents(face: &Face, gradient: &[[f64; 2]], places: &[[f64; 3]]) -> [[f64; 3]; 2] {
+    let mut tangents = [[0.0; 3]; 2];
+    for (node, d) in face.nodes.iter().zip(gradient) {
+        for i in 0..3 {
+            tangents[0][i] += d[0] * places[*node][i];
+            tangents[1][i] += d[1] * places[*node][i];
+        }
+    }
+    tangents
+}
+
+/// Out of the body, as long as the area of a unit of both coordinates.
+fn outward(face: &Face, places: &[[f64; 3]]) -> [f64; 3] {
+    let Some((place, _)) = face_rule(face.kind).into_iter().next() else { return [0.0; 3] };
+    let [a, b] = tangents(face, &face_shape(face.kind, place).1, places);
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
 /// The part of a force in the middle of an edge that each corner takes over.
 pub const SHARE: f64 = 0.2;
 
@@ -72,15 +90,14 @@ impl Surface {
     /// Contact points in the middles of edges, with those at the corners beside each.
     #[must_use]
     pub fn middles(&self) -> Vec<(usize, Vec<usize>)> {
-        let point = |node: usize| self.index.get(&self.leader[node]).copied();
         let mut found = BTreeMap::new();
-        for face in &self.faces {
+        for (face, at) in &self.faces {
             let corners = face.kind.corners();
-            for (i, middle) in face.nodes[corners..].iter().enumerate() {
+            for (i, middle) in at[corners..].iter().enumerate() {
                 // An edge inside the surface is met twice.
-                let Some(middle) = point(*middle) else { continue };
-                let beside = [face.nodes[i], face.nodes[(i + 1) % corners]];
-                found.insert(middle, beside.into_iter().filter_map(point).collect());
+                let Some(middle) = *middle else { continue };
+                let beside = [at[i], at[(i + 1) % corners]];
+                found.insert(middle, beside.into_iter().flatten().collect());
             }
         }
         found.into_iter().collect()

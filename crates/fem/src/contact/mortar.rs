@@ -13,7 +13,7 @@ use super::Point;
 use super::matching::axes;
 use crate::Error;
 use crate::assembly::Tie;
-use crate::elements::{FaceKind, face_rule, face_shape};
+use crate::elements::{FaceKind, face_shape, triangle_rule};
 use crate::mesh::{Face, FaceRef, Mesh};
 
 type Plane = [f64; 2];
@@ -246,8 +246,7 @@ fn integrate(slave: &Flat, master: &Flat, [a, b, c]: [Plane; 3], d: &mut Entries
     if !(twice > 0.0) {
         return;
     }
-    // Exact up to degree 4, as products of quadratic functions are where faces are parallelograms.
-    for ([u, v], weight) in face_rule(FaceKind::Tri6) {
+    for ([u, v], weight) in triangle_rule() {
         let place = [0, 1].map(|i| a[i] + u * (b[i] - a[i]) + v * (c[i] - a[i]));
         let (own, other) = (slave.shape_at(place), master.shape_at(place));
         for (node, n) in slave.nodes.iter().zip(&own) {

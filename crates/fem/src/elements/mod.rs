@@ -11,7 +11,7 @@ mod shape;
 pub use face::{FaceKind, face_shape};
 pub use kind::Kind;
 pub use matrices::{Matrices, matrices};
-pub use rule::{Inertia, Point, face_rule, mass_rule, stiffness_rule};
+pub use rule::{Inertia, Point, face_rule, mass_rule, stiffness_rule, triangle_rule};
 pub use shape::{Shape, shape};
 
 pub(crate) use matrices::{add_geometric, jacobian};

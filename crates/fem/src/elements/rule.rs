@@ -48,17 +48,23 @@ fn brick(points: usize) -> Vec<Point> {
     rule
 }
 
-/// Exact up to degree 4 on the triangle.
-fn triangle() -> Vec<Point> {
-    let mut rule = Vec::with_capacity(9);
-    for (u, a) in gauss_unit(3) {
+/// Exact on the triangle up to degree 4 with 3 points along each direction, and up to degree 6 with 4.
+fn triangle(points: usize) -> Vec<Point> {
+    let mut rule = Vec::with_capacity(points * points);
+    for (u, a) in gauss_unit(points) {
         rule.extend(
-            gauss_unit(3)
+            gauss_unit(points)
                 .into_iter()
                 .map(|(v, b)| Point { at: [u, v * (1.0 - u), 0.0], weight: a * b * (1.0 - u) }),
         );
     }
     rule
+}
+
+/// Exact up to degree 6 on the triangle, as products of the shape functions of Quad8 are.
+#[must_use]
+pub fn triangle_rule() -> Vec<([f64; 2], f64)> {
+    triangle(4).into_iter().map(|p| ([p.at[0], p.at[1]], p.weight)).collect()
 }
 
 /// Exact up to degree 4 on the tetrahedron.
@@ -124,7 +130,7 @@ pub fn mass_rule(kind: Kind, inertia: Inertia) -> Vec<Point> {
         Kind::Hex8 => brick(2),
         Kind::Hex20 | Kind::Hex20Reduced => brick(3),
         Kind::Tet4 | Kind::Tet10 => tetrahedron(),
-        Kind::Wedge15 => wedge(&triangle()),
+        Kind::Wedge15 => wedge(&triangle(3)),
     }
 }
 
@@ -133,7 +139,7 @@ pub fn mass_rule(kind: Kind, inertia: Inertia) -> Vec<Point> {
 pub fn face_rule(kind: FaceKind) -> Vec<([f64; 2], f64)> {
     match kind {
         FaceKind::Tri3 | FaceKind::Tri6 => {
-            triangle().into_iter().map(|p| ([p.at[0], p.at[1]], p.weight)).collect()
+            triangle(3).into_iter().map(|p| ([p.at[0], p.at[1]], p.weight)).collect()
         }
         FaceKind::Quad4 | FaceKind::Quad8 => {
             let line = gauss(3);

@@ -1,9 +1,10 @@
 //! The `.inp` files of Abaqus and CalculiX: mesh, sets, surfaces, materials, ties and supports.
 
 use super::cards::{Card, cards, flat};
-use std::collections::BTreeMap;
+use std::collections::HashSet;
 
 use super::raw::{Built, Raw, RawElement, number};
+use super::sets::{Sets, known, members, read_flat, unknown_of_set};
 use super::unread::{check_parameters, check_parts, passed_over};
 use crate::Error;
 use crate::elements::Kind;
@@ -17,6 +18,8 @@ pub struct Deck {
     pub mesh: Mesh,
     /// Materials in the order of the file; elements without a section are of the first.
     pub materials: Vec<Material>,
+    /// A sentence on an element of which no section says what it is made of, where there are several materials or sections of others.
+    pub without_section: Option<String>,
     /// Pairs of surfaces that are tied: slave, master.
     pub ties: Vec<(String, String)>,
     /// Supports: node, axis, displacement (m).
@@ -43,9 +46,6 @@ fn kind_of(name: &str, line: usize) -> Result<Kind, Error> {
     }
 }
 
-/// The sets of a file, by numbers, names in capitals.
-type Sets = BTreeMap<String, Vec<u64>>;
-
 /// Reads a file. Of constants for several temperatures those of the first line count.
 ///
 /// # Errors
@@ -69,7 +69,9 @@ fn read(text: &str, celsius: f64) -> Result<Deck, Error> {
     let mut names: Vec<String> = Vec::new();
     let mut open: Option<(String, usize, Vec<f64>, bool, f64)> = None;
     let mut sections: Vec<(String, String, usize)> = Vec::new();
-    let (mut in_step, mut flats): (bool, Vec<String>) = (false, Vec::new());
+    let (mut in_step, mut steps, mut flats) = (false, 0, HashSet::new());
+    // The step of the last card with supports: 0 before all steps.
+    let mut held: Option<usize> = None;
     check_parts(&cards)?;
     for card in &cards {
         check_parameters(card)?;
@@ -81,10 +83,18 @@ fn read(text: &str, celsius: f64) -> Result<Deck, Error> {
         }
         match card.name.as_str() {
             "NODE" => read_nodes(card, &mut raw, &mut node_sets)?,
-            "ELEMENT" if flat(card) => flats.extend(card.parameters.get("ELSET").cloned()),
+            "ELEMENT" if flat(card) => read_flat(card, &mut flats, &mut element_sets),
             "ELEMENT" => read_elements(card, &mut raw, &mut element_sets)?,
-            "NSET" => read_set(card, &card.parameter("NSET")?, &mut node_sets)?,
-            "ELSET" => read_set(card, &card.parameter("ELSET")?, &mut element_sets)?,
+            "NSET" | "ELSET" => {
+                let name = card.parameter(&card.name)?;
+                let found = members(card, &raw, [&node_sets, &element_sets])?;
+                if found.is_empty() {
+                    deck.remarks.push(format!("line {}: the set {name} is empty", card.line));
+                }
+                deck.remarks.extend(unknown_of_set(card));
+                let sets = if card.name == "NSET" { &mut node_sets } else { &mut element_sets };
+                sets.entry(name).or_default().extend(found);
+            }
             "MATERIAL" => open = Some((card.parameter("NAME")?, card.line, Vec::new(), false, 0.0)),
             "ELASTIC" => {
                 if let Some((_, _, elastic, orthotropic, _)) = &mut open {
@@ -114,23 +124,42 @@ fn read(text: &str, celsius: f64) -> Result<Deck, Error> {
                 let what = "*INCLUDE is not followed: put the file's lines here".to_owned();
                 return Err(Error::File { line: card.line, what });
             }
-            "SURFACE" | "BOUNDARY" => {}
+            "BOUNDARY" => {
+                if card.parameters.get("OP").is_some_and(|op| op == "NEW")
+                    && held.is_some_and(|at| at < steps)
+                {
+                    let what = "OP=NEW of *BOUNDARY takes away what earlier steps hold, which is not followed: keep the supports of one step only";
+                    return Err(Error::File { line: card.line, what: what.to_owned() });
+                }
+                held = Some(steps);
+            }
+            "SURFACE" => {}
             _ => deck.remarks.extend(passed_over(card, in_step)?),
         }
         in_step = match card.name.as_str() {
-            "STEP" => true,
+            "STEP" => {
+                steps += 1;
+                true
+            }
             "END STEP" => false,
             _ => in_step,
         };
     }
     close(&mut open, celsius, &mut deck.materials, &mut names)?;
+    let mut covered: HashSet<u64> = HashSet::new();
     for (set, material, line) in &sections {
         let index = names.iter().position(|n| n == material).ok_or_else(|| Error::File {
             line: *line,
             what: format!("the section names material {material}, but there are: {}", names.join(", ")),
         })?;
-        let members = if flats.contains(set) { &Vec::new() } else { known(set, &element_sets, *line)? };
-        let members: std::collections::HashSet<u64> = members.iter().copied().collect();
+        let members: HashSet<u64> = known(set, &element_sets, *line)?.iter().copied().collect();
+        if let Some(flat) = members.iter().find(|number| flats.contains(*number)) {
+            let what = format!(
+                "the section is of {set}, in which element {flat} is a line or a surface: mesh its body with solids, or leave it out of the set"
+            );
+            return Err(Error::File { line: *line, what });
+        }
+        covered.extend(&members);
         let of_set: Vec<&mut RawElement> =
             raw.elements.iter_mut().filter(|e| members.contains(&e.number)).collect();
         if of_set.is_empty() {
@@ -143,6 +172,10 @@ fn read(text: &str, celsius: f64) -> Result<Deck, Error> {
             element.material = index;
         }
     }
+    let bare = raw.elements.iter().find(|element| !covered.contains(&element.number));
+    deck.without_section = bare
+        .filter(|_| !sections.is_empty() || names.len() > 1)
+        .map(|element| format!("line {}: element {} has no *SOLID SECTION", element.line, element.number));
     let mut built = raw.build()?;
     for (name, numbers) in &node_sets {
         let mut nodes: Vec<usize> = numbers.iter().filter_map(|n| built.node.get(n).copied()).collect();
@@ -159,16 +192,6 @@ fn read(text: &str, celsius: f64) -> Result<Deck, Error> {
     }
     deck.mesh = built.mesh;
     Ok(deck)
-}
-
-fn known<'a>(set: &str, sets: &'a Sets, line: usize) -> Result<&'a Vec<u64>, Error> {
-    sets.get(set).ok_or_else(|| Error::File {
-        line,
-        what: format!(
-            "there is no set {set}; there are: {}",
-            sets.keys().cloned().collect::<Vec<_>>().join(", ")
-        ),
-    })
 }
 
 fn read_nodes(card: &Card<'_>, raw: &mut Raw, sets: &mut Sets) -> Result<(), Error> {
@@ -224,37 +247,6 @@ fn read_ties(card: &Card<'_>, ties: &mut Vec<(String, String)>) -> Result<(), Er
     Ok(())
 }
 
-fn read_set(card: &Card<'_>, name: &str, sets: &mut Sets) -> Result<(), Error> {
-    /// No mesh has more nodes than this, and a set of them still fits into memory.
-    const MOST: u64 = 100_000_000;
-    let mut members = Vec::new();
-    for (line, words) in &card.data {
-        let words: Vec<&str> = words.iter().copied().filter(|w| !w.is_empty()).collect();
-        if card.parameters.contains_key("GENERATE") {
-            let at = |i: usize| words.get(i).map_or(Ok(1), |w| number::<u64>(w, *line, "number"));
-            let (first, last, step) = (at(0)?, at(1)?, at(2)?.max(1));
-            let count = last.saturating_sub(first) / step + 1;
-            if count > MOST {
-                let what = format!(
-                    "the set would have {count} members, at most {MOST} are possible: check the range"
-                );
-                return Err(Error::File { line: *line, what });
-            }
-            members.extend((first..=last).step_by(usize::try_from(step).unwrap_or(usize::MAX)));
-            continue;
-        }
-        for word in words {
-            // A set may take in others by name.
-            match word.parse() {
-                Ok(member) => members.push(member),
-                Err(_) => members.extend(known(&word.to_uppercase(), sets, *line)?),
-            }
-        }
-    }
-    sets.entry(name.to_owned()).or_default().extend(members);
-    Ok(())
-}
-
 fn read_surface(
     card: &Card<'_>,
     built: &mut Built,
@@ -301,6 +293,20 @@ fn read_surface(
     Ok(())
 }
 
+/// What the named supports of Abaqus hold of a solid, whose nodes do not turn.
+fn named_support(name: &str) -> Option<&'static [usize]> {
+    match name.to_uppercase().as_str() {
+        "XSYMM" => Some(&[0]),
+        "YSYMM" => Some(&[1]),
+        "ZSYMM" => Some(&[2]),
+        "XASYMM" => Some(&[1, 2]),
+        "YASYMM" => Some(&[0, 2]),
+        "ZASYMM" => Some(&[0, 1]),
+        "PINNED" | "ENCASTRE" => Some(&[0, 1, 2]),
+        _ => None,
+    }
+}
+
 fn read_supports(
     card: &Card<'_>,
     built: &Built,
@@ -315,6 +321,11 @@ fn read_supports(
             Err(_) => built.mesh.node_set(&words[0].to_uppercase())?.to_vec(),
         };
         let at = |i: usize| words.get(i).copied().filter(|w| !w.is_empty());
+        let named = named_support(at(1).unwrap_or_default());
+        if let Some(axes) = named {
+            supports.extend(axes.iter().flat_map(|axis| nodes.iter().map(move |node| (*node, *axis, 0.0))));
+            continue;
+        }
         let first: usize = number(at(1).unwrap_or_default(), *line, "direction 1, 2 or 3")?;
         let last = at(2).map_or(Ok(first), |w| number::<usize>(w, *line, "direction 1, 2 or 3"))?;
         let value = at(3).map_or(Ok(0.0), |w| number(w, *line, "displacement"))?;

@@ -21,6 +21,13 @@ impl Card<'_> {
         })
     }
 
+    /// Whether it has a parameter, which may be cut short.
+    pub(super) fn has(&self, name: &str) -> bool {
+        /// Letters that are enough.
+        const ENOUGH: usize = 3;
+        self.parameters.keys().any(|key| key.len() >= ENOUGH && name.starts_with(key.as_str()))
+    }
+
     /// All entries as numbers.
     pub(super) fn values(&self) -> Result<Vec<f64>, Error> {
         self.data
@@ -34,24 +41,28 @@ impl Card<'_> {
 
 pub(super) fn cards(text: &str) -> Vec<Card<'_>> {
     let mut cards: Vec<Card<'_>> = Vec::new();
+    // A keyword line that ends with a comma goes on in the next one.
+    let mut goes_on = false;
+    let parameter = |word: String| {
+        let (key, value) = word.split_once('=').unwrap_or((&word, ""));
+        (key.trim().to_owned(), value.trim().to_owned())
+    };
     for (i, line) in text.lines().enumerate() {
         let line = line.trim();
         if line.is_empty() || line.starts_with("**") {
             continue;
         }
-        if let Some(keyword) = line.strip_prefix('*') {
-            let mut words = keyword.split(',').map(|w| w.trim().to_uppercase());
-            let name = words.next().unwrap_or_default();
-            let parameter = |w: String| {
-                let (key, value) = w.split_once('=').unwrap_or((&w, ""));
-                (key.trim().to_owned(), value.trim().to_owned())
-            };
-            cards.push(Card {
-                line: i + 1,
-                name,
-                parameters: words.map(parameter).collect(),
-                data: Vec::new(),
-            });
+        let keyword = line.strip_prefix('*');
+        if keyword.is_some() || goes_on {
+            let mut words = keyword.unwrap_or(line).split(',').map(|w| w.trim().to_uppercase());
+            if keyword.is_some() {
+                let name = words.next().unwrap_or_default();
+                cards.push(Card { line: i + 1, name, parameters: BTreeMap::new(), data: Vec::new() });
+            }
+            if let Some(card) = cards.last_mut() {
+                card.parameters.extend(words.filter(|word| !word.is_empty()).map(parameter));
+            }
+            goes_on = line.ends_with(',');
         } else if let Some(card) = cards.last_mut() {
             card.data.push((i + 1, line.split(',').map(str::trim).collect()));
         }

@@ -1,8 +1,8 @@
 //! Gmsh's text formats 2 and 4.1 (reference manual, chapter "Gmsh file formats").
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-use super::raw::{Raw, RawElement, faces_by_corners, number};
+use super::raw::{Raw, RawElement, faces_by_corners, number, sorted};
 use crate::Error;
 use crate::elements::Kind;
 use crate::mesh::Mesh;
@@ -44,8 +44,10 @@ struct Found {
     /// Physical groups of each entity of a format 4 file.
     entities: HashMap<(usize, u64), Vec<u64>>,
     raw: Raw,
-    /// Solid elements and their physical groups.
-    groups: Vec<(usize, Vec<u64>)>,
+    /// The physical groups of each solid element.
+    groups: Vec<Vec<u64>>,
+    /// Places of the solid elements in the list, by their nodes: format 2 writes one again for each of its groups.
+    known: HashMap<Vec<u64>, usize>,
     marked: Vec<Marked>,
 }
 
@@ -102,7 +104,8 @@ impl<'a> Lines<'a> {
     }
 }
 
-/// Reads a mesh. Physical volumes, in the order of their tags, are materials 0, 1, …; physical surfaces are sets of faces and of nodes,
+/// Reads a mesh. Physical volumes, in the order of their tags, are materials 0, 1, …, where the first group of a volume counts and what has none
+/// comes first; physical surfaces are sets of faces and of nodes,
 /// physical curves and points sets of nodes, by their names, or `surface 3` where they have none.
 ///
 /// # Errors
@@ -160,12 +163,11 @@ pub fn gmsh(text: &str) -> Result<Mesh, Error> {
             what: "this is no mesh of Gmsh: it has no $MeshFormat".to_owned(),
         });
     }
-    let mut tags: Vec<u64> = found.groups.iter().flat_map(|(_, tags)| tags.clone()).collect();
-    tags.sort_unstable();
-    tags.dedup();
-    for (index, own) in &found.groups {
-        found.raw.elements[*index].material =
-            own.first().and_then(|t| tags.iter().position(|u| u == t)).unwrap_or(0);
+    // Volumes without a group are one, before all others.
+    let first = |own: &Vec<u64>| own.first().copied().unwrap_or_default();
+    let tags: BTreeSet<u64> = found.groups.iter().map(first).collect();
+    for (element, own) in found.raw.elements.iter_mut().zip(&found.groups) {
+        element.material = tags.iter().position(|tag| *tag == first(own)).unwrap_or_default();
     }
     finish(found.raw, &found.marked)
 }
@@ -182,8 +184,9 @@ fn read_entities(lines: &mut Lines<'_>, entities: &mut HashMap<(usize, u64), Vec
             let words = lines.next("an entity")?;
             // A point has a place, the others have a box.
             let from = if dim == 0 { 4 } else { 7 };
+            // A sign says which way round an entity is taken.
             let physical: Result<Vec<u64>, Error> = (0..lines.word::<usize>(&words, from, "count")?)
-                .map(|i| lines.word(&words, from + 1 + i, "tag"))
+                .map(|i| lines.word::<i64>(&words, from + 1 + i, "tag").map(i64::unsigned_abs))
                 .collect();
             entities.insert((dim, lines.word(&words, 0, "tag")?), physical?);
         }
@@ -227,7 +230,8 @@ fn read_elements(lines: &mut Lines<'_>, version: f64, found: &mut Found) -> Resu
             }
         } else {
             let (kind, tags) = (lines.word(&words, 1, "type")?, lines.word::<usize>(&words, 2, "count")?);
-            let physical: Vec<u64> = if tags > 0 { vec![lines.word(&words, 3, "tag")?] } else { Vec::new() };
+            let physical: Vec<u64> =
+                if tags > 0 { vec![lines.word::<i64>(&words, 3, "tag")?.unsigned_abs()] } else { Vec::new() };
             element(lines, &words, tags.saturating_add(3), kind, &physical, found)?;
         }
     }
@@ -253,7 +257,12 @@ fn element(
             physical.iter().filter_map(|tag| found.names.get(&(3, *tag)).cloned()).collect();
         // No corners: a set of nodes only.
         found.marked.push((nodes.clone(), 0, named));
-        found.groups.push((found.raw.elements.len(), physical.to_vec()));
+        if let Some(known) = found.known.get(&sorted(&nodes)) {
+            found.groups[*known].extend(physical);
+            return Ok(());
+        }
+        found.known.insert(sorted(&nodes), found.groups.len());
+        found.groups.push(physical.to_vec());
         let number = lines.word(words, 0, "number")?;
         found.raw.elements.push(RawElement { number, kind, nodes, material: 0, line: lines.line });
         return Ok(());

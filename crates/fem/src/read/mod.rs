@@ -4,6 +4,7 @@ mod abaqus;
 mod cards;
 mod gmsh;
 mod raw;
+mod sets;
 mod unread;
 mod vtu;
 

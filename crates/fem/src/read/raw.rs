@@ -35,6 +35,9 @@ pub(super) struct Built {
 
 impl Raw {
     /// Groups the elements by kind and material, in the order in which each first appears.
+    ///
+    /// # Errors
+    /// A node that is not there; a number, or the nodes of an element, a second time.
     pub(super) fn build(self) -> Result<Built, Error> {
         let mut mesh = Mesh::default();
         let mut node = HashMap::with_capacity(self.nodes.len());
@@ -48,7 +51,18 @@ impl Raw {
             }
         }
         let mut numbers: Vec<Vec<u64>> = Vec::new();
+        let (mut known, mut places) = (HashMap::new(), HashMap::new());
         for element in self.elements {
+            let other = known.insert(element.number, element.line);
+            let other = places.insert(sorted(&element.nodes), element.line).or(other);
+            if let Some(other) = other {
+                let what = format!(
+                    "element {} stands here a second time, by its number or its nodes, after line {other}: it would be twice as stiff and \
+                     heavy, leave one of both out",
+                    element.number
+                );
+                return Err(Error::File { line: element.line, what });
+            }
             let nodes: Result<Vec<usize>, u64> =
                 element.nodes.iter().map(|n| node.get(n).copied().ok_or(*n)).collect();
             let nodes = nodes.map_err(|missing| Error::File {
@@ -71,6 +85,13 @@ impl Raw {
         let element = numbers.into_iter().flatten().enumerate().map(|(i, number)| (number, i)).collect();
         Ok(Built { mesh, node, element })
     }
+}
+
+/// Numbers of nodes in rising order.
+pub(super) fn sorted(nodes: &[u64]) -> Vec<u64> {
+    let mut nodes = nodes.to_vec();
+    nodes.sort_unstable();
+    nodes
 }
 
 /// The outer faces of a mesh by their corners, in rising order.

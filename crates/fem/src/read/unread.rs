@@ -1,5 +1,7 @@
 //! Cards of an `.inp` file that are not read: which of them change the model, and what to do instead.
 
+use std::collections::HashSet;
+
 use super::cards::Card;
 use crate::Error;
 
@@ -28,7 +30,7 @@ const CHANGING: [(&[&str], &str); 10] = [
     ),
     (&["TRANSFORM", "SYSTEM"], "turns axes; write coordinates and supports along the global axes"),
     (
-        &["SPRING", "DASHPOT", "CONNECTOR SECTION", "CONNECTOR BEHAVIOR", "BUSHING"],
+        &["SPRING", "DASHPOT", "FOUNDATION", "CONNECTOR SECTION", "CONNECTOR BEHAVIOR", "BUSHING"],
         "adds stiffness or damping between nodes; make it a solid body, or a support",
     ),
     (
@@ -99,6 +101,28 @@ const HARMLESS: [&str; 23] = [
     "FRICTION",
 ];
 
+/// Cards of a step that say how to compute.
+const OF_A_STEP: [&str; 18] = [
+    "STATIC",
+    "FREQUENCY",
+    "COMPLEX FREQUENCY",
+    "STEADY STATE DYNAMICS",
+    "DYNAMIC",
+    "MODAL DYNAMIC",
+    "BUCKLE",
+    "VISCO",
+    "HEAT TRANSFER",
+    "COUPLED TEMPERATURE-DISPLACEMENT",
+    "UNCOUPLED TEMPERATURE-DISPLACEMENT",
+    "CONTROLS",
+    "CONTACT CONTROLS",
+    "SOLVER CONTROLS",
+    "SOLUTION TECHNIQUE",
+    "SELECT EIGENMODES",
+    "MONITOR",
+    "NO PRINT",
+];
+
 /// Parameters of cards that are read, which are not and change the model, with what to do.
 const PARAMETERS: [(&str, &str, &str); 8] = [
     (
@@ -130,21 +154,57 @@ pub(super) fn passed_over(card: &Card<'_>, in_step: bool) -> Result<Option<Strin
         let what = format!("*{name} {does}, which is not read from this file: leave it out and {instead}");
         return Err(Error::File { line: *line, what });
     }
-    let known = in_step || HARMLESS.contains(&name.as_str()) || name.ends_with(" PRINT");
+    let known = HARMLESS.contains(&name.as_str()) || in_step && OF_A_STEP.contains(&name.as_str());
+    let known = known || name.ends_with(" PRINT");
     let known = known || [" FILE", " OUTPUT"].iter().any(|end| name.ends_with(end));
     Ok((!known).then(|| format!("line {line}: *{name} is not known here and is left out")))
 }
 
-/// Refuses several parts, whose nodes have the same numbers, and such as are moved.
+/// Refuses several parts, whose nodes have the same numbers, such as are moved, and what an assembly has with a number or name of the part.
 pub(super) fn check_parts(cards: &[Card<'_>]) -> Result<(), Error> {
     let another = cards.iter().filter(|card| card.name == "PART").nth(1);
     let moved = cards.iter().find(|card| card.name == "INSTANCE" && !card.data.is_empty());
+    check_scopes(cards)?;
     let Some(card) = another.or(moved) else { return Ok(()) };
     let what = format!(
         "*{} makes a model of several parts or moves one, which is not read: export it without parts, or each part as a file of its own",
         card.name
     );
     Err(Error::File { line: card.line, what })
+}
+
+/// Nodes of an assembly are numbered apart from those of its part, and so are its sets named.
+fn check_scopes(cards: &[Card<'_>]) -> Result<(), Error> {
+    let (mut in_assembly, mut of_part) = (false, HashSet::new());
+    for card in cards {
+        let wrong = |what: String| Err(Error::File { line: card.line, what });
+        match card.name.as_str() {
+            "ASSEMBLY" => in_assembly = true,
+            "END ASSEMBLY" => in_assembly = false,
+            "NODE" | "ELEMENT" if in_assembly => {
+                return wrong(format!(
+                    "*{} of the assembly is numbered apart from those of its part, which is not read: leave it out, such as reference points, or \
+                     export the model without parts",
+                    card.name
+                ));
+            }
+            kind @ ("NSET" | "ELSET" | "SURFACE") => {
+                let name = card.parameters.get(if kind == "SURFACE" { "NAME" } else { kind });
+                let name = (kind, name.cloned().unwrap_or_default());
+                if in_assembly && of_part.contains(&name) {
+                    return wrong(format!(
+                        "*{kind} {} is another one in the part, and both are not kept apart: give one of them another name",
+                        name.1
+                    ));
+                }
+                if !in_assembly {
+                    of_part.insert(name);
+                }
+            }
+            _ => {}
+        }
+    }
+    Ok(())
 }
 
 /// Refuses what changes the model in the parameters of a card that is read.

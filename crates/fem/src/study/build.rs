@@ -1,6 +1,6 @@
 //! From a description to a model.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 use super::document::{Bond, By, Document, Load, Sliding, Support, Varied, Vary};
 use super::parts::join;
@@ -76,7 +76,9 @@ impl Study {
         }
         let (mut faces, mut matching) = (Vec::new(), Vec::new());
         for (i, pair) in document.sliding.iter().enumerate() {
-            let (points, slaves, matches) = slide(&model.mesh, &format!("sliding[{i}]"), pair)?;
+            let key = format!("sliding[{i}]");
+            let (points, slaves, matches) = slide(&model.mesh, &key, pair)?;
+            check_edges(&model.contact, &points, &key)?;
             model.contact.extend(points);
             faces.extend(slaves);
             matching.push(matches);
@@ -248,6 +250,17 @@ fn slide(mesh: &Mesh, key: &str, pair: &Sliding) -> Result<(Vec<Point>, Vec<Face
             );
             return Err(Error::at(key, what));
         }
+        // Surfaces of the masters that go on beyond the contact need not be flat.
+        if let Ok((_, other)) = flat(mesh, masters)
+            && (0..3).map(|i| outward[i] * other[i]).sum::<f64>() > 0.5
+        {
+            let what = format!(
+                "\"{}\" and \"{}\" face the same way, so that the bodies lie on one side of the contact and overlap: move one of them, or name its \
+                 other side",
+                pair.slaves, pair.masters
+            );
+            return Err(Error::at(key, what));
+        }
         let pairs = bonded(mesh, &nodes, &below).ok();
         if pairs.is_some_and(|pairs| conforms(mesh, slaves, masters, &pairs)) {
             (sliding(mesh, &nodes, &below, normal, direction), true)
@@ -260,6 +273,27 @@ fn slide(mesh: &Mesh, key: &str, pair: &Sliding) -> Result<(Vec<Point>, Vec<Face
         Some((axis, origin)) => points.and_then(|points| rotating(mesh, points, origin, axis)),
     };
     Ok((points.map_err(|why| Error::at(key, why))?, slaves.to_vec(), matches))
+}
+
+/// Refuses surfaces with nodes in common that are not at right angles: what presses one would press the other, too.
+fn check_edges(others: &[Point], points: &[Point], key: &str) -> Result<(), Error> {
+    /// A cosine up to which an angle is a right one.
+    const ACROSS: f64 = 1e-6;
+    let others: HashMap<usize, &Point> = others.iter().map(|point| (point.slave, point)).collect();
+    for point in points {
+        let Some(other) = others.get(&point.slave) else { continue };
+        let cosine: f64 = (0..3).map(|i| point.normal[i] * other.normal[i]).sum();
+        if cosine.abs() > ACROSS {
+            let what = format!(
+                "its slaves have node {} in common with another surface that is {:.1}° from it, and only surfaces at right angles may: make one \
+                 surface of both, or leave a gap",
+                point.slave,
+                cosine.clamp(-1.0, 1.0).acos().to_degrees()
+            );
+            return Err(Error::at(format!("{key}.slaves"), what));
+        }
+    }
+    Ok(())
 }
 
 /// Refuses a load of which supports take all: it would press nothing.

@@ -5,11 +5,12 @@ use std::time::Instant;
 use faer::c64;
 
 use super::Study;
+use super::growth::grows;
 use super::mechanisms::{Alone, mechanisms};
 use super::modal::Modal;
 use super::projected::Projected;
 use super::space::{MORE, ROUNDS, spread_over};
-use super::transitions::{Search, Transition, grows};
+use super::transitions::{Search, Transition};
 use super::variation::{Variation, variation};
 use crate::Error;
 use crate::assembly::{Numbering, Pencil, Rows, assemble};
@@ -72,6 +73,8 @@ pub struct Outcome {
     pub damped: bool,
     /// Where modes become unstable or stable.
     pub transitions: Vec<Transition>,
+    /// Sentences on what was not found.
+    pub remarks: Vec<String>,
     /// Shapes of modes.
     pub shapes: Vec<Shape>,
     /// The projected problem, where it is asked for.
@@ -180,8 +183,15 @@ pub fn compute(study: &Study, say: &mut dyn FnMut(&str)) -> Result<Outcome, Erro
         return Err(Error::at("modes.band", what));
     }
     let alone = clock.step("one mechanism alone", || mechanisms(&basis, &slope, &study.mus, &modes))?;
-    let search = Search { pencil: &pencil, factor: &factor, slope: &slope, mus: &study.mus, damped };
-    let transitions = clock.step("critical friction", || search.all(&mut basis, &modes))?;
+    let search = Search {
+        pencil: &pencil,
+        ordering: &ordering,
+        factor: &factor,
+        slope: &slope,
+        mus: &study.mus,
+        damped,
+    };
+    let (transitions, remarks) = clock.step("critical friction", || search.all(&mut basis, &modes))?;
     let wanted = wanted(study, &modes, &transitions, damped);
     let shapes = clock.step("shapes", || shapes(&numbering, &basis, &slope, study, &modes, &wanted))?;
     let modal = if study.document.output.modal {
@@ -211,6 +221,7 @@ pub fn compute(study: &Study, say: &mut dyn FnMut(&str)) -> Result<Outcome, Erro
         variation,
         damped,
         transitions,
+        remarks,
         shapes,
         modal,
         seconds: clock.seconds,

@@ -65,13 +65,14 @@ pub fn manifest(study: &Study, outcome: &Outcome, description: &str, program: &s
     });
     let seconds: serde_json::Map<String, Value> =
         outcome.seconds.iter().map(|(name, s)| ((*name).to_owned(), json!(s))).collect();
+    let remarks: Vec<&String> = study.remarks.iter().chain(&outcome.remarks).collect();
     let document = json!({
         "kind": "fem",
         "program": program,
         "library": concat!(env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_VERSION")),
         "title": study.document.title,
         "parts": parts,
-        "remarks": study.remarks,
+        "remarks": remarks,
         "unknowns": outcome.unknowns,
         "contact": contact,
         "contact_points": outcome.points,

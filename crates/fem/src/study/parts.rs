@@ -10,7 +10,7 @@ use crate::assembly::Supports;
 use crate::elements::Kind;
 use crate::material::Material;
 use crate::mesh::{Block, Cylinder, Mesh, Ring, check};
-use crate::read::{abaqus, gmsh};
+use crate::read::{abaqus, abaqus_at, gmsh};
 
 /// All parts as one mesh.
 #[derive(Debug, Default)]
@@ -74,7 +74,13 @@ pub(super) fn join(
                 let at_file = |why: String| Error::at(format!("{key}.file"), format!("`{path}`: {why}"));
                 let text = file(path).map_err(at_file)?;
                 let (mut mesh, own) = if path.to_lowercase().ends_with(".inp") {
-                    let deck = abaqus(&text).map_err(|why| at_file(why.to_string()))?;
+                    let deck = celsius.map_or_else(|| abaqus(&text), |celsius| abaqus_at(&text, celsius));
+                    let deck = deck.map_err(|why| at_file(why.to_string()))?;
+                    if let Some(what) = deck.without_section.filter(|_| materials.is_empty()) {
+                        let what =
+                            format!("{what}: give it one, or name one of `materials` for all of the part");
+                        return Err(at_file(what));
+                    }
                     let left_out = deck.remarks.iter().map(|what| format!("{key}.file: `{path}`: {what}"));
                     joined.remarks.extend(left_out);
                     let first = joined.mesh.nodes.len();
@@ -177,9 +183,10 @@ fn assign(
     } else {
         named.iter().map(|material| known(key.clone(), material)).collect::<Result<_, _>>()?
     };
-    if indices.len() != 1 && indices.len() < volumes {
+    if indices.len() != 1 && (indices.len() < volumes || !named.is_empty() && indices.len() > volumes) {
         let what = format!(
-            "there are {} materials for {volumes} volumes: name one for each, in the order of their tags, or one for all",
+            "there are {} materials for {volumes} physical volume(s), where the first group of each counts: name one for each, in the order of their \
+             tags, or one for all",
             indices.len()
         );
         return Err(Error::at(key, what));

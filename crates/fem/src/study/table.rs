@@ -3,7 +3,7 @@
 use super::band::in_band;
 use std::fmt::Write as _;
 
-use super::transitions::grows;
+use super::growth::grows;
 use super::{Outcome, Study};
 use crate::sweep::State;
 

@@ -2,9 +2,11 @@
 
 use faer::c64;
 
+use super::growth::grows;
+use super::plane::{Plane, Two};
 use crate::Error;
 use crate::assembly::{Pencil, Rows};
-use crate::modes::{Basis, Factor, Pair, coalescence, likeness, pairs};
+use crate::modes::{Basis, Factor, Ordering, Pair, coalescence, likeness, nearby, pairs};
 use crate::sweep::Mode;
 
 /// What happens to modes at a coefficient of friction.
@@ -46,16 +48,10 @@ pub struct Transition {
     pub modes: Vec<usize>,
 }
 
-/// Whether a mode counts as growing. What rounding leaves of an undamped mode is some 1e-8 of its frequency.
-#[must_use]
-pub fn grows(lambda: c64, damped: bool) -> bool {
-    const ROUNDING: f64 = 1e-6;
-    if damped { lambda.re > 0.0 } else { lambda.re > ROUNDING * lambda.norm() }
-}
-
 /// The problem on which transitions are found.
 pub(super) struct Search<'a> {
     pub(super) pencil: &'a Pencil,
+    pub(super) ordering: &'a Ordering,
     pub(super) factor: &'a Factor,
     pub(super) slope: &'a Rows,
     pub(super) mus: &'a [f64],
@@ -63,9 +59,14 @@ pub(super) struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// All transitions between the values of μ at which the modes are known. What begins and ends between two values is not seen.
-    pub(super) fn all(&self, basis: &mut Basis, modes: &[Mode]) -> Result<Vec<Transition>, Error> {
-        let mut found = Vec::new();
+    /// All transitions between the values of μ at which the modes are known, and sentences on those that were not found. What begins and ends
+    /// between two values is not seen.
+    pub(super) fn all(
+        &self,
+        basis: &mut Basis,
+        modes: &[Mode],
+    ) -> Result<(Vec<Transition>, Vec<String>), Error> {
+        let (mut found, mut missed) = (Vec::new(), Vec::new());
         for step in 0..self.mus.len().saturating_sub(1) {
             for begins in [true, false] {
                 // The side on which there is growth.
@@ -86,38 +87,83 @@ impl Search<'_> {
                     continue;
                 }
                 for group in partners(&changed, modes, on) {
-                    let grown = group.iter().map(|m| modes[*m].states[on].lambda);
-                    let Some(lambda) = grown.max_by(|a, b| a.re.total_cmp(&b.re)) else { continue };
-                    found.push(self.one(basis, [self.mus[off], self.mus[on]], lambda, begins, group)?);
+                    // Of the two only the one that decays may be followed.
+                    let lambda = modes[group[0]].states[on].lambda;
+                    let lambda = c64::new(lambda.re.abs(), lambda.im);
+                    match self.one(basis, [self.mus[off], self.mus[on]], lambda)? {
+                        One::At(mu, frequency) => {
+                            let event = if begins { Event::Coalescence } else { Event::Separation };
+                            found.push(Transition { event, mu, frequency, modes: group });
+                        }
+                        One::Everywhere => {}
+                        One::Missed => missed.push(format!(
+                            "two modes near {:.1} Hz become one between mu = {} and {}, but where was not found: take more values of mu there, \
+                             or more modes",
+                            lambda.im / std::f64::consts::TAU,
+                            self.mus[step],
+                            self.mus[step + 1]
+                        )),
+                    }
                 }
             }
         }
         found.sort_by(|a, b| a.mu.total_cmp(&b.mu));
-        Ok(found)
+        Ok((found, missed))
     }
 
-    /// One transition between a value of μ without growth and one with a pair that grows.
-    fn one(
-        &self,
-        basis: &mut Basis,
-        [mut off, mut on]: [f64; 2],
-        lambda: c64,
-        begins: bool,
-        modes: Vec<usize>,
-    ) -> Result<Transition, Error> {
-        /// Bisections before Newton's method, which needs to start near a coalescence.
-        const BISECTIONS: usize = 10;
-        let mut pair = self.growing(basis, on, lambda)?.ok_or_else(|| lost(on, lambda))?;
-        for _ in 0..BISECTIONS {
-            let middle = f64::midpoint(off, on);
-            match self.growing(basis, middle, pair.lambda)? {
-                Some(found) => (on, pair) = (middle, found),
-                None => off = middle,
+    /// One transition between a value of μ without growth and one with a pair that grows. The plane of the two is followed to where they part.
+    fn one(&self, basis: &mut Basis, [off, on]: [f64; 2], lambda: c64) -> Result<One, Error> {
+        /// Steps over which the two are followed.
+        const STEPS: i32 = 16;
+        /// Bisections before Newton's method, which needs to start near a coalescence; and without it, to rounding.
+        const BISECTIONS: [u32; 2] = [10, 45];
+        let Some(mut pair) = self.known(basis, on, lambda)? else { return Ok(One::Missed) };
+        let step = (off - on) / f64::from(STEPS);
+        let (mut grows, mut parts) = (on, None);
+        for k in 1..=STEPS {
+            let mu = on + step * f64::from(k);
+            match self.grown(basis, mu, &pair)? {
+                Some(found) => (grows, pair) = (mu, found),
+                None => {
+                    parts = Some(mu);
+                    break;
+                }
             }
         }
-        let found = coalescence(self.pencil, self.factor, basis, on, &pair)?;
-        let event = if begins { Event::Coalescence } else { Event::Separation };
-        Ok(Transition { event, mu: found.mu, frequency: found.frequency(), modes })
+        // What grows on both sides has its number from another mode.
+        let Some(parts) = parts else { return Ok(One::Everywhere) };
+        let (near, _, start) = self.bisected(basis, [grows, parts], &pair, BISECTIONS[0])?;
+        let mut space = basis.clone();
+        if let Ok(found) = coalescence(self.pencil, self.factor, &mut space, near, &start)
+            && (found.mu - near).abs() < step.abs()
+            && (found.frequency() / start.frequency() - 1.0).abs() < NEAR
+        {
+            *basis = space;
+            return Ok(One::At(found.mu, found.frequency()));
+        }
+        // Newton's method fails where two such pairs meet at the same place, as those of a symmetric body do.
+        let Some(start) = self.held(basis, near, &start)? else { return Ok(One::Missed) };
+        let (grows, parts, pair) = self.bisected(basis, [grows, parts], &start, BISECTIONS[1])?;
+        Ok(One::At(f64::midpoint(grows, parts), pair.frequency()))
+    }
+
+    /// Where a pair that grows at the first of two values of μ parts before the second: the last value with growth, the first without, and the pair.
+    fn bisected(
+        &self,
+        basis: &Basis,
+        [mut grows, mut parts]: [f64; 2],
+        pair: &Pair,
+        times: u32,
+    ) -> Result<(f64, f64, Pair), Error> {
+        let mut pair = pair.clone();
+        for _ in 0..times {
+            let middle = f64::midpoint(parts, grows);
+            match self.grown(basis, middle, &pair)? {
+                Some(found) => (grows, pair) = (middle, found),
+                None => parts = middle,
+            }
+        }
+        Ok((grows, parts, pair))
     }
 
     /// Where a damped mode turns from one side to the other, and its frequency there (Hz), by bisection to rounding. It is followed by its
@@ -152,21 +198,59 @@ impl Search<'_> {
         Ok((f64::midpoint(off, on), known[1].frequency()))
     }
 
-    /// The pair that grows and is nearest to an eigenvalue, as long as it is near.
-    fn growing(&self, basis: &Basis, mu: f64, lambda: c64) -> Result<Option<Pair>, Error> {
-        /// Between two values of μ a frequency moves by no more than this part.
-        const NEAR: f64 = 0.05;
-        let apart = |pair: &Pair| (pair.lambda - lambda).norm();
+    /// The pair that has an eigenvalue which grows, in a space that holds it; `None` where it is not found.
+    fn known(&self, basis: &mut Basis, mu: f64, lambda: c64) -> Result<Option<Pair>, Error> {
+        /// Apart by no more than this, the space holds it well enough.
+        const SAME: f64 = 1e-6;
+        let apart = |pair: &Pair| (pair.lambda - lambda).norm() / lambda.norm();
         let all = pairs(&basis.at(mu, self.slope))?;
-        let grown = all.into_iter().filter(|pair| grows(pair.lambda, false));
-        let nearest = grown.min_by(|a, b| apart(a).total_cmp(&apart(b)));
-        Ok(nearest.filter(|pair| apart(pair) <= NEAR * lambda.norm()))
+        let nearest = all.into_iter().min_by(|a, b| apart(a).total_cmp(&apart(b)));
+        let Some(nearest) = nearest else { return Ok(None) };
+        if apart(&nearest) <= SAME && grows(nearest.lambda, false) {
+            return Ok(Some(nearest));
+        }
+        let held = self.held(basis, mu, &nearest)?;
+        Ok(held.filter(|pair| grows(pair.lambda, false) && apart(pair) <= NEAR))
+    }
+
+    /// The same pair in a space that has taken in what it lacked; `None` where that does not help.
+    fn held(&self, basis: &mut Basis, mu: f64, pair: &Pair) -> Result<Option<Pair>, Error> {
+        /// What a place is known to goes by its square.
+        const BOUND: f64 = 1e-6;
+        let found = nearby(self.pencil, self.ordering, self.factor, basis, mu, self.slope, pair, BOUND);
+        match found {
+            Ok((pair, _)) => Ok(Some(pair)),
+            Err(Error::Solver { .. }) => Ok(None),
+            Err(other) => Err(other),
+        }
+    }
+
+    /// The pair that grows in the plane of one that is known at a value of μ near by; `None` where the two vibrate by themselves.
+    fn grown(&self, basis: &Basis, mu: f64, known: &Pair) -> Result<Option<Pair>, Error> {
+        let all = pairs(&basis.at(mu, self.slope))?;
+        Ok(match Plane::of(known).two(&all, known.lambda) {
+            Some(Two::Grow(pair)) => Some(pair.clone()),
+            Some(Two::Apart) | None => None,
+        })
     }
 }
 
+/// What became of a search.
+enum One {
+    /// Coefficient of friction and frequency, Hz.
+    At(f64, f64),
+    /// The two grow on both sides.
+    Everywhere,
+    /// It was not found.
+    Missed,
+}
+
+/// A coalescence has a frequency that is no farther than this part from that of the pair near it.
+const NEAR: f64 = 0.05;
+
 fn lost(mu: f64, lambda: c64) -> Error {
     let what = format!(
-        "the mode of {} Hz that grows at mu = {mu} is not found on the projected problem: ask for more modes",
+        "the mode of {:.1} Hz that grows at mu = {mu} is not found on the projected problem: ask for more modes",
         lambda.im / std::f64::consts::TAU
     );
     Error::Solver { what }

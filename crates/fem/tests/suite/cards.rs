@@ -68,9 +68,10 @@ fn cards_that_change_the_model_are_refused() {
         .map(drop)
         .expect_err("a disc");
     assert!(
-        error
-            .to_string()
-            .starts_with(&format!("line {}: the section is of SKIN, which has no solid element", next + 2)),
+        error.to_string().starts_with(&format!(
+            "line {}: the section is of SKIN, in which element 9 is a line or a surface",
+            next + 2
+        )),
         "{error}"
     );
     let error =
@@ -96,4 +97,94 @@ fn unknown_cards_are_remarks() {
     let manifest: serde_json::Value =
         serde_json::from_slice(&manifest(&study, &outcome, description, "")).expect("JSON");
     assert_eq!(manifest["remarks"], serde_json::json!([remark]));
+}
+
+/// What another program would read in another way than this one is an error with its line, never a wrong result.
+#[test]
+fn scopes_and_doubles_are_refused() {
+    let next = BRICK.lines().count() + 1;
+    let brick = BRICK.replace("*SOLID SECTION, ELSET=PAD", "*SOLID SECTION, ELSET=HALF");
+    let brick = brick.replace("*MATERIAL", "*ELSET, ELSET=HALF\n8\n*MATERIAL");
+    let other = "*NODE\n11,0,0,1\n12,1,0,1\n13,1,1,1\n14,0,1,1\n15,0,0,2\n16,1,0,2\n17,1,1,2\n18,0,1,2\n\
+                 *ELEMENT, TYPE=C3D8\n8, 11,12,13,14,15,16,17,18\n";
+    let part = format!("*PART, NAME=P\n{BRICK}*NSET, NSET=SET-1\n1\n*END PART\n*ASSEMBLY, NAME=A\n");
+    for (deck, says) in [
+        (
+            format!("{BRICK}*ELEMENT, TYPE=C3D8\n7, 1,2,3,4,5,6,7,8\n"),
+            format!("line {}: element 7 stands here a second time", next + 1),
+        ),
+        (
+            format!("{BRICK}*ELEMENT, TYPE=C3D8\n9, 2,3,4,1,6,7,8,5\n"),
+            format!(
+                "line {}: element 9 stands here a second time, by its number or its nodes, after line 11",
+                next + 1
+            ),
+        ),
+        (
+            format!("{part}*NSET, NSET=SET-1\n2\n*END ASSEMBLY\n"),
+            "*NSET SET-1 is another one in the part".to_owned(),
+        ),
+        (
+            format!("{part}*NODE\n1, 5, 5, 5\n*END ASSEMBLY\n"),
+            "*NODE of the assembly is numbered apart".to_owned(),
+        ),
+        (
+            format!("{BRICK}*STEP\n*BOUNDARY\n1, 1\n*END STEP\n*STEP\n*BOUNDARY, OP=NEW\n2, 1\n*END STEP\n"),
+            format!("line {}: OP=NEW of *BOUNDARY takes away", next + 5),
+        ),
+        (
+            format!("{BRICK}*ELEMENT, TYPE=T3D2, ELSET=PAD\n9, 1,2\n"),
+            "the section is of PAD, in which element 9 is a line or a surface".to_owned(),
+        ),
+        (format!("{BRICK}*STEP\n*FOUNDATION\n7, F1, 1e9\n"), "*FOUNDATION adds stiffness".to_owned()),
+    ] {
+        let error = abaqus(&deck).map(drop).expect_err(&deck).to_string();
+        assert!(error.contains(&says), "{error}");
+    }
+    // What is of this step alone may be new.
+    assert!(abaqus(&format!("{BRICK}*STEP\n*BOUNDARY, OP=NEW\n1, 1\n*END STEP\n")).is_ok());
+    // Where materials are named in the description sections do not matter.
+    let bare = abaqus(&format!("{other}{brick}")).expect("a mesh").without_section.expect("a sentence");
+    assert!(bare.ends_with("element 7 has no *SOLID SECTION"), "{bare}");
+    assert!(abaqus(BRICK).expect("a mesh").without_section.is_none());
+}
+
+/// Sets by the elements of another one, short words, keyword lines of two lines, supports by name, unknown cards of a step.
+#[test]
+fn sets_and_supports_are_those_of_the_file() {
+    let more = "*NSET, NSET=ALL, ELSET=PAD\n*NSET, NSET=EVEN, GEN\n2, 8, 2\n*NSET, NSET=NONE\n*NSET,\nNSET=TWO\n1, 2\n\
+                *BOUNDARY\nTWO, XSYMM\nEVEN, ENCASTRE\n*STEP\n*FREQUENCY\n5\n*INERTIA RELIEF\n*END STEP\n";
+    let deck = abaqus(&format!("{BRICK}{more}")).expect("a mesh");
+    let set = |name: &str| deck.mesh.node_set(name).expect("a set").to_vec();
+    assert_eq!(set("ALL"), (0..8).collect::<Vec<_>>());
+    assert_eq!(set("EVEN"), [1, 3, 5, 7]);
+    assert_eq!(set("TWO"), [0, 1]);
+    let mut held: Vec<(usize, usize)> = deck.supports.iter().map(|(node, axis, _)| (*node, *axis)).collect();
+    held.sort_unstable();
+    held.dedup();
+    let all = [1, 3, 5, 7].into_iter().flat_map(|node| (0..3).map(move |axis| (node, axis)));
+    assert_eq!(held, std::iter::once((0, 0)).chain(all).collect::<Vec<_>>());
+    let next = BRICK.lines().count() + 1;
+    let says = [(3, "the set NONE is empty"), (13, "*INERTIA RELIEF is not known here and is left out")];
+    assert_eq!(deck.remarks, says.map(|(at, says)| format!("line {}: {says}", next + at)));
+}
+
+/// A study takes the constants of its temperature.
+#[test]
+fn tables_of_a_file_are_read_at_the_temperature() {
+    let deck = BRICK.replace("210e9, 0.3\n", "210e9, 0.3, 20\n190e9, 0.3, 420\n");
+    for (temperature, young) in
+        [("", 210e9), ("temperature = 220.0\n", 200e9), ("temperature = 500.0\n", 190e9)]
+    {
+        let text = format!(
+            "{temperature}[parts.p]\nkind = \"mesh\"\nfile = \"b.inp\"\n[[sliding]]\nslaves = \"p.FOOT\"\nmasters = \"rigid\"\n\
+             direction = [1.0, 0.0, 0.0]\n[friction]\nmu = {{ values = [0.0] }}\n[modes]\ncount = 1\n"
+        );
+        let study = Study::new(Document::read(&text).expect("a description"), &|_| Ok(deck.clone()))
+            .expect("a study");
+        let expected =
+            squealmap_fem::material::Material::isotropic("STEEL", young, 0.3, 7800.0).expect("a material");
+        let [found] = study.model.materials.as_slice() else { panic!("one material") };
+        assert_eq!(found.stiffness, expected.stiffness, "{temperature}");
+    }
 }

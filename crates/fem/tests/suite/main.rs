@@ -9,6 +9,7 @@ mod bonds;
 mod cards;
 mod cases;
 mod contact;
+mod critical;
 mod cylinder;
 mod damping;
 mod elements;

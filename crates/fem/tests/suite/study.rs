@@ -465,5 +465,8 @@ fn bars_come_from_files() {
         .map(drop)
         .expect_err("no material")
         .to_string();
-    assert!(error.starts_with("parts.bar.materials: there are 0 materials for 1 volumes"), "{error}");
+    assert!(
+        error.starts_with("parts.bar.materials: there are 0 materials for 1 physical volume(s)"),
+        "{error}"
+    );
 }
