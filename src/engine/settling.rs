@@ -30,6 +30,9 @@ const DECAYS_BELOW: f64 = -1e-6;
 /// A decay without any event is left to its eigenvalues after this many time constants, or after a beat.
 const TIME_CONSTANTS: f64 = 3.0;
 
+/// The part of a small speed ([`regime::small_speed`]) below which nothing moves across the belt.
+const UNMOVED: f64 = 1e-6;
+
 /// A motion has settled when the deviation of `x2` and the rms of `ÿ1` in three halves in a row agree within this fraction,
 /// and no more than that is still to come. It is half of what [`regime::THRESHOLDS`] asks of one window.
 pub const AGREE: f64 = 0.005;
@@ -48,6 +51,8 @@ pub struct Settling {
     growth_rate: Option<f64>,
     /// How long a linear motion may grow before it decays; `None` when it does not.
     wait: Option<f64>,
+    /// The same while nothing moves across the belt, where that is no part of the motion along it; and the rms of `ÿ1` (m/s²) that is nothing.
+    along: (Option<f64>, f64),
     piecewise_linear: bool,
     /// Whether the belt velocity lies on a kink of the law: small motions pass it twice in every cycle, and nothing else.
     on_kink: bool,
@@ -69,6 +74,9 @@ impl Settling {
         let instance = seen.as_ref().unwrap_or(instance);
         let modes: Vec<Complex64> =
             linear::eigenvalues(instance).into_iter().flatten().map(|z| z * time).collect();
+        let along: Vec<Complex64> =
+            modes.iter().copied().filter(|mode| !is_across(instance, mode / time)).collect();
+        let belt_velocity = instance.params.require(Param::BeltVelocity);
         let beat = beat(&modes);
         let (kind, linear) = linear::analyse(instance);
         let unstable = kind.is_some_and(InstabilityType::is_unstable);
@@ -76,8 +84,12 @@ impl Settling {
             limit,
             half: beat.clamp(asked, LONGEST_HALF * asked),
             wait: time_constant(&modes).map(|time| beat.min(TIME_CONSTANTS * time)),
+            along: (
+                time_constant(&along).map(|time| TIME_CONSTANTS * time),
+                UNMOVED * regime::small_speed(belt_velocity) / time,
+            ),
             reached: [scene.scaled(plan.settle), 0.0],
-            belt_velocity: instance.params.require(Param::BeltVelocity),
+            belt_velocity,
             stable: kind == Some(InstabilityType::Stable),
             growth_rate: linear.map(|linear| linear.growth_rate).filter(|_| unstable),
             piecewise_linear: instance.law.kind().form().is_straight(),
@@ -117,7 +129,9 @@ impl Settling {
         self.reached = [end, quiet];
         // The beat of two decaying modes may still grow into an event; a curved law is linear for small motions.
         let linear = self.piecewise_linear || second < small;
-        let decays = self.wait.filter(|_| self.stable);
+        let (along, unmoved) = self.along;
+        let wait = if halves[1].iter().all(|ay| *ay <= unmoved) { along.or(self.wait) } else { self.wait };
+        let decays = wait.filter(|_| self.stable);
         if linear && decays.is_some_and(|wait| quiet >= wait) {
             return Some(Ending::Decays);
         }
@@ -151,6 +165,16 @@ fn has_settled([a, b, c]: [f64; 3]) -> bool {
     let ratio = last / before;
     let approach = if before * last <= 0.0 { 1.0 } else { ratio / (1.0 - ratio) };
     last.abs() <= bound && before.abs() <= bound && ratio < 1.0 && last.abs() * approach <= bound
+}
+
+/// Whether a mode (1/s) is one of `m1` across the belt alone, which no motion along it excites: they do not know of each other at θ = 0.
+fn is_across(instance: &Instance, mode: Complex64) -> bool {
+    /// What rounding makes of zero.
+    const ROUNDING: f64 = 1e-9;
+    let [m1, c2, k2, theta] =
+        [Param::M1, Param::C2, Param::K2, Param::Theta].map(|param| instance.params.require(param));
+    let left = (mode * mode * m1 + mode * c2 + k2).norm();
+    theta == 0.0 && left <= ROUNDING * (mode.norm_sqr() * m1 + mode.norm() * c2 + k2)
 }
 
 /// The time constant of the slowest mode of the sliding equilibrium, scaled; `None` when it does not decay.

@@ -48,7 +48,7 @@ pub fn refined_lines(spec: &Spec, refined: &Refined) -> Result<Vec<u8>> {
     let planes = &refined.planes;
     let [x, y] = planes.axes.map(|i| PictureAxis::cells(&axes[i]));
     for plane in 0..planes.count() {
-        let label = |(i, j): Vertex| refined.labels[planes.at(plane, x.order[i], y.order[j])];
+        let label = |(i, j): Vertex| refined.labels[planes.listed(plane, [x.order[i], y.order[j]])];
         lines.add(plane + 1, [&x, &y], label)?;
     }
     lines.table.finish()

@@ -119,6 +119,15 @@ impl Axis {
     pub fn is_of_numbers(&self) -> bool {
         self.values.iter().all(|value| matches!(value, Value::Number(_)))
     }
+
+    /// The positions of its values, rising; names stay where they are.
+    #[must_use]
+    pub fn rising(&self) -> Vec<usize> {
+        let number = |i: usize| self.values[i].number().unwrap_or_default();
+        let mut order: Vec<usize> = (0..self.values.len()).collect();
+        order.sort_by(|a, b| number(*a).total_cmp(&number(*b)));
+        order
+    }
 }
 
 /// The instances of a sweep.

@@ -44,9 +44,8 @@ impl PictureAxis {
     /// Cells around the values of an axis: borders halfway between neighbours, in the logarithm on a log axis.
     pub(crate) fn cells(axis: &Axis) -> PictureAxis {
         let numbers: Option<Vec<f64>> = axis.values.iter().map(Value::number).collect();
-        let mut order: Vec<usize> = (0..axis.values.len()).collect();
         let Some(numbers) = numbers else { return PictureAxis::names(axis) };
-        order.sort_by(|a, b| numbers[*a].total_cmp(&numbers[*b]));
+        let order = axis.rising();
         let values: Vec<f64> = order.iter().map(|i| numbers[*i]).collect();
         let rising = values.windows(2).all(|pair| pair[0] < pair[1]);
         if !rising || values.is_empty() || values.iter().any(|x| !x.is_finite()) {

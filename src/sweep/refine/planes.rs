@@ -10,13 +10,15 @@ pub(super) struct Point {
     pub(super) row: u32,
 }
 
-/// The planes of a grid.
+/// The planes of a grid. Neighbours are neighbours by value, in whatever order a sweep file lists the values.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Planes {
     /// The positions of the axes of columns and rows among the axes of the grid.
     pub axes: [usize; 2],
     sides: [usize; 2],
     strides: [usize; 2],
+    /// The positions of the values of both axes, rising.
+    orders: [Vec<usize>; 2],
     /// The instance of the first point of every plane.
     first: Vec<usize>,
 }
@@ -41,7 +43,8 @@ impl Planes {
                 .map(|(at, k)| at + k * stride(i))
                 .collect();
         }
-        Some(Planes { axes, sides: axes.map(length), strides: axes.map(stride), first })
+        let orders = axes.map(|i| all[i].rising());
+        Some(Planes { axes, sides: axes.map(length), strides: axes.map(stride), orders, first })
     }
 
     /// How many planes.
@@ -56,9 +59,16 @@ impl Planes {
         self.sides
     }
 
-    /// The instance in a column and row of a plane.
+    /// The instance in a column and row of a plane, by the rank of its values.
     #[must_use]
     pub fn at(&self, plane: usize, column: usize, row: usize) -> usize {
+        let [columns, rows] = &self.orders;
+        self.first[plane] + columns[column] * self.strides[0] + rows[row] * self.strides[1]
+    }
+
+    /// The instance in a column and row as the sweep file lists their values.
+    #[must_use]
+    pub fn listed(&self, plane: usize, [column, row]: [usize; 2]) -> usize {
         self.first[plane] + column * self.strides[0] + row * self.strides[1]
     }
 

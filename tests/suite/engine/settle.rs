@@ -251,3 +251,24 @@ fn what_is_left_of_an_approach_counts_not_its_last_step() {
     assert_eq!(judged([1.0, 1.0, 1.0, 1.006]), None, "the last half differs");
     assert_eq!(judged([1.0, 1.0, 1.006, 1.006]), None, "the window before differs");
 }
+
+/// At θ = 0 nothing along the belt excites `m1` across it: that it is not damped does not keep the motion from its end, on any engine.
+#[test]
+fn what_nothing_excites_is_not_waited_for() {
+    let mut instance = kicked(0.15, 0.05, 3.0, 0.3);
+    instance.law = FrictionLaw::Exponential { mu_s: 0.3, mu_d: 0.2, stribeck_velocity: 1.0 };
+    for (param, value) in [(Param::Theta, 0.0), (Param::C1, 8.0), (Param::C2, 0.0)] {
+        instance.params.set(param, value);
+    }
+    let mut damped = instance.clone();
+    damped.params.set(Param::C2, 8.0);
+    let plan = until_settled(1000.0);
+    let both = on_every_engine(&instance, &plan).into_iter().zip(on_every_engine(&damped, &plan));
+    for ((engine, found), (_, expected)) in both {
+        assert_eq!((found.status, found.ending), (Status::Ok, Some(Ending::Decays)), "{engine}");
+        assert_eq!(expected.ending, Some(Ending::Decays), "{engine}");
+    }
+    // What moves across the belt goes on.
+    instance.params.set(Param::Theta, 0.02);
+    assert_ne!(respond(&instance, &until_settled(60.0)).ending, Some(Ending::Decays));
+}

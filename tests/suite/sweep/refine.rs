@@ -77,6 +77,22 @@ fn lines_are_followed_wherever_they_go() {
     }
 }
 
+/// Neighbours are those by value, in whatever order the values stand in the sweep file.
+#[test]
+fn the_order_of_the_values_does_not_matter() {
+    let rising = grid(130, 70);
+    let Grid::Axes(mut axes) = rising.clone() else { panic!("axes") };
+    for axis in &mut axes {
+        // Every second value first, the others backwards after them.
+        let odd = axis.values.iter().skip(1).step_by(2).rev();
+        axis.values = axis.values.iter().step_by(2).chain(odd).cloned().collect();
+    }
+    let shuffled = Grid::Axes(axes);
+    let circle = |[x, y, v]: [f64; 3]| ((x - 60.0) / 130.0).powi(2) + ((y - 30.0 - v) / 70.0).powi(2) < 0.1;
+    let [(expected, _), (found, wrong)] = [&rising, &shuffled].map(|grid| drawn(grid, SETTINGS, circle));
+    assert_eq!((wrong, found.computed), (0, expected.computed));
+}
+
 /// Whether an instance has settled is known of every one: its own, or that of the nearest corner that was computed.
 #[test]
 fn what_has_not_settled_is_told_of_every_instance() {
