@@ -83,12 +83,19 @@ fn one(curve: &Curve, names: [&str; 2]) -> String {
     let at = |point: &CurvePoint| place(names, point.values);
     let [first, last] =
         [curve.points.first(), curve.points.last()].map(|end| end.map(at).unwrap_or_default());
-    let how = match curve.ends {
-        [End::Closed, _] => ", a closed one",
-        [End::Edge, End::Edge] => "",
-        [End::Lost, End::Edge] => "; it ends at the first, inside the plane",
-        [End::Edge, _] => "; it ends at the last, inside the plane",
-        [End::Lost, _] => "; it ends at both, inside the plane",
+    let which = |end: End| match curve.ends.map(|other| other == end) {
+        [true, true] => Some("both"),
+        [true, false] => Some("the first"),
+        [false, true] => Some("the last"),
+        [false, false] => None,
+    };
+    let ends = which(End::Lost).map(|which| format!("; it ends at {which}, inside the plane"));
+    let stops = which(End::Limit)
+        .map(|which| format!("; it goes on beyond {which}, no more points are followed in one direction"));
+    let how = if which(End::Closed).is_some() {
+        ", a closed one".to_owned()
+    } else {
+        ends.unwrap_or_default() + &stops.unwrap_or_default()
     };
     let (name, points) = (named(curve.special), curve.points.len());
     format!("a curve of {name}, {points} points, from {first} to {last}{how}")

@@ -51,7 +51,7 @@ pub struct Settling {
     growth_rate: Option<f64>,
     /// How long a linear motion may grow before it decays; `None` when it does not.
     wait: Option<f64>,
-    /// The same while nothing moves across the belt, where that is no part of the motion along it; and the rms of `ÿ1` (m/s²) that is nothing.
+    /// The same of the motion along the belt alone, where that does not excite what lasts across it; and the rms of `ÿ1` (m/s²) that is nothing.
     along: (Option<f64>, f64),
     piecewise_linear: bool,
     /// Whether the belt velocity lies on a kink of the law: small motions pass it twice in every cycle, and nothing else.
@@ -77,15 +77,15 @@ impl Settling {
         let along: Vec<Complex64> =
             modes.iter().copied().filter(|mode| !is_across(instance, mode / time)).collect();
         let belt_velocity = instance.params.require(Param::BeltVelocity);
-        let beat = beat(&modes);
+        let of_both = beat(&modes);
         let (kind, linear) = linear::analyse(instance);
         let unstable = kind.is_some_and(InstabilityType::is_unstable);
         Some(Settling {
             limit,
-            half: beat.clamp(asked, LONGEST_HALF * asked),
-            wait: time_constant(&modes).map(|time| beat.min(TIME_CONSTANTS * time)),
+            half: of_both.clamp(asked, LONGEST_HALF * asked),
+            wait: time_constant(&modes).map(|time| of_both.min(TIME_CONSTANTS * time)),
             along: (
-                time_constant(&along).map(|time| TIME_CONSTANTS * time),
+                time_constant(&along).map(|time| beat(&along).min(TIME_CONSTANTS * time)),
                 UNMOVED * regime::small_speed(belt_velocity) / time,
             ),
             reached: [scene.scaled(plan.settle), 0.0],
@@ -130,7 +130,7 @@ impl Settling {
         // The beat of two decaying modes may still grow into an event; a curved law is linear for small motions.
         let linear = self.piecewise_linear || second < small;
         let (along, unmoved) = self.along;
-        let wait = if halves[1].iter().all(|ay| *ay <= unmoved) { along.or(self.wait) } else { self.wait };
+        let wait = self.wait.or(along.filter(|_| halves[1].iter().all(|ay| *ay <= unmoved)));
         let decays = wait.filter(|_| self.stable);
         if linear && decays.is_some_and(|wait| quiet >= wait) {
             return Some(Ending::Decays);

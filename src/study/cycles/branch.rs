@@ -104,14 +104,23 @@ impl Branch {
         let mut across = DVector::zeros(place.len());
         across[map.count()] = 1.0;
         let start = fixed(&map, &place, &across)?;
-        let (backwards, closed) = follow(&map, &start, -1.0);
+        let (backwards, mut closed) = follow(&map, &start, -1.0);
         let mut branch = Branch::default();
-        branch.tell(&map, &backwards);
-        branch.points.reverse();
+        let mut forwards = None;
         if !closed {
-            // The start is told once.
-            let mut forwards = follow(&map, &start, 1.0).0;
-            forwards.points.remove(0);
+            let (mut course, round) = follow(&map, &start, 1.0);
+            if !round {
+                // The start is told once.
+                course.points.remove(0);
+            }
+            (forwards, closed) = (Some(course), round);
+        }
+        // The way round has all points.
+        if forwards.is_none() || !closed {
+            branch.tell(&map, &backwards);
+            branch.points.reverse();
+        }
+        if let Some(forwards) = forwards {
             branch.tell(&map, &forwards);
         }
         Some(branch)

@@ -42,6 +42,8 @@ pub enum End {
     Closed,
     /// No such point is beside the last: two curves meet there, or the contact states change.
     Lost,
+    /// It has as many points as are followed.
+    Limit,
 }
 
 /// A special point at two values.
@@ -162,8 +164,10 @@ impl Curve {
         const ALIKE: f64 = 0.05;
         let scaled = |values: [f64; 2]| [0, 1].map(|k| values[k] / (ranges[k][1] - ranges[k][0]));
         let passes = |pair: &[CurvePoint]| {
-            let is_near = distance(scaled(values), [scaled(pair[0].values), scaled(pair[1].values)]) <= NEAR;
-            let of_curve = pair[0].cycle.x2_std();
+            let chord = [scaled(pair[0].values), scaled(pair[1].values)];
+            let is_near = distance(scaled(values), chord) <= NEAR;
+            let sizes = pair[0].cycle.x2_std().zip(pair[1].cycle.x2_std());
+            let of_curve = sizes.map(|(a, b)| a + part(scaled(values), chord) * (b - a));
             let alike = of_curve.zip(size).is_none_or(|(a, b)| (a - b).abs() <= ALIKE * a.max(b));
             is_near && alike
         };
@@ -171,12 +175,17 @@ impl Curve {
     }
 }
 
-/// How far a point is from a chord.
-fn distance([x, y]: [f64; 2], [[x0, y0], [x1, y1]]: [[f64; 2]; 2]) -> f64 {
+/// Where on a chord a point is nearest, as a part of it.
+fn part([x, y]: [f64; 2], [[x0, y0], [x1, y1]]: [[f64; 2]; 2]) -> f64 {
     let (dx, dy) = (x1 - x0, y1 - y0);
     let part = (((x - x0) * dx + (y - y0) * dy) / (dx * dx + dy * dy)).clamp(0.0, 1.0);
-    let part = if part.is_finite() { part } else { 0.0 };
-    (x0 + part * dx - x).hypot(y0 + part * dy - y)
+    if part.is_finite() { part } else { 0.0 }
+}
+
+/// How far a point is from a chord.
+fn distance(point: [f64; 2], chord: [[f64; 2]; 2]) -> f64 {
+    let ([x, y], [[x0, y0], [x1, y1]], part) = (point, chord, part(point, chord));
+    (x0 + part * (x1 - x0) - x).hypot(y0 + part * (y1 - y0) - y)
 }
 
 /// Follows the curve from `start`, which was found `along` a parameter, towards higher (`sign` 1) or lower values of the other.
@@ -251,5 +260,5 @@ fn follow(field: Field<'_>, special: Special, along: usize, start: &Here, sign: 
         }
         step = (1.5 * step).min(LONGEST);
     }
-    (points, End::Lost)
+    (points, End::Limit)
 }

@@ -117,22 +117,57 @@ pub(super) fn follow(map: &ReturnMap, start: &Fixed, sign: f64) -> (Course, bool
             }
             break;
         }
+        if course.points.len() > 3
+            && let Some(part) = passed(map, start, [&here, &next], begun)
+        {
+            // What lies behind the start is there already.
+            let before = changed.filter(|(at, _)| ahead(&here.place, &next.place, &at.place) < part);
+            course.points.extend(before.map(|(at, special)| (at, Some(special))));
+            course.points.push(course.points[0].clone());
+            return (course, true);
+        }
         course.points.extend(changed.map(|(at, special)| (at, Some(special))));
         if at_edge {
             course.points.push((next, None));
             break;
         }
-        let back = (&next.place - &start.place).norm() < 0.5 * step;
         course.points.push((next.clone(), None));
-        if back && course.points.len() > 3 && next.tangent.dot(&course.points[0].0.tangent) > TURNS {
-            return (course, true);
-        }
         (here, taken) = (next, taken + 1);
         if taken >= 2 {
             step = (step * GROWS).min(LONGEST);
         }
     }
     (course, false)
+}
+
+/// How far along the step from `here` to `next` a place lies, as a part of it.
+fn ahead(here: &DVector<f64>, next: &DVector<f64>, place: &DVector<f64>) -> f64 {
+    let chord = next - here;
+    (place - here).dot(&chord) / chord.norm_squared()
+}
+
+/// The part of the step from `here` to `next` at which it passes the cycle that it began with, in the direction that it began with; `None` where
+/// it does not. It may be at another of its returns.
+fn passed(map: &ReturnMap, start: &Fixed, [here, next]: [&Fixed; 2], begun: f64) -> Option<f64> {
+    /// Periods and multipliers of one cycle agree to so much.
+    const SAME: [f64; 2] = [1e-7, 1e-4];
+    /// Periods that are farther apart are not looked at more closely.
+    const LIKELY: f64 = 0.05;
+    let count = map.count();
+    let part = (start.place[count] - here.place[count]) / (next.place[count] - here.place[count]);
+    let likely = (here.period / start.period - 1.0).abs() < LIKELY;
+    if !(0.0..=1.0).contains(&part) || !likely || here.along() * start.along() * begun <= 0.0 {
+        return None;
+    }
+    let mut guess = &here.place + (&next.place - &here.place) * part;
+    guess[count] = start.place[count];
+    let mut across = DVector::zeros(guess.len());
+    across[count] = 1.0;
+    let there = fixed(map, &guess, &across)?;
+    let radius = |fixed: &Fixed| fixed.multipliers().iter().map(|z| z.norm()).fold(0.0, f64::max);
+    let same = (there.period / start.period - 1.0).abs() < SAME[0]
+        && (radius(&there) - radius(start)).abs() < SAME[1] * radius(start).max(1.0);
+    same.then_some(part)
 }
 
 /// Whether between two neighbours a cycle meets that of half its returns, whose period doubles there: beyond, it is its own mirror

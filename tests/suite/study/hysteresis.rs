@@ -515,3 +515,31 @@ fn the_unstable_cycle_parts_the_basins() {
     assert!((on_border / of_cycle - 1.0).abs() < 1e-8, "{on_border} {of_cycle}");
     assert!((kicked(1.001 * kick, &once) / of_cycle - 1.0).abs() > 1e-4, "another kick is another motion");
 }
+
+/// A closed branch is gone round once, also where a lap ends at another of the returns of its cycle: each of its folds is told once. The way round
+/// goes up and down over the parameter as often.
+#[test]
+fn a_closed_branch_is_gone_round_once() {
+    let spec = parse(&format!(
+        "[friction]\nmu_s = 0.5\nmu_d = 0.3\n[belt]\nbelt_velocity = 2\n{SETTLE}[axes]\nk2 = {{ values = [241500] }}\n"
+    ));
+    let found = follow(&spec, Param::K2, [228_000.0, 255_000.0], 7);
+    let mut closed = 0;
+    for branch in &found.cycles {
+        let ends = [branch.points.first(), branch.points.last()].map(|end| end.expect("points").value);
+        let turns: Vec<f64> = branch
+            .points
+            .iter()
+            .filter(|point| matches!(point.special, Some(Special::Fold | Special::Corner)))
+            .map(|point| point.value)
+            .collect();
+        for (i, a) in turns.iter().enumerate() {
+            assert!(turns[i + 1..].iter().all(|b| (a / b - 1.0).abs() > 1e-7), "{turns:?}");
+        }
+        if (ends[0] / ends[1] - 1.0).abs() < 1e-9 {
+            closed += 1;
+            assert!(turns.len().is_multiple_of(2) && !turns.is_empty(), "{turns:?}");
+        }
+    }
+    assert_eq!(closed, 2, "{:?}", found.cycles.len());
+}
