@@ -22,6 +22,10 @@ use std::process::ExitCode;
 /// The files that are written.
 const FILES: [&str; 5] = ["campaign.json", "campaign.png", "campaign.svg", "conditions.csv", "strokes.csv"];
 
+/// What one coalescence for strokes of both directions means.
+const ONE_WAY: &str = "strokes go both ways, and --critical-friction is that of one of them: a structure that leans to its contact has another \
+                       coalescence the other way, or none; --model knows both";
+
 /// Arguments of `campaign`.
 #[derive(Debug, Args)]
 pub(crate) struct CampaignCommand {
@@ -45,6 +49,11 @@ impl CampaignCommand {
         let rows = rows.concat();
         let said: Vec<Said> = rows.iter().filter_map(|row| row.said.clone().ok()).collect();
         let found = conditions(&said);
+        if settings.critical_friction.is_some()
+            && [true, false].iter().all(|way| said.iter().any(|s| s.forward == *way))
+        {
+            note(ONE_WAY);
+        }
         let svg = campaign_svg("", &said, &Look::default());
         let paths = output.write(&[
             (FILES[0], document("", rows.len())?),

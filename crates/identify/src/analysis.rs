@@ -94,7 +94,8 @@ pub fn identify(
     let given = settings;
     let settings = &given.directed(survey.turned);
     let restoring = restoring(&survey, settings).map_err(named)?;
-    let looked = Looked { samples, too_short, band: settings.band, outside: survey.outside };
+    let (band, outside, unlike) = (settings.band, survey.outside, survey.unlike);
+    let looked = Looked { samples, too_short, band, outside, unlike };
     let (mut found, overview, its_rig) = kept
         .again(survey.turned, &mut table)
         .map(|samples| Samples::new(samples, restoring))

@@ -8,6 +8,7 @@ use crate::cross::{INDEPENDENT, Measured, Sums};
 use crate::episode::LOUD;
 use crate::inertia::Inertia;
 use crate::losses::Losses;
+use crate::pitch::Pitch;
 use crate::window::Window;
 use crate::within::Within;
 
@@ -27,8 +28,10 @@ pub(super) struct Cell {
     pub(super) sums: Sums,
     /// `Σ` amplitude² of the tangential acceleration, m²/s⁴.
     pub(super) power: f64,
-    /// `Σ` frequency times power.
-    frequency: f64,
+    /// The frequency, by power.
+    pitch: Pitch,
+    /// Windows in which the normal acceleration is much the larger one, and the tangential one shows nothing.
+    unlike: f64,
     /// `Σ` of the means of `T`, `N`, `V`, temperature.
     tangential: f64,
     normal: f64,
@@ -56,7 +59,12 @@ impl Cell {
             loud: f64::from(u8::from(loud)),
             sums: if loud { window.sums } else { Sums::default() },
             power: window.amplitude * window.amplitude,
-            frequency: window.frequency * window.amplitude * window.amplitude,
+            pitch: {
+                let mut pitch = Pitch::default();
+                pitch.take(window.frequency, window.amplitude * window.amplitude);
+                pitch
+            },
+            unlike: f64::from(u8::from(!loud && window.unlike)),
             tangential: friction.map_or(0.0, |(mu, normal)| mu * normal),
             normal: window.normal_force.unwrap_or_default(),
             velocity: window.velocity.unwrap_or_default(),
@@ -77,7 +85,8 @@ impl Cell {
         self.loud += other.loud;
         self.sums.add(&other.sums);
         self.power += other.power;
-        self.frequency += other.frequency;
+        self.pitch.add(&other.pitch);
+        self.unlike += other.unlike;
         self.tangential += other.tangential;
         self.normal += other.normal;
         self.velocity += other.velocity;
@@ -108,7 +117,7 @@ impl Cell {
 
     /// Frequency, Hz.
     pub(super) fn frequency(&self) -> f64 {
-        self.frequency / self.power.max(f64::MIN_POSITIVE)
+        self.pitch.frequency()
     }
 
     /// Mean friction `ΣT/ΣN`; meaningless without forces.
@@ -161,6 +170,11 @@ impl Cell {
     /// Whether the law is read in it.
     pub(super) fn reads(&self) -> bool {
         self.within != Within::default()
+    }
+
+    /// Whether in most of its windows the normal acceleration alone shows something.
+    pub(super) fn is_unlike(&self) -> bool {
+        2.0 * self.unlike > self.windows
     }
 
     /// The share of its windows in which an oscillation stands out.

@@ -3,7 +3,7 @@
 use crate::attribution::normal_below;
 use crate::episode::Episode;
 use crate::overview::Overview;
-use crate::verdict::{Kind, Verdict};
+use crate::verdict::{DEAD, Kind, Verdict};
 
 /// A trend counts from this many standard errors on.
 const CLEAR: f64 = 3.0;
@@ -31,6 +31,8 @@ pub(super) struct Looked {
     pub(super) band: Option<[f64; 2]>,
     /// The strongest oscillation of the record where these do not hold it, Hz.
     pub(super) outside: Option<f64>,
+    /// Whether the normal acceleration is much larger than the tangential one.
+    pub(super) unlike: bool,
 }
 
 /// The verdict on a record.
@@ -83,6 +85,9 @@ fn without_growth(overview: &Overview, looked: &Looked) -> Verdict {
         each: None,
     };
     if overview.loud == 0 {
+        if looked.unlike || 2 * overview.unlike > overview.windows {
+            return Verdict::undecided(DEAD);
+        }
         let Looked { samples, band, outside, .. } = *looked;
         let between =
             band.map_or(String::new(), |[low, high]| format!(" between {low} and {high} Hz (--band)"));

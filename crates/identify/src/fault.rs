@@ -338,7 +338,7 @@ pub enum Fault {
     },
     /// Accelerations that contradict the forces unless they are swapped.
     #[error(
-        "at {time:.6} s the friction force feeds the motion of column `{normal}` but not that of `{tangential}`: they look swapped (or skewed); exchange --tangential-acceleration and --normal-acceleration, or set --skew"
+        "at {time:.6} s the friction force feeds the motion of column `{normal}` but not that of `{tangential}`: they look swapped, or one of them has the wrong sign, or they are skewed; exchange --tangential-acceleration and --normal-acceleration, turn the sign of one, or set --skew"
     )]
     SwappedAccelerations {
         /// The column of the tangential acceleration.

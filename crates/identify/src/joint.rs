@@ -6,7 +6,7 @@ use crate::level::Reading;
 use crate::population::{Seen, Source, bin, chances};
 use crate::segment::{Segment, State};
 use crate::testimony::{CAUSES, Chances, Mechanism, Testimony, Witness};
-use crate::verdict::{CONFIDENT, Kind, Verdict};
+use crate::verdict::{CONFIDENT, DEAD, Kind, Verdict};
 use crate::witness::{
     Structure, driven, each, friction, friction_seen, phase, phase_seen, power, read_within,
 };
@@ -195,6 +195,9 @@ fn calm(
             100.0 * part
         );
         return (Verdict::undecided(reason), Vec::new());
+    }
+    if segment.unlike {
+        return (Verdict::undecided(DEAD), Vec::new());
     }
     let reason = match segment.state {
         State::Decaying => "the oscillation decays",

@@ -53,6 +53,7 @@ mod outlier;
 mod overview;
 mod pace;
 mod parts;
+mod pitch;
 mod place;
 mod points;
 pub mod population;

@@ -9,8 +9,8 @@ use crate::testimony::{CAUSES, Chances};
 
 /// The counts.
 const TABLE: &str = include_str!("population.csv");
-/// Lower ends of the bins of |phase|, degrees: finer where causes differ.
-const BINS: [f64; 5] = [0.0, 10.0, 20.0, 45.0, 90.0];
+/// Lower ends of the bins of |phase|, degrees: finer where causes differ, near 0° and, on a rig that leans the other way, near 180°.
+const BINS: [f64; 9] = [0.0, 10.0, 20.0, 45.0, 90.0, 150.0, 160.0, 170.0, 175.0];
 
 /// Standard errors of `d ln μ/d ln v` beyond which nothing is known of a slope.
 pub(super) const UNCLEAR: f64 = 0.1;

@@ -93,6 +93,8 @@ pub struct Segment {
     pub velocity: Option<[f64; 2]>,
     /// Lowest and highest velocity, m/s.
     pub(super) swept: Option<[f64; 2]>,
+    /// Whether nothing vibrates along the contact where much does across it.
+    pub(super) unlike: bool,
     /// Mean temperature, °C.
     pub temperature: Option<f64>,
     /// What the simulated population is asked about; `None` where there is no phase.
@@ -269,6 +271,7 @@ fn segment(cells: &[Cell], has: Has, context: Context, settings: &Settings) -> S
         friction: has.forces.then(|| level(cells, &all, [has.velocity, limited], around, settings)),
         velocity: has.velocity.then(|| [cells[0].velocity(), cells[cells.len() - 1].velocity()]),
         swept: has.velocity.then(|| range(cells, Cell::velocity)),
+        unlike: state == State::Quiet && all.is_unlike(),
         temperature: has.temperature.then(|| all.temperature()),
         seen: None,
         testimonies: Vec::new(),

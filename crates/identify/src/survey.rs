@@ -14,7 +14,7 @@ use crate::spectrum::{Spectra, hann, noise_floor, refine};
 use crate::still::{Stand, Stillness};
 use crate::unit::TimeUnit;
 use crate::unread::Unread;
-use crate::window::Geometry;
+use crate::window::{Geometry, UNLIKE};
 use squealmap_input::quote::rounded;
 
 /// Fewest samples of a record: below this there is no spectrum to speak of.
@@ -56,6 +56,8 @@ pub(super) struct Survey {
     pub(super) frequency: Option<f64>,
     /// The strongest oscillation of all frequencies, Hz, where a band is given that does not hold it.
     pub(super) outside: Option<f64>,
+    /// Whether the normal acceleration is much larger than the tangential one.
+    pub(super) unlike: bool,
     /// Sentences about what was read and how, where that is not plain.
     pub(super) remarks: Vec<String>,
     /// Velocity and temperature that stand still.
@@ -149,21 +151,15 @@ pub(super) fn survey(mut table: Table, settings: &Settings) -> Result<(Survey, K
             return Err(Fault::Outliers { column, words, value: found.value, count: found.count, time });
         }
     }
-    let mut constant = Vec::new();
-    for channel in Channel::ALL.into_iter().filter(|channel| table.has(*channel)) {
-        if judge(channel, &ranges[channel as usize], &names[channel as usize], rate)? {
-            constant.push(channel);
-        }
-    }
-    let velocity = table.has(Channel::Velocity).then(|| &ranges[Channel::Velocity as usize]);
-    let by_velocity =
-        velocity.map(|range| goes_back(range, &names[Channel::Velocity as usize])).transpose()?;
-    let turned = by_velocity.unwrap_or(settings.back);
+    let constant = constant(has, &ranges, &names, rate)?;
+    let velocity = table.has(Channel::Velocity).then_some(Channel::Velocity as usize);
+    let turned =
+        velocity.map_or(Ok(settings.back), |velocity| goes_back(&ranges[velocity], &names[velocity]))?;
     forces(&table, &ranges, settings, turned)?;
     let frequency = spectrum.peak(rate, settings.band);
-    let strongest = settings.band.and_then(|band| spectrum.peak(rate, None).map(|found| (band, found)));
-    let outside =
-        strongest.filter(|([low, high], found)| !(low..=high).contains(&found)).map(|(_, found)| found);
+    let outside = settings
+        .band
+        .and_then(|[low, high]| spectrum.peak(rate, None).filter(|found| !(low..=high).contains(found)));
     if let Some(frequency) = frequency.filter(|f| rate / f < LEAST_PER_PERIOD) {
         return Err(Fault::TooFast { frequency, samples: rate / frequency, least: LEAST_PER_PERIOD });
     }
@@ -173,10 +169,63 @@ pub(super) fn survey(mut table: Table, settings: &Settings) -> Result<(Survey, K
     let least = frequency.map_or(f64::INFINITY, |frequency| STILL * rate / frequency);
     let still = Channel::ALL.into_iter().zip(stills).filter(|(channel, _)| channel.vibrates());
     let still = still.filter_map(|(channel, still)| Some((channel, still.finish(least)?))).collect();
-    let remarks = table.remarks();
-    let found =
-        Survey { samples, start, rate, names, has, turned, frequency, outside, remarks, constant, still };
+    let mut remarks = table.remarks();
+    remarks.extend(frequency.and_then(|hum| above_hum(&mut spectrum, rate, settings, hum)));
+    let found = Survey {
+        samples,
+        start,
+        rate,
+        names,
+        has,
+        turned,
+        frequency,
+        outside,
+        unlike: is_unlike(has, &ranges),
+        remarks,
+        constant,
+        still,
+    };
     Ok((found, kept))
+}
+
+/// The channels that stand still, of those that are recorded; what cannot be is refused.
+fn constant(
+    has: PerChannel<bool>,
+    ranges: &PerChannel<Range>,
+    names: &PerChannel<String>,
+    rate: f64,
+) -> Result<Vec<Channel>, Fault> {
+    let mut constant = Vec::new();
+    for channel in Channel::ALL.into_iter().filter(|channel| has[*channel as usize]) {
+        if judge(channel, &ranges[channel as usize], &names[channel as usize], rate)? {
+            constant.push(channel);
+        }
+    }
+    Ok(constant)
+}
+
+/// Whether the normal acceleration is much larger than the tangential one.
+fn is_unlike(has: PerChannel<bool>, ranges: &PerChannel<Range>) -> bool {
+    let [along, across] = [Channel::TangentialAcceleration, Channel::NormalAcceleration]
+        .map(|channel| ranges[channel as usize].deviation());
+    has[Channel::NormalAcceleration as usize] && across > UNLIKE * along
+}
+
+/// A sentence on an oscillation far above the strongest one, where that has the frequency of the mains (Hz).
+fn above_hum(spectrum: &mut MeanSpectrum, rate: f64, settings: &Settings, hum: f64) -> Option<String> {
+    /// Frequencies of mains, Hz, and how far from them hum is found.
+    const MAINS: [f64; 4] = [50.0, 60.0, 100.0, 120.0];
+    const NEAR: f64 = 0.03;
+    /// An oscillation so many times as fast is another one.
+    const ABOVE: f64 = 5.0;
+    let is_hum = settings.band.is_none() && MAINS.iter().any(|mains| (hum / mains - 1.0).abs() < NEAR);
+    let above = spectrum.peak(rate, Some([ABOVE * hum, 0.5 * rate])).filter(|_| is_hum)?;
+    Some(format!(
+        "the strongest oscillation, {hum:.1} Hz, is looked at: it may be hum of the mains, and windows of 12 of its periods leave out the ends of \
+         the record; for the one at {above:.0} Hz give --band {:.0},{:.0}",
+        0.7 * above,
+        (1.5 * above).min(0.5 * rate)
+    ))
 }
 
 /// What is told of the channels while the record goes by.

@@ -6,6 +6,9 @@ use crate::settings::Settings;
 
 /// From this confidence on a verdict is given; below it is undecided.
 pub const CONFIDENT: f64 = 0.9;
+/// Why nothing is said where the tangential acceleration shows nothing and the normal one much.
+pub(super) const DEAD: &str = "the tangential acceleration shows no oscillation, and the normal one is more than 30 times as large: its sensor may be \
+                               dead, check it or name another column with --tangential-acceleration";
 /// Forces whose squared coherence with the acceleration is lower do not follow the oscillation.
 const FORCES_FOLLOW: f64 = 0.5;
 /// Friction that no noise and no linear feedback explains, relative to the power: from here on it may hide a slope.

@@ -26,6 +26,9 @@ const LEAST_BLOCK: usize = 12;
 const WINDOW_HOPS: usize = 3;
 /// Windows that hold the same block.
 pub(super) const SHARED: f64 = BLOCKS as f64 / WINDOW_HOPS as f64;
+/// A normal acceleration that is larger than the tangential one by this factor, which shows no oscillation, tells that its sensor is dead:
+/// modes that friction drives move along the contact, too.
+pub(super) const UNLIKE: f64 = 30.0;
 /// Bins of a window that slow drift reaches.
 const DRIFT_BINS: usize = 3;
 
@@ -68,6 +71,8 @@ pub struct Window {
     pub temperature: Option<f64>,
     /// Root mean square of the tangential acceleration without its trend, m/s².
     pub rms: f64,
+    /// Whether the normal acceleration is so much larger that the tangential one has hardly a sensor.
+    pub(super) unlike: bool,
     /// Dominant frequency of the tangential acceleration, Hz.
     pub frequency: f64,
     /// Its power over that of the noise beside it.
@@ -138,7 +143,9 @@ impl Analyser {
             mean(Channel::TangentialForce).zip(normal_force).map(|(tangential, normal)| tangential / normal);
         let (velocity, temperature) = (mean(Channel::Velocity), mean(Channel::Temperature));
         self.load(channels, friction.unwrap_or(0.0));
-        let rms = (dot(&self.signals[0], &self.signals[0]) / self.geometry.window as f64).sqrt();
+        let [rms, across] =
+            [0, 1].map(|k| (dot(&self.signals[k], &self.signals[k]) / self.geometry.window as f64).sqrt());
+        let unlike = self.has[Channel::NormalAcceleration as usize] && across > UNLIKE * rms;
         let (bin, mut distortion, x_noise) = self.peak();
         let frequency = bin * self.rate / self.spectra.length() as f64;
         // Block and window are tapered alike, so noise powers go with their lengths.
@@ -172,6 +179,7 @@ impl Analyser {
             velocity,
             temperature,
             rms,
+            unlike,
             frequency,
             signal_to_noise: sums.signal_to_noise(),
             growth,

@@ -13,8 +13,8 @@ use crate::study::cycles::special::{Special, crossing};
 /// A multiplier of a special point that is nearer to the unit circle than this is on it.
 const ON_CIRCLE: f64 = 1e-4;
 
-/// So far before a corner its branch is taken up.
-const BEFORE: f64 = 2e-3;
+/// So far before a corner its branch is taken up, the first of these that finds it: the other branch is beside it.
+const BEFORE: [f64; 4] = [2e-3, 1e-2, 4e-4, 8e-5];
 
 /// The last step to a corner.
 const AT_CORNER: f64 = 1e-10;
@@ -78,7 +78,7 @@ pub(super) fn located(
     let mut guess = before.place.clone();
     guess[map.count()] = expected;
     let at = match special {
-        Special::Corner => corner(&map, guess, before)?,
+        Special::Corner => corner(&map, &guess, before)?,
         _ => crossing(&map, &guess, before, special)?,
     };
     let part = at.place[map.count()];
@@ -90,12 +90,12 @@ pub(super) fn located(
 }
 
 /// The last cycle before a corner: as far as its sequence of contact states goes.
-fn corner(map: &ReturnMap<'_>, guess: DVector<f64>, before: &Fixed) -> Option<Fixed> {
-    let start = fixed(map, &(guess - &before.tangent * BEFORE), &before.tangent)?;
-    if start.order != before.order {
-        return None;
-    }
-    let (mut here, mut step) = (start, BEFORE);
+fn corner(map: &ReturnMap<'_>, guess: &DVector<f64>, before: &Fixed) -> Option<Fixed> {
+    let start = |by: f64| {
+        let start = fixed(map, &(guess - &before.tangent * by), &before.tangent)?;
+        (start.order == before.order).then_some((start, by))
+    };
+    let (mut here, mut step) = BEFORE.into_iter().find_map(start)?;
     for _ in 0..MOST_TO_CORNER {
         let order = here.order;
         match next(map, &here, step, order).filter(|(next, _)| next.order == order) {

@@ -120,7 +120,7 @@ fn structure(random: &mut Random, law: FrictionLaw, [first, last]: [f64; 2], dur
         (Param::K2, random.between(0.99e5, 1.04e5) * compression),
         (Param::C1, damping(2.3)),
         (Param::C2, damping(2.12)),
-        (Param::Theta, random.between(0.006, 0.03)),
+        (Param::Theta, if random.uniform() < 0.5 { 1.0 } else { -1.0 } * random.between(0.006, 0.03)),
         (Param::FExt, LOAD),
         (Param::BeltVelocity, first),
         (Param::BeltVelocityEnd, last),

@@ -24,6 +24,7 @@ pub(crate) mod judged;
 pub(crate) mod laboratory;
 pub(crate) mod modes_figure;
 pub(crate) mod observed;
+mod one_sensor;
 pub(crate) mod paper;
 pub(crate) mod report_numbers;
 mod rig;

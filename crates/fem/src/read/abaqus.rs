@@ -5,7 +5,7 @@ use std::collections::HashSet;
 
 use super::raw::{Built, Raw, RawElement, number};
 use super::sets::{Sets, known, members, read_flat, unknown_of_set};
-use super::unread::{check_parameters, check_parts, passed_over};
+use super::unread::{check_new, check_parameters, check_parts, passed_over};
 use crate::Error;
 use crate::elements::Kind;
 use crate::material::{Constants, Material, Orthotropic};
@@ -68,7 +68,7 @@ fn read(text: &str, celsius: f64) -> Result<Deck, Error> {
     let (mut raw, mut node_sets, mut element_sets) = (Raw::default(), Sets::new(), Sets::new());
     let mut names: Vec<String> = Vec::new();
     let mut open: Option<(String, usize, Vec<f64>, bool, f64)> = None;
-    let mut sections: Vec<(String, String, usize)> = Vec::new();
+    let mut sections: Vec<Section> = Vec::new();
     let (mut in_step, mut steps, mut flats) = (false, 0, HashSet::new());
     // The step of the last card with supports: 0 before all steps.
     let mut held: Option<usize> = None;
@@ -98,16 +98,7 @@ fn read(text: &str, celsius: f64) -> Result<Deck, Error> {
             "MATERIAL" => open = Some((card.parameter("NAME")?, card.line, Vec::new(), false, 0.0)),
             "ELASTIC" => {
                 if let Some((_, _, elastic, orthotropic, _)) = &mut open {
-                    *orthotropic = match card.parameters.get("TYPE").map(String::as_str) {
-                        None | Some("ISO" | "ISOTROPIC") => false,
-                        Some("ENGINEERING CONSTANTS") => true,
-                        Some(other) => {
-                            let what = format!(
-                                "*ELASTIC, TYPE={other} is not known here: ISO and ENGINEERING CONSTANTS are"
-                            );
-                            return Err(Error::File { line: card.line, what });
-                        }
-                    };
+                    *orthotropic = is_orthotropic(card)?;
                     *elastic = card.values()?;
                 }
             }
@@ -117,7 +108,8 @@ fn read(text: &str, celsius: f64) -> Result<Deck, Error> {
                 }
             }
             "SOLID SECTION" => {
-                sections.push((card.parameter("ELSET")?, card.parameter("MATERIAL")?, card.line));
+                let (set, material) = (card.parameter("ELSET")?, card.parameter("MATERIAL")?);
+                sections.push(Section { set, material, line: card.line });
             }
             "TIE" => read_ties(card, &mut deck.ties)?,
             "INCLUDE" => {
@@ -125,12 +117,7 @@ fn read(text: &str, celsius: f64) -> Result<Deck, Error> {
                 return Err(Error::File { line: card.line, what });
             }
             "BOUNDARY" => {
-                if card.parameters.get("OP").is_some_and(|op| op == "NEW")
-                    && held.is_some_and(|at| at < steps)
-                {
-                    let what = "OP=NEW of *BOUNDARY takes away what earlier steps hold, which is not followed: keep the supports of one step only";
-                    return Err(Error::File { line: card.line, what: what.to_owned() });
-                }
+                check_new(card, held.is_some_and(|at| at < steps))?;
                 held = Some(steps);
             }
             "SURFACE" => {}
@@ -146,13 +133,46 @@ fn read(text: &str, celsius: f64) -> Result<Deck, Error> {
         };
     }
     close(&mut open, celsius, &mut deck.materials, &mut names)?;
+    deck.without_section = assign(&mut raw, &sections, &names, (&element_sets, &flats))?;
+    let mut built = raw.build()?;
+    for (name, numbers) in &node_sets {
+        let mut nodes: Vec<usize> = numbers.iter().filter_map(|n| built.node.get(n).copied()).collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        built.mesh.node_sets.insert(name.clone(), nodes);
+    }
+    for card in &cards {
+        match card.name.as_str() {
+            "SURFACE" => read_surface(card, &mut built, &node_sets, &element_sets)?,
+            "BOUNDARY" => read_supports(card, &built, &mut deck.supports)?,
+            _ => {}
+        }
+    }
+    deck.mesh = built.mesh;
+    Ok(deck)
+}
+
+/// A section: the elements of a set are of a material.
+struct Section {
+    set: String,
+    material: String,
+    line: usize,
+}
+
+/// Gives the elements of each section their material. A sentence on one without a section, where others have some or there are several materials.
+fn assign(
+    raw: &mut Raw,
+    sections: &[Section],
+    names: &[String],
+    (sets, flats): (&Sets, &HashSet<u64>),
+) -> Result<Option<String>, Error> {
     let mut covered: HashSet<u64> = HashSet::new();
-    for (set, material, line) in &sections {
+    for Section { set, material, line } in sections {
         let index = names.iter().position(|n| n == material).ok_or_else(|| Error::File {
             line: *line,
             what: format!("the section names material {material}, but there are: {}", names.join(", ")),
         })?;
-        let members: HashSet<u64> = known(set, &element_sets, *line)?.iter().copied().collect();
+        let members: HashSet<u64> = known(set, sets, *line)?.iter().copied().collect();
         if let Some(flat) = members.iter().find(|number| flats.contains(*number)) {
             let what = format!(
                 "the section is of {set}, in which element {flat} is a line or a surface: mesh its body with solids, or leave it out of the set"
@@ -173,25 +193,9 @@ fn read(text: &str, celsius: f64) -> Result<Deck, Error> {
         }
     }
     let bare = raw.elements.iter().find(|element| !covered.contains(&element.number));
-    deck.without_section = bare
+    Ok(bare
         .filter(|_| !sections.is_empty() || names.len() > 1)
-        .map(|element| format!("line {}: element {} has no *SOLID SECTION", element.line, element.number));
-    let mut built = raw.build()?;
-    for (name, numbers) in &node_sets {
-        let mut nodes: Vec<usize> = numbers.iter().filter_map(|n| built.node.get(n).copied()).collect();
-        nodes.sort_unstable();
-        nodes.dedup();
-        built.mesh.node_sets.insert(name.clone(), nodes);
-    }
-    for card in &cards {
-        match card.name.as_str() {
-            "SURFACE" => read_surface(card, &mut built, &node_sets, &element_sets)?,
-            "BOUNDARY" => read_supports(card, &built, &mut deck.supports)?,
-            _ => {}
-        }
-    }
-    deck.mesh = built.mesh;
-    Ok(deck)
+        .map(|element| format!("line {}: element {} has no *SOLID SECTION", element.line, element.number)))
 }
 
 fn read_nodes(card: &Card<'_>, raw: &mut Raw, sets: &mut Sets) -> Result<(), Error> {
@@ -334,6 +338,18 @@ fn read_supports(
         }
     }
     Ok(())
+}
+
+/// Whether an `*ELASTIC` has nine constants.
+fn is_orthotropic(card: &Card<'_>) -> Result<bool, Error> {
+    match card.parameters.get("TYPE").map(String::as_str) {
+        None | Some("ISO" | "ISOTROPIC") => Ok(false),
+        Some("ENGINEERING CONSTANTS") => Ok(true),
+        Some(other) => {
+            let what = format!("*ELASTIC, TYPE={other} is not known here: ISO and ENGINEERING CONSTANTS are");
+            Err(Error::File { line: card.line, what })
+        }
+    }
 }
 
 /// Ends a material.

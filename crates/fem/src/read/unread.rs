@@ -207,6 +207,15 @@ fn check_scopes(cards: &[Card<'_>]) -> Result<(), Error> {
     Ok(())
 }
 
+/// Refuses supports that take the place of those of an earlier step.
+pub(super) fn check_new(card: &Card<'_>, after_others: bool) -> Result<(), Error> {
+    if !(after_others && card.parameters.get("OP").is_some_and(|op| op == "NEW")) {
+        return Ok(());
+    }
+    let what = "OP=NEW of *BOUNDARY takes away what earlier steps hold, which is not followed: keep the supports of one step only";
+    Err(Error::File { line: card.line, what: what.to_owned() })
+}
+
 /// Refuses what changes the model in the parameters of a card that is read.
 pub(super) fn check_parameters(card: &Card<'_>) -> Result<(), Error> {
     let wrong = |what: String| Err(Error::File { line: card.line, what });

@@ -183,14 +183,7 @@ pub fn compute(study: &Study, say: &mut dyn FnMut(&str)) -> Result<Outcome, Erro
         return Err(Error::at("modes.band", what));
     }
     let alone = clock.step("one mechanism alone", || mechanisms(&basis, &slope, &study.mus, &modes))?;
-    let search = Search {
-        pencil: &pencil,
-        ordering: &ordering,
-        factor: &factor,
-        slope: &slope,
-        mus: &study.mus,
-        damped,
-    };
+    let search = Search { pencil: &pencil, ordering: &ordering, factor: &factor, range, damped };
     let (transitions, remarks) = clock.step("critical friction", || search.all(&mut basis, &modes))?;
     let wanted = wanted(study, &modes, &transitions, damped);
     let shapes = clock.step("shapes", || shapes(&numbering, &basis, &slope, study, &modes, &wanted))?;

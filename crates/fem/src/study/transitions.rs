@@ -5,9 +5,9 @@ use faer::c64;
 use super::growth::grows;
 use super::plane::{Plane, Two};
 use crate::Error;
-use crate::assembly::{Pencil, Rows};
+use crate::assembly::Pencil;
 use crate::modes::{Basis, Factor, Ordering, Pair, coalescence, likeness, nearby, pairs};
-use crate::sweep::Mode;
+use crate::sweep::{Mode, Range};
 
 /// What happens to modes at a coefficient of friction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -53,8 +53,7 @@ pub(super) struct Search<'a> {
     pub(super) pencil: &'a Pencil,
     pub(super) ordering: &'a Ordering,
     pub(super) factor: &'a Factor,
-    pub(super) slope: &'a Rows,
-    pub(super) mus: &'a [f64],
+    pub(super) range: Range<'a>,
     pub(super) damped: bool,
 }
 
@@ -67,7 +66,7 @@ impl Search<'_> {
         modes: &[Mode],
     ) -> Result<(Vec<Transition>, Vec<String>), Error> {
         let (mut found, mut missed) = (Vec::new(), Vec::new());
-        for step in 0..self.mus.len().saturating_sub(1) {
+        for step in 0..self.range.mus.len().saturating_sub(1) {
             for begins in [true, false] {
                 // The side on which there is growth.
                 let (on, off) = if begins { (step + 1, step) } else { (step, step + 1) };
@@ -80,7 +79,7 @@ impl Search<'_> {
                 if self.damped {
                     let event = if begins { Event::Onset } else { Event::End };
                     for mode in changed {
-                        let ends = [off, on].map(|i| (self.mus[i], modes[mode].states[i].lambda));
+                        let ends = [off, on].map(|i| (self.range.mus[i], modes[mode].states[i].lambda));
                         let (mu, frequency) = self.turn(basis, ends)?;
                         found.push(Transition { event, mu, frequency, modes: vec![mode] });
                     }
@@ -90,7 +89,7 @@ impl Search<'_> {
                     // Of the two only the one that decays may be followed.
                     let lambda = modes[group[0]].states[on].lambda;
                     let lambda = c64::new(lambda.re.abs(), lambda.im);
-                    match self.one(basis, [self.mus[off], self.mus[on]], lambda)? {
+                    match self.one(basis, [self.range.mus[off], self.range.mus[on]], lambda)? {
                         One::At(mu, frequency) => {
                             let event = if begins { Event::Coalescence } else { Event::Separation };
                             found.push(Transition { event, mu, frequency, modes: group });
@@ -100,8 +99,8 @@ impl Search<'_> {
                             "two modes near {:.1} Hz become one between mu = {} and {}, but where was not found: take more values of mu there, \
                              or more modes",
                             lambda.im / std::f64::consts::TAU,
-                            self.mus[step],
-                            self.mus[step + 1]
+                            self.range.mus[step],
+                            self.range.mus[step + 1]
                         )),
                     }
                 }
@@ -122,13 +121,11 @@ impl Search<'_> {
         let (mut grows, mut parts) = (on, None);
         for k in 1..=STEPS {
             let mu = on + step * f64::from(k);
-            match self.grown(basis, mu, &pair)? {
-                Some(found) => (grows, pair) = (mu, found),
-                None => {
-                    parts = Some(mu);
-                    break;
-                }
-            }
+            let Some(found) = self.grown(basis, mu, &pair)? else {
+                parts = Some(mu);
+                break;
+            };
+            (grows, pair) = (mu, found);
         }
         // What grows on both sides has its number from another mode.
         let Some(parts) = parts else { return Ok(One::Everywhere) };
@@ -172,7 +169,7 @@ impl Search<'_> {
         const BISECTIONS: usize = 48;
         let closest = |mu: f64, lambda: c64| -> Result<Pair, Error> {
             let apart = |pair: &Pair| (pair.lambda - lambda).norm();
-            let all = pairs(&basis.at(mu, self.slope))?;
+            let all = pairs(&basis.at(mu, self.range.slope))?;
             all.into_iter().min_by(|a, b| apart(a).total_cmp(&apart(b))).ok_or_else(|| lost(mu, lambda))
         };
         let [(mut off, decaying), (mut on, growing)] = ends;
@@ -186,7 +183,7 @@ impl Search<'_> {
                 };
                 to(&known[0]).max(to(&known[1]))
             };
-            let all = pairs(&basis.at(middle, self.slope))?;
+            let all = pairs(&basis.at(middle, self.range.slope))?;
             let pair = all.into_iter().max_by(|a, b| alike(a).total_cmp(&alike(b)));
             let pair = pair.ok_or_else(|| lost(middle, growing))?;
             if grows(pair.lambda, true) {
@@ -203,7 +200,7 @@ impl Search<'_> {
         /// Apart by no more than this, the space holds it well enough.
         const SAME: f64 = 1e-6;
         let apart = |pair: &Pair| (pair.lambda - lambda).norm() / lambda.norm();
-        let all = pairs(&basis.at(mu, self.slope))?;
+        let all = pairs(&basis.at(mu, self.range.slope))?;
         let nearest = all.into_iter().min_by(|a, b| apart(a).total_cmp(&apart(b)));
         let Some(nearest) = nearest else { return Ok(None) };
         if apart(&nearest) <= SAME && grows(nearest.lambda, false) {
@@ -217,7 +214,7 @@ impl Search<'_> {
     fn held(&self, basis: &mut Basis, mu: f64, pair: &Pair) -> Result<Option<Pair>, Error> {
         /// What a place is known to goes by its square.
         const BOUND: f64 = 1e-6;
-        let found = nearby(self.pencil, self.ordering, self.factor, basis, mu, self.slope, pair, BOUND);
+        let found = nearby(self.pencil, self.ordering, self.factor, basis, mu, self.range.slope, pair, BOUND);
         match found {
             Ok((pair, _)) => Ok(Some(pair)),
             Err(Error::Solver { .. }) => Ok(None),
@@ -227,7 +224,7 @@ impl Search<'_> {
 
     /// The pair that grows in the plane of one that is known at a value of μ near by; `None` where the two vibrate by themselves.
     fn grown(&self, basis: &Basis, mu: f64, known: &Pair) -> Result<Option<Pair>, Error> {
-        let all = pairs(&basis.at(mu, self.slope))?;
+        let all = pairs(&basis.at(mu, self.range.slope))?;
         Ok(match Plane::of(known).two(&all, known.lambda) {
             Some(Two::Grow(pair)) => Some(pair.clone()),
             Some(Two::Apart) | None => None,
