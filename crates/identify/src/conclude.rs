@@ -31,7 +31,7 @@ pub(super) struct Looked {
     pub(super) band: Option<[f64; 2]>,
     /// The strongest oscillation of the record where these do not hold it, Hz.
     pub(super) outside: Option<f64>,
-    /// Whether the normal acceleration is much larger than the tangential one.
+    /// Whether the normal acceleration is much larger than the tangential one most of the time.
     pub(super) unlike: bool,
 }
 
@@ -85,9 +85,6 @@ fn without_growth(overview: &Overview, looked: &Looked) -> Verdict {
         each: None,
     };
     if overview.loud == 0 {
-        if looked.unlike || 2 * overview.unlike > overview.windows {
-            return Verdict::undecided(DEAD);
-        }
         let Looked { samples, band, outside, .. } = *looked;
         let between =
             band.map_or(String::new(), |[low, high]| format!(" between {low} and {high} Hz (--band)"));
@@ -96,6 +93,7 @@ fn without_growth(overview: &Overview, looked: &Looked) -> Verdict {
             Some(frequency) => Verdict::undecided(format!(
                 "{nothing}; the strongest one of the record, at {frequency:.1} Hz, was not looked at: widen --band"
             )),
+            None if looked.unlike || 2 * overview.unlike > overview.windows => Verdict::undecided(DEAD),
             None if samples < LEAST_QUIET => {
                 Verdict::undecided(format!("{nothing}, but in {samples} samples one may hide; record longer"))
             }

@@ -4,13 +4,14 @@ use crate::again::Kept;
 use crate::block::Block;
 use crate::channel::{Channel, PerChannel};
 use crate::fault::{Fault, RATES};
+use crate::lanes::dot;
 use crate::outlier::Watch;
 use crate::pace::Pace;
 use crate::range::Range;
 use crate::read::Table;
 use crate::settings::Settings;
 use crate::sliding::Sliding;
-use crate::spectrum::{Spectra, hann, noise_floor, refine};
+use crate::spectrum::{Spectra, detrend, hann, noise_floor, refine};
 use crate::still::{Stand, Stillness};
 use crate::unit::TimeUnit;
 use crate::unread::Unread;
@@ -108,7 +109,7 @@ pub(super) fn survey(mut table: Table, settings: &Settings) -> Result<(Survey, K
         block.push(&row.values);
         samples += 1;
     }
-    let Seen { ranges, stills, watches, mut spectrum } = seen;
+    let Seen { ranges, stills, watches, mut spectrum, unlike, blocks } = seen;
     if samples < LEAST_SAMPLES {
         return Err(Fault::TooShort { samples, least: LEAST_SAMPLES, because: String::new() });
     }
@@ -180,7 +181,7 @@ pub(super) fn survey(mut table: Table, settings: &Settings) -> Result<(Survey, K
         turned,
         frequency,
         outside,
-        unlike: is_unlike(has, &ranges),
+        unlike: 2 * unlike > blocks,
         remarks,
         constant,
         still,
@@ -202,13 +203,6 @@ fn constant(
         }
     }
     Ok(constant)
-}
-
-/// Whether the normal acceleration is much larger than the tangential one.
-fn is_unlike(has: PerChannel<bool>, ranges: &PerChannel<Range>) -> bool {
-    let [along, across] = [Channel::TangentialAcceleration, Channel::NormalAcceleration]
-        .map(|channel| ranges[channel as usize].deviation());
-    has[Channel::NormalAcceleration as usize] && across > UNLIKE * along
 }
 
 /// A sentence on an oscillation far above the strongest one, where that has the frequency of the mains (Hz).
@@ -235,6 +229,9 @@ struct Seen {
     stills: PerChannel<Stillness>,
     watches: PerChannel<Watch>,
     spectrum: MeanSpectrum,
+    /// Blocks of the record, and those in which the normal acceleration, trends removed, is much larger than the tangential one.
+    blocks: usize,
+    unlike: usize,
 }
 
 impl Seen {
@@ -246,6 +243,16 @@ impl Seen {
             self.stills[channel as usize].take(values);
         }
         self.spectrum.take(block.of(Channel::TangentialAcceleration));
+        self.blocks += 1;
+        if has[Channel::NormalAcceleration as usize] {
+            let [along, across] =
+                [Channel::TangentialAcceleration, Channel::NormalAcceleration].map(|channel| {
+                    let mut values = block.of(channel).to_vec();
+                    detrend(&mut values);
+                    dot(&values, &values)
+                });
+            self.unlike += usize::from(across > UNLIKE * UNLIKE * along);
+        }
     }
 }
 

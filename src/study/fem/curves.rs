@@ -83,7 +83,7 @@ impl Transition {
     /// Whether growth begins here.
     #[must_use]
     pub fn begins(&self) -> bool {
-        matches!(self.event.as_str(), "coalescence" | "onset")
+        matches!(self.event.as_str(), "coalescence" | "divergence" | "onset")
     }
 
     /// Whether two modes become one here, or part.

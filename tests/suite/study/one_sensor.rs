@@ -60,6 +60,16 @@ fn a_dead_tangential_accelerometer_is_no_stable_contact() {
     };
     let found = run(&csv(&record(2840.0, quiet)), &settings()).expect("a record");
     assert_eq!(found.verdict.kind, Kind::NoInstability);
+    // So it is where the normal sensor drifts, or takes one knock.
+    for drifts in [true, false] {
+        let odd = |sample: &mut Sample, random: &mut Random| {
+            let knock = if (0.12..0.122).contains(&sample.t) { 2000.0 } else { 0.0 };
+            sample.tangential_acceleration = random.normal();
+            sample.normal_acceleration = random.normal() + if drifts { 900.0 * sample.t } else { knock };
+        };
+        let found = run(&csv(&record(2840.0, odd)), &settings()).expect("a record");
+        assert_eq!(found.verdict.kind, Kind::NoInstability, "{drifts}: {:?}", found.verdict.reasons);
+    }
 }
 
 /// Hum that is louder than the squeal is named, with the band to look at instead.

@@ -25,15 +25,7 @@ pub fn nodal_forces(model: &Model, loads: &Loads) -> Vec<[f64; 3]> {
         for face in model.mesh.resolve(faces) {
             for (at, weight) in face_rule(face.kind) {
                 let (value, gradient) = face_shape(face.kind, at);
-                let mut tangents = [[0.0; 3]; 2];
-                for (node, d) in face.nodes.iter().zip(&gradient) {
-                    for i in 0..3 {
-                        tangents[0][i] += d[0] * model.mesh.nodes[*node][i];
-                        tangents[1][i] += d[1] * model.mesh.nodes[*node][i];
-                    }
-                }
-                // Outwards, as long as the area per area of the reference face.
-                let area = cross(tangents[0], tangents[1]);
+                let area = face.area(&gradient, &model.mesh.nodes);
                 for (node, n) in face.nodes.iter().zip(&value) {
                     (0..3).for_each(|i| forces[*node][i] -= pressure * weight * n * area[i]);
                 }
@@ -91,8 +83,4 @@ pub fn load_vector(
         }
     }
     Ok((unknowns, normal))
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }

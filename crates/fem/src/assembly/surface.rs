@@ -28,8 +28,10 @@ impl Surface {
             index.entry(numbering.leader[point.slave]).or_default().push(i);
         }
         let with_points = |face: Face| {
-            let outward = outward(&face, &mesh.nodes);
-            let length = outward.iter().map(|c| c * c).sum::<f64>().sqrt();
+            let outward = face_rule(face.kind)
+                .first()
+                .map_or([0.0; 3], |(at, _)| face.area(&face_shape(face.kind, *at).1, &mesh.nodes));
+            let length = length(outward);
             let presses = |i: &usize| {
                 let along: f64 = (0..3).map(|k| -outward[k] * points[*i].normal[k]).sum();
                 along > std::f64::consts::FRAC_1_SQRT_2 * length
@@ -49,9 +51,7 @@ impl Surface {
         for (face, at) in &self.faces {
             for (place, weight) in face_rule(face.kind) {
                 let (value, gradient) = face_shape(face.kind, place);
-                let [a, b] = tangents(face, &gradient, &self.places);
-                let dot = |a: [f64; 3], b: [f64; 3]| (0..3).map(|i| a[i] * b[i]).sum::<f64>();
-                let area = (dot(a, a) * dot(b, b) - dot(a, b).powi(2)).max(0.0).sqrt();
+                let area = length(face.area(&gradient, &self.places));
                 let f: f64 = at.iter().zip(&value).filter_map(|(p, n)| p.map(|p| n * field[p])).sum();
                 for (p, np) in at.iter().zip(&value).filter_map(|(p, n)| p.map(|p| (p, n))) {
                     for (q, nq) in at.iter().zip(&value).filter_map(|(q, n)| q.map(|q| (q, n))) {
@@ -64,23 +64,8 @@ impl Surface {
     }
 }
 
-/// The derivatives of the place on a face by its two coordinates.
-fn tangents(face: &Face, gradient: &[[f64; 2]], places: &[[f64; 3]]) -> [[f64; 3]; 2] {
-    let mut tangents = [[0.0; 3]; 2];
-    for (node, d) in face.nodes.iter().zip(gradient) {
-        for i in 0..3 {
-            tangents[0][i] += d[0] * places[*node][i];
-            tangents[1][i] += d[1] * places[*node][i];
-        }
-    }
-    tangents
-}
-
-/// Out of the body, as long as the area of a unit of both coordinates.
-fn outward(face: &Face, places: &[[f64; 3]]) -> [f64; 3] {
-    let Some((place, _)) = face_rule(face.kind).into_iter().next() else { return [0.0; 3] };
-    let [a, b] = tangents(face, &face_shape(face.kind, place).1, places);
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+fn length(vector: [f64; 3]) -> f64 {
+    vector.iter().map(|c| c * c).sum::<f64>().sqrt()
 }
 
 /// The part of a force in the middle of an edge that each corner takes over.

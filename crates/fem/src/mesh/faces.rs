@@ -25,6 +25,22 @@ pub struct Face {
     pub nodes: Vec<usize>,
 }
 
+impl Face {
+    /// The normal out of the body, as long as the area of a unit of both coordinates (m²), where the shape functions have this gradient.
+    #[must_use]
+    pub fn area(&self, gradient: &[[f64; 2]], nodes: &[[f64; 3]]) -> [f64; 3] {
+        let mut tangents = [[0.0; 3]; 2];
+        for (node, d) in self.nodes.iter().zip(gradient) {
+            for i in 0..3 {
+                tangents[0][i] += d[0] * nodes[*node][i];
+                tangents[1][i] += d[1] * nodes[*node][i];
+            }
+        }
+        let [a, b] = tangents;
+        [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+    }
+}
+
 impl Mesh {
     /// The faces that belong to one element only.
     #[must_use]

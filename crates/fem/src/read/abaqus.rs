@@ -4,7 +4,7 @@ use super::cards::{Card, cards, flat};
 use std::collections::HashSet;
 
 use super::raw::{Built, Raw, RawElement, number};
-use super::sets::{Sets, known, members, read_flat, unknown_of_set};
+use super::sets::{Flats, Sets, members, read_flat, unknown_of_set};
 use super::unread::{check_new, check_parameters, check_parts, passed_over};
 use crate::Error;
 use crate::elements::Kind;
@@ -65,11 +65,11 @@ pub fn abaqus_at(text: &str, celsius: f64) -> Result<Deck, Error> {
 fn read(text: &str, celsius: f64) -> Result<Deck, Error> {
     let cards = cards(text);
     let mut deck = Deck::default();
-    let (mut raw, mut node_sets, mut element_sets) = (Raw::default(), Sets::new(), Sets::new());
+    let (mut raw, mut node_sets, mut element_sets) = (Raw::default(), Sets::default(), Sets::default());
     let mut names: Vec<String> = Vec::new();
     let mut open: Option<(String, usize, Vec<f64>, bool, f64)> = None;
     let mut sections: Vec<Section> = Vec::new();
-    let (mut in_step, mut steps, mut flats) = (false, 0, HashSet::new());
+    let (mut in_step, mut steps, mut flats) = (false, 0, Flats::new());
     // The step of the last card with supports: 0 before all steps.
     let mut held: Option<usize> = None;
     check_parts(&cards)?;
@@ -87,13 +87,13 @@ fn read(text: &str, celsius: f64) -> Result<Deck, Error> {
             "ELEMENT" => read_elements(card, &mut raw, &mut element_sets)?,
             "NSET" | "ELSET" => {
                 let name = card.parameter(&card.name)?;
-                let found = members(card, &raw, [&node_sets, &element_sets])?;
+                let found = members(card, (&raw, &flats), [&node_sets, &element_sets])?;
                 if found.is_empty() {
                     deck.remarks.push(format!("line {}: the set {name} is empty", card.line));
                 }
                 deck.remarks.extend(unknown_of_set(card));
                 let sets = if card.name == "NSET" { &mut node_sets } else { &mut element_sets };
-                sets.entry(name).or_default().extend(found);
+                sets.add(card.of_part, &name, found);
             }
             "MATERIAL" => open = Some((card.parameter("NAME")?, card.line, Vec::new(), false, 0.0)),
             "ELASTIC" => {
@@ -104,12 +104,12 @@ fn read(text: &str, celsius: f64) -> Result<Deck, Error> {
             }
             "DENSITY" => {
                 if let Some((.., density)) = &mut open {
-                    *density = card.values()?.first().copied().unwrap_or_default();
+                    *density = density_at(&card.values()?, celsius);
                 }
             }
             "SOLID SECTION" => {
                 let (set, material) = (card.parameter("ELSET")?, card.parameter("MATERIAL")?);
-                sections.push(Section { set, material, line: card.line });
+                sections.push(Section { set, material, of_part: card.of_part, line: card.line });
             }
             "TIE" => read_ties(card, &mut deck.ties)?,
             "INCLUDE" => {
@@ -135,7 +135,7 @@ fn read(text: &str, celsius: f64) -> Result<Deck, Error> {
     close(&mut open, celsius, &mut deck.materials, &mut names)?;
     deck.without_section = assign(&mut raw, &sections, &names, (&element_sets, &flats))?;
     let mut built = raw.build()?;
-    for (name, numbers) in &node_sets {
+    for (name, numbers) in node_sets.all() {
         let mut nodes: Vec<usize> = numbers.iter().filter_map(|n| built.node.get(n).copied()).collect();
         nodes.sort_unstable();
         nodes.dedup();
@@ -144,7 +144,7 @@ fn read(text: &str, celsius: f64) -> Result<Deck, Error> {
     for card in &cards {
         match card.name.as_str() {
             "SURFACE" => read_surface(card, &mut built, &node_sets, &element_sets)?,
-            "BOUNDARY" => read_supports(card, &built, &mut deck.supports)?,
+            "BOUNDARY" => read_supports(card, &built, &node_sets, &mut deck.supports)?,
             _ => {}
         }
     }
@@ -156,6 +156,7 @@ fn read(text: &str, celsius: f64) -> Result<Deck, Error> {
 struct Section {
     set: String,
     material: String,
+    of_part: bool,
     line: usize,
 }
 
@@ -164,16 +165,16 @@ fn assign(
     raw: &mut Raw,
     sections: &[Section],
     names: &[String],
-    (sets, flats): (&Sets, &HashSet<u64>),
+    (sets, flats): (&Sets, &Flats),
 ) -> Result<Option<String>, Error> {
     let mut covered: HashSet<u64> = HashSet::new();
-    for Section { set, material, line } in sections {
+    for Section { set, material, of_part, line } in sections {
         let index = names.iter().position(|n| n == material).ok_or_else(|| Error::File {
             line: *line,
             what: format!("the section names material {material}, but there are: {}", names.join(", ")),
         })?;
-        let members: HashSet<u64> = known(set, sets, *line)?.iter().copied().collect();
-        if let Some(flat) = members.iter().find(|number| flats.contains(*number)) {
+        let members: HashSet<u64> = sets.known(*of_part, set, *line)?.iter().copied().collect();
+        if let Some(flat) = members.iter().find(|number| flats.contains_key(number)) {
             let what = format!(
                 "the section is of {set}, in which element {flat} is a line or a surface: mesh its body with solids, or leave it out of the set"
             );
@@ -204,7 +205,7 @@ fn read_nodes(card: &Card<'_>, raw: &mut Raw, sets: &mut Sets) -> Result<(), Err
         let index: u64 = number(words[0], *line, "number of a node")?;
         raw.nodes.push((index, [at(1)?, at(2)?, at(3)?]));
         if let Some(set) = card.parameters.get("NSET") {
-            sets.entry(set.clone()).or_default().push(index);
+            sets.add(card.of_part, set, [index]);
         }
     }
     Ok(())
@@ -228,7 +229,7 @@ fn read_elements(card: &Card<'_>, raw: &mut Raw, sets: &mut Sets) -> Result<(), 
             words.clear();
             raw.elements.push(RawElement { number: index, kind, nodes, material: 0, line: *line });
             if let Some(set) = card.parameters.get("ELSET") {
-                sets.entry(set.clone()).or_default().push(index);
+                sets.add(card.of_part, set, [index]);
             }
         }
     }
@@ -265,7 +266,7 @@ fn read_surface(
         let sets = if of_nodes { node_sets } else { element_sets };
         let members = match words[0].parse() {
             Ok(member) => vec![member],
-            Err(_) => known(&words[0].to_uppercase(), sets, *line)?.clone(),
+            Err(_) => sets.known(card.of_part, &words[0].to_uppercase(), *line)?.clone(),
         };
         if of_nodes {
             nodes.extend(members.iter().filter_map(|n| built.node.get(n).copied()));
@@ -297,6 +298,24 @@ fn read_surface(
     Ok(())
 }
 
+/// The nodes that a support names: by number or set, either with the name of the instance before it.
+fn supported(word: &str, line: usize, built: &Built, sets: &Sets) -> Result<Vec<usize>, Error> {
+    let name = word.to_uppercase();
+    let number = if built.mesh.node_sets.contains_key(&name) {
+        None
+    } else if let Some(numbers) = sets.of_instance(&name) {
+        return Ok(numbers.iter().filter_map(|number| built.node.get(number).copied()).collect());
+    } else {
+        word.rsplit('.').next().and_then(|number| number.parse::<u64>().ok())
+    };
+    let Some(number) = number else { return Ok(built.mesh.node_set(&name)?.to_vec()) };
+    let node = built.node.get(&number).copied().ok_or_else(|| Error::File {
+        line,
+        what: format!("the support names node {number}, which the file does not have"),
+    })?;
+    Ok(vec![node])
+}
+
 /// What the named supports of Abaqus hold of a solid, whose nodes do not turn.
 fn named_support(name: &str) -> Option<&'static [usize]> {
     match name.to_uppercase().as_str() {
@@ -314,16 +333,11 @@ fn named_support(name: &str) -> Option<&'static [usize]> {
 fn read_supports(
     card: &Card<'_>,
     built: &Built,
+    sets: &Sets,
     supports: &mut Vec<(usize, usize, f64)>,
 ) -> Result<(), Error> {
     for (line, words) in &card.data {
-        let nodes = match words[0].parse() {
-            Ok(index) => built.node.get(&index).map(|i| vec![*i]).ok_or_else(|| Error::File {
-                line: *line,
-                what: format!("the support names node {index}, which the file does not have"),
-            })?,
-            Err(_) => built.mesh.node_set(&words[0].to_uppercase())?.to_vec(),
-        };
+        let nodes = supported(words[0], *line, built, sets)?;
         let at = |i: usize| words.get(i).copied().filter(|w| !w.is_empty());
         let named = named_support(at(1).unwrap_or_default());
         if let Some(axes) = named {
@@ -338,6 +352,17 @@ fn read_supports(
         }
     }
     Ok(())
+}
+
+/// The density at a temperature (°C), by pairs of both; that of the first pair without a temperature.
+fn density_at(values: &[f64], celsius: f64) -> f64 {
+    let rows: Vec<[f64; 2]> = values.chunks_exact(2).map(|row| [row[1], row[0]]).collect();
+    let above = rows.partition_point(|row| row[0] < celsius);
+    match (above.checked_sub(1).map(|below| rows[below]), rows.get(above)) {
+        (Some([t0, low]), Some([t1, high])) => low + (high - low) * (celsius - t0) / (t1 - t0),
+        (Some([_, last]), None) => last,
+        (None, _) => values.first().copied().unwrap_or_default(),
+    }
 }
 
 /// Whether an `*ELASTIC` has nine constants.

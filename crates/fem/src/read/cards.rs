@@ -11,6 +11,8 @@ pub(super) struct Card<'a> {
     pub(super) name: String,
     pub(super) parameters: BTreeMap<String, String>,
     pub(super) data: Vec<(usize, Vec<&'a str>)>,
+    /// Whether it stands in a part, or in an instance that holds one.
+    pub(super) of_part: bool,
 }
 
 impl Card<'_> {
@@ -42,7 +44,7 @@ impl Card<'_> {
 pub(super) fn cards(text: &str) -> Vec<Card<'_>> {
     let mut cards: Vec<Card<'_>> = Vec::new();
     // A keyword line that ends with a comma goes on in the next one.
-    let mut goes_on = false;
+    let (mut goes_on, mut of_part) = (false, false);
     let parameter = |word: String| {
         let (key, value) = word.split_once('=').unwrap_or((&word, ""));
         (key.trim().to_owned(), value.trim().to_owned())
@@ -57,7 +59,18 @@ pub(super) fn cards(text: &str) -> Vec<Card<'_>> {
             let mut words = keyword.unwrap_or(line).split(',').map(|w| w.trim().to_uppercase());
             if keyword.is_some() {
                 let name = words.next().unwrap_or_default();
-                cards.push(Card { line: i + 1, name, parameters: BTreeMap::new(), data: Vec::new() });
+                of_part = match name.as_str() {
+                    "PART" | "INSTANCE" => true,
+                    "END PART" | "END INSTANCE" => false,
+                    _ => of_part,
+                };
+                cards.push(Card {
+                    line: i + 1,
+                    name,
+                    parameters: BTreeMap::new(),
+                    data: Vec::new(),
+                    of_part,
+                });
             }
             if let Some(card) = cards.last_mut() {
                 card.parameters.extend(words.filter(|word| !word.is_empty()).map(parameter));

@@ -1,33 +1,65 @@
 //! Sets of an `.inp` file, by the numbers of their nodes and elements.
 
-use std::collections::{BTreeMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
 
 use super::cards::Card;
 use super::raw::{Raw, number};
 use crate::Error;
 
-/// The sets of a file, by numbers, names in capitals.
-pub(super) type Sets = BTreeMap<String, Vec<u64>>;
-
-/// A set by its name.
-pub(super) fn known<'a>(set: &str, sets: &'a Sets, line: usize) -> Result<&'a Vec<u64>, Error> {
-    sets.get(set).ok_or_else(|| Error::File {
-        line,
-        what: format!(
-            "there is no set {set}; there are: {}",
-            sets.keys().cloned().collect::<Vec<_>>().join(", ")
-        ),
-    })
+/// The sets of a file, by numbers, names in capitals: those of a part and all others, such as those of the assembly, which may have the same names.
+#[derive(Default)]
+pub(super) struct Sets {
+    part: BTreeMap<String, Vec<u64>>,
+    others: BTreeMap<String, Vec<u64>>,
 }
 
-/// The numbers of lines and surfaces: they have no stiffness as long as no section names them.
-pub(super) fn read_flat(card: &Card<'_>, flats: &mut HashSet<u64>, sets: &mut Sets) {
-    let numbers = card.data.iter().filter_map(|(_, words)| words.first()?.parse::<u64>().ok());
-    let numbers: Vec<u64> = numbers.collect();
-    if let Some(set) = card.parameters.get("ELSET") {
-        sets.entry(set.clone()).or_default().extend(&numbers);
+impl Sets {
+    /// Puts members into a set that is made in a part or elsewhere.
+    pub(super) fn add(&mut self, of_part: bool, name: &str, members: impl IntoIterator<Item = u64>) {
+        let sets = if of_part { &mut self.part } else { &mut self.others };
+        sets.entry(name.to_owned()).or_default().extend(members);
     }
-    flats.extend(numbers);
+
+    /// The set that a name means in a part or elsewhere: the own one first. `INSTANCE.NAME` is that of the part.
+    fn find(&self, of_part: bool, name: &str) -> Option<&Vec<u64>> {
+        let [own, other] = if of_part { [&self.part, &self.others] } else { [&self.others, &self.part] };
+        own.get(name).or_else(|| other.get(name)).or_else(|| self.of_instance(name))
+    }
+
+    /// What `INSTANCE.NAME` means.
+    pub(super) fn of_instance(&self, name: &str) -> Option<&Vec<u64>> {
+        name.rsplit_once('.').and_then(|(_, name)| self.part.get(name))
+    }
+
+    /// A set by its name.
+    pub(super) fn known(&self, of_part: bool, name: &str, line: usize) -> Result<&Vec<u64>, Error> {
+        self.find(of_part, name).ok_or_else(|| {
+            let all: Vec<&str> = self.all().map(|(name, _)| name.as_str()).collect();
+            let what = format!("there is no set {name}; there are: {}", all.join(", "));
+            Error::File { line, what }
+        })
+    }
+
+    /// All of them; of a name that a part has as well it is the other one.
+    pub(super) fn all(&self) -> impl Iterator<Item = (&String, &Vec<u64>)> {
+        let hidden = |name: &String| self.others.contains_key(name);
+        self.part.iter().filter(move |(name, _)| !hidden(name)).chain(&self.others)
+    }
+}
+
+/// Lines and surfaces by their numbers, with their nodes.
+pub(super) type Flats = HashMap<u64, Vec<u64>>;
+
+/// Lines and surfaces, which have no stiffness as long as no section names them.
+pub(super) fn read_flat(card: &Card<'_>, flats: &mut Flats, sets: &mut Sets) {
+    for (_, words) in &card.data {
+        let mut numbers = words.iter().filter_map(|word| word.parse().ok());
+        let Some(number) = numbers.next() else { continue };
+        flats.insert(number, numbers.collect());
+        if let Some(set) = card.parameters.get("ELSET") {
+            sets.add(card.of_part, set, [number]);
+        }
+    }
 }
 
 /// A sentence on a parameter of a set that is not known.
@@ -39,14 +71,20 @@ pub(super) fn unknown_of_set(card: &Card<'_>) -> Option<String> {
 }
 
 /// The members of a set of nodes or elements; `known_sets` are those of nodes and of elements before it.
-pub(super) fn members(card: &Card<'_>, raw: &Raw, known_sets: [&Sets; 2]) -> Result<Vec<u64>, Error> {
+pub(super) fn members(
+    card: &Card<'_>,
+    (raw, flats): (&Raw, &Flats),
+    known_sets: [&Sets; 2],
+) -> Result<Vec<u64>, Error> {
     let of_nodes = card.name == "NSET";
     let mut members = listed(card, known_sets[usize::from(!of_nodes)])?;
     // The nodes of elements.
     if let Some(elements) = card.parameters.get("ELSET").filter(|_| of_nodes) {
-        let elements: HashSet<u64> = known(elements, known_sets[1], card.line)?.iter().copied().collect();
+        let elements: HashSet<u64> =
+            known_sets[1].known(card.of_part, elements, card.line)?.iter().copied().collect();
         let of_set = raw.elements.iter().filter(|element| elements.contains(&element.number));
         members.extend(of_set.flat_map(|element| &element.nodes));
+        members.extend(elements.iter().filter_map(|number| flats.get(number)).flatten());
     }
     Ok(members)
 }
@@ -74,7 +112,7 @@ fn listed(card: &Card<'_>, sets: &Sets) -> Result<Vec<u64>, Error> {
             // A set may take in others by name.
             match word.parse() {
                 Ok(member) => members.push(member),
-                Err(_) => members.extend(known(&word.to_uppercase(), sets, *line)?),
+                Err(_) => members.extend(sets.known(card.of_part, &word.to_uppercase(), *line)?),
             }
         }
     }

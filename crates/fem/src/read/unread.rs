@@ -1,7 +1,5 @@
 //! Cards of an `.inp` file that are not read: which of them change the model, and what to do instead.
 
-use std::collections::HashSet;
-
 use super::cards::Card;
 use crate::Error;
 
@@ -160,51 +158,32 @@ pub(super) fn passed_over(card: &Card<'_>, in_step: bool) -> Result<Option<Strin
     Ok((!known).then(|| format!("line {line}: *{name} is not known here and is left out")))
 }
 
-/// Refuses several parts, whose nodes have the same numbers, such as are moved, and what an assembly has with a number or name of the part.
+/// Refuses several parts, whose nodes have the same numbers, such as are moved, and nodes of the assembly itself, which have numbers of their own.
 pub(super) fn check_parts(cards: &[Card<'_>]) -> Result<(), Error> {
     let another = cards.iter().filter(|card| card.name == "PART").nth(1);
     let moved = cards.iter().find(|card| card.name == "INSTANCE" && !card.data.is_empty());
-    check_scopes(cards)?;
+    let mut in_assembly = false;
+    for card in cards {
+        match card.name.as_str() {
+            "ASSEMBLY" => in_assembly = true,
+            "END ASSEMBLY" => in_assembly = false,
+            "NODE" | "ELEMENT" if in_assembly && !card.of_part => {
+                let what = format!(
+                    "*{} of the assembly is numbered apart from those of its part, which is not read: leave it out, such as reference points, or \
+                     export the model without parts",
+                    card.name
+                );
+                return Err(Error::File { line: card.line, what });
+            }
+            _ => {}
+        }
+    }
     let Some(card) = another.or(moved) else { return Ok(()) };
     let what = format!(
         "*{} makes a model of several parts or moves one, which is not read: export it without parts, or each part as a file of its own",
         card.name
     );
     Err(Error::File { line: card.line, what })
-}
-
-/// Nodes of an assembly are numbered apart from those of its part, and so are its sets named.
-fn check_scopes(cards: &[Card<'_>]) -> Result<(), Error> {
-    let (mut in_assembly, mut of_part) = (false, HashSet::new());
-    for card in cards {
-        let wrong = |what: String| Err(Error::File { line: card.line, what });
-        match card.name.as_str() {
-            "ASSEMBLY" => in_assembly = true,
-            "END ASSEMBLY" => in_assembly = false,
-            "NODE" | "ELEMENT" if in_assembly => {
-                return wrong(format!(
-                    "*{} of the assembly is numbered apart from those of its part, which is not read: leave it out, such as reference points, or \
-                     export the model without parts",
-                    card.name
-                ));
-            }
-            kind @ ("NSET" | "ELSET" | "SURFACE") => {
-                let name = card.parameters.get(if kind == "SURFACE" { "NAME" } else { kind });
-                let name = (kind, name.cloned().unwrap_or_default());
-                if in_assembly && of_part.contains(&name) {
-                    return wrong(format!(
-                        "*{kind} {} is another one in the part, and both are not kept apart: give one of them another name",
-                        name.1
-                    ));
-                }
-                if !in_assembly {
-                    of_part.insert(name);
-                }
-            }
-            _ => {}
-        }
-    }
-    Ok(())
 }
 
 /// Refuses supports that take the place of those of an earlier step.

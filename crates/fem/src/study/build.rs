@@ -279,11 +279,14 @@ fn slide(mesh: &Mesh, key: &str, pair: &Sliding) -> Result<(Vec<Point>, Vec<Face
 fn check_edges(others: &[Point], points: &[Point], key: &str) -> Result<(), Error> {
     /// A cosine up to which an angle is a right one.
     const ACROSS: f64 = 1e-6;
-    let others: HashMap<usize, &Point> = others.iter().map(|point| (point.slave, point)).collect();
+    let mut normals: HashMap<usize, Vec<[f64; 3]>> = HashMap::new();
+    for point in others {
+        normals.entry(point.slave).or_default().push(point.normal);
+    }
     for point in points {
-        let Some(other) = others.get(&point.slave) else { continue };
-        let cosine: f64 = (0..3).map(|i| point.normal[i] * other.normal[i]).sum();
-        if cosine.abs() > ACROSS {
+        let cosine = |other: &[f64; 3]| (0..3).map(|i| point.normal[i] * other[i]).sum::<f64>();
+        let mut cosines = normals.get(&point.slave).into_iter().flatten().map(cosine);
+        if let Some(cosine) = cosines.find(|cosine| cosine.abs() > ACROSS) {
             let what = format!(
                 "its slaves have node {} in common with another surface that is {:.1}° from it, and only surfaces at right angles may: make one \
                  surface of both, or leave a gap",

@@ -76,7 +76,7 @@ pub(super) fn join(
                 let (mut mesh, own) = if path.to_lowercase().ends_with(".inp") {
                     let deck = celsius.map_or_else(|| abaqus(&text), |celsius| abaqus_at(&text, celsius));
                     let deck = deck.map_err(|why| at_file(why.to_string()))?;
-                    if let Some(what) = deck.without_section.filter(|_| materials.is_empty()) {
+                    if let Some(what) = deck.without_section.filter(|_| materials.len() != 1) {
                         let what =
                             format!("{what}: give it one, or name one of `materials` for all of the part");
                         return Err(at_file(what));
@@ -185,8 +185,8 @@ fn assign(
     };
     if indices.len() != 1 && (indices.len() < volumes || !named.is_empty() && indices.len() > volumes) {
         let what = format!(
-            "there are {} materials for {volumes} physical volume(s), where the first group of each counts: name one for each, in the order of their \
-             tags, or one for all",
+            "there are {} materials for {volumes} physical volume(s), or materials of an .inp: name one for each, in the order of their tags (the first of a \
+             volume counts) or of the file, or one for all",
             indices.len()
         );
         return Err(Error::at(key, what));

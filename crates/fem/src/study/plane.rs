@@ -26,6 +26,13 @@ impl Plane {
         Self([unit(turned.iter().map(|x| x.re).collect()), unit(turned.iter().map(|x| x.im).collect())])
     }
 
+    /// Whether a shape lies in it rather than across; directions that a basis has taken in since are across.
+    pub(super) fn holds(&self, shape: &[f64]) -> bool {
+        let whole: f64 = shape.iter().map(|x| x * x).sum();
+        let along = |axis: &Vec<f64>| axis.iter().zip(shape).map(|(a, x)| a * x).sum::<f64>().powi(2);
+        self.0.iter().map(along).sum::<f64>() > 0.5 * whole
+    }
+
     /// The part of a shape that lies in it, 0 to 1.
     fn part(&self, vector: &[c64]) -> f64 {
         let along = |axis: &Vec<f64>| axis.iter().zip(vector).map(|(a, x)| x * *a).sum::<c64>().norm_sqr();

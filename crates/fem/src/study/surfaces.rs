@@ -14,15 +14,7 @@ pub(super) fn flat(mesh: &Mesh, faces: &[FaceRef]) -> Result<(f64, [f64; 3]), St
     for face in mesh.resolve(faces) {
         for (at, weight) in face_rule(face.kind) {
             let (_, gradient) = face_shape(face.kind, at);
-            let mut tangents = [[0.0; 3]; 2];
-            for (node, d) in face.nodes.iter().zip(&gradient) {
-                for i in 0..3 {
-                    tangents[0][i] += d[0] * mesh.nodes[*node][i];
-                    tangents[1][i] += d[1] * mesh.nodes[*node][i];
-                }
-            }
-            let [a, b] = tangents;
-            let normal = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+            let normal = face.area(&gradient, &mesh.nodes);
             area += weight * normal.iter().map(|c| c * c).sum::<f64>().sqrt();
             (0..3).for_each(|i| sum[i] += weight * normal[i]);
         }

@@ -16,6 +16,8 @@ pub enum Event {
     Coalescence,
     /// Two undamped modes part: both are stable from here on.
     Separation,
+    /// A mode loses its stiffness: from here on it grows without a frequency, as a contact that jams.
+    Divergence,
     /// A damped mode begins to grow.
     Onset,
     /// A damped mode ends to grow.
@@ -29,6 +31,7 @@ impl Event {
         match self {
             Self::Coalescence => "coalescence",
             Self::Separation => "separation",
+            Self::Divergence => "divergence",
             Self::Onset => "onset",
             Self::End => "end",
         }
@@ -91,7 +94,12 @@ impl Search<'_> {
                     let lambda = c64::new(lambda.re.abs(), lambda.im);
                     match self.one(basis, [self.range.mus[off], self.range.mus[on]], lambda)? {
                         One::At(mu, frequency) => {
-                            let event = if begins { Event::Coalescence } else { Event::Separation };
+                            let event = match (begins, lambda.im > 0.0) {
+                                (true, true) => Event::Coalescence,
+                                (false, true) => Event::Separation,
+                                (true, false) => Event::Divergence,
+                                (false, false) => Event::End,
+                            };
                             found.push(Transition { event, mu, frequency, modes: group });
                         }
                         One::Everywhere => {}
@@ -131,15 +139,17 @@ impl Search<'_> {
         let Some(parts) = parts else { return Ok(One::Everywhere) };
         let (near, _, start) = self.bisected(basis, [grows, parts], &pair, BISECTIONS[0])?;
         let mut space = basis.clone();
+        // Growth that is next to nothing is seen late: what has been found may lie a little outside of both values.
         if let Ok(found) = coalescence(self.pencil, self.factor, &mut space, near, &start)
-            && (found.mu - near).abs() < step.abs()
+            && (found.mu - near).abs() <= (on - off).abs()
+            && Plane::of(&start).holds(&found.vectors[0])
             && (found.frequency() / start.frequency() - 1.0).abs() < NEAR
         {
             *basis = space;
             return Ok(One::At(found.mu, found.frequency()));
         }
         // Newton's method fails where two such pairs meet at the same place, as those of a symmetric body do.
-        let Some(start) = self.held(basis, near, &start)? else { return Ok(One::Missed) };
+        let start = self.held(basis, near, &start)?.unwrap_or(start);
         let (grows, parts, pair) = self.bisected(basis, [grows, parts], &start, BISECTIONS[1])?;
         Ok(One::At(f64::midpoint(grows, parts), pair.frequency()))
     }

@@ -121,10 +121,6 @@ fn scopes_and_doubles_are_refused() {
             ),
         ),
         (
-            format!("{part}*NSET, NSET=SET-1\n2\n*END ASSEMBLY\n"),
-            "*NSET SET-1 is another one in the part".to_owned(),
-        ),
-        (
             format!("{part}*NODE\n1, 5, 5, 5\n*END ASSEMBLY\n"),
             "*NODE of the assembly is numbered apart".to_owned(),
         ),
@@ -149,23 +145,49 @@ fn scopes_and_doubles_are_refused() {
     assert!(abaqus(BRICK).expect("a mesh").without_section.is_none());
 }
 
+/// Sets of a part and of its assembly may have one name: each is meant where it stands, `INSTANCE.NAME` is that of the part, and a part may stand in its
+/// instance.
+#[test]
+fn sets_of_part_and_assembly_are_two() {
+    let own = "*NSET, NSET=SET-1\n1, 2\n*ELSET, ELSET=SIDE\n7\n";
+    let theirs = "*NSET, NSET=SET-1, INSTANCE=P-1\n3\n*ELSET, ELSET=PAD, INSTANCE=P-1\n7\n";
+    let ends = "*STEP\n*BOUNDARY\nSET-1, 1\nP-1.SET-1, 2\nP-1.8, 3\n*END STEP\n";
+    let dependent = format!(
+        "*PART, NAME=P\n{BRICK}{own}*END PART\n*ASSEMBLY, NAME=A\n*INSTANCE, NAME=P-1, PART=P\n*END INSTANCE\n{theirs}*END ASSEMBLY\n{ends}"
+    );
+    let independent = format!(
+        "*PART, NAME=P\n*END PART\n*ASSEMBLY, NAME=A\n*INSTANCE, NAME=P-1, PART=P\n{BRICK}{own}*END INSTANCE\n{theirs}*END ASSEMBLY\n{ends}"
+    );
+    for deck in [dependent, independent] {
+        let deck = abaqus(&deck).expect("a mesh");
+        let held: Vec<(usize, usize)> = deck.supports.iter().map(|(node, axis, _)| (*node, *axis)).collect();
+        assert_eq!(held, [(2, 0), (0, 1), (1, 1), (7, 2)]);
+        assert_eq!(
+            (deck.without_section, deck.mesh.node_set("SET-1").expect("a set")),
+            (None, [2].as_slice())
+        );
+        assert_eq!(deck.remarks, Vec::<String>::new());
+    }
+}
+
 /// Sets by the elements of another one, short words, keyword lines of two lines, supports by name, unknown cards of a step.
 #[test]
 fn sets_and_supports_are_those_of_the_file() {
     let more = "*NSET, NSET=ALL, ELSET=PAD\n*NSET, NSET=EVEN, GEN\n2, 8, 2\n*NSET, NSET=NONE\n*NSET,\nNSET=TWO\n1, 2\n\
-                *BOUNDARY\nTWO, XSYMM\nEVEN, ENCASTRE\n*STEP\n*FREQUENCY\n5\n*INERTIA RELIEF\n*END STEP\n";
+                *ELEMENT, TYPE=CPS4, ELSET=SKIN\n9, 5,6,7,8\n*NSET, NSET=UP, ELSET=SKIN\n*BOUNDARY\nTWO, XSYMM\nEVEN, ENCASTRE\n*STEP\n*FREQUENCY\n5\n*INERTIA RELIEF\n*END STEP\n";
     let deck = abaqus(&format!("{BRICK}{more}")).expect("a mesh");
     let set = |name: &str| deck.mesh.node_set(name).expect("a set").to_vec();
     assert_eq!(set("ALL"), (0..8).collect::<Vec<_>>());
     assert_eq!(set("EVEN"), [1, 3, 5, 7]);
     assert_eq!(set("TWO"), [0, 1]);
+    assert_eq!(set("UP"), [4, 5, 6, 7]);
     let mut held: Vec<(usize, usize)> = deck.supports.iter().map(|(node, axis, _)| (*node, *axis)).collect();
     held.sort_unstable();
     held.dedup();
     let all = [1, 3, 5, 7].into_iter().flat_map(|node| (0..3).map(move |axis| (node, axis)));
     assert_eq!(held, std::iter::once((0, 0)).chain(all).collect::<Vec<_>>());
     let next = BRICK.lines().count() + 1;
-    let says = [(3, "the set NONE is empty"), (13, "*INERTIA RELIEF is not known here and is left out")];
+    let says = [(3, "the set NONE is empty"), (16, "*INERTIA RELIEF is not known here and is left out")];
     assert_eq!(deck.remarks, says.map(|(at, says)| format!("line {}: {says}", next + at)));
 }
 
@@ -173,9 +195,12 @@ fn sets_and_supports_are_those_of_the_file() {
 #[test]
 fn tables_of_a_file_are_read_at_the_temperature() {
     let deck = BRICK.replace("210e9, 0.3\n", "210e9, 0.3, 20\n190e9, 0.3, 420\n");
-    for (temperature, young) in
-        [("", 210e9), ("temperature = 220.0\n", 200e9), ("temperature = 500.0\n", 190e9)]
-    {
+    let deck = deck.replace("7800\n", "7800, 20\n7400, 420\n");
+    for (temperature, young, density) in [
+        ("", 210e9, 7800.0),
+        ("temperature = 220.0\n", 200e9, 7600.0),
+        ("temperature = 500.0\n", 190e9, 7400.0),
+    ] {
         let text = format!(
             "{temperature}[parts.p]\nkind = \"mesh\"\nfile = \"b.inp\"\n[[sliding]]\nslaves = \"p.FOOT\"\nmasters = \"rigid\"\n\
              direction = [1.0, 0.0, 0.0]\n[friction]\nmu = {{ values = [0.0] }}\n[modes]\ncount = 1\n"
@@ -183,8 +208,9 @@ fn tables_of_a_file_are_read_at_the_temperature() {
         let study = Study::new(Document::read(&text).expect("a description"), &|_| Ok(deck.clone()))
             .expect("a study");
         let expected =
-            squealmap_fem::material::Material::isotropic("STEEL", young, 0.3, 7800.0).expect("a material");
+            squealmap_fem::material::Material::isotropic("STEEL", young, 0.3, density).expect("a material");
         let [found] = study.model.materials.as_slice() else { panic!("one material") };
         assert_eq!(found.stiffness, expected.stiffness, "{temperature}");
+        assert_eq!(found.density.to_bits(), expected.density.to_bits(), "{temperature}");
     }
 }

@@ -167,3 +167,53 @@ fn surfaces_that_face_the_same_way_are_refused() {
     let error = error.expect_err("two bodies in one place").to_string();
     assert!(error.contains("face the same way"), "{error}");
 }
+
+/// A cube between two planes at right angles, along which it slides in two directions: a pair that couples weakly is found where it is by any
+/// values of μ, also where its growth is next to nothing at some of them; and the other way round it jams at μ = 1, as a rigid body does.
+#[test]
+fn a_weak_pair_and_a_jam_are_where_they_are() {
+    let cube = |values: &str, along: f64| {
+        format!(
+            r#"
+            [parts.a]
+            kind = "block"
+            element = "hex20"
+            origin = [0.0, 0.0, 0.0]
+            size = [0.02, 0.02, 0.02]
+            cells = [2, 2, 2]
+            material = "m"
+            [materials.m]
+            young = 2.1e11
+            poisson = 0.3
+            density = 7850.0
+            [[supports]]
+            set = "a.y0"
+            axes = "y"
+            [[sliding]]
+            slaves = "a.z0"
+            masters = "rigid"
+            direction = [{along:.1}, 0.0, 0.0]
+            [[sliding]]
+            slaves = "a.x0"
+            masters = "rigid"
+            direction = [0.0, 0.0, -1.0]
+            [friction]
+            mu = {{ {values} }}
+            contact_stiffness = 1e11
+            [modes]
+            count = 8
+            "#
+        )
+    };
+    let weak = |values: &str| {
+        let found = met(&outcome(&cube(values, 1.0)));
+        let pair = found.iter().find(|[_, frequency]| (frequency / 42_380.5 - 1.0).abs() < 1e-4);
+        pair.expect("a weak pair")[0]
+    };
+    let coarse = weak("values = [0.0, 0.0006, 0.01]");
+    // Growth squared over μ, by the eigenvalues at 0.0007 and 0.001, is a straight line to 0 there.
+    assert!((coarse - 6.6e-4).abs() < 1e-5, "{coarse}");
+    assert!((weak("values = [0.0, 0.0006, 0.0007, 0.001]") - coarse).abs() < 1e-8);
+    let jam = outcome(&cube("from = 0.0, to = 1.6, points = 9", -1.0)).transitions;
+    assert!(jam.iter().any(|t| t.event == Event::Divergence && (t.mu - 1.0).abs() < 1e-6), "{jam:?}");
+}
